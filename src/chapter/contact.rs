@@ -1,0 +1,106 @@
+//! §1.2 Contact part: the mass must not go through the plane. Equations (1.5)-(1.6).
+
+use super::{SpringMass, structure, system};
+use crate::number::{Field, PositivePart};
+
+/// Eq. (1.5): the penetration, in m, at the deflection `u` in m: positive inside the plane.
+///
+/// `p = l + u − H`
+///
+/// Domain: all. Two roundings: error at most η |fl(l + u)| + η |p|, which is all of p where the two
+/// lengths cancel. Source: §1.2.
+///
+/// ```
+/// # use spring_mass_contact::chapter::{SpringMass, contact};
+/// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
+/// assert_eq!(contact::penetration(&system, &2.5), 0.5);
+/// ```
+pub fn penetration<T: Field>(system: &SpringMass<T>, u: &T) -> T {
+    let SpringMass { l, h, .. } = system;
+    l + u - h
+}
+
+/// The residual of equilibrium with a contact force, in N: `u` is the deflection in m, `n` the force
+/// in N with which the plane pushes.
+///
+/// `r = c u − m g + N`
+///
+/// Domain: all. Source: the first line of (1.8), with N for λ; (1.6) alone fixes nothing without it.
+///
+/// ```
+/// # use spring_mass_contact::chapter::{SpringMass, contact};
+/// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
+/// assert_eq!(contact::equilibrium(&system, &2.0, &2.0), 0.0);
+/// ```
+pub fn equilibrium<T: Field>(system: &SpringMass<T>, u: &T, n: &T) -> T {
+    structure::residual(system, u) + n
+}
+
+/// The residuals of the conditions (1.6) and of equilibrium; all four are zero at the solution and
+/// only there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Kkt<T> {
+    /// c u − m g + N, in N, with its sign.
+    pub stationarity: T,
+    /// ⟨p⟩, in m: how far the mass is inside the plane.
+    pub primal: T,
+    /// ⟨−N⟩, in N: how hard the plane pulls.
+    pub dual: T,
+    /// p N, in J, with its sign.
+    pub complementarity: T,
+}
+
+/// Eq. (1.6): the Karush-Kuhn-Tucker conditions as residuals, at the deflection `u` in m and the
+/// contact force `n` in N.
+///
+/// `c u − m g + N = 0, ⟨p⟩ = 0, ⟨−N⟩ = 0, p N = 0`
+///
+/// As printed, (1.6) leaves out grazing (p = 0 and N = 0) and equilibrium; here both are in. On
+/// rationals this is the certificate of a solution. Domain: all. Source: §1.2.
+///
+/// ```
+/// # use spring_mass_contact::chapter::{SpringMass, contact};
+/// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
+/// let kkt = contact::kkt(&system, &2.25, &1.0); // the penalty method with ε = 4
+/// assert_eq!((kkt.stationarity, kkt.primal, kkt.dual, kkt.complementarity), (0.0, 0.25, 0.0, 0.25));
+/// ```
+pub fn kkt<T: PositivePart>(system: &SpringMass<T>, u: &T, n: &T) -> Kkt<T> {
+    let p = penetration(system, u);
+    Kkt {
+        stationarity: equilibrium(system, u, n),
+        complementarity: &p * n,
+        primal: p.positive_part(),
+        dual: (-n).positive_part(),
+    }
+}
+
+/// Eq. (1.6), solved for the force: the contact force of a plane that never pulls, in N.
+///
+/// `N = ⟨R⟩`
+///
+/// Domain: all. Source: §1.2; with equilibrium, (1.6) has exactly this solution.
+///
+/// ```
+/// # use spring_mass_contact::chapter::{SpringMass, contact};
+/// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
+/// assert_eq!(contact::contact_force(&system), 2.0);
+/// ```
+pub fn contact_force<T: PositivePart>(system: &SpringMass<T>) -> T {
+    system::reaction(system).positive_part()
+}
+
+/// Eq. (1.6), solved for the deflection: where the mass comes to rest over a plane that never pulls,
+/// in m.
+///
+/// `u = min(m g / c, H − l)`
+///
+/// Domain: c > 0. Source: §1.2; with equilibrium, (1.6) has exactly this solution.
+///
+/// ```
+/// # use spring_mass_contact::chapter::{SpringMass, contact};
+/// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
+/// assert_eq!(contact::deflection(&system), 2.0);
+/// ```
+pub fn deflection<T: PositivePart>(system: &SpringMass<T>) -> T {
+    structure::deflection(system).min(&system::gap(system))
+}

@@ -1,0 +1,95 @@
+//! Fig. 1.1: a mass on a spring over a rigid plane, and what is derived from its five parameters.
+
+use crate::number::Field;
+
+/// Fig. 1.1: the system. A mass hangs on a spring from a support; a rigid plane lies below it.
+///
+/// The fields are public and unchecked, since symbols and intermediate values cannot be checked;
+/// [`solve`](crate::solver::solve) checks.
+///
+/// ```
+/// use spring_mass_contact::chapter::SpringMass;
+/// let system = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
+/// assert_eq!(system.map(|x| 2.0 * x).c, 200.0);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct SpringMass<T> {
+    /// Stiffness of the spring, c > 0, in N/m.
+    pub c: T,
+    /// Mass, m > 0, in kg.
+    pub m: T,
+    /// Gravitational acceleration g, in m/s². Any finite value; a negative one lifts the mass.
+    pub g: T,
+    /// Undeformed (free) length l of the spring, in m.
+    pub l: T,
+    /// Height H between the support and the plane, in m.
+    pub h: T,
+}
+
+impl<T> SpringMass<T> {
+    /// The same system in other numbers.
+    pub fn map<U>(&self, mut f: impl FnMut(&T) -> U) -> SpringMass<U> {
+        let SpringMass { c, m, g, l, h } = self;
+        SpringMass { c: f(c), m: f(m), g: f(g), l: f(l), h: f(h) }
+    }
+
+    /// The same system in other numbers, where that can fail.
+    ///
+    /// # Errors
+    /// The first error that `f` returns.
+    pub fn try_map<U, E>(&self, mut f: impl FnMut(&T) -> Result<U, E>) -> Result<SpringMass<U>, E> {
+        let SpringMass { c, m, g, l, h } = self;
+        Ok(SpringMass { c: f(c)?, m: f(m)?, g: f(g)?, l: f(l)?, h: f(h)? })
+    }
+}
+
+/// The initial gap, in m: how far the mass may go before it touches; negative if it overlaps.
+///
+/// `Δ = H − l`
+///
+/// Domain: all. One rounding. Source: §1.2, from (1.5).
+///
+/// ```
+/// # use spring_mass_contact::chapter::{SpringMass, system};
+/// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
+/// assert_eq!(system::gap(&system), 2.0);
+/// ```
+pub fn gap<T: Field>(system: &SpringMass<T>) -> T {
+    let SpringMass { l, h, .. } = system;
+    h - l
+}
+
+/// The weight, in N.
+///
+/// `W = m g`
+///
+/// Domain: all. One rounding. Source: §1.1, before (1.1).
+///
+/// ```
+/// # use spring_mass_contact::chapter::{SpringMass, system};
+/// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
+/// assert_eq!(system::weight(&system), 10.0);
+/// ```
+pub fn weight<T: Field>(system: &SpringMass<T>) -> T {
+    let SpringMass { m, g, .. } = system;
+    m * g
+}
+
+/// The signed reaction, in N: the force that holds the mass exactly at the plane.
+///
+/// `R = m g − c (H − l)`
+///
+/// Contact if R > 0, grazing if R = 0, separated if R < 0: the one number that decides the state.
+/// Domain: all. Four roundings; close to grazing the difference cancels and floats may have its sign
+/// wrong ([`State::of`](crate::solver::State::of) decides it exactly). Source: the chapter does not
+/// name it; it is λ of (1.8).
+///
+/// ```
+/// # use spring_mass_contact::chapter::{SpringMass, system};
+/// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
+/// assert_eq!(system::reaction(&system), 2.0);
+/// ```
+pub fn reaction<T: Field>(system: &SpringMass<T>) -> T {
+    let SpringMass { c, m, g, l, h } = system;
+    m * g - c * (h - l)
+}

@@ -1,0 +1,214 @@
+//! A float and a rigorous bound of its error.
+
+use super::{Exponential, Field, PositivePart, Real};
+use crate::operators;
+use num_traits::{One, Zero};
+use std::cmp::Ordering;
+
+/// A value and a radius: the number meant lies no further than the radius from the value.
+///
+/// Every operation computes the value as `T` does and the radius as an upper bound: what the operands'
+/// errors amount to, plus the rounding error of the operation itself, the sum rounded up. So a formula
+/// read in balls gives the float result *and* a bound of its error. Inclusion holds for every input,
+/// subnormal numbers included; a radius may be infinite where nothing can be said, as after a division
+/// by a ball that contains zero.
+///
+/// ```
+/// use spring_mass_contact::number::Ball;
+/// let third = Ball::exactly(1.0) / Ball::exactly(3.0);
+/// assert_eq!(*third.value(), 1.0 / 3.0);
+/// assert!(*third.radius() > 0.0 && *third.radius() < 6e-17);
+/// assert_eq!((third * Ball::exactly(3.0) - Ball::exactly(1.0)).sign(), None); // perhaps 0, perhaps not
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ball<T> {
+    value: T,
+    radius: T,
+}
+
+impl<T> Ball<T> {
+    /// The centre: what `T` alone would have computed.
+    pub fn value(&self) -> &T {
+        &self.value
+    }
+
+    /// How far the number meant may be from the centre, at most.
+    pub fn radius(&self) -> &T {
+        &self.radius
+    }
+}
+
+impl<T: Real> Ball<T> {
+    /// This number and no other.
+    pub fn exactly(value: T) -> Self {
+        Ball { value, radius: T::zero() }
+    }
+
+    /// Some number that rounds to this value.
+    pub fn rounded(value: T) -> Self {
+        let radius = add(&half_ulp(&value), &T::underflow_unit());
+        Ball { value, radius }
+    }
+
+    /// A number no greater than any in the ball.
+    pub fn lower(&self) -> T {
+        if self.radius.is_zero() { self.value.clone() } else { (&self.value - &self.radius).next_down() }
+    }
+
+    /// A number no less than any in the ball.
+    pub fn upper(&self) -> T {
+        if self.radius.is_zero() { self.value.clone() } else { (&self.value + &self.radius).next_up() }
+    }
+
+    /// A number no less than the absolute value of any in the ball.
+    pub fn magnitude(&self) -> T {
+        if self.radius.is_zero() { self.value.abs() } else { (self.value.abs() + &self.radius).next_up() }
+    }
+
+    /// The sign that all numbers in the ball share; `None` if they do not.
+    pub fn sign(&self) -> Option<Ordering> {
+        if self.radius.is_zero() || self.value.abs() > self.radius {
+            self.value.partial_cmp(&T::zero())
+        } else {
+            None
+        }
+    }
+
+    /// Can a result be trusted? Not if the value or the radius is infinite or not a number.
+    pub fn is_finite(&self) -> bool {
+        self.value.is_finite() && self.radius.is_finite()
+    }
+
+    fn with(value: T, error: T) -> Self {
+        // A value that is not finite says nothing of the number meant.
+        let radius = if value.is_finite() && error.is_finite() { error.magnitude() } else { T::infinity() };
+        Ball { value, radius }
+    }
+
+    fn is_exactly_zero(&self) -> bool {
+        self.value.is_zero() && self.radius.is_zero()
+    }
+}
+
+// Arithmetic of radii: numbers ≥ 0, every result rounded up, zero kept exact.
+
+fn add<T: Real>(a: &T, b: &T) -> T {
+    if a.is_zero() {
+        b.clone()
+    } else if b.is_zero() {
+        a.clone()
+    } else {
+        (a + b).next_up()
+    }
+}
+
+fn mul<T: Real>(a: &T, b: &T) -> T {
+    if a.is_zero() || b.is_zero() { T::zero() } else { (a * b).next_up() }
+}
+
+fn div<T: Real>(a: &T, b: &T) -> T {
+    if a.is_zero() { T::zero() } else { (a / b).next_up() }
+}
+
+/// η|x|, the rounding error of a sum whose result is x: none if x = 0, and none is lost to underflow.
+fn half_ulp<T: Real>(x: &T) -> T {
+    mul(&x.magnitude(), &x.unit_roundoff())
+}
+
+/// η|x| and an absolute term, the rounding error of a product or quotient whose result is x.
+fn product_error<T: Real>(x: &T) -> T {
+    add(&half_ulp(x), &T::underflow_unit())
+}
+
+operators! { [T: Real] Ball<T>;
+    Add add |a, b| {
+        let value = &a.value + &b.value;
+        let error = add(&add(&a.radius, &b.radius), &half_ulp(&value));
+        Ball::with(value, error)
+    };
+    Sub sub |a, b| {
+        let value = &a.value - &b.value;
+        let error = add(&add(&a.radius, &b.radius), &half_ulp(&value));
+        Ball::with(value, error)
+    };
+    Mul mul |a, b| {
+        if a.is_exactly_zero() || b.is_exactly_zero() { return Ball::zero() }
+        let value = &a.value * &b.value;
+        // ab − a'b' = a(b − b') + b(a − a') − (a − a')(b − b')
+        let from_a = mul(&add(&b.value.magnitude(), &b.radius), &a.radius);
+        let from_b = mul(&a.value.magnitude(), &b.radius);
+        let error = add(&add(&from_a, &from_b), &product_error(&value));
+        Ball::with(value, error)
+    };
+    Div div |a, b| {
+        let value = &a.value / &b.value;
+        // No |divisor| is less than this.
+        let least = (b.value.abs() - &b.radius).next_down();
+        if least.partial_cmp(&T::zero()) != Some(Ordering::Greater) { return Ball { value, radius: T::infinity() } }
+        if a.is_exactly_zero() { return Ball::zero() }
+        // a/b − a'/b' = ((a − a') − (a/b)(b − b')) / b'
+        let own = product_error(&value);
+        let quotient = add(&value.magnitude(), &own);
+        let error = div(&add(&a.radius, &mul(&quotient, &b.radius)), &least);
+        Ball::with(value, add(&error, &own))
+    };
+    - |a| Ball { value: -&a.value, radius: a.radius.clone() }
+}
+
+impl<T: Real> Zero for Ball<T> {
+    fn zero() -> Self {
+        Ball::exactly(T::zero())
+    }
+    fn is_zero(&self) -> bool {
+        self.is_exactly_zero()
+    }
+}
+impl<T: Real> One for Ball<T> {
+    fn one() -> Self {
+        Ball::exactly(T::one())
+    }
+}
+impl<T: Real> Field for Ball<T> {
+    fn int(n: i32) -> Self {
+        Ball::exactly(T::int(n))
+    }
+    fn is_unit(&self) -> bool {
+        self.value.abs() > self.radius
+    }
+}
+impl<T: Real> PositivePart for Ball<T> {
+    fn positive_part(&self) -> Self {
+        match self.sign() {
+            Some(Ordering::Greater) => self.clone(),
+            Some(_) => Ball::zero(),
+            // ⟨·⟩ brings no two numbers further apart, so the radius still holds.
+            None => Ball::with(self.value.positive_part(), self.radius.clone()),
+        }
+    }
+    fn min(&self, other: &Self) -> Self {
+        if self.upper() <= other.lower() {
+            self.clone()
+        } else if other.upper() <= self.lower() {
+            other.clone()
+        } else {
+            let radius = if self.radius > other.radius { &self.radius } else { &other.radius };
+            Ball::with(self.value.min(&other.value), radius.clone())
+        }
+    }
+}
+impl<T: Real> Exponential for Ball<T> {
+    fn exp(&self) -> Self {
+        if self.is_exactly_zero() {
+            return Ball::one();
+        }
+        let value = self.value.exp();
+        let own = product_error(&value);
+        let r = &self.radius;
+        // |eʳ − 1| ≤ r + r² for r ≤ 1.
+        if *r > T::one() {
+            return Ball { value, radius: T::infinity() };
+        }
+        let growth = mul(&add(&value.magnitude(), &own), &add(r, &mul(r, r)));
+        Ball::with(value, add(&growth, &own))
+    }
+}

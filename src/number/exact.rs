@@ -1,0 +1,201 @@
+//! Exact rational numbers: the oracle.
+
+use super::field::ordered;
+use super::{Ball, Field, Mpfr, OrderedField, PositivePart, RangeError, Real};
+use num_traits::{One, Zero};
+use rug::float::Round;
+use rug::ops::NegAssign;
+use rug::{Float, Rational};
+use std::fmt;
+
+/// A rational number; every operation is exact, and `==` means equal.
+///
+/// Division by zero panics, as it does for Rust's integers.
+///
+/// ```
+/// use spring_mass_contact::number::Exact;
+/// let g: Exact = "9.81".parse()?;
+/// assert_eq!(g.to_string(), "981/100"); // the decimal itself, not the f64 beside it
+/// assert_eq!("1/3".parse::<Exact>()? + "0.5".parse::<Exact>()?, "5/6".parse()?);
+/// # Ok::<(), spring_mass_contact::number::ParseError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Exact(pub(super) Rational);
+
+macro_rules! operator {
+    ($($Trait:ident $f:ident $op:tt;)*) => {$(
+        // rug keeps an owned operand's allocation, and its result of two references is finished by `from`.
+        operator!(@form $Trait $f $op Exact, Exact, self other self.0, other.0);
+        operator!(@form $Trait $f $op Exact, &Exact, self other self.0, &other.0);
+        operator!(@form $Trait $f $op &Exact, Exact, self other &self.0, other.0);
+        operator!(@form $Trait $f $op &Exact, &Exact, self other &self.0, &other.0);
+    )*};
+    (@form $Trait:ident $f:ident $op:tt $left:ty, $right:ty, $self:ident $other:ident $a:expr, $b:expr) => {
+        impl std::ops::$Trait<$right> for $left {
+            type Output = Exact;
+            fn $f($self, $other: $right) -> Exact {
+                #[allow(clippy::useless_conversion)]
+                Exact(Rational::from($a $op $b))
+            }
+        }
+    };
+}
+operator! { Add add +; Sub sub -; Mul mul *; Div div /; }
+
+impl std::ops::Neg for Exact {
+    type Output = Exact;
+    fn neg(mut self) -> Exact {
+        self.0.neg_assign();
+        self
+    }
+}
+impl std::ops::Neg for &Exact {
+    type Output = Exact;
+    fn neg(self) -> Exact {
+        Exact(Rational::from(-&self.0))
+    }
+}
+impl Zero for Exact {
+    fn zero() -> Self {
+        Exact(Rational::new())
+    }
+    fn is_zero(&self) -> bool {
+        self.0.is_zero()
+    }
+}
+impl One for Exact {
+    fn one() -> Self {
+        Exact(Rational::from(1))
+    }
+}
+impl Field for Exact {
+    fn int(n: i32) -> Self {
+        Exact(Rational::from(n))
+    }
+}
+ordered!(Exact);
+
+/// As `p/q` in lowest terms, or as an integer; reading it back gives the same number.
+impl fmt::Display for Exact {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        fmt::Display::fmt(&self.0, f)
+    }
+}
+
+impl From<Rational> for Exact {
+    fn from(q: Rational) -> Self {
+        Exact(q)
+    }
+}
+impl From<Exact> for Rational {
+    fn from(x: Exact) -> Self {
+        x.0
+    }
+}
+impl From<i32> for Exact {
+    fn from(n: i32) -> Self {
+        Exact::int(n)
+    }
+}
+
+/// A float that is infinite or not a number has no exact value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("an infinity or not-a-number has no exact value")]
+pub struct Inexact;
+
+/// Numbers that have an exact value: the machine's floats, [`Mpfr`] and [`Exact`] itself.
+pub trait ToExact {
+    /// The value, exactly.
+    ///
+    /// # Errors
+    /// It is infinite or not a number.
+    fn to_exact(&self) -> Result<Exact, Inexact>;
+}
+impl ToExact for f32 {
+    fn to_exact(&self) -> Result<Exact, Inexact> {
+        Rational::from_f32(*self).map(Exact).ok_or(Inexact)
+    }
+}
+impl ToExact for f64 {
+    fn to_exact(&self) -> Result<Exact, Inexact> {
+        Rational::from_f64(*self).map(Exact).ok_or(Inexact)
+    }
+}
+impl ToExact for Mpfr {
+    fn to_exact(&self) -> Result<Exact, Inexact> {
+        self.to_rational().map(Exact).ok_or(Inexact)
+    }
+}
+impl ToExact for Exact {
+    fn to_exact(&self) -> Result<Exact, Inexact> {
+        Ok(self.clone())
+    }
+}
+
+impl Exact {
+    /// The rational number of the crate `rug` within.
+    pub fn as_rational(&self) -> &Rational {
+        &self.0
+    }
+
+    /// 2ⁿ.
+    pub fn power_of_two(n: i32) -> Self {
+        Exact(if n < 0 {
+            Rational::from(1) >> n.unsigned_abs()
+        } else {
+            Rational::from(1) << n.unsigned_abs()
+        })
+    }
+
+    /// Rounded once to the nearest f64, ties to even, also where f64 is subnormal.
+    ///
+    /// # Errors
+    /// The value overflows, or is not zero and would round to zero.
+    pub fn to_f64(&self) -> Result<f64, RangeError> {
+        self.to_ieee(53, "f64").map(|x| x.to_f64())
+    }
+
+    /// Rounded once to the nearest f32, ties to even, also where f32 is subnormal.
+    ///
+    /// # Errors
+    /// The value overflows, or is not zero and would round to zero.
+    pub fn to_f32(&self) -> Result<f32, RangeError> {
+        self.to_ieee(24, "f32").map(|x| x.to_f32())
+    }
+
+    /// Rounded once to the nearest float of `precision` bits, ties to even.
+    ///
+    /// # Panics
+    /// The precision is not in [`PRECISIONS`](super::PRECISIONS).
+    pub fn to_mpfr(&self, precision: u32) -> Mpfr {
+        Mpfr::rounded(precision, &self.0)
+    }
+
+    fn to_ieee(&self, precision: u32, scalar: &'static str) -> Result<Float, RangeError> {
+        let (mut x, ordering) = Float::with_val_round(precision, &self.0, Round::Nearest);
+        x.subnormalize_ieee_round(ordering, Round::Nearest);
+        let largest = if precision == 53 { f64::MAX } else { f64::from(f32::MAX) };
+        if *x.as_abs() > largest {
+            Err(RangeError::Overflow { scalar })
+        } else if x.is_zero() && !self.is_zero() {
+            Err(RangeError::Underflow { scalar })
+        } else {
+            Ok(x)
+        }
+    }
+}
+
+impl<T: Real + ToExact> Ball<T> {
+    /// Does the ball contain this number? Decided exactly.
+    pub fn contains(&self, x: &Exact) -> bool {
+        match (self.value().to_exact(), self.radius().to_exact()) {
+            (Ok(value), Ok(radius)) => (x - value).abs() <= radius,
+            _ => true, // an infinite ball contains everything
+        }
+    }
+
+    /// A ball around `value` that contains `exact`, which `value` is the nearest float to.
+    pub fn around(value: T, exact: &Exact) -> Self {
+        if value.to_exact().as_ref() == Ok(exact) { Ball::exactly(value) } else { Ball::rounded(value) }
+    }
+}

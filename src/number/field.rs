@@ -1,0 +1,274 @@
+//! What a formula asks of the numbers it is read in.
+//!
+//! | trait | adds | so that one can write |
+//! |---|---|---|
+//! | [`Field`] | `+ − × ÷`, zero, one, small integers | every identity of the chapter |
+//! | [`PositivePart`] | ⟨x⟩ = max(x, 0) and min | a plane that pushes and never pulls |
+//! | [`Exponential`] | eˣ | the solution (1.30) of the analogous ODE |
+//! | [`OrderedField`] | `<`, \|x\| | the stop test (1.33), searches, tests |
+//! | [`Real`] | ln, rounding | error bounds |
+//!
+//! # The one clever thing here
+//!
+//! A formula should read like the book, `(eps * (h - l) + m * g) / (c + eps)`, for numbers that are
+//! cheap to copy and for numbers that are not. So every operator has to exist in four forms, each
+//! operand owned or borrowed. Rust lets a trait imply what it says of `Self`, but what it says of
+//! `&'r Self` in a `where` clause has to be repeated by every function that uses the trait. Only
+//! bounds on `Self` *and on its associated types* are implied. Hence a detour: [`Imply<X>`] is true
+//! of every type and has an associated type `Is` that equals `X`. `Field: Imply<&'r Self, Is: Add<…>>`
+//! is a bound on an associated type of `Self`, and therefore implied; since `Is` *is* `&'r Self`,
+//! it says what the `where` clause would have said. The detour takes two traits, because the
+//! equality `Is = X` is implied too only where it stands in a supertrait's header.
+//! (The language's side of it is the long-standing issue rust-lang/rust#44491.)
+//!
+//! # Your own number system
+//!
+//! A newtype, its operators from references by [`operators!`](crate::operators), `Zero`, `One` and
+//! one line of `Field`; then every formula of the chapter runs on it. Here it is the integers
+//! modulo 7, in which 1/3 = 5:
+//!
+//! ```
+//! use num_traits::{One, Zero};
+//! use spring_mass_contact::{chapter::{SpringMass, contact, penalty}, number::Field, operators};
+//!
+//! #[derive(Clone, Debug, PartialEq)]
+//! struct Mod7(i32);
+//!
+//! operators! { [] Mod7;
+//!     Add add |a, b| Mod7((a.0 + b.0) % 7);
+//!     Sub sub |a, b| Mod7((a.0 - b.0).rem_euclid(7));
+//!     Mul mul |a, b| Mod7(a.0 * b.0 % 7);
+//!     Div div |a, b| (1..7).map(Mod7).find(|q| &(q * b) == a || a.0 == 0)
+//!         .map_or_else(|| panic!("division by zero"), |q| if a.0 == 0 { Mod7(0) } else { q });
+//!     - |a| Mod7((7 - a.0) % 7)
+//! }
+//! impl Zero for Mod7 {
+//!     fn zero() -> Self { Mod7(0) }
+//!     fn is_zero(&self) -> bool { self.0 == 0 }
+//! }
+//! impl One for Mod7 { fn one() -> Self { Mod7(1) } }
+//! impl Field for Mod7 { fn int(n: i32) -> Self { Mod7(n.rem_euclid(7)) } }
+//!
+//! let system = SpringMass { c: 2, m: 1, g: 5, l: 1, h: 3 }.map(|&n| Mod7(n));
+//! let eps = Mod7(1);
+//! // (1.13) solves (1.11) in any field.
+//! let u = penalty::deflection(&system, &eps);
+//! assert!(penalty::residual(&system, &eps, &u).is_zero());
+//! assert_eq!(contact::penetration(&system, &u), Mod7(5)); // R/(c + ε) = 1/3
+//! ```
+
+use num_traits::{One, Zero};
+use std::{
+    fmt::Debug,
+    ops::{Add, Div, Mul, Neg, Sub},
+};
+
+/// Names the type `T` from the header of a trait, so that its bounds come along with the trait.
+pub trait Imply<T>: ImplyInner<T, Is = T> {}
+impl<S: ?Sized, T> Imply<T> for S {}
+
+/// The half of [`Imply`] that holds the type.
+pub trait ImplyInner<T> {
+    /// `T` itself.
+    type Is;
+}
+impl<S: ?Sized, T> ImplyInner<T> for S {
+    type Is = T;
+}
+
+/// Numbers with `+ − × ÷`: enough for every identity of the chapter.
+///
+/// Each operator takes its operands owned or borrowed, in all four combinations, and the result does
+/// not depend on which. How exact the operations are is the number system's own business: rationals
+/// are, floats round each to nearest, balls say how far off they may be.
+#[rustfmt::skip]
+pub trait Field:
+    Clone + Debug + PartialEq + Zero + One
+    + Neg<Output = Self>
+    + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
+    + for<'r> Add<&'r Self, Output = Self> + for<'r> Sub<&'r Self, Output = Self>
+    + for<'r> Mul<&'r Self, Output = Self> + for<'r> Div<&'r Self, Output = Self>
+    + for<'r> Imply<&'r Self, Is:
+        Neg<Output = Self>
+        + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
+        + Add<Self, Output = Self> + Sub<Self, Output = Self>
+        + Mul<Self, Output = Self> + Div<Self, Output = Self>>
+{
+    /// A small integer, exactly (f32 holds those up to 2²⁴ in size).
+    fn int(n: i32) -> Self;
+
+    /// May one divide by it? Not the same as `!is_zero()`: the dual number 0 + 1·d is not zero, and
+    /// yet nothing can be divided by it; nor by a ball that contains zero.
+    fn is_unit(&self) -> bool {
+        !self.is_zero()
+    }
+}
+
+/// Numbers with ⟨x⟩ = max(x, 0) and min: the forms with a plane that pushes and never pulls.
+///
+/// These are methods and not comparisons in the formulas, since not everything a formula is read in
+/// can always decide a sign: a ball around zero cannot.
+pub trait PositivePart: Field {
+    /// ⟨x⟩ = max(x, 0). Exact.
+    fn positive_part(&self) -> Self;
+
+    /// The smaller of two numbers. Exact.
+    fn min(&self, other: &Self) -> Self;
+}
+
+/// Numbers with eˣ, for the ODE analogy (1.22)-(1.32).
+pub trait Exponential: Field {
+    /// eˣ, correctly rounded on floats.
+    fn exp(&self) -> Self;
+}
+
+/// Numbers that can be compared.
+pub trait OrderedField: PositivePart + PartialOrd {
+    /// |x|. Exact.
+    fn abs(&self) -> Self {
+        if *self < Self::zero() { -self } else { self.clone() }
+    }
+}
+
+/// Floating-point numbers: f32, f64 and [`Mpfr`](super::Mpfr). Every operation rounds to nearest.
+pub trait Real: OrderedField + Exponential {
+    /// ln x, correctly rounded; x > 0.
+    fn ln(&self) -> Self;
+
+    /// ln(1 + x), correctly rounded and accurate for small x; x > −1.
+    fn ln_1p(&self) -> Self;
+
+    /// η, the unit roundoff at the precision of this value: 2⁻²⁴, 2⁻⁵³, or 2⁻ᵖ for p bits (0 for a
+    /// constant, which is exact).
+    fn unit_roundoff(&self) -> Self;
+
+    /// The smallest positive number, where results are rounded to multiples of it; 0 where the range
+    /// of exponents has no end.
+    fn underflow_unit() -> Self;
+
+    /// Neither infinite nor not-a-number.
+    fn is_finite(&self) -> bool;
+
+    /// +∞, the radius of a ball about which nothing is known.
+    fn infinity() -> Self;
+
+    /// The next larger number of the same precision.
+    fn next_up(&self) -> Self;
+
+    /// The next smaller number of the same precision.
+    fn next_down(&self) -> Self {
+        -(-self).next_up()
+    }
+
+    /// An upper bound of |x|, in few digits if x has very many: what the radius of a ball is made of.
+    fn magnitude(&self) -> Self {
+        self.abs()
+    }
+}
+
+/// Writes the operators of a number system from their forms on references, each in the four
+/// combinations of owned and borrowed operands that [`Field`] asks for.
+///
+/// First the generics in brackets, then the type, then the five operators. See the
+/// [recipe](self#your-own-number-system).
+#[macro_export]
+macro_rules! operators {
+    (@neg [$($generics:tt)*] $type:ty; |$n:ident| $negated:expr) => {
+        impl<$($generics)*> ::std::ops::Neg for &$type {
+            type Output = $type;
+            fn neg(self) -> $type { let $n = self; $negated }
+        }
+        impl<$($generics)*> ::std::ops::Neg for $type {
+            type Output = $type;
+            fn neg(self) -> $type { -&self }
+        }
+    };
+    (@binary [$($generics:tt)*] $type:ty; $Trait:ident $f:ident |$a:ident, $b:ident| $body:expr) => {
+        impl<$($generics)*> ::std::ops::$Trait<&$type> for &$type {
+            type Output = $type;
+            fn $f(self, other: &$type) -> $type { let ($a, $b) = (self, other); $body }
+        }
+        impl<$($generics)*> ::std::ops::$Trait<$type> for &$type {
+            type Output = $type;
+            fn $f(self, other: $type) -> $type { ::std::ops::$Trait::$f(self, &other) }
+        }
+        impl<$($generics)*> ::std::ops::$Trait<&$type> for $type {
+            type Output = $type;
+            fn $f(self, other: &$type) -> $type { ::std::ops::$Trait::$f(&self, other) }
+        }
+        impl<$($generics)*> ::std::ops::$Trait<$type> for $type {
+            type Output = $type;
+            fn $f(self, other: $type) -> $type { ::std::ops::$Trait::$f(&self, &other) }
+        }
+    };
+    ($generics:tt $type:ty;
+     $($Trait:ident $f:ident |$a:ident, $b:ident| $body:expr;)*
+     - |$n:ident| $negated:expr) => {
+        $($crate::operators!(@binary $generics $type; $Trait $f |$a, $b| $body);)*
+        $crate::operators!(@neg $generics $type; |$n| $negated);
+    };
+}
+
+/// ⟨x⟩, min and |x| for numbers that compare.
+macro_rules! ordered {
+    ($($type:ty),*) => {$(
+        impl PositivePart for $type {
+            fn positive_part(&self) -> Self {
+                if *self > <$type>::zero() { self.clone() } else { <$type>::zero() }
+            }
+            fn min(&self, other: &Self) -> Self {
+                if other < self { other.clone() } else { self.clone() }
+            }
+        }
+        impl OrderedField for $type {}
+    )*};
+}
+pub(crate) use ordered;
+
+macro_rules! machine_float {
+    ($($float:ident $core:ident $exp:path, $ln:path, $ln_1p:path;)*) => {$(
+        impl Field for $float {
+            fn int(n: i32) -> Self {
+                n as $float
+            }
+        }
+        impl Exponential for $float {
+            fn exp(&self) -> Self {
+                $exp(*self)
+            }
+        }
+        impl Real for $float {
+            fn ln(&self) -> Self {
+                $ln(*self)
+            }
+            fn ln_1p(&self) -> Self {
+                $ln_1p(*self)
+            }
+            fn unit_roundoff(&self) -> Self {
+                $float::EPSILON / 2.0
+            }
+            fn underflow_unit() -> Self {
+                $float::from_bits(1)
+            }
+            fn is_finite(&self) -> bool {
+                $float::is_finite(*self)
+            }
+            fn infinity() -> Self {
+                $float::INFINITY
+            }
+            fn next_up(&self) -> Self {
+                $float::next_up(*self)
+            }
+        }
+    )*};
+}
+// The standard library promises no bound for exp and ln; these are correctly rounded.
+machine_float! {
+    f32 f32 core_math::expf, core_math::logf, core_math::log1pf;
+    f64 f64 core_math::exp, core_math::log, core_math::log1p;
+}
+#[allow(clippy::clone_on_copy)]
+mod machine {
+    use super::{OrderedField, PositivePart, Zero};
+    ordered!(f32, f64);
+}

@@ -1,0 +1,34 @@
+//! Number systems: what a formula can be read in.
+//!
+//! | number | what it is | when to use it |
+//! |---|---|---|
+//! | `f32`, `f64` | the machine's floats | to compute |
+#![cfg_attr(
+    feature = "mpfr",
+    doc = "| [`Mpfr`] | a float of 2 to 1 000 000 bits, chosen at run time | to compute to more digits |"
+)]
+#![cfg_attr(feature = "mpfr", doc = "| [`Exact`] | a rational number | to know; the oracle of every test |")]
+//! | [`Ball<T>`] | a float and a bound of its error | to know how far a float is off |
+//! | [`Dual<T>`] | a value and its derivative, over any of the others | to differentiate a formula |
+//!
+//! The traits they share, and how to add a number system of your own: [`field`].
+
+mod ball;
+mod dual;
+#[cfg(feature = "mpfr")]
+mod exact;
+pub mod field;
+#[cfg(feature = "mpfr")]
+mod mpfr;
+#[cfg(feature = "mpfr")]
+mod parse;
+
+pub use ball::Ball;
+pub use dual::Dual;
+#[cfg(feature = "mpfr")]
+pub use exact::{Exact, Inexact, ToExact};
+pub use field::{Exponential, Field, OrderedField, PositivePart, Real};
+#[cfg(feature = "mpfr")]
+pub use mpfr::{Mpfr, PRECISIONS};
+#[cfg(feature = "mpfr")]
+pub use parse::{MAX_EXPONENT, ParseError, RangeError};

@@ -1,0 +1,287 @@
+//! Floats of any precision, chosen at run time.
+
+use super::field::ordered;
+use super::{Exponential, Field, OrderedField, PositivePart, Real};
+use num_traits::{One, Zero};
+use rug::float::{Round, Special};
+use rug::ops::NegAssign;
+use rug::{Float, Rational};
+use std::cmp::Ordering;
+use std::{fmt, ops::RangeInclusive};
+
+/// The precisions in bits that [`Mpfr`] can have.
+pub const PRECISIONS: RangeInclusive<u32> = 2..=1_000_000;
+
+/// The digits of a radius; more would make it no better.
+const RADIUS_PRECISION: u32 = 64;
+
+/// A float of the MPFR library whose precision is a run-time value.
+///
+/// - Every operation is one correctly rounded MPFR operation, to nearest.
+/// - The result of two rounded operands has the larger of their precisions. It never depends on which
+///   operand is borrowed. (rug's own `Float` takes the precision of the owned operand.)
+/// - A constant (zero, one, small integers, and what is made of them) has no precision of its own: it
+///   stays an exact rational until it meets a rounded number.
+/// - The range of exponents is ±2³⁰, as good as unlimited.
+///
+/// ```
+/// use spring_mass_contact::number::{Exact, Field, Mpfr};
+/// let third = "1/3".parse::<Exact>()?.to_mpfr(10);
+/// assert_eq!((&third * Mpfr::int(3)).precision(), Some(10));
+/// assert_eq!((&third + Mpfr::parse("0.1", 200)?).precision(), Some(200));
+/// assert_eq!((Mpfr::int(1) / Mpfr::int(3)).precision(), None); // 1/3 exactly
+/// # Ok::<(), spring_mass_contact::number::ParseError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Mpfr(Kind);
+
+#[derive(Clone, Debug)]
+enum Kind {
+    Constant(Rational),
+    Rounded(Float),
+}
+use Kind::{Constant, Rounded};
+
+/// The four ways to own or borrow two operands meet in one: `in_place` says whose allocation may serve.
+macro_rules! operator {
+    ($($Trait:ident $f:ident $op:tt $constant_first:expr;)*) => {$(
+        impl std::ops::$Trait<&Mpfr> for &Mpfr {
+            type Output = Mpfr;
+            fn $f(self, other: &Mpfr) -> Mpfr {
+                Mpfr(match (&self.0, &other.0) {
+                    (Constant(a), Constant(b)) => Constant(Rational::from(a $op b)),
+                    (Constant(a), Rounded(b)) => Rounded($constant_first(a, b)),
+                    (Rounded(a), Constant(b)) => Rounded(Float::with_val(a.prec(), a $op b)),
+                    (Rounded(a), Rounded(b)) => Rounded(Float::with_val(a.prec().max(b.prec()), a $op b)),
+                })
+            }
+        }
+        impl std::ops::$Trait<&Mpfr> for Mpfr {
+            type Output = Mpfr;
+            fn $f(self, other: &Mpfr) -> Mpfr {
+                match (self.0, &other.0) {
+                    (Rounded(a), Rounded(b)) if a.prec() >= b.prec() => Mpfr(Rounded(a $op b)),
+                    (Rounded(a), Constant(b)) => Mpfr(Rounded(a $op b)),
+                    (a, _) => &Mpfr(a) $op other,
+                }
+            }
+        }
+        impl std::ops::$Trait<Mpfr> for &Mpfr {
+            type Output = Mpfr;
+            fn $f(self, other: Mpfr) -> Mpfr {
+                match (&self.0, other.0) {
+                    (Rounded(a), Rounded(b)) if b.prec() >= a.prec() => Mpfr(Rounded(a $op b)),
+                    (_, b) => self $op &Mpfr(b),
+                }
+            }
+        }
+        impl std::ops::$Trait<Mpfr> for Mpfr {
+            type Output = Mpfr;
+            fn $f(self, other: Mpfr) -> Mpfr {
+                match (&self.0, &other.0) {
+                    (Rounded(a), Rounded(b)) if b.prec() > a.prec() => &self $op other,
+                    _ => self $op &other,
+                }
+            }
+        }
+    )*};
+}
+operator! {
+    Add add + |a: &Rational, b: &Float| Float::with_val(b.prec(), a + b);
+    Sub sub - |a: &Rational, b: &Float| Float::with_val(b.prec(), a - b);
+    Mul mul * |a: &Rational, b: &Float| Float::with_val(b.prec(), a * b);
+    Div div / divide_constant;
+}
+
+/// (n/d) / x = n / (d x): MPFR has no such operation, but d x is exact in enough bits.
+fn divide_constant(a: &Rational, x: &Float) -> Float {
+    let wide = |bits: u32| bits.max(2);
+    let n = Float::with_val(wide(a.numer().significant_bits()), a.numer());
+    let dx = Float::with_val(wide(a.denom().significant_bits() + x.prec()), x * a.denom());
+    Float::with_val(x.prec(), n / &dx)
+}
+
+impl std::ops::Neg for Mpfr {
+    type Output = Mpfr;
+    fn neg(mut self) -> Mpfr {
+        match &mut self.0 {
+            Constant(q) => q.neg_assign(),
+            Rounded(x) => x.neg_assign(),
+        }
+        self
+    }
+}
+impl std::ops::Neg for &Mpfr {
+    type Output = Mpfr;
+    fn neg(self) -> Mpfr {
+        -self.clone()
+    }
+}
+impl PartialEq for Mpfr {
+    fn eq(&self, other: &Self) -> bool {
+        self.partial_cmp(other) == Some(Ordering::Equal)
+    }
+}
+impl PartialOrd for Mpfr {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        match (&self.0, &other.0) {
+            (Constant(a), Constant(b)) => a.partial_cmp(b),
+            (Constant(a), Rounded(b)) => a.partial_cmp(b),
+            (Rounded(a), Constant(b)) => a.partial_cmp(b),
+            (Rounded(a), Rounded(b)) => a.partial_cmp(b),
+        }
+    }
+}
+impl Zero for Mpfr {
+    fn zero() -> Self {
+        Mpfr(Constant(Rational::new()))
+    }
+    fn is_zero(&self) -> bool {
+        match &self.0 {
+            Constant(q) => q.is_zero(),
+            Rounded(x) => x.is_zero(),
+        }
+    }
+}
+impl One for Mpfr {
+    fn one() -> Self {
+        Mpfr::int(1)
+    }
+}
+impl Field for Mpfr {
+    fn int(n: i32) -> Self {
+        Mpfr(Constant(Rational::from(n)))
+    }
+}
+ordered!(Mpfr);
+
+/// The functions of a constant would be irrational: there is no precision to round them to.
+fn no_precision(function: &str) -> ! {
+    panic!("{function} of a constant of no precision: round it first, with Mpfr::rounded")
+}
+
+/// # Panics
+/// exp and ln of a constant that has met no rounded number, except exp 0 = 1, ln 1 = 0, ln_1p 0 = 0.
+impl Exponential for Mpfr {
+    fn exp(&self) -> Self {
+        match &self.0 {
+            Rounded(x) => Mpfr(Rounded(Float::with_val(x.prec(), x.exp_ref()))),
+            Constant(q) if q.is_zero() => Mpfr::one(),
+            Constant(_) => no_precision("exp"),
+        }
+    }
+}
+impl Real for Mpfr {
+    fn ln(&self) -> Self {
+        match &self.0 {
+            Rounded(x) => Mpfr(Rounded(Float::with_val(x.prec(), x.ln_ref()))),
+            Constant(q) if *q == 1 => Mpfr::zero(),
+            Constant(_) => no_precision("ln"),
+        }
+    }
+    fn ln_1p(&self) -> Self {
+        match &self.0 {
+            Rounded(x) => Mpfr(Rounded(Float::with_val(x.prec(), x.ln_1p_ref()))),
+            Constant(q) if q.is_zero() => Mpfr::zero(),
+            Constant(_) => no_precision("ln_1p"),
+        }
+    }
+    fn unit_roundoff(&self) -> Self {
+        match &self.0 {
+            Rounded(x) => Mpfr(Rounded(Float::with_val(RADIUS_PRECISION, 1) >> x.prec())),
+            Constant(_) => Mpfr::zero(),
+        }
+    }
+    fn underflow_unit() -> Self {
+        Mpfr::zero()
+    }
+    fn is_finite(&self) -> bool {
+        match &self.0 {
+            Constant(_) => true,
+            Rounded(x) => x.is_finite(),
+        }
+    }
+    fn infinity() -> Self {
+        Mpfr(Rounded(Float::with_val(RADIUS_PRECISION, Special::Infinity)))
+    }
+    /// A constant has no neighbours and is returned as it is.
+    fn next_up(&self) -> Self {
+        let mut next = self.clone();
+        if let Rounded(x) = &mut next.0 {
+            x.next_up();
+        }
+        next
+    }
+    fn magnitude(&self) -> Self {
+        let up = |x: Float| Mpfr(Rounded(x));
+        match &self.0 {
+            Constant(q) if q.is_zero() => Mpfr::zero(),
+            Constant(q) => up(Float::with_val_round(RADIUS_PRECISION, &q.clone().abs(), Round::Up).0),
+            Rounded(x) => up(Float::with_val_round(RADIUS_PRECISION, x.abs_ref(), Round::Up).0),
+        }
+    }
+}
+
+impl Mpfr {
+    /// Any number of the crate rug, rounded once to `precision` bits, to nearest.
+    ///
+    /// # Panics
+    /// The precision is not in [`PRECISIONS`].
+    pub fn rounded<V>(precision: u32, value: V) -> Self
+    where
+        Float: rug::Assign<V> + rug::ops::AssignRound<V, Round = Round, Ordering = Ordering>,
+    {
+        assert!(
+            PRECISIONS.contains(&precision),
+            "a precision of {precision} bits; 2 to 1000000 are possible"
+        );
+        Mpfr(Rounded(Float::with_val(precision, value)))
+    }
+
+    /// The precision in bits; `None` for a constant.
+    pub fn precision(&self) -> Option<u32> {
+        match &self.0 {
+            Constant(_) => None,
+            Rounded(x) => Some(x.prec()),
+        }
+    }
+
+    /// The exact value; `None` if it is infinite or not a number.
+    pub fn to_rational(&self) -> Option<Rational> {
+        match &self.0 {
+            Constant(q) => Some(q.clone()),
+            Rounded(x) => x.to_rational(),
+        }
+    }
+}
+
+impl From<Float> for Mpfr {
+    fn from(x: Float) -> Self {
+        Mpfr(Rounded(x))
+    }
+}
+
+/// All digits: reading the text back with the same precision gives the same number. A constant is
+/// printed as a fraction.
+impl fmt::Display for Mpfr {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let text = match &self.0 {
+            Constant(q) => return fmt::Display::fmt(q, f),
+            Rounded(x) if x.is_zero() => "0".to_string(),
+            Rounded(x) => x.to_string_radix(10, None),
+        };
+        // rug pads the mantissa with zeros to the digits of the precision; they say nothing.
+        let (mantissa, exponent) = text.split_once('e').map_or((text.as_str(), ""), |(m, e)| (m, e));
+        let mantissa = if mantissa.contains('.') {
+            mantissa.trim_end_matches('0').trim_end_matches('.')
+        } else {
+            mantissa
+        };
+        let separator = if exponent.is_empty() { "" } else { "e" };
+        f.pad_integral(
+            !mantissa.starts_with('-'),
+            "",
+            &format!("{}{separator}{exponent}", mantissa.trim_start_matches('-')),
+        )
+    }
+}
