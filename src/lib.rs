@@ -4,3 +4,7 @@
 
 pub mod chapter;
 pub mod number;
+pub mod solver;
+
+#[cfg(feature = "mpfr")]
+pub use rug;

@@ -19,7 +19,7 @@ use std::fmt;
 /// assert_eq!("1/3".parse::<Exact>()? + "0.5".parse::<Exact>()?, "5/6".parse()?);
 /// # Ok::<(), spring_mass_contact::number::ParseError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Exact(pub(super) Rational);
 
 macro_rules! operator {
@@ -82,6 +82,13 @@ impl fmt::Display for Exact {
     }
 }
 
+/// As it is displayed, so that a failing test prints what can be read back.
+impl fmt::Debug for Exact {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
 impl From<Rational> for Exact {
     fn from(q: Rational) -> Self {
         Exact(q)
@@ -103,32 +110,52 @@ impl From<i32> for Exact {
 #[error("an infinity or not-a-number has no exact value")]
 pub struct Inexact;
 
-/// Numbers that have an exact value: the machine's floats, [`Mpfr`] and [`Exact`] itself.
-pub trait ToExact {
+/// Numbers that convert to rationals exactly, and from them by one rounding: the machine's floats,
+/// [`Mpfr`], and [`Exact`] itself.
+pub trait ToExact: Sized {
     /// The value, exactly.
     ///
     /// # Errors
     /// It is infinite or not a number.
     fn to_exact(&self) -> Result<Exact, Inexact>;
+
+    /// `x` rounded once into this type, and at the precision that `self` has if that can differ.
+    ///
+    /// # Errors
+    /// The value overflows, or is not zero and would round to zero.
+    fn nearest(&self, x: &Exact) -> Result<Self, RangeError>;
 }
 impl ToExact for f32 {
     fn to_exact(&self) -> Result<Exact, Inexact> {
         Rational::from_f32(*self).map(Exact).ok_or(Inexact)
+    }
+    fn nearest(&self, x: &Exact) -> Result<Self, RangeError> {
+        x.to_f32()
     }
 }
 impl ToExact for f64 {
     fn to_exact(&self) -> Result<Exact, Inexact> {
         Rational::from_f64(*self).map(Exact).ok_or(Inexact)
     }
+    fn nearest(&self, x: &Exact) -> Result<Self, RangeError> {
+        x.to_f64()
+    }
 }
+/// Rounding like a constant does not round.
 impl ToExact for Mpfr {
     fn to_exact(&self) -> Result<Exact, Inexact> {
         self.to_rational().map(Exact).ok_or(Inexact)
+    }
+    fn nearest(&self, x: &Exact) -> Result<Self, RangeError> {
+        Ok(self.precision().map_or_else(|| Mpfr::constant(x.0.clone()), |p| x.to_mpfr(p)))
     }
 }
 impl ToExact for Exact {
     fn to_exact(&self) -> Result<Exact, Inexact> {
         Ok(self.clone())
+    }
+    fn nearest(&self, x: &Exact) -> Result<Self, RangeError> {
+        Ok(x.clone())
     }
 }
 

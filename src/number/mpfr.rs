@@ -32,7 +32,7 @@ const RADIUS_PRECISION: u32 = 64;
 /// assert_eq!((Mpfr::int(1) / Mpfr::int(3)).precision(), None); // 1/3 exactly
 /// # Ok::<(), spring_mass_contact::number::ParseError>(())
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Mpfr(Kind);
 
 #[derive(Clone, Debug)]
@@ -238,6 +238,11 @@ impl Mpfr {
         Mpfr(Rounded(Float::with_val(precision, value)))
     }
 
+    /// An exact constant, which has no precision of its own.
+    pub fn constant(value: Rational) -> Self {
+        Mpfr(Constant(value))
+    }
+
     /// The precision in bits; `None` for a constant.
     pub fn precision(&self) -> Option<u32> {
         match &self.0 {
@@ -283,5 +288,12 @@ impl fmt::Display for Mpfr {
             "",
             &format!("{}{separator}{exponent}", mantissa.trim_start_matches('-')),
         )
+    }
+}
+
+/// As it is displayed.
+impl fmt::Debug for Mpfr {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        fmt::Display::fmt(self, f)
     }
 }

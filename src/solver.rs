@@ -1,0 +1,416 @@
+//! What a user calls: [`solve`] a system by a [`Method`], get a [`Solution`] with rigorous bounds.
+//!
+//! ```
+//! use spring_mass_contact::{chapter::SpringMass, solver::{Method, Outcome, State, solve}};
+//!
+//! let system = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
+//! let method = Method::Augmented { penalty: 100.0, tolerance: 1e-12, max_augmentations: 1000, start: 0.0 };
+//! let answer = solve(&system, &method)?;
+//! assert_eq!((answer.state, answer.outcome), (State::Contact, Outcome::Converged));
+//! assert_eq!(answer.augmentations, Some(35));
+//! let force = answer.bounds.contact_force; // of the f64 parameters, which are not quite the decimals
+//! assert!(force.lower <= 4.81 && 4.81 <= force.upper && force.upper - force.lower < 1e-14);
+//! # Ok::<(), spring_mass_contact::solver::SolveError>(())
+//! ```
+
+mod augmentation;
+mod check;
+#[cfg(feature = "mpfr")]
+mod count;
+mod scalar;
+#[cfg(feature = "mpfr")]
+mod series;
+
+pub use augmentation::{Augmentation, Step};
+pub use check::SolveError;
+#[cfg(feature = "mpfr")]
+pub use count::{augmentations_needed, within_reach};
+pub use scalar::{Interval, Scalar};
+#[cfg(feature = "mpfr")]
+pub use series::series_penetration;
+
+use crate::chapter::{SpringMass, augmented, contact, lagrange, penalty, structure, system};
+#[cfg(feature = "mpfr")]
+use crate::number::{Exact, ToExact};
+use std::cmp::Ordering;
+
+/// Whether the mass and the plane touch, decided exactly by the sign of R = m g − c (H − l).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum State {
+    /// R > 0: the plane pushes.
+    Contact,
+    /// R = 0: they touch without force, which (1.6) as printed leaves out (note 1).
+    Grazing,
+    /// R < 0: the mass hangs free.
+    Separated,
+}
+
+impl State {
+    /// The state of a system, without any rounding. Meaningful for finite parameters with c > 0.
+    ///
+    /// ```
+    /// # use spring_mass_contact::{chapter::{SpringMass, system}, solver::State};
+    /// // In f64 m g rounds up, and all the way to c (H − l).
+    /// let system = SpringMass { c: 1.0, m: 3.0, g: 0.1, l: 0.0, h: 0.30000000000000004 };
+    /// assert_eq!(system::reaction(&system), 0.0);
+    /// assert_eq!(State::of(&system), State::Separated);
+    /// ```
+    pub fn of<T: Scalar>(system: &SpringMass<T>) -> State {
+        let SpringMass { c, m, g, l, h } = system;
+        match T::sign_of_sum([(m, g), (c, l)], (c, h)) {
+            Ordering::Greater => State::Contact,
+            Ordering::Equal => State::Grazing,
+            Ordering::Less => State::Separated,
+        }
+    }
+}
+
+/// Which way the plane can act.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Plane {
+    /// It pushes and never pulls: what (1.6) asks for, and what a user needs.
+    #[default]
+    Unilateral,
+    /// It pushes and pulls, as the equations of the chapter read where they are printed (note 4).
+    Bilateral,
+}
+
+/// How to solve. All quantities in SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Method<T> {
+    /// §1.3.1: exact.
+    Lagrange,
+    /// §1.3.2: with the penetration R/(c + ε).
+    Penalty {
+        /// ε > 0, in N/m.
+        penalty: T,
+    },
+    /// §1.3.3: repeated until the tolerance is met.
+    Augmented {
+        /// ε > 0, in N/m.
+        penalty: T,
+        /// tol > 0, in m: how far the deflection may be from the exact one.
+        tolerance: T,
+        /// The last k tried; 0 solves once.
+        max_augmentations: u64,
+        /// λ₀ in N: 0, or a guess (a warm start).
+        start: T,
+    },
+}
+
+/// How a solve ended. Only an iteration can end otherwise than [`Direct`](Outcome::Direct).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Outcome {
+    /// There was nothing to iterate.
+    Direct,
+    /// The natural residual and a rigorous bound of |u − u*| are both below the tolerance.
+    Converged,
+    /// Rounding stopped the iteration before: the multiplier repeats, or the penetration is zero or
+    /// changes sign. More steps do not help; [`Solution::floor`] says what was reached.
+    Stagnated,
+    /// The limit of augmentations came first.
+    OutOfSteps,
+}
+
+/// Rigorous enclosures of the exact answer, for the parameters as they are in their scalar.
+///
+/// For Lagrange and penalty the method's own exact answer; for augmented the limit, whatever the outcome.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bounds<T> {
+    /// Of the deflection, in m.
+    pub deflection: Interval<T>,
+    /// Of the penetration, in m.
+    pub penetration: Interval<T>,
+    /// Of the contact force, in N.
+    pub contact_force: Interval<T>,
+}
+
+/// What [`solve`] finds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solution<T> {
+    /// Contact, grazing or separated.
+    pub state: State,
+    /// How the solve ended.
+    pub outcome: Outcome,
+    /// u, in m.
+    pub deflection: T,
+    /// p = l + u − H of this deflection, in m.
+    pub penetration: T,
+    /// N = m g − c u, in N; exactly 0 where the mass hangs free, and at grazing by Lagrange.
+    pub contact_force: T,
+    /// λ (of this step: λ_k), in N; none by penalty.
+    pub multiplier: Option<T>,
+    /// k, the number of augmentations of the iterate returned; none without iteration.
+    pub augmentations: Option<u64>,
+    /// The smallest bound of |u − u*| met, in m, if the iteration stagnated.
+    pub floor: Option<T>,
+    /// Where the exact answer lies.
+    pub bounds: Bounds<T>,
+}
+
+#[cfg(feature = "mpfr")]
+impl<T: Scalar + ToExact> Solution<T> {
+    /// The residuals of (1.6) and of equilibrium, in exact rationals, of the numbers returned.
+    ///
+    /// All zero if and only if they are the exact solution. By penalty they cannot be.
+    ///
+    /// ```
+    /// # use spring_mass_contact::{chapter::SpringMass, solver::{Method, solve}};
+    /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
+    /// let kkt = solve(&system, &Method::Lagrange)?.certificate(&system);
+    /// assert!([kkt.stationarity, kkt.primal, kkt.dual, kkt.complementarity].iter().all(|r| *r == 0.into()));
+    /// # Ok::<(), spring_mass_contact::solver::SolveError>(())
+    /// ```
+    pub fn certificate(&self, system: &SpringMass<T>) -> contact::Kkt<Exact> {
+        let exact = |x: &T| x.to_exact().expect("a solution and its system are finite");
+        contact::kkt(&system.map(exact), &exact(&self.deflection), &exact(&self.contact_force))
+    }
+}
+
+/// Solves a system over a plane that never pulls.
+///
+/// Never loops for ever, and never returns a NaN or an infinity; for f32 and f64 it allocates nothing.
+///
+/// # Errors
+/// [`SolveError::Invalid`] for a parameter that is not finite or not in its range,
+/// [`SolveError::OutOfRange`] where a result does not fit the scalar.
+pub fn solve<T: Scalar>(system: &SpringMass<T>, method: &Method<T>) -> Result<Solution<T>, SolveError> {
+    run(system, method, Plane::Unilateral)
+}
+
+/// Solves a system as the chapter prints it: the plane also pulls, so that R < 0 has N < 0.
+///
+/// # Errors
+/// As [`solve`].
+pub fn solve_bilateral<T: Scalar>(
+    system: &SpringMass<T>,
+    method: &Method<T>,
+) -> Result<Solution<T>, SolveError> {
+    run(system, method, Plane::Bilateral)
+}
+
+fn run<T: Scalar>(
+    system: &SpringMass<T>,
+    method: &Method<T>,
+    plane: Plane,
+) -> Result<Solution<T>, SolveError> {
+    check::system(system)?;
+    check::method(method)?;
+    check::products(system)?;
+    let state = State::of(system);
+    let enclosed = system.map(T::enclose);
+    let target = Target::of(&enclosed, method, state, plane);
+    let bounds = target.bounds::<T>()?;
+    let finish = |found: Found<T>| {
+        let solution = Solution {
+            state,
+            outcome: found.outcome,
+            penetration: contact::penetration(system, &found.deflection),
+            deflection: found.deflection,
+            contact_force: found.contact_force,
+            multiplier: found.multiplier,
+            augmentations: found.augmentations,
+            floor: found.floor,
+            bounds,
+        };
+        check::finite(&solution)?;
+        Ok(solution)
+    };
+    match method {
+        Method::Lagrange => {
+            let contact_force = match (state, plane) {
+                (State::Contact, Plane::Unilateral) => contact::contact_force(system),
+                (State::Contact | State::Separated, Plane::Bilateral) => lagrange::multiplier(system),
+                (State::Grazing, _) | (State::Separated, Plane::Unilateral) => T::zero(),
+            };
+            let deflection =
+                if target.free { structure::deflection(system) } else { lagrange::deflection(system) };
+            let multiplier = Some(contact_force.clone());
+            finish(Found { multiplier, ..Found::directly(deflection, contact_force) })
+        }
+        Method::Penalty { penalty: eps } => finish(if target.free {
+            Found::directly(structure::deflection(system), T::zero())
+        } else {
+            let deflection = penalty::deflection(system, eps);
+            let force = augmented::contact_force(system, &deflection);
+            let force = if plane == Plane::Unilateral { force.positive_part() } else { force };
+            Found::directly(deflection, force)
+        }),
+        Method::Augmented { penalty: eps, tolerance, max_augmentations, start } => {
+            check::stiffness(system, eps)?;
+            let steps = Augmentation::new(system, eps).from_multiplier(start.clone()).over(plane);
+            finish(iterate(steps, &enclosed, &target, tolerance, *max_augmentations)?)
+        }
+    }
+}
+
+/// The exact answer, enclosed.
+struct Target<E> {
+    deflection: E,
+    penetration: E,
+    contact_force: E,
+    /// Does the mass hang free of the plane?
+    free: bool,
+}
+
+impl<E: crate::number::PositivePart> Target<E> {
+    /// The method's own exact answer; by augmentation its limit, which is Lagrange's.
+    fn of<T: Scalar<Enclosure = E>>(
+        enclosed: &SpringMass<E>,
+        method: &Method<T>,
+        state: State,
+        plane: Plane,
+    ) -> Self {
+        let free = plane == Plane::Unilateral && state == State::Separated;
+        match method {
+            _ if free => {
+                let deflection = structure::deflection(enclosed);
+                let penetration = contact::penetration(enclosed, &deflection);
+                Target { deflection, penetration, contact_force: E::zero(), free }
+            }
+            Method::Penalty { penalty: eps } => {
+                let eps = eps.enclose();
+                Target {
+                    deflection: penalty::deflection(enclosed, &eps),
+                    penetration: penalty::penetration(enclosed, &eps),
+                    contact_force: penalty::force_at_root(enclosed, &eps),
+                    free,
+                }
+            }
+            Method::Lagrange | Method::Augmented { .. } => Target {
+                deflection: lagrange::deflection(enclosed),
+                penetration: E::zero(),
+                contact_force: if state == State::Grazing {
+                    E::zero()
+                } else {
+                    lagrange::multiplier(enclosed)
+                },
+                free,
+            },
+        }
+    }
+
+    /// u − u*, in contact by the penetration of u, which is formed without a detour.
+    fn error(&self, enclosed: &SpringMass<E>, u: &E) -> E {
+        if self.free { u - &self.deflection } else { contact::penetration(enclosed, u) }
+    }
+
+    fn bounds<T: Scalar<Enclosure = E>>(&self) -> Result<Bounds<T>, SolveError> {
+        let interval = |enclosure, quantity| {
+            let interval = T::interval(enclosure);
+            let finite = interval.lower.is_finite() && interval.upper.is_finite();
+            if finite { Ok(interval) } else { Err(SolveError::OutOfRange { quantity }) }
+        };
+        Ok(Bounds {
+            deflection: interval(&self.deflection, "deflection")?,
+            penetration: interval(&self.penetration, "penetration")?,
+            contact_force: interval(&self.contact_force, "contact force")?,
+        })
+    }
+}
+
+/// What a method comes up with, before it is checked.
+struct Found<T> {
+    outcome: Outcome,
+    deflection: T,
+    contact_force: T,
+    multiplier: Option<T>,
+    augmentations: Option<u64>,
+    floor: Option<T>,
+}
+
+impl<T> Found<T> {
+    fn directly(deflection: T, contact_force: T) -> Self {
+        Found {
+            outcome: Outcome::Direct,
+            deflection,
+            contact_force,
+            multiplier: None,
+            augmentations: None,
+            floor: None,
+        }
+    }
+}
+
+fn iterate<T: Scalar>(
+    mut steps: Augmentation<T>,
+    enclosed: &SpringMass<T::Enclosure>,
+    target: &Target<T::Enclosure>,
+    tolerance: &T,
+    max_augmentations: u64,
+) -> Result<Found<T>, SolveError> {
+    let eps = steps.penalty().enclose();
+    let mut floor: Option<T> = None;
+    let mut side = None;
+    loop {
+        let step = steps.step();
+        if !step.deflection.is_finite() || !steps.multiplier().is_finite() {
+            return Err(SolveError::OutOfRange { quantity: "deflection" });
+        }
+        // A posteriori: how far is this iterate from the answer, the rounding of this question included?
+        let (u, lambda) = (step.deflection.enclose(), step.multiplier.enclose());
+        let error = T::magnitude(&target.error(enclosed, &u));
+        let residual = T::magnitude(&match steps.plane() {
+            Plane::Unilateral => augmented::natural_residual(enclosed, &eps, &lambda, &u),
+            Plane::Bilateral => contact::penetration(enclosed, &u),
+        });
+        let converged = residual < *tolerance && error < *tolerance;
+        if floor.as_ref().is_none_or(|least| error < *least) {
+            floor = Some(error);
+        }
+        // Where λ < 0 the unilateral iterate has not begun to approach, and p = 0 means nothing.
+        let approaching = steps.plane() == Plane::Bilateral || step.multiplier >= T::zero();
+        let sign = step.penetration.partial_cmp(&T::zero());
+        let crossed = approaching && (step.penetration.is_zero() || *side.get_or_insert(sign) != sign);
+        let outcome = if converged {
+            Outcome::Converged
+        } else if crossed || *steps.multiplier() == step.multiplier {
+            Outcome::Stagnated
+        } else if step.k >= max_augmentations {
+            Outcome::OutOfSteps
+        } else {
+            continue;
+        };
+        return Ok(Found {
+            outcome,
+            deflection: step.deflection,
+            contact_force: step.contact_force,
+            multiplier: Some(step.multiplier),
+            augmentations: Some(step.k),
+            floor: floor.filter(|_| outcome == Outcome::Stagnated),
+        });
+    }
+}
+
+/// Remark 1.3.2 as a user asks it: the least penalty, in N/m, whose penetration is at most `tolerance`
+/// in m; `None` if every ε > 0 has that (the mass hangs free, or the spring alone is stiff enough).
+///
+/// In floats it is rounded like any formula; read [`penalty::penalty_for`] in balls for its bound.
+///
+/// # Errors
+/// A parameter is invalid, or the penalty leaves the range.
+///
+/// ```
+/// # use spring_mass_contact::{chapter::SpringMass, solver::penalty_for_penetration};
+/// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
+/// assert_eq!(penalty_for_penetration(&system, &0.25)?, Some(4.0));
+/// assert_eq!(penalty_for_penetration(&system, &0.5)?, None);
+/// # Ok::<(), spring_mass_contact::solver::SolveError>(())
+/// ```
+pub fn penalty_for_penetration<T: Scalar>(
+    system: &SpringMass<T>,
+    tolerance: &T,
+) -> Result<Option<T>, SolveError> {
+    check::system(system)?;
+    check::positive("tolerance", tolerance)?;
+    if State::of(system) != State::Contact {
+        return Ok(None);
+    }
+    let eps = penalty::penalty_for(system, tolerance);
+    if !eps.is_finite() || !system::reaction(system).is_finite() {
+        return Err(SolveError::OutOfRange { quantity: "penalty" });
+    }
+    Ok((eps > T::zero()).then_some(eps))
+}

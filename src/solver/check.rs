@@ -1,0 +1,162 @@
+//! What the caller can have done wrong.
+
+use super::{Method, Scalar, Solution};
+use crate::chapter::{SpringMass, penalty, structure, system};
+#[cfg(feature = "mpfr")]
+use crate::number::{Exact, ParseError};
+
+/// Why there is no solution to return.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SolveError {
+    /// A parameter outside its range.
+    #[error("{argument} {value}: must be {allowed}")]
+    Invalid {
+        /// The parameter's name.
+        argument: &'static str,
+        /// What it was.
+        value: String,
+        /// What it may be.
+        allowed: &'static str,
+    },
+    /// A parameter that does not spell a number.
+    #[cfg(feature = "mpfr")]
+    #[error("{argument} '{value}': {reason}")]
+    NotANumber {
+        /// The parameter's name.
+        argument: &'static str,
+        /// What it was.
+        value: String,
+        /// What is wrong with it.
+        reason: ParseError,
+    },
+    /// A result that the scalar cannot hold.
+    #[error("the {quantity} leaves the range of this scalar; use MPFR (mpfr:BITS) or exact rationals")]
+    OutOfRange {
+        /// The quantity's name.
+        quantity: &'static str,
+    },
+}
+
+const POSITIVE: &str = "greater than 0 and finite";
+const FINITE: &str = "finite";
+
+fn require<T: Scalar>(
+    holds: bool,
+    argument: &'static str,
+    value: &T,
+    allowed: &'static str,
+) -> Result<(), SolveError> {
+    if holds { Ok(()) } else { Err(SolveError::Invalid { argument, value: format!("{value:?}"), allowed }) }
+}
+
+pub(super) fn positive<T: Scalar>(argument: &'static str, value: &T) -> Result<(), SolveError> {
+    require(value.is_finite() && *value > T::zero(), argument, value, POSITIVE)
+}
+
+fn finite_number<T: Scalar>(argument: &'static str, value: &T) -> Result<(), SolveError> {
+    require(value.is_finite(), argument, value, FINITE)
+}
+
+pub(super) fn system<T: Scalar>(system: &SpringMass<T>) -> Result<(), SolveError> {
+    let SpringMass { c, m, g, l, h } = system;
+    positive("stiffness", c)?;
+    positive("mass", m)?;
+    finite_number("gravity", g)?;
+    finite_number("free length", l)?;
+    finite_number("height", h)
+}
+
+pub(super) fn method<T: Scalar>(method: &Method<T>) -> Result<(), SolveError> {
+    match method {
+        Method::Lagrange => Ok(()),
+        Method::Penalty { penalty } => positive("penalty", penalty),
+        Method::Augmented { penalty, tolerance, start, max_augmentations: _ } => {
+            positive("penalty", penalty)?;
+            positive("tolerance", tolerance)?;
+            finite_number("initial multiplier", start)
+        }
+    }
+}
+
+#[cfg(feature = "mpfr")]
+pub(super) fn coefficient<T: Scalar>(argument: &'static str, value: &T) -> Result<(), SolveError> {
+    require(value.is_finite() && *value >= T::zero(), argument, value, "at least 0 and finite")
+}
+
+#[cfg(feature = "mpfr")]
+pub(super) fn any_positive<'a, T: Scalar + 'a>(
+    mut coefficients: impl Iterator<Item = &'a T>,
+) -> Result<(), SolveError> {
+    require(
+        coefficients.any(|e| *e > T::zero()),
+        "penalties",
+        &T::zero(),
+        "greater than 0, at least one of them",
+    )
+}
+
+#[cfg(feature = "mpfr")]
+pub(super) fn no_precision<T: Scalar>(value: &T) -> SolveError {
+    SolveError::Invalid {
+        argument: "system",
+        value: format!("{value:?}"),
+        allowed: "rounded to some precision",
+    }
+}
+
+fn in_range(holds: bool, quantity: &'static str) -> Result<(), SolveError> {
+    if holds { Ok(()) } else { Err(SolveError::OutOfRange { quantity }) }
+}
+
+/// A product of nonzero numbers that is zero has lost all its digits.
+pub(super) fn products<T: Scalar>(s: &SpringMass<T>) -> Result<(), SolveError> {
+    let gap = system::gap(s);
+    in_range(s.g.is_zero() || !system::weight(s).is_zero(), "weight")?;
+    in_range(s.g.is_zero() || !structure::deflection(s).is_zero(), "deflection")?;
+    in_range(gap.is_zero() || !structure::spring_force(s, &gap).is_zero(), "spring force")
+}
+
+pub(super) fn stiffness<T: Scalar>(s: &SpringMass<T>, eps: &T) -> Result<(), SolveError> {
+    in_range(penalty::total_stiffness(s, eps).is_finite(), "total stiffness c + ε")
+}
+
+pub(super) fn finite<T: Scalar>(solution: &Solution<T>) -> Result<(), SolveError> {
+    in_range(solution.deflection.is_finite(), "deflection")?;
+    in_range(solution.penetration.is_finite(), "penetration")?;
+    in_range(solution.contact_force.is_finite(), "contact force")
+}
+
+#[cfg(feature = "mpfr")]
+impl<S: AsRef<str>> SpringMass<S> {
+    /// Reads a system from texts, exactly, and checks it.
+    ///
+    /// # Errors
+    /// A text that is not a number, or a parameter outside its range.
+    ///
+    /// ```
+    /// use spring_mass_contact::{chapter::SpringMass, number::Exact};
+    /// let system = SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" }.parse()?;
+    /// assert_eq!(system.try_map(Exact::to_f64).unwrap().g, 9.81);
+    /// let error = SpringMass { c: "-1", m: "1", g: "9.81", l: "1", h: "1.05" }.parse().unwrap_err();
+    /// assert_eq!(error.to_string(), "stiffness -1: must be greater than 0 and finite");
+    /// # Ok::<(), spring_mass_contact::solver::SolveError>(())
+    /// ```
+    pub fn parse(&self) -> Result<SpringMass<Exact>, SolveError> {
+        let number = |argument, text: &S| {
+            let text = text.as_ref();
+            let refused = |reason| SolveError::NotANumber { argument, value: text.to_string(), reason };
+            text.parse::<Exact>().map_err(refused)
+        };
+        let SpringMass { c, m, g, l, h } = self;
+        let parsed = SpringMass {
+            c: number("stiffness", c)?,
+            m: number("mass", m)?,
+            g: number("gravity", g)?,
+            l: number("free length", l)?,
+            h: number("height", h)?,
+        };
+        system(&parsed)?;
+        Ok(parsed)
+    }
+}

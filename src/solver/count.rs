@@ -1,0 +1,118 @@
+//! (1.33), solved for k: how many augmentations a tolerance needs, exactly.
+
+use super::{Plane, Scalar};
+use crate::chapter::{SpringMass, augmented, system};
+use crate::number::{Exact, OrderedField, ToExact};
+use num_traits::{One, Zero};
+use rug::float::Round;
+use rug::ops::Pow;
+use rug::{Float, Integer, Rational};
+
+/// The first k at which the augmentation meets a tolerance in exact arithmetic, for the parameters as
+/// they are in their scalar: penalty ε > 0 in N/m, tolerance > 0 in m, λ₀ in N.
+///
+/// That is the first k with |r_k| < tol, r_k the natural residual (note 4); in contact and grazing it
+/// is the penetration, so this is (1.33). It can be very large: the number of digits is about that of c/ε.
+///
+/// # Panics
+/// A parameter is not finite, or ε, c or the tolerance is not positive.
+///
+/// ```
+/// # use spring_mass_contact::{chapter::SpringMass, solver::{Plane, augmentations_needed}};
+/// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
+/// // p_k = 1/4, 1/8, 1/16, …: not yet *less* than 1/16 at k = 2.
+/// assert_eq!(augmentations_needed(&system, &4.0, &0.0625, &0.0, Plane::Unilateral), 3);
+/// ```
+pub fn augmentations_needed<T: Scalar + ToExact>(
+    system: &SpringMass<T>,
+    eps: &T,
+    tolerance: &T,
+    start: &T,
+    plane: Plane,
+) -> Integer {
+    let exact = |x: &T| x.to_exact().expect("a finite parameter");
+    let (system, eps, tolerance, start) = (system.map(exact), exact(eps), exact(tolerance), exact(start));
+    let zero = Exact::zero();
+    assert!(system.c > zero && eps > zero && tolerance > zero, "c, ε and the tolerance must be positive");
+    let first_below = |value: &Exact, bound: &Exact| first_below(value, bound, &(&eps / &system.c));
+    // |p_k| = ρᵏ |p₀| as long as the plane acts.
+    let penetration_below = |start: &Exact| {
+        let p = augmented::penetration_after(&system, &eps, start, &Exact::one());
+        first_below(&p.abs(), &tolerance)
+    };
+    let r = system::reaction(&system);
+    if plane == Plane::Bilateral {
+        return penetration_below(&start);
+    }
+    if start <= zero && &system.c * &start + &eps * &r < zero {
+        // The first step hangs free and moves λ to 0, unless that is within the tolerance already.
+        return if -&start / &eps < tolerance {
+            Integer::new()
+        } else if r < zero {
+            Integer::from(1)
+        } else {
+            penetration_below(&zero) + 1
+        };
+    }
+    if r >= zero {
+        return penetration_below(&start);
+    }
+    // Separated from λ₀ > 0: r_k is p_k until λ would turn negative, and −λ_k/ε then; both are
+    // negative and their larger one counts, so the first of the two to come within the tolerance.
+    let multiplier_below = first_below(&(&start - &r), &(&eps * &tolerance - &r));
+    penetration_below(&start).min(multiplier_below)
+}
+
+/// The least k ≥ 0 with value < bound · (1 + x)ᵏ, for value ≥ 0, bound > 0, x > 0.
+fn first_below(value: &Exact, bound: &Exact, x: &Exact) -> Integer {
+    if value < bound {
+        return Integer::new();
+    }
+    let ratio = value / bound;
+    let (ratio, x) = (ratio.as_rational(), x.as_rational());
+    let growth = Rational::from(x + 1);
+    // n = ⌊ln ratio / ln(1 + x)⌋ is the last power that does not exceed the ratio.
+    let mut precision = 64;
+    loop {
+        let logarithms = |round: Round| {
+            let ratio = Float::with_val_round(precision, ratio, round).0;
+            let x = Float::with_val_round(precision, x, round).0;
+            let ln = |x: &Float| Float::with_val_round(precision, x.ln_ref(), round).0;
+            let ln_1p = |x: &Float| Float::with_val_round(precision, x.ln_1p_ref(), round).0;
+            (ln(&ratio), ln_1p(&x))
+        };
+        let ((a, b), (a_up, b_up)) = (logarithms(Round::Down), logarithms(Round::Up));
+        let floor = |x: Float| x.to_integer_round(Round::Down).map(|(n, _)| n);
+        let least = floor(Float::with_val_round(precision, &a / &b_up, Round::Down).0);
+        let most = floor(Float::with_val_round(precision, &a_up / &b, Round::Up).0);
+        if let (Some(least), Some(most)) = (least, most) {
+            if least == most || is_power(ratio, &growth, &most) {
+                return most + 1;
+            }
+        }
+        precision *= 2;
+    }
+}
+
+/// Is ratio = growthⁿ? Then the logarithms never decide, and neither side is longer than the ratio.
+fn is_power(ratio: &Rational, growth: &Rational, n: &Integer) -> bool {
+    let bits = u64::from(ratio.numer().significant_bits());
+    let least_bits = u64::from(growth.numer().significant_bits() - 1).max(1);
+    n.to_u32().is_some_and(|n| u64::from(n) * least_bits <= bits && growth.clone().pow(n) == *ratio)
+}
+
+/// Can floats of this scalar meet the tolerance at all, by the rounding floor of the iteration?
+///
+/// With F = η (|H| + |Δ| + |R|/ε), no step count reaches tol ≤ 16 F + η (|H| + tol). Rationals always can.
+pub fn within_reach<T: Scalar + ToExact>(
+    system: &SpringMass<T>,
+    eps: &T,
+    tolerance: &T,
+    unit_roundoff: &Exact,
+) -> bool {
+    let exact = |x: &T| x.to_exact().expect("a finite parameter");
+    let (system, eps, tolerance) = (system.map(exact), exact(eps), exact(tolerance));
+    let (gap, r) = (system::gap(&system), system::reaction(&system));
+    let floor = unit_roundoff * (system.h.abs() + gap.abs() + (r / eps).abs());
+    tolerance > Exact::from(16) * floor + unit_roundoff * (system.h.abs() + &tolerance)
+}

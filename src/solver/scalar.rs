@@ -1,0 +1,168 @@
+//! What the solver asks of its numbers, beyond arithmetic: bounds and an exact sign.
+
+use crate::number::{Ball, OrderedField, PositivePart, Real};
+#[cfg(feature = "mpfr")]
+use crate::number::{Exact, Mpfr, ToExact};
+use num_traits::Zero;
+use std::cmp::Ordering;
+
+/// Two numbers, and all between them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Interval<T> {
+    /// The smaller one.
+    pub lower: T,
+    /// The larger one.
+    pub upper: T,
+}
+
+/// Numbers that [`solve`](super::solve) takes: f32, f64, [`Mpfr`](crate::number::Mpfr) and
+/// [`Exact`](crate::number::Exact).
+pub trait Scalar: OrderedField {
+    /// What bounds are computed in: [`Ball`]s of a float, rationals themselves.
+    type Enclosure: PositivePart;
+
+    /// This number and no other.
+    fn enclose(&self) -> Self::Enclosure;
+
+    /// Two scalars with everything enclosed between them.
+    fn interval(enclosure: &Self::Enclosure) -> Interval<Self>;
+
+    /// A scalar no less than the absolute value of anything enclosed.
+    fn magnitude(enclosure: &Self::Enclosure) -> Self;
+
+    /// Neither infinite nor not-a-number.
+    fn is_finite(&self) -> bool;
+
+    /// The sign of a₁b₁ + a₂b₂ − a₃b₃, without any rounding.
+    fn sign_of_sum(plus: [(&Self, &Self); 2], minus: (&Self, &Self)) -> Ordering;
+}
+
+macro_rules! by_ball {
+    ($($float:ty, $sign:expr;)*) => {$(
+        impl Scalar for $float {
+            type Enclosure = Ball<$float>;
+            fn enclose(&self) -> Ball<$float> {
+                Ball::exactly(self.clone())
+            }
+            fn interval(ball: &Ball<$float>) -> Interval<Self> {
+                if ball.is_finite() {
+                    Interval { lower: ball.lower(), upper: ball.upper() }
+                } else {
+                    Interval { lower: -<$float>::infinity(), upper: <$float>::infinity() }
+                }
+            }
+            fn magnitude(ball: &Ball<$float>) -> Self {
+                ball.magnitude()
+            }
+            fn is_finite(&self) -> bool {
+                Real::is_finite(self)
+            }
+            fn sign_of_sum(plus: [(&Self, &Self); 2], minus: (&Self, &Self)) -> Ordering {
+                $sign(plus, minus)
+            }
+        }
+    )*};
+}
+#[allow(clippy::clone_on_copy)]
+mod machine {
+    use super::*;
+    by_ball! {
+        f32, |plus: [(&f32, &f32); 2], minus: (&f32, &f32)| {
+            let wide = |(a, b): (&f32, &f32)| (f64::from(*a), f64::from(*b));
+            sign_of_sum(plus.map(wide), wide(minus))
+        };
+        f64, |plus: [(&f64, &f64); 2], (a, b): (&f64, &f64)| sign_of_sum(plus.map(|(a, b)| (*a, *b)), (*a, *b));
+    }
+}
+#[cfg(feature = "mpfr")]
+by_ball! {
+    Mpfr, |plus: [(&Mpfr, &Mpfr); 2], minus: (&Mpfr, &Mpfr)| {
+        // Numbers that are not finite are refused before anybody asks for a sign.
+        let exact = |x: &Mpfr| x.to_exact().unwrap_or_else(|_| Exact::zero());
+        let product = |(a, b): (&Mpfr, &Mpfr)| exact(a) * exact(b);
+        (product(plus[0]) + product(plus[1])).cmp(&product(minus))
+    };
+}
+
+#[cfg(feature = "mpfr")]
+impl Scalar for Exact {
+    type Enclosure = Exact;
+    fn enclose(&self) -> Exact {
+        self.clone()
+    }
+    fn interval(x: &Exact) -> Interval<Self> {
+        Interval { lower: x.clone(), upper: x.clone() }
+    }
+    fn magnitude(x: &Exact) -> Self {
+        x.abs()
+    }
+    fn is_finite(&self) -> bool {
+        true
+    }
+    fn sign_of_sum(plus: [(&Self, &Self); 2], minus: (&Self, &Self)) -> Ordering {
+        (plus[0].0 * plus[0].1 + plus[1].0 * plus[1].1).cmp(&(minus.0 * minus.1))
+    }
+}
+
+fn sign_of_sum(plus: [(f64, f64); 2], (a, b): (f64, f64)) -> Ordering {
+    let mut sum = Accumulator::new();
+    for (a, b) in [plus[0], plus[1], (-a, b)] {
+        sum.add(a, b);
+    }
+    sum.sign()
+}
+
+/// The weight of the accumulator's last bit is 2^−2148, the square of the smallest f64.
+const LAST_BIT: i32 = 2 * -1074;
+/// From 2^−2148 to beyond 2^2048, the square of the largest, with room for carries and a sign.
+const LIMBS: usize = 68;
+
+/// A sum of products of f64s without rounding: an integer so wide that every product fits, in two's
+/// complement, least limb first.
+struct Accumulator([u64; LIMBS]);
+
+impl Accumulator {
+    fn new() -> Self {
+        Accumulator([0; LIMBS])
+    }
+
+    fn add(&mut self, a: f64, b: f64) {
+        let ((m, e), (n, f)) = (decode(a), decode(b));
+        let product = u128::from(m) * u128::from(n); // below 2^106
+        let shift = (e + f - LAST_BIT).unsigned_abs() as usize;
+        let (limb, bit) = (shift / 64, shift % 64);
+        let low = product << bit;
+        let high = if bit == 0 { 0 } else { product >> (128 - bit) };
+        let parts = [low as u64, (low >> 64) as u64, high as u64];
+        let negative = a.is_sign_negative() != b.is_sign_negative();
+        let mut carry = false;
+        for (i, own) in self.0.iter_mut().enumerate().skip(limb) {
+            let part = parts.get(i - limb).copied().unwrap_or(0);
+            let (x, y) = if negative { own.overflowing_sub(part) } else { own.overflowing_add(part) };
+            let c = u64::from(carry);
+            let (x, z) = if negative { x.overflowing_sub(c) } else { x.overflowing_add(c) };
+            *own = x;
+            carry = y || z;
+            if !carry && i >= limb + parts.len() {
+                break;
+            }
+        }
+    }
+
+    fn sign(&self) -> Ordering {
+        if self.0[LIMBS - 1] >> 63 == 1 {
+            Ordering::Less
+        } else if self.0.iter().all(|limb| *limb == 0) {
+            Ordering::Equal
+        } else {
+            Ordering::Greater
+        }
+    }
+}
+
+/// A finite |x| as an integer below 2^53 and the power of two it is to be multiplied by.
+fn decode(x: f64) -> (u64, i32) {
+    let bits = x.to_bits();
+    let (fraction, exponent) = (bits & ((1 << 52) - 1), ((bits >> 52) & 0x7ff) as i32);
+    if exponent == 0 { (fraction, -1074) } else { (fraction | 1 << 52, exponent - 1075) }
+}
