@@ -22,6 +22,8 @@ pub mod field;
 mod mpfr;
 #[cfg(feature = "mpfr")]
 mod parse;
+#[cfg(feature = "mpfr")]
+mod system;
 
 pub use ball::Ball;
 pub use dual::Dual;
@@ -32,3 +34,5 @@ pub use field::{Exponential, Field, OrderedField, PositivePart, Real};
 pub use mpfr::{Mpfr, PRECISIONS};
 #[cfg(feature = "mpfr")]
 pub use parse::{MAX_EXPONENT, ParseError, RangeError};
+#[cfg(feature = "mpfr")]
+pub use system::{NumberSystem, UnknownNumberSystem};

@@ -2,9 +2,9 @@
 
 use super::check::{self, SolveError};
 use super::{Scalar, State};
-use crate::chapter::{SpringMass, penalty};
+use crate::chapter::{SpringMass, penalty, system};
 use crate::number::{Dual, Exact, Mpfr, OrderedField, Real, ToExact};
-use num_traits::Zero;
+use num_traits::{One, Zero};
 use std::cmp::Ordering;
 
 /// The penetration, in m, at which (1.10) is in equilibrium: the root of
@@ -76,7 +76,11 @@ impl Equation {
     fn root(&self, precision: u32) -> Mpfr {
         let rounded = |x: &Exact| x.to_mpfr(precision);
         let constant = |x: &Exact| Dual::constant(rounded(x));
-        let (system, eps) = (self.system.map(constant), constant(&self.eps));
+        // The same equation from a system whose reaction does not cancel: its weight is R, its gap 0.
+        let zero = Exact::zero();
+        let r = system::reaction(&self.system);
+        let weight = SpringMass { c: self.system.c.clone(), m: r, g: Exact::one(), l: zero.clone(), h: zero };
+        let (system, eps) = (weight.map(constant), constant(&self.eps));
         let higher: Vec<_> = self.higher.iter().map(constant).collect();
         let mut p = rounded(&self.outside());
         loop {

@@ -1,0 +1,338 @@
+//! The chapter as data: [`entries`] say what it states, [`claims`](claims()) what is checked of it.
+//!
+//! A claim is a generic function like the formulas it speaks of, and written once. Read in rationals it
+//! is checked with `==`; read in balls, within the bounds they compute. Its [`Given`]s are hypotheses; a
+//! [`Case`] holds the numbers for one trial.
+
+mod entries;
+#[cfg(feature = "mpfr")]
+mod experiments;
+mod list;
+
+pub use entries::{Entry, entries, entry};
+#[cfg(feature = "mpfr")]
+pub use experiments::{Experiment, Trial, exact_experiments, float_experiments};
+pub use list::{claims, exponential_claims, unilateral_claims};
+
+use crate::chapter::{SpringMass, augmented, contact, penalty, system};
+use crate::number::{Dual, Field};
+
+macro_rules! coordinates {
+    ($($Var:ident $field:ident $symbol:literal $text:literal;)*) => {
+        /// A coordinate of a [`Case`].
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        pub enum Var {
+            /// Stiffness, in N/m.
+            C,
+            /// Mass, in kg.
+            M,
+            /// Gravity, in m/s².
+            G,
+            /// Free length, in m.
+            L,
+            /// Height, in m.
+            H,
+            $(#[doc = $text] $Var,)*
+        }
+
+        impl Var {
+            /// All of them.
+            pub const ALL: &[Var] = &[Var::C, Var::M, Var::G, Var::L, Var::H, $(Var::$Var),*];
+
+            /// Its symbol in the chapter's notation.
+            pub fn symbol(self) -> &'static str {
+                match self {
+                    $(Var::$Var => $symbol,)*
+                    Var::C => "c", Var::M => "m", Var::G => "g", Var::L => "l", Var::H => "H",
+                }
+            }
+        }
+
+        /// The numbers of one trial: a system and everything else a claim may speak of.
+        #[derive(Clone, Debug, PartialEq)]
+        pub struct Case<T> {
+            /// The five parameters.
+            pub system: SpringMass<T>,
+            $(#[doc = $text] pub $field: T,)*
+        }
+
+        impl<T> Case<T> {
+            /// The case whose coordinates the function gives.
+            ///
+            /// # Errors
+            /// The first that it returns.
+            pub fn try_of<E>(mut f: impl FnMut(Var) -> Result<T, E>) -> Result<Self, E> {
+                let system = SpringMass { c: f(Var::C)?, m: f(Var::M)?, g: f(Var::G)?, l: f(Var::L)?, h: f(Var::H)? };
+                Ok(Case { system, $($field: f(Var::$Var)?),* })
+            }
+
+            /// One coordinate.
+            pub fn get(&self, var: Var) -> &T {
+                match var {
+                    $(Var::$Var => &self.$field,)*
+                    Var::C => &self.system.c, Var::M => &self.system.m, Var::G => &self.system.g,
+                    Var::L => &self.system.l, Var::H => &self.system.h,
+                }
+            }
+
+            /// One coordinate, to be changed.
+            pub fn get_mut(&mut self, var: Var) -> &mut T {
+                match var {
+                    $(Var::$Var => &mut self.$field,)*
+                    Var::C => &mut self.system.c, Var::M => &mut self.system.m, Var::G => &mut self.system.g,
+                    Var::L => &mut self.system.l, Var::H => &mut self.system.h,
+                }
+            }
+        }
+    };
+}
+coordinates! {
+    U u "u" "A deflection, in m.";
+    V v "v" "Another deflection, or the next one, in m.";
+    Du du "δu" "A virtual displacement, in m.";
+    Alpha alpha "α" "A pure number, or a step of its own in N/m.";
+    Eps eps "ε" "The penalty, in N/m.";
+    Eps4 eps4 "ε₄" "The second coefficient of (1.10), in N/m³.";
+    Lambda lambda "λ" "A multiplier, in N.";
+    Q q "q" "The decay ρᵏ of some step k.";
+    K k "k" "A number of steps.";
+    T t "t" "A time.";
+    Tol tol "tol" "A tolerance, in m.";
+}
+
+impl<T: Clone> Case<T> {
+    /// The same case in other numbers.
+    pub fn map<U>(&self, mut f: impl FnMut(Var, &T) -> U) -> Case<U> {
+        let mapped = Case::try_of(|var| Ok::<U, std::convert::Infallible>(f(var, self.get(var))));
+        mapped.unwrap_or_else(|never| match never {})
+    }
+}
+
+/// What is said of the sign of a quantity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Relation {
+    /// > 0
+    Positive,
+    /// ≥ 0
+    NonNegative,
+    /// = 0
+    Zero,
+}
+
+impl Relation {
+    /// Does a number of this sign satisfy it?
+    pub fn admits(self, sign: std::cmp::Ordering) -> bool {
+        match self {
+            Relation::Positive => sign.is_gt(),
+            Relation::NonNegative => sign.is_ge(),
+            Relation::Zero => sign.is_eq(),
+        }
+    }
+}
+
+macro_rules! hypotheses {
+    ($($Given:ident $text:literal $relation:ident $solved_for:ident |$x:ident| $value:expr;)*) => {
+        /// A hypothesis: what a claim supposes of its case.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum Given { $(#[doc = $text] $Given),* }
+
+        impl Given {
+            /// All of them.
+            pub const ALL: &[Given] = &[$(Given::$Given),*];
+
+            /// As a reader writes it.
+            pub fn text(self) -> &'static str {
+                match self { $(Given::$Given => $text),* }
+            }
+
+            /// The quantity it speaks of.
+            pub fn value<T: Field>(self, case: &Case<T>) -> T {
+                match self { $(Given::$Given => { let $x = case; $value })* }
+            }
+
+            /// What it says of that quantity's sign.
+            pub fn relation(self) -> Relation {
+                match self { $(Given::$Given => Relation::$relation),* }
+            }
+
+            /// The coordinate to choose so that it holds: the quantity is linear in it.
+            pub fn solved_for(self) -> Var {
+                match self { $(Given::$Given => Var::$solved_for),* }
+            }
+        }
+    };
+}
+hypotheses! {
+    Stiffness "c > 0" Positive C |x| x.system.c.clone();
+    Penalty "ε > 0" Positive Eps |x| x.eps.clone();
+    Quartic "ε₄ ≥ 0" NonNegative Eps4 |x| x.eps4.clone();
+    Softening "ε < 0" Positive Eps |x| -&x.eps;
+    BeyondTwice "ε < −2c" Positive Eps |x| -&x.eps - T::int(2) * &x.system.c;
+    WithinTwice "ε > −2c" Positive C |x| &x.eps + T::int(2) * &x.system.c;
+    Twice "ε = −2c" Zero Eps |x| &x.eps + T::int(2) * &x.system.c;
+    Contact "R > 0" Positive G |x| system::reaction(&x.system);
+    Touching "R ≥ 0" NonNegative G |x| system::reaction(&x.system);
+    Grazing "R = 0" Zero G |x| system::reaction(&x.system);
+    Separated "R < 0" Positive G |x| -system::reaction(&x.system);
+    Penetrating "p > 0" Positive U |x| contact::penetration(&x.system, &x.u);
+    Clear "p < 0" Positive U |x| -contact::penetration(&x.system, &x.u);
+    Tolerance "tol > 0" Positive Tol |x| x.tol.clone();
+    Enough "ε ≥ R/tol − c" NonNegative Eps |x| &x.eps - penalty::penalty_for(&x.system, &x.tol);
+    StrongEnough "ε ≥ R" NonNegative Eps |x| &x.eps - system::reaction(&x.system);
+    Multiplier "λ ≥ 0" NonNegative Lambda |x| x.lambda.clone();
+    BelowReaction "λ < R" Positive Lambda |x| system::reaction(&x.system) - &x.lambda;
+    Active "cλ + εR ≥ 0" NonNegative Lambda |x| &x.system.c * &x.lambda + &x.eps * system::reaction(&x.system);
+    Inactive "λ + εp ≤ 0" NonNegative Lambda |x| -augmented::update(&x.system, &x.eps, &x.lambda, &x.u);
+    Equilibrium "(1.19)" Zero Lambda |x| augmented::equilibrium(&x.system, &x.eps, &x.lambda, &x.u);
+    NextEquilibrium "(1.20)" Zero V |x| {
+        let next = augmented::update(&x.system, &x.eps, &x.lambda, &x.u);
+        augmented::equilibrium(&x.system, &x.eps, &next, &x.v)
+    };
+    Power "q > 0" Positive Q |x| x.q.clone();
+    Count "k ≥ 0" NonNegative K |x| x.k.clone();
+    Time "t > 0" Positive T |x| x.t.clone();
+}
+
+/// Two sides of an equation.
+pub type Pair<T> = (T, T);
+
+/// How a limit is checked in numbers: by its rate.
+pub enum Rate<T> {
+    /// Left = right, and the limit can be read off it.
+    Exactly(fn(&Case<T>) -> Pair<T>),
+    /// |left| ≤ right, the distance to the limit and a bound that tends to zero.
+    Within(fn(&Case<T>) -> Pair<T>),
+}
+
+/// What is claimed.
+#[non_exhaustive]
+pub enum Kind<T> {
+    /// Two expressions are equal.
+    Equal(fn(&Case<T>) -> Pair<T>),
+    /// An expression has a sign.
+    Sign(Relation, fn(&Case<T>) -> T),
+    /// One expression is the derivative of another.
+    Derivative {
+        /// The other.
+        of: fn(&Case<Dual<T>>) -> Dual<T>,
+        /// By this coordinate.
+        by: Var,
+        /// The one.
+        is: fn(&Case<T>) -> T,
+    },
+    /// An expression tends to another as a coordinate tends to infinity.
+    Limit {
+        /// The expression.
+        of: fn(&Case<T>) -> T,
+        /// The coordinate.
+        by: Var,
+        /// Its limit.
+        to: fn(&Case<T>) -> T,
+        /// How fast.
+        rate: Rate<T>,
+    },
+    /// A recursion x₀ = start, x_{k+1} = step(x_k) has the closed form x_k = closed(ratioᵏ).
+    Induction {
+        /// What is raised to the power k.
+        ratio: fn(&Case<T>) -> T,
+        /// x₀.
+        start: fn(&Case<T>) -> Vec<T>,
+        /// The next x.
+        step: fn(&Case<T>, &[T]) -> Vec<T>,
+        /// x_k from ratioᵏ.
+        closed: fn(&Case<T>, &T) -> Vec<T>,
+    },
+    /// of(ratioᵏ) tends to a limit as k grows: |ratio| < 1 and of(0) is the limit.
+    Vanishing {
+        /// What is raised to the power k.
+        ratio: fn(&Case<T>) -> T,
+        /// An expression in ratioᵏ.
+        of: fn(&Case<T>, &T) -> T,
+        /// Its limit.
+        to: fn(&Case<T>) -> T,
+    },
+}
+
+impl<T> Kind<T> {
+    /// Its name.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Kind::Equal(_) => "equal",
+            Kind::Sign(..) => "sign",
+            Kind::Derivative { .. } => "derivative",
+            Kind::Limit { .. } => "limit",
+            Kind::Induction { .. } => "induction",
+            Kind::Vanishing { .. } => "vanishing",
+        }
+    }
+}
+
+/// Something said of an equation under hypotheses, in one number system.
+pub struct Claim<T> {
+    /// The [`Entry`] it belongs to.
+    pub equation: &'static str,
+    /// Its name, unique within the equation.
+    pub name: &'static str,
+    /// What it supposes.
+    pub given: &'static [Given],
+    /// What it says.
+    pub kind: Kind<T>,
+}
+
+/// What is asked of the numbers of one case.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Goal<T> {
+    /// Are these equal?
+    Equal(T, T),
+    /// Has this the sign?
+    Sign(Relation, T),
+}
+
+/// The recursion is followed for this many steps; the closed form is also tried at any ρᵏ.
+const STEPS: usize = 3;
+
+impl<T: Field> Claim<T> {
+    /// What the claim comes to for one case; it holds there if all goals do.
+    pub fn goals(&self, case: &Case<T>) -> Vec<Goal<T>> {
+        let equal = |(left, right)| Goal::Equal(left, right);
+        let pairs = |a: Vec<T>, b: Vec<T>| a.into_iter().zip(b).map(equal);
+        match &self.kind {
+            Kind::Equal(sides) => vec![equal(sides(case))],
+            Kind::Sign(relation, of) => vec![Goal::Sign(*relation, of(case))],
+            Kind::Derivative { of, by, is } => {
+                let along = |var, x: &T| {
+                    if var == *by { Dual::variable(x.clone()) } else { Dual::constant(x.clone()) }
+                };
+                vec![Goal::Equal(of(&case.map(along)).derivative, is(case))]
+            }
+            Kind::Limit { rate: Rate::Exactly(sides), .. } => vec![equal(sides(case))],
+            Kind::Limit { rate: Rate::Within(sides), .. } => {
+                let (distance, bound) = sides(case);
+                vec![
+                    Goal::Sign(Relation::NonNegative, bound.clone()),
+                    Goal::Sign(Relation::NonNegative, &bound * &bound - &distance * &distance),
+                ]
+            }
+            Kind::Induction { ratio, start, step, closed } => {
+                let ratio = ratio(case);
+                let (mut x, mut power) = (start(case), T::one());
+                let mut goals: Vec<_> = pairs(x.clone(), closed(case, &power)).collect();
+                for _ in 0..STEPS {
+                    x = step(case, &x);
+                    power = &power * &ratio;
+                    goals.extend(pairs(x.clone(), closed(case, &power)));
+                }
+                let next = step(case, &closed(case, &case.q));
+                goals.extend(pairs(next, closed(case, &(&ratio * &case.q))));
+                goals
+            }
+            Kind::Vanishing { ratio, of, to } => {
+                let ratio = ratio(case);
+                vec![
+                    Goal::Sign(Relation::Positive, T::one() - &ratio * &ratio),
+                    Goal::Equal(of(case, &T::zero()), to(case)),
+                ]
+            }
+        }
+    }
+}

@@ -1,0 +1,386 @@
+//! What only computed numbers have: rounding floors, stagnation, promises of the solver, counts.
+//!
+//! The bounds are those of the chapter on floating point in the book, where they are derived. "True"
+//! always means: of the parameters as they are in their scalar.
+
+use super::{Case, Given};
+use crate::chapter::{SpringMass, augmented, contact, penalty, structure, system};
+use crate::number::{Exact, OrderedField, PositivePart, Real, ToExact};
+use crate::solver::{
+    Augmentation, Interval, Method, Outcome, Plane, Scalar, Solution, State, augmentations_needed,
+    series_penetration, solve, solve_bilateral,
+};
+use num_traits::{One, Zero};
+use std::cmp::Ordering;
+
+/// How one trial of an experiment went.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Trial {
+    /// An error and the bound it must not exceed.
+    Within {
+        /// The error.
+        error: Exact,
+        /// Its bound.
+        bound: Exact,
+    },
+    /// Right or wrong.
+    Decided(bool),
+    /// Nothing can be said: the statement's conditions are not met, or the scalar's range is left.
+    Undecided,
+}
+
+/// A claim about what is *computed* in one number system.
+pub struct Experiment<T> {
+    /// The entry it belongs to.
+    pub equation: &'static str,
+    /// Its name, unique within the equation.
+    pub name: &'static str,
+    /// What it supposes.
+    pub given: &'static [Given],
+    /// One trial.
+    pub check: fn(&Case<T>) -> Trial,
+}
+
+macro_rules! list {
+    ($($equation:literal $name:literal [$($given:ident)*] $check:expr;)*) => {
+        vec![$(Experiment { equation: $equation, name: $name, given: &[$(Given::$given),*], check: $check }),*]
+    };
+}
+
+/// As many steps as an experiment follows.
+const STEPS: usize = 24;
+
+/// Claims about floats.
+pub fn float_experiments<T: Scalar + Real + ToExact>() -> Vec<Experiment<T>> {
+    list! {
+        "1.5" "rounding" [] |x| Setting::of(x).map_or(Trial::Undecided, |s| s.penetration_rounding(x));
+        "1.6" "exact-state" [Stiffness Grazing] |x| state(x);
+        "1.8" "bounds-contain" [Stiffness] |x| bounds(x, &Method::Lagrange);
+        "1.10" "root" [Stiffness Penalty Quartic] |x| series_root(x);
+        "1.12" "precision-law" [Stiffness Penalty Contact] |x| Setting::of(x).map_or(Trial::Undecided, |s| s.precision_law(x));
+        "1.13" "bounds-contain" [Stiffness Penalty] |x| bounds(x, &Method::Penalty { penalty: x.eps.clone() });
+        "1.13" "float-error" [Stiffness Penalty Contact] |x| Setting::of(x).map_or(Trial::Undecided, |s| s.deflection_error(x));
+        "1.16" "float-monotone" [Stiffness Penalty Contact] |x| monotone(x);
+        "1.16" "float-drift" [Stiffness Penalty Contact] |x| Setting::of(x).map_or(Trial::Undecided, |s| s.drift(x));
+        "1.33" "promise" [Stiffness Penalty Tolerance] |x| promise(x);
+        "note 8" "floor" [Stiffness Penalty Contact] |x| Setting::of(x).map_or(Trial::Undecided, |s| s.fixed_point(x));
+        "note 8" "units" [Stiffness Penalty Tolerance] |x| units(x);
+    }
+}
+
+/// Claims about what is computed without rounding.
+pub fn exact_experiments() -> Vec<Experiment<Exact>> {
+    list! {
+        "1.33" "steps" [Stiffness Penalty Tolerance] |x| count(x, Plane::Unilateral);
+        "1.33" "steps-bilateral" [Stiffness Penalty Tolerance] |x| count(x, Plane::Bilateral);
+        "note 4" "closed-form" [Stiffness Penalty Touching] |x| unilateral_closed_form(x);
+        "note 4" "release" [Stiffness Penalty Separated] |x| release(x);
+    }
+}
+
+fn exact<T: ToExact>(x: &T) -> Option<Exact> {
+    x.to_exact().ok()
+}
+
+fn within(error: Exact, bound: Exact) -> Trial {
+    Trial::Within { error: error.abs(), bound }
+}
+
+/// A system of floats without over- or underflow in the formulas below, and its exact counterpart.
+struct Setting {
+    system: SpringMass<Exact>,
+    eps: Exact,
+    /// η.
+    eta: Exact,
+    gap: Exact,
+    reaction: Exact,
+}
+
+impl Setting {
+    fn of<T: Scalar + Real + ToExact>(x: &Case<T>) -> Option<Self> {
+        let eta = [&x.system.c, &x.system.g, &x.system.l, &x.system.h, &x.eps, &x.u]
+            .iter()
+            .filter_map(|y| exact(&y.unit_roundoff()))
+            .max()?;
+        let (s, gap) = (&x.system, system::gap(&x.system));
+        let products = [system::weight(s), structure::spring_force(s, &gap), &x.eps * &gap];
+        let quotients = [structure::deflection(s), penalty::deflection(s, &x.eps), penalty::penetration(s, &x.eps)];
+        let smallest = exact(&T::underflow_unit())? / (&eta * &eta);
+        for result in products.iter().chain(&quotients).chain([&(&x.eps * &quotients[2])]) {
+            let size = exact(result)?.abs();
+            if !size.is_zero() && size < smallest {
+                return None;
+            }
+        }
+        let system = x.system.try_map(|y| exact(y).ok_or(())).ok()?;
+        let (gap, reaction) = (system::gap(&system), system::reaction(&system));
+        Some(Setting { eps: exact(&x.eps)?, eta, gap, reaction, system })
+    }
+
+    /// |p̂ − p| ≤ η (|fl(l + u)| + |p̂|).
+    fn penetration_rounding<T: Scalar + ToExact>(&self, x: &Case<T>) -> Trial {
+        let computed = contact::penetration(&x.system, &x.u);
+        let sum = &x.system.l + &x.u;
+        match (exact(&computed), exact(&sum), exact(&x.u)) {
+            (Some(computed), Some(sum), Some(u)) => {
+                let error = &computed - contact::penetration(&self.system, &u);
+                within(error, &self.eta * (sum.abs() + computed.abs()))
+            }
+            _ => Trial::Undecided,
+        }
+    }
+
+    /// |û − Δ| ≤ R/(c + ε) + η (5 |Δ| + 4 R/(c + ε)).
+    fn deflection_error<T: Scalar + ToExact>(&self, x: &Case<T>) -> Trial {
+        let Some(u) = exact(&penalty::deflection(&x.system, &x.eps)) else { return Trial::Undecided };
+        if self.reaction <= Exact::zero() || self.too_coarse() {
+            return Trial::Undecided;
+        }
+        let p = penalty::penetration(&self.system, &self.eps);
+        let rounding = &self.eta * (Exact::from(5) * self.gap.abs() + Exact::from(4) * &p);
+        within(u - &self.gap, p + self.first_order(rounding))
+    }
+
+    /// The relative error of ε p̂ is at most c/(c + ε) + η ε L/R + 7 η with L = |H| + 5 |Δ|.
+    fn precision_law<T: Scalar + ToExact>(&self, x: &Case<T>) -> Trial {
+        let u = penalty::deflection(&x.system, &x.eps);
+        let Some(force) = exact(&penalty::contact_force(&x.system, &x.eps, &u)) else { return Trial::Undecided };
+        if self.reaction <= Exact::zero() || self.too_coarse() {
+            return Trial::Undecided;
+        }
+        let length = self.system.h.abs() + Exact::from(5) * self.gap.abs();
+        let model = augmented::contraction(&self.system, &self.eps) * &self.reaction;
+        let rounding = &self.eta * (&self.eps * length + Exact::from(7) * &self.reaction);
+        within(force - &self.reaction, model + self.first_order(rounding))
+    }
+
+    /// From λ₀ = 0, |p̂_k − ρᵏ p₀| ≤ 16 F with F = η (|H| + |Δ| + R/ε).
+    fn drift<T: Scalar + Real + ToExact>(&self, x: &Case<T>) -> Trial {
+        if self.reaction <= Exact::zero() || self.too_coarse() {
+            return Trial::Undecided;
+        }
+        let ratio = augmented::contraction(&self.system, &self.eps);
+        let mut p = penalty::penetration(&self.system, &self.eps);
+        let lengths = self.system.h.abs() + self.gap.abs() + &self.reaction / &self.eps;
+        let bound = self.first_order(Exact::from(16) * &self.eta * lengths);
+        let mut worst = Exact::zero();
+        for step in Augmentation::new(&x.system, &x.eps).over(Plane::Bilateral).take(STEPS) {
+            let Some(computed) = exact(&step.penetration) else { return Trial::Undecided };
+            worst = worst.max((computed - &p).abs());
+            p = p * &ratio;
+        }
+        within(worst, bound)
+    }
+
+    /// Where λ̂ repeats, |p(û)| ≤ η |H| + η (1 + η)²/(1 − η) |λ|/ε.
+    fn fixed_point<T: Scalar + ToExact>(&self, x: &Case<T>) -> Trial {
+        let mut steps = Augmentation::new(&x.system, &x.eps).over(Plane::Bilateral);
+        for _ in 0..STEPS {
+            let step = steps.step();
+            if *steps.multiplier() != step.multiplier {
+                continue;
+            }
+            let (Some(u), Some(lambda)) = (exact(&step.deflection), exact(&step.multiplier)) else { break };
+            let one = Exact::one();
+            let growth = (&one + &self.eta) * (&one + &self.eta) / (&one - &self.eta);
+            let bound = &self.eta * self.system.h.abs() + &self.eta * growth * lambda.abs() / &self.eps;
+            return within(contact::penetration(&self.system, &u), bound);
+        }
+        Trial::Undecided
+    }
+
+    /// The bounds hold to first order in η; what is left out is a small multiple of η times them.
+    fn first_order(&self, bound: Exact) -> Exact {
+        bound * (Exact::one() + Exact::from(64) * &self.eta)
+    }
+
+    fn too_coarse(&self) -> bool {
+        self.eta > Exact::power_of_two(-20)
+    }
+}
+
+/// The state is that of the exact sign of R, next to grazing too.
+fn state<T: Scalar + ToExact>(x: &Case<T>) -> Trial {
+    let Ok(system) = x.system.try_map(|y| y.to_exact()) else { return Trial::Undecided };
+    let expected = match system::reaction(&system).cmp(&Exact::zero()) {
+        Ordering::Greater => State::Contact,
+        Ordering::Equal => State::Grazing,
+        Ordering::Less => State::Separated,
+    };
+    Trial::Decided(State::of(&x.system) == expected)
+}
+
+fn encloses<T: ToExact>(interval: &Interval<T>, x: &Exact) -> bool {
+    let end = |y: &T| y.to_exact();
+    end(&interval.lower).is_ok_and(|y| y <= *x) && end(&interval.upper).is_ok_and(|y| *x <= y)
+}
+
+/// The exact deflection and contact force of a method over a plane that never pulls.
+fn answer(system: &SpringMass<Exact>, penalty: Option<&Exact>) -> (Exact, Exact) {
+    let touches = system::reaction(system) > Exact::zero();
+    match penalty.filter(|_| touches) {
+        Some(eps) => (penalty::deflection(system, eps), penalty::force_at_root(system, eps)),
+        None => (contact::deflection(system), contact::contact_force(system)),
+    }
+}
+
+fn contains_answer<T: Scalar + ToExact>(solution: &Solution<T>, s: &SpringMass<Exact>, eps: Option<&Exact>) -> bool {
+    let (u, force) = answer(s, eps);
+    encloses(&solution.bounds.deflection, &u)
+        && encloses(&solution.bounds.penetration, &contact::penetration(s, &u))
+        && encloses(&solution.bounds.contact_force, &force)
+}
+
+/// The bounds of a direct method contain its exact answer, and so does the interval around the result.
+fn bounds<T: Scalar + ToExact>(x: &Case<T>, method: &Method<T>) -> Trial {
+    let (Ok(system), Ok(solution)) = (x.system.try_map(|y| y.to_exact()), solve(&x.system, method)) else {
+        return Trial::Undecided;
+    };
+    let eps = match method {
+        Method::Penalty { penalty } => exact(penalty),
+        Method::Lagrange | Method::Augmented { .. } => None,
+    };
+    Trial::Decided(contains_answer(&solution, &system, eps.as_ref()))
+}
+
+/// The exact residual of (1.10) changes sign between the root's two neighbours.
+fn series_root<T: Scalar + Real + ToExact>(x: &Case<T>) -> Trial {
+    let higher = [x.eps4.clone()];
+    let (Ok(system), Some(eps), Some(eps4)) =
+        (x.system.try_map(|y| y.to_exact()), exact(&x.eps), exact(&x.eps4))
+    else {
+        return Trial::Undecided;
+    };
+    let Ok(root) = series_penetration(&x.system, &x.eps, &higher) else { return Trial::Undecided };
+    let residual = |p: T| exact(&p).map(|p| penalty::series_residual(&system, &eps, std::slice::from_ref(&eps4), &p));
+    match (residual(Real::next_down(&root)), residual(root.clone()), residual(Real::next_up(&root))) {
+        (Some(below), Some(at), Some(above)) => {
+            let zero = Exact::zero();
+            Trial::Decided(at.is_zero() || (below < zero && zero < above))
+        }
+        _ => Trial::Undecided,
+    }
+}
+
+/// While p̂ ≥ 0, λ̂ rises strictly until it repeats, and p̂ never rises.
+fn monotone<T: Scalar + Real + ToExact>(x: &Case<T>) -> Trial {
+    let mut steps = Augmentation::new(&x.system, &x.eps).over(Plane::Bilateral);
+    let mut before = steps.step();
+    if !Real::is_finite(&before.deflection) || before.penetration <= T::zero() {
+        return Trial::Undecided;
+    }
+    for _ in 0..STEPS {
+        let step = steps.step();
+        if step.multiplier == before.multiplier {
+            break;
+        }
+        if step.multiplier < before.multiplier || step.penetration > before.penetration {
+            return Trial::Decided(false);
+        }
+        if step.penetration <= T::zero() {
+            break;
+        }
+        before = step;
+    }
+    Trial::Decided(true)
+}
+
+/// `converged` means that |û − u*| is below the tolerance, exactly; the floor is no less than the error
+/// that it bounds; the bounds contain the limit, whatever the outcome; the plane never pulls.
+fn promise<T: Scalar + Real + ToExact>(x: &Case<T>) -> Trial {
+    let method = Method::Augmented {
+        penalty: x.eps.clone(),
+        tolerance: x.tol.clone(),
+        max_augmentations: STEPS as u64,
+        start: x.lambda.clone(),
+    };
+    let (Ok(system), Ok(solution)) = (x.system.try_map(|y| y.to_exact()), solve(&x.system, &method)) else {
+        return Trial::Undecided;
+    };
+    let (Some(u), Some(tolerance)) = (exact(&solution.deflection), exact(&x.tol)) else {
+        return Trial::Undecided;
+    };
+    let error = (u - contact::deflection(&system)).abs();
+    let kept = match solution.outcome {
+        Outcome::Converged => error < tolerance,
+        Outcome::Stagnated => solution.floor.is_some(),
+        Outcome::OutOfSteps => solution.augmentations == Some(STEPS as u64),
+        Outcome::Direct => false,
+    };
+    let pushes = solution.contact_force >= T::zero();
+    Trial::Decided(kept && pushes && contains_answer(&solution, &system, None))
+}
+
+/// Other units, if they are powers of two, change no digit.
+fn units<T: Scalar + Real + ToExact>(x: &Case<T>) -> Trial {
+    // lengths by 2ᵃ, mass by 2ᵇ, forces by 2ᶠ; g by 2^{f−b}, stiffnesses by 2^{f−a}
+    let (a, b, f) = (3, -2, 5);
+    let scale = |y: &T, n: i32| (0..n.unsigned_abs()).fold(y.clone(), |y, _| if n < 0 { y / T::int(2) } else { y * T::int(2) });
+    let SpringMass { c, m, g, l, h } = &x.system;
+    let scaled = SpringMass { c: scale(c, f - a), m: scale(m, b), g: scale(g, f - b), l: scale(l, a), h: scale(h, a) };
+    let method = |unit: &dyn Fn(&T, i32) -> T| Method::Augmented {
+        penalty: unit(&x.eps, f - a),
+        tolerance: unit(&x.tol, a),
+        max_augmentations: STEPS as u64,
+        start: unit(&x.lambda, f),
+    };
+    if Setting::of(x).is_none() {
+        return Trial::Undecided;
+    }
+    let (before, after) = (solve_bilateral(&x.system, &method(&|y, _| y.clone())), solve_bilateral(&scaled, &method(&scale)));
+    match (before, after) {
+        (Ok(before), Ok(after)) => Trial::Decided(
+            after.outcome == before.outcome
+                && after.augmentations == before.augmentations
+                && after.deflection == scale(&before.deflection, a)
+                && after.contact_force == scale(&before.contact_force, f)
+                && after.multiplier == before.multiplier.map(|y| scale(&y, f)),
+        ),
+        _ => Trial::Undecided,
+    }
+}
+
+/// The iteration's count is the one that (1.33) solved for k gives.
+fn count(x: &Case<Exact>, plane: Plane) -> Trial {
+    let k = augmentations_needed(&x.system, &x.eps, &x.tol, &x.lambda, plane);
+    let Some(k) = k.to_usize().filter(|k| *k < STEPS) else { return Trial::Undecided };
+    let residual = |step: &crate::solver::Step<Exact>| match plane {
+        Plane::Unilateral => augmented::natural_residual(&x.system, &x.eps, &step.multiplier, &step.deflection),
+        Plane::Bilateral => step.penetration.clone(),
+    };
+    let steps = Augmentation::new(&x.system, &x.eps).from_multiplier(x.lambda.clone()).over(plane);
+    let found = steps.take(STEPS).position(|step| augmented::within_tolerance(&residual(&step), &x.tol));
+    Trial::Decided(found == Some(k))
+}
+
+/// For R ≥ 0 and any start, λ_k = R + ρ^{k−1} (λ₁ − R) for k ≥ 1.
+fn unilateral_closed_form(x: &Case<Exact>) -> Trial {
+    let mut steps = Augmentation::new(&x.system, &x.eps).from_multiplier(x.lambda.clone()).skip(1).take(6);
+    let ratio = augmented::contraction(&x.system, &x.eps);
+    let Some(first) = steps.next() else { return Trial::Undecided };
+    let mut decay = Exact::one();
+    let holds = steps.all(|step| {
+        decay = &decay * &ratio;
+        step.multiplier == augmented::multiplier_after(&x.system, &first.multiplier, &decay)
+    });
+    Trial::Decided(holds)
+}
+
+/// For R < 0 the multiplier first vanishes at K, and the mass hangs free from step max(K − 1, 0) on.
+fn release(x: &Case<Exact>) -> Trial {
+    let steps: Vec<_> =
+        Augmentation::new(&x.system, &x.eps).from_multiplier(x.lambda.clone()).take(STEPS).collect();
+    let Some(first) = steps.iter().position(|step| step.multiplier.is_zero()) else { return Trial::Undecided };
+    // K: 0 from λ₀ = 0, 1 from below, else the least with ρᴷ (λ₀ − R) ≤ −R.
+    let r = system::reaction(&x.system);
+    let ratio = augmented::contraction(&x.system, &x.eps);
+    let mut expected = usize::from(!x.lambda.is_zero());
+    let mut excess = &ratio * (x.lambda.positive_part() - &r);
+    while excess > -&r && expected < STEPS {
+        excess = excess * &ratio;
+        expected += 1;
+    }
+    let free = structure::deflection(&x.system);
+    let hangs = steps.iter().skip(first.saturating_sub(1)).all(|step| step.deflection == free);
+    Trial::Decided(first == expected && hangs)
+}

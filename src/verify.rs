@@ -1,0 +1,167 @@
+//! Runs the claims in the number systems and reports.
+//!
+//! ```
+//! use spring_mass_contact::{number::NumberSystem, verify::{Options, Status, verify}};
+//!
+//! let options = Options { cases: 20, equations: vec!["1.13".into()], ..Options::default() };
+//! let report = verify(&options, &|_, _| ());
+//! assert!(report.rows.iter().all(|row| row.status == Status::Held));
+//! ```
+
+mod cases;
+mod checker;
+
+use crate::claims::{Case, Given, entries};
+use crate::number::{Exact, Mpfr, NumberSystem};
+use checker::{Checker, Checks, Exactly, Floats, Tally};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// What to verify.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// In which number systems.
+    pub scalars: Vec<NumberSystem>,
+    /// How many cases a claim is tried on; at least 1.
+    pub cases: u64,
+    /// Where the cases are drawn from.
+    pub seed: u64,
+    /// Only these entries; all if empty.
+    pub equations: Vec<String>,
+}
+
+/// f32, f64, 256 bits and rationals; 1000 cases from seed 1; everything.
+impl Default for Options {
+    fn default() -> Self {
+        let scalars = vec![NumberSystem::F32, NumberSystem::F64, NumberSystem::Mpfr(256), NumberSystem::Exact];
+        Options { scalars, cases: 1000, seed: 1, equations: Vec::new() }
+    }
+}
+
+/// What was found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// A row a claim and number system, in the chapter's order.
+    pub rows: Vec<Row>,
+}
+
+impl Report {
+    /// Does every claim hold?
+    pub fn holds(&self) -> bool {
+        self.rows.iter().all(|row| row.status == Status::Held)
+    }
+}
+
+/// Whether a claim holds in a number system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Status {
+    /// In every case that could be decided, and there was one.
+    Held,
+    /// Not in some case, or no case could be decided.
+    Failed,
+}
+
+/// One claim in one number system.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// The entry.
+    pub equation: &'static str,
+    /// The claim's name.
+    pub claim: &'static str,
+    /// Its kind.
+    pub kind: &'static str,
+    /// The number system.
+    pub scalar: NumberSystem,
+    /// Held or failed.
+    pub status: Status,
+    /// Cases that were decided.
+    pub decided: u64,
+    /// Cases that could not be: a sign lost in rounding, or numbers out of the scalar's range.
+    pub undecided: u64,
+    /// The largest |left − right|/bound, and that case's bound; none where nothing is measured.
+    pub worst: Option<(f64, String)>,
+    /// A case in which the claim does not hold.
+    pub counterexample: Option<Case<Exact>>,
+}
+
+/// A case as the command line that solves it, if it is a system that can be solved.
+pub fn command_line(case: &Case<Exact>) -> Option<String> {
+    let zero = Exact::from(0);
+    let s = &case.system;
+    (s.c > zero && s.m > zero).then(|| {
+        let system = format!(
+            "contact solve --scalar exact --stiffness {} --mass {} --gravity {} --free-length {} --height {}",
+            s.c, s.m, s.g, s.l, s.h
+        );
+        if case.eps > zero { format!("{system} --method penalty --penalty {}", case.eps) } else { system }
+    })
+}
+
+/// As many cases are drawn and checked at a time.
+const BLOCK: u64 = 50;
+
+/// Tries every claim, in parallel; `progress` is told how many of how many pieces of work are done.
+pub fn verify(options: &Options, progress: &(dyn Fn(usize, usize) + Sync)) -> Report {
+    let wanted = |equation: &str| options.equations.is_empty() || options.equations.iter().any(|e| e == equation);
+    let checkers: Vec<(NumberSystem, Box<dyn Checks>)> =
+        options.scalars.iter().map(|scalar| (*scalar, checks(*scalar))).collect();
+    let mut groups: Vec<&[Given]> = Vec::new();
+    for (_, checker) in &checkers {
+        for head in checker.heads().iter().filter(|head| wanted(head.equation)) {
+            if !groups.contains(&head.given) {
+                groups.push(head.given);
+            }
+        }
+    }
+    let blocks = options.cases.div_ceil(BLOCK);
+    let jobs: Vec<(u64, &[Given])> = (0..blocks).flat_map(|b| groups.iter().map(move |g| (b, *g))).collect();
+    let done = AtomicUsize::new(0);
+    // For each job and each checker, the tallies of the claims with the job's hypotheses.
+    let results: Vec<Vec<Vec<(usize, Tally)>>> = jobs
+        .par_iter()
+        .map(|(block, given)| {
+            let indices = block * BLOCK..((block + 1) * BLOCK).min(options.cases);
+            let cases: Vec<_> = indices.map(|i| cases::case(options.seed, i, given)).collect();
+            let tallies = checkers.iter().map(|(_, checker)| checker.check(given, &wanted, &cases)).collect();
+            progress(done.fetch_add(1, Ordering::Relaxed) + 1, jobs.len());
+            tallies
+        })
+        .collect();
+    let mut totals: Vec<Vec<Tally>> =
+        checkers.iter().map(|(_, c)| c.heads().iter().map(|_| Tally::default()).collect()).collect();
+    for job in results {
+        for (total, tallies) in totals.iter_mut().zip(job) {
+            for (index, tally) in tallies {
+                total[index].add(tally);
+            }
+        }
+    }
+    let mut rows = Vec::new();
+    for ((scalar, checker), total) in checkers.iter().zip(totals) {
+        for (head, tally) in checker.heads().into_iter().zip(total) {
+            if wanted(head.equation) {
+                rows.push(tally.into_row(head, *scalar));
+            }
+        }
+    }
+    let position = |row: &Row| entries().iter().position(|entry| entry.equation == row.equation);
+    rows.sort_by_key(position);
+    // Within an equation the scalars of a claim stand together.
+    let mut sorted: Vec<Row> = Vec::with_capacity(rows.len());
+    for row in rows {
+        let same = |r: &Row| r.equation == row.equation && r.claim == row.claim;
+        let at = sorted.iter().rposition(same).map_or(sorted.len(), |i| i + 1);
+        sorted.insert(at, row);
+    }
+    Report { rows: sorted }
+}
+
+fn checks(scalar: NumberSystem) -> Box<dyn Checks> {
+    match scalar {
+        NumberSystem::F32 => Box::new(Checker(Floats(0.0f32))),
+        NumberSystem::F64 => Box::new(Checker(Floats(0.0f64))),
+        NumberSystem::Mpfr(bits) => Box::new(Checker(Floats(Mpfr::rounded(bits, 0)))),
+        NumberSystem::Exact => Box::new(Checker(Exactly)),
+    }
+}

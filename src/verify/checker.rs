@@ -1,0 +1,275 @@
+//! The claims of one number system on given cases.
+
+use super::{Row, Status};
+use crate::claims::{
+    Case, Claim, Experiment, Given, Goal, Trial, claims, exact_experiments, exponential_claims,
+    float_experiments, unilateral_claims,
+};
+use crate::number::{Ball, Exact, Mpfr, NumberSystem, PositivePart, Real, ToExact};
+use crate::solver::Scalar;
+use num_traits::Zero;
+use std::cmp::Ordering;
+
+/// What a claim is called and supposes, in whatever number system.
+pub(super) struct Head {
+    pub(super) equation: &'static str,
+    claim: &'static str,
+    kind: &'static str,
+    pub(super) given: &'static [Given],
+}
+
+/// What came of a claim's trials.
+#[derive(Default)]
+pub(super) struct Tally {
+    decided: u64,
+    undecided: u64,
+    worst: Option<(f64, String)>,
+    counterexample: Option<Case<Exact>>,
+}
+
+impl Tally {
+    /// Takes in another, whose cases come later.
+    pub(super) fn add(&mut self, other: Tally) {
+        self.decided += other.decided;
+        self.undecided += other.undecided;
+        if other.worst.as_ref().is_some_and(|(ratio, _)| self.worst.as_ref().is_none_or(|(r, _)| ratio > r)) {
+            self.worst = other.worst;
+        }
+        self.counterexample = self.counterexample.take().or(other.counterexample);
+    }
+
+    fn record(&mut self, case: &Case<Exact>, verdict: Verdict<'_>) {
+        match verdict {
+            Verdict::Undecided => self.undecided += 1,
+            Verdict::Decided { holds, measured } => {
+                self.decided += 1;
+                if let Some((ratio, bound)) = measured
+                    && self.worst.as_ref().is_none_or(|(worst, _)| ratio > *worst)
+                {
+                    self.worst = Some((ratio, bound()));
+                }
+                if !holds && self.counterexample.is_none() {
+                    self.counterexample = Some(case.clone());
+                }
+            }
+        }
+    }
+
+    pub(super) fn into_row(self, head: Head, scalar: NumberSystem) -> Row {
+        let held = self.decided > 0 && self.counterexample.is_none();
+        Row {
+            equation: head.equation,
+            claim: head.claim,
+            kind: head.kind,
+            scalar,
+            status: if held { Status::Held } else { Status::Failed },
+            decided: self.decided,
+            undecided: self.undecided,
+            worst: self.worst,
+            counterexample: self.counterexample,
+        }
+    }
+}
+
+/// What one case says of a claim; the bound is formatted only if it is the worst so far.
+enum Verdict<'a> {
+    Undecided,
+    Decided { holds: bool, measured: Option<(f64, Box<dyn Fn() -> String + 'a>)> },
+}
+
+/// A number system in which claims are checked.
+pub(super) trait Judge: Sync {
+    /// The numbers of the claims.
+    type Number: PositivePart;
+    /// The numbers of the experiments.
+    type Computed: Clone;
+
+    fn claims(&self) -> Vec<Claim<Self::Number>>;
+    fn experiments(&self) -> Vec<Experiment<Self::Computed>>;
+
+    /// A case in these numbers; none if one of its coordinates is out of range.
+    fn read(&self, case: &Case<Exact>) -> Option<(Case<Self::Number>, Case<Self::Computed>)>;
+
+    /// left − right: does it contain 0, what share of its bound does it use up, and the bound.
+    fn difference(&self, left: &Self::Number, right: &Self::Number) -> Option<(bool, f64, Self::Number)>;
+    fn bound(&self, difference: &Self::Number) -> String;
+    fn sign(&self, x: &Self::Number) -> Option<Ordering>;
+}
+
+/// Rationals, by `==`.
+pub(super) struct Exactly;
+
+impl Judge for Exactly {
+    type Number = Exact;
+    type Computed = Exact;
+    fn claims(&self) -> Vec<Claim<Exact>> {
+        claims().into_iter().chain(unilateral_claims()).collect()
+    }
+    fn experiments(&self) -> Vec<Experiment<Exact>> {
+        exact_experiments()
+    }
+    fn read(&self, case: &Case<Exact>) -> Option<(Case<Exact>, Case<Exact>)> {
+        Some((case.clone(), case.clone()))
+    }
+    fn difference(&self, left: &Exact, right: &Exact) -> Option<(bool, f64, Exact)> {
+        Some((left == right, 0.0, Exact::zero()))
+    }
+    fn bound(&self, difference: &Exact) -> String {
+        difference.to_string()
+    }
+    fn sign(&self, x: &Exact) -> Option<Ordering> {
+        Some(x.cmp(&Exact::zero()))
+    }
+}
+
+/// Floats, by balls; the number within says of which type and precision.
+pub(super) struct Floats<T>(pub(super) T);
+
+impl<T> Judge for Floats<T>
+where
+    T: Scalar + Real + ToExact + std::fmt::Display + Sync,
+{
+    type Number = Ball<T>;
+    type Computed = T;
+    fn claims(&self) -> Vec<Claim<Ball<T>>> {
+        claims().into_iter().chain(exponential_claims()).chain(unilateral_claims()).collect()
+    }
+    fn experiments(&self) -> Vec<Experiment<T>> {
+        float_experiments()
+    }
+    fn read(&self, case: &Case<Exact>) -> Option<(Case<Ball<T>>, Case<T>)> {
+        let ball = |x: &Exact| Ok(Ball::around(self.0.nearest(x)?, x));
+        let balls = Case::try_of(|var| ball(case.get(var)));
+        let balls = balls.map_err(|_: crate::number::RangeError| ()).ok()?;
+        let computed = balls.map(|_, ball| ball.value().clone());
+        Some((balls, computed))
+    }
+    fn difference(&self, left: &Ball<T>, right: &Ball<T>) -> Option<(bool, f64, Ball<T>)> {
+        let difference = left - right;
+        if !difference.is_finite() {
+            return None;
+        }
+        let (error, bound) = (difference.value().abs(), difference.radius());
+        let ratio = if error.is_zero() { 0.0 } else { approximately(&(&error / bound)) };
+        Some((error <= *bound, ratio, difference))
+    }
+    fn bound(&self, difference: &Ball<T>) -> String {
+        difference.radius().to_string()
+    }
+    fn sign(&self, x: &Ball<T>) -> Option<Ordering> {
+        if x.is_finite() { x.sign() } else { None }
+    }
+}
+
+/// For a report only.
+fn approximately<T: ToExact>(x: &T) -> f64 {
+    x.to_exact().map_or(f64::INFINITY, |x| x.as_rational().to_f64())
+}
+
+/// The claims and experiments of a number system, with the types hidden.
+pub(super) trait Checks: Sync {
+    /// All of them, in order.
+    fn heads(&self) -> Vec<Head>;
+
+    /// Tries those with these hypotheses; each tally comes with its place among the heads.
+    fn check(
+        &self,
+        given: &[Given],
+        wanted: &dyn Fn(&str) -> bool,
+        cases: &[Option<Case<Exact>>],
+    ) -> Vec<(usize, Tally)>;
+}
+
+pub(super) struct Checker<J>(pub(super) J);
+
+impl<J: Judge> Checks for Checker<J> {
+    fn heads(&self) -> Vec<Head> {
+        let claim = |c: Claim<J::Number>| Head { equation: c.equation, claim: c.name, kind: c.kind.name(), given: c.given };
+        let experiment = |e: Experiment<J::Computed>| Head { equation: e.equation, claim: e.name, kind: "experiment", given: e.given };
+        let claims = self.0.claims().into_iter().map(claim);
+        claims.chain(self.0.experiments().into_iter().map(experiment)).collect()
+    }
+
+    fn check(
+        &self,
+        given: &[Given],
+        wanted: &dyn Fn(&str) -> bool,
+        cases: &[Option<Case<Exact>>],
+    ) -> Vec<(usize, Tally)> {
+        let (claims, experiments) = (self.0.claims(), self.0.experiments());
+        let offset = claims.len();
+        let mut claims: Vec<_> = claims.into_iter().enumerate().collect();
+        claims.retain(|(_, c)| c.given == given && wanted(c.equation));
+        let mut experiments: Vec<_> = experiments.into_iter().enumerate().collect();
+        experiments.retain(|(_, e)| e.given == given && wanted(e.equation));
+        let places = claims.iter().map(|(i, _)| *i).chain(experiments.iter().map(|(i, _)| offset + i));
+        let mut tallies: Vec<(usize, Tally)> = places.map(|place| (place, Tally::default())).collect();
+        if tallies.is_empty() {
+            return tallies;
+        }
+        for case in cases {
+            let Some((exact, (case, computed))) = case.as_ref().and_then(|c| Some((c, self.0.read(c)?))) else {
+                tallies.iter_mut().for_each(|(_, tally)| tally.undecided += 1);
+                continue;
+            };
+            let (of_claims, of_experiments) = tallies.split_at_mut(claims.len());
+            for ((_, claim), (_, tally)) in claims.iter().zip(of_claims) {
+                let goals = claim.goals(&case);
+                tally.record(exact, self.judge(&goals));
+            }
+            for ((_, experiment), (_, tally)) in experiments.iter().zip(of_experiments) {
+                let trial = (experiment.check)(&computed);
+                tally.record(exact, of_trial(&trial));
+            }
+        }
+        tallies
+    }
+}
+
+impl<J: Judge> Checker<J> {
+    /// All goals together: one that fails decides, else one that is open leaves the case open.
+    fn judge<'a>(&'a self, goals: &[Goal<J::Number>]) -> Verdict<'a>
+    where
+        J::Number: 'a,
+    {
+        let (mut open, mut holds) = (false, true);
+        let mut worst: Option<(f64, J::Number)> = None;
+        for goal in goals {
+            match goal {
+                Goal::Equal(left, right) => match self.0.difference(left, right) {
+                    None => open = true,
+                    Some((equal, ratio, difference)) => {
+                        holds &= equal;
+                        if worst.as_ref().is_none_or(|(r, _)| ratio > *r) {
+                            worst = Some((ratio, difference));
+                        }
+                    }
+                },
+                Goal::Sign(relation, x) => match self.0.sign(x) {
+                    None => open = true,
+                    Some(sign) => holds &= relation.admits(sign),
+                },
+            }
+        }
+        if holds && open {
+            return Verdict::Undecided;
+        }
+        let measured = worst.map(|(ratio, difference)| {
+            let bound: Box<dyn Fn() -> String + 'a> = Box::new(move || self.0.bound(&difference));
+            (ratio, bound)
+        });
+        Verdict::Decided { holds, measured }
+    }
+}
+
+fn of_trial(trial: &Trial) -> Verdict<'_> {
+    match trial {
+        Trial::Undecided => Verdict::Undecided,
+        Trial::Decided(holds) => Verdict::Decided { holds: *holds, measured: None },
+        Trial::Within { error, bound } => {
+            let ratio = if error.is_zero() { 0.0 } else { approximately(&(error / bound)) };
+            let text: Box<dyn Fn() -> String + '_> = Box::new(|| Mpfr::rounded(24, bound.as_rational()).to_string());
+            Verdict::Decided { holds: error <= bound, measured: Some((ratio, text)) }
+        }
+    }
+}
