@@ -98,7 +98,8 @@ fn divide_constant(a: &Rational, x: &Float) -> Float {
     let wide = |bits: u32| bits.max(2);
     let n = Float::with_val(wide(a.numer().significant_bits()), a.numer());
     let dx = Float::with_val(wide(a.denom().significant_bits() + x.prec()), x * a.denom());
-    Float::with_val(x.prec(), n / &dx)
+    // Both borrowed: an owned n would impose its own precision on the quotient.
+    Float::with_val(x.prec(), &n / &dx)
 }
 
 impl std::ops::Neg for Mpfr {
