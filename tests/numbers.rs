@@ -1297,6 +1297,30 @@ fn a_dual_ball_of_exp_holds_the_exponential_and_its_derivative<
     finite.assert_one_in(2, "finite exponentials");
 }
 
+/// Around zero the rounding of the centre adds nothing that could hide one of the radius.
+#[test]
+fn a_ball_around_zero_is_divided_and_multiplied_outwards() {
+    fn law<S: Floats<Number = N>, N: Real + ToExact + 'static>() {
+        let one = S::float(&Exact::one());
+        let ball = Ball::rounded(one.clone()) - Ball::exactly(one);
+        let end = ball.radius().to_exact().unwrap();
+        for n in 1..200 {
+            let (quotient, product) = (&ball / Ball::int(n), &ball * Ball::int(n));
+            for end in [-&end, end.clone()] {
+                assert!(
+                    Balls::<S>::stands_for(&quotient, &(&end / Exact::int(n))),
+                    "{end}/{n}: {quotient:?}"
+                );
+                assert!(Balls::<S>::stands_for(&product, &(&end * Exact::int(n))), "{end} {n}: {product:?}");
+            }
+        }
+    }
+    law::<Binary32, _>();
+    law::<Binary64, _>();
+    law::<Mpfr2, _>();
+    law::<Mpfr53, _>();
+}
+
 #[test]
 fn division_by_what_may_be_zero_gives_the_infinite_ball() {
     fn law<S: Floats<Number = N>, N: Real + ToExact>(zeros: &[N]) {
