@@ -262,8 +262,9 @@ impl From<Float> for Mpfr {
     }
 }
 
-/// All digits: reading the text back with the same precision gives the same number. A constant is
-/// printed as a fraction.
+/// All digits: reading the text back with the same precision gives the same number, if its exponent is
+/// one that is read ([`MAX_EXPONENT`](super::MAX_EXPONENT)). A constant is printed as a fraction. Width,
+/// fill and sign are honoured; a number of decimals is not.
 impl fmt::Display for Mpfr {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let text = match &self.0 {
