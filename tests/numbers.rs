@@ -658,6 +658,7 @@ fn operations_return_what_the_exact_result_demands<S: System<Number = N>, N: Fie
     tried.assert_one_in(2, "operations tried");
 }
 
+#[allow(clippy::eq_op)]
 fn zero_one_and_signs_are_neutral<S: System<Number = N>, N: Field>() {
     let (zero, one) = (N::zero(), N::one());
     assert!(zero.is_zero() && !zero.is_unit() && !one.is_zero() && one.is_unit());
