@@ -52,17 +52,35 @@ impl<T: Real> Ball<T> {
 
     /// A number no greater than any in the ball.
     pub fn lower(&self) -> T {
-        if self.radius.is_zero() { self.value.clone() } else { (&self.value - &self.radius).next_down() }
+        if !self.is_finite() {
+            -T::infinity()
+        } else if self.radius.is_zero() {
+            self.value.clone()
+        } else {
+            (&self.value - &self.radius).next_down()
+        }
     }
 
     /// A number no less than any in the ball.
     pub fn upper(&self) -> T {
-        if self.radius.is_zero() { self.value.clone() } else { (&self.value + &self.radius).next_up() }
+        if !self.is_finite() {
+            T::infinity()
+        } else if self.radius.is_zero() {
+            self.value.clone()
+        } else {
+            (&self.value + &self.radius).next_up()
+        }
     }
 
     /// A number no less than the absolute value of any in the ball.
     pub fn magnitude(&self) -> T {
-        if self.radius.is_zero() { self.value.abs() } else { (self.value.abs() + &self.radius).next_up() }
+        if !self.is_finite() {
+            T::infinity()
+        } else if self.radius.is_zero() {
+            self.value.abs()
+        } else {
+            (self.value.abs() + &self.radius).next_up()
+        }
     }
 
     /// The sign that all numbers in the ball share; `None` if they do not.
@@ -141,9 +159,11 @@ operators! { [T: Real] Ball<T>;
         Ball::with(value, error)
     };
     Div div |a, b| {
-        let value = &a.value / &b.value;
+        // By zero not `a / b`: Mpfr's constants are rationals and would panic.
+        let value = if b.value.is_zero() { &a.value * T::infinity() } else { &a.value / &b.value };
         // No |divisor| is less than this.
-        let least = (b.value.abs() - &b.radius).next_down();
+        let least = b.value.abs();
+        let least = if b.radius.is_zero() { least } else { (least - &b.radius).next_down() };
         if least.partial_cmp(&T::zero()) != Some(Ordering::Greater) { return Ball { value, radius: T::infinity() } }
         if a.is_exactly_zero() { return Ball::zero() }
         // a/b − a'/b' = ((a − a') − (a/b)(b − b')) / b'

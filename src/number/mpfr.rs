@@ -98,7 +98,8 @@ fn divide_constant(a: &Rational, x: &Float) -> Float {
     let wide = |bits: u32| bits.max(2);
     let n = Float::with_val(wide(a.numer().significant_bits()), a.numer());
     let dx = Float::with_val(wide(a.denom().significant_bits() + x.prec()), x * a.denom());
-    Float::with_val(x.prec(), n / &dx)
+    // Both borrowed: an owned n would impose its own precision on the quotient.
+    Float::with_val(x.prec(), &n / &dx)
 }
 
 impl std::ops::Neg for Mpfr {
@@ -266,8 +267,9 @@ impl From<Float> for Mpfr {
     }
 }
 
-/// All digits: reading the text back with the same precision gives the same number. A constant is
-/// printed as a fraction.
+/// All digits: reading the text back with the same precision gives the same number, if its exponent is
+/// one that is read ([`MAX_EXPONENT`](super::MAX_EXPONENT)). A constant is printed as a fraction. Width,
+/// fill and sign are honoured; a number of decimals is not.
 impl fmt::Display for Mpfr {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let text = match &self.0 {
