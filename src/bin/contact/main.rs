@@ -31,7 +31,7 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    Solve(solve::Options),
+    Solve(Box<solve::Options>),
     Completions(Completions),
 }
 

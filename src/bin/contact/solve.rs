@@ -24,7 +24,9 @@ Examples:
   contact solve --gravity -9.81 --height 21/20 --format json
 
 A number is a decimal (0.05), scientific (5e-2) or a fraction (1/20), read
-exactly and rounded once into the scalar.
+exactly and rounded once into the scalar. In the table, exact: and limit: say
+where the exact answer lies, for the parameters as rounded: by augmentation that
+is the limit of its steps. JSON calls that bounds.
 
 Exit status: 0 all well; 1 the solve did not converge, its result is printed
 all the same; 2 bad input.";

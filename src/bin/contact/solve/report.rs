@@ -11,6 +11,9 @@ use spring_mass_contact::rug::float::Round;
 use spring_mass_contact::solver::{Interval, Method, Outcome, Plane, Solution, State, Step};
 use std::io::{self, Write};
 
+/// What helps against rounding.
+const LARGER: &str = "try a larger --tolerance or more bits (--scalar mpfr:BITS)";
+
 /// All there is to say about a solve.
 pub struct Report<'a, T> {
     options: &'a Options,
@@ -251,7 +254,7 @@ impl<T: Number> Report<'_, T> {
             Method::Augmented { penalty, .. } => format!("augmented Lagrangian, ε = {} N/m", brief(penalty)),
         };
         let plane = if self.problem.plane == Plane::Bilateral { ", bilateral" } else { "" };
-        format!("{name}, in {}{plane}", self.options.scalar)
+        format!("{name}{plane} ({})", self.options.scalar)
     }
 
     fn state_in_words(&self) -> &'static str {
@@ -275,8 +278,8 @@ impl<T: Number> Report<'_, T> {
                 format!("converged at k = {k}: |u − u*| < {tolerance} m, proved by the bound")
             }
             (Outcome::Stagnated, Some(floor), _) => format!(
-                "stagnated at k = {k}: rounding keeps |u − u*| < {tolerance} m out of proof; the least bound \
-                 met is {} m; try a larger --tolerance or more bits (--scalar mpfr:BITS)",
+                "stagnated at k = {k}: rounding stops the iteration short of {tolerance} m; its floor, the \
+                 least bound of |u − u*| met, is {} m; {LARGER}",
                 brief(floor)
             ),
             (_, _, Some(needed)) => format!(
@@ -285,8 +288,7 @@ impl<T: Number> Report<'_, T> {
                 shortened(needed)
             ),
             (..) => format!(
-                "out_of_steps at k = {k}: and |u − u*| < {tolerance} m is below the rounding floor; try a larger \
-                 --tolerance or more bits (--scalar mpfr:BITS)"
+                "out_of_steps at k = {k}: and no step reaches {tolerance} m, which rounding does not allow; {LARGER}"
             ),
         }
     }
