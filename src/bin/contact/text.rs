@@ -103,7 +103,8 @@ pub fn brief_bounds<T: Number>(interval: &Interval<T>) -> [String; 2] {
     [brief(lower, &interval.lower, Round::Down), brief(upper, &interval.upper, Round::Up)]
 }
 
-/// A rational as a decimal of at most so many digits, on the side that the rounding says.
+/// A rational as a decimal of at most so many digits, on the side that the rounding says; directed, it can be
+/// one unit further than need be.
 pub fn decimal(x: &Exact, digits: usize, round: Round) -> String {
     if x.is_zero() {
         return "0".to_string();
@@ -134,4 +135,56 @@ pub fn decimal(x: &Exact, digits: usize, round: Round) -> String {
 /// The beginning of a text that may be long.
 pub fn shortened(text: &str) -> String {
     if text.chars().count() <= 40 { text.to_string() } else { text.chars().take(39).chain(['…']).collect() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The bounds of a solve have room to spare, which hides a text on the wrong side; a point has none.
+    fn encloses<T: Number>(point: &T) -> bool {
+        let texts = enclosing(&Interval { lower: point.clone(), upper: point.clone() });
+        let [lower, upper]: [Exact; 2] = texts.map(|text| text.parse().expect("a number"));
+        // And no further away than the neighbour's text has to be.
+        let Interval { lower: below, upper: above } = point.neighbours();
+        let (below, above) = (exact(&below.neighbours().lower), exact(&above.neighbours().upper));
+        lower <= exact(point) && exact(point) <= upper && below <= lower && upper <= above
+    }
+
+    #[test]
+    fn ends_hold_as_written() {
+        for number in ["1/3", "-2/3", "1e-9", "123456.789", "0.1", "-1.1e38", "1e-45", "0", "7"] {
+            let x: Exact = number.parse().unwrap();
+            assert!(encloses(&x) && encloses(&x.to_f32().unwrap()) && encloses(&x.to_f64().unwrap()), "{x}");
+            if !x.is_zero() {
+                assert!([2, 3, 24, 53, 200].into_iter().all(|bits| encloses(&x.to_mpfr(bits))), "{x}");
+            }
+        }
+    }
+
+    #[test]
+    fn decimals_stay_on_their_side() {
+        for (fraction, down, up) in [
+            ("1/3", "0.333", "0.334"),
+            ("-2/3", "-0.667", "-0.666"),
+            ("1/3000000", "3.33e-7", "3.34e-7"),
+            ("999999", "9.99e5", "1e6"),
+            ("20/3", "6.66", "6.67"),
+            ("100", "100", "100"),
+            ("1000", "1e3", "1e3"),
+            ("0", "0", "0"),
+        ] {
+            let x: Exact = fraction.parse().unwrap();
+            assert_eq!([decimal(&x, 3, Round::Down), decimal(&x, 3, Round::Up)], [down, up], "{fraction}");
+        }
+    }
+
+    #[test]
+    fn floats_are_short() {
+        assert_eq!(
+            [4.81, 100.0, 1e-7, 0.05, -0.0, 1e300].map(|x: f64| x.text()),
+            ["4.81", "100", "1e-7", "0.05", "0", "1e300"]
+        );
+        assert_eq!([0.1_f32, 1e38].map(|x| x.text()), ["0.1", "1e38"]);
+    }
 }
