@@ -85,10 +85,10 @@ fn first_below(value: &Exact, bound: &Exact, x: &Exact) -> Integer {
         let floor = |x: Float| x.to_integer_round(Round::Down).map(|(n, _)| n);
         let least = floor(Float::with_val_round(precision, &a / &b_up, Round::Down).0);
         let most = floor(Float::with_val_round(precision, &a_up / &b, Round::Up).0);
-        if let (Some(least), Some(most)) = (least, most) {
-            if least == most || is_power(ratio, &growth, &most) {
-                return most + 1;
-            }
+        if let (Some(least), Some(most)) = (least, most)
+            && (least == most || is_power(ratio, &growth, &most))
+        {
+            return most + 1;
         }
         precision *= 2;
     }

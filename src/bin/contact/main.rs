@@ -1,1 +1,67 @@
-fn main() {}
+//! The command `contact`: reads its arguments, calls the library, prints.
+//!
+//! `args` is what the subcommands share of their arguments, `text` how numbers are written, `output` the
+//! way to stdout; each subcommand is a module.
+
+mod args;
+mod output;
+mod solve;
+mod text;
+
+use clap::{CommandFactory, Parser, Subcommand};
+use output::{Failure, Status};
+use std::process::ExitCode;
+
+const EXAMPLES: &str = "\
+Examples:
+  contact solve
+  contact solve --method penalty --penalty 1000 --scalar exact
+  contact solve --height 2 --format json
+  contact completions bash > contact.bash
+
+Exit status: 0 all well; 1 a solve did not converge; 2 bad input.";
+
+/// A mass on a spring over a rigid plane: contact by Lagrange multiplier, penalty and augmentation
+#[derive(Parser)]
+#[command(name = "contact", version, after_help = EXAMPLES, max_term_width = output::WIDTH.into())]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Solve(Box<solve::Options>),
+    Completions(Completions),
+}
+
+/// Print the completions for a shell
+#[derive(clap::Args)]
+#[command(
+    after_help = "Example:\n  contact completions bash > ~/.local/share/bash-completion/completions/contact"
+)]
+struct Completions {
+    /// Which shell
+    shell: clap_complete::Shell,
+}
+
+fn main() -> ExitCode {
+    let answer = args::plain().and_then(|arguments| match Cli::try_parse_from(arguments) {
+        Ok(cli) => run(cli),
+        Err(error) => output::clap_message(error),
+    });
+    output::exit_code(answer)
+}
+
+fn run(cli: Cli) -> Result<Status, Failure> {
+    match cli.command {
+        None => output::print(|out| write!(out, "{}", Cli::command().render_help())),
+        Some(Command::Solve(options)) => solve::run(&options),
+        Some(Command::Completions(Completions { shell })) => {
+            // The generator panics where it cannot write; into memory it can.
+            let mut script = Vec::new();
+            clap_complete::generate(shell, &mut Cli::command(), "contact", &mut script);
+            output::print(|out| out.write_all(&script))
+        }
+    }
+}

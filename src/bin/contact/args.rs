@@ -1,0 +1,169 @@
+//! What the subcommands share of their arguments: numbers, the system, the scalar.
+
+use crate::output::Failure;
+use crate::text::shortened;
+use num_traits::Zero;
+use spring_mass_contact::chapter::SpringMass;
+use spring_mass_contact::number::{Exact, PRECISIONS, ToExact};
+use std::fmt;
+use std::str::FromStr;
+
+/// The arguments, if they are plain text: others could only garble the one line of an error.
+///
+/// clap takes `-1/2` for an option; joined to the option before it, `--gravity=-1/2`, it is a value. (To
+/// allow it values that begin with a hyphen would hide that the value of `--mass --gravity 9` is missing.)
+pub fn plain() -> Result<Vec<String>, Failure> {
+    let mut arguments: Vec<String> = Vec::new();
+    for argument in std::env::args_os() {
+        let text = argument
+            .into_string()
+            .map_err(|other| Failure::Input(format!("argument {other:?}: must be UTF-8 text")))?;
+        if text.contains(char::is_control) {
+            return Err(Failure::Input(format!("argument {text:?}: must have no control characters")));
+        }
+        let negative = text.len() > 1 && text.starts_with('-') && !text.starts_with("--");
+        match arguments.last_mut() {
+            Some(option) if negative && takes_a_value(option) && text != "-h" && text != "-V" => {
+                option.push('=');
+                option.push_str(&text);
+            }
+            _ => arguments.push(text),
+        }
+    }
+    Ok(arguments)
+}
+
+fn takes_a_value(argument: &str) -> bool {
+    argument.len() > 2 && argument.starts_with("--") && !argument.contains('=')
+}
+
+/// A number as it was typed, and as it was meant.
+#[derive(Clone, Debug)]
+pub struct Number {
+    /// The spelling.
+    pub text: String,
+    /// The value, exactly.
+    pub value: Exact,
+}
+
+/// Any number.
+pub fn finite(text: &str) -> Result<Number, String> {
+    let value = text.parse().map_err(|error| format!("{error}"))?;
+    Ok(Number { text: text.to_string(), value })
+}
+
+/// A number greater than zero.
+pub fn positive(text: &str) -> Result<Number, String> {
+    let number = finite(text)?;
+    if number.value > Exact::zero() { Ok(number) } else { Err("must be greater than 0".to_string()) }
+}
+
+/// A count.
+pub fn whole(text: &str) -> Result<u64, String> {
+    let digits = !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    let count = digits.then(|| text.parse().ok()).flatten();
+    count.ok_or_else(|| format!("must be a whole number from 0 to {}", u64::MAX))
+}
+
+impl Number {
+    /// The value, rounded once into the scalar that `like` has.
+    pub fn round<T: ToExact>(&self, flag: &str, like: &T) -> Result<T, Failure> {
+        let named = |error| {
+            Failure::Input(format!("invalid value '{}' for '{flag}': {error}", shortened(&self.text)))
+        };
+        like.nearest(&self.value).map_err(named)
+    }
+}
+
+/// The five parameters, in SI units.
+#[derive(clap::Args, Clone, Debug)]
+#[command(next_help_heading = "System")]
+pub struct System {
+    /// Stiffness of the spring in N/m, c > 0
+    #[arg(long, value_name = "C", default_value = "100", value_parser = positive)]
+    pub stiffness: Number,
+    /// Mass in kg, m > 0
+    #[arg(long, value_name = "M", default_value = "1", value_parser = positive)]
+    pub mass: Number,
+    /// Gravitational acceleration in m/s²; a negative one lifts
+    #[arg(long, value_name = "G", default_value = "9.81", value_parser = finite)]
+    pub gravity: Number,
+    /// Free length of the spring in m
+    #[arg(long, value_name = "L", default_value = "1", value_parser = finite)]
+    pub free_length: Number,
+    /// Height between the support and the plane in m
+    #[arg(long, value_name = "H", default_value = "1.05", value_parser = finite)]
+    pub height: Number,
+}
+
+impl System {
+    /// Each parameter rounded once into the scalar that `like` has.
+    pub fn round<T: ToExact>(&self, like: &T) -> Result<SpringMass<T>, Failure> {
+        Ok(SpringMass {
+            c: self.stiffness.round("--stiffness <C>", like)?,
+            m: self.mass.round("--mass <M>", like)?,
+            g: self.gravity.round("--gravity <G>", like)?,
+            l: self.free_length.round("--free-length <L>", like)?,
+            h: self.height.round("--height <H>", like)?,
+        })
+    }
+}
+
+/// The number system to compute in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ScalarKind {
+    /// `f32`
+    F32,
+    /// `f64`
+    F64,
+    /// `mpfr:BITS`
+    Mpfr(u32),
+    /// `exact`
+    Exact,
+}
+
+impl FromStr for ScalarKind {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let bits = |digits: &str| {
+            let bits = digits.parse().ok().filter(|_| digits.bytes().all(|b| b.is_ascii_digit()));
+            bits.filter(|bits| PRECISIONS.contains(bits))
+        };
+        match text {
+            "f32" => Some(ScalarKind::F32),
+            "f64" => Some(ScalarKind::F64),
+            "exact" => Some(ScalarKind::Exact),
+            _ => text.strip_prefix("mpfr:").and_then(bits).map(ScalarKind::Mpfr),
+        }
+        .ok_or_else(|| {
+            let (least, most) = (PRECISIONS.start(), PRECISIONS.end());
+            format!("must be f32, f64, mpfr:BITS with {least} to {most} bits, or exact")
+        })
+    }
+}
+
+/// As on the command line.
+impl fmt::Display for ScalarKind {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            ScalarKind::F32 => f.write_str("f32"),
+            ScalarKind::F64 => f.write_str("f64"),
+            ScalarKind::Mpfr(bits) => write!(f, "mpfr:{bits}"),
+            ScalarKind::Exact => f.write_str("exact"),
+        }
+    }
+}
+
+impl ScalarKind {
+    /// η: one rounding is off by no more than η times the number.
+    pub fn unit_roundoff(self) -> Exact {
+        let bits = match self {
+            ScalarKind::F32 => f32::MANTISSA_DIGITS,
+            ScalarKind::F64 => f64::MANTISSA_DIGITS,
+            ScalarKind::Mpfr(bits) => bits,
+            ScalarKind::Exact => return Exact::zero(),
+        };
+        Exact::power_of_two(-i32::try_from(bits).expect("precisions are small"))
+    }
+}

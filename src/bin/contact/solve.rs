@@ -1,0 +1,230 @@
+//! `contact solve`: its options, and from them to a solution in the scalar that was asked for.
+
+mod report;
+
+use crate::args::{Number, ScalarKind, System, finite, positive, whole};
+use crate::output::{self, Failure, Status};
+use crate::text::{self, shortened};
+use clap::ValueEnum;
+use num_traits::Zero;
+use report::Report;
+use spring_mass_contact::chapter::SpringMass;
+use spring_mass_contact::number::Exact;
+use spring_mass_contact::solver::{
+    Augmentation, Method, Outcome, Plane, Solution, SolveError, Step, augmentations_needed, solve,
+    solve_bilateral, within_reach,
+};
+
+const EXAMPLES: &str = "\
+Examples:
+  contact solve
+      The default system by Lagrange multiplier: in contact, with 4.81 N.
+  contact solve --method penalty --penalty 1000 --scalar exact
+  contact solve --method augmented --tolerance 1e-30 --scalar mpfr:200 --trace
+  contact solve --gravity -9.81 --height 21/20 --format json
+
+A number is a decimal (0.05), scientific (5e-2) or a fraction (1/20), read
+exactly and rounded once into the scalar. In the table, exact: and limit: say
+where the exact answer lies, for the parameters as rounded: by augmentation that
+is the limit of its steps. JSON calls that bounds.
+
+Exit status: 0 all well; 1 the solve did not converge, its result is printed
+all the same; 2 bad input.";
+
+/// The default tolerance in m.
+const TOLERANCE: &str = "1e-9";
+
+/// Solve one system, with rigorous bounds and the residuals of the contact conditions
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Options {
+    #[command(flatten)]
+    system: System,
+
+    /// How to enforce the contact
+    #[arg(long, value_enum, default_value_t = MethodName::Lagrange, help_heading = "Method")]
+    method: MethodName,
+    /// Penalty parameter in N/m, ε > 0, for penalty and augmented [default for augmented: 10 c]
+    #[arg(long, value_name = "E", value_parser = positive, help_heading = "Method")]
+    penalty: Option<Number>,
+    /// How far the deflection may be off in m, for augmented [default: 1e-9]
+    #[arg(long, value_name = "T", value_parser = positive, help_heading = "Method")]
+    tolerance: Option<Number>,
+    /// The last augmentation to try, for augmented [default: 1000]
+    #[arg(long, value_name = "N", value_parser = whole, help_heading = "Method")]
+    max_augmentations: Option<u64>,
+    /// Multiplier to start from in N, for augmented [default: 0]
+    #[arg(long, value_name = "L", value_parser = finite, help_heading = "Method")]
+    initial_multiplier: Option<Number>,
+    /// Let the plane pull as well, as the chapter prints its equations
+    #[arg(long, help_heading = "Method")]
+    bilateral: bool,
+
+    /// Number system: f32, f64, mpfr:BITS or exact
+    #[arg(long, value_name = "S", default_value_t = ScalarKind::F64, help_heading = "Output")]
+    scalar: ScalarKind,
+    /// Show every augmentation, for augmented; as csv, these rows alone
+    #[arg(long, help_heading = "Output")]
+    trace: bool,
+    /// How to print the result
+    #[arg(long, value_enum, default_value_t = Format::Table, help_heading = "Output")]
+    format: Format,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum MethodName {
+    /// §1.3.1: exact
+    Lagrange,
+    /// §1.3.2: a second spring of stiffness ε
+    Penalty,
+    /// §1.3.3: penalty, repeated with a growing multiplier
+    Augmented,
+}
+
+impl MethodName {
+    /// As on the command line.
+    fn name(self) -> &'static str {
+        match self {
+            MethodName::Lagrange => "lagrange",
+            MethodName::Penalty => "penalty",
+            MethodName::Augmented => "augmented",
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// For people; long numbers are shortened
+    Table,
+    /// All digits, numbers as strings
+    Json,
+    /// One row, or with --trace one for each augmentation
+    Csv,
+}
+
+/// Solves and prints.
+pub fn run(options: &Options) -> Result<Status, Failure> {
+    options.refuse_unused()?;
+    match options.scalar {
+        ScalarKind::F32 => run_in(options, &0_f32),
+        ScalarKind::F64 => run_in(options, &0_f64),
+        ScalarKind::Mpfr(bits) => run_in(options, &Exact::zero().to_mpfr(bits)),
+        ScalarKind::Exact => run_in(options, &Exact::zero()),
+    }
+}
+
+fn run_in<T: text::Number>(options: &Options, like: &T) -> Result<Status, Failure> {
+    let problem = Problem {
+        system: options.system.round(like)?,
+        method: options.method(like)?,
+        plane: if options.bilateral { Plane::Bilateral } else { Plane::Unilateral },
+    };
+    let out_of_range = |error: SolveError| format!("--scalar {}: {error}", options.scalar);
+    let solution = problem.solve().map_err(out_of_range)?;
+    if options.trace && !problem.trace(&solution).all(|step| is_finite(&step)) {
+        return Err(out_of_range(SolveError::OutOfRange { quantity: "trace" }).into());
+    }
+    let report = Report::new(options, &problem, &solution);
+    output::print(|out| match options.format {
+        Format::Table => report.table(out),
+        Format::Json => output::json(out, &report),
+        Format::Csv => report.csv(out),
+    })?;
+    let met = matches!(solution.outcome, Outcome::Direct | Outcome::Converged);
+    Ok(if met { Status::Fine } else { Status::Unmet })
+}
+
+impl Options {
+    /// An option that would change nothing is a misunderstanding.
+    fn refuse_unused(&self) -> Result<(), Failure> {
+        let typed =
+            |flag, number: &Option<Number>| number.as_ref().map(|n| format!("{flag} {}", shortened(&n.text)));
+        let augmented = [
+            typed("--tolerance", &self.tolerance),
+            self.max_augmentations.map(|n| format!("--max-augmentations {n}")),
+            typed("--initial-multiplier", &self.initial_multiplier),
+            self.trace.then(|| "--trace".to_string()),
+        ];
+        let penalty = typed("--penalty", &self.penalty);
+        let (unused, owner) = match self.method {
+            MethodName::Lagrange if penalty.is_some() => (penalty, "penalty or augmented"),
+            MethodName::Lagrange | MethodName::Penalty => {
+                (augmented.into_iter().flatten().next(), "augmented")
+            }
+            MethodName::Augmented => (None, ""),
+        };
+        match unused {
+            Some(option) => Err(Failure::Input(format!(
+                "'{option}' is not used by --method {}; it belongs to --method {owner}",
+                self.method.name()
+            ))),
+            None => Ok(()),
+        }
+    }
+
+    fn method<T: text::Number>(&self, like: &T) -> Result<Method<T>, Failure> {
+        let ten_c = &self.system.stiffness.value * Exact::from(10);
+        let round_penalty = |number: &Number| number.round("--penalty <E>", like);
+        Ok(match self.method {
+            MethodName::Lagrange => Method::Lagrange,
+            MethodName::Penalty => Method::Penalty {
+                penalty: round_penalty(self.penalty.as_ref().ok_or_else(|| {
+                    let example = shortened(&ten_c.to_string());
+                    format!("--method penalty needs '--penalty <E>', greater than 0; for example 10 c: --penalty {example}")
+                })?)?,
+            },
+            MethodName::Augmented => {
+                let or = |number: &Option<Number>, text: &str, value: Exact| {
+                    number.clone().unwrap_or_else(|| Number { text: text.to_string(), value })
+                };
+                let tolerance = or(&self.tolerance, TOLERANCE, Exact::from(1) / Exact::from(1_000_000_000));
+                let start = or(&self.initial_multiplier, "0", Exact::zero());
+                Method::Augmented {
+                    penalty: round_penalty(&or(&self.penalty, "10 c, the default", ten_c))?,
+                    tolerance: tolerance.round("--tolerance <T>", like)?,
+                    max_augmentations: self.max_augmentations.unwrap_or(1000),
+                    start: start.round("--initial-multiplier <L>", like)?,
+                }
+            }
+        })
+    }
+}
+
+/// What is to be solved, in the scalar it is solved in.
+struct Problem<T> {
+    system: SpringMass<T>,
+    method: Method<T>,
+    plane: Plane,
+}
+
+impl<T: text::Number> Problem<T> {
+    fn solve(&self) -> Result<Solution<T>, SolveError> {
+        match self.plane {
+            Plane::Unilateral => solve(&self.system, &self.method),
+            Plane::Bilateral => solve_bilateral(&self.system, &self.method),
+        }
+    }
+
+    /// The augmentations that led to a solution, once more: cheaper than to keep them all.
+    fn trace(&self, solution: &Solution<T>) -> impl Iterator<Item = Step<T>> {
+        let steps = match &self.method {
+            Method::Augmented { penalty, start, .. } => {
+                Some(Augmentation::new(&self.system, penalty).from_multiplier(start.clone()).over(self.plane))
+            }
+            Method::Lagrange | Method::Penalty { .. } => None,
+        };
+        let last = solution.augmentations;
+        steps.into_iter().flatten().take_while(move |step| Some(step.k) <= last)
+    }
+
+    /// The count of (1.33), as digits, if the scalar can reach the tolerance at all.
+    fn steps_needed(&self, unit_roundoff: &Exact) -> Option<String> {
+        let Method::Augmented { penalty, tolerance, start, .. } = &self.method else { return None };
+        within_reach(&self.system, penalty, tolerance, unit_roundoff)
+            .then(|| augmentations_needed(&self.system, penalty, tolerance, start, self.plane).to_string())
+    }
+}
+
+fn is_finite<T: text::Number>(step: &Step<T>) -> bool {
+    [&step.multiplier, &step.deflection, &step.penetration, &step.contact_force].iter().all(|x| x.is_finite())
+}
