@@ -31,11 +31,11 @@ pub const FORMULAS: &[Formula] = &[
     formula("1.5", r"p(u) = l + u - H \le 0", &["contact::penetration"]),
     formula(
         "1.6",
-        r"\begin{aligned}
-            &\text{contact:} & p &= 0, & N &> 0 \\
-            &\text{no contact:} & p &< 0, & N &= 0 \\
-            &\text{always:} & p\,N &= 0
-          \end{aligned}",
+        r"\begin{array}{lll}
+            \text{contact:} & p = 0 & N > 0 \\
+            \text{no contact:} & p < 0 & N = 0 \\
+            \text{always:} & p\,N = 0 &
+          \end{array}",
         &["contact::kkt", "contact::equilibrium"],
     ),
     formula("1.7", r"\mathcal{L}(u, \lambda) = \Pi(u) + \lambda\,p(u)", &["lagrange::functional"]),
@@ -124,20 +124,16 @@ pub const FORMULAS: &[Formula] = &[
         r"s\,(c + \varepsilon) + \varepsilon = 0 \quad\Rightarrow\quad s = -\frac{\varepsilon}{c + \varepsilon}",
         &["ode::characteristic", "ode::rate"],
     ),
-    formula(
-        "1.27",
-        r"u_h = A\,e^{s t} = A\,e^{-\frac{\varepsilon}{c + \varepsilon}\,t}",
-        &["ode::homogeneous"],
-    ),
+    formula("1.27", r"u_h = A\,e^{s t} = A\,e^{-\varepsilon t/(c + \varepsilon)}", &["ode::homogeneous"]),
     formula(
         "1.28",
         r"\varepsilon\,u_{nh} = -\varepsilon\,(l - H) \quad\Rightarrow\quad u_{nh} = H - l",
         &["ode::particular"],
     ),
-    formula("1.29", r"u = A\,e^{-\frac{\varepsilon}{c + \varepsilon}\,t} + H - l", &["ode::general"]),
+    formula("1.29", r"u = A\,e^{-\varepsilon t/(c + \varepsilon)} + H - l", &["ode::general"]),
     formula(
         "1.30",
-        r"u = (u_0 - H + l)\,e^{-\frac{\varepsilon}{c + \varepsilon}\,t} + H - l",
+        r"u = (u_0 - H + l)\,e^{-\varepsilon t/(c + \varepsilon)} + H - l",
         &["ode::constant", "ode::solution"],
     ),
     formula("1.31", r"\lim_{t\to\infty} u = H - l \qquad\text{for } c, \varepsilon > 0", &["ode::solution"]),

@@ -119,7 +119,7 @@ impl Tools {
             let first = first_with(function).context("listed")?;
             let page = &self.pages[first];
             let link = format!("[({first})]({}#{})", page.display(), anchor(first));
-            result += &format!("<p class=\"caption\">\n\n`{function}`, printed at {link}\n\n</p>\n\n");
+            result += &format!("<div class=\"caption\">\n\n`{function}`, printed at {link}\n\n</div>\n\n");
         }
         Ok(result)
     }

@@ -38,6 +38,9 @@ impl Typesetter {
             result += &text[end..range.start];
             result += &html;
             end = range.end;
+            if text[end..].starts_with(['.', ',', ';', ':', ')', '?']) {
+                result += "&#8288;"; // a word joiner: no line begins with the punctuation
+            }
         }
         Ok(result + &text[end..])
     }
