@@ -105,6 +105,13 @@ mod tests {
     }
 
     #[test]
+    fn punctuation_stays_on_the_line_of_its_formula() -> Result<()> {
+        let html = page("$x$; $y$ z")?;
+        assert!(html.contains("</span>&#8288;; <span") && html.ends_with("</span> z"), "{html}");
+        Ok(())
+    }
+
+    #[test]
     fn a_formula_that_does_not_parse_is_an_error() {
         let error = page(r"$\frac{1}$").unwrap_err();
         assert!(error.to_string().contains(r"\frac{1}"), "{error:?}");
