@@ -1,0 +1,169 @@
+//! The book's preprocessor: formulas typeset, equations with their numbers and their source.
+//!
+//! | in a page | becomes |
+//! |---|---|
+//! | `$…$`, `$$…$$` | the formula as HTML |
+//! | `{{#eq 1.13}}` | the equation, numbered, to be linked to, and the Rust source of its functions |
+//! | `{{#ref 1.13}}` | its number as a link, from any page |
+//! | `{{#source system::gap}}` | the Rust source of a function without a number |
+//!
+//! A formula stands in [`formulas`], its source in `src/chapter` and nowhere else.
+
+pub mod formulas;
+mod math;
+mod source;
+
+use anyhow::{Context, Result, bail};
+use formulas::{FORMULAS, Formula};
+use math::Typesetter;
+use mdbook_preprocessor::{
+    Preprocessor, PreprocessorContext,
+    book::{Book, Chapter},
+};
+use regex::{Captures, Regex};
+use source::Sources;
+use std::{collections::HashMap, path::PathBuf};
+
+/// The preprocessor.
+pub struct Equations;
+
+impl Preprocessor for Equations {
+    fn name(&self) -> &str {
+        "equations"
+    }
+
+    fn run(&self, context: &PreprocessorContext, mut book: Book) -> Result<Book> {
+        let tags = Regex::new(r"\{\{#(eq|ref|source)\s+([^\s}]+)\s*\}\}")?;
+        let tools = Tools {
+            typesetter: Typesetter::new()?,
+            sources: Sources::in_folder(&context.root.join("../src/chapter")),
+            pages: pages(&book, &tags)?,
+        };
+        let mut result = Ok(());
+        book.for_each_chapter_mut(|chapter| {
+            if result.is_ok() {
+                result = tools.process(chapter, &tags).with_context(|| {
+                    format!("in {}", chapter.path.as_deref().unwrap_or("".as_ref()).display())
+                });
+            }
+        });
+        result.map(|()| book)
+    }
+}
+
+/// Where each equation is displayed. Each has to be, once.
+fn pages(book: &Book, tags: &Regex) -> Result<HashMap<String, PathBuf>> {
+    let mut pages = HashMap::new();
+    for chapter in book.chapters() {
+        for tag in tags.captures_iter(&chapter.content).filter(|tag| &tag[1] == "eq") {
+            let path = chapter.path.clone().context("an equation in a draft")?;
+            if let Some(first) = pages.insert(tag[2].to_string(), path) {
+                bail!("({}) is displayed twice, first in {}", &tag[2], first.display());
+            }
+        }
+    }
+    match FORMULAS.iter().find(|formula| !pages.contains_key(formula.number)) {
+        Some(missing) => bail!("({}) is not displayed on any page", missing.number),
+        None => Ok(pages),
+    }
+}
+
+/// What it takes to process a page.
+struct Tools {
+    typesetter: Typesetter,
+    sources: Sources,
+    pages: HashMap<String, PathBuf>,
+}
+
+impl Tools {
+    fn process(&self, chapter: &mut Chapter, tags: &Regex) -> Result<()> {
+        let text = self.typesetter.page(&chapter.content)?;
+        let mut result = String::with_capacity(text.len());
+        let mut end = 0;
+        for tag in tags.captures_iter(&text) {
+            let range = tag.get_match().range();
+            result += &text[end..range.start];
+            result += &self.tag(&tag)?;
+            end = range.end;
+        }
+        chapter.content = result + &text[end..];
+        Ok(())
+    }
+
+    fn tag(&self, tag: &Captures) -> Result<String> {
+        match (&tag[1], &tag[2]) {
+            ("eq", number) => self.equation(formula(number)?),
+            ("ref", number) => {
+                let page = self.pages.get(number).with_context(|| format!("no equation ({number})"))?;
+                Ok(format!("[({number})]({}#{})", page.display(), anchor(number)))
+            }
+            (_, function) => self.source(&[function]),
+        }
+    }
+
+    fn equation(&self, equation: &Formula) -> Result<String> {
+        let Formula { number, latex, functions } = *equation;
+        let (id, html) = (anchor(number), self.typesetter.display(latex)?);
+        let formula = format!(
+            "<div class=\"equation\" id=\"{id}\"><div class=\"formula\">{html}</div>\
+             <a class=\"number\" href=\"#{id}\">({number})</a></div>"
+        );
+        // A function that serves several equations is printed with the first and named with the others.
+        let (new, known): (Vec<_>, Vec<_>) =
+            functions.iter().copied().partition(|&function| first_with(function) == Some(number));
+        let mut result = format!("\n\n{formula}\n\n");
+        if !new.is_empty() {
+            result += &self.source(&new)?;
+        }
+        for function in known {
+            let first = first_with(function).context("listed")?;
+            let page = &self.pages[first];
+            let link = format!("[({first})]({}#{})", page.display(), anchor(first));
+            result += &format!("<div class=\"caption\">\n\n`{function}`, printed at {link}\n\n</div>\n\n");
+        }
+        Ok(result)
+    }
+
+    fn source(&self, functions: &[&str]) -> Result<String> {
+        let names =
+            functions.iter().map(|name| format!("<code>{name}</code>")).collect::<Vec<_>>().join(", ");
+        let code = functions.iter().map(|name| self.sources.function(name)).collect::<Result<Vec<_>>>()?;
+        let code = code.join("\n\n");
+        Ok(format!(
+            "\n\n<div class=\"source\"><p class=\"caption\">{names}</p>\n\n```rust,ignore\n{code}\n```\n\n</div>\n\n"
+        ))
+    }
+}
+
+fn formula(number: &str) -> Result<&'static Formula> {
+    FORMULAS
+        .iter()
+        .find(|formula| formula.number == number)
+        .with_context(|| format!("no formula is listed for ({number})"))
+}
+
+/// The number of the first equation that lists the function.
+fn first_with(function: &str) -> Option<&'static str> {
+    FORMULAS.iter().find(|formula| formula.functions.contains(&function)).map(|formula| formula.number)
+}
+
+fn anchor(number: &str) -> String {
+    format!("eq-{}", number.replace('.', "-"))
+}
+
+/// The pages of the book; the Rust in them is compiled and run as documentation tests.
+macro_rules! pages {
+    ($($page:ident)*) => {
+        /// The names of the pages' files, without `.md`.
+        pub const PAGES: &[&str] = &[$(stringify!($page)),*];
+        $(
+            #[cfg(doctest)]
+            #[doc = include_str!(concat!("../../src/", stringify!($page), ".md"))]
+            mod $page {}
+        )*
+    };
+}
+pages! {
+    introduction notation system structure contact formulations lagrange penalty augmented
+    convergence beyond loose floats command
+}

@@ -1,0 +1,130 @@
+//! LaTeX to HTML, without a browser and without a network.
+
+use anyhow::{Context, Result};
+use katex::{KatexContext, Settings, StrictMode, StrictSetting};
+use pulldown_cmark::{Event, Options, Parser};
+use regex::{Captures, Regex};
+
+/// What turns LaTeX into HTML that Markdown leaves alone.
+pub struct Typesetter {
+    katex: KatexContext,
+    element: Regex,
+    attribute: Regex,
+}
+
+impl Typesetter {
+    pub fn new() -> Result<Self> {
+        Ok(Self {
+            katex: KatexContext::default(),
+            element: Regex::new(r#"<([a-zA-Z]+)((?: [\w:-]+="[^"]*"){2,})"#)?,
+            attribute: Regex::new(r#" [\w:-]+="[^"]*""#)?,
+        })
+    }
+
+    /// A page with its `$…$` and `$$…$$` typeset; code is left alone.
+    pub fn page(&self, text: &str) -> Result<String> {
+        let mut result = String::with_capacity(text.len());
+        let mut end = 0;
+        for (event, range) in
+            Parser::new_ext(text, Options::ENABLE_MATH | Options::ENABLE_TABLES).into_offset_iter()
+        {
+            let html = match event {
+                Event::InlineMath(latex) => self.html(&latex, false)?,
+                Event::DisplayMath(latex) => {
+                    format!("<span class=\"formula\">{}</span>", self.display(&latex)?)
+                }
+                _ => continue,
+            };
+            result += &text[end..range.start];
+            result += &html;
+            end = range.end;
+            if text[end..].starts_with(['.', ',', ';', ':', ')', '?']) {
+                result += "&#8288;"; // a word joiner: no line begins with the punctuation
+            }
+        }
+        Ok(result + &text[end..])
+    }
+
+    /// A formula on a line of its own.
+    pub fn display(&self, latex: &str) -> Result<String> {
+        self.html(latex, true)
+    }
+
+    fn html(&self, latex: &str, display: bool) -> Result<String> {
+        let settings =
+            Settings::builder().display_mode(display).strict(StrictSetting::Mode(StrictMode::Error)).build();
+        let html = katex::render_to_string(&self.katex, latex, &settings)
+            .with_context(|| format!("the formula {latex}"))?;
+        Ok(hide_from_markdown(&self.in_order(&html)))
+    }
+
+    /// Sorts attributes, whose order varies from run to run, so that equal books are equal files.
+    fn in_order(&self, html: &str) -> String {
+        let sorted = |element: &Captures| {
+            let mut attributes: Vec<_> = self.attribute.find_iter(&element[2]).map(|a| a.as_str()).collect();
+            attributes.sort_unstable();
+            format!("<{}{}", &element[1], attributes.concat())
+        };
+        self.element.replace_all(html, sorted).into_owned()
+    }
+}
+
+/// Writes as entities what Markdown and mdBook would take for their own.
+fn hide_from_markdown(html: &str) -> String {
+    html.chars()
+        .map(|c| match c {
+            '_' | '*' | '|' | '\\' | '`' | '~' | '[' | ']' | '{' | '}' | '$' | '\n' => {
+                format!("&#{};", u32::from(c))
+            }
+            _ => c.to_string(),
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn page(text: &str) -> Result<String> {
+        Typesetter::new()?.page(text)
+    }
+
+    #[test]
+    fn code_and_prices_are_no_formulas() -> Result<()> {
+        let text = "`$x$` costs 5 $\n\n```text\n$y$\n```\n";
+        assert_eq!(page(text)?, text);
+        Ok(())
+    }
+
+    #[test]
+    fn a_formula_survives_markdown() -> Result<()> {
+        let html = page(r"a $x_1 * y_2 \vert z$ b")?;
+        assert!(html.starts_with("a <span") && html.ends_with("</span> b"), "{html}");
+        assert!(!html.contains(['_', '*', '|', '\\', '\n']), "{html}");
+        Ok(())
+    }
+
+    #[test]
+    fn punctuation_stays_on_the_line_of_its_formula() -> Result<()> {
+        let html = page("$x$; $y$ z")?;
+        assert!(html.contains("</span>&#8288;; <span") && html.ends_with("</span> z"), "{html}");
+        Ok(())
+    }
+
+    #[test]
+    fn a_formula_that_does_not_parse_is_an_error() {
+        let error = page(r"$\frac{1}$").unwrap_err();
+        assert!(error.to_string().contains(r"\frac{1}"), "{error:?}");
+        assert!(page(r"$\unknown$").is_err());
+    }
+
+    #[test]
+    fn equal_formulas_give_equal_files() -> Result<()> {
+        let formula = r"$$\sqrt{\frac{a}{b}} \overline{x} \begin{cases} a & b \\ c & d \end{cases}$$";
+        let first = page(formula)?;
+        for _ in 0..20 {
+            assert_eq!(page(formula)?, first);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,147 @@
+//! The whole book, built in process and looked through.
+
+use book_tool::{Equations, PAGES, formulas::FORMULAS};
+use mdbook_driver::MDBook;
+use regex::Regex;
+use std::{
+    collections::{BTreeMap, BTreeSet, HashSet},
+    fs,
+    path::{Path, PathBuf},
+    sync::LazyLock,
+};
+
+fn book() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().into()
+}
+
+/// The produced files with their text, which is empty for fonts and the like.
+static FILES: LazyLock<BTreeMap<PathBuf, String>> = LazyLock::new(|| {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("book");
+    let _ = fs::remove_dir_all(&folder);
+    let mut book = MDBook::load(book()).expect("the book loads");
+    book.config.build.build_dir = folder.clone();
+    book.with_preprocessor(Equations).build().expect("the book builds");
+    let mut files = BTreeMap::new();
+    read(&folder, &folder, &mut files);
+    files
+});
+
+fn read(root: &Path, folder: &Path, files: &mut BTreeMap<PathBuf, String>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            read(root, &path, files);
+        } else {
+            let name = path.strip_prefix(root).unwrap().into();
+            files.insert(name, fs::read_to_string(&path).unwrap_or_default());
+        }
+    }
+}
+
+fn with_extension(extension: &str) -> impl Iterator<Item = (&'static PathBuf, &'static String)> {
+    FILES.iter().filter(move |(path, _)| path.extension().is_some_and(|e| e == extension))
+}
+
+/// The values of an attribute in a page.
+fn values<'a>(html: &'a str, attribute: &str) -> Vec<&'a str> {
+    let pattern = Regex::new(&format!(r#"[\s"]{attribute}="([^"]*)""#)).unwrap();
+    pattern.captures_iter(html).map(|found| found.get(1).unwrap().as_str()).collect()
+}
+
+/// The file that a relative link in `file` means.
+fn resolve(file: &Path, link: &str) -> PathBuf {
+    let mut target = file.parent().unwrap().to_path_buf();
+    for part in link.split('/') {
+        match part {
+            "." => {}
+            ".." => assert!(target.pop(), "{}: {link} leaves the book", file.display()),
+            name => target.push(name),
+        }
+    }
+    target
+}
+
+#[test]
+fn every_equation_of_the_chapter_is_displayed_once() {
+    let expected: Vec<_> = (1..=33).map(|n| format!("1.{n}")).collect();
+    assert_eq!(FORMULAS.iter().map(|formula| formula.number).collect::<Vec<_>>(), expected);
+    for number in expected {
+        let id = format!("eq-{}", number.replace('.', "-"));
+        let pages: Vec<_> = PAGES
+            .iter()
+            .flat_map(|page| {
+                let html = &FILES[Path::new(&format!("{page}.html"))];
+                values(html, "id").into_iter().filter(|found| *found == id).map(move |_| page)
+            })
+            .collect();
+        assert_eq!(pages.len(), 1, "({number}) is displayed on {pages:?}");
+    }
+}
+
+#[test]
+fn every_page_is_in_the_summary_and_has_its_snippets_run() {
+    let listed: BTreeSet<_> = PAGES.iter().map(|page| format!("{page}.md")).collect();
+    let files: BTreeSet<_> = fs::read_dir(book().join("src"))
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .filter(|name| name.ends_with(".md") && name != "SUMMARY.md")
+        .collect();
+    let loaded = MDBook::load(book()).unwrap();
+    let summary: BTreeSet<_> =
+        loaded.book.chapters().map(|c| c.path.as_ref().unwrap().display().to_string()).collect();
+    assert_eq!(files, summary, "files, summary");
+    assert_eq!(files, listed, "files, PAGES");
+}
+
+#[test]
+fn no_tag_and_no_dollar_formula_is_left() {
+    let code = Regex::new(r"(?s)<(code|script)[ >].*?</(code|script)>").unwrap();
+    for (path, html) in with_extension("html") {
+        assert!(!html.contains("{{#"), "{}: a tag is left", path.display());
+        assert!(!code.replace_all(html, "").contains('$'), "{}: a $ is left", path.display());
+        assert!(!html.contains("katex-error"), "{}: a formula is in error", path.display());
+    }
+}
+
+#[test]
+fn every_link_leads_somewhere() {
+    let ids: BTreeMap<_, HashSet<_>> = with_extension("html")
+        .map(|(path, html)| (path.as_path(), values(html, "id").into_iter().collect()))
+        .collect();
+    let mut checked = 0;
+    for (page, html) in with_extension("html") {
+        for link in values(html, "href").into_iter().chain(values(html, "src")) {
+            if link.starts_with("https://") {
+                continue;
+            }
+            let (file, anchor) = link.split_once('#').unwrap_or((link, ""));
+            let target = if file.is_empty() { page.clone() } else { resolve(page, file) };
+            assert!(FILES.contains_key(&target), "{}: no file {link}", page.display());
+            let known = anchor.is_empty() || ids[target.as_path()].contains(anchor);
+            assert!(known, "{}: no anchor {link}", page.display());
+            checked += 1;
+        }
+    }
+    assert!(checked > FORMULAS.len(), "only {checked} links were seen");
+}
+
+#[test]
+fn nothing_is_fetched_from_outside() {
+    let fetching =
+        Regex::new(r#"<(script|link|img|iframe|source|object)\b[^>]*(src|href|data)="(https?:)?//"#).unwrap();
+    for (path, html) in with_extension("html") {
+        assert!(!fetching.is_match(html), "{}: {:?}", path.display(), fetching.find(html));
+    }
+    let url = Regex::new(r#"url\(['"]?([^'")]+)"#).unwrap();
+    let mut fonts = 0;
+    for (path, css) in with_extension("css") {
+        for target in url.captures_iter(css).map(|found| found.get(1).unwrap().as_str()) {
+            if target.starts_with("data:") {
+                continue;
+            }
+            assert!(FILES.contains_key(&resolve(path, target)), "{}: no file {target}", path.display());
+            fonts += 1;
+        }
+    }
+    assert!(fonts >= 20, "KaTeX's fonts are missing");
+}

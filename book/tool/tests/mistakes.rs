@@ -1,0 +1,68 @@
+//! What an author can get wrong stops the build, with a message that names it.
+
+use book_tool::{Equations, formulas::FORMULAS};
+use mdbook_preprocessor::{
+    Preprocessor, PreprocessorContext,
+    book::{Book, BookItem, Chapter},
+    config::Config,
+};
+use std::path::Path;
+
+/// A book of one page that displays every equation, and then `text`.
+fn process(text: &str) -> Result<String, String> {
+    let equations: String = FORMULAS.iter().map(|f| format!("{{{{#eq {}}}}}\n\n", f.number)).collect();
+    process_page(&(equations + text))
+}
+
+fn process_page(text: &str) -> Result<String, String> {
+    let chapter = Chapter::new("Page", text.into(), "page.md", Vec::new());
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
+    let context = PreprocessorContext::new(root.into(), Config::default(), "html".into());
+    let book = Equations
+        .run(&context, Book::new_with_items(vec![BookItem::Chapter(chapter)]))
+        .map_err(|error| format!("{error:#}"))?;
+    Ok(book.chapters().next().unwrap().content.clone())
+}
+
+fn assert_refused(text: &str, message: &str) {
+    let error = process(text).unwrap_err();
+    assert!(error.contains(message), "{error}");
+}
+
+#[test]
+fn a_right_page_is_processed() {
+    let page = process("see {{#ref 1.13}}").unwrap();
+    assert!(page.ends_with("see [(1.13)](page.md#eq-1-13)"), "{page}");
+    assert!(page.contains("(eps * (h - l) + m * g) / (c + eps)"));
+}
+
+#[test]
+fn a_reference_to_nothing() {
+    assert_refused("{{#ref 1.34}}", "no equation (1.34)");
+}
+
+#[test]
+fn an_equation_that_does_not_exist() {
+    assert_refused("{{#eq 1.34}}", "no formula is listed for (1.34)");
+}
+
+#[test]
+fn an_equation_displayed_twice() {
+    assert_refused("{{#eq 1.13}}", "(1.13) is displayed twice");
+}
+
+#[test]
+fn an_equation_forgotten() {
+    assert!(process_page("nothing").unwrap_err().contains("(1.1) is not displayed"));
+}
+
+#[test]
+fn a_function_that_does_not_exist() {
+    assert_refused("{{#source penalty::nothing}}", "no public function `nothing`");
+    assert_refused("{{#source nothing::gap}}", "the module of nothing::gap");
+}
+
+#[test]
+fn a_formula_that_does_not_parse() {
+    assert_refused(r"$\frac{1}$", r"\frac{1}");
+}
