@@ -57,7 +57,7 @@ impl<T: Real> Ball<T> {
         } else if self.radius.is_zero() {
             self.value.clone()
         } else {
-            (&self.value - &self.radius).next_down()
+            outward(&self.value - &self.radius, T::next_down)
         }
     }
 
@@ -68,7 +68,7 @@ impl<T: Real> Ball<T> {
         } else if self.radius.is_zero() {
             self.value.clone()
         } else {
-            (&self.value + &self.radius).next_up()
+            outward(&self.value + &self.radius, T::next_up)
         }
     }
 
@@ -106,6 +106,12 @@ impl<T: Real> Ball<T> {
     fn is_exactly_zero(&self) -> bool {
         self.value.is_zero() && self.radius.is_zero()
     }
+}
+
+/// The neighbour of a rounded sum, unless the sum is 0: no sum of floats rounds to 0 but 0 itself, and
+/// the neighbours of 0 in MPFR have a billion digits.
+fn outward<T: Real>(sum: T, neighbour: impl Fn(&T) -> T) -> T {
+    if sum.is_zero() { sum } else { neighbour(&sum) }
 }
 
 // Arithmetic of radii: numbers ≥ 0, every result rounded up, zero kept exact.
