@@ -336,3 +336,16 @@ impl<T: Field> Claim<T> {
         }
     }
 }
+
+/// The names of an entry's claims, in whatever number system they are checked.
+#[cfg(feature = "mpfr")]
+pub fn claim_names(equation: &str) -> Vec<&'static str> {
+    use crate::number::Ball;
+    let of =
+        |claims: Vec<Claim<Ball<f64>>>| claims.into_iter().map(|c| (c.equation, c.name)).collect::<Vec<_>>();
+    let algebraic = [of(claims()), of(exponential_claims()), of(unilateral_claims())].concat().into_iter();
+    let floats = float_experiments::<f64>().into_iter().map(|e| (e.equation, e.name));
+    let rationals = exact_experiments().into_iter().map(|e| (e.equation, e.name));
+    let all = algebraic.chain(floats).chain(rationals);
+    all.filter(|(e, _)| *e == equation).map(|(_, name)| name).collect()
+}

@@ -33,7 +33,8 @@ pub struct Options {
 /// f32, f64, 256 bits and rationals; 1000 cases from seed 1; everything.
 impl Default for Options {
     fn default() -> Self {
-        let scalars = vec![NumberSystem::F32, NumberSystem::F64, NumberSystem::Mpfr(256), NumberSystem::Exact];
+        let scalars =
+            vec![NumberSystem::F32, NumberSystem::F64, NumberSystem::Mpfr(256), NumberSystem::Exact];
         Options { scalars, cases: 1000, seed: 1, equations: Vec::new() }
     }
 }
@@ -103,7 +104,8 @@ const BLOCK: u64 = 50;
 
 /// Tries every claim, in parallel; `progress` is told how many of how many pieces of work are done.
 pub fn verify(options: &Options, progress: &(dyn Fn(usize, usize) + Sync)) -> Report {
-    let wanted = |equation: &str| options.equations.is_empty() || options.equations.iter().any(|e| e == equation);
+    let wanted =
+        |equation: &str| options.equations.is_empty() || options.equations.iter().any(|e| e == equation);
     let checkers: Vec<(NumberSystem, Box<dyn Checks>)> =
         options.scalars.iter().map(|scalar| (*scalar, checks(*scalar))).collect();
     let mut groups: Vec<&[Given]> = Vec::new();

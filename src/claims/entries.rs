@@ -20,6 +20,14 @@ pub struct Entry {
     pub follows_from: &'static [&'static str],
 }
 
+impl Entry {
+    /// As it is written in a text: `(1.13)`, and what has a name by its name.
+    pub fn label(&self) -> String {
+        let numbered = self.equation.starts_with(|c: char| c.is_ascii_digit());
+        if numbered { format!("({})", self.equation) } else { self.equation.to_string() }
+    }
+}
+
 /// The entry of a number.
 pub fn entry(equation: &str) -> Option<&'static Entry> {
     entries().iter().find(|entry| entry.equation == equation)

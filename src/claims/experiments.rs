@@ -104,7 +104,8 @@ impl Setting {
             .max()?;
         let (s, gap) = (&x.system, system::gap(&x.system));
         let products = [system::weight(s), structure::spring_force(s, &gap), &x.eps * &gap];
-        let quotients = [structure::deflection(s), penalty::deflection(s, &x.eps), penalty::penetration(s, &x.eps)];
+        let quotients =
+            [structure::deflection(s), penalty::deflection(s, &x.eps), penalty::penetration(s, &x.eps)];
         let smallest = exact(&T::underflow_unit())? / (&eta * &eta);
         for result in products.iter().chain(&quotients).chain([&(&x.eps * &quotients[2])]) {
             let size = exact(result)?.abs();
@@ -144,7 +145,9 @@ impl Setting {
     /// The relative error of ε p̂ is at most c/(c + ε) + η ε L/R + 7 η with L = |H| + 5 |Δ|.
     fn precision_law<T: Scalar + ToExact>(&self, x: &Case<T>) -> Trial {
         let u = penalty::deflection(&x.system, &x.eps);
-        let Some(force) = exact(&penalty::contact_force(&x.system, &x.eps, &u)) else { return Trial::Undecided };
+        let Some(force) = exact(&penalty::contact_force(&x.system, &x.eps, &u)) else {
+            return Trial::Undecided;
+        };
         if self.reaction <= Exact::zero() || self.too_coarse() {
             return Trial::Undecided;
         }
@@ -224,7 +227,11 @@ fn answer(system: &SpringMass<Exact>, penalty: Option<&Exact>) -> (Exact, Exact)
     }
 }
 
-fn contains_answer<T: Scalar + ToExact>(solution: &Solution<T>, s: &SpringMass<Exact>, eps: Option<&Exact>) -> bool {
+fn contains_answer<T: Scalar + ToExact>(
+    solution: &Solution<T>,
+    s: &SpringMass<Exact>,
+    eps: Option<&Exact>,
+) -> bool {
     let (u, force) = answer(s, eps);
     encloses(&solution.bounds.deflection, &u)
         && encloses(&solution.bounds.penetration, &contact::penetration(s, &u))
@@ -252,7 +259,8 @@ fn series_root<T: Scalar + Real + ToExact>(x: &Case<T>) -> Trial {
         return Trial::Undecided;
     };
     let Ok(root) = series_penetration(&x.system, &x.eps, &higher) else { return Trial::Undecided };
-    let residual = |p: T| exact(&p).map(|p| penalty::series_residual(&system, &eps, std::slice::from_ref(&eps4), &p));
+    let residual =
+        |p: T| exact(&p).map(|p| penalty::series_residual(&system, &eps, std::slice::from_ref(&eps4), &p));
     match (residual(Real::next_down(&root)), residual(root.clone()), residual(Real::next_up(&root))) {
         (Some(below), Some(at), Some(above)) => {
             let zero = Exact::zero();
@@ -315,9 +323,12 @@ fn promise<T: Scalar + Real + ToExact>(x: &Case<T>) -> Trial {
 fn units<T: Scalar + Real + ToExact>(x: &Case<T>) -> Trial {
     // lengths by 2ᵃ, mass by 2ᵇ, forces by 2ᶠ; g by 2^{f−b}, stiffnesses by 2^{f−a}
     let (a, b, f) = (3, -2, 5);
-    let scale = |y: &T, n: i32| (0..n.unsigned_abs()).fold(y.clone(), |y, _| if n < 0 { y / T::int(2) } else { y * T::int(2) });
+    let scale = |y: &T, n: i32| {
+        (0..n.unsigned_abs()).fold(y.clone(), |y, _| if n < 0 { y / T::int(2) } else { y * T::int(2) })
+    };
     let SpringMass { c, m, g, l, h } = &x.system;
-    let scaled = SpringMass { c: scale(c, f - a), m: scale(m, b), g: scale(g, f - b), l: scale(l, a), h: scale(h, a) };
+    let scaled =
+        SpringMass { c: scale(c, f - a), m: scale(m, b), g: scale(g, f - b), l: scale(l, a), h: scale(h, a) };
     let method = |unit: &dyn Fn(&T, i32) -> T| Method::Augmented {
         penalty: unit(&x.eps, f - a),
         tolerance: unit(&x.tol, a),
@@ -327,7 +338,8 @@ fn units<T: Scalar + Real + ToExact>(x: &Case<T>) -> Trial {
     if Setting::of(x).is_none() {
         return Trial::Undecided;
     }
-    let (before, after) = (solve_bilateral(&x.system, &method(&|y, _| y.clone())), solve_bilateral(&scaled, &method(&scale)));
+    let (before, after) =
+        (solve_bilateral(&x.system, &method(&|y, _| y.clone())), solve_bilateral(&scaled, &method(&scale)));
     match (before, after) {
         (Ok(before), Ok(after)) => Trial::Decided(
             after.outcome == before.outcome
@@ -345,7 +357,9 @@ fn count(x: &Case<Exact>, plane: Plane) -> Trial {
     let k = augmentations_needed(&x.system, &x.eps, &x.tol, &x.lambda, plane);
     let Some(k) = k.to_usize().filter(|k| *k < STEPS) else { return Trial::Undecided };
     let residual = |step: &crate::solver::Step<Exact>| match plane {
-        Plane::Unilateral => augmented::natural_residual(&x.system, &x.eps, &step.multiplier, &step.deflection),
+        Plane::Unilateral => {
+            augmented::natural_residual(&x.system, &x.eps, &step.multiplier, &step.deflection)
+        }
         Plane::Bilateral => step.penetration.clone(),
     };
     let steps = Augmentation::new(&x.system, &x.eps).from_multiplier(x.lambda.clone()).over(plane);
@@ -370,7 +384,9 @@ fn unilateral_closed_form(x: &Case<Exact>) -> Trial {
 fn release(x: &Case<Exact>) -> Trial {
     let steps: Vec<_> =
         Augmentation::new(&x.system, &x.eps).from_multiplier(x.lambda.clone()).take(STEPS).collect();
-    let Some(first) = steps.iter().position(|step| step.multiplier.is_zero()) else { return Trial::Undecided };
+    let Some(first) = steps.iter().position(|step| step.multiplier.is_zero()) else {
+        return Trial::Undecided;
+    };
     // K: 0 from λ₀ = 0, 1 from below, else the least with ρᴷ (λ₀ − R) ≤ −R.
     let r = system::reaction(&x.system);
     let ratio = augmented::contraction(&x.system, &x.eps);

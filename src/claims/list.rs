@@ -21,7 +21,8 @@ fn square<T: Field>(x: T) -> T {
 /// Both partial derivatives of the two lines of (1.8): the Hessian of (1.7).
 fn hessian_determinant<T: Field>(case: &Case<T>) -> T {
     let along = |by| {
-        let dual = case.map(|var, x| if var == by { Dual::variable(x.clone()) } else { Dual::constant(x.clone()) });
+        let dual =
+            case.map(|var, x| if var == by { Dual::variable(x.clone()) } else { Dual::constant(x.clone()) });
         lagrange::residual(&dual.system, &dual.u, &dual.lambda).map(|line| line.derivative)
     };
     let ([a, c], [b, d]) = (along(Var::U), along(Var::Lambda));

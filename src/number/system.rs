@@ -1,6 +1,7 @@
 //! The number systems by name.
 
-use super::PRECISIONS;
+use super::{Exact, PRECISIONS};
+use num_traits::Zero;
 use std::{fmt, str::FromStr};
 
 /// A number system as a user names it: `f32`, `f64`, `mpfr:BITS` or `exact`.
@@ -27,9 +28,22 @@ impl fmt::Display for NumberSystem {
     }
 }
 
+impl NumberSystem {
+    /// η: one rounding is off by no more than η times the result; 0 for rationals.
+    pub fn unit_roundoff(self) -> Exact {
+        let bits = match self {
+            NumberSystem::F32 => f32::MANTISSA_DIGITS,
+            NumberSystem::F64 => f64::MANTISSA_DIGITS,
+            NumberSystem::Mpfr(bits) => bits,
+            NumberSystem::Exact => return Exact::zero(),
+        };
+        Exact::power_of_two(-i32::try_from(bits).expect("precisions are small"))
+    }
+}
+
 /// The text names no number system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("must be f32, f64, exact or mpfr:BITS with 2 to 1000000 bits")]
+#[error("must be f32, f64, mpfr:BITS with 2 to 1000000 bits, or exact")]
 pub struct UnknownNumberSystem;
 
 impl FromStr for NumberSystem {
@@ -42,7 +56,9 @@ impl FromStr for NumberSystem {
             _ => {
                 let digits = text.strip_prefix("mpfr:").filter(|d| d.bytes().all(|b| b.is_ascii_digit()));
                 let bits = digits.and_then(|digits| digits.parse().ok());
-                bits.filter(|bits| PRECISIONS.contains(bits)).map(NumberSystem::Mpfr).ok_or(UnknownNumberSystem)
+                bits.filter(|bits| PRECISIONS.contains(bits))
+                    .map(NumberSystem::Mpfr)
+                    .ok_or(UnknownNumberSystem)
             }
         }
     }

@@ -96,7 +96,9 @@ impl Draw {
 
     /// A unit in the last place of c Δ, or nothing.
     fn next_to_grazing(&mut self, case: &Case<Exact>) -> Exact {
-        let ulp = |n: i32| (&case.system.c * crate::chapter::system::gap(&case.system)).abs() * Exact::power_of_two(n);
+        let ulp = |n: i32| {
+            (&case.system.c * crate::chapter::system::gap(&case.system)).abs() * Exact::power_of_two(n)
+        };
         match self.below(5) {
             0 => Exact::zero(),
             1 => ulp(-23),
@@ -151,7 +153,8 @@ fn holds(hypothesis: Given, case: &Case<Exact>) -> bool {
 /// Chooses the coordinate that a hypothesis is solved for so that its quantity has this value.
 fn plant(case: &mut Case<Exact>, hypothesis: Given, target: &Exact) -> Option<()> {
     let by = hypothesis.solved_for();
-    let along = case.map(|var, x| if var == by { Dual::variable(x.clone()) } else { Dual::constant(x.clone()) });
+    let along =
+        case.map(|var, x| if var == by { Dual::variable(x.clone()) } else { Dual::constant(x.clone()) });
     let Dual { value, derivative } = hypothesis.value(&along);
     if derivative.is_zero() {
         return None;

@@ -184,8 +184,18 @@ pub(super) struct Checker<J>(pub(super) J);
 
 impl<J: Judge> Checks for Checker<J> {
     fn heads(&self) -> Vec<Head> {
-        let claim = |c: Claim<J::Number>| Head { equation: c.equation, claim: c.name, kind: c.kind.name(), given: c.given };
-        let experiment = |e: Experiment<J::Computed>| Head { equation: e.equation, claim: e.name, kind: "experiment", given: e.given };
+        let claim = |c: Claim<J::Number>| Head {
+            equation: c.equation,
+            claim: c.name,
+            kind: c.kind.name(),
+            given: c.given,
+        };
+        let experiment = |e: Experiment<J::Computed>| Head {
+            equation: e.equation,
+            claim: e.name,
+            kind: "experiment",
+            given: e.given,
+        };
         let claims = self.0.claims().into_iter().map(claim);
         claims.chain(self.0.experiments().into_iter().map(experiment)).collect()
     }
@@ -208,7 +218,8 @@ impl<J: Judge> Checks for Checker<J> {
             return tallies;
         }
         for case in cases {
-            let Some((exact, (case, computed))) = case.as_ref().and_then(|c| Some((c, self.0.read(c)?))) else {
+            let Some((exact, (case, computed))) = case.as_ref().and_then(|c| Some((c, self.0.read(c)?)))
+            else {
                 tallies.iter_mut().for_each(|(_, tally)| tally.undecided += 1);
                 continue;
             };
@@ -268,7 +279,8 @@ fn of_trial(trial: &Trial) -> Verdict<'_> {
         Trial::Decided(holds) => Verdict::Decided { holds: *holds, measured: None },
         Trial::Within { error, bound } => {
             let ratio = if error.is_zero() { 0.0 } else { approximately(&(error / bound)) };
-            let text: Box<dyn Fn() -> String + '_> = Box::new(|| Mpfr::rounded(24, bound.as_rational()).to_string());
+            let text: Box<dyn Fn() -> String + '_> =
+                Box::new(|| Mpfr::rounded(24, bound.as_rational()).to_string());
             Verdict::Decided { holds: error <= bound, measured: Some((ratio, text)) }
         }
     }

@@ -4,9 +4,7 @@ use crate::output::Failure;
 use crate::text::shortened;
 use num_traits::Zero;
 use spring_mass_contact::chapter::SpringMass;
-use spring_mass_contact::number::{Exact, PRECISIONS, ToExact};
-use std::fmt;
-use std::str::FromStr;
+use spring_mass_contact::number::{Exact, ToExact};
 
 /// The arguments, if they are plain text: others could only garble the one line of an error.
 ///
@@ -65,6 +63,12 @@ pub fn whole(text: &str) -> Result<u64, String> {
     count.ok_or_else(|| format!("must be a whole number from 0 to {}", u64::MAX))
 }
 
+/// A count that is not zero.
+pub fn count(text: &str) -> Result<u64, String> {
+    let count = whole(text).ok().filter(|count| *count > 0);
+    count.ok_or_else(|| format!("must be a whole number from 1 to {}", u64::MAX))
+}
+
 impl Number {
     /// The value, rounded once into the scalar that `like` has.
     pub fn round<T: ToExact>(&self, flag: &str, like: &T) -> Result<T, Failure> {
@@ -109,61 +113,10 @@ impl System {
     }
 }
 
-/// The number system to compute in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ScalarKind {
-    /// `f32`
-    F32,
-    /// `f64`
-    F64,
-    /// `mpfr:BITS`
-    Mpfr(u32),
-    /// `exact`
-    Exact,
-}
-
-impl FromStr for ScalarKind {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let bits = |digits: &str| {
-            let bits = digits.parse().ok().filter(|_| digits.bytes().all(|b| b.is_ascii_digit()));
-            bits.filter(|bits| PRECISIONS.contains(bits))
-        };
-        match text {
-            "f32" => Some(ScalarKind::F32),
-            "f64" => Some(ScalarKind::F64),
-            "exact" => Some(ScalarKind::Exact),
-            _ => text.strip_prefix("mpfr:").and_then(bits).map(ScalarKind::Mpfr),
-        }
-        .ok_or_else(|| {
-            let (least, most) = (PRECISIONS.start(), PRECISIONS.end());
-            format!("must be f32, f64, mpfr:BITS with {least} to {most} bits, or exact")
-        })
-    }
-}
-
-/// As on the command line.
-impl fmt::Display for ScalarKind {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        match self {
-            ScalarKind::F32 => f.write_str("f32"),
-            ScalarKind::F64 => f.write_str("f64"),
-            ScalarKind::Mpfr(bits) => write!(f, "mpfr:{bits}"),
-            ScalarKind::Exact => f.write_str("exact"),
-        }
-    }
-}
-
-impl ScalarKind {
-    /// η: one rounding is off by no more than η times the number.
-    pub fn unit_roundoff(self) -> Exact {
-        let bits = match self {
-            ScalarKind::F32 => f32::MANTISSA_DIGITS,
-            ScalarKind::F64 => f64::MANTISSA_DIGITS,
-            ScalarKind::Mpfr(bits) => bits,
-            ScalarKind::Exact => return Exact::zero(),
-        };
-        Exact::power_of_two(-i32::try_from(bits).expect("precisions are small"))
-    }
+/// A number of the chapter that it has.
+pub fn equation(text: &str) -> Result<String, String> {
+    let known = spring_mass_contact::claims::entry(text).map(|entry| entry.equation.to_string());
+    known.ok_or_else(|| {
+        "must be a number of the chapter as `contact equations` lists them, such as 1.13".to_string()
+    })
 }

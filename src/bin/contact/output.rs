@@ -78,6 +78,11 @@ pub fn table() -> Table {
     table
 }
 
+/// A table, line by line, without the blanks that would fill its last column.
+pub fn lines(out: &mut dyn Write, table: &Table) -> io::Result<()> {
+    table.lines().try_for_each(|line| writeln!(out, "{}", line.trim_end()))
+}
+
 /// What clap has to say: help and version go to stdout; an error is cut to one line.
 pub fn clap_message(mut error: clap::Error) -> Result<Status, Failure> {
     if let Some(ContextValue::String(value)) = error.get(ContextKind::InvalidValue) {

@@ -2,14 +2,14 @@
 
 mod report;
 
-use crate::args::{Number, ScalarKind, System, finite, positive, whole};
+use crate::args::{Number, System, finite, positive, whole};
 use crate::output::{self, Failure, Status};
 use crate::text::{self, shortened};
 use clap::ValueEnum;
 use num_traits::Zero;
 use report::Report;
 use spring_mass_contact::chapter::SpringMass;
-use spring_mass_contact::number::Exact;
+use spring_mass_contact::number::{Exact, NumberSystem};
 use spring_mass_contact::solver::{
     Augmentation, Method, Outcome, Plane, Solution, SolveError, Step, augmentations_needed, solve,
     solve_bilateral, within_reach,
@@ -61,8 +61,8 @@ pub struct Options {
     bilateral: bool,
 
     /// Number system: f32, f64, mpfr:BITS or exact
-    #[arg(long, value_name = "S", default_value_t = ScalarKind::F64, help_heading = "Output")]
-    scalar: ScalarKind,
+    #[arg(long, value_name = "S", default_value_t = NumberSystem::F64, help_heading = "Output")]
+    scalar: NumberSystem,
     /// Show every augmentation, for augmented; as csv, these rows alone
     #[arg(long, help_heading = "Output")]
     trace: bool,
@@ -106,10 +106,10 @@ enum Format {
 pub fn run(options: &Options) -> Result<Status, Failure> {
     options.refuse_unused()?;
     match options.scalar {
-        ScalarKind::F32 => run_in(options, &0_f32),
-        ScalarKind::F64 => run_in(options, &0_f64),
-        ScalarKind::Mpfr(bits) => run_in(options, &Exact::zero().to_mpfr(bits)),
-        ScalarKind::Exact => run_in(options, &Exact::zero()),
+        NumberSystem::F32 => run_in(options, &0_f32),
+        NumberSystem::F64 => run_in(options, &0_f64),
+        NumberSystem::Mpfr(bits) => run_in(options, &Exact::zero().to_mpfr(bits)),
+        NumberSystem::Exact => run_in(options, &Exact::zero()),
     }
 }
 
