@@ -1,6 +1,8 @@
 //! The Karush-Kuhn-Tucker conditions (1.6): met by the Lagrange multiplier method and by the limit of the
 //! augmentation, violated by known amounts by the penalty method, in contact, grazing and separated.
 
+#![cfg(feature = "mpfr")]
+
 mod strategies;
 
 use num_traits::Zero;
