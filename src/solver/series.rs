@@ -48,6 +48,11 @@ where
         let root = equation.root(precision);
         let answer = like.nearest(&root.to_exact().map_err(|_| out_of_range.clone())?);
         let answer = answer.map_err(|_| out_of_range.clone())?;
+        if answer.is_zero() {
+            // R ≠ 0, so this is cancellation; the neighbours of 0 would be immense as rationals.
+            precision *= 2;
+            continue;
+        }
         let residual_sign = |p: T| p.to_exact().map(|p| equation.residual(&p).cmp(&Exact::zero()));
         // Beyond the largest float the residual has the sign it has at infinity.
         let below = residual_sign(Real::next_down(&answer)).unwrap_or(Ordering::Less);
