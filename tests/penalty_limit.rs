@@ -9,7 +9,7 @@ use num_traits::Zero;
 use proptest::prelude::*;
 use spring_mass_contact::chapter::penalty::{self, PenaltyCondition};
 use spring_mass_contact::chapter::{SpringMass, contact, structure, system};
-use spring_mass_contact::number::{Ball, Dual, Exact, Mpfr, OrderedField, Real, ToExact};
+use spring_mass_contact::number::{Ball, Dual, Exact, Mpfr, OrderedField, ToExact};
 use spring_mass_contact::solver::{
     Outcome, SolveError, State, penalty_for_penetration, series_penetration, solve, solve_bilateral,
 };
