@@ -175,6 +175,16 @@ fn certificate_is_small<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), Te
     prop_assert!((&kkt.primal - &p).abs() <= u_error, "{:?}", case);
     prop_assert!(kkt.stationarity.abs() <= &s.c * u_error + n_error, "{:?}", case);
     prop_assert!(kkt.dual.is_zero(), "{:?}", case);
+
+    // Wherever the augmentation stops, its force is in equilibrium with its deflection: N = fl(m g − c û), or
+    // 0 where û = fl(m g/c) or where the difference is negative for no other reason than û's two roundings.
+    let augmented = solved(&case, &case.augmented(50));
+    let kkt = augmented.certificate(&case.system);
+    let (u, n) = (exact(&augmented.deflection), exact(&augmented.contact_force));
+    let n_error = &eta * (weight.abs() + (&s.c * u).abs() + n);
+    let free_error = (int(2) * &eta + &eta * &eta) * weight.abs();
+    prop_assert!(kkt.stationarity.abs() <= n_error + free_error, "{:?}", case);
+    prop_assert!(kkt.dual.is_zero(), "{:?}", case);
     Ok(())
 }
 
