@@ -80,6 +80,21 @@ proptest! {
         }
     }
 
+    /// Each condition is needed: what the other state would answer violates exactly one of them.
+    #[test]
+    fn the_other_branch_violates_one_condition(case in not_grazing(WIDE)) {
+        let s = &case.system;
+        let r = reaction(&case);
+        let free = contact::kkt(s, &(&s.m * &s.g / &s.c), &int(0));
+        let touching = contact::kkt(s, &(&s.h - &s.l), &r);
+        for kkt in [&free, &touching] {
+            prop_assert_eq!((&kkt.stationarity, &kkt.complementarity), (&int(0), &int(0)));
+        }
+        // R > 0: it would hang free inside the plane. R < 0: the plane would have to pull.
+        prop_assert_eq!((free.primal, free.dual), (positive_part(&(&r / &s.c)), int(0)));
+        prop_assert_eq!((touching.primal, touching.dual), (int(0), positive_part(&-r)));
+    }
+
     /// The penalty method violates (1.6) by p = R/(c + ε) and p N = ε p², and by nothing else.
     #[test]
     fn penalty_violates_by_known_amounts(case in any_state(WIDE)) {

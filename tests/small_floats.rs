@@ -3,7 +3,7 @@
 //! A sample can miss the one case in which a bound is an ulp too small; where all mantissas are tried, all
 //! ways of rounding are. c and m have one exponent (by what they are scaled changes nothing), ε, g, l and
 //! H have several, with signs and zero. All systems of 2 bits and a sample of the larger sets are tried by
-//! default, in about two seconds; all 628 864 of 3 bits and 2 515 456 of 4 bits by
+//! default, in a few seconds; all 628 864 of 3 bits and 2 515 456 of 4 bits by
 //! `cargo test --test small_floats -- --ignored`, in minutes.
 
 #![cfg(feature = "mpfr")]
