@@ -1,0 +1,237 @@
+//! Where test cases come from: systems with a planted reaction R, in every number system.
+//!
+//! Numbers are small fractions times powers of two, log-uniform over many decades, so that a case means
+//! the same on every machine and in every scalar. c, m, l, Δ and R are drawn; H = l + Δ and
+//! g = (R + c Δ)/m follow. The sign of R, and with it the state, is therefore known beforehand.
+//! A case is printed as the options of `contact solve`, ready to be pasted.
+
+#![allow(dead_code)] // every test file is a crate of its own and uses its share of this one
+
+use num_traits::Zero;
+use proptest::prelude::*;
+use spring_mass_contact::chapter::{SpringMass, system};
+use spring_mass_contact::number::{Exact, OrderedField, PositivePart, Real, ToExact};
+use spring_mass_contact::solver::{Method, Scalar};
+use std::fmt;
+
+/// Parameters range over 2^±NARROW: no intermediate result leaves the range of f32 (2^±126) then. The
+/// smallest one is û of a near-grazing system with Δ = 0: R/(c + ε) ≥ 2^(−6 − 4·8 − 3·3 − 60) > 2^−126.
+pub const NARROW: i32 = 8;
+/// The same for f64 (2^±1022) and for MPFR and rationals, which have no limit here.
+pub const WIDE: i32 = 40;
+/// ε/c ranges over 2^±PENALTIES.
+pub const PENALTIES: i32 = 60;
+
+/// A system, and what the methods need besides.
+#[derive(Clone, PartialEq)]
+pub struct Case<T> {
+    pub system: SpringMass<T>,
+    pub eps: T,
+    /// λ₀.
+    pub start: T,
+    pub tolerance: T,
+}
+
+impl<T> Case<T> {
+    pub fn map<U>(&self, mut f: impl FnMut(&T) -> U) -> Case<U> {
+        Case {
+            system: self.system.map(&mut f),
+            eps: f(&self.eps),
+            start: f(&self.start),
+            tolerance: f(&self.tolerance),
+        }
+    }
+}
+
+impl<T: Clone> Case<T> {
+    pub fn penalty(&self) -> Method<T> {
+        Method::Penalty { penalty: self.eps.clone() }
+    }
+    pub fn augmented(&self, max_augmentations: u64) -> Method<T> {
+        Method::Augmented {
+            penalty: self.eps.clone(),
+            tolerance: self.tolerance.clone(),
+            max_augmentations,
+            start: self.start.clone(),
+        }
+    }
+    /// Every method there is.
+    pub fn methods(&self, max_augmentations: u64) -> [Method<T>; 3] {
+        [Method::Lagrange, self.penalty(), self.augmented(max_augmentations)]
+    }
+}
+
+impl Case<Exact> {
+    /// Every number rounded once into the scalar, at the precision, of `like`.
+    pub fn rounded<T: ToExact>(&self, like: &T) -> Case<T> {
+        self.map(|x| like.nearest(x).expect("the parameters fit every float they are rounded into"))
+    }
+}
+
+impl<T: ToExact> Case<T> {
+    /// The same numbers as rationals: what the answers of floats are judged by.
+    pub fn exact(&self) -> Case<Exact> {
+        self.map(exact)
+    }
+}
+
+impl<T: ToExact> fmt::Debug for Case<T> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let Case { system: SpringMass { c, m, g, l, h }, eps, start, tolerance } = self.exact();
+        write!(
+            f,
+            "contact solve --stiffness {c} --mass {m} --gravity {g} --free-length {l} --height {h} \
+             --method augmented --penalty {eps} --initial-multiplier {start} --tolerance {tolerance}"
+        )
+    }
+}
+
+/// The value of a number that is finite.
+pub fn exact<T: ToExact>(x: &T) -> Exact {
+    x.to_exact().expect("finite")
+}
+
+/// η of the scalar and precision of `like`, which must not be zero.
+pub fn unit_roundoff<T: Real + ToExact>(like: &T) -> Exact {
+    exact(&like.unit_roundoff())
+}
+
+/// An integer, exactly.
+pub fn int(n: i32) -> Exact {
+    Exact::from(n)
+}
+
+/// xⁿ.
+pub fn power(x: &Exact, n: u32) -> Exact {
+    (0..n).fold(int(1), |product, _| product * x)
+}
+
+/// Where the mass comes to rest: Δ if the plane acts, m g/c if not. Written here a second time, by cases.
+pub fn resting(s: &SpringMass<Exact>) -> Exact {
+    let weight = &s.m * &s.g;
+    let gap = &s.h - &s.l;
+    if weight < &s.c * &gap { weight / &s.c } else { gap }
+}
+
+/// What the plane then pushes with.
+pub fn pushing(s: &SpringMass<Exact>) -> Exact {
+    &s.m * &s.g - &s.c * resting(s)
+}
+
+/// An exponent, its limits and zero more often than by chance.
+fn exponent(span: i32) -> impl Strategy<Value = i32> {
+    prop_oneof![10 => -span..=span, 1 => Just(-span), 1 => Just(span), 2 => Just(0)]
+}
+
+/// Log-uniform over 2^±span: a fraction of small integers, times a power of two.
+pub fn positive(span: i32) -> impl Strategy<Value = Exact> {
+    let mantissa = prop_oneof![1 => Just((1, 1)), 3 => (1..=7, 1..=7), 3 => (1..=40, Just(5))];
+    (mantissa, exponent(span)).prop_map(|((n, d), e)| int(n) / int(d) * Exact::power_of_two(e))
+}
+
+/// The same with both signs.
+pub fn nonzero(span: i32) -> impl Strategy<Value = Exact> {
+    (positive(span), any::<bool>()).prop_map(|(x, negative)| if negative { -x } else { x })
+}
+
+/// The same with zero.
+pub fn number(span: i32) -> impl Strategy<Value = Exact> {
+    prop_oneof![1 => Just(Exact::zero()), 8 => nonzero(span)]
+}
+
+/// R relative to c: of any size, or close to grazing, relative to the lengths.
+#[derive(Clone, Debug)]
+enum Size {
+    Any(Exact),
+    Near(i32),
+}
+
+fn planted(span: i32, sign: impl Strategy<Value = i32>) -> impl Strategy<Value = Case<Exact>> {
+    let size = prop_oneof![3 => positive(span).prop_map(Size::Any), 1 => (1..4 * span).prop_map(Size::Near)];
+    // λ₀ = 0, R itself, or some multiple of |R| and W, of either sign.
+    let start = prop_oneof![3 => Just(None), 1 => Just(Some(int(1))), 3 => number(6).prop_map(Some)];
+    let system = (positive(span), positive(span), number(span), number(span));
+    let rest = (prop_oneof![1 => Just(0), 4 => exponent(PENALTIES)], positive(0), 0i32..60, start);
+    (system, sign, size, rest).prop_map(|((c, m, l, gap), sign, size, (e, factor, digits, start))| {
+        let length = l.abs() + gap.abs();
+        let size = match size {
+            Size::Any(x) => x,
+            Size::Near(n) => Exact::power_of_two(-n) * if length.is_zero() { int(1) } else { length.clone() },
+        };
+        let r = int(sign) * &c * &size;
+        let g = (&r + &c * &gap) / &m;
+        let h = &l + &gap;
+        let eps = &c * Exact::power_of_two(e);
+        let start = start.map_or_else(Exact::zero, |f| f * if r.is_zero() { c.clone() } else { r.clone() });
+        // Between about the largest length and far below the floors of f64.
+        let tolerance = factor * (length + size) * Exact::power_of_two(-digits);
+        Case { system: SpringMass { c, m, g, l, h }, eps, start, tolerance }
+    })
+}
+
+/// Contact, grazing and separated.
+pub fn any_state(span: i32) -> impl Strategy<Value = Case<Exact>> {
+    planted(span, prop_oneof![3 => Just(1), 1 => Just(0), 2 => Just(-1)])
+}
+/// R > 0.
+pub fn in_contact(span: i32) -> impl Strategy<Value = Case<Exact>> {
+    planted(span, Just(1))
+}
+/// R = 0 in rationals (in floats: close to it).
+pub fn grazing(span: i32) -> impl Strategy<Value = Case<Exact>> {
+    planted(span, Just(0))
+}
+/// R < 0.
+pub fn separated(span: i32) -> impl Strategy<Value = Case<Exact>> {
+    planted(span, Just(-1))
+}
+/// R ≠ 0: where an iteration has somewhere to go.
+pub fn not_grazing(span: i32) -> impl Strategy<Value = Case<Exact>> {
+    planted(span, prop_oneof![Just(1), Just(-1)])
+}
+
+/// The case with another ε, given relative to c.
+pub fn with_penalty(case: Case<Exact>, relative: &Exact) -> Case<Exact> {
+    let eps = &case.system.c * relative;
+    Case { eps, ..case }
+}
+
+/// ⟨x⟩.
+pub fn positive_part(x: &Exact) -> Exact {
+    x.positive_part()
+}
+
+/// R.
+pub fn reaction(case: &Case<Exact>) -> Exact {
+    system::reaction(&case.system)
+}
+
+/// Floats that can be tried at several precisions.
+pub trait Float: Scalar + Real + ToExact {}
+impl<T: Scalar + Real + ToExact> Float for T {}
+
+/// Tries one law, `fn law<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError>`, in f32,
+/// f64 and MPFR of few and many bits: the same expectations for all.
+#[macro_export]
+macro_rules! in_every_float {
+    ($($(#[$attribute:meta])* $law:ident from $cases:path;)*) => {$(
+        $(#[$attribute])*
+        mod $law {
+            use super::*;
+            proptest! {
+                #[test]
+                fn f32(case in $cases(strategies::NARROW)) {
+                    super::$law(&case, &1f32)?;
+                }
+                #[test]
+                fn f64(case in $cases(strategies::WIDE)) {
+                    super::$law(&case, &1f64)?;
+                }
+                #[test]
+                fn mpfr(case in $cases(strategies::WIDE), bits in prop_oneof![Just(8), Just(113), 8u32..300]) {
+                    super::$law(&case, &spring_mass_contact::number::Exact::from(1).to_mpfr(bits))?;
+                }
+            }
+        }
+    )*};
+}
