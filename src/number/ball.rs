@@ -46,7 +46,7 @@ impl<T: Real> Ball<T> {
 
     /// Some number that rounds to this value.
     pub fn rounded(value: T) -> Self {
-        let radius = add(&half_ulp(&value), &T::underflow_unit());
+        let radius = add(&value.half_ulp(), &T::underflow_unit());
         Ball { value, radius }
     }
 
@@ -134,25 +134,20 @@ fn div<T: Real>(a: &T, b: &T) -> T {
     if a.is_zero() { T::zero() } else { (a / b).next_up() }
 }
 
-/// η|x|, the rounding error of a sum whose result is x: none if x = 0, and none is lost to underflow.
-fn half_ulp<T: Real>(x: &T) -> T {
-    mul(&x.magnitude(), &x.unit_roundoff())
-}
-
-/// η|x| and an absolute term, the rounding error of a product or quotient whose result is x.
+/// Half an ulp and an absolute term, the rounding error of a product or quotient whose result is x.
 fn product_error<T: Real>(x: &T) -> T {
-    add(&half_ulp(x), &T::underflow_unit())
+    add(&x.half_ulp(), &T::underflow_unit())
 }
 
 operators! { [T: Real] Ball<T>;
     Add add |a, b| {
         let value = &a.value + &b.value;
-        let error = add(&add(&a.radius, &b.radius), &half_ulp(&value));
+        let error = add(&add(&a.radius, &b.radius), &value.half_ulp());
         Ball::with(value, error)
     };
     Sub sub |a, b| {
         let value = &a.value - &b.value;
-        let error = add(&add(&a.radius, &b.radius), &half_ulp(&value));
+        let error = add(&add(&a.radius, &b.radius), &value.half_ulp());
         Ball::with(value, error)
     };
     Mul mul |a, b| {

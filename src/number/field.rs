@@ -160,6 +160,12 @@ pub trait Real: OrderedField + Exponential {
         -(-self).next_up()
     }
 
+    /// Half a unit in the last place, or more: no operation that rounds to this result, above the
+    /// subnormal numbers, errs by more. 0 for 0, which no sum that is not 0 rounds to.
+    fn half_ulp(&self) -> Self {
+        if self.is_zero() { Self::zero() } else { (self.abs() * self.unit_roundoff()).next_up() }
+    }
+
     /// An upper bound of |x|, in few digits if x has very many: what the radius of a ball is made of.
     fn magnitude(&self) -> Self {
         self.abs()

@@ -213,6 +213,16 @@ impl Real for Mpfr {
         }
         next
     }
+    fn half_ulp(&self) -> Self {
+        match &self.0 {
+            // x lies between 2^(e−1) and 2^e.
+            Rounded(x) => x.get_exp().map_or_else(Mpfr::zero, |e| {
+                let half = e - x.prec() as i32 - 1;
+                Mpfr(Rounded(Float::with_val(RADIUS_PRECISION, Float::i_exp(1, half))))
+            }),
+            Constant(_) => Mpfr::zero(),
+        }
+    }
     fn magnitude(&self) -> Self {
         let up = |x: Float| Mpfr(Rounded(x));
         match &self.0 {
