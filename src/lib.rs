@@ -1,6 +1,32 @@
-//! A mass hangs on a spring over a rigid plane.
+//! A mass hangs on a spring over a rigid plane: find its deflection and the contact force under the
+//! condition that it must not go through the plane. By Lagrange multiplier, by penalty, by augmented
+//! Lagrangian.
 //!
-#![doc = include_str!("map.md")]
+//! That is chapter 1 of A. Konyukhov and R. Izi, *Introduction to Computational Contact Mechanics: A
+//! Geometrical Approach* (Wiley 2015), as a crate in which **every equation is written once, as a
+//! function generic over its number system, and everything else reads that function**.
+//!
+//! | module | what is in it | who reads it |
+//! |---|---|---|
+//! | [`number`] | the number systems and the few traits a formula asks for | everything below |
+//! | [`chapter`] | the equations, a module a section, a function a formula | everything below |
+//! | [`solver`] | [`solve`](solver::solve), the augmentation as an iterator, bounds, certificates | users |
+//! | [`claims`] | the chapter as data, and what is claimed of it, as generic functions | `verify` |
+#![cfg_attr(
+    feature = "mpfr",
+    doc = "| [`mod@verify`] | runs the claims in the number systems | the command `contact` |"
+)]
+//!
+//! Each module knows only those above it.
+//!
+//! # Features
+//!
+//! - `mpfr` (default): MPFR floats, exact rationals, and all that needs them: claims, certificates, step
+//!   counts, reading numbers. Builds GMP and MPFR from source by way of rug, which is LGPL-3.0-or-later.
+//! - `cli` (default): the command `contact`.
+//! - `gmp-untested` (default): leaves out GMP's and MPFR's own test suites, which take minutes.
+//!
+//! Without them f32, f64, balls, dual numbers, the chapter and the solver are there.
 
 pub mod chapter;
 pub mod claims;
@@ -11,3 +37,7 @@ pub mod verify;
 
 #[cfg(feature = "mpfr")]
 pub use rug;
+
+#[cfg(all(doctest, feature = "mpfr"))]
+#[doc = include_str!("../README.md")]
+mod readme {}

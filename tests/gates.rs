@@ -1,0 +1,210 @@
+//! The chapter's data, its functions, its claims and their documentation belong together: what one side
+//! has and another lacks fails here.
+#![cfg(feature = "mpfr")]
+
+use spring_mass_contact::claims::{claim_names, entries, entry};
+use spring_mass_contact::number::NumberSystem;
+use spring_mass_contact::verify::{Options, Status, verify};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::Path;
+
+/// A public function or struct of the chapter, with its documentation.
+struct Item {
+    path: String,
+    docs: Vec<String>,
+}
+
+fn source(path: &str) -> String {
+    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap()
+}
+
+fn modules() -> Vec<String> {
+    let declared = source("src/chapter/mod.rs");
+    let modules: Vec<_> = declared
+        .lines()
+        .filter_map(|l| l.strip_prefix("pub mod ")?.strip_suffix(';'))
+        .map(String::from)
+        .collect();
+    assert!(modules.len() >= 7);
+    modules
+}
+
+/// Functions of the chapter, found in its source: rustfmt puts each at the start of a line.
+fn items() -> Vec<Item> {
+    let mut items = Vec::new();
+    for module in modules() {
+        let mut docs = Vec::new();
+        for line in source(&format!("src/chapter/{module}.rs")).lines() {
+            let name = line.strip_prefix("pub fn ").or(line.strip_prefix("pub struct "));
+            if let Some(doc) = line.strip_prefix("///") {
+                docs.push(doc.trim().to_string());
+            } else if let Some(name) = name {
+                let name = name.split(['<', '(', ' ']).next().unwrap();
+                items.push(Item { path: format!("{module}::{name}"), docs: std::mem::take(&mut docs) });
+            } else if !line.starts_with("#[") {
+                docs.clear();
+            }
+        }
+    }
+    assert!(items.len() > 50, "the scan of src/chapter finds {} items", items.len());
+    items
+}
+
+fn functions() -> Vec<Item> {
+    items().into_iter().filter(|item| !item.path.contains(char::is_uppercase)).collect()
+}
+
+#[test]
+fn every_number_of_the_chapter_has_an_entry_and_claims() {
+    for n in 1..=33 {
+        let number = format!("1.{n}");
+        assert!(entry(&number).is_some(), "({number}) has no entry");
+        assert!(!claim_names(&number).is_empty(), "({number}) has no claim");
+    }
+}
+
+#[test]
+fn entries_are_unique() {
+    let numbers: BTreeSet<_> = entries().iter().map(|e| e.equation).collect();
+    assert_eq!(numbers.len(), entries().len());
+}
+
+#[test]
+fn what_follows_from_what_has_no_cycle() {
+    // Entries whose premises are all known can be added; in the end all must be.
+    let mut known = BTreeSet::new();
+    loop {
+        let before = known.len();
+        for e in entries() {
+            if e.follows_from.iter().all(|premise| known.contains(premise)) {
+                known.insert(e.equation);
+            }
+        }
+        if known.len() == before {
+            break;
+        }
+    }
+    let left: Vec<_> = entries().iter().map(|e| e.equation).filter(|e| !known.contains(e)).collect();
+    assert!(left.is_empty(), "in a cycle, or with a premise that does not exist: {left:?}");
+}
+
+#[test]
+fn every_entry_names_a_function_that_exists() {
+    let items: BTreeSet<_> = items().into_iter().map(|item| item.path).collect();
+    for e in entries() {
+        if let Some(function) = e.function {
+            assert!(items.contains(function), "{}: no {function} in src/chapter", e.equation);
+        }
+    }
+}
+
+#[test]
+fn every_claim_belongs_to_an_entry_under_a_name_of_its_own() {
+    let report = verify(&Options { cases: 1, ..Options::default() }, &|_, _| ());
+    let mut rows = BTreeSet::new();
+    for row in &report.rows {
+        assert!(entry(row.equation).is_some(), "{} {}", row.equation, row.claim);
+        assert!(
+            rows.insert((row.equation, row.claim, row.scalar.to_string())),
+            "{} {} twice",
+            row.equation,
+            row.claim
+        );
+    }
+    let named: usize = entries().iter().map(|e| claim_names(e.equation).len()).sum();
+    let distinct: BTreeSet<_> = rows.iter().map(|(equation, claim, _)| (equation, claim)).collect();
+    assert_eq!(named, distinct.len(), "a claim whose entry does not exist is listed nowhere");
+}
+
+#[test]
+fn every_function_is_documented_in_the_same_order() {
+    for Item { path, docs } in functions() {
+        let find = |what: &str, found: &dyn Fn(&str) -> bool| {
+            docs.iter()
+                .position(|line| found(line))
+                .unwrap_or_else(|| panic!("{path}: no {what} in its documentation"))
+        };
+        // No formula where the item is a check and not a formula.
+        let example = find("example", &|l| l == "```");
+        let place =
+            find("source", &|l| l.contains("Source: ") || l.contains("Beyond ") || l.contains("Source:"));
+        assert!(place < example, "{path}: the example comes last");
+        if path != "penalty::broken_condition" {
+            let formula =
+                find("formula", &|l| l.starts_with('`') && !l.starts_with("```") && l.ends_with('`'));
+            assert!(0 < formula && formula < example, "{path}: name, formula, …, example");
+        }
+        for number in docs[0].split("Eq. (").skip(1).filter_map(|rest| rest.split(')').next()) {
+            assert!(entry(number).is_some(), "{path}: ({number}) is no entry");
+        }
+    }
+}
+
+#[test]
+fn every_function_is_claimed_something_of() {
+    let claims =
+        source("src/claims/list.rs") + &source("src/claims/experiments.rs") + &source("src/claims.rs");
+    for Item { path, .. } in functions() {
+        // The named conditions on a penalty functional are tried in tests/penalty_limit.rs.
+        if path != "penalty::broken_condition" {
+            assert!(claims.contains(&format!("{path}(")), "no claim speaks of {path}");
+        }
+    }
+}
+
+#[test]
+fn no_formula_is_written_twice() {
+    let mut bodies: BTreeMap<String, String> = BTreeMap::new();
+    for module in modules() {
+        let text = source(&format!("src/chapter/{module}.rs"));
+        for function in text.split("\npub fn ").skip(1) {
+            let name = function.split(['<', '(']).next().unwrap().to_string();
+            let body = function.split_once("{\n").and_then(|(_, rest)| rest.split_once("\n}")).unwrap().0;
+            let formula =
+                body.lines().filter(|l| !l.trim_start().starts_with("let SpringMass")).collect::<String>();
+            // (1.28) and the gap are the same number under two names, and the chapter prints both.
+            if let Some(other) = bodies.insert(formula.clone(), name.clone()) {
+                let pair = [other.as_str(), name.as_str()];
+                let allowed = [["deflection", "particular"], ["gap", "particular"], ["particular", "gap"]];
+                let calls = formula.contains("::") || formula.contains("(system");
+                assert!(allowed.contains(&pair) || calls, "{pair:?}: {formula}");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_claim_holds_in_every_number_system() {
+    let scalars = vec![
+        NumberSystem::F32,
+        NumberSystem::F64,
+        NumberSystem::Mpfr(24),
+        NumberSystem::Mpfr(777),
+        NumberSystem::Exact,
+    ];
+    for seed in [7, 99] {
+        let report =
+            verify(&Options { scalars: scalars.clone(), cases: 50, seed, equations: vec![] }, &|_, _| ());
+        let failed: Vec<_> = report.rows.iter().filter(|row| row.status != Status::Held).collect();
+        assert!(failed.is_empty(), "{failed:#?}");
+        for n in 1..=33 {
+            let number = format!("1.{n}");
+            for scalar in &scalars[..4] {
+                let found = report.rows.iter().any(|row| row.equation == number && row.scalar == *scalar);
+                assert!(found, "nothing is claimed of ({number}) in {scalar}");
+            }
+        }
+    }
+}
+
+#[test]
+fn rounding_stays_within_bounds_that_are_not_idle() {
+    // If bounds were far too wide, nothing would come near them and the claims would be empty.
+    let options = Options { scalars: vec![NumberSystem::F64], cases: 200, ..Options::default() };
+    let report = verify(&options, &|_, _| ());
+    let measured: Vec<_> = report.rows.iter().filter(|row| row.kind == "equal").collect();
+    let tight =
+        measured.iter().filter(|row| row.worst.as_ref().is_some_and(|(ratio, _)| *ratio > 0.05)).count();
+    assert!(2 * tight > measured.len(), "{tight} of {} claims use 5 % of their bound", measured.len());
+}
