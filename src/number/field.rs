@@ -229,6 +229,7 @@ macro_rules! ordered {
         impl OrderedField for $type {}
     )*};
 }
+#[cfg(feature = "mpfr")]
 pub(crate) use ordered;
 
 macro_rules! machine_float {

@@ -3,6 +3,7 @@
 use crate::number::{Ball, OrderedField, PositivePart, Real};
 #[cfg(feature = "mpfr")]
 use crate::number::{Exact, Mpfr, ToExact};
+#[cfg(feature = "mpfr")]
 use num_traits::Zero;
 use std::cmp::Ordering;
 

@@ -5,7 +5,7 @@ use crate::claims::{
     Case, Claim, Experiment, Given, Goal, Trial, claims, exact_experiments, exponential_claims,
     float_experiments, unilateral_claims,
 };
-use crate::number::{Ball, Exact, Mpfr, NumberSystem, PositivePart, Real, ToExact};
+use crate::number::{Ball, Exact, Mpfr, NumberSystem, PositivePart, RangeError, Real, ToExact};
 use crate::solver::Scalar;
 use num_traits::Zero;
 use std::cmp::Ordering;
@@ -88,7 +88,9 @@ pub(super) trait Judge: Sync {
     fn experiments(&self) -> Vec<Experiment<Self::Computed>>;
 
     /// A case in these numbers; none if one of its coordinates is out of range.
-    fn read(&self, case: &Case<Exact>) -> Option<(Case<Self::Number>, Case<Self::Computed>)>;
+    fn read(&self, case: &Case<Exact>) -> Option<Case<Self::Number>>;
+    /// The same as the experiments take it.
+    fn computed(&self, case: &Case<Self::Number>) -> Case<Self::Computed>;
 
     /// left − right: does it contain 0, what share of its bound does it use up, and the bound.
     fn difference(&self, left: &Self::Number, right: &Self::Number) -> Option<(bool, f64, Self::Number)>;
@@ -108,8 +110,11 @@ impl Judge for Exactly {
     fn experiments(&self) -> Vec<Experiment<Exact>> {
         exact_experiments()
     }
-    fn read(&self, case: &Case<Exact>) -> Option<(Case<Exact>, Case<Exact>)> {
-        Some((case.clone(), case.clone()))
+    fn read(&self, case: &Case<Exact>) -> Option<Case<Exact>> {
+        Some(case.clone())
+    }
+    fn computed(&self, case: &Case<Exact>) -> Case<Exact> {
+        case.clone()
     }
     fn difference(&self, left: &Exact, right: &Exact) -> Option<(bool, f64, Exact)> {
         Some((left == right, 0.0, Exact::zero()))
@@ -137,12 +142,12 @@ where
     fn experiments(&self) -> Vec<Experiment<T>> {
         float_experiments()
     }
-    fn read(&self, case: &Case<Exact>) -> Option<(Case<Ball<T>>, Case<T>)> {
-        let ball = |x: &Exact| Ok(Ball::around(self.0.nearest(x)?, x));
-        let balls = Case::try_of(|var| ball(case.get(var)));
-        let balls = balls.map_err(|_: crate::number::RangeError| ()).ok()?;
-        let computed = balls.map(|_, ball| ball.value().clone());
-        Some((balls, computed))
+    fn read(&self, case: &Case<Exact>) -> Option<Case<Ball<T>>> {
+        let ball = |x: &Exact| Ok::<_, RangeError>(Ball::around(self.0.nearest(x)?, x));
+        Case::try_of(|var| ball(case.get(var))).ok()
+    }
+    fn computed(&self, case: &Case<Ball<T>>) -> Case<T> {
+        case.map(|_, ball| ball.value().clone())
     }
     fn difference(&self, left: &Ball<T>, right: &Ball<T>) -> Option<(bool, f64, Ball<T>)> {
         let difference = left - right;
@@ -218,14 +223,14 @@ impl<J: Judge> Checks for Checker<J> {
             return tallies;
         }
         for case in cases {
-            let Some((exact, (case, computed))) = case.as_ref().and_then(|c| Some((c, self.0.read(c)?)))
-            else {
+            let Some((exact, read)) = case.as_ref().and_then(|case| Some((case, self.0.read(case)?))) else {
                 tallies.iter_mut().for_each(|(_, tally)| tally.undecided += 1);
                 continue;
             };
+            let computed = self.0.computed(&read);
             let (of_claims, of_experiments) = tallies.split_at_mut(claims.len());
             for ((_, claim), (_, tally)) in claims.iter().zip(of_claims) {
-                let goals = claim.goals(&case);
+                let goals = claim.goals(&read);
                 tally.record(exact, self.judge(&goals));
             }
             for ((_, experiment), (_, tally)) in experiments.iter().zip(of_experiments) {
