@@ -19,7 +19,8 @@
 //! is a bound on an associated type of `Self`, and therefore implied; since `Is` *is* `&'r Self`,
 //! it says what the `where` clause would have said. The detour takes two traits, because the
 //! equality `Is = X` is implied too only where it stands in a supertrait's header.
-//! (The language's side of it is the long-standing issue rust-lang/rust#44491.)
+//! (It works for type parameters, `T: Field`. An associated type cannot be bounded by `Field` itself,
+//! but by a trait that has it as a supertrait, such as [`PositivePart`]. The language's side of it is the long-standing issue rust-lang/rust#44491.)
 //!
 //! # Your own number system
 //!

@@ -262,6 +262,14 @@ impl Mpfr {
         }
     }
 
+    /// rug's own float within; `None` for a constant.
+    pub fn as_float(&self) -> Option<&Float> {
+        match &self.0 {
+            Constant(_) => None,
+            Rounded(x) => Some(x),
+        }
+    }
+
     /// The exact value; `None` if it is infinite or not a number.
     pub fn to_rational(&self) -> Option<Rational> {
         match &self.0 {
