@@ -290,3 +290,78 @@ fn of_trial(trial: &Trial) -> Verdict<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::claims::{Kind, Relation};
+
+    fn verdict<J: Judge>(judge: J, goals: &[Goal<J::Number>]) -> Option<bool> {
+        match Checker(judge).judge(goals) {
+            Verdict::Undecided => None,
+            Verdict::Decided { holds, .. } => Some(holds),
+        }
+    }
+
+    #[test]
+    fn a_wrong_equation_fails_by_one_part_in_2_to_the_50() {
+        let (third, more) =
+            (Ball::exactly(1.0) / Ball::exactly(3.0), Ball::exactly(1.0 / 3.0 + 2f64.powi(-52)));
+        assert_eq!(verdict(Floats(0.0), &[Goal::Equal(third.clone(), third.clone())]), Some(true));
+        assert_eq!(verdict(Floats(0.0), &[Goal::Equal(third, more)]), Some(false));
+        assert_eq!(verdict(Exactly, &[Goal::Equal(1.into(), 2.into())]), Some(false));
+    }
+
+    #[test]
+    fn a_sign_that_rounding_hides_is_open_and_a_wrong_one_is_wrong() {
+        let tiny = Ball::exactly(1.0) / Ball::exactly(3.0) * Ball::exactly(3.0) - Ball::exactly(1.0);
+        let sign = |x: &Ball<f64>| verdict(Floats(0.0), &[Goal::Sign(Relation::Positive, x.clone())]);
+        assert_eq!(
+            (sign(&tiny), sign(&Ball::exactly(1.0)), sign(&Ball::exactly(-1.0))),
+            (None, Some(true), Some(false))
+        );
+    }
+
+    #[test]
+    fn one_goal_that_fails_decides_against_others_that_are_open() {
+        let open = Goal::Equal(Ball::exactly(1.0) / Ball::zero(), Ball::exactly(1.0));
+        let wrong = Goal::Equal(Ball::exactly(1.0), Ball::exactly(2.0));
+        assert_eq!(verdict(Floats(0.0), std::slice::from_ref(&open)), None);
+        assert_eq!(verdict(Floats(0.0), &[open, wrong]), Some(false));
+    }
+
+    #[test]
+    fn a_claim_without_a_decided_case_does_not_hold() {
+        let head = |claim| Head { equation: "1.1", claim, kind: "equal", given: &[] };
+        let undecided = Tally { undecided: 5, ..Tally::default() };
+        assert_eq!(undecided.into_row(head("never"), NumberSystem::F64).status, Status::Failed);
+        let decided = Tally { decided: 1, ..Tally::default() };
+        assert_eq!(decided.into_row(head("once"), NumberSystem::F64).status, Status::Held);
+    }
+
+    #[test]
+    fn a_wrong_derivative_and_a_wrong_closed_form_are_seen() {
+        let case = super::super::cases::case(1, 0, &[Given::Stiffness, Given::Penalty]).unwrap();
+        let holds = |kind: Kind<Exact>| {
+            let claim = Claim { equation: "1.1", name: "wrong", given: &[], kind };
+            verdict(Exactly, &claim.goals(&case))
+        };
+        let square = |is: fn(&Case<Exact>) -> Exact| Kind::Derivative {
+            of: |x| &x.u * &x.u,
+            by: crate::claims::Var::U,
+            is,
+        };
+        assert_eq!(holds(square(|x| &x.u + &x.u)), Some(true));
+        assert_eq!(holds(square(|x| x.u.clone())), Some(false));
+        // x ← 2 x from 1 is 2ᵏ, and not 2ᵏ + k or one step late.
+        let doubling = |closed: fn(&Case<Exact>, &Exact) -> Vec<Exact>| Kind::Induction {
+            ratio: |_| 2.into(),
+            start: |_| vec![1.into()],
+            step: |_, x| vec![&x[0] + &x[0]],
+            closed,
+        };
+        assert_eq!(holds(doubling(|_, power| vec![power.clone()])), Some(true));
+        assert_eq!(holds(doubling(|_, power| vec![power + Exact::from(1)])), Some(false));
+        assert_eq!(holds(doubling(|_, power| vec![power / Exact::from(2)])), Some(false));
+    }
+}
