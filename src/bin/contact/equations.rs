@@ -81,6 +81,8 @@ fn table(out: &mut dyn Write, entries: &[&Entry]) -> io::Result<()> {
         let claims = claim_names(entry.equation).len().to_string();
         table.add_row([&entry.label(), entry.title, entry.function.unwrap_or("-"), &claims]);
     }
+    // A name that is broken cannot be searched for; titles break well.
+    output::unbroken(&mut table, &[0, 2, 3]);
     output::lines(out, &table)
 }
 

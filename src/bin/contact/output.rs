@@ -2,7 +2,7 @@
 
 use crate::text::shortened;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use comfy_table::{ContentArrangement, Table, presets};
+use comfy_table::{ColumnConstraint, ContentArrangement, Table, presets};
 use serde::Serialize;
 use std::io::{self, BufWriter, Write};
 use std::process::ExitCode;
@@ -76,6 +76,13 @@ pub fn table() -> Table {
         .set_content_arrangement(ContentArrangement::Dynamic)
         .set_width(WIDTH.into());
     table
+}
+
+/// Gives these columns all the width they need; the others share what is left.
+pub fn unbroken(table: &mut Table, columns: &[usize]) {
+    for column in table.column_iter_mut().filter(|column| columns.contains(&column.index)) {
+        column.set_constraint(ColumnConstraint::ContentWidth);
+    }
 }
 
 /// A table, line by line, without the blanks that would fill its last column.
