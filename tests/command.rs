@@ -7,6 +7,7 @@
 
 use serde_json::Value;
 use spring_mass_contact::chapter::{SpringMass, contact};
+use spring_mass_contact::claims::{claim_names, entries};
 use spring_mass_contact::number::{Exact, RangeError, ToExact};
 use std::process::{Command, Output, Stdio};
 
@@ -197,6 +198,12 @@ fn a_terminal_of_80_columns_is_enough() {
         "solve --help",
         "solve -h",
         "completions --help",
+        "verify --help",
+        "equations --help",
+        "verify --cases 20",
+        "verify --cases 2 --scalar mpfr:2 --scalar mpfr:3 --scalar mpfr:4 --scalar mpfr:5 --scalar mpfr:6",
+        "equations",
+        "equations 1.1 1.10 1.13 1.16 1.33",
         "solve",
         "solve --scalar exact --stiffness 1/3 --height 22/7",
         "solve --scalar mpfr:1000 --gravity -1/3e0",
@@ -319,13 +326,31 @@ fn an_option_without_effect_is_refused() {
 fn no_text_can_break_the_line() {
     let long = "1".repeat(100_000) + "x";
     for arguments in [
-        &["solve", "--mass", "1\n2"],
+        ["solve", "--mass", "1\n2"].as_slice(),
         &["solve", "--mass", "\u{1b}[31m"],
         &["solve", "\n", "x"],
         &["solve", "--mass", &long],
         &["so\nlve", "--mass", "1"],
+        &["verify", "--seed", &long],
+        &["verify", "--equation", &long],
+        &["verify", "--scalar", &long],
+        &["equations", &long],
+        &["equations", "1.13\r"],
+        &["equations", "\u{202e}1.13"],
+        &["equations", "1.13\u{2028}"],
+        &["solve", &long],
+        &["solve", &format!("-{long}")],
+        &["solve", &format!("--{long}")],
+        &["solve", &format!("--mass{long}=1")],
+        &["solve", &format!("--mass={long}\n")],
+        &[&long],
+        &[&format!("-{long}")],
+        &["help", &long],
+        &["completions", &long],
     ] {
-        assert!(refusal(arguments).len() < 300);
+        let line = refusal(arguments);
+        assert!(line.len() < 300, "{line}");
+        assert!(!line.contains(['\u{1b}', '\r', '\u{202e}', '\u{2028}']), "{line:?}");
     }
 }
 
@@ -365,6 +390,285 @@ fn a_closed_pipe_is_no_error() {
         drop(child.stdout.take());
         let output = child.wait_with_output().expect("the command ends");
         assert_eq!((output.status.code(), output.stderr.as_slice()), (Some(0), b"".as_slice()), "{format}");
+    }
+}
+
+/// As `contact | head -1` does. Nothing is left of the report but its first line.
+#[test]
+fn a_pipe_that_closes_after_a_line_is_no_error() {
+    use std::io::{BufRead, BufReader};
+    let mut command = Command::new(env!("CARGO_BIN_EXE_contact"));
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the command runs");
+    let mut line = String::new();
+    BufReader::new(child.stdout.take().expect("a pipe")).read_line(&mut line).expect("a line");
+    let output = child.wait_with_output().expect("the command ends");
+    assert_eq!((output.status.code(), output.stderr.as_slice()), (Some(0), b"".as_slice()));
+    // Without a command it verifies, in all these.
+    let words: Vec<_> = line.split_whitespace().collect();
+    assert_eq!(words, ["number", "title", "f32", "f64", "mpfr:256", "exact"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_reported() {
+    for line in ["verify --cases 1 --equation 1.1", "equations", "solve", "completions bash", "--help"] {
+        let full = std::fs::File::options().write(true).open("/dev/full").expect("a device");
+        let mut command = Command::new(env!("CARGO_BIN_EXE_contact"));
+        let output = command.args(line.split(' ')).stdout(full).output().expect("the command runs");
+        let stderr = String::from_utf8(output.stderr).expect("UTF-8");
+        assert_eq!((output.status.code(), stderr.lines().count()), (Some(2), 1), "{line}: {stderr}");
+        assert!(stderr.starts_with("error: stdout cannot be written"), "{line}: {stderr}");
+    }
+}
+
+fn json(arguments: &[&str]) -> (Value, Option<i32>) {
+    let output = contact(&[arguments, &["--format", "json"]].concat());
+    (serde_json::from_slice(&output.stdout).expect("JSON"), output.status.code())
+}
+
+fn keys(object: &Value) -> Vec<&str> {
+    let mut keys: Vec<_> = object.as_object().expect("an object").keys().map(String::as_str).collect();
+    keys.sort_unstable();
+    keys
+}
+
+fn array(value: &Value) -> &[Value] {
+    value.as_array().expect("an array")
+}
+
+/// What the chapter has, (1.1) to (1.33), each once.
+fn numbers() -> Vec<String> {
+    (1..=33).map(|n| format!("1.{n}")).collect()
+}
+
+/// Other cases and other precisions than the usual ones must not matter.
+#[test]
+fn the_whole_chapter_holds() {
+    let line = "verify --scalar f32 --scalar f64 --scalar exact --scalar mpfr:777 --cases 50 --seed 99";
+    let (report, code) = json(&line.split(' ').collect::<Vec<_>>());
+    assert_eq!(keys(&report), ["equations", "summary"]);
+    assert_eq!(keys(&report["summary"]), ["claims", "failed", "held"]);
+    let mut rows = 0;
+    for equation in array(&report["equations"]) {
+        assert_eq!(keys(equation), ["claims", "equation"]);
+        let number = equation["equation"].as_str().expect("a number");
+        for claim in array(&equation["claims"]) {
+            rows += 1;
+            let all = [
+                "bound",
+                "claim",
+                "counterexample",
+                "decided",
+                "kind",
+                "scalar",
+                "status",
+                "undecided",
+                "worst",
+            ];
+            assert_eq!(keys(claim), all, "{number}");
+            assert_eq!(claim["status"], "held", "{number}: {claim}");
+            assert!(claim["counterexample"].is_null(), "{number}: {claim}");
+            let [decided, undecided] =
+                ["decided", "undecided"].map(|key| claim[key].as_u64().expect("a count"));
+            assert!(decided > 0 && decided + undecided == 50, "{number}: {claim}");
+            assert_eq!(claim["worst"].is_null(), claim["bound"].is_null(), "{number}: {claim}");
+            if let Some(worst) = claim["worst"].as_str() {
+                let worst: f64 = worst.parse().expect("a number");
+                assert!((0.0..=1.0).contains(&worst), "{number}: {claim}");
+                assert!(
+                    claim["scalar"] != "exact" || claim["kind"] == "experiment" || worst == 0.0,
+                    "{claim}"
+                );
+            }
+        }
+        // Each of its claims in each number system that it can be made in, and none twice.
+        let [claims, scalars] = ["claim", "scalar"]
+            .map(|key| array(&equation["claims"]).iter().map(move |c| c[key].as_str().expect("text")));
+        let pairs: std::collections::BTreeSet<_> = claims.clone().zip(scalars.clone()).collect();
+        assert_eq!(pairs.len(), array(&equation["claims"]).len(), "{number}");
+        let claims: std::collections::BTreeSet<_> = claims.collect();
+        assert_eq!(claims, claim_names(number).into_iter().collect(), "{number}");
+        let scalars: std::collections::BTreeSet<_> = scalars.collect();
+        assert!(scalars.is_superset(&["f32", "f64", "mpfr:777"].into()), "{number}: {scalars:?}");
+    }
+    assert_eq!((report["summary"]["claims"].as_u64(), code), (Some(rows), Some(0)));
+    assert_eq!((&report["summary"]["held"], &report["summary"]["failed"]), (&rows.into(), &0.into()));
+    let found: Vec<_> = array(&report["equations"]).iter().map(|e| e["equation"].as_str().unwrap()).collect();
+    for number in numbers() {
+        assert_eq!(found.iter().filter(|f| **f == number).count(), 1, "({number})");
+    }
+}
+
+#[test]
+fn a_seed_says_what_is_tried() {
+    let run = |seed| {
+        let arguments = ["verify", "--cases", "20", "--scalar", "f32", "--scalar", "exact", "--seed", seed];
+        [["--format", "table"], ["--format", "json"], ["--format", "markdown"]]
+            .map(|format| contact(&[arguments.as_slice(), &format].concat()).stdout)
+    };
+    let [first, again, other] = ["7", "7", "8"].map(run);
+    assert!(first == again, "the same seed says something else");
+    assert!(first.iter().zip(&other).all(|(first, other)| first != other), "another seed says the same");
+}
+
+#[test]
+fn one_equation_is_enough() {
+    let (report, code) = json(&["verify", "--cases", "10", "--equation", "note 4", "--equation", "1.13"]);
+    let found: Vec<_> = array(&report["equations"]).iter().map(|e| &e["equation"]).collect();
+    // In the chapter's order, not in the order they were asked for in.
+    assert_eq!((found, code), (vec![&"1.13".into(), &"note 4".into()], Some(0)));
+    let (twice, _) = json(&[
+        "verify",
+        "--cases",
+        "10",
+        "--equation",
+        "1.13",
+        "--equation",
+        "1.13",
+        "--equation",
+        "note 4",
+    ]);
+    assert_eq!(report, twice);
+}
+
+/// With two bits hardly a sign can be told: that is no success, and no counterexample either.
+#[test]
+fn what_cannot_be_decided_does_not_hold() {
+    let (report, code) = json(&["verify", "--scalar", "mpfr:2", "--cases", "20"]);
+    let rows: Vec<_> = array(&report["equations"]).iter().flat_map(|e| array(&e["claims"])).collect();
+    let failed: Vec<_> = rows.iter().filter(|row| row["status"] == "failed").collect();
+    assert!(!failed.is_empty() && failed.len() < rows.len());
+    assert_eq!((report["summary"]["failed"].as_u64(), code), (Some(failed.len() as u64), Some(1)));
+    for row in failed {
+        assert_eq!((&row["decided"], &row["undecided"]), (&0.into(), &20.into()), "{row}");
+        assert!(["counterexample", "worst", "bound"].into_iter().all(|key| row[key].is_null()), "{row}");
+    }
+    let table = contact(&["verify", "--scalar", "mpfr:2", "--cases", "20"]);
+    assert!(stdout(&table).contains(" FAILED in mpfr:2\n  none of 20 cases could be decided\n"));
+    assert_eq!(table.status.code(), Some(1));
+}
+
+#[test]
+fn a_table_has_every_number_and_no_broken_word() {
+    let table = contact(&["equations"]);
+    let verified = contact(&["verify", "--cases", "20"]);
+    for entry in entries() {
+        let start = format!(" {} ", entry.label());
+        let line = stdout(&table).lines().find(|line| line.starts_with(&start));
+        let line = line.unwrap_or_else(|| panic!("{start} is not there"));
+        let claims = claim_names(entry.equation).len().to_string();
+        let words: Vec<_> = line.split_whitespace().collect();
+        let last = [entry.function.unwrap_or("-"), &claims];
+        assert!(words.ends_with(&last), "{line}");
+        let found = stdout(&verified).lines().filter(|line| line.starts_with(&start)).count();
+        assert_eq!(found, usize::from(claims != "0"), "{start}");
+    }
+    assert_eq!((table.status.code(), verified.status.code()), (Some(0), Some(0)));
+    // Titles go over several lines, their words do not.
+    let said: Vec<_> =
+        stdout(&verified).split_whitespace().chain(stdout(&table).split_whitespace()).collect();
+    for word in entries().iter().flat_map(|entry| entry.title.split_whitespace()) {
+        assert!(said.contains(&word), "{word}");
+    }
+}
+
+#[test]
+fn colours_and_widths_of_the_terminal_do_not_matter_to_a_pipe() {
+    for line in ["verify --cases 2 --scalar f64", "equations", "equations 1.13"] {
+        let arguments: Vec<_> = line.split(' ').collect();
+        let usual = contact(&arguments);
+        let mut command = Command::new(env!("CARGO_BIN_EXE_contact"));
+        command.env_remove("NO_COLOR").env("CLICOLOR_FORCE", "1").env("COLUMNS", "7").args(&arguments);
+        let output = command.output().expect("the command runs");
+        assert_eq!((stdout(&output), output.status), (stdout(&usual), usual.status), "{line}");
+        assert!(!stdout(&output).contains('\u{1b}'), "{line}");
+    }
+}
+
+#[test]
+fn equations_are_data() {
+    let (all, code) = json(&["equations"]);
+    assert_eq!((array(&all).len(), code), (entries().len(), Some(0)));
+    for (row, entry) in array(&all).iter().zip(entries()) {
+        let all =
+            ["claims", "equation", "follows_from", "function", "hypotheses", "section", "statement", "title"];
+        assert_eq!(keys(row), all);
+        assert_eq!(row["equation"], entry.equation);
+        for key in ["hypotheses", "follows_from", "claims"] {
+            assert!(array(&row[key]).iter().all(Value::is_string), "{row}");
+        }
+        for key in ["title", "section", "statement"] {
+            assert!(row[key].as_str().is_some_and(|text| !text.is_empty()), "{row}");
+        }
+        assert_eq!(row["function"].as_str(), entry.function);
+        assert_eq!(row["claims"], Value::from(claim_names(entry.equation)));
+    }
+    for number in numbers() {
+        let (one, code) = json(&["equations", &number]);
+        assert_eq!((array(&one).len(), code), (1, Some(0)));
+        assert_eq!(one[0]["equation"], number);
+    }
+    let (two, _) = json(&["equations", "1.13", "1.1", "1.13"]);
+    assert_eq!(array(&two).iter().map(|e| &e["equation"]).collect::<Vec<_>>(), ["1.1", "1.13"]);
+}
+
+/// A line each, and as many cells in each as in the heading.
+#[test]
+fn markdown_is_a_table() {
+    for line in ["equations", "verify --cases 2"] {
+        let arguments: Vec<_> = line.split(' ').chain(["--format", "markdown"]).collect();
+        let output = contact(&arguments);
+        let cells = |line: &str| line.replace("\\|", "").matches('|').count();
+        let mut lines = stdout(&output).lines();
+        let columns = cells(lines.next().expect("a heading"));
+        assert!(lines.clone().count() > entries().len());
+        assert!(lines.all(|line| line.starts_with('|') && line.ends_with('|') && cells(line) == columns));
+    }
+}
+
+#[test]
+fn no_bad_choice_gets_further_than_one_line() {
+    let whole = "must be a whole number from";
+    let number = "must be a number of the chapter as `contact equations` lists them, such as 1.13";
+    let scalar = "must be f32, f64, mpfr:BITS with 2 to 1000000 bits, or exact";
+    let formats = "[possible values: table, json, markdown]";
+    let cases = [
+        ("--cases", ["0", "-1", "1.5", "many", "", "1e3", "18446744073709551616"].as_slice(), whole),
+        ("--seed", &["-1", "1.5", "text", "", "0x10", "18446744073709551616", "٣"], whole),
+        ("--scalar", &["f16", "F32", "", "mpfr", "mpfr:1", "mpfr:1000001", "mpfr:-5", "f32,f64"], scalar),
+        ("--equation", &["9.9", "1.34", "", "-1", "(1.13)", "1.130", "theorem 1.3.3", "NaN"], number),
+        ("--equation", &["Fig. 1.1"], "nothing is claimed of it"),
+        ("--format", &["xml", "JSON", "dot", "csv"], formats),
+    ];
+    for (flag, values, allowed) in cases {
+        for value in values {
+            let line = refusal(&["verify", flag, value]);
+            assert!(line.contains(&format!("'{value}' for '{flag} ")) && line.contains(allowed), "{line}");
+        }
+        let line = refusal(&["verify", flag]);
+        assert!(line.contains(&format!("a value is required for '{flag} ")), "{line}");
+    }
+    for value in ["9.9", "", "1.34", "note", "1.13 "] {
+        let line = refusal(&["equations", "1.1", value]);
+        assert!(line.contains(&format!("'{value}' for '[NUMBER]...'")) && line.contains(number), "{line}");
+    }
+    let line = refusal(&["equations", "--format", "xml"]);
+    assert!(line.contains("'xml' for '--format <FORMAT>'") && line.contains(formats), "{line}");
+    for flag in ["--cases", "--seed"] {
+        let line = refusal(&["verify", flag, "1", flag, "1"]);
+        assert!(line.contains(flag) && line.contains("multiple times"), "{line}");
+    }
+    for arguments in [["verify", "1.13"].as_slice(), &["verify", "--tolerance", "1"], &["--cases", "5"]] {
+        let line = refusal(arguments);
+        assert!(
+            line.contains("unexpected argument") && line.contains("--help lists what is allowed"),
+            "{line}"
+        );
+    }
+    for command in ["VERIFY", "verfy", "", "-", "1.13", "prove"] {
+        let line = refusal(&[command]);
+        assert!(line.contains(&format!("unrecognized subcommand '{command}'")), "{line}");
+        assert!(line.contains("verify, solve, equations, completions"), "{line}");
     }
 }
 

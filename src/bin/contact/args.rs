@@ -15,9 +15,10 @@ pub fn plain() -> Result<Vec<String>, Failure> {
     for argument in std::env::args_os() {
         let text = argument
             .into_string()
-            .map_err(|other| Failure::Input(format!("argument {other:?}: must be UTF-8 text")))?;
-        if text.contains(char::is_control) {
-            return Err(Failure::Input(format!("argument {text:?}: must have no control characters")));
+            .map_err(|other| format!("argument {}: must be UTF-8 text", shortened(&format!("{other:?}"))))?;
+        if !text.chars().all(is_visible) {
+            let quoted = shortened(&format!("{text:?}"));
+            return Err(format!("argument {quoted}: must have no control characters").into());
         }
         let negative = text.len() > 1 && text.starts_with('-') && !text.starts_with("--");
         match arguments.last_mut() {
@@ -29,6 +30,11 @@ pub fn plain() -> Result<Vec<String>, Failure> {
         }
     }
     Ok(arguments)
+}
+
+/// Not a control character of any kind: some turn the line around or end it and are no `char::is_control`.
+fn is_visible(c: char) -> bool {
+    !c.is_control() && (c.is_ascii() || c.escape_debug().len() == 1)
 }
 
 fn takes_a_value(argument: &str) -> bool {

@@ -56,7 +56,12 @@ pub fn run(options: &Options) -> Result<Status, Failure> {
         Format::Json => output::json(out, &chosen.iter().map(|e| row(e)).collect::<Vec<_>>()),
         Format::Markdown => markdown(out, &chosen),
         Format::Table if all => table(out, &chosen),
-        Format::Table => chosen.iter().try_for_each(|entry| details(out, entry)),
+        Format::Table => chosen.iter().enumerate().try_for_each(|(i, entry)| {
+            if i > 0 {
+                writeln!(out)?;
+            }
+            details(out, entry)
+        }),
     })
 }
 
@@ -81,6 +86,8 @@ fn table(out: &mut dyn Write, entries: &[&Entry]) -> io::Result<()> {
         let claims = claim_names(entry.equation).len().to_string();
         table.add_row([&entry.label(), entry.title, entry.function.unwrap_or("-"), &claims]);
     }
+    // A name that is broken cannot be searched for; titles break well.
+    output::unbroken(&mut table, &[0, 2, 3]);
     output::lines(out, &table)
 }
 
@@ -108,6 +115,5 @@ fn details(out: &mut dyn Write, entry: &Entry) -> io::Result<()> {
     line("function", entry.function.map_or(String::new(), |f| format!("spring_mass_contact::chapter::{f}")));
     line("follows from", entry.follows_from.join(", "));
     line("claims", claim_names(entry.equation).join(", "));
-    output::lines(out, &table)?;
-    writeln!(out)
+    output::lines(out, &table)
 }

@@ -57,7 +57,11 @@ struct Completions {
 fn main() -> ExitCode {
     let answer = args::plain().and_then(|arguments| match Cli::try_parse_from(arguments) {
         Ok(cli) => run(cli),
-        Err(error) => output::clap_message(error),
+        Err(error) => {
+            let command = Cli::command();
+            let names: Vec<_> = command.get_subcommands().map(clap::Command::get_name).collect();
+            output::clap_message(error, &names)
+        }
     });
     output::exit_code(answer)
 }

@@ -2,7 +2,7 @@
 
 use crate::text::shortened;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use comfy_table::{ContentArrangement, Table, presets};
+use comfy_table::{ColumnConstraint, ContentArrangement, Table, presets};
 use serde::Serialize;
 use std::io::{self, BufWriter, Write};
 use std::process::ExitCode;
@@ -78,28 +78,43 @@ pub fn table() -> Table {
     table
 }
 
+/// Gives these columns all the width they need; the others share what is left.
+pub fn unbroken(table: &mut Table, columns: &[usize]) {
+    for column in table.column_iter_mut().filter(|column| columns.contains(&column.index)) {
+        column.set_constraint(ColumnConstraint::ContentWidth);
+    }
+}
+
 /// A table, line by line, without the blanks that would fill its last column.
 pub fn lines(out: &mut dyn Write, table: &Table) -> io::Result<()> {
     table.lines().try_for_each(|line| writeln!(out, "{}", line.trim_end()))
 }
 
 /// What clap has to say: help and version go to stdout; an error is cut to one line.
-pub fn clap_message(mut error: clap::Error) -> Result<Status, Failure> {
-    if let Some(ContextValue::String(value)) = error.get(ContextKind::InvalidValue) {
-        let value = ContextValue::String(shortened(value));
-        error.insert(ContextKind::InvalidValue, value);
+pub fn clap_message(mut error: clap::Error, commands: &[&str]) -> Result<Status, Failure> {
+    for kind in [ContextKind::InvalidValue, ContextKind::InvalidArg, ContextKind::InvalidSubcommand] {
+        if let Some(ContextValue::String(value)) = error.get(kind)
+            && shortened(value) != *value
+        {
+            let value = ContextValue::String(shortened(value));
+            error.insert(kind, value);
+            // They repeat the value.
+            error.remove(ContextKind::Suggested);
+        }
     }
-    match error.kind() {
+    let allowed = match error.kind() {
         ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
             error.print()?;
-            Ok(Status::Fine)
+            return Ok(Status::Fine);
         }
-        _ => {
-            let text = error.render().to_string();
-            let lines = text.lines().map(str::trim);
-            let said = lines.take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more"));
-            let line = said.filter(|line| !line.is_empty()).collect::<Vec<_>>().join("; ");
-            Err(Failure::Input(line.trim_start_matches("error: ").replace(":; ", ": ")))
-        }
-    }
+        ErrorKind::InvalidSubcommand => format!("; [commands: {}]", commands.join(", ")),
+        ErrorKind::UnknownArgument => "; --help lists what is allowed".to_string(),
+        _ => String::new(),
+    };
+    let text = error.render().to_string();
+    let lines = text.lines().map(str::trim);
+    let said = lines.take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more"));
+    let line = said.filter(|line| !line.is_empty()).collect::<Vec<_>>().join("; ");
+    let line = line.strip_prefix("error: ").unwrap_or(&line).replace(":; ", ": ");
+    Err(Failure::Input(format!("{line}{allowed}")))
 }

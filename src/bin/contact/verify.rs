@@ -79,9 +79,11 @@ pub fn run(options: &Options) -> Result<Status, Failure> {
     }
     wanted.equations.clone_from(&options.equations);
     if let Some(empty) = wanted.equations.iter().find(|e| claim_names(e).is_empty()) {
-        return Err(
-            format!("invalid value '{empty}' for '--equation <NUMBER>': nothing is claimed of it").into()
-        );
+        return Err(format!(
+            "invalid value '{empty}' for '--equation <NUMBER>': nothing is claimed of it; \
+             `contact equations` lists how many claims each number has"
+        )
+        .into());
     }
     let report = with_progress(|progress| verify::verify(&wanted, progress));
     output::print(|out| match options.format {
@@ -89,7 +91,11 @@ pub fn run(options: &Options) -> Result<Status, Failure> {
         Format::Json => output::json(out, &Json::of(&report)),
         Format::Markdown => markdown(out, &report),
     })?;
-    Ok(if report.holds() { Status::Fine } else { Status::Unmet })
+    Ok(outcome(&report))
+}
+
+fn outcome(report: &Report) -> Status {
+    if report.holds() { Status::Fine } else { Status::Unmet }
 }
 
 /// A bar on stderr if that is a terminal and the work takes longer than a second.
@@ -119,40 +125,24 @@ fn held(rows: &[&Row]) -> usize {
 }
 
 fn table(out: &mut dyn Write, report: &Report, options: &verify::Options) -> io::Result<()> {
-    let mut table = output::table();
-    let scalars = options.scalars.iter().map(ToString::to_string);
-    table.set_header(["number", "title"].map(String::from).into_iter().chain(scalars));
-    for entry in entries() {
-        let rows = rows_of(report, entry);
-        if rows.is_empty() {
-            continue;
-        }
-        let cell = |scalar: &NumberSystem| {
-            let rows: Vec<&Row> = rows.iter().copied().filter(|row| row.scalar == *scalar).collect();
-            match (held(&rows), rows.len()) {
-                (_, 0) => "-".to_string(),
-                (held, all) if held == all => format!("{all} held"),
-                (held, all) => format!("{} of {all} FAILED", all - held),
-            }
-        };
-        table.add_row(
-            [entry.label(), entry.title.to_string()].into_iter().chain(options.scalars.iter().map(cell)),
-        );
+    for scalars in side_by_side(&options.scalars) {
+        counts(out, report, scalars)?;
+        writeln!(out)?;
     }
-    output::lines(out, &table)?;
     let rows: Vec<&Row> = report.rows.iter().collect();
     for row in rows.iter().filter(|row| row.status == verify::Status::Failed) {
         failure(out, row)?;
+        writeln!(out)?;
     }
     let (held, decided) = (held(&rows), rows.iter().map(|row| row.decided).sum::<u64>());
     let undecided = rows.iter().map(|row| row.undecided).sum::<u64>();
-    writeln!(out)?;
     writeln!(
         out,
-        "{held} of {} claims hold: {decided} trials decided, {undecided} undecidable.",
-        rows.len()
+        "{held} of {} hold: {} decided, {undecided} undecidable.",
+        counted(rows.len() as u64, "claim"),
+        counted(decided, "trial")
     )?;
-    writeln!(out, "{} cases from seed {}.", options.cases, options.seed)?;
+    writeln!(out, "{} from seed {}.", counted(options.cases, "case"), options.seed)?;
     let worst = rows.iter().filter_map(|row| row.worst.as_ref().map(|(ratio, _)| (*ratio, row)));
     if let Some((ratio, row)) = worst.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|(ratio, _)| *ratio > 0.0) {
         let share = 100.0 * ratio;
@@ -165,13 +155,74 @@ fn table(out: &mut dyn Write, report: &Report, options: &verify::Options) -> io:
     Ok(())
 }
 
+fn counted(count: u64, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
+/// What the columns of the scalars have for themselves; the number and the title's longest word need the
+/// rest of a line.
+const ROOM: usize = 45;
+
+/// How wide a count is, as in `10 FAILED`, and the blanks around it.
+const COUNT: usize = 9;
+const BLANKS: usize = 2;
+
+/// The number systems in groups whose columns fit beside each other.
+fn side_by_side(scalars: &[NumberSystem]) -> Vec<&[NumberSystem]> {
+    let width = |scalar: &NumberSystem| scalar.to_string().len().max(COUNT) + BLANKS;
+    let (mut groups, mut start, mut used) = (Vec::new(), 0, 0);
+    for (i, scalar) in scalars.iter().enumerate() {
+        if used + width(scalar) > ROOM {
+            groups.push(&scalars[start..i]);
+            (start, used) = (i, 0);
+        }
+        used += width(scalar);
+    }
+    groups.push(&scalars[start..]);
+    groups
+}
+
+/// A line an equation: how many of its claims hold in these number systems.
+fn counts(out: &mut dyn Write, report: &Report, scalars: &[NumberSystem]) -> io::Result<()> {
+    let mut table = output::table();
+    let names = scalars.iter().map(ToString::to_string);
+    table.set_header(["number", "title"].map(String::from).into_iter().chain(names));
+    for entry in entries() {
+        let rows = rows_of(report, entry);
+        if rows.is_empty() {
+            continue;
+        }
+        let cell = |scalar: &NumberSystem| {
+            let rows: Vec<&Row> = rows.iter().copied().filter(|row| row.scalar == *scalar).collect();
+            match (held(&rows), rows.len()) {
+                (_, 0) => "-".to_string(),
+                (held, all) if held == all => format!("{all} held"),
+                (held, all) => format!("{} FAILED", all - held),
+            }
+        };
+        table.add_row([entry.label(), entry.title.to_string()].into_iter().chain(scalars.iter().map(cell)));
+    }
+    let columns: Vec<usize> = (0..2 + scalars.len()).filter(|column| *column != 1).collect();
+    output::unbroken(&mut table, &columns);
+    output::lines(out, &table)
+}
+
 fn failure(out: &mut dyn Write, row: &Row) -> io::Result<()> {
-    writeln!(out, "\n{} {} FAILED in {}", row.equation, row.claim, row.scalar)?;
+    writeln!(out, "{} {} FAILED in {}", row.equation, row.claim, row.scalar)?;
     match &row.counterexample {
-        None => writeln!(out, "  none of {} cases could be decided", row.undecided),
+        None => writeln!(out, "  none of {} could be decided", counted(row.undecided, "case")),
         Some(case) => {
-            let numbers = symbols(case).into_iter().map(|(symbol, value)| format!("{symbol} = {value}"));
-            writeln!(out, "  {}", numbers.collect::<Vec<_>>().join(", "))?;
+            let mut line = String::new();
+            for (symbol, value) in symbols(case) {
+                let number = format!("{symbol} = {value}");
+                let width = line.chars().count() + number.chars().count();
+                if !line.is_empty() && width + "  , ,".len() > usize::from(output::WIDTH) {
+                    writeln!(out, "  {line},")?;
+                    line.clear();
+                }
+                line = if line.is_empty() { number } else { format!("{line}, {number}") };
+            }
+            writeln!(out, "  {line}")?;
             command_line(case).map_or(Ok(()), |line| writeln!(out, "  {line}"))
         }
     }
@@ -257,5 +308,127 @@ impl Claim {
             bound: row.worst.as_ref().map(|(_, bound)| bound.clone()),
             counterexample: row.counterexample.as_ref().map(|case| symbols(case).into_iter().collect()),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spring_mass_contact::claims::claims;
+
+    /// c = 1, m = 1/2, g = −1/3, everything else 7/3.
+    fn case() -> Case<Exact> {
+        let numbers = |var| match var {
+            Var::C => "1",
+            Var::M => "1/2",
+            Var::G => "-1/3",
+            _ => "7/3",
+        };
+        Case::try_of(|var| numbers(var).parse()).expect("numbers")
+    }
+
+    fn row(status: verify::Status, scalar: NumberSystem, counterexample: Option<Case<Exact>>) -> Row {
+        let decided = if status == verify::Status::Held || counterexample.is_some() { 4 } else { 0 };
+        let worst = (decided > 0).then(|| (2.5, "1/8".to_string()));
+        let claim = claims::<Exact>().into_iter().find(|claim| claim.equation == "1.13").expect("a claim");
+        let (claim, kind, undecided) = (claim.name, claim.kind.name(), 5 - decided);
+        Row { equation: "1.13", claim, kind, scalar, status, decided, undecided, worst, counterexample }
+    }
+
+    /// In f32 the claim is wrong, in two bits nothing can be said, in rationals it holds.
+    fn report() -> (Report, verify::Options) {
+        use verify::Status::{Failed, Held};
+        let scalars = vec![NumberSystem::F32, NumberSystem::Mpfr(2), NumberSystem::Exact];
+        let statuses = [(Failed, Some(case())), (Failed, None), (Held, None)];
+        let rows = scalars.iter().zip(statuses).map(|(scalar, (status, case))| row(status, *scalar, case));
+        let report = Report { rows: rows.collect() };
+        (report, verify::Options { scalars, cases: 5, seed: 42, equations: Vec::new() })
+    }
+
+    fn printed(print: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> String {
+        let mut bytes = Vec::new();
+        print(&mut bytes).expect("memory can be written");
+        String::from_utf8(bytes).expect("UTF-8")
+    }
+
+    #[test]
+    fn the_table_shows_how_a_claim_fails() {
+        let (report, options) = report();
+        let text = printed(|out| table(out, &report, &options));
+        let name = report.rows[0].claim;
+        for line in [
+            " number  title                                f32       mpfr:2    exact".to_string(),
+            " (1.13)  Deflection by penalty and its limit  1 FAILED  1 FAILED  1 held".to_string(),
+            format!("1.13 {name} FAILED in f32"),
+            "  contact solve --scalar exact --stiffness 1 --mass 1/2 --gravity -1/3 --free-length 7/3 --height 7/3 \
+             --method penalty --penalty 7/3"
+                .to_string(),
+            format!("1.13 {name} FAILED in mpfr:2"),
+            "  none of 5 cases could be decided".to_string(),
+            "1 of 3 claims hold: 8 trials decided, 7 undecidable.".to_string(),
+            "5 cases from seed 42.".to_string(),
+            format!("Rounding used at most 250 % of its bound (1.13 {name}, exact)."),
+        ] {
+            assert!(text.lines().any(|l| l == line), "no line {line:?} in\n{text}");
+        }
+        for var in Var::ALL {
+            let number = format!(" {} = {}", var.symbol(), case().get(*var));
+            assert!(text.contains(&number), "no {number} in\n{text}");
+        }
+        assert_eq!(outcome(&report), Status::Unmet);
+    }
+
+    #[test]
+    fn a_case_that_is_no_system_has_no_command_line() {
+        let (mut report, options) = report();
+        let mut hanging = case();
+        hanging.system.c = Exact::from(0);
+        report.rows[0].counterexample = Some(hanging);
+        let text = printed(|out| table(out, &report, &options));
+        assert!(text.contains("  c = 0, m = 1/2") && !text.contains("contact solve"), "{text}");
+    }
+
+    #[test]
+    fn long_numbers_break_between_numbers() {
+        let (mut report, options) = report();
+        let mut long = case();
+        for var in Var::ALL {
+            *long.get_mut(*var) = "-1234567890123456789/1152921504606846976".parse().expect("a number");
+        }
+        report.rows[0].counterexample = Some(long);
+        let text = printed(|out| table(out, &report, &options));
+        assert_eq!(text.lines().find(|line| line.chars().count() > 80), None);
+    }
+
+    #[test]
+    fn json_and_markdown_show_how_a_claim_fails() {
+        let (report, _) = report();
+        let json = serde_json::to_value(Json::of(&report)).expect("JSON");
+        assert_eq!(json["summary"], serde_json::json!({"claims": 3, "held": 1, "failed": 2}));
+        let claims = &json["equations"][0]["claims"];
+        let statuses = [0, 1, 2].map(|i| claims[i]["status"].as_str());
+        assert_eq!(statuses, [Some("failed"), Some("failed"), Some("held")]);
+        let counterexample = claims[0]["counterexample"].as_object().expect("a case");
+        assert_eq!(counterexample.len(), Var::ALL.len());
+        for var in Var::ALL {
+            assert_eq!(counterexample[var.symbol()], case().get(*var).to_string());
+        }
+        assert_eq!((&claims[0]["worst"], &claims[0]["bound"]), (&"2.5".into(), &"1/8".into()));
+        for key in ["worst", "bound", "counterexample"] {
+            assert!(claims[1].as_object().is_some_and(|claim| claim[key].is_null()), "{key}");
+        }
+        let text = printed(|out| markdown(out, &report));
+        let name = report.rows[0].claim;
+        assert!(text.contains(&format!("| 1.13 | {name} | equal | f32 | failed | 4 | 1 | 2.50 |")), "{text}");
+        assert!(text.contains("| mpfr:2 | failed | 0 | 5 |  |"), "{text}");
+    }
+
+    #[test]
+    fn columns_fit_beside_each_other() {
+        let usual = verify::Options::default().scalars;
+        assert_eq!(side_by_side(&usual), [usual.as_slice()]);
+        let many: Vec<_> = (0..10).map(|i| NumberSystem::Mpfr(1_000_000 - i)).collect();
+        let groups = side_by_side(&many);
+        assert!(groups.iter().all(|group| !group.is_empty()) && groups.concat() == many, "{groups:?}");
     }
 }
