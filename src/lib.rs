@@ -19,6 +19,11 @@
 //!
 //! Each module knows only those above it.
 //!
+//! To find an equation, say (1.16): the number opens the doc comment of its functions in [`chapter`], stands
+//! beside its statement among the [`entries`](claims::entries()), and beside each of its
+//! [claims](claims::claims()). On the command line, `contact equations 1.16` names the function and the
+//! claims, and `contact verify --equation 1.16` runs them.
+//!
 //! # Features
 //!
 //! - `mpfr` (default): MPFR floats, exact rationals, and all that needs them: claims, certificates, step

@@ -1,0 +1,85 @@
+//! The page about the command says what the command does: its options are those of the sources, and its
+//! samples are the outputs that `tests/cmd` holds the command to.
+
+use regex::Regex;
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    fs,
+    path::{Path, PathBuf},
+};
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+fn text(path: &Path) -> String {
+    fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+fn page() -> String {
+    text(&root().join("book/src/command.md"))
+}
+
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let paths = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    paths.flat_map(|path| if path.is_dir() { files(&path) } else { vec![path] }).collect()
+}
+
+/// The options that the command's sources declare.
+fn declared() -> BTreeSet<String> {
+    let option = Regex::new(r#"#\[arg\(long(?: = "([\w-]+)")?[^\n]*\)\]\s+(?:pub )?(\w+):"#).unwrap();
+    let sources = files(&root().join("src/bin/contact"));
+    let sources: String = sources.iter().map(|path| text(path)).collect();
+    option
+        .captures_iter(&sources)
+        .map(|found| found.get(1).map_or_else(|| found[2].replace('_', "-"), |name| name.as_str().into()))
+        .collect()
+}
+
+#[test]
+fn every_option_is_on_the_page_and_no_other() {
+    let flag = Regex::new(r"(?:^|[\s`])--([a-z][a-z-]+)").unwrap();
+    let mut named: BTreeSet<String> = flag.captures_iter(&page()).map(|found| found[1].into()).collect();
+    // Cargo's own, and the one that every command has.
+    assert!(named.remove("release") && named.remove("path") && named.remove("help"));
+    assert_eq!(named, declared());
+}
+
+/// Commands with what they print, which may be nothing if the text does not show it.
+fn transcript(text: &str) -> Vec<(String, Vec<String>)> {
+    let mut runs: Vec<(String, Vec<String>)> = Vec::new();
+    let mut inside = false;
+    for line in text.lines() {
+        if line.starts_with("```") {
+            inside = line == "```console";
+        } else if let Some(command) = line.strip_prefix("$ ").filter(|_| inside) {
+            runs.push((command.into(), Vec::new()));
+        } else if inside && !line.starts_with("? ") {
+            runs.last_mut().expect("a command").1.push(line.into());
+        }
+    }
+    for (_, output) in &mut runs {
+        while output.last().is_some_and(|line| line.is_empty()) {
+            output.pop();
+        }
+    }
+    runs
+}
+
+#[test]
+fn the_samples_are_what_the_command_prints() {
+    let snapshots: BTreeMap<_, _> =
+        files(&root().join("tests/cmd")).iter().flat_map(|path| transcript(&text(path))).collect();
+    let mut compared = 0;
+    for (command, sample) in transcript(&page()) {
+        let Some(snapshot) = snapshots.get(&command).filter(|_| !sample.is_empty()) else { continue };
+        assert_eq!(sample.len(), snapshot.len(), "{command}");
+        for (line, expected) in sample.iter().zip(snapshot) {
+            let pattern = regex::escape(expected).replace(r"\[\.\.\]", ".*");
+            let pattern = Regex::new(&format!("^{pattern}$")).unwrap();
+            assert!(pattern.is_match(line), "{command}: {line:?} is not {expected:?}");
+        }
+        compared += 1;
+    }
+    assert!(compared >= 5, "only {compared} samples were compared");
+}
