@@ -145,7 +145,8 @@ fn table(out: &mut dyn Write, report: &Report, options: &verify::Options) -> io:
     writeln!(out, "{} from seed {}.", counted(options.cases, "case"), options.seed)?;
     let worst = rows.iter().filter_map(|row| row.worst.as_ref().map(|(ratio, _)| (*ratio, row)));
     if let Some((ratio, row)) = worst.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|(ratio, _)| *ratio > 0.0) {
-        let share = 100.0 * ratio;
+        // Up, so that it is true.
+        let share = (100.0 * ratio).ceil();
         writeln!(
             out,
             "Rounding used at most {share:.0} % of its bound ({} {}, {}).",
