@@ -130,8 +130,9 @@ fn table(out: &mut dyn Write, report: &Report, options: &verify::Options) -> io:
         writeln!(out)?;
     }
     let rows: Vec<&Row> = report.rows.iter().collect();
-    for row in rows.iter().filter(|row| row.status == verify::Status::Failed) {
-        failure(out, row)?;
+    let failed: Vec<&Row> = rows.iter().copied().filter(|row| row.status == verify::Status::Failed).collect();
+    for alike in failed.chunk_by(|a, b| fail_alike(a, b)) {
+        failure(out, alike)?;
         writeln!(out)?;
     }
     let (held, decided) = (held(&rows), rows.iter().map(|row| row.decided).sum::<u64>());
@@ -143,9 +144,11 @@ fn table(out: &mut dyn Write, report: &Report, options: &verify::Options) -> io:
         counted(decided, "trial")
     )?;
     writeln!(out, "{} from seed {}.", counted(options.cases, "case"), options.seed)?;
-    let worst = rows.iter().filter_map(|row| row.worst.as_ref().map(|(ratio, _)| (*ratio, row)));
+    let kept = rows.iter().filter(|row| row.status == verify::Status::Held);
+    let worst = kept.filter_map(|row| row.worst.as_ref().map(|(ratio, _)| (*ratio, row)));
     if let Some((ratio, row)) = worst.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|(ratio, _)| *ratio > 0.0) {
-        let share = 100.0 * ratio;
+        // Up, so that it is true.
+        let share = (100.0 * ratio).ceil();
         writeln!(
             out,
             "Rounding used at most {share:.0} % of its bound ({} {}, {}).",
@@ -207,8 +210,18 @@ fn counts(out: &mut dyn Write, report: &Report, scalars: &[NumberSystem]) -> io:
     output::lines(out, &table)
 }
 
-fn failure(out: &mut dyn Write, row: &Row) -> io::Result<()> {
-    writeln!(out, "{} {} FAILED in {}", row.equation, row.claim, row.scalar)?;
+/// One claim, failing for the same reason in two number systems; these stand together in a report.
+fn fail_alike(a: &Row, b: &Row) -> bool {
+    let reason = |row: &Row| row.counterexample.is_none().then_some(row.undecided);
+    (a.equation, a.claim, reason(a)) == (b.equation, b.claim, reason(b))
+        && a.counterexample == b.counterexample
+}
+
+/// Failures that are alike, of which there is at least one.
+fn failure(out: &mut dyn Write, alike: &[&Row]) -> io::Result<()> {
+    let row = alike[0];
+    let scalars: Vec<_> = alike.iter().map(|row| row.scalar.to_string()).collect();
+    writeln!(out, "{} {} FAILED in {}", row.equation, row.claim, scalars.join(", "))?;
     match &row.counterexample {
         None => writeln!(out, "  none of {} could be decided", counted(row.undecided, "case")),
         Some(case) => {
@@ -376,6 +389,24 @@ mod tests {
             assert!(text.contains(&number), "no {number} in\n{text}");
         }
         assert_eq!(outcome(&report), Status::Unmet);
+    }
+
+    #[test]
+    fn failures_that_are_alike_are_shown_once() {
+        let (mut report, mut options) = report();
+        report.rows[1] = row(verify::Status::Failed, NumberSystem::F64, Some(case()));
+        options.scalars[1] = NumberSystem::F64;
+        // What a wrong formula is off by is no rounding.
+        report.rows[0].worst = Some((1e80, "1/8".to_string()));
+        let text = printed(|out| table(out, &report, &options));
+        let name = report.rows[0].claim;
+        assert!(text.contains(&format!("1.13 {name} FAILED in f32, f64\n")), "{text}");
+        assert_eq!(
+            (text.matches("FAILED in").count(), text.matches("contact solve").count()),
+            (1, 1),
+            "{text}"
+        );
+        assert!(text.contains("at most 250 %"), "{text}");
     }
 
     #[test]
