@@ -151,10 +151,14 @@ pub fn claims<T: Field>() -> Vec<Claim<T>> {
         "1.17" "harmonic-step" [Stiffness Penalty Count] Sign(NonNegative, |x| {
             let next = &x.k + T::one();
             augmented::harmonic_bound(&x.system, &x.eps, &next) - augmented::contraction(&x.system, &x.eps) * augmented::harmonic_bound(&x.system, &x.eps, &x.k) });
-        "1.17" "harmonic-margin" [] Equal(|x| { let c = &x.system.c; (
-            (c + &x.eps) * (c + &x.k * &x.eps) - c * (c + (&x.k + T::one()) * &x.eps),
-            &x.k * &x.eps * &x.eps) });
+        "1.17" "harmonic-margin" [Stiffness Penalty Count] Equal(|x| {
+            let (c, stiffness) = (&x.system.c, |k: T| &x.system.c + k * &x.eps);
+            let bound = |k: &T| augmented::harmonic_bound(&x.system, &x.eps, k);
+            let (next, factor) = (&x.k + T::one(), augmented::contraction(&x.system, &x.eps));
+            ((bound(&next) - factor * bound(&x.k)) * stiffness(T::one()) * stiffness(x.k.clone()) * stiffness(next), c * &x.k * square(x.eps.clone())) });
         "1.17" "harmonic-start" [Stiffness] Equal(|x| (augmented::harmonic_bound(&x.system, &x.eps, &T::zero()), T::one()));
+        "1.17" "harmonic-limit" [Stiffness Penalty Count] Limit { of: |x| augmented::harmonic_bound(&x.system, &x.eps, &x.k), by: Var::K, to: |_| T::zero(),
+            rate: Rate::Exactly(|x| (augmented::harmonic_bound(&x.system, &x.eps, &x.k), T::one() / (T::one() + &x.k * &x.eps / &x.system.c))) };
         "1.18" "next-multiplier" [Equilibrium] Equal(|x| (augmented::update(&x.system, &x.eps, &x.lambda, &x.u), augmented::contact_force(&x.system, &x.u)));
         "1.19" "root" [Stiffness Penalty] Equal(|x| (augmented::equilibrium(&x.system, &x.eps, &x.lambda, &iterate(x)), T::zero()));
         "1.20" "next-root" [Stiffness Penalty] Equal(|x| { let next = augment(x, &[x.lambda.clone(), iterate(x)]);
