@@ -297,6 +297,7 @@ pub fn unilateral_claims<T: PositivePart>() -> Vec<Claim<T>> {
         "1.6" "no-penetration" [Stiffness] Equal(|x| (kkt(x).primal, T::zero()));
         "1.6" "no-pull" [Stiffness] Equal(|x| (kkt(x).dual, T::zero()));
         "1.6" "complementarity" [Stiffness] Equal(|x| (kkt(x).complementarity, T::zero()));
+        "1.6" "product" [] Equal(|x| (contact::kkt(&x.system, &(system::gap(&x.system) + &x.du), &x.lambda).complementarity, &x.du * &x.lambda));
         "1.6" "pushes" [Contact] Sign(Positive, |x| contact::contact_force(&x.system));
         "1.6" "hangs-free" [Stiffness Separated] Sign(Positive, |x| -contact::penetration(&x.system, &contact::deflection(&x.system)));
         "1.8" "kkt-with-multiplier" [Touching] Equal(|x| (lagrange::multiplier(&x.system), contact::contact_force(&x.system)));
