@@ -198,7 +198,7 @@ pub type Pair<T> = (T, T);
 
 /// How a limit is checked in numbers: by its rate.
 pub enum Rate<T> {
-    /// Left = right, and the limit can be read off it.
+    /// Left = right, where left is the distance to the limit, and the limit can be read off it.
     Exactly(fn(&Case<T>) -> Pair<T>),
     /// |left| ≤ right, the distance to the limit and a bound that tends to zero.
     Within(fn(&Case<T>) -> Pair<T>),
@@ -305,13 +305,23 @@ impl<T: Field> Claim<T> {
                 };
                 vec![Goal::Equal(of(&case.map(along)).derivative, is(case))]
             }
-            Kind::Limit { rate: Rate::Exactly(sides), .. } => vec![equal(sides(case))],
-            Kind::Limit { rate: Rate::Within(sides), .. } => {
-                let (distance, bound) = sides(case);
-                vec![
-                    Goal::Sign(Relation::NonNegative, bound.clone()),
-                    Goal::Sign(Relation::NonNegative, &bound * &bound - &distance * &distance),
-                ]
+            Kind::Limit { of, to, rate, .. } => {
+                let distance = of(case) - to(case);
+                match rate {
+                    Rate::Exactly(sides) => {
+                        let (left, right) = sides(case);
+                        vec![Goal::Equal(distance, left.clone()), Goal::Equal(left, right)]
+                    }
+                    Rate::Within(sides) => {
+                        let (left, bound) = sides(case);
+                        let margin = &bound * &bound - &left * &left;
+                        vec![
+                            Goal::Equal(distance, left),
+                            Goal::Sign(Relation::NonNegative, bound),
+                            Goal::Sign(Relation::NonNegative, margin),
+                        ]
+                    }
+                }
             }
             Kind::Induction { ratio, start, step, closed } => {
                 let ratio = ratio(case);

@@ -73,6 +73,7 @@ pub fn exact_experiments() -> Vec<Experiment<Exact>> {
     list! {
         "1.33" "steps" [Stiffness Penalty Tolerance] |x| count(x, Plane::Unilateral);
         "1.33" "steps-bilateral" [Stiffness Penalty Tolerance] |x| count(x, Plane::Bilateral);
+        "1.33" "tie-goes-on" [Stiffness Penalty Tolerance] |x| tie(x);
         "note 4" "closed-form" [Stiffness Penalty Touching] |x| unilateral_closed_form(x);
         "note 4" "release" [Stiffness Penalty Separated] |x| release(x);
     }
@@ -365,6 +366,17 @@ fn count(x: &Case<Exact>, plane: Plane) -> Trial {
     let steps = Augmentation::new(&x.system, &x.eps).from_multiplier(x.lambda.clone()).over(plane);
     let found = steps.take(STEPS).position(|step| augmented::within_tolerance(&residual(&step), &x.tol));
     Trial::Decided(found == Some(k))
+}
+
+/// Where some |p_k| *is* the tolerance, the iteration goes on: its count is k + 1.
+fn tie(x: &Case<Exact>) -> Trial {
+    let ratio = augmented::contraction(&x.system, &x.eps);
+    let decay = &ratio * &ratio;
+    let missing = penalty::total_stiffness(&x.system, &x.eps) * &x.tol / decay;
+    let start = system::reaction(&x.system) - missing;
+    let mut steps = Augmentation::new(&x.system, &x.eps).from_multiplier(start).over(Plane::Bilateral);
+    let found = steps.position(|step| augmented::within_tolerance(&step.penetration, &x.tol));
+    Trial::Decided(found == Some(3))
 }
 
 /// For R ≥ 0 and any start, λ_k = R + ρ^{k−1} (λ₁ − R) for k ≥ 1.

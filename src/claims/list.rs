@@ -69,7 +69,7 @@ pub fn claims<T: Field>() -> Vec<Claim<T>> {
         "1.5" "at-the-gap" [] Equal(|x| (contact::penetration(&x.system, &system::gap(&x.system)), T::zero()));
         "1.5" "slope" [] Derivative { of: |x| contact::penetration(&x.system, &x.u), by: Var::U, is: |_| T::one() };
         "1.5" "free" [Stiffness] Equal(|x| (contact::penetration(&x.system, &structure::deflection(&x.system)), system::reaction(&x.system) / &x.system.c));
-        "1.6" "force-from-deflection" [Stiffness] Equal(|x| (
+        "1.6" "force-from-deflection" [] Equal(|x| (
             contact::equilibrium(&x.system, &x.u, &x.lambda),
             &x.system.c * contact::penetration(&x.system, &x.u) + &x.lambda - system::reaction(&x.system)));
         // With equilibrium N = R − c p: a mass short of the plane with R > 0 would need a force there.
@@ -122,8 +122,8 @@ pub fn claims<T: Field>() -> Vec<Claim<T>> {
             is: |x| -system::reaction(&x.system) / square(penalty::total_stiffness(&x.system, &x.eps)) };
         "1.13" "penetration-vanishes" [Stiffness Penalty] Limit { of: |x| penalty::penetration(&x.system, &x.eps), by: Var::Eps, to: |_| T::zero(),
             rate: Rate::Exactly(|x| (contact::penetration(&x.system, &penalty::deflection(&x.system, &x.eps)), penalty::penetration(&x.system, &x.eps))) };
-        "Remark 1.3.2" "enough" [Stiffness Tolerance Contact Enough] Sign(NonNegative, |x| &x.tol - penalty::penetration(&x.system, &x.eps));
-        "Remark 1.3.2" "least" [Stiffness Tolerance Contact] Equal(|x| (penalty::penetration(&x.system, &penalty::penalty_for(&x.system, &x.tol)), x.tol.clone()));
+        "Remark 1.3.2" "enough" [Tolerance Contact Enough] Sign(NonNegative, |x| &x.tol - penalty::penetration(&x.system, &x.eps));
+        "Remark 1.3.2" "least" [Tolerance Contact] Equal(|x| (penalty::penetration(&x.system, &penalty::penalty_for(&x.system, &x.tol)), x.tol.clone()));
 
         "1.14" "least" [Stiffness Penalty] Equal(|x| (augmented::functional(&x.system, &x.eps, &x.lambda, &iterate(x)), augmented::least_value(&x.system, &x.eps, &x.lambda)));
         "1.14" "excess" [Stiffness Penalty] Equal(|x| (
@@ -151,10 +151,14 @@ pub fn claims<T: Field>() -> Vec<Claim<T>> {
         "1.17" "harmonic-step" [Stiffness Penalty Count] Sign(NonNegative, |x| {
             let next = &x.k + T::one();
             augmented::harmonic_bound(&x.system, &x.eps, &next) - augmented::contraction(&x.system, &x.eps) * augmented::harmonic_bound(&x.system, &x.eps, &x.k) });
-        "1.17" "harmonic-margin" [] Equal(|x| { let c = &x.system.c; (
-            (c + &x.eps) * (c + &x.k * &x.eps) - c * (c + (&x.k + T::one()) * &x.eps),
-            &x.k * &x.eps * &x.eps) });
+        "1.17" "harmonic-margin" [Stiffness Penalty Count] Equal(|x| {
+            let (c, stiffness) = (&x.system.c, |k: T| &x.system.c + k * &x.eps);
+            let bound = |k: &T| augmented::harmonic_bound(&x.system, &x.eps, k);
+            let (next, factor) = (&x.k + T::one(), augmented::contraction(&x.system, &x.eps));
+            ((bound(&next) - factor * bound(&x.k)) * stiffness(T::one()) * stiffness(x.k.clone()) * stiffness(next), c * &x.k * square(x.eps.clone())) });
         "1.17" "harmonic-start" [Stiffness] Equal(|x| (augmented::harmonic_bound(&x.system, &x.eps, &T::zero()), T::one()));
+        "1.17" "harmonic-limit" [Stiffness Penalty Count] Limit { of: |x| augmented::harmonic_bound(&x.system, &x.eps, &x.k), by: Var::K, to: |_| T::zero(),
+            rate: Rate::Exactly(|x| (augmented::harmonic_bound(&x.system, &x.eps, &x.k), T::one() / (T::one() + &x.k * &x.eps / &x.system.c))) };
         "1.18" "next-multiplier" [Equilibrium] Equal(|x| (augmented::update(&x.system, &x.eps, &x.lambda, &x.u), augmented::contact_force(&x.system, &x.u)));
         "1.19" "root" [Stiffness Penalty] Equal(|x| (augmented::equilibrium(&x.system, &x.eps, &x.lambda, &iterate(x)), T::zero()));
         "1.20" "next-root" [Stiffness Penalty] Equal(|x| { let next = augment(x, &[x.lambda.clone(), iterate(x)]);
@@ -162,7 +166,7 @@ pub fn claims<T: Field>() -> Vec<Claim<T>> {
         "1.20" "missing-force" [Equilibrium] Equal(|x| (
             &x.system.c * contact::penetration(&x.system, &x.u),
             system::reaction(&x.system) - augmented::update(&x.system, &x.eps, &x.lambda, &x.u)));
-        "1.21" "eliminated" [Stiffness Penalty Equilibrium NextEquilibrium] Equal(|x| augmented::recursion(&x.system, &x.eps, &x.u, &x.v));
+        "1.21" "eliminated" [Equilibrium NextEquilibrium] Equal(|x| augmented::recursion(&x.system, &x.eps, &x.u, &x.v));
         "1.21" "difference" [] Equal(|x| { let (left, right) = augmented::recursion(&x.system, &x.eps, &x.u, &x.v);
             let next = augmented::update(&x.system, &x.eps, &x.lambda, &x.u); (
             augmented::equilibrium(&x.system, &x.eps, &next, &x.v) - augmented::equilibrium(&x.system, &x.eps, &x.lambda, &x.u),
@@ -186,7 +190,7 @@ pub fn claims<T: Field>() -> Vec<Claim<T>> {
         "1.33" "count" [Stiffness Penalty] Equal(|x| (
             augmented::penetration_after(&x.system, &x.eps, &x.lambda, &x.q) * penalty::total_stiffness(&x.system, &x.eps),
             (system::reaction(&x.system) - &x.lambda) * &x.q));
-        "1.33" "tie" [Stiffness Penalty Tolerance Power] Equal(|x| {
+        "1.33" "tie" [Stiffness Penalty Power] Equal(|x| {
             // λ₀ planted so that |p₀| = tol/q: after the steps with ρᵏ = q the penetration *is* the tolerance.
             let start = system::reaction(&x.system) - penalty::total_stiffness(&x.system, &x.eps) * &x.tol / &x.q;
             (augmented::penetration_after(&x.system, &x.eps, &start, &x.q), x.tol.clone()) });
@@ -271,7 +275,7 @@ pub fn exponential_claims<T: Exponential>() -> Vec<Claim<T>> {
             rate: Rate::Within(|x| within_reciprocal(x, contact::penetration(&x.system, &ode::solution(&x.system, &x.eps, &x.u, &x.t)))) };
         "note 5" "strict-bound" [Stiffness Penalty] Sign(Positive, |x| ode::rate(&x.system, &x.eps).exp() - augmented::contraction(&x.system, &x.eps));
         "note 5" "other-side" [Stiffness Penalty] Sign(Positive, |x| augmented::contraction(&x.system, &x.eps) - (-&x.eps / &x.system.c).exp());
-        "note 5" "flow" [Stiffness Penalty Time] Equal(|x| {
+        "note 5" "flow" [Stiffness Penalty] Equal(|x| {
             let decay = |t: &T| ode::homogeneous(&x.system, &x.eps, &T::one(), t);
             (decay(&(&x.t + T::one())), decay(&x.t) * decay(&T::one())) });
         "note 9" "more-than" [Stiffness Penalty] Sign(Positive, |x| { let ratio = &x.eps / &x.system.c; ratio.exp() - (T::one() + ratio) });
@@ -293,16 +297,17 @@ pub fn unilateral_claims<T: PositivePart>() -> Vec<Claim<T>> {
         "1.6" "no-penetration" [Stiffness] Equal(|x| (kkt(x).primal, T::zero()));
         "1.6" "no-pull" [Stiffness] Equal(|x| (kkt(x).dual, T::zero()));
         "1.6" "complementarity" [Stiffness] Equal(|x| (kkt(x).complementarity, T::zero()));
-        "1.6" "pushes" [Stiffness Contact] Sign(Positive, |x| contact::contact_force(&x.system));
+        "1.6" "product" [] Equal(|x| (contact::kkt(&x.system, &(system::gap(&x.system) + &x.du), &x.lambda).complementarity, &x.du * &x.lambda));
+        "1.6" "pushes" [Contact] Sign(Positive, |x| contact::contact_force(&x.system));
         "1.6" "hangs-free" [Stiffness Separated] Sign(Positive, |x| -contact::penetration(&x.system, &contact::deflection(&x.system)));
-        "1.8" "kkt-with-multiplier" [Stiffness Touching] Equal(|x| (lagrange::multiplier(&x.system), contact::contact_force(&x.system)));
+        "1.8" "kkt-with-multiplier" [Touching] Equal(|x| (lagrange::multiplier(&x.system), contact::contact_force(&x.system)));
         "1.13" "unilateral" [Stiffness Penalty Touching] Equal(|x| (penalty::unilateral_deflection(&x.system, &x.eps), penalty::deflection(&x.system, &x.eps)));
         "1.13" "unilateral-free" [Stiffness Penalty Separated] Equal(|x| (penalty::unilateral_deflection(&x.system, &x.eps), structure::deflection(&x.system)));
         "note 1" "grazing-deflection" [Stiffness Grazing] Equal(|x| (contact::deflection(&x.system), system::gap(&x.system)));
-        "note 1" "grazing-force" [Stiffness Grazing] Equal(|x| (contact::contact_force(&x.system), T::zero()));
+        "note 1" "grazing-force" [Grazing] Equal(|x| (contact::contact_force(&x.system), T::zero()));
         "note 4" "equilibrium" [Stiffness Penalty] Equal(|x| (augmented::unilateral_equilibrium(&x.system, &x.eps, &x.lambda, &augmented::unilateral_deflection(&x.system, &x.eps, &x.lambda)), T::zero()));
         "note 4" "never-pulls" [Stiffness Penalty] Sign(NonNegative, |x| augmented::unilateral_update(&x.system, &x.eps, &x.lambda, &augmented::unilateral_deflection(&x.system, &x.eps, &x.lambda)));
-        "note 4" "functional-where-active" [Stiffness Penalty Multiplier Penetrating] Equal(|x| (
+        "note 4" "functional-where-active" [Penalty Multiplier Penetrating] Equal(|x| (
             augmented::unilateral_functional(&x.system, &x.eps, &x.lambda, &x.u), augmented::functional(&x.system, &x.eps, &x.lambda, &x.u)));
         "note 4" "functional-elsewhere" [Penalty Inactive] Equal(|x| (
             augmented::unilateral_functional(&x.system, &x.eps, &x.lambda, &x.u),
@@ -322,7 +327,7 @@ pub fn unilateral_claims<T: PositivePart>() -> Vec<Claim<T>> {
         "note 4" "contracts" [Stiffness Penalty Touching] Sign(NonNegative, |x| { let r = system::reaction(&x.system);
             let next = augmented::unilateral_update(&x.system, &x.eps, &x.lambda, &augmented::unilateral_deflection(&x.system, &x.eps, &x.lambda));
             square(&x.lambda - &r) - square(next - &r) });
-        "beyond 1" "force" [Stiffness] Equal(|x| (contact::contact_force(&x.system), system::reaction(&x.system).positive_part()));
+        "beyond 1" "force" [] Equal(|x| (contact::contact_force(&x.system), system::reaction(&x.system).positive_part()));
         "beyond 1" "gap" [Stiffness] Equal(|x| (-&x.system.c * contact::penetration(&x.system, &contact::deflection(&x.system)), (-system::reaction(&x.system)).positive_part()));
         "beyond 6" "exact-penalty" [Stiffness Touching StrongEnough] Sign(NonNegative, |x| { let gap = system::gap(&x.system);
             structure::potential_energy(&x.system, &x.u) + beyond::exact_penalty(&x.eps, &contact::penetration(&x.system, &x.u))
