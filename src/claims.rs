@@ -11,7 +11,7 @@ mod list;
 
 pub use entries::{Entry, entries, entry};
 #[cfg(feature = "mpfr")]
-pub use experiments::{Experiment, Trial, exact_experiments, float_experiments};
+pub use experiments::{Experiment, Trial, exact_experiments, first_order_experiments, float_experiments};
 pub use list::{claims, exponential_claims, unilateral_claims};
 
 use crate::chapter::{SpringMass, augmented, contact, penalty, system};
@@ -196,12 +196,12 @@ hypotheses! {
 /// Two sides of an equation.
 pub type Pair<T> = (T, T);
 
-/// How a limit is checked in numbers: by its rate.
+/// How a limit is checked in numbers: by the distance to it, in a form from which the limit can be read.
 pub enum Rate<T> {
-    /// Left = right, where left is the distance to the limit, and the limit can be read off it.
-    Exactly(fn(&Case<T>) -> Pair<T>),
-    /// |left| ≤ right, the distance to the limit and a bound that tends to zero.
-    Within(fn(&Case<T>) -> Pair<T>),
+    /// The distance is this.
+    Exactly(fn(&Case<T>) -> T),
+    /// The distance is no more than this, either way.
+    Within(fn(&Case<T>) -> T),
 }
 
 /// What is claimed.
@@ -308,15 +308,11 @@ impl<T: Field> Claim<T> {
             Kind::Limit { of, to, rate, .. } => {
                 let distance = of(case) - to(case);
                 match rate {
-                    Rate::Exactly(sides) => {
-                        let (left, right) = sides(case);
-                        vec![Goal::Equal(distance, left.clone()), Goal::Equal(left, right)]
-                    }
-                    Rate::Within(sides) => {
-                        let (left, bound) = sides(case);
-                        let margin = &bound * &bound - &left * &left;
+                    Rate::Exactly(rate) => vec![Goal::Equal(distance, rate(case))],
+                    Rate::Within(bound) => {
+                        let bound = bound(case);
+                        let margin = &bound * &bound - &distance * &distance;
                         vec![
-                            Goal::Equal(distance, left),
                             Goal::Sign(Relation::NonNegative, bound),
                             Goal::Sign(Relation::NonNegative, margin),
                         ]
@@ -354,7 +350,8 @@ pub fn claim_names(equation: &str) -> Vec<&'static str> {
     let of =
         |claims: Vec<Claim<Ball<f64>>>| claims.into_iter().map(|c| (c.equation, c.name)).collect::<Vec<_>>();
     let algebraic = [of(claims()), of(exponential_claims()), of(unilateral_claims())].concat().into_iter();
-    let floats = float_experiments::<f64>().into_iter().map(|e| (e.equation, e.name));
+    let floats = float_experiments::<f64>().into_iter().chain(first_order_experiments());
+    let floats = floats.map(|e| (e.equation, e.name));
     let rationals = exact_experiments().into_iter().map(|e| (e.equation, e.name));
     let all = algebraic.chain(floats).chain(rationals);
     all.filter(|(e, _)| *e == equation).map(|(_, name)| name).collect()

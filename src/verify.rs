@@ -102,6 +102,9 @@ pub fn command_line(case: &Case<Exact>) -> Option<String> {
 /// As many cases are drawn and checked at a time.
 const BLOCK: u64 = 50;
 
+/// And as many blocks are under way at a time.
+const WINDOW: usize = 100;
+
 /// Tries every claim, in parallel; `progress` is told how many of how many pieces of work are done.
 pub fn verify(options: &Options, progress: &(dyn Fn(usize, usize) + Sync)) -> Report {
     let wanted =
@@ -117,25 +120,30 @@ pub fn verify(options: &Options, progress: &(dyn Fn(usize, usize) + Sync)) -> Re
         }
     }
     let blocks = options.cases.div_ceil(BLOCK);
-    let jobs: Vec<(u64, &[Given])> = (0..blocks).flat_map(|b| groups.iter().map(move |g| (b, *g))).collect();
-    let done = AtomicUsize::new(0);
-    // For each job and each checker, the tallies of the claims with the job's hypotheses.
-    let results: Vec<Vec<Vec<(usize, Tally)>>> = jobs
-        .par_iter()
-        .map(|(block, given)| {
-            let indices = block * BLOCK..((block + 1) * BLOCK).min(options.cases);
-            let cases: Vec<_> = indices.map(|i| cases::case(options.seed, i, given)).collect();
-            let tallies = checkers.iter().map(|(_, checker)| checker.check(given, &wanted, &cases)).collect();
-            progress(done.fetch_add(1, Ordering::Relaxed) + 1, jobs.len());
-            tallies
-        })
-        .collect();
+    let (done, all) = (AtomicUsize::new(0), blocks as usize * groups.len());
     let mut totals: Vec<Vec<Tally>> =
         checkers.iter().map(|(_, c)| c.heads().iter().map(|_| Tally::default()).collect()).collect();
-    for job in results {
-        for (total, tallies) in totals.iter_mut().zip(job) {
-            for (index, tally) in tallies {
-                total[index].add(tally);
+    // Some blocks at a time, so that any number of cases takes the same memory.
+    for window in (0..blocks).step_by(WINDOW) {
+        let window = window..blocks.min(window + WINDOW as u64);
+        let jobs: Vec<(u64, &[Given])> = window.flat_map(|b| groups.iter().map(move |g| (b, *g))).collect();
+        // For each job and each checker, the tallies of the claims with the job's hypotheses.
+        let results: Vec<Vec<Vec<(usize, Tally)>>> = jobs
+            .par_iter()
+            .map(|(block, given)| {
+                let indices = block * BLOCK..(block * BLOCK).saturating_add(BLOCK).min(options.cases);
+                let cases: Vec<_> = indices.map(|i| cases::case(options.seed, i, given)).collect();
+                let tallies =
+                    checkers.iter().map(|(_, checker)| checker.check(given, &wanted, &cases)).collect();
+                progress(done.fetch_add(1, Ordering::Relaxed) + 1, all);
+                tallies
+            })
+            .collect();
+        for job in results {
+            for (total, tallies) in totals.iter_mut().zip(job) {
+                for (index, tally) in tallies {
+                    total[index].add(tally);
+                }
             }
         }
     }

@@ -1,6 +1,6 @@
 //! All claims. Whoever adds an equation adds what is claimed of it here.
 
-use super::{Case, Claim, Given, Kind, Pair, Rate, Relation, Var};
+use super::{Case, Claim, Given, Kind, Rate, Relation, Var};
 use crate::chapter::{augmented, beyond, contact, lagrange, ode, penalty, structure, system};
 use crate::number::{Dual, Exponential, Field, PositivePart};
 
@@ -115,13 +115,13 @@ pub fn claims<T: Field>() -> Vec<Claim<T>> {
         "Fig. 1.2" "stiffness" [] Derivative { of: |x| penalty::residual(&x.system, &x.eps, &x.u), by: Var::U, is: |x| penalty::total_stiffness(&x.system, &x.eps) };
         "1.13" "rate" [Stiffness Penalty] Equal(|x| (penalty::total_stiffness(&x.system, &x.eps) * (penalty::deflection(&x.system, &x.eps) - system::gap(&x.system)), system::reaction(&x.system)));
         "1.13" "limit" [Stiffness Penalty] Limit { of: |x| penalty::deflection(&x.system, &x.eps), by: Var::Eps, to: |x| system::gap(&x.system),
-            rate: Rate::Exactly(|x| (penalty::deflection(&x.system, &x.eps) - system::gap(&x.system), system::reaction(&x.system) / (&x.system.c + &x.eps))) };
+            rate: Rate::Exactly(|x| system::reaction(&x.system) / penalty::total_stiffness(&x.system, &x.eps)) };
         "1.13" "two-forms" [Stiffness Penalty] Equal(|x| (penalty::deflection(&x.system, &x.eps), penalty::deflection_divided(&x.system, &x.eps)));
         "1.13" "slope" [Stiffness Penalty] Derivative {
             of: |x| contact::penetration(&x.system, &penalty::deflection(&x.system, &x.eps)), by: Var::Eps,
             is: |x| -system::reaction(&x.system) / square(penalty::total_stiffness(&x.system, &x.eps)) };
-        "1.13" "penetration-vanishes" [Stiffness Penalty] Limit { of: |x| penalty::penetration(&x.system, &x.eps), by: Var::Eps, to: |_| T::zero(),
-            rate: Rate::Exactly(|x| (contact::penetration(&x.system, &penalty::deflection(&x.system, &x.eps)), penalty::penetration(&x.system, &x.eps))) };
+        "1.13" "penetration-vanishes" [Stiffness Penalty] Limit { of: |x| contact::penetration(&x.system, &penalty::deflection(&x.system, &x.eps)), by: Var::Eps, to: |_| T::zero(),
+            rate: Rate::Exactly(|x| penalty::penetration(&x.system, &x.eps)) };
         "Remark 1.3.2" "enough" [Tolerance Contact Enough] Sign(NonNegative, |x| &x.tol - penalty::penetration(&x.system, &x.eps));
         "Remark 1.3.2" "least" [Tolerance Contact] Equal(|x| (penalty::penetration(&x.system, &penalty::penalty_for(&x.system, &x.tol)), x.tol.clone()));
 
@@ -158,7 +158,7 @@ pub fn claims<T: Field>() -> Vec<Claim<T>> {
             ((bound(&next) - factor * bound(&x.k)) * stiffness(T::one()) * stiffness(x.k.clone()) * stiffness(next), c * &x.k * square(x.eps.clone())) });
         "1.17" "harmonic-start" [Stiffness] Equal(|x| (augmented::harmonic_bound(&x.system, &x.eps, &T::zero()), T::one()));
         "1.17" "harmonic-limit" [Stiffness Penalty Count] Limit { of: |x| augmented::harmonic_bound(&x.system, &x.eps, &x.k), by: Var::K, to: |_| T::zero(),
-            rate: Rate::Exactly(|x| (augmented::harmonic_bound(&x.system, &x.eps, &x.k), T::one() / (T::one() + &x.k * &x.eps / &x.system.c))) };
+            rate: Rate::Exactly(|x| T::one() / (T::one() + &x.k * &x.eps / &x.system.c)) };
         "1.18" "next-multiplier" [Equilibrium] Equal(|x| (augmented::update(&x.system, &x.eps, &x.lambda, &x.u), augmented::contact_force(&x.system, &x.u)));
         "1.19" "root" [Stiffness Penalty] Equal(|x| (augmented::equilibrium(&x.system, &x.eps, &x.lambda, &iterate(x)), T::zero()));
         "1.20" "next-root" [Stiffness Penalty] Equal(|x| { let next = augment(x, &[x.lambda.clone(), iterate(x)]);
@@ -249,10 +249,9 @@ fn follows_the_ode<T: Exponential>(x: &Case<T>, u: T) -> T {
     ode::velocity(&x.system, &x.eps, &u)
 }
 
-/// The distance of (1.30) from Δ, and a bound that tends to zero: e⁻ˢ ≤ 1/(1 + s).
-fn within_reciprocal<T: Exponential>(x: &Case<T>, distance: T) -> Pair<T> {
-    let bound = contact::penetration(&x.system, &x.u) / (T::one() - ode::rate(&x.system, &x.eps) * &x.t);
-    (distance, bound)
+/// A bound of the distance of (1.30) from Δ that tends to zero: e⁻ˢ ≤ 1/(1 + s).
+fn reciprocal_decay<T: Exponential>(x: &Case<T>) -> T {
+    contact::penetration(&x.system, &x.u) / (T::one() - ode::rate(&x.system, &x.eps) * &x.t)
 }
 
 /// Claims that need eˣ: rationals cannot check them.
@@ -270,9 +269,9 @@ pub fn exponential_claims<T: Exponential>() -> Vec<Claim<T>> {
             is: |x| follows_the_ode(x, ode::solution(&x.system, &x.eps, &x.u, &x.t)) };
         "1.30" "starts" [Stiffness Penalty] Equal(|x| (ode::solution(&x.system, &x.eps, &x.u, &T::zero()), x.u.clone()));
         "1.31" "limit" [Stiffness Penalty Time Penetrating] Limit { of: |x| ode::solution(&x.system, &x.eps, &x.u, &x.t), by: Var::T, to: |x| system::gap(&x.system),
-            rate: Rate::Within(|x| within_reciprocal(x, ode::solution(&x.system, &x.eps, &x.u, &x.t) - system::gap(&x.system))) };
+            rate: Rate::Within(reciprocal_decay) };
         "1.32" "limit" [Stiffness Penalty Time Penetrating] Limit { of: |x| contact::penetration(&x.system, &ode::solution(&x.system, &x.eps, &x.u, &x.t)), by: Var::T, to: |_| T::zero(),
-            rate: Rate::Within(|x| within_reciprocal(x, contact::penetration(&x.system, &ode::solution(&x.system, &x.eps, &x.u, &x.t)))) };
+            rate: Rate::Within(reciprocal_decay) };
         "note 5" "strict-bound" [Stiffness Penalty] Sign(Positive, |x| ode::rate(&x.system, &x.eps).exp() - augmented::contraction(&x.system, &x.eps));
         "note 5" "other-side" [Stiffness Penalty] Sign(Positive, |x| augmented::contraction(&x.system, &x.eps) - (-&x.eps / &x.system.c).exp());
         "note 5" "flow" [Stiffness Penalty] Equal(|x| {

@@ -5,6 +5,7 @@ use super::{Scalar, State};
 use crate::chapter::{SpringMass, penalty, system};
 use crate::number::{Dual, Exact, Mpfr, OrderedField, Real, ToExact};
 use num_traits::{One, Zero};
+use rug::Float;
 use std::cmp::Ordering;
 
 /// The penetration, in m, at which (1.10) is in equilibrium: the root of
@@ -74,7 +75,8 @@ impl Equation {
     /// Newton's method from outside, where the residual is convex (concave for R < 0) and the method
     /// monotone: it ends when it no longer comes nearer.
     fn root(&self, precision: u32) -> Mpfr {
-        let rounded = |x: &Exact| x.to_mpfr(precision);
+        // Not `to_mpfr`: the root of a scalar with the most bits takes more.
+        let rounded = |x: &Exact| Mpfr::from(Float::with_val(precision, x.as_rational()));
         let constant = |x: &Exact| Dual::constant(rounded(x));
         // The same equation from a system whose reaction does not cancel: its weight is R, its gap 0.
         let zero = Exact::zero();

@@ -3,7 +3,7 @@
 use super::{Row, Status};
 use crate::claims::{
     Case, Claim, Experiment, Given, Goal, Trial, claims, exact_experiments, exponential_claims,
-    float_experiments, unilateral_claims,
+    first_order_experiments, float_experiments, unilateral_claims,
 };
 use crate::number::{Ball, Exact, Mpfr, NumberSystem, PositivePart, RangeError, Real, ToExact};
 use crate::solver::Scalar;
@@ -140,7 +140,9 @@ where
         claims().into_iter().chain(exponential_claims()).chain(unilateral_claims()).collect()
     }
     fn experiments(&self) -> Vec<Experiment<T>> {
-        float_experiments()
+        let fine = self.0.unit_roundoff().to_exact().is_ok_and(|eta| eta <= Exact::power_of_two(-20));
+        let first_order = if fine { first_order_experiments() } else { Vec::new() };
+        float_experiments().into_iter().chain(first_order).collect()
     }
     fn read(&self, case: &Case<Exact>) -> Option<Case<Ball<T>>> {
         let ball = |x: &Exact| Ok::<_, RangeError>(Ball::around(self.0.nearest(x)?, x));
@@ -159,7 +161,7 @@ where
         Some((error <= *bound, ratio, difference))
     }
     fn bound(&self, difference: &Ball<T>) -> String {
-        difference.radius().to_string()
+        format!("{:?}", difference.radius())
     }
     fn sign(&self, x: &Ball<T>) -> Option<Ordering> {
         if x.is_finite() { x.sign() } else { None }
@@ -283,7 +285,11 @@ fn of_trial(trial: &Trial) -> Verdict<'_> {
         Trial::Undecided => Verdict::Undecided,
         Trial::Decided(holds) => Verdict::Decided { holds: *holds, measured: None },
         Trial::Within { error, bound } => {
-            let ratio = if error.is_zero() { 0.0 } else { approximately(&(error / bound)) };
+            let ratio = match (error.is_zero(), bound.is_zero()) {
+                (true, _) => 0.0,
+                (false, true) => f64::INFINITY,
+                (false, false) => approximately(&(error / bound)),
+            };
             let text: Box<dyn Fn() -> String + '_> =
                 Box::new(|| Mpfr::rounded(24, bound.as_rational()).to_string());
             Verdict::Decided { holds: error <= bound, measured: Some((ratio, text)) }
