@@ -72,9 +72,8 @@ pub fn claims<T: Field>() -> Vec<Claim<T>> {
         "1.6" "force-from-deflection" [] Equal(|x| (
             contact::equilibrium(&x.system, &x.u, &x.lambda),
             &x.system.c * contact::penetration(&x.system, &x.u) + &x.lambda - system::reaction(&x.system)));
-        // With equilibrium N = R − c p: a mass short of the plane with R > 0 would need a force there.
-        "1.6" "contact-excludes-gap" [Stiffness Contact Clear] Sign(Positive, |x| { let p = contact::penetration(&x.system, &x.u);
-            -(&p * (system::reaction(&x.system) - &x.system.c * &p)) });
+        // By equilibrium N = m g − c u: a mass short of the plane with R > 0 would need a force there.
+        "1.6" "contact-excludes-gap" [Stiffness Contact Clear] Sign(Positive, |x| -(contact::penetration(&x.system, &x.u) * augmented::contact_force(&x.system, &x.u)));
         // … and one at the plane with R < 0 would be pulled.
         "1.6" "separation-excludes-touch" [Separated] Sign(Positive, |x| structure::residual(&x.system, &system::gap(&x.system)));
 
