@@ -50,6 +50,9 @@ macro_rules! list {
 /// As many steps as an experiment follows.
 const STEPS: usize = 24;
 
+/// And as many to a fixed point.
+const MOST_STEPS: usize = 1000;
+
 /// Claims about floats.
 pub fn float_experiments<T: Scalar + Real + ToExact>() -> Vec<Experiment<T>> {
     list! {
@@ -208,7 +211,10 @@ impl Setting {
     /// Where λ̂ repeats, |p(û)| ≤ η |H| + η (1 + η)²/(1 − η) |λ|/ε.
     fn fixed_point<T: Scalar + ToExact>(&self, x: &Case<T>) -> Trial {
         let mut steps = Augmentation::new(&x.system, &x.eps).over(Plane::Bilateral);
-        for _ in 0..STEPS {
+        // Where ε ≥ c each step gains a bit or more.
+        let bits = self.eta.as_rational().denom().significant_bits() as usize;
+        let enough = if self.eps >= self.system.c { (bits + STEPS).min(MOST_STEPS) } else { STEPS };
+        for _ in 0..enough {
             let step = steps.step();
             if *steps.multiplier() != step.multiplier {
                 continue;
