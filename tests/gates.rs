@@ -208,3 +208,24 @@ fn rounding_stays_within_bounds_that_are_not_idle() {
         measured.iter().filter(|row| row.worst.as_ref().is_some_and(|(ratio, _)| *ratio > 0.05)).count();
     assert!(2 * tight > measured.len(), "{tight} of {} claims use 5 % of their bound", measured.len());
 }
+
+#[test]
+fn every_planted_edit_still_applies() {
+    // A patch that no longer fits its source would plant nothing. Its context has to be found there.
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/planted");
+    let patches: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    let patches: Vec<_> =
+        patches.iter().filter(|path| path.extension().is_some_and(|e| e == "patch")).collect();
+    assert!(patches.len() >= 10);
+    for patch in patches {
+        let text = fs::read_to_string(patch).unwrap();
+        let target = text.lines().find_map(|line| line.strip_prefix("--- a/")).unwrap();
+        let target = source(target.split('\t').next().unwrap());
+        let hunks = text.split("\n@@ ").skip(1).map(|hunk| hunk.split_once('\n').unwrap().1);
+        for hunk in hunks {
+            let before = hunk.lines().filter(|line| !line.starts_with('+') && !line.starts_with('\\'));
+            let before: Vec<_> = before.map(|line| line.get(1..).unwrap_or("")).collect();
+            assert!(target.contains(&before.join("\n")), "{} no longer applies", patch.display());
+        }
+    }
+}
