@@ -24,7 +24,7 @@ mod series;
 pub use augmentation::{Augmentation, Step};
 pub use check::SolveError;
 #[cfg(feature = "mpfr")]
-pub use count::{augmentations_needed, within_reach};
+pub use count::{augmentations_needed, rounding_floor, within_reach};
 pub use scalar::{Interval, Scalar};
 #[cfg(feature = "mpfr")]
 pub use series::series_penetration;

@@ -8,7 +8,7 @@ use crate::chapter::{SpringMass, augmented, contact, penalty, structure, system}
 use crate::number::{Exact, OrderedField, PositivePart, Real, ToExact};
 use crate::solver::{
     Augmentation, Interval, Method, Outcome, Plane, Scalar, Solution, State, Step, augmentations_needed,
-    series_penetration, solve, solve_bilateral,
+    rounding_floor, series_penetration, solve, solve_bilateral,
 };
 use num_traits::{One, Zero};
 use std::cmp::Ordering;
@@ -56,14 +56,14 @@ const MOST_STEPS: usize = 1000;
 /// Claims about floats.
 pub fn float_experiments<T: Scalar + Real + ToExact>() -> Vec<Experiment<T>> {
     list! {
-        "1.5" "rounding" [] |x| Setting::of(x).map_or(Trial::Undecided, |s| s.penetration_rounding(x));
+        "1.5" "rounding" [] |x| in_range(x, Setting::penetration_rounding);
         "1.6" "exact-state" [Stiffness Grazing] |x| state(x);
         "1.8" "bounds-contain" [Stiffness] |x| bounds(x, &Method::Lagrange);
         "1.10" "root" [Stiffness Penalty Quartic] |x| series_root(x);
         "1.13" "bounds-contain" [Stiffness Penalty] |x| bounds(x, &Method::Penalty { penalty: x.eps.clone() });
         "1.16" "float-monotone" [Stiffness Penalty Contact] |x| monotone(x);
         "1.33" "promise" [Stiffness Penalty Tolerance] |x| promise(x);
-        "note 8" "floor" [Stiffness Penalty Contact] |x| Setting::of(x).map_or(Trial::Undecided, |s| s.fixed_point(x));
+        "note 8" "floor" [Stiffness Penalty Contact] |x| in_range(x, Setting::fixed_point);
         "note 8" "units" [Stiffness Penalty Tolerance] |x| units(x);
     }
 }
@@ -71,10 +71,10 @@ pub fn float_experiments<T: Scalar + Real + ToExact>() -> Vec<Experiment<T>> {
 /// Claims about floats whose bounds hold to first order in η: for scalars in which η is small.
 pub fn first_order_experiments<T: Scalar + Real + ToExact>() -> Vec<Experiment<T>> {
     list! {
-        "1.12" "precision-law" [Stiffness Penalty Contact] |x| Setting::of(x).map_or(Trial::Undecided, |s| s.precision_law(x));
-        "1.13" "float-error" [Stiffness Penalty Contact] |x| Setting::of(x).map_or(Trial::Undecided, |s| s.deflection_error(x));
-        "1.16" "float-drift" [Stiffness Penalty Contact] |x| Setting::of(x).map_or(Trial::Undecided, |s| s.penetration_drift(x));
-        "1.16" "float-multiplier-drift" [Stiffness Penalty Contact] |x| Setting::of(x).map_or(Trial::Undecided, |s| s.multiplier_drift(x));
+        "1.12" "precision-law" [Stiffness Penalty Contact] |x| in_range(x, Setting::precision_law);
+        "1.13" "float-error" [Stiffness Penalty Contact] |x| in_range(x, Setting::deflection_error);
+        "1.16" "float-drift" [Stiffness Penalty Contact] |x| in_range(x, Setting::penetration_drift);
+        "1.16" "float-multiplier-drift" [Stiffness Penalty Contact] |x| in_range(x, Setting::multiplier_drift);
     }
 }
 
@@ -105,6 +105,11 @@ struct Setting {
     eta: Exact,
     gap: Exact,
     reaction: Exact,
+}
+
+/// A trial that only a system in range can have.
+fn in_range<T: Scalar + Real + ToExact>(x: &Case<T>, trial: fn(&Setting, &Case<T>) -> Trial) -> Trial {
+    Setting::of(x).map_or(Trial::Undecided, |setting| trial(&setting, x))
 }
 
 impl Setting {
@@ -172,19 +177,21 @@ impl Setting {
     fn penetration_drift<T: Scalar + Real + ToExact>(&self, x: &Case<T>) -> Trial {
         let after =
             |decay: &Exact| augmented::penetration_after(&self.system, &self.eps, &Exact::zero(), decay);
-        self.drift(x, |step| exact(&step.penetration), after, Exact::from(16) * self.floor())
+        self.drift(
+            x,
+            |step| exact(&step.penetration),
+            after,
+            Exact::from(16) * rounding_floor(&self.system, &self.eps, &self.eta),
+        )
     }
 
     /// From λ₀ = 0, |λ̂_k − λ_k| ≤ 9 (c + ε) F.
     fn multiplier_drift<T: Scalar + Real + ToExact>(&self, x: &Case<T>) -> Trial {
         let after = |decay: &Exact| augmented::multiplier_after(&self.system, &Exact::zero(), decay);
-        let bound = Exact::from(9) * penalty::total_stiffness(&self.system, &self.eps) * self.floor();
+        let bound = Exact::from(9)
+            * penalty::total_stiffness(&self.system, &self.eps)
+            * rounding_floor(&self.system, &self.eps, &self.eta);
         self.drift(x, |step| exact(&step.multiplier), after, bound)
-    }
-
-    /// F = η (|H| + |Δ| + R/ε).
-    fn floor(&self) -> Exact {
-        &self.eta * (self.system.h.abs() + self.gap.abs() + &self.reaction / &self.eps)
     }
 
     /// The largest distance of the computed iterates from the exact ones, which are functions of ρᵏ.

@@ -41,6 +41,11 @@ fn iterate<T: Field>(case: &Case<T>) -> T {
     augmented::deflection(&case.system, &case.eps, &case.lambda)
 }
 
+/// The same over a plane that never pulls.
+fn unilateral_iterate<T: PositivePart>(case: &Case<T>) -> T {
+    augmented::unilateral_deflection(&case.system, &case.eps, &case.lambda)
+}
+
 /// Claims that need no more than `+ − × ÷`.
 #[rustfmt::skip]
 pub fn claims<T: Field>() -> Vec<Claim<T>> {
@@ -303,27 +308,27 @@ pub fn unilateral_claims<T: PositivePart>() -> Vec<Claim<T>> {
         "1.13" "unilateral-free" [Stiffness Penalty Separated] Equal(|x| (penalty::unilateral_deflection(&x.system, &x.eps), structure::deflection(&x.system)));
         "note 1" "grazing-deflection" [Stiffness Grazing] Equal(|x| (contact::deflection(&x.system), system::gap(&x.system)));
         "note 1" "grazing-force" [Grazing] Equal(|x| (contact::contact_force(&x.system), T::zero()));
-        "note 4" "equilibrium" [Stiffness Penalty] Equal(|x| (augmented::unilateral_equilibrium(&x.system, &x.eps, &x.lambda, &augmented::unilateral_deflection(&x.system, &x.eps, &x.lambda)), T::zero()));
-        "note 4" "never-pulls" [Stiffness Penalty] Sign(NonNegative, |x| augmented::unilateral_update(&x.system, &x.eps, &x.lambda, &augmented::unilateral_deflection(&x.system, &x.eps, &x.lambda)));
+        "note 4" "equilibrium" [Stiffness Penalty] Equal(|x| (augmented::unilateral_equilibrium(&x.system, &x.eps, &x.lambda, &unilateral_iterate(x)), T::zero()));
+        "note 4" "never-pulls" [Stiffness Penalty] Sign(NonNegative, |x| augmented::unilateral_update(&x.system, &x.eps, &x.lambda, &unilateral_iterate(x)));
         "note 4" "functional-where-active" [Penalty Multiplier Penetrating] Equal(|x| (
             augmented::unilateral_functional(&x.system, &x.eps, &x.lambda, &x.u), augmented::functional(&x.system, &x.eps, &x.lambda, &x.u)));
         "note 4" "functional-elsewhere" [Penalty Inactive] Equal(|x| (
             augmented::unilateral_functional(&x.system, &x.eps, &x.lambda, &x.u),
             structure::potential_energy(&x.system, &x.u) - square(x.lambda.clone()) / (T::int(2) * &x.eps)));
-        "note 4" "where-active" [Stiffness Penalty Active] Equal(|x| (augmented::unilateral_deflection(&x.system, &x.eps, &x.lambda), iterate(x)));
+        "note 4" "where-active" [Stiffness Penalty Active] Equal(|x| (unilateral_iterate(x), iterate(x)));
         "note 4" "multiplier" [Stiffness Penalty] Equal(|x| (
-            augmented::unilateral_update(&x.system, &x.eps, &x.lambda, &augmented::unilateral_deflection(&x.system, &x.eps, &x.lambda)),
+            augmented::unilateral_update(&x.system, &x.eps, &x.lambda, &unilateral_iterate(x)),
             ((&x.system.c * &x.lambda + &x.eps * system::reaction(&x.system)) / penalty::total_stiffness(&x.system, &x.eps)).positive_part()));
-        "note 4" "natural-residual" [Stiffness Penalty] Equal(|x| { let u = augmented::unilateral_deflection(&x.system, &x.eps, &x.lambda); (
+        "note 4" "natural-residual" [Stiffness Penalty] Equal(|x| { let u = unilateral_iterate(x); (
             augmented::natural_residual(&x.system, &x.eps, &x.lambda, &u),
             (augmented::unilateral_update(&x.system, &x.eps, &x.lambda, &u) - &x.lambda) / &x.eps) });
-        "note 4" "residual-bounds-error" [Stiffness Penalty] Sign(NonNegative, |x| { let u = augmented::unilateral_deflection(&x.system, &x.eps, &x.lambda);
+        "note 4" "residual-bounds-error" [Stiffness Penalty] Sign(NonNegative, |x| { let u = unilateral_iterate(x);
             square(augmented::natural_residual(&x.system, &x.eps, &x.lambda, &u)) - square(u - contact::deflection(&x.system)) });
-        "note 4" "force-error" [Stiffness Penalty] Equal(|x| { let u = augmented::unilateral_deflection(&x.system, &x.eps, &x.lambda); (
+        "note 4" "force-error" [Stiffness Penalty] Equal(|x| { let u = unilateral_iterate(x); (
             contact::contact_force(&x.system) - augmented::unilateral_update(&x.system, &x.eps, &x.lambda, &u),
             &x.system.c * (u - contact::deflection(&x.system))) });
         "note 4" "contracts" [Stiffness Penalty Touching] Sign(NonNegative, |x| { let r = system::reaction(&x.system);
-            let next = augmented::unilateral_update(&x.system, &x.eps, &x.lambda, &augmented::unilateral_deflection(&x.system, &x.eps, &x.lambda));
+            let next = augmented::unilateral_update(&x.system, &x.eps, &x.lambda, &unilateral_iterate(x));
             square(&x.lambda - &r) - square(next - &r) });
         "beyond 1" "force" [] Equal(|x| (contact::contact_force(&x.system), system::reaction(&x.system).positive_part()));
         "beyond 1" "gap" [Stiffness] Equal(|x| (-&x.system.c * contact::penetration(&x.system, &contact::deflection(&x.system)), (-system::reaction(&x.system)).positive_part()));

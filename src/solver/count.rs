@@ -101,9 +101,15 @@ fn is_power(ratio: &Rational, growth: &Rational, n: &Integer) -> bool {
     n.to_u32().is_some_and(|n| u64::from(n) * least_bits <= bits && growth.clone().pow(n) == *ratio)
 }
 
+/// F = η (|H| + |Δ| + |R|/ε), in m: what the rounding floor of the iteration is a multiple of.
+pub fn rounding_floor(system: &SpringMass<Exact>, eps: &Exact, unit_roundoff: &Exact) -> Exact {
+    let (gap, r) = (system::gap(system), system::reaction(system));
+    unit_roundoff * (system.h.abs() + gap.abs() + (r / eps).abs())
+}
+
 /// Can floats of this scalar meet the tolerance at all, by the rounding floor of the iteration?
 ///
-/// With F = η (|H| + |Δ| + |R|/ε), no step count reaches tol ≤ 16 F + η (|H| + tol). Rationals always can.
+/// With F of [`rounding_floor`], no step count reaches tol ≤ 16 F + η (|H| + tol). Rationals always can.
 pub fn within_reach<T: Scalar + ToExact>(
     system: &SpringMass<T>,
     eps: &T,
@@ -112,7 +118,6 @@ pub fn within_reach<T: Scalar + ToExact>(
 ) -> bool {
     let exact = |x: &T| x.to_exact().expect("a finite parameter");
     let (system, eps, tolerance) = (system.map(exact), exact(eps), exact(tolerance));
-    let (gap, r) = (system::gap(&system), system::reaction(&system));
-    let floor = unit_roundoff * (system.h.abs() + gap.abs() + (r / eps).abs());
+    let floor = rounding_floor(&system, &eps, unit_roundoff);
     tolerance > Exact::from(16) * floor + unit_roundoff * (system.h.abs() + &tolerance)
 }
