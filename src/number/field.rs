@@ -176,43 +176,54 @@ pub trait Real: OrderedField + Exponential {
 /// Writes the operators of a number system from their forms on references, each in the four
 /// combinations of owned and borrowed operands that [`Field`] asks for.
 ///
-/// First the generics in brackets, then the type, then the five operators. See the
-/// [recipe](self#your-own-number-system).
+/// First attributes for the operators' functions, if any, and the generics in brackets, then the type, then
+/// the five operators. See the [recipe](self#your-own-number-system).
 #[macro_export]
 macro_rules! operators {
-    (@neg [$($generics:tt)*] $type:ty; |$n:ident| $negated:expr) => {
+    (@neg ($(#[$attribute:meta])*) [$($generics:tt)*] $type:ty; |$n:ident| $negated:expr) => {
         impl<$($generics)*> ::std::ops::Neg for &$type {
             type Output = $type;
+            $(#[$attribute])*
             fn neg(self) -> $type { let $n = self; $negated }
         }
         impl<$($generics)*> ::std::ops::Neg for $type {
             type Output = $type;
+            $(#[$attribute])*
             fn neg(self) -> $type { -&self }
         }
     };
-    (@binary [$($generics:tt)*] $type:ty; $Trait:ident $f:ident |$a:ident, $b:ident| $body:expr) => {
+    (@binary ($(#[$attribute:meta])*) [$($generics:tt)*] $type:ty; $Trait:ident $f:ident |$a:ident, $b:ident| $body:expr) => {
         impl<$($generics)*> ::std::ops::$Trait<&$type> for &$type {
             type Output = $type;
+            $(#[$attribute])*
             fn $f(self, other: &$type) -> $type { let ($a, $b) = (self, other); $body }
         }
         impl<$($generics)*> ::std::ops::$Trait<$type> for &$type {
             type Output = $type;
+            $(#[$attribute])*
             fn $f(self, other: $type) -> $type { ::std::ops::$Trait::$f(self, &other) }
         }
         impl<$($generics)*> ::std::ops::$Trait<&$type> for $type {
             type Output = $type;
+            $(#[$attribute])*
             fn $f(self, other: &$type) -> $type { ::std::ops::$Trait::$f(&self, other) }
         }
         impl<$($generics)*> ::std::ops::$Trait<$type> for $type {
             type Output = $type;
+            $(#[$attribute])*
             fn $f(self, other: $type) -> $type { ::std::ops::$Trait::$f(&self, &other) }
         }
     };
-    ($generics:tt $type:ty;
+    ($(#[$attribute:meta])* [$($generics:tt)*] $type:ty;
      $($Trait:ident $f:ident |$a:ident, $b:ident| $body:expr;)*
      - |$n:ident| $negated:expr) => {
-        $($crate::operators!(@binary $generics $type; $Trait $f |$a, $b| $body);)*
-        $crate::operators!(@neg $generics $type; |$n| $negated);
+        $crate::operators!(@all ($(#[$attribute])*) [$($generics)*] $type; $($Trait $f |$a, $b| $body;)* - |$n| $negated);
+    };
+    (@all $attributes:tt $generics:tt $type:ty;
+     $($Trait:ident $f:ident |$a:ident, $b:ident| $body:expr;)*
+     - |$n:ident| $negated:expr) => {
+        $($crate::operators!(@binary $attributes $generics $type; $Trait $f |$a, $b| $body);)*
+        $crate::operators!(@neg $attributes $generics $type; |$n| $negated);
     };
 }
 

@@ -10,6 +10,7 @@
 #![cfg_attr(feature = "mpfr", doc = "| [`Exact`] | a rational number | to know; the oracle of every test |")]
 //! | [`Ball<T>`] | a float and a bound of its error | to know how far a float is off |
 //! | [`Dual<T>`] | a value and its derivative, over any of the others | to differentiate a formula |
+//! | [`Tree`] | the formula itself, step by step | to prove it, print it, change it |
 //!
 //! The traits they share, and how to add a number system of your own: [`field`].
 
@@ -24,6 +25,7 @@ mod mpfr;
 mod parse;
 #[cfg(feature = "mpfr")]
 mod system;
+pub mod tree;
 
 pub use ball::Ball;
 pub use dual::Dual;
@@ -36,3 +38,4 @@ pub use mpfr::{Mpfr, PRECISIONS};
 pub use parse::{MAX_EXPONENT, ParseError, RangeError};
 #[cfg(feature = "mpfr")]
 pub use system::{NumberSystem, UnknownNumberSystem};
+pub use tree::Tree;

@@ -1,0 +1,289 @@
+//! What a formula does, step by step: the reading that all readings without numbers start from.
+
+mod typeset;
+
+pub use typeset::{Name, Notation, latex};
+
+use super::{Exponential, Field, PositivePart};
+use crate::operators;
+use num_traits::{One, Zero};
+use std::collections::BTreeSet;
+use std::fmt;
+use std::panic::Location;
+use std::sync::Arc;
+
+/// A formula, recorded: read a function of the chapter in trees, and its value *is* the function.
+///
+/// A tree can be replayed in any number system, be proved, printed, or changed at one place. Each step
+/// remembers the [`Site`] in the source that wrote it. Equality is of structure; sites do not count.
+///
+/// ```
+/// use spring_mass_contact::{chapter::{SpringMass, contact}, number::Tree};
+/// let system = SpringMass { c: "c", m: "m", g: "g", l: "l", h: "H" }.map(|name| Tree::symbol(name));
+/// let p = contact::penetration(&system, &Tree::symbol("u"));
+/// assert_eq!(p.to_string(), "l + u − H");
+/// let at = |name| if name == "H" { 3.0 } else { 2.0 };
+/// assert_eq!(p.replay(&at, &|_| None), Some(1.0));
+/// ```
+#[derive(Clone, Debug)]
+pub struct Tree(Arc<Node>);
+
+#[derive(Debug)]
+struct Node {
+    step: Step<Tree>,
+    site: Site,
+}
+
+/// The last step of a formula.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step<T> {
+    /// A quantity.
+    Symbol(&'static str),
+    /// A small integer.
+    Int(i32),
+    /// −a
+    Neg(T),
+    /// a + b
+    Add(T, T),
+    /// a − b
+    Sub(T, T),
+    /// a b
+    Mul(T, T),
+    /// a / b
+    Div(T, T),
+    /// eᵃ
+    Exp(T),
+    /// ⟨a⟩ = max(a, 0)
+    PositivePart(T),
+    /// min(a, b)
+    Min(T, T),
+}
+
+/// Where in the source a step is written.
+///
+/// The steps of a chain such as `a + b + c` all begin where the chain begins; their rank, counted from
+/// the left, tells them apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Site {
+    /// The file, as it was named to the compiler.
+    pub file: &'static str,
+    /// The line, from 1.
+    pub line: u32,
+    /// The column, from 1.
+    pub column: u32,
+    /// How many steps begin at the same place, further inside.
+    pub rank: u32,
+}
+
+impl fmt::Display for Site {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let Site { file, line, column, rank } = self;
+        write!(f, "{file}:{line}:{column}")?;
+        if *rank > 0 { write!(f, " (operator {})", rank + 1) } else { Ok(()) }
+    }
+}
+
+impl<T> Step<T> {
+    /// What the step is made of, in order.
+    pub fn operands(&self) -> impl Iterator<Item = &T> {
+        use Step::*;
+        let (a, b) = match self {
+            Symbol(_) | Int(_) => (None, None),
+            Neg(a) | Exp(a) | PositivePart(a) => (Some(a), None),
+            Add(a, b) | Sub(a, b) | Mul(a, b) | Div(a, b) | Min(a, b) => (Some(a), Some(b)),
+        };
+        a.into_iter().chain(b)
+    }
+
+    /// The same step with other operands, or the first error.
+    ///
+    /// # Errors
+    /// What `f` returns.
+    pub fn try_map<U, E>(&self, mut f: impl FnMut(&T) -> Result<U, E>) -> Result<Step<U>, E> {
+        use Step::*;
+        Ok(match self {
+            Symbol(name) => Symbol(name),
+            Int(n) => Int(*n),
+            Neg(a) => Neg(f(a)?),
+            Add(a, b) => Add(f(a)?, f(b)?),
+            Sub(a, b) => Sub(f(a)?, f(b)?),
+            Mul(a, b) => Mul(f(a)?, f(b)?),
+            Div(a, b) => Div(f(a)?, f(b)?),
+            Exp(a) => Exp(f(a)?),
+            PositivePart(a) => PositivePart(f(a)?),
+            Min(a, b) => Min(f(a)?, f(b)?),
+        })
+    }
+}
+
+/// ⟨·⟩ and min, for [`Tree::replay`].
+pub fn piecewise<T: PositivePart>(step: Step<&T>) -> Option<T> {
+    match step {
+        Step::PositivePart(a) => Some(a.positive_part()),
+        Step::Min(a, b) => Some(a.min(b)),
+        _ => None,
+    }
+}
+
+/// eˣ, for [`Tree::replay`].
+pub fn smooth<T: Exponential>(step: Step<&T>) -> Option<T> {
+    match step {
+        Step::Exp(a) => Some(a.exp()),
+        _ => None,
+    }
+}
+
+/// eˣ, ⟨·⟩ and min, for [`Tree::replay`].
+pub fn everything<T: PositivePart + Exponential>(step: Step<&T>) -> Option<T> {
+    smooth(step).or_else(|| piecewise(step))
+}
+
+impl Tree {
+    /// A quantity.
+    #[track_caller]
+    pub fn symbol(name: &'static str) -> Self {
+        node(Step::Symbol(name))
+    }
+
+    /// The last step.
+    pub fn step(&self) -> &Step<Tree> {
+        &self.0.step
+    }
+
+    /// Where it is written.
+    pub fn site(&self) -> Site {
+        self.0.site
+    }
+
+    /// The formula in a number system, whose eˣ, ⟨·⟩ and min are in `beyond` ([`piecewise`], [`smooth`],
+    /// [`everything`]); `None` where it lacks one, or where the formula divides by what is no unit.
+    pub fn replay<T: Field>(
+        &self,
+        symbol: &impl Fn(&'static str) -> T,
+        beyond: &impl Fn(Step<&T>) -> Option<T>,
+    ) -> Option<T> {
+        use Step::*;
+        let replay = |tree: &Tree| tree.replay(symbol, beyond);
+        Some(match self.step() {
+            Symbol(name) => symbol(name),
+            Int(n) => T::int(*n),
+            Neg(a) => -replay(a)?,
+            Add(a, b) => replay(a)? + replay(b)?,
+            Sub(a, b) => replay(a)? - replay(b)?,
+            Mul(a, b) => replay(a)? * replay(b)?,
+            Div(a, b) => {
+                let (a, b) = (replay(a)?, replay(b)?);
+                if !b.is_unit() {
+                    return None;
+                }
+                a / b
+            }
+            Exp(a) => beyond(Exp(&replay(a)?))?,
+            PositivePart(a) => beyond(PositivePart(&replay(a)?))?,
+            Min(a, b) => beyond(Min(&replay(a)?, &replay(b)?))?,
+        })
+    }
+
+    /// The tree rebuilt from its leaves: each step that `f` replaces, after its operands have been.
+    pub fn rewrite(&self, f: &impl Fn(&Tree) -> Option<Tree>) -> Tree {
+        let step = self.step().try_map(|tree| Ok::<_, std::convert::Infallible>(tree.rewrite(f)));
+        let step = step.unwrap_or_else(|never| match never {});
+        let same = step.operands().zip(self.step().operands()).all(|(new, old)| Arc::ptr_eq(&new.0, &old.0));
+        let tree = if same { self.clone() } else { Tree(Arc::new(Node { step, site: self.0.site })) };
+        f(&tree).unwrap_or(tree)
+    }
+
+    /// The tree with its last step replaced by another, at the same place in the source.
+    pub fn with_step(&self, step: Step<Tree>) -> Tree {
+        Tree(Arc::new(Node { step, site: self.0.site }))
+    }
+
+    /// Calls `f` for every step, the last first.
+    pub fn visit<'a>(&'a self, f: &mut impl FnMut(&'a Tree)) {
+        f(self);
+        self.step().operands().for_each(|tree| tree.visit(f));
+    }
+
+    /// The quantities it depends on.
+    pub fn symbols(&self) -> BTreeSet<&'static str> {
+        let mut symbols = BTreeSet::new();
+        self.visit(&mut |tree| {
+            if let Step::Symbol(name) = tree.step() {
+                symbols.insert(*name);
+            }
+        });
+        symbols
+    }
+
+    /// Does one of its steps satisfy this?
+    pub fn any(&self, f: &impl Fn(&Tree) -> bool) -> bool {
+        f(self) || self.step().operands().any(|tree| tree.any(f))
+    }
+}
+
+#[track_caller]
+fn node(step: Step<Tree>) -> Tree {
+    let at = Location::caller();
+    let (file, line, column) = (at.file(), at.line(), at.column());
+    let mut site = Site { file, line, column, rank: 0 };
+    if let Some(Site { rank, .. }) = step
+        .operands()
+        .next()
+        .map(Tree::site)
+        .filter(|first| (first.file, first.line, first.column) == (file, line, column))
+    {
+        site.rank = rank + 1;
+    }
+    Tree(Arc::new(Node { step, site }))
+}
+
+impl PartialEq for Tree {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0) || self.step() == other.step()
+    }
+}
+
+operators! { #[track_caller] [] Tree;
+    Add add |a, b| node(Step::Add(a.clone(), b.clone()));
+    Sub sub |a, b| node(Step::Sub(a.clone(), b.clone()));
+    Mul mul |a, b| node(Step::Mul(a.clone(), b.clone()));
+    Div div |a, b| node(Step::Div(a.clone(), b.clone()));
+    - |a| node(Step::Neg(a.clone()))
+}
+impl Zero for Tree {
+    #[track_caller]
+    fn zero() -> Self {
+        node(Step::Int(0))
+    }
+    fn is_zero(&self) -> bool {
+        *self.step() == Step::Int(0)
+    }
+}
+impl One for Tree {
+    #[track_caller]
+    fn one() -> Self {
+        node(Step::Int(1))
+    }
+}
+impl Field for Tree {
+    #[track_caller]
+    fn int(n: i32) -> Self {
+        node(Step::Int(n))
+    }
+}
+impl Exponential for Tree {
+    #[track_caller]
+    fn exp(&self) -> Self {
+        node(Step::Exp(self.clone()))
+    }
+}
+impl PositivePart for Tree {
+    #[track_caller]
+    fn positive_part(&self) -> Self {
+        node(Step::PositivePart(self.clone()))
+    }
+    #[track_caller]
+    fn min(&self, other: &Self) -> Self {
+        node(Step::Min(self.clone(), other.clone()))
+    }
+}
