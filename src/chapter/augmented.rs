@@ -9,7 +9,7 @@ use crate::number::{Field, OrderedField, PositivePart};
 
 /// Eq. (1.14): the augmented functional, in J, at the deflection `u` in m.
 ///
-/// `L = Π + λ p + ε p p / 2`
+/// `L = Π + λ p + ε p² / 2`
 ///
 /// `eps` is the penalty ε in N/m, `lambda` the multiplier λ in N. Domain: all; convex in u for ε > −c.
 /// Source: §1.3.3.
@@ -43,7 +43,7 @@ pub fn least_value<T: Field>(system: &SpringMass<T>, eps: &T, lambda: &T) -> T {
 
 /// Eq. (1.15): the derivative of (1.14) by u, in N, at the deflection `u` in m.
 ///
-/// `∂L/∂u = ∂Π/∂u + λ + ε p`
+/// `∂L/∂u = c u − m g + λ + ε p`
 ///
 /// `eps` is the penalty ε in N/m, `lambda` the multiplier λ in N. Domain: all. Source: §1.3.3.
 ///
@@ -143,7 +143,7 @@ pub fn contraction<T: Field>(system: &SpringMass<T>, eps: &T) -> T {
 /// (1.16) in closed form: the multiplier after k steps, in N, from the start `start` in N and the
 /// decay `decay` = ρᵏ.
 ///
-/// `λ_k = R + (λ₀ − R) ρᵏ`
+/// `λ_k = (λ₀ − R) ρᵏ + R`
 ///
 /// Domain: all. Source: §1.3.3, by induction on k.
 ///
@@ -176,7 +176,7 @@ pub fn penetration_after<T: Field>(system: &SpringMass<T>, eps: &T, start: &T, d
 /// (1.16) in closed form: the deflection after k steps, in m, from the start `start` in N and the
 /// decay `decay` = ρᵏ.
 ///
-/// `u_k = Δ + p_k`
+/// `u_k = Δ + ρᵏ (R − λ₀) / (c + ε)`
 ///
 /// `eps` is the penalty ε in N/m. Domain: c + ε ≠ 0. Source: §1.3.3, by induction on k.
 ///
@@ -192,7 +192,7 @@ pub fn deflection_after<T: Field>(system: &SpringMass<T>, eps: &T, start: &T, de
 /// Theorem 1.3.3 without powers: a bound of |p_k|/|p₀| that falls to 0 and whose proof needs no limit
 /// of ρᵏ; `k` is the number of steps.
 ///
-/// `|p_k| / |p₀| ≤ c / (c + k ε)`
+/// `c / (c + k ε)`
 ///
 /// `eps` is the penalty ε in N/m. Domain: c > 0, ε > 0, k ≥ 0. Source: §1.3.3, Bernoulli's inequality.
 ///
@@ -240,7 +240,7 @@ pub fn within_tolerance<T: OrderedField>(p: &T, tolerance: &T) -> bool {
 
 /// Note 4: the augmented functional of a plane that never pulls, in J, at the deflection `u` in m.
 ///
-/// `L = Π + (⟨λ + ε p⟩² − λ²) / (2 ε)`
+/// `L = Π + (⟨λ + ε (l + u − H)⟩² − λ²) / (2 ε)`
 ///
 /// `eps` is the penalty ε in N/m, `lambda` the multiplier λ in N. Domain: ε > 0. Source: note 4.
 ///
@@ -256,7 +256,7 @@ pub fn unilateral_functional<T: PositivePart>(system: &SpringMass<T>, eps: &T, l
 
 /// Note 4: the next multiplier of a plane that never pulls, in N, from the deflection `u` in m.
 ///
-/// `λ′ = ⟨λ + ε p⟩`
+/// `λ′ = ⟨λ + ε (l + u − H)⟩`
 ///
 /// `eps` is the penalty ε in N/m, `lambda` the multiplier λ in N. Domain: all. Source: note 4.
 ///
@@ -271,7 +271,7 @@ pub fn unilateral_update<T: PositivePart>(system: &SpringMass<T>, eps: &T, lambd
 
 /// Note 4: the residual of equilibrium at one step over a plane that never pulls, in N, at `u` in m.
 ///
-/// `r = c u − m g + ⟨λ + ε p⟩`
+/// `r = c u − m g + ⟨λ + ε (l + u − H)⟩`
 ///
 /// Both brackets are needed, here and in the update. `eps` is the penalty ε in N/m, `lambda` the
 /// multiplier λ in N. Domain: all. Source: note 4.

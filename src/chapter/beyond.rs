@@ -6,7 +6,7 @@ use crate::number::{Field, PositivePart};
 /// Beyond 2: the one penalty, in N/m, that leaves the penetration of k augmentations from λ₀ = 0, with
 /// `growth` = ((c + ε)/c)ᵏ⁺¹, a pure number.
 ///
-/// `ε_eff = c (((c + ε)/c)ᵏ⁺¹ − 1)`
+/// `ε_eff = c (growth − 1)`
 ///
 /// Penalties may vary from step to step: then `growth` is the product of the (c + ε_i)/c. Domain: all.
 ///

@@ -40,13 +40,13 @@ pub fn equilibrium<T: Field>(system: &SpringMass<T>, u: &T, n: &T) -> T {
 /// only there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Kkt<T> {
-    /// c u − m g + N, in N, with its sign.
+    /// The residual of equilibrium, in N, with its sign.
     pub stationarity: T,
-    /// ⟨p⟩, in m: how far the mass is inside the plane.
+    /// How far the mass is inside the plane, in m.
     pub primal: T,
-    /// ⟨−N⟩, in N: how hard the plane pulls.
+    /// How hard the plane pulls, in N.
     pub dual: T,
-    /// p N, in J, with its sign.
+    /// Penetration times force, in J, with its sign.
     pub complementarity: T,
 }
 
@@ -92,7 +92,7 @@ pub fn contact_force<T: PositivePart>(system: &SpringMass<T>) -> T {
 /// Eq. (1.6), solved for the deflection: where the mass comes to rest over a plane that never pulls,
 /// in m.
 ///
-/// `u = min(m g / c, H − l)`
+/// `u = min(m g / c, Δ)`
 ///
 /// Domain: c > 0. Source: §1.2; with equilibrium, (1.6) has exactly this solution.
 ///

@@ -21,7 +21,7 @@ pub fn functional<T: Field>(system: &SpringMass<T>, u: &T, lambda: &T) -> T {
 
 /// Eq. (1.8): the residuals of its two lines, in N and in m, at `u` in m and `lambda` in N.
 ///
-/// `c u − m g + λ = 0, l + u − H = 0`
+/// `c u − m g + λ = 0, p = 0`
 ///
 /// Domain: all. Source: §1.3.1.
 ///

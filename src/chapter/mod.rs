@@ -13,8 +13,10 @@
 //!
 //! Notation: stiffness c > 0 in N/m, mass m in kg, gravity g in m/s² (any sign), free length l and
 //! height H in m, deflection u in m (positive towards the plane), penetration p in m, multiplier λ and
-//! contact force N in newtons (positive when the plane pushes), penalty ε > 0 in N/m. Derived: the gap
-//! Δ = H − l, the weight W = m g, the reaction R = W − c Δ, the contraction factor ρ = c/(c + ε).
+//! contact force N in newtons (positive when the plane pushes), penalty ε > 0 in N/m. Derived: the gap Δ
+//! ([`system::gap`]), the weight W ([`system::weight`]), the reaction R ([`system::reaction`]), the
+//! contraction factor ρ ([`augmented::contraction`]). The formula in a function's comment is what the
+//! function computes: a test compares the two.
 //!
 //! Every function is generic in its numbers and knows nothing of them. What is said of rounding holds
 //! for floats without over- or underflow; read the same function in [`Ball`](crate::number::Ball) to

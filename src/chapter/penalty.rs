@@ -7,7 +7,7 @@ use crate::number::{Dual, Field, OrderedField, PositivePart};
 
 /// The penalty functional of (1.9), in J, at the penetration `p` in m: the energy of the second spring.
 ///
-/// `W = ε p p / 2`
+/// `W = ε p² / 2`
 ///
 /// `eps` is the penalty ε in N/m. Domain: all. Source: §1.3.2, after (1.9).
 ///
@@ -21,7 +21,7 @@ pub fn functional<T: Field>(eps: &T, p: &T) -> T {
 
 /// Eq. (1.9): the penalised energy, in J, at the deflection `u` in m.
 ///
-/// `Π_p = Π + ε p p / 2`
+/// `Π_p = Π + ε p² / 2`
 ///
 /// `eps` is the penalty ε in N/m. Domain: all; convex for ε > −c. Source: §1.3.2.
 ///
@@ -53,7 +53,7 @@ pub fn least_energy<T: Field>(system: &SpringMass<T>, eps: &T) -> T {
 
 /// Eq. (1.10): a penalty functional with any number of even terms, in J, at the penetration `p` in m.
 ///
-/// `W = ε p² / 2 + ε₄ p⁴ + ε₆ p⁶ + …`
+/// `W = ε p² / 2 + ε₄ p⁴ + …`
 ///
 /// `eps` is ε in N/m, `higher` holds ε₄ in N/m³, ε₆ in N/m⁵, …; none negative, not all zero. Source:
 /// §1.3.2.
@@ -73,7 +73,7 @@ pub fn series<T: Field>(eps: &T, higher: &[T], p: &T) -> T {
 
 /// The force of (1.10), in N, at the penetration `p` in m: the derivative of [`series`].
 ///
-/// `N = ε p + 4 ε₄ p³ + 6 ε₆ p⁵ + …`
+/// `W′ = ∂W/∂p`
 ///
 /// Formed by differentiating. Odd and increasing in `p`. Source: §1.3.2, from (1.10).
 ///
@@ -88,7 +88,7 @@ pub fn series_force<T: Field>(eps: &T, higher: &[T], p: &T) -> T {
 
 /// The residual of equilibrium with the penalty functional (1.10), in N, at the penetration `p` in m.
 ///
-/// `r = c p + W′(p) − R`
+/// `r = c p + W′ − R`
 ///
 /// Odd and strictly increasing but for the constant, so it has exactly one root;
 /// [`series_penetration`](crate::solver) finds it. Source: §1.3.2, from (1.10).
@@ -124,8 +124,8 @@ pub fn residual<T: Field>(system: &SpringMass<T>, eps: &T, u: &T) -> T {
 /// `N = ε p`
 ///
 /// `eps` is the penalty ε in N/m. Domain: all. Floats: at the root (1.13) the relative error is
-/// η ε (|H| + 5 |Δ|) / R + 7η on top of c/(c + ε); a large ε costs digits. m g − c u does not. Source:
-/// §1.3.2.
+/// η ε (|H| + 5 |Δ|) / R + 7η on top of c/(c + ε); a large ε costs digits. The force by
+/// equilibrium, [`augmented::contact_force`](super::augmented::contact_force), has them. Source: §1.3.2.
 ///
 /// ```
 /// # use spring_mass_contact::chapter::{SpringMass, penalty};

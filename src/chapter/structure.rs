@@ -73,7 +73,7 @@ pub fn virtual_work<T: Field>(system: &SpringMass<T>, u: &T, du: &T) -> T {
 /// Eq. (1.3): the first variation of the potential energy, in J: its derivative at `u` in the
 /// direction `du`, both in m.
 ///
-/// `δΠ = dΠ(u + α δu)/dα at α = 0`
+/// `δΠ = δu ∂Π/∂u`
 ///
 /// Formed by differentiating [`potential_energy`], not by writing its derivative down. Domain: all.
 /// Source: §1.1.
@@ -90,9 +90,9 @@ pub fn first_variation<T: Field>(system: &SpringMass<T>, u: &T, du: &T) -> T {
 
 /// Eq. (1.4): the potential energy, in J, at the deflection `u` in m.
 ///
-/// `Π = c u u / 2 − m g u`
+/// `Π = c u² / 2 − m g u`
 ///
-/// Domain: all. Six roundings (halving is exact). Its only minimum is at m g/c. Source: §1.1.
+/// Domain: all. Six roundings (halving is exact). Its only minimum is at [`deflection`]. Source: §1.1.
 ///
 /// ```
 /// # use spring_mass_contact::chapter::{SpringMass, structure};

@@ -6,15 +6,15 @@
 //! | `{{#eq 1.13}}` | the equation, numbered, to be linked to, and the Rust source of its functions |
 //! | `{{#ref 1.13}}` | its number as a link, from any page |
 //! | `{{#source system::gap}}` | the Rust source of a function without a number |
+//! | `{{#formula system::gap}}` | the formula that a function computes, within `$…$` or by itself |
 //!
-//! A formula stands in [`formulas`], its source in `src/chapter` and nowhere else.
+//! A formula stands in `src/chapter` and nowhere else: its source is shown, and typeset. The last tag takes
+//! what a hole in an [`Entry`] takes, such as `{{#formula contact::penetration: u=u_k}}`.
 
-pub mod formulas;
 mod math;
 mod source;
 
 use anyhow::{Context, Result, bail};
-use formulas::{FORMULAS, Formula};
 use math::Typesetter;
 use mdbook_preprocessor::{
     Preprocessor, PreprocessorContext,
@@ -22,7 +22,13 @@ use mdbook_preprocessor::{
 };
 use regex::{Captures, Regex};
 use source::Sources;
+use spring_mass_contact::claims::{Entry, entries, entry};
 use std::{collections::HashMap, path::PathBuf};
+
+/// The numbered equations of the chapter, in order, with their LaTeX.
+pub fn equations() -> impl Iterator<Item = (&'static Entry, String)> {
+    entries().iter().filter_map(|entry| Some((entry, entry.latex()?)))
+}
 
 /// The preprocessor.
 pub struct Equations;
@@ -33,7 +39,7 @@ impl Preprocessor for Equations {
     }
 
     fn run(&self, context: &PreprocessorContext, mut book: Book) -> Result<Book> {
-        let tags = Regex::new(r"\{\{#(eq|ref|source)\s+([^\s}]+)\s*\}\}")?;
+        let tags = tag("eq|ref|source|formula")?;
         let tools = Tools {
             typesetter: Typesetter::new()?,
             sources: Sources::in_folder(&context.root.join("../src/chapter")),
@@ -62,8 +68,8 @@ fn pages(book: &Book, tags: &Regex) -> Result<HashMap<String, PathBuf>> {
             }
         }
     }
-    match FORMULAS.iter().find(|formula| !pages.contains_key(formula.number)) {
-        Some(missing) => bail!("({}) is not displayed on any page", missing.number),
+    match equations().find(|(entry, _)| !pages.contains_key(entry.equation)) {
+        Some((missing, _)) => bail!("{} is not displayed on any page", missing.label()),
         None => Ok(pages),
     }
 }
@@ -92,25 +98,29 @@ impl Tools {
 
     fn tag(&self, tag: &Captures) -> Result<String> {
         match (&tag[1], &tag[2]) {
-            ("eq", number) => self.equation(formula(number)?),
+            ("eq", number) => {
+                self.equation(entry(number).with_context(|| format!("no equation ({number})"))?)
+            }
             ("ref", number) => {
                 let page = self.pages.get(number).with_context(|| format!("no equation ({number})"))?;
                 Ok(format!("[({number})]({}#{})", page.display(), anchor(number)))
             }
-            (_, function) => self.source(&[function]),
+            ("source", function) => self.source(&[function]),
+            (_, _) => self.typesetter.inline(&tag[0]),
         }
     }
 
-    fn equation(&self, equation: &Formula) -> Result<String> {
-        let Formula { number, latex, functions } = *equation;
-        let (id, html) = (anchor(number), self.typesetter.display(latex)?);
+    fn equation(&self, entry: &Entry) -> Result<String> {
+        let (number, label) = (entry.equation, entry.label());
+        let latex = entry.latex().with_context(|| format!("{label} has no formula"))?;
+        let (id, html) = (anchor(number), self.typesetter.display(&latex)?);
         let formula = format!(
             "<div class=\"equation\" id=\"{id}\"><div class=\"formula\">{html}</div>\
-             <a class=\"number\" href=\"#{id}\">({number})</a></div>"
+             <a class=\"number\" href=\"#{id}\">{label}</a></div>"
         );
         // A function that serves several equations is printed with the first and named with the others.
         let (new, known): (Vec<_>, Vec<_>) =
-            functions.iter().copied().partition(|&function| first_with(function) == Some(number));
+            entry.functions.iter().copied().partition(|&function| first_with(function) == Some(number));
         let mut result = format!("\n\n{formula}\n\n");
         if !new.is_empty() {
             result += &self.source(&new)?;
@@ -135,16 +145,17 @@ impl Tools {
     }
 }
 
-fn formula(number: &str) -> Result<&'static Formula> {
-    FORMULAS
-        .iter()
-        .find(|formula| formula.number == number)
-        .with_context(|| format!("no formula is listed for ({number})"))
-}
-
 /// The number of the first equation that lists the function.
 fn first_with(function: &str) -> Option<&'static str> {
-    FORMULAS.iter().find(|formula| formula.functions.contains(&function)).map(|formula| formula.number)
+    equations()
+        .map(|(entry, _)| entry)
+        .find(|entry| entry.functions.contains(&function))
+        .map(|entry| entry.equation)
+}
+
+/// A tag of one of these kinds; what it names may have braces of its own.
+fn tag(kinds: &str) -> Result<Regex> {
+    Ok(Regex::new(&format!(r"\{{\{{#({kinds})\s+((?:[^{{}}]|\{{[^{{}}]*\}})+?)\s*\}}\}}"))?)
 }
 
 fn anchor(number: &str) -> String {
@@ -165,5 +176,5 @@ macro_rules! pages {
 }
 pages! {
     introduction notation system structure contact formulations lagrange penalty augmented
-    convergence beyond loose floats command
+    convergence beyond loose floats proofs command
 }

@@ -4,12 +4,20 @@ use anyhow::{Context, Result};
 use katex::{KatexContext, Settings, StrictMode, StrictSetting};
 use pulldown_cmark::{Event, Options, Parser};
 use regex::{Captures, Regex};
+use spring_mass_contact::{claims::formula_in, number::tree::Notation};
+
+/// A formula of no more characters fits on every line.
+const SHORT: usize = 24;
+
+/// What no line begins with.
+const PUNCTUATION: [char; 6] = ['.', ',', ';', ':', ')', '?'];
 
 /// What turns LaTeX into HTML that Markdown leaves alone.
 pub struct Typesetter {
     katex: KatexContext,
     element: Regex,
     attribute: Regex,
+    formula: Regex,
 }
 
 impl Typesetter {
@@ -18,6 +26,7 @@ impl Typesetter {
             katex: KatexContext::default(),
             element: Regex::new(r#"<([a-zA-Z]+)((?: [\w:-]+="[^"]*"){2,})"#)?,
             attribute: Regex::new(r#" [\w:-]+="[^"]*""#)?,
+            formula: super::tag("formula")?,
         })
     }
 
@@ -28,21 +37,34 @@ impl Typesetter {
         for (event, range) in
             Parser::new_ext(text, Options::ENABLE_MATH | Options::ENABLE_TABLES).into_offset_iter()
         {
-            let html = match event {
-                Event::InlineMath(latex) => self.html(&latex, false)?,
+            let (html, short) = match event {
+                Event::InlineMath(latex) => (self.inline(&latex)?, latex.chars().count() <= SHORT),
                 Event::DisplayMath(latex) => {
-                    format!("<span class=\"formula\">{}</span>", self.display(&latex)?)
+                    (format!("<span class=\"formula\">{}</span>", self.display(&latex)?), false)
                 }
                 _ => continue,
             };
             result += &text[end..range.start];
-            result += &html;
             end = range.end;
-            if text[end..].starts_with(['.', ',', ';', ':', ')', '?']) {
+            let punctuation = text[end..].len() - text[end..].trim_start_matches(PUNCTUATION).len();
+            if punctuation == 0 {
+                result += &html;
+            } else if short || html.matches("class=\"katex-base\"").count() == 1 {
+                // A formula that need not or cannot be broken, and what belongs on its line.
+                let after = &text[end..end + punctuation];
+                result += &format!("<span class=\"unbroken\">{html}{after}</span>");
+                end += punctuation;
+            } else {
+                result += &html;
                 result += "&#8288;"; // a word joiner: no line begins with the punctuation
             }
         }
         Ok(result + &text[end..])
+    }
+
+    /// A formula in a line of text.
+    pub fn inline(&self, latex: &str) -> Result<String> {
+        self.html(latex, false)
     }
 
     /// A formula on a line of its own.
@@ -53,9 +75,24 @@ impl Typesetter {
     fn html(&self, latex: &str, display: bool) -> Result<String> {
         let settings =
             Settings::builder().display_mode(display).strict(StrictSetting::Mode(StrictMode::Error)).build();
+        let latex = &self.filled(latex)?;
         let html = katex::render_to_string(&self.katex, latex, &settings)
             .with_context(|| format!("the formula {latex}"))?;
         Ok(hide_from_markdown(&self.in_order(&html)))
+    }
+
+    /// The LaTeX with what functions compute in the place of its tags.
+    fn filled(&self, latex: &str) -> Result<String> {
+        let mut result = String::with_capacity(latex.len());
+        let mut end = 0;
+        for tag in self.formula.captures_iter(latex) {
+            let range = tag.get_match().range();
+            result += &latex[end..range.start];
+            result += &formula_in(&tag[2], Notation::Latex)
+                .with_context(|| format!("no formula {} in src/claims/formulas.rs", &tag[2]))?;
+            end = range.end;
+        }
+        Ok(result + &latex[end..])
     }
 
     /// Sorts attributes, whose order varies from run to run, so that equal books are equal files.
@@ -106,8 +143,29 @@ mod tests {
 
     #[test]
     fn punctuation_stays_on_the_line_of_its_formula() -> Result<()> {
-        let html = page("$x$; $y$ z")?;
-        assert!(html.contains("</span>&#8288;; <span") && html.ends_with("</span> z"), "{html}");
+        let html = page("$x$; $y$ z, $a = b + b + b + b + b + b$). $a = b$, $c$")?;
+        assert!(
+            html.starts_with("<span class=\"unbroken\"><span") && html.contains("</span>;</span> <span"),
+            "{html}"
+        );
+        assert!(
+            html.contains("</span> z, <span class=\"katex") && html.contains("</span>&#8288;). <span"),
+            "{html}"
+        );
+        Ok(())
+    }
+
+    #[test]
+    fn a_tag_is_the_formula_that_is_computed() -> Result<()> {
+        let tag = "{{#formula augmented::update: u=u_{k-1}, λ=λ₀}}";
+        let latex = r"\lambda_0 + \varepsilon\,(l + u_{k-1} - H)";
+        assert_eq!(
+            page(&format!("$x = {tag}$ and $${tag}$$"))?,
+            page(&format!("$x = {latex}$ and $${latex}$$"))?
+        );
+        assert!(
+            page("${{#formula nothing::gap}}$").unwrap_err().to_string().contains("no formula nothing::gap")
+        );
         Ok(())
     }
 

@@ -71,7 +71,8 @@ fn the_samples_are_what_the_command_prints() {
     let snapshots: BTreeMap<_, _> =
         files(&root().join("tests/cmd")).iter().flat_map(|path| transcript(&text(path))).collect();
     let mut compared = 0;
-    for (command, sample) in transcript(&page()) {
+    let proofs = text(&root().join("book/src/proofs.md"));
+    for (command, sample) in transcript(&(page() + &proofs)) {
         let Some(snapshot) = snapshots.get(&command).filter(|_| !sample.is_empty()) else { continue };
         assert_eq!(sample.len(), snapshot.len(), "{command}");
         for (line, expected) in sample.iter().zip(snapshot) {

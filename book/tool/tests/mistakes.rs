@@ -1,6 +1,6 @@
 //! What an author can get wrong stops the build, with a message that names it.
 
-use book_tool::{Equations, formulas::FORMULAS};
+use book_tool::{Equations, equations};
 use mdbook_preprocessor::{
     Preprocessor, PreprocessorContext,
     book::{Book, BookItem, Chapter},
@@ -10,8 +10,8 @@ use std::path::Path;
 
 /// A book of one page that displays every equation, and then `text`.
 fn process(text: &str) -> Result<String, String> {
-    let equations: String = FORMULAS.iter().map(|f| format!("{{{{#eq {}}}}}\n\n", f.number)).collect();
-    process_page(&(equations + text))
+    let all: String = equations().map(|(entry, _)| format!("{{{{#eq {}}}}}\n\n", entry.equation)).collect();
+    process_page(&(all + text))
 }
 
 fn process_page(text: &str) -> Result<String, String> {
@@ -43,7 +43,24 @@ fn a_reference_to_nothing() {
 
 #[test]
 fn an_equation_that_does_not_exist() {
-    assert_refused("{{#eq 1.34}}", "no formula is listed for (1.34)");
+    assert_refused("{{#eq 1.34}}", "no equation (1.34)");
+}
+
+#[test]
+fn an_entry_without_a_formula() {
+    assert_refused("{{#eq note}}", "no equation (note)");
+    assert_refused("{{#eq note 1}}", "note 1 has no formula");
+}
+
+#[test]
+fn a_formula_by_itself() {
+    let page = process("the gap {{#formula system::gap}} is").unwrap();
+    assert_eq!(
+        page.rsplit_once("the gap ").unwrap().1,
+        process("$H - l$ is").unwrap().rsplit_once("\n\n").unwrap().1
+    );
+    assert_refused("{{#formula system::nothing}}", "no formula system::nothing");
+    assert_refused("{{#formula system::gap: u=v}}", "no formula system::gap: u=v");
 }
 
 #[test]

@@ -5,13 +5,15 @@ use crate::output::{self, Failure, Status};
 use clap::ValueEnum;
 use serde::Serialize;
 use spring_mass_contact::claims::{Entry, claim_names, entries};
+use spring_mass_contact::proof::{prove, statements};
 use std::io::{self, Write};
 
 const EXAMPLES: &str = "\
 Examples:
   contact equations
   contact equations 1.13 'Theorem 1.3.3' 'note 4'
-  contact equations --format json";
+  contact equations --format json
+  contact equations --format dot | dot -Tsvg > chapter.svg";
 
 /// List what the chapter states: each number, its function and its claims
 #[derive(clap::Args)]
@@ -33,6 +35,8 @@ enum Format {
     Json,
     /// For documents
     Markdown,
+    /// For Graphviz: what follows from what, and what is proved
+    Dot,
 }
 
 #[derive(Serialize)]
@@ -40,7 +44,8 @@ struct Row {
     equation: &'static str,
     title: &'static str,
     section: &'static str,
-    statement: &'static str,
+    statement: String,
+    latex: Option<String>,
     hypotheses: &'static [&'static str],
     function: Option<&'static str>,
     follows_from: &'static [&'static str],
@@ -55,6 +60,7 @@ pub fn run(options: &Options) -> Result<Status, Failure> {
     output::print(|out| match options.format {
         Format::Json => output::json(out, &chosen.iter().map(|e| row(e)).collect::<Vec<_>>()),
         Format::Markdown => markdown(out, &chosen),
+        Format::Dot => dot(out, &chosen),
         Format::Table if all => table(out, &chosen),
         Format::Table => chosen.iter().enumerate().try_for_each(|(i, entry)| {
             if i > 0 {
@@ -66,17 +72,23 @@ pub fn run(options: &Options) -> Result<Status, Failure> {
 }
 
 fn row(entry: &Entry) -> Row {
-    let Entry { equation, title, section, statement, hypotheses, function, follows_from } = *entry;
+    let Entry { equation, title, section, hypotheses, follows_from, .. } = *entry;
     Row {
         equation,
         title,
         section,
-        statement,
+        statement: entry.statement(),
+        latex: entry.latex(),
         hypotheses,
-        function,
+        function: function(entry),
         follows_from,
         claims: claim_names(equation),
     }
+}
+
+/// Its own function, without those beside it.
+fn function(entry: &Entry) -> Option<&'static str> {
+    entry.functions.first().copied()
 }
 
 fn table(out: &mut dyn Write, entries: &[&Entry]) -> io::Result<()> {
@@ -84,7 +96,7 @@ fn table(out: &mut dyn Write, entries: &[&Entry]) -> io::Result<()> {
     table.set_header(["number", "title", "function", "claims"]);
     for entry in entries {
         let claims = claim_names(entry.equation).len().to_string();
-        table.add_row([&entry.label(), entry.title, entry.function.unwrap_or("-"), &claims]);
+        table.add_row([&entry.label(), entry.title, function(entry).unwrap_or("-"), &claims]);
     }
     // A name that is broken cannot be searched for; titles break well.
     output::unbroken(&mut table, &[0, 2, 3]);
@@ -95,11 +107,34 @@ fn markdown(out: &mut dyn Write, entries: &[&Entry]) -> io::Result<()> {
     writeln!(out, "| number | title | statement | hypotheses | function | claims |")?;
     writeln!(out, "|---|---|---|---|---|---|")?;
     entries.iter().try_for_each(|e| {
-        let function = e.function.map_or(String::new(), |f| format!("`{f}`"));
+        let function = function(e).map_or(String::new(), |f| format!("`{f}`"));
         let (hypotheses, claims) = (e.hypotheses.join(", "), claim_names(e.equation).join(", "));
-        let statement = e.statement.replace('|', "\\|");
+        let statement = e.statement().replace('|', "\\|");
         writeln!(out, "| {} | {} | {statement} | {hypotheses} | {function} | {claims} |", e.label(), e.title)
     })
+}
+
+/// An arrow from each entry to what follows from it.
+fn dot(out: &mut dyn Write, chosen: &[&Entry]) -> io::Result<()> {
+    let statements = statements();
+    writeln!(out, "digraph chapter {{\n  rankdir = LR;\n  node [shape = box, style = rounded];")?;
+    for Entry { equation, title, .. } in chosen {
+        let claims: Vec<_> = statements.iter().filter(|s| s.equation == *equation).collect();
+        let proved = claims.iter().filter(|s| prove(s).is_ok()).count();
+        let (status, colour) = match (claims.len(), proved) {
+            (0, _) if claim_names(equation).is_empty() => ("given".to_string(), "gray"),
+            (0, _) => ("checked in numbers".to_string(), "gray"),
+            (all, proved) if proved < all => (format!("{} NOT PROVED", all - proved), "red"),
+            (_, proved) => (format!("{proved} proved"), "darkgreen"),
+        };
+        writeln!(out, "  \"{equation}\" [label = \"{equation}\\n{title}\\n{status}\", color = {colour}];")?;
+    }
+    for Entry { equation, follows_from, .. } in chosen {
+        for premise in follows_from.iter().filter(|premise| chosen.iter().any(|e| e.equation == **premise)) {
+            writeln!(out, "  \"{premise}\" -> \"{equation}\";")?;
+        }
+    }
+    writeln!(out, "}}")
 }
 
 fn details(out: &mut dyn Write, entry: &Entry) -> io::Result<()> {
@@ -110,9 +145,9 @@ fn details(out: &mut dyn Write, entry: &Entry) -> io::Result<()> {
             table.add_row([name, &text]);
         }
     };
-    line("states", entry.statement.to_string());
+    line("states", entry.statement());
     line("if", entry.hypotheses.join(", "));
-    line("function", entry.function.map_or(String::new(), |f| format!("spring_mass_contact::chapter::{f}")));
+    line("functions", entry.functions.join(", "));
     line("follows from", entry.follows_from.join(", "));
     line("claims", claim_names(entry.equation).join(", "));
     output::lines(out, &table)
