@@ -7,11 +7,13 @@
 mod entries;
 #[cfg(feature = "mpfr")]
 mod experiments;
+mod formulas;
 mod list;
 
 pub use entries::{Entry, entries, entry};
 #[cfg(feature = "mpfr")]
 pub use experiments::{Experiment, Trial, exact_experiments, first_order_experiments, float_experiments};
+pub use formulas::{Call, Formula, call, fill, formula, formula_in, formulas, line, named};
 pub use list::{claims, exponential_claims, unilateral_claims};
 
 use crate::chapter::{SpringMass, augmented, contact, penalty, system};
@@ -174,20 +176,31 @@ hypotheses! {
     Touching "R ≥ 0" NonNegative G |x| system::reaction(&x.system);
     Grazing "R = 0" Zero G |x| system::reaction(&x.system);
     Separated "R < 0" Positive G |x| -system::reaction(&x.system);
+    Opposite "ε = −c" Zero Eps |x| penalty::total_stiffness(&x.system, &x.eps);
+    BeyondOnce "ε < −c" Positive Eps |x| -penalty::total_stiffness(&x.system, &x.eps);
     Penetrating "p > 0" Positive U |x| contact::penetration(&x.system, &x.u);
     Clear "p < 0" Positive U |x| -contact::penetration(&x.system, &x.u);
     Tolerance "tol > 0" Positive Tol |x| x.tol.clone();
     Enough "ε ≥ R/tol − c" NonNegative Eps |x| &x.eps - penalty::penalty_for(&x.system, &x.tol);
+    WithinTolerance "p_ε ≤ tol" NonNegative Tol |x| &x.tol - penalty::penetration(&x.system, &x.eps);
     StrongEnough "ε ≥ R" NonNegative Eps |x| &x.eps - system::reaction(&x.system);
     Multiplier "λ ≥ 0" NonNegative Lambda |x| x.lambda.clone();
     BelowReaction "λ < R" Positive Lambda |x| system::reaction(&x.system) - &x.lambda;
+    AboveReaction "λ > R" Positive Lambda |x| &x.lambda - system::reaction(&x.system);
+    AtReaction "λ = R" Zero Lambda |x| &x.lambda - system::reaction(&x.system);
+    Carried "λ_k ≥ 0" NonNegative Q |x| augmented::multiplier_after(&x.system, &x.lambda, &x.q);
     Active "cλ + εR ≥ 0" NonNegative Lambda |x| &x.system.c * &x.lambda + &x.eps * system::reaction(&x.system);
+    Idle "cλ + εR ≤ 0" NonNegative Lambda |x| -(&x.system.c * &x.lambda + &x.eps * system::reaction(&x.system));
     Inactive "λ + εp ≤ 0" NonNegative Lambda |x| -augmented::update(&x.system, &x.eps, &x.lambda, &x.u);
     Equilibrium "(1.19)" Zero Lambda |x| augmented::equilibrium(&x.system, &x.eps, &x.lambda, &x.u);
     NextEquilibrium "(1.20)" Zero V |x| {
         let next = augmented::update(&x.system, &x.eps, &x.lambda, &x.u);
         augmented::equilibrium(&x.system, &x.eps, &next, &x.v)
     };
+    Step "α > 0" Positive Alpha |x| x.alpha.clone();
+    ShortStep "α < 2(c + ε)" Positive Alpha |x| T::int(2) * penalty::total_stiffness(&x.system, &x.eps) - &x.alpha;
+    LongStep "α > 2(c + ε)" Positive Alpha |x| &x.alpha - T::int(2) * penalty::total_stiffness(&x.system, &x.eps);
+    UzawaStep "α < 2c" Positive Alpha |x| T::int(2) * &x.system.c - &x.alpha;
     Power "q > 0" Positive Q |x| x.q.clone();
     Count "k ≥ 0" NonNegative K |x| x.k.clone();
     Time "t > 0" Positive T |x| x.t.clone();
@@ -213,8 +226,10 @@ pub enum Kind<T> {
     Sign(Relation, fn(&Case<T>) -> T),
     /// One expression is the derivative of another.
     Derivative {
-        /// The other.
+        /// The other, in dual numbers.
         of: fn(&Case<Dual<T>>) -> Dual<T>,
+        /// The other, as it is.
+        formula: fn(&Case<T>) -> T,
         /// By this coordinate.
         by: Var,
         /// The one.
@@ -299,7 +314,7 @@ impl<T: Field> Claim<T> {
         match &self.kind {
             Kind::Equal(sides) => vec![equal(sides(case))],
             Kind::Sign(relation, of) => vec![Goal::Sign(*relation, of(case))],
-            Kind::Derivative { of, by, is } => {
+            Kind::Derivative { of, by, is, .. } => {
                 let along = |var, x: &T| {
                     if var == *by { Dual::variable(x.clone()) } else { Dual::constant(x.clone()) }
                 };

@@ -174,7 +174,8 @@ mod tests {
             let needs = match given {
                 Given::Enough => &[Given::Tolerance][..],
                 Given::NextEquilibrium => &[Given::Stiffness, Given::Penalty, Given::Equilibrium],
-                Given::Active => &[Given::Stiffness],
+                Given::WithinTolerance => &[Given::Stiffness, Given::Penalty],
+                Given::Active | Given::Idle => &[Given::Stiffness],
                 _ => &[],
             };
             let given: Vec<_> = needs.iter().chain([given]).copied().collect();
