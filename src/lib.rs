@@ -14,19 +14,19 @@
 //! | [`claims`] | the chapter as data, and what is claimed of it, as generic functions | `verify` |
 #![cfg_attr(
     feature = "mpfr",
-    doc = "| [`mod@verify`] | runs the claims in the number systems | the command `contact` |"
+    doc = "| [`proof`] | proves the claims on symbols, for all values | `verify`, the command `contact` |\n| [`mod@verify`] | runs proofs and number systems | the command `contact` |"
 )]
 //!
 //! Each module knows only those above it.
 //!
 //! To find an equation, say (1.16): the number opens the doc comment of its functions in [`chapter`], stands
 //! beside its statement among the [`entries`](claims::entries()), and beside each of its
-//! [claims](claims::claims()). On the command line, `contact equations 1.16` names the function and the
-//! claims, and `contact verify --equation 1.16` runs them.
+//! [claims](claims::claims()). On the command line, `contact equations 1.16` names the functions and the
+//! claims, `contact prove 1.16` prints their proofs, and `contact verify --equation 1.16` runs them.
 //!
 //! # Features
 //!
-//! - `mpfr` (default): MPFR floats, exact rationals, and all that needs them: claims, certificates, step
+//! - `mpfr` (default): MPFR floats, exact rationals, and all that needs them: claims, proofs, certificates, step
 //!   counts, reading numbers. Builds GMP and MPFR from source by way of rug, which is LGPL-3.0-or-later.
 //! - `cli` (default): the command `contact`.
 //! - `gmp-untested` (default): leaves out GMP's and MPFR's own test suites, which take minutes.
@@ -36,6 +36,8 @@
 pub mod chapter;
 pub mod claims;
 pub mod number;
+#[cfg(feature = "mpfr")]
+pub mod proof;
 pub mod solver;
 #[cfg(feature = "mpfr")]
 pub mod verify;

@@ -1,0 +1,234 @@
+//! Proofs written out, for a reader with paper.
+
+use super::kernel::{Because, Derivation, Direct, Proof, Signed, Supposed, Used};
+use super::sign::Sign;
+use super::statement::{Goal, Says, Sequence, Statement};
+use crate::claims::{Formula, Given, Relation, call, named};
+use crate::number::Tree;
+use crate::number::tree::{Notation, Step};
+
+/// What a claim says, in one line.
+pub fn claim(statement: &Statement) -> String {
+    if let Some(Sequence { start, ratio, member, limit }) = &statement.amounts_to {
+        let together = |trees: &[Tree]| trees.iter().map(text).collect::<Vec<_>>().join(", ");
+        let (ratio, member) = (text(ratio), together(member));
+        return match limit {
+            Some(limit) => format!("{member} → {} for q = {ratio}ᵏ and k → ∞", text(limit)),
+            None => format!("k steps from {} lead to {member}, where q = {ratio}ᵏ", together(start)),
+        };
+    }
+    let goals = statement.goals.iter().map(|goal| says(&goal.says));
+    goals.collect::<Vec<_>>().join("; ")
+}
+
+/// What a goal says.
+fn says(says: &Says) -> String {
+    match says {
+        Says::Equal(left, right) => format!("{} = {}", text(left), text(right)),
+        Says::Sign(Relation::Positive, of) => format!("{} > 0", text(of)),
+        Says::Sign(Relation::NonNegative, of) => format!("{} ≥ 0", text(of)),
+        Says::Sign(Relation::Zero, of) => format!("{} = 0", text(of)),
+        Says::Derivative(of, by, is) => format!("∂/∂{} [{}] = {}", by.symbol(), text(of), text(is)),
+        Says::Limit(of, by, to) => format!("lim [{}] = {} for {} → ∞", text(of), text(to), by.symbol()),
+    }
+}
+
+/// How a claim was proved, in a few words.
+pub fn how(statement: &Statement, proof: &Proof) -> String {
+    let cases = proof.goals.iter().map(cases).max().unwrap_or(1);
+    let means = proof.goals.last().map_or("", |derivation| means(derivation));
+    let kind = match statement.kind {
+        "equal" | "sign" => means,
+        other => other,
+    };
+    if cases > 1 { format!("{kind}, {cases} cases") } else { kind.to_string() }
+}
+
+fn cases(derivation: &Derivation) -> usize {
+    match derivation {
+        Derivation::Cases(_, positive, not) => cases(positive) + cases(not),
+        Derivation::Direct(_) => 1,
+    }
+}
+
+fn means(derivation: &Derivation) -> &'static str {
+    use super::sign::Rule;
+    match derivation {
+        Derivation::Cases(_, positive, _) => means(positive),
+        Derivation::Direct(direct) => match &direct.because {
+            Because::Same(_) => "identity",
+            Because::Derivative(..) => "derivative",
+            Because::Limit { .. } => "limit",
+            Because::Sign(signed) => match &signed.num.rule {
+                Rule::Zero | Rule::Terms => "sign by terms",
+                Rule::Factor(_, rest) if matches!(rest.rule, Rule::Slope { .. }) => "sign by slope",
+                Rule::Factor(..) => "sign by factors",
+                Rule::Square { .. } => "sign by square",
+                Rule::Slope { .. } => "sign by slope",
+            },
+        },
+    }
+}
+
+/// The hypotheses that some goal's proof uses, as a reader writes them.
+pub fn used(proof: &Proof) -> Vec<&'static str> {
+    fn collect(derivation: &Derivation, all: &mut Vec<&'static str>) {
+        match derivation {
+            Derivation::Cases(_, positive, not) => {
+                collect(positive, all);
+                collect(not, all);
+            }
+            Derivation::Direct(direct) => {
+                for Supposed { given, used, .. } in &direct.supposed {
+                    if let Some(given) = given
+                        && !matches!(used, Used::Unused | Used::Follows)
+                        && !all.contains(&given.text())
+                    {
+                        all.push(given.text());
+                    }
+                }
+            }
+        }
+    }
+    let mut all = Vec::new();
+    proof.goals.iter().for_each(|derivation| collect(derivation, &mut all));
+    all
+}
+
+/// What the names in a claim stand for, those that occur: `R = m g − c (H − l)`.
+pub fn names(statement: &Statement) -> Vec<String> {
+    let mut called: Vec<&'static Formula> = Vec::new();
+    fn collect(tree: &Tree, called: &mut Vec<&'static Formula>) {
+        if let Some(call) = call(tree).filter(|call| call.formula.folded) {
+            if called.iter().all(|formula| formula.name() != call.formula.name()) {
+                called.push(call.formula);
+            }
+            call.arguments.iter().for_each(|argument| collect(argument, called));
+        } else {
+            tree.step().operands().for_each(|operand| collect(operand, called));
+        }
+    }
+    statement.trees().for_each(|tree| collect(tree, &mut called));
+    // What a name stands for may be said by further names.
+    let mut i = 0;
+    while let Some(formula) = called.get(i).copied() {
+        formula.tree.step().operands().for_each(|operand| collect(operand, &mut called));
+        i += 1;
+    }
+    called.iter().map(|f| format!("{} = {}", f.symbol, f.typeset(Notation::Text))).collect()
+}
+
+/// The whole proof, line by line.
+pub fn proof(statement: &Statement, proof: &Proof) -> Vec<String> {
+    let mut lines = Vec::new();
+    match statement.kind {
+        "induction" => lines.push("by induction on k, with q = ρᵏ: for q = 1, and from q to ρ q".to_string()),
+        "vanishing" => {
+            lines.push(
+                "if |ρ| < 1 then ρᵏ → 0, and what is continuous in q at 0 tends to what it is there"
+                    .to_string(),
+            );
+        }
+        _ => {}
+    }
+    let single = statement.goals.len() == 1;
+    for (Goal { part, says: goal, .. }, derivation) in statement.goals.iter().zip(&proof.goals) {
+        if single {
+            derive(derivation, 0, &mut lines);
+        } else {
+            lines.push(format!("{part}: {}", says(goal)));
+            derive(derivation, 1, &mut lines);
+        }
+    }
+    lines
+}
+
+fn derive(derivation: &Derivation, depth: usize, lines: &mut Vec<String>) {
+    let say = |text: String, lines: &mut Vec<String>| lines.push(format!("{}{text}", "  ".repeat(depth)));
+    match derivation {
+        Derivation::Cases(on, positive, not) => {
+            say(format!("case {on} > 0:"), lines);
+            derive(positive, depth + 1, lines);
+            say(format!("case {on} ≤ 0:"), lines);
+            derive(not, depth + 1, lines);
+        }
+        Derivation::Direct(direct) => direct_lines(direct).into_iter().for_each(|line| say(line, lines)),
+    }
+}
+
+fn direct_lines(direct: &Direct) -> Vec<String> {
+    let mut lines: Vec<String> = direct.supposed.iter().filter_map(supposed).collect();
+    for (divisor, nonzero) in &direct.divisors {
+        explain(format!("{} ≠ 0", text(divisor)), signed(nonzero), &mut lines);
+    }
+    for (bracket, value, decides) in &direct.brackets {
+        let decisive = match bracket.step() {
+            Step::Min(..) => "the second less the first",
+            _ => "its argument",
+        };
+        explain(
+            format!("{} = {} by the sign of {decisive}", text(bracket), text(value)),
+            signed(decides),
+            &mut lines,
+        );
+    }
+    match &direct.because {
+        Because::Same(value) => lines.push(format!("both sides are {value}")),
+        Because::Sign(sign) => lines.extend(signed(sign)),
+        Because::Derivative(_, value) => {
+            lines.push(format!("dual numbers differentiate it to {value}, which is the right side"))
+        }
+        Because::Limit { of, by, degrees, leading, to } => {
+            let (n, d) = degrees;
+            lines.push(format!("it is {of}"));
+            lines.push(format!(
+                "degrees {n} above and {d} below in {}, hence the limit is {to}, since below",
+                by.0
+            ));
+            lines.extend(leading.lines().into_iter().map(|line| format!("  {line}")));
+        }
+    }
+    lines
+}
+
+/// A fact and the reason for it, on one line if that is short.
+fn explain(fact: String, reason: Vec<String>, lines: &mut Vec<String>) {
+    if let [reason] = reason.as_slice() {
+        lines.push(format!("{fact}: {reason}"));
+    } else {
+        lines.push(format!("{fact}:"));
+        lines.extend(reason.into_iter().map(|line| format!("  {line}")));
+    }
+}
+
+/// How a supposition is used, if that has to be said.
+fn supposed(supposed: &Supposed) -> Option<String> {
+    let Supposed { given, value, sign, used } = supposed;
+    let name = given.map_or("the case", Given::text);
+    match used {
+        Used::Symbol(_) => None,
+        Used::Follows => Some(format!("{name} follows")),
+        Used::Unused => Some(format!("{name} is not used")),
+        Used::Pivot(pivot, by, None) => Some(format!("by {name}: {pivot} = {by}")),
+        Used::Pivot(pivot, by, Some(slack)) => {
+            let sign = if *sign == Sign::Positive { "> 0" } else { "≥ 0" };
+            Some(format!("by {name}: {} = {value} {sign}, so {pivot} = {by}", slack.0))
+        }
+    }
+}
+
+/// Why a quotient has its sign.
+fn signed(signed: &Signed) -> Vec<String> {
+    let mut lines = Vec::new();
+    if signed.value.den().as_constant().is_none() {
+        lines.push(format!("it is {}", &signed.value));
+        lines.extend(signed.den.lines());
+    }
+    lines.extend(signed.num.lines());
+    lines
+}
+
+/// A formula by the chapter's names.
+fn text(tree: &Tree) -> String {
+    tree.typeset(Notation::Text, &named)
+}

@@ -1,0 +1,249 @@
+//! What is to be proved: a claim, read in trees.
+
+use crate::claims::{
+    Case, Claim, Given, Kind, Rate, Relation, Var, claims, exponential_claims, unilateral_claims,
+};
+use crate::number::Tree;
+use num_traits::{One, Zero};
+
+/// A claim as formulas: hypotheses, and goals that follow from them.
+#[derive(Clone, Debug, Default)]
+pub struct Statement {
+    /// The entry it belongs to.
+    pub equation: &'static str,
+    /// Its name, unique within the equation.
+    pub name: &'static str,
+    /// Its [kind](Kind::name).
+    pub kind: &'static str,
+    /// What is supposed.
+    pub hypotheses: Vec<Hypothesis>,
+    /// What holds at every step of an induction; part of its proof, and not supposed.
+    pub invariants: Vec<Hypothesis>,
+    /// What follows.
+    pub goals: Vec<Goal>,
+    /// What the goals amount to, where that is more than they say.
+    pub amounts_to: Option<Sequence>,
+}
+
+/// A statement about all members of a sequence.
+#[derive(Clone, Debug)]
+pub struct Sequence {
+    /// Where it starts; empty if that is not spoken of.
+    pub start: Vec<Tree>,
+    /// ρ
+    pub ratio: Tree,
+    /// Its k-th member, by q = ρᵏ.
+    pub member: Vec<Tree>,
+    /// Its limit; `None` if that is not spoken of.
+    pub limit: Option<Tree>,
+}
+
+/// What is supposed of one quantity.
+#[derive(Clone, Debug)]
+pub struct Hypothesis {
+    /// Where it comes from.
+    pub given: Given,
+    /// The quantity.
+    pub value: Tree,
+}
+
+/// A part of a claim.
+#[derive(Clone, Debug)]
+pub struct Goal {
+    /// Which part, if there are several.
+    pub part: &'static str,
+    /// What it is for.
+    pub role: Role,
+    /// What it says.
+    pub says: Says,
+}
+
+/// What a goal is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// The claim, under its hypotheses.
+    Claim,
+    /// A step of an induction, under the invariants as well.
+    Step,
+    /// An invariant holds at the start, which is not where it may be supposed.
+    Begins,
+    /// An invariant holds after a step if it does before.
+    Continues,
+}
+
+/// What a goal says.
+#[derive(Clone, Debug)]
+pub enum Says {
+    /// Two formulas are equal, and defined.
+    Equal(Tree, Tree),
+    /// A formula is defined and has a sign.
+    Sign(Relation, Tree),
+    /// The third is the derivative of the first by a quantity.
+    Derivative(Tree, Var, Tree),
+    /// The first tends to the third as a quantity tends to infinity.
+    Limit(Tree, Var, Tree),
+}
+
+impl Hypothesis {
+    fn of(given: Given, case: &Case<Tree>) -> Self {
+        Hypothesis { given, value: given.value(case) }
+    }
+
+    /// What it says of the quantity's sign.
+    pub fn relation(&self) -> Relation {
+        self.given.relation()
+    }
+}
+
+impl Goal {
+    /// A part of what a claim says.
+    pub fn of_claim(part: &'static str, says: Says) -> Self {
+        Goal { part, role: Role::Claim, says }
+    }
+}
+
+impl Says {
+    /// Its formulas.
+    pub fn trees(&self) -> [&Tree; 2] {
+        match self {
+            Says::Equal(a, b) | Says::Derivative(a, _, b) | Says::Limit(a, _, b) => [a, b],
+            Says::Sign(_, a) => [a, a],
+        }
+    }
+
+    fn map(&self, f: &impl Fn(&Tree) -> Tree) -> Self {
+        match self {
+            Says::Equal(a, b) => Says::Equal(f(a), f(b)),
+            Says::Sign(relation, a) => Says::Sign(*relation, f(a)),
+            Says::Derivative(a, by, b) => Says::Derivative(f(a), *by, f(b)),
+            Says::Limit(a, by, b) => Says::Limit(f(a), *by, f(b)),
+        }
+    }
+}
+
+/// The case whose coordinates are themselves.
+fn symbols() -> Case<Tree> {
+    let case = Case::try_of(|var| Ok::<_, std::convert::Infallible>(Tree::symbol(var.symbol())));
+    case.unwrap_or_else(|never| match never {})
+}
+
+/// Every claim, as formulas.
+pub fn statements() -> Vec<Statement> {
+    let all = claims::<Tree>().into_iter().chain(exponential_claims()).chain(unilateral_claims());
+    all.map(|claim| Statement::of(&claim)).collect()
+}
+
+impl Statement {
+    /// A claim read in trees.
+    ///
+    /// The induction over k is here: a recursion has the closed form x_k = closed(ρᵏ) if closed(1) is its
+    /// start and one step leads from closed(q) to closed(ρ q), whatever q is. What a claim supposes of q is
+    /// an invariant: it has to hold for q = 1, by the other hypotheses alone, and to be passed on from q to ρ q;
+    /// then it may be used in the step.
+    pub fn of(claim: &Claim<Tree>) -> Self {
+        let case = symbols();
+        let goal = Goal::of_claim;
+        let of_q = |given: &&Given| given.value(&case).symbols().contains(Var::Q.symbol());
+        let (mut hypotheses, mut invariants): (Vec<&Given>, Vec<&Given>) =
+            (claim.given.iter().collect(), vec![]);
+        let mut goals = Vec::new();
+        let mut amounts_to = None;
+        match &claim.kind {
+            Kind::Equal(sides) => {
+                let (left, right) = sides(&case);
+                goals.push(goal("", Says::Equal(left, right)));
+            }
+            Kind::Sign(relation, of) => goals.push(goal("", Says::Sign(*relation, of(&case)))),
+            Kind::Derivative { formula, by, is, .. } => {
+                goals.push(goal("", Says::Derivative(formula(&case), *by, is(&case))));
+            }
+            Kind::Limit { of, by, to, rate } => {
+                let (of, to) = (of(&case), to(&case));
+                goals.push(goal("limit", Says::Limit(of.clone(), *by, to.clone())));
+                let distance = of - to;
+                match rate {
+                    Rate::Exactly(rate) => goals.push(goal("rate", Says::Equal(distance, rate(&case)))),
+                    Rate::Within(bound) => {
+                        let bound = bound(&case);
+                        let margin = &bound * &bound - &distance * &distance;
+                        goals.push(goal("bound", Says::Sign(Relation::NonNegative, bound)));
+                        goals.push(goal("within the bound", Says::Sign(Relation::NonNegative, margin)));
+                    }
+                }
+            }
+            Kind::Induction { ratio, start, step, closed } => {
+                (invariants, hypotheses) = claim.given.iter().partition(of_q);
+                let (q, ratio, start) = (&case.q, ratio(&case), start(&case));
+                let next = &ratio * q;
+                let mut pairs = |part, role, a: Vec<Tree>, b: Vec<Tree>| {
+                    assert_eq!(a.len(), b.len(), "a closed form for each component");
+                    let says = a.into_iter().zip(b).map(|(a, b)| Says::Equal(a, b));
+                    goals.extend(says.map(|says| Goal { part, role, says }));
+                };
+                pairs("start", Role::Claim, closed(&case, &Tree::one()), start.clone());
+                pairs("step", Role::Step, step(&case, &closed(&case, q)), closed(&case, &next));
+                for given in &invariants {
+                    let with = |q: Tree| given.value(&Case { q, ..case.clone() });
+                    let goal =
+                        |part, role, q| Goal { part, role, says: Says::Sign(given.relation(), with(q)) };
+                    goals.push(goal("invariant at the start", Role::Begins, Tree::one()));
+                    goals.push(goal("invariant after a step", Role::Continues, next.clone()));
+                }
+                amounts_to = Some(Sequence { start, ratio, member: closed(&case, q), limit: None });
+            }
+            Kind::Vanishing { ratio, of, to } => {
+                let ratio = ratio(&case);
+                let margin = Tree::one() - &ratio * &ratio;
+                goals.push(goal("|ρ| < 1", Says::Sign(Relation::Positive, margin)));
+                goals.push(goal("at q = 0", Says::Equal(of(&case, &Tree::zero()), to(&case))));
+                amounts_to = Some(Sequence {
+                    start: Vec::new(),
+                    ratio,
+                    member: vec![of(&case, &case.q)],
+                    limit: Some(to(&case)),
+                });
+            }
+        }
+        let read = |all: Vec<&Given>| all.into_iter().map(|given| Hypothesis::of(*given, &case)).collect();
+        let (hypotheses, invariants) = (read(hypotheses), read(invariants));
+        let (equation, name, kind) = (claim.equation, claim.name, claim.kind.name());
+        Statement { equation, name, kind, hypotheses, invariants, goals, amounts_to }
+    }
+
+    /// With every formula changed.
+    pub fn map(&self, f: &impl Fn(&Tree) -> Tree) -> Self {
+        let hypothesis = |h: &Hypothesis| Hypothesis { value: f(&h.value), ..h.clone() };
+        let goal = |g: &Goal| Goal { says: g.says.map(f), ..g.clone() };
+        let sequence = |s: &Sequence| Sequence {
+            start: s.start.iter().map(f).collect(),
+            ratio: f(&s.ratio),
+            member: s.member.iter().map(f).collect(),
+            limit: s.limit.as_ref().map(f),
+        };
+        Statement {
+            hypotheses: self.hypotheses.iter().map(hypothesis).collect(),
+            invariants: self.invariants.iter().map(hypothesis).collect(),
+            amounts_to: self.amounts_to.as_ref().map(sequence),
+            goals: self.goals.iter().map(goal).collect(),
+            ..self.clone()
+        }
+    }
+
+    /// Without one of its hypotheses.
+    pub fn without(&self, hypothesis: usize) -> Self {
+        let mut less = self.clone();
+        less.hypotheses.remove(hypothesis);
+        less
+    }
+
+    /// Its hypotheses and its invariants.
+    pub fn supposed(&self) -> impl Iterator<Item = &Hypothesis> {
+        self.hypotheses.iter().chain(&self.invariants)
+    }
+
+    /// All its formulas.
+    pub fn trees(&self) -> impl Iterator<Item = &Tree> {
+        let hypotheses = self.supposed().map(|h| &h.value);
+        hypotheses.chain(self.goals.iter().flat_map(|goal| goal.says.trees()))
+    }
+}
