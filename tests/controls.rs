@@ -1,0 +1,204 @@
+//! Controls of the proofs: what is false must be noticed, and must not be proved.
+#![cfg(feature = "mpfr")]
+
+use rayon::prelude::*;
+use spring_mass_contact::claims::{
+    Case, Claim, Given, Goal as Asked, Kind, Relation, claims, exponential_claims, unilateral_claims,
+};
+use spring_mass_contact::number::Exact;
+use spring_mass_contact::proof::controls::{Outcome, Without, changes, controls};
+use spring_mass_contact::proof::refute::{Value, Verdict, check, planted_points, raw_points};
+use spring_mass_contact::proof::{Counterexample, Statement, prove, statements};
+use spring_mass_contact::rug::Rational;
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+#[test]
+fn no_change_of_a_formula_goes_unnoticed() {
+    let controls = controls(&statements());
+    let unnoticed = controls.changes.iter().filter(|(_, outcome)| matches!(outcome, Outcome::Unnoticed));
+    let unnoticed: Vec<_> = unnoticed.map(|(change, _)| change.to_string()).collect();
+    assert!(unnoticed.is_empty(), "{unnoticed:#?}");
+    assert!(controls.counts().noticed > 600, "{:?}", controls.counts());
+}
+
+#[test]
+fn what_changes_nothing_is_only_the_order_in_a_square() {
+    for (change, outcome) in controls(&statements()).changes {
+        if matches!(outcome, Outcome::Unchanged) {
+            assert!(change.to_string().ends_with("a − b → b − a"), "{change}");
+        }
+    }
+}
+
+#[test]
+fn no_hypothesis_is_needless() {
+    let statements = statements();
+    for dropped in controls(&statements).dropped {
+        let what = format!("{} {}: {}", dropped.equation, dropped.name, dropped.given.text());
+        assert!(matches!(dropped.without, Without::Refuted(_)), "{what}: {:?}", dropped.without);
+    }
+}
+
+/// Without what is supposed to be > 0 but may then also be 0.
+fn weakened(statement: &Statement, hypothesis: usize) -> Option<Statement> {
+    let mut weaker = statement.clone();
+    let own = &mut weaker.hypotheses[hypothesis];
+    // Of the other, only the relation counts here.
+    let positive = own.relation() == Relation::Positive;
+    own.given = Given::Count;
+    assert_eq!(own.relation(), Relation::NonNegative);
+    positive.then_some(weaker)
+}
+
+/// Every statement that is near a claim: the source changed at one place, a hypothesis dropped or weakened.
+fn neighbours(statements: &[Statement]) -> Vec<(String, Statement)> {
+    let changes = changes(statements);
+    let near = |s: &Statement| {
+        let name = format!("{} {}", s.equation, s.name);
+        let mut near: Vec<_> =
+            changes.iter().filter_map(|c| Some((format!("{name} after {c}"), c.apply(s)?))).collect();
+        for (i, hypothesis) in s.hypotheses.iter().enumerate() {
+            let given = hypothesis.given.text();
+            near.push((format!("{name} without {given}"), s.without(i)));
+            near.extend(weakened(s, i).map(|weaker| (format!("{name} with {given} or = 0"), weaker)));
+        }
+        near
+    };
+    statements.par_iter().flat_map_iter(near).collect()
+}
+
+/// A statement for each goal: one that is false must not be proved because the next is not. The goals of an
+/// induction say something only together.
+fn goal_by_goal((name, statement): (String, Statement)) -> Vec<(String, Statement)> {
+    if statement.kind == "induction" {
+        return vec![(name, statement)];
+    }
+    let goals = statement.goals.clone().into_iter();
+    goals.map(|goal| (name.clone(), Statement { goals: vec![goal], ..statement.clone() })).collect()
+}
+
+#[test]
+fn what_numbers_refute_is_not_proved() {
+    let fails = |s: &Statement, case: &Case<Exact>| matches!(check(s, case), Verdict::Fails(..));
+    let audited = neighbours(&statements()).into_par_iter().flat_map_iter(goal_by_goal);
+    let audited = audited.map(|(name, s)| {
+        // Where there is a proof, numbers search for long. Where there is none, a few tell whether that is
+        // because the statement is false.
+        let proved = prove(&s).is_ok();
+        let (planted, raw) = if proved { (12, 60) } else { (4, 8) };
+        let planted = planted_points(&s.hypotheses).take(planted).find(|case| fails(&s, case));
+        let raw = raw_points(&s.hypotheses).take(raw).find(|case| fails(&s, case));
+        for case in planted.iter().chain(raw) {
+            assert!(!proved, "{name} is proved, and false at {case:?}");
+        }
+        [planted.is_some(), raw.is_some(), proved].map(usize::from)
+    });
+    let add = |a: [usize; 3], b: [usize; 3]| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
+    let [planted, raw, proved] = audited.reduce(|| [0; 3], add);
+    assert!(planted > 1000 && raw > 1000 && proved > 100, "{planted} planted, {raw} raw; {proved} proved");
+}
+
+#[test]
+fn points_reach_all_that_hypotheses_allow() {
+    let mut combinations: BTreeMap<String, Statement> = BTreeMap::new();
+    for s in statements() {
+        combinations.insert(format!("{:?}", s.hypotheses.iter().map(|h| h.given).collect::<Vec<_>>()), s);
+    }
+    for (name, s) in combinations {
+        let planted: Vec<_> = planted_points(&s.hypotheses).collect();
+        let raw: Vec<_> = raw_points(&s.hypotheses).cloned().collect();
+        assert!(
+            planted.len() > 20 && !raw.is_empty(),
+            "{name}: {} planted, {} raw",
+            planted.len(),
+            raw.len()
+        );
+        // What may be 0 is so at some, and is not at others.
+        for hypothesis in &s.hypotheses {
+            let sign = |case: &Case<Exact>| hypothesis.given.value(case).cmp(&Exact::from(0));
+            for points in [&planted, &raw] {
+                let (zero, positive) = (
+                    points.iter().any(|case| sign(case) == Ordering::Equal),
+                    points.iter().any(|case| sign(case) == Ordering::Greater),
+                );
+                let expected = match hypothesis.relation() {
+                    Relation::Positive => (false, true),
+                    Relation::NonNegative => (true, true),
+                    Relation::Zero => (true, false),
+                };
+                assert_eq!((zero, positive), expected, "{name}: {}", hypothesis.given.text());
+            }
+        }
+    }
+}
+
+fn holds(given: Given, case: &Case<Exact>) -> bool {
+    given.relation().admits(given.value(case).cmp(&Exact::from(0)))
+}
+
+/// Is one of the claim's goals false at the case? Division by zero panics, as it does for integers.
+fn fails(claim: &Claim<Value>, case: &Case<Exact>) -> bool {
+    let case = case.map(|_, x| Value::Exact(x.clone()));
+    let Ok(goals) = catch_unwind(AssertUnwindSafe(|| claim.goals(&case))) else { return true };
+    let wrong = |relation: Relation, x: &Value| x.sign().is_some_and(|sign| !relation.admits(sign));
+    // Goals speak of the distance from a limit; whether that vanishes has to be asked far out.
+    let stays_away = match &claim.kind {
+        Kind::Limit { of, by, to, .. } => {
+            let mut far = case.clone();
+            *far.get_mut(*by) = Value::Exact(Exact::power_of_two(100));
+            let (distance, tiny) = (of(&far) - to(&far), Value::Exact(Exact::power_of_two(-50)));
+            (&distance * &distance - tiny).sign() == Some(Ordering::Greater)
+        }
+        _ => false,
+    };
+    stays_away
+        || goals.iter().any(|goal| match goal {
+            Asked::Equal(a, b) => wrong(Relation::Zero, &(a - b)),
+            Asked::Sign(relation, x) => wrong(*relation, x),
+        })
+}
+
+#[test]
+fn dropped_hypotheses_are_refuted_by_the_claims_themselves() {
+    // Not by their trees: the generic functions are asked again, and so are the hypotheses.
+    let all: Vec<_> = claims().into_iter().chain(exponential_claims()).chain(unilateral_claims()).collect();
+    let statements = statements();
+    for dropped in controls(&statements).dropped {
+        let what = format!("{} {} without {}", dropped.equation, dropped.name, dropped.given.text());
+        let Without::Refuted(counterexample) = dropped.without else { panic!("{what}") };
+        let claim = all.iter().find(|c| (c.equation, c.name) == (dropped.equation, dropped.name)).unwrap();
+        let case = counterexample.case();
+        assert!(fails(claim, &case), "{what}: {counterexample}");
+        // An induction's invariants may go with the hypothesis.
+        let of =
+            statements.iter().find(|s| (s.equation, s.name) == (dropped.equation, dropped.name)).unwrap();
+        for given in of.hypotheses.iter().map(|hypothesis| &hypothesis.given) {
+            let expected = *given != dropped.given;
+            assert_eq!(holds(*given, &case), expected, "{what}: {} at {counterexample}", given.text());
+        }
+    }
+}
+
+#[test]
+fn counterexamples_are_small() {
+    let controls = controls(&statements());
+    let noticed = controls.changes.iter().filter_map(|(change, outcome)| match outcome {
+        Outcome::Noticed { counterexample, .. } => Some((change.to_string(), counterexample)),
+        Outcome::Unchanged | Outcome::Unnoticed => None,
+    });
+    let dropped = controls.dropped.iter().filter_map(|dropped| match &dropped.without {
+        Without::Refuted(counterexample) => Some((format!("{dropped:?}"), counterexample)),
+        Without::StillTrue | Without::Unknown => None,
+    });
+    let size = |c: &Counterexample| {
+        let coordinates = c.values.iter().map(|(_, x)| x.as_rational());
+        let larger = |q: &Rational| q.numer().to_i32().unwrap().abs().max(q.denom().to_i32().unwrap());
+        coordinates.map(larger).max().unwrap_or(0)
+    };
+    // Raw points are integers of this size, and nearly all that is wrong shows at one of them.
+    for (what, counterexample) in noticed.chain(dropped) {
+        assert!(size(counterexample) <= 9, "{what}: {counterexample}");
+    }
+}
