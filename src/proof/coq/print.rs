@@ -1,0 +1,361 @@
+//! Formulas as Coq writes them.
+
+use crate::claims::{Formula, Relation, Var, call};
+use crate::number::Tree;
+use crate::number::tree::Step;
+use crate::proof::algebra::{Monomial, Poly, Ratio, Symbol};
+use std::fmt;
+
+/// A formula in Coq.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Expr {
+    Name(String),
+    /// Not negative.
+    Number(String),
+    Neg(Box<Expr>),
+    Binary(Operator, Box<Expr>, Box<Expr>),
+    Power(Box<Expr>, u32),
+    /// A function and its arguments.
+    Call(String, Vec<Expr>),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Operator {
+    Add,
+    Sub,
+    Mul,
+    Div,
+}
+
+/// The five parameters.
+pub(super) const SYSTEM: [Var; 5] = [Var::C, Var::M, Var::G, Var::L, Var::H];
+
+/// A symbol of the chapter in letters that Coq takes: ε₄ is eps4, δu is du.
+pub(super) fn ascii(symbol: &str) -> String {
+    let letter = |c: char| match c {
+        'ε' => "eps".to_string(),
+        'λ' => "lambda".to_string(),
+        'α' => "alpha".to_string(),
+        'ρ' => "rho".to_string(),
+        'δ' => "d".to_string(),
+        'ᵏ' => "_k".to_string(),
+        // The chapter has no other h.
+        'H' => "h".to_string(),
+        '₀'..='₉' => char::from(b'0' + (c as u32 - '₀' as u32) as u8).to_string(),
+        c if c.is_ascii_alphanumeric() => c.to_string(),
+        _ => "_".to_string(),
+    };
+    symbol.chars().map(letter).collect()
+}
+
+/// A function of the chapter: `penalty::deflection` is penalty_deflection.
+pub(super) fn function(formula: &Formula) -> String {
+    formula.name().replace("::", "_").replace('.', "_")
+}
+
+/// Those of the five parameters that a function depends on; they come before its arguments.
+pub(super) fn parameters(formula: &Formula) -> impl Iterator<Item = String> {
+    let symbols = formula.tree.symbols();
+    let own = move |name: &&str| symbols.contains(name) && !formula.arguments.contains(name);
+    SYSTEM.into_iter().map(Var::symbol).filter(own).map(ascii)
+}
+
+impl Expr {
+    pub(super) fn name(name: impl Into<String>) -> Self {
+        Expr::Name(name.into())
+    }
+
+    fn int(n: i32) -> Self {
+        let size = Expr::Number(n.unsigned_abs().to_string());
+        if n < 0 { size.negated() } else { size }
+    }
+
+    fn negated(self) -> Self {
+        Expr::Neg(self.into())
+    }
+
+    pub(super) fn binary(operator: Operator, a: Expr, b: Expr) -> Self {
+        Expr::Binary(operator, a.into(), b.into())
+    }
+
+    pub(super) fn plus(self, other: Expr) -> Self {
+        Expr::binary(Operator::Add, self, other)
+    }
+
+    pub(super) fn times(self, other: Expr) -> Self {
+        if self.is(1) { other } else { Expr::binary(Operator::Mul, self, other) }
+    }
+
+    pub(super) fn over(self, other: Expr) -> Self {
+        if other.is(1) { self } else { Expr::binary(Operator::Div, self, other) }
+    }
+
+    fn is(&self, n: u8) -> bool {
+        matches!(self, Expr::Number(digits) if *digits == n.to_string())
+    }
+
+    /// A formula; what a function of the chapter computes in it, as a call of that function.
+    pub(super) fn of(tree: &Tree) -> Self {
+        match call(tree) {
+            Some(call) => {
+                let arguments = parameters(call.formula).map(Expr::Name);
+                Expr::Call(
+                    function(call.formula),
+                    arguments.chain(call.arguments.iter().map(Expr::of)).collect(),
+                )
+            }
+            None => Expr::last_step(tree),
+        }
+    }
+
+    /// What a function of the chapter does: its last step is its own, unless all it does is call another.
+    pub(super) fn body(formula: &Formula) -> Self {
+        if formula.delegates().is_some() { Expr::of(&formula.tree) } else { Expr::last_step(&formula.tree) }
+    }
+
+    fn last_step(tree: &Tree) -> Self {
+        use Operator::*;
+        let of = |tree: &Tree| Box::new(Expr::of(tree));
+        let expr = match tree.step() {
+            Step::Symbol(name) => Expr::Name(ascii(name)),
+            Step::Int(n) => Expr::int(*n),
+            Step::Neg(a) => Expr::Neg(of(a)),
+            Step::Add(a, b) => Expr::Binary(Add, of(a), of(b)),
+            Step::Sub(a, b) => Expr::Binary(Sub, of(a), of(b)),
+            Step::Mul(a, b) => Expr::Binary(Mul, of(a), of(b)),
+            Step::Div(a, b) => Expr::Binary(Div, of(a), of(b)),
+            Step::Exp(a) => Expr::Call("exp".into(), vec![*of(a)]),
+            Step::PositivePart(a) => Expr::Call("Rmax".into(), vec![*of(a), Expr::int(0)]),
+            Step::Min(a, b) => Expr::Call("Rmin".into(), vec![*of(a), *of(b)]),
+        };
+        // What the rules of differentiation write is full of 0 x, 1 x and x + 0; nobody else's zeros are touched.
+        if tree.site().file.ends_with("dual.rs") { expr.simplified() } else { expr }
+    }
+
+    fn simplified(self) -> Self {
+        use Operator::*;
+        match self {
+            Expr::Binary(Add, a, b) if a.is(0) => *b,
+            Expr::Binary(Add | Sub, a, b) if b.is(0) => *a,
+            Expr::Binary(Sub, a, b) if a.is(0) => b.negated(),
+            Expr::Binary(Mul, a, b) if a.is(0) || b.is(1) => *a,
+            Expr::Binary(Mul, a, b) if b.is(0) || a.is(1) => *b,
+            Expr::Binary(Div, a, b) if a.is(0) || b.is(1) => *a,
+            Expr::Neg(a) if a.is(0) => *a,
+            other => other,
+        }
+    }
+
+    /// A polynomial, as a sum of products of powers.
+    pub(super) fn poly(poly: &Poly) -> Self {
+        let mut sum: Option<Expr> = None;
+        for (exponent, part) in poly.by_exponent() {
+            let exponential = exponent.map(|e| Expr::Call("exp".into(), vec![Expr::ratio(&e)]));
+            for (monomial, coefficient) in part.terms().rev() {
+                let number = |n: &rug::Integer| Expr::Number(n.clone().abs().to_string());
+                let mut factors: Vec<Expr> = monomial.powers().iter().map(power).collect();
+                factors.extend(exponential.clone());
+                let size = number(coefficient.numer());
+                let product = factors.into_iter().fold(size, Expr::times);
+                let term = product.over(number(coefficient.denom()));
+                sum = Some(match (sum, coefficient.is_negative()) {
+                    (None, false) => term,
+                    (None, true) => term.negated(),
+                    (Some(sum), false) => sum.plus(term),
+                    (Some(sum), true) => Expr::binary(Operator::Sub, sum, term),
+                });
+            }
+        }
+        sum.unwrap_or(Expr::int(0))
+    }
+
+    pub(super) fn monomial(monomial: &Monomial) -> Self {
+        Expr::poly(&Poly::term(monomial.clone(), 1.into()))
+    }
+
+    pub(super) fn ratio(ratio: &Ratio) -> Self {
+        Expr::poly(ratio.num()).over(Expr::poly(ratio.den()))
+    }
+
+    /// With a name replaced.
+    pub(super) fn with(&self, name: &str, by: &Expr) -> Self {
+        let with = |a: &Expr| Box::new(a.with(name, by));
+        match self {
+            Expr::Name(own) if own == name => by.clone(),
+            Expr::Name(_) | Expr::Number(_) => self.clone(),
+            Expr::Neg(a) => Expr::Neg(with(a)),
+            Expr::Binary(operator, a, b) => Expr::Binary(*operator, with(a), with(b)),
+            Expr::Power(a, n) => Expr::Power(with(a), *n),
+            Expr::Call(function, arguments) => {
+                Expr::Call(function.clone(), arguments.iter().map(|a| a.with(name, by)).collect())
+            }
+        }
+    }
+
+    /// What is said of its sign.
+    pub(super) fn relation(&self, relation: Relation) -> String {
+        match relation {
+            Relation::Positive => format!("0 < {self}"),
+            Relation::NonNegative => format!("0 <= {self}"),
+            Relation::Zero => format!("{self} = 0"),
+        }
+    }
+
+    /// Every formula that is this one but for one sign: a + for a − or the other way round, or a − lost.
+    ///
+    /// Only its own steps count, not the arguments of calls.
+    pub(super) fn flips(&self) -> Vec<Expr> {
+        match self {
+            Expr::Neg(a) => {
+                let inside = a.flips().into_iter().map(Expr::negated);
+                std::iter::once((**a).clone()).chain(inside).collect()
+            }
+            Expr::Binary(operator, a, b) => {
+                let own = match operator {
+                    Operator::Add => Some(Operator::Sub),
+                    Operator::Sub => Some(Operator::Add),
+                    Operator::Mul | Operator::Div => None,
+                };
+                let own = own.map(|flipped| Expr::Binary(flipped, a.clone(), b.clone()));
+                let left = a.flips().into_iter().map(|a| Expr::Binary(*operator, a.into(), b.clone()));
+                let right = b.flips().into_iter().map(|b| Expr::Binary(*operator, a.clone(), b.into()));
+                own.into_iter().chain(left).chain(right).collect()
+            }
+            Expr::Name(_) | Expr::Number(_) | Expr::Power(..) | Expr::Call(..) => Vec::new(),
+        }
+    }
+
+    /// How strongly it holds together, on Coq's own scale: less is stronger.
+    fn level(&self) -> u32 {
+        match self {
+            Expr::Name(_) | Expr::Number(_) => 0,
+            Expr::Call(..) => 10,
+            Expr::Power(..) => 30,
+            Expr::Neg(_) => 35,
+            Expr::Binary(operator, ..) => operator.level(),
+        }
+    }
+
+    /// As an argument: in brackets unless it is one word.
+    pub(super) fn argument(&self) -> String {
+        if self.level() > 0 { format!("({self})") } else { self.to_string() }
+    }
+
+    /// To be raised to a power.
+    pub(super) fn base(&self) -> String {
+        if self.level() > 10 { format!("({self})") } else { self.to_string() }
+    }
+
+    fn within(&self, level: u32, f: &mut fmt::Formatter) -> fmt::Result {
+        if self.level() > level { write!(f, "({self})") } else { write!(f, "{self}") }
+    }
+}
+
+fn power((symbol, n): &(Symbol, u32)) -> Expr {
+    let symbol = Expr::Name(ascii(symbol.0));
+    match n {
+        1 => symbol,
+        // As a square wherever it is one, so that its sign is seen.
+        n if n % 2 == 0 && *n > 2 => Expr::Power(Expr::Power(symbol.into(), n / 2).into(), 2),
+        n => Expr::Power(symbol.into(), *n),
+    }
+}
+
+impl Operator {
+    fn level(self) -> u32 {
+        match self {
+            Operator::Add | Operator::Sub => 50,
+            Operator::Mul | Operator::Div => 40,
+        }
+    }
+}
+
+impl fmt::Display for Expr {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Expr::Name(text) | Expr::Number(text) => f.write_str(text),
+            Expr::Neg(a) => {
+                f.write_str("- ")?;
+                a.within(34, f)
+            }
+            Expr::Binary(operator, a, b) => {
+                let sign = match operator {
+                    Operator::Add => "+",
+                    Operator::Sub => "-",
+                    Operator::Mul => "*",
+                    Operator::Div => "/",
+                };
+                a.within(operator.level(), f)?;
+                write!(f, " {sign} ")?;
+                b.within(operator.level() - 1, f)
+            }
+            Expr::Power(a, n) => {
+                a.within(10, f)?;
+                write!(f, " ^ {n}")
+            }
+            Expr::Call(function, arguments) => {
+                f.write_str(function)?;
+                for argument in arguments {
+                    f.write_str(" ")?;
+                    argument.within(0, f)?;
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::claims::formula;
+    use crate::number::{Exponential, Field, PositivePart};
+
+    fn text(tree: &Tree) -> String {
+        Expr::of(tree).to_string()
+    }
+
+    #[test]
+    fn brackets_where_coq_needs_them() {
+        let [a, b, c] = ["a", "b", "ε₄"].map(|name| Tree::symbol(name));
+        assert_eq!(text(&(&a - &(&b - &c))), "a - (b - eps4)");
+        assert_eq!(text(&(&a - &b - &c)), "a - b - eps4");
+        assert_eq!(text(&(&a / &(&b * &c))), "a / (b * eps4)");
+        assert_eq!(text(&(&a * &b / &c)), "a * b / eps4");
+        assert_eq!(text(&(-(&a + &b) * &c)), "- (a + b) * eps4");
+        // Coq reads - a * b as (- a) * b.
+        assert_eq!(text(&-(&a * &b)), "- (a * b)");
+        assert_eq!(text(&-(-&a)), "- (- a)");
+        assert_eq!(text(&(&a - Tree::int(-2))), "a - - 2");
+        assert_eq!(text(&(&a - &b).exp().positive_part()), "Rmax (exp (a - b)) 0");
+        assert_eq!(text(&a.min(&-&b)), "Rmin a (- b)");
+    }
+
+    #[test]
+    fn polynomials_are_sums_of_powers() {
+        let x = |name| Poly::symbol(Symbol(name));
+        let square = x("a").times(&x("a"));
+        let fourth = square.times(&square).scaled(&(-3).into());
+        assert_eq!(Expr::poly(&fourth.plus(&x("b"))).to_string(), "- (3 * (a ^ 2) ^ 2) + b");
+        assert_eq!(Expr::poly(&square.scaled(&(1, 2).into())).to_string(), "a ^ 2 / 2");
+        assert_eq!(Expr::poly(&Poly::zero()).to_string(), "0");
+    }
+
+    #[test]
+    fn a_call_is_a_call_and_a_definition_is_its_own_work() {
+        let body = |path: &str| Expr::body(formula(path).unwrap()).to_string();
+        assert_eq!(body("penalty::penetration"), "system_reaction c m g l h / penalty_total_stiffness c eps");
+        assert_eq!(body("lagrange::multiplier"), "system_reaction c m g l h");
+        assert_eq!(body("system::reaction"), "m * g - c * (h - l)");
+        // Formed by differentiating, without the zeros and ones.
+        assert_eq!(body("structure::first_variation"), "(c * du * u + c * u * du) / 2 - m * g * du");
+    }
+
+    #[test]
+    fn a_flip_changes_one_sign() {
+        let [a, b, c] = ["a", "b", "c"].map(|name| Tree::symbol(name));
+        let flips = Expr::of(&(-(&a + &b) * &c - &a)).flips();
+        let texts: Vec<_> = flips.iter().map(Expr::to_string).collect();
+        assert_eq!(texts, ["- (a + b) * c + a", "(a + b) * c - a", "- (a - b) * c - a"]);
+    }
+}

@@ -1,0 +1,376 @@
+//! The proof of a goal as Coq's tactics: the kernel's derivation, retold.
+//!
+//! What the kernel *found* is used: which quantities to name, into which cases to split, which value a
+//! bracket has, and a form of each quantity from which its sign can be read off. None of it is believed:
+//! each step is a goal that Coq closes by itself, or does not.
+
+use super::print::{Expr, ascii};
+use crate::claims::Var;
+use crate::number::Tree;
+use crate::number::tree::Step;
+use crate::proof::algebra::{Monomial, Poly, Ratio, Symbol};
+use crate::proof::kernel::{Because, Derivation, Direct, Signed, Supposed, Used};
+use crate::proof::sign::{self, Assumed, Assumptions, Certificate, Rule, Sign};
+use std::fmt::Write;
+
+/// Lines of a proof, and what is known at their end.
+#[derive(Clone, Default)]
+pub(super) struct Script {
+    lines: String,
+    indent: usize,
+    known: Assumptions,
+    /// How many suppositions have been made, and how many of them by splitting.
+    supposed: usize,
+    cases: usize,
+    /// For names of what is proved on the way.
+    signs: usize,
+}
+
+/// Why a derivation has no script.
+pub(super) type Reason = &'static str;
+
+/// Any of the derivations without cases that a derivation ends in: all begin with the same suppositions.
+fn first(derivation: &Derivation) -> &Direct {
+    match derivation {
+        Derivation::Direct(direct) => direct,
+        Derivation::Cases(_, positive, _) => first(positive),
+    }
+}
+
+impl Script {
+    pub(super) fn new() -> Self {
+        Script { indent: 1, ..Script::default() }
+    }
+
+    pub(super) fn into_text(self) -> String {
+        self.lines
+    }
+
+    pub(super) fn line(&mut self, text: &str) {
+        let _ = writeln!(self.lines, "{:1$}{text}", "", 2 * self.indent);
+    }
+
+    /// A part of its own; its names end with it.
+    pub(super) fn block(
+        &mut self,
+        bullet: &str,
+        inside: impl FnOnce(&mut Self) -> Result<(), Reason>,
+    ) -> Result<(), Reason> {
+        let mut own = Script { lines: String::new(), indent: self.indent + 1, ..self.clone() };
+        inside(&mut own)?;
+        let pad = " ".repeat(2 * self.indent);
+        let text = own.lines.trim_start();
+        let end = if bullet == "{" { " }\n" } else { "\n" };
+        let _ = write!(self.lines, "{pad}{bullet} {}{end}", text.trim_end());
+        Ok(())
+    }
+
+    /// The whole derivation, from hypotheses H1, H2, …
+    pub(super) fn derivation(&mut self, derivation: &Derivation) -> Result<(), Reason> {
+        self.given(derivation)?;
+        self.cases(derivation)
+    }
+
+    /// The hypotheses, put to use.
+    fn given(&mut self, derivation: &Derivation) -> Result<(), Reason> {
+        let given = first(derivation).supposed.iter().filter(|s| s.given.is_some());
+        given.enumerate().try_for_each(|(i, supposed)| self.suppose(supposed, &format!("H{}", i + 1)))
+    }
+
+    /// A limit; the hypotheses H1, H2, … are those that do not speak of `by`, and `inside` makes use of those
+    /// that do, for a positive value X.
+    pub(super) fn limit(
+        &mut self,
+        derivation: &Derivation,
+        by: Var,
+        inside: impl FnOnce(&mut Self) -> Result<(), Reason>,
+    ) -> Result<(), Reason> {
+        let Derivation::Direct(direct) = derivation else { return Err("a limit in cases") };
+        let Because::Limit { of, .. } = &direct.because else { return Err("no limit") };
+        if !direct.brackets.is_empty() {
+            return Err("a limit with brackets");
+        }
+        let x = Symbol(by.symbol());
+        let others = direct.supposed.iter().filter(|s| !matches!(s.used, Used::Symbol(y) if y == x));
+        others.enumerate().try_for_each(|(i, supposed)| self.suppose(supposed, &format!("H{}", i + 1)))?;
+        self.at_infinity(of, x, inside)
+    }
+
+    fn suppose(&mut self, supposed: &Supposed, hypothesis: &str) -> Result<(), Reason> {
+        self.supposed += 1;
+        let i = self.supposed;
+        let (kind, relation, assumed) = match supposed.sign {
+            Sign::Positive => ("positive", "<", Assumed::Positive),
+            _ => ("nonnegative", "<=", Assumed::NonNegative),
+        };
+        match &supposed.used {
+            Used::Follows | Used::Unused => {}
+            Used::Symbol(x) => {
+                self.known.insert(*x, assumed);
+                let said = supposed.given.map(|given| given.value(&super::symbols()));
+                if said.is_some_and(|said| *said.step() == Step::Symbol(x.0)) {
+                    return Ok(());
+                }
+                let name = ascii(x.0);
+                self.line(&format!(
+                    "assert (P{i} : 0 {relation} {name}) by (apply (same_{kind} _ _ {hypothesis}); identity)."
+                ));
+            }
+            Used::Pivot(pivot, by, named) => {
+                // pivot − by = factor · (the quantity − its name)
+                let difference = Ratio::from(Poly::term(pivot.clone(), 1.into())).minus(by);
+                let name = named.map_or(Ratio::zero(), |name| Poly::symbol(name).into());
+                let factor =
+                    difference.over(&supposed.value.minus(&name)).ok_or("a hypothesis has no solution")?;
+                let (pivot, by, factor) =
+                    (Expr::monomial(pivot), Expr::ratio(by), Expr::ratio(&factor).argument());
+                if let Some(x) = named {
+                    let name = ascii(x.0);
+                    self.line(&format!("destruct (named_{kind} _ {hypothesis}) as ({name} & S{i} & P{i})."));
+                    self.line(&format!(
+                        "assert (E{i} : pivot {} {}) by (apply (solved_for _ _ {factor} _ _ S{i}); identity).",
+                        pivot.argument(),
+                        by.argument()
+                    ));
+                    self.known.insert(*x, assumed);
+                } else {
+                    self.line(&format!(
+                        "assert (E{i} : {pivot} = {by}) by (apply (solved _ {factor} _ _ {hypothesis}); identity)."
+                    ));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn cases(&mut self, derivation: &Derivation) -> Result<(), Reason> {
+        match derivation {
+            Derivation::Direct(direct) => self.direct(direct),
+            Derivation::Cases(deciding, positive, not) => {
+                self.cases += 1;
+                let case = format!("C{}", self.cases);
+                self.line(&format!(
+                    "destruct (either {}) as [{case} | {case}].",
+                    Expr::poly(deciding).argument()
+                ));
+                let bullet = ["-", "+", "*", "--", "++"][(self.cases - 1).min(4)];
+                for branch in [positive, not] {
+                    self.block(bullet, |own| {
+                        let supposed =
+                            first(branch).supposed.get(own.supposed).ok_or("a case supposes nothing")?;
+                        own.suppose(supposed, &case)?;
+                        own.cases(branch)
+                    })?;
+                }
+                Ok(())
+            }
+        }
+    }
+
+    fn direct(&mut self, direct: &Direct) -> Result<(), Reason> {
+        // A divisor that is itself a quotient, or that hypotheses rewrite, is asked for by its numerator.
+        let quotient = |tree: &Tree| tree.any(&|step| matches!(step.step(), Step::Div(..)));
+        let rewritten = direct.supposed.iter().any(|s| matches!(s.used, Used::Pivot(..)));
+        let numerators = direct.divisors.iter().filter(|(tree, _)| rewritten || quotient(tree));
+        for (i, (_, signed)) in numerators.enumerate() {
+            let value = self.positive(&signed.num)?;
+            self.line(&format!(
+                "assert (M{} : {value} <> 0) by (apply positive_not_zero; positivity).",
+                i + 1
+            ));
+        }
+        for (i, (bracket, result, signed)) in direct.brackets.iter().enumerate() {
+            // All its occurrences are rewritten at once.
+            if direct.brackets[..i].iter().all(|(known, ..)| known != bracket) {
+                self.bracket(bracket, result, signed)?;
+            }
+        }
+        match &direct.because {
+            Because::Same(_) => self.line("identity."),
+            Because::Sign(signed) if signed.sign() == Sign::Zero => {
+                self.line("match goal with |- _ ?x => replace x with 0 by identity end; lra.");
+            }
+            Because::Sign(signed) => {
+                let value = self.size(signed)?;
+                self.line(&format!("sign_by {}.", value.argument()));
+            }
+            Because::Derivative(..) => self.line("derivative."),
+            Because::Limit { .. } => return Err("a limit among other goals"),
+        }
+        Ok(())
+    }
+
+    fn bracket(&mut self, bracket: &Tree, result: &Tree, signed: &Signed) -> Result<(), Reason> {
+        let first = signed.sign().implies(Sign::NonNegative);
+        let tactic = match (bracket.step(), first) {
+            (Step::Min(..), true) => "minimum_first",
+            (Step::Min(..), false) => "minimum_second",
+            (_, true) => "bracket_open",
+            (_, false) => "bracket_shut",
+        };
+        debug_assert!(!matches!(bracket.step(), Step::Min(a, _) if first != (a == result)), "{bracket}");
+        let size = self.size(signed)?;
+        self.line(&format!("{tactic} {}.", size.argument()));
+        Ok(())
+    }
+
+    /// The absolute value of a quotient, in a form that shows that it is not negative.
+    pub(super) fn size(&mut self, signed: &Signed) -> Result<Expr, Reason> {
+        Ok(self.positive(&signed.num)?.over(self.positive(&signed.den)?))
+    }
+
+    /// The absolute value of a polynomial, in a form that shows that it is not negative.
+    fn positive(&mut self, certificate: &Certificate) -> Result<Expr, Reason> {
+        Ok(match &certificate.rule {
+            Rule::Zero | Rule::Terms => Expr::poly(&unsigned(certificate)),
+            Rule::Factor(factor, rest) => {
+                let factor = self.positive(factor)?;
+                factor.times(self.positive(rest)?)
+            }
+            Rule::Square { leading, root, rest, .. } => {
+                let root = Expr::Power(Expr::poly(root).into(), 2);
+                let top = if rest.of.is_zero() { root } else { root.plus(self.positive(rest)?) };
+                top.over(Expr::Number("4".into()).times(self.positive(leading)?))
+            }
+            Rule::Slope { x, start, slope } => self.slope(certificate, *x, start, slope)?,
+        })
+    }
+
+    /// By its value at 0 and its slope: no form shows its sign, so it is proved on the way.
+    fn slope(
+        &mut self,
+        certificate: &Certificate,
+        x: Symbol,
+        start: &Certificate,
+        slope: &Certificate,
+    ) -> Result<Expr, Reason> {
+        let poly = unsigned(certificate);
+        let (f, name) = (Expr::poly(&poly), ascii(x.0));
+        let strict = certificate.sign.is_strict();
+        let rule = match (strict, start.sign.is_strict()) {
+            (true, true) => "rises_from_positive",
+            (true, false) => "rises_strictly",
+            (false, _) => "rises",
+        };
+        let relation = if strict { "<" } else { "<=" };
+        let mut beyond = self.known.clone();
+        beyond.insert(x, Assumed::Positive);
+        let derivative = poly.derivative(x);
+        let (at_zero, above_zero) =
+            (poly.replace(&Monomial::of(x), &Ratio::zero()), below(&derivative, &beyond)?);
+        self.signs += 1;
+        let i = self.signs;
+        self.line(&format!("assert (F{i} : 0 {relation} {f})."));
+        let signs = self.signs;
+        self.block("{", |own| {
+            own.line(&format!(
+                "apply ({rule} (fun {name} => {f}) (fun {name} => {}) {name}); cbv beta.",
+                Expr::ratio(&derivative)
+            ));
+            own.block("-", |own| {
+                own.line("positivity.");
+                Ok(())
+            })?;
+            own.block("-", |own| {
+                let below = below(&at_zero, &own.known)?;
+                let value = own.positive(start)?.over(own.positive(&below)?);
+                own.line(&format!("sign_by {}.", value.argument()));
+                Ok(())
+            })?;
+            // The same letter for another value.
+            let again = format!("rename {name} into {name}_{i}; intros {name} X{i}.");
+            own.block("-", |own| {
+                own.line(&again);
+                own.line("derivative.");
+                Ok(())
+            })?;
+            own.block("-", |own| {
+                own.line(&again);
+                own.known = beyond.clone();
+                own.signs = signs;
+                let value = own.positive(slope)?.over(own.positive(&above_zero)?);
+                own.line(&format!("sign_by {}.", value.argument()));
+                Ok(())
+            })
+        })?;
+        Ok(f)
+    }
+
+    /// A limit for x → ∞: the formula as one in 1/x, and one e^… that falls.
+    fn at_infinity(
+        &mut self,
+        of: &Ratio,
+        x: Symbol,
+        inside: impl FnOnce(&mut Self) -> Result<(), Reason>,
+    ) -> Result<(), Reason> {
+        let mut parts = of.num().by_exponent();
+        let moving = parts.keys().flatten().find(|e| e.symbols().contains(&x)).cloned();
+        let falling = match moving {
+            None => None,
+            Some(exponent) => {
+                let part = parts.remove(&Some(exponent.clone())).ok_or("an exponential is lost")?;
+                let rate = Ratio::clone(&exponent)
+                    .over(&Poly::symbol(x).into())
+                    .ok_or("an exponent is not linear")?;
+                let factor = Ratio::from(part).over(&of.den().clone().into()).ok_or("a divisor is 0")?;
+                if rate.symbols().contains(&x) || factor.symbols().contains(&x) {
+                    return Err("an exponential is not that of a constant rate, or has a factor that grows");
+                }
+                Some((factor, rate))
+            }
+        };
+        if parts.keys().flatten().any(|e| e.symbols().contains(&x)) {
+            return Err("there is more than one exponential");
+        }
+        let rest = parts.into_iter().fold(Poly::zero(), |sum, (exponent, part)| {
+            let part = exponent.map_or(part.clone(), |e| part.times(&Poly::exponential((*e).clone())));
+            sum.plus(&part)
+        });
+        let degree = of.den().degree(x);
+        // A polynomial of x over x^degree, in y = 1/x.
+        let reversed = |poly: &Poly| {
+            let coefficients = poly.coefficients(x);
+            let terms = coefficients.iter().enumerate().map(|(i, c)| {
+                (0..degree - i as u32).fold(c.clone(), |term, _| term.times(&Poly::symbol(Symbol("y"))))
+            });
+            terms.fold(Poly::zero(), |sum, term| sum.plus(&term))
+        };
+        let g = Expr::poly(&reversed(&rest)).over(Expr::poly(&reversed(of.den())));
+        let name = ascii(x.0);
+        let (rule, more) = match &falling {
+            None => ("limit_at_infinity", String::new()),
+            Some((factor, rate)) => (
+                "limit_with_decay",
+                format!(" {} {}", Expr::ratio(factor).argument(), Expr::ratio(rate).argument()),
+            ),
+        };
+        self.line(&format!("apply ({rule} _ (fun y => {g}){more}); cbv beta."));
+        self.block("-", |own| {
+            own.line(&format!("intros {name} X."));
+            inside(own)?;
+            own.line("identity.");
+            Ok(())
+        })?;
+        if let Some((_, rate)) = &falling {
+            let certificate = |p: &Poly| sign::sign(p, &self.known).ok_or("the sign of a rate is open");
+            let (num, den) = (certificate(rate.num())?, certificate(rate.den())?);
+            let size = self.positive(&num)?.over(self.positive(&den)?);
+            self.line(&format!("- sign_by {}.", size.argument()));
+        }
+        self.line("- auto_derive; nonzero.");
+        self.line("- identity.");
+        Ok(())
+    }
+}
+
+fn below(value: &Ratio, known: &Assumptions) -> Result<Certificate, Reason> {
+    sign::sign(value.den(), known).ok_or("the sign of a divisor is open")
+}
+
+/// A polynomial or its opposite, whichever is not negative.
+fn unsigned(certificate: &Certificate) -> Poly {
+    match certificate.sign {
+        Sign::Negative | Sign::NonPositive => certificate.of.negated(),
+        Sign::Zero | Sign::NonNegative | Sign::Positive => certificate.of.clone(),
+    }
+}
