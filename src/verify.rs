@@ -1,11 +1,13 @@
-//! Runs the claims in the number systems and reports.
+//! Proves the claims, runs them in the number systems, and reports.
 //!
 //! ```
-//! use spring_mass_contact::{number::NumberSystem, verify::{Options, Status, verify}};
+//! use spring_mass_contact::verify::{Options, Status, verify};
 //!
 //! let options = Options { cases: 20, equations: vec!["1.13".into()], ..Options::default() };
 //! let report = verify(&options, &|_, _| ());
-//! assert!(report.rows.iter().all(|row| row.status == Status::Held));
+//! let proofs = report.rows.iter().filter(|row| row.scalar.is_none());
+//! assert!(report.holds() && proofs.count() > 0);
+//! assert!(report.rows.iter().all(|row| matches!(row.status, Status::Proved | Status::Held)));
 //! ```
 
 mod cases;
@@ -13,6 +15,7 @@ mod checker;
 
 use crate::claims::{Case, Given, entries};
 use crate::number::{Exact, Mpfr, NumberSystem};
+use crate::proof::{Statement, prove, refute, statements};
 use checker::{Checker, Checks, Exactly, Floats, Tally};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -42,28 +45,30 @@ impl Default for Options {
 /// What was found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
-    /// A row a claim and number system, in the chapter's order.
+    /// A row a claim and what it was tried by, in the chapter's order: its proof first, then number systems.
     pub rows: Vec<Row>,
 }
 
 impl Report {
     /// Does every claim hold?
     pub fn holds(&self) -> bool {
-        self.rows.iter().all(|row| row.status == Status::Held)
+        self.rows.iter().all(|row| row.status != Status::Failed)
     }
 }
 
-/// Whether a claim holds in a number system.
+/// Whether a claim holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Status {
+    /// For all values of its quantities.
+    Proved,
     /// In every case that could be decided, and there was one.
     Held,
-    /// Not in some case, or no case could be decided.
+    /// Not in some case, or no case could be decided; or there is no proof.
     Failed,
 }
 
-/// One claim in one number system.
+/// One claim, proved or in one number system.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
     /// The entry.
@@ -72,10 +77,12 @@ pub struct Row {
     pub claim: &'static str,
     /// Its kind.
     pub kind: &'static str,
-    /// The number system.
-    pub scalar: NumberSystem,
-    /// Held or failed.
+    /// The number system; none for the proof.
+    pub scalar: Option<NumberSystem>,
+    /// Proved, held or failed.
     pub status: Status,
+    /// Why there is no proof.
+    pub why: Option<String>,
     /// Cases that were decided.
     pub decided: u64,
     /// Cases that could not be: a sign lost in rounding, or numbers out of the scalar's range.
@@ -147,17 +154,18 @@ pub fn verify(options: &Options, progress: &(dyn Fn(usize, usize) + Sync)) -> Re
             }
         }
     }
-    let mut rows = Vec::new();
+    let wanted_statements = statements().into_iter().filter(|statement| wanted(statement.equation));
+    let mut rows: Vec<Row> = wanted_statements.collect::<Vec<_>>().par_iter().map(proof).collect();
     for ((scalar, checker), total) in checkers.iter().zip(totals) {
         for (head, tally) in checker.heads().into_iter().zip(total) {
             if wanted(head.equation) {
-                rows.push(tally.into_row(head, *scalar));
+                rows.push(tally.into_row(head, Some(*scalar)));
             }
         }
     }
     let position = |row: &Row| entries().iter().position(|entry| entry.equation == row.equation);
     rows.sort_by_key(position);
-    // Within an equation the scalars of a claim stand together.
+    // Within an equation all rows of a claim stand together.
     let mut sorted: Vec<Row> = Vec::with_capacity(rows.len());
     for row in rows {
         let same = |r: &Row| r.equation == row.equation && r.claim == row.claim;
@@ -165,6 +173,26 @@ pub fn verify(options: &Options, progress: &(dyn Fn(usize, usize) + Sync)) -> Re
         sorted.insert(at, row);
     }
     Report { rows: sorted }
+}
+
+/// The row of a proof.
+fn proof(statement: &Statement) -> Row {
+    let why = prove(statement).err();
+    Row {
+        equation: statement.equation,
+        claim: statement.name,
+        kind: statement.kind,
+        scalar: None,
+        status: if why.is_none() { Status::Proved } else { Status::Failed },
+        counterexample: why
+            .as_ref()
+            .and_then(|_| refute(statement))
+            .map(|counterexample| counterexample.case()),
+        why: why.map(|why| why.to_string()),
+        decided: 0,
+        undecided: 0,
+        worst: None,
+    }
 }
 
 fn checks(scalar: NumberSystem) -> Box<dyn Checks> {

@@ -405,7 +405,7 @@ fn a_pipe_that_closes_after_a_line_is_no_error() {
     assert_eq!((output.status.code(), output.stderr.as_slice()), (Some(0), b"".as_slice()));
     // Without a command it verifies, in all these.
     let words: Vec<_> = line.split_whitespace().collect();
-    assert_eq!(words, ["number", "title", "f32", "f64", "mpfr:256", "exact"]);
+    assert_eq!(words, ["number", "title", "proved", "f32", "f64", "mpfr:256", "exact"]);
 }
 
 #[cfg(target_os = "linux")]
@@ -447,8 +447,8 @@ fn the_whole_chapter_holds() {
     let line = "verify --scalar f32 --scalar f64 --scalar exact --scalar mpfr:777 --cases 50 --seed 99";
     let (report, code) = json(&line.split(' ').collect::<Vec<_>>());
     assert_eq!(keys(&report), ["equations", "summary"]);
-    assert_eq!(keys(&report["summary"]), ["claims", "failed", "held"]);
-    let mut rows = 0;
+    assert_eq!(keys(&report["summary"]), ["claims", "failed", "held", "proved"]);
+    let (mut rows, mut proofs) = (0, 0);
     for equation in array(&report["equations"]) {
         assert_eq!(keys(equation), ["claims", "equation"]);
         let number = equation["equation"].as_str().expect("a number");
@@ -466,8 +466,14 @@ fn the_whole_chapter_holds() {
                 "worst",
             ];
             assert_eq!(keys(claim), all, "{number}");
-            assert_eq!(claim["status"], "held", "{number}: {claim}");
             assert!(claim["counterexample"].is_null(), "{number}: {claim}");
+            if claim["scalar"].is_null() {
+                proofs += 1;
+                assert_eq!(claim["status"], "proved", "{number}: {claim}");
+                assert!(["worst", "bound"].into_iter().all(|key| claim[key].is_null()), "{number}: {claim}");
+                continue;
+            }
+            assert_eq!(claim["status"], "held", "{number}: {claim}");
             let [decided, undecided] =
                 ["decided", "undecided"].map(|key| claim[key].as_u64().expect("a count"));
             assert!(decided > 0 && decided + undecided == 50, "{number}: {claim}");
@@ -483,16 +489,20 @@ fn the_whole_chapter_holds() {
         }
         // Each of its claims in each number system that it can be made in, and none twice.
         let [claims, scalars] = ["claim", "scalar"]
-            .map(|key| array(&equation["claims"]).iter().map(move |c| c[key].as_str().expect("text")));
+            .map(|key| array(&equation["claims"]).iter().map(move |c| c[key].as_str().unwrap_or("proof")));
         let pairs: std::collections::BTreeSet<_> = claims.clone().zip(scalars.clone()).collect();
         assert_eq!(pairs.len(), array(&equation["claims"]).len(), "{number}");
         let claims: std::collections::BTreeSet<_> = claims.collect();
         assert_eq!(claims, claim_names(number).into_iter().collect(), "{number}");
         let scalars: std::collections::BTreeSet<_> = scalars.collect();
         assert!(scalars.is_superset(&["f32", "f64", "mpfr:777"].into()), "{number}: {scalars:?}");
+        // The chapter's own numbers are all proved.
+        assert!(scalars.contains("proof") || !number.starts_with("1."), "{number}");
     }
     assert_eq!((report["summary"]["claims"].as_u64(), code), (Some(rows), Some(0)));
-    assert_eq!((&report["summary"]["held"], &report["summary"]["failed"]), (&rows.into(), &0.into()));
+    let summary = &report["summary"];
+    assert_eq!((&summary["proved"], &summary["held"]), (&proofs.into(), &(rows - proofs).into()));
+    assert_eq!((&summary["failed"], proofs > 150), (&0.into(), true));
     let found: Vec<_> = array(&report["equations"]).iter().map(|e| e["equation"].as_str().unwrap()).collect();
     for number in numbers() {
         assert_eq!(found.iter().filter(|f| **f == number).count(), 1, "({number})");
@@ -558,7 +568,7 @@ fn a_table_has_every_number_and_no_broken_word() {
         let line = line.unwrap_or_else(|| panic!("{start} is not there"));
         let claims = claim_names(entry.equation).len().to_string();
         let words: Vec<_> = line.split_whitespace().collect();
-        let last = [entry.function.unwrap_or("-"), &claims];
+        let last = [entry.functions.first().copied().unwrap_or("-"), &claims];
         assert!(words.ends_with(&last), "{line}");
         let found = stdout(&verified).lines().filter(|line| line.starts_with(&start)).count();
         assert_eq!(found, usize::from(claims != "0"), "{start}");
@@ -590,9 +600,8 @@ fn equations_are_data() {
     let (all, code) = json(&["equations"]);
     assert_eq!((array(&all).len(), code), (entries().len(), Some(0)));
     for (row, entry) in array(&all).iter().zip(entries()) {
-        let all =
-            ["claims", "equation", "follows_from", "function", "hypotheses", "section", "statement", "title"];
-        assert_eq!(keys(row), all);
+        let all = "claims equation follows_from function hypotheses latex section statement title";
+        assert_eq!(keys(row), all.split(' ').collect::<Vec<_>>());
         assert_eq!(row["equation"], entry.equation);
         for key in ["hypotheses", "follows_from", "claims"] {
             assert!(array(&row[key]).iter().all(Value::is_string), "{row}");
@@ -600,7 +609,8 @@ fn equations_are_data() {
         for key in ["title", "section", "statement"] {
             assert!(row[key].as_str().is_some_and(|text| !text.is_empty()), "{row}");
         }
-        assert_eq!(row["function"].as_str(), entry.function);
+        assert_eq!(row["function"].as_str(), entry.functions.first().copied());
+        assert_eq!(row["latex"].as_str(), entry.latex().as_deref());
         assert_eq!(row["claims"], Value::from(claim_names(entry.equation)));
     }
     for number in numbers() {
@@ -653,7 +663,19 @@ fn no_bad_choice_gets_further_than_one_line() {
         assert!(line.contains(&format!("'{value}' for '[NUMBER]...'")) && line.contains(number), "{line}");
     }
     let line = refusal(&["equations", "--format", "xml"]);
-    assert!(line.contains("'xml' for '--format <FORMAT>'") && line.contains(formats), "{line}");
+    let with_dot = formats.replace("]", ", dot]");
+    assert!(line.contains("'xml' for '--format <FORMAT>'") && line.contains(&with_dot), "{line}");
+    let line = refusal(&["prove", "--format", "dot"]);
+    assert!(line.contains("'dot' for '--format <FORMAT>'") && line.contains(formats), "{line}");
+    for value in ["9.9", "", "1.34", "note"] {
+        let line = refusal(&["prove", value]);
+        assert!(line.contains(&format!("'{value}' for '[NUMBER]...'")) && line.contains(number), "{line}");
+    }
+    for value in ["Fig. 1.1", "note 8"] {
+        let line = refusal(&["prove", value]);
+        assert!(line.contains(&format!("'{value}' for '[NUMBER]...'")), "{line}");
+        assert!(line.contains("nothing is proved of it"), "{line}");
+    }
     for flag in ["--cases", "--seed"] {
         let line = refusal(&["verify", flag, "1", flag, "1"]);
         assert!(line.contains(flag) && line.contains("multiple times"), "{line}");
@@ -665,10 +687,82 @@ fn no_bad_choice_gets_further_than_one_line() {
             "{line}"
         );
     }
-    for command in ["VERIFY", "verfy", "", "-", "1.13", "prove"] {
+    for command in ["VERIFY", "verfy", "", "-", "1.13", "proof"] {
         let line = refusal(&[command]);
         assert!(line.contains(&format!("unrecognized subcommand '{command}'")), "{line}");
-        assert!(line.contains("verify, solve, equations, completions"), "{line}");
+        assert!(line.contains("verify, prove, solve, equations, completions"), "{line}");
+    }
+}
+
+/// Nothing unknown, nothing unnoticed, no hypothesis too many; and what a program reads of it.
+#[test]
+fn the_whole_chapter_is_proved() {
+    let (report, code) = json(&["prove"]);
+    assert_eq!((keys(&report), code), (vec!["changes", "equations", "summary"], Some(0)));
+    let summary = &report["summary"];
+    let all = "changes claims hypotheses noticed proved refuted unchanged unknown unnoticed";
+    assert_eq!(keys(summary), all.split(' ').collect::<Vec<_>>());
+    let count = |key: &str| summary[key].as_u64().expect("a count");
+    assert_eq!(count("proved"), count("claims"));
+    assert_eq!(count("noticed") + count("unchanged"), count("changes"));
+    assert!([("refuted", 0), ("unknown", 0), ("unnoticed", 0)].iter().all(|(key, n)| count(key) == *n));
+    let claims: Vec<_> = array(&report["equations"]).iter().flat_map(|e| array(&e["claims"])).collect();
+    assert_eq!(claims.len() as u64, count("claims"));
+    let mut hypotheses = 0;
+    for claim in claims {
+        let all = "certificate claim counterexample dropped hypotheses kind statement status why";
+        assert_eq!(keys(claim), all.split(' ').collect::<Vec<_>>());
+        assert_eq!(claim["status"], "proved", "{claim}");
+        assert!(["statement", "certificate"].iter().all(|key| claim[key].is_string()), "{claim}");
+        assert!(["why", "counterexample"].iter().all(|key| claim[key].is_null()), "{claim}");
+        let dropped = array(&claim["dropped"]);
+        hypotheses += dropped.len() as u64;
+        assert_eq!(dropped.len(), array(&claim["hypotheses"]).len(), "{claim}");
+        for dropped in dropped {
+            assert_eq!(keys(dropped), ["counterexample", "hypothesis", "status"]);
+            assert_eq!(dropped["status"], "refuted", "{claim}");
+            let values = dropped["counterexample"].as_object().expect("values");
+            assert!(
+                values.values().all(|x| x.as_str().is_some_and(|x| x.parse::<Exact>().is_ok())),
+                "{claim}"
+            );
+        }
+    }
+    assert_eq!(hypotheses, count("hypotheses"));
+    assert_eq!(array(&report["changes"]).len() as u64, count("changes"));
+    for change in array(&report["changes"]) {
+        assert_eq!(keys(change), ["at", "by", "change", "counterexample", "status"]);
+        assert!(change["at"].as_str().is_some_and(|at| at.starts_with("src/chapter/")), "{change}");
+        let noticed = change["status"] == "noticed";
+        assert!(noticed || change["status"] == "unchanged", "{change}");
+        assert_eq!((change["by"].is_string(), change["counterexample"].is_object()), (noticed, noticed));
+    }
+    let table = contact(&["prove"]);
+    assert_eq!(table.status.code(), Some(0));
+    let claims = count("claims");
+    assert!(stdout(&table).contains(&format!("\n{claims} of {claims} claims proved in ")));
+}
+
+/// What follows from what: every premise is there, and nothing follows from itself.
+#[test]
+fn the_graph_has_every_number_and_no_cycle() {
+    let graph = contact(&["equations", "--format", "dot"]);
+    assert_eq!(graph.status.code(), Some(0));
+    let text = stdout(&graph);
+    assert!(text.starts_with("digraph ") && text.ends_with("}\n") && !text.contains("NOT PROVED"));
+    let quoted = |line: &str| line.split('"').skip(1).step_by(2).map(String::from).collect::<Vec<_>>();
+    let (arrows, nodes): (Vec<_>, Vec<_>) =
+        text.lines().filter(|line| line.contains('"')).partition(|line| line.contains(" -> "));
+    let nodes: std::collections::BTreeSet<_> = nodes.iter().map(|line| quoted(line)[0].clone()).collect();
+    assert_eq!(nodes, entries().iter().map(|entry| entry.equation.to_string()).collect());
+    let mut arrows: Vec<_> = arrows.iter().map(|line| quoted(line)).collect();
+    assert_eq!(arrows.len(), entries().iter().map(|entry| entry.follows_from.len()).sum::<usize>());
+    // What nothing leads to can go, and its arrows with it; in the end all must be gone.
+    while !arrows.is_empty() {
+        let before = arrows.len();
+        let ends: std::collections::BTreeSet<_> = arrows.iter().map(|arrow| arrow[1].clone()).collect();
+        arrows.retain(|arrow| ends.contains(&arrow[0]));
+        assert!(arrows.len() < before, "a cycle: {arrows:?}");
     }
 }
 

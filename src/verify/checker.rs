@@ -55,7 +55,7 @@ impl Tally {
         }
     }
 
-    pub(super) fn into_row(self, head: Head, scalar: NumberSystem) -> Row {
+    pub(super) fn into_row(self, head: Head, scalar: Option<NumberSystem>) -> Row {
         let held = self.decided > 0 && self.counterexample.is_none();
         Row {
             equation: head.equation,
@@ -63,6 +63,7 @@ impl Tally {
             kind: head.kind,
             scalar,
             status: if held { Status::Held } else { Status::Failed },
+            why: None,
             decided: self.decided,
             undecided: self.undecided,
             worst: self.worst,
@@ -340,9 +341,9 @@ mod tests {
     fn a_claim_without_a_decided_case_does_not_hold() {
         let head = |claim| Head { equation: "1.1", claim, kind: "equal", given: &[] };
         let undecided = Tally { undecided: 5, ..Tally::default() };
-        assert_eq!(undecided.into_row(head("never"), NumberSystem::F64).status, Status::Failed);
+        assert_eq!(undecided.into_row(head("never"), None).status, Status::Failed);
         let decided = Tally { decided: 1, ..Tally::default() };
-        assert_eq!(decided.into_row(head("once"), NumberSystem::F64).status, Status::Held);
+        assert_eq!(decided.into_row(head("once"), None).status, Status::Held);
     }
 
     #[test]
@@ -354,6 +355,7 @@ mod tests {
         };
         let square = |is: fn(&Case<Exact>) -> Exact| Kind::Derivative {
             of: |x| &x.u * &x.u,
+            formula: |x| &x.u * &x.u,
             by: crate::claims::Var::U,
             is,
         };

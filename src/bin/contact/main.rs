@@ -6,6 +6,7 @@
 mod args;
 mod equations;
 mod output;
+mod prove;
 mod solve;
 mod text;
 mod verify;
@@ -16,11 +17,12 @@ use std::process::ExitCode;
 
 const EXAMPLES: &str = "\
 Examples:
-  contact                         the whole chapter in every number system
-  contact solve                   the default system by Lagrange multiplier
+  contact                         prove the whole chapter, and check it in numbers
+  contact solve                   solve the default system by Lagrange multiplier
   contact solve --method penalty --penalty 1000 --scalar exact
   contact solve --height 2 --format json
   contact equations 1.13
+  contact prove 1.17
   contact verify --scalar mpfr:1000 --cases 50
 
 Exit status: 0 all well; 1 a claim does not hold or a solve did not converge;
@@ -39,6 +41,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Verify(verify::Options),
+    Prove(prove::Options),
     Solve(Box<solve::Options>),
     Equations(equations::Options),
     Completions(Completions),
@@ -70,6 +73,7 @@ fn run(cli: Cli) -> Result<Status, Failure> {
     match cli.command {
         None => verify::run(&verify::Options::default()),
         Some(Command::Verify(options)) => verify::run(&options),
+        Some(Command::Prove(options)) => prove::run(&options),
         Some(Command::Equations(options)) => equations::run(&options),
         Some(Command::Solve(options)) => solve::run(&options),
         Some(Command::Completions(Completions { shell })) => {

@@ -1,4 +1,4 @@
-//! `contact verify`: every claim in every number system, as one table.
+//! `contact verify`: every claim, proved and in every number system, as one table.
 
 use crate::args;
 use crate::output::{self, Failure, Status};
@@ -21,13 +21,15 @@ Examples:
   contact verify --scalar f32 --scalar mpfr:777 --cases 50 --seed 99
   contact verify --format json
 
-A claim holds in a number system if it does in every case that can be decided
-there, and at least one can. Rationals are compared by equality, floats within
-the error bounds that balls compute along the way: there are no tolerances.
+Claims about what formulas are, and not about what floats make of them, are
+proved for all values. A claim holds in a number system if it does in every case
+that can be decided there, and at least one can. Rationals are compared by
+equality, floats within the error bounds that balls compute along the way: there
+are no tolerances.
 
 Exit status: 0 all hold; 1 some do not; 2 bad input.";
 
-/// Check every claim of the chapter in every number system
+/// Prove every claim of the chapter, and check it in every number system
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
@@ -120,13 +122,21 @@ fn rows_of<'a>(report: &'a Report, entry: &Entry) -> Vec<&'a Row> {
     report.rows.iter().filter(|row| row.equation == entry.equation).collect()
 }
 
-fn held(rows: &[&Row]) -> usize {
-    rows.iter().filter(|row| row.status == verify::Status::Held).count()
+fn holding(rows: &[&Row]) -> usize {
+    rows.iter().filter(|row| row.status != verify::Status::Failed).count()
+}
+
+/// What a claim is tried by: a number system, or the prover.
+type Way = Option<NumberSystem>;
+
+fn name(way: Way) -> String {
+    way.map_or("proved".to_string(), |scalar| scalar.to_string())
 }
 
 fn table(out: &mut dyn Write, report: &Report, options: &verify::Options) -> io::Result<()> {
-    for scalars in side_by_side(&options.scalars) {
-        counts(out, report, scalars)?;
+    let ways: Vec<Way> = [None].into_iter().chain(options.scalars.iter().copied().map(Some)).collect();
+    for ways in side_by_side(report, &ways) {
+        counts(out, report, ways)?;
         writeln!(out)?;
     }
     let rows: Vec<&Row> = report.rows.iter().collect();
@@ -135,7 +145,17 @@ fn table(out: &mut dyn Write, report: &Report, options: &verify::Options) -> io:
         failure(out, alike)?;
         writeln!(out)?;
     }
-    let (held, decided) = (held(&rows), rows.iter().map(|row| row.decided).sum::<u64>());
+    let proofs: Vec<&Row> = rows.iter().copied().filter(|row| row.scalar.is_none()).collect();
+    if !proofs.is_empty() {
+        writeln!(
+            out,
+            "{} of {} proved for all values.",
+            holding(&proofs),
+            counted(proofs.len() as u64, "claim")
+        )?;
+    }
+    let rows: Vec<&Row> = rows.into_iter().filter(|row| row.scalar.is_some()).collect();
+    let (held, decided) = (holding(&rows), rows.iter().map(|row| row.decided).sum::<u64>());
     let undecided = rows.iter().map(|row| row.undecided).sum::<u64>();
     writeln!(
         out,
@@ -152,7 +172,9 @@ fn table(out: &mut dyn Write, report: &Report, options: &verify::Options) -> io:
         writeln!(
             out,
             "Rounding used at most {share:.0} % of its bound ({} {}, {}).",
-            row.equation, row.claim, row.scalar
+            row.equation,
+            row.claim,
+            name(row.scalar)
         )?;
     }
     Ok(())
@@ -162,50 +184,55 @@ fn counted(count: u64, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
-/// What the columns of the scalars have for themselves; the number and the title's longest word need the
-/// rest of a line.
+/// What these columns have for themselves; the number and the title's longest word need the rest of a line.
 const ROOM: usize = 45;
 
-/// How wide a count is, as in `10 FAILED`, and the blanks around it.
-const COUNT: usize = 9;
+/// The blanks around a column.
 const BLANKS: usize = 2;
 
-/// The number systems in groups whose columns fit beside each other.
-fn side_by_side(scalars: &[NumberSystem]) -> Vec<&[NumberSystem]> {
-    let width = |scalar: &NumberSystem| scalar.to_string().len().max(COUNT) + BLANKS;
+/// The ways in groups whose columns fit beside each other.
+fn side_by_side<'a>(report: &Report, ways: &'a [Way]) -> Vec<&'a [Way]> {
+    let width = |way: Way| {
+        let cells = entries().iter().map(|entry| cell(&rows_of(report, entry), way).len());
+        cells.chain([name(way).len()]).max().unwrap_or(0) + BLANKS
+    };
     let (mut groups, mut start, mut used) = (Vec::new(), 0, 0);
-    for (i, scalar) in scalars.iter().enumerate() {
-        if used + width(scalar) > ROOM {
-            groups.push(&scalars[start..i]);
+    for (i, way) in ways.iter().enumerate() {
+        let width = width(*way);
+        if used + width > ROOM && start < i {
+            groups.push(&ways[start..i]);
             (start, used) = (i, 0);
         }
-        used += width(scalar);
+        used += width;
     }
-    groups.push(&scalars[start..]);
+    groups.push(&ways[start..]);
     groups
 }
 
-/// A line an equation: how many of its claims hold in these number systems.
-fn counts(out: &mut dyn Write, report: &Report, scalars: &[NumberSystem]) -> io::Result<()> {
+/// How many of an equation's claims are proved, or hold in a number system.
+fn cell(rows: &[&Row], way: Way) -> String {
+    let rows: Vec<&Row> = rows.iter().copied().filter(|row| row.scalar == way).collect();
+    match (holding(&rows), rows.len()) {
+        (_, 0) => "-".to_string(),
+        (holding, all) if holding < all => format!("{} FAILED", all - holding),
+        (_, all) if way.is_none() => all.to_string(),
+        (_, all) => format!("{all} held"),
+    }
+}
+
+/// A line an equation.
+fn counts(out: &mut dyn Write, report: &Report, ways: &[Way]) -> io::Result<()> {
     let mut table = output::table();
-    let names = scalars.iter().map(ToString::to_string);
+    let names = ways.iter().copied().map(name);
     table.set_header(["number", "title"].map(String::from).into_iter().chain(names));
     for entry in entries() {
         let rows = rows_of(report, entry);
-        if rows.is_empty() {
-            continue;
+        if !rows.is_empty() {
+            let cells = ways.iter().map(|way| cell(&rows, *way));
+            table.add_row([entry.label(), entry.title.to_string()].into_iter().chain(cells));
         }
-        let cell = |scalar: &NumberSystem| {
-            let rows: Vec<&Row> = rows.iter().copied().filter(|row| row.scalar == *scalar).collect();
-            match (held(&rows), rows.len()) {
-                (_, 0) => "-".to_string(),
-                (held, all) if held == all => format!("{all} held"),
-                (held, all) => format!("{} FAILED", all - held),
-            }
-        };
-        table.add_row([entry.label(), entry.title.to_string()].into_iter().chain(scalars.iter().map(cell)));
     }
-    let columns: Vec<usize> = (0..2 + scalars.len()).filter(|column| *column != 1).collect();
+    let columns: Vec<usize> = (0..2 + ways.len()).filter(|column| *column != 1).collect();
     output::unbroken(&mut table, &columns);
     output::lines(out, &table)
 }
@@ -213,16 +240,25 @@ fn counts(out: &mut dyn Write, report: &Report, scalars: &[NumberSystem]) -> io:
 /// One claim, failing for the same reason in two number systems; these stand together in a report.
 fn fail_alike(a: &Row, b: &Row) -> bool {
     let reason = |row: &Row| row.counterexample.is_none().then_some(row.undecided);
-    (a.equation, a.claim, reason(a)) == (b.equation, b.claim, reason(b))
+    (a.equation, a.claim, reason(a), &a.why) == (b.equation, b.claim, reason(b), &b.why)
         && a.counterexample == b.counterexample
 }
 
 /// Failures that are alike, of which there is at least one.
 fn failure(out: &mut dyn Write, alike: &[&Row]) -> io::Result<()> {
     let row = alike[0];
-    let scalars: Vec<_> = alike.iter().map(|row| row.scalar.to_string()).collect();
-    writeln!(out, "{} {} FAILED in {}", row.equation, row.claim, scalars.join(", "))?;
+    match &row.why {
+        Some(why) => {
+            writeln!(out, "{} {} NOT PROVED", row.equation, row.claim)?;
+            writeln!(out, "  {why}")?;
+        }
+        None => {
+            let scalars: Vec<_> = alike.iter().map(|row| name(row.scalar)).collect();
+            writeln!(out, "{} {} FAILED in {}", row.equation, row.claim, scalars.join(", "))?;
+        }
+    }
     match &row.counterexample {
+        None if row.why.is_some() => Ok(()),
         None => writeln!(out, "  none of {} could be decided", counted(row.undecided, "case")),
         Some(case) => {
             let mut line = String::new();
@@ -246,7 +282,11 @@ fn symbols(case: &Case<Exact>) -> Vec<(&'static str, String)> {
 }
 
 fn status(row: &Row) -> &'static str {
-    if row.status == verify::Status::Held { "held" } else { "failed" }
+    match row.status {
+        verify::Status::Proved => "proved",
+        verify::Status::Held => "held",
+        _ => "failed",
+    }
 }
 
 fn markdown(out: &mut dyn Write, report: &Report) -> io::Result<()> {
@@ -258,7 +298,10 @@ fn markdown(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         writeln!(
             out,
             "| {} | {} | {} | {} | {status} | {decided} | {undecided} | {worst} |",
-            row.equation, row.claim, row.kind, row.scalar
+            row.equation,
+            row.claim,
+            row.kind,
+            row.scalar.map_or(String::new(), |scalar| scalar.to_string())
         )
     })
 }
@@ -272,6 +315,7 @@ struct Json {
 #[derive(Serialize)]
 struct Summary {
     claims: usize,
+    proved: usize,
     held: usize,
     failed: usize,
 }
@@ -287,7 +331,7 @@ struct Claim {
     claim: &'static str,
     kind: &'static str,
     status: &'static str,
-    scalar: String,
+    scalar: Option<String>,
     decided: u64,
     undecided: u64,
     worst: Option<String>,
@@ -298,13 +342,19 @@ struct Claim {
 impl Json {
     fn of(report: &Report) -> Self {
         let rows: Vec<&Row> = report.rows.iter().collect();
-        let held = held(&rows);
+        let count = |status| rows.iter().filter(|row| row.status == status).count();
+        let summary = Summary {
+            claims: rows.len(),
+            proved: count(verify::Status::Proved),
+            held: count(verify::Status::Held),
+            failed: count(verify::Status::Failed),
+        };
         let equation = |entry: &Entry| Equation {
             equation: entry.equation,
             claims: rows_of(report, entry).into_iter().map(Claim::of).collect(),
         };
         let equations = entries().iter().map(equation).filter(|e| !e.claims.is_empty()).collect();
-        Json { summary: Summary { claims: rows.len(), held, failed: rows.len() - held }, equations }
+        Json { summary, equations }
     }
 }
 
@@ -314,7 +364,7 @@ impl Claim {
             claim: row.claim,
             kind: row.kind,
             status: status(row),
-            scalar: row.scalar.to_string(),
+            scalar: row.scalar.map(|scalar| scalar.to_string()),
             decided: row.decided,
             undecided: row.undecided,
             worst: row.worst.as_ref().map(|(ratio, _)| text::Number::text(ratio)),
@@ -341,11 +391,23 @@ mod tests {
     }
 
     fn row(status: verify::Status, scalar: NumberSystem, counterexample: Option<Case<Exact>>) -> Row {
+        let scalar = Some(scalar);
         let decided = if status == verify::Status::Held || counterexample.is_some() { 4 } else { 0 };
         let worst = (decided > 0).then(|| (2.5, "1/8".to_string()));
         let claim = claims::<Exact>().into_iter().find(|claim| claim.equation == "1.13").expect("a claim");
         let (claim, kind, undecided) = (claim.name, claim.kind.name(), 5 - decided);
-        Row { equation: "1.13", claim, kind, scalar, status, decided, undecided, worst, counterexample }
+        Row {
+            equation: "1.13",
+            claim,
+            kind,
+            scalar,
+            status,
+            why: None,
+            decided,
+            undecided,
+            worst,
+            counterexample,
+        }
     }
 
     /// In f32 the claim is wrong, in two bits nothing can be said, in rationals it holds.
@@ -370,8 +432,8 @@ mod tests {
         let text = printed(|out| table(out, &report, &options));
         let name = report.rows[0].claim;
         for line in [
-            " number  title                                f32       mpfr:2    exact".to_string(),
-            " (1.13)  Deflection by penalty and its limit  1 FAILED  1 FAILED  1 held".to_string(),
+            " number  title                          proved  f32       mpfr:2    exact".to_string(),
+            " (1.13)  Deflection by penalty and its  -       1 FAILED  1 FAILED  1 held".to_string(),
             format!("1.13 {name} FAILED in f32"),
             "  contact solve --scalar exact --stiffness 1 --mass 1/2 --gravity -1/3 --free-length 7/3 --height 7/3 \
              --method penalty --penalty 7/3"
@@ -388,6 +450,36 @@ mod tests {
             let number = format!(" {} = {}", var.symbol(), case().get(*var));
             assert!(text.contains(&number), "no {number} in\n{text}");
         }
+        assert_eq!(outcome(&report), Status::Unmet);
+    }
+
+    #[test]
+    fn the_table_shows_what_is_proved_and_what_is_not() {
+        let (mut report, options) = report();
+        let proof = |status, why: Option<&str>| Row {
+            scalar: None,
+            why: why.map(String::from),
+            decided: 0,
+            undecided: 0,
+            worst: None,
+            ..row(status, NumberSystem::F32, None)
+        };
+        report.rows.truncate(0);
+        report.rows.extend([
+            proof(verify::Status::Proved, None),
+            row(verify::Status::Held, NumberSystem::F32, None),
+        ]);
+        assert_eq!(outcome(&report), Status::Fine);
+        let one = verify::Options { scalars: vec![NumberSystem::F32], ..options };
+        let text = printed(|out| table(out, &report, &one));
+        assert!(text.contains("its limit  1       1 held\n"), "{text}");
+        assert!(text.contains("1 of 1 claim proved for all values.\n1 of 1 claim hold"), "{text}");
+
+        report.rows[0] = proof(verify::Status::Failed, Some("the sides differ by c"));
+        let text = printed(|out| table(out, &report, &one));
+        let name = report.rows[0].claim;
+        assert!(text.contains("1 FAILED"), "{text}");
+        assert!(text.contains(&format!("1.13 {name} NOT PROVED\n  the sides differ by c\n")), "{text}");
         assert_eq!(outcome(&report), Status::Unmet);
     }
 
@@ -435,7 +527,7 @@ mod tests {
     fn json_and_markdown_show_how_a_claim_fails() {
         let (report, _) = report();
         let json = serde_json::to_value(Json::of(&report)).expect("JSON");
-        assert_eq!(json["summary"], serde_json::json!({"claims": 3, "held": 1, "failed": 2}));
+        assert_eq!(json["summary"], serde_json::json!({"claims": 3, "proved": 0, "held": 1, "failed": 2}));
         let claims = &json["equations"][0]["claims"];
         let statuses = [0, 1, 2].map(|i| claims[i]["status"].as_str());
         assert_eq!(statuses, [Some("failed"), Some("failed"), Some("held")]);
@@ -456,10 +548,12 @@ mod tests {
 
     #[test]
     fn columns_fit_beside_each_other() {
-        let usual = verify::Options::default().scalars;
-        assert_eq!(side_by_side(&usual), [usual.as_slice()]);
-        let many: Vec<_> = (0..10).map(|i| NumberSystem::Mpfr(1_000_000 - i)).collect();
-        let groups = side_by_side(&many);
+        let (report, _) = report();
+        let usual: Vec<Way> =
+            [None].into_iter().chain(verify::Options::default().scalars.into_iter().map(Some)).collect();
+        assert_eq!(side_by_side(&report, &usual), [usual.as_slice()]);
+        let many: Vec<Way> = (0..10).map(|i| Some(NumberSystem::Mpfr(1_000_000 - i))).collect();
+        let groups = side_by_side(&report, &many);
         assert!(groups.iter().all(|group| !group.is_empty()) && groups.concat() == many, "{groups:?}");
     }
 }

@@ -1,0 +1,509 @@
+//! `contact prove`: every claim for all values, and that wrong ones would be noticed.
+
+use crate::args;
+use crate::output::{self, Failure, Status};
+use crate::text::shortened;
+use clap::ValueEnum;
+use serde::Serialize;
+use spring_mass_contact::claims::{Entry, entries};
+use spring_mass_contact::proof::controls::{Change, Controls, Dropped, Outcome, Without, controls, repairs};
+use spring_mass_contact::proof::coq::{self, LeftOut};
+use spring_mass_contact::proof::refute::Counterexample;
+use spring_mass_contact::proof::{Proof, Statement, paper, prove, refute, statements};
+use spring_mass_contact::verify::command_line;
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+const EXAMPLES: &str = "\
+Examples:
+  contact prove
+  contact prove 1.17 'Theorem 1.3.3'
+  contact prove --format json
+  contact prove --coq target/coq
+
+A proof holds for all values that satisfy the hypotheses, and it is made from
+the functions that compute. Two kinds of controls show that it could have
+failed: a claim without one of its hypotheses has to be wrong, and every small
+change of a formula in src/chapter has to be noticed by some claim, or proved to
+change nothing.
+
+Exit status: 0 all proved, no control amiss; 1 otherwise; 2 bad input.";
+
+/// Prove the claims for all values of their quantities
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Options {
+    /// Only these, with their proofs in full: 1.13, 'Theorem 1.3.3', 'note 4', …
+    #[arg(value_name = "NUMBER", value_parser = args::equation)]
+    numbers: Vec<String>,
+    /// Write everything for the proof assistant Coq to this directory instead
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["numbers", "format"])]
+    coq: Option<PathBuf>,
+    /// How to print them
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// For reading: a line a claim
+    Table,
+    /// For programs: everything
+    Json,
+    /// For documents: a line a claim
+    Markdown,
+}
+
+/// A claim and what came of it.
+struct Proved {
+    statement: Statement,
+    answer: Answer,
+    time: Duration,
+    /// Its hypotheses, dropped one at a time.
+    dropped: Vec<Dropped>,
+}
+
+enum Answer {
+    Proof(Proof),
+    /// Why there is none, and where the claim does not hold, if that was found.
+    None(String, Option<Counterexample>),
+}
+
+impl Proved {
+    fn status(&self) -> &'static str {
+        match &self.answer {
+            Answer::Proof(_) => "proved",
+            Answer::None(_, Some(_)) => "refuted",
+            Answer::None(_, None) => "unknown",
+        }
+    }
+
+    fn hypotheses(&self) -> Vec<&'static str> {
+        self.statement.hypotheses.iter().map(|hypothesis| hypothesis.given.text()).collect()
+    }
+}
+
+/// Proves and prints.
+pub fn run(options: &Options) -> Result<Status, Failure> {
+    if let Some(directory) = &options.coq {
+        return for_coq(directory);
+    }
+    let wanted = |equation: &str| options.numbers.is_empty() || options.numbers.iter().any(|n| n == equation);
+    let statements = statements();
+    let empty = |number: &&String| statements.iter().all(|s| s.equation != number.as_str());
+    if let Some(empty) = options.numbers.iter().find(empty) {
+        return Err(format!(
+            "invalid value '{empty}' for '[NUMBER]...': nothing is proved of it; `contact equations '{empty}'` \
+             says what is claimed of it"
+        )
+        .into());
+    }
+    let start = Instant::now();
+    let all: Vec<Proved> = statements.iter().map(attempt).collect();
+    let of_proofs = start.elapsed();
+    // Controls say something only of claims that are proved.
+    let (controls, repairs) = if all.iter().all(|p| p.status() == "proved") {
+        (controls(&statements), Vec::new())
+    } else {
+        (Controls { changes: Vec::new(), dropped: Vec::new() }, repairs(&statements))
+    };
+    let proved = all.into_iter().filter(|p| wanted(p.statement.equation)).collect();
+    let report = Report::new(proved, controls, repairs, (of_proofs, start.elapsed()), &wanted);
+    output::print(|out| match options.format {
+        Format::Json => output::json(out, &Json::of(&report)),
+        Format::Markdown => markdown(out, &report),
+        Format::Table if options.numbers.is_empty() => table(out, &report),
+        Format::Table => details(out, &report),
+    })?;
+    Ok(if report.is_well() { Status::Fine } else { Status::Unmet })
+}
+
+/// Writes the files for Coq, and says how they are compiled and what is not among them.
+fn for_coq(directory: &Path) -> Result<Status, Failure> {
+    let files = coq::write(directory).map_err(|error| {
+        let directory = shortened(&directory.display().to_string());
+        format!(
+            "invalid value '{directory}' for '--coq <DIR>': must be a directory that can be written: {error}"
+        )
+    })?;
+    let left_out = coq::left_out();
+    output::print(|out| {
+        let claims = statements().len();
+        writeln!(
+            out,
+            "{} of {claims} claims written as theorems, to be compiled in this order:",
+            claims - left_out.len()
+        )?;
+        for file in &files {
+            writeln!(out, "  coqc -R {} Contact {}", directory.display(), file.display())?;
+        }
+        for LeftOut { equation, name, reason } in &left_out {
+            writeln!(out, "left out: {equation} {name}: {reason}")?;
+        }
+        Ok(())
+    })
+}
+
+fn attempt(statement: &Statement) -> Proved {
+    let start = Instant::now();
+    let answer = match prove(statement) {
+        Ok(proof) => Answer::Proof(proof),
+        Err(why) => Answer::None(why.to_string(), refute(statement)),
+    };
+    Proved { statement: statement.clone(), answer, time: start.elapsed(), dropped: Vec::new() }
+}
+
+/// Everything there is to say.
+struct Report {
+    /// In the chapter's order.
+    proved: Vec<Proved>,
+    /// The changes, and those that a claim about the wanted numbers notices if not all are wanted.
+    changes: Vec<(String, String, Outcome)>,
+    /// With one of these all claims would be proved.
+    repairs: Vec<Change>,
+    of_proofs: Duration,
+    in_all: Duration,
+}
+
+impl Report {
+    fn new(
+        mut proved: Vec<Proved>,
+        controls: Controls,
+        repairs: Vec<Change>,
+        (of_proofs, in_all): (Duration, Duration),
+        wanted: &dyn Fn(&str) -> bool,
+    ) -> Self {
+        proved.sort_by_key(|p| entries().iter().position(|entry| entry.equation == p.statement.equation));
+        for dropped in controls.dropped {
+            let claim = (dropped.equation, dropped.name);
+            if let Some(p) = proved.iter_mut().find(|p| (p.statement.equation, p.statement.name) == claim) {
+                p.dropped.push(dropped);
+            }
+        }
+        let concerned = |outcome: &Outcome| match outcome {
+            Outcome::Noticed { equation, .. } => wanted(equation),
+            Outcome::Unchanged | Outcome::Unnoticed => wanted(""),
+        };
+        let changes = controls.changes.into_iter().filter(|(_, outcome)| concerned(outcome));
+        let changes =
+            changes.map(|(change, outcome)| (change.site.to_string(), change.what.to_string(), outcome));
+        Report { proved, changes: changes.collect(), repairs, of_proofs, in_all }
+    }
+
+    fn is_well(&self) -> bool {
+        let Summary { claims, proved, unnoticed, .. } = self.summary();
+        claims == proved && unnoticed == 0 && self.needless().next().is_none()
+    }
+
+    /// Hypotheses that are not seen to be needed.
+    fn needless(&self) -> impl Iterator<Item = &Dropped> {
+        let dropped = self.proved.iter().flat_map(|proved| &proved.dropped);
+        dropped.filter(|dropped| !matches!(dropped.without, Without::Refuted(_)))
+    }
+
+    fn of<'a>(&'a self, entry: &Entry) -> Vec<&'a Proved> {
+        self.proved.iter().filter(|p| p.statement.equation == entry.equation).collect()
+    }
+
+    fn summary(&self) -> Summary {
+        let with = |status| self.proved.iter().filter(|p| p.status() == status).count();
+        let changes =
+            |f: fn(&Outcome) -> bool| self.changes.iter().filter(|(_, _, outcome)| f(outcome)).count();
+        Summary {
+            claims: self.proved.len(),
+            proved: with("proved"),
+            refuted: with("refuted"),
+            unknown: with("unknown"),
+            hypotheses: self.proved.iter().map(|p| p.statement.hypotheses.len()).sum(),
+            changes: self.changes.len(),
+            noticed: changes(|outcome| matches!(outcome, Outcome::Noticed { .. })),
+            unchanged: changes(|outcome| matches!(outcome, Outcome::Unchanged)),
+            unnoticed: changes(|outcome| matches!(outcome, Outcome::Unnoticed)),
+        }
+    }
+}
+
+fn how(proved: &Proved) -> String {
+    match &proved.answer {
+        Answer::Proof(proof) => paper::how(&proved.statement, proof),
+        Answer::None(..) => proved.status().to_uppercase(),
+    }
+}
+
+fn supposed(proved: &Proved) -> String {
+    match &proved.answer {
+        Answer::Proof(proof) => paper::used(proof).join(", "),
+        Answer::None(..) => proved.hypotheses().join(", "),
+    }
+}
+
+fn table(out: &mut dyn Write, report: &Report) -> io::Result<()> {
+    let mut table = output::table();
+    table.set_header(["number", "claim", "how", "by hypotheses", "ms"]);
+    for proved in &report.proved {
+        let number = entries().iter().find(|e| e.equation == proved.statement.equation).map(Entry::label);
+        let ms = format!("{:.2}", proved.time.as_secs_f64() * 1e3);
+        table.add_row([
+            number.unwrap_or_default(),
+            proved.statement.name.to_string(),
+            how(proved),
+            supposed(proved),
+            ms,
+        ]);
+    }
+    output::unbroken(&mut table, &[0, 1, 4]);
+    output::lines(out, &table)?;
+    amiss(out, report)?;
+    writeln!(out)?;
+    totals(out, report)
+}
+
+/// What is not as it should be, each after a blank line.
+fn amiss(out: &mut dyn Write, report: &Report) -> io::Result<()> {
+    for proved in &report.proved {
+        let Statement { equation, name, .. } = &proved.statement;
+        match &proved.answer {
+            Answer::Proof(_) => {}
+            Answer::None(why, None) => writeln!(out, "\n{equation} {name} UNKNOWN: {why}")?,
+            Answer::None(_, Some(counterexample)) => {
+                writeln!(out, "\n{equation} {name} REFUTED")?;
+                writeln!(out, "  {}", paper::claim(&proved.statement))?;
+                writeln!(out, "  at {counterexample}")?;
+                if let Some(line) = command_line(&counterexample.case()) {
+                    writeln!(out, "  {line}")?;
+                }
+            }
+        }
+    }
+    for change in &report.repairs {
+        writeln!(out, "\nwith {change} every claim would be proved")?;
+    }
+    for Dropped { equation, name, given, without } in report.needless() {
+        let what = match without {
+            Without::StillTrue => "is not needed: the claim is proved without it",
+            Without::Unknown | Without::Refuted(_) => {
+                "may not be needed: nothing was found against the claim without it"
+            }
+        };
+        writeln!(out, "\n{equation} {name}: the hypothesis {} {what}", given.text())?;
+    }
+    for (at, change, outcome) in &report.changes {
+        if matches!(outcome, Outcome::Unnoticed) {
+            writeln!(out, "\nUNNOTICED {at}: {change}")?;
+        }
+    }
+    Ok(())
+}
+
+fn totals(out: &mut dyn Write, report: &Report) -> io::Result<()> {
+    let Summary { claims, proved, hypotheses, changes, noticed, unchanged, .. } = report.summary();
+    let needless = report.needless().count();
+    let seconds = |time: Duration| time.as_secs_f64();
+    writeln!(out, "{proved} of {claims} claims proved in {:.3} s.", seconds(report.of_proofs))?;
+    if proved < claims {
+        return writeln!(out, "The controls wait until all are.");
+    }
+    writeln!(
+        out,
+        "{} of {hypotheses} hypotheses needed: without it the claim is refuted.",
+        hypotheses - needless
+    )?;
+    writeln!(
+        out,
+        "{} of {changes} changes of formulas noticed: {noticed} refuted, {unchanged} proved to change nothing.",
+        noticed + unchanged
+    )?;
+    writeln!(out, "{:.3} s in all.", seconds(report.in_all))
+}
+
+/// The proofs themselves.
+fn details(out: &mut dyn Write, report: &Report) -> io::Result<()> {
+    let mut first = true;
+    for entry in entries() {
+        let claims = report.of(entry);
+        if claims.is_empty() {
+            continue;
+        }
+        if !first {
+            writeln!(out)?;
+        }
+        first = false;
+        writeln!(out, "{} {}", entry.label(), entry.title)?;
+        for proved in claims {
+            writeln!(out)?;
+            account(out, proved)?;
+        }
+    }
+    let noticed = report.changes.iter().filter_map(|(at, change, outcome)| match outcome {
+        Outcome::Noticed { equation, name, counterexample } => {
+            Some(format!("  {at}: {change}, by {equation} {name} at {counterexample}"))
+        }
+        Outcome::Unchanged | Outcome::Unnoticed => None,
+    });
+    let noticed: Vec<_> = noticed.collect();
+    if !noticed.is_empty() {
+        writeln!(out, "\nchanges of formulas that these claims notice")?;
+        noticed.iter().try_for_each(|line| writeln!(out, "{line}"))?;
+    }
+    amiss(out, report)
+}
+
+fn account(out: &mut dyn Write, proved: &Proved) -> io::Result<()> {
+    let Proved { statement, answer, dropped, .. } = proved;
+    writeln!(out, "{} ({})", statement.name, how(proved))?;
+    let mut say = |what: &str, lines: &[String]| {
+        lines.iter().enumerate().try_for_each(|(i, line)| {
+            let what = if i == 0 { what } else { "" };
+            writeln!(out, "  {what:<8} {line}")
+        })
+    };
+    say("claim", &[paper::claim(statement)])?;
+    if !statement.hypotheses.is_empty() {
+        say("if", &[proved.hypotheses().join(", ")])?;
+    }
+    let invariants: Vec<_> = statement.invariants.iter().map(|i| i.given.text()).collect();
+    if !invariants.is_empty() {
+        say("always", &[format!("{} for every k, which is part of the proof", invariants.join(", "))])?;
+    }
+    say("where", &paper::names(statement))?;
+    match answer {
+        Answer::Proof(proof) => say("proof", &paper::proof(statement, proof))?,
+        Answer::None(why, _) => say("no proof", std::slice::from_ref(why))?,
+    }
+    let needed = dropped.iter().filter_map(|Dropped { given, without, .. }| match without {
+        Without::Refuted(counterexample) => {
+            Some(format!("{}: without it, at {counterexample}", given.text()))
+        }
+        Without::StillTrue | Without::Unknown => None,
+    });
+    say("needs", &needed.collect::<Vec<_>>())
+}
+
+fn markdown(out: &mut dyn Write, report: &Report) -> io::Result<()> {
+    writeln!(out, "| number | claim | says | if | how | status |")?;
+    writeln!(out, "|---|---|---|---|---|---|")?;
+    report.proved.iter().try_for_each(|proved| {
+        let Statement { equation, name, .. } = &proved.statement;
+        let says = paper::claim(&proved.statement).replace('|', "\\|");
+        let (given, how, status) = (proved.hypotheses().join(", "), how(proved), proved.status());
+        writeln!(out, "| {equation} | {name} | {says} | {given} | {how} | {status} |")
+    })
+}
+
+#[derive(Serialize)]
+struct Json {
+    summary: Summary,
+    equations: Vec<EquationJson>,
+    changes: Vec<ChangeJson>,
+}
+
+#[derive(Clone, Copy, Serialize)]
+struct Summary {
+    claims: usize,
+    proved: usize,
+    refuted: usize,
+    unknown: usize,
+    hypotheses: usize,
+    changes: usize,
+    noticed: usize,
+    unchanged: usize,
+    unnoticed: usize,
+}
+
+#[derive(Serialize)]
+struct EquationJson {
+    equation: &'static str,
+    claims: Vec<ClaimJson>,
+}
+
+#[derive(Serialize)]
+struct ClaimJson {
+    claim: &'static str,
+    kind: &'static str,
+    statement: String,
+    hypotheses: Vec<&'static str>,
+    status: &'static str,
+    certificate: Option<String>,
+    why: Option<String>,
+    counterexample: Option<Values>,
+    dropped: Vec<DroppedJson>,
+}
+
+#[derive(Serialize)]
+struct DroppedJson {
+    hypothesis: &'static str,
+    status: &'static str,
+    counterexample: Option<Values>,
+}
+
+#[derive(Serialize)]
+struct ChangeJson {
+    at: String,
+    change: String,
+    status: &'static str,
+    by: Option<String>,
+    counterexample: Option<Values>,
+}
+
+type Values = BTreeMap<&'static str, String>;
+
+fn values(counterexample: &Counterexample) -> Values {
+    counterexample.values.iter().map(|(name, x)| (*name, x.to_string())).collect()
+}
+
+impl Json {
+    fn of(report: &Report) -> Self {
+        let equation = |entry: &Entry| EquationJson {
+            equation: entry.equation,
+            claims: report.of(entry).into_iter().map(ClaimJson::of).collect(),
+        };
+        let equations = entries().iter().map(equation).filter(|e| !e.claims.is_empty()).collect();
+        let change = |(at, change, outcome): &(String, String, Outcome)| {
+            let (status, by, counterexample) = match outcome {
+                Outcome::Noticed { equation, name, counterexample } => {
+                    ("noticed", Some(format!("{equation} {name}")), Some(values(counterexample)))
+                }
+                Outcome::Unchanged => ("unchanged", None, None),
+                Outcome::Unnoticed => ("unnoticed", None, None),
+            };
+            ChangeJson { at: at.clone(), change: change.clone(), status, by, counterexample }
+        };
+        Json { summary: report.summary(), equations, changes: report.changes.iter().map(change).collect() }
+    }
+}
+
+impl ClaimJson {
+    fn of(proved: &Proved) -> Self {
+        let Proved { statement, answer, dropped, .. } = proved;
+        let dropped = dropped.iter().map(|Dropped { given, without, .. }| {
+            let (status, counterexample) = match without {
+                Without::Refuted(counterexample) => ("refuted", Some(values(counterexample))),
+                Without::StillTrue => ("still_true", None),
+                Without::Unknown => ("unknown", None),
+            };
+            DroppedJson { hypothesis: given.text(), status, counterexample }
+        });
+        ClaimJson {
+            claim: statement.name,
+            kind: statement.kind,
+            statement: paper::claim(statement),
+            hypotheses: proved.hypotheses(),
+            status: proved.status(),
+            certificate: match answer {
+                Answer::Proof(proof) => Some(paper::proof(statement, proof).join("\n")),
+                Answer::None(..) => None,
+            },
+            why: match answer {
+                Answer::Proof(_) => None,
+                Answer::None(why, _) => Some(why.clone()),
+            },
+            counterexample: match answer {
+                Answer::None(_, Some(counterexample)) => Some(values(counterexample)),
+                Answer::Proof(_) | Answer::None(_, None) => None,
+            },
+            dropped: dropped.collect(),
+        }
+    }
+}
