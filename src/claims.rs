@@ -10,14 +10,14 @@ mod experiments;
 mod formulas;
 mod list;
 
-pub use entries::{Entry, entries, entry};
+pub use entries::{Entry, entries, entry, place};
 #[cfg(feature = "mpfr")]
 pub use experiments::{Experiment, Trial, exact_experiments, first_order_experiments, float_experiments};
 pub use formulas::{Call, Formula, call, fill, formula, formula_in, formulas, line, named};
-pub use list::{claims, exponential_claims, unilateral_claims};
+pub use list::{all_claims, claims, exponential_claims, unilateral_claims};
 
 use crate::chapter::{SpringMass, augmented, contact, penalty, system};
-use crate::number::{Dual, Field};
+use crate::number::{Dual, Field, Tree};
 
 macro_rules! coordinates {
     ($($Var:ident $field:ident $symbol:literal $text:literal;)*) => {
@@ -102,11 +102,30 @@ coordinates! {
     Tol tol "tol" "A tolerance, in m.";
 }
 
-impl<T: Clone> Case<T> {
+impl<T> Case<T> {
+    /// The case whose coordinates the function gives.
+    pub fn of(mut f: impl FnMut(Var) -> T) -> Self {
+        let case = Case::try_of(|var| Ok::<T, std::convert::Infallible>(f(var)));
+        case.unwrap_or_else(|never| match never {})
+    }
+
     /// The same case in other numbers.
     pub fn map<U>(&self, mut f: impl FnMut(Var, &T) -> U) -> Case<U> {
-        let mapped = Case::try_of(|var| Ok::<U, std::convert::Infallible>(f(var, self.get(var))));
-        mapped.unwrap_or_else(|never| match never {})
+        Case::of(|var| f(var, self.get(var)))
+    }
+}
+
+impl<T: Field> Case<T> {
+    /// The same case in dual numbers, with this coordinate as the variable.
+    pub fn along(&self, by: Var) -> Case<Dual<T>> {
+        self.map(|var, x| Dual::coordinate(x.clone(), var == by))
+    }
+}
+
+impl Case<Tree> {
+    /// The case whose coordinates are themselves.
+    pub fn of_symbols() -> Self {
+        Case::of(|var| Tree::symbol(var.symbol()))
     }
 }
 
@@ -315,10 +334,7 @@ impl<T: Field> Claim<T> {
             Kind::Equal(sides) => vec![equal(sides(case))],
             Kind::Sign(relation, of) => vec![Goal::Sign(*relation, of(case))],
             Kind::Derivative { of, by, is, .. } => {
-                let along = |var, x: &T| {
-                    if var == *by { Dual::variable(x.clone()) } else { Dual::constant(x.clone()) }
-                };
-                vec![Goal::Equal(of(&case.map(along)).derivative, is(case))]
+                vec![Goal::Equal(of(&case.along(*by)).derivative, is(case))]
             }
             Kind::Limit { of, to, rate, .. } => {
                 let distance = of(case) - to(case);
@@ -362,9 +378,7 @@ impl<T: Field> Claim<T> {
 #[cfg(feature = "mpfr")]
 pub fn claim_names(equation: &str) -> Vec<&'static str> {
     use crate::number::Ball;
-    let of =
-        |claims: Vec<Claim<Ball<f64>>>| claims.into_iter().map(|c| (c.equation, c.name)).collect::<Vec<_>>();
-    let algebraic = [of(claims()), of(exponential_claims()), of(unilateral_claims())].concat().into_iter();
+    let algebraic = all_claims::<Ball<f64>>().into_iter().map(|c| (c.equation, c.name));
     let floats = float_experiments::<f64>().into_iter().chain(first_order_experiments());
     let floats = floats.map(|e| (e.equation, e.name));
     let rationals = exact_experiments().into_iter().map(|e| (e.equation, e.name));

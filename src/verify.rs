@@ -13,7 +13,7 @@
 mod cases;
 mod checker;
 
-use crate::claims::{Case, Given, entries};
+use crate::claims::{Case, Given, place};
 use crate::number::{Exact, Mpfr, NumberSystem};
 use crate::proof::{Statement, prove, refute, statements};
 use checker::{Checker, Checks, Exactly, Floats, Tally};
@@ -163,8 +163,7 @@ pub fn verify(options: &Options, progress: &(dyn Fn(usize, usize) + Sync)) -> Re
             }
         }
     }
-    let position = |row: &Row| entries().iter().position(|entry| entry.equation == row.equation);
-    rows.sort_by_key(position);
+    rows.sort_by_key(|row| place(row.equation));
     // Within an equation all rows of a claim stand together.
     let mut sorted: Vec<Row> = Vec::with_capacity(rows.len());
     for row in rows {
@@ -197,9 +196,9 @@ fn proof(statement: &Statement) -> Row {
 
 fn checks(scalar: NumberSystem) -> Box<dyn Checks> {
     match scalar {
-        NumberSystem::F32 => Box::new(Checker(Floats(0.0f32))),
-        NumberSystem::F64 => Box::new(Checker(Floats(0.0f64))),
-        NumberSystem::Mpfr(bits) => Box::new(Checker(Floats(Mpfr::rounded(bits, 0)))),
-        NumberSystem::Exact => Box::new(Checker(Exactly)),
+        NumberSystem::F32 => Box::new(Checker::new(Floats(0.0f32))),
+        NumberSystem::F64 => Box::new(Checker::new(Floats(0.0f64))),
+        NumberSystem::Mpfr(bits) => Box::new(Checker::new(Floats(Mpfr::rounded(bits, 0)))),
+        NumberSystem::Exact => Box::new(Checker::new(Exactly)),
     }
 }

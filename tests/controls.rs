@@ -2,9 +2,7 @@
 #![cfg(feature = "mpfr")]
 
 use rayon::prelude::*;
-use spring_mass_contact::claims::{
-    Case, Claim, Given, Goal as Asked, Kind, Relation, claims, exponential_claims, unilateral_claims,
-};
+use spring_mass_contact::claims::{Case, Claim, Given, Goal as Asked, Kind, Relation, all_claims};
 use spring_mass_contact::number::Exact;
 use spring_mass_contact::proof::controls::{Outcome, Without, changes, controls};
 use spring_mass_contact::proof::refute::{Value, Verdict, check, planted_points, raw_points};
@@ -163,7 +161,7 @@ fn fails(claim: &Claim<Value>, case: &Case<Exact>) -> bool {
 #[test]
 fn dropped_hypotheses_are_refuted_by_the_claims_themselves() {
     // Not by their trees: the generic functions are asked again, and so are the hypotheses.
-    let all: Vec<_> = claims().into_iter().chain(exponential_claims()).chain(unilateral_claims()).collect();
+    let all = all_claims();
     let statements = statements();
     for dropped in controls(&statements).dropped {
         let what = format!("{} {} without {}", dropped.equation, dropped.name, dropped.given.text());

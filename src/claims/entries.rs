@@ -53,7 +53,12 @@ impl Entry {
 
 /// The entry of a number.
 pub fn entry(equation: &str) -> Option<&'static Entry> {
-    entries().iter().find(|entry| entry.equation == equation)
+    place(equation).map(|place| &entries()[place])
+}
+
+/// Where a number stands among the entries: what is sorted by it is in the chapter's order.
+pub fn place(equation: &str) -> Option<usize> {
+    entries().iter().position(|entry| entry.equation == equation)
 }
 
 /// All entries, in the chapter's order.

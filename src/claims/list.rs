@@ -28,8 +28,7 @@ fn square<T: Field>(x: T) -> T {
 /// Both partial derivatives of the two lines of (1.8): the Hessian of (1.7).
 fn hessian_determinant<T: Field>(case: &Case<T>) -> T {
     let along = |by| {
-        let dual =
-            case.map(|var, x| if var == by { Dual::variable(x.clone()) } else { Dual::constant(x.clone()) });
+        let dual = case.along(by);
         lagrange::residual(&dual.system, &dual.u, &dual.lambda).map(|line| line.derivative)
     };
     let ([a, c], [b, d]) = (along(Var::U), along(Var::Lambda));
@@ -74,6 +73,11 @@ fn stalled_penetration<T: Field>(case: &Case<T>) -> T {
 fn bounded_penalty<T: Field>(eps: &T, p: &T) -> T {
     let square = p * p;
     eps * &square / (T::one() + square)
+}
+
+/// Every claim.
+pub fn all_claims<T: PositivePart + Exponential>() -> Vec<Claim<T>> {
+    claims().into_iter().chain(exponential_claims()).chain(unilateral_claims()).collect()
 }
 
 /// Claims that need no more than `+ − × ÷`.
@@ -142,7 +146,7 @@ pub fn claims<T: Field>() -> Vec<Claim<T>> {
         "1.10" "stiffens" [] derivative!(of: |x| penalty::series_residual(&x.system, &x.eps, std::slice::from_ref(&x.eps4), &x.u), by: Var::U,
             is: |x| penalty::total_stiffness(&x.system, &x.eps) + T::int(12) * &x.eps4 * &x.u * &x.u);
         "1.10" "one-root" [Stiffness Penalty Quartic] Sign(Positive, |x| {
-            let dual = x.map(|var, x| if var == Var::U { Dual::variable(x.clone()) } else { Dual::constant(x.clone()) });
+            let dual = x.along(Var::U);
             penalty::series_residual(&dual.system, &dual.eps, std::slice::from_ref(&dual.eps4), &dual.u).derivative });
         "1.11" "stationary" [] derivative!(of: |x| penalty::energy(&x.system, &x.eps, &x.u), by: Var::U, is: |x| penalty::residual(&x.system, &x.eps, &x.u));
         "1.11" "root" [Stiffness Penalty] Equal(|x| (penalty::residual(&x.system, &x.eps, &penalty::deflection(&x.system, &x.eps)), T::zero()));

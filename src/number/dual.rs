@@ -33,6 +33,11 @@ impl<T: Field> Dual<T> {
     pub fn variable(value: T) -> Self {
         Dual { value, derivative: T::one() }
     }
+
+    /// A coordinate: the variable if it varies, and else a constant.
+    pub fn coordinate(value: T, varies: bool) -> Self {
+        if varies { Dual::variable(value) } else { Dual::constant(value) }
+    }
 }
 
 operators! { [T: Field] Dual<T>;

@@ -4,7 +4,7 @@ mod typeset;
 
 pub use typeset::{Name, Notation, latex};
 
-use super::{Exponential, Field, PositivePart};
+use super::{Dual, Exponential, Field, PositivePart};
 use crate::operators;
 use num_traits::{One, Zero};
 use std::collections::BTreeSet;
@@ -83,6 +83,13 @@ impl fmt::Display for Site {
     }
 }
 
+impl Site {
+    /// Was it written by the rules of differentiation, and by no formula?
+    pub fn is_of_duals(&self) -> bool {
+        self.file.ends_with("dual.rs")
+    }
+}
+
 impl<T> Step<T> {
     /// What the step is made of, in order.
     pub fn operands(&self) -> impl Iterator<Item = &T> {
@@ -95,24 +102,21 @@ impl<T> Step<T> {
         a.into_iter().chain(b)
     }
 
-    /// The same step with other operands, or the first error.
-    ///
-    /// # Errors
-    /// What `f` returns.
-    pub fn try_map<U, E>(&self, mut f: impl FnMut(&T) -> Result<U, E>) -> Result<Step<U>, E> {
+    /// The same step with other operands.
+    pub fn map<U>(&self, mut f: impl FnMut(&T) -> U) -> Step<U> {
         use Step::*;
-        Ok(match self {
+        match self {
             Symbol(name) => Symbol(name),
             Int(n) => Int(*n),
-            Neg(a) => Neg(f(a)?),
-            Add(a, b) => Add(f(a)?, f(b)?),
-            Sub(a, b) => Sub(f(a)?, f(b)?),
-            Mul(a, b) => Mul(f(a)?, f(b)?),
-            Div(a, b) => Div(f(a)?, f(b)?),
-            Exp(a) => Exp(f(a)?),
-            PositivePart(a) => PositivePart(f(a)?),
-            Min(a, b) => Min(f(a)?, f(b)?),
-        })
+            Neg(a) => Neg(f(a)),
+            Add(a, b) => Add(f(a), f(b)),
+            Sub(a, b) => Sub(f(a), f(b)),
+            Mul(a, b) => Mul(f(a), f(b)),
+            Div(a, b) => Div(f(a), f(b)),
+            Exp(a) => Exp(f(a)),
+            PositivePart(a) => PositivePart(f(a)),
+            Min(a, b) => Min(f(a), f(b)),
+        }
     }
 }
 
@@ -184,12 +188,21 @@ impl Tree {
         })
     }
 
+    /// The value of the formula and its derivative by one of its quantities; `None` as for [`replay`](Self::replay).
+    pub fn derivative<T: Field>(
+        &self,
+        by: &str,
+        symbol: &impl Fn(&'static str) -> T,
+        beyond: &impl Fn(Step<&Dual<T>>) -> Option<Dual<T>>,
+    ) -> Option<Dual<T>> {
+        self.replay(&|name| Dual::coordinate(symbol(name), name == by), beyond)
+    }
+
     /// The tree rebuilt from its leaves: each step that `f` replaces, after its operands have been.
     pub fn rewrite(&self, f: &impl Fn(&Tree) -> Option<Tree>) -> Tree {
-        let step = self.step().try_map(|tree| Ok::<_, std::convert::Infallible>(tree.rewrite(f)));
-        let step = step.unwrap_or_else(|never| match never {});
+        let step = self.step().map(|tree| tree.rewrite(f));
         let same = step.operands().zip(self.step().operands()).all(|(new, old)| Arc::ptr_eq(&new.0, &old.0));
-        let tree = if same { self.clone() } else { Tree(Arc::new(Node { step, site: self.0.site })) };
+        let tree = if same { self.clone() } else { self.with_step(step) };
         f(&tree).unwrap_or(tree)
     }
 

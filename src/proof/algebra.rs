@@ -98,6 +98,11 @@ impl Monomial {
         Some(Monomial { powers, exponent: self.exponent.clone() })
     }
 
+    /// Without its e^….
+    fn bare(&self) -> Self {
+        Monomial { powers: self.powers.clone(), exponent: None }
+    }
+
     fn degree(&self, x: Symbol) -> u32 {
         self.powers.iter().find(|(symbol, _)| *symbol == x).map_or(0, |(_, n)| *n)
     }
@@ -256,10 +261,18 @@ impl Poly {
     pub fn by_exponent(&self) -> BTreeMap<Option<Arc<Ratio>>, Poly> {
         let mut parts: BTreeMap<_, Poly> = BTreeMap::new();
         for (m, q) in &self.0 {
-            let bare = Monomial { powers: m.powers.clone(), exponent: None };
-            parts.entry(m.exponent.clone()).or_insert_with(Poly::zero).accumulate(bare, q.clone());
+            parts.entry(m.exponent.clone()).or_insert_with(Poly::zero).accumulate(m.bare(), q.clone());
         }
         parts
+    }
+
+    /// Each exponent that a symbol occurs in, with its factor; and the other terms.
+    pub fn exponentials_in(&self, x: Symbol) -> (Vec<(Arc<Ratio>, Poly)>, Poly) {
+        let mut rest = self.clone();
+        rest.0.retain(|m, _| m.exponent.as_ref().is_none_or(|e| !e.symbols().contains(&x)));
+        let parts = self.by_exponent().into_iter();
+        let moving = parts.filter_map(|(e, part)| Some((e.filter(|e| e.symbols().contains(&x))?, part)));
+        (moving.collect(), rest)
     }
 
     /// e to a quotient.
@@ -328,8 +341,7 @@ impl Poly {
         // The coefficients of the pivot's powers, times e^… whose exponents are replaced already.
         let mut by_power: Vec<Poly> = Vec::new();
         for (m, q) in &self.0 {
-            let mut rest = Monomial { powers: m.powers.clone(), exponent: None };
-            let mut power = 0;
+            let (mut rest, mut power) = (m.bare(), 0);
             while let Some(quotient) = rest.over(pivot) {
                 rest = quotient;
                 power += 1;
@@ -345,10 +357,9 @@ impl Poly {
 
     /// Does a monomial occur in it, or in its exponents?
     pub fn contains(&self, pivot: &Monomial) -> bool {
-        self.0.keys().any(|m| {
-            let bare = Monomial { powers: m.powers.clone(), exponent: None };
-            bare.over(pivot).is_some() || m.exponent.as_ref().is_some_and(|e| e.contains(pivot))
-        })
+        self.0
+            .keys()
+            .any(|m| m.bare().over(pivot).is_some() || m.exponent.as_ref().is_some_and(|e| e.contains(pivot)))
     }
 
     /// As a formula, each symbol by what `symbol` says of it.
@@ -498,6 +509,11 @@ impl Ratio {
         Some(self.times(&Ratio::new(other.den.clone(), other.num.clone())))
     }
 
+    /// Is it free of e^…?
+    pub fn is_of_polynomials(&self) -> bool {
+        !self.num.has_exponentials() && !self.den.has_exponentials()
+    }
+
     /// Is it 0 wherever it is defined?
     pub fn is_zero(&self) -> bool {
         self.num.is_zero()
@@ -538,7 +554,7 @@ impl Ratio {
     /// As a formula.
     pub fn to_tree(&self, symbol: &impl Fn(Symbol) -> Tree) -> Tree {
         let num = self.num.to_tree(symbol);
-        if self.den.as_constant().is_some_and(|d| d == 1) { num } else { num / self.den.to_tree(symbol) }
+        if self.den.is_one() { num } else { num / self.den.to_tree(symbol) }
     }
 }
 

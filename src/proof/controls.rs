@@ -199,13 +199,11 @@ impl What {
             What::Symbol(place, from, to) => {
                 let mut index = 0..;
                 let mut replaced = false;
-                let step = tree.step().try_map(|operand| {
+                let step = tree.step().map(|operand| {
                     let here = index.next() == Some(place) && *operand.step() == Step::Symbol(from);
                     replaced |= here;
-                    let operand = if here { operand.with_step(Step::Symbol(to)) } else { operand.clone() };
-                    Ok::<_, std::convert::Infallible>(operand)
+                    if here { operand.with_step(Step::Symbol(to)) } else { operand.clone() }
                 });
-                let step = step.unwrap_or_else(|never| match never {});
                 replaced.then(|| tree.with_step(step))
             }
         }
@@ -346,7 +344,7 @@ pub struct Dropped {
 }
 
 /// All controls and what became of them.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Controls {
     /// In the order of the source.
     pub changes: Vec<(Change, Outcome)>,
@@ -448,7 +446,7 @@ impl<'a> Bench<'a> {
                 tree.visit(&mut |tree| {
                     let site = tree.site();
                     steps += 1;
-                    duals |= site.file.ends_with("dual.rs");
+                    duals |= site.is_of_duals();
                     if of_the_chapter(site.file) {
                         sites.insert(site);
                     }

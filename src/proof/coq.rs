@@ -15,15 +15,14 @@ mod script;
 
 use super::statement::{Goal, Hypothesis, Role, Says, Statement};
 use super::{Why, prove};
-use crate::claims::{
-    Case, Claim, Formula, Kind, Relation, Var, claims, entry, exponential_claims, formulas, unilateral_claims,
-};
+use crate::claims::{Case, Claim, Formula, Kind, Relation, Var, all_claims, entry, formulas};
 use crate::number::Tree;
 use crate::number::tree::Step;
 use print::{Expr, ascii};
 use script::Script;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 use std::{fs, io};
 
 /// A file for Coq.
@@ -68,7 +67,7 @@ const ASSUMPTIONS: &str = "E_Assumptions";
 ///
 /// They compile in this order, and in that of their names: `coqc -R DIR Contact FILE`.
 pub fn files() -> Vec<File> {
-    let theorems = theorems().0;
+    let theorems = THEOREMS.0.clone();
     let all: String = theorems.iter().map(|file| format!(" {}", file.name.trim_end_matches(".v"))).collect();
     let iterates = format!(
         "From Contact Require Import {TACTICS} {CHAPTER}{all}.\n\n{}",
@@ -123,7 +122,7 @@ pub fn write(directory: &Path) -> io::Result<Vec<PathBuf>> {
 
 /// The claims for which there is no theorem, each with its reason.
 pub fn left_out() -> Vec<LeftOut> {
-    theorems().1
+    THEOREMS.1.clone()
 }
 
 /// What Coq calls a claim: `eq_1_13_rate`, `theorem_1_3_3_contracts`.
@@ -134,7 +133,7 @@ pub fn theorem_name(equation: &str, name: &str) -> String {
 
 /// Every way to change one sign of one definition that some theorem names.
 pub fn flips() -> Vec<Flip> {
-    let (definitions, theorems) = (definitions(), theorems().0);
+    let (definitions, theorems) = (definitions(), &THEOREMS.0);
     let mut all = Vec::new();
     for (i, definition) in definitions.iter().enumerate() {
         let names =
@@ -176,12 +175,6 @@ fn wrapped(text: &str) -> String {
         let _ = writeln!(all, "{line}");
     }
     all
-}
-
-/// The case whose coordinates are themselves.
-fn symbols() -> Case<Tree> {
-    let case = Case::try_of(|var| Ok::<_, std::convert::Infallible>(Tree::symbol(var.symbol())));
-    case.unwrap_or_else(|never| match never {})
 }
 
 fn is_part_of_name(c: char) -> bool {
@@ -227,11 +220,13 @@ fn chapter(definitions: &[Definition]) -> File {
     file(CHAPTER, text)
 }
 
+/// The same at every call, and each asks the kernel for all proofs.
+static THEOREMS: LazyLock<(Vec<File>, Vec<LeftOut>)> = LazyLock::new(theorems);
+
 /// The files of theorems, one or more a section, and what is not in them.
 fn theorems() -> (Vec<File>, Vec<LeftOut>) {
     let (mut sections, mut left_out): (Vec<(String, Vec<String>)>, _) = (Vec::new(), Vec::new());
-    let all = claims::<Tree>().into_iter().chain(exponential_claims()).chain(unilateral_claims());
-    for claim in all {
+    for claim in all_claims() {
         let section = entry(claim.equation).map_or("", |entry| entry.section).to_string();
         match Theorem::new(&claim).text() {
             Ok(text) => match sections.iter_mut().find(|(known, _)| *known == section) {
@@ -323,9 +318,22 @@ fn for_all(variables: &[Var]) -> String {
     if variables.is_empty() { String::new() } else { format!(" forall{} : R,\n ", names(variables)) }
 }
 
-/// H1 H2 …
+/// H1 H2 …, each after a blank.
 fn labels(n: usize) -> String {
-    (1..=n).map(|i| format!(" H{i}")).collect()
+    numbered("H", n).iter().map(|label| format!(" {label}")).collect()
+}
+
+/// What is said under hypotheses, with its proof.
+fn stated(
+    keyword: &str,
+    name: &str,
+    variables: &[Var],
+    hypotheses: &[&Hypothesis],
+    says: &str,
+    proof: Script,
+) -> String {
+    let (variables, premises, proof) = (for_all(variables), premises(hypotheses), proof.into_text());
+    format!("\n{keyword} {name} :{variables}{premises} {says}.\nProof.\n{proof}Qed.\n")
 }
 
 fn premises(hypotheses: &[&Hypothesis]) -> String {
@@ -423,14 +431,7 @@ impl<'a> Lemma<'a> {
         }
         script.line("chapter.");
         script.derivation(&derivation(&self.hypotheses, self.goal())?)?;
-        Ok(format!(
-            "\n{keyword} {} :{}{} {}.\nProof.\n{}Qed.\n",
-            self.name,
-            for_all(&variables),
-            premises(&self.hypotheses),
-            says(self.says),
-            script.into_text()
-        ))
+        Ok(stated(keyword, &self.name, &variables, &self.hypotheses, &says(self.says), script))
     }
 }
 
@@ -438,7 +439,7 @@ impl<'a> Theorem<'a> {
     fn new(claim: &'a Claim<Tree>) -> Self {
         Theorem {
             claim,
-            case: symbols(),
+            case: Case::of_symbols(),
             statement: Statement::of(claim),
             name: theorem_name(claim.equation, claim.name),
         }
@@ -511,13 +512,7 @@ impl<'a> Theorem<'a> {
         divisors_script(&mut script, &hypotheses, divisors)?;
         script.line("repeat split; assumption.");
         let goals: Vec<_> = divisors.iter().map(|divisor| format!("{} <> 0", Expr::of(divisor))).collect();
-        Ok(format!(
-            "\nLemma {name} :{}{} {}.\nProof.\n{}Qed.\n",
-            for_all(variables),
-            premises(&hypotheses),
-            goals.join(" /\\\n  "),
-            script.into_text()
-        ))
+        Ok(stated("Lemma", name, variables, &hypotheses, &goals.join(" /\\\n  "), script))
     }
 
     /// The limit itself; how fast it is reached is in lemmas.
@@ -557,16 +552,7 @@ impl<'a> Theorem<'a> {
             }
             Ok(())
         })?;
-        let _ = write!(
-            text,
-            "\nTheorem {} :{}{} {}.\nProof.\n{}Qed.\n",
-            self.name,
-            for_all(&variables),
-            premises(&own.hypotheses),
-            says(own.says),
-            script.into_text()
-        );
-        Ok(text)
+        Ok(text + &stated("Theorem", &self.name, &variables, &own.hypotheses, &says(own.says), script))
     }
 
     /// The recursion over the natural numbers, and its closed form by induction.
@@ -643,11 +629,7 @@ impl<'a> Theorem<'a> {
                 if *var == Var::Q { format!(" {q_is}") } else { format!(" {}", ascii(var.symbol())) }
             });
             let with_q = lemma.hypotheses.len() == all.len();
-            let labels: Vec<_> = if with_q {
-                step_labels.clone()
-            } else {
-                (1..=hypotheses.len()).map(|i| format!("H{i}")).collect()
-            };
+            let labels: Vec<_> = if with_q { step_labels.clone() } else { numbered("H", hypotheses.len()) };
             format!("{}{} {}", lemma.name, arguments.collect::<String>(), labels.join(" "))
         };
         let power = format!("({} ^ n)", ratio.base());
@@ -679,16 +661,11 @@ impl<'a> Theorem<'a> {
         }
         script.line(&format!("  {pairs}."));
         part(Role::Step).iter().for_each(|lemma| script.line(&format!("  + exact ({}).", at(lemma, &power))));
-        let _ = write!(
-            text,
-            "\nTheorem {} :{}{} forall n : nat, let q := {power} in\n    {iterates}{arguments} n =\n    {}.\nProof.\n{}Qed.\n",
-            self.name,
-            for_all(&free),
-            premises(&hypotheses),
-            tuple(&closed),
-            script.into_text()
+        let says = format!(
+            "forall n : nat, let q := {power} in\n    {iterates}{arguments} n =\n    {}",
+            tuple(&closed)
         );
-        Ok(text)
+        Ok(text + &stated("Theorem", &self.name, &free, &hypotheses, &says, script))
     }
 
     /// A function of the powers of what is less than 1 in size.
@@ -701,7 +678,7 @@ impl<'a> Theorem<'a> {
         let [small, limit] = lemmas.as_slice() else {
             return Err("a limit of powers has two parts".into());
         };
-        let mut text = small.text("Lemma")? + &limit.text("Lemma")?;
+        let text = small.text("Lemma")? + &limit.text("Lemma")?;
         let (ratio, of, to) = (ratio(&self.case), of(&self.case, &self.case.q), to(&self.case));
         let hypotheses = self.hypotheses(Some(q));
         let trees = [&ratio, &of, &to].into_iter().chain(hypotheses.iter().map(|h| &h.value));
@@ -723,16 +700,7 @@ impl<'a> Theorem<'a> {
         script.line(&format!("- exact ({}).", small.applied()));
         script.line("- chapter. auto_derive; nonzero.");
         script.line(&format!("- exact ({}).", limit.applied()));
-        let _ = write!(
-            text,
-            "\nTheorem {} :{}{} is_lim_seq (fun n => {}) {}.\nProof.\n{}Qed.\n",
-            self.name,
-            for_all(&free),
-            premises(&hypotheses),
-            Expr::of(&of).with(&name, &power),
-            to.argument(),
-            script.into_text()
-        );
-        Ok(text)
+        let says = format!("is_lim_seq (fun n => {}) {}", Expr::of(&of).with(&name, &power), to.argument());
+        Ok(text + &stated("Theorem", &self.name, &free, &hypotheses, &says, script))
     }
 }

@@ -50,7 +50,9 @@ pub struct Direct {
     /// What is supposed, and how it is used.
     pub supposed: Vec<Supposed>,
     /// Each divisor, and why it is not 0.
-    pub divisors: Vec<(Tree, Nonzero)>,
+    ///
+    /// Its numerator has a strict sign; its own divisors are listed before it.
+    pub divisors: Vec<(Tree, Signed)>,
     /// Each bracket, which of its values it has, and why: the sign of what decides it.
     pub brackets: Vec<(Tree, Tree, Signed)>,
     /// The rest.
@@ -83,9 +85,6 @@ pub enum Used {
     Unused,
 }
 
-/// Why a quotient is not 0: its numerator has a strict sign. (Its own divisors are listed before it.)
-pub type Nonzero = Signed;
-
 /// The sign of a quotient.
 #[derive(Clone, Debug)]
 pub struct Signed {
@@ -111,8 +110,8 @@ pub enum Because {
     Same(Ratio),
     /// A sign.
     Sign(Signed),
-    /// The derivative, as dual numbers compute it, is the other side.
-    Derivative(Tree, Ratio),
+    /// The derivative, as dual numbers compute it, and the other side are this.
+    Derivative(Ratio),
     /// By degrees in the symbol, and the sign of the denominator's leading coefficient.
     Limit {
         /// What has the limit.
@@ -132,7 +131,7 @@ pub enum Because {
 #[derive(Clone, Debug)]
 pub enum Why {
     /// A divisor might be 0.
-    MightVanish(Tree, Ratio),
+    MightVanish(Ratio),
     /// It is not known whether a bracket opens, and no case can be made of it.
     OpenBracket(Ratio),
     /// No rule finds the sign.
@@ -152,7 +151,7 @@ pub enum Why {
 impl fmt::Display for Why {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
-            Why::MightVanish(_, value) => write!(f, "{value} might be 0"),
+            Why::MightVanish(value) => write!(f, "{value} might be 0"),
             Why::OpenBracket(value) => write!(f, "the sign of {value} is open"),
             Why::NoSign(value) => write!(f, "no rule finds the sign of {value}"),
             Why::WrongSign(value, sign) => write!(f, "{value} is {}", sign.text()),
@@ -255,9 +254,8 @@ impl Context {
         value
     }
 
-    /// The sign of a quotient, if the rules find that of numerator and denominator.
-    fn sign(&self, value: &Ratio) -> Option<Signed> {
-        let value = self.reduce(value);
+    /// The sign of a reduced quotient, if the rules find that of numerator and denominator.
+    fn sign(&self, value: Ratio) -> Option<Signed> {
         let (num, den) = (sign(value.num(), &self.known)?, sign(value.den(), &self.known)?);
         den.sign.is_strict().then_some(Signed { value, num, den })
     }
@@ -266,7 +264,7 @@ impl Context {
     fn suppose(&mut self, given: Option<Given>, value: Ratio, sign: Sign) {
         let value = self.reduce(&value);
         let used = match sign {
-            _ if self.sign(&value).is_some_and(|signed| signed.sign().implies(sign)) => Used::Follows,
+            _ if self.sign(value.clone()).is_some_and(|signed| signed.sign().implies(sign)) => Used::Follows,
             Sign::Negative | Sign::NonPositive => {
                 return self.suppose(given, value.negated(), sign.negated());
             }
@@ -333,20 +331,21 @@ impl Context {
             Says::Equal(left, right) => Because::Same(self.same(reader.read(left)?, reader.read(right)?)?),
             Says::Sign(relation, of) => {
                 let value = self.reduce(&reader.read(of)?);
-                let signed = self.sign(&value).ok_or_else(|| Why::NoSign(value.clone()))?;
+                let signed = self.sign(value.clone()).ok_or_else(|| Why::NoSign(value.clone()))?;
                 if !signed.sign().implies((*relation).into()) {
                     return Err(Why::WrongSign(value, signed.sign()));
                 }
                 Because::Sign(signed)
             }
             Says::Derivative(of, by, is) => {
-                let derivative = derivative(of, by.symbol()).ok_or_else(|| {
-                    // ⟨·⟩ and min have kinks.
-                    Why::NoLimit(Ratio::from(Poly::symbol(Symbol(by.symbol()))))
-                })?;
+                let Dual { derivative, .. } = of
+                    .derivative(by.symbol(), &|name| Tree::symbol(name), &tree::smooth)
+                    .ok_or_else(|| {
+                        // ⟨·⟩ and min have kinks.
+                        Why::NoLimit(Ratio::from(Poly::symbol(Symbol(by.symbol()))))
+                    })?;
                 reader.read(of)?;
-                let same = self.same(reader.read(&derivative)?, reader.read(is)?)?;
-                Because::Derivative(derivative, same)
+                Because::Derivative(self.same(reader.read(&derivative)?, reader.read(is)?)?)
             }
             Says::Limit(of, by, to) => {
                 let x = Symbol(by.symbol());
@@ -370,19 +369,12 @@ impl Context {
     /// have opposite signs, tends to −∞ at least as fast as −x does, up to a factor; and e^{−a x} times any
     /// power of x vanishes for a > 0.
     fn without_falling_exponentials(&self, num: &Poly, x: Symbol) -> Option<Poly> {
-        let mut rest = Poly::zero();
-        for (exponent, part) in num.by_exponent() {
-            match exponent {
-                Some(e) if e.symbols().contains(&x) => {
-                    let polynomials = !e.num().has_exponentials() && !e.den().has_exponentials();
-                    let leading = |p: &Poly| Some(sign(&p.coefficients(x).pop()?, &self.known)?.sign);
-                    let falls = leading(e.num())?.times(leading(e.den())?) == Sign::Negative;
-                    if !polynomials || !falls || e.num().degree(x) <= e.den().degree(x) {
-                        return None;
-                    }
-                }
-                Some(e) => rest = rest.plus(&part.times(&Poly::exponential((*e).clone()))),
-                None => rest = rest.plus(&part),
+        let (moving, rest) = num.exponentials_in(x);
+        for (e, _) in moving {
+            let leading = |p: &Poly| Some(sign(&p.coefficients(x).pop()?, &self.known)?.sign);
+            let falls = leading(e.num())?.times(leading(e.den())?) == Sign::Negative;
+            if !e.is_of_polynomials() || !falls || e.num().degree(x) <= e.den().degree(x) {
+                return None;
             }
         }
         Some(rest)
@@ -424,18 +416,10 @@ fn as_symbol(value: &Ratio) -> Option<Symbol> {
     (*value == Ratio::from(Poly::symbol(x))).then_some(x)
 }
 
-/// The derivative of a formula by one of its quantities; `None` if it has brackets.
-fn derivative(of: &Tree, by: &str) -> Option<Tree> {
-    let along = |name| {
-        if name == by { Dual::variable(Tree::symbol(name)) } else { Dual::constant(Tree::symbol(name)) }
-    };
-    of.replay(&along, &tree::smooth).map(|dual| dual.derivative)
-}
-
 /// Reads formulas as quotients, and notes what that takes.
 struct Reader<'a> {
     context: &'a Context,
-    divisors: Vec<(Tree, Nonzero)>,
+    divisors: Vec<(Tree, Signed)>,
     brackets: Vec<(Tree, Tree, Signed)>,
 }
 
@@ -459,11 +443,12 @@ impl<'a> Reader<'a> {
             Mul(a, b) => self.read(a)?.times(&self.read(b)?),
             Div(a, b) => {
                 let (value, divisor) = (self.read(a)?, self.read(b)?);
-                let might_vanish = || Why::MightVanish(b.clone(), divisor.clone());
+                let might_vanish = || Why::MightVanish(divisor.clone());
                 if divisor.as_constant().is_none_or(|q| q == 0)
                     && self.divisors.iter().all(|(known, _)| known != b)
                 {
-                    let signed = self.context.sign(&divisor).filter(|s| s.num.sign.is_strict());
+                    let signed = self.context.sign(self.context.reduce(&divisor));
+                    let signed = signed.filter(|s| s.num.sign.is_strict());
                     self.divisors.push((b.clone(), signed.ok_or_else(might_vanish)?));
                 }
                 value.over(&divisor).ok_or_else(might_vanish)?
@@ -498,8 +483,9 @@ impl<'a> Reader<'a> {
 
     /// Is it ≥ 0 (true) or ≤ 0 (false)? It has to be one of them for all values.
     fn decide(&self, value: &Ratio) -> Result<(bool, Signed), Why> {
-        let open = || Why::OpenBracket(self.context.reduce(value));
-        let signed = self.context.sign(value).ok_or_else(open)?;
+        let value = self.context.reduce(value);
+        let open = || Why::OpenBracket(value.clone());
+        let signed = self.context.sign(value.clone()).ok_or_else(open)?;
         Ok((signed.sign().implies(Sign::NonNegative), signed))
     }
 }

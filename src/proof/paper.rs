@@ -121,16 +121,13 @@ pub fn names(statement: &Statement) -> Vec<String> {
 /// The whole proof, line by line.
 pub fn proof(statement: &Statement, proof: &Proof) -> Vec<String> {
     let mut lines = Vec::new();
-    match statement.kind {
-        "induction" => lines.push("by induction on k, with q = ρᵏ: for q = 1, and from q to ρ q".to_string()),
-        "vanishing" => {
-            lines.push(
-                "if |ρ| < 1 then ρᵏ → 0, and what is continuous in q at 0 tends to what it is there"
-                    .to_string(),
-            );
-        }
-        _ => {}
-    }
+    lines.extend(statement.amounts_to.as_ref().map(|sequence| {
+        let by = match sequence.limit {
+            None => "by induction on k, with q = ρᵏ: for q = 1, and from q to ρ q",
+            Some(_) => "if |ρ| < 1 then ρᵏ → 0, and what is continuous in q at 0 tends to what it is there",
+        };
+        by.to_string()
+    }));
     let single = statement.goals.len() == 1;
     for (Goal { part, says: goal, .. }, derivation) in statement.goals.iter().zip(&proof.goals) {
         if single {
@@ -175,7 +172,7 @@ fn direct_lines(direct: &Direct) -> Vec<String> {
     match &direct.because {
         Because::Same(value) => lines.push(format!("both sides are {value}")),
         Because::Sign(sign) => lines.extend(signed(sign)),
-        Because::Derivative(_, value) => {
+        Because::Derivative(value) => {
             lines.push(format!("dual numbers differentiate it to {value}, which is the right side"))
         }
         Because::Limit { of, by, degrees, leading, to } => {

@@ -171,7 +171,7 @@ pub struct Counterexample {
 impl Counterexample {
     /// The point, with 1 for each coordinate that does not occur.
     pub fn case(&self) -> Case<Exact> {
-        let mut case = ones();
+        let mut case = Case::of(|_| Exact::one());
         for (name, x) in &self.values {
             if let Some(var) = coordinate(name) {
                 *case.get_mut(var) = x.clone();
@@ -191,15 +191,6 @@ impl fmt::Display for Counterexample {
     }
 }
 
-fn ones() -> Case<Exact> {
-    drawn(Exact::one)
-}
-
-fn drawn(mut f: impl FnMut() -> Exact) -> Case<Exact> {
-    let case = Case::try_of(|_| Ok::<_, std::convert::Infallible>(f()));
-    case.unwrap_or_else(|never| match never {})
-}
-
 /// The coordinate of this name.
 fn coordinate(name: &str) -> Option<Var> {
     Var::ALL.iter().copied().find(|var| var.symbol() == name)
@@ -207,6 +198,11 @@ fn coordinate(name: &str) -> Option<Var> {
 
 fn at(case: &Case<Exact>, name: &str) -> Exact {
     coordinate(name).map_or_else(Exact::one, |var| case.get(var).clone())
+}
+
+/// A formula at one point; `None` if it divides by 0 there.
+fn value(tree: &Tree, case: &Case<Exact>) -> Option<Value> {
+    tree.replay(&|name| Value::Exact(at(case, name)), &everything)
 }
 
 /// The statement at one point.
@@ -219,8 +215,8 @@ pub fn check(statement: &Statement, case: &Case<Exact>) -> Verdict {
 }
 
 fn holds(hypothesis: &Hypothesis, case: &Case<Exact>) -> bool {
-    let value = hypothesis.value.replay(&|name| Value::Exact(at(case, name)), &everything);
-    value.and_then(|value| value.sign()).is_some_and(|sign| hypothesis.relation().admits(sign))
+    let sign = value(&hypothesis.value, case).and_then(|value| value.sign());
+    sign.is_some_and(|sign| hypothesis.relation().admits(sign))
 }
 
 /// The same where the hypotheses are known to hold.
@@ -228,14 +224,17 @@ fn holds(hypothesis: &Hypothesis, case: &Case<Exact>) -> bool {
 /// An induction is about q = ρᵏ, and no step says anything of another q; its invariants are a means and not an end.
 /// And where |ρ| ≥ 1 a sequence has the limit all the same, if it has that value all along.
 fn check_goals(statement: &Statement, case: &Case<Exact>) -> Verdict {
-    let (mut open, mut case) = (false, case.clone());
-    let ratio = statement.amounts_to.as_ref().map(|sequence| exact(&sequence.ratio, &case));
-    let steps = if statement.kind == "induction" { STEPS } else { 1 };
-    for k in 0..steps {
-        if steps > 1 {
-            let Some(ratio) = ratio.clone().flatten().or_else(|| (k == 0).then(Exact::one)) else { break };
-            case.q = if k == 0 { Exact::one() } else { case.q * ratio };
+    let powers = match &statement.amounts_to {
+        Some(Sequence { ratio, limit: None, .. }) => {
+            let ratio = exact(ratio, case);
+            let next = |q: &Exact| Some(q * ratio.as_ref()?);
+            std::iter::successors(Some(Exact::one()), next).take(STEPS).collect()
         }
+        Some(Sequence { limit: Some(_), .. }) | None => vec![case.q.clone()],
+    };
+    let mut open = false;
+    for q in powers {
+        let case = Case { q, ..case.clone() };
         let goals = statement.goals.iter().filter(|goal| matches!(goal.role, Role::Claim | Role::Step));
         for goal in goals {
             match fails(&goal.says, &case) {
@@ -265,7 +264,6 @@ fn is_constant(statement: &Statement, case: &Case<Exact>) -> bool {
 
 /// How a goal fails, if it does; `None` if that cannot be decided.
 fn fails(says: &Says, case: &Case<Exact>) -> Option<Option<How>> {
-    let value = |tree: &Tree| tree.replay(&|name| Value::Exact(at(case, name)), &everything);
     let undefined = || says.trees().into_iter().find_map(|tree| vanishing(tree, case)).map(How::Undefined);
     let differ = |left: Option<Value>, right: Option<Value>| match (left, right) {
         (Some(left), Some(right)) => match (&left - &right).sign()? {
@@ -275,8 +273,8 @@ fn fails(says: &Says, case: &Case<Exact>) -> Option<Option<How>> {
         _ => undefined().map(Some),
     };
     match says {
-        Says::Equal(left, right) => differ(value(left), value(right)),
-        Says::Sign(relation, of) => match value(of) {
+        Says::Equal(left, right) => differ(value(left, case), value(right, case)),
+        Says::Sign(relation, of) => match value(of, case) {
             Some(value) => {
                 let admitted = relation.admits(value.sign()?);
                 Some((!admitted).then_some(How::Sign(*relation, value)))
@@ -286,11 +284,8 @@ fn fails(says: &Says, case: &Case<Exact>) -> Option<Option<How>> {
         // ⟨·⟩ and min have kinks; there dual numbers know of no derivative.
         Says::Derivative(of, ..) if of.any(&is_bracket) => None,
         Says::Derivative(of, by, is) => {
-            let along = |name: &'static str| {
-                let x = Value::Exact(at(case, name));
-                if name == by.symbol() { Dual::variable(x) } else { Dual::constant(x) }
-            };
-            differ(of.replay(&along, &smooth).map(|dual| dual.derivative), value(is))
+            let dual = of.derivative(by.symbol(), &|name| Value::Exact(at(case, name)), &smooth);
+            differ(dual.map(|dual| dual.derivative), value(is, case))
         }
         // A quotient of polynomials behaves like a power of x beyond all its zeros and poles, and the coefficients
         // here are far too small for one at 2¹⁰⁰. A distance that tends to 0 falls like 1/x or faster, so by 2⁻¹⁰⁰ or
@@ -299,8 +294,7 @@ fn fails(says: &Says, case: &Case<Exact>) -> Option<Option<How>> {
             let mut case = case.clone();
             let mut distance = |n| {
                 *case.get_mut(*by) = Exact::power_of_two(n);
-                let value = |tree: &Tree| tree.replay(&|name| Value::Exact(at(&case, name)), &everything);
-                let distance = value(of).zip(value(to)).map(|(of, to)| of - to);
+                let distance = value(of, &case).zip(value(to, &case)).map(|(of, to)| of - to);
                 distance.ok_or_else(|| says.trees().into_iter().find_map(|tree| vanishing(tree, &case)))
             };
             match (distance(100), distance(200)) {
@@ -318,10 +312,7 @@ fn fails(says: &Says, case: &Case<Exact>) -> Option<Option<How>> {
 /// A divisor of the formula that is 0, its own divisors first.
 fn vanishing(tree: &Tree, case: &Case<Exact>) -> Option<Tree> {
     tree.step().operands().find_map(|operand| vanishing(operand, case)).or_else(|| match tree.step() {
-        Step::Div(_, divisor) => {
-            let value = divisor.replay(&|name| Value::Exact(at(case, name)), &everything)?;
-            value.is_zero().then(|| divisor.clone())
-        }
+        Step::Div(_, divisor) => value(divisor, case)?.is_zero().then(|| divisor.clone()),
         _ => None,
     })
 }
@@ -343,7 +334,7 @@ const FIRST_PLANTED: u64 = 4;
 static RAW_POINTS: LazyLock<Vec<Case<Exact>>> = LazyLock::new(|| {
     let mut random = Rand64::new(1);
     let mut draw = |size| Exact::from(random.rand_range(0..2 * size + 1) as i32 - size as i32);
-    (0..RAW).map(|i| drawn(|| draw(if i % 4 == 3 { LARGER } else { SMALL }))).collect()
+    (0..RAW).map(|i| Case::of(|_| draw(if i % 4 == 3 { LARGER } else { SMALL }))).collect()
 });
 
 /// The raw points at which hypotheses hold.
@@ -357,7 +348,7 @@ pub fn planted_points(hypotheses: &[Hypothesis]) -> impl Iterator<Item = Case<Ex
         let mut random = Rand64::new(u128::from(i) + 2);
         // One to nine, over one to three, of either sign.
         let mut size = || Rational::from((random.rand_range(1..10), random.rand_range(1..4)));
-        let (mut case, target) = (drawn(|| Exact::from(size())), Exact::from(size()));
+        let (mut case, target) = (Case::of(|_| Exact::from(size())), Exact::from(size()));
         for var in Var::ALL {
             if random.rand_range(0..3) == 0 {
                 let x = -case.get(*var);
@@ -376,11 +367,7 @@ pub fn planted_points(hypotheses: &[Hypothesis]) -> impl Iterator<Item = Case<Ex
 
 /// The value of a formula without ⟨·⟩, min and e^…, and how it changes with a coordinate.
 fn slope(of: &Tree, case: &Case<Exact>, by: Var) -> Option<Dual<Exact>> {
-    let along = |name: &'static str| {
-        let x = at(case, name);
-        if name == by.symbol() { Dual::variable(x) } else { Dual::constant(x) }
-    };
-    of.replay(&along, &|_| None)
+    of.derivative(by.symbol(), &|name| at(case, name), &|_| None)
 }
 
 /// Bends a point until the hypotheses hold. A quantity that lacks its sign gets the value `target`: the hypothesis

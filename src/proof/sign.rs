@@ -12,7 +12,6 @@
 //!    not negative for x ≥ 0, and positive for x > 0. Only tried where there is an e^….
 
 use super::algebra::{Monomial, Poly, Ratio, Symbol};
-use crate::number::Tree;
 use std::collections::BTreeMap;
 
 /// What is known of a symbol. A symbol that is not listed is free: any real number.
@@ -258,10 +257,7 @@ fn slope(of: &Poly, known: &Assumptions, depth: u32) -> Option<Certificate> {
 /// Do exponents have a value wherever this is known? They do if they are quotients of polynomials and no
 /// denominator vanishes.
 fn is_continuous(of: &Poly, known: &Assumptions) -> bool {
-    of.exponents().all(|exponent| {
-        let polynomials = !exponent.num().has_exponentials() && !exponent.den().has_exponentials();
-        polynomials && numerator(exponent, known).is_some()
-    })
+    of.exponents().all(|exponent| exponent.is_of_polynomials() && numerator(exponent, known).is_some())
 }
 
 /// A polynomial with the sign of the quotient: its numerator, or minus that if the denominator is negative. None
@@ -284,21 +280,6 @@ fn rising(start: Sign, slope: Sign, x: Assumed) -> Option<Sign> {
 }
 
 impl Certificate {
-    /// The polynomial, written so that its sign can be read off: a formula in the same symbols that equals
-    /// it. By rule 4 there is none; then it is the polynomial itself.
-    pub fn expression(&self, symbol: &impl Fn(Symbol) -> Tree) -> Tree {
-        match &self.rule {
-            Rule::Zero | Rule::Terms | Rule::Slope { .. } => self.of.to_tree(symbol),
-            Rule::Factor(monomial, rest) => monomial.expression(symbol) * rest.expression(symbol),
-            Rule::Square { leading, root, rest, .. } => {
-                let root = root.to_tree(symbol);
-                let top = &root * &root;
-                let top = if rest.of.is_zero() { top } else { top + rest.expression(symbol) };
-                top / (Poly::constant(4).to_tree(symbol) * leading.expression(symbol))
-            }
-        }
-    }
-
     /// One line a rule, the last one first.
     pub fn lines(&self) -> Vec<String> {
         let Certificate { of, sign, rule } = self;

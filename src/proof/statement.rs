@@ -1,8 +1,6 @@
 //! What is to be proved: a claim, read in trees.
 
-use crate::claims::{
-    Case, Claim, Given, Kind, Rate, Relation, Var, claims, exponential_claims, unilateral_claims,
-};
+use crate::claims::{Case, Claim, Given, Kind, Rate, Relation, Var, all_claims};
 use crate::number::Tree;
 use num_traits::{One, Zero};
 
@@ -121,16 +119,9 @@ impl Says {
     }
 }
 
-/// The case whose coordinates are themselves.
-fn symbols() -> Case<Tree> {
-    let case = Case::try_of(|var| Ok::<_, std::convert::Infallible>(Tree::symbol(var.symbol())));
-    case.unwrap_or_else(|never| match never {})
-}
-
 /// Every claim, as formulas.
 pub fn statements() -> Vec<Statement> {
-    let all = claims::<Tree>().into_iter().chain(exponential_claims()).chain(unilateral_claims());
-    all.map(|claim| Statement::of(&claim)).collect()
+    all_claims().iter().map(Statement::of).collect()
 }
 
 impl Statement {
@@ -141,7 +132,7 @@ impl Statement {
     /// an invariant: it has to hold for q = 1, by the other hypotheses alone, and to be passed on from q to ρ q;
     /// then it may be used in the step.
     pub fn of(claim: &Claim<Tree>) -> Self {
-        let case = symbols();
+        let case = Case::of_symbols();
         let goal = Goal::of_claim;
         let of_q = |given: &&Given| given.value(&case).symbols().contains(Var::Q.symbol());
         let (mut hypotheses, mut invariants): (Vec<&Given>, Vec<&Given>) =

@@ -109,8 +109,7 @@ impl Draw {
     }
 
     fn raw(&mut self) -> Case<Exact> {
-        let drawn = Case::try_of(|var| Ok::<_, std::convert::Infallible>(self.coordinate(var)));
-        let mut case = drawn.unwrap_or_else(|never| match never {});
+        let mut case = Case::of(|var| self.coordinate(var));
         if self.profile == Profile::Stiff {
             case.eps = case.system.c.abs() * Exact::power_of_two(self.between(-60, 60));
         }
@@ -153,9 +152,7 @@ fn holds(hypothesis: Given, case: &Case<Exact>) -> bool {
 /// Chooses the coordinate that a hypothesis is solved for so that its quantity has this value.
 fn plant(case: &mut Case<Exact>, hypothesis: Given, target: &Exact) -> Option<()> {
     let by = hypothesis.solved_for();
-    let along =
-        case.map(|var, x| if var == by { Dual::variable(x.clone()) } else { Dual::constant(x.clone()) });
-    let Dual { value, derivative } = hypothesis.value(&along);
+    let Dual { value, derivative } = hypothesis.value(&case.along(by));
     if derivative.is_zero() {
         return None;
     }

@@ -2,7 +2,7 @@
 
 use super::{Row, Status};
 use crate::claims::{
-    Case, Claim, Experiment, Given, Goal, Trial, claims, exact_experiments, exponential_claims,
+    Case, Claim, Experiment, Given, Goal, Trial, all_claims, claims, exact_experiments,
     first_order_experiments, float_experiments, unilateral_claims,
 };
 use crate::number::{Ball, Exact, Mpfr, NumberSystem, PositivePart, RangeError, Real, ToExact};
@@ -138,7 +138,7 @@ where
     type Number = Ball<T>;
     type Computed = T;
     fn claims(&self) -> Vec<Claim<Ball<T>>> {
-        claims().into_iter().chain(exponential_claims()).chain(unilateral_claims()).collect()
+        all_claims()
     }
     fn experiments(&self) -> Vec<Experiment<T>> {
         let fine = self.0.unit_roundoff().to_exact().is_ok_and(|eta| eta <= Exact::power_of_two(-20));
@@ -188,24 +188,34 @@ pub(super) trait Checks: Sync {
     ) -> Vec<(usize, Tally)>;
 }
 
-pub(super) struct Checker<J>(pub(super) J);
+pub(super) struct Checker<J: Judge> {
+    judge: J,
+    claims: Vec<Claim<J::Number>>,
+    experiments: Vec<Experiment<J::Computed>>,
+}
+
+impl<J: Judge> Checker<J> {
+    pub(super) fn new(judge: J) -> Self {
+        let (claims, experiments) = (judge.claims(), judge.experiments());
+        Checker { judge, claims, experiments }
+    }
+}
 
 impl<J: Judge> Checks for Checker<J> {
     fn heads(&self) -> Vec<Head> {
-        let claim = |c: Claim<J::Number>| Head {
+        let claim = |c: &Claim<J::Number>| Head {
             equation: c.equation,
             claim: c.name,
             kind: c.kind.name(),
             given: c.given,
         };
-        let experiment = |e: Experiment<J::Computed>| Head {
+        let experiment = |e: &Experiment<J::Computed>| Head {
             equation: e.equation,
             claim: e.name,
             kind: "experiment",
             given: e.given,
         };
-        let claims = self.0.claims().into_iter().map(claim);
-        claims.chain(self.0.experiments().into_iter().map(experiment)).collect()
+        self.claims.iter().map(claim).chain(self.experiments.iter().map(experiment)).collect()
     }
 
     fn check(
@@ -214,11 +224,10 @@ impl<J: Judge> Checks for Checker<J> {
         wanted: &dyn Fn(&str) -> bool,
         cases: &[Option<Case<Exact>>],
     ) -> Vec<(usize, Tally)> {
-        let (claims, experiments) = (self.0.claims(), self.0.experiments());
-        let offset = claims.len();
-        let mut claims: Vec<_> = claims.into_iter().enumerate().collect();
+        let offset = self.claims.len();
+        let mut claims: Vec<_> = self.claims.iter().enumerate().collect();
         claims.retain(|(_, c)| c.given == given && wanted(c.equation));
-        let mut experiments: Vec<_> = experiments.into_iter().enumerate().collect();
+        let mut experiments: Vec<_> = self.experiments.iter().enumerate().collect();
         experiments.retain(|(_, e)| e.given == given && wanted(e.equation));
         let places = claims.iter().map(|(i, _)| *i).chain(experiments.iter().map(|(i, _)| offset + i));
         let mut tallies: Vec<(usize, Tally)> = places.map(|place| (place, Tally::default())).collect();
@@ -226,15 +235,16 @@ impl<J: Judge> Checks for Checker<J> {
             return tallies;
         }
         for case in cases {
-            let Some((exact, read)) = case.as_ref().and_then(|case| Some((case, self.0.read(case)?))) else {
+            let Some((exact, read)) = case.as_ref().and_then(|case| Some((case, self.judge.read(case)?)))
+            else {
                 tallies.iter_mut().for_each(|(_, tally)| tally.undecided += 1);
                 continue;
             };
-            let computed = self.0.computed(&read);
+            let computed = self.judge.computed(&read);
             let (of_claims, of_experiments) = tallies.split_at_mut(claims.len());
             for ((_, claim), (_, tally)) in claims.iter().zip(of_claims) {
                 let goals = claim.goals(&read);
-                tally.record(exact, self.judge(&goals));
+                tally.record(exact, self.verdict(&goals));
             }
             for ((_, experiment), (_, tally)) in experiments.iter().zip(of_experiments) {
                 let trial = (experiment.check)(&computed);
@@ -247,7 +257,7 @@ impl<J: Judge> Checks for Checker<J> {
 
 impl<J: Judge> Checker<J> {
     /// All goals together: one that fails decides, else one that is open leaves the case open.
-    fn judge<'a>(&'a self, goals: &[Goal<J::Number>]) -> Verdict<'a>
+    fn verdict<'a>(&'a self, goals: &[Goal<J::Number>]) -> Verdict<'a>
     where
         J::Number: 'a,
     {
@@ -255,7 +265,7 @@ impl<J: Judge> Checker<J> {
         let mut worst: Option<(f64, J::Number)> = None;
         for goal in goals {
             match goal {
-                Goal::Equal(left, right) => match self.0.difference(left, right) {
+                Goal::Equal(left, right) => match self.judge.difference(left, right) {
                     None => open = true,
                     Some((equal, ratio, difference)) => {
                         holds &= equal;
@@ -264,7 +274,7 @@ impl<J: Judge> Checker<J> {
                         }
                     }
                 },
-                Goal::Sign(relation, x) => match self.0.sign(x) {
+                Goal::Sign(relation, x) => match self.judge.sign(x) {
                     None => open = true,
                     Some(sign) => holds &= relation.admits(sign),
                 },
@@ -274,7 +284,7 @@ impl<J: Judge> Checker<J> {
             return Verdict::Undecided;
         }
         let measured = worst.map(|(ratio, difference)| {
-            let bound: Box<dyn Fn() -> String + 'a> = Box::new(move || self.0.bound(&difference));
+            let bound: Box<dyn Fn() -> String + 'a> = Box::new(move || self.judge.bound(&difference));
             (ratio, bound)
         });
         Verdict::Decided { holds, measured }
@@ -304,7 +314,7 @@ mod tests {
     use crate::claims::{Kind, Relation};
 
     fn verdict<J: Judge>(judge: J, goals: &[Goal<J::Number>]) -> Option<bool> {
-        match Checker(judge).judge(goals) {
+        match Checker::new(judge).verdict(goals) {
             Verdict::Undecided => None,
             Verdict::Decided { holds, .. } => Some(holds),
         }

@@ -84,15 +84,7 @@ struct Tools {
 impl Tools {
     fn process(&self, chapter: &mut Chapter, tags: &Regex) -> Result<()> {
         let text = self.typesetter.page(&chapter.content)?;
-        let mut result = String::with_capacity(text.len());
-        let mut end = 0;
-        for tag in tags.captures_iter(&text) {
-            let range = tag.get_match().range();
-            result += &text[end..range.start];
-            result += &self.tag(&tag)?;
-            end = range.end;
-        }
-        chapter.content = result + &text[end..];
+        chapter.content = replaced(&text, tags, |tag| self.tag(tag))?;
         Ok(())
     }
 
@@ -151,6 +143,19 @@ fn first_with(function: &str) -> Option<&'static str> {
         .map(|(entry, _)| entry)
         .find(|entry| entry.functions.contains(&function))
         .map(|entry| entry.equation)
+}
+
+/// The text with each tag replaced, or the first error.
+fn replaced(text: &str, tags: &Regex, by: impl Fn(&Captures) -> Result<String>) -> Result<String> {
+    let mut result = String::with_capacity(text.len());
+    let mut end = 0;
+    for tag in tags.captures_iter(text) {
+        let range = tag.get_match().range();
+        result += &text[end..range.start];
+        result += &by(&tag)?;
+        end = range.end;
+    }
+    Ok(result + &text[end..])
 }
 
 /// A tag of one of these kinds; what it names may have braces of its own.

@@ -83,16 +83,10 @@ impl Typesetter {
 
     /// The LaTeX with what functions compute in the place of its tags.
     fn filled(&self, latex: &str) -> Result<String> {
-        let mut result = String::with_capacity(latex.len());
-        let mut end = 0;
-        for tag in self.formula.captures_iter(latex) {
-            let range = tag.get_match().range();
-            result += &latex[end..range.start];
-            result += &formula_in(&tag[2], Notation::Latex)
-                .with_context(|| format!("no formula {} in src/claims/formulas.rs", &tag[2]))?;
-            end = range.end;
-        }
-        Ok(result + &latex[end..])
+        super::replaced(latex, &self.formula, |tag| {
+            formula_in(&tag[2], Notation::Latex)
+                .with_context(|| format!("no formula {} in src/claims/formulas.rs", &tag[2]))
+        })
     }
 
     /// Sorts attributes, whose order varies from run to run, so that equal books are equal files.

@@ -5,8 +5,10 @@ use crate::output::{self, Failure, Status};
 use crate::text::shortened;
 use clap::ValueEnum;
 use serde::Serialize;
-use spring_mass_contact::claims::{Entry, entries};
-use spring_mass_contact::proof::controls::{Change, Controls, Dropped, Outcome, Without, controls, repairs};
+use spring_mass_contact::claims::{Entry, entries, entry, place};
+use spring_mass_contact::proof::controls::{
+    Change, Controls, Counts, Dropped, Outcome, Without, controls, repairs,
+};
 use spring_mass_contact::proof::coq::{self, LeftOut};
 use spring_mass_contact::proof::refute::Counterexample;
 use spring_mass_contact::proof::{Proof, Statement, paper, prove, refute, statements};
@@ -61,8 +63,6 @@ struct Proved {
     statement: Statement,
     answer: Answer,
     time: Duration,
-    /// Its hypotheses, dropped one at a time.
-    dropped: Vec<Dropped>,
 }
 
 enum Answer {
@@ -107,10 +107,9 @@ pub fn run(options: &Options) -> Result<Status, Failure> {
     let (controls, repairs) = if all.iter().all(|p| p.status() == "proved") {
         (controls(&statements), Vec::new())
     } else {
-        (Controls { changes: Vec::new(), dropped: Vec::new() }, repairs(&statements))
+        (Controls::default(), repairs(&statements))
     };
-    let proved = all.into_iter().filter(|p| wanted(p.statement.equation)).collect();
-    let report = Report::new(proved, controls, repairs, (of_proofs, start.elapsed()), &wanted);
+    let report = Report::new(all, controls, repairs, (of_proofs, start.elapsed()), &wanted);
     output::print(|out| match options.format {
         Format::Json => output::json(out, &Json::of(&report)),
         Format::Markdown => markdown(out, &report),
@@ -152,15 +151,15 @@ fn attempt(statement: &Statement) -> Proved {
         Ok(proof) => Answer::Proof(proof),
         Err(why) => Answer::None(why.to_string(), refute(statement)),
     };
-    Proved { statement: statement.clone(), answer, time: start.elapsed(), dropped: Vec::new() }
+    Proved { statement: statement.clone(), answer, time: start.elapsed() }
 }
 
 /// Everything there is to say.
 struct Report {
     /// In the chapter's order.
     proved: Vec<Proved>,
-    /// The changes, and those that a claim about the wanted numbers notices if not all are wanted.
-    changes: Vec<(String, String, Outcome)>,
+    /// Of changes those that a claim about the wanted numbers notices, if not all are wanted.
+    controls: Controls,
     /// With one of these all claims would be proved.
     repairs: Vec<Change>,
     of_proofs: Duration,
@@ -170,26 +169,19 @@ struct Report {
 impl Report {
     fn new(
         mut proved: Vec<Proved>,
-        controls: Controls,
+        mut controls: Controls,
         repairs: Vec<Change>,
         (of_proofs, in_all): (Duration, Duration),
         wanted: &dyn Fn(&str) -> bool,
     ) -> Self {
-        proved.sort_by_key(|p| entries().iter().position(|entry| entry.equation == p.statement.equation));
-        for dropped in controls.dropped {
-            let claim = (dropped.equation, dropped.name);
-            if let Some(p) = proved.iter_mut().find(|p| (p.statement.equation, p.statement.name) == claim) {
-                p.dropped.push(dropped);
-            }
-        }
-        let concerned = |outcome: &Outcome| match outcome {
+        proved.retain(|p| wanted(p.statement.equation));
+        proved.sort_by_key(|p| place(p.statement.equation));
+        controls.dropped.retain(|dropped| wanted(dropped.equation));
+        controls.changes.retain(|(_, outcome)| match outcome {
             Outcome::Noticed { equation, .. } => wanted(equation),
             Outcome::Unchanged | Outcome::Unnoticed => wanted(""),
-        };
-        let changes = controls.changes.into_iter().filter(|(_, outcome)| concerned(outcome));
-        let changes =
-            changes.map(|(change, outcome)| (change.site.to_string(), change.what.to_string(), outcome));
-        Report { proved, changes: changes.collect(), repairs, of_proofs, in_all }
+        });
+        Report { proved, controls, repairs, of_proofs, in_all }
     }
 
     fn is_well(&self) -> bool {
@@ -199,8 +191,13 @@ impl Report {
 
     /// Hypotheses that are not seen to be needed.
     fn needless(&self) -> impl Iterator<Item = &Dropped> {
-        let dropped = self.proved.iter().flat_map(|proved| &proved.dropped);
-        dropped.filter(|dropped| !matches!(dropped.without, Without::Refuted(_)))
+        self.controls.dropped.iter().filter(|dropped| !matches!(dropped.without, Without::Refuted(_)))
+    }
+
+    /// A claim's hypotheses, dropped one at a time.
+    fn dropped(&self, statement: &Statement) -> impl Iterator<Item = &Dropped> {
+        let of = (statement.equation, statement.name);
+        self.controls.dropped.iter().filter(move |dropped| (dropped.equation, dropped.name) == of)
     }
 
     fn of<'a>(&'a self, entry: &Entry) -> Vec<&'a Proved> {
@@ -209,18 +206,17 @@ impl Report {
 
     fn summary(&self) -> Summary {
         let with = |status| self.proved.iter().filter(|p| p.status() == status).count();
-        let changes =
-            |f: fn(&Outcome) -> bool| self.changes.iter().filter(|(_, _, outcome)| f(outcome)).count();
+        let Counts { changes, noticed, unchanged, unnoticed, .. } = self.controls.counts();
         Summary {
             claims: self.proved.len(),
             proved: with("proved"),
             refuted: with("refuted"),
             unknown: with("unknown"),
             hypotheses: self.proved.iter().map(|p| p.statement.hypotheses.len()).sum(),
-            changes: self.changes.len(),
-            noticed: changes(|outcome| matches!(outcome, Outcome::Noticed { .. })),
-            unchanged: changes(|outcome| matches!(outcome, Outcome::Unchanged)),
-            unnoticed: changes(|outcome| matches!(outcome, Outcome::Unnoticed)),
+            changes,
+            noticed,
+            unchanged,
+            unnoticed,
         }
     }
 }
@@ -243,7 +239,7 @@ fn table(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     let mut table = output::table();
     table.set_header(["number", "claim", "how", "by hypotheses", "ms"]);
     for proved in &report.proved {
-        let number = entries().iter().find(|e| e.equation == proved.statement.equation).map(Entry::label);
+        let number = entry(proved.statement.equation).map(Entry::label);
         let ms = format!("{:.2}", proved.time.as_secs_f64() * 1e3);
         table.add_row([
             number.unwrap_or_default(),
@@ -289,9 +285,9 @@ fn amiss(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         };
         writeln!(out, "\n{equation} {name}: the hypothesis {} {what}", given.text())?;
     }
-    for (at, change, outcome) in &report.changes {
+    for (Change { site, what }, outcome) in &report.controls.changes {
         if matches!(outcome, Outcome::Unnoticed) {
-            writeln!(out, "\nUNNOTICED {at}: {change}")?;
+            writeln!(out, "\nUNNOTICED {site}: {what}")?;
         }
     }
     Ok(())
@@ -333,15 +329,16 @@ fn details(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         writeln!(out, "{} {}", entry.label(), entry.title)?;
         for proved in claims {
             writeln!(out)?;
-            account(out, proved)?;
+            account(out, report, proved)?;
         }
     }
-    let noticed = report.changes.iter().filter_map(|(at, change, outcome)| match outcome {
-        Outcome::Noticed { equation, name, counterexample } => {
-            Some(format!("  {at}: {change}, by {equation} {name} at {counterexample}"))
-        }
-        Outcome::Unchanged | Outcome::Unnoticed => None,
-    });
+    let noticed =
+        report.controls.changes.iter().filter_map(|(Change { site, what }, outcome)| match outcome {
+            Outcome::Noticed { equation, name, counterexample } => {
+                Some(format!("  {site}: {what}, by {equation} {name} at {counterexample}"))
+            }
+            Outcome::Unchanged | Outcome::Unnoticed => None,
+        });
     let noticed: Vec<_> = noticed.collect();
     if !noticed.is_empty() {
         writeln!(out, "\nchanges of formulas that these claims notice")?;
@@ -350,8 +347,8 @@ fn details(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     amiss(out, report)
 }
 
-fn account(out: &mut dyn Write, proved: &Proved) -> io::Result<()> {
-    let Proved { statement, answer, dropped, .. } = proved;
+fn account(out: &mut dyn Write, report: &Report, proved: &Proved) -> io::Result<()> {
+    let Proved { statement, answer, .. } = proved;
     writeln!(out, "{} ({})", statement.name, how(proved))?;
     let mut say = |what: &str, lines: &[String]| {
         lines.iter().enumerate().try_for_each(|(i, line)| {
@@ -372,7 +369,7 @@ fn account(out: &mut dyn Write, proved: &Proved) -> io::Result<()> {
         Answer::Proof(proof) => say("proof", &paper::proof(statement, proof))?,
         Answer::None(why, _) => say("no proof", std::slice::from_ref(why))?,
     }
-    let needed = dropped.iter().filter_map(|Dropped { given, without, .. }| match without {
+    let needed = report.dropped(statement).filter_map(|Dropped { given, without, .. }| match without {
         Without::Refuted(counterexample) => {
             Some(format!("{}: without it, at {counterexample}", given.text()))
         }
@@ -457,10 +454,10 @@ impl Json {
     fn of(report: &Report) -> Self {
         let equation = |entry: &Entry| EquationJson {
             equation: entry.equation,
-            claims: report.of(entry).into_iter().map(ClaimJson::of).collect(),
+            claims: report.of(entry).into_iter().map(|proved| ClaimJson::of(report, proved)).collect(),
         };
         let equations = entries().iter().map(equation).filter(|e| !e.claims.is_empty()).collect();
-        let change = |(at, change, outcome): &(String, String, Outcome)| {
+        let change = |(Change { site, what }, outcome): &(Change, Outcome)| {
             let (status, by, counterexample) = match outcome {
                 Outcome::Noticed { equation, name, counterexample } => {
                     ("noticed", Some(format!("{equation} {name}")), Some(values(counterexample)))
@@ -468,16 +465,17 @@ impl Json {
                 Outcome::Unchanged => ("unchanged", None, None),
                 Outcome::Unnoticed => ("unnoticed", None, None),
             };
-            ChangeJson { at: at.clone(), change: change.clone(), status, by, counterexample }
+            ChangeJson { at: site.to_string(), change: what.to_string(), status, by, counterexample }
         };
-        Json { summary: report.summary(), equations, changes: report.changes.iter().map(change).collect() }
+        let changes = report.controls.changes.iter().map(change).collect();
+        Json { summary: report.summary(), equations, changes }
     }
 }
 
 impl ClaimJson {
-    fn of(proved: &Proved) -> Self {
-        let Proved { statement, answer, dropped, .. } = proved;
-        let dropped = dropped.iter().map(|Dropped { given, without, .. }| {
+    fn of(report: &Report, proved: &Proved) -> Self {
+        let Proved { statement, answer, .. } = proved;
+        let dropped = report.dropped(statement).map(|Dropped { given, without, .. }| {
             let (status, counterexample) = match without {
                 Without::Refuted(counterexample) => ("refuted", Some(values(counterexample))),
                 Without::StillTrue => ("still_true", None),
@@ -485,24 +483,21 @@ impl ClaimJson {
             };
             DroppedJson { hypothesis: given.text(), status, counterexample }
         });
+        let (certificate, why, counterexample) = match answer {
+            Answer::Proof(proof) => (Some(paper::proof(statement, proof).join("\n")), None, None),
+            Answer::None(why, counterexample) => {
+                (None, Some(why.clone()), counterexample.as_ref().map(values))
+            }
+        };
         ClaimJson {
             claim: statement.name,
             kind: statement.kind,
             statement: paper::claim(statement),
             hypotheses: proved.hypotheses(),
             status: proved.status(),
-            certificate: match answer {
-                Answer::Proof(proof) => Some(paper::proof(statement, proof).join("\n")),
-                Answer::None(..) => None,
-            },
-            why: match answer {
-                Answer::Proof(_) => None,
-                Answer::None(why, _) => Some(why.clone()),
-            },
-            counterexample: match answer {
-                Answer::None(_, Some(counterexample)) => Some(values(counterexample)),
-                Answer::Proof(_) | Answer::None(_, None) => None,
-            },
+            certificate,
+            why,
+            counterexample,
             dropped: dropped.collect(),
         }
     }

@@ -5,7 +5,7 @@
 //! each step is a goal that Coq closes by itself, or does not.
 
 use super::print::{Expr, ascii};
-use crate::claims::Var;
+use crate::claims::{Case, Var};
 use crate::number::Tree;
 use crate::number::tree::Step;
 use crate::proof::algebra::{Monomial, Poly, Ratio, Symbol};
@@ -107,7 +107,7 @@ impl Script {
             Used::Follows | Used::Unused => {}
             Used::Symbol(x) => {
                 self.known.insert(*x, assumed);
-                let said = supposed.given.map(|given| given.value(&super::symbols()));
+                let said = supposed.given.map(|given| given.value(&Case::of_symbols()));
                 if said.is_some_and(|said| *said.step() == Step::Symbol(x.0)) {
                     return Ok(());
                 }
@@ -303,29 +303,20 @@ impl Script {
         x: Symbol,
         inside: impl FnOnce(&mut Self) -> Result<(), Reason>,
     ) -> Result<(), Reason> {
-        let mut parts = of.num().by_exponent();
-        let moving = parts.keys().flatten().find(|e| e.symbols().contains(&x)).cloned();
-        let falling = match moving {
-            None => None,
-            Some(exponent) => {
-                let part = parts.remove(&Some(exponent.clone())).ok_or("an exponential is lost")?;
-                let rate = Ratio::clone(&exponent)
-                    .over(&Poly::symbol(x).into())
-                    .ok_or("an exponent is not linear")?;
-                let factor = Ratio::from(part).over(&of.den().clone().into()).ok_or("a divisor is 0")?;
+        let (moving, rest) = of.num().exponentials_in(x);
+        let falling = match moving.as_slice() {
+            [] => None,
+            [(exponent, part)] => {
+                let rate = exponent.over(&Poly::symbol(x).into()).ok_or("an exponent is not linear")?;
+                let factor =
+                    Ratio::from(part.clone()).over(&of.den().clone().into()).ok_or("a divisor is 0")?;
                 if rate.symbols().contains(&x) || factor.symbols().contains(&x) {
                     return Err("an exponential is not that of a constant rate, or has a factor that grows");
                 }
                 Some((factor, rate))
             }
+            _ => return Err("there is more than one exponential"),
         };
-        if parts.keys().flatten().any(|e| e.symbols().contains(&x)) {
-            return Err("there is more than one exponential");
-        }
-        let rest = parts.into_iter().fold(Poly::zero(), |sum, (exponent, part)| {
-            let part = exponent.map_or(part.clone(), |e| part.times(&Poly::exponential((*e).clone())));
-            sum.plus(&part)
-        });
         let degree = of.den().degree(x);
         // A polynomial of x over x^degree, in y = 1/x.
         let reversed = |poly: &Poly| {

@@ -189,15 +189,23 @@ Ltac derivative := auto_derive; [nonzero | identity].
 (** ** Functions that rise
 
     A function with a derivative of one sign, from a start of that sign. *)
+Lemma by_some_slope (f f' : R -> R) (x : R) :
+  0 < x -> (forall z, 0 <= z -> is_derive f z (f' z)) ->
+  exists z, 0 < z /\ f x = f 0 + f' z * x.
+Proof.
+  intros X D.
+  destruct (MVT_cor2 f f' 0 x X) as (z & E & Z).
+  { intros z [Z _]. apply is_derive_Reals, D, Z. }
+  exists z. replace (x - 0) with x in E by ring. split; lra.
+Qed.
+
 Lemma rises (f f' : R -> R) (x : R) :
   0 <= x -> 0 <= f 0 ->
   (forall z, 0 <= z -> is_derive f z (f' z)) -> (forall z, 0 < z -> 0 <= f' z) ->
   0 <= f x.
 Proof.
   intros [X | <-] F D P; [ | exact F].
-  destruct (MVT_cor2 f f' 0 x X) as (z & E & Z).
-  - intros z [Z _]. apply is_derive_Reals, D, Z.
-  - assert (0 <= f' z * (x - 0)) by (apply Rmult_le_pos; [apply P | ]; lra). lra.
+  destruct (by_some_slope f f' x X D) as (z & Z & ->). specialize (P z Z). positivity.
 Qed.
 
 Lemma rises_strictly (f f' : R -> R) (x : R) :
@@ -206,9 +214,7 @@ Lemma rises_strictly (f f' : R -> R) (x : R) :
   0 < f x.
 Proof.
   intros X F D P.
-  destruct (MVT_cor2 f f' 0 x X) as (z & E & Z).
-  - intros z [Z _]. apply is_derive_Reals, D, Z.
-  - assert (0 < f' z * (x - 0)) by (apply Rmult_lt_0_compat; [apply P | ]; lra). lra.
+  destruct (by_some_slope f f' x X D) as (z & Z & ->). specialize (P z Z). positivity.
 Qed.
 
 Lemma rises_from_positive (f f' : R -> R) (x : R) :
@@ -217,9 +223,7 @@ Lemma rises_from_positive (f f' : R -> R) (x : R) :
   0 < f x.
 Proof.
   intros [X | <-] F D P; [ | exact F].
-  destruct (MVT_cor2 f f' 0 x X) as (z & E & Z).
-  - intros z [Z _]. apply is_derive_Reals, D, Z.
-  - assert (0 <= f' z * (x - 0)) by (apply Rmult_le_pos; [apply P | ]; lra). lra.
+  destruct (by_some_slope f f' x X D) as (z & Z & ->). specialize (P z Z). positivity.
 Qed.
 
 (** ** Limits
