@@ -12,11 +12,15 @@
 
 mod cases;
 mod checker;
+mod guard;
+#[cfg(test)]
+mod tests;
 
 use crate::claims::{Case, Given, place};
 use crate::number::{Exact, Mpfr, NumberSystem};
 use crate::proof::{Statement, prove, refute, statements};
 use checker::{Checker, Checks, Exactly, Floats, Tally};
+use guard::guarded;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -50,9 +54,14 @@ pub struct Report {
 }
 
 impl Report {
-    /// Does every claim hold?
+    /// Does every claim hold, as far as it is decided?
     pub fn holds(&self) -> bool {
         self.rows.iter().all(|row| row.status != Status::Failed)
+    }
+
+    /// Is every claim decided in every number system that it was tried in?
+    pub fn is_decided(&self) -> bool {
+        self.rows.iter().all(|row| row.status != Status::Undecided)
     }
 }
 
@@ -64,7 +73,9 @@ pub enum Status {
     Proved,
     /// In every case that could be decided, and there was one.
     Held,
-    /// Not in some case, or no case could be decided; or there is no proof.
+    /// Nothing is known: no case could be decided. More cases may help, or more digits.
+    Undecided,
+    /// Not in some case; or there is no proof.
     Failed,
 }
 
@@ -79,9 +90,9 @@ pub struct Row {
     pub kind: &'static str,
     /// The number system; none for the proof.
     pub scalar: Option<NumberSystem>,
-    /// Proved, held or failed.
+    /// What came of it.
     pub status: Status,
-    /// Why there is no proof.
+    /// Why there is no proof; or why the claim broke off in its counterexample, as where that divides by zero.
     pub why: Option<String>,
     /// Cases that were decided.
     pub decided: u64,
@@ -113,13 +124,52 @@ const BLOCK: u64 = 50;
 const WINDOW: usize = 100;
 
 /// Tries every claim, in parallel; `progress` is told how many of how many pieces of work are done.
+///
+/// It ends and returns whatever the formulas are: a claim that is not defined somewhere, or breaks off, does not
+/// hold there.
 pub fn verify(options: &Options, progress: &(dyn Fn(usize, usize) + Sync)) -> Report {
+    let checkers: Vec<_> = options.scalars.iter().map(|scalar| (*scalar, checks(*scalar))).collect();
+    run(&checkers, statements(), options, progress)
+}
+
+/// The claims in some number systems, and the statements to be proved.
+fn run(
+    checkers: &[(NumberSystem, Box<dyn Checks>)],
+    statements: Vec<Statement>,
+    options: &Options,
+    progress: &(dyn Fn(usize, usize) + Sync),
+) -> Report {
     let wanted =
         |equation: &str| options.equations.is_empty() || options.equations.iter().any(|e| e == equation);
-    let checkers: Vec<(NumberSystem, Box<dyn Checks>)> =
-        options.scalars.iter().map(|scalar| (*scalar, checks(*scalar))).collect();
+    let statements: Vec<_> = statements.into_iter().filter(|statement| wanted(statement.equation)).collect();
+    let mut rows: Vec<Row> = statements.par_iter().map(proof).collect();
+    for ((scalar, checker), tallies) in checkers.iter().zip(tallies(checkers, options, &wanted, progress)) {
+        for (head, tally) in checker.heads().into_iter().zip(tallies) {
+            if wanted(head.equation) {
+                rows.push(tally.into_row(head, Some(*scalar)));
+            }
+        }
+    }
+    rows.sort_by_key(|row| place(row.equation));
+    // Within an equation all rows of a claim stand together.
+    let mut sorted: Vec<Row> = Vec::with_capacity(rows.len());
+    for row in rows {
+        let same = |r: &Row| r.equation == row.equation && r.claim == row.claim;
+        let at = sorted.iter().rposition(same).map_or(sorted.len(), |i| i + 1);
+        sorted.insert(at, row);
+    }
+    Report { rows: sorted }
+}
+
+/// What comes of the wanted claims in numbers: for each number system, a tally for each of its heads.
+fn tallies(
+    checkers: &[(NumberSystem, Box<dyn Checks>)],
+    options: &Options,
+    wanted: &(dyn Fn(&str) -> bool + Sync),
+    progress: &(dyn Fn(usize, usize) + Sync),
+) -> Vec<Vec<Tally>> {
     let mut groups: Vec<&[Given]> = Vec::new();
-    for (_, checker) in &checkers {
+    for (_, checker) in checkers {
         for head in checker.heads().iter().filter(|head| wanted(head.equation)) {
             if !groups.contains(&head.given) {
                 groups.push(head.given);
@@ -139,9 +189,9 @@ pub fn verify(options: &Options, progress: &(dyn Fn(usize, usize) + Sync)) -> Re
             .par_iter()
             .map(|(block, given)| {
                 let indices = block * BLOCK..(block * BLOCK).saturating_add(BLOCK).min(options.cases);
-                let cases: Vec<_> = indices.map(|i| cases::case(options.seed, i, given)).collect();
+                let cases: Vec<_> = indices.map(|i| drawn(options.seed, i, given)).collect();
                 let tallies =
-                    checkers.iter().map(|(_, checker)| checker.check(given, &wanted, &cases)).collect();
+                    checkers.iter().map(|(_, checker)| checker.check(given, wanted, &cases)).collect();
                 progress(done.fetch_add(1, Ordering::Relaxed) + 1, all);
                 tallies
             })
@@ -154,43 +204,33 @@ pub fn verify(options: &Options, progress: &(dyn Fn(usize, usize) + Sync)) -> Re
             }
         }
     }
-    let wanted_statements = statements().into_iter().filter(|statement| wanted(statement.equation));
-    let mut rows: Vec<Row> = wanted_statements.collect::<Vec<_>>().par_iter().map(proof).collect();
-    for ((scalar, checker), total) in checkers.iter().zip(totals) {
-        for (head, tally) in checker.heads().into_iter().zip(total) {
-            if wanted(head.equation) {
-                rows.push(tally.into_row(head, Some(*scalar)));
-            }
-        }
-    }
-    rows.sort_by_key(|row| place(row.equation));
-    // Within an equation all rows of a claim stand together.
-    let mut sorted: Vec<Row> = Vec::with_capacity(rows.len());
-    for row in rows {
-        let same = |r: &Row| r.equation == row.equation && r.claim == row.claim;
-        let at = sorted.iter().rposition(same).map_or(sorted.len(), |i| i + 1);
-        sorted.insert(at, row);
-    }
-    Report { rows: sorted }
+    totals
+}
+
+/// A case, if there is one: hypotheses are made of formulas, too.
+fn drawn(seed: u64, index: u64, given: &[Given]) -> Option<Case<Exact>> {
+    guarded(|| cases::case(seed, index, given)).ok().flatten()
 }
 
 /// The row of a proof.
 fn proof(statement: &Statement) -> Row {
-    let why = prove(statement).err();
+    let why = match guarded(|| prove(statement)) {
+        Ok(Ok(_)) => None,
+        Ok(Err(why)) => Some(why.to_string()),
+        Err(panic) => Some(panic),
+    };
+    let counterexample = why.as_ref().and_then(|_| guarded(|| refute(statement)).ok().flatten());
     Row {
         equation: statement.equation,
         claim: statement.name,
         kind: statement.kind,
         scalar: None,
         status: if why.is_none() { Status::Proved } else { Status::Failed },
-        counterexample: why
-            .as_ref()
-            .and_then(|_| refute(statement))
-            .map(|counterexample| counterexample.case()),
-        why: why.map(|why| why.to_string()),
+        why,
         decided: 0,
         undecided: 0,
         worst: None,
+        counterexample: counterexample.map(|counterexample| counterexample.case()),
     }
 }
 

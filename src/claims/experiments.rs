@@ -391,6 +391,21 @@ fn units<T: Scalar + Real + ToExact>(x: &Case<T>) -> Trial {
     }
 }
 
+/// (1.16) in rationals, for no more than [`STEPS`] steps, and for no more digits than right formulas come to: wrong
+/// ones can double them from step to step.
+///
+/// The closed forms of λ_k and u_k are quotients, of degree k + 1 at most in c and ε, and of degree 1 in everything
+/// else. So with the digits s of all that is given, numerators and denominators counted, both parts of each
+/// fraction are products of 2 (k + 1) s digits at most; two of them are 8 (k + 1) s. What is left over are carries.
+fn exact_steps(x: &Case<Exact>, start: Exact, plane: Plane) -> impl Iterator<Item = Step<Exact>> {
+    let SpringMass { c, m, g, l, h } = &x.system;
+    let given: u64 = [c, m, g, l, h, &x.eps, &start].into_iter().map(Exact::digits).sum();
+    let steps = Augmentation::new(&x.system, &x.eps).from_multiplier(start).over(plane).take(STEPS);
+    steps.take_while(move |step| {
+        step.multiplier.digits() + step.deflection.digits() <= 8 * (step.k + 2) * given
+    })
+}
+
 /// The iteration's count is the one that (1.33) solved for k gives.
 fn count(x: &Case<Exact>, plane: Plane) -> Trial {
     let k = augmentations_needed(&x.system, &x.eps, &x.tol, &x.lambda, plane);
@@ -401,8 +416,8 @@ fn count(x: &Case<Exact>, plane: Plane) -> Trial {
         }
         Plane::Bilateral => step.penetration.clone(),
     };
-    let steps = Augmentation::new(&x.system, &x.eps).from_multiplier(x.lambda.clone()).over(plane);
-    let found = steps.take(STEPS).position(|step| augmented::within_tolerance(&residual(&step), &x.tol));
+    let mut steps = exact_steps(x, x.lambda.clone(), plane);
+    let found = steps.position(|step| augmented::within_tolerance(&residual(&step), &x.tol));
     Trial::Decided(found == Some(k))
 }
 
@@ -412,28 +427,30 @@ fn tie(x: &Case<Exact>) -> Trial {
     let decay = &ratio * &ratio;
     let missing = penalty::total_stiffness(&x.system, &x.eps) * &x.tol / decay;
     let start = system::reaction(&x.system) - missing;
-    let mut steps = Augmentation::new(&x.system, &x.eps).from_multiplier(start).over(Plane::Bilateral);
+    let mut steps = exact_steps(x, start, Plane::Bilateral);
     let found = steps.position(|step| augmented::within_tolerance(&step.penetration, &x.tol));
     Trial::Decided(found == Some(3))
 }
 
 /// For R ≥ 0 and any start, λ_k = R + ρ^{k−1} (λ₁ − R) for k ≥ 1.
 fn unilateral_closed_form(x: &Case<Exact>) -> Trial {
-    let mut steps = Augmentation::new(&x.system, &x.eps).from_multiplier(x.lambda.clone()).skip(1).take(6);
+    let steps: Vec<_> = exact_steps(x, x.lambda.clone(), Plane::Unilateral).skip(1).take(6).collect();
+    let [first, later @ ..] = steps.as_slice() else { return Trial::Decided(false) };
     let ratio = augmented::contraction(&x.system, &x.eps);
-    let Some(first) = steps.next() else { return Trial::Undecided };
     let mut decay = Exact::one();
-    let holds = steps.all(|step| {
+    let holds = later.iter().all(|step| {
         decay = &decay * &ratio;
         step.multiplier == augmented::multiplier_after(&x.system, &first.multiplier, &decay)
     });
-    Trial::Decided(holds)
+    Trial::Decided(holds && later.len() == 5)
 }
 
 /// For R < 0 the multiplier first vanishes at K, and the mass hangs free from step max(K − 1, 0) on.
 fn release(x: &Case<Exact>) -> Trial {
-    let steps: Vec<_> =
-        Augmentation::new(&x.system, &x.eps).from_multiplier(x.lambda.clone()).take(STEPS).collect();
+    let steps: Vec<_> = exact_steps(x, x.lambda.clone(), Plane::Unilateral).collect();
+    if steps.len() < STEPS {
+        return Trial::Decided(false);
+    }
     let Some(first) = steps.iter().position(|step| step.multiplier.is_zero()) else {
         return Trial::Undecided;
     };

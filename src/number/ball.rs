@@ -11,7 +11,8 @@ use std::cmp::Ordering;
 /// errors amount to, plus the rounding error of the operation itself, the sum rounded up. So a formula
 /// read in balls gives the float result *and* a bound of its error. Inclusion holds for every input,
 /// subnormal numbers included; a radius may be infinite where nothing can be said, as after a division
-/// by a ball that contains zero.
+/// by a ball that contains zero. A division by zero itself, and by nothing else, is
+/// [undefined](Ball::is_undefined), and so is all that is made of it.
 ///
 /// ```
 /// use spring_mass_contact::number::Ball;
@@ -97,6 +98,24 @@ impl<T: Real> Ball<T> {
         self.value.is_finite() && self.radius.is_finite()
     }
 
+    /// Is no number meant at all, for certain? So it is where something was divided by zero.
+    ///
+    /// ```
+    /// use spring_mass_contact::number::Ball;
+    /// let (one, zero) = (Ball::exactly(1.0), Ball::exactly(0.0));
+    /// assert!((&one / &zero).is_undefined() && ((&one / &zero) * &zero).is_undefined());
+    /// let perhaps_zero = &one / Ball::exactly(3.0) * Ball::exactly(3.0) - &one;
+    /// assert!(!(&one / perhaps_zero).is_undefined());
+    /// ```
+    pub fn is_undefined(&self) -> bool {
+        // No other radius is not a number: sums of radii have no infinities of different signs.
+        self.radius.partial_cmp(&self.radius).is_none()
+    }
+
+    fn undefined(value: T) -> Self {
+        Ball { value, radius: T::infinity() - T::infinity() }
+    }
+
     fn with(value: T, error: T) -> Self {
         // A value that is not finite says nothing of the number meant.
         let radius = if value.is_finite() && error.is_finite() { error.magnitude() } else { T::infinity() };
@@ -139,20 +158,31 @@ fn product_error<T: Real>(x: &T) -> T {
     add(&x.half_ulp(), &T::underflow_unit())
 }
 
+/// The value, undefined where one of the operands is: what every operation begins with.
+macro_rules! of {
+    ($value:expr, $($operand:expr),*) => {{
+        let value = $value;
+        if $($operand.is_undefined())||* {
+            return Ball::undefined(value);
+        }
+        value
+    }};
+}
+
 operators! { [T: Real] Ball<T>;
     Add add |a, b| {
-        let value = &a.value + &b.value;
+        let value = of!(&a.value + &b.value, a, b);
         let error = add(&add(&a.radius, &b.radius), &value.half_ulp());
         Ball::with(value, error)
     };
     Sub sub |a, b| {
-        let value = &a.value - &b.value;
+        let value = of!(&a.value - &b.value, a, b);
         let error = add(&add(&a.radius, &b.radius), &value.half_ulp());
         Ball::with(value, error)
     };
     Mul mul |a, b| {
+        let value = of!(&a.value * &b.value, a, b);
         if a.is_exactly_zero() || b.is_exactly_zero() { return Ball::zero() }
-        let value = &a.value * &b.value;
         // ab − a'b' = a(b − b') + b(a − a') − (a − a')(b − b')
         let from_a = mul(&add(&b.value.magnitude(), &b.radius), &a.radius);
         let from_b = mul(&a.value.magnitude(), &b.radius);
@@ -162,6 +192,8 @@ operators! { [T: Real] Ball<T>;
     Div div |a, b| {
         // By zero not `a / b`: Mpfr's constants are rationals and would panic.
         let value = if b.value.is_zero() { &a.value * T::infinity() } else { &a.value / &b.value };
+        let value = of!(value, a, b);
+        if b.is_exactly_zero() { return Ball::undefined(value) }
         // No |divisor| is less than this.
         let least = b.value.abs();
         let least = if b.radius.is_zero() { least } else { (least - &b.radius).next_down() };
@@ -199,21 +231,23 @@ impl<T: Real> Field for Ball<T> {
 }
 impl<T: Real> PositivePart for Ball<T> {
     fn positive_part(&self) -> Self {
+        let value = of!(self.value.positive_part(), self);
         match self.sign() {
             Some(Ordering::Greater) => self.clone(),
             Some(_) => Ball::zero(),
             // ⟨·⟩ brings no two numbers further apart, so the radius still holds.
-            None => Ball::with(self.value.positive_part(), self.radius.clone()),
+            None => Ball::with(value, self.radius.clone()),
         }
     }
     fn min(&self, other: &Self) -> Self {
+        let value = of!(self.value.min(&other.value), self, other);
         if self.upper() <= other.lower() {
             self.clone()
         } else if other.upper() <= self.lower() {
             other.clone()
         } else {
             let radius = if self.radius > other.radius { &self.radius } else { &other.radius };
-            Ball::with(self.value.min(&other.value), radius.clone())
+            Ball::with(value, radius.clone())
         }
     }
 }
@@ -222,7 +256,7 @@ impl<T: Real> Exponential for Ball<T> {
         if self.is_exactly_zero() {
             return Ball::one();
         }
-        let value = self.value.exp();
+        let value = of!(self.value.exp(), self);
         let own = product_error(&value);
         let r = &self.radius;
         // |eʳ − 1| ≤ r + r² for r ≤ 1.

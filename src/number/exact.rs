@@ -165,6 +165,17 @@ impl Exact {
         &self.0
     }
 
+    /// How long it is: the binary digits of its numerator and of its denominator together.
+    ///
+    /// ```
+    /// # use spring_mass_contact::number::Exact;
+    /// assert_eq!("-5/16".parse::<Exact>()?.digits(), 3 + 5);
+    /// # Ok::<(), spring_mass_contact::number::ParseError>(())
+    /// ```
+    pub fn digits(&self) -> u64 {
+        u64::from(self.0.numer().significant_bits()) + u64::from(self.0.denom().significant_bits())
+    }
+
     /// 2ⁿ.
     pub fn power_of_two(n: i32) -> Self {
         Exact(if n < 0 {

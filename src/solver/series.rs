@@ -44,9 +44,11 @@ where
     let exact = |x: &T| x.to_exact().map_err(|_| out_of_range.clone());
     let terms: Vec<_> = higher.iter().map(exact).collect::<Result<_, _>>()?;
     let equation = Equation { system: system.try_map(exact)?, eps: exact(eps)?, higher: terms };
+    // A few digits more than the answer has are enough to tell its neighbours apart.
+    let digits = exact(&like.unit_roundoff())?.as_rational().denom().significant_bits();
     let mut precision = 128;
-    loop {
-        let root = equation.root(precision);
+    while precision <= 128.max(4 * digits) {
+        let Some(root) = equation.root(precision) else { break };
         let answer = like.nearest(&root.to_exact().map_err(|_| out_of_range.clone())?);
         let answer = answer.map_err(|_| out_of_range.clone())?;
         let residual_sign = |p: T| p.to_exact().map(|p| equation.residual(&p).cmp(&Exact::zero()));
@@ -58,6 +60,7 @@ where
         }
         precision *= 2;
     }
+    Err(out_of_range)
 }
 
 /// c p + W′(p) = R in rationals.
@@ -73,8 +76,8 @@ impl Equation {
     }
 
     /// Newton's method from outside, where the residual is convex (concave for R < 0) and the method
-    /// monotone: it ends when it no longer comes nearer.
-    fn root(&self, precision: u32) -> Mpfr {
+    /// monotone: it ends when it no longer comes nearer. `None` if it does not, or if there is no place to begin.
+    fn root(&self, precision: u32) -> Option<Mpfr> {
         // Not `to_mpfr`: the root of a scalar with the most bits takes more.
         let rounded = |x: &Exact| Mpfr::from(Float::with_val(precision, x.as_rational()));
         let constant = |x: &Exact| Dual::constant(rounded(x));
@@ -84,34 +87,50 @@ impl Equation {
         let weight = SpringMass { c: self.system.c.clone(), m: r, g: Exact::one(), l: zero.clone(), h: zero };
         let (system, eps) = (weight.map(constant), constant(&self.eps));
         let higher: Vec<_> = self.higher.iter().map(constant).collect();
-        let mut p = rounded(&self.outside());
-        loop {
+        let mut p = rounded(&self.outside()?);
+        // From less than twice the root of a polynomial of degree d, d steps lead to within a factor 1 + 1/d, and
+        // from there each doubles the digits.
+        for _ in 0..2 * (2 * self.higher.len() + 1) + 64 {
             let f = penalty::series_residual(&system, &eps, &higher, &Dual::variable(p.clone()));
             let next = &p - f.value / f.derivative;
             if next.abs() >= p.abs() {
-                return p;
+                return Some(p);
             }
             p = next;
         }
+        None
     }
 
-    /// A power of two beyond the root, less than twice as far from 0, with the root's sign.
-    fn outside(&self) -> Exact {
+    /// So many binary digits that the root is between 2⁻ⁿ and 2ⁿ in size: it is at most |R|/c, and at least what the
+    /// largest of the terms would be the root of alone, with R divided among the terms. So n is less than all the
+    /// digits together.
+    fn digits(&self) -> u64 {
+        let SpringMass { c, m, g, l, h } = &self.system;
+        let terms = 64 + self.higher.len() as u64;
+        [c, m, g, l, h, &self.eps].into_iter().chain(&self.higher).map(Exact::digits).sum::<u64>() + terms
+    }
+
+    /// A power of two beyond the root, less than twice as far from 0, with the root's sign; if there is one.
+    fn outside(&self) -> Option<Exact> {
         let sign = self.residual(&Exact::zero()).cmp(&Exact::zero()).reverse();
         let signed =
             |n: i32| if sign == Ordering::Less { -Exact::power_of_two(n) } else { Exact::power_of_two(n) };
         let beyond = |n: i32| self.residual(&signed(n)).cmp(&Exact::zero()) == sign;
         // Gallop to an exponent on the other side, then halve the distance.
         let first = beyond(0);
+        let most = i32::try_from(2 * self.digits()).unwrap_or(i32::MAX / 2);
         let mut reach = 1;
         while beyond(if first { -reach } else { reach }) == first {
             reach *= 2;
+            if reach > most {
+                return None;
+            }
         }
         let (mut inside, mut outside) = if first { (-reach, 0) } else { (0, reach) };
         while outside - inside > 1 {
             let middle = inside + (outside - inside) / 2;
             if beyond(middle) { outside = middle } else { inside = middle }
         }
-        signed(outside)
+        Some(signed(outside))
     }
 }

@@ -1,5 +1,6 @@
 //! The claims of one number system on given cases.
 
+use super::guard::guarded;
 use super::{Row, Status};
 use crate::claims::{
     Case, Claim, Experiment, Given, Goal, Trial, all_claims, claims, exact_experiments,
@@ -24,7 +25,8 @@ pub(super) struct Tally {
     decided: u64,
     undecided: u64,
     worst: Option<(f64, String)>,
-    counterexample: Option<Case<Exact>>,
+    /// The first case in which the claim does not hold, and what broke it off there.
+    failure: Option<(Case<Exact>, Option<String>)>,
 }
 
 impl Tally {
@@ -35,12 +37,16 @@ impl Tally {
         if other.worst.as_ref().is_some_and(|(ratio, _)| self.worst.as_ref().is_none_or(|(r, _)| ratio > r)) {
             self.worst = other.worst;
         }
-        self.counterexample = self.counterexample.take().or(other.counterexample);
+        self.failure = self.failure.take().or(other.failure);
     }
 
     fn record(&mut self, case: &Case<Exact>, verdict: Verdict<'_>) {
         match verdict {
             Verdict::Undecided => self.undecided += 1,
+            Verdict::Broken(why) => {
+                self.decided += 1;
+                self.failure.get_or_insert_with(|| (case.clone(), Some(why)));
+            }
             Verdict::Decided { holds, measured } => {
                 self.decided += 1;
                 if let Some((ratio, bound)) = measured
@@ -48,26 +54,31 @@ impl Tally {
                 {
                     self.worst = Some((ratio, bound()));
                 }
-                if !holds && self.counterexample.is_none() {
-                    self.counterexample = Some(case.clone());
+                if !holds {
+                    self.failure.get_or_insert_with(|| (case.clone(), None));
                 }
             }
         }
     }
 
     pub(super) fn into_row(self, head: Head, scalar: Option<NumberSystem>) -> Row {
-        let held = self.decided > 0 && self.counterexample.is_none();
+        let status = match (&self.failure, self.decided) {
+            (Some(_), _) => Status::Failed,
+            (None, 0) => Status::Undecided,
+            (None, _) => Status::Held,
+        };
+        let (counterexample, why) = self.failure.unzip();
         Row {
             equation: head.equation,
             claim: head.claim,
             kind: head.kind,
             scalar,
-            status: if held { Status::Held } else { Status::Failed },
-            why: None,
+            status,
+            why: why.flatten(),
             decided: self.decided,
             undecided: self.undecided,
             worst: self.worst,
-            counterexample: self.counterexample,
+            counterexample,
         }
     }
 }
@@ -75,7 +86,12 @@ impl Tally {
 /// What one case says of a claim; the bound is formatted only if it is the worst so far.
 enum Verdict<'a> {
     Undecided,
-    Decided { holds: bool, measured: Option<(f64, Box<dyn Fn() -> String + 'a>)> },
+    /// It does not hold, since it is not even defined or breaks off otherwise: why.
+    Broken(String),
+    Decided {
+        holds: bool,
+        measured: Option<(f64, Box<dyn Fn() -> String + 'a>)>,
+    },
 }
 
 /// A number system in which claims are checked.
@@ -96,6 +112,8 @@ pub(super) trait Judge: Sync {
     /// left − right: does it contain 0, what share of its bound does it use up, and the bound.
     fn difference(&self, left: &Self::Number, right: &Self::Number) -> Option<(bool, f64, Self::Number)>;
     fn bound(&self, difference: &Self::Number) -> String;
+    /// Not if something was divided by zero.
+    fn is_defined(&self, x: &Self::Number) -> bool;
     fn sign(&self, x: &Self::Number) -> Option<Ordering>;
 }
 
@@ -122,6 +140,9 @@ impl Judge for Exactly {
     }
     fn bound(&self, difference: &Exact) -> String {
         difference.to_string()
+    }
+    fn is_defined(&self, _: &Exact) -> bool {
+        true // Rationals panic where they are not.
     }
     fn sign(&self, x: &Exact) -> Option<Ordering> {
         Some(x.cmp(&Exact::zero()))
@@ -158,20 +179,29 @@ where
             return None;
         }
         let (error, bound) = (difference.value().abs(), difference.radius());
-        let ratio = if error.is_zero() { 0.0 } else { approximately(&(&error / bound)) };
+        let ratio = share(&error, bound);
         Some((error <= *bound, ratio, difference))
     }
     fn bound(&self, difference: &Ball<T>) -> String {
         format!("{:?}", difference.radius())
+    }
+    fn is_defined(&self, x: &Ball<T>) -> bool {
+        !x.is_undefined()
     }
     fn sign(&self, x: &Ball<T>) -> Option<Ordering> {
         if x.is_finite() { x.sign() } else { None }
     }
 }
 
-/// For a report only.
-fn approximately<T: ToExact>(x: &T) -> f64 {
-    x.to_exact().map_or(f64::INFINITY, |x| x.as_rational().to_f64())
+/// What share of its bound an error uses up, for a report only.
+fn share<T: Scalar + ToExact>(error: &T, bound: &T) -> f64 {
+    match (error.is_zero(), bound.is_zero()) {
+        (true, _) => 0.0,
+        (false, true) => f64::INFINITY,
+        (false, false) => {
+            (error / bound).to_exact().map_or(f64::INFINITY, |ratio| ratio.as_rational().to_f64())
+        }
+    }
 }
 
 /// The claims and experiments of a number system, with the types hidden.
@@ -189,9 +219,9 @@ pub(super) trait Checks: Sync {
 }
 
 pub(super) struct Checker<J: Judge> {
-    judge: J,
-    claims: Vec<Claim<J::Number>>,
-    experiments: Vec<Experiment<J::Computed>>,
+    pub(super) judge: J,
+    pub(super) claims: Vec<Claim<J::Number>>,
+    pub(super) experiments: Vec<Experiment<J::Computed>>,
 }
 
 impl<J: Judge> Checker<J> {
@@ -243,12 +273,12 @@ impl<J: Judge> Checks for Checker<J> {
             let computed = self.judge.computed(&read);
             let (of_claims, of_experiments) = tallies.split_at_mut(claims.len());
             for ((_, claim), (_, tally)) in claims.iter().zip(of_claims) {
-                let goals = claim.goals(&read);
-                tally.record(exact, self.verdict(&goals));
+                let verdict = guarded(|| self.verdict(&claim.goals(&read)));
+                tally.record(exact, verdict.unwrap_or_else(Verdict::Broken));
             }
             for ((_, experiment), (_, tally)) in experiments.iter().zip(of_experiments) {
-                let trial = (experiment.check)(&computed);
-                tally.record(exact, of_trial(&trial));
+                let verdict = guarded(|| of_trial((experiment.check)(&computed)));
+                tally.record(exact, verdict.unwrap_or_else(Verdict::Broken));
             }
         }
         tallies
@@ -264,6 +294,13 @@ impl<J: Judge> Checker<J> {
         let (mut open, mut holds) = (false, true);
         let mut worst: Option<(f64, J::Number)> = None;
         for goal in goals {
+            let numbers = match goal {
+                Goal::Equal(left, right) => [left, right],
+                Goal::Sign(_, x) => [x, x],
+            };
+            if !numbers.into_iter().all(|x| self.judge.is_defined(x)) {
+                return Verdict::Broken("division by zero".to_string());
+            }
             match goal {
                 Goal::Equal(left, right) => match self.judge.difference(left, right) {
                     None => open = true,
@@ -291,19 +328,15 @@ impl<J: Judge> Checker<J> {
     }
 }
 
-fn of_trial(trial: &Trial) -> Verdict<'_> {
+fn of_trial<'a>(trial: Trial) -> Verdict<'a> {
     match trial {
         Trial::Undecided => Verdict::Undecided,
-        Trial::Decided(holds) => Verdict::Decided { holds: *holds, measured: None },
+        Trial::Decided(holds) => Verdict::Decided { holds, measured: None },
         Trial::Within { error, bound } => {
-            let ratio = match (error.is_zero(), bound.is_zero()) {
-                (true, _) => 0.0,
-                (false, true) => f64::INFINITY,
-                (false, false) => approximately(&(error / bound)),
-            };
-            let text: Box<dyn Fn() -> String + '_> =
-                Box::new(|| Mpfr::rounded(24, bound.as_rational()).to_string());
-            Verdict::Decided { holds: error <= bound, measured: Some((ratio, text)) }
+            let (holds, ratio) = (error <= bound, share(&error, &bound));
+            let text: Box<dyn Fn() -> String> =
+                Box::new(move || Mpfr::rounded(24, bound.as_rational()).to_string());
+            Verdict::Decided { holds, measured: Some((ratio, text)) }
         }
     }
 }
@@ -312,11 +345,13 @@ fn of_trial(trial: &Trial) -> Verdict<'_> {
 mod tests {
     use super::*;
     use crate::claims::{Kind, Relation};
+    use crate::number::Field;
 
     fn verdict<J: Judge>(judge: J, goals: &[Goal<J::Number>]) -> Option<bool> {
         match Checker::new(judge).verdict(goals) {
             Verdict::Undecided => None,
             Verdict::Decided { holds, .. } => Some(holds),
+            Verdict::Broken(_) => Some(false),
         }
     }
 
@@ -329,9 +364,14 @@ mod tests {
         assert_eq!(verdict(Exactly, &[Goal::Equal(1.into(), 2.into())]), Some(false));
     }
 
+    /// A number whose sign is lost in rounding.
+    fn perhaps_zero() -> Ball<f64> {
+        Ball::exactly(1.0) / Ball::exactly(3.0) * Ball::exactly(3.0) - Ball::exactly(1.0)
+    }
+
     #[test]
     fn a_sign_that_rounding_hides_is_open_and_a_wrong_one_is_wrong() {
-        let tiny = Ball::exactly(1.0) / Ball::exactly(3.0) * Ball::exactly(3.0) - Ball::exactly(1.0);
+        let tiny = perhaps_zero();
         let sign = |x: &Ball<f64>| verdict(Floats(0.0), &[Goal::Sign(Relation::Positive, x.clone())]);
         assert_eq!(
             (sign(&tiny), sign(&Ball::exactly(1.0)), sign(&Ball::exactly(-1.0))),
@@ -341,19 +381,49 @@ mod tests {
 
     #[test]
     fn one_goal_that_fails_decides_against_others_that_are_open() {
-        let open = Goal::Equal(Ball::exactly(1.0) / Ball::zero(), Ball::exactly(1.0));
+        let open = Goal::Equal(Ball::exactly(1.0) / perhaps_zero(), Ball::exactly(1.0));
         let wrong = Goal::Equal(Ball::exactly(1.0), Ball::exactly(2.0));
         assert_eq!(verdict(Floats(0.0), std::slice::from_ref(&open)), None);
         assert_eq!(verdict(Floats(0.0), &[open, wrong]), Some(false));
     }
 
     #[test]
-    fn a_claim_without_a_decided_case_does_not_hold() {
-        let head = |claim| Head { equation: "1.1", claim, kind: "equal", given: &[] };
-        let undecided = Tally { undecided: 5, ..Tally::default() };
-        assert_eq!(undecided.into_row(head("never"), None).status, Status::Failed);
-        let decided = Tally { decided: 1, ..Tally::default() };
-        assert_eq!(decided.into_row(head("once"), None).status, Status::Held);
+    fn what_is_divided_by_zero_is_wrong_and_what_may_be_is_open() {
+        let zero = Ball::exactly(1.0) - Ball::exactly(1.0);
+        let by = |divisor: &Ball<f64>| Ball::exactly(1.0) / divisor;
+        for (divisor, expected) in [(zero, Some(false)), (perhaps_zero(), None)] {
+            let equal = Goal::Equal(Ball::exactly(1.0), by(&divisor));
+            let sign = Goal::Sign(Relation::Positive, by(&divisor));
+            assert_eq!(verdict(Floats(0.0), &[equal]), expected);
+            assert_eq!(verdict(Floats(0.0), &[sign]), expected);
+        }
+    }
+
+    #[test]
+    fn a_bound_of_zero_has_no_room_for_an_error() {
+        // Constants of MPFR are exact, and so is their difference.
+        let [two, three] = [2, 3].map(Ball::<Mpfr>::int);
+        let judge = Floats(Mpfr::rounded(53, 0));
+        assert_eq!(
+            judge.difference(&two, &three).map(|(holds, share, _)| (holds, share)),
+            Some((false, f64::INFINITY))
+        );
+        assert_eq!(judge.difference(&two, &two).map(|(holds, share, _)| (holds, share)), Some((true, 0.0)));
+    }
+
+    #[test]
+    fn one_case_that_fails_decides_and_without_a_decided_case_nothing_is() {
+        let row = |tally: Tally| {
+            tally.into_row(Head { equation: "1.1", claim: "claim", kind: "equal", given: &[] }, None)
+        };
+        let held = Tally { decided: 1, undecided: 5, ..Tally::default() };
+        let failure = super::super::cases::case(1, 0, &[]).map(|case| (case, Some("why".to_string())));
+        let failed = Tally { decided: 7, failure, ..Tally::default() };
+        assert_eq!(row(Tally { undecided: 5, ..Tally::default() }).status, Status::Undecided);
+        assert_eq!(row(held).status, Status::Held);
+        let failed = row(failed);
+        assert_eq!((failed.status, failed.why.as_deref()), (Status::Failed, Some("why")));
+        assert!(failed.counterexample.is_some());
     }
 
     #[test]

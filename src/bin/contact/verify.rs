@@ -27,7 +27,10 @@ that can be decided there, and at least one can. Rationals are compared by
 equality, floats within the error bounds that balls compute along the way: there
 are no tolerances.
 
-Exit status: 0 all hold; 1 some do not; 2 bad input.";
+What no case decides is undecided, which says nothing against it: so it is with
+few cases, and with few digits.
+
+Exit status: 0 none fails; 1 some do; 2 bad input.";
 
 /// Prove every claim of the chapter, and check it in every number system
 #[derive(clap::Args)]
@@ -122,8 +125,8 @@ fn rows_of<'a>(report: &'a Report, entry: &Entry) -> Vec<&'a Row> {
     report.rows.iter().filter(|row| row.equation == entry.equation).collect()
 }
 
-fn holding(rows: &[&Row]) -> usize {
-    rows.iter().filter(|row| row.status != verify::Status::Failed).count()
+fn count(rows: &[&Row], status: verify::Status) -> usize {
+    rows.iter().filter(|row| row.status == status).count()
 }
 
 /// What a claim is tried by: a number system, or the prover.
@@ -140,44 +143,45 @@ fn table(out: &mut dyn Write, report: &Report, options: &verify::Options) -> io:
         writeln!(out)?;
     }
     let rows: Vec<&Row> = report.rows.iter().collect();
-    let failed: Vec<&Row> = rows.iter().copied().filter(|row| row.status == verify::Status::Failed).collect();
-    for alike in failed.chunk_by(|a, b| fail_alike(a, b)) {
+    let of = |status| rows.iter().copied().filter(|row| row.status == status).collect::<Vec<_>>();
+    for alike in of(verify::Status::Failed).chunk_by(|a, b| fail_alike(a, b)) {
         failure(out, alike)?;
         writeln!(out)?;
     }
-    let proofs: Vec<&Row> = rows.iter().copied().filter(|row| row.scalar.is_none()).collect();
+    undecided(out, &of(verify::Status::Undecided))?;
+    let (proofs, rows): (Vec<&Row>, Vec<&Row>) = rows.iter().copied().partition(|row| row.scalar.is_none());
     if !proofs.is_empty() {
-        writeln!(
-            out,
-            "{} of {} proved for all values.",
-            holding(&proofs),
-            counted(proofs.len() as u64, "claim")
-        )?;
+        let (proved, all) = (count(&proofs, verify::Status::Proved), counted(proofs.len() as u64, "claim"));
+        writeln!(out, "{proved} of {all} proved for all values.")?;
     }
-    let rows: Vec<&Row> = rows.into_iter().filter(|row| row.scalar.is_some()).collect();
-    let (held, decided) = (holding(&rows), rows.iter().map(|row| row.decided).sum::<u64>());
-    let undecided = rows.iter().map(|row| row.undecided).sum::<u64>();
+    let trials = |of: fn(&Row) -> u64| rows.iter().map(|row| of(row)).sum::<u64>();
     writeln!(
         out,
-        "{held} of {} hold: {} decided, {undecided} undecidable.",
+        "{} of {} hold: {} decided, {} undecidable.",
+        count(&rows, verify::Status::Held),
         counted(rows.len() as u64, "claim"),
-        counted(decided, "trial")
+        counted(trials(|row| row.decided), "trial"),
+        trials(|row| row.undecided)
     )?;
     writeln!(out, "{} from seed {}.", counted(options.cases, "case"), options.seed)?;
     let kept = rows.iter().filter(|row| row.status == verify::Status::Held);
     let worst = kept.filter_map(|row| row.worst.as_ref().map(|(ratio, _)| (*ratio, row)));
     if let Some((ratio, row)) = worst.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|(ratio, _)| *ratio > 0.0) {
-        // Up, so that it is true.
-        let share = (100.0 * ratio).ceil();
         writeln!(
             out,
-            "Rounding used at most {share:.0} % of its bound ({} {}, {}).",
+            "Rounding used at most {} of its bound ({} {}, {}).",
+            percent(ratio),
             row.equation,
             row.claim,
             name(row.scalar)
         )?;
     }
     Ok(())
+}
+
+/// A share in per cent: with one decimal, and up, so that "at most" is true.
+fn percent(share: f64) -> String {
+    format!("{} %", (1e3 * share).ceil() / 10.0)
 }
 
 fn counted(count: u64, what: &str) -> String {
@@ -212,11 +216,12 @@ fn side_by_side<'a>(report: &Report, ways: &'a [Way]) -> Vec<&'a [Way]> {
 /// How many of an equation's claims are proved, or hold in a number system.
 fn cell(rows: &[&Row], way: Way) -> String {
     let rows: Vec<&Row> = rows.iter().copied().filter(|row| row.scalar == way).collect();
-    match (holding(&rows), rows.len()) {
-        (_, 0) => "-".to_string(),
-        (holding, all) if holding < all => format!("{} FAILED", all - holding),
-        (_, all) if way.is_none() => all.to_string(),
-        (_, all) => format!("{all} held"),
+    match (count(&rows, verify::Status::Failed), count(&rows, verify::Status::Undecided), rows.len()) {
+        (_, _, 0) => "-".to_string(),
+        (0, 0, all) if way.is_none() => all.to_string(),
+        (0, 0, all) => format!("{all} held"),
+        (0, undecided, _) => format!("{undecided} undecided"),
+        (failed, ..) => format!("{failed} FAILED"),
     }
 }
 
@@ -239,27 +244,38 @@ fn counts(out: &mut dyn Write, report: &Report, ways: &[Way]) -> io::Result<()> 
 
 /// One claim, failing for the same reason in two number systems; these stand together in a report.
 fn fail_alike(a: &Row, b: &Row) -> bool {
-    let reason = |row: &Row| row.counterexample.is_none().then_some(row.undecided);
-    (a.equation, a.claim, reason(a), &a.why) == (b.equation, b.claim, reason(b), &b.why)
-        && a.counterexample == b.counterexample
+    (a.equation, a.claim, &a.why, &a.counterexample) == (b.equation, b.claim, &b.why, &b.counterexample)
+        && a.scalar.is_none() == b.scalar.is_none()
+}
+
+/// What no case decided, a line a claim, and what helps.
+fn undecided(out: &mut dyn Write, rows: &[&Row]) -> io::Result<()> {
+    for alike in rows.chunk_by(|a, b| (a.equation, a.claim) == (b.equation, b.claim)) {
+        let scalars: Vec<_> = alike.iter().map(|row| name(row.scalar)).collect();
+        writeln!(out, "{} {} undecided in {}", alike[0].equation, alike[0].claim, scalars.join(", "))?;
+    }
+    if rows.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "  No case decides these, so nothing is known against them: try more --cases,")?;
+    writeln!(out, "  or a --scalar with more digits.\n")
 }
 
 /// Failures that are alike, of which there is at least one.
 fn failure(out: &mut dyn Write, alike: &[&Row]) -> io::Result<()> {
     let row = alike[0];
-    match &row.why {
-        Some(why) => {
-            writeln!(out, "{} {} NOT PROVED", row.equation, row.claim)?;
-            writeln!(out, "  {why}")?;
-        }
-        None => {
+    match row.scalar {
+        None => writeln!(out, "{} {} NOT PROVED", row.equation, row.claim)?,
+        Some(_) => {
             let scalars: Vec<_> = alike.iter().map(|row| name(row.scalar)).collect();
             writeln!(out, "{} {} FAILED in {}", row.equation, row.claim, scalars.join(", "))?;
         }
     }
+    if let Some(why) = &row.why {
+        writeln!(out, "  {why}")?;
+    }
     match &row.counterexample {
-        None if row.why.is_some() => Ok(()),
-        None => writeln!(out, "  none of {} could be decided", counted(row.undecided, "case")),
+        None => Ok(()),
         Some(case) => {
             let mut line = String::new();
             for (symbol, value) in symbols(case) {
@@ -285,6 +301,7 @@ fn status(row: &Row) -> &'static str {
     match row.status {
         verify::Status::Proved => "proved",
         verify::Status::Held => "held",
+        verify::Status::Undecided => "undecided",
         _ => "failed",
     }
 }
@@ -317,6 +334,7 @@ struct Summary {
     claims: usize,
     proved: usize,
     held: usize,
+    undecided: usize,
     failed: usize,
 }
 
@@ -332,6 +350,7 @@ struct Claim {
     kind: &'static str,
     status: &'static str,
     scalar: Option<String>,
+    why: Option<String>,
     decided: u64,
     undecided: u64,
     worst: Option<String>,
@@ -342,12 +361,12 @@ struct Claim {
 impl Json {
     fn of(report: &Report) -> Self {
         let rows: Vec<&Row> = report.rows.iter().collect();
-        let count = |status| rows.iter().filter(|row| row.status == status).count();
         let summary = Summary {
             claims: rows.len(),
-            proved: count(verify::Status::Proved),
-            held: count(verify::Status::Held),
-            failed: count(verify::Status::Failed),
+            proved: count(&rows, verify::Status::Proved),
+            held: count(&rows, verify::Status::Held),
+            undecided: count(&rows, verify::Status::Undecided),
+            failed: count(&rows, verify::Status::Failed),
         };
         let equation = |entry: &Entry| Equation {
             equation: entry.equation,
@@ -365,6 +384,7 @@ impl Claim {
             kind: row.kind,
             status: status(row),
             scalar: row.scalar.map(|scalar| scalar.to_string()),
+            why: row.why.clone(),
             decided: row.decided,
             undecided: row.undecided,
             worst: row.worst.as_ref().map(|(ratio, _)| text::Number::text(ratio)),
@@ -412,9 +432,9 @@ mod tests {
 
     /// In f32 the claim is wrong, in two bits nothing can be said, in rationals it holds.
     fn report() -> (Report, verify::Options) {
-        use verify::Status::{Failed, Held};
+        use verify::Status::{Failed, Held, Undecided};
         let scalars = vec![NumberSystem::F32, NumberSystem::Mpfr(2), NumberSystem::Exact];
-        let statuses = [(Failed, Some(case())), (Failed, None), (Held, None)];
+        let statuses = [(Failed, Some(case())), (Undecided, None), (Held, None)];
         let rows = scalars.iter().zip(statuses).map(|(scalar, (status, case))| row(status, *scalar, case));
         let report = Report { rows: rows.collect() };
         (report, verify::Options { scalars, cases: 5, seed: 42, equations: Vec::new() })
@@ -432,14 +452,14 @@ mod tests {
         let text = printed(|out| table(out, &report, &options));
         let name = report.rows[0].claim;
         for line in [
-            " number  title                          proved  f32       mpfr:2    exact".to_string(),
-            " (1.13)  Deflection by penalty and its  -       1 FAILED  1 FAILED  1 held".to_string(),
+            " number  title                            proved  f32       mpfr:2       exact".to_string(),
+            " (1.13)  Deflection by penalty and its    -       1 FAILED  1 undecided  1 held".to_string(),
             format!("1.13 {name} FAILED in f32"),
             "  contact solve --scalar exact --stiffness 1 --mass 1/2 --gravity -1/3 --free-length 7/3 --height 7/3 \
              --method penalty --penalty 7/3"
                 .to_string(),
-            format!("1.13 {name} FAILED in mpfr:2"),
-            "  none of 5 cases could be decided".to_string(),
+            format!("1.13 {name} undecided in mpfr:2"),
+            "  No case decides these, so nothing is known against them: try more --cases,".to_string(),
             "1 of 3 claims hold: 8 trials decided, 7 undecidable.".to_string(),
             "5 cases from seed 42.".to_string(),
             format!("Rounding used at most 250 % of its bound (1.13 {name}, exact)."),
@@ -451,6 +471,33 @@ mod tests {
             assert!(text.contains(&number), "no {number} in\n{text}");
         }
         assert_eq!(outcome(&report), Status::Unmet);
+    }
+
+    #[test]
+    fn what_is_undecided_is_no_failure() {
+        let (mut report, options) = report();
+        report.rows.remove(0);
+        let text = printed(|out| table(out, &report, &options));
+        assert!(text.contains("1 undecided") && !text.contains("FAILED"), "{text}");
+        assert_eq!(outcome(&report), Status::Fine);
+    }
+
+    #[test]
+    fn why_a_claim_broke_off_is_said_with_its_case() {
+        let (mut report, options) = report();
+        report.rows[0].why = Some("division by zero".to_string());
+        let text = printed(|out| table(out, &report, &options));
+        assert!(text.contains("FAILED in f32\n  division by zero\n  c = 1, m = 1/2"), "{text}");
+        let json = serde_json::to_value(Json::of(&report)).expect("JSON");
+        assert_eq!(json["equations"][0]["claims"][0]["why"], "division by zero");
+    }
+
+    #[test]
+    fn a_share_is_rounded_up_and_not_far() {
+        assert_eq!(
+            [0.994, 0.99401, 1.0, 0.0001, 2.5].map(percent),
+            ["99.4 %", "99.5 %", "100 %", "0.1 %", "250 %"]
+        );
     }
 
     #[test]
@@ -527,10 +574,13 @@ mod tests {
     fn json_and_markdown_show_how_a_claim_fails() {
         let (report, _) = report();
         let json = serde_json::to_value(Json::of(&report)).expect("JSON");
-        assert_eq!(json["summary"], serde_json::json!({"claims": 3, "proved": 0, "held": 1, "failed": 2}));
+        assert_eq!(
+            json["summary"],
+            serde_json::json!({"claims": 3, "proved": 0, "held": 1, "undecided": 1, "failed": 1})
+        );
         let claims = &json["equations"][0]["claims"];
         let statuses = [0, 1, 2].map(|i| claims[i]["status"].as_str());
-        assert_eq!(statuses, [Some("failed"), Some("failed"), Some("held")]);
+        assert_eq!(statuses, [Some("failed"), Some("undecided"), Some("held")]);
         let counterexample = claims[0]["counterexample"].as_object().expect("a case");
         assert_eq!(counterexample.len(), Var::ALL.len());
         for var in Var::ALL {
@@ -543,7 +593,7 @@ mod tests {
         let text = printed(|out| markdown(out, &report));
         let name = report.rows[0].claim;
         assert!(text.contains(&format!("| 1.13 | {name} | equal | f32 | failed | 4 | 1 | 2.50 |")), "{text}");
-        assert!(text.contains("| mpfr:2 | failed | 0 | 5 |  |"), "{text}");
+        assert!(text.contains("| mpfr:2 | undecided | 0 | 5 |  |"), "{text}");
     }
 
     #[test]

@@ -1,0 +1,65 @@
+//! Work that a wrong formula may break off: a rational divided by zero panics, and so may what is built on the
+//! expectation that formulas are right. Here that is a finding, and no reason to stop.
+
+use std::any::Any;
+use std::cell::Cell;
+use std::panic::{AssertUnwindSafe, catch_unwind, set_hook, take_hook};
+use std::sync::Once;
+
+thread_local! {
+    /// Is this thread at work on something that may panic?
+    static GUARDED: Cell<bool> = const { Cell::new(false) };
+}
+
+/// The result, or what the work panicked with; nothing is printed.
+///
+/// The work must leave nothing half done behind: it computes.
+pub(super) fn guarded<T>(work: impl FnOnce() -> T) -> Result<T, String> {
+    static QUIET: Once = Once::new();
+    QUIET.call_once(|| {
+        let before = take_hook();
+        set_hook(Box::new(move |panic| {
+            if !GUARDED.get() {
+                before(panic);
+            }
+        }));
+    });
+    let outside = GUARDED.replace(true);
+    let result = catch_unwind(AssertUnwindSafe(work));
+    GUARDED.set(outside);
+    result.map_err(|payload| message(&*payload))
+}
+
+fn message(payload: &(dyn Any + Send)) -> String {
+    let text = payload.downcast_ref::<&str>().copied();
+    let text = text.or_else(|| payload.downcast_ref::<String>().map(String::as_str));
+    text.unwrap_or("it panics").to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::Exact;
+
+    #[test]
+    fn a_panic_is_a_message() {
+        let divided = |by: i32| guarded(|| Exact::from(1) / Exact::from(by));
+        assert_eq!(divided(2), Ok("1/2".parse().unwrap()));
+        assert_eq!(divided(0), Err("division by zero".to_string()));
+        let formatted = guarded(|| -> () { panic!("{} is no number", "x") });
+        assert_eq!(formatted, Err("x is no number".to_string()));
+        let odd = guarded(|| -> () { std::panic::panic_any(7) });
+        assert_eq!(odd, Err("it panics".to_string()));
+    }
+
+    #[test]
+    fn a_guard_within_a_guard_ends_neither_too_early() {
+        let outer = guarded(|| {
+            let inner = guarded(|| -> () { panic!("inner") });
+            assert!(GUARDED.get());
+            inner
+        });
+        assert_eq!(outer, Ok(Err("inner".to_string())));
+        assert!(!GUARDED.get());
+    }
+}

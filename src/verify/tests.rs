@@ -1,0 +1,292 @@
+//! Wrong claims through a whole run: what watches the formulas is itself seen failing.
+
+use super::checker::Judge;
+use super::*;
+use crate::claims::{Claim, Experiment, Kind, Pair, Relation, Trial, Var};
+use crate::number::{Ball, Dual, Exponential, Field, OrderedField, PositivePart, Real, Tree};
+use crate::proof::statement::{Goal, Says};
+use num_traits::{One, Zero};
+use std::collections::BTreeSet;
+use std::sync::Mutex;
+
+const SEED: u64 = 3;
+
+fn options(cases: u64) -> Options {
+    Options { scalars: Vec::new(), cases, seed: SEED, equations: Vec::new() }
+}
+
+fn claim<T>(name: &'static str, kind: Kind<T>) -> Claim<T> {
+    Claim { equation: "1.1", name, given: &[], kind }
+}
+
+fn experiment<T>(name: &'static str, check: fn(&Case<T>) -> Trial) -> Experiment<T> {
+    Experiment { equation: "1.1", name, given: &[], check }
+}
+
+/// A claim that holds, to see that what fails beside it does not take it along.
+fn holding<T: Field>() -> Claim<T> {
+    claim("holds", Kind::Equal(|x| (&x.u + &x.v, &x.v + &x.u)))
+}
+
+type Boxed = (NumberSystem, Box<dyn Checks>);
+
+fn boxed<J: Judge + 'static>(
+    scalar: NumberSystem,
+    judge: J,
+    claims: Vec<Claim<J::Number>>,
+    experiments: Vec<Experiment<J::Computed>>,
+) -> Boxed
+where
+    Checker<J>: Checks,
+{
+    (scalar, Box::new(Checker { judge, claims, experiments }))
+}
+
+fn exactly(claims: Vec<Claim<Exact>>, experiments: Vec<Experiment<Exact>>) -> Boxed {
+    boxed(NumberSystem::Exact, Exactly, claims, experiments)
+}
+
+fn report(checkers: &[Boxed], cases: u64) -> Report {
+    run(checkers, Vec::new(), &options(cases), &|_, _| ())
+}
+
+fn row<'a>(report: &'a Report, name: &str, scalar: NumberSystem) -> &'a Row {
+    report.rows.iter().find(|row| row.claim == name && row.scalar == Some(scalar)).unwrap()
+}
+
+fn positive(holds: bool) -> Exact {
+    if holds { Exact::one() } else { -Exact::one() }
+}
+
+/// The first case, the last of a block, the first of another, the last of a window, the last of all.
+#[test]
+fn a_claim_that_fails_in_one_of_many_cases_fails() {
+    static WRONG: Mutex<Option<Case<Exact>>> = Mutex::new(None);
+    fn is_wrong(x: &Case<Exact>) -> bool {
+        WRONG.lock().unwrap().as_ref() == Some(x)
+    }
+    let of_window = BLOCK * WINDOW as u64;
+    let all = 2 * of_window + 1;
+    let checkers = [exactly(
+        vec![claim("alone", Kind::Sign(Relation::Positive, |x| positive(!is_wrong(x)))), holding()],
+        vec![experiment("tried", |x| Trial::Decided(!is_wrong(x)))],
+    )];
+    for index in [0, BLOCK - 1, BLOCK, of_window - 1, of_window, all - 1] {
+        let case = cases::case(SEED, index, &[]).unwrap();
+        *WRONG.lock().unwrap() = Some(case.clone());
+        let report = report(&checkers, all);
+        assert!(!report.holds() && report.is_decided());
+        for name in ["alone", "tried"] {
+            let row = row(&report, name, NumberSystem::Exact);
+            assert_eq!((row.status, row.decided, row.undecided), (Status::Failed, all, 0), "{name} {index}");
+            assert_eq!(row.counterexample.as_ref(), Some(&case), "{name} {index}");
+        }
+        assert_eq!(row(&report, "holds", NumberSystem::Exact).status, Status::Held);
+    }
+}
+
+#[test]
+fn of_many_counterexamples_the_first_is_kept() {
+    let wrong = claim("wrong", Kind::Sign(Relation::Positive, |x: &Case<Exact>| -(&x.u * &x.u)));
+    let report = report(&[exactly(vec![wrong], Vec::new())], 3 * BLOCK);
+    let first = row(&report, "wrong", NumberSystem::Exact).counterexample.clone();
+    assert_eq!(first, cases::case(SEED, 0, &[]));
+}
+
+/// The same claim in three number systems, wrong in one of them.
+#[test]
+fn a_claim_can_fail_in_one_number_system_alone() {
+    fn zero_is<T: Real>(wrong: bool) -> Vec<Claim<Ball<T>>> {
+        let kind: fn(&Case<Ball<T>>) -> Pair<Ball<T>> =
+            if wrong { |x| (&x.u - &x.u, Ball::one()) } else { |x| (&x.u - &x.u, Ball::zero()) };
+        vec![claim("zero", Kind::Equal(kind)), holding()]
+    }
+    for wrong in [NumberSystem::F32, NumberSystem::F64] {
+        let checkers = [
+            boxed(NumberSystem::F32, Floats(0f32), zero_is(wrong == NumberSystem::F32), Vec::new()),
+            boxed(NumberSystem::F64, Floats(0f64), zero_is(wrong == NumberSystem::F64), Vec::new()),
+            exactly(vec![holding()], Vec::new()),
+        ];
+        let report = report(&checkers, 20);
+        let failed = report.rows.iter().filter(|row| row.status == Status::Failed);
+        let failed: Vec<_> = failed.map(|row| (row.claim, row.scalar)).collect();
+        assert_eq!(failed, [("zero", Some(wrong))]);
+        assert!(!report.holds());
+    }
+}
+
+#[test]
+fn a_claim_that_is_nowhere_decided_is_undecided_and_no_failure() {
+    let open = |x: &Case<Ball<f64>>| Ball::one() / (&x.u - &x.u + (Ball::one() - Ball::rounded(1.0)));
+    let checkers = [
+        boxed(
+            NumberSystem::F64,
+            Floats(0f64),
+            vec![claim("open", Kind::Sign(Relation::Positive, open)), holding()],
+            vec![experiment("out of range", |_| Trial::Undecided)],
+        ),
+        exactly(vec![holding()], vec![experiment("out of range", |_| Trial::Undecided)]),
+    ];
+    let report = report(&checkers, 3 * BLOCK);
+    for (name, scalar) in [
+        ("open", NumberSystem::F64),
+        ("out of range", NumberSystem::F64),
+        ("out of range", NumberSystem::Exact),
+    ] {
+        let row = row(&report, name, scalar);
+        let found = (row.status, row.decided, row.undecided, &row.counterexample);
+        assert_eq!(found, (Status::Undecided, 0, 3 * BLOCK, &None), "{name}");
+    }
+    assert!(report.holds() && !report.is_decided());
+}
+
+/// 1/(u − u) in rationals, in balls, in duals; and an experiment that expects what is not there.
+#[test]
+fn what_is_undefined_or_breaks_off_is_a_finding_with_its_case() {
+    fn undefined<T: PositivePart>() -> Vec<Claim<T>> {
+        vec![
+            claim("equal", Kind::Equal(|x| (T::one() / (&x.u - &x.u), T::one()))),
+            claim("sign", Kind::Sign(Relation::Positive, |x| T::one() / (&x.u - &x.u))),
+            claim("min", Kind::Sign(Relation::NonNegative, |x| T::zero().min(&(T::one() / (&x.u - &x.u))))),
+            claim(
+                "derivative",
+                Kind::Derivative {
+                    of: |x| Dual::one() / (&x.u - &x.u),
+                    formula: |x| T::one() / (&x.u - &x.u),
+                    by: Var::U,
+                    is: |_| T::zero(),
+                },
+            ),
+            holding(),
+        ]
+    }
+    fn expecting<T>() -> Vec<Experiment<T>> {
+        vec![experiment("expects", |_| panic!("no root")), experiment("beside", |_| Trial::Decided(true))]
+    }
+    let scalars = [NumberSystem::F32, NumberSystem::F64, NumberSystem::Mpfr(100), NumberSystem::Exact];
+    let checkers = [
+        boxed(scalars[0], Floats(0f32), undefined(), expecting()),
+        boxed(scalars[1], Floats(0f64), undefined(), expecting()),
+        boxed(scalars[2], Floats(Mpfr::rounded(100, 0)), undefined(), expecting()),
+        exactly(undefined(), expecting()),
+    ];
+    let report = report(&checkers, 10);
+    for scalar in scalars {
+        for (name, why) in [
+            ("equal", "division by zero"),
+            ("sign", "division by zero"),
+            ("min", "division by zero"),
+            ("derivative", "division by zero"),
+            ("expects", "no root"),
+        ] {
+            let row = row(&report, name, scalar);
+            // In f32 some cases are out of range, and those leave it undecided; the others decide.
+            assert_eq!((row.status, row.why.as_deref()), (Status::Failed, Some(why)), "{name} {scalar}");
+            assert_eq!(row.decided + row.undecided, 10);
+            assert!(row.decided > 5 && row.counterexample.is_some(), "{name} {scalar}");
+        }
+        for name in ["holds", "beside"] {
+            assert_eq!(row(&report, name, scalar).status, Status::Held, "{name} {scalar}");
+        }
+    }
+}
+
+#[test]
+fn each_case_of_a_run_is_another_one_and_each_is_tried_once() {
+    static TRIED: Mutex<Vec<String>> = Mutex::new(Vec::new());
+    let record = |x: &Case<Exact>| {
+        TRIED.lock().unwrap().push(format!("{x:?}"));
+        Trial::Decided(true)
+    };
+    let all = BLOCK * WINDOW as u64 + BLOCK + 1;
+    let report = report(&[exactly(Vec::new(), vec![experiment("recorded", record)])], all);
+    assert_eq!(row(&report, "recorded", NumberSystem::Exact).decided, all);
+    let tried = TRIED.lock().unwrap();
+    let distinct: BTreeSet<_> = tried.iter().cloned().collect();
+    let drawn: BTreeSet<_> = (0..all).map(|i| format!("{:?}", cases::case(SEED, i, &[]).unwrap())).collect();
+    assert_eq!((tried.len() as u64, distinct.len() as u64), (all, all));
+    assert_eq!(distinct, drawn);
+}
+
+/// An error of |u| against a bound of 1: the largest share is that of the largest |u| that was drawn.
+#[test]
+fn the_worst_share_is_that_of_all_cases() {
+    let experiments = vec![experiment("measured", |x: &Case<Exact>| Trial::Within {
+        error: x.u.abs(),
+        bound: Exact::one(),
+    })];
+    let all = 3 * BLOCK;
+    let report = report(&[exactly(Vec::new(), experiments)], all);
+    let largest = (0..all).map(|i| cases::case(SEED, i, &[]).unwrap().u.abs()).max().unwrap();
+    let row = row(&report, "measured", NumberSystem::Exact);
+    let (share, bound) = row.worst.clone().unwrap();
+    assert_eq!((share, bound.as_str()), (largest.as_rational().to_f64(), "1"));
+    assert_eq!(row.status, Status::Failed);
+}
+
+#[test]
+fn a_wrong_statement_is_refuted_and_an_unprovable_one_is_not_proved() {
+    let all = statements();
+    let rate = all.iter().find(|s| (s.equation, s.name) == ("1.13", "rate")).unwrap();
+    let Says::Equal(left, right) = &rate.goals[0].says else { panic!("an equation") };
+    let goal = |says| vec![Goal::of_claim("", says)];
+    let wrong =
+        Statement { name: "wrong", goals: goal(Says::Equal(left.clone(), right + right)), ..rate.clone() };
+    // eˣ ≥ 1 + x for every x: true, and beyond the kernel, which knows x ≥ 0 alone.
+    let q = Tree::symbol("q");
+    let open = Says::Sign(Relation::NonNegative, q.exp() - Tree::one() - &q);
+    let open = Statement { name: "open", hypotheses: Vec::new(), goals: goal(open), ..rate.clone() };
+    let undefined = Says::Equal(Tree::one() / (&q - &q), Tree::one());
+    let undefined =
+        Statement { name: "undefined", hypotheses: Vec::new(), goals: goal(undefined), ..rate.clone() };
+    let report = run(&[], vec![rate.clone(), wrong, open, undefined], &options(1), &|_, _| ());
+    let found: Vec<_> = report
+        .rows
+        .iter()
+        .map(|row| (row.claim, row.status, row.why.is_some(), row.counterexample.is_some()))
+        .collect();
+    assert_eq!(
+        found,
+        [
+            ("rate", Status::Proved, false, false),
+            ("wrong", Status::Failed, true, true),
+            ("open", Status::Failed, true, false),
+            ("undefined", Status::Failed, true, true),
+        ]
+    );
+    assert!(!report.holds() && report.rows.iter().all(|row| row.scalar.is_none()));
+}
+
+#[test]
+fn only_what_is_asked_for_is_tried_and_progress_says_how_far() {
+    let all = statements();
+    let asked = Options { equations: vec!["1.13".to_string()], ..options(2 * BLOCK) };
+    let other =
+        Claim { equation: "1.13", ..claim("other", Kind::Sign(Relation::Positive, |_| Exact::one())) };
+    let seen = Mutex::new(Vec::new());
+    let progress = |done: usize, of: usize| seen.lock().unwrap().push((done, of));
+    let report = run(&[exactly(vec![holding(), other], Vec::new())], all, &asked, &progress);
+    assert!(report.rows.iter().all(|row| row.equation == "1.13"));
+    assert_eq!(row(&report, "other", NumberSystem::Exact).decided, 2 * BLOCK);
+    assert_eq!(report.rows.iter().filter(|row| row.scalar.is_some()).count(), 1);
+    let mut seen = seen.into_inner().unwrap();
+    seen.sort_unstable();
+    assert_eq!(seen, [(1, 2), (2, 2)]);
+}
+
+#[test]
+fn the_rows_of_a_claim_stand_together_in_the_order_of_the_chapter() {
+    let report = verify(&Options { cases: 1, ..Options::default() }, &|_, _| ());
+    assert!(report.rows.is_sorted_by_key(|row| place(row.equation)));
+    let claims = report.rows.chunk_by(|a, b| (a.equation, a.claim) == (b.equation, b.claim));
+    let mut known = BTreeSet::new();
+    for rows in claims {
+        assert!(known.insert((rows[0].equation, rows[0].claim)), "{} {}", rows[0].equation, rows[0].claim);
+        // The proof, where there is one, and then the number systems in the order they were asked for.
+        let ways: Vec<_> = rows.iter().map(|row| row.scalar).collect();
+        let order = |way: &Option<NumberSystem>| {
+            way.map_or(0, |s| 1 + Options::default().scalars.iter().position(|t| *t == s).unwrap())
+        };
+        assert!(ways.is_sorted_by_key(order), "{ways:?}");
+    }
+}
