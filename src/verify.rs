@@ -13,16 +13,19 @@
 mod cases;
 mod checker;
 mod guard;
+mod suspects;
 #[cfg(test)]
 mod tests;
 
 use crate::claims::{Case, Given, place};
 use crate::number::{Exact, Mpfr, NumberSystem};
+use crate::proof::controls::{Change, repairs};
 use crate::proof::{Statement, prove, refute, statements};
 use checker::{Checker, Checks, Exactly, Floats, Tally};
 use guard::guarded;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
+pub use suspects::Suspect;
 
 /// What to verify.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,6 +54,10 @@ impl Default for Options {
 pub struct Report {
     /// A row a claim and what it was tried by, in the chapter's order: its proof first, then number systems.
     pub rows: Vec<Row>,
+    /// Where to look first if some claim is not proved: the functions that these claims have in common.
+    pub suspects: Vec<Suspect>,
+    /// Each of these changes of the chapter would make every claim provable that is not.
+    pub repairs: Vec<Change>,
 }
 
 impl Report {
@@ -143,6 +150,10 @@ fn run(
         |equation: &str| options.equations.is_empty() || options.equations.iter().any(|e| e == equation);
     let statements: Vec<_> = statements.into_iter().filter(|statement| wanted(statement.equation)).collect();
     let mut rows: Vec<Row> = statements.par_iter().map(proof).collect();
+    let unproved: Vec<_> =
+        rows.iter().filter(|row| row.status == Status::Failed).map(|row| (row.equation, row.claim)).collect();
+    let suspects = suspects::suspects(&statements, &|s| unproved.contains(&(s.equation, s.name)));
+    let repairs = guarded(|| repairs(&statements)).unwrap_or_default();
     for ((scalar, checker), tallies) in checkers.iter().zip(tallies(checkers, options, &wanted, progress)) {
         for (head, tally) in checker.heads().into_iter().zip(tallies) {
             if wanted(head.equation) {
@@ -158,7 +169,7 @@ fn run(
         let at = sorted.iter().rposition(same).map_or(sorted.len(), |i| i + 1);
         sorted.insert(at, row);
     }
-    Report { rows: sorted }
+    Report { rows: sorted, suspects, repairs }
 }
 
 /// What comes of the wanted claims in numbers: for each number system, a tally for each of its heads.

@@ -446,8 +446,9 @@ fn numbers() -> Vec<String> {
 fn the_whole_chapter_holds() {
     let line = "verify --scalar f32 --scalar f64 --scalar exact --scalar mpfr:777 --cases 50 --seed 99";
     let (report, code) = json(&line.split(' ').collect::<Vec<_>>());
-    assert_eq!(keys(&report), ["equations", "summary"]);
+    assert_eq!(keys(&report), ["equations", "repairs", "summary", "suspects"]);
     assert_eq!(keys(&report["summary"]), ["claims", "failed", "held", "proved", "undecided"]);
+    assert!(array(&report["suspects"]).is_empty() && array(&report["repairs"]).is_empty());
     let (mut rows, mut proofs) = (0, 0);
     for equation in array(&report["equations"]) {
         assert_eq!(keys(equation), ["claims", "equation"]);

@@ -84,6 +84,12 @@ impl fmt::Display for Site {
 }
 
 impl Site {
+    /// Is it in the source of [`chapter`](crate::chapter)?
+    pub fn is_of_the_chapter(&self) -> bool {
+        let mut folders = self.file.rsplit(['/', '\\']).skip(1);
+        folders.next() == Some("chapter") && folders.next() == Some("src")
+    }
+
     /// Was it written by the rules of differentiation, and by no formula?
     pub fn is_of_duals(&self) -> bool {
         self.file.ends_with("dual.rs")

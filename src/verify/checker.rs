@@ -12,6 +12,7 @@ use num_traits::Zero;
 use std::cmp::Ordering;
 
 /// What a claim is called and supposes, in whatever number system.
+#[derive(Clone)]
 pub(super) struct Head {
     pub(super) equation: &'static str,
     claim: &'static str,

@@ -1,9 +1,12 @@
 //! Wrong claims through a whole run: what watches the formulas is itself seen failing.
 
+mod changed;
+
 use super::checker::Judge;
 use super::*;
-use crate::claims::{Claim, Experiment, Kind, Pair, Relation, Trial, Var};
+use crate::claims::{Claim, Experiment, Kind, Pair, Relation, Trial, Var, formula};
 use crate::number::{Ball, Dual, Exponential, Field, OrderedField, PositivePart, Real, Tree};
+use crate::proof::controls::{self, What};
 use crate::proof::statement::{Goal, Says};
 use num_traits::{One, Zero};
 use std::collections::BTreeSet;
@@ -255,6 +258,27 @@ fn a_wrong_statement_is_refuted_and_an_unprovable_one_is_not_proved() {
         ]
     );
     assert!(!report.holds() && report.rows.iter().all(|row| row.scalar.is_none()));
+}
+
+/// c + ε becomes c − ε, for all that is to be proved.
+#[test]
+fn a_mistake_is_looked_for_where_it_is() {
+    let right = statements();
+    let total = formula("penalty::total_stiffness").unwrap().tree.site();
+    let all = controls::changes(&right);
+    let opposite = |change: &&Change| change.site == total && matches!(change.what, What::Opposite(_));
+    let change = all.iter().find(opposite).unwrap();
+    let wrong = right.iter().map(|statement| change.apply(statement).unwrap_or_else(|| statement.clone()));
+    let report = run(&[], wrong.collect(), &options(1), &|_, _| ());
+    let [Suspect { function, equation, unproved, .. }] = report.suspects.as_slice() else {
+        panic!("{:?}", report.suspects)
+    };
+    assert_eq!((*function, *equation), ("penalty::total_stiffness", Some("Fig. 1.2")));
+    assert_eq!(*unproved, report.rows.iter().filter(|row| row.status == Status::Failed).count());
+    let back = |repair: &&Change| repair.site == total && matches!(repair.what, What::Opposite(_));
+    assert_eq!(report.repairs.iter().filter(back).count(), 1, "{:?}", report.repairs);
+    let well = run(&[], right, &options(1), &|_, _| ());
+    assert!(well.holds() && well.suspects.is_empty() && well.repairs.is_empty());
 }
 
 #[test]

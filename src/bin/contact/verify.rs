@@ -6,9 +6,9 @@ use crate::text;
 use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
-use spring_mass_contact::claims::{Case, Entry, Var, claim_names, entries};
+use spring_mass_contact::claims::{Case, Entry, Var, claim_names, entries, entry};
 use spring_mass_contact::number::{Exact, NumberSystem};
-use spring_mass_contact::verify::{self, Report, Row, command_line};
+use spring_mass_contact::verify::{self, Report, Row, Suspect, command_line};
 use std::collections::BTreeMap;
 use std::io::{self, IsTerminal, Write};
 use std::sync::OnceLock;
@@ -144,7 +144,10 @@ fn table(out: &mut dyn Write, report: &Report, options: &verify::Options) -> io:
     }
     let rows: Vec<&Row> = report.rows.iter().collect();
     let of = |status| rows.iter().copied().filter(|row| row.status == status).collect::<Vec<_>>();
-    for alike in of(verify::Status::Failed).chunk_by(|a, b| fail_alike(a, b)) {
+    where_to_look(out, report)?;
+    let mut failed = of(verify::Status::Failed);
+    failed.sort_by_key(|row| report.suspects.iter().all(|suspect| suspect.equation != Some(row.equation)));
+    for alike in failed.chunk_by(|a, b| fail_alike(a, b)) {
         failure(out, alike)?;
         writeln!(out)?;
     }
@@ -242,6 +245,19 @@ fn counts(out: &mut dyn Write, report: &Report, ways: &[Way]) -> io::Result<()> 
     output::lines(out, &table)
 }
 
+/// What the claims that are not proved have in common, and what would mend them.
+fn where_to_look(out: &mut dyn Write, report: &Report) -> io::Result<()> {
+    for Suspect { function, equation, unproved, proved } in &report.suspects {
+        let number = equation.and_then(entry).map_or(String::new(), |entry| entry.label() + " ");
+        writeln!(out, "{number}{function}: look here first")?;
+        writeln!(out, "  of the claims that speak of it {unproved} are not proved, and {proved} are")?;
+    }
+    for change in &report.repairs {
+        writeln!(out, "  with {change}\n  every claim would be proved")?;
+    }
+    if report.suspects.is_empty() { Ok(()) } else { writeln!(out) }
+}
+
 /// One claim, failing for the same reason in two number systems; these stand together in a report.
 fn fail_alike(a: &Row, b: &Row) -> bool {
     (a.equation, a.claim, &a.why, &a.counterexample) == (b.equation, b.claim, &b.why, &b.counterexample)
@@ -326,7 +342,17 @@ fn markdown(out: &mut dyn Write, report: &Report) -> io::Result<()> {
 #[derive(Serialize)]
 struct Json {
     summary: Summary,
+    suspects: Vec<SuspectJson>,
+    repairs: Vec<String>,
     equations: Vec<Equation>,
+}
+
+#[derive(Serialize)]
+struct SuspectJson {
+    equation: Option<&'static str>,
+    function: &'static str,
+    unproved: usize,
+    proved: usize,
 }
 
 #[derive(Serialize)]
@@ -373,7 +399,12 @@ impl Json {
             claims: rows_of(report, entry).into_iter().map(Claim::of).collect(),
         };
         let equations = entries().iter().map(equation).filter(|e| !e.claims.is_empty()).collect();
-        Json { summary, equations }
+        let suspects = report.suspects.iter().map(|suspect| {
+            let Suspect { function, equation, unproved, proved } = *suspect;
+            SuspectJson { equation, function, unproved, proved }
+        });
+        let repairs = report.repairs.iter().map(ToString::to_string);
+        Json { summary, suspects: suspects.collect(), repairs: repairs.collect(), equations }
     }
 }
 
@@ -436,7 +467,7 @@ mod tests {
         let scalars = vec![NumberSystem::F32, NumberSystem::Mpfr(2), NumberSystem::Exact];
         let statuses = [(Failed, Some(case())), (Undecided, None), (Held, None)];
         let rows = scalars.iter().zip(statuses).map(|(scalar, (status, case))| row(status, *scalar, case));
-        let report = Report { rows: rows.collect() };
+        let report = Report { rows: rows.collect(), suspects: Vec::new(), repairs: Vec::new() };
         (report, verify::Options { scalars, cases: 5, seed: 42, equations: Vec::new() })
     }
 
@@ -490,6 +521,26 @@ mod tests {
         assert!(text.contains("FAILED in f32\n  division by zero\n  c = 1, m = 1/2"), "{text}");
         let json = serde_json::to_value(Json::of(&report)).expect("JSON");
         assert_eq!(json["equations"][0]["claims"][0]["why"], "division by zero");
+    }
+
+    #[test]
+    fn where_to_look_comes_before_what_fails() {
+        let (mut report, options) = report();
+        let other = Row { equation: "1.1", ..report.rows[0].clone() };
+        report.rows.insert(0, other);
+        report.suspects =
+            vec![Suspect { function: "penalty::deflection", equation: Some("1.13"), unproved: 7, proved: 2 }];
+        let text = printed(|out| table(out, &report, &options));
+        let place = |what: &str| text.find(what).unwrap_or_else(|| panic!("no {what} in {text}"));
+        let name = report.rows[1].claim;
+        let lines = [
+            "(1.13) penalty::deflection: look here first\n  of the claims that speak of it 7 are not proved, and 2 are",
+            &format!("1.13 {name} FAILED"),
+            &format!("1.1 {name} FAILED"),
+        ];
+        assert!(lines.map(place).is_sorted(), "{text}");
+        let json = serde_json::to_value(Json::of(&report)).expect("JSON");
+        assert_eq!(json["suspects"][0]["function"], "penalty::deflection");
     }
 
     #[test]

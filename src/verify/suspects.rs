@@ -1,0 +1,117 @@
+//! Where a mistake may be: what the claims that are not proved have in common.
+
+use crate::claims::{call, entries, formulas};
+use crate::number::Tree;
+use crate::number::tree::Site;
+use crate::proof::Statement;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A function of the chapter in which there may be a mistake.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Suspect {
+    /// Its path: `penalty::deflection`.
+    pub function: &'static str,
+    /// The entry whose own function it is, or which names it.
+    pub equation: Option<&'static str>,
+    /// Of the claims that speak of it, so many are not proved.
+    pub unproved: usize,
+    /// And so many are.
+    pub proved: usize,
+}
+
+/// The functions that best tell the claims that are not proved from the others: most of these speak of them, and few
+/// others do. The best one, and those as good.
+pub(super) fn suspects(statements: &[Statement], unproved: &dyn Fn(&Statement) -> bool) -> Vec<Suspect> {
+    let sites: Vec<(bool, BTreeSet<Site>)> = statements
+        .iter()
+        .map(|statement| {
+            let mut sites = BTreeSet::new();
+            for tree in statement.trees() {
+                tree.visit(&mut |tree| {
+                    sites.insert(tree.site());
+                });
+            }
+            (unproved(statement), sites)
+        })
+        .collect();
+    let mut own: BTreeMap<&'static str, BTreeSet<Site>> = BTreeMap::new();
+    for formula in formulas() {
+        own_sites(formula.path, &formula.tree, own.entry(formula.path).or_default());
+    }
+    let suspect = |(function, own): (&&'static str, &BTreeSet<Site>)| {
+        let speaking = sites.iter().filter(|(_, sites)| !sites.is_disjoint(own));
+        let (unproved, proved): (Vec<_>, Vec<_>) = speaking.partition(|(unproved, _)| *unproved);
+        let named = |first: bool| {
+            entries().iter().find(|entry| match entry.functions {
+                [own, ..] if first => own == function,
+                all => !first && all.contains(function),
+            })
+        };
+        let equation = named(true).or_else(|| named(false)).map(|entry| entry.equation);
+        Suspect { function, equation, unproved: unproved.len(), proved: proved.len() }
+    };
+    let all: Vec<Suspect> = own.iter().map(suspect).filter(|suspect| suspect.unproved > 0).collect();
+    // With a of n claims that speak of it and f that fail, a/√(n f) is the cosine between the two sets.
+    let weight = |s: &Suspect| (s.unproved * s.unproved, s.unproved + s.proved);
+    let compare = |a: &Suspect, b: &Suspect| {
+        let ((x, n), (y, m)) = (weight(a), weight(b));
+        (x * m).cmp(&(y * n))
+    };
+    let Some(best) = all.iter().max_by(|a, b| compare(a, b)) else { return Vec::new() };
+    all.iter().filter(|suspect| compare(suspect, best).is_eq()).cloned().collect()
+}
+
+/// The places in the source where a function does something itself, and does not call another.
+fn own_sites(path: &str, tree: &Tree, sites: &mut BTreeSet<Site>) {
+    match call(tree).filter(|call| call.formula.path != path) {
+        Some(call) => call.arguments.iter().for_each(|argument| own_sites(path, argument, sites)),
+        None => {
+            if tree.site().is_of_the_chapter() {
+                sites.insert(tree.site());
+            }
+            tree.step().operands().for_each(|operand| own_sites(path, operand, sites));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::proof::controls::{Change, Outcome, controls};
+    use crate::proof::{prove, statements};
+    use rayon::prelude::*;
+
+    /// The functions that are suspected after a change.
+    fn after(change: &Change, statements: &[Statement]) -> Vec<&'static str> {
+        let breaks = |s: &&Statement| change.apply(s).is_some_and(|changed| prove(&changed).is_err());
+        let broken: BTreeSet<_> = statements.iter().filter(breaks).map(|s| (s.equation, s.name)).collect();
+        let suspects = suspects(statements, &|s| broken.contains(&(s.equation, s.name)));
+        suspects.into_iter().map(|suspect| suspect.function).collect()
+    }
+
+    /// All but a few in a hundred: a change can break just those claims that speak of a caller, too.
+    #[test]
+    fn a_changed_function_is_suspected_and_hardly_another() {
+        let statements = statements();
+        let noticed = controls(&statements).changes;
+        let noticed: Vec<_> = noticed.iter().filter(|(_, o)| matches!(o, Outcome::Noticed { .. })).collect();
+        let is_in = |function: &str, change: &Change| {
+            let mut sites = BTreeSet::new();
+            let own = formulas().iter().filter(|formula| formula.path == function);
+            own.for_each(|formula| own_sites(formula.path, &formula.tree, &mut sites));
+            sites.contains(&change.site)
+        };
+        let found = |(change, _): &&(Change, Outcome)| {
+            let suspects = after(change, &statements);
+            assert!((1..=3).contains(&suspects.len()), "{change}: {suspects:?}");
+            suspects.iter().any(|function| is_in(function, change))
+        };
+        let right = noticed.par_iter().filter(|of| found(of)).count();
+        assert!(100 * right > 98 * noticed.len(), "{right} of {}", noticed.len());
+    }
+
+    #[test]
+    fn nobody_is_suspected_of_what_is_proved() {
+        assert_eq!(suspects(&statements(), &|_| false), []);
+    }
+}

@@ -1,0 +1,374 @@
+//! Wrong formulas, for the whole command: what `contact` makes of a mistake in the source of `src/chapter`.
+//!
+//! Every change that the controls generate is made as an edit of the source, all of them in one copy of the project: an
+//! edited step is a `match` on the number of the edit that is to be active. So one build serves for all, and each
+//! run is the command that somebody has who made that one mistake.
+#![cfg(feature = "cli")]
+
+use proc_macro2::LineColumn;
+use spring_mass_contact::proof::controls::{Change, Outcome, What, changes, controls};
+use spring_mass_contact::proof::statements;
+use std::collections::{BTreeMap, HashMap};
+use std::fmt::Write as _;
+use std::io::{Read, Write as _};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+use std::{env, fs, thread};
+use syn::spanned::Spanned;
+use syn::visit::{self, Visit};
+use syn::{BinOp, Expr, UnOp};
+use wait_timeout::ChildExt;
+
+/// A place in a source file, as the compiler counts: line and column from 1, and the rank within a chain.
+type Place = (u32, u32, u32);
+
+/// A step that is written in the source.
+struct Written {
+    range: Range<usize>,
+    what: Kind,
+}
+
+enum Kind {
+    Binary {
+        a: Range<usize>,
+        operator: Range<usize>,
+        b: Range<usize>,
+    },
+    Negated {
+        a: Range<usize>,
+    },
+    /// A call `a.name(b)`, or `a.name()`.
+    Method {
+        a: Range<usize>,
+        b: Option<Range<usize>>,
+    },
+    /// `T::zero()`, `T::one()`, `T::int(n)`.
+    Integer,
+}
+
+/// The steps of a file.
+struct Steps<'a> {
+    lines: Vec<usize>,
+    text: &'a str,
+    found: BTreeMap<Place, Written>,
+}
+
+impl<'a> Steps<'a> {
+    fn of(text: &'a str) -> Self {
+        let lines = std::iter::once(0).chain(text.match_indices('\n').map(|(i, _)| i + 1)).collect();
+        let mut steps = Steps { lines, text, found: BTreeMap::new() };
+        steps.visit_file(&syn::parse_file(text).expect("a source file"));
+        steps
+    }
+
+    fn offset(&self, at: LineColumn) -> usize {
+        let line = self.lines[at.line - 1];
+        line + self.text[line..].chars().take(at.column).map(char::len_utf8).sum::<usize>()
+    }
+
+    fn range(&self, of: &impl Spanned) -> Range<usize> {
+        self.offset(of.span().start())..self.offset(of.span().end())
+    }
+
+    /// How many steps begin where this one does, further inside; `None` if it is no step.
+    fn rank(expr: &Expr) -> Option<u32> {
+        let start = expr.span().start();
+        match without_parentheses(expr) {
+            Expr::Binary(e) => {
+                let inner = if e.left.span().start() == start { Self::rank(&e.left) } else { None };
+                Some(inner.map_or(0, |rank| rank + 1))
+            }
+            Expr::Unary(_) => Some(0),
+            Expr::Call(call) if is_integer(call) => Some(0),
+            _ => None,
+        }
+    }
+
+    fn add(&mut self, at: LineColumn, rank: u32, range: Range<usize>, what: Kind) {
+        let place = (at.line as u32, at.column as u32 + 1, rank);
+        self.found.insert(place, Written { range, what });
+    }
+}
+
+fn without_parentheses(mut expr: &Expr) -> &Expr {
+    while let Expr::Paren(paren) = expr {
+        expr = &paren.expr;
+    }
+    expr
+}
+
+fn is_integer(call: &syn::ExprCall) -> bool {
+    let Expr::Path(path) = &*call.func else { return false };
+    let names: Vec<_> = path.path.segments.iter().map(|s| s.ident.to_string()).collect();
+    matches!(names.iter().map(String::as_str).collect::<Vec<_>>()[..], ["T", "zero" | "one" | "int"])
+}
+
+impl Visit<'_> for Steps<'_> {
+    fn visit_expr(&mut self, expr: &Expr) {
+        // For the compiler an expression in parentheses begins with them.
+        let within = without_parentheses(expr);
+        let (start, range) = (expr.span().start(), self.range(within));
+        match within {
+            Expr::Binary(e)
+                if matches!(e.op, BinOp::Add(_) | BinOp::Sub(_) | BinOp::Mul(_) | BinOp::Div(_)) =>
+            {
+                let [a, b] = [&e.left, &e.right].map(|operand| self.range(operand));
+                let what = Kind::Binary { a, operator: self.range(&e.op), b };
+                self.add(start, Self::rank(expr).unwrap_or(0), range, what);
+            }
+            Expr::Unary(e) if matches!(e.op, UnOp::Neg(_)) => {
+                let what = Kind::Negated { a: self.range(&e.expr) };
+                self.add(start, 0, range, what);
+            }
+            Expr::MethodCall(e) => {
+                let b = e.args.first().map(|b| self.range(b));
+                let what = Kind::Method { a: self.range(&e.receiver), b };
+                self.add(e.method.span().start(), 0, range, what);
+            }
+            Expr::Call(e) if is_integer(e) => self.add(start, 0, range, Kind::Integer),
+            _ => {}
+        }
+        visit::visit_expr(self, within);
+    }
+}
+
+/// The step after the change, as source; `None` if it cannot be written there, for want of a name.
+fn edited(text: &str, step: &Written, what: What) -> Option<String> {
+    let source = |range: &Range<usize>| &text[range.clone()];
+    let own = |range: &Range<usize>| format!("({}).clone()", source(range));
+    Some(match (&step.what, what) {
+        (Kind::Binary { a, operator, b }, What::Opposite(_)) => {
+            let opposite = match source(operator) {
+                "+" => "-",
+                "-" => "+",
+                "*" => "/",
+                _ => "*",
+            };
+            format!("({}) {opposite} ({})", source(a), source(b))
+        }
+        (Kind::Binary { a, operator, b }, What::Swap(_)) => {
+            format!("({}) {} ({})", source(b), source(operator), source(a))
+        }
+        (Kind::Binary { a, .. } | Kind::Method { a, .. }, What::First(_)) => own(a),
+        (Kind::Binary { b, .. } | Kind::Method { b: Some(b), .. }, What::Second(_)) => own(b),
+        (Kind::Method { a, b: Some(b) }, What::Maximum) => format!("-((-{}).min(&-{}))", own(a), own(b)),
+        (Kind::Negated { a }, What::DropSign) => own(a),
+        (Kind::Method { a, b: None }, What::DropBracket) => own(a),
+        (Kind::Method { a, b: None }, What::NegateExponent) => format!("(-{}).exp()", own(a)),
+        (Kind::Integer, What::Next(n)) => format!("T::int({})", n + 1),
+        (Kind::Binary { a, operator, b }, What::Symbol(place, _, to)) => {
+            let name = known(text, step, to)?;
+            let [a, b] = [(0, a), (1, b)].map(|(i, own)| if i == place { name } else { source(own) });
+            format!("({a}) {} ({b})", source(operator))
+        }
+        (Kind::Negated { .. }, What::Symbol(_, _, to)) => format!("-({})", known(text, step, to)?),
+        _ => return None,
+    })
+}
+
+/// What a quantity is called in the function around a step, if it is known there.
+fn known(text: &str, step: &Written, symbol: &str) -> Option<&'static str> {
+    let head = &text[..step.range.start];
+    let function = &head[head.rfind("\npub fn ")?..];
+    let name = ["c", "l", "h", "eps"].into_iter().find(|name| *name == symbol.to_lowercase());
+    let (name, place) = match symbol {
+        "ε" => ("eps", function.split(')').next()),
+        _ => (name?, function.rsplit("let SpringMass {").next().filter(|rest| rest.contains("} = system"))),
+    };
+    let names = place?.split('}').next()?;
+    names.split(|c: char| !c.is_alphanumeric()).any(|word| word == name).then_some(name)
+}
+
+/// The file with a switch at each step that is to be edited.
+fn switched(
+    text: &str,
+    steps: &BTreeMap<Place, Written>,
+    edits: &BTreeMap<Place, Vec<(usize, String)>>,
+) -> String {
+    // From the inside out: what is rewritten moves only what comes after it.
+    let mut order: Vec<_> = edits.keys().filter_map(|place| Some((place, steps.get(place)?))).collect();
+    order.sort_by_key(|(place, step)| {
+        (step.range.start, std::cmp::Reverse(step.range.end), std::cmp::Reverse(place.2))
+    });
+    render(text, &order, edits, 0..text.len())
+}
+
+fn render(
+    text: &str,
+    steps: &[(&Place, &Written)],
+    edits: &BTreeMap<Place, Vec<(usize, String)>>,
+    range: Range<usize>,
+) -> String {
+    let (mut out, mut at, mut rest) = (String::new(), range.start, steps);
+    while let [(place, step), inner @ ..] = rest {
+        let within = inner.iter().take_while(|(_, other)| other.range.end <= step.range.end).count();
+        let (inner, after) = inner.split_at(within);
+        out += &text[at..step.range.start];
+        out += "(match crate::active_edit() { ";
+        for (number, edited) in &edits[*place] {
+            let _ = write!(out, "{number} => {{ {} }} ", edited);
+        }
+        let _ = write!(out, "_ => {{ {} }} }})", render(text, inner, edits, step.range.clone()));
+        (at, rest) = (step.range.end, after);
+    }
+    out + &text[at..range.end]
+}
+
+/// What the switches ask.
+const SWITCH: &str = r#"
+
+#[doc(hidden)]
+pub fn active_edit() -> usize {
+    static ACTIVE: std::sync::LazyLock<usize> =
+        std::sync::LazyLock::new(|| std::env::var("ACTIVE_EDIT").map_or(0, |n| n.parse().unwrap()));
+    *ACTIVE
+}
+"#;
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// A copy of the project in which every edit is a switch, numbered from 1; which edits are in it, and the others.
+fn copy() -> (PathBuf, Vec<Change>, Vec<Change>) {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("edits");
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    let listing = ["ls-files", "-z", "--cached", "--others", "--exclude-standard"];
+    let tracked = Command::new("git").args(listing).current_dir(root()).output().unwrap().stdout;
+    for name in String::from_utf8(tracked).unwrap().split_terminator('\0') {
+        let (from, to) = (root().join(name), folder.join(name));
+        fs::create_dir_all(to.parent().unwrap()).unwrap();
+        fs::copy(from, to).unwrap();
+    }
+    let (mut made, mut left) = (Vec::new(), Vec::new());
+    let mut files: BTreeMap<&str, Vec<Change>> = BTreeMap::new();
+    for change in changes(&statements()) {
+        files.entry(change.site.file).or_default().push(change);
+    }
+    for (file, all) in files {
+        let text = fs::read_to_string(root().join(file)).unwrap();
+        let steps = Steps::of(&text);
+        let mut edits: BTreeMap<Place, Vec<(usize, String)>> = BTreeMap::new();
+        for change in all {
+            let place = (change.site.line, change.site.column, change.site.rank);
+            match steps.found.get(&place).and_then(|step| edited(&text, step, change.what)) {
+                Some(edited) => {
+                    made.push(change);
+                    edits.entry(place).or_default().push((made.len(), edited));
+                }
+                None => left.push(change),
+            }
+        }
+        let switched = "#![allow(unused_parens)]\n".to_string() + &switched(&text, &steps.found, &edits);
+        fs::write(folder.join(file), switched).unwrap();
+    }
+    let lib = folder.join("src/lib.rs");
+    fs::write(&lib, fs::read_to_string(&lib).unwrap() + SWITCH).unwrap();
+    (folder, made, left)
+}
+
+/// What a run came to.
+struct Run {
+    code: Option<i32>,
+    stdout: String,
+    stderr: String,
+    time: Duration,
+}
+
+/// The command with one edit; ended when it takes too long, and then without a code.
+fn run(binary: &Path, edit: usize, limit: Duration) -> Run {
+    let start = Instant::now();
+    let mut command = Command::new(binary);
+    command.env("ACTIVE_EDIT", edit.to_string()).env("COLUMNS", "80").stdin(Stdio::null());
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let read = |mut pipe: Box<dyn Read + Send>| {
+        thread::spawn(move || {
+            let mut text = String::new();
+            let _ = pipe.read_to_string(&mut text);
+            text
+        })
+    };
+    let stdout = read(Box::new(child.stdout.take().unwrap()));
+    let stderr = read(Box::new(child.stderr.take().unwrap()));
+    let status = child.wait_timeout(limit).unwrap();
+    if status.is_none() {
+        child.kill().unwrap();
+        child.wait().unwrap();
+    }
+    let [stdout, stderr] = [stdout, stderr].map(|thread| thread.join().unwrap());
+    Run { code: status.and_then(|status| status.code()), stdout, stderr, time: start.elapsed() }
+}
+
+/// The function that a change is in, as `module::name`.
+fn function(change: &Change) -> String {
+    let text = fs::read_to_string(root().join(change.site.file)).unwrap();
+    let before: Vec<_> = text.lines().take(change.site.line as usize).collect();
+    let head = before.iter().rev().find_map(|line| line.strip_prefix("pub fn ")).unwrap();
+    let module = Path::new(change.site.file).file_stem().unwrap().to_str().unwrap();
+    format!("{module}::{}", head.split(['<', '(']).next().unwrap())
+}
+
+/// The first finding of a report.
+fn first_finding(stdout: &str) -> Option<&str> {
+    let findings = [": look here first", " NOT PROVED", " FAILED in "];
+    stdout.lines().find(|line| findings.iter().any(|finding| line.contains(finding)))
+}
+
+/// So long may a report take, on a machine that does nothing else.
+const LIMIT: Duration = Duration::from_secs(10);
+
+/// Run it with ALL_EDITS=1 for every edit and not a sample of a hundred.
+#[test]
+#[ignore = "builds a copy of the project and runs it a hundred times: some minutes"]
+fn a_mistake_in_any_formula_is_reported_in_time() {
+    let (folder, made, left) = copy();
+    let left: Vec<_> = left.iter().map(Change::to_string).collect();
+    say(&format!("{} edits; the source has no place for {left:#?}", made.len()));
+    assert!(20 * left.len() < made.len(), "an edit is made of nearly every change");
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("edits-target");
+    let build = Command::new(env!("CARGO"))
+        .args(["build", "--release", "--bin", "contact", "-p", "spring-mass-contact", "--quiet"])
+        .current_dir(&folder)
+        .env("CARGO_TARGET_DIR", &target)
+        .status();
+    assert!(build.unwrap().success(), "the copy with its switches does not build");
+    let binary = target.join("release/contact");
+    let well = run(&binary, 0, 10 * LIMIT);
+    assert_eq!(well.code, Some(0), "without an edit: {}{}", well.stdout, well.stderr);
+
+    let outcomes: HashMap<Change, Outcome> = controls(&statements()).changes.into_iter().collect();
+    let stride = if env::var_os("ALL_EDITS").is_some() { 1 } else { made.len().div_ceil(100) };
+    let (mut times, mut amiss, mut elsewhere) = (Vec::new(), Vec::new(), Vec::new());
+    for (i, change) in made.iter().enumerate().step_by(stride) {
+        let result = run(&binary, i + 1, LIMIT);
+        let finding = first_finding(&result.stdout);
+        // Some edits are proved to change nothing.
+        let wrong = !matches!(outcomes[change], Outcome::Unchanged);
+        let said = format!("{:.1?} {:?} {change}: {}", result.time, result.code, finding.unwrap_or("-"));
+        say(&said);
+        if result.code != Some(i32::from(wrong)) || !result.stderr.is_empty() || finding.is_some() != wrong {
+            amiss.push(said.clone() + &result.stderr);
+        }
+        if wrong && !finding.is_some_and(|finding| finding.contains(&function(change))) {
+            elsewhere.push(said);
+        }
+        times.push(result.time);
+    }
+    times.sort_unstable();
+    let (median, slowest) = (times[times.len() / 2], times[times.len() - 1]);
+    say(&format!(
+        "{} edits: {median:.1?} each, {slowest:.1?} at most; {} not found where they are",
+        times.len(),
+        elsewhere.len()
+    ));
+    assert!(amiss.is_empty(), "{amiss:#?}");
+    assert!(20 * elsewhere.len() < times.len(), "named at another place: {elsewhere:#?}");
+}
+
+/// Past the test harness, which keeps what a passing test prints to itself.
+fn say(line: &str) {
+    let _ = writeln!(std::io::stderr(), "{line}");
+}
