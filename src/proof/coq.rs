@@ -6,6 +6,9 @@
 //! is Coq's own kernel, its axioms of the real numbers, and that definitions and theorems read as the
 //! chapter does.
 //!
+//! A function that only hands on what another computes leaves no step of its own in a record, so a theorem speaks
+//! in the names of the functions that its entry lists. A definition that no theorem names would protect nothing.
+//!
 //! What goes further than our own kernel: an induction is one over the natural numbers, a limit is one in the sense of
 //! ε and N, a derivative is one in the sense of a limit. Coq lets everything be divided by 0, so for every claim
 //! a lemma of its own, `…_defined`, says that no divisor is 0.

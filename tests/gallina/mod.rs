@@ -241,7 +241,7 @@ impl<'t> Reader<'t> {
 }
 
 /// What may be said of numbers.
-enum Said {
+pub enum Said {
     Equal(Tree, Tree),
     Less(Tree, Tree),
     AtMost(Tree, Tree),
@@ -302,19 +302,18 @@ impl Theorem {
         self.stated.iter().any(|token| token == function)
     }
 
-    /// Is it about more than the numbers of one case: a limit, a sequence? And of several statements it is not known
-    /// here which.
+    /// Is it about more than the numbers of one case, a limit or a sequence, or that divisors are not 0?
     fn is_beyond(&self) -> bool {
         let beyond = |token: &String| ["is_lim", "is_lim_seq", "nat", "<>"].contains(&token.as_str());
         self.stated.iter().any(beyond)
     }
 
-    /// Are there numbers for which it is false? These functions may be other ones than those it was proved of.
-    pub fn is_false_somewhere(&self, functions: &Functions) -> bool {
+    /// What it supposes, and what follows; none if it is about more than numbers.
+    pub fn read(&self, known: &Functions) -> Option<(Vec<Said>, Said)> {
         if self.is_beyond() {
-            return false;
+            return None;
         }
-        let mut reader = Reader { rest: &self.stated, known: functions };
+        let mut reader = Reader { rest: &self.stated, known };
         if reader.next() == "forall" {
             while reader.take() != "," {}
         }
@@ -324,7 +323,13 @@ impl Theorem {
             said.push(reader.said());
         }
         assert!(reader.rest.is_empty(), "{}: what is {:?}?", self.name, reader.rest);
-        let (follows, given) = said.split_last().unwrap();
+        let follows = said.pop()?;
+        Some((said, follows))
+    }
+
+    /// Are there numbers for which it is false? These functions may be other ones than those it was proved of.
+    pub fn is_false_somewhere(&self, functions: &Functions) -> bool {
+        let Some((given, follows)) = self.read(functions) else { return false };
         (0..TRIALS).any(|trial| {
             let at = |name: &'static str| drawn(name, trial);
             given.iter().all(|given| given.holds(&at) == Some(true)) && follows.holds(&at) == Some(false)
