@@ -13,7 +13,7 @@ mod list;
 pub use entries::{Entry, entries, entry, place};
 #[cfg(feature = "mpfr")]
 pub use experiments::{Experiment, Trial, exact_experiments, first_order_experiments, float_experiments};
-pub use formulas::{Call, Formula, call, fill, formula, formula_in, formulas, line, named};
+pub use formulas::{Call, Formula, call, calls, fill, formula, formula_in, formulas, line, named};
 pub use list::{all_claims, claims, exponential_claims, unilateral_claims};
 
 use crate::chapter::{SpringMass, augmented, contact, penalty, system};

@@ -38,7 +38,7 @@ pub struct Formula {
 pub struct Call {
     /// The function.
     pub formula: &'static Formula,
-    /// Its arguments, but for the system.
+    /// What its [arguments](Formula::depends_on) are.
     pub arguments: Vec<Tree>,
 }
 
@@ -56,6 +56,12 @@ impl Formula {
     /// Its path, with the part: `contact::kkt.primal`.
     pub fn name(&self) -> String {
         self.part.map_or(self.path.to_string(), |part| format!("{}.{part}", self.path))
+    }
+
+    /// Those of its arguments that its value depends on: a part of several may ignore some.
+    pub fn depends_on(&self) -> impl Iterator<Item = &'static str> {
+        let symbols = self.tree.symbols();
+        self.arguments.iter().copied().filter(move |name| symbols.contains(name))
     }
 
     /// What it does, as a text writes it: by name what has one, and spelled out what has none.
@@ -150,12 +156,12 @@ impl Names<'_> {
         }
         let usual =
             |argument: &Tree, name: &str| argument.typeset(Notation::Text, &|tree| self.of(tree)) == name;
-        let named: Vec<_> = arguments.into_iter().zip(formula.arguments).collect();
+        let named: Vec<_> = arguments.into_iter().zip(formula.depends_on()).collect();
         let arguments = if named.iter().all(|(argument, name)| usual(argument, name)) {
             Vec::new()
         } else {
             // The penalty is a parameter, and not said as long as it is the usual one.
-            let said = named.into_iter().filter(|(argument, name)| **name != "ε" || !usual(argument, name));
+            let said = named.into_iter().filter(|(argument, name)| *name != "ε" || !usual(argument, name));
             said.map(|(argument, _)| argument).collect()
         };
         Some(Name { symbol: formula.symbol.to_string(), arguments })
@@ -166,12 +172,20 @@ impl Names<'_> {
 ///
 /// It is known by its place in the source, so a formula that only looks the same is no call.
 pub fn call(tree: &Tree) -> Option<Call> {
-    BY_SITE.get(&tree.site())?.iter().find_map(|&i| {
+    calls(tree).next()
+}
+
+/// Every function that would have computed this: the one whose last step it is, and after it those that only
+/// call it. A value that is handed on looks the same before and after, so which of them was called is not in
+/// the record.
+pub fn calls(tree: &Tree) -> impl Iterator<Item = Call> {
+    let known = BY_SITE.get(&tree.site()).map_or(&[][..], Vec::as_slice);
+    known.iter().filter_map(|&i| {
         let formula = &FORMULAS[i];
         let mut found = HashMap::new();
         matches(&formula.tree, tree, formula.arguments, &mut found).then_some(())?;
-        let argument = |name: &&'static str| found.get(name).map(|tree| (*tree).clone());
-        let arguments = formula.arguments.iter().map(argument).collect::<Option<_>>()?;
+        let argument = |name: &'static str| found.get(name).map(|tree| (*tree).clone());
+        let arguments = formula.depends_on().map(argument).collect::<Option<_>>()?;
         Some(Call { formula, arguments })
     })
 }
@@ -356,6 +370,26 @@ mod tests {
         let argument = system::gap(&own) * Tree::symbol("x");
         let call = call(&contact::penetration(&own, &argument)).unwrap();
         assert_eq!((call.formula.path, call.arguments), ("contact::penetration", vec![argument]));
+    }
+
+    #[test]
+    fn arguments_that_a_value_ignores_are_none_of_a_call() {
+        let own = SpringMass { c: "c", m: "m", g: "g", l: "l", h: "H" }.map(|name| Tree::symbol(name));
+        let [u, n] = ["u", "n"].map(|name| Tree::symbol(name));
+        let call = call(&contact::kkt(&own, &u, &n).dual).unwrap();
+        assert_eq!((call.formula.name().as_str(), call.arguments), ("contact::kkt.dual", vec![n]));
+    }
+
+    #[test]
+    fn a_value_that_is_handed_on_may_be_of_several_functions() {
+        let own = SpringMass { c: "c", m: "m", g: "g", l: "l", h: "H" }.map(|name| Tree::symbol(name));
+        let names = |tree: &Tree| calls(tree).map(|call| call.formula.name()).collect::<Vec<_>>();
+        assert_eq!(names(&system::gap(&own)), ["system::gap", "lagrange::deflection"]);
+        let [eps, u, t] = ["ε", "x", "t"].map(|name| Tree::symbol(name));
+        // What begins with any constant A is no solution from an initial value.
+        assert_eq!(names(&ode::general(&own, &eps, &u, &t)), ["ode::superposition", "ode::general"]);
+        let all = ["ode::superposition", "ode::general", "ode::solution"];
+        assert_eq!(names(&ode::solution(&own, &eps, &u, &t)), all);
     }
 
     #[test]

@@ -6,6 +6,9 @@
 //! is Coq's own kernel, its axioms of the real numbers, and that definitions and theorems read as the
 //! chapter does.
 //!
+//! A function that only hands on what another computes leaves no step of its own in a record, so a theorem speaks
+//! in the names of the functions that its entry lists. A definition that no theorem names would protect nothing.
+//!
 //! What goes further than our own kernel: an induction is one over the natural numbers, a limit is one in the sense of
 //! ε and N, a derivative is one in the sense of a limit. Coq lets everything be divided by 0, so for every claim
 //! a lemma of its own, `…_defined`, says that no divisor is 0.
@@ -45,17 +48,16 @@ pub struct LeftOut {
     pub reason: String,
 }
 
-/// The chapter's definitions with one sign changed: not all that uses them should still be provable.
+/// One sign of one definition changed: not all that speaks of it should still be provable.
 #[derive(Clone, Debug)]
 pub struct Flip {
     /// The changed function, by its name in Coq.
     pub function: String,
     /// The definition as it is now.
     pub definition: String,
-    /// In place of the file of definitions.
+    /// All definitions with this one among them, then every theorem that speaks of the function, the shortest
+    /// first. It needs the first of [`files`] alone.
     pub file: File,
-    /// The files with a theorem that names the function.
-    pub users: Vec<String>,
 }
 
 const TACTICS: &str = "A_Tactics";
@@ -67,13 +69,16 @@ const ASSUMPTIONS: &str = "E_Assumptions";
 ///
 /// They compile in this order, and in that of their names: `coqc -R DIR Contact FILE`.
 pub fn files() -> Vec<File> {
-    let theorems = THEOREMS.0.clone();
+    let theorems = by_section(&WRITTEN.0);
     let all: String = theorems.iter().map(|file| format!(" {}", file.name.trim_end_matches(".v"))).collect();
     let iterates = format!(
         "From Contact Require Import {TACTICS} {CHAPTER}{all}.\n\n{}",
         include_str!("coq/iterates.v")
     );
-    let mut files = vec![file(TACTICS, include_str!("coq/tactics.v").to_string()), chapter(&definitions())];
+    let mut files = vec![
+        file(TACTICS, include_str!("coq/tactics.v").to_string()),
+        file(CHAPTER, chapter(&definitions())),
+    ];
     files.extend(theorems);
     files.push(file(ITERATES, iterates));
     // Asking of each theorem what it rests on would take longer than all proofs.
@@ -122,7 +127,7 @@ pub fn write(directory: &Path) -> io::Result<Vec<PathBuf>> {
 
 /// The claims for which there is no theorem, each with its reason.
 pub fn left_out() -> Vec<LeftOut> {
-    THEOREMS.1.clone()
+    WRITTEN.1.clone()
 }
 
 /// What Coq calls a claim: `eq_1_13_rate`, `theorem_1_3_3_contracts`.
@@ -131,29 +136,32 @@ pub fn theorem_name(equation: &str, name: &str) -> String {
     identifier(&format!("{number}{equation} {name}"))
 }
 
-/// Every way to change one sign of one definition that some theorem names.
+/// Every way to change one sign of one definition.
 pub fn flips() -> Vec<Flip> {
-    let (definitions, theorems) = (definitions(), &THEOREMS.0);
+    let definitions = definitions();
     let mut all = Vec::new();
     for (i, definition) in definitions.iter().enumerate() {
-        let names =
-            |file: &&File| file.text.split(|c: char| !is_part_of_name(c)).any(|word| word == definition.name);
-        let users: Vec<_> = theorems.iter().filter(names).map(|file| file.name.clone()).collect();
-        if users.is_empty() {
-            continue;
-        }
-        for body in definition.body.flips() {
+        let speaks_of_it = |theorem: &&Written| speaks_of(&theorem.text, &definition.name);
+        let mut theorems: Vec<_> = WRITTEN.0.iter().filter(speaks_of_it).collect();
+        theorems.sort_by_key(|theorem| theorem.text.len());
+        let theorems: String = theorems.iter().map(|theorem| theorem.text.as_str()).collect();
+        for (count, body) in definition.body.flips().into_iter().enumerate() {
             let mut flipped = definitions.clone();
             flipped[i].body = body;
             all.push(Flip {
                 function: definition.name.clone(),
                 definition: flipped[i].to_string(),
-                file: chapter(&flipped),
-                users: users.clone(),
+                file: file(&format!("F_{}_{}", definition.name, count + 1), chapter(&flipped) + &theorems),
             });
         }
     }
     all
+}
+
+/// Does what is stated name a function? What only proofs name says nothing of it.
+fn speaks_of(text: &str, function: &str) -> bool {
+    let mut stated = text.split("\nProof.\n").map(|part| part.rsplit("Qed.\n").next().unwrap_or_default());
+    stated.any(|stated| stated.split(|c: char| !is_part_of_name(c)).any(|word| word == function))
 }
 
 fn file(name: &str, text: String) -> File {
@@ -198,8 +206,7 @@ struct Definition {
 impl std::fmt::Display for Definition {
     fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
         let parameters = print::parameters(self.formula);
-        let binders: Vec<_> =
-            parameters.chain(self.formula.arguments.iter().map(|name| ascii(name))).collect();
+        let binders: Vec<_> = parameters.chain(self.formula.depends_on().map(ascii)).collect();
         write!(f, "Definition {} ({} : R) : R :=\n  {}.", self.name, binders.join(" "), self.body)
     }
 }
@@ -210,30 +217,45 @@ fn definitions() -> Vec<Definition> {
     formulas().iter().map(definition).collect()
 }
 
-fn chapter(definitions: &[Definition]) -> File {
+fn chapter(definitions: &[Definition]) -> String {
     let mut text = format!(
         "(** * The functions of the chapter, as their source computes them. *)\nFrom Contact Require Import {TACTICS}.\n"
     );
     for definition in definitions {
         let _ = write!(text, "\n{definition}\n#[export] Hint Unfold {} : chapter.\n", definition.name);
     }
-    file(CHAPTER, text)
+    text
+}
+
+/// A claim, printed: its lemmas, its theorem, all with their proofs.
+struct Written {
+    section: String,
+    text: String,
 }
 
 /// The same at every call, and each asks the kernel for all proofs.
-static THEOREMS: LazyLock<(Vec<File>, Vec<LeftOut>)> = LazyLock::new(theorems);
+static WRITTEN: LazyLock<(Vec<Written>, Vec<LeftOut>)> = LazyLock::new(written);
 
-/// The files of theorems, one or more a section, and what is not in them.
-fn theorems() -> (Vec<File>, Vec<LeftOut>) {
-    let (mut sections, mut left_out): (Vec<(String, Vec<String>)>, _) = (Vec::new(), Vec::new());
+/// The claims, printed, and those that cannot be.
+fn written() -> (Vec<Written>, Vec<LeftOut>) {
+    let (mut written, mut left_out) = (Vec::new(), Vec::new());
     for claim in all_claims() {
         let section = entry(claim.equation).map_or("", |entry| entry.section).to_string();
         match Theorem::new(&claim).text() {
-            Ok(text) => match sections.iter_mut().find(|(known, _)| *known == section) {
-                Some((_, texts)) => texts.push(text),
-                None => sections.push((section, vec![text])),
-            },
+            Ok(text) => written.push(Written { section, text }),
             Err(reason) => left_out.push(LeftOut { equation: claim.equation, name: claim.name, reason }),
+        }
+    }
+    (written, left_out)
+}
+
+/// The files of theorems, one or more a section.
+fn by_section(written: &[Written]) -> Vec<File> {
+    let mut sections: Vec<(&str, Vec<&str>)> = Vec::new();
+    for Written { section, text } in written {
+        match sections.iter_mut().find(|(known, _)| known == section) {
+            Some((_, texts)) => texts.push(text),
+            None => sections.push((section, vec![text])),
         }
     }
     let mut files = Vec::new();
@@ -245,7 +267,7 @@ fn theorems() -> (Vec<File>, Vec<LeftOut>) {
         }
     }
     files.sort_by(|a, b| a.name.cmp(&b.name));
-    (files, left_out)
+    files
 }
 
 /// Few enough that files can be compiled side by side.
@@ -254,6 +276,8 @@ const PER_FILE: usize = 12;
 /// A claim, to be printed.
 struct Theorem<'a> {
     claim: &'a Claim<Tree>,
+    /// The functions of its entry: what it says, it says in their names.
+    own: &'static [&'static str],
     case: Case<Tree>,
     statement: Statement,
     name: String,
@@ -270,6 +294,7 @@ fn unproved(why: Why) -> String {
 #[derive(Clone)]
 struct Lemma<'a> {
     name: String,
+    own: &'static [&'static str],
     hypotheses: Vec<&'a Hypothesis>,
     says: &'a Says,
     defined: Option<Defined>,
@@ -340,8 +365,8 @@ fn premises(hypotheses: &[&Hypothesis]) -> String {
     hypotheses.iter().map(|h| format!(" {} ->\n ", Expr::of(&h.value).relation(h.relation()))).collect()
 }
 
-fn says(says: &Says) -> String {
-    let of = |tree: &Tree| Expr::of(tree);
+fn says(says: &Says, own: &[&str]) -> String {
+    let of = |tree: &Tree| Expr::of_entry(tree, own);
     let under = |var: &Var, tree: &Tree| format!("(fun {} => {})", ascii(var.symbol()), of(tree));
     match says {
         Says::Equal(a, b) => {
@@ -431,7 +456,7 @@ impl<'a> Lemma<'a> {
         }
         script.line("chapter.");
         script.derivation(&derivation(&self.hypotheses, self.goal())?)?;
-        Ok(stated(keyword, &self.name, &variables, &self.hypotheses, &says(self.says), script))
+        Ok(stated(keyword, &self.name, &variables, &self.hypotheses, &says(self.says, self.own), script))
     }
 }
 
@@ -439,10 +464,16 @@ impl<'a> Theorem<'a> {
     fn new(claim: &'a Claim<Tree>) -> Self {
         Theorem {
             claim,
+            own: entry(claim.equation).map_or(&[], |entry| entry.functions),
             case: Case::of_symbols(),
             statement: Statement::of(claim),
             name: theorem_name(claim.equation, claim.name),
         }
+    }
+
+    /// A formula that it speaks of. Hypotheses are shared by entries and no part of one.
+    fn expr(&self, tree: &Tree) -> Expr {
+        Expr::of_entry(tree, self.own)
     }
 
     /// Its hypotheses, but for those on one coordinate.
@@ -478,7 +509,7 @@ impl<'a> Theorem<'a> {
         let name = format!("{}_{}", self.name, identifier(&format!("{part}{count}")));
         let hypotheses = self.hypotheses(without);
         let defined = self.recalled(&hypotheses);
-        Lemma { name, hypotheses, says: &goals[i].says, defined }
+        Lemma { name, own: self.own, hypotheses, says: &goals[i].says, defined }
     }
 
     /// Its lemmas and the theorem itself.
@@ -497,7 +528,8 @@ impl<'a> Theorem<'a> {
                     return Err("a claim of this kind has several goals".into());
                 };
                 let defined = self.defined();
-                Lemma { name: self.name.clone(), hypotheses, says: &goal.says, defined }.text("Theorem")?
+                let (name, own) = (self.name.clone(), self.own);
+                Lemma { name, own, hypotheses, says: &goal.says, defined }.text("Theorem")?
             }
         };
         Ok(text)
@@ -525,6 +557,7 @@ impl<'a> Theorem<'a> {
         let x = by.symbol();
         let own = Lemma {
             name: self.name.clone(),
+            own: self.own,
             hypotheses: self.hypotheses(Some(x)),
             says: &goals[0].says,
             defined: None,
@@ -552,7 +585,8 @@ impl<'a> Theorem<'a> {
             }
             Ok(())
         })?;
-        Ok(text + &stated("Theorem", &self.name, &variables, &own.hypotheses, &says(own.says), script))
+        Ok(text
+            + &stated("Theorem", &self.name, &variables, &own.hypotheses, &says(own.says, own.own), script))
     }
 
     /// The recursion over the natural numbers, and its closed form by induction.
@@ -584,7 +618,7 @@ impl<'a> Theorem<'a> {
             .filter(|var| *var != Var::Q)
             .collect();
         let tuple = |trees: &[Tree]| {
-            let values: Vec<_> = trees.iter().map(|tree| Expr::of(tree).to_string()).collect();
+            let values: Vec<_> = trees.iter().map(|tree| self.expr(tree).to_string()).collect();
             if let [value] = values.as_slice() {
                 value.clone()
             } else {
@@ -596,7 +630,7 @@ impl<'a> Theorem<'a> {
             names => format!("'({})", names.join(", ")),
         };
         let iterates = format!("{}_iterates", self.name);
-        let (arguments, ratio) = (names(&free), Expr::of(&ratio));
+        let (arguments, ratio) = (names(&free), self.expr(&ratio));
         let _ = write!(
             text,
             "\nFixpoint {iterates} ({} : R) (n : nat) : {} :=\n  match n with\n  | O => {}\n  | S n =>\n      \
@@ -683,7 +717,7 @@ impl<'a> Theorem<'a> {
         let hypotheses = self.hypotheses(Some(q));
         let trees = [&ratio, &of, &to].into_iter().chain(hypotheses.iter().map(|h| &h.value));
         let free: Vec<_> = variables(trees.clone()).into_iter().filter(|var| *var != Var::Q).collect();
-        let (ratio, to) = (Expr::of(&ratio), Expr::of(&to));
+        let (ratio, to) = (self.expr(&ratio), self.expr(&to));
         let power = Expr::name(format!("({} ^ n)", ratio.base()));
         let mut script = Script::new();
         script.line(&format!("intros{}{}.", names(&free), labels(hypotheses.len())));
@@ -694,13 +728,13 @@ impl<'a> Theorem<'a> {
         let name = ascii(q);
         script.line(&format!(
             "apply (limit_of_powers (fun {name} => {}) {}).",
-            Expr::of(&of),
+            self.expr(&of),
             ratio.argument()
         ));
         script.line(&format!("- exact ({}).", small.applied()));
         script.line("- chapter. auto_derive; nonzero.");
         script.line(&format!("- exact ({}).", limit.applied()));
-        let says = format!("is_lim_seq (fun n => {}) {}", Expr::of(&of).with(&name, &power), to.argument());
+        let says = format!("is_lim_seq (fun n => {}) {}", self.expr(&of).with(&name, &power), to.argument());
         Ok(text + &stated("Theorem", &self.name, &free, &hypotheses, &says, script))
     }
 }

@@ -1,6 +1,6 @@
 //! Formulas as Coq writes them.
 
-use crate::claims::{Formula, Relation, Var, call};
+use crate::claims::{Formula, Relation, Var, calls};
 use crate::number::Tree;
 use crate::number::tree::Step;
 use crate::proof::algebra::{Monomial, Poly, Ratio, Symbol};
@@ -96,26 +96,37 @@ impl Expr {
 
     /// A formula; what a function of the chapter computes in it, as a call of that function.
     pub(super) fn of(tree: &Tree) -> Self {
-        match call(tree) {
+        Expr::of_entry(tree, &[])
+    }
+
+    /// A formula that belongs to an entry: of functions that compute the same, one of the entry's own is called,
+    /// the first of them; else the one whose last step it is.
+    pub(super) fn of_entry(tree: &Tree, own: &[&str]) -> Self {
+        let place = |path: &str| own.iter().position(|known| *known == path).unwrap_or(own.len());
+        match calls(tree).min_by_key(|call| place(call.formula.path)) {
             Some(call) => {
-                let arguments = parameters(call.formula).map(Expr::Name);
+                let arguments = call.arguments.iter().map(|argument| Expr::of_entry(argument, own));
                 Expr::Call(
                     function(call.formula),
-                    arguments.chain(call.arguments.iter().map(Expr::of)).collect(),
+                    parameters(call.formula).map(Expr::Name).chain(arguments).collect(),
                 )
             }
-            None => Expr::last_step(tree),
+            None => Expr::last_step(tree, own),
         }
     }
 
     /// What a function of the chapter does: its last step is its own, unless all it does is call another.
     pub(super) fn body(formula: &Formula) -> Self {
-        if formula.delegates().is_some() { Expr::of(&formula.tree) } else { Expr::last_step(&formula.tree) }
+        if formula.delegates().is_some() {
+            Expr::of(&formula.tree)
+        } else {
+            Expr::last_step(&formula.tree, &[])
+        }
     }
 
-    fn last_step(tree: &Tree) -> Self {
+    fn last_step(tree: &Tree, own: &[&str]) -> Self {
         use Operator::*;
-        let of = |tree: &Tree| Box::new(Expr::of(tree));
+        let of = |tree: &Tree| Box::new(Expr::of_entry(tree, own));
         let expr = match tree.step() {
             Step::Symbol(name) => Expr::Name(ascii(name)),
             Step::Int(n) => Expr::int(*n),
@@ -202,8 +213,6 @@ impl Expr {
     }
 
     /// Every formula that is this one but for one sign: a + for a − or the other way round, or a − lost.
-    ///
-    /// Only its own steps count, not the arguments of calls.
     pub(super) fn flips(&self) -> Vec<Expr> {
         match self {
             Expr::Neg(a) => {
@@ -221,7 +230,17 @@ impl Expr {
                 let right = b.flips().into_iter().map(|b| Expr::Binary(*operator, a.clone(), b.into()));
                 own.into_iter().chain(left).chain(right).collect()
             }
-            Expr::Name(_) | Expr::Number(_) | Expr::Power(..) | Expr::Call(..) => Vec::new(),
+            Expr::Power(a, n) => a.flips().into_iter().map(|a| Expr::Power(a.into(), *n)).collect(),
+            Expr::Call(function, arguments) => {
+                let with = |i: usize, flipped| {
+                    let mut all = arguments.clone();
+                    all[i] = flipped;
+                    Expr::Call(function.clone(), all)
+                };
+                let of = |i: usize| arguments[i].flips().into_iter().map(move |flipped| with(i, flipped));
+                (0..arguments.len()).flat_map(of).collect()
+            }
+            Expr::Name(_) | Expr::Number(_) => Vec::new(),
         }
     }
 
@@ -357,5 +376,9 @@ mod tests {
         let flips = Expr::of(&(-(&a + &b) * &c - &a)).flips();
         let texts: Vec<_> = flips.iter().map(Expr::to_string).collect();
         assert_eq!(texts, ["- (a + b) * c + a", "(a + b) * c - a", "- (a - b) * c - a"]);
+        // Wherever the sign stands.
+        let flips = Expr::of(&a.min(&-(&b + &c)).exp().positive_part()).flips();
+        let texts: Vec<_> = flips.iter().map(Expr::to_string).collect();
+        assert_eq!(texts, ["Rmax (exp (Rmin a (b + c))) 0", "Rmax (exp (Rmin a (- (b - c)))) 0"]);
     }
 }

@@ -1,0 +1,356 @@
+//! Reads definitions and theorems as Coq does, and says where in the rationals a theorem is false.
+//!
+//! By the levels that Coq's manual gives, and by nothing of what printed the text: it is the printing that is
+//! tested. Of Coq's language, which is called Gallina, no more is known here than the chapter needs.
+
+use spring_mass_contact::number::tree::{Step, piecewise};
+use spring_mass_contact::number::{Dual, Exact, Exponential, Field, PositivePart, Tree};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Mutex;
+
+/// Text without comments.
+pub fn code(text: &str) -> String {
+    let (mut depth, mut code) = (0, String::new());
+    let mut rest = text.chars().peekable();
+    while let Some(c) = rest.next() {
+        match (c, rest.peek()) {
+            ('(', Some('*')) => {
+                rest.next();
+                depth += 1;
+            }
+            ('*', Some(')')) if depth > 0 => {
+                rest.next();
+                depth -= 1;
+            }
+            _ if depth == 0 => code.push(c),
+            _ => {}
+        }
+    }
+    code
+}
+
+/// The parts of a text between proofs.
+pub fn stated(text: &str) -> impl Iterator<Item = &str> {
+    text.split("\nProof.\n").map(|part| part.rsplit("Qed.\n").next().unwrap())
+}
+
+/// The words and signs of a text.
+pub fn tokens(text: &str) -> Vec<String> {
+    const PAIRS: [&str; 6] = [":=", "->", "=>", "<=", "<>", "/\\"];
+    let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let (mut all, mut before) = (Vec::<String>::new(), ' ');
+    for c in text.chars() {
+        match all.last_mut() {
+            Some(last) if is_word(before) && is_word(c) => last.push(c),
+            Some(last) if before != ' ' && PAIRS.contains(&format!("{last}{c}").as_str()) => last.push(c),
+            _ if c.is_whitespace() => {}
+            _ => all.push(c.to_string()),
+        }
+        before = if c.is_whitespace() { ' ' } else { c };
+    }
+    all
+}
+
+/// Each name once, since those of symbols are for ever.
+fn interned(name: &str) -> &'static str {
+    static KNOWN: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
+    let mut known = KNOWN.lock().unwrap();
+    known.get(name).copied().unwrap_or_else(|| {
+        let name = name.to_string().leak();
+        known.insert(name);
+        name
+    })
+}
+
+/// A definition of a function, `Definition NAME (ARGUMENTS : R) : R := BODY.`
+#[derive(Clone, Debug)]
+pub struct Definition {
+    pub name: String,
+    pub arguments: Vec<&'static str>,
+    /// As [`tokens`].
+    pub body: Vec<String>,
+}
+
+impl Definition {
+    pub fn of(text: &str) -> Self {
+        let all = tokens(text);
+        let split = all.iter().position(|token| token == ":=").expect(text);
+        let (head, body) = (&all[..split], &all[split + 1..]);
+        let [first, name, open, arguments @ .., colon, r, close, again, value] = head else {
+            panic!("{text}")
+        };
+        let around = [first, open, colon, r, close, again, value].map(String::as_str);
+        assert_eq!(around, ["Definition", "(", ":", "R", ")", ":", "R"], "{text}");
+        let [body @ .., dot] = body else { panic!("{text}") };
+        assert_eq!(dot, ".", "{text}");
+        let arguments = arguments.iter().map(|name| interned(name)).collect();
+        Definition { name: name.clone(), arguments, body: body.to_vec() }
+    }
+
+    /// Those of a file.
+    pub fn all(text: &str) -> Vec<Self> {
+        let text = code(text);
+        let starts = text.match_indices("Definition ").map(|(start, _)| start);
+        starts.map(|start| Definition::of(text[start..].split_inclusive(".\n").next().unwrap())).collect()
+    }
+
+    /// What it computes; what it calls is known.
+    pub fn function(&self, known: &Functions) -> Function {
+        let mut reader = Reader { rest: &self.body, known };
+        let value = reader.formula();
+        assert!(reader.rest.is_empty(), "{}: what is {:?}?", self.name, reader.rest);
+        for symbol in value.symbols() {
+            assert!(self.arguments.contains(&symbol), "{}: what is {symbol}?", self.name);
+        }
+        Function { arguments: self.arguments.clone(), value }
+    }
+}
+
+/// A function with all its calls spelled out.
+#[derive(Clone, Debug)]
+pub struct Function {
+    pub arguments: Vec<&'static str>,
+    pub value: Tree,
+}
+
+pub type Functions = BTreeMap<String, Function>;
+
+/// What all of them compute; none comes before what it calls.
+pub fn functions(definitions: &[Definition]) -> Functions {
+    definitions.iter().fold(Functions::new(), |mut known, definition| {
+        let function = definition.function(&known);
+        known.insert(definition.name.clone(), function);
+        known
+    })
+}
+
+/// What is left to read.
+struct Reader<'t> {
+    rest: &'t [String],
+    known: &'t Functions,
+}
+
+impl<'t> Reader<'t> {
+    fn next(&self) -> &'t str {
+        self.rest.first().map_or("", String::as_str)
+    }
+
+    fn take(&mut self) -> &'t str {
+        let (first, rest) = self.rest.split_first().expect("it ends too early");
+        self.rest = rest;
+        first
+    }
+
+    fn expect(&mut self, token: &str) {
+        assert_eq!(self.take(), token, "before {:?}", self.rest);
+    }
+
+    /// Sums at level 50, of products at level 40, each from the left.
+    fn formula(&mut self) -> Tree {
+        self.chain(&[["+", "-"], ["*", "/"]])
+    }
+
+    fn chain(&mut self, signs: &[[&str; 2]]) -> Tree {
+        let Some((own, stronger)) = signs.split_first() else { return self.signed() };
+        let mut value = self.chain(stronger);
+        while own.contains(&self.next()) {
+            let (sign, other) = (self.take(), self.chain(stronger));
+            value = match sign {
+                "+" => value + other,
+                "-" => value - other,
+                "*" => value * other,
+                _ => value / other,
+            };
+        }
+        value
+    }
+
+    /// A leading minus, at level 35: it holds more strongly than a product. There is no leading plus.
+    fn signed(&mut self) -> Tree {
+        if self.next() == "-" {
+            self.take();
+            return -self.signed();
+        }
+        self.call()
+    }
+
+    /// A function and its arguments, at level 10.
+    fn call(&mut self) -> Tree {
+        let arity = match self.next() {
+            "exp" => 1,
+            "Rmax" | "Rmin" => 2,
+            name => match self.known.get(name) {
+                Some(function) => function.arguments.len(),
+                None => return self.argument(),
+            },
+        };
+        let name = self.take();
+        let values: Vec<_> = (0..arity).map(|_| self.argument()).collect();
+        match (name, values.as_slice()) {
+            ("exp", [a]) => a.exp(),
+            ("Rmax", [a, zero]) if *zero == Tree::int(0) => a.positive_part(),
+            ("Rmin", [a, b]) => a.min(b),
+            _ => {
+                let Function { arguments, value } = &self.known[name];
+                let place = |name| arguments.iter().position(|known| *known == name);
+                value.rewrite(&|tree| match tree.step() {
+                    Step::Symbol(name) => place(*name).map(|place| values[place].clone()),
+                    _ => None,
+                })
+            }
+        }
+    }
+
+    /// One word, or anything in brackets.
+    fn argument(&mut self) -> Tree {
+        let word = self.take();
+        if word == "(" {
+            let value = self.formula();
+            self.expect(")");
+            return value;
+        }
+        assert!(word.starts_with(|c: char| c.is_ascii_alphanumeric()), "{word:?} is neither name nor number");
+        match word.parse() {
+            Ok(number) => Tree::int(number),
+            Err(_) => Tree::symbol(interned(word)),
+        }
+    }
+
+    fn said(&mut self) -> Said {
+        if self.next() == "is_derive" {
+            self.take();
+            self.expect("(");
+            self.expect("fun");
+            let by = interned(self.take());
+            self.expect("=>");
+            let of = self.formula();
+            self.expect(")");
+            self.expect(by);
+            return Said::Derivative(of, by, self.argument());
+        }
+        let left = self.formula();
+        let relation = self.take();
+        let right = self.formula();
+        match relation {
+            "=" => Said::Equal(left, right),
+            "<" => Said::Less(left, right),
+            "<=" => Said::AtMost(left, right),
+            _ => panic!("{relation:?} is no relation"),
+        }
+    }
+}
+
+/// What may be said of numbers.
+pub enum Said {
+    Equal(Tree, Tree),
+    Less(Tree, Tree),
+    AtMost(Tree, Tree),
+    Derivative(Tree, &'static str, Tree),
+}
+
+impl Said {
+    /// Is it so? Unknown where a formula is not defined, or no rational.
+    fn holds(&self, at: &impl Fn(&'static str) -> Exact) -> Option<bool> {
+        let value = |tree: &Tree| value(tree, at);
+        Some(match self {
+            Said::Equal(a, b) => value(a)? == value(b)?,
+            Said::Less(a, b) => value(a)? < value(b)?,
+            Said::AtMost(a, b) => value(a)? <= value(b)?,
+            Said::Derivative(of, by, is) => {
+                let beyond = |step: Step<&Dual<Exact>>| match step {
+                    Step::Exp(a) if a.value == Exact::from(0) => {
+                        Some(Dual { value: Exact::from(1), derivative: a.derivative.clone() })
+                    }
+                    _ => None,
+                };
+                of.derivative(by, at, &beyond)?.derivative == value(is)?
+            }
+        })
+    }
+}
+
+/// The value of a formula: of exponentials that at 0 alone is a rational.
+pub fn value(tree: &Tree, at: &impl Fn(&'static str) -> Exact) -> Option<Exact> {
+    tree.replay(at, &|step| match step {
+        Step::Exp(a) if *a == Exact::from(0) => Some(Exact::from(1)),
+        step => piecewise(step),
+    })
+}
+
+/// A theorem or lemma, as [`tokens`].
+pub struct Theorem {
+    pub name: String,
+    stated: Vec<String>,
+}
+
+impl Theorem {
+    /// Those of a file.
+    pub fn all(text: &str) -> Vec<Self> {
+        let text = code(text);
+        let theorem = |part: &str| {
+            let start = ["Theorem ", "Lemma "].iter().filter_map(|keyword| part.find(keyword)).min()?;
+            let all = tokens(&part[start..]);
+            let [_, name, colon, stated @ .., dot] = all.as_slice() else { panic!("{part}") };
+            assert_eq!([colon, dot], [":", "."], "{part}");
+            Some(Theorem { name: name.clone(), stated: stated.to_vec() })
+        };
+        stated(&text).filter_map(theorem).collect()
+    }
+
+    /// Does it speak of a function?
+    pub fn names(&self, function: &str) -> bool {
+        self.stated.iter().any(|token| token == function)
+    }
+
+    /// Is it about more than the numbers of one case, a limit or a sequence, or that divisors are not 0?
+    fn is_beyond(&self) -> bool {
+        let beyond = |token: &String| ["is_lim", "is_lim_seq", "nat", "<>"].contains(&token.as_str());
+        self.stated.iter().any(beyond)
+    }
+
+    /// What it supposes, and what follows; none if it is about more than numbers.
+    pub fn read(&self, known: &Functions) -> Option<(Vec<Said>, Said)> {
+        if self.is_beyond() {
+            return None;
+        }
+        let mut reader = Reader { rest: &self.stated, known };
+        if reader.next() == "forall" {
+            while reader.take() != "," {}
+        }
+        let mut said = vec![reader.said()];
+        while reader.next() == "->" {
+            reader.take();
+            said.push(reader.said());
+        }
+        assert!(reader.rest.is_empty(), "{}: what is {:?}?", self.name, reader.rest);
+        let follows = said.pop()?;
+        Some((said, follows))
+    }
+
+    /// Are there numbers for which it is false? These functions may be other ones than those it was proved of.
+    pub fn is_false_somewhere(&self, functions: &Functions) -> bool {
+        let Some((given, follows)) = self.read(functions) else { return false };
+        (0..TRIALS).any(|trial| {
+            let at = |name: &'static str| drawn(name, trial);
+            given.iter().all(|given| given.holds(&at) == Some(true)) && follows.holds(&at) == Some(false)
+        })
+    }
+}
+
+/// How many cases are tried.
+pub const TRIALS: u64 = 200;
+
+/// A number for a symbol, always the same: mostly positive, one in eight is 0.
+pub fn drawn(name: &str, trial: u64) -> Exact {
+    let mixed = name.bytes().fold(trial + 1, |mixed, byte| {
+        let mixed = (mixed ^ u64::from(byte)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        mixed ^ (mixed >> 29)
+    });
+    let (size, kind) = (1 + (mixed >> 8) % 30, mixed % 8);
+    let n = match kind {
+        0 => 0,
+        1 | 2 => -(size as i32),
+        _ => size as i32,
+    };
+    Exact::from(n) / Exact::from(7)
+}
