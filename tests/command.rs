@@ -9,12 +9,52 @@ use serde_json::Value;
 use spring_mass_contact::chapter::{SpringMass, contact};
 use spring_mass_contact::claims::{claim_names, entries};
 use spring_mass_contact::number::{Exact, RangeError, ToExact};
-use std::process::{Command, Output, Stdio};
+use std::io::Read;
+use std::process::{Child, Command, Output, Stdio};
+use std::thread;
+use std::time::Duration;
+use wait_timeout::ChildExt;
+
+/// Ten times what the longest command takes on a busy machine. What takes longer is ended, and its test fails.
+const DEADLINE: Duration = Duration::from_secs(60);
+
+fn command() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_contact"))
+}
+
+/// What a command writes into pipes, if it has any, when it has ended.
+fn run(command: &mut Command) -> Output {
+    finish(command.stdin(Stdio::null()).spawn().expect("the command runs"))
+}
+
+/// Runs with both outputs captured.
+fn captured(command: &mut Command) -> Output {
+    run(command.stdout(Stdio::piped()).stderr(Stdio::piped()))
+}
+
+/// Waits for a command to end, but not for ever.
+fn finish(mut child: Child) -> Output {
+    let (stdout, stderr) = (collect(child.stdout.take()), collect(child.stderr.take()));
+    let Some(status) = child.wait_timeout(DEADLINE).expect("a child") else {
+        child.kill().and_then(|()| child.wait()).expect("the command can be ended");
+        panic!("the command is still running after {DEADLINE:?}");
+    };
+    let [stdout, stderr] = [stdout, stderr].map(|bytes| bytes.join().expect("a pipe"));
+    Output { status, stdout, stderr }
+}
+
+/// Reads while the command runs: it would wait for ever if a pipe were full.
+fn collect(pipe: Option<impl Read + Send + 'static>) -> thread::JoinHandle<Vec<u8>> {
+    thread::spawn(move || {
+        let mut bytes = Vec::new();
+        pipe.map(|mut pipe| pipe.read_to_end(&mut bytes)).transpose().expect("a pipe");
+        bytes
+    })
+}
 
 fn contact(arguments: &[&str]) -> Output {
     // Neither the width nor the colours of whoever runs the tests.
-    let mut command = Command::new(env!("CARGO_BIN_EXE_contact"));
-    command.env("COLUMNS", "80").env("NO_COLOR", "1").args(arguments).output().expect("the command runs")
+    captured(command().env("COLUMNS", "80").env("NO_COLOR", "1").args(arguments))
 }
 
 fn stdout(output: &Output) -> &str {
@@ -37,6 +77,8 @@ fn prints_what_it_printed() {
         .register_bin("contact", std::path::Path::new(env!("CARGO_BIN_EXE_contact")))
         .env("COLUMNS", "80")
         .env("NO_COLOR", "1")
+        // Each of the many is over within a second.
+        .timeout(DEADLINE / 6)
         .case("tests/cmd/*.trycmd")
         .run();
 }
@@ -358,9 +400,7 @@ fn no_text_can_break_the_line() {
 #[test]
 fn text_that_is_not_unicode_is_refused() {
     use std::os::unix::ffi::OsStrExt;
-    let mut command = Command::new(env!("CARGO_BIN_EXE_contact"));
-    let output =
-        command.args(["solve", "--mass"]).arg(std::ffi::OsStr::from_bytes(b"\xff")).output().unwrap();
+    let output = captured(command().args(["solve", "--mass"]).arg(std::ffi::OsStr::from_bytes(b"\xff")));
     let stderr = String::from_utf8_lossy(&output.stderr);
     assert_eq!((output.status.code(), stderr.lines().count()), (Some(2), 1), "{stderr}");
 }
@@ -384,11 +424,11 @@ fn results_that_do_not_fit_are_refused() {
 fn a_closed_pipe_is_no_error() {
     for format in ["table", "json", "csv"] {
         let line = "solve --method augmented --penalty 1e-3 --max-augmentations 10000 --trace --format";
-        let mut command = Command::new(env!("CARGO_BIN_EXE_contact"));
+        let mut command = command();
         command.args(line.split(' ')).arg(format).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = command.spawn().expect("the command runs");
         drop(child.stdout.take());
-        let output = child.wait_with_output().expect("the command ends");
+        let output = finish(child);
         assert_eq!((output.status.code(), output.stderr.as_slice()), (Some(0), b"".as_slice()), "{format}");
     }
 }
@@ -397,11 +437,17 @@ fn a_closed_pipe_is_no_error() {
 #[test]
 fn a_pipe_that_closes_after_a_line_is_no_error() {
     use std::io::{BufRead, BufReader};
-    let mut command = Command::new(env!("CARGO_BIN_EXE_contact"));
+    let mut command = command();
     let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the command runs");
-    let mut line = String::new();
-    BufReader::new(child.stdout.take().expect("a pipe")).read_line(&mut line).expect("a line");
-    let output = child.wait_with_output().expect("the command ends");
+    let mut stdout = BufReader::new(child.stdout.take().expect("a pipe"));
+    // Elsewhere, since nobody knows if there will be a line.
+    let line = thread::spawn(move || {
+        let mut line = String::new();
+        stdout.read_line(&mut line).expect("text");
+        line
+    });
+    let output = finish(child);
+    let line = line.join().expect("a line");
     assert_eq!((output.status.code(), output.stderr.as_slice()), (Some(0), b"".as_slice()));
     // Without a command it verifies, in all these.
     let words: Vec<_> = line.split_whitespace().collect();
@@ -413,8 +459,7 @@ fn a_pipe_that_closes_after_a_line_is_no_error() {
 fn a_full_disk_is_reported() {
     for line in ["verify --cases 1 --equation 1.1", "equations", "solve", "completions bash", "--help"] {
         let full = std::fs::File::options().write(true).open("/dev/full").expect("a device");
-        let mut command = Command::new(env!("CARGO_BIN_EXE_contact"));
-        let output = command.args(line.split(' ')).stdout(full).output().expect("the command runs");
+        let output = run(command().args(line.split(' ')).stdout(full).stderr(Stdio::piped()));
         let stderr = String::from_utf8(output.stderr).expect("UTF-8");
         assert_eq!((output.status.code(), stderr.lines().count()), (Some(2), 1), "{line}: {stderr}");
         assert!(stderr.starts_with("error: stdout cannot be written"), "{line}: {stderr}");
@@ -591,9 +636,9 @@ fn colours_and_widths_of_the_terminal_do_not_matter_to_a_pipe() {
     for line in ["verify --cases 2 --scalar f64", "equations", "equations 1.13"] {
         let arguments: Vec<_> = line.split(' ').collect();
         let usual = contact(&arguments);
-        let mut command = Command::new(env!("CARGO_BIN_EXE_contact"));
+        let mut command = command();
         command.env_remove("NO_COLOR").env("CLICOLOR_FORCE", "1").env("COLUMNS", "7").args(&arguments);
-        let output = command.output().expect("the command runs");
+        let output = captured(&mut command);
         assert_eq!((stdout(&output), output.status), (stdout(&usual), usual.status), "{line}");
         assert!(!stdout(&output).contains('\u{1b}'), "{line}");
     }

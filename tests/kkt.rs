@@ -9,6 +9,7 @@ use num_traits::Zero;
 use proptest::prelude::*;
 use spring_mass_contact::chapter::{SpringMass, contact, penalty, system};
 use spring_mass_contact::number::{Ball, Exact, OrderedField};
+use spring_mass_contact::rug::Rational;
 use spring_mass_contact::solver::{
     Augmentation, Method, Outcome, Plane, Solution, State, solve, solve_bilateral,
 };
@@ -238,6 +239,67 @@ fn exactly_grazing(bits: u32) -> impl Strategy<Value = SpringMass<Exact>> {
     })
 }
 
+/// A float at an end of the range: zero, subnormal, next to the smallest normal number, the largest; or not. Of either
+/// sign.
+fn extreme<T: Float>(like: &T, (kind, digits, negative): (u8, u32, bool)) -> T {
+    let eta = unit_roundoff(like);
+    let units = |n: Exact| like.nearest(&(n * exact(&T::underflow_unit()))).unwrap();
+    // A fraction of the smallest normal number, which is 1/(2 η) units.
+    let fraction = int(1) / (int(2) * &eta) * Exact::from(Rational::from((digits, u32::MAX)));
+    let whole = |x: Exact| Exact::from(Rational::from(x.as_rational().ceil_ref()));
+    let x = match kind {
+        0 => T::zero(),
+        1 => units(int(1) + int((digits % 3) as i32)),
+        2 | 3 => units(whole(fraction)),
+        4 => units(whole(fraction) + int(1) / (int(2) * &eta)),
+        5 => (0..digits % 4).fold(T::infinity().next_down(), |x, _| x.next_down()),
+        _ => like
+            .nearest(&(int(1 + (digits % 1000) as i32) * Exact::power_of_two((digits % 7) as i32 * 5 - 15)))
+            .unwrap(),
+    };
+    if negative { -x } else { x }
+}
+
+type Extreme = (u8, u32, bool);
+
+fn any_extreme() -> impl Strategy<Value = Extreme> {
+    (0u8..8, any::<u32>(), any::<bool>())
+}
+
+/// The sign of a₁b₁ + a₂b₂ − a₃b₃ of any floats is that of rationals.
+fn the_sign_is_exact<T: Float>(like: &T, numbers: [Extreme; 6]) -> Result<(), TestCaseError> {
+    let [a1, b1, a2, b2, a3, b3] = numbers.map(|x| extreme(like, x));
+    let product = |a: &T, b: &T| exact(a) * exact(b);
+    let sign = (product(&a1, &b1) + product(&a2, &b2)).cmp(&product(&a3, &b3));
+    prop_assert_eq!(T::sign_of_sum([(&a1, &b1), (&a2, &b2)], (&a3, &b3)), sign);
+    let [c, m] = [a1, a2].map(|x| x.abs());
+    let system = SpringMass { c, m, g: b1, l: b2, h: b3 };
+    let r = system::reaction(&system.map(exact));
+    prop_assert_eq!(State::of(&system), state_by_sign(r.cmp(&int(0))), "{:?}", system.map(exact));
+    Ok(())
+}
+
+/// With a subnormal mass, then with a subnormal stiffness: m g = c H, so that l alone has a say.
+fn a_subnormal_system_can_graze<T: Float>(
+    like: &T,
+    (n, k, shift): (i32, i32, i32),
+    l: Extreme,
+) -> Result<(), TestCaseError> {
+    let (unit, scale) = (exact(&T::underflow_unit()), Exact::power_of_two(shift));
+    let (n, k) = (int(n), int(k));
+    for (m, g, c, h) in [
+        (&n * &unit, &k * &scale, &k * &unit * &scale, n.clone()),
+        (&n * &unit * &scale, k.clone(), &k * &unit, &n * &scale),
+    ] {
+        let [c, m, g, h] = [c, m, g, h].map(|x| like.nearest(&x).unwrap());
+        let l = extreme(like, l);
+        let sign = exact(&l).cmp(&int(0));
+        let system = SpringMass { c, m, g, l, h };
+        prop_assert_eq!(State::of(&system), state_by_sign(sign), "{:?}", system.map(exact));
+    }
+    Ok(())
+}
+
 /// One ulp on any parameter, up or down, tips the state to the side that the sign of ∂R says.
 fn one_ulp_decides<T: Float>(s: &SpringMass<Exact>, like: &T) -> Result<(), TestCaseError> {
     let s = s.try_map(|x| like.nearest(x)).unwrap();
@@ -281,7 +343,24 @@ proptest! {
         one_ulp_decides(&s, &int(1).to_mpfr(80))?;
     }
 
-    /// Any finite floats at all, subnormal and huge ones included.
+    #[test]
+    fn the_sign_is_exact_at_the_ends_of_f32(numbers in prop::array::uniform6(any_extreme())) {
+        the_sign_is_exact(&1f32, numbers)?;
+    }
+    #[test]
+    fn the_sign_is_exact_at_the_ends_of_f64(numbers in prop::array::uniform6(any_extreme())) {
+        the_sign_is_exact(&1f64, numbers)?;
+    }
+    #[test]
+    fn a_subnormal_system_can_graze_in_f32(n in (1..1 << 22, 1..1 << 22, 30..80), l in any_extreme()) {
+        a_subnormal_system_can_graze(&1f32, n, l)?;
+    }
+    #[test]
+    fn a_subnormal_system_can_graze_in_f64(n in (1..i32::MAX, 1..i32::MAX, 30..900), l in any_extreme()) {
+        a_subnormal_system_can_graze(&1f64, n, l)?;
+    }
+
+    /// Any finite floats at all.
     #[test]
     fn the_state_is_exact_for_any_f64(bits in prop::array::uniform5(any::<u64>()), copy in any::<bool>()) {
         // Clearing the top bit of the exponent keeps a number finite.

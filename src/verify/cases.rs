@@ -27,8 +27,10 @@ enum Profile {
     Huge,
     /// Small numbers.
     Tiny,
-    /// Products next to the smallest numbers of f32 or f64.
-    Subnormal,
+    /// Subnormal parameters or products in f32.
+    SubnormalSingle,
+    /// The same in f64, out of the range of f32.
+    SubnormalDouble,
 }
 
 const PROFILES: &[Profile] = &[
@@ -39,15 +41,56 @@ const PROFILES: &[Profile] = &[
     Profile::Stiff,
     Profile::Double,
     Profile::Tiny,
-    Profile::Moderate,
+    Profile::SubnormalSingle,
     Profile::Huge,
-    Profile::Subnormal,
+    Profile::SubnormalDouble,
 ];
+
+/// What is subnormal in a case. The other quantities make up for it: no force, and no quotient of a force and a
+/// stiffness, vanishes by rounding, or [`solve`](crate::solver::solve) would refuse the case.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Small {
+    /// c and ε.
+    Stiffnesses,
+    /// m.
+    Mass,
+    /// g.
+    Gravity,
+    /// l and H.
+    Lengths,
+    /// m g and c Δ, of parameters that are not.
+    Products,
+}
+
+impl Small {
+    const ALL: [Small; 5] =
+        [Small::Stiffnesses, Small::Mass, Small::Gravity, Small::Lengths, Small::Products];
+
+    /// By how many powers of two a quantity is larger than one of moderate size, for f32 and for f64; `None` if it
+    /// is subnormal.
+    fn shift(self, var: Var) -> Option<[i32; 2]> {
+        use Var::*;
+        match (self, var) {
+            (Small::Stiffnesses, C | Eps) | (Small::Mass, M) | (Small::Gravity, G) => None,
+            (Small::Lengths, L | H) => None,
+            (Small::Stiffnesses, L | H | U | V | Du | Tol) => Some([40, 500]),
+            (Small::Stiffnesses, G | Lambda) => Some([-90, -550]),
+            (Small::Mass, G) | (Small::Gravity, M) => Some([100, 1000]),
+            (Small::Mass | Small::Gravity, L | H) => Some([-30, -30]),
+            (Small::Lengths, C | Eps) => Some([60, 780]),
+            (Small::Lengths, G) => Some([-37, -230]),
+            (Small::Products, _) => Some([-56, -519]),
+            _ => Some([0, 0]),
+        }
+    }
+}
 
 /// The source of one case.
 struct Draw {
     random: Rand64,
     profile: Profile,
+    /// For the subnormal profiles.
+    small: Small,
 }
 
 impl Draw {
@@ -60,18 +103,31 @@ impl Draw {
     }
 
     /// A positive number.
-    fn magnitude(&mut self) -> Exact {
+    fn magnitude(&mut self, var: Var) -> Exact {
         let (bits, low, high) = match self.profile {
             Profile::Plain => return Exact::from(self.between(1, 9)),
+            Profile::SubnormalSingle => self.subnormal(var, 0, -149, 24),
+            Profile::SubnormalDouble => self.subnormal(var, 1, -1074, 53),
             Profile::Moderate | Profile::Stiff | Profile::Grazing => (11, -18, 4),
             Profile::Single => (24, -32, -16),
             Profile::Double => (53, -60, -46),
             Profile::Huge => (11, 5, 25),
             Profile::Tiny => (11, -45, -25),
-            Profile::Subnormal => [(11, -80, -66), (11, -545, -530)][self.below(2) as usize],
         };
         let mantissa = 1 + self.below(1 << bits);
         Exact::from(rug::Rational::from(mantissa)) * Exact::power_of_two(self.between(low, high))
+    }
+
+    /// The ranges of mantissa and exponent in a subnormal case of floats of this precision, whose smallest number
+    /// is this power of two. What is subnormal is a multiple of four times it, so that a unit four times as large
+    /// (note 8) changes no digit.
+    fn subnormal(&self, var: Var, float: usize, smallest: i32, precision: i32) -> (u32, i32, i32) {
+        // Few digits, so that a product of two such numbers is small and yet no less than the smallest.
+        let digits = if self.small == Small::Products { 6 } else { 11 };
+        match self.small.shift(var) {
+            None => (11, smallest + 2, smallest + precision - 13),
+            Some(shift) => (digits, -18 + shift[float], -12 + shift[float]),
+        }
     }
 
     /// A number with no unit, of moderate size.
@@ -83,7 +139,7 @@ impl Draw {
         let size = match var {
             Var::Alpha | Var::Q | Var::T => self.pure(),
             Var::K => Exact::from(self.between(1, 50)),
-            _ => self.magnitude(),
+            _ => self.magnitude(var),
         };
         match (var, self.below(8)) {
             (Var::C | Var::M | Var::Eps | Var::Tol | Var::Q | Var::T | Var::K, 0) => -size,
@@ -109,6 +165,9 @@ impl Draw {
     }
 
     fn raw(&mut self) -> Case<Exact> {
+        if matches!(self.profile, Profile::SubnormalSingle | Profile::SubnormalDouble) {
+            self.small = Small::ALL[self.below(Small::ALL.len() as u64) as usize];
+        }
         let mut case = Case::of(|var| self.coordinate(var));
         if self.profile == Profile::Stiff {
             case.eps = case.system.c.abs() * Exact::power_of_two(self.between(-60, 60));
@@ -124,7 +183,8 @@ impl Draw {
 /// Case number `index` of a seed, with the hypotheses; `None` if it cannot be bent to them.
 pub(super) fn case(seed: u64, index: u64, given: &[Given]) -> Option<Case<Exact>> {
     let profile = PROFILES[(index % PROFILES.len() as u64) as usize];
-    let mut draw = Draw { random: Rand64::new((u128::from(seed) << 64) | u128::from(index)), profile };
+    let random = Rand64::new((u128::from(seed) << 64) | u128::from(index));
+    let mut draw = Draw { random, profile, small: Small::Products };
     let mut case = draw.raw();
     for hypothesis in given {
         let value = hypothesis.value(&case);
@@ -136,7 +196,7 @@ pub(super) fn case(seed: u64, index: u64, given: &[Given]) -> Option<Case<Exact>
             Relation::NonNegative if draw.below(4) == 0 => Exact::zero(),
             _ if value.is_zero() => match draw.next_to_grazing(&case).abs() {
                 tiny if profile == Profile::Grazing && !tiny.is_zero() => tiny,
-                _ => draw.magnitude(),
+                _ => draw.magnitude(Var::Lambda),
             },
             _ => value.abs(),
         };
@@ -164,6 +224,90 @@ fn plant(case: &mut Case<Exact>, hypothesis: Given, target: &Exact) -> Option<()
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::chapter::SpringMass;
+    use crate::claims::{all_claims, exact_experiments, first_order_experiments, float_experiments};
+    use crate::number::{Ball, Real, ToExact};
+    use std::cmp::Ordering;
+    use std::collections::{BTreeSet, HashSet};
+
+    /// As many as are drawn by default.
+    const CASES: u64 = 1000;
+
+    /// All hypotheses under which something is claimed.
+    fn groups() -> BTreeSet<Vec<&'static str>> {
+        let texts = |given: &[Given]| given.iter().map(|given| given.text()).collect();
+        let claims = all_claims::<Ball<f64>>().into_iter().map(|claim| claim.given);
+        let floats = float_experiments::<f64>().into_iter().chain(first_order_experiments());
+        let rationals = exact_experiments().into_iter().map(|experiment| experiment.given);
+        let experiments = floats.map(|experiment| experiment.given).chain(rationals);
+        claims.chain(experiments).map(texts).collect()
+    }
+
+    fn named(texts: &[&str]) -> Vec<Given> {
+        let named = |text: &&str| *Given::ALL.iter().find(|given| given.text() == *text).unwrap();
+        texts.iter().map(named).collect()
+    }
+
+    fn drawn(given: &[Given]) -> impl Iterator<Item = Case<Exact>> {
+        (0..CASES).filter_map(move |index| case(1, index, given))
+    }
+
+    /// Sixteen coordinates leave nothing to chance: of the integers from 1 to 9 alone there are 9¹⁶ cases.
+    #[test]
+    fn no_case_is_drawn_twice() {
+        for group in groups() {
+            let mut seen = HashSet::new();
+            for case in drawn(&named(&group)) {
+                let coordinates: Vec<_> =
+                    Var::ALL.iter().map(|var| case.get(*var).as_rational().clone()).collect();
+                assert!(seen.insert(coordinates), "{group:?}: {case:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn cases_reach_all_that_hypotheses_allow_and_no_more() {
+        for group in groups() {
+            let given = named(&group);
+            let cases: Vec<_> = drawn(&given).collect();
+            for hypothesis in given {
+                let signs: BTreeSet<_> =
+                    cases.iter().map(|case| hypothesis.value(case).cmp(&Exact::zero())).collect();
+                let all = [Ordering::Less, Ordering::Equal, Ordering::Greater];
+                let allowed = all.into_iter().filter(|sign| hypothesis.relation().admits(*sign)).collect();
+                assert_eq!(signs, allowed, "{group:?}: {}", hypothesis.text());
+            }
+        }
+    }
+
+    /// How often each parameter is subnormal, then how often m g is, in cases that these floats can hold.
+    fn subnormals<T: Real + ToExact>(like: &T) -> [usize; 7] {
+        let eta = like.unit_roundoff().to_exact().unwrap();
+        // The smallest normal number is 1/(2 η) units.
+        let normal = T::underflow_unit().to_exact().unwrap() / (Exact::from(2) * eta);
+        let subnormal = |x: &Exact| !x.is_zero() && x.abs() < normal;
+        let mut found = [0; 7];
+        for case in drawn(&[Given::Stiffness, Given::Penalty]) {
+            let Ok(read) =
+                Case::try_of(|var| like.nearest(case.get(var)).map_err(drop)?.to_exact().map_err(drop))
+            else {
+                continue;
+            };
+            let SpringMass { c, m, g, l, h } = &read.system;
+            let weight = &(m * g);
+            for (count, x) in found.iter_mut().zip([c, m, g, l, h, &read.eps, weight]) {
+                *count += usize::from(subnormal(x));
+            }
+        }
+        found
+    }
+
+    #[test]
+    fn each_parameter_is_subnormal_in_some_cases() {
+        for found in [subnormals(&1f32), subnormals(&1f64)] {
+            assert!(found.iter().all(|n| *n >= 5), "{found:?}");
+        }
+    }
 
     #[test]
     fn nearly_every_case_can_be_bent_to_every_hypothesis() {

@@ -1,0 +1,187 @@
+//! Each room of the house knows only those above it on README's map.
+//!
+//! Sources are read as tokens: names in comments, in strings and in the docs are no arrows, names within macros are.
+
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn source(path: impl AsRef<Path>) -> String {
+    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap()
+}
+
+/// The folders of the map under `src`, in its order.
+fn rooms() -> Vec<String> {
+    let map = source("README.md");
+    let lines = map.lines().filter_map(|line| line.strip_prefix("src/"));
+    lines.map(|line| line.split_whitespace().next().unwrap().to_string()).collect()
+}
+
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let paths = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    paths.flat_map(|path| if path.is_dir() { files(&path) } else { vec![path] }).collect()
+}
+
+/// The module that a file below `src` is.
+fn module(path: &str) -> Vec<String> {
+    let path = path.trim_end_matches(".rs").trim_end_matches("/mod");
+    path.split('/').map(String::from).collect()
+}
+
+/// Two colons, if the tokens begin with them; and what follows.
+fn after_colons(tokens: &[TokenTree]) -> Option<&[TokenTree]> {
+    let colon = |token: &TokenTree| matches!(token, TokenTree::Punct(punct) if punct.as_char() == ':');
+    match tokens {
+        [a, b, rest @ ..] if colon(a) && colon(b) => Some(rest),
+        _ => None,
+    }
+}
+
+/// Where a path that begins within `start` leads: the modules below the crate's root, with all that a list in braces
+/// names.
+fn ends(start: &[String], path: &[TokenTree]) -> Vec<Vec<String>> {
+    match path {
+        [TokenTree::Ident(name), rest @ ..] if *name == "super" => {
+            let up = &start[..start.len().saturating_sub(1)];
+            after_colons(rest).map_or(vec![up.to_vec()], |rest| ends(up, rest))
+        }
+        [TokenTree::Ident(name), ..] => vec![[start, &[name.to_string()]].concat()],
+        [TokenTree::Group(list), ..] if list.delimiter() == Delimiter::Brace => {
+            let tokens: Vec<_> = list.stream().into_iter().collect();
+            let comma =
+                |token: &TokenTree| matches!(token, TokenTree::Punct(punct) if punct.as_char() == ',');
+            tokens.split(comma).flat_map(|path| ends(start, path)).collect()
+        }
+        _ => vec![start.to_vec()],
+    }
+}
+
+/// Where the paths in these tokens lead that begin with the crate's name, `crate`, `super` or `self`.
+fn paths(tokens: TokenStream, own: &[String], krate: &str) -> Vec<Vec<String>> {
+    let tokens: Vec<_> = tokens.into_iter().collect();
+    let mut found = Vec::new();
+    for (i, token) in tokens.iter().enumerate() {
+        match token {
+            TokenTree::Ident(name) => {
+                // Of a::super::b only the beginning counts, and `super` is none after another.
+                if i > 1 && after_colons(&tokens[i - 2..]).is_some() {
+                    continue;
+                }
+                let rest = after_colons(&tokens[i + 1..]);
+                match (name.to_string().as_str(), rest) {
+                    (start, Some(rest)) if start == krate => found.extend(ends(&[], rest)),
+                    ("self", Some(rest)) => found.extend(ends(own, rest)),
+                    ("super", Some(_)) => found.extend(ends(own, &tokens[i..])),
+                    _ => {}
+                }
+            }
+            TokenTree::Group(group) => {
+                let inner = match &tokens[..i] {
+                    [.., TokenTree::Ident(keyword), TokenTree::Ident(name)] if *keyword == "mod" => {
+                        [own, &[name.to_string()]].concat()
+                    }
+                    _ => own.to_vec(),
+                };
+                found.extend(paths(group.stream(), &inner, krate));
+            }
+            TokenTree::Punct(_) | TokenTree::Literal(_) => {}
+        }
+    }
+    found
+}
+
+/// Names at the crate's root that are no rooms: a macro of `number`, and a crate that is passed on.
+fn room_of(name: &str) -> Option<&str> {
+    match name {
+        "operators" => Some("number"),
+        "rug" => None,
+        other => Some(other),
+    }
+}
+
+/// What is wrong with the arrows of one file.
+fn wrong_arrows(rooms: &[String], path: &str, text: &str) -> Vec<String> {
+    let place = |name: &str| rooms.iter().position(|room| room == name);
+    let own = module(path);
+    let room = place(&own[0]).unwrap_or_else(|| panic!("src/{path} is in no room of the map"));
+    // The command is a crate of its own.
+    let krate = if own[0] == "bin" { "spring_mass_contact" } else { "crate" };
+    let tokens = text.parse().unwrap_or_else(|error| panic!("src/{path}: {error}"));
+    let mut wrong: Vec<_> = paths(tokens, &own, krate)
+        .into_iter()
+        .filter(|target| {
+            target.first().and_then(|name| room_of(name)).is_some_and(|name| {
+                let known =
+                    place(name).unwrap_or_else(|| panic!("src/{path} names {name}, which is in no room"));
+                known > room
+            })
+        })
+        .map(|target| format!("src/{path} knows {}", target.join("::")))
+        .collect();
+    wrong.dedup();
+    wrong
+}
+
+#[test]
+fn each_room_knows_only_those_above_it() {
+    let (rooms, src) = (rooms(), Path::new(env!("CARGO_MANIFEST_DIR")).join("src"));
+    let mut wrong = Vec::new();
+    for file in files(&src) {
+        let path = file.strip_prefix(&src).unwrap().to_str().unwrap().replace('\\', "/");
+        if path.ends_with(".rs") && path != "lib.rs" {
+            wrong.extend(wrong_arrows(&rooms, &path, &source(&file)));
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+#[test]
+fn the_map_has_every_room() {
+    let root = source("src/lib.rs");
+    let declared = root.lines().filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';'));
+    let mut declared: Vec<_> = declared.map(String::from).chain(["bin".to_string()]).collect();
+    let mut rooms = rooms();
+    // The table in the docs of the crate's root has them in the same order.
+    let places: Vec<_> = rooms.iter().filter_map(|room| root.find(&format!("| [`{room}`]"))).collect();
+    assert!(places.is_sorted() && places.len() >= 4, "{places:?}");
+    declared.sort();
+    rooms.sort();
+    assert_eq!(rooms, declared);
+}
+
+/// What is an arrow and what is not.
+#[test]
+fn arrows_are_found_wherever_they_are_written() {
+    let rooms = rooms();
+    let wrong = |path: &str, text: &str| wrong_arrows(&rooms, path, text).len();
+    for text in [
+        "use crate::solver::solve;",
+        "use crate::{number::Exact, solver};",
+        "use crate::{number::{Exact, Field}, claims::{Case, Given}};",
+        "pub(crate) use super::super::verify;",
+        "use super::{gap, super::proof::prove};",
+        "fn f() -> crate::solver::State { todo!() }",
+        "macro_rules! m { () => { $crate::claims::entries() }; }",
+        "fn f() { println!(\"{}\", super::super::claims::entries().len()) }",
+        "mod tests { use super::super::super::proof; }",
+    ] {
+        assert_eq!(wrong("chapter/penalty.rs", text), 1, "{text}");
+    }
+    for text in [
+        "use crate::number::Field;",
+        "use super::{contact, system};",
+        "use crate::operators;",
+        "/// As [`solve`](crate::solver::solve) has it.\nfn f() {}",
+        "//! [`solve`](crate::solver::solve)",
+        "// crate::solver::solve",
+        "const S: &str = \"crate::solver::solve\";",
+        "pub(crate) fn f() { other::crate_::solver(); }",
+        "mod tests { use super::*; use super::super::contact; }",
+    ] {
+        assert_eq!(wrong("chapter/penalty.rs", text), 0, "{text}");
+    }
+    assert_eq!(wrong("chapter/mod.rs", "use super::solver;"), 1);
+    assert_eq!(wrong("solver.rs", "use super::claims;"), 1);
+    assert_eq!(wrong("solver.rs", "use self::check::claims;"), 0);
+    assert_eq!(wrong("bin/contact/main.rs", "use spring_mass_contact::verify; use crate::claims;"), 0);
+}

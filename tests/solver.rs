@@ -1,0 +1,225 @@
+//! What a result of the solver is worth: its bounds are narrow, what is exactly 0 is 0, and what cannot be solved
+//! is refused under the name that the user gave it.
+
+#![cfg(feature = "mpfr")]
+
+mod strategies;
+
+use num_traits::Zero;
+use proptest::prelude::*;
+use spring_mass_contact::chapter::{SpringMass, system};
+use spring_mass_contact::number::{Exact, OrderedField};
+use spring_mass_contact::solver::{
+    Bounds, Interval, Method, Plane, Solution, SolveError, State, solve, solve_bilateral,
+};
+use strategies::*;
+
+/// A way to solve, and the plane that it supposes.
+type Solve<T> = fn(&SpringMass<T>, &Method<T>) -> Result<Solution<T>, SolveError>;
+
+fn both<T: Float>() -> [(Solve<T>, Plane); 2] {
+    [(solve, Plane::Unilateral), (solve_bilateral, Plane::Bilateral)]
+}
+
+/// How wide the bounds of the deflection, the penetration and the contact force may be, in multiples of 2 η.
+///
+/// To first order in η, for the exact answer u = Δ + p or u = m g/c, with |m g| ≤ |R| + c |Δ|. Each operation adds
+/// η times its result to what the errors of its operands amount to. So
+///
+/// - Δ = H − l errs by η |Δ|;
+/// - R = m g − c Δ by η (|m g| + 2 c |Δ| + |R|) ≤ η (3 c |Δ| + 2 |R|);
+/// - p = R/(c + ε) by that over c + ε, and 2 η |p|, one for the divisor and one for the quotient:
+///   η (3 c |Δ|/(c + ε) + 4 |p|);
+/// - N = ε R/(c + ε) by η (3 c |Δ| ε/(c + ε) + 5 |N|), one more for the product;
+/// - u = (ε Δ + m g)/(c + ε) by η ((2 ε |Δ| + |m g|)/(c + ε) + 3 |u|) ≤ η (5 |Δ| + 4 |p|), the terms of the numerator,
+///   their sum, the divisor and the quotient;
+/// - u = m g/c by 2 η |u|, and p = l + u − H of it by η (2 |u| + |l + u| + |p|) ≤ η (2 |u| + |H| + 2 |p|).
+///
+/// An end of an interval lies a rounding, η, and an ulp, at most 2 η, further out.
+fn widths(s: &SpringMass<Exact>, penalty: Option<&Exact>, free: bool) -> [Exact; 3] {
+    let (gap, r) = (system::gap(s).abs(), system::reaction(s).abs());
+    let c = &s.c;
+    if free {
+        let (u, p) = ((&s.m * &s.g / c).abs(), &r / c);
+        [int(5) * &u, int(2) * u + s.h.abs() + int(5) * p, int(0)]
+    } else if let Some(eps) = penalty {
+        let p = &r / (c + eps);
+        let from_gap = int(3) * c * &gap / (c + eps);
+        let force = eps * (&from_gap + int(8) * &p);
+        [int(8) * gap + int(7) * &p, from_gap + int(7) * p, force]
+    } else if r.is_zero() {
+        [int(4) * gap, int(0), int(0)]
+    } else {
+        [int(4) * &gap, int(0), int(3) * c * gap + int(5) * r]
+    }
+}
+
+/// No bound is wider than the errors that the operations can make; R = 0 and a mass that hangs free have no force.
+///
+/// By m g − c u the penalty's force would come with the error of m g, c/ε times as much where ε is small.
+fn bounds_are_narrow<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
+    let case = case.rounded(like);
+    let Case { system, eps, .. } = case.exact();
+    let eta = unit_roundoff(like);
+    // What is of higher order: values, and radii of no more than 64 bits, are rounded up, each time by a factor of
+    // less than (1 + η)(1 + 2 η) < 1 + 4 η. No error goes through more than 32 of these from where it arises.
+    let growth = power(&(int(1) + int(4) * eta.clone().max(Exact::power_of_two(-64))), 32);
+    for ((solve, plane), method) in
+        both().into_iter().flat_map(|by| case.methods(3).map(|method| (by, method)))
+    {
+        let answer = solve(&case.system, &method).unwrap();
+        let penalty = if matches!(method, Method::Penalty { .. }) { Some(&eps) } else { None };
+        let free = plane == Plane::Unilateral && answer.state == State::Separated;
+        let Bounds { deflection, penetration, contact_force } = &answer.bounds;
+        let allowed = widths(&system, penalty, free);
+        for (interval, allowed) in [deflection, penetration, contact_force].into_iter().zip(allowed) {
+            let Interval { lower, upper } = interval;
+            let (width, allowed) = (exact(upper) - exact(lower), int(2) * &eta * &growth * allowed);
+            prop_assert!(
+                width <= allowed,
+                "{method:?} {plane:?} {interval:?}: {width} > {allowed}: {case:?}"
+            );
+        }
+    }
+    Ok(())
+}
+
+in_every_float! {
+    bounds_are_narrow from any_state;
+}
+
+/// R = 0 in rationals, while floats round m g and c (H − l) apart: m = c |a − b|, g = ±(a + b), H = a², l = b² with a
+/// multiple of a power of two as a. Each of them fits into so many bits, and neither product nor H − l need.
+fn grazing_but_for_rounding(bits: u32) -> impl Strategy<Value = SpringMass<Exact>> {
+    let odd = |bits: u32| (0..1 << (bits - 1)).prop_map(|n| int(2 * n + 1));
+    let half = bits / 2 - 2;
+    (odd(half), odd(half), odd(bits / 4), 3..=bits as i32 / 4).prop_map(|(a, b, c, shift)| {
+        let a = a * Exact::power_of_two(shift);
+        let (sum, m) = (&a + &b, &c * (&a - &b).abs());
+        SpringMass { g: if a < b { -sum } else { sum }, h: &a * &a, l: &b * &b, c, m }
+    })
+}
+
+/// Touching without force is no matter of rounding: no force of the size of an ulp is left.
+fn grazing_has_no_force_at_all<T: Float>(s: &SpringMass<Exact>, like: &T) -> Result<(), TestCaseError> {
+    let floats = s.try_map(|x| like.nearest(x)).unwrap();
+    prop_assert_eq!(&floats.map(exact), s, "the parameters fit");
+    prop_assume!(!system::reaction(&floats).is_zero());
+    let one = like.clone();
+    let augmented =
+        Method::Augmented { penalty: one.clone(), tolerance: one, max_augmentations: 3, start: T::zero() };
+    for ((solve, plane), method) in
+        both().into_iter().flat_map(|by| [Method::Lagrange, augmented.clone()].map(|method| (by, method)))
+    {
+        let answer = solve(&floats, &method).unwrap();
+        prop_assert_eq!(answer.state, State::Grazing);
+        let none = Interval { lower: T::zero(), upper: T::zero() };
+        prop_assert_eq!(&answer.bounds.penetration, &none);
+        prop_assert_eq!(&answer.bounds.contact_force, &none, "{:?} {:?}", method, plane);
+        if method == Method::Lagrange {
+            prop_assert_eq!(answer.contact_force, T::zero(), "{:?}", plane);
+            prop_assert_eq!(answer.multiplier, Some(T::zero()), "{:?}", plane);
+        }
+    }
+    Ok(())
+}
+
+proptest! {
+    // Three times in four the two products are rounded alike.
+    #![proptest_config(ProptestConfig { max_global_rejects: 10_000, ..ProptestConfig::default() })]
+    #[test]
+    fn grazing_has_no_force_in_f32(s in grazing_but_for_rounding(24)) {
+        grazing_has_no_force_at_all(&s, &1f32)?;
+    }
+    #[test]
+    fn grazing_has_no_force_in_f64(s in grazing_but_for_rounding(53)) {
+        grazing_has_no_force_at_all(&s, &1f64)?;
+    }
+    #[test]
+    fn grazing_has_no_force_in_mpfr(s in grazing_but_for_rounding(40)) {
+        grazing_has_no_force_at_all(&s, &int(1).to_mpfr(40))?;
+    }
+}
+
+/// A parameter: its name, where it is, and whether it has to be positive.
+type Parameter<T> = (&'static str, fn(&mut Case<T>) -> &mut T, bool);
+
+/// What belongs to the system, then what a method asks for besides.
+fn parameters<T>() -> ([Parameter<T>; 5], [Parameter<T>; 3]) {
+    let system: [Parameter<T>; 5] = [
+        ("stiffness", |x| &mut x.system.c, true),
+        ("mass", |x| &mut x.system.m, true),
+        ("gravity", |x| &mut x.system.g, false),
+        ("free length", |x| &mut x.system.l, false),
+        ("height", |x| &mut x.system.h, false),
+    ];
+    let method: [Parameter<T>; 3] = [
+        ("penalty", |x| &mut x.eps, true),
+        ("tolerance", |x| &mut x.tolerance, true),
+        ("initial multiplier", |x| &mut x.start, false),
+    ];
+    (system, method)
+}
+
+/// Every parameter of every method, with every value that it cannot have, is refused by its own name; the first one
+/// if there are several. And −0 is 0, where that is allowed.
+fn refusals_name_the_parameter<T: Float>(like: &T) {
+    let one = like.clone();
+    let zero = like.clone() - like;
+    let infinity = like * T::infinity();
+    let not_a_number = infinity.clone() - &infinity;
+    let never = [not_a_number, infinity.clone(), -&infinity];
+    let not_positive = [zero.clone(), -&zero, -&one, -T::underflow_unit()];
+    let system =
+        SpringMass { c: one.clone(), m: one.clone(), g: one.clone(), l: one.clone(), h: one.clone() };
+    let case = Case { system, eps: one.clone(), start: one.clone(), tolerance: one.clone() };
+    let (of_the_system, of_a_method) = parameters();
+    // Lagrange, penalty and augmented ask for none, one and three of the rest.
+    for (index, asked) in [0, 1, 3].into_iter().enumerate() {
+        let asked: Vec<_> = of_the_system.iter().chain(&of_a_method[..asked]).collect();
+        for (place, (name, parameter, positive)) in asked.iter().enumerate() {
+            let refused = never.iter().chain(not_positive.iter().filter(|_| *positive));
+            for value in refused {
+                // All that follow are wrong too: the first is named.
+                let mut wrong = case.clone();
+                *parameter(&mut wrong) = value.clone();
+                for (_, later, _) in &asked[place + 1..] {
+                    let mut several = wrong.clone();
+                    *later(&mut several) = never[0].clone();
+                    refused_as(name, value, &several, index, *positive);
+                }
+                refused_as(name, value, &wrong, index, *positive);
+            }
+            for zero in not_positive[..2].iter().filter(|_| !*positive) {
+                let mut allowed = case.clone();
+                *parameter(&mut allowed) = zero.clone();
+                for (solve, _) in both() {
+                    assert!(solve(&allowed.system, &allowed.methods(3)[index]).is_ok(), "{name} = {zero:?}");
+                }
+            }
+        }
+    }
+}
+
+fn refused_as<T: Float>(name: &str, value: &T, case: &Case<T>, method: usize, positive: bool) {
+    for (solve, plane) in both() {
+        let error = solve(&case.system, &case.methods(3)[method]).unwrap_err();
+        let allowed = if positive { "greater than 0 and finite" } else { "finite" };
+        let expected = format!("{name} {value:?}: must be {allowed}");
+        assert!(matches!(error, SolveError::Invalid { .. }), "{error:?}");
+        assert_eq!(error.to_string(), expected, "{plane:?}");
+    }
+}
+
+#[test]
+fn refusals_name_the_parameter_in_f32() {
+    refusals_name_the_parameter(&1f32);
+}
+#[test]
+fn refusals_name_the_parameter_in_f64() {
+    refusals_name_the_parameter(&1f64);
+}
+#[test]
+fn refusals_name_the_parameter_in_mpfr() {
+    refusals_name_the_parameter(&int(1).to_mpfr(100));
+}
