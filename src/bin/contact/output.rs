@@ -143,8 +143,10 @@ pub fn with_progress<T>(what: &str, work: impl FnOnce(&(dyn Fn(usize, usize) + S
         let style = ProgressStyle::with_template(&format!("{what} {{bar:40}} {{percent:>3}} %"));
         let bar = ProgressBar::new(0).with_style(style.unwrap_or(ProgressStyle::default_bar()));
         while working.recv_timeout(Duration::from_millis(100)) == Err(RecvTimeoutError::Timeout) {
-            bar.set_length(all.load(Ordering::Relaxed) as u64);
-            bar.set_position(done.load(Ordering::Relaxed) as u64);
+            bar.update(|state| {
+                state.set_len(all.load(Ordering::Relaxed) as u64);
+                state.set_pos(done.load(Ordering::Relaxed) as u64);
+            });
         }
         bar.finish_and_clear();
     };
