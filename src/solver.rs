@@ -108,7 +108,7 @@ pub enum Outcome {
     /// The natural residual and a rigorous bound of |u − u*| are both below the tolerance.
     Converged,
     /// Rounding stopped the iteration before: the multiplier repeats, or the penetration is zero or
-    /// changes sign. More steps do not help; [`Solution::floor`] says what was reached.
+    /// changes sign. What more steps would gain is a matter of luck; [`Solution::floor`] says what was reached.
     Stagnated,
     /// The limit of augmentations came first.
     OutOfSteps,
@@ -177,7 +177,7 @@ impl<T: Scalar + ToExact> Solution<T> {
 /// [`SolveError::Invalid`] for a parameter that is not finite or not in its range,
 /// [`SolveError::OutOfRange`] where a result does not fit the scalar.
 pub fn solve<T: Scalar>(system: &SpringMass<T>, method: &Method<T>) -> Result<Solution<T>, SolveError> {
-    run(system, method, Plane::Unilateral)
+    solve_observed(system, method, Plane::Unilateral, |_| {})
 }
 
 /// Solves a system as the chapter prints it: the plane also pulls, so that R < 0 has N < 0.
@@ -188,13 +188,29 @@ pub fn solve_bilateral<T: Scalar>(
     system: &SpringMass<T>,
     method: &Method<T>,
 ) -> Result<Solution<T>, SolveError> {
-    run(system, method, Plane::Bilateral)
+    solve_observed(system, method, Plane::Bilateral, |_| {})
 }
 
-fn run<T: Scalar>(
+/// As [`solve`] or [`solve_bilateral`], and shows every step of an augmentation to `each` as it is made: to
+/// whoever waits for a long one, or wants to keep them.
+///
+/// # Errors
+/// As [`solve`].
+///
+/// ```
+/// # use spring_mass_contact::{chapter::SpringMass, solver::{Method, Plane, solve_observed}};
+/// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
+/// let method = Method::Augmented { penalty: 4.0, tolerance: 0.1, max_augmentations: 9, start: 0.0 };
+/// let mut penetrations = Vec::new();
+/// solve_observed(&system, &method, Plane::Unilateral, |step| penetrations.push(step.penetration))?;
+/// assert_eq!(penetrations, [0.25, 0.125, 0.0625]);
+/// # Ok::<(), spring_mass_contact::solver::SolveError>(())
+/// ```
+pub fn solve_observed<T: Scalar>(
     system: &SpringMass<T>,
     method: &Method<T>,
     plane: Plane,
+    each: impl FnMut(&Step<T>),
 ) -> Result<Solution<T>, SolveError> {
     check::system(system)?;
     check::method(method)?;
@@ -241,7 +257,7 @@ fn run<T: Scalar>(
         Method::Augmented { penalty: eps, tolerance, max_augmentations, start } => {
             check::stiffness(system, eps)?;
             let steps = Augmentation::new(system, eps).from_multiplier(start.clone()).over(plane);
-            finish(iterate(steps, &enclosed, &target, tolerance, *max_augmentations)?)
+            finish(iterate(steps, &enclosed, &target, tolerance, *max_augmentations, each)?)
         }
     }
 }
@@ -340,6 +356,7 @@ fn iterate<T: Scalar>(
     target: &Target<T::Enclosure>,
     tolerance: &T,
     max_augmentations: u64,
+    mut each: impl FnMut(&Step<T>),
 ) -> Result<Found<T>, SolveError> {
     let eps = steps.penalty().enclose();
     let mut floor: Option<T> = None;
@@ -349,6 +366,7 @@ fn iterate<T: Scalar>(
         if !step.deflection.is_finite() || !steps.multiplier().is_finite() {
             return Err(SolveError::OutOfRange { quantity: "deflection" });
         }
+        each(&step);
         // A posteriori: how far is this iterate from the answer, the rounding of this question included?
         let (u, lambda) = (step.deflection.enclose(), step.multiplier.enclose());
         let error = T::magnitude(&target.error(enclosed, &u));

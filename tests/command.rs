@@ -89,10 +89,13 @@ fn prints_what_it_printed() {
 fn solves_end_as_they_should() {
     for (arguments, outcome, augmentations, steps_needed) in [
         ("--penalty 100 --tolerance 1e-12", "converged", Some(35), Some("35")),
-        ("--penalty 100 --tolerance 1e-30", "stagnated", None, None),
-        ("--penalty 100 --tolerance 1e-12 --scalar f32", "stagnated", None, None),
-        ("--penalty 1e12 --tolerance 1e-18", "stagnated", None, None),
-        ("--penalty 1e5 --tolerance 1e-17", "stagnated", None, None),
+        ("--penalty 100 --tolerance 1e-30", "stagnated", None, Some("95")),
+        // Nearly: the R of f32 is 4.81000518…, and its H − l is 0.04999995….
+        ("--penalty 100 --tolerance 1e-12 --scalar f32", "stagnated", None, Some("35")),
+        // p₀ = 4.8…e-12 < 1e-11 but not 1e-12, which one step more is: ρ = 1e-10.
+        ("--penalty 1e12 --tolerance 1e-18", "stagnated", None, Some("1")),
+        // ln(4.805…e-5/1e-17)/ln 1001 = 4.22….
+        ("--penalty 1e5 --tolerance 1e-17", "stagnated", None, Some("5")),
         ("--penalty 1e-9 --tolerance 1e-3", "out_of_steps", Some(1000), Some("387328217713")),
         (
             "--penalty 1e-9 --tolerance 1e-3 --max-augmentations 0",
@@ -103,7 +106,7 @@ fn solves_end_as_they_should() {
         ("--penalty 100 --tolerance 1e-30 --scalar mpfr:200", "converged", Some(95), Some("95")),
         ("--penalty 100 --tolerance 1e-30 --scalar exact", "converged", Some(95), Some("95")),
         // p̂ is 0 at once, and only the bound knows that 1e-6 is met all the same.
-        ("--penalty 1e8 --tolerance 1e-6 --scalar f32", "converged", Some(0), None),
+        ("--penalty 1e8 --tolerance 1e-6 --scalar f32", "converged", Some(0), Some("0")),
     ] {
         let (answer, code) = solve(&format!("--method augmented {arguments}"));
         assert_eq!(answer["outcome"], outcome, "{arguments}");
@@ -113,6 +116,40 @@ fn solves_end_as_they_should() {
         }
         assert_eq!(answer["steps_needed"].as_str(), steps_needed, "{arguments}");
         assert_eq!(answer["floor"].is_null(), outcome != "stagnated", "{arguments}");
+    }
+}
+
+/// Below the floor that is guaranteed a tolerance may be met all the same, and rounding may take a step more:
+/// ln((4.81/101)/1e-14)/ln 1.01 = 2933.5…. So no more is said than that.
+#[test]
+fn no_more_is_said_of_a_count_than_is_sure() {
+    let solve = |limit| {
+        let line =
+            format!("solve --method augmented --penalty 1 --tolerance 1e-14 --max-augmentations {limit}");
+        contact(&line.split(' ').collect::<Vec<_>>())
+    };
+    let words = |output: &Output| stdout(output).split_whitespace().collect::<Vec<_>>().join(" ");
+    for limit in ["1000", "2934"] {
+        let output = solve(limit);
+        let said = format!(
+            "out_of_steps at k = {limit}: |u − u*| < 1e-14 m needs k = 2934 in exact arithmetic, which rounding may \
+             not allow; try a larger --tolerance or more bits (--scalar mpfr:BITS)"
+        );
+        assert!(words(&output).contains(&said) && output.status.code() == Some(1), "{}", stdout(&output));
+    }
+    let output = solve("10000");
+    assert!(words(&output).contains("converged at k = 2935: |u − u*| < 1e-14 m"), "{}", stdout(&output));
+    // Where it is guaranteed, and where there is no rounding.
+    for (line, said) in [
+        (
+            "--penalty 1 --tolerance 1e-3",
+            "needs k = 389 in exact arithmetic, and rounding may add a few; try",
+        ),
+        ("--penalty 100 --tolerance 1e-30 --scalar exact", "needs k = 95; try a larger --max-augmentations"),
+    ] {
+        let line = format!("solve --method augmented --max-augmentations 2 {line}");
+        let output = contact(&line.split(' ').collect::<Vec<_>>());
+        assert!(words(&output).contains(said), "{}", stdout(&output));
     }
 }
 
@@ -233,8 +270,39 @@ fn the_trace_ends_with_the_answer() {
     assert!(trace.iter().zip(0..).all(|(row, k)| row["k"] == k));
 }
 
+/// What a table of 10⁵ steps would need if it were kept is more than what there is.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_long_trace_takes_no_more_memory_than_a_short_one() {
+    for format in ["table", "csv", "json"] {
+        let mut command = Command::new("sh");
+        let line = "ulimit -v 65536; exec \"$0\" solve --method augmented --penalty 1e-6 --max-augmentations 99999 \
+                    --trace --format \"$1\"";
+        let output =
+            command.args(["-c", line, env!("CARGO_BIN_EXE_contact"), format]).output().expect("a shell");
+        assert_eq!(output.status.code(), Some(1), "{format}: {}", String::from_utf8_lossy(&output.stderr));
+        assert!(stdout(&output).contains("99999"), "{format}");
+    }
+}
+
 #[test]
 fn a_terminal_of_80_columns_is_enough() {
+    let too_wide = |output: &Output| -> Option<String> {
+        stdout(output).lines().find(|line| line.chars().count() > 80).map(String::from)
+    };
+    let provable = entries().iter().filter(|entry| !["Fig. 1.1", "note 8"].contains(&entry.equation));
+    let proofs: Vec<_> = ["prove"].into_iter().chain(provable.map(|entry| entry.equation)).collect();
+    let output = contact(&proofs);
+    assert_eq!((too_wide(&output), output.status.code()), (None, Some(0)));
+    assert!(stdout(&output).contains("\nchanges of formulas that these claims notice\n"));
+    for line in
+        ["--help", "verify --help", "prove --help", "solve --help", "equations --help", "completions --help"]
+    {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_contact"));
+        // Without COLUMNS clap takes what there is room for; there is no terminal.
+        let output = command.env_remove("COLUMNS").args(line.split(' ')).stdin(Stdio::null()).output();
+        assert_eq!(too_wide(&output.expect("the command runs")), None, "{line}");
+    }
     for line in [
         "--help",
         "solve --help",
@@ -242,6 +310,7 @@ fn a_terminal_of_80_columns_is_enough() {
         "completions --help",
         "verify --help",
         "equations --help",
+        "prove",
         "verify --cases 20",
         "verify --cases 2 --scalar mpfr:2 --scalar mpfr:3 --scalar mpfr:4 --scalar mpfr:5 --scalar mpfr:6",
         "equations",
@@ -252,12 +321,13 @@ fn a_terminal_of_80_columns_is_enough() {
         "solve --scalar mpfr:1000 --gravity -1/3 --method augmented --trace",
         "solve --scalar exact --method augmented --penalty 1/3 --trace",
         "solve --method augmented --tolerance 1e-30 --trace",
+        "solve --method augmented --scalar mpfr:9 --stiffness 1e-30000 --mass 1e-30000 --gravity -1 --trace",
+        "solve --method augmented --penalty 1 --tolerance 1e-14 --trace --max-augmentations 10000",
         "solve --stiffness 1.2345678901234567e-300 --mass 1.2345678901234567e-300 --gravity -1.2345678901234567",
         "solve --mass 1e100000 --scalar exact",
     ] {
         let output = contact(&line.split(' ').collect::<Vec<_>>());
-        let wide = stdout(&output).lines().find(|line| line.chars().count() > 80);
-        assert_eq!(wide, None, "{line}");
+        assert_eq!(too_wide(&output), None, "{line}");
     }
 }
 
@@ -671,6 +741,49 @@ fn equations_are_data() {
     assert_eq!(array(&two).iter().map(|e| &e["equation"]).collect::<Vec<_>>(), ["1.1", "1.13"]);
 }
 
+/// In any of the ways that numbers are written, and a name and its number as two words.
+#[test]
+fn a_number_may_be_written_in_many_ways() {
+    let found = |arguments: &[&str]| -> Vec<String> {
+        let (rows, code) = json(arguments);
+        assert_eq!(code, Some(0), "{arguments:?}");
+        let rows = rows.get("equations").cloned().unwrap_or(rows);
+        array(&rows).iter().map(|row| row["equation"].as_str().expect("a number").to_string()).collect()
+    };
+    let all = ["1.13", "Theorem 1.3.3", "note 4"];
+    assert_eq!(found(&["equations", "(1.13)", "theorem 1.3.3", "Note 4"]), all);
+    assert_eq!(found(&["equations", "theorem", "1.3.3", "eq", "1.13", "NOTE", "4"]), all);
+    assert_eq!(found(&["prove", "Eq. (1.13)", "note", "4", "THM. 1.3.3"]), all);
+    let verify = [
+        "verify",
+        "--cases",
+        "5",
+        "--equation",
+        "eq 1.13",
+        "--equation",
+        "note (4)",
+        "--equation",
+        "thm 1.3.3",
+    ];
+    assert_eq!(found(&verify), all);
+    // Of what is not there the first word is named.
+    for (arguments, value) in [
+        (["prove", "theorem", "1.13"].as_slice(), "'theorem' for '[NUMBER]...'"),
+        (&["equations", "1.13", "figure"], "'figure' for '[NUMBER]...'"),
+    ] {
+        let line = refusal(arguments);
+        assert!(line.contains(value) && line.contains("or 'Theorem 1.3.3'"), "{line}");
+    }
+    // Two words of an option have to be quoted.
+    for (words, quoted) in [(["theorem", "1.3.3"], "'Theorem 1.3.3'"), (["NOTE", "4"], "'note 4'")] {
+        let line = refusal(&["verify", "--equation", words[0], words[1]]);
+        assert!(
+            line.contains(&format!("unexpected argument '{}' found; quote {quoted};", words[1])),
+            "{line}"
+        );
+    }
+}
+
 /// A line each, and as many cells in each as in the heading.
 #[test]
 fn markdown_is_a_table() {
@@ -688,14 +801,15 @@ fn markdown_is_a_table() {
 #[test]
 fn no_bad_choice_gets_further_than_one_line() {
     let whole = "must be a whole number from";
-    let number = "must be a number of the chapter as `contact equations` lists them, such as 1.13";
+    let number =
+        "must be a number of the chapter as `contact equations` lists them, such as 1.13 or 'Theorem 1.3.3'";
     let scalar = "must be f32, f64, mpfr:BITS with 2 to 1000000 bits, or exact";
     let formats = "[possible values: table, json, markdown]";
     let cases = [
         ("--cases", ["0", "-1", "1.5", "many", "", "1e3", "18446744073709551616"].as_slice(), whole),
         ("--seed", &["-1", "1.5", "text", "", "0x10", "18446744073709551616", "٣"], whole),
         ("--scalar", &["f16", "F32", "", "mpfr", "mpfr:1", "mpfr:1000001", "mpfr:-5", "f32,f64"], scalar),
-        ("--equation", &["9.9", "1.34", "", "-1", "(1.13)", "1.130", "theorem 1.3.3", "NaN"], number),
+        ("--equation", &["9.9", "1.34", "", "-1", "(1.13", "1.130", "theorem", "1.3.3", "NaN"], number),
         ("--equation", &["Fig. 1.1"], "nothing is claimed of it"),
         ("--format", &["xml", "JSON", "dot", "csv"], formats),
     ];
@@ -707,7 +821,7 @@ fn no_bad_choice_gets_further_than_one_line() {
         let line = refusal(&["verify", flag]);
         assert!(line.contains(&format!("a value is required for '{flag} ")), "{line}");
     }
-    for value in ["9.9", "", "1.34", "note", "1.13 "] {
+    for value in ["9.9", "", "1.34", "note", "1.13."] {
         let line = refusal(&["equations", "1.1", value]);
         assert!(line.contains(&format!("'{value}' for '[NUMBER]...'")) && line.contains(number), "{line}");
     }
@@ -790,6 +904,24 @@ fn the_whole_chapter_is_proved() {
     assert_eq!(table.status.code(), Some(0));
     let claims = count("claims");
     assert!(stdout(&table).contains(&format!("\n{claims} of {claims} claims proved in ")));
+}
+
+/// A directory's name may need quotes. Each line that is printed runs, here with what stands in for coqc.
+#[cfg(unix)]
+#[test]
+fn a_directory_for_coq_can_have_any_name() {
+    let directory = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("it's $HOME, \"quoted\" & long");
+    let directory = directory.to_str().expect("UTF-8");
+    let output = contact(&["prove", "--coq", directory]);
+    assert_eq!(output.status.code(), Some(0));
+    let (_, commands) = stdout(&output).split_once('\n').expect("commands");
+    let script = format!("coqc() {{ test $# = 4 && printf '%s\\n' \"$2\" \"$4\"; }}\n{commands}");
+    let ran = Command::new("sh").args(["-c", &script]).output().expect("a shell");
+    let lines: Vec<_> = stdout(&ran).lines().collect();
+    assert!(lines.len() > 10 && ran.status.success(), "{script}");
+    for pair in lines.chunks(2) {
+        assert!(pair[0] == directory && std::path::Path::new(pair[1]).is_file(), "{pair:?}");
+    }
 }
 
 /// What follows from what: every premise is there, and nothing follows from itself.

@@ -1702,7 +1702,7 @@ fn mpfr_numbers_with_huge_exponents_read_back_as_far_as_exponents_are_read() {
     assert_eq!(Mpfr::parse(&beyond.to_string(), 53), Err(ParseError::Exponent));
 }
 
-/// What `format!` can do with an f64 it does with an MPFR number, but for rounding to some decimals.
+/// What `format!` can do with an f64 it does with an MPFR number.
 #[test]
 fn mpfr_numbers_are_padded_and_signed_like_floats() {
     fn shown(x: impl Display) -> [String; 8] {
@@ -1728,4 +1728,38 @@ fn mpfr_numbers_are_padded_and_signed_like_floats() {
     let small = Mpfr::rounded(53, -0.25);
     assert_eq!(shown(&small)[2..5], ["     -2.5e-1|", "-2.5e-1     |", "  -2.5e-1   |"]);
     assert_eq!(format!("{:e<8}|{:<+8}|", Mpfr::infinity(), Mpfr::infinity()), "infeeeee|+inf    |");
+}
+
+/// A tie goes to the even digit, which is f64's way.
+#[test]
+fn mpfr_numbers_have_as_many_decimals_as_asked_for() {
+    fn shown(x: impl Display + std::fmt::Debug) -> [String; 9] {
+        [
+            format!("{x:.0}"),
+            format!("{x:.1}"),
+            format!("{x:.2}"),
+            format!("{x:.5}"),
+            format!("{x:.40}"),
+            format!("{x:+012.3}|"),
+            format!("{x:*<12.3}|"),
+            format!("{x:>12.3}|"),
+            format!("{x:.3?}|"),
+        ]
+    }
+    let ties = [0.5, 1.5, 2.5, -2.5, -3.5, 0.25, 0.75, 0.125, 0.375, 1.0625, -0.03125];
+    let others = [0.0, 1.0, -1.0, 9.81, 1.05, 0.1, -0.05, 999.999, -0.999_999, 1e-9, 1e22, 1e300, 5e-324];
+    for x in ties.into_iter().chain(others) {
+        assert_eq!(shown(Mpfr::rounded(53, x)), shown(x), "{x}");
+        assert_eq!(shown(Mpfr::rounded(200, x)), shown(x), "{x}");
+        assert_eq!(shown(Mpfr::constant(Rational::from_f64(x).unwrap())), shown(x), "{x}");
+    }
+    for x in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
+        assert_eq!(shown(Mpfr::rounded(53, x)), shown(x), "{x}");
+    }
+    // Next to nothing has nothing to show, and is found out without writing it down.
+    let tiny = Mpfr::rounded(53, Float::with_val(53, 1) >> 1_000_000_000);
+    assert_eq!([format!("{tiny:.2}"), format!("{:.2}", -tiny)], ["0.00", "-0.00"]);
+    // Beyond what any f64 holds: 1/3 in 200 bits is off in the 61st digit.
+    let third = Mpfr::rounded(200, 1) / Mpfr::int(3);
+    assert_eq!(format!("{third:.60}"), format!("0.{}", "3".repeat(60)));
 }

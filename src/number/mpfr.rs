@@ -4,8 +4,8 @@ use super::field::ordered;
 use super::{Exponential, Field, OrderedField, PositivePart, Real};
 use num_traits::{One, Zero};
 use rug::float::{Round, Special};
-use rug::ops::NegAssign;
-use rug::{Float, Rational};
+use rug::ops::{NegAssign, Pow};
+use rug::{Float, Integer, Rational};
 use std::cmp::Ordering;
 use std::{fmt, ops::RangeInclusive};
 
@@ -270,6 +270,25 @@ impl Mpfr {
         }
     }
 
+    /// The magnitude of a finite number, to the nearest of so many decimals; of two, to the even one.
+    fn decimal(&self, decimals: usize) -> String {
+        let unit = Integer::from(10).pow(decimals as u32);
+        let units = match &self.0 {
+            Constant(q) => {
+                let (off, nearest) = (q.clone() * &unit).fract_round(Integer::new());
+                // rug rounds a tie away from zero.
+                if *off.denom() == 2 && nearest.is_odd() { nearest + off.numer() } else { nearest }
+            }
+            Rounded(x) => {
+                let exact = Float::with_val(x.prec() + unit.significant_bits(), x * &unit);
+                exact.to_integer_round(Round::Nearest).expect("a finite number").0
+            }
+        };
+        let digits = format!("{:0>1$}", units.abs().to_string(), decimals + 1);
+        let (whole, fraction) = digits.split_at(digits.len() - decimals);
+        if decimals == 0 { whole.to_string() } else { format!("{whole}.{fraction}") }
+    }
+
     /// The exact value; `None` if it is infinite or not a number.
     pub fn to_rational(&self) -> Option<Rational> {
         match &self.0 {
@@ -286,12 +305,25 @@ impl From<Float> for Mpfr {
 }
 
 /// All digits: reading the text back with the same precision gives the same number, if its exponent is
-/// one that is read ([`MAX_EXPONENT`](super::MAX_EXPONENT)). A constant is printed as a fraction. Width,
-/// fill and sign are honoured; a number of decimals is not.
+/// one that is read ([`MAX_EXPONENT`](super::MAX_EXPONENT)). A constant is printed as a fraction.
+///
+/// With a number of decimals, as in `{:.5}`, it is that many, correctly rounded from the exact value, as for
+/// the machine's floats; for a constant, too. Width, fill and sign are honoured.
+///
+/// ```
+/// use spring_mass_contact::number::{Field, Mpfr};
+/// let ninth = Mpfr::rounded(200, 1) / Mpfr::int(9);
+/// assert_eq!(format!("{ninth:.3} {ninth:+8.1}"), "0.111     +0.1");
+/// ```
 impl fmt::Display for Mpfr {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        if let (Some(decimals), true) = (f.precision(), self.is_finite()) {
+            let negative = *self < Mpfr::zero();
+            return f.pad_integral(!negative, "", &self.decimal(decimals));
+        }
         let text = match &self.0 {
             Constant(q) => return fmt::Display::fmt(q, f),
+            Rounded(x) if !x.is_finite() => return fmt::Display::fmt(&x.to_f64(), f),
             Rounded(x) if x.is_zero() => "0".to_string(),
             Rounded(x) => x.to_string_radix(10, None),
         };

@@ -16,7 +16,7 @@ use crate::number::{Ball, Dual, Exact, Exponential, Field, PositivePart, Tree};
 use crate::operators;
 use num_traits::{One, Zero};
 use oorandom::Rand64;
-use rug::{Integer, Rational};
+use rug::{Float, Integer, Rational};
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 use std::fmt;
@@ -148,12 +148,28 @@ impl fmt::Display for How {
         match self {
             How::Undefined(divisor) if divisor.to_string() == "0" => f.write_str("undefined: 0 is a divisor"),
             How::Undefined(divisor) => write!(f, "undefined: {divisor} = 0 is a divisor"),
-            How::Different(left, right) => write!(f, "{left} ≠ {right}"),
-            How::Sign(Relation::Positive, value) => write!(f, "{value} is not > 0"),
-            How::Sign(Relation::NonNegative, value) => write!(f, "{value} is not ≥ 0"),
-            How::Sign(Relation::Zero, value) => write!(f, "{value} is not = 0"),
-            How::Far(distance) => write!(f, "far out it is still {distance} off its limit"),
+            How::Different(left, right) => match [brief(left), brief(right)] {
+                // What differs after so many digits only is written out.
+                [short, same] if short == same => write!(f, "{left} ≠ {right}"),
+                [left, right] => write!(f, "{left} ≠ {right}"),
+            },
+            How::Sign(Relation::Positive, value) => write!(f, "{} is not > 0", brief(value)),
+            How::Sign(Relation::NonNegative, value) => write!(f, "{} is not ≥ 0", brief(value)),
+            How::Sign(Relation::Zero, value) => write!(f, "{} is not = 0", brief(value)),
+            How::Far(distance) => write!(f, "far out it is still {} off its limit", brief(distance)),
         }
+    }
+}
+
+/// A value as text, of a long one four digits.
+fn brief(value: &Value) -> String {
+    const ROOM: usize = 24;
+    let text = value.to_string();
+    match value {
+        Value::Exact(x) if text.len() > ROOM => {
+            format!("≈ {}", Float::with_val(64, x.as_rational()).to_string_radix(10, Some(4)))
+        }
+        Value::Exact(_) | Value::Ball(_) => text,
     }
 }
 
@@ -472,9 +488,33 @@ const SIMPLE: [i32; 7] = [1, 0, 2, -1, 3, -2, -3];
 fn complexity(x: &Exact) -> u64 {
     let q = x.as_rational();
     let simple = SIMPLE.iter().position(|n| *q == *n).map(|place| place as u64);
-    let size =
-        |n: &Integer| n.to_i64().map_or(u64::from(u32::MAX), |n| n.unsigned_abs().min(u32::MAX.into()));
+    // Of what is large, the length.
+    let size = |n: &Integer| match n.to_i32() {
+        Some(n) => n.unsigned_abs().into(),
+        None => u64::from(u32::MAX) + u64::from(n.significant_bits()),
+    };
     simple.unwrap_or_else(|| SIMPLE.len() as u64 + size(q.numer()) + size(q.denom()))
+}
+
+/// What a coordinate could be instead, the simplest first: of a long number, fewer digits.
+fn simpler(x: &Exact) -> Vec<Exact> {
+    let whole = Exact::from(x.as_rational().clone().trunc());
+    let half = Exact::from((whole.as_rational() / Rational::from(2)).trunc());
+    let simple = SIMPLE.iter().map(|n| Exact::from(*n)).take_while(|n| n != x);
+    simple.chain([half, whole]).collect()
+}
+
+/// Points beside one whose coordinate was changed, at which a divisor is 0 again, by another coordinate.
+fn divisor_again_zero(divisor: &Tree, changed: Var, case: &Case<Exact>) -> Vec<Case<Exact>> {
+    let others = divisor.symbols().into_iter().filter_map(coordinate).filter(|var| *var != changed);
+    let bend = |by: Var| {
+        let Dual { value, derivative } =
+            slope(divisor, case, by).filter(|dual| !dual.derivative.is_zero())?;
+        let mut case = case.clone();
+        *case.get_mut(by) = case.get(by) - value / derivative;
+        Some(case)
+    };
+    others.filter_map(bend).collect()
 }
 
 /// Tries simpler values for one coordinate after the other, as long as it stays a counterexample.
@@ -483,33 +523,36 @@ fn smaller(statement: &Statement, case: &Case<Exact>, part: &'static str, how: H
     let vars: Vec<_> = Var::ALL.iter().copied().filter(|var| names.contains(var.symbol())).collect();
     let size = |case: &Case<Exact>| vars.iter().map(|var| complexity(case.get(*var))).sum::<u64>();
     let mut best = (case.clone(), size(case), part, how);
+    // The same with this coordinate, where another one may have to follow.
+    let with = |best: &(Case<Exact>, u64, &'static str, How), var: Var, x: Exact| {
+        let mut case = best.0.clone();
+        *case.get_mut(var) = x;
+        let followed = match &best.3 {
+            How::Undefined(divisor) => divisor_again_zero(divisor, var, &case),
+            _ => Vec::new(),
+        };
+        let one = |relation| if relation == Relation::Positive { Exact::one() } else { Exact::zero() };
+        let planted = plant(&statement.hypotheses, &mut case, &one).then_some(case);
+        let followed =
+            followed.into_iter().filter(|case| statement.hypotheses.iter().all(|h| holds(h, case)));
+        planted.into_iter().chain(followed).find_map(|case| {
+            let size = size(&case);
+            let Verdict::Fails(part, how) = (size < best.1).then(|| check_goals(statement, &case))? else {
+                return None;
+            };
+            // What is defined stays so: that two numbers differ shows more than that there are none.
+            let shows = !matches!(how, How::Undefined(_)) || matches!(best.3, How::Undefined(_));
+            shows.then_some((case, size, part, how))
+        })
+    };
     let mut improves = true;
     while improves {
         improves = false;
         for var in &vars {
-            for n in SIMPLE {
-                let (n, x) = (Exact::from(n), best.0.get(*var));
-                if n == *x {
-                    break;
-                }
-                let mut case = best.0.clone();
-                *case.get_mut(*var) = n;
-                // Another coordinate may have to follow.
-                let one =
-                    |relation| if relation == Relation::Positive { Exact::one() } else { Exact::zero() };
-                if !plant(&statement.hypotheses, &mut case, &one) {
-                    continue;
-                }
-                let size = size(&case);
-                // What is defined stays so: that two numbers differ shows more than that there are none.
-                if size < best.1
-                    && let Verdict::Fails(part, how) = check_goals(statement, &case)
-                    && (!matches!(how, How::Undefined(_)) || matches!(best.3, How::Undefined(_)))
-                {
-                    best = (case, size, part, how);
-                    improves = true;
-                    break;
-                }
+            let better = simpler(best.0.get(*var)).into_iter().find_map(|x| with(&best, *var, x));
+            if let Some(better) = better {
+                best = better;
+                improves = true;
             }
         }
     }
@@ -576,6 +619,36 @@ mod tests {
         {
             assert_eq!(refute(&statement(equation, name)), None);
         }
+    }
+
+    /// Where c + ε = 0, and where a sign is wrong however large the numbers are.
+    #[test]
+    fn a_counterexample_is_made_small() {
+        let long: Exact = "123456789012345678901234567890/987654321098765432109876543210987".parse().unwrap();
+        let mut point = Case::of(|_| long.clone());
+        point.system.c = -&long;
+        let found_at = |statement: &Statement| found(statement, &point).expect("a counterexample");
+        let undefined = found_at(&statement("1.11", "root").without(0));
+        assert_eq!(
+            undefined.to_string(),
+            "c = -1, m = 1, g = 1, l = 1, H = 1, ε = 1: undefined: c + ε = 0 is a divisor"
+        );
+        let minimum = found_at(&statement("1.4", "minimum").without(0));
+        assert!(
+            minimum.values.iter().all(|(_, x)| SIMPLE.iter().any(|n| Exact::from(*n) == *x)),
+            "{minimum}"
+        );
+    }
+
+    /// As text: what happens far out is said in a few digits, and what differs late in all.
+    #[test]
+    fn long_values_are_shortened_as_far_as_they_differ() {
+        let exact = |text: &str| Value::Exact(text.parse().unwrap());
+        let far = How::Far(Value::Exact(Exact::power_of_two(200) + Exact::one()));
+        assert_eq!(far.to_string(), "far out it is still ≈ 1.607e60 off its limit");
+        let (a, b) = ("1234567890123456789012345678901", "1234567890123456789012345678902");
+        assert_eq!(How::Different(exact(a), exact(b)).to_string(), format!("{a} ≠ {b}"));
+        assert_eq!(How::Different(exact(a), exact("1/3")).to_string(), "≈ 1.235e30 ≠ 1/3");
     }
 
     #[test]

@@ -4,6 +4,7 @@ use crate::output::Failure;
 use crate::text::shortened;
 use num_traits::Zero;
 use spring_mass_contact::chapter::SpringMass;
+use spring_mass_contact::claims::entries;
 use spring_mass_contact::number::{Exact, ToExact};
 
 /// The arguments, if they are plain text: others could only garble the one line of an error.
@@ -119,10 +120,172 @@ impl System {
     }
 }
 
-/// A number of the chapter that it has.
+/// A number of the chapter that it has, in any of the ways that numbers are written: `1.13`, `(1.13)`,
+/// `Eq. (1.13)`, `theorem 1.3.3`, `Fig 1.2`.
 pub fn equation(text: &str) -> Result<String, String> {
-    let known = spring_mass_contact::claims::entry(text).map(|entry| entry.equation.to_string());
-    known.ok_or_else(|| {
-        "must be a number of the chapter as `contact equations` lists them, such as 1.13".to_string()
+    let wanted = name_and_number(text);
+    let known = entries().iter().find(|entry| name_and_number(entry.equation) == wanted);
+    known.map(|entry| entry.equation.to_string()).ok_or_else(|| {
+        "must be a number of the chapter as `contact equations` lists them, such as 1.13 or 'Theorem 1.3.3'"
+            .to_string()
     })
+}
+
+/// The numbers that the words of a line are; of `theorem 1.3.3`, two of them.
+pub fn equations(words: &[String]) -> Result<Vec<String>, Failure> {
+    let mut numbers = Vec::new();
+    let mut left = words;
+    while let [word, rest @ ..] = left {
+        let is_name = !word.is_empty() && word.chars().all(|c| c.is_alphabetic() || c == '.');
+        let (number, rest) = match (equation(word), rest) {
+            // A name alone is no number, so it can only belong to the word behind it.
+            (Err(why), [next, rest @ ..]) if is_name => {
+                (equation(&format!("{word} {next}")).map_err(|_| why), rest)
+            }
+            (number, rest) => (number, rest),
+        };
+        numbers.push(number.map_err(|why| {
+            Failure::Input(format!("invalid value '{}' for '[NUMBER]...': {why}", shortened(word)))
+        })?);
+        left = rest;
+    }
+    Ok(numbers)
+}
+
+/// What has a name and this number, which may have got apart.
+pub fn named(number: &str) -> Option<&'static str> {
+    let mut named = entries().iter().map(|entry| entry.equation).filter(|equation| *equation != number);
+    named.find(|equation| name_and_number(equation).1 == number)
+}
+
+/// What a number is called, none for an equation, and its digits, without how they are written.
+fn name_and_number(text: &str) -> (String, &str) {
+    let bare = |text| {
+        let text = str::trim(text);
+        text.strip_prefix('(').and_then(|text| text.strip_suffix(')')).map_or(text, str::trim)
+    };
+    let text = bare(text);
+    let (name, number) = text.split_at(text.find(|c: char| !c.is_alphabetic()).unwrap_or(text.len()));
+    let name = name.to_lowercase();
+    let number = if name.is_empty() { number } else { number.strip_prefix('.').unwrap_or(number) };
+    let name = match name.as_str() {
+        "eq" | "eqn" | "equation" => "",
+        "figure" => "fig",
+        "rem" => "remark",
+        "thm" => "theorem",
+        other => other,
+    };
+    (name.to_string(), bare(number))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_is_understood_however_it_is_written() {
+        for (number, ways) in [
+            ("1.13", ["(1.13)", "( 1.13 )", " 1.13", "eq 1.13", "Eq. (1.13)", "EQN.1.13", "(equation 1.13)"]),
+            (
+                "Theorem 1.3.3",
+                [
+                    "theorem 1.3.3",
+                    "THEOREM  1.3.3",
+                    "Theorem1.3.3",
+                    "Thm. 1.3.3",
+                    "thm 1.3.3",
+                    "theorem (1.3.3)",
+                    "(Theorem 1.3.3)",
+                ],
+            ),
+            (
+                "Fig. 1.2",
+                ["Fig 1.2", "fig. 1.2", "fig 1.2", "FIG.1.2", "figure 1.2", "Figure (1.2)", "(Fig. 1.2)"],
+            ),
+            (
+                "Remark 1.3.2",
+                [
+                    "remark 1.3.2",
+                    "Remark. 1.3.2",
+                    "rem. 1.3.2",
+                    "Rem 1.3.2",
+                    "REMARK 1.3.2",
+                    "remark (1.3.2)",
+                    "remark1.3.2",
+                ],
+            ),
+            ("note 4", ["Note 4", "NOTE 4", "note4", "note  4", "note (4)", "(note 4)", "Note. 4"]),
+            (
+                "beyond 2",
+                ["Beyond 2", "BEYOND 2", "beyond2", "beyond  2", "beyond (2)", "(beyond 2)", " beyond 2 "],
+            ),
+        ] {
+            for way in ways.into_iter().chain([number]) {
+                assert_eq!(equation(way).as_deref(), Ok(number), "{way}");
+            }
+        }
+    }
+
+    #[test]
+    fn every_number_is_itself_and_its_label() {
+        for entry in entries() {
+            assert_eq!(equation(entry.equation).as_deref(), Ok(entry.equation));
+            assert_eq!(equation(&entry.label()).as_deref(), Ok(entry.equation));
+        }
+    }
+
+    /// A section's number is no theorem's, and one figure's no equation's.
+    #[test]
+    fn what_is_no_number_is_not_guessed() {
+        for text in [
+            "",
+            " ",
+            "()",
+            ".",
+            "9.9",
+            "1.130",
+            "01.13",
+            "1.13.",
+            ".1.13",
+            "1,13",
+            "(1.13",
+            "1.13)",
+            "1.3.3",
+            "4",
+            "note",
+            "theorem",
+            "theorem 1.13",
+            "note 1.13",
+            "note 7",
+            "eq note 4",
+            "eq",
+            "section 1.3.3",
+            "-1.13",
+            "1.13 1.14",
+            "notes 4",
+            "fig.. 1.2",
+        ] {
+            assert!(equation(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_name_and_its_number_may_be_two_words() {
+        let numbers = |line: &str| equations(&line.split('|').map(String::from).collect::<Vec<_>>()).ok();
+        for (line, expected) in [
+            ("theorem|1.3.3", ["Theorem 1.3.3"].as_slice()),
+            ("Fig.|1.2|1.13|eq.|(1.16)", &["Fig. 1.2", "1.13", "1.16"]),
+            ("note 4|note|5", &["note 4", "note 5"]),
+        ] {
+            assert_eq!(
+                numbers(line).as_deref(),
+                Some(expected.iter().map(|n| n.to_string()).collect::<Vec<_>>().as_slice()),
+                "{line}"
+            );
+        }
+        for line in ["theorem", "1.1|", "|1.1", "1.1|theorem", "theorem|1.13", "1.3.3|theorem", "note|note 4"]
+        {
+            assert_eq!(numbers(line), None, "{line}");
+        }
+    }
 }

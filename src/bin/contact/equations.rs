@@ -20,7 +20,7 @@ Examples:
 #[command(after_help = EXAMPLES)]
 pub struct Options {
     /// Only these, with their statements: 1.13, 'Theorem 1.3.3', 'note 4', …
-    #[arg(value_name = "NUMBER", value_parser = args::equation)]
+    #[arg(value_name = "NUMBER")]
     numbers: Vec<String>,
     /// How to print them
     #[arg(long, value_enum, default_value_t = Format::Table)]
@@ -54,9 +54,10 @@ struct Row {
 
 /// Prints the entries asked for.
 pub fn run(options: &Options) -> Result<Status, Failure> {
-    let all = options.numbers.is_empty();
+    let numbers = args::equations(&options.numbers)?;
+    let all = numbers.is_empty();
     let chosen: Vec<&Entry> =
-        entries().iter().filter(|e| all || options.numbers.iter().any(|n| n == e.equation)).collect();
+        entries().iter().filter(|e| all || numbers.iter().any(|n| n == e.equation)).collect();
     output::print(|out| match options.format {
         Format::Json => output::json(out, &chosen.iter().map(|e| row(e)).collect::<Vec<_>>()),
         Format::Markdown => markdown(out, &chosen),

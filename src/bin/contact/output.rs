@@ -1,14 +1,30 @@
 //! The way out: stdout, a closed pipe, one-line errors, exit codes, tables.
 
+use crate::args;
 use crate::text::shortened;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use comfy_table::{ColumnConstraint, ContentArrangement, Table, presets};
+use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, IsTerminal, Write};
 use std::process::ExitCode;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
+use std::thread;
+use std::time::Duration;
 
-/// Columns of a terminal that help and tables fit into.
+/// Columns of a page: of help, and of what is not read on a terminal.
 pub const WIDTH: u8 = 80;
+
+/// Columns that are left for text on the narrowest of terminals.
+const NARROWEST: u16 = 40;
+
+/// Columns that lines for people fit into: as many as the terminal has, if stdout is one.
+pub fn width() -> usize {
+    // Tests print into memory; whatever runs them may have a terminal.
+    let terminal = if cfg!(test) { None } else { terminal_size::terminal_size_of(io::stdout()) };
+    terminal.map_or(WIDTH.into(), |(width, _)| width.0.max(NARROWEST)).into()
+}
 
 /// What a command has to say about its result, once it is printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,14 +84,81 @@ pub fn json(out: &mut dyn Write, value: &impl Serialize) -> io::Result<()> {
     writeln!(out)
 }
 
-/// An empty table in the style all tables share, no wider than a terminal.
+/// An empty table in the style all tables share, as wide as a page, or the terminal if that is wider: in less, most
+/// would break in the middle of words.
 pub fn table() -> Table {
     let mut table = Table::new();
     table
         .load_style(presets::NOTHING)
         .set_content_arrangement(ContentArrangement::Dynamic)
-        .set_width(WIDTH.into());
+        .set_width(width().max(WIDTH.into()) as u16);
     table
+}
+
+/// What stands for a blank at which no line may end; it is printed as one.
+pub const GLUE: char = '\u{a0}';
+
+/// Text in as many lines as it needs; the first begins with `first`, the others are indented by `rest` blanks.
+pub fn wrapped(out: &mut dyn Write, first: &str, rest: usize, text: &str) -> io::Result<()> {
+    let rest = " ".repeat(rest);
+    let options = textwrap::Options::new(width())
+        .initial_indent(first)
+        .subsequent_indent(&rest)
+        .break_words(false)
+        .word_splitter(textwrap::WordSplitter::NoHyphenation);
+    let lines = textwrap::wrap(text, options);
+    lines.iter().try_for_each(|line| writeln!(out, "{}", line.replace(GLUE, " ")))
+}
+
+/// A command for the shell, indented, to be pasted as it stands: its words are quoted, and where the line is too
+/// long it goes on after a backslash.
+pub fn command<'a>(out: &mut dyn Write, words: impl IntoIterator<Item = &'a str>) -> io::Result<()> {
+    let mut line = String::from(" ");
+    let mut length = 1;
+    for word in words {
+        let word = shlex::try_quote(word).map_err(io::Error::other)?;
+        let more = " ".len() + textwrap::core::display_width(&word);
+        if length + more + " \\".len() > width() && length > "     ".len() {
+            writeln!(out, "{line} \\")?;
+            line = "     ".to_string();
+            length = line.len();
+        }
+        line = format!("{line} {word}");
+        length += more;
+    }
+    writeln!(out, "{line}")
+}
+
+/// A bar on stderr if that is a terminal and the work takes longer than a second. The work says how much of it is
+/// done, and of how much: as often as it likes, since another thread draws.
+pub fn with_progress<T>(what: &str, work: impl FnOnce(&(dyn Fn(usize, usize) + Sync)) -> T) -> T {
+    if !io::stderr().is_terminal() {
+        return work(&|_, _| {});
+    }
+    let (done, all) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let bar = |working: Receiver<()>| {
+        if working.recv_timeout(Duration::from_secs(1)) != Err(RecvTimeoutError::Timeout) {
+            return;
+        }
+        let style = ProgressStyle::with_template(&format!("{what} {{bar:40}} {{percent:>3}} %"));
+        let bar = ProgressBar::new(0).with_style(style.unwrap_or(ProgressStyle::default_bar()));
+        while working.recv_timeout(Duration::from_millis(100)) == Err(RecvTimeoutError::Timeout) {
+            bar.update(|state| {
+                state.set_len(all.load(Ordering::Relaxed) as u64);
+                state.set_pos(done.load(Ordering::Relaxed) as u64);
+            });
+        }
+        bar.finish_and_clear();
+    };
+    thread::scope(|scope| {
+        // Nothing is sent: when the work is at its end, one way or the other, the channel is closed.
+        let (_work, working) = mpsc::channel();
+        scope.spawn(|| bar(working));
+        work(&|now, of| {
+            all.store(of, Ordering::Relaxed);
+            done.fetch_max(now, Ordering::Relaxed);
+        })
+    })
 }
 
 /// Gives these columns all the width they need; the others share what is left.
@@ -108,7 +191,14 @@ pub fn clap_message(mut error: clap::Error, commands: &[&str]) -> Result<Status,
             return Ok(Status::Fine);
         }
         ErrorKind::InvalidSubcommand => format!("; [commands: {}]", commands.join(", ")),
-        ErrorKind::UnknownArgument => "; --help lists what is allowed".to_string(),
+        ErrorKind::UnknownArgument => {
+            let apart = match error.get(ContextKind::InvalidArg) {
+                Some(ContextValue::String(number)) => args::named(number),
+                _ => None,
+            };
+            let quote = apart.map_or(String::new(), |name| format!("; quote '{name}'"));
+            format!("{quote}; --help lists what is allowed")
+        }
         _ => String::new(),
     };
     let text = error.render().to_string();
@@ -117,4 +207,66 @@ pub fn clap_message(mut error: clap::Error, commands: &[&str]) -> Result<Status,
     let line = said.filter(|line| !line.is_empty()).collect::<Vec<_>>().join("; ");
     let line = line.strip_prefix("error: ").unwrap_or(&line).replace(":; ", ": ");
     Err(Failure::Input(format!("{line}{allowed}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn printed(print: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> String {
+        let mut bytes = Vec::new();
+        print(&mut bytes).expect("memory can be written");
+        String::from_utf8(bytes).expect("UTF-8")
+    }
+
+    #[test]
+    fn lines_end_before_a_page_does_but_not_at_glue() {
+        // An ε, a − and an ü each take one column, however many bytes they have.
+        let text = "ε − ü ".repeat(40) + &"no".repeat(3) + "\u{a0}end";
+        let lines = printed(|out| wrapped(out, "  first ", 4, &text));
+        let lines: Vec<&str> = lines.lines().collect();
+        assert!(
+            lines[0].starts_with("  first ε − ü")
+                && lines[1..].iter().all(|l| l.starts_with("    ") && !l.starts_with("     "))
+        );
+        let widths: Vec<_> = lines.iter().map(|line| line.chars().count()).collect();
+        assert!(widths.iter().all(|width| *width <= 80) && widths[0] >= 78, "{widths:?}");
+        assert_eq!(
+            lines.iter().map(|l| l.trim()).collect::<Vec<_>>().join(" "),
+            format!("first {}", text.replace(GLUE, " "))
+        );
+        let glued = format!("{} a{GLUE}b", "x".repeat(77));
+        assert_eq!(printed(|out| wrapped(out, "", 2, &glued)), format!("{}\n  a b\n", "x".repeat(77)));
+        // A word that is longer than a line stays whole.
+        assert_eq!(printed(|out| wrapped(out, "", 2, &"9".repeat(90))), "9".repeat(90) + "\n");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_command_runs_as_it_is_printed() {
+        let words = [
+            "printf",
+            "%s\\n",
+            "it's",
+            "a dir",
+            "$HOME",
+            "\"",
+            "ü",
+            "-1/2",
+            "*",
+            "a\\b",
+            "",
+            "~",
+            "--long-word-of-many-letters",
+        ];
+        let words: Vec<&str> = words.into_iter().chain(["0123456789"; 20]).chain(["a b"]).collect();
+        let text = printed(|out| command(out, words.iter().copied()));
+        let lines: Vec<&str> = text.lines().collect();
+        assert!(lines.len() > 3 && lines.iter().all(|line| line.chars().count() <= 80), "{text}");
+        let (last, others) = lines.split_last().expect("lines");
+        assert!(!last.ends_with('\\') && others.iter().all(|line| line.ends_with(" \\")), "{text}");
+        let output = std::process::Command::new("sh").args(["-c", &text]).output().expect("a shell");
+        let said = String::from_utf8(output.stdout).expect("UTF-8");
+        assert_eq!(said.lines().collect::<Vec<_>>(), words[2..], "{text}");
+    }
 }

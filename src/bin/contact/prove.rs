@@ -38,7 +38,7 @@ Exit status: 0 all proved, no control amiss; 1 otherwise; 2 bad input.";
 #[command(after_help = EXAMPLES)]
 pub struct Options {
     /// Only these, with their proofs in full: 1.13, 'Theorem 1.3.3', 'note 4', …
-    #[arg(value_name = "NUMBER", value_parser = args::equation)]
+    #[arg(value_name = "NUMBER")]
     numbers: Vec<String>,
     /// Write everything for the proof assistant Coq to this directory instead
     #[arg(long, value_name = "DIR", conflicts_with_all = ["numbers", "format"])]
@@ -90,10 +90,11 @@ pub fn run(options: &Options) -> Result<Status, Failure> {
     if let Some(directory) = &options.coq {
         return for_coq(directory);
     }
-    let wanted = |equation: &str| options.numbers.is_empty() || options.numbers.iter().any(|n| n == equation);
+    let numbers = args::equations(&options.numbers)?;
+    let wanted = |equation: &str| numbers.is_empty() || numbers.iter().any(|n| n == equation);
     let statements = statements();
     let empty = |number: &&String| statements.iter().all(|s| s.equation != number.as_str());
-    if let Some(empty) = options.numbers.iter().find(empty) {
+    if let Some(empty) = numbers.iter().find(empty) {
         return Err(format!(
             "invalid value '{empty}' for '[NUMBER]...': nothing is proved of it; `contact equations '{empty}'` \
              says what is claimed of it"
@@ -113,7 +114,7 @@ pub fn run(options: &Options) -> Result<Status, Failure> {
     output::print(|out| match options.format {
         Format::Json => output::json(out, &Json::of(&report)),
         Format::Markdown => markdown(out, &report),
-        Format::Table if options.numbers.is_empty() => table(out, &report),
+        Format::Table if numbers.is_empty() => table(out, &report),
         Format::Table => details(out, &report),
     })?;
     Ok(if report.is_well() { Status::Fine } else { Status::Unmet })
@@ -130,18 +131,17 @@ fn for_coq(directory: &Path) -> Result<Status, Failure> {
     let left_out = coq::left_out();
     output::print(|out| {
         let claims = statements().len();
-        writeln!(
-            out,
-            "{} of {claims} claims written as theorems, to be compiled in this order:",
-            claims - left_out.len()
-        )?;
+        let written = claims - left_out.len();
+        let order =
+            format!("{written} of {claims} claims written as theorems, to be compiled in this order:");
+        output::wrapped(out, "", 2, &order)?;
+        let text = |path: &Path| path.display().to_string();
         for file in &files {
-            writeln!(out, "  coqc -R {} Contact {}", directory.display(), file.display())?;
+            output::command(out, ["coqc", "-R", &text(directory), "Contact", &text(file)])?;
         }
-        for LeftOut { equation, name, reason } in &left_out {
-            writeln!(out, "left out: {equation} {name}: {reason}")?;
-        }
-        Ok(())
+        left_out.iter().try_for_each(|LeftOut { equation, name, reason }| {
+            output::wrapped(out, "", 2, &format!("left out: {equation} {name}: {reason}"))
+        })
     })
 }
 
@@ -262,19 +262,23 @@ fn amiss(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         let Statement { equation, name, .. } = &proved.statement;
         match &proved.answer {
             Answer::Proof(_) => {}
-            Answer::None(why, None) => writeln!(out, "\n{equation} {name} UNKNOWN: {why}")?,
+            Answer::None(why, None) => {
+                writeln!(out)?;
+                output::wrapped(out, "", 2, &format!("{equation} {name} UNKNOWN: {why}"))?;
+            }
             Answer::None(_, Some(counterexample)) => {
                 writeln!(out, "\n{equation} {name} REFUTED")?;
-                writeln!(out, "  {}", paper::claim(&proved.statement))?;
-                writeln!(out, "  at {counterexample}")?;
+                output::wrapped(out, "  ", 4, &together(&paper::claim(&proved.statement)))?;
+                output::wrapped(out, "  at ", 4, &point(counterexample))?;
                 if let Some(line) = command_line(&counterexample.case()) {
-                    writeln!(out, "  {line}")?;
+                    output::command(out, line.split(' '))?;
                 }
             }
         }
     }
     for change in &report.repairs {
-        writeln!(out, "\nwith {change} every claim would be proved")?;
+        writeln!(out)?;
+        output::wrapped(out, "", 2, &format!("with {change} every claim would be proved"))?;
     }
     for Dropped { equation, name, given, without } in report.needless() {
         let what = match without {
@@ -283,11 +287,13 @@ fn amiss(out: &mut dyn Write, report: &Report) -> io::Result<()> {
                 "may not be needed: nothing was found against the claim without it"
             }
         };
-        writeln!(out, "\n{equation} {name}: the hypothesis {} {what}", given.text())?;
+        writeln!(out)?;
+        output::wrapped(out, "", 2, &format!("{equation} {name}: the hypothesis {} {what}", given.text()))?;
     }
     for (Change { site, what }, outcome) in &report.controls.changes {
         if matches!(outcome, Outcome::Unnoticed) {
-            writeln!(out, "\nUNNOTICED {site}: {what}")?;
+            writeln!(out)?;
+            output::wrapped(out, "", 2, &format!("UNNOTICED {site}: {what}"))?;
         }
     }
     Ok(())
@@ -301,16 +307,14 @@ fn totals(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     if proved < claims {
         return writeln!(out, "The controls wait until all are.");
     }
-    writeln!(
-        out,
-        "{} of {hypotheses} hypotheses needed: without it the claim is refuted.",
-        hypotheses - needless
-    )?;
-    writeln!(
-        out,
-        "{} of {changes} changes of formulas noticed: {noticed} refuted, {unchanged} proved to change nothing.",
-        noticed + unchanged
-    )?;
+    let needed = hypotheses - needless;
+    let needed = format!("{needed} of {hypotheses} hypotheses needed: without it the claim is refuted.");
+    output::wrapped(out, "", 2, &needed)?;
+    let seen = noticed + unchanged;
+    let seen = format!(
+        "{seen} of {changes} changes of formulas noticed: {noticed} refuted, {unchanged} proved to change nothing."
+    );
+    output::wrapped(out, "", 2, &seen)?;
     writeln!(out, "{:.3} s in all.", seconds(report.in_all))
 }
 
@@ -335,16 +339,39 @@ fn details(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     let noticed =
         report.controls.changes.iter().filter_map(|(Change { site, what }, outcome)| match outcome {
             Outcome::Noticed { equation, name, counterexample } => {
-                Some(format!("  {site}: {what}, by {equation} {name} at {counterexample}"))
+                Some(format!("{site}: {what}, by {equation} {name} at {}", point(counterexample)))
             }
             Outcome::Unchanged | Outcome::Unnoticed => None,
         });
     let noticed: Vec<_> = noticed.collect();
     if !noticed.is_empty() {
         writeln!(out, "\nchanges of formulas that these claims notice")?;
-        noticed.iter().try_for_each(|line| writeln!(out, "{line}"))?;
+        noticed.iter().try_for_each(|line| output::wrapped(out, "  ", 4, line))?;
     }
     amiss(out, report)
+}
+
+/// Text whose lines end before an operator or a relation: what is multiplied or divided stays together.
+fn together(text: &str) -> String {
+    let is_operator = |word: &str| ["+", "−", "/", "=", "≠", "<", ">", "≤", "≥", "→"].contains(&word);
+    let is_factor = |word: &str| {
+        let letters = word.chars().filter(|c| c.is_alphabetic()).count();
+        letters < 2 && !is_operator(word) && !word.ends_with([',', ';', ':'])
+    };
+    let words: Vec<&str> = text.split(' ').collect();
+    let mut all = words.first().unwrap_or(&"").to_string();
+    for pair in words.windows(2) {
+        let (word, next) = (pair[0], pair[1]);
+        let glued = is_operator(word) || next == "/" || is_factor(word) && is_factor(next);
+        all.push(if glued { output::GLUE } else { ' ' });
+        all.push_str(next);
+    }
+    all
+}
+
+/// A counterexample whose lines end between its numbers.
+fn point(counterexample: &Counterexample) -> String {
+    counterexample.to_string().replace(" = ", &format!("{0}={0}", output::GLUE))
 }
 
 fn account(out: &mut dyn Write, report: &Report, proved: &Proved) -> io::Result<()> {
@@ -353,7 +380,10 @@ fn account(out: &mut dyn Write, report: &Report, proved: &Proved) -> io::Result<
     let mut say = |what: &str, lines: &[String]| {
         lines.iter().enumerate().try_for_each(|(i, line)| {
             let what = if i == 0 { what } else { "" };
-            writeln!(out, "  {what:<8} {line}")
+            let text = line.trim_start();
+            let first = format!("  {what:<8} {}", " ".repeat(line.len() - text.len()));
+            // Further in than what is a step of its own.
+            output::wrapped(out, &first, first.len() + 4, &together(text))
         })
     };
     say("claim", &[paper::claim(statement)])?;
@@ -371,7 +401,7 @@ fn account(out: &mut dyn Write, report: &Report, proved: &Proved) -> io::Result<
     }
     let needed = report.dropped(statement).filter_map(|Dropped { given, without, .. }| match without {
         Without::Refuted(counterexample) => {
-            Some(format!("{}: without it, at {counterexample}", given.text()))
+            Some(format!("{}: without it, at {}", given.text(), point(counterexample)))
         }
         Without::StillTrue | Without::Unknown => None,
     });
@@ -500,5 +530,57 @@ impl ClaimJson {
             counterexample,
             dropped: dropped.collect(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spring_mass_contact::number::{Field, Tree};
+    use spring_mass_contact::proof::statement::Says;
+
+    /// A run in which every equality is wrong by 1.
+    fn refuted() -> Report {
+        let wrong = |mut statement: Statement| {
+            for goal in &mut statement.goals {
+                if let Says::Equal(_, right) = &mut goal.says {
+                    *right = &*right + Tree::int(1);
+                }
+            }
+            attempt(&statement)
+        };
+        let all = statements().into_iter().map(wrong).collect();
+        Report::new(all, Controls::default(), Vec::new(), (Duration::ZERO, Duration::ZERO), &|_| true)
+    }
+
+    #[test]
+    fn what_is_refuted_fits_on_a_page_and_can_be_pasted() {
+        let report = refuted();
+        let mut bytes = Vec::new();
+        table(&mut bytes, &report).expect("memory can be written");
+        details(&mut bytes, &report).expect("memory can be written");
+        let text = String::from_utf8(bytes).expect("UTF-8");
+        assert_eq!(text.lines().find(|line| line.chars().count() > 80), None);
+        assert!(text.contains(" REFUTED\n"), "{text}");
+        // Backslashes taken away, each command is the one that belongs to its counterexample.
+        let pasted = text.replace(" \\\n      ", " ");
+        let commands: Vec<_> = pasted.lines().filter(|line| line.starts_with("  contact solve")).collect();
+        let lines = report.proved.iter().filter_map(|proved| match &proved.answer {
+            Answer::None(_, Some(counterexample)) => command_line(&counterexample.case()),
+            _ => None,
+        });
+        let lines: Vec<_> = lines.map(|line| format!("  {line}")).collect();
+        assert!(text.contains(" \\\n") && lines.len() > 50);
+        assert_eq!(commands, [lines.as_slice(), &lines].concat());
+    }
+
+    #[test]
+    fn products_stay_together() {
+        let parts = |text: &str| {
+            together(text).split(' ').map(|part| part.replace(output::GLUE, "_")).collect::<Vec<_>>()
+        };
+        assert_eq!(parts("it is 2 c ε² / (c + ε) − s₁ u"), ["it", "is", "2_c_ε²_/_(c", "+_ε)", "−_s₁_u"]);
+        assert_eq!(parts("c > 0, ε ≥ 0: m g"), ["c", ">_0,", "ε", "≥_0:", "m_g"]);
+        assert_eq!(parts(""), [""]);
     }
 }

@@ -10,9 +10,9 @@ use num_traits::Zero;
 use report::Report;
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::number::{Exact, NumberSystem};
+use spring_mass_contact::rug::Integer;
 use spring_mass_contact::solver::{
-    Augmentation, Method, Outcome, Plane, Solution, SolveError, Step, augmentations_needed, solve,
-    solve_bilateral, within_reach,
+    Augmentation, Method, Outcome, Plane, Solution, SolveError, Step, augmentations_needed, solve_observed,
 };
 
 const EXAMPLES: &str = "\
@@ -30,9 +30,6 @@ is the limit of its steps. JSON calls that bounds.
 
 Exit status: 0 all well; 1 the solve did not converge, its result is printed
 all the same; 2 bad input.";
-
-/// The default tolerance in m.
-const TOLERANCE: &str = "1e-9";
 
 /// Solve one system, with rigorous bounds and the residuals of the contact conditions
 #[derive(clap::Args)]
@@ -120,11 +117,12 @@ fn run_in<T: text::Number>(options: &Options, like: &T) -> Result<Status, Failur
         plane: if options.bilateral { Plane::Bilateral } else { Plane::Unilateral },
     };
     let out_of_range = |error: SolveError| format!("--scalar {}: {error}", options.scalar);
-    let solution = problem.solve().map_err(out_of_range)?;
+    let needed = problem.steps_needed();
+    let solution = problem.solve(needed.as_ref()).map_err(out_of_range)?;
     if options.trace && !problem.trace(&solution).all(|step| is_finite(&step)) {
         return Err(out_of_range(SolveError::OutOfRange { quantity: "trace" }).into());
     }
-    let report = Report::new(options, &problem, &solution);
+    let report = Report::new(options, &problem, &solution, needed);
     output::print(|out| match options.format {
         Format::Table => report.table(out),
         Format::Json => output::json(out, &report),
@@ -162,6 +160,11 @@ impl Options {
         }
     }
 
+    /// The default too as it would be typed.
+    fn tolerance(&self) -> Number {
+        self.tolerance.clone().unwrap_or_else(|| finite("1e-9").expect("a number"))
+    }
+
     fn method<T: text::Number>(&self, like: &T) -> Result<Method<T>, Failure> {
         let ten_c = &self.system.stiffness.value * Exact::from(10);
         let round_penalty = |number: &Number| number.round("--penalty <E>", like);
@@ -177,11 +180,10 @@ impl Options {
                 let or = |number: &Option<Number>, text: &str, value: Exact| {
                     number.clone().unwrap_or_else(|| Number { text: text.to_string(), value })
                 };
-                let tolerance = or(&self.tolerance, TOLERANCE, Exact::from(1) / Exact::from(1_000_000_000));
                 let start = or(&self.initial_multiplier, "0", Exact::zero());
                 Method::Augmented {
                     penalty: round_penalty(&or(&self.penalty, "10 c, the default", ten_c))?,
-                    tolerance: tolerance.round("--tolerance <T>", like)?,
+                    tolerance: self.tolerance().round("--tolerance <T>", like)?,
                     max_augmentations: self.max_augmentations.unwrap_or(1000),
                     start: start.round("--initial-multiplier <L>", like)?,
                 }
@@ -198,11 +200,19 @@ struct Problem<T> {
 }
 
 impl<T: text::Number> Problem<T> {
-    fn solve(&self) -> Result<Solution<T>, SolveError> {
-        match self.plane {
-            Plane::Unilateral => solve(&self.system, &self.method),
-            Plane::Bilateral => solve_bilateral(&self.system, &self.method),
-        }
+    /// How far it has come is measured by the steps that exact arithmetic needs.
+    fn solve(&self, needed: Option<&Integer>) -> Result<Solution<T>, SolveError> {
+        let steps = match &self.method {
+            Method::Augmented { max_augmentations, .. } => {
+                needed.and_then(Integer::to_u64).map_or(*max_augmentations, |n| n.min(*max_augmentations))
+            }
+            Method::Lagrange | Method::Penalty { .. } => 0,
+        };
+        let count = |k: u64| usize::try_from(k).unwrap_or(usize::MAX);
+        output::with_progress("solving", |progress| {
+            let each = |step: &Step<T>| progress(count(step.k), count(steps));
+            solve_observed(&self.system, &self.method, self.plane, each)
+        })
     }
 
     /// The augmentations that led to a solution, once more: cheaper than to keep them all.
@@ -217,11 +227,10 @@ impl<T: text::Number> Problem<T> {
         steps.into_iter().flatten().take_while(move |step| Some(step.k) <= last)
     }
 
-    /// The count of (1.33), as digits, if the scalar can reach the tolerance at all.
-    fn steps_needed(&self, unit_roundoff: &Exact) -> Option<String> {
+    /// The count of (1.33), of exact arithmetic.
+    fn steps_needed(&self) -> Option<Integer> {
         let Method::Augmented { penalty, tolerance, start, .. } = &self.method else { return None };
-        within_reach(&self.system, penalty, tolerance, unit_roundoff)
-            .then(|| augmentations_needed(&self.system, penalty, tolerance, start, self.plane).to_string())
+        Some(augmentations_needed(&self.system, penalty, tolerance, start, self.plane))
     }
 }
 

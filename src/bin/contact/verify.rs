@@ -4,15 +4,12 @@ use crate::args;
 use crate::output::{self, Failure, Status};
 use crate::text;
 use clap::ValueEnum;
-use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 use spring_mass_contact::claims::{Case, Entry, Var, claim_names, entries, entry};
 use spring_mass_contact::number::{Exact, NumberSystem};
 use spring_mass_contact::verify::{self, Report, Row, Suspect, command_line};
 use std::collections::BTreeMap;
-use std::io::{self, IsTerminal, Write};
-use std::sync::OnceLock;
-use std::time::{Duration, Instant};
+use std::io::{self, Write};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -90,7 +87,7 @@ pub fn run(options: &Options) -> Result<Status, Failure> {
         )
         .into());
     }
-    let report = with_progress(|progress| verify::verify(&wanted, progress));
+    let report = output::with_progress("verifying", |progress| verify::verify(&wanted, progress));
     output::print(|out| match options.format {
         Format::Table => table(out, &report, &wanted),
         Format::Json => output::json(out, &Json::of(&report)),
@@ -101,24 +98,6 @@ pub fn run(options: &Options) -> Result<Status, Failure> {
 
 fn outcome(report: &Report) -> Status {
     if report.holds() { Status::Fine } else { Status::Unmet }
-}
-
-/// A bar on stderr if that is a terminal and the work takes longer than a second.
-fn with_progress<T>(work: impl FnOnce(&(dyn Fn(usize, usize) + Sync)) -> T) -> T {
-    let (start, visible) = (Instant::now(), io::stderr().is_terminal());
-    let bar: OnceLock<ProgressBar> = OnceLock::new();
-    let result = work(&|done, of| {
-        if visible && start.elapsed() > Duration::from_secs(1) {
-            let style = ProgressStyle::with_template("verifying {bar:40} {percent:>3} %");
-            let new =
-                || ProgressBar::new(of as u64).with_style(style.unwrap_or(ProgressStyle::default_bar()));
-            bar.get_or_init(new).set_position(done as u64);
-        }
-    });
-    if let Some(bar) = bar.get() {
-        bar.finish_and_clear();
-    }
-    result
 }
 
 fn rows_of<'a>(report: &'a Report, entry: &Entry) -> Vec<&'a Row> {

@@ -1,14 +1,16 @@
 //! A solution as JSON, as CSV and as a table.
 
-use super::{Options, Problem, TOLERANCE};
+use super::{Options, Problem};
 use crate::args::Number as Typed;
-use crate::output;
-use crate::text::{Number, brief, brief_bounds, decimal, enclosing, shortened};
+use crate::output::{self, WIDTH};
+use crate::text::{
+    Number, brief, brief_bounds, decimal, enclosing, fitting, relation, shortened, visibly_rounded,
+};
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 use spring_mass_contact::chapter::contact::Kkt;
-use spring_mass_contact::number::Exact;
-use spring_mass_contact::rug::float::Round;
-use spring_mass_contact::solver::{Interval, Method, Outcome, Plane, Solution, State, Step};
+use spring_mass_contact::number::{Exact, NumberSystem};
+use spring_mass_contact::rug::{Integer, float::Round};
+use spring_mass_contact::solver::{Interval, Method, Outcome, Plane, Solution, State, Step, within_reach};
 use std::io::{self, Write};
 
 /// What helps against rounding.
@@ -24,8 +26,13 @@ pub struct Report<'a, T> {
 }
 
 impl<'a, T: Number> Report<'a, T> {
-    pub fn new(options: &'a Options, problem: &'a Problem<T>, solution: &'a Solution<T>) -> Self {
-        let steps_needed = problem.steps_needed(&options.scalar.unit_roundoff());
+    pub fn new(
+        options: &'a Options,
+        problem: &'a Problem<T>,
+        solution: &'a Solution<T>,
+        steps_needed: Option<Integer>,
+    ) -> Self {
+        let steps_needed = steps_needed.map(|n| n.to_string());
         Report { options, problem, solution, kkt: solution.certificate(&problem.system), steps_needed }
     }
 
@@ -189,11 +196,12 @@ impl<T: Number> Report<'_, T> {
     /// For people: what was solved, what came out, and what that promises.
     pub fn table(&self, out: &mut dyn Write) -> io::Result<()> {
         let s = self.solution;
-        let mut table = output::table();
-        table.add_row(["system", &self.system_in_words()]);
-        table.add_row(["method", &self.method_in_words()]);
-        table.add_row(["state", self.state_in_words()]);
-        table.add_row(["outcome", &self.outcome_in_words()]);
+        let mut rows = vec![
+            ("system", self.system_in_words()),
+            ("method", self.method_in_words()),
+            ("state", self.state_in_words().to_string()),
+            ("outcome", self.outcome_in_words()),
+        ];
         let bounds = &s.bounds;
         let answer = match self.problem.method {
             Method::Lagrange | Method::Penalty { .. } => "exact:",
@@ -205,33 +213,48 @@ impl<T: Number> Report<'_, T> {
             ("contact force", "N", "N", &s.contact_force, &bounds.contact_force),
         ] {
             let [lower, upper] = brief_bounds(interval);
-            table.add_row([name, &format!("{symbol} = {} {unit}", brief(value))]);
+            rows.push((name, format!("{} {unit}", relation(symbol, value))));
             let enclosure = if lower == upper { lower } else { format!("{lower} to {upper}") };
-            table.add_row(["", &format!("{answer} {enclosure} {unit}")]);
+            rows.push(("", format!("{answer} {enclosure} {unit}")));
         }
         if let Some(multiplier) = &s.multiplier {
-            table.add_row(["multiplier", &format!("λ = {} N", brief(multiplier))]);
+            rows.push(("multiplier", format!("{} N", relation("λ", multiplier))));
         }
         for (i, ((name, residual), unit)) in self.kkt().into_iter().zip(["N", "m", "N", "J"]).enumerate() {
             let residual = format!("{name} {} {unit}", decimal(residual, 3, Round::Nearest));
-            table.add_row([if i == 0 { "KKT residuals" } else { "" }, &residual]);
+            rows.push((if i == 0 { "KKT residuals" } else { "" }, residual));
         }
-        let table = table.trim_fmt();
-        writeln!(out, "{table}")?;
-        if table.contains('≈') {
+        let shortened = rows.iter().any(|(_, text)| text.contains('≈'));
+        let rounded = self.visibly_rounded();
+        if !rounded.is_empty() {
+            rows.insert(1, ("as rounded", rounded));
+        }
+        let mut table = output::table();
+        table.add_rows(rows.iter().map(|(name, text)| [name, text.as_str()]));
+        writeln!(out, "{}", table.trim_fmt())?;
+        if shortened {
             writeln!(out, "\n ≈ is shortened; --format json has all digits.")?;
         }
         if self.options.trace { self.trace_table(out) } else { Ok(()) }
     }
 
+    /// Widths are fixed, and each row is made while it is written: there can be very many.
     fn trace_table(&self, out: &mut dyn Write) -> io::Result<()> {
-        let mut table = output::table();
-        table.set_header(["k", "λ in N", "u in m", "p in m", "m g − c u in N"]);
+        const DIGITS: usize = 10;
+        let first = self.solution.augmentations.unwrap_or_default().to_string().len();
+        // Ten digits, a sign, a point, and three zeros before them or an exponent behind; less beside a long k.
+        let width = ((usize::from(WIDTH) - " ".len() - first) / STEP.len() - "  ".len()).min(DIGITS + 6);
+        let line = |k: String, cells: [String; 4]| {
+            let cells = cells.map(|cell| format!("  {cell:<width$}")).concat();
+            format!(" {k:<first$}{cells}").trim_end().to_string()
+        };
+        let names = ["λ in N", "u in m", "p in m", "m g − c u in N"].map(String::from);
+        writeln!(out, "\n{}", line("k".to_string(), names))?;
         for step in self.problem.trace(self.solution) {
-            let values = step_values(&step).map(|x| decimal(&crate::text::exact(x), 10, Round::Nearest));
-            table.add_row(std::iter::once(step.k.to_string()).chain(values));
+            let cells = step_values(&step).map(|x| fitting(x, DIGITS, width));
+            writeln!(out, "{}", line(step.k.to_string(), cells))?;
         }
-        writeln!(out, "\n{}\n\n Ten digits each; --format csv has all.", table.trim_fmt())
+        writeln!(out, "\n At most ten digits each; --format csv has all.")
     }
 
     fn system_in_words(&self) -> String {
@@ -247,11 +270,43 @@ impl<T: Number> Report<'_, T> {
         )
     }
 
+    /// The numbers that are not what was typed: the answer is for these.
+    fn visibly_rounded(&self) -> String {
+        let (typed, system) = (&self.options.system, &self.problem.system);
+        let tolerance_typed = self.options.tolerance();
+        let mut numbers = vec![
+            ("c", Some(&typed.stiffness), &system.c, "N/m"),
+            ("m", Some(&typed.mass), &system.m, "kg"),
+            ("g", Some(&typed.gravity), &system.g, "m/s²"),
+            ("l", Some(&typed.free_length), &system.l, "m"),
+            ("H", Some(&typed.height), &system.h, "m"),
+        ];
+        match &self.problem.method {
+            Method::Lagrange => {}
+            Method::Penalty { penalty } => {
+                numbers.push(("ε", self.options.penalty.as_ref(), penalty, "N/m"));
+            }
+            Method::Augmented { penalty, tolerance, start, .. } => {
+                numbers.push(("ε", self.options.penalty.as_ref(), penalty, "N/m"));
+                numbers.push(("tolerance", Some(&tolerance_typed), tolerance, "m"));
+                numbers.push(("λ₀", self.options.initial_multiplier.as_ref(), start, "N"));
+            }
+        }
+        let rounded = numbers.into_iter().filter_map(|(symbol, typed, x, unit)| {
+            let typed = typed?;
+            let text = visibly_rounded(symbol, &typed.text, &typed.value, x)?;
+            Some(format!("{text} {unit}"))
+        });
+        rounded.collect::<Vec<_>>().join(", ")
+    }
+
     fn method_in_words(&self) -> String {
         let name = match &self.problem.method {
             Method::Lagrange => "Lagrange multiplier".to_string(),
-            Method::Penalty { penalty } => format!("penalty, ε = {} N/m", brief(penalty)),
-            Method::Augmented { penalty, .. } => format!("augmented Lagrangian, ε = {} N/m", brief(penalty)),
+            Method::Penalty { penalty } => format!("penalty, {} N/m", relation("ε", penalty)),
+            Method::Augmented { penalty, .. } => {
+                format!("augmented Lagrangian, {} N/m", relation("ε", penalty))
+            }
         };
         let plane = if self.problem.plane == Plane::Bilateral { ", bilateral" } else { "" };
         format!("{name}{plane} ({})", self.options.scalar)
@@ -266,13 +321,18 @@ impl<T: Number> Report<'_, T> {
         }
     }
 
+    /// Is it certain that rounding lets the method meet its tolerance?
+    fn is_within_reach(&self) -> bool {
+        let Method::Augmented { penalty, tolerance, .. } = &self.problem.method else { return true };
+        within_reach(&self.problem.system, penalty, tolerance, &self.options.scalar.unit_roundoff())
+    }
+
     fn outcome_in_words(&self) -> String {
         let Method::Augmented { .. } = self.problem.method else {
             return "direct: nothing to iterate".to_string();
         };
         let k = self.solution.augmentations.unwrap_or_default();
-        let tolerance =
-            self.options.tolerance.as_ref().map_or(TOLERANCE.into(), |typed| shortened(&typed.text));
+        let tolerance = shortened(&self.options.tolerance().text);
         match (self.solution.outcome, &self.solution.floor, &self.steps_needed) {
             (Outcome::Converged, ..) => {
                 format!("converged at k = {k}: |u − u*| < {tolerance} m, proved by the bound")
@@ -282,14 +342,18 @@ impl<T: Number> Report<'_, T> {
                  least bound of |u − u*| met, is {} m; {LARGER}",
                 brief(floor)
             ),
-            (_, _, Some(needed)) => format!(
-                "out_of_steps at k = {k}: |u − u*| < {tolerance} m needs k = {}; try a larger \
-                 --max-augmentations or --penalty",
-                shortened(needed)
-            ),
-            (..) => format!(
-                "out_of_steps at k = {k}: and no step reaches {tolerance} m, which rounding does not allow; {LARGER}"
-            ),
+            (_, _, needed) => {
+                let needed = needed.as_deref().map_or(String::new(), shortened);
+                let needs = format!("out_of_steps at k = {k}: |u − u*| < {tolerance} m needs k = {needed}");
+                let more = "try a larger --max-augmentations or --penalty";
+                match (self.options.scalar, self.is_within_reach()) {
+                    (NumberSystem::Exact, _) => format!("{needs}; {more}"),
+                    (_, true) => format!("{needs} in exact arithmetic, and rounding may add a few; {more}"),
+                    (_, false) => {
+                        format!("{needs} in exact arithmetic, which rounding may not allow; {LARGER}")
+                    }
+                }
+            }
         }
     }
 }
