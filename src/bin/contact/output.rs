@@ -104,7 +104,6 @@ pub fn wrapped(out: &mut dyn Write, first: &str, rest: usize, text: &str) -> io:
     let options = textwrap::Options::new(width())
         .initial_indent(first)
         .subsequent_indent(&rest)
-        .break_words(false)
         .word_splitter(textwrap::WordSplitter::NoHyphenation);
     let lines = textwrap::wrap(text, options);
     lines.iter().try_for_each(|line| writeln!(out, "{}", line.replace(GLUE, " ")))
@@ -113,18 +112,24 @@ pub fn wrapped(out: &mut dyn Write, first: &str, rest: usize, text: &str) -> io:
 /// A command for the shell, indented, to be pasted as it stands: its words are quoted, and where the line is too
 /// long it goes on after a backslash.
 pub fn command<'a>(out: &mut dyn Write, words: impl IntoIterator<Item = &'a str>) -> io::Result<()> {
+    let room = width() - " \\".len();
     let mut line = String::from(" ");
-    let mut length = 1;
-    for word in words {
-        let word = shlex::try_quote(word).map_err(io::Error::other)?;
+    for plain in words {
+        let word = shlex::try_quote(plain).map_err(io::Error::other)?;
         let more = " ".len() + textwrap::core::display_width(&word);
-        if length + more + " \\".len() > width() && length > "     ".len() {
+        if textwrap::core::display_width(&line) + more > room && line.trim() != "" {
             writeln!(out, "{line} \\")?;
             line = "     ".to_string();
-            length = line.len();
         }
-        line = format!("{line} {word}");
-        length += more;
+        line.push(' ');
+        let mut rest = &*word;
+        // A number that is longer than a line goes on where the next one begins: a blank would end it.
+        while word == plain && word.is_ascii() && line.len() + rest.len() > room {
+            let (head, tail) = rest.split_at(room - line.len());
+            writeln!(out, "{line}{head}\\")?;
+            (line, rest) = (String::new(), tail);
+        }
+        line += rest;
     }
     writeln!(out, "{line}")
 }
@@ -237,8 +242,10 @@ mod tests {
         );
         let glued = format!("{} a{GLUE}b", "x".repeat(77));
         assert_eq!(printed(|out| wrapped(out, "", 2, &glued)), format!("{}\n  a b\n", "x".repeat(77)));
-        // A word that is longer than a line stays whole.
-        assert_eq!(printed(|out| wrapped(out, "", 2, &"9".repeat(90))), "9".repeat(90) + "\n");
+        // Only a word that is longer than a line is broken.
+        let nines = |n| "9".repeat(n);
+        let broken = format!("a {}\n  {}\n  {}\n", nines(78), nines(78), nines(34));
+        assert_eq!(printed(|out| wrapped(out, "", 2, &format!("a {}", nines(190)))), broken);
     }
 
     #[cfg(unix)]
@@ -259,12 +266,14 @@ mod tests {
             "~",
             "--long-word-of-many-letters",
         ];
-        let words: Vec<&str> = words.into_iter().chain(["0123456789"; 20]).chain(["a b"]).collect();
+        let number = "0123456789/".repeat(20);
+        let words = words.into_iter().chain(["0123456789"; 20]).chain(["a b", &number, "end"]);
+        let words: Vec<&str> = words.collect();
         let text = printed(|out| command(out, words.iter().copied()));
         let lines: Vec<&str> = text.lines().collect();
         assert!(lines.len() > 3 && lines.iter().all(|line| line.chars().count() <= 80), "{text}");
         let (last, others) = lines.split_last().expect("lines");
-        assert!(!last.ends_with('\\') && others.iter().all(|line| line.ends_with(" \\")), "{text}");
+        assert!(!last.ends_with('\\') && others.iter().all(|line| line.ends_with('\\')), "{text}");
         let output = std::process::Command::new("sh").args(["-c", &text]).output().expect("a shell");
         let said = String::from_utf8(output.stdout).expect("UTF-8");
         assert_eq!(said.lines().collect::<Vec<_>>(), words[2..], "{text}");
