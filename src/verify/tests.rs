@@ -211,20 +211,22 @@ fn each_case_of_a_run_is_another_one_and_each_is_tried_once() {
     assert_eq!(distinct, drawn);
 }
 
-/// An error of |u| against a bound of 1: the largest share is that of the largest |u| that was drawn.
+/// Where it is: in the first case, in the midst, in the last.
 #[test]
 fn the_worst_share_is_that_of_all_cases() {
-    let experiments = vec![experiment("measured", |x: &Case<Exact>| Trial::Within {
-        error: x.u.abs(),
-        bound: Exact::one(),
-    })];
+    static WORST: Mutex<Option<Case<Exact>>> = Mutex::new(None);
+    let check = |x: &Case<Exact>| {
+        let worst = WORST.lock().unwrap().as_ref() == Some(x);
+        Trial::Within { error: Exact::from(if worst { 3 } else { 1 }), bound: Exact::from(4) }
+    };
+    let checkers = [exactly(Vec::new(), vec![experiment("measured", check)])];
     let all = 3 * BLOCK;
-    let report = report(&[exactly(Vec::new(), experiments)], all);
-    let largest = (0..all).map(|i| cases::case(SEED, i, &[]).unwrap().u.abs()).max().unwrap();
-    let row = row(&report, "measured", NumberSystem::Exact);
-    let (share, bound) = row.worst.clone().unwrap();
-    assert_eq!((share, bound.as_str()), (largest.as_rational().to_f64(), "1"));
-    assert_eq!(row.status, Status::Failed);
+    for index in [0, BLOCK + 7, all - 1] {
+        *WORST.lock().unwrap() = cases::case(SEED, index, &[]);
+        let report = report(&checkers, all);
+        let row = row(&report, "measured", NumberSystem::Exact);
+        assert_eq!((row.status, &row.worst), (Status::Held, &Some((0.75, "4".to_string()))), "{index}");
+    }
 }
 
 #[test]
