@@ -2,8 +2,11 @@
 //! has and another lacks fails here.
 #![cfg(feature = "mpfr")]
 
-use spring_mass_contact::claims::{claim_names, entries, entry, line};
-use spring_mass_contact::number::NumberSystem;
+use spring_mass_contact::claims::{
+    Given, all_claims, claim_names, entries, entry, exact_experiments, first_order_experiments,
+    float_experiments, line,
+};
+use spring_mass_contact::number::{Ball, NumberSystem};
 use spring_mass_contact::verify::{Options, Row, Status, verify};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -115,6 +118,46 @@ fn every_claim_belongs_to_an_entry_under_a_name_of_its_own() {
     let named: usize = entries().iter().map(|e| claim_names(e.equation).len()).sum();
     let distinct: BTreeSet<_> = rows.iter().map(|(equation, claim, _)| (equation, claim)).collect();
     assert_eq!(named, distinct.len(), "a claim whose entry does not exist is listed nowhere");
+}
+
+/// What an entry supposes is supposed by some claim of it, or there would be no proof of the rest; and what all its
+/// claims suppose it says, among its hypotheses or in its statement.
+#[test]
+fn entries_suppose_what_their_claims_suppose() {
+    let algebraic = all_claims::<Ball<f64>>().into_iter().map(|c| (c.equation, c.given));
+    let floats = float_experiments::<f64>().into_iter().chain(first_order_experiments());
+    let floats = floats.map(|e| (e.equation, e.given));
+    let rationals = exact_experiments().into_iter().map(|e| (e.equation, e.given));
+    let all: Vec<_> = algebraic.chain(floats).chain(rationals).collect();
+    for e in entries() {
+        let of_entry = all.iter().filter(|(equation, _)| *equation == e.equation);
+        let claims: Vec<BTreeSet<&str>> =
+            of_entry.map(|(_, given)| given.iter().map(|given| given.text()).collect()).collect();
+        for hypothesis in e.hypotheses {
+            let sides: &[&str] = if *hypothesis == "λ₀ ≠ R" {
+                &["λ < R", "λ > R"]
+            } else {
+                std::slice::from_ref(hypothesis)
+            };
+            for side in sides {
+                assert!(
+                    claims.iter().any(|claim| claim.contains(side)),
+                    "{}: no claim if {side}",
+                    e.equation
+                );
+            }
+        }
+        let common = claims.into_iter().reduce(|a, b| &a & &b).unwrap_or_default();
+        for sign in common {
+            // How far on a sequence or a solution is, is no condition.
+            let runs = [Given::Power, Given::Count, Given::Time].iter().any(|given| given.text() == sign);
+            assert!(
+                runs || e.hypotheses.contains(&sign) || e.statement().contains(sign),
+                "{}: holds only if {sign}",
+                e.equation
+            );
+        }
+    }
 }
 
 #[test]

@@ -110,15 +110,15 @@ const ENTRIES: &[Entry] = entries! {
     "Fig. 1.2", "The penalty as a second spring", "1.3.2", "Two springs of stiffness c and ε act side by side.", [], ["penalty::total_stiffness"], ["1.12"];
     "1.13", "Deflection by penalty and its limit", "1.3.2", "u = «penalty::deflection» tends to «system::gap» as ε → ∞, with p = «penalty::penetration»", ["c > 0", "ε > 0"], ["penalty::deflection", "penalty::deflection_divided"], ["1.11"],
         r"\lim_{\varepsilon\to\infty} u = \lim_{\varepsilon\to\infty} «penalty::deflection» = \lim_{\varepsilon\to\infty} «penalty::deflection_divided» = «system::gap»";
-    "Remark 1.3.2", "Which penalty is enough", "1.3.2", "p ≤ tol if and only if ε ≥ «penalty::penalty_for»", ["c > 0", "R > 0", "tol > 0"], ["penalty::penalty_for"], ["1.13"];
+    "Remark 1.3.2", "Which penalty is enough", "1.3.2", "p ≤ tol if and only if ε ≥ «penalty::penalty_for»", ["c > 0", "ε > 0", "R > 0", "tol > 0"], ["penalty::penalty_for"], ["1.13"];
     "1.14", "Augmented functional", "1.3.3", "L(u) = «augmented::functional»", ["c > 0", "ε > 0"], ["augmented::functional"], ["1.7", "1.9"],
         r"L(u) = «augmented::functional»";
     "1.15", "Stationarity", "1.3.3", "∂L/∂u = «augmented::stationarity» = 0", [], ["augmented::stationarity"], ["1.14"],
         r"\frac{\partial L}{\partial u} = «augmented::stationarity» = 0";
     "1.16", "Augmentation", "1.3.3", "λ_k = «augmented::update: λ=λ_{k−1}, u=u_{k−1}» and «augmented::equilibrium: λ=λ_k, u=u_k» = 0; in closed form λ_k = «augmented::multiplier_after»", ["c > 0", "ε > 0"], ["augmented::update", "augmented::equilibrium", "augmented::deflection"], ["1.15"],
         r"\left\{\begin{aligned} &\lambda_k = «augmented::update: u=u_{k-1}, λ=λ_{k-1}» \\ &«augmented::equilibrium: u=u_k, λ=λ_k» = 0 \end{aligned}\right. \qquad k = 1, 2, 3, \dots";
-    "Theorem 1.3.3", "Convergence of the augmentation", "1.3.3", "|p(u_k)| falls strictly and geometrically by ρ = «augmented::contraction» for every ε > 0", ["c > 0", "ε > 0"], ["augmented::contraction"], ["1.16"];
-    "1.17", "The limit of the theorem", "1.3.3", "lim p(u_k) = 0, and |p_k| / |p₀| ≤ «augmented::harmonic_bound»", ["c > 0", "ε > 0"], ["augmented::harmonic_bound", "augmented::contraction", "augmented::penetration_after"], ["Theorem 1.3.3"],
+    "Theorem 1.3.3", "Convergence of the augmentation", "1.3.3", "p(u_k) shrinks by the factor ρ = «augmented::contraction» in each step for every ε > 0: |p(u_k)| falls strictly unless λ₀ = R", ["c > 0", "ε > 0"], ["augmented::contraction"], ["1.16"];
+    "1.17", "The limit of the theorem", "1.3.3", "lim p(u_k) = 0, and |p_k| ≤ r |p₀| with r = «augmented::harmonic_bound»", ["c > 0", "ε > 0"], ["augmented::harmonic_bound", "augmented::contraction", "augmented::penetration_after"], ["Theorem 1.3.3"],
         r"\lim_{k\to\infty} p(u_k) = 0";
     "1.18", "Update of the multiplier", "1.3.3", "λ_{k+1} = «augmented::update: λ=λ_k, u=u_k» = «augmented::contact_force: u=u_k»", ["(1.19)"], ["augmented::update"], ["1.16"],
         r"\lambda_{k+1} = «augmented::update: u=u_k, λ=λ_k»";
@@ -126,7 +126,7 @@ const ENTRIES: &[Entry] = entries! {
         r"«augmented::equilibrium: u=u_k, λ=λ_k» = 0";
     "1.20", "Equilibrium at step k + 1", "1.3.3", "«augmented::equilibrium: λ=λ_{k+1}, u=u_{k+1}» = 0", ["c > 0", "ε > 0"], ["augmented::equilibrium"], ["1.16", "1.18"],
         r"«augmented::equilibrium: u=u_{k+1}, λ=λ_{k+1}» = 0";
-    "1.21", "Recursion in the deflection", "1.3.3", "«augmented::recursion.left» = «augmented::recursion.right»", [], ["augmented::recursion"], ["1.18", "1.19", "1.20"],
+    "1.21", "Recursion in the deflection", "1.3.3", "«augmented::recursion.left» = «augmented::recursion.right»", ["(1.19)", "(1.20)"], ["augmented::recursion"], ["1.18", "1.19", "1.20"],
         r"«augmented::recursion.left» = «augmented::recursion.right»";
     "1.22", "Recursion in time", "1.3.3", "«ode::difference_equation.left» = «ode::difference_equation.right»", ["c > 0", "ε > 0"], ["ode::difference_equation"], ["1.21"],
         r"«ode::difference_equation.left» = «ode::difference_equation.right»";
@@ -150,19 +150,19 @@ const ENTRIES: &[Entry] = entries! {
         r"\lim_{t\to\infty} u = «ode::particular» \qquad\text{for } c, \varepsilon > 0";
     "1.32", "Limit of the penetration", "1.3.3", "lim p(u) = 0 as t → ∞", ["c > 0", "ε > 0"], ["contact::penetration"], ["1.31"],
         r"\lim_{t\to\infty} p(u(t)) = 0";
-    "1.33", "When to stop", "1.3.3", "|p_k| < tol, after ⌊ln(|p₀|/tol)/ln(1 + ε/c)⌋ + 1 steps", ["c > 0", "ε > 0", "tol > 0"], ["augmented::within_tolerance"], ["1.16"],
+    "1.33", "When to stop", "1.3.3", "|p_k| < tol, first at k = 0 if |p₀| < tol, else at k = ⌊ln(|p₀|/tol)/ln(1 + ε/c)⌋ + 1", ["c > 0", "ε > 0", "tol > 0"], ["augmented::within_tolerance"], ["1.16"],
         r"\lvert p_k \rvert = \lvert «contact::penetration: u=u_k» \rvert < \mathrm{tol}";
     "Remark 1.3.6", "The force at step k", "1.3.3", "λ_{k+1} − λ_k = «penalty::contact_force: u=u_k»: the force named in the remark lags one step behind", [], ["augmented::contact_force"], ["1.18"];
     "note 1", "Grazing", "notes", "p = 0 with N = 0 is a third state", ["c > 0", "R = 0"], ["contact::deflection"], ["1.6"];
-    "note 2", "A saddle point", "notes", "(1.7) is least in u and constant in λ at (Δ, R)", [], ["lagrange::functional"], ["1.7", "1.8"];
+    "note 2", "A saddle point", "notes", "(1.7) is least in u and constant in λ at (Δ, R)", ["c > 0"], ["lagrange::functional"], ["1.7", "1.8"];
     "note 3", "What a penalty functional needs", "notes", "W_ε(p_ε) ≤ R²/(2c)", ["c > 0", "ε > 0"], ["penalty::functional"], ["1.10"];
     "note 4", "A plane that never pulls", "notes", "λ_k = «augmented::unilateral_update: λ=λ_{k−1}, u=u_{k−1}» and «augmented::unilateral_equilibrium: λ=λ_k, u=u_k» = 0", ["c > 0", "ε > 0"], ["augmented::unilateral_deflection", "augmented::unilateral_update", "augmented::unilateral_equilibrium", "augmented::unilateral_functional", "augmented::natural_residual"], ["1.6", "1.16"];
-    "note 5", "An analogy and no proof", "notes", "e^{−ε/c} < ρ < e^{−ε/(c+ε)}, and p_k → 0 also for ε < −2c", ["c > 0"], ["augmented::contraction"], ["1.16", "1.30"];
+    "note 5", "An analogy and no proof", "notes", "e^{−ε/c} < ρ < e^{−ε/(c+ε)} for ε > 0, and p_k → 0 also for ε < −2c", ["c > 0"], ["augmented::contraction"], ["1.16", "1.30"];
     "note 6", "Which force", "notes", "«augmented::contact_force: u=u_k» = «augmented::update: λ=λ_k, u=u_k»", ["(1.19)"], ["augmented::contact_force"], ["1.18", "1.19"];
-    "note 8", "Not in every precision", "notes", "Rounding stops the augmentation at a floor of about η (|H| + R/ε)", ["c > 0", "ε > 0"], [], ["1.16"];
+    "note 8", "Not in every precision", "notes", "Rounding stops the augmentation at a floor of about η (|H| + R/ε)", ["c > 0", "ε > 0", "R > 0"], [], ["1.16"];
     "note 9", "The effort depends on ε", "notes", "(c/ε) Λ < Λ/ln(1 + ε/c) < (c/ε + ½) Λ for Λ = ln(|p₀|/tol) > 0", ["c > 0", "ε > 0"], [], ["1.33"];
     "beyond 1", "Moreau's decomposition", "beyond", "c p + N = R splits R into its positive part N and its negative part −c p", ["c > 0"], ["contact::contact_force"], ["1.6"];
-    "beyond 2", "Augmentations as one penalty", "beyond", "k augmentations equal one penalty solve with ε_eff = «beyond::effective_penalty: growth=(1 + ε/c)^{k+1}»", ["c > 0", "ε > 0"], ["beyond::effective_penalty"], ["1.13", "1.16"];
+    "beyond 2", "Augmentations as one penalty", "beyond", "k augmentations from λ₀ = 0 equal one penalty solve with ε_eff = «beyond::effective_penalty: growth=(1 + ε/c)^{k+1}»", ["c > 0", "ε > 0"], ["beyond::effective_penalty"], ["1.13", "1.16"];
     "beyond 3", "A step of its own", "beyond", "λ′ = «beyond::relaxed_update» multiplies the error by «beyond::relaxed_contraction»; α = «penalty::total_stiffness» is exact", ["c > 0", "ε > 0"], ["beyond::relaxed_update", "beyond::relaxed_contraction"], ["1.16"];
     "beyond 4", "A proximal step", "beyond", "(1.16) is implicit Euler of step ε on λ̇ = (R − λ)/c", ["c > 0", "ε > 0"], ["beyond::dual_functional"], ["1.16"];
     "beyond 5", "Extrapolation", "beyond", "Aitken's formula gives R exactly from λ₀, λ₁, λ₂", ["c > 0", "ε > 0", "λ₀ ≠ R"], ["beyond::aitken"], ["1.16"];

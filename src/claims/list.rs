@@ -42,6 +42,13 @@ fn augment<T: Field>(case: &Case<T>, x: &[T]) -> Vec<T> {
     vec![lambda, u]
 }
 
+/// Aitken's formula of the case's multiplier and the next two.
+fn extrapolated<T: Field>(case: &Case<T>) -> T {
+    let first = augment(case, &[case.lambda.clone(), iterate(case)]);
+    let second = augment(case, &first);
+    beyond::aitken(&case.lambda, &first[0], &second[0])
+}
+
 /// The deflection that goes with the case's multiplier.
 fn iterate<T: Field>(case: &Case<T>) -> T {
     augmented::deflection(&case.system, &case.eps, &case.lambda)
@@ -198,6 +205,7 @@ pub fn claims<T: Field>() -> Vec<Claim<T>> {
         "Theorem 1.3.3" "force" [Stiffness Penalty] Vanishing { ratio: |x| augmented::contraction(&x.system, &x.eps),
             of: |x, decay| augmented::multiplier_after(&x.system, &x.lambda, decay), to: |x| system::reaction(&x.system) };
         "1.17" "stays-positive" [Stiffness Penalty BelowReaction Power] Sign(Positive, |x| augmented::penetration_after(&x.system, &x.eps, &x.lambda, &x.q));
+        "1.17" "stays-negative" [Stiffness Penalty AboveReaction Power] Sign(Positive, |x| -augmented::penetration_after(&x.system, &x.eps, &x.lambda, &x.q));
         "1.17" "harmonic-step" [Stiffness Penalty Count] Sign(NonNegative, |x| {
             let next = &x.k + T::one();
             augmented::harmonic_bound(&x.system, &x.eps, &next) - augmented::contraction(&x.system, &x.eps) * augmented::harmonic_bound(&x.system, &x.eps, &x.k) });
@@ -250,6 +258,8 @@ pub fn claims<T: Field>() -> Vec<Claim<T>> {
         "note 2" "saddle-in-deflection" [] Equal(|x| { let (gap, r) = (system::gap(&x.system), system::reaction(&x.system)); (
             lagrange::functional(&x.system, &x.u, &r) - lagrange::functional(&x.system, &gap, &r),
             half(&x.system.c * square(&x.u - &gap))) });
+        "note 2" "least-in-deflection" [Stiffness] Sign(NonNegative, |x| { let (gap, r) = (system::gap(&x.system), system::reaction(&x.system));
+            lagrange::functional(&x.system, &x.u, &r) - lagrange::functional(&x.system, &gap, &r) });
         "note 2" "constant-in-multiplier" [] Equal(|x| { let gap = system::gap(&x.system); (
             lagrange::functional(&x.system, &gap, &x.lambda), structure::potential_energy(&x.system, &gap)) });
         "note 2" "separated" [Stiffness] Equal(|x| { let free = structure::deflection(&x.system); (
@@ -308,10 +318,8 @@ pub fn claims<T: Field>() -> Vec<Claim<T>> {
             augmented::least_value(&x.system, &x.eps, &x.lambda)) });
         "beyond 4" "envelope-slope" [Stiffness Penalty] derivative!(of: |x| augmented::least_value(&x.system, &x.eps, &x.lambda), by: Var::Lambda,
             is: |x| contact::penetration(&x.system, &iterate(x)));
-        "beyond 5" "aitken" [Stiffness Penalty BelowReaction] Equal(|x| {
-            let first = augment(x, &[x.lambda.clone(), iterate(x)]);
-            let second = augment(x, &first);
-            (beyond::aitken(&x.lambda, &first[0], &second[0]), system::reaction(&x.system)) });
+        "beyond 5" "aitken" [Stiffness Penalty BelowReaction] Equal(|x| (extrapolated(x), system::reaction(&x.system)));
+        "beyond 5" "aitken-from-above" [Stiffness Penalty AboveReaction] Equal(|x| (extrapolated(x), system::reaction(&x.system)));
         "beyond 5" "rises" [Stiffness Penalty] Equal(|x| { let lambda = augmented::multiplier_after(&x.system, &x.lambda, &x.q); (
             augmented::least_value(&x.system, &x.eps, &lambda),
             structure::potential_energy(&x.system, &system::gap(&x.system))
@@ -345,8 +353,14 @@ pub fn exponential_claims<T: Exponential>() -> Vec<Claim<T>> {
         "1.30" "starts" [Stiffness Penalty] Equal(|x| (ode::solution(&x.system, &x.eps, &x.u, &T::zero()), x.u.clone()));
         "1.31" "limit" [Stiffness Penalty Time Penetrating] Limit { of: |x| ode::solution(&x.system, &x.eps, &x.u, &x.t), by: Var::T, to: |x| system::gap(&x.system),
             rate: Rate::Within(reciprocal_decay) };
+        // … and from below, or from the plane itself.
+        "1.31" "limit-from-below" [Stiffness Penalty Time Clear] Limit { of: |x| ode::solution(&x.system, &x.eps, &x.u, &x.t), by: Var::T, to: |x| system::gap(&x.system),
+            rate: Rate::Within(|x| -reciprocal_decay(x)) };
+        "1.31" "stays" [Stiffness Penalty] Equal(|x| { let gap = system::gap(&x.system); (ode::solution(&x.system, &x.eps, &gap, &x.t), gap) });
         "1.32" "limit" [Stiffness Penalty Time Penetrating] Limit { of: |x| contact::penetration(&x.system, &ode::solution(&x.system, &x.eps, &x.u, &x.t)), by: Var::T, to: |_| T::zero(),
             rate: Rate::Within(reciprocal_decay) };
+        "1.32" "limit-from-below" [Stiffness Penalty Time Clear] Limit { of: |x| contact::penetration(&x.system, &ode::solution(&x.system, &x.eps, &x.u, &x.t)), by: Var::T, to: |_| T::zero(),
+            rate: Rate::Within(|x| -reciprocal_decay(x)) };
         "note 5" "strict-bound" [Stiffness Penalty] Sign(Positive, |x| ode::rate(&x.system, &x.eps).exp() - augmented::contraction(&x.system, &x.eps));
         "note 5" "other-side" [Stiffness Penalty] Sign(Positive, |x| augmented::contraction(&x.system, &x.eps) - (-&x.eps / &x.system.c).exp());
         // From one step to the next: a bound q + t above ρᵏ = q stays above.

@@ -5,7 +5,7 @@ mod changed;
 use super::checker::Judge;
 use super::*;
 use crate::claims::{Claim, Experiment, Kind, Pair, Relation, Trial, Var, formula};
-use crate::number::{Ball, Dual, Exponential, Field, OrderedField, PositivePart, Real, Tree};
+use crate::number::{Ball, Dual, Exponential, Field, PositivePart, Real, Tree};
 use crate::proof::controls::{self, What};
 use crate::proof::statement::{Goal, Says};
 use num_traits::{One, Zero};
