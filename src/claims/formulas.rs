@@ -216,7 +216,10 @@ static FORMULAS: LazyLock<Vec<Formula>> = LazyLock::new(record);
 static BY_SITE: LazyLock<HashMap<Site, Vec<usize>>> = LazyLock::new(|| {
     let mut all: HashMap<Site, Vec<usize>> = HashMap::new();
     for (i, formula) in FORMULAS.iter().enumerate() {
-        all.entry(formula.tree.site()).or_default().push(i);
+        // A function that only hands on an argument, as a mistake may leave it, computes nothing to be known by.
+        if !matches!(formula.tree.step(), Step::Symbol(_)) {
+            all.entry(formula.tree.site()).or_default().push(i);
+        }
     }
     all
 });
