@@ -1,8 +1,8 @@
 //! The chapter as data: [`entries`] say what it states, [`claims`](claims()) what is checked of it.
 //!
-//! A claim is a generic function like the formulas it speaks of, and written once. Read in rationals it
-//! is checked with `==`; read in balls, within the bounds they compute. Its [`Given`]s are hypotheses; a
-//! [`Case`] holds the numbers for one trial.
+//! A claim is made of recorded formulas, and written once. In rationals it is checked with `==`; in balls, within
+//! the bounds they compute; for all values it is proved. Its [`Given`]s are hypotheses; a [`Case`] holds the numbers
+//! for one trial.
 
 mod entries;
 #[cfg(feature = "mpfr")]
@@ -14,10 +14,11 @@ pub use entries::{Entry, entries, entry, place};
 #[cfg(feature = "mpfr")]
 pub use experiments::{Experiment, Trial, exact_experiments, first_order_experiments, float_experiments};
 pub use formulas::{Call, Formula, call, calls, fill, formula, formula_in, formulas, line, named};
-pub use list::{all_claims, claims, exponential_claims, unilateral_claims};
 
 use crate::chapter::{SpringMass, augmented, contact, penalty, system};
+use crate::number::tree::Step;
 use crate::number::{Dual, Field, Tree};
+use std::sync::LazyLock;
 
 macro_rules! coordinates {
     ($($Var:ident $field:ident $symbol:literal $text:literal;)*) => {
@@ -112,6 +113,17 @@ impl<T> Case<T> {
     /// The same case in other numbers.
     pub fn map<U>(&self, mut f: impl FnMut(Var, &T) -> U) -> Case<U> {
         Case::of(|var| f(var, self.get(var)))
+    }
+}
+
+impl<T: Clone> Case<T> {
+    /// The coordinate of this name.
+    ///
+    /// # Panics
+    /// There is none.
+    pub fn named(&self, symbol: &str) -> T {
+        let var = Var::ALL.iter().find(|var| var.symbol() == symbol);
+        self.get(*var.unwrap_or_else(|| panic!("{symbol} is no coordinate"))).clone()
     }
 }
 
@@ -225,73 +237,73 @@ hypotheses! {
     Time "t > 0" Positive T |x| x.t.clone();
 }
 
-/// Two sides of an equation.
-pub type Pair<T> = (T, T);
-
 /// How a limit is checked in numbers: by the distance to it, in a form from which the limit can be read.
-pub enum Rate<T> {
+#[derive(Clone, Debug)]
+pub enum Rate {
     /// The distance is this.
-    Exactly(fn(&Case<T>) -> T),
+    Exactly(Tree),
     /// The distance is no more than this, either way.
-    Within(fn(&Case<T>) -> T),
+    Within(Tree),
 }
 
-/// What is claimed.
+/// What is claimed, in the coordinates of a [`Case`].
+#[derive(Clone, Debug)]
 #[non_exhaustive]
-pub enum Kind<T> {
-    /// Two expressions are equal.
-    Equal(fn(&Case<T>) -> Pair<T>),
-    /// An expression has a sign.
-    Sign(Relation, fn(&Case<T>) -> T),
-    /// One expression is the derivative of another.
+pub enum Kind {
+    /// Two formulas are equal.
+    Equal(Tree, Tree),
+    /// A formula has a sign.
+    Sign(Relation, Tree),
+    /// One formula is the derivative of another.
     Derivative {
-        /// The other, in dual numbers.
-        of: fn(&Case<Dual<T>>) -> Dual<T>,
-        /// The other, as it is.
-        formula: fn(&Case<T>) -> T,
+        /// The other.
+        of: Tree,
         /// By this coordinate.
         by: Var,
         /// The one.
-        is: fn(&Case<T>) -> T,
+        is: Tree,
     },
-    /// An expression tends to another as a coordinate tends to infinity.
+    /// A formula tends to another as a coordinate tends to infinity.
     Limit {
-        /// The expression.
-        of: fn(&Case<T>) -> T,
+        /// The formula.
+        of: Tree,
         /// The coordinate.
         by: Var,
         /// Its limit.
-        to: fn(&Case<T>) -> T,
+        to: Tree,
         /// How fast.
-        rate: Rate<T>,
+        rate: Rate,
     },
-    /// A recursion x₀ = start, x_{k+1} = step(x_k) has the closed form x_k = closed(ratioᵏ).
+    /// A recursion x₀ = start, x_{k+1} = step(x_k) has the closed form x_k = closed at q = ratioᵏ.
     Induction {
         /// What is raised to the power k.
-        ratio: fn(&Case<T>) -> T,
+        ratio: Tree,
         /// x₀.
-        start: fn(&Case<T>) -> Vec<T>,
-        /// The next x.
-        step: fn(&Case<T>, &[T]) -> Vec<T>,
-        /// x_k from ratioᵏ.
-        closed: fn(&Case<T>, &T) -> Vec<T>,
+        start: Vec<Tree>,
+        /// The next x, by the [`MEMBERS`].
+        step: Vec<Tree>,
+        /// x_k, by q.
+        closed: Vec<Tree>,
     },
-    /// of(ratioᵏ) tends to a limit as k grows: |ratio| < 1 and of(0) is the limit.
+    /// A formula in q = ratioᵏ tends to a limit as k grows: |ratio| < 1, and at q = 0 it is the limit.
     Vanishing {
         /// What is raised to the power k.
-        ratio: fn(&Case<T>) -> T,
-        /// An expression in ratioᵏ.
-        of: fn(&Case<T>, &T) -> T,
+        ratio: Tree,
+        /// The formula.
+        of: Tree,
         /// Its limit.
-        to: fn(&Case<T>) -> T,
+        to: Tree,
     },
 }
 
-impl<T> Kind<T> {
+/// What the components of x_k are called in the step of an induction.
+pub const MEMBERS: [&str; 4] = ["x₁", "x₂", "x₃", "x₄"];
+
+impl Kind {
     /// Its name.
     pub fn name(&self) -> &'static str {
         match self {
-            Kind::Equal(_) => "equal",
+            Kind::Equal(..) => "equal",
             Kind::Sign(..) => "sign",
             Kind::Derivative { .. } => "derivative",
             Kind::Limit { .. } => "limit",
@@ -301,8 +313,9 @@ impl<T> Kind<T> {
     }
 }
 
-/// Something said of an equation under hypotheses, in one number system.
-pub struct Claim<T> {
+/// Something said of an equation under hypotheses: recorded once, and read by provers, number systems and printers.
+#[derive(Clone, Debug)]
+pub struct Claim {
     /// The [`Entry`] it belongs to.
     pub equation: &'static str,
     /// Its name, unique within the equation.
@@ -310,78 +323,39 @@ pub struct Claim<T> {
     /// What it supposes.
     pub given: &'static [Given],
     /// What it says.
-    pub kind: Kind<T>,
+    pub kind: Kind,
 }
 
-/// What is asked of the numbers of one case.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Goal<T> {
-    /// Are these equal?
-    Equal(T, T),
-    /// Has this the sign?
-    Sign(Relation, T),
-}
-
-/// The recursion is followed for this many steps; the closed form is also tried at any ρᵏ.
-const STEPS: usize = 3;
-
-impl<T: Field> Claim<T> {
-    /// What the claim comes to for one case; it holds there if all goals do.
-    pub fn goals(&self, case: &Case<T>) -> Vec<Goal<T>> {
-        let equal = |(left, right)| Goal::Equal(left, right);
-        let pairs = |a: Vec<T>, b: Vec<T>| a.into_iter().zip(b).map(equal);
-        match &self.kind {
-            Kind::Equal(sides) => vec![equal(sides(case))],
-            Kind::Sign(relation, of) => vec![Goal::Sign(*relation, of(case))],
-            Kind::Derivative { of, by, is, .. } => {
-                vec![Goal::Equal(of(&case.along(*by)).derivative, is(case))]
-            }
-            Kind::Limit { of, to, rate, .. } => {
-                let distance = of(case) - to(case);
-                match rate {
-                    Rate::Exactly(rate) => vec![Goal::Equal(distance, rate(case))],
-                    Rate::Within(bound) => {
-                        let bound = bound(case);
-                        let margin = &bound * &bound - &distance * &distance;
-                        vec![
-                            Goal::Sign(Relation::NonNegative, bound),
-                            Goal::Sign(Relation::NonNegative, margin),
-                        ]
-                    }
-                }
-            }
+impl Claim {
+    /// Does it speak of eˣ, which rationals have not?
+    pub fn has_exponentials(&self) -> bool {
+        let is_exponential = |tree: &Tree| matches!(tree.step(), Step::Exp(_));
+        let trees = match &self.kind {
+            Kind::Equal(a, b) | Kind::Derivative { of: a, is: b, .. } => vec![a, b],
+            Kind::Sign(_, a) => vec![a],
+            Kind::Limit { of, to, rate: Rate::Exactly(rate) | Rate::Within(rate), .. } => vec![of, to, rate],
+            Kind::Vanishing { ratio, of, to } => vec![ratio, of, to],
             Kind::Induction { ratio, start, step, closed } => {
-                let ratio = ratio(case);
-                let (mut x, mut power) = (start(case), T::one());
-                let mut goals: Vec<_> = pairs(x.clone(), closed(case, &power)).collect();
-                for _ in 0..STEPS {
-                    x = step(case, &x);
-                    power = &power * &ratio;
-                    goals.extend(pairs(x.clone(), closed(case, &power)));
-                }
-                let next = step(case, &closed(case, &case.q));
-                goals.extend(pairs(next, closed(case, &(&ratio * &case.q))));
-                goals
+                [ratio].into_iter().chain(start).chain(step).chain(closed).collect()
             }
-            Kind::Vanishing { ratio, of, to } => {
-                let ratio = ratio(case);
-                vec![
-                    Goal::Sign(Relation::Positive, T::one() - &ratio * &ratio),
-                    Goal::Equal(of(case, &T::zero()), to(case)),
-                ]
-            }
-        }
+        };
+        trees.into_iter().any(|tree| tree.any(&is_exponential))
     }
+}
+
+/// Every claim.
+pub fn claims() -> &'static [Claim] {
+    static CLAIMS: LazyLock<Vec<Claim>> = LazyLock::new(list::record);
+    &CLAIMS
 }
 
 /// The names of an entry's claims, in whatever number system they are checked.
 #[cfg(feature = "mpfr")]
 pub fn claim_names(equation: &str) -> Vec<&'static str> {
-    use crate::number::Ball;
-    let algebraic = all_claims::<Ball<f64>>().into_iter().map(|c| (c.equation, c.name));
+    let recorded = claims().iter().map(|c| (c.equation, c.name));
     let floats = float_experiments::<f64>().into_iter().chain(first_order_experiments());
     let floats = floats.map(|e| (e.equation, e.name));
     let rationals = exact_experiments().into_iter().map(|e| (e.equation, e.name));
-    let all = algebraic.chain(floats).chain(rationals);
+    let all = recorded.chain(floats).chain(rationals);
     all.filter(|(e, _)| *e == equation).map(|(_, name)| name).collect()
 }

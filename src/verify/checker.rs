@@ -2,10 +2,11 @@
 
 use super::guard::guarded;
 use super::{Row, Status};
+use super::goals::{Asked, Group, groups};
 use crate::claims::{
-    Case, Claim, Experiment, Given, Goal, Trial, all_claims, claims, exact_experiments,
-    first_order_experiments, float_experiments, unilateral_claims,
+    Case, Claim, Experiment, Given, Trial, exact_experiments, first_order_experiments, float_experiments,
 };
+use crate::number::tree::{Step, everything, piecewise};
 use crate::number::{Ball, Exact, Mpfr, NumberSystem, PositivePart, RangeError, Real, ToExact};
 use crate::solver::Scalar;
 use num_traits::Zero;
@@ -102,7 +103,10 @@ pub(super) trait Judge: Sync {
     /// The numbers of the experiments.
     type Computed: Clone;
 
-    fn claims(&self) -> Vec<Claim<Self::Number>>;
+    /// Has it exponentials?
+    const EXPONENTIALS: bool;
+    /// A quotient, eˣ, ⟨·⟩ or min; none where there is none.
+    fn step(step: Step<&Self::Number>) -> Option<Self::Number>;
     fn experiments(&self) -> Vec<Experiment<Self::Computed>>;
 
     /// A case in these numbers; none if one of its coordinates is out of range.
@@ -113,8 +117,6 @@ pub(super) trait Judge: Sync {
     /// left − right: does it contain 0, what share of its bound does it use up, and the bound.
     fn difference(&self, left: &Self::Number, right: &Self::Number) -> Option<(bool, f64, Self::Number)>;
     fn bound(&self, difference: &Self::Number) -> String;
-    /// Not if something was divided by zero.
-    fn is_defined(&self, x: &Self::Number) -> bool;
     fn sign(&self, x: &Self::Number) -> Option<Ordering>;
 }
 
@@ -124,8 +126,12 @@ pub(super) struct Exactly;
 impl Judge for Exactly {
     type Number = Exact;
     type Computed = Exact;
-    fn claims(&self) -> Vec<Claim<Exact>> {
-        claims().into_iter().chain(unilateral_claims()).collect()
+    const EXPONENTIALS: bool = false;
+    fn step(step: Step<&Exact>) -> Option<Exact> {
+        match step {
+            Step::Div(a, b) => (!b.is_zero()).then(|| a / b),
+            other => piecewise(other),
+        }
     }
     fn experiments(&self) -> Vec<Experiment<Exact>> {
         exact_experiments()
@@ -142,9 +148,6 @@ impl Judge for Exactly {
     fn bound(&self, difference: &Exact) -> String {
         difference.to_string()
     }
-    fn is_defined(&self, _: &Exact) -> bool {
-        true // Rationals panic where they are not.
-    }
     fn sign(&self, x: &Exact) -> Option<Ordering> {
         Some(x.cmp(&Exact::zero()))
     }
@@ -159,8 +162,13 @@ where
 {
     type Number = Ball<T>;
     type Computed = T;
-    fn claims(&self) -> Vec<Claim<Ball<T>>> {
-        all_claims()
+    const EXPONENTIALS: bool = true;
+    fn step(step: Step<&Ball<T>>) -> Option<Ball<T>> {
+        match step {
+            // By a ball that contains 0 the quotient is any number.
+            Step::Div(a, b) => Some(a / b).filter(|quotient| !quotient.is_undefined()),
+            other => everything(other),
+        }
     }
     fn experiments(&self) -> Vec<Experiment<T>> {
         let fine = self.0.unit_roundoff().to_exact().is_ok_and(|eta| eta <= Exact::power_of_two(-20));
@@ -185,9 +193,6 @@ where
     }
     fn bound(&self, difference: &Ball<T>) -> String {
         format!("{:?}", difference.radius())
-    }
-    fn is_defined(&self, x: &Ball<T>) -> bool {
-        !x.is_undefined()
     }
     fn sign(&self, x: &Ball<T>) -> Option<Ordering> {
         if x.is_finite() { x.sign() } else { None }
@@ -220,21 +225,30 @@ pub(super) trait Checks: Sync {
 }
 
 pub(super) struct Checker<J: Judge> {
-    pub(super) judge: J,
-    pub(super) claims: Vec<Claim<J::Number>>,
-    pub(super) experiments: Vec<Experiment<J::Computed>>,
+    judge: J,
+    /// In the order of the heads.
+    claims: Vec<Claim>,
+    groups: Vec<Group>,
+    experiments: Vec<Experiment<J::Computed>>,
 }
 
 impl<J: Judge> Checker<J> {
-    pub(super) fn new(judge: J) -> Self {
-        let (claims, experiments) = (judge.claims(), judge.experiments());
-        Checker { judge, claims, experiments }
+    /// For the claims that can be asked in these numbers.
+    pub(super) fn new(judge: J, claims: &[Claim]) -> Self {
+        let experiments = judge.experiments();
+        Checker::with(judge, claims, experiments)
+    }
+
+    pub(super) fn with(judge: J, claims: &[Claim], experiments: Vec<Experiment<J::Computed>>) -> Self {
+        let claims: Vec<Claim> =
+            claims.iter().filter(|claim| J::EXPONENTIALS || !claim.has_exponentials()).cloned().collect();
+        Checker { judge, groups: groups(&claims), claims, experiments }
     }
 }
 
 impl<J: Judge> Checks for Checker<J> {
     fn heads(&self) -> Vec<Head> {
-        let claim = |c: &Claim<J::Number>| Head {
+        let claim = |c: &Claim| Head {
             equation: c.equation,
             claim: c.name,
             kind: c.kind.name(),
@@ -256,8 +270,9 @@ impl<J: Judge> Checks for Checker<J> {
         cases: &[Option<Case<Exact>>],
     ) -> Vec<(usize, Tally)> {
         let offset = self.claims.len();
-        let mut claims: Vec<_> = self.claims.iter().enumerate().collect();
-        claims.retain(|(_, c)| c.given == given && wanted(c.equation));
+        let group = self.groups.iter().find(|group| group.given == given);
+        let mut claims: Vec<_> = group.map_or(&[][..], |group| &group.claims).iter().collect();
+        claims.retain(|(place, _)| wanted(self.claims[*place].equation));
         let mut experiments: Vec<_> = self.experiments.iter().enumerate().collect();
         experiments.retain(|(_, e)| e.given == given && wanted(e.equation));
         let places = claims.iter().map(|(i, _)| *i).chain(experiments.iter().map(|(i, _)| offset + i));
@@ -271,12 +286,14 @@ impl<J: Judge> Checks for Checker<J> {
                 tallies.iter_mut().for_each(|(_, tally)| tally.undecided += 1);
                 continue;
             };
-            let computed = self.judge.computed(&read);
             let (of_claims, of_experiments) = tallies.split_at_mut(claims.len());
-            for ((_, claim), (_, tally)) in claims.iter().zip(of_claims) {
-                let verdict = guarded(|| self.verdict(&claim.goals(&read)));
-                tally.record(exact, verdict.unwrap_or_else(Verdict::Broken));
+            if let Some(group) = group.filter(|_| !claims.is_empty()) {
+                let values = group.program.run(&|name| read.named(name), &J::step);
+                for ((_, asked), (_, tally)) in claims.iter().zip(of_claims) {
+                    tally.record(exact, self.verdict(asked, &values));
+                }
             }
+            let computed = self.judge.computed(&read);
             for ((_, experiment), (_, tally)) in experiments.iter().zip(of_experiments) {
                 let verdict = guarded(|| of_trial((experiment.check)(&computed)));
                 tally.record(exact, verdict.unwrap_or_else(Verdict::Broken));
@@ -287,35 +304,30 @@ impl<J: Judge> Checks for Checker<J> {
 }
 
 impl<J: Judge> Checker<J> {
-    /// All goals together: one that fails decides, else one that is open leaves the case open.
-    fn verdict<'a>(&'a self, goals: &[Goal<J::Number>]) -> Verdict<'a>
+    /// All that is asked together: what fails decides, else what is open leaves the case open.
+    fn verdict<'a>(&'a self, asked: &[Asked], values: &[Option<J::Number>]) -> Verdict<'a>
     where
         J::Number: 'a,
     {
         let (mut open, mut holds) = (false, true);
         let mut worst: Option<(f64, J::Number)> = None;
-        for goal in goals {
-            let numbers = match goal {
-                Goal::Equal(left, right) => [left, right],
-                Goal::Sign(_, x) => [x, x],
-            };
-            if !numbers.into_iter().all(|x| self.judge.is_defined(x)) {
-                return Verdict::Broken("division by zero".to_string());
-            }
-            match goal {
-                Goal::Equal(left, right) => match self.judge.difference(left, right) {
-                    None => open = true,
-                    Some((equal, ratio, difference)) => {
-                        holds &= equal;
-                        if worst.as_ref().is_none_or(|(r, _)| ratio > *r) {
-                            worst = Some((ratio, difference));
-                        }
+        for asked in asked {
+            let answer = match asked {
+                Asked::Equal(left, right) => values[*left].as_ref().zip(values[*right].as_ref()).map(|(left, right)| {
+                    let (equal, ratio, difference) = self.judge.difference(left, right)?;
+                    if worst.as_ref().is_none_or(|(r, _)| ratio > *r) {
+                        worst = Some((ratio, difference));
                     }
-                },
-                Goal::Sign(relation, x) => match self.judge.sign(x) {
-                    None => open = true,
-                    Some(sign) => holds &= relation.admits(sign),
-                },
+                    Some(equal)
+                }),
+                Asked::Sign(relation, x) => {
+                    values[*x].as_ref().map(|x| self.judge.sign(x).map(|sign| relation.admits(sign)))
+                }
+            };
+            match answer {
+                None => return Verdict::Broken("division by zero".to_string()),
+                Some(None) => open = true,
+                Some(Some(answer)) => holds &= answer,
             }
         }
         if holds && open {
