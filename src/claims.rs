@@ -359,3 +359,76 @@ pub fn claim_names(equation: &str) -> Vec<&'static str> {
     let all = recorded.chain(floats).chain(rationals);
     all.filter(|(e, _)| *e == equation).map(|(_, name)| name).collect()
 }
+
+#[cfg(all(test, feature = "mpfr"))]
+mod tests {
+    use super::*;
+    use crate::number::Exact;
+    use num_traits::Zero;
+
+    /// Does such a claim hold where every coordinate is 2?
+    fn holds(kind: Kind<Exact>) -> bool {
+        let claim = Claim { equation: "1.1", name: "tried", given: &[], kind };
+        claim.goals(&Case::of(|_| Exact::int(2))).iter().all(|goal| match goal {
+            Goal::Equal(left, right) => left == right,
+            Goal::Sign(relation, x) => relation.admits(x.cmp(&Exact::zero())),
+        })
+    }
+
+    type Of = fn(&Case<Exact>) -> Exact;
+
+    #[test]
+    fn a_limit_is_as_far_as_its_rate_says_on_either_side() {
+        let limit = |of, rate| holds(Kind::Limit { of, by: Var::T, to: |x| x.u.clone(), rate });
+        let [above, below]: [Of; 2] = [|x| &x.u + Exact::int(3), |x| &x.u - Exact::int(3)];
+        let [two, three, minus_three]: [Of; 3] = [|_| Exact::int(2), |_| Exact::int(3), |_| Exact::int(-3)];
+        for of in [above, below] {
+            assert!(limit(of, Rate::Within(three)) && !limit(of, Rate::Within(two)));
+            assert!(!limit(of, Rate::Within(minus_three)), "no bound is negative");
+        }
+        assert!(limit(above, Rate::Exactly(three)) && !limit(below, Rate::Exactly(three)));
+    }
+
+    #[test]
+    fn a_power_vanishes_only_of_what_is_less_than_1_in_size() {
+        let vanishing = |ratio, to| holds(Kind::Vanishing { ratio, of: |x, power| &x.u + &x.v * power, to });
+        let to: Of = |x| x.u.clone();
+        assert!(vanishing(|_| Exact::int(1) / Exact::int(2), to));
+        assert!(vanishing(|_| Exact::int(-1) / Exact::int(2), to));
+        assert!(!vanishing(|_| Exact::int(1), to) && !vanishing(|_| Exact::int(-1), to));
+        assert!(!vanishing(|_| Exact::int(2), to) && !vanishing(|_| Exact::int(-2), to));
+        assert!(!vanishing(|_| Exact::zero(), |x| &x.u + &x.v), "it is the limit, not the first value");
+    }
+
+    #[test]
+    fn an_induction_has_its_start_its_step_and_its_closed_form() {
+        // x₀ = 3, x ← 2 x − 1, so x_k − 1 = 2 · 2ᵏ; the case's own q is 2.
+        type Closed = fn(&Case<Exact>, &Exact) -> Vec<Exact>;
+        type Next = fn(&Case<Exact>, &[Exact]) -> Vec<Exact>;
+        let induction = |start: fn(&Case<Exact>) -> Vec<Exact>, step: Next, closed: Closed| {
+            holds(Kind::Induction { ratio: |_| Exact::int(2), start, step, closed })
+        };
+        let closed: Closed = |_, power| vec![Exact::int(2) * power + Exact::int(1)];
+        let step: Next = |_, x| vec![Exact::int(2) * &x[0] - Exact::int(1)];
+        assert!(induction(|_| vec![Exact::int(3)], step, closed));
+        assert!(!induction(|_| vec![Exact::int(4)], step, closed));
+        assert!(!induction(|_| vec![Exact::int(3)], |_, x| vec![Exact::int(2) * &x[0]], closed));
+        // Right from 3 on as far as it is followed, and wrong for a power that no step meets: 3, 5, 9, 17, and so on.
+        let followed: Closed = |_, power| {
+            let off = [1, 2, 4, 8].iter().fold(Exact::int(1), |off, n| off * (power - Exact::int(*n)));
+            vec![Exact::int(2) * power + Exact::int(1) + off]
+        };
+        let elsewhere = |q: i32| {
+            let kind = Kind::Induction {
+                ratio: |_| Exact::int(2),
+                start: |_| vec![Exact::int(3)],
+                step,
+                closed: followed,
+            };
+            let claim = Claim { equation: "1.1", name: "tried", given: &[], kind };
+            let goals = claim.goals(&Case { q: Exact::int(q), ..Case::of(|_| Exact::int(2)) });
+            goals.iter().all(|goal| matches!(goal, Goal::Equal(left, right) if left == right))
+        };
+        assert!(elsewhere(2) && !elsewhere(3));
+    }
+}

@@ -5,7 +5,7 @@
 
 use super::{Case, Given};
 use crate::chapter::{SpringMass, augmented, contact, penalty, structure, system};
-use crate::number::{Exact, OrderedField, PositivePart, Real, ToExact};
+use crate::number::{Exact, Field, OrderedField, PositivePart, Real, ToExact};
 use crate::solver::{
     Augmentation, Interval, Method, Outcome, Plane, Scalar, Solution, State, Step, augmentations_needed,
     rounding_floor, series_penetration, solve, solve_bilateral,
@@ -112,26 +112,37 @@ fn in_range<T: Scalar + Real + ToExact>(x: &Case<T>, trial: fn(&Setting, &Case<T
     Setting::of(x).map_or(Trial::Undecided, |setting| trial(&setting, x))
 }
 
+/// The products and quotients that the bounds below suppose to be in range.
+fn results<T: Field>(s: &SpringMass<T>, eps: &T) -> [T; 7] {
+    let (gap, p) = (system::gap(s), penalty::penetration(s, eps));
+    [
+        system::weight(s),
+        structure::spring_force(s, &gap),
+        eps * &gap,
+        structure::deflection(s),
+        penalty::deflection(s, eps),
+        eps * &p,
+        p,
+    ]
+}
+
 impl Setting {
     fn of<T: Scalar + Real + ToExact>(x: &Case<T>) -> Option<Self> {
         let eta = [&x.system.c, &x.system.g, &x.system.l, &x.system.h, &x.eps, &x.u]
             .iter()
             .filter_map(|y| exact(&y.unit_roundoff()))
             .max()?;
-        let (s, gap) = (&x.system, system::gap(&x.system));
-        let products = [system::weight(s), structure::spring_force(s, &gap), &x.eps * &gap];
-        let quotients =
-            [structure::deflection(s), penalty::deflection(s, &x.eps), penalty::penetration(s, &x.eps)];
+        let (system, eps) = (x.system.try_map(|y| exact(y).ok_or(())).ok()?, exact(&x.eps)?);
         let smallest = exact(&T::underflow_unit())? / (&eta * &eta);
-        for result in products.iter().chain(&quotients).chain([&(&x.eps * &quotients[2])]) {
-            let size = exact(result)?.abs();
-            if !size.is_zero() && size < smallest {
+        let computed: Vec<Exact> = results(&x.system, &x.eps).iter().map(exact).collect::<Option<_>>()?;
+        // Nothing was divided by 0, so rationals can follow; a result of 0 may be the last of one that is not.
+        for (computed, exact) in computed.iter().zip(results(&system, &eps)) {
+            if !exact.is_zero() && computed.abs() < smallest {
                 return None;
             }
         }
-        let system = x.system.try_map(|y| exact(y).ok_or(())).ok()?;
         let (gap, reaction) = (system::gap(&system), system::reaction(&system));
-        Some(Setting { eps: exact(&x.eps)?, eta, gap, reaction, system })
+        Some(Setting { eps, eta, gap, reaction, system })
     }
 
     /// |p̂ − p| ≤ η (|fl(l + u)| + |p̂|).
@@ -374,7 +385,11 @@ fn units<T: Scalar + Real + ToExact>(x: &Case<T>) -> Trial {
         max_augmentations: STEPS as u64,
         start: unit(&x.lambda, f),
     };
-    if Setting::of(x).is_none() {
+    // Subnormal numbers lose digits where they are scaled.
+    let comes_back = |(y, n): (&T, i32)| scale(&scale(y, n), -n) == *y;
+    let scaled_by = [(c, f - a), (m, b), (g, f - b), (l, a), (h, a)];
+    let own = [(&x.eps, f - a), (&x.tol, a), (&x.lambda, f)];
+    if Setting::of(x).is_none() || !scaled_by.into_iter().chain(own).all(comes_back) {
         return Trial::Undecided;
     }
     let (before, after) =

@@ -549,4 +549,47 @@ mod tests {
             .collect();
         assert_eq!(kept, [What::Swap(Operator::Sub)]);
     }
+
+    /// A claim that supposes more than it needs, and more than it could need: dropped, the one is no loss, the other is.
+    #[test]
+    fn a_needless_hypothesis_is_told_from_a_needed_one() {
+        let all = crate::proof::statements();
+        let find = |equation, name| all.iter().find(|s| (s.equation, s.name) == (equation, name)).unwrap();
+        // u = m g/c needs c > 0, whatever ε is.
+        let (root, other) = (find("1.1", "root"), find("1.13", "rate"));
+        let penalty = other.hypotheses.iter().find(|h| h.given == Given::Penalty).unwrap();
+        let mut hypotheses = root.hypotheses.clone();
+        hypotheses.push(penalty.clone());
+        let controls = controls(&[Statement { hypotheses, ..root.clone() }]);
+        let became =
+            |given| controls.dropped.iter().find(|dropped| dropped.given == given).map(|d| &d.without);
+        assert!(matches!(became(Given::Stiffness), Some(Without::Refuted(_))), "{:?}", controls.dropped);
+        assert!(matches!(became(Given::Penalty), Some(Without::StillTrue)), "{:?}", controls.dropped);
+        let Counts { hypotheses, refuted, still_true, unknown, .. } = controls.counts();
+        assert_eq!([hypotheses, refuted, still_true, unknown], [2, 1, 1, 0]);
+    }
+
+    #[test]
+    fn a_repair_mends_what_is_wrong_and_breaks_nothing() {
+        let all = crate::proof::statements();
+        let find = |equation, name| all.iter().find(|s| (s.equation, s.name) == (equation, name)).unwrap();
+        let (force, gap) = (find("1.6", "force-from-deflection"), find("1.5", "at-the-gap"));
+        // p = l − u − H in all that the chapter says: its − is the mistake.
+        let plus = What::Opposite(Operator::Add);
+        let changes = changes(std::slice::from_ref(gap));
+        let of_penetration =
+            |change: &&Change| change.site.file.ends_with("contact.rs") && change.what == plus;
+        let change = changes.iter().find(of_penetration).unwrap();
+        let wrong = [force, gap].map(|statement| change.apply(statement).unwrap());
+        let undone = Change { what: What::Opposite(Operator::Sub), ..*change };
+        assert!(repairs(&wrong).contains(&undone));
+        assert!(repairs(&[force.clone(), gap.clone()]).is_empty(), "nothing is wrong");
+        // Whoever claims p = l − u − H must not be obeyed against all that p = l + u − H is claimed in.
+        let x = crate::claims::Case::of_symbols();
+        let [l, u, h] = [&x.system.l, &x.u, &x.system.h];
+        let says = Says::Equal(crate::chapter::contact::penetration(&x.system, u), l - u - h);
+        let mistaken = Statement { goals: vec![Goal::of_claim("mistaken", says)], ..gap.clone() };
+        assert!(repairs(std::slice::from_ref(&mistaken)).contains(change));
+        assert!(!repairs(&[mistaken, gap.clone()]).contains(change));
+    }
 }

@@ -300,6 +300,25 @@ fn only_what_is_asked_for_is_tried_and_progress_says_how_far() {
     assert_eq!(seen, [(1, 2), (2, 2)]);
 }
 
+/// c > 0 and m > 0, and a penalty where there is one.
+#[test]
+fn only_a_system_that_can_be_solved_has_a_command_line() {
+    let with = |c: &str, m: &str, eps: &str| {
+        let mut case = Case::of(|_| Exact::from(2));
+        let number = |text: &str| text.parse().unwrap();
+        (case.system.c, case.system.m, case.eps) = (number(c), number(m), number(eps));
+        command_line(&case)
+    };
+    for (c, m) in [("0", "1"), ("1", "0"), ("-1", "1"), ("1", "-1"), ("0", "0")] {
+        assert_eq!(with(c, m, "1"), None, "c = {c}, m = {m}");
+    }
+    let system =
+        "contact solve --scalar exact --stiffness 1/3 --mass 5 --gravity 2 --free-length 2 --height 2";
+    for (eps, more) in [("7", " --method penalty --penalty 7"), ("0", ""), ("-1", "")] {
+        assert_eq!(with("1/3", "5", eps), Some(format!("{system}{more}")));
+    }
+}
+
 #[test]
 fn the_rows_of_a_claim_stand_together_in_the_order_of_the_chapter() {
     let report = verify(&Options { cases: 1, ..Options::default() }, &|_, _| ());
