@@ -13,7 +13,7 @@ mod list;
 pub use entries::{Entry, entries, entry, place};
 #[cfg(feature = "mpfr")]
 pub use experiments::{Experiment, Trial, exact_experiments, first_order_experiments, float_experiments};
-pub use formulas::{Call, Formula, call, calls, fill, formula, formula_in, formulas, line, named};
+pub use formulas::{Call, Formula, call, calls, computed, fill, formula, formula_in, formulas, line, named};
 
 use crate::chapter::{SpringMass, augmented, contact, penalty, system};
 use crate::number::tree::Step;
@@ -327,10 +327,9 @@ pub struct Claim {
 }
 
 impl Claim {
-    /// Does it speak of eˣ, which rationals have not?
-    pub fn has_exponentials(&self) -> bool {
-        let is_exponential = |tree: &Tree| matches!(tree.step(), Step::Exp(_));
-        let trees = match &self.kind {
+    /// Its formulas, but for those of its hypotheses.
+    pub fn trees(&self) -> Vec<&Tree> {
+        match &self.kind {
             Kind::Equal(a, b) | Kind::Derivative { of: a, is: b, .. } => vec![a, b],
             Kind::Sign(_, a) => vec![a],
             Kind::Limit { of, to, rate: Rate::Exactly(rate) | Rate::Within(rate), .. } => vec![of, to, rate],
@@ -338,8 +337,34 @@ impl Claim {
             Kind::Induction { ratio, start, step, closed } => {
                 [ratio].into_iter().chain(start).chain(step).chain(closed).collect()
             }
+        }
+    }
+
+    /// Does it speak of eˣ, which rationals have not?
+    pub fn has_exponentials(&self) -> bool {
+        self.trees().into_iter().any(|tree| tree.any(&|tree| matches!(tree.step(), Step::Exp(_))))
+    }
+
+    /// With each of its formulas changed.
+    pub fn map(&self, f: &impl Fn(&Tree) -> Tree) -> Self {
+        let all = |trees: &[Tree]| trees.iter().map(f).collect();
+        let kind = match &self.kind {
+            Kind::Equal(a, b) => Kind::Equal(f(a), f(b)),
+            Kind::Sign(relation, a) => Kind::Sign(*relation, f(a)),
+            Kind::Derivative { of, by, is } => Kind::Derivative { of: f(of), by: *by, is: f(is) },
+            Kind::Limit { of, by, to, rate } => {
+                let rate = match rate {
+                    Rate::Exactly(rate) => Rate::Exactly(f(rate)),
+                    Rate::Within(rate) => Rate::Within(f(rate)),
+                };
+                Kind::Limit { of: f(of), by: *by, to: f(to), rate }
+            }
+            Kind::Vanishing { ratio, of, to } => Kind::Vanishing { ratio: f(ratio), of: f(of), to: f(to) },
+            Kind::Induction { ratio, start, step, closed } => {
+                Kind::Induction { ratio: f(ratio), start: all(start), step: all(step), closed: all(closed) }
+            }
         };
-        trees.into_iter().any(|tree| tree.any(&is_exponential))
+        Claim { kind, ..self.clone() }
     }
 }
 
@@ -358,77 +383,4 @@ pub fn claim_names(equation: &str) -> Vec<&'static str> {
     let rationals = exact_experiments().into_iter().map(|e| (e.equation, e.name));
     let all = recorded.chain(floats).chain(rationals);
     all.filter(|(e, _)| *e == equation).map(|(_, name)| name).collect()
-}
-
-#[cfg(all(test, feature = "mpfr"))]
-mod tests {
-    use super::*;
-    use crate::number::Exact;
-    use num_traits::Zero;
-
-    /// Does such a claim hold where every coordinate is 2?
-    fn holds(kind: Kind<Exact>) -> bool {
-        let claim = Claim { equation: "1.1", name: "tried", given: &[], kind };
-        claim.goals(&Case::of(|_| Exact::int(2))).iter().all(|goal| match goal {
-            Goal::Equal(left, right) => left == right,
-            Goal::Sign(relation, x) => relation.admits(x.cmp(&Exact::zero())),
-        })
-    }
-
-    type Of = fn(&Case<Exact>) -> Exact;
-
-    #[test]
-    fn a_limit_is_as_far_as_its_rate_says_on_either_side() {
-        let limit = |of, rate| holds(Kind::Limit { of, by: Var::T, to: |x| x.u.clone(), rate });
-        let [above, below]: [Of; 2] = [|x| &x.u + Exact::int(3), |x| &x.u - Exact::int(3)];
-        let [two, three, minus_three]: [Of; 3] = [|_| Exact::int(2), |_| Exact::int(3), |_| Exact::int(-3)];
-        for of in [above, below] {
-            assert!(limit(of, Rate::Within(three)) && !limit(of, Rate::Within(two)));
-            assert!(!limit(of, Rate::Within(minus_three)), "no bound is negative");
-        }
-        assert!(limit(above, Rate::Exactly(three)) && !limit(below, Rate::Exactly(three)));
-    }
-
-    #[test]
-    fn a_power_vanishes_only_of_what_is_less_than_1_in_size() {
-        let vanishing = |ratio, to| holds(Kind::Vanishing { ratio, of: |x, power| &x.u + &x.v * power, to });
-        let to: Of = |x| x.u.clone();
-        assert!(vanishing(|_| Exact::int(1) / Exact::int(2), to));
-        assert!(vanishing(|_| Exact::int(-1) / Exact::int(2), to));
-        assert!(!vanishing(|_| Exact::int(1), to) && !vanishing(|_| Exact::int(-1), to));
-        assert!(!vanishing(|_| Exact::int(2), to) && !vanishing(|_| Exact::int(-2), to));
-        assert!(!vanishing(|_| Exact::zero(), |x| &x.u + &x.v), "it is the limit, not the first value");
-    }
-
-    #[test]
-    fn an_induction_has_its_start_its_step_and_its_closed_form() {
-        // x₀ = 3, x ← 2 x − 1, so x_k − 1 = 2 · 2ᵏ; the case's own q is 2.
-        type Closed = fn(&Case<Exact>, &Exact) -> Vec<Exact>;
-        type Next = fn(&Case<Exact>, &[Exact]) -> Vec<Exact>;
-        let induction = |start: fn(&Case<Exact>) -> Vec<Exact>, step: Next, closed: Closed| {
-            holds(Kind::Induction { ratio: |_| Exact::int(2), start, step, closed })
-        };
-        let closed: Closed = |_, power| vec![Exact::int(2) * power + Exact::int(1)];
-        let step: Next = |_, x| vec![Exact::int(2) * &x[0] - Exact::int(1)];
-        assert!(induction(|_| vec![Exact::int(3)], step, closed));
-        assert!(!induction(|_| vec![Exact::int(4)], step, closed));
-        assert!(!induction(|_| vec![Exact::int(3)], |_, x| vec![Exact::int(2) * &x[0]], closed));
-        // Right from 3 on as far as it is followed, and wrong for a power that no step meets: 3, 5, 9, 17, and so on.
-        let followed: Closed = |_, power| {
-            let off = [1, 2, 4, 8].iter().fold(Exact::int(1), |off, n| off * (power - Exact::int(*n)));
-            vec![Exact::int(2) * power + Exact::int(1) + off]
-        };
-        let elsewhere = |q: i32| {
-            let kind = Kind::Induction {
-                ratio: |_| Exact::int(2),
-                start: |_| vec![Exact::int(3)],
-                step,
-                closed: followed,
-            };
-            let claim = Claim { equation: "1.1", name: "tried", given: &[], kind };
-            let goals = claim.goals(&Case { q: Exact::int(q), ..Case::of(|_| Exact::int(2)) });
-            goals.iter().all(|goal| matches!(goal, Goal::Equal(left, right) if left == right))
-        };
-        assert!(elsewhere(2) && !elsewhere(3));
-    }
 }

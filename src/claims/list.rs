@@ -75,7 +75,8 @@ fn saturating_penalty<T: Field>(eps: &T, p: &T) -> T {
 
 /// The penetration that it leaves.
 fn stalled_penetration(case: &Case<Tree>) -> Tree {
-    let slope = saturating_penalty(&Dual::constant(case.eps.clone()), &Dual::variable(Tree::one())).derivative;
+    let slope =
+        saturating_penalty(&Dual::constant(case.eps.clone()), &Dual::variable(Tree::one())).derivative;
     system::reaction(&case.system) / (&case.system.c + slope)
 }
 
@@ -335,8 +336,8 @@ pub(super) fn record() -> Vec<Claim> {
             is: contact::penetration(s, &iterate(x)) };
         "beyond 5" "aitken" [Stiffness Penalty BelowReaction] Equal(extrapolated(x), system::reaction(s));
         "beyond 5" "aitken-from-above" [Stiffness Penalty AboveReaction] Equal(extrapolated(x), system::reaction(s));
-        "beyond 5" "rises" [Stiffness Penalty] equal({ let lambda = augmented::multiplier_after(s, lambda, q); (
-            augmented::least_value(s, eps, &lambda),
+        "beyond 5" "rises" [Stiffness Penalty] equal({ let after = augmented::multiplier_after(s, lambda, q); (
+            augmented::least_value(s, eps, &after),
             structure::potential_energy(s, &system::gap(s))
                 - square((system::reaction(s) - lambda) * q) / (Tree::int(2) * penalty::total_stiffness(s, eps))) });
 

@@ -158,7 +158,10 @@ impl Statement {
                 }
             }
             Kind::Induction { ratio, start, step, closed } => {
-                assert!(start.len() == closed.len() && step.len() == closed.len(), "a form for each component");
+                assert!(
+                    start.len() == closed.len() && step.len() == closed.len(),
+                    "a form for each component"
+                );
                 (invariants, hypotheses) = claim.given.iter().partition(of_q);
                 let q = Var::Q.symbol();
                 let next = ratio * &case.q;
@@ -175,9 +178,13 @@ impl Statement {
                 for given in &invariants {
                     let value = given.value(&case);
                     let says = |q_is: Tree| Says::Sign(given.relation(), value.with(&[(q, q_is)]));
-                    let begins = Goal { part: "invariant at the start", role: Role::Begins, says: says(Tree::one()) };
+                    let begins =
+                        Goal { part: "invariant at the start", role: Role::Begins, says: says(Tree::one()) };
                     let says = says(next.clone());
-                    goals.extend([begins, Goal { part: "invariant after a step", role: Role::Continues, says }]);
+                    goals.extend([
+                        begins,
+                        Goal { part: "invariant after a step", role: Role::Continues, says },
+                    ]);
                 }
                 let (start, ratio, member) = (start.clone(), ratio.clone(), closed.clone());
                 amounts_to = Some(Sequence { start, ratio, member, limit: None });

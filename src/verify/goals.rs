@@ -71,3 +71,102 @@ fn says(claim: &Claim) -> Vec<Says> {
     }
     all
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::claims::{Case, Rate};
+    use crate::number::{Exact, Field};
+    use crate::verify::checker::{Exactly, Judge};
+    use num_traits::Zero;
+
+    fn x(name: &'static str) -> Tree {
+        Tree::symbol(name)
+    }
+
+    fn int(n: i32) -> Tree {
+        Tree::int(n)
+    }
+
+    /// Does such a claim hold where every coordinate is 2 but q?
+    fn holds_at(q: i32, kind: Kind) -> bool {
+        let groups = groups(&[Claim { equation: "1.1", name: "tried", given: &[], kind }]);
+        let [Group { program, claims, .. }] = groups.as_slice() else { panic!("one group") };
+        let case = Case { q: Exact::int(q), ..Case::of(|_| Exact::int(2)) };
+        let values = program.run(&|name| case.named(name), &Exactly::step);
+        let value = |place: &usize| values[*place].clone().expect("defined");
+        let [(0, asked)] = claims.as_slice() else { panic!("one claim") };
+        asked.iter().all(|asked| match asked {
+            Asked::Equal(left, right) => value(left) == value(right),
+            Asked::Sign(relation, x) => relation.admits(value(x).cmp(&Exact::zero())),
+        })
+    }
+
+    fn holds(kind: Kind) -> bool {
+        holds_at(2, kind)
+    }
+
+    #[test]
+    fn what_formulas_share_is_computed_once() {
+        let square = || x("u") * x("u");
+        let claim = |name, kind| Claim { equation: "1.1", name, given: &[], kind };
+        let sum = claim("sum", Kind::Equal(square() + square(), int(2) * square()));
+        let sign = claim("sign", Kind::Sign(Relation::NonNegative, square()));
+        let other = Claim { given: &[Given::Stiffness], ..sign.clone() };
+        let groups = groups(&[sum, other, sign]);
+        let of = |group: &Group| group.claims.iter().map(|(place, _)| *place).collect::<Vec<_>>();
+        assert_eq!(groups.iter().map(of).collect::<Vec<_>>(), [vec![0, 2], vec![1]]);
+        assert_eq!(groups[0].program.len(), 5, "u, u², the sum, 2, and the product");
+    }
+
+    #[test]
+    fn a_wrong_derivative_is_seen() {
+        let square = |is| Kind::Derivative { of: x("u") * x("u"), by: Var::U, is };
+        assert!(holds(square(x("u") + x("u"))) && !holds(square(x("u"))));
+    }
+
+    #[test]
+    fn a_limit_is_as_far_as_its_rate_says_on_either_side() {
+        let limit = |of, rate| holds(Kind::Limit { of, by: Var::T, to: x("u"), rate });
+        for of in [x("u") + int(3), x("u") - int(3)] {
+            assert!(limit(of.clone(), Rate::Within(int(3))) && !limit(of.clone(), Rate::Within(int(2))));
+            assert!(!limit(of, Rate::Within(int(-3))), "no bound is negative");
+        }
+        assert!(limit(x("u") + int(3), Rate::Exactly(int(3))));
+        assert!(!limit(x("u") - int(3), Rate::Exactly(int(3))));
+    }
+
+    #[test]
+    fn a_power_vanishes_only_of_what_is_less_than_1_in_size() {
+        let vanishing = |ratio, to| holds(Kind::Vanishing { ratio, of: x("u") + x("v") * x("q"), to });
+        for half in [int(1) / int(2), int(-1) / int(2)] {
+            assert!(vanishing(half, x("u")));
+        }
+        for large in [1, -1, 2, -2] {
+            assert!(!vanishing(int(large), x("u")));
+        }
+        assert!(!vanishing(int(0), x("u") + x("v")), "it is the limit, not the first value");
+    }
+
+    /// x₀ = 3, x ← 2 x − 1, so x_k − 1 = 2 · 2ᵏ.
+    #[test]
+    fn an_induction_has_its_start_its_step_and_its_closed_form() {
+        let induction = |start: i32, step: Tree, closed: Tree| Kind::Induction {
+            ratio: int(2),
+            start: vec![int(start)],
+            step: vec![step],
+            closed: vec![closed],
+        };
+        let step = || int(2) * x(MEMBERS[0]) - int(1);
+        let closed = || int(2) * x("q") + int(1);
+        assert!(holds(induction(3, step(), closed())));
+        assert!(!holds(induction(4, step(), closed())));
+        assert!(!holds(induction(3, int(2) * x(MEMBERS[0]), closed())));
+        assert!(!holds(induction(3, step(), int(2) * x("q") + int(2))));
+        assert!(!holds(induction(3, step(), x("q") + int(2))), "right at the start, and then a step late");
+        // Right from 3 on as far as it is followed, and wrong for a power that no step meets: 3, 5, 9, 17, and so on.
+        let off = [1, 2, 4, 8].into_iter().fold(int(1), |off, n| off * (x("q") - int(n)));
+        let followed = || induction(3, step(), closed() + &off);
+        assert!(holds_at(2, followed()) && !holds_at(3, followed()));
+    }
+}
