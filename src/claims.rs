@@ -1,8 +1,8 @@
 //! The chapter as data: [`entries`] say what it states, [`claims`](claims()) what is checked of it.
 //!
-//! A claim is a generic function like the formulas it speaks of, and written once. Read in rationals it
-//! is checked with `==`; read in balls, within the bounds they compute. Its [`Given`]s are hypotheses; a
-//! [`Case`] holds the numbers for one trial.
+//! A claim is made of recorded formulas, and written once. In rationals it is checked with `==`; in balls, within
+//! the bounds they compute; for all values it is proved. Its [`Given`]s are hypotheses; a [`Case`] holds the numbers
+//! for one trial.
 
 mod entries;
 #[cfg(feature = "mpfr")]
@@ -13,11 +13,12 @@ mod list;
 pub use entries::{Entry, entries, entry, place};
 #[cfg(feature = "mpfr")]
 pub use experiments::{Experiment, Trial, exact_experiments, first_order_experiments, float_experiments};
-pub use formulas::{Call, Formula, call, calls, fill, formula, formula_in, formulas, line, named};
-pub use list::{all_claims, claims, exponential_claims, unilateral_claims};
+pub use formulas::{Call, Formula, call, calls, computed, fill, formula, formula_in, formulas, line, named};
 
 use crate::chapter::{SpringMass, augmented, contact, penalty, system};
+use crate::number::tree::Step;
 use crate::number::{Dual, Field, Tree};
+use std::sync::LazyLock;
 
 macro_rules! coordinates {
     ($($Var:ident $field:ident $symbol:literal $text:literal;)*) => {
@@ -112,6 +113,17 @@ impl<T> Case<T> {
     /// The same case in other numbers.
     pub fn map<U>(&self, mut f: impl FnMut(Var, &T) -> U) -> Case<U> {
         Case::of(|var| f(var, self.get(var)))
+    }
+}
+
+impl<T: Clone> Case<T> {
+    /// The coordinate of this name.
+    ///
+    /// # Panics
+    /// There is none.
+    pub fn named(&self, symbol: &str) -> T {
+        let var = Var::ALL.iter().find(|var| var.symbol() == symbol);
+        self.get(*var.unwrap_or_else(|| panic!("{symbol} is no coordinate"))).clone()
     }
 }
 
@@ -225,73 +237,73 @@ hypotheses! {
     Time "t > 0" Positive T |x| x.t.clone();
 }
 
-/// Two sides of an equation.
-pub type Pair<T> = (T, T);
-
 /// How a limit is checked in numbers: by the distance to it, in a form from which the limit can be read.
-pub enum Rate<T> {
+#[derive(Clone, Debug)]
+pub enum Rate {
     /// The distance is this.
-    Exactly(fn(&Case<T>) -> T),
+    Exactly(Tree),
     /// The distance is no more than this, either way.
-    Within(fn(&Case<T>) -> T),
+    Within(Tree),
 }
 
-/// What is claimed.
+/// What is claimed, in the coordinates of a [`Case`].
+#[derive(Clone, Debug)]
 #[non_exhaustive]
-pub enum Kind<T> {
-    /// Two expressions are equal.
-    Equal(fn(&Case<T>) -> Pair<T>),
-    /// An expression has a sign.
-    Sign(Relation, fn(&Case<T>) -> T),
-    /// One expression is the derivative of another.
+pub enum Kind {
+    /// Two formulas are equal.
+    Equal(Tree, Tree),
+    /// A formula has a sign.
+    Sign(Relation, Tree),
+    /// One formula is the derivative of another.
     Derivative {
-        /// The other, in dual numbers.
-        of: fn(&Case<Dual<T>>) -> Dual<T>,
-        /// The other, as it is.
-        formula: fn(&Case<T>) -> T,
+        /// The other.
+        of: Tree,
         /// By this coordinate.
         by: Var,
         /// The one.
-        is: fn(&Case<T>) -> T,
+        is: Tree,
     },
-    /// An expression tends to another as a coordinate tends to infinity.
+    /// A formula tends to another as a coordinate tends to infinity.
     Limit {
-        /// The expression.
-        of: fn(&Case<T>) -> T,
+        /// The formula.
+        of: Tree,
         /// The coordinate.
         by: Var,
         /// Its limit.
-        to: fn(&Case<T>) -> T,
+        to: Tree,
         /// How fast.
-        rate: Rate<T>,
+        rate: Rate,
     },
-    /// A recursion x₀ = start, x_{k+1} = step(x_k) has the closed form x_k = closed(ratioᵏ).
+    /// A recursion x₀ = start, x_{k+1} = step(x_k) has the closed form x_k = closed at q = ratioᵏ.
     Induction {
         /// What is raised to the power k.
-        ratio: fn(&Case<T>) -> T,
+        ratio: Tree,
         /// x₀.
-        start: fn(&Case<T>) -> Vec<T>,
-        /// The next x.
-        step: fn(&Case<T>, &[T]) -> Vec<T>,
-        /// x_k from ratioᵏ.
-        closed: fn(&Case<T>, &T) -> Vec<T>,
+        start: Vec<Tree>,
+        /// The next x, by the [`MEMBERS`].
+        step: Vec<Tree>,
+        /// x_k, by q.
+        closed: Vec<Tree>,
     },
-    /// of(ratioᵏ) tends to a limit as k grows: |ratio| < 1 and of(0) is the limit.
+    /// A formula in q = ratioᵏ tends to a limit as k grows: |ratio| < 1, and at q = 0 it is the limit.
     Vanishing {
         /// What is raised to the power k.
-        ratio: fn(&Case<T>) -> T,
-        /// An expression in ratioᵏ.
-        of: fn(&Case<T>, &T) -> T,
+        ratio: Tree,
+        /// The formula.
+        of: Tree,
         /// Its limit.
-        to: fn(&Case<T>) -> T,
+        to: Tree,
     },
 }
 
-impl<T> Kind<T> {
+/// What the components of x_k are called in the step of an induction.
+pub const MEMBERS: [&str; 4] = ["x₁", "x₂", "x₃", "x₄"];
+
+impl Kind {
     /// Its name.
     pub fn name(&self) -> &'static str {
         match self {
-            Kind::Equal(_) => "equal",
+            Kind::Equal(..) => "equal",
             Kind::Sign(..) => "sign",
             Kind::Derivative { .. } => "derivative",
             Kind::Limit { .. } => "limit",
@@ -301,8 +313,9 @@ impl<T> Kind<T> {
     }
 }
 
-/// Something said of an equation under hypotheses, in one number system.
-pub struct Claim<T> {
+/// Something said of an equation under hypotheses: recorded once, and read by provers, number systems and printers.
+#[derive(Clone, Debug)]
+pub struct Claim {
     /// The [`Entry`] it belongs to.
     pub equation: &'static str,
     /// Its name, unique within the equation.
@@ -310,151 +323,64 @@ pub struct Claim<T> {
     /// What it supposes.
     pub given: &'static [Given],
     /// What it says.
-    pub kind: Kind<T>,
+    pub kind: Kind,
 }
 
-/// What is asked of the numbers of one case.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Goal<T> {
-    /// Are these equal?
-    Equal(T, T),
-    /// Has this the sign?
-    Sign(Relation, T),
-}
-
-/// The recursion is followed for this many steps; the closed form is also tried at any ρᵏ.
-const STEPS: usize = 3;
-
-impl<T: Field> Claim<T> {
-    /// What the claim comes to for one case; it holds there if all goals do.
-    pub fn goals(&self, case: &Case<T>) -> Vec<Goal<T>> {
-        let equal = |(left, right)| Goal::Equal(left, right);
-        let pairs = |a: Vec<T>, b: Vec<T>| a.into_iter().zip(b).map(equal);
+impl Claim {
+    /// Its formulas, but for those of its hypotheses.
+    pub fn trees(&self) -> Vec<&Tree> {
         match &self.kind {
-            Kind::Equal(sides) => vec![equal(sides(case))],
-            Kind::Sign(relation, of) => vec![Goal::Sign(*relation, of(case))],
-            Kind::Derivative { of, by, is, .. } => {
-                vec![Goal::Equal(of(&case.along(*by)).derivative, is(case))]
-            }
-            Kind::Limit { of, to, rate, .. } => {
-                let distance = of(case) - to(case);
-                match rate {
-                    Rate::Exactly(rate) => vec![Goal::Equal(distance, rate(case))],
-                    Rate::Within(bound) => {
-                        let bound = bound(case);
-                        let margin = &bound * &bound - &distance * &distance;
-                        vec![
-                            Goal::Sign(Relation::NonNegative, bound),
-                            Goal::Sign(Relation::NonNegative, margin),
-                        ]
-                    }
-                }
-            }
+            Kind::Equal(a, b) | Kind::Derivative { of: a, is: b, .. } => vec![a, b],
+            Kind::Sign(_, a) => vec![a],
+            Kind::Limit { of, to, rate: Rate::Exactly(rate) | Rate::Within(rate), .. } => vec![of, to, rate],
+            Kind::Vanishing { ratio, of, to } => vec![ratio, of, to],
             Kind::Induction { ratio, start, step, closed } => {
-                let ratio = ratio(case);
-                let (mut x, mut power) = (start(case), T::one());
-                let mut goals: Vec<_> = pairs(x.clone(), closed(case, &power)).collect();
-                for _ in 0..STEPS {
-                    x = step(case, &x);
-                    power = &power * &ratio;
-                    goals.extend(pairs(x.clone(), closed(case, &power)));
-                }
-                let next = step(case, &closed(case, &case.q));
-                goals.extend(pairs(next, closed(case, &(&ratio * &case.q))));
-                goals
-            }
-            Kind::Vanishing { ratio, of, to } => {
-                let ratio = ratio(case);
-                vec![
-                    Goal::Sign(Relation::Positive, T::one() - &ratio * &ratio),
-                    Goal::Equal(of(case, &T::zero()), to(case)),
-                ]
+                [ratio].into_iter().chain(start).chain(step).chain(closed).collect()
             }
         }
     }
+
+    /// Does it speak of eˣ, which rationals have not?
+    pub fn has_exponentials(&self) -> bool {
+        self.trees().into_iter().any(|tree| tree.any(&|tree| matches!(tree.step(), Step::Exp(_))))
+    }
+
+    /// With each of its formulas changed.
+    pub fn map(&self, f: &impl Fn(&Tree) -> Tree) -> Self {
+        let all = |trees: &[Tree]| trees.iter().map(f).collect();
+        let kind = match &self.kind {
+            Kind::Equal(a, b) => Kind::Equal(f(a), f(b)),
+            Kind::Sign(relation, a) => Kind::Sign(*relation, f(a)),
+            Kind::Derivative { of, by, is } => Kind::Derivative { of: f(of), by: *by, is: f(is) },
+            Kind::Limit { of, by, to, rate } => {
+                let rate = match rate {
+                    Rate::Exactly(rate) => Rate::Exactly(f(rate)),
+                    Rate::Within(rate) => Rate::Within(f(rate)),
+                };
+                Kind::Limit { of: f(of), by: *by, to: f(to), rate }
+            }
+            Kind::Vanishing { ratio, of, to } => Kind::Vanishing { ratio: f(ratio), of: f(of), to: f(to) },
+            Kind::Induction { ratio, start, step, closed } => {
+                Kind::Induction { ratio: f(ratio), start: all(start), step: all(step), closed: all(closed) }
+            }
+        };
+        Claim { kind, ..self.clone() }
+    }
+}
+
+/// Every claim.
+pub fn claims() -> &'static [Claim] {
+    static CLAIMS: LazyLock<Vec<Claim>> = LazyLock::new(list::record);
+    &CLAIMS
 }
 
 /// The names of an entry's claims, in whatever number system they are checked.
 #[cfg(feature = "mpfr")]
 pub fn claim_names(equation: &str) -> Vec<&'static str> {
-    use crate::number::Ball;
-    let algebraic = all_claims::<Ball<f64>>().into_iter().map(|c| (c.equation, c.name));
+    let recorded = claims().iter().map(|c| (c.equation, c.name));
     let floats = float_experiments::<f64>().into_iter().chain(first_order_experiments());
     let floats = floats.map(|e| (e.equation, e.name));
     let rationals = exact_experiments().into_iter().map(|e| (e.equation, e.name));
-    let all = algebraic.chain(floats).chain(rationals);
+    let all = recorded.chain(floats).chain(rationals);
     all.filter(|(e, _)| *e == equation).map(|(_, name)| name).collect()
-}
-
-#[cfg(all(test, feature = "mpfr"))]
-mod tests {
-    use super::*;
-    use crate::number::Exact;
-    use num_traits::Zero;
-
-    /// Does such a claim hold where every coordinate is 2?
-    fn holds(kind: Kind<Exact>) -> bool {
-        let claim = Claim { equation: "1.1", name: "tried", given: &[], kind };
-        claim.goals(&Case::of(|_| Exact::int(2))).iter().all(|goal| match goal {
-            Goal::Equal(left, right) => left == right,
-            Goal::Sign(relation, x) => relation.admits(x.cmp(&Exact::zero())),
-        })
-    }
-
-    type Of = fn(&Case<Exact>) -> Exact;
-
-    #[test]
-    fn a_limit_is_as_far_as_its_rate_says_on_either_side() {
-        let limit = |of, rate| holds(Kind::Limit { of, by: Var::T, to: |x| x.u.clone(), rate });
-        let [above, below]: [Of; 2] = [|x| &x.u + Exact::int(3), |x| &x.u - Exact::int(3)];
-        let [two, three, minus_three]: [Of; 3] = [|_| Exact::int(2), |_| Exact::int(3), |_| Exact::int(-3)];
-        for of in [above, below] {
-            assert!(limit(of, Rate::Within(three)) && !limit(of, Rate::Within(two)));
-            assert!(!limit(of, Rate::Within(minus_three)), "no bound is negative");
-        }
-        assert!(limit(above, Rate::Exactly(three)) && !limit(below, Rate::Exactly(three)));
-    }
-
-    #[test]
-    fn a_power_vanishes_only_of_what_is_less_than_1_in_size() {
-        let vanishing = |ratio, to| holds(Kind::Vanishing { ratio, of: |x, power| &x.u + &x.v * power, to });
-        let to: Of = |x| x.u.clone();
-        assert!(vanishing(|_| Exact::int(1) / Exact::int(2), to));
-        assert!(vanishing(|_| Exact::int(-1) / Exact::int(2), to));
-        assert!(!vanishing(|_| Exact::int(1), to) && !vanishing(|_| Exact::int(-1), to));
-        assert!(!vanishing(|_| Exact::int(2), to) && !vanishing(|_| Exact::int(-2), to));
-        assert!(!vanishing(|_| Exact::zero(), |x| &x.u + &x.v), "it is the limit, not the first value");
-    }
-
-    #[test]
-    fn an_induction_has_its_start_its_step_and_its_closed_form() {
-        // x₀ = 3, x ← 2 x − 1, so x_k − 1 = 2 · 2ᵏ; the case's own q is 2.
-        type Closed = fn(&Case<Exact>, &Exact) -> Vec<Exact>;
-        type Next = fn(&Case<Exact>, &[Exact]) -> Vec<Exact>;
-        let induction = |start: fn(&Case<Exact>) -> Vec<Exact>, step: Next, closed: Closed| {
-            holds(Kind::Induction { ratio: |_| Exact::int(2), start, step, closed })
-        };
-        let closed: Closed = |_, power| vec![Exact::int(2) * power + Exact::int(1)];
-        let step: Next = |_, x| vec![Exact::int(2) * &x[0] - Exact::int(1)];
-        assert!(induction(|_| vec![Exact::int(3)], step, closed));
-        assert!(!induction(|_| vec![Exact::int(4)], step, closed));
-        assert!(!induction(|_| vec![Exact::int(3)], |_, x| vec![Exact::int(2) * &x[0]], closed));
-        // Right from 3 on as far as it is followed, and wrong for a power that no step meets: 3, 5, 9, 17, and so on.
-        let followed: Closed = |_, power| {
-            let off = [1, 2, 4, 8].iter().fold(Exact::int(1), |off, n| off * (power - Exact::int(*n)));
-            vec![Exact::int(2) * power + Exact::int(1) + off]
-        };
-        let elsewhere = |q: i32| {
-            let kind = Kind::Induction {
-                ratio: |_| Exact::int(2),
-                start: |_| vec![Exact::int(3)],
-                step,
-                closed: followed,
-            };
-            let claim = Claim { equation: "1.1", name: "tried", given: &[], kind };
-            let goals = claim.goals(&Case { q: Exact::int(q), ..Case::of(|_| Exact::int(2)) });
-            goals.iter().all(|goal| matches!(goal, Goal::Equal(left, right) if left == right))
-        };
-        assert!(elsewhere(2) && !elsewhere(3));
-    }
 }

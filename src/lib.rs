@@ -11,7 +11,7 @@
 //! | [`number`] | the number systems and the few traits a formula asks for | everything below |
 //! | [`chapter`] | the equations, a module a section, a function a formula | everything below |
 //! | [`solver`] | [`solve`](solver::solve), the augmentation as an iterator, bounds, certificates | users |
-//! | [`claims`] | the chapter as data, and what is claimed of it, as generic functions | `verify` |
+//! | [`claims`] | the chapter as data, and what is claimed of it, as recorded formulas | `verify` |
 #![cfg_attr(
     feature = "mpfr",
     doc = "| [`proof`] | proves the claims on symbols, for all values | `verify`, the command `contact` |\n| [`mod@verify`] | runs proofs and number systems | the command `contact` |"

@@ -12,12 +12,13 @@
 
 mod cases;
 mod checker;
+mod goals;
 mod guard;
 mod suspects;
 #[cfg(test)]
 mod tests;
 
-use crate::claims::{Case, Given, place};
+use crate::claims::{Case, Given, claims, place};
 use crate::number::{Exact, Mpfr, NumberSystem};
 use crate::proof::controls::{Change, repairs};
 use crate::proof::{Statement, prove, refute, statements};
@@ -247,9 +248,9 @@ fn proof(statement: &Statement) -> Row {
 
 fn checks(scalar: NumberSystem) -> Box<dyn Checks> {
     match scalar {
-        NumberSystem::F32 => Box::new(Checker::new(Floats(0.0f32))),
-        NumberSystem::F64 => Box::new(Checker::new(Floats(0.0f64))),
-        NumberSystem::Mpfr(bits) => Box::new(Checker::new(Floats(Mpfr::rounded(bits, 0)))),
-        NumberSystem::Exact => Box::new(Checker::new(Exactly)),
+        NumberSystem::F32 => Box::new(Checker::new(Floats(0.0f32), claims())),
+        NumberSystem::F64 => Box::new(Checker::new(Floats(0.0f64), claims())),
+        NumberSystem::Mpfr(bits) => Box::new(Checker::new(Floats(Mpfr::rounded(bits, 0)), claims())),
+        NumberSystem::Exact => Box::new(Checker::new(Exactly, claims())),
     }
 }

@@ -8,8 +8,8 @@
 use crate::chapter::{
     SpringMass, augmented, beyond, contact, contact::Kkt, lagrange, ode, penalty, structure, system,
 };
-use crate::number::Tree;
 use crate::number::tree::{Name, Notation, Site, Step, latex};
+use crate::number::{Exponential, PositivePart, Tree};
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
@@ -225,14 +225,14 @@ static BY_SITE: LazyLock<HashMap<Site, Vec<usize>>> = LazyLock::new(|| {
 });
 
 macro_rules! argument {
-    ($own:ident system) => {
+    ($own:ident $symbol:ident system) => {
         &$own
     };
-    ($own:ident $name:literal) => {
-        &Tree::symbol($name)
+    ($own:ident $symbol:ident $name:literal) => {
+        &$symbol($name)
     };
-    ($own:ident [$name:literal]) => {
-        &[Tree::symbol($name)]
+    ($own:ident $symbol:ident [$name:literal]) => {
+        &[$symbol($name)]
     };
 }
 
@@ -244,110 +244,121 @@ macro_rules! names {
 }
 
 macro_rules! list {
-    ($own:ident $($symbol:literal $(($folded:ident))? = $module:ident::$name:ident($($argument:tt),*)
+    ($($symbol:literal $(($folded:ident))? = $module:ident::$name:ident($($argument:tt),*)
        $(, $part:literal is |$pattern:pat_param| $value:expr)? $(, written $written:literal)?;)*) => {
-        vec![$(Formula {
-            path: concat!(stringify!($module), "::", stringify!($name)),
-            part: None$(.or(Some($part)))?,
-            symbol: $symbol,
-            folded: !stringify!($($folded)?).is_empty(),
-            arguments: names!([] $($argument)*),
-            written: { let written = "«»"; $(let _ = written; let written = $written;)? written },
-            tree: { let value = $module::$name($(argument!($own $argument)),*); $(let $pattern = value; let value = $value;)? value },
-        }),*]
+        /// What each of the [`formulas`] computes in a number system, in their order: by the functions themselves, and
+        /// not by their records.
+        pub fn computed<T: PositivePart + Exponential>(symbol: &impl Fn(&'static str) -> T) -> Vec<T> {
+            let own = SpringMass { c: "c", m: "m", g: "g", l: "l", h: "H" }.map(|name| symbol(name));
+            vec![$({
+                let value = $module::$name($(argument!(own symbol $argument)),*);
+                $(let $pattern = value; let value = $value;)?
+                value
+            }),*]
+        }
+
+        fn record() -> Vec<Formula> {
+            let mut trees = computed(&|name| Tree::symbol(name)).into_iter();
+            let mut tree = || trees.next().expect("a value each");
+            vec![$(Formula {
+                path: concat!(stringify!($module), "::", stringify!($name)),
+                part: None$(.or(Some($part)))?,
+                symbol: $symbol,
+                folded: !stringify!($($folded)?).is_empty(),
+                arguments: names!([] $($argument)*),
+                written: { let written = "«»"; $(let _ = written; let written = $written;)? written },
+                tree: tree(),
+            }),*]
+        }
     };
 }
 
-/// `(folded)` after a symbol: formulas may speak of the quantity by it. A value without a symbol is a
-/// residual, a side of an equation, or has no name in the chapter.
-#[rustfmt::skip]
-fn record() -> Vec<Formula> {
-    let own = SpringMass { c: "c", m: "m", g: "g", l: "l", h: "H" }.map(|name| Tree::symbol(name));
-    list! { own
-        "Δ" (folded) = system::gap(system);
-        "W" = system::weight(system);
-        "R" (folded) = system::reaction(system);
+// `(folded)` after a symbol: formulas may speak of the quantity by it. A value without a symbol is a
+// residual, a side of an equation, or has no name in the chapter.
+list! {
+    "Δ" (folded) = system::gap(system);
+    "W" = system::weight(system);
+    "R" (folded) = system::reaction(system);
 
-        "F" = structure::spring_force(system, "u");
-        "r" = structure::residual(system, "u");
-        "u" = structure::deflection(system);
-        "δW" = structure::virtual_work(system, "u", "δu");
-        "Π" (folded) = structure::potential_energy(system, "u");
-        "δΠ" = structure::first_variation(system, "u", "δu"), written "δu ∂Π/∂u";
-        "min Π" = structure::least_energy(system);
+    "F" = structure::spring_force(system, "u");
+    "r" = structure::residual(system, "u");
+    "u" = structure::deflection(system);
+    "δW" = structure::virtual_work(system, "u", "δu");
+    "Π" (folded) = structure::potential_energy(system, "u");
+    "δΠ" = structure::first_variation(system, "u", "δu"), written "δu ∂Π/∂u";
+    "min Π" = structure::least_energy(system);
 
-        "p" (folded) = contact::penetration(system, "u");
-        "r" = contact::equilibrium(system, "u", "N");
-        "" = contact::kkt(system, "u", "N"), "stationarity" is |Kkt { stationarity, .. }| stationarity;
-        "" = contact::kkt(system, "u", "N"), "primal" is |Kkt { primal, .. }| primal;
-        "" = contact::kkt(system, "u", "N"), "dual" is |Kkt { dual, .. }| dual;
-        "" = contact::kkt(system, "u", "N"), "complementarity" is |Kkt { complementarity, .. }| complementarity;
-        "N" = contact::contact_force(system);
-        "u" = contact::deflection(system);
+    "p" (folded) = contact::penetration(system, "u");
+    "r" = contact::equilibrium(system, "u", "N");
+    "" = contact::kkt(system, "u", "N"), "stationarity" is |Kkt { stationarity, .. }| stationarity;
+    "" = contact::kkt(system, "u", "N"), "primal" is |Kkt { primal, .. }| primal;
+    "" = contact::kkt(system, "u", "N"), "dual" is |Kkt { dual, .. }| dual;
+    "" = contact::kkt(system, "u", "N"), "complementarity" is |Kkt { complementarity, .. }| complementarity;
+    "N" = contact::contact_force(system);
+    "u" = contact::deflection(system);
 
-        "𝓛" (folded) = lagrange::functional(system, "u", "λ");
-        "" = lagrange::residual(system, "u", "λ"), "equilibrium" is |[equilibrium, _]| equilibrium;
-        "" = lagrange::residual(system, "u", "λ"), "constraint" is |[_, constraint]| constraint;
-        "u" = lagrange::deflection(system);
-        "λ" = lagrange::multiplier(system);
+    "𝓛" (folded) = lagrange::functional(system, "u", "λ");
+    "" = lagrange::residual(system, "u", "λ"), "equilibrium" is |[equilibrium, _]| equilibrium;
+    "" = lagrange::residual(system, "u", "λ"), "constraint" is |[_, constraint]| constraint;
+    "u" = lagrange::deflection(system);
+    "λ" = lagrange::multiplier(system);
 
-        "W" = penalty::functional("ε", "p");
-        "Π_p" (folded) = penalty::energy(system, "ε", "u");
-        "" = penalty::total_stiffness(system, "ε");
-        "min Π_p" = penalty::least_energy(system, "ε");
-        "W" = penalty::series("ε", ["ε₄"], "p"), written "«» + …";
-        "W′" (folded) = penalty::series_force("ε", ["ε₄"], "p"), written "∂W/∂p";
-        "r" = penalty::series_residual(system, "ε", ["ε₄"], "p");
-        "r" = penalty::residual(system, "ε", "u");
-        "N" = penalty::contact_force(system, "ε", "u");
-        "u" = penalty::deflection(system, "ε");
-        "u" = penalty::deflection_divided(system, "ε");
-        "p" = penalty::penetration(system, "ε");
-        "N" = penalty::force_at_root(system, "ε");
-        "ε" = penalty::penalty_for(system, "tol");
-        "u" = penalty::unilateral_deflection(system, "ε");
+    "W" = penalty::functional("ε", "p");
+    "Π_p" (folded) = penalty::energy(system, "ε", "u");
+    "" = penalty::total_stiffness(system, "ε");
+    "min Π_p" = penalty::least_energy(system, "ε");
+    "W" = penalty::series("ε", ["ε₄"], "p"), written "«» + …";
+    "W′" (folded) = penalty::series_force("ε", ["ε₄"], "p"), written "∂W/∂p";
+    "r" = penalty::series_residual(system, "ε", ["ε₄"], "p");
+    "r" = penalty::residual(system, "ε", "u");
+    "N" = penalty::contact_force(system, "ε", "u");
+    "u" = penalty::deflection(system, "ε");
+    "u" = penalty::deflection_divided(system, "ε");
+    "p" = penalty::penetration(system, "ε");
+    "N" = penalty::force_at_root(system, "ε");
+    "ε" = penalty::penalty_for(system, "tol");
+    "u" = penalty::unilateral_deflection(system, "ε");
 
-        "L" (folded) = augmented::functional(system, "ε", "λ", "u");
-        "min L" = augmented::least_value(system, "ε", "λ");
-        "∂L/∂u" = augmented::stationarity(system, "ε", "λ", "u");
-        "λ′" = augmented::update(system, "ε", "λ", "u");
-        "r" = augmented::equilibrium(system, "ε", "λ", "u");
-        "u" = augmented::deflection(system, "ε", "λ");
-        "N" = augmented::contact_force(system, "u");
-        "ρ" (folded) = augmented::contraction(system, "ε");
-        "λ_k" = augmented::multiplier_after(system, "λ₀", "ρᵏ");
-        "p_k" = augmented::penetration_after(system, "ε", "λ₀", "ρᵏ");
-        "u_k" = augmented::deflection_after(system, "ε", "λ₀", "ρᵏ");
-        "" = augmented::harmonic_bound(system, "ε", "k");
-        "" = augmented::recursion(system, "ε", "u_k", "u_{k+1}"), "left" is |(left, _)| left;
-        "" = augmented::recursion(system, "ε", "u_k", "u_{k+1}"), "right" is |(_, right)| right;
-        "L" = augmented::unilateral_functional(system, "ε", "λ", "u");
-        "λ′" = augmented::unilateral_update(system, "ε", "λ", "u");
-        "r" = augmented::unilateral_equilibrium(system, "ε", "λ", "u");
-        "u" = augmented::unilateral_deflection(system, "ε", "λ");
-        "r" = augmented::natural_residual(system, "ε", "λ", "u");
+    "L" (folded) = augmented::functional(system, "ε", "λ", "u");
+    "min L" = augmented::least_value(system, "ε", "λ");
+    "∂L/∂u" = augmented::stationarity(system, "ε", "λ", "u");
+    "λ′" = augmented::update(system, "ε", "λ", "u");
+    "r" = augmented::equilibrium(system, "ε", "λ", "u");
+    "u" = augmented::deflection(system, "ε", "λ");
+    "N" = augmented::contact_force(system, "u");
+    "ρ" (folded) = augmented::contraction(system, "ε");
+    "λ_k" = augmented::multiplier_after(system, "λ₀", "ρᵏ");
+    "p_k" = augmented::penetration_after(system, "ε", "λ₀", "ρᵏ");
+    "u_k" = augmented::deflection_after(system, "ε", "λ₀", "ρᵏ");
+    "" = augmented::harmonic_bound(system, "ε", "k");
+    "" = augmented::recursion(system, "ε", "u_k", "u_{k+1}"), "left" is |(left, _)| left;
+    "" = augmented::recursion(system, "ε", "u_k", "u_{k+1}"), "right" is |(_, right)| right;
+    "L" = augmented::unilateral_functional(system, "ε", "λ", "u");
+    "λ′" = augmented::unilateral_update(system, "ε", "λ", "u");
+    "r" = augmented::unilateral_equilibrium(system, "ε", "λ", "u");
+    "u" = augmented::unilateral_deflection(system, "ε", "λ");
+    "r" = augmented::natural_residual(system, "ε", "λ", "u");
 
-        "" = ode::difference_equation(system, "ε", "u_t", "u_{t+1}"), "left" is |(left, _)| left;
-        "" = ode::difference_equation(system, "ε", "u_t", "u_{t+1}"), "right" is |(_, right)| right;
-        "" = ode::operator(system, "ε", "u", "v");
-        "" = ode::right_side(system, "ε");
-        "u̇" = ode::velocity(system, "ε", "u");
-        "u" = ode::superposition("u_h", "u_nh");
-        "" = ode::characteristic(system, "ε", "rate");
-        "rate" = ode::rate(system, "ε");
-        "u_h" = ode::homogeneous(system, "ε", "A", "t");
-        "u_nh" = ode::particular(system);
-        "u" = ode::general(system, "ε", "A", "t");
-        "A" = ode::constant(system, "u₀");
-        "u" = ode::solution(system, "ε", "u₀", "t");
+    "" = ode::difference_equation(system, "ε", "u_t", "u_{t+1}"), "left" is |(left, _)| left;
+    "" = ode::difference_equation(system, "ε", "u_t", "u_{t+1}"), "right" is |(_, right)| right;
+    "" = ode::operator(system, "ε", "u", "v");
+    "" = ode::right_side(system, "ε");
+    "u̇" = ode::velocity(system, "ε", "u");
+    "u" = ode::superposition("u_h", "u_nh");
+    "" = ode::characteristic(system, "ε", "rate");
+    "rate" = ode::rate(system, "ε");
+    "u_h" = ode::homogeneous(system, "ε", "A", "t");
+    "u_nh" = ode::particular(system);
+    "u" = ode::general(system, "ε", "A", "t");
+    "A" = ode::constant(system, "u₀");
+    "u" = ode::solution(system, "ε", "u₀", "t");
 
-        "ε_eff" = beyond::effective_penalty(system, "growth");
-        "λ′" = beyond::relaxed_update(system, "α", "λ", "u");
-        "" = beyond::relaxed_contraction(system, "ε", "α");
-        "d" = beyond::dual_functional(system, "λ");
-        "" = beyond::aitken("λ₀", "λ₁", "λ₂");
-        "W" = beyond::exact_penalty("ε", "p");
-    }
+    "ε_eff" = beyond::effective_penalty(system, "growth");
+    "λ′" = beyond::relaxed_update(system, "α", "λ", "u");
+    "" = beyond::relaxed_contraction(system, "ε", "α");
+    "d" = beyond::dual_functional(system, "λ");
+    "" = beyond::aitken("λ₀", "λ₁", "λ₂");
+    "W" = beyond::exact_penalty("ε", "p");
 }
 
 #[cfg(test)]

@@ -1,7 +1,9 @@
 //! What a formula does, step by step: the reading that all readings without numbers start from.
 
+mod program;
 mod typeset;
 
+pub use program::Program;
 pub use typeset::{Name, Notation, latex};
 
 use super::{Dual, Exponential, Field, PositivePart};
@@ -35,7 +37,7 @@ struct Node {
 }
 
 /// The last step of a formula.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Step<T> {
     /// A quantity.
     Symbol(&'static str),
@@ -210,6 +212,14 @@ impl Tree {
         let same = step.operands().zip(self.step().operands()).all(|(new, old)| Arc::ptr_eq(&new.0, &old.0));
         let tree = if same { self.clone() } else { self.with_step(step) };
         f(&tree).unwrap_or(tree)
+    }
+
+    /// The tree with other formulas in place of quantities.
+    pub fn with(&self, replaced: &[(&str, Tree)]) -> Tree {
+        self.rewrite(&|tree| match tree.step() {
+            Step::Symbol(name) => replaced.iter().find(|(own, _)| own == name).map(|(_, tree)| tree.clone()),
+            _ => None,
+        })
     }
 
     /// The tree with its last step replaced by another, at the same place in the source.

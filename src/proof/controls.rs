@@ -253,7 +253,8 @@ impl Change {
         tree.any(&|tree| self.edit(tree).is_some())
     }
 
-    fn rewrite(&self, tree: &Tree) -> Tree {
+    /// A formula after the change.
+    pub fn rewrite(&self, tree: &Tree) -> Tree {
         tree.rewrite(&|tree| self.edit(tree))
     }
 

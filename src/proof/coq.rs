@@ -18,7 +18,7 @@ mod script;
 
 use super::statement::{Goal, Hypothesis, Role, Says, Statement};
 use super::{Why, prove};
-use crate::claims::{Case, Claim, Formula, Kind, Relation, Var, all_claims, entry, formulas};
+use crate::claims::{Claim, Formula, Kind, MEMBERS, Relation, Var, claims, entry, formulas};
 use crate::number::Tree;
 use crate::number::tree::Step;
 use print::{Expr, ascii};
@@ -239,9 +239,9 @@ static WRITTEN: LazyLock<(Vec<Written>, Vec<LeftOut>)> = LazyLock::new(written);
 /// The claims, printed, and those that cannot be.
 fn written() -> (Vec<Written>, Vec<LeftOut>) {
     let (mut written, mut left_out) = (Vec::new(), Vec::new());
-    for claim in all_claims() {
+    for claim in claims() {
         let section = entry(claim.equation).map_or("", |entry| entry.section).to_string();
-        match Theorem::new(&claim).text() {
+        match Theorem::new(claim).text() {
             Ok(text) => written.push(Written { section, text }),
             Err(reason) => left_out.push(LeftOut { equation: claim.equation, name: claim.name, reason }),
         }
@@ -275,10 +275,9 @@ const PER_FILE: usize = 12;
 
 /// A claim, to be printed.
 struct Theorem<'a> {
-    claim: &'a Claim<Tree>,
+    claim: &'a Claim,
     /// The functions of its entry: what it says, it says in their names.
     own: &'static [&'static str],
-    case: Case<Tree>,
     statement: Statement,
     name: String,
 }
@@ -461,11 +460,10 @@ impl<'a> Lemma<'a> {
 }
 
 impl<'a> Theorem<'a> {
-    fn new(claim: &'a Claim<Tree>) -> Self {
+    fn new(claim: &'a Claim) -> Self {
         Theorem {
             claim,
             own: entry(claim.equation).map_or(&[], |entry| entry.functions),
-            case: Case::of_symbols(),
             statement: Statement::of(claim),
             name: theorem_name(claim.equation, claim.name),
         }
@@ -606,13 +604,9 @@ impl<'a> Theorem<'a> {
         };
         let mut text = lemmas.iter().map(|lemma| lemma.text("Lemma")).collect::<Result<String>>()?;
 
-        const NAMES: [&str; 4] = ["x1", "x2", "x3", "x4"];
-        let (start, ratio) = (start(&self.case), ratio(&self.case));
-        let names_of_values = NAMES.get(..start.len()).ok_or("the recursion has too many values")?;
-        let values: Vec<_> = names_of_values.iter().map(|name| Tree::symbol(name)).collect();
-        let (next, closed) = (step(&self.case, &values), closed(&self.case, &self.case.q));
+        let names_of_values = MEMBERS.get(..start.len()).ok_or("the recursion has too many values")?;
         let hypotheses = self.hypotheses(Some(q));
-        let trees = start.iter().chain(&next).chain(&closed).chain([&ratio]);
+        let trees = start.iter().chain(step).chain(closed).chain([ratio]);
         let free: Vec<_> = variables(trees.chain(hypotheses.iter().map(|h| &h.value)))
             .into_iter()
             .filter(|var| *var != Var::Q)
@@ -626,20 +620,20 @@ impl<'a> Theorem<'a> {
             }
         };
         let pattern = match names_of_values {
-            [name] => name.to_string(),
-            names => format!("'({})", names.join(", ")),
+            [name] => ascii(name),
+            names => format!("'({})", names.iter().map(|name| ascii(name)).collect::<Vec<_>>().join(", ")),
         };
         let iterates = format!("{}_iterates", self.name);
-        let (arguments, ratio) = (names(&free), self.expr(&ratio));
+        let (arguments, ratio) = (names(&free), self.expr(ratio));
         let _ = write!(
             text,
             "\nFixpoint {iterates} ({} : R) (n : nat) : {} :=\n  match n with\n  | O => {}\n  | S n =>\n      \
              let {} := {iterates}{arguments} n in\n      {}\n  end.\n",
             arguments.trim_start(),
             vec!["R"; start.len()].join(" * "),
-            tuple(&start),
+            tuple(start),
             pattern,
-            tuple(&next),
+            tuple(step),
         );
 
         let mut script = Script::new();
@@ -697,7 +691,7 @@ impl<'a> Theorem<'a> {
         part(Role::Step).iter().for_each(|lemma| script.line(&format!("  + exact ({}).", at(lemma, &power))));
         let says = format!(
             "forall n : nat, let q := {power} in\n    {iterates}{arguments} n =\n    {}",
-            tuple(&closed)
+            tuple(closed)
         );
         Ok(text + &stated("Theorem", &self.name, &free, &hypotheses, &says, script))
     }
@@ -713,11 +707,10 @@ impl<'a> Theorem<'a> {
             return Err("a limit of powers has two parts".into());
         };
         let text = small.text("Lemma")? + &limit.text("Lemma")?;
-        let (ratio, of, to) = (ratio(&self.case), of(&self.case, &self.case.q), to(&self.case));
         let hypotheses = self.hypotheses(Some(q));
-        let trees = [&ratio, &of, &to].into_iter().chain(hypotheses.iter().map(|h| &h.value));
+        let trees = [ratio, of, to].into_iter().chain(hypotheses.iter().map(|h| &h.value));
         let free: Vec<_> = variables(trees.clone()).into_iter().filter(|var| *var != Var::Q).collect();
-        let (ratio, to) = (self.expr(&ratio), self.expr(&to));
+        let (ratio, to) = (self.expr(ratio), self.expr(to));
         let power = Expr::name(format!("({} ^ n)", ratio.base()));
         let mut script = Script::new();
         script.line(&format!("intros{}{}.", names(&free), labels(hypotheses.len())));
@@ -728,13 +721,13 @@ impl<'a> Theorem<'a> {
         let name = ascii(q);
         script.line(&format!(
             "apply (limit_of_powers (fun {name} => {}) {}).",
-            self.expr(&of),
+            self.expr(of),
             ratio.argument()
         ));
         script.line(&format!("- exact ({}).", small.applied()));
         script.line("- chapter. auto_derive; nonzero.");
         script.line(&format!("- exact ({}).", limit.applied()));
-        let says = format!("is_lim_seq (fun n => {}) {}", self.expr(&of).with(&name, &power), to.argument());
+        let says = format!("is_lim_seq (fun n => {}) {}", self.expr(of).with(&name, &power), to.argument());
         Ok(text + &stated("Theorem", &self.name, &free, &hypotheses, &says, script))
     }
 }

@@ -1,6 +1,6 @@
 //! What is to be proved: a claim, read in trees.
 
-use crate::claims::{Case, Claim, Given, Kind, Rate, Relation, Var, all_claims};
+use crate::claims::{Case, Claim, Given, Kind, MEMBERS, Rate, Relation, Var, claims};
 use crate::number::Tree;
 use num_traits::{One, Zero};
 
@@ -121,7 +121,7 @@ impl Says {
 
 /// Every claim, as formulas.
 pub fn statements() -> Vec<Statement> {
-    all_claims().iter().map(Statement::of).collect()
+    claims().iter().map(Statement::of).collect()
 }
 
 impl Statement {
@@ -131,7 +131,7 @@ impl Statement {
     /// start and one step leads from closed(q) to closed(ρ q), whatever q is. What a claim supposes of q is
     /// an invariant: it has to hold for q = 1, by the other hypotheses alone, and to be passed on from q to ρ q;
     /// then it may be used in the step.
-    pub fn of(claim: &Claim<Tree>) -> Self {
+    pub fn of(claim: &Claim) -> Self {
         let case = Case::of_symbols();
         let goal = Goal::of_claim;
         let of_q = |given: &&Given| given.value(&case).symbols().contains(Var::Q.symbol());
@@ -140,59 +140,62 @@ impl Statement {
         let mut goals = Vec::new();
         let mut amounts_to = None;
         match &claim.kind {
-            Kind::Equal(sides) => {
-                let (left, right) = sides(&case);
-                goals.push(goal("", Says::Equal(left, right)));
-            }
-            Kind::Sign(relation, of) => goals.push(goal("", Says::Sign(*relation, of(&case)))),
-            Kind::Derivative { formula, by, is, .. } => {
-                goals.push(goal("", Says::Derivative(formula(&case), *by, is(&case))));
+            Kind::Equal(left, right) => goals.push(goal("", Says::Equal(left.clone(), right.clone()))),
+            Kind::Sign(relation, of) => goals.push(goal("", Says::Sign(*relation, of.clone()))),
+            Kind::Derivative { of, by, is } => {
+                goals.push(goal("", Says::Derivative(of.clone(), *by, is.clone())));
             }
             Kind::Limit { of, by, to, rate } => {
-                let (of, to) = (of(&case), to(&case));
                 goals.push(goal("limit", Says::Limit(of.clone(), *by, to.clone())));
                 let distance = of - to;
                 match rate {
-                    Rate::Exactly(rate) => goals.push(goal("rate", Says::Equal(distance, rate(&case)))),
+                    Rate::Exactly(rate) => goals.push(goal("rate", Says::Equal(distance, rate.clone()))),
                     Rate::Within(bound) => {
-                        let bound = bound(&case);
-                        let margin = &bound * &bound - &distance * &distance;
-                        goals.push(goal("bound", Says::Sign(Relation::NonNegative, bound)));
+                        let margin = bound * bound - &distance * &distance;
+                        goals.push(goal("bound", Says::Sign(Relation::NonNegative, bound.clone())));
                         goals.push(goal("within the bound", Says::Sign(Relation::NonNegative, margin)));
                     }
                 }
             }
             Kind::Induction { ratio, start, step, closed } => {
+                assert!(
+                    start.len() == closed.len() && step.len() == closed.len(),
+                    "a form for each component"
+                );
                 (invariants, hypotheses) = claim.given.iter().partition(of_q);
-                let (q, ratio, start) = (&case.q, ratio(&case), start(&case));
-                let next = &ratio * q;
-                let mut pairs = |part, role, a: Vec<Tree>, b: Vec<Tree>| {
-                    assert_eq!(a.len(), b.len(), "a closed form for each component");
-                    let says = a.into_iter().zip(b).map(|(a, b)| Says::Equal(a, b));
-                    goals.extend(says.map(|says| Goal { part, role, says }));
-                };
-                pairs("start", Role::Claim, closed(&case, &Tree::one()), start.clone());
-                pairs("step", Role::Step, step(&case, &closed(&case, q)), closed(&case, &next));
-                for given in &invariants {
-                    let with = |q: Tree| given.value(&Case { q, ..case.clone() });
-                    let goal =
-                        |part, role, q| Goal { part, role, says: Says::Sign(given.relation(), with(q)) };
-                    goals.push(goal("invariant at the start", Role::Begins, Tree::one()));
-                    goals.push(goal("invariant after a step", Role::Continues, next.clone()));
+                let q = Var::Q.symbol();
+                let next = ratio * &case.q;
+                let member = |i: usize| (MEMBERS[i], closed[i].clone());
+                let members: Vec<_> = (0..closed.len()).map(member).collect();
+                for (start, closed) in start.iter().zip(closed) {
+                    let says = Says::Equal(closed.with(&[(q, Tree::one())]), start.clone());
+                    goals.push(Goal { part: "start", role: Role::Claim, says });
                 }
-                amounts_to = Some(Sequence { start, ratio, member: closed(&case, q), limit: None });
+                for (step, closed) in step.iter().zip(closed) {
+                    let says = Says::Equal(step.with(&members), closed.with(&[(q, next.clone())]));
+                    goals.push(Goal { part: "step", role: Role::Step, says });
+                }
+                for given in &invariants {
+                    let value = given.value(&case);
+                    let says = |q_is: Tree| Says::Sign(given.relation(), value.with(&[(q, q_is)]));
+                    let begins =
+                        Goal { part: "invariant at the start", role: Role::Begins, says: says(Tree::one()) };
+                    let says = says(next.clone());
+                    goals.extend([
+                        begins,
+                        Goal { part: "invariant after a step", role: Role::Continues, says },
+                    ]);
+                }
+                let (start, ratio, member) = (start.clone(), ratio.clone(), closed.clone());
+                amounts_to = Some(Sequence { start, ratio, member, limit: None });
             }
             Kind::Vanishing { ratio, of, to } => {
-                let ratio = ratio(&case);
-                let margin = Tree::one() - &ratio * &ratio;
+                let margin = Tree::one() - ratio * ratio;
                 goals.push(goal("|ρ| < 1", Says::Sign(Relation::Positive, margin)));
-                goals.push(goal("at q = 0", Says::Equal(of(&case, &Tree::zero()), to(&case))));
-                amounts_to = Some(Sequence {
-                    start: Vec::new(),
-                    ratio,
-                    member: vec![of(&case, &case.q)],
-                    limit: Some(to(&case)),
-                });
+                let at_zero = of.with(&[(Var::Q.symbol(), Tree::zero())]);
+                goals.push(goal("at q = 0", Says::Equal(at_zero, to.clone())));
+                let (ratio, member, limit) = (ratio.clone(), vec![of.clone()], Some(to.clone()));
+                amounts_to = Some(Sequence { start: Vec::new(), ratio, member, limit });
             }
         }
         let read = |all: Vec<&Given>| all.into_iter().map(|given| Hypothesis::of(*given, &case)).collect();

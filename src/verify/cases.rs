@@ -225,8 +225,8 @@ fn plant(case: &mut Case<Exact>, hypothesis: Given, target: &Exact) -> Option<()
 mod tests {
     use super::*;
     use crate::chapter::SpringMass;
-    use crate::claims::{all_claims, exact_experiments, first_order_experiments, float_experiments};
-    use crate::number::{Ball, Real, ToExact};
+    use crate::claims::{claims, exact_experiments, first_order_experiments, float_experiments};
+    use crate::number::{Real, ToExact};
     use std::cmp::Ordering;
     use std::collections::{BTreeSet, HashSet};
 
@@ -236,7 +236,7 @@ mod tests {
     /// All hypotheses under which something is claimed.
     fn groups() -> BTreeSet<Vec<&'static str>> {
         let texts = |given: &[Given]| given.iter().map(|given| given.text()).collect();
-        let claims = all_claims::<Ball<f64>>().into_iter().map(|claim| claim.given);
+        let claims = claims().iter().map(|claim| claim.given);
         let floats = float_experiments::<f64>().into_iter().chain(first_order_experiments());
         let rationals = exact_experiments().into_iter().map(|experiment| experiment.given);
         let experiments = floats.map(|experiment| experiment.given).chain(rationals);

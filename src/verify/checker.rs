@@ -1,11 +1,12 @@
 //! The claims of one number system on given cases.
 
+use super::goals::{Asked, Group, groups};
 use super::guard::guarded;
 use super::{Row, Status};
 use crate::claims::{
-    Case, Claim, Experiment, Given, Goal, Trial, all_claims, claims, exact_experiments,
-    first_order_experiments, float_experiments, unilateral_claims,
+    Case, Claim, Experiment, Given, Trial, exact_experiments, first_order_experiments, float_experiments,
 };
+use crate::number::tree::{Step, everything, piecewise};
 use crate::number::{Ball, Exact, Mpfr, NumberSystem, PositivePart, RangeError, Real, ToExact};
 use crate::solver::Scalar;
 use num_traits::Zero;
@@ -102,7 +103,10 @@ pub(super) trait Judge: Sync {
     /// The numbers of the experiments.
     type Computed: Clone;
 
-    fn claims(&self) -> Vec<Claim<Self::Number>>;
+    /// Has it exponentials?
+    const EXPONENTIALS: bool;
+    /// A quotient, eˣ, ⟨·⟩ or min; none where there is none.
+    fn step(step: Step<&Self::Number>) -> Option<Self::Number>;
     fn experiments(&self) -> Vec<Experiment<Self::Computed>>;
 
     /// A case in these numbers; none if one of its coordinates is out of range.
@@ -113,8 +117,6 @@ pub(super) trait Judge: Sync {
     /// left − right: does it contain 0, what share of its bound does it use up, and the bound.
     fn difference(&self, left: &Self::Number, right: &Self::Number) -> Option<(bool, f64, Self::Number)>;
     fn bound(&self, difference: &Self::Number) -> String;
-    /// Not if something was divided by zero.
-    fn is_defined(&self, x: &Self::Number) -> bool;
     fn sign(&self, x: &Self::Number) -> Option<Ordering>;
 }
 
@@ -124,8 +126,12 @@ pub(super) struct Exactly;
 impl Judge for Exactly {
     type Number = Exact;
     type Computed = Exact;
-    fn claims(&self) -> Vec<Claim<Exact>> {
-        claims().into_iter().chain(unilateral_claims()).collect()
+    const EXPONENTIALS: bool = false;
+    fn step(step: Step<&Exact>) -> Option<Exact> {
+        match step {
+            Step::Div(a, b) => (!b.is_zero()).then(|| a / b),
+            other => piecewise(other),
+        }
     }
     fn experiments(&self) -> Vec<Experiment<Exact>> {
         exact_experiments()
@@ -142,9 +148,6 @@ impl Judge for Exactly {
     fn bound(&self, difference: &Exact) -> String {
         difference.to_string()
     }
-    fn is_defined(&self, _: &Exact) -> bool {
-        true // Rationals panic where they are not.
-    }
     fn sign(&self, x: &Exact) -> Option<Ordering> {
         Some(x.cmp(&Exact::zero()))
     }
@@ -159,8 +162,13 @@ where
 {
     type Number = Ball<T>;
     type Computed = T;
-    fn claims(&self) -> Vec<Claim<Ball<T>>> {
-        all_claims()
+    const EXPONENTIALS: bool = true;
+    fn step(step: Step<&Ball<T>>) -> Option<Ball<T>> {
+        match step {
+            // By a ball that contains 0 the quotient is any number.
+            Step::Div(a, b) => Some(a / b).filter(|quotient| !quotient.is_undefined()),
+            other => everything(other),
+        }
     }
     fn experiments(&self) -> Vec<Experiment<T>> {
         let fine = self.0.unit_roundoff().to_exact().is_ok_and(|eta| eta <= Exact::power_of_two(-20));
@@ -185,9 +193,6 @@ where
     }
     fn bound(&self, difference: &Ball<T>) -> String {
         format!("{:?}", difference.radius())
-    }
-    fn is_defined(&self, x: &Ball<T>) -> bool {
-        !x.is_undefined()
     }
     fn sign(&self, x: &Ball<T>) -> Option<Ordering> {
         if x.is_finite() { x.sign() } else { None }
@@ -220,26 +225,31 @@ pub(super) trait Checks: Sync {
 }
 
 pub(super) struct Checker<J: Judge> {
-    pub(super) judge: J,
-    pub(super) claims: Vec<Claim<J::Number>>,
-    pub(super) experiments: Vec<Experiment<J::Computed>>,
+    judge: J,
+    /// In the order of the heads.
+    claims: Vec<Claim>,
+    groups: Vec<Group>,
+    experiments: Vec<Experiment<J::Computed>>,
 }
 
 impl<J: Judge> Checker<J> {
-    pub(super) fn new(judge: J) -> Self {
-        let (claims, experiments) = (judge.claims(), judge.experiments());
-        Checker { judge, claims, experiments }
+    /// For the claims that can be asked in these numbers.
+    pub(super) fn new(judge: J, claims: &[Claim]) -> Self {
+        let experiments = judge.experiments();
+        Checker::with(judge, claims, experiments)
+    }
+
+    pub(super) fn with(judge: J, claims: &[Claim], experiments: Vec<Experiment<J::Computed>>) -> Self {
+        let claims: Vec<Claim> =
+            claims.iter().filter(|claim| J::EXPONENTIALS || !claim.has_exponentials()).cloned().collect();
+        Checker { judge, groups: groups(&claims), claims, experiments }
     }
 }
 
 impl<J: Judge> Checks for Checker<J> {
     fn heads(&self) -> Vec<Head> {
-        let claim = |c: &Claim<J::Number>| Head {
-            equation: c.equation,
-            claim: c.name,
-            kind: c.kind.name(),
-            given: c.given,
-        };
+        let claim =
+            |c: &Claim| Head { equation: c.equation, claim: c.name, kind: c.kind.name(), given: c.given };
         let experiment = |e: &Experiment<J::Computed>| Head {
             equation: e.equation,
             claim: e.name,
@@ -256,8 +266,9 @@ impl<J: Judge> Checks for Checker<J> {
         cases: &[Option<Case<Exact>>],
     ) -> Vec<(usize, Tally)> {
         let offset = self.claims.len();
-        let mut claims: Vec<_> = self.claims.iter().enumerate().collect();
-        claims.retain(|(_, c)| c.given == given && wanted(c.equation));
+        let group = self.groups.iter().find(|group| group.given == given);
+        let mut claims: Vec<_> = group.map_or(&[][..], |group| &group.claims).iter().collect();
+        claims.retain(|(place, _)| wanted(self.claims[*place].equation));
         let mut experiments: Vec<_> = self.experiments.iter().enumerate().collect();
         experiments.retain(|(_, e)| e.given == given && wanted(e.equation));
         let places = claims.iter().map(|(i, _)| *i).chain(experiments.iter().map(|(i, _)| offset + i));
@@ -271,12 +282,14 @@ impl<J: Judge> Checks for Checker<J> {
                 tallies.iter_mut().for_each(|(_, tally)| tally.undecided += 1);
                 continue;
             };
-            let computed = self.judge.computed(&read);
             let (of_claims, of_experiments) = tallies.split_at_mut(claims.len());
-            for ((_, claim), (_, tally)) in claims.iter().zip(of_claims) {
-                let verdict = guarded(|| self.verdict(&claim.goals(&read)));
-                tally.record(exact, verdict.unwrap_or_else(Verdict::Broken));
+            if let Some(group) = group.filter(|_| !claims.is_empty()) {
+                let values = group.program.run(&|name| read.named(name), &J::step);
+                for ((_, asked), (_, tally)) in claims.iter().zip(of_claims) {
+                    tally.record(exact, self.verdict(asked, &values));
+                }
             }
+            let computed = self.judge.computed(&read);
             for ((_, experiment), (_, tally)) in experiments.iter().zip(of_experiments) {
                 let verdict = guarded(|| of_trial((experiment.check)(&computed)));
                 tally.record(exact, verdict.unwrap_or_else(Verdict::Broken));
@@ -287,35 +300,32 @@ impl<J: Judge> Checks for Checker<J> {
 }
 
 impl<J: Judge> Checker<J> {
-    /// All goals together: one that fails decides, else one that is open leaves the case open.
-    fn verdict<'a>(&'a self, goals: &[Goal<J::Number>]) -> Verdict<'a>
+    /// All that is asked together: what fails decides, else what is open leaves the case open.
+    fn verdict<'a>(&'a self, asked: &[Asked], values: &[Option<J::Number>]) -> Verdict<'a>
     where
         J::Number: 'a,
     {
         let (mut open, mut holds) = (false, true);
         let mut worst: Option<(f64, J::Number)> = None;
-        for goal in goals {
-            let numbers = match goal {
-                Goal::Equal(left, right) => [left, right],
-                Goal::Sign(_, x) => [x, x],
-            };
-            if !numbers.into_iter().all(|x| self.judge.is_defined(x)) {
-                return Verdict::Broken("division by zero".to_string());
-            }
-            match goal {
-                Goal::Equal(left, right) => match self.judge.difference(left, right) {
-                    None => open = true,
-                    Some((equal, ratio, difference)) => {
-                        holds &= equal;
+        for asked in asked {
+            let answer = match asked {
+                Asked::Equal(left, right) => {
+                    values[*left].as_ref().zip(values[*right].as_ref()).map(|(left, right)| {
+                        let (equal, ratio, difference) = self.judge.difference(left, right)?;
                         if worst.as_ref().is_none_or(|(r, _)| ratio > *r) {
                             worst = Some((ratio, difference));
                         }
-                    }
-                },
-                Goal::Sign(relation, x) => match self.judge.sign(x) {
-                    None => open = true,
-                    Some(sign) => holds &= relation.admits(sign),
-                },
+                        Some(equal)
+                    })
+                }
+                Asked::Sign(relation, x) => {
+                    values[*x].as_ref().map(|x| self.judge.sign(x).map(|sign| relation.admits(sign)))
+                }
+            };
+            match answer {
+                None => return Verdict::Broken("division by zero".to_string()),
+                Some(None) => open = true,
+                Some(Some(answer)) => holds &= answer,
             }
         }
         if holds && open {
@@ -345,24 +355,29 @@ fn of_trial<'a>(trial: Trial) -> Verdict<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::claims::{Kind, Relation};
+    use crate::claims::Relation;
     use crate::number::Field;
 
-    fn verdict<J: Judge>(judge: J, goals: &[Goal<J::Number>]) -> Option<bool> {
-        match Checker::new(judge).verdict(goals) {
+    /// What is made of some numbers, some of them perhaps undefined.
+    fn verdict<J: Judge>(judge: J, asked: &[Asked], values: Vec<Option<J::Number>>) -> Option<bool> {
+        match Checker::with(judge, &[], Vec::new()).verdict(asked, &values) {
             Verdict::Undecided => None,
             Verdict::Decided { holds, .. } => Some(holds),
             Verdict::Broken(_) => Some(false),
         }
     }
 
+    fn equal<J: Judge>(judge: J, left: J::Number, right: J::Number) -> Option<bool> {
+        verdict(judge, &[Asked::Equal(0, 1)], vec![Some(left), Some(right)])
+    }
+
     #[test]
     fn a_wrong_equation_fails_by_one_part_in_2_to_the_50() {
         let (third, more) =
             (Ball::exactly(1.0) / Ball::exactly(3.0), Ball::exactly(1.0 / 3.0 + 2f64.powi(-52)));
-        assert_eq!(verdict(Floats(0.0), &[Goal::Equal(third.clone(), third.clone())]), Some(true));
-        assert_eq!(verdict(Floats(0.0), &[Goal::Equal(third, more)]), Some(false));
-        assert_eq!(verdict(Exactly, &[Goal::Equal(1.into(), 2.into())]), Some(false));
+        assert_eq!(equal(Floats(0.0), third.clone(), third.clone()), Some(true));
+        assert_eq!(equal(Floats(0.0), third, more), Some(false));
+        assert_eq!(equal(Exactly, 1.into(), 2.into()), Some(false));
     }
 
     /// A number whose sign is lost in rounding.
@@ -372,32 +387,36 @@ mod tests {
 
     #[test]
     fn a_sign_that_rounding_hides_is_open_and_a_wrong_one_is_wrong() {
-        let tiny = perhaps_zero();
-        let sign = |x: &Ball<f64>| verdict(Floats(0.0), &[Goal::Sign(Relation::Positive, x.clone())]);
-        assert_eq!(
-            (sign(&tiny), sign(&Ball::exactly(1.0)), sign(&Ball::exactly(-1.0))),
-            (None, Some(true), Some(false))
-        );
+        let sign = |x: Ball<f64>| verdict(Floats(0.0), &[Asked::Sign(Relation::Positive, 0)], vec![Some(x)]);
+        let found = (sign(perhaps_zero()), sign(Ball::exactly(1.0)), sign(Ball::exactly(-1.0)));
+        assert_eq!(found, (None, Some(true), Some(false)));
     }
 
     #[test]
-    fn one_goal_that_fails_decides_against_others_that_are_open() {
-        let open = Goal::Equal(Ball::exactly(1.0) / perhaps_zero(), Ball::exactly(1.0));
-        let wrong = Goal::Equal(Ball::exactly(1.0), Ball::exactly(2.0));
-        assert_eq!(verdict(Floats(0.0), std::slice::from_ref(&open)), None);
-        assert_eq!(verdict(Floats(0.0), &[open, wrong]), Some(false));
+    fn what_fails_decides_against_what_is_open() {
+        let values = || {
+            [1.0, 2.0]
+                .map(|x| Some(Ball::exactly(x)))
+                .into_iter()
+                .chain([Some(Ball::exactly(1.0) / perhaps_zero())])
+        };
+        let (open, wrong) = (Asked::Equal(0, 2), Asked::Equal(0, 1));
+        assert_eq!(verdict(Floats(0.0), &[open], values().collect()), None);
+        assert_eq!(verdict(Floats(0.0), &[open, wrong], values().collect()), Some(false));
+        assert_eq!(verdict(Floats(0.0), &[wrong, open], values().collect()), Some(false));
     }
 
     #[test]
     fn what_is_divided_by_zero_is_wrong_and_what_may_be_is_open() {
         let zero = Ball::exactly(1.0) - Ball::exactly(1.0);
-        let by = |divisor: &Ball<f64>| Ball::exactly(1.0) / divisor;
         for (divisor, expected) in [(zero, Some(false)), (perhaps_zero(), None)] {
-            let equal = Goal::Equal(Ball::exactly(1.0), by(&divisor));
-            let sign = Goal::Sign(Relation::Positive, by(&divisor));
-            assert_eq!(verdict(Floats(0.0), &[equal]), expected);
-            assert_eq!(verdict(Floats(0.0), &[sign]), expected);
+            let quotient = Floats::<f64>::step(Step::Div(&Ball::exactly(1.0), &divisor));
+            let values = vec![Some(Ball::exactly(1.0)), quotient];
+            for asked in [Asked::Equal(0, 1), Asked::Sign(Relation::Positive, 1)] {
+                assert_eq!(verdict(Floats(0.0), &[asked], values.clone()), expected);
+            }
         }
+        assert_eq!(Exactly::step(Step::Div(&1.into(), &0.into())), None);
     }
 
     #[test]
@@ -425,32 +444,5 @@ mod tests {
         let failed = row(failed);
         assert_eq!((failed.status, failed.why.as_deref()), (Status::Failed, Some("why")));
         assert!(failed.counterexample.is_some());
-    }
-
-    #[test]
-    fn a_wrong_derivative_and_a_wrong_closed_form_are_seen() {
-        let case = super::super::cases::case(1, 0, &[Given::Stiffness, Given::Penalty]).unwrap();
-        let holds = |kind: Kind<Exact>| {
-            let claim = Claim { equation: "1.1", name: "wrong", given: &[], kind };
-            verdict(Exactly, &claim.goals(&case))
-        };
-        let square = |is: fn(&Case<Exact>) -> Exact| Kind::Derivative {
-            of: |x| &x.u * &x.u,
-            formula: |x| &x.u * &x.u,
-            by: crate::claims::Var::U,
-            is,
-        };
-        assert_eq!(holds(square(|x| &x.u + &x.u)), Some(true));
-        assert_eq!(holds(square(|x| x.u.clone())), Some(false));
-        // x ← 2 x from 1 is 2ᵏ, and not 2ᵏ + k or one step late.
-        let doubling = |closed: fn(&Case<Exact>, &Exact) -> Vec<Exact>| Kind::Induction {
-            ratio: |_| 2.into(),
-            start: |_| vec![1.into()],
-            step: |_, x| vec![&x[0] + &x[0]],
-            closed,
-        };
-        assert_eq!(holds(doubling(|_, power| vec![power.clone()])), Some(true));
-        assert_eq!(holds(doubling(|_, power| vec![power + Exact::from(1)])), Some(false));
-        assert_eq!(holds(doubling(|_, power| vec![power / Exact::from(2)])), Some(false));
     }
 }

@@ -1,0 +1,172 @@
+//! What a claim comes to in numbers, compiled.
+
+use crate::claims::{Claim, Given, Kind, MEMBERS, Relation, Var};
+use crate::number::Tree;
+use crate::number::tree::{Program, smooth};
+use crate::proof::Statement;
+use crate::proof::statement::Says;
+use num_traits::One;
+
+/// What is asked of the values of a [`Program`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Asked {
+    /// Are these equal?
+    Equal(usize, usize),
+    /// Has this the sign?
+    Sign(Relation, usize),
+}
+
+/// The claims with the same hypotheses, which are tried on the same cases.
+pub(super) struct Group {
+    pub(super) given: &'static [Given],
+    pub(super) program: Program,
+    /// Each with its place among all claims, and what is asked.
+    pub(super) claims: Vec<(usize, Vec<Asked>)>,
+}
+
+/// All claims, by their hypotheses.
+pub(super) fn groups(claims: &[Claim]) -> Vec<Group> {
+    let mut groups: Vec<Group> = Vec::new();
+    for (place, claim) in claims.iter().enumerate() {
+        let i = groups.iter().position(|group| group.given == claim.given).unwrap_or_else(|| {
+            groups.push(Group { given: claim.given, program: Program::default(), claims: Vec::new() });
+            groups.len() - 1
+        });
+        let group = &mut groups[i];
+        let asked = says(claim).iter().filter_map(|says| asked(says, &mut group.program)).collect();
+        group.claims.push((place, asked));
+    }
+    groups
+}
+
+fn asked(says: &Says, program: &mut Program) -> Option<Asked> {
+    let mut equal = |left: &Tree, right: &Tree| Asked::Equal(program.add(left), program.add(right));
+    match says {
+        Says::Equal(left, right) => Some(equal(left, right)),
+        Says::Derivative(of, by, is) => {
+            let dual = of.derivative(by.symbol(), &|name| Tree::symbol(name), &smooth);
+            dual.map(|dual| equal(&dual.derivative, is))
+        }
+        Says::Sign(relation, of) => Some(Asked::Sign(*relation, program.add(of))),
+        // By how fast it is reached, which is said beside it.
+        Says::Limit(..) => None,
+    }
+}
+
+/// A recursion is followed for this many steps; its closed form is also tried at any q.
+const STEPS: usize = 3;
+
+/// All that a claim says: what is to be proved, and of a recursion its first members.
+fn says(claim: &Claim) -> Vec<Says> {
+    let mut all: Vec<Says> = Statement::of(claim).goals.into_iter().map(|goal| goal.says).collect();
+    if let Kind::Induction { ratio, start, step, closed } = &claim.kind {
+        let (mut x, mut power) = (start.clone(), Tree::one());
+        for _ in 0..STEPS {
+            let members: Vec<_> = MEMBERS.into_iter().zip(x).collect();
+            x = step.iter().map(|step| step.with(&members)).collect();
+            power = power * ratio;
+            let closed = closed.iter().map(|closed| closed.with(&[(Var::Q.symbol(), power.clone())]));
+            all.extend(x.iter().cloned().zip(closed).map(|(x, closed)| Says::Equal(x, closed)));
+        }
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::claims::{Case, Rate};
+    use crate::number::{Exact, Field};
+    use crate::verify::checker::{Exactly, Judge};
+    use num_traits::Zero;
+
+    fn x(name: &'static str) -> Tree {
+        Tree::symbol(name)
+    }
+
+    fn int(n: i32) -> Tree {
+        Tree::int(n)
+    }
+
+    /// Does such a claim hold where every coordinate is 2 but q?
+    fn holds_at(q: i32, kind: Kind) -> bool {
+        let groups = groups(&[Claim { equation: "1.1", name: "tried", given: &[], kind }]);
+        let [Group { program, claims, .. }] = groups.as_slice() else { panic!("one group") };
+        let case = Case { q: Exact::int(q), ..Case::of(|_| Exact::int(2)) };
+        let values = program.run(&|name| case.named(name), &Exactly::step);
+        let value = |place: &usize| values[*place].clone().expect("defined");
+        let [(0, asked)] = claims.as_slice() else { panic!("one claim") };
+        asked.iter().all(|asked| match asked {
+            Asked::Equal(left, right) => value(left) == value(right),
+            Asked::Sign(relation, x) => relation.admits(value(x).cmp(&Exact::zero())),
+        })
+    }
+
+    fn holds(kind: Kind) -> bool {
+        holds_at(2, kind)
+    }
+
+    #[test]
+    fn what_formulas_share_is_computed_once() {
+        let square = || x("u") * x("u");
+        let claim = |name, kind| Claim { equation: "1.1", name, given: &[], kind };
+        let sum = claim("sum", Kind::Equal(square() + square(), int(2) * square()));
+        let sign = claim("sign", Kind::Sign(Relation::NonNegative, square()));
+        let other = Claim { given: &[Given::Stiffness], ..sign.clone() };
+        let groups = groups(&[sum, other, sign]);
+        let of = |group: &Group| group.claims.iter().map(|(place, _)| *place).collect::<Vec<_>>();
+        assert_eq!(groups.iter().map(of).collect::<Vec<_>>(), [vec![0, 2], vec![1]]);
+        assert_eq!(groups[0].program.len(), 5, "u, u², the sum, 2, and the product");
+    }
+
+    #[test]
+    fn a_wrong_derivative_is_seen() {
+        let square = |is| Kind::Derivative { of: x("u") * x("u"), by: Var::U, is };
+        assert!(holds(square(x("u") + x("u"))) && !holds(square(x("u"))));
+    }
+
+    #[test]
+    fn a_limit_is_as_far_as_its_rate_says_on_either_side() {
+        let limit = |of, rate| holds(Kind::Limit { of, by: Var::T, to: x("u"), rate });
+        for of in [x("u") + int(3), x("u") - int(3)] {
+            assert!(limit(of.clone(), Rate::Within(int(3))) && !limit(of.clone(), Rate::Within(int(2))));
+            assert!(!limit(of, Rate::Within(int(-3))), "no bound is negative");
+        }
+        assert!(limit(x("u") + int(3), Rate::Exactly(int(3))));
+        assert!(!limit(x("u") - int(3), Rate::Exactly(int(3))));
+    }
+
+    #[test]
+    fn a_power_vanishes_only_of_what_is_less_than_1_in_size() {
+        let vanishing = |ratio, to| holds(Kind::Vanishing { ratio, of: x("u") + x("v") * x("q"), to });
+        for half in [int(1) / int(2), int(-1) / int(2)] {
+            assert!(vanishing(half, x("u")));
+        }
+        for large in [1, -1, 2, -2] {
+            assert!(!vanishing(int(large), x("u")));
+        }
+        assert!(!vanishing(int(0), x("u") + x("v")), "it is the limit, not the first value");
+    }
+
+    /// x₀ = 3, x ← 2 x − 1, so x_k − 1 = 2 · 2ᵏ.
+    #[test]
+    fn an_induction_has_its_start_its_step_and_its_closed_form() {
+        let induction = |start: i32, step: Tree, closed: Tree| Kind::Induction {
+            ratio: int(2),
+            start: vec![int(start)],
+            step: vec![step],
+            closed: vec![closed],
+        };
+        let step = || int(2) * x(MEMBERS[0]) - int(1);
+        let closed = || int(2) * x("q") + int(1);
+        assert!(holds(induction(3, step(), closed())));
+        assert!(!holds(induction(4, step(), closed())));
+        assert!(!holds(induction(3, int(2) * x(MEMBERS[0]), closed())));
+        assert!(!holds(induction(3, step(), int(2) * x("q") + int(2))));
+        assert!(!holds(induction(3, step(), x("q") + int(2))), "right at the start, and then a step late");
+        // Right from 3 on as far as it is followed, and wrong for a power that no step meets: 3, 5, 9, 17, and so on.
+        let off = [1, 2, 4, 8].into_iter().fold(int(1), |off, n| off * (x("q") - int(n)));
+        let followed = || induction(3, step(), closed() + &off);
+        assert!(holds_at(2, followed()) && !holds_at(3, followed()));
+    }
+}

@@ -1,0 +1,184 @@
+//! The record of a formula is the formula: whatever number system, what the compiled function returns and what its
+//! record replays to are the same, bit for bit. Everything that reads records stands on this.
+#![cfg(feature = "mpfr")]
+
+use num_traits::{One, Zero};
+use proptest::prelude::*;
+use proptest::test_runner::TestCaseResult;
+use spring_mass_contact::claims::{computed, formulas};
+use spring_mass_contact::number::tree::{Program, Step, everything};
+use spring_mass_contact::number::{Ball, Dual, Exact, Exponential, Field, Mpfr, PositivePart};
+use spring_mass_contact::operators;
+use std::collections::BTreeMap;
+use std::fmt::Debug;
+
+/// A number system with what it lacks put in its place: here it is enough that both sides have the same.
+#[derive(Clone, Debug, PartialEq)]
+struct Filled<T>(T);
+
+operators! { [T: Field] Filled<T>;
+    Add add |a, b| Filled(&a.0 + &b.0);
+    Sub sub |a, b| Filled(&a.0 - &b.0);
+    Mul mul |a, b| Filled(&a.0 * &b.0);
+    // Rationals have no quotient by 0, and 7 is as good as any.
+    Div div |a, b| if b.0.is_unit() { Filled(&a.0 / &b.0) } else { Filled(T::int(7)) };
+    - |a| Filled(-&a.0)
+}
+impl<T: Field> Zero for Filled<T> {
+    fn zero() -> Self {
+        Filled(T::zero())
+    }
+    fn is_zero(&self) -> bool {
+        self.0.is_zero()
+    }
+}
+impl<T: Field> One for Filled<T> {
+    fn one() -> Self {
+        Filled(T::one())
+    }
+}
+impl<T: Field> Field for Filled<T> {
+    fn int(n: i32) -> Self {
+        Filled(T::int(n))
+    }
+}
+impl<T: Field> Exponential for Filled<T> {
+    fn exp(&self) -> Self {
+        Filled(T::one() + &self.0)
+    }
+}
+impl<T: Field> PositivePart for Filled<T> {
+    fn positive_part(&self) -> Self {
+        Filled(&self.0 * &self.0)
+    }
+    fn min(&self, other: &Self) -> Self {
+        Filled(T::int(3) * &self.0 - &other.0)
+    }
+}
+
+/// Every formula by its function, by its record, and in a program of all of them; `bits` tells numbers apart that
+/// differ at all.
+fn law<T: PositivePart + Exponential, B: PartialEq + Debug>(
+    symbol: &impl Fn(&'static str) -> T,
+    bits: impl Fn(&T) -> B,
+) -> TestCaseResult {
+    let mut program = Program::default();
+    let places: Vec<_> = formulas().iter().map(|formula| program.add(&formula.tree)).collect();
+    let beyond = |step: Step<&T>| match step {
+        Step::Div(a, b) => Some(a / b),
+        other => everything(other),
+    };
+    let values = program.run(symbol, &beyond);
+    let by_function = computed(symbol);
+    prop_assert_eq!(by_function.len(), formulas().len());
+    for ((formula, place), expected) in formulas().iter().zip(places).zip(&by_function) {
+        let Some(by_program) = &values[place] else {
+            return Err(TestCaseError::fail(format!("{} has no value", formula.name())));
+        };
+        prop_assert_eq!(bits(by_program), bits(expected), "{} as a program", formula.name());
+        // A record that divides by 0 replays to nothing.
+        if let Some(by_record) = formula.tree.replay(symbol, &everything) {
+            prop_assert_eq!(bits(&by_record), bits(expected), "{}", formula.name());
+        }
+    }
+    Ok(())
+}
+
+/// All symbols that occur in formulas.
+fn symbols() -> Vec<&'static str> {
+    let all: std::collections::BTreeSet<_> = formulas().iter().flat_map(|f| f.tree.symbols()).collect();
+    all.into_iter().collect()
+}
+
+/// A number for each symbol.
+fn numbers<T: Debug + Clone>(
+    one: impl Strategy<Value = T>,
+) -> impl Strategy<Value = BTreeMap<&'static str, T>> {
+    let names = symbols();
+    proptest::collection::vec(one, names.len())
+        .prop_map(move |values| names.iter().copied().zip(values).collect())
+}
+
+/// Which not-a-number comes out of an operation of two is the machine's choice.
+fn bits(x: &f64) -> u64 {
+    if x.is_nan() { f64::NAN.to_bits() } else { x.to_bits() }
+}
+
+/// From its bits, so with every edge: zeros of both signs, subnormal numbers, infinities; and small integers, which
+/// cancel.
+fn doubles() -> impl Strategy<Value = f64> {
+    prop_oneof![any::<u64>().prop_map(f64::from_bits), (-3..=3i8).prop_map(f64::from), -1e3..1e3]
+}
+
+fn singles() -> impl Strategy<Value = f32> {
+    prop_oneof![any::<u32>().prop_map(f32::from_bits), (-3..=3i8).prop_map(f32::from), -1e3f32..1e3]
+}
+
+fn finite() -> impl Strategy<Value = f64> {
+    prop_oneof![(-3..=3i8).prop_map(f64::from), -1e3..1e3, Just(-0.0), Just(1e-300), Just(5e-324)]
+}
+
+/// Of a not-a-number the precision is all there is to compare.
+fn mpfr_bits(x: &Mpfr) -> (Option<u32>, Option<bool>, Option<rug::Rational>) {
+    let sign = x.as_float().filter(|x| !x.is_nan()).map(rug::Float::is_sign_negative);
+    (x.precision(), sign, x.to_rational())
+}
+
+fn rationals() -> impl Strategy<Value = Exact> {
+    (-9..=9i32, 1..=4i32).prop_map(|(n, d)| Exact::from(n) / Exact::from(d))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn in_f32(at in numbers(singles())) {
+        law(&|name| at[name], |x| bits(&f64::from(*x)))?;
+    }
+
+    #[test]
+    fn in_f64(at in numbers(doubles())) {
+        law(&|name| at[name], bits)?;
+    }
+
+    #[test]
+    fn in_mpfr(at in numbers((finite(), 2u32..200))) {
+        let number = |name: &'static str| Mpfr::rounded(at[name].1, at[name].0);
+        law(&number, mpfr_bits)?;
+    }
+
+    #[test]
+    fn in_rationals(at in numbers(rationals())) {
+        law(&|name| Filled(at[name].clone()), Clone::clone)?;
+    }
+
+    #[test]
+    fn in_balls(at in numbers((finite(), any::<bool>()))) {
+        let ball = |name: &'static str| match at[name] {
+            (x, true) => Ball::exactly(x),
+            (x, false) => Ball::rounded(x),
+        };
+        law(&ball, |x| (bits(x.value()), bits(x.radius())))?;
+    }
+
+    #[test]
+    fn in_balls_of_mpfr(at in numbers((finite(), 2u32..200))) {
+        let ball = |name: &'static str| Ball::rounded(Mpfr::rounded(at[name].1, at[name].0));
+        law(&ball, |x| (format!("{x:?}"), x.value().precision(), x.radius().precision()))?;
+    }
+
+    #[test]
+    fn in_duals(at in numbers((finite(), finite()))) {
+        let dual = |name: &'static str| Filled(Dual { value: at[name].0, derivative: at[name].1 });
+        law(&dual, |x| (bits(&x.0.value), bits(&x.0.derivative)))?;
+    }
+
+    #[test]
+    fn in_duals_of_rationals(at in numbers((rationals(), rationals()))) {
+        let dual = |name: &'static str| {
+            let (value, derivative) = at[name].clone();
+            Filled(Dual { value, derivative })
+        };
+        law(&dual, Clone::clone)?;
+    }
+}
