@@ -1,8 +1,8 @@
 //! Where a mistake may be: what the claims that are not proved have in common.
 
-use crate::claims::{call, entries, formulas};
+use crate::claims::{Formula, call, entries, formulas};
 use crate::number::Tree;
-use crate::number::tree::Site;
+use crate::number::tree::{Site, Step};
 use crate::proof::Statement;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,7 +13,8 @@ pub struct Suspect {
     pub function: &'static str,
     /// The entry whose own function it is, or which names it.
     pub equation: Option<&'static str>,
-    /// Of the claims that speak of it, so many are not proved.
+    /// Of the claims that speak of it, so many are not proved; 0 if it computes nothing, but hands on an argument: then no
+    /// claim can be seen to speak of it.
     pub unproved: usize,
     /// And so many are.
     pub proved: usize,
@@ -22,6 +23,15 @@ pub struct Suspect {
 /// The functions that best tell the claims that are not proved from the others: most of these speak of them, and few
 /// others do. The best one, and those as good.
 pub(super) fn suspects(statements: &[Statement], unproved: &dyn Fn(&Statement) -> bool) -> Vec<Suspect> {
+    if !statements.iter().any(unproved) {
+        return Vec::new();
+    }
+    let idle: Vec<_> = formulas().iter().filter(|f| matches!(f.tree.step(), Step::Symbol(_))).collect();
+    if !idle.is_empty() {
+        let suspect =
+            |f: &&Formula| Suspect { function: f.path, equation: entry_of(f.path), unproved: 0, proved: 0 };
+        return idle.iter().map(suspect).collect();
+    }
     let sites: Vec<(bool, BTreeSet<Site>)> = statements
         .iter()
         .map(|statement| {
@@ -41,14 +51,7 @@ pub(super) fn suspects(statements: &[Statement], unproved: &dyn Fn(&Statement) -
     let suspect = |(function, own): (&&'static str, &BTreeSet<Site>)| {
         let speaking = sites.iter().filter(|(_, sites)| !sites.is_disjoint(own));
         let (unproved, proved): (Vec<_>, Vec<_>) = speaking.partition(|(unproved, _)| *unproved);
-        let named = |first: bool| {
-            entries().iter().find(|entry| match entry.functions {
-                [own, ..] if first => own == function,
-                all => !first && all.contains(function),
-            })
-        };
-        let equation = named(true).or_else(|| named(false)).map(|entry| entry.equation);
-        Suspect { function, equation, unproved: unproved.len(), proved: proved.len() }
+        Suspect { function, equation: entry_of(function), unproved: unproved.len(), proved: proved.len() }
     };
     let all: Vec<Suspect> = own.iter().map(suspect).filter(|suspect| suspect.unproved > 0).collect();
     // With a of n claims that speak of it and f that fail, a/√(n f) is the cosine between the two sets.
@@ -59,6 +62,17 @@ pub(super) fn suspects(statements: &[Statement], unproved: &dyn Fn(&Statement) -
     };
     let Some(best) = all.iter().max_by(|a, b| compare(a, b)) else { return Vec::new() };
     all.iter().filter(|suspect| compare(suspect, best).is_eq()).cloned().collect()
+}
+
+/// The entry whose own function it is, or else one that names it.
+fn entry_of(function: &str) -> Option<&'static str> {
+    let named = |first: bool| {
+        entries().iter().find(|entry| match entry.functions {
+            [own, ..] if first => *own == function,
+            all => !first && all.contains(&function),
+        })
+    };
+    named(true).or_else(|| named(false)).map(|entry| entry.equation)
 }
 
 /// The places in the source where a function does something itself, and does not call another.
@@ -108,6 +122,12 @@ mod tests {
         };
         let right = noticed.par_iter().filter(|of| found(of)).count();
         assert!(100 * right > 98 * noticed.len(), "{right} of {}", noticed.len());
+    }
+
+    #[test]
+    fn every_function_of_the_chapter_computes_something() {
+        let idle = formulas().iter().filter(|f| matches!(f.tree.step(), Step::Symbol(_)));
+        assert_eq!(idle.map(Formula::name).collect::<Vec<_>>(), Vec::<String>::new());
     }
 
     #[test]

@@ -229,7 +229,11 @@ fn where_to_look(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     for Suspect { function, equation, unproved, proved } in &report.suspects {
         let number = equation.and_then(entry).map_or(String::new(), |entry| entry.label() + " ");
         writeln!(out, "{number}{function}: look here first")?;
-        writeln!(out, "  of the claims that speak of it {unproved} are not proved, and {proved} are")?;
+        if *unproved == 0 {
+            writeln!(out, "  it computes nothing, but hands on an argument")?;
+        } else {
+            writeln!(out, "  of the claims that speak of it {unproved} are not proved, and {proved} are")?;
+        }
     }
     for change in &report.repairs {
         output::wrapped(out, "  ", 4, &format!("with {change} every claim would be proved"))?;
