@@ -10,7 +10,8 @@ use proptest::prelude::*;
 use spring_mass_contact::chapter::{SpringMass, system};
 use spring_mass_contact::number::{Exact, OrderedField};
 use spring_mass_contact::solver::{
-    Bounds, Interval, Method, Plane, Solution, SolveError, State, solve, solve_bilateral,
+    Bounds, Interval, Method, Plane, Solution, SolveError, State, rounding_floor, solve, solve_bilateral,
+    within_reach,
 };
 use strategies::*;
 
@@ -222,4 +223,19 @@ fn refusals_name_the_parameter_in_f64() {
 #[test]
 fn refusals_name_the_parameter_in_mpfr() {
     refusals_name_the_parameter(&int(1).to_mpfr(100));
+}
+
+/// With c = ε = 4, Δ = 2, R = 2, H = 3 the floor F is η (3 + 2 + 1/2), so what is within reach is more than
+/// 16 F + η (3 + tol) = 91 η + η tol.
+#[test]
+fn what_is_within_reach_begins_at_the_floor() {
+    let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
+    for bits in [24, 53, 200] {
+        let eta = Exact::power_of_two(-bits);
+        let [floor, more] = [91, 92].map(|n| int(n) * &eta);
+        let reaches =
+            |tolerance: &Exact| within_reach(&system.map(|x| int(*x as i32)), &int(4), tolerance, &eta);
+        assert_eq!([reaches(&floor), reaches(&more)], [false, true], "{bits} bits");
+        assert_eq!(rounding_floor(&system.map(|x| int(*x as i32)), &int(4), &eta), int(11) * &eta / int(2));
+    }
 }
