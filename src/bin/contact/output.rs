@@ -214,15 +214,17 @@ pub fn clap_message(mut error: clap::Error, commands: &[&str]) -> Result<Status,
     Err(Failure::Input(format!("{line}{allowed}")))
 }
 
+/// What is written, for tests.
+#[cfg(test)]
+pub fn printed(print: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> String {
+    let mut bytes = Vec::new();
+    print(&mut bytes).expect("memory can be written");
+    String::from_utf8(bytes).expect("UTF-8")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn printed(print: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> String {
-        let mut bytes = Vec::new();
-        print(&mut bytes).expect("memory can be written");
-        String::from_utf8(bytes).expect("UTF-8")
-    }
 
     #[test]
     fn lines_end_before_a_page_does_but_not_at_glue() {

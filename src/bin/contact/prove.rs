@@ -556,10 +556,10 @@ mod tests {
     #[test]
     fn what_is_refuted_fits_on_a_page_and_can_be_pasted() {
         let report = refuted();
-        let mut bytes = Vec::new();
-        table(&mut bytes, &report).expect("memory can be written");
-        details(&mut bytes, &report).expect("memory can be written");
-        let text = String::from_utf8(bytes).expect("UTF-8");
+        let text = output::printed(|out| {
+            table(out, &report)?;
+            details(out, &report)
+        });
         assert_eq!(text.lines().find(|line| line.chars().count() > 80), None);
         assert!(text.contains(" REFUTED\n"), "{text}");
         // Backslashes taken away, each command is the one that belongs to its counterexample.

@@ -403,6 +403,7 @@ impl Claim {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::printed;
     use spring_mass_contact::claims::claims;
 
     /// c = 1, m = 1/2, g = −1/3, everything else 7/3.
@@ -444,12 +445,6 @@ mod tests {
         let rows = scalars.iter().zip(statuses).map(|(scalar, (status, case))| row(status, *scalar, case));
         let report = Report { rows: rows.collect(), suspects: Vec::new(), repairs: Vec::new() };
         (report, verify::Options { scalars, cases: 5, seed: 42, equations: Vec::new() })
-    }
-
-    fn printed(print: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> String {
-        let mut bytes = Vec::new();
-        print(&mut bytes).expect("memory can be written");
-        String::from_utf8(bytes).expect("UTF-8")
     }
 
     #[test]
