@@ -35,6 +35,7 @@
 
 pub mod chapter;
 pub mod claims;
+pub mod formula;
 pub mod number;
 #[cfg(feature = "mpfr")]
 pub mod proof;

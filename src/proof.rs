@@ -6,7 +6,7 @@
 //!   formulas.
 //! - That [`Tree`](crate::number::Tree) records what the chapter's functions do (tested, bit for bit, in every number
 //!   system), and that [`Dual`](crate::number::Dual) differentiates.
-//! - In [`statement`], what a claim of each kind comes to; the arithmetic of [`algebra`]; the four rules of
+//! - In [`statement`](crate::formula::statement), what a claim of each kind comes to; the arithmetic of [`algebra`]; the four rules of
 //!   [`sign`](mod@sign); the rules of [`kernel`].
 //! - That [`paper`] prints what was proved; the compiler, and GMP's integers.
 //! - This lemma, which claims about limits of sequences rest on:
@@ -26,9 +26,7 @@ pub mod kernel;
 pub mod paper;
 pub mod refute;
 pub mod sign;
-pub mod statement;
 
 pub use controls::{Controls, controls};
 pub use kernel::{Proof, Why, prove};
 pub use refute::{Counterexample, refute};
-pub use statement::{Statement, statements};

@@ -12,17 +12,20 @@
 
 mod cases;
 mod checker;
+mod coq;
 mod goals;
 mod guard;
 mod suspects;
 #[cfg(test)]
 mod tests;
 
-use crate::claims::{Case, Given, claims, place};
+use crate::claims::{Case, claims, place, registry, statements};
+use crate::formula::{Hypothesis, Statement};
 use crate::number::{Exact, Mpfr, NumberSystem};
 use crate::proof::controls::{Change, repairs};
-use crate::proof::{Statement, prove, refute, statements};
+use crate::proof::{Counterexample, prove, refute};
 use checker::{Checker, Checks, Exactly, Floats, Tally};
+pub use coq::coq;
 use guard::guarded;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -155,7 +158,8 @@ fn run(
         rows.iter().filter(|row| row.status == Status::Failed).map(|row| (row.equation, row.claim)).collect();
     let suspects = suspects::suspects(&statements, &|s| unproved.contains(&(s.equation, s.name)));
     // To look for repairs all is proved once more.
-    let repairs = if unproved.is_empty() { Ok(Vec::new()) } else { guarded(|| repairs(&statements)) };
+    let repairs =
+        if unproved.is_empty() { Ok(Vec::new()) } else { guarded(|| repairs(&statements, registry())) };
     let repairs = repairs.unwrap_or_default();
     for ((scalar, checker), tallies) in checkers.iter().zip(tallies(checkers, options, &wanted, progress)) {
         for (head, tally) in checker.heads().into_iter().zip(tallies) {
@@ -182,9 +186,9 @@ fn tallies(
     wanted: &(dyn Fn(&str) -> bool + Sync),
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Vec<Vec<Tally>> {
-    let mut groups: Vec<&[Given]> = Vec::new();
+    let mut groups: Vec<Vec<Hypothesis>> = Vec::new();
     for (_, checker) in checkers {
-        for head in checker.heads().iter().filter(|head| wanted(head.equation)) {
+        for head in checker.heads().into_iter().filter(|head| wanted(head.equation)) {
             if !groups.contains(&head.given) {
                 groups.push(head.given);
             }
@@ -197,7 +201,8 @@ fn tallies(
     // Some blocks at a time, so that any number of cases takes the same memory.
     for window in (0..blocks).step_by(WINDOW) {
         let window = window..blocks.min(window + WINDOW as u64);
-        let jobs: Vec<(u64, &[Given])> = window.flat_map(|b| groups.iter().map(move |g| (b, *g))).collect();
+        let jobs: Vec<(u64, &Vec<Hypothesis>)> =
+            window.flat_map(|b| groups.iter().map(move |g| (b, g))).collect();
         // For each job and each checker, the tallies of the claims with the job's hypotheses.
         let results: Vec<Vec<Vec<(usize, Tally)>>> = jobs
             .par_iter()
@@ -222,7 +227,7 @@ fn tallies(
 }
 
 /// A case, if there is one: hypotheses are made of formulas, too.
-fn drawn(seed: u64, index: u64, given: &[Given]) -> Option<Case<Exact>> {
+fn drawn(seed: u64, index: u64, given: &[Hypothesis]) -> Option<Case<Exact>> {
     guarded(|| cases::case(seed, index, given)).ok().flatten()
 }
 
@@ -244,15 +249,21 @@ fn proof(statement: &Statement) -> Row {
         decided: 0,
         undecided: 0,
         worst: None,
-        counterexample: counterexample.map(|counterexample| counterexample.case()),
+        counterexample: counterexample.as_ref().map(case_of),
     }
 }
 
+/// The case of a counterexample, with 1 for what it says nothing of.
+pub fn case_of(counterexample: &Counterexample) -> Case<Exact> {
+    Case::of(|var| counterexample.point.at(var.symbol()))
+}
+
 fn checks(scalar: NumberSystem) -> Box<dyn Checks> {
+    let claims: Vec<_> = claims().cloned().collect();
     match scalar {
-        NumberSystem::F32 => Box::new(Checker::new(Floats(0.0f32), claims())),
-        NumberSystem::F64 => Box::new(Checker::new(Floats(0.0f64), claims())),
-        NumberSystem::Mpfr(bits) => Box::new(Checker::new(Floats(Mpfr::rounded(bits, 0)), claims())),
-        NumberSystem::Exact => Box::new(Checker::new(Exactly, claims())),
+        NumberSystem::F32 => Box::new(Checker::new(Floats(0.0f32), &claims)),
+        NumberSystem::F64 => Box::new(Checker::new(Floats(0.0f64), &claims)),
+        NumberSystem::Mpfr(bits) => Box::new(Checker::new(Floats(Mpfr::rounded(bits, 0)), &claims)),
+        NumberSystem::Exact => Box::new(Checker::new(Exactly, &claims)),
     }
 }

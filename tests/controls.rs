@@ -2,18 +2,28 @@
 #![cfg(feature = "mpfr")]
 
 use rayon::prelude::*;
-use spring_mass_contact::claims::{Case, Given, Relation};
+use spring_mass_contact::claims::{registry, statements};
+use spring_mass_contact::formula::{Hypothesis, Relation, Statement};
 use spring_mass_contact::number::Exact;
+use spring_mass_contact::number::tree::piecewise;
 use spring_mass_contact::proof::controls::{Outcome, Without, changes, controls};
-use spring_mass_contact::proof::refute::{Verdict, check, planted_points, raw_points};
-use spring_mass_contact::proof::{Counterexample, Statement, prove, statements};
+use spring_mass_contact::proof::refute::{Point, Verdict, check, planted_points, raw_points};
+use spring_mass_contact::proof::{Counterexample, prove};
 use spring_mass_contact::rug::Rational;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
+fn symbols() -> Vec<&'static str> {
+    registry().symbols_of(statements().iter().flat_map(Statement::trees))
+}
+
+fn value(hypothesis: &Hypothesis, point: &Point) -> Exact {
+    hypothesis.value.replay(&|symbol| point.at(symbol), &piecewise).unwrap()
+}
+
 #[test]
 fn no_change_of_a_formula_goes_unnoticed() {
-    let controls = controls(&statements());
+    let controls = controls(&statements(), registry());
     let unnoticed = controls.changes.iter().filter(|(_, outcome)| matches!(outcome, Outcome::Unnoticed));
     let unnoticed: Vec<_> = unnoticed.map(|(change, _)| change.to_string()).collect();
     assert!(unnoticed.is_empty(), "{unnoticed:#?}");
@@ -22,7 +32,7 @@ fn no_change_of_a_formula_goes_unnoticed() {
 
 #[test]
 fn what_changes_nothing_is_only_the_order_in_a_square() {
-    for (change, outcome) in controls(&statements()).changes {
+    for (change, outcome) in controls(&statements(), registry()).changes {
         if matches!(outcome, Outcome::Unchanged) {
             assert!(change.to_string().ends_with("a − b → b − a"), "{change}");
         }
@@ -32,8 +42,8 @@ fn what_changes_nothing_is_only_the_order_in_a_square() {
 #[test]
 fn no_hypothesis_is_needless() {
     let statements = statements();
-    for dropped in controls(&statements).dropped {
-        let what = format!("{} {}: {}", dropped.equation, dropped.name, dropped.given.text());
+    for dropped in controls(&statements, registry()).dropped {
+        let what = format!("{} {}: {}", dropped.equation, dropped.name, dropped.given);
         assert!(matches!(dropped.without, Without::Refuted(_)), "{what}: {:?}", dropped.without);
     }
 }
@@ -42,22 +52,20 @@ fn no_hypothesis_is_needless() {
 fn weakened(statement: &Statement, hypothesis: usize) -> Option<Statement> {
     let mut weaker = statement.clone();
     let own = &mut weaker.hypotheses[hypothesis];
-    // Of the other, only the relation counts here.
-    let positive = own.relation() == Relation::Positive;
-    own.given = Given::Count;
-    assert_eq!(own.relation(), Relation::NonNegative);
+    let positive = own.relation == Relation::Positive;
+    own.relation = Relation::NonNegative;
     positive.then_some(weaker)
 }
 
 /// Every statement that is near a claim: the source changed at one place, a hypothesis dropped or weakened.
 fn neighbours(statements: &[Statement]) -> Vec<(String, Statement)> {
-    let changes = changes(statements);
+    let changes = changes(statements, registry());
     let near = |s: &Statement| {
         let name = format!("{} {}", s.equation, s.name);
         let mut near: Vec<_> =
             changes.iter().filter_map(|c| Some((format!("{name} after {c}"), c.apply(s)?))).collect();
         for (i, hypothesis) in s.hypotheses.iter().enumerate() {
-            let given = hypothesis.given.text();
+            let given = hypothesis;
             near.push((format!("{name} without {given}"), s.without(i)));
             near.extend(weakened(s, i).map(|weaker| (format!("{name} with {given} or = 0"), weaker)));
         }
@@ -78,17 +86,18 @@ fn goal_by_goal((name, statement): (String, Statement)) -> Vec<(String, Statemen
 
 #[test]
 fn what_numbers_refute_is_not_proved() {
-    let fails = |s: &Statement, case: &Case<Exact>| matches!(check(s, case), Verdict::Fails(..));
+    let fails = |s: &Statement, point: &Point| matches!(check(s, point), Verdict::Fails(..));
+    let symbols = symbols();
     let audited = neighbours(&statements()).into_par_iter().flat_map_iter(goal_by_goal);
     let audited = audited.map(|(name, s)| {
         // Where there is a proof, numbers search for long. Where there is none, a few tell whether that is
         // because the statement is false.
         let proved = prove(&s).is_ok();
         let (planted, raw) = if proved { (12, 60) } else { (4, 8) };
-        let planted = planted_points(&s.hypotheses).take(planted).find(|case| fails(&s, case));
-        let raw = raw_points(&s.hypotheses).take(raw).find(|case| fails(&s, case));
-        for case in planted.iter().chain(raw) {
-            assert!(!proved, "{name} is proved, and false at {case:?}");
+        let planted = planted_points(&s.hypotheses, &symbols).take(planted).find(|point| fails(&s, point));
+        let raw = raw_points(&s.hypotheses, &symbols).take(raw).find(|point| fails(&s, point));
+        for point in planted.iter().chain(&raw) {
+            assert!(!proved, "{name} is proved, and false at {point}");
         }
         [planted.is_some(), raw.is_some(), proved].map(usize::from)
     });
@@ -99,13 +108,14 @@ fn what_numbers_refute_is_not_proved() {
 
 #[test]
 fn points_reach_all_that_hypotheses_allow() {
+    let symbols = symbols();
     let mut combinations: BTreeMap<String, Statement> = BTreeMap::new();
     for s in statements() {
-        combinations.insert(format!("{:?}", s.hypotheses.iter().map(|h| h.given).collect::<Vec<_>>()), s);
+        combinations.insert(s.hypotheses.iter().map(|h| format!("{h}, ")).collect(), s);
     }
     for (name, s) in combinations {
-        let planted: Vec<_> = planted_points(&s.hypotheses).collect();
-        let raw: Vec<_> = raw_points(&s.hypotheses).cloned().collect();
+        let planted: Vec<_> = planted_points(&s.hypotheses, &symbols).collect();
+        let raw: Vec<_> = raw_points(&s.hypotheses, &symbols).collect();
         assert!(
             planted.len() > 20 && !raw.is_empty(),
             "{name}: {} planted, {} raw",
@@ -114,48 +124,43 @@ fn points_reach_all_that_hypotheses_allow() {
         );
         // What may be 0 is so at some, and is not at others.
         for hypothesis in &s.hypotheses {
-            let sign = |case: &Case<Exact>| hypothesis.given.value(case).cmp(&Exact::from(0));
+            let sign = |point: &Point| value(hypothesis, point).cmp(&Exact::from(0));
             for points in [&planted, &raw] {
                 let (zero, positive) = (
-                    points.iter().any(|case| sign(case) == Ordering::Equal),
-                    points.iter().any(|case| sign(case) == Ordering::Greater),
+                    points.iter().any(|point| sign(point) == Ordering::Equal),
+                    points.iter().any(|point| sign(point) == Ordering::Greater),
                 );
-                let expected = match hypothesis.relation() {
+                let expected = match hypothesis.relation {
                     Relation::Positive => (false, true),
                     Relation::NonNegative => (true, true),
                     Relation::Zero => (true, false),
                 };
-                assert_eq!((zero, positive), expected, "{name}: {}", hypothesis.given.text());
+                assert_eq!((zero, positive), expected, "{name}: {hypothesis}");
             }
         }
     }
 }
 
-fn holds(given: Given, case: &Case<Exact>) -> bool {
-    given.relation().admits(given.value(case).cmp(&Exact::from(0)))
-}
-
-/// By the functions themselves, and not by their records.
 #[test]
 fn a_counterexample_has_all_hypotheses_but_the_dropped_one() {
     let statements = statements();
-    for dropped in controls(&statements).dropped {
-        let what = format!("{} {} without {}", dropped.equation, dropped.name, dropped.given.text());
+    for dropped in controls(&statements, registry()).dropped {
+        let what = format!("{} {} without {}", dropped.equation, dropped.name, dropped.given);
         let Without::Refuted(counterexample) = dropped.without else { panic!("{what}") };
-        let case = counterexample.case();
         // An induction's invariants may go with the hypothesis.
         let of =
             statements.iter().find(|s| (s.equation, s.name) == (dropped.equation, dropped.name)).unwrap();
-        for given in of.hypotheses.iter().map(|hypothesis| &hypothesis.given) {
+        for given in &of.hypotheses {
+            let sign = value(given, &counterexample.point).cmp(&Exact::from(0));
             let expected = *given != dropped.given;
-            assert_eq!(holds(*given, &case), expected, "{what}: {} at {counterexample}", given.text());
+            assert_eq!(given.relation.admits(sign), expected, "{what}: {given} at {counterexample}");
         }
     }
 }
 
 #[test]
 fn counterexamples_are_small() {
-    let controls = controls(&statements());
+    let controls = controls(&statements(), registry());
     let noticed = controls.changes.iter().filter_map(|(change, outcome)| match outcome {
         Outcome::Noticed { counterexample, .. } => Some((change.to_string(), counterexample)),
         Outcome::Unchanged | Outcome::Unnoticed => None,
@@ -165,7 +170,7 @@ fn counterexamples_are_small() {
         Without::StillTrue | Without::Unknown => None,
     });
     let size = |c: &Counterexample| {
-        let coordinates = c.values.iter().map(|(_, x)| x.as_rational());
+        let coordinates = c.point.numbers().map(|(_, x)| x.as_rational());
         let larger = |q: &Rational| q.numer().to_i32().unwrap().abs().max(q.denom().to_i32().unwrap());
         coordinates.map(larger).max().unwrap_or(0)
     };

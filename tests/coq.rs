@@ -7,14 +7,13 @@ mod gallina;
 use gallina::{
     Definition, Function, Functions, Said, TRIALS, Theorem, code, drawn, functions, stated, value,
 };
+use spring_mass_contact::claims::{registry, statements};
+use spring_mass_contact::formula::Relation;
+use spring_mass_contact::formula::statement::Says;
 use spring_mass_contact::number::tree::Step;
 use spring_mass_contact::number::{Field, Tree};
-use spring_mass_contact::proof::coq::{self, File};
-use spring_mass_contact::proof::statement::Says;
-use spring_mass_contact::{
-    claims::{self, Relation},
-    proof,
-};
+use spring_mass_contact::proof::coq::{File, theorem_name};
+use spring_mass_contact::verify::coq;
 use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -51,13 +50,13 @@ fn of_claims(files: &[File]) -> impl Iterator<Item = &File> {
 
 #[test]
 fn every_claim_is_a_theorem() {
-    let files = coq::files();
+    let files = coq().files();
     let theorems: Vec<_> = of_claims(&files).flat_map(|file| named(&file.text, "Theorem")).collect();
-    let left_out = coq::left_out();
+    let left_out = coq().left_out();
     assert!(left_out.is_empty(), "{left_out:#?}");
-    let statements = proof::statements();
+    let statements = statements();
     for statement in &statements {
-        let name = coq::theorem_name(statement.equation, statement.name);
+        let name = theorem_name(statement.equation, statement.name);
         assert!(theorems.contains(&name.as_str()), "{name}");
     }
     assert_eq!(theorems.len(), statements.len());
@@ -71,24 +70,24 @@ fn every_claim_is_a_theorem() {
 /// Coq divides by 0 without complaint, so a formula with a divisor needs more than its theorem.
 #[test]
 fn every_claim_with_a_divisor_is_said_to_be_defined() {
-    let files = coq::files();
+    let files = coq().files();
     let lemmas: BTreeSet<_> = of_claims(&files).flat_map(|file| named(&file.text, "Lemma")).collect();
-    for statement in proof::statements() {
+    for statement in statements() {
         let divides = |tree: &Tree| match tree.step() {
             Step::Div(_, by) => !by.symbols().is_empty(),
             _ => false,
         };
         let divides = statement.trees().any(|tree| tree.any(&divides));
-        let name = format!("{}_defined", coq::theorem_name(statement.equation, statement.name));
+        let name = format!("{}_defined", theorem_name(statement.equation, statement.name));
         assert_eq!(lemmas.contains(name.as_str()), divides, "{name}");
     }
 }
 
 #[test]
 fn every_function_is_a_definition() {
-    let files = coq::files();
+    let files = coq().files();
     let definitions = named(&files[1].text, "Definition");
-    assert_eq!(definitions.len(), claims::formulas().len());
+    assert_eq!(definitions.len(), registry().formulas().len());
     assert!(
         definitions.contains(&"penalty_deflection") && definitions.contains(&"lagrange_residual_constraint")
     );
@@ -99,7 +98,7 @@ fn every_function_is_a_definition() {
 /// A definition that no theorem speaks of could be any other.
 #[test]
 fn every_definition_is_named_by_a_theorem() {
-    let files = coq::files();
+    let files = coq().files();
     let texts: Vec<_> = of_claims(&files).map(|file| code(&file.text)).collect();
     let known: BTreeSet<_> = texts.iter().flat_map(|text| stated(text)).flat_map(words).collect();
     let unnamed: Vec<_> =
@@ -109,7 +108,7 @@ fn every_definition_is_named_by_a_theorem() {
 
 /// The functions as they are printed.
 fn printed() -> (Vec<Definition>, Functions) {
-    let definitions = Definition::all(&coq::files()[1].text);
+    let definitions = Definition::all(&coq().files()[1].text);
     let functions = functions(&definitions);
     (definitions, functions)
 }
@@ -142,7 +141,7 @@ fn same(a: &Tree, b: &Tree) -> bool {
 #[test]
 fn every_definition_computes_what_its_function_does() {
     let (_, functions) = printed();
-    for formula in claims::formulas() {
+    for formula in registry().formulas() {
         let name = formula.name().replace("::", "_").replace('.', "_");
         let Function { arguments, value: printed } = &functions[&name];
         let symbols = formula.tree.symbols();
@@ -162,7 +161,7 @@ fn every_definition_computes_what_its_function_does() {
 #[test]
 fn every_theorem_says_what_its_claim_does() {
     let (_, functions) = printed();
-    let files = coq::files();
+    let files = coq().files();
     let theorems: Vec<_> = of_claims(&files).flat_map(|file| Theorem::all(&file.text)).collect();
     let same = |own: &Tree, printed: &Tree| same(&in_letters(own), printed);
     let signed = |relation: Relation, own: &Tree, printed: &Said| match (relation, printed) {
@@ -171,8 +170,8 @@ fn every_theorem_says_what_its_claim_does() {
         (Relation::Zero, Said::Equal(a, zero)) => *zero == Tree::int(0) && same(own, a),
         _ => false,
     };
-    for statement in proof::statements() {
-        let name = coq::theorem_name(statement.equation, statement.name);
+    for statement in statements() {
+        let name = theorem_name(statement.equation, statement.name);
         let theorem = theorems.iter().find(|theorem| theorem.name == name).unwrap();
         let read = theorem.read(&functions);
         // These are about more than the numbers of one case.
@@ -180,13 +179,13 @@ fn every_theorem_says_what_its_claim_does() {
         let Some((given, follows)) = read else { continue };
         assert_eq!(given.len(), statement.hypotheses.len(), "{name}");
         for (own, printed) in statement.hypotheses.iter().zip(&given) {
-            assert!(signed(own.relation(), &own.value, printed), "{name}: {}", own.value);
+            assert!(signed(own.relation, &own.value, printed), "{name}: {}", own.value);
         }
         let says_so = match (&statement.goals[0].says, &follows) {
             (Says::Equal(a, b), Said::Equal(left, right)) => same(a, left) && same(b, right),
             (Says::Sign(relation, a), said) => signed(*relation, a, said),
             (Says::Derivative(of, by, is), Said::Derivative(a, x, b)) => {
-                in_letters(&Tree::symbol(by.symbol())) == Tree::symbol(x) && same(of, a) && same(is, b)
+                in_letters(&Tree::symbol(by)) == Tree::symbol(x) && same(of, a) && same(is, b)
             }
             _ => false,
         };
@@ -197,7 +196,7 @@ fn every_theorem_says_what_its_claim_does() {
 #[test]
 fn no_theorem_is_false() {
     let (_, functions) = printed();
-    let files = coq::files();
+    let files = coq().files();
     let theorems = of_claims(&files).flat_map(|file| Theorem::all(&file.text));
     let wrong: Vec<_> = theorems
         .filter(|theorem| theorem.is_false_somewhere(&functions))
@@ -211,7 +210,7 @@ fn no_theorem_is_false() {
 #[test]
 fn no_definition_could_be_another() {
     let (definitions, _) = printed();
-    let files = coq::files();
+    let files = coq().files();
     let theorems: Vec<_> = of_claims(&files).flat_map(|file| Theorem::all(&file.text)).collect();
     for definition in &definitions {
         let noticed = ["+", "-"].iter().any(|sign| {
@@ -231,7 +230,7 @@ fn every_flip_changes_one_sign_and_makes_a_theorem_false() {
     let (definitions, _) = printed();
     let sign = |token: &&String| ["+", "-"].contains(&token.as_str());
     let signs: usize = definitions.iter().map(|definition| definition.body.iter().filter(sign).count()).sum();
-    let flips = coq::flips();
+    let flips = coq().flips();
     let different: BTreeSet<_> = flips.iter().map(|flip| &flip.definition).collect();
     assert_eq!((flips.len(), different.len()), (signs, signs), "one for every sign");
     for flip in &flips {
@@ -259,7 +258,7 @@ fn every_flip_changes_one_sign_and_makes_a_theorem_false() {
 
 #[test]
 fn no_name_is_used_twice() {
-    let files = coq::files();
+    let files = coq().files();
     let mut known = BTreeSet::new();
     for file in &files {
         let text = code(&file.text);
@@ -274,7 +273,7 @@ fn no_name_is_used_twice() {
 
 #[test]
 fn nothing_is_taken_for_granted() {
-    for file in coq::files() {
+    for file in coq().files() {
         let text = code(&file.text);
         let mut open = 0;
         for word in words(&text) {
@@ -360,15 +359,15 @@ fn axioms(printed: &str) -> BTreeSet<&str> {
 #[test]
 fn coq_accepts_everything() {
     let Some(version) = version() else { return };
-    let texts = coq::files().iter().fold(version, |all, file| all + &file.name + "\n" + &file.text);
+    let texts = coq().files().iter().fold(version, |all, file| all + &file.name + "\n" + &file.text);
     let accepted = Path::new(env!("CARGO_TARGET_TMPDIR")).join("coq-accepted.txt");
     if fs::read_to_string(&accepted).is_ok_and(|before| before == texts) {
         say("not a word has changed since Coq accepted it");
         return;
     }
     let directory = scratch("everything");
-    coq::write(&directory).unwrap();
-    let mut files: Vec<_> = coq::files();
+    coq().write(&directory).unwrap();
+    let mut files: Vec<_> = coq().files();
     let mut printed = String::new();
     let mut done: BTreeSet<String> = BTreeSet::new();
     while !files.is_empty() {
@@ -433,10 +432,10 @@ fn coq_refuses_a_changed_sign() {
         return;
     }
     let directory = scratch("signs");
-    let tactics = coq::files().swap_remove(0);
+    let tactics = coq().files().swap_remove(0);
     fs::write(directory.join(&tactics.name), &tactics.text).unwrap();
     compile(&directory, &tactics.name).unwrap_or_else(|error| panic!("{error}"));
-    let flips = coq::flips();
+    let flips = coq().flips();
     let refused = two_at_a_time(&flips, |flip| refused(&directory, &flip.file));
     let unnoticed: Vec<_> =
         flips.iter().zip(&refused).filter(|(_, by)| by.is_none()).map(|(flip, _)| &flip.definition).collect();

@@ -6,8 +6,8 @@
 #![cfg(feature = "cli")]
 
 use proc_macro2::LineColumn;
+use spring_mass_contact::claims::{registry, statements};
 use spring_mass_contact::proof::controls::{Change, Outcome, What, changes, controls};
-use spring_mass_contact::proof::statements;
 use std::collections::{BTreeMap, HashMap};
 use std::fmt::Write as _;
 use std::io::{Read, Write as _};
@@ -245,7 +245,7 @@ fn copy() -> (PathBuf, Vec<Change>, Vec<Change>) {
     }
     let (mut made, mut left) = (Vec::new(), Vec::new());
     let mut files: BTreeMap<&str, Vec<Change>> = BTreeMap::new();
-    for change in changes(&statements()) {
+    for change in changes(&statements(), registry()) {
         files.entry(change.site.file).or_default().push(change);
     }
     for (file, all) in files {
@@ -339,7 +339,8 @@ fn a_mistake_in_any_formula_is_reported_in_time() {
     let well = run(&binary, 0, 10 * LIMIT);
     assert_eq!(well.code, Some(0), "without an edit: {}{}", well.stdout, well.stderr);
 
-    let outcomes: HashMap<Change, Outcome> = controls(&statements()).changes.into_iter().collect();
+    let outcomes: HashMap<Change, Outcome> =
+        controls(&statements(), registry()).changes.into_iter().collect();
     let sample = env::var("EDITS").map_or(100, |count| count.parse().expect("a number of edits"));
     let stride = made.len().div_ceil(sample).max(1);
     let (mut times, mut amiss, mut elsewhere) = (Vec::new(), Vec::new(), Vec::new());

@@ -1,9 +1,10 @@
 //! Every claim is proved for all values, from what the functions of the chapter do.
 #![cfg(feature = "mpfr")]
 
-use spring_mass_contact::claims::formulas;
+use spring_mass_contact::claims::{registry, statements};
 use spring_mass_contact::number::{Exact, Field};
-use spring_mass_contact::proof::{paper, prove, statements};
+use spring_mass_contact::proof::paper::Paper;
+use spring_mass_contact::proof::prove;
 use std::collections::BTreeSet;
 
 #[test]
@@ -33,7 +34,7 @@ fn every_formula_of_the_chapter_is_part_of_a_proof() {
             })
         });
     }
-    for formula in formulas() {
+    for formula in registry().formulas() {
         // A formula made by differentiating has the places of the number system that does it.
         assert!(sites.contains(&formula.tree.site()), "{} is in no claim", formula.name());
     }
@@ -43,10 +44,10 @@ fn every_formula_of_the_chapter_is_part_of_a_proof() {
 fn a_proof_can_be_read() {
     let statements = statements();
     let statement = statements.iter().find(|s| (s.equation, s.name) == ("1.13", "rate")).unwrap();
-    let proof = prove(statement).unwrap();
-    assert_eq!(paper::claim(statement), "(c + ε) ((ε (H − l) + m g) / (c + ε) − Δ) = R");
-    assert_eq!(paper::used(&proof), ["c > 0", "ε > 0"]);
-    let lines = paper::proof(statement, &proof);
+    let (proof, paper) = (prove(statement).unwrap(), Paper::new(registry()));
+    assert_eq!(paper.claim(statement), "(c + ε) ((ε (H − l) + m g) / (c + ε) − Δ) = R");
+    assert_eq!(paper.used(&proof), ["c > 0", "ε > 0"]);
+    let lines = paper.proof(statement, &proof);
     assert_eq!(lines.first().map(String::as_str), Some("c + ε ≠ 0: c + ε > 0, term by term"));
 }
 

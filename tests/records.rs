@@ -5,8 +5,9 @@
 use num_traits::{One, Zero};
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseResult;
-use spring_mass_contact::claims::{computed, formulas};
-use spring_mass_contact::number::tree::{Program, Step, everything};
+use spring_mass_contact::claims::{computed, registry};
+use spring_mass_contact::formula::Program;
+use spring_mass_contact::number::tree::{Step, everything};
 use spring_mass_contact::number::{Ball, Dual, Exact, Exponential, Field, Mpfr, PositivePart};
 use spring_mass_contact::operators;
 use std::collections::BTreeMap;
@@ -63,15 +64,15 @@ fn law<T: PositivePart + Exponential, B: PartialEq + Debug>(
     bits: impl Fn(&T) -> B,
 ) -> TestCaseResult {
     let mut program = Program::default();
-    let places: Vec<_> = formulas().iter().map(|formula| program.add(&formula.tree)).collect();
+    let places: Vec<_> = registry().formulas().iter().map(|formula| program.add(&formula.tree)).collect();
     let beyond = |step: Step<&T>| match step {
         Step::Div(a, b) => Some(a / b),
         other => everything(other),
     };
     let values = program.run(symbol, &beyond);
     let by_function = computed(symbol);
-    prop_assert_eq!(by_function.len(), formulas().len());
-    for ((formula, place), expected) in formulas().iter().zip(places).zip(&by_function) {
+    prop_assert_eq!(by_function.len(), registry().formulas().len());
+    for ((formula, place), expected) in registry().formulas().iter().zip(places).zip(&by_function) {
         let Some(by_program) = &values[place] else {
             return Err(TestCaseError::fail(format!("{} has no value", formula.name())));
         };
@@ -86,7 +87,8 @@ fn law<T: PositivePart + Exponential, B: PartialEq + Debug>(
 
 /// All symbols that occur in formulas.
 fn symbols() -> Vec<&'static str> {
-    let all: std::collections::BTreeSet<_> = formulas().iter().flat_map(|f| f.tree.symbols()).collect();
+    let all: std::collections::BTreeSet<_> =
+        registry().formulas().iter().flat_map(|f| f.tree.symbols()).collect();
     all.into_iter().collect()
 }
 

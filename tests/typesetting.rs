@@ -2,7 +2,7 @@
 #![cfg(feature = "mpfr")]
 
 use proptest::prelude::*;
-use spring_mass_contact::claims::formulas;
+use spring_mass_contact::claims::registry;
 use spring_mass_contact::number::tree::{Step, piecewise};
 use spring_mass_contact::number::{Exact, Exponential, Field, PositivePart, Tree};
 
@@ -190,7 +190,7 @@ proptest! {
 
 #[test]
 fn every_formula_of_the_chapter_has_the_value_of_its_text() {
-    for formula in formulas() {
+    for formula in registry().formulas() {
         let expected = replayed(&formula.tree);
         assert!(expected.is_some(), "{}", formula.name());
         assert_eq!(Reader::value(&formula.tree), expected, "{}: {}", formula.name(), formula.tree);

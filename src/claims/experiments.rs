@@ -3,8 +3,9 @@
 //! The bounds are those of the chapter on floating point in the book, where they are derived. "True"
 //! always means: of the parameters as they are in their scalar.
 
-use super::{Case, Given};
+use super::{Case, given};
 use crate::chapter::{SpringMass, augmented, contact, penalty, structure, system};
+use crate::formula::Hypothesis;
 use crate::number::{Exact, Field, OrderedField, PositivePart, Real, ToExact};
 use crate::solver::{
     Augmentation, Interval, Method, Outcome, Plane, Scalar, Solution, State, Step, augmentations_needed,
@@ -36,14 +37,19 @@ pub struct Experiment<T> {
     /// Its name, unique within the equation.
     pub name: &'static str,
     /// What it supposes.
-    pub given: &'static [Given],
+    pub given: Vec<Hypothesis>,
     /// One trial.
     pub check: fn(&Case<T>) -> Trial,
 }
 
 macro_rules! list {
     ($($equation:literal $name:literal [$($given:ident)*] $check:expr;)*) => {
-        vec![$(Experiment { equation: $equation, name: $name, given: &[$(Given::$given),*], check: $check }),*]
+        vec![$(Experiment {
+            equation: $equation,
+            name: $name,
+            given: vec![$(given().$given.clone()),*],
+            check: $check,
+        }),*]
     };
 }
 
@@ -57,35 +63,35 @@ const MOST_STEPS: usize = 1000;
 pub fn float_experiments<T: Scalar + Real + ToExact>() -> Vec<Experiment<T>> {
     list! {
         "1.5" "rounding" [] |x| in_range(x, Setting::penetration_rounding);
-        "1.6" "exact-state" [Stiffness Grazing] |x| state(x);
-        "1.8" "bounds-contain" [Stiffness] |x| bounds(x, &Method::Lagrange);
-        "1.10" "root" [Stiffness Penalty Quartic] |x| series_root(x);
-        "1.13" "bounds-contain" [Stiffness Penalty] |x| bounds(x, &Method::Penalty { penalty: x.eps.clone() });
-        "1.16" "float-monotone" [Stiffness Penalty Contact] |x| monotone(x);
-        "1.33" "promise" [Stiffness Penalty Tolerance] |x| promise(x);
-        "note 8" "floor" [Stiffness Penalty Contact] |x| in_range(x, Setting::fixed_point);
-        "note 8" "units" [Stiffness Penalty Tolerance] |x| units(x);
+        "1.6" "exact-state" [stiffness grazing] |x| state(x);
+        "1.8" "bounds-contain" [stiffness] |x| bounds(x, &Method::Lagrange);
+        "1.10" "root" [stiffness penalty quartic] |x| series_root(x);
+        "1.13" "bounds-contain" [stiffness penalty] |x| bounds(x, &Method::Penalty { penalty: x.eps.clone() });
+        "1.16" "float-monotone" [stiffness penalty contact] |x| monotone(x);
+        "1.33" "promise" [stiffness penalty tolerance] |x| promise(x);
+        "note 8" "floor" [stiffness penalty contact] |x| in_range(x, Setting::fixed_point);
+        "note 8" "units" [stiffness penalty tolerance] |x| units(x);
     }
 }
 
 /// Claims about floats whose bounds hold to first order in η: for scalars in which η is small.
 pub fn first_order_experiments<T: Scalar + Real + ToExact>() -> Vec<Experiment<T>> {
     list! {
-        "1.12" "precision-law" [Stiffness Penalty Contact] |x| in_range(x, Setting::precision_law);
-        "1.13" "float-error" [Stiffness Penalty Contact] |x| in_range(x, Setting::deflection_error);
-        "1.16" "float-drift" [Stiffness Penalty Contact] |x| in_range(x, Setting::penetration_drift);
-        "1.16" "float-multiplier-drift" [Stiffness Penalty Contact] |x| in_range(x, Setting::multiplier_drift);
+        "1.12" "precision-law" [stiffness penalty contact] |x| in_range(x, Setting::precision_law);
+        "1.13" "float-error" [stiffness penalty contact] |x| in_range(x, Setting::deflection_error);
+        "1.16" "float-drift" [stiffness penalty contact] |x| in_range(x, Setting::penetration_drift);
+        "1.16" "float-multiplier-drift" [stiffness penalty contact] |x| in_range(x, Setting::multiplier_drift);
     }
 }
 
 /// Claims about what is computed without rounding.
 pub fn exact_experiments() -> Vec<Experiment<Exact>> {
     list! {
-        "1.33" "steps" [Stiffness Penalty Tolerance] |x| count(x, Plane::Unilateral);
-        "1.33" "steps-bilateral" [Stiffness Penalty Tolerance] |x| count(x, Plane::Bilateral);
-        "1.33" "tie-goes-on" [Stiffness Penalty Tolerance] |x| tie(x);
-        "note 4" "closed-form" [Stiffness Penalty Touching] |x| unilateral_closed_form(x);
-        "note 4" "release" [Stiffness Penalty Separated] |x| release(x);
+        "1.33" "steps" [stiffness penalty tolerance] |x| count(x, Plane::Unilateral);
+        "1.33" "steps-bilateral" [stiffness penalty tolerance] |x| count(x, Plane::Bilateral);
+        "1.33" "tie-goes-on" [stiffness penalty tolerance] |x| tie(x);
+        "note 4" "closed-form" [stiffness penalty touching] |x| unilateral_closed_form(x);
+        "note 4" "release" [stiffness penalty separated] |x| release(x);
     }
 }
 

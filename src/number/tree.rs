@@ -1,11 +1,5 @@
 //! What a formula does, step by step: the reading that all readings without numbers start from.
 
-mod program;
-mod typeset;
-
-pub use program::Program;
-pub use typeset::{Name, Notation, latex};
-
 use super::{Dual, Exponential, Field, PositivePart};
 use crate::operators;
 use num_traits::{One, Zero};
@@ -86,12 +80,6 @@ impl fmt::Display for Site {
 }
 
 impl Site {
-    /// Is it in the source of [`chapter`](crate::chapter)?
-    pub fn is_of_the_chapter(&self) -> bool {
-        let mut folders = self.file.rsplit(['/', '\\']).skip(1);
-        folders.next() == Some("chapter") && folders.next() == Some("src")
-    }
-
     /// Was it written by the rules of differentiation, and by no formula?
     pub fn is_of_duals(&self) -> bool {
         self.file.ends_with("dual.rs")
@@ -206,6 +194,18 @@ impl Tree {
         self.replay(&|name| Dual::coordinate(symbol(name), name == by), beyond)
     }
 
+    /// The number for one of its quantities at which the formula, if it is linear in that quantity and the others are as
+    /// they are, has the value `target`; `None` if it does not depend on it, or has eˣ, ⟨·⟩ or min.
+    pub fn solution<T: Field>(
+        &self,
+        by: &'static str,
+        symbol: &impl Fn(&'static str) -> T,
+        target: &T,
+    ) -> Option<T> {
+        let Dual { value, derivative } = self.derivative(by, symbol, &|_| None)?;
+        derivative.is_unit().then(|| symbol(by) + (target - value) / derivative)
+    }
+
     /// The tree rebuilt from its leaves: each step that `f` replaces, after its operands have been.
     pub fn rewrite(&self, f: &impl Fn(&Tree) -> Option<Tree>) -> Tree {
         let step = self.step().map(|tree| tree.rewrite(f));
@@ -231,6 +231,14 @@ impl Tree {
     pub fn visit<'a>(&'a self, f: &mut impl FnMut(&'a Tree)) {
         f(self);
         self.step().operands().for_each(|tree| tree.visit(f));
+    }
+
+    /// The first of its quantities, as it is read.
+    pub fn first_symbol(&self) -> Option<&'static str> {
+        match self.step() {
+            Step::Symbol(name) => Some(name),
+            step => step.operands().find_map(Tree::first_symbol),
+        }
     }
 
     /// The quantities it depends on.
@@ -269,6 +277,19 @@ fn node(step: Step<Tree>) -> Tree {
 impl PartialEq for Tree {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0) || self.step() == other.step()
+    }
+}
+
+impl From<&Tree> for Tree {
+    fn from(tree: &Tree) -> Self {
+        tree.clone()
+    }
+}
+
+impl From<i32> for Tree {
+    #[track_caller]
+    fn from(n: i32) -> Self {
+        node(Step::Int(n))
     }
 }
 

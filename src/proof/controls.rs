@@ -12,12 +12,12 @@
 
 use super::kernel::prove;
 use super::refute::{Counterexample, Points};
-use super::statement::{Goal, Hypothesis, Says, Statement};
-use crate::claims::Given;
+use crate::formula::statement::{Goal, Says, Statement};
+use crate::formula::{Hypothesis, Registry};
 use crate::number::Tree;
 use crate::number::tree::{Site, Step};
 use rayon::prelude::*;
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeSet, HashMap};
 use std::fmt;
 
 /// A small edit of the source: what is done to the step that is written at a site.
@@ -128,12 +128,9 @@ impl Operator {
     }
 }
 
-/// Symbols of one unit, which a writer may mistake for each other.
-const ALIKE: [[&str; 2]; 2] = [["c", "ε"], ["l", "H"]];
-
 impl What {
     /// All that can be done to a step.
-    fn all(tree: &Tree) -> Vec<What> {
+    fn all(tree: &Tree, registry: &Registry) -> Vec<What> {
         let mut all = Vec::new();
         match tree.step() {
             Step::Symbol(_) => {}
@@ -151,8 +148,7 @@ impl What {
         }
         for (place, operand) in tree.step().operands().enumerate() {
             if let Step::Symbol(name) = operand.step() {
-                let pairs = ALIKE.iter().flat_map(|&[a, b]| [(a, b), (b, a)]);
-                all.extend(pairs.filter(|(a, _)| a == name).map(|(a, b)| What::Symbol(place, a, b)));
+                all.extend(registry.mistaken_for(name).map(|other| What::Symbol(place, name, other)));
             }
         }
         all
@@ -263,11 +259,11 @@ impl Change {
     /// Not the edited step itself has to be, but some formula of the chapter that it is a part of: in (a − b)² the
     /// operands of − may trade places. That the claim's own formulas stay the same would say too little: it could
     /// multiply by 0.
-    fn changes_nothing(&self, statement: &Statement) -> bool {
-        statement.trees().all(|tree| self.keeps(tree, statement))
+    fn changes_nothing(&self, statement: &Statement, registry: &Registry) -> bool {
+        statement.trees().all(|tree| self.keeps(tree, statement, registry))
     }
 
-    fn keeps(&self, tree: &Tree, statement: &Statement) -> bool {
+    fn keeps(&self, tree: &Tree, statement: &Statement, registry: &Registry) -> bool {
         if !self.touches(tree) {
             return true;
         }
@@ -276,20 +272,20 @@ impl Change {
             let goals = vec![Goal::of_claim("unchanged", says)];
             prove(&Statement { goals, ..statement.clone() }).is_ok()
         };
-        tree.site().is_of_the_chapter() && equal(self.rewrite(tree))
+        registry.has_site(&tree.site()) && equal(self.rewrite(tree))
             || self.edit(tree).is_none()
-                && tree.step().operands().all(|operand| self.keeps(operand, statement))
+                && tree.step().operands().all(|operand| self.keeps(operand, statement, registry))
     }
 }
 
-/// Every change of a formula in `src/chapter` that one of the statements can see.
-pub fn changes(statements: &[Statement]) -> Vec<Change> {
+/// Every change of a function of the registry that one of the statements can see.
+pub fn changes(statements: &[Statement], registry: &Registry) -> Vec<Change> {
     let mut all = BTreeSet::new();
     for tree in statements.iter().flat_map(Statement::trees) {
         tree.visit(&mut |tree| {
             let site = tree.site();
-            if site.is_of_the_chapter() {
-                all.extend(What::all(tree).into_iter().map(|what| Change { site, what }));
+            if registry.has_site(&site) {
+                all.extend(What::all(tree, registry).into_iter().map(|what| Change { site, what }));
             }
         });
     }
@@ -333,7 +329,7 @@ pub struct Dropped {
     /// Its name.
     pub name: &'static str,
     /// The hypothesis.
-    pub given: Given,
+    pub given: Hypothesis,
     /// What became of the claim.
     pub without: Without,
 }
@@ -392,49 +388,54 @@ impl Controls {
 }
 
 /// Runs all controls, in parallel.
-pub fn controls(statements: &[Statement]) -> Controls {
-    let bench = Bench::new(statements);
-    let changes = changes(statements);
+pub fn controls(statements: &[Statement], registry: &Registry) -> Controls {
+    let bench = Bench::new(statements, registry);
+    let changes = changes(statements, registry);
     let changes = changes.into_par_iter().map(|change| (change, bench.outcome(&change))).collect();
-    let hypotheses: Vec<_> =
-        statements.iter().flat_map(|s| (0..s.hypotheses.len()).map(move |i| (s, i))).collect();
-    let dropped = hypotheses.into_par_iter().map(|(statement, i)| Dropped {
-        equation: statement.equation,
-        name: statement.name,
-        given: statement.hypotheses[i].given,
-        without: bench.without(statement, i),
+    let all = |of: usize| (0..statements[of].hypotheses.len()).map(move |i| (of, i));
+    let hypotheses: Vec<_> = (0..statements.len()).flat_map(all).collect();
+    let dropped = hypotheses.into_par_iter().map(|(of, i)| Dropped {
+        equation: statements[of].equation,
+        name: statements[of].name,
+        given: statements[of].hypotheses[i].clone(),
+        without: bench.without(of, i),
     });
     Controls { changes, dropped: dropped.collect() }
 }
 
 /// The changes that would make all of these statements provable, if some of them are not: where a mistake in the
 /// chapter may be.
-pub fn repairs(statements: &[Statement]) -> Vec<Change> {
+pub fn repairs(statements: &[Statement], registry: &Registry) -> Vec<Change> {
     let (right, wrong): (Vec<_>, Vec<_>) = statements.par_iter().partition(|s| prove(s).is_ok());
     let repairs = |change: &Change| {
         wrong.iter().all(|s| change.apply(s).is_some_and(|s| prove(&s).is_ok()))
             && right.iter().all(|s| change.apply(s).is_none_or(|s| prove(&s).is_ok()))
     };
-    if wrong.is_empty() { Vec::new() } else { changes(statements).into_par_iter().filter(repairs).collect() }
+    if wrong.is_empty() {
+        Vec::new()
+    } else {
+        changes(statements, registry).into_par_iter().filter(repairs).collect()
+    }
 }
 
 /// What many controls share.
 struct Bench<'a> {
     statements: &'a [Statement],
+    registry: &'a Registry,
+    symbols: Vec<&'static str>,
     /// The statements in which a site occurs, the cheapest first.
     by_site: HashMap<Site, Vec<usize>>,
-    /// By the hypotheses as they are in the source.
-    points: BTreeMap<String, Points>,
-}
-
-fn key(hypotheses: &[Hypothesis]) -> String {
-    hypotheses.iter().map(|hypothesis| hypothesis.given.text()).collect::<Vec<_>>().join(", ")
+    /// For all that is supposed somewhere, or is after one hypothesis is dropped.
+    points: Vec<Points>,
+    /// Where those of a statement are, and those without one of its hypotheses.
+    own: Vec<usize>,
+    less: Vec<Vec<usize>>,
 }
 
 impl<'a> Bench<'a> {
-    fn new(statements: &'a [Statement]) -> Self {
+    fn new(statements: &'a [Statement], registry: &'a Registry) -> Self {
+        let symbols = registry.symbols_of(statements.iter().flat_map(Statement::trees));
         let mut by_site: HashMap<Site, BTreeSet<(bool, usize, usize)>> = HashMap::new();
-        let mut combinations = BTreeMap::new();
         for (index, statement) in statements.iter().enumerate() {
             let (mut steps, mut duals, mut sites) = (0, false, BTreeSet::new());
             for tree in statement.trees() {
@@ -442,7 +443,7 @@ impl<'a> Bench<'a> {
                     let site = tree.site();
                     steps += 1;
                     duals |= site.is_of_duals();
-                    if site.is_of_the_chapter() {
+                    if registry.has_site(&site) {
                         sites.insert(site);
                     }
                 });
@@ -450,34 +451,41 @@ impl<'a> Bench<'a> {
             for site in sites {
                 by_site.entry(site).or_default().insert((duals, steps, index));
             }
-            for i in 0..statement.hypotheses.len() {
-                let less = statement.without(i).hypotheses;
-                combinations.insert(key(&less), less);
-            }
-            combinations.insert(key(&statement.hypotheses), statement.hypotheses.clone());
         }
         let indices = |of: BTreeSet<(bool, usize, usize)>| of.into_iter().map(|(.., i)| i).collect();
         let by_site = by_site.into_iter().map(|(site, of)| (site, indices(of))).collect();
-        let points = combinations.into_par_iter().map(|(key, of)| (key, Points::of(&of))).collect();
-        Bench { statements, by_site, points }
+        let mut combinations: Vec<Vec<Hypothesis>> = Vec::new();
+        let mut place = |hypotheses: Vec<Hypothesis>| {
+            let known = combinations.iter().position(|known| *known == hypotheses);
+            known.unwrap_or_else(|| {
+                combinations.push(hypotheses);
+                combinations.len() - 1
+            })
+        };
+        let own = statements.iter().map(|s| place(s.hypotheses.clone())).collect();
+        let mut less = |s: &Statement| {
+            (0..s.hypotheses.len()).map(|i| place(s.without(i).hypotheses)).collect::<Vec<_>>()
+        };
+        let less = statements.iter().map(&mut less).collect();
+        let points = combinations.into_par_iter().map(|of| Points::of(of, symbols.clone())).collect();
+        Bench { statements, registry, symbols, by_site, points, own, less }
     }
 
     fn outcome(&self, change: &Change) -> Outcome {
         let touched = || {
-            let statements =
-                self.by_site.get(&change.site).into_iter().flatten().map(|i| &self.statements[*i]);
-            statements.filter_map(|statement| Some((statement, change.apply(statement)?)))
+            let statements = self.by_site.get(&change.site).into_iter().flatten();
+            statements.filter_map(|&i| Some((i, change.apply(&self.statements[i])?)))
         };
-        let noticed = |(original, changed): (&Statement, Statement), thoroughly: bool| {
-            let same = original.hypotheses.iter().zip(&changed.hypotheses).all(|(a, b)| a.value == b.value);
-            let cached = if same { self.points.get(&key(&original.hypotheses)) } else { None };
-            let own = if cached.is_none() { Some(Points::of(&changed.hypotheses)) } else { None };
-            let points = cached.or(own.as_ref())?;
+        let noticed = |(i, changed): (usize, Statement), thoroughly: bool| {
+            let original = &self.statements[i];
+            let own = (original.hypotheses != changed.hypotheses)
+                .then(|| Points::of(changed.hypotheses.clone(), self.symbols.clone()));
+            let points = own.as_ref().unwrap_or(&self.points[self.own[i]]);
             let counterexample =
                 if thoroughly { points.thoroughly(&changed) } else { points.quickly(&changed) }?;
             Some(Outcome::Noticed { equation: original.equation, name: original.name, counterexample })
         };
-        let unchanged = || touched().all(|(original, _)| change.changes_nothing(original));
+        let unchanged = || touched().all(|(i, _)| change.changes_nothing(&self.statements[i], self.registry));
         touched()
             .find_map(|pair| noticed(pair, false))
             .or_else(|| unchanged().then_some(Outcome::Unchanged))
@@ -485,9 +493,9 @@ impl<'a> Bench<'a> {
             .unwrap_or(Outcome::Unnoticed)
     }
 
-    fn without(&self, statement: &Statement, hypothesis: usize) -> Without {
-        let less = statement.without(hypothesis);
-        let Some(points) = self.points.get(&key(&less.hypotheses)) else { return Without::Unknown };
+    fn without(&self, statement: usize, hypothesis: usize) -> Without {
+        let less = self.statements[statement].without(hypothesis);
+        let points = &self.points[self.less[statement][hypothesis]];
         match points.quickly(&less) {
             Some(counterexample) => Without::Refuted(counterexample),
             None if prove(&less).is_ok() => Without::StillTrue,
@@ -499,24 +507,16 @@ impl<'a> Bench<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::formula::{Claim, Formula, Kind, Relation};
     use crate::number::{Exponential, Field, PositivePart};
-
-    #[test]
-    fn the_chapter_is_found_by_either_separator() {
-        let is_there = |file| Site { file, line: 1, column: 1, rank: 0 }.is_of_the_chapter();
-        assert!(is_there("src/chapter/penalty.rs"));
-        assert!(is_there("src\\chapter\\penalty.rs"));
-        assert!(is_there("elsewhere/src/chapter/penalty.rs"));
-        assert!(!is_there("src/claims/list.rs"));
-        assert!(!is_there("chapter/penalty.rs"));
-    }
 
     #[test]
     fn every_edit_is_as_it_is_displayed() {
         let [a, b, c] = ["a", "b", "c"].map(|name| Tree::symbol(name));
+        let registry = Registry::default().alike(&[["c", "ε"]]);
         let edited = |tree: &Tree, expected: &[(&str, Tree)]| {
             let edit = |what: What| (what.to_string(), what.edit(tree).unwrap());
-            let edits: Vec<_> = What::all(tree).into_iter().map(edit).collect();
+            let edits: Vec<_> = What::all(tree, &registry).into_iter().map(edit).collect();
             let expected: Vec<_> =
                 expected.iter().map(|(text, tree)| (text.to_string(), tree.clone())).collect();
             assert_eq!(edits, expected);
@@ -539,58 +539,68 @@ mod tests {
         edited(&a.min(&b), &[maximum, ("min(a, b) → a", first), ("min(a, b) → b", second)]);
     }
 
+    /// k = (a − b)² + a
+    fn squared(a: &Tree, b: &Tree) -> Tree {
+        let difference = a - b;
+        &difference * &difference + a
+    }
+
+    fn x(name: &'static str) -> Tree {
+        Tree::symbol(name)
+    }
+
+    fn registry() -> Registry {
+        Registry::new(&["a", "b"], vec![Formula::new("squared", "k", &["a", "b"], squared(&x("a"), &x("b")))])
+    }
+
+    fn expanded(name: &'static str, given: &[&Hypothesis]) -> Statement {
+        let [a, b] = ["a", "b"].map(x);
+        let sum = &a * &a - Tree::from(2) * &a * &b + &b * &b + &a;
+        Statement::of(&Claim::new(name, given, Kind::Equal(squared(&a, &b), sum)))
+    }
+
     #[test]
     fn what_does_not_matter_is_proved_not_to() {
-        let all = crate::proof::statements();
-        let statement = all.iter().find(|s| (s.equation, s.name) == ("1.14", "least")).unwrap();
-        let kept: Vec<_> = changes(std::slice::from_ref(statement))
-            .into_iter()
-            .filter(|change| change.changes_nothing(statement))
-            .map(|change| change.what)
-            .collect();
-        assert_eq!(kept, [What::Swap(Operator::Sub)]);
+        let statements = [expanded("expanded", &[])];
+        let Controls { changes, .. } = controls(&statements, &registry());
+        let kept = changes.iter().filter(|(_, outcome)| matches!(outcome, Outcome::Unchanged));
+        assert_eq!(kept.map(|(change, _)| change.what).collect::<Vec<_>>(), [What::Swap(Operator::Sub)]);
+        assert_eq!(controls(&statements, &registry()).counts().unnoticed, 0);
     }
 
     /// A claim that supposes more than it needs, and more than it could need: dropped, the one is no loss, the other is.
     #[test]
     fn a_needless_hypothesis_is_told_from_a_needed_one() {
-        let all = crate::proof::statements();
-        let find = |equation, name| all.iter().find(|s| (s.equation, s.name) == (equation, name)).unwrap();
-        // u = m g/c needs c > 0, whatever ε is.
-        let (root, other) = (find("1.1", "root"), find("1.13", "rate"));
-        let penalty = other.hypotheses.iter().find(|h| h.given == Given::Penalty).unwrap();
-        let mut hypotheses = root.hypotheses.clone();
-        hypotheses.push(penalty.clone());
-        let controls = controls(&[Statement { hypotheses, ..root.clone() }]);
-        let became =
-            |given| controls.dropped.iter().find(|dropped| dropped.given == given).map(|d| &d.without);
-        assert!(matches!(became(Given::Stiffness), Some(Without::Refuted(_))), "{:?}", controls.dropped);
-        assert!(matches!(became(Given::Penalty), Some(Without::StillTrue)), "{:?}", controls.dropped);
+        let [above, below] = ["a", "b"].map(|name| Hypothesis::new(Relation::Positive, x(name)));
+        // a/a = 1 needs a > 0, whatever b is.
+        let claim = Claim::new("one", &[&above, &below], Kind::Equal(x("a") / x("a"), Tree::from(1)));
+        let controls = controls(&[Statement::of(&claim)], &registry());
+        let became = |given| controls.dropped.iter().find(|d| d.given == given).map(|d| &d.without);
+        assert!(matches!(became(above), Some(Without::Refuted(_))), "{:?}", controls.dropped);
+        assert!(matches!(became(below), Some(Without::StillTrue)), "{:?}", controls.dropped);
         let Counts { hypotheses, refuted, still_true, unknown, .. } = controls.counts();
         assert_eq!([hypotheses, refuted, still_true, unknown], [2, 1, 1, 0]);
     }
 
     #[test]
     fn a_repair_mends_what_is_wrong_and_breaks_nothing() {
-        let all = crate::proof::statements();
-        let find = |equation, name| all.iter().find(|s| (s.equation, s.name) == (equation, name)).unwrap();
-        let (force, gap) = (find("1.6", "force-from-deflection"), find("1.5", "at-the-gap"));
-        // p = l − u − H in all that the chapter says: its − is the mistake.
-        let plus = What::Opposite(Operator::Add);
-        let changes = changes(std::slice::from_ref(gap));
-        let of_penetration =
-            |change: &&Change| change.site.file.ends_with("contact.rs") && change.what == plus;
-        let change = changes.iter().find(of_penetration).unwrap();
-        let wrong = [force, gap].map(|statement| change.apply(statement).unwrap());
-        let undone = Change { what: What::Opposite(Operator::Sub), ..*change };
-        assert!(repairs(&wrong).contains(&undone));
-        assert!(repairs(&[force.clone(), gap.clone()]).is_empty(), "nothing is wrong");
-        // Whoever claims p = l − u − H must not be obeyed against all that p = l + u − H is claimed in.
-        let x = crate::claims::Case::of_symbols();
-        let [l, u, h] = [&x.system.l, &x.u, &x.system.h];
-        let says = Says::Equal(crate::chapter::contact::penetration(&x.system, u), l - u - h);
-        let mistaken = Statement { goals: vec![Goal::of_claim("mistaken", says)], ..gap.clone() };
-        assert!(repairs(std::slice::from_ref(&mistaken)).contains(change));
-        assert!(!repairs(&[mistaken, gap.clone()]).contains(change));
+        let (right, registry) = (expanded("expanded", &[]), registry());
+        let twice = Statement::of(&Claim::new("same", &[], Kind::Equal(squared(&x("a"), &x("a")), x("a"))));
+        // (a + b)² in all that is said: its + is the mistake.
+        let change = |what: What| {
+            let all = changes(std::slice::from_ref(&right), &registry);
+            all.into_iter().find(|change| change.what == what).unwrap()
+        };
+        let mistake = change(What::Opposite(Operator::Sub));
+        let wrong = [&right, &twice].map(|statement| mistake.apply(statement).unwrap());
+        let undone = Change { what: What::Opposite(Operator::Add), ..mistake };
+        assert!(repairs(&wrong, &registry).contains(&undone));
+        assert!(repairs(&[right.clone(), twice.clone()], &registry).is_empty(), "nothing is wrong");
+        // Whoever claims k = (a + b)² + a must not be obeyed against all that k = (a − b)² + a is claimed in.
+        let [a, b] = ["a", "b"].map(x);
+        let says = Kind::Equal(squared(&a, &b), (&a + &b) * (&a + &b) + &a);
+        let mistaken = Statement::of(&Claim::new("mistaken", &[], says));
+        assert!(repairs(std::slice::from_ref(&mistaken), &registry).contains(&mistake));
+        assert!(!repairs(&[mistaken, right], &registry).contains(&mistake));
     }
 }

@@ -1,10 +1,10 @@
-//! The second route: the chapter and its claims for the proof assistant Coq, whose kernel checks them anew.
+//! The second route: functions and what is claimed of them for the proof assistant Coq, whose kernel checks them anew.
 //!
-//! [`files`] writes every function of the chapter as a definition, printed from its recorded formula, and every
+//! A [`Development`] has every function of a registry as a definition, printed from its recorded formula, and every
 //! claim as a theorem about these definitions, with its hypotheses as premises. The proofs follow what
 //! [`kernel`](super::kernel) found, but nothing of it is taken on trust: if Coq accepts the files, what is left to trust
-//! is Coq's own kernel, its axioms of the real numbers, and that definitions and theorems read as the
-//! chapter does.
+//! is Coq's own kernel, its axioms of the real numbers, and that definitions and theorems read as their
+//! sources do.
 //!
 //! A function that only hands on what another computes leaves no step of its own in a record, so a theorem speaks
 //! in the names of the functions that its entry lists. A definition that no theorem names would protect nothing.
@@ -16,16 +16,16 @@
 mod print;
 mod script;
 
-use super::statement::{Goal, Hypothesis, Role, Says, Statement};
 use super::{Why, prove};
-use crate::claims::{Claim, Formula, Kind, MEMBERS, Relation, Var, claims, entry, formulas};
+use crate::formula::claim::{MEMBERS, POWER};
+use crate::formula::statement::{Goal, Role, Says, Statement};
+use crate::formula::{Claim, Formula, Hypothesis, Kind, Registry, Relation};
 use crate::number::Tree;
 use crate::number::tree::Step;
-use print::{Expr, ascii};
+use print::{Expr, Printer, ascii};
 use script::Script;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use std::sync::LazyLock;
 use std::{fs, io};
 
 /// A file for Coq.
@@ -60,36 +60,138 @@ pub struct Flip {
     pub file: File,
 }
 
+/// A claim and where it belongs.
+#[derive(Clone, Copy, Debug)]
+pub struct Placed<'a> {
+    /// The claim.
+    pub claim: &'a Claim,
+    /// Its section: claims of one section stand together.
+    pub section: &'a str,
+    /// The functions that it is about: of those that compute the same, the first of these is named.
+    pub functions: &'a [&'static str],
+}
+
+/// Definitions of a registry's functions, and theorems about them.
+#[derive(Clone, Debug)]
+pub struct Development<'a> {
+    registry: &'a Registry,
+    written: Vec<Written>,
+    left_out: Vec<LeftOut>,
+    more: Option<(&'static str, &'static str)>,
+}
+
 const TACTICS: &str = "A_Tactics";
-const CHAPTER: &str = "B_Chapter";
-const ITERATES: &str = "D_Iterates";
+const DEFINITIONS: &str = "B_Definitions";
 const ASSUMPTIONS: &str = "E_Assumptions";
 
-/// Everything: tactics, definitions, theorems by section, and what joins them.
-///
-/// They compile in this order, and in that of their names: `coqc -R DIR Contact FILE`.
-pub fn files() -> Vec<File> {
-    let theorems = by_section(&WRITTEN.0);
-    let all: String = theorems.iter().map(|file| format!(" {}", file.name.trim_end_matches(".v"))).collect();
-    let iterates = format!(
-        "From Contact Require Import {TACTICS} {CHAPTER}{all}.\n\n{}",
-        include_str!("coq/iterates.v")
-    );
-    let mut files = vec![
-        file(TACTICS, include_str!("coq/tactics.v").to_string()),
-        file(CHAPTER, chapter(&definitions())),
-    ];
-    files.extend(theorems);
-    files.push(file(ITERATES, iterates));
-    // Asking of each theorem what it rests on would take longer than all proofs.
-    let parts: Vec<_> = files[2..].iter_mut().map(together).collect();
-    let assumptions = format!(
-        "(** * What everything rests on. *)\nFrom Contact Require Import {TACTICS} {CHAPTER}{all} {ITERATES}.\n\n\
-         Definition everything :=\n  ({}).\nPrint Assumptions everything.\n",
-        parts.join(",\n   ")
-    );
-    files.push(file(ASSUMPTIONS, assumptions));
-    files
+impl<'a> Development<'a> {
+    /// The claims, printed, and those that cannot be.
+    pub fn new<'c>(registry: &'a Registry, claims: impl IntoIterator<Item = Placed<'c>>) -> Self {
+        let (mut written, mut left_out) = (Vec::new(), Vec::new());
+        for Placed { claim, section, functions } in claims {
+            let printer = Printer { registry, preferred: functions };
+            match Theorem::new(claim, printer).text() {
+                Ok(text) => written.push(Written { section: section.to_string(), text }),
+                Err(reason) => left_out.push(LeftOut { equation: claim.equation, name: claim.name, reason }),
+            }
+        }
+        Development { registry, written, left_out, more: None }
+    }
+
+    /// With a file of its own, written by hand, which may use all others.
+    pub fn with(self, name: &'static str, text: &'static str) -> Self {
+        Development { more: Some((name, text)), ..self }
+    }
+
+    /// Everything: tactics, definitions, theorems by section, and what joins them.
+    ///
+    /// They compile in this order, and in that of their names: `coqc -R DIR Contact FILE`.
+    pub fn files(&self) -> Vec<File> {
+        let theorems = by_section(&self.written);
+        let name = |file: &File| format!(" {}", file.name.trim_end_matches(".v"));
+        let mut all: String = theorems.iter().map(name).collect();
+        let mut files = vec![
+            file(TACTICS, include_str!("coq/tactics.v").to_string()),
+            file(DEFINITIONS, self.definitions_text(&self.definitions())),
+        ];
+        files.extend(theorems);
+        if let Some((name, text)) = self.more {
+            let head = format!("From Contact Require Import {TACTICS} {DEFINITIONS}{all}.\n\n");
+            files.push(file(name, head + text));
+            all = format!("{all} {name}");
+        }
+        // Asking of each theorem what it rests on would take longer than all proofs.
+        let parts: Vec<_> = files[2..].iter_mut().map(together).collect();
+        let assumptions = format!(
+            "(** * What everything rests on. *)\nFrom Contact Require Import {TACTICS} {DEFINITIONS}{all}.\n\n\
+             Definition everything :=\n  ({}).\nPrint Assumptions everything.\n",
+            parts.join(",\n   ")
+        );
+        files.push(file(ASSUMPTIONS, assumptions));
+        files
+    }
+
+    /// Writes the files to a directory, which is made if it is not there.
+    ///
+    /// # Errors
+    /// The first that the file system reports.
+    pub fn write(&self, directory: &Path) -> io::Result<Vec<PathBuf>> {
+        fs::create_dir_all(directory)?;
+        let path = |file: File| -> io::Result<PathBuf> {
+            let path = directory.join(file.name);
+            fs::write(&path, file.text)?;
+            Ok(path)
+        };
+        self.files().into_iter().map(path).collect()
+    }
+
+    /// The claims for which there is no theorem, each with its reason.
+    pub fn left_out(&self) -> &[LeftOut] {
+        &self.left_out
+    }
+
+    /// Every way to change one sign of one definition.
+    pub fn flips(&self) -> Vec<Flip> {
+        let definitions = self.definitions();
+        let mut all = Vec::new();
+        for (i, definition) in definitions.iter().enumerate() {
+            let speaks_of_it = |theorem: &&Written| speaks_of(&theorem.text, &definition.name);
+            let mut theorems: Vec<_> = self.written.iter().filter(speaks_of_it).collect();
+            theorems.sort_by_key(|theorem| theorem.text.len());
+            let theorems: String = theorems.iter().map(|theorem| theorem.text.as_str()).collect();
+            for (count, body) in definition.body.flips().into_iter().enumerate() {
+                let mut flipped = definitions.clone();
+                flipped[i].body = body;
+                let name = format!("F_{}_{}", definition.name, count + 1);
+                all.push(Flip {
+                    function: definition.name.clone(),
+                    definition: flipped[i].to_string(),
+                    file: file(&name, self.definitions_text(&flipped) + &theorems),
+                });
+            }
+        }
+        all
+    }
+
+    fn definitions(&self) -> Vec<Definition> {
+        let printer = Printer { registry: self.registry, preferred: &[] };
+        let definition = |formula: &Formula| Definition {
+            name: print::function(formula),
+            binders: self.registry.parameters(formula).map(ascii).collect(),
+            body: printer.body(formula),
+        };
+        self.registry.formulas().iter().map(definition).collect()
+    }
+
+    fn definitions_text(&self, definitions: &[Definition]) -> String {
+        let mut text = format!(
+            "(** * The functions, as their source computes them. *)\nFrom Contact Require Import {TACTICS}.\n"
+        );
+        for definition in definitions {
+            let _ = write!(text, "\n{definition}\n#[export] Hint Unfold {} : functions.\n", definition.name);
+        }
+        text
+    }
 }
 
 /// Ends a file with all that it proves as one, and says what that is called.
@@ -111,51 +213,10 @@ fn proved(text: &str) -> impl Iterator<Item = &str> {
     })
 }
 
-/// Writes the files to a directory, which is made if it is not there.
-///
-/// # Errors
-/// The first that the file system reports.
-pub fn write(directory: &Path) -> io::Result<Vec<PathBuf>> {
-    fs::create_dir_all(directory)?;
-    let path = |file: File| -> io::Result<PathBuf> {
-        let path = directory.join(file.name);
-        fs::write(&path, file.text)?;
-        Ok(path)
-    };
-    files().into_iter().map(path).collect()
-}
-
-/// The claims for which there is no theorem, each with its reason.
-pub fn left_out() -> Vec<LeftOut> {
-    WRITTEN.1.clone()
-}
-
 /// What Coq calls a claim: `eq_1_13_rate`, `theorem_1_3_3_contracts`.
 pub fn theorem_name(equation: &str, name: &str) -> String {
     let number = if equation.starts_with(|c: char| c.is_ascii_digit()) { "eq " } else { "" };
     identifier(&format!("{number}{equation} {name}"))
-}
-
-/// Every way to change one sign of one definition.
-pub fn flips() -> Vec<Flip> {
-    let definitions = definitions();
-    let mut all = Vec::new();
-    for (i, definition) in definitions.iter().enumerate() {
-        let speaks_of_it = |theorem: &&Written| speaks_of(&theorem.text, &definition.name);
-        let mut theorems: Vec<_> = WRITTEN.0.iter().filter(speaks_of_it).collect();
-        theorems.sort_by_key(|theorem| theorem.text.len());
-        let theorems: String = theorems.iter().map(|theorem| theorem.text.as_str()).collect();
-        for (count, body) in definition.body.flips().into_iter().enumerate() {
-            let mut flipped = definitions.clone();
-            flipped[i].body = body;
-            all.push(Flip {
-                function: definition.name.clone(),
-                definition: flipped[i].to_string(),
-                file: file(&format!("F_{}_{}", definition.name, count + 1), chapter(&flipped) + &theorems),
-            });
-        }
-    }
-    all
 }
 
 /// Does what is stated name a function? What only proofs name says nothing of it.
@@ -195,58 +256,25 @@ fn identifier(text: &str) -> String {
     words.map(str::to_lowercase).collect::<Vec<_>>().join("_")
 }
 
-/// A function of the chapter, to be printed.
+/// A function, to be printed.
 #[derive(Clone)]
 struct Definition {
-    formula: &'static Formula,
     name: String,
+    binders: Vec<String>,
     body: Expr,
 }
 
 impl std::fmt::Display for Definition {
     fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        let parameters = print::parameters(self.formula);
-        let binders: Vec<_> = parameters.chain(self.formula.depends_on().map(ascii)).collect();
-        write!(f, "Definition {} ({} : R) : R :=\n  {}.", self.name, binders.join(" "), self.body)
+        write!(f, "Definition {} ({} : R) : R :=\n  {}.", self.name, self.binders.join(" "), self.body)
     }
-}
-
-fn definitions() -> Vec<Definition> {
-    let definition =
-        |formula| Definition { formula, name: print::function(formula), body: Expr::body(formula) };
-    formulas().iter().map(definition).collect()
-}
-
-fn chapter(definitions: &[Definition]) -> String {
-    let mut text = format!(
-        "(** * The functions of the chapter, as their source computes them. *)\nFrom Contact Require Import {TACTICS}.\n"
-    );
-    for definition in definitions {
-        let _ = write!(text, "\n{definition}\n#[export] Hint Unfold {} : chapter.\n", definition.name);
-    }
-    text
 }
 
 /// A claim, printed: its lemmas, its theorem, all with their proofs.
+#[derive(Clone, Debug)]
 struct Written {
     section: String,
     text: String,
-}
-
-/// The same at every call, and each asks the kernel for all proofs.
-static WRITTEN: LazyLock<(Vec<Written>, Vec<LeftOut>)> = LazyLock::new(written);
-
-/// The claims, printed, and those that cannot be.
-fn written() -> (Vec<Written>, Vec<LeftOut>) {
-    let (mut written, mut left_out) = (Vec::new(), Vec::new());
-    for claim in claims() {
-        let section = entry(claim.equation).map_or("", |entry| entry.section).to_string();
-        match Theorem::new(claim).text() {
-            Ok(text) => written.push(Written { section, text }),
-            Err(reason) => left_out.push(LeftOut { equation: claim.equation, name: claim.name, reason }),
-        }
-    }
-    (written, left_out)
 }
 
 /// The files of theorems, one or more a section.
@@ -261,7 +289,7 @@ fn by_section(written: &[Written]) -> Vec<File> {
     let mut files = Vec::new();
     for (section, texts) in sections {
         for (texts, part) in texts.chunks(PER_FILE).zip('a'..='z') {
-            let head = format!("From Contact Require Import {TACTICS} {CHAPTER}.\n");
+            let head = format!("From Contact Require Import {TACTICS} {DEFINITIONS}.\n");
             let name = format!("C_{}_{part}", section.replace(|c: char| !c.is_ascii_alphanumeric(), "_"));
             files.push(file(&name, head + &texts.concat()));
         }
@@ -276,8 +304,8 @@ const PER_FILE: usize = 12;
 /// A claim, to be printed.
 struct Theorem<'a> {
     claim: &'a Claim,
-    /// The functions of its entry: what it says, it says in their names.
-    own: &'static [&'static str],
+    /// What it says, it says in the names of the functions that it is about.
+    printer: Printer<'a>,
     statement: Statement,
     name: String,
 }
@@ -293,7 +321,7 @@ fn unproved(why: Why) -> String {
 #[derive(Clone)]
 struct Lemma<'a> {
     name: String,
-    own: &'static [&'static str],
+    printer: Printer<'a>,
     hypotheses: Vec<&'a Hypothesis>,
     says: &'a Says,
     defined: Option<Defined>,
@@ -303,7 +331,7 @@ struct Lemma<'a> {
 #[derive(Clone)]
 struct Defined {
     name: String,
-    variables: Vec<Var>,
+    variables: Vec<&'static str>,
     divisors: Vec<Tree>,
 }
 
@@ -327,18 +355,11 @@ fn depends(tree: &Tree, on: &str) -> bool {
     tree.symbols().contains(on)
 }
 
-/// The coordinates that formulas depend on.
-fn variables<'t>(trees: impl Iterator<Item = &'t Tree>) -> Vec<Var> {
-    let symbols: Vec<_> = trees.map(Tree::symbols).collect();
-    let occurs = |var: &Var| symbols.iter().any(|symbols| symbols.contains(var.symbol()));
-    Var::ALL.iter().copied().filter(occurs).collect()
+fn names(variables: &[&'static str]) -> String {
+    variables.iter().map(|var| format!(" {}", ascii(var))).collect()
 }
 
-fn names(variables: &[Var]) -> String {
-    variables.iter().map(|var| format!(" {}", ascii(var.symbol()))).collect()
-}
-
-fn for_all(variables: &[Var]) -> String {
+fn for_all(variables: &[&'static str]) -> String {
     if variables.is_empty() { String::new() } else { format!(" forall{} : R,\n ", names(variables)) }
 }
 
@@ -351,22 +372,29 @@ fn labels(n: usize) -> String {
 fn stated(
     keyword: &str,
     name: &str,
-    variables: &[Var],
+    variables: &[&'static str],
     hypotheses: &[&Hypothesis],
     says: &str,
     proof: Script,
+    printer: Printer,
 ) -> String {
-    let (variables, premises, proof) = (for_all(variables), premises(hypotheses), proof.into_text());
+    let (variables, proof) = (for_all(variables), proof.into_text());
+    let premises = premises(hypotheses, printer);
     format!("\n{keyword} {name} :{variables}{premises} {says}.\nProof.\n{proof}Qed.\n")
 }
 
-fn premises(hypotheses: &[&Hypothesis]) -> String {
-    hypotheses.iter().map(|h| format!(" {} ->\n ", Expr::of(&h.value).relation(h.relation()))).collect()
+/// Hypotheses are shared, and in no function's own names.
+fn premises(hypotheses: &[&Hypothesis], printer: Printer) -> String {
+    hypotheses.iter().map(|h| format!(" {} ->\n ", supposed(h, printer))).collect()
 }
 
-fn says(says: &Says, own: &[&str]) -> String {
-    let of = |tree: &Tree| Expr::of_entry(tree, own);
-    let under = |var: &Var, tree: &Tree| format!("(fun {} => {})", ascii(var.symbol()), of(tree));
+fn supposed(hypothesis: &Hypothesis, printer: Printer) -> String {
+    Printer { preferred: &[], ..printer }.expr(&hypothesis.value).relation(hypothesis.relation)
+}
+
+fn says(says: &Says, printer: Printer) -> String {
+    let of = |tree: &Tree| printer.expr(tree);
+    let under = |var: &str, tree: &Tree| format!("(fun {} => {})", ascii(var), of(tree));
     match says {
         Says::Equal(a, b) => {
             let (left, right) = (of(a).to_string(), of(b).to_string());
@@ -375,7 +403,7 @@ fn says(says: &Says, own: &[&str]) -> String {
         }
         Says::Sign(relation, a) => of(a).relation(*relation),
         Says::Derivative(a, by, b) => {
-            format!("is_derive {}\n    {}\n    {}", under(by, a), ascii(by.symbol()), of(b).argument())
+            format!("is_derive {}\n    {}\n    {}", under(by, a), ascii(by), of(b).argument())
         }
         Says::Limit(a, by, b) => format!("is_lim {} p_infty {}", under(by, a), of(b).argument()),
     }
@@ -398,7 +426,13 @@ fn divisors<'t>(trees: impl Iterator<Item = &'t Tree>) -> Vec<Tree> {
 }
 
 /// Proves of each divisor that it is not 0, and calls that N1, N2, …
-fn divisors_script(script: &mut Script, hypotheses: &[&Hypothesis], divisors: &[Tree]) -> Result<()> {
+fn divisors_script(
+    script: &mut Script,
+    hypotheses: &[&Hypothesis],
+    divisors: &[Tree],
+    printer: Printer,
+) -> Result<()> {
+    let printer = Printer { preferred: &[], ..printer };
     for (i, divisor) in divisors.iter().enumerate() {
         let signed = |value: &Tree| {
             let goal = Goal::of_claim("", Says::Sign(Relation::Positive, value.clone()));
@@ -408,9 +442,9 @@ fn divisors_script(script: &mut Script, hypotheses: &[&Hypothesis], divisors: &[
             Ok(derivation) => ("positive_not_zero", derivation),
             Err(_) => ("negative_not_zero", signed(&-divisor)?),
         };
-        script.line(&format!("assert (N{} : {} <> 0).", i + 1, Expr::of(divisor)));
+        script.line(&format!("assert (N{} : {} <> 0).", i + 1, printer.expr(divisor)));
         script.block("{", |own| {
-            own.line(&format!("chapter. apply {rule}."));
+            own.line(&format!("functions. apply {rule}."));
             own.derivation(&derivation)
         })?;
     }
@@ -429,8 +463,8 @@ impl<'a> Lemma<'a> {
         self.hypotheses.iter().map(|h| &h.value).chain(self.says.trees())
     }
 
-    fn variables(&self) -> Vec<Var> {
-        variables(self.trees())
+    fn variables(&self) -> Vec<&'static str> {
+        self.printer.registry.symbols_of(self.trees())
     }
 
     /// Its name, applied to its variables by name and to its hypotheses as H1, H2, …
@@ -451,27 +485,28 @@ impl<'a> Lemma<'a> {
             self.defined.as_ref().filter(|d| d.variables.iter().all(|var| variables.contains(var)));
         match recalled {
             Some(defined) => script.line(&defined.recall(&labels(self.hypotheses.len()))),
-            None => divisors_script(&mut script, &self.hypotheses, &divisors(self.trees()))?,
+            None => divisors_script(&mut script, &self.hypotheses, &divisors(self.trees()), self.printer)?,
         }
-        script.line("chapter.");
+        script.line("functions.");
         script.derivation(&derivation(&self.hypotheses, self.goal())?)?;
-        Ok(stated(keyword, &self.name, &variables, &self.hypotheses, &says(self.says, self.own), script))
+        let says = says(self.says, self.printer);
+        Ok(stated(keyword, &self.name, &variables, &self.hypotheses, &says, script, self.printer))
     }
 }
 
 impl<'a> Theorem<'a> {
-    fn new(claim: &'a Claim) -> Self {
-        Theorem {
-            claim,
-            own: entry(claim.equation).map_or(&[], |entry| entry.functions),
-            statement: Statement::of(claim),
-            name: theorem_name(claim.equation, claim.name),
-        }
+    fn new(claim: &'a Claim, printer: Printer<'a>) -> Self {
+        let name = theorem_name(claim.equation, claim.name);
+        Theorem { claim, printer, statement: Statement::of(claim), name }
     }
 
-    /// A formula that it speaks of. Hypotheses are shared by entries and no part of one.
+    /// A formula that it speaks of.
     fn expr(&self, tree: &Tree) -> Expr {
-        Expr::of_entry(tree, self.own)
+        self.printer.expr(tree)
+    }
+
+    fn variables<'t>(&self, trees: impl Iterator<Item = &'t Tree>) -> Vec<&'static str> {
+        self.printer.registry.symbols_of(trees)
     }
 
     /// Its hypotheses, but for those on one coordinate.
@@ -484,7 +519,7 @@ impl<'a> Theorem<'a> {
     fn defined(&self) -> Option<Defined> {
         let divisors = divisors(self.statement.trees());
         let hypotheses = self.statement.supposed().map(|h| &h.value);
-        let variables = variables(hypotheses.chain(&divisors));
+        let variables = self.variables(hypotheses.chain(&divisors));
         (!divisors.is_empty()).then(|| Defined {
             name: format!("{}_defined", self.name),
             variables,
@@ -507,27 +542,33 @@ impl<'a> Theorem<'a> {
         let name = format!("{}_{}", self.name, identifier(&format!("{part}{count}")));
         let hypotheses = self.hypotheses(without);
         let defined = self.recalled(&hypotheses);
-        Lemma { name, own: self.own, hypotheses, says: &goals[i].says, defined }
+        Lemma { name, printer: self.printer, hypotheses, says: &goals[i].says, defined }
     }
 
     /// Its lemmas and the theorem itself.
     fn text(&self) -> Result<String> {
+        let symbols = self.variables(self.statement.trees());
+        for (i, symbol) in symbols.iter().enumerate() {
+            if let Some(same) = symbols[..i].iter().find(|other| ascii(other) == ascii(symbol)) {
+                return Err(format!("{same} and {symbol} have the same name in Coq"));
+            }
+        }
         let mut text = String::new();
         if let Some(defined) = self.defined() {
             text += &self.definedness(&defined)?;
         }
         let hypotheses = self.hypotheses(None);
         text += &match &self.claim.kind {
-            Kind::Limit { by, .. } => self.limit(*by)?,
+            Kind::Limit { by, .. } => self.limit(by)?,
             Kind::Induction { .. } => self.induction()?,
             Kind::Vanishing { .. } => self.vanishing()?,
-            _ => {
+            Kind::Equal(..) | Kind::Sign(..) | Kind::Derivative { .. } => {
                 let [goal] = self.statement.goals.as_slice() else {
                     return Err("a claim of this kind has several goals".into());
                 };
                 let defined = self.defined();
-                let (name, own) = (self.name.clone(), self.own);
-                Lemma { name, own, hypotheses, says: &goal.says, defined }.text("Theorem")?
+                let (name, printer) = (self.name.clone(), self.printer);
+                Lemma { name, printer, hypotheses, says: &goal.says, defined }.text("Theorem")?
             }
         };
         Ok(text)
@@ -539,30 +580,32 @@ impl<'a> Theorem<'a> {
         let hypotheses = self.hypotheses(None);
         let mut script = Script::new();
         script.line(&format!("intros{}{}.", names(variables), labels(hypotheses.len())));
-        divisors_script(&mut script, &hypotheses, divisors)?;
+        divisors_script(&mut script, &hypotheses, divisors, self.printer)?;
         script.line("repeat split; assumption.");
-        let goals: Vec<_> = divisors.iter().map(|divisor| format!("{} <> 0", Expr::of(divisor))).collect();
-        Ok(stated("Lemma", name, variables, &hypotheses, &goals.join(" /\\\n  "), script))
+        let plain = Printer { preferred: &[], ..self.printer };
+        let goals: Vec<_> = divisors.iter().map(|divisor| format!("{} <> 0", plain.expr(divisor))).collect();
+        let says = goals.join(" /\\\n  ");
+        Ok(stated("Lemma", name, variables, &hypotheses, &says, script, self.printer))
     }
 
     /// The limit itself; how fast it is reached is in lemmas.
-    fn limit(&self, by: Var) -> Result<String> {
+    fn limit(&self, by: &'static str) -> Result<String> {
         let goals = &self.statement.goals;
         let mut text = String::new();
         for i in 1..goals.len() {
             text += &self.lemma(i, None).text("Lemma")?;
         }
-        let x = by.symbol();
+        let x = by;
         let own = Lemma {
             name: self.name.clone(),
-            own: self.own,
+            printer: self.printer,
             hypotheses: self.hypotheses(Some(x)),
             says: &goals[0].says,
             defined: None,
         };
         let variables: Vec<_> = own.variables().into_iter().filter(|var| *var != by).collect();
         let mut script = Script::new();
-        script.line(&format!("intros{}{}. chapter.", names(&variables), labels(own.hypotheses.len())));
+        script.line(&format!("intros{}{}. functions.", names(&variables), labels(own.hypotheses.len())));
         // Whatever is supposed of x itself is that it is positive, or less.
         let all = self.hypotheses(None);
         script.limit(&derivation(&all, own.goal())?, by, |script| {
@@ -574,17 +617,25 @@ impl<'a> Theorem<'a> {
                 } else if *hypothesis.value.step() != Step::Symbol(x) {
                     return Err("more is supposed of what tends to infinity than that it is positive");
                 } else {
-                    let weak = hypothesis.relation() == Relation::NonNegative;
+                    let weak = hypothesis.relation == Relation::NonNegative;
                     label.push(if weak { "(Rlt_le _ _ X)".into() } else { "X".into() });
                 }
             }
             if let Some(defined) = self.defined() {
-                script.line(&format!("{} chapter.", defined.recall(&format!(" {}", label.join(" ")))));
+                script.line(&format!("{} functions.", defined.recall(&format!(" {}", label.join(" ")))));
             }
             Ok(())
         })?;
         Ok(text
-            + &stated("Theorem", &self.name, &variables, &own.hypotheses, &says(own.says, own.own), script))
+            + &stated(
+                "Theorem",
+                &self.name,
+                &variables,
+                &own.hypotheses,
+                &says(own.says, self.printer),
+                script,
+                self.printer,
+            ))
     }
 
     /// The recursion over the natural numbers, and its closed form by induction.
@@ -592,7 +643,7 @@ impl<'a> Theorem<'a> {
         let Kind::Induction { ratio, start, step, closed } = &self.claim.kind else {
             return Err("no induction".into());
         };
-        let q = Var::Q.symbol();
+        let q = POWER;
         let lemma = |i: usize| {
             let at_start = matches!(self.statement.goals[i].role, Role::Claim | Role::Begins);
             self.lemma(i, at_start.then_some(q))
@@ -607,9 +658,10 @@ impl<'a> Theorem<'a> {
         let names_of_values = MEMBERS.get(..start.len()).ok_or("the recursion has too many values")?;
         let hypotheses = self.hypotheses(Some(q));
         let trees = start.iter().chain(step).chain(closed).chain([ratio]);
-        let free: Vec<_> = variables(trees.chain(hypotheses.iter().map(|h| &h.value)))
+        let free: Vec<_> = self
+            .variables(trees.chain(hypotheses.iter().map(|h| &h.value)))
             .into_iter()
-            .filter(|var| *var != Var::Q)
+            .filter(|var| *var != POWER && !MEMBERS.contains(var))
             .collect();
         let tuple = |trees: &[Tree]| {
             let values: Vec<_> = trees.iter().map(|tree| self.expr(tree).to_string()).collect();
@@ -653,9 +705,9 @@ impl<'a> Theorem<'a> {
             .collect();
         let at = |lemma: &Lemma, q_is: &str| {
             let variables = lemma.variables();
-            let arguments = variables.iter().map(|var| {
-                if *var == Var::Q { format!(" {q_is}") } else { format!(" {}", ascii(var.symbol())) }
-            });
+            let arguments = variables
+                .iter()
+                .map(|var| if *var == POWER { format!(" {q_is}") } else { format!(" {}", ascii(var)) });
             let with_q = lemma.hypotheses.len() == all.len();
             let labels: Vec<_> = if with_q { step_labels.clone() } else { numbered("H", hypotheses.len()) };
             format!("{}{} {}", lemma.name, arguments.collect::<String>(), labels.join(" "))
@@ -666,7 +718,7 @@ impl<'a> Theorem<'a> {
             n => format!("({})", numbered("Q", n).join(" & ")),
         };
         if !of_q.is_empty() {
-            let told: Vec<_> = of_q.iter().map(|h| Expr::of(&h.value).relation(h.relation())).collect();
+            let told: Vec<_> = of_q.iter().map(|h| supposed(h, self.printer)).collect();
             script.line(&format!("assert (Q : forall n : nat, let q := {power} in {}).", told.join(" /\\ ")));
             script.block("{", |own| {
                 own.line(&format!(
@@ -693,7 +745,7 @@ impl<'a> Theorem<'a> {
             "forall n : nat, let q := {power} in\n    {iterates}{arguments} n =\n    {}",
             tuple(closed)
         );
-        Ok(text + &stated("Theorem", &self.name, &free, &hypotheses, &says, script))
+        Ok(text + &stated("Theorem", &self.name, &free, &hypotheses, &says, script, self.printer))
     }
 
     /// A function of the powers of what is less than 1 in size.
@@ -701,7 +753,7 @@ impl<'a> Theorem<'a> {
         let Kind::Vanishing { ratio, of, to } = &self.claim.kind else {
             return Err("no limit of powers".into());
         };
-        let q = Var::Q.symbol();
+        let q = POWER;
         let lemmas: Vec<_> = (0..self.statement.goals.len()).map(|i| self.lemma(i, Some(q))).collect();
         let [small, limit] = lemmas.as_slice() else {
             return Err("a limit of powers has two parts".into());
@@ -709,14 +761,17 @@ impl<'a> Theorem<'a> {
         let text = small.text("Lemma")? + &limit.text("Lemma")?;
         let hypotheses = self.hypotheses(Some(q));
         let trees = [ratio, of, to].into_iter().chain(hypotheses.iter().map(|h| &h.value));
-        let free: Vec<_> = variables(trees.clone()).into_iter().filter(|var| *var != Var::Q).collect();
+        let free: Vec<_> = self.variables(trees.clone()).into_iter().filter(|var| *var != POWER).collect();
         let (ratio, to) = (self.expr(ratio), self.expr(to));
         let power = Expr::name(format!("({} ^ n)", ratio.base()));
         let mut script = Script::new();
         script.line(&format!("intros{}{}.", names(&free), labels(hypotheses.len())));
         match self.recalled(&hypotheses) {
             Some(defined) => script.line(&defined.recall(&labels(hypotheses.len()))),
-            None => divisors_script(&mut script, &hypotheses, &divisors(self.statement.trees()))?,
+            None => {
+                let divisors = divisors(self.statement.trees());
+                divisors_script(&mut script, &hypotheses, &divisors, self.printer)?
+            }
         }
         let name = ascii(q);
         script.line(&format!(
@@ -725,9 +780,9 @@ impl<'a> Theorem<'a> {
             ratio.argument()
         ));
         script.line(&format!("- exact ({}).", small.applied()));
-        script.line("- chapter. auto_derive; nonzero.");
+        script.line("- functions. auto_derive; nonzero.");
         script.line(&format!("- exact ({}).", limit.applied()));
         let says = format!("is_lim_seq (fun n => {}) {}", self.expr(of).with(&name, &power), to.argument());
-        Ok(text + &stated("Theorem", &self.name, &free, &hypotheses, &says, script))
+        Ok(text + &stated("Theorem", &self.name, &free, &hypotheses, &says, script, self.printer))
     }
 }

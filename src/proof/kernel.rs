@@ -22,8 +22,8 @@
 
 use super::algebra::{Monomial, Poly, Ratio, Symbol, is_bracket};
 use super::sign::{Assumed, Assumptions, Certificate, Sign, sign};
-use super::statement::{Goal, Hypothesis, Role, Says, Statement};
-use crate::claims::{Given, Relation};
+use crate::formula::statement::{Goal, Role, Says, Statement};
+use crate::formula::{Hypothesis, Relation};
 use crate::number::tree::{self, Step};
 use crate::number::{Dual, Tree};
 use std::fmt;
@@ -63,7 +63,7 @@ pub struct Direct {
 #[derive(Clone, Debug)]
 pub struct Supposed {
     /// The hypothesis, or `None` for the case of a split.
-    pub given: Option<Given>,
+    pub given: Option<Hypothesis>,
     /// The quantity it speaks of, before this supposition is used.
     pub value: Ratio,
     /// What it says of its sign.
@@ -233,7 +233,7 @@ impl Context {
     fn with(mut self, hypotheses: &[Hypothesis]) -> Result<Self, Why> {
         for hypothesis in hypotheses {
             let value = Reader::new(&self).read(&hypothesis.value)?;
-            self.suppose(Some(hypothesis.given), value, hypothesis.relation().into());
+            self.suppose(Some(hypothesis), value, hypothesis.relation.into());
         }
         Ok(self)
     }
@@ -261,7 +261,7 @@ impl Context {
     }
 
     /// Takes in that a quantity has a sign.
-    fn suppose(&mut self, given: Option<Given>, value: Ratio, sign: Sign) {
+    fn suppose(&mut self, given: Option<&Hypothesis>, value: Ratio, sign: Sign) {
         let value = self.reduce(&value);
         let used = match sign {
             _ if self.sign(value.clone()).is_some_and(|signed| signed.sign().implies(sign)) => Used::Follows,
@@ -295,7 +295,7 @@ impl Context {
             }
             self.rules.push((pivot.clone(), by.clone()));
         }
-        self.supposed.push(Supposed { given, value, sign, used });
+        self.supposed.push(Supposed { given: given.cloned(), value, sign, used });
     }
 
     /// A monomial of the quantity, and what it equals if the quantity is `slack`.
@@ -338,17 +338,16 @@ impl Context {
                 Because::Sign(signed)
             }
             Says::Derivative(of, by, is) => {
-                let Dual { derivative, .. } = of
-                    .derivative(by.symbol(), &|name| Tree::symbol(name), &tree::smooth)
-                    .ok_or_else(|| {
+                let Dual { derivative, .. } =
+                    of.derivative(by, &|name| Tree::symbol(name), &tree::smooth).ok_or_else(|| {
                         // ⟨·⟩ and min have kinks.
-                        Why::NoLimit(Ratio::from(Poly::symbol(Symbol(by.symbol()))))
+                        Why::NoLimit(Ratio::from(Poly::symbol(Symbol(by))))
                     })?;
                 reader.read(of)?;
                 Because::Derivative(self.same(reader.read(&derivative)?, reader.read(is)?)?)
             }
             Says::Limit(of, by, to) => {
-                let x = Symbol(by.symbol());
+                let x = Symbol(by);
                 let (of, to) = (self.reduce(&reader.read(of)?), self.reduce(&reader.read(to)?));
                 self.limit(of, x, to)?
             }
@@ -493,7 +492,6 @@ impl<'a> Reader<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::claims::Var;
     use crate::number::{Exponential, Field, PositivePart};
     use num_traits::{One, Zero};
 
@@ -501,9 +499,12 @@ mod tests {
         Tree::symbol(name)
     }
 
-    /// Given what is free for the purpose, with a quantity of its own.
-    fn suppose(given: Given, value: Tree) -> Hypothesis {
-        Hypothesis { given, value }
+    fn above_zero(value: Tree) -> Hypothesis {
+        Hypothesis::new(Relation::Positive, value)
+    }
+
+    fn not_below_zero(value: Tree) -> Hypothesis {
+        Hypothesis::new(Relation::NonNegative, value)
     }
 
     fn outcome(hypotheses: Vec<Hypothesis>, says: Says) -> Result<Proof, Why> {
@@ -517,12 +518,12 @@ mod tests {
 
     /// c > 0
     fn stiffness() -> Vec<Hypothesis> {
-        vec![suppose(Given::Stiffness, x("c"))]
+        vec![above_zero(x("c"))]
     }
 
     /// λ ≥ 0
     fn multiplier() -> Vec<Hypothesis> {
-        vec![suppose(Given::Multiplier, x("λ"))]
+        vec![not_below_zero(x("λ"))]
     }
 
     #[test]
@@ -557,20 +558,20 @@ mod tests {
     #[test]
     fn a_hypothesis_says_what_it_says_and_no_more() {
         let reaction = || x("m") * x("g") - x("c") * x("H");
-        let touching = || vec![suppose(Given::Touching, reaction())];
+        let touching = || vec![not_below_zero(reaction())];
         assert!(proved(touching(), Says::Sign(Relation::NonNegative, reaction())));
         assert!(!proved(touching(), Says::Sign(Relation::Positive, reaction())));
         assert!(!proved(touching(), Says::Sign(Relation::Zero, reaction())));
-        let grazing = vec![suppose(Given::Grazing, reaction())];
+        let grazing = vec![Hypothesis::new(Relation::Zero, reaction())];
         assert!(proved(grazing.clone(), Says::Equal(x("m") * x("g"), x("c") * x("H"))));
         assert!(!proved(grazing, Says::Equal(x("m"), x("c"))));
     }
 
     #[test]
     fn the_names_of_quantities_are_the_kernels_own() {
-        let above = || vec![suppose(Given::Penetrating, x("u") - Tree::one())];
+        let above = || vec![above_zero(x("u") - Tree::one())];
         assert!(!proved(above(), Says::Sign(Relation::Positive, x("s₁"))));
-        assert!(!proved(vec![suppose(Given::Penetrating, x("u") - x("s₁"))], Says::Equal(x("u"), x("u"))));
+        assert!(!proved(vec![above_zero(x("u") - x("s₁"))], Says::Equal(x("u"), x("u"))));
         assert!(prove(&Statement::default()).is_err());
     }
 
@@ -590,16 +591,16 @@ mod tests {
 
     #[test]
     fn limits_by_degrees() {
-        let limit = |of: Tree, to: Tree| Says::Limit(of, Var::T, to);
+        let limit = |of: Tree, to: Tree| Says::Limit(of, "t", to);
         let t = || x("t");
         assert!(proved(stiffness(), limit(Tree::one() / (x("c") + t() * t()), Tree::zero())));
-        let time = || suppose(Given::Time, t());
-        let both = || vec![suppose(Given::Stiffness, x("c")), time()];
+        let time = || above_zero(t());
+        let both = || vec![above_zero(x("c")), time()];
         assert!(proved(both(), limit(t() / (Tree::one() + x("c") * t()), Tree::one() / x("c"))));
         assert!(!proved(both(), limit(t() / (Tree::one() + x("c") * t()), Tree::one())));
         assert!(!proved(both(), limit(t(), Tree::zero())));
         // What might be constant need not vanish.
-        let weak = vec![suppose(Given::Multiplier, x("λ")), time()];
+        let weak = vec![not_below_zero(x("λ")), time()];
         assert!(!proved(weak, limit(Tree::one() / (Tree::one() + x("λ") * t()), Tree::zero())));
         // e^{−ct} falls faster than any power rises; e^{ct} and e^{ut} do not.
         let decay = |rate: Tree| t() * (rate * t()).exp();
@@ -611,7 +612,7 @@ mod tests {
         assert!(!proved(vec![time()], within(t().exp() - t())));
         assert!(!proved(vec![time()], within(-t() * (-t()).exp())));
         // A hypothesis that ends as t grows says nothing of the limit.
-        let before = vec![suppose(Given::Contact, x("c") - t())];
+        let before = vec![above_zero(x("c") - t())];
         assert!(!proved(before, limit(Tree::one() / (Tree::one() + t() * t()), Tree::zero())));
     }
 
@@ -624,7 +625,7 @@ mod tests {
         let statement = |hypotheses| Statement {
             kind: "induction",
             hypotheses,
-            invariants: vec![suppose(Given::Carried, invariant(&q))],
+            invariants: vec![not_below_zero(invariant(&q))],
             goals: vec![
                 goal("start", Role::Claim, Says::Equal(lambda.clone(), lambda.clone())),
                 goal("step", Role::Step, Says::Equal(lambda.positive_part(), lambda.clone())),
@@ -641,10 +642,10 @@ mod tests {
     fn derivatives_are_those_of_the_formula() {
         let square = || x("u") * x("u");
         let twice = || Tree::int(2) * x("u");
-        assert!(proved(vec![], Says::Derivative(square(), Var::U, twice())));
-        assert!(!proved(vec![], Says::Derivative(square(), Var::U, x("u"))));
-        assert!(!proved(vec![], Says::Derivative(square(), Var::V, twice())));
+        assert!(proved(vec![], Says::Derivative(square(), "u", twice())));
+        assert!(!proved(vec![], Says::Derivative(square(), "u", x("u"))));
+        assert!(!proved(vec![], Says::Derivative(square(), "v", twice())));
         // ⟨u⟩ has none at 0.
-        assert!(!proved(vec![], Says::Derivative(x("u").positive_part(), Var::U, Tree::one())));
+        assert!(!proved(vec![], Says::Derivative(x("u").positive_part(), "u", Tree::one())));
     }
 }

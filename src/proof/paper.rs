@@ -2,34 +2,191 @@
 
 use super::kernel::{Because, Derivation, Direct, Proof, Signed, Supposed, Used};
 use super::sign::Sign;
-use super::statement::{Goal, Says, Sequence, Statement};
-use crate::claims::{Formula, Given, Relation, call, named};
+use crate::formula::statement::{Goal, Says, Sequence, Statement};
+use crate::formula::{Formula, Hypothesis, Notation, Registry, Relation};
 use crate::number::Tree;
-use crate::number::tree::{Notation, Step};
+use crate::number::tree::Step;
 
-/// What a claim says, in one line.
-pub fn claim(statement: &Statement) -> String {
-    if let Some(Sequence { start, ratio, member, limit }) = &statement.amounts_to {
-        let together = |trees: &[Tree]| trees.iter().map(text).collect::<Vec<_>>().join(", ");
-        let (ratio, member) = (text(ratio), together(member));
-        return match limit {
-            Some(limit) => format!("{member} → {} for q = {ratio}ᵏ and k → ∞", text(limit)),
-            None => format!("k steps from {} lead to {member}, where q = {ratio}ᵏ", together(start)),
-        };
-    }
-    let goals = statement.goals.iter().map(|goal| says(&goal.says));
-    goals.collect::<Vec<_>>().join("; ")
+/// Writes claims and proofs in the names that a registry has for quantities.
+#[derive(Clone, Copy, Debug)]
+pub struct Paper<'a> {
+    registry: &'a Registry,
 }
 
-/// What a goal says.
-fn says(says: &Says) -> String {
-    match says {
-        Says::Equal(left, right) => format!("{} = {}", text(left), text(right)),
-        Says::Sign(Relation::Positive, of) => format!("{} > 0", text(of)),
-        Says::Sign(Relation::NonNegative, of) => format!("{} ≥ 0", text(of)),
-        Says::Sign(Relation::Zero, of) => format!("{} = 0", text(of)),
-        Says::Derivative(of, by, is) => format!("∂/∂{} [{}] = {}", by.symbol(), text(of), text(is)),
-        Says::Limit(of, by, to) => format!("lim [{}] = {} for {} → ∞", text(of), text(to), by.symbol()),
+impl<'a> Paper<'a> {
+    /// With the names of this registry.
+    pub fn new(registry: &'a Registry) -> Self {
+        Paper { registry }
+    }
+
+    /// What a claim says, in one line.
+    pub fn claim(&self, statement: &Statement) -> String {
+        if let Some(Sequence { start, ratio, member, limit }) = &statement.amounts_to {
+            let together =
+                |trees: &[Tree]| trees.iter().map(|tree| self.text(tree)).collect::<Vec<_>>().join(", ");
+            let (ratio, member) = (self.text(ratio), together(member));
+            return match limit {
+                Some(limit) => format!("{member} → {} for q = {ratio}ᵏ and k → ∞", self.text(limit)),
+                None => format!("k steps from {} lead to {member}, where q = {ratio}ᵏ", together(start)),
+            };
+        }
+        let goals = statement.goals.iter().map(|goal| self.says(&goal.says));
+        goals.collect::<Vec<_>>().join("; ")
+    }
+
+    /// What a goal says.
+    fn says(&self, says: &Says) -> String {
+        match says {
+            Says::Equal(left, right) => format!("{} = {}", self.text(left), self.text(right)),
+            Says::Sign(Relation::Positive, of) => format!("{} > 0", self.text(of)),
+            Says::Sign(Relation::NonNegative, of) => format!("{} ≥ 0", self.text(of)),
+            Says::Sign(Relation::Zero, of) => format!("{} = 0", self.text(of)),
+            Says::Derivative(of, by, is) => format!("∂/∂{} [{}] = {}", by, self.text(of), self.text(is)),
+            Says::Limit(of, by, to) => format!("lim [{}] = {} for {} → ∞", self.text(of), self.text(to), by),
+        }
+    }
+
+    /// The hypotheses that some goal's proof uses, as a reader writes them.
+    pub fn used(&self, proof: &Proof) -> Vec<String> {
+        fn collect(derivation: &Derivation, all: &mut Vec<Hypothesis>) {
+            match derivation {
+                Derivation::Cases(_, positive, not) => {
+                    collect(positive, all);
+                    collect(not, all);
+                }
+                Derivation::Direct(direct) => {
+                    for Supposed { given, used, .. } in &direct.supposed {
+                        if let Some(given) = given
+                            && !matches!(used, Used::Unused | Used::Follows)
+                            && !all.contains(given)
+                        {
+                            all.push(given.clone());
+                        }
+                    }
+                }
+            }
+        }
+        let mut all = Vec::new();
+        proof.goals.iter().for_each(|derivation| collect(derivation, &mut all));
+        all.iter().map(|given| self.registry.supposed(given)).collect()
+    }
+
+    /// What the names in a claim stand for, those that occur: `R = m g − c (H − l)`.
+    pub fn names(&self, statement: &Statement) -> Vec<String> {
+        let mut called: Vec<&'a Formula> = Vec::new();
+        fn collect<'a>(registry: &'a Registry, tree: &Tree, called: &mut Vec<&'a Formula>) {
+            if let Some(call) = registry.call(tree).filter(|call| call.formula.folded) {
+                if called.iter().all(|formula| formula.name() != call.formula.name()) {
+                    called.push(call.formula);
+                }
+                call.arguments.iter().for_each(|argument| collect(registry, argument, called));
+            } else {
+                tree.step().operands().for_each(|operand| collect(registry, operand, called));
+            }
+        }
+        statement.trees().for_each(|tree| collect(self.registry, tree, &mut called));
+        // What a name stands for may be said by further names.
+        let mut i = 0;
+        while let Some(formula) = called.get(i).copied() {
+            formula.tree.step().operands().for_each(|operand| collect(self.registry, operand, &mut called));
+            i += 1;
+        }
+        called
+            .iter()
+            .map(|f| format!("{} = {}", f.symbol, self.registry.typeset(f, Notation::Text)))
+            .collect()
+    }
+
+    /// The whole proof, line by line.
+    pub fn proof(&self, statement: &Statement, proof: &Proof) -> Vec<String> {
+        let mut lines = Vec::new();
+        lines.extend(statement.amounts_to.as_ref().map(|sequence| {
+            let by = match sequence.limit {
+                None => "by induction on k, with q = ρᵏ: for q = 1, and from q to ρ q",
+                Some(_) => {
+                    "if |ρ| < 1 then ρᵏ → 0, and what is continuous in q at 0 tends to what it is there"
+                }
+            };
+            by.to_string()
+        }));
+        let single = statement.goals.len() == 1;
+        for (Goal { part, says: goal, .. }, derivation) in statement.goals.iter().zip(&proof.goals) {
+            if single {
+                self.derive(derivation, 0, &mut lines);
+            } else {
+                lines.push(format!("{part}: {}", self.says(goal)));
+                self.derive(derivation, 1, &mut lines);
+            }
+        }
+        lines
+    }
+
+    fn derive(&self, derivation: &Derivation, depth: usize, lines: &mut Vec<String>) {
+        let say = |text: String, lines: &mut Vec<String>| lines.push(format!("{}{text}", "  ".repeat(depth)));
+        match derivation {
+            Derivation::Cases(on, positive, not) => {
+                say(format!("case {on} > 0:"), lines);
+                self.derive(positive, depth + 1, lines);
+                say(format!("case {on} ≤ 0:"), lines);
+                self.derive(not, depth + 1, lines);
+            }
+            Derivation::Direct(direct) => self.direct(direct).into_iter().for_each(|line| say(line, lines)),
+        }
+    }
+
+    fn direct(&self, direct: &Direct) -> Vec<String> {
+        let mut lines: Vec<String> = direct.supposed.iter().filter_map(|own| self.supposed(own)).collect();
+        for (divisor, nonzero) in &direct.divisors {
+            explain(format!("{} ≠ 0", self.text(divisor)), signed(nonzero), &mut lines);
+        }
+        for (bracket, value, decides) in &direct.brackets {
+            let decisive = match bracket.step() {
+                Step::Min(..) => "the second less the first",
+                _ => "its argument",
+            };
+            explain(
+                format!("{} = {} by the sign of {decisive}", self.text(bracket), self.text(value)),
+                signed(decides),
+                &mut lines,
+            );
+        }
+        match &direct.because {
+            Because::Same(value) => lines.push(format!("both sides are {value}")),
+            Because::Sign(sign) => lines.extend(signed(sign)),
+            Because::Derivative(value) => {
+                lines.push(format!("dual numbers differentiate it to {value}, which is the right side"))
+            }
+            Because::Limit { of, by, degrees, leading, to } => {
+                let (n, d) = degrees;
+                lines.push(format!("it is {of}"));
+                lines.push(format!(
+                    "degrees {n} above and {d} below in {}, hence the limit is {to}, since below",
+                    by.0
+                ));
+                lines.extend(leading.lines().into_iter().map(|line| format!("  {line}")));
+            }
+        }
+        lines
+    }
+
+    /// How a supposition is used, if that has to be said.
+    fn supposed(&self, supposed: &Supposed) -> Option<String> {
+        let Supposed { given, value, sign, used } = supposed;
+        let name = given.as_ref().map_or("the case".to_string(), |given| self.registry.supposed(given));
+        match used {
+            Used::Symbol(_) => None,
+            Used::Follows => Some(format!("{name} follows")),
+            Used::Unused => Some(format!("{name} is not used")),
+            Used::Pivot(pivot, by, None) => Some(format!("by {name}: {pivot} = {by}")),
+            Used::Pivot(pivot, by, Some(slack)) => {
+                let sign = if *sign == Sign::Positive { "> 0" } else { "≥ 0" };
+                Some(format!("by {name}: {} = {value} {sign}, so {pivot} = {by}", slack.0))
+            }
+        }
+    }
+
+    fn text(&self, tree: &Tree) -> String {
+        self.registry.text(tree)
     }
 }
 
@@ -70,124 +227,6 @@ fn means(derivation: &Derivation) -> &'static str {
     }
 }
 
-/// The hypotheses that some goal's proof uses, as a reader writes them.
-pub fn used(proof: &Proof) -> Vec<&'static str> {
-    fn collect(derivation: &Derivation, all: &mut Vec<&'static str>) {
-        match derivation {
-            Derivation::Cases(_, positive, not) => {
-                collect(positive, all);
-                collect(not, all);
-            }
-            Derivation::Direct(direct) => {
-                for Supposed { given, used, .. } in &direct.supposed {
-                    if let Some(given) = given
-                        && !matches!(used, Used::Unused | Used::Follows)
-                        && !all.contains(&given.text())
-                    {
-                        all.push(given.text());
-                    }
-                }
-            }
-        }
-    }
-    let mut all = Vec::new();
-    proof.goals.iter().for_each(|derivation| collect(derivation, &mut all));
-    all
-}
-
-/// What the names in a claim stand for, those that occur: `R = m g − c (H − l)`.
-pub fn names(statement: &Statement) -> Vec<String> {
-    let mut called: Vec<&'static Formula> = Vec::new();
-    fn collect(tree: &Tree, called: &mut Vec<&'static Formula>) {
-        if let Some(call) = call(tree).filter(|call| call.formula.folded) {
-            if called.iter().all(|formula| formula.name() != call.formula.name()) {
-                called.push(call.formula);
-            }
-            call.arguments.iter().for_each(|argument| collect(argument, called));
-        } else {
-            tree.step().operands().for_each(|operand| collect(operand, called));
-        }
-    }
-    statement.trees().for_each(|tree| collect(tree, &mut called));
-    // What a name stands for may be said by further names.
-    let mut i = 0;
-    while let Some(formula) = called.get(i).copied() {
-        formula.tree.step().operands().for_each(|operand| collect(operand, &mut called));
-        i += 1;
-    }
-    called.iter().map(|f| format!("{} = {}", f.symbol, f.typeset(Notation::Text))).collect()
-}
-
-/// The whole proof, line by line.
-pub fn proof(statement: &Statement, proof: &Proof) -> Vec<String> {
-    let mut lines = Vec::new();
-    lines.extend(statement.amounts_to.as_ref().map(|sequence| {
-        let by = match sequence.limit {
-            None => "by induction on k, with q = ρᵏ: for q = 1, and from q to ρ q",
-            Some(_) => "if |ρ| < 1 then ρᵏ → 0, and what is continuous in q at 0 tends to what it is there",
-        };
-        by.to_string()
-    }));
-    let single = statement.goals.len() == 1;
-    for (Goal { part, says: goal, .. }, derivation) in statement.goals.iter().zip(&proof.goals) {
-        if single {
-            derive(derivation, 0, &mut lines);
-        } else {
-            lines.push(format!("{part}: {}", says(goal)));
-            derive(derivation, 1, &mut lines);
-        }
-    }
-    lines
-}
-
-fn derive(derivation: &Derivation, depth: usize, lines: &mut Vec<String>) {
-    let say = |text: String, lines: &mut Vec<String>| lines.push(format!("{}{text}", "  ".repeat(depth)));
-    match derivation {
-        Derivation::Cases(on, positive, not) => {
-            say(format!("case {on} > 0:"), lines);
-            derive(positive, depth + 1, lines);
-            say(format!("case {on} ≤ 0:"), lines);
-            derive(not, depth + 1, lines);
-        }
-        Derivation::Direct(direct) => direct_lines(direct).into_iter().for_each(|line| say(line, lines)),
-    }
-}
-
-fn direct_lines(direct: &Direct) -> Vec<String> {
-    let mut lines: Vec<String> = direct.supposed.iter().filter_map(supposed).collect();
-    for (divisor, nonzero) in &direct.divisors {
-        explain(format!("{} ≠ 0", text(divisor)), signed(nonzero), &mut lines);
-    }
-    for (bracket, value, decides) in &direct.brackets {
-        let decisive = match bracket.step() {
-            Step::Min(..) => "the second less the first",
-            _ => "its argument",
-        };
-        explain(
-            format!("{} = {} by the sign of {decisive}", text(bracket), text(value)),
-            signed(decides),
-            &mut lines,
-        );
-    }
-    match &direct.because {
-        Because::Same(value) => lines.push(format!("both sides are {value}")),
-        Because::Sign(sign) => lines.extend(signed(sign)),
-        Because::Derivative(value) => {
-            lines.push(format!("dual numbers differentiate it to {value}, which is the right side"))
-        }
-        Because::Limit { of, by, degrees, leading, to } => {
-            let (n, d) = degrees;
-            lines.push(format!("it is {of}"));
-            lines.push(format!(
-                "degrees {n} above and {d} below in {}, hence the limit is {to}, since below",
-                by.0
-            ));
-            lines.extend(leading.lines().into_iter().map(|line| format!("  {line}")));
-        }
-    }
-    lines
-}
-
 /// A fact and the reason for it, on one line if that is short.
 fn explain(fact: String, reason: Vec<String>, lines: &mut Vec<String>) {
     if let [reason] = reason.as_slice() {
@@ -195,22 +234,6 @@ fn explain(fact: String, reason: Vec<String>, lines: &mut Vec<String>) {
     } else {
         lines.push(format!("{fact}:"));
         lines.extend(reason.into_iter().map(|line| format!("  {line}")));
-    }
-}
-
-/// How a supposition is used, if that has to be said.
-fn supposed(supposed: &Supposed) -> Option<String> {
-    let Supposed { given, value, sign, used } = supposed;
-    let name = given.map_or("the case", Given::text);
-    match used {
-        Used::Symbol(_) => None,
-        Used::Follows => Some(format!("{name} follows")),
-        Used::Unused => Some(format!("{name} is not used")),
-        Used::Pivot(pivot, by, None) => Some(format!("by {name}: {pivot} = {by}")),
-        Used::Pivot(pivot, by, Some(slack)) => {
-            let sign = if *sign == Sign::Positive { "> 0" } else { "≥ 0" };
-            Some(format!("by {name}: {} = {value} {sign}, so {pivot} = {by}", slack.0))
-        }
     }
 }
 
@@ -223,9 +246,4 @@ fn signed(signed: &Signed) -> Vec<String> {
     }
     lines.extend(signed.num.lines());
     lines
-}
-
-/// A formula by the chapter's names.
-fn text(tree: &Tree) -> String {
-    tree.typeset(Notation::Text, &named)
 }

@@ -9,113 +9,23 @@
 //! All arithmetic is exact but for eˣ, which is a ball: what is refuted is false for certain.
 
 use super::algebra::is_bracket;
-use super::statement::{Hypothesis, Role, Says, Sequence, Statement};
-use crate::claims::{Case, Relation, Var};
+use crate::formula::claim::POWER;
+use crate::formula::statement::{Role, Says, Sequence, Statement};
+use crate::formula::{Hypothesis, Relation};
 use crate::number::tree::{Step, everything, piecewise, smooth};
-use crate::number::{Ball, Dual, Exact, Exponential, Field, PositivePart, Tree};
-use crate::operators;
+use crate::number::{Exact, Tree};
 use num_traits::{One, Zero};
-use oorandom::Rand64;
 use rug::{Float, Integer, Rational};
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 use std::fmt;
-use std::sync::{LazyLock, OnceLock};
+use std::sync::OnceLock;
 
-/// A number: exact, or enclosed if an eˣ went into it.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Value {
-    /// This rational number.
-    Exact(Exact),
-    /// A number in this ball.
-    Ball(Ball<f64>),
-}
+mod point;
+mod value;
 
-impl Value {
-    fn ball(&self) -> Ball<f64> {
-        match self {
-            // A number that f64 cannot hold is anywhere.
-            Value::Exact(x) => x.to_f64().map_or_else(|_| Ball::one() / Ball::zero(), |f| Ball::around(f, x)),
-            Value::Ball(ball) => ball.clone(),
-        }
-    }
-
-    /// Its sign, if that is certain.
-    pub fn sign(&self) -> Option<Ordering> {
-        match self {
-            Value::Exact(x) => Some(x.cmp(&Exact::zero())),
-            Value::Ball(ball) => Some(ball).filter(|ball| ball.is_finite()).and_then(Ball::sign),
-        }
-    }
-}
-
-impl fmt::Display for Value {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        match self {
-            Value::Exact(x) => x.fmt(f),
-            Value::Ball(ball) => write!(f, "{} ± {:.0e}", ball.value(), ball.radius()),
-        }
-    }
-}
-
-macro_rules! either {
-    ($a:expr, $b:expr, |$x:ident, $y:ident| $result:expr) => {
-        match ($a, $b) {
-            (Value::Exact($x), Value::Exact($y)) => Value::Exact($result),
-            (a, b) => {
-                let ($x, $y) = (&a.ball(), &b.ball());
-                Value::Ball($result)
-            }
-        }
-    };
-}
-
-operators! { [] Value;
-    Add add |a, b| either!(a, b, |x, y| x + y);
-    Sub sub |a, b| either!(a, b, |x, y| x - y);
-    Mul mul |a, b| either!(a, b, |x, y| x * y);
-    Div div |a, b| either!(a, b, |x, y| x / y);
-    - |a| match a {
-        Value::Exact(x) => Value::Exact(-x),
-        Value::Ball(ball) => Value::Ball(-ball),
-    }
-}
-impl Zero for Value {
-    fn zero() -> Self {
-        Value::Exact(Exact::zero())
-    }
-    fn is_zero(&self) -> bool {
-        self.sign() == Some(Ordering::Equal)
-    }
-}
-impl One for Value {
-    fn one() -> Self {
-        Value::Exact(Exact::one())
-    }
-}
-impl Field for Value {
-    fn int(n: i32) -> Self {
-        Value::Exact(Exact::int(n))
-    }
-    // By default, whatever is not certainly 0 is a unit: by a ball around 0 the quotient is a ball of infinite
-    // radius, which decides nothing. So what is undefined is undefined for certain.
-}
-impl Exponential for Value {
-    fn exp(&self) -> Self {
-        if self.is_zero() { Value::one() } else { Value::Ball(self.ball().exp()) }
-    }
-}
-impl PositivePart for Value {
-    fn positive_part(&self) -> Self {
-        match self {
-            Value::Exact(x) => Value::Exact(x.positive_part()),
-            Value::Ball(ball) => Value::Ball(ball.positive_part()),
-        }
-    }
-    fn min(&self, other: &Self) -> Self {
-        either!(self, other, |x, y| PositivePart::min(x, y))
-    }
-}
+pub use point::{Point, planted_points, raw_points};
+pub use value::Value;
 
 /// What a statement comes to at one point.
 #[derive(Clone, Debug, PartialEq)]
@@ -176,85 +86,52 @@ fn brief(value: &Value) -> String {
 /// A point at which a statement does not hold.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Counterexample {
-    /// The coordinates that occur in the statement.
-    pub values: Vec<(&'static str, Exact)>,
+    /// Numbers for the symbols that occur in the statement.
+    pub point: Point,
     /// Which part of the claim fails, if it has several.
     pub part: &'static str,
     /// And how.
     pub how: How,
 }
 
-impl Counterexample {
-    /// The point, with 1 for each coordinate that does not occur.
-    pub fn case(&self) -> Case<Exact> {
-        let mut case = Case::of(|_| Exact::one());
-        for (name, x) in &self.values {
-            if let Some(var) = coordinate(name) {
-                *case.get_mut(var) = x.clone();
-            }
-        }
-        case
-    }
-}
-
-/// The coordinates, then how it fails.
+/// The numbers, then how it fails.
 impl fmt::Display for Counterexample {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        for (i, (name, x)) in self.values.iter().enumerate() {
-            write!(f, "{}{name} = {x}", if i == 0 { "" } else { ", " })?;
-        }
-        write!(f, "{}{}", if self.values.is_empty() { "" } else { ": " }, self.how)
+        let colon = if self.point == Point::default() { "" } else { ": " };
+        write!(f, "{}{colon}{}", self.point, self.how)
     }
-}
-
-/// The coordinate of this name.
-fn coordinate(name: &str) -> Option<Var> {
-    Var::ALL.iter().copied().find(|var| var.symbol() == name)
-}
-
-fn at(case: &Case<Exact>, name: &str) -> Exact {
-    coordinate(name).map_or_else(Exact::one, |var| case.get(var).clone())
 }
 
 /// A formula at one point; `None` if it divides by 0 there.
-fn value(tree: &Tree, case: &Case<Exact>) -> Option<Value> {
-    tree.replay(&|name| Value::Exact(at(case, name)), &everything)
+fn value(tree: &Tree, point: &Point) -> Option<Value> {
+    tree.replay(&|name| Value::Exact(point.at(name)), &everything)
 }
 
 /// The statement at one point.
-pub fn check(statement: &Statement, case: &Case<Exact>) -> Verdict {
-    if statement.hypotheses.iter().all(|hypothesis| holds(hypothesis, case)) {
-        check_goals(statement, case)
-    } else {
-        Verdict::Excluded
-    }
-}
-
-fn holds(hypothesis: &Hypothesis, case: &Case<Exact>) -> bool {
-    let sign = value(&hypothesis.value, case).and_then(|value| value.sign());
-    sign.is_some_and(|sign| hypothesis.relation().admits(sign))
+pub fn check(statement: &Statement, point: &Point) -> Verdict {
+    if point.satisfies(&statement.hypotheses) { check_goals(statement, point) } else { Verdict::Excluded }
 }
 
 /// The same where the hypotheses are known to hold.
 ///
 /// An induction is about q = ρᵏ, and no step says anything of another q; its invariants are a means and not an end.
 /// And where |ρ| ≥ 1 a sequence has the limit all the same, if it has that value all along.
-fn check_goals(statement: &Statement, case: &Case<Exact>) -> Verdict {
+fn check_goals(statement: &Statement, point: &Point) -> Verdict {
     let powers = match &statement.amounts_to {
         Some(Sequence { ratio, limit: None, .. }) => {
-            let ratio = exact(ratio, case);
+            let ratio = exact(ratio, point);
             let next = |q: &Exact| Some(q * ratio.as_ref()?);
             std::iter::successors(Some(Exact::one()), next).take(STEPS).collect()
         }
-        Some(Sequence { limit: Some(_), .. }) | None => vec![case.q.clone()],
+        Some(Sequence { limit: Some(_), .. }) | None => vec![point.at(POWER)],
     };
     let mut open = false;
     for q in powers {
-        let case = Case { q, ..case.clone() };
+        let point = point.with(POWER, q);
         let goals = statement.goals.iter().filter(|goal| matches!(goal.role, Role::Claim | Role::Step));
         for goal in goals {
-            match fails(&goal.says, &case) {
-                Some(Some(How::Sign(..))) if is_constant(statement, &case) => {}
+            match fails(&goal.says, &point) {
+                Some(Some(How::Sign(..))) if is_constant(statement, &point) => {}
                 Some(Some(how)) => return Verdict::Fails(goal.part, how),
                 Some(None) => {}
                 None => open = true,
@@ -267,20 +144,20 @@ fn check_goals(statement: &Statement, case: &Case<Exact>) -> Verdict {
 /// As many steps of an induction are tried.
 const STEPS: usize = 4;
 
-fn exact(tree: &Tree, case: &Case<Exact>) -> Option<Exact> {
-    tree.replay(&|name| at(case, name), &piecewise)
+fn exact(tree: &Tree, point: &Point) -> Option<Exact> {
+    tree.replay(&|name| point.at(name), &piecewise)
 }
 
 /// Is each member of the sequence its limit?
-fn is_constant(statement: &Statement, case: &Case<Exact>) -> bool {
+fn is_constant(statement: &Statement, point: &Point) -> bool {
     let Some(Sequence { member, limit: Some(limit), .. }) = &statement.amounts_to else { return false };
-    let first = Case { q: Exact::one(), ..case.clone() };
-    member.iter().all(|member| exact(member, &first).is_some_and(|x| exact(limit, case) == Some(x)))
+    let first = point.with(POWER, Exact::one());
+    member.iter().all(|member| exact(member, &first).is_some_and(|x| exact(limit, point) == Some(x)))
 }
 
 /// How a goal fails, if it does; `None` if that cannot be decided.
-fn fails(says: &Says, case: &Case<Exact>) -> Option<Option<How>> {
-    let undefined = || says.trees().into_iter().find_map(|tree| vanishing(tree, case)).map(How::Undefined);
+fn fails(says: &Says, point: &Point) -> Option<Option<How>> {
+    let undefined = || says.trees().into_iter().find_map(|tree| vanishing(tree, point)).map(How::Undefined);
     let differ = |left: Option<Value>, right: Option<Value>| match (left, right) {
         (Some(left), Some(right)) => match (&left - &right).sign()? {
             Ordering::Equal => Some(None),
@@ -289,8 +166,8 @@ fn fails(says: &Says, case: &Case<Exact>) -> Option<Option<How>> {
         _ => undefined().map(Some),
     };
     match says {
-        Says::Equal(left, right) => differ(value(left, case), value(right, case)),
-        Says::Sign(relation, of) => match value(of, case) {
+        Says::Equal(left, right) => differ(value(left, point), value(right, point)),
+        Says::Sign(relation, of) => match value(of, point) {
             Some(value) => {
                 let admitted = relation.admits(value.sign()?);
                 Some((!admitted).then_some(How::Sign(*relation, value)))
@@ -300,18 +177,17 @@ fn fails(says: &Says, case: &Case<Exact>) -> Option<Option<How>> {
         // ⟨·⟩ and min have kinks; there dual numbers know of no derivative.
         Says::Derivative(of, ..) if of.any(&is_bracket) => None,
         Says::Derivative(of, by, is) => {
-            let dual = of.derivative(by.symbol(), &|name| Value::Exact(at(case, name)), &smooth);
-            differ(dual.map(|dual| dual.derivative), value(is, case))
+            let dual = of.derivative(by, &|name| Value::Exact(point.at(name)), &smooth);
+            differ(dual.map(|dual| dual.derivative), value(is, point))
         }
         // A quotient of polynomials behaves like a power of x beyond all its zeros and poles, and the coefficients
         // here are far too small for one at 2¹⁰⁰. A distance that tends to 0 falls like 1/x or faster, so by 2⁻¹⁰⁰ or
         // more between 2¹⁰⁰ and 2²⁰⁰; any other does not fall at all.
         Says::Limit(of, by, to) => {
-            let mut case = case.clone();
-            let mut distance = |n| {
-                *case.get_mut(*by) = Exact::power_of_two(n);
-                let distance = value(of, &case).zip(value(to, &case)).map(|(of, to)| of - to);
-                distance.ok_or_else(|| says.trees().into_iter().find_map(|tree| vanishing(tree, &case)))
+            let distance = |n| {
+                let point = point.with(by, Exact::power_of_two(n));
+                let distance = value(of, &point).zip(value(to, &point)).map(|(of, to)| of - to);
+                distance.ok_or_else(|| says.trees().into_iter().find_map(|tree| vanishing(tree, &point)))
             };
             match (distance(100), distance(200)) {
                 (Ok(near), Ok(far)) => {
@@ -326,87 +202,22 @@ fn fails(says: &Says, case: &Case<Exact>) -> Option<Option<How>> {
 }
 
 /// A divisor of the formula that is 0, its own divisors first.
-fn vanishing(tree: &Tree, case: &Case<Exact>) -> Option<Tree> {
-    tree.step().operands().find_map(|operand| vanishing(operand, case)).or_else(|| match tree.step() {
-        Step::Div(_, divisor) => value(divisor, case)?.is_zero().then(|| divisor.clone()),
+fn vanishing(tree: &Tree, point: &Point) -> Option<Tree> {
+    tree.step().operands().find_map(|operand| vanishing(operand, point)).or_else(|| match tree.step() {
+        Step::Div(_, divisor) => value(divisor, point)?.is_zero().then(|| divisor.clone()),
         _ => None,
     })
 }
 
-/// So many raw points are drawn; of these are so many tried first.
-const RAW: usize = 4000;
-const FIRST_RAW: usize = 200;
+/// So many raw points are tried first.
+const FIRST_RAW: u64 = 200;
 
-/// Whole numbers this small and smaller: in one of seven draws two of them cancel. And in every fourth point up to
-/// the other, for hypotheses such as α > 2(c + ε).
-const SMALL: u64 = 3;
-const LARGER: u64 = 9;
-
-/// So many planted points; and of these first.
-const PLANTED: u64 = 60;
-const FIRST_PLANTED: u64 = 4;
-
-/// Small integers, the same for all statements.
-static RAW_POINTS: LazyLock<Vec<Case<Exact>>> = LazyLock::new(|| {
-    let mut random = Rand64::new(1);
-    let mut draw = |size| Exact::from(random.rand_range(0..2 * size + 1) as i32 - size as i32);
-    (0..RAW).map(|i| Case::of(|_| draw(if i % 4 == 3 { LARGER } else { SMALL }))).collect()
-});
-
-/// The raw points at which hypotheses hold.
-pub fn raw_points(hypotheses: &[Hypothesis]) -> impl Iterator<Item = &'static Case<Exact>> {
-    RAW_POINTS.iter().filter(|case| hypotheses.iter().all(|hypothesis| holds(hypothesis, case)))
-}
-
-/// Planted points at which hypotheses hold; not for ever.
-pub fn planted_points(hypotheses: &[Hypothesis]) -> impl Iterator<Item = Case<Exact>> {
-    (0..PLANTED).filter_map(move |i| {
-        let mut random = Rand64::new(u128::from(i) + 2);
-        // One to nine, over one to three, of either sign.
-        let mut size = || Rational::from((random.rand_range(1..10), random.rand_range(1..4)));
-        let (mut case, target) = (Case::of(|_| Exact::from(size())), Exact::from(size()));
-        for var in Var::ALL {
-            if random.rand_range(0..3) == 0 {
-                let x = -case.get(*var);
-                *case.get_mut(*var) = x;
-            }
-        }
-        // A quantity that may be 0 should be so sometimes.
-        let target = |relation| match relation {
-            Relation::Positive => target.clone(),
-            Relation::NonNegative if i % 3 > 0 => target.clone(),
-            Relation::NonNegative | Relation::Zero => Exact::zero(),
-        };
-        plant(hypotheses, &mut case, &target).then_some(case)
-    })
-}
-
-/// The value of a formula without ⟨·⟩, min and e^…, and how it changes with a coordinate.
-fn slope(of: &Tree, case: &Case<Exact>, by: Var) -> Option<Dual<Exact>> {
-    of.derivative(by.symbol(), &|name| at(case, name), &|_| None)
-}
-
-/// Bends a point until the hypotheses hold. A quantity that lacks its sign gets the value `target`: the hypothesis
-/// is linear in the coordinate that it is solved for.
-fn plant(hypotheses: &[Hypothesis], case: &mut Case<Exact>, target: &impl Fn(Relation) -> Exact) -> bool {
-    for hypothesis in hypotheses {
-        let by = hypothesis.given.solved_for();
-        let Some(Dual { value, derivative }) = slope(&hypothesis.value, case, by) else { return false };
-        if hypothesis.relation().admits(value.cmp(&Exact::zero())) {
-            continue;
-        }
-        if derivative.is_zero() {
-            return false;
-        }
-        let x = case.get(by) + (target(hypothesis.relation()) - value) / derivative;
-        *case.get_mut(by) = x;
-    }
-    hypotheses.iter().all(|hypothesis| holds(hypothesis, case))
-}
+/// And of the planted ones.
+const FIRST_PLANTED: usize = 4;
 
 /// A counterexample where a divisor is 0, by bending a point to that: divisors mostly are linear in some
 /// coordinate.
-fn divided_by_zero(statement: &Statement, case: &Case<Exact>) -> Option<Counterexample> {
+fn divided_by_zero(statement: &Statement, point: &Point) -> Option<Counterexample> {
     let mut divisors: Vec<&Tree> = Vec::new();
     for tree in statement.goals.iter().flat_map(|goal| goal.says.trees()) {
         tree.visit(&mut |tree| {
@@ -417,67 +228,78 @@ fn divided_by_zero(statement: &Statement, case: &Case<Exact>) -> Option<Countere
             }
         });
     }
-    let vars = |divisor: &Tree| divisor.symbols().into_iter().filter_map(coordinate);
-    let pairs = divisors.into_iter().flat_map(|divisor| vars(divisor).map(move |var| (divisor, var)));
+    let pairs =
+        divisors.into_iter().flat_map(|divisor| divisor.symbols().into_iter().map(move |by| (divisor, by)));
     pairs.into_iter().find_map(|(divisor, by)| {
-        let Dual { value, derivative } =
-            slope(divisor, case, by).filter(|dual| !dual.derivative.is_zero())?;
-        let mut case = case.clone();
-        *case.get_mut(by) = case.get(by) - value / derivative;
-        statement.hypotheses.iter().all(|h| holds(h, &case)).then(|| found(statement, &case))?
+        let point = bent_to_zero(divisor, by, point)?;
+        point.satisfies(&statement.hypotheses).then(|| found(statement, &point))?
     })
+}
+
+/// The point with another number for one symbol, so that a divisor is 0.
+fn bent_to_zero(divisor: &Tree, by: &'static str, point: &Point) -> Option<Point> {
+    let x = divisor.solution(by, &|symbol| point.at(symbol), &Exact::from(0))?;
+    Some(point.with(by, x))
 }
 
 /// The points at which some hypotheses hold, found once.
 pub(super) struct Points {
-    planted: Vec<Case<Exact>>,
-    raw: Vec<&'static Case<Exact>>,
-    more: OnceLock<More>,
+    hypotheses: Vec<Hypothesis>,
+    symbols: Vec<&'static str>,
+    /// Raw points, then planted ones: the first that are tried.
+    first: [Vec<Point>; 2],
+    all: OnceLock<[Vec<Point>; 2]>,
 }
 
-/// Many points: planted ones, and raw ones.
-type More = (Vec<Case<Exact>>, Vec<&'static Case<Exact>>);
-
 impl Points {
-    pub(super) fn of(hypotheses: &[Hypothesis]) -> Self {
-        let raw = RAW_POINTS[..FIRST_RAW].iter();
-        Points {
-            planted: planted_points(hypotheses).take(FIRST_PLANTED as usize).collect(),
-            raw: raw.filter(|case| hypotheses.iter().all(|hypothesis| holds(hypothesis, case))).collect(),
-            more: OnceLock::new(),
-        }
+    pub(super) fn of(hypotheses: Vec<Hypothesis>, symbols: Vec<&'static str>) -> Self {
+        let raw = point::first_raw_points(FIRST_RAW, &hypotheses, &symbols).collect();
+        let planted = planted_points(&hypotheses, &symbols).take(FIRST_PLANTED).collect();
+        Points { hypotheses, symbols, first: [raw, planted], all: OnceLock::new() }
     }
 
     /// A counterexample at one of the first points.
     pub(super) fn quickly(&self, statement: &Statement) -> Option<Counterexample> {
-        let raw = self.raw.iter().copied().take(8);
-        raw.chain(&self.planted).find_map(|case| found(statement, case))
+        let [raw, planted] = &self.first;
+        raw.iter().take(8).chain(planted).find_map(|point| found(statement, point))
     }
 
     /// A counterexample at one of the others.
     pub(super) fn thoroughly(&self, statement: &Statement) -> Option<Counterexample> {
-        let some = self.raw.iter().skip(8).find_map(|case| found(statement, case));
-        some.or_else(|| self.planted.iter().find_map(|case| divided_by_zero(statement, case))).or_else(|| {
-            let hypotheses = &statement.hypotheses;
-            let (planted, raw) = self
-                .more
-                .get_or_init(|| (planted_points(hypotheses).collect(), raw_points(hypotheses).collect()));
-            raw.iter().copied().chain(planted).find_map(|case| found(statement, case))
+        let [raw, planted] = &self.first;
+        let some = raw.iter().skip(8).find_map(|point| found(statement, point));
+        let divided = || planted.iter().find_map(|point| divided_by_zero(statement, point));
+        some.or_else(divided).or_else(|| {
+            let all = || {
+                let raw = raw_points(&self.hypotheses, &self.symbols).collect();
+                [raw, planted_points(&self.hypotheses, &self.symbols).collect()]
+            };
+            self.all.get_or_init(all).iter().flatten().find_map(|point| found(statement, point))
         })
     }
 }
 
 /// The counterexample at a point at which the hypotheses hold, made small.
-fn found(statement: &Statement, case: &Case<Exact>) -> Option<Counterexample> {
-    match check_goals(statement, case) {
-        Verdict::Fails(part, how) => Some(smaller(statement, case, part, how)),
+fn found(statement: &Statement, point: &Point) -> Option<Counterexample> {
+    match check_goals(statement, point) {
+        Verdict::Fails(part, how) => Some(smaller(statement, point, part, how)),
         Verdict::Excluded | Verdict::Holds | Verdict::Open => None,
     }
 }
 
 /// Searches for a counterexample. That there is none among the points that are tried is no proof.
 pub fn refute(statement: &Statement) -> Option<Counterexample> {
-    let points = Points::of(&statement.hypotheses);
+    let mut symbols = Vec::new();
+    for tree in statement.trees() {
+        tree.visit(&mut |tree| {
+            if let Step::Symbol(name) = tree.step()
+                && !symbols.contains(name)
+            {
+                symbols.push(*name);
+            }
+        });
+    }
+    let points = Points::of(statement.hypotheses.clone(), symbols);
     points.quickly(statement).or_else(|| points.thoroughly(statement))
 }
 
@@ -504,140 +326,129 @@ fn simpler(x: &Exact) -> Vec<Exact> {
     simple.chain([half, whole]).collect()
 }
 
-/// Points beside one whose coordinate was changed, at which a divisor is 0 again, by another coordinate.
-fn divisor_again_zero(divisor: &Tree, changed: Var, case: &Case<Exact>) -> Vec<Case<Exact>> {
-    let others = divisor.symbols().into_iter().filter_map(coordinate).filter(|var| *var != changed);
-    let bend = |by: Var| {
-        let Dual { value, derivative } =
-            slope(divisor, case, by).filter(|dual| !dual.derivative.is_zero())?;
-        let mut case = case.clone();
-        *case.get_mut(by) = case.get(by) - value / derivative;
-        Some(case)
-    };
-    others.filter_map(bend).collect()
-}
-
-/// Tries simpler values for one coordinate after the other, as long as it stays a counterexample.
-fn smaller(statement: &Statement, case: &Case<Exact>, part: &'static str, how: How) -> Counterexample {
-    let names: BTreeSet<_> = statement.trees().flat_map(Tree::symbols).collect();
-    let vars: Vec<_> = Var::ALL.iter().copied().filter(|var| names.contains(var.symbol())).collect();
-    let size = |case: &Case<Exact>| vars.iter().map(|var| complexity(case.get(*var))).sum::<u64>();
-    let mut best = (case.clone(), size(case), part, how);
-    // The same with this coordinate, where another one may have to follow.
-    let with = |best: &(Case<Exact>, u64, &'static str, How), var: Var, x: Exact| {
-        let mut case = best.0.clone();
-        *case.get_mut(var) = x;
-        let followed = match &best.3 {
-            How::Undefined(divisor) => divisor_again_zero(divisor, var, &case),
-            _ => Vec::new(),
+/// Tries simpler numbers for one symbol after the other, as long as it stays a counterexample.
+fn smaller(statement: &Statement, point: &Point, part: &'static str, how: How) -> Counterexample {
+    let symbols: BTreeSet<_> = statement.trees().flat_map(Tree::symbols).collect();
+    let size = |point: &Point| point.numbers().map(|(_, x)| complexity(x)).sum::<u64>();
+    let mut best = Counterexample { point: point.among(&symbols), part, how };
+    // The same with another number, where a further one may have to follow.
+    let with = |best: &Counterexample, symbol: &'static str, x: Exact| {
+        let point = best.point.with(symbol, x);
+        let followed = match &best.how {
+            How::Undefined(divisor) => {
+                let others = divisor.symbols().into_iter().filter(|other| *other != symbol);
+                others.filter_map(|other| bent_to_zero(divisor, other, &point)).collect()
+            }
+            How::Different(..) | How::Sign(..) | How::Far(_) => Vec::new(),
         };
-        let one = |relation| if relation == Relation::Positive { Exact::one() } else { Exact::zero() };
-        let planted = plant(&statement.hypotheses, &mut case, &one).then_some(case);
-        let followed =
-            followed.into_iter().filter(|case| statement.hypotheses.iter().all(|h| holds(h, case)));
-        planted.into_iter().chain(followed).find_map(|case| {
-            let size = size(&case);
-            let Verdict::Fails(part, how) = (size < best.1).then(|| check_goals(statement, &case))? else {
+        let followed = followed.into_iter().filter(|point| point.satisfies(&statement.hypotheses));
+        let one = |relation| Exact::from(i32::from(relation == Relation::Positive));
+        let bent = point.bent(&statement.hypotheses, &one);
+        bent.into_iter().chain(followed).find_map(|point| {
+            let smaller = size(&point) < size(&best.point);
+            let Verdict::Fails(part, how) = smaller.then(|| check_goals(statement, &point))? else {
                 return None;
             };
             // What is defined stays so: that two numbers differ shows more than that there are none.
-            let shows = !matches!(how, How::Undefined(_)) || matches!(best.3, How::Undefined(_));
-            shows.then_some((case, size, part, how))
+            let shows = !matches!(how, How::Undefined(_)) || matches!(best.how, How::Undefined(_));
+            shows.then_some(Counterexample { point, part, how })
         })
     };
     let mut improves = true;
     while improves {
         improves = false;
-        for var in &vars {
-            let better = simpler(best.0.get(*var)).into_iter().find_map(|x| with(&best, *var, x));
+        for symbol in &symbols {
+            let better = simpler(&best.point.at(symbol)).into_iter().find_map(|x| with(&best, symbol, x));
             if let Some(better) = better {
                 best = better;
                 improves = true;
             }
         }
     }
-    let (case, _, part, how) = best;
-    Counterexample {
-        values: vars.iter().map(|var| (var.symbol(), case.get(*var).clone())).collect(),
-        part,
-        how,
-    }
+    best
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::proof::statement::{Goal, statements};
+    use crate::formula::claim::{equal, limit, non_negative, positive};
+    use crate::formula::statement::Goal;
+    use crate::formula::{Claim, Rate};
+    use crate::number::{Exponential, PositivePart};
 
-    fn statement(equation: &str, name: &str) -> Statement {
-        statements().into_iter().find(|s| (s.equation, s.name) == (equation, name)).unwrap()
+    fn x(name: &'static str) -> Tree {
+        Tree::symbol(name)
     }
 
-    fn case(values: &[(&'static str, i32)]) -> Case<Exact> {
-        let values = values.iter().map(|(name, n)| (*name, Exact::from(*n))).collect();
-        Counterexample { values, part: "", how: How::Far(Value::zero()) }.case()
+    fn above_zero(name: &'static str) -> Hypothesis {
+        Hypothesis::new(Relation::Positive, x(name))
     }
 
-    #[test]
-    fn numbers_stay_exact_until_there_is_an_exponential() {
-        assert_eq!(Value::zero().exp(), Value::one());
-        let e = Value::one().exp();
-        assert_eq!((&e - Value::int(2)).sign(), Some(Ordering::Greater));
-        // Rounding leaves this open, and so is everything after a division by it.
-        let nothing = &e * (-Value::one()).exp() - Value::one();
-        assert_eq!(nothing.sign(), None);
-        assert_eq!((Value::one() / nothing).sign(), None);
-        assert!((&e * Value::zero()).is_zero());
-        assert_eq!(Value::int(10_000).exp().sign(), None);
+    fn point(numbers: &[(&'static str, i32)]) -> Point {
+        Point::new(numbers.iter().map(|(name, n)| (*name, Exact::from(*n))))
+    }
+
+    /// c u + ε u − R = 0 at u = R/(c + ε)
+    fn root() -> Statement {
+        let u = x("R") / (x("c") + x("ε"));
+        let residual = x("c") * &u + x("ε") * &u - x("R");
+        Statement::of(&equal("root", [&above_zero("c"), &above_zero("ε")], residual, 0))
+    }
+
+    /// R/(c + ε) → 0
+    fn vanishes() -> Statement {
+        let [stiff, penalty] = ["c", "ε"].map(above_zero);
+        let p = x("R") / (x("c") + x("ε"));
+        Statement::of(&limit("vanishes", [&stiff, &penalty], &p, &x("ε"), 0, Rate::Exactly(p.clone())))
     }
 
     #[test]
     fn a_divisor_that_is_zero_is_named() {
-        let root = statement("1.11", "root");
-        let point = case(&[("c", -1), ("ε", 1)]);
-        assert_eq!(check(&root, &point), Verdict::Excluded);
-        assert_eq!(check(&root, &case(&[("c", 3)])), Verdict::Holds);
-        let Verdict::Fails(_, how) = check(&root.without(0), &point) else { panic!() };
+        let root = root();
+        let opposite = point(&[("c", -1), ("ε", 1)]);
+        assert_eq!(check(&root, &opposite), Verdict::Excluded);
+        assert_eq!(check(&root, &point(&[("c", 3)])), Verdict::Holds);
+        let Verdict::Fails(_, how) = check(&root.without(0), &opposite) else { panic!() };
         assert_eq!(how.to_string(), "undefined: c + ε = 0 is a divisor");
     }
 
     #[test]
     fn a_limit_is_looked_at_far_out() {
-        let limit = statement("1.13", "limit");
-        let point = case(&[("H", 2)]);
+        let limit = vanishes();
+        let point = point(&[("R", 2)]);
         assert_eq!(check(&limit, &point), Verdict::Holds);
         let [Goal { says: Says::Limit(of, by, to), .. }, ..] = &limit.goals[..] else { panic!() };
-        let wrong = Goal::of_claim("limit", Says::Limit(of.clone(), *by, to + Tree::int(1)));
+        let wrong = Goal::of_claim("limit", Says::Limit(of.clone(), by, to + Tree::from(1)));
         let wrong = Statement { goals: vec![wrong], ..limit.clone() };
         assert!(matches!(check(&wrong, &point), Verdict::Fails("limit", How::Far(_))));
     }
 
     #[test]
     fn what_is_true_is_not_refuted() {
-        for (equation, name) in
-            [("1.13", "limit"), ("1.21", "eliminated"), ("1.31", "limit"), ("note 4", "contracts")]
-        {
-            assert_eq!(refute(&statement(equation, name)), None);
+        let bracket = x("u").positive_part();
+        let true_claims: [Claim; 3] = [
+            non_negative("square", [], x("u") * x("u")),
+            equal("parts", [], &bracket - (-x("u")).positive_part(), x("u")),
+            positive("tangent", [&above_zero("u")], x("u").exp() - x("u") - Tree::from(1)),
+        ];
+        for claim in &true_claims {
+            assert_eq!(refute(&Statement::of(claim)), None, "{}", claim.name);
         }
+        assert_eq!((refute(&root()), refute(&vanishes())), (None, None));
     }
 
     /// Where c + ε = 0, and where a sign is wrong however large the numbers are.
     #[test]
     fn a_counterexample_is_made_small() {
         let long: Exact = "123456789012345678901234567890/987654321098765432109876543210987".parse().unwrap();
-        let mut point = Case::of(|_| long.clone());
-        point.system.c = -&long;
-        let found_at = |statement: &Statement| found(statement, &point).expect("a counterexample");
-        let undefined = found_at(&statement("1.11", "root").without(0));
-        assert_eq!(
-            undefined.to_string(),
-            "c = -1, m = 1, g = 1, l = 1, H = 1, ε = 1: undefined: c + ε = 0 is a divisor"
-        );
-        let minimum = found_at(&statement("1.4", "minimum").without(0));
-        assert!(
-            minimum.values.iter().all(|(_, x)| SIMPLE.iter().any(|n| Exact::from(*n) == *x)),
-            "{minimum}"
-        );
+        let names = ["c", "ε", "R"];
+        let start = Point::new(names.map(|name| (name, if name == "c" { -&long } else { long.clone() })));
+        let found_at = |statement: &Statement| found(statement, &start).expect("a counterexample");
+        let undefined = found_at(&root().without(0));
+        assert_eq!(undefined.to_string(), "c = -1, ε = 1, R = 1: undefined: c + ε = 0 is a divisor");
+        let wrong = found_at(&Statement::of(&positive("wrong", [], x("c") * x("R") * x("R"))));
+        let simple = |x: &Exact| SIMPLE.iter().any(|n| Exact::from(*n) == *x);
+        assert!(wrong.point.numbers().all(|(_, x)| simple(x)), "{wrong}");
     }
 
     /// As text: what happens far out is said in a few digits, and what differs late in all.
@@ -653,9 +464,10 @@ mod tests {
 
     #[test]
     fn a_divisor_is_bent_to_zero() {
-        // No integers do that here.
-        let divided = statement("note 3", "not-sufficient").without(0);
-        let counterexample = refute(&divided).unwrap();
+        // No integers do that here: 7 c + 2 is 0 at −2/7 alone.
+        let divisor = Tree::from(7) * x("c") + Tree::from(2);
+        let counterexample = refute(&Statement::of(&equal("one", [], &divisor / &divisor, 1))).unwrap();
         assert!(matches!(counterexample.how, How::Undefined(_)), "{counterexample}");
+        assert_eq!(counterexample.point.at("c"), "-2/7".parse().unwrap());
     }
 }

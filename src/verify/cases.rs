@@ -3,8 +3,9 @@
 //! A number is drawn as an integer mantissa and an integer exponent, so that a seed means the same on
 //! every machine.
 
-use crate::claims::{Case, Given, Relation, Var};
-use crate::number::{Dual, Exact, OrderedField};
+use crate::claims::{Case, Var, given};
+use crate::formula::{Hypothesis, Relation};
+use crate::number::{Exact, OrderedField};
 use num_traits::Zero;
 use oorandom::Rand64;
 
@@ -174,24 +175,24 @@ impl Draw {
         }
         if self.profile == Profile::Grazing {
             let reaction = self.next_to_grazing(&case);
-            let _ = plant(&mut case, Given::Grazing, &reaction);
+            let _ = plant(&mut case, &given().grazing, &reaction);
         }
         case
     }
 }
 
 /// Case number `index` of a seed, with the hypotheses; `None` if it cannot be bent to them.
-pub(super) fn case(seed: u64, index: u64, given: &[Given]) -> Option<Case<Exact>> {
+pub(super) fn case(seed: u64, index: u64, given: &[Hypothesis]) -> Option<Case<Exact>> {
     let profile = PROFILES[(index % PROFILES.len() as u64) as usize];
     let random = Rand64::new((u128::from(seed) << 64) | u128::from(index));
     let mut draw = Draw { random, profile, small: Small::Products };
     let mut case = draw.raw();
     for hypothesis in given {
-        let value = hypothesis.value(&case);
-        if holds(*hypothesis, &case) {
+        if hypothesis.holds(&|symbol| case.named(symbol)) {
             continue;
         }
-        let target = match hypothesis.relation() {
+        let value = value(hypothesis, &case)?;
+        let target = match hypothesis.relation {
             Relation::Zero => Exact::zero(),
             Relation::NonNegative if draw.below(4) == 0 => Exact::zero(),
             _ if value.is_zero() => match draw.next_to_grazing(&case).abs() {
@@ -200,24 +201,20 @@ pub(super) fn case(seed: u64, index: u64, given: &[Given]) -> Option<Case<Exact>
             },
             _ => value.abs(),
         };
-        plant(&mut case, *hypothesis, &target)?;
+        plant(&mut case, hypothesis, &target)?;
     }
-    given.iter().all(|hypothesis| holds(*hypothesis, &case)).then_some(case)
+    let holds = |hypothesis: &Hypothesis| hypothesis.holds(&|symbol| case.named(symbol));
+    given.iter().all(holds).then_some(case)
 }
 
-fn holds(hypothesis: Given, case: &Case<Exact>) -> bool {
-    hypothesis.relation().admits(hypothesis.value(case).cmp(&Exact::zero()))
+fn value(hypothesis: &Hypothesis, case: &Case<Exact>) -> Option<Exact> {
+    hypothesis.value.replay(&|symbol| case.named(symbol), &|_| None)
 }
 
 /// Chooses the coordinate that a hypothesis is solved for so that its quantity has this value.
-fn plant(case: &mut Case<Exact>, hypothesis: Given, target: &Exact) -> Option<()> {
-    let by = hypothesis.solved_for();
-    let Dual { value, derivative } = hypothesis.value(&case.along(by));
-    if derivative.is_zero() {
-        return None;
-    }
-    let x = case.get(by) + (target - value) / derivative;
-    *case.get_mut(by) = x;
+fn plant(case: &mut Case<Exact>, hypothesis: &Hypothesis, target: &Exact) -> Option<()> {
+    let x = hypothesis.solution(&|symbol| case.named(symbol), target)?;
+    *case.get_mut(Var::named(hypothesis.solved_for)?) = x;
     Some(())
 }
 
@@ -225,57 +222,51 @@ fn plant(case: &mut Case<Exact>, hypothesis: Given, target: &Exact) -> Option<()
 mod tests {
     use super::*;
     use crate::chapter::SpringMass;
-    use crate::claims::{claims, exact_experiments, first_order_experiments, float_experiments};
+    use crate::claims::{Given, claims, exact_experiments, first_order_experiments, float_experiments};
     use crate::number::{Real, ToExact};
     use std::cmp::Ordering;
-    use std::collections::{BTreeSet, HashSet};
+    use std::collections::{BTreeMap, BTreeSet, HashSet};
 
     /// As many as are drawn by default.
     const CASES: u64 = 1000;
 
     /// All hypotheses under which something is claimed.
-    fn groups() -> BTreeSet<Vec<&'static str>> {
-        let texts = |given: &[Given]| given.iter().map(|given| given.text()).collect();
-        let claims = claims().iter().map(|claim| claim.given);
+    fn groups() -> BTreeMap<String, Vec<Hypothesis>> {
+        let claims = claims().map(|claim| claim.given.clone());
         let floats = float_experiments::<f64>().into_iter().chain(first_order_experiments());
         let rationals = exact_experiments().into_iter().map(|experiment| experiment.given);
         let experiments = floats.map(|experiment| experiment.given).chain(rationals);
-        claims.chain(experiments).map(texts).collect()
+        let text = |given: &[Hypothesis]| given.iter().map(|h| format!("{h}, ")).collect();
+        claims.chain(experiments).map(|given| (text(&given), given)).collect()
     }
 
-    fn named(texts: &[&str]) -> Vec<Given> {
-        let named = |text: &&str| *Given::ALL.iter().find(|given| given.text() == *text).unwrap();
-        texts.iter().map(named).collect()
-    }
-
-    fn drawn(given: &[Given]) -> impl Iterator<Item = Case<Exact>> {
+    fn drawn(given: &[Hypothesis]) -> impl Iterator<Item = Case<Exact>> {
         (0..CASES).filter_map(move |index| case(1, index, given))
     }
 
     /// Sixteen coordinates leave nothing to chance: of the integers from 1 to 9 alone there are 9¹⁶ cases.
     #[test]
     fn no_case_is_drawn_twice() {
-        for group in groups() {
+        for (group, given) in groups() {
             let mut seen = HashSet::new();
-            for case in drawn(&named(&group)) {
+            for case in drawn(&given) {
                 let coordinates: Vec<_> =
                     Var::ALL.iter().map(|var| case.get(*var).as_rational().clone()).collect();
-                assert!(seen.insert(coordinates), "{group:?}: {case:?}");
+                assert!(seen.insert(coordinates), "{group}: {case:?}");
             }
         }
     }
 
     #[test]
     fn cases_reach_all_that_hypotheses_allow_and_no_more() {
-        for group in groups() {
-            let given = named(&group);
+        for (group, given) in groups() {
             let cases: Vec<_> = drawn(&given).collect();
-            for hypothesis in given {
-                let signs: BTreeSet<_> =
-                    cases.iter().map(|case| hypothesis.value(case).cmp(&Exact::zero())).collect();
+            for hypothesis in &given {
+                let sign = |case| value(hypothesis, case).unwrap().cmp(&Exact::zero());
+                let signs: BTreeSet<_> = cases.iter().map(sign).collect();
                 let all = [Ordering::Less, Ordering::Equal, Ordering::Greater];
-                let allowed = all.into_iter().filter(|sign| hypothesis.relation().admits(*sign)).collect();
-                assert_eq!(signs, allowed, "{group:?}: {}", hypothesis.text());
+                let allowed = all.into_iter().filter(|sign| hypothesis.relation.admits(*sign)).collect();
+                assert_eq!(signs, allowed, "{group}: {hypothesis}");
             }
         }
     }
@@ -287,7 +278,7 @@ mod tests {
         let normal = T::underflow_unit().to_exact().unwrap() / (Exact::from(2) * eta);
         let subnormal = |x: &Exact| !x.is_zero() && x.abs() < normal;
         let mut found = [0; 7];
-        for case in drawn(&[Given::Stiffness, Given::Penalty]) {
+        for case in drawn(&[given().stiffness.clone(), given().penalty.clone()]) {
             let Ok(read) =
                 Case::try_of(|var| like.nearest(case.get(var)).map_err(drop)?.to_exact().map_err(drop))
             else {
@@ -311,23 +302,35 @@ mod tests {
 
     #[test]
     fn nearly_every_case_can_be_bent_to_every_hypothesis() {
-        for given in Given::ALL {
-            let needs = match given {
-                Given::Enough => &[Given::Tolerance][..],
-                Given::NextEquilibrium => &[Given::Stiffness, Given::Penalty, Given::Equilibrium],
-                Given::WithinTolerance => &[Given::Stiffness, Given::Penalty],
-                Given::Active | Given::Idle => &[Given::Stiffness],
-                _ => &[],
+        let Given {
+            stiffness,
+            penalty,
+            tolerance,
+            enough,
+            in_equilibrium,
+            next_in_equilibrium,
+            within_tolerance,
+            active,
+            idle,
+            ..
+        } = given();
+        for hypothesis in given().all() {
+            let needs = match hypothesis {
+                h if h == enough => vec![tolerance],
+                h if h == next_in_equilibrium => vec![stiffness, penalty, in_equilibrium],
+                h if h == within_tolerance => vec![stiffness, penalty],
+                h if h == active || h == idle => vec![stiffness],
+                _ => vec![],
             };
-            let given: Vec<_> = needs.iter().chain([given]).copied().collect();
+            let given: Vec<_> = needs.into_iter().chain([hypothesis]).cloned().collect();
             let planted = (0..1000).filter(|i| case(1, *i, &given).is_some()).count();
-            assert!(planted > 950, "{given:?}: {planted} of 1000");
+            assert!(planted > 950, "{hypothesis}: {planted} of 1000");
         }
     }
 
     #[test]
     fn a_seed_draws_its_own_cases_and_always_the_same() {
-        let draw = |seed| (0..20).map(|i| case(seed, i, &[Given::Stiffness])).collect::<Vec<_>>();
+        let draw = |seed| (0..20).map(|i| case(seed, i, &[given().stiffness.clone()])).collect::<Vec<_>>();
         assert_eq!(draw(1), draw(1));
         assert_ne!(draw(1), draw(2));
     }
@@ -337,8 +340,8 @@ mod tests {
         let grazing = PROFILES.iter().position(|p| *p == Profile::Grazing).unwrap() as u64;
         let mut signs = std::collections::BTreeSet::new();
         for i in 0..100 {
-            let case = case(1, grazing + i * PROFILES.len() as u64, &[Given::Stiffness]).unwrap();
-            signs.insert(Given::Contact.value(&case).cmp(&Exact::zero()));
+            let case = case(1, grazing + i * PROFILES.len() as u64, &[given().stiffness.clone()]).unwrap();
+            signs.insert(value(&given().contact, &case).unwrap().cmp(&Exact::zero()));
         }
         assert_eq!(signs.len(), 3);
     }

@@ -3,9 +3,8 @@
 use super::goals::{Asked, Group, groups};
 use super::guard::guarded;
 use super::{Row, Status};
-use crate::claims::{
-    Case, Claim, Experiment, Given, Trial, exact_experiments, first_order_experiments, float_experiments,
-};
+use crate::claims::{Case, Experiment, Trial, exact_experiments, first_order_experiments, float_experiments};
+use crate::formula::{Claim, Hypothesis};
 use crate::number::tree::{Step, everything, piecewise};
 use crate::number::{Ball, Exact, Mpfr, NumberSystem, PositivePart, RangeError, Real, ToExact};
 use crate::solver::Scalar;
@@ -18,7 +17,7 @@ pub(super) struct Head {
     pub(super) equation: &'static str,
     claim: &'static str,
     kind: &'static str,
-    pub(super) given: &'static [Given],
+    pub(super) given: Vec<Hypothesis>,
 }
 
 /// What came of a claim's trials.
@@ -218,7 +217,7 @@ pub(super) trait Checks: Sync {
     /// Tries those with these hypotheses; each tally comes with its place among the heads.
     fn check(
         &self,
-        given: &[Given],
+        given: &[Hypothesis],
         wanted: &dyn Fn(&str) -> bool,
         cases: &[Option<Case<Exact>>],
     ) -> Vec<(usize, Tally)>;
@@ -248,20 +247,24 @@ impl<J: Judge> Checker<J> {
 
 impl<J: Judge> Checks for Checker<J> {
     fn heads(&self) -> Vec<Head> {
-        let claim =
-            |c: &Claim| Head { equation: c.equation, claim: c.name, kind: c.kind.name(), given: c.given };
+        let claim = |c: &Claim| Head {
+            equation: c.equation,
+            claim: c.name,
+            kind: c.kind.name(),
+            given: c.given.clone(),
+        };
         let experiment = |e: &Experiment<J::Computed>| Head {
             equation: e.equation,
             claim: e.name,
             kind: "experiment",
-            given: e.given,
+            given: e.given.clone(),
         };
         self.claims.iter().map(claim).chain(self.experiments.iter().map(experiment)).collect()
     }
 
     fn check(
         &self,
-        given: &[Given],
+        given: &[Hypothesis],
         wanted: &dyn Fn(&str) -> bool,
         cases: &[Option<Case<Exact>>],
     ) -> Vec<(usize, Tally)> {
@@ -355,7 +358,7 @@ fn of_trial<'a>(trial: Trial) -> Verdict<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::claims::Relation;
+    use crate::formula::Relation;
     use crate::number::Field;
 
     /// What is made of some numbers, some of them perhaps undefined.
@@ -434,7 +437,7 @@ mod tests {
     #[test]
     fn one_case_that_fails_decides_and_without_a_decided_case_nothing_is() {
         let row = |tally: Tally| {
-            tally.into_row(Head { equation: "1.1", claim: "claim", kind: "equal", given: &[] }, None)
+            tally.into_row(Head { equation: "1.1", claim: "claim", kind: "equal", given: vec![] }, None)
         };
         let held = Tally { decided: 1, undecided: 5, ..Tally::default() };
         let failure = super::super::cases::case(1, 0, &[]).map(|case| (case, Some("why".to_string())));

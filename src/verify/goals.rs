@@ -1,10 +1,10 @@
 //! What a claim comes to in numbers, compiled.
 
-use crate::claims::{Claim, Given, Kind, MEMBERS, Relation, Var};
+use crate::formula::claim::{MEMBERS, POWER};
+use crate::formula::statement::{Says, Statement};
+use crate::formula::{Claim, Hypothesis, Kind, Program, Relation};
 use crate::number::Tree;
-use crate::number::tree::{Program, smooth};
-use crate::proof::Statement;
-use crate::proof::statement::Says;
+use crate::number::tree::smooth;
 use num_traits::One;
 
 /// What is asked of the values of a [`Program`].
@@ -18,7 +18,7 @@ pub(super) enum Asked {
 
 /// The claims with the same hypotheses, which are tried on the same cases.
 pub(super) struct Group {
-    pub(super) given: &'static [Given],
+    pub(super) given: Vec<Hypothesis>,
     pub(super) program: Program,
     /// Each with its place among all claims, and what is asked.
     pub(super) claims: Vec<(usize, Vec<Asked>)>,
@@ -29,7 +29,11 @@ pub(super) fn groups(claims: &[Claim]) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     for (place, claim) in claims.iter().enumerate() {
         let i = groups.iter().position(|group| group.given == claim.given).unwrap_or_else(|| {
-            groups.push(Group { given: claim.given, program: Program::default(), claims: Vec::new() });
+            groups.push(Group {
+                given: claim.given.clone(),
+                program: Program::default(),
+                claims: Vec::new(),
+            });
             groups.len() - 1
         });
         let group = &mut groups[i];
@@ -44,7 +48,7 @@ fn asked(says: &Says, program: &mut Program) -> Option<Asked> {
     match says {
         Says::Equal(left, right) => Some(equal(left, right)),
         Says::Derivative(of, by, is) => {
-            let dual = of.derivative(by.symbol(), &|name| Tree::symbol(name), &smooth);
+            let dual = of.derivative(by, &|name| Tree::symbol(name), &smooth);
             dual.map(|dual| equal(&dual.derivative, is))
         }
         Says::Sign(relation, of) => Some(Asked::Sign(*relation, program.add(of))),
@@ -65,7 +69,7 @@ fn says(claim: &Claim) -> Vec<Says> {
             let members: Vec<_> = MEMBERS.into_iter().zip(x).collect();
             x = step.iter().map(|step| step.with(&members)).collect();
             power = power * ratio;
-            let closed = closed.iter().map(|closed| closed.with(&[(Var::Q.symbol(), power.clone())]));
+            let closed = closed.iter().map(|closed| closed.with(&[(POWER, power.clone())]));
             all.extend(x.iter().cloned().zip(closed).map(|(x, closed)| Says::Equal(x, closed)));
         }
     }
@@ -75,7 +79,8 @@ fn says(claim: &Claim) -> Vec<Says> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::claims::{Case, Rate};
+    use crate::claims::{Case, given};
+    use crate::formula::Rate;
     use crate::number::{Exact, Field};
     use crate::verify::checker::{Exactly, Judge};
     use num_traits::Zero;
@@ -90,7 +95,7 @@ mod tests {
 
     /// Does such a claim hold where every coordinate is 2 but q?
     fn holds_at(q: i32, kind: Kind) -> bool {
-        let groups = groups(&[Claim { equation: "1.1", name: "tried", given: &[], kind }]);
+        let groups = groups(&[Claim { equation: "1.1", name: "tried", given: vec![], kind }]);
         let [Group { program, claims, .. }] = groups.as_slice() else { panic!("one group") };
         let case = Case { q: Exact::int(q), ..Case::of(|_| Exact::int(2)) };
         let values = program.run(&|name| case.named(name), &Exactly::step);
@@ -109,10 +114,10 @@ mod tests {
     #[test]
     fn what_formulas_share_is_computed_once() {
         let square = || x("u") * x("u");
-        let claim = |name, kind| Claim { equation: "1.1", name, given: &[], kind };
+        let claim = |name, kind| Claim { equation: "1.1", name, given: vec![], kind };
         let sum = claim("sum", Kind::Equal(square() + square(), int(2) * square()));
         let sign = claim("sign", Kind::Sign(Relation::NonNegative, square()));
-        let other = Claim { given: &[Given::Stiffness], ..sign.clone() };
+        let other = Claim { given: vec![given().stiffness.clone()], ..sign.clone() };
         let groups = groups(&[sum, other, sign]);
         let of = |group: &Group| group.claims.iter().map(|(place, _)| *place).collect::<Vec<_>>();
         assert_eq!(groups.iter().map(of).collect::<Vec<_>>(), [vec![0, 2], vec![1]]);
@@ -121,13 +126,13 @@ mod tests {
 
     #[test]
     fn a_wrong_derivative_is_seen() {
-        let square = |is| Kind::Derivative { of: x("u") * x("u"), by: Var::U, is };
+        let square = |is| Kind::Derivative { of: x("u") * x("u"), by: "u", is };
         assert!(holds(square(x("u") + x("u"))) && !holds(square(x("u"))));
     }
 
     #[test]
     fn a_limit_is_as_far_as_its_rate_says_on_either_side() {
-        let limit = |of, rate| holds(Kind::Limit { of, by: Var::T, to: x("u"), rate });
+        let limit = |of, rate| holds(Kind::Limit { of, by: "t", to: x("u"), rate });
         for of in [x("u") + int(3), x("u") - int(3)] {
             assert!(limit(of.clone(), Rate::Within(int(3))) && !limit(of.clone(), Rate::Within(int(2))));
             assert!(!limit(of, Rate::Within(int(-3))), "no bound is negative");

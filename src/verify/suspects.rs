@@ -1,9 +1,9 @@
 //! Where a mistake may be: what the claims that are not proved have in common.
 
-use crate::claims::{Formula, call, entries, formulas};
+use crate::claims::{entries, registry};
+use crate::formula::{Formula, Statement};
 use crate::number::Tree;
 use crate::number::tree::{Site, Step};
-use crate::proof::Statement;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A function of the chapter in which there may be a mistake.
@@ -26,7 +26,8 @@ pub(super) fn suspects(statements: &[Statement], unproved: &dyn Fn(&Statement) -
     if !statements.iter().any(unproved) {
         return Vec::new();
     }
-    let idle: Vec<_> = formulas().iter().filter(|f| matches!(f.tree.step(), Step::Symbol(_))).collect();
+    let idle: Vec<_> =
+        registry().formulas().iter().filter(|f| matches!(f.tree.step(), Step::Symbol(_))).collect();
     if !idle.is_empty() {
         let suspect =
             |f: &&Formula| Suspect { function: f.path, equation: entry_of(f.path), unproved: 0, proved: 0 };
@@ -45,7 +46,7 @@ pub(super) fn suspects(statements: &[Statement], unproved: &dyn Fn(&Statement) -
         })
         .collect();
     let mut own: BTreeMap<&'static str, BTreeSet<Site>> = BTreeMap::new();
-    for formula in formulas() {
+    for formula in registry().formulas() {
         own_sites(formula.path, &formula.tree, own.entry(formula.path).or_default());
     }
     let suspect = |(function, own): (&&'static str, &BTreeSet<Site>)| {
@@ -67,7 +68,7 @@ pub(super) fn suspects(statements: &[Statement], unproved: &dyn Fn(&Statement) -
 /// The entry whose own function it is, or else one that names it.
 fn entry_of(function: &str) -> Option<&'static str> {
     let named = |first: bool| {
-        entries().iter().find(|entry| match entry.functions {
+        entries().iter().find(|entry| match entry.functions.as_slice() {
             [own, ..] if first => *own == function,
             all => !first && all.contains(&function),
         })
@@ -77,10 +78,10 @@ fn entry_of(function: &str) -> Option<&'static str> {
 
 /// The places in the source where a function does something itself, and does not call another.
 fn own_sites(path: &str, tree: &Tree, sites: &mut BTreeSet<Site>) {
-    match call(tree).filter(|call| call.formula.path != path) {
+    match registry().call(tree).filter(|call| call.formula.path != path) {
         Some(call) => call.arguments.iter().for_each(|argument| own_sites(path, argument, sites)),
         None => {
-            if tree.site().is_of_the_chapter() {
+            if registry().has_site(&tree.site()) {
                 sites.insert(tree.site());
             }
             tree.step().operands().for_each(|operand| own_sites(path, operand, sites));
@@ -91,8 +92,9 @@ fn own_sites(path: &str, tree: &Tree, sites: &mut BTreeSet<Site>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::claims::statements;
     use crate::proof::controls::{Change, Outcome, controls};
-    use crate::proof::{prove, statements};
+    use crate::proof::prove;
     use rayon::prelude::*;
 
     /// The functions that are suspected after a change.
@@ -107,11 +109,11 @@ mod tests {
     #[test]
     fn a_changed_function_is_suspected_and_hardly_another() {
         let statements = statements();
-        let noticed = controls(&statements).changes;
+        let noticed = controls(&statements, registry()).changes;
         let noticed: Vec<_> = noticed.iter().filter(|(_, o)| matches!(o, Outcome::Noticed { .. })).collect();
         let is_in = |function: &str, change: &Change| {
             let mut sites = BTreeSet::new();
-            let own = formulas().iter().filter(|formula| formula.path == function);
+            let own = registry().formulas().iter().filter(|formula| formula.path == function);
             own.for_each(|formula| own_sites(formula.path, &formula.tree, &mut sites));
             sites.contains(&change.site)
         };
@@ -126,7 +128,7 @@ mod tests {
 
     #[test]
     fn every_function_of_the_chapter_computes_something() {
-        let idle = formulas().iter().filter(|f| matches!(f.tree.step(), Step::Symbol(_)));
+        let idle = registry().formulas().iter().filter(|f| matches!(f.tree.step(), Step::Symbol(_)));
         assert_eq!(idle.map(Formula::name).collect::<Vec<_>>(), Vec::<String>::new());
     }
 

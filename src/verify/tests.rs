@@ -4,10 +4,11 @@ mod changed;
 
 use super::checker::Judge;
 use super::*;
-use crate::claims::{Claim, Experiment, Kind, Relation, Trial, Var, formula};
+use crate::claims::{Experiment, Trial};
+use crate::formula::statement::{Goal, Says};
+use crate::formula::{Claim, Kind, Relation};
 use crate::number::{Exponential, Field, PositivePart, Tree};
 use crate::proof::controls::{self, What};
-use crate::proof::statement::{Goal, Says};
 use num_traits::{One, Zero};
 use rug::Integer;
 use std::collections::BTreeSet;
@@ -20,11 +21,11 @@ fn options(cases: u64) -> Options {
 }
 
 fn claim(name: &'static str, kind: Kind) -> Claim {
-    Claim { equation: "1.1", name, given: &[], kind }
+    Claim { equation: "1.1", name, given: vec![], kind }
 }
 
 fn experiment<T>(name: &'static str, check: fn(&Case<T>) -> Trial) -> Experiment<T> {
-    Experiment { equation: "1.1", name, given: &[], check }
+    Experiment { equation: "1.1", name, given: vec![], check }
 }
 
 fn x(name: &'static str) -> Tree {
@@ -173,7 +174,7 @@ fn what_is_undefined_or_breaks_off_is_a_finding_with_its_case() {
         claim("sign", Kind::Sign(Relation::Positive, undefined())),
         claim("factor", Kind::Equal(Tree::zero() * undefined(), Tree::zero())),
         claim("min", Kind::Sign(Relation::NonNegative, Tree::zero().min(&undefined()))),
-        claim("derivative", Kind::Derivative { of: undefined(), by: Var::U, is: Tree::zero() }),
+        claim("derivative", Kind::Derivative { of: undefined(), by: "u", is: Tree::zero() }),
         holding(),
     ];
     fn expecting<T>() -> Vec<Experiment<T>> {
@@ -280,8 +281,8 @@ fn a_wrong_statement_is_refuted_and_an_unprovable_one_is_not_proved() {
 #[test]
 fn a_mistake_is_looked_for_where_it_is() {
     let right = statements();
-    let total = formula("penalty::total_stiffness").unwrap().tree.site();
-    let all = controls::changes(&right);
+    let total = registry().formula("penalty::total_stiffness").unwrap().tree.site();
+    let all = controls::changes(&right, registry());
     let opposite = |change: &&Change| change.site == total && matches!(change.what, What::Opposite(_));
     let change = all.iter().find(opposite).unwrap();
     let wrong = right.iter().map(|statement| change.apply(statement).unwrap_or_else(|| statement.clone()));

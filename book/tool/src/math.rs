@@ -4,7 +4,7 @@ use anyhow::{Context, Result};
 use katex::{KatexContext, Settings, StrictMode, StrictSetting};
 use pulldown_cmark::{Event, Options, Parser};
 use regex::{Captures, Regex};
-use spring_mass_contact::{claims::formula_in, number::tree::Notation};
+use spring_mass_contact::{claims::registry, formula::Notation};
 
 /// A formula of no more characters fits on every line.
 const SHORT: usize = 24;
@@ -84,7 +84,8 @@ impl Typesetter {
     /// The LaTeX with what functions compute in the place of its tags.
     fn filled(&self, latex: &str) -> Result<String> {
         super::replaced(latex, &self.formula, |tag| {
-            formula_in(&tag[2], Notation::Latex)
+            registry()
+                .formula_in(&tag[2], Notation::Latex)
                 .with_context(|| format!("no formula {} in src/claims/formulas.rs", &tag[2]))
         })
     }

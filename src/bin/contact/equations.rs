@@ -4,8 +4,8 @@ use crate::args;
 use crate::output::{self, Failure, Status};
 use clap::ValueEnum;
 use serde::Serialize;
-use spring_mass_contact::claims::{Entry, claim_names, entries};
-use spring_mass_contact::proof::{prove, statements};
+use spring_mass_contact::claims::{Entry, claim_names, entries, statements};
+use spring_mass_contact::proof::prove;
 use std::io::{self, Write};
 
 const EXAMPLES: &str = "\
@@ -46,7 +46,7 @@ struct Row {
     section: &'static str,
     statement: String,
     latex: Option<String>,
-    hypotheses: &'static [&'static str],
+    hypotheses: Vec<String>,
     function: Option<&'static str>,
     follows_from: &'static [&'static str],
     claims: Vec<&'static str>,
@@ -56,7 +56,7 @@ struct Row {
 pub fn run(options: &Options) -> Result<Status, Failure> {
     let numbers = args::equations(&options.numbers)?;
     let all = numbers.is_empty();
-    let chosen: Vec<&Entry> =
+    let chosen: Vec<&'static Entry> =
         entries().iter().filter(|e| all || numbers.iter().any(|n| n == e.equation)).collect();
     output::print(|out| match options.format {
         Format::Json => output::json(out, &chosen.iter().map(|e| row(e)).collect::<Vec<_>>()),
@@ -72,15 +72,15 @@ pub fn run(options: &Options) -> Result<Status, Failure> {
     })
 }
 
-fn row(entry: &Entry) -> Row {
-    let Entry { equation, title, section, hypotheses, follows_from, .. } = *entry;
+fn row(entry: &'static Entry) -> Row {
+    let &Entry { equation, title, section, ref follows_from, .. } = entry;
     Row {
         equation,
         title,
         section,
         statement: entry.statement(),
         latex: entry.latex(),
-        hypotheses,
+        hypotheses: entry.hypotheses(),
         function: function(entry),
         follows_from,
         claims: claim_names(equation),
@@ -109,7 +109,7 @@ fn markdown(out: &mut dyn Write, entries: &[&Entry]) -> io::Result<()> {
     writeln!(out, "|---|---|---|---|---|---|")?;
     entries.iter().try_for_each(|e| {
         let function = function(e).map_or(String::new(), |f| format!("`{f}`"));
-        let (hypotheses, claims) = (e.hypotheses.join(", "), claim_names(e.equation).join(", "));
+        let (hypotheses, claims) = (e.hypotheses().join(", "), claim_names(e.equation).join(", "));
         let statement = e.statement().replace('|', "\\|");
         writeln!(out, "| {} | {} | {statement} | {hypotheses} | {function} | {claims} |", e.label(), e.title)
     })
@@ -147,7 +147,7 @@ fn details(out: &mut dyn Write, entry: &Entry) -> io::Result<()> {
         }
     };
     line("states", entry.statement());
-    line("if", entry.hypotheses.join(", "));
+    line("if", entry.hypotheses().join(", "));
     line("functions", entry.functions.join(", "));
     line("follows from", entry.follows_from.join(", "));
     line("claims", claim_names(entry.equation).join(", "));

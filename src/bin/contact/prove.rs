@@ -5,14 +5,16 @@ use crate::output::{self, Failure, Status};
 use crate::text::shortened;
 use clap::ValueEnum;
 use serde::Serialize;
-use spring_mass_contact::claims::{Entry, entries, entry, place};
+use spring_mass_contact::claims::{Entry, entries, entry, place, registry, statements};
+use spring_mass_contact::formula::Statement;
 use spring_mass_contact::proof::controls::{
     Change, Controls, Counts, Dropped, Outcome, Without, controls, repairs,
 };
-use spring_mass_contact::proof::coq::{self, LeftOut};
+use spring_mass_contact::proof::coq::LeftOut;
+use spring_mass_contact::proof::paper::{self, Paper};
 use spring_mass_contact::proof::refute::Counterexample;
-use spring_mass_contact::proof::{Proof, Statement, paper, prove, refute, statements};
-use spring_mass_contact::verify::command_line;
+use spring_mass_contact::proof::{Proof, prove, refute};
+use spring_mass_contact::verify::{case_of, command_line, coq};
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -80,9 +82,14 @@ impl Proved {
         }
     }
 
-    fn hypotheses(&self) -> Vec<&'static str> {
-        self.statement.hypotheses.iter().map(|hypothesis| hypothesis.given.text()).collect()
+    fn hypotheses(&self) -> Vec<String> {
+        self.statement.hypotheses.iter().map(|hypothesis| registry().supposed(hypothesis)).collect()
     }
+}
+
+/// Writes in the chapter's names.
+fn paper() -> Paper<'static> {
+    Paper::new(registry())
 }
 
 /// Proves and prints.
@@ -106,9 +113,9 @@ pub fn run(options: &Options) -> Result<Status, Failure> {
     let of_proofs = start.elapsed();
     // Controls say something only of claims that are proved.
     let (controls, repairs) = if all.iter().all(|p| p.status() == "proved") {
-        (controls(&statements), Vec::new())
+        (controls(&statements, registry()), Vec::new())
     } else {
-        (Controls::default(), repairs(&statements))
+        (Controls::default(), repairs(&statements, registry()))
     };
     let report = Report::new(all, controls, repairs, (of_proofs, start.elapsed()), &wanted);
     output::print(|out| match options.format {
@@ -122,13 +129,13 @@ pub fn run(options: &Options) -> Result<Status, Failure> {
 
 /// Writes the files for Coq, and says how they are compiled and what is not among them.
 fn for_coq(directory: &Path) -> Result<Status, Failure> {
-    let files = coq::write(directory).map_err(|error| {
+    let files = coq().write(directory).map_err(|error| {
         let directory = shortened(&directory.display().to_string());
         format!(
             "invalid value '{directory}' for '--coq <DIR>': must be a directory that can be written: {error}"
         )
     })?;
-    let left_out = coq::left_out();
+    let left_out = coq().left_out();
     output::print(|out| {
         let claims = statements().len();
         let written = claims - left_out.len();
@@ -230,7 +237,7 @@ fn how(proved: &Proved) -> String {
 
 fn supposed(proved: &Proved) -> String {
     match &proved.answer {
-        Answer::Proof(proof) => paper::used(proof).join(", "),
+        Answer::Proof(proof) => paper().used(proof).join(", "),
         Answer::None(..) => proved.hypotheses().join(", "),
     }
 }
@@ -268,9 +275,9 @@ fn amiss(out: &mut dyn Write, report: &Report) -> io::Result<()> {
             }
             Answer::None(_, Some(counterexample)) => {
                 writeln!(out, "\n{equation} {name} REFUTED")?;
-                output::wrapped(out, "  ", 4, &together(&paper::claim(&proved.statement)))?;
+                output::wrapped(out, "  ", 4, &together(&paper().claim(&proved.statement)))?;
                 output::wrapped(out, "  at ", 4, &point(counterexample))?;
-                if let Some(line) = command_line(&counterexample.case()) {
+                if let Some(line) = command_line(&case_of(counterexample)) {
                     output::command(out, line.split(' '))?;
                 }
             }
@@ -288,7 +295,12 @@ fn amiss(out: &mut dyn Write, report: &Report) -> io::Result<()> {
             }
         };
         writeln!(out)?;
-        output::wrapped(out, "", 2, &format!("{equation} {name}: the hypothesis {} {what}", given.text()))?;
+        output::wrapped(
+            out,
+            "",
+            2,
+            &format!("{equation} {name}: the hypothesis {} {what}", registry().supposed(given)),
+        )?;
     }
     for (Change { site, what }, outcome) in &report.controls.changes {
         if matches!(outcome, Outcome::Unnoticed) {
@@ -386,22 +398,22 @@ fn account(out: &mut dyn Write, report: &Report, proved: &Proved) -> io::Result<
             output::wrapped(out, &first, first.len() + 4, &together(text))
         })
     };
-    say("claim", &[paper::claim(statement)])?;
+    say("claim", &[paper().claim(statement)])?;
     if !statement.hypotheses.is_empty() {
         say("if", &[proved.hypotheses().join(", ")])?;
     }
-    let invariants: Vec<_> = statement.invariants.iter().map(|i| i.given.text()).collect();
+    let invariants: Vec<_> = statement.invariants.iter().map(|i| registry().supposed(i)).collect();
     if !invariants.is_empty() {
         say("always", &[format!("{} for every k, which is part of the proof", invariants.join(", "))])?;
     }
-    say("where", &paper::names(statement))?;
+    say("where", &paper().names(statement))?;
     match answer {
-        Answer::Proof(proof) => say("proof", &paper::proof(statement, proof))?,
+        Answer::Proof(proof) => say("proof", &paper().proof(statement, proof))?,
         Answer::None(why, _) => say("no proof", std::slice::from_ref(why))?,
     }
     let needed = report.dropped(statement).filter_map(|Dropped { given, without, .. }| match without {
         Without::Refuted(counterexample) => {
-            Some(format!("{}: without it, at {}", given.text(), point(counterexample)))
+            Some(format!("{}: without it, at {}", registry().supposed(given), point(counterexample)))
         }
         Without::StillTrue | Without::Unknown => None,
     });
@@ -413,7 +425,7 @@ fn markdown(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     writeln!(out, "|---|---|---|---|---|---|")?;
     report.proved.iter().try_for_each(|proved| {
         let Statement { equation, name, .. } = &proved.statement;
-        let says = paper::claim(&proved.statement).replace('|', "\\|");
+        let says = paper().claim(&proved.statement).replace('|', "\\|");
         let (given, how, status) = (proved.hypotheses().join(", "), how(proved), proved.status());
         writeln!(out, "| {equation} | {name} | {says} | {given} | {how} | {status} |")
     })
@@ -450,7 +462,7 @@ struct ClaimJson {
     claim: &'static str,
     kind: &'static str,
     statement: String,
-    hypotheses: Vec<&'static str>,
+    hypotheses: Vec<String>,
     status: &'static str,
     certificate: Option<String>,
     why: Option<String>,
@@ -460,7 +472,7 @@ struct ClaimJson {
 
 #[derive(Serialize)]
 struct DroppedJson {
-    hypothesis: &'static str,
+    hypothesis: String,
     status: &'static str,
     counterexample: Option<Values>,
 }
@@ -477,7 +489,7 @@ struct ChangeJson {
 type Values = BTreeMap<&'static str, String>;
 
 fn values(counterexample: &Counterexample) -> Values {
-    counterexample.values.iter().map(|(name, x)| (*name, x.to_string())).collect()
+    counterexample.point.numbers().map(|(name, x)| (name, x.to_string())).collect()
 }
 
 impl Json {
@@ -511,10 +523,10 @@ impl ClaimJson {
                 Without::StillTrue => ("still_true", None),
                 Without::Unknown => ("unknown", None),
             };
-            DroppedJson { hypothesis: given.text(), status, counterexample }
+            DroppedJson { hypothesis: registry().supposed(given), status, counterexample }
         });
         let (certificate, why, counterexample) = match answer {
-            Answer::Proof(proof) => (Some(paper::proof(statement, proof).join("\n")), None, None),
+            Answer::Proof(proof) => (Some(paper().proof(statement, proof).join("\n")), None, None),
             Answer::None(why, counterexample) => {
                 (None, Some(why.clone()), counterexample.as_ref().map(values))
             }
@@ -522,7 +534,7 @@ impl ClaimJson {
         ClaimJson {
             claim: statement.name,
             kind: statement.kind,
-            statement: paper::claim(statement),
+            statement: paper().claim(statement),
             hypotheses: proved.hypotheses(),
             status: proved.status(),
             certificate,
@@ -536,8 +548,8 @@ impl ClaimJson {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use spring_mass_contact::formula::statement::Says;
     use spring_mass_contact::number::{Field, Tree};
-    use spring_mass_contact::proof::statement::Says;
 
     /// A run in which every equality is wrong by 1.
     fn refuted() -> Report {
@@ -566,7 +578,7 @@ mod tests {
         let pasted = text.replace(" \\\n      ", " ");
         let commands: Vec<_> = pasted.lines().filter(|line| line.starts_with("  contact solve")).collect();
         let lines = report.proved.iter().filter_map(|proved| match &proved.answer {
-            Answer::None(_, Some(counterexample)) => command_line(&counterexample.case()),
+            Answer::None(_, Some(counterexample)) => command_line(&case_of(counterexample)),
             _ => None,
         });
         let lines: Vec<_> = lines.map(|line| format!("  {line}")).collect();

@@ -421,7 +421,7 @@ mod tests {
         let scalar = Some(scalar);
         let decided = if status == verify::Status::Held || counterexample.is_some() { 4 } else { 0 };
         let worst = (decided > 0).then(|| (2.5, "1/8".to_string()));
-        let claim = claims().iter().find(|claim| claim.equation == "1.13").expect("a claim");
+        let claim = claims().find(|claim| claim.equation == "1.13").expect("a claim");
         let (claim, kind, undecided) = (claim.name, claim.kind.name(), 5 - decided);
         Row {
             equation: "1.13",

@@ -1,6 +1,6 @@
 //! Formulas as Coq writes them.
 
-use crate::claims::{Formula, Relation, Var, calls};
+use crate::formula::{Formula, Registry, Relation};
 use crate::number::Tree;
 use crate::number::tree::Step;
 use crate::proof::algebra::{Monomial, Poly, Ratio, Symbol};
@@ -27,10 +27,7 @@ pub(super) enum Operator {
     Div,
 }
 
-/// The five parameters.
-pub(super) const SYSTEM: [Var; 5] = [Var::C, Var::M, Var::G, Var::L, Var::H];
-
-/// A symbol of the chapter in letters that Coq takes: ε₄ is eps4, δu is du.
+/// A symbol in letters that Coq takes: ε₄ is eps4, δu is du.
 pub(super) fn ascii(symbol: &str) -> String {
     let letter = |c: char| match c {
         'ε' => "eps".to_string(),
@@ -39,7 +36,7 @@ pub(super) fn ascii(symbol: &str) -> String {
         'ρ' => "rho".to_string(),
         'δ' => "d".to_string(),
         'ᵏ' => "_k".to_string(),
-        // The chapter has no other h.
+        // What begins with H is a hypothesis.
         'H' => "h".to_string(),
         '₀'..='₉' => char::from(b'0' + (c as u32 - '₀' as u32) as u8).to_string(),
         c if c.is_ascii_alphanumeric() => c.to_string(),
@@ -48,16 +45,9 @@ pub(super) fn ascii(symbol: &str) -> String {
     symbol.chars().map(letter).collect()
 }
 
-/// A function of the chapter: `penalty::deflection` is penalty_deflection.
+/// A function by its path: `penalty::deflection` is penalty_deflection.
 pub(super) fn function(formula: &Formula) -> String {
     formula.name().replace("::", "_").replace('.', "_")
-}
-
-/// Those of the five parameters that a function depends on; they come before its arguments.
-pub(super) fn parameters(formula: &Formula) -> impl Iterator<Item = String> {
-    let symbols = formula.tree.symbols();
-    let own = move |name: &&str| symbols.contains(name) && !formula.arguments.contains(name);
-    SYSTEM.into_iter().map(Var::symbol).filter(own).map(ascii)
 }
 
 impl Expr {
@@ -92,55 +82,6 @@ impl Expr {
 
     fn is(&self, n: u8) -> bool {
         matches!(self, Expr::Number(digits) if *digits == n.to_string())
-    }
-
-    /// A formula; what a function of the chapter computes in it, as a call of that function.
-    pub(super) fn of(tree: &Tree) -> Self {
-        Expr::of_entry(tree, &[])
-    }
-
-    /// A formula that belongs to an entry: of functions that compute the same, one of the entry's own is called,
-    /// the first of them; else the one whose last step it is.
-    pub(super) fn of_entry(tree: &Tree, own: &[&str]) -> Self {
-        let place = |path: &str| own.iter().position(|known| *known == path).unwrap_or(own.len());
-        match calls(tree).min_by_key(|call| place(call.formula.path)) {
-            Some(call) => {
-                let arguments = call.arguments.iter().map(|argument| Expr::of_entry(argument, own));
-                Expr::Call(
-                    function(call.formula),
-                    parameters(call.formula).map(Expr::Name).chain(arguments).collect(),
-                )
-            }
-            None => Expr::last_step(tree, own),
-        }
-    }
-
-    /// What a function of the chapter does: its last step is its own, unless all it does is call another.
-    pub(super) fn body(formula: &Formula) -> Self {
-        if formula.delegates().is_some() {
-            Expr::of(&formula.tree)
-        } else {
-            Expr::last_step(&formula.tree, &[])
-        }
-    }
-
-    fn last_step(tree: &Tree, own: &[&str]) -> Self {
-        use Operator::*;
-        let of = |tree: &Tree| Box::new(Expr::of_entry(tree, own));
-        let expr = match tree.step() {
-            Step::Symbol(name) => Expr::Name(ascii(name)),
-            Step::Int(n) => Expr::int(*n),
-            Step::Neg(a) => Expr::Neg(of(a)),
-            Step::Add(a, b) => Expr::Binary(Add, of(a), of(b)),
-            Step::Sub(a, b) => Expr::Binary(Sub, of(a), of(b)),
-            Step::Mul(a, b) => Expr::Binary(Mul, of(a), of(b)),
-            Step::Div(a, b) => Expr::Binary(Div, of(a), of(b)),
-            Step::Exp(a) => Expr::Call("exp".into(), vec![*of(a)]),
-            Step::PositivePart(a) => Expr::Call("Rmax".into(), vec![*of(a), Expr::int(0)]),
-            Step::Min(a, b) => Expr::Call("Rmin".into(), vec![*of(a), *of(b)]),
-        };
-        // What the rules of differentiation write is full of 0 x, 1 x and x + 0; nobody else's zeros are touched.
-        if tree.site().is_of_duals() { expr.simplified() } else { expr }
     }
 
     fn simplified(self) -> Self {
@@ -270,6 +211,61 @@ impl Expr {
     }
 }
 
+/// Prints formulas in the names of a registry's functions.
+#[derive(Clone, Copy)]
+pub(super) struct Printer<'a> {
+    pub(super) registry: &'a Registry,
+    /// Of functions that compute the same, the first of these is called.
+    pub(super) preferred: &'a [&'static str],
+}
+
+impl Printer<'_> {
+    /// A formula; what a function of the registry computes in it, as a call of that function.
+    pub(super) fn expr(self, tree: &Tree) -> Expr {
+        let place = |path: &str| self.preferred.iter().position(|known| *known == path);
+        let place = |path: &str| place(path).unwrap_or(self.preferred.len());
+        match self.registry.calls(tree).min_by_key(|call| place(call.formula.path)) {
+            Some(call) => {
+                let own = call.formula.arguments.iter();
+                let common = self.registry.parameters(call.formula);
+                let common = common.filter(|name| !own.clone().any(|own| own == name));
+                let arguments = call.arguments.iter().map(|argument| self.expr(argument));
+                let all = common.map(|name| Expr::Name(ascii(name))).chain(arguments).collect();
+                Expr::Call(function(call.formula), all)
+            }
+            None => self.last_step(tree),
+        }
+    }
+
+    /// What a function does: its last step is its own, unless all it does is call another.
+    pub(super) fn body(self, formula: &Formula) -> Expr {
+        if self.registry.delegate(formula).is_some() {
+            self.expr(&formula.tree)
+        } else {
+            self.last_step(&formula.tree)
+        }
+    }
+
+    fn last_step(self, tree: &Tree) -> Expr {
+        use Operator::*;
+        let of = |tree: &Tree| Box::new(self.expr(tree));
+        let expr = match tree.step() {
+            Step::Symbol(name) => Expr::Name(ascii(name)),
+            Step::Int(n) => Expr::int(*n),
+            Step::Neg(a) => Expr::Neg(of(a)),
+            Step::Add(a, b) => Expr::Binary(Add, of(a), of(b)),
+            Step::Sub(a, b) => Expr::Binary(Sub, of(a), of(b)),
+            Step::Mul(a, b) => Expr::Binary(Mul, of(a), of(b)),
+            Step::Div(a, b) => Expr::Binary(Div, of(a), of(b)),
+            Step::Exp(a) => Expr::Call("exp".into(), vec![*of(a)]),
+            Step::PositivePart(a) => Expr::Call("Rmax".into(), vec![*of(a), Expr::int(0)]),
+            Step::Min(a, b) => Expr::Call("Rmin".into(), vec![*of(a), *of(b)]),
+        };
+        // What the rules of differentiation write is full of 0 x, 1 x and x + 0; nobody else's zeros are touched.
+        if tree.site().is_of_duals() { expr.simplified() } else { expr }
+    }
+}
+
 fn power((symbol, n): &(Symbol, u32)) -> Expr {
     let symbol = Expr::Name(ascii(symbol.0));
     match n {
@@ -327,11 +323,14 @@ impl fmt::Display for Expr {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::claims::formula;
     use crate::number::{Exponential, Field, PositivePart};
 
+    fn printed(tree: &Tree) -> Expr {
+        Printer { registry: &Registry::default(), preferred: &[] }.expr(tree)
+    }
+
     fn text(tree: &Tree) -> String {
-        Expr::of(tree).to_string()
+        printed(tree).to_string()
     }
 
     #[test]
@@ -362,22 +361,49 @@ mod tests {
 
     #[test]
     fn a_call_is_a_call_and_a_definition_is_its_own_work() {
-        let body = |path: &str| Expr::body(formula(path).unwrap()).to_string();
-        assert_eq!(body("penalty::penetration"), "system_reaction c m g l h / penalty_total_stiffness c eps");
-        assert_eq!(body("lagrange::multiplier"), "system_reaction c m g l h");
-        assert_eq!(body("system::reaction"), "m * g - c * (h - l)");
+        fn double<T: Field>(x: &T) -> T {
+            T::int(2) * x
+        }
+        fn quadruple<T: Field>(x: &T, k: &T) -> T {
+            double(&double(x)) * k
+        }
+        fn again<T: Field>(x: &T) -> T {
+            double(x)
+        }
+        let slope = |x: &Tree| double(&crate::number::Dual::variable(x * x)).derivative;
+        let [x, k] = ["x", "k"].map(|name| Tree::symbol(name));
+        let all = vec![
+            Formula::new("m::double", "", &["x"], double(&x)),
+            Formula::new("m::quadruple", "", &["x"], quadruple(&x, &k)),
+            Formula::new("m::again", "", &["x"], again(&x)),
+            Formula::new("m::slope", "", &["x"], slope(&x)),
+        ];
+        let registry = Registry::new(&["k", "x"], all);
+        let body = |path: &str| {
+            let printer = Printer { registry: &registry, preferred: &[] };
+            printer.body(registry.formula(path).unwrap()).to_string()
+        };
+        assert_eq!(body("m::double"), "2 * x");
+        assert_eq!(body("m::quadruple"), "m_double (m_double x) * k");
+        assert_eq!(body("m::again"), "m_double x");
         // Formed by differentiating, without the zeros and ones.
-        assert_eq!(body("structure::first_variation"), "(c * du * u + c * u * du) / 2 - m * g * du");
+        assert_eq!(body("m::slope"), "2");
+        // What all functions may depend on comes before the arguments, and of those that hand on, the preferred is called.
+        let call = quadruple(&(&x + &k), &k);
+        let printed = |preferred| Printer { registry: &registry, preferred }.expr(&call).to_string();
+        assert_eq!(printed(&[]), "m_quadruple k (x + k)");
+        let called = |preferred| Printer { registry: &registry, preferred }.expr(&double(&k)).to_string();
+        assert_eq!((called(&[]), called(&["m::again"])), ("m_double k".into(), "m_again k".into()));
     }
 
     #[test]
     fn a_flip_changes_one_sign() {
         let [a, b, c] = ["a", "b", "c"].map(|name| Tree::symbol(name));
-        let flips = Expr::of(&(-(&a + &b) * &c - &a)).flips();
+        let flips = printed(&(-(&a + &b) * &c - &a)).flips();
         let texts: Vec<_> = flips.iter().map(Expr::to_string).collect();
         assert_eq!(texts, ["- (a + b) * c + a", "(a + b) * c - a", "- (a - b) * c - a"]);
         // Wherever the sign stands.
-        let flips = Expr::of(&a.min(&-(&b + &c)).exp().positive_part()).flips();
+        let flips = printed(&a.min(&-(&b + &c)).exp().positive_part()).flips();
         let texts: Vec<_> = flips.iter().map(Expr::to_string).collect();
         assert_eq!(texts, ["Rmax (exp (Rmin a (b + c))) 0", "Rmax (exp (Rmin a (- (b - c)))) 0"]);
     }

@@ -5,7 +5,6 @@
 //! each step is a goal that Coq closes by itself, or does not.
 
 use super::print::{Expr, ascii};
-use crate::claims::{Case, Var};
 use crate::number::Tree;
 use crate::number::tree::Step;
 use crate::proof::algebra::{Monomial, Poly, Ratio, Symbol};
@@ -82,7 +81,7 @@ impl Script {
     pub(super) fn limit(
         &mut self,
         derivation: &Derivation,
-        by: Var,
+        by: &'static str,
         inside: impl FnOnce(&mut Self) -> Result<(), Reason>,
     ) -> Result<(), Reason> {
         let Derivation::Direct(direct) = derivation else { return Err("a limit in cases") };
@@ -90,7 +89,7 @@ impl Script {
         if !direct.brackets.is_empty() {
             return Err("a limit with brackets");
         }
-        let x = Symbol(by.symbol());
+        let x = Symbol(by);
         let others = direct.supposed.iter().filter(|s| !matches!(s.used, Used::Symbol(y) if y == x));
         others.enumerate().try_for_each(|(i, supposed)| self.suppose(supposed, &format!("H{}", i + 1)))?;
         self.at_infinity(of, x, inside)
@@ -107,8 +106,7 @@ impl Script {
             Used::Follows | Used::Unused => {}
             Used::Symbol(x) => {
                 self.known.insert(*x, assumed);
-                let said = supposed.given.map(|given| given.value(&Case::of_symbols()));
-                if said.is_some_and(|said| *said.step() == Step::Symbol(x.0)) {
+                if supposed.given.as_ref().is_some_and(|given| *given.value.step() == Step::Symbol(x.0)) {
                     return Ok(());
                 }
                 let name = ascii(x.0);

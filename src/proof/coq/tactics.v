@@ -6,10 +6,10 @@ From Coq Require Export Reals Lra.
 From Coquelicot Require Export Coquelicot.
 Open Scope R_scope.
 
-Create HintDb chapter.
+Create HintDb functions.
 
-(** Every function of the chapter by its formula. *)
-Ltac chapter := autounfold with chapter in *; cbv beta in *.
+(** Every function of the functions by its formula. *)
+Ltac functions := autounfold with functions in *; cbv beta in *.
 
 (** ** Signs
 

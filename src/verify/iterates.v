@@ -19,15 +19,15 @@ Proof.
   intros N k. unfold p, deflection, iterates.
   destruct k; cbn [eq_1_16_closed_form_iterates snd];
     [ | destruct (eq_1_16_closed_form_iterates c m g l h eps lambda k); cbn [snd] ];
-    chapter; field; exact N.
+    functions; field; exact N.
 Qed.
 
 Lemma iterates_penetrate :
   c + eps <> 0 -> forall k, p k = augmented_penetration_after c m g l h eps lambda (augmented_contraction c eps ^ k).
 Proof.
   intros N k. induction k as [ | k I].
-  - unfold p, deflection, iterates. cbn. chapter. field. exact N.
-  - rewrite (iterates_contract N), I. cbn [pow]. chapter. field. exact N.
+  - unfold p, deflection, iterates. cbn. functions. field. exact N.
+  - rewrite (iterates_contract N), I. cbn [pow]. functions. field. exact N.
 Qed.
 
 (** The theorem: the penetration of the iterates tends to 0, which is (1.17) ... *)
@@ -41,7 +41,7 @@ Qed.
 Theorem theorem_1_3_3_deflection : 0 < c -> 0 < eps -> is_lim_seq deflection (system_gap l h).
 Proof.
   intros C E. apply is_lim_seq_ext with (fun k => p k + system_gap l h).
-  { intro k. unfold p. chapter. ring. }
+  { intro k. unfold p. functions. ring. }
   replace (Finite (system_gap l h)) with (Finite (0 + system_gap l h)) by (f_equal; ring).
   apply is_lim_seq_plus'; [apply theorem_1_3_3; assumption | apply is_lim_seq_const].
 Qed.
@@ -52,7 +52,7 @@ Proof.
   intros C E.
   apply is_lim_seq_ext with (fun k => system_reaction c m g l h + - (c + eps) * p k).
   { intro k. rewrite iterates_penetrate by lra. unfold multiplier, iterates.
-    rewrite (eq_1_16_closed_form c m g l h eps lambda C E k). cbn [fst]. chapter. field. lra. }
+    rewrite (eq_1_16_closed_form c m g l h eps lambda C E k). cbn [fst]. functions. field. lra. }
   replace (Finite (system_reaction c m g l h))
     with (Finite (system_reaction c m g l h + - (c + eps) * 0)) by (f_equal; ring).
   apply is_lim_seq_plus'; [apply is_lim_seq_const | ].
@@ -64,9 +64,9 @@ Theorem theorem_1_3_3_falls_in_size : 0 < c -> 0 < eps -> forall k, p k <> 0 -> 
 Proof.
   intros C E k P. rewrite iterates_contract, Rabs_mult by lra.
   assert (A : 0 < Rabs (p k)) by (apply Rabs_pos_lt, P).
-  assert (F : augmented_contraction c eps = 1 - eps / (c + eps)) by (chapter; field; lra).
+  assert (F : augmented_contraction c eps = 1 - eps / (c + eps)) by (functions; field; lra).
   assert (0 < eps / (c + eps)) by (apply Rdiv_lt_0_compat; lra).
-  assert (0 < augmented_contraction c eps) by (chapter; apply Rdiv_lt_0_compat; lra).
+  assert (0 < augmented_contraction c eps) by (functions; apply Rdiv_lt_0_compat; lra).
   rewrite (Rabs_pos_eq (augmented_contraction c eps)) by lra.
   rewrite <- (Rmult_1_l (Rabs (p k))) at 2. apply Rmult_lt_compat_r; lra.
 Qed.
@@ -78,7 +78,7 @@ Proof.
   intros C E k. induction k as [ | k I].
   - cbn [INR]. rewrite (eq_1_17_harmonic_start c eps C). lra.
   - rewrite iterates_contract, Rabs_mult by lra.
-    assert (0 < augmented_contraction c eps) by (chapter; apply Rdiv_lt_0_compat; lra).
+    assert (0 < augmented_contraction c eps) by (functions; apply Rdiv_lt_0_compat; lra).
     rewrite (Rabs_pos_eq (augmented_contraction c eps)), S_INR by lra.
     apply Rle_trans with (augmented_contraction c eps * (augmented_harmonic_bound c eps (INR k) * Rabs (p 0))).
     + apply Rmult_le_compat_l; lra.

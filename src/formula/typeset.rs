@@ -4,7 +4,8 @@
 //! flat, signs stand in front of products and numbers at their head, equal factors are a power, and a factor
 //! 1 or a summand 0 is not written. Brackets are where they are needed and nowhere else.
 
-use super::{Step, Tree};
+use crate::number::Tree;
+use crate::number::tree::Step;
 use std::fmt;
 
 /// How symbols and structure become characters.
@@ -399,7 +400,7 @@ fn script(kind: char, inner: &str) -> String {
 /// A symbol of a text in LaTeX, character by character; words and indices that are words stand upright.
 ///
 /// ```
-/// use spring_mass_contact::number::tree::latex;
+/// use spring_mass_contact::formula::latex;
 /// assert_eq!(["λ₀", "u_{k−1}", "ε_eff", "u̇"].map(latex), [r"\lambda_0", "u_{k-1}", r"\varepsilon_{\mathrm{eff}}", r"\dot{u}"]);
 /// ```
 pub fn latex(symbol: &str) -> String {

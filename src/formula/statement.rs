@@ -1,6 +1,6 @@
 //! What is to be proved: a claim, read in trees.
 
-use crate::claims::{Case, Claim, Given, Kind, MEMBERS, Rate, Relation, Var, claims};
+use super::claim::{Claim, Hypothesis, Kind, MEMBERS, POWER, Rate, Relation};
 use crate::number::Tree;
 use num_traits::{One, Zero};
 
@@ -36,15 +36,6 @@ pub struct Sequence {
     pub limit: Option<Tree>,
 }
 
-/// What is supposed of one quantity.
-#[derive(Clone, Debug)]
-pub struct Hypothesis {
-    /// Where it comes from.
-    pub given: Given,
-    /// The quantity.
-    pub value: Tree,
-}
-
 /// A part of a claim.
 #[derive(Clone, Debug)]
 pub struct Goal {
@@ -77,20 +68,9 @@ pub enum Says {
     /// A formula is defined and has a sign.
     Sign(Relation, Tree),
     /// The third is the derivative of the first by a quantity.
-    Derivative(Tree, Var, Tree),
+    Derivative(Tree, &'static str, Tree),
     /// The first tends to the third as a quantity tends to infinity.
-    Limit(Tree, Var, Tree),
-}
-
-impl Hypothesis {
-    fn of(given: Given, case: &Case<Tree>) -> Self {
-        Hypothesis { given, value: given.value(case) }
-    }
-
-    /// What it says of the quantity's sign.
-    pub fn relation(&self) -> Relation {
-        self.given.relation()
-    }
+    Limit(Tree, &'static str, Tree),
 }
 
 impl Goal {
@@ -113,15 +93,10 @@ impl Says {
         match self {
             Says::Equal(a, b) => Says::Equal(f(a), f(b)),
             Says::Sign(relation, a) => Says::Sign(*relation, f(a)),
-            Says::Derivative(a, by, b) => Says::Derivative(f(a), *by, f(b)),
-            Says::Limit(a, by, b) => Says::Limit(f(a), *by, f(b)),
+            Says::Derivative(a, by, b) => Says::Derivative(f(a), by, f(b)),
+            Says::Limit(a, by, b) => Says::Limit(f(a), by, f(b)),
         }
     }
-}
-
-/// Every claim, as formulas.
-pub fn statements() -> Vec<Statement> {
-    claims().iter().map(Statement::of).collect()
 }
 
 impl Statement {
@@ -132,21 +107,19 @@ impl Statement {
     /// an invariant: it has to hold for q = 1, by the other hypotheses alone, and to be passed on from q to ρ q;
     /// then it may be used in the step.
     pub fn of(claim: &Claim) -> Self {
-        let case = Case::of_symbols();
         let goal = Goal::of_claim;
-        let of_q = |given: &&Given| given.value(&case).symbols().contains(Var::Q.symbol());
-        let (mut hypotheses, mut invariants): (Vec<&Given>, Vec<&Given>) =
-            (claim.given.iter().collect(), vec![]);
+        let of_q = |given: &Hypothesis| given.value.symbols().contains(POWER);
+        let (mut hypotheses, mut invariants) = (claim.given.clone(), Vec::new());
         let mut goals = Vec::new();
         let mut amounts_to = None;
         match &claim.kind {
             Kind::Equal(left, right) => goals.push(goal("", Says::Equal(left.clone(), right.clone()))),
             Kind::Sign(relation, of) => goals.push(goal("", Says::Sign(*relation, of.clone()))),
             Kind::Derivative { of, by, is } => {
-                goals.push(goal("", Says::Derivative(of.clone(), *by, is.clone())));
+                goals.push(goal("", Says::Derivative(of.clone(), by, is.clone())));
             }
             Kind::Limit { of, by, to, rate } => {
-                goals.push(goal("limit", Says::Limit(of.clone(), *by, to.clone())));
+                goals.push(goal("limit", Says::Limit(of.clone(), by, to.clone())));
                 let distance = of - to;
                 match rate {
                     Rate::Exactly(rate) => goals.push(goal("rate", Says::Equal(distance, rate.clone()))),
@@ -162,9 +135,9 @@ impl Statement {
                     start.len() == closed.len() && step.len() == closed.len(),
                     "a form for each component"
                 );
-                (invariants, hypotheses) = claim.given.iter().partition(of_q);
-                let q = Var::Q.symbol();
-                let next = ratio * &case.q;
+                (invariants, hypotheses) = claim.given.iter().cloned().partition(of_q);
+                let q = POWER;
+                let next = ratio * Tree::symbol(q);
                 let member = |i: usize| (MEMBERS[i], closed[i].clone());
                 let members: Vec<_> = (0..closed.len()).map(member).collect();
                 for (start, closed) in start.iter().zip(closed) {
@@ -176,8 +149,7 @@ impl Statement {
                     goals.push(Goal { part: "step", role: Role::Step, says });
                 }
                 for given in &invariants {
-                    let value = given.value(&case);
-                    let says = |q_is: Tree| Says::Sign(given.relation(), value.with(&[(q, q_is)]));
+                    let says = |q_is: Tree| Says::Sign(given.relation, given.value.with(&[(q, q_is)]));
                     let begins =
                         Goal { part: "invariant at the start", role: Role::Begins, says: says(Tree::one()) };
                     let says = says(next.clone());
@@ -192,14 +164,12 @@ impl Statement {
             Kind::Vanishing { ratio, of, to } => {
                 let margin = Tree::one() - ratio * ratio;
                 goals.push(goal("|ρ| < 1", Says::Sign(Relation::Positive, margin)));
-                let at_zero = of.with(&[(Var::Q.symbol(), Tree::zero())]);
+                let at_zero = of.with(&[(POWER, Tree::zero())]);
                 goals.push(goal("at q = 0", Says::Equal(at_zero, to.clone())));
                 let (ratio, member, limit) = (ratio.clone(), vec![of.clone()], Some(to.clone()));
                 amounts_to = Some(Sequence { start: Vec::new(), ratio, member, limit });
             }
         }
-        let read = |all: Vec<&Given>| all.into_iter().map(|given| Hypothesis::of(*given, &case)).collect();
-        let (hypotheses, invariants) = (read(hypotheses), read(invariants));
         let (equation, name, kind) = (claim.equation, claim.name, claim.kind.name());
         Statement { equation, name, kind, hypotheses, invariants, goals, amounts_to }
     }

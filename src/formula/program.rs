@@ -1,6 +1,7 @@
 //! Many formulas at once.
 
-use super::{Field, Step, Tree};
+use crate::number::tree::Step;
+use crate::number::{Field, Tree};
 use std::collections::HashMap;
 
 /// Formulas compiled to a list of steps, in which what they have in common stands once: R or ρ is computed once,
@@ -8,7 +9,7 @@ use std::collections::HashMap;
 ///
 /// ```
 /// use num_traits::One;
-/// use spring_mass_contact::number::{Tree, tree::Program};
+/// use spring_mass_contact::{formula::Program, number::Tree};
 /// let x = Tree::symbol("x");
 /// let square = &x * &x;
 /// let mut program = Program::default();

@@ -1,0 +1,324 @@
+//! By augmented Lagrangian: (1.14) to (1.21), Theorem 1.3.3; and when to stop: (1.33), Remark 1.3.6.
+
+use super::prelude::*;
+use crate::chapter::augmented::{self, *};
+use crate::chapter::{contact, lagrange, penalty, system::reaction};
+
+formulas! {
+    "L" (folded) = augmented::functional(system, "ε", "λ", "u");
+    "min L" = augmented::least_value(system, "ε", "λ");
+    "∂L/∂u" = augmented::stationarity(system, "ε", "λ", "u");
+    "λ′" = augmented::update(system, "ε", "λ", "u");
+    "r" = augmented::equilibrium(system, "ε", "λ", "u");
+    "u" = augmented::deflection(system, "ε", "λ");
+    "N" = augmented::contact_force(system, "u");
+    "ρ" (folded) = augmented::contraction(system, "ε");
+    "λ_k" = augmented::multiplier_after(system, "λ₀", "ρᵏ");
+    "p_k" = augmented::penetration_after(system, "ε", "λ₀", "ρᵏ");
+    "u_k" = augmented::deflection_after(system, "ε", "λ₀", "ρᵏ");
+    "" = augmented::harmonic_bound(system, "ε", "k");
+    "" = augmented::recursion(system, "ε", "u_k", "u_{k+1}"), "left" is |(left, _)| left;
+    "" = augmented::recursion(system, "ε", "u_k", "u_{k+1}"), "right" is |(_, right)| right;
+    "L" = augmented::unilateral_functional(system, "ε", "λ", "u");
+    "λ′" = augmented::unilateral_update(system, "ε", "λ", "u");
+    "r" = augmented::unilateral_equilibrium(system, "ε", "λ", "u");
+    "u" = augmented::unilateral_deflection(system, "ε", "λ");
+    "r" = augmented::natural_residual(system, "ε", "λ", "u");
+}
+
+/// One step of (1.16): the next multiplier and the deflection that goes with it.
+pub(super) fn augment([lambda, u]: [Tree; 2]) -> [Tree; 2] {
+    let Case { system: s, eps, .. } = symbols();
+    let lambda = update(s, eps, &lambda, &u);
+    let u = deflection(s, eps, &lambda);
+    [lambda, u]
+}
+
+/// The entries up to (1.21), with what is claimed of each.
+pub(super) fn entries() -> Vec<Entry> {
+    let Case { system: s, u, v, eps, lambda, q, k, .. } = symbols();
+    let Given {
+        stiffness,
+        penalty,
+        below_reaction,
+        above_reaction,
+        in_equilibrium,
+        next_in_equilibrium,
+        power,
+        count,
+        ..
+    } = given();
+    let iterate = &deflection(s, eps, lambda);
+    let zero = &int(0);
+    let one = &int(1);
+    vec![
+        Entry::new("1.14", "Augmented functional")
+            .states("L(u) = «augmented::functional»")
+            .in_latex(r"L(u) = «augmented::functional»")
+            .given([stiffness, penalty])
+            .functions(["augmented::functional"])
+            .follows_from(["1.7", "1.9"])
+            .claims([
+                equal(
+                    "least",
+                    [stiffness, penalty],
+                    functional(s, eps, lambda, iterate),
+                    least_value(s, eps, lambda),
+                ),
+                equal(
+                    "excess",
+                    [stiffness, penalty],
+                    functional(s, eps, lambda, u) - least_value(s, eps, lambda),
+                    half(penalty::total_stiffness(s, eps) * square(u - iterate)),
+                ),
+                equal("without-multiplier", [], functional(s, eps, zero, u), penalty::energy(s, eps, u)),
+                equal(
+                    "without-penalty",
+                    [],
+                    functional(s, zero, lambda, u),
+                    lagrange::functional(s, u, lambda),
+                ),
+            ]),
+        Entry::new("1.15", "Stationarity")
+            .states("∂L/∂u = «augmented::stationarity» = 0")
+            .in_latex(r"\frac{\partial L}{\partial u} = «augmented::stationarity» = 0")
+            .functions(["augmented::stationarity"])
+            .follows_from(["1.14"])
+            .claims([
+                derivative(
+                    "stationary",
+                    [],
+                    functional(s, eps, lambda, u),
+                    u,
+                    stationarity(s, eps, lambda, u),
+                ),
+                equal("written-out", [], stationarity(s, eps, lambda, u), equilibrium(s, eps, lambda, u)),
+            ]),
+        Entry::new("1.16", "Augmentation")
+            .states(
+                "λ_k = «augmented::update: λ=λ_{k−1}, u=u_{k−1}» and «augmented::equilibrium: λ=λ_k, \
+                 u=u_k» = 0; in closed form λ_k = «augmented::multiplier_after»",
+            )
+            .in_latex(concat!(
+                r"\left\{\begin{aligned} &\lambda_k = «augmented::update: u=u_{k-1}, λ=λ_{k-1}» \\ ",
+                r"&«augmented::equilibrium: u=u_k, λ=λ_k» = 0 \end{aligned}\right. \qquad k = 1, 2, ",
+                r"3, \dots",
+            ))
+            .given([stiffness, penalty])
+            .functions(["augmented::update", "augmented::equilibrium", "augmented::deflection"])
+            .follows_from(["1.15"])
+            .claims([
+                equal(
+                    "first-step",
+                    [stiffness, penalty],
+                    deflection(s, eps, zero),
+                    penalty::deflection(s, eps),
+                ),
+                induction(
+                    "closed-form",
+                    [stiffness, penalty],
+                    contraction(s, eps),
+                    [lambda.clone(), iterate.clone()],
+                    augment,
+                    [multiplier_after(s, lambda, q), deflection_after(s, eps, lambda, q)],
+                ),
+                equal(
+                    "penetration",
+                    [stiffness, penalty],
+                    contact::penetration(s, &deflection_after(s, eps, lambda, q)),
+                    penetration_after(s, eps, lambda, q),
+                ),
+            ]),
+        Entry::new("Theorem 1.3.3", "Convergence of the augmentation")
+            .states(
+                "p(u_k) shrinks by the factor ρ = «augmented::contraction» in each step for every ε \
+                 > 0: |p(u_k)| falls strictly unless λ₀ = R",
+            )
+            .given([stiffness, penalty])
+            .functions(["augmented::contraction"])
+            .follows_from(["1.16"])
+            .claims([
+                vanishing(
+                    "contracts",
+                    [stiffness, penalty],
+                    contraction(s, eps),
+                    penetration_after(s, eps, lambda, q),
+                    0,
+                ),
+                {
+                    let next = contraction(s, eps) * q;
+                    positive(
+                        "falls",
+                        [stiffness, penalty, below_reaction, power],
+                        penetration_after(s, eps, lambda, q) - penetration_after(s, eps, lambda, &next),
+                    )
+                },
+                {
+                    let next = contraction(s, eps) * q;
+                    positive(
+                        "rises",
+                        [stiffness, penalty, above_reaction, power],
+                        penetration_after(s, eps, lambda, &next) - penetration_after(s, eps, lambda, q),
+                    )
+                },
+                vanishing(
+                    "force",
+                    [stiffness, penalty],
+                    contraction(s, eps),
+                    multiplier_after(s, lambda, q),
+                    reaction(s),
+                ),
+            ]),
+        Entry::new("1.17", "The limit of the theorem")
+            .states("lim p(u_k) = 0, and |p_k| ≤ r |p₀| with r = «augmented::harmonic_bound»")
+            .in_latex(r"\lim_{k\to\infty} p(u_k) = 0")
+            .given([stiffness, penalty])
+            .functions([
+                "augmented::harmonic_bound",
+                "augmented::contraction",
+                "augmented::penetration_after",
+            ])
+            .follows_from(["Theorem 1.3.3"])
+            .claims([
+                positive(
+                    "stays-positive",
+                    [stiffness, penalty, below_reaction, power],
+                    penetration_after(s, eps, lambda, q),
+                ),
+                positive(
+                    "stays-negative",
+                    [stiffness, penalty, above_reaction, power],
+                    -penetration_after(s, eps, lambda, q),
+                ),
+                {
+                    let next = k + one;
+                    non_negative(
+                        "harmonic-step",
+                        [stiffness, penalty, count],
+                        harmonic_bound(s, eps, &next) - contraction(s, eps) * harmonic_bound(s, eps, k),
+                    )
+                },
+                {
+                    let sum = |k: &Tree| &s.c + k * eps;
+                    let bound = |k: &Tree| harmonic_bound(s, eps, k);
+                    let (next, factor) = (k + one, contraction(s, eps));
+                    equal(
+                        "harmonic-margin",
+                        [stiffness, penalty, count],
+                        (bound(&next) - factor * bound(k)) * sum(one) * sum(k) * sum(&next),
+                        &s.c * k * square(eps),
+                    )
+                },
+                equal("harmonic-start", [stiffness], harmonic_bound(s, eps, zero), 1),
+                limit(
+                    "harmonic-limit",
+                    [stiffness, penalty, count],
+                    harmonic_bound(s, eps, k),
+                    k,
+                    0,
+                    Exactly(one / (one + k * eps / &s.c)),
+                ),
+            ]),
+        Entry::new("1.18", "Update of the multiplier")
+            .states("λ_{k+1} = «augmented::update: λ=λ_k, u=u_k» = «augmented::contact_force: u=u_k»")
+            .in_latex(r"\lambda_{k+1} = «augmented::update: u=u_k, λ=λ_k»")
+            .given([in_equilibrium])
+            .functions(["augmented::update"])
+            .follows_from(["1.16"])
+            .claims([equal(
+                "next-multiplier",
+                [in_equilibrium],
+                update(s, eps, lambda, u),
+                contact_force(s, u),
+            )]),
+        Entry::new("1.19", "Equilibrium at step k")
+            .states("«augmented::equilibrium: λ=λ_k, u=u_k» = 0")
+            .in_latex(r"«augmented::equilibrium: u=u_k, λ=λ_k» = 0")
+            .given([stiffness, penalty])
+            .functions(["augmented::equilibrium"])
+            .follows_from(["1.16"])
+            .claims([equal("root", [stiffness, penalty], equilibrium(s, eps, lambda, iterate), 0)]),
+        Entry::new("1.20", "Equilibrium at step k + 1")
+            .states("«augmented::equilibrium: λ=λ_{k+1}, u=u_{k+1}» = 0")
+            .in_latex(r"«augmented::equilibrium: u=u_{k+1}, λ=λ_{k+1}» = 0")
+            .given([stiffness, penalty])
+            .functions(["augmented::equilibrium"])
+            .follows_from(["1.16", "1.18"])
+            .claims([
+                {
+                    let [next, u] = augment([lambda.clone(), iterate.clone()]);
+                    equal("next-root", [stiffness, penalty], equilibrium(s, eps, &next, &u), 0)
+                },
+                equal(
+                    "missing-force",
+                    [in_equilibrium],
+                    &s.c * contact::penetration(s, u),
+                    reaction(s) - update(s, eps, lambda, u),
+                ),
+            ]),
+        Entry::new("1.21", "Recursion in the deflection")
+            .states("«augmented::recursion.left» = «augmented::recursion.right»")
+            .in_latex(r"«augmented::recursion.left» = «augmented::recursion.right»")
+            .given([in_equilibrium, next_in_equilibrium])
+            .functions(["augmented::recursion"])
+            .follows_from(["1.18", "1.19", "1.20"])
+            .claims([
+                {
+                    let (left, right) = recursion(s, eps, u, v);
+                    equal("eliminated", [in_equilibrium, next_in_equilibrium], left, right)
+                },
+                {
+                    let (left, right) = recursion(s, eps, u, v);
+                    let next = update(s, eps, lambda, u);
+                    equal(
+                        "difference",
+                        [],
+                        equilibrium(s, eps, &next, v) - equilibrium(s, eps, lambda, u),
+                        left - right,
+                    )
+                },
+            ]),
+    ]
+}
+
+/// The entries after (1.32), with what is claimed of each.
+pub(super) fn stopping() -> Vec<Entry> {
+    let Case { system: s, u, eps, lambda, q, tol, .. } = symbols();
+    let Given { stiffness, penalty, tolerance, power, .. } = given();
+    let one = &int(1);
+    vec![
+        Entry::new("1.33", "When to stop")
+            .states("|p_k| < tol, first at k = 0 if |p₀| < tol, else at k = ⌊ln(|p₀|/tol)/ln(1 + ε/c)⌋ + 1")
+            .in_latex(r"\lvert p_k \rvert = \lvert «contact::penetration: u=u_k» \rvert < \mathrm{tol}")
+            .given([stiffness, penalty, tolerance])
+            .functions(["augmented::within_tolerance"])
+            .follows_from(["1.16"])
+            .claims([
+                equal(
+                    "count",
+                    [stiffness, penalty],
+                    penetration_after(s, eps, lambda, q) * penalty::total_stiffness(s, eps),
+                    (reaction(s) - lambda) * q,
+                ),
+                equal("growth", [stiffness, penalty], one / contraction(s, eps), one + eps / &s.c),
+                {
+                    // λ₀ planted so that |p₀| = tol/q: after the steps with ρᵏ = q the penetration *is* the tolerance.
+                    let start = reaction(s) - penalty::total_stiffness(s, eps) * tol / q;
+                    equal("tie", [stiffness, penalty, power], penetration_after(s, eps, &start, q), tol)
+                },
+            ]),
+        Entry::new("Remark 1.3.6", "The force at step k")
+            .states(
+                "λ_{k+1} − λ_k = «penalty::contact_force: u=u_k»: the force named in the remark lags \
+                 one step behind",
+            )
+            .functions(["augmented::contact_force"])
+            .follows_from(["1.18"])
+            .claims([equal(
+                "lag",
+                [],
+                update(s, eps, lambda, u) - lambda,
+                penalty::contact_force(s, eps, u),
+            )]),
+    ]
+}

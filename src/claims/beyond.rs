@@ -1,0 +1,206 @@
+//! What follows beyond the chapter.
+
+use super::augmented::augment;
+use super::prelude::*;
+use crate::chapter::{
+    augmented, beyond, contact, lagrange, penalty, structure,
+    system::{gap, reaction},
+};
+
+formulas! {
+    "ε_eff" = beyond::effective_penalty(system, "growth");
+    "λ′" = beyond::relaxed_update(system, "α", "λ", "u");
+    "" = beyond::relaxed_contraction(system, "ε", "α");
+    "d" = beyond::dual_functional(system, "λ");
+    "" = beyond::aitken("λ₀", "λ₁", "λ₂");
+    "W" = beyond::exact_penalty("ε", "p");
+}
+
+/// Its entries, with what is claimed of each.
+pub(super) fn entries() -> Vec<Entry> {
+    let Case { system: s, u, alpha, eps, lambda, q, .. } = symbols();
+    let Given {
+        stiffness,
+        penalty,
+        touching,
+        strong_enough,
+        below_reaction,
+        above_reaction,
+        step,
+        short_step,
+        long_step,
+        uzawa_step,
+        power,
+        ..
+    } = given();
+    let iterate = &augmented::deflection(s, eps, lambda);
+    let zero = &int(0);
+    let one = &int(1);
+    let [first, after_first] = augment([lambda.clone(), iterate.clone()]);
+    let [second, _] = augment([first.clone(), after_first]);
+    let extrapolated = &beyond::aitken(lambda, &first, &second);
+    vec![
+        Entry::new("beyond 1", "Moreau's decomposition")
+            .states("c p + N = R splits R into its positive part N and its negative part −c p")
+            .given([stiffness])
+            .functions(["contact::contact_force"])
+            .follows_from(["1.6"])
+            .claims([
+                equal("force", [], contact::contact_force(s), reaction(s).positive_part()),
+                equal(
+                    "gap",
+                    [stiffness],
+                    -&s.c * contact::penetration(s, &contact::deflection(s)),
+                    (-reaction(s)).positive_part(),
+                ),
+            ]),
+        Entry::new("beyond 2", "Augmentations as one penalty")
+            .states(
+                "k augmentations from λ₀ = 0 equal one penalty solve with ε_eff = \
+                 «beyond::effective_penalty: growth=(1 + ε/c)^{k+1}»",
+            )
+            .given([stiffness, penalty])
+            .functions(["beyond::effective_penalty"])
+            .follows_from(["1.13", "1.16"])
+            .claims([
+                {
+                    let growth = one / (augmented::contraction(s, eps) * q);
+                    let effective = beyond::effective_penalty(s, &growth);
+                    equal(
+                        "one-penalty",
+                        [stiffness, penalty, power],
+                        penalty::penetration(s, &effective),
+                        augmented::penetration_after(s, eps, zero, q),
+                    )
+                },
+                {
+                    // After steps with whatever penalties, whose (c + ε_i)/c have the product q, and one more with ε.
+                    let left = |growth: &Tree| penalty::penetration(s, &beyond::effective_penalty(s, growth));
+                    let lambda = reaction(s) - &s.c * left(q);
+                    let u = augmented::deflection(s, eps, &lambda);
+                    equal(
+                        "varying",
+                        [stiffness, penalty, power],
+                        contact::penetration(s, &u),
+                        left(&(q / augmented::contraction(s, eps))),
+                    )
+                },
+            ]),
+        Entry::new("beyond 3", "A step of its own")
+            .states(
+                "λ′ = «beyond::relaxed_update» multiplies the error by \
+                 «beyond::relaxed_contraction»; α = «penalty::total_stiffness» is exact",
+            )
+            .given([stiffness, penalty])
+            .functions(["beyond::relaxed_update", "beyond::relaxed_contraction"])
+            .follows_from(["1.16"])
+            .claims([
+                {
+                    let r = reaction(s);
+                    equal(
+                        "factor",
+                        [stiffness, penalty],
+                        beyond::relaxed_update(s, alpha, lambda, iterate) - &r,
+                        beyond::relaxed_contraction(s, eps, alpha) * (lambda - &r),
+                    )
+                },
+                equal(
+                    "newton",
+                    [stiffness, penalty],
+                    beyond::relaxed_update(s, &penalty::total_stiffness(s, eps), lambda, iterate),
+                    reaction(s),
+                ),
+                positive(
+                    "converges",
+                    [step, short_step],
+                    one - square(beyond::relaxed_contraction(s, eps, alpha)),
+                ),
+                positive(
+                    "diverges",
+                    [stiffness, penalty, long_step],
+                    square(beyond::relaxed_contraction(s, eps, alpha)) - one,
+                ),
+                positive(
+                    "uzawa",
+                    [step, uzawa_step],
+                    one - square(beyond::relaxed_contraction(s, zero, alpha)),
+                ),
+            ]),
+        Entry::new("beyond 4", "A proximal step")
+            .states("(1.16) is implicit Euler of step ε on λ̇ = (R − λ)/c")
+            .given([stiffness, penalty])
+            .functions(["beyond::dual_functional"])
+            .follows_from(["1.16"])
+            .claims([
+                {
+                    let u = augmented::deflection(s, zero, lambda);
+                    equal(
+                        "dual",
+                        [stiffness],
+                        beyond::dual_functional(s, lambda),
+                        lagrange::functional(s, &u, lambda),
+                    )
+                },
+                {
+                    let next = augmented::update(s, eps, lambda, iterate);
+                    equal(
+                        "proximal-step",
+                        [stiffness, penalty],
+                        (&next - lambda) / eps,
+                        (reaction(s) - &next) / &s.c,
+                    )
+                },
+                {
+                    let next = augmented::update(s, eps, lambda, iterate);
+                    equal(
+                        "envelope",
+                        [stiffness, penalty],
+                        beyond::dual_functional(s, &next) - square(&next - lambda) / (int(2) * eps),
+                        augmented::least_value(s, eps, lambda),
+                    )
+                },
+                derivative(
+                    "envelope-slope",
+                    [stiffness, penalty],
+                    augmented::least_value(s, eps, lambda),
+                    lambda,
+                    contact::penetration(s, iterate),
+                ),
+            ]),
+        Entry::new("beyond 5", "Extrapolation")
+            .states("Aitken's formula gives R exactly from λ₀, λ₁, λ₂")
+            .given([stiffness, penalty])
+            .functions(["beyond::aitken"])
+            .follows_from(["1.16"])
+            .claims([
+                equal("aitken", [stiffness, penalty, below_reaction], extrapolated, reaction(s)),
+                equal("aitken-from-above", [stiffness, penalty, above_reaction], extrapolated, reaction(s)),
+                {
+                    let after = augmented::multiplier_after(s, lambda, q);
+                    equal(
+                        "rises",
+                        [stiffness, penalty],
+                        augmented::least_value(s, eps, &after),
+                        structure::potential_energy(s, &gap(s))
+                            - square((reaction(s) - lambda) * q)
+                                / (int(2) * penalty::total_stiffness(s, eps)),
+                    )
+                },
+            ]),
+        Entry::new("beyond 6", "An exact penalty")
+            .states("Π + «beyond::exact_penalty» is least at u = «lagrange::deflection» for every ε ≥ R")
+            .given([stiffness, touching])
+            .functions(["beyond::exact_penalty"])
+            .follows_from(["1.4", "Remark 1.3.2"])
+            .claims([{
+                let gap = gap(s);
+                non_negative(
+                    "exact-penalty",
+                    [stiffness, touching, strong_enough],
+                    structure::potential_energy(s, u)
+                        + beyond::exact_penalty(eps, &contact::penetration(s, u))
+                        - structure::potential_energy(s, &gap),
+                )
+            }]),
+    ]
+}

@@ -1,0 +1,130 @@
+//! The quantities that claims speak of.
+
+use crate::chapter::SpringMass;
+use crate::number::{Dual, Tree};
+use std::sync::LazyLock;
+
+macro_rules! coordinates {
+    ($($Var:ident $field:ident $symbol:literal $text:literal;)*) => {
+        /// A coordinate of a [`Case`].
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        pub enum Var {
+            /// Stiffness, in N/m.
+            C,
+            /// Mass, in kg.
+            M,
+            /// Gravity, in m/s².
+            G,
+            /// Free length, in m.
+            L,
+            /// Height, in m.
+            H,
+            $(#[doc = $text] $Var,)*
+        }
+
+        impl Var {
+            /// All of them.
+            pub const ALL: &[Var] = &[Var::C, Var::M, Var::G, Var::L, Var::H, $(Var::$Var),*];
+
+            /// The coordinate of this name.
+            pub fn named(symbol: &str) -> Option<Var> {
+                Var::ALL.iter().copied().find(|var| var.symbol() == symbol)
+            }
+
+            /// Its symbol in the chapter's notation.
+            pub fn symbol(self) -> &'static str {
+                match self {
+                    $(Var::$Var => $symbol,)*
+                    Var::C => "c", Var::M => "m", Var::G => "g", Var::L => "l", Var::H => "H",
+                }
+            }
+        }
+
+        /// The numbers of one trial: a system and everything else a claim may speak of.
+        #[derive(Clone, Debug, PartialEq)]
+        pub struct Case<T> {
+            /// The five parameters.
+            pub system: SpringMass<T>,
+            $(#[doc = $text] pub $field: T,)*
+        }
+
+        impl<T> Case<T> {
+            /// The case whose coordinates the function gives.
+            ///
+            /// # Errors
+            /// The first that it returns.
+            pub fn try_of<E>(mut f: impl FnMut(Var) -> Result<T, E>) -> Result<Self, E> {
+                let system = SpringMass { c: f(Var::C)?, m: f(Var::M)?, g: f(Var::G)?, l: f(Var::L)?, h: f(Var::H)? };
+                Ok(Case { system, $($field: f(Var::$Var)?),* })
+            }
+
+            /// One coordinate.
+            pub fn get(&self, var: Var) -> &T {
+                match var {
+                    $(Var::$Var => &self.$field,)*
+                    Var::C => &self.system.c, Var::M => &self.system.m, Var::G => &self.system.g,
+                    Var::L => &self.system.l, Var::H => &self.system.h,
+                }
+            }
+
+            /// One coordinate, to be changed.
+            pub fn get_mut(&mut self, var: Var) -> &mut T {
+                match var {
+                    $(Var::$Var => &mut self.$field,)*
+                    Var::C => &mut self.system.c, Var::M => &mut self.system.m, Var::G => &mut self.system.g,
+                    Var::L => &mut self.system.l, Var::H => &mut self.system.h,
+                }
+            }
+        }
+    };
+}
+coordinates! {
+    U u "u" "A deflection, in m.";
+    V v "v" "Another deflection, or the next one, in m.";
+    Du du "δu" "A virtual displacement, in m.";
+    Alpha alpha "α" "A pure number, or a step of its own in N/m.";
+    Eps eps "ε" "The penalty, in N/m.";
+    Eps4 eps4 "ε₄" "The second coefficient of (1.10), in N/m³.";
+    Lambda lambda "λ" "A multiplier, in N.";
+    Q q "q" "The decay ρᵏ of some step k.";
+    K k "k" "A number of steps.";
+    T t "t" "A time.";
+    Tol tol "tol" "A tolerance, in m.";
+}
+
+impl<T> Case<T> {
+    /// The case whose coordinates the function gives.
+    pub fn of(mut f: impl FnMut(Var) -> T) -> Self {
+        let case = Case::try_of(|var| Ok::<T, std::convert::Infallible>(f(var)));
+        case.unwrap_or_else(|never| match never {})
+    }
+
+    /// The same case in other numbers.
+    pub fn map<U>(&self, mut f: impl FnMut(Var, &T) -> U) -> Case<U> {
+        Case::of(|var| f(var, self.get(var)))
+    }
+}
+
+impl<T: Clone> Case<T> {
+    /// The coordinate of this name.
+    ///
+    /// # Panics
+    /// There is none.
+    pub fn named(&self, symbol: &str) -> T {
+        let var = Var::named(symbol);
+        self.get(var.unwrap_or_else(|| panic!("{symbol} is no coordinate"))).clone()
+    }
+}
+
+impl Case<Tree> {
+    /// The same case in dual numbers, with this coordinate as the variable.
+    pub fn along(&self, by: &Tree) -> Case<Dual<Tree>> {
+        self.map(|_, x| Dual::coordinate(x.clone(), x == by))
+    }
+}
+
+/// The case whose coordinates are themselves: what is claimed is said of it.
+pub fn symbols() -> &'static Case<Tree> {
+    static SYMBOLS: LazyLock<Case<Tree>> = LazyLock::new(|| Case::of(|var| Tree::symbol(var.symbol())));
+    &SYMBOLS
+}

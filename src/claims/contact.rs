@@ -1,0 +1,82 @@
+//! Contact with the plane: (1.5) and (1.6).
+
+use super::prelude::*;
+use crate::chapter::contact::{self, *};
+use crate::chapter::system::{gap, reaction};
+use crate::chapter::{augmented, structure};
+
+formulas! {
+    "p" (folded) = contact::penetration(system, "u");
+    "r" = contact::equilibrium(system, "u", "N");
+    "" = contact::kkt(system, "u", "N"), "stationarity" is |Kkt { stationarity, .. }| stationarity;
+    "" = contact::kkt(system, "u", "N"), "primal" is |Kkt { primal, .. }| primal;
+    "" = contact::kkt(system, "u", "N"), "dual" is |Kkt { dual, .. }| dual;
+    "" = contact::kkt(system, "u", "N"), "complementarity" is |Kkt { complementarity, .. }| complementarity;
+    "N" = contact::contact_force(system);
+    "u" = contact::deflection(system);
+}
+
+/// Its entries, with what is claimed of each.
+pub(super) fn entries() -> Vec<Entry> {
+    let Case { system: s, u, v, du, lambda, .. } = symbols();
+    let Given { stiffness, contact, separated, clear, .. } = given();
+    let solved = kkt(s, &deflection(s), &contact_force(s));
+    vec![
+        Entry::new("1.5", "Penetration")
+            .states("p(u) = «contact::penetration» ≤ 0")
+            .in_latex(r"p(u) = «contact::penetration» \le 0")
+            .functions(["contact::penetration"])
+            .follows_from(["Fig. 1.1"])
+            .claims([
+                equal("at-the-gap", [], penetration(s, &gap(s)), 0),
+                derivative("slope", [], penetration(s, u), u, 1),
+                equal("free", [stiffness], penetration(s, &structure::deflection(s)), reaction(s) / &s.c),
+            ]),
+        Entry::new("1.6", "Karush-Kuhn-Tucker conditions")
+            .states(
+                "p ≤ 0, N ≥ 0, «contact::kkt.complementarity» = 0 and «contact::equilibrium» = 0 \
+                 have exactly one solution",
+            )
+            .in_latex(concat!(
+                r"\begin{array}{lll} \text{contact:} & p = 0 & N > 0 \\ \text{no contact:} & p < 0 & ",
+                r"N = 0 \\ \text{always:} & «contact::kkt.complementarity» = 0 & \end{array}",
+            ))
+            .given([stiffness])
+            .functions(["contact::kkt", "contact::equilibrium"])
+            .follows_from(["1.4", "1.5"])
+            .claims([
+                equal(
+                    "force-from-deflection",
+                    [],
+                    equilibrium(s, u, lambda),
+                    &s.c * penetration(s, u) + lambda - reaction(s),
+                ),
+                // By equilibrium N = m g − c u: a mass short of the plane with R > 0 would need a force there.
+                // Of two solutions, each with p N = 0, p ≤ 0 and N ≥ 0, the right side is not positive: they are one.
+                {
+                    let p = |u: &Tree| penetration(s, u);
+                    let n = |u: &Tree| augmented::contact_force(s, u);
+                    equal(
+                        "unique",
+                        [],
+                        &s.c * square(u - v),
+                        p(u) * n(v) + p(v) * n(u) - p(u) * n(u) - p(v) * n(v),
+                    )
+                },
+                positive(
+                    "contact-excludes-gap",
+                    [stiffness, contact, clear],
+                    -(penetration(s, u) * augmented::contact_force(s, u)),
+                ),
+                // … and one at the plane with R < 0 would be pulled.
+                positive("separation-excludes-touch", [separated], structure::residual(s, &gap(s))),
+                equal("stationarity", [stiffness], &solved.stationarity, 0),
+                equal("no-penetration", [stiffness], &solved.primal, 0),
+                equal("no-pull", [], kkt(s, u, &contact_force(s)).dual, 0),
+                equal("complementarity", [stiffness], &solved.complementarity, 0),
+                equal("product", [], kkt(s, &(gap(s) + du), lambda).complementarity, du * lambda),
+                positive("pushes", [contact], contact_force(s)),
+                positive("hangs-free", [stiffness, separated], -penetration(s, &deflection(s))),
+            ]),
+    ]
+}

@@ -1,0 +1,118 @@
+//! One number of the chapter.
+
+use super::registry;
+use crate::formula::{Claim, Hypothesis, Notation};
+
+/// One number of the chapter: an equation, the theorem, a remark, a figure, a loose spot (note), or
+/// something beyond it.
+///
+/// Its statement and its LaTeX have holes for formulas, as [`Registry::fill`](crate::formula::Registry::fill) describes
+/// them. Outside the holes stand words, relations and the names of quantities, and what no function computes.
+#[derive(Clone, Debug, Default)]
+pub struct Entry {
+    /// "1.13", "Theorem 1.3.3", "Remark 1.3.2", "Fig. 1.1", "note 4" or "beyond 2".
+    pub equation: &'static str,
+    /// Its name.
+    pub title: &'static str,
+    /// The section it stands in.
+    pub section: &'static str,
+    statement: &'static str,
+    latex: Option<&'static str>,
+    /// Under which conditions.
+    pub given: Vec<Hypothesis>,
+    /// The functions in [`chapter`](crate::chapter) that are its formulas, as `module::name`; its own first.
+    pub functions: Vec<&'static str>,
+    /// The entries it is derived from.
+    pub follows_from: Vec<&'static str>,
+    /// What is claimed of it, for all values that satisfy the claim's hypotheses.
+    pub claims: Vec<Claim>,
+}
+
+impl Entry {
+    /// What it states.
+    ///
+    /// ```
+    /// use spring_mass_contact::claims::entry;
+    /// assert_eq!(entry("1.12").unwrap().statement(), "N = ε p, which is ε R / (c + ε) at (1.13)");
+    /// ```
+    pub fn statement(&self) -> String {
+        registry().fill(self.statement, Notation::Text)
+    }
+
+    /// The equation in LaTeX, if it is one of the chapter's numbered ones.
+    ///
+    /// ```
+    /// use spring_mass_contact::claims::entry;
+    /// assert_eq!(entry("1.24").unwrap().latex().unwrap(), r"u = u_h + u_{\mathrm{nh}}");
+    /// ```
+    pub fn latex(&self) -> Option<String> {
+        self.latex.map(|latex| registry().fill(latex, Notation::Latex))
+    }
+
+    /// As it is written in a text: `(1.13)`, and what has a name by its name.
+    pub fn label(&self) -> String {
+        let numbered = self.equation.starts_with(|c: char| c.is_ascii_digit());
+        if numbered { format!("({})", self.equation) } else { self.equation.to_string() }
+    }
+
+    /// Its conditions as a reader writes them.
+    pub fn hypotheses(&self) -> Vec<String> {
+        self.given.iter().map(|hypothesis| registry().supposed(hypothesis)).collect()
+    }
+
+    pub(super) fn new(equation: &'static str, title: &'static str) -> Self {
+        Entry { equation, title, ..Entry::default() }
+    }
+
+    pub(super) fn within(self, section: &'static str) -> Self {
+        Entry { section, ..self }
+    }
+
+    pub(super) fn states(self, statement: &'static str) -> Self {
+        Entry { statement, ..self }
+    }
+
+    pub(super) fn in_latex(self, latex: &'static str) -> Self {
+        Entry { latex: Some(latex), ..self }
+    }
+
+    pub(super) fn given<const N: usize>(self, given: [&Hypothesis; N]) -> Self {
+        Entry { given: given.map(Hypothesis::clone).into(), ..self }
+    }
+
+    pub(super) fn functions<const N: usize>(self, functions: [&'static str; N]) -> Self {
+        Entry { functions: functions.into(), ..self }
+    }
+
+    pub(super) fn follows_from<const N: usize>(self, entries: [&'static str; N]) -> Self {
+        Entry { follows_from: entries.into(), ..self }
+    }
+
+    pub(super) fn claims<const N: usize>(self, claims: [Claim; N]) -> Self {
+        let equation = self.equation;
+        Entry { claims: claims.map(|claim| Claim { equation, ..claim }).into(), ..self }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::claims::entries;
+
+    #[test]
+    fn outside_its_holes_an_equation_has_no_formula() {
+        for entry in entries() {
+            let pieces = entry.latex.unwrap_or_default().split('«');
+            let outside = pieces.map(|piece| piece.split_once('»').map_or(piece, |(_, outside)| outside));
+            for outside in outside {
+                // An index k + 1 belongs to a name.
+                let names = outside.split("_{").enumerate();
+                let after = |(i, piece): (usize, &'static str)| match piece.split_once('}') {
+                    Some((_, after)) if i > 0 => after,
+                    _ => piece,
+                };
+                let bare: String = names.map(after).collect();
+                assert!(!bare.contains(['+', '-']), "{}: {bare}", entry.equation);
+            }
+        }
+    }
+}

@@ -1,0 +1,241 @@
+//! By penalty: (1.9) to (1.13), Fig. 1.2, Remark 1.3.2.
+
+use super::prelude::*;
+use crate::chapter::penalty::{self, *};
+use crate::chapter::{
+    augmented, contact, structure,
+    system::{gap, reaction},
+};
+
+formulas! {
+    "W" = penalty::functional("ε", "p");
+    "Π_p" (folded) = penalty::energy(system, "ε", "u");
+    "" = penalty::total_stiffness(system, "ε");
+    "min Π_p" = penalty::least_energy(system, "ε");
+    "W" = penalty::series("ε", ["ε₄"], "p"), written "«» + …";
+    "W′" (folded) = penalty::series_force("ε", ["ε₄"], "p"), written "∂W/∂p";
+    "r" = penalty::series_residual(system, "ε", ["ε₄"], "p");
+    "r" = penalty::residual(system, "ε", "u");
+    "N" = penalty::contact_force(system, "ε", "u");
+    "u" = penalty::deflection(system, "ε");
+    "u" = penalty::deflection_divided(system, "ε");
+    "p" = penalty::penetration(system, "ε");
+    "N" = penalty::force_at_root(system, "ε");
+    "ε" = penalty::penalty_for(system, "tol");
+    "u" = penalty::unilateral_deflection(system, "ε");
+}
+
+/// Its entries, with what is claimed of each.
+pub(super) fn entries() -> Vec<Entry> {
+    let Case { system: s, u, eps, eps4, tol, .. } = symbols();
+    let Given {
+        stiffness,
+        penalty,
+        quartic,
+        contact,
+        touching,
+        separated,
+        penetrating,
+        tolerance,
+        enough,
+        within_tolerance,
+        ..
+    } = given();
+    let zero = &int(0);
+    let quartic_term = std::slice::from_ref(eps4);
+    vec![
+        Entry::new("1.9", "Penalised energy")
+            .states("Π_p(u) = «penalty::energy»")
+            .in_latex(r"\Pi_p(u) = «penalty::energy»")
+            .given([stiffness, penalty])
+            .functions(["penalty::energy", "penalty::functional"])
+            .follows_from(["1.4", "1.5"])
+            .claims([
+                equal(
+                    "least",
+                    [stiffness, penalty],
+                    energy(s, eps, &deflection(s, eps)),
+                    least_energy(s, eps),
+                ),
+                equal(
+                    "excess",
+                    [stiffness, penalty],
+                    energy(s, eps, u) - least_energy(s, eps),
+                    half(total_stiffness(s, eps) * square(u - deflection(s, eps))),
+                ),
+            ]),
+        Entry::new("1.10", "Penalty functional with many terms")
+            .states("W = «penalty::series» fulfils the conditions on a penalty functional")
+            .in_latex(r"W_\varepsilon(p) = «penalty::series»")
+            .given([penalty, quartic])
+            .functions(["penalty::series", "penalty::series_force"])
+            .follows_from(["1.9"])
+            .claims([
+                equal("vanishes-at-contact", [], series(eps, quartic_term, zero), 0),
+                positive(
+                    "positive",
+                    [penalty, quartic, penetrating],
+                    series(eps, quartic_term, &contact::penetration(s, u)),
+                ),
+                positive(
+                    "increasing",
+                    [penalty, quartic, penetrating],
+                    series_force(eps, quartic_term, &contact::penetration(s, u)),
+                ),
+                derivative("unbounded", [], series(eps, quartic_term, u), eps, half(u * u)),
+                equal("one-term", [], series(eps, &[], u), functional(eps, u)),
+                equal("force", [], series_force(eps, quartic_term, u), eps * u + int(4) * eps4 * u * u * u),
+                derivative("slope", [], series(eps, quartic_term, u), u, series_force(eps, quartic_term, u)),
+                {
+                    let f = |p: &Tree| series_residual(s, eps, quartic_term, p);
+                    equal("odd", [], f(u) + f(&-u), -(int(2) * reaction(s)))
+                },
+                derivative(
+                    "stiffens",
+                    [],
+                    series_residual(s, eps, quartic_term, u),
+                    u,
+                    total_stiffness(s, eps) + int(12) * eps4 * u * u,
+                ),
+                {
+                    let dual = symbols().along(u);
+                    positive(
+                        "one-root",
+                        [stiffness, penalty, quartic],
+                        series_residual(&dual.system, &dual.eps, std::slice::from_ref(&dual.eps4), &dual.u)
+                            .derivative,
+                    )
+                },
+            ]),
+        Entry::new("1.11", "Equilibrium by penalty")
+            .states("«penalty::residual» = 0")
+            .in_latex(r"\frac{\partial\Pi_p}{\partial u} = «penalty::residual» = 0")
+            .functions(["penalty::residual"])
+            .follows_from(["1.9"])
+            .claims([
+                derivative("stationary", [], energy(s, eps, u), u, residual(s, eps, u)),
+                equal("root", [stiffness, penalty], residual(s, eps, &deflection(s, eps)), 0),
+                equal(
+                    "two-springs",
+                    [],
+                    residual(s, eps, u),
+                    contact::equilibrium(s, u, &contact_force(s, eps, u)),
+                ),
+            ]),
+        Entry::new("1.12", "Contact force by penalty")
+            .states("N = «penalty::contact_force», which is «penalty::force_at_root» at (1.13)")
+            .in_latex(r"N = «penalty::contact_force» = «penalty::contact_force in full»")
+            .given([stiffness, penalty])
+            .functions(["penalty::contact_force"])
+            .follows_from(["1.11"])
+            .claims([
+                equal(
+                    "at-the-root",
+                    [stiffness, penalty],
+                    contact_force(s, eps, &deflection(s, eps)),
+                    force_at_root(s, eps),
+                ),
+                positive("pushes", [stiffness, penalty, contact], force_at_root(s, eps)),
+                equal(
+                    "error",
+                    [stiffness, penalty],
+                    reaction(s) - force_at_root(s, eps),
+                    &s.c * penetration(s, eps),
+                ),
+                equal(
+                    "relative-error",
+                    [stiffness, penalty],
+                    reaction(s) - force_at_root(s, eps),
+                    augmented::contraction(s, eps) * reaction(s),
+                ),
+                {
+                    let p = penetration(s, eps);
+                    equal("complementarity", [stiffness, penalty], &p * force_at_root(s, eps), eps * &p * &p)
+                },
+            ]),
+        Entry::new("Fig. 1.2", "The penalty as a second spring")
+            .states("Two springs of stiffness c and ε act side by side.")
+            .functions(["penalty::total_stiffness"])
+            .follows_from(["1.12"])
+            .claims([
+                derivative(
+                    "force",
+                    [],
+                    functional(eps, &contact::penetration(s, u)),
+                    u,
+                    contact_force(s, eps, u),
+                ),
+                derivative("stiffness", [], residual(s, eps, u), u, total_stiffness(s, eps)),
+            ]),
+        Entry::new("1.13", "Deflection by penalty and its limit")
+            .states(
+                "u = «penalty::deflection» tends to «system::gap» as ε → ∞, with p = \
+                 «penalty::penetration»",
+            )
+            .in_latex(concat!(
+                r"\lim_{\varepsilon\to\infty} u = \lim_{\varepsilon\to\infty} «penalty::deflection» = ",
+                r"\lim_{\varepsilon\to\infty} «penalty::deflection_divided» = «system::gap»",
+            ))
+            .given([stiffness, penalty])
+            .functions(["penalty::deflection", "penalty::deflection_divided"])
+            .follows_from(["1.11"])
+            .claims([
+                equal(
+                    "rate",
+                    [stiffness, penalty],
+                    total_stiffness(s, eps) * (deflection(s, eps) - gap(s)),
+                    reaction(s),
+                ),
+                limit(
+                    "limit",
+                    [stiffness, penalty],
+                    deflection(s, eps),
+                    eps,
+                    gap(s),
+                    Exactly(reaction(s) / total_stiffness(s, eps)),
+                ),
+                equal("two-forms", [stiffness, penalty], deflection(s, eps), deflection_divided(s, eps)),
+                derivative(
+                    "slope",
+                    [stiffness, penalty],
+                    contact::penetration(s, &deflection(s, eps)),
+                    eps,
+                    -reaction(s) / square(total_stiffness(s, eps)),
+                ),
+                limit(
+                    "penetration-vanishes",
+                    [stiffness, penalty],
+                    contact::penetration(s, &deflection(s, eps)),
+                    eps,
+                    0,
+                    Exactly(penetration(s, eps)),
+                ),
+                equal(
+                    "unilateral",
+                    [stiffness, penalty, touching],
+                    unilateral_deflection(s, eps),
+                    deflection(s, eps),
+                ),
+                equal(
+                    "unilateral-free",
+                    [stiffness, penalty, separated],
+                    unilateral_deflection(s, eps),
+                    structure::deflection(s),
+                ),
+            ]),
+        Entry::new("Remark 1.3.2", "Which penalty is enough")
+            .states("p ≤ tol if and only if ε ≥ «penalty::penalty_for»")
+            .given([stiffness, penalty, contact, tolerance])
+            .functions(["penalty::penalty_for"])
+            .follows_from(["1.13"])
+            .claims([
+                non_negative("enough", [tolerance, contact, enough], tol - penetration(s, eps)),
+                equal("least", [tolerance, contact], penetration(s, &penalty_for(s, tol)), tol),
+                non_negative(
+                    "necessary",
+                    [stiffness, penalty, tolerance, within_tolerance],
+                    eps - penalty_for(s, tol),
+                ),
+            ]),
+    ]
+}

@@ -1,0 +1,98 @@
+//! Equilibrium without a plane: (1.1) to (1.4).
+
+use super::prelude::*;
+use crate::chapter::structure::{self, *};
+use crate::chapter::system;
+
+formulas! {
+    "F" = structure::spring_force(system, "u");
+    "r" = structure::residual(system, "u");
+    "u" = structure::deflection(system);
+    "δW" = structure::virtual_work(system, "u", "δu");
+    "Π" (folded) = structure::potential_energy(system, "u");
+    "δΠ" = structure::first_variation(system, "u", "δu"), written "δu ∂Π/∂u";
+    "min Π" = structure::least_energy(system);
+}
+
+/// Its entries, with what is claimed of each.
+pub(super) fn entries() -> Vec<Entry> {
+    let Case { system: s, u, v, du, alpha, .. } = symbols();
+    let Given { stiffness, .. } = given();
+    let one = &int(1);
+    vec![
+        Entry::new("1.1", "Equilibrium of forces")
+            .states("«structure::residual» = 0")
+            .in_latex(r"«structure::residual» = 0")
+            .given([stiffness])
+            .functions(["structure::residual", "structure::deflection"])
+            .follows_from(["Fig. 1.1"])
+            .claims([
+                equal("forces", [], residual(s, u), spring_force(s, u) - system::weight(s)),
+                equal("root", [stiffness], residual(s, &deflection(s)), 0),
+                equal("unique", [stiffness], residual(s, u), &s.c * (u - deflection(s))),
+            ]),
+        Entry::new("1.2", "Virtual work")
+            .states("«structure::virtual_work» = 0 for every δu")
+            .in_latex(r"«structure::virtual_work» = 0 \quad\text{for every } \delta u")
+            .functions(["structure::virtual_work"])
+            .follows_from(["1.1"])
+            .claims([
+                equal(
+                    "linear",
+                    [],
+                    virtual_work(s, u, &(du + v)),
+                    virtual_work(s, u, du) + virtual_work(s, u, v),
+                ),
+                equal("coefficient", [], virtual_work(s, u, one), residual(s, u)),
+                // Zero for every δu: in particular for this one.
+                {
+                    let r = residual(s, u);
+                    equal("only-equilibrium", [], virtual_work(s, u, &r), &r * &r)
+                },
+            ]),
+        Entry::new("1.3", "Variation of the energy")
+            .states("δΠ = «structure::virtual_work» = 0")
+            .in_latex(r"\delta\Pi = \delta\left(«structure::potential_energy»\right) = 0")
+            .functions(["structure::first_variation"])
+            .follows_from(["1.2", "1.4"])
+            .claims([
+                derivative(
+                    "variation",
+                    [],
+                    potential_energy(s, &(u + alpha * du)),
+                    alpha,
+                    virtual_work(s, &(u + alpha * du), du),
+                ),
+                equal("weak-form", [], first_variation(s, u, du), virtual_work(s, u, du)),
+                equal(
+                    "central-difference",
+                    [],
+                    potential_energy(s, &(u + du)) - potential_energy(s, &(u - du)),
+                    int(2) * virtual_work(s, u, du),
+                ),
+            ]),
+        Entry::new("1.4", "Potential energy")
+            .states(
+                "Π(u) = «structure::potential_energy» is least at u = «structure::deflection» and \
+                 only there",
+            )
+            .in_latex(r"\Pi(u) = «structure::potential_energy» \;\to\; \min")
+            .given([stiffness])
+            .functions(["structure::potential_energy"])
+            .follows_from(["1.1"])
+            .claims([
+                derivative("slope", [], potential_energy(s, u), u, residual(s, u)),
+                {
+                    let least = deflection(s);
+                    equal(
+                        "excess",
+                        [stiffness],
+                        potential_energy(s, u) - potential_energy(s, &least),
+                        half(&s.c * square(u - &least)),
+                    )
+                },
+                non_negative("minimum", [stiffness], potential_energy(s, u) - least_energy(s)),
+                equal("least", [stiffness], potential_energy(s, &deflection(s)), least_energy(s)),
+            ]),
+    ]
+}

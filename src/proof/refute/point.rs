@@ -1,0 +1,139 @@
+//! Where a counterexample is looked for.
+
+use crate::formula::{Hypothesis, Relation};
+use crate::number::Exact;
+use num_traits::{One, Zero};
+use oorandom::Rand64;
+use rug::Rational;
+use std::collections::BTreeSet;
+use std::fmt;
+
+/// Numbers for symbols, in an order for readers.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Point(Vec<(&'static str, Exact)>);
+
+impl Point {
+    /// The point with these numbers.
+    pub fn new(numbers: impl IntoIterator<Item = (&'static str, Exact)>) -> Self {
+        Point(numbers.into_iter().collect())
+    }
+
+    /// The number for a symbol; 1 if the point says nothing of it.
+    pub fn at(&self, symbol: &str) -> Exact {
+        let own = self.0.iter().find(|(name, _)| *name == symbol);
+        own.map_or_else(Exact::one, |(_, x)| x.clone())
+    }
+
+    /// The same point but for one number.
+    pub(super) fn with(&self, symbol: &'static str, x: Exact) -> Self {
+        let mut point = self.clone();
+        match point.0.iter_mut().find(|(name, _)| *name == symbol) {
+            Some((_, own)) => *own = x,
+            None => point.0.push((symbol, x)),
+        }
+        point
+    }
+
+    /// Its numbers.
+    pub fn numbers(&self) -> impl Iterator<Item = (&'static str, &Exact)> {
+        self.0.iter().map(|(symbol, x)| (*symbol, x))
+    }
+
+    /// The same for some symbols only.
+    pub(super) fn among(&self, symbols: &BTreeSet<&'static str>) -> Self {
+        Point(self.0.iter().filter(|(symbol, _)| symbols.contains(symbol)).cloned().collect())
+    }
+
+    /// Do hypotheses hold there?
+    pub fn satisfies(&self, hypotheses: &[Hypothesis]) -> bool {
+        hypotheses.iter().all(|hypothesis| hypothesis.holds(&|symbol| self.at(symbol)))
+    }
+
+    /// The point bent until the hypotheses hold. A quantity that lacks its sign gets the value `target`: the hypothesis
+    /// is linear in the symbol that it is solved for.
+    pub(super) fn bent(
+        mut self,
+        hypotheses: &[Hypothesis],
+        target: &impl Fn(Relation) -> Exact,
+    ) -> Option<Self> {
+        for hypothesis in hypotheses {
+            if !hypothesis.holds(&|symbol| self.at(symbol)) {
+                let target = target(hypothesis.relation);
+                let x = hypothesis.solution(&|symbol| self.at(symbol), &target)?;
+                self = self.with(hypothesis.solved_for, x);
+            }
+        }
+        self.satisfies(hypotheses).then_some(self)
+    }
+}
+
+/// `c = 1, ε = −2`
+impl fmt::Display for Point {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        for (i, (symbol, x)) in self.numbers().enumerate() {
+            write!(f, "{}{symbol} = {x}", if i == 0 { "" } else { ", " })?;
+        }
+        Ok(())
+    }
+}
+
+/// So many raw points are drawn.
+const RAW: u64 = 4000;
+
+/// Whole numbers this small and smaller: in one of seven draws two of them cancel. And in every fourth point up to
+/// the other, for hypotheses such as α > 2(c + ε).
+const SMALL: i32 = 3;
+const LARGER: i32 = 9;
+
+/// So many planted points.
+const PLANTED: u64 = 60;
+
+/// What is drawn for a symbol depends on its name and the point's number alone.
+fn random(point: u64, symbol: &str) -> Rand64 {
+    let seed =
+        symbol.bytes().fold(u128::from(point), |seed, byte| (seed << 8) ^ (seed >> 88) ^ u128::from(byte));
+    Rand64::new(seed)
+}
+
+fn raw(point: u64, symbol: &str) -> Exact {
+    let size = if point % 4 == 3 { LARGER } else { SMALL };
+    Exact::from(random(point, symbol).rand_range(0..2 * size as u64 + 1) as i32 - size)
+}
+
+/// The raw points at which hypotheses hold: small integers, the same for all statements.
+pub fn raw_points(hypotheses: &[Hypothesis], symbols: &[&'static str]) -> impl Iterator<Item = Point> {
+    first_raw_points(RAW, hypotheses, symbols)
+}
+
+/// Those of the first so many.
+pub(super) fn first_raw_points(
+    many: u64,
+    hypotheses: &[Hypothesis],
+    symbols: &[&'static str],
+) -> impl Iterator<Item = Point> {
+    let holds = |i: &u64| hypotheses.iter().all(|hypothesis| hypothesis.holds(&|symbol| raw(*i, symbol)));
+    (0..many).filter(holds).map(|i| Point::new(symbols.iter().map(|symbol| (*symbol, raw(i, symbol)))))
+}
+
+/// Planted points at which hypotheses hold; not for ever.
+pub fn planted_points(hypotheses: &[Hypothesis], symbols: &[&'static str]) -> impl Iterator<Item = Point> {
+    // One to nine, over one to three, of either sign.
+    let size = |random: &mut Rand64| {
+        Exact::from(Rational::from((random.rand_range(1..10), random.rand_range(1..4))))
+    };
+    (0..PLANTED).filter_map(move |i| {
+        let draw = |symbol: &&'static str| {
+            let mut random = random(RAW + i, symbol);
+            let x = size(&mut random);
+            (*symbol, if random.rand_range(0..3) == 0 { -x } else { x })
+        };
+        let target = size(&mut random(RAW + i, ""));
+        // A quantity that may be 0 should be so sometimes.
+        let target = |relation| match relation {
+            Relation::Positive => target.clone(),
+            Relation::NonNegative if i % 3 > 0 => target.clone(),
+            Relation::NonNegative | Relation::Zero => Exact::zero(),
+        };
+        Point::new(symbols.iter().map(draw)).bent(hypotheses, &target)
+    })
+}
