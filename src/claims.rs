@@ -296,6 +296,11 @@ pub enum Kind {
     },
 }
 
+/// The order in which mechanics writes the factors of a product.
+#[cfg(feature = "mpfr")]
+pub(crate) const FACTORS: [&str; 14] =
+    ["k", "q", "t", "tol", "c", "ε", "ε₄", "m", "g", "l", "H", "u", "v", "λ"];
+
 /// What the components of x_k are called in the step of an induction.
 pub const MEMBERS: [&str; 4] = ["x₁", "x₂", "x₃", "x₄"];
 

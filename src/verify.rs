@@ -230,7 +230,7 @@ fn drawn(seed: u64, index: u64, given: &[Given]) -> Option<Case<Exact>> {
 fn proof(statement: &Statement) -> Row {
     let why = match guarded(|| prove(statement)) {
         Ok(Ok(_)) => None,
-        Ok(Err(why)) => Some(why.to_string()),
+        Ok(Err(why)) => Some(crate::proof::paper::why(&why)),
         Err(panic) => Some(panic),
     };
     let counterexample = why.as_ref().and_then(|_| guarded(|| refute(statement)).ok().flatten());

@@ -3,6 +3,7 @@
 //! Sources are read as tokens: names in comments, in strings and in the docs are no arrows, names within macros are.
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -147,6 +148,53 @@ fn the_map_has_every_room() {
     declared.sort();
     rooms.sort();
     assert_eq!(rooms, declared);
+}
+
+/// The kernel's files, by their paths below `src`.
+fn kernel() -> Vec<String> {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let inside = files(&src.join("proof/kernel"));
+    let path = |file: &PathBuf| file.strip_prefix(&src).unwrap().to_str().unwrap().replace('\\', "/");
+    inside.iter().map(path).chain(["proof/kernel.rs".to_string()]).collect()
+}
+
+#[test]
+fn the_kernel_knows_numbers_and_statements_alone() {
+    // Whoever reads what has to be trusted need read nothing else of `proof`.
+    let mut known = BTreeSet::new();
+    for path in kernel() {
+        known.extend(paths(source(format!("src/{path}")).parse().unwrap(), &module(&path), "crate"));
+    }
+    // Of claims the hypotheses; `proof` by itself is how far a function can be seen.
+    let allowed = ["claims", "number", "operators", "proof", "proof::kernel", "proof::statement"];
+    let room = |target: &Vec<String>| {
+        target[..target.len().min(if target[0] == "proof" { 2 } else { 1 })].join("::")
+    };
+    let others: Vec<_> = known.iter().map(room).filter(|room| !allowed.contains(&room.as_str())).collect();
+    assert!(others.is_empty(), "the kernel knows {others:?}");
+}
+
+#[test]
+fn nothing_outside_the_kernel_sees_the_fields_that_proofs_are_made_of() {
+    let mut structures = Vec::new();
+    for path in kernel() {
+        for item in syn::parse_file(&source(format!("src/{path}"))).unwrap().items {
+            let syn::Item::Struct(item) = item else { continue };
+            for field in &item.fields {
+                let sealed = match &field.vis {
+                    syn::Visibility::Inherited => true,
+                    syn::Visibility::Restricted(to) => path != "proof/kernel.rs" && to.path.is_ident("super"),
+                    syn::Visibility::Public(_) => false,
+                };
+                // A symbol is a name, of which nothing is claimed.
+                assert!(sealed || item.ident == "Symbol", "{path}: a field of {} can be seen", item.ident);
+            }
+            structures.push(item.ident.to_string());
+        }
+    }
+    for name in ["Proof", "Direct", "Supposed", "Signed", "Certificate", "Poly", "Ratio", "Monomial"] {
+        assert!(structures.iter().any(|known| known == name), "{name} is not among {structures:?}");
+    }
 }
 
 /// What is an arrow and what is not.

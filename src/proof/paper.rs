@@ -1,9 +1,12 @@
 //! Proofs written out, for a reader with paper.
 
-use super::kernel::{Because, Derivation, Direct, Proof, Signed, Supposed, Used};
-use super::sign::Sign;
+mod algebra;
+
+use self::algebra::Order;
+use super::kernel::sign::{Rule, Sign};
+use super::kernel::{Because, Derivation, Direct, Proof, Signed, Supposed, Used, Why};
 use super::statement::{Goal, Says, Sequence, Statement};
-use crate::claims::{Formula, Given, Relation, call, named};
+use crate::claims::{FACTORS, Formula, Given, Relation, call, named};
 use crate::number::Tree;
 use crate::number::tree::{Notation, Step};
 
@@ -35,8 +38,8 @@ fn says(says: &Says) -> String {
 
 /// How a claim was proved, in a few words.
 pub fn how(statement: &Statement, proof: &Proof) -> String {
-    let cases = proof.goals.iter().map(cases).max().unwrap_or(1);
-    let means = proof.goals.last().map_or("", |derivation| means(derivation));
+    let cases = proof.goals().iter().map(cases).max().unwrap_or(1);
+    let means = proof.goals().last().map_or("", |derivation| means(derivation));
     let kind = match statement.kind {
         "equal" | "sign" => means,
         other => other,
@@ -52,16 +55,15 @@ fn cases(derivation: &Derivation) -> usize {
 }
 
 fn means(derivation: &Derivation) -> &'static str {
-    use super::sign::Rule;
     match derivation {
         Derivation::Cases(_, positive, _) => means(positive),
-        Derivation::Direct(direct) => match &direct.because {
+        Derivation::Direct(direct) => match direct.because() {
             Because::Same(_) => "identity",
             Because::Derivative(..) => "derivative",
             Because::Limit { .. } => "limit",
-            Because::Sign(signed) => match &signed.num.rule {
-                Rule::Zero | Rule::Terms => "sign by terms",
-                Rule::Factor(_, rest) if matches!(rest.rule, Rule::Slope { .. }) => "sign by slope",
+            Because::Sign(signed) => match signed.num().rule() {
+                Rule::Terms => "sign by terms",
+                Rule::Factor(_, rest) if matches!(rest.rule(), Rule::Slope { .. }) => "sign by slope",
                 Rule::Factor(..) => "sign by factors",
                 Rule::Square { .. } => "sign by square",
                 Rule::Slope { .. } => "sign by slope",
@@ -79,9 +81,9 @@ pub fn used(proof: &Proof) -> Vec<&'static str> {
                 collect(not, all);
             }
             Derivation::Direct(direct) => {
-                for Supposed { given, used, .. } in &direct.supposed {
-                    if let Some(given) = given
-                        && !matches!(used, Used::Unused | Used::Follows)
+                for supposed in direct.supposed() {
+                    if let Some(given) = supposed.given()
+                        && !matches!(supposed.used(), Used::Unused | Used::Follows)
                         && !all.contains(&given.text())
                     {
                         all.push(given.text());
@@ -91,7 +93,7 @@ pub fn used(proof: &Proof) -> Vec<&'static str> {
         }
     }
     let mut all = Vec::new();
-    proof.goals.iter().for_each(|derivation| collect(derivation, &mut all));
+    proof.goals().iter().for_each(|derivation| collect(derivation, &mut all));
     all
 }
 
@@ -118,6 +120,13 @@ pub fn names(statement: &Statement) -> Vec<String> {
     called.iter().map(|f| format!("{} = {}", f.symbol, f.typeset(Notation::Text))).collect()
 }
 
+/// Why there is no proof.
+pub fn why(why: &Why) -> String {
+    ORDER.why(why)
+}
+
+const ORDER: Order = Order(&FACTORS);
+
 /// The whole proof, line by line.
 pub fn proof(statement: &Statement, proof: &Proof) -> Vec<String> {
     let mut lines = Vec::new();
@@ -129,63 +138,99 @@ pub fn proof(statement: &Statement, proof: &Proof) -> Vec<String> {
         by.to_string()
     }));
     let single = statement.goals.len() == 1;
-    for (Goal { part, says: goal, .. }, derivation) in statement.goals.iter().zip(&proof.goals) {
+    for (Goal { part, says: goal, .. }, derivation) in statement.goals.iter().zip(proof.goals()) {
         if single {
-            derive(derivation, 0, &mut lines);
+            ORDER.derivation(derivation, 0, &mut lines);
         } else {
             lines.push(format!("{part}: {}", says(goal)));
-            derive(derivation, 1, &mut lines);
+            ORDER.derivation(derivation, 1, &mut lines);
         }
     }
     lines
 }
 
-fn derive(derivation: &Derivation, depth: usize, lines: &mut Vec<String>) {
-    let say = |text: String, lines: &mut Vec<String>| lines.push(format!("{}{text}", "  ".repeat(depth)));
-    match derivation {
-        Derivation::Cases(on, positive, not) => {
-            say(format!("case {on} > 0:"), lines);
-            derive(positive, depth + 1, lines);
-            say(format!("case {on} ≤ 0:"), lines);
-            derive(not, depth + 1, lines);
+impl Order {
+    fn derivation(&self, derivation: &Derivation, depth: usize, lines: &mut Vec<String>) {
+        let say = |text: String, lines: &mut Vec<String>| lines.push(format!("{}{text}", "  ".repeat(depth)));
+        match derivation {
+            Derivation::Cases(on, positive, not) => {
+                let on = self.poly(on);
+                say(format!("case {on} > 0:"), lines);
+                self.derivation(positive, depth + 1, lines);
+                say(format!("case {on} ≤ 0:"), lines);
+                self.derivation(not, depth + 1, lines);
+            }
+            Derivation::Direct(direct) => self.direct(direct).into_iter().for_each(|line| say(line, lines)),
         }
-        Derivation::Direct(direct) => direct_lines(direct).into_iter().for_each(|line| say(line, lines)),
     }
-}
 
-fn direct_lines(direct: &Direct) -> Vec<String> {
-    let mut lines: Vec<String> = direct.supposed.iter().filter_map(supposed).collect();
-    for (divisor, nonzero) in &direct.divisors {
-        explain(format!("{} ≠ 0", text(divisor)), signed(nonzero), &mut lines);
-    }
-    for (bracket, value, decides) in &direct.brackets {
-        let decisive = match bracket.step() {
-            Step::Min(..) => "the second less the first",
-            _ => "its argument",
-        };
-        explain(
-            format!("{} = {} by the sign of {decisive}", text(bracket), text(value)),
-            signed(decides),
-            &mut lines,
-        );
-    }
-    match &direct.because {
-        Because::Same(value) => lines.push(format!("both sides are {value}")),
-        Because::Sign(sign) => lines.extend(signed(sign)),
-        Because::Derivative(value) => {
-            lines.push(format!("dual numbers differentiate it to {value}, which is the right side"))
+    fn direct(&self, direct: &Direct) -> Vec<String> {
+        let mut lines: Vec<String> = direct.supposed().iter().filter_map(|s| self.supposed(s)).collect();
+        for (divisor, nonzero) in direct.divisors() {
+            explain(format!("{} ≠ 0", text(divisor)), self.signed(nonzero), &mut lines);
         }
-        Because::Limit { of, by, degrees, leading, to } => {
-            let (n, d) = degrees;
-            lines.push(format!("it is {of}"));
-            lines.push(format!(
-                "degrees {n} above and {d} below in {}, hence the limit is {to}, since below",
-                by.0
-            ));
-            lines.extend(leading.lines().into_iter().map(|line| format!("  {line}")));
+        for (bracket, value, decides) in direct.brackets() {
+            let decisive = match bracket.step() {
+                Step::Min(..) => "the second less the first",
+                _ => "its argument",
+            };
+            explain(
+                format!("{} = {} by the sign of {decisive}", text(bracket), text(value)),
+                self.signed(decides),
+                &mut lines,
+            );
+        }
+        match direct.because() {
+            Because::Same(value) => lines.push(format!("both sides are {}", self.ratio(value))),
+            Because::Sign(sign) => lines.extend(self.signed(sign)),
+            Because::Derivative(value) => lines.push(format!(
+                "dual numbers differentiate it to {}, which is the right side",
+                self.ratio(value)
+            )),
+            Because::Limit { of, by, degrees: (n, d), leading, to } => {
+                lines.push(format!("it is {}", self.ratio(of)));
+                lines.push(format!(
+                    "degrees {n} above and {d} below in {}, hence the limit is {}, since below",
+                    by.0,
+                    self.ratio(to)
+                ));
+                lines.extend(self.certificate(leading).into_iter().map(|line| format!("  {line}")));
+            }
+        }
+        lines
+    }
+
+    /// How a supposition is used, if that has to be said.
+    fn supposed(&self, supposed: &Supposed) -> Option<String> {
+        let name = supposed.given().map_or("the case", Given::text);
+        match supposed.used() {
+            Used::Symbol(_) => None,
+            Used::Follows => Some(format!("{name} follows")),
+            Used::Unused => Some(format!("{name} is not used")),
+            Used::Pivot(pivot, by, slack) => {
+                let solved = format!("{} = {}", self.monomial(pivot), self.ratio(by));
+                Some(match slack {
+                    None => format!("by {name}: {solved}"),
+                    Some(slack) => {
+                        let (value, slack) = (self.ratio(supposed.value()), slack.0);
+                        let sign = if supposed.sign() == Sign::Positive { "> 0" } else { "≥ 0" };
+                        format!("by {name}: {slack} = {value} {sign}, so {solved}")
+                    }
+                })
+            }
         }
     }
-    lines
+
+    /// Why a quotient has its sign.
+    fn signed(&self, signed: &Signed) -> Vec<String> {
+        let mut lines = Vec::new();
+        if signed.value().den().as_constant().is_none() {
+            lines.push(format!("it is {}", self.ratio(signed.value())));
+            lines.extend(self.certificate(signed.den()));
+        }
+        lines.extend(self.certificate(signed.num()));
+        lines
+    }
 }
 
 /// A fact and the reason for it, on one line if that is short.
@@ -196,33 +241,6 @@ fn explain(fact: String, reason: Vec<String>, lines: &mut Vec<String>) {
         lines.push(format!("{fact}:"));
         lines.extend(reason.into_iter().map(|line| format!("  {line}")));
     }
-}
-
-/// How a supposition is used, if that has to be said.
-fn supposed(supposed: &Supposed) -> Option<String> {
-    let Supposed { given, value, sign, used } = supposed;
-    let name = given.map_or("the case", Given::text);
-    match used {
-        Used::Symbol(_) => None,
-        Used::Follows => Some(format!("{name} follows")),
-        Used::Unused => Some(format!("{name} is not used")),
-        Used::Pivot(pivot, by, None) => Some(format!("by {name}: {pivot} = {by}")),
-        Used::Pivot(pivot, by, Some(slack)) => {
-            let sign = if *sign == Sign::Positive { "> 0" } else { "≥ 0" };
-            Some(format!("by {name}: {} = {value} {sign}, so {pivot} = {by}", slack.0))
-        }
-    }
-}
-
-/// Why a quotient has its sign.
-fn signed(signed: &Signed) -> Vec<String> {
-    let mut lines = Vec::new();
-    if signed.value.den().as_constant().is_none() {
-        lines.push(format!("it is {}", &signed.value));
-        lines.extend(signed.den.lines());
-    }
-    lines.extend(signed.num.lines());
-    lines
 }
 
 /// A formula by the chapter's names.

@@ -8,7 +8,6 @@
 //!
 //! All arithmetic is exact but for eˣ, which is a ball: what is refuted is false for certain.
 
-use super::algebra::is_bracket;
 use super::statement::{Hypothesis, Role, Says, Sequence, Statement};
 use crate::claims::{Case, Relation, Var};
 use crate::number::tree::{Step, everything, piecewise, smooth};
@@ -298,7 +297,7 @@ fn fails(says: &Says, case: &Case<Exact>) -> Option<Option<How>> {
             None => undefined().map(Some),
         },
         // ⟨·⟩ and min have kinks; there dual numbers know of no derivative.
-        Says::Derivative(of, ..) if of.any(&is_bracket) => None,
+        Says::Derivative(of, ..) if of.any(&|tree| tree.step().is_bracket()) => None,
         Says::Derivative(of, by, is) => {
             let dual = of.derivative(by.symbol(), &|name| Value::Exact(at(case, name)), &smooth);
             differ(dual.map(|dual| dual.derivative), value(is, case))

@@ -3,7 +3,7 @@
 use crate::claims::{Formula, Relation, Var, calls};
 use crate::number::Tree;
 use crate::number::tree::Step;
-use crate::proof::algebra::{Monomial, Poly, Ratio, Symbol};
+use crate::proof::kernel::algebra::{Monomial, Poly, Ratio, Symbol};
 use std::fmt;
 
 /// A formula in Coq.
@@ -164,7 +164,7 @@ impl Expr {
             let exponential = exponent.map(|e| Expr::Call("exp".into(), vec![Expr::ratio(&e)]));
             for (monomial, coefficient) in part.terms().rev() {
                 let number = |n: &rug::Integer| Expr::Number(n.clone().abs().to_string());
-                let mut factors: Vec<Expr> = monomial.powers().iter().map(power).collect();
+                let mut factors: Vec<Expr> = monomial.powers().map(power).collect();
                 factors.extend(exponential.clone());
                 let size = number(coefficient.numer());
                 let product = factors.into_iter().fold(size, Expr::times);
@@ -181,7 +181,7 @@ impl Expr {
     }
 
     pub(super) fn monomial(monomial: &Monomial) -> Self {
-        Expr::poly(&Poly::term(monomial.clone(), 1.into()))
+        Expr::poly(&monomial.clone().into())
     }
 
     pub(super) fn ratio(ratio: &Ratio) -> Self {
@@ -270,13 +270,13 @@ impl Expr {
     }
 }
 
-fn power((symbol, n): &(Symbol, u32)) -> Expr {
+fn power((symbol, n): (Symbol, u32)) -> Expr {
     let symbol = Expr::Name(ascii(symbol.0));
     match n {
         1 => symbol,
         // As a square wherever it is one, so that its sign is seen.
-        n if n % 2 == 0 && *n > 2 => Expr::Power(Expr::Power(symbol.into(), n / 2).into(), 2),
-        n => Expr::Power(symbol.into(), *n),
+        n if n % 2 == 0 && n > 2 => Expr::Power(Expr::Power(symbol.into(), n / 2).into(), 2),
+        n => Expr::Power(symbol.into(), n),
     }
 }
 
@@ -353,10 +353,10 @@ mod tests {
     #[test]
     fn polynomials_are_sums_of_powers() {
         let x = |name| Poly::symbol(Symbol(name));
-        let square = x("a").times(&x("a"));
-        let fourth = square.times(&square).scaled(&(-3).into());
-        assert_eq!(Expr::poly(&fourth.plus(&x("b"))).to_string(), "- (3 * (a ^ 2) ^ 2) + b");
-        assert_eq!(Expr::poly(&square.scaled(&(1, 2).into())).to_string(), "a ^ 2 / 2");
+        let square = x("a") * x("a");
+        let fourth = Poly::constant(-3) * &square * &square;
+        assert_eq!(Expr::poly(&(fourth + x("b"))).to_string(), "- (3 * (a ^ 2) ^ 2) + b");
+        assert_eq!(Expr::poly(&(square * Poly::constant((1, 2)))).to_string(), "a ^ 2 / 2");
         assert_eq!(Expr::poly(&Poly::zero()).to_string(), "0");
     }
 
