@@ -72,17 +72,14 @@ fn derive(goal: &Goal, context: &Context, cases: u32) -> Result<Derivation, Why>
     match context.direct(goal) {
         Ok(direct) => Ok(Derivation::Direct(direct.into())),
         Err(Why::OpenBracket(value)) if cases > 0 => {
-            let open = || Why::OpenBracket(value.clone());
-            // The sign of the numerator is that of the quotient, or its opposite.
-            let below = sign(value.den(), &context.known).ok_or_else(open)?.sign();
-            let deciding = if below == Sign::Negative { -value.num() } else { value.num().clone() };
+            let deciding = value.num();
             let case = |sign| {
                 let mut context = context.clone();
                 context.suppose(None, deciding.clone().into(), sign);
                 derive(goal, &context, cases - 1)
             };
             let (positive, not) = (case(Sign::Positive)?, case(Sign::NonPositive)?);
-            Ok(Derivation::Cases(deciding, positive.into(), not.into()))
+            Ok(Derivation::Cases(deciding.clone(), positive.into(), not.into()))
         }
         Err(why) => Err(why),
     }
@@ -239,15 +236,16 @@ impl Context {
     /// have opposite signs, tends to −∞ at least as fast as −x does, up to a factor; and e^{−a x} times any
     /// power of x vanishes for a > 0.
     fn without_falling_exponentials(&self, num: &Poly, x: Symbol) -> Option<Poly> {
-        let (moving, rest) = num.exponentials_in(x);
-        for (e, _) in moving {
+        let moves = |e: &Ratio| e.symbols().contains(&x);
+        for e in num.exponents().filter(|e| moves(e)) {
             let leading = |p: &Poly| Some(sign(&p.coefficients(x).pop()?, &self.known)?.sign());
             let falls = leading(e.num())?.times(leading(e.den())?) == Sign::Negative;
             if !e.is_of_polynomials() || !falls || e.num().degree(x) <= e.den().degree(x) {
                 return None;
             }
         }
-        Some(rest)
+        let rest = num.terms().filter(|(m, _)| !m.exponent().is_some_and(moves));
+        Some(rest.map(|(m, q)| (m.clone(), q.clone())).collect())
     }
 
     /// The limit for x → ∞ by the degrees in x: a quotient of polynomials tends to 0 if the degree is higher below,
@@ -311,9 +309,7 @@ impl<'a> Reader<'a> {
             Div(a, b) => {
                 let (value, divisor) = (self.read(a)?, self.read(b)?);
                 let might_vanish = || Why::MightVanish(divisor.clone());
-                if divisor.as_constant().is_none_or(|q| q == 0)
-                    && self.divisors.iter().all(|(known, _)| known != b)
-                {
+                if !divisor.is_number() && self.divisors.iter().all(|(known, _)| known != b) {
                     let signed = self.context.sign(self.context.reduce(&divisor));
                     let signed = signed.filter(|s| s.num.sign().is_strict());
                     self.divisors.push((b.clone(), signed.ok_or_else(might_vanish)?));

@@ -224,7 +224,7 @@ impl Order {
     /// Why a quotient has its sign.
     fn signed(&self, signed: &Signed) -> Vec<String> {
         let mut lines = Vec::new();
-        if signed.value().den().as_constant().is_none() {
+        if !signed.value().den().is_one() {
             lines.push(format!("it is {}", self.ratio(signed.value())));
             lines.extend(self.certificate(signed.den()));
         }

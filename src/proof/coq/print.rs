@@ -4,6 +4,7 @@ use crate::claims::{Formula, Relation, Var, calls};
 use crate::number::Tree;
 use crate::number::tree::Step;
 use crate::proof::kernel::algebra::{Monomial, Poly, Ratio, Symbol};
+use std::collections::BTreeMap;
 use std::fmt;
 
 /// A formula in Coq.
@@ -160,8 +161,8 @@ impl Expr {
     /// A polynomial, as a sum of products of powers.
     pub(super) fn poly(poly: &Poly) -> Self {
         let mut sum: Option<Expr> = None;
-        for (exponent, part) in poly.by_exponent() {
-            let exponential = exponent.map(|e| Expr::Call("exp".into(), vec![Expr::ratio(&e)]));
+        for (exponent, part) in by_exponent(poly) {
+            let exponential = exponent.map(|e| Expr::Call("exp".into(), vec![Expr::ratio(e)]));
             for (monomial, coefficient) in part.terms().rev() {
                 let number = |n: &rug::Integer| Expr::Number(n.clone().abs().to_string());
                 let mut factors: Vec<Expr> = monomial.powers().map(power).collect();
@@ -268,6 +269,15 @@ impl Expr {
     fn within(&self, level: u32, f: &mut fmt::Formatter) -> fmt::Result {
         if self.level() > level { write!(f, "({self})") } else { write!(f, "{self}") }
     }
+}
+
+/// The parts of a polynomial with the same e^…, without it.
+pub(super) fn by_exponent(poly: &Poly) -> BTreeMap<Option<&Ratio>, Poly> {
+    let mut parts = BTreeMap::<_, Vec<_>>::new();
+    for (monomial, coefficient) in poly.terms() {
+        parts.entry(monomial.exponent()).or_default().push((monomial.bare(), coefficient.clone()));
+    }
+    parts.into_iter().map(|(exponent, terms)| (exponent, terms.into_iter().collect())).collect()
 }
 
 fn power((symbol, n): (Symbol, u32)) -> Expr {

@@ -4,7 +4,7 @@
 //! bracket has, and a form of each quantity from which its sign can be read off. None of it is believed:
 //! each step is a goal that Coq closes by itself, or does not.
 
-use super::print::{Expr, ascii};
+use super::print::{Expr, ascii, by_exponent};
 use crate::claims::{Case, Var};
 use crate::number::Tree;
 use crate::number::tree::Step;
@@ -303,7 +303,11 @@ impl Script {
         x: Symbol,
         inside: impl FnOnce(&mut Self) -> Result<(), Reason>,
     ) -> Result<(), Reason> {
-        let (moving, rest) = of.num().exponentials_in(x);
+        let moving = by_exponent(of.num()).into_iter().filter_map(|(e, part)| Some((e?, part)));
+        let moving: Vec<_> = moving.filter(|(e, _)| e.symbols().contains(&x)).collect();
+        let rest = moving.iter().fold(of.num().clone(), |rest, (exponent, part)| {
+            rest - part * Poly::exponential((*exponent).clone())
+        });
         let falling = match moving.as_slice() {
             [] => None,
             [(exponent, part)] => {

@@ -86,7 +86,7 @@ impl Monomial {
     }
 
     /// Without its e^….
-    fn bare(&self) -> Self {
+    pub fn bare(&self) -> Self {
         Monomial { powers: self.powers.clone(), exponent: None }
     }
 
@@ -187,15 +187,6 @@ impl Poly {
         self.0.len() == 1 && self.0.get(&Monomial::one()).is_some_and(|q| *q == 1)
     }
 
-    /// The number it is, if it is one.
-    pub fn as_constant(&self) -> Option<Rational> {
-        match self.0.len() {
-            0 => Some(Rational::new()),
-            1 => self.0.get(&Monomial::one()).cloned(),
-            _ => None,
-        }
-    }
-
     /// Its monomials with their coefficients, in the order of division.
     pub fn terms(&self) -> impl DoubleEndedIterator<Item = (&Monomial, &Rational)> + ExactSizeIterator {
         self.0.iter()
@@ -233,24 +224,6 @@ impl Poly {
             all[m.degree(x) as usize].accumulate(m.without(x), q.clone());
         }
         all
-    }
-
-    /// The parts with the same e^…, without it.
-    pub fn by_exponent(&self) -> BTreeMap<Option<Arc<Ratio>>, Poly> {
-        let mut parts: BTreeMap<_, Poly> = BTreeMap::new();
-        for (m, q) in &self.0 {
-            parts.entry(m.exponent.clone()).or_insert_with(Poly::zero).accumulate(m.bare(), q.clone());
-        }
-        parts
-    }
-
-    /// Each exponent that a symbol occurs in, with its factor; and the other terms.
-    pub fn exponentials_in(&self, x: Symbol) -> (Vec<(Arc<Ratio>, Poly)>, Poly) {
-        let moves = |e: &Ratio| e.symbols().contains(&x);
-        let mut rest = self.clone();
-        rest.0.retain(|m, _| !m.exponent().is_some_and(moves));
-        let parts = self.by_exponent().into_iter();
-        (parts.filter_map(|(e, part)| Some((e.filter(|e| moves(e))?, part))).collect(), rest)
     }
 
     /// The exact quotient, if there is one; the divisor has no e^….
@@ -415,9 +388,9 @@ impl Ratio {
         self.num.is_zero()
     }
 
-    /// The number it is, if it is one.
-    pub fn as_constant(&self) -> Option<Rational> {
-        Some(self.num.as_constant()? / self.den.as_constant()?)
+    /// Is it a number?
+    pub fn is_number(&self) -> bool {
+        self.den.is_one() && self.num.0.keys().all(|m| *m == Monomial::one())
     }
 
     /// All its symbols.
