@@ -59,7 +59,10 @@ mod prelude {
 pub fn registry() -> &'static Registry {
     static REGISTRY: LazyLock<Registry> = LazyLock::new(|| {
         let symbols: Vec<_> = Var::ALL.iter().map(|var| var.symbol()).collect();
-        Registry::new(&symbols, formulas::recorded()).alike(&[["c", "ε"], ["l", "H"]]).quiet(&["ε"])
+        Registry::new(&symbols, formulas::recorded())
+            .alike(&[["c", "ε"], ["l", "H"]])
+            .quiet(&["ε"])
+            .with_factors(&["k", "q", "t", "tol", "c", "ε", "ε₄", "m", "g", "l", "H", "u", "v", "λ"])
     });
     &REGISTRY
 }

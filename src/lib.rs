@@ -9,15 +9,21 @@
 //! | module | what is in it | who reads it |
 //! |---|---|---|
 //! | [`number`] | the number systems and the few traits a formula asks for | everything below |
-//! | [`chapter`] | the equations, a module a section, a function a formula | everything below |
-//! | [`solver`] | [`solve`](solver::solve), the augmentation as an iterator, bounds, certificates | users |
-//! | [`claims`] | the chapter as data, and what is claimed of it, as recorded formulas | `verify` |
+//! | [`formula`] | records as data: typeset, compiled, known in each other, claimed something of | `proof`, `claims` |
 #![cfg_attr(
     feature = "mpfr",
-    doc = "| [`proof`] | proves the claims on symbols, for all values | `verify`, the command `contact` |\n| [`mod@verify`] | runs proofs and number systems | the command `contact` |"
+    doc = "| [`proof`] | proves what is claimed of formulas, refutes what is wrong, prints both | `verify` |"
+)]
+//! | [`chapter`] | the equations, a module a section, a function a formula | everything below |
+//! | [`solver`] | [`solve`](solver::solve), the augmentation as an iterator, bounds, certificates | users |
+//! | [`claims`] | the chapter as data, and what is claimed of it | `verify` |
+#![cfg_attr(
+    feature = "mpfr",
+    doc = "| [`mod@verify`] | runs proofs and number systems | the command `contact` |"
 )]
 //!
-//! Each module knows only those above it.
+//! The first three are an engine that knows no mechanics, and serves any other formulas as well; `chapter` and `solver` are the
+//! mechanics, and know no proofs; `claims` joins them. A test holds every module to that.
 //!
 //! To find an equation, say (1.16): the number opens the doc comment of its functions in [`chapter`], stands
 //! beside its statement among the [`entries`](claims::entries()), and beside each of its

@@ -6,8 +6,10 @@
 //!   formulas.
 //! - That [`Tree`](crate::number::Tree) records what the chapter's functions do (tested, bit for bit, in every number
 //!   system), and that [`Dual`](crate::number::Dual) differentiates.
-//! - In [`statement`](crate::formula::statement), what a claim of each kind comes to; the arithmetic of [`algebra`]; the four rules of
-//!   [`sign`](mod@sign); the rules of [`kernel`].
+//! - In [`statement`](crate::formula::statement), what a claim of each kind comes to.
+//! - The kernel, which is `kernel.rs` with `kernel/` in `src/proof`: in `algebra.rs` the arithmetic of polynomials, in
+//!   `sign.rs` four rules for signs, in `kernel.rs` the rules for what has to be proved, in `derivation.rs` what a
+//!   [`Proof`] consists of. Nothing else can make a proof, and no one can change one.
 //! - That [`paper`] prints what was proved; the compiler, and GMP's integers.
 //! - This lemma, which claims about limits of sequences rest on:
 //!
@@ -19,13 +21,11 @@
 //! checks them anew, and what numbers [`refute`](mod@refute) must not be proved here (tested). What floats make of a
 //! formula is claimed elsewhere, as experiments, and not proved here.
 
-pub mod algebra;
 pub mod controls;
 pub mod coq;
-pub mod kernel;
+mod kernel;
 pub mod paper;
 pub mod refute;
-pub mod sign;
 
 pub use controls::{Controls, controls};
 pub use kernel::{Proof, Why, prove};

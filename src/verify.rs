@@ -23,6 +23,7 @@ use crate::claims::{Case, claims, place, registry, statements};
 use crate::formula::{Hypothesis, Statement};
 use crate::number::{Exact, Mpfr, NumberSystem};
 use crate::proof::controls::{Change, repairs};
+use crate::proof::paper::Paper;
 use crate::proof::{Counterexample, prove, refute};
 use checker::{Checker, Checks, Exactly, Floats, Tally};
 pub use coq::coq;
@@ -235,7 +236,7 @@ fn drawn(seed: u64, index: u64, given: &[Hypothesis]) -> Option<Case<Exact>> {
 fn proof(statement: &Statement) -> Row {
     let why = match guarded(|| prove(statement)) {
         Ok(Ok(_)) => None,
-        Ok(Err(why)) => Some(why.to_string()),
+        Ok(Err(why)) => Some(Paper::new(registry()).why(&why)),
         Err(panic) => Some(panic),
     };
     let counterexample = why.as_ref().and_then(|_| guarded(|| refute(statement)).ok().flatten());

@@ -1,14 +1,28 @@
-//! Each room of the house knows only those above it on README's map.
+//! Each room of the house knows only those that it may: the engine (number, formula, proof) knows no mechanics, the mechanics
+//! (number, chapter, solver) no proofs, and both are joined by claims and verify.
 //!
 //! Sources are read as tokens: names in comments, in strings and in the docs are no arrows, names within macros are.
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 fn source(path: impl AsRef<Path>) -> String {
     fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap()
 }
+
+/// What each room knows.
+const KNOWS: [(&str, &[&str]); 8] = [
+    ("number", &[]),
+    ("formula", &["number"]),
+    ("proof", &["number", "formula"]),
+    ("chapter", &["number"]),
+    ("solver", &["number", "chapter"]),
+    ("claims", &["number", "formula", "chapter", "solver"]),
+    ("verify", &["number", "formula", "proof", "chapter", "solver", "claims"]),
+    ("bin", &["number", "formula", "proof", "chapter", "solver", "claims", "verify"]),
+];
 
 /// The folders of the map under `src`, in its order.
 fn rooms() -> Vec<String> {
@@ -100,10 +114,10 @@ fn room_of(name: &str) -> Option<&str> {
 }
 
 /// What is wrong with the arrows of one file.
-fn wrong_arrows(rooms: &[String], path: &str, text: &str) -> Vec<String> {
-    let place = |name: &str| rooms.iter().position(|room| room == name);
+fn wrong_arrows(path: &str, text: &str) -> Vec<String> {
+    let known = |name: &str| KNOWS.iter().find(|(room, _)| *room == name).map(|(_, known)| *known);
     let own = module(path);
-    let room = place(&own[0]).unwrap_or_else(|| panic!("src/{path} is in no room of the map"));
+    let knows = known(&own[0]).unwrap_or_else(|| panic!("src/{path} is in no room"));
     // The command is a crate of its own.
     let krate = if own[0] == "bin" { "spring_mass_contact" } else { "crate" };
     let tokens = text.parse().unwrap_or_else(|error| panic!("src/{path}: {error}"));
@@ -111,9 +125,8 @@ fn wrong_arrows(rooms: &[String], path: &str, text: &str) -> Vec<String> {
         .into_iter()
         .filter(|target| {
             target.first().and_then(|name| room_of(name)).is_some_and(|name| {
-                let known =
-                    place(name).unwrap_or_else(|| panic!("src/{path} names {name}, which is in no room"));
-                known > room
+                assert!(known(name).is_some(), "src/{path} names {name}, which is in no room");
+                name != own[0] && !knows.contains(&name)
             })
         })
         .map(|target| format!("src/{path} knows {}", target.join("::")))
@@ -123,13 +136,13 @@ fn wrong_arrows(rooms: &[String], path: &str, text: &str) -> Vec<String> {
 }
 
 #[test]
-fn each_room_knows_only_those_above_it() {
-    let (rooms, src) = (rooms(), Path::new(env!("CARGO_MANIFEST_DIR")).join("src"));
+fn each_room_knows_only_those_that_it_may() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut wrong = Vec::new();
     for file in files(&src) {
         let path = file.strip_prefix(&src).unwrap().to_str().unwrap().replace('\\', "/");
         if path.ends_with(".rs") && path != "lib.rs" {
-            wrong.extend(wrong_arrows(&rooms, &path, &source(&file)));
+            wrong.extend(wrong_arrows(&path, &source(&file)));
         }
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
@@ -147,13 +160,62 @@ fn the_map_has_every_room() {
     declared.sort();
     rooms.sort();
     assert_eq!(rooms, declared);
+    let mut known: Vec<_> = KNOWS.iter().map(|(room, _)| room.to_string()).collect();
+    known.sort();
+    assert_eq!(rooms, known);
+}
+
+/// The kernel's files, by their paths below `src`.
+fn kernel() -> Vec<String> {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let inside = files(&src.join("proof/kernel"));
+    let path = |file: &PathBuf| file.strip_prefix(&src).unwrap().to_str().unwrap().replace('\\', "/");
+    inside.iter().map(path).chain(["proof/kernel.rs".to_string()]).collect()
+}
+
+#[test]
+fn the_kernel_knows_numbers_and_statements_alone() {
+    // Whoever reads what has to be trusted need read nothing else of `proof`.
+    let mut known = BTreeSet::new();
+    for path in kernel() {
+        known.extend(paths(source(format!("src/{path}")).parse().unwrap(), &module(&path), "crate"));
+    }
+    // `proof` by itself is how far a function can be seen.
+    let allowed = ["formula", "number", "operators", "proof", "proof::kernel"];
+    let room = |target: &Vec<String>| {
+        target[..target.len().min(if target[0] == "proof" { 2 } else { 1 })].join("::")
+    };
+    let others: Vec<_> = known.iter().map(room).filter(|room| !allowed.contains(&room.as_str())).collect();
+    assert!(others.is_empty(), "the kernel knows {others:?}");
+}
+
+#[test]
+fn nothing_outside_the_kernel_sees_the_fields_that_proofs_are_made_of() {
+    let mut structures = Vec::new();
+    for path in kernel() {
+        for item in syn::parse_file(&source(format!("src/{path}"))).unwrap().items {
+            let syn::Item::Struct(item) = item else { continue };
+            for field in &item.fields {
+                let sealed = match &field.vis {
+                    syn::Visibility::Inherited => true,
+                    syn::Visibility::Restricted(to) => path != "proof/kernel.rs" && to.path.is_ident("super"),
+                    syn::Visibility::Public(_) => false,
+                };
+                // A symbol is a name, of which nothing is claimed.
+                assert!(sealed || item.ident == "Symbol", "{path}: a field of {} can be seen", item.ident);
+            }
+            structures.push(item.ident.to_string());
+        }
+    }
+    for name in ["Proof", "Direct", "Supposed", "Signed", "Certificate", "Poly", "Ratio", "Monomial"] {
+        assert!(structures.iter().any(|known| known == name), "{name} is not among {structures:?}");
+    }
 }
 
 /// What is an arrow and what is not.
 #[test]
 fn arrows_are_found_wherever_they_are_written() {
-    let rooms = rooms();
-    let wrong = |path: &str, text: &str| wrong_arrows(&rooms, path, text).len();
+    let wrong = |path: &str, text: &str| wrong_arrows(path, text).len();
     for text in [
         "use crate::solver::solve;",
         "use crate::{number::Exact, solver};",
@@ -182,6 +244,12 @@ fn arrows_are_found_wherever_they_are_written() {
     }
     assert_eq!(wrong("chapter/mod.rs", "use super::solver;"), 1);
     assert_eq!(wrong("solver.rs", "use super::claims;"), 1);
+    for text in
+        ["use crate::chapter::system;", "use crate::claims::given;", "use super::super::solver::solve;"]
+    {
+        assert_eq!(wrong("proof/kernel.rs", text), 1, "{text}");
+    }
+    assert_eq!(wrong("proof/kernel.rs", "use crate::formula::{Claim, statement};"), 0);
     assert_eq!(wrong("solver.rs", "use self::check::claims;"), 0);
     assert_eq!(wrong("bin/contact/main.rs", "use spring_mass_contact::verify; use crate::claims;"), 0);
 }

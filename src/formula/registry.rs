@@ -61,6 +61,7 @@ pub struct Registry {
     symbols: Vec<&'static str>,
     alike: Vec<[&'static str; 2]>,
     quiet: Vec<&'static str>,
+    factors: Vec<&'static str>,
     formulas: Vec<Formula>,
     /// By the place of their last step.
     by_site: HashMap<Site, Vec<usize>>,
@@ -96,6 +97,16 @@ impl Registry {
     /// themselves.
     pub fn quiet(self, quiet: &[&'static str]) -> Self {
         Registry { quiet: quiet.to_vec(), ..self }
+    }
+
+    /// With the order in which the factors of a product are written.
+    pub fn with_factors(self, factors: &[&'static str]) -> Self {
+        Registry { factors: factors.to_vec(), ..self }
+    }
+
+    /// The order in which the factors of a product are written; others come before them, by name.
+    pub fn factors(&self) -> &[&'static str] {
+        &self.factors
     }
 
     /// What else of the same unit could stand in place of a symbol by mistake.

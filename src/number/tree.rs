@@ -98,6 +98,11 @@ impl<T> Step<T> {
         a.into_iter().chain(b)
     }
 
+    /// Is it ⟨·⟩ or min, which no quotient of polynomials has and which have kinks?
+    pub fn is_bracket(&self) -> bool {
+        matches!(self, Step::PositivePart(_) | Step::Min(..))
+    }
+
     /// The same step with other operands.
     pub fn map<U>(&self, mut f: impl FnMut(&T) -> U) -> Step<U> {
         use Step::*;

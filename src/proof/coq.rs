@@ -455,7 +455,7 @@ fn derivation(hypotheses: &[&Hypothesis], goal: Goal) -> Result<super::kernel::D
     let hypotheses = hypotheses.iter().map(|h| (*h).clone()).collect();
     let statement = Statement { hypotheses, goals: vec![goal], ..Statement::default() };
     let proof = prove(&statement).map_err(unproved)?;
-    proof.goals.into_iter().next().ok_or_else(|| "there is nothing to prove".to_string())
+    proof.goals().first().cloned().ok_or_else(|| "there is nothing to prove".to_string())
 }
 
 impl<'a> Lemma<'a> {

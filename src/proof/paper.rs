@@ -1,7 +1,10 @@
 //! Proofs written out, for a reader with paper.
 
-use super::kernel::{Because, Derivation, Direct, Proof, Signed, Supposed, Used};
-use super::sign::Sign;
+mod algebra;
+
+use self::algebra::Order;
+use super::kernel::sign::{Rule, Sign};
+use super::kernel::{Because, Derivation, Direct, Proof, Signed, Supposed, Used, Why};
 use crate::formula::statement::{Goal, Says, Sequence, Statement};
 use crate::formula::{Formula, Hypothesis, Notation, Registry, Relation};
 use crate::number::Tree;
@@ -55,9 +58,9 @@ impl<'a> Paper<'a> {
                     collect(not, all);
                 }
                 Derivation::Direct(direct) => {
-                    for Supposed { given, used, .. } in &direct.supposed {
-                        if let Some(given) = given
-                            && !matches!(used, Used::Unused | Used::Follows)
+                    for supposed in direct.supposed() {
+                        if let Some(given) = supposed.given()
+                            && !matches!(supposed.used(), Used::Unused | Used::Follows)
                             && !all.contains(given)
                         {
                             all.push(given.clone());
@@ -67,7 +70,7 @@ impl<'a> Paper<'a> {
             }
         }
         let mut all = Vec::new();
-        proof.goals.iter().for_each(|derivation| collect(derivation, &mut all));
+        proof.goals().iter().for_each(|derivation| collect(derivation, &mut all));
         all.iter().map(|given| self.registry.supposed(given)).collect()
     }
 
@@ -97,6 +100,11 @@ impl<'a> Paper<'a> {
             .collect()
     }
 
+    /// Why there is no proof.
+    pub fn why(&self, why: &Why) -> String {
+        self.order().why(why)
+    }
+
     /// The whole proof, line by line.
     pub fn proof(&self, statement: &Statement, proof: &Proof) -> Vec<String> {
         let mut lines = Vec::new();
@@ -110,60 +118,62 @@ impl<'a> Paper<'a> {
             by.to_string()
         }));
         let single = statement.goals.len() == 1;
-        for (Goal { part, says: goal, .. }, derivation) in statement.goals.iter().zip(&proof.goals) {
+        for (Goal { part, says: goal, .. }, derivation) in statement.goals.iter().zip(proof.goals()) {
             if single {
-                self.derive(derivation, 0, &mut lines);
+                self.derivation(derivation, 0, &mut lines);
             } else {
                 lines.push(format!("{part}: {}", self.says(goal)));
-                self.derive(derivation, 1, &mut lines);
+                self.derivation(derivation, 1, &mut lines);
             }
         }
         lines
     }
 
-    fn derive(&self, derivation: &Derivation, depth: usize, lines: &mut Vec<String>) {
+    fn derivation(&self, derivation: &Derivation, depth: usize, lines: &mut Vec<String>) {
         let say = |text: String, lines: &mut Vec<String>| lines.push(format!("{}{text}", "  ".repeat(depth)));
         match derivation {
             Derivation::Cases(on, positive, not) => {
+                let on = self.order().poly(on);
                 say(format!("case {on} > 0:"), lines);
-                self.derive(positive, depth + 1, lines);
+                self.derivation(positive, depth + 1, lines);
                 say(format!("case {on} ≤ 0:"), lines);
-                self.derive(not, depth + 1, lines);
+                self.derivation(not, depth + 1, lines);
             }
             Derivation::Direct(direct) => self.direct(direct).into_iter().for_each(|line| say(line, lines)),
         }
     }
 
     fn direct(&self, direct: &Direct) -> Vec<String> {
-        let mut lines: Vec<String> = direct.supposed.iter().filter_map(|own| self.supposed(own)).collect();
-        for (divisor, nonzero) in &direct.divisors {
-            explain(format!("{} ≠ 0", self.text(divisor)), signed(nonzero), &mut lines);
+        let mut lines: Vec<String> = direct.supposed().iter().filter_map(|s| self.supposed(s)).collect();
+        for (divisor, nonzero) in direct.divisors() {
+            explain(format!("{} ≠ 0", self.text(divisor)), self.signed(nonzero), &mut lines);
         }
-        for (bracket, value, decides) in &direct.brackets {
+        for (bracket, value, decides) in direct.brackets() {
             let decisive = match bracket.step() {
                 Step::Min(..) => "the second less the first",
                 _ => "its argument",
             };
             explain(
                 format!("{} = {} by the sign of {decisive}", self.text(bracket), self.text(value)),
-                signed(decides),
+                self.signed(decides),
                 &mut lines,
             );
         }
-        match &direct.because {
-            Because::Same(value) => lines.push(format!("both sides are {value}")),
-            Because::Sign(sign) => lines.extend(signed(sign)),
-            Because::Derivative(value) => {
-                lines.push(format!("dual numbers differentiate it to {value}, which is the right side"))
-            }
-            Because::Limit { of, by, degrees, leading, to } => {
-                let (n, d) = degrees;
-                lines.push(format!("it is {of}"));
+        match direct.because() {
+            Because::Same(value) => lines.push(format!("both sides are {}", self.order().ratio(value))),
+            Because::Sign(sign) => lines.extend(self.signed(sign)),
+            Because::Derivative(value) => lines.push(format!(
+                "dual numbers differentiate it to {}, which is the right side",
+                self.order().ratio(value)
+            )),
+            Because::Limit { of, by, degrees: (n, d), leading, to } => {
+                lines.push(format!("it is {}", self.order().ratio(of)));
                 lines.push(format!(
-                    "degrees {n} above and {d} below in {}, hence the limit is {to}, since below",
-                    by.0
+                    "degrees {n} above and {d} below in {}, hence the limit is {}, since below",
+                    by.0,
+                    self.order().ratio(to)
                 ));
-                lines.extend(leading.lines().into_iter().map(|line| format!("  {line}")));
+                lines.extend(self.order().certificate(leading).into_iter().map(|line| format!("  {line}")));
             }
         }
         lines
@@ -171,18 +181,38 @@ impl<'a> Paper<'a> {
 
     /// How a supposition is used, if that has to be said.
     fn supposed(&self, supposed: &Supposed) -> Option<String> {
-        let Supposed { given, value, sign, used } = supposed;
-        let name = given.as_ref().map_or("the case".to_string(), |given| self.registry.supposed(given));
-        match used {
+        let name = supposed.given().map_or("the case".to_string(), |given| self.registry.supposed(given));
+        match supposed.used() {
             Used::Symbol(_) => None,
             Used::Follows => Some(format!("{name} follows")),
             Used::Unused => Some(format!("{name} is not used")),
-            Used::Pivot(pivot, by, None) => Some(format!("by {name}: {pivot} = {by}")),
-            Used::Pivot(pivot, by, Some(slack)) => {
-                let sign = if *sign == Sign::Positive { "> 0" } else { "≥ 0" };
-                Some(format!("by {name}: {} = {value} {sign}, so {pivot} = {by}", slack.0))
+            Used::Pivot(pivot, by, slack) => {
+                let solved = format!("{} = {}", self.order().monomial(pivot), self.order().ratio(by));
+                Some(match slack {
+                    None => format!("by {name}: {solved}"),
+                    Some(slack) => {
+                        let (value, slack) = (self.order().ratio(supposed.value()), slack.0);
+                        let sign = if supposed.sign() == Sign::Positive { "> 0" } else { "≥ 0" };
+                        format!("by {name}: {slack} = {value} {sign}, so {solved}")
+                    }
+                })
             }
         }
+    }
+
+    /// Why a quotient has its sign.
+    fn signed(&self, signed: &Signed) -> Vec<String> {
+        let mut lines = Vec::new();
+        if !signed.value().den().is_one() {
+            lines.push(format!("it is {}", self.order().ratio(signed.value())));
+            lines.extend(self.order().certificate(signed.den()));
+        }
+        lines.extend(self.order().certificate(signed.num()));
+        lines
+    }
+
+    fn order(&self) -> Order<'a> {
+        Order(self.registry.factors())
     }
 
     fn text(&self, tree: &Tree) -> String {
@@ -192,8 +222,8 @@ impl<'a> Paper<'a> {
 
 /// How a claim was proved, in a few words.
 pub fn how(statement: &Statement, proof: &Proof) -> String {
-    let cases = proof.goals.iter().map(cases).max().unwrap_or(1);
-    let means = proof.goals.last().map_or("", |derivation| means(derivation));
+    let cases = proof.goals().iter().map(cases).max().unwrap_or(1);
+    let means = proof.goals().last().map_or("", |derivation| means(derivation));
     let kind = match statement.kind {
         "equal" | "sign" => means,
         other => other,
@@ -209,16 +239,15 @@ fn cases(derivation: &Derivation) -> usize {
 }
 
 fn means(derivation: &Derivation) -> &'static str {
-    use super::sign::Rule;
     match derivation {
         Derivation::Cases(_, positive, _) => means(positive),
-        Derivation::Direct(direct) => match &direct.because {
+        Derivation::Direct(direct) => match direct.because() {
             Because::Same(_) => "identity",
             Because::Derivative(..) => "derivative",
             Because::Limit { .. } => "limit",
-            Because::Sign(signed) => match &signed.num.rule {
-                Rule::Zero | Rule::Terms => "sign by terms",
-                Rule::Factor(_, rest) if matches!(rest.rule, Rule::Slope { .. }) => "sign by slope",
+            Because::Sign(signed) => match signed.num().rule() {
+                Rule::Terms => "sign by terms",
+                Rule::Factor(_, rest) if matches!(rest.rule(), Rule::Slope { .. }) => "sign by slope",
                 Rule::Factor(..) => "sign by factors",
                 Rule::Square { .. } => "sign by square",
                 Rule::Slope { .. } => "sign by slope",
@@ -235,15 +264,4 @@ fn explain(fact: String, reason: Vec<String>, lines: &mut Vec<String>) {
         lines.push(format!("{fact}:"));
         lines.extend(reason.into_iter().map(|line| format!("  {line}")));
     }
-}
-
-/// Why a quotient has its sign.
-fn signed(signed: &Signed) -> Vec<String> {
-    let mut lines = Vec::new();
-    if signed.value.den().as_constant().is_none() {
-        lines.push(format!("it is {}", &signed.value));
-        lines.extend(signed.den.lines());
-    }
-    lines.extend(signed.num.lines());
-    lines
 }

@@ -156,7 +156,7 @@ fn attempt(statement: &Statement) -> Proved {
     let start = Instant::now();
     let answer = match prove(statement) {
         Ok(proof) => Answer::Proof(proof),
-        Err(why) => Answer::None(why.to_string(), refute(statement)),
+        Err(why) => Answer::None(paper().why(&why), refute(statement)),
     };
     Proved { statement: statement.clone(), answer, time: start.elapsed() }
 }

@@ -3,7 +3,8 @@
 use crate::formula::{Formula, Registry, Relation};
 use crate::number::Tree;
 use crate::number::tree::Step;
-use crate::proof::algebra::{Monomial, Poly, Ratio, Symbol};
+use crate::proof::kernel::algebra::{Monomial, Poly, Ratio, Symbol};
+use std::collections::BTreeMap;
 use std::fmt;
 
 /// A formula in Coq.
@@ -101,11 +102,11 @@ impl Expr {
     /// A polynomial, as a sum of products of powers.
     pub(super) fn poly(poly: &Poly) -> Self {
         let mut sum: Option<Expr> = None;
-        for (exponent, part) in poly.by_exponent() {
-            let exponential = exponent.map(|e| Expr::Call("exp".into(), vec![Expr::ratio(&e)]));
+        for (exponent, part) in by_exponent(poly) {
+            let exponential = exponent.map(|e| Expr::Call("exp".into(), vec![Expr::ratio(e)]));
             for (monomial, coefficient) in part.terms().rev() {
                 let number = |n: &rug::Integer| Expr::Number(n.clone().abs().to_string());
-                let mut factors: Vec<Expr> = monomial.powers().iter().map(power).collect();
+                let mut factors: Vec<Expr> = monomial.powers().map(power).collect();
                 factors.extend(exponential.clone());
                 let size = number(coefficient.numer());
                 let product = factors.into_iter().fold(size, Expr::times);
@@ -122,7 +123,7 @@ impl Expr {
     }
 
     pub(super) fn monomial(monomial: &Monomial) -> Self {
-        Expr::poly(&Poly::term(monomial.clone(), 1.into()))
+        Expr::poly(&monomial.clone().into())
     }
 
     pub(super) fn ratio(ratio: &Ratio) -> Self {
@@ -266,13 +267,22 @@ impl Printer<'_> {
     }
 }
 
-fn power((symbol, n): &(Symbol, u32)) -> Expr {
+/// The parts of a polynomial with the same e^…, without it.
+pub(super) fn by_exponent(poly: &Poly) -> BTreeMap<Option<&Ratio>, Poly> {
+    let mut parts = BTreeMap::<_, Vec<_>>::new();
+    for (monomial, coefficient) in poly.terms() {
+        parts.entry(monomial.exponent()).or_default().push((monomial.bare(), coefficient.clone()));
+    }
+    parts.into_iter().map(|(exponent, terms)| (exponent, terms.into_iter().collect())).collect()
+}
+
+fn power((symbol, n): (Symbol, u32)) -> Expr {
     let symbol = Expr::Name(ascii(symbol.0));
     match n {
         1 => symbol,
         // As a square wherever it is one, so that its sign is seen.
-        n if n % 2 == 0 && *n > 2 => Expr::Power(Expr::Power(symbol.into(), n / 2).into(), 2),
-        n => Expr::Power(symbol.into(), *n),
+        n if n % 2 == 0 && n > 2 => Expr::Power(Expr::Power(symbol.into(), n / 2).into(), 2),
+        n => Expr::Power(symbol.into(), n),
     }
 }
 
@@ -352,10 +362,10 @@ mod tests {
     #[test]
     fn polynomials_are_sums_of_powers() {
         let x = |name| Poly::symbol(Symbol(name));
-        let square = x("a").times(&x("a"));
-        let fourth = square.times(&square).scaled(&(-3).into());
-        assert_eq!(Expr::poly(&fourth.plus(&x("b"))).to_string(), "- (3 * (a ^ 2) ^ 2) + b");
-        assert_eq!(Expr::poly(&square.scaled(&(1, 2).into())).to_string(), "a ^ 2 / 2");
+        let square = x("a") * x("a");
+        let fourth = Poly::constant(-3) * &square * &square;
+        assert_eq!(Expr::poly(&(fourth + x("b"))).to_string(), "- (3 * (a ^ 2) ^ 2) + b");
+        assert_eq!(Expr::poly(&(square * Poly::constant((1, 2)))).to_string(), "a ^ 2 / 2");
         assert_eq!(Expr::poly(&Poly::zero()).to_string(), "0");
     }
 

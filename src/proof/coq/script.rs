@@ -4,12 +4,12 @@
 //! bracket has, and a form of each quantity from which its sign can be read off. None of it is believed:
 //! each step is a goal that Coq closes by itself, or does not.
 
-use super::print::{Expr, ascii};
+use super::print::{Expr, ascii, by_exponent};
 use crate::number::Tree;
 use crate::number::tree::Step;
-use crate::proof::algebra::{Monomial, Poly, Ratio, Symbol};
+use crate::proof::kernel::algebra::{Monomial, Poly, Ratio, Symbol};
+use crate::proof::kernel::sign::{self, Certificate, Known, Rule, Sign};
 use crate::proof::kernel::{Because, Derivation, Direct, Signed, Supposed, Used};
-use crate::proof::sign::{self, Assumed, Assumptions, Certificate, Rule, Sign};
 use std::fmt::Write;
 
 /// Lines of a proof, and what is known at their end.
@@ -17,7 +17,7 @@ use std::fmt::Write;
 pub(super) struct Script {
     lines: String,
     indent: usize,
-    known: Assumptions,
+    known: Known,
     /// How many suppositions have been made, and how many of them by splitting.
     supposed: usize,
     cases: usize,
@@ -72,7 +72,7 @@ impl Script {
 
     /// The hypotheses, put to use.
     fn given(&mut self, derivation: &Derivation) -> Result<(), Reason> {
-        let given = first(derivation).supposed.iter().filter(|s| s.given.is_some());
+        let given = first(derivation).supposed().iter().filter(|s| s.given().is_some());
         given.enumerate().try_for_each(|(i, supposed)| self.suppose(supposed, &format!("H{}", i + 1)))
     }
 
@@ -85,12 +85,12 @@ impl Script {
         inside: impl FnOnce(&mut Self) -> Result<(), Reason>,
     ) -> Result<(), Reason> {
         let Derivation::Direct(direct) = derivation else { return Err("a limit in cases") };
-        let Because::Limit { of, .. } = &direct.because else { return Err("no limit") };
-        if !direct.brackets.is_empty() {
+        let Because::Limit { of, .. } = direct.because() else { return Err("no limit") };
+        if !direct.brackets().is_empty() {
             return Err("a limit with brackets");
         }
         let x = Symbol(by);
-        let others = direct.supposed.iter().filter(|s| !matches!(s.used, Used::Symbol(y) if y == x));
+        let others = direct.supposed().iter().filter(|s| !matches!(s.used(), Used::Symbol(y) if *y == x));
         others.enumerate().try_for_each(|(i, supposed)| self.suppose(supposed, &format!("H{}", i + 1)))?;
         self.at_infinity(of, x, inside)
     }
@@ -98,15 +98,15 @@ impl Script {
     fn suppose(&mut self, supposed: &Supposed, hypothesis: &str) -> Result<(), Reason> {
         self.supposed += 1;
         let i = self.supposed;
-        let (kind, relation, assumed) = match supposed.sign {
-            Sign::Positive => ("positive", "<", Assumed::Positive),
-            _ => ("nonnegative", "<=", Assumed::NonNegative),
+        let (kind, relation, sign) = match supposed.sign() {
+            Sign::Positive => ("positive", "<", Sign::Positive),
+            _ => ("nonnegative", "<=", Sign::NonNegative),
         };
-        match &supposed.used {
+        match supposed.used() {
             Used::Follows | Used::Unused => {}
             Used::Symbol(x) => {
-                self.known.insert(*x, assumed);
-                if supposed.given.as_ref().is_some_and(|given| *given.value.step() == Step::Symbol(x.0)) {
+                self.known.insert(*x, sign);
+                if supposed.given().is_some_and(|given| *given.value.step() == Step::Symbol(x.0)) {
                     return Ok(());
                 }
                 let name = ascii(x.0);
@@ -116,10 +116,10 @@ impl Script {
             }
             Used::Pivot(pivot, by, named) => {
                 // pivot − by = factor · (the quantity − its name)
-                let difference = Ratio::from(Poly::term(pivot.clone(), 1.into())).minus(by);
+                let difference = Ratio::from(Poly::from(pivot.clone())) - by;
                 let name = named.map_or(Ratio::zero(), |name| Poly::symbol(name).into());
                 let factor =
-                    difference.over(&supposed.value.minus(&name)).ok_or("a hypothesis has no solution")?;
+                    difference.over(&(supposed.value() - name)).ok_or("a hypothesis has no solution")?;
                 let (pivot, by, factor) =
                     (Expr::monomial(pivot), Expr::ratio(by), Expr::ratio(&factor).argument());
                 if let Some(x) = named {
@@ -130,7 +130,7 @@ impl Script {
                         pivot.argument(),
                         by.argument()
                     ));
-                    self.known.insert(*x, assumed);
+                    self.known.insert(*x, sign);
                 } else {
                     self.line(&format!(
                         "assert (E{i} : {pivot} = {by}) by (apply (solved _ {factor} _ _ {hypothesis}); identity)."
@@ -155,7 +155,7 @@ impl Script {
                 for branch in [positive, not] {
                     self.block(bullet, |own| {
                         let supposed =
-                            first(branch).supposed.get(own.supposed).ok_or("a case supposes nothing")?;
+                            first(branch).supposed().get(own.supposed).ok_or("a case supposes nothing")?;
                         own.suppose(supposed, &case)?;
                         own.cases(branch)
                     })?;
@@ -168,22 +168,22 @@ impl Script {
     fn direct(&mut self, direct: &Direct) -> Result<(), Reason> {
         // A divisor that is itself a quotient, or that hypotheses rewrite, is asked for by its numerator.
         let quotient = |tree: &Tree| tree.any(&|step| matches!(step.step(), Step::Div(..)));
-        let rewritten = direct.supposed.iter().any(|s| matches!(s.used, Used::Pivot(..)));
-        let numerators = direct.divisors.iter().filter(|(tree, _)| rewritten || quotient(tree));
+        let rewritten = direct.supposed().iter().any(|s| matches!(s.used(), Used::Pivot(..)));
+        let numerators = direct.divisors().iter().filter(|(tree, _)| rewritten || quotient(tree));
         for (i, (_, signed)) in numerators.enumerate() {
-            let value = self.positive(&signed.num)?;
+            let value = self.positive(signed.num())?;
             self.line(&format!(
                 "assert (M{} : {value} <> 0) by (apply positive_not_zero; positivity).",
                 i + 1
             ));
         }
-        for (i, (bracket, result, signed)) in direct.brackets.iter().enumerate() {
+        for (i, (bracket, result, signed)) in direct.brackets().iter().enumerate() {
             // All its occurrences are rewritten at once.
-            if direct.brackets[..i].iter().all(|(known, ..)| known != bracket) {
+            if direct.brackets()[..i].iter().all(|(known, ..)| known != bracket) {
                 self.bracket(bracket, result, signed)?;
             }
         }
-        match &direct.because {
+        match direct.because() {
             Because::Same(_) => self.line("identity."),
             Because::Sign(signed) if signed.sign() == Sign::Zero => {
                 self.line("match goal with |- _ ?x => replace x with 0 by identity end; lra.");
@@ -214,20 +214,20 @@ impl Script {
 
     /// The absolute value of a quotient, in a form that shows that it is not negative.
     pub(super) fn size(&mut self, signed: &Signed) -> Result<Expr, Reason> {
-        Ok(self.positive(&signed.num)?.over(self.positive(&signed.den)?))
+        Ok(self.positive(signed.num())?.over(self.positive(signed.den())?))
     }
 
     /// The absolute value of a polynomial, in a form that shows that it is not negative.
     fn positive(&mut self, certificate: &Certificate) -> Result<Expr, Reason> {
-        Ok(match &certificate.rule {
-            Rule::Zero | Rule::Terms => Expr::poly(&unsigned(certificate)),
+        Ok(match certificate.rule() {
+            Rule::Terms => Expr::poly(&unsigned(certificate)),
             Rule::Factor(factor, rest) => {
                 let factor = self.positive(factor)?;
                 factor.times(self.positive(rest)?)
             }
-            Rule::Square { leading, root, rest, .. } => {
+            Rule::Square { leading, root, rest } => {
                 let root = Expr::Power(Expr::poly(root).into(), 2);
-                let top = if rest.of.is_zero() { root } else { root.plus(self.positive(rest)?) };
+                let top = if rest.of().is_zero() { root } else { root.plus(self.positive(rest)?) };
                 top.over(Expr::Number("4".into()).times(self.positive(leading)?))
             }
             Rule::Slope { x, start, slope } => self.slope(certificate, *x, start, slope)?,
@@ -244,15 +244,15 @@ impl Script {
     ) -> Result<Expr, Reason> {
         let poly = unsigned(certificate);
         let (f, name) = (Expr::poly(&poly), ascii(x.0));
-        let strict = certificate.sign.is_strict();
-        let rule = match (strict, start.sign.is_strict()) {
+        let strict = certificate.sign().is_strict();
+        let rule = match (strict, start.sign().is_strict()) {
             (true, true) => "rises_from_positive",
             (true, false) => "rises_strictly",
             (false, _) => "rises",
         };
         let relation = if strict { "<" } else { "<=" };
         let mut beyond = self.known.clone();
-        beyond.insert(x, Assumed::Positive);
+        beyond.insert(x, Sign::Positive);
         let derivative = poly.derivative(x);
         let (at_zero, above_zero) =
             (poly.replace(&Monomial::of(x), &Ratio::zero()), below(&derivative, &beyond)?);
@@ -301,7 +301,11 @@ impl Script {
         x: Symbol,
         inside: impl FnOnce(&mut Self) -> Result<(), Reason>,
     ) -> Result<(), Reason> {
-        let (moving, rest) = of.num().exponentials_in(x);
+        let moving = by_exponent(of.num()).into_iter().filter_map(|(e, part)| Some((e?, part)));
+        let moving: Vec<_> = moving.filter(|(e, _)| e.symbols().contains(&x)).collect();
+        let rest = moving.iter().fold(of.num().clone(), |rest, (exponent, part)| {
+            rest - part * Poly::exponential((*exponent).clone())
+        });
         let falling = match moving.as_slice() {
             [] => None,
             [(exponent, part)] => {
@@ -320,9 +324,9 @@ impl Script {
         let reversed = |poly: &Poly| {
             let coefficients = poly.coefficients(x);
             let terms = coefficients.iter().enumerate().map(|(i, c)| {
-                (0..degree - i as u32).fold(c.clone(), |term, _| term.times(&Poly::symbol(Symbol("y"))))
+                (0..degree - i as u32).fold(c.clone(), |term, _| term * Poly::symbol(Symbol("y")))
             });
-            terms.fold(Poly::zero(), |sum, term| sum.plus(&term))
+            terms.fold(Poly::zero(), |sum, term| sum + term)
         };
         let g = Expr::poly(&reversed(&rest)).over(Expr::poly(&reversed(of.den())));
         let name = ascii(x.0);
@@ -352,14 +356,14 @@ impl Script {
     }
 }
 
-fn below(value: &Ratio, known: &Assumptions) -> Result<Certificate, Reason> {
+fn below(value: &Ratio, known: &Known) -> Result<Certificate, Reason> {
     sign::sign(value.den(), known).ok_or("the sign of a divisor is open")
 }
 
 /// A polynomial or its opposite, whichever is not negative.
 fn unsigned(certificate: &Certificate) -> Poly {
-    match certificate.sign {
-        Sign::Negative | Sign::NonPositive => certificate.of.negated(),
-        Sign::Zero | Sign::NonNegative | Sign::Positive => certificate.of.clone(),
+    match certificate.sign() {
+        Sign::Negative | Sign::NonPositive => -certificate.of(),
+        Sign::Zero | Sign::NonNegative | Sign::Positive => certificate.of().clone(),
     }
 }

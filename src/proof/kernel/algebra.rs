@@ -1,0 +1,421 @@
+//! Polynomials and their quotients over ℚ, with e^… as an atom: the arithmetic that proofs rest on.
+//!
+//! Everything is exact. A [`Poly`] is a sum of distinct monomials with coefficients that are not 0, so two
+//! polynomials without e^… are the same function if and only if they are the same sum; with e^… they are if they are
+//! the same sum, and may be if exponents are equal that are not written alike. A [`Ratio`] is not reduced to
+//! lowest terms: two are equal if they are after cross-multiplication. That is all that equality needs; where
+//! a numerator divides by its denominator, the division is done, to keep what a reader sees short.
+
+use crate::operators;
+use rug::Rational;
+use std::cmp::Ordering;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+/// A quantity by its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Symbol(pub &'static str);
+
+/// A product of powers of symbols, times e to a quotient, if any.
+///
+/// One exponential is enough, since eᵃ eᵇ = eᵃ⁺ᵇ.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Monomial {
+    /// None of them is 0.
+    powers: BTreeMap<Symbol, u32>,
+    exponent: Option<Arc<Ratio>>,
+}
+
+/// A polynomial: from each monomial to its coefficient, which is not 0.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Poly(BTreeMap<Monomial, Rational>);
+
+/// A quotient of polynomials; the denominator is not the zero polynomial.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Ratio {
+    num: Poly,
+    den: Poly,
+}
+
+impl Monomial {
+    /// The empty product.
+    pub fn one() -> Self {
+        Monomial { powers: BTreeMap::new(), exponent: None }
+    }
+
+    /// A symbol.
+    pub fn of(x: Symbol) -> Self {
+        Monomial { powers: [(x, 1)].into(), exponent: None }
+    }
+
+    /// The powers of its symbols, by name.
+    pub fn powers(&self) -> impl ExactSizeIterator<Item = (Symbol, u32)> {
+        self.powers.iter().map(|(x, n)| (*x, *n))
+    }
+
+    /// What e is raised to, if it is.
+    pub fn exponent(&self) -> Option<&Ratio> {
+        self.exponent.as_deref()
+    }
+
+    fn times(&self, other: &Self) -> Self {
+        let mut powers = self.powers.clone();
+        for (x, n) in other.powers() {
+            let own = powers.entry(x).or_default();
+            *own = own.checked_add(n).expect("a power fits 32 bits");
+        }
+        let exponent = match (&self.exponent, &other.exponent) {
+            (None, e) | (e, None) => e.clone(),
+            (Some(a), Some(b)) => Some(&**a + &**b).filter(|sum| !sum.is_zero()).map(Arc::new),
+        };
+        Monomial { powers, exponent }
+    }
+
+    /// The quotient, if every power of the divisor is there; the divisor has no e^….
+    fn over(&self, divisor: &Self) -> Option<Self> {
+        if divisor.exponent.is_some() {
+            return None;
+        }
+        let mut powers = self.powers.clone();
+        for (x, n) in divisor.powers() {
+            let own = powers.get_mut(&x)?;
+            *own = own.checked_sub(n)?;
+        }
+        powers.retain(|_, n| *n > 0);
+        Some(Monomial { powers, exponent: self.exponent.clone() })
+    }
+
+    /// Without its e^….
+    pub fn bare(&self) -> Self {
+        Monomial { powers: self.powers.clone(), exponent: None }
+    }
+
+    fn degree(&self, x: Symbol) -> u32 {
+        self.powers.get(&x).copied().unwrap_or(0)
+    }
+
+    fn without(&self, x: Symbol) -> Self {
+        let mut rest = self.clone();
+        rest.powers.remove(&x);
+        rest
+    }
+}
+
+impl PartialOrd for Monomial {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+/// Lexicographic in the powers: an order that multiplication keeps, as long division needs.
+impl Ord for Monomial {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let differs = self.powers().zip(other.powers()).find(|(a, b)| a != b);
+        let first = differs.map_or(Ordering::Equal, |((x, n), (y, m))| y.cmp(&x).then(n.cmp(&m)));
+        let length = || self.powers.len().cmp(&other.powers.len());
+        first.then_with(length).then_with(|| self.exponent.cmp(&other.exponent))
+    }
+}
+
+/// The sum of terms, in any order.
+impl FromIterator<(Monomial, Rational)> for Poly {
+    fn from_iter<I: IntoIterator<Item = (Monomial, Rational)>>(terms: I) -> Self {
+        Poly::zero().with(terms)
+    }
+}
+
+impl From<Monomial> for Poly {
+    fn from(monomial: Monomial) -> Self {
+        Poly([(monomial, 1.into())].into())
+    }
+}
+
+operators! { [] Poly;
+    Add add |a, b| a.clone().with(b.0.clone());
+    Sub sub |a, b| a + -b;
+    Mul mul |a, b| a.products(b).collect();
+    - |a| a.0.iter().map(|(m, q)| (m.clone(), Rational::from(-q))).collect()
+}
+
+impl Poly {
+    /// 0
+    pub fn zero() -> Self {
+        Poly(BTreeMap::new())
+    }
+
+    /// A number.
+    pub fn constant(q: impl Into<Rational>) -> Self {
+        Poly::from_iter([(Monomial::one(), q.into())])
+    }
+
+    /// A symbol.
+    pub fn symbol(x: Symbol) -> Self {
+        Monomial::of(x).into()
+    }
+
+    /// e to a quotient.
+    pub fn exponential(exponent: Ratio) -> Self {
+        let exponent = Some(exponent).filter(|e| !e.is_zero()).map(Arc::new);
+        Monomial { exponent, ..Monomial::one() }.into()
+    }
+
+    fn accumulate(&mut self, monomial: Monomial, coefficient: Rational) {
+        let sum = self.0.remove(&monomial).unwrap_or_default() + coefficient;
+        if !sum.is_zero() {
+            self.0.insert(monomial, sum);
+        }
+    }
+
+    fn with(mut self, terms: impl IntoIterator<Item = (Monomial, Rational)>) -> Self {
+        terms.into_iter().for_each(|(m, q)| self.accumulate(m, q));
+        self
+    }
+
+    /// Each term of one with each of the other.
+    fn products(&self, other: &Self) -> impl Iterator<Item = (Monomial, Rational)> {
+        let times = |(m, p): (&Monomial, &Rational), (n, q)| (m.times(n), Rational::from(p * q));
+        self.0.iter().flat_map(move |own| other.0.iter().map(move |term| times(own, term)))
+    }
+
+    /// Is it the zero polynomial?
+    pub fn is_zero(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Is it the number 1?
+    pub fn is_one(&self) -> bool {
+        self.0.len() == 1 && self.0.get(&Monomial::one()).is_some_and(|q| *q == 1)
+    }
+
+    /// Its monomials with their coefficients, in the order of division.
+    pub fn terms(&self) -> impl DoubleEndedIterator<Item = (&Monomial, &Rational)> + ExactSizeIterator {
+        self.0.iter()
+    }
+
+    fn leading(&self) -> Option<(&Monomial, &Rational)> {
+        self.0.last_key_value()
+    }
+
+    /// All its exponents.
+    pub fn exponents(&self) -> impl Iterator<Item = &Ratio> {
+        self.0.keys().filter_map(Monomial::exponent)
+    }
+
+    /// Does it have an e^…?
+    pub fn has_exponentials(&self) -> bool {
+        self.exponents().next().is_some()
+    }
+
+    /// Its symbols, those in exponents too.
+    pub fn symbols(&self) -> BTreeSet<Symbol> {
+        let own = self.0.keys().flat_map(|m| m.powers.keys().copied());
+        own.chain(self.exponents().flat_map(Ratio::symbols)).collect()
+    }
+
+    /// The highest power of a symbol.
+    pub fn degree(&self, x: Symbol) -> u32 {
+        self.0.keys().map(|m| m.degree(x)).max().unwrap_or(0)
+    }
+
+    /// The coefficients of x⁰, x¹, …; exponents are left alone.
+    pub fn coefficients(&self, x: Symbol) -> Vec<Poly> {
+        let mut all = vec![Poly::zero(); self.degree(x) as usize + 1];
+        for (m, q) in &self.0 {
+            all[m.degree(x) as usize].accumulate(m.without(x), q.clone());
+        }
+        all
+    }
+
+    /// The exact quotient, if there is one; the divisor has no e^….
+    pub fn over(&self, divisor: &Self) -> Option<Self> {
+        let (first, coefficient) = divisor.leading()?;
+        if divisor.is_one() {
+            return Some(self.clone());
+        }
+        if divisor.has_exponentials() {
+            return None;
+        }
+        let (mut rest, mut quotient) = (self.clone(), Poly::zero());
+        while let Some((m, q)) = rest.leading() {
+            let (m, q) = (m.over(first)?, Rational::from(q / coefficient));
+            for (dm, dq) in &divisor.0 {
+                rest.accumulate(dm.times(&m), -Rational::from(dq * &q));
+            }
+            quotient.accumulate(m, q);
+        }
+        Some(quotient)
+    }
+
+    /// The largest product of powers of symbols that divides every term.
+    pub fn common_monomial(&self) -> Monomial {
+        let mut monomials = self.0.keys();
+        let mut common = monomials.next().map_or(Monomial::one(), Monomial::bare);
+        for m in monomials {
+            common.powers.retain(|x, n| {
+                *n = (*n).min(m.degree(*x));
+                *n > 0
+            });
+        }
+        common
+    }
+
+    /// The derivative by a symbol; exponents have denominators, so it is a quotient.
+    pub fn derivative(&self, x: Symbol) -> Ratio {
+        let lowered =
+            |m: &Monomial, q: &Rational| Some((m.over(&Monomial::of(x))?, Rational::from(q * m.degree(x))));
+        let powers: Poly = self.0.iter().filter_map(|(m, q)| lowered(m, q)).collect();
+        self.0.iter().fold(powers.into(), |sum, (m, q)| match m.exponent() {
+            None => sum,
+            Some(e) => sum + Ratio::from(Poly::from_iter([(m.clone(), q.clone())])) * e.derivative(x),
+        })
+    }
+
+    /// With each occurrence of a monomial replaced by a quotient, in exponents too. Equals are replaced by
+    /// equals, so the value stays what it is wherever the monomial has the value of the quotient.
+    pub fn replace(&self, pivot: &Monomial, by: &Ratio) -> Ratio {
+        // The coefficients of the pivot's powers, times e^… whose exponents are replaced already.
+        let mut by_power: Vec<Poly> = Vec::new();
+        for (m, q) in &self.0 {
+            let (mut rest, mut power) = (m.bare(), 0);
+            while let Some(quotient) = rest.over(pivot) {
+                rest = quotient;
+                power += 1;
+            }
+            let exponent = m.exponent().map(|e| e.replace(pivot, by)).filter(|e| !e.is_zero());
+            rest.exponent = exponent.map(Arc::new);
+            by_power.resize(by_power.len().max(power + 1), Poly::zero());
+            by_power[power].accumulate(rest, q.clone());
+        }
+        let highest_first = by_power.into_iter().rev();
+        highest_first.fold(Ratio::zero(), |sum, coefficient| sum * by + Ratio::from(coefficient))
+    }
+
+    /// Does a monomial occur in it, or in its exponents?
+    pub fn contains(&self, pivot: &Monomial) -> bool {
+        self.0.keys().any(|m| m.bare().over(pivot).is_some()) || self.exponents().any(|e| e.contains(pivot))
+    }
+}
+
+impl From<Poly> for Ratio {
+    fn from(num: Poly) -> Self {
+        Ratio { num, den: Poly::constant(1) }
+    }
+}
+
+operators! { [] Ratio;
+    Add add |a, b| a.plus(b);
+    Sub sub |a, b| a + -b;
+    Mul mul |a, b| a.times(b);
+    - |a| Ratio { num: -&a.num, den: a.den.clone() }
+}
+
+impl Ratio {
+    /// 0
+    pub fn zero() -> Self {
+        Poly::zero().into()
+    }
+
+    /// The numerator.
+    pub fn num(&self) -> &Poly {
+        &self.num
+    }
+
+    /// The denominator.
+    pub fn den(&self) -> &Poly {
+        &self.den
+    }
+
+    /// A quotient. The denominator must not be the zero polynomial.
+    fn new(mut num: Poly, mut den: Poly) -> Self {
+        if num.is_zero() || den.is_one() {
+            return num.into();
+        }
+        // A single e^… below goes above.
+        if let (1, Some((Monomial { exponent: Some(e), .. }, _))) = (den.0.len(), den.leading()) {
+            let inverse = Poly::exponential(-&**e);
+            (num, den) = (num * &inverse, den * inverse);
+        }
+        if let Some(quotient) = num.over(&den) {
+            return quotient.into();
+        }
+        if let Some((_, q)) = den.leading()
+            && *q != 1
+        {
+            let inverse = Poly::constant(q.clone().recip());
+            (num, den) = (num * &inverse, den * inverse);
+        }
+        Ratio { num, den }
+    }
+
+    fn plus(&self, other: &Self) -> Self {
+        if self.den == other.den {
+            return Ratio::new(&self.num + &other.num, self.den.clone());
+        }
+        if let Some(k) = other.den.over(&self.den) {
+            return Ratio::new(&self.num * k + &other.num, other.den.clone());
+        }
+        if let Some(k) = self.den.over(&other.den) {
+            return Ratio::new(&other.num * k + &self.num, self.den.clone());
+        }
+        Ratio::new(&self.num * &other.den + &other.num * &self.den, &self.den * &other.den)
+    }
+
+    fn times(&self, other: &Self) -> Self {
+        // Cancel crosswise what can be.
+        let cancel = |num: &Poly, den: &Poly| match num.over(den) {
+            Some(quotient) => (quotient, Poly::constant(1)),
+            None => (num.clone(), den.clone()),
+        };
+        let ((a, d), (b, c)) = (cancel(&self.num, &other.den), cancel(&other.num, &self.den));
+        Ratio::new(a * b, c * d)
+    }
+
+    /// self / other; `None` if other is identically zero.
+    pub fn over(&self, other: &Self) -> Option<Self> {
+        if other.is_zero() {
+            return None;
+        }
+        Some(self * Ratio::new(other.den.clone(), other.num.clone()))
+    }
+
+    /// Is it free of e^…?
+    pub fn is_of_polynomials(&self) -> bool {
+        !self.num.has_exponentials() && !self.den.has_exponentials()
+    }
+
+    /// Is it 0 wherever it is defined?
+    pub fn is_zero(&self) -> bool {
+        self.num.is_zero()
+    }
+
+    /// Is it a number?
+    pub fn is_number(&self) -> bool {
+        self.den.is_one() && self.num.0.keys().all(|m| *m == Monomial::one())
+    }
+
+    /// All its symbols.
+    pub fn symbols(&self) -> BTreeSet<Symbol> {
+        self.num.symbols().into_iter().chain(self.den.symbols()).collect()
+    }
+
+    /// The derivative by a symbol.
+    pub fn derivative(&self, x: Symbol) -> Self {
+        let (n, d) = (Ratio::from(self.num.clone()), Ratio::from(self.den.clone()));
+        let top = self.num.derivative(x) * d - n * self.den.derivative(x);
+        Ratio::new(top.num, top.den * &self.den * &self.den)
+    }
+
+    /// With a monomial replaced by a quotient ([`Poly::replace`]).
+    pub fn replace(&self, pivot: &Monomial, by: &Ratio) -> Self {
+        if !self.contains(pivot) {
+            return self.clone();
+        }
+        let (num, den) = (self.num.replace(pivot, by), self.den.replace(pivot, by));
+        num.over(&den).unwrap_or_else(|| self.clone())
+    }
+
+    /// Does a monomial occur in it?
+    pub fn contains(&self, pivot: &Monomial) -> bool {
+        self.num.contains(pivot) || self.den.contains(pivot)
+    }
+}

@@ -1,0 +1,192 @@
+//! What a proof consists of: read by whoever prints it, made by the kernel alone.
+//!
+//! The fields of a structure are seen by nobody else. So a variant of an enum, which anyone in this crate can write
+//! down, gets into a [`Proof`] here or not at all.
+
+use super::algebra::{Monomial, Poly, Ratio, Symbol};
+use super::sign::{Certificate, Sign};
+use crate::formula::Hypothesis;
+use crate::number::Tree;
+
+/// A proof of a statement: a derivation for each of its goals. Only [`prove`](super::prove) makes one:
+///
+/// ```
+/// use spring_mass_contact::{claims::statements, proof::{Proof, prove}};
+/// let proof: Proof = prove(&statements()[0]).unwrap();
+/// ```
+/// ```compile_fail
+/// use spring_mass_contact::{claims::statements, proof::{Proof, prove}};
+/// let proof: Proof = Proof { goals: Vec::new() };
+/// ```
+#[derive(Clone, Debug)]
+pub struct Proof {
+    pub(super) goals: Vec<Derivation>,
+}
+
+impl Proof {
+    /// How each goal is derived, in the order of the goals.
+    pub(in crate::proof) fn goals(&self) -> &[Derivation] {
+        &self.goals
+    }
+}
+
+/// How a goal is derived.
+#[derive(Clone, Debug)]
+pub enum Derivation {
+    /// In two cases: a quantity is positive, or it is not.
+    Cases(Poly, Box<Derivation>, Box<Derivation>),
+    /// In one go.
+    Direct(Box<Direct>),
+}
+
+/// A derivation without cases of its own.
+#[derive(Clone, Debug)]
+pub struct Direct {
+    pub(super) supposed: Vec<Supposed>,
+    pub(super) divisors: Vec<(Tree, Signed)>,
+    pub(super) brackets: Vec<(Tree, Tree, Signed)>,
+    pub(super) because: Because,
+}
+
+impl Direct {
+    /// What is supposed, and how it is used.
+    pub fn supposed(&self) -> &[Supposed] {
+        &self.supposed
+    }
+
+    /// Each divisor, and why it is not 0.
+    ///
+    /// Its numerator has a strict sign; its own divisors are listed before it.
+    pub fn divisors(&self) -> &[(Tree, Signed)] {
+        &self.divisors
+    }
+
+    /// Each bracket, which of its values it has, and why: the sign of what decides it.
+    pub fn brackets(&self) -> &[(Tree, Tree, Signed)] {
+        &self.brackets
+    }
+
+    /// The rest.
+    pub fn because(&self) -> &Because {
+        &self.because
+    }
+}
+
+/// A supposition and what became of it.
+#[derive(Clone, Debug)]
+pub struct Supposed {
+    pub(super) given: Option<Hypothesis>,
+    pub(super) value: Ratio,
+    pub(super) sign: Sign,
+    pub(super) used: Used,
+}
+
+impl Supposed {
+    /// The hypothesis, or `None` for the case of a split.
+    pub fn given(&self) -> Option<&Hypothesis> {
+        self.given.as_ref()
+    }
+
+    /// The quantity it speaks of, before this supposition is used.
+    pub fn value(&self) -> &Ratio {
+        &self.value
+    }
+
+    /// What it says of its sign.
+    pub fn sign(&self) -> Sign {
+        self.sign
+    }
+
+    /// How it is used.
+    pub fn used(&self) -> &Used {
+        &self.used
+    }
+}
+
+/// How a supposition is used.
+#[derive(Clone, Debug)]
+pub enum Used {
+    /// It follows from the others.
+    Follows,
+    /// The quantity is a symbol; its sign is known from now on.
+    Symbol(Symbol),
+    /// The pivot is replaced, with a new symbol for the quantity unless it is 0.
+    Pivot(Monomial, Ratio, Option<Symbol>),
+    /// Not at all: there is no pivot. What is proved holds without it, too.
+    Unused,
+}
+
+/// The sign of a quotient.
+#[derive(Clone, Debug)]
+pub struct Signed {
+    pub(super) value: Ratio,
+    pub(super) num: Certificate,
+    pub(super) den: Certificate,
+}
+
+impl Signed {
+    /// The quotient, reduced by the suppositions.
+    pub fn value(&self) -> &Ratio {
+        &self.value
+    }
+
+    /// The sign of its numerator.
+    pub fn num(&self) -> &Certificate {
+        &self.num
+    }
+
+    /// The strict sign of its denominator.
+    pub fn den(&self) -> &Certificate {
+        &self.den
+    }
+
+    /// The sign of the quotient.
+    pub fn sign(&self) -> Sign {
+        self.num.sign().times(self.den.sign())
+    }
+}
+
+/// The last step of a derivation.
+#[derive(Clone, Debug)]
+pub enum Because {
+    /// Both sides are this.
+    Same(Ratio),
+    /// A sign.
+    Sign(Signed),
+    /// The derivative, as dual numbers compute it, and the other side are this.
+    Derivative(Ratio),
+    /// By degrees in the symbol, and the sign of the denominator's leading coefficient.
+    Limit {
+        /// What has the limit.
+        of: Ratio,
+        /// In which symbol.
+        by: Symbol,
+        /// The degrees of numerator and denominator, without the e^… that vanish.
+        degrees: (u32, u32),
+        /// Why the denominator's leading coefficient is not 0.
+        leading: Certificate,
+        /// The limit.
+        to: Ratio,
+    },
+}
+
+/// Why there is no proof: where a search for a counterexample may start.
+#[derive(Clone, Debug)]
+pub enum Why {
+    /// A divisor might be 0.
+    MightVanish(Ratio),
+    /// It is not known whether a bracket opens, and no case can be made of it.
+    OpenBracket(Ratio),
+    /// No rule finds the sign.
+    NoSign(Ratio),
+    /// The sign is another.
+    WrongSign(Ratio, Sign),
+    /// Two sides differ by this.
+    Different(Ratio),
+    /// No rule finds the limit.
+    NoLimit(Ratio),
+    /// A name that the kernel keeps for itself.
+    Reserved(&'static str),
+    /// There is no goal.
+    Nothing,
+}

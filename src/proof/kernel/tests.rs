@@ -1,0 +1,159 @@
+//! What the kernel proves and what it must not.
+
+use super::*;
+use crate::number::{Exponential, Field, PositivePart};
+use num_traits::{One, Zero};
+
+fn x(name: &'static str) -> Tree {
+    Tree::symbol(name)
+}
+
+fn above_zero(value: Tree) -> Hypothesis {
+    Hypothesis::new(Relation::Positive, value)
+}
+
+fn not_below_zero(value: Tree) -> Hypothesis {
+    Hypothesis::new(Relation::NonNegative, value)
+}
+
+fn outcome(hypotheses: Vec<Hypothesis>, says: Says) -> Result<Proof, Why> {
+    let goals = vec![Goal::of_claim("", says)];
+    prove(&Statement { hypotheses, goals, ..Statement::default() })
+}
+
+fn proved(hypotheses: Vec<Hypothesis>, says: Says) -> bool {
+    outcome(hypotheses, says).is_ok()
+}
+
+/// c > 0
+fn stiffness() -> Vec<Hypothesis> {
+    vec![above_zero(x("c"))]
+}
+
+/// λ ≥ 0
+fn multiplier() -> Vec<Hypothesis> {
+    vec![not_below_zero(x("λ"))]
+}
+
+#[test]
+fn a_divisor_has_to_be_seen_not_to_vanish() {
+    let one = || Says::Equal(x("c") / x("c"), Tree::one());
+    assert!(proved(stiffness(), one()));
+    assert!(matches!(outcome(vec![], one()), Err(Why::MightVanish(..))));
+    // Not even where the quotient is multiplied by 0.
+    assert!(!proved(vec![], Says::Equal(Tree::zero() * (Tree::one() / x("u")), Tree::zero())));
+    assert!(!proved(multiplier(), Says::Equal(x("λ") / x("λ"), Tree::one())));
+    assert!(!proved(vec![], Says::Equal(Tree::one() / (x("u") - x("u")), Tree::zero())));
+}
+
+#[test]
+fn equal_is_equal_everywhere() {
+    let square = (x("u") + x("v")) * (x("u") + x("v"));
+    let two = Tree::int(2);
+    let expanded = x("u") * x("u") + two * x("u") * x("v") + x("v") * x("v");
+    assert!(proved(vec![], Says::Equal(square.clone(), expanded.clone())));
+    assert!(!proved(vec![], Says::Equal(square, expanded + x("u"))));
+}
+
+#[test]
+fn strict_and_weak_signs_are_two_things() {
+    assert!(proved(multiplier(), Says::Sign(Relation::NonNegative, x("λ"))));
+    assert!(!proved(multiplier(), Says::Sign(Relation::Positive, x("λ"))));
+    assert!(!proved(multiplier(), Says::Sign(Relation::Zero, x("λ"))));
+    assert!(proved(stiffness(), Says::Sign(Relation::Positive, x("c"))));
+    assert!(!proved(stiffness(), Says::Sign(Relation::NonNegative, -x("c"))));
+}
+
+#[test]
+fn a_hypothesis_says_what_it_says_and_no_more() {
+    let reaction = || x("m") * x("g") - x("c") * x("H");
+    let touching = || vec![not_below_zero(reaction())];
+    assert!(proved(touching(), Says::Sign(Relation::NonNegative, reaction())));
+    assert!(!proved(touching(), Says::Sign(Relation::Positive, reaction())));
+    assert!(!proved(touching(), Says::Sign(Relation::Zero, reaction())));
+    let grazing = vec![Hypothesis::new(Relation::Zero, reaction())];
+    assert!(proved(grazing.clone(), Says::Equal(x("m") * x("g"), x("c") * x("H"))));
+    assert!(!proved(grazing, Says::Equal(x("m"), x("c"))));
+}
+
+#[test]
+fn the_names_of_quantities_are_the_kernels_own() {
+    let above = || vec![above_zero(x("u") - Tree::one())];
+    assert!(!proved(above(), Says::Sign(Relation::Positive, x("s₁"))));
+    assert!(!proved(vec![above_zero(x("u") - x("s₁"))], Says::Equal(x("u"), x("u"))));
+    assert!(prove(&Statement::default()).is_err());
+}
+
+#[test]
+fn a_bracket_opens_where_its_sign_says_so() {
+    let bracket = |t: &Tree| t.positive_part();
+    assert!(proved(stiffness(), Says::Equal(bracket(&x("c")), x("c"))));
+    assert!(proved(stiffness(), Says::Equal(bracket(&-x("c")), Tree::zero())));
+    assert!(!proved(vec![], Says::Equal(bracket(&x("u")), x("u"))));
+    assert!(!proved(vec![], Says::Equal(bracket(&x("u")), Tree::zero())));
+    // By cases: ⟨u⟩ − ⟨−u⟩ = u, and min(u, v) = v − ⟨v − u⟩.
+    assert!(proved(vec![], Says::Equal(bracket(&x("u")) - bracket(&-x("u")), x("u"))));
+    let min = x("u").min(&x("v"));
+    assert!(proved(vec![], Says::Equal(min.clone(), x("v") - bracket(&(x("v") - x("u"))))));
+    assert!(!proved(vec![], Says::Equal(min, x("u"))));
+}
+
+#[test]
+fn limits_by_degrees() {
+    let limit = |of: Tree, to: Tree| Says::Limit(of, "t", to);
+    let t = || x("t");
+    assert!(proved(stiffness(), limit(Tree::one() / (x("c") + t() * t()), Tree::zero())));
+    let time = || above_zero(t());
+    let both = || vec![above_zero(x("c")), time()];
+    assert!(proved(both(), limit(t() / (Tree::one() + x("c") * t()), Tree::one() / x("c"))));
+    assert!(!proved(both(), limit(t() / (Tree::one() + x("c") * t()), Tree::one())));
+    assert!(!proved(both(), limit(t(), Tree::zero())));
+    // What might be constant need not vanish.
+    let weak = vec![not_below_zero(x("λ")), time()];
+    assert!(!proved(weak, limit(Tree::one() / (Tree::one() + x("λ") * t()), Tree::zero())));
+    // e^{−ct} falls faster than any power rises; e^{ct} and e^{ut} do not.
+    let decay = |rate: Tree| t() * (rate * t()).exp();
+    assert!(proved(both(), limit(decay(-x("c")), Tree::zero())));
+    assert!(!proved(both(), limit(decay(x("c")), Tree::zero())));
+    assert!(!proved(both(), limit(decay(-x("u")), Tree::zero())));
+    // An exponential within an exponent has no degree: e^{eᵗ − t} grows, and e^{−t e^{−t}} tends to 1.
+    let within = |exponent: Tree| limit(exponent.exp(), Tree::zero());
+    assert!(!proved(vec![time()], within(t().exp() - t())));
+    assert!(!proved(vec![time()], within(-t() * (-t()).exp())));
+    // A hypothesis that ends as t grows says nothing of the limit.
+    let before = vec![above_zero(x("c") - t())];
+    assert!(!proved(before, limit(Tree::one() / (Tree::one() + t() * t()), Tree::zero())));
+}
+
+#[test]
+fn an_invariant_has_to_hold_at_the_start() {
+    // x ← ⟨x⟩ from λ stays λ if λ ≥ 0; that it is so at every step is no reason for it to be so at the first.
+    let (lambda, q) = (x("λ"), x("q"));
+    let invariant = |q: &Tree| &lambda + (q - q);
+    let goal = |part, role, says| Goal { part, role, says };
+    let statement = |hypotheses| Statement {
+        kind: "induction",
+        hypotheses,
+        invariants: vec![not_below_zero(invariant(&q))],
+        goals: vec![
+            goal("start", Role::Claim, Says::Equal(lambda.clone(), lambda.clone())),
+            goal("step", Role::Step, Says::Equal(lambda.positive_part(), lambda.clone())),
+            goal("", Role::Begins, Says::Sign(Relation::NonNegative, invariant(&Tree::one()))),
+            goal("", Role::Continues, Says::Sign(Relation::NonNegative, invariant(&q))),
+        ],
+        ..Statement::default()
+    };
+    assert!(prove(&statement(multiplier())).is_ok());
+    assert!(matches!(prove(&statement(vec![])), Err(Why::NoSign(_))));
+}
+
+#[test]
+fn derivatives_are_those_of_the_formula() {
+    let square = || x("u") * x("u");
+    let twice = || Tree::int(2) * x("u");
+    assert!(proved(vec![], Says::Derivative(square(), "u", twice())));
+    assert!(!proved(vec![], Says::Derivative(square(), "u", x("u"))));
+    assert!(!proved(vec![], Says::Derivative(square(), "v", twice())));
+    // ⟨u⟩ has none at 0.
+    assert!(!proved(vec![], Says::Derivative(x("u").positive_part(), "u", Tree::one())));
+}

@@ -1,0 +1,146 @@
+//! Polynomials, quotients and certificates as a reader writes them.
+
+use crate::number::{Exponential, Field, Tree};
+use crate::proof::Why;
+use crate::proof::kernel::algebra::{Monomial, Poly, Ratio, Symbol};
+use crate::proof::kernel::sign::{Certificate, Rule, Sign};
+use rug::Integer;
+use std::fmt;
+
+/// The order in which the factors of a product are written, by their symbols. Others come before them, by name.
+#[derive(Default)]
+pub(super) struct Order<'a>(pub(super) &'a [&'static str]);
+
+impl Order<'_> {
+    fn product(&self, monomial: &Monomial) -> Option<Tree> {
+        let mut powers: Vec<_> = monomial.powers().collect();
+        powers.sort_by_key(|(x, _)| self.0.iter().position(|name| *name == x.0));
+        let powers = powers.into_iter().flat_map(|(x, n)| std::iter::repeat_n(Tree::symbol(x.0), n as usize));
+        powers.chain(monomial.exponent().map(|e| self.ratio(e).exp())).reduce(|a, b| a * b)
+    }
+
+    /// A monomial as a formula.
+    pub(super) fn monomial(&self, monomial: &Monomial) -> Tree {
+        self.product(monomial).unwrap_or_else(|| Tree::int(1))
+    }
+
+    /// A polynomial as a formula.
+    pub(super) fn poly(&self, poly: &Poly) -> Tree {
+        // What is subtracted does not come first.
+        let (added, subtracted): (Vec<_>, Vec<_>) = poly.terms().rev().partition(|(_, q)| q.is_positive());
+        let mut sum: Option<Tree> = None;
+        for (monomial, q) in added.into_iter().chain(subtracted) {
+            let (n, d) = (number(&q.numer().clone().abs()), number(q.denom()));
+            let term = match self.product(monomial) {
+                Some(product) if *q.numer().as_abs() == 1 => product,
+                Some(product) => n * product,
+                None => n,
+            };
+            let term = if *q.denom() == 1 { term } else { term / d };
+            sum = Some(match (sum, q.is_negative()) {
+                (None, false) => term,
+                (None, true) => -term,
+                (Some(sum), false) => sum + term,
+                (Some(sum), true) => sum - term,
+            });
+        }
+        sum.unwrap_or_else(|| Tree::int(0))
+    }
+
+    /// A quotient as a formula.
+    pub(super) fn ratio(&self, ratio: &Ratio) -> Tree {
+        let num = self.poly(ratio.num());
+        if ratio.den().is_one() { num } else { num / self.poly(ratio.den()) }
+    }
+
+    /// Why a polynomial has its sign: one line a rule, the last one first.
+    pub(super) fn certificate(&self, certificate: &Certificate) -> Vec<String> {
+        let poly = |poly: &Poly| self.poly(poly);
+        let (of, sign) = (poly(certificate.of()), text(certificate.sign()));
+        match certificate.rule() {
+            Rule::Terms if certificate.of().is_zero() => vec!["0 = 0".to_string()],
+            Rule::Terms => vec![format!("{of} {sign}, term by term")],
+            Rule::Factor(factor, rest) => {
+                let mut lines =
+                    vec![format!("{of} = ({}) ({}) {sign}, since", poly(factor.of()), poly(rest.of()))];
+                lines.extend(self.certificate(rest));
+                lines
+            }
+            Rule::Square { leading, root, rest } => {
+                let (a, root, d) = (poly(leading.of()), poly(root), poly(rest.of()));
+                let mut lines = vec![format!("4 ({a}) ({of}) = ({root})² + ({d}), hence {of} {sign}, since")];
+                lines.extend(self.certificate(leading));
+                lines.extend(self.certificate(rest));
+                lines
+            }
+            Rule::Slope { x: Symbol(x), start, slope } => {
+                let mut lines = vec![format!("{of} {sign}, by its value at {x} = 0 and its slope in {x}:")];
+                lines.push(format!("at {x} = 0:"));
+                lines.extend(self.certificate(start));
+                lines.push(format!("its derivative by {x} has the sign of:"));
+                lines.extend(self.certificate(slope));
+                lines
+            }
+        }
+    }
+
+    /// Why there is no proof.
+    pub(super) fn why(&self, why: &Why) -> String {
+        let ratio = |ratio: &Ratio| self.ratio(ratio);
+        match why {
+            Why::MightVanish(value) => format!("{} might be 0", ratio(value)),
+            Why::OpenBracket(value) => format!("the sign of {} is open", ratio(value)),
+            Why::NoSign(value) => format!("no rule finds the sign of {}", ratio(value)),
+            Why::WrongSign(value, sign) => format!("{} is {}", ratio(value), text(*sign)),
+            Why::Different(value) => format!("the sides differ by {}", ratio(value)),
+            Why::NoLimit(value) => format!("no rule finds the limit of {}", ratio(value)),
+            Why::Reserved(name) => format!("{name} is not a name for a quantity of a claim"),
+            Why::Nothing => "it says nothing".to_string(),
+        }
+    }
+}
+
+/// A number as a formula; a large one in pieces, since a formula has only small ones.
+fn number(n: &Integer) -> Tree {
+    n.to_i32().map_or_else(
+        || {
+            let (high, low) = n.clone().div_rem((1 << 30).into());
+            number(&high) * Tree::int(1 << 30) + number(&low)
+        },
+        Tree::int,
+    )
+}
+
+/// A sign as a reader writes it.
+fn text(sign: Sign) -> &'static str {
+    match sign {
+        Sign::Negative => "< 0",
+        Sign::NonPositive => "≤ 0",
+        Sign::Zero => "= 0",
+        Sign::NonNegative => "≥ 0",
+        Sign::Positive => "> 0",
+    }
+}
+
+/// With factors by name; [`why`](super::why) has them as mechanics writes them.
+impl fmt::Display for Why {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(&Order::default().why(self))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::Exact;
+
+    #[test]
+    fn numbers_of_any_size_are_written_as_what_they_are() {
+        let large: Integer = Integer::from(1) << 80;
+        for n in [large.clone(), -1 - large, Integer::ZERO, Integer::from(-7)] {
+            let q = rug::Rational::from((n, 3));
+            let tree = Order::default().poly(&Poly::constant(q.clone()));
+            assert_eq!(tree.replay(&|_| Exact::int(0), &|_| None), Some(Exact::from(q)));
+        }
+    }
+}
