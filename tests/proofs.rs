@@ -2,7 +2,6 @@
 #![cfg(feature = "mpfr")]
 
 use spring_mass_contact::claims::{registry, statements};
-use spring_mass_contact::number::{Exact, Field};
 use spring_mass_contact::proof::paper::Paper;
 use spring_mass_contact::proof::prove;
 use std::collections::BTreeSet;
@@ -49,13 +48,4 @@ fn a_proof_can_be_read() {
     assert_eq!(paper.used(&proof), ["c > 0", "ε > 0"]);
     let lines = paper.proof(statement, &proof);
     assert_eq!(lines.first().map(String::as_str), Some("c + ε ≠ 0: c + ε > 0, term by term"));
-}
-
-#[test]
-fn integers_of_any_size_are_written_as_what_they_are() {
-    use spring_mass_contact::number::Tree;
-    use spring_mass_contact::proof::algebra::Poly;
-    let large = rug::Rational::from((rug::Integer::from(1) << 80, 3));
-    let tree = Poly::constant(large.clone()).to_tree(&|x| Tree::symbol(x.0));
-    assert_eq!(tree.replay(&|_| Exact::int(0), &|_| None), Some(Exact::from(large)));
 }
