@@ -21,7 +21,7 @@ mod scalar;
 #[cfg(feature = "mpfr")]
 mod series;
 
-pub use augmentation::{Augmentation, Step};
+pub use augmentation::{Augmentation, Iterate};
 pub use check::SolveError;
 #[cfg(feature = "mpfr")]
 pub use count::{augmentations_needed, rounding_floor, within_reach};
@@ -210,7 +210,7 @@ pub fn solve_observed<T: Scalar>(
     system: &SpringMass<T>,
     method: &Method<T>,
     plane: Plane,
-    each: impl FnMut(&Step<T>),
+    each: impl FnMut(&Iterate<T>),
 ) -> Result<Solution<T>, SolveError> {
     check::system(system)?;
     check::method(method)?;
@@ -356,7 +356,7 @@ fn iterate<T: Scalar>(
     target: &Target<T::Enclosure>,
     tolerance: &T,
     max_augmentations: u64,
-    mut each: impl FnMut(&Step<T>),
+    mut each: impl FnMut(&Iterate<T>),
 ) -> Result<Found<T>, SolveError> {
     let eps = steps.penalty().enclose();
     let mut floor: Option<T> = None;

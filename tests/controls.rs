@@ -4,7 +4,7 @@
 use rayon::prelude::*;
 use spring_mass_contact::claims::{Case, Given, Relation};
 use spring_mass_contact::number::Exact;
-use spring_mass_contact::proof::controls::{Outcome, Without, changes, controls};
+use spring_mass_contact::proof::controls::{Effect, Without, changes, controls};
 use spring_mass_contact::proof::refute::{Verdict, check, planted_points, raw_points};
 use spring_mass_contact::proof::{Counterexample, Statement, prove, statements};
 use spring_mass_contact::rug::Rational;
@@ -14,16 +14,16 @@ use std::collections::BTreeMap;
 #[test]
 fn no_change_of_a_formula_goes_unnoticed() {
     let controls = controls(&statements());
-    let unnoticed = controls.changes.iter().filter(|(_, outcome)| matches!(outcome, Outcome::Unnoticed));
+    let unnoticed = controls.changes.iter().filter(|(_, effect)| matches!(effect, Effect::Unnoticed));
     let unnoticed: Vec<_> = unnoticed.map(|(change, _)| change.to_string()).collect();
     assert!(unnoticed.is_empty(), "{unnoticed:#?}");
-    assert!(controls.counts().noticed > 600, "{:?}", controls.counts());
+    assert!(controls.summary().noticed > 600, "{:?}", controls.summary());
 }
 
 #[test]
 fn what_changes_nothing_is_only_the_order_in_a_square() {
-    for (change, outcome) in controls(&statements()).changes {
-        if matches!(outcome, Outcome::Unchanged) {
+    for (change, effect) in controls(&statements()).changes {
+        if matches!(effect, Effect::Unchanged) {
             assert!(change.to_string().ends_with("a − b → b − a"), "{change}");
         }
     }
@@ -157,8 +157,8 @@ fn a_counterexample_has_all_hypotheses_but_the_dropped_one() {
 fn counterexamples_are_small() {
     let controls = controls(&statements());
     let noticed = controls.changes.iter().filter_map(|(change, outcome)| match outcome {
-        Outcome::Noticed { counterexample, .. } => Some((change.to_string(), counterexample)),
-        Outcome::Unchanged | Outcome::Unnoticed => None,
+        Effect::Noticed { counterexample, .. } => Some((change.to_string(), counterexample)),
+        Effect::Unchanged | Effect::Unnoticed => None,
     });
     let dropped = controls.dropped.iter().filter_map(|dropped| match &dropped.without {
         Without::Refuted(counterexample) => Some((format!("{dropped:?}"), counterexample)),

@@ -298,7 +298,7 @@ pub fn changes(statements: &[Statement]) -> Vec<Change> {
 
 /// What became of a change.
 #[derive(Clone, Debug)]
-pub enum Outcome {
+pub enum Effect {
     /// A claim no longer holds.
     Noticed {
         /// The claim's entry.
@@ -342,14 +342,14 @@ pub struct Dropped {
 #[derive(Clone, Debug, Default)]
 pub struct Controls {
     /// In the order of the source.
-    pub changes: Vec<(Change, Outcome)>,
+    pub changes: Vec<(Change, Effect)>,
     /// In the order of the statements.
     pub dropped: Vec<Dropped>,
 }
 
 /// How many controls came out how.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Counts {
+pub struct Summary {
     /// Changes.
     pub changes: usize,
     /// Of these, noticed by a claim.
@@ -370,24 +370,24 @@ pub struct Counts {
 
 impl Controls {
     /// The summary.
-    pub fn counts(&self) -> Counts {
-        let mut counts =
-            Counts { changes: self.changes.len(), hypotheses: self.dropped.len(), ..Counts::default() };
-        for (_, outcome) in &self.changes {
-            match outcome {
-                Outcome::Noticed { .. } => counts.noticed += 1,
-                Outcome::Unchanged => counts.unchanged += 1,
-                Outcome::Unnoticed => counts.unnoticed += 1,
+    pub fn summary(&self) -> Summary {
+        let mut summary =
+            Summary { changes: self.changes.len(), hypotheses: self.dropped.len(), ..Summary::default() };
+        for (_, effect) in &self.changes {
+            match effect {
+                Effect::Noticed { .. } => summary.noticed += 1,
+                Effect::Unchanged => summary.unchanged += 1,
+                Effect::Unnoticed => summary.unnoticed += 1,
             }
         }
         for dropped in &self.dropped {
             match dropped.without {
-                Without::Refuted(_) => counts.refuted += 1,
-                Without::StillTrue => counts.still_true += 1,
-                Without::Unknown => counts.unknown += 1,
+                Without::Refuted(_) => summary.refuted += 1,
+                Without::StillTrue => summary.still_true += 1,
+                Without::Unknown => summary.unknown += 1,
             }
         }
-        counts
+        summary
     }
 }
 
@@ -395,7 +395,7 @@ impl Controls {
 pub fn controls(statements: &[Statement]) -> Controls {
     let bench = Bench::new(statements);
     let changes = changes(statements);
-    let changes = changes.into_par_iter().map(|change| (change, bench.outcome(&change))).collect();
+    let changes = changes.into_par_iter().map(|change| (change, bench.effect(&change))).collect();
     let hypotheses: Vec<_> =
         statements.iter().flat_map(|s| (0..s.hypotheses.len()).map(move |i| (s, i))).collect();
     let dropped = hypotheses.into_par_iter().map(|(statement, i)| Dropped {
@@ -462,7 +462,7 @@ impl<'a> Bench<'a> {
         Bench { statements, by_site, points }
     }
 
-    fn outcome(&self, change: &Change) -> Outcome {
+    fn effect(&self, change: &Change) -> Effect {
         let touched = || {
             let statements =
                 self.by_site.get(&change.site).into_iter().flatten().map(|i| &self.statements[*i]);
@@ -475,14 +475,14 @@ impl<'a> Bench<'a> {
             let points = cached.or(own.as_ref())?;
             let counterexample =
                 if thoroughly { points.thoroughly(&changed) } else { points.quickly(&changed) }?;
-            Some(Outcome::Noticed { equation: original.equation, name: original.name, counterexample })
+            Some(Effect::Noticed { equation: original.equation, name: original.name, counterexample })
         };
         let unchanged = || touched().all(|(original, _)| change.changes_nothing(original));
         touched()
             .find_map(|pair| noticed(pair, false))
-            .or_else(|| unchanged().then_some(Outcome::Unchanged))
+            .or_else(|| unchanged().then_some(Effect::Unchanged))
             .or_else(|| touched().find_map(|pair| noticed(pair, true)))
-            .unwrap_or(Outcome::Unnoticed)
+            .unwrap_or(Effect::Unnoticed)
     }
 
     fn without(&self, statement: &Statement, hypothesis: usize) -> Without {
@@ -566,7 +566,7 @@ mod tests {
             |given| controls.dropped.iter().find(|dropped| dropped.given == given).map(|d| &d.without);
         assert!(matches!(became(Given::Stiffness), Some(Without::Refuted(_))), "{:?}", controls.dropped);
         assert!(matches!(became(Given::Penalty), Some(Without::StillTrue)), "{:?}", controls.dropped);
-        let Counts { hypotheses, refuted, still_true, unknown, .. } = controls.counts();
+        let Summary { hypotheses, refuted, still_true, unknown, .. } = controls.summary();
         assert_eq!([hypotheses, refuted, still_true, unknown], [2, 1, 1, 0]);
     }
 

@@ -4,9 +4,9 @@ use super::Plane;
 use crate::chapter::{SpringMass, augmented, contact, structure};
 use crate::number::OrderedField;
 
-/// One step of (1.16).
+/// What one step of (1.16) arrives at.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Step<T> {
+pub struct Iterate<T> {
     /// The counter k, from 0.
     pub k: u64,
     /// λ_k, in N.
@@ -69,7 +69,7 @@ impl<'a, T: OrderedField> Augmentation<'a, T> {
     }
 
     /// The next step; there always is one.
-    pub fn step(&mut self) -> Step<T> {
+    pub fn step(&mut self) -> Iterate<T> {
         let Augmentation { system, penalty, plane, .. } = *self;
         let lambda = &self.multiplier;
         let (u, force, next) = match plane {
@@ -88,7 +88,7 @@ impl<'a, T: OrderedField> Augmentation<'a, T> {
                 (u, force, next)
             }
         };
-        let step = Step {
+        let iterate = Iterate {
             k: self.k,
             multiplier: std::mem::replace(&mut self.multiplier, next),
             penetration: contact::penetration(system, &u),
@@ -96,13 +96,13 @@ impl<'a, T: OrderedField> Augmentation<'a, T> {
             contact_force: force,
         };
         self.k += 1;
-        step
+        iterate
     }
 }
 
 impl<T: OrderedField> Iterator for Augmentation<'_, T> {
-    type Item = Step<T>;
-    fn next(&mut self) -> Option<Step<T>> {
+    type Item = Iterate<T>;
+    fn next(&mut self) -> Option<Iterate<T>> {
         Some(self.step())
     }
 }

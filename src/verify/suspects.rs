@@ -91,7 +91,7 @@ fn own_sites(path: &str, tree: &Tree, sites: &mut BTreeSet<Site>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::proof::controls::{Change, Outcome, controls};
+    use crate::proof::controls::{Change, Effect, controls};
     use crate::proof::{prove, statements};
     use rayon::prelude::*;
 
@@ -108,14 +108,14 @@ mod tests {
     fn a_changed_function_is_suspected_and_hardly_another() {
         let statements = statements();
         let noticed = controls(&statements).changes;
-        let noticed: Vec<_> = noticed.iter().filter(|(_, o)| matches!(o, Outcome::Noticed { .. })).collect();
+        let noticed: Vec<_> = noticed.iter().filter(|(_, o)| matches!(o, Effect::Noticed { .. })).collect();
         let is_in = |function: &str, change: &Change| {
             let mut sites = BTreeSet::new();
             let own = formulas().iter().filter(|formula| formula.path == function);
             own.for_each(|formula| own_sites(formula.path, &formula.tree, &mut sites));
             sites.contains(&change.site)
         };
-        let found = |(change, _): &&(Change, Outcome)| {
+        let found = |(change, _): &&(Change, Effect)| {
             let suspects = after(change, &statements);
             assert!((1..=3).contains(&suspects.len()), "{change}: {suspects:?}");
             suspects.iter().any(|function| is_in(function, change))

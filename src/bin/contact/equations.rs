@@ -1,7 +1,7 @@
 //! `contact equations`: the chapter as data.
 
 use crate::args;
-use crate::output::{self, Failure, Status};
+use crate::output::{self, Exit, Failure};
 use clap::ValueEnum;
 use serde::Serialize;
 use spring_mass_contact::claims::{Entry, claim_names, entries};
@@ -53,7 +53,7 @@ struct Row {
 }
 
 /// Prints the entries asked for.
-pub fn run(options: &Options) -> Result<Status, Failure> {
+pub fn run(options: &Options) -> Result<Exit, Failure> {
     let numbers = args::equations(&options.numbers)?;
     let all = numbers.is_empty();
     let chosen: Vec<&Entry> =

@@ -28,7 +28,7 @@ pub fn width() -> usize {
 
 /// What a command has to say about its result, once it is printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Status {
+pub enum Exit {
     /// All well.
     Fine,
     /// A solve did not converge, or a claim does not hold.
@@ -56,10 +56,10 @@ impl From<io::Error> for Failure {
 }
 
 /// 0, 1 or 2, with the line on stderr.
-pub fn exit_code(answer: Result<Status, Failure>) -> ExitCode {
+pub fn exit_code(answer: Result<Exit, Failure>) -> ExitCode {
     let line = match answer {
-        Ok(Status::Fine) => return ExitCode::SUCCESS,
-        Ok(Status::Unmet) => return ExitCode::from(1),
+        Ok(Exit::Fine) => return ExitCode::SUCCESS,
+        Ok(Exit::Unmet) => return ExitCode::from(1),
         // Whoever closed the pipe (`| head`) has seen enough.
         Err(Failure::Output(error)) if error.kind() == io::ErrorKind::BrokenPipe => return ExitCode::SUCCESS,
         Err(Failure::Output(error)) => format!("stdout cannot be written: {error}"),
@@ -71,11 +71,11 @@ pub fn exit_code(answer: Result<Status, Failure>) -> ExitCode {
 }
 
 /// Writes to stdout; nothing else does.
-pub fn print(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<Status, Failure> {
+pub fn print(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<Exit, Failure> {
     let mut out = BufWriter::new(io::stdout().lock());
     write(&mut out)?;
     out.flush()?;
-    Ok(Status::Fine)
+    Ok(Exit::Fine)
 }
 
 /// Indented JSON and a line break.
@@ -179,7 +179,7 @@ pub fn lines(out: &mut dyn Write, table: &Table) -> io::Result<()> {
 }
 
 /// What clap has to say: help and version go to stdout; an error is cut to one line.
-pub fn clap_message(mut error: clap::Error, commands: &[&str]) -> Result<Status, Failure> {
+pub fn clap_message(mut error: clap::Error, commands: &[&str]) -> Result<Exit, Failure> {
     for kind in [ContextKind::InvalidValue, ContextKind::InvalidArg, ContextKind::InvalidSubcommand] {
         if let Some(ContextValue::String(value)) = error.get(kind)
             && shortened(value) != *value
@@ -193,7 +193,7 @@ pub fn clap_message(mut error: clap::Error, commands: &[&str]) -> Result<Status,
     let allowed = match error.kind() {
         ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
             error.print()?;
-            return Ok(Status::Fine);
+            return Ok(Exit::Fine);
         }
         ErrorKind::InvalidSubcommand => format!("; [commands: {}]", commands.join(", ")),
         ErrorKind::UnknownArgument => {

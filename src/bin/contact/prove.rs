@@ -1,13 +1,13 @@
 //! `contact prove`: every claim for all values, and that wrong ones would be noticed.
 
 use crate::args;
-use crate::output::{self, Failure, Status};
+use crate::output::{self, Exit, Failure};
 use crate::text::shortened;
 use clap::ValueEnum;
 use serde::Serialize;
 use spring_mass_contact::claims::{Entry, entries, entry, place};
 use spring_mass_contact::proof::controls::{
-    Change, Controls, Counts, Dropped, Outcome, Without, controls, repairs,
+    self, Change, Controls, Dropped, Effect, Without, controls, repairs,
 };
 use spring_mass_contact::proof::coq::{self, LeftOut};
 use spring_mass_contact::proof::refute::Counterexample;
@@ -86,7 +86,7 @@ impl Proved {
 }
 
 /// Proves and prints.
-pub fn run(options: &Options) -> Result<Status, Failure> {
+pub fn run(options: &Options) -> Result<Exit, Failure> {
     if let Some(directory) = &options.coq {
         return for_coq(directory);
     }
@@ -117,11 +117,11 @@ pub fn run(options: &Options) -> Result<Status, Failure> {
         Format::Table if numbers.is_empty() => table(out, &report),
         Format::Table => details(out, &report),
     })?;
-    Ok(if report.is_well() { Status::Fine } else { Status::Unmet })
+    Ok(if report.is_well() { Exit::Fine } else { Exit::Unmet })
 }
 
 /// Writes the files for Coq, and says how they are compiled and what is not among them.
-fn for_coq(directory: &Path) -> Result<Status, Failure> {
+fn for_coq(directory: &Path) -> Result<Exit, Failure> {
     let files = coq::write(directory).map_err(|error| {
         let directory = shortened(&directory.display().to_string());
         format!(
@@ -177,9 +177,9 @@ impl Report {
         proved.retain(|p| wanted(p.statement.equation));
         proved.sort_by_key(|p| place(p.statement.equation));
         controls.dropped.retain(|dropped| wanted(dropped.equation));
-        controls.changes.retain(|(_, outcome)| match outcome {
-            Outcome::Noticed { equation, .. } => wanted(equation),
-            Outcome::Unchanged | Outcome::Unnoticed => wanted(""),
+        controls.changes.retain(|(_, effect)| match effect {
+            Effect::Noticed { equation, .. } => wanted(equation),
+            Effect::Unchanged | Effect::Unnoticed => wanted(""),
         });
         Report { proved, controls, repairs, of_proofs, in_all }
     }
@@ -206,7 +206,7 @@ impl Report {
 
     fn summary(&self) -> Summary {
         let with = |status| self.proved.iter().filter(|p| p.status() == status).count();
-        let Counts { changes, noticed, unchanged, unnoticed, .. } = self.controls.counts();
+        let controls::Summary { changes, noticed, unchanged, unnoticed, .. } = self.controls.summary();
         Summary {
             claims: self.proved.len(),
             proved: with("proved"),
@@ -290,8 +290,8 @@ fn amiss(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         writeln!(out)?;
         output::wrapped(out, "", 2, &format!("{equation} {name}: the hypothesis {} {what}", given.text()))?;
     }
-    for (Change { site, what }, outcome) in &report.controls.changes {
-        if matches!(outcome, Outcome::Unnoticed) {
+    for (Change { site, what }, effect) in &report.controls.changes {
+        if matches!(effect, Effect::Unnoticed) {
             writeln!(out)?;
             output::wrapped(out, "", 2, &format!("UNNOTICED {site}: {what}"))?;
         }
@@ -336,13 +336,12 @@ fn details(out: &mut dyn Write, report: &Report) -> io::Result<()> {
             account(out, report, proved)?;
         }
     }
-    let noticed =
-        report.controls.changes.iter().filter_map(|(Change { site, what }, outcome)| match outcome {
-            Outcome::Noticed { equation, name, counterexample } => {
-                Some(format!("{site}: {what}, by {equation} {name} at {}", point(counterexample)))
-            }
-            Outcome::Unchanged | Outcome::Unnoticed => None,
-        });
+    let noticed = report.controls.changes.iter().filter_map(|(Change { site, what }, effect)| match effect {
+        Effect::Noticed { equation, name, counterexample } => {
+            Some(format!("{site}: {what}, by {equation} {name} at {}", point(counterexample)))
+        }
+        Effect::Unchanged | Effect::Unnoticed => None,
+    });
     let noticed: Vec<_> = noticed.collect();
     if !noticed.is_empty() {
         writeln!(out, "\nchanges of formulas that these claims notice")?;
@@ -487,13 +486,13 @@ impl Json {
             claims: report.of(entry).into_iter().map(|proved| ClaimJson::of(report, proved)).collect(),
         };
         let equations = entries().iter().map(equation).filter(|e| !e.claims.is_empty()).collect();
-        let change = |(Change { site, what }, outcome): &(Change, Outcome)| {
-            let (status, by, counterexample) = match outcome {
-                Outcome::Noticed { equation, name, counterexample } => {
+        let change = |(Change { site, what }, effect): &(Change, Effect)| {
+            let (status, by, counterexample) = match effect {
+                Effect::Noticed { equation, name, counterexample } => {
                     ("noticed", Some(format!("{equation} {name}")), Some(values(counterexample)))
                 }
-                Outcome::Unchanged => ("unchanged", None, None),
-                Outcome::Unnoticed => ("unnoticed", None, None),
+                Effect::Unchanged => ("unchanged", None, None),
+                Effect::Unnoticed => ("unnoticed", None, None),
             };
             ChangeJson { at: site.to_string(), change: what.to_string(), status, by, counterexample }
         };

@@ -3,7 +3,7 @@
 mod report;
 
 use crate::args::{Number, System, finite, positive, whole};
-use crate::output::{self, Failure, Status};
+use crate::output::{self, Exit, Failure};
 use crate::text::{self, shortened};
 use clap::ValueEnum;
 use num_traits::Zero;
@@ -12,7 +12,7 @@ use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::number::{Exact, NumberSystem};
 use spring_mass_contact::rug::Integer;
 use spring_mass_contact::solver::{
-    Augmentation, Method, Outcome, Plane, Solution, SolveError, Step, augmentations_needed, solve_observed,
+    Augmentation, Iterate, Method, Outcome, Plane, Solution, SolveError, augmentations_needed, solve_observed,
 };
 
 const EXAMPLES: &str = "\
@@ -100,7 +100,7 @@ enum Format {
 }
 
 /// Solves and prints.
-pub fn run(options: &Options) -> Result<Status, Failure> {
+pub fn run(options: &Options) -> Result<Exit, Failure> {
     options.refuse_unused()?;
     match options.scalar {
         NumberSystem::F32 => run_in(options, &0_f32),
@@ -110,7 +110,7 @@ pub fn run(options: &Options) -> Result<Status, Failure> {
     }
 }
 
-fn run_in<T: text::Number>(options: &Options, like: &T) -> Result<Status, Failure> {
+fn run_in<T: text::Number>(options: &Options, like: &T) -> Result<Exit, Failure> {
     let problem = Problem {
         system: options.system.round(like)?,
         method: options.method(like)?,
@@ -129,7 +129,7 @@ fn run_in<T: text::Number>(options: &Options, like: &T) -> Result<Status, Failur
         Format::Csv => report.csv(out),
     })?;
     let met = matches!(solution.outcome, Outcome::Direct | Outcome::Converged);
-    Ok(if met { Status::Fine } else { Status::Unmet })
+    Ok(if met { Exit::Fine } else { Exit::Unmet })
 }
 
 impl Options {
@@ -210,13 +210,13 @@ impl<T: text::Number> Problem<T> {
         };
         let count = |k: u64| usize::try_from(k).unwrap_or(usize::MAX);
         output::with_progress("solving", |progress| {
-            let each = |step: &Step<T>| progress(count(step.k), count(steps));
+            let each = |step: &Iterate<T>| progress(count(step.k), count(steps));
             solve_observed(&self.system, &self.method, self.plane, each)
         })
     }
 
     /// The augmentations that led to a solution, once more: cheaper than to keep them all.
-    fn trace(&self, solution: &Solution<T>) -> impl Iterator<Item = Step<T>> {
+    fn trace(&self, solution: &Solution<T>) -> impl Iterator<Item = Iterate<T>> {
         let steps = match &self.method {
             Method::Augmented { penalty, start, .. } => {
                 Some(Augmentation::new(&self.system, penalty).from_multiplier(start.clone()).over(self.plane))
@@ -234,6 +234,6 @@ impl<T: text::Number> Problem<T> {
     }
 }
 
-fn is_finite<T: text::Number>(step: &Step<T>) -> bool {
+fn is_finite<T: text::Number>(step: &Iterate<T>) -> bool {
     [&step.multiplier, &step.deflection, &step.penetration, &step.contact_force].iter().all(|x| x.is_finite())
 }

@@ -1,7 +1,7 @@
 //! `contact verify`: every claim, proved and in every number system, as one table.
 
 use crate::args;
-use crate::output::{self, Failure, GLUE, Status};
+use crate::output::{self, Exit, Failure, GLUE};
 use crate::text;
 use clap::ValueEnum;
 use serde::Serialize;
@@ -69,7 +69,7 @@ enum Format {
 }
 
 /// Verifies and reports.
-pub fn run(options: &Options) -> Result<Status, Failure> {
+pub fn run(options: &Options) -> Result<Exit, Failure> {
     let mut wanted = verify::Options { cases: options.cases, seed: options.seed, ..Default::default() };
     if !options.scalars.is_empty() {
         wanted.scalars.clear();
@@ -96,8 +96,8 @@ pub fn run(options: &Options) -> Result<Status, Failure> {
     Ok(outcome(&report))
 }
 
-fn outcome(report: &Report) -> Status {
-    if report.holds() { Status::Fine } else { Status::Unmet }
+fn outcome(report: &Report) -> Exit {
+    if report.holds() { Exit::Fine } else { Exit::Unmet }
 }
 
 fn rows_of<'a>(report: &'a Report, entry: &Entry) -> Vec<&'a Row> {
@@ -470,7 +470,7 @@ mod tests {
             let number = format!(" {} = {}", var.symbol(), case().get(*var));
             assert!(text.contains(&number), "no {number} in\n{text}");
         }
-        assert_eq!(outcome(&report), Status::Unmet);
+        assert_eq!(outcome(&report), Exit::Unmet);
     }
 
     #[test]
@@ -479,7 +479,7 @@ mod tests {
         report.rows.remove(0);
         let text = printed(|out| table(out, &report, &options));
         assert!(text.contains("1 undecided") && !text.contains("FAILED"), "{text}");
-        assert_eq!(outcome(&report), Status::Fine);
+        assert_eq!(outcome(&report), Exit::Fine);
     }
 
     #[test]
@@ -536,7 +536,7 @@ mod tests {
             proof(verify::Status::Proved, None),
             row(verify::Status::Held, NumberSystem::F32, None),
         ]);
-        assert_eq!(outcome(&report), Status::Fine);
+        assert_eq!(outcome(&report), Exit::Fine);
         let one = verify::Options { scalars: vec![NumberSystem::F32], ..options };
         let text = printed(|out| table(out, &report, &one));
         assert!(text.contains("its limit  1       1 held\n"), "{text}");
@@ -547,7 +547,7 @@ mod tests {
         let name = report.rows[0].claim;
         assert!(text.contains("1 FAILED"), "{text}");
         assert!(text.contains(&format!("1.13 {name} NOT PROVED\n  the sides differ by c\n")), "{text}");
-        assert_eq!(outcome(&report), Status::Unmet);
+        assert_eq!(outcome(&report), Exit::Unmet);
     }
 
     #[test]

@@ -10,7 +10,7 @@ use serde::ser::{Serialize, SerializeStruct, Serializer};
 use spring_mass_contact::chapter::contact::Kkt;
 use spring_mass_contact::number::{Exact, NumberSystem};
 use spring_mass_contact::rug::{Integer, float::Round};
-use spring_mass_contact::solver::{Interval, Method, Outcome, Plane, Solution, State, Step, within_reach};
+use spring_mass_contact::solver::{Interval, Iterate, Method, Outcome, Plane, Solution, State, within_reach};
 use std::io::{self, Write};
 
 /// What helps against rounding.
@@ -126,7 +126,7 @@ struct Trace<'a, T>(&'a Problem<T>, &'a Solution<T>);
 
 impl<T: Number> Serialize for Trace<'_, T> {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let row = |step: Step<T>| {
+        let row = |step: Iterate<T>| {
             let values = step_texts(&step).map(Field::Text);
             Object(std::iter::once(("k", Field::Count(step.k))).chain(STEP.into_iter().zip(values)).collect())
         };
@@ -137,11 +137,11 @@ impl<T: Number> Serialize for Trace<'_, T> {
 /// What a row of the trace has after k.
 const STEP: [&str; 4] = ["multiplier", "deflection", "penetration", "contact_force"];
 
-fn step_values<T>(step: &Step<T>) -> [&T; 4] {
+fn step_values<T>(step: &Iterate<T>) -> [&T; 4] {
     [&step.multiplier, &step.deflection, &step.penetration, &step.contact_force]
 }
 
-fn step_texts<T: Number>(step: &Step<T>) -> [String; 4] {
+fn step_texts<T: Number>(step: &Iterate<T>) -> [String; 4] {
     step_values(step).map(Number::text)
 }
 
