@@ -9,11 +9,13 @@ mod entries;
 mod experiments;
 mod formulas;
 mod list;
+mod numbers;
 
 pub use entries::{Entry, entries, entry, place};
 #[cfg(feature = "mpfr")]
 pub use experiments::{Experiment, Trial, exact_experiments, first_order_experiments, float_experiments};
 pub use formulas::{Call, Formula, call, calls, computed, fill, formula, formula_in, formulas, line, named};
+pub use numbers::numbered;
 
 use crate::chapter::{SpringMass, augmented, contact, penalty, system};
 use crate::number::tree::Step;

@@ -9,6 +9,7 @@ use serde_json::Value;
 use spring_mass_contact::chapter::{SpringMass, contact};
 use spring_mass_contact::claims::{claim_names, entries};
 use spring_mass_contact::number::{Exact, RangeError, ToExact};
+use spring_mass_contact::solver::{Method, Plane, solve_observed};
 use std::io::Read;
 use std::process::{Child, Command, Output, Stdio};
 use std::thread;
@@ -254,6 +255,39 @@ fn csv_says_what_json_says() {
             fields.sort();
             let (json, code) = solve(&arguments);
             assert_eq!((fields, csv.status.code()), (flat(&json), code), "{arguments}");
+        }
+    }
+}
+
+/// The command adds to what a user of the library serialises, and says the same.
+#[test]
+fn the_library_serialises_what_the_command_prints() {
+    let exact = SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" }.parse().unwrap();
+    let system = exact.try_map(Exact::to_f64).unwrap();
+    let augmented = |tolerance, max_augmentations| Method::Augmented {
+        penalty: 100.0,
+        tolerance,
+        max_augmentations,
+        start: 0.0,
+    };
+    for (arguments, method) in [
+        ("--method lagrange", Method::Lagrange),
+        ("--method penalty --penalty 7", Method::Penalty { penalty: 7.0 }),
+        ("--method augmented --penalty 100 --tolerance 1e-9", augmented(1e-9, 1000)),
+        ("--method augmented --penalty 100 --tolerance 1e-30", augmented(1e-30, 1000)),
+        ("--method augmented --penalty 100 --max-augmentations 2 --trace", augmented(1e-9, 2)),
+    ] {
+        let (printed, _) = solve(arguments);
+        let mut iterates = Vec::new();
+        let solution = solve_observed(&system, &method, Plane::Unilateral, |k| iterates.push(k.clone()));
+        let solution = serde_json::to_value(solution.unwrap()).unwrap();
+        let all = "augmentations bounds contact_force deflection floor multiplier outcome penetration state";
+        assert_eq!(keys(&solution), all.split(' ').collect::<Vec<_>>());
+        for (name, value) in solution.as_object().unwrap() {
+            assert_eq!(printed[name], *value, "{name}, {arguments}");
+        }
+        if arguments.ends_with("--trace") {
+            assert_eq!(printed["trace"], serde_json::to_value(&iterates).unwrap());
         }
     }
 }

@@ -6,17 +6,22 @@ use crate::number::OrderedField;
 
 /// What one step of (1.16) arrives at.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound = "T: crate::number::Text"))]
 pub struct Iterate<T> {
     /// The counter k, from 0.
     pub k: u64,
     /// λ_k, in N.
+    #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
     pub multiplier: T,
     /// u_k, in m.
+    #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
     pub deflection: T,
     /// p_k, in m.
+    #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
     pub penetration: T,
     /// m g − c u_k, in N: the force that is in equilibrium with u_k; 0 where the mass hangs free. In
     /// exact arithmetic it is λ_{k+1} (note 6).
+    #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
     pub contact_force: T,
 }
 

@@ -4,15 +4,16 @@ mod report;
 
 use crate::args::{Number, System, finite, positive, whole};
 use crate::output::{self, Exit, Failure};
-use crate::text::{self, shortened};
+use crate::text::shortened;
 use clap::ValueEnum;
 use num_traits::Zero;
 use report::Report;
 use spring_mass_contact::chapter::SpringMass;
-use spring_mass_contact::number::{Exact, NumberSystem};
+use spring_mass_contact::number::{Exact, NumberSystem, Text};
 use spring_mass_contact::rug::Integer;
 use spring_mass_contact::solver::{
-    Augmentation, Iterate, Method, Outcome, Plane, Solution, SolveError, augmentations_needed, solve_observed,
+    Augmentation, Iterate, Method, Outcome, Plane, Scalar, Solution, SolveError, augmentations_needed,
+    solve_observed,
 };
 
 const EXAMPLES: &str = "\
@@ -110,7 +111,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     }
 }
 
-fn run_in<T: text::Number>(options: &Options, like: &T) -> Result<Exit, Failure> {
+fn run_in<T: Scalar + Text>(options: &Options, like: &T) -> Result<Exit, Failure> {
     let problem = Problem {
         system: options.system.round(like)?,
         method: options.method(like)?,
@@ -119,7 +120,9 @@ fn run_in<T: text::Number>(options: &Options, like: &T) -> Result<Exit, Failure>
     let out_of_range = |error: SolveError| format!("--scalar {}: {error}", options.scalar);
     let needed = problem.steps_needed();
     let solution = problem.solve(needed.as_ref()).map_err(out_of_range)?;
-    if options.trace && !problem.trace(&solution).all(|step| is_finite(&step)) {
+    if options.trace
+        && !problem.trace(&solution).all(|iterate| quantities(&iterate).iter().all(|x| x.is_finite()))
+    {
         return Err(out_of_range(SolveError::OutOfRange { quantity: "trace" }).into());
     }
     let report = Report::new(options, &problem, &solution, needed);
@@ -128,8 +131,10 @@ fn run_in<T: text::Number>(options: &Options, like: &T) -> Result<Exit, Failure>
         Format::Json => output::json(out, &report),
         Format::Csv => report.csv(out),
     })?;
-    let met = matches!(solution.outcome, Outcome::Direct | Outcome::Converged);
-    Ok(if met { Exit::Fine } else { Exit::Unmet })
+    Ok(match solution.outcome {
+        Outcome::Direct | Outcome::Converged => Exit::Fine,
+        Outcome::Stagnated | Outcome::OutOfSteps => Exit::Unmet,
+    })
 }
 
 impl Options {
@@ -165,7 +170,7 @@ impl Options {
         self.tolerance.clone().unwrap_or_else(|| finite("1e-9").expect("a number"))
     }
 
-    fn method<T: text::Number>(&self, like: &T) -> Result<Method<T>, Failure> {
+    fn method<T: Scalar + Text>(&self, like: &T) -> Result<Method<T>, Failure> {
         let ten_c = &self.system.stiffness.value * Exact::from(10);
         let round_penalty = |number: &Number| number.round("--penalty <E>", like);
         Ok(match self.method {
@@ -199,7 +204,7 @@ struct Problem<T> {
     plane: Plane,
 }
 
-impl<T: text::Number> Problem<T> {
+impl<T: Scalar + Text> Problem<T> {
     /// How far it has come is measured by the steps that exact arithmetic needs.
     fn solve(&self, needed: Option<&Integer>) -> Result<Solution<T>, SolveError> {
         let steps = match &self.method {
@@ -234,6 +239,6 @@ impl<T: text::Number> Problem<T> {
     }
 }
 
-fn is_finite<T: text::Number>(step: &Iterate<T>) -> bool {
-    [&step.multiplier, &step.deflection, &step.penetration, &step.contact_force].iter().all(|x| x.is_finite())
+fn quantities<T>(iterate: &Iterate<T>) -> [&T; 4] {
+    [&iterate.multiplier, &iterate.deflection, &iterate.penetration, &iterate.contact_force]
 }

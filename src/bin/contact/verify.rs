@@ -2,11 +2,11 @@
 
 use crate::args;
 use crate::output::{self, Exit, Failure, GLUE};
-use crate::text;
+
 use clap::ValueEnum;
 use serde::Serialize;
 use spring_mass_contact::claims::{Case, Entry, Var, claim_names, entries, entry};
-use spring_mass_contact::number::{Exact, NumberSystem};
+use spring_mass_contact::number::{Exact, NumberSystem, Text};
 use spring_mass_contact::verify::{self, Report, Row, Suspect, command_line};
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -393,7 +393,7 @@ impl Claim {
             why: row.why.clone(),
             decided: row.decided,
             undecided: row.undecided,
-            worst: row.worst.as_ref().map(|(ratio, _)| text::Number::text(ratio)),
+            worst: row.worst.as_ref().map(|(ratio, _)| Text::text(ratio)),
             bound: row.worst.as_ref().map(|(_, bound)| bound.clone()),
             counterexample: row.counterexample.as_ref().map(|case| symbols(case).into_iter().collect()),
         }
