@@ -20,6 +20,7 @@ pub use numbers::numbered;
 use crate::chapter::{SpringMass, augmented, contact, penalty, system};
 use crate::number::tree::Step;
 use crate::number::{Dual, Field, Tree};
+use std::fmt;
 use std::sync::LazyLock;
 
 macro_rules! coordinates {
@@ -126,6 +127,16 @@ impl<T: Clone> Case<T> {
     pub fn named(&self, symbol: &str) -> T {
         let var = Var::ALL.iter().find(|var| var.symbol() == symbol);
         self.get(*var.unwrap_or_else(|| panic!("{symbol} is no coordinate"))).clone()
+    }
+}
+
+/// `c = 1, m = 1/2` and so on, every coordinate.
+impl<T: fmt::Display> fmt::Display for Case<T> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        for (i, var) in Var::ALL.iter().enumerate() {
+            write!(f, "{}{} = {}", if i == 0 { "" } else { ", " }, var.symbol(), self.get(*var))?;
+        }
+        Ok(())
     }
 }
 

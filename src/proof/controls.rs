@@ -239,6 +239,9 @@ impl fmt::Display for Change {
     }
 }
 
+#[cfg(feature = "serde")]
+crate::number::serialize_as_displayed!(Change);
+
 impl Change {
     fn edit(&self, tree: &Tree) -> Option<Tree> {
         if tree.site() == self.site { self.what.edit(tree) } else { None }
@@ -347,8 +350,9 @@ pub struct Controls {
     pub dropped: Vec<Dropped>,
 }
 
-/// How many controls came out how.
+/// What changes came to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Summary {
     /// Changes.
     pub changes: usize,
@@ -358,36 +362,23 @@ pub struct Summary {
     pub unchanged: usize,
     /// Neither.
     pub unnoticed: usize,
-    /// Hypotheses.
-    pub hypotheses: usize,
-    /// Of these, needed: without it the claim is refuted.
-    pub refuted: usize,
-    /// Not needed: without it the claim is proved.
-    pub still_true: usize,
-    /// Neither.
-    pub unknown: usize,
 }
 
 impl Controls {
-    /// The summary.
+    /// How many changes came to what.
     pub fn summary(&self) -> Summary {
-        let mut summary =
-            Summary { changes: self.changes.len(), hypotheses: self.dropped.len(), ..Summary::default() };
-        for (_, effect) in &self.changes {
-            match effect {
-                Effect::Noticed { .. } => summary.noticed += 1,
-                Effect::Unchanged => summary.unchanged += 1,
-                Effect::Unnoticed => summary.unnoticed += 1,
-            }
+        let count = |of: fn(&Effect) -> bool| self.changes.iter().filter(|(_, effect)| of(effect)).count();
+        Summary {
+            changes: self.changes.len(),
+            noticed: count(|effect| matches!(effect, Effect::Noticed { .. })),
+            unchanged: count(|effect| matches!(effect, Effect::Unchanged)),
+            unnoticed: count(|effect| matches!(effect, Effect::Unnoticed)),
         }
-        for dropped in &self.dropped {
-            match dropped.without {
-                Without::Refuted(_) => summary.refuted += 1,
-                Without::StillTrue => summary.still_true += 1,
-                Without::Unknown => summary.unknown += 1,
-            }
-        }
-        summary
+    }
+
+    /// Hypotheses that are not seen to be needed: without them the claim is not refuted.
+    pub fn needless(&self) -> impl Iterator<Item = &Dropped> {
+        self.dropped.iter().filter(|dropped| !matches!(dropped.without, Without::Refuted(_)))
     }
 }
 
@@ -566,8 +557,8 @@ mod tests {
             |given| controls.dropped.iter().find(|dropped| dropped.given == given).map(|d| &d.without);
         assert!(matches!(became(Given::Stiffness), Some(Without::Refuted(_))), "{:?}", controls.dropped);
         assert!(matches!(became(Given::Penalty), Some(Without::StillTrue)), "{:?}", controls.dropped);
-        let Summary { hypotheses, refuted, still_true, unknown, .. } = controls.summary();
-        assert_eq!([hypotheses, refuted, still_true, unknown], [2, 1, 1, 0]);
+        let needless: Vec<_> = controls.needless().map(|dropped| dropped.given).collect();
+        assert_eq!((controls.dropped.len(), needless), (2, vec![Given::Penalty]));
     }
 
     #[test]

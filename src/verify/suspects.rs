@@ -8,11 +8,12 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// A function of the chapter in which there may be a mistake.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Suspect {
-    /// Its path: `penalty::deflection`.
-    pub function: &'static str,
     /// The entry whose own function it is, or which names it.
     pub equation: Option<&'static str>,
+    /// Its path: `penalty::deflection`.
+    pub function: &'static str,
     /// Of the claims that speak of it, so many are not proved; 0 if it computes nothing, but hands on an argument: then no
     /// claim can be seen to speak of it.
     pub unproved: usize,

@@ -8,11 +8,8 @@ use spring_mass_contact::claims::{entries, numbered};
 use spring_mass_contact::number::{Exact, ToExact};
 
 /// The arguments, if they are plain text: others could only garble the one line of an error.
-///
-/// clap takes `-1/2` for an option; joined to the option before it, `--gravity=-1/2`, it is a value. (To
-/// allow it values that begin with a hyphen would hide that the value of `--mass --gravity 9` is missing.)
 pub fn plain() -> Result<Vec<String>, Failure> {
-    let mut arguments: Vec<String> = Vec::new();
+    let mut arguments = Vec::new();
     for argument in std::env::args_os() {
         let text = argument
             .into_string()
@@ -21,16 +18,25 @@ pub fn plain() -> Result<Vec<String>, Failure> {
             let quoted = shortened(&format!("{text:?}"));
             return Err(format!("argument {quoted}: must have no control characters").into());
         }
+        arguments.push(text);
+    }
+    Ok(joined(arguments))
+}
+
+/// clap takes `-1/2` for an option; joined to the option before it, `--gravity=-1/2`, it is a value. (To
+/// allow it values that begin with a hyphen would hide that the value of `--mass --gravity 9` is missing.)
+pub fn joined(arguments: impl IntoIterator<Item = String>) -> Vec<String> {
+    let mut joined: Vec<String> = Vec::new();
+    for text in arguments {
         let negative = text.len() > 1 && text.starts_with('-') && !text.starts_with("--");
-        match arguments.last_mut() {
+        match joined.last_mut() {
             Some(option) if negative && takes_a_value(option) && text != "-h" && text != "-V" => {
-                option.push('=');
-                option.push_str(&text);
+                *option += &format!("={text}");
             }
-            _ => arguments.push(text),
+            Some(_) | None => joined.push(text),
         }
     }
-    Ok(arguments)
+    joined
 }
 
 /// Not a control character of any kind: some turn the line around or end it and are no `char::is_control`.

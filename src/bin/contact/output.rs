@@ -98,6 +98,11 @@ pub fn table() -> Table {
 /// What stands for a blank at which no line may end; it is printed as one.
 pub const GLUE: char = '\u{a0}';
 
+/// A point whose lines end between its numbers.
+pub fn glued(point: &impl ToString) -> String {
+    point.to_string().replace(" = ", &format!("{GLUE}={GLUE}"))
+}
+
 /// Text in as many lines as it needs; the first begins with `first`, the others are indented by `rest` blanks.
 pub fn wrapped(out: &mut dyn Write, first: &str, rest: usize, text: &str) -> io::Result<()> {
     let rest = " ".repeat(rest);

@@ -1,22 +1,19 @@
 //! `contact prove`: every claim for all values, and that wrong ones would be noticed.
 
-use crate::args;
 use crate::output::{self, Exit, Failure};
 use crate::text::shortened;
+use crate::{args, solve};
 use clap::ValueEnum;
 use serde::Serialize;
-use spring_mass_contact::claims::{Entry, entries, entry, place};
-use spring_mass_contact::proof::controls::{
-    self, Change, Controls, Dropped, Effect, Without, controls, repairs,
-};
+use spring_mass_contact::claims::{Entry, entry};
+use spring_mass_contact::proof::controls::{Change, Dropped, Effect, Without};
 use spring_mass_contact::proof::coq::{self, LeftOut};
-use spring_mass_contact::proof::refute::Counterexample;
-use spring_mass_contact::proof::{Proof, Statement, paper, prove, refute, statements};
-use spring_mass_contact::verify::command_line;
+use spring_mass_contact::proof::{Counterexample, Statement, paper, statements};
+use spring_mass_contact::verify::proofs::{Answer, Proofs, Proved, Summary, prove_all};
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -58,40 +55,12 @@ enum Format {
     Markdown,
 }
 
-/// A claim and what came of it.
-struct Proved {
-    statement: Statement,
-    answer: Answer,
-    time: Duration,
-}
-
-enum Answer {
-    Proof(Proof),
-    /// Why there is none, and where the claim does not hold, if that was found.
-    None(String, Option<Counterexample>),
-}
-
-impl Proved {
-    fn status(&self) -> &'static str {
-        match &self.answer {
-            Answer::Proof(_) => "proved",
-            Answer::None(_, Some(_)) => "refuted",
-            Answer::None(_, None) => "unknown",
-        }
-    }
-
-    fn hypotheses(&self) -> Vec<&'static str> {
-        self.statement.hypotheses.iter().map(|hypothesis| hypothesis.given.text()).collect()
-    }
-}
-
 /// Proves and prints.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
     if let Some(directory) = &options.coq {
         return for_coq(directory);
     }
     let numbers = args::equations(&options.numbers)?;
-    let wanted = |equation: &str| numbers.is_empty() || numbers.iter().any(|n| n == equation);
     let statements = statements();
     let empty = |number: &&String| statements.iter().all(|s| s.equation != number.as_str());
     if let Some(empty) = numbers.iter().find(empty) {
@@ -101,23 +70,14 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
         )
         .into());
     }
-    let start = Instant::now();
-    let all: Vec<Proved> = statements.iter().map(attempt).collect();
-    let of_proofs = start.elapsed();
-    // Controls say something only of claims that are proved.
-    let (controls, repairs) = if all.iter().all(|p| p.status() == "proved") {
-        (controls(&statements), Vec::new())
-    } else {
-        (Controls::default(), repairs(&statements))
-    };
-    let report = Report::new(all, controls, repairs, (of_proofs, start.elapsed()), &wanted);
+    let proofs = prove_all(&numbers);
     output::print(|out| match options.format {
-        Format::Json => output::json(out, &Json::of(&report)),
-        Format::Markdown => markdown(out, &report),
-        Format::Table if numbers.is_empty() => table(out, &report),
-        Format::Table => details(out, &report),
+        Format::Json => output::json(out, &Json::of(&proofs)),
+        Format::Markdown => markdown(out, &proofs),
+        Format::Table if numbers.is_empty() => table(out, &proofs),
+        Format::Table => details(out, &proofs),
     })?;
-    Ok(if report.is_well() { Exit::Fine } else { Exit::Unmet })
+    Ok(if proofs.hold() { Exit::Fine } else { Exit::Unmet })
 }
 
 /// Writes the files for Coq, and says how they are compiled and what is not among them.
@@ -145,82 +105,6 @@ fn for_coq(directory: &Path) -> Result<Exit, Failure> {
     })
 }
 
-fn attempt(statement: &Statement) -> Proved {
-    let start = Instant::now();
-    let answer = match prove(statement) {
-        Ok(proof) => Answer::Proof(proof),
-        Err(why) => Answer::None(why.to_string(), refute(statement)),
-    };
-    Proved { statement: statement.clone(), answer, time: start.elapsed() }
-}
-
-/// Everything there is to say.
-struct Report {
-    /// In the chapter's order.
-    proved: Vec<Proved>,
-    /// Of changes those that a claim about the wanted numbers notices, if not all are wanted.
-    controls: Controls,
-    /// With one of these all claims would be proved.
-    repairs: Vec<Change>,
-    of_proofs: Duration,
-    in_all: Duration,
-}
-
-impl Report {
-    fn new(
-        mut proved: Vec<Proved>,
-        mut controls: Controls,
-        repairs: Vec<Change>,
-        (of_proofs, in_all): (Duration, Duration),
-        wanted: &dyn Fn(&str) -> bool,
-    ) -> Self {
-        proved.retain(|p| wanted(p.statement.equation));
-        proved.sort_by_key(|p| place(p.statement.equation));
-        controls.dropped.retain(|dropped| wanted(dropped.equation));
-        controls.changes.retain(|(_, effect)| match effect {
-            Effect::Noticed { equation, .. } => wanted(equation),
-            Effect::Unchanged | Effect::Unnoticed => wanted(""),
-        });
-        Report { proved, controls, repairs, of_proofs, in_all }
-    }
-
-    fn is_well(&self) -> bool {
-        let Summary { claims, proved, unnoticed, .. } = self.summary();
-        claims == proved && unnoticed == 0 && self.needless().next().is_none()
-    }
-
-    /// Hypotheses that are not seen to be needed.
-    fn needless(&self) -> impl Iterator<Item = &Dropped> {
-        self.controls.dropped.iter().filter(|dropped| !matches!(dropped.without, Without::Refuted(_)))
-    }
-
-    /// A claim's hypotheses, dropped one at a time.
-    fn dropped(&self, statement: &Statement) -> impl Iterator<Item = &Dropped> {
-        let of = (statement.equation, statement.name);
-        self.controls.dropped.iter().filter(move |dropped| (dropped.equation, dropped.name) == of)
-    }
-
-    fn of<'a>(&'a self, entry: &Entry) -> Vec<&'a Proved> {
-        self.proved.iter().filter(|p| p.statement.equation == entry.equation).collect()
-    }
-
-    fn summary(&self) -> Summary {
-        let with = |status| self.proved.iter().filter(|p| p.status() == status).count();
-        let controls::Summary { changes, noticed, unchanged, unnoticed, .. } = self.controls.summary();
-        Summary {
-            claims: self.proved.len(),
-            proved: with("proved"),
-            refuted: with("refuted"),
-            unknown: with("unknown"),
-            hypotheses: self.proved.iter().map(|p| p.statement.hypotheses.len()).sum(),
-            changes,
-            noticed,
-            unchanged,
-            unnoticed,
-        }
-    }
-}
-
 fn how(proved: &Proved) -> String {
     match &proved.answer {
         Answer::Proof(proof) => paper::how(&proved.statement, proof),
@@ -228,39 +112,40 @@ fn how(proved: &Proved) -> String {
     }
 }
 
-fn supposed(proved: &Proved) -> String {
-    match &proved.answer {
-        Answer::Proof(proof) => paper::used(proof).join(", "),
-        Answer::None(..) => proved.hypotheses().join(", "),
-    }
+/// The hypotheses of a claim.
+fn supposed(statement: &Statement) -> Vec<&'static str> {
+    statement.hypotheses.iter().map(|hypothesis| hypothesis.given.text()).collect()
 }
 
-fn table(out: &mut dyn Write, report: &Report) -> io::Result<()> {
+fn table(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
     let mut table = output::table();
     table.set_header(["number", "claim", "how", "by hypotheses", "ms"]);
-    for proved in &report.proved {
-        let number = entry(proved.statement.equation).map(Entry::label);
-        let ms = format!("{:.2}", proved.time.as_secs_f64() * 1e3);
+    for proved in &proofs.claims {
+        let Proved { statement, answer, time } = proved;
+        let hypotheses = match answer {
+            Answer::Proof(proof) => paper::used(proof),
+            Answer::None(..) => supposed(statement),
+        };
         table.add_row([
-            number.unwrap_or_default(),
-            proved.statement.name.to_string(),
+            entry(statement.equation).map(Entry::label).unwrap_or_default(),
+            statement.name.to_string(),
             how(proved),
-            supposed(proved),
-            ms,
+            hypotheses.join(", "),
+            format!("{:.2}", time.as_secs_f64() * 1e3),
         ]);
     }
     output::unbroken(&mut table, &[0, 1, 4]);
     output::lines(out, &table)?;
-    amiss(out, report)?;
+    amiss(out, proofs)?;
     writeln!(out)?;
-    totals(out, report)
+    totals(out, proofs)
 }
 
 /// What is not as it should be, each after a blank line.
-fn amiss(out: &mut dyn Write, report: &Report) -> io::Result<()> {
-    for proved in &report.proved {
-        let Statement { equation, name, .. } = &proved.statement;
-        match &proved.answer {
+fn amiss(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
+    for Proved { statement, answer, .. } in &proofs.claims {
+        let Statement { equation, name, .. } = statement;
+        match answer {
             Answer::Proof(_) => {}
             Answer::None(why, None) => {
                 writeln!(out)?;
@@ -268,77 +153,68 @@ fn amiss(out: &mut dyn Write, report: &Report) -> io::Result<()> {
             }
             Answer::None(_, Some(counterexample)) => {
                 writeln!(out, "\n{equation} {name} REFUTED")?;
-                output::wrapped(out, "  ", 4, &together(&paper::claim(&proved.statement)))?;
-                output::wrapped(out, "  at ", 4, &point(counterexample))?;
-                if let Some(line) = command_line(&counterexample.case()) {
-                    output::command(out, line.split(' '))?;
-                }
+                output::wrapped(out, "  ", 4, &together(&paper::claim(statement)))?;
+                output::wrapped(out, "  at ", 4, &output::glued(counterexample))?;
+                solve::command(out, &counterexample.case())?;
             }
         }
     }
-    for change in &report.repairs {
-        writeln!(out)?;
-        output::wrapped(out, "", 2, &format!("with {change} every claim would be proved"))?;
-    }
-    for Dropped { equation, name, given, without } in report.needless() {
+    let repairs = proofs.repairs.iter().map(|change| format!("with {change} every claim would be proved"));
+    let needless = proofs.controls.needless().map(|Dropped { equation, name, given, without }| {
         let what = match without {
             Without::StillTrue => "is not needed: the claim is proved without it",
             Without::Unknown | Without::Refuted(_) => {
                 "may not be needed: nothing was found against the claim without it"
             }
         };
+        format!("{equation} {name}: the hypothesis {} {what}", given.text())
+    });
+    let unnoticed = proofs.controls.changes.iter().filter_map(|(change, effect)| match effect {
+        Effect::Unnoticed => Some(format!("UNNOTICED {}: {}", change.site, change.what)),
+        Effect::Noticed { .. } | Effect::Unchanged => None,
+    });
+    repairs.chain(needless).chain(unnoticed).try_for_each(|line| {
         writeln!(out)?;
-        output::wrapped(out, "", 2, &format!("{equation} {name}: the hypothesis {} {what}", given.text()))?;
-    }
-    for (Change { site, what }, effect) in &report.controls.changes {
-        if matches!(effect, Effect::Unnoticed) {
-            writeln!(out)?;
-            output::wrapped(out, "", 2, &format!("UNNOTICED {site}: {what}"))?;
-        }
-    }
-    Ok(())
+        output::wrapped(out, "", 2, &line)
+    })
 }
 
-fn totals(out: &mut dyn Write, report: &Report) -> io::Result<()> {
-    let Summary { claims, proved, hypotheses, changes, noticed, unchanged, .. } = report.summary();
-    let needless = report.needless().count();
+fn totals(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
+    let Summary { claims, proved, hypotheses, controls, .. } = proofs.summary();
     let seconds = |time: Duration| time.as_secs_f64();
-    writeln!(out, "{proved} of {claims} claims proved in {:.3} s.", seconds(report.of_proofs))?;
+    writeln!(out, "{proved} of {claims} claims proved in {:.3} s.", seconds(proofs.of_proofs))?;
     if proved < claims {
         return writeln!(out, "The controls wait until all are.");
     }
-    let needed = hypotheses - needless;
+    let needed = hypotheses - proofs.controls.needless().count();
     let needed = format!("{needed} of {hypotheses} hypotheses needed: without it the claim is refuted.");
     output::wrapped(out, "", 2, &needed)?;
+    let (changes, noticed, unchanged) = (controls.changes, controls.noticed, controls.unchanged);
     let seen = noticed + unchanged;
     let seen = format!(
         "{seen} of {changes} changes of formulas noticed: {noticed} refuted, {unchanged} proved to change nothing."
     );
     output::wrapped(out, "", 2, &seen)?;
-    writeln!(out, "{:.3} s in all.", seconds(report.in_all))
+    writeln!(out, "{:.3} s in all.", seconds(proofs.in_all))
 }
 
 /// The proofs themselves.
-fn details(out: &mut dyn Write, report: &Report) -> io::Result<()> {
-    let mut first = true;
-    for entry in entries() {
-        let claims = report.of(entry);
-        if claims.is_empty() {
-            continue;
-        }
-        if !first {
+fn details(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
+    for (i, claims) in proofs.by_equation().enumerate() {
+        if i > 0 {
             writeln!(out)?;
         }
-        first = false;
-        writeln!(out, "{} {}", entry.label(), entry.title)?;
+        if let Some(entry) = entry(claims[0].statement.equation) {
+            writeln!(out, "{} {}", entry.label(), entry.title)?;
+        }
         for proved in claims {
             writeln!(out)?;
-            account(out, report, proved)?;
+            account(out, proofs, proved)?;
         }
     }
-    let noticed = report.controls.changes.iter().filter_map(|(Change { site, what }, effect)| match effect {
+    let noticed = proofs.controls.changes.iter().filter_map(|(Change { site, what }, effect)| match effect {
         Effect::Noticed { equation, name, counterexample } => {
-            Some(format!("{site}: {what}, by {equation} {name} at {}", point(counterexample)))
+            Some(format!("{site}: {what}, by {equation} {name} at {}", output::glued(counterexample)))
         }
         Effect::Unchanged | Effect::Unnoticed => None,
     });
@@ -347,7 +223,41 @@ fn details(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         writeln!(out, "\nchanges of formulas that these claims notice")?;
         noticed.iter().try_for_each(|line| output::wrapped(out, "  ", 4, line))?;
     }
-    amiss(out, report)
+    amiss(out, proofs)
+}
+
+fn account(out: &mut dyn Write, proofs: &Proofs, proved: &Proved) -> io::Result<()> {
+    let Proved { statement, answer, .. } = proved;
+    writeln!(out, "{} ({})", statement.name, how(proved))?;
+    let mut say = |what: &str, lines: &[String]| {
+        lines.iter().enumerate().try_for_each(|(i, line)| {
+            let what = if i == 0 { what } else { "" };
+            let text = line.trim_start();
+            let first = format!("  {what:<8} {}", " ".repeat(line.len() - text.len()));
+            // Further in than what is a step of its own.
+            output::wrapped(out, &first, first.len() + 4, &together(text))
+        })
+    };
+    say("claim", &[paper::claim(statement)])?;
+    if !statement.hypotheses.is_empty() {
+        say("if", &[supposed(statement).join(", ")])?;
+    }
+    let invariants: Vec<_> = statement.invariants.iter().map(|i| i.given.text()).collect();
+    if !invariants.is_empty() {
+        say("always", &[format!("{} for every k, which is part of the proof", invariants.join(", "))])?;
+    }
+    say("where", &paper::names(statement))?;
+    match answer {
+        Answer::Proof(proof) => say("proof", &paper::proof(statement, proof))?,
+        Answer::None(why, _) => say("no proof", std::slice::from_ref(why))?,
+    }
+    let needed = proofs.dropped(statement).filter_map(|Dropped { given, without, .. }| match without {
+        Without::Refuted(counterexample) => {
+            Some(format!("{}: without it, at {}", given.text(), output::glued(counterexample)))
+        }
+        Without::StillTrue | Without::Unknown => None,
+    });
+    say("needs", &needed.collect::<Vec<_>>())
 }
 
 /// Text whose lines end before an operator or a relation: what is multiplied or divided stays together.
@@ -368,52 +278,13 @@ fn together(text: &str) -> String {
     all
 }
 
-/// A counterexample whose lines end between its numbers.
-fn point(counterexample: &Counterexample) -> String {
-    counterexample.to_string().replace(" = ", &format!("{0}={0}", output::GLUE))
-}
-
-fn account(out: &mut dyn Write, report: &Report, proved: &Proved) -> io::Result<()> {
-    let Proved { statement, answer, .. } = proved;
-    writeln!(out, "{} ({})", statement.name, how(proved))?;
-    let mut say = |what: &str, lines: &[String]| {
-        lines.iter().enumerate().try_for_each(|(i, line)| {
-            let what = if i == 0 { what } else { "" };
-            let text = line.trim_start();
-            let first = format!("  {what:<8} {}", " ".repeat(line.len() - text.len()));
-            // Further in than what is a step of its own.
-            output::wrapped(out, &first, first.len() + 4, &together(text))
-        })
-    };
-    say("claim", &[paper::claim(statement)])?;
-    if !statement.hypotheses.is_empty() {
-        say("if", &[proved.hypotheses().join(", ")])?;
-    }
-    let invariants: Vec<_> = statement.invariants.iter().map(|i| i.given.text()).collect();
-    if !invariants.is_empty() {
-        say("always", &[format!("{} for every k, which is part of the proof", invariants.join(", "))])?;
-    }
-    say("where", &paper::names(statement))?;
-    match answer {
-        Answer::Proof(proof) => say("proof", &paper::proof(statement, proof))?,
-        Answer::None(why, _) => say("no proof", std::slice::from_ref(why))?,
-    }
-    let needed = report.dropped(statement).filter_map(|Dropped { given, without, .. }| match without {
-        Without::Refuted(counterexample) => {
-            Some(format!("{}: without it, at {}", given.text(), point(counterexample)))
-        }
-        Without::StillTrue | Without::Unknown => None,
-    });
-    say("needs", &needed.collect::<Vec<_>>())
-}
-
-fn markdown(out: &mut dyn Write, report: &Report) -> io::Result<()> {
+fn markdown(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
     writeln!(out, "| number | claim | says | if | how | status |")?;
     writeln!(out, "|---|---|---|---|---|---|")?;
-    report.proved.iter().try_for_each(|proved| {
+    proofs.claims.iter().try_for_each(|proved| {
         let Statement { equation, name, .. } = &proved.statement;
         let says = paper::claim(&proved.statement).replace('|', "\\|");
-        let (given, how, status) = (proved.hypotheses().join(", "), how(proved), proved.status());
+        let (given, how, status) = (supposed(&proved.statement).join(", "), how(proved), proved.status());
         writeln!(out, "| {equation} | {name} | {says} | {given} | {how} | {status} |")
     })
 }
@@ -423,19 +294,6 @@ struct Json {
     summary: Summary,
     equations: Vec<EquationJson>,
     changes: Vec<ChangeJson>,
-}
-
-#[derive(Clone, Copy, Serialize)]
-struct Summary {
-    claims: usize,
-    proved: usize,
-    refuted: usize,
-    unknown: usize,
-    hypotheses: usize,
-    changes: usize,
-    noticed: usize,
-    unchanged: usize,
-    unnoticed: usize,
 }
 
 #[derive(Serialize)]
@@ -473,6 +331,7 @@ struct ChangeJson {
     counterexample: Option<Values>,
 }
 
+/// Quantities as texts, by their symbols.
 type Values = BTreeMap<&'static str, String>;
 
 fn values(counterexample: &Counterexample) -> Values {
@@ -480,13 +339,12 @@ fn values(counterexample: &Counterexample) -> Values {
 }
 
 impl Json {
-    fn of(report: &Report) -> Self {
-        let equation = |entry: &Entry| EquationJson {
-            equation: entry.equation,
-            claims: report.of(entry).into_iter().map(|proved| ClaimJson::of(report, proved)).collect(),
-        };
-        let equations = entries().iter().map(equation).filter(|e| !e.claims.is_empty()).collect();
-        let change = |(Change { site, what }, effect): &(Change, Effect)| {
+    fn of(proofs: &Proofs) -> Self {
+        let equations = proofs.by_equation().map(|claims| EquationJson {
+            equation: claims[0].statement.equation,
+            claims: claims.iter().map(|proved| ClaimJson::of(proofs, proved)).collect(),
+        });
+        let changes = proofs.controls.changes.iter().map(|(Change { site, what }, effect)| {
             let (status, by, counterexample) = match effect {
                 Effect::Noticed { equation, name, counterexample } => {
                     ("noticed", Some(format!("{equation} {name}")), Some(values(counterexample)))
@@ -495,16 +353,15 @@ impl Json {
                 Effect::Unnoticed => ("unnoticed", None, None),
             };
             ChangeJson { at: site.to_string(), change: what.to_string(), status, by, counterexample }
-        };
-        let changes = report.controls.changes.iter().map(change).collect();
-        Json { summary: report.summary(), equations, changes }
+        });
+        Json { summary: proofs.summary(), equations: equations.collect(), changes: changes.collect() }
     }
 }
 
 impl ClaimJson {
-    fn of(report: &Report, proved: &Proved) -> Self {
+    fn of(proofs: &Proofs, proved: &Proved) -> Self {
         let Proved { statement, answer, .. } = proved;
-        let dropped = report.dropped(statement).map(|Dropped { given, without, .. }| {
+        let dropped = proofs.dropped(statement).map(|Dropped { given, without, .. }| {
             let (status, counterexample) = match without {
                 Without::Refuted(counterexample) => ("refuted", Some(values(counterexample))),
                 Without::StillTrue => ("still_true", None),
@@ -522,7 +379,7 @@ impl ClaimJson {
             claim: statement.name,
             kind: statement.kind,
             statement: paper::claim(statement),
-            hypotheses: proved.hypotheses(),
+            hypotheses: supposed(statement),
             status: proved.status(),
             certificate,
             why,
@@ -539,38 +396,40 @@ mod tests {
     use spring_mass_contact::proof::statement::Says;
 
     /// A run in which every equality is wrong by 1.
-    fn refuted() -> Report {
+    fn refuted() -> Proofs {
         let wrong = |mut statement: Statement| {
             for goal in &mut statement.goals {
                 if let Says::Equal(_, right) = &mut goal.says {
                     *right = &*right + Tree::int(1);
                 }
             }
-            attempt(&statement)
+            Proved::of(statement)
         };
-        let all = statements().into_iter().map(wrong).collect();
-        Report::new(all, Controls::default(), Vec::new(), (Duration::ZERO, Duration::ZERO), &|_| true)
+        Proofs { claims: statements().into_iter().map(wrong).collect(), ..Proofs::default() }
     }
 
     #[test]
     fn what_is_refuted_fits_on_a_page_and_can_be_pasted() {
-        let report = refuted();
+        let proofs = refuted();
         let text = output::printed(|out| {
-            table(out, &report)?;
-            details(out, &report)
+            table(out, &proofs)?;
+            details(out, &proofs)
         });
         assert_eq!(text.lines().find(|line| line.chars().count() > 80), None);
         assert!(text.contains(" REFUTED\n"), "{text}");
-        // Backslashes taken away, each command is the one that belongs to its counterexample.
-        let pasted = text.replace(" \\\n      ", " ");
-        let commands: Vec<_> = pasted.lines().filter(|line| line.starts_with("  contact solve")).collect();
-        let lines = report.proved.iter().filter_map(|proved| match &proved.answer {
-            Answer::None(_, Some(counterexample)) => command_line(&counterexample.case()),
-            _ => None,
+        // Each counterexample that is a system has its command, in the table and in the details.
+        let commands = output::printed(|out| {
+            proofs.claims.iter().try_for_each(|proved| match &proved.answer {
+                Answer::None(_, Some(counterexample)) => solve::command(out, &counterexample.case()),
+                Answer::None(_, None) | Answer::Proof(_) => Ok(()),
+            })
         });
-        let lines: Vec<_> = lines.map(|line| format!("  {line}")).collect();
-        assert!(text.contains(" \\\n") && lines.len() > 50);
-        assert_eq!(commands, [lines.as_slice(), &lines].concat());
+        let pasted = |text: &str| -> Vec<String> {
+            let text = text.replace(" \\\n      ", " ");
+            text.lines().filter(|line| line.starts_with("  contact solve")).map(String::from).collect()
+        };
+        assert!(text.contains(" \\\n") && pasted(&commands).len() > 50);
+        assert_eq!(pasted(&text), [pasted(&commands), pasted(&commands)].concat());
     }
 
     #[test]
