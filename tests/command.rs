@@ -242,6 +242,45 @@ fn flat(json: &Value) -> Vec<(String, String)> {
     fields
 }
 
+/// A parameter is printed as it was typed, and as it was rounded where one can see that.
+#[test]
+fn only_what_can_be_seen_was_rounded() {
+    let seen = |typed: &str, scalar: &str| -> Option<String> {
+        let line = format!(
+            "solve --stiffness 1 --mass 1 --gravity 1 --height 0 --free-length={typed} --scalar {scalar}"
+        );
+        let output = contact(&line.split(' ').collect::<Vec<_>>());
+        let words = stdout(&output).split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(words.contains(&format!("l = {typed} m, H = 0 m")), "{words}");
+        let rounded = stdout(&output).lines().find_map(|line| line.strip_prefix(" as rounded"));
+        rounded.map(|numbers| numbers.trim().to_string())
+    };
+    // Six digits in f32 and fifteen in f64 come back, whatever they are; a fraction has none.
+    for typed in ["9.81", "1.05", "0.1", "1e-9", "999999", "-123.456", "7.00001e-30", "1/3", "-22/7", "0"] {
+        for scalar in ["f32", "f64", "exact"] {
+            assert_eq!(seen(typed, scalar), None, "{typed} in {scalar}");
+        }
+    }
+    for (typed, scalar, expected) in [
+        ("999999999999999", "f64", None),
+        // 2²⁴ + 1 and 2⁵³ + 1 do not fit. 1.4…e-45 is the least f32.
+        ("16777217", "f32", Some("l = 16777216 m")),
+        ("9007199254740993", "f64", Some("l = 9007199254740992 m")),
+        ("1e-45", "f32", Some("l ≈ 1.4e-45 m")),
+        // Two bits: 1, 3/2, 2, 3, 4, 6, 8, 12, …, and 3/32 is 0.09375.
+        ("9.81", "mpfr:2", Some("l = 8 m")),
+        ("-1.05", "mpfr:2", Some("l = -1 m")),
+        ("100", "mpfr:2", Some("l = 96 m")),
+        ("0.1", "mpfr:2", Some("l ≈ 0.0938 m")),
+        ("1/3", "mpfr:2", Some("l = 0.375 m")),
+        ("6e2", "mpfr:2", Some("l = 512 m")),
+        ("12", "mpfr:2", None),
+        ("1.50", "mpfr:2", None),
+    ] {
+        assert_eq!(seen(typed, scalar).as_deref(), expected, "{typed} in {scalar}");
+    }
+}
+
 #[test]
 fn csv_says_what_json_says() {
     for scalar in ["f32", "f64", "mpfr:200", "exact"] {
@@ -788,6 +827,8 @@ fn a_number_may_be_written_in_many_ways() {
     assert_eq!(found(&["equations", "(1.13)", "theorem 1.3.3", "Note 4"]), all);
     assert_eq!(found(&["equations", "theorem", "1.3.3", "eq", "1.13", "NOTE", "4"]), all);
     assert_eq!(found(&["prove", "Eq. (1.13)", "note", "4", "THM. 1.3.3"]), all);
+    assert_eq!(found(&["equations", "Fig.", "1.2", "1.13", "eq.", "(1.16)"]), ["Fig. 1.2", "1.13", "1.16"]);
+    assert_eq!(found(&["equations", "note 4", "note", "5"]), ["note 4", "note 5"]);
     let verify = [
         "verify",
         "--cases",
@@ -800,6 +841,9 @@ fn a_number_may_be_written_in_many_ways() {
         "thm 1.3.3",
     ];
     assert_eq!(found(&verify), all);
+    for words in [["1.1", ""], ["", "1.1"], ["1.1", "theorem"], ["1.3.3", "theorem"], ["note", "note 4"]] {
+        refusal(&[&["equations"], words.as_slice()].concat());
+    }
     // Of what is not there the first word is named.
     for (arguments, value) in [
         (["prove", "theorem", "1.13"].as_slice(), "'theorem' for '[NUMBER]...'"),

@@ -118,6 +118,13 @@ impl Exact {
             }
         }
     }
+
+    /// As a decimal of at most so many digits, and of no more characters than fit if fewer digits can help.
+    pub fn decimal_within(&self, digits: usize, width: usize) -> String {
+        let decimal = |digits| self.decimal(digits, Round::Nearest);
+        let mut shorter = (1..=digits).rev().map(decimal).filter(|text| text.chars().count() <= width);
+        shorter.next().unwrap_or_else(|| decimal(1))
+    }
 }
 
 /// Types that are serialised as they are displayed.
@@ -201,5 +208,21 @@ mod tests {
             ["4.81", "100", "1e-7", "0.05", "0", "1e300"]
         );
         assert_eq!([0.1_f32, 1e38].map(|x| x.text()), ["0.1", "1e38"]);
+    }
+
+    #[test]
+    fn a_column_is_never_too_narrow() {
+        for (number, width, text) in [
+            ("1/3", 16, "0.3333333333"),
+            ("-1/3000", 16, "-0.0003333333333"),
+            ("-1/30000", 16, "-3.333333333e-5"),
+            ("-1e-100/3", 16, "-3.33333333e-101"),
+            ("-1e-100/3", 12, "-3.3333e-101"),
+            ("1e-1000", 3, "1e-1000"),
+        ] {
+            let x: Exact = number.replace("e-100/3", "e-100").parse().unwrap();
+            let x = if number.ends_with("e-100/3") { x / Exact::from(3) } else { x };
+            assert_eq!(x.decimal_within(10, width), text, "{number}");
+        }
     }
 }

@@ -1,5 +1,8 @@
 //! The proofs of all claims, with the controls that show they could have failed.
 
+#[cfg(feature = "serde")]
+mod json;
+
 use crate::claims::place;
 use crate::proof::controls::{self, Change, Controls, Dropped, Effect, controls, repairs};
 use crate::proof::{Counterexample, Proof, Statement, prove, refute, statements};
@@ -34,6 +37,11 @@ impl Proved {
             Err(why) => Answer::None(why.to_string(), refute(&statement)),
         };
         Proved { statement, answer, time: start.elapsed() }
+    }
+
+    /// What it supposes, as a reader writes it.
+    pub fn hypotheses(&self) -> Vec<&'static str> {
+        self.statement.hypotheses.iter().map(|hypothesis| hypothesis.given.text()).collect()
     }
 
     /// `proved`, `refuted` or `unknown`.

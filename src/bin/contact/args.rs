@@ -167,28 +167,3 @@ pub fn named(number: &str) -> Option<&'static str> {
     let mut equations = entries().iter().map(|entry| entry.equation);
     equations.find(|equation| equation.split_once(' ').is_some_and(|(_, own)| own == number))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_name_and_its_number_may_be_two_words() {
-        let numbers = |line: &str| equations(&line.split('|').map(String::from).collect::<Vec<_>>()).ok();
-        for (line, expected) in [
-            ("theorem|1.3.3", ["Theorem 1.3.3"].as_slice()),
-            ("Fig.|1.2|1.13|eq.|(1.16)", &["Fig. 1.2", "1.13", "1.16"]),
-            ("note 4|note|5", &["note 4", "note 5"]),
-        ] {
-            assert_eq!(
-                numbers(line).as_deref(),
-                Some(expected.iter().map(|n| n.to_string()).collect::<Vec<_>>().as_slice()),
-                "{line}"
-            );
-        }
-        for line in ["theorem", "1.1|", "|1.1", "1.1|theorem", "theorem|1.13", "1.3.3|theorem", "note|note 4"]
-        {
-            assert_eq!(numbers(line), None, "{line}");
-        }
-    }
-}

@@ -4,13 +4,11 @@ use crate::output::{self, Exit, Failure};
 use crate::text::shortened;
 use crate::{args, solve};
 use clap::ValueEnum;
-use serde::Serialize;
 use spring_mass_contact::claims::{Entry, entry};
 use spring_mass_contact::proof::controls::{Change, Dropped, Effect, Without};
 use spring_mass_contact::proof::coq::{self, LeftOut};
-use spring_mass_contact::proof::{Counterexample, Statement, paper, statements};
+use spring_mass_contact::proof::{Statement, paper, statements};
 use spring_mass_contact::verify::proofs::{Answer, Proofs, Proved, Summary, prove_all};
-use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -72,7 +70,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     }
     let proofs = prove_all(&numbers);
     output::print(|out| match options.format {
-        Format::Json => output::json(out, &Json::of(&proofs)),
+        Format::Json => output::json(out, &proofs),
         Format::Markdown => markdown(out, &proofs),
         Format::Table if numbers.is_empty() => table(out, &proofs),
         Format::Table => details(out, &proofs),
@@ -112,11 +110,6 @@ fn how(proved: &Proved) -> String {
     }
 }
 
-/// The hypotheses of a claim.
-fn supposed(statement: &Statement) -> Vec<&'static str> {
-    statement.hypotheses.iter().map(|hypothesis| hypothesis.given.text()).collect()
-}
-
 fn table(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
     let mut table = output::table();
     table.set_header(["number", "claim", "how", "by hypotheses", "ms"]);
@@ -124,7 +117,7 @@ fn table(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
         let Proved { statement, answer, time } = proved;
         let hypotheses = match answer {
             Answer::Proof(proof) => paper::used(proof),
-            Answer::None(..) => supposed(statement),
+            Answer::None(..) => proved.hypotheses(),
         };
         table.add_row([
             entry(statement.equation).map(Entry::label).unwrap_or_default(),
@@ -240,7 +233,7 @@ fn account(out: &mut dyn Write, proofs: &Proofs, proved: &Proved) -> io::Result<
     };
     say("claim", &[paper::claim(statement)])?;
     if !statement.hypotheses.is_empty() {
-        say("if", &[supposed(statement).join(", ")])?;
+        say("if", &[proved.hypotheses().join(", ")])?;
     }
     let invariants: Vec<_> = statement.invariants.iter().map(|i| i.given.text()).collect();
     if !invariants.is_empty() {
@@ -284,109 +277,9 @@ fn markdown(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
     proofs.claims.iter().try_for_each(|proved| {
         let Statement { equation, name, .. } = &proved.statement;
         let says = paper::claim(&proved.statement).replace('|', "\\|");
-        let (given, how, status) = (supposed(&proved.statement).join(", "), how(proved), proved.status());
+        let (given, how, status) = (proved.hypotheses().join(", "), how(proved), proved.status());
         writeln!(out, "| {equation} | {name} | {says} | {given} | {how} | {status} |")
     })
-}
-
-#[derive(Serialize)]
-struct Json {
-    summary: Summary,
-    equations: Vec<EquationJson>,
-    changes: Vec<ChangeJson>,
-}
-
-#[derive(Serialize)]
-struct EquationJson {
-    equation: &'static str,
-    claims: Vec<ClaimJson>,
-}
-
-#[derive(Serialize)]
-struct ClaimJson {
-    claim: &'static str,
-    kind: &'static str,
-    statement: String,
-    hypotheses: Vec<&'static str>,
-    status: &'static str,
-    certificate: Option<String>,
-    why: Option<String>,
-    counterexample: Option<Values>,
-    dropped: Vec<DroppedJson>,
-}
-
-#[derive(Serialize)]
-struct DroppedJson {
-    hypothesis: &'static str,
-    status: &'static str,
-    counterexample: Option<Values>,
-}
-
-#[derive(Serialize)]
-struct ChangeJson {
-    at: String,
-    change: String,
-    status: &'static str,
-    by: Option<String>,
-    counterexample: Option<Values>,
-}
-
-/// Quantities as texts, by their symbols.
-type Values = BTreeMap<&'static str, String>;
-
-fn values(counterexample: &Counterexample) -> Values {
-    counterexample.values.iter().map(|(name, x)| (*name, x.to_string())).collect()
-}
-
-impl Json {
-    fn of(proofs: &Proofs) -> Self {
-        let equations = proofs.by_equation().map(|claims| EquationJson {
-            equation: claims[0].statement.equation,
-            claims: claims.iter().map(|proved| ClaimJson::of(proofs, proved)).collect(),
-        });
-        let changes = proofs.controls.changes.iter().map(|(Change { site, what }, effect)| {
-            let (status, by, counterexample) = match effect {
-                Effect::Noticed { equation, name, counterexample } => {
-                    ("noticed", Some(format!("{equation} {name}")), Some(values(counterexample)))
-                }
-                Effect::Unchanged => ("unchanged", None, None),
-                Effect::Unnoticed => ("unnoticed", None, None),
-            };
-            ChangeJson { at: site.to_string(), change: what.to_string(), status, by, counterexample }
-        });
-        Json { summary: proofs.summary(), equations: equations.collect(), changes: changes.collect() }
-    }
-}
-
-impl ClaimJson {
-    fn of(proofs: &Proofs, proved: &Proved) -> Self {
-        let Proved { statement, answer, .. } = proved;
-        let dropped = proofs.dropped(statement).map(|Dropped { given, without, .. }| {
-            let (status, counterexample) = match without {
-                Without::Refuted(counterexample) => ("refuted", Some(values(counterexample))),
-                Without::StillTrue => ("still_true", None),
-                Without::Unknown => ("unknown", None),
-            };
-            DroppedJson { hypothesis: given.text(), status, counterexample }
-        });
-        let (certificate, why, counterexample) = match answer {
-            Answer::Proof(proof) => (Some(paper::proof(statement, proof).join("\n")), None, None),
-            Answer::None(why, counterexample) => {
-                (None, Some(why.clone()), counterexample.as_ref().map(values))
-            }
-        };
-        ClaimJson {
-            claim: statement.name,
-            kind: statement.kind,
-            statement: paper::claim(statement),
-            hypotheses: supposed(statement),
-            status: proved.status(),
-            certificate,
-            why,
-            counterexample,
-            dropped: dropped.collect(),
-        }
-    }
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::{Options, Problem, quantities};
 use crate::output::{self, WIDTH};
-use crate::text::{brief, brief_bounds, fitting, relation, shortened, visibly_rounded};
+use crate::text::{brief, brief_bounds, exact, relation, shortened, visibly_rounded};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::Value;
 use spring_mass_contact::chapter::contact::Kkt;
@@ -191,7 +191,7 @@ impl<'a, T: Scalar + Text> Report<'a, T> {
         let names = ["λ in N", "u in m", "p in m", "m g − c u in N"].map(String::from);
         writeln!(out, "\n{}", line("k".to_string(), names))?;
         for iterate in self.problem.trace(self.solution) {
-            let cells = quantities(&iterate).map(|x| fitting(x, DIGITS, width));
+            let cells = quantities(&iterate).map(|x| exact(x).decimal_within(DIGITS, width));
             writeln!(out, "{}", line(iterate.k.to_string(), cells))?;
         }
         writeln!(out, "\n At most ten digits each; --format csv has all.")
