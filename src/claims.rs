@@ -8,6 +8,8 @@ mod entries;
 #[cfg(feature = "mpfr")]
 mod experiments;
 mod formulas;
+#[cfg(feature = "serde")]
+mod json;
 mod list;
 mod numbers;
 
@@ -15,7 +17,7 @@ pub use entries::{Entry, entries, entry, place};
 #[cfg(feature = "mpfr")]
 pub use experiments::{Experiment, Trial, exact_experiments, first_order_experiments, float_experiments};
 pub use formulas::{Call, Formula, call, calls, computed, fill, formula, formula_in, formulas, line, named};
-pub use numbers::numbered;
+pub use numbers::{all_numbered, numbered};
 
 use crate::chapter::{SpringMass, augmented, contact, penalty, system};
 use crate::number::tree::Step;

@@ -984,21 +984,28 @@ fn the_whole_chapter_is_proved() {
     assert!(stdout(&table).contains(&format!("\n{claims} of {claims} claims proved in ")));
 }
 
-/// A directory's name may need quotes. Each line that is printed runs, here with what stands in for coqc.
+/// A directory's name may need quotes, or be longer than a line. Each command that is printed runs, here with what
+/// stands in for coqc.
 #[cfg(unix)]
 #[test]
 fn a_directory_for_coq_can_have_any_name() {
-    let directory = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("it's $HOME, \"quoted\" & long");
-    let directory = directory.to_str().expect("UTF-8");
-    let output = contact(&["prove", "--coq", directory]);
-    assert_eq!(output.status.code(), Some(0));
-    let (_, commands) = stdout(&output).split_once('\n').expect("commands");
-    let script = format!("coqc() {{ test $# = 4 && printf '%s\\n' \"$2\" \"$4\"; }}\n{commands}");
-    let ran = Command::new("sh").args(["-c", &script]).output().expect("a shell");
-    let lines: Vec<_> = stdout(&ran).lines().collect();
-    assert!(lines.len() > 10 && ran.status.success(), "{script}");
-    for pair in lines.chunks(2) {
-        assert!(pair[0] == directory && std::path::Path::new(pair[1]).is_file(), "{pair:?}");
+    let long = "0123456789/".repeat(15);
+    for name in ["it's $HOME, \"quoted\" & long: * ~ ü a\\b", "-1/2", &long] {
+        let directory = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("coq").join(name);
+        let directory = directory.to_str().expect("UTF-8");
+        let output = contact(&["prove", "--coq", directory]);
+        assert_eq!(output.status.code(), Some(0), "{name}");
+        let (_, commands) = stdout(&output).split_once('\n').expect("commands");
+        let script = format!("coqc() {{ test $# = 4 && printf '%s\\n' \"$2\" \"$4\"; }}\n{commands}");
+        let ran = Command::new("sh").args(["-c", &script]).output().expect("a shell");
+        let lines: Vec<_> = stdout(&ran).lines().collect();
+        assert!(lines.len() > 10 && ran.status.success(), "{script}");
+        for pair in lines.chunks(2) {
+            assert!(pair[0] == directory && std::path::Path::new(pair[1]).is_file(), "{pair:?}");
+        }
+        // A page holds what can be broken.
+        let fits = |line: &str| line.chars().count() <= 80 || line.contains('\'');
+        assert!(commands.lines().all(fits), "{commands}");
     }
 }
 

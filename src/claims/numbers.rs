@@ -15,6 +15,34 @@ pub fn numbered(text: &str) -> Option<&'static Entry> {
     entries().iter().find(|entry| name_and_number(entry.equation) == wanted)
 }
 
+/// The entries whose numbers the words of a line are; a name and its number may be two of them.
+///
+/// # Errors
+/// The first word that is no number, and no name of one.
+///
+/// ```
+/// # use spring_mass_contact::claims::all_numbered;
+/// let numbers = |words| all_numbered(words).map(|all| all.iter().map(|e| e.equation).collect::<Vec<_>>());
+/// assert_eq!(numbers(&["eq.", "1.13", "theorem 1.3.3", "note", "4"]), Ok(vec!["1.13", "Theorem 1.3.3", "note 4"]));
+/// assert_eq!(numbers(&["1.13", "theorem", "1.13"]), Err("theorem"));
+/// ```
+pub fn all_numbered<S: AsRef<str>>(words: &[S]) -> Result<Vec<&'static Entry>, &str> {
+    let mut all = Vec::new();
+    let mut left = words;
+    while let [word, rest @ ..] = left {
+        let word = word.as_ref();
+        let is_name = !word.is_empty() && word.chars().all(|c| c.is_alphabetic() || c == '.');
+        // A name alone is no number, so it can only belong to the word behind it.
+        let (found, rest) = match (numbered(word), rest) {
+            (None, [next, rest @ ..]) if is_name => (numbered(&format!("{word} {}", next.as_ref())), rest),
+            (found, rest) => (found, rest),
+        };
+        all.push(found.ok_or(word)?);
+        left = rest;
+    }
+    Ok(all)
+}
+
 /// What a number is called, none for an equation, and its digits, without how they are written.
 fn name_and_number(text: &str) -> (String, &str) {
     let bare = |text| {

@@ -4,7 +4,7 @@ use crate::output::Failure;
 use crate::text::shortened;
 use num_traits::Zero;
 use spring_mass_contact::chapter::SpringMass;
-use spring_mass_contact::claims::{entries, numbered};
+use spring_mass_contact::claims::{all_numbered, entries, numbered};
 use spring_mass_contact::number::{Exact, ToExact};
 
 /// The arguments, if they are plain text: others could only garble the one line of an error.
@@ -133,33 +133,21 @@ impl System {
     }
 }
 
+const NUMBER: &str =
+    "must be a number of the chapter as `contact equations` lists them, such as 1.13 or 'Theorem 1.3.3'";
+
 /// A number of the chapter that it has, however it is written.
 pub fn equation(text: &str) -> Result<String, String> {
-    numbered(text).map(|entry| entry.equation.to_string()).ok_or_else(|| {
-        "must be a number of the chapter as `contact equations` lists them, such as 1.13 or 'Theorem 1.3.3'"
-            .to_string()
-    })
+    numbered(text).map(|entry| entry.equation.to_string()).ok_or_else(|| NUMBER.to_string())
 }
 
 /// The numbers that the words of a line are; of `theorem 1.3.3`, two of them.
 pub fn equations(words: &[String]) -> Result<Vec<String>, Failure> {
-    let mut numbers = Vec::new();
-    let mut left = words;
-    while let [word, rest @ ..] = left {
-        let is_name = !word.is_empty() && word.chars().all(|c| c.is_alphabetic() || c == '.');
-        let (number, rest) = match (equation(word), rest) {
-            // A name alone is no number, so it can only belong to the word behind it.
-            (Err(why), [next, rest @ ..]) if is_name => {
-                (equation(&format!("{word} {next}")).map_err(|_| why), rest)
-            }
-            (number, rest) => (number, rest),
-        };
-        numbers.push(number.map_err(|why| {
-            Failure::Input(format!("invalid value '{}' for '[NUMBER]...': {why}", shortened(word)))
-        })?);
-        left = rest;
-    }
-    Ok(numbers)
+    let refused = |word: &str| {
+        Failure::Input(format!("invalid value '{}' for '[NUMBER]...': {NUMBER}", shortened(word)))
+    };
+    let entries = all_numbered(words).map_err(refused)?;
+    Ok(entries.iter().map(|entry| entry.equation.to_string()).collect())
 }
 
 /// What has a name and this number, which may have got apart.

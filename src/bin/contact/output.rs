@@ -254,35 +254,4 @@ mod tests {
         let broken = format!("a {}\n  {}\n  {}\n", nines(78), nines(78), nines(34));
         assert_eq!(printed(|out| wrapped(out, "", 2, &format!("a {}", nines(190)))), broken);
     }
-
-    #[cfg(unix)]
-    #[test]
-    fn a_command_runs_as_it_is_printed() {
-        let words = [
-            "printf",
-            "%s\\n",
-            "it's",
-            "a dir",
-            "$HOME",
-            "\"",
-            "ü",
-            "-1/2",
-            "*",
-            "a\\b",
-            "",
-            "~",
-            "--long-word-of-many-letters",
-        ];
-        let number = "0123456789/".repeat(20);
-        let words = words.into_iter().chain(["0123456789"; 20]).chain(["a b", &number, "end"]);
-        let words: Vec<&str> = words.collect();
-        let text = printed(|out| command(out, words.iter().copied()));
-        let lines: Vec<&str> = text.lines().collect();
-        assert!(lines.len() > 3 && lines.iter().all(|line| line.chars().count() <= 80), "{text}");
-        let (last, others) = lines.split_last().expect("lines");
-        assert!(!last.ends_with('\\') && others.iter().all(|line| line.ends_with('\\')), "{text}");
-        let output = std::process::Command::new("sh").args(["-c", &text]).output().expect("a shell");
-        let said = String::from_utf8(output.stdout).expect("UTF-8");
-        assert_eq!(said.lines().collect::<Vec<_>>(), words[2..], "{text}");
-    }
 }

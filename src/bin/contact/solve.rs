@@ -83,12 +83,8 @@ enum MethodName {
 
 impl MethodName {
     /// As on the command line.
-    fn name(self) -> &'static str {
-        match self {
-            MethodName::Lagrange => "lagrange",
-            MethodName::Penalty => "penalty",
-            MethodName::Augmented => "augmented",
-        }
+    fn name(self) -> String {
+        self.to_possible_value().map_or(String::new(), |value| value.get_name().to_string())
     }
 }
 
