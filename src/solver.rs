@@ -17,6 +17,8 @@ mod augmentation;
 mod check;
 #[cfg(feature = "mpfr")]
 mod count;
+#[cfg(feature = "mpfr")]
+mod read;
 mod scalar;
 #[cfg(feature = "mpfr")]
 mod series;
@@ -25,6 +27,8 @@ pub use augmentation::{Augmentation, Iterate};
 pub use check::SolveError;
 #[cfg(feature = "mpfr")]
 pub use count::{augmentations_needed, rounding_floor, within_reach};
+#[cfg(feature = "mpfr")]
+pub use read::ReadError;
 pub use scalar::{Interval, Scalar};
 #[cfg(feature = "mpfr")]
 pub use series::series_penetration;
