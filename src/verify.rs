@@ -74,6 +74,11 @@ impl Report {
         self.rows.iter().all(|row| row.status != Status::Undecided)
     }
 
+    /// The rows of each equation.
+    pub fn by_equation(&self) -> impl Iterator<Item = &[Row]> {
+        self.rows.chunk_by(|a, b| a.equation == b.equation)
+    }
+
     /// The summary.
     pub fn summary(&self) -> Summary {
         let count = |status| self.rows.iter().filter(|row| row.status == status).count();
@@ -113,8 +118,7 @@ impl serde::Serialize for Report {
             equation: &'static str,
             claims: &'a [Row],
         }
-        let equations = self.rows.chunk_by(|a, b| a.equation == b.equation);
-        let equations = equations.map(|claims| Equation { equation: claims[0].equation, claims });
+        let equations = self.by_equation().map(|claims| Equation { equation: claims[0].equation, claims });
         let mut report = to.serialize_struct("Report", 4)?;
         report.serialize_field("summary", &self.summary())?;
         report.serialize_field("suspects", &self.suspects)?;

@@ -71,7 +71,7 @@ fn main() -> ExitCode {
 
 fn run(cli: Cli) -> Result<Exit, Failure> {
     match cli.command {
-        None => verify::run(&verify::Options::default()),
+        None => run(Cli::parse_from(["contact", "verify"])),
         Some(Command::Verify(options)) => verify::run(&options),
         Some(Command::Prove(options)) => prove::run(&options),
         Some(Command::Equations(options)) => equations::run(&options),

@@ -3,7 +3,7 @@
 use crate::output::{self, Exit, Failure};
 use crate::{args, solve};
 use clap::ValueEnum;
-use spring_mass_contact::claims::{Entry, claim_names, entries, entry};
+use spring_mass_contact::claims::{claim_names, entry};
 use spring_mass_contact::number::NumberSystem;
 use spring_mass_contact::verify::{self, Report, Row, Status, Suspect};
 use std::io::{self, Write};
@@ -47,14 +47,6 @@ pub struct Options {
     format: Format,
 }
 
-/// What `contact` alone does.
-impl Default for Options {
-    fn default() -> Self {
-        let verify::Options { cases, seed, .. } = verify::Options::default();
-        Options { scalars: Vec::new(), cases, seed, equations: Vec::new(), format: Format::Table }
-    }
-}
-
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Format {
     /// For reading: a line an equation
@@ -88,14 +80,6 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
         Format::Markdown => markdown(out, &report),
     })?;
     Ok(if report.holds() { Exit::Fine } else { Exit::Unmet })
-}
-
-fn rows_of<'a>(report: &'a Report, entry: &Entry) -> Vec<&'a Row> {
-    report.rows.iter().filter(|row| row.equation == entry.equation).collect()
-}
-
-fn count(rows: &[&Row], status: Status) -> usize {
-    rows.iter().filter(|row| row.status == status).count()
 }
 
 /// What a claim is tried by: a number system, or the prover.
@@ -163,7 +147,7 @@ const BLANKS: usize = 2;
 /// The ways in groups whose columns fit beside each other.
 fn side_by_side<'a>(report: &Report, ways: &'a [Way]) -> Vec<&'a [Way]> {
     let width = |way: Way| {
-        let cells = entries().iter().map(|entry| cell(&rows_of(report, entry), way).len());
+        let cells = report.by_equation().map(|rows| cell(rows, way).len());
         cells.chain([name(way).len()]).max().unwrap_or(0) + BLANKS
     };
     let (mut groups, mut start, mut used) = (Vec::new(), 0, 0);
@@ -180,9 +164,10 @@ fn side_by_side<'a>(report: &Report, ways: &'a [Way]) -> Vec<&'a [Way]> {
 }
 
 /// How many of an equation's claims are proved, or hold in a number system.
-fn cell(rows: &[&Row], way: Way) -> String {
-    let rows: Vec<&Row> = rows.iter().copied().filter(|row| row.scalar == way).collect();
-    match (count(&rows, Status::Failed), count(&rows, Status::Undecided), rows.len()) {
+fn cell(rows: &[Row], way: Way) -> String {
+    let rows = || rows.iter().filter(|row| row.scalar == way);
+    let count = |status| rows().filter(|row| row.status == status).count();
+    match (count(Status::Failed), count(Status::Undecided), rows().count()) {
         (_, _, 0) => "-".to_string(),
         (0, 0, all) if way.is_none() => all.to_string(),
         (0, 0, all) => format!("{all} held"),
@@ -196,12 +181,10 @@ fn counts(out: &mut dyn Write, report: &Report, ways: &[Way]) -> io::Result<()> 
     let mut table = output::table();
     let names = ways.iter().copied().map(name);
     table.set_header(["number", "title"].map(String::from).into_iter().chain(names));
-    for entry in entries() {
-        let rows = rows_of(report, entry);
-        if !rows.is_empty() {
-            let cells = ways.iter().map(|way| cell(&rows, *way));
-            table.add_row([entry.label(), entry.title.to_string()].into_iter().chain(cells));
-        }
+    for rows in report.by_equation() {
+        let [number, title] = entry(rows[0].equation)
+            .map_or(Default::default(), |entry| [entry.label(), entry.title.to_string()]);
+        table.add_row([number, title].into_iter().chain(ways.iter().map(|way| cell(rows, *way))));
     }
     let columns: Vec<usize> = (0..2 + ways.len()).filter(|column| *column != 1).collect();
     output::unbroken(&mut table, &columns);
