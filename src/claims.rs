@@ -14,8 +14,11 @@ mod entry;
 mod experiments;
 mod formulas;
 mod given;
+#[cfg(feature = "serde")]
+mod json;
 mod lagrange;
 mod notes;
+mod numbers;
 mod ode;
 mod penalty;
 mod structure;
@@ -27,6 +30,7 @@ pub use entry::Entry;
 pub use experiments::{Experiment, Trial, exact_experiments, first_order_experiments, float_experiments};
 pub use formulas::computed;
 pub use given::{Given, given};
+pub use numbers::{all_numbered, numbered};
 
 use crate::formula::{Claim, Registry, Statement};
 use std::sync::LazyLock;

@@ -35,6 +35,7 @@
 //! - `mpfr` (default): MPFR floats, exact rationals, and all that needs them: claims, proofs, certificates, step
 //!   counts, reading numbers. Builds GMP and MPFR from source by way of rug, which is LGPL-3.0-or-later.
 //! - `cli` (default): the command `contact`.
+//! - `serde`, on with `cli`: what the solver and the runs of claims return is `serde::Serialize`, quantities as texts.
 //! - `gmp-untested` (default): leaves out GMP's and MPFR's own test suites, which take minutes.
 //!
 //! Without them f32, f64, balls, dual numbers, the chapter and the solver are there.

@@ -17,14 +17,18 @@ mod augmentation;
 mod check;
 #[cfg(feature = "mpfr")]
 mod count;
+#[cfg(feature = "mpfr")]
+mod read;
 mod scalar;
 #[cfg(feature = "mpfr")]
 mod series;
 
-pub use augmentation::{Augmentation, Step};
+pub use augmentation::{Augmentation, Iterate};
 pub use check::SolveError;
 #[cfg(feature = "mpfr")]
 pub use count::{augmentations_needed, rounding_floor, within_reach};
+#[cfg(feature = "mpfr")]
+pub use read::ReadError;
 pub use scalar::{Interval, Scalar};
 #[cfg(feature = "mpfr")]
 pub use series::series_penetration;
@@ -33,10 +37,10 @@ use crate::chapter::{SpringMass, augmented, contact, lagrange, penalty, structur
 #[cfg(feature = "mpfr")]
 use crate::number::{Exact, ToExact};
 use std::cmp::Ordering;
+use std::fmt;
 
 /// Whether the mass and the plane touch, decided exactly by the sign of R = m g − c (H − l).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
 pub enum State {
     /// R > 0: the plane pushes.
     Contact,
@@ -44,6 +48,17 @@ pub enum State {
     Grazing,
     /// R < 0: the mass hangs free.
     Separated,
+}
+
+/// As JSON and CSV have it.
+impl fmt::Display for State {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.pad(match self {
+            State::Contact => "contact",
+            State::Grazing => "grazing",
+            State::Separated => "separated",
+        })
+    }
 }
 
 impl State {
@@ -101,7 +116,6 @@ pub enum Method<T> {
 
 /// How a solve ended. Only an iteration can end otherwise than [`Direct`](Outcome::Direct).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
 pub enum Outcome {
     /// There was nothing to iterate.
     Direct,
@@ -114,10 +128,26 @@ pub enum Outcome {
     OutOfSteps,
 }
 
+/// As JSON and CSV have it.
+impl fmt::Display for Outcome {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.pad(match self {
+            Outcome::Direct => "direct",
+            Outcome::Converged => "converged",
+            Outcome::Stagnated => "stagnated",
+            Outcome::OutOfSteps => "out_of_steps",
+        })
+    }
+}
+
+#[cfg(feature = "serde")]
+crate::number::serialize_as_displayed!(State, Outcome);
+
 /// Rigorous enclosures of the exact answer, for the parameters as they are in their scalar.
 ///
 /// For Lagrange and penalty the method's own exact answer; for augmented the limit, whatever the outcome.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound = "T: crate::number::Text"))]
 pub struct Bounds<T> {
     /// Of the deflection, in m.
     pub deflection: Interval<T>,
@@ -129,22 +159,28 @@ pub struct Bounds<T> {
 
 /// What [`solve`] finds.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound = "T: crate::number::Text"))]
 pub struct Solution<T> {
     /// Contact, grazing or separated.
     pub state: State,
     /// How the solve ended.
     pub outcome: Outcome,
     /// u, in m.
+    #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
     pub deflection: T,
     /// p = l + u − H of this deflection, in m.
+    #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
     pub penetration: T,
     /// N = m g − c u, in N; exactly 0 where the mass hangs free, and at grazing by Lagrange.
+    #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
     pub contact_force: T,
     /// λ (of this step: λ_k), in N; none by penalty.
+    #[cfg_attr(feature = "serde", serde(serialize_with = "crate::number::quantity::option"))]
     pub multiplier: Option<T>,
     /// k, the number of augmentations of the iterate returned; none without iteration.
     pub augmentations: Option<u64>,
     /// The smallest bound of |u − u*| met, in m, if the iteration stagnated.
+    #[cfg_attr(feature = "serde", serde(serialize_with = "crate::number::quantity::option"))]
     pub floor: Option<T>,
     /// Where the exact answer lies.
     pub bounds: Bounds<T>,
@@ -210,7 +246,7 @@ pub fn solve_observed<T: Scalar>(
     system: &SpringMass<T>,
     method: &Method<T>,
     plane: Plane,
-    each: impl FnMut(&Step<T>),
+    each: impl FnMut(&Iterate<T>),
 ) -> Result<Solution<T>, SolveError> {
     check::system(system)?;
     check::method(method)?;
@@ -356,7 +392,7 @@ fn iterate<T: Scalar>(
     target: &Target<T::Enclosure>,
     tolerance: &T,
     max_augmentations: u64,
-    mut each: impl FnMut(&Step<T>),
+    mut each: impl FnMut(&Iterate<T>),
 ) -> Result<Found<T>, SolveError> {
     let eps = steps.penalty().enclose();
     let mut floor: Option<T> = None;

@@ -15,6 +15,7 @@ mod checker;
 mod coq;
 mod goals;
 mod guard;
+pub mod proofs;
 mod suspects;
 #[cfg(test)]
 mod tests;
@@ -29,6 +30,7 @@ use checker::{Checker, Checks, Exactly, Floats, Tally};
 pub use coq::coq;
 use guard::guarded;
 use rayon::prelude::*;
+use std::fmt;
 use std::sync::atomic::{AtomicUsize, Ordering};
 pub use suspects::Suspect;
 
@@ -75,11 +77,63 @@ impl Report {
     pub fn is_decided(&self) -> bool {
         self.rows.iter().all(|row| row.status != Status::Undecided)
     }
+
+    /// The rows of each equation.
+    pub fn by_equation(&self) -> impl Iterator<Item = &[Row]> {
+        self.rows.chunk_by(|a, b| a.equation == b.equation)
+    }
+
+    /// The summary.
+    pub fn summary(&self) -> Summary {
+        let count = |status| self.rows.iter().filter(|row| row.status == status).count();
+        Summary {
+            claims: self.rows.len(),
+            proved: count(Status::Proved),
+            held: count(Status::Held),
+            undecided: count(Status::Undecided),
+            failed: count(Status::Failed),
+        }
+    }
+}
+
+/// How many rows came out how.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Summary {
+    /// All of them.
+    pub claims: usize,
+    /// Proved.
+    pub proved: usize,
+    /// Held in a number system.
+    pub held: usize,
+    /// Decided by no case.
+    pub undecided: usize,
+    /// Not proved, or wrong in some case.
+    pub failed: usize,
+}
+
+/// As JSON has it: the summary, where to look, and the rows of each equation.
+#[cfg(feature = "serde")]
+impl serde::Serialize for Report {
+    fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeStruct;
+        #[derive(serde::Serialize)]
+        struct Equation<'a> {
+            equation: &'static str,
+            claims: &'a [Row],
+        }
+        let equations = self.by_equation().map(|claims| Equation { equation: claims[0].equation, claims });
+        let mut report = to.serialize_struct("Report", 4)?;
+        report.serialize_field("summary", &self.summary())?;
+        report.serialize_field("suspects", &self.suspects)?;
+        report.serialize_field("repairs", &self.repairs)?;
+        report.serialize_field("equations", &equations.collect::<Vec<_>>())?;
+        report.end()
+    }
 }
 
 /// Whether a claim holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
 pub enum Status {
     /// For all values of its quantities.
     Proved,
@@ -91,19 +145,36 @@ pub enum Status {
     Failed,
 }
 
+/// As JSON and Markdown have it.
+impl fmt::Display for Status {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.pad(match self {
+            Status::Proved => "proved",
+            Status::Held => "held",
+            Status::Undecided => "undecided",
+            Status::Failed => "failed",
+        })
+    }
+}
+
+#[cfg(feature = "serde")]
+crate::number::serialize_as_displayed!(Status);
+
 /// One claim, proved or in one number system.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Row {
     /// The entry.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub equation: &'static str,
     /// The claim's name.
     pub claim: &'static str,
     /// Its kind.
     pub kind: &'static str,
-    /// The number system; none for the proof.
-    pub scalar: Option<NumberSystem>,
     /// What came of it.
     pub status: Status,
+    /// The number system; none for the proof.
+    pub scalar: Option<NumberSystem>,
     /// Why there is no proof; or why the claim broke off in its counterexample, as where that divides by zero.
     pub why: Option<String>,
     /// Cases that were decided.
@@ -111,22 +182,34 @@ pub struct Row {
     /// Cases that could not be: a sign lost in rounding, or numbers out of the scalar's range.
     pub undecided: u64,
     /// The largest |left − right|/bound, and that case's bound; none where nothing is measured.
+    #[cfg_attr(feature = "serde", serde(flatten, serialize_with = "serialize::worst"))]
     pub worst: Option<(f64, String)>,
     /// A case in which the claim does not hold.
+    #[cfg_attr(feature = "serde", serde(serialize_with = "serialize::coordinates"))]
     pub counterexample: Option<Case<Exact>>,
 }
 
-/// A case as the command line that solves it, if it is a system that can be solved.
-pub fn command_line(case: &Case<Exact>) -> Option<String> {
-    let zero = Exact::from(0);
-    let s = &case.system;
-    (s.c > zero && s.m > zero).then(|| {
-        let system = format!(
-            "contact solve --scalar exact --stiffness {} --mass {} --gravity {} --free-length {} --height {}",
-            s.c, s.m, s.g, s.l, s.h
-        );
-        if case.eps > zero { format!("{system} --method penalty --penalty {}", case.eps) } else { system }
-    })
+/// What of a row is no plain value.
+#[cfg(feature = "serde")]
+mod serialize {
+    use crate::claims::{Case, Var};
+    use crate::number::{Exact, Text};
+    use serde::ser::{Serialize, SerializeStruct, Serializer};
+    use std::collections::BTreeMap;
+
+    pub(super) fn worst<S: Serializer>(worst: &Option<(f64, String)>, to: S) -> Result<S::Ok, S::Error> {
+        let mut fields = to.serialize_struct("Worst", 2)?;
+        fields.serialize_field("worst", &worst.as_ref().map(|(ratio, _)| ratio.text()))?;
+        fields.serialize_field("bound", &worst.as_ref().map(|(_, bound)| bound))?;
+        fields.end()
+    }
+
+    pub(super) fn coordinates<S: Serializer>(case: &Option<Case<Exact>>, to: S) -> Result<S::Ok, S::Error> {
+        let by_symbol = |case: &Case<Exact>| -> BTreeMap<&str, String> {
+            Var::ALL.iter().map(|var| (var.symbol(), case.get(*var).text())).collect()
+        };
+        case.as_ref().map(by_symbol).serialize(to)
+    }
 }
 
 /// As many cases are drawn and checked at a time.

@@ -12,7 +12,7 @@ use spring_mass_contact::chapter::{SpringMass, augmented, contact, penalty, stru
 use spring_mass_contact::number::{Exact, OrderedField};
 use spring_mass_contact::rug::Integer;
 use spring_mass_contact::solver::{
-    Augmentation, Method, Outcome, Plane, Step, augmentations_needed, solve, solve_bilateral,
+    Augmentation, Iterate, Method, Outcome, Plane, augmentations_needed, solve, solve_bilateral,
 };
 use strategies::*;
 
@@ -51,9 +51,9 @@ proptest! {
         prop_assert_eq!(&augmented::contraction(s, eps), &rho);
         prop_assert!(int(0) < rho && rho < int(1));
         let mut decay = int(1);
-        let mut last: Option<Step<Exact>> = None;
+        let mut last: Option<Iterate<Exact>> = None;
         for step in iterate(&case, Plane::Bilateral).take(16) {
-            let Step { k, multiplier: lambda, deflection: u, penetration: p, contact_force: n } = &step;
+            let Iterate { k, multiplier: lambda, deflection: u, penetration: p, contact_force: n } = &step;
             prop_assert_eq!(p, &(&decay * &p0));
             prop_assert_eq!(lambda, &(&r + (start - &r) * &decay));
             prop_assert_eq!(&augmented::multiplier_after(s, start, &decay), lambda);
@@ -99,7 +99,7 @@ proptest! {
         let Case { system: s, eps, .. } = &case;
         let (u_star, n_star, r) = (resting(s), pushing(s), reaction(&case));
         for step in iterate(&case, Plane::Unilateral).take(12) {
-            let Step { multiplier: lambda, deflection: u, penetration: p, contact_force: n, .. } = &step;
+            let Iterate { multiplier: lambda, deflection: u, penetration: p, contact_force: n, .. } = &step;
             // p_k = min(R/c, (R − λ_k)/(c + ε)), λ_{k+1} = ⟨(c λ_k + ε R)/(c + ε)⟩.
             prop_assert_eq!(p, &(&r / &s.c).min((&r - lambda) / (&s.c + eps)));
             let next = positive_part(&((&s.c * lambda + eps * &r) / (&s.c + eps)));
@@ -161,7 +161,7 @@ proptest! {
         let case = Case { tolerance, ..case };
         let Case { system: s, eps, tolerance, start } = &case;
         for plane in [Plane::Unilateral, Plane::Bilateral] {
-            let done = |step: &Step<Exact>| match plane {
+            let done = |step: &Iterate<Exact>| match plane {
                 Plane::Bilateral => augmented::within_tolerance(&step.penetration, tolerance),
                 Plane::Unilateral => {
                     let r = augmented::natural_residual(s, eps, &step.multiplier, &step.deflection);

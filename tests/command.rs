@@ -9,6 +9,7 @@ use serde_json::Value;
 use spring_mass_contact::chapter::{SpringMass, contact};
 use spring_mass_contact::claims::{claim_names, entries};
 use spring_mass_contact::number::{Exact, RangeError, ToExact};
+use spring_mass_contact::solver::{Method, Plane, solve_observed};
 use std::io::Read;
 use std::process::{Child, Command, Output, Stdio};
 use std::thread;
@@ -241,6 +242,45 @@ fn flat(json: &Value) -> Vec<(String, String)> {
     fields
 }
 
+/// A parameter is printed as it was typed, and as it was rounded where one can see that.
+#[test]
+fn only_what_can_be_seen_was_rounded() {
+    let seen = |typed: &str, scalar: &str| -> Option<String> {
+        let line = format!(
+            "solve --stiffness 1 --mass 1 --gravity 1 --height 0 --free-length={typed} --scalar {scalar}"
+        );
+        let output = contact(&line.split(' ').collect::<Vec<_>>());
+        let words = stdout(&output).split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(words.contains(&format!("l = {typed} m, H = 0 m")), "{words}");
+        let rounded = stdout(&output).lines().find_map(|line| line.strip_prefix(" as rounded"));
+        rounded.map(|numbers| numbers.trim().to_string())
+    };
+    // Six digits in f32 and fifteen in f64 come back, whatever they are; a fraction has none.
+    for typed in ["9.81", "1.05", "0.1", "1e-9", "999999", "-123.456", "7.00001e-30", "1/3", "-22/7", "0"] {
+        for scalar in ["f32", "f64", "exact"] {
+            assert_eq!(seen(typed, scalar), None, "{typed} in {scalar}");
+        }
+    }
+    for (typed, scalar, expected) in [
+        ("999999999999999", "f64", None),
+        // 2²⁴ + 1 and 2⁵³ + 1 do not fit. 1.4…e-45 is the least f32.
+        ("16777217", "f32", Some("l = 16777216 m")),
+        ("9007199254740993", "f64", Some("l = 9007199254740992 m")),
+        ("1e-45", "f32", Some("l ≈ 1.4e-45 m")),
+        // Two bits: 1, 3/2, 2, 3, 4, 6, 8, 12, …, and 3/32 is 0.09375.
+        ("9.81", "mpfr:2", Some("l = 8 m")),
+        ("-1.05", "mpfr:2", Some("l = -1 m")),
+        ("100", "mpfr:2", Some("l = 96 m")),
+        ("0.1", "mpfr:2", Some("l ≈ 0.0938 m")),
+        ("1/3", "mpfr:2", Some("l = 0.375 m")),
+        ("6e2", "mpfr:2", Some("l = 512 m")),
+        ("12", "mpfr:2", None),
+        ("1.50", "mpfr:2", None),
+    ] {
+        assert_eq!(seen(typed, scalar).as_deref(), expected, "{typed} in {scalar}");
+    }
+}
+
 #[test]
 fn csv_says_what_json_says() {
     for scalar in ["f32", "f64", "mpfr:200", "exact"] {
@@ -254,6 +294,39 @@ fn csv_says_what_json_says() {
             fields.sort();
             let (json, code) = solve(&arguments);
             assert_eq!((fields, csv.status.code()), (flat(&json), code), "{arguments}");
+        }
+    }
+}
+
+/// The command adds to what a user of the library serialises, and says the same.
+#[test]
+fn the_library_serialises_what_the_command_prints() {
+    let exact = SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" }.parse().unwrap();
+    let system = exact.try_map(Exact::to_f64).unwrap();
+    let augmented = |tolerance, max_augmentations| Method::Augmented {
+        penalty: 100.0,
+        tolerance,
+        max_augmentations,
+        start: 0.0,
+    };
+    for (arguments, method) in [
+        ("--method lagrange", Method::Lagrange),
+        ("--method penalty --penalty 7", Method::Penalty { penalty: 7.0 }),
+        ("--method augmented --penalty 100 --tolerance 1e-9", augmented(1e-9, 1000)),
+        ("--method augmented --penalty 100 --tolerance 1e-30", augmented(1e-30, 1000)),
+        ("--method augmented --penalty 100 --max-augmentations 2 --trace", augmented(1e-9, 2)),
+    ] {
+        let (printed, _) = solve(arguments);
+        let mut iterates = Vec::new();
+        let solution = solve_observed(&system, &method, Plane::Unilateral, |k| iterates.push(k.clone()));
+        let solution = serde_json::to_value(solution.unwrap()).unwrap();
+        let all = "augmentations bounds contact_force deflection floor multiplier outcome penetration state";
+        assert_eq!(keys(&solution), all.split(' ').collect::<Vec<_>>());
+        for (name, value) in solution.as_object().unwrap() {
+            assert_eq!(printed[name], *value, "{name}, {arguments}");
+        }
+        if arguments.ends_with("--trace") {
+            assert_eq!(printed["trace"], serde_json::to_value(&iterates).unwrap());
         }
     }
 }
@@ -754,6 +827,8 @@ fn a_number_may_be_written_in_many_ways() {
     assert_eq!(found(&["equations", "(1.13)", "theorem 1.3.3", "Note 4"]), all);
     assert_eq!(found(&["equations", "theorem", "1.3.3", "eq", "1.13", "NOTE", "4"]), all);
     assert_eq!(found(&["prove", "Eq. (1.13)", "note", "4", "THM. 1.3.3"]), all);
+    assert_eq!(found(&["equations", "Fig.", "1.2", "1.13", "eq.", "(1.16)"]), ["Fig. 1.2", "1.13", "1.16"]);
+    assert_eq!(found(&["equations", "note 4", "note", "5"]), ["note 4", "note 5"]);
     let verify = [
         "verify",
         "--cases",
@@ -766,6 +841,9 @@ fn a_number_may_be_written_in_many_ways() {
         "thm 1.3.3",
     ];
     assert_eq!(found(&verify), all);
+    for words in [["1.1", ""], ["", "1.1"], ["1.1", "theorem"], ["1.3.3", "theorem"], ["note", "note 4"]] {
+        refusal(&[&["equations"], words.as_slice()].concat());
+    }
     // Of what is not there the first word is named.
     for (arguments, value) in [
         (["prove", "theorem", "1.13"].as_slice(), "'theorem' for '[NUMBER]...'"),
@@ -906,21 +984,28 @@ fn the_whole_chapter_is_proved() {
     assert!(stdout(&table).contains(&format!("\n{claims} of {claims} claims proved in ")));
 }
 
-/// A directory's name may need quotes. Each line that is printed runs, here with what stands in for coqc.
+/// A directory's name may need quotes, or be longer than a line. Each command that is printed runs, here with what
+/// stands in for coqc.
 #[cfg(unix)]
 #[test]
 fn a_directory_for_coq_can_have_any_name() {
-    let directory = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("it's $HOME, \"quoted\" & long");
-    let directory = directory.to_str().expect("UTF-8");
-    let output = contact(&["prove", "--coq", directory]);
-    assert_eq!(output.status.code(), Some(0));
-    let (_, commands) = stdout(&output).split_once('\n').expect("commands");
-    let script = format!("coqc() {{ test $# = 4 && printf '%s\\n' \"$2\" \"$4\"; }}\n{commands}");
-    let ran = Command::new("sh").args(["-c", &script]).output().expect("a shell");
-    let lines: Vec<_> = stdout(&ran).lines().collect();
-    assert!(lines.len() > 10 && ran.status.success(), "{script}");
-    for pair in lines.chunks(2) {
-        assert!(pair[0] == directory && std::path::Path::new(pair[1]).is_file(), "{pair:?}");
+    let long = "0123456789/".repeat(15);
+    for name in ["it's $HOME, \"quoted\" & long: * ~ ü a\\b", "-1/2", &long] {
+        let directory = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("coq").join(name);
+        let directory = directory.to_str().expect("UTF-8");
+        let output = contact(&["prove", "--coq", directory]);
+        assert_eq!(output.status.code(), Some(0), "{name}");
+        let (_, commands) = stdout(&output).split_once('\n').expect("commands");
+        let script = format!("coqc() {{ test $# = 4 && printf '%s\\n' \"$2\" \"$4\"; }}\n{commands}");
+        let ran = Command::new("sh").args(["-c", &script]).output().expect("a shell");
+        let lines: Vec<_> = stdout(&ran).lines().collect();
+        assert!(lines.len() > 10 && ran.status.success(), "{script}");
+        for pair in lines.chunks(2) {
+            assert!(pair[0] == directory && std::path::Path::new(pair[1]).is_file(), "{pair:?}");
+        }
+        // A page holds what can be broken.
+        let fits = |line: &str| line.chars().count() <= 80 || line.contains('\'');
+        assert!(commands.lines().all(fits), "{commands}");
     }
 }
 

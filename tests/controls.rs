@@ -6,7 +6,7 @@ use spring_mass_contact::claims::{registry, statements};
 use spring_mass_contact::formula::{Hypothesis, Relation, Statement};
 use spring_mass_contact::number::Exact;
 use spring_mass_contact::number::tree::piecewise;
-use spring_mass_contact::proof::controls::{Outcome, Without, changes, controls};
+use spring_mass_contact::proof::controls::{Effect, Without, changes, controls};
 use spring_mass_contact::proof::refute::{Point, Verdict, check, planted_points, raw_points};
 use spring_mass_contact::proof::{Counterexample, prove};
 use spring_mass_contact::rug::Rational;
@@ -24,16 +24,16 @@ fn value(hypothesis: &Hypothesis, point: &Point) -> Exact {
 #[test]
 fn no_change_of_a_formula_goes_unnoticed() {
     let controls = controls(&statements(), registry());
-    let unnoticed = controls.changes.iter().filter(|(_, outcome)| matches!(outcome, Outcome::Unnoticed));
+    let unnoticed = controls.changes.iter().filter(|(_, effect)| matches!(effect, Effect::Unnoticed));
     let unnoticed: Vec<_> = unnoticed.map(|(change, _)| change.to_string()).collect();
     assert!(unnoticed.is_empty(), "{unnoticed:#?}");
-    assert!(controls.counts().noticed > 600, "{:?}", controls.counts());
+    assert!(controls.summary().noticed > 600, "{:?}", controls.summary());
 }
 
 #[test]
 fn what_changes_nothing_is_only_the_order_in_a_square() {
-    for (change, outcome) in controls(&statements(), registry()).changes {
-        if matches!(outcome, Outcome::Unchanged) {
+    for (change, effect) in controls(&statements(), registry()).changes {
+        if matches!(effect, Effect::Unchanged) {
             assert!(change.to_string().ends_with("a − b → b − a"), "{change}");
         }
     }
@@ -162,8 +162,8 @@ fn a_counterexample_has_all_hypotheses_but_the_dropped_one() {
 fn counterexamples_are_small() {
     let controls = controls(&statements(), registry());
     let noticed = controls.changes.iter().filter_map(|(change, outcome)| match outcome {
-        Outcome::Noticed { counterexample, .. } => Some((change.to_string(), counterexample)),
-        Outcome::Unchanged | Outcome::Unnoticed => None,
+        Effect::Noticed { counterexample, .. } => Some((change.to_string(), counterexample)),
+        Effect::Unchanged | Effect::Unnoticed => None,
     });
     let dropped = controls.dropped.iter().filter_map(|dropped| match &dropped.without {
         Without::Refuted(counterexample) => Some((format!("{dropped:?}"), counterexample)),

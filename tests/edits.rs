@@ -7,7 +7,7 @@
 
 use proc_macro2::LineColumn;
 use spring_mass_contact::claims::{registry, statements};
-use spring_mass_contact::proof::controls::{Change, Outcome, What, changes, controls};
+use spring_mass_contact::proof::controls::{Change, Effect, What, changes, controls};
 use std::collections::{BTreeMap, HashMap};
 use std::fmt::Write as _;
 use std::io::{Read, Write as _};
@@ -339,8 +339,7 @@ fn a_mistake_in_any_formula_is_reported_in_time() {
     let well = run(&binary, 0, 10 * LIMIT);
     assert_eq!(well.code, Some(0), "without an edit: {}{}", well.stdout, well.stderr);
 
-    let outcomes: HashMap<Change, Outcome> =
-        controls(&statements(), registry()).changes.into_iter().collect();
+    let effects: HashMap<Change, Effect> = controls(&statements(), registry()).changes.into_iter().collect();
     let sample = env::var("EDITS").map_or(100, |count| count.parse().expect("a number of edits"));
     let stride = made.len().div_ceil(sample).max(1);
     let (mut times, mut amiss, mut elsewhere) = (Vec::new(), Vec::new(), Vec::new());
@@ -348,7 +347,7 @@ fn a_mistake_in_any_formula_is_reported_in_time() {
         let result = run(&binary, i + 1, LIMIT);
         let finding = first_finding(&result.stdout);
         // Some edits are proved to change nothing.
-        let wrong = !matches!(outcomes[change], Outcome::Unchanged);
+        let wrong = !matches!(effects[change], Effect::Unchanged);
         let said = format!("{:.1?} {:?} {change}: {}", result.time, result.code, finding.unwrap_or("-"));
         say(&said);
         if result.code != Some(i32::from(wrong)) || !result.stderr.is_empty() || finding.is_some() != wrong {

@@ -153,16 +153,12 @@ fn every_function_is_documented_in_the_same_order() {
                 .position(|line| found(line))
                 .unwrap_or_else(|| panic!("{path}: no {what} in its documentation"))
         };
-        // No formula where the item is a check and not a formula.
         let example = find("example", &|l| l == "```");
         let place =
             find("source", &|l| l.contains("Source: ") || l.contains("Beyond ") || l.contains("Source:"));
         assert!(place < example, "{path}: the example comes last");
-        if path != "penalty::broken_condition" {
-            let formula =
-                find("formula", &|l| l.starts_with('`') && !l.starts_with("```") && l.ends_with('`'));
-            assert!(0 < formula && formula < example, "{path}: name, formula, …, example");
-        }
+        let formula = find("formula", &|l| l.starts_with('`') && !l.starts_with("```") && l.ends_with('`'));
+        assert!(0 < formula && formula < example, "{path}: name, formula, …, example");
         for number in docs[0].split("Eq. (").skip(1).filter_map(|rest| rest.split(')').next()) {
             assert!(entry(number).is_some(), "{path}: ({number}) is no entry");
         }
@@ -171,8 +167,8 @@ fn every_function_is_documented_in_the_same_order() {
 
 #[test]
 fn every_formula_for_the_eye_is_the_one_that_is_computed() {
-    // Checks with the outcome yes or no, which leave no tree.
-    const UNRECORDED: [&str; 2] = ["penalty::broken_condition", "augmented::within_tolerance"];
+    // A check with the outcome yes or no, which leaves no tree.
+    const UNRECORDED: [&str; 1] = ["augmented::within_tolerance"];
     let formula = |l: &&String| l.starts_with('`') && !l.starts_with("```") && l.ends_with('`');
     for Item { path, docs } in functions() {
         let computed = registry().line(&path);
@@ -218,9 +214,7 @@ fn every_function_is_claimed_something_of() {
         let by_name = texts[module].match_indices(&own);
         let by_name = by_name.filter(|(i, _)| !texts[module][..*i].ends_with(is_part_of_name)).count();
         let by_path = texts.values().any(|text| text.contains(&format!("{path}(")));
-        // The named conditions on a penalty functional are tried in tests/penalty_limit.rs.
-        let claimed = by_name > 0 || by_path || path == "penalty::broken_condition";
-        assert!(claimed, "no claim speaks of {path}");
+        assert!(by_name > 0 || by_path, "no claim speaks of {path}");
     }
 }
 

@@ -7,8 +7,7 @@ mod strategies;
 
 use num_traits::Zero;
 use proptest::prelude::*;
-use spring_mass_contact::chapter::penalty::{self, PenaltyCondition};
-use spring_mass_contact::chapter::{SpringMass, contact, structure, system};
+use spring_mass_contact::chapter::{SpringMass, contact, penalty, structure, system};
 use spring_mass_contact::number::{Ball, Dual, Exact, Mpfr, OrderedField, ToExact};
 use spring_mass_contact::solver::{
     Outcome, SolveError, State, penalty_for_penetration, series_penetration, solve, solve_bilateral,
@@ -305,7 +304,7 @@ proptest! {
         let last = &energy / w(&int(1), &p) + int(1);
         let penalties = [&last / int(4), &last / int(2), last.clone()];
         let penetrations = [p.clone(), &p * int(2)];
-        prop_assert_eq!(penalty::broken_condition(w, &penalties, &penetrations, &energy), None);
+        prop_assert_eq!(broken_condition(w, &penalties, &penetrations, &energy), None);
         let scaled: Vec<_> = higher.iter().map(|e| e * &last).collect();
         // The residual at p is positive, so the root lies below.
         prop_assert!(penalty::series_residual(s, &(eps * &last), &scaled, &p) > int(0));
@@ -364,14 +363,50 @@ fn series_errors_name_the_argument() {
     assert_eq!(refused, SolveError::OutOfRange { quantity: "penalty" });
 }
 
+/// One of the three conditions on a penalty functional W_ε(p), §1.3.2 before (1.10).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum PenaltyCondition {
+    /// Condition 1.
+    VanishesAtContact,
+    /// Condition 2, for p > 0.
+    PositiveAndIncreasing,
+    /// Condition 3 as it has to read (note 3): in ε, at every p > 0; growth in p is not enough.
+    Unbounded,
+}
+
+/// The conditions before (1.10), tried on a functional `w(ε, p)`: the first one that is seen broken.
+///
+/// Tried at the `penalties` (> 0, increasing) and `penetrations` (> 0, increasing). Condition 3, with
+/// note 3's correction, asks that the last penalty lift W beyond `energy` at every penetration. With
+/// `energy` = R²/(2c) that is what keeps the penetration of a system below the least one tried, because
+/// a minimum of Π + W never has W > R²/(2c). `None` is no proof for other values. Source: §1.3.2.
+fn broken_condition(
+    w: impl Fn(&Exact, &Exact) -> Exact,
+    penalties: &[Exact],
+    penetrations: &[Exact],
+    energy: &Exact,
+) -> Option<PenaltyCondition> {
+    let increasing = |values: Vec<Exact>| values.is_sorted_by(|a, b| a < b);
+    let zero = Exact::zero();
+    if penalties.iter().any(|eps| !w(eps, &zero).is_zero()) {
+        return Some(PenaltyCondition::VanishesAtContact);
+    }
+    let with_p = |eps| increasing(std::iter::once(&zero).chain(penetrations).map(|p| w(eps, p)).collect());
+    let with_eps = |p| increasing(penalties.iter().map(|eps| w(eps, p)).collect());
+    if !penalties.iter().all(with_p) || !penetrations.iter().all(with_eps) {
+        return Some(PenaltyCondition::PositiveAndIncreasing);
+    }
+    let last = penalties.last()?;
+    (!penetrations.iter().all(|p| w(last, p) > *energy)).then_some(PenaltyCondition::Unbounded)
+}
+
 /// Functionals that break each condition, and note 3's two: one that meets the conditions as they are
 /// printed and is no penalty, one that is a penalty and does not meet them.
 #[test]
 fn broken_conditions_are_named() {
     let penalties: Vec<_> = (0..60).step_by(5).map(Exact::power_of_two).collect();
     let penetrations: Vec<_> = (-10..10).map(Exact::power_of_two).collect();
-    let broken =
-        |w: fn(&Exact, &Exact) -> Exact| penalty::broken_condition(w, &penalties, &penetrations, &int(4));
+    let broken = |w: fn(&Exact, &Exact) -> Exact| broken_condition(w, &penalties, &penetrations, &int(4));
     use PenaltyCondition::*;
     assert_eq!(broken(penalty::functional), None);
     assert_eq!(broken(|eps, p| penalty::series(eps, &[int(1), int(0), int(3)], p)), None);
@@ -395,8 +430,7 @@ fn broken_conditions_are_named() {
     assert_eq!(broken(|eps, p| eps * p * p / (int(1) + p * p)), None);
     // An energy never reached is named too, by the same functional that is a penalty for less.
     let high = Exact::power_of_two(100);
-    let broken_at =
-        |energy: &Exact| penalty::broken_condition(penalty::functional, &penalties, &penetrations, energy);
+    let broken_at = |energy: &Exact| broken_condition(penalty::functional, &penalties, &penetrations, energy);
     assert_eq!((broken_at(&int(4)), broken_at(&high)), (None, Some(Unbounded)));
     // Note 3: the penetration of the bounded functional is R/(c + 2) for ε → ∞, not 0: at ε it is the root
     // of c p + (2 − 1/(1 + ε)) p = R.

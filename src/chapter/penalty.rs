@@ -3,7 +3,7 @@
 //! As printed the second spring also pulls; the forms named *unilateral* only push.
 
 use super::{SpringMass, contact, structure, system};
-use crate::number::{Dual, Field, OrderedField, PositivePart};
+use crate::number::{Dual, Field, PositivePart};
 
 /// The penalty functional of (1.9), in J, at the penetration `p` in m: the energy of the second spring.
 ///
@@ -245,56 +245,4 @@ pub fn penalty_for<T: Field>(system: &SpringMass<T>, tolerance: &T) -> T {
 /// ```
 pub fn unilateral_deflection<T: PositivePart>(system: &SpringMass<T>, eps: &T) -> T {
     structure::deflection(system).min(&deflection(system, eps))
-}
-
-/// One of the three conditions on a penalty functional W_ε(p), §1.3.2 before (1.10).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
-#[non_exhaustive]
-pub enum PenaltyCondition {
-    /// Condition 1.
-    #[error("condition 1: W(0) = 0")]
-    VanishesAtContact,
-    /// Condition 2, for p > 0.
-    #[error("condition 2: W > 0 for p > 0, and strictly increasing in p and in ε")]
-    PositiveAndIncreasing,
-    /// Condition 3 as it has to read (note 3): in ε, at every p > 0; growth in p is not enough.
-    #[error("condition 3: W grows beyond all bounds with ε at every p > 0")]
-    Unbounded,
-}
-
-/// The conditions before (1.10), tried on a functional `w(ε, p)`: the first one that is seen broken.
-///
-/// Tried at the `penalties` (> 0, increasing) and `penetrations` (> 0, increasing). Condition 3, with
-/// note 3's correction, asks that the last penalty lift W beyond `energy` at every penetration. With
-/// `energy` = R²/(2c) that is what keeps the penetration of a system below the least one tried, because
-/// a minimum of Π + W never has W > R²/(2c). `None` is no proof for other values. Source: §1.3.2.
-///
-/// ```
-/// # use spring_mass_contact::chapter::penalty::{self, PenaltyCondition};
-/// let (penalties, penetrations) = ([1.0, 1e3, 1e6], [0.01, 0.1, 1.0]);
-/// let broken = |w: fn(&f64, &f64) -> f64| penalty::broken_condition(w, &penalties, &penetrations, &1.0);
-/// assert_eq!(broken(penalty::functional), None);
-/// assert_eq!(broken(|eps, p| eps * p * p + 1.0), Some(PenaltyCondition::VanishesAtContact));
-/// assert_eq!(broken(|eps, p| eps * p * (0.5 - p)), Some(PenaltyCondition::PositiveAndIncreasing));
-/// // It satisfies all three conditions as printed, and yet the penetration does not vanish.
-/// assert_eq!(broken(|eps, p| (1.0 - 0.5 / (1.0 + eps)) * p * p), Some(PenaltyCondition::Unbounded));
-/// ```
-pub fn broken_condition<T: OrderedField>(
-    w: impl Fn(&T, &T) -> T,
-    penalties: &[T],
-    penetrations: &[T],
-    energy: &T,
-) -> Option<PenaltyCondition> {
-    let increasing = |values: Vec<T>| values.is_sorted_by(|a, b| a < b);
-    let zero = T::zero();
-    if penalties.iter().any(|eps| !w(eps, &zero).is_zero()) {
-        return Some(PenaltyCondition::VanishesAtContact);
-    }
-    let with_p = |eps| increasing(std::iter::once(&zero).chain(penetrations).map(|p| w(eps, p)).collect());
-    let with_eps = |p| increasing(penalties.iter().map(|eps| w(eps, p)).collect());
-    if !penalties.iter().all(with_p) || !penetrations.iter().all(with_eps) {
-        return Some(PenaltyCondition::PositiveAndIncreasing);
-    }
-    let last = penalties.last()?;
-    (!penetrations.iter().all(|p| w(last, p) > *energy)).then_some(PenaltyCondition::Unbounded)
 }

@@ -1,6 +1,7 @@
 //! Fig. 1.1: a mass on a spring over a rigid plane, and what is derived from its five parameters.
 
 use crate::number::Field;
+use std::fmt;
 
 /// Fig. 1.1: the system. A mass hangs on a spring from a support; a rigid plane lies below it.
 ///
@@ -40,6 +41,20 @@ impl<T> SpringMass<T> {
     pub fn try_map<U, E>(&self, mut f: impl FnMut(&T) -> Result<U, E>) -> Result<SpringMass<U>, E> {
         let SpringMass { c, m, g, l, h } = self;
         Ok(SpringMass { c: f(c)?, m: f(m)?, g: f(g)?, l: f(l)?, h: f(h)? })
+    }
+}
+
+/// With symbols and units.
+///
+/// ```
+/// # use spring_mass_contact::chapter::SpringMass;
+/// let system = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
+/// assert_eq!(system.to_string(), "c = 100 N/m, m = 1 kg, g = 9.81 m/s², l = 1 m, H = 1.05 m");
+/// ```
+impl<T: fmt::Display> fmt::Display for SpringMass<T> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let SpringMass { c, m, g, l, h } = self;
+        write!(f, "c = {c} N/m, m = {m} kg, g = {g} m/s², l = {l} m, H = {h} m")
     }
 }
 

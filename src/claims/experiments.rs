@@ -8,7 +8,7 @@ use crate::chapter::{SpringMass, augmented, contact, penalty, structure, system}
 use crate::formula::Hypothesis;
 use crate::number::{Exact, Field, OrderedField, PositivePart, Real, ToExact};
 use crate::solver::{
-    Augmentation, Interval, Method, Outcome, Plane, Scalar, Solution, State, Step, augmentations_needed,
+    Augmentation, Interval, Iterate, Method, Outcome, Plane, Scalar, Solution, State, augmentations_needed,
     rounding_floor, series_penetration, solve, solve_bilateral,
 };
 use num_traits::{One, Zero};
@@ -215,7 +215,7 @@ impl Setting {
     fn drift<T: Scalar + Real + ToExact>(
         &self,
         x: &Case<T>,
-        computed: impl Fn(&Step<T>) -> Option<Exact>,
+        computed: impl Fn(&Iterate<T>) -> Option<Exact>,
         after: impl Fn(&Exact) -> Exact,
         bound: Exact,
     ) -> Trial {
@@ -418,7 +418,7 @@ fn units<T: Scalar + Real + ToExact>(x: &Case<T>) -> Trial {
 /// The closed forms of λ_k and u_k are quotients, of degree k + 1 at most in c and ε, and of degree 1 in everything
 /// else. So with the digits s of all that is given, numerators and denominators counted, both parts of each
 /// fraction are products of 2 (k + 1) s digits at most; two of them are 8 (k + 1) s. What is left over are carries.
-fn exact_steps(x: &Case<Exact>, start: Exact, plane: Plane) -> impl Iterator<Item = Step<Exact>> {
+fn exact_steps(x: &Case<Exact>, start: Exact, plane: Plane) -> impl Iterator<Item = Iterate<Exact>> {
     let SpringMass { c, m, g, l, h } = &x.system;
     let given: u64 = [c, m, g, l, h, &x.eps, &start].into_iter().map(Exact::digits).sum();
     let steps = Augmentation::new(&x.system, &x.eps).from_multiplier(start).over(plane).take(STEPS);
@@ -431,7 +431,7 @@ fn exact_steps(x: &Case<Exact>, start: Exact, plane: Plane) -> impl Iterator<Ite
 fn count(x: &Case<Exact>, plane: Plane) -> Trial {
     let k = augmentations_needed(&x.system, &x.eps, &x.tol, &x.lambda, plane);
     let Some(k) = k.to_usize().filter(|k| *k < STEPS) else { return Trial::Undecided };
-    let residual = |step: &Step<Exact>| match plane {
+    let residual = |step: &Iterate<Exact>| match plane {
         Plane::Unilateral => {
             augmented::natural_residual(&x.system, &x.eps, &step.multiplier, &step.deflection)
         }

@@ -25,6 +25,8 @@ mod mpfr;
 mod parse;
 #[cfg(feature = "mpfr")]
 mod system;
+#[cfg(feature = "mpfr")]
+mod text;
 pub mod tree;
 
 pub use ball::Ball;
@@ -38,4 +40,8 @@ pub use mpfr::{Mpfr, PRECISIONS};
 pub use parse::{MAX_EXPONENT, ParseError, RangeError};
 #[cfg(feature = "mpfr")]
 pub use system::{NumberSystem, UnknownNumberSystem};
+#[cfg(feature = "mpfr")]
+pub use text::Text;
+#[cfg(feature = "serde")]
+pub(crate) use text::{quantity, serialize_as_displayed};
 pub use tree::Tree;

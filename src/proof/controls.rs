@@ -235,6 +235,9 @@ impl fmt::Display for Change {
     }
 }
 
+#[cfg(feature = "serde")]
+crate::number::serialize_as_displayed!(Change);
+
 impl Change {
     fn edit(&self, tree: &Tree) -> Option<Tree> {
         if tree.site() == self.site { self.what.edit(tree) } else { None }
@@ -294,7 +297,7 @@ pub fn changes(statements: &[Statement], registry: &Registry) -> Vec<Change> {
 
 /// What became of a change.
 #[derive(Clone, Debug)]
-pub enum Outcome {
+pub enum Effect {
     /// A claim no longer holds.
     Noticed {
         /// The claim's entry.
@@ -338,14 +341,15 @@ pub struct Dropped {
 #[derive(Clone, Debug, Default)]
 pub struct Controls {
     /// In the order of the source.
-    pub changes: Vec<(Change, Outcome)>,
+    pub changes: Vec<(Change, Effect)>,
     /// In the order of the statements.
     pub dropped: Vec<Dropped>,
 }
 
-/// How many controls came out how.
+/// What changes came to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Counts {
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Summary {
     /// Changes.
     pub changes: usize,
     /// Of these, noticed by a claim.
@@ -354,36 +358,23 @@ pub struct Counts {
     pub unchanged: usize,
     /// Neither.
     pub unnoticed: usize,
-    /// Hypotheses.
-    pub hypotheses: usize,
-    /// Of these, needed: without it the claim is refuted.
-    pub refuted: usize,
-    /// Not needed: without it the claim is proved.
-    pub still_true: usize,
-    /// Neither.
-    pub unknown: usize,
 }
 
 impl Controls {
-    /// The summary.
-    pub fn counts(&self) -> Counts {
-        let mut counts =
-            Counts { changes: self.changes.len(), hypotheses: self.dropped.len(), ..Counts::default() };
-        for (_, outcome) in &self.changes {
-            match outcome {
-                Outcome::Noticed { .. } => counts.noticed += 1,
-                Outcome::Unchanged => counts.unchanged += 1,
-                Outcome::Unnoticed => counts.unnoticed += 1,
-            }
+    /// How many changes came to what.
+    pub fn summary(&self) -> Summary {
+        let count = |of: fn(&Effect) -> bool| self.changes.iter().filter(|(_, effect)| of(effect)).count();
+        Summary {
+            changes: self.changes.len(),
+            noticed: count(|effect| matches!(effect, Effect::Noticed { .. })),
+            unchanged: count(|effect| matches!(effect, Effect::Unchanged)),
+            unnoticed: count(|effect| matches!(effect, Effect::Unnoticed)),
         }
-        for dropped in &self.dropped {
-            match dropped.without {
-                Without::Refuted(_) => counts.refuted += 1,
-                Without::StillTrue => counts.still_true += 1,
-                Without::Unknown => counts.unknown += 1,
-            }
-        }
-        counts
+    }
+
+    /// Hypotheses that are not seen to be needed: without them the claim is not refuted.
+    pub fn needless(&self) -> impl Iterator<Item = &Dropped> {
+        self.dropped.iter().filter(|dropped| !matches!(dropped.without, Without::Refuted(_)))
     }
 }
 
@@ -391,7 +382,7 @@ impl Controls {
 pub fn controls(statements: &[Statement], registry: &Registry) -> Controls {
     let bench = Bench::new(statements, registry);
     let changes = changes(statements, registry);
-    let changes = changes.into_par_iter().map(|change| (change, bench.outcome(&change))).collect();
+    let changes = changes.into_par_iter().map(|change| (change, bench.effect(&change))).collect();
     let all = |of: usize| (0..statements[of].hypotheses.len()).map(move |i| (of, i));
     let hypotheses: Vec<_> = (0..statements.len()).flat_map(all).collect();
     let dropped = hypotheses.into_par_iter().map(|(of, i)| Dropped {
@@ -471,7 +462,7 @@ impl<'a> Bench<'a> {
         Bench { statements, registry, symbols, by_site, points, own, less }
     }
 
-    fn outcome(&self, change: &Change) -> Outcome {
+    fn effect(&self, change: &Change) -> Effect {
         let touched = || {
             let statements = self.by_site.get(&change.site).into_iter().flatten();
             statements.filter_map(|&i| Some((i, change.apply(&self.statements[i])?)))
@@ -483,14 +474,14 @@ impl<'a> Bench<'a> {
             let points = own.as_ref().unwrap_or(&self.points[self.own[i]]);
             let counterexample =
                 if thoroughly { points.thoroughly(&changed) } else { points.quickly(&changed) }?;
-            Some(Outcome::Noticed { equation: original.equation, name: original.name, counterexample })
+            Some(Effect::Noticed { equation: original.equation, name: original.name, counterexample })
         };
         let unchanged = || touched().all(|(i, _)| change.changes_nothing(&self.statements[i], self.registry));
         touched()
             .find_map(|pair| noticed(pair, false))
-            .or_else(|| unchanged().then_some(Outcome::Unchanged))
+            .or_else(|| unchanged().then_some(Effect::Unchanged))
             .or_else(|| touched().find_map(|pair| noticed(pair, true)))
-            .unwrap_or(Outcome::Unnoticed)
+            .unwrap_or(Effect::Unnoticed)
     }
 
     fn without(&self, statement: usize, hypothesis: usize) -> Without {
@@ -563,9 +554,9 @@ mod tests {
     fn what_does_not_matter_is_proved_not_to() {
         let statements = [expanded("expanded", &[])];
         let Controls { changes, .. } = controls(&statements, &registry());
-        let kept = changes.iter().filter(|(_, outcome)| matches!(outcome, Outcome::Unchanged));
+        let kept = changes.iter().filter(|(_, outcome)| matches!(outcome, Effect::Unchanged));
         assert_eq!(kept.map(|(change, _)| change.what).collect::<Vec<_>>(), [What::Swap(Operator::Sub)]);
-        assert_eq!(controls(&statements, &registry()).counts().unnoticed, 0);
+        assert_eq!(controls(&statements, &registry()).summary().unnoticed, 0);
     }
 
     /// A claim that supposes more than it needs, and more than it could need: dropped, the one is no loss, the other is.
@@ -575,11 +566,12 @@ mod tests {
         // a/a = 1 needs a > 0, whatever b is.
         let claim = Claim::new("one", &[&above, &below], Kind::Equal(x("a") / x("a"), Tree::from(1)));
         let controls = controls(&[Statement::of(&claim)], &registry());
-        let became = |given| controls.dropped.iter().find(|d| d.given == given).map(|d| &d.without);
-        assert!(matches!(became(above), Some(Without::Refuted(_))), "{:?}", controls.dropped);
-        assert!(matches!(became(below), Some(Without::StillTrue)), "{:?}", controls.dropped);
-        let Counts { hypotheses, refuted, still_true, unknown, .. } = controls.counts();
-        assert_eq!([hypotheses, refuted, still_true, unknown], [2, 1, 1, 0]);
+        let became =
+            |given: &Hypothesis| controls.dropped.iter().find(|d| d.given == *given).map(|d| &d.without);
+        assert!(matches!(became(&above), Some(Without::Refuted(_))), "{:?}", controls.dropped);
+        assert!(matches!(became(&below), Some(Without::StillTrue)), "{:?}", controls.dropped);
+        let needless: Vec<_> = controls.needless().map(|dropped| &dropped.given).collect();
+        assert_eq!((controls.dropped.len(), needless), (2, vec![&below]));
     }
 
     #[test]

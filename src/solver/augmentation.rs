@@ -4,19 +4,24 @@ use super::Plane;
 use crate::chapter::{SpringMass, augmented, contact, structure};
 use crate::number::OrderedField;
 
-/// One step of (1.16).
+/// What one step of (1.16) arrives at.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Step<T> {
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound = "T: crate::number::Text"))]
+pub struct Iterate<T> {
     /// The counter k, from 0.
     pub k: u64,
     /// λ_k, in N.
+    #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
     pub multiplier: T,
     /// u_k, in m.
+    #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
     pub deflection: T,
     /// p_k, in m.
+    #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
     pub penetration: T,
     /// m g − c u_k, in N: the force that is in equilibrium with u_k; 0 where the mass hangs free. In
     /// exact arithmetic it is λ_{k+1} (note 6).
+    #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
     pub contact_force: T,
 }
 
@@ -69,7 +74,7 @@ impl<'a, T: OrderedField> Augmentation<'a, T> {
     }
 
     /// The next step; there always is one.
-    pub fn step(&mut self) -> Step<T> {
+    pub fn step(&mut self) -> Iterate<T> {
         let Augmentation { system, penalty, plane, .. } = *self;
         let lambda = &self.multiplier;
         let (u, force, next) = match plane {
@@ -88,7 +93,7 @@ impl<'a, T: OrderedField> Augmentation<'a, T> {
                 (u, force, next)
             }
         };
-        let step = Step {
+        let iterate = Iterate {
             k: self.k,
             multiplier: std::mem::replace(&mut self.multiplier, next),
             penetration: contact::penetration(system, &u),
@@ -96,13 +101,13 @@ impl<'a, T: OrderedField> Augmentation<'a, T> {
             contact_force: force,
         };
         self.k += 1;
-        step
+        iterate
     }
 }
 
 impl<T: OrderedField> Iterator for Augmentation<'_, T> {
-    type Item = Step<T>;
-    fn next(&mut self) -> Option<Step<T>> {
+    type Item = Iterate<T>;
+    fn next(&mut self) -> Option<Iterate<T>> {
         Some(self.step())
     }
 }

@@ -2,8 +2,6 @@
 
 use super::{Method, Scalar, Solution};
 use crate::chapter::{SpringMass, penalty, structure, system};
-#[cfg(feature = "mpfr")]
-use crate::number::{Exact, ParseError};
 
 /// Why there is no solution to return.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -18,17 +16,6 @@ pub enum SolveError {
         value: String,
         /// What it may be.
         allowed: &'static str,
-    },
-    /// A parameter that does not spell a number.
-    #[cfg(feature = "mpfr")]
-    #[error("{argument} '{value}': {reason}")]
-    NotANumber {
-        /// The parameter's name.
-        argument: &'static str,
-        /// What it was.
-        value: String,
-        /// What is wrong with it.
-        reason: ParseError,
     },
     /// A result that the scalar cannot hold.
     #[error("the {quantity} leaves the range of this scalar; use MPFR (mpfr:BITS) or exact rationals")]
@@ -125,38 +112,4 @@ pub(super) fn finite<T: Scalar>(solution: &Solution<T>) -> Result<(), SolveError
     in_range(solution.deflection.is_finite(), "deflection")?;
     in_range(solution.penetration.is_finite(), "penetration")?;
     in_range(solution.contact_force.is_finite(), "contact force")
-}
-
-#[cfg(feature = "mpfr")]
-impl<S: AsRef<str>> SpringMass<S> {
-    /// Reads a system from texts, exactly, and checks it.
-    ///
-    /// # Errors
-    /// A text that is not a number, or a parameter outside its range.
-    ///
-    /// ```
-    /// use spring_mass_contact::{chapter::SpringMass, number::Exact};
-    /// let system = SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" }.parse()?;
-    /// assert_eq!(system.try_map(Exact::to_f64).unwrap().g, 9.81);
-    /// let error = SpringMass { c: "-1", m: "1", g: "9.81", l: "1", h: "1.05" }.parse().unwrap_err();
-    /// assert_eq!(error.to_string(), "stiffness -1: must be greater than 0 and finite");
-    /// # Ok::<(), spring_mass_contact::solver::SolveError>(())
-    /// ```
-    pub fn parse(&self) -> Result<SpringMass<Exact>, SolveError> {
-        let number = |argument, text: &S| {
-            let text = text.as_ref();
-            let refused = |reason| SolveError::NotANumber { argument, value: text.to_string(), reason };
-            text.parse::<Exact>().map_err(refused)
-        };
-        let SpringMass { c, m, g, l, h } = self;
-        let parsed = SpringMass {
-            c: number("stiffness", c)?,
-            m: number("mass", m)?,
-            g: number("gravity", g)?,
-            l: number("free length", l)?,
-            h: number("height", h)?,
-        };
-        system(&parsed)?;
-        Ok(parsed)
-    }
 }

@@ -2,9 +2,11 @@
 
 use crate::number::{Ball, OrderedField, PositivePart, Real};
 #[cfg(feature = "mpfr")]
-use crate::number::{Exact, Mpfr, ToExact};
+use crate::number::{Exact, Mpfr, Text, ToExact};
 #[cfg(feature = "mpfr")]
 use num_traits::Zero;
+#[cfg(feature = "mpfr")]
+use rug::float::Round;
 use std::cmp::Ordering;
 
 /// Two numbers, and all between them.
@@ -14,6 +16,28 @@ pub struct Interval<T> {
     pub lower: T,
     /// The larger one.
     pub upper: T,
+}
+
+#[cfg(feature = "mpfr")]
+impl<T: Text> Interval<T> {
+    /// Both ends as texts that still enclose.
+    ///
+    /// ```
+    /// # use spring_mass_contact::solver::Interval;
+    /// // The f64 beside 0.1 is a little larger than 0.1.
+    /// assert_eq!(Interval { lower: 0.1, upper: 0.1 }.texts(), ["0.1", "0.10000000000000002"]);
+    /// ```
+    pub fn texts(&self) -> [String; 2] {
+        [self.lower.bound(Round::Down), self.upper.bound(Round::Up)]
+    }
+}
+
+/// As its two texts.
+#[cfg(feature = "serde")]
+impl<T: Text> serde::Serialize for Interval<T> {
+    fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        self.texts().serialize(to)
+    }
 }
 
 /// Numbers that [`solve`](super::solve) takes: f32, f64, [`Mpfr`](crate::number::Mpfr) and

@@ -8,11 +8,12 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// A function of the chapter in which there may be a mistake.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Suspect {
-    /// Its path: `penalty::deflection`.
-    pub function: &'static str,
     /// The entry whose own function it is, or which names it.
     pub equation: Option<&'static str>,
+    /// Its path: `penalty::deflection`.
+    pub function: &'static str,
     /// Of the claims that speak of it, so many are not proved; 0 if it computes nothing, but hands on an argument: then no
     /// claim can be seen to speak of it.
     pub unproved: usize,
@@ -93,7 +94,7 @@ fn own_sites(path: &str, tree: &Tree, sites: &mut BTreeSet<Site>) {
 mod tests {
     use super::*;
     use crate::claims::statements;
-    use crate::proof::controls::{Change, Outcome, controls};
+    use crate::proof::controls::{Change, Effect, controls};
     use crate::proof::prove;
     use rayon::prelude::*;
 
@@ -110,14 +111,14 @@ mod tests {
     fn a_changed_function_is_suspected_and_hardly_another() {
         let statements = statements();
         let noticed = controls(&statements, registry()).changes;
-        let noticed: Vec<_> = noticed.iter().filter(|(_, o)| matches!(o, Outcome::Noticed { .. })).collect();
+        let noticed: Vec<_> = noticed.iter().filter(|(_, o)| matches!(o, Effect::Noticed { .. })).collect();
         let is_in = |function: &str, change: &Change| {
             let mut sites = BTreeSet::new();
             let own = registry().formulas().iter().filter(|formula| formula.path == function);
             own.for_each(|formula| own_sites(formula.path, &formula.tree, &mut sites));
             sites.contains(&change.site)
         };
-        let found = |(change, _): &&(Change, Outcome)| {
+        let found = |(change, _): &&(Change, Effect)| {
             let suspects = after(change, &statements);
             assert!((1..=3).contains(&suspects.len()), "{change}: {suspects:?}");
             suspects.iter().any(|function| is_in(function, change))

@@ -4,7 +4,7 @@ mod changed;
 
 use super::checker::Judge;
 use super::*;
-use crate::claims::{Experiment, Trial};
+use crate::claims::{Experiment, Trial, Var};
 use crate::formula::statement::{Goal, Says};
 use crate::formula::{Claim, Kind, Relation};
 use crate::number::{Exponential, Field, PositivePart, Tree};
@@ -314,25 +314,6 @@ fn only_what_is_asked_for_is_tried_and_progress_says_how_far() {
     assert_eq!(seen, [(1, 2), (2, 2)]);
 }
 
-/// c > 0 and m > 0, and a penalty where there is one.
-#[test]
-fn only_a_system_that_can_be_solved_has_a_command_line() {
-    let with = |c: &str, m: &str, eps: &str| {
-        let mut case = Case::of(|_| Exact::from(2));
-        let number = |text: &str| text.parse().unwrap();
-        (case.system.c, case.system.m, case.eps) = (number(c), number(m), number(eps));
-        command_line(&case)
-    };
-    for (c, m) in [("0", "1"), ("1", "0"), ("-1", "1"), ("1", "-1"), ("0", "0")] {
-        assert_eq!(with(c, m, "1"), None, "c = {c}, m = {m}");
-    }
-    let system =
-        "contact solve --scalar exact --stiffness 1/3 --mass 5 --gravity 2 --free-length 2 --height 2";
-    for (eps, more) in [("7", " --method penalty --penalty 7"), ("0", ""), ("-1", "")] {
-        assert_eq!(with("1/3", "5", eps), Some(format!("{system}{more}")));
-    }
-}
-
 #[test]
 fn the_rows_of_a_claim_stand_together_in_the_order_of_the_chapter() {
     let report = verify(&Options { cases: 1, ..Options::default() }, &|_, _| ());
@@ -348,4 +329,44 @@ fn the_rows_of_a_claim_stand_together_in_the_order_of_the_chapter() {
         };
         assert!(ways.is_sorted_by_key(order), "{ways:?}");
     }
+}
+
+/// Every key is always there, quantities are texts, and a counterexample has all coordinates.
+#[cfg(feature = "serde")]
+#[test]
+fn json_shows_how_a_claim_fails() {
+    let case = Case::of(|_| "7/3".parse().unwrap());
+    let row = |status, counterexample: Option<Case<Exact>>| Row {
+        equation: "1.13",
+        claim: "rate",
+        kind: "equal",
+        status,
+        scalar: Some(NumberSystem::Mpfr(2)),
+        why: counterexample.as_ref().map(|_| "division by zero".to_string()),
+        decided: 4,
+        undecided: 1,
+        worst: counterexample.as_ref().map(|_| (2.5, "1/8".to_string())),
+        counterexample,
+    };
+    let rows = vec![row(Status::Failed, Some(case)), row(Status::Undecided, None)];
+    let suspect = Suspect { equation: None, function: "penalty::deflection", unproved: 7, proved: 2 };
+    let report = Report { rows, suspects: vec![suspect], repairs: Vec::new() };
+    let coordinates: std::collections::BTreeMap<_, _> =
+        Var::ALL.iter().map(|var| (var.symbol(), "7/3")).collect();
+    let expected = serde_json::json!({
+        "summary": {"claims": 2, "proved": 0, "held": 0, "undecided": 1, "failed": 1},
+        "suspects": [{"equation": null, "function": "penalty::deflection", "unproved": 7, "proved": 2}],
+        "repairs": [],
+        "equations": [{"equation": "1.13", "claims": [
+            {
+                "claim": "rate", "kind": "equal", "status": "failed", "scalar": "mpfr:2", "why": "division by zero",
+                "decided": 4, "undecided": 1, "worst": "2.5", "bound": "1/8", "counterexample": coordinates
+            },
+            {
+                "claim": "rate", "kind": "equal", "status": "undecided", "scalar": "mpfr:2", "why": null,
+                "decided": 4, "undecided": 1, "worst": null, "bound": null, "counterexample": null
+            }
+        ]}]
+    });
+    assert_eq!(serde_json::to_value(&report).unwrap(), expected);
 }

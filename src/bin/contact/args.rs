@@ -4,15 +4,12 @@ use crate::output::Failure;
 use crate::text::shortened;
 use num_traits::Zero;
 use spring_mass_contact::chapter::SpringMass;
-use spring_mass_contact::claims::entries;
+use spring_mass_contact::claims::{all_numbered, entries, numbered};
 use spring_mass_contact::number::{Exact, ToExact};
 
 /// The arguments, if they are plain text: others could only garble the one line of an error.
-///
-/// clap takes `-1/2` for an option; joined to the option before it, `--gravity=-1/2`, it is a value. (To
-/// allow it values that begin with a hyphen would hide that the value of `--mass --gravity 9` is missing.)
 pub fn plain() -> Result<Vec<String>, Failure> {
-    let mut arguments: Vec<String> = Vec::new();
+    let mut arguments = Vec::new();
     for argument in std::env::args_os() {
         let text = argument
             .into_string()
@@ -21,16 +18,25 @@ pub fn plain() -> Result<Vec<String>, Failure> {
             let quoted = shortened(&format!("{text:?}"));
             return Err(format!("argument {quoted}: must have no control characters").into());
         }
+        arguments.push(text);
+    }
+    Ok(joined(arguments))
+}
+
+/// clap takes `-1/2` for an option; joined to the option before it, `--gravity=-1/2`, it is a value. (To
+/// allow it values that begin with a hyphen would hide that the value of `--mass --gravity 9` is missing.)
+pub fn joined(arguments: impl IntoIterator<Item = String>) -> Vec<String> {
+    let mut joined: Vec<String> = Vec::new();
+    for text in arguments {
         let negative = text.len() > 1 && text.starts_with('-') && !text.starts_with("--");
-        match arguments.last_mut() {
+        match joined.last_mut() {
             Some(option) if negative && takes_a_value(option) && text != "-h" && text != "-V" => {
-                option.push('=');
-                option.push_str(&text);
+                *option += &format!("={text}");
             }
-            _ => arguments.push(text),
+            Some(_) | None => joined.push(text),
         }
     }
-    Ok(arguments)
+    joined
 }
 
 /// Not a control character of any kind: some turn the line around or end it and are no `char::is_control`.
@@ -108,184 +114,44 @@ pub struct System {
 }
 
 impl System {
+    /// As it was typed.
+    pub fn typed(&self) -> SpringMass<&Number> {
+        let System { stiffness, mass, gravity, free_length, height } = self;
+        SpringMass { c: stiffness, m: mass, g: gravity, l: free_length, h: height }
+    }
+
     /// Each parameter rounded once into the scalar that `like` has.
     pub fn round<T: ToExact>(&self, like: &T) -> Result<SpringMass<T>, Failure> {
+        let SpringMass { c, m, g, l, h } = self.typed();
         Ok(SpringMass {
-            c: self.stiffness.round("--stiffness <C>", like)?,
-            m: self.mass.round("--mass <M>", like)?,
-            g: self.gravity.round("--gravity <G>", like)?,
-            l: self.free_length.round("--free-length <L>", like)?,
-            h: self.height.round("--height <H>", like)?,
+            c: c.round("--stiffness <C>", like)?,
+            m: m.round("--mass <M>", like)?,
+            g: g.round("--gravity <G>", like)?,
+            l: l.round("--free-length <L>", like)?,
+            h: h.round("--height <H>", like)?,
         })
     }
 }
 
-/// A number of the chapter that it has, in any of the ways that numbers are written: `1.13`, `(1.13)`,
-/// `Eq. (1.13)`, `theorem 1.3.3`, `Fig 1.2`.
+const NUMBER: &str =
+    "must be a number of the chapter as `contact equations` lists them, such as 1.13 or 'Theorem 1.3.3'";
+
+/// A number of the chapter that it has, however it is written.
 pub fn equation(text: &str) -> Result<String, String> {
-    let wanted = name_and_number(text);
-    let known = entries().iter().find(|entry| name_and_number(entry.equation) == wanted);
-    known.map(|entry| entry.equation.to_string()).ok_or_else(|| {
-        "must be a number of the chapter as `contact equations` lists them, such as 1.13 or 'Theorem 1.3.3'"
-            .to_string()
-    })
+    numbered(text).map(|entry| entry.equation.to_string()).ok_or_else(|| NUMBER.to_string())
 }
 
 /// The numbers that the words of a line are; of `theorem 1.3.3`, two of them.
 pub fn equations(words: &[String]) -> Result<Vec<String>, Failure> {
-    let mut numbers = Vec::new();
-    let mut left = words;
-    while let [word, rest @ ..] = left {
-        let is_name = !word.is_empty() && word.chars().all(|c| c.is_alphabetic() || c == '.');
-        let (number, rest) = match (equation(word), rest) {
-            // A name alone is no number, so it can only belong to the word behind it.
-            (Err(why), [next, rest @ ..]) if is_name => {
-                (equation(&format!("{word} {next}")).map_err(|_| why), rest)
-            }
-            (number, rest) => (number, rest),
-        };
-        numbers.push(number.map_err(|why| {
-            Failure::Input(format!("invalid value '{}' for '[NUMBER]...': {why}", shortened(word)))
-        })?);
-        left = rest;
-    }
-    Ok(numbers)
+    let refused = |word: &str| {
+        Failure::Input(format!("invalid value '{}' for '[NUMBER]...': {NUMBER}", shortened(word)))
+    };
+    let entries = all_numbered(words).map_err(refused)?;
+    Ok(entries.iter().map(|entry| entry.equation.to_string()).collect())
 }
 
 /// What has a name and this number, which may have got apart.
 pub fn named(number: &str) -> Option<&'static str> {
-    let mut named = entries().iter().map(|entry| entry.equation).filter(|equation| *equation != number);
-    named.find(|equation| name_and_number(equation).1 == number)
-}
-
-/// What a number is called, none for an equation, and its digits, without how they are written.
-fn name_and_number(text: &str) -> (String, &str) {
-    let bare = |text| {
-        let text = str::trim(text);
-        text.strip_prefix('(').and_then(|text| text.strip_suffix(')')).map_or(text, str::trim)
-    };
-    let text = bare(text);
-    let (name, number) = text.split_at(text.find(|c: char| !c.is_alphabetic()).unwrap_or(text.len()));
-    let name = name.to_lowercase();
-    let number = if name.is_empty() { number } else { number.strip_prefix('.').unwrap_or(number) };
-    let name = match name.as_str() {
-        "eq" | "eqn" | "equation" => "",
-        "figure" => "fig",
-        "rem" => "remark",
-        "thm" => "theorem",
-        other => other,
-    };
-    (name.to_string(), bare(number))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_number_is_understood_however_it_is_written() {
-        for (number, ways) in [
-            ("1.13", ["(1.13)", "( 1.13 )", " 1.13", "eq 1.13", "Eq. (1.13)", "EQN.1.13", "(equation 1.13)"]),
-            (
-                "Theorem 1.3.3",
-                [
-                    "theorem 1.3.3",
-                    "THEOREM  1.3.3",
-                    "Theorem1.3.3",
-                    "Thm. 1.3.3",
-                    "thm 1.3.3",
-                    "theorem (1.3.3)",
-                    "(Theorem 1.3.3)",
-                ],
-            ),
-            (
-                "Fig. 1.2",
-                ["Fig 1.2", "fig. 1.2", "fig 1.2", "FIG.1.2", "figure 1.2", "Figure (1.2)", "(Fig. 1.2)"],
-            ),
-            (
-                "Remark 1.3.2",
-                [
-                    "remark 1.3.2",
-                    "Remark. 1.3.2",
-                    "rem. 1.3.2",
-                    "Rem 1.3.2",
-                    "REMARK 1.3.2",
-                    "remark (1.3.2)",
-                    "remark1.3.2",
-                ],
-            ),
-            ("note 4", ["Note 4", "NOTE 4", "note4", "note  4", "note (4)", "(note 4)", "Note. 4"]),
-            (
-                "beyond 2",
-                ["Beyond 2", "BEYOND 2", "beyond2", "beyond  2", "beyond (2)", "(beyond 2)", " beyond 2 "],
-            ),
-        ] {
-            for way in ways.into_iter().chain([number]) {
-                assert_eq!(equation(way).as_deref(), Ok(number), "{way}");
-            }
-        }
-    }
-
-    #[test]
-    fn every_number_is_itself_and_its_label() {
-        for entry in entries() {
-            assert_eq!(equation(entry.equation).as_deref(), Ok(entry.equation));
-            assert_eq!(equation(&entry.label()).as_deref(), Ok(entry.equation));
-        }
-    }
-
-    /// A section's number is no theorem's, and one figure's no equation's.
-    #[test]
-    fn what_is_no_number_is_not_guessed() {
-        for text in [
-            "",
-            " ",
-            "()",
-            ".",
-            "9.9",
-            "1.130",
-            "01.13",
-            "1.13.",
-            ".1.13",
-            "1,13",
-            "(1.13",
-            "1.13)",
-            "1.3.3",
-            "4",
-            "note",
-            "theorem",
-            "theorem 1.13",
-            "note 1.13",
-            "note 7",
-            "eq note 4",
-            "eq",
-            "section 1.3.3",
-            "-1.13",
-            "1.13 1.14",
-            "notes 4",
-            "fig.. 1.2",
-        ] {
-            assert!(equation(text).is_err(), "{text}");
-        }
-    }
-
-    #[test]
-    fn a_name_and_its_number_may_be_two_words() {
-        let numbers = |line: &str| equations(&line.split('|').map(String::from).collect::<Vec<_>>()).ok();
-        for (line, expected) in [
-            ("theorem|1.3.3", ["Theorem 1.3.3"].as_slice()),
-            ("Fig.|1.2|1.13|eq.|(1.16)", &["Fig. 1.2", "1.13", "1.16"]),
-            ("note 4|note|5", &["note 4", "note 5"]),
-        ] {
-            assert_eq!(
-                numbers(line).as_deref(),
-                Some(expected.iter().map(|n| n.to_string()).collect::<Vec<_>>().as_slice()),
-                "{line}"
-            );
-        }
-        for line in ["theorem", "1.1|", "|1.1", "1.1|theorem", "theorem|1.13", "1.3.3|theorem", "note|note 4"]
-        {
-            assert_eq!(numbers(line), None, "{line}");
-        }
-    }
+    let mut equations = entries().iter().map(|entry| entry.equation);
+    equations.find(|equation| equation.split_once(' ').is_some_and(|(_, own)| own == number))
 }

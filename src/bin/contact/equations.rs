@@ -1,9 +1,8 @@
 //! `contact equations`: the chapter as data.
 
 use crate::args;
-use crate::output::{self, Failure, Status};
+use crate::output::{self, Exit, Failure};
 use clap::ValueEnum;
-use serde::Serialize;
 use spring_mass_contact::claims::{Entry, claim_names, entries, statements};
 use spring_mass_contact::proof::prove;
 use std::io::{self, Write};
@@ -39,27 +38,14 @@ enum Format {
     Dot,
 }
 
-#[derive(Serialize)]
-struct Row {
-    equation: &'static str,
-    title: &'static str,
-    section: &'static str,
-    statement: String,
-    latex: Option<String>,
-    hypotheses: Vec<String>,
-    function: Option<&'static str>,
-    follows_from: &'static [&'static str],
-    claims: Vec<&'static str>,
-}
-
 /// Prints the entries asked for.
-pub fn run(options: &Options) -> Result<Status, Failure> {
+pub fn run(options: &Options) -> Result<Exit, Failure> {
     let numbers = args::equations(&options.numbers)?;
     let all = numbers.is_empty();
     let chosen: Vec<&'static Entry> =
         entries().iter().filter(|e| all || numbers.iter().any(|n| n == e.equation)).collect();
     output::print(|out| match options.format {
-        Format::Json => output::json(out, &chosen.iter().map(|e| row(e)).collect::<Vec<_>>()),
+        Format::Json => output::json(out, &chosen),
         Format::Markdown => markdown(out, &chosen),
         Format::Dot => dot(out, &chosen),
         Format::Table if all => table(out, &chosen),
@@ -70,21 +56,6 @@ pub fn run(options: &Options) -> Result<Status, Failure> {
             details(out, entry)
         }),
     })
-}
-
-fn row(entry: &'static Entry) -> Row {
-    let &Entry { equation, title, section, ref follows_from, .. } = entry;
-    Row {
-        equation,
-        title,
-        section,
-        statement: entry.statement(),
-        latex: entry.latex(),
-        hypotheses: entry.hypotheses(),
-        function: function(entry),
-        follows_from,
-        claims: claim_names(equation),
-    }
 }
 
 /// Its own function, without those beside it.

@@ -12,7 +12,7 @@ mod text;
 mod verify;
 
 use clap::{CommandFactory, Parser, Subcommand};
-use output::{Failure, Status};
+use output::{Exit, Failure};
 use std::process::ExitCode;
 
 const EXAMPLES: &str = "\
@@ -69,9 +69,9 @@ fn main() -> ExitCode {
     output::exit_code(answer)
 }
 
-fn run(cli: Cli) -> Result<Status, Failure> {
+fn run(cli: Cli) -> Result<Exit, Failure> {
     match cli.command {
-        None => verify::run(&verify::Options::default()),
+        None => run(Cli::parse_from(["contact", "verify"])),
         Some(Command::Verify(options)) => verify::run(&options),
         Some(Command::Prove(options)) => prove::run(&options),
         Some(Command::Equations(options)) => equations::run(&options),

@@ -28,7 +28,7 @@ pub fn width() -> usize {
 
 /// What a command has to say about its result, once it is printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Status {
+pub enum Exit {
     /// All well.
     Fine,
     /// A solve did not converge, or a claim does not hold.
@@ -56,10 +56,10 @@ impl From<io::Error> for Failure {
 }
 
 /// 0, 1 or 2, with the line on stderr.
-pub fn exit_code(answer: Result<Status, Failure>) -> ExitCode {
+pub fn exit_code(answer: Result<Exit, Failure>) -> ExitCode {
     let line = match answer {
-        Ok(Status::Fine) => return ExitCode::SUCCESS,
-        Ok(Status::Unmet) => return ExitCode::from(1),
+        Ok(Exit::Fine) => return ExitCode::SUCCESS,
+        Ok(Exit::Unmet) => return ExitCode::from(1),
         // Whoever closed the pipe (`| head`) has seen enough.
         Err(Failure::Output(error)) if error.kind() == io::ErrorKind::BrokenPipe => return ExitCode::SUCCESS,
         Err(Failure::Output(error)) => format!("stdout cannot be written: {error}"),
@@ -71,11 +71,11 @@ pub fn exit_code(answer: Result<Status, Failure>) -> ExitCode {
 }
 
 /// Writes to stdout; nothing else does.
-pub fn print(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<Status, Failure> {
+pub fn print(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<Exit, Failure> {
     let mut out = BufWriter::new(io::stdout().lock());
     write(&mut out)?;
     out.flush()?;
-    Ok(Status::Fine)
+    Ok(Exit::Fine)
 }
 
 /// Indented JSON and a line break.
@@ -97,6 +97,11 @@ pub fn table() -> Table {
 
 /// What stands for a blank at which no line may end; it is printed as one.
 pub const GLUE: char = '\u{a0}';
+
+/// A point whose lines end between its numbers.
+pub fn glued(point: &impl ToString) -> String {
+    point.to_string().replace(" = ", &format!("{GLUE}={GLUE}"))
+}
 
 /// Text in as many lines as it needs; the first begins with `first`, the others are indented by `rest` blanks.
 pub fn wrapped(out: &mut dyn Write, first: &str, rest: usize, text: &str) -> io::Result<()> {
@@ -179,7 +184,7 @@ pub fn lines(out: &mut dyn Write, table: &Table) -> io::Result<()> {
 }
 
 /// What clap has to say: help and version go to stdout; an error is cut to one line.
-pub fn clap_message(mut error: clap::Error, commands: &[&str]) -> Result<Status, Failure> {
+pub fn clap_message(mut error: clap::Error, commands: &[&str]) -> Result<Exit, Failure> {
     for kind in [ContextKind::InvalidValue, ContextKind::InvalidArg, ContextKind::InvalidSubcommand] {
         if let Some(ContextValue::String(value)) = error.get(kind)
             && shortened(value) != *value
@@ -193,7 +198,7 @@ pub fn clap_message(mut error: clap::Error, commands: &[&str]) -> Result<Status,
     let allowed = match error.kind() {
         ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
             error.print()?;
-            return Ok(Status::Fine);
+            return Ok(Exit::Fine);
         }
         ErrorKind::InvalidSubcommand => format!("; [commands: {}]", commands.join(", ")),
         ErrorKind::UnknownArgument => {
@@ -248,36 +253,5 @@ mod tests {
         let nines = |n| "9".repeat(n);
         let broken = format!("a {}\n  {}\n  {}\n", nines(78), nines(78), nines(34));
         assert_eq!(printed(|out| wrapped(out, "", 2, &format!("a {}", nines(190)))), broken);
-    }
-
-    #[cfg(unix)]
-    #[test]
-    fn a_command_runs_as_it_is_printed() {
-        let words = [
-            "printf",
-            "%s\\n",
-            "it's",
-            "a dir",
-            "$HOME",
-            "\"",
-            "ü",
-            "-1/2",
-            "*",
-            "a\\b",
-            "",
-            "~",
-            "--long-word-of-many-letters",
-        ];
-        let number = "0123456789/".repeat(20);
-        let words = words.into_iter().chain(["0123456789"; 20]).chain(["a b", &number, "end"]);
-        let words: Vec<&str> = words.collect();
-        let text = printed(|out| command(out, words.iter().copied()));
-        let lines: Vec<&str> = text.lines().collect();
-        assert!(lines.len() > 3 && lines.iter().all(|line| line.chars().count() <= 80), "{text}");
-        let (last, others) = lines.split_last().expect("lines");
-        assert!(!last.ends_with('\\') && others.iter().all(|line| line.ends_with('\\')), "{text}");
-        let output = std::process::Command::new("sh").args(["-c", &text]).output().expect("a shell");
-        let said = String::from_utf8(output.stdout).expect("UTF-8");
-        assert_eq!(said.lines().collect::<Vec<_>>(), words[2..], "{text}");
     }
 }

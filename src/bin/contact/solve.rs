@@ -3,17 +3,20 @@
 mod report;
 
 use crate::args::{Number, System, finite, positive, whole};
-use crate::output::{self, Failure, Status};
-use crate::text::{self, shortened};
+use crate::output::{self, Exit, Failure};
+use crate::text::shortened;
 use clap::ValueEnum;
 use num_traits::Zero;
 use report::Report;
 use spring_mass_contact::chapter::SpringMass;
-use spring_mass_contact::number::{Exact, NumberSystem};
+use spring_mass_contact::claims::Case;
+use spring_mass_contact::number::{Exact, NumberSystem, Text};
 use spring_mass_contact::rug::Integer;
 use spring_mass_contact::solver::{
-    Augmentation, Method, Outcome, Plane, Solution, SolveError, Step, augmentations_needed, solve_observed,
+    Augmentation, Iterate, Method, Outcome, Plane, Scalar, Solution, SolveError, augmentations_needed,
+    solve_observed,
 };
+use std::io::{self, Write};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -80,12 +83,8 @@ enum MethodName {
 
 impl MethodName {
     /// As on the command line.
-    fn name(self) -> &'static str {
-        match self {
-            MethodName::Lagrange => "lagrange",
-            MethodName::Penalty => "penalty",
-            MethodName::Augmented => "augmented",
-        }
+    fn name(self) -> String {
+        self.to_possible_value().map_or(String::new(), |value| value.get_name().to_string())
     }
 }
 
@@ -100,7 +99,7 @@ enum Format {
 }
 
 /// Solves and prints.
-pub fn run(options: &Options) -> Result<Status, Failure> {
+pub fn run(options: &Options) -> Result<Exit, Failure> {
     options.refuse_unused()?;
     match options.scalar {
         NumberSystem::F32 => run_in(options, &0_f32),
@@ -110,7 +109,7 @@ pub fn run(options: &Options) -> Result<Status, Failure> {
     }
 }
 
-fn run_in<T: text::Number>(options: &Options, like: &T) -> Result<Status, Failure> {
+fn run_in<T: Scalar + Text>(options: &Options, like: &T) -> Result<Exit, Failure> {
     let problem = Problem {
         system: options.system.round(like)?,
         method: options.method(like)?,
@@ -119,7 +118,9 @@ fn run_in<T: text::Number>(options: &Options, like: &T) -> Result<Status, Failur
     let out_of_range = |error: SolveError| format!("--scalar {}: {error}", options.scalar);
     let needed = problem.steps_needed();
     let solution = problem.solve(needed.as_ref()).map_err(out_of_range)?;
-    if options.trace && !problem.trace(&solution).all(|step| is_finite(&step)) {
+    if options.trace
+        && !problem.trace(&solution).all(|iterate| quantities(&iterate).iter().all(|x| x.is_finite()))
+    {
         return Err(out_of_range(SolveError::OutOfRange { quantity: "trace" }).into());
     }
     let report = Report::new(options, &problem, &solution, needed);
@@ -128,8 +129,10 @@ fn run_in<T: text::Number>(options: &Options, like: &T) -> Result<Status, Failur
         Format::Json => output::json(out, &report),
         Format::Csv => report.csv(out),
     })?;
-    let met = matches!(solution.outcome, Outcome::Direct | Outcome::Converged);
-    Ok(if met { Status::Fine } else { Status::Unmet })
+    Ok(match solution.outcome {
+        Outcome::Direct | Outcome::Converged => Exit::Fine,
+        Outcome::Stagnated | Outcome::OutOfSteps => Exit::Unmet,
+    })
 }
 
 impl Options {
@@ -165,7 +168,7 @@ impl Options {
         self.tolerance.clone().unwrap_or_else(|| finite("1e-9").expect("a number"))
     }
 
-    fn method<T: text::Number>(&self, like: &T) -> Result<Method<T>, Failure> {
+    fn method<T: Scalar + Text>(&self, like: &T) -> Result<Method<T>, Failure> {
         let ten_c = &self.system.stiffness.value * Exact::from(10);
         let round_penalty = |number: &Number| number.round("--penalty <E>", like);
         Ok(match self.method {
@@ -199,7 +202,7 @@ struct Problem<T> {
     plane: Plane,
 }
 
-impl<T: text::Number> Problem<T> {
+impl<T: Scalar + Text> Problem<T> {
     /// How far it has come is measured by the steps that exact arithmetic needs.
     fn solve(&self, needed: Option<&Integer>) -> Result<Solution<T>, SolveError> {
         let steps = match &self.method {
@@ -210,13 +213,13 @@ impl<T: text::Number> Problem<T> {
         };
         let count = |k: u64| usize::try_from(k).unwrap_or(usize::MAX);
         output::with_progress("solving", |progress| {
-            let each = |step: &Step<T>| progress(count(step.k), count(steps));
+            let each = |step: &Iterate<T>| progress(count(step.k), count(steps));
             solve_observed(&self.system, &self.method, self.plane, each)
         })
     }
 
     /// The augmentations that led to a solution, once more: cheaper than to keep them all.
-    fn trace(&self, solution: &Solution<T>) -> impl Iterator<Item = Step<T>> {
+    fn trace(&self, solution: &Solution<T>) -> impl Iterator<Item = Iterate<T>> {
         let steps = match &self.method {
             Method::Augmented { penalty, start, .. } => {
                 Some(Augmentation::new(&self.system, penalty).from_multiplier(start.clone()).over(self.plane))
@@ -234,6 +237,58 @@ impl<T: text::Number> Problem<T> {
     }
 }
 
-fn is_finite<T: text::Number>(step: &Step<T>) -> bool {
-    [&step.multiplier, &step.deflection, &step.penetration, &step.contact_force].iter().all(|x| x.is_finite())
+/// The command that solves a case, if it is a system that can be solved.
+pub fn command(out: &mut dyn Write, case: &Case<Exact>) -> io::Result<()> {
+    command_line(case).map_or(Ok(()), |line| output::command(out, line.split(' ')))
+}
+
+fn command_line(case: &Case<Exact>) -> Option<String> {
+    let SpringMass { c, m, g, l, h } = &case.system;
+    let mut line = format!(
+        "contact solve --scalar exact --stiffness {c} --mass {m} --gravity {g} --free-length {l} --height {h}"
+    );
+    if case.eps > Exact::zero() {
+        line += &format!(" --method penalty --penalty {}", case.eps);
+    }
+    (*c > Exact::zero() && *m > Exact::zero()).then_some(line)
+}
+
+/// What an iterate says besides its k.
+fn quantities<T>(iterate: &Iterate<T>) -> [&T; 4] {
+    [&iterate.multiplier, &iterate.deflection, &iterate.penetration, &iterate.contact_force]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::{Args, FromArgMatches};
+
+    /// c > 0 and m > 0, and a penalty where there is one; what is printed is read as the case that was meant.
+    #[test]
+    fn only_a_system_that_can_be_solved_has_a_command_line() {
+        let with = |c: &str, m: &str, eps: &str| {
+            let mut case = Case::of(|_| Exact::zero());
+            let number = |text: &str| text.parse().unwrap();
+            let [c, m, g, l, h] = [c, m, "-1/3", "-7", "2"].map(number);
+            (case.system, case.eps) = (SpringMass { c, m, g, l, h }, number(eps));
+            let line = command_line(&case);
+            (case, line)
+        };
+        for (c, m) in [("0", "1"), ("1", "0"), ("-1", "1"), ("1", "-1"), ("0", "0")] {
+            assert_eq!(with(c, m, "1").1, None, "c = {c}, m = {m}");
+        }
+        for eps in ["7", "0", "-1"] {
+            let (case, line) = with("1/3", "5", eps);
+            let line = line.unwrap();
+            let words = crate::args::joined(line.split(' ').skip(1).map(String::from));
+            let read =
+                Options::augment_args(clap::Command::new("solve")).try_get_matches_from(words).unwrap();
+            let options = Options::from_arg_matches(&read).unwrap();
+            assert_eq!(options.system.typed().map(|number| number.value.clone()), case.system);
+            let penalty = Method::Penalty { penalty: case.eps.clone() };
+            let method = options.method(&case.eps).unwrap_or_else(|_| panic!("{line}"));
+            assert_eq!(method, if eps == "7" { penalty } else { Method::Lagrange });
+            assert_eq!(options.scalar, NumberSystem::Exact);
+        }
+    }
 }

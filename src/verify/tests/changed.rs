@@ -3,7 +3,7 @@
 use super::super::checker::Judge;
 use super::super::*;
 use crate::formula::{Claim, Hypothesis};
-use crate::proof::controls::{Outcome, controls};
+use crate::proof::controls::{Effect, controls};
 use std::collections::BTreeMap;
 
 type Drawn = BTreeMap<String, (Vec<Hypothesis>, Vec<Option<Case<Exact>>>)>;
@@ -36,12 +36,12 @@ fn every_change_of_a_formula_is_a_finding() {
     let all: Vec<_> = claims().cloned().collect();
     assert_eq!(findings(Exactly, &all, &drawn), []);
     assert_eq!(findings(Floats(0f64), &all, &drawn), []);
-    let seen = |(change, outcome): &(Change, Outcome)| {
+    let seen = |(change, effect): &(Change, Effect)| {
         let touched = all.iter().filter(|claim| claim.trees().into_iter().any(|t| change.rewrite(t) != *t));
         let changed: Vec<_> = touched.map(|claim| claim.map(&|tree| change.rewrite(tree))).collect();
         let found = findings(Exactly, &changed, &drawn);
         let found = if found.is_empty() { findings(Floats(0f64), &changed, &drawn) } else { found };
-        let wrong = matches!(outcome, Outcome::Noticed { .. });
+        let wrong = matches!(effect, Effect::Noticed { .. });
         (found.is_empty() == wrong).then(|| format!("{change}: {found:?}"))
     };
     let changes = controls(&statements(), registry()).changes;

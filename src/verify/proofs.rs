@@ -1,0 +1,146 @@
+//! The proofs of all claims, with the controls that show they could have failed.
+
+#[cfg(feature = "serde")]
+mod json;
+
+use crate::claims::{place, registry, statements};
+use crate::formula::Statement;
+use crate::proof::controls::{self, Change, Controls, Dropped, Effect, controls, repairs};
+use crate::proof::paper::Paper;
+use crate::proof::{Counterexample, Proof, prove, refute};
+use std::time::{Duration, Instant};
+
+/// A claim and what came of it.
+#[derive(Clone, Debug)]
+pub struct Proved {
+    /// What was to be proved.
+    pub statement: Statement,
+    /// The proof, if there is one.
+    pub answer: Answer,
+    /// How long it took.
+    pub time: Duration,
+}
+
+/// A proof, or none.
+#[derive(Clone, Debug)]
+pub enum Answer {
+    /// The proof.
+    Proof(Proof),
+    /// Why there is none, and where the claim does not hold, if that was found.
+    None(String, Option<Counterexample>),
+}
+
+impl Proved {
+    /// Proves a statement, or tries to refute it.
+    pub fn of(statement: Statement) -> Self {
+        let start = Instant::now();
+        let answer = match prove(&statement) {
+            Ok(proof) => Answer::Proof(proof),
+            Err(why) => Answer::None(Paper::new(registry()).why(&why), refute(&statement)),
+        };
+        Proved { statement, answer, time: start.elapsed() }
+    }
+
+    /// What it supposes, as a reader writes it.
+    pub fn hypotheses(&self) -> Vec<String> {
+        self.statement.hypotheses.iter().map(|hypothesis| registry().supposed(hypothesis)).collect()
+    }
+
+    /// `proved`, `refuted` or `unknown`.
+    pub fn status(&self) -> &'static str {
+        match &self.answer {
+            Answer::Proof(_) => "proved",
+            Answer::None(_, Some(_)) => "refuted",
+            Answer::None(_, None) => "unknown",
+        }
+    }
+}
+
+/// All that is proved of some equations, and what is not.
+#[derive(Clone, Debug, Default)]
+pub struct Proofs {
+    /// In the chapter's order.
+    pub claims: Vec<Proved>,
+    /// Those about these claims: a change belongs to the one that notices it.
+    pub controls: Controls,
+    /// With one of these all claims would be proved.
+    pub repairs: Vec<Change>,
+    /// How long the proofs took.
+    pub of_proofs: Duration,
+    /// And the controls with them.
+    pub in_all: Duration,
+}
+
+/// How many proofs and controls came out how.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Summary {
+    /// All claims.
+    pub claims: usize,
+    /// Those that are proved.
+    pub proved: usize,
+    /// Those with a counterexample.
+    pub refuted: usize,
+    /// Neither.
+    pub unknown: usize,
+    /// Of all claims.
+    pub hypotheses: usize,
+    /// What changes of formulas came to.
+    #[cfg_attr(feature = "serde", serde(flatten))]
+    pub controls: controls::Summary,
+}
+
+/// Proves every claim of the chapter, and runs the controls if all are proved: of others they say nothing. What is not
+/// about these equations is left out; that no claim notices a change is about all of them.
+pub fn prove_all(equations: &[String]) -> Proofs {
+    let all = statements();
+    let start = Instant::now();
+    let mut claims: Vec<_> = all.iter().cloned().map(Proved::of).collect();
+    let of_proofs = start.elapsed();
+    let (mut controls, repairs) = if claims.iter().all(|claim| matches!(claim.answer, Answer::Proof(_))) {
+        (controls(&all, registry()), Vec::new())
+    } else {
+        (Controls::default(), repairs(&all, registry()))
+    };
+    let wanted = |equation: &str| equations.is_empty() || equations.iter().any(|e| e == equation);
+    claims.retain(|claim| wanted(claim.statement.equation));
+    claims.sort_by_key(|claim| place(claim.statement.equation));
+    controls.dropped.retain(|dropped| wanted(dropped.equation));
+    controls.changes.retain(|(_, effect)| match effect {
+        Effect::Noticed { equation, .. } => wanted(equation),
+        Effect::Unchanged | Effect::Unnoticed => equations.is_empty(),
+    });
+    Proofs { claims, controls, repairs, of_proofs, in_all: start.elapsed() }
+}
+
+impl Proofs {
+    /// Is everything proved, every hypothesis needed, and every change noticed?
+    pub fn hold(&self) -> bool {
+        let Summary { claims, proved, controls, .. } = self.summary();
+        claims == proved && controls.unnoticed == 0 && self.controls.needless().next().is_none()
+    }
+
+    /// A claim's hypotheses, dropped one at a time.
+    pub fn dropped(&self, statement: &Statement) -> impl Iterator<Item = &Dropped> {
+        let of = (statement.equation, statement.name);
+        self.controls.dropped.iter().filter(move |dropped| (dropped.equation, dropped.name) == of)
+    }
+
+    /// The claims of each equation.
+    pub fn by_equation(&self) -> impl Iterator<Item = &[Proved]> {
+        self.claims.chunk_by(|a, b| a.statement.equation == b.statement.equation)
+    }
+
+    /// The summary.
+    pub fn summary(&self) -> Summary {
+        let with = |status| self.claims.iter().filter(|claim| claim.status() == status).count();
+        Summary {
+            claims: self.claims.len(),
+            proved: with("proved"),
+            refuted: with("refuted"),
+            unknown: with("unknown"),
+            hypotheses: self.claims.iter().map(|claim| claim.statement.hypotheses.len()).sum(),
+            controls: self.controls.summary(),
+        }
+    }
+}
