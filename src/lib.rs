@@ -31,7 +31,7 @@
 //! - `cli` (default): the command `contact`.
 //! - `gmp-untested` (default): leaves out GMP's and MPFR's own test suites, which take minutes.
 //!
-//! Without them f32, f64, balls, dual numbers, the chapter and the solver are there.
+//! Without them f32, f64, balls, dual numbers, the chapter and the solver are there; eˣ of a float is not.
 
 pub mod chapter;
 pub mod claims;
