@@ -38,7 +38,7 @@
 //! - `serde`, on with `cli`: what the solver and the runs of claims return is `serde::Serialize`, quantities as texts.
 //! - `gmp-untested` (default): leaves out GMP's and MPFR's own test suites, which take minutes.
 //!
-//! Without them f32, f64, balls, dual numbers, the chapter and the solver are there.
+//! Without them f32, f64, balls, dual numbers, the chapter and the solver are there; eˣ of a float is not.
 
 pub mod chapter;
 pub mod claims;

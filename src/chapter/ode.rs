@@ -126,9 +126,11 @@ pub fn rate<T: Field>(system: &SpringMass<T>, eps: &T) -> T {
 /// `eps` is the penalty ε in N/m. Domain: c + ε ≠ 0. Source: §1.3.3.
 ///
 /// ```
+/// # #[cfg(feature = "mpfr")] {
 /// # use spring_mass_contact::chapter::{SpringMass, ode};
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(ode::homogeneous(&system, &4.0, &0.25, &0.0), 0.25);
+/// # }
 /// ```
 pub fn homogeneous<T: Exponential>(system: &SpringMass<T>, eps: &T, a: &T, t: &T) -> T {
     a * (rate(system, eps) * t).exp()
@@ -157,9 +159,11 @@ pub fn particular<T: Field>(system: &SpringMass<T>) -> T {
 /// `eps` is the penalty ε in N/m. Domain: c + ε ≠ 0. Source: §1.3.3.
 ///
 /// ```
+/// # #[cfg(feature = "mpfr")] {
 /// # use spring_mass_contact::chapter::{SpringMass, ode};
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(ode::general(&system, &4.0, &0.25, &0.0), 2.25);
+/// # }
 /// ```
 pub fn general<T: Exponential>(system: &SpringMass<T>, eps: &T, a: &T, t: &T) -> T {
     superposition(&homogeneous(system, eps, a, t), &particular(system))
@@ -188,9 +192,11 @@ pub fn constant<T: Field>(system: &SpringMass<T>, start: &T) -> T {
 /// `eps` is the penalty ε in N/m. Domain: c + ε ≠ 0. Source: §1.3.3.
 ///
 /// ```
+/// # #[cfg(feature = "mpfr")] {
 /// # use spring_mass_contact::chapter::{SpringMass, ode};
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(ode::solution(&system, &4.0, &2.25, &0.0), 2.25);
+/// # }
 /// ```
 pub fn solution<T: Exponential>(system: &SpringMass<T>, eps: &T, start: &T, t: &T) -> T {
     general(system, eps, &constant(system, start), t)

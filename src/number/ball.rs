@@ -251,7 +251,7 @@ impl<T: Real> PositivePart for Ball<T> {
         }
     }
 }
-impl<T: Real> Exponential for Ball<T> {
+impl<T: Real + Exponential> Exponential for Ball<T> {
     fn exp(&self) -> Self {
         if self.is_exactly_zero() {
             return Ball::one();

@@ -6,7 +6,8 @@
 //! | [`PositivePart`] | ⟨x⟩ = max(x, 0) and min | a plane that pushes and never pulls |
 //! | [`Exponential`] | eˣ | the solution (1.30) of the analogous ODE |
 //! | [`OrderedField`] | `<`, \|x\| | the stop test (1.33), searches, tests |
-//! | [`Real`] | ln, rounding | error bounds |
+//! | [`Real`] | rounding | error bounds |
+//! | [`Logarithm`] | ln | what floats alone can do |
 //!
 //! # The one clever thing here
 //!
@@ -118,6 +119,8 @@ pub trait PositivePart: Field {
 }
 
 /// Numbers with eˣ, for the ODE analogy (1.22)-(1.32).
+///
+/// Without the feature `mpfr` f32 and f64 are none: correctly rounded functions come from MPFR.
 pub trait Exponential: Field {
     /// eˣ, correctly rounded on floats.
     fn exp(&self) -> Self;
@@ -132,13 +135,7 @@ pub trait OrderedField: PositivePart + PartialOrd {
 }
 
 /// Floating-point numbers: f32, f64 and [`Mpfr`](super::Mpfr). Every operation rounds to nearest.
-pub trait Real: OrderedField + Exponential {
-    /// ln x, correctly rounded; x > 0.
-    fn ln(&self) -> Self;
-
-    /// ln(1 + x), correctly rounded and accurate for small x; x > −1.
-    fn ln_1p(&self) -> Self;
-
+pub trait Real: OrderedField {
     /// η, the unit roundoff at the precision of this value: 2⁻²⁴, 2⁻⁵³, or 2⁻ᵖ for p bits (0 for a
     /// constant, which is exact).
     fn unit_roundoff(&self) -> Self;
@@ -171,6 +168,15 @@ pub trait Real: OrderedField + Exponential {
     fn magnitude(&self) -> Self {
         self.abs()
     }
+}
+
+/// Floating-point numbers with ln; as with [`Exponential`], f32 and f64 have it with the feature `mpfr`.
+pub trait Logarithm: Real {
+    /// ln x, correctly rounded; x > 0.
+    fn ln(&self) -> Self;
+
+    /// ln(1 + x), correctly rounded and accurate for small x; x > −1.
+    fn ln_1p(&self) -> Self;
 }
 
 /// Writes the operators of a number system from their forms on references, each in the four
@@ -245,24 +251,13 @@ macro_rules! ordered {
 pub(crate) use ordered;
 
 macro_rules! machine_float {
-    ($($float:ident $core:ident $exp:path, $ln:path, $ln_1p:path;)*) => {$(
+    ($($float:ident),*) => {$(
         impl Field for $float {
             fn int(n: i32) -> Self {
                 n as $float
             }
         }
-        impl Exponential for $float {
-            fn exp(&self) -> Self {
-                $exp(*self)
-            }
-        }
         impl Real for $float {
-            fn ln(&self) -> Self {
-                $ln(*self)
-            }
-            fn ln_1p(&self) -> Self {
-                $ln_1p(*self)
-            }
             fn unit_roundoff(&self) -> Self {
                 $float::EPSILON / 2.0
             }
@@ -281,11 +276,7 @@ macro_rules! machine_float {
         }
     )*};
 }
-// The standard library promises no bound for exp and ln; these are correctly rounded.
-machine_float! {
-    f32 f32 core_math::expf, core_math::logf, core_math::log1pf;
-    f64 f64 core_math::exp, core_math::log, core_math::log1p;
-}
+machine_float!(f32, f64);
 #[allow(clippy::clone_on_copy)]
 mod machine {
     use super::{OrderedField, PositivePart, Zero};

@@ -20,6 +20,8 @@ mod dual;
 mod exact;
 pub mod field;
 #[cfg(feature = "mpfr")]
+mod functions;
+#[cfg(feature = "mpfr")]
 mod mpfr;
 #[cfg(feature = "mpfr")]
 mod parse;
@@ -33,7 +35,7 @@ pub use ball::Ball;
 pub use dual::Dual;
 #[cfg(feature = "mpfr")]
 pub use exact::{Exact, Inexact, ToExact};
-pub use field::{Exponential, Field, OrderedField, PositivePart, Real};
+pub use field::{Exponential, Field, Logarithm, OrderedField, PositivePart, Real};
 #[cfg(feature = "mpfr")]
 pub use mpfr::{Mpfr, PRECISIONS};
 #[cfg(feature = "mpfr")]

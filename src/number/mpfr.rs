@@ -1,7 +1,7 @@
 //! Floats of any precision, chosen at run time.
 
 use super::field::ordered;
-use super::{Exponential, Field, OrderedField, PositivePart, Real};
+use super::{Exponential, Field, Logarithm, OrderedField, PositivePart, Real};
 use num_traits::{One, Zero};
 use rug::float::{Round, Special};
 use rug::ops::{NegAssign, Pow};
@@ -172,7 +172,7 @@ impl Exponential for Mpfr {
         }
     }
 }
-impl Real for Mpfr {
+impl Logarithm for Mpfr {
     fn ln(&self) -> Self {
         match &self.0 {
             Rounded(x) => Mpfr(Rounded(Float::with_val(x.prec(), x.ln_ref()))),
@@ -187,6 +187,8 @@ impl Real for Mpfr {
             Constant(_) => no_precision("ln_1p"),
         }
     }
+}
+impl Real for Mpfr {
     fn unit_roundoff(&self) -> Self {
         match &self.0 {
             Rounded(x) => Mpfr(Rounded(Float::with_val(RADIUS_PRECISION, 1) >> x.prec())),

@@ -6,7 +6,7 @@ use super::{Row, Status};
 use crate::claims::{Case, Experiment, Trial, exact_experiments, first_order_experiments, float_experiments};
 use crate::formula::{Claim, Hypothesis};
 use crate::number::tree::{Step, everything, piecewise};
-use crate::number::{Ball, Exact, Mpfr, NumberSystem, PositivePart, RangeError, Real, ToExact};
+use crate::number::{Ball, Exact, Exponential, Mpfr, NumberSystem, PositivePart, RangeError, Real, ToExact};
 use crate::solver::Scalar;
 use num_traits::Zero;
 use std::cmp::Ordering;
@@ -157,7 +157,7 @@ pub(super) struct Floats<T>(pub(super) T);
 
 impl<T> Judge for Floats<T>
 where
-    T: Scalar + Real + ToExact + std::fmt::Display + Sync,
+    T: Scalar + Real + Exponential + ToExact + std::fmt::Display + Sync,
 {
     type Number = Ball<T>;
     type Computed = T;
