@@ -2,7 +2,7 @@
 //!
 //! [`files`] writes every function of the chapter as a definition, printed from its recorded formula, and every
 //! claim as a theorem about these definitions, with its hypotheses as premises. The proofs follow what
-//! [`kernel`](super::kernel) found, but nothing of it is taken on trust: if Coq accepts the files, what is left to trust
+//! our kernel found, but nothing of it is taken on trust: if Coq accepts the files, what is left to trust
 //! is Coq's own kernel, its axioms of the real numbers, and that definitions and theorems read as the
 //! chapter does.
 //!

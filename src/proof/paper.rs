@@ -37,10 +37,10 @@ fn says(says: &Says) -> String {
 }
 
 /// How a claim was proved, in a few words.
-pub fn how(statement: &Statement, proof: &Proof) -> String {
+pub fn how(proof: &Proof) -> String {
     let cases = proof.goals().iter().map(cases).max().unwrap_or(1);
     let means = proof.goals().last().map_or("", |derivation| means(derivation));
-    let kind = match statement.kind {
+    let kind = match proof.statement().kind {
         "equal" | "sign" => means,
         other => other,
     };
@@ -128,7 +128,8 @@ pub fn why(why: &Why) -> String {
 const ORDER: Order = Order(&FACTORS);
 
 /// The whole proof, line by line.
-pub fn proof(statement: &Statement, proof: &Proof) -> Vec<String> {
+pub fn proof(proof: &Proof) -> Vec<String> {
+    let statement = proof.statement();
     let mut lines = Vec::new();
     lines.extend(statement.amounts_to.as_ref().map(|sequence| {
         let by = match sequence.limit {

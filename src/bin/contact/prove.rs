@@ -223,7 +223,7 @@ impl Report {
 
 fn how(proved: &Proved) -> String {
     match &proved.answer {
-        Answer::Proof(proof) => paper::how(&proved.statement, proof),
+        Answer::Proof(proof) => paper::how(proof),
         Answer::None(..) => proved.status().to_uppercase(),
     }
 }
@@ -396,7 +396,7 @@ fn account(out: &mut dyn Write, report: &Report, proved: &Proved) -> io::Result<
     }
     say("where", &paper::names(statement))?;
     match answer {
-        Answer::Proof(proof) => say("proof", &paper::proof(statement, proof))?,
+        Answer::Proof(proof) => say("proof", &paper::proof(proof))?,
         Answer::None(why, _) => say("no proof", std::slice::from_ref(why))?,
     }
     let needed = report.dropped(statement).filter_map(|Dropped { given, without, .. }| match without {
@@ -514,7 +514,7 @@ impl ClaimJson {
             DroppedJson { hypothesis: given.text(), status, counterexample }
         });
         let (certificate, why, counterexample) = match answer {
-            Answer::Proof(proof) => (Some(paper::proof(statement, proof).join("\n")), None, None),
+            Answer::Proof(proof) => (Some(paper::proof(proof).join("\n")), None, None),
             Answer::None(why, counterexample) => {
                 (None, Some(why.clone()), counterexample.as_ref().map(values))
             }

@@ -7,23 +7,38 @@ use super::algebra::{Monomial, Poly, Ratio, Symbol};
 use super::sign::{Certificate, Sign};
 use crate::claims::Given;
 use crate::number::Tree;
+use crate::proof::statement::Statement;
 
-/// A proof of a statement: a derivation for each of its goals. Only [`prove`](super::prove) makes one:
+/// A proof of a statement: a derivation for each of its goals. Only [`prove`](super::prove) makes one, and it stays
+/// what it is:
 ///
 /// ```
 /// use spring_mass_contact::proof::{Proof, prove, statements};
 /// let proof: Proof = prove(&statements()[0]).unwrap();
+/// assert_eq!(proof.statement().goals.len(), 1);
 /// ```
 /// ```compile_fail
-/// use spring_mass_contact::proof::{Proof, prove, statements};
-/// let proof: Proof = Proof { goals: Vec::new() };
+/// # use spring_mass_contact::proof::{Proof, prove, statements};
+/// # let mut proof: Proof = prove(&statements()[0]).unwrap();
+/// proof.statement = statements()[1].clone();
+/// ```
+/// ```compile_fail
+/// # use spring_mass_contact::proof::{Proof, prove, statements};
+/// # let mut proof: Proof = prove(&statements()[0]).unwrap();
+/// proof.goals.clear();
 /// ```
 #[derive(Clone, Debug)]
 pub struct Proof {
+    pub(super) statement: Statement,
     pub(super) goals: Vec<Derivation>,
 }
 
 impl Proof {
+    /// What is proved.
+    pub fn statement(&self) -> &Statement {
+        &self.statement
+    }
+
     /// How each goal is derived, in the order of the goals.
     pub(in crate::proof) fn goals(&self) -> &[Derivation] {
         &self.goals
