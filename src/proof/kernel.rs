@@ -61,7 +61,7 @@ pub fn prove(statement: &Statement) -> Result<Proof, Why> {
         };
         derive(goal, context, CASES)
     });
-    Ok(Proof { goals: goals.collect::<Result<_, _>>()? })
+    Ok(Proof { goals: goals.collect::<Result<_, _>>()?, statement: statement.clone() })
 }
 
 /// How many splits may be nested.

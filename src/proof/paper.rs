@@ -221,10 +221,10 @@ impl<'a> Paper<'a> {
 }
 
 /// How a claim was proved, in a few words.
-pub fn how(statement: &Statement, proof: &Proof) -> String {
+pub fn how(proof: &Proof) -> String {
     let cases = proof.goals().iter().map(cases).max().unwrap_or(1);
     let means = proof.goals().last().map_or("", |derivation| means(derivation));
-    let kind = match statement.kind {
+    let kind = match proof.statement().kind {
         "equal" | "sign" => means,
         other => other,
     };

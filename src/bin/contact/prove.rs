@@ -112,7 +112,7 @@ fn for_coq(directory: &Path) -> Result<Exit, Failure> {
 
 fn how(proved: &Proved) -> String {
     match &proved.answer {
-        Answer::Proof(proof) => paper::how(&proved.statement, proof),
+        Answer::Proof(proof) => paper::how(proof),
         Answer::None(..) => proved.status().to_uppercase(),
     }
 }

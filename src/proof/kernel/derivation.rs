@@ -7,12 +7,15 @@ use super::algebra::{Monomial, Poly, Ratio, Symbol};
 use super::sign::{Certificate, Sign};
 use crate::formula::Hypothesis;
 use crate::number::Tree;
+use crate::proof::statement::Statement;
 
-/// A proof of a statement: a derivation for each of its goals. Only [`prove`](super::prove) makes one:
+/// A proof of a statement: a derivation for each of its goals. Only [`prove`](super::prove) makes one, and it stays
+/// what it is:
 ///
 /// ```
 /// use spring_mass_contact::{claims::statements, proof::{Proof, prove}};
 /// let proof: Proof = prove(&statements()[0]).unwrap();
+/// assert_eq!(proof.statement().goals.len(), 1);
 /// ```
 /// ```compile_fail
 /// use spring_mass_contact::{claims::statements, proof::{Proof, prove}};
@@ -20,10 +23,16 @@ use crate::number::Tree;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Proof {
+    pub(super) statement: Statement,
     pub(super) goals: Vec<Derivation>,
 }
 
 impl Proof {
+    /// What is proved.
+    pub fn statement(&self) -> &Statement {
+        &self.statement
+    }
+
     /// How each goal is derived, in the order of the goals.
     pub(in crate::proof) fn goals(&self) -> &[Derivation] {
         &self.goals

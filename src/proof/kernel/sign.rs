@@ -8,8 +8,8 @@
 //!    out of anything.
 //! 3. **Square.** For a x² + b x + d with a ≠ 0: 4a(a x² + b x + d) = (2a x + b)² + (4a d − b²), so the sign is a's
 //!    if 4a d − b² is not negative.
-//! 4. **Slope.** For x ≥ 0, a function f of x that is continuous there is f(0) + x f'(ξ) with some ξ > 0, by the mean
-//!    value theorem; so its sign is that of f(0), if x times the slope has it, too. Only tried where there is an e^….
+//! 4. **Slope.** By the mean value theorem, a function f that is continuous for x ≥ 0 and has a slope for x > 0 is
+//!    f(0) + x f'(ξ) for some ξ > 0: its sign is that of such a sum. Only tried where there is an e^….
 
 use super::algebra::{Monomial, Poly, Ratio, Symbol};
 use std::collections::BTreeMap;
