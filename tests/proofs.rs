@@ -46,6 +46,6 @@ fn a_proof_can_be_read() {
     let (proof, paper) = (prove(statement).unwrap(), Paper::new(registry()));
     assert_eq!(paper.claim(statement), "(c + ε) ((ε (H − l) + m g) / (c + ε) − Δ) = R");
     assert_eq!(paper.used(&proof), ["c > 0", "ε > 0"]);
-    let lines = paper.proof(statement, &proof);
+    let lines = paper.proof(&proof);
     assert_eq!(lines.first().map(String::as_str), Some("c + ε ≠ 0: c + ε > 0, term by term"));
 }

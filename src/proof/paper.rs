@@ -106,7 +106,8 @@ impl<'a> Paper<'a> {
     }
 
     /// The whole proof, line by line.
-    pub fn proof(&self, statement: &Statement, proof: &Proof) -> Vec<String> {
+    pub fn proof(&self, proof: &Proof) -> Vec<String> {
+        let statement = proof.statement();
         let mut lines = Vec::new();
         lines.extend(statement.amounts_to.as_ref().map(|sequence| {
             let by = match sequence.limit {

@@ -248,7 +248,7 @@ fn account(out: &mut dyn Write, proofs: &Proofs, proved: &Proved) -> io::Result<
     }
     say("where", &paper().names(statement))?;
     match answer {
-        Answer::Proof(proof) => say("proof", &paper().proof(statement, proof))?,
+        Answer::Proof(proof) => say("proof", &paper().proof(proof))?,
         Answer::None(why, _) => say("no proof", std::slice::from_ref(why))?,
     }
     let needed = proofs.dropped(statement).filter_map(|Dropped { given, without, .. }| match without {

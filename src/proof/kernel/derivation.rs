@@ -5,9 +5,8 @@
 
 use super::algebra::{Monomial, Poly, Ratio, Symbol};
 use super::sign::{Certificate, Sign};
-use crate::formula::Hypothesis;
+use crate::formula::{Hypothesis, Statement};
 use crate::number::Tree;
-use crate::proof::statement::Statement;
 
 /// A proof of a statement: a derivation for each of its goals. Only [`prove`](super::prove) makes one, and it stays
 /// what it is:
@@ -18,8 +17,14 @@ use crate::proof::statement::Statement;
 /// assert_eq!(proof.statement().goals.len(), 1);
 /// ```
 /// ```compile_fail
-/// use spring_mass_contact::{claims::statements, proof::{Proof, prove}};
-/// let proof: Proof = Proof { goals: Vec::new() };
+/// # use spring_mass_contact::{claims::statements, proof::{Proof, prove}};
+/// # let mut proof: Proof = prove(&statements()[0]).unwrap();
+/// proof.statement = statements()[1].clone();
+/// ```
+/// ```compile_fail
+/// # use spring_mass_contact::{claims::statements, proof::{Proof, prove}};
+/// # let mut proof: Proof = prove(&statements()[0]).unwrap();
+/// proof.goals.clear();
 /// ```
 #[derive(Clone, Debug)]
 pub struct Proof {

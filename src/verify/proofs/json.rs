@@ -74,7 +74,7 @@ fn claim(proved: &Proved, proofs: &Proofs) -> Claim {
     let Proved { statement, answer, .. } = proved;
     let paper = Paper::new(registry());
     let (certificate, why, counterexample) = match answer {
-        Answer::Proof(proof) => (Some(paper.proof(statement, proof).join("\n")), None, None),
+        Answer::Proof(proof) => (Some(paper.proof(proof).join("\n")), None, None),
         Answer::None(why, counterexample) => (None, Some(why.clone()), counterexample.as_ref().map(values)),
     };
     Claim {
