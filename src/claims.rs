@@ -1,9 +1,9 @@
 //! The chapter as data: [`entries`] say what it states, and what is [claimed](claims()) of it.
 //!
-//! There is a file for each section of the chapter, with the symbols of its formulas at its head, and then its
-//! entries with their claims. A claim is made of the chapter's functions, called with [`symbols`], and so recorded once. In
-//! rationals it is checked with `==`; in balls, within the bounds they compute; for all values it is proved. What it
-//! supposes is [`given`]; a [`Case`] holds the numbers for one trial.
+//! There is a file for each section of the chapter, with the symbols of its formulas at its head, and then
+//! its entries with their claims. A claim is made of the chapter's functions, called with [`symbols`], and
+//! so recorded once. In rationals it is checked with `==`; in balls, within the bounds they compute; for
+//! all values it is proved. What it supposes is [`given`]; a [`Case`] holds the numbers for one trial.
 
 mod augmented;
 mod beyond;

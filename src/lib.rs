@@ -9,7 +9,7 @@
 //! | module | what is in it | who reads it |
 //! |---|---|---|
 //! | [`number`] | the number systems and the few traits a formula asks for | everything below |
-//! | [`formula`] | records as data: typeset, compiled, known in each other, claimed something of | `proof`, `claims` |
+//! | [`formula`] | records as data: typeset, compiled, known in each other, claims of them | `proof`, `claims` |
 #![cfg_attr(
     feature = "mpfr",
     doc = "| [`proof`] | proves what is claimed of formulas, refutes what is wrong, prints both | `verify` |"
@@ -22,8 +22,9 @@
     doc = "| [`mod@verify`] | runs proofs and number systems | the command `contact` |"
 )]
 //!
-//! The first three are an engine that knows no mechanics, and serves any other formulas as well; `chapter` and `solver` are the
-//! mechanics, and know no proofs; `claims` joins them. A test holds every module to that.
+//! The first three are an engine that knows no mechanics, and serves any other formulas as well; `chapter`
+//! and `solver` are the mechanics, and know no proofs; `claims` joins them. A test holds every module to
+//! that.
 //!
 //! To find an equation, say (1.16): the number opens the doc comment of its functions in [`chapter`], stands
 //! beside its statement among the [`entries`](claims::entries()), and beside each of its
@@ -32,10 +33,12 @@
 //!
 //! # Features
 //!
-//! - `mpfr` (default): MPFR floats, exact rationals, and all that needs them: claims, proofs, certificates, step
-//!   counts, reading numbers. Builds GMP and MPFR from source by way of rug, which is LGPL-3.0-or-later.
+//! - `mpfr` (default): MPFR floats, exact rationals, and all that needs them: claims, proofs, certificates,
+//!   step counts, reading numbers. Builds GMP and MPFR from source by way of rug, which is
+//!   LGPL-3.0-or-later.
 //! - `cli` (default): the command `contact`.
-//! - `serde`, on with `cli`: what the solver and the runs of claims return is `serde::Serialize`, quantities as texts.
+//! - `serde`, on with `cli`: what the solver and the runs of claims return is `serde::Serialize`,
+//!   quantities as texts.
 //! - `gmp-untested` (default): leaves out GMP's and MPFR's own test suites, which take minutes.
 //!
 //! Without them f32, f64, balls, dual numbers, the chapter and the solver are there; eˣ of a float is not.

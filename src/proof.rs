@@ -2,24 +2,25 @@
 //!
 //! **What has to be trusted.**
 //!
-//! - That the [`claims`](crate::claims) say what the chapter means, hypotheses included: their texts stand beside their
-//!   formulas.
-//! - That [`Tree`](crate::number::Tree) records what the chapter's functions do (tested, bit for bit, in every number
-//!   system), and that [`Dual`](crate::number::Dual) differentiates.
+//! - That the [`claims`](crate::claims) say what the chapter means, hypotheses included: their texts stand
+//!   beside their formulas.
+//! - That [`Tree`](crate::number::Tree) records what the chapter's functions do (tested, bit for bit, in
+//!   every number system), and that [`Dual`](crate::number::Dual) differentiates.
 //! - In [`statement`](crate::formula::statement), what a claim of each kind comes to.
-//! - The kernel, which is `kernel.rs` with `kernel/` in `src/proof`: in `algebra.rs` the arithmetic of polynomials, in
-//!   `sign.rs` four rules for signs, in `kernel.rs` the rules for what has to be proved, in `derivation.rs` what a
-//!   [`Proof`] consists of. Nothing else can make a proof, and no one can change one.
+//! - The kernel, which is `kernel.rs` with `kernel/` in `src/proof`: in `algebra.rs` the arithmetic of
+//!   polynomials, in `sign.rs` four rules for signs, in `kernel.rs` the rules for what has to be proved, in
+//!   `derivation.rs` what a [`Proof`] consists of. Nothing else can make a proof, and no one can change
+//!   one.
 //! - That [`paper`] prints what was proved; the compiler, and GMP's integers.
 //! - This lemma, which claims about limits of sequences rest on:
 //!
 //!   > If |ρ| < 1 then ρᵏ → 0. *Proof.* For ρ ≠ 0 write 1/|ρ| = 1 + x with x > 0. By Bernoulli's inequality
-//!   > (1 + x)ᵏ ≥ 1 + k x, so |ρ|ᵏ ≤ 1/(1 + k x), which is below any bound once k is large enough. ∎ So if f is
-//!   > continuous at 0, as a quotient of polynomials is where its denominator is not 0, f(ρᵏ) → f(0).
+//!   > (1 + x)ᵏ ≥ 1 + k x, so |ρ|ᵏ ≤ 1/(1 + k x), which is below any bound once k is large enough. ∎ So if
+//!   > f is continuous at 0, as a quotient of polynomials is where its denominator is not 0, f(ρᵏ) → f(0).
 //!
-//! Most of that need not be taken on trust: [`coq`] writes the same claims for the proof assistant Coq, whose kernel
-//! checks them anew, and what numbers [`refute`](mod@refute) must not be proved here (tested). What floats make of a
-//! formula is claimed elsewhere, as experiments, and not proved here.
+//! Most of that need not be taken on trust: [`coq`] writes the same claims for the proof assistant Coq,
+//! whose kernel checks them anew, and what numbers [`refute`](mod@refute) must not be proved here (tested).
+//! What floats make of a formula is claimed elsewhere, as experiments, and not proved here.
 
 pub mod controls;
 pub mod coq;

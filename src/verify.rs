@@ -175,7 +175,8 @@ pub struct Row {
     pub status: Status,
     /// The number system; none for the proof.
     pub scalar: Option<NumberSystem>,
-    /// Why there is no proof; or why the claim broke off in its counterexample, as where that divides by zero.
+    /// Why there is no proof; or why the claim broke off in its counterexample, as where that divides by
+    /// zero.
     pub why: Option<String>,
     /// Cases that were decided.
     pub decided: u64,
@@ -220,8 +221,8 @@ const WINDOW: usize = 100;
 
 /// Tries every claim, in parallel; `progress` is told how many of how many pieces of work are done.
 ///
-/// It ends and returns whatever the formulas are: a claim that is not defined somewhere, or breaks off, does not
-/// hold there.
+/// It ends and returns whatever the formulas are: a claim that is not defined somewhere, or breaks off,
+/// does not hold there.
 pub fn verify(options: &Options, progress: &(dyn Fn(usize, usize) + Sync)) -> Report {
     let checkers: Vec<_> = options.scalars.iter().map(|scalar| (*scalar, checks(*scalar))).collect();
     run(&checkers, statements(), options, progress)

@@ -302,7 +302,8 @@ pub(super) fn stopping() -> Vec<Entry> {
                 ),
                 equal("growth", [stiffness, penalty], one / contraction(s, eps), one + eps / &s.c),
                 {
-                    // λ₀ planted so that |p₀| = tol/q: after the steps with ρᵏ = q the penetration *is* the tolerance.
+                    // λ₀ planted so that |p₀| = tol/q: after the steps with ρᵏ = q the penetration *is* the
+                    // tolerance.
                     let start = reaction(s) - penalty::total_stiffness(s, eps) * tol / q;
                     equal("tie", [stiffness, penalty, power], penetration_after(s, eps, &start, q), tol)
                 },

@@ -74,7 +74,8 @@ pub(super) fn entries() -> Vec<Entry> {
                     )
                 },
                 {
-                    // After steps with whatever penalties, whose (c + ε_i)/c have the product q, and one more with ε.
+                    // After steps with whatever penalties, whose (c + ε_i)/c have the product q, and one
+                    // more with ε.
                     let left = |growth: &Tree| penalty::penetration(s, &beyond::effective_penalty(s, growth));
                     let lambda = reaction(s) - &s.c * left(q);
                     let u = augmented::deflection(s, eps, &lambda);

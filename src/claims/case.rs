@@ -55,7 +55,8 @@ macro_rules! coordinates {
             /// # Errors
             /// The first that it returns.
             pub fn try_of<E>(mut f: impl FnMut(Var) -> Result<T, E>) -> Result<Self, E> {
-                let system = SpringMass { c: f(Var::C)?, m: f(Var::M)?, g: f(Var::G)?, l: f(Var::L)?, h: f(Var::H)? };
+                let (c, m, g) = (f(Var::C)?, f(Var::M)?, f(Var::G)?);
+                let system = SpringMass { c, m, g, l: f(Var::L)?, h: f(Var::H)? };
                 Ok(Case { system, $($field: f(Var::$Var)?),* })
             }
 

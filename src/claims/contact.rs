@@ -51,8 +51,9 @@ pub(super) fn entries() -> Vec<Entry> {
                     equilibrium(s, u, lambda),
                     &s.c * penetration(s, u) + lambda - reaction(s),
                 ),
-                // By equilibrium N = m g − c u: a mass short of the plane with R > 0 would need a force there.
-                // Of two solutions, each with p N = 0, p ≤ 0 and N ≥ 0, the right side is not positive: they are one.
+                // By equilibrium N = m g − c u: a mass short of the plane with R > 0 would need a force
+                // there. Of two solutions, each with p N = 0, p ≤ 0 and N ≥ 0, the right side is not
+                // positive: they are one.
                 {
                     let p = |u: &Tree| penetration(s, u);
                     let n = |u: &Tree| augmented::contact_force(s, u);

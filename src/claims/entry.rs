@@ -6,8 +6,9 @@ use crate::formula::{Claim, Hypothesis, Notation};
 /// One number of the chapter: an equation, the theorem, a remark, a figure, a loose spot (note), or
 /// something beyond it.
 ///
-/// Its statement and its LaTeX have holes for formulas, as [`Registry::fill`](crate::formula::Registry::fill) describes
-/// them. Outside the holes stand words, relations and the names of quantities, and what no function computes.
+/// Its statement and its LaTeX have holes for formulas, as
+/// [`Registry::fill`](crate::formula::Registry::fill) describes them. Outside the holes stand words,
+/// relations and the names of quantities, and what no function computes.
 #[derive(Clone, Debug, Default)]
 pub struct Entry {
     /// "1.13", "Theorem 1.3.3", "Remark 1.3.2", "Fig. 1.1", "note 4" or "beyond 2".

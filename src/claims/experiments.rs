@@ -3,13 +3,16 @@
 //! The bounds are those of the chapter on floating point in the book, where they are derived. "True"
 //! always means: of the parameters as they are in their scalar.
 
+mod rounding;
+
+use self::rounding::{Setting, in_range};
 use super::{Case, given};
 use crate::chapter::{SpringMass, augmented, contact, penalty, structure, system};
 use crate::formula::Hypothesis;
-use crate::number::{Exact, Field, OrderedField, PositivePart, Real, ToExact};
+use crate::number::{Exact, OrderedField, PositivePart, Real, ToExact};
 use crate::solver::{
     Augmentation, Interval, Iterate, Method, Outcome, Plane, Scalar, Solution, State, augmentations_needed,
-    rounding_floor, series_penetration, solve, solve_bilateral,
+    series_penetration, solve, solve_bilateral,
 };
 use num_traits::{One, Zero};
 use std::cmp::Ordering;
@@ -66,7 +69,8 @@ pub fn float_experiments<T: Scalar + Real + ToExact>() -> Vec<Experiment<T>> {
         "1.6" "exact-state" [stiffness grazing] |x| state(x);
         "1.8" "bounds-contain" [stiffness] |x| bounds(x, &Method::Lagrange);
         "1.10" "root" [stiffness penalty quartic] |x| series_root(x);
-        "1.13" "bounds-contain" [stiffness penalty] |x| bounds(x, &Method::Penalty { penalty: x.eps.clone() });
+        "1.13" "bounds-contain" [stiffness penalty]
+            |x| bounds(x, &Method::Penalty { penalty: x.eps.clone() });
         "1.16" "float-monotone" [stiffness penalty contact] |x| monotone(x);
         "1.33" "promise" [stiffness penalty tolerance] |x| promise(x);
         "note 8" "floor" [stiffness penalty contact] |x| in_range(x, Setting::fixed_point);
@@ -80,7 +84,8 @@ pub fn first_order_experiments<T: Scalar + Real + ToExact>() -> Vec<Experiment<T
         "1.12" "precision-law" [stiffness penalty contact] |x| in_range(x, Setting::precision_law);
         "1.13" "float-error" [stiffness penalty contact] |x| in_range(x, Setting::deflection_error);
         "1.16" "float-drift" [stiffness penalty contact] |x| in_range(x, Setting::penetration_drift);
-        "1.16" "float-multiplier-drift" [stiffness penalty contact] |x| in_range(x, Setting::multiplier_drift);
+        "1.16" "float-multiplier-drift" [stiffness penalty contact]
+            |x| in_range(x, Setting::multiplier_drift);
     }
 }
 
@@ -101,161 +106,6 @@ fn exact<T: ToExact>(x: &T) -> Option<Exact> {
 
 fn within(error: Exact, bound: Exact) -> Trial {
     Trial::Within { error: error.abs(), bound }
-}
-
-/// A system of floats without over- or underflow in the formulas below, and its exact counterpart.
-struct Setting {
-    system: SpringMass<Exact>,
-    eps: Exact,
-    /// η.
-    eta: Exact,
-    gap: Exact,
-    reaction: Exact,
-}
-
-/// A trial that only a system in range can have.
-fn in_range<T: Scalar + Real + ToExact>(x: &Case<T>, trial: fn(&Setting, &Case<T>) -> Trial) -> Trial {
-    Setting::of(x).map_or(Trial::Undecided, |setting| trial(&setting, x))
-}
-
-/// The products and quotients that the bounds below suppose to be in range.
-fn results<T: Field>(s: &SpringMass<T>, eps: &T) -> [T; 7] {
-    let (gap, p) = (system::gap(s), penalty::penetration(s, eps));
-    [
-        system::weight(s),
-        structure::spring_force(s, &gap),
-        eps * &gap,
-        structure::deflection(s),
-        penalty::deflection(s, eps),
-        eps * &p,
-        p,
-    ]
-}
-
-impl Setting {
-    fn of<T: Scalar + Real + ToExact>(x: &Case<T>) -> Option<Self> {
-        let eta = [&x.system.c, &x.system.g, &x.system.l, &x.system.h, &x.eps, &x.u]
-            .iter()
-            .filter_map(|y| exact(&y.unit_roundoff()))
-            .max()?;
-        let (system, eps) = (x.system.try_map(|y| exact(y).ok_or(())).ok()?, exact(&x.eps)?);
-        let smallest = exact(&T::underflow_unit())? / (&eta * &eta);
-        let computed: Vec<Exact> = results(&x.system, &x.eps).iter().map(exact).collect::<Option<_>>()?;
-        // Nothing was divided by 0, so rationals can follow; a result of 0 may be the last of one that is not.
-        for (computed, exact) in computed.iter().zip(results(&system, &eps)) {
-            if !exact.is_zero() && computed.abs() < smallest {
-                return None;
-            }
-        }
-        let (gap, reaction) = (system::gap(&system), system::reaction(&system));
-        Some(Setting { eps, eta, gap, reaction, system })
-    }
-
-    /// |p̂ − p| ≤ η (|fl(l + u)| + |p̂|).
-    fn penetration_rounding<T: Scalar + ToExact>(&self, x: &Case<T>) -> Trial {
-        let computed = contact::penetration(&x.system, &x.u);
-        let sum = &x.system.l + &x.u;
-        match (exact(&computed), exact(&sum), exact(&x.u)) {
-            (Some(computed), Some(sum), Some(u)) => {
-                let error = &computed - contact::penetration(&self.system, &u);
-                within(error, &self.eta * (sum.abs() + computed.abs()))
-            }
-            _ => Trial::Undecided,
-        }
-    }
-
-    /// |û − u| ≤ η (5 |Δ| + 4 R/(c + ε)), u the exact (1.13): what is missing to R/(c + ε) + η (…) for Δ.
-    fn deflection_error<T: Scalar + ToExact>(&self, x: &Case<T>) -> Trial {
-        let Some(u) = exact(&penalty::deflection(&x.system, &x.eps)) else { return Trial::Undecided };
-        if self.reaction <= Exact::zero() {
-            return Trial::Undecided;
-        }
-        let p = penalty::penetration(&self.system, &self.eps);
-        let rounding = &self.eta * (Exact::from(5) * self.gap.abs() + Exact::from(4) * p);
-        within(u - penalty::deflection(&self.system, &self.eps), self.first_order(rounding))
-    }
-
-    /// The relative error of ε p̂ is at most c/(c + ε) + η ε L/R + 7 η with L = |H| + 5 |Δ|; the first
-    /// term is the method's own, the others are the rounding.
-    fn precision_law<T: Scalar + ToExact>(&self, x: &Case<T>) -> Trial {
-        let u = penalty::deflection(&x.system, &x.eps);
-        let Some(force) = exact(&penalty::contact_force(&x.system, &x.eps, &u)) else {
-            return Trial::Undecided;
-        };
-        if self.reaction <= Exact::zero() {
-            return Trial::Undecided;
-        }
-        let length = self.system.h.abs() + Exact::from(5) * self.gap.abs();
-        let rounding = &self.eta * (&self.eps * length + Exact::from(7) * &self.reaction);
-        within(force - penalty::force_at_root(&self.system, &self.eps), self.first_order(rounding))
-    }
-
-    /// From λ₀ = 0, |p̂_k − ρᵏ p₀| ≤ 16 F.
-    fn penetration_drift<T: Scalar + Real + ToExact>(&self, x: &Case<T>) -> Trial {
-        let after =
-            |decay: &Exact| augmented::penetration_after(&self.system, &self.eps, &Exact::zero(), decay);
-        self.drift(
-            x,
-            |step| exact(&step.penetration),
-            after,
-            Exact::from(16) * rounding_floor(&self.system, &self.eps, &self.eta),
-        )
-    }
-
-    /// From λ₀ = 0, |λ̂_k − λ_k| ≤ 9 (c + ε) F.
-    fn multiplier_drift<T: Scalar + Real + ToExact>(&self, x: &Case<T>) -> Trial {
-        let after = |decay: &Exact| augmented::multiplier_after(&self.system, &Exact::zero(), decay);
-        let bound = Exact::from(9)
-            * penalty::total_stiffness(&self.system, &self.eps)
-            * rounding_floor(&self.system, &self.eps, &self.eta);
-        self.drift(x, |step| exact(&step.multiplier), after, bound)
-    }
-
-    /// The largest distance of the computed iterates from the exact ones, which are functions of ρᵏ.
-    fn drift<T: Scalar + Real + ToExact>(
-        &self,
-        x: &Case<T>,
-        computed: impl Fn(&Iterate<T>) -> Option<Exact>,
-        after: impl Fn(&Exact) -> Exact,
-        bound: Exact,
-    ) -> Trial {
-        if self.reaction <= Exact::zero() {
-            return Trial::Undecided;
-        }
-        let ratio = augmented::contraction(&self.system, &self.eps);
-        let (mut decay, mut worst) = (Exact::one(), Exact::zero());
-        for step in Augmentation::new(&x.system, &x.eps).over(Plane::Bilateral).take(STEPS) {
-            let Some(computed) = computed(&step) else { return Trial::Undecided };
-            worst = worst.max((computed - after(&decay)).abs());
-            decay = decay * &ratio;
-        }
-        within(worst, self.first_order(bound))
-    }
-
-    /// Where λ̂ repeats, |p(û)| ≤ η |H| + η (1 + η)²/(1 − η) |λ|/ε.
-    fn fixed_point<T: Scalar + ToExact>(&self, x: &Case<T>) -> Trial {
-        let mut steps = Augmentation::new(&x.system, &x.eps).over(Plane::Bilateral);
-        // Where ε ≥ c each step gains a bit or more.
-        let bits = self.eta.as_rational().denom().significant_bits() as usize;
-        let enough = if self.eps >= self.system.c { (bits + STEPS).min(MOST_STEPS) } else { STEPS };
-        for _ in 0..enough {
-            let step = steps.step();
-            if *steps.multiplier() != step.multiplier {
-                continue;
-            }
-            let (Some(u), Some(lambda)) = (exact(&step.deflection), exact(&step.multiplier)) else { break };
-            let one = Exact::one();
-            let growth = (&one + &self.eta) * (&one + &self.eta) / (&one - &self.eta);
-            let bound = &self.eta * self.system.h.abs() + &self.eta * growth * lambda.abs() / &self.eps;
-            return within(contact::penetration(&self.system, &u), bound);
-        }
-        Trial::Undecided
-    }
-
-    /// The bounds hold to first order in η; what is left out is a small multiple of η times them.
-    fn first_order(&self, bound: Exact) -> Exact {
-        bound * (Exact::one() + Exact::from(64) * &self.eta)
-    }
 }
 
 /// The state is that of the exact sign of R, next to grazing too.
@@ -412,12 +262,13 @@ fn units<T: Scalar + Real + ToExact>(x: &Case<T>) -> Trial {
     }
 }
 
-/// (1.16) in rationals, for no more than [`STEPS`] steps, and for no more digits than right formulas come to: wrong
-/// ones can double them from step to step.
+/// (1.16) in rationals, for no more than [`STEPS`] steps, and for no more digits than right formulas come
+/// to: wrong ones can double them from step to step.
 ///
-/// The closed forms of λ_k and u_k are quotients, of degree k + 1 at most in c and ε, and of degree 1 in everything
-/// else. So with the digits s of all that is given, numerators and denominators counted, both parts of each
-/// fraction are products of 2 (k + 1) s digits at most; two of them are 8 (k + 1) s. What is left over are carries.
+/// The closed forms of λ_k and u_k are quotients, of degree k + 1 at most in c and ε, and of degree 1 in
+/// everything else. So with the digits s of all that is given, numerators and denominators counted, both
+/// parts of each fraction are products of 2 (k + 1) s digits at most; two of them are 8 (k + 1) s. What is
+/// left over are carries.
 fn exact_steps(x: &Case<Exact>, start: Exact, plane: Plane) -> impl Iterator<Item = Iterate<Exact>> {
     let SpringMass { c, m, g, l, h } = &x.system;
     let given: u64 = [c, m, g, l, h, &x.eps, &start].into_iter().map(Exact::digits).sum();

@@ -4,8 +4,8 @@ use super::{augmented, beyond, contact, lagrange, ode, penalty, structure, syste
 use crate::formula::Formula;
 use crate::number::{Exponential, PositivePart, Tree};
 
-/// The arguments of a function: `system` stands for the five parameters, a name for a quantity, one in brackets for
-/// a list of one.
+/// The arguments of a function: `system` stands for the five parameters, a name for a quantity, one in
+/// brackets for a list of one.
 macro_rules! argument {
     ($own:ident $symbol:ident system) => {
         &$own
@@ -21,14 +21,18 @@ macro_rules! argument {
 macro_rules! names {
     ([$($done:literal)*]) => { vec![$($done),*] };
     ([$($done:literal)*] system $($rest:tt)*) => { $crate::claims::formulas::names!([$($done)*] $($rest)*) };
-    ([$($done:literal)*] [$name:literal] $($rest:tt)*) => { $crate::claims::formulas::names!([$($done)* $name] $($rest)*) };
-    ([$($done:literal)*] $name:literal $($rest:tt)*) => { $crate::claims::formulas::names!([$($done)* $name] $($rest)*) };
+    ([$($done:literal)*] [$name:literal] $($rest:tt)*) => {
+        $crate::claims::formulas::names!([$($done)* $name] $($rest)*)
+    };
+    ([$($done:literal)*] $name:literal $($rest:tt)*) => {
+        $crate::claims::formulas::names!([$($done)* $name] $($rest)*)
+    };
 }
 
 /// The formulas of a section: `"p" (folded) = contact::penetration(system, "u");`.
 ///
-/// `(folded)` after a symbol: formulas may speak of the quantity by it. A value without a symbol is a residual, a
-/// side of an equation, or has no name in the chapter. Of several values each `is` a part.
+/// `(folded)` after a symbol: formulas may speak of the quantity by it. A value without a symbol is a
+/// residual, a side of an equation, or has no name in the chapter. Of several values each `is` a part.
 macro_rules! formulas {
     ($($symbol:literal $(($folded:ident))? = $module:ident::$name:ident($($argument:tt),*)
        $(, $part:literal is |$pattern:pat_param| $value:expr)? $(, written $written:literal)?;)*) => {
@@ -65,8 +69,8 @@ pub(super) use {argument, formulas, names};
 
 macro_rules! sections {
     ($($section:ident)*) => {
-        /// What each function of the [`registry`](super::registry) computes in a number system, in its order: by the functions
-        /// themselves, and not by their records.
+        /// What each function of the [`registry`](super::registry) computes in a number system, in its
+        /// order: by the functions themselves, and not by their records.
         pub fn computed<T: PositivePart + Exponential>(symbol: &impl Fn(&'static str) -> T) -> Vec<T> {
             let mut all = Vec::new();
             $(all.extend($section::computed(symbol));)*

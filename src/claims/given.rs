@@ -7,7 +7,8 @@ use crate::number::Tree;
 use std::sync::LazyLock;
 
 macro_rules! hypotheses {
-    (let $symbols:pat = symbols(); $($name:ident = $relation:ident($value:expr) $(, solved for $symbol:expr)?;)*) => {
+    (let $symbols:pat = symbols();
+     $($name:ident = $relation:ident($value:expr) $(, solved for $symbol:expr)?;)*) => {
         /// The hypotheses, by names of their own.
         #[derive(Debug)]
         #[allow(missing_docs)]
@@ -35,7 +36,8 @@ macro_rules! hypotheses {
     };
 }
 
-// Where numbers are looked for, the reaction gets its sign by gravity, so that the other parameters stay as drawn.
+// Where numbers are looked for, the reaction gets its sign by gravity, so that the other parameters stay as
+// drawn.
 hypotheses! {
     let Case { system: s, u, v, alpha, eps, eps4, lambda, q, k, t, tol, .. } = symbols();
 

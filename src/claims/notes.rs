@@ -333,7 +333,8 @@ fn unilateral_step(lambda: &Tree) -> Tree {
     augmented::unilateral_update(s, eps, lambda, &augmented::unilateral_deflection(s, eps, lambda))
 }
 
-/// The slope at p of a functional W = (1 − 1/(2 (1 + ε))) p² that has all three properties which the chapter asks for.
+/// The slope at p of a functional W = (1 − 1/(2 (1 + ε))) p² that has all three properties which the
+/// chapter asks for.
 fn saturating_force(eps: &Tree, p: &Tree) -> Tree {
     let (eps, p) = (Dual::constant(eps.clone()), Dual::variable(p.clone()));
     let one = Dual::<Tree>::int(1);

@@ -101,8 +101,8 @@ impl Hypothesis {
         value.and_then(|value| value.partial_cmp(&T::zero())).is_some_and(|sign| self.relation.admits(sign))
     }
 
-    /// The number for the symbol that it is [solved for](field@Self::solved_for) with which the quantity, if it is
-    /// linear there, has the value `target`; `None` if it does not depend on it.
+    /// The number for the symbol that it is [solved for](field@Self::solved_for) with which the quantity,
+    /// if it is linear there, has the value `target`; `None` if it does not depend on it.
     pub fn solution<T: Field>(&self, symbol: &impl Fn(&'static str) -> T, target: &T) -> Option<T> {
         self.value.solution(self.solved_for, symbol, target)
     }
@@ -204,7 +204,8 @@ impl Kind {
     }
 }
 
-/// Something said of formulas under hypotheses: recorded once, and read by provers, number systems and printers.
+/// Something said of formulas under hypotheses: recorded once, and read by provers, number systems and
+/// printers.
 #[derive(Clone, Debug)]
 pub struct Claim {
     /// The number of the equation that it belongs to.

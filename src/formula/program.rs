@@ -4,8 +4,8 @@ use crate::number::tree::Step;
 use crate::number::{Field, Tree};
 use std::collections::HashMap;
 
-/// Formulas compiled to a list of steps, in which what they have in common stands once: R or ρ is computed once,
-/// however many formulas speak of it.
+/// Formulas compiled to a list of steps, in which what they have in common stands once: R or ρ is computed
+/// once, however many formulas speak of it.
 ///
 /// ```
 /// use num_traits::One;
@@ -46,8 +46,8 @@ impl Program {
         self.steps.is_empty()
     }
 
-    /// The value at each place: what [`Tree::replay`] would compute, bit for bit. How to divide, and eˣ, ⟨·⟩ and min,
-    /// is for `beyond` to say; where that has no answer, there is no value.
+    /// The value at each place: what [`Tree::replay`] would compute, bit for bit. How to divide, and eˣ,
+    /// ⟨·⟩ and min, is for `beyond` to say; where that has no answer, there is no value.
     pub fn run<T: Field>(
         &self,
         symbol: &impl Fn(&'static str) -> T,

@@ -1,8 +1,9 @@
-//! Functions as formulas: each one recorded once, with the names of its arguments, and how a text writes them.
+//! Functions as formulas: each one recorded once, with the names of its arguments, and how a text writes
+//! them.
 //!
-//! A text for the eye has holes for formulas, to be [filled](Registry::fill): `«penalty::deflection»` becomes what the
-//! function does, `«augmented::update: u=u_k, λ=λ_k»` the same with other names for its arguments, and
-//! `«penalty::contact_force in full»` spells out also what has a name of its own, here p.
+//! A text for the eye has holes for formulas, to be [filled](Registry::fill): `«penalty::deflection»`
+//! becomes what the function does, `«augmented::update: u=u_k, λ=λ_k»` the same with other names for its
+//! arguments, and `«penalty::contact_force in full»` spells out also what has a name of its own, here p.
 
 use super::Hypothesis;
 use super::typeset::{Name, Notation, latex};
@@ -70,13 +71,14 @@ pub struct Registry {
 }
 
 impl Registry {
-    /// A registry of these functions, none of which comes before what it calls. The symbols are all quantities that are
-    /// spoken of, in the order in which they are to be listed.
+    /// A registry of these functions, none of which comes before what it calls. The symbols are all
+    /// quantities that are spoken of, in the order in which they are to be listed.
     pub fn new(symbols: &[&'static str], formulas: Vec<Formula>) -> Self {
         let mut by_site: HashMap<Site, Vec<usize>> = HashMap::new();
         let mut sites = HashSet::new();
         for (i, formula) in formulas.iter().enumerate() {
-            // A function that only hands on an argument, as a mistake may leave it, computes nothing to be known by.
+            // A function that only hands on an argument, as a mistake may leave it, computes nothing to be
+            // known by.
             if !matches!(formula.tree.step(), Step::Symbol(_)) {
                 by_site.entry(formula.tree.site()).or_default().push(i);
             }
@@ -93,8 +95,8 @@ impl Registry {
         Registry { alike: alike.to_vec(), ..self }
     }
 
-    /// With symbols that are parameters: where a name is said with its arguments, they are not said as long as they are
-    /// themselves.
+    /// With symbols that are parameters: where a name is said with its arguments, they are not said as long
+    /// as they are themselves.
     pub fn quiet(self, quiet: &[&'static str]) -> Self {
         Registry { quiet: quiet.to_vec(), ..self }
     }
@@ -124,7 +126,8 @@ impl Registry {
         &self.formulas
     }
 
-    /// The formula of a function, or of one of its values: `penalty::deflection`, `lagrange::residual.constraint`.
+    /// The formula of a function, or of one of its values: `penalty::deflection`,
+    /// `lagrange::residual.constraint`.
     pub fn formula(&self, path: &str) -> Option<&Formula> {
         self.formulas.iter().find(|formula| formula.name() == path)
     }
@@ -154,7 +157,8 @@ impl Registry {
     /// use spring_mass_contact::{claims::registry, formula::Notation};
     /// let energy = registry().formula("augmented::functional").unwrap();
     /// assert_eq!(registry().typeset(energy, Notation::Text), "Π + λ p + ε p² / 2");
-    /// assert_eq!(registry().typeset(energy, Notation::Latex), r"\Pi + \lambda\,p + \tfrac{1}{2}\,\varepsilon\,p^2");
+    /// assert_eq!(registry().typeset(energy, Notation::Latex), r"\Pi + \lambda\,p +
+    /// \tfrac{1}{2}\,\varepsilon\,p^2");
     /// ```
     pub fn typeset(&self, formula: &Formula, notation: Notation) -> String {
         self.names(Some(formula)).typeset(formula, notation)
@@ -234,9 +238,9 @@ impl Registry {
         self.calls(tree).next()
     }
 
-    /// Every function that would have computed this: the one whose last step it is, and after it those that only
-    /// call it. A value that is handed on looks the same before and after, so which of them was called is not in
-    /// the record.
+    /// Every function that would have computed this: the one whose last step it is, and after it those that
+    /// only call it. A value that is handed on looks the same before and after, so which of them was called
+    /// is not in the record.
     pub fn calls(&self, tree: &Tree) -> impl Iterator<Item = Call<'_>> {
         let known = self.by_site.get(&tree.site()).map_or(&[][..], Vec::as_slice);
         known.iter().filter_map(|&i| {

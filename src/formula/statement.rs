@@ -104,8 +104,8 @@ impl Statement {
     ///
     /// The induction over k is here: a recursion has the closed form x_k = closed(ρᵏ) if closed(1) is its
     /// start and one step leads from closed(q) to closed(ρ q), whatever q is. What a claim supposes of q is
-    /// an invariant: it has to hold for q = 1, by the other hypotheses alone, and to be passed on from q to ρ q;
-    /// then it may be used in the step.
+    /// an invariant: it has to hold for q = 1, by the other hypotheses alone, and to be passed on from q to
+    /// ρ q; then it may be used in the step.
     pub fn of(claim: &Claim) -> Self {
         let goal = Goal::of_claim;
         let of_q = |given: &Hypothesis| given.value.symbols().contains(POWER);

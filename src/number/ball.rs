@@ -197,7 +197,9 @@ operators! { [T: Real] Ball<T>;
         // No |divisor| is less than this.
         let least = b.value.abs();
         let least = if b.radius.is_zero() { least } else { (least - &b.radius).next_down() };
-        if least.partial_cmp(&T::zero()) != Some(Ordering::Greater) { return Ball { value, radius: T::infinity() } }
+        if least.partial_cmp(&T::zero()) != Some(Ordering::Greater) {
+            return Ball { value, radius: T::infinity() }
+        }
         if a.is_exactly_zero() { return Ball::zero() }
         // a/b − a'/b' = ((a − a') − (a/b)(b − b')) / b'
         let own = product_error(&value);

@@ -21,7 +21,8 @@
 //! it says what the `where` clause would have said. The detour takes two traits, because the
 //! equality `Is = X` is implied too only where it stands in a supertrait's header.
 //! (It works for type parameters, `T: Field`. An associated type cannot be bounded by `Field` itself,
-//! but by a trait that has it as a supertrait, such as [`PositivePart`]. The language's side of it is the long-standing issue rust-lang/rust#44491.)
+//! but by a trait that has it as a supertrait, such as [`PositivePart`]. The language's side of it is the
+//! long-standing issue rust-lang/rust#44491.)
 //!
 //! # Your own number system
 //!
@@ -198,7 +199,8 @@ macro_rules! operators {
             fn neg(self) -> $type { -&self }
         }
     };
-    (@binary ($(#[$attribute:meta])*) [$($generics:tt)*] $type:ty; $Trait:ident $f:ident |$a:ident, $b:ident| $body:expr) => {
+    (@binary ($(#[$attribute:meta])*) [$($generics:tt)*] $type:ty;
+     $Trait:ident $f:ident |$a:ident, $b:ident| $body:expr) => {
         impl<$($generics)*> ::std::ops::$Trait<&$type> for &$type {
             type Output = $type;
             $(#[$attribute])*
@@ -223,7 +225,8 @@ macro_rules! operators {
     ($(#[$attribute:meta])* [$($generics:tt)*] $type:ty;
      $($Trait:ident $f:ident |$a:ident, $b:ident| $body:expr;)*
      - |$n:ident| $negated:expr) => {
-        $crate::operators!(@all ($(#[$attribute])*) [$($generics)*] $type; $($Trait $f |$a, $b| $body;)* - |$n| $negated);
+        $crate::operators!(@all ($(#[$attribute])*) [$($generics)*] $type;
+            $($Trait $f |$a, $b| $body;)* - |$n| $negated);
     };
     (@all $attributes:tt $generics:tt $type:ty;
      $($Trait:ident $f:ident |$a:ident, $b:ident| $body:expr;)*

@@ -1,5 +1,5 @@
-//! exp and ln of the machine's floats, correctly rounded: MPFR's at 24 and 53 bits. The standard library promises no
-//! bound for its own.
+//! exp and ln of the machine's floats, correctly rounded: MPFR's at 24 and 53 bits. The standard library
+//! promises no bound for its own.
 
 use super::{Exponential, Logarithm};
 use rug::Float;

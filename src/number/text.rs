@@ -17,8 +17,8 @@ pub trait Text: ToExact + Clone {
     /// The numbers next to this one, the smaller first; a rational has none and gives itself.
     fn neighbours(&self) -> [Self; 2];
 
-    /// A text that spells a number no greater than this one, or no less if the rounding is up: its own or that
-    /// of a number near it, since the shortest decimal of a float can lie on either side of the float.
+    /// A text that spells a number no greater than this one, or no less if the rounding is up: its own or
+    /// that of a number near it, since the shortest decimal of a float can lie on either side of the float.
     ///
     /// # Panics
     /// The number is not finite, or the rounding is neither up nor down.
@@ -83,8 +83,8 @@ impl Text for Exact {
 }
 
 impl Exact {
-    /// As a decimal of at most so many digits, on the side that the rounding says; directed, it can be one unit
-    /// further than need be.
+    /// As a decimal of at most so many digits, on the side that the rounding says; directed, it can be one
+    /// unit further than need be.
     ///
     /// ```
     /// # use spring_mass_contact::{number::Exact, rug::float::Round};

@@ -189,7 +189,8 @@ impl Tree {
         })
     }
 
-    /// The value of the formula and its derivative by one of its quantities; `None` as for [`replay`](Self::replay).
+    /// The value of the formula and its derivative by one of its quantities; `None` as for
+    /// [`replay`](Self::replay).
     pub fn derivative<T: Field>(
         &self,
         by: &str,
@@ -199,8 +200,9 @@ impl Tree {
         self.replay(&|name| Dual::coordinate(symbol(name), name == by), beyond)
     }
 
-    /// The number for one of its quantities at which the formula, if it is linear in that quantity and the others are as
-    /// they are, has the value `target`; `None` if it does not depend on it, or has eˣ, ⟨·⟩ or min.
+    /// The number for one of its quantities at which the formula, if it is linear in that quantity and the
+    /// others are as they are, has the value `target`; `None` if it does not depend on it, or has eˣ, ⟨·⟩
+    /// or min.
     pub fn solution<T: Field>(
         &self,
         by: &'static str,

@@ -2,14 +2,15 @@
 //!
 //! A formula is read step by step into a quotient of polynomials ([`algebra`]); a division
 //! needs a proof that its divisor is not 0, a bracket ⟨x⟩ or a minimum needs the sign of what it depends on.
-//! Where the sign for a bracket is open, the kernel splits into two cases, positive or not, and proves both; a
-//! divisor whose sign is open is the end of the attempt.
+//! Where the sign for a bracket is open, the kernel splits into two cases, positive or not, and proves
+//! both; a divisor whose sign is open is the end of the attempt.
 //!
-//! A hypothesis v > 0 that does not follow from others, and is more than the sign of a symbol, becomes v = s for a new
-//! symbol s > 0: one monomial of v, the *pivot*, is replaced wherever it occurs by what it equals then. (For
-//! R = m g − c (H − l) > 0: m g by s + c (H − l); or H by (c l + m g − s)/c, where c ≠ 0 is known.) Equals are replaced by
-//! equals, so what is proved of all values of the symbols that are left, s > 0 among them, holds in particular
-//! for those that satisfy the hypothesis. Which monomial is chosen matters for success and not for soundness.
+//! A hypothesis v > 0 that does not follow from others, and is more than the sign of a symbol, becomes v =
+//! s for a new symbol s > 0: one monomial of v, the *pivot*, is replaced wherever it occurs by what it
+//! equals then. (For R = m g − c (H − l) > 0: m g by s + c (H − l); or H by (c l + m g − s)/c, where c ≠ 0
+//! is known.) Equals are replaced by equals, so what is proved of all values of the symbols that are left,
+//! s > 0 among them, holds in particular for those that satisfy the hypothesis. Which monomial is chosen
+//! matters for success and not for soundness.
 //!
 //! | to prove | the rule |
 //! |---|---|
@@ -167,8 +168,9 @@ impl Context {
 
     /// A monomial of the quantity, and what it equals if the quantity is `slack`.
     ///
-    /// Best a symbol of which nothing is known and that stands alone or times what is not 0, so that it disappears
-    /// for good; else a product of symbols of which little is known, so that little is forgotten.
+    /// Best a symbol of which nothing is known and that stands alone or times what is not 0, so that it
+    /// disappears for good; else a product of symbols of which little is known, so that little is
+    /// forgotten.
     fn pivot(&self, value: &Ratio, slack: &Poly) -> Option<(Monomial, Ratio)> {
         // num − slack · den = 0, and den is not 0.
         let equation = value.num() - slack * value.den();
@@ -231,9 +233,9 @@ impl Context {
 
     /// The terms without an e^… that falls as x grows. None if there is an e^… of which that is not seen.
     ///
-    /// An exponent n/d of polynomials whose degree in x is higher above than below, and whose leading coefficients
-    /// have opposite signs, tends to −∞ at least as fast as −x does, up to a factor; and e^{−a x} times any
-    /// power of x vanishes for a > 0.
+    /// An exponent n/d of polynomials whose degree in x is higher above than below, and whose leading
+    /// coefficients have opposite signs, tends to −∞ at least as fast as −x does, up to a factor; and e^{−a
+    /// x} times any power of x vanishes for a > 0.
     fn without_falling_exponentials(&self, num: &Poly, x: Symbol) -> Option<Poly> {
         let moves = |e: &Ratio| e.symbols().contains(&x);
         for e in num.exponents().filter(|e| moves(e)) {
@@ -247,8 +249,8 @@ impl Context {
         Some(rest.map(|(m, q)| (m.clone(), q.clone())).collect())
     }
 
-    /// The limit for x → ∞ by the degrees in x: a quotient of polynomials tends to 0 if the degree is higher below,
-    /// and to the quotient of the leading coefficients if the degrees are equal.
+    /// The limit for x → ∞ by the degrees in x: a quotient of polynomials tends to 0 if the degree is
+    /// higher below, and to the quotient of the leading coefficients if the degrees are equal.
     ///
     /// Everything supposed has to stay true as x grows: of x itself nothing but that it is positive.
     fn limit(&self, of: Ratio, x: Symbol, to: Ratio) -> Result<Because, Why> {
@@ -324,8 +326,8 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// A bracket: the first where what decides is ≥ 0, the second where it is ≤ 0. It has to be one of them for all
-    /// values.
+    /// A bracket: the first where what decides is ≥ 0, the second where it is ≤ 0. It has to be one of them
+    /// for all values.
     fn either(
         &mut self,
         bracket: &Tree,

@@ -14,16 +14,17 @@ use crate::formula::{Hypothesis, Relation};
 use crate::number::tree::{Step, everything, piecewise, smooth};
 use crate::number::{Exact, Tree};
 use num_traits::{One, Zero};
-use rug::{Float, Integer, Rational};
+use rug::Float;
 use std::cmp::Ordering;
-use std::collections::BTreeSet;
 use std::fmt;
 use std::sync::OnceLock;
 
 mod point;
+mod smaller;
 mod value;
 
 pub use point::{Point, planted_points, raw_points};
+use smaller::smaller;
 pub use value::Value;
 
 /// What a statement comes to at one point.
@@ -113,8 +114,8 @@ pub fn check(statement: &Statement, point: &Point) -> Verdict {
 
 /// The same where the hypotheses are known to hold.
 ///
-/// An induction is about q = ρᵏ, and no step says anything of another q; its invariants are a means and not an end.
-/// And where |ρ| ≥ 1 a sequence has the limit all the same, if it has that value all along.
+/// An induction is about q = ρᵏ, and no step says anything of another q; its invariants are a means and not
+/// an end. And where |ρ| ≥ 1 a sequence has the limit all the same, if it has that value all along.
 fn check_goals(statement: &Statement, point: &Point) -> Verdict {
     let powers = match &statement.amounts_to {
         Some(Sequence { ratio, limit: None, .. }) => {
@@ -179,9 +180,9 @@ fn fails(says: &Says, point: &Point) -> Option<Option<How>> {
             let dual = of.derivative(by, &|name| Value::Exact(point.at(name)), &smooth);
             differ(dual.map(|dual| dual.derivative), value(is, point))
         }
-        // A quotient of polynomials behaves like a power of x beyond all its zeros and poles, and the coefficients
-        // here are far too small for one at 2¹⁰⁰. A distance that tends to 0 falls like 1/x or faster, so by 2⁻¹⁰⁰ or
-        // more between 2¹⁰⁰ and 2²⁰⁰; any other does not fall at all.
+        // A quotient of polynomials behaves like a power of x beyond all its zeros and poles, and the
+        // coefficients here are far too small for one at 2¹⁰⁰. A distance that tends to 0 falls like 1/x or
+        // faster, so by 2⁻¹⁰⁰ or more between 2¹⁰⁰ and 2²⁰⁰; any other does not fall at all.
         Says::Limit(of, by, to) => {
             let distance = |n| {
                 let point = point.with(by, Exact::power_of_two(n));
@@ -302,73 +303,9 @@ pub fn refute(statement: &Statement) -> Option<Counterexample> {
     points.quickly(statement).or_else(|| points.thoroughly(statement))
 }
 
-/// What a coordinate is best, and next best.
-const SIMPLE: [i32; 7] = [1, 0, 2, -1, 3, -2, -3];
-
-/// How far from simple a number is.
-fn complexity(x: &Exact) -> u64 {
-    let q = x.as_rational();
-    let simple = SIMPLE.iter().position(|n| *q == *n).map(|place| place as u64);
-    // Of what is large, the length.
-    let size = |n: &Integer| match n.to_i32() {
-        Some(n) => n.unsigned_abs().into(),
-        None => u64::from(u32::MAX) + u64::from(n.significant_bits()),
-    };
-    simple.unwrap_or_else(|| SIMPLE.len() as u64 + size(q.numer()) + size(q.denom()))
-}
-
-/// What a coordinate could be instead, the simplest first: of a long number, fewer digits.
-fn simpler(x: &Exact) -> Vec<Exact> {
-    let whole = Exact::from(x.as_rational().clone().trunc());
-    let half = Exact::from((whole.as_rational() / Rational::from(2)).trunc());
-    let simple = SIMPLE.iter().map(|n| Exact::from(*n)).take_while(|n| n != x);
-    simple.chain([half, whole]).collect()
-}
-
-/// Tries simpler numbers for one symbol after the other, as long as it stays a counterexample.
-fn smaller(statement: &Statement, point: &Point, part: &'static str, how: How) -> Counterexample {
-    let symbols: BTreeSet<_> = statement.trees().flat_map(Tree::symbols).collect();
-    let size = |point: &Point| point.numbers().map(|(_, x)| complexity(x)).sum::<u64>();
-    let mut best = Counterexample { point: point.among(&symbols), part, how };
-    // The same with another number, where a further one may have to follow.
-    let with = |best: &Counterexample, symbol: &'static str, x: Exact| {
-        let point = best.point.with(symbol, x);
-        let followed = match &best.how {
-            How::Undefined(divisor) => {
-                let others = divisor.symbols().into_iter().filter(|other| *other != symbol);
-                others.filter_map(|other| bent_to_zero(divisor, other, &point)).collect()
-            }
-            How::Different(..) | How::Sign(..) | How::Far(_) => Vec::new(),
-        };
-        let followed = followed.into_iter().filter(|point| point.satisfies(&statement.hypotheses));
-        let one = |relation| Exact::from(i32::from(relation == Relation::Positive));
-        let bent = point.bent(&statement.hypotheses, &one);
-        bent.into_iter().chain(followed).find_map(|point| {
-            let smaller = size(&point) < size(&best.point);
-            let Verdict::Fails(part, how) = smaller.then(|| check_goals(statement, &point))? else {
-                return None;
-            };
-            // What is defined stays so: that two numbers differ shows more than that there are none.
-            let shows = !matches!(how, How::Undefined(_)) || matches!(best.how, How::Undefined(_));
-            shows.then_some(Counterexample { point, part, how })
-        })
-    };
-    let mut improves = true;
-    while improves {
-        improves = false;
-        for symbol in &symbols {
-            let better = simpler(&best.point.at(symbol)).into_iter().find_map(|x| with(&best, symbol, x));
-            if let Some(better) = better {
-                best = better;
-                improves = true;
-            }
-        }
-    }
-    best
-}
-
 #[cfg(test)]
 mod tests {
+    use super::smaller::SIMPLE;
     use super::*;
     use crate::formula::claim::{equal, limit, non_negative, positive};
     use crate::formula::statement::Goal;

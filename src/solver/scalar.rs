@@ -96,7 +96,9 @@ mod machine {
             let wide = |(a, b): (&f32, &f32)| (f64::from(*a), f64::from(*b));
             sign_of_sum(plus.map(wide), wide(minus))
         };
-        f64, |plus: [(&f64, &f64); 2], (a, b): (&f64, &f64)| sign_of_sum(plus.map(|(a, b)| (*a, *b)), (*a, *b));
+        f64, |plus: [(&f64, &f64); 2], (a, b): (&f64, &f64)| {
+            sign_of_sum(plus.map(|(a, b)| (*a, *b)), (*a, *b))
+        };
     }
 }
 #[cfg(feature = "mpfr")]

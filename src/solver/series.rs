@@ -76,7 +76,8 @@ impl Equation {
     }
 
     /// Newton's method from outside, where the residual is convex (concave for R < 0) and the method
-    /// monotone: it ends when it no longer comes nearer. `None` if it does not, or if there is no place to begin.
+    /// monotone: it ends when it no longer comes nearer. `None` if it does not, or if there is no place to
+    /// begin.
     fn root(&self, precision: u32) -> Option<Mpfr> {
         // Not `to_mpfr`: the root of a scalar with the most bits takes more.
         let rounded = |x: &Exact| Mpfr::from(Float::with_val(precision, x.as_rational()));
@@ -88,8 +89,8 @@ impl Equation {
         let (system, eps) = (weight.map(constant), constant(&self.eps));
         let higher: Vec<_> = self.higher.iter().map(constant).collect();
         let mut p = rounded(&self.outside()?);
-        // From less than twice the root of a polynomial of degree d, d steps lead to within a factor 1 + 1/d, and
-        // from there each doubles the digits.
+        // From less than twice the root of a polynomial of degree d, d steps lead to within a factor 1 +
+        // 1/d, and from there each doubles the digits.
         for _ in 0..2 * (2 * self.higher.len() + 1) + 64 {
             let f = penalty::series_residual(&system, &eps, &higher, &Dual::variable(p.clone()));
             let next = &p - f.value / f.derivative;
@@ -101,9 +102,9 @@ impl Equation {
         None
     }
 
-    /// So many binary digits that the root is between 2⁻ⁿ and 2ⁿ in size: it is at most |R|/c, and at least what the
-    /// largest of the terms would be the root of alone, with R divided among the terms. So n is less than all the
-    /// digits together.
+    /// So many binary digits that the root is between 2⁻ⁿ and 2ⁿ in size: it is at most |R|/c, and at least
+    /// what the largest of the terms would be the root of alone, with R divided among the terms. So n is
+    /// less than all the digits together.
     fn digits(&self) -> u64 {
         let SpringMass { c, m, g, l, h } = &self.system;
         let terms = 64 + self.higher.len() as u64;

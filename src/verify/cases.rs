@@ -47,8 +47,8 @@ const PROFILES: &[Profile] = &[
     Profile::SubnormalDouble,
 ];
 
-/// What is subnormal in a case. The other quantities make up for it: no force, and no quotient of a force and a
-/// stiffness, vanishes by rounding, or [`solve`](crate::solver::solve) would refuse the case.
+/// What is subnormal in a case. The other quantities make up for it: no force, and no quotient of a force
+/// and a stiffness, vanishes by rounding, or [`solve`](crate::solver::solve) would refuse the case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Small {
     /// c and ε.
@@ -67,8 +67,8 @@ impl Small {
     const ALL: [Small; 5] =
         [Small::Stiffnesses, Small::Mass, Small::Gravity, Small::Lengths, Small::Products];
 
-    /// By how many powers of two a quantity is larger than one of moderate size, for f32 and for f64; `None` if it
-    /// is subnormal.
+    /// By how many powers of two a quantity is larger than one of moderate size, for f32 and for f64;
+    /// `None` if it is subnormal.
     fn shift(self, var: Var) -> Option<[i32; 2]> {
         use Var::*;
         match (self, var) {
@@ -119,9 +119,9 @@ impl Draw {
         Exact::from(rug::Rational::from(mantissa)) * Exact::power_of_two(self.between(low, high))
     }
 
-    /// The ranges of mantissa and exponent in a subnormal case of floats of this precision, whose smallest number
-    /// is this power of two. What is subnormal is a multiple of four times it, so that a unit four times as large
-    /// (note 8) changes no digit.
+    /// The ranges of mantissa and exponent in a subnormal case of floats of this precision, whose smallest
+    /// number is this power of two. What is subnormal is a multiple of four times it, so that a unit four
+    /// times as large (note 8) changes no digit.
     fn subnormal(&self, var: Var, float: usize, smallest: i32, precision: i32) -> (u32, i32, i32) {
         // Few digits, so that a product of two such numbers is small and yet no less than the smallest.
         let digits = if self.small == Small::Products { 6 } else { 11 };

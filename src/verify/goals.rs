@@ -169,7 +169,8 @@ mod tests {
         assert!(!holds(induction(3, int(2) * x(MEMBERS[0]), closed())));
         assert!(!holds(induction(3, step(), int(2) * x("q") + int(2))));
         assert!(!holds(induction(3, step(), x("q") + int(2))), "right at the start, and then a step late");
-        // Right from 3 on as far as it is followed, and wrong for a power that no step meets: 3, 5, 9, 17, and so on.
+        // Right from 3 on as far as it is followed, and wrong for a power that no step meets: 3, 5, 9, 17,
+        // and so on.
         let off = [1, 2, 4, 8].into_iter().fold(int(1), |off, n| off * (x("q") - int(n)));
         let followed = || induction(3, step(), closed() + &off);
         assert!(holds_at(2, followed()) && !holds_at(3, followed()));

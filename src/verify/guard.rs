@@ -1,5 +1,5 @@
-//! Work that a wrong formula may break off: a rational divided by zero panics, and so may what is built on the
-//! expectation that formulas are right. Here that is a finding, and no reason to stop.
+//! Work that a wrong formula may break off: a rational divided by zero panics, and so may what is built on
+//! the expectation that formulas are right. Here that is a finding, and no reason to stop.
 
 use std::any::Any;
 use std::cell::Cell;

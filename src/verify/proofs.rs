@@ -90,8 +90,8 @@ pub struct Summary {
     pub controls: controls::Summary,
 }
 
-/// Proves every claim of the chapter, and runs the controls if all are proved: of others they say nothing. What is not
-/// about these equations is left out; that no claim notices a change is about all of them.
+/// Proves every claim of the chapter, and runs the controls if all are proved: of others they say nothing.
+/// What is not about these equations is left out; that no claim notices a change is about all of them.
 pub fn prove_all(equations: &[String]) -> Proofs {
     let all = statements();
     let start = Instant::now();

@@ -14,15 +14,15 @@ pub struct Suspect {
     pub equation: Option<&'static str>,
     /// Its path: `penalty::deflection`.
     pub function: &'static str,
-    /// Of the claims that speak of it, so many are not proved; 0 if it computes nothing, but hands on an argument: then no
-    /// claim can be seen to speak of it.
+    /// Of the claims that speak of it, so many are not proved; 0 if it computes nothing, but hands on an
+    /// argument: then no claim can be seen to speak of it.
     pub unproved: usize,
     /// And so many are.
     pub proved: usize,
 }
 
-/// The functions that best tell the claims that are not proved from the others: most of these speak of them, and few
-/// others do. The best one, and those as good.
+/// The functions that best tell the claims that are not proved from the others: most of these speak of
+/// them, and few others do. The best one, and those as good.
 pub(super) fn suspects(statements: &[Statement], unproved: &dyn Fn(&Statement) -> bool) -> Vec<Suspect> {
     if !statements.iter().any(unproved) {
         return Vec::new();

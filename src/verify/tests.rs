@@ -359,7 +359,8 @@ fn json_shows_how_a_claim_fails() {
         "repairs": [],
         "equations": [{"equation": "1.13", "claims": [
             {
-                "claim": "rate", "kind": "equal", "status": "failed", "scalar": "mpfr:2", "why": "division by zero",
+                "claim": "rate", "kind": "equal", "status": "failed", "scalar": "mpfr:2",
+                "why": "division by zero",
                 "decided": 4, "undecided": 1, "worst": "2.5", "bound": "1/8", "counterexample": coordinates
             },
             {

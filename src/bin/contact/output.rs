@@ -84,8 +84,8 @@ pub fn json(out: &mut dyn Write, value: &impl Serialize) -> io::Result<()> {
     writeln!(out)
 }
 
-/// An empty table in the style all tables share, as wide as a page, or the terminal if that is wider: in less, most
-/// would break in the middle of words.
+/// An empty table in the style all tables share, as wide as a page, or the terminal if that is wider: in
+/// less, most would break in the middle of words.
 pub fn table() -> Table {
     let mut table = Table::new();
     table
@@ -103,7 +103,8 @@ pub fn glued(point: &impl ToString) -> String {
     point.to_string().replace(" = ", &format!("{GLUE}={GLUE}"))
 }
 
-/// Text in as many lines as it needs; the first begins with `first`, the others are indented by `rest` blanks.
+/// Text in as many lines as it needs; the first begins with `first`, the others are indented by `rest`
+/// blanks.
 pub fn wrapped(out: &mut dyn Write, first: &str, rest: usize, text: &str) -> io::Result<()> {
     let rest = " ".repeat(rest);
     let options = textwrap::Options::new(width())
@@ -114,8 +115,8 @@ pub fn wrapped(out: &mut dyn Write, first: &str, rest: usize, text: &str) -> io:
     lines.iter().try_for_each(|line| writeln!(out, "{}", line.replace(GLUE, " ")))
 }
 
-/// A command for the shell, indented, to be pasted as it stands: its words are quoted, and where the line is too
-/// long it goes on after a backslash.
+/// A command for the shell, indented, to be pasted as it stands: its words are quoted, and where the line
+/// is too long it goes on after a backslash.
 pub fn command<'a>(out: &mut dyn Write, words: impl IntoIterator<Item = &'a str>) -> io::Result<()> {
     let room = width() - " \\".len();
     let mut line = String::from(" ");
@@ -139,8 +140,8 @@ pub fn command<'a>(out: &mut dyn Write, words: impl IntoIterator<Item = &'a str>
     writeln!(out, "{line}")
 }
 
-/// A bar on stderr if that is a terminal and the work takes longer than a second. The work says how much of it is
-/// done, and of how much: as often as it likes, since another thread draws.
+/// A bar on stderr if that is a terminal and the work takes longer than a second. The work says how much of
+/// it is done, and of how much: as often as it likes, since another thread draws.
 pub fn with_progress<T>(what: &str, work: impl FnOnce(&(dyn Fn(usize, usize) + Sync)) -> T) -> T {
     if !io::stderr().is_terminal() {
         return work(&|_, _| {});

@@ -70,8 +70,8 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     let empty = |number: &&String| statements.iter().all(|s| s.equation != number.as_str());
     if let Some(empty) = numbers.iter().find(empty) {
         return Err(format!(
-            "invalid value '{empty}' for '[NUMBER]...': nothing is proved of it; `contact equations '{empty}'` \
-             says what is claimed of it"
+            "invalid value '{empty}' for '[NUMBER]...': nothing is proved of it; \
+             `contact equations '{empty}'` says what is claimed of it"
         )
         .into());
     }
@@ -192,7 +192,8 @@ fn totals(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
     let (changes, noticed, unchanged) = (controls.changes, controls.noticed, controls.unchanged);
     let seen = noticed + unchanged;
     let seen = format!(
-        "{seen} of {changes} changes of formulas noticed: {noticed} refuted, {unchanged} proved to change nothing."
+        "{seen} of {changes} changes of formulas noticed: {noticed} refuted, \
+         {unchanged} proved to change nothing."
     );
     output::wrapped(out, "", 2, &seen)?;
     writeln!(out, "{:.3} s in all.", seconds(proofs.in_all))

@@ -176,7 +176,10 @@ impl Options {
             MethodName::Penalty => Method::Penalty {
                 penalty: round_penalty(self.penalty.as_ref().ok_or_else(|| {
                     let example = shortened(&ten_c.to_string());
-                    format!("--method penalty needs '--penalty <E>', greater than 0; for example 10 c: --penalty {example}")
+                    format!(
+                        "--method penalty needs '--penalty <E>', greater than 0; \
+                         for example 10 c: --penalty {example}"
+                    )
                 })?)?,
             },
             MethodName::Augmented => {

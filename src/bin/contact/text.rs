@@ -28,8 +28,8 @@ pub fn relation<T: Text>(symbol: &str, x: &T) -> String {
 /// How many digits of a number are looked at, however few were typed: the residuals in a table have as many.
 const FEWEST: usize = 3;
 
-/// What a number became by rounding, `g = 8`, if one can see that: if it is no longer the number that was typed
-/// when written to as many digits. Where few digits are typed, 6 for f32 and 15 for f64, it is.
+/// What a number became by rounding, `g = 8`, if one can see that: if it is no longer the number that was
+/// typed when written to as many digits. Where few digits are typed, 6 for f32 and 15 for f64, it is.
 pub fn visibly_rounded<T: Text>(symbol: &str, typed: &Number, x: &T) -> Option<String> {
     let mantissa = typed.text.split(['e', 'E']).next().unwrap_or_default();
     let digits = mantissa.chars().filter(char::is_ascii_digit).skip_while(|digit| *digit == '0').count();

@@ -34,10 +34,12 @@ pub struct Options {
     #[arg(long = "scalar", value_name = "S")]
     scalars: Vec<NumberSystem>,
     /// Cases to try a claim on, at least 1
-    #[arg(long, value_name = "N", default_value_t = verify::Options::default().cases, value_parser = args::count)]
+    #[arg(long, value_name = "N", default_value_t = verify::Options::default().cases)]
+    #[arg(value_parser = args::count)]
     cases: u64,
     /// Where the cases are drawn from; the same seed, the same cases, on every machine
-    #[arg(long, value_name = "N", default_value_t = verify::Options::default().seed, value_parser = args::whole)]
+    #[arg(long, value_name = "N", default_value_t = verify::Options::default().seed)]
+    #[arg(value_parser = args::whole)]
     seed: u64,
     /// Only this number of the chapter, repeatable: 1.13, 'note 4', …
     #[arg(long = "equation", value_name = "NUMBER", value_parser = args::equation)]
@@ -303,8 +305,8 @@ mod tests {
         (report, verify::Options { scalars, cases: 5, seed: 42, equations: Vec::new() })
     }
 
-    /// Not proved, wrong in f32 and f64 in the same case, open in two bits, right in rationals; and a claim before it
-    /// that is wrong for another reason, but of which nobody is suspected.
+    /// Not proved, wrong in f32 and f64 in the same case, open in two bits, right in rationals; and a claim
+    /// before it that is wrong for another reason, but of which nobody is suspected.
     fn mistaken() -> (Report, verify::Options) {
         let [single, double, two_bits] = [NumberSystem::F32, NumberSystem::F64, NumberSystem::Mpfr(2)];
         let proof = Row { why: Some("the sides differ by c".into()), ..row(None, Status::Failed) };

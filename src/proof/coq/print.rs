@@ -262,7 +262,8 @@ impl Printer<'_> {
             Step::PositivePart(a) => Expr::Call("Rmax".into(), vec![*of(a), Expr::int(0)]),
             Step::Min(a, b) => Expr::Call("Rmin".into(), vec![*of(a), *of(b)]),
         };
-        // What the rules of differentiation write is full of 0 x, 1 x and x + 0; nobody else's zeros are touched.
+        // What the rules of differentiation write is full of 0 x, 1 x and x + 0; nobody else's zeros are
+        // touched.
         if tree.site().is_of_duals() { expr.simplified() } else { expr }
     }
 }
@@ -398,7 +399,8 @@ mod tests {
         assert_eq!(body("m::again"), "m_double x");
         // Formed by differentiating, without the zeros and ones.
         assert_eq!(body("m::slope"), "2");
-        // What all functions may depend on comes before the arguments, and of those that hand on, the preferred is called.
+        // What all functions may depend on comes before the arguments, and of those that hand on, the
+        // preferred is called.
         let call = quadruple(&(&x + &k), &k);
         let printed = |preferred| Printer { registry: &registry, preferred }.expr(&call).to_string();
         assert_eq!(printed(&[]), "m_quadruple k (x + k)");

@@ -126,14 +126,16 @@ impl Script {
                     let name = ascii(x.0);
                     self.line(&format!("destruct (named_{kind} _ {hypothesis}) as ({name} & S{i} & P{i})."));
                     self.line(&format!(
-                        "assert (E{i} : pivot {} {}) by (apply (solved_for _ _ {factor} _ _ S{i}); identity).",
+                        "assert (E{i} : pivot {} {}) by \
+                         (apply (solved_for _ _ {factor} _ _ S{i}); identity).",
                         pivot.argument(),
                         by.argument()
                     ));
                     self.known.insert(*x, sign);
                 } else {
                     self.line(&format!(
-                        "assert (E{i} : {pivot} = {by}) by (apply (solved _ {factor} _ _ {hypothesis}); identity)."
+                        "assert (E{i} : {pivot} = {by}) by \
+                         (apply (solved _ {factor} _ _ {hypothesis}); identity)."
                     ));
                 }
             }

@@ -1,10 +1,11 @@
 //! Polynomials and their quotients over ℚ, with e^… as an atom: the arithmetic that proofs rest on.
 //!
 //! Everything is exact. A [`Poly`] is a sum of distinct monomials with coefficients that are not 0, so two
-//! polynomials without e^… are the same function if and only if they are the same sum; with e^… they are if they are
-//! the same sum, and may be if exponents are equal that are not written alike. A [`Ratio`] is not reduced to
-//! lowest terms: two are equal if they are after cross-multiplication. That is all that equality needs; where
-//! a numerator divides by its denominator, the division is done, to keep what a reader sees short.
+//! polynomials without e^… are the same function if and only if they are the same sum; with e^… they are if
+//! they are the same sum, and may be if exponents are equal that are not written alike. A [`Ratio`] is not
+//! reduced to lowest terms: two are equal if they are after cross-multiplication. That is all that equality
+//! needs; where a numerator divides by its denominator, the division is done, to keep what a reader sees
+//! short.
 
 use crate::operators;
 use rug::Rational;

@@ -1,15 +1,15 @@
 //! What a proof consists of: read by whoever prints it, made by the kernel alone.
 //!
-//! The fields of a structure are seen by nobody else. So a variant of an enum, which anyone in this crate can write
-//! down, gets into a [`Proof`] here or not at all.
+//! The fields of a structure are seen by nobody else. So a variant of an enum, which anyone in this crate
+//! can write down, gets into a [`Proof`] here or not at all.
 
 use super::algebra::{Monomial, Poly, Ratio, Symbol};
 use super::sign::{Certificate, Sign};
 use crate::formula::{Hypothesis, Statement};
 use crate::number::Tree;
 
-/// A proof of a statement: a derivation for each of its goals. Only [`prove`](super::prove) makes one, and it stays
-/// what it is:
+/// A proof of a statement: a derivation for each of its goals. Only [`prove`](super::prove) makes one, and
+/// it stays what it is:
 ///
 /// ```
 /// use spring_mass_contact::{claims::statements, proof::{Proof, prove}};

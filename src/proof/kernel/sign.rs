@@ -1,15 +1,17 @@
 //! The sign of a polynomial for all values of its symbols, with a certificate.
 //!
-//! Four rules, short certificates before long ones; each is sound by itself, and together they are not complete:
+//! Four rules, short certificates before long ones; each is sound by itself, and together they are not
+//! complete:
 //!
-//! 1. **Terms.** Every term has the same sign: a symbol known to be positive (or not negative) keeps it, a free
-//!    symbol does in an even power, and e^… is positive. Strict if one term is nowhere zero.
-//! 2. **Factor.** A product of powers common to all terms has a sign, and so has what is left; e^… can be taken
-//!    out of anything.
-//! 3. **Square.** For a x² + b x + d with a ≠ 0: 4a(a x² + b x + d) = (2a x + b)² + (4a d − b²), so the sign is a's
-//!    if 4a d − b² is not negative.
-//! 4. **Slope.** By the mean value theorem, a function f that is continuous for x ≥ 0 and has a slope for x > 0 is
-//!    f(0) + x f'(ξ) for some ξ > 0: its sign is that of such a sum. Only tried where there is an e^….
+//! 1. **Terms.** Every term has the same sign: a symbol known to be positive (or not negative) keeps it, a
+//!    free symbol does in an even power, and e^… is positive. Strict if one term is nowhere zero.
+//! 2. **Factor.** A product of powers common to all terms has a sign, and so has what is left; e^… can be
+//!    taken out of anything.
+//! 3. **Square.** For a x² + b x + d with a ≠ 0: 4a(a x² + b x + d) = (2a x + b)² + (4a d − b²), so the
+//!    sign is a's if 4a d − b² is not negative.
+//! 4. **Slope.** By the mean value theorem, a function f that is continuous for x ≥ 0 and has a slope for
+//!    x > 0 is f(0) + x f'(ξ) for some ξ > 0: its sign is that of such a sum. Only tried where there is
+//!    an e^….
 
 use super::algebra::{Monomial, Poly, Ratio, Symbol};
 use std::collections::BTreeMap;
@@ -239,8 +241,8 @@ fn is_continuous(of: &Poly, known: &Known) -> bool {
     of.exponents().all(|exponent| exponent.is_of_polynomials() && numerator(exponent, known).is_some())
 }
 
-/// A polynomial with the sign of the quotient: its numerator, or minus that if the denominator is negative. None
-/// if that is not known.
+/// A polynomial with the sign of the quotient: its numerator, or minus that if the denominator is negative.
+/// None if that is not known.
 fn numerator(of: &Ratio, known: &Known) -> Option<Poly> {
     match terms(of.den(), known)?.sign {
         Positive => Some(of.num().clone()),

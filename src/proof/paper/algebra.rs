@@ -7,7 +7,8 @@ use crate::proof::kernel::sign::{Certificate, Rule, Sign};
 use rug::Integer;
 use std::fmt;
 
-/// The order in which the factors of a product are written, by their symbols. Others come before them, by name.
+/// The order in which the factors of a product are written, by their symbols. Others come before them, by
+/// name.
 #[derive(Default)]
 pub(super) struct Order<'a>(pub(super) &'a [&'static str]);
 

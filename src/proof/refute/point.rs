@@ -49,8 +49,8 @@ impl Point {
         hypotheses.iter().all(|hypothesis| hypothesis.holds(&|symbol| self.at(symbol)))
     }
 
-    /// The point bent until the hypotheses hold. A quantity that lacks its sign gets the value `target`: the hypothesis
-    /// is linear in the symbol that it is solved for.
+    /// The point bent until the hypotheses hold. A quantity that lacks its sign gets the value `target`:
+    /// the hypothesis is linear in the symbol that it is solved for.
     pub(super) fn bent(
         mut self,
         hypotheses: &[Hypothesis],
@@ -80,8 +80,8 @@ impl fmt::Display for Point {
 /// So many raw points are drawn.
 const RAW: u64 = 4000;
 
-/// Whole numbers this small and smaller: in one of seven draws two of them cancel. And in every fourth point up to
-/// the other, for hypotheses such as α > 2(c + ε).
+/// Whole numbers this small and smaller: in one of seven draws two of them cancel. And in every fourth
+/// point up to the other, for hypotheses such as α > 2(c + ε).
 const SMALL: i32 = 3;
 const LARGER: i32 = 9;
 

@@ -81,8 +81,8 @@ impl Field for Value {
     fn int(n: i32) -> Self {
         Value::Exact(Exact::int(n))
     }
-    // By default, whatever is not certainly 0 is a unit: by a ball around 0 the quotient is a ball of infinite
-    // radius, which decides nothing. So what is undefined is undefined for certain.
+    // By default, whatever is not certainly 0 is a unit: by a ball around 0 the quotient is a ball of
+    // infinite radius, which decides nothing. So what is undefined is undefined for certain.
 }
 impl Exponential for Value {
     fn exp(&self) -> Self {

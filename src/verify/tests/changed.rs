@@ -23,8 +23,8 @@ fn findings<J: Judge>(judge: J, claims: &[Claim], drawn: &Drawn) -> Vec<(&'stati
     found
 }
 
-/// Each change of a formula fails some claim that speaks of it, in rationals or in balls; and what is proved to change
-/// nothing fails none.
+/// Each change of a formula fails some claim that speaks of it, in rationals or in balls; and what is
+/// proved to change nothing fails none.
 #[test]
 fn every_change_of_a_formula_is_a_finding() {
     const CASES: u64 = 4;

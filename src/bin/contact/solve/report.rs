@@ -182,7 +182,8 @@ impl<'a, T: Scalar + Text> Report<'a, T> {
     fn trace_table(&self, out: &mut dyn Write) -> io::Result<()> {
         const DIGITS: usize = 10;
         let first = self.solution.augmentations.unwrap_or_default().to_string().len();
-        // Ten digits, a sign, a point, and three zeros before them or an exponent behind; less beside a long k.
+        // Ten digits, a sign, a point, and three zeros before them or an exponent behind; less beside a
+        // long k.
         let width = ((usize::from(WIDTH) - " ".len() - first) / 4 - "  ".len()).min(DIGITS + 6);
         let line = |k: String, cells: [String; 4]| {
             let cells = cells.map(|cell| format!("  {cell:<width$}")).concat();

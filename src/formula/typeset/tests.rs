@@ -1,0 +1,171 @@
+//! Formulas and what they are written as.
+
+use super::*;
+use crate::number::{Exponential, Field, PositivePart};
+
+fn s(name: &'static str) -> Tree {
+    Tree::symbol(name)
+}
+
+fn n(n: i32) -> Tree {
+    Tree::int(n)
+}
+
+/// Each tree with its text and its LaTeX.
+fn check(cases: &[(Tree, &str, &str)]) {
+    for (tree, text, latex) in cases {
+        assert_eq!((tree.to_string().as_str(), tree.latex().as_str()), (*text, *latex), "{:?}", tree.step());
+    }
+}
+
+#[test]
+fn signs_come_out_of_brackets_and_products() {
+    let [a, b, c] = ["a", "b", "c"].map(s);
+    check(&[
+        (-(&a - &b), "−a + b", "-a + b"),
+        (&a - (&b - &c), "a − b + c", "a - b + c"),
+        (&a - (&b + &c), "a − b − c", "a - b - c"),
+        (&a + -&b, "a − b", "a - b"),
+        (&a - -&b, "a + b", "a + b"),
+        (-(-&a), "a", "a"),
+        (&a - n(-2), "a + 2", "a + 2"),
+        (-&a * (&b - &c), "−a (b − c)", r"-a\,(b - c)"),
+        (&a - -&b * (-&c), "a − b c", r"a - b\,c"),
+        (&a * -&b, "−a b", r"-a\,b"),
+        (n(-2) * &a, "−2 a", "-2 a"),
+        (-(&a - &b) / &c, "−(a − b) / c", r"-\frac{a - b}{c}"),
+        (-(&a - &b) * &c, "−(a − b) c", r"-(a - b)\,c"),
+        (&a - -&b / &c, "a + b / c", r"a + \frac{b}{c}"),
+        (&a / -&b, "−a / b", r"-\frac{a}{b}"),
+    ]);
+}
+
+#[test]
+fn products_are_flat_with_their_number_first() {
+    let [a, b, c, p] = ["a", "b", "c", "p"].map(s);
+    check(&[
+        (&a * n(4) * &b * n(3), "12 a b", r"12 a\,b"),
+        (&a * (&b * &c), "a b c", r"a\,b\,c"),
+        (&a * &p * &p / n(2), "a p² / 2", r"\tfrac{1}{2}\,a\,p^2"),
+        (n(3) * &a / n(2), "3 a / 2", r"\tfrac{3}{2}\,a"),
+        (&p * &p * (&p * &p), "p⁴", "p^4"),
+        ((&a - &b) * (&a - &b), "(a − b)²", "(a - b)^2"),
+        ((&a - &b) * &c * (&a - &b), "(a − b)² c", r"(a - b)^2\,c"),
+        (-((&a * &b) * (&a * &b)) / (n(2) * &c), "−(a b)² / (2 c)", r"-\frac{(a\,b)^2}{2 c}"),
+        (n(1) * &a, "a", "a"),
+        (n(1) * (&a - &b) + &c, "a − b + c", "a - b + c"),
+        (&c - n(1) * (&a - &b), "c − a + b", "c - a + b"),
+        (&a * n(0) + &b, "b", "b"),
+        (&a * n(0), "0", "0"),
+        (&a - &a * n(0) / &b, "a", "a"),
+        (n(2) * &a / n(2), "a", "a"),
+        (n(2) / n(4) * &a, "a / 2", r"\tfrac{1}{2}\,a"),
+        (n(1) / n(2), "1 / 2", r"\tfrac{1}{2}"),
+        ((0..12).fold(n(1), |x, _| x * &a), "a¹²", "a^{12}"),
+        (n(-1), "−1", "-1"),
+        (&a / n(0), "a / 0", r"\tfrac{1}{0}\,a"),
+    ]);
+}
+
+#[test]
+fn large_numbers_do_not_overflow() {
+    let large = n(i32::MAX) * n(i32::MAX) * n(i32::MAX);
+    assert_eq!(large.to_string(), "4611686014132420609 (2147483647)");
+    assert_eq!(n(i32::MIN).to_string(), "−2147483648");
+}
+
+#[test]
+fn fractions_have_the_brackets_they_need() {
+    let [a, b, c, d] = ["a", "b", "c", "d"].map(s);
+    check(&[
+        (&a * &b / &c, "a b / c", r"\frac{a\,b}{c}"),
+        (&a / (&b * &c), "a / (b c)", r"\frac{a}{b\,c}"),
+        (&a / &b / &c, "a / (b c)", r"\frac{a}{b\,c}"),
+        (&a / (&b / &c), "a c / b", r"\frac{a\,c}{b}"),
+        ((&a + &b) / (&c + &d), "(a + b) / (c + d)", r"\frac{a + b}{c + d}"),
+        ((&a + &b) * &d / (n(2) * (&c + &d)), "(a + b) d / (2 (c + d))", r"\frac{(a + b)\,d}{2 (c + d)}"),
+        ((&a + &b) / n(2), "(a + b) / 2", r"\tfrac{1}{2}\,(a + b)"),
+        (&a / (&b * &b), "a / b²", r"\frac{a}{b^2}"),
+        (n(1) / (n(1) + &a), "1 / (1 + a)", r"\frac{1}{1 + a}"),
+        ((&a + &b / &c) / (&c / &b + n(1)), "(a + b / c) / (c / b + 1)", r"\frac{a + b / c}{c / b + 1}"),
+        (&a * (&b - &c / &d), "a (b − c / d)", r"a\,\left(b - \frac{c}{d}\right)"),
+        (&a - &b / &c, "a − b / c", r"a - \frac{b}{c}"),
+        ((&a - &b) / &c - &d, "(a − b) / c − d", r"\frac{a - b}{c} - d"),
+    ]);
+}
+
+#[test]
+fn functions_bring_their_own_brackets() {
+    let [a, b, c] = ["a", "b", "c"].map(s);
+    let decay = (-&b / (&b + &c) * &a).exp();
+    let fraction = (&a / &b).positive_part();
+    check(&[
+        (&c * &decay, "c exp(−b a / (b + c))", r"c\,e^{-b\,a / (b + c)}"),
+        (&decay * &decay, "exp(−b a / (b + c))²", r"(e^{-b\,a / (b + c)})^2"),
+        ((&a - &b).positive_part(), "⟨a − b⟩", r"\langle a - b \rangle"),
+        (-&c * fraction, "−c ⟨a / b⟩", r"-c\,\left\langle \frac{a}{b}\right\rangle"),
+        ((&a / &b).min(&(&b - &c)), "min(a / b, b − c)", r"\min\left(\frac{a}{b}, b - c\right)"),
+        (-(-&a).min(&(&b / &c)), "max(a, −b / c)", r"\max\left(a, -\frac{b}{c}\right)"),
+        (-a.min(&b), "−min(a, b)", r"-\min(a, b)"),
+        (&c - (-&a).min(&b), "c − min(−a, b)", r"c - \min(-a, b)"),
+    ]);
+}
+
+#[test]
+fn parts_go_by_their_names() {
+    let [l, u, h] = ["l", "u", "H"].map(s);
+    let (p, gap) = (&l + &u - &h, &h - &l);
+    let name = |tree: &Tree| {
+        let name = |symbol: &str, arguments| Some(Name { symbol: symbol.to_string(), arguments });
+        if *tree == p {
+            name("p", vec![])
+        } else if *tree == gap {
+            name("Δ", vec![])
+        } else if *tree == -&gap {
+            name("Π", vec![gap.clone()])
+        } else {
+            None
+        }
+    };
+    let tree = &u - &p * &p / (n(2) * &gap) + -&gap * &p;
+    assert_eq!(tree.typeset(Notation::Text, &name), "u − p² / (2 Δ) + Π(Δ) p");
+    assert_eq!(tree.typeset(Notation::Latex, &name), r"u - \frac{p^2}{2 \Delta} + \Pi(\Delta)\,p");
+    assert_eq!((-&p).typeset(Notation::Text, &name), "−p");
+    assert_eq!((&u - &p).typeset(Notation::Text, &name), "u − p");
+}
+
+#[test]
+fn a_name_with_an_exponent_is_bracketed_before_it_gets_another() {
+    check(&[
+        (s("ρᵏ") * s("ρᵏ"), "(ρᵏ)²", r"(\rho^k)^2"),
+        (s("λ₀") * s("λ₀"), "λ₀²", r"\lambda_0^2"),
+        (s("x^{k+1}") * s("x^{k+1}"), "(x^{k+1})²", "(x^{k+1})^2"),
+    ]);
+}
+
+#[test]
+fn symbols_become_latex() {
+    for (symbol, expected) in [
+        ("u", "u"),
+        ("ε₄", r"\varepsilon_4"),
+        ("s₁₂", "s_{12}"),
+        ("ρᵏ", r"\rho^k"),
+        ("ρᵏ⁺¹", r"\rho^{k+1}"),
+        ("δu", r"\delta u"),
+        ("δΠ", r"\delta\Pi"),
+        ("u_h", "u_h"),
+        ("u_nh", r"u_{\mathrm{nh}}"),
+        ("u_{k+1}", "u_{k+1}"),
+        ("λ_{k−1}", r"\lambda_{k-1}"),
+        ("Π_p", r"\Pi_p"),
+        ("𝓛", r"\mathcal{L}"),
+        ("λ′", r"\lambda'"),
+        ("tol", r"\mathrm{tol}"),
+        ("min Π_p", r"\min \Pi_p"),
+        ("∂L/∂u", r"\partial L/\partial u"),
+        ("su̇", r"s\dot{u}"),
+        ("(1 + ε/c)^{k+1}", r"(1 + \varepsilon/c)^{k+1}"),
+    ] {
+        assert_eq!(latex(symbol), expected);
+    }
+}

@@ -1,0 +1,194 @@
+//! One goal under hypotheses, with its proof.
+
+use super::print::{Printer, ascii};
+use super::script::Script;
+use crate::formula::statement::{Goal, Says, Statement};
+use crate::formula::{Hypothesis, Relation};
+use crate::number::Tree;
+use crate::number::tree::Step;
+use crate::proof::kernel::Derivation;
+use crate::proof::{Why, prove};
+
+/// Why a claim cannot be printed.
+pub(super) type Result<T> = std::result::Result<T, String>;
+
+pub(super) fn unproved(why: Why) -> String {
+    format!("there is no proof to follow: {why}")
+}
+
+/// One goal under hypotheses.
+#[derive(Clone)]
+pub(super) struct Lemma<'a> {
+    pub(super) name: String,
+    pub(super) printer: Printer<'a>,
+    pub(super) hypotheses: Vec<&'a Hypothesis>,
+    pub(super) says: &'a Says,
+    pub(super) defined: Option<Defined>,
+}
+
+/// A lemma that no divisor is 0, under the hypotheses of a claim.
+#[derive(Clone)]
+pub(super) struct Defined {
+    pub(super) name: String,
+    pub(super) variables: Vec<&'static str>,
+    pub(super) divisors: Vec<Tree>,
+}
+
+impl Defined {
+    /// Brings in what it says as N1, N2, …
+    pub(super) fn recall(&self, hypotheses: &str) -> String {
+        let lemma = format!("{}{}{hypotheses}", self.name, names(&self.variables));
+        match self.divisors.len() {
+            1 => format!("pose proof ({lemma}) as N1."),
+            n => format!("destruct ({lemma}) as ({}).", numbered("N", n).join(" & ")),
+        }
+    }
+}
+
+/// H1, H2, …
+pub(super) fn numbered(letter: &str, n: usize) -> Vec<String> {
+    (1..=n).map(|i| format!("{letter}{i}")).collect()
+}
+
+pub(super) fn depends(tree: &Tree, on: &str) -> bool {
+    tree.symbols().contains(on)
+}
+
+pub(super) fn names(variables: &[&'static str]) -> String {
+    variables.iter().map(|var| format!(" {}", ascii(var))).collect()
+}
+
+pub(super) fn for_all(variables: &[&'static str]) -> String {
+    if variables.is_empty() { String::new() } else { format!(" forall{} : R,\n ", names(variables)) }
+}
+
+/// H1 H2 …, each after a blank.
+pub(super) fn labels(n: usize) -> String {
+    numbered("H", n).iter().map(|label| format!(" {label}")).collect()
+}
+
+/// What is said under hypotheses, with its proof.
+pub(super) fn stated(
+    keyword: &str,
+    name: &str,
+    variables: &[&'static str],
+    hypotheses: &[&Hypothesis],
+    says: &str,
+    proof: Script,
+    printer: Printer,
+) -> String {
+    let (variables, proof) = (for_all(variables), proof.into_text());
+    let premises = premises(hypotheses, printer);
+    format!("\n{keyword} {name} :{variables}{premises} {says}.\nProof.\n{proof}Qed.\n")
+}
+
+/// Hypotheses are shared, and in no function's own names.
+pub(super) fn premises(hypotheses: &[&Hypothesis], printer: Printer) -> String {
+    hypotheses.iter().map(|h| format!(" {} ->\n ", supposed(h, printer))).collect()
+}
+
+pub(super) fn supposed(hypothesis: &Hypothesis, printer: Printer) -> String {
+    Printer { preferred: &[], ..printer }.expr(&hypothesis.value).relation(hypothesis.relation)
+}
+
+pub(super) fn says(says: &Says, printer: Printer) -> String {
+    let of = |tree: &Tree| printer.expr(tree);
+    let under = |var: &str, tree: &Tree| format!("(fun {} => {})", ascii(var), of(tree));
+    match says {
+        Says::Equal(a, b) => {
+            let (left, right) = (of(a).to_string(), of(b).to_string());
+            let between = if left.len() + right.len() > 80 { "\n  " } else { " " };
+            format!("{left} ={between}{right}")
+        }
+        Says::Sign(relation, a) => of(a).relation(*relation),
+        Says::Derivative(a, by, b) => {
+            format!("is_derive {}\n    {}\n    {}", under(by, a), ascii(by), of(b).argument())
+        }
+        Says::Limit(a, by, b) => format!("is_lim {} p_infty {}", under(by, a), of(b).argument()),
+    }
+}
+
+/// What formulas divide by, but for numbers; none before its own divisors.
+pub(super) fn divisors<'t>(trees: impl Iterator<Item = &'t Tree>) -> Vec<Tree> {
+    pub(super) fn visit(tree: &Tree, all: &mut Vec<Tree>) {
+        tree.step().operands().for_each(|operand| visit(operand, all));
+        if let Step::Div(_, divisor) = tree.step()
+            && !matches!(divisor.step(), Step::Int(n) if *n != 0)
+            && !all.contains(divisor)
+        {
+            all.push(divisor.clone());
+        }
+    }
+    let mut all = Vec::new();
+    trees.for_each(|tree| visit(tree, &mut all));
+    all
+}
+
+/// Proves of each divisor that it is not 0, and calls that N1, N2, …
+pub(super) fn divisors_script(
+    script: &mut Script,
+    hypotheses: &[&Hypothesis],
+    divisors: &[Tree],
+    printer: Printer,
+) -> Result<()> {
+    let printer = Printer { preferred: &[], ..printer };
+    for (i, divisor) in divisors.iter().enumerate() {
+        let signed = |value: &Tree| {
+            let goal = Goal::of_claim("", Says::Sign(Relation::Positive, value.clone()));
+            derivation(hypotheses, goal)
+        };
+        let (rule, derivation) = match signed(divisor) {
+            Ok(derivation) => ("positive_not_zero", derivation),
+            Err(_) => ("negative_not_zero", signed(&-divisor)?),
+        };
+        script.line(&format!("assert (N{} : {} <> 0).", i + 1, printer.expr(divisor)));
+        script.block("{", |own| {
+            own.line(&format!("functions. apply {rule}."));
+            own.derivation(&derivation)
+        })?;
+    }
+    Ok(())
+}
+
+pub(super) fn derivation(hypotheses: &[&Hypothesis], goal: Goal) -> Result<Derivation> {
+    let hypotheses = hypotheses.iter().map(|h| (*h).clone()).collect();
+    let statement = Statement { hypotheses, goals: vec![goal], ..Statement::default() };
+    let proof = prove(&statement).map_err(unproved)?;
+    proof.goals().first().cloned().ok_or_else(|| "there is nothing to prove".to_string())
+}
+
+impl<'a> Lemma<'a> {
+    pub(super) fn trees(&self) -> impl Iterator<Item = &Tree> {
+        self.hypotheses.iter().map(|h| &h.value).chain(self.says.trees())
+    }
+
+    pub(super) fn variables(&self) -> Vec<&'static str> {
+        self.printer.registry.symbols_of(self.trees())
+    }
+
+    /// Its name, applied to its variables by name and to its hypotheses as H1, H2, …
+    pub(super) fn applied(&self) -> String {
+        format!("{}{}{}", self.name, names(&self.variables()), labels(self.hypotheses.len()))
+    }
+
+    pub(super) fn goal(&self) -> Goal {
+        Goal::of_claim("", self.says.clone())
+    }
+
+    /// The lemma with its proof.
+    pub(super) fn text(&self, keyword: &str) -> Result<String> {
+        let variables = self.variables();
+        let mut script = Script::new();
+        script.line(&format!("intros{}{}.", names(&variables), labels(self.hypotheses.len())));
+        let recalled =
+            self.defined.as_ref().filter(|d| d.variables.iter().all(|var| variables.contains(var)));
+        match recalled {
+            Some(defined) => script.line(&defined.recall(&labels(self.hypotheses.len()))),
+            None => divisors_script(&mut script, &self.hypotheses, &divisors(self.trees()), self.printer)?,
+        }
+        script.line("functions.");
+        script.derivation(&derivation(&self.hypotheses, self.goal())?)?;
+        let says = says(self.says, self.printer);
+        Ok(stated(keyword, &self.name, &variables, &self.hypotheses, &says, script, self.printer))
+    }
+}

@@ -1,0 +1,318 @@
+//! A claim as theorem and lemmas, with their proofs.
+
+use super::lemma::{
+    Defined, Lemma, Result, depends, derivation, divisors, divisors_script, labels, names, numbered, says,
+    stated, supposed,
+};
+use super::print::{Printer, ascii};
+use super::script::Script;
+use super::{identifier, theorem_name};
+use crate::formula::claim::{MEMBERS, POWER};
+use crate::formula::statement::{Role, Statement};
+use crate::formula::{Claim, Hypothesis, Kind, Relation};
+use crate::number::Tree;
+use crate::number::tree::Step;
+use crate::proof::coq::print::Expr;
+use std::fmt::Write;
+
+/// A claim, to be printed.
+pub(super) struct Theorem<'a> {
+    claim: &'a Claim,
+    /// What it says, it says in the names of the functions that it is about.
+    printer: Printer<'a>,
+    statement: Statement,
+    name: String,
+}
+
+impl<'a> Theorem<'a> {
+    pub(super) fn new(claim: &'a Claim, printer: Printer<'a>) -> Self {
+        let name = theorem_name(claim.equation, claim.name);
+        Theorem { claim, printer, statement: Statement::of(claim), name }
+    }
+
+    /// A formula that it speaks of.
+    fn expr(&self, tree: &Tree) -> Expr {
+        self.printer.expr(tree)
+    }
+
+    fn variables<'t>(&self, trees: impl Iterator<Item = &'t Tree>) -> Vec<&'static str> {
+        self.printer.registry.symbols_of(trees)
+    }
+
+    /// Its hypotheses, but for those on one coordinate.
+    fn hypotheses(&self, without: Option<&str>) -> Vec<&Hypothesis> {
+        let keeps = |h: &&Hypothesis| without.is_none_or(|symbol| !depends(&h.value, symbol));
+        self.statement.supposed().filter(keeps).collect()
+    }
+
+    /// What says that no divisor is 0, if there is any.
+    fn defined(&self) -> Option<Defined> {
+        let divisors = divisors(self.statement.trees());
+        let hypotheses = self.statement.supposed().map(|h| &h.value);
+        let variables = self.variables(hypotheses.chain(&divisors));
+        (!divisors.is_empty()).then(|| Defined {
+            name: format!("{}_defined", self.name),
+            variables,
+            divisors,
+        })
+    }
+
+    /// The same, if these are all its hypotheses.
+    fn recalled(&self, hypotheses: &[&Hypothesis]) -> Option<Defined> {
+        self.defined().filter(|_| hypotheses.len() == self.statement.supposed().count())
+    }
+
+    /// The lemma for one of its goals.
+    fn lemma<'s>(&'s self, i: usize, without: Option<&str>) -> Lemma<'s> {
+        let goals = &self.statement.goals;
+        let part = goals[i].part;
+        let same: Vec<_> = (0..goals.len()).filter(|j| goals[*j].part == part).collect();
+        let count = same.iter().position(|j| *j == i).filter(|_| same.len() > 1);
+        let count = count.map_or(String::new(), |count| format!(" {}", count + 1));
+        let name = format!("{}_{}", self.name, identifier(&format!("{part}{count}")));
+        let hypotheses = self.hypotheses(without);
+        let defined = self.recalled(&hypotheses);
+        Lemma { name, printer: self.printer, hypotheses, says: &goals[i].says, defined }
+    }
+
+    /// Its lemmas and the theorem itself.
+    pub(super) fn text(&self) -> Result<String> {
+        let symbols = self.variables(self.statement.trees());
+        for (i, symbol) in symbols.iter().enumerate() {
+            if let Some(same) = symbols[..i].iter().find(|other| ascii(other) == ascii(symbol)) {
+                return Err(format!("{same} and {symbol} have the same name in Coq"));
+            }
+        }
+        let mut text = String::new();
+        if let Some(defined) = self.defined() {
+            text += &self.definedness(&defined)?;
+        }
+        let hypotheses = self.hypotheses(None);
+        text += &match &self.claim.kind {
+            Kind::Limit { by, .. } => self.limit(by)?,
+            Kind::Induction { .. } => self.induction()?,
+            Kind::Vanishing { .. } => self.vanishing()?,
+            Kind::Equal(..) | Kind::Sign(..) | Kind::Derivative { .. } => {
+                let [goal] = self.statement.goals.as_slice() else {
+                    return Err("a claim of this kind has several goals".into());
+                };
+                let defined = self.defined();
+                let (name, printer) = (self.name.clone(), self.printer);
+                Lemma { name, printer, hypotheses, says: &goal.says, defined }.text("Theorem")?
+            }
+        };
+        Ok(text)
+    }
+
+    /// No divisor is 0.
+    fn definedness(&self, defined: &Defined) -> Result<String> {
+        let Defined { name, variables, divisors } = defined;
+        let hypotheses = self.hypotheses(None);
+        let mut script = Script::new();
+        script.line(&format!("intros{}{}.", names(variables), labels(hypotheses.len())));
+        divisors_script(&mut script, &hypotheses, divisors, self.printer)?;
+        script.line("repeat split; assumption.");
+        let plain = Printer { preferred: &[], ..self.printer };
+        let goals: Vec<_> = divisors.iter().map(|divisor| format!("{} <> 0", plain.expr(divisor))).collect();
+        let says = goals.join(" /\\\n  ");
+        Ok(stated("Lemma", name, variables, &hypotheses, &says, script, self.printer))
+    }
+
+    /// The limit itself; how fast it is reached is in lemmas.
+    fn limit(&self, by: &'static str) -> Result<String> {
+        let goals = &self.statement.goals;
+        let mut text = String::new();
+        for i in 1..goals.len() {
+            text += &self.lemma(i, None).text("Lemma")?;
+        }
+        let x = by;
+        let own = Lemma {
+            name: self.name.clone(),
+            printer: self.printer,
+            hypotheses: self.hypotheses(Some(x)),
+            says: &goals[0].says,
+            defined: None,
+        };
+        let variables: Vec<_> = own.variables().into_iter().filter(|var| *var != by).collect();
+        let mut script = Script::new();
+        script.line(&format!("intros{}{}. functions.", names(&variables), labels(own.hypotheses.len())));
+        // Whatever is supposed of x itself is that it is positive, or less.
+        let all = self.hypotheses(None);
+        script.limit(&derivation(&all, own.goal())?, by, |script| {
+            let (mut label, mut i) = (Vec::new(), 0);
+            for hypothesis in &all {
+                if !depends(&hypothesis.value, x) {
+                    i += 1;
+                    label.push(format!("H{i}"));
+                } else if *hypothesis.value.step() != Step::Symbol(x) {
+                    return Err("more is supposed of what tends to infinity than that it is positive");
+                } else {
+                    let weak = hypothesis.relation == Relation::NonNegative;
+                    label.push(if weak { "(Rlt_le _ _ X)".into() } else { "X".into() });
+                }
+            }
+            if let Some(defined) = self.defined() {
+                script.line(&format!("{} functions.", defined.recall(&format!(" {}", label.join(" ")))));
+            }
+            Ok(())
+        })?;
+        Ok(text
+            + &stated(
+                "Theorem",
+                &self.name,
+                &variables,
+                &own.hypotheses,
+                &says(own.says, self.printer),
+                script,
+                self.printer,
+            ))
+    }
+
+    /// The recursion over the natural numbers, and its closed form by induction.
+    fn induction(&self) -> Result<String> {
+        let Kind::Induction { ratio, start, step, closed } = &self.claim.kind else {
+            return Err("no induction".into());
+        };
+        let q = POWER;
+        let lemma = |i: usize| {
+            let at_start = matches!(self.statement.goals[i].role, Role::Claim | Role::Begins);
+            self.lemma(i, at_start.then_some(q))
+        };
+        let lemmas: Vec<_> = (0..self.statement.goals.len()).map(lemma).collect();
+        let part = |role: Role| -> Vec<&Lemma> {
+            let goals = self.statement.goals.iter().zip(&lemmas);
+            goals.filter(|(goal, _)| goal.role == role).map(|(_, lemma)| lemma).collect()
+        };
+        let mut text = lemmas.iter().map(|lemma| lemma.text("Lemma")).collect::<Result<String>>()?;
+
+        let names_of_values = MEMBERS.get(..start.len()).ok_or("the recursion has too many values")?;
+        let hypotheses = self.hypotheses(Some(q));
+        let trees = start.iter().chain(step).chain(closed).chain([ratio]);
+        let free: Vec<_> = self
+            .variables(trees.chain(hypotheses.iter().map(|h| &h.value)))
+            .into_iter()
+            .filter(|var| *var != POWER && !MEMBERS.contains(var))
+            .collect();
+        let tuple = |trees: &[Tree]| {
+            let values: Vec<_> = trees.iter().map(|tree| self.expr(tree).to_string()).collect();
+            if let [value] = values.as_slice() {
+                value.clone()
+            } else {
+                format!("({})", values.join(",\n      "))
+            }
+        };
+        let pattern = match names_of_values {
+            [name] => ascii(name),
+            names => format!("'({})", names.iter().map(|name| ascii(name)).collect::<Vec<_>>().join(", ")),
+        };
+        let iterates = format!("{}_iterates", self.name);
+        let (arguments, ratio) = (names(&free), self.expr(ratio));
+        let _ = write!(
+            text,
+            "\nFixpoint {iterates} ({} : R) (n : nat) : {} :=\n  match n with\n  | O => {}\n  | S n =>\n\
+             \x20     let {} := {iterates}{arguments} n in\n      {}\n  end.\n",
+            arguments.trim_start(),
+            vec!["R"; start.len()].join(" * "),
+            tuple(start),
+            pattern,
+            tuple(step),
+        );
+
+        let mut script = Script::new();
+        let all = self.hypotheses(None);
+        let of_q: Vec<_> = all.iter().filter(|h| depends(&h.value, q)).copied().collect();
+        script.line(&format!("intros{arguments}{}.", labels(hypotheses.len())));
+        // Where something is supposed of q, it is true of every power of the ratio.
+        let (mut next_label, mut next_q) = (0, 0);
+        let step_labels: Vec<_> = all
+            .iter()
+            .map(|h| {
+                let (letter, counter) =
+                    if depends(&h.value, q) { ("Q", &mut next_q) } else { ("H", &mut next_label) };
+                *counter += 1;
+                format!("{letter}{counter}")
+            })
+            .collect();
+        let at = |lemma: &Lemma, q_is: &str| {
+            let variables = lemma.variables();
+            let arguments = variables
+                .iter()
+                .map(|var| if *var == POWER { format!(" {q_is}") } else { format!(" {}", ascii(var)) });
+            let with_q = lemma.hypotheses.len() == all.len();
+            let labels: Vec<_> = if with_q { step_labels.clone() } else { numbered("H", hypotheses.len()) };
+            format!("{}{} {}", lemma.name, arguments.collect::<String>(), labels.join(" "))
+        };
+        let power = format!("({} ^ n)", ratio.base());
+        let q_pattern = match of_q.len() {
+            1 => "Q1".to_string(),
+            n => format!("({})", numbered("Q", n).join(" & ")),
+        };
+        if !of_q.is_empty() {
+            let told: Vec<_> = of_q.iter().map(|h| supposed(h, self.printer)).collect();
+            script.line(&format!("assert (Q : forall n : nat, let q := {power} in {}).", told.join(" /\\ ")));
+            script.block("{", |own| {
+                own.line(&format!(
+                    "induction n as [ | n {q_pattern}]; cbn [pow]; cbv zeta in *; repeat apply conj."
+                ));
+                let (at_start, after) = (part(Role::Begins), part(Role::Continues));
+                at_start.iter().for_each(|lemma| own.line(&format!("- exact ({}).", at(lemma, "1"))));
+                after.iter().for_each(|lemma| own.line(&format!("- exact ({}).", at(lemma, &power))));
+                Ok(())
+            })?;
+        }
+        script.line(&format!("induction n as [ | n I]; cbn [{iterates} pow]; cbv zeta in *."));
+        let pairs = "repeat apply (f_equal2 pair)";
+        script.line("- symmetry.");
+        script.line(&format!("  {pairs}."));
+        part(Role::Claim).iter().for_each(|lemma| script.line(&format!("  + exact ({}).", at(lemma, "1"))));
+        script.line("- rewrite I.");
+        if !of_q.is_empty() {
+            script.line(&format!("  pose proof (Q n) as {q_pattern}."));
+        }
+        script.line(&format!("  {pairs}."));
+        part(Role::Step).iter().for_each(|lemma| script.line(&format!("  + exact ({}).", at(lemma, &power))));
+        let says = format!(
+            "forall n : nat, let q := {power} in\n    {iterates}{arguments} n =\n    {}",
+            tuple(closed)
+        );
+        Ok(text + &stated("Theorem", &self.name, &free, &hypotheses, &says, script, self.printer))
+    }
+
+    /// A function of the powers of what is less than 1 in size.
+    fn vanishing(&self) -> Result<String> {
+        let Kind::Vanishing { ratio, of, to } = &self.claim.kind else {
+            return Err("no limit of powers".into());
+        };
+        let q = POWER;
+        let lemmas: Vec<_> = (0..self.statement.goals.len()).map(|i| self.lemma(i, Some(q))).collect();
+        let [small, limit] = lemmas.as_slice() else {
+            return Err("a limit of powers has two parts".into());
+        };
+        let text = small.text("Lemma")? + &limit.text("Lemma")?;
+        let hypotheses = self.hypotheses(Some(q));
+        let trees = [ratio, of, to].into_iter().chain(hypotheses.iter().map(|h| &h.value));
+        let free: Vec<_> = self.variables(trees.clone()).into_iter().filter(|var| *var != POWER).collect();
+        let (ratio, to) = (self.expr(ratio), self.expr(to));
+        let power = Expr::name(format!("({} ^ n)", ratio.base()));
+        let mut script = Script::new();
+        script.line(&format!("intros{}{}.", names(&free), labels(hypotheses.len())));
+        match self.recalled(&hypotheses) {
+            Some(defined) => script.line(&defined.recall(&labels(hypotheses.len()))),
+            None => {
+                let divisors = divisors(self.statement.trees());
+                divisors_script(&mut script, &hypotheses, &divisors, self.printer)?
+            }
+        }
+        let name = ascii(q);
+        script.line(&format!(
+            "apply (limit_of_powers (fun {name} => {}) {}).",
+            self.expr(of),
+            ratio.argument()
+        ));
+        script.line(&format!("- exact ({}).", small.applied()));
+        script.line("- functions. auto_derive; nonzero.");
+        script.line(&format!("- exact ({}).", limit.applied()));
+        let says = format!("is_lim_seq (fun n => {}) {}", self.expr(of).with(&name, &power), to.argument());
+        Ok(text + &stated("Theorem", &self.name, &free, &hypotheses, &says, script, self.printer))
+    }
+}

@@ -1,0 +1,72 @@
+//! Counterexamples made small.
+
+use super::{Counterexample, How, Point, Verdict, bent_to_zero, check_goals};
+use crate::formula::{Relation, Statement};
+use crate::number::{Exact, Tree};
+use rug::{Integer, Rational};
+use std::collections::BTreeSet;
+
+/// What a coordinate is best, and next best.
+pub(super) const SIMPLE: [i32; 7] = [1, 0, 2, -1, 3, -2, -3];
+
+/// How far from simple a number is.
+fn complexity(x: &Exact) -> u64 {
+    let q = x.as_rational();
+    let simple = SIMPLE.iter().position(|n| *q == *n).map(|place| place as u64);
+    // Of what is large, the length.
+    let size = |n: &Integer| match n.to_i32() {
+        Some(n) => n.unsigned_abs().into(),
+        None => u64::from(u32::MAX) + u64::from(n.significant_bits()),
+    };
+    simple.unwrap_or_else(|| SIMPLE.len() as u64 + size(q.numer()) + size(q.denom()))
+}
+
+/// What a coordinate could be instead, the simplest first: of a long number, fewer digits.
+fn simpler(x: &Exact) -> Vec<Exact> {
+    let whole = Exact::from(x.as_rational().clone().trunc());
+    let half = Exact::from((whole.as_rational() / Rational::from(2)).trunc());
+    let simple = SIMPLE.iter().map(|n| Exact::from(*n)).take_while(|n| n != x);
+    simple.chain([half, whole]).collect()
+}
+
+/// Tries simpler numbers for one symbol after the other, as long as it stays a counterexample.
+pub(super) fn smaller(statement: &Statement, point: &Point, part: &'static str, how: How) -> Counterexample {
+    let symbols: BTreeSet<_> = statement.trees().flat_map(Tree::symbols).collect();
+    let size = |point: &Point| point.numbers().map(|(_, x)| complexity(x)).sum::<u64>();
+    let mut best = Counterexample { point: point.among(&symbols), part, how };
+    // The same with another number, where a further one may have to follow.
+    let with = |best: &Counterexample, symbol: &'static str, x: Exact| {
+        let point = best.point.with(symbol, x);
+        let followed = match &best.how {
+            How::Undefined(divisor) => {
+                let others = divisor.symbols().into_iter().filter(|other| *other != symbol);
+                others.filter_map(|other| bent_to_zero(divisor, other, &point)).collect()
+            }
+            How::Different(..) | How::Sign(..) | How::Far(_) => Vec::new(),
+        };
+        let followed = followed.into_iter().filter(|point| point.satisfies(&statement.hypotheses));
+        let one = |relation| Exact::from(i32::from(relation == Relation::Positive));
+        let bent = point.bent(&statement.hypotheses, &one);
+        bent.into_iter().chain(followed).find_map(|point| {
+            let smaller = size(&point) < size(&best.point);
+            let Verdict::Fails(part, how) = smaller.then(|| check_goals(statement, &point))? else {
+                return None;
+            };
+            // What is defined stays so: that two numbers differ shows more than that there are none.
+            let shows = !matches!(how, How::Undefined(_)) || matches!(best.how, How::Undefined(_));
+            shows.then_some(Counterexample { point, part, how })
+        })
+    };
+    let mut improves = true;
+    while improves {
+        improves = false;
+        for symbol in &symbols {
+            let better = simpler(&best.point.at(symbol)).into_iter().find_map(|x| with(&best, symbol, x));
+            if let Some(better) = better {
+                best = better;
+                improves = true;
+            }
+        }
+    }
+    best
+}

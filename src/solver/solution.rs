@@ -1,0 +1,177 @@
+//! What is solved for, how, and what comes of it.
+
+use super::{Interval, Scalar};
+use crate::chapter::SpringMass;
+#[cfg(feature = "mpfr")]
+use crate::chapter::contact;
+#[cfg(feature = "mpfr")]
+use crate::number::{Exact, ToExact};
+use std::cmp::Ordering;
+use std::fmt;
+
+/// Whether the mass and the plane touch, decided exactly by the sign of R = m g − c (H − l).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum State {
+    /// R > 0: the plane pushes.
+    Contact,
+    /// R = 0: they touch without force, which (1.6) as printed leaves out (note 1).
+    Grazing,
+    /// R < 0: the mass hangs free.
+    Separated,
+}
+
+/// As JSON and CSV have it.
+impl fmt::Display for State {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.pad(match self {
+            State::Contact => "contact",
+            State::Grazing => "grazing",
+            State::Separated => "separated",
+        })
+    }
+}
+
+impl State {
+    /// The state of a system, without any rounding. Meaningful for finite parameters with c > 0.
+    ///
+    /// ```
+    /// # use spring_mass_contact::{chapter::{SpringMass, system}, solver::State};
+    /// // In f64 m g rounds up, and all the way to c (H − l).
+    /// let system = SpringMass { c: 1.0, m: 3.0, g: 0.1, l: 0.0, h: 0.30000000000000004 };
+    /// assert_eq!(system::reaction(&system), 0.0);
+    /// assert_eq!(State::of(&system), State::Separated);
+    /// ```
+    pub fn of<T: Scalar>(system: &SpringMass<T>) -> State {
+        let SpringMass { c, m, g, l, h } = system;
+        match T::sign_of_sum([(m, g), (c, l)], (c, h)) {
+            Ordering::Greater => State::Contact,
+            Ordering::Equal => State::Grazing,
+            Ordering::Less => State::Separated,
+        }
+    }
+}
+
+/// Which way the plane can act.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Plane {
+    /// It pushes and never pulls: what (1.6) asks for, and what a user needs.
+    #[default]
+    Unilateral,
+    /// It pushes and pulls, as the equations of the chapter read where they are printed (note 4).
+    Bilateral,
+}
+
+/// How to solve. All quantities in SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Method<T> {
+    /// §1.3.1: exact.
+    Lagrange,
+    /// §1.3.2: with the penetration R/(c + ε).
+    Penalty {
+        /// ε > 0, in N/m.
+        penalty: T,
+    },
+    /// §1.3.3: repeated until the tolerance is met.
+    Augmented {
+        /// ε > 0, in N/m.
+        penalty: T,
+        /// tol > 0, in m: how far the deflection may be from the exact one.
+        tolerance: T,
+        /// The last k tried; 0 solves once.
+        max_augmentations: u64,
+        /// λ₀ in N: 0, or a guess (a warm start).
+        start: T,
+    },
+}
+
+/// How a solve ended. Only an iteration can end otherwise than [`Direct`](Outcome::Direct).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Outcome {
+    /// There was nothing to iterate.
+    Direct,
+    /// The natural residual and a rigorous bound of |u − u*| are both below the tolerance.
+    Converged,
+    /// Rounding stopped the iteration before: the multiplier repeats, or the penetration is zero or
+    /// changes sign. What more steps would gain is a matter of luck; [`Solution::floor`] says what was
+    /// reached.
+    Stagnated,
+    /// The limit of augmentations came first.
+    OutOfSteps,
+}
+
+/// As JSON and CSV have it.
+impl fmt::Display for Outcome {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.pad(match self {
+            Outcome::Direct => "direct",
+            Outcome::Converged => "converged",
+            Outcome::Stagnated => "stagnated",
+            Outcome::OutOfSteps => "out_of_steps",
+        })
+    }
+}
+
+#[cfg(feature = "serde")]
+crate::number::serialize_as_displayed!(State, Outcome);
+
+/// Rigorous enclosures of the exact answer, for the parameters as they are in their scalar.
+///
+/// For Lagrange and penalty the method's own exact answer; for augmented the limit, whatever the outcome.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound = "T: crate::number::Text"))]
+pub struct Bounds<T> {
+    /// Of the deflection, in m.
+    pub deflection: Interval<T>,
+    /// Of the penetration, in m.
+    pub penetration: Interval<T>,
+    /// Of the contact force, in N.
+    pub contact_force: Interval<T>,
+}
+
+/// What [`solve`] finds.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound = "T: crate::number::Text"))]
+pub struct Solution<T> {
+    /// Contact, grazing or separated.
+    pub state: State,
+    /// How the solve ended.
+    pub outcome: Outcome,
+    /// u, in m.
+    #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
+    pub deflection: T,
+    /// p = l + u − H of this deflection, in m.
+    #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
+    pub penetration: T,
+    /// N = m g − c u, in N; exactly 0 where the mass hangs free, and at grazing by Lagrange.
+    #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
+    pub contact_force: T,
+    /// λ (of this step: λ_k), in N; none by penalty.
+    #[cfg_attr(feature = "serde", serde(serialize_with = "crate::number::quantity::option"))]
+    pub multiplier: Option<T>,
+    /// k, the number of augmentations of the iterate returned; none without iteration.
+    pub augmentations: Option<u64>,
+    /// The smallest bound of |u − u*| met, in m, if the iteration stagnated.
+    #[cfg_attr(feature = "serde", serde(serialize_with = "crate::number::quantity::option"))]
+    pub floor: Option<T>,
+    /// Where the exact answer lies.
+    pub bounds: Bounds<T>,
+}
+
+#[cfg(feature = "mpfr")]
+impl<T: Scalar + ToExact> Solution<T> {
+    /// The residuals of (1.6) and of equilibrium, in exact rationals, of the numbers returned.
+    ///
+    /// All zero if and only if they are the exact solution. By penalty they cannot be.
+    ///
+    /// ```
+    /// # use spring_mass_contact::{chapter::SpringMass, solver::{Method, solve}};
+    /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
+    /// let kkt = solve(&system, &Method::Lagrange)?.certificate(&system);
+    /// assert!([kkt.stationarity, kkt.primal, kkt.dual, kkt.complementarity].iter().all(|r| *r == 0.into()));
+    /// # Ok::<(), spring_mass_contact::solver::SolveError>(())
+    /// ```
+    pub fn certificate(&self, system: &SpringMass<T>) -> contact::Kkt<Exact> {
+        let exact = |x: &T| x.to_exact().expect("a solution and its system are finite");
+        contact::kkt(&system.map(exact), &exact(&self.deflection), &exact(&self.contact_force))
+    }
+}
