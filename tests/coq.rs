@@ -3,6 +3,9 @@
 #![cfg(feature = "mpfr")]
 
 mod gallina;
+#[allow(dead_code)]
+#[path = "../examples/springs.rs"]
+mod springs;
 
 use gallina::{
     Definition, Function, Functions, Said, TRIALS, Theorem, code, drawn, functions, stated, value,
@@ -12,7 +15,7 @@ use spring_mass_contact::formula::Relation;
 use spring_mass_contact::formula::statement::Says;
 use spring_mass_contact::number::tree::Step;
 use spring_mass_contact::number::{Field, Tree};
-use spring_mass_contact::proof::coq::{File, theorem_name};
+use spring_mass_contact::proof::coq::{Development, File, theorem_name};
 use spring_mass_contact::verify::coq;
 use std::collections::BTreeSet;
 use std::io::Write;
@@ -355,19 +358,18 @@ fn axioms(printed: &str) -> BTreeSet<&str> {
     names.filter_map(|line| line.split_whitespace().next()).collect()
 }
 
-/// What this Coq has accepted it need not be asked again: the texts that were.
-#[test]
-fn coq_accepts_everything() {
+/// Coq accepts all of it. What this Coq has accepted it need not be asked again: the texts that were.
+fn accepts(name: &str, development: &Development) {
     let Some(version) = version() else { return };
-    let texts = coq().files().iter().fold(version, |all, file| all + &file.name + "\n" + &file.text);
-    let accepted = Path::new(env!("CARGO_TARGET_TMPDIR")).join("coq-accepted.txt");
+    let mut files = development.files();
+    let texts = files.iter().fold(version, |all, file| all + &file.name + "\n" + &file.text);
+    let accepted = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("coq-accepted-{name}.txt"));
     if fs::read_to_string(&accepted).is_ok_and(|before| before == texts) {
         say("not a word has changed since Coq accepted it");
         return;
     }
-    let directory = scratch("everything");
-    coq().write(&directory).unwrap();
-    let mut files: Vec<_> = coq().files();
+    let directory = scratch(name);
+    development.write(&directory).unwrap();
     let mut printed = String::new();
     let mut done: BTreeSet<String> = BTreeSet::new();
     while !files.is_empty() {
@@ -393,6 +395,23 @@ fn coq_accepts_everything() {
     let unknown: Vec<_> = axioms.iter().filter(|axiom| !AXIOMS.contains(axiom)).collect();
     assert!(unknown.is_empty(), "new axioms: {unknown:?}");
     fs::write(accepted, texts).unwrap();
+}
+
+#[test]
+fn coq_accepts_everything() {
+    accepts("everything", coq());
+}
+
+/// What the engine makes of formulas that are not the chapter's.
+#[test]
+fn coq_accepts_the_springs_in_series() {
+    let (registry, claims) = (springs::registry(), springs::claims());
+    let development = springs::coq(&registry, &claims);
+    let theorems: Vec<_> =
+        of_claims(&development.files()).flat_map(|f| named(&f.text, "Theorem")).map(String::from).collect();
+    assert_eq!((theorems.len(), development.left_out().len()), (claims.len(), 0));
+    assert_eq!(development.flips().len(), 1, "the sign of a + b");
+    accepts("springs", &development);
 }
 
 #[test]
