@@ -15,6 +15,7 @@ mod checker;
 mod coq;
 mod goals;
 mod guard;
+pub mod pages;
 pub mod proofs;
 mod suspects;
 #[cfg(test)]

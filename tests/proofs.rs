@@ -4,6 +4,7 @@
 use spring_mass_contact::claims::{registry, statements};
 use spring_mass_contact::proof::paper::Paper;
 use spring_mass_contact::proof::prove;
+use spring_mass_contact::verify::pages::{Page, pages};
 use std::collections::BTreeSet;
 
 #[test]
@@ -48,4 +49,20 @@ fn a_proof_can_be_read() {
     assert_eq!(paper.used(&proof), ["c > 0", "ε > 0"]);
     let lines = paper.proof(&proof);
     assert_eq!(lines.first().map(String::as_str), Some("c + ε ≠ 0: c + ε > 0, term by term"));
+}
+
+/// The pages of proofs in the book are what is proved. With `UPDATE=1` they are written.
+#[test]
+fn the_pages_of_proofs_are_what_is_printed() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("book/src/proofs");
+    let update = std::env::var_os("UPDATE").is_some();
+    for Page { file, text } in pages() {
+        let path = folder.join(&file);
+        if update {
+            std::fs::write(&path, &text).unwrap();
+        }
+        let found = std::fs::read_to_string(&path).unwrap_or_default().replace("\r\n", "\n");
+        let line = found.lines().zip(text.lines()).position(|(a, b)| a != b).map(|i| i + 1);
+        assert!(found == text, "book/src/proofs/{file}, line {line:?}: UPDATE=1 cargo test --test proofs");
+    }
 }

@@ -1,0 +1,75 @@
+//! Claims and proofs as pages to be read without running anything.
+
+use crate::claims::{Entry, entries, registry};
+use crate::formula::Statement;
+use crate::proof::paper::{self, Paper};
+use crate::proof::prove;
+use std::fmt::Write;
+
+/// What a section is called, with its number as entries have it.
+const SECTIONS: [(&str, &str); 7] = [
+    ("1.1", "Structural part"),
+    ("1.2", "Contact part"),
+    ("1.3.1", "Lagrange multiplier method"),
+    ("1.3.2", "Penalty method"),
+    ("1.3.3", "Augmented Lagrangian method"),
+    ("notes", "The loose spots"),
+    ("beyond", "Beyond the chapter"),
+];
+
+/// A proof of more lines than this is folded away.
+const LONG: usize = 40;
+
+/// A page of Markdown.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Page {
+    /// The name of its file.
+    pub file: String,
+    /// What stands on it.
+    pub text: String,
+}
+
+/// A page for each section of the chapter: its entries, what is claimed of each, and the proofs.
+pub fn pages() -> Vec<Page> {
+    SECTIONS.iter().map(|(section, title)| page(section, title)).collect()
+}
+
+fn page(section: &str, title: &str) -> Page {
+    let number = if section.starts_with(|c: char| c.is_ascii_digit()) { section } else { "" };
+    let mut text = format!("# {}\n\n", format!("Proofs: {number} {title}").replace("  ", " "));
+    text += "Printed by the prover; a test holds this page to what it prints. What the lines mean is said in\n\
+             [What is proved, and how](../proofs.md).\n";
+    let of_section = |entry: &&Entry| entry.section == section && !entry.claims.is_empty();
+    entries().iter().filter(of_section).for_each(|entry| text += &account(entry));
+    Page { file: format!("{section}.md"), text }
+}
+
+/// What is claimed of one entry.
+fn account(entry: &Entry) -> String {
+    let mut text = format!("\n## {} {}\n\n`{}`\n", entry.label(), entry.title, entry.statement());
+    let functions: Vec<_> = entry.functions.iter().map(|function| format!("`{function}`")).collect();
+    if let Some((file, _)) = entry.functions.first().and_then(|first| first.split_once("::")) {
+        let _ = write!(text, "\nComputed by {} in `src/chapter/{file}.rs`.\n", functions.join(", "));
+    }
+    for claim in &entry.claims {
+        let (statement, paper) = (Statement::of(claim), Paper::new(registry()));
+        let given: Vec<_> = claim.given.iter().map(|given| registry().supposed(given)).collect();
+        let given = if given.is_empty() { String::new() } else { format!("\n\nif `{}`", given.join("`, `")) };
+        let _ = write!(text, "\n### {}\n\n`{}`{given}\n\n", claim.name, paper.claim(&statement));
+        text += &match prove(&statement) {
+            Ok(proof) => {
+                let names = paper.names(&statement).into_iter().map(|name| format!("where {name}"));
+                let lines: Vec<_> = names.chain(paper.proof(&proof)).collect();
+                let block = format!("```text\n{}\n```\n", lines.join("\n"));
+                let summary = format!("{}, {} lines", paper::how(&proof), lines.len());
+                if lines.len() > LONG {
+                    format!("<details><summary>{summary}</summary>\n\n{block}\n</details>\n")
+                } else {
+                    block
+                }
+            }
+            Err(why) => format!("**not proved**: {}\n", paper.why(&why)),
+        };
+    }
+    text
+}
