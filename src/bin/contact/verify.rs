@@ -34,12 +34,12 @@ pub struct Options {
     #[arg(long = "scalar", value_name = "S")]
     scalars: Vec<NumberSystem>,
     /// Cases to try a claim on, at least 1
-    #[arg(long, value_name = "N", default_value_t = verify::Options::default().cases)]
     #[arg(value_parser = args::count)]
+    #[arg(long, value_name = "N", default_value_t = verify::Options::default().cases)]
     cases: u64,
     /// Where the cases are drawn from; the same seed, the same cases, on every machine
-    #[arg(long, value_name = "N", default_value_t = verify::Options::default().seed)]
     #[arg(value_parser = args::whole)]
+    #[arg(long, value_name = "N", default_value_t = verify::Options::default().seed)]
     seed: u64,
     /// Only this number of the chapter, repeatable: 1.13, 'note 4', …
     #[arg(long = "equation", value_name = "NUMBER", value_parser = args::equation)]
