@@ -96,12 +96,13 @@ pub(super) fn entries() -> Vec<Entry> {
             ]),
         Entry::new("1.16", "Augmentation")
             .states(
-                "λ_k = «augmented::update: λ=λ_{k−1}, u=u_{k−1}» and «augmented::equilibrium: λ=λ_k, \
-                 u=u_k» = 0; in closed form λ_k = «augmented::multiplier_after»",
+                "λ_k = «augmented::update: λ=λ_{k−1}, u=u_{k−1}» and \
+                 «augmented::equilibrium: λ=λ_k, u=u_k» = 0; \
+                 in closed form λ_k = «augmented::multiplier_after»",
             )
             .in_latex(concat!(
-                r"\left\{\begin{aligned} &\lambda_k = «augmented::update: u=u_{k-1}, λ=λ_{k-1}» \\ ",
-                r"&«augmented::equilibrium: u=u_k, λ=λ_k» = 0 \end{aligned}\right. \qquad k = 1, 2, ",
+                r"\left\{\begin{aligned} &\lambda_k = «augmented::update: u=u_{k-1}, λ=λ_{k-1}» ",
+                r"\\ &«augmented::equilibrium: u=u_k, λ=λ_k» = 0 \end{aligned}\right. \qquad k = 1, 2, ",
                 r"3, \dots",
             ))
             .given([stiffness, penalty])
@@ -131,8 +132,8 @@ pub(super) fn entries() -> Vec<Entry> {
             ]),
         Entry::new("Theorem 1.3.3", "Convergence of the augmentation")
             .states(
-                "p(u_k) shrinks by the factor ρ = «augmented::contraction» in each step for every ε \
-                 > 0: |p(u_k)| falls strictly unless λ₀ = R",
+                "p(u_k) shrinks by the factor ρ = «augmented::contraction» in each step for every \
+                 ε > 0: |p(u_k)| falls strictly unless λ₀ = R",
             )
             .given([stiffness, penalty])
             .functions(["augmented::contraction"])
@@ -310,8 +311,8 @@ pub(super) fn stopping() -> Vec<Entry> {
             ]),
         Entry::new("Remark 1.3.6", "The force at step k")
             .states(
-                "λ_{k+1} − λ_k = «penalty::contact_force: u=u_k»: the force named in the remark lags \
-                 one step behind",
+                "λ_{k+1} − λ_k = «penalty::contact_force: u=u_k»: \
+                 the force named in the remark lags one step behind",
             )
             .functions(["augmented::contact_force"])
             .follows_from(["1.18"])

@@ -56,8 +56,8 @@ pub(super) fn entries() -> Vec<Entry> {
             ]),
         Entry::new("beyond 2", "Augmentations as one penalty")
             .states(
-                "k augmentations from λ₀ = 0 equal one penalty solve with ε_eff = \
-                 «beyond::effective_penalty: growth=(1 + ε/c)^{k+1}»",
+                "k augmentations from λ₀ = 0 equal one penalty solve with \
+                 ε_eff = «beyond::effective_penalty: growth=(1 + ε/c)^{k+1}»",
             )
             .given([stiffness, penalty])
             .functions(["beyond::effective_penalty"])
@@ -89,8 +89,8 @@ pub(super) fn entries() -> Vec<Entry> {
             ]),
         Entry::new("beyond 3", "A step of its own")
             .states(
-                "λ′ = «beyond::relaxed_update» multiplies the error by \
-                 «beyond::relaxed_contraction»; α = «penalty::total_stiffness» is exact",
+                "λ′ = «beyond::relaxed_update» multiplies the error by «beyond::relaxed_contraction»; \
+                 α = «penalty::total_stiffness» is exact",
             )
             .given([stiffness, penalty])
             .functions(["beyond::relaxed_update", "beyond::relaxed_contraction"])
@@ -169,7 +169,7 @@ pub(super) fn entries() -> Vec<Entry> {
                 ),
             ]),
         Entry::new("beyond 5", "Extrapolation")
-            .states("Aitken's formula gives R exactly from λ₀, λ₁, λ₂")
+            .states("Aitken's formula gives R exactly from λ₀ ≠ R, λ₁ and λ₂")
             .given([stiffness, penalty])
             .functions(["beyond::aitken"])
             .follows_from(["1.16"])

@@ -34,12 +34,13 @@ pub(super) fn entries() -> Vec<Entry> {
             ]),
         Entry::new("1.6", "Karush-Kuhn-Tucker conditions")
             .states(
-                "p ≤ 0, N ≥ 0, «contact::kkt.complementarity» = 0 and «contact::equilibrium» = 0 \
-                 have exactly one solution",
+                "p ≤ 0, N ≥ 0, «contact::kkt.complementarity» = 0 and «contact::equilibrium» = 0 have \
+                 exactly one solution",
             )
             .in_latex(concat!(
-                r"\begin{array}{lll} \text{contact:} & p = 0 & N > 0 \\ \text{no contact:} & p < 0 & ",
-                r"N = 0 \\ \text{always:} & «contact::kkt.complementarity» = 0 & \end{array}",
+                r"\begin{array}{lll} \text{contact:} & p = 0 & N > 0 \\ ",
+                r"\text{no contact:} & p < 0 & N = 0 \\ ",
+                r"\text{always:} & «contact::kkt.complementarity» = 0 & \end{array}",
             ))
             .given([stiffness])
             .functions(["contact::kkt", "contact::equilibrium"])

@@ -39,8 +39,8 @@ pub(super) fn entries() -> Vec<Entry> {
                  solution u = «lagrange::deflection», λ = «lagrange::multiplier»",
             )
             .in_latex(concat!(
-                r"\left\{\begin{aligned} «lagrange::residual.equilibrium» &= 0 \\ ",
-                r"«contact::penetration» &= 0 \end{aligned}\right.",
+                r"\left\{\begin{aligned} «lagrange::residual.equilibrium» &= 0 ",
+                r"\\ «contact::penetration» &= 0 \end{aligned}\right.",
             ))
             .functions(["lagrange::residual", "lagrange::deflection", "lagrange::multiplier"])
             .follows_from(["1.7"])

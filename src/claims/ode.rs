@@ -43,8 +43,8 @@ pub(super) fn entries() -> Vec<Entry> {
             }]),
         Entry::new("1.23", "Differential equation")
             .states(
-                "«ode::operator: v=u̇» = «ode::right_side», of which one explicit Euler step of size \
-                 1 is (1.21)",
+                "«ode::operator: v=u̇» = «ode::right_side», \
+                 of which one explicit Euler step of size 1 is (1.21)",
             )
             .in_latex(r"«ode::operator: v=u̇» = «ode::right_side», \quad u(0) = u_0")
             .given([stiffness, penalty])

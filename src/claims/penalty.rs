@@ -169,11 +169,12 @@ pub(super) fn entries() -> Vec<Entry> {
             ]),
         Entry::new("1.13", "Deflection by penalty and its limit")
             .states(
-                "u = «penalty::deflection» tends to «system::gap» as ε → ∞, with p = \
-                 «penalty::penetration»",
+                "u = «penalty::deflection» tends to «system::gap» as ε → ∞, \
+                 with p = «penalty::penetration»",
             )
             .in_latex(concat!(
-                r"\lim_{\varepsilon\to\infty} u = \lim_{\varepsilon\to\infty} «penalty::deflection» = ",
+                r"\lim_{\varepsilon\to\infty} u = ",
+                r"\lim_{\varepsilon\to\infty} «penalty::deflection» = ",
                 r"\lim_{\varepsilon\to\infty} «penalty::deflection_divided» = «system::gap»",
             ))
             .given([stiffness, penalty])

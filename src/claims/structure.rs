@@ -73,8 +73,8 @@ pub(super) fn entries() -> Vec<Entry> {
             ]),
         Entry::new("1.4", "Potential energy")
             .states(
-                "Π(u) = «structure::potential_energy» is least at u = «structure::deflection» and \
-                 only there",
+                "Π(u) = «structure::potential_energy» is least at u = «structure::deflection» and only \
+                 there",
             )
             .in_latex(r"\Pi(u) = «structure::potential_energy» \;\to\; \min")
             .given([stiffness])
