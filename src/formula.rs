@@ -12,12 +12,14 @@
 //! [`Tree::typeset`]: crate::number::Tree::typeset
 
 pub mod claim;
+mod lines;
 mod program;
 mod registry;
 pub mod statement;
 mod typeset;
 
 pub use claim::{Claim, Hypothesis, Kind, Rate, Relation};
+pub use lines::{GLUE, together};
 pub use program::Program;
 pub use registry::{Call, Formula, Registry};
 pub use statement::Statement;

@@ -6,6 +6,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use comfy_table::{ColumnConstraint, ContentArrangement, Table, presets};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
+use spring_mass_contact::formula::GLUE;
 use std::io::{self, BufWriter, IsTerminal, Write};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -94,9 +95,6 @@ pub fn table() -> Table {
         .set_width(width().max(WIDTH.into()) as u16);
     table
 }
-
-/// What stands for a blank at which no line may end; it is printed as one.
-pub const GLUE: char = '\u{a0}';
 
 /// A point whose lines end between its numbers.
 pub fn glued(point: &impl ToString) -> String {

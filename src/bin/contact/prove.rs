@@ -5,7 +5,7 @@ use crate::text::shortened;
 use crate::{args, solve};
 use clap::ValueEnum;
 use spring_mass_contact::claims::{Entry, entry, registry, statements};
-use spring_mass_contact::formula::Statement;
+use spring_mass_contact::formula::{Statement, together};
 use spring_mass_contact::proof::controls::{Change, Dropped, Effect, Without};
 use spring_mass_contact::proof::coq::LeftOut;
 use spring_mass_contact::proof::paper::{self, Paper};
@@ -261,24 +261,6 @@ fn account(out: &mut dyn Write, proofs: &Proofs, proved: &Proved) -> io::Result<
     say("needs", &needed.collect::<Vec<_>>())
 }
 
-/// Text whose lines end before an operator or a relation: what is multiplied or divided stays together.
-fn together(text: &str) -> String {
-    let is_operator = |word: &str| ["+", "−", "/", "=", "≠", "<", ">", "≤", "≥", "→"].contains(&word);
-    let is_factor = |word: &str| {
-        let letters = word.chars().filter(|c| c.is_alphabetic()).count();
-        letters < 2 && !is_operator(word) && !word.ends_with([',', ';', ':'])
-    };
-    let words: Vec<&str> = text.split(' ').collect();
-    let mut all = words.first().unwrap_or(&"").to_string();
-    for pair in words.windows(2) {
-        let (word, next) = (pair[0], pair[1]);
-        let glued = is_operator(word) || next == "/" || is_factor(word) && is_factor(next);
-        all.push(if glued { output::GLUE } else { ' ' });
-        all.push_str(next);
-    }
-    all
-}
-
 fn markdown(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
     writeln!(out, "| number | claim | says | if | how | status |")?;
     writeln!(out, "|---|---|---|---|---|---|")?;
@@ -331,15 +313,5 @@ mod tests {
         };
         assert!(text.contains(" \\\n") && pasted(&commands).len() > 50);
         assert_eq!(pasted(&text), [pasted(&commands), pasted(&commands)].concat());
-    }
-
-    #[test]
-    fn products_stay_together() {
-        let parts = |text: &str| {
-            together(text).split(' ').map(|part| part.replace(output::GLUE, "_")).collect::<Vec<_>>()
-        };
-        assert_eq!(parts("it is 2 c ε² / (c + ε) − s₁ u"), ["it", "is", "2_c_ε²_/_(c", "+_ε)", "−_s₁_u"]);
-        assert_eq!(parts("c > 0, ε ≥ 0: m g"), ["c", ">_0,", "ε", "≥_0:", "m_g"]);
-        assert_eq!(parts(""), [""]);
     }
 }

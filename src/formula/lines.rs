@@ -1,0 +1,36 @@
+//! Where a line of formulas may end.
+
+/// A blank at which no line may end.
+pub const GLUE: char = '\u{a0}';
+
+/// Text whose lines end before an operator or a relation: what is multiplied or divided stays together.
+pub fn together(text: &str) -> String {
+    let is_operator = |word: &str| ["+", "−", "/", "=", "≠", "<", ">", "≤", "≥", "→"].contains(&word);
+    let is_factor = |word: &str| {
+        let letters = word.chars().filter(|c| c.is_alphabetic()).count();
+        letters < 2 && !is_operator(word) && !word.ends_with([',', ';', ':'])
+    };
+    let words: Vec<&str> = text.split(' ').collect();
+    let mut all = words.first().unwrap_or(&"").to_string();
+    for pair in words.windows(2) {
+        let (word, next) = (pair[0], pair[1]);
+        let glued = is_operator(word) || next == "/" || is_factor(word) && is_factor(next);
+        all.push(if glued { GLUE } else { ' ' });
+        all.push_str(next);
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn products_stay_together() {
+        let parts =
+            |text: &str| together(text).split(' ').map(|part| part.replace(GLUE, "_")).collect::<Vec<_>>();
+        assert_eq!(parts("it is 2 c ε² / (c + ε) − s₁ u"), ["it", "is", "2_c_ε²_/_(c", "+_ε)", "−_s₁_u"]);
+        assert_eq!(parts("c > 0, ε ≥ 0: m g"), ["c", ">_0,", "ε", "≥_0:", "m_g"]);
+        assert_eq!(parts(""), [""]);
+    }
+}
