@@ -46,7 +46,7 @@ fn page(section: &str, title: &str) -> Page {
 
 /// What is claimed of one entry.
 fn account(entry: &Entry) -> String {
-    let mut text = format!("\n## {} {}\n\n`{}`\n", entry.label(), entry.title, entry.statement());
+    let mut text = format!("\n## {} {}\n\n{}.\n", entry.label(), entry.title, entry.statement());
     let functions: Vec<_> = entry.functions.iter().map(|function| format!("`{function}`")).collect();
     if let Some((file, _)) = entry.functions.first().and_then(|first| first.split_once("::")) {
         let _ = write!(text, "\nComputed by {} in `src/chapter/{file}.rs`.\n", functions.join(", "));
