@@ -219,7 +219,7 @@ fn every_function_is_claimed_something_of() {
     let written =
         source("src/claims/list.rs") + &source("src/claims/experiments.rs") + &source("src/claims.rs");
     for Item { path, .. } in functions() {
-        // The named conditions on a penalty functional are tried in tests/penalty_limit.rs.
+        // The named conditions on a penalty functional are tried in tests/solver/penalty_limit.rs.
         if path != "penalty::broken_condition" {
             assert!(written.contains(&format!("{path}(")), "no claim speaks of {path}");
         }
