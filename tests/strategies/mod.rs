@@ -220,15 +220,15 @@ macro_rules! in_every_float {
             use super::*;
             proptest! {
                 #[test]
-                fn f32(case in $cases(strategies::NARROW)) {
+                fn f32(case in $cases(NARROW)) {
                     super::$law(&case, &1f32)?;
                 }
                 #[test]
-                fn f64(case in $cases(strategies::WIDE)) {
+                fn f64(case in $cases(WIDE)) {
                     super::$law(&case, &1f64)?;
                 }
                 #[test]
-                fn mpfr(case in $cases(strategies::WIDE), bits in prop_oneof![Just(8), Just(113), 8u32..300]) {
+                fn mpfr(case in $cases(WIDE), bits in prop_oneof![Just(8), Just(113), 8u32..300]) {
                     super::$law(&case, &spring_mass_contact::number::Exact::from(1).to_mpfr(bits))?;
                 }
             }

@@ -2,10 +2,8 @@
 //! closed forms, the one-sided iteration of note 4, the number of steps (1.33), and what is left of all
 //! that in floats.
 
-#![cfg(feature = "mpfr")]
-
-mod strategies;
-
+use crate::in_every_float;
+use crate::strategies::*;
 use num_traits::Zero;
 use proptest::prelude::*;
 use spring_mass_contact::chapter::{SpringMass, augmented, contact, penalty, structure, system};
@@ -14,7 +12,6 @@ use spring_mass_contact::rug::Integer;
 use spring_mass_contact::solver::{
     Augmentation, Iterate, Method, Outcome, Plane, augmentations_needed, solve, solve_bilateral,
 };
-use strategies::*;
 
 fn iterate<'a, T: OrderedField>(case: &'a Case<T>, plane: Plane) -> Augmentation<'a, T> {
     Augmentation::new(&case.system, &case.eps).from_multiplier(case.start.clone()).over(plane)

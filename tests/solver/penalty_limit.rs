@@ -1,10 +1,8 @@
 //! The penalty method: the limit (1.13) and its rate, the price of a large ε in floats, the functionals
 //! (1.10) and the conditions on them.
 
-#![cfg(feature = "mpfr")]
-
-mod strategies;
-
+use crate::in_every_float;
+use crate::strategies::*;
 use num_traits::Zero;
 use proptest::prelude::*;
 use spring_mass_contact::chapter::{SpringMass, contact, penalty, structure, system};
@@ -12,7 +10,6 @@ use spring_mass_contact::number::{Ball, Dual, Exact, Mpfr, OrderedField, ToExact
 use spring_mass_contact::solver::{
     Outcome, SolveError, State, penalty_for_penetration, series_penetration, solve, solve_bilateral,
 };
-use strategies::*;
 
 proptest! {
     /// (c + ε)(u − Δ) = R for every ε, so u → Δ; both written forms of (1.13) are its root.

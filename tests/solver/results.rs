@@ -1,10 +1,8 @@
 //! What a result of the solver is worth: its bounds are narrow, what is exactly 0 is 0, and what cannot be solved
 //! is refused under the name that the user gave it.
 
-#![cfg(feature = "mpfr")]
-
-mod strategies;
-
+use crate::in_every_float;
+use crate::strategies::*;
 use num_traits::Zero;
 use proptest::prelude::*;
 use spring_mass_contact::chapter::{SpringMass, system};
@@ -13,7 +11,6 @@ use spring_mass_contact::solver::{
     Bounds, Interval, Method, Plane, Solution, SolveError, State, rounding_floor, solve, solve_bilateral,
     within_reach,
 };
-use strategies::*;
 
 /// A way to solve, and the plane that it supposes.
 type Solve<T> = fn(&SpringMass<T>, &Method<T>) -> Result<Solution<T>, SolveError>;

@@ -1,15 +1,11 @@
 //! What must not change the answer: the units, the place where lengths are measured from, the direction
 //! that is called positive.
 
-#![cfg(feature = "mpfr")]
-
-mod strategies;
-
+use crate::strategies::*;
 use proptest::prelude::*;
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::number::Exact;
 use spring_mass_contact::solver::{Bounds, Interval, Method, Scalar, Solution, solve, solve_bilateral};
-use strategies::*;
 
 /// How many of the new units make an old one.
 #[derive(Clone, Debug)]

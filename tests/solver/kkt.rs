@@ -1,10 +1,8 @@
 //! The Karush-Kuhn-Tucker conditions (1.6): met by the Lagrange multiplier method and by the limit of the
 //! augmentation, violated by known amounts by the penalty method, in contact, grazing and separated.
 
-#![cfg(feature = "mpfr")]
-
-mod strategies;
-
+use crate::in_every_float;
+use crate::strategies::*;
 use num_traits::Zero;
 use proptest::prelude::*;
 use spring_mass_contact::chapter::{SpringMass, contact, penalty, system};
@@ -14,7 +12,6 @@ use spring_mass_contact::solver::{
     Augmentation, Method, Outcome, Plane, Solution, State, solve, solve_bilateral,
 };
 use std::cmp::Ordering;
-use strategies::*;
 
 fn state_by_sign(sign: Ordering) -> State {
     match sign {

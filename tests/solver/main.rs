@@ -1,0 +1,11 @@
+//! What the solver computes, on drawn systems: one crate, so that the strategies are compiled once for all of it.
+#![cfg(feature = "mpfr")]
+
+#[path = "../strategies/mod.rs"]
+mod strategies;
+
+mod augmentation_monotone;
+mod invariances;
+mod kkt;
+mod penalty_limit;
+mod results;
