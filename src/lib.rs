@@ -9,7 +9,7 @@
 //! | module | what is in it | who reads it |
 //! |---|---|---|
 //! | [`number`] | the number systems and the few traits a formula asks for | everything below |
-//! | [`formula`] | records as data: typeset, compiled, known in each other, claims of them | `proof`, `claims` |
+//! | [`formula`] | records as data: typeset, compiled, and what is said of them | `proof`, `claims` |
 #![cfg_attr(
     feature = "mpfr",
     doc = "| [`proof`] | proves what is claimed of formulas, refutes what is wrong, prints both | `verify` |"

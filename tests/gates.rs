@@ -285,6 +285,37 @@ fn rounding_stays_within_bounds_that_are_not_idle() {
     assert!(2 * tight > measured.len(), "{tight} of {} claims use 5 % of their bound", measured.len());
 }
 
+/// The files of a folder of the source and of its folders, by their paths in the project.
+fn files(folder: &str) -> Vec<String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let entries = fs::read_dir(root.join(folder)).unwrap().map(|entry| entry.unwrap());
+    let of = |entry: fs::DirEntry| {
+        let path = format!("{folder}/{}", entry.file_name().to_str().unwrap());
+        if entry.path().is_dir() { files(&path) } else { vec![path] }
+    };
+    entries.flat_map(of).collect()
+}
+
+#[test]
+fn no_line_of_the_source_is_longer_than_a_reader_likes() {
+    let files = files("src");
+    assert!(files.len() > 70, "the scan of src finds {} files", files.len());
+    for path in files {
+        // rustfmt breaks code there, but no text and no comment.
+        let text = source(&path);
+        let long = text.lines().zip(1..).find(|(line, _)| line.chars().count() > 110);
+        assert_eq!(long, None, "{path}");
+    }
+}
+
+#[test]
+fn no_file_of_the_source_is_longer_than_a_reader_can_hold() {
+    for path in files("src") {
+        let lines = source(&path).lines().count();
+        assert!(lines <= 450, "{path} has {lines} lines");
+    }
+}
+
 #[test]
 fn every_planted_edit_still_applies() {
     // A patch that no longer fits its source would plant nothing. Its context has to be found there.

@@ -1,8 +1,8 @@
 (** * Theorem 1.3.3, of the iterates themselves.
 
     The claims speak of the powers of the contraction factor, since numbers can check them there. Here they
-    are joined with (1.16): [eq_1_16_closed_form_iterates] is the recursion as the chapter states it, from any first
-    multiplier, and everything below speaks of what comes out of it. *)
+    are joined with (1.16): [eq_1_16_closed_form_iterates] is the recursion as the chapter states it, from
+    any first multiplier, and everything below speaks of what comes out of it. *)
 
 Section Iterates.
 
@@ -23,7 +23,8 @@ Proof.
 Qed.
 
 Lemma iterates_penetrate :
-  c + eps <> 0 -> forall k, p k = augmented_penetration_after c m g l h eps lambda (augmented_contraction c eps ^ k).
+  c + eps <> 0 ->
+  forall k, p k = augmented_penetration_after c m g l h eps lambda (augmented_contraction c eps ^ k).
 Proof.
   intros N k. induction k as [ | k I].
   - unfold p, deflection, iterates. cbn. functions. field. exact N.
@@ -80,7 +81,8 @@ Proof.
   - rewrite iterates_contract, Rabs_mult by lra.
     assert (0 < augmented_contraction c eps) by (functions; apply Rdiv_lt_0_compat; lra).
     rewrite (Rabs_pos_eq (augmented_contraction c eps)), S_INR by lra.
-    apply Rle_trans with (augmented_contraction c eps * (augmented_harmonic_bound c eps (INR k) * Rabs (p 0))).
+    apply Rle_trans with
+      (augmented_contraction c eps * (augmented_harmonic_bound c eps (INR k) * Rabs (p 0))).
     + apply Rmult_le_compat_l; lra.
     + rewrite <- Rmult_assoc. apply Rmult_le_compat_r; [apply Rabs_pos | ].
       pose proof (eq_1_17_harmonic_step c eps (INR k) C E (pos_INR k)). lra.

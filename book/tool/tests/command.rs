@@ -27,7 +27,9 @@ fn files(folder: &Path) -> Vec<PathBuf> {
 
 /// The options that the command's sources declare.
 fn declared() -> BTreeSet<String> {
-    let option = Regex::new(r#"#\[arg\(long(?: = "([\w-]+)")?[^\n]*\)\]\s+(?:pub )?(\w+):"#).unwrap();
+    // What a number may be stands in a second attribute, where the first would be too long.
+    let option = r#"#\[arg\(long(?: = "([\w-]+)")?[^\n]*\)\]\s+(?:#\[arg[^\n]*\]\s+)?(?:pub )?(\w+):"#;
+    let option = Regex::new(option).unwrap();
     let sources = files(&root().join("src/bin/contact"));
     let sources: String = sources.iter().map(|path| text(path)).collect();
     option

@@ -237,7 +237,8 @@ Proof.
   { exists 0. intros x X. symmetry. apply E, X. }
   apply is_lim_comp with 0.
   - apply is_lim_continuity, continuity_pt_filterlim, (ex_derive_continuous g 0 D).
-  - replace (Finite 0) with (Rbar_inv p_infty) by reflexivity. apply is_lim_inv; [apply is_lim_id | discriminate].
+  - replace (Finite 0) with (Rbar_inv p_infty) by reflexivity.
+    apply is_lim_inv; [apply is_lim_id | discriminate].
   - exists 0. intros x X E0. injection E0 as E1. apply (Rinv_neq_0_compat x); lra.
 Qed.
 

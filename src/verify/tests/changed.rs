@@ -1,9 +1,10 @@
-//! Wrong formulas in process: what the number systems make of every change of a formula.
+//! Wrong formulas in process: what the number systems make of every change of a formula, and what is
+//! reported of one.
 
 use super::super::checker::Judge;
 use super::super::*;
 use crate::formula::{Claim, Hypothesis};
-use crate::proof::controls::{Effect, controls};
+use crate::proof::controls::{Effect, Operator, What, changes, controls};
 use std::collections::BTreeMap;
 
 type Drawn = BTreeMap<String, (Vec<Hypothesis>, Vec<Option<Case<Exact>>>)>;
@@ -48,4 +49,43 @@ fn every_change_of_a_formula_is_a_finding() {
     assert!(changes.len() > 600);
     let amiss: Vec<_> = changes.par_iter().filter_map(seen).collect();
     assert!(amiss.is_empty(), "{amiss:#?}");
+}
+
+fn in_one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// The sample in the book of a report with a mistake in it: c − ε for c + ε in the stiffness by penalty.
+#[test]
+fn the_book_shows_where_to_look_after_a_mistake() {
+    let stiffness = registry().formula("penalty::total_stiffness").unwrap();
+    let of_sum = |change: &&Change| {
+        (change.site, change.what) == (stiffness.tree.site(), What::Opposite(Operator::Add))
+    };
+    let statements = statements();
+    let mistake = changes(&statements, registry()).iter().find(of_sum).copied().unwrap();
+    let mistaken = |s: Statement| mistake.apply(&s).unwrap_or(s);
+    let statements = statements.into_iter().map(mistaken).collect();
+    let options = Options { scalars: Vec::new(), cases: 1, seed: 1, equations: Vec::new() };
+    let report = run(&[], statements, &options, &|_, _| ());
+    let [suspect] = &report.suspects[..] else { panic!("{:?}", report.suspects) };
+    let [repair] = &report.repairs[..] else { panic!("{:?}", report.repairs) };
+    let entry = crate::claims::entry(suspect.equation.unwrap()).unwrap();
+    let of_entry = |row: &&Row| row.equation == entry.equation && row.status == Status::Failed;
+    let row = report.rows.iter().find(of_entry).unwrap();
+    let sample = format!(
+        "{} {}: look here first of the claims that speak of it {} are not proved, and {} are \
+         with {repair} every claim would be proved {} {} NOT PROVED {} {} contact solve",
+        entry.label(),
+        suspect.function,
+        suspect.unproved,
+        suspect.proved,
+        row.equation,
+        row.claim,
+        row.why.as_ref().unwrap(),
+        row.counterexample.as_ref().unwrap(),
+    );
+    let page = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("book/src/command.md");
+    let page = in_one_line(&std::fs::read_to_string(page).unwrap());
+    assert!(page.contains(&in_one_line(&sample)), "{sample}");
 }
