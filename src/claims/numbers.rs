@@ -23,8 +23,9 @@ pub fn numbered(text: &str) -> Option<&'static Entry> {
 /// ```
 /// # use spring_mass_contact::claims::all_numbered;
 /// let numbers = |words| all_numbered(words).map(|all| all.iter().map(|e| e.equation).collect::<Vec<_>>());
-/// assert_eq!(numbers(&["eq.", "1.13", "theorem 1.3.3", "note", "4"]), Ok(vec!["1.13", "Theorem 1.3.3",
-/// "note 4"])); assert_eq!(numbers(&["1.13", "theorem", "1.13"]), Err("theorem"));
+/// let words = ["eq.", "1.13", "theorem 1.3.3", "note", "4"];
+/// assert_eq!(numbers(&words), Ok(vec!["1.13", "Theorem 1.3.3", "note 4"]));
+/// assert_eq!(numbers(&["1.13", "theorem", "1.13"]), Err("theorem"));
 /// ```
 pub fn all_numbered<S: AsRef<str>>(words: &[S]) -> Result<Vec<&'static Entry>, &str> {
     let mut all = Vec::new();

@@ -156,9 +156,9 @@ impl Registry {
     /// ```
     /// use spring_mass_contact::{claims::registry, formula::Notation};
     /// let energy = registry().formula("augmented::functional").unwrap();
-    /// assert_eq!(registry().typeset(energy, Notation::Text), "Π + λ p + ε p² / 2");
-    /// assert_eq!(registry().typeset(energy, Notation::Latex), r"\Pi + \lambda\,p +
-    /// \tfrac{1}{2}\,\varepsilon\,p^2");
+    /// let [text, latex] = [Notation::Text, Notation::Latex].map(|n| registry().typeset(energy, n));
+    /// assert_eq!(text, "Π + λ p + ε p² / 2");
+    /// assert_eq!(latex, r"\Pi + \lambda\,p + \tfrac{1}{2}\,\varepsilon\,p^2");
     /// ```
     pub fn typeset(&self, formula: &Formula, notation: Notation) -> String {
         self.names(Some(formula)).typeset(formula, notation)

@@ -30,9 +30,9 @@ pub struct Iterate<T> {
 /// ```
 /// use spring_mass_contact::{chapter::SpringMass, solver::Augmentation};
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
-/// let penetrations: Vec<_> = Augmentation::new(&system, &4.0).map(|step|
-/// step.penetration).take(4).collect(); assert_eq!(penetrations, [0.25, 0.125, 0.0625, 0.03125]); // ρ =
-/// 1/2
+/// let steps = Augmentation::new(&system, &4.0).take(4);
+/// let penetrations: Vec<_> = steps.map(|step| step.penetration).collect();
+/// assert_eq!(penetrations, [0.25, 0.125, 0.0625, 0.03125]); // ρ = 1/2
 /// ```
 #[derive(Clone, Debug)]
 pub struct Augmentation<'a, T> {

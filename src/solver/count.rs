@@ -115,13 +115,18 @@ pub fn rounding_floor(system: &SpringMass<Exact>, eps: &Exact, unit_roundoff: &E
 /// well, by luck, or not. Rationals meet every one.
 ///
 /// ```
-/// # use spring_mass_contact::{chapter::SpringMass, number::Exact, solver::{Method, Outcome, solve,
-/// within_reach}}; let system = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 }; let eta =
-/// Exact::power_of_two(-53); let ends = |tolerance| { let method = Method::Augmented { penalty: 1.0,
-/// tolerance, max_augmentations: 10_000, start: 0.0 }; (within_reach(&system, &1.0, &tolerance, &eta),
-/// solve(&system, &method).unwrap().outcome) }; assert_eq!(ends(1e-13), (true, Outcome::Converged));
-/// assert_eq!(ends(1e-14), (false, Outcome::Converged)); // luck assert_eq!(ends(1e-16), (false,
-/// Outcome::Stagnated)); // less than η H
+/// # use spring_mass_contact::{chapter::SpringMass, number::Exact};
+/// # use spring_mass_contact::solver::{Method, Outcome, solve, within_reach};
+/// let system = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
+/// let eta = Exact::power_of_two(-53);
+/// let ends = |tolerance| {
+///     let method = Method::Augmented { penalty: 1.0, tolerance, max_augmentations: 10_000, start: 0.0 };
+///     let guaranteed = within_reach(&system, &1.0, &tolerance, &eta);
+///     (guaranteed, solve(&system, &method).unwrap().outcome)
+/// };
+/// assert_eq!(ends(1e-13), (true, Outcome::Converged));
+/// assert_eq!(ends(1e-14), (false, Outcome::Converged)); // luck
+/// assert_eq!(ends(1e-16), (false, Outcome::Stagnated)); // less than η H
 /// ```
 pub fn within_reach<T: Scalar + ToExact>(
     system: &SpringMass<T>,

@@ -37,8 +37,8 @@ pub fn pages() -> Vec<Page> {
 fn page(section: &str, title: &str) -> Page {
     let number = if section.starts_with(|c: char| c.is_ascii_digit()) { section } else { "" };
     let mut text = format!("# {}\n\n", format!("Proofs: {number} {title}").replace("  ", " "));
-    text += "Printed by the prover; a test holds this page to what it prints. What the lines mean is said in\n\
-             [What is proved, and how](../proofs.md).\n";
+    text += "Printed by the prover; a test holds this page to what it prints.\n\
+             What the lines mean is said in [What is proved, and how](../proofs.md).\n";
     let of_section = |entry: &&Entry| entry.section == section && !entry.claims.is_empty();
     entries().iter().filter(of_section).for_each(|entry| text += &account(entry));
     Page { file: format!("{section}.md"), text }
