@@ -4,7 +4,7 @@
 //! A [`Development`] has every function of a registry as a definition, printed from its recorded formula,
 //! and every claim as a theorem about these definitions, with its hypotheses as premises. The proofs follow
 //! what
-//! [`kernel`](super::kernel) found, but nothing of it is taken on trust: if Coq accepts the files, what is
+//! the kernel found, but nothing of it is taken on trust: if Coq accepts the files, what is
 //! left to trust is Coq's own kernel, its axioms of the real numbers, and that definitions and theorems
 //! read as their sources do.
 //!
@@ -56,7 +56,7 @@ pub struct Flip {
     /// The definition as it is now.
     pub definition: String,
     /// All definitions with this one among them, then every theorem that speaks of the function, the shortest
-    /// first. It needs the first of [`files`] alone.
+    /// first. It needs the first of the [files](Development::files) alone.
     pub file: File,
 }
 

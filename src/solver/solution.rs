@@ -128,7 +128,7 @@ pub struct Bounds<T> {
     pub contact_force: Interval<T>,
 }
 
-/// What [`solve`] finds.
+/// What [`solve`](super::solve) finds.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound = "T: crate::number::Text"))]
 pub struct Solution<T> {

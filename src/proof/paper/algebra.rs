@@ -123,7 +123,7 @@ fn text(sign: Sign) -> &'static str {
     }
 }
 
-/// With factors by name; [`why`](super::why) has them as mechanics writes them.
+/// With factors by name; [`Paper::why`](super::Paper::why) has them in the order of a registry.
 impl fmt::Display for Why {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str(&Order::default().why(self))
