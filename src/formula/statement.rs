@@ -88,15 +88,6 @@ impl Says {
             Says::Sign(_, a) => [a, a],
         }
     }
-
-    fn map(&self, f: &impl Fn(&Tree) -> Tree) -> Self {
-        match self {
-            Says::Equal(a, b) => Says::Equal(f(a), f(b)),
-            Says::Sign(relation, a) => Says::Sign(*relation, f(a)),
-            Says::Derivative(a, by, b) => Says::Derivative(f(a), by, f(b)),
-            Says::Limit(a, by, b) => Says::Limit(f(a), by, f(b)),
-        }
-    }
 }
 
 impl Statement {
@@ -172,25 +163,6 @@ impl Statement {
         }
         let (equation, name, kind) = (claim.equation, claim.name, claim.kind.name());
         Statement { equation, name, kind, hypotheses, invariants, goals, amounts_to }
-    }
-
-    /// With every formula changed.
-    pub fn map(&self, f: &impl Fn(&Tree) -> Tree) -> Self {
-        let hypothesis = |h: &Hypothesis| Hypothesis { value: f(&h.value), ..h.clone() };
-        let goal = |g: &Goal| Goal { says: g.says.map(f), ..g.clone() };
-        let sequence = |s: &Sequence| Sequence {
-            start: s.start.iter().map(f).collect(),
-            ratio: f(&s.ratio),
-            member: s.member.iter().map(f).collect(),
-            limit: s.limit.as_ref().map(f),
-        };
-        Statement {
-            hypotheses: self.hypotheses.iter().map(hypothesis).collect(),
-            invariants: self.invariants.iter().map(hypothesis).collect(),
-            amounts_to: self.amounts_to.as_ref().map(sequence),
-            goals: self.goals.iter().map(goal).collect(),
-            ..self.clone()
-        }
     }
 
     /// Without one of its hypotheses.

@@ -1,7 +1,7 @@
 //! What can be changed in a formula.
 
-use crate::formula::statement::{Goal, Says};
-use crate::formula::{Registry, Statement};
+use crate::formula::statement::{Goal, Says, Sequence};
+use crate::formula::{Hypothesis, Registry, Statement};
 use crate::number::Tree;
 use crate::number::tree::{Site, Step};
 use crate::proof::prove;
@@ -233,7 +233,10 @@ impl Change {
 
     /// The statement after the change, in its hypotheses and its goals; `None` if it does not touch it.
     pub fn apply(&self, statement: &Statement) -> Option<Statement> {
-        statement.trees().any(|tree| self.touches(tree)).then(|| statement.map(&|tree| self.rewrite(tree)))
+        statement
+            .trees()
+            .any(|tree| self.touches(tree))
+            .then(|| mapped(statement, &|tree| self.rewrite(tree)))
     }
 
     fn touches(&self, tree: &Tree) -> bool {
@@ -267,6 +270,32 @@ impl Change {
         registry.has_site(&tree.site()) && equal(self.rewrite(tree))
             || self.edit(tree).is_none()
                 && tree.step().operands().all(|operand| self.keeps(operand, statement, registry))
+    }
+}
+
+/// A statement with every formula changed.
+fn mapped(statement: &Statement, f: &impl Fn(&Tree) -> Tree) -> Statement {
+    let all = |trees: &[Tree]| trees.iter().map(f).collect();
+    let hypotheses =
+        |given: &[Hypothesis]| given.iter().map(|h| Hypothesis { value: f(&h.value), ..h.clone() }).collect();
+    let says = |says: &Says| match says {
+        Says::Equal(a, b) => Says::Equal(f(a), f(b)),
+        Says::Sign(relation, a) => Says::Sign(*relation, f(a)),
+        Says::Derivative(a, by, b) => Says::Derivative(f(a), by, f(b)),
+        Says::Limit(a, by, b) => Says::Limit(f(a), by, f(b)),
+    };
+    let sequence = |s: &Sequence| Sequence {
+        start: all(&s.start),
+        ratio: f(&s.ratio),
+        member: all(&s.member),
+        limit: s.limit.as_ref().map(f),
+    };
+    Statement {
+        hypotheses: hypotheses(&statement.hypotheses),
+        invariants: hypotheses(&statement.invariants),
+        goals: statement.goals.iter().map(|goal| Goal { says: says(&goal.says), ..goal.clone() }).collect(),
+        amounts_to: statement.amounts_to.as_ref().map(sequence),
+        ..statement.clone()
     }
 }
 
