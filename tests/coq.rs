@@ -8,12 +8,11 @@ use gallina::{
     Definition, Function, Functions, Said, TRIALS, Theorem, code, drawn, functions, stated, value,
 };
 use spring_mass_contact::claims::{registry, statements};
-use spring_mass_contact::formula::claim::equal;
+use spring_mass_contact::formula::Relation;
 use spring_mass_contact::formula::statement::Says;
-use spring_mass_contact::formula::{Registry, Relation};
 use spring_mass_contact::number::tree::Step;
 use spring_mass_contact::number::{Field, Tree};
-use spring_mass_contact::proof::coq::{Development, File, Placed, theorem_name};
+use spring_mass_contact::proof::coq::{File, theorem_name};
 use spring_mass_contact::verify::coq;
 use std::collections::BTreeSet;
 use std::io::Write;
@@ -270,25 +269,6 @@ fn no_name_is_used_twice() {
         }
     }
     assert!(files.is_sorted_by(|a, b| a.name < b.name));
-}
-
-/// H is written h, so that H − h = 0 would be a theorem about h − h.
-#[test]
-fn two_symbols_never_share_a_name() {
-    let [height, other, c] = ["H", "h", "c"].map(|name| Tree::symbol(name));
-    let square = |of: Tree| &of * &of;
-    let claims = [
-        equal("alike", [], square(&height - &other), square(&other - &height)),
-        equal("apart", [], square(&height - &c), square(&c - &height)),
-    ];
-    let placed = |claim| Placed { claim, section: "1", functions: &[] };
-    let registry = Registry::default();
-    let development = Development::new(&registry, claims.iter().map(placed));
-    let [left_out] = development.left_out() else { panic!("{:?}", development.left_out()) };
-    assert_eq!((left_out.name, left_out.reason.as_str()), ("alike", "H and h have the same name in Coq"));
-    let files = development.files();
-    let theorems: Vec<_> = of_claims(&files).flat_map(|file| named(&file.text, "Theorem")).collect();
-    assert_eq!(theorems, ["apart"]);
 }
 
 #[test]
