@@ -43,7 +43,7 @@ fn what_changes_nothing_is_only_the_order_in_a_square() {
 fn no_hypothesis_is_needless() {
     let statements = statements();
     for dropped in controls(&statements, registry()).dropped {
-        let what = format!("{} {}: {}", dropped.equation, dropped.name, dropped.given);
+        let what = format!("{} {}: {}", dropped.equation, dropped.name, registry().supposed(&dropped.given));
         assert!(matches!(dropped.without, Without::Refuted(_)), "{what}: {:?}", dropped.without);
     }
 }

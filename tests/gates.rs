@@ -133,14 +133,16 @@ fn entries_suppose_what_their_claims_suppose() {
         let of_entry = || all.iter().filter(|(equation, _)| *equation == e.equation).map(|(_, given)| given);
         for hypothesis in &e.given {
             let supposed = of_entry().any(|given| given.contains(hypothesis));
-            assert!(supposed, "{}: no claim if {hypothesis}", e.equation);
+            let text = registry().supposed(hypothesis);
+            assert!(supposed, "{}: none of its claims supposes {text}", e.equation);
         }
         let first = of_entry().next().cloned().unwrap_or_default();
         for common in first.iter().filter(|common| of_entry().all(|given| given.contains(common))) {
             // How far on a sequence or a solution is, is no condition.
             let runs = [&given().power, &given().count, &given().time].contains(&common);
-            let said = e.given.contains(common) || e.statement().contains(&registry().supposed(common));
-            assert!(runs || said, "{}: holds only if {common}", e.equation);
+            let text = registry().supposed(common);
+            let said = e.given.contains(common) || e.statement().contains(&text);
+            assert!(runs || said, "{}: all its claims suppose {text}, and the entry does not", e.equation);
         }
     }
 }
@@ -175,7 +177,7 @@ fn every_formula_for_the_eye_is_the_one_that_is_computed() {
         assert_eq!(
             computed.is_none(),
             UNRECORDED.contains(&path.as_str()),
-            "{path} in src/claims/formulas.rs"
+            "{path} at the head of its section's file in src/claims, if it leaves a record"
         );
         if let Some(computed) = computed {
             let written: Vec<_> = docs.iter().filter(formula).collect();

@@ -375,6 +375,17 @@ mod tests {
     }
 
     #[test]
+    fn what_is_undefined_does_not_hold() {
+        let inverse = Tree::int(1) / Tree::symbol("c");
+        for relation in [Relation::Positive, Relation::NonNegative, Relation::Zero] {
+            let hypothesis = Hypothesis::new(relation, inverse.clone());
+            assert!(!hypothesis.holds(&|_| 0.0), "{hypothesis} at 0");
+            assert!(!hypothesis.holds(&|_| f64::NAN), "{hypothesis} at no number");
+        }
+        assert!(Hypothesis::new(Relation::Positive, inverse).holds(&|_| 2.0));
+    }
+
+    #[test]
     #[should_panic(expected = "c ε is no symbol")]
     fn only_a_symbol_can_be_differentiated_by() {
         let [c, eps] = ["c", "ε"].map(|name| Tree::symbol(name));

@@ -338,3 +338,63 @@ fn matches<'t>(
     };
     same && own.operands().zip(other.operands()).all(|(a, b)| matches(a, b, arguments, found))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::Dual;
+
+    fn x(name: &'static str) -> Tree {
+        Tree::symbol(name)
+    }
+
+    /// k = a + b
+    fn sum(a: &Tree, b: &Tree) -> Tree {
+        a + b
+    }
+
+    /// k(a b, b)
+    fn sum_with_product(a: &Tree, b: &Tree) -> Tree {
+        sum(&(a * b), b)
+    }
+
+    fn registry() -> Registry {
+        let [a, b] = ["a", "b"].map(x);
+        let formula = |path, tree| Formula::new(path, "", &["a", "b"], tree);
+        let formulas = vec![formula("sum", sum(&a, &b)), formula("more", sum_with_product(&a, &b))];
+        Registry::new(&["b", "a"], formulas)
+    }
+
+    #[test]
+    fn every_place_where_a_function_does_something_is_known() {
+        let (registry, [c, d]) = (registry(), ["c", "d"].map(x));
+        let tree = sum_with_product(&c, &d);
+        // The sum is the work of the one, and what it is called with that of the other.
+        let Step::Add(product, _) = tree.step() else { panic!("{tree} is no sum") };
+        assert!(registry.has_site(&tree.site()) && registry.has_site(&product.site()));
+        assert!(!registry.has_site(&(&c * &d).site()));
+    }
+
+    #[test]
+    fn no_function_does_what_the_rules_of_differentiation_do() {
+        let a = Dual::coordinate(x("a"), true);
+        let slope = (&a * &a).derivative;
+        assert!(slope.site().is_of_duals());
+        let registry = Registry::new(&["a"], vec![Formula::new("slope", "", &["a"], slope.clone())]);
+        assert!(!registry.has_site(&slope.site()));
+    }
+
+    #[test]
+    fn a_formula_that_only_looks_the_same_is_no_call() {
+        let (registry, [c, d]) = (registry(), ["c", "d"].map(x));
+        let call = |tree: &Tree| registry.call(tree).map(|call| (call.formula.path, call.arguments));
+        assert_eq!(call(&sum(&c, &d)), Some(("sum", vec![c.clone(), d.clone()])));
+        assert_eq!(call(&(c + d)), None);
+    }
+
+    #[test]
+    fn symbols_that_are_not_listed_follow_those_that_are() {
+        let tree = x("z") * x("a") - x("b") + x("y");
+        assert_eq!(registry().symbols_of([&tree]), ["b", "a", "y", "z"]);
+    }
+}

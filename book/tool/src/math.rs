@@ -86,7 +86,7 @@ impl Typesetter {
         super::replaced(latex, &self.formula, |tag| {
             registry()
                 .formula_in(&tag[2], Notation::Latex)
-                .with_context(|| format!("no formula {} in src/claims/formulas.rs", &tag[2]))
+                .with_context(|| format!("no formula {} at the head of a file in src/claims", &tag[2]))
         })
     }
 

@@ -87,5 +87,5 @@ fn the_book_shows_where_to_look_after_a_mistake() {
     );
     let page = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("book/src/command.md");
     let page = in_one_line(&std::fs::read_to_string(page).unwrap());
-    assert!(page.contains(&in_one_line(&sample)), "{sample}");
+    assert!(page.contains(&in_one_line(&sample)), "book/src/command.md shows something else than {sample}");
 }
