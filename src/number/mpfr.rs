@@ -208,12 +208,11 @@ impl Real for Mpfr {
         Mpfr(Rounded(Float::with_val(RADIUS_PRECISION, Special::Infinity)))
     }
     /// A constant has no neighbours and is returned as it is.
-    fn next_up(&self) -> Self {
-        let mut next = self.clone();
-        if let Rounded(x) = &mut next.0 {
+    fn next_up(mut self) -> Self {
+        if let Rounded(x) = &mut self.0 {
             x.next_up();
         }
-        next
+        self
     }
     fn half_ulp(&self) -> Self {
         match &self.0 {

@@ -38,7 +38,7 @@ where
         return Ok(T::zero());
     }
     let like = penalty::penetration(system, eps); // of the precision the answer is to have
-    if Real::next_up(&like) == like {
+    if Real::next_up(like.clone()) == like {
         return Err(check::no_precision(&like)); // constants of MPFR: nothing to round to
     }
     let exact = |x: &T| x.to_exact().map_err(|_| out_of_range.clone());
@@ -53,8 +53,8 @@ where
         let answer = answer.map_err(|_| out_of_range.clone())?;
         let residual_sign = |p: T| p.to_exact().map(|p| equation.residual(&p).cmp(&Exact::zero()));
         // Beyond the largest float the residual has the sign it has at infinity.
-        let below = residual_sign(Real::next_down(&answer)).unwrap_or(Ordering::Less);
-        let above = residual_sign(Real::next_up(&answer)).unwrap_or(Ordering::Greater);
+        let below = residual_sign(Real::next_down(answer.clone())).unwrap_or(Ordering::Less);
+        let above = residual_sign(Real::next_up(answer.clone())).unwrap_or(Ordering::Greater);
         if (below, above) == (Ordering::Less, Ordering::Greater) {
             return Ok(answer);
         }
