@@ -178,11 +178,7 @@ impl Exact {
 
     /// 2ⁿ.
     pub fn power_of_two(n: i32) -> Self {
-        Exact(if n < 0 {
-            Rational::from(1) >> n.unsigned_abs()
-        } else {
-            Rational::from(1) << n.unsigned_abs()
-        })
+        Exact(Rational::from(1) << n)
     }
 
     /// Rounded once to the nearest f64, ties to even, also where f64 is subnormal.

@@ -292,6 +292,9 @@ impl<J: Judge> Checks for Checker<J> {
                     tally.record(exact, self.verdict(asked, &values));
                 }
             }
+            if experiments.is_empty() {
+                continue;
+            }
             let computed = self.judge.computed(&read);
             for ((_, experiment), (_, tally)) in experiments.iter().zip(of_experiments) {
                 let verdict = guarded(|| of_trial((experiment.check)(&computed)));
