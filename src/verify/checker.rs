@@ -6,7 +6,7 @@ use super::{Row, Status};
 use crate::claims::{Case, Experiment, Trial, exact_experiments, first_order_experiments, float_experiments};
 use crate::formula::{Claim, Hypothesis};
 use crate::number::tree::{Step, everything, piecewise};
-use crate::number::{Ball, Exact, Exponential, Mpfr, NumberSystem, PositivePart, RangeError, Real, ToExact};
+use crate::number::{Ball, Exact, Exponential, Mpfr, NumberSystem, PositivePart, Real, ToExact};
 use crate::solver::Scalar;
 use num_traits::Zero;
 use std::cmp::Ordering;
@@ -175,8 +175,7 @@ where
         float_experiments().into_iter().chain(first_order).collect()
     }
     fn read(&self, case: &Case<Exact>) -> Option<Case<Ball<T>>> {
-        let ball = |x: &Exact| Ok::<_, RangeError>(Ball::around(self.0.nearest(x)?, x));
-        Case::try_of(|var| ball(case.get(var))).ok()
+        Case::try_of(|var| Ball::around(&self.0, case.get(var))).ok()
     }
     fn computed(&self, case: &Case<Ball<T>>) -> Case<T> {
         case.map(|_, ball| ball.value().clone())
