@@ -29,7 +29,12 @@ macro_rules! coordinates {
 
             /// The coordinate of this name.
             pub fn named(symbol: &str) -> Option<Var> {
-                Var::ALL.iter().copied().find(|var| var.symbol() == symbol)
+                match symbol {
+                    $($symbol => Some(Var::$Var),)*
+                    "c" => Some(Var::C), "m" => Some(Var::M), "g" => Some(Var::G),
+                    "l" => Some(Var::L), "H" => Some(Var::H),
+                    _ => None,
+                }
             }
 
             /// Its symbol in the chapter's notation.

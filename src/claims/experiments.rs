@@ -167,7 +167,7 @@ fn series_root<T: Scalar + Real + ToExact>(x: &Case<T>) -> Trial {
     let Ok(root) = series_penetration(&x.system, &x.eps, &higher) else { return Trial::Undecided };
     let residual =
         |p: T| exact(&p).map(|p| penalty::series_residual(&system, &eps, std::slice::from_ref(&eps4), &p));
-    match (residual(Real::next_down(&root)), residual(root.clone()), residual(Real::next_up(&root))) {
+    match (residual(Real::next_down(root.clone())), residual(root.clone()), residual(Real::next_up(root))) {
         (Some(below), Some(at), Some(above)) => {
             let zero = Exact::zero();
             Trial::Decided(at.is_zero() || (below < zero && zero < above))

@@ -47,7 +47,7 @@ impl<T: Real> Ball<T> {
 
     /// Some number that rounds to this value.
     pub fn rounded(value: T) -> Self {
-        let radius = add(&value.half_ulp(), &T::underflow_unit());
+        let radius = product_error(&value);
         Ball { value, radius }
     }
 
@@ -118,7 +118,7 @@ impl<T: Real> Ball<T> {
 
     fn with(value: T, error: T) -> Self {
         // A value that is not finite says nothing of the number meant.
-        let radius = if value.is_finite() && error.is_finite() { error.magnitude() } else { T::infinity() };
+        let radius = if value.is_finite() && error.is_finite() { error } else { T::infinity() };
         Ball { value, radius }
     }
 
@@ -129,33 +129,38 @@ impl<T: Real> Ball<T> {
 
 /// The neighbour of a rounded sum, unless the sum is 0: no sum of floats rounds to 0 but 0 itself, and
 /// the neighbours of 0 in MPFR have a billion digits.
-fn outward<T: Real>(sum: T, neighbour: impl Fn(&T) -> T) -> T {
-    if sum.is_zero() { sum } else { neighbour(&sum) }
+fn outward<T: Real>(sum: T, neighbour: impl Fn(T) -> T) -> T {
+    if sum.is_zero() { sum } else { neighbour(sum) }
 }
 
 // Arithmetic of radii: numbers ≥ 0, every result rounded up, zero kept exact.
 
-fn add<T: Real>(a: &T, b: &T) -> T {
-    if a.is_zero() {
+fn add<T: Real>(a: T, b: &T) -> T {
+    if b.is_zero() {
+        a
+    } else if a.is_zero() {
         b.clone()
-    } else if b.is_zero() {
-        a.clone()
     } else {
         (a + b).next_up()
     }
 }
 
-fn mul<T: Real>(a: &T, b: &T) -> T {
-    if a.is_zero() || b.is_zero() { T::zero() } else { (a * b).next_up() }
+/// A radius so many times; how many is not asked if it is 0.
+fn times<T: Real>(radius: &T, factor: impl FnOnce() -> T) -> T {
+    if radius.is_zero() {
+        return T::zero();
+    }
+    let factor = factor();
+    if factor.is_zero() { factor } else { (factor * radius).next_up() }
 }
 
-fn div<T: Real>(a: &T, b: &T) -> T {
-    if a.is_zero() { T::zero() } else { (a / b).next_up() }
+fn div<T: Real>(a: T, b: &T) -> T {
+    if a.is_zero() { a } else { (a / b).next_up() }
 }
 
 /// Half an ulp and an absolute term, the rounding error of a product or quotient whose result is x.
 fn product_error<T: Real>(x: &T) -> T {
-    add(&x.half_ulp(), &T::underflow_unit())
+    add(x.half_ulp(), &T::underflow_unit())
 }
 
 /// The value, undefined where one of the operands is: what every operation begins with.
@@ -172,21 +177,21 @@ macro_rules! of {
 operators! { [T: Real] Ball<T>;
     Add add |a, b| {
         let value = of!(&a.value + &b.value, a, b);
-        let error = add(&add(&a.radius, &b.radius), &value.half_ulp());
+        let error = add(add(a.radius.clone(), &b.radius), &value.half_ulp());
         Ball::with(value, error)
     };
     Sub sub |a, b| {
         let value = of!(&a.value - &b.value, a, b);
-        let error = add(&add(&a.radius, &b.radius), &value.half_ulp());
+        let error = add(add(a.radius.clone(), &b.radius), &value.half_ulp());
         Ball::with(value, error)
     };
     Mul mul |a, b| {
         let value = of!(&a.value * &b.value, a, b);
         if a.is_exactly_zero() || b.is_exactly_zero() { return Ball::zero() }
         // ab − a'b' = a(b − b') + b(a − a') − (a − a')(b − b')
-        let from_a = mul(&add(&b.value.magnitude(), &b.radius), &a.radius);
-        let from_b = mul(&a.value.magnitude(), &b.radius);
-        let error = add(&add(&from_a, &from_b), &product_error(&value));
+        let from_a = times(&a.radius, || add(b.value.magnitude(), &b.radius));
+        let from_b = times(&b.radius, || a.value.magnitude());
+        let error = add(add(from_a, &from_b), &product_error(&value));
         Ball::with(value, error)
     };
     Div div |a, b| {
@@ -203,9 +208,10 @@ operators! { [T: Real] Ball<T>;
         if a.is_exactly_zero() { return Ball::zero() }
         // a/b − a'/b' = ((a − a') − (a/b)(b − b')) / b'
         let own = product_error(&value);
-        let quotient = add(&value.magnitude(), &own);
-        let error = div(&add(&a.radius, &mul(&quotient, &b.radius)), &least);
-        Ball::with(value, add(&error, &own))
+        let from_b = times(&b.radius, || add(value.magnitude(), &own));
+        let error = div(add(from_b, &a.radius), &least);
+        // The divisor may have more digits than a radius.
+        Ball::with(value, add(error, &own).magnitude())
     };
     - |a| Ball { value: -&a.value, radius: a.radius.clone() }
 }
@@ -265,7 +271,7 @@ impl<T: Real + Exponential> Exponential for Ball<T> {
         if *r > T::one() {
             return Ball { value, radius: T::infinity() };
         }
-        let growth = mul(&add(&value.magnitude(), &own), &add(r, &mul(r, r)));
-        Ball::with(value, add(&growth, &own))
+        let growth = times(&add(times(r, || r.clone()), r), || add(value.magnitude(), &own));
+        Ball::with(value, add(growth, &own))
     }
 }

@@ -6,6 +6,7 @@ use num_traits::{One, Zero};
 use rug::float::Round;
 use rug::ops::NegAssign;
 use rug::{Float, Rational};
+use std::cmp::Ordering;
 use std::fmt;
 
 /// A rational number; every operation is exact, and `==` means equal.
@@ -119,26 +120,35 @@ pub trait ToExact: Sized {
     /// It is infinite or not a number.
     fn to_exact(&self) -> Result<Exact, Inexact>;
 
-    /// `x` rounded once into this type, and at the precision that `self` has if that can differ.
+    /// `x` rounded once into this type, and at the precision that `self` has if that can differ; and how the
+    /// result compares with `x`.
     ///
     /// # Errors
     /// The value overflows, or is not zero and would round to zero.
-    fn nearest(&self, x: &Exact) -> Result<Self, RangeError>;
+    fn nearest_compared(&self, x: &Exact) -> Result<(Self, Ordering), RangeError>;
+
+    /// The same without the comparison.
+    ///
+    /// # Errors
+    /// The same.
+    fn nearest(&self, x: &Exact) -> Result<Self, RangeError> {
+        self.nearest_compared(x).map(|(nearest, _)| nearest)
+    }
 }
 impl ToExact for f32 {
     fn to_exact(&self) -> Result<Exact, Inexact> {
         Rational::from_f32(*self).map(Exact).ok_or(Inexact)
     }
-    fn nearest(&self, x: &Exact) -> Result<Self, RangeError> {
-        x.to_f32()
+    fn nearest_compared(&self, x: &Exact) -> Result<(Self, Ordering), RangeError> {
+        x.to_ieee(24, "f32").map(|(x, ordering)| (x.to_f32(), ordering))
     }
 }
 impl ToExact for f64 {
     fn to_exact(&self) -> Result<Exact, Inexact> {
         Rational::from_f64(*self).map(Exact).ok_or(Inexact)
     }
-    fn nearest(&self, x: &Exact) -> Result<Self, RangeError> {
-        x.to_f64()
+    fn nearest_compared(&self, x: &Exact) -> Result<(Self, Ordering), RangeError> {
+        x.to_ieee(53, "f64").map(|(x, ordering)| (x.to_f64(), ordering))
     }
 }
 /// Rounding like a constant does not round.
@@ -146,16 +156,22 @@ impl ToExact for Mpfr {
     fn to_exact(&self) -> Result<Exact, Inexact> {
         self.to_rational().map(Exact).ok_or(Inexact)
     }
-    fn nearest(&self, x: &Exact) -> Result<Self, RangeError> {
-        Ok(self.precision().map_or_else(|| Mpfr::constant(x.0.clone()), |p| x.to_mpfr(p)))
+    fn nearest_compared(&self, x: &Exact) -> Result<(Self, Ordering), RangeError> {
+        Ok(match self.precision() {
+            None => (Mpfr::constant(x.0.clone()), Ordering::Equal),
+            Some(p) => {
+                let (nearest, ordering) = Float::with_val_round(p, &x.0, Round::Nearest);
+                (Mpfr::from(nearest), ordering)
+            }
+        })
     }
 }
 impl ToExact for Exact {
     fn to_exact(&self) -> Result<Exact, Inexact> {
         Ok(self.clone())
     }
-    fn nearest(&self, x: &Exact) -> Result<Self, RangeError> {
-        Ok(x.clone())
+    fn nearest_compared(&self, x: &Exact) -> Result<(Self, Ordering), RangeError> {
+        Ok((x.clone(), Ordering::Equal))
     }
 }
 
@@ -178,11 +194,7 @@ impl Exact {
 
     /// 2ⁿ.
     pub fn power_of_two(n: i32) -> Self {
-        Exact(if n < 0 {
-            Rational::from(1) >> n.unsigned_abs()
-        } else {
-            Rational::from(1) << n.unsigned_abs()
-        })
+        Exact(Rational::from(1) << n)
     }
 
     /// Rounded once to the nearest f64, ties to even, also where f64 is subnormal.
@@ -190,7 +202,7 @@ impl Exact {
     /// # Errors
     /// The value overflows, or is not zero and would round to zero.
     pub fn to_f64(&self) -> Result<f64, RangeError> {
-        self.to_ieee(53, "f64").map(|x| x.to_f64())
+        0f64.nearest(self)
     }
 
     /// Rounded once to the nearest f32, ties to even, also where f32 is subnormal.
@@ -198,7 +210,7 @@ impl Exact {
     /// # Errors
     /// The value overflows, or is not zero and would round to zero.
     pub fn to_f32(&self) -> Result<f32, RangeError> {
-        self.to_ieee(24, "f32").map(|x| x.to_f32())
+        0f32.nearest(self)
     }
 
     /// Rounded once to the nearest float of `precision` bits, ties to even.
@@ -209,16 +221,16 @@ impl Exact {
         Mpfr::rounded(precision, &self.0)
     }
 
-    fn to_ieee(&self, precision: u32, scalar: &'static str) -> Result<Float, RangeError> {
+    fn to_ieee(&self, precision: u32, scalar: &'static str) -> Result<(Float, Ordering), RangeError> {
         let (mut x, ordering) = Float::with_val_round(precision, &self.0, Round::Nearest);
-        x.subnormalize_ieee_round(ordering, Round::Nearest);
+        let ordering = x.subnormalize_ieee_round(ordering, Round::Nearest);
         let largest = if precision == 53 { f64::MAX } else { f64::from(f32::MAX) };
         if *x.as_abs() > largest {
             Err(RangeError::Overflow { scalar })
         } else if x.is_zero() && !self.is_zero() {
             Err(RangeError::Underflow { scalar })
         } else {
-            Ok(x)
+            Ok((x, ordering))
         }
     }
 }
@@ -232,8 +244,12 @@ impl<T: Real + ToExact> Ball<T> {
         }
     }
 
-    /// A ball around `value` that contains `exact`, which `value` is the nearest float to.
-    pub fn around(value: T, exact: &Exact) -> Self {
-        if value.to_exact().as_ref() == Ok(exact) { Ball::exactly(value) } else { Ball::rounded(value) }
+    /// A ball that contains `x`, around the float that is [nearest](ToExact::nearest) to it.
+    ///
+    /// # Errors
+    /// Those of [`nearest`](ToExact::nearest).
+    pub fn around(like: &T, x: &Exact) -> Result<Self, RangeError> {
+        let (nearest, ordering) = like.nearest_compared(x)?;
+        Ok(if ordering.is_eq() { Ball::exactly(nearest) } else { Ball::rounded(nearest) })
     }
 }

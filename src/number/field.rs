@@ -152,10 +152,10 @@ pub trait Real: OrderedField {
     fn infinity() -> Self;
 
     /// The next larger number of the same precision.
-    fn next_up(&self) -> Self;
+    fn next_up(self) -> Self;
 
     /// The next smaller number of the same precision.
-    fn next_down(&self) -> Self {
+    fn next_down(self) -> Self {
         -(-self).next_up()
     }
 
@@ -273,8 +273,8 @@ macro_rules! machine_float {
             fn infinity() -> Self {
                 $float::INFINITY
             }
-            fn next_up(&self) -> Self {
-                $float::next_up(*self)
+            fn next_up(self) -> Self {
+                $float::next_up(self)
             }
         }
     )*};

@@ -4,7 +4,7 @@ use super::field::ordered;
 use super::{Exponential, Field, Logarithm, OrderedField, PositivePart, Real};
 use num_traits::{One, Zero};
 use rug::float::{Round, Special};
-use rug::ops::{NegAssign, Pow};
+use rug::ops::Pow;
 use rug::{Float, Integer, Rational};
 use std::cmp::Ordering;
 use std::{fmt, ops::RangeInclusive};
@@ -37,10 +37,36 @@ pub struct Mpfr(Kind);
 
 #[derive(Clone, Debug)]
 enum Kind {
+    /// A constant, too: nearly all of them are small integers, and these need no memory of their own.
+    Small(i32),
     Constant(Rational),
     Rounded(Float),
 }
-use Kind::{Constant, Rounded};
+use Kind::{Constant, Rounded, Small};
+
+impl Kind {
+    fn constant(q: Rational) -> Self {
+        if *q.denom() == 1
+            && let Some(n) = q.numer().to_i32()
+        {
+            Small(n)
+        } else {
+            Constant(q)
+        }
+    }
+
+    /// The exact value.
+    ///
+    /// # Panics
+    /// It is infinite or not a number.
+    fn rational(&self) -> Rational {
+        match self {
+            Small(n) => Rational::from(*n),
+            Constant(q) => q.clone(),
+            Rounded(x) => x.to_rational().expect("a finite number"),
+        }
+    }
+}
 
 /// The four ways to own or borrow two operands meet in one: `in_place` says whose allocation may serve.
 macro_rules! operator {
@@ -49,10 +75,12 @@ macro_rules! operator {
             type Output = Mpfr;
             fn $f(self, other: &Mpfr) -> Mpfr {
                 Mpfr(match (&self.0, &other.0) {
-                    (Constant(a), Constant(b)) => Constant(Rational::from(a $op b)),
+                    (Small(a), Rounded(b)) => Rounded(Float::with_val(b.prec(), a $op b)),
                     (Constant(a), Rounded(b)) => Rounded($constant_first(a, b)),
+                    (Rounded(a), Small(b)) => Rounded(Float::with_val(a.prec(), a $op b)),
                     (Rounded(a), Constant(b)) => Rounded(Float::with_val(a.prec(), a $op b)),
                     (Rounded(a), Rounded(b)) => Rounded(Float::with_val(a.prec().max(b.prec()), a $op b)),
+                    (a, b) => Kind::constant(a.rational() $op b.rational()),
                 })
             }
         }
@@ -61,6 +89,7 @@ macro_rules! operator {
             fn $f(self, other: &Mpfr) -> Mpfr {
                 match (self.0, &other.0) {
                     (Rounded(a), Rounded(b)) if a.prec() >= b.prec() => Mpfr(Rounded(a $op b)),
+                    (Rounded(a), Small(b)) => Mpfr(Rounded(a $op b)),
                     (Rounded(a), Constant(b)) => Mpfr(Rounded(a $op b)),
                     (a, _) => &Mpfr(a) $op other,
                 }
@@ -104,12 +133,13 @@ fn divide_constant(a: &Rational, x: &Float) -> Float {
 
 impl std::ops::Neg for Mpfr {
     type Output = Mpfr;
-    fn neg(mut self) -> Mpfr {
-        match &mut self.0 {
-            Constant(q) => q.neg_assign(),
-            Rounded(x) => x.neg_assign(),
-        }
-        self
+    fn neg(self) -> Mpfr {
+        Mpfr(match self.0 {
+            // The least integer has no opposite among them.
+            Small(n) => n.checked_neg().map_or_else(|| Constant(-Rational::from(n)), Small),
+            Constant(q) => Constant(-q),
+            Rounded(x) => Rounded(-x),
+        })
     }
 }
 impl std::ops::Neg for &Mpfr {
@@ -126,19 +156,23 @@ impl PartialEq for Mpfr {
 impl PartialOrd for Mpfr {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         match (&self.0, &other.0) {
-            (Constant(a), Constant(b)) => a.partial_cmp(b),
+            (Small(a), Rounded(b)) => a.partial_cmp(b),
             (Constant(a), Rounded(b)) => a.partial_cmp(b),
+            (Rounded(a), Small(b)) => a.partial_cmp(b),
             (Rounded(a), Constant(b)) => a.partial_cmp(b),
             (Rounded(a), Rounded(b)) => a.partial_cmp(b),
+            (Small(a), Small(b)) => a.partial_cmp(b),
+            (a, b) => a.rational().partial_cmp(&b.rational()),
         }
     }
 }
 impl Zero for Mpfr {
     fn zero() -> Self {
-        Mpfr(Constant(Rational::new()))
+        Mpfr(Small(0))
     }
     fn is_zero(&self) -> bool {
         match &self.0 {
+            Small(n) => *n == 0,
             Constant(q) => q.is_zero(),
             Rounded(x) => x.is_zero(),
         }
@@ -151,7 +185,7 @@ impl One for Mpfr {
 }
 impl Field for Mpfr {
     fn int(n: i32) -> Self {
-        Mpfr(Constant(Rational::from(n)))
+        Mpfr(Small(n))
     }
 }
 ordered!(Mpfr);
@@ -167,8 +201,8 @@ impl Exponential for Mpfr {
     fn exp(&self) -> Self {
         match &self.0 {
             Rounded(x) => Mpfr(Rounded(Float::with_val(x.prec(), x.exp_ref()))),
-            Constant(q) if q.is_zero() => Mpfr::one(),
-            Constant(_) => no_precision("exp"),
+            Small(_) | Constant(_) if self.is_zero() => Mpfr::one(),
+            Small(_) | Constant(_) => no_precision("exp"),
         }
     }
 }
@@ -176,15 +210,15 @@ impl Logarithm for Mpfr {
     fn ln(&self) -> Self {
         match &self.0 {
             Rounded(x) => Mpfr(Rounded(Float::with_val(x.prec(), x.ln_ref()))),
-            Constant(q) if *q == 1 => Mpfr::zero(),
-            Constant(_) => no_precision("ln"),
+            Small(_) | Constant(_) if self.is_one() => Mpfr::zero(),
+            Small(_) | Constant(_) => no_precision("ln"),
         }
     }
     fn ln_1p(&self) -> Self {
         match &self.0 {
             Rounded(x) => Mpfr(Rounded(Float::with_val(x.prec(), x.ln_1p_ref()))),
-            Constant(q) if q.is_zero() => Mpfr::zero(),
-            Constant(_) => no_precision("ln_1p"),
+            Small(_) | Constant(_) if self.is_zero() => Mpfr::zero(),
+            Small(_) | Constant(_) => no_precision("ln_1p"),
         }
     }
 }
@@ -192,7 +226,7 @@ impl Real for Mpfr {
     fn unit_roundoff(&self) -> Self {
         match &self.0 {
             Rounded(x) => Mpfr(Rounded(Float::with_val(RADIUS_PRECISION, 1) >> x.prec())),
-            Constant(_) => Mpfr::zero(),
+            Small(_) | Constant(_) => Mpfr::zero(),
         }
     }
     fn underflow_unit() -> Self {
@@ -200,7 +234,7 @@ impl Real for Mpfr {
     }
     fn is_finite(&self) -> bool {
         match &self.0 {
-            Constant(_) => true,
+            Small(_) | Constant(_) => true,
             Rounded(x) => x.is_finite(),
         }
     }
@@ -208,12 +242,11 @@ impl Real for Mpfr {
         Mpfr(Rounded(Float::with_val(RADIUS_PRECISION, Special::Infinity)))
     }
     /// A constant has no neighbours and is returned as it is.
-    fn next_up(&self) -> Self {
-        let mut next = self.clone();
-        if let Rounded(x) = &mut next.0 {
+    fn next_up(mut self) -> Self {
+        if let Rounded(x) = &mut self.0 {
             x.next_up();
         }
-        next
+        self
     }
     fn half_ulp(&self) -> Self {
         match &self.0 {
@@ -222,14 +255,16 @@ impl Real for Mpfr {
                 let half = e - x.prec() as i32 - 1;
                 Mpfr(Rounded(Float::with_val(RADIUS_PRECISION, Float::i_exp(1, half))))
             }),
-            Constant(_) => Mpfr::zero(),
+            Small(_) | Constant(_) => Mpfr::zero(),
         }
     }
     fn magnitude(&self) -> Self {
         let up = |x: Float| Mpfr(Rounded(x));
         match &self.0 {
-            Constant(q) if q.is_zero() => Mpfr::zero(),
-            Constant(q) => up(Float::with_val_round(RADIUS_PRECISION, &q.clone().abs(), Round::Up).0),
+            Small(_) | Constant(_) if self.is_zero() => Mpfr::zero(),
+            Small(_) | Constant(_) => {
+                up(Float::with_val_round(RADIUS_PRECISION, &self.0.rational().abs(), Round::Up).0)
+            }
             Rounded(x) => up(Float::with_val_round(RADIUS_PRECISION, x.abs_ref(), Round::Up).0),
         }
     }
@@ -253,13 +288,13 @@ impl Mpfr {
 
     /// An exact constant, which has no precision of its own.
     pub fn constant(value: Rational) -> Self {
-        Mpfr(Constant(value))
+        Mpfr(Kind::constant(value))
     }
 
     /// The precision in bits; `None` for a constant.
     pub fn precision(&self) -> Option<u32> {
         match &self.0 {
-            Constant(_) => None,
+            Small(_) | Constant(_) => None,
             Rounded(x) => Some(x.prec()),
         }
     }
@@ -267,7 +302,7 @@ impl Mpfr {
     /// rug's own float within; `None` for a constant.
     pub fn as_float(&self) -> Option<&Float> {
         match &self.0 {
-            Constant(_) => None,
+            Small(_) | Constant(_) => None,
             Rounded(x) => Some(x),
         }
     }
@@ -276,8 +311,8 @@ impl Mpfr {
     fn decimal(&self, decimals: usize) -> String {
         let unit = Integer::from(10).pow(decimals as u32);
         let units = match &self.0 {
-            Constant(q) => {
-                let (off, nearest) = (q.clone() * &unit).fract_round(Integer::new());
+            Small(_) | Constant(_) => {
+                let (off, nearest) = (self.0.rational() * &unit).fract_round(Integer::new());
                 // rug rounds a tie away from zero.
                 if *off.denom() == 2 && nearest.is_odd() { nearest + off.numer() } else { nearest }
             }
@@ -294,7 +329,7 @@ impl Mpfr {
     /// The exact value; `None` if it is infinite or not a number.
     pub fn to_rational(&self) -> Option<Rational> {
         match &self.0 {
-            Constant(q) => Some(q.clone()),
+            Small(_) | Constant(_) => Some(self.0.rational()),
             Rounded(x) => x.to_rational(),
         }
     }
@@ -324,7 +359,7 @@ impl fmt::Display for Mpfr {
             return f.pad_integral(!negative, "", &self.decimal(decimals));
         }
         let text = match &self.0 {
-            Constant(q) => return fmt::Display::fmt(q, f),
+            Small(_) | Constant(_) => return fmt::Display::fmt(&self.0.rational(), f),
             Rounded(x) if !x.is_finite() => return fmt::Display::fmt(&x.to_f64(), f),
             Rounded(x) if x.is_zero() => "0".to_string(),
             Rounded(x) => x.to_string_radix(10, None),

@@ -57,7 +57,7 @@ macro_rules! machine {
                 text.strip_suffix(".0").unwrap_or(&text).to_string()
             }
             fn neighbours(&self) -> [Self; 2] {
-                [Real::next_down(self), Real::next_up(self)]
+                [Real::next_down(*self), Real::next_up(*self)]
             }
         }
     )*};
@@ -69,7 +69,7 @@ impl Text for Mpfr {
         self.to_string()
     }
     fn neighbours(&self) -> [Self; 2] {
-        [self.next_down(), self.next_up()]
+        [self.clone().next_down(), self.clone().next_up()]
     }
 }
 

@@ -38,12 +38,16 @@ where
         return Ok(T::zero());
     }
     let like = penalty::penetration(system, eps); // of the precision the answer is to have
-    if Real::next_up(&like) == like {
+    if Real::next_up(like.clone()) == like {
         return Err(check::no_precision(&like)); // constants of MPFR: nothing to round to
     }
     let exact = |x: &T| x.to_exact().map_err(|_| out_of_range.clone());
     let terms: Vec<_> = higher.iter().map(exact).collect::<Result<_, _>>()?;
-    let equation = Equation { system: system.try_map(exact)?, eps: exact(eps)?, higher: terms };
+    // The same equation from a system whose reaction does not cancel: its weight is R, its gap 0.
+    let system = system.try_map(exact)?;
+    let (r, zero) = (system::reaction(&system), Exact::zero());
+    let system = SpringMass { c: system.c, m: r, g: Exact::one(), l: zero.clone(), h: zero };
+    let equation = Equation { system, eps: exact(eps)?, higher: terms };
     // A few digits more than the answer has are enough to tell its neighbours apart.
     let digits = exact(&like.unit_roundoff())?.as_rational().denom().significant_bits();
     let mut precision = 128;
@@ -53,8 +57,8 @@ where
         let answer = answer.map_err(|_| out_of_range.clone())?;
         let residual_sign = |p: T| p.to_exact().map(|p| equation.residual(&p).cmp(&Exact::zero()));
         // Beyond the largest float the residual has the sign it has at infinity.
-        let below = residual_sign(Real::next_down(&answer)).unwrap_or(Ordering::Less);
-        let above = residual_sign(Real::next_up(&answer)).unwrap_or(Ordering::Greater);
+        let below = residual_sign(Real::next_down(answer.clone())).unwrap_or(Ordering::Less);
+        let above = residual_sign(Real::next_up(answer.clone())).unwrap_or(Ordering::Greater);
         if (below, above) == (Ordering::Less, Ordering::Greater) {
             return Ok(answer);
         }
@@ -82,11 +86,7 @@ impl Equation {
         // Not `to_mpfr`: the root of a scalar with the most bits takes more.
         let rounded = |x: &Exact| Mpfr::from(Float::with_val(precision, x.as_rational()));
         let constant = |x: &Exact| Dual::constant(rounded(x));
-        // The same equation from a system whose reaction does not cancel: its weight is R, its gap 0.
-        let zero = Exact::zero();
-        let r = system::reaction(&self.system);
-        let weight = SpringMass { c: self.system.c.clone(), m: r, g: Exact::one(), l: zero.clone(), h: zero };
-        let (system, eps) = (weight.map(constant), constant(&self.eps));
+        let (system, eps) = (self.system.map(constant), constant(&self.eps));
         let higher: Vec<_> = self.higher.iter().map(constant).collect();
         let mut p = rounded(&self.outside()?);
         // From less than twice the root of a polynomial of degree d, d steps lead to within a factor 1 +

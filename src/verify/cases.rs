@@ -116,7 +116,7 @@ impl Draw {
             Profile::Tiny => (11, -45, -25),
         };
         let mantissa = 1 + self.below(1 << bits);
-        Exact::from(rug::Rational::from(mantissa)) * Exact::power_of_two(self.between(low, high))
+        Exact::from(rug::Rational::from(mantissa) << self.between(low, high))
     }
 
     /// The ranges of mantissa and exponent in a subnormal case of floats of this precision, whose smallest
@@ -187,6 +187,7 @@ pub(super) fn case(seed: u64, index: u64, given: &[Hypothesis]) -> Option<Case<E
     let random = Rand64::new((u128::from(seed) << 64) | u128::from(index));
     let mut draw = Draw { random, profile, small: Small::Products };
     let mut case = draw.raw();
+    let mut bent = false;
     for hypothesis in given {
         if hypothesis.holds(&|symbol| case.named(symbol)) {
             continue;
@@ -202,9 +203,11 @@ pub(super) fn case(seed: u64, index: u64, given: &[Hypothesis]) -> Option<Case<E
             _ => value.abs(),
         };
         plant(&mut case, hypothesis, &target)?;
+        bent = true;
     }
+    // What is bent to one hypothesis may no longer satisfy another.
     let holds = |hypothesis: &Hypothesis| hypothesis.holds(&|symbol| case.named(symbol));
-    given.iter().all(holds).then_some(case)
+    (!bent || given.iter().all(holds)).then_some(case)
 }
 
 fn value(hypothesis: &Hypothesis, case: &Case<Exact>) -> Option<Exact> {

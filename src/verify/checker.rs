@@ -6,9 +6,10 @@ use super::{Row, Status};
 use crate::claims::{Case, Experiment, Trial, exact_experiments, first_order_experiments, float_experiments};
 use crate::formula::{Claim, Hypothesis};
 use crate::number::tree::{Step, everything, piecewise};
-use crate::number::{Ball, Exact, Exponential, Mpfr, NumberSystem, PositivePart, RangeError, Real, ToExact};
+use crate::number::{Ball, Exact, Exponential, Mpfr, NumberSystem, PositivePart, Real, ToExact};
 use crate::solver::Scalar;
 use num_traits::Zero;
+use std::borrow::Cow;
 use std::cmp::Ordering;
 
 /// What a claim is called and supposes, in whatever number system.
@@ -109,9 +110,9 @@ pub(super) trait Judge: Sync {
     fn experiments(&self) -> Vec<Experiment<Self::Computed>>;
 
     /// A case in these numbers; none if one of its coordinates is out of range.
-    fn read(&self, case: &Case<Exact>) -> Option<Case<Self::Number>>;
+    fn read<'a>(&self, case: &'a Case<Exact>) -> Option<Cow<'a, Case<Self::Number>>>;
     /// The same as the experiments take it.
-    fn computed(&self, case: &Case<Self::Number>) -> Case<Self::Computed>;
+    fn computed<'a>(&self, case: &'a Case<Self::Number>) -> Cow<'a, Case<Self::Computed>>;
 
     /// left − right: does it contain 0, what share of its bound does it use up, and the bound.
     fn difference(&self, left: &Self::Number, right: &Self::Number) -> Option<(bool, f64, Self::Number)>;
@@ -135,11 +136,11 @@ impl Judge for Exactly {
     fn experiments(&self) -> Vec<Experiment<Exact>> {
         exact_experiments()
     }
-    fn read(&self, case: &Case<Exact>) -> Option<Case<Exact>> {
-        Some(case.clone())
+    fn read<'a>(&self, case: &'a Case<Exact>) -> Option<Cow<'a, Case<Exact>>> {
+        Some(Cow::Borrowed(case))
     }
-    fn computed(&self, case: &Case<Exact>) -> Case<Exact> {
-        case.clone()
+    fn computed<'a>(&self, case: &'a Case<Exact>) -> Cow<'a, Case<Exact>> {
+        Cow::Borrowed(case)
     }
     fn difference(&self, left: &Exact, right: &Exact) -> Option<(bool, f64, Exact)> {
         Some((left == right, 0.0, Exact::zero()))
@@ -174,12 +175,11 @@ where
         let first_order = if fine { first_order_experiments() } else { Vec::new() };
         float_experiments().into_iter().chain(first_order).collect()
     }
-    fn read(&self, case: &Case<Exact>) -> Option<Case<Ball<T>>> {
-        let ball = |x: &Exact| Ok::<_, RangeError>(Ball::around(self.0.nearest(x)?, x));
-        Case::try_of(|var| ball(case.get(var))).ok()
+    fn read<'a>(&self, case: &'a Case<Exact>) -> Option<Cow<'a, Case<Ball<T>>>> {
+        Case::try_of(|var| Ball::around(&self.0, case.get(var))).ok().map(Cow::Owned)
     }
-    fn computed(&self, case: &Case<Ball<T>>) -> Case<T> {
-        case.map(|_, ball| ball.value().clone())
+    fn computed<'a>(&self, case: &'a Case<Ball<T>>) -> Cow<'a, Case<T>> {
+        Cow::Owned(case.map(|_, ball| ball.value().clone()))
     }
     fn difference(&self, left: &Ball<T>, right: &Ball<T>) -> Option<(bool, f64, Ball<T>)> {
         let difference = left - right;
@@ -291,6 +291,9 @@ impl<J: Judge> Checks for Checker<J> {
                 for ((_, asked), (_, tally)) in claims.iter().zip(of_claims) {
                     tally.record(exact, self.verdict(asked, &values));
                 }
+            }
+            if experiments.is_empty() {
+                continue;
             }
             let computed = self.judge.computed(&read);
             for ((_, experiment), (_, tally)) in experiments.iter().zip(of_experiments) {

@@ -180,12 +180,24 @@ fn the_centre_is_what_the_float_alone_computes<S: Floats<Number = N>, N: Real + 
     });
 }
 
+/// One and a half of the smallest numbers: few digits, and yet between two floats.
+#[test]
+fn what_lies_between_subnormals_is_no_exact_centre() {
+    let x = |n| Exact::from(3) * Exact::power_of_two(n);
+    let (single, double) = (Ball::around(&0f32, &x(-150)).unwrap(), Ball::around(&0f64, &x(-1075)).unwrap());
+    assert!(*single.radius() > 0.0 && single.contains(&x(-150)));
+    assert!(*double.radius() > 0.0 && double.contains(&x(-1075)));
+}
+
 fn a_ball_knows_whether_its_centre_is_exact<S: Floats<Number = N>, N: Real + ToExact + 'static>() {
     let inexact = Tally::default();
     for_all(prop_oneof![floats(S::FORMAT), rationals()], |x| {
         let nearest = S::FORMAT.round(&x);
-        if nearest.abs() <= S::FORMAT.largest() {
-            let ball = Ball::around(S::float(&nearest), &x);
+        let ball = Ball::around(&S::float(&Exact::zero()), &x);
+        let in_range = nearest.abs() <= S::FORMAT.largest() && nearest.is_zero() == x.is_zero();
+        prop_assert_eq!(ball.is_ok(), in_range, "{}", x);
+        if let Ok(ball) = ball {
+            prop_assert_eq!(ball.value(), &S::float(&nearest));
             prop_assert_eq!(ball.radius().is_zero(), !inexact.count(x != nearest));
             prop_assert!(Balls::<S>::stands_for(&ball, &x) && ball.contains(&x));
         }

@@ -55,10 +55,10 @@ laws_of_floats! {
 fn neighbours_have_no_number_between_them<S: Floats<Number = N>, N: Real + ToExact + 'static>() {
     let below_the_largest = Tally::default();
     for_all(S::number(), |(x, exact)| {
-        let (up, down) = (x.next_up(), x.next_down());
+        let (up, down) = (x.clone().next_up(), x.clone().next_down());
         prop_assert!(down < x && x < up);
-        prop_assert_eq!(up.next_down(), x.clone());
-        prop_assert_eq!(down.next_up(), x.clone());
+        prop_assert_eq!(up.clone().next_down(), x.clone());
+        prop_assert_eq!(down.clone().next_up(), x.clone());
         prop_assert_eq!(format!("{:?}", (-&x).next_up()), format!("{:?}", -&down));
         // The neighbours of an unbounded format's zero have exponents too large to look at.
         let near = if S::FORMAT.bounded || !exact.is_zero() { up } else { x };

@@ -8,7 +8,7 @@ use num_traits::{One, Zero};
 use proptest::prelude::*;
 use rug::Rational;
 use spring_mass_contact::number::{
-    Ball, Exact, Exponential, Field, Logarithm, Mpfr, OrderedField, PRECISIONS, Real, ToExact,
+    Ball, Exact, Exponential, Field, Logarithm, Mpfr, OrderedField, PRECISIONS, PositivePart, Real, ToExact,
 };
 
 /// MPFR numbers of one precision.
@@ -103,11 +103,32 @@ fn the_larger_precision_wins_in_whatever_order_and_constants_have_none() {
         }
         prop_assert_eq!((-&a).precision(), a.precision());
         prop_assert_eq!(a.abs().precision(), a.precision());
-        prop_assert_eq!((a.next_up().precision(), a.next_down().precision()), (a.precision(), a.precision()));
+        let neighbours = (a.clone().next_up(), a.clone().next_down());
+        prop_assert_eq!((neighbours.0.precision(), neighbours.1.precision()), (a.precision(), a.precision()));
         Ok(())
     });
     first.assert_one_in(5, "first operand more precise");
     second.assert_one_in(5, "second operand more precise");
+}
+
+#[test]
+fn a_constant_may_outgrow_the_integers_it_was_made_of() {
+    let [least, most, one] = [i32::MIN, i32::MAX, 1].map(Mpfr::int);
+    let beyond = Some(Rational::from(1_i64 << 31));
+    for constant in [-&least, -least, &most + &one] {
+        assert_eq!((constant.to_rational(), constant.precision()), (beyond.clone(), None));
+        assert!(constant > most && constant - &one == most);
+    }
+}
+
+/// More would make it no better, and every operation slower.
+#[test]
+fn a_radius_has_few_digits_however_many_its_ball_has() {
+    let ball = |x: &str| Ball::around(&Mpfr::rounded(1000, 0), &x.parse().unwrap()).unwrap();
+    let (a, b) = (ball("1/3"), ball("5/7"));
+    for made in [&a + &b, &a - &b, &a * &b, &a / &b, -&a, a.exp(), a.min(&b), a.positive_part()] {
+        assert!(made.radius().precision().is_some_and(|bits| bits <= 64), "{:?}", made.radius().precision());
+    }
 }
 
 #[test]

@@ -316,7 +316,7 @@ fn one_ulp_decides<T: Float>(s: &SpringMass<Exact>, like: &T) -> Result<(), Test
         for up in [true, false] {
             let mut nudged = s.clone();
             let x = parameter(&mut nudged);
-            *x = if up { x.next_up() } else { x.next_down() };
+            *x = if up { x.clone().next_up() } else { x.clone().next_down() };
             let state = state_by_sign(if up { slope } else { slope.reverse() });
             prop_assert_eq!(State::of(&nudged), state, "{:?}", nudged);
             let r = system::reaction(&nudged.map(exact));

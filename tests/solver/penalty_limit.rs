@@ -228,8 +228,8 @@ fn root_is_the_best<T: Float>(
     match State::of(&s) {
         State::Grazing => prop_assert!(p.is_zero(), "{}", context),
         state => {
-            prop_assert!(residual(p.next_down()) < int(0), "{}", context);
-            prop_assert!(residual(p.next_up()) > int(0), "{}", context);
+            prop_assert!(residual(p.clone().next_down()) < int(0), "{}", context);
+            prop_assert!(residual(p.clone().next_up()) > int(0), "{}", context);
             prop_assert_eq!(p > T::zero(), state == State::Contact, "{}", context);
         }
     }

@@ -19,7 +19,7 @@ impl Value {
     fn ball(&self) -> Ball<f64> {
         match self {
             // A number that f64 cannot hold is anywhere.
-            Value::Exact(x) => x.to_f64().map_or_else(|_| Ball::one() / Ball::zero(), |f| Ball::around(f, x)),
+            Value::Exact(x) => Ball::around(&0.0, x).unwrap_or_else(|_| Ball::one() / Ball::zero()),
             Value::Ball(ball) => ball.clone(),
         }
     }
