@@ -18,8 +18,12 @@ struct Item {
     docs: Vec<String>,
 }
 
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
 fn source(path: &str) -> String {
-    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap()
+    fs::read_to_string(root().join(path)).unwrap()
 }
 
 fn modules() -> Vec<String> {
@@ -337,4 +341,27 @@ fn every_planted_edit_still_applies() {
             assert!(target.contains(&before.join("\n")), "{} no longer applies", patch.display());
         }
     }
+}
+
+/// Files that a text names, in backticks or as a link.
+#[test]
+fn every_file_that_a_page_names_exists() {
+    let folders = ["book/src", "book/src/proofs"];
+    let pages = folders.into_iter().flat_map(|folder| fs::read_dir(root().join(folder)).unwrap());
+    let pages =
+        pages.map(|entry| entry.unwrap().path()).filter(|path| path.extension().is_some_and(|e| e == "md"));
+    let mut seen = 0;
+    for page in pages.chain(["README.md", "CONTRIBUTING.md"].map(|name| root().join(name))) {
+        let text = fs::read_to_string(&page).unwrap();
+        for word in text.split(|c: char| c.is_whitespace() || "`()[]<>\"',".contains(c)) {
+            let named =
+                ["src/", "tests/", "book/", "examples/", ".ci/"].iter().any(|room| word.starts_with(room));
+            let path = word.split(['#', ':', '*']).next().unwrap().trim_end_matches(['.', ';']);
+            if named && !word.contains(['*', '{']) {
+                assert!(root().join(path).exists(), "{}: no {path}", page.display());
+                seen += 1;
+            }
+        }
+    }
+    assert!(seen > 20, "{seen} names");
 }

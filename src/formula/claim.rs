@@ -63,9 +63,10 @@ impl Hypothesis {
     /// A hypothesis, solved for the first of the symbols in its record.
     ///
     /// # Panics
-    /// There is none: nothing is supposed of a number.
+    /// There is none: of a number nothing is to be supposed.
     pub fn new(relation: Relation, value: Tree) -> Self {
-        let solved_for = value.first_symbol().expect("a hypothesis speaks of some symbol");
+        let solved_for =
+            value.first_symbol().unwrap_or_else(|| panic!("of a number, {value}, nothing is to be supposed"));
         Hypothesis { value, relation, solved_for }
     }
 
@@ -315,14 +316,23 @@ pub fn limit<const N: usize>(
 }
 
 /// From x₀ = start each x leads to the next; in closed form that is x_k, by q = ratioᵏ.
+///
+/// # Panics
+/// There are more components than [`MEMBERS`], or the step speaks of q or of a quantity that is called like
+/// one of them: then nobody could tell the two apart.
 pub fn induction<const M: usize, const N: usize>(
     name: &'static str,
     given: [&Hypothesis; M],
     ratio: impl Into<Tree>,
     start: [Tree; N],
-    step: impl FnOnce([Tree; N]) -> [Tree; N],
+    step: impl Fn([Tree; N]) -> [Tree; N],
     closed: [Tree; N],
 ) -> Claim {
+    assert!(N <= MEMBERS.len(), "{name}: an induction has at most {} components", MEMBERS.len());
+    // Of members that have no names, only a step's own quantities are left.
+    for own in step(std::array::from_fn(|_| Tree::from(1))).iter().flat_map(Tree::symbols) {
+        assert!(own != POWER && !MEMBERS.contains(&own), "{name}: {own} is a name that inductions keep");
+    }
     let members = std::array::from_fn(|i| Tree::symbol(MEMBERS[i]));
     let (start, step, closed) = (start.into(), step(members).into(), closed.into());
     Claim::new(name, &given, Kind::Induction { ratio: ratio.into(), start, step, closed })
@@ -390,5 +400,12 @@ mod tests {
     fn only_a_symbol_can_be_differentiated_by() {
         let [c, eps] = ["c", "ε"].map(|name| Tree::symbol(name));
         derivative("wrong", [], &c, &(&c * &eps), &c);
+    }
+
+    #[test]
+    #[should_panic(expected = "powers: x₁ is a name that inductions keep")]
+    fn a_step_has_no_quantity_called_like_its_member() {
+        let [own, q] = ["x₁", "q"].map(|name| Tree::symbol(name));
+        induction("powers", [], 2, [Tree::from(1)], |[_]| [Tree::from(2) * &own], [q]);
     }
 }

@@ -73,7 +73,14 @@ pub struct Registry {
 impl Registry {
     /// A registry of these functions, none of which comes before what it calls. The symbols are all
     /// quantities that are spoken of, in the order in which they are to be listed.
+    ///
+    /// # Panics
+    /// Two functions have the same name.
     pub fn new(symbols: &[&'static str], formulas: Vec<Formula>) -> Self {
+        let mut names = BTreeSet::new();
+        for name in formulas.iter().map(Formula::name) {
+            assert!(names.insert(name.clone()), "two functions are called {name}");
+        }
         let mut by_site: HashMap<Site, Vec<usize>> = HashMap::new();
         let mut sites = HashSet::new();
         for (i, formula) in formulas.iter().enumerate() {

@@ -81,6 +81,14 @@ impl Goal {
 }
 
 impl Says {
+    /// The symbol that varies, if one does.
+    pub fn variable(&self) -> Option<&'static str> {
+        match self {
+            Says::Derivative(_, by, _) | Says::Limit(_, by, _) => Some(by),
+            Says::Equal(..) | Says::Sign(..) => None,
+        }
+    }
+
     /// Its formulas.
     pub fn trees(&self) -> [&Tree; 2] {
         match self {

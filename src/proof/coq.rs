@@ -122,6 +122,9 @@ impl<'a> Development<'a> {
         }
         // Asking of each theorem what it rests on would take longer than all proofs.
         let parts: Vec<_> = files[2..].iter_mut().map(together).collect();
+        if parts.is_empty() {
+            return files;
+        }
         let assumptions = format!(
             "(** * What everything rests on. *)\n\
              From Contact Require Import {TACTICS} {DEFINITIONS}{all}.\n\n\
@@ -217,7 +220,7 @@ fn proved(text: &str) -> impl Iterator<Item = &str> {
 /// What Coq calls a claim: `eq_1_13_rate`, `theorem_1_3_3_contracts`.
 pub fn theorem_name(equation: &str, name: &str) -> String {
     let number = if equation.starts_with(|c: char| c.is_ascii_digit()) { "eq " } else { "" };
-    identifier(&format!("{number}{equation} {name}"))
+    print::free(identifier(&format!("{number}{equation} {name}")))
 }
 
 /// Does what is stated name a function? What only proofs name says nothing of it.

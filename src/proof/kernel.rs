@@ -29,7 +29,8 @@ pub use derivation::{Because, Derivation, Direct, Proof, Signed, Supposed, Used,
 
 use self::algebra::{Monomial, Poly, Ratio, Symbol};
 use self::sign::{Known, Sign, sign};
-use crate::formula::statement::{Goal, Role, Says, Statement};
+use crate::formula::claim::{MEMBERS, POWER};
+use crate::formula::statement::{Goal, Role, Says, Sequence, Statement};
 use crate::formula::{Hypothesis, Relation};
 use crate::number::tree::{self, Step};
 use crate::number::{Dual, Tree};
@@ -53,6 +54,9 @@ pub fn prove(statement: &Statement) -> Result<Proof, Why> {
     if statement.goals.is_empty() {
         return Err(Why::Nothing);
     }
+    if let Some(name) = kept(statement) {
+        return Err(Why::Reserved(name));
+    }
     let given = Context::default().with(&statement.hypotheses)?;
     let in_a_step = given.clone().with(&statement.invariants)?;
     let goals = statement.goals.iter().map(|goal| {
@@ -63,6 +67,19 @@ pub fn prove(statement: &Statement) -> Result<Proof, Why> {
         derive(goal, context, CASES)
     });
     Ok(Proof { goals: goals.collect::<Result<_, _>>()?, statement: statement.clone() })
+}
+
+/// A name in a statement that is not its to use: one that the kernel has for the quantity of a hypothesis, or an
+/// induction for its members; and no power of a ratio is itself what a sequence starts from, or tends to.
+fn kept(statement: &Statement) -> Option<&'static str> {
+    let variables = statement.goals.iter().filter_map(|goal| goal.says.variable());
+    let symbols = statement.trees().flat_map(Tree::symbols).chain(variables);
+    let own = symbols.into_iter().find(|name| NAMES.contains(name) || MEMBERS.contains(name));
+    own.or_else(|| {
+        let Sequence { start, ratio, limit, .. } = statement.amounts_to.as_ref()?;
+        let fixed = start.iter().chain([ratio]).chain(limit);
+        fixed.flat_map(Tree::symbols).find(|name| *name == POWER)
+    })
 }
 
 /// How many splits may be nested.
@@ -144,7 +161,7 @@ impl Context {
                 } else {
                     let new = self.supposed.iter().filter(|s| matches!(s.used, Used::Pivot(..))).count();
                     let name = NAMES.get(new).copied().map(Symbol);
-                    match name.and_then(|name| Some((name, self.pivot(&value, &Poly::symbol(name))?))) {
+                    match name.and_then(|name| Some((name, self.pivot(&value, &Poly::symbol(name), sign)?))) {
                         None => Used::Unused,
                         Some((name, (pivot, by))) => {
                             self.known.insert(name, sign);
@@ -154,7 +171,7 @@ impl Context {
                 }
             }
             Sign::Zero => self
-                .pivot(&value, &Poly::zero())
+                .pivot(&value, &Poly::zero(), sign)
                 .map_or(Used::Unused, |(pivot, by)| Used::Pivot(pivot, by, None)),
         };
         if let Used::Pivot(pivot, by, _) = &used {
@@ -169,19 +186,20 @@ impl Context {
     /// A monomial of the quantity, and what it equals if the quantity is `slack`.
     ///
     /// Best a symbol of which nothing is known and that stands alone or times what is not 0, so that it
-    /// disappears for good; else a product of symbols of which little is known, so that little is
-    /// forgotten.
-    fn pivot(&self, value: &Ratio, slack: &Poly) -> Option<(Monomial, Ratio)> {
+    /// disappears for good; else a product of symbols of which little is known, so that little is forgotten;
+    /// else a symbol whose sign is then seen again: with b = a + s for b − a > 0 that of b is.
+    fn pivot(&self, value: &Ratio, slack: &Poly, sign_of_slack: Sign) -> Option<(Monomial, Ratio)> {
         // num − slack · den = 0, and den is not 0.
         let equation = value.num() - slack * value.den();
-        let free = value.num().symbols().into_iter().filter(|x| !self.known.contains_key(x));
-        let solved = free.filter_map(|x| {
+        let solved = |x: Symbol| {
             let [rest, coefficient] = <[Poly; 2]>::try_from(equation.coefficients(x)).ok()?;
             let (strict, length) =
                 (sign(&coefficient, &self.known)?.sign().is_strict(), coefficient.terms().len());
             let by = Ratio::from(-rest).over(&coefficient.into())?;
             (strict && !by.symbols().contains(&x)).then_some((length, (Monomial::of(x), by)))
-        });
+        };
+        let symbols = value.num().symbols();
+        let free = symbols.iter().filter(|x| !self.known.contains_key(x)).filter_map(|x| solved(*x));
         let product = || {
             let known = |m: &Monomial| m.powers().filter(|(x, _)| self.known.contains_key(x)).count();
             let own = value.num().terms().map(|(m, _)| m).filter(|m| m.powers().len() > 1);
@@ -191,7 +209,17 @@ impl Context {
             let by = -&rest * Poly::constant(coefficient.recip());
             (!rest.contains(&pivot)).then_some((pivot, by.into()))
         };
-        solved.min_by_key(|(terms, _)| *terms).map(|(_, rule)| rule).or_else(product)
+        let seen_again = || {
+            let keeps = |x: &Symbol| {
+                let (_, rule) = solved(*x)?;
+                let (of, assumed) = (self.reduce(&rule.1), *self.known.get(x)?);
+                let mut context = self.clone();
+                context.known.extend(slack.symbols().into_iter().map(|s| (s, sign_of_slack)));
+                context.sign(of).is_some_and(|signed| signed.sign().implies(assumed)).then_some(rule)
+            };
+            symbols.iter().find_map(keeps)
+        };
+        free.min_by_key(|(terms, _)| *terms).map(|(_, rule)| rule).or_else(product).or_else(seen_again)
     }
 
     fn direct(&self, goal: &Goal) -> Result<Direct, Why> {
@@ -300,7 +328,6 @@ impl<'a> Reader<'a> {
     fn read(&mut self, tree: &Tree) -> Result<Ratio, Why> {
         use Step::*;
         Ok(match tree.step() {
-            Symbol(name) if NAMES.contains(name) => return Err(Why::Reserved(name)),
             Symbol(name) => Poly::symbol(algebra::Symbol(name)).into(),
             Int(n) => Poly::constant(*n).into(),
             Neg(a) => -self.read(a)?,

@@ -28,8 +28,24 @@ pub(super) enum Operator {
     Div,
 }
 
+/// Words that mean something else to Coq, or to our proofs.
+const TAKEN: [&str; 27] = [
+    "R", "Prop", "Set", "Type", "as", "at", "cofix", "else", "end", "exists", "exp", "fix", "for", "forall",
+    "fun", "if", "in", "let", "match", "mod", "nat", "pow", "return", "then", "using", "where", "with",
+];
+
+/// The word, or another if that one is taken. A letter with a number is what proofs call what they find.
+pub(super) fn free(word: String) -> String {
+    let numbered = |rest: &str| !rest.is_empty() && rest.bytes().all(|byte| byte.is_ascii_digit());
+    let found = word.strip_prefix(|c: char| c == 's' || c.is_ascii_uppercase()).is_some_and(numbered);
+    if found || TAKEN.contains(&word.as_str()) { format!("{word}_") } else { word }
+}
+
 /// A symbol in letters that Coq takes: ε₄ is eps4, δu is du.
 pub(super) fn ascii(symbol: &str) -> String {
+    if symbol.is_ascii() && symbol != "H" {
+        return free(symbol.replace(|c: char| !c.is_ascii_alphanumeric(), "_"));
+    }
     let letter = |c: char| match c {
         'ε' => "eps".to_string(),
         'λ' => "lambda".to_string(),
@@ -41,6 +57,7 @@ pub(super) fn ascii(symbol: &str) -> String {
         'H' => "h".to_string(),
         '₀'..='₉' => char::from(b'0' + (c as u32 - '₀' as u32) as u8).to_string(),
         c if c.is_ascii_alphanumeric() => c.to_string(),
+        c if c.is_alphabetic() => format!("u{:x}", u32::from(c)),
         _ => "_".to_string(),
     };
     symbol.chars().map(letter).collect()
@@ -48,7 +65,7 @@ pub(super) fn ascii(symbol: &str) -> String {
 
 /// A function by its path: `penalty::deflection` is penalty_deflection.
 pub(super) fn function(formula: &Formula) -> String {
-    formula.name().replace("::", "_").replace('.', "_")
+    free(formula.name().replace("::", "_").replace('.', "_"))
 }
 
 impl Expr {
@@ -358,6 +375,15 @@ mod tests {
         assert_eq!(text(&(&a - Tree::int(-2))), "a - - 2");
         assert_eq!(text(&(&a - &b).exp().positive_part()), "Rmax (exp (a - b)) 0");
         assert_eq!(text(&a.min(&-&b)), "Rmin a (- b)");
+    }
+
+    #[test]
+    fn what_is_taken_is_called_otherwise() {
+        let names = ["R", "N", "in", "s1", "N1", "s₁", "H", "λ₀", "σ", "e_1"];
+        let letters = ["R_", "N", "in_", "s1_", "N1_", "s1", "h", "lambda0", "u3c3", "e_1"];
+        assert_eq!(names.map(ascii), letters);
+        let fix = Formula::new("fix", "", &["x"], Tree::symbol("x"));
+        assert_eq!(function(&fix), "fix_");
     }
 
     #[test]

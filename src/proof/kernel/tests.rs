@@ -1,6 +1,7 @@
 //! What the kernel proves and what it must not.
 
 use super::*;
+use crate::formula::claim::{induction, vanishing};
 use crate::number::{Exponential, Field, PositivePart};
 use num_traits::{One, Zero};
 
@@ -156,4 +157,41 @@ fn derivatives_are_those_of_the_formula() {
     assert!(!proved(vec![], Says::Derivative(square(), "v", twice())));
     // ⟨u⟩ has none at 0.
     assert!(!proved(vec![], Says::Derivative(x("u").positive_part(), "u", Tree::one())));
+}
+
+#[test]
+fn a_kept_name_is_no_variable_either() {
+    // b > a makes b − a the kernel's s₁; as that grows 1/(b − a) vanishes, and yet nothing of a and b does.
+    let above = || vec![above_zero(x("b") - x("a"))];
+    let reciprocal = || Tree::one() / (x("b") - x("a"));
+    let limit = |by| Says::Limit(reciprocal(), by, Tree::zero());
+    assert!(matches!(outcome(above(), limit("s₁")), Err(Why::Reserved("s₁"))));
+    let slope = |by| Says::Derivative(x("b"), by, Tree::zero());
+    assert!(matches!(outcome(above(), slope("s₁")), Err(Why::Reserved("s₁"))));
+    assert!(proved(above(), slope("u")));
+    // Nor is what an induction calls the members of its sequence.
+    assert!(matches!(outcome(vec![], Says::Equal(x("x₁"), x("x₁"))), Err(Why::Reserved("x₁"))));
+}
+
+#[test]
+fn a_sequence_starts_from_no_power() {
+    // From q, q → ρ q is the sequence q ρᵏ and not ρᵏ.
+    let double = |[x]: [Tree; 1]| [Tree::int(2) * x];
+    let from = |start: Tree| Statement::of(&induction("powers", [], 2, [start], double, [x("q")]));
+    assert!(prove(&from(Tree::one())).is_ok());
+    assert!(matches!(prove(&from(x("q") / x("q"))), Err(Why::Reserved("q"))));
+    let vanishes = |ratio: Tree| Statement::of(&vanishing("vanishes", [], ratio, x("q"), 0));
+    assert!(prove(&vanishes(Tree::one() / Tree::int(2))).is_ok());
+    assert!(matches!(prove(&vanishes(x("q") / (Tree::one() + x("q") * x("q")))), Err(Why::Reserved("q"))));
+}
+
+#[test]
+fn a_hypothesis_on_symbols_of_known_sign_is_used_too() {
+    let known = || vec![above_zero(x("a")), above_zero(x("b")), above_zero(x("b") - x("a"))];
+    assert!(proved(known(), Says::Sign(Relation::Positive, x("b") - x("a"))));
+    assert!(proved(known(), Says::Sign(Relation::Positive, x("b"))), "nothing is forgotten");
+    assert!(proved(known(), Says::Sign(Relation::Positive, x("a"))));
+    assert!(!proved(known(), Says::Sign(Relation::Positive, x("b") - Tree::int(2) * x("a"))));
+    let between = vec![above_zero(x("x")), above_zero(x("L")), not_below_zero(x("L") - x("x"))];
+    assert!(proved(between, Says::Sign(Relation::Positive, Tree::int(3) * x("L") - x("x"))));
 }

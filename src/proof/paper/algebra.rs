@@ -95,7 +95,7 @@ impl Order<'_> {
             Why::WrongSign(value, sign) => format!("{} is {}", ratio(value), text(*sign)),
             Why::Different(value) => format!("the sides differ by {}", ratio(value)),
             Why::NoLimit(value) => format!("no rule finds the limit of {}", ratio(value)),
-            Why::Reserved(name) => format!("{name} is not a name for a quantity of a claim"),
+            Why::Reserved(name) => format!("{name} is a name that proofs keep for themselves"),
             Why::Nothing => "it says nothing".to_string(),
         }
     }
