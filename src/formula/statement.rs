@@ -28,6 +28,8 @@ pub struct Statement {
 pub struct Sequence {
     /// Where it starts; empty if that is not spoken of.
     pub start: Vec<Tree>,
+    /// Its next member, by the [`MEMBERS`]; empty if that is not spoken of.
+    pub step: Vec<Tree>,
     /// ρ
     pub ratio: Tree,
     /// Its k-th member, by q = ρᵏ.
@@ -157,8 +159,9 @@ impl Statement {
                         Goal { part: "invariant after a step", role: Role::Continues, says },
                     ]);
                 }
-                let (start, ratio, member) = (start.clone(), ratio.clone(), closed.clone());
-                amounts_to = Some(Sequence { start, ratio, member, limit: None });
+                let (start, step) = (start.clone(), step.clone());
+                let (ratio, member) = (ratio.clone(), closed.clone());
+                amounts_to = Some(Sequence { start, step, ratio, member, limit: None });
             }
             Kind::Vanishing { ratio, of, to } => {
                 let margin = Tree::one() - ratio * ratio;
@@ -166,7 +169,7 @@ impl Statement {
                 let at_zero = of.with(&[(POWER, Tree::zero())]);
                 goals.push(goal("at q = 0", Says::Equal(at_zero, to.clone())));
                 let (ratio, member, limit) = (ratio.clone(), vec![of.clone()], Some(to.clone()));
-                amounts_to = Some(Sequence { start: Vec::new(), ratio, member, limit });
+                amounts_to = Some(Sequence { start: Vec::new(), step: Vec::new(), ratio, member, limit });
             }
         }
         let (equation, name, kind) = (claim.equation, claim.name, claim.kind.name());

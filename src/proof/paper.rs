@@ -5,6 +5,7 @@ mod algebra;
 use self::algebra::Order;
 use super::kernel::sign::{Rule, Sign};
 use super::kernel::{Because, Derivation, Direct, Proof, Signed, Supposed, Used, Why};
+use crate::formula::claim::MEMBERS;
 use crate::formula::statement::{Goal, Says, Sequence, Statement};
 use crate::formula::{Formula, Hypothesis, Notation, Registry, Relation};
 use crate::number::Tree;
@@ -24,13 +25,19 @@ impl<'a> Paper<'a> {
 
     /// What a claim says, in one line.
     pub fn claim(&self, statement: &Statement) -> String {
-        if let Some(Sequence { start, ratio, member, limit }) = &statement.amounts_to {
+        if let Some(Sequence { start, step, ratio, member, limit }) = &statement.amounts_to {
             let together =
                 |trees: &[Tree]| trees.iter().map(|tree| self.text(tree)).collect::<Vec<_>>().join(", ");
             let (ratio, member) = (self.text(ratio), together(member));
             return match limit {
                 Some(limit) => format!("{member} → {} for q = {ratio}ᵏ and k → ∞", self.text(limit)),
-                None => format!("k steps from {} lead to {member}, where q = {ratio}ᵏ", together(start)),
+                None => {
+                    let (from, to, members) = (together(start), together(step), &MEMBERS[..step.len()]);
+                    let members = members.join(", ");
+                    format!(
+                        "k steps from {from}, each of {members} to {to}, lead to {member}, where q = {ratio}ᵏ"
+                    )
+                }
             };
         }
         let goals = statement.goals.iter().map(|goal| self.says(&goal.says));

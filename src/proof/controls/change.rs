@@ -286,6 +286,7 @@ fn mapped(statement: &Statement, f: &impl Fn(&Tree) -> Tree) -> Statement {
     };
     let sequence = |s: &Sequence| Sequence {
         start: all(&s.start),
+        step: all(&s.step),
         ratio: f(&s.ratio),
         member: all(&s.member),
         limit: s.limit.as_ref().map(f),
