@@ -69,8 +69,9 @@ pub fn prove(statement: &Statement) -> Result<Proof, Why> {
     Ok(Proof { goals: goals.collect::<Result<_, _>>()?, statement: statement.clone() })
 }
 
-/// A name in a statement that is not its to use: one that the kernel has for the quantity of a hypothesis, or an
-/// induction for its members; and no power of a ratio is itself what a sequence starts from, or tends to.
+/// A name in a statement that is not its to use: one that the kernel has for the quantity of a hypothesis,
+/// or an induction for its members; and what a sequence starts from, is multiplied by or tends to depends on
+/// no power.
 fn kept(statement: &Statement) -> Option<&'static str> {
     let variables = statement.goals.iter().filter_map(|goal| goal.says.variable());
     let symbols = statement.trees().flat_map(Tree::symbols).chain(variables);
