@@ -2,16 +2,19 @@
 //!
 //! **What has to be trusted.**
 //!
-//! - That the [`claims`](crate::claims) say what the chapter means, hypotheses included: their texts stand
-//!   beside their formulas.
+//! - That the [`claims`](crate::claims) say what the chapter means, hypotheses included, in the words of
+//!   [`claim`](crate::formula::claim).
 //! - That [`Tree`](crate::number::Tree) records what the chapter's functions do (tested, bit for bit, in
 //!   every number system), and that [`Dual`](crate::number::Dual) differentiates.
-//! - In [`statement`](crate::formula::statement), what a claim of each kind comes to.
+//! - In [`statement`](crate::formula::statement), what a claim of each kind comes to. A proof is one of the
+//!   statement's goals, under its hypotheses; that they amount to the claim is so because
+//!   [`Statement::of`](crate::formula::Statement::of) made it, and not seen by the kernel.
 //! - The kernel, which is `kernel.rs` with `kernel/` in `src/proof`: in `algebra.rs` the arithmetic of
 //!   polynomials, in `sign.rs` four rules for signs, in `kernel.rs` the rules for what has to be proved, in
 //!   `derivation.rs` what a [`Proof`] consists of. Nothing else can make a proof, and no one can change
 //!   one.
-//! - That [`paper`] prints what was proved; the compiler, and GMP's integers.
+//! - That [`paper`] prints what was proved, in the names of a [`Registry`](crate::formula::Registry); the
+//!   compiler, and GMP's integers.
 //! - This lemma, which claims about limits of sequences rest on:
 //!
 //!   > If |ρ| < 1 then ρᵏ → 0. *Proof.* For ρ ≠ 0 write 1/|ρ| = 1 + x with x > 0. By Bernoulli's inequality

@@ -876,6 +876,19 @@ fn markdown_is_a_table() {
     }
 }
 
+/// But for the times.
+#[test]
+fn the_book_has_the_totals_of_the_proofs() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let page = std::fs::read_to_string(root.join("book/src/command.md")).unwrap();
+    let output = contact(&["prove"]);
+    let totals: Vec<_> = stdout(&output).lines().rev().take(4).collect();
+    let [_, changes, hypotheses, claims] = totals[..] else { panic!("{totals:?}") };
+    for line in [changes, hypotheses, claims.split(" in ").next().unwrap()] {
+        assert!(page.contains(&format!("\n{line}")), "{line}");
+    }
+}
+
 #[test]
 fn no_bad_choice_gets_further_than_one_line() {
     let whole = "must be a whole number from";
