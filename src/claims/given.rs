@@ -8,12 +8,11 @@ use std::sync::LazyLock;
 
 macro_rules! hypotheses {
     (let $symbols:pat = symbols();
-     $($name:ident = $relation:ident($value:expr) $(, solved for $symbol:expr)?;)*) => {
+     $($name:ident $text:literal = $relation:ident($value:expr) $(, solved for $symbol:expr)?;)*) => {
         /// The hypotheses, by names of their own.
         #[derive(Debug)]
-        #[allow(missing_docs)]
         pub struct Given {
-            $(pub $name: Hypothesis,)*
+            $(#[doc = concat!("`", $text, "`")] pub $name: Hypothesis,)*
         }
 
         impl Given {
@@ -22,6 +21,10 @@ macro_rules! hypotheses {
                 [$(&self.$name),*].into_iter()
             }
         }
+
+        /// As they are documented.
+        #[cfg(test)]
+        const TEXTS: &[&str] = &[$($text),*];
 
         /// The hypotheses.
         pub fn given() -> &'static Given {
@@ -41,43 +44,56 @@ macro_rules! hypotheses {
 hypotheses! {
     let Case { system: s, u, v, alpha, eps, eps4, lambda, q, k, t, tol, .. } = symbols();
 
-    stiffness = Positive(&s.c);
-    penalty = Positive(eps);
-    quartic = NonNegative(eps4);
-    softening = Positive(-eps);
-    beyond_twice = Positive(-eps - Tree::from(2) * &s.c);
-    within_twice = Positive(eps + Tree::from(2) * &s.c), solved for &s.c;
-    twice = Zero(eps + Tree::from(2) * &s.c);
-    contact = Positive(system::reaction(s)), solved for &s.g;
-    touching = NonNegative(system::reaction(s)), solved for &s.g;
-    grazing = Zero(system::reaction(s)), solved for &s.g;
-    separated = Positive(-system::reaction(s)), solved for &s.g;
-    opposite = Zero(penalty::total_stiffness(s, eps)), solved for eps;
-    beyond_once = Positive(-penalty::total_stiffness(s, eps)), solved for eps;
-    penetrating = Positive(contact::penetration(s, u)), solved for u;
-    clear = Positive(-contact::penetration(s, u)), solved for u;
-    tolerance = Positive(tol);
-    enough = NonNegative(eps - penalty::penalty_for(s, tol));
-    within_tolerance = NonNegative(tol - penalty::penetration(s, eps));
-    strong_enough = NonNegative(eps - system::reaction(s));
-    multiplier = NonNegative(lambda);
-    below_reaction = Positive(system::reaction(s) - lambda), solved for lambda;
-    above_reaction = Positive(lambda - system::reaction(s));
-    at_reaction = Zero(lambda - system::reaction(s));
-    carried = NonNegative(augmented::multiplier_after(s, lambda, q)), solved for q;
-    active = NonNegative(&s.c * lambda + eps * system::reaction(s)), solved for lambda;
-    idle = NonNegative(-(&s.c * lambda + eps * system::reaction(s))), solved for lambda;
-    inactive = NonNegative(-augmented::update(s, eps, lambda, u)), solved for lambda;
-    in_equilibrium = Zero(augmented::equilibrium(s, eps, lambda, u)), solved for lambda;
-    next_in_equilibrium = Zero({
+    stiffness "c > 0" = Positive(&s.c);
+    penalty "ε > 0" = Positive(eps);
+    quartic "ε₄ ≥ 0" = NonNegative(eps4);
+    softening "ε < 0" = Positive(-eps);
+    beyond_twice "ε < −2 c" = Positive(-eps - Tree::from(2) * &s.c);
+    within_twice "ε + 2 c > 0" = Positive(eps + Tree::from(2) * &s.c), solved for &s.c;
+    twice "ε + 2 c = 0" = Zero(eps + Tree::from(2) * &s.c);
+    contact "R > 0" = Positive(system::reaction(s)), solved for &s.g;
+    touching "R ≥ 0" = NonNegative(system::reaction(s)), solved for &s.g;
+    grazing "R = 0" = Zero(system::reaction(s)), solved for &s.g;
+    separated "R < 0" = Positive(-system::reaction(s)), solved for &s.g;
+    opposite "c + ε = 0" = Zero(penalty::total_stiffness(s, eps)), solved for eps;
+    beyond_once "c + ε < 0" = Positive(-penalty::total_stiffness(s, eps)), solved for eps;
+    penetrating "p > 0" = Positive(contact::penetration(s, u)), solved for u;
+    clear "p < 0" = Positive(-contact::penetration(s, u)), solved for u;
+    tolerance "tol > 0" = Positive(tol);
+    enough "ε ≥ R / tol − c" = NonNegative(eps - penalty::penalty_for(s, tol));
+    within_tolerance "tol ≥ R / (c + ε)" = NonNegative(tol - penalty::penetration(s, eps));
+    // As the force of an exact penalty (beyond 6), ε is in N.
+    strong_enough "ε ≥ R" = NonNegative(eps - system::reaction(s));
+    multiplier "λ ≥ 0" = NonNegative(lambda);
+    below_reaction "λ < R" = Positive(system::reaction(s) - lambda), solved for lambda;
+    above_reaction "λ > R" = Positive(lambda - system::reaction(s));
+    at_reaction "λ = R" = Zero(lambda - system::reaction(s));
+    carried "(λ − R) q + R ≥ 0" = NonNegative(augmented::multiplier_after(s, lambda, q)), solved for q;
+    active "c λ + ε R ≥ 0" = NonNegative(&s.c * lambda + eps * system::reaction(s)), solved for lambda;
+    idle "c λ + ε R ≤ 0" = NonNegative(-(&s.c * lambda + eps * system::reaction(s))), solved for lambda;
+    inactive "λ + ε (l + u − H) ≤ 0" = NonNegative(-augmented::update(s, eps, lambda, u)), solved for lambda;
+    in_equilibrium "c u − m g + λ + ε (l + u − H) = 0" = Zero(augmented::equilibrium(s, eps, lambda, u)), solved for lambda;
+    next_in_equilibrium "c v − m g + λ + ε (l + u − H) + ε (l + v − H) = 0" = Zero({
         let next = augmented::update(s, eps, lambda, u);
         augmented::equilibrium(s, eps, &next, v)
     }), solved for v;
-    step = Positive(alpha);
-    short_step = Positive(Tree::from(2) * penalty::total_stiffness(s, eps) - alpha), solved for alpha;
-    long_step = Positive(alpha - Tree::from(2) * penalty::total_stiffness(s, eps));
-    uzawa_step = Positive(Tree::from(2) * &s.c - alpha), solved for alpha;
-    power = Positive(q);
-    count = NonNegative(k);
-    time = Positive(t);
+    step "α > 0" = Positive(alpha);
+    short_step "α < 2 (c + ε)" = Positive(Tree::from(2) * penalty::total_stiffness(s, eps) - alpha), solved for alpha;
+    long_step "α > 2 (c + ε)" = Positive(alpha - Tree::from(2) * penalty::total_stiffness(s, eps));
+    uzawa_step "α < 2 c" = Positive(Tree::from(2) * &s.c - alpha), solved for alpha;
+    power "q > 0" = Positive(q);
+    count "k ≥ 0" = NonNegative(k);
+    time "t > 0" = Positive(t);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::claims::registry;
+
+    #[test]
+    fn hypotheses_are_documented_as_they_are() {
+        let texts: Vec<_> = given().all().map(|hypothesis| registry().supposed(hypothesis)).collect();
+        assert_eq!(TEXTS, texts);
+    }
 }

@@ -71,7 +71,11 @@ impl Hypothesis {
     }
 
     /// The same, solved for another symbol: one that the quantity is linear in.
+    ///
+    /// # Panics
+    /// The quantity does not depend on it.
     pub fn solved_for(self, symbol: &Tree) -> Self {
+        assert!(self.value.symbols().contains(name_of(symbol)), "{self} does not depend on {symbol}");
         Hypothesis { solved_for: name_of(symbol), ..self }
     }
 
@@ -151,11 +155,11 @@ pub enum Kind {
     Sign(Relation, Tree),
     /// One formula is the derivative of another.
     Derivative {
-        /// The other.
+        /// What is differentiated.
         of: Tree,
         /// By this symbol.
         by: &'static str,
-        /// The one.
+        /// Its derivative.
         is: Tree,
     },
     /// A formula tends to another as a symbol tends to infinity.

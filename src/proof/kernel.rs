@@ -239,10 +239,7 @@ impl Context {
             }
             Says::Derivative(of, by, is) => {
                 let Dual { derivative, .. } =
-                    of.derivative(by, &|name| Tree::symbol(name), &tree::smooth).ok_or_else(|| {
-                        // ⟨·⟩ and min have kinks.
-                        Why::NoLimit(Ratio::from(Poly::symbol(Symbol(by))))
-                    })?;
+                    of.derivative(by, &|name| Tree::symbol(name), &tree::smooth).ok_or(Why::Kink)?;
                 reader.read(of)?;
                 Because::Derivative(self.same(reader.read(&derivative)?, reader.read(is)?)?)
             }

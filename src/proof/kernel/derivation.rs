@@ -197,6 +197,8 @@ pub enum Why {
     WrongSign(Ratio, Sign),
     /// Two sides differ by this.
     Different(Ratio),
+    /// A derivative is asked of ⟨·⟩ or min, which have kinks.
+    Kink,
     /// No rule finds the limit.
     NoLimit(Ratio),
     /// A name that the kernel keeps for itself.

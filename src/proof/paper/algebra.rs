@@ -95,6 +95,7 @@ impl Order<'_> {
             Why::WrongSign(value, sign) => format!("{} is {}", ratio(value), text(*sign)),
             Why::Different(value) => format!("the sides differ by {}", ratio(value)),
             Why::NoLimit(value) => format!("no rule finds the limit of {}", ratio(value)),
+            Why::Kink => "⟨·⟩ and min have kinks, so no derivative of them is taken".to_string(),
             Why::Reserved(name) => format!("{name} is a name that proofs keep for themselves"),
             Why::Nothing => "it says nothing".to_string(),
         }
