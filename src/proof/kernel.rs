@@ -19,7 +19,8 @@
 //! | da/dx = b | dual numbers differentiate a by the sum, product and quotient rules; then as a = b |
 //! | lim a = b for x → ∞ | degrees in x; e^… with an exponent that tends to −∞ vanishes against any power |
 //!
-//! The names of the new symbols, and of the members of an induction, must not occur in a statement otherwise: `kept`.
+//! The names of the new symbols, and of the members of an induction, must not occur in a statement otherwise:
+//! `kept` sees to it.
 //!
 //! No hypothesis of a limit may speak of x, but to say that it is positive: it has to stay true as x grows.
 
