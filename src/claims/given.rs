@@ -71,14 +71,17 @@ hypotheses! {
     carried "(λ − R) q + R ≥ 0" = NonNegative(augmented::multiplier_after(s, lambda, q)), solved for q;
     active "c λ + ε R ≥ 0" = NonNegative(&s.c * lambda + eps * system::reaction(s)), solved for lambda;
     idle "c λ + ε R ≤ 0" = NonNegative(-(&s.c * lambda + eps * system::reaction(s))), solved for lambda;
-    inactive "λ + ε (l + u − H) ≤ 0" = NonNegative(-augmented::update(s, eps, lambda, u)), solved for lambda;
-    in_equilibrium "c u − m g + λ + ε (l + u − H) = 0" = Zero(augmented::equilibrium(s, eps, lambda, u)), solved for lambda;
+    inactive "λ + ε (l + u − H) ≤ 0" =
+        NonNegative(-augmented::update(s, eps, lambda, u)), solved for lambda;
+    in_equilibrium "c u − m g + λ + ε (l + u − H) = 0" =
+        Zero(augmented::equilibrium(s, eps, lambda, u)), solved for lambda;
     next_in_equilibrium "c v − m g + λ + ε (l + u − H) + ε (l + v − H) = 0" = Zero({
         let next = augmented::update(s, eps, lambda, u);
         augmented::equilibrium(s, eps, &next, v)
     }), solved for v;
     step "α > 0" = Positive(alpha);
-    short_step "α < 2 (c + ε)" = Positive(Tree::from(2) * penalty::total_stiffness(s, eps) - alpha), solved for alpha;
+    short_step "α < 2 (c + ε)" =
+        Positive(Tree::from(2) * penalty::total_stiffness(s, eps) - alpha), solved for alpha;
     long_step "α > 2 (c + ε)" = Positive(alpha - Tree::from(2) * penalty::total_stiffness(s, eps));
     uzawa_step "α < 2 c" = Positive(Tree::from(2) * &s.c - alpha), solved for alpha;
     power "q > 0" = Positive(q);

@@ -19,7 +19,8 @@ pub struct Statement {
     pub invariants: Vec<Hypothesis>,
     /// What follows.
     pub goals: Vec<Goal>,
-    /// What the goals amount to, where that is more than they say: for readers, and no part of what is proved.
+    /// What the goals amount to, where that is more than they say: for readers, and no part of what is
+    /// proved.
     pub amounts_to: Option<Sequence>,
 }
 
