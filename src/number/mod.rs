@@ -15,6 +15,8 @@
 //! The traits they share, and how to add a number system of your own: [`field`].
 
 mod ball;
+#[cfg(feature = "mpfr")]
+mod brief;
 mod dual;
 #[cfg(feature = "mpfr")]
 mod exact;
@@ -32,6 +34,8 @@ mod text;
 pub mod tree;
 
 pub use ball::Ball;
+#[cfg(feature = "mpfr")]
+pub use brief::{brief, brief_bound, relation, visibly_rounded};
 pub use dual::Dual;
 #[cfg(feature = "mpfr")]
 pub use exact::{Exact, Inexact, ToExact};

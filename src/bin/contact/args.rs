@@ -1,7 +1,7 @@
 //! What the subcommands share of their arguments: numbers, the system, the scalar.
 
 use crate::output::Failure;
-use crate::text::shortened;
+use crate::output::shortened;
 use num_traits::Zero;
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::claims::{all_numbered, entries, numbered};

@@ -3,8 +3,8 @@
 use crate::args;
 use crate::output::{self, Exit, Failure};
 use clap::ValueEnum;
-use spring_mass_contact::claims::{Entry, claim_names, entries, statements};
-use spring_mass_contact::proof::prove;
+use spring_mass_contact::claims::{Entry, claim_names, entries};
+use spring_mass_contact::verify::graph;
 use std::io::{self, Write};
 
 const EXAMPLES: &str = "\
@@ -47,7 +47,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     output::print(|out| match options.format {
         Format::Json => output::json(out, &chosen),
         Format::Markdown => markdown(out, &chosen),
-        Format::Dot => dot(out, &chosen),
+        Format::Dot => write!(out, "{}", graph(&chosen)),
         Format::Table if all => table(out, &chosen),
         Format::Table => chosen.iter().enumerate().try_for_each(|(i, entry)| {
             if i > 0 {
@@ -84,29 +84,6 @@ fn markdown(out: &mut dyn Write, entries: &[&Entry]) -> io::Result<()> {
         let statement = e.statement().replace('|', "\\|");
         writeln!(out, "| {} | {} | {statement} | {hypotheses} | {function} | {claims} |", e.label(), e.title)
     })
-}
-
-/// An arrow from each entry to what follows from it.
-fn dot(out: &mut dyn Write, chosen: &[&Entry]) -> io::Result<()> {
-    let statements = statements();
-    writeln!(out, "digraph chapter {{\n  rankdir = LR;\n  node [shape = box, style = rounded];")?;
-    for Entry { equation, title, .. } in chosen {
-        let claims: Vec<_> = statements.iter().filter(|s| s.equation == *equation).collect();
-        let proved = claims.iter().filter(|s| prove(s).is_ok()).count();
-        let (status, colour) = match (claims.len(), proved) {
-            (0, _) if claim_names(equation).is_empty() => ("given".to_string(), "gray"),
-            (0, _) => ("checked in numbers".to_string(), "gray"),
-            (all, proved) if proved < all => (format!("{} NOT PROVED", all - proved), "red"),
-            (_, proved) => (format!("{proved} proved"), "darkgreen"),
-        };
-        writeln!(out, "  \"{equation}\" [label = \"{equation}\\n{title}\\n{status}\", color = {colour}];")?;
-    }
-    for Entry { equation, follows_from, .. } in chosen {
-        for premise in follows_from.iter().filter(|premise| chosen.iter().any(|e| e.equation == **premise)) {
-            writeln!(out, "  \"{premise}\" -> \"{equation}\";")?;
-        }
-    }
-    writeln!(out, "}}")
 }
 
 fn details(out: &mut dyn Write, entry: &Entry) -> io::Result<()> {

@@ -8,7 +8,6 @@ mod equations;
 mod output;
 mod prove;
 mod solve;
-mod text;
 mod verify;
 
 use clap::{CommandFactory, Parser, Subcommand};

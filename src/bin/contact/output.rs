@@ -1,7 +1,6 @@
 //! The way out: stdout, a closed pipe, one-line errors, exit codes, tables.
 
 use crate::args;
-use crate::text::shortened;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use comfy_table::{ColumnConstraint, ContentArrangement, Table, presets};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -25,6 +24,11 @@ pub fn width() -> usize {
     // Tests print into memory; whatever runs them may have a terminal.
     let terminal = if cfg!(test) { None } else { terminal_size::terminal_size_of(io::stdout()) };
     terminal.map_or(WIDTH.into(), |(width, _)| width.0.max(NARROWEST)).into()
+}
+
+/// The beginning of a text that may be long.
+pub fn shortened(text: &str) -> String {
+    if text.chars().count() <= 40 { text.to_string() } else { text.chars().take(39).chain(['…']).collect() }
 }
 
 /// What a command has to say about its result, once it is printed.

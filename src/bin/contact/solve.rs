@@ -3,8 +3,8 @@
 mod report;
 
 use crate::args::{Number, System, finite, positive, whole};
+use crate::output::shortened;
 use crate::output::{self, Exit, Failure};
-use crate::text::shortened;
 use clap::ValueEnum;
 use num_traits::Zero;
 use report::Report;

@@ -1,12 +1,11 @@
 //! A solution as JSON, as CSV and as a table.
 
 use super::{Options, Problem, quantities};
-use crate::output::{self, WIDTH};
-use crate::text::{brief, brief_bounds, exact, relation, shortened, visibly_rounded};
+use crate::output::{self, WIDTH, shortened};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::Value;
 use spring_mass_contact::chapter::contact::Kkt;
-use spring_mass_contact::number::{Exact, NumberSystem, Text};
+use spring_mass_contact::number::{Exact, NumberSystem, Text, brief, brief_bound, relation, visibly_rounded};
 use spring_mass_contact::rug::{Integer, float::Round};
 use spring_mass_contact::solver::{Interval, Method, Outcome, Plane, Scalar, Solution, State, within_reach};
 use std::io::{self, Write};
@@ -152,7 +151,8 @@ impl<'a, T: Scalar + Text> Report<'a, T> {
             ("penetration", "p", "m", &s.penetration, &bounds.penetration),
             ("contact force", "N", "N", &s.contact_force, &bounds.contact_force),
         ] {
-            let [lower, upper] = brief_bounds(interval);
+            let lower = brief_bound(&interval.lower, Round::Down);
+            let upper = brief_bound(&interval.upper, Round::Up);
             rows.push((name, format!("{} {unit}", relation(symbol, value))));
             let enclosure = if lower == upper { lower } else { format!("{lower} to {upper}") };
             rows.push(("", format!("{answer} {enclosure} {unit}")));
@@ -192,7 +192,8 @@ impl<'a, T: Scalar + Text> Report<'a, T> {
         let names = ["λ in N", "u in m", "p in m", "m g − c u in N"].map(String::from);
         writeln!(out, "\n{}", line("k".to_string(), names))?;
         for iterate in self.problem.trace(self.solution) {
-            let cells = quantities(&iterate).map(|x| exact(x).decimal_within(DIGITS, width));
+            let cells =
+                quantities(&iterate).map(|x| x.to_exact().expect("finite").decimal_within(DIGITS, width));
             writeln!(out, "{}", line(iterate.k.to_string(), cells))?;
         }
         writeln!(out, "\n At most ten digits each; --format csv has all.")
@@ -217,7 +218,7 @@ impl<'a, T: Scalar + Text> Report<'a, T> {
             numbers.push(("λ₀", self.options.initial_multiplier.as_ref(), start, "N"));
         }
         let rounded = numbers.into_iter().filter_map(|(symbol, typed, x, unit)| {
-            Some(format!("{} {unit}", visibly_rounded(symbol, typed?, x)?))
+            Some(format!("{} {unit}", visibly_rounded(symbol, &typed?.text, &typed?.value, x)?))
         });
         rounded.collect::<Vec<_>>().join(", ")
     }
