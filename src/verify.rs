@@ -25,13 +25,13 @@ mod tests;
 use crate::claims::{Case, claims, place, registry, statements};
 use crate::formula::{Hypothesis, Statement};
 use crate::number::{Exact, Mpfr, NumberSystem};
+use crate::proof::Counterexample;
 use crate::proof::controls::{Change, repairs};
-use crate::proof::paper::Paper;
-use crate::proof::{Counterexample, prove, refute};
 use checker::{Checker, Checks, Exactly, Floats, Tally};
 pub use coq::coq;
 pub use graph::graph;
 use guard::guarded;
+use proofs::{Answer, Proved};
 use rayon::prelude::*;
 use std::fmt;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -321,12 +321,10 @@ fn drawn(seed: u64, index: u64, given: &[Hypothesis]) -> Option<Case<Exact>> {
 
 /// The row of a proof.
 fn proof(statement: &Statement) -> Row {
-    let why = match guarded(|| prove(statement)) {
-        Ok(Ok(_)) => None,
-        Ok(Err(why)) => Some(Paper::new(registry()).why(&why)),
-        Err(panic) => Some(panic),
+    let (why, counterexample) = match Proved::of(statement.clone()).answer {
+        Answer::Proof(_) => (None, None),
+        Answer::None(why, counterexample) => (Some(why), counterexample),
     };
-    let counterexample = why.as_ref().and_then(|_| guarded(|| refute(statement)).ok().flatten());
     Row {
         equation: statement.equation,
         claim: statement.name,
@@ -347,11 +345,10 @@ pub fn case_of(counterexample: &Counterexample) -> Case<Exact> {
 }
 
 fn checks(scalar: NumberSystem) -> Box<dyn Checks> {
-    let claims: Vec<_> = claims().cloned().collect();
     match scalar {
-        NumberSystem::F32 => Box::new(Checker::new(Floats(0.0f32), &claims)),
-        NumberSystem::F64 => Box::new(Checker::new(Floats(0.0f64), &claims)),
-        NumberSystem::Mpfr(bits) => Box::new(Checker::new(Floats(Mpfr::rounded(bits, 0)), &claims)),
-        NumberSystem::Exact => Box::new(Checker::new(Exactly, &claims)),
+        NumberSystem::F32 => Box::new(Checker::new(Floats(0.0f32), claims())),
+        NumberSystem::F64 => Box::new(Checker::new(Floats(0.0f64), claims())),
+        NumberSystem::Mpfr(bits) => Box::new(Checker::new(Floats(Mpfr::rounded(bits, 0)), claims())),
+        NumberSystem::Exact => Box::new(Checker::new(Exactly, claims())),
     }
 }

@@ -58,7 +58,7 @@ impl Entry {
 
     /// Its conditions as a reader writes them.
     pub fn hypotheses(&self) -> Vec<String> {
-        self.given.iter().map(|hypothesis| registry().supposed(hypothesis)).collect()
+        registry().all_supposed(&self.given)
     }
 
     pub(super) fn new(equation: &'static str, title: &'static str) -> Self {

@@ -27,15 +27,24 @@ impl Relation {
         }
     }
 
-    /// As a reader writes it, between two sides; `turned` if they have traded places.
-    fn text(self, turned: bool) -> &'static str {
-        match (self, turned) {
-            (Relation::Positive, false) => ">",
-            (Relation::Positive, true) => "<",
-            (Relation::NonNegative, false) => "≥",
-            (Relation::NonNegative, true) => "≤",
-            (Relation::Zero, _) => "=",
+    /// As a reader writes it if the sides have traded places.
+    fn turned(self) -> &'static str {
+        match self {
+            Relation::Positive => "<",
+            Relation::NonNegative => "≤",
+            Relation::Zero => "=",
         }
+    }
+}
+
+/// As a reader writes it, between two sides: `>`.
+impl fmt::Display for Relation {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Relation::Positive => ">",
+            Relation::NonNegative => "≥",
+            Relation::Zero => "=",
+        })
     }
 }
 
@@ -82,8 +91,9 @@ impl Hypothesis {
     /// As a reader writes it, with the parts that `name` knows by their names: `λ < R`.
     pub fn typeset(&self, notation: Notation, name: &dyn Fn(&Tree) -> Option<Name>) -> String {
         let text = |tree: &Tree| tree.typeset(notation, name);
-        let said = |left: &Tree, turned, right: &Tree| {
-            format!("{} {} {}", text(left), self.relation.text(turned), text(right))
+        let said = |left: &Tree, turned: bool, right: &Tree| {
+            let between = if turned { self.relation.turned().to_string() } else { self.relation.to_string() };
+            format!("{} {between} {}", text(left), text(right))
         };
         let zero = Tree::int(0);
         let is_symbol = |tree: &Tree| matches!(tree.step(), Step::Symbol(_));

@@ -152,10 +152,10 @@ impl Registry {
         listed
     }
 
-    /// What a function depends on: first what all have in common, then its own arguments.
-    pub fn parameters<'a>(&'a self, formula: &'a Formula) -> impl Iterator<Item = &'static str> {
-        let common = self.symbols_of([&formula.tree]).into_iter();
-        common.filter(|symbol| !formula.arguments.contains(symbol)).chain(formula.depends_on())
+    /// What a function depends on besides its own arguments: some of what all functions have in common.
+    pub fn common<'a>(&'a self, formula: &'a Formula) -> impl Iterator<Item = &'static str> {
+        let symbols = self.symbols_of([&formula.tree]).into_iter();
+        symbols.filter(|symbol| !formula.arguments.contains(symbol))
     }
 
     /// What a function does, as a text writes it: by name what has one, and spelled out what has none.
@@ -232,6 +232,11 @@ impl Registry {
     /// A hypothesis as a text writes it: `λ < R`.
     pub fn supposed(&self, hypothesis: &Hypothesis) -> String {
         hypothesis.typeset(Notation::Text, &|tree| self.named(tree))
+    }
+
+    /// All of them.
+    pub fn all_supposed(&self, hypotheses: &[Hypothesis]) -> Vec<String> {
+        hypotheses.iter().map(|hypothesis| self.supposed(hypothesis)).collect()
     }
 
     fn names<'a>(&'a self, own: Option<&'a Formula>) -> Names<'a> {

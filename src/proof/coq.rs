@@ -181,7 +181,7 @@ impl<'a> Development<'a> {
         let printer = Printer { registry: self.registry, preferred: &[] };
         let definition = |formula: &Formula| Definition {
             name: print::function(formula),
-            binders: self.registry.parameters(formula).map(ascii).collect(),
+            binders: self.registry.common(formula).chain(formula.depends_on()).map(ascii).collect(),
             body: printer.body(formula),
         };
         self.registry.formulas().iter().map(definition).collect()

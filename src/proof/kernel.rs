@@ -214,14 +214,13 @@ impl Context {
             (!rest.contains(&pivot)).then_some((pivot, by.into()))
         };
         let seen_again = || {
-            let keeps = |x: &Symbol| {
+            let mut context = self.clone();
+            context.known.extend(slack.symbols().into_iter().map(|s| (s, sign_of_slack)));
+            symbols.iter().find_map(|x| {
                 let (_, rule) = solved(*x)?;
-                let (of, assumed) = (self.reduce(&rule.1), *self.known.get(x)?);
-                let mut context = self.clone();
-                context.known.extend(slack.symbols().into_iter().map(|s| (s, sign_of_slack)));
-                context.sign(of).is_some_and(|signed| signed.sign().implies(assumed)).then_some(rule)
-            };
-            symbols.iter().find_map(keeps)
+                let signed = context.sign(self.reduce(&rule.1))?;
+                signed.sign().implies(*self.known.get(x)?).then_some(rule)
+            })
         };
         free.min_by_key(|(terms, _)| *terms).map(|(_, rule)| rule).or_else(product).or_else(seen_again)
     }

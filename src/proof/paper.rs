@@ -7,7 +7,7 @@ use super::kernel::sign::{Rule, Sign};
 use super::kernel::{Because, Derivation, Direct, Proof, Signed, Supposed, Used, Why};
 use crate::formula::claim::MEMBERS;
 use crate::formula::statement::{Goal, Says, Sequence, Statement};
-use crate::formula::{Formula, Hypothesis, Notation, Registry, Relation};
+use crate::formula::{Formula, Hypothesis, Notation, Registry};
 use crate::number::Tree;
 use crate::number::tree::Step;
 
@@ -48,9 +48,7 @@ impl<'a> Paper<'a> {
     fn says(&self, says: &Says) -> String {
         match says {
             Says::Equal(left, right) => format!("{} = {}", self.text(left), self.text(right)),
-            Says::Sign(Relation::Positive, of) => format!("{} > 0", self.text(of)),
-            Says::Sign(Relation::NonNegative, of) => format!("{} ≥ 0", self.text(of)),
-            Says::Sign(Relation::Zero, of) => format!("{} = 0", self.text(of)),
+            Says::Sign(relation, of) => format!("{} {relation} 0", self.text(of)),
             Says::Derivative(of, by, is) => format!("∂/∂{} [{}] = {}", by, self.text(of), self.text(is)),
             Says::Limit(of, by, to) => format!("lim [{}] = {} for {} → ∞", self.text(of), self.text(to), by),
         }
@@ -78,7 +76,7 @@ impl<'a> Paper<'a> {
         }
         let mut all = Vec::new();
         proof.goals().iter().for_each(|derivation| collect(derivation, &mut all));
-        all.iter().map(|given| self.registry.supposed(given)).collect()
+        self.registry.all_supposed(&all)
     }
 
     /// What the names in a claim stand for, those that occur: `R = m g − c (H − l)`.

@@ -63,9 +63,7 @@ impl fmt::Display for How {
                 [short, same] if short == same => write!(f, "{left} ≠ {right}"),
                 [left, right] => write!(f, "{left} ≠ {right}"),
             },
-            How::Sign(Relation::Positive, value) => write!(f, "{} is not > 0", brief(value)),
-            How::Sign(Relation::NonNegative, value) => write!(f, "{} is not ≥ 0", brief(value)),
-            How::Sign(Relation::Zero, value) => write!(f, "{} is not = 0", brief(value)),
+            How::Sign(relation, value) => write!(f, "{} is not {relation} 0", brief(value)),
             How::Far(distance) => write!(f, "far out it is still {} off its limit", brief(distance)),
         }
     }

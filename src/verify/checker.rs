@@ -233,14 +233,18 @@ pub(super) struct Checker<J: Judge> {
 
 impl<J: Judge> Checker<J> {
     /// For the claims that can be asked in these numbers.
-    pub(super) fn new(judge: J, claims: &[Claim]) -> Self {
+    pub(super) fn new<'a>(judge: J, claims: impl IntoIterator<Item = &'a Claim>) -> Self {
         let experiments = judge.experiments();
         Checker::with(judge, claims, experiments)
     }
 
-    pub(super) fn with(judge: J, claims: &[Claim], experiments: Vec<Experiment<J::Computed>>) -> Self {
-        let claims: Vec<Claim> =
-            claims.iter().filter(|claim| J::EXPONENTIALS || !claim.has_exponentials()).cloned().collect();
+    pub(super) fn with<'a>(
+        judge: J,
+        claims: impl IntoIterator<Item = &'a Claim>,
+        experiments: Vec<Experiment<J::Computed>>,
+    ) -> Self {
+        let can_be_asked = |claim: &&Claim| J::EXPONENTIALS || !claim.has_exponentials();
+        let claims: Vec<Claim> = claims.into_iter().filter(can_be_asked).cloned().collect();
         Checker { judge, groups: groups(&claims), claims, experiments }
     }
 }

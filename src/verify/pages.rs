@@ -6,13 +6,13 @@ use crate::proof::paper::{self, Paper};
 use crate::proof::prove;
 use std::fmt::Write;
 
-/// What a section is called, with its number as entries have it.
+/// A section as entries have it, and as it is called.
 const SECTIONS: [(&str, &str); 7] = [
-    ("1.1", "Structural part"),
-    ("1.2", "Contact part"),
-    ("1.3.1", "Lagrange multiplier method"),
-    ("1.3.2", "Penalty method"),
-    ("1.3.3", "Augmented Lagrangian method"),
+    ("1.1", "1.1 Structural part"),
+    ("1.2", "1.2 Contact part"),
+    ("1.3.1", "1.3.1 Lagrange multiplier method"),
+    ("1.3.2", "1.3.2 Penalty method"),
+    ("1.3.3", "1.3.3 Augmented Lagrangian method"),
     ("notes", "The loose spots"),
     ("beyond", "Beyond the chapter"),
 ];
@@ -35,10 +35,11 @@ pub fn pages() -> Vec<Page> {
 }
 
 fn page(section: &str, title: &str) -> Page {
-    let number = if section.starts_with(|c: char| c.is_ascii_digit()) { section } else { "" };
-    let mut text = format!("# {}\n\n", format!("Proofs: {number} {title}").replace("  ", " "));
-    text += "Printed by the prover; a test holds this page to what it prints.\n\
-             What the lines mean is said in [What is proved, and how](../proofs.md).\n";
+    let mut text = format!(
+        "# Proofs: {title}\n\n\
+         Printed by the prover; a test holds this page to what it prints.\n\
+         What the lines mean is said in [What is proved, and how](../proofs.md).\n"
+    );
     let of_section = |entry: &&Entry| entry.section == section && !entry.claims.is_empty();
     entries().iter().filter(of_section).for_each(|entry| text += &account(entry));
     Page { file: format!("{section}.md"), text }
@@ -53,7 +54,7 @@ fn account(entry: &Entry) -> String {
     }
     for claim in &entry.claims {
         let (statement, paper) = (Statement::of(claim), Paper::new(registry()));
-        let given: Vec<_> = claim.given.iter().map(|given| registry().supposed(given)).collect();
+        let given = registry().all_supposed(&claim.given);
         let given = if given.is_empty() { String::new() } else { format!("\n\nif `{}`", given.join("`, `")) };
         let _ = write!(text, "\n### {}\n\n`{}`{given}\n\n", claim.name, paper.claim(&statement));
         text += &match prove(&statement) {

@@ -8,6 +8,7 @@ use crate::formula::Statement;
 use crate::proof::controls::{self, Change, Controls, Dropped, Effect, controls, repairs};
 use crate::proof::paper::Paper;
 use crate::proof::{Counterexample, Proof, prove, refute};
+use crate::verify::guard::guarded;
 use std::time::{Duration, Instant};
 
 /// A claim and what came of it.
@@ -31,19 +32,21 @@ pub enum Answer {
 }
 
 impl Proved {
-    /// Proves a statement, or tries to refute it.
+    /// Proves a statement, or tries to refute it; what breaks off is not proved.
     pub fn of(statement: Statement) -> Self {
         let start = Instant::now();
-        let answer = match prove(&statement) {
-            Ok(proof) => Answer::Proof(proof),
-            Err(why) => Answer::None(Paper::new(registry()).why(&why), refute(&statement)),
+        let none = |why| Answer::None(why, guarded(|| refute(&statement)).ok().flatten());
+        let answer = match guarded(|| prove(&statement)) {
+            Ok(Ok(proof)) => Answer::Proof(proof),
+            Ok(Err(why)) => none(Paper::new(registry()).why(&why)),
+            Err(panic) => none(panic),
         };
         Proved { statement, answer, time: start.elapsed() }
     }
 
     /// What it supposes, as a reader writes it.
     pub fn hypotheses(&self) -> Vec<String> {
-        self.statement.hypotheses.iter().map(|hypothesis| registry().supposed(hypothesis)).collect()
+        registry().all_supposed(&self.statement.hypotheses)
     }
 
     /// `proved`, `refuted` or `unknown`.

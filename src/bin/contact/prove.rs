@@ -243,7 +243,7 @@ fn account(out: &mut dyn Write, proofs: &Proofs, proved: &Proved) -> io::Result<
     if !statement.hypotheses.is_empty() {
         say("if", &[proved.hypotheses().join(", ")])?;
     }
-    let invariants: Vec<_> = statement.invariants.iter().map(|i| registry().supposed(i)).collect();
+    let invariants = registry().all_supposed(&statement.invariants);
     if !invariants.is_empty() {
         say("always", &[format!("{} for every k, which is part of the proof", invariants.join(", "))])?;
     }

@@ -12,7 +12,7 @@ use crate::proof::{Why, prove};
 /// Why a claim cannot be printed.
 pub(super) type Result<T> = std::result::Result<T, String>;
 
-pub(super) fn unproved(why: Why) -> String {
+fn unproved(why: Why) -> String {
     format!("there is no proof to follow: {why}")
 }
 
@@ -58,7 +58,7 @@ pub(super) fn names(variables: &[&'static str]) -> String {
     variables.iter().map(|var| format!(" {}", ascii(var))).collect()
 }
 
-pub(super) fn for_all(variables: &[&'static str]) -> String {
+fn for_all(variables: &[&'static str]) -> String {
     if variables.is_empty() { String::new() } else { format!(" forall{} : R,\n ", names(variables)) }
 }
 
@@ -83,7 +83,7 @@ pub(super) fn stated(
 }
 
 /// Hypotheses are shared, and in no function's own names.
-pub(super) fn premises(hypotheses: &[&Hypothesis], printer: Printer) -> String {
+fn premises(hypotheses: &[&Hypothesis], printer: Printer) -> String {
     hypotheses.iter().map(|h| format!(" {} ->\n ", supposed(h, printer))).collect()
 }
 
@@ -110,7 +110,7 @@ pub(super) fn says(says: &Says, printer: Printer) -> String {
 
 /// What formulas divide by, but for numbers; none before its own divisors.
 pub(super) fn divisors<'t>(trees: impl Iterator<Item = &'t Tree>) -> Vec<Tree> {
-    pub(super) fn visit(tree: &Tree, all: &mut Vec<Tree>) {
+    fn visit(tree: &Tree, all: &mut Vec<Tree>) {
         tree.step().operands().for_each(|operand| visit(operand, all));
         if let Step::Div(_, divisor) = tree.step()
             && !matches!(divisor.step(), Step::Int(n) if *n != 0)

@@ -244,9 +244,7 @@ impl Printer<'_> {
         let place = |path: &str| place(path).unwrap_or(self.preferred.len());
         match self.registry.calls(tree).min_by_key(|call| place(call.formula.path)) {
             Some(call) => {
-                let own = call.formula.arguments.iter();
-                let common = self.registry.parameters(call.formula);
-                let common = common.filter(|name| !own.clone().any(|own| own == name));
+                let common = self.registry.common(call.formula);
                 let arguments = call.arguments.iter().map(|argument| self.expr(argument));
                 let all = common.map(|name| Expr::Name(ascii(name))).chain(arguments).collect();
                 Expr::Call(function(call.formula), all)
