@@ -21,6 +21,7 @@ mod notes;
 mod numbers;
 mod ode;
 mod penalty;
+mod rounding;
 mod structure;
 mod system;
 
@@ -41,9 +42,16 @@ mod prelude {
     pub(super) use super::{Case, Entry, Given, given, symbols};
     pub(super) use crate::formula::Rate::{Exactly, Within};
     pub(super) use crate::formula::claim::{
-        derivative, equal, induction, limit, non_negative, positive, vanishing,
+        derivative, equal, induction, limit, non_negative, positive, vanishing, within,
     };
     pub(super) use crate::number::{Dual, Exponential, Field, PositivePart, Tree};
+    use std::sync::LazyLock;
+
+    /// 2ᵖ for numbers of p bits.
+    pub(super) fn precision() -> &'static Tree {
+        static PRECISION: LazyLock<Tree> = LazyLock::new(|| Tree::symbol(crate::formula::claim::PRECISION));
+        &PRECISION
+    }
 
     pub(super) fn int(n: i32) -> Tree {
         Tree::from(n)

@@ -11,13 +11,15 @@
 //! [`Tree`]: crate::number::Tree
 
 pub mod claim;
+mod hypothesis;
 mod lines;
 mod program;
 mod registry;
 pub mod statement;
 mod typeset;
 
-pub use claim::{Claim, Hypothesis, Kind, Rate, Relation};
+pub use claim::{Claim, Kind, Rate};
+pub use hypothesis::{Hypothesis, Relation};
 pub use lines::{GLUE, together};
 pub use program::Program;
 pub use registry::{Call, Formula, Registry};

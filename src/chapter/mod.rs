@@ -9,6 +9,7 @@
 //! | 1.3.2 Penalty method | [`penalty`] | (1.9)-(1.13), Fig. 1.2 |
 //! | 1.3.3 Augmented Lagrangian method | [`augmented`] | (1.14)-(1.21), (1.33) |
 //! | its convergence as an ODE | [`ode`] | (1.22)-(1.32) |
+//! | in floating point | [`rounding`] | note 8: what rounding does to them |
 //! | beyond the chapter | [`beyond`] | what else follows |
 //!
 //! Notation: stiffness c > 0 in N/m, mass m in kg, gravity g in m/s² (any sign), free length l and
@@ -32,6 +33,7 @@ pub mod contact;
 pub mod lagrange;
 pub mod ode;
 pub mod penalty;
+pub mod rounding;
 pub mod structure;
 pub mod system;
 

@@ -9,7 +9,7 @@ use self::rounding::{Setting, in_range};
 use super::{Case, given};
 use crate::chapter::{SpringMass, augmented, contact, penalty, structure, system};
 use crate::formula::Hypothesis;
-use crate::number::{Exact, OrderedField, PositivePart, Real, ToExact};
+use crate::number::{Exact, PositivePart, Real, ToExact};
 use crate::solver::{
     Augmentation, Interval, Iterate, Method, Outcome, Plane, Scalar, Solution, State, augmentations_needed,
     series_penetration, solve, solve_bilateral,

@@ -1,6 +1,6 @@
 //! The functions of the chapter as formulas, section by section.
 
-use super::{augmented, beyond, contact, lagrange, ode, penalty, structure, system};
+use super::{augmented, beyond, contact, lagrange, ode, penalty, rounding, structure, system};
 use crate::formula::Formula;
 use crate::number::{Exponential, PositivePart, Tree};
 
@@ -85,7 +85,7 @@ macro_rules! sections {
         }
     };
 }
-sections! { system structure contact lagrange penalty augmented ode beyond }
+sections! { system structure contact lagrange penalty augmented ode rounding beyond }
 
 #[cfg(test)]
 mod tests {

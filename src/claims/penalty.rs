@@ -3,7 +3,7 @@
 use super::prelude::*;
 use crate::chapter::penalty::{self, *};
 use crate::chapter::{
-    augmented, contact, structure,
+    augmented, contact, rounding, structure,
     system::{gap, reaction},
 };
 
@@ -196,6 +196,12 @@ pub(super) fn entries() -> Vec<Entry> {
                     Exactly(reaction(s) / total_stiffness(s, eps)),
                 ),
                 equal("two-forms", [stiffness, penalty], deflection(s, eps), deflection_divided(s, eps)),
+                within(
+                    "float-error",
+                    [stiffness, penalty, contact],
+                    deflection(s, eps).rounded() - deflection(s, eps),
+                    rounding::deflection_error(s, eps, precision()),
+                ),
                 derivative(
                     "slope",
                     [stiffness, penalty],

@@ -1,145 +1,8 @@
 //! What is said of formulas.
 
-use super::typeset::{Name, Notation};
-use crate::number::tree::{Step, piecewise};
-use crate::number::{Field, PositivePart, Tree};
-use std::cmp::Ordering;
-use std::fmt;
-
-/// What is said of the sign of a quantity.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Relation {
-    /// > 0
-    Positive,
-    /// ≥ 0
-    NonNegative,
-    /// = 0
-    Zero,
-}
-
-impl Relation {
-    /// Does a number of this sign satisfy it?
-    pub fn admits(self, sign: Ordering) -> bool {
-        match self {
-            Relation::Positive => sign.is_gt(),
-            Relation::NonNegative => sign.is_ge(),
-            Relation::Zero => sign.is_eq(),
-        }
-    }
-
-    /// As a reader writes it if the sides have traded places.
-    fn turned(self) -> &'static str {
-        match self {
-            Relation::Positive => "<",
-            Relation::NonNegative => "≤",
-            Relation::Zero => "=",
-        }
-    }
-}
-
-/// As a reader writes it, between two sides: `>`.
-impl fmt::Display for Relation {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str(match self {
-            Relation::Positive => ">",
-            Relation::NonNegative => "≥",
-            Relation::Zero => "=",
-        })
-    }
-}
-
-/// What is supposed: a quantity, recorded, and what is said of its sign.
-///
-/// ```
-/// use spring_mass_contact::formula::{Hypothesis, Relation};
-/// use spring_mass_contact::number::Tree;
-/// let [c, eps] = ["c", "ε"].map(|name| Tree::symbol(name));
-/// let stiffer = Hypothesis::new(Relation::Positive, &eps - &c);
-/// assert_eq!(stiffer.to_string(), "ε > c");
-/// assert!(stiffer.holds(&|name| if name == "c" { 1.0 } else { 2.0 }));
-/// ```
-#[derive(Clone, Debug, PartialEq)]
-pub struct Hypothesis {
-    /// The quantity.
-    pub value: Tree,
-    /// What is said of its sign.
-    pub relation: Relation,
-    /// The symbol to be chosen so that it holds, where numbers are looked for.
-    pub solved_for: &'static str,
-}
-
-impl Hypothesis {
-    /// A hypothesis, solved for the first of the symbols in its record.
-    ///
-    /// # Panics
-    /// There is none: of a number nothing is to be supposed.
-    pub fn new(relation: Relation, value: Tree) -> Self {
-        let solved_for =
-            value.first_symbol().unwrap_or_else(|| panic!("of a number, {value}, nothing is to be supposed"));
-        Hypothesis { value, relation, solved_for }
-    }
-
-    /// The same, solved for another symbol: one that the quantity is linear in.
-    ///
-    /// # Panics
-    /// The quantity does not depend on it.
-    pub fn solved_for(self, symbol: &Tree) -> Self {
-        assert!(self.value.symbols().contains(name_of(symbol)), "{self} does not depend on {symbol}");
-        Hypothesis { solved_for: name_of(symbol), ..self }
-    }
-
-    /// As a reader writes it, with the parts that `name` knows by their names: `λ < R`.
-    pub fn typeset(&self, notation: Notation, name: &dyn Fn(&Tree) -> Option<Name>) -> String {
-        let text = |tree: &Tree| tree.typeset(notation, name);
-        let said = |left: &Tree, turned: bool, right: &Tree| {
-            let between = if turned { self.relation.turned().to_string() } else { self.relation.to_string() };
-            format!("{} {between} {}", text(left), text(right))
-        };
-        let zero = Tree::int(0);
-        let is_symbol = |tree: &Tree| matches!(tree.step(), Step::Symbol(_));
-        match self.value.step() {
-            _ if name(&self.value).is_some() => said(&self.value, false, &zero),
-            Step::Neg(a) => said(a, true, &zero),
-            Step::Sub(a, b) => match a.step() {
-                Step::Neg(a) => said(a, true, &-b),
-                // What is alone comes first.
-                _ if is_symbol(b) && !is_symbol(a) => said(b, true, a),
-                _ => said(a, false, b),
-            },
-            _ => said(&self.value, false, &zero),
-        }
-    }
-
-    /// Does it hold at these numbers? Not where its quantity is undefined.
-    pub fn holds<T: PositivePart + PartialOrd>(&self, symbol: &impl Fn(&'static str) -> T) -> bool {
-        let value = self.value.replay(symbol, &piecewise);
-        value.and_then(|value| value.partial_cmp(&T::zero())).is_some_and(|sign| self.relation.admits(sign))
-    }
-
-    /// The number for the symbol that it is [solved for](field@Self::solved_for) with which the quantity,
-    /// if it is linear there, has the value `target`; `None` if it does not depend on it.
-    pub fn solution<T: Field>(&self, symbol: &impl Fn(&'static str) -> T, target: &T) -> Option<T> {
-        self.value.solution(self.solved_for, symbol, target)
-    }
-}
-
-/// Without names.
-impl fmt::Display for Hypothesis {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str(&self.typeset(Notation::Text, &|_| None))
-    }
-}
-
-/// The name of a symbol.
-///
-/// # Panics
-/// It is another formula.
-fn name_of(symbol: &Tree) -> &'static str {
-    match symbol.step() {
-        Step::Symbol(name) => name,
-        _ => panic!("{symbol} is no symbol"),
-    }
-}
+use super::hypothesis::{Hypothesis, Relation, name_of};
+use crate::number::Tree;
+use crate::number::tree::Step;
 
 /// How a limit is checked in numbers: by the distance to it, in a form from which the limit can be read.
 #[derive(Clone, Debug)]
@@ -149,6 +12,10 @@ pub enum Rate {
     /// The distance is no more than this, either way.
     Within(Tree),
 }
+
+/// What n is called, which stands for 2ᵖ where formulas [round](Tree::rounded): to p bits, so that 1/n is the
+/// unit roundoff.
+pub const PRECISION: &str = "n";
 
 /// What q is called, which stands for the power ρᵏ in an [induction](Kind::Induction).
 pub const POWER: &str = "q";
@@ -194,6 +61,23 @@ pub enum Kind {
         /// x_k, by q.
         closed: Vec<Tree>,
     },
+    /// A formula is no larger in size than a bound.
+    Within(Tree, Tree),
+    /// A recursion x₀ = start, x_{k+1} = step(x_k) stays near a closed form at q = ratioᵏ, for all k.
+    Drift {
+        /// What is raised to the power k.
+        ratio: Tree,
+        /// x₀.
+        start: Tree,
+        /// The next x, by the first of the [`MEMBERS`].
+        step: Tree,
+        /// What x_k is near, by q.
+        near: Tree,
+        /// How near.
+        bound: Tree,
+        /// What else is of limited size, by the same, with its bound.
+        also: Vec<(Tree, Tree)>,
+    },
     /// A formula in q = ratioᵏ tends to a limit as k grows: |ratio| < 1, and at q = 0 it is the limit.
     Vanishing {
         /// What is raised to the power k.
@@ -214,6 +98,8 @@ impl Kind {
             Kind::Derivative { .. } => "derivative",
             Kind::Limit { .. } => "limit",
             Kind::Induction { .. } => "induction",
+            Kind::Within(..) => "bound",
+            Kind::Drift { .. } => "drift",
             Kind::Vanishing { .. } => "vanishing",
         }
     }
@@ -229,6 +115,8 @@ pub struct Claim {
     pub name: &'static str,
     /// What it supposes.
     pub given: Vec<Hypothesis>,
+    /// A quantity of which it supposes that it is near another; that is proved where it is computed like this.
+    pub computed: Option<(&'static str, Tree)>,
     /// What it says.
     pub kind: Kind,
 }
@@ -236,20 +124,45 @@ pub struct Claim {
 impl Claim {
     /// A claim, of no equation yet.
     pub fn new(name: &'static str, given: &[&Hypothesis], kind: Kind) -> Self {
-        Claim { equation: "", name, given: given.iter().copied().cloned().collect(), kind }
+        Claim { equation: "", name, given: given.iter().copied().cloned().collect(), computed: None, kind }
+    }
+
+    /// The same where one of its quantities is computed: what it supposes of that is no longer supposed but
+    /// proved.
+    ///
+    /// # Panics
+    /// It does not suppose that the quantity, and no other, is in an interval.
+    pub fn computing(self, symbol: &Tree, by: impl Into<Tree>) -> Self {
+        let name = name_of(symbol);
+        let of_it = |given: &&Hypothesis| given.value.symbols().contains(name);
+        let supposed: Vec<_> = self.given.iter().filter(of_it).collect();
+        let [only] = supposed[..] else { panic!("{}: of {name} it is not supposed where it is", self.name) };
+        assert!(only.interval().is_some_and(|(x, ..)| x == name), "{}: {only} is no interval of {name}", self.name);
+        Claim { computed: Some((name, by.into())), ..self }
     }
 
     /// Its formulas, but for those of its hypotheses.
     pub fn trees(&self) -> Vec<&Tree> {
-        match &self.kind {
-            Kind::Equal(a, b) | Kind::Derivative { of: a, is: b, .. } => vec![a, b],
+        let mut all = match &self.kind {
+            Kind::Equal(a, b) | Kind::Derivative { of: a, is: b, .. } | Kind::Within(a, b) => vec![a, b],
             Kind::Sign(_, a) => vec![a],
             Kind::Limit { of, to, rate: Rate::Exactly(rate) | Rate::Within(rate), .. } => vec![of, to, rate],
             Kind::Vanishing { ratio, of, to } => vec![ratio, of, to],
             Kind::Induction { ratio, start, step, closed } => {
                 [ratio].into_iter().chain(start).chain(step).chain(closed).collect()
             }
-        }
+            Kind::Drift { ratio, start, step, near, bound, also } => {
+                let also = also.iter().flat_map(|(of, bound)| [of, bound]);
+                [ratio, start, step, near, bound].into_iter().chain(also).collect()
+            }
+        };
+        all.extend(self.computed.iter().map(|(_, by)| by));
+        all
+    }
+
+    /// Does it speak of what is rounded, which is true of floats?
+    pub fn rounds(&self) -> bool {
+        self.trees().into_iter().any(Tree::rounds)
     }
 
     /// Does it speak of eˣ, which rationals have not?
@@ -263,6 +176,15 @@ impl Claim {
         let kind = match &self.kind {
             Kind::Equal(a, b) => Kind::Equal(f(a), f(b)),
             Kind::Sign(relation, a) => Kind::Sign(*relation, f(a)),
+            Kind::Within(a, bound) => Kind::Within(f(a), f(bound)),
+            Kind::Drift { ratio, start, step, near, bound, also } => Kind::Drift {
+                ratio: f(ratio),
+                start: f(start),
+                step: f(step),
+                near: f(near),
+                bound: f(bound),
+                also: also.iter().map(|(of, bound)| (f(of), f(bound))).collect(),
+            },
             Kind::Derivative { of, by, is } => Kind::Derivative { of: f(of), by, is: f(is) },
             Kind::Limit { of, by, to, rate } => {
                 let rate = match rate {
@@ -276,7 +198,8 @@ impl Claim {
                 Kind::Induction { ratio: f(ratio), start: all(start), step: all(step), closed: all(closed) }
             }
         };
-        Claim { kind, ..self.clone() }
+        let computed = self.computed.as_ref().map(|(name, by)| (*name, f(by)));
+        Claim { kind, computed, ..self.clone() }
     }
 }
 
@@ -304,6 +227,16 @@ pub fn non_negative<const N: usize>(
     of: impl Into<Tree>,
 ) -> Claim {
     Claim::new(name, &given, Kind::Sign(Relation::NonNegative, of.into()))
+}
+
+/// A formula is no larger in size than a bound.
+pub fn within<const N: usize>(
+    name: &'static str,
+    given: [&Hypothesis; N],
+    of: impl Into<Tree>,
+    bound: impl Into<Tree>,
+) -> Claim {
+    Claim::new(name, &given, Kind::Within(of.into(), bound.into()))
 }
 
 /// The derivative of a formula by a symbol is another formula.
@@ -366,48 +299,6 @@ pub fn vanishing<const N: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn hypotheses_are_written_as_a_reader_does() {
-        let [c, eps, r] = ["c", "ε", "R"].map(|name| Tree::symbol(name));
-        let two = || Tree::int(2);
-        let text = |relation, value| Hypothesis::new(relation, value).to_string();
-        use Relation::*;
-        for (relation, value, written) in [
-            (Positive, c.clone(), "c > 0"),
-            (NonNegative, -&c, "c ≤ 0"),
-            (Zero, -&c, "c = 0"),
-            (Positive, &eps - &c, "ε > c"),
-            (NonNegative, &c * &r - &eps, "ε ≤ c R"),
-            (Positive, two() * (&c + &eps) - &r, "R < 2 (c + ε)"),
-            (Positive, -&eps - two() * &c, "ε < −2 c"),
-            (Zero, &eps + two() * &c, "ε + 2 c = 0"),
-        ] {
-            assert_eq!(text(relation, value), written);
-        }
-    }
-
-    #[test]
-    fn a_hypothesis_is_solved_for_its_symbol() {
-        let [c, eps] = ["c", "ε"].map(|name| Tree::symbol(name));
-        let at = |name| if name == "c" { 3.0 } else { 2.0 };
-        let stiffer = Hypothesis::new(Relation::Positive, &c - &eps);
-        assert_eq!((stiffer.solved_for, stiffer.solution(&at, &0.0)), ("c", Some(2.0)));
-        assert_eq!(stiffer.clone().solved_for(&eps).solution(&at, &0.0), Some(3.0));
-        let other = Hypothesis { solved_for: "x", ..stiffer };
-        assert_eq!(other.solution(&at, &0.0), None);
-    }
-
-    #[test]
-    fn what_is_undefined_does_not_hold() {
-        let inverse = Tree::int(1) / Tree::symbol("c");
-        for relation in [Relation::Positive, Relation::NonNegative, Relation::Zero] {
-            let hypothesis = Hypothesis::new(relation, inverse.clone());
-            assert!(!hypothesis.holds(&|_| 0.0), "{hypothesis} at 0");
-            assert!(!hypothesis.holds(&|_| f64::NAN), "{hypothesis} at no number");
-        }
-        assert!(Hypothesis::new(Relation::Positive, inverse).holds(&|_| 2.0));
-    }
 
     #[test]
     #[should_panic(expected = "c ε is no symbol")]

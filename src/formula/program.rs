@@ -69,6 +69,7 @@ impl Program {
                 Exp(a) => value(a).and_then(|a| beyond(Exp(a))),
                 PositivePart(a) => value(a).and_then(|a| beyond(PositivePart(a))),
                 Min(a, b) => both(a, b).and_then(|(a, b)| beyond(Min(a, b))),
+                Rounded(a) => value(a).and_then(|a| beyond(Rounded(a))),
             };
             values.push(result);
         }

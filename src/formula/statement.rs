@@ -1,6 +1,7 @@
 //! What is to be proved: a claim, read in trees.
 
-use super::claim::{Claim, Hypothesis, Kind, MEMBERS, POWER, Rate, Relation};
+use super::claim::{Claim, Kind, MEMBERS, POWER, PRECISION, Rate};
+use super::hypothesis::{Hypothesis, Relation};
 use crate::number::Tree;
 use num_traits::{One, Zero};
 
@@ -15,13 +16,28 @@ pub struct Statement {
     pub kind: &'static str,
     /// What is supposed.
     pub hypotheses: Vec<Hypothesis>,
+    /// What goes without saying where formulas round: a number has 2 bits or more.
+    pub precision: Option<Hypothesis>,
     /// What holds at every step of an induction; part of its proof, and not supposed.
     pub invariants: Vec<Hypothesis>,
+    /// What is supposed of a quantity that is computed, and proved of it.
+    pub computed: Option<Computed>,
     /// What follows.
     pub goals: Vec<Goal>,
     /// What the goals amount to, where that is more than they say: for readers, and no part of what is
     /// proved.
     pub amounts_to: Option<Sequence>,
+}
+
+/// A quantity that is computed.
+#[derive(Clone, Debug)]
+pub struct Computed {
+    /// What it is called.
+    pub symbol: &'static str,
+    /// How it is computed.
+    pub by: Tree,
+    /// In which interval it is.
+    pub hypothesis: Hypothesis,
 }
 
 /// A statement about all members of a sequence.
@@ -37,6 +53,8 @@ pub struct Sequence {
     pub member: Vec<Tree>,
     /// Its limit; `None` if that is not spoken of.
     pub limit: Option<Tree>,
+    /// If its k-th member is only near that: what is of limited size, with its bound.
+    pub within: Vec<(Tree, Tree)>,
 }
 
 /// A part of a claim.
@@ -61,6 +79,8 @@ pub enum Role {
     Begins,
     /// An invariant holds after a step if it does before.
     Continues,
+    /// What is computed is where it may be supposed to be.
+    Computed,
 }
 
 /// What a goal says.
@@ -70,6 +90,8 @@ pub enum Says {
     Equal(Tree, Tree),
     /// A formula is defined and has a sign.
     Sign(Relation, Tree),
+    /// A formula is no larger in size than another.
+    Within(Tree, Tree),
     /// The third is the derivative of the first by a quantity.
     Derivative(Tree, &'static str, Tree),
     /// The first tends to the third as a quantity tends to infinity.
@@ -84,18 +106,29 @@ impl Goal {
 }
 
 impl Says {
+    /// A hypothesis, as something to be proved, with formulas in place of symbols.
+    ///
+    /// |x − a| ≤ b is more than that x is between a − b and a + b, if b could be negative.
+    fn of_hypothesis(hypothesis: &Hypothesis, replaced: &[(&str, Tree)]) -> Self {
+        match hypothesis.distance() {
+            Some((distance, most)) => Says::Within(distance.with(replaced), most.with(replaced)),
+            None => Says::Sign(hypothesis.relation, hypothesis.value.with(replaced)),
+        }
+    }
+
     /// The symbol that varies, if one does.
     pub fn variable(&self) -> Option<&'static str> {
         match self {
             Says::Derivative(_, by, _) | Says::Limit(_, by, _) => Some(by),
-            Says::Equal(..) | Says::Sign(..) => None,
+            Says::Equal(..) | Says::Sign(..) | Says::Within(..) => None,
         }
     }
 
     /// Its formulas.
     pub fn trees(&self) -> [&Tree; 2] {
         match self {
-            Says::Equal(a, b) | Says::Derivative(a, _, b) | Says::Limit(a, _, b) => [a, b],
+            Says::Equal(a, b) | Says::Within(a, b) => [a, b],
+            Says::Derivative(a, _, b) | Says::Limit(a, _, b) => [a, b],
             Says::Sign(_, a) => [a, a],
         }
     }
@@ -113,9 +146,17 @@ impl Statement {
         let of_q = |given: &Hypothesis| given.value.symbols().contains(POWER);
         let (mut hypotheses, mut invariants) = (claim.given.clone(), Vec::new());
         let mut goals = Vec::new();
+        let computed = claim.computed.as_ref().and_then(|(symbol, by)| {
+            let of_it = |given: &Hypothesis| given.interval().is_some_and(|(x, ..)| x == *symbol);
+            let hypothesis = hypotheses.remove(hypotheses.iter().position(of_it)?);
+            let says = Says::of_hypothesis(&hypothesis, &[(symbol, by.clone())]);
+            goals.push(Goal { part: "computed", role: Role::Computed, says });
+            Some(Computed { symbol, by: by.clone(), hypothesis })
+        });
         let mut amounts_to = None;
         match &claim.kind {
             Kind::Equal(left, right) => goals.push(goal("", Says::Equal(left.clone(), right.clone()))),
+            Kind::Within(of, bound) => goals.push(goal("", Says::Within(of.clone(), bound.clone()))),
             Kind::Sign(relation, of) => goals.push(goal("", Says::Sign(*relation, of.clone()))),
             Kind::Derivative { of, by, is } => {
                 goals.push(goal("", Says::Derivative(of.clone(), by, is.clone())));
@@ -137,7 +178,7 @@ impl Statement {
                     start.len() == closed.len() && step.len() == closed.len(),
                     "a form for each component"
                 );
-                (invariants, hypotheses) = claim.given.iter().cloned().partition(of_q);
+                (invariants, hypotheses) = hypotheses.into_iter().partition(of_q);
                 let q = POWER;
                 let next = ratio * Tree::symbol(q);
                 let member = |i: usize| (MEMBERS[i], closed[i].clone());
@@ -151,18 +192,37 @@ impl Statement {
                     goals.push(Goal { part: "step", role: Role::Step, says });
                 }
                 for given in &invariants {
-                    let says = |q_is: Tree| Says::Sign(given.relation, given.value.with(&[(q, q_is)]));
-                    let begins =
-                        Goal { part: "invariant at the start", role: Role::Begins, says: says(Tree::one()) };
-                    let says = says(next.clone());
-                    goals.extend([
-                        begins,
-                        Goal { part: "invariant after a step", role: Role::Continues, says },
-                    ]);
+                    let begins = Says::of_hypothesis(given, &[(q, Tree::one())]);
+                    let continues = Says::of_hypothesis(given, &[(q, next.clone())]);
+                    goals.extend(invariant(begins, continues));
                 }
                 let (start, step) = (start.clone(), step.clone());
                 let (ratio, member) = (ratio.clone(), closed.clone());
-                amounts_to = Some(Sequence { start, step, ratio, member, limit: None });
+                amounts_to = Some(Sequence { start, step, ratio, member, limit: None, within: Vec::new() });
+            }
+            Kind::Drift { ratio, start, step, near, bound, also } => {
+                (invariants, hypotheses) = hypotheses.into_iter().partition(of_q);
+                let x = MEMBERS[0];
+                invariants.push(Hypothesis::near(&Tree::symbol(x), near, bound));
+                let at_start = [(POWER, Tree::one()), (x, start.clone())];
+                let after = [(POWER, ratio * Tree::symbol(POWER)), (x, step.clone())];
+                for given in &invariants {
+                    let [begins, continues] = [&at_start, &after].map(|at| Says::of_hypothesis(given, at));
+                    goals.extend(invariant(begins, continues));
+                }
+                for (of, bound) in also {
+                    let says = Says::Within(of.clone(), bound.clone());
+                    goals.push(Goal { part: "hence", role: Role::Step, says });
+                }
+                let own = (Tree::symbol(x) - near, bound.clone());
+                amounts_to = Some(Sequence {
+                    start: vec![start.clone()],
+                    step: vec![step.clone()],
+                    ratio: ratio.clone(),
+                    member: vec![near.clone()],
+                    limit: None,
+                    within: [own].into_iter().chain(also.iter().cloned()).collect(),
+                });
             }
             Kind::Vanishing { ratio, of, to } => {
                 let margin = Tree::one() - ratio * ratio;
@@ -170,11 +230,14 @@ impl Statement {
                 let at_zero = of.with(&[(POWER, Tree::zero())]);
                 goals.push(goal("at q = 0", Says::Equal(at_zero, to.clone())));
                 let (ratio, member, limit) = (ratio.clone(), vec![of.clone()], Some(to.clone()));
-                amounts_to = Some(Sequence { start: Vec::new(), step: Vec::new(), ratio, member, limit });
+                let (start, step, within) = (Vec::new(), Vec::new(), Vec::new());
+                amounts_to = Some(Sequence { start, step, ratio, member, limit, within });
             }
         }
         let (equation, name, kind) = (claim.equation, claim.name, claim.kind.name());
-        Statement { equation, name, kind, hypotheses, invariants, goals, amounts_to }
+        let two_bits = || Hypothesis::new(Relation::NonNegative, Tree::symbol(PRECISION) - Tree::from(4));
+        let precision = claim.rounds().then(two_bits);
+        Statement { equation, name, kind, hypotheses, precision, invariants, computed, goals, amounts_to }
     }
 
     /// Without one of its hypotheses.
@@ -184,9 +247,18 @@ impl Statement {
         less
     }
 
-    /// Its hypotheses and its invariants.
+    /// Its hypotheses and that of the precision: last if others speak of that, for they say more.
+    pub fn given(&self) -> impl Iterator<Item = &Hypothesis> {
+        let of_precision = |h: &Hypothesis| h.value.symbols().contains(PRECISION);
+        let last = self.hypotheses.iter().any(of_precision);
+        let (before, after) = if last { (None, self.precision.as_ref()) } else { (self.precision.as_ref(), None) };
+        before.into_iter().chain(&self.hypotheses).chain(after)
+    }
+
+    /// All that it supposes: also its invariants, and where what is computed is.
     pub fn supposed(&self) -> impl Iterator<Item = &Hypothesis> {
-        self.hypotheses.iter().chain(&self.invariants)
+        let computed = self.computed.iter().map(|computed| &computed.hypothesis);
+        self.given().chain(&self.invariants).chain(computed)
     }
 
     /// All its formulas.
@@ -194,4 +266,10 @@ impl Statement {
         let hypotheses = self.supposed().map(|h| &h.value);
         hypotheses.chain(self.goals.iter().flat_map(|goal| goal.says.trees()))
     }
+}
+
+/// What has to be shown of an invariant: it holds at the start, and after a step if it does before.
+fn invariant(begins: Says, continues: Says) -> [Goal; 2] {
+    let begins = Goal { part: "invariant at the start", role: Role::Begins, says: begins };
+    [begins, Goal { part: "invariant after a step", role: Role::Continues, says: continues }]
 }

@@ -80,6 +80,8 @@ enum Factor {
     Group(Sum),
     Exp(Sum),
     PositivePart(Sum),
+    Size(Sum),
+    Rounded(Sum),
     Extremum(&'static str, [Sum; 2]),
 }
 
@@ -157,6 +159,23 @@ impl Term {
     }
 }
 
+/// The x of −min(x, −x), which is |x|: what is negated.
+fn size(negated: &Tree) -> Option<&Tree> {
+    match negated.step() {
+        Step::Min(x, y) if matches!(y.step(), Step::Neg(z) if z == x) => Some(x),
+        _ => None,
+    }
+}
+
+/// What is rounded at every step says so once, and fl(a + b c) means fl(a + fl(b c)): the formula without the
+/// roundings inside, down to where a step does not round.
+fn unrounded(tree: &Tree) -> Tree {
+    match tree.step() {
+        Step::Rounded(a) => a.with_step(a.step().map(unrounded)),
+        _ => tree.clone(),
+    }
+}
+
 /// Arranges what is to be written.
 struct Layout<'a> {
     name: &'a dyn Fn(&Tree) -> Option<Name>,
@@ -185,7 +204,7 @@ impl Layout<'_> {
     fn collect(&self, tree: &Tree, negative: bool, sum: &mut Sum) {
         match tree.step() {
             _ if (self.name)(tree).is_some() => {}
-            Step::Neg(a) => return self.collect(a, !negative, sum),
+            Step::Neg(a) if size(a).is_none() => return self.collect(a, !negative, sum),
             Step::Add(a, b) => {
                 self.collect(a, negative, sum);
                 return self.collect(b, negative, sum);
@@ -218,7 +237,10 @@ impl Layout<'_> {
                 let number = Term::over(Product::number(n.unsigned_abs().into()));
                 Term { negative: *n < 0, ..number }
             }
-            Step::Neg(a) => self.term(a).negated(),
+            Step::Neg(a) => match size(a) {
+                Some(a) => Term::of(Factor::Size(self.sum(a)), 1),
+                None => self.term(a).negated(),
+            },
             Step::Add(..) | Step::Sub(..) => match <[Term; 1]>::try_from(self.sum(tree)) {
                 Ok([term]) => term,
                 Err(sum) => Term::of(Factor::Group(sum), 1),
@@ -235,6 +257,7 @@ impl Layout<'_> {
             Step::Exp(a) => Term::of(Factor::Exp(self.sum(a)), 1),
             Step::PositivePart(a) => Term::of(Factor::PositivePart(self.sum(a)), 1),
             Step::Min(a, b) => Term::of(Factor::Extremum("min", [self.sum(a), self.sum(b)]), 1),
+            Step::Rounded(_) => Term::of(Factor::Rounded(self.sum(&unrounded(tree))), 1),
         }
     }
 }
@@ -346,6 +369,12 @@ impl Writer {
                 self.brackets("\\langle ", " \\rangle", &self.sum(sum))
             }
             Factor::PositivePart(sum) => self.brackets("⟨", "⟩", &self.sum(sum)),
+            Factor::Size(sum) if self.is_latex() => self.brackets("\\lvert ", " \\rvert", &self.sum(sum)),
+            Factor::Size(sum) => self.brackets("|", "|", &self.sum(sum)),
+            Factor::Rounded(sum) if self.is_latex() => {
+                format!("\\mathrm{{fl}}{}", self.brackets("(", ")", &self.sum(sum)))
+            }
+            Factor::Rounded(sum) => format!("fl{}", self.brackets("(", ")", &self.sum(sum))),
             Factor::Extremum(name, sums) => {
                 format!("{}{name}{}", if self.is_latex() { "\\" } else { "" }, self.list(sums))
             }

@@ -76,6 +76,20 @@ impl Field for Exact {
 }
 ordered!(Exact);
 
+impl Exact {
+    /// The nearest number of so many bits, the even one of two; 0 bits are none.
+    ///
+    /// ```
+    /// use spring_mass_contact::number::Exact;
+    /// let tenth: Exact = "0.1".parse()?;
+    /// assert_eq!(tenth.rounded(3).unwrap(), "13/128".parse()?); // 5/64 < 3/32 < 13/128
+    /// # Ok::<(), spring_mass_contact::number::ParseError>(())
+    /// ```
+    pub fn rounded(&self, bits: u32) -> Option<Self> {
+        (bits > 0).then(|| Float::with_val(bits, &self.0).to_rational())?.map(Exact)
+    }
+}
+
 /// As `p/q` in lowest terms, or as an integer; reading it back gives the same number.
 impl fmt::Display for Exact {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {

@@ -3,9 +3,9 @@
 //! | trait | adds | so that one can write |
 //! |---|---|---|
 //! | [`Field`] | `+ − × ÷`, zero, one, small integers | every identity of the chapter |
-//! | [`PositivePart`] | ⟨x⟩ = max(x, 0) and min | a plane that pushes and never pulls |
+//! | [`PositivePart`] | ⟨x⟩ = max(x, 0), min and \|x\| | a plane that pushes and never pulls |
 //! | [`Exponential`] | eˣ | the solution (1.30) of the analogous ODE |
-//! | [`OrderedField`] | `<`, \|x\| | the stop test (1.33), searches, tests |
+//! | [`OrderedField`] | `<` | the stop test (1.33), searches, tests |
 //! | [`Real`] | rounding | error bounds |
 //! | [`Logarithm`] | ln | what floats alone can do |
 //!
@@ -117,6 +117,11 @@ pub trait PositivePart: Field {
 
     /// The smaller of two numbers. Exact.
     fn min(&self, other: &Self) -> Self;
+
+    /// |x|, the larger of x and −x. Exact.
+    fn abs(&self) -> Self {
+        -self.min(&-self)
+    }
 }
 
 /// Numbers with eˣ, for the ODE analogy (1.22)-(1.32).
@@ -128,12 +133,7 @@ pub trait Exponential: Field {
 }
 
 /// Numbers that can be compared.
-pub trait OrderedField: PositivePart + PartialOrd {
-    /// |x|. Exact.
-    fn abs(&self) -> Self {
-        if *self < Self::zero() { -self } else { self.clone() }
-    }
-}
+pub trait OrderedField: PositivePart + PartialOrd {}
 
 /// Floating-point numbers: f32, f64 and [`Mpfr`](super::Mpfr). Every operation rounds to nearest.
 pub trait Real: OrderedField {
@@ -245,6 +245,9 @@ macro_rules! ordered {
             }
             fn min(&self, other: &Self) -> Self {
                 if other < self { other.clone() } else { self.clone() }
+            }
+            fn abs(&self) -> Self {
+                if *self < <$type>::zero() { -self } else { self.clone() }
             }
         }
         impl OrderedField for $type {}

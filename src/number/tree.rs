@@ -53,6 +53,8 @@ pub enum Step<T> {
     PositivePart(T),
     /// min(a, b)
     Min(T, T),
+    /// fl(a): the number nearest to a in some precision
+    Rounded(T),
 }
 
 /// Where in the source a step is written.
@@ -92,7 +94,7 @@ impl<T> Step<T> {
         use Step::*;
         let (a, b) = match self {
             Symbol(_) | Int(_) => (None, None),
-            Neg(a) | Exp(a) | PositivePart(a) => (Some(a), None),
+            Neg(a) | Exp(a) | PositivePart(a) | Rounded(a) => (Some(a), None),
             Add(a, b) | Sub(a, b) | Mul(a, b) | Div(a, b) | Min(a, b) => (Some(a), Some(b)),
         };
         a.into_iter().chain(b)
@@ -117,6 +119,7 @@ impl<T> Step<T> {
             Exp(a) => Exp(f(a)),
             PositivePart(a) => PositivePart(f(a)),
             Min(a, b) => Min(f(a), f(b)),
+            Rounded(a) => Rounded(f(a)),
         }
     }
 }
@@ -150,6 +153,33 @@ impl Tree {
         node(Step::Symbol(name))
     }
 
+    /// The number nearest to it in some precision, as one step more.
+    #[track_caller]
+    pub fn nearest(&self) -> Self {
+        node(Step::Rounded(self.clone()))
+    }
+
+    /// The formula as a machine computes it: the result of every + − × ÷ and eˣ is rounded. What is taken from
+    /// what is there, a sign or one of two numbers, is exact.
+    ///
+    /// ```
+    /// use spring_mass_contact::number::Tree;
+    /// let [l, u, h] = ["l", "u", "H"].map(|name| Tree::symbol(name));
+    /// let sum = (&l + &u).nearest();
+    /// assert_eq!((&l + &u - &h).rounded(), (sum - h).nearest());
+    /// ```
+    pub fn rounded(&self) -> Self {
+        use Step::{Add, Div, Exp, Mul, Sub};
+        let rounds = |tree: &Tree| matches!(tree.step(), Add(..) | Sub(..) | Mul(..) | Div(..) | Exp(_));
+        // At the place of the step itself.
+        self.rewrite(&|tree| rounds(tree).then(|| tree.with_step(Step::Rounded(tree.clone()))))
+    }
+
+    /// Does it round?
+    pub fn rounds(&self) -> bool {
+        self.any(&|tree| matches!(tree.step(), Step::Rounded(_)))
+    }
+
     /// The last step.
     pub fn step(&self) -> &Step<Tree> {
         &self.0.step
@@ -160,8 +190,9 @@ impl Tree {
         self.0.site
     }
 
-    /// The formula in a number system, whose eˣ, ⟨·⟩ and min are in `beyond` ([`piecewise`], [`smooth`],
-    /// [`everything`]); `None` where it lacks one, or where the formula divides by what is no unit.
+    /// The formula in a number system, whose eˣ, ⟨·⟩, min and rounding are in `beyond` ([`piecewise`],
+    /// [`smooth`], [`everything`]); `None` where it lacks one, or where the formula divides by what is no
+    /// unit.
     pub fn replay<T: Field>(
         &self,
         symbol: &impl Fn(&'static str) -> T,
@@ -186,6 +217,7 @@ impl Tree {
             Exp(a) => beyond(Exp(&replay(a)?))?,
             PositivePart(a) => beyond(PositivePart(&replay(a)?))?,
             Min(a, b) => beyond(Min(&replay(a)?, &replay(b)?))?,
+            Rounded(a) => beyond(Rounded(&replay(a)?))?,
         })
     }
 
@@ -342,5 +374,9 @@ impl PositivePart for Tree {
     #[track_caller]
     fn min(&self, other: &Self) -> Self {
         node(Step::Min(self.clone(), other.clone()))
+    }
+    #[track_caller]
+    fn abs(&self) -> Self {
+        -PositivePart::min(self, &-self)
     }
 }

@@ -17,7 +17,18 @@
 //! | a = b | a − b is the zero polynomial over some denominator |
 //! | a > 0, a ≥ 0, a = 0 | the sign of its numerator and of its denominator ([`sign`](mod@sign)) |
 //! | da/dx = b | dual numbers differentiate a by the sum, product and quotient rules; then as a = b |
+//! | \|a\| ≤ b | the signs of b − a and b + a |
 //! | lim a = b for x → ∞ | degrees in x; e^… with an exponent that tends to −∞ vanishes against any power |
+//!
+//! A quantity that is supposed to be in an interval is, for some −1 ≤ t ≤ 1, its middle and t times half of its
+//! length; so it is replaced.
+//!
+//! **Rounding.** fl(x), the number of p bits nearest to x, is x (N + e)/N for some −1 ≤ e ≤ 1, where N = n + 1
+//! and n = 2ᵖ; nothing is said about over- and underflow. For if 2ᵏ ≤ |x| < 2ᵏ⁺¹ then |fl(x) − x| ≤ 2ᵏ/n, and
+//! |x| is 2ᵏ at least, and 2ᵏ (1 + 1/n) at least where the error is as large as that, since 2ᵏ itself has
+//! p bits. So the kernel reads it, with an e of its own for each formula that is rounded. Two of
+//! which it sees that they are equal, up to powers of two, have the same e. Rounding keeps order: a − b is not
+//! negative if, step by step, nothing in a is less than what stands in its place in b ([`Order`]).
 //!
 //! The names of the new symbols, and of the members of an induction, must not occur in a statement otherwise:
 //! `kept` sees to it.
@@ -31,8 +42,8 @@ pub(super) mod sign;
 pub use derivation::{Because, Derivation, Direct, Proof, Signed, Supposed, Used, Why};
 
 use self::algebra::{Monomial, Poly, Ratio, Symbol};
-use self::sign::{Known, Sign, sign};
-use crate::formula::claim::{MEMBERS, POWER};
+use self::sign::{ERRORS, Known, PLACES, Sign, is_small, sign};
+use crate::formula::claim::{MEMBERS, POWER, PRECISION};
 use crate::formula::statement::{Goal, Role, Says, Sequence, Statement};
 use crate::formula::{Hypothesis, Relation};
 use crate::number::tree::{self, Step};
@@ -60,12 +71,21 @@ pub fn prove(statement: &Statement) -> Result<Proof, Why> {
     if let Some(name) = kept(statement) {
         return Err(Why::Reserved(name));
     }
-    let given = Context::default().with(&statement.hypotheses)?;
+    let roundings = roundings(statement);
+    if roundings.len() > ERRORS.len() {
+        return Err(Why::TooMany);
+    }
+    let given = Context { roundings, ..Context::default() }.with(statement.given())?;
     let in_a_step = given.clone().with(&statement.invariants)?;
+    let computed = || statement.computed.iter().map(|computed| &computed.hypothesis);
+    let [claim, step] = [&given, &in_a_step].map(|context| context.clone().with(computed()));
+    let (claim, step) = (claim?, step?);
     let goals = statement.goals.iter().map(|goal| {
         let context = match goal.role {
-            Role::Claim | Role::Begins => &given,
-            Role::Step | Role::Continues => &in_a_step,
+            Role::Claim => &claim,
+            Role::Begins => &given,
+            Role::Computed => &in_a_step,
+            Role::Step | Role::Continues => &step,
         };
         derive(goal, context, CASES)
     });
@@ -78,12 +98,32 @@ pub fn prove(statement: &Statement) -> Result<Proof, Why> {
 fn kept(statement: &Statement) -> Option<&'static str> {
     let variables = statement.goals.iter().filter_map(|goal| goal.says.variable());
     let symbols = statement.trees().flat_map(Tree::symbols).chain(variables);
-    let own = symbols.into_iter().find(|name| NAMES.contains(name) || MEMBERS.contains(name));
-    own.or_else(|| {
-        let Sequence { start, ratio, limit, .. } = statement.amounts_to.as_ref()?;
-        let fixed = start.iter().chain([ratio]).chain(limit);
-        fixed.flat_map(Tree::symbols).find(|name| *name == POWER)
+    // Of a sequence that is only near a closed form, the member is spoken of.
+    let drifts = statement.amounts_to.as_ref().is_some_and(|sequence| !sequence.within.is_empty());
+    let member = |name: &&str| MEMBERS.contains(name) && !(drifts && *name == MEMBERS[0]);
+    let own = |name: &&'static str| NAMES.contains(name) || is_small(Symbol(name)) || member(name);
+    symbols.into_iter().find(own).or_else(|| {
+        let Sequence { start, ratio, limit, member, within, .. } = statement.amounts_to.as_ref()?;
+        let fixed = start.iter().chain([ratio]).chain(limit).flat_map(Tree::symbols);
+        let bounds = within.iter().map(|(_, bound)| bound);
+        let of_member = member.iter().chain(bounds).flat_map(Tree::symbols).filter(|name| *name == MEMBERS[0]);
+        fixed.filter(|name| *name == POWER || MEMBERS.contains(name)).chain(of_member).next()
     })
+}
+
+/// All that is rounded in a statement, each after what is rounded in it.
+fn roundings(statement: &Statement) -> Vec<Tree> {
+    fn collect(tree: &Tree, all: &mut Vec<Tree>) {
+        tree.step().operands().for_each(|operand| collect(operand, all));
+        if let Step::Rounded(of) = tree.step()
+            && !all.contains(of)
+        {
+            all.push(of.clone());
+        }
+    }
+    let mut all = Vec::new();
+    statement.trees().for_each(|tree| collect(tree, &mut all));
+    all
 }
 
 /// How many splits may be nested.
@@ -116,14 +156,22 @@ struct Context {
     supposed: Vec<Supposed>,
     known: Known,
     rules: Vec<(Monomial, Ratio)>,
+    /// What is rounded: with the errors of the same place.
+    roundings: Vec<Tree>,
 }
 
 impl Context {
     /// With hypotheses more.
-    fn with(mut self, hypotheses: &[Hypothesis]) -> Result<Self, Why> {
+    fn with<'h>(mut self, hypotheses: impl IntoIterator<Item = &'h Hypothesis>) -> Result<Self, Why> {
         for hypothesis in hypotheses {
-            let value = Reader::new(&self).read(&hypothesis.value)?;
-            self.suppose(Some(hypothesis), value, hypothesis.relation.into());
+            let mut reader = Reader::new(&self);
+            if let Some((x, lower, upper)) = hypothesis.interval() {
+                let [lower, upper] = [reader.read(lower)?, reader.read(upper)?];
+                self.suppose_between(hypothesis, Symbol(x), &lower, &upper);
+            } else {
+                let value = reader.read(&hypothesis.value)?;
+                self.suppose(Some(hypothesis), value, hypothesis.relation.into());
+            }
         }
         Ok(self)
     }
@@ -179,12 +227,37 @@ impl Context {
                 .map_or(Used::Unused, |(pivot, by)| Used::Pivot(pivot, by, None)),
         };
         if let Used::Pivot(pivot, by, _) = &used {
-            for (_, older) in &mut self.rules {
-                *older = older.replace(pivot, by);
-            }
-            self.rules.push((pivot.clone(), by.clone()));
+            self.replace(pivot.clone(), by.clone());
         }
         self.supposed.push(Supposed { given: given.cloned(), value, sign, used });
+    }
+
+    /// Takes in that a symbol is in an interval: for some t between −1 and 1 it is its middle and t times half
+    /// of its length.
+    fn suppose_between(&mut self, given: &Hypothesis, x: Symbol, lower: &Ratio, upper: &Ratio) {
+        let half = Ratio::from(Poly::constant((1, 2)));
+        let [middle, reach] = [upper + lower, upper - lower].map(|sum| self.reduce(&(sum * &half)));
+        let own = Ratio::from(Poly::symbol(x));
+        let open = self.reduce(&own) == own;
+        let named = self.supposed.iter().filter(|s| matches!(s.used, Used::Between(..))).count();
+        let used = match PLACES.get(named).copied().map(Symbol) {
+            Some(place) if open && !middle.symbols().contains(&x) && !reach.symbols().contains(&x) => {
+                let by = &middle + reach * Ratio::from(Poly::symbol(place));
+                self.replace(Monomial::of(x), by.clone());
+                Used::Between(x, by, place)
+            }
+            _ => Used::Unused,
+        };
+        let sign = Sign::NonNegative;
+        self.supposed.push(Supposed { given: Some(given.clone()), value: own - middle, sign, used });
+    }
+
+    /// From now on a monomial is replaced.
+    fn replace(&mut self, pivot: Monomial, by: Ratio) {
+        for (_, older) in &mut self.rules {
+            *older = older.replace(&pivot, &by);
+        }
+        self.rules.push((pivot, by));
     }
 
     /// A monomial of the quantity, and what it equals if the quantity is `slack`.
@@ -203,10 +276,12 @@ impl Context {
             (strict && !by.symbols().contains(&x)).then_some((length, (Monomial::of(x), by)))
         };
         let symbols = value.num().symbols();
-        let free = symbols.iter().filter(|x| !self.known.contains_key(x)).filter_map(|x| solved(*x));
+        let free = |x: &&Symbol| !self.known.contains_key(x) && !is_small(**x);
+        let free = symbols.iter().filter(free).filter_map(|x| solved(*x));
         let product = || {
             let known = |m: &Monomial| m.powers().filter(|(x, _)| self.known.contains_key(x)).count();
-            let own = value.num().terms().map(|(m, _)| m).filter(|m| m.powers().len() > 1);
+            let large = |m: &&Monomial| m.powers().len() > 1 && !m.powers().any(|(x, _)| is_small(x));
+            let own = value.num().terms().map(|(m, _)| m).filter(large);
             let pivot = own.min_by_key(|m| known(m))?.clone();
             let coefficient = equation.terms().find(|(m, _)| **m == pivot)?.1.clone();
             let rest = &equation - Poly::constant(coefficient.clone()) * Poly::from(pivot.clone());
@@ -237,6 +312,16 @@ impl Context {
                 }
                 Because::Sign(signed)
             }
+            Says::Within(of, bound) => {
+                let (of, bound) = (reader.read(of)?, reader.read(bound)?);
+                let not_negative = |value: Ratio| {
+                    let value = self.reduce(&value);
+                    let signed = self.sign(value.clone()).ok_or_else(|| Why::NoSign(value.clone()))?;
+                    let holds = signed.sign().implies(Sign::NonNegative);
+                    if holds { Ok(signed) } else { Err(Why::WrongSign(value, signed.sign())) }
+                };
+                Because::Within(not_negative(&bound - &of)?, not_negative(bound + of)?)
+            }
             Says::Derivative(of, by, is) => {
                 let Dual { derivative, .. } =
                     of.derivative(by, &|name| Tree::symbol(name), &tree::smooth).ok_or(Why::Kink)?;
@@ -249,8 +334,8 @@ impl Context {
                 self.limit(of, x, to)?
             }
         };
-        let Reader { divisors, brackets, .. } = reader;
-        Ok(Direct { supposed: self.supposed.clone(), divisors, brackets, because })
+        let Reader { divisors, brackets, errors, .. } = reader;
+        Ok(Direct { supposed: self.supposed.clone(), errors, divisors, brackets, because })
     }
 
     /// Two quotients are equal: what they are.
@@ -318,11 +403,15 @@ struct Reader<'a> {
     context: &'a Context,
     divisors: Vec<(Tree, Signed)>,
     brackets: Vec<(Tree, Tree, Signed)>,
+    /// What has been rounded, without factors that are powers of two, and with which error.
+    rounded: Vec<(Ratio, algebra::Symbol)>,
+    errors: Vec<(Tree, algebra::Symbol)>,
 }
 
 impl<'a> Reader<'a> {
     fn new(context: &'a Context) -> Self {
-        Reader { context, divisors: Vec::new(), brackets: Vec::new() }
+        let (divisors, brackets, rounded, errors) = Default::default();
+        Reader { context, divisors, brackets, rounded, errors }
     }
 
     fn read(&mut self, tree: &Tree) -> Result<Ratio, Why> {
@@ -350,7 +439,34 @@ impl<'a> Reader<'a> {
             }
             PositivePart(a) => self.either(tree, a, &tree.with_step(Int(0)), |a, _| a)?,
             Min(a, b) => self.either(tree, a, b, |a, b| b - a)?,
+            Rounded(a) => {
+                let value = self.read(a)?;
+                let (error, largest) = self.rounding(a, &value)?;
+                let nearest = &largest + Ratio::from(Poly::symbol(error));
+                (value * nearest).over(&largest).ok_or(Why::MightVanish(largest))?
+            }
         })
+    }
+
+    /// The error of what is rounded, and N.
+    fn rounding(&mut self, of: &Tree, value: &Ratio) -> Result<(algebra::Symbol, Ratio), Why> {
+        let one = Poly::constant(1);
+        let largest = self.context.reduce(&Ratio::from(Poly::symbol(algebra::Symbol(PRECISION)) + one));
+        let value = self.context.reduce(value);
+        let same = self.rounded.iter().find(|(known, _)| (known - &value).is_zero());
+        let error = match same {
+            Some((_, error)) => *error,
+            None => {
+                let place = self.context.roundings.iter().position(|known| known == of);
+                let error = algebra::Symbol(ERRORS[place.ok_or(Why::TooMany)?]);
+                self.rounded.push((value, error));
+                error
+            }
+        };
+        if self.errors.iter().all(|(known, _)| known != of) {
+            self.errors.push((of.clone(), error));
+        }
+        Ok((error, largest))
     }
 
     /// A bracket: the first where what decides is ≥ 0, the second where it is ≤ 0. It has to be one of them

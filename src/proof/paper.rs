@@ -5,11 +5,11 @@ mod algebra;
 use self::algebra::Order;
 use super::kernel::sign::{Rule, Sign};
 use super::kernel::{Because, Derivation, Direct, Proof, Signed, Supposed, Used, Why};
-use crate::formula::claim::MEMBERS;
+use crate::formula::claim::{MEMBERS, PRECISION};
 use crate::formula::statement::{Goal, Says, Sequence, Statement};
 use crate::formula::{Formula, Hypothesis, Notation, Registry};
-use crate::number::Tree;
 use crate::number::tree::Step;
+use crate::number::{PositivePart, Tree};
 
 /// Writes claims and proofs in the names that a registry has for quantities.
 #[derive(Clone, Copy, Debug)]
@@ -25,11 +25,18 @@ impl<'a> Paper<'a> {
 
     /// What a claim says, in one line.
     pub fn claim(&self, statement: &Statement) -> String {
-        if let Some(Sequence { start, step, ratio, member, limit }) = &statement.amounts_to {
+        if let Some(Sequence { start, step, ratio, member, limit, within }) = &statement.amounts_to {
             let together =
                 |trees: &[Tree]| trees.iter().map(|tree| self.text(tree)).collect::<Vec<_>>().join(", ");
             let (ratio, member) = (self.text(ratio), together(member));
             return match limit {
+                None if !within.is_empty() => {
+                    let bound = |(of, bound): &(Tree, Tree)| self.says(&Says::Within(of.clone(), bound.clone()));
+                    let bounds: Vec<_> = within.iter().map(bound).collect();
+                    let (from, to) = (together(start), together(step));
+                    let x = MEMBERS[0];
+                    format!("k steps from {from}, each of {x} to {to}, lead to {x} with {}, where q = {ratio}ᵏ", bounds.join(" and "))
+                }
                 Some(limit) => format!("{member} → {} for q = {ratio}ᵏ and k → ∞", self.text(limit)),
                 None => {
                     let (from, to, members) = (together(start), together(step), &MEMBERS[..step.len()]);
@@ -49,6 +56,7 @@ impl<'a> Paper<'a> {
         match says {
             Says::Equal(left, right) => format!("{} = {}", self.text(left), self.text(right)),
             Says::Sign(relation, of) => format!("{} {relation} 0", self.text(of)),
+            Says::Within(of, bound) => format!("{} ≤ {}", self.text(&of.abs()), self.text(bound)),
             Says::Derivative(of, by, is) => format!("∂/∂{} [{}] = {}", by, self.text(of), self.text(is)),
             Says::Limit(of, by, to) => format!("lim [{}] = {} for {} → ∞", self.text(of), self.text(to), by),
         }
@@ -151,6 +159,11 @@ impl<'a> Paper<'a> {
 
     fn direct(&self, direct: &Direct) -> Vec<String> {
         let mut lines: Vec<String> = direct.supposed().iter().filter_map(|s| self.supposed(s)).collect();
+        let errors = direct.errors().iter().map(|(of, error)| format!("{} of fl({})", error.0, self.text(of)));
+        let errors: Vec<_> = errors.collect();
+        if !errors.is_empty() {
+            lines.push(format!("fl(x) = x (N + e)/N with |e| ≤ 1, N = {PRECISION} + 1: {}", errors.join(", ")));
+        }
         for (divisor, nonzero) in direct.divisors() {
             explain(format!("{} ≠ 0", self.text(divisor)), self.signed(nonzero), &mut lines);
         }
@@ -168,6 +181,12 @@ impl<'a> Paper<'a> {
         match direct.because() {
             Because::Same(value) => lines.push(format!("both sides are {}", self.order().ratio(value))),
             Because::Sign(sign) => lines.extend(self.signed(sign)),
+            Because::Within(above, below) => {
+                for (what, signed) in [("less it", above), ("and it", below)] {
+                    lines.push(format!("the bound {what}:"));
+                    lines.extend(self.signed(signed).into_iter().map(|line| format!("  {line}")));
+                }
+            }
             Because::Derivative(value) => lines.push(format!(
                 "dual numbers differentiate it to {}, which is the right side",
                 self.order().ratio(value)
@@ -192,6 +211,12 @@ impl<'a> Paper<'a> {
             Used::Symbol(_) => None,
             Used::Follows => Some(format!("{name} follows")),
             Used::Unused => Some(format!("{name} is not used")),
+            Used::Between(x, by, place) => Some(format!(
+                "by {name}: {} = {}, where −1 ≤ {} ≤ 1",
+                x.0,
+                self.order().ratio_or_size(by),
+                place.0
+            )),
             Used::Pivot(pivot, by, slack) => {
                 let solved = format!("{} = {}", self.order().monomial(pivot), self.order().ratio(by));
                 Some(match slack {
@@ -210,7 +235,7 @@ impl<'a> Paper<'a> {
     fn signed(&self, signed: &Signed) -> Vec<String> {
         let mut lines = Vec::new();
         if !signed.value().den().is_one() {
-            lines.push(format!("it is {}", self.order().ratio(signed.value())));
+            lines.push(format!("it is {}", self.order().ratio_or_size(signed.value())));
             lines.extend(self.order().certificate(signed.den()));
         }
         lines.extend(self.order().certificate(signed.num()));
@@ -251,7 +276,8 @@ fn means(derivation: &Derivation) -> &'static str {
             Because::Same(_) => "identity",
             Because::Derivative(..) => "derivative",
             Because::Limit { .. } => "limit",
-            Because::Sign(signed) => match signed.num().rule() {
+            Because::Sign(signed) | Because::Within(signed, _) => match signed.num().rule() {
+                Rule::Sizes(_) => "rounding",
                 Rule::Terms => "sign by terms",
                 Rule::Factor(_, rest) if matches!(rest.rule(), Rule::Slope { .. }) => "sign by slope",
                 Rule::Factor(..) => "sign by factors",

@@ -8,11 +8,11 @@
 //!
 //! All arithmetic is exact but for eˣ, which is a ball: what is refuted is false for certain.
 
-use crate::formula::claim::POWER;
+use crate::formula::claim::{MEMBERS, POWER, PRECISION};
 use crate::formula::statement::{Role, Says, Sequence, Statement};
 use crate::formula::{Hypothesis, Relation};
-use crate::number::tree::{Step, everything, piecewise, smooth};
-use crate::number::{Exact, Tree};
+use crate::number::tree::{Step, everything, smooth};
+use crate::number::{Exact, PositivePart, Tree};
 use num_traits::{One, Zero};
 use rug::Float;
 use std::cmp::Ordering;
@@ -49,6 +49,8 @@ pub enum How {
     Different(Value, Value),
     /// This has not the sign.
     Sign(Relation, Value),
+    /// The first is larger in size than the second.
+    Beyond(Value, Value),
     /// It stays as far from its limit, or farther.
     Far(Value),
 }
@@ -64,6 +66,7 @@ impl fmt::Display for How {
                 [left, right] => write!(f, "{left} ≠ {right}"),
             },
             How::Sign(relation, value) => write!(f, "{} is not {relation} 0", brief(value)),
+            How::Beyond(of, bound) => write!(f, "|{}| is more than {}", brief(of), brief(bound)),
             How::Far(distance) => write!(f, "far out it is still {} off its limit", brief(distance)),
         }
     }
@@ -102,7 +105,12 @@ impl fmt::Display for Counterexample {
 
 /// A formula at one point; `None` if it divides by 0 there.
 fn value(tree: &Tree, point: &Point) -> Option<Value> {
-    tree.replay(&|name| Value::Exact(point.at(name)), &everything)
+    let n = point.at(PRECISION);
+    tree.replay(&|name| Value::Exact(point.at(name)), &|step| match step {
+        // What is enclosed only might round to either of two numbers.
+        Step::Rounded(Value::Exact(x)) => point::nearest(x, &n).map(Value::Exact),
+        step => everything(step),
+    })
 }
 
 /// The statement at one point.
@@ -123,6 +131,10 @@ fn check_goals(statement: &Statement, point: &Point) -> Verdict {
         }
         Some(Sequence { limit: Some(_), .. }) | None => vec![point.at(POWER)],
     };
+    if let Some(sequence) = statement.amounts_to.as_ref().filter(|sequence| !sequence.within.is_empty()) {
+        return follow(statement, sequence, point);
+    }
+    let point = &computed(statement, point);
     let mut open = false;
     for q in powers {
         let point = point.with(POWER, q);
@@ -142,8 +154,39 @@ fn check_goals(statement: &Statement, point: &Point) -> Verdict {
 /// As many steps of an induction are tried.
 const STEPS: usize = 4;
 
+/// The point with the number that is computed there.
+fn computed(statement: &Statement, point: &Point) -> Point {
+    let computed = statement.computed.as_ref();
+    let number = computed.and_then(|c| Some((c.symbol, exact(&c.by, point)?)));
+    number.map_or_else(|| point.clone(), |(symbol, x)| point.with(symbol, x))
+}
+
+/// A sequence that has to stay near a closed form, for some steps.
+fn follow(statement: &Statement, sequence: &Sequence, point: &Point) -> Verdict {
+    let Sequence { start, step, ratio, within, .. } = sequence;
+    let ([start], [step], Some(ratio)) = (&start[..], &step[..], exact(ratio, point)) else { return Verdict::Open };
+    let (mut x, mut q) = (exact(start, point), Exact::one());
+    for _ in 0..STEPS {
+        let Some(member) = x else { return Verdict::Open };
+        let point = computed(statement, &point.with(MEMBERS[0], member).with(POWER, q.clone()));
+        for (of, bound) in within {
+            match fails(&Says::Within(of.clone(), bound.clone()), &point) {
+                Some(Some(how)) => return Verdict::Fails("", how),
+                Some(None) => {}
+                None => return Verdict::Open,
+            }
+        }
+        x = exact(step, &point);
+        q = q * &ratio;
+    }
+    Verdict::Holds
+}
+
 fn exact(tree: &Tree, point: &Point) -> Option<Exact> {
-    tree.replay(&|name| point.at(name), &piecewise)
+    match value(tree, point)? {
+        Value::Exact(x) => Some(x),
+        Value::Ball(_) => None,
+    }
 }
 
 /// Is each member of the sequence its limit?
@@ -171,6 +214,13 @@ fn fails(says: &Says, point: &Point) -> Option<Option<How>> {
                 Some((!admitted).then_some(How::Sign(*relation, value)))
             }
             None => undefined().map(Some),
+        },
+        Says::Within(of, bound) => match (value(of, point), value(bound, point)) {
+            (Some(of), Some(bound)) => {
+                let beyond = (&bound - of.abs()).sign()?.is_lt();
+                Some(beyond.then_some(How::Beyond(of, bound)))
+            }
+            _ => undefined().map(Some),
         },
         // ⟨·⟩ and min have kinks; there dual numbers know of no derivative.
         Says::Derivative(of, ..) if of.any(&|tree| tree.step().is_bracket()) => None,

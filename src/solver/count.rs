@@ -2,7 +2,7 @@
 
 use super::{Plane, Scalar};
 use crate::chapter::{SpringMass, augmented, system};
-use crate::number::{Exact, OrderedField, ToExact};
+use crate::number::{Exact, PositivePart, ToExact};
 use num_traits::{One, Zero};
 use rug::float::Round;
 use rug::ops::Pow;

@@ -3,7 +3,7 @@
 use super::check::{self, SolveError};
 use super::{Scalar, State};
 use crate::chapter::{SpringMass, penalty, system};
-use crate::number::{Dual, Exact, Mpfr, OrderedField, Real, ToExact};
+use crate::number::{Dual, Exact, Mpfr, PositivePart, Real, ToExact};
 use num_traits::{One, Zero};
 use rug::Float;
 use std::cmp::Ordering;

@@ -5,7 +5,7 @@
 
 use crate::claims::{Case, Var, given};
 use crate::formula::{Hypothesis, Relation};
-use crate::number::{Exact, OrderedField};
+use crate::number::{Exact, PositivePart};
 use num_traits::Zero;
 use oorandom::Rand64;
 

@@ -3,7 +3,7 @@
 use crate::formula::claim::{MEMBERS, POWER};
 use crate::formula::statement::{Says, Statement};
 use crate::formula::{Claim, Hypothesis, Kind, Program, Relation};
-use crate::number::Tree;
+use crate::number::{PositivePart, Tree};
 use crate::number::tree::smooth;
 use num_traits::One;
 
@@ -52,6 +52,9 @@ fn asked(says: &Says, program: &mut Program) -> Option<Asked> {
             dual.map(|dual| equal(&dual.derivative, is))
         }
         Says::Sign(relation, of) => Some(Asked::Sign(*relation, program.add(of))),
+        Says::Within(of, bound) => {
+            Some(Asked::Sign(Relation::NonNegative, program.add(&(bound - of.abs()))))
+        }
         // By how fast it is reached, which is said beside it.
         Says::Limit(..) => None,
     }

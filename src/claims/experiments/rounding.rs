@@ -3,7 +3,7 @@
 use super::super::Case;
 use super::{MOST_STEPS, STEPS, Trial, exact, within};
 use crate::chapter::{SpringMass, augmented, contact, penalty, structure, system};
-use crate::number::{Exact, Field, OrderedField, Real, ToExact};
+use crate::number::{Exact, Field, PositivePart, Real, ToExact};
 use crate::solver::{Augmentation, Iterate, Plane, Scalar, rounding_floor};
 use num_traits::{One, Zero};
 

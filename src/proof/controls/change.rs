@@ -1,6 +1,6 @@
 //! What can be changed in a formula.
 
-use crate::formula::statement::{Goal, Says, Sequence};
+use crate::formula::statement::{Computed, Goal, Says, Sequence};
 use crate::formula::{Hypothesis, Registry, Statement};
 use crate::number::Tree;
 use crate::number::tree::{Site, Step};
@@ -65,7 +65,8 @@ impl Operator {
             Step::Mul(a, b) => Some((Operator::Mul, a, b)),
             Step::Div(a, b) => Some((Operator::Div, a, b)),
             Step::Min(a, b) => Some((Operator::Min, a, b)),
-            Step::Symbol(_) | Step::Int(_) | Step::Neg(_) | Step::Exp(_) | Step::PositivePart(_) => None,
+            Step::Symbol(_) | Step::Int(_) | Step::Neg(_) => None,
+            Step::Exp(_) | Step::PositivePart(_) | Step::Rounded(_) => None,
         }
     }
 
@@ -121,7 +122,7 @@ impl What {
     fn all(tree: &Tree, registry: &Registry) -> Vec<What> {
         let mut all = Vec::new();
         match tree.step() {
-            Step::Symbol(_) => {}
+            Step::Symbol(_) | Step::Rounded(_) => {}
             Step::Int(n) => all.push(What::Next(*n)),
             Step::Neg(_) => all.push(What::DropSign),
             Step::Exp(_) => all.push(What::NegateExponent),
@@ -281,6 +282,7 @@ fn mapped(statement: &Statement, f: &impl Fn(&Tree) -> Tree) -> Statement {
     let says = |says: &Says| match says {
         Says::Equal(a, b) => Says::Equal(f(a), f(b)),
         Says::Sign(relation, a) => Says::Sign(*relation, f(a)),
+        Says::Within(a, b) => Says::Within(f(a), f(b)),
         Says::Derivative(a, by, b) => Says::Derivative(f(a), by, f(b)),
         Says::Limit(a, by, b) => Says::Limit(f(a), by, f(b)),
     };
@@ -290,10 +292,16 @@ fn mapped(statement: &Statement, f: &impl Fn(&Tree) -> Tree) -> Statement {
         ratio: f(&s.ratio),
         member: all(&s.member),
         limit: s.limit.as_ref().map(f),
+        within: s.within.iter().map(|(of, bound)| (f(of), f(bound))).collect(),
+    };
+    let computed = |c: &Computed| {
+        let hypothesis = Hypothesis { value: f(&c.hypothesis.value), ..c.hypothesis.clone() };
+        Computed { by: f(&c.by), hypothesis, ..c.clone() }
     };
     Statement {
         hypotheses: hypotheses(&statement.hypotheses),
         invariants: hypotheses(&statement.invariants),
+        computed: statement.computed.as_ref().map(computed),
         goals: statement.goals.iter().map(|goal| Goal { says: says(&goal.says), ..goal.clone() }).collect(),
         amounts_to: statement.amounts_to.as_ref().map(sequence),
         ..statement.clone()

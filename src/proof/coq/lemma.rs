@@ -101,6 +101,7 @@ pub(super) fn says(says: &Says, printer: Printer) -> String {
             format!("{left} ={between}{right}")
         }
         Says::Sign(relation, a) => of(a).relation(*relation),
+        Says::Within(a, bound) => format!("Rabs {} <= {}", of(a).argument(), of(bound)),
         Says::Derivative(a, by, b) => {
             format!("is_derive {}\n    {}\n    {}", under(by, a), ascii(by), of(b).argument())
         }

@@ -276,6 +276,7 @@ impl Printer<'_> {
             Step::Exp(a) => Expr::Call("exp".into(), vec![*of(a)]),
             Step::PositivePart(a) => Expr::Call("Rmax".into(), vec![*of(a), Expr::int(0)]),
             Step::Min(a, b) => Expr::Call("Rmin".into(), vec![*of(a), *of(b)]),
+            Step::Rounded(a) => Expr::Call("fl prec choice".into(), vec![*of(a)]),
         };
         // What the rules of differentiation write is full of 0 x, 1 x and x + 0; nobody else's zeros are
         // touched.

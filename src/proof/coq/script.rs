@@ -104,6 +104,7 @@ impl Script {
         };
         match supposed.used() {
             Used::Follows | Used::Unused => {}
+            Used::Between(..) => return Err("an interval"),
             Used::Symbol(x) => {
                 self.known.insert(*x, sign);
                 if supposed.given().is_some_and(|given| *given.value.step() == Step::Symbol(x.0)) {
@@ -195,6 +196,7 @@ impl Script {
                 self.line(&format!("sign_by {}.", value.argument()));
             }
             Because::Derivative(..) => self.line("derivative."),
+            Because::Within(..) => return Err("a bound"),
             Because::Limit { .. } => return Err("a limit among other goals"),
         }
         Ok(())
@@ -223,6 +225,7 @@ impl Script {
     fn positive(&mut self, certificate: &Certificate) -> Result<Expr, Reason> {
         Ok(match certificate.rule() {
             Rule::Terms => Expr::poly(&unsigned(certificate)),
+            Rule::Sizes(_) => return Err("a bound by sizes"),
             Rule::Factor(factor, rest) => {
                 let factor = self.positive(factor)?;
                 factor.times(self.positive(rest)?)

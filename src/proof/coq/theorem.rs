@@ -92,6 +92,7 @@ impl<'a> Theorem<'a> {
             Kind::Limit { by, .. } => self.limit(by)?,
             Kind::Induction { .. } => self.induction()?,
             Kind::Vanishing { .. } => self.vanishing()?,
+            Kind::Within(..) | Kind::Drift { .. } => return Err("a law of rounding".into()),
             Kind::Equal(..) | Kind::Sign(..) | Kind::Derivative { .. } => {
                 let [goal] = self.statement.goals.as_slice() else {
                     return Err("a claim of this kind has several goals".into());

@@ -91,14 +91,19 @@ impl Monomial {
         Monomial { powers: self.powers.clone(), exponent: None }
     }
 
+    /// Without some of its symbols.
+    pub fn without_those(&self, some: impl Fn(Symbol) -> bool) -> Self {
+        let mut rest = self.clone();
+        rest.powers.retain(|x, _| !some(*x));
+        rest
+    }
+
     fn degree(&self, x: Symbol) -> u32 {
         self.powers.get(&x).copied().unwrap_or(0)
     }
 
     fn without(&self, x: Symbol) -> Self {
-        let mut rest = self.clone();
-        rest.powers.remove(&x);
-        rest
+        self.without_those(|y| y == x)
     }
 }
 

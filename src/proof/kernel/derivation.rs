@@ -57,6 +57,7 @@ pub enum Derivation {
 #[derive(Clone, Debug)]
 pub struct Direct {
     pub(super) supposed: Vec<Supposed>,
+    pub(super) errors: Vec<(Tree, Symbol)>,
     pub(super) divisors: Vec<(Tree, Signed)>,
     pub(super) brackets: Vec<(Tree, Tree, Signed)>,
     pub(super) because: Because,
@@ -66,6 +67,11 @@ impl Direct {
     /// What is supposed, and how it is used.
     pub fn supposed(&self) -> &[Supposed] {
         &self.supposed
+    }
+
+    /// Each formula that is rounded, and what its error is called, those inside it before it.
+    pub fn errors(&self) -> &[(Tree, Symbol)] {
+        &self.errors
     }
 
     /// Each divisor, and why it is not 0.
@@ -126,6 +132,8 @@ pub enum Used {
     Symbol(Symbol),
     /// The pivot is replaced, with a new symbol for the quantity unless it is 0.
     Pivot(Monomial, Ratio, Option<Symbol>),
+    /// In its interval the symbol is this, by a new symbol between −1 and 1.
+    Between(Symbol, Ratio, Symbol),
     /// Not at all: there is no pivot. What is proved holds without it, too.
     Unused,
 }
@@ -167,6 +175,8 @@ pub enum Because {
     Same(Ratio),
     /// A sign.
     Sign(Signed),
+    /// What the bound exceeds the size by, on either side.
+    Within(Signed, Signed),
     /// The derivative, as dual numbers compute it, and the other side are this.
     Derivative(Ratio),
     /// By degrees in the symbol, and the sign of the denominator's leading coefficient.
@@ -201,6 +211,8 @@ pub enum Why {
     Kink,
     /// No rule finds the limit.
     NoLimit(Ratio),
+    /// There are more roundings than names for their errors.
+    TooMany,
     /// A name that the kernel keeps for itself.
     Reserved(&'static str),
     /// There is no goal.

@@ -1,6 +1,6 @@
 //! The sign of a polynomial for all values of its symbols, with a certificate.
 //!
-//! Four rules, short certificates before long ones; each is sound by itself, and together they are not
+//! Five rules, short certificates before long ones; each is sound by itself, and together they are not
 //! complete:
 //!
 //! 1. **Terms.** Every term has the same sign: a symbol known to be positive (or not negative) keeps it, a
@@ -12,8 +12,12 @@
 //! 4. **Slope.** By the mean value theorem, a function f that is continuous for x ≥ 0 and has a slope for
 //!    x > 0 is f(0) + x f'(ξ) for some ξ > 0: its sign is that of such a sum. Only tried where there is
 //!    an e^….
+//! 5. **Sizes.** Factors between −1 and 1 make a term no larger than it is without them. So the polynomial is
+//!    no less than what is left when each term with such factors is replaced by minus its size, and no more
+//!    than with plus its size. Where there are such factors, this rule and the first are all that is tried.
 
 use super::algebra::{Monomial, Poly, Ratio, Symbol};
+use rug::Rational;
 use std::collections::BTreeMap;
 
 /// The sign of a value that may depend on symbols.
@@ -35,6 +39,20 @@ use Sign::{Negative, NonNegative, NonPositive, Positive, Zero};
 
 /// What is known of the symbols. One that is not listed is free: any real number.
 pub type Known = BTreeMap<Symbol, Sign>;
+
+/// What is between −1 and 1: the rounding error of each step, in parts of the largest.
+pub const ERRORS: [&str; 24] = [
+    "e₁", "e₂", "e₃", "e₄", "e₅", "e₆", "e₇", "e₈", "e₉", "e₁₀", "e₁₁", "e₁₂", "e₁₃", "e₁₄", "e₁₅", "e₁₆", "e₁₇",
+    "e₁₈", "e₁₉", "e₂₀", "e₂₁", "e₂₂", "e₂₃", "e₂₄",
+];
+
+/// And where in an interval a quantity is, from one end to the other.
+pub const PLACES: [&str; 6] = ["t₁", "t₂", "t₃", "t₄", "t₅", "t₆"];
+
+/// Is it between −1 and 1?
+pub fn is_small(x: Symbol) -> bool {
+    ERRORS.contains(&x.0) || PLACES.contains(&x.0)
+}
 
 impl Sign {
     /// Never zero.
@@ -108,6 +126,8 @@ pub enum Rule {
         /// The sign of 4a d − b².
         rest: Box<Certificate>,
     },
+    /// Rule 5, with the sign of what is left: it is no less than that, or no more.
+    Sizes(Box<Certificate>),
     /// Rule 4.
     Slope {
         /// The symbol.
@@ -152,6 +172,9 @@ fn within(of: &Poly, known: &Known, depth: u32) -> Option<Certificate> {
     if let Some(certificate) = terms(of, known) {
         return Some(certificate);
     }
+    if of.symbols().into_iter().any(is_small) {
+        return sizes(of, known);
+    }
     let depth = depth.checked_sub(1)?;
     factor(of, known, depth)
         .or_else(|| square(of, known, depth))
@@ -161,17 +184,57 @@ fn within(of: &Poly, known: &Known, depth: u32) -> Option<Certificate> {
 
 /// Rule 1.
 fn terms(of: &Poly, known: &Known) -> Option<Certificate> {
+    let sign = of.terms().try_fold(Zero, |sum, (monomial, coefficient)| {
+        let number = if coefficient.is_negative() { Negative } else { Positive };
+        sum.plus(number.times(of_monomial(monomial, known)?))
+    });
+    Some(Certificate { of: of.clone(), sign: sign?, rule: Rule::Terms })
+}
+
+fn of_monomial(monomial: &Monomial, known: &Known) -> Option<Sign> {
     let power = |(x, n): (Symbol, u32)| match known.get(&x) {
         Some(sign) if n % 2 == 1 => Some(*sign),
         Some(sign) => Some(sign.times(*sign)),
         None if n % 2 == 0 => Some(NonNegative),
         None => None,
     };
-    let sign = of.terms().try_fold(Zero, |sum, (monomial, coefficient)| {
-        let number = if coefficient.is_negative() { Negative } else { Positive };
-        sum.plus(monomial.powers().try_fold(number, |product, x| Some(product.times(power(x)?)))?)
-    });
-    Some(Certificate { of: of.clone(), sign: sign?, rule: Rule::Terms })
+    monomial.powers().try_fold(Positive, |product, x| Some(product.times(power(x)?)))
+}
+
+/// Rule 5.
+fn sizes(of: &Poly, known: &Known) -> Option<Certificate> {
+    // Of each monomial, the coefficient without small factors and the sizes of those with them.
+    let mut all: BTreeMap<Monomial, [Rational; 2]> = BTreeMap::new();
+    for (monomial, coefficient) in of.terms() {
+        let rest = monomial.without_those(is_small);
+        let is_whole = rest == *monomial;
+        let [own, with] = all.entry(rest).or_default();
+        if is_whole { *own += coefficient } else { *with += Rational::from(coefficient.abs_ref()) }
+    }
+    let all: Option<Vec<_>> = all
+        .into_iter()
+        .map(|(monomial, [own, with])| {
+            let size = match of_monomial(&monomial, known) {
+                Some(Positive | NonNegative | Zero) => with,
+                Some(Negative | NonPositive) => -with,
+                None if with.is_zero() => with,
+                None => return None,
+            };
+            Some((monomial, own, size))
+        })
+        .collect();
+    let all = all?;
+    // The whole is `beyond` 0 with respect to what is left, so it is of its sign if both agree.
+    let by = |beyond: Sign| {
+        let term = |(monomial, own, size): &(Monomial, Rational, Rational)| {
+            let left = if beyond == NonNegative { own.clone() - size } else { own.clone() + size };
+            (monomial.clone(), left)
+        };
+        let rest = terms(&all.iter().map(term).collect(), known)?;
+        let sign = rest.sign.plus(beyond)?;
+        Some(Certificate { of: of.clone(), sign, rule: Rule::Sizes(rest.into()) })
+    };
+    by(NonNegative).or_else(|| by(NonPositive))
 }
 
 /// Rule 2, with a product of powers.

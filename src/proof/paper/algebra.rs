@@ -54,13 +54,35 @@ impl Order<'_> {
         if ratio.den().is_one() { num } else { num / self.poly(ratio.den()) }
     }
 
+    /// A polynomial as text, of a very long one how long it is.
+    fn poly_or_size(&self, poly: &Poly) -> String {
+        match poly.terms().len() {
+            n if n > SHOWN => format!("a sum of {n} terms"),
+            _ => self.poly(poly).to_string(),
+        }
+    }
+
+    /// A quotient as text, of a very long one how long it is.
+    pub(super) fn ratio_or_size(&self, ratio: &Ratio) -> String {
+        match [ratio.num(), ratio.den()].map(|poly| poly.terms().len()) {
+            [n, d] if n.max(d) > SHOWN => format!("a sum of {n} terms over one of {d}"),
+            _ => self.ratio(ratio).to_string(),
+        }
+    }
+
     /// Why a polynomial has its sign: one line a rule, the last one first.
     pub(super) fn certificate(&self, certificate: &Certificate) -> Vec<String> {
-        let poly = |poly: &Poly| self.poly(poly);
+        let poly = |poly: &Poly| self.poly_or_size(poly);
         let (of, sign) = (poly(certificate.of()), text(certificate.sign()));
         match certificate.rule() {
             Rule::Terms if certificate.of().is_zero() => vec!["0 = 0".to_string()],
             Rule::Terms => vec![format!("{of} {sign}, term by term")],
+            Rule::Sizes(rest) => {
+                let no = if rest.sign().implies(Sign::NonNegative) { "no less" } else { "no more" };
+                let mut lines = vec![format!("{of} {sign}, since with the sizes of errors it is {no} than")];
+                lines.extend(self.certificate(rest));
+                lines
+            }
             Rule::Factor(factor, rest) => {
                 let mut lines =
                     vec![format!("{of} = ({}) ({}) {sign}, since", poly(factor.of()), poly(rest.of()))];
@@ -87,8 +109,9 @@ impl Order<'_> {
 
     /// Why there is no proof.
     pub(super) fn why(&self, why: &Why) -> String {
-        let ratio = |ratio: &Ratio| self.ratio(ratio);
+        let ratio = |ratio: &Ratio| self.ratio_or_size(ratio);
         match why {
+            Why::TooMany => "it rounds more often than there are names for errors".to_string(),
             Why::MightVanish(value) => format!("{} might be 0", ratio(value)),
             Why::OpenBracket(value) => format!("the sign of {} is open", ratio(value)),
             Why::NoSign(value) => format!("no rule finds the sign of {}", ratio(value)),
@@ -101,6 +124,9 @@ impl Order<'_> {
         }
     }
 }
+
+/// As many terms are written out.
+const SHOWN: usize = 24;
 
 /// A number as a formula; a large one in pieces, since a formula has only small ones.
 fn number(n: &Integer) -> Tree {

@@ -1,7 +1,9 @@
 //! Where a counterexample is looked for.
 
+use crate::formula::claim::PRECISION;
 use crate::formula::{Hypothesis, Relation};
 use crate::number::Exact;
+use crate::number::tree::{Step, piecewise};
 use num_traits::{One, Zero};
 use oorandom::Rand64;
 use rug::Rational;
@@ -46,7 +48,12 @@ impl Point {
 
     /// Do hypotheses hold there?
     pub fn satisfies(&self, hypotheses: &[Hypothesis]) -> bool {
-        hypotheses.iter().all(|hypothesis| hypothesis.holds(&|symbol| self.at(symbol)))
+        hypotheses.iter().all(|hypothesis| self.admits(hypothesis))
+    }
+
+    fn admits(&self, hypothesis: &Hypothesis) -> bool {
+        let n = self.at(PRECISION);
+        hypothesis.holds_with(&|symbol| self.at(symbol), &|step| rounding(step, &n))
     }
 
     /// The point bent until the hypotheses hold. A quantity that lacks its sign gets the value `target`:
@@ -57,7 +64,7 @@ impl Point {
         target: &impl Fn(Relation) -> Exact,
     ) -> Option<Self> {
         for hypothesis in hypotheses {
-            if !hypothesis.holds(&|symbol| self.at(symbol)) {
+            if !self.admits(hypothesis) {
                 let target = target(hypothesis.relation);
                 let x = hypothesis.solution(&|symbol| self.at(symbol), &target)?;
                 self = self.with(hypothesis.solved_for, x);
@@ -95,7 +102,33 @@ fn random(point: u64, symbol: &str) -> Rand64 {
     Rand64::new(seed)
 }
 
+/// The bits of the numbers that are rounded to, with which a point is drawn.
+const BITS: [i32; 8] = [2, 3, 4, 6, 8, 11, 24, 53];
+
+/// 2ᵖ for some number of bits p.
+fn precision(random: &mut Rand64) -> Exact {
+    Exact::power_of_two(BITS[random.rand_range(0..BITS.len() as u64) as usize])
+}
+
+/// The nearest number of p bits, if n is 2ᵖ and p at least 2.
+pub(super) fn nearest(x: &Exact, n: &Exact) -> Option<Exact> {
+    let n = Some(n.as_rational()).filter(|n| *n.denom() == 1 && n.numer().is_power_of_two());
+    let bits = n?.numer().significant_bits() - 1;
+    if bits < 2 { None } else { x.rounded(bits) }
+}
+
+/// ⟨·⟩, min, and rounding to p bits where n is 2ᵖ.
+fn rounding(step: Step<&Exact>, n: &Exact) -> Option<Exact> {
+    match step {
+        Step::Rounded(x) => nearest(x, n),
+        step => piecewise(step),
+    }
+}
+
 fn raw(point: u64, symbol: &str) -> Exact {
+    if symbol == PRECISION {
+        return precision(&mut random(point, symbol));
+    }
     let size = if point % 4 == 3 { LARGER } else { SMALL };
     Exact::from(random(point, symbol).rand_range(0..2 * size as u64 + 1) as i32 - size)
 }
@@ -111,7 +144,11 @@ pub(super) fn first_raw_points(
     hypotheses: &[Hypothesis],
     symbols: &[&'static str],
 ) -> impl Iterator<Item = Point> {
-    let holds = |i: &u64| hypotheses.iter().all(|hypothesis| hypothesis.holds(&|symbol| raw(*i, symbol)));
+    let holds = |i: &u64| {
+        let n = raw(*i, PRECISION);
+        let own = |symbol: &'static str| raw(*i, symbol);
+        hypotheses.iter().all(|hypothesis| hypothesis.holds_with(&own, &|step| rounding(step, &n)))
+    };
     (0..many).filter(holds).map(|i| Point::new(symbols.iter().map(|symbol| (*symbol, raw(i, symbol)))))
 }
 
@@ -124,6 +161,9 @@ pub fn planted_points(hypotheses: &[Hypothesis], symbols: &[&'static str]) -> im
     (0..PLANTED).filter_map(move |i| {
         let draw = |symbol: &&'static str| {
             let mut random = random(RAW + i, symbol);
+            if *symbol == PRECISION {
+                return (*symbol, precision(&mut random));
+            }
             let x = size(&mut random);
             (*symbol, if random.rand_range(0..3) == 0 { -x } else { x })
         };

@@ -42,7 +42,7 @@ pub(super) fn smaller(statement: &Statement, point: &Point, part: &'static str, 
                 let others = divisor.symbols().into_iter().filter(|other| *other != symbol);
                 others.filter_map(|other| bent_to_zero(divisor, other, &point)).collect()
             }
-            How::Different(..) | How::Sign(..) | How::Far(_) => Vec::new(),
+            How::Different(..) | How::Sign(..) | How::Beyond(..) | How::Far(_) => Vec::new(),
         };
         let followed = followed.into_iter().filter(|point| point.satisfies(&statement.hypotheses));
         let one = |relation| Exact::from(i32::from(relation == Relation::Positive));

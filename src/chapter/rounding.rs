@@ -1,0 +1,183 @@
+//! What floats make of the chapter's formulas: bounds that hold in every precision. Note 8.
+//!
+//! A number of p bits is rounded to with a relative error of at most η = 1/n, where n = 2ᵖ and p ≥ 2; under- and
+//! overflow are left out. The parameters are meant as they are in floats, and computed is, in their order, what
+//! the functions of the other modules compute. Each bound is [claimed](crate::claims) beside the
+//! formula that it bounds, and proved.
+
+use super::{SpringMass, penalty, system};
+use crate::number::{Field, PositivePart};
+
+/// The unit roundoff of numbers of p bits, a pure number: no result is further off, in parts of itself.
+///
+/// `η = 1 / n`
+///
+/// `n` is 2ᵖ. Domain: n ≠ 0. Source: note 8.
+///
+/// ```
+/// # use spring_mass_contact::chapter::rounding;
+/// assert_eq!(rounding::unit_roundoff(&f64::powi(2.0, 53)), f64::EPSILON / 2.0);
+/// ```
+pub fn unit_roundoff<T: Field>(n: &T) -> T {
+    T::one() / n
+}
+
+/// How far a computed penetration is from (1.5) at the same u, in m.
+///
+/// `η (|s| + |p|)`
+///
+/// `sum` is fl(l + u) and `p` the penetration, as they are computed, in m; `n` is 2ᵖ. Source: §1.2, note 8.
+///
+/// ```
+/// # use spring_mass_contact::chapter::rounding;
+/// assert_eq!(rounding::penetration_error(&1024.0, &2.0, &-0.5), 2.5 / 1024.0);
+/// ```
+pub fn penetration_error<T: PositivePart>(n: &T, sum: &T, p: &T) -> T {
+    unit_roundoff(n) * (sum.abs() + p.abs())
+}
+
+/// How far a computed m g / c is from the deflection of a mass that hangs free, in m.
+///
+/// `η (2 + η) |u|`
+///
+/// `u` is the deflection as it is computed, in m; `n` is 2ᵖ. Source: §1.1, note 8.
+///
+/// ```
+/// # use spring_mass_contact::chapter::rounding;
+/// assert_eq!(rounding::free_error(&4.0, &-16.0), 9.0);
+/// ```
+pub fn free_error<T: PositivePart>(n: &T, u: &T) -> T {
+    let eta = unit_roundoff(n);
+    &eta * (T::int(2) + &eta) * u.abs()
+}
+
+/// How far a computed m g − c u is from the force at the same u, in N.
+///
+/// `η (|W| + |F| + |N|)`
+///
+/// `weight` is fl(m g), `spring` is fl(c u) and `force` the contact force, as they are computed, in N; `n` is 2ᵖ.
+/// Source: §1.3.3, note 8.
+///
+/// ```
+/// # use spring_mass_contact::chapter::rounding;
+/// assert_eq!(rounding::force_error(&1024.0, &10.0, &8.0, &2.0), 20.0 / 1024.0);
+/// ```
+pub fn force_error<T: PositivePart>(n: &T, weight: &T, spring: &T, force: &T) -> T {
+    unit_roundoff(n) * (weight.abs() + spring.abs() + force.abs())
+}
+
+/// How far a computed (1.13) is from the exact one, in m.
+///
+/// `η (5 |Δ| + 4 R / (c + ε)) (1 + 2 η)`
+///
+/// `eps` is the penalty ε in N/m, `n` is 2ᵖ. Domain: c > 0, ε > 0, R > 0. Source: §1.3.2, note 8.
+///
+/// ```
+/// # use spring_mass_contact::chapter::{SpringMass, rounding};
+/// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
+/// assert_eq!(rounding::deflection_error(&system, &4.0, &4.0), 4.125);
+/// ```
+pub fn deflection_error<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: &T) -> T {
+    let eta = unit_roundoff(n);
+    let lengths = T::int(5) * system::gap(system).abs() + T::int(4) * penalty::penetration(system, eps);
+    &eta * lengths * (T::one() + T::int(2) * &eta)
+}
+
+/// How far a computed ε p at a computed (1.13) is from the force (1.12), in N.
+///
+/// `η (ε (|H| + 5 |Δ|) + 7 R) (1 + 8 η)`
+///
+/// `eps` is the penalty ε in N/m, `n` is 2ᵖ. Domain: c > 0, ε > 0, R > 0. It grows with ε, so that half of the
+/// digits are lost at best. Source: §1.3.2, note 8.
+///
+/// ```
+/// # use spring_mass_contact::chapter::{SpringMass, rounding};
+/// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
+/// assert_eq!(rounding::penalty_force_error(&system, &4.0, &8.0), 16.5);
+/// ```
+pub fn penalty_force_error<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: &T) -> T {
+    let eta = unit_roundoff(n);
+    let lengths = system.h.abs() + T::int(5) * system::gap(system).abs();
+    &eta * (eps * lengths + T::int(7) * system::reaction(system)) * (T::one() + T::int(8) * &eta)
+}
+
+/// How far inside the plane, or above it, the mass may be where a computed (1.16) changes λ no more, in m.
+///
+/// `η |H| + η (1 + η)² |λ| / ((1 − η) ε)`
+///
+/// `eps` is the penalty ε in N/m, `lambda` the multiplier λ in N, `n` is 2ᵖ. Domain: ε > 0, n > 1.
+/// Source: §1.3.3, note 8.
+///
+/// ```
+/// # use spring_mass_contact::chapter::{SpringMass, rounding};
+/// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
+/// assert_eq!(rounding::fixed_point_error(&system, &4.0, &6.0, &2.0), 5.25 - 0.375);
+/// ```
+pub fn fixed_point_error<T: PositivePart>(system: &SpringMass<T>, eps: &T, lambda: &T, n: &T) -> T {
+    let eta = unit_roundoff(n);
+    let growth = T::one() + &eta;
+    &eta * system.h.abs() + &eta * &growth * &growth * lambda.abs() / ((T::one() - &eta) * eps)
+}
+
+/// What the rounding floor of (1.16) is a multiple of, in m.
+///
+/// `F = η (|H| + |Δ| + R / ε)`
+///
+/// `eps` is the penalty ε in N/m, `n` is 2ᵖ. Domain: ε > 0, R ≥ 0. A small penalty has a high floor.
+/// Source: §1.3.3, note 8.
+///
+/// ```
+/// # use spring_mass_contact::chapter::{SpringMass, rounding};
+/// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
+/// assert_eq!(rounding::floor(&system, &4.0, &2.0), 2.75);
+/// ```
+pub fn floor<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: &T) -> T {
+    unit_roundoff(n) * (system.h.abs() + system::gap(system).abs() + system::reaction(system) / eps)
+}
+
+/// How far the deflection of one step of (1.16) is from the exact one at the same computed λ, in m.
+///
+/// `η (5 |Δ| + 5 R / (c + ε)) + F`
+///
+/// `eps` is the penalty ε in N/m, `n` is 2ᵖ. Domain: as for [`multiplier_drift`]. Source: §1.3.3, note 8.
+///
+/// ```
+/// # use spring_mass_contact::chapter::{SpringMass, rounding};
+/// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
+/// assert_eq!(rounding::step_error(&system, &4.0, &2.0), 8.375);
+/// ```
+pub fn step_error<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: &T) -> T {
+    let lengths = T::int(5) * system::gap(system).abs() + T::int(5) * penalty::penetration(system, eps);
+    unit_roundoff(n) * lengths + floor(system, eps, n)
+}
+
+/// How far computed multipliers of (1.16) stay from the exact ones, from λ₀ = 0 and for all k, in N.
+///
+/// `11 (c + ε) F`
+///
+/// `eps` is the penalty ε in N/m, `n` is 2ᵖ. Domain: c > 0, ε > 0, R > 0, and 64 (c + ε) ≤ ε (n + 1).
+/// Source: §1.3.3, note 8.
+///
+/// ```
+/// # use spring_mass_contact::chapter::{SpringMass, rounding};
+/// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
+/// assert_eq!(rounding::multiplier_drift(&system, &4.0, &1024.0), 11.0 * 8.0 * 5.5 / 1024.0);
+/// ```
+pub fn multiplier_drift<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: &T) -> T {
+    T::int(11) * penalty::total_stiffness(system, eps) * floor(system, eps, n)
+}
+
+/// How far computed penetrations of (1.16) stay from the exact ones, from λ₀ = 0 and for all k, in m.
+///
+/// `20 F`
+///
+/// `eps` is the penalty ε in N/m, `n` is 2ᵖ. Domain: as for [`multiplier_drift`]. Source: §1.3.3, note 8.
+///
+/// ```
+/// # use spring_mass_contact::chapter::{SpringMass, rounding};
+/// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
+/// assert_eq!(rounding::penetration_drift(&system, &4.0, &1024.0), 110.0 / 1024.0);
+/// ```
+pub fn penetration_drift<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: &T) -> T {
+    T::int(20) * floor(system, eps, n)
+}
