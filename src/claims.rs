@@ -42,15 +42,22 @@ mod prelude {
     pub(super) use super::{Case, Entry, Given, given, symbols};
     pub(super) use crate::formula::Rate::{Exactly, Within};
     pub(super) use crate::formula::claim::{
-        derivative, equal, induction, limit, non_negative, positive, vanishing, within,
+        derivative, drift, equal, induction, limit, non_negative, positive, vanishing, within,
     };
     pub(super) use crate::number::{Dual, Exponential, Field, PositivePart, Tree};
+    use crate::formula::claim;
     use std::sync::LazyLock;
 
     /// 2ᵖ for numbers of p bits.
     pub(super) fn precision() -> &'static Tree {
-        static PRECISION: LazyLock<Tree> = LazyLock::new(|| Tree::symbol(crate::formula::claim::PRECISION));
+        static PRECISION: LazyLock<Tree> = LazyLock::new(|| Tree::symbol(claim::PRECISION));
         &PRECISION
+    }
+
+    /// What a sequence has come to, in the step of an induction.
+    pub(super) fn member() -> &'static Tree {
+        static MEMBER: LazyLock<Tree> = LazyLock::new(|| Tree::symbol(claim::MEMBERS[0]));
+        &MEMBER
     }
 
     pub(super) fn int(n: i32) -> Tree {

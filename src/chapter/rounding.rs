@@ -1,6 +1,6 @@
 //! What floats make of the chapter's formulas: bounds that hold in every precision. Note 8.
 //!
-//! A number of p bits is rounded to with a relative error of at most η = 1/n, where n = 2ᵖ and p ≥ 2; under- and
+//! A number of p bits is rounded to with a relative error of at most η = 2⁻ᵖ, for p ≥ 2; under- and
 //! overflow are left out. The parameters are meant as they are in floats, and computed is, in their order, what
 //! the functions of the other modules compute. Each bound is [claimed](crate::claims) beside the
 //! formula that it bounds, and proved.
@@ -10,7 +10,7 @@ use crate::number::{Field, PositivePart};
 
 /// The unit roundoff of numbers of p bits, a pure number: no result is further off, in parts of itself.
 ///
-/// `η = 1 / n`
+/// `η = 1 / 2ᵖ`
 ///
 /// `n` is 2ᵖ. Domain: n ≠ 0. Source: note 8.
 ///
@@ -103,7 +103,7 @@ pub fn penalty_force_error<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: 
 
 /// How far inside the plane, or above it, the mass may be where a computed (1.16) changes λ no more, in m.
 ///
-/// `η |H| + η (1 + η)² |λ| / ((1 − η) ε)`
+/// `η |H| + η (1 + η) (1 + η) |λ| / ((1 − η) ε)`
 ///
 /// `eps` is the penalty ε in N/m, `lambda` the multiplier λ in N, `n` is 2ᵖ. Domain: ε > 0, n > 1.
 /// Source: §1.3.3, note 8.
@@ -155,7 +155,7 @@ pub fn step_error<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: &T) -> T 
 ///
 /// `11 (c + ε) F`
 ///
-/// `eps` is the penalty ε in N/m, `n` is 2ᵖ. Domain: c > 0, ε > 0, R > 0, and 64 (c + ε) ≤ ε (n + 1).
+/// `eps` is the penalty ε in N/m, `n` is 2ᵖ. Domain: c > 0, ε > 0, R > 0, and 64 (c + ε) ≤ ε (2ᵖ + 1).
 /// Source: §1.3.3, note 8.
 ///
 /// ```

@@ -2,7 +2,7 @@
 
 use super::prelude::*;
 use crate::chapter::augmented::{self, *};
-use crate::chapter::{contact, lagrange, penalty, system::reaction};
+use crate::chapter::{contact, lagrange, penalty, rounding, system::reaction};
 
 formulas! {
     "L" (folded) = augmented::functional(system, "ε", "λ", "u");
@@ -46,6 +46,12 @@ pub(super) fn entries() -> Vec<Entry> {
         next_in_equilibrium,
         power,
         count,
+        contact,
+        later_multiplier,
+        fine_enough,
+        computed_inside,
+        decay,
+        near_iterate,
         ..
     } = given();
     let iterate = &deflection(s, eps, lambda);
@@ -123,6 +129,32 @@ pub(super) fn entries() -> Vec<Entry> {
                     augment,
                     [multiplier_after(s, lambda, q), deflection_after(s, eps, lambda, q)],
                 ),
+                non_negative(
+                    "float-multiplier-rises",
+                    [stiffness, penalty, computed_inside],
+                    update(s, eps, lambda, u).rounded() - lambda.nearest(),
+                ),
+                {
+                    let p = |lambda: &Tree| contact::penetration(s, &deflection(s, eps, lambda)).rounded();
+                    non_negative(
+                        "float-penetration-falls",
+                        [stiffness, penalty, later_multiplier],
+                        p(lambda) - p(v),
+                    )
+                },
+                drift(
+                    "float-drift",
+                    [stiffness, penalty, contact, fine_enough, decay, near_iterate],
+                    contraction(s, eps),
+                    0,
+                    |lambda| update(s, eps, lambda, u).rounded(),
+                    (multiplier_after(s, zero, q), rounding::multiplier_drift(s, eps, precision())),
+                    |_| {
+                        let error = contact::penetration(s, u).rounded() - penetration_after(s, eps, zero, q);
+                        [(error, rounding::penetration_drift(s, eps, precision()))]
+                    },
+                )
+                .computing(u, deflection(s, eps, member()).rounded()),
                 equal(
                     "penetration",
                     [stiffness, penalty],

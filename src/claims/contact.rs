@@ -3,7 +3,7 @@
 use super::prelude::*;
 use crate::chapter::contact::{self, *};
 use crate::chapter::system::{gap, reaction};
-use crate::chapter::{augmented, structure};
+use crate::chapter::{augmented, rounding, structure};
 
 formulas! {
     "p" (folded) = contact::penetration(system, "u");
@@ -30,6 +30,15 @@ pub(super) fn entries() -> Vec<Entry> {
             .claims([
                 equal("at-the-gap", [], penetration(s, &gap(s)), 0),
                 derivative("slope", [], penetration(s, u), u, 1),
+                within(
+                    "rounding",
+                    [],
+                    penetration(s, u).rounded() - penetration(s, u),
+                    {
+                        let (sum, p) = ((&s.l + u).rounded(), penetration(s, u).rounded());
+                        rounding::penetration_error(precision(), &sum, &p)
+                    },
+                ),
                 equal("free", [stiffness], penetration(s, &structure::deflection(s)), reaction(s) / &s.c),
             ]),
         Entry::new("1.6", "Karush-Kuhn-Tucker conditions")

@@ -1,14 +1,15 @@
 //! What claims of the chapter suppose.
 
+use super::prelude::{member, precision};
 use super::{Case, symbols};
-use crate::chapter::{augmented, contact, penalty, system};
+use crate::chapter::{augmented, contact, penalty, rounding, system};
 use crate::formula::{Hypothesis, Relation};
 use crate::number::Tree;
 use std::sync::LazyLock;
 
 macro_rules! hypotheses {
     (let $symbols:pat = symbols();
-     $($name:ident $text:literal = $relation:ident($value:expr) $(, solved for $symbol:expr)?;)*) => {
+     $($name:ident $text:literal = $hypothesis:expr $(, solved for $symbol:expr)?;)*) => {
         /// The hypotheses, by names of their own.
         #[derive(Debug)]
         pub struct Given {
@@ -31,7 +32,7 @@ macro_rules! hypotheses {
             static GIVEN: LazyLock<Given> = LazyLock::new(|| {
                 let $symbols = symbols();
                 Given {
-                    $($name: Hypothesis::new(Relation::$relation, $value.into())$(.solved_for($symbol))?,)*
+                    $($name: $hypothesis$(.solved_for($symbol))?,)*
                 }
             });
             &GIVEN
@@ -41,52 +42,79 @@ macro_rules! hypotheses {
 
 // Where numbers are looked for, the reaction gets its sign by gravity, so that the other parameters stay as
 // drawn.
+fn positive(value: impl Into<Tree>) -> Hypothesis {
+    Hypothesis::new(Relation::Positive, value.into())
+}
+
+fn non_negative(value: impl Into<Tree>) -> Hypothesis {
+    Hypothesis::new(Relation::NonNegative, value.into())
+}
+
+fn zero(value: impl Into<Tree>) -> Hypothesis {
+    Hypothesis::new(Relation::Zero, value.into())
+}
+
 hypotheses! {
     let Case { system: s, u, v, alpha, eps, eps4, lambda, q, k, t, tol, .. } = symbols();
 
-    stiffness "c > 0" = Positive(&s.c);
-    penalty "ε > 0" = Positive(eps);
-    quartic "ε₄ ≥ 0" = NonNegative(eps4);
-    softening "ε < 0" = Positive(-eps);
-    beyond_twice "ε < −2 c" = Positive(-eps - Tree::from(2) * &s.c);
-    within_twice "ε + 2 c > 0" = Positive(eps + Tree::from(2) * &s.c), solved for &s.c;
-    twice "ε + 2 c = 0" = Zero(eps + Tree::from(2) * &s.c);
-    contact "R > 0" = Positive(system::reaction(s)), solved for &s.g;
-    touching "R ≥ 0" = NonNegative(system::reaction(s)), solved for &s.g;
-    grazing "R = 0" = Zero(system::reaction(s)), solved for &s.g;
-    separated "R < 0" = Positive(-system::reaction(s)), solved for &s.g;
-    opposite "c + ε = 0" = Zero(penalty::total_stiffness(s, eps)), solved for eps;
-    beyond_once "c + ε < 0" = Positive(-penalty::total_stiffness(s, eps)), solved for eps;
-    penetrating "p > 0" = Positive(contact::penetration(s, u)), solved for u;
-    clear "p < 0" = Positive(-contact::penetration(s, u)), solved for u;
-    tolerance "tol > 0" = Positive(tol);
-    enough "ε ≥ R / tol − c" = NonNegative(eps - penalty::penalty_for(s, tol));
-    within_tolerance "tol ≥ R / (c + ε)" = NonNegative(tol - penalty::penetration(s, eps));
+    stiffness "c > 0" = positive(&s.c);
+    penalty "ε > 0" = positive(eps);
+    quartic "ε₄ ≥ 0" = non_negative(eps4);
+    softening "ε < 0" = positive(-eps);
+    beyond_twice "ε < −2 c" = positive(-eps - Tree::from(2) * &s.c);
+    within_twice "ε + 2 c > 0" = positive(eps + Tree::from(2) * &s.c), solved for &s.c;
+    twice "ε + 2 c = 0" = zero(eps + Tree::from(2) * &s.c);
+    contact "R > 0" = positive(system::reaction(s)), solved for &s.g;
+    touching "R ≥ 0" = non_negative(system::reaction(s)), solved for &s.g;
+    grazing "R = 0" = zero(system::reaction(s)), solved for &s.g;
+    separated "R < 0" = positive(-system::reaction(s)), solved for &s.g;
+    opposite "c + ε = 0" = zero(penalty::total_stiffness(s, eps)), solved for eps;
+    beyond_once "c + ε < 0" = positive(-penalty::total_stiffness(s, eps)), solved for eps;
+    penetrating "p > 0" = positive(contact::penetration(s, u)), solved for u;
+    clear "p < 0" = positive(-contact::penetration(s, u)), solved for u;
+    tolerance "tol > 0" = positive(tol);
+    enough "ε ≥ R / tol − c" = non_negative(eps - penalty::penalty_for(s, tol));
+    within_tolerance "tol ≥ R / (c + ε)" = non_negative(tol - penalty::penetration(s, eps));
     // As the force of an exact penalty (beyond 6), ε is in N.
-    strong_enough "ε ≥ R" = NonNegative(eps - system::reaction(s));
-    multiplier "λ ≥ 0" = NonNegative(lambda);
-    below_reaction "λ < R" = Positive(system::reaction(s) - lambda), solved for lambda;
-    above_reaction "λ > R" = Positive(lambda - system::reaction(s));
-    at_reaction "λ = R" = Zero(lambda - system::reaction(s));
-    carried "(λ − R) q + R ≥ 0" = NonNegative(augmented::multiplier_after(s, lambda, q)), solved for q;
-    active "c λ + ε R ≥ 0" = NonNegative(&s.c * lambda + eps * system::reaction(s)), solved for lambda;
-    idle "c λ + ε R ≤ 0" = NonNegative(-(&s.c * lambda + eps * system::reaction(s))), solved for lambda;
+    strong_enough "ε ≥ R" = non_negative(eps - system::reaction(s));
+    multiplier "λ ≥ 0" = non_negative(lambda);
+    below_reaction "λ < R" = positive(system::reaction(s) - lambda), solved for lambda;
+    above_reaction "λ > R" = positive(lambda - system::reaction(s));
+    at_reaction "λ = R" = zero(lambda - system::reaction(s));
+    carried "(λ − R) q + R ≥ 0" = non_negative(augmented::multiplier_after(s, lambda, q)), solved for q;
+    active "c λ + ε R ≥ 0" = non_negative(&s.c * lambda + eps * system::reaction(s)), solved for lambda;
+    idle "c λ + ε R ≤ 0" = non_negative(-(&s.c * lambda + eps * system::reaction(s))), solved for lambda;
     inactive "λ + ε (l + u − H) ≤ 0" =
-        NonNegative(-augmented::update(s, eps, lambda, u)), solved for lambda;
+        non_negative(-augmented::update(s, eps, lambda, u)), solved for lambda;
     in_equilibrium "c u − m g + λ + ε (l + u − H) = 0" =
-        Zero(augmented::equilibrium(s, eps, lambda, u)), solved for lambda;
-    next_in_equilibrium "c v − m g + λ + ε (l + u − H) + ε (l + v − H) = 0" = Zero({
+        zero(augmented::equilibrium(s, eps, lambda, u)), solved for lambda;
+    next_in_equilibrium "c v − m g + λ + ε (l + u − H) + ε (l + v − H) = 0" = zero({
         let next = augmented::update(s, eps, lambda, u);
         augmented::equilibrium(s, eps, &next, v)
     }), solved for v;
-    step "α > 0" = Positive(alpha);
+    step "α > 0" = positive(alpha);
     short_step "α < 2 (c + ε)" =
-        Positive(Tree::from(2) * penalty::total_stiffness(s, eps) - alpha), solved for alpha;
-    long_step "α > 2 (c + ε)" = Positive(alpha - Tree::from(2) * penalty::total_stiffness(s, eps));
-    uzawa_step "α < 2 c" = Positive(Tree::from(2) * &s.c - alpha), solved for alpha;
-    power "q > 0" = Positive(q);
-    count "k ≥ 0" = NonNegative(k);
-    time "t > 0" = Positive(t);
+        positive(Tree::from(2) * penalty::total_stiffness(s, eps) - alpha), solved for alpha;
+    long_step "α > 2 (c + ε)" = positive(alpha - Tree::from(2) * penalty::total_stiffness(s, eps));
+    uzawa_step "α < 2 c" = positive(Tree::from(2) * &s.c - alpha), solved for alpha;
+    power "q > 0" = positive(q);
+    count "k ≥ 0" = non_negative(k);
+    time "t > 0" = positive(t);
+    later_multiplier "v ≥ λ" = non_negative(v - lambda);
+    // In floats, of 2ᵖ.
+    fine_enough "64 (c + ε) ≤ ε (2ᵖ + 1)" = non_negative(
+        eps * (precision() + Tree::from(1)) - Tree::from(64) * penalty::total_stiffness(s, eps)
+    ), solved for &s.c;
+    computed_inside "fl(l + u − H) ≥ 0" = non_negative(contact::penetration(s, u).rounded());
+    computed_repeats "fl(λ + ε (l + u − H)) = λ" =
+        zero(augmented::update(s, eps, lambda, u).rounded() - lambda);
+    decay "0 ≤ q ≤ 1" = Hypothesis::between(q, 0, 1);
+    near_penalty "|u − (ε (H − l) + m g) / (c + ε)| ≤ η (5 |Δ| + 4 R / (c + ε)) (1 + 2 η)" = Hypothesis::near(
+        u, penalty::deflection(s, eps), rounding::deflection_error(s, eps, precision())
+    );
+    near_iterate "|u − (m g − x₁ + ε (H − l)) / (c + ε)| ≤ η (5 |Δ| + 5 R / (c + ε)) + F" = Hypothesis::near(
+        u, augmented::deflection(s, eps, member()), rounding::step_error(s, eps, precision())
+    );
 }
 
 #[cfg(test)]

@@ -1,7 +1,9 @@
 //! Where the chapter is loose: notes 1 to 9.
 
 use super::prelude::*;
-use crate::chapter::{augmented, contact, lagrange, ode, penalty, structure, system};
+use crate::chapter::{SpringMass, augmented, contact, lagrange, ode, penalty, rounding, structure, system};
+use crate::formula::claim;
+use std::sync::LazyLock;
 
 /// Its entries, with what is claimed of each.
 pub(super) fn entries() -> Vec<Entry> {
@@ -29,6 +31,7 @@ pub(super) fn entries() -> Vec<Entry> {
         in_equilibrium,
         power,
         time,
+        computed_repeats,
         ..
     } = given();
     let iterate = &augmented::deflection(s, eps, lambda);
@@ -296,16 +299,47 @@ pub(super) fn entries() -> Vec<Entry> {
             .given([in_equilibrium])
             .functions(["augmented::contact_force"])
             .follows_from(["1.18", "1.19"])
-            .claims([equal(
-                "force",
-                [in_equilibrium],
-                augmented::contact_force(s, u),
-                lambda + penalty::contact_force(s, eps, u),
-            )]),
+            .claims([
+                equal(
+                    "force",
+                    [in_equilibrium],
+                    augmented::contact_force(s, u),
+                    lambda + penalty::contact_force(s, eps, u),
+                ),
+                within(
+                    "rounding",
+                    [],
+                    augmented::contact_force(s, u).rounded() - augmented::contact_force(s, u),
+                    {
+                        let parts = [system::weight(s), structure::spring_force(s, u)];
+                        let [weight, spring] = parts.map(|part| part.rounded());
+                        let force = augmented::contact_force(s, u).rounded();
+                        rounding::force_error(precision(), &weight, &spring, &force)
+                    },
+                ),
+            ]),
         Entry::new("note 8", "Not in every precision")
             .states("Rounding stops the augmentation at a floor of about η (|H| + R/ε)")
             .given([stiffness, penalty, contact])
-            .follows_from(["1.16"]),
+            .follows_from(["1.16"])
+            .claims([
+                within(
+                    "floor",
+                    [penalty, computed_repeats],
+                    contact::penetration(s, u),
+                    rounding::fixed_point_error(s, eps, lambda, precision()),
+                ),
+                {
+                    let [a, ..] = scales();
+                    let own = augmented::deflection(s, eps, lambda).rounded();
+                    equal("units", [stiffness, penalty], in_other_units(&own), own * a)
+                },
+                {
+                    let [_, _, f] = scales();
+                    let own = augmented::update(s, eps, lambda, u).rounded();
+                    equal("units-of-force", [], in_other_units(&own), own * f)
+                },
+            ]),
         Entry::new("note 9", "The effort depends on ε")
             .states("(c/ε) Λ < Λ/ln(1 + ε/c) < (c/ε + ½) Λ for Λ = ln(|p₀|/tol) > 0")
             .given([stiffness, penalty])
@@ -325,6 +359,22 @@ pub(super) fn entries() -> Vec<Entry> {
                 },
             ]),
     ]
+}
+
+/// Other units, by powers of two: those of length, mass and force.
+fn scales() -> [&'static Tree; 3] {
+    static SCALES: LazyLock<[Tree; 3]> = LazyLock::new(|| claim::SCALES.map(|name| Tree::symbol(name)));
+    SCALES.each_ref()
+}
+
+/// A formula of quantities that are given in these units.
+fn in_other_units(formula: &Tree) -> Tree {
+    let Case { system: SpringMass { c, m, g, l, h }, u, eps, lambda, .. } = symbols();
+    let [a, b, f] = scales();
+    let units = [(c, f / a), (m, b.clone()), (g, f / b), (l, a.clone()), (h, a.clone())];
+    let own = [(u, a.clone()), (eps, f / a), (lambda, f.clone())];
+    let scaled = units.into_iter().chain(own).map(|(x, unit)| (x.first_symbol().expect("a symbol"), x * unit));
+    formula.with(&scaled.collect::<Vec<_>>())
 }
 
 /// The next multiplier over a plane that never pulls.

@@ -39,6 +39,7 @@ pub(super) fn entries() -> Vec<Entry> {
         tolerance,
         enough,
         within_tolerance,
+        near_penalty,
         ..
     } = given();
     let zero = &int(0);
@@ -148,6 +149,13 @@ pub(super) fn entries() -> Vec<Entry> {
                     reaction(s) - force_at_root(s, eps),
                     augmented::contraction(s, eps) * reaction(s),
                 ),
+                within(
+                    "precision-law",
+                    [stiffness, penalty, contact, near_penalty],
+                    contact_force(s, eps, u).rounded() - force_at_root(s, eps),
+                    rounding::penalty_force_error(s, eps, precision()),
+                )
+                .computing(u, deflection(s, eps).rounded()),
                 {
                     let p = penetration(s, eps);
                     equal("complementarity", [stiffness, penalty], &p * force_at_root(s, eps), eps * &p * &p)
@@ -201,6 +209,12 @@ pub(super) fn entries() -> Vec<Entry> {
                     [stiffness, penalty, contact],
                     deflection(s, eps).rounded() - deflection(s, eps),
                     rounding::deflection_error(s, eps, precision()),
+                ),
+                within(
+                    "float-distance",
+                    [stiffness, penalty, contact],
+                    deflection(s, eps).rounded() - gap(s),
+                    penetration(s, eps) + rounding::deflection_error(s, eps, precision()),
                 ),
                 derivative(
                     "slope",

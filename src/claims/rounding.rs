@@ -4,15 +4,15 @@ use super::prelude::*;
 use crate::chapter::rounding;
 
 formulas! {
-    "η" (folded) = rounding::unit_roundoff("n");
-    "" = rounding::penetration_error("n", "s", "p");
-    "" = rounding::free_error("n", "u");
-    "" = rounding::force_error("n", "W", "F", "N");
-    "" = rounding::deflection_error(system, "ε", "n");
-    "" = rounding::penalty_force_error(system, "ε", "n");
-    "" = rounding::fixed_point_error(system, "ε", "λ", "n");
-    "F" (folded) = rounding::floor(system, "ε", "n");
-    "" = rounding::step_error(system, "ε", "n");
-    "" = rounding::multiplier_drift(system, "ε", "n");
-    "" = rounding::penetration_drift(system, "ε", "n");
+    "η" (folded) = rounding::unit_roundoff("2ᵖ");
+    "" = rounding::penetration_error("2ᵖ", "s", "p");
+    "" = rounding::free_error("2ᵖ", "u");
+    "" = rounding::force_error("2ᵖ", "W", "F", "N");
+    "" = rounding::deflection_error(system, "ε", "2ᵖ");
+    "" = rounding::penalty_force_error(system, "ε", "2ᵖ");
+    "" = rounding::fixed_point_error(system, "ε", "λ", "2ᵖ");
+    "F" (folded) = rounding::floor(system, "ε", "2ᵖ");
+    "" = rounding::step_error(system, "ε", "2ᵖ");
+    "" = rounding::multiplier_drift(system, "ε", "2ᵖ");
+    "" = rounding::penetration_drift(system, "ε", "2ᵖ");
 }

@@ -2,7 +2,7 @@
 
 use super::prelude::*;
 use crate::chapter::structure::{self, *};
-use crate::chapter::system;
+use crate::chapter::{rounding, system};
 
 formulas! {
     "F" = structure::spring_force(system, "u");
@@ -29,6 +29,12 @@ pub(super) fn entries() -> Vec<Entry> {
             .claims([
                 equal("forces", [], residual(s, u), spring_force(s, u) - system::weight(s)),
                 equal("root", [stiffness], residual(s, &deflection(s)), 0),
+                within(
+                    "rounding",
+                    [stiffness],
+                    deflection(s).rounded() - deflection(s),
+                    rounding::free_error(precision(), &deflection(s).rounded()),
+                ),
                 equal("unique", [stiffness], residual(s, u), &s.c * (u - deflection(s))),
             ]),
         Entry::new("1.2", "Virtual work")

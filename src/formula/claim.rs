@@ -13,9 +13,11 @@ pub enum Rate {
     Within(Tree),
 }
 
-/// What n is called, which stands for 2ᵖ where formulas [round](Tree::rounded): to p bits, so that 1/n is the
-/// unit roundoff.
-pub const PRECISION: &str = "n";
+/// What stands for 2ᵖ where formulas [round](Tree::rounded): to p bits, so that its inverse is the unit roundoff.
+pub const PRECISION: &str = "2ᵖ";
+
+/// What stands for powers of two, with any whole exponents.
+pub const SCALES: [&str; 3] = ["2ᵃ", "2ᵇ", "2ᶠ"];
 
 /// What q is called, which stands for the power ρᵏ in an [induction](Kind::Induction).
 pub const POWER: &str = "q";
@@ -162,7 +164,8 @@ impl Claim {
 
     /// Does it speak of what is rounded, which is true of floats?
     pub fn rounds(&self) -> bool {
-        self.trees().into_iter().any(Tree::rounds)
+        let given = self.given.iter().map(|given| &given.value);
+        self.trees().into_iter().chain(given).any(Tree::rounds)
     }
 
     /// Does it speak of eˣ, which rationals have not?
@@ -239,6 +242,37 @@ pub fn within<const N: usize>(
     Claim::new(name, &given, Kind::Within(of.into(), bound.into()))
 }
 
+/// From x₀ = start each x leads to the next; each is near what is said of q = ratioᵏ, and what is said of it and q
+/// besides is of limited size.
+///
+/// # Panics
+/// As for an [`induction`].
+pub fn drift<const M: usize, const N: usize>(
+    name: &'static str,
+    given: [&Hypothesis; M],
+    ratio: impl Into<Tree>,
+    start: impl Into<Tree>,
+    step: impl Fn(&Tree) -> Tree,
+    (near, bound): (Tree, Tree),
+    also: impl Fn(&Tree) -> [(Tree, Tree); N],
+) -> Claim {
+    let member = Tree::symbol(MEMBERS[0]);
+    let nameless = step(&Tree::from(1));
+    let own = [&near, &bound, &nameless].into_iter().flat_map(Tree::symbols);
+    let also: Vec<_> = also(&member).into();
+    kept(name, own.filter(|own| *own != POWER).chain(nameless.symbols()));
+    let (ratio, start, step) = (ratio.into(), start.into(), step(&member));
+    Claim::new(name, &given, Kind::Drift { ratio, start, step, near, bound, also })
+}
+
+/// # Panics
+/// A name is one that inductions keep.
+fn kept(name: &str, symbols: impl Iterator<Item = &'static str>) {
+    for own in symbols {
+        assert!(own != POWER && !MEMBERS.contains(&own), "{name}: {own} is a name that inductions keep");
+    }
+}
+
 /// The derivative of a formula by a symbol is another formula.
 pub fn derivative<const N: usize>(
     name: &'static str,
@@ -277,9 +311,7 @@ pub fn induction<const M: usize, const N: usize>(
 ) -> Claim {
     assert!(N <= MEMBERS.len(), "{name}: an induction has at most {} components", MEMBERS.len());
     // Of members that have no names, only a step's own quantities are left.
-    for own in step(std::array::from_fn(|_| Tree::from(1))).iter().flat_map(Tree::symbols) {
-        assert!(own != POWER && !MEMBERS.contains(&own), "{name}: {own} is a name that inductions keep");
-    }
+    kept(name, step(std::array::from_fn(|_| Tree::from(1))).iter().flat_map(Tree::symbols));
     let members = std::array::from_fn(|i| Tree::symbol(MEMBERS[i]));
     let (start, step, closed) = (start.into(), step(members).into(), closed.into());
     Claim::new(name, &given, Kind::Induction { ratio: ratio.into(), start, step, closed })

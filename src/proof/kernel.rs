@@ -23,12 +23,11 @@
 //! A quantity that is supposed to be in an interval is, for some −1 ≤ t ≤ 1, its middle and t times half of its
 //! length; so it is replaced.
 //!
-//! **Rounding.** fl(x), the number of p bits nearest to x, is x (N + e)/N for some −1 ≤ e ≤ 1, where N = n + 1
-//! and n = 2ᵖ; nothing is said about over- and underflow. For if 2ᵏ ≤ |x| < 2ᵏ⁺¹ then |fl(x) − x| ≤ 2ᵏ/n, and
-//! |x| is 2ᵏ at least, and 2ᵏ (1 + 1/n) at least where the error is as large as that, since 2ᵏ itself has
-//! p bits. So the kernel reads it, with an e of its own for each formula that is rounded. Two of
+//! **Rounding.** fl(x), the number of p bits nearest to x, is x (N + e)/N for some −1 ≤ e ≤ 1, where N = 2ᵖ + 1;
+//! nothing is said about over- and underflow. For let 2ᵏ ≤ |x| < 2ᵏ⁺¹. Then |fl(x) − x| is at most 2ᵏ/2ᵖ, and
+//! since 2ᵏ itself has p bits, at most |x| − 2ᵏ: so N |fl(x) − x| ≤ 2ᵖ 2ᵏ/2ᵖ + |x| − 2ᵏ = |x|. So the kernel reads it, with an e of its own for each formula that is rounded. Two of
 //! which it sees that they are equal, up to powers of two, have the same e. Rounding keeps order: a − b is not
-//! negative if, step by step, nothing in a is less than what stands in its place in b ([`Order`]).
+//! negative if, step by step, nothing in a is less than what stands in its place in b ([`order`]).
 //!
 //! The names of the new symbols, and of the members of an induction, must not occur in a statement otherwise:
 //! `kept` sees to it.
@@ -37,13 +36,14 @@
 
 pub(super) mod algebra;
 mod derivation;
+mod order;
 pub(super) mod sign;
 
 pub use derivation::{Because, Derivation, Direct, Proof, Signed, Supposed, Used, Why};
 
 use self::algebra::{Monomial, Poly, Ratio, Symbol};
 use self::sign::{ERRORS, Known, PLACES, Sign, is_small, sign};
-use crate::formula::claim::{MEMBERS, POWER, PRECISION};
+use crate::formula::claim::{MEMBERS, POWER, PRECISION, SCALES};
 use crate::formula::statement::{Goal, Role, Says, Sequence, Statement};
 use crate::formula::{Hypothesis, Relation};
 use crate::number::tree::{self, Step};
@@ -75,19 +75,17 @@ pub fn prove(statement: &Statement) -> Result<Proof, Why> {
     if roundings.len() > ERRORS.len() {
         return Err(Why::TooMany);
     }
-    let given = Context { roundings, ..Context::default() }.with(statement.given())?;
-    let in_a_step = given.clone().with(&statement.invariants)?;
-    let computed = || statement.computed.iter().map(|computed| &computed.hypothesis);
-    let [claim, step] = [&given, &in_a_step].map(|context| context.clone().with(computed()));
-    let (claim, step) = (claim?, step?);
+    let context = Context::of(roundings);
     let goals = statement.goals.iter().map(|goal| {
-        let context = match goal.role {
-            Role::Claim => &claim,
-            Role::Begins => &given,
-            Role::Computed => &in_a_step,
-            Role::Step | Role::Continues => &step,
+        let computed = statement.computed.iter().map(|computed| &computed.hypothesis);
+        let (given, invariants) = (statement.given(), &statement.invariants);
+        let hypotheses: Vec<_> = match goal.role {
+            Role::Claim => given.chain(computed).collect(),
+            Role::Begins => given.collect(),
+            Role::Computed => given.chain(invariants).collect(),
+            Role::Step | Role::Continues => given.chain(invariants).chain(computed).collect(),
         };
-        derive(goal, context, CASES)
+        derive(goal, context.clone(), &hypotheses, CASES)
     });
     Ok(Proof { goals: goals.collect::<Result<_, _>>()?, statement: statement.clone() })
 }
@@ -129,19 +127,32 @@ fn roundings(statement: &Statement) -> Vec<Tree> {
 /// How many splits may be nested.
 const CASES: u32 = 4;
 
-/// Where a bracket is open, both cases.
-fn derive(goal: &Goal, context: &Context, cases: u32) -> Result<Derivation, Why> {
-    match context.direct(goal) {
+/// A goal, under what is supposed and under hypotheses that are still to be taken in. Where a bracket is open,
+/// in both cases.
+fn derive(
+    goal: &Goal,
+    mut context: Context,
+    mut hypotheses: &[&Hypothesis],
+    cases: u32,
+) -> Result<Derivation, Why> {
+    let taken = loop {
+        let [next, rest @ ..] = hypotheses else { break Ok(()) };
+        match context.take_in(next) {
+            Ok(()) => hypotheses = rest,
+            Err(why) => break Err(why),
+        }
+    };
+    match taken.and_then(|()| context.direct(goal)) {
         Ok(direct) => Ok(Derivation::Direct(direct.into())),
         Err(Why::OpenBracket(value)) if cases > 0 => {
-            let deciding = value.num();
+            let deciding = context.deciding(&value);
             let case = |sign| {
                 let mut context = context.clone();
                 context.suppose(None, deciding.clone().into(), sign);
-                derive(goal, &context, cases - 1)
+                derive(goal, context, hypotheses, cases - 1)
             };
             let (positive, not) = (case(Sign::Positive)?, case(Sign::NonPositive)?);
-            Ok(Derivation::Cases(deciding.clone(), positive.into(), not.into()))
+            Ok(Derivation::Cases(deciding, positive.into(), not.into()))
         }
         Err(why) => Err(why),
     }
@@ -151,7 +162,7 @@ fn derive(goal: &Goal, context: &Context, cases: u32) -> Result<Derivation, Why>
 const NAMES: [&str; 12] = ["s₁", "s₂", "s₃", "s₄", "s₅", "s₆", "s₇", "s₈", "s₉", "s₁₀", "s₁₁", "s₁₂"];
 
 /// What is supposed, ready for use.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 struct Context {
     supposed: Vec<Supposed>,
     known: Known,
@@ -161,19 +172,39 @@ struct Context {
 }
 
 impl Context {
-    /// With hypotheses more.
-    fn with<'h>(mut self, hypotheses: impl IntoIterator<Item = &'h Hypothesis>) -> Result<Self, Why> {
-        for hypothesis in hypotheses {
-            let mut reader = Reader::new(&self);
-            if let Some((x, lower, upper)) = hypothesis.interval() {
-                let [lower, upper] = [reader.read(lower)?, reader.read(upper)?];
-                self.suppose_between(hypothesis, Symbol(x), &lower, &upper);
-            } else {
-                let value = reader.read(&hypothesis.value)?;
-                self.suppose(Some(hypothesis), value, hypothesis.relation.into());
-            }
+    /// Nothing yet, but that powers of two are positive.
+    fn of(roundings: Vec<Tree>) -> Self {
+        let known = SCALES.into_iter().map(|name| (Symbol(name), Sign::Positive)).collect();
+        Context { supposed: Vec::new(), known, rules: Vec::new(), roundings }
+    }
+
+    /// Takes in a hypothesis.
+    fn take_in(&mut self, hypothesis: &Hypothesis) -> Result<(), Why> {
+        let mut reader = Reader::new(self);
+        if let Some((x, lower, upper)) = hypothesis.interval() {
+            let [lower, upper] = [reader.read(lower)?, reader.read(upper)?];
+            self.suppose_between(hypothesis, Symbol(x), &lower, &upper);
+        } else {
+            let value = reader.read(&hypothesis.value)?;
+            self.suppose(Some(hypothesis), value, hypothesis.relation.into());
         }
-        Ok(self)
+        Ok(())
+    }
+
+    /// What has the sign of a quotient whose denominator is positive: its numerator, without the factors N + e,
+    /// which are positive too.
+    fn deciding(&self, value: &Ratio) -> Poly {
+        let errors = value.num().symbols().into_iter().filter(|x| ERRORS.contains(&x.0));
+        let largest = self.largest();
+        errors.fold(value.num().clone(), |rest, error| {
+            let nearest = &largest + Ratio::from(Poly::symbol(error));
+            rest.over(nearest.num()).filter(|_| *nearest.den() == *largest.den()).unwrap_or(rest)
+        })
+    }
+
+    /// N
+    fn largest(&self) -> Ratio {
+        self.reduce(&Ratio::from(Poly::symbol(Symbol(PRECISION)) + Poly::constant(1)))
     }
 
     /// With every pivot replaced, until there is none left; equal in value to what is given.
@@ -297,13 +328,23 @@ impl Context {
                 signed.sign().implies(*self.known.get(x)?).then_some(rule)
             })
         };
-        free.min_by_key(|(terms, _)| *terms).map(|(_, rule)| rule).or_else(product).or_else(seen_again)
+        let free = free.min_by_key(|(terms, _)| *terms).map(|(_, rule)| rule);
+        // With errors in it, a product is not worth to be forgotten for what it equals.
+        if symbols.iter().any(|x| is_small(*x)) {
+            free.or_else(seen_again).or_else(product)
+        } else {
+            free.or_else(product).or_else(seen_again)
+        }
     }
 
     fn direct(&self, goal: &Goal) -> Result<Direct, Why> {
         let mut reader = Reader::new(self);
         let because = match &goal.says {
             Says::Equal(left, right) => Because::Same(self.same(reader.read(left)?, reader.read(right)?)?),
+            Says::Sign(Relation::NonNegative, of) if let Some((a, b)) = rounded_difference(of) => {
+                reader.defined(of)?;
+                Because::Order(order::at_least(&mut reader, a, b)?)
+            }
             Says::Sign(relation, of) => {
                 let value = self.reduce(&reader.read(of)?);
                 let signed = self.sign(value.clone()).ok_or_else(|| Why::NoSign(value.clone()))?;
@@ -314,13 +355,7 @@ impl Context {
             }
             Says::Within(of, bound) => {
                 let (of, bound) = (reader.read(of)?, reader.read(bound)?);
-                let not_negative = |value: Ratio| {
-                    let value = self.reduce(&value);
-                    let signed = self.sign(value.clone()).ok_or_else(|| Why::NoSign(value.clone()))?;
-                    let holds = signed.sign().implies(Sign::NonNegative);
-                    if holds { Ok(signed) } else { Err(Why::WrongSign(value, signed.sign())) }
-                };
-                Because::Within(not_negative(&bound - &of)?, not_negative(bound + of)?)
+                Because::Within(reader.not_negative(&bound - &of)?, reader.not_negative(bound + of)?)
             }
             Says::Derivative(of, by, is) => {
                 let Dual { derivative, .. } =
@@ -392,6 +427,23 @@ impl Context {
     }
 }
 
+/// A quotient without factors that are powers of two.
+fn without_scales(value: &Ratio) -> Ratio {
+    let is_scale = |x: Symbol| SCALES.contains(&x.0);
+    let bare = |poly: &Poly| {
+        let scales = poly.common_monomial().without_those(|x| !is_scale(x));
+        poly.over(&scales.into()).unwrap_or_else(|| poly.clone())
+    };
+    let (num, den) = (bare(value.num()), bare(value.den()));
+    Ratio::from(num).over(&den.into()).unwrap_or_else(|| value.clone())
+}
+
+/// a and b, if this is a − b, and both are rounded.
+fn rounded_difference(of: &Tree) -> Option<(&Tree, &Tree)> {
+    let Step::Sub(a, b) = of.step() else { return None };
+    [a, b].into_iter().all(|tree| matches!(tree.step(), Step::Rounded(_))).then_some((a, b))
+}
+
 /// The symbol that a quantity is, if it is one.
 fn as_symbol(value: &Ratio) -> Option<Symbol> {
     let x = value.num().symbols().into_iter().next()?;
@@ -414,6 +466,42 @@ impl<'a> Reader<'a> {
         Reader { context, divisors, brackets, rounded, errors }
     }
 
+    /// The sign of a quotient.
+    fn sign(&self, value: Ratio) -> Result<Signed, Why> {
+        let value = self.context.reduce(&value);
+        self.context.sign(value.clone()).ok_or(Why::NoSign(value))
+    }
+
+    /// The same, if it is not negative.
+    fn not_negative(&self, value: Ratio) -> Result<Signed, Why> {
+        let signed = self.sign(value)?;
+        let holds = signed.sign().implies(Sign::NonNegative);
+        if holds { Ok(signed) } else { Err(Why::WrongSign(signed.value.clone(), signed.sign())) }
+    }
+
+    /// Nothing in it is divided by 0.
+    fn defined(&mut self, tree: &Tree) -> Result<(), Why> {
+        match tree.step() {
+            Step::Div(a, b) => {
+                self.defined(a)?;
+                self.divisor(b)?;
+            }
+            step => step.operands().try_for_each(|operand| self.defined(operand))?,
+        }
+        Ok(())
+    }
+
+    /// What is divided by, which is not 0.
+    fn divisor(&mut self, tree: &Tree) -> Result<Ratio, Why> {
+        let divisor = self.read(tree)?;
+        if !divisor.is_number() && self.divisors.iter().all(|(known, _)| known != tree) {
+            let signed = self.context.sign(self.context.reduce(&divisor));
+            let signed = signed.filter(|s| s.num.sign().is_strict());
+            self.divisors.push((tree.clone(), signed.ok_or_else(|| Why::MightVanish(divisor.clone()))?));
+        }
+        Ok(divisor)
+    }
+
     fn read(&mut self, tree: &Tree) -> Result<Ratio, Why> {
         use Step::*;
         Ok(match tree.step() {
@@ -424,14 +512,8 @@ impl<'a> Reader<'a> {
             Sub(a, b) => self.read(a)? - self.read(b)?,
             Mul(a, b) => self.read(a)? * self.read(b)?,
             Div(a, b) => {
-                let (value, divisor) = (self.read(a)?, self.read(b)?);
-                let might_vanish = || Why::MightVanish(divisor.clone());
-                if !divisor.is_number() && self.divisors.iter().all(|(known, _)| known != b) {
-                    let signed = self.context.sign(self.context.reduce(&divisor));
-                    let signed = signed.filter(|s| s.num.sign().is_strict());
-                    self.divisors.push((b.clone(), signed.ok_or_else(might_vanish)?));
-                }
-                value.over(&divisor).ok_or_else(might_vanish)?
+                let (value, divisor) = (self.read(a)?, self.divisor(b)?);
+                value.over(&divisor).ok_or(Why::MightVanish(divisor))?
             }
             Exp(a) => {
                 let exponent = self.context.reduce(&self.read(a)?);
@@ -450,9 +532,9 @@ impl<'a> Reader<'a> {
 
     /// The error of what is rounded, and N.
     fn rounding(&mut self, of: &Tree, value: &Ratio) -> Result<(algebra::Symbol, Ratio), Why> {
-        let one = Poly::constant(1);
-        let largest = self.context.reduce(&Ratio::from(Poly::symbol(algebra::Symbol(PRECISION)) + one));
-        let value = self.context.reduce(value);
+        let largest = self.context.largest();
+        // What differs by a power of two rounds alike.
+        let value = without_scales(&self.context.reduce(value));
         let same = self.rounded.iter().find(|(known, _)| (known - &value).is_zero());
         let error = match same {
             Some((_, error)) => *error,

@@ -181,6 +181,10 @@ impl<'a> Paper<'a> {
         match direct.because() {
             Because::Same(value) => lines.push(format!("both sides are {}", self.order().ratio(value))),
             Because::Sign(sign) => lines.extend(self.signed(sign)),
+            Because::Order(signs) => {
+                lines.push("rounding keeps order, and so does each step, since".to_string());
+                lines.extend(signs.iter().flat_map(|signed| self.signed(signed)));
+            }
             Because::Within(above, below) => {
                 for (what, signed) in [("less it", above), ("and it", below)] {
                     lines.push(format!("the bound {what}:"));
@@ -274,10 +278,11 @@ fn means(derivation: &Derivation) -> &'static str {
         Derivation::Cases(_, positive, _) => means(positive),
         Derivation::Direct(direct) => match direct.because() {
             Because::Same(_) => "identity",
+            Because::Order(_) => "order",
             Because::Derivative(..) => "derivative",
             Because::Limit { .. } => "limit",
             Because::Sign(signed) | Because::Within(signed, _) => match signed.num().rule() {
-                Rule::Sizes(_) => "rounding",
+                Rule::Sizes(_) | Rule::Ends { .. } => "rounding",
                 Rule::Terms => "sign by terms",
                 Rule::Factor(_, rest) if matches!(rest.rule(), Rule::Slope { .. }) => "sign by slope",
                 Rule::Factor(..) => "sign by factors",

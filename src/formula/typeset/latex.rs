@@ -26,7 +26,7 @@ fn subscript(c: char) -> Option<char> {
 }
 
 pub(super) fn superscript(c: char) -> Option<char> {
-    let (own, plain) = ("⁰¹²³⁴⁵⁶⁷⁸⁹ᵏ⁺", "0123456789k+");
+    let (own, plain) = ("⁰¹²³⁴⁵⁶⁷⁸⁹⁺ᵃᵇᶠᵏᵖ", "0123456789+abfkp");
     own.chars().position(|own| own == c).and_then(|i| plain.chars().nth(i))
 }
 

@@ -53,6 +53,12 @@ pub(super) fn ascii(symbol: &str) -> String {
         'ρ' => "rho".to_string(),
         'δ' => "d".to_string(),
         'ᵏ' => "_k".to_string(),
+        // Powers of two: 2ᵖ is two_p.
+        '2' if symbol.starts_with('2') => "two".to_string(),
+        'ᵃ' => "_a".to_string(),
+        'ᵇ' => "_b".to_string(),
+        'ᶠ' => "_f".to_string(),
+        'ᵖ' => "_p".to_string(),
         // What begins with H is a hypothesis.
         'H' => "h".to_string(),
         '₀'..='₉' => char::from(b'0' + (c as u32 - '₀' as u32) as u8).to_string(),

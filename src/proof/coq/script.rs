@@ -196,7 +196,7 @@ impl Script {
                 self.line(&format!("sign_by {}.", value.argument()));
             }
             Because::Derivative(..) => self.line("derivative."),
-            Because::Within(..) => return Err("a bound"),
+            Because::Within(..) | Because::Order(_) => return Err("a bound"),
             Because::Limit { .. } => return Err("a limit among other goals"),
         }
         Ok(())
@@ -225,7 +225,7 @@ impl Script {
     fn positive(&mut self, certificate: &Certificate) -> Result<Expr, Reason> {
         Ok(match certificate.rule() {
             Rule::Terms => Expr::poly(&unsigned(certificate)),
-            Rule::Sizes(_) => return Err("a bound by sizes"),
+            Rule::Sizes(_) | Rule::Ends { .. } => return Err("a bound by sizes"),
             Rule::Factor(factor, rest) => {
                 let factor = self.positive(factor)?;
                 factor.times(self.positive(rest)?)

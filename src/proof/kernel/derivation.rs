@@ -177,6 +177,8 @@ pub enum Because {
     Sign(Signed),
     /// What the bound exceeds the size by, on either side.
     Within(Signed, Signed),
+    /// One rounded formula is no less than another, because of these signs: rounding keeps order.
+    Order(Vec<Signed>),
     /// The derivative, as dual numbers compute it, and the other side are this.
     Derivative(Ratio),
     /// By degrees in the symbol, and the sign of the denominator's leading coefficient.

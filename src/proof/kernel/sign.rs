@@ -1,6 +1,6 @@
 //! The sign of a polynomial for all values of its symbols, with a certificate.
 //!
-//! Five rules, short certificates before long ones; each is sound by itself, and together they are not
+//! Six rules, short certificates before long ones; each is sound by itself, and together they are not
 //! complete:
 //!
 //! 1. **Terms.** Every term has the same sign: a symbol known to be positive (or not negative) keeps it, a
@@ -14,7 +14,10 @@
 //!    an e^….
 //! 5. **Sizes.** Factors between −1 and 1 make a term no larger than it is without them. So the polynomial is
 //!    no less than what is left when each term with such factors is replaced by minus its size, and no more
-//!    than with plus its size. Where there are such factors, this rule and the first are all that is tried.
+//!    than with plus its size.
+//! 6. **Ends.** What is of degree one in a symbol between −1 and 1 lies between its values at the two ends, so
+//!    it has a sign that both have. Where there are such symbols, this rule, the fifth and the first are all
+//!    that is tried.
 
 use super::algebra::{Monomial, Poly, Ratio, Symbol};
 use rug::Rational;
@@ -128,6 +131,13 @@ pub enum Rule {
     },
     /// Rule 5, with the sign of what is left: it is no less than that, or no more.
     Sizes(Box<Certificate>),
+    /// Rule 6.
+    Ends {
+        /// The symbol.
+        x: Symbol,
+        /// The signs at −1 and at 1.
+        at: Box<[Certificate; 2]>,
+    },
     /// Rule 4.
     Slope {
         /// The symbol.
@@ -162,6 +172,10 @@ const DEPTH: u32 = 3;
 /// Nor is rule 4 tried on more terms than this: derivatives only grow.
 const TERMS: usize = 12;
 
+/// Rule 6 is used on so many symbols, one inside the other, and on so many terms.
+const ENDS: u32 = 4;
+const TERMS_AT_ENDS: usize = 200;
+
 /// The sign of a polynomial, if the rules find one.
 pub fn sign(of: &Poly, known: &Known) -> Option<Certificate> {
     // A short certificate before a long one.
@@ -173,7 +187,7 @@ fn within(of: &Poly, known: &Known, depth: u32) -> Option<Certificate> {
         return Some(certificate);
     }
     if of.symbols().into_iter().any(is_small) {
-        return sizes(of, known);
+        return sizes(of, known).or_else(|| ends(of, known, ENDS));
     }
     let depth = depth.checked_sub(1)?;
     factor(of, known, depth)
@@ -235,6 +249,22 @@ fn sizes(of: &Poly, known: &Known) -> Option<Certificate> {
         Some(Certificate { of: of.clone(), sign, rule: Rule::Sizes(rest.into()) })
     };
     by(NonNegative).or_else(|| by(NonPositive))
+}
+
+/// Rule 6.
+fn ends(of: &Poly, known: &Known, more: u32) -> Option<Certificate> {
+    let more = more.checked_sub(1)?;
+    if of.terms().len() > TERMS_AT_ENDS {
+        return None;
+    }
+    let x = of.symbols().into_iter().find(|x| is_small(*x) && of.degree(*x) == 1)?;
+    let [rest, slope] = <[Poly; 2]>::try_from(of.coefficients(x)).ok()?;
+    let sign = |of: Poly| terms(&of, known).or_else(|| sizes(&of, known)).or_else(|| ends(&of, known, more));
+    let (low, high) = (sign(&rest - &slope)?, sign(rest + slope)?);
+    // Between two numbers of one sign there is no other, and no zero if neither is.
+    let one = [Positive, Negative, NonNegative, NonPositive];
+    let both = one.into_iter().find(|sign| low.sign.implies(*sign) && high.sign.implies(*sign))?;
+    Some(Certificate { of: of.clone(), sign: both, rule: Rule::Ends { x, at: [low, high].into() } })
 }
 
 /// Rule 2, with a product of powers.

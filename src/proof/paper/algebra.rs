@@ -83,6 +83,11 @@ impl Order<'_> {
                 lines.extend(self.certificate(rest));
                 lines
             }
+            Rule::Ends { x: Symbol(x), at } => {
+                let mut lines = vec![format!("{of} {sign}, at {x} = −1 and at {x} = 1:")];
+                lines.extend(at.iter().flat_map(|end| self.certificate(end)));
+                lines
+            }
             Rule::Factor(factor, rest) => {
                 let mut lines =
                     vec![format!("{of} = ({}) ({}) {sign}, since", poly(factor.of()), poly(rest.of()))];

@@ -1,6 +1,6 @@
 //! Where a counterexample is looked for.
 
-use crate::formula::claim::PRECISION;
+use crate::formula::claim::{PRECISION, SCALES};
 use crate::formula::{Hypothesis, Relation};
 use crate::number::Exact;
 use crate::number::tree::{Step, piecewise};
@@ -48,7 +48,12 @@ impl Point {
 
     /// Do hypotheses hold there?
     pub fn satisfies(&self, hypotheses: &[Hypothesis]) -> bool {
-        hypotheses.iter().all(|hypothesis| self.admits(hypothesis))
+        // What stands for a power of two is one, and of two bits or more if for the precision.
+        let is_one = |(name, x): (&str, &Exact)| match name {
+            PRECISION => bits(x).is_some(),
+            name => !SCALES.contains(&name) || is_power_of_two(x),
+        };
+        self.numbers().all(is_one) && hypotheses.iter().all(|hypothesis| self.admits(hypothesis))
     }
 
     fn admits(&self, hypothesis: &Hypothesis) -> bool {
@@ -105,16 +110,28 @@ fn random(point: u64, symbol: &str) -> Rand64 {
 /// The bits of the numbers that are rounded to, with which a point is drawn.
 const BITS: [i32; 8] = [2, 3, 4, 6, 8, 11, 24, 53];
 
-/// 2ᵖ for some number of bits p.
-fn precision(random: &mut Rand64) -> Exact {
-    Exact::power_of_two(BITS[random.rand_range(0..BITS.len() as u64) as usize])
+/// 2ᵖ for some number of bits p; of others, any power of two.
+fn power_of_two(symbol: &str, random: &mut Rand64) -> Exact {
+    Exact::power_of_two(match symbol {
+        PRECISION => BITS[random.rand_range(0..BITS.len() as u64) as usize],
+        _ => random.rand_range(0..9) as i32 - 4,
+    })
+}
+
+/// With any whole exponent.
+fn is_power_of_two(x: &Exact) -> bool {
+    x.as_rational().numer().is_power_of_two() && x.as_rational().denom().is_power_of_two()
+}
+
+/// The p with n = 2ᵖ, if it is 2 or more.
+fn bits(n: &Exact) -> Option<u32> {
+    let whole = is_power_of_two(n) && *n.as_rational().denom() == 1;
+    whole.then(|| n.as_rational().numer().significant_bits() - 1).filter(|bits| *bits >= 2)
 }
 
 /// The nearest number of p bits, if n is 2ᵖ and p at least 2.
 pub(super) fn nearest(x: &Exact, n: &Exact) -> Option<Exact> {
-    let n = Some(n.as_rational()).filter(|n| *n.denom() == 1 && n.numer().is_power_of_two());
-    let bits = n?.numer().significant_bits() - 1;
-    if bits < 2 { None } else { x.rounded(bits) }
+    x.rounded(bits(n)?)
 }
 
 /// ⟨·⟩, min, and rounding to p bits where n is 2ᵖ.
@@ -126,8 +143,8 @@ fn rounding(step: Step<&Exact>, n: &Exact) -> Option<Exact> {
 }
 
 fn raw(point: u64, symbol: &str) -> Exact {
-    if symbol == PRECISION {
-        return precision(&mut random(point, symbol));
+    if symbol == PRECISION || SCALES.contains(&symbol) {
+        return power_of_two(symbol, &mut random(point, symbol));
     }
     let size = if point % 4 == 3 { LARGER } else { SMALL };
     Exact::from(random(point, symbol).rand_range(0..2 * size as u64 + 1) as i32 - size)
@@ -161,8 +178,8 @@ pub fn planted_points(hypotheses: &[Hypothesis], symbols: &[&'static str]) -> im
     (0..PLANTED).filter_map(move |i| {
         let draw = |symbol: &&'static str| {
             let mut random = random(RAW + i, symbol);
-            if *symbol == PRECISION {
-                return (*symbol, precision(&mut random));
+            if *symbol == PRECISION || SCALES.contains(symbol) {
+                return (*symbol, power_of_two(symbol, &mut random));
             }
             let x = size(&mut random);
             (*symbol, if random.rand_range(0..3) == 0 { -x } else { x })
