@@ -107,7 +107,7 @@ hypotheses! {
     ), solved for &s.c;
     computed_inside "fl(l + u − H) ≥ 0" = non_negative(contact::penetration(s, u).rounded());
     computed_repeats "fl(λ + ε (l + u − H)) = λ" =
-        zero(augmented::update(s, eps, lambda, u).rounded() - lambda);
+        zero(augmented::update(s, eps, lambda, u).rounded() - lambda), solved for &s.l;
     decay "0 ≤ q ≤ 1" = Hypothesis::between(q, 0, 1);
     near_penalty "|u − (ε (H − l) + m g) / (c + ε)| ≤ η (5 |Δ| + 4 R / (c + ε)) (1 + 2 η)" = Hypothesis::near(
         u, penalty::deflection(s, eps), rounding::deflection_error(s, eps, precision())

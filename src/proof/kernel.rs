@@ -244,7 +244,7 @@ impl Context {
                 } else {
                     let new = self.supposed.iter().filter(|s| matches!(s.used, Used::Pivot(..))).count();
                     let name = NAMES.get(new).copied().map(Symbol);
-                    match name.and_then(|name| Some((name, self.pivot(&value, &Poly::symbol(name), sign)?))) {
+                    match name.and_then(|name| Some((name, self.pivot(given, &value, &Poly::symbol(name), sign)?))) {
                         None => Used::Unused,
                         Some((name, (pivot, by))) => {
                             self.known.insert(name, sign);
@@ -254,7 +254,7 @@ impl Context {
                 }
             }
             Sign::Zero => self
-                .pivot(&value, &Poly::zero(), sign)
+                .pivot(given, &value, &Poly::zero(), sign)
                 .map_or(Used::Unused, |(pivot, by)| Used::Pivot(pivot, by, None)),
         };
         if let Used::Pivot(pivot, by, _) = &used {
@@ -296,7 +296,16 @@ impl Context {
     /// Best a symbol of which nothing is known and that stands alone or times what is not 0, so that it
     /// disappears for good; else a product of symbols of which little is known, so that little is forgotten;
     /// else a symbol whose sign is then seen again: with b = a + s for b − a > 0 that of b is.
-    fn pivot(&self, value: &Ratio, slack: &Poly, sign_of_slack: Sign) -> Option<(Monomial, Ratio)> {
+    ///
+    /// Where there are errors in it, the symbol that the hypothesis is solved for comes first, and products
+    /// last: they would be forgotten for something long.
+    fn pivot(
+        &self,
+        given: Option<&Hypothesis>,
+        value: &Ratio,
+        slack: &Poly,
+        sign_of_slack: Sign,
+    ) -> Option<(Monomial, Ratio)> {
         // num − slack · den = 0, and den is not 0.
         let equation = value.num() - slack * value.den();
         let solved = |x: Symbol| {
@@ -307,8 +316,10 @@ impl Context {
             (strict && !by.symbols().contains(&x)).then_some((length, (Monomial::of(x), by)))
         };
         let symbols = value.num().symbols();
+        let rounds = symbols.iter().any(|x| is_small(*x));
+        let comes_later = |x: &Symbol| rounds && given.is_none_or(|given| given.solved_for != x.0);
         let free = |x: &&Symbol| !self.known.contains_key(x) && !is_small(**x);
-        let free = symbols.iter().filter(free).filter_map(|x| solved(*x));
+        let free = symbols.iter().filter(free).filter_map(|x| Some((comes_later(x), solved(*x)?)));
         let product = || {
             let known = |m: &Monomial| m.powers().filter(|(x, _)| self.known.contains_key(x)).count();
             let large = |m: &&Monomial| m.powers().len() > 1 && !m.powers().any(|(x, _)| is_small(x));
@@ -328,13 +339,8 @@ impl Context {
                 signed.sign().implies(*self.known.get(x)?).then_some(rule)
             })
         };
-        let free = free.min_by_key(|(terms, _)| *terms).map(|(_, rule)| rule);
-        // With errors in it, a product is not worth to be forgotten for what it equals.
-        if symbols.iter().any(|x| is_small(*x)) {
-            free.or_else(seen_again).or_else(product)
-        } else {
-            free.or_else(product).or_else(seen_again)
-        }
+        let free = free.min_by_key(|(later, (terms, _))| (*later, *terms)).map(|(_, (_, rule))| rule);
+        free.or_else(|| if rounds { seen_again().or_else(product) } else { product().or_else(seen_again) })
     }
 
     fn direct(&self, goal: &Goal) -> Result<Direct, Why> {

@@ -174,7 +174,7 @@ const TERMS: usize = 12;
 
 /// Rule 6 is used on so many symbols, one inside the other, and on so many terms.
 const ENDS: u32 = 4;
-const TERMS_AT_ENDS: usize = 200;
+const TERMS_AT_ENDS: usize = 1000;
 
 /// The sign of a polynomial, if the rules find one.
 pub fn sign(of: &Poly, known: &Known) -> Option<Certificate> {
