@@ -202,6 +202,10 @@ impl Context {
         })
     }
 
+    fn rounds(&self) -> bool {
+        !self.roundings.is_empty()
+    }
+
     /// N
     fn largest(&self) -> Ratio {
         self.reduce(&Ratio::from(Poly::symbol(Symbol(PRECISION)) + Poly::constant(1)))
@@ -511,6 +515,10 @@ impl<'a> Reader<'a> {
     fn read(&mut self, tree: &Tree) -> Result<Ratio, Why> {
         use Step::*;
         Ok(match tree.step() {
+            // What rounding makes of a formula is long: the sooner it is in the symbols that are left, the better.
+            Symbol(name) if self.context.rounds() => {
+                self.context.reduce(&Poly::symbol(algebra::Symbol(name)).into())
+            }
             Symbol(name) => Poly::symbol(algebra::Symbol(name)).into(),
             Int(n) => Poly::constant(*n).into(),
             Neg(a) => -self.read(a)?,
@@ -528,7 +536,7 @@ impl<'a> Reader<'a> {
             PositivePart(a) => self.either(tree, a, &tree.with_step(Int(0)), |a, _| a)?,
             Min(a, b) => self.either(tree, a, b, |a, b| b - a)?,
             Rounded(a) => {
-                let value = self.read(a)?;
+                let value = self.context.reduce(&self.read(a)?);
                 let (error, largest) = self.rounding(a, &value)?;
                 let nearest = &largest + Ratio::from(Poly::symbol(error));
                 (value * nearest).over(&largest).ok_or(Why::MightVanish(largest))?
@@ -540,7 +548,7 @@ impl<'a> Reader<'a> {
     fn rounding(&mut self, of: &Tree, value: &Ratio) -> Result<(algebra::Symbol, Ratio), Why> {
         let largest = self.context.largest();
         // What differs by a power of two rounds alike.
-        let value = without_scales(&self.context.reduce(value));
+        let value = without_scales(value);
         let same = self.rounded.iter().find(|(known, _)| (known - &value).is_zero());
         let error = match same {
             Some((_, error)) => *error,

@@ -10,20 +10,40 @@
 use crate::operators;
 use rug::Rational;
 use std::cmp::Ordering;
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// A quantity by its name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Eq, Hash)]
 pub struct Symbol(pub &'static str);
+
+impl PartialEq for Symbol {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl PartialOrd for Symbol {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+/// By name; where two names are one, that is seen without reading them.
+impl Ord for Symbol {
+    fn cmp(&self, other: &Self) -> Ordering {
+        if std::ptr::eq(self.0, other.0) { Ordering::Equal } else { self.0.cmp(other.0) }
+    }
+}
 
 /// A product of powers of symbols, times e to a quotient, if any.
 ///
 /// One exponential is enough, since eᵃ eᵇ = eᵃ⁺ᵇ.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Monomial {
-    /// None of them is 0.
-    powers: BTreeMap<Symbol, u32>,
+    /// By name; none of them is 0.
+    powers: Vec<(Symbol, u32)>,
     exponent: Option<Arc<Ratio>>,
 }
 
@@ -41,17 +61,17 @@ pub struct Ratio {
 impl Monomial {
     /// The empty product.
     pub fn one() -> Self {
-        Monomial { powers: BTreeMap::new(), exponent: None }
+        Monomial { powers: Vec::new(), exponent: None }
     }
 
     /// A symbol.
     pub fn of(x: Symbol) -> Self {
-        Monomial { powers: [(x, 1)].into(), exponent: None }
+        Monomial { powers: vec![(x, 1)], exponent: None }
     }
 
     /// The powers of its symbols, by name.
     pub fn powers(&self) -> impl ExactSizeIterator<Item = (Symbol, u32)> {
-        self.powers.iter().map(|(x, n)| (*x, *n))
+        self.powers.iter().copied()
     }
 
     /// What e is raised to, if it is.
@@ -60,10 +80,20 @@ impl Monomial {
     }
 
     fn times(&self, other: &Self) -> Self {
-        let mut powers = self.powers.clone();
-        for (x, n) in other.powers() {
-            let own = powers.entry(x).or_default();
-            *own = own.checked_add(n).expect("a power fits 32 bits");
+        let mut powers = Vec::with_capacity(self.powers.len() + other.powers.len());
+        let (mut own, mut others) = (self.powers().peekable(), other.powers().peekable());
+        loop {
+            powers.push(match (own.peek(), others.peek()) {
+                (Some((x, n)), Some((y, m))) if x == y => {
+                    let sum = (*x, n.checked_add(*m).expect("a power fits 32 bits"));
+                    (own.next(), others.next());
+                    sum
+                }
+                (Some((x, _)), Some((y, _))) if y < x => others.next().expect("peeked"),
+                (Some(_), _) => own.next().expect("peeked"),
+                (None, Some(_)) => others.next().expect("peeked"),
+                (None, None) => break,
+            });
         }
         let exponent = match (&self.exponent, &other.exponent) {
             (None, e) | (e, None) => e.clone(),
@@ -79,10 +109,10 @@ impl Monomial {
         }
         let mut powers = self.powers.clone();
         for (x, n) in divisor.powers() {
-            let own = powers.get_mut(&x)?;
+            let (_, own) = powers.iter_mut().find(|(y, _)| *y == x)?;
             *own = own.checked_sub(n)?;
         }
-        powers.retain(|_, n| *n > 0);
+        powers.retain(|(_, n)| *n > 0);
         Some(Monomial { powers, exponent: self.exponent.clone() })
     }
 
@@ -94,12 +124,12 @@ impl Monomial {
     /// Without some of its symbols.
     pub fn without_those(&self, some: impl Fn(Symbol) -> bool) -> Self {
         let mut rest = self.clone();
-        rest.powers.retain(|x, _| !some(*x));
+        rest.powers.retain(|(x, _)| !some(*x));
         rest
     }
 
     fn degree(&self, x: Symbol) -> u32 {
-        self.powers.get(&x).copied().unwrap_or(0)
+        self.powers().find(|(y, _)| *y == x).map_or(0, |(_, n)| n)
     }
 
     fn without(&self, x: Symbol) -> Self {
@@ -166,9 +196,17 @@ impl Poly {
     }
 
     fn accumulate(&mut self, monomial: Monomial, coefficient: Rational) {
-        let sum = self.0.remove(&monomial).unwrap_or_default() + coefficient;
-        if !sum.is_zero() {
-            self.0.insert(monomial, sum);
+        match self.0.entry(monomial) {
+            Entry::Vacant(place) if !coefficient.is_zero() => {
+                place.insert(coefficient);
+            }
+            Entry::Vacant(_) => {}
+            Entry::Occupied(mut place) => {
+                *place.get_mut() += coefficient;
+                if place.get().is_zero() {
+                    place.remove();
+                }
+            }
         }
     }
 
@@ -214,7 +252,7 @@ impl Poly {
 
     /// Its symbols, those in exponents too.
     pub fn symbols(&self) -> BTreeSet<Symbol> {
-        let own = self.0.keys().flat_map(|m| m.powers.keys().copied());
+        let own = self.0.keys().flat_map(|m| m.powers().map(|(x, _)| x));
         own.chain(self.exponents().flat_map(Ratio::symbols)).collect()
     }
 
@@ -257,7 +295,7 @@ impl Poly {
         let mut monomials = self.0.keys();
         let mut common = monomials.next().map_or(Monomial::one(), Monomial::bare);
         for m in monomials {
-            common.powers.retain(|x, n| {
+            common.powers.retain_mut(|(x, n)| {
                 *n = (*n).min(m.degree(*x));
                 *n > 0
             });
