@@ -28,7 +28,7 @@ mod system;
 pub use case::{Case, Var, symbols};
 pub use entry::Entry;
 #[cfg(feature = "mpfr")]
-pub use experiments::{Experiment, Trial, exact_experiments, first_order_experiments, float_experiments};
+pub use experiments::{Experiment, Trial, exact_experiments, float_experiments};
 pub use formulas::computed;
 pub use given::{Given, given};
 pub use numbers::{all_numbered, numbered};
@@ -45,6 +45,7 @@ mod prelude {
         derivative, drift, equal, induction, limit, non_negative, positive, vanishing, within,
     };
     pub(super) use crate::number::{Dual, Exponential, Field, PositivePart, Tree};
+    use crate::chapter::rounding;
     use crate::formula::claim;
     use std::sync::LazyLock;
 
@@ -52,6 +53,11 @@ mod prelude {
     pub(super) fn precision() -> &'static Tree {
         static PRECISION: LazyLock<Tree> = LazyLock::new(|| Tree::symbol(claim::PRECISION));
         &PRECISION
+    }
+
+    /// The unit roundoff.
+    pub(super) fn eta() -> Tree {
+        rounding::unit_roundoff(precision())
     }
 
     /// What a sequence has come to, in the step of an induction.
@@ -131,9 +137,8 @@ pub fn statements() -> Vec<Statement> {
 /// The names of an entry's claims, in whatever number system they are checked.
 #[cfg(feature = "mpfr")]
 pub fn claim_names(equation: &str) -> Vec<&'static str> {
-    let recorded = claims().map(|c| (c.equation, c.name));
-    let floats = float_experiments::<f64>().into_iter().chain(first_order_experiments());
-    let floats = floats.map(|e| (e.equation, e.name));
+    let recorded = claims().filter(|c| !c.rounds()).map(|c| (c.equation, c.name));
+    let floats = float_experiments::<f64>().into_iter().map(|e| (e.equation, e.name));
     let rationals = exact_experiments().into_iter().map(|e| (e.equation, e.name));
     let all = recorded.chain(floats).chain(rationals);
     all.filter(|(e, _)| *e == equation).map(|(_, name)| name).collect()

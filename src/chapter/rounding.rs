@@ -22,50 +22,6 @@ pub fn unit_roundoff<T: Field>(n: &T) -> T {
     T::one() / n
 }
 
-/// How far a computed penetration is from (1.5) at the same u, in m.
-///
-/// `η (|s| + |p|)`
-///
-/// `sum` is fl(l + u) and `p` the penetration, as they are computed, in m; `n` is 2ᵖ. Source: §1.2, note 8.
-///
-/// ```
-/// # use spring_mass_contact::chapter::rounding;
-/// assert_eq!(rounding::penetration_error(&1024.0, &2.0, &-0.5), 2.5 / 1024.0);
-/// ```
-pub fn penetration_error<T: PositivePart>(n: &T, sum: &T, p: &T) -> T {
-    unit_roundoff(n) * (sum.abs() + p.abs())
-}
-
-/// How far a computed m g / c is from the deflection of a mass that hangs free, in m.
-///
-/// `η (2 + η) |u|`
-///
-/// `u` is the deflection as it is computed, in m; `n` is 2ᵖ. Source: §1.1, note 8.
-///
-/// ```
-/// # use spring_mass_contact::chapter::rounding;
-/// assert_eq!(rounding::free_error(&4.0, &-16.0), 9.0);
-/// ```
-pub fn free_error<T: PositivePart>(n: &T, u: &T) -> T {
-    let eta = unit_roundoff(n);
-    &eta * (T::int(2) + &eta) * u.abs()
-}
-
-/// How far a computed m g − c u is from the force at the same u, in N.
-///
-/// `η (|W| + |F| + |N|)`
-///
-/// `weight` is fl(m g), `spring` is fl(c u) and `force` the contact force, as they are computed, in N; `n` is 2ᵖ.
-/// Source: §1.3.3, note 8.
-///
-/// ```
-/// # use spring_mass_contact::chapter::rounding;
-/// assert_eq!(rounding::force_error(&1024.0, &10.0, &8.0, &2.0), 20.0 / 1024.0);
-/// ```
-pub fn force_error<T: PositivePart>(n: &T, weight: &T, spring: &T, force: &T) -> T {
-    unit_roundoff(n) * (weight.abs() + spring.abs() + force.abs())
-}
-
 /// How far a computed (1.13) is from the exact one, in m.
 ///
 /// `η (5 |Δ| + 4 R / (c + ε)) (1 + 2 η)`
@@ -135,43 +91,12 @@ pub fn floor<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: &T) -> T {
     unit_roundoff(n) * (system.h.abs() + system::gap(system).abs() + system::reaction(system) / eps)
 }
 
-/// How far the deflection of one step of (1.16) is from the exact one at the same computed λ, in m.
-///
-/// `η (5 |Δ| + 5 R / (c + ε)) + F`
-///
-/// `eps` is the penalty ε in N/m, `n` is 2ᵖ. Domain: as for [`multiplier_drift`]. Source: §1.3.3, note 8.
-///
-/// ```
-/// # use spring_mass_contact::chapter::{SpringMass, rounding};
-/// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
-/// assert_eq!(rounding::step_error(&system, &4.0, &2.0), 8.375);
-/// ```
-pub fn step_error<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: &T) -> T {
-    let lengths = T::int(5) * system::gap(system).abs() + T::int(5) * penalty::penetration(system, eps);
-    unit_roundoff(n) * lengths + floor(system, eps, n)
-}
-
-/// How far computed multipliers of (1.16) stay from the exact ones, from λ₀ = 0 and for all k, in N.
-///
-/// `11 (c + ε) F`
-///
-/// `eps` is the penalty ε in N/m, `n` is 2ᵖ. Domain: c > 0, ε > 0, R > 0, and 64 (c + ε) ≤ ε (2ᵖ + 1).
-/// Source: §1.3.3, note 8.
-///
-/// ```
-/// # use spring_mass_contact::chapter::{SpringMass, rounding};
-/// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
-/// assert_eq!(rounding::multiplier_drift(&system, &4.0, &1024.0), 11.0 * 8.0 * 5.5 / 1024.0);
-/// ```
-pub fn multiplier_drift<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: &T) -> T {
-    T::int(11) * penalty::total_stiffness(system, eps) * floor(system, eps, n)
-}
-
 /// How far computed penetrations of (1.16) stay from the exact ones, from λ₀ = 0 and for all k, in m.
 ///
 /// `20 F`
 ///
-/// `eps` is the penalty ε in N/m, `n` is 2ᵖ. Domain: as for [`multiplier_drift`]. Source: §1.3.3, note 8.
+/// `eps` is the penalty ε in N/m, `n` is 2ᵖ. Domain: c > 0, ε > 0, R > 0,
+/// and 64 (c + ε) ≤ ε (2ᵖ + 1). Source: §1.3.3, note 8.
 ///
 /// ```
 /// # use spring_mass_contact::chapter::{SpringMass, rounding};

@@ -2,7 +2,8 @@
 
 use super::prelude::*;
 use crate::chapter::augmented::{self, *};
-use crate::chapter::{contact, lagrange, penalty, rounding, system::reaction};
+use crate::chapter::{contact, lagrange, penalty, rounding};
+use crate::chapter::system::{gap, reaction};
 
 formulas! {
     "L" (folded) = augmented::functional(system, "ε", "λ", "u");
@@ -52,6 +53,7 @@ pub(super) fn entries() -> Vec<Entry> {
         computed_inside,
         decay,
         near_iterate,
+        some_bits,
         ..
     } = given();
     let iterate = &deflection(s, eps, lambda);
@@ -131,7 +133,7 @@ pub(super) fn entries() -> Vec<Entry> {
                 ),
                 non_negative(
                     "float-multiplier-rises",
-                    [stiffness, penalty, computed_inside],
+                    [penalty, computed_inside],
                     update(s, eps, lambda, u).rounded() - lambda.nearest(),
                 ),
                 {
@@ -148,13 +150,22 @@ pub(super) fn entries() -> Vec<Entry> {
                     contraction(s, eps),
                     0,
                     |lambda| update(s, eps, lambda, u).rounded(),
-                    (multiplier_after(s, zero, q), rounding::multiplier_drift(s, eps, precision())),
+                    {
+                        let floor = rounding::floor(s, eps, precision());
+                        let bound = int(11) * penalty::total_stiffness(s, eps) * floor;
+                        (multiplier_after(s, zero, q), bound)
+                    },
                     |_| {
                         let error = contact::penetration(s, u).rounded() - penetration_after(s, eps, zero, q);
                         [(error, rounding::penetration_drift(s, eps, precision()))]
                     },
                 )
                 .computing(u, deflection(s, eps, member()).rounded()),
+                {
+                    let drift = rounding::penetration_drift(s, eps, precision());
+                    let lengths = s.h.abs() + gap(s).abs() + reaction(s) / eps;
+                    equal("float-drift-in-parts", [penalty, some_bits], drift * precision(), int(20) * lengths)
+                },
                 equal(
                     "penetration",
                     [stiffness, penalty],

@@ -97,6 +97,7 @@ coordinates! {
     K k "k" "A number of steps.";
     T t "t" "A time.";
     Tol tol "tol" "A tolerance, in m.";
+    Bits bits "2ᵖ" "2ᵖ for numbers of p bits.";
 }
 
 impl<T> Case<T> {

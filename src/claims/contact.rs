@@ -3,7 +3,7 @@
 use super::prelude::*;
 use crate::chapter::contact::{self, *};
 use crate::chapter::system::{gap, reaction};
-use crate::chapter::{augmented, rounding, structure};
+use crate::chapter::{augmented, structure};
 
 formulas! {
     "p" (folded) = contact::penetration(system, "u");
@@ -36,7 +36,7 @@ pub(super) fn entries() -> Vec<Entry> {
                     penetration(s, u).rounded() - penetration(s, u),
                     {
                         let (sum, p) = ((&s.l + u).rounded(), penetration(s, u).rounded());
-                        rounding::penetration_error(precision(), &sum, &p)
+                        eta() * (sum.abs() + p.abs())
                     },
                 ),
                 equal("free", [stiffness], penetration(s, &structure::deflection(s)), reaction(s) / &s.c),

@@ -3,9 +3,8 @@
 //! The bounds are those of the chapter on floating point in the book, where they are derived. "True"
 //! always means: of the parameters as they are in their scalar.
 
-mod rounding;
+mod laws;
 
-use self::rounding::{Setting, in_range};
 use super::{Case, given};
 use crate::chapter::{SpringMass, augmented, contact, penalty, structure, system};
 use crate::formula::Hypothesis;
@@ -16,6 +15,7 @@ use crate::solver::{
 };
 use num_traits::{One, Zero};
 use std::cmp::Ordering;
+use std::sync::Arc;
 
 /// How one trial of an experiment went.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,6 +33,9 @@ pub enum Trial {
     Undecided,
 }
 
+/// One trial.
+pub type Check<T> = Arc<dyn Fn(&Case<T>) -> Trial + Send + Sync>;
+
 /// A claim about what is *computed* in one number system.
 pub struct Experiment<T> {
     /// The entry it belongs to.
@@ -42,7 +45,11 @@ pub struct Experiment<T> {
     /// What it supposes.
     pub given: Vec<Hypothesis>,
     /// One trial.
-    pub check: fn(&Case<T>) -> Trial,
+    pub check: Check<T>,
+}
+
+fn check<T>(f: impl Fn(&Case<T>) -> Trial + Send + Sync + 'static) -> Check<T> {
+    Arc::new(f)
 }
 
 macro_rules! list {
@@ -51,7 +58,7 @@ macro_rules! list {
             equation: $equation,
             name: $name,
             given: vec![$(given().$given.clone()),*],
-            check: $check,
+            check: check($check),
         }),*]
     };
 }
@@ -62,31 +69,18 @@ const STEPS: usize = 24;
 /// And as many to a fixed point.
 const MOST_STEPS: usize = 1000;
 
-/// Claims about floats.
+/// Claims about floats: those that are proved for every precision, then those that are only tried.
 pub fn float_experiments<T: Scalar + Real + ToExact>() -> Vec<Experiment<T>> {
-    list! {
-        "1.5" "rounding" [] |x| in_range(x, Setting::penetration_rounding);
+    let tried = list! {
         "1.6" "exact-state" [stiffness grazing] |x| state(x);
         "1.8" "bounds-contain" [stiffness] |x| bounds(x, &Method::Lagrange);
         "1.10" "root" [stiffness penalty quartic] |x| series_root(x);
         "1.13" "bounds-contain" [stiffness penalty]
-            |x| bounds(x, &Method::Penalty { penalty: x.eps.clone() });
-        "1.16" "float-monotone" [stiffness penalty contact] |x| monotone(x);
+            |x: &Case<T>| bounds(x, &Method::Penalty { penalty: x.eps.clone() });
         "1.33" "promise" [stiffness penalty tolerance] |x| promise(x);
-        "note 8" "floor" [stiffness penalty contact] |x| in_range(x, Setting::fixed_point);
-        "note 8" "units" [stiffness penalty tolerance] |x| units(x);
-    }
-}
-
-/// Claims about floats whose bounds hold to first order in η: for scalars in which η is small.
-pub fn first_order_experiments<T: Scalar + Real + ToExact>() -> Vec<Experiment<T>> {
-    list! {
-        "1.12" "precision-law" [stiffness penalty contact] |x| in_range(x, Setting::precision_law);
-        "1.13" "float-error" [stiffness penalty contact] |x| in_range(x, Setting::deflection_error);
-        "1.16" "float-drift" [stiffness penalty contact] |x| in_range(x, Setting::penetration_drift);
-        "1.16" "float-multiplier-drift" [stiffness penalty contact]
-            |x| in_range(x, Setting::multiplier_drift);
-    }
+        "note 8" "units-of-solutions" [stiffness penalty tolerance] |x| units(x);
+    };
+    laws::laws().into_iter().chain(tried).collect()
 }
 
 /// Claims about what is computed without rounding.
@@ -102,10 +96,6 @@ pub fn exact_experiments() -> Vec<Experiment<Exact>> {
 
 fn exact<T: ToExact>(x: &T) -> Option<Exact> {
     x.to_exact().ok()
-}
-
-fn within(error: Exact, bound: Exact) -> Trial {
-    Trial::Within { error: error.abs(), bound }
 }
 
 /// The state is that of the exact sign of R, next to grazing too.
@@ -176,29 +166,6 @@ fn series_root<T: Scalar + Real + ToExact>(x: &Case<T>) -> Trial {
     }
 }
 
-/// While p̂ ≥ 0, λ̂ rises strictly until it repeats, and p̂ never rises.
-fn monotone<T: Scalar + Real + ToExact>(x: &Case<T>) -> Trial {
-    let mut steps = Augmentation::new(&x.system, &x.eps).over(Plane::Bilateral);
-    let mut before = steps.step();
-    if !Real::is_finite(&before.deflection) || before.penetration <= T::zero() {
-        return Trial::Undecided;
-    }
-    for _ in 0..STEPS {
-        let step = steps.step();
-        if step.multiplier == before.multiplier {
-            break;
-        }
-        if step.multiplier < before.multiplier || step.penetration > before.penetration {
-            return Trial::Decided(false);
-        }
-        if step.penetration <= T::zero() {
-            break;
-        }
-        before = step;
-    }
-    Trial::Decided(true)
-}
-
 /// `converged` means that |û − u*| is below the tolerance, exactly; the floor is no less than the error
 /// that it bounds; the bounds contain the limit, whatever the outcome; the plane never pulls.
 fn promise<T: Scalar + Real + ToExact>(x: &Case<T>) -> Trial {
@@ -245,7 +212,8 @@ fn units<T: Scalar + Real + ToExact>(x: &Case<T>) -> Trial {
     let comes_back = |(y, n): (&T, i32)| scale(&scale(y, n), -n) == *y;
     let scaled_by = [(c, f - a), (m, b), (g, f - b), (l, a), (h, a)];
     let own = [(&x.eps, f - a), (&x.tol, a), (&x.lambda, f)];
-    if Setting::of(x).is_none() || !scaled_by.into_iter().chain(own).all(comes_back) {
+    let in_other_units = Case { system: scaled.clone(), eps: scale(&x.eps, f - a), lambda: scale(&x.lambda, f), ..x.clone() };
+    if !laws::in_range(x) || !laws::in_range(&in_other_units) || !scaled_by.into_iter().chain(own).all(comes_back) {
         return Trial::Undecided;
     }
     let (before, after) =

@@ -1,10 +1,10 @@
 //! What claims of the chapter suppose.
 
-use super::prelude::{member, precision};
+use super::prelude::{eta, member, precision};
 use super::{Case, symbols};
 use crate::chapter::{augmented, contact, penalty, rounding, system};
 use crate::formula::{Hypothesis, Relation};
-use crate::number::Tree;
+use crate::number::{PositivePart, Tree};
 use std::sync::LazyLock;
 
 macro_rules! hypotheses {
@@ -108,12 +108,17 @@ hypotheses! {
     computed_inside "fl(l + u − H) ≥ 0" = non_negative(contact::penetration(s, u).rounded());
     computed_repeats "fl(λ + ε (l + u − H)) = λ" =
         zero(augmented::update(s, eps, lambda, u).rounded() - lambda), solved for &s.l;
+    some_bits "2ᵖ > 0" = positive(precision());
+    one_bit "2ᵖ > 1" = positive(precision() - Tree::from(1));
     decay "0 ≤ q ≤ 1" = Hypothesis::between(q, 0, 1);
     near_penalty "|u − (ε (H − l) + m g) / (c + ε)| ≤ η (5 |Δ| + 4 R / (c + ε)) (1 + 2 η)" = Hypothesis::near(
         u, penalty::deflection(s, eps), rounding::deflection_error(s, eps, precision())
     );
     near_iterate "|u − (m g − x₁ + ε (H − l)) / (c + ε)| ≤ η (5 |Δ| + 5 R / (c + ε)) + F" = Hypothesis::near(
-        u, augmented::deflection(s, eps, member()), rounding::step_error(s, eps, precision())
+        u,
+        augmented::deflection(s, eps, member()),
+        eta() * (Tree::from(5) * system::gap(s).abs() + Tree::from(5) * penalty::penetration(s, eps))
+            + rounding::floor(s, eps, precision())
     );
 }
 

@@ -32,6 +32,7 @@ pub(super) fn entries() -> Vec<Entry> {
         power,
         time,
         computed_repeats,
+        one_bit,
         ..
     } = given();
     let iterate = &augmented::deflection(s, eps, lambda);
@@ -314,7 +315,7 @@ pub(super) fn entries() -> Vec<Entry> {
                         let parts = [system::weight(s), structure::spring_force(s, u)];
                         let [weight, spring] = parts.map(|part| part.rounded());
                         let force = augmented::contact_force(s, u).rounded();
-                        rounding::force_error(precision(), &weight, &spring, &force)
+                        eta() * (weight.abs() + spring.abs() + force.abs())
                     },
                 ),
             ]),
@@ -329,6 +330,16 @@ pub(super) fn entries() -> Vec<Entry> {
                     contact::penetration(s, u),
                     rounding::fixed_point_error(s, eps, lambda, precision()),
                 ),
+                {
+                    let growth = (int(3) + eta()) / (precision() - one);
+                    let [height, length] = [s.h.abs(), lambda.abs() / eps];
+                    equal(
+                        "floor-in-parts",
+                        [penalty, one_bit],
+                        rounding::fixed_point_error(s, eps, lambda, precision()) * precision(),
+                        height + &length + growth * length,
+                    )
+                },
                 {
                     let [a, ..] = scales();
                     let own = augmented::deflection(s, eps, lambda).rounded();

@@ -40,6 +40,7 @@ pub(super) fn entries() -> Vec<Entry> {
         enough,
         within_tolerance,
         near_penalty,
+        some_bits,
         ..
     } = given();
     let zero = &int(0);
@@ -157,6 +158,18 @@ pub(super) fn entries() -> Vec<Entry> {
                 )
                 .computing(u, deflection(s, eps).rounded()),
                 {
+                    let lengths = s.h.abs() + int(5) * gap(s).abs();
+                    let parts = eps * lengths + int(7) * reaction(s);
+                    limit(
+                        "precision-law-in-parts",
+                        [some_bits],
+                        rounding::penalty_force_error(s, eps, precision()) * precision(),
+                        precision(),
+                        parts.clone(),
+                        Exactly(int(8) * eta() * parts),
+                    )
+                },
+                {
                     let p = penetration(s, eps);
                     equal("complementarity", [stiffness, penalty], &p * force_at_root(s, eps), eps * &p * &p)
                 },
@@ -210,6 +223,17 @@ pub(super) fn entries() -> Vec<Entry> {
                     deflection(s, eps).rounded() - deflection(s, eps),
                     rounding::deflection_error(s, eps, precision()),
                 ),
+                {
+                    let parts = int(5) * gap(s).abs() + int(4) * penetration(s, eps);
+                    limit(
+                        "float-error-in-parts",
+                        [stiffness, penalty, some_bits],
+                        rounding::deflection_error(s, eps, precision()) * precision(),
+                        precision(),
+                        parts.clone(),
+                        Exactly(int(2) * eta() * parts),
+                    )
+                },
                 within(
                     "float-distance",
                     [stiffness, penalty, contact],

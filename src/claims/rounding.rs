@@ -5,14 +5,9 @@ use crate::chapter::rounding;
 
 formulas! {
     "η" (folded) = rounding::unit_roundoff("2ᵖ");
-    "" = rounding::penetration_error("2ᵖ", "s", "p");
-    "" = rounding::free_error("2ᵖ", "u");
-    "" = rounding::force_error("2ᵖ", "W", "F", "N");
     "" = rounding::deflection_error(system, "ε", "2ᵖ");
     "" = rounding::penalty_force_error(system, "ε", "2ᵖ");
     "" = rounding::fixed_point_error(system, "ε", "λ", "2ᵖ");
     "F" (folded) = rounding::floor(system, "ε", "2ᵖ");
-    "" = rounding::step_error(system, "ε", "2ᵖ");
-    "" = rounding::multiplier_drift(system, "ε", "2ᵖ");
     "" = rounding::penetration_drift(system, "ε", "2ᵖ");
 }

@@ -2,7 +2,7 @@
 
 use super::prelude::*;
 use crate::chapter::structure::{self, *};
-use crate::chapter::{rounding, system};
+use crate::chapter::system;
 
 formulas! {
     "F" = structure::spring_force(system, "u");
@@ -33,7 +33,7 @@ pub(super) fn entries() -> Vec<Entry> {
                     "rounding",
                     [stiffness],
                     deflection(s).rounded() - deflection(s),
-                    rounding::free_error(precision(), &deflection(s).rounded()),
+                    eta() * (int(2) + eta()) * deflection(s).rounded().abs(),
                 ),
                 equal("unique", [stiffness], residual(s, u), &s.c * (u - deflection(s))),
             ]),

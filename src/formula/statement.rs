@@ -14,10 +14,8 @@ pub struct Statement {
     pub name: &'static str,
     /// Its [kind](Kind::name).
     pub kind: &'static str,
-    /// What is supposed.
+    /// What is supposed; where formulas round, [that](two_bits) as well.
     pub hypotheses: Vec<Hypothesis>,
-    /// What goes without saying where formulas round: a number has 2 bits or more.
-    pub precision: Option<Hypothesis>,
     /// What holds at every step of an induction; part of its proof, and not supposed.
     pub invariants: Vec<Hypothesis>,
     /// What is supposed of a quantity that is computed, and proved of it.
@@ -235,9 +233,13 @@ impl Statement {
             }
         }
         let (equation, name, kind) = (claim.equation, claim.name, claim.kind.name());
-        let two_bits = || Hypothesis::new(Relation::NonNegative, Tree::symbol(PRECISION) - Tree::from(4));
-        let precision = claim.rounds().then(two_bits);
-        Statement { equation, name, kind, hypotheses, precision, invariants, computed, goals, amounts_to }
+        if claim.rounds() {
+            // Last if others speak of the precision, for they say more.
+            let of_precision = |h: &Hypothesis| h.value.symbols().contains(PRECISION);
+            let place = if hypotheses.iter().any(of_precision) { hypotheses.len() } else { 0 };
+            hypotheses.insert(place, two_bits());
+        }
+        Statement { equation, name, kind, hypotheses, invariants, computed, goals, amounts_to }
     }
 
     /// Without one of its hypotheses.
@@ -247,18 +249,15 @@ impl Statement {
         less
     }
 
-    /// Its hypotheses and that of the precision: last if others speak of that, for they say more.
-    pub fn given(&self) -> impl Iterator<Item = &Hypothesis> {
-        let of_precision = |h: &Hypothesis| h.value.symbols().contains(PRECISION);
-        let last = self.hypotheses.iter().any(of_precision);
-        let (before, after) = if last { (None, self.precision.as_ref()) } else { (self.precision.as_ref(), None) };
-        before.into_iter().chain(&self.hypotheses).chain(after)
+    /// Does it hold for numbers of any precision, and speak of what is rounded?
+    pub fn rounds(&self) -> bool {
+        self.hypotheses.contains(&two_bits())
     }
 
     /// All that it supposes: also its invariants, and where what is computed is.
     pub fn supposed(&self) -> impl Iterator<Item = &Hypothesis> {
         let computed = self.computed.iter().map(|computed| &computed.hypothesis);
-        self.given().chain(&self.invariants).chain(computed)
+        self.hypotheses.iter().chain(&self.invariants).chain(computed)
     }
 
     /// All its formulas.
@@ -266,6 +265,11 @@ impl Statement {
         let hypotheses = self.supposed().map(|h| &h.value);
         hypotheses.chain(self.goals.iter().flat_map(|goal| goal.says.trees()))
     }
+}
+
+/// What goes without saying where formulas round: numbers have 2 bits or more.
+pub fn two_bits() -> Hypothesis {
+    Hypothesis::new(Relation::NonNegative, Tree::symbol(PRECISION) - Tree::from(4))
 }
 
 /// What has to be shown of an invariant: it holds at the start, and after a step if it does before.

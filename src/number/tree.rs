@@ -107,20 +107,51 @@ impl<T> Step<T> {
 
     /// The same step with other operands.
     pub fn map<U>(&self, mut f: impl FnMut(&T) -> U) -> Step<U> {
+        let all = self.try_map(|operand| Some(f(operand)));
+        all.expect("every operand has another")
+    }
+
+    /// The same, if there are others.
+    pub fn try_map<U>(&self, mut f: impl FnMut(&T) -> Option<U>) -> Option<Step<U>> {
         use Step::*;
-        match self {
+        Some(match self {
             Symbol(name) => Symbol(name),
             Int(n) => Int(*n),
-            Neg(a) => Neg(f(a)),
-            Add(a, b) => Add(f(a), f(b)),
-            Sub(a, b) => Sub(f(a), f(b)),
-            Mul(a, b) => Mul(f(a), f(b)),
-            Div(a, b) => Div(f(a), f(b)),
-            Exp(a) => Exp(f(a)),
-            PositivePart(a) => PositivePart(f(a)),
-            Min(a, b) => Min(f(a), f(b)),
-            Rounded(a) => Rounded(f(a)),
-        }
+            Neg(a) => Neg(f(a)?),
+            Add(a, b) => Add(f(a)?, f(b)?),
+            Sub(a, b) => Sub(f(a)?, f(b)?),
+            Mul(a, b) => Mul(f(a)?, f(b)?),
+            Div(a, b) => Div(f(a)?, f(b)?),
+            Exp(a) => Exp(f(a)?),
+            PositivePart(a) => PositivePart(f(a)?),
+            Min(a, b) => Min(f(a)?, f(b)?),
+            Rounded(a) => Rounded(f(a)?),
+        })
+    }
+}
+
+impl<T: Field> Step<T> {
+    /// What it comes to, with operands that are numbers. The rest as for [`Tree::replay`].
+    pub fn value(
+        self,
+        symbol: &impl Fn(&'static str) -> T,
+        beyond: &impl Fn(Step<&T>) -> Option<T>,
+    ) -> Option<T> {
+        use Step::*;
+        Some(match self {
+            Symbol(name) => symbol(name),
+            Int(n) => T::int(n),
+            Neg(a) => -a,
+            Add(a, b) => a + b,
+            Sub(a, b) => a - b,
+            Mul(a, b) => a * b,
+            Div(_, b) if !b.is_unit() => return None,
+            Div(a, b) => a / b,
+            Exp(a) => beyond(Exp(&a))?,
+            PositivePart(a) => beyond(PositivePart(&a))?,
+            Min(a, b) => beyond(Min(&a, &b))?,
+            Rounded(a) => beyond(Rounded(&a))?,
+        })
     }
 }
 
@@ -198,27 +229,7 @@ impl Tree {
         symbol: &impl Fn(&'static str) -> T,
         beyond: &impl Fn(Step<&T>) -> Option<T>,
     ) -> Option<T> {
-        use Step::*;
-        let replay = |tree: &Tree| tree.replay(symbol, beyond);
-        Some(match self.step() {
-            Symbol(name) => symbol(name),
-            Int(n) => T::int(*n),
-            Neg(a) => -replay(a)?,
-            Add(a, b) => replay(a)? + replay(b)?,
-            Sub(a, b) => replay(a)? - replay(b)?,
-            Mul(a, b) => replay(a)? * replay(b)?,
-            Div(a, b) => {
-                let (a, b) = (replay(a)?, replay(b)?);
-                if !b.is_unit() {
-                    return None;
-                }
-                a / b
-            }
-            Exp(a) => beyond(Exp(&replay(a)?))?,
-            PositivePart(a) => beyond(PositivePart(&replay(a)?))?,
-            Min(a, b) => beyond(Min(&replay(a)?, &replay(b)?))?,
-            Rounded(a) => beyond(Rounded(&replay(a)?))?,
-        })
+        self.step().try_map(|operand| operand.replay(symbol, beyond))?.value(symbol, beyond)
     }
 
     /// The value of the formula and its derivative by one of its quantities; `None` as for

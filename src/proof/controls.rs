@@ -16,6 +16,7 @@ pub use change::{Change, Operator, What, changes};
 
 use super::kernel::prove;
 use super::refute::{Counterexample, Points};
+use crate::formula::statement::two_bits;
 use crate::formula::{Hypothesis, Registry, Statement};
 use crate::number::tree::Site;
 use rayon::prelude::*;
@@ -109,7 +110,11 @@ pub fn controls(statements: &[Statement], registry: &Registry) -> Controls {
     let bench = Bench::new(statements, registry);
     let changes = changes(statements, registry);
     let changes = changes.into_par_iter().map(|change| (change, bench.effect(&change))).collect();
-    let all = |of: usize| (0..statements[of].hypotheses.len()).map(move |i| (of, i));
+    // That a number has two bits goes without saying.
+    let all = |of: usize| {
+        let said = move |i: &usize| statements[of].hypotheses[*i] != two_bits();
+        (0..statements[of].hypotheses.len()).filter(said).map(move |i| (of, i))
+    };
     let hypotheses: Vec<_> = (0..statements.len()).flat_map(all).collect();
     let dropped = hypotheses.into_par_iter().map(|(of, i)| Dropped {
         equation: statements[of].equation,

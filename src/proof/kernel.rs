@@ -78,7 +78,7 @@ pub fn prove(statement: &Statement) -> Result<Proof, Why> {
     let context = Context::of(roundings);
     let goals = statement.goals.iter().map(|goal| {
         let computed = statement.computed.iter().map(|computed| &computed.hypothesis);
-        let (given, invariants) = (statement.given(), &statement.invariants);
+        let (given, invariants) = (statement.hypotheses.iter(), &statement.invariants);
         let hypotheses: Vec<_> = match goal.role {
             Role::Claim => given.chain(computed).collect(),
             Role::Begins => given.collect(),

@@ -3,7 +3,7 @@
 use super::goals::{Asked, Group, groups};
 use super::guard::guarded;
 use super::{Row, Status};
-use crate::claims::{Case, Experiment, Trial, exact_experiments, first_order_experiments, float_experiments};
+use crate::claims::{Case, Experiment, Trial, exact_experiments, float_experiments};
 use crate::formula::{Claim, Hypothesis};
 use crate::number::tree::{Step, everything, piecewise};
 use crate::number::{Ball, Exact, Exponential, Mpfr, NumberSystem, PositivePart, Real, ToExact};
@@ -171,9 +171,7 @@ where
         }
     }
     fn experiments(&self) -> Vec<Experiment<T>> {
-        let fine = self.0.unit_roundoff().to_exact().is_ok_and(|eta| eta <= Exact::power_of_two(-20));
-        let first_order = if fine { first_order_experiments() } else { Vec::new() };
-        float_experiments().into_iter().chain(first_order).collect()
+        float_experiments()
     }
     fn read<'a>(&self, case: &'a Case<Exact>) -> Option<Cow<'a, Case<Ball<T>>>> {
         Case::try_of(|var| Ball::around(&self.0, case.get(var))).ok().map(Cow::Owned)
@@ -243,7 +241,9 @@ impl<J: Judge> Checker<J> {
         claims: impl IntoIterator<Item = &'a Claim>,
         experiments: Vec<Experiment<J::Computed>>,
     ) -> Self {
-        let can_be_asked = |claim: &&Claim| J::EXPONENTIALS || !claim.has_exponentials();
+        // What is rounded is a matter of experiments.
+        let can_be_asked =
+            |claim: &&Claim| !claim.rounds() && (J::EXPONENTIALS || !claim.has_exponentials());
         let claims: Vec<Claim> = claims.into_iter().filter(can_be_asked).cloned().collect();
         Checker { judge, groups: groups(&claims), claims, experiments }
     }

@@ -48,11 +48,7 @@ impl Point {
 
     /// Do hypotheses hold there?
     pub fn satisfies(&self, hypotheses: &[Hypothesis]) -> bool {
-        // What stands for a power of two is one, and of two bits or more if for the precision.
-        let is_one = |(name, x): (&str, &Exact)| match name {
-            PRECISION => bits(x).is_some(),
-            name => !SCALES.contains(&name) || is_power_of_two(x),
-        };
+        let is_one = |(name, x): (&str, &Exact)| !SCALES.contains(&name) || is_power_of_two(x);
         self.numbers().all(is_one) && hypotheses.iter().all(|hypothesis| self.admits(hypothesis))
     }
 

@@ -1,0 +1,211 @@
+//! The laws of rounding in floats: what is claimed of what is rounded, with the numbers that are computed.
+
+use super::super::{Case, claims, given, symbols};
+use super::{Experiment, MOST_STEPS, STEPS, Trial, check, exact};
+use crate::chapter::{augmented, structure, system};
+use crate::formula::claim::{MEMBERS, POWER, PRECISION, SCALES};
+use crate::formula::statement::{Sequence, Statement};
+use crate::formula::{Claim, Hypothesis, Kind};
+use crate::number::tree::{Step, piecewise};
+use crate::number::{Exact, PositivePart, Real, ToExact, Tree};
+use crate::solver::Scalar;
+use num_traits::{One, Zero};
+
+/// An experiment for each claim that speaks of what is rounded: it holds of what is computed.
+pub(super) fn laws<T: Scalar + Real + ToExact>() -> Vec<Experiment<T>> {
+    let experiment = |claim: &'static Claim| {
+        let statement = Statement::of(claim);
+        // Where λ repeats has to be found.
+        let repeats = claim.given.contains(&given().computed_repeats);
+        Experiment {
+            equation: claim.equation,
+            name: claim.name,
+            given: claim.given.iter().filter(|given| is_of_parameters(given)).cloned().collect(),
+            check: check(move |case: &Case<T>| {
+                law(&statement, &claim.kind, repeats, case).unwrap_or(Trial::Undecided)
+            }),
+        }
+    };
+    claims().filter(|claim| claim.rounds()).map(experiment).collect()
+}
+
+/// Can numbers be drawn so that it holds? Where something is computed, or how finely, is seen in each trial.
+fn is_of_parameters(given: &Hypothesis) -> bool {
+    !given.value.rounds() && given.interval().is_none() && !given.value.symbols().contains(PRECISION)
+}
+
+/// Is what is computed what rounding to p bits makes of it, without over- and underflow?
+pub(super) fn in_range<T: Scalar + Real + ToExact>(case: &Case<T>) -> bool {
+    let Case { system: s, eps, lambda, .. } = symbols();
+    let u = augmented::deflection(s, eps, lambda);
+    let formulas = [augmented::update(s, eps, lambda, &u), structure::deflection(s), system::reaction(s)];
+    Floats::of(case).is_some_and(|floats| formulas.iter().all(|f| floats.compute(&f.rounded()).is_some()))
+}
+
+fn law<T>(statement: &Statement, kind: &Kind, repeats: bool, case: &Case<T>) -> Option<Trial>
+where
+    T: Scalar + Real + ToExact,
+{
+    let mut floats = Floats::of(case)?;
+    if let Kind::Drift { .. } = kind {
+        return floats.follow(statement);
+    }
+    if repeats {
+        floats.find_repeat()?;
+    }
+    floats.check(statement, kind)
+}
+
+/// Numbers as they are computed, and as they are.
+struct Floats<'a, T> {
+    case: &'a Case<T>,
+    /// 2ᵖ
+    precision: Exact,
+    /// From here on a number has all its bits.
+    least: T,
+    /// What has been computed on the way.
+    computed: Vec<(&'static str, T)>,
+    /// ρᵏ
+    power: Exact,
+}
+
+impl<'a, T: Scalar + Real + ToExact> Floats<'a, T> {
+    fn of(case: &'a Case<T>) -> Option<Self> {
+        let system = &case.system;
+        let eta = [&system.c, &system.g, &system.l, &system.h, &case.eps, &case.u];
+        let coarsest = |a: T, b: T| if a < b { b } else { a };
+        let eta = eta.into_iter().map(Real::unit_roundoff).reduce(coarsest)?;
+        let precision = Exact::one() / exact(&eta)?;
+        let least = T::underflow_unit() / eta;
+        Some(Floats { case, precision, least, computed: Vec::new(), power: Exact::one() })
+    }
+
+    /// The number for a symbol, as a float.
+    fn number(&self, name: &'static str) -> T {
+        // Any powers of two.
+        let scale = |n: i32| (0..n.abs()).fold(T::one(), |x, _| if n < 0 { x / T::int(2) } else { x * T::int(2) });
+        match SCALES.iter().position(|scale| *scale == name) {
+            Some(i) => scale([3, -2, 5][i]),
+            None => {
+                let own = self.computed.iter().rev().find(|(own, _)| *own == name);
+                own.map_or_else(|| self.case.named(name), |(_, x)| x.clone())
+            }
+        }
+    }
+
+    /// A formula as floats compute it; `None` where a number is too large or too small for that: then it is not
+    /// what rounding to p bits makes of it.
+    fn compute(&self, tree: &Tree) -> Option<T> {
+        let step = match tree.step() {
+            Step::Rounded(inner) => inner.step(),
+            step => step,
+        };
+        let operands = step.try_map(|operand| self.compute(operand))?;
+        // Sums never underflow; a product or quotient that is not 0 has all its bits from here on.
+        let is_zero = match &operands {
+            Step::Mul(a, b) => Some(a.is_zero() || b.is_zero()),
+            Step::Div(a, _) => Some(a.is_zero()),
+            _ => None,
+        };
+        let value = operands.value(&|name| self.number(name), &piecewise)?;
+        let is_small = || value.is_zero() || value.abs() < self.least;
+        let in_range = Real::is_finite(&value) && !is_zero.is_some_and(|is_zero| !is_zero && is_small());
+        in_range.then_some(value)
+    }
+
+    /// A formula as it is; what is rounded in it is computed.
+    fn value(&self, tree: &Tree) -> Option<Exact> {
+        let symbol = |name: &'static str| match name {
+            PRECISION => Some(self.precision.clone()),
+            POWER if !self.computed.is_empty() => Some(self.power.clone()),
+            name => exact(&self.number(name)),
+        };
+        match tree.step() {
+            Step::Rounded(_) => exact(&self.compute(tree)?),
+            Step::Symbol(name) => symbol(name),
+            step => {
+                let operands = step.try_map(|operand| self.value(operand))?;
+                operands.value(&|_| Exact::zero(), &piecewise)
+            }
+        }
+    }
+
+    fn holds(&self, given: &Hypothesis) -> Option<bool> {
+        Some(given.relation.admits(self.value(&given.value)?.cmp(&Exact::zero())))
+    }
+
+    fn check(&mut self, statement: &Statement, kind: &Kind) -> Option<Trial> {
+        if let Some(computed) = &statement.computed {
+            let number = self.compute(&computed.by)?;
+            self.computed.push((computed.symbol, number));
+        }
+        for given in &statement.hypotheses {
+            if !self.holds(given)? {
+                return None;
+            }
+        }
+        Some(match kind {
+            Kind::Within(of, bound) => within(self.value(of)?, self.value(bound)?),
+            Kind::Equal(left, right) => Trial::Decided(self.value(left)? == self.value(right)?),
+            Kind::Sign(relation, of) => Trial::Decided(relation.admits(self.value(of)?.cmp(&Exact::zero()))),
+            _ => return None,
+        })
+    }
+
+    /// A sequence for some steps, and where it comes nearest to its bounds.
+    fn follow(&mut self, statement: &Statement) -> Option<Trial> {
+        let Sequence { start, step, ratio, within: bounds, .. } = statement.amounts_to.as_ref()?;
+        let ([start], [step], computed) = (&start[..], &step[..], statement.computed.as_ref()?) else { return None };
+        for given in &statement.hypotheses {
+            if !self.holds(given)? {
+                return None;
+            }
+        }
+        let (mut member, ratio) = (self.compute(start)?, self.value(ratio)?);
+        let mut worst = Trial::Undecided;
+        for _ in 0..STEPS {
+            self.computed = vec![(MEMBERS[0], member)];
+            let number = self.compute(&computed.by)?;
+            self.computed.push((computed.symbol, number));
+            for (of, bound) in bounds {
+                worst = worse(worst, within(self.value(of)?, self.value(bound)?));
+            }
+            member = self.compute(step)?;
+            self.power = &self.power * &ratio;
+        }
+        Some(worst)
+    }
+
+    /// Repeats the augmentation until λ does.
+    fn find_repeat(&mut self) -> Option<()> {
+        let Case { system, eps, .. } = self.case;
+        let bits = self.precision.as_rational().numer().significant_bits() as usize;
+        // Where ε ≥ c each step gains a bit or more.
+        let enough = if *eps >= system.c { (bits + STEPS).min(MOST_STEPS) } else { STEPS };
+        let mut lambda = T::zero();
+        for _ in 0..enough {
+            let u = augmented::deflection(system, eps, &lambda);
+            let next = augmented::update(system, eps, &lambda, &u);
+            if next == lambda {
+                self.computed = vec![("λ", lambda), ("u", u)];
+                return Some(());
+            }
+            lambda = next;
+        }
+        None
+    }
+}
+
+fn within(error: Exact, bound: Exact) -> Trial {
+    Trial::Within { error: error.abs(), bound }
+}
+
+/// The one in which the error is the larger part of its bound.
+fn worse(a: Trial, b: Trial) -> Trial {
+    match (&a, &b) {
+        (Trial::Within { error, bound }, Trial::Within { error: other, bound: most }) => {
+            if error * most < other * bound { b } else { a }
+        }
+        _ => b,
+    }
+}
