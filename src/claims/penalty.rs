@@ -160,13 +160,11 @@ pub(super) fn entries() -> Vec<Entry> {
                 {
                     let lengths = s.h.abs() + int(5) * gap(s).abs();
                     let parts = eps * lengths + int(7) * reaction(s);
-                    limit(
+                    equal(
                         "precision-law-in-parts",
                         [some_bits],
                         rounding::penalty_force_error(s, eps, precision()) * precision(),
-                        precision(),
-                        parts.clone(),
-                        Exactly(int(8) * eta() * parts),
+                        &parts + int(8) * eta() * &parts,
                     )
                 },
                 {
@@ -225,13 +223,11 @@ pub(super) fn entries() -> Vec<Entry> {
                 ),
                 {
                     let parts = int(5) * gap(s).abs() + int(4) * penetration(s, eps);
-                    limit(
+                    equal(
                         "float-error-in-parts",
                         [stiffness, penalty, some_bits],
                         rounding::deflection_error(s, eps, precision()) * precision(),
-                        precision(),
-                        parts.clone(),
-                        Exactly(int(2) * eta() * parts),
+                        &parts + int(2) * eta() * &parts,
                     )
                 },
                 within(

@@ -16,6 +16,7 @@
 //! the sense of ε and N, a derivative is one in the sense of a limit. Coq lets everything be divided by 0,
 //! so for every claim a lemma of its own, `…_defined`, says that no divisor is 0.
 
+mod law;
 mod lemma;
 mod print;
 mod script;
@@ -82,6 +83,7 @@ pub struct Development<'a> {
 
 const TACTICS: &str = "A_Tactics";
 const DEFINITIONS: &str = "B_Definitions";
+const ROUNDING: &str = "B_Rounding";
 const ASSUMPTIONS: &str = "E_Assumptions";
 
 impl<'a> Development<'a> {
@@ -91,7 +93,9 @@ impl<'a> Development<'a> {
         for Placed { claim, section, functions } in claims {
             let printer = Printer { registry, preferred: functions };
             match Theorem::new(claim, printer).text() {
-                Ok(text) => written.push(Written { section: section.to_string(), text }),
+                Ok(text) => {
+                    written.push(Written { section: section.to_string(), rounds: claim.rounds(), text });
+                }
                 Err(reason) => left_out.push(LeftOut { equation: claim.equation, name: claim.name, reason }),
             }
         }
@@ -114,6 +118,9 @@ impl<'a> Development<'a> {
             file(TACTICS, include_str!("coq/tactics.v").to_string()),
             file(DEFINITIONS, self.definitions_text(&self.definitions())),
         ];
+        if self.written.iter().any(|written| written.rounds) {
+            files.push(file(ROUNDING, include_str!("coq/rounding.v").to_string()));
+        }
         files.extend(theorems);
         if let Some((name, text)) = self.more {
             let head = format!("From Contact Require Import {TACTICS} {DEFINITIONS}{all}.\n\n");
@@ -121,7 +128,8 @@ impl<'a> Development<'a> {
             all = format!("{all} {name}");
         }
         // Asking of each theorem what it rests on would take longer than all proofs.
-        let parts: Vec<_> = files[2..].iter_mut().map(together).collect();
+        let own = |file: &&mut File| ![TACTICS, DEFINITIONS, ROUNDING].contains(&file.name.trim_end_matches(".v"));
+        let parts: Vec<_> = files.iter_mut().filter(own).map(together).collect();
         if parts.is_empty() {
             return files;
         }
@@ -278,28 +286,42 @@ impl std::fmt::Display for Definition {
 #[derive(Clone, Debug)]
 struct Written {
     section: String,
+    /// Does it speak of what is rounded?
+    rounds: bool,
     text: String,
 }
 
 /// The files of theorems, one or more a section.
 fn by_section(written: &[Written]) -> Vec<File> {
-    let mut sections: Vec<(&str, Vec<&str>)> = Vec::new();
-    for Written { section, text } in written {
-        match sections.iter_mut().find(|(known, _)| known == section) {
+    let mut sections: Vec<((&str, bool), Vec<&str>)> = Vec::new();
+    for Written { section, rounds, text } in written {
+        let own = (section.as_str(), *rounds);
+        match sections.iter_mut().find(|(known, _)| *known == own) {
             Some((_, texts)) => texts.push(text),
-            None => sections.push((section, vec![text])),
+            None => sections.push((own, vec![text])),
         }
     }
     let mut files = Vec::new();
-    for (section, texts) in sections {
+    for ((section, rounds), texts) in sections {
         for (texts, part) in texts.chunks(PER_FILE).zip('a'..='z') {
-            let head = format!("From Contact Require Import {TACTICS} {DEFINITIONS}.\n");
-            let name = format!("C_{}_{part}", section.replace(|c: char| !c.is_ascii_alphanumeric(), "_"));
-            files.push(file(&name, head + &texts.concat()));
+            let section = section.replace(|c: char| !c.is_ascii_alphanumeric(), "_");
+            let laws = if rounds { "_rounding" } else { "" };
+            files.push(file(&format!("C_{section}{laws}_{part}"), head(rounds) + &texts.concat()));
         }
     }
     files.sort_by(|a, b| a.name.cmp(&b.name));
     files
+}
+
+/// What a file of theorems begins with.
+fn head(rounds: bool) -> String {
+    match rounds {
+        true => format!(
+            "From Flocq Require Import Core.\nFrom Contact Require Import {TACTICS} {ROUNDING} {DEFINITIONS}.\n\
+             Open Scope R_scope.\n"
+        ),
+        false => format!("From Contact Require Import {TACTICS} {DEFINITIONS}.\n"),
+    }
 }
 
 /// Few enough that files can be compiled side by side.

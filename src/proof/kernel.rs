@@ -39,7 +39,7 @@ mod derivation;
 mod order;
 pub(super) mod sign;
 
-pub use derivation::{Because, Derivation, Direct, Proof, Signed, Supposed, Used, Why};
+pub use derivation::{Because, Derivation, Direct, Proof, Rounding, Signed, Supposed, Used, Why};
 
 use self::algebra::{Monomial, Poly, Ratio, Symbol};
 use self::sign::{ERRORS, Known, PLACES, Sign, is_small, sign};
@@ -169,13 +169,16 @@ struct Context {
     rules: Vec<(Monomial, Ratio)>,
     /// What is rounded: with the errors of the same place.
     roundings: Vec<Tree>,
+    /// What has been rounded in hypotheses, with its error.
+    errors: Vec<Rounding>,
 }
 
 impl Context {
     /// Nothing yet, but that powers of two are positive.
     fn of(roundings: Vec<Tree>) -> Self {
         let known = SCALES.into_iter().map(|name| (Symbol(name), Sign::Positive)).collect();
-        Context { supposed: Vec::new(), known, rules: Vec::new(), roundings }
+        let (supposed, rules, errors) = Default::default();
+        Context { supposed, known, rules, roundings, errors }
     }
 
     /// Takes in a hypothesis.
@@ -183,9 +186,11 @@ impl Context {
         let mut reader = Reader::new(self);
         if let Some((x, lower, upper)) = hypothesis.interval() {
             let [lower, upper] = [reader.read(lower)?, reader.read(upper)?];
+            self.errors = reader.errors;
             self.suppose_between(hypothesis, Symbol(x), &lower, &upper);
         } else {
             let value = reader.read(&hypothesis.value)?;
+            self.errors = reader.errors;
             self.suppose(Some(hypothesis), value, hypothesis.relation.into());
         }
         Ok(())
@@ -437,15 +442,14 @@ impl Context {
     }
 }
 
-/// A quotient without factors that are powers of two.
-fn without_scales(value: &Ratio) -> Ratio {
-    let is_scale = |x: Symbol| SCALES.contains(&x.0);
-    let bare = |poly: &Poly| {
-        let scales = poly.common_monomial().without_those(|x| !is_scale(x));
-        poly.over(&scales.into()).unwrap_or_else(|| poly.clone())
+/// A quotient without factors that are powers of two, and these.
+fn without_scales(value: &Ratio) -> (Ratio, Ratio) {
+    let scales = |poly: &Poly| -> Poly {
+        poly.common_monomial().without_those(|x| !SCALES.contains(&x.0)).into()
     };
-    let (num, den) = (bare(value.num()), bare(value.den()));
-    Ratio::from(num).over(&den.into()).unwrap_or_else(|| value.clone())
+    let scale = Ratio::from(scales(value.num())).over(&scales(value.den()).into());
+    let scale = scale.unwrap_or_else(|| Poly::constant(1).into());
+    (value.over(&scale).unwrap_or_else(|| value.clone()), scale)
 }
 
 /// a and b, if this is a − b, and both are rounded.
@@ -467,13 +471,13 @@ struct Reader<'a> {
     brackets: Vec<(Tree, Tree, Signed)>,
     /// What has been rounded, without factors that are powers of two, and with which error.
     rounded: Vec<(Ratio, algebra::Symbol)>,
-    errors: Vec<(Tree, algebra::Symbol)>,
+    errors: Vec<Rounding>,
 }
 
 impl<'a> Reader<'a> {
     fn new(context: &'a Context) -> Self {
-        let (divisors, brackets, rounded, errors) = Default::default();
-        Reader { context, divisors, brackets, rounded, errors }
+        let (divisors, brackets, rounded) = Default::default();
+        Reader { context, divisors, brackets, rounded, errors: context.errors.clone() }
     }
 
     /// The sign of a quotient.
@@ -548,7 +552,7 @@ impl<'a> Reader<'a> {
     fn rounding(&mut self, of: &Tree, value: &Ratio) -> Result<(algebra::Symbol, Ratio), Why> {
         let largest = self.context.largest();
         // What differs by a power of two rounds alike.
-        let value = without_scales(value);
+        let (value, scale) = without_scales(value);
         let same = self.rounded.iter().find(|(known, _)| (known - &value).is_zero());
         let error = match same {
             Some((_, error)) => *error,
@@ -559,8 +563,8 @@ impl<'a> Reader<'a> {
                 error
             }
         };
-        if self.errors.iter().all(|(known, _)| known != of) {
-            self.errors.push((of.clone(), error));
+        if self.errors.iter().all(|known| known.of != *of) {
+            self.errors.push(Rounding { of: of.clone(), error, scale });
         }
         Ok((error, largest))
     }

@@ -159,7 +159,8 @@ impl<'a> Paper<'a> {
 
     fn direct(&self, direct: &Direct) -> Vec<String> {
         let mut lines: Vec<String> = direct.supposed().iter().filter_map(|s| self.supposed(s)).collect();
-        let errors = direct.errors().iter().map(|(of, error)| format!("{} of fl({})", error.0, self.text(of)));
+        let errors = direct.errors().iter();
+        let errors = errors.map(|own| format!("{} of fl({})", own.error().0, self.text(own.of())));
         let errors: Vec<_> = errors.collect();
         if !errors.is_empty() {
             lines.push(format!("fl(x) = x (N + e)/N with |e| ≤ 1, N = {PRECISION} + 1: {}", errors.join(", ")));

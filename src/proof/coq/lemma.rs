@@ -12,7 +12,7 @@ use crate::proof::{Why, prove};
 /// Why a claim cannot be printed.
 pub(super) type Result<T> = std::result::Result<T, String>;
 
-fn unproved(why: Why) -> String {
+pub(super) fn unproved(why: Why) -> String {
     format!("there is no proof to follow: {why}")
 }
 
@@ -88,7 +88,11 @@ fn premises(hypotheses: &[&Hypothesis], printer: Printer) -> String {
 }
 
 pub(super) fn supposed(hypothesis: &Hypothesis, printer: Printer) -> String {
-    Printer { preferred: &[], ..printer }.expr(&hypothesis.value).relation(hypothesis.relation)
+    let printer = Printer { preferred: &[], ..printer };
+    match hypothesis.distance() {
+        Some((distance, most)) => says(&Says::Within(distance, most.clone()), printer),
+        None => printer.expr(&hypothesis.value).relation(hypothesis.relation),
+    }
 }
 
 pub(super) fn says(says: &Says, printer: Printer) -> String {

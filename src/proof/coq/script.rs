@@ -5,6 +5,7 @@
 //! each step is a goal that Coq closes by itself, or does not.
 
 use super::print::{Expr, ascii, by_exponent};
+use crate::formula::statement::two_bits;
 use crate::number::Tree;
 use crate::number::tree::Step;
 use crate::proof::kernel::algebra::{Monomial, Poly, Ratio, Symbol};
@@ -23,6 +24,10 @@ pub(super) struct Script {
     cases: usize,
     /// For names of what is proved on the way.
     signs: usize,
+    /// How many hypotheses have been put to use.
+    given: usize,
+    /// Is it about what is rounded?
+    rounds: bool,
 }
 
 /// Why a derivation has no script.
@@ -39,6 +44,11 @@ fn first(derivation: &Derivation) -> &Direct {
 impl Script {
     pub(super) fn new() -> Self {
         Script { indent: 1, ..Script::default() }
+    }
+
+    /// For what is rounded: there are other tactics for that.
+    pub(super) fn of_roundings() -> Self {
+        Script { rounds: true, ..Script::new() }
     }
 
     pub(super) fn into_text(self) -> String {
@@ -66,14 +76,15 @@ impl Script {
 
     /// The whole derivation, from hypotheses H1, H2, …
     pub(super) fn derivation(&mut self, derivation: &Derivation) -> Result<(), Reason> {
-        self.given(derivation)?;
+        // The hypotheses that come before the next case, put to use.
+        let next = first(derivation).supposed().iter().skip(self.supposed);
+        for supposed in next.take_while(|supposed| supposed.given().is_some()) {
+            let says_bits = supposed.given().is_some_and(|given| *given == two_bits());
+            self.given += usize::from(!says_bits);
+            let label = if says_bits { "M".to_string() } else { format!("H{}", self.given) };
+            self.suppose(supposed, &label)?;
+        }
         self.cases(derivation)
-    }
-
-    /// The hypotheses, put to use.
-    fn given(&mut self, derivation: &Derivation) -> Result<(), Reason> {
-        let given = first(derivation).supposed().iter().filter(|s| s.given().is_some());
-        given.enumerate().try_for_each(|(i, supposed)| self.suppose(supposed, &format!("H{}", i + 1)))
     }
 
     /// A limit; the hypotheses H1, H2, … are those that do not speak of `by`, and `inside` makes use of those
@@ -104,7 +115,11 @@ impl Script {
         };
         match supposed.used() {
             Used::Follows | Used::Unused => {}
-            Used::Between(..) => return Err("an interval"),
+            Used::Between(_, _, place) => {
+                let near = supposed.given().is_some_and(|given| given.distance().is_some());
+                let (rule, place) = (if near { "near" } else { "between" }, ascii(place.0));
+                self.line(&format!("destruct ({rule} _ _ _ {hypothesis}) as ({place} & T{i} & ->)."));
+            }
             Used::Symbol(x) => {
                 self.known.insert(*x, sign);
                 if supposed.given().is_some_and(|given| *given.value.step() == Step::Symbol(x.0)) {
@@ -112,7 +127,8 @@ impl Script {
                 }
                 let name = ascii(x.0);
                 self.line(&format!(
-                    "assert (P{i} : 0 {relation} {name}) by (apply (same_{kind} _ _ {hypothesis}); identity)."
+                    "assert (P{i} : 0 {relation} {name}) by (apply (same_{kind} _ _ {hypothesis}); {})."
+                    , self.same()
                 ));
             }
             Used::Pivot(pivot, by, named) => {
@@ -128,11 +144,23 @@ impl Script {
                     self.line(&format!("destruct (named_{kind} _ {hypothesis}) as ({name} & S{i} & P{i})."));
                     self.line(&format!(
                         "assert (E{i} : pivot {} {}) by \
-                         (apply (solved_for _ _ {factor} _ _ S{i}); identity).",
+                         (apply (solved_for _ _ {factor} _ _ S{i}); {}).",
                         pivot.argument(),
-                        by.argument()
+                        by.argument(),
+                        self.same()
                     ));
+                    if self.rounds {
+                        // The name itself may be replaced later, and not by what it was given to.
+                        self.line(&format!("clear S{i}."));
+                    }
                     self.known.insert(*x, sign);
+                } else if self.rounds {
+                    self.line(&format!(
+                        "assert (E{i} : pivot {} {}) by (apply (solved _ {factor} _ _ {hypothesis}); {}).",
+                        pivot.argument(),
+                        by.argument(),
+                        self.same()
+                    ));
                 } else {
                     self.line(&format!(
                         "assert (E{i} : {pivot} = {by}) by \
@@ -160,7 +188,7 @@ impl Script {
                         let supposed =
                             first(branch).supposed().get(own.supposed).ok_or("a case supposes nothing")?;
                         own.suppose(supposed, &case)?;
-                        own.cases(branch)
+                        own.derivation(branch)
                     })?;
                 }
                 Ok(())
@@ -168,7 +196,19 @@ impl Script {
         }
     }
 
+    /// How two formulas are seen to be the same.
+    fn same(&self) -> &'static str {
+        if self.rounds { "pivots; equal" } else { "identity" }
+    }
+
     fn direct(&mut self, direct: &Direct) -> Result<(), Reason> {
+        if self.rounds {
+            self.line(match direct.because() {
+                Because::Within(..) => "pivots. minima. apply within; bounded.",
+                _ => "pivots. minima. bounded.",
+            });
+            return Ok(());
+        }
         // A divisor that is itself a quotient, or that hypotheses rewrite, is asked for by its numerator.
         let quotient = |tree: &Tree| tree.any(&|step| matches!(step.step(), Step::Div(..)));
         let rewritten = direct.supposed().iter().any(|s| matches!(s.used(), Used::Pivot(..)));

@@ -104,7 +104,9 @@ Ltac pivots :=
   repeat match goal with
     | E : pivot (?x * ?y) ?z |- _ =>
         let F := fresh in
-        unfold pivot in E; assert (F : y * x = z) by lra; rewrite ?E, ?F; clear F
+        unfold pivot in E; assert (F : y * x = z) by lra; rewrite ?E, ?F;
+      repeat match goal with P : pivot _ _ |- _ => progress (rewrite ?E, ?F in P) end;
+      clear F
     end;
   repeat match goal with
     | E : pivot ?x _ |- _ => is_var x; unfold pivot in E; subst x

@@ -4,6 +4,7 @@ use super::lemma::{
     Defined, Lemma, Result, depends, derivation, divisors, divisors_script, labels, names, numbered, says,
     stated, supposed,
 };
+use super::law::Law;
 use super::print::{Printer, ascii};
 use super::script::Script;
 use super::{identifier, theorem_name};
@@ -83,6 +84,10 @@ impl<'a> Theorem<'a> {
                 return Err(format!("{same} and {symbol} have the same name in Coq"));
             }
         }
+        if self.statement.rounds() {
+            let (name, statement, printer) = (&self.name, &self.statement, self.printer);
+            return Law { name, statement, printer }.text();
+        }
         let mut text = String::new();
         if let Some(defined) = self.defined() {
             text += &self.definedness(&defined)?;
@@ -92,7 +97,7 @@ impl<'a> Theorem<'a> {
             Kind::Limit { by, .. } => self.limit(by)?,
             Kind::Induction { .. } => self.induction()?,
             Kind::Vanishing { .. } => self.vanishing()?,
-            Kind::Within(..) | Kind::Drift { .. } => return Err("a law of rounding".into()),
+            Kind::Within(..) | Kind::Drift { .. } => return Err("a bound of what is not rounded".into()),
             Kind::Equal(..) | Kind::Sign(..) | Kind::Derivative { .. } => {
                 let [goal] = self.statement.goals.as_slice() else {
                     return Err("a claim of this kind has several goals".into());

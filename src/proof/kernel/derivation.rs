@@ -57,7 +57,7 @@ pub enum Derivation {
 #[derive(Clone, Debug)]
 pub struct Direct {
     pub(super) supposed: Vec<Supposed>,
-    pub(super) errors: Vec<(Tree, Symbol)>,
+    pub(super) errors: Vec<Rounding>,
     pub(super) divisors: Vec<(Tree, Signed)>,
     pub(super) brackets: Vec<(Tree, Tree, Signed)>,
     pub(super) because: Because,
@@ -70,7 +70,7 @@ impl Direct {
     }
 
     /// Each formula that is rounded, and what its error is called, those inside it before it.
-    pub fn errors(&self) -> &[(Tree, Symbol)] {
+    pub fn errors(&self) -> &[Rounding] {
         &self.errors
     }
 
@@ -89,6 +89,31 @@ impl Direct {
     /// The rest.
     pub fn because(&self) -> &Because {
         &self.because
+    }
+}
+
+/// A rounding.
+#[derive(Clone, Debug)]
+pub struct Rounding {
+    pub(super) of: Tree,
+    pub(super) error: Symbol,
+    pub(super) scale: Ratio,
+}
+
+impl Rounding {
+    /// What is rounded.
+    pub fn of(&self) -> &Tree {
+        &self.of
+    }
+
+    /// What its error is called: the same for all that is the same but for powers of two.
+    pub fn error(&self) -> Symbol {
+        self.error
+    }
+
+    /// By which powers of two it differs from what else has that error, in other units.
+    pub fn scale(&self) -> &Ratio {
+        &self.scale
     }
 }
 
