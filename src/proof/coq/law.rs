@@ -179,11 +179,13 @@ impl<'a> Law<'a> {
         Ok(script.derivation(derivation)?)
     }
 
-    /// Each rounding in other units from that in the units before.
+    /// Each rounding in other units from that in the usual ones.
     fn scaled(&self, script: &mut Script, errors: &[Rounding]) -> Result<()> {
         let mut made = 0;
         for (i, after) in errors.iter().enumerate() {
             let Some(before) = errors[..i].iter().find(|known| known.error() == after.error()) else { continue };
+            let usual = after.scale().num().is_one() && after.scale().den().is_one();
+            let (before, after) = if usual { (after, before) } else { (before, after) };
             let factor = after.scale().over(before.scale()).ok_or("a scale is 0")?;
             let factor = Expr::ratio(&factor).argument();
             made += 1;
