@@ -40,13 +40,13 @@ use std::sync::LazyLock;
 mod prelude {
     pub(super) use super::formulas::formulas;
     pub(super) use super::{Case, Entry, Given, given, symbols};
+    use crate::chapter::rounding;
     pub(super) use crate::formula::Rate::{Exactly, Within};
+    use crate::formula::claim;
     pub(super) use crate::formula::claim::{
         derivative, drift, equal, induction, limit, non_negative, positive, vanishing, within,
     };
     pub(super) use crate::number::{Dual, Exponential, Field, PositivePart, Tree};
-    use crate::chapter::rounding;
-    use crate::formula::claim;
     use std::sync::LazyLock;
 
     /// 2ᵖ for numbers of p bits.

@@ -21,7 +21,7 @@ use proptest::prelude::*;
 use spring_mass_contact::chapter::{
     SpringMass, augmented, beyond, contact, lagrange, ode, penalty, structure, system,
 };
-use spring_mass_contact::number::{Exact, Exponential, Field, Mpfr, OrderedField, PositivePart, ToExact};
+use spring_mass_contact::number::{Exact, Exponential, Field, Mpfr, PositivePart, ToExact};
 use spring_mass_contact::operators;
 use spring_mass_contact::solver::{Method, Plane, augmentations_needed, penalty_for_penetration, solve};
 use strategies::int;

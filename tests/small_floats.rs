@@ -13,7 +13,7 @@ mod strategies;
 use num_traits::Zero;
 use rayon::prelude::*;
 use spring_mass_contact::chapter::SpringMass;
-use spring_mass_contact::number::{Exact, Mpfr, OrderedField};
+use spring_mass_contact::number::{Exact, Mpfr, PositivePart};
 use spring_mass_contact::solver::{
     Bounds, Interval, Method, Outcome, Solution, State, solve, solve_bilateral,
 };

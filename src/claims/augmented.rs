@@ -2,8 +2,8 @@
 
 use super::prelude::*;
 use crate::chapter::augmented::{self, *};
-use crate::chapter::{contact, lagrange, penalty, rounding};
 use crate::chapter::system::{gap, reaction};
+use crate::chapter::{contact, lagrange, penalty, rounding};
 
 formulas! {
     "L" (folded) = augmented::functional(system, "ε", "λ", "u");
@@ -164,7 +164,12 @@ pub(super) fn entries() -> Vec<Entry> {
                 {
                     let drift = rounding::penetration_drift(s, eps, precision());
                     let lengths = s.h.abs() + gap(s).abs() + reaction(s) / eps;
-                    equal("float-drift-in-parts", [penalty, some_bits], drift * precision(), int(20) * lengths)
+                    equal(
+                        "float-drift-in-parts",
+                        [penalty, some_bits],
+                        drift * precision(),
+                        int(20) * lengths,
+                    )
                 },
                 equal(
                     "penetration",

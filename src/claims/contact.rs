@@ -30,15 +30,10 @@ pub(super) fn entries() -> Vec<Entry> {
             .claims([
                 equal("at-the-gap", [], penetration(s, &gap(s)), 0),
                 derivative("slope", [], penetration(s, u), u, 1),
-                within(
-                    "rounding",
-                    [],
-                    penetration(s, u).rounded() - penetration(s, u),
-                    {
-                        let (sum, p) = ((&s.l + u).rounded(), penetration(s, u).rounded());
-                        eta() * (sum.abs() + p.abs())
-                    },
-                ),
+                within("rounding", [], penetration(s, u).rounded() - penetration(s, u), {
+                    let (sum, p) = ((&s.l + u).rounded(), penetration(s, u).rounded());
+                    eta() * (sum.abs() + p.abs())
+                }),
                 equal("free", [stiffness], penetration(s, &structure::deflection(s)), reaction(s) / &s.c),
             ]),
         Entry::new("1.6", "Karush-Kuhn-Tucker conditions")

@@ -212,8 +212,12 @@ fn units<T: Scalar + Real + ToExact>(x: &Case<T>) -> Trial {
     let comes_back = |(y, n): (&T, i32)| scale(&scale(y, n), -n) == *y;
     let scaled_by = [(c, f - a), (m, b), (g, f - b), (l, a), (h, a)];
     let own = [(&x.eps, f - a), (&x.tol, a), (&x.lambda, f)];
-    let in_other_units = Case { system: scaled.clone(), eps: scale(&x.eps, f - a), lambda: scale(&x.lambda, f), ..x.clone() };
-    if !laws::in_range(x) || !laws::in_range(&in_other_units) || !scaled_by.into_iter().chain(own).all(comes_back) {
+    let in_other_units =
+        Case { system: scaled.clone(), eps: scale(&x.eps, f - a), lambda: scale(&x.lambda, f), ..x.clone() };
+    if !laws::in_range(x)
+        || !laws::in_range(&in_other_units)
+        || !scaled_by.into_iter().chain(own).all(comes_back)
+    {
         return Trial::Undecided;
     }
     let (before, after) =

@@ -384,7 +384,8 @@ fn in_other_units(formula: &Tree) -> Tree {
     let [a, b, f] = scales();
     let units = [(c, f / a), (m, b.clone()), (g, f / b), (l, a.clone()), (h, a.clone())];
     let own = [(u, a.clone()), (eps, f / a), (lambda, f.clone())];
-    let scaled = units.into_iter().chain(own).map(|(x, unit)| (x.first_symbol().expect("a symbol"), x * unit));
+    let scaled =
+        units.into_iter().chain(own).map(|(x, unit)| (x.first_symbol().expect("a symbol"), x * unit));
     formula.with(&scaled.collect::<Vec<_>>())
 }
 

@@ -139,7 +139,11 @@ impl Claim {
         let of_it = |given: &&Hypothesis| given.value.symbols().contains(name);
         let supposed: Vec<_> = self.given.iter().filter(of_it).collect();
         let [only] = supposed[..] else { panic!("{}: of {name} it is not supposed where it is", self.name) };
-        assert!(only.interval().is_some_and(|(x, ..)| x == name), "{}: {only} is no interval of {name}", self.name);
+        assert!(
+            only.interval().is_some_and(|(x, ..)| x == name),
+            "{}: {only} is no interval of {name}",
+            self.name
+        );
         Claim { computed: Some((name, by.into())), ..self }
     }
 

@@ -148,7 +148,9 @@ impl Hypothesis {
             let at_most = if notation == Notation::Latex { r"\le" } else { "≤" };
             return match self.distance() {
                 Some((distance, most)) => format!("{} {at_most} {}", text(&distance.abs()), text(most)),
-                None => format!("{} {at_most} {} {at_most} {}", text(lower), text(&Tree::symbol(x)), text(upper)),
+                None => {
+                    format!("{} {at_most} {} {at_most} {}", text(lower), text(&Tree::symbol(x)), text(upper))
+                }
             };
         }
         let zero = Tree::int(0);

@@ -128,7 +128,8 @@ impl<'a> Development<'a> {
             all = format!("{all} {name}");
         }
         // Asking of each theorem what it rests on would take longer than all proofs.
-        let own = |file: &&mut File| ![TACTICS, DEFINITIONS, ROUNDING].contains(&file.name.trim_end_matches(".v"));
+        let own =
+            |file: &&mut File| ![TACTICS, DEFINITIONS, ROUNDING].contains(&file.name.trim_end_matches(".v"));
         let parts: Vec<_> = files.iter_mut().filter(own).map(together).collect();
         if parts.is_empty() {
             return files;

@@ -104,7 +104,8 @@ fn kept(statement: &Statement) -> Option<&'static str> {
         let Sequence { start, ratio, limit, member, within, .. } = statement.amounts_to.as_ref()?;
         let fixed = start.iter().chain([ratio]).chain(limit).flat_map(Tree::symbols);
         let bounds = within.iter().map(|(_, bound)| bound);
-        let of_member = member.iter().chain(bounds).flat_map(Tree::symbols).filter(|name| *name == MEMBERS[0]);
+        let of_member =
+            member.iter().chain(bounds).flat_map(Tree::symbols).filter(|name| *name == MEMBERS[0]);
         fixed.filter(|name| *name == POWER || MEMBERS.contains(name)).chain(of_member).next()
     })
 }
@@ -253,7 +254,9 @@ impl Context {
                 } else {
                     let new = self.supposed.iter().filter(|s| matches!(s.used, Used::Pivot(..))).count();
                     let name = NAMES.get(new).copied().map(Symbol);
-                    match name.and_then(|name| Some((name, self.pivot(given, &value, &Poly::symbol(name), sign)?))) {
+                    match name
+                        .and_then(|name| Some((name, self.pivot(given, &value, &Poly::symbol(name), sign)?)))
+                    {
                         None => Used::Unused,
                         Some((name, (pivot, by))) => {
                             self.known.insert(name, sign);
@@ -444,9 +447,8 @@ impl Context {
 
 /// A quotient without factors that are powers of two, and these.
 fn without_scales(value: &Ratio) -> (Ratio, Ratio) {
-    let scales = |poly: &Poly| -> Poly {
-        poly.common_monomial().without_those(|x| !SCALES.contains(&x.0)).into()
-    };
+    let scales =
+        |poly: &Poly| -> Poly { poly.common_monomial().without_those(|x| !SCALES.contains(&x.0)).into() };
     let scale = Ratio::from(scales(value.num())).over(&scales(value.den()).into());
     let scale = scale.unwrap_or_else(|| Poly::constant(1).into());
     (value.over(&scale).unwrap_or_else(|| value.clone()), scale)

@@ -31,11 +31,15 @@ impl<'a> Paper<'a> {
             let (ratio, member) = (self.text(ratio), together(member));
             return match limit {
                 None if !within.is_empty() => {
-                    let bound = |(of, bound): &(Tree, Tree)| self.says(&Says::Within(of.clone(), bound.clone()));
+                    let bound =
+                        |(of, bound): &(Tree, Tree)| self.says(&Says::Within(of.clone(), bound.clone()));
                     let bounds: Vec<_> = within.iter().map(bound).collect();
                     let (from, to) = (together(start), together(step));
                     let x = MEMBERS[0];
-                    format!("k steps from {from}, each of {x} to {to}, lead to {x} with {}, where q = {ratio}ᵏ", bounds.join(" and "))
+                    format!(
+                        "k steps from {from}, each of {x} to {to}, lead to {x} with {}, where q = {ratio}ᵏ",
+                        bounds.join(" and ")
+                    )
                 }
                 Some(limit) => format!("{member} → {} for q = {ratio}ᵏ and k → ∞", self.text(limit)),
                 None => {
@@ -163,7 +167,10 @@ impl<'a> Paper<'a> {
         let errors = errors.map(|own| format!("{} of fl({})", own.error().0, self.text(own.of())));
         let errors: Vec<_> = errors.collect();
         if !errors.is_empty() {
-            lines.push(format!("fl(x) = x (N + e)/N with |e| ≤ 1, N = {PRECISION} + 1: {}", errors.join(", ")));
+            lines.push(format!(
+                "fl(x) = x (N + e)/N with |e| ≤ 1, N = {PRECISION} + 1: {}",
+                errors.join(", ")
+            ));
         }
         for (divisor, nonzero) in direct.divisors() {
             explain(format!("{} ≠ 0", self.text(divisor)), self.signed(nonzero), &mut lines);

@@ -164,7 +164,9 @@ fn computed(statement: &Statement, point: &Point) -> Point {
 /// A sequence that has to stay near a closed form, for some steps.
 fn follow(statement: &Statement, sequence: &Sequence, point: &Point) -> Verdict {
     let Sequence { start, step, ratio, within, .. } = sequence;
-    let ([start], [step], Some(ratio)) = (&start[..], &step[..], exact(ratio, point)) else { return Verdict::Open };
+    let ([start], [step], Some(ratio)) = (&start[..], &step[..], exact(ratio, point)) else {
+        return Verdict::Open;
+    };
     let (mut x, mut q) = (exact(start, point), Exact::one());
     for _ in 0..STEPS {
         let Some(member) = x else { return Verdict::Open };

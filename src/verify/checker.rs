@@ -242,8 +242,7 @@ impl<J: Judge> Checker<J> {
         experiments: Vec<Experiment<J::Computed>>,
     ) -> Self {
         // What is rounded is a matter of experiments.
-        let can_be_asked =
-            |claim: &&Claim| !claim.rounds() && (J::EXPONENTIALS || !claim.has_exponentials());
+        let can_be_asked = |claim: &&Claim| !claim.rounds() && (J::EXPONENTIALS || !claim.has_exponentials());
         let claims: Vec<Claim> = claims.into_iter().filter(can_be_asked).cloned().collect();
         Checker { judge, groups: groups(&claims), claims, experiments }
     }

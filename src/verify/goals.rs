@@ -3,8 +3,8 @@
 use crate::formula::claim::{MEMBERS, POWER};
 use crate::formula::statement::{Says, Statement};
 use crate::formula::{Claim, Hypothesis, Kind, Program, Relation};
-use crate::number::{PositivePart, Tree};
 use crate::number::tree::smooth;
+use crate::number::{PositivePart, Tree};
 use num_traits::One;
 
 /// What is asked of the values of a [`Program`].
@@ -52,9 +52,7 @@ fn asked(says: &Says, program: &mut Program) -> Option<Asked> {
             dual.map(|dual| equal(&dual.derivative, is))
         }
         Says::Sign(relation, of) => Some(Asked::Sign(*relation, program.add(of))),
-        Says::Within(of, bound) => {
-            Some(Asked::Sign(Relation::NonNegative, program.add(&(bound - of.abs()))))
-        }
+        Says::Within(of, bound) => Some(Asked::Sign(Relation::NonNegative, program.add(&(bound - of.abs())))),
         // By how fast it is reached, which is said beside it.
         Says::Limit(..) => None,
     }
@@ -98,7 +96,8 @@ mod tests {
 
     /// Does such a claim hold where every coordinate is 2 but q?
     fn holds_at(q: i32, kind: Kind) -> bool {
-        let groups = groups(&[Claim { equation: "1.1", name: "tried", given: vec![], kind }]);
+        let claim = Claim { equation: "1.1", ..Claim::new("tried", &[], kind) };
+        let groups = groups(&[claim]);
         let [Group { program, claims, .. }] = groups.as_slice() else { panic!("one group") };
         let case = Case { q: Exact::int(q), ..Case::of(|_| Exact::int(2)) };
         let values = program.run(&|name| case.named(name), &Exactly::step);
@@ -117,7 +116,7 @@ mod tests {
     #[test]
     fn what_formulas_share_is_computed_once() {
         let square = || x("u") * x("u");
-        let claim = |name, kind| Claim { equation: "1.1", name, given: vec![], kind };
+        let claim = |name, kind| Claim { equation: "1.1", ..Claim::new(name, &[], kind) };
         let sum = claim("sum", Kind::Equal(square() + square(), int(2) * square()));
         let sign = claim("sign", Kind::Sign(Relation::NonNegative, square()));
         let other = Claim { given: vec![given().stiffness.clone()], ..sign.clone() };

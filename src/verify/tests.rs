@@ -12,7 +12,7 @@ use crate::proof::controls::{self, What};
 use num_traits::{One, Zero};
 use rug::Integer;
 use std::collections::BTreeSet;
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex};
 
 const SEED: u64 = 3;
 
@@ -21,11 +21,11 @@ fn options(cases: u64) -> Options {
 }
 
 fn claim(name: &'static str, kind: Kind) -> Claim {
-    Claim { equation: "1.1", name, given: vec![], kind }
+    Claim { equation: "1.1", ..Claim::new(name, &[], kind) }
 }
 
-fn experiment<T>(name: &'static str, check: fn(&Case<T>) -> Trial) -> Experiment<T> {
-    Experiment { equation: "1.1", name, given: vec![], check }
+fn experiment<T: 'static>(name: &'static str, check: fn(&Case<T>) -> Trial) -> Experiment<T> {
+    Experiment { equation: "1.1", name, given: vec![], check: Arc::new(check) }
 }
 
 fn x(name: &'static str) -> Tree {
@@ -177,7 +177,7 @@ fn what_is_undefined_or_breaks_off_is_a_finding_with_its_case() {
         claim("derivative", Kind::Derivative { of: undefined(), by: "u", is: Tree::zero() }),
         holding(),
     ];
-    fn expecting<T>() -> Vec<Experiment<T>> {
+    fn expecting<T: 'static>() -> Vec<Experiment<T>> {
         vec![experiment("expects", |_| panic!("no root")), experiment("beside", |_| Trial::Decided(true))]
     }
     let scalars = [NumberSystem::F32, NumberSystem::F64, NumberSystem::Mpfr(100), NumberSystem::Exact];

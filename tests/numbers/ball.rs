@@ -9,7 +9,7 @@ use num_traits::{One, Zero};
 use proptest::prelude::*;
 use rug::Float;
 use spring_mass_contact::number::{
-    Ball, Dual, Exact, Exponential, Field, Inexact, Mpfr, OrderedField, PositivePart, Real, ToExact,
+    Ball, Dual, Exact, Exponential, Field, Inexact, Mpfr, PositivePart, Real, ToExact,
 };
 use std::cmp::Ordering;
 use std::fmt::Debug;

@@ -10,7 +10,7 @@ use num_traits::{One, Zero};
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseResult;
 use spring_mass_contact::chapter::{SpringMass, augmented, penalty, structure, system};
-use spring_mass_contact::number::{Ball, Dual, Exact, Exponential, Field, OrderedField, ToExact};
+use spring_mass_contact::number::{Ball, Dual, Exact, Exponential, Field, PositivePart, ToExact};
 use std::fmt::Debug;
 use std::marker::PhantomData;
 

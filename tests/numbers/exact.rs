@@ -6,7 +6,7 @@ use crate::system::{Planted, System};
 use num_traits::{One, Zero};
 use proptest::prelude::*;
 use rug::{Integer, Rational};
-use spring_mass_contact::number::{Exact, Field, Inexact, Mpfr, OrderedField, RangeError, Real, ToExact};
+use spring_mass_contact::number::{Exact, Field, Inexact, Mpfr, PositivePart, RangeError, Real, ToExact};
 use std::fmt::Debug;
 
 pub struct Rationals;

@@ -7,7 +7,7 @@ use crate::system::{Floats, Planted, System, planted};
 use num_traits::{One, Zero};
 use proptest::prelude::*;
 use rug::Float;
-use spring_mass_contact::number::{Exact, Exponential, Field, Logarithm, Mpfr, OrderedField, Real, ToExact};
+use spring_mass_contact::number::{Exact, Exponential, Field, Logarithm, Mpfr, PositivePart, Real, ToExact};
 
 macro_rules! machine_floats {
     ($($Name:ident $float:ident $format:ident $convert:ident;)*) => {$(

@@ -3,7 +3,7 @@
 use num_traits::Zero;
 use rug::float::Round;
 use rug::{Float, Integer, Rational};
-use spring_mass_contact::number::{Exact, OrderedField};
+use spring_mass_contact::number::{Exact, PositivePart};
 use std::cmp::Ordering;
 
 /// Binary floats m·2ᵉ with |m| < 2^bits.

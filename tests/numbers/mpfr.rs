@@ -8,7 +8,7 @@ use num_traits::{One, Zero};
 use proptest::prelude::*;
 use rug::Rational;
 use spring_mass_contact::number::{
-    Ball, Exact, Exponential, Field, Logarithm, Mpfr, OrderedField, PRECISIONS, PositivePart, Real, ToExact,
+    Ball, Exact, Exponential, Field, Logarithm, Mpfr, PRECISIONS, PositivePart, Real, ToExact,
 };
 
 /// MPFR numbers of one precision.

@@ -7,7 +7,7 @@ use crate::strategies::*;
 use num_traits::Zero;
 use proptest::prelude::*;
 use spring_mass_contact::chapter::{SpringMass, augmented, contact, penalty, structure, system};
-use spring_mass_contact::number::{Exact, OrderedField};
+use spring_mass_contact::number::{Exact, OrderedField, PositivePart};
 use spring_mass_contact::rug::Integer;
 use spring_mass_contact::solver::{
     Augmentation, Iterate, Method, Outcome, Plane, augmentations_needed, solve, solve_bilateral,

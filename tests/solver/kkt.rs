@@ -6,7 +6,7 @@ use crate::strategies::*;
 use num_traits::Zero;
 use proptest::prelude::*;
 use spring_mass_contact::chapter::{SpringMass, contact, penalty, system};
-use spring_mass_contact::number::{Ball, Exact, OrderedField};
+use spring_mass_contact::number::{Ball, Exact, PositivePart};
 use spring_mass_contact::rug::Rational;
 use spring_mass_contact::solver::{
     Augmentation, Method, Outcome, Plane, Solution, State, solve, solve_bilateral,

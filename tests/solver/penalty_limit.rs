@@ -6,7 +6,7 @@ use crate::strategies::*;
 use num_traits::Zero;
 use proptest::prelude::*;
 use spring_mass_contact::chapter::{SpringMass, contact, penalty, structure, system};
-use spring_mass_contact::number::{Ball, Dual, Exact, Mpfr, OrderedField, ToExact};
+use spring_mass_contact::number::{Ball, Dual, Exact, Mpfr, PositivePart, ToExact};
 use spring_mass_contact::solver::{
     Outcome, SolveError, State, penalty_for_penetration, series_penetration, solve, solve_bilateral,
 };

@@ -6,7 +6,7 @@ use crate::strategies::*;
 use num_traits::Zero;
 use proptest::prelude::*;
 use spring_mass_contact::chapter::{SpringMass, system};
-use spring_mass_contact::number::{Exact, OrderedField};
+use spring_mass_contact::number::{Exact, PositivePart};
 use spring_mass_contact::solver::{
     Bounds, Interval, Method, Plane, Solution, SolveError, State, rounding_floor, solve, solve_bilateral,
     within_reach,

@@ -10,7 +10,7 @@
 use num_traits::Zero;
 use proptest::prelude::*;
 use spring_mass_contact::chapter::{SpringMass, system};
-use spring_mass_contact::number::{Exact, OrderedField, PositivePart, Real, ToExact};
+use spring_mass_contact::number::{Exact, PositivePart, Real, ToExact};
 use spring_mass_contact::solver::{Method, Scalar};
 use std::fmt;
 

@@ -83,7 +83,8 @@ impl<'a, T: Scalar + Real + ToExact> Floats<'a, T> {
     /// The number for a symbol, as a float.
     fn number(&self, name: &'static str) -> T {
         // Any powers of two.
-        let scale = |n: i32| (0..n.abs()).fold(T::one(), |x, _| if n < 0 { x / T::int(2) } else { x * T::int(2) });
+        let scale =
+            |n: i32| (0..n.abs()).fold(T::one(), |x, _| if n < 0 { x / T::int(2) } else { x * T::int(2) });
         match SCALES.iter().position(|scale| *scale == name) {
             Some(i) => scale([3, -2, 5][i]),
             None => {
@@ -155,7 +156,9 @@ impl<'a, T: Scalar + Real + ToExact> Floats<'a, T> {
     /// A sequence for some steps, and where it comes nearest to its bounds.
     fn follow(&mut self, statement: &Statement) -> Option<Trial> {
         let Sequence { start, step, ratio, within: bounds, .. } = statement.amounts_to.as_ref()?;
-        let ([start], [step], computed) = (&start[..], &step[..], statement.computed.as_ref()?) else { return None };
+        let ([start], [step], computed) = (&start[..], &step[..], statement.computed.as_ref()?) else {
+            return None;
+        };
         for given in &statement.hypotheses {
             if !self.holds(given)? {
                 return None;

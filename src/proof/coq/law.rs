@@ -29,9 +29,13 @@ struct Part<'a> {
 impl Part<'_> {
     /// The names of its variables, with others for some of them, and of its hypotheses.
     fn applied(&self, replaced: &[(&str, &str)], hypotheses: &str) -> String {
-        let other = |var: &str| replaced.iter().find(|(own, _)| *own == var).map(|(_, other)| other.to_string());
-        let variables: String =
-            self.variables.iter().map(|var| format!(" {}", other(var).unwrap_or_else(|| ascii(var)))).collect();
+        let other =
+            |var: &str| replaced.iter().find(|(own, _)| *own == var).map(|(_, other)| other.to_string());
+        let variables: String = self
+            .variables
+            .iter()
+            .map(|var| format!(" {}", other(var).unwrap_or_else(|| ascii(var))))
+            .collect();
         format!("{} prec choice{} P{variables} E{hypotheses}", self.name, scales(&self.variables))
     }
 }
@@ -90,9 +94,8 @@ impl<'a> Law<'a> {
     fn part(&self, keyword: &str, name: String, goal: &Goal) -> Result<(Part<'a>, String)> {
         // If a goal speaks neither of a member nor of what is computed from it, nothing is supposed of them.
         let computed = self.statement.computed.as_ref().map(|computed| computed.symbol);
-        let of_member = |tree: &Tree| {
-            tree.symbols().into_iter().any(|name| name == MEMBERS[0] || Some(name) == computed)
-        };
+        let of_member =
+            |tree: &Tree| tree.symbols().into_iter().any(|name| name == MEMBERS[0] || Some(name) == computed);
         let mut hypotheses = self.hypotheses(goal.role);
         if !goal.says.trees().into_iter().any(of_member) {
             hypotheses.retain(|h| !of_member(&h.value));
@@ -183,7 +186,9 @@ impl<'a> Law<'a> {
     fn scaled(&self, script: &mut Script, errors: &[Rounding]) -> Result<()> {
         let mut made = 0;
         for (i, after) in errors.iter().enumerate() {
-            let Some(before) = errors[..i].iter().find(|known| known.error() == after.error()) else { continue };
+            let Some(before) = errors[..i].iter().find(|known| known.error() == after.error()) else {
+                continue;
+            };
             let usual = after.scale().num().is_one() && after.scale().den().is_one();
             let (before, after) = if usual { (after, before) } else { (before, after) };
             let factor = after.scale().over(before.scale()).ok_or("a scale is 0")?;
@@ -219,7 +224,10 @@ impl<'a> Law<'a> {
         let mut script = Script::new();
         script.line(&self.intros(&variables, said.len()));
         let inner = near.applied(&[], &labels);
-        script.line(&format!("exact ({}).", rest.applied(&[(computed.symbol, &by)], &format!("{labels} ({inner})"))));
+        script.line(&format!(
+            "exact ({}).",
+            rest.applied(&[(computed.symbol, &by)], &format!("{labels} ({inner})"))
+        ));
         text += &self.stated("Theorem", self.name, &variables, &said, &says(&own, self.printer), script);
         Ok(text)
     }
@@ -238,7 +246,8 @@ impl<'a> Law<'a> {
         let of = |role: Role| -> Vec<&Part> {
             parts.iter().filter(|(own, _)| *own == role).map(|(_, part)| part).collect()
         };
-        let ([start], [step], [of_q, of_x]) = (&sequence.start[..], &sequence.step[..], &invariants[..]) else {
+        let ([start], [step], [of_q, of_x]) = (&sequence.start[..], &sequence.step[..], &invariants[..])
+        else {
             return Err("a sequence with other invariants than of a power and a member".into());
         };
         let ([q_begins, x_begins], [q_continues, x_continues], [is_near], hence) =
@@ -287,7 +296,8 @@ impl<'a> Law<'a> {
             own.line(&format!("- exact ({}).", at(q_continues, &power, "").replace("(Q n)", "I")));
             Ok(())
         })?;
-        script.line(&format!("assert (X : forall n : nat, {let_q} {let_x} {}).", supposed(of_x, self.printer)));
+        script
+            .line(&format!("assert (X : forall n : nat, {let_q} {let_x} {}).", supposed(of_x, self.printer)));
         script.block("{", |own| {
             own.line(&format!("induction n as [ | n I]; cbn [{iterates} pow]; cbv zeta in *."));
             own.line(&format!("- exact ({}).", at(x_begins, "1", "")));
@@ -297,9 +307,10 @@ impl<'a> Law<'a> {
         script.line("intro n. cbv zeta. repeat apply conj.");
         script.line("- exact (X n).");
         hence.iter().for_each(|part| script.line(&format!("- exact ({}).", at(part, &power, "(X n)"))));
-        let bounds = sequence.within.iter().map(|(of, bound)| {
-            says(&Says::Within(of.clone(), bound.clone()), self.printer)
-        });
+        let bounds = sequence
+            .within
+            .iter()
+            .map(|(of, bound)| says(&Says::Within(of.clone(), bound.clone()), self.printer));
         let bounds: Vec<_> = bounds.collect();
         let says = format!(
             "forall n : nat, {let_q}\n    {let_x}\n    let {u} := {by} in\n    {}",

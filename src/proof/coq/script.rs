@@ -127,8 +127,8 @@ impl Script {
                 }
                 let name = ascii(x.0);
                 self.line(&format!(
-                    "assert (P{i} : 0 {relation} {name}) by (apply (same_{kind} _ _ {hypothesis}); {})."
-                    , self.same()
+                    "assert (P{i} : 0 {relation} {name}) by (apply (same_{kind} _ _ {hypothesis}); {}).",
+                    self.same()
                 ));
             }
             Used::Pivot(pivot, by, named) => {

@@ -1,10 +1,10 @@
 //! A claim as theorem and lemmas, with their proofs.
 
+use super::law::Law;
 use super::lemma::{
     Defined, Lemma, Result, depends, derivation, divisors, divisors_script, labels, names, numbered, says,
     stated, supposed,
 };
-use super::law::Law;
 use super::print::{Printer, ascii};
 use super::script::Script;
 use super::{identifier, theorem_name};

@@ -1,8 +1,8 @@
 //! Rounding keeps order: one formula is no less than another, step by step.
 
+use super::Reader;
 use super::derivation::{Signed, Why};
 use super::sign::Sign;
-use super::Reader;
 use crate::number::Tree;
 use crate::number::tree::Step::*;
 

@@ -45,8 +45,8 @@ pub type Known = BTreeMap<Symbol, Sign>;
 
 /// What is between −1 and 1: the rounding error of each step, in parts of the largest.
 pub const ERRORS: [&str; 24] = [
-    "e₁", "e₂", "e₃", "e₄", "e₅", "e₆", "e₇", "e₈", "e₉", "e₁₀", "e₁₁", "e₁₂", "e₁₃", "e₁₄", "e₁₅", "e₁₆", "e₁₇",
-    "e₁₈", "e₁₉", "e₂₀", "e₂₁", "e₂₂", "e₂₃", "e₂₄",
+    "e₁", "e₂", "e₃", "e₄", "e₅", "e₆", "e₇", "e₈", "e₉", "e₁₀", "e₁₁", "e₁₂", "e₁₃", "e₁₄", "e₁₅", "e₁₆",
+    "e₁₇", "e₁₈", "e₁₉", "e₂₀", "e₂₁", "e₂₂", "e₂₃", "e₂₄",
 ];
 
 /// And where in an interval a quantity is, from one end to the other.
