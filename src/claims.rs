@@ -39,8 +39,8 @@ use std::sync::LazyLock;
 /// What the files of the sections are written with.
 mod prelude {
     pub(super) use super::formulas::formulas;
+    pub(super) use super::rounding::eta;
     pub(super) use super::{Case, Entry, Given, given, symbols};
-    use crate::chapter::rounding;
     pub(super) use crate::formula::Rate::{Exactly, Within};
     use crate::formula::claim;
     pub(super) use crate::formula::claim::{
@@ -53,11 +53,6 @@ mod prelude {
     pub(super) fn precision() -> &'static Tree {
         static PRECISION: LazyLock<Tree> = LazyLock::new(|| Tree::symbol(claim::PRECISION));
         &PRECISION
-    }
-
-    /// The unit roundoff.
-    pub(super) fn eta() -> Tree {
-        rounding::unit_roundoff(precision())
     }
 
     /// What a sequence has come to, in the step of an induction.

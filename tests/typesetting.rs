@@ -77,7 +77,9 @@ impl Reader<'_> {
 
     fn base(&mut self) -> Option<Exact> {
         let digits = self.rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(self.rest.len());
-        if digits > 0 {
+        // A power of two has a name that begins with a number.
+        let named = self.symbols.iter().any(|name| name.len() > digits && self.rest.starts_with(name));
+        if digits > 0 && !named {
             let number = self.rest[..digits].parse().unwrap();
             self.rest = &self.rest[digits..];
             return Some(number);
@@ -92,13 +94,14 @@ impl Reader<'_> {
                 return Some(if function { -PositivePart::min(&-a, &-b) } else { PositivePart::min(&a, &b) });
             }
         }
-        for (open, close) in [("exp(", ")"), ("⟨", "⟩"), ("(", ")")] {
+        for (open, close) in [("exp(", ")"), ("⟨", "⟩"), ("|", "|"), ("(", ")")] {
             if self.eat(open) {
                 let inner = self.sum()?;
                 closed(self, close);
                 return Some(match open {
                     "exp(" => exp(&inner),
                     "⟨" => inner.positive_part(),
+                    "|" => inner.abs(),
                     _ => inner,
                 });
             }
@@ -118,8 +121,8 @@ fn replayed(tree: &Tree) -> Option<Exact> {
 }
 
 fn trees() -> impl Strategy<Value = Tree> {
-    let symbol =
-        prop::sample::select(&["a", "b", "u", "λ₀", "ρᵏ", "u_{k+1}"]).prop_map(|name| Tree::symbol(name));
+    let symbol = prop::sample::select(&["a", "b", "u", "λ₀", "ρᵏ", "u_{k+1}", "2ᵖ"])
+        .prop_map(|name| Tree::symbol(name));
     let leaf = prop_oneof![3 => symbol, 1 => (-3..4).prop_map(Tree::int)];
     leaf.prop_recursive(6, 40, 2, |inner| {
         let pair = (inner.clone(), inner.clone());
@@ -132,6 +135,7 @@ fn trees() -> impl Strategy<Value = Tree> {
             2 => inner.clone().prop_map(|a| -a),
             1 => inner.clone().prop_map(|a| &a * &a),
             1 => inner.clone().prop_map(|a| a.exp()),
+            1 => inner.clone().prop_map(|a| a.abs()),
             1 => inner.prop_map(|a| a.positive_part()),
         ]
     })
@@ -178,10 +182,11 @@ proptest! {
         for (open, inner) in brackets(&text) {
             // Those of a function, or around a sum, a product or an exponent; and never around all.
             let function = text[..open].ends_with(char::is_alphabetic);
-            prop_assert!(function || inner.contains([' ', 'ᵏ']) && inner.len() + 2 < text.len(), "{}", text);
+            prop_assert!(function || inner.contains([' ', 'ᵏ', 'ᵖ']) && inner.len() + 2 < text.len(), "{}", text);
         }
         let latex = tree.latex();
-        for (open, close) in [("{", "}"), ("(", ")"), ("\\left", "\\right"), ("\\langle", "\\rangle")] {
+        for (open, close) in
+            [("{", "}"), ("(", ")"), ("\\left", "\\right"), ("\\langle", "\\rangle"), ("\\lvert", "\\rvert")] {
             let count = |token: &str| latex.replace("\\rightarrow", "").matches(token).count();
             prop_assert_eq!(count(open), count(close), "{}", &latex);
         }

@@ -1,9 +1,9 @@
 //! What floats make of the chapter's formulas: bounds that hold in every precision. Note 8.
 //!
 //! A number of p bits is rounded to with a relative error of at most η = 2⁻ᵖ, for p ≥ 2; under- and
-//! overflow are left out. The parameters are meant as they are in floats, and computed is, in their order, what
-//! the functions of the other modules compute. Each bound is [claimed](crate::claims) beside the
-//! formula that it bounds, and proved.
+//! overflow are left out. The parameters are meant as they are in floats, and computed is, in their
+//! order, what the functions of the other modules compute. Each bound is [claimed](crate::claims) beside
+//! the formula that it bounds, and proved.
 
 use super::{SpringMass, penalty, system};
 use crate::number::{Field, PositivePart};
@@ -43,8 +43,8 @@ pub fn deflection_error<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: &T)
 ///
 /// `η (ε (|H| + 5 |Δ|) + 7 R) (1 + 8 η)`
 ///
-/// `eps` is the penalty ε in N/m, `n` is 2ᵖ. Domain: c > 0, ε > 0, R > 0. It grows with ε, so that half of the
-/// digits are lost at best. Source: §1.3.2, note 8.
+/// `eps` is the penalty ε in N/m, `n` is 2ᵖ. Domain: c > 0, ε > 0, R > 0. It grows with ε, so that half
+/// of the digits are lost at best. Source: §1.3.2, note 8.
 ///
 /// ```
 /// # use spring_mass_contact::chapter::{SpringMass, rounding};
@@ -59,7 +59,7 @@ pub fn penalty_force_error<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: 
 
 /// How far inside the plane, or above it, the mass may be where a computed (1.16) changes λ no more, in m.
 ///
-/// `η |H| + η (1 + η) (1 + η) |λ| / ((1 − η) ε)`
+/// `η |H| + η (1 + η)² |λ| / ((1 − η) ε)`
 ///
 /// `eps` is the penalty ε in N/m, `lambda` the multiplier λ in N, `n` is 2ᵖ. Domain: ε > 0, n > 1.
 /// Source: §1.3.3, note 8.

@@ -146,7 +146,7 @@ pub(super) fn entries() -> Vec<Entry> {
                 },
                 drift(
                     "float-drift",
-                    [stiffness, penalty, contact, fine_enough, decay, near_iterate],
+                    [stiffness, penalty, fine_enough, contact, decay, near_iterate],
                     contraction(s, eps),
                     0,
                     |lambda| update(s, eps, lambda, u).rounded(),

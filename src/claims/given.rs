@@ -102,11 +102,11 @@ hypotheses! {
     time "t > 0" = positive(t);
     later_multiplier "v ≥ λ" = non_negative(v - lambda);
     // In floats, of 2ᵖ.
-    fine_enough "64 (c + ε) ≤ ε (2ᵖ + 1)" = non_negative(
+    fine_enough "ε (2ᵖ + 1) ≥ 64 (c + ε)" = non_negative(
         eps * (precision() + Tree::from(1)) - Tree::from(64) * penalty::total_stiffness(s, eps)
     ), solved for &s.c;
-    computed_inside "fl(l + u − H) ≥ 0" = non_negative(contact::penetration(s, u).rounded());
-    computed_repeats "fl(λ + ε (l + u − H)) = λ" =
+    computed_inside "fl(p) ≥ 0" = non_negative(contact::penetration(s, u).rounded());
+    computed_repeats "λ = fl(λ + ε (l + u − H))" =
         zero(augmented::update(s, eps, lambda, u).rounded() - lambda), solved for &s.l;
     some_bits "2ᵖ > 0" = positive(precision());
     one_bit "2ᵖ > 1" = positive(precision() - Tree::from(1));

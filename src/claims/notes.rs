@@ -15,7 +15,6 @@ pub(super) fn entries() -> Vec<Entry> {
         beyond_twice,
         within_twice,
         twice,
-        contact,
         touching,
         grazing,
         separated,
@@ -321,7 +320,8 @@ pub(super) fn entries() -> Vec<Entry> {
             ]),
         Entry::new("note 8", "Not in every precision")
             .states("Rounding stops the augmentation at a floor of about η (|H| + R/ε)")
-            .given([stiffness, penalty, contact])
+            .given([penalty])
+            .functions(["rounding::fixed_point_error", "rounding::floor"])
             .follows_from(["1.16"])
             .claims([
                 within(

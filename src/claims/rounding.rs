@@ -11,3 +11,8 @@ formulas! {
     "F" (folded) = rounding::floor(system, "ε", "2ᵖ");
     "" = rounding::penetration_drift(system, "ε", "2ᵖ");
 }
+
+/// The unit roundoff.
+pub(super) fn eta() -> Tree {
+    rounding::unit_roundoff(precision())
+}

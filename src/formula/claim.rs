@@ -13,7 +13,8 @@ pub enum Rate {
     Within(Tree),
 }
 
-/// What stands for 2ᵖ where formulas [round](Tree::rounded): to p bits, so that its inverse is the unit roundoff.
+/// What stands for 2ᵖ where formulas [round](Tree::rounded): to p bits, so that its inverse is the unit
+/// roundoff.
 pub const PRECISION: &str = "2ᵖ";
 
 /// What stands for powers of two, with any whole exponents.
@@ -117,7 +118,8 @@ pub struct Claim {
     pub name: &'static str,
     /// What it supposes.
     pub given: Vec<Hypothesis>,
-    /// A quantity of which it supposes that it is near another; that is proved where it is computed like this.
+    /// A quantity of which it supposes that it is near another; that is proved where it is computed like
+    /// this.
     pub computed: Option<(&'static str, Tree)>,
     /// What it says.
     pub kind: Kind,
@@ -246,8 +248,8 @@ pub fn within<const N: usize>(
     Claim::new(name, &given, Kind::Within(of.into(), bound.into()))
 }
 
-/// From x₀ = start each x leads to the next; each is near what is said of q = ratioᵏ, and what is said of it and q
-/// besides is of limited size.
+/// From x₀ = start each x leads to the next; each is near what is said of q = ratioᵏ, and what is said of
+/// it and q besides is of limited size.
 ///
 /// # Panics
 /// As for an [`induction`].

@@ -159,10 +159,10 @@ impl Term {
     }
 }
 
-/// The x of −min(x, −x), which is |x|: what is negated.
+/// The x of −min(−x, x), which is |x|: what is negated.
 fn size(negated: &Tree) -> Option<&Tree> {
     match negated.step() {
-        Step::Min(x, y) if matches!(y.step(), Step::Neg(z) if z == x) => Some(x),
+        Step::Min(y, x) if matches!(y.step(), Step::Neg(z) if z == x) => Some(x),
         _ => None,
     }
 }

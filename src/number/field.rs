@@ -120,7 +120,7 @@ pub trait PositivePart: Field {
 
     /// |x|, the larger of x and −x. Exact.
     fn abs(&self) -> Self {
-        -self.min(&-self)
+        -(-self).min(self)
     }
 }
 

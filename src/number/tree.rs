@@ -190,8 +190,8 @@ impl Tree {
         node(Step::Rounded(self.clone()))
     }
 
-    /// The formula as a machine computes it: the result of every + − × ÷ and eˣ is rounded. What is taken from
-    /// what is there, a sign or one of two numbers, is exact.
+    /// The formula as a machine computes it: the result of every + − × ÷ and eˣ is rounded. What is taken
+    /// from what is there, a sign or one of two numbers, is exact.
     ///
     /// ```
     /// use spring_mass_contact::number::Tree;
@@ -245,14 +245,18 @@ impl Tree {
 
     /// The number for one of its quantities at which the formula, if it is linear in that quantity and the
     /// others are as they are, has the value `target`; `None` if it does not depend on it, or has eˣ, ⟨·⟩
-    /// or min.
+    /// or min. What is rounded is taken as it is, so that the value may be off by as much.
     pub fn solution<T: Field>(
         &self,
         by: &'static str,
         symbol: &impl Fn(&'static str) -> T,
         target: &T,
     ) -> Option<T> {
-        let Dual { value, derivative } = self.derivative(by, symbol, &|_| None)?;
+        let beyond = |step: Step<&Dual<T>>| match step {
+            Step::Rounded(x) => Some(x.clone()),
+            _ => None,
+        };
+        let Dual { value, derivative } = self.derivative(by, symbol, &beyond)?;
         derivative.is_unit().then(|| symbol(by) + (target - value) / derivative)
     }
 
@@ -388,6 +392,6 @@ impl PositivePart for Tree {
     }
     #[track_caller]
     fn abs(&self) -> Self {
-        -PositivePart::min(self, &-self)
+        -PositivePart::min(&-self, self)
     }
 }

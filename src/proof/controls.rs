@@ -16,6 +16,7 @@ pub use change::{Change, Operator, What, changes};
 
 use super::kernel::prove;
 use super::refute::{Counterexample, Points};
+use crate::formula::claim::PRECISION;
 use crate::formula::statement::two_bits;
 use crate::formula::{Hypothesis, Registry, Statement};
 use crate::number::tree::Site;
@@ -64,6 +65,14 @@ pub struct Dropped {
     pub without: Without,
 }
 
+impl Dropped {
+    /// Is it one that says how fine numbers have to be, and without which the claim is neither proved nor
+    /// refuted? A proof may ask for more than what is true does.
+    pub fn is_of_precision(&self) -> bool {
+        matches!(self.without, Without::Unknown) && self.given.value.symbols().contains(PRECISION)
+    }
+}
+
 /// All controls and what became of them.
 #[derive(Clone, Debug, Default)]
 pub struct Controls {
@@ -99,9 +108,12 @@ impl Controls {
         }
     }
 
-    /// Hypotheses that are not seen to be needed: without them the claim is not refuted.
+    /// Hypotheses that are not seen to be needed: without them the claim is not refuted, and they are not
+    /// [of the precision](Dropped::is_of_precision) alone.
     pub fn needless(&self) -> impl Iterator<Item = &Dropped> {
-        self.dropped.iter().filter(|dropped| !matches!(dropped.without, Without::Refuted(_)))
+        let needed =
+            |dropped: &Dropped| matches!(dropped.without, Without::Refuted(_)) || dropped.is_of_precision();
+        self.dropped.iter().filter(move |dropped| !needed(dropped))
     }
 }
 

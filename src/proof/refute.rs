@@ -8,7 +8,7 @@
 //!
 //! All arithmetic is exact but for eˣ, which is a ball: what is refuted is false for certain.
 
-use crate::formula::claim::{MEMBERS, POWER, PRECISION};
+use crate::formula::claim::{POWER, PRECISION};
 use crate::formula::statement::{Role, Says, Sequence, Statement};
 use crate::formula::{Hypothesis, Relation};
 use crate::number::tree::{Step, everything, smooth};
@@ -20,10 +20,12 @@ use std::fmt;
 use std::sync::OnceLock;
 
 mod point;
+mod sequence;
 mod smaller;
 mod value;
 
 pub use point::{Point, planted_points, raw_points};
+use sequence::{STEPS, computed, follow, is_constant};
 use smaller::smaller;
 pub use value::Value;
 
@@ -132,9 +134,12 @@ fn check_goals(statement: &Statement, point: &Point) -> Verdict {
         Some(Sequence { limit: Some(_), .. }) | None => vec![point.at(POWER)],
     };
     if let Some(sequence) = statement.amounts_to.as_ref().filter(|sequence| !sequence.within.is_empty()) {
-        return follow(statement, sequence, point);
+        return follow(statement, sequence, point).unwrap_or_else(|verdict| verdict);
     }
-    let point = &computed(statement, point);
+    let point = &match computed(statement, point) {
+        Ok(point) => point,
+        Err(verdict) => return verdict,
+    };
     let mut open = false;
     for q in powers {
         let point = point.with(POWER, q);
@@ -151,51 +156,11 @@ fn check_goals(statement: &Statement, point: &Point) -> Verdict {
     if open { Verdict::Open } else { Verdict::Holds }
 }
 
-/// As many steps of an induction are tried.
-const STEPS: usize = 4;
-
-/// The point with the number that is computed there.
-fn computed(statement: &Statement, point: &Point) -> Point {
-    let computed = statement.computed.as_ref();
-    let number = computed.and_then(|c| Some((c.symbol, exact(&c.by, point)?)));
-    number.map_or_else(|| point.clone(), |(symbol, x)| point.with(symbol, x))
-}
-
-/// A sequence that has to stay near a closed form, for some steps.
-fn follow(statement: &Statement, sequence: &Sequence, point: &Point) -> Verdict {
-    let Sequence { start, step, ratio, within, .. } = sequence;
-    let ([start], [step], Some(ratio)) = (&start[..], &step[..], exact(ratio, point)) else {
-        return Verdict::Open;
-    };
-    let (mut x, mut q) = (exact(start, point), Exact::one());
-    for _ in 0..STEPS {
-        let Some(member) = x else { return Verdict::Open };
-        let point = computed(statement, &point.with(MEMBERS[0], member).with(POWER, q.clone()));
-        for (of, bound) in within {
-            match fails(&Says::Within(of.clone(), bound.clone()), &point) {
-                Some(Some(how)) => return Verdict::Fails("", how),
-                Some(None) => {}
-                None => return Verdict::Open,
-            }
-        }
-        x = exact(step, &point);
-        q = q * &ratio;
-    }
-    Verdict::Holds
-}
-
 fn exact(tree: &Tree, point: &Point) -> Option<Exact> {
     match value(tree, point)? {
         Value::Exact(x) => Some(x),
         Value::Ball(_) => None,
     }
-}
-
-/// Is each member of the sequence its limit?
-fn is_constant(statement: &Statement, point: &Point) -> bool {
-    let Some(Sequence { member, limit: Some(limit), .. }) = &statement.amounts_to else { return false };
-    let first = point.with(POWER, Exact::one());
-    member.iter().all(|member| exact(member, &first).is_some_and(|x| exact(limit, point) == Some(x)))
 }
 
 /// How a goal fails, if it does; `None` if that cannot be decided.

@@ -235,7 +235,8 @@ mod tests {
 
     /// All hypotheses under which something is claimed.
     fn groups() -> BTreeMap<String, Vec<Hypothesis>> {
-        let claims = claims().map(|claim| claim.given.clone());
+        // What is rounded is tried by experiments.
+        let claims = claims().filter(|claim| !claim.rounds()).map(|claim| claim.given.clone());
         let floats = float_experiments::<f64>().into_iter();
         let rationals = exact_experiments().into_iter().map(|experiment| experiment.given);
         let experiments = floats.map(|experiment| experiment.given).chain(rationals);
@@ -247,7 +248,7 @@ mod tests {
         (0..CASES).filter_map(move |index| case(1, index, given))
     }
 
-    /// Sixteen coordinates leave nothing to chance: of the integers from 1 to 9 alone there are 9¹⁶ cases.
+    /// Seventeen coordinates leave nothing to chance: of the integers from 1 to 9 alone there are 9¹⁷ cases.
     #[test]
     fn no_case_is_drawn_twice() {
         for (group, given) in groups() {
@@ -317,7 +318,10 @@ mod tests {
             idle,
             ..
         } = given();
-        for hypothesis in given().all() {
+        // What is computed, or how finely, is not drawn.
+        let drawn =
+            |h: &&Hypothesis| !h.value.rounds() && h.interval().is_none() && **h != given().fine_enough;
+        for hypothesis in given().all().filter(drawn) {
             let needs = match hypothesis {
                 h if h == enough => vec![tolerance],
                 h if h == next_in_equilibrium => vec![stiffness, penalty, in_equilibrium],

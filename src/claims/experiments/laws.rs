@@ -94,8 +94,8 @@ impl<'a, T: Scalar + Real + ToExact> Floats<'a, T> {
         }
     }
 
-    /// A formula as floats compute it; `None` where a number is too large or too small for that: then it is not
-    /// what rounding to p bits makes of it.
+    /// A formula as floats compute it; `None` where a number is too large or too small for that: then it
+    /// is not what rounding to p bits makes of it.
     fn compute(&self, tree: &Tree) -> Option<T> {
         let step = match tree.step() {
             Step::Rounded(inner) => inner.step(),

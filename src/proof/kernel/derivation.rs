@@ -238,6 +238,8 @@ pub enum Why {
     Kink,
     /// No rule finds the limit.
     NoLimit(Ratio),
+    /// Something is rounded where something varies: it has jumps.
+    Jump,
     /// There are more roundings than names for their errors.
     TooMany,
     /// A name that the kernel keeps for itself.

@@ -1,14 +1,16 @@
 //! Rounding keeps order: one formula is no less than another, step by step.
 
-use super::Reader;
 use super::derivation::{Signed, Why};
+use super::reader::Reader;
 use super::sign::Sign;
 use crate::number::Tree;
 use crate::number::tree::Step::*;
 
-/// The signs from which it follows that `a` ≥ `b`, where both are defined. Their steps are compared as long as
-/// they are alike: rounding, +, ⟨·⟩ and min keep order, and so does what is multiplied by or divided by what is
-/// positive; a minus turns it round. Where they are no longer alike, the sign of the difference decides.
+/// The signs from which it follows that `a` ≥ `b`, where both are defined.
+///
+/// Their steps are compared as long as they are alike: rounding, +, ⟨·⟩ and min keep order, and so do
+/// factors and divisors that are positive; a minus turns it round. Where they are no longer alike, the sign
+/// of the difference decides.
 pub(super) fn at_least(reader: &mut Reader, a: &Tree, b: &Tree) -> Result<Vec<Signed>, Why> {
     if a == b {
         return Ok(Vec::new());

@@ -15,12 +15,16 @@
 //! 5. **Sizes.** Factors between −1 and 1 make a term no larger than it is without them. So the polynomial is
 //!    no less than what is left when each term with such factors is replaced by minus its size, and no more
 //!    than with plus its size.
-//! 6. **Ends.** What is of degree one in a symbol between −1 and 1 lies between its values at the two ends, so
-//!    it has a sign that both have. Where there are such symbols, this rule, the fifth and the first are all
-//!    that is tried.
+//! 6. **Ends.** What is of degree one in a symbol between −1 and 1 lies between its values at the two ends,
+//!    so it has a sign that both have. Where there are such symbols, this rule, the fifth and the first are
+//!    all that is tried.
+
+mod small;
+
+pub use small::{ERRORS, PLACES, is_small};
 
 use super::algebra::{Monomial, Poly, Ratio, Symbol};
-use rug::Rational;
+use small::{ENDS, ends, sizes};
 use std::collections::BTreeMap;
 
 /// The sign of a value that may depend on symbols.
@@ -42,20 +46,6 @@ use Sign::{Negative, NonNegative, NonPositive, Positive, Zero};
 
 /// What is known of the symbols. One that is not listed is free: any real number.
 pub type Known = BTreeMap<Symbol, Sign>;
-
-/// What is between −1 and 1: the rounding error of each step, in parts of the largest.
-pub const ERRORS: [&str; 24] = [
-    "e₁", "e₂", "e₃", "e₄", "e₅", "e₆", "e₇", "e₈", "e₉", "e₁₀", "e₁₁", "e₁₂", "e₁₃", "e₁₄", "e₁₅", "e₁₆",
-    "e₁₇", "e₁₈", "e₁₉", "e₂₀", "e₂₁", "e₂₂", "e₂₃", "e₂₄",
-];
-
-/// And where in an interval a quantity is, from one end to the other.
-pub const PLACES: [&str; 6] = ["t₁", "t₂", "t₃", "t₄", "t₅", "t₆"];
-
-/// Is it between −1 and 1?
-pub fn is_small(x: Symbol) -> bool {
-    ERRORS.contains(&x.0) || PLACES.contains(&x.0)
-}
 
 impl Sign {
     /// Never zero.
@@ -172,10 +162,6 @@ const DEPTH: u32 = 3;
 /// Nor is rule 4 tried on more terms than this: derivatives only grow.
 const TERMS: usize = 12;
 
-/// Rule 6 is used on so many symbols, one inside the other, and on so many terms.
-const ENDS: u32 = 4;
-const TERMS_AT_ENDS: usize = 1000;
-
 /// The sign of a polynomial, if the rules find one.
 pub fn sign(of: &Poly, known: &Known) -> Option<Certificate> {
     // A short certificate before a long one.
@@ -213,58 +199,6 @@ fn of_monomial(monomial: &Monomial, known: &Known) -> Option<Sign> {
         None => None,
     };
     monomial.powers().try_fold(Positive, |product, x| Some(product.times(power(x)?)))
-}
-
-/// Rule 5.
-fn sizes(of: &Poly, known: &Known) -> Option<Certificate> {
-    // Of each monomial, the coefficient without small factors and the sizes of those with them.
-    let mut all: BTreeMap<Monomial, [Rational; 2]> = BTreeMap::new();
-    for (monomial, coefficient) in of.terms() {
-        let rest = monomial.without_those(is_small);
-        let is_whole = rest == *monomial;
-        let [own, with] = all.entry(rest).or_default();
-        if is_whole { *own += coefficient } else { *with += Rational::from(coefficient.abs_ref()) }
-    }
-    let all: Option<Vec<_>> = all
-        .into_iter()
-        .map(|(monomial, [own, with])| {
-            let size = match of_monomial(&monomial, known) {
-                Some(Positive | NonNegative | Zero) => with,
-                Some(Negative | NonPositive) => -with,
-                None if with.is_zero() => with,
-                None => return None,
-            };
-            Some((monomial, own, size))
-        })
-        .collect();
-    let all = all?;
-    // The whole is `beyond` 0 with respect to what is left, so it is of its sign if both agree.
-    let by = |beyond: Sign| {
-        let term = |(monomial, own, size): &(Monomial, Rational, Rational)| {
-            let left = if beyond == NonNegative { own.clone() - size } else { own.clone() + size };
-            (monomial.clone(), left)
-        };
-        let rest = terms(&all.iter().map(term).collect(), known)?;
-        let sign = rest.sign.plus(beyond)?;
-        Some(Certificate { of: of.clone(), sign, rule: Rule::Sizes(rest.into()) })
-    };
-    by(NonNegative).or_else(|| by(NonPositive))
-}
-
-/// Rule 6.
-fn ends(of: &Poly, known: &Known, more: u32) -> Option<Certificate> {
-    let more = more.checked_sub(1)?;
-    if of.terms().len() > TERMS_AT_ENDS {
-        return None;
-    }
-    let x = of.symbols().into_iter().find(|x| is_small(*x) && of.degree(*x) == 1)?;
-    let [rest, slope] = <[Poly; 2]>::try_from(of.coefficients(x)).ok()?;
-    let sign = |of: Poly| terms(&of, known).or_else(|| sizes(&of, known)).or_else(|| ends(&of, known, more));
-    let (low, high) = (sign(&rest - &slope)?, sign(rest + slope)?);
-    // Between two numbers of one sign there is no other, and no zero if neither is.
-    let one = [Positive, Negative, NonNegative, NonPositive];
-    let both = one.into_iter().find(|sign| low.sign.implies(*sign) && high.sign.implies(*sign))?;
-    Some(Certificate { of: of.clone(), sign: both, rule: Rule::Ends { x, at: [low, high].into() } })
 }
 
 /// Rule 2, with a product of powers.
@@ -430,6 +364,35 @@ mod tests {
         assert_eq!(found(-quadratic(1)), Some(NonPositive));
         // A leading coefficient that may vanish proves nothing.
         assert_eq!(found(x("z") * x("u") * x("u") + x("u") + n(1)), None);
+    }
+
+    #[test]
+    fn small_factors_make_no_term_larger() {
+        assert_eq!(found(n(3) + x("e₁") + x("t₁")), Some(Positive));
+        assert_eq!(found(n(1) + x("e₁") * x("e₂")), Some(NonNegative));
+        assert_eq!(found(x("e₁") - n(1)), Some(NonPositive));
+        assert_eq!(found(x("u") * x("u") * (n(2) + x("e₁"))), Some(NonNegative));
+        assert_eq!(found(x("a") * x("e₁") - n(2) * x("a") - x("b")), Some(Negative));
+        // It takes as much of the same, and a sign.
+        assert_eq!(found(x("a") + x("b") * x("e₁")), None);
+        assert_eq!(found(n(3) + n(2) * x("e₁") + n(2) * x("e₂")), None);
+        assert_eq!(found(x("u") * (n(2) + x("e₁"))), None);
+        assert_eq!(found(x("e₁")), None);
+        // No other name is between −1 and 1.
+        assert_eq!(found(n(3) + x("e")), None);
+    }
+
+    #[test]
+    fn what_is_linear_lies_between_its_ends() {
+        // Its terms alone do not show it: with the sizes of all it is 1 − 2.
+        let product = || (n(1) + x("e₁")) * (n(2) + x("e₂"));
+        assert_eq!(found(product()), Some(NonNegative));
+        assert_eq!(found(-product()), Some(NonPositive));
+        assert_eq!(found(x("a") * product() + x("b")), Some(Positive));
+        assert_eq!(found(product() - x("a")), None);
+        // Not of a square, and not where it is in an exponent as well.
+        assert_eq!(found(x("e₁") * x("e₁") * n(4) - n(4) * x("e₁") + n(1)), None);
+        assert_eq!(found(e(x("e₁")) - n(1) - x("e₁")), None);
     }
 
     #[test]

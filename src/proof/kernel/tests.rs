@@ -1,7 +1,9 @@
 //! What the kernel proves and what it must not.
 
 use super::*;
-use crate::formula::claim::{induction, vanishing};
+use crate::formula::Claim;
+use crate::formula::claim::{PRECISION, drift, induction, vanishing};
+use crate::formula::statement::two_bits;
 use crate::number::{Exponential, Field, PositivePart};
 use num_traits::{One, Zero};
 
@@ -195,4 +197,122 @@ fn a_hypothesis_on_symbols_of_known_sign_is_used_too() {
     assert!(!proved(known(), Says::Sign(Relation::Positive, x("b") - Tree::int(2) * x("a"))));
     let between = vec![above_zero(x("x")), above_zero(x("L")), not_below_zero(x("L") - x("x"))];
     assert!(proved(between, Says::Sign(Relation::Positive, Tree::int(3) * x("L") - x("x"))));
+}
+
+/// Under these hypotheses, and for numbers of two bits or more, as every statement has it that rounds.
+fn rounded(hypotheses: Vec<Hypothesis>, says: Says) -> bool {
+    proved([vec![two_bits()], hypotheses].concat(), says)
+}
+
+fn int(n: i32) -> Tree {
+    Tree::from(n)
+}
+
+/// 2ᵖ
+fn precision() -> Tree {
+    x(PRECISION)
+}
+
+#[test]
+fn an_error_of_rounding_is_as_large_as_it_can_be_and_no_larger() {
+    let error = || x("u").nearest() - x("u");
+    let within = |bound: Tree| rounded(vec![], Says::Within(error(), bound));
+    assert!(within(x("u").abs() / (precision() + int(1))));
+    assert!(within(x("u").abs() / precision()));
+    assert!(within(x("u").nearest().abs() / precision()));
+    assert!(!within(x("u").abs() / (precision() + int(2))));
+    assert!(!within(x("u").nearest().abs() / (precision() + int(1))));
+    // Nor is it nothing, or of one sign.
+    assert!(!rounded(vec![], Says::Equal(x("u").nearest(), x("u"))));
+    assert!(!rounded(vec![above_zero(x("u"))], Says::Sign(Relation::NonNegative, error())));
+}
+
+#[test]
+fn what_is_equal_rounds_alike_and_what_is_in_other_units() {
+    let alike = |a: Tree, b: Tree| rounded(vec![], Says::Equal(a, b));
+    assert!(alike((x("a") + x("b")).nearest(), (x("b") + x("a")).nearest()));
+    assert!(alike((x("a") * x("2ᵃ") / x("2ᶠ")).nearest(), x("a").nearest() * x("2ᵃ") / x("2ᶠ")));
+    assert!(!alike((x("a") * x("b")).nearest(), x("a").nearest() * x("b")));
+    assert!(!alike((x("a") * int(3)).nearest(), x("a").nearest() * int(3)));
+    assert!(!alike((x("a") + x("2ᵃ")).nearest(), (x("a") / x("2ᵃ") + int(1)).nearest()));
+    // A sum and its parts round each by itself.
+    assert!(!alike((x("a") + x("b")).nearest() - x("a"), x("b").nearest()));
+}
+
+#[test]
+fn rounding_keeps_order() {
+    let no_less = |hypotheses: Vec<Hypothesis>, a: Tree, b: Tree| {
+        rounded(hypotheses, Says::Sign(Relation::NonNegative, a.nearest() - b.nearest()))
+    };
+    let [a, b, c] = ["a", "b", "c"].map(x);
+    let given = |sign: &Tree| vec![not_below_zero(&a - &b), above_zero(sign.clone())];
+    assert!(no_less(given(&c), a.clone(), b.clone()));
+    assert!(!no_less(given(&c), b.clone(), a.clone()));
+    assert!(!no_less(vec![], a.clone(), b.clone()));
+    // A minus turns it round, and so does what is negative.
+    assert!(no_less(given(&c), (&c - &b).nearest(), (&c - &a).nearest()));
+    assert!(!no_less(given(&c), (&c - &a).nearest(), (&c - &b).nearest()));
+    assert!(
+        no_less(given(&c), &a * &c, &b * &c) && no_less(given(&c), (&a / &c).nearest(), (&b / &c).nearest())
+    );
+    assert!(no_less(given(&-&c), &b * &c, &a * &c) && !no_less(given(&-&c), &a * &c, &b * &c));
+    assert!(!no_less(given(&(&c * &c)), &a * &c, &b * &c));
+    // Of two summands both count, and of a divisor that it is not 0.
+    assert!(no_less(given(&c), &a + &c, b.clone()) && !no_less(given(&-&c), &a + &c, b.clone()));
+    assert!(!no_less(vec![not_below_zero(&a - &b)], &a / &c, &b / &c));
+    assert!(
+        no_less(given(&c), a.min(&c), b.min(&c)) && no_less(given(&c), a.positive_part(), b.positive_part())
+    );
+}
+
+#[test]
+fn what_jumps_has_no_limit_and_no_derivative() {
+    let jump = |says: Says| matches!(outcome(vec![two_bits(), above_zero(x("u"))], says), Err(Why::Jump));
+    assert!(jump(Says::Limit((int(1) / x("u")).nearest(), "u", int(0))));
+    assert!(jump(Says::Derivative(x("u").nearest(), "u", int(1))));
+    let tends = vanishing("tends", [], x("c") / (x("c") + x("c")), (int(1) + x("q")).nearest(), int(1));
+    let stiff = Claim { given: stiffness(), ..tends };
+    assert!(matches!(prove(&Statement::of(&stiff)), Err(Why::Jump)));
+}
+
+#[test]
+fn what_is_in_an_interval_is_nowhere_else() {
+    let q = x("q");
+    let not_above = |ends: [i32; 2], most: Tree| {
+        let between = Hypothesis::between(&q, int(ends[0]), int(ends[1]));
+        proved(vec![between], Says::Sign(Relation::NonNegative, most - &q))
+    };
+    assert!(not_above([0, 1], int(1)) && not_above([1, 0], int(1)) && not_above([3, 3], int(3)));
+    assert!(!not_above([0, 1], int(1) / int(2)) && !not_above([-1, 1], int(0)));
+    // With ends that are quantities, and no more than one interval for each.
+    let near = Hypothesis::near(&q, x("u"), x("c"));
+    let within = Says::Within(&q - x("u"), x("c"));
+    assert!(proved(vec![stiffness()[0].clone(), near.clone()], within.clone()));
+    assert!(!proved(vec![near], within), "the reach might be negative");
+    let [wide, narrow] = [4, 1].map(|n| Hypothesis::between(&q, int(0), int(n)));
+    let small = || Says::Sign(Relation::NonNegative, int(1) - &q);
+    assert!(proved(vec![narrow.clone(), wide.clone()], small()));
+    assert!(!proved(vec![wide], small()));
+    // What only looks like one is none: of (1 − q)(u − 0) nothing is known of q.
+    let other = not_below_zero((int(1) - &q) * (x("u") - int(0)));
+    assert!(!proved(vec![other], small()));
+}
+
+/// x₀ = 1, and each x is half of the last: near 0 within q, if what is supposed of x is.
+fn drifts(given: &[Hypothesis]) -> Result<Proof, Why> {
+    let half = int(1) / int(2);
+    let q = Hypothesis::between(&x("q"), int(0), int(1));
+    let u = Hypothesis::near(&x("u"), x("x₁") * &half, int(0));
+    let claim =
+        drift("halves", [&q, &u], half.clone(), 1, |_| x("u"), (int(0), x("q")), |_| [(x("u"), x("q"))]);
+    let claim = claim.computing(&x("u"), x("x₁") * &half);
+    prove(&Statement::of(&Claim { given: [given.to_vec(), claim.given.clone()].concat(), ..claim }))
+}
+
+#[test]
+fn of_a_member_nothing_is_supposed_but_that_it_is_near() {
+    assert!(drifts(&[]).is_ok());
+    assert!(matches!(drifts(&[not_below_zero(x("x₁") - int(7))]), Err(Why::Reserved("x₁"))));
+    // Not even if it is true at the start.
+    assert!(matches!(drifts(&[not_below_zero(x("x₁"))]), Err(Why::Reserved("x₁"))));
 }

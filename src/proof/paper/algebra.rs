@@ -116,6 +116,7 @@ impl Order<'_> {
     pub(super) fn why(&self, why: &Why) -> String {
         let ratio = |ratio: &Ratio| self.ratio_or_size(ratio);
         match why {
+            Why::Jump => "rounding has jumps, so nothing is said of limits and derivatives of it".to_string(),
             Why::TooMany => "it rounds more often than there are names for errors".to_string(),
             Why::MightVanish(value) => format!("{} might be 0", ratio(value)),
             Why::OpenBracket(value) => format!("the sign of {} is open", ratio(value)),

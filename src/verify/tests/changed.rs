@@ -28,8 +28,9 @@ fn findings<J: Judge>(judge: J, claims: &[Claim], drawn: &Drawn) -> Vec<(&'stati
 /// proved to change nothing fails none.
 #[test]
 fn every_change_of_a_formula_is_a_finding() {
-    const CASES: u64 = 4;
+    const CASES: u64 = 6;
     let mut drawn = Drawn::new();
+    let claims = || claims().filter(|claim| !claim.rounds());
     for claim in claims() {
         let cases = || (0..CASES).map(|i| super::super::drawn(1, i, &claim.given)).collect();
         drawn.entry(format!("{:?}", claim.given)).or_insert_with(|| (claim.given.clone(), cases()));

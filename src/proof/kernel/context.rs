@@ -1,0 +1,216 @@
+//! What is supposed, ready for use.
+
+use super::algebra::{Monomial, Poly, Ratio, Symbol};
+use super::derivation::{Rounding, Signed, Supposed, Used, Why};
+use super::reader::Reader;
+use super::sign::{ERRORS, Known, PLACES, Sign, is_small, sign};
+use crate::formula::Hypothesis;
+use crate::formula::claim::{PRECISION, SCALES};
+use crate::number::Tree;
+
+/// Names for the quantities of hypotheses, which no claim may use.
+pub(super) const NAMES: [&str; 12] =
+    ["s₁", "s₂", "s₃", "s₄", "s₅", "s₆", "s₇", "s₈", "s₉", "s₁₀", "s₁₁", "s₁₂"];
+
+/// What is supposed, ready for use.
+#[derive(Clone, Debug)]
+pub(super) struct Context {
+    pub(super) supposed: Vec<Supposed>,
+    pub(super) known: Known,
+    rules: Vec<(Monomial, Ratio)>,
+    /// What is rounded: with the errors of the same place.
+    pub(super) roundings: Vec<Tree>,
+    /// What has been rounded in hypotheses, with its error.
+    pub(super) errors: Vec<Rounding>,
+}
+
+impl Context {
+    /// Nothing yet, but that powers of two are positive.
+    pub(super) fn of(roundings: Vec<Tree>) -> Self {
+        let known = SCALES.into_iter().map(|name| (Symbol(name), Sign::Positive)).collect();
+        let (supposed, rules, errors) = Default::default();
+        Context { supposed, known, rules, roundings, errors }
+    }
+
+    /// Takes in a hypothesis.
+    pub(super) fn take_in(&mut self, hypothesis: &Hypothesis) -> Result<(), Why> {
+        let mut reader = Reader::new(self);
+        if let Some((x, lower, upper)) = hypothesis.interval() {
+            let [lower, upper] = [reader.read(lower)?, reader.read(upper)?];
+            self.errors = reader.errors;
+            self.suppose_between(hypothesis, Symbol(x), &lower, &upper);
+        } else {
+            let value = reader.read(&hypothesis.value)?;
+            self.errors = reader.errors;
+            self.suppose(Some(hypothesis), value, hypothesis.relation.into());
+        }
+        Ok(())
+    }
+
+    /// What has the sign of a quotient whose denominator is positive: its numerator, without the factors
+    /// N + e, which are positive too.
+    pub(super) fn deciding(&self, value: &Ratio) -> Poly {
+        let errors = value.num().symbols().into_iter().filter(|x| ERRORS.contains(&x.0));
+        let largest = self.largest();
+        errors.fold(value.num().clone(), |rest, error| {
+            let nearest = &largest + Ratio::from(Poly::symbol(error));
+            rest.over(nearest.num()).filter(|_| *nearest.den() == *largest.den()).unwrap_or(rest)
+        })
+    }
+
+    pub(super) fn rounds(&self) -> bool {
+        !self.roundings.is_empty()
+    }
+
+    /// N
+    pub(super) fn largest(&self) -> Ratio {
+        self.reduce(&Ratio::from(Poly::symbol(Symbol(PRECISION)) + Poly::constant(1)))
+    }
+
+    /// With every pivot replaced, until there is none left; equal in value to what is given.
+    pub(super) fn reduce(&self, value: &Ratio) -> Ratio {
+        let mut value = value.clone();
+        // Pivots could bring each other back for ever; then the value just stays unreduced.
+        for _ in 0..2 * self.rules.len() {
+            let mut stays = true;
+            for (pivot, by) in &self.rules {
+                if value.contains(pivot) {
+                    value = value.replace(pivot, by);
+                    stays = false;
+                }
+            }
+            if stays {
+                break;
+            }
+        }
+        value
+    }
+
+    /// The sign of a reduced quotient, if the rules find that of numerator and denominator.
+    pub(super) fn sign(&self, value: Ratio) -> Option<Signed> {
+        let (num, den) = (sign(value.num(), &self.known)?, sign(value.den(), &self.known)?);
+        den.sign().is_strict().then_some(Signed { value, num, den })
+    }
+
+    /// Takes in that a quantity has a sign.
+    pub(super) fn suppose(&mut self, given: Option<&Hypothesis>, value: Ratio, sign: Sign) {
+        let value = self.reduce(&value);
+        let used = match sign {
+            _ if self.sign(value.clone()).is_some_and(|signed| signed.sign().implies(sign)) => Used::Follows,
+            Sign::Negative | Sign::NonPositive => {
+                return self.suppose(given, -value, sign.negated());
+            }
+            Sign::Positive | Sign::NonNegative => {
+                if let Some(symbol) = as_symbol(&value) {
+                    self.known.insert(symbol, sign);
+                    Used::Symbol(symbol)
+                } else {
+                    let new = self.supposed.iter().filter(|s| matches!(s.used, Used::Pivot(..))).count();
+                    let name = NAMES.get(new).copied().map(Symbol);
+                    match name
+                        .and_then(|name| Some((name, self.pivot(given, &value, &Poly::symbol(name), sign)?)))
+                    {
+                        None => Used::Unused,
+                        Some((name, (pivot, by))) => {
+                            self.known.insert(name, sign);
+                            Used::Pivot(pivot, by, Some(name))
+                        }
+                    }
+                }
+            }
+            Sign::Zero => self
+                .pivot(given, &value, &Poly::zero(), sign)
+                .map_or(Used::Unused, |(pivot, by)| Used::Pivot(pivot, by, None)),
+        };
+        if let Used::Pivot(pivot, by, _) = &used {
+            self.replace(pivot.clone(), by.clone());
+        }
+        self.supposed.push(Supposed { given: given.cloned(), value, sign, used });
+    }
+
+    /// Takes in that a symbol is in an interval: for some t between −1 and 1 it is its middle and t times
+    /// half of its length.
+    fn suppose_between(&mut self, given: &Hypothesis, x: Symbol, lower: &Ratio, upper: &Ratio) {
+        let half = Ratio::from(Poly::constant((1, 2)));
+        let [middle, reach] = [upper + lower, upper - lower].map(|sum| self.reduce(&(sum * &half)));
+        let own = Ratio::from(Poly::symbol(x));
+        let open = self.reduce(&own) == own;
+        let named = self.supposed.iter().filter(|s| matches!(s.used, Used::Between(..))).count();
+        let used = match PLACES.get(named).copied().map(Symbol) {
+            Some(place) if open && !middle.symbols().contains(&x) && !reach.symbols().contains(&x) => {
+                let by = &middle + reach * Ratio::from(Poly::symbol(place));
+                self.replace(Monomial::of(x), by.clone());
+                Used::Between(x, by, place)
+            }
+            _ => Used::Unused,
+        };
+        let sign = Sign::NonNegative;
+        self.supposed.push(Supposed { given: Some(given.clone()), value: own - middle, sign, used });
+    }
+
+    /// From now on a monomial is replaced.
+    fn replace(&mut self, pivot: Monomial, by: Ratio) {
+        for (_, older) in &mut self.rules {
+            *older = older.replace(&pivot, &by);
+        }
+        self.rules.push((pivot, by));
+    }
+
+    /// A monomial of the quantity, and what it equals if the quantity is `slack`.
+    ///
+    /// Best a symbol of which nothing is known and that stands alone or times what is not 0, so that it
+    /// disappears for good; else a product of symbols of which little is known, so that little is forgotten;
+    /// else a symbol whose sign is then seen again: with b = a + s for b − a > 0 that of b is.
+    ///
+    /// Where there are errors in it, the symbol that the hypothesis is solved for comes first, and products
+    /// last: they would be forgotten for something long.
+    fn pivot(
+        &self,
+        given: Option<&Hypothesis>,
+        value: &Ratio,
+        slack: &Poly,
+        sign_of_slack: Sign,
+    ) -> Option<(Monomial, Ratio)> {
+        // num − slack · den = 0, and den is not 0.
+        let equation = value.num() - slack * value.den();
+        let solved = |x: Symbol| {
+            let [rest, coefficient] = <[Poly; 2]>::try_from(equation.coefficients(x)).ok()?;
+            let (strict, length) =
+                (sign(&coefficient, &self.known)?.sign().is_strict(), coefficient.terms().len());
+            let by = Ratio::from(-rest).over(&coefficient.into())?;
+            (strict && !by.symbols().contains(&x)).then_some((length, (Monomial::of(x), by)))
+        };
+        let symbols = value.num().symbols();
+        let rounds = symbols.iter().any(|x| is_small(*x));
+        let comes_later = |x: &Symbol| rounds && given.is_none_or(|given| given.solved_for != x.0);
+        let free = |x: &&Symbol| !self.known.contains_key(x) && !is_small(**x);
+        let free = symbols.iter().filter(free).filter_map(|x| Some((comes_later(x), solved(*x)?)));
+        let product = || {
+            let known = |m: &Monomial| m.powers().filter(|(x, _)| self.known.contains_key(x)).count();
+            let large = |m: &&Monomial| m.powers().len() > 1 && !m.powers().any(|(x, _)| is_small(x));
+            let own = value.num().terms().map(|(m, _)| m).filter(large);
+            let pivot = own.min_by_key(|m| known(m))?.clone();
+            let coefficient = equation.terms().find(|(m, _)| **m == pivot)?.1.clone();
+            let rest = &equation - Poly::constant(coefficient.clone()) * Poly::from(pivot.clone());
+            let by = -&rest * Poly::constant(coefficient.recip());
+            (!rest.contains(&pivot)).then_some((pivot, by.into()))
+        };
+        let seen_again = || {
+            let mut context = self.clone();
+            context.known.extend(slack.symbols().into_iter().map(|s| (s, sign_of_slack)));
+            symbols.iter().find_map(|x| {
+                let (_, rule) = solved(*x)?;
+                let signed = context.sign(self.reduce(&rule.1))?;
+                signed.sign().implies(*self.known.get(x)?).then_some(rule)
+            })
+        };
+        let free = free.min_by_key(|(later, (terms, _))| (*later, *terms)).map(|(_, (_, rule))| rule);
+        free.or_else(|| if rounds { seen_again().or_else(product) } else { product().or_else(seen_again) })
+    }
+}
+
+/// The symbol that a quantity is, if it is one.
+fn as_symbol(value: &Ratio) -> Option<Symbol> {
+    let x = value.num().symbols().into_iter().next()?;
+    (*value == Ratio::from(Poly::symbol(x))).then_some(x)
+}

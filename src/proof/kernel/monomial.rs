@@ -1,0 +1,133 @@
+//! Products of powers of symbols.
+
+use super::algebra::Ratio;
+use std::cmp::Ordering;
+use std::sync::Arc;
+
+/// A quantity by its name.
+#[derive(Clone, Copy, Debug, Eq, Hash)]
+pub struct Symbol(pub &'static str);
+
+impl PartialEq for Symbol {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl PartialOrd for Symbol {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+/// By name; where two names are one, that is seen without reading them.
+impl Ord for Symbol {
+    fn cmp(&self, other: &Self) -> Ordering {
+        if std::ptr::eq(self.0, other.0) { Ordering::Equal } else { self.0.cmp(other.0) }
+    }
+}
+
+/// A product of powers of symbols, times e to a quotient, if any.
+///
+/// One exponential is enough, since eᵃ eᵇ = eᵃ⁺ᵇ.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Monomial {
+    /// By name; none of them is 0.
+    pub(super) powers: Vec<(Symbol, u32)>,
+    pub(super) exponent: Option<Arc<Ratio>>,
+}
+
+impl Monomial {
+    /// The empty product.
+    pub fn one() -> Self {
+        Monomial { powers: Vec::new(), exponent: None }
+    }
+
+    /// A symbol.
+    pub fn of(x: Symbol) -> Self {
+        Monomial { powers: vec![(x, 1)], exponent: None }
+    }
+
+    /// The powers of its symbols, by name.
+    pub fn powers(&self) -> impl ExactSizeIterator<Item = (Symbol, u32)> {
+        self.powers.iter().copied()
+    }
+
+    /// What e is raised to, if it is.
+    pub fn exponent(&self) -> Option<&Ratio> {
+        self.exponent.as_deref()
+    }
+
+    pub(super) fn times(&self, other: &Self) -> Self {
+        let mut powers = Vec::with_capacity(self.powers.len() + other.powers.len());
+        let (mut own, mut others) = (self.powers().peekable(), other.powers().peekable());
+        loop {
+            powers.push(match (own.peek(), others.peek()) {
+                (Some((x, n)), Some((y, m))) if x == y => {
+                    let sum = (*x, n.checked_add(*m).expect("a power fits 32 bits"));
+                    (own.next(), others.next());
+                    sum
+                }
+                (Some((x, _)), Some((y, _))) if y < x => others.next().expect("peeked"),
+                (Some(_), _) => own.next().expect("peeked"),
+                (None, Some(_)) => others.next().expect("peeked"),
+                (None, None) => break,
+            });
+        }
+        let exponent = match (&self.exponent, &other.exponent) {
+            (None, e) | (e, None) => e.clone(),
+            (Some(a), Some(b)) => Some(&**a + &**b).filter(|sum| !sum.is_zero()).map(Arc::new),
+        };
+        Monomial { powers, exponent }
+    }
+
+    /// The quotient, if every power of the divisor is there; the divisor has no e^….
+    pub(super) fn over(&self, divisor: &Self) -> Option<Self> {
+        if divisor.exponent.is_some() {
+            return None;
+        }
+        let mut powers = self.powers.clone();
+        for (x, n) in divisor.powers() {
+            let (_, own) = powers.iter_mut().find(|(y, _)| *y == x)?;
+            *own = own.checked_sub(n)?;
+        }
+        powers.retain(|(_, n)| *n > 0);
+        Some(Monomial { powers, exponent: self.exponent.clone() })
+    }
+
+    /// Without its e^….
+    pub fn bare(&self) -> Self {
+        Monomial { powers: self.powers.clone(), exponent: None }
+    }
+
+    /// Without some of its symbols.
+    pub fn without_those(&self, some: impl Fn(Symbol) -> bool) -> Self {
+        let mut rest = self.clone();
+        rest.powers.retain(|(x, _)| !some(*x));
+        rest
+    }
+
+    pub(super) fn degree(&self, x: Symbol) -> u32 {
+        self.powers().find(|(y, _)| *y == x).map_or(0, |(_, n)| n)
+    }
+
+    pub(super) fn without(&self, x: Symbol) -> Self {
+        self.without_those(|y| y == x)
+    }
+}
+
+impl PartialOrd for Monomial {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+/// Lexicographic in the powers: an order that multiplication keeps, as long division needs.
+impl Ord for Monomial {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let differs = self.powers().zip(other.powers()).find(|(a, b)| a != b);
+        let first = differs.map_or(Ordering::Equal, |((x, n), (y, m))| y.cmp(&x).then(n.cmp(&m)));
+        let length = || self.powers.len().cmp(&other.powers.len());
+        first.then_with(length).then_with(|| self.exponent.cmp(&other.exponent))
+    }
+}

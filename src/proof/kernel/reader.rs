@@ -1,0 +1,143 @@
+//! Formulas read as quotients.
+
+use super::algebra::{self, Poly, Ratio};
+use super::context::Context;
+use super::derivation::{Rounding, Signed, Why};
+use super::sign::{ERRORS, Sign};
+use crate::formula::claim::SCALES;
+use crate::number::Tree;
+use crate::number::tree::Step;
+
+/// Reads formulas as quotients, and notes what that takes.
+pub(super) struct Reader<'a> {
+    context: &'a Context,
+    pub(super) divisors: Vec<(Tree, Signed)>,
+    pub(super) brackets: Vec<(Tree, Tree, Signed)>,
+    /// What has been rounded, without factors that are powers of two, and with which error.
+    rounded: Vec<(Ratio, algebra::Symbol)>,
+    pub(super) errors: Vec<Rounding>,
+}
+
+impl<'a> Reader<'a> {
+    pub(super) fn new(context: &'a Context) -> Self {
+        let (divisors, brackets, rounded) = Default::default();
+        Reader { context, divisors, brackets, rounded, errors: context.errors.clone() }
+    }
+
+    /// The sign of a quotient.
+    pub(super) fn sign(&self, value: Ratio) -> Result<Signed, Why> {
+        let value = self.context.reduce(&value);
+        self.context.sign(value.clone()).ok_or(Why::NoSign(value))
+    }
+
+    /// The same, if it is not negative.
+    pub(super) fn not_negative(&self, value: Ratio) -> Result<Signed, Why> {
+        let signed = self.sign(value)?;
+        let holds = signed.sign().implies(Sign::NonNegative);
+        if holds { Ok(signed) } else { Err(Why::WrongSign(signed.value.clone(), signed.sign())) }
+    }
+
+    /// Nothing in it is divided by 0.
+    pub(super) fn defined(&mut self, tree: &Tree) -> Result<(), Why> {
+        match tree.step() {
+            Step::Div(a, b) => {
+                self.defined(a)?;
+                self.divisor(b)?;
+            }
+            step => step.operands().try_for_each(|operand| self.defined(operand))?,
+        }
+        Ok(())
+    }
+
+    /// What is divided by, which is not 0.
+    fn divisor(&mut self, tree: &Tree) -> Result<Ratio, Why> {
+        let divisor = self.read(tree)?;
+        if !divisor.is_number() && self.divisors.iter().all(|(known, _)| known != tree) {
+            let signed = self.context.sign(self.context.reduce(&divisor));
+            let signed = signed.filter(|s| s.num.sign().is_strict());
+            self.divisors.push((tree.clone(), signed.ok_or_else(|| Why::MightVanish(divisor.clone()))?));
+        }
+        Ok(divisor)
+    }
+
+    pub(super) fn read(&mut self, tree: &Tree) -> Result<Ratio, Why> {
+        use Step::*;
+        Ok(match tree.step() {
+            // What rounding makes of a formula is long: soon in the symbols that are left, it is shorter.
+            Symbol(name) if self.context.rounds() => {
+                self.context.reduce(&Poly::symbol(algebra::Symbol(name)).into())
+            }
+            Symbol(name) => Poly::symbol(algebra::Symbol(name)).into(),
+            Int(n) => Poly::constant(*n).into(),
+            Neg(a) => -self.read(a)?,
+            Add(a, b) => self.read(a)? + self.read(b)?,
+            Sub(a, b) => self.read(a)? - self.read(b)?,
+            Mul(a, b) => self.read(a)? * self.read(b)?,
+            Div(a, b) => {
+                let (value, divisor) = (self.read(a)?, self.divisor(b)?);
+                value.over(&divisor).ok_or(Why::MightVanish(divisor))?
+            }
+            Exp(a) => {
+                let exponent = self.context.reduce(&self.read(a)?);
+                Poly::exponential(exponent).into()
+            }
+            PositivePart(a) => self.either(tree, a, &tree.with_step(Int(0)), |a, _| a)?,
+            Min(a, b) => self.either(tree, a, b, |a, b| b - a)?,
+            Rounded(a) => {
+                let value = self.context.reduce(&self.read(a)?);
+                let (error, largest) = self.rounding(a, &value)?;
+                let nearest = &largest + Ratio::from(Poly::symbol(error));
+                (value * nearest).over(&largest).ok_or(Why::MightVanish(largest))?
+            }
+        })
+    }
+
+    /// The error of what is rounded, and N.
+    fn rounding(&mut self, of: &Tree, value: &Ratio) -> Result<(algebra::Symbol, Ratio), Why> {
+        let largest = self.context.largest();
+        // What differs by a power of two rounds alike.
+        let (value, scale) = without_scales(value);
+        let same = self.rounded.iter().find(|(known, _)| (known - &value).is_zero());
+        let error = match same {
+            Some((_, error)) => *error,
+            None => {
+                let place = self.context.roundings.iter().position(|known| known == of);
+                let error = algebra::Symbol(ERRORS[place.ok_or(Why::TooMany)?]);
+                self.rounded.push((value, error));
+                error
+            }
+        };
+        if self.errors.iter().all(|known| known.of != *of) {
+            self.errors.push(Rounding { of: of.clone(), error, scale });
+        }
+        Ok((error, largest))
+    }
+
+    /// A bracket: the first where what decides is ≥ 0, the second where it is ≤ 0. It has to be one of them
+    /// for all values.
+    fn either(
+        &mut self,
+        bracket: &Tree,
+        first: &Tree,
+        second: &Tree,
+        decides: fn(Ratio, Ratio) -> Ratio,
+    ) -> Result<Ratio, Why> {
+        let (a, b) = (self.read(first)?, self.read(second)?);
+        let value = self.context.reduce(&decides(a.clone(), b.clone()));
+        let signed = self.context.sign(value.clone()).ok_or(Why::OpenBracket(value))?;
+        let is_first = signed.sign().implies(Sign::NonNegative);
+        if self.brackets.iter().all(|(known, ..)| known != bracket) {
+            self.brackets.push((bracket.clone(), if is_first { first } else { second }.clone(), signed));
+        }
+        Ok(if is_first { a } else { b })
+    }
+}
+
+/// A quotient without factors that are powers of two, and these.
+fn without_scales(value: &Ratio) -> (Ratio, Ratio) {
+    let scales =
+        |poly: &Poly| -> Poly { poly.common_monomial().without_those(|x| !SCALES.contains(&x.0)).into() };
+    let scale = Ratio::from(scales(value.num())).over(&scales(value.den()).into());
+    let scale = scale.unwrap_or_else(|| Poly::constant(1).into());
+    (value.over(&scale).unwrap_or_else(|| value.clone()), scale)
+}

@@ -1,0 +1,268 @@
+//! The laws of rounding against floats: they hold, they are nearly reached, and what is less than they say is refuted.
+#![cfg(feature = "mpfr")]
+
+use proptest::prelude::*;
+use spring_mass_contact::chapter::{augmented, contact, penalty, system};
+use spring_mass_contact::claims::{claims, computed, registry, symbols};
+use spring_mass_contact::formula::claim::{PRECISION, within};
+use spring_mass_contact::formula::{Claim, Kind, Statement};
+use spring_mass_contact::number::tree::{Step, piecewise};
+use spring_mass_contact::number::{Exact, Mpfr, PositivePart, ToExact, Tree};
+use spring_mass_contact::proof::refute::{Point, Verdict, check};
+use spring_mass_contact::proof::{prove, refute};
+
+fn law(equation: &str, name: &str) -> &'static Claim {
+    let found = claims().find(|claim| (claim.equation, claim.name) == (equation, name));
+    found.unwrap_or_else(|| panic!("{equation} {name}"))
+}
+
+/// Numbers of so many bits: `c = 3/16, ε = 33`.
+fn run(bits: i32, numbers: &'static str) -> Point {
+    let number = |pair: &'static str| {
+        let (name, x) = pair.split_once(" = ").unwrap();
+        let x: Exact = x.parse().unwrap();
+        assert_eq!(x.rounded(bits as u32), Some(x.clone()), "{pair} has not {bits} bits");
+        (name, x)
+    };
+    let precision = (PRECISION, Exact::power_of_two(bits));
+    Point::new(numbers.split(", ").map(number).chain([precision]))
+}
+
+fn holds(claim: &Claim, point: &Point) -> bool {
+    match check(&Statement::of(claim), point) {
+        Verdict::Holds => true,
+        Verdict::Fails(..) => false,
+        other => panic!("{} {}: {other:?} at {point}", claim.equation, claim.name),
+    }
+}
+
+/// The bound with a part of it, or each of its numbers of this size, as many times.
+fn with(claim: &Claim, part: &Tree, times: (i32, i32)) -> Claim {
+    let factor = Tree::from(times.0) / Tree::from(times.1);
+    let lowered = |bound: &Tree| {
+        let less = bound.rewrite(&|tree| (tree == part).then(|| tree * &factor));
+        assert_ne!(less, *bound, "{part} is no part of {bound}");
+        less
+    };
+    let kind = match &claim.kind {
+        Kind::Within(of, bound) => Kind::Within(of.clone(), lowered(bound)),
+        Kind::Drift { ratio, start, step, near, bound, also } => {
+            let [(of, most)] = &also[..] else { panic!("{}", claim.name) };
+            let own =
+                |bound: &Tree| if bound.any(&|tree| tree == part) { lowered(bound) } else { bound.clone() };
+            Kind::Drift {
+                ratio: ratio.clone(),
+                start: start.clone(),
+                step: step.clone(),
+                near: near.clone(),
+                bound: own(bound),
+                also: vec![(of.clone(), own(most))],
+            }
+        }
+        other => panic!("{} is no bound: {other:?}", claim.name),
+    };
+    Claim { kind, ..claim.clone() }
+}
+
+/// Each constant of each law, a part of it that is too little, and a run of floats that shows it. That a law holds
+/// says little if half of it would do.
+#[test]
+fn no_constant_of_a_law_can_be_much_less() {
+    let s = &symbols().system;
+    let (u, lambda) = (&symbols().u, &symbols().lambda);
+    let int = |n: i32| Tree::from(n);
+    let penetration = contact::penetration(s, u);
+    let force = augmented::contact_force(s, u);
+    let (sum, weight, spring) = (&s.l + u, &s.m * &s.g, &s.c * u);
+    let runs = [
+        ("1.1", "rounding", int(2), (3, 4), run(5, "m = 11, g = 3, c = 25")),
+        ("1.5", "rounding", sum.rounded().abs(), (99, 100), run(2, "l = 1/4, u = 1, H = 1")),
+        ("1.5", "rounding", penetration.rounded().abs(), (99, 100), run(2, "l = 3, u = -8, H = 1")),
+        ("note 6", "rounding", weight.rounded().abs(), (99, 100), run(3, "m = 3, g = -3, c = 3/4, u = 3/2")),
+        ("note 6", "rounding", spring.rounded().abs(), (99, 100), run(3, "m = 3/4, g = -3/2, c = 3, u = 3")),
+        ("note 6", "rounding", force.rounded().abs(), (99, 100), run(3, "m = 3, g = -3, c = 3/4, u = 3/2")),
+        (
+            "1.13",
+            "float-error",
+            int(5),
+            (9, 10),
+            run(9, "c = 3/16, ε = 33, m = 1, g = -1, l = 21, H = 127/32"),
+        ),
+        ("1.13", "float-error", int(4), (7, 8), run(8, "c = 13/256, ε = 1, m = 7, g = 41, l = 0, H = -1")),
+        ("1.12", "precision-law", s.h.abs(), (1, 2), run(5, "c = 1, ε = 32, m = 1, g = 1, l = 1, H = 1")),
+        (
+            "1.12",
+            "precision-law",
+            int(5),
+            (9, 10),
+            run(9, "c = 17/256, ε = 33, m = 1, g = -1, l = 17, H = -1/32"),
+        ),
+        (
+            "1.12",
+            "precision-law",
+            int(7),
+            (13, 14),
+            run(12, "c = 7/2, ε = 4013/32, m = 2379, g = 227, l = -47, H = -33/32"),
+        ),
+        ("note 8", "floor", s.h.abs(), (99, 100), run(2, "l = 1, u = 1/4, H = 1, ε = 1, λ = 0")),
+        ("note 8", "floor", lambda.abs(), (1, 2), run(2, "l = -1, u = 2, H = -1/4, ε = 1, λ = 4")),
+        // Here the constants are larger than any run is known to need.
+        (
+            "1.16",
+            "float-drift",
+            int(11),
+            (13, 22),
+            run(24, "c = 771/8192, ε = 2049, m = 65, g = 537995264, l = 1, H = 5589/4"),
+        ),
+        (
+            "1.16",
+            "float-drift",
+            int(20),
+            (11, 40),
+            run(10, "c = 1/4, ε = 268, m = 519, g = 549, l = -21, H = 1"),
+        ),
+    ];
+    for (equation, name, part, times, point) in &runs {
+        let law = law(equation, name);
+        assert!(holds(law, point), "{equation} {name} at {point}");
+        let less = with(law, part, *times);
+        assert!(!holds(&less, point), "{equation} {name} with {times:?} of {part} at {point}");
+        assert!(prove(&Statement::of(&less)).is_err(), "{equation} {name} with {times:?} of {part}");
+    }
+    let shown = |claim: &&Claim| runs.iter().any(|(e, n, ..)| (*e, *n) == (claim.equation, claim.name));
+    let bounds = claims().filter(|claim| claim.rounds() && matches!(claim.kind.name(), "bound" | "drift"));
+    let unshown: Vec<_> = bounds.filter(|claim| !shown(claim)).map(|claim| claim.name).collect();
+    // It says no more than the one before.
+    assert_eq!(unshown, ["float-distance"]);
+}
+
+/// The same in exact arithmetic, in another order: then it is another law that holds.
+#[test]
+fn the_order_of_operations_is_part_of_a_law() {
+    let x = symbols();
+    let (s, eps, u) = (&x.system, &x.eps, &x.u);
+    let error = law("1.13", "float-error");
+    let Kind::Within(_, of_deflection) = &error.kind else { panic!() };
+    let by_reaction = system::gap(s) + system::reaction(s) / penalty::total_stiffness(s, eps);
+    let by_parts = (eps * &s.h - eps * &s.l + &s.m * &s.g) / (&s.c + eps);
+    let rounding = law("1.5", "rounding");
+    let Kind::Within(_, of_penetration) = &rounding.kind else { panic!() };
+    let difference_first = &s.l + (u - &s.h);
+    let in_order = of_penetration.with(&[]);
+    let in_other_order = of_penetration
+        .rewrite(&|tree| (*tree == contact::penetration(s, u).rounded()).then(|| difference_first.rounded()));
+    assert_ne!(in_order, in_other_order);
+    let others = [
+        (
+            &penalty::deflection(s, eps),
+            by_reaction,
+            of_deflection.clone(),
+            error,
+            run(6, "c = 63, ε = 15/32, m = 78, g = 55, l = 0, H = 1"),
+        ),
+        (
+            &penalty::deflection(s, eps),
+            by_parts,
+            of_deflection.clone(),
+            error,
+            run(7, "c = 1, ε = 6, m = 1, g = 0, l = 43, H = 85/2"),
+        ),
+        (
+            &contact::penetration(s, u),
+            difference_first,
+            in_other_order,
+            rounding,
+            run(2, "l = -1, u = 1, H = -1/4"),
+        ),
+    ];
+    for (own, other, bound, law, point) in others {
+        let given: Vec<_> = law.given.iter().collect();
+        let of = |formula: &Tree, bound: &Tree| {
+            let claim = within("order", [], formula.rounded() - own, bound);
+            Claim { given: given.iter().copied().cloned().collect(), ..claim }
+        };
+        assert!(holds(law, &point), "{own} at {point}");
+        let reordered = of(&other, &bound);
+        assert!(!holds(&reordered, &point), "{other} at {point}");
+        assert!(prove(&Statement::of(&reordered)).is_err(), "{other}");
+    }
+}
+
+/// No law has a counterexample, where one is looked for thoroughly: at points that are drawn for it.
+#[test]
+fn no_law_is_refuted() {
+    for claim in claims().filter(|claim| claim.rounds()) {
+        let found = refute(&Statement::of(claim));
+        assert!(found.is_none(), "{} {}: {}", claim.equation, claim.name, found.unwrap());
+    }
+}
+
+/// The value of a record that rounds, by exact arithmetic and rounding.
+fn rounded_to(bits: u32, tree: &Tree, at: &dyn Fn(&str) -> Exact) -> Option<Exact> {
+    tree.replay(&|name| at(name), &|step| match step {
+        Step::Rounded(x) => x.rounded(bits),
+        step => piecewise(step),
+    })
+}
+
+/// Every function of the chapter without eˣ, recorded as it rounds, is what floats compute: bit for bit, for numbers
+/// far from over- and underflow.
+fn records_round_as_floats_do<T: ToExact + Clone>(
+    bits: u32,
+    at: &dyn Fn(&'static str) -> T,
+    computed: Vec<T>,
+) -> Result<(), TestCaseError> {
+    let exact = |name: &str| {
+        let own = registry().symbols_of(registry().formulas().iter().map(|f| &f.tree));
+        let name = own.into_iter().find(|own| *own == name).unwrap();
+        at(name).to_exact().unwrap()
+    };
+    let mut compared = 0;
+    for (formula, value) in registry().formulas().iter().zip(computed) {
+        if formula.tree.any(&|tree| matches!(tree.step(), Step::Exp(_))) {
+            continue;
+        }
+        if let (Some(expected), Ok(value)) =
+            (rounded_to(bits, &formula.tree.rounded(), &exact), value.to_exact())
+        {
+            prop_assert_eq!(value, expected, "{}", formula.name());
+            compared += 1;
+        }
+    }
+    prop_assert!(compared > 50, "{} formulas compared", compared);
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 100, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn what_is_recorded_as_rounded_is_what_f64_computes(seed in any::<u64>()) {
+        let at = |name: &'static str| f64::from(drawn(seed, name)) / 1024.0;
+        records_round_as_floats_do(53, &at, computed(&at))?;
+    }
+
+    #[test]
+    fn what_is_recorded_as_rounded_is_what_f32_computes(seed in any::<u64>()) {
+        let at = |name: &'static str| drawn(seed, name) as f32 / 1024.0;
+        records_round_as_floats_do(24, &at, computed(&at))?;
+    }
+
+    #[test]
+    fn what_is_recorded_as_rounded_is_what_three_bits_compute(seed in any::<u64>()) {
+        let at = |name: &'static str| {
+            let x = rug::Rational::from((drawn(seed, name), 1024));
+            Mpfr::rounded(3, &x)
+        };
+        records_round_as_floats_do(3, &at, computed(&at))?;
+    }
+}
+
+/// A number for a symbol, not 0, and of up to 20 bits.
+fn drawn(seed: u64, name: &str) -> i32 {
+    let mixed = name
+        .bytes()
+        .fold(seed, |x, byte| (x ^ u64::from(byte)).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(23));
+    let size = (mixed >> 40) as i32 % (1 << 20) + 1;
+    if mixed & 1 == 0 { size } else { -size }
+}
