@@ -33,4 +33,4 @@ pub mod refute;
 
 pub use controls::{Controls, controls};
 pub use kernel::{Proof, Why, prove};
-pub use refute::{Counterexample, refute};
+pub use refute::{Counterexample, refute, sharpest};

@@ -151,7 +151,7 @@ impl<'a> Paper<'a> {
         let say = |text: String, lines: &mut Vec<String>| lines.push(format!("{}{text}", "  ".repeat(depth)));
         match derivation {
             Derivation::Cases(on, positive, not) => {
-                let on = self.order().poly(on);
+                let on = self.order().poly_or_size(on);
                 say(format!("case {on} > 0:"), lines);
                 self.derivation(positive, depth + 1, lines);
                 say(format!("case {on} ≤ 0:"), lines);
@@ -187,7 +187,9 @@ impl<'a> Paper<'a> {
             );
         }
         match direct.because() {
-            Because::Same(value) => lines.push(format!("both sides are {}", self.order().ratio(value))),
+            Because::Same(value) => {
+                lines.push(format!("both sides are {}", self.order().ratio_or_size(value)))
+            }
             Because::Sign(sign) => lines.extend(self.signed(sign)),
             Because::Order(signs) => {
                 lines.push("rounding keeps order, and so does each step, since".to_string());
@@ -230,11 +232,11 @@ impl<'a> Paper<'a> {
                 place.0
             )),
             Used::Pivot(pivot, by, slack) => {
-                let solved = format!("{} = {}", self.order().monomial(pivot), self.order().ratio(by));
+                let solved = format!("{} = {}", self.order().monomial(pivot), self.order().ratio_or_size(by));
                 Some(match slack {
                     None => format!("by {name}: {solved}"),
                     Some(slack) => {
-                        let (value, slack) = (self.order().ratio(supposed.value()), slack.0);
+                        let (value, slack) = (self.order().ratio_or_size(supposed.value()), slack.0);
                         let sign = if supposed.sign() == Sign::Positive { "> 0" } else { "≥ 0" };
                         format!("by {name}: {slack} = {value} {sign}, so {solved}")
                     }
@@ -271,7 +273,8 @@ pub fn how(proof: &Proof) -> String {
         "equal" | "sign" => means,
         other => other,
     };
-    if cases > 1 { format!("{kind}, {cases} cases") } else { kind.to_string() }
+    let kind = if proof.statement().rounds() { format!("{kind}, any precision") } else { kind.to_string() };
+    if cases > 1 { format!("{kind}, {cases} cases") } else { kind }
 }
 
 fn cases(derivation: &Derivation) -> usize {

@@ -25,7 +25,7 @@ mod smaller;
 mod value;
 
 pub use point::{Point, planted_points, raw_points};
-use sequence::{STEPS, computed, follow, is_constant};
+use sequence::{STEPS, computed, follow, is_constant, share};
 use smaller::smaller;
 pub use value::Value;
 
@@ -302,8 +302,22 @@ fn found(statement: &Statement, point: &Point) -> Option<Counterexample> {
     }
 }
 
-/// Searches for a counterexample. That there is none among the points that are tried is no proof.
-pub fn refute(statement: &Statement) -> Option<Counterexample> {
+/// Where a bound is used up most, among some points, and which share of it that is; `None` if nothing is said of
+/// bounds.
+pub fn sharpest(statement: &Statement) -> Option<(Point, Exact)> {
+    let symbols = symbols(statement);
+    let raw = raw_points(&statement.hypotheses, &symbols).take(SHARP);
+    let points = raw.chain(planted_points(&statement.hypotheses, &symbols));
+    let shares = points.filter_map(|point| share(statement, &point).map(|share| (point, share)));
+    let sharpest = shares.reduce(|a, b| if a.1 < b.1 { b } else { a });
+    sharpest.map(|(point, share)| (point.among(&symbols.into_iter().collect()), share))
+}
+
+/// Among so many raw points the sharpest is looked for.
+const SHARP: usize = 500;
+
+/// What a statement speaks of, in the order in which it does.
+fn symbols(statement: &Statement) -> Vec<&'static str> {
     let mut symbols = Vec::new();
     for tree in statement.trees() {
         tree.visit(&mut |tree| {
@@ -314,6 +328,12 @@ pub fn refute(statement: &Statement) -> Option<Counterexample> {
             }
         });
     }
+    symbols
+}
+
+/// Searches for a counterexample. That there is none among the points that are tried is no proof.
+pub fn refute(statement: &Statement) -> Option<Counterexample> {
+    let symbols = symbols(statement);
     let points = Points::of(statement.hypotheses.clone(), symbols);
     points.quickly(statement).or_else(|| points.thoroughly(statement))
 }

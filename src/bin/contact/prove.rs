@@ -9,6 +9,7 @@ use spring_mass_contact::formula::{Statement, together};
 use spring_mass_contact::proof::controls::{Change, Dropped, Effect, Without};
 use spring_mass_contact::proof::coq::LeftOut;
 use spring_mass_contact::proof::paper::{self, Paper};
+use spring_mass_contact::proof::sharpest;
 use spring_mass_contact::verify::proofs::{Answer, Proofs, Proved, Summary, prove_all};
 use spring_mass_contact::verify::{case_of, coq};
 use std::io::{self, Write};
@@ -261,7 +262,13 @@ fn account(out: &mut dyn Write, proofs: &Proofs, proved: &Proved) -> io::Result<
         }
         Without::StillTrue | Without::Unknown => None,
     });
-    say("needs", &needed.collect::<Vec<_>>())
+    say("needs", &needed.collect::<Vec<_>>())?;
+    let sharp = statement.rounds().then(|| sharpest(statement)).flatten().and_then(|(point, share)| {
+        let percent = (100.0 * share.as_rational().to_f64()).floor();
+        let used = || format!("{percent} % of the bound are used up at {}", output::glued(&point));
+        (percent > 0.0).then(used)
+    });
+    say("sharp", &sharp.into_iter().collect::<Vec<_>>())
 }
 
 fn markdown(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {

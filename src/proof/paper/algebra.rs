@@ -3,7 +3,7 @@
 use crate::number::{Exponential, Field, Tree};
 use crate::proof::Why;
 use crate::proof::kernel::algebra::{Monomial, Poly, Ratio, Symbol};
-use crate::proof::kernel::sign::{Certificate, Rule, Sign};
+use crate::proof::kernel::sign::{Certificate, Rule, Sign, is_small};
 use rug::Integer;
 use std::fmt;
 
@@ -55,9 +55,9 @@ impl Order<'_> {
     }
 
     /// A polynomial as text, of a very long one how long it is.
-    fn poly_or_size(&self, poly: &Poly) -> String {
+    pub(super) fn poly_or_size(&self, poly: &Poly) -> String {
         match poly.terms().len() {
-            n if n > SHOWN => format!("a sum of {n} terms"),
+            n if n > shown(poly) => format!("a sum of {n} terms"),
             _ => self.poly(poly).to_string(),
         }
     }
@@ -65,7 +65,9 @@ impl Order<'_> {
     /// A quotient as text, of a very long one how long it is.
     pub(super) fn ratio_or_size(&self, ratio: &Ratio) -> String {
         match [ratio.num(), ratio.den()].map(|poly| poly.terms().len()) {
-            [n, d] if n.max(d) > SHOWN => format!("a sum of {n} terms over one of {d}"),
+            [n, d] if n > shown(ratio.num()) || d > shown(ratio.den()) => {
+                format!("a sum of {n} terms over one of {d}")
+            }
             _ => self.ratio(ratio).to_string(),
         }
     }
@@ -79,9 +81,12 @@ impl Order<'_> {
             Rule::Terms => vec![format!("{of} {sign}, term by term")],
             Rule::Sizes(rest) => {
                 let no = if rest.sign().implies(Sign::NonNegative) { "no less" } else { "no more" };
-                let mut lines = vec![format!("{of} {sign}, since with the sizes of errors it is {no} than")];
-                lines.extend(self.certificate(rest));
-                lines
+                let left = match rest.of().terms().len() {
+                    n if n > SHOWN_OF_ROUNDING => format!("a sum of {n} terms"),
+                    _ => self.poly(rest.of()).to_string(),
+                };
+                let left = format!("{left} {}, term by term", text(rest.sign()));
+                vec![format!("{of} {sign}: with the sizes of errors it is {no} than {left}")]
             }
             Rule::Ends { x: Symbol(x), at } => {
                 let mut lines = vec![format!("{of} {sign}, at {x} = −1 and at {x} = 1:")];
@@ -131,8 +136,13 @@ impl Order<'_> {
     }
 }
 
-/// As many terms are written out.
+/// As many terms are written out, and as many if there are errors in them.
 const SHOWN: usize = 24;
+const SHOWN_OF_ROUNDING: usize = 8;
+
+fn shown(poly: &Poly) -> usize {
+    if poly.symbols().into_iter().any(is_small) { SHOWN_OF_ROUNDING } else { SHOWN }
+}
 
 /// A number as a formula; a large one in pieces, since a formula has only small ones.
 fn number(n: &Integer) -> Tree {
