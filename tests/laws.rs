@@ -5,9 +5,9 @@ use proptest::prelude::*;
 use spring_mass_contact::chapter::{augmented, contact, penalty, system};
 use spring_mass_contact::claims::{claims, computed, registry, symbols};
 use spring_mass_contact::formula::claim::{PRECISION, within};
-use spring_mass_contact::formula::{Claim, Kind, Statement};
+use spring_mass_contact::formula::{Claim, Hypothesis, Kind, Relation, Statement};
 use spring_mass_contact::number::tree::{Step, piecewise};
-use spring_mass_contact::number::{Exact, Mpfr, PositivePart, ToExact, Tree};
+use spring_mass_contact::number::{Ball, Exact, Mpfr, PositivePart, ToExact, Tree};
 use spring_mass_contact::proof::refute::{Point, Verdict, check};
 use spring_mass_contact::proof::{prove, refute};
 
@@ -236,6 +236,27 @@ fn records_round_as_floats_do<T: ToExact + Clone>(
 proptest! {
     #![proptest_config(ProptestConfig { cases: 100, failure_persistence: None, ..ProptestConfig::default() })]
 
+    /// And what is proved is what balls compute: no radius is less.
+    #[test]
+    fn the_radius_of_a_ball_is_no_less_than_what_is_proved(seed in any::<u64>()) {
+        let x = |name| Ball::exactly(f64::from(drawn(seed, name)));
+        let [a, b] = [x("u") / x("v") * x("w"), x("c") / x("m") + x("g")];
+        let at = |name: &str| match name {
+            "a" => a.value().to_exact().unwrap(),
+            "b" => b.value().to_exact().unwrap(),
+            "r" => a.radius().to_exact().unwrap(),
+            "s" => b.radius().to_exact().unwrap(),
+            name => panic!("{name} in a radius"),
+        };
+        prop_assume!(PositivePart::abs(&at("b")) > at("s"));
+        let results = [&a + &b, &a - &b, &a * &b, &a / &b];
+        for ((meant, _, radius, _), result) in radii().into_iter().zip(results) {
+            let precision = |name: &str| if name == PRECISION { Exact::power_of_two(53) } else { at(name) };
+            let proved = rounded_to(53, &radius, &precision).unwrap();
+            prop_assert!(result.radius().to_exact().unwrap() >= proved, "{}", meant);
+        }
+    }
+
     #[test]
     fn what_is_recorded_as_rounded_is_what_f64_computes(seed in any::<u64>()) {
         let at = |name: &'static str| f64::from(drawn(seed, name)) / 1024.0;
@@ -255,6 +276,51 @@ proptest! {
             Mpfr::rounded(3, &x)
         };
         records_round_as_floats_do(3, &at, computed(&at))?;
+    }
+}
+
+/// What the radius of each operation of a ball is made of, around `a` ∘ `b`: for numbers x and y no further from a and
+/// b than r and s.
+fn radii() -> [(Tree, Tree, Tree, Vec<Hypothesis>); 4] {
+    let [a, b, x, y, r, s] = ["a", "b", "x", "y", "r", "s"].map(|name| Tree::symbol(name));
+    let eta = || Tree::from(1) / Tree::symbol(PRECISION);
+    let own = |value: &Tree| eta() * value.rounded().abs();
+    let positive = |value: Tree| Hypothesis::new(Relation::Positive, value);
+    let given = vec![
+        Hypothesis::new(Relation::NonNegative, r.clone()),
+        Hypothesis::new(Relation::NonNegative, s.clone()),
+    ];
+    let (sum, difference, product, quotient) = (&a + &b, &a - &b, &a * &b, &a / &b);
+    let away = positive(b.abs() - &s);
+    let of_quotient =
+        ((quotient.rounded().abs() + own(&quotient)) * &s + &r) / (b.abs() - &s) + own(&quotient);
+    [
+        (&x + &y, sum.clone(), &r + &s + own(&sum), given.clone()),
+        (&x - &y, difference.clone(), &r + &s + own(&difference), given.clone()),
+        (&x * &y, product.clone(), &r * (b.abs() + &s) + &s * a.abs() + own(&product), given.clone()),
+        (&x / &y, quotient, of_quotient, [given, vec![away]].concat()),
+    ]
+}
+
+#[test]
+fn the_radius_of_a_ball_encloses_for_every_precision() {
+    let [a, b, x, y, r, s] = ["a", "b", "x", "y", "r", "s"].map(|name| Tree::symbol(name));
+    for (meant, value, radius, given) in radii() {
+        let near = [Hypothesis::near(&x, &a, &r), Hypothesis::near(&y, &b, &s)];
+        let claim = |radius: &Tree| {
+            let claim = within("encloses", [], &meant - value.rounded(), radius);
+            Statement::of(&Claim { given: [given.clone(), near.to_vec()].concat(), ..claim })
+        };
+        if let Err(why) = prove(&claim(&radius)) {
+            panic!("{meant}: {why}");
+        }
+        // Nothing of it can be left out.
+        let mut parts = Vec::new();
+        radius.visit(&mut |tree| parts.push(tree.clone()));
+        for part in parts.iter().filter(|part| [&r, &s].contains(part)) {
+            let less = radius.rewrite(&|tree| (tree == part).then(|| tree / Tree::from(2)));
+            assert!(prove(&claim(&less)).is_err(), "{meant} within {less}");
+        }
     }
 }
 

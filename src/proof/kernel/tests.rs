@@ -283,7 +283,7 @@ fn what_is_in_an_interval_is_nowhere_else() {
         proved(vec![between], Says::Sign(Relation::NonNegative, most - &q))
     };
     assert!(not_above([0, 1], int(1)) && not_above([1, 0], int(1)) && not_above([3, 3], int(3)));
-    assert!(!not_above([0, 1], int(1) / int(2)) && !not_above([-1, 1], int(0)));
+    assert!(!not_above([0, 1], int(99) / int(100)) && !not_above([-1, 1], int(0)));
     // With ends that are quantities, and no more than one interval for each.
     let near = Hypothesis::near(&q, x("u"), x("c"));
     let within = Says::Within(&q - x("u"), x("c"));
