@@ -103,11 +103,11 @@ fn is_power(ratio: &Rational, growth: &Rational, n: &Integer) -> bool {
     n.to_u32().is_some_and(|n| u64::from(n) * least_bits <= bits && growth.clone().pow(n) == *ratio)
 }
 
-/// Is it guaranteed that floats of this scalar meet the tolerance, from λ₀ = 0 and where mass and plane touch?
+/// Is it guaranteed that floats of this scalar meet the tolerance, from λ₀ = 0, where mass and plane touch?
 ///
 /// It is for 64 (c + ε) ≤ ε (1 + 1/η) and tol > 20 F + η (|H| + 8 tol), with the drift 20 F of
-/// [`rounding::penetration_drift`]. A smaller tolerance may be met as well, by luck, or not. Rationals meet every
-/// one.
+/// [`rounding::penetration_drift`]. A smaller tolerance may be met as well, by luck, or not. Rationals meet
+/// every one.
 ///
 /// ```
 /// # use spring_mass_contact::{chapter::SpringMass, number::Exact};
@@ -144,8 +144,8 @@ pub fn within_reach<T: Scalar + ToExact>(
     let precision = Exact::one() / unit_roundoff;
     let fine_enough =
         Exact::from(64) * penalty::total_stiffness(&system, &eps) <= &eps * (&precision + Exact::one());
-    // Once p̂ is all drift, |p̂| < tol, and its bound |p̂| + η (|fl(l + û)| + |p̂|) is below |p̂| + η (|H| + 3 tol). Balls
-    // round that up: the bracket by less than 4 η of itself, then the sum, which takes less than 5 η tol.
+    // Once p̂ is all drift, |p̂| < tol, and its bound |p̂| + η (|fl(l + û)| + |p̂|) is below |p̂| + η (|H| + 3 tol).
+    // Balls round that up: the bracket by less than 4 η of itself, then the sum, which takes less than 5 η tol.
     let drift = rounding::penetration_drift(&system, &eps, &precision);
     let question = unit_roundoff * (system.h.abs() + Exact::from(8) * &tolerance);
     fine_enough && tolerance > drift + question
