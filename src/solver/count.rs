@@ -144,8 +144,9 @@ pub fn within_reach<T: Scalar + ToExact>(
     let precision = Exact::one() / unit_roundoff;
     let fine_enough =
         Exact::from(64) * penalty::total_stiffness(&system, &eps) <= &eps * (&precision + Exact::one());
-    // Once p̂ is all drift, |p̂| < tol, and its bound |p̂| + η (|fl(l + û)| + |p̂|) is below |p̂| + η (|H| + 3 tol).
-    // Balls round that up: the bracket by less than 4 η of itself, then the sum, which takes less than 5 η tol.
+    // Once p̂ is all drift, |p̂| < tol, and its bound |p̂| + η (|fl(l + û)| + |p̂|) is below
+    // |p̂| + η (|H| + 3 tol). Balls round that up, the bracket and the sum by less than 4 η of themselves:
+    // less than 5 η tol in all.
     let drift = rounding::penetration_drift(&system, &eps, &precision);
     let question = unit_roundoff * (system.h.abs() + Exact::from(8) * &tolerance);
     fine_enough && tolerance > drift + question
