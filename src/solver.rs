@@ -27,7 +27,7 @@ mod solution;
 pub use augmentation::{Augmentation, Iterate};
 pub use check::SolveError;
 #[cfg(feature = "mpfr")]
-pub use count::{augmentations_needed, rounding_floor, within_reach};
+pub use count::{augmentations_needed, within_reach};
 #[cfg(feature = "mpfr")]
 pub use read::ReadError;
 pub use scalar::{Interval, Scalar};

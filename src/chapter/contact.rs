@@ -7,7 +7,7 @@ use crate::number::{Field, PositivePart};
 ///
 /// `p = l + u − H`
 ///
-/// Domain: all. Two roundings: error at most η |fl(l + u)| + η |p|, which is all of p where the two
+/// Domain: all. Two roundings: off by at most η (|fl(l + u)| + |fl(p)|), which is all of p where the two
 /// lengths cancel. Source: §1.2.
 ///
 /// ```

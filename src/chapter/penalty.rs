@@ -123,9 +123,10 @@ pub fn residual<T: Field>(system: &SpringMass<T>, eps: &T, u: &T) -> T {
 ///
 /// `N = ε p`
 ///
-/// `eps` is the penalty ε in N/m. Domain: all. Floats: at the root (1.13) the relative error is
-/// η ε (|H| + 5 |Δ|) / R + 7η on top of c/(c + ε); a large ε costs digits. The force by
-/// equilibrium, [`augmented::contact_force`](super::augmented::contact_force), has them. Source: §1.3.2.
+/// `eps` is the penalty ε in N/m. Domain: all. Floats: at a computed (1.13) it is off by at most
+/// [`rounding::penalty_force_error`](super::rounding::penalty_force_error), which grows with ε: a large one
+/// costs digits. The force by equilibrium, [`augmented::contact_force`](super::augmented::contact_force), has
+/// them. Source: §1.3.2.
 ///
 /// ```
 /// # use spring_mass_contact::chapter::{SpringMass, penalty};
@@ -156,8 +157,8 @@ pub fn total_stiffness<T: Field>(system: &SpringMass<T>, eps: &T) -> T {
 ///
 /// `u = (ε (H − l) + m g) / (c + ε)`
 ///
-/// `eps` is the penalty ε in N/m. Domain: c + ε ≠ 0. Floats: |û − Δ| ≤ R/(c + ε) + η (5 |Δ| + 4 R/(c + ε)).
-/// Source: §1.3.2.
+/// `eps` is the penalty ε in N/m. Domain: c + ε ≠ 0. Floats: where R > 0 it is off by at most
+/// [`rounding::deflection_error`](super::rounding::deflection_error). Source: §1.3.2.
 ///
 /// ```
 /// # use spring_mass_contact::chapter::{SpringMass, penalty};

@@ -42,7 +42,7 @@ pub fn residual<T: Field>(system: &SpringMass<T>, u: &T) -> T {
 ///
 /// `u = m g / c`
 ///
-/// Domain: c ≠ 0. Two roundings: relative error at most 2η + η². Source: §1.1, the root of (1.1).
+/// Domain: c ≠ 0. Two roundings: off by at most η (2 + η) |fl(u)|. Source: §1.1, the root of (1.1).
 ///
 /// ```
 /// # use spring_mass_contact::chapter::{SpringMass, structure};

@@ -1,7 +1,7 @@
 //! (1.33), solved for k: how many augmentations a tolerance needs, exactly.
 
 use super::{Plane, Scalar};
-use crate::chapter::{SpringMass, augmented, system};
+use crate::chapter::{SpringMass, augmented, penalty, rounding, system};
 use crate::number::{Exact, PositivePart, ToExact};
 use num_traits::{One, Zero};
 use rug::float::Round;
@@ -103,16 +103,11 @@ fn is_power(ratio: &Rational, growth: &Rational, n: &Integer) -> bool {
     n.to_u32().is_some_and(|n| u64::from(n) * least_bits <= bits && growth.clone().pow(n) == *ratio)
 }
 
-/// F = η (|H| + |Δ| + |R|/ε), in m: what the rounding floor of the iteration is a multiple of.
-pub fn rounding_floor(system: &SpringMass<Exact>, eps: &Exact, unit_roundoff: &Exact) -> Exact {
-    let (gap, r) = (system::gap(system), system::reaction(system));
-    unit_roundoff * (system.h.abs() + gap.abs() + (r / eps).abs())
-}
-
-/// Is it guaranteed, to first order in η, that from λ₀ = 0 floats of this scalar meet the tolerance?
+/// Is it guaranteed that floats of this scalar meet the tolerance, from λ₀ = 0, where mass and plane touch?
 ///
-/// It is for tol > 16 F + η (|H| + tol), with F of [`rounding_floor`]. A smaller tolerance may be met as
-/// well, by luck, or not. Rationals meet every one.
+/// It is for 64 (c + ε) ≤ ε (1 + 1/η) and tol > 20 F + η (|H| + 8 tol), with the drift 20 F of
+/// [`rounding::penetration_drift`]. A smaller tolerance may be met as well, by luck, or not. Rationals meet
+/// every one.
 ///
 /// ```
 /// # use spring_mass_contact::{chapter::SpringMass, number::Exact};
@@ -134,8 +129,25 @@ pub fn within_reach<T: Scalar + ToExact>(
     tolerance: &T,
     unit_roundoff: &Exact,
 ) -> bool {
+    if unit_roundoff.is_zero() {
+        return true;
+    }
     let exact = |x: &T| x.to_exact().expect("a finite parameter");
     let (system, eps, tolerance) = (system.map(exact), exact(eps), exact(tolerance));
-    let floor = rounding_floor(&system, &eps, unit_roundoff);
-    tolerance > Exact::from(16) * floor + unit_roundoff * (system.h.abs() + &tolerance)
+    // A plane that pulls is one that pushes, seen in a mirror: the same floats but for their signs.
+    let system = if system::reaction(&system) < Exact::zero() {
+        let SpringMass { c, m, g, l, h } = system;
+        SpringMass { c, m, g: -g, l: -l, h: -h }
+    } else {
+        system
+    };
+    let precision = Exact::one() / unit_roundoff;
+    let fine_enough =
+        Exact::from(64) * penalty::total_stiffness(&system, &eps) <= &eps * (&precision + Exact::one());
+    // Once p̂ is all drift, |p̂| < tol, and its bound |p̂| + η (|fl(l + û)| + |p̂|) is below
+    // |p̂| + η (|H| + 3 tol). Balls round that up, the bracket and the sum by less than 4 η of themselves:
+    // less than 5 η tol in all.
+    let drift = rounding::penetration_drift(&system, &eps, &precision);
+    let question = unit_roundoff * (system.h.abs() + Exact::from(8) * &tolerance);
+    fine_enough && tolerance > drift + question
 }

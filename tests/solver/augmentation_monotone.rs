@@ -6,7 +6,7 @@ use crate::in_every_float;
 use crate::strategies::*;
 use num_traits::Zero;
 use proptest::prelude::*;
-use spring_mass_contact::chapter::{SpringMass, augmented, contact, penalty, structure, system};
+use spring_mass_contact::chapter::{SpringMass, augmented, contact, penalty, rounding, structure, system};
 use spring_mass_contact::number::{Exact, OrderedField, PositivePart};
 use spring_mass_contact::rug::Integer;
 use spring_mass_contact::solver::{
@@ -240,18 +240,12 @@ fn one_bracket_is_wrong() {
 
 // In floats.
 
-/// F = η (|H| + |Δ| + R/ε).
-fn floor(case: &Case<Exact>, eta: &Exact) -> Exact {
-    let s = &case.system;
-    eta * (s.h.abs() + system::gap(s).abs() + reaction(case).abs() / &case.eps)
-}
-
 /// While p̂ ≥ 0: λ̂ grows strictly until it is a fixed point or p̂ is 0 or changes sign, and p̂ never grows.
 /// A fixed point has |p(û)| ≤ η|H| + η (1 + η)²/(1 − η) |λ|/ε. The loop has no limit: it ends by itself.
 fn monotone_until_rounding<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
     let floats = Case { start: Exact::zero(), ..case.clone() }.rounded(like);
     let case = floats.exact();
-    let eta = unit_roundoff(like);
+    let n = int(1) / unit_roundoff(like);
     for plane in [Plane::Unilateral, Plane::Bilateral] {
         let mut steps = iterate(&floats, plane);
         let mut last = steps.step();
@@ -263,37 +257,37 @@ fn monotone_until_rounding<T: Float>(case: &Case<Exact>, like: &T) -> Result<(),
             last = step;
         }
         let p = exact(&last.deflection) - system::gap(&case.system);
-        let lambda = exact(&last.multiplier).abs();
-        let one = int(1);
-        let fixed =
-            &eta * (case.system.h.abs() + (&one + &eta) * (&one + &eta) / (&one - &eta) * lambda / &case.eps);
+        let lambda = exact(&last.multiplier);
+        let fixed = rounding::fixed_point_error(&case.system, &case.eps, &lambda, &n);
         // p̂ ≤ 0 ended it instead: then see the next law.
         prop_assert!(last.penetration <= T::zero() || p.abs() <= fixed, "{:?}", floats);
     }
     Ok(())
 }
 
-/// |λ̂_k − λ_k| ≤ 9 (c + ε) F and |p̂_k − ρᵏ p₀| ≤ 16 F, to first order: with (1 + 64η) for the products
-/// of errors, of which there are fewer than 64 on the way from one step to the next.
+/// |λ̂_k − λ_k| ≤ 11 (c + ε) F and |p̂_k − ρᵏ p₀| ≤ 20 F for every k, where R > 0 and 64 (c + ε) ≤ ε (2ᵖ + 1).
 fn close_to_the_closed_form<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
     let floats = Case { start: Exact::zero(), ..case.clone() }.rounded(like);
     let case = floats.exact();
-    let eta = unit_roundoff(like);
+    let n = int(1) / unit_roundoff(like);
+    let stiffness = &case.system.c + &case.eps;
     let (r, p0, rho) = (reaction(&case), first_penetration(&case), contraction(&case));
-    let bound = floor(&case, &eta) * (int(1) + int(64) * &eta);
+    if r <= int(0) || int(64) * &stiffness > &case.eps * (&n + int(1)) {
+        return Ok(());
+    }
+    let of_multiplier = int(11) * stiffness * rounding::floor(&case.system, &case.eps, &n);
+    let of_penetration = rounding::penetration_drift(&case.system, &case.eps, &n);
     let mut decay = int(1);
-    let mut steps = iterate(&floats, Plane::Bilateral);
-    for _ in 0..24 {
-        let step = steps.step();
+    for step in iterate(&floats, Plane::Bilateral).take(24) {
         let lambda = &r - &decay * &r;
-        let off = (exact(&step.multiplier) - lambda).abs();
-        prop_assert!(off <= int(9) * (&case.system.c + &case.eps) * &bound, "k = {} {:?}", step.k, floats);
+        prop_assert!(
+            (exact(&step.multiplier) - lambda).abs() <= of_multiplier,
+            "k = {} {:?}",
+            step.k,
+            floats
+        );
         let off = (exact(&step.penetration) - &decay * &p0).abs();
-        prop_assert!(off <= int(16) * &bound, "k = {} {:?}", step.k, floats);
-        // The law is that of the way down.
-        if step.penetration <= T::zero() || *steps.multiplier() == step.multiplier {
-            break;
-        }
+        prop_assert!(off <= of_penetration, "k = {} {:?}", step.k, floats);
         decay = decay * &rho;
     }
     Ok(())

@@ -5,7 +5,7 @@ use crate::in_every_float;
 use crate::strategies::*;
 use num_traits::Zero;
 use proptest::prelude::*;
-use spring_mass_contact::chapter::{SpringMass, contact, penalty, structure, system};
+use spring_mass_contact::chapter::{SpringMass, contact, penalty, rounding, structure, system};
 use spring_mass_contact::number::{Ball, Dual, Exact, Mpfr, PositivePart, ToExact};
 use spring_mass_contact::solver::{
     Outcome, SolveError, State, penalty_for_penetration, series_penetration, solve, solve_bilateral,
@@ -101,18 +101,18 @@ proptest! {
     }
 }
 
-/// η (5 |Δ| + 4 |R|/(c + ε)) is what rounding adds to first order, with (1 + 4η) for the products of
-/// errors: six roundings are at most (1 + η)⁵/(1 − η) − 1 ≤ 5η (1 + 4η) on ε Δ and one less on m g.
-fn deflection_rounding(case: &Case<Exact>, eta: &Exact) -> Exact {
-    let p = penalty::penetration(&case.system, &case.eps);
-    eta * (int(5) * system::gap(&case.system).abs() + int(4) * p.abs()) * (int(1) + int(4) * eta)
+/// The system, or where R < 0 its mirror image, in which floats differ in their signs and nothing else: the laws of
+/// rounding are those of a plane that pushes.
+fn pushed(s: &SpringMass<Exact>) -> SpringMass<Exact> {
+    let SpringMass { c, m, g, l, h } = s.clone();
+    if system::reaction(s) < int(0) { SpringMass { c, m, g: -g, l: -l, h: -h } } else { s.clone() }
 }
 
 /// û − Δ is R/(c + ε) and the rounding of six operations.
 fn the_rate_until_rounding<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
     let floats = case.rounded(like);
     let case = floats.exact();
-    let bound = deflection_rounding(&case, &unit_roundoff(like));
+    let bound = rounding::deflection_error(&pushed(&case.system), &case.eps, &(int(1) / unit_roundoff(like)));
     let u = exact(&penalty::deflection(&floats.system, &floats.eps));
     let p = penalty::penetration(&case.system, &case.eps);
     prop_assert!((&u - system::gap(&case.system) - &p).abs() <= bound, "{:?}", case);
@@ -120,21 +120,17 @@ fn the_rate_until_rounding<T: Float>(case: &Case<Exact>, like: &T) -> Result<(),
     Ok(())
 }
 
-/// N̂ = ε p̂ is off by c/(c + ε) + η ε L/R + 7η relative to R, L = |H| + 5 |Δ|.
-///
-/// Beyond the method's own c/(c + ε): û as above; l + û = H + p(û) and the difference with H round once
-/// each, η (|H| + 2 |p(û)|), and so does the product with ε. (1 + 20η) for the products of errors.
+/// N̂ = ε p̂ at û is off by the rounding of nine operations, and as a value of R by c p besides.
 fn the_precision_law<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
     let floats = case.rounded(like);
     let case = floats.exact();
     let Case { system: s, eps, .. } = &case;
-    let eta = unit_roundoff(like);
+    let bound = rounding::penalty_force_error(&pushed(s), eps, &(int(1) / unit_roundoff(like)));
     let u = penalty::deflection(&floats.system, &floats.eps);
     let n = exact(&penalty::contact_force(&floats.system, &floats.eps, &u));
-    let r = reaction(&case).abs();
-    let length = s.h.abs() + int(5) * system::gap(s).abs();
-    let rounding = &eta * (eps * length + int(7) * &r) * (int(1) + int(20) * &eta);
-    prop_assert!((n - reaction(&case)).abs() <= &s.c * &r / (&s.c + eps) + rounding, "{:?}", case);
+    prop_assert!((&n - penalty::force_at_root(s, eps)).abs() <= bound, "{:?}", case);
+    let short = &s.c * penalty::penetration(s, eps).abs();
+    prop_assert!((n - reaction(&case)).abs() <= short + bound, "{:?}", case);
     Ok(())
 }
 

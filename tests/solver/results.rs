@@ -8,8 +8,7 @@ use proptest::prelude::*;
 use spring_mass_contact::chapter::{SpringMass, system};
 use spring_mass_contact::number::{Exact, PositivePart};
 use spring_mass_contact::solver::{
-    Bounds, Interval, Method, Plane, Solution, SolveError, State, rounding_floor, solve, solve_bilateral,
-    within_reach,
+    Bounds, Interval, Method, Plane, Solution, SolveError, State, solve, solve_bilateral, within_reach,
 };
 
 /// A way to solve, and the plane that it supposes.
@@ -222,17 +221,21 @@ fn refusals_name_the_parameter_in_mpfr() {
     refusals_name_the_parameter(&int(1).to_mpfr(100));
 }
 
-/// With c = ε = 4, Δ = 2, R = 2, H = 3 the floor F is η (3 + 2 + 1/2), so what is within reach is more than
-/// 16 F + η (3 + tol) = 91 η + η tol.
+/// With c = ε = 4, Δ = 2, |R| = 2, |H| = 3 the drift is 20 F = 20 η (3 + 2 + 1/2), so what is within reach is more
+/// than 110 η + η (3 + 8 tol); and 64 · 8 ≤ 4 (2ᵖ + 1) from p = 7 on.
 #[test]
-fn what_is_within_reach_begins_at_the_floor() {
-    let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
-    for bits in [24, 53, 200] {
-        let eta = Exact::power_of_two(-bits);
-        let [floor, more] = [91, 92].map(|n| int(n) * &eta);
-        let reaches =
-            |tolerance: &Exact| within_reach(&system.map(|x| int(*x as i32)), &int(4), tolerance, &eta);
-        assert_eq!([reaches(&floor), reaches(&more)], [false, true], "{bits} bits");
-        assert_eq!(rounding_floor(&system.map(|x| int(*x as i32)), &int(4), &eta), int(11) * &eta / int(2));
+fn what_is_within_reach_begins_at_the_drift() {
+    let pushes = SpringMass { c: 4, m: 1, g: 10, l: 1, h: 3 }.map(|x| int(*x));
+    let pulls = SpringMass { c: 4, m: 1, g: -10, l: -1, h: -3 }.map(|x| int(*x));
+    for system in [pushes, pulls] {
+        let reaches = |tolerance: &Exact, eta: &Exact| within_reach(&system, &int(4), tolerance, eta);
+        for bits in [24, 53, 200] {
+            let eta = Exact::power_of_two(-bits);
+            let [drift, more] = [113, 114].map(|n| int(n) * &eta);
+            assert_eq!([reaches(&drift, &eta), reaches(&more, &eta)], [false, true], "{bits} bits");
+        }
+        let many = int(1000);
+        assert_eq!([6, 7].map(|bits| reaches(&many, &Exact::power_of_two(-bits))), [false, true]);
+        assert!(reaches(&Exact::power_of_two(-1000), &int(0)));
     }
 }
