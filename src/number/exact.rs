@@ -82,7 +82,7 @@ impl Exact {
     /// ```
     /// use spring_mass_contact::number::Exact;
     /// let tenth: Exact = "0.1".parse()?;
-    /// assert_eq!(tenth.rounded(3).unwrap(), "13/128".parse()?); // 5/64 < 3/32 < 13/128
+    /// assert_eq!(tenth.rounded(3).unwrap(), "3/32".parse()?); // 0.09375; the next is 7/64
     /// # Ok::<(), spring_mass_contact::number::ParseError>(())
     /// ```
     pub fn rounded(&self, bits: u32) -> Option<Self> {

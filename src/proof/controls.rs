@@ -140,7 +140,10 @@ pub fn controls(statements: &[Statement], registry: &Registry) -> Controls {
 /// The changes that would make all of these statements provable, if some of them are not: where a mistake
 /// in the chapter may be.
 pub fn repairs(statements: &[Statement], registry: &Registry) -> Vec<Change> {
-    let (right, wrong): (Vec<_>, Vec<_>) = statements.par_iter().partition(|s| prove(s).is_ok());
+    // What takes long is asked last.
+    let mut by_cost: Vec<_> = statements.iter().collect();
+    by_cost.sort_by_key(|s| (s.rounds(), s.goals.len()));
+    let (right, wrong): (Vec<_>, Vec<_>) = by_cost.into_par_iter().partition(|s| prove(s).is_ok());
     let repairs = |change: &Change| {
         wrong.iter().all(|s| change.apply(s).is_some_and(|s| prove(&s).is_ok()))
             && right.iter().all(|s| change.apply(s).is_none_or(|s| prove(&s).is_ok()))

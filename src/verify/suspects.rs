@@ -109,7 +109,8 @@ mod tests {
     /// All but a few in a hundred: a change can break just those claims that speak of a caller, too.
     #[test]
     fn a_changed_function_is_suspected_and_hardly_another() {
-        let statements = statements();
+        // What rounds takes longer, and adds no function.
+        let statements: Vec<_> = statements().into_iter().filter(|s| !s.rounds()).collect();
         let noticed = controls(&statements, registry()).changes;
         let noticed: Vec<_> = noticed.iter().filter(|(_, o)| matches!(o, Effect::Noticed { .. })).collect();
         let is_in = |function: &str, change: &Change| {
