@@ -3,7 +3,7 @@
 use super::prelude::*;
 use crate::chapter::augmented::{self, *};
 use crate::chapter::system::{gap, reaction};
-use crate::chapter::{contact, lagrange, penalty, rounding};
+use crate::chapter::{contact, lagrange, penalty, rounding, structure, system};
 
 formulas! {
     "L" (folded) = augmented::functional(system, "ε", "λ", "u");
@@ -364,11 +364,14 @@ pub(super) fn stopping() -> Vec<Entry> {
             )
             .functions(["augmented::contact_force"])
             .follows_from(["1.18"])
-            .claims([equal(
-                "lag",
-                [],
-                update(s, eps, lambda, u) - lambda,
-                penalty::contact_force(s, eps, u),
-            )]),
+            .claims([
+                equal("lag", [], update(s, eps, lambda, u) - lambda, penalty::contact_force(s, eps, u)),
+                within("rounding", [], contact_force(s, u).rounded() - contact_force(s, u), {
+                    let parts = [system::weight(s), structure::spring_force(s, u)];
+                    let [weight, spring] = parts.map(|part| part.rounded());
+                    let force = contact_force(s, u).rounded();
+                    eta() * (weight.abs() + spring.abs() + force.abs())
+                }),
+            ]),
     ]
 }

@@ -3,8 +3,8 @@
 mod algebra;
 
 use self::algebra::Order;
-use super::kernel::sign::{Rule, Sign};
-use super::kernel::{Because, Derivation, Direct, Proof, Signed, Supposed, Used, Why};
+use super::kernel::sign::{Certificate, Rule, Sign};
+use super::kernel::{Because, Derivation, Direct, Proof, Rounding, Signed, Supposed, Used, Why};
 use crate::formula::claim::{MEMBERS, PRECISION};
 use crate::formula::statement::{Goal, Says, Sequence, Statement};
 use crate::formula::{Formula, Hypothesis, Notation, Registry};
@@ -148,6 +148,10 @@ impl<'a> Paper<'a> {
     }
 
     fn derivation(&self, derivation: &Derivation, depth: usize, lines: &mut Vec<String>) {
+        if let Some(law) = self.law(derivation) {
+            lines.extend(law.into_iter().map(|line| format!("{}{line}", "  ".repeat(depth))));
+            return;
+        }
         let say = |text: String, lines: &mut Vec<String>| lines.push(format!("{}{text}", "  ".repeat(depth)));
         match derivation {
             Derivation::Cases(on, positive, not) => {
@@ -163,15 +167,7 @@ impl<'a> Paper<'a> {
 
     fn direct(&self, direct: &Direct) -> Vec<String> {
         let mut lines: Vec<String> = direct.supposed().iter().filter_map(|s| self.supposed(s)).collect();
-        let errors = direct.errors().iter();
-        let errors = errors.map(|own| format!("{} of fl({})", own.error().0, self.text(own.of())));
-        let errors: Vec<_> = errors.collect();
-        if !errors.is_empty() {
-            lines.push(format!(
-                "fl(x) = x (N + e)/N with |e| ≤ 1, N = {PRECISION} + 1: {}",
-                errors.join(", ")
-            ));
-        }
+        lines.extend(self.errors(direct));
         for (divisor, nonzero) in direct.divisors() {
             explain(format!("{} ≠ 0", self.text(divisor)), self.signed(nonzero), &mut lines);
         }
@@ -195,12 +191,7 @@ impl<'a> Paper<'a> {
                 lines.push("rounding keeps order, and so does each step, since".to_string());
                 lines.extend(signs.iter().flat_map(|signed| self.signed(signed)));
             }
-            Because::Within(above, below) => {
-                for (what, signed) in [("less it", above), ("and it", below)] {
-                    lines.push(format!("the bound {what}:"));
-                    lines.extend(self.signed(signed).into_iter().map(|line| format!("  {line}")));
-                }
-            }
+            Because::Within(above, below) => lines.extend(self.within(above, below)),
             Because::Derivative(value) => lines.push(format!(
                 "dual numbers differentiate it to {}, which is the right side",
                 self.order().ratio(value)
@@ -216,6 +207,65 @@ impl<'a> Paper<'a> {
             }
         }
         lines
+    }
+
+    /// What is rounded, with the names of its errors.
+    fn errors(&self, direct: &Direct) -> Option<String> {
+        let own = |own: &Rounding| format!("{} of fl({})", own.error().0, self.text(own.of()));
+        let errors: Vec<_> = direct.errors().iter().map(own).collect();
+        let model = format!("fl(x) = x (N + e)/N with |e| ≤ 1, N = {PRECISION} + 1: ");
+        (!errors.is_empty()).then(|| model + &errors.join(", "))
+    }
+
+    /// A bound of what is rounded: what all of its cases have in common is said once, and what is long by its
+    /// length.
+    fn law(&self, derivation: &Derivation) -> Option<Vec<String>> {
+        fn leaves<'d>(
+            derivation: &'d Derivation,
+            path: Vec<String>,
+            order: Order,
+            all: &mut Vec<(String, &'d Direct)>,
+        ) {
+            match derivation {
+                Derivation::Direct(direct) => all.push((path.join(", "), direct)),
+                Derivation::Cases(on, positive, not) => {
+                    for (branch, sign) in [(positive, "> 0"), (not, "≤ 0")] {
+                        let case = format!("{} {sign}", order.poly_or_size(on));
+                        leaves(branch, [path.clone(), vec![case]].concat(), order, all);
+                    }
+                }
+            }
+        }
+        let mut all = Vec::new();
+        leaves(derivation, Vec::new(), self.order(), &mut all);
+        let (_, first) = all.first().filter(|(_, direct)| !direct.errors().is_empty())?;
+        let mut lines: Vec<_> = self.errors(first).into_iter().collect();
+        let given = first.supposed().iter().filter(|supposed| supposed.given().is_some());
+        lines.extend(given.filter_map(|supposed| self.supposed(supposed)));
+        for (case, direct) in all {
+            let Because::Within(above, below) = direct.because() else { return None };
+            let within = self.within(above, below);
+            if case.is_empty() {
+                lines.extend(within);
+            } else {
+                lines.push(format!("where {case}:"));
+                lines.extend(within.into_iter().map(|line| format!("  {line}")));
+            }
+        }
+        Some(lines)
+    }
+
+    /// What a bound exceeds a size by, on either side.
+    fn within(&self, above: &Signed, below: &Signed) -> [String; 2] {
+        [("less it", above), ("and it", below)].map(|(what, signed)| {
+            let value = self.order().ratio_or_size(signed.value());
+            let how = match [signed.num(), signed.den()].map(ends).iter().max() {
+                Some(0) | None => "term by term".to_string(),
+                Some(1) => "with the sizes of errors".to_string(),
+                Some(ends) => format!("with the sizes of errors, at {ends} ends"),
+            };
+            format!("the bound {what} is {value} ≥ 0, {how}")
+        })
     }
 
     /// How a supposition is used, if that has to be said.
@@ -301,6 +351,15 @@ fn means(derivation: &Derivation) -> &'static str {
                 Rule::Slope { .. } => "sign by slope",
             },
         },
+    }
+}
+
+/// At how many ends of errors a sign is seen; 0 if there are no errors in it.
+fn ends(certificate: &Certificate) -> usize {
+    match certificate.rule() {
+        Rule::Ends { at, .. } => at.iter().map(|end| ends(end).max(1)).sum(),
+        Rule::Sizes(_) => 1,
+        _ => 0,
     }
 }
 

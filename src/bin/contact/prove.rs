@@ -189,9 +189,8 @@ fn totals(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
     }
     let fine = proofs.controls.dropped.iter().filter(|dropped| dropped.is_of_precision()).count();
     let needed = hypotheses - fine - proofs.controls.needless().count();
-    let needed = format!("{needed} of {hypotheses} hypotheses needed: without it the claim is refuted.");
-    let fine = if fine > 0 { format!(" {fine} only asks for finer numbers.") } else { String::new() };
-    let needed = needed + &fine;
+    let others = if fine > 0 { format!(", {fine} only asks for finer numbers") } else { String::new() };
+    let needed = format!("{needed} of {hypotheses} hypotheses needed{others}.");
     output::wrapped(out, "", 2, &needed)?;
     let (changes, noticed, unchanged) = (controls.changes, controls.noticed, controls.unchanged);
     let seen = noticed + unchanged;

@@ -17,12 +17,14 @@ pub(super) fn laws<T: Scalar + Real + ToExact>() -> Vec<Experiment<T>> {
         let statement = Statement::of(claim);
         // Where λ repeats has to be found.
         let repeats = claim.given.contains(&given().computed_repeats);
+        let of_rounding = vanishes(&claim.kind);
         Experiment {
             equation: claim.equation,
             name: claim.name,
             given: claim.given.iter().filter(|given| is_of_parameters(given)).cloned().collect(),
-            check: check(move |case: &Case<T>| {
-                law(&statement, &claim.kind, repeats, case).unwrap_or(Trial::Undecided)
+            check: check(move |case: &Case<T>| match law(&statement, &claim.kind, repeats, case) {
+                Some(Trial::Within { error, bound }) if !of_rounding => Trial::Decided(error <= bound),
+                trial => trial.unwrap_or(Trial::Undecided),
             }),
         }
     };
@@ -32,6 +34,19 @@ pub(super) fn laws<T: Scalar + Real + ToExact>() -> Vec<Experiment<T>> {
 /// Can numbers be drawn so that it holds? Where something is computed, or how finely, is seen in each trial.
 fn is_of_parameters(given: &Hypothesis) -> bool {
     !given.value.rounds() && given.interval().is_none() && !given.value.symbols().contains(PRECISION)
+}
+
+/// Does a bound vanish with η? Of one that does not, rounding uses up no share.
+fn vanishes(kind: &Kind) -> bool {
+    let Kind::Within(_, bound) = kind else { return true };
+    let at = |bits: i32| {
+        let number = |name| if name == PRECISION { Exact::power_of_two(bits) } else { Exact::from(2) };
+        bound.replay(&number, &|step| match step {
+            Step::Rounded(x) => Some(x.clone()),
+            step => piecewise(step),
+        })
+    };
+    at(60).zip(at(20)).is_none_or(|(fine, coarse)| fine * Exact::from(2) <= coarse)
 }
 
 /// Is what is computed what rounding to p bits makes of it, without over- and underflow?

@@ -9,7 +9,7 @@ use std::fmt;
 
 /// The order in which the factors of a product are written, by their symbols. Others come before them, by
 /// name.
-#[derive(Default)]
+#[derive(Clone, Copy, Default)]
 pub(super) struct Order<'a>(pub(super) &'a [&'static str]);
 
 impl Order<'_> {
