@@ -191,7 +191,10 @@ impl<'a> Law<'a> {
         if let Derivation::Direct(direct) = derivation {
             match direct.because() {
                 Because::Same(_) => return self.in_units(script, direct.errors()),
-                Because::Order(_) => return Ok(script.line("by_order.")),
+                Because::Order(_) => {
+                    script.line("by_order.");
+                    return Ok(());
+                }
                 _ => {}
             }
         }
