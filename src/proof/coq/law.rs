@@ -159,12 +159,15 @@ impl<'a> Law<'a> {
         Ok((part, text))
     }
 
+    /// Of a goal, where these are all that is supposed.
     fn derivation(&self, hypotheses: &[&Hypothesis], goal: &Goal) -> Result<Derivation> {
+        let own = self.statement;
+        let is_supposed = |hypothesis: &Hypothesis| hypotheses.contains(&hypothesis);
         let statement = Statement {
-            hypotheses: hypotheses.iter().copied().cloned().collect(),
-            goals: vec![Goal::of_claim("", goal.says.clone())],
-            amounts_to: self.statement.amounts_to.clone(),
-            ..Statement::default()
+            invariants: own.invariants.iter().filter(|own| is_supposed(own)).cloned().collect(),
+            computed: own.computed.clone().filter(|computed| is_supposed(&computed.hypothesis)),
+            goals: vec![goal.clone()],
+            ..own.clone()
         };
         let proof = prove(&statement).map_err(unproved)?;
         proof.goals().first().cloned().ok_or_else(|| "there is nothing to prove".to_string())
