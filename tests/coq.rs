@@ -13,7 +13,7 @@ use gallina::{
 };
 use spring_mass_contact::claims::{registry, statements};
 use spring_mass_contact::formula::Relation;
-use spring_mass_contact::formula::claim::{POWER, PRECISION, SCALES};
+use spring_mass_contact::formula::claim::{MEMBERS, POWER, PRECISION, SCALES};
 use spring_mass_contact::formula::statement::{Computed, Says, Sequence, Statement, two_bits};
 use spring_mass_contact::number::tree::Step;
 use spring_mass_contact::number::{Field, PositivePart, Tree};
@@ -232,7 +232,7 @@ fn is_the_same_sequence(own: &Sequence, computed: &Computed, drift: &Drift, foll
     let ([start], [step]) = (&start[..], &step[..]) else { return false };
     let formulas =
         [(ratio, &drift.ratio), (start, &drift.start), (step, &drift.step), (&computed.by, &drift.by)];
-    let names = [POWER, "x₁", computed.symbol].map(|name| in_letters(&Tree::symbol(name)));
+    let names = [POWER, MEMBERS[0], computed.symbol].map(|name| in_letters(&Tree::symbol(name)));
     let bounds = within.iter().map(|(of, bound)| Says::Within(of.clone(), bound.clone()));
     names == [drift.q, drift.x, drift.u].map(|name| Tree::symbol(name))
         && formulas.into_iter().all(|(own, printed)| printed_as(own, printed))
@@ -291,6 +291,24 @@ fn no_theorem_is_false() {
         .map(|theorem| theorem.name)
         .collect();
     assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// What the laws call fl is no function of ours: all of Flocq's rounding to nearest, and nothing else.
+#[test]
+fn what_is_rounded_is_so_by_flocq() {
+    let files = coq().files();
+    let text = code(&files.iter().find(|file| file.name == "B_Rounding.v").unwrap().text);
+    let (_, definition) = text.split_once("Definition fl ").unwrap();
+    let definition: Vec<_> = definition.split(".\n").next().unwrap().split_whitespace().collect();
+    let expected =
+        "(prec : Z) (choice : Z -> bool) (x : R) : R := round radix2 (FLX_exp prec) (Znearest choice) x";
+    assert_eq!(definition.join(" "), expected);
+    // Nor does any file give other names to what is read here by these.
+    for File { name, text } in &files {
+        for keyword in ["Notation", "Infix", "Coercion"] {
+            assert!(words(&code(text)).all(|word| word != keyword), "{name}: {keyword}");
+        }
+    }
 }
 
 /// If what a law supposes were never so, it could say anything.
