@@ -3,10 +3,9 @@
 //!
 //! A [`Development`] has every function of a registry as a definition, printed from its recorded formula,
 //! and every claim as a theorem about these definitions, with its hypotheses as premises. The proofs follow
-//! what
-//! the kernel found, but nothing of it is taken on trust: if Coq accepts the files, what is
-//! left to trust is Coq's own kernel, its axioms of the real numbers, and that definitions and theorems
-//! read as their sources do.
+//! what the kernel found, but nothing of it is taken on trust: if Coq accepts the files, what is left to
+//! trust is Coq's own kernel, its axioms of the real numbers, and that definitions and theorems read as
+//! their sources do.
 //!
 //! A function that only hands on what another computes leaves no step of its own in a record, so a theorem
 //! speaks in the names of the functions that its entry lists. A definition that no theorem names would
@@ -15,7 +14,13 @@
 //! What goes further than our own kernel: an induction is one over the natural numbers, a limit is one in
 //! the sense of ε and N, a derivative is one in the sense of a limit. Coq lets everything be divided by 0,
 //! so for every claim a lemma of its own, `…_defined`, says that no divisor is 0.
+//!
+//! What is rounded is so by the library Flocq: its rounding to nearest, for every precision of two bits or
+//! more and whatever becomes of a number half-way between two. That it is x (N + e)/N, as our kernel reads
+//! it, is a lemma there.
 
+mod drift;
+mod expr;
 mod law;
 mod lemma;
 mod print;
@@ -23,7 +28,8 @@ mod script;
 mod theorem;
 
 use crate::formula::{Claim, Formula, Registry};
-use print::{Expr, Printer, ascii};
+use expr::Expr;
+use print::{Printer, ascii};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
@@ -57,7 +63,7 @@ pub struct Flip {
     /// The definition as it is now.
     pub definition: String,
     /// All definitions with this one among them, then every theorem that speaks of the function, the shortest
-    /// first. It needs the first of the [files](Development::files) alone.
+    /// first. It needs those of the [files](Development::files) that come before theorems.
     pub file: File,
 }
 
@@ -86,6 +92,13 @@ const DEFINITIONS: &str = "B_Definitions";
 const ROUNDING: &str = "B_Rounding";
 const ASSUMPTIONS: &str = "E_Assumptions";
 
+/// What theorems about what is rounded stand on; none comes before what it needs.
+const OF_ROUNDING: [(&str, &str); 3] = [
+    ("B_Polynomials", include_str!("coq/polynomials.v")),
+    ("B_Quotients", include_str!("coq/quotients.v")),
+    (ROUNDING, include_str!("coq/rounding.v")),
+];
+
 impl<'a> Development<'a> {
     /// The claims, printed, and those that cannot be.
     pub fn new<'c>(registry: &'a Registry, claims: impl IntoIterator<Item = Placed<'c>>) -> Self {
@@ -111,26 +124,24 @@ impl<'a> Development<'a> {
     ///
     /// They compile in this order, and in that of their names: `coqc -R DIR Contact FILE`.
     pub fn files(&self) -> Vec<File> {
-        let theorems = by_section(&self.written);
-        let name = |file: &File| format!(" {}", file.name.trim_end_matches(".v"));
-        let mut all: String = theorems.iter().map(name).collect();
         let mut files = vec![
             file(TACTICS, include_str!("coq/tactics.v").to_string()),
-            file(DEFINITIONS, self.definitions_text(&self.definitions())),
+            file(DEFINITIONS, self.definitions_text(&self.definitions(), false)),
         ];
         if self.written.iter().any(|written| written.rounds) {
-            files.push(file(ROUNDING, include_str!("coq/rounding.v").to_string()));
+            files.extend(OF_ROUNDING.map(|(name, text)| file(name, text.to_string())));
         }
-        files.extend(theorems);
+        let mut theorems = by_section(&self.written);
+        let name = |file: &File| format!(" {}", file.name.trim_end_matches(".v"));
+        let mut all: String = theorems.iter().map(name).collect();
         if let Some((name, text)) = self.more {
             let head = format!("From Contact Require Import {TACTICS} {DEFINITIONS}{all}.\n\n");
-            files.push(file(name, head + text));
+            theorems.push(file(name, head + text));
             all = format!("{all} {name}");
         }
         // Asking of each theorem what it rests on would take longer than all proofs.
-        let own =
-            |file: &&mut File| ![TACTICS, DEFINITIONS, ROUNDING].contains(&file.name.trim_end_matches(".v"));
-        let parts: Vec<_> = files.iter_mut().filter(own).map(together).collect();
+        let parts: Vec<_> = theorems.iter_mut().map(together).collect();
+        files.extend(theorems);
         if parts.is_empty() {
             return files;
         }
@@ -171,6 +182,7 @@ impl<'a> Development<'a> {
             let speaks_of_it = |theorem: &&Written| speaks_of(&theorem.text, &definition.name);
             let mut theorems: Vec<_> = self.written.iter().filter(speaks_of_it).collect();
             theorems.sort_by_key(|theorem| theorem.text.len());
+            let rounds = theorems.iter().any(|theorem| theorem.rounds);
             let theorems: String = theorems.iter().map(|theorem| theorem.text.as_str()).collect();
             for (count, body) in definition.body.flips().into_iter().enumerate() {
                 let mut flipped = definitions.clone();
@@ -179,7 +191,7 @@ impl<'a> Development<'a> {
                 all.push(Flip {
                     function: definition.name.clone(),
                     definition: flipped[i].to_string(),
-                    file: file(&name, self.definitions_text(&flipped) + &theorems),
+                    file: file(&name, self.definitions_text(&flipped, rounds) + &theorems),
                 });
             }
         }
@@ -196,10 +208,10 @@ impl<'a> Development<'a> {
         self.registry.formulas().iter().map(definition).collect()
     }
 
-    fn definitions_text(&self, definitions: &[Definition]) -> String {
-        let mut text = format!(
-            "(** * The functions, as their source computes them. *)\nFrom Contact Require Import {TACTICS}.\n"
-        );
+    /// With what theorems about what is rounded need, if any follow.
+    fn definitions_text(&self, definitions: &[Definition], rounds: bool) -> String {
+        let mut text =
+            format!("(** * The functions, as their source computes them. *)\n{}", head(rounds, ""));
         for definition in definitions {
             let _ = write!(text, "\n{definition}\n#[export] Hint Unfold {} : functions.\n", definition.name);
         }
@@ -307,21 +319,25 @@ fn by_section(written: &[Written]) -> Vec<File> {
         for (texts, part) in texts.chunks(PER_FILE).zip('a'..='z') {
             let section = section.replace(|c: char| !c.is_ascii_alphanumeric(), "_");
             let laws = if rounds { "_rounding" } else { "" };
-            files.push(file(&format!("C_{section}{laws}_{part}"), head(rounds) + &texts.concat()));
+            files.push(file(
+                &format!("C_{section}{laws}_{part}"),
+                head(rounds, DEFINITIONS) + &texts.concat(),
+            ));
         }
     }
     files.sort_by(|a, b| a.name.cmp(&b.name));
     files
 }
 
-/// What a file of theorems begins with.
-fn head(rounds: bool) -> String {
+/// What a file begins with that needs tactics, perhaps those for what is rounded, and this.
+fn head(rounds: bool, more: &str) -> String {
+    let import = |names: &str| format!("From Contact Require Import {}.\n", names.trim_end());
     match rounds {
         true => format!(
-            "From Flocq Require Import Core.\nFrom Contact Require Import {TACTICS} {ROUNDING} {DEFINITIONS}.\n\
-             Open Scope R_scope.\n"
+            "From Flocq Require Import Core.\n{}Open Scope R_scope.\n",
+            import(&format!("{TACTICS} {ROUNDING} {more}"))
         ),
-        false => format!("From Contact Require Import {TACTICS} {DEFINITIONS}.\n"),
+        false => import(&format!("{TACTICS} {more}")),
     }
 }
 

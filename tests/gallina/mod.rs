@@ -1,8 +1,12 @@
 //! Reads definitions and theorems as Coq does, and says where in the rationals a theorem is false.
 //!
 //! By the levels that Coq's manual gives, and by nothing of what printed the text: it is the printing that is
-//! tested. Of Coq's language, which is called Gallina, no more is known here than the chapter needs.
+//! tested. Of Coq's language, which is called Gallina, no more is known here than the chapter needs. Where the precision
+//! is `prec`, so many bits, a number half-way between two is rounded to the even one: that is one of all choices.
 
+mod drift;
+
+pub use drift::Drift;
 use spring_mass_contact::number::tree::{Step, piecewise};
 use spring_mass_contact::number::{Dual, Exact, Exponential, Field, PositivePart, Tree};
 use std::collections::{BTreeMap, BTreeSet};
@@ -145,6 +149,31 @@ impl<'t> Reader<'t> {
         assert_eq!(self.take(), token, "before {:?}", self.rest);
     }
 
+    /// These tokens.
+    fn expect_all(&mut self, tokens: &str) {
+        tokens.split(' ').for_each(|token| self.expect(token));
+    }
+
+    /// One or several things said.
+    fn all_said(&mut self) -> Vec<Said> {
+        let mut all = vec![self.said()];
+        while self.next() == "/\\" {
+            self.take();
+            all.push(self.said());
+        }
+        all
+    }
+
+    /// Whatever the precision, from two bits, whatever the choice, and whatever other powers of two there are.
+    fn precision(&mut self) {
+        self.expect_all("forall ( prec : Z ) ( choice : Z -> bool )");
+        if self.next() == "(" {
+            while self.take() != ":" {}
+            self.expect_all("Z )");
+        }
+        self.expect_all(", ( 2 <= prec ) % Z ->");
+    }
+
     /// Sums at level 50, of products at level 40, each from the left.
     fn formula(&mut self) -> Tree {
         self.chain(&[["+", "-"], ["*", "/"]])
@@ -177,8 +206,9 @@ impl<'t> Reader<'t> {
     /// A function and its arguments, at level 10.
     fn call(&mut self) -> Tree {
         let arity = match self.next() {
-            "exp" => 1,
+            "exp" | "Rabs" => 1,
             "Rmax" | "Rmin" => 2,
+            "fl" => 3,
             name => match self.known.get(name) {
                 Some(function) => function.arguments.len(),
                 None => return self.argument(),
@@ -190,6 +220,11 @@ impl<'t> Reader<'t> {
             ("exp", [a]) => a.exp(),
             ("Rmax", [a, zero]) if *zero == Tree::int(0) => a.positive_part(),
             ("Rmin", [a, b]) => a.min(b),
+            ("Rabs", [a]) => a.abs(),
+            ("fl", [precision, choice, a]) => {
+                assert_eq!([precision, choice], [&Tree::symbol("prec"), &Tree::symbol("choice")]);
+                a.nearest()
+            }
             _ => {
                 let Function { arguments, value } = &self.known[name];
                 let place = |name| arguments.iter().position(|known| *known == name);
@@ -230,6 +265,11 @@ impl<'t> Reader<'t> {
         }
         let left = self.formula();
         let relation = self.take();
+        if self.next() == "bpow" {
+            let Step::Symbol(power) = left.step() else { panic!("{left} is no name") };
+            self.expect_all("bpow radix2");
+            return Said::PowerOfTwo(power, interned(self.take()));
+        }
         let right = self.formula();
         match relation {
             "=" => Said::Equal(left, right),
@@ -242,6 +282,8 @@ impl<'t> Reader<'t> {
 
 /// What may be said of numbers.
 pub enum Said {
+    /// The first is 2 to the power of the second.
+    PowerOfTwo(&'static str, &'static str),
     Equal(Tree, Tree),
     Less(Tree, Tree),
     AtMost(Tree, Tree),
@@ -253,6 +295,10 @@ impl Said {
     fn holds(&self, at: &impl Fn(&'static str) -> Exact) -> Option<bool> {
         let value = |tree: &Tree| value(tree, at);
         Some(match self {
+            // So they are drawn.
+            Said::PowerOfTwo(power, of) => {
+                (*power, *of) == ("two_p", "prec") || power.strip_prefix("two") == of.strip_prefix("power")
+            }
             Said::Equal(a, b) => value(a)? == value(b)?,
             Said::Less(a, b) => value(a)? < value(b)?,
             Said::AtMost(a, b) => value(a)? <= value(b)?,
@@ -273,6 +319,7 @@ impl Said {
 pub fn value(tree: &Tree, at: &impl Fn(&'static str) -> Exact) -> Option<Exact> {
     tree.replay(at, &|step| match step {
         Step::Exp(a) if *a == Exact::from(0) => Some(Exact::from(1)),
+        Step::Rounded(a) => a.rounded(at("two_p").as_rational().numer().significant_bits() - 1),
         step => piecewise(step),
     })
 }
@@ -281,6 +328,40 @@ pub fn value(tree: &Tree, at: &impl Fn(&'static str) -> Exact) -> Option<Exact> 
 pub struct Theorem {
     pub name: String,
     stated: Vec<String>,
+    /// The recursion that comes before it, if one does.
+    recursion: Vec<String>,
+}
+
+/// What a theorem says.
+pub struct Read {
+    /// What it supposes.
+    pub given: Vec<Said>,
+    /// What follows: for all members of a sequence, if it speaks of one.
+    pub follows: Vec<Said>,
+    pub of: Option<Drift>,
+}
+
+impl Read {
+    /// Is all that it supposes so, and what follows as well? None where something is not known.
+    fn holds(&self, at: &impl Fn(&'static str) -> Exact) -> Option<bool> {
+        let given = self.given.iter().all(|given| given.holds(at) == Some(true));
+        let follow = |at: &dyn Fn(&'static str) -> Exact| -> Option<bool> {
+            let said: Option<Vec<_>> = self.follows.iter().map(|said| said.holds(&at)).collect();
+            Some(said?.into_iter().all(|holds| holds))
+        };
+        match &self.of {
+            _ if !given => None,
+            None => follow(at),
+            Some(drift) => drift.all(at, &follow),
+        }
+    }
+
+    /// The trials in which all that it supposes is so, and whether then what follows is.
+    pub fn trials(&self) -> impl Iterator<Item = bool> {
+        let rounds = self.given.iter().any(|given| matches!(given, Said::PowerOfTwo(..)));
+        (0..if rounds { TRIALS_OF_LAWS } else { TRIALS })
+            .filter_map(|trial| self.holds(&|name| drawn(name, trial)))
+    }
 }
 
 impl Theorem {
@@ -292,7 +373,9 @@ impl Theorem {
             let all = tokens(&part[start..]);
             let [_, name, colon, stated @ .., dot] = all.as_slice() else { panic!("{part}") };
             assert_eq!([colon, dot], [":", "."], "{part}");
-            Some(Theorem { name: name.clone(), stated: stated.to_vec() })
+            let recursion = part[..start].find("Fixpoint ").map(|from| tokens(&part[from..start]));
+            let recursion = recursion.unwrap_or_default();
+            Some(Theorem { name: name.clone(), stated: stated.to_vec(), recursion })
         };
         stated(&text).filter_map(theorem).collect()
     }
@@ -302,55 +385,83 @@ impl Theorem {
         self.stated.iter().any(|token| token == function)
     }
 
-    /// Is it about more than the numbers of one case, a limit or a sequence, or that divisors are not 0?
+    fn has(&self, token: &str) -> bool {
+        self.stated.iter().any(|own| own == token)
+    }
+
+    /// Is it about what is rounded?
+    pub fn rounds(&self) -> bool {
+        self.has("prec")
+    }
+
+    /// Is it about more than numbers can show: a limit, a sequence of rationals that only grow, or that divisors are
+    /// not 0?
     fn is_beyond(&self) -> bool {
-        let beyond = |token: &String| ["is_lim", "is_lim_seq", "nat", "<>"].contains(&token.as_str());
-        self.stated.iter().any(beyond)
+        ["is_lim", "is_lim_seq", "<>"].iter().any(|token| self.has(token))
+            || self.has("nat") && !self.rounds()
     }
 
     /// What it supposes, and what follows; none if it is about more than numbers.
-    pub fn read(&self, known: &Functions) -> Option<(Vec<Said>, Said)> {
+    pub fn read(&self, known: &Functions) -> Option<Read> {
         if self.is_beyond() {
             return None;
         }
         let mut reader = Reader { rest: &self.stated, known };
+        if self.rounds() {
+            reader.precision();
+        }
         if reader.next() == "forall" {
             while reader.take() != "," {}
         }
-        let mut said = vec![reader.said()];
-        while reader.next() == "->" {
+        let (mut given, mut of) = (Vec::new(), None);
+        let follows = loop {
+            if reader.next() == "forall" {
+                of = Some(reader.drift(&self.recursion));
+                break reader.all_said();
+            }
+            let mut said = reader.all_said();
+            if reader.next() != "->" {
+                break said;
+            }
             reader.take();
-            said.push(reader.said());
-        }
+            given.append(&mut said);
+        };
         assert!(reader.rest.is_empty(), "{}: what is {:?}?", self.name, reader.rest);
-        let follows = said.pop()?;
-        Some((said, follows))
+        Some(Read { given, follows, of })
     }
 
     /// Are there numbers for which it is false? These functions may be other ones than those it was proved of.
     pub fn is_false_somewhere(&self, functions: &Functions) -> bool {
-        let Some((given, follows)) = self.read(functions) else { return false };
-        (0..TRIALS).any(|trial| {
-            let at = |name: &'static str| drawn(name, trial);
-            given.iter().all(|given| given.holds(&at) == Some(true)) && follows.holds(&at) == Some(false)
-        })
+        self.read(functions).is_some_and(|read| read.trials().any(|holds| !holds))
     }
 }
 
 /// How many cases are tried.
 pub const TRIALS: u64 = 200;
 
-/// A number for a symbol, always the same: mostly positive, one in eight is 0.
+/// And of what is rounded: more is supposed there, and less of a bound is used in most.
+const TRIALS_OF_LAWS: u64 = 2000;
+
+/// The bits of the numbers that are rounded to.
+const BITS: [i32; 8] = [2, 3, 4, 5, 6, 8, 24, 53];
+
+/// A number for a symbol, always the same: mostly positive, one in eight is 0; every other one has few bits. Or a power
+/// of two.
 pub fn drawn(name: &str, trial: u64) -> Exact {
     let mixed = name.bytes().fold(trial + 1, |mixed, byte| {
         let mixed = (mixed ^ u64::from(byte)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
         mixed ^ (mixed >> 29)
     });
+    match name {
+        "two_p" => return Exact::power_of_two(BITS[(mixed % 8) as usize]),
+        _ if name.starts_with("two_") => return Exact::power_of_two((mixed % 9) as i32 - 4),
+        _ => {}
+    }
     let (size, kind) = (1 + (mixed >> 8) % 30, mixed % 8);
     let n = match kind {
         0 => 0,
         1 | 2 => -(size as i32),
         _ => size as i32,
     };
-    Exact::from(n) / Exact::from(7)
+    Exact::from(n) / Exact::from(if trial.is_multiple_of(2) { 7 } else { 4 })
 }

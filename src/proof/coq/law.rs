@@ -1,13 +1,15 @@
-//! Claims about what is rounded: theorems about Flocq's rounding to nearest, for every precision and every rule
-//! for what is half-way.
+//! Claims about what is rounded: theorems about Flocq's rounding to nearest, for every precision and every
+//! rule for what is half-way.
 
-use super::lemma::{Result, labels, names, numbered, says, supposed, unproved};
-use super::print::{Expr, Printer, ascii};
+use super::expr::Expr;
+use super::lemma::{Result, divisors, labels, names, numbered, says, supposed, unproved};
+use super::print::{Printer, ascii};
 use super::script::Script;
-use crate::formula::claim::{MEMBERS, POWER, PRECISION, SCALES};
-use crate::formula::statement::{Computed, Goal, Role, Says, Sequence, Statement, two_bits};
+use crate::formula::claim::{MEMBERS, PRECISION, SCALES};
+use crate::formula::statement::{Computed, Goal, Role, Says, Statement, two_bits};
 use crate::formula::{Hypothesis, Registry};
 use crate::number::Tree;
+
 use crate::proof::kernel::{Because, Derivation, Rounding};
 use crate::proof::prove;
 use std::fmt::Write;
@@ -19,55 +21,113 @@ pub(super) struct Law<'a> {
     pub(super) printer: Printer<'a>,
 }
 
-/// One goal of it.
-struct Part<'a> {
-    name: String,
-    hypotheses: Vec<&'a Hypothesis>,
-    variables: Vec<&'static str>,
+/// Its theorem or one of its lemmas: whatever the precision, under these hypotheses, for these quantities.
+pub(super) struct Part<'a> {
+    pub(super) name: String,
+    /// But for that of the precision, which Coq is told otherwise.
+    pub(super) hypotheses: Vec<&'a Hypothesis>,
+    /// One of them is 2ᵖ.
+    pub(super) variables: Vec<&'static str>,
 }
 
-impl Part<'_> {
-    /// The names of its variables, with others for some of them, and of its hypotheses.
-    fn applied(&self, replaced: &[(&str, &str)], hypotheses: &str) -> String {
-        let other =
-            |var: &str| replaced.iter().find(|(own, _)| *own == var).map(|(_, other)| other.to_string());
-        let variables: String = self
-            .variables
-            .iter()
-            .map(|var| format!(" {}", other(var).unwrap_or_else(|| ascii(var))))
-            .collect();
-        format!("{} prec choice{} P{variables} E{hypotheses}", self.name, scales(&self.variables))
-    }
-}
-
-/// Which exponents it speaks of.
-fn scales(variables: &[&str]) -> String {
-    let spoken_of = SCALES.iter().filter(|scale| variables.contains(scale));
-    spoken_of.map(|scale| format!(" {}", exponent(scale))).collect()
-}
-
+/// The exponent of a power of two: that of 2ᵃ is power_a.
 fn exponent(scale: &str) -> String {
     ascii(scale).replace("two", "power")
 }
 
+impl Part<'_> {
+    /// Which powers of two it speaks of besides 2ᵖ.
+    fn scales(&self) -> impl Iterator<Item = &'static str> {
+        SCALES.into_iter().filter(|scale| self.variables.contains(scale))
+    }
+
+    fn exponents(&self) -> String {
+        self.scales().map(|scale| format!(" {}", exponent(scale))).collect()
+    }
+
+    /// With P, E, A1, A2, … for what is said of powers of two, and H1, H2, … for hypotheses.
+    pub(super) fn intros(&self) -> String {
+        let (exponents, variables) = (self.exponents(), names(&self.variables));
+        let powers: String =
+            numbered("A", self.scales().count()).iter().map(|label| format!(" {label}")).collect();
+        format!("intros prec choice{exponents} P{variables} E{powers}{}.", labels(self.hypotheses.len()))
+    }
+
+    /// Its name, applied to its variables, with others for some of them, and to its hypotheses.
+    pub(super) fn applied(&self, replaced: &[(&str, &str)], hypotheses: &str) -> String {
+        let argument = |var: &&'static str| {
+            let other = replaced.iter().find(|(own, _)| own == var);
+            format!(" {}", other.map_or_else(|| ascii(var), |(_, other)| other.to_string()))
+        };
+        let variables: String = self.variables.iter().map(argument).collect();
+        format!("{} prec choice{} P{variables} E{hypotheses}", self.name, self.exponents())
+    }
+
+    /// All of it.
+    pub(super) fn text(&self, keyword: &str, says: &str, proof: Script, printer: Printer) -> String {
+        let (name, exponents, variables) = (&self.name, self.exponents(), names(&self.variables));
+        let mut text = format!("\n{keyword} {name} :\n  forall (prec : Z) (choice : Z -> bool)");
+        if !exponents.is_empty() {
+            let _ = write!(text, " ({} : Z)", exponents.trim_start());
+        }
+        let _ = write!(text, ",\n  (2 <= prec)%Z ->\n  forall{variables} : R,\n");
+        let _ = writeln!(text, "  {} = bpow radix2 prec ->", ascii(PRECISION));
+        for scale in self.scales() {
+            let _ = writeln!(text, "  {} = bpow radix2 {} ->", ascii(scale), exponent(scale));
+        }
+        for hypothesis in &self.hypotheses {
+            let _ = writeln!(text, "  {} ->", supposed(hypothesis, printer));
+        }
+        let _ = write!(text, "  {says}.\nProof.\n{}Qed.\n", proof.into_text());
+        text
+    }
+}
+
 impl<'a> Law<'a> {
+    /// Its lemmas and the theorem itself.
     pub(super) fn text(&self) -> Result<String> {
         let Statement { goals, computed, amounts_to, .. } = self.statement;
-        if let Some(sequence) = amounts_to.as_ref().filter(|sequence| !sequence.within.is_empty()) {
-            return self.sequence(sequence);
-        }
-        match (computed, goals.as_slice()) {
-            (None, [goal]) => self.part("Theorem", self.name.to_string(), goal).map(|(_, text)| text),
-            (Some(computed), [_, goal]) => self.computing(computed, goal),
-            _ => Err("a law of this kind has several goals".into()),
-        }
+        let sequence = amounts_to.as_ref().filter(|sequence| !sequence.within.is_empty());
+        let text = match (sequence, computed, goals.as_slice()) {
+            (Some(sequence), Some(computed), _) => self.drift(sequence, computed)?,
+            (None, Some(computed), [near, goal]) => self.computing(computed, near, goal)?,
+            (None, None, [goal]) => self.lemma("Theorem", self.name.to_string(), goal)?.1,
+            _ => return Err("a law of this kind has several goals".into()),
+        };
+        Ok(self.defined() + &text)
     }
 
     fn registry(&self) -> &Registry {
         self.printer.registry
     }
 
-    /// What is supposed where a goal is to be shown, but for the precision.
+    /// The theorem, which speaks of these formulas.
+    pub(super) fn theorem<'t>(&self, trees: impl Iterator<Item = &'t Tree>) -> Part<'a>
+    where
+        'a: 't,
+    {
+        self.part(self.name.to_string(), &self.hypotheses(Role::Begins), trees)
+    }
+
+    fn part<'t>(
+        &self,
+        name: String,
+        hypotheses: &[&'a Hypothesis],
+        trees: impl Iterator<Item = &'t Tree>,
+    ) -> Part<'a>
+    where
+        'a: 't,
+    {
+        let supposed = hypotheses.iter().map(|h| &h.value);
+        let mut variables = self.registry().symbols_of(supposed.chain(trees));
+        if !variables.contains(&PRECISION) {
+            variables.push(PRECISION);
+        }
+        let hypotheses = hypotheses.iter().copied().filter(|h| **h != two_bits()).collect();
+        Part { name, hypotheses, variables }
+    }
+
+    /// What is supposed where a goal is to be shown.
     fn hypotheses(&self, role: Role) -> Vec<&'a Hypothesis> {
         let Statement { hypotheses, invariants, computed, .. } = self.statement;
         let invariants = matches!(role, Role::Computed | Role::Step | Role::Continues).then_some(invariants);
@@ -76,248 +136,125 @@ impl<'a> Law<'a> {
         hypotheses.iter().chain(invariants.into_iter().flatten()).chain(computed).collect()
     }
 
-    /// The same without that of the precision, which a theorem says otherwise.
-    fn said(&self, role: Role) -> Vec<&'a Hypothesis> {
-        self.hypotheses(role).into_iter().filter(|h| **h != two_bits()).collect()
-    }
-
-    /// The quantities of formulas; the precision is always one.
-    fn variables<'t>(&self, trees: impl Iterator<Item = &'t Tree>) -> Vec<&'static str> {
-        let mut all = self.registry().symbols_of(trees);
-        if !all.contains(&PRECISION) {
-            all.push(PRECISION);
+    /// The same, but nothing of a member nor of what is computed from it where it speaks of neither.
+    fn needed(&self, goal: &Goal) -> Vec<&'a Hypothesis> {
+        let computed = self.statement.computed.as_ref().map(|computed| computed.symbol);
+        let own = |name: &&str| *name == MEMBERS[0] || Some(*name) == computed;
+        let speaks_of_it = |tree: &Tree| tree.symbols().iter().any(own);
+        let mut hypotheses = self.hypotheses(goal.role);
+        if !goal.says.trees().into_iter().any(speaks_of_it) {
+            hypotheses.retain(|h| !speaks_of_it(&h.value));
         }
-        all
+        hypotheses
     }
 
     /// A lemma for a goal.
-    fn part(&self, keyword: &str, name: String, goal: &Goal) -> Result<(Part<'a>, String)> {
-        // If a goal speaks neither of a member nor of what is computed from it, nothing is supposed of them.
-        let computed = self.statement.computed.as_ref().map(|computed| computed.symbol);
-        let of_member =
-            |tree: &Tree| tree.symbols().into_iter().any(|name| name == MEMBERS[0] || Some(name) == computed);
-        let mut hypotheses = self.hypotheses(goal.role);
-        if !goal.says.trees().into_iter().any(of_member) {
-            hypotheses.retain(|h| !of_member(&h.value));
-        }
-        let variables = self.variables(hypotheses.iter().map(|h| &h.value).chain(goal.says.trees()));
-        let derivation = self.derivation(&hypotheses, goal)?;
-        let said: Vec<_> = hypotheses.into_iter().filter(|h| **h != two_bits()).collect();
+    pub(super) fn lemma(&self, keyword: &str, name: String, goal: &Goal) -> Result<(Part<'a>, String)> {
+        let hypotheses = self.needed(goal);
+        let part = self.part(name, &hypotheses, goal.says.trees().into_iter());
         let mut script = Script::of_roundings();
-        script.line(&format!("{} functions.", self.intros(&variables, said.len())));
-        self.proof(&mut script, &derivation)?;
-        let text = self.stated(keyword, &name, &variables, &said, &says(&goal.says, self.printer), script);
-        Ok((Part { name, hypotheses: said, variables }, text))
+        script.line(&format!("{} functions.", part.intros()));
+        self.proof(&mut script, &self.derivation(&hypotheses, goal)?)?;
+        let text = part.text(keyword, &says(&goal.says, self.printer), script, self.printer);
+        Ok((part, text))
     }
 
+    /// Of a goal, where these are all that is supposed.
     fn derivation(&self, hypotheses: &[&Hypothesis], goal: &Goal) -> Result<Derivation> {
+        let own = self.statement;
+        let is_supposed = |hypothesis: &Hypothesis| hypotheses.contains(&hypothesis);
         let statement = Statement {
-            hypotheses: hypotheses.iter().copied().cloned().collect(),
-            goals: vec![Goal::of_claim("", goal.says.clone())],
-            amounts_to: self.statement.amounts_to.clone(),
-            ..Statement::default()
+            invariants: own.invariants.iter().filter(|own| is_supposed(own)).cloned().collect(),
+            computed: own.computed.clone().filter(|computed| is_supposed(&computed.hypothesis)),
+            goals: vec![goal.clone()],
+            ..own.clone()
         };
         let proof = prove(&statement).map_err(unproved)?;
         proof.goals().first().cloned().ok_or_else(|| "there is nothing to prove".to_string())
     }
 
-    fn intros(&self, variables: &[&str], hypotheses: usize) -> String {
-        let scales: Vec<_> = SCALES.iter().filter(|scale| variables.contains(scale)).collect();
-        let exponents: String = scales.iter().map(|scale| format!(" {}", exponent(scale))).collect();
-        let powers: String = numbered("A", scales.len()).iter().map(|label| format!(" {label}")).collect();
-        let labels = labels(hypotheses);
-        let variables: String = variables.iter().map(|var| format!(" {}", ascii(var))).collect();
-        format!("intros prec choice{exponents} P{variables} E{powers}{labels}.")
-    }
-
-    /// For all precisions and all numbers.
-    fn stated(
-        &self,
-        keyword: &str,
-        name: &str,
-        variables: &[&'static str],
-        hypotheses: &[&Hypothesis],
-        says: &str,
-        script: Script,
-    ) -> String {
-        let scales: Vec<_> = SCALES.iter().filter(|scale| variables.contains(scale)).collect();
-        let mut text = format!("\n{keyword} {name} :\n  forall (prec : Z) (choice : Z -> bool)");
-        if !scales.is_empty() {
-            let exponents: Vec<_> = scales.iter().map(|scale| exponent(scale)).collect();
-            let _ = write!(text, " ({} : Z)", exponents.join(" "));
+    /// No divisor is 0; empty if there is none.
+    fn defined(&self) -> String {
+        let divisors = divisors(self.statement.trees());
+        if divisors.is_empty() {
+            return String::new();
         }
-        let precision = ascii(PRECISION);
-        let _ = write!(text, ",\n  (2 <= prec)%Z ->\n  forall{} : R,\n", names(variables));
-        let _ = writeln!(text, "  {precision} = bpow radix2 prec ->");
-        for scale in scales {
-            let _ = writeln!(text, "  {} = bpow radix2 {} ->", ascii(scale), exponent(scale));
-        }
-        for hypothesis in hypotheses {
-            let _ = writeln!(text, "  {} ->", supposed(hypothesis, self.printer));
-        }
-        let _ = write!(text, "  {says}.\nProof.\n{}Qed.\n", script.into_text());
-        text
+        let name = format!("{}_defined", self.name);
+        let part = self.part(name, &self.hypotheses(Role::Begins), divisors.iter());
+        let plain = Printer { preferred: &[], ..self.printer };
+        let says: Vec<_> = divisors.iter().map(|divisor| format!("{} <> 0", plain.expr(divisor))).collect();
+        let mut script = Script::new();
+        script.line(&format!("{} functions.", part.intros()));
+        script.line("defined P E.");
+        part.text("Lemma", &says.join(" /\\\n  "), script, self.printer)
     }
 
     /// From models of what is rounded, or by what keeps order or scale.
     fn proof(&self, script: &mut Script, derivation: &Derivation) -> Result<()> {
         if let Derivation::Direct(direct) = derivation {
             match direct.because() {
-                Because::Same(_) => return self.scaled(script, direct.errors()),
-                Because::Order(_) => return Ok(script.line("by_order.")),
+                Because::Same(_) => return self.in_units(script, direct.errors()),
+                Because::Order(_) => {
+                    script.line("by_order.");
+                    return Ok(());
+                }
                 _ => {}
             }
         }
         let precision = ascii(PRECISION);
         script.line(&format!("pose proof (four_at_least prec {precision} P E) as N."));
-        for (i, rounding) in errors(derivation).iter().enumerate() {
-            let (name, of) = (ascii(rounding.error().0), self.printer.expr(rounding.of()).argument());
-            script.line(&format!(
-                "destruct (model prec choice {precision} P E {of}) as ({name} & B{0} & F{0}).",
-                i + 1
-            ));
+        for (rounding, i) in errors(derivation).iter().zip(1..) {
+            let (error, of) = (ascii(rounding.error().0), self.rounded(rounding));
+            let model = format!("model prec choice {precision} P E {of}");
+            script.line(&format!("destruct ({model}) as ({error} & B{i} & F{i})."));
         }
         script.line("rounded E.");
         script.line(&format!("assert (M : 0 <= {precision} - 4) by lra."));
         Ok(script.derivation(derivation)?)
     }
 
+    /// What is rounded, as an argument.
+    fn rounded(&self, rounding: &Rounding) -> String {
+        self.printer.expr(rounding.of()).argument()
+    }
+
     /// Each rounding in other units from that in the usual ones.
-    fn scaled(&self, script: &mut Script, errors: &[Rounding]) -> Result<()> {
+    fn in_units(&self, script: &mut Script, errors: &[Rounding]) -> Result<()> {
         let mut made = 0;
-        for (i, after) in errors.iter().enumerate() {
-            let Some(before) = errors[..i].iter().find(|known| known.error() == after.error()) else {
+        for (i, later) in errors.iter().enumerate() {
+            let Some(earlier) = errors[..i].iter().find(|known| known.error() == later.error()) else {
                 continue;
             };
-            let usual = after.scale().num().is_one() && after.scale().den().is_one();
-            let (before, after) = if usual { (after, before) } else { (before, after) };
-            let factor = after.scale().over(before.scale()).ok_or("a scale is 0")?;
+            let is_usual = later.scale().num().is_one() && later.scale().den().is_one();
+            let (usual, other) = if is_usual { (later, earlier) } else { (earlier, later) };
+            let factor = other.scale().over(usual.scale()).ok_or("a scale is 0")?;
             let factor = Expr::ratio(&factor).argument();
+            let [usual, other] =
+                [usual, other].map(|rounding| format!("fl prec choice {}", self.rounded(rounding)));
             made += 1;
-            let [after, before] = [after, before].map(|rounding| self.printer.expr(rounding.of()).argument());
-            script.line(&format!(
-                "assert (U{made} : fl prec choice {after} = {factor} * fl prec choice {before}) by (in_units {factor})."
-            ));
+            script.line(&format!("assert (U{made} : {other} = {factor} * {usual}) by (in_units {factor})."));
         }
         script.line("by_units.");
         Ok(())
     }
 
     /// A quantity is near another, and so the claim holds of the one that is computed.
-    fn computing(&self, computed: &Computed, goal: &Goal) -> Result<String> {
-        let of_computed = &self.statement.goals[0];
-        let (near, mut text) = self.part("Lemma", format!("{}_computed", self.name), of_computed)?;
-        let (rest, lemma) = self.part("Lemma", format!("{}_nearby", self.name), goal)?;
-        text += &lemma;
-        let by = self.printer.expr(&computed.by).argument();
-        let says_of = |says: &Says| match says {
-            Says::Within(of, bound) => {
-                let with = |tree: &Tree| tree.with(&[(computed.symbol, computed.by.clone())]);
-                Ok(Says::Within(with(of), with(bound)))
-            }
-            _ => Err("a computed quantity in a claim that is no bound"),
+    fn computing(&self, computed: &Computed, near: &Goal, goal: &Goal) -> Result<String> {
+        let (near, near_text) = self.lemma("Lemma", format!("{}_computed", self.name), near)?;
+        let (rest, rest_text) = self.lemma("Lemma", format!("{}_nearby", self.name), goal)?;
+        let Says::Within(of, bound) = &goal.says else {
+            return Err("a computed quantity in a claim that is no bound".into());
         };
-        let own = says_of(&goal.says)?;
-        let said = self.said(Role::Begins);
-        let variables = self.variables(said.iter().map(|h| &h.value).chain(own.trees()));
-        let labels = labels(said.len());
+        let [of, bound] = [of, bound].map(|tree| tree.with(&[(computed.symbol, computed.by.clone())]));
+        let theorem = self.theorem([&of, &bound].into_iter());
+        let (by, given) = (self.printer.expr(&computed.by).argument(), labels(theorem.hypotheses.len()));
+        let is_near = near.applied(&[], &given);
+        let proof = rest.applied(&[(computed.symbol, &by)], &format!("{given} ({is_near})"));
         let mut script = Script::new();
-        script.line(&self.intros(&variables, said.len()));
-        let inner = near.applied(&[], &labels);
-        script.line(&format!(
-            "exact ({}).",
-            rest.applied(&[(computed.symbol, &by)], &format!("{labels} ({inner})"))
-        ));
-        text += &self.stated("Theorem", self.name, &variables, &said, &says(&own, self.printer), script);
-        Ok(text)
-    }
-
-    /// A sequence that stays near another, by induction.
-    fn sequence(&self, sequence: &Sequence) -> Result<String> {
-        let Statement { goals, invariants, computed: Some(computed), .. } = self.statement else {
-            return Err("a sequence of which nothing is computed".into());
-        };
-        let (mut text, mut parts) = (String::new(), Vec::new());
-        for (i, goal) in goals.iter().enumerate() {
-            let (part, lemma) = self.part("Lemma", format!("{}_{}", self.name, i + 1), goal)?;
-            text += &lemma;
-            parts.push((goal.role, part));
-        }
-        let of = |role: Role| -> Vec<&Part> {
-            parts.iter().filter(|(own, _)| *own == role).map(|(_, part)| part).collect()
-        };
-        let ([start], [step], [of_q, of_x]) = (&sequence.start[..], &sequence.step[..], &invariants[..])
-        else {
-            return Err("a sequence with other invariants than of a power and a member".into());
-        };
-        let ([q_begins, x_begins], [q_continues, x_continues], [is_near], hence) =
-            (&of(Role::Begins)[..], &of(Role::Continues)[..], &of(Role::Computed)[..], of(Role::Step))
-        else {
-            return Err("a sequence with other goals than those of its invariants".into());
-        };
-        let said = self.said(Role::Begins);
-        let own = [start, step, &sequence.ratio, &computed.by].into_iter();
-        let bounds = sequence.within.iter().flat_map(|(of, bound)| [of, bound]);
-        let mut variables = self.variables(said.iter().map(|h| &h.value).chain(own).chain(bounds));
-        variables.retain(|var| ![MEMBERS[0], POWER, computed.symbol].contains(var));
-        let (arguments, iterates) = (names(&variables), format!("{}_iterates", self.name));
-        let [x, u, q] = [MEMBERS[0], computed.symbol, POWER].map(ascii);
-        let by = self.printer.expr(&computed.by);
-        let _ = write!(
-            text,
-            "\nFixpoint {iterates} (prec : Z) (choice : Z -> bool) ({} : R) (n : nat) : R :=\n  match n with\n  \
-             | O => {}\n  | S n =>\n      let {x} := {iterates} prec choice{arguments} n in\n      \
-             let {u} := {by} in\n      {}\n  end.\n",
-            arguments.trim_start(),
-            self.printer.expr(start),
-            self.printer.expr(step),
-        );
-
-        let given = labels(said.len());
-        let power = format!("({} ^ n)", self.printer.expr(&sequence.ratio).base());
-        let member = format!("({iterates} prec choice{arguments} n)");
-        let by_member = by.with(&x, &Expr::name(member.clone())).argument().to_string();
-        let at = |part: &Part, q_is: &str, x_is: &str| {
-            let replaced = [(POWER, q_is), (MEMBERS[0], &member), (computed.symbol, &by_member)];
-            let near = is_near.applied(&replaced, &format!("{given} (Q n) {x_is}"));
-            // Of the power, of the member, and of what is computed, as far as that is supposed.
-            let more = [" (Q n)".to_string(), format!(" {x_is}"), format!(" ({near})")];
-            let more = more[..part.hypotheses.len() - said.len()].concat();
-            part.applied(&replaced, &(given.clone() + &more))
-        };
-        let let_q = format!("let {q} := {power} in");
-        let let_x = format!("let {x} := {member} in");
-        let mut script = Script::new();
-        script.line(&self.intros(&variables, said.len()));
-        script.line(&format!("assert (Q : forall n : nat, {let_q} {}).", supposed(of_q, self.printer)));
-        script.block("{", |own| {
-            own.line("induction n as [ | n I]; cbn [pow]; cbv zeta in *.");
-            own.line(&format!("- exact ({}).", at(q_begins, "1", "")));
-            own.line(&format!("- exact ({}).", at(q_continues, &power, "").replace("(Q n)", "I")));
-            Ok(())
-        })?;
-        script
-            .line(&format!("assert (X : forall n : nat, {let_q} {let_x} {}).", supposed(of_x, self.printer)));
-        script.block("{", |own| {
-            own.line(&format!("induction n as [ | n I]; cbn [{iterates} pow]; cbv zeta in *."));
-            own.line(&format!("- exact ({}).", at(x_begins, "1", "")));
-            own.line(&format!("- exact ({}).", at(x_continues, &power, "I")));
-            Ok(())
-        })?;
-        script.line("intro n. cbv zeta. repeat apply conj.");
-        script.line("- exact (X n).");
-        hence.iter().for_each(|part| script.line(&format!("- exact ({}).", at(part, &power, "(X n)"))));
-        let bounds = sequence
-            .within
-            .iter()
-            .map(|(of, bound)| says(&Says::Within(of.clone(), bound.clone()), self.printer));
-        let bounds: Vec<_> = bounds.collect();
-        let says = format!(
-            "forall n : nat, {let_q}\n    {let_x}\n    let {u} := {by} in\n    {}",
-            bounds.join(" /\\\n    ")
-        );
-        text += &self.stated("Theorem", self.name, &variables, &said, &says, script);
-        Ok(text)
+        script.line(&theorem.intros());
+        script.line(&format!("exact ({proof})."));
+        let says = says(&Says::Within(of, bound), self.printer);
+        Ok(near_text + &rest_text + &theorem.text("Theorem", &says, script, self.printer))
     }
 }
 

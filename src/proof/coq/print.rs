@@ -1,32 +1,9 @@
-//! Formulas as Coq writes them.
+//! What formulas and functions are called in Coq.
 
-use crate::formula::{Formula, Registry, Relation};
+use super::expr::{Expr, Operator};
+use crate::formula::{Formula, Registry};
 use crate::number::Tree;
 use crate::number::tree::Step;
-use crate::proof::kernel::algebra::{Monomial, Poly, Ratio, Symbol};
-use std::collections::BTreeMap;
-use std::fmt;
-
-/// A formula in Coq.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Expr {
-    Name(String),
-    /// Not negative.
-    Number(String),
-    Neg(Box<Expr>),
-    Binary(Operator, Box<Expr>, Box<Expr>),
-    Power(Box<Expr>, u32),
-    /// A function and its arguments.
-    Call(String, Vec<Expr>),
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Operator {
-    Add,
-    Sub,
-    Mul,
-    Div,
-}
 
 /// Words that mean something else to Coq, or to our proofs.
 const TAKEN: [&str; 27] = [
@@ -72,167 +49,6 @@ pub(super) fn ascii(symbol: &str) -> String {
 /// A function by its path: `penalty::deflection` is penalty_deflection.
 pub(super) fn function(formula: &Formula) -> String {
     free(formula.name().replace("::", "_").replace('.', "_"))
-}
-
-impl Expr {
-    pub(super) fn name(name: impl Into<String>) -> Self {
-        Expr::Name(name.into())
-    }
-
-    fn int(n: i32) -> Self {
-        let size = Expr::Number(n.unsigned_abs().to_string());
-        if n < 0 { size.negated() } else { size }
-    }
-
-    fn negated(self) -> Self {
-        Expr::Neg(self.into())
-    }
-
-    pub(super) fn binary(operator: Operator, a: Expr, b: Expr) -> Self {
-        Expr::Binary(operator, a.into(), b.into())
-    }
-
-    pub(super) fn plus(self, other: Expr) -> Self {
-        Expr::binary(Operator::Add, self, other)
-    }
-
-    pub(super) fn times(self, other: Expr) -> Self {
-        if self.is(1) { other } else { Expr::binary(Operator::Mul, self, other) }
-    }
-
-    pub(super) fn over(self, other: Expr) -> Self {
-        if other.is(1) { self } else { Expr::binary(Operator::Div, self, other) }
-    }
-
-    fn is(&self, n: u8) -> bool {
-        matches!(self, Expr::Number(digits) if *digits == n.to_string())
-    }
-
-    fn simplified(self) -> Self {
-        use Operator::*;
-        match self {
-            Expr::Binary(Add, a, b) if a.is(0) => *b,
-            Expr::Binary(Add | Sub, a, b) if b.is(0) => *a,
-            Expr::Binary(Sub, a, b) if a.is(0) => b.negated(),
-            Expr::Binary(Mul, a, b) if a.is(0) || b.is(1) => *a,
-            Expr::Binary(Mul, a, b) if b.is(0) || a.is(1) => *b,
-            Expr::Binary(Div, a, b) if a.is(0) || b.is(1) => *a,
-            Expr::Neg(a) if a.is(0) => *a,
-            other => other,
-        }
-    }
-
-    /// A polynomial, as a sum of products of powers.
-    pub(super) fn poly(poly: &Poly) -> Self {
-        let mut sum: Option<Expr> = None;
-        for (exponent, part) in by_exponent(poly) {
-            let exponential = exponent.map(|e| Expr::Call("exp".into(), vec![Expr::ratio(e)]));
-            for (monomial, coefficient) in part.terms().rev() {
-                let number = |n: &rug::Integer| Expr::Number(n.clone().abs().to_string());
-                let mut factors: Vec<Expr> = monomial.powers().map(power).collect();
-                factors.extend(exponential.clone());
-                let size = number(coefficient.numer());
-                let product = factors.into_iter().fold(size, Expr::times);
-                let term = product.over(number(coefficient.denom()));
-                sum = Some(match (sum, coefficient.is_negative()) {
-                    (None, false) => term,
-                    (None, true) => term.negated(),
-                    (Some(sum), false) => sum.plus(term),
-                    (Some(sum), true) => Expr::binary(Operator::Sub, sum, term),
-                });
-            }
-        }
-        sum.unwrap_or(Expr::int(0))
-    }
-
-    pub(super) fn monomial(monomial: &Monomial) -> Self {
-        Expr::poly(&monomial.clone().into())
-    }
-
-    pub(super) fn ratio(ratio: &Ratio) -> Self {
-        Expr::poly(ratio.num()).over(Expr::poly(ratio.den()))
-    }
-
-    /// With a name replaced.
-    pub(super) fn with(&self, name: &str, by: &Expr) -> Self {
-        let with = |a: &Expr| Box::new(a.with(name, by));
-        match self {
-            Expr::Name(own) if own == name => by.clone(),
-            Expr::Name(_) | Expr::Number(_) => self.clone(),
-            Expr::Neg(a) => Expr::Neg(with(a)),
-            Expr::Binary(operator, a, b) => Expr::Binary(*operator, with(a), with(b)),
-            Expr::Power(a, n) => Expr::Power(with(a), *n),
-            Expr::Call(function, arguments) => {
-                Expr::Call(function.clone(), arguments.iter().map(|a| a.with(name, by)).collect())
-            }
-        }
-    }
-
-    /// What is said of its sign.
-    pub(super) fn relation(&self, relation: Relation) -> String {
-        match relation {
-            Relation::Positive => format!("0 < {self}"),
-            Relation::NonNegative => format!("0 <= {self}"),
-            Relation::Zero => format!("{self} = 0"),
-        }
-    }
-
-    /// Every formula that is this one but for one sign: a + for a − or the other way round, or a − lost.
-    pub(super) fn flips(&self) -> Vec<Expr> {
-        match self {
-            Expr::Neg(a) => {
-                let inside = a.flips().into_iter().map(Expr::negated);
-                std::iter::once((**a).clone()).chain(inside).collect()
-            }
-            Expr::Binary(operator, a, b) => {
-                let own = match operator {
-                    Operator::Add => Some(Operator::Sub),
-                    Operator::Sub => Some(Operator::Add),
-                    Operator::Mul | Operator::Div => None,
-                };
-                let own = own.map(|flipped| Expr::Binary(flipped, a.clone(), b.clone()));
-                let left = a.flips().into_iter().map(|a| Expr::Binary(*operator, a.into(), b.clone()));
-                let right = b.flips().into_iter().map(|b| Expr::Binary(*operator, a.clone(), b.into()));
-                own.into_iter().chain(left).chain(right).collect()
-            }
-            Expr::Power(a, n) => a.flips().into_iter().map(|a| Expr::Power(a.into(), *n)).collect(),
-            Expr::Call(function, arguments) => {
-                let with = |i: usize, flipped| {
-                    let mut all = arguments.clone();
-                    all[i] = flipped;
-                    Expr::Call(function.clone(), all)
-                };
-                let of = |i: usize| arguments[i].flips().into_iter().map(move |flipped| with(i, flipped));
-                (0..arguments.len()).flat_map(of).collect()
-            }
-            Expr::Name(_) | Expr::Number(_) => Vec::new(),
-        }
-    }
-
-    /// How strongly it holds together, on Coq's own scale: less is stronger.
-    fn level(&self) -> u32 {
-        match self {
-            Expr::Name(_) | Expr::Number(_) => 0,
-            Expr::Call(..) => 10,
-            Expr::Power(..) => 30,
-            Expr::Neg(_) => 35,
-            Expr::Binary(operator, ..) => operator.level(),
-        }
-    }
-
-    /// As an argument: in brackets unless it is one word.
-    pub(super) fn argument(&self) -> String {
-        if self.level() > 0 { format!("({self})") } else { self.to_string() }
-    }
-
-    /// To be raised to a power.
-    pub(super) fn base(&self) -> String {
-        if self.level() > 10 { format!("({self})") } else { self.to_string() }
-    }
-
-    fn within(&self, level: u32, f: &mut fmt::Formatter) -> fmt::Result {
-        if self.level() > level { write!(f, "({self})") } else { write!(f, "{self}") }
-    }
 }
 
 /// Prints formulas in the names of a registry's functions.
@@ -290,69 +106,6 @@ impl Printer<'_> {
     }
 }
 
-/// The parts of a polynomial with the same e^…, without it.
-pub(super) fn by_exponent(poly: &Poly) -> BTreeMap<Option<&Ratio>, Poly> {
-    let mut parts = BTreeMap::<_, Vec<_>>::new();
-    for (monomial, coefficient) in poly.terms() {
-        parts.entry(monomial.exponent()).or_default().push((monomial.bare(), coefficient.clone()));
-    }
-    parts.into_iter().map(|(exponent, terms)| (exponent, terms.into_iter().collect())).collect()
-}
-
-fn power((symbol, n): (Symbol, u32)) -> Expr {
-    let symbol = Expr::Name(ascii(symbol.0));
-    match n {
-        1 => symbol,
-        // As a square wherever it is one, so that its sign is seen.
-        n if n % 2 == 0 && n > 2 => Expr::Power(Expr::Power(symbol.into(), n / 2).into(), 2),
-        n => Expr::Power(symbol.into(), n),
-    }
-}
-
-impl Operator {
-    fn level(self) -> u32 {
-        match self {
-            Operator::Add | Operator::Sub => 50,
-            Operator::Mul | Operator::Div => 40,
-        }
-    }
-}
-
-impl fmt::Display for Expr {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        match self {
-            Expr::Name(text) | Expr::Number(text) => f.write_str(text),
-            Expr::Neg(a) => {
-                f.write_str("- ")?;
-                a.within(34, f)
-            }
-            Expr::Binary(operator, a, b) => {
-                let sign = match operator {
-                    Operator::Add => "+",
-                    Operator::Sub => "-",
-                    Operator::Mul => "*",
-                    Operator::Div => "/",
-                };
-                a.within(operator.level(), f)?;
-                write!(f, " {sign} ")?;
-                b.within(operator.level() - 1, f)
-            }
-            Expr::Power(a, n) => {
-                a.within(10, f)?;
-                write!(f, " ^ {n}")
-            }
-            Expr::Call(function, arguments) => {
-                f.write_str(function)?;
-                for argument in arguments {
-                    f.write_str(" ")?;
-                    argument.within(0, f)?;
-                }
-                Ok(())
-            }
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -389,16 +142,6 @@ mod tests {
         assert_eq!(names.map(ascii), letters);
         let fix = Formula::new("fix", "", &["x"], Tree::symbol("x"));
         assert_eq!(function(&fix), "fix_");
-    }
-
-    #[test]
-    fn polynomials_are_sums_of_powers() {
-        let x = |name| Poly::symbol(Symbol(name));
-        let square = x("a") * x("a");
-        let fourth = Poly::constant(-3) * &square * &square;
-        assert_eq!(Expr::poly(&(fourth + x("b"))).to_string(), "- (3 * (a ^ 2) ^ 2) + b");
-        assert_eq!(Expr::poly(&(square * Poly::constant((1, 2)))).to_string(), "a ^ 2 / 2");
-        assert_eq!(Expr::poly(&Poly::zero()).to_string(), "0");
     }
 
     #[test]

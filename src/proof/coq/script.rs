@@ -4,7 +4,8 @@
 //! bracket has, and a form of each quantity from which its sign can be read off. None of it is believed:
 //! each step is a goal that Coq closes by itself, or does not.
 
-use super::print::{Expr, ascii, by_exponent};
+use super::expr::{Expr, by_exponent};
+use super::print::ascii;
 use crate::formula::statement::two_bits;
 use crate::number::Tree;
 use crate::number::tree::Step;

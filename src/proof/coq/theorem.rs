@@ -1,5 +1,6 @@
 //! A claim as theorem and lemmas, with their proofs.
 
+use super::expr::Expr;
 use super::law::Law;
 use super::lemma::{
     Defined, Lemma, Result, depends, derivation, divisors, divisors_script, labels, names, numbered, says,
@@ -13,7 +14,7 @@ use crate::formula::statement::{Role, Statement};
 use crate::formula::{Claim, Hypothesis, Kind, Relation};
 use crate::number::Tree;
 use crate::number::tree::Step;
-use crate::proof::coq::print::Expr;
+
 use std::fmt::Write;
 
 /// A claim, to be printed.
