@@ -302,8 +302,8 @@ fn found(statement: &Statement, point: &Point) -> Option<Counterexample> {
     }
 }
 
-/// Where a bound is used up most, among some points, and which share of it that is; `None` if nothing is said of
-/// bounds.
+/// Where a bound is used up most, among some points, and which share of it that is; `None` if nothing is
+/// said of bounds.
 pub fn sharpest(statement: &Statement) -> Option<(Point, Exact)> {
     let symbols = symbols(statement);
     let raw = raw_points(&statement.hypotheses, &symbols).take(SHARP);

@@ -347,7 +347,8 @@ mod tests {
 
 1.13 rate FAILED in f32, f64
   c = 1, m = 1/2, g = -1/3, l = 7/3, H = 7/3, u = 7/3, v = 7/3, δu = 7/3,
-  α = 7/3, ε = 7/3, ε₄ = 7/3, λ = 7/3, q = 7/3, k = 7/3, t = 7/3, tol = 7/3
+  α = 7/3, ε = 7/3, ε₄ = 7/3, λ = 7/3, q = 7/3, k = 7/3, t = 7/3, tol = 7/3,
+  2ᵖ = 7/3
   contact solve --scalar exact --stiffness 1 --mass 1/2 --gravity -1/3 \
       --free-length 7/3 --height 7/3 --method penalty --penalty 7/3
 
