@@ -198,7 +198,8 @@ impl Context {
             }
             Says::Within(of, bound) => {
                 let (of, bound) = (reader.read(of)?, reader.read(bound)?);
-                Because::Within(reader.not_negative(&bound - &of)?, reader.not_negative(bound + of)?)
+                let [above, below] = self.reduce(&bound).both_sides(&self.reduce(&of));
+                Because::Within(reader.not_negative(above)?, reader.not_negative(below)?)
             }
             Says::Derivative(of, by, is) => {
                 let Dual { derivative, .. } =

@@ -209,7 +209,7 @@ impl Poly {
 
     /// Does a monomial occur in it, or in its exponents?
     pub fn contains(&self, pivot: &Monomial) -> bool {
-        self.0.keys().any(|m| m.bare().over(pivot).is_some()) || self.exponents().any(|e| e.contains(pivot))
+        self.0.keys().any(|m| m.has(pivot)) || self.exponents().any(|e| e.contains(pivot))
     }
 }
 
@@ -265,16 +265,28 @@ impl Ratio {
     }
 
     fn plus(&self, other: &Self) -> Self {
+        let (a, b, den) = self.alongside(other);
+        Ratio::new(a + b, den)
+    }
+
+    /// The two with one denominator.
+    fn alongside(&self, other: &Self) -> (Poly, Poly, Poly) {
         if self.den == other.den {
-            return Ratio::new(&self.num + &other.num, self.den.clone());
+            return (self.num.clone(), other.num.clone(), self.den.clone());
         }
         if let Some(k) = other.den.over(&self.den) {
-            return Ratio::new(&self.num * k + &other.num, other.den.clone());
+            return (&self.num * k, other.num.clone(), other.den.clone());
         }
         if let Some(k) = self.den.over(&other.den) {
-            return Ratio::new(&other.num * k + &self.num, self.den.clone());
+            return (self.num.clone(), &other.num * k, self.den.clone());
         }
-        Ratio::new(&self.num * &other.den + &other.num * &self.den, &self.den * &other.den)
+        (&self.num * &other.den, &other.num * &self.den, &self.den * &other.den)
+    }
+
+    /// a − b and a + b, not reduced: what is long takes less time so.
+    pub fn both_sides(&self, other: &Self) -> [Self; 2] {
+        let (a, b, den) = self.alongside(other);
+        [&a - &b, a + b].map(|num| Ratio { num, den: den.clone() })
     }
 
     fn times(&self, other: &Self) -> Self {

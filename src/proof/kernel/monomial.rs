@@ -95,6 +95,11 @@ impl Monomial {
         Some(Monomial { powers, exponent: self.exponent.clone() })
     }
 
+    /// Are all powers of the other there? Its e^… is not asked for.
+    pub fn has(&self, other: &Self) -> bool {
+        other.powers().all(|(x, n)| self.degree(x) >= n)
+    }
+
     /// Without its e^….
     pub fn bare(&self) -> Self {
         Monomial { powers: self.powers.clone(), exponent: None }

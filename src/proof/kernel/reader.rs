@@ -97,7 +97,10 @@ impl<'a> Reader<'a> {
         let largest = self.context.largest();
         // What differs by a power of two rounds alike.
         let (value, scale) = without_scales(value);
-        let same = self.rounded.iter().find(|(known, _)| (known - &value).is_zero());
+        // What is equal speaks of the same, unless it is not reduced; then it is not seen to be equal.
+        let symbols = value.symbols();
+        let mut alike = self.rounded.iter().filter(|(known, _)| known.symbols() == symbols);
+        let same = alike.find(|(known, _)| (known - &value).is_zero());
         let error = match same {
             Some((_, error)) => *error,
             None => {
