@@ -88,9 +88,9 @@ pub fn exact_experiments() -> Vec<Experiment<Exact>> {
     list! {
         "1.33" "steps" [stiffness penalty tolerance] |x| count(x, Plane::Unilateral);
         "1.33" "steps-bilateral" [stiffness penalty tolerance] |x| count(x, Plane::Bilateral);
-        "1.33" "tie-goes-on" [stiffness penalty tolerance] |x| tie(x);
-        "note 4" "closed-form" [stiffness penalty touching] |x| unilateral_closed_form(x);
-        "note 4" "release" [stiffness penalty separated] |x| release(x);
+        "1.33" "tie-goes-on" [stiffness penalty tolerance] tie;
+        "note 4" "closed-form" [stiffness penalty touching] unilateral_closed_form;
+        "note 4" "release" [stiffness penalty separated] release;
     }
 }
 

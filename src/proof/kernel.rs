@@ -199,7 +199,7 @@ impl Context {
             Says::Within(of, bound) => {
                 let (of, bound) = (reader.read(of)?, reader.read(bound)?);
                 let [above, below] = self.reduce(&bound).both_sides(&self.reduce(&of));
-                Because::Within(reader.not_negative(above)?, reader.not_negative(below)?)
+                Because::Within([reader.not_negative(above)?, reader.not_negative(below)?].into())
             }
             Says::Derivative(of, by, is) => {
                 let Dual { derivative, .. } =

@@ -191,7 +191,7 @@ impl<'a> Paper<'a> {
                 lines.push("rounding keeps order, and so does each step, since".to_string());
                 lines.extend(signs.iter().flat_map(|signed| self.signed(signed)));
             }
-            Because::Within(above, below) => lines.extend(self.within(above, below)),
+            Because::Within(sides) => lines.extend(self.within(sides)),
             Because::Derivative(value) => lines.push(format!(
                 "dual numbers differentiate it to {}, which is the right side",
                 self.order().ratio(value)
@@ -243,8 +243,8 @@ impl<'a> Paper<'a> {
         let given = first.supposed().iter().filter(|supposed| supposed.given().is_some());
         lines.extend(given.filter_map(|supposed| self.supposed(supposed)));
         for (case, direct) in all {
-            let Because::Within(above, below) = direct.because() else { return None };
-            let within = self.within(above, below);
+            let Because::Within(sides) = direct.because() else { return None };
+            let within = self.within(sides);
             if case.is_empty() {
                 lines.extend(within);
             } else {
@@ -256,7 +256,7 @@ impl<'a> Paper<'a> {
     }
 
     /// What a bound exceeds a size by, on either side.
-    fn within(&self, above: &Signed, below: &Signed) -> [String; 2] {
+    fn within(&self, [above, below]: &[Signed; 2]) -> [String; 2] {
         [("less it", above), ("and it", below)].map(|(what, signed)| {
             let value = self.order().ratio_or_size(signed.value());
             let how = match [signed.num(), signed.den()].map(ends).iter().max() {
@@ -342,7 +342,8 @@ fn means(derivation: &Derivation) -> &'static str {
             Because::Order(_) => "order",
             Because::Derivative(..) => "derivative",
             Because::Limit { .. } => "limit",
-            Because::Sign(signed) | Because::Within(signed, _) => match signed.num().rule() {
+            Because::Within(_) => "bound",
+            Because::Sign(signed) => match signed.num().rule() {
                 Rule::Sizes(_) | Rule::Ends { .. } => "rounding",
                 Rule::Terms => "sign by terms",
                 Rule::Factor(_, rest) if matches!(rest.rule(), Rule::Slope { .. }) => "sign by slope",

@@ -180,13 +180,15 @@ impl<'a, T: Scalar + Real + ToExact> Floats<'a, T> {
             }
         }
         let (mut member, ratio) = (self.compute(start)?, self.value(ratio)?);
+        // The bounds are the same for all k.
+        let most: Vec<_> = bounds.iter().map(|(_, bound)| self.value(bound)).collect::<Option<_>>()?;
         let mut worst = Trial::Undecided;
         for _ in 0..STEPS {
             self.computed = vec![(MEMBERS[0], member)];
             let number = self.compute(&computed.by)?;
             self.computed.push((computed.symbol, number));
-            for (of, bound) in bounds {
-                worst = worse(worst, within(self.value(of)?, self.value(bound)?));
+            for ((of, _), bound) in bounds.iter().zip(&most) {
+                worst = worse(worst, within(self.value(of)?, bound.clone()));
             }
             member = self.compute(step)?;
             self.power = &self.power * &ratio;

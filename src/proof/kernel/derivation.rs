@@ -201,7 +201,7 @@ pub enum Because {
     /// A sign.
     Sign(Signed),
     /// What the bound exceeds the size by, on either side.
-    Within(Signed, Signed),
+    Within(Box<[Signed; 2]>),
     /// One rounded formula is no less than another, because of these signs: rounding keeps order.
     Order(Vec<Signed>),
     /// The derivative, as dual numbers compute it, and the other side are this.

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use std::sync::Arc;
 
 /// A quantity by its name.
-#[derive(Clone, Copy, Debug, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Eq)]
 pub struct Symbol(pub &'static str);
 
 impl PartialEq for Symbol {
@@ -65,7 +65,8 @@ impl Monomial {
             powers.push(match (own.peek(), others.peek()) {
                 (Some((x, n)), Some((y, m))) if x == y => {
                     let sum = (*x, n.checked_add(*m).expect("a power fits 32 bits"));
-                    (own.next(), others.next());
+                    own.next();
+                    others.next();
                     sum
                 }
                 (Some((x, _)), Some((y, _))) if y < x => others.next().expect("peeked"),

@@ -97,9 +97,12 @@ impl<'a> Reader<'a> {
         let largest = self.context.largest();
         // What differs by a power of two rounds alike.
         let (value, scale) = without_scales(value);
-        // What is equal speaks of the same, unless it is not reduced; then it is not seen to be equal.
-        let symbols = value.symbols();
-        let mut alike = self.rounded.iter().filter(|(known, _)| known.symbols() == symbols);
+        // What is equal has the same errors in it, if none cancels; then it is not seen to be equal.
+        let errors = |value: &Ratio| -> Vec<_> {
+            value.symbols().into_iter().filter(|x| ERRORS.contains(&x.0)).collect()
+        };
+        let own = errors(&value);
+        let mut alike = self.rounded.iter().filter(|(known, _)| errors(known) == own);
         let same = alike.find(|(known, _)| (known - &value).is_zero());
         let error = match same {
             Some((_, error)) => *error,
