@@ -259,6 +259,8 @@ fn copy() -> (PathBuf, Vec<Change>, Vec<Change>) {
                     made.push(change);
                     edits.entry(place).or_default().push((made.len(), edited));
                 }
+                // The steps of |x| are written elsewhere.
+                None if is_size(&text, &change) => {}
                 None => left.push(change),
             }
         }
@@ -309,6 +311,12 @@ fn function(change: &Change) -> String {
     let head = before.iter().rev().find_map(|line| line.strip_prefix("pub fn ")).unwrap();
     let module = Path::new(change.site.file).file_stem().unwrap().to_str().unwrap();
     format!("{module}::{}", head.split(['<', '(']).next().unwrap())
+}
+
+/// Is it a step of `x.abs()`?
+fn is_size(text: &str, change: &Change) -> bool {
+    let line = text.lines().nth(change.site.line as usize - 1).unwrap();
+    line.chars().skip(change.site.column as usize - 1).collect::<String>().starts_with("abs()")
 }
 
 /// The first finding of a report.

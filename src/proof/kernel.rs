@@ -51,7 +51,7 @@ use self::algebra::{Poly, Ratio, Symbol};
 use self::context::{Context, NAMES};
 use self::reader::Reader;
 use self::sign::{ERRORS, Sign, is_small, sign};
-use crate::formula::claim::{MEMBERS, POWER};
+use crate::formula::claim::{MEMBERS, POWER, PRECISION, SCALES};
 use crate::formula::statement::{Goal, Role, Says, Sequence, Statement};
 use crate::formula::{Hypothesis, Relation};
 use crate::number::tree::{self, Step};
@@ -83,7 +83,8 @@ pub fn prove(statement: &Statement) -> Result<Proof, Why> {
     if roundings.len() > ERRORS.len() {
         return Err(Why::TooMany);
     }
-    if !roundings.is_empty() && varies(statement) {
+    // What is computed varies with what it is computed from, and is a symbol all the same.
+    if (!roundings.is_empty() || statement.computed.is_some()) && varies(statement) {
         return Err(Why::Jump);
     }
     let context = Context::of(roundings);
@@ -102,8 +103,11 @@ pub fn prove(statement: &Statement) -> Result<Proof, Why> {
 }
 
 /// A name in a statement that is not its to use: one that the kernel has for the quantity of a hypothesis,
-/// or an induction for its members; and what a sequence starts from, is multiplied by or tends to depends on
-/// no power.
+/// or an induction for its members.
+///
+/// What a sequence starts from, is multiplied by, tends to or is near depends on no power, no member and
+/// nothing that is computed at each step; of a member nothing is supposed but what its invariants say, and
+/// where what is computed from it is.
 fn kept(statement: &Statement) -> Option<&'static str> {
     let variables = statement.goals.iter().filter_map(|goal| goal.says.variable());
     let symbols = statement.trees().flat_map(Tree::symbols).chain(variables);
@@ -111,15 +115,22 @@ fn kept(statement: &Statement) -> Option<&'static str> {
     let drifts = statement.amounts_to.as_ref().is_some_and(|sequence| !sequence.within.is_empty());
     let member = |name: &&str| MEMBERS.contains(name) && !(drifts && *name == MEMBERS[0]);
     let own = |name: &&'static str| NAMES.contains(name) || is_small(Symbol(name)) || member(name);
-    symbols.into_iter().find(own).or_else(|| {
+    let computed = statement.computed.as_ref().map(|computed| computed.symbol);
+    // Nothing is computed that has a meaning of its own.
+    let meant =
+        |name: &&str| [POWER, PRECISION].contains(name) || [&MEMBERS[..], &SCALES].concat().contains(name);
+    symbols.into_iter().find(own).or(computed.filter(meant)).or_else(|| {
         let Sequence { start, ratio, limit, member, within, .. } = statement.amounts_to.as_ref()?;
-        let fixed = start.iter().chain([ratio]).chain(limit).flat_map(Tree::symbols);
+        let symbols_of = |tree: &Tree| tree.symbols().into_iter();
+        let fixed = start.iter().chain([ratio]).chain(limit).flat_map(symbols_of);
+        let fixed = fixed.filter(|name| *name == POWER || MEMBERS.contains(name) || Some(*name) == computed);
+        let own_bound = within.first().map(|(_, bound)| bound);
+        let near = member.iter().chain(own_bound).flat_map(symbols_of);
+        let near = near.filter(|name| *name == MEMBERS[0] || Some(*name) == computed);
         let bounds = within.iter().map(|(_, bound)| bound);
-        // Of a member nothing is supposed but what its invariants say, and where what is computed from it is.
         let supposed = statement.hypotheses.iter().map(|given| &given.value);
-        let of_member = member.iter().chain(bounds).chain(supposed).flat_map(Tree::symbols);
-        let of_member = of_member.filter(|name| *name == MEMBERS[0]);
-        fixed.filter(|name| *name == POWER || MEMBERS.contains(name)).chain(of_member).next()
+        let of_member = bounds.chain(supposed).flat_map(symbols_of).filter(|name| *name == MEMBERS[0]);
+        fixed.chain(near).chain(of_member).next()
     })
 }
 
@@ -247,8 +258,11 @@ impl Context {
     /// Everything supposed has to stay true as x grows: of x itself nothing but that it is positive.
     fn limit(&self, of: Ratio, x: Symbol, to: Ratio) -> Result<Because, Why> {
         let none = || Why::NoLimit(of.clone());
-        let touched =
-            |s: &Supposed| s.value.symbols().contains(&x) && !matches!(&s.used, Used::Symbol(y) if *y == x);
+        let spoken_of = |s: &Supposed| {
+            let given = s.given.as_ref().is_some_and(|given| given.value.symbols().contains(x.0));
+            given || s.value.symbols().contains(&x)
+        };
+        let touched = |s: &Supposed| spoken_of(s) && !matches!(&s.used, Used::Symbol(y) if *y == x);
         if self.supposed.iter().any(touched) || to.symbols().contains(&x) {
             return Err(none());
         }

@@ -52,6 +52,9 @@ impl<'a> Reader<'a> {
     /// What is divided by, which is not 0.
     fn divisor(&mut self, tree: &Tree) -> Result<Ratio, Why> {
         let divisor = self.read(tree)?;
+        if divisor.is_zero() {
+            return Err(Why::MightVanish(divisor));
+        }
         if !divisor.is_number() && self.divisors.iter().all(|(known, _)| known != tree) {
             let signed = self.context.sign(self.context.reduce(&divisor));
             let signed = signed.filter(|s| s.num.sign().is_strict());

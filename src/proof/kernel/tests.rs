@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::formula::Claim;
-use crate::formula::claim::{PRECISION, drift, induction, vanishing};
+use crate::formula::claim::{PRECISION, derivative, drift, induction, positive, vanishing};
 use crate::formula::statement::two_bits;
 use crate::number::{Exponential, Field, PositivePart};
 use num_traits::{One, Zero};
@@ -315,4 +315,52 @@ fn of_a_member_nothing_is_supposed_but_that_it_is_near() {
     assert!(matches!(drifts(&[not_below_zero(x("x₁") - int(7))]), Err(Why::Reserved("x₁"))));
     // Not even if it is true at the start.
     assert!(matches!(drifts(&[not_below_zero(x("x₁"))]), Err(Why::Reserved("x₁"))));
+}
+
+/// What is computed at each step is no constant, and has no other meaning.
+#[test]
+fn what_is_computed_is_neither_a_power_nor_a_constant() {
+    let [q, u, v] = ["q", "u", "v"].map(x);
+    let refused = |claim: Claim| matches!(prove(&Statement::of(&claim)), Err(Why::Reserved(_) | Why::Jump));
+    // x₀ = 1, and each x is one more: no powers of 2, although q would be 1 at each step.
+    let at_one = Hypothesis::near(&q, int(1), int(0));
+    let counts = induction("counts", [&at_one], 2, [int(1)], |[x]| [x + int(1)], [q.clone()]);
+    assert!(refused(counts.computing(&q, 1)));
+    // A sequence that stays as it is, near what is another at each step.
+    let near_q = Hypothesis::near(&u, &q, int(0));
+    let stays = |near| drift("stays", [&near_q], 2, &u, Tree::clone, (near, int(0)), |_| []);
+    assert!(refused(stays(u.clone()).computing(&u, &q)));
+    let same = induction("same", [&near_q], 2, [u.clone()], |[x]| [x], [u.clone()]);
+    assert!(refused(same.computing(&u, &q)));
+    // Its slope is not 0, and q (1/q) does not vanish.
+    let near_v = Hypothesis::near(&u, &v, int(0));
+    assert!(refused(derivative("slope", [&near_v], &u, &v, 0).computing(&u, &v)));
+    let inverse = Hypothesis::near(&u, int(1) / &q, int(0));
+    let one = vanishing("one", [&above_zero(q.clone()), &inverse], int(1) / int(2), &q * &u, 0);
+    assert!(refused(one.computing(&u, int(1) / &q)));
+    // Nor is it a power of two because it is called so.
+    for name in ["2ᵃ", PRECISION] {
+        let near = Hypothesis::near(&x(name), &v, int(0));
+        assert!(refused(positive("power", [&near], x(name)).computing(&x(name), &v)), "{name}");
+    }
+}
+
+#[test]
+fn what_is_compared_is_defined() {
+    let quotient = |divisor: Tree| (x("u") / divisor).nearest();
+    let difference = |a: Tree| Says::Sign(Relation::NonNegative, &a - &a);
+    assert!(rounded(vec![], difference(quotient(int(2)))));
+    assert!(!rounded(vec![], difference(quotient(x("c") - x("c")))));
+    assert!(!rounded(vec![], difference(quotient(int(0)))));
+    let equal = Hypothesis::new(Relation::Zero, x("c") - x("v"));
+    assert!(!rounded(vec![equal], difference(quotient(x("c") - x("v")))));
+}
+
+/// u is between −1/v and 1/v: for all v, or what it is would tend to 0 without being any number.
+#[test]
+fn no_interval_shrinks_with_what_tends_to_infinity() {
+    let [u, v] = ["u", "v"].map(x);
+    let near = Hypothesis::near(&u, int(0), int(1) / &v);
+    let shrinks = Says::Limit(u, "v", int(0));
+    assert!(!proved(vec![above_zero(v), near], shrinks));
 }
