@@ -83,7 +83,18 @@ proptest! {
     #[test]
     fn powers_of_two_in_f32(case in any_state(NARROW), exponents in prop::array::uniform3(-6..=6i32)) {
         let [length, mass, force] = exponents.map(|n| 2f32.powi(n));
-        units_do_not_matter(&case.rounded(&1f32), &Units { length, mass, force })?;
+        let case = case.rounded(&1f32);
+        // The radius of what is smaller is subnormal, in the one units or the other.
+        let is_small = |x: f32| x != 0.0 && x.abs() < 2f32.powi(-90);
+        let solutions = case.methods(30).into_iter().flat_map(|method| {
+            [solve::<f32>, solve_bilateral::<f32>].map(|solve| solve(&case.system, &method).unwrap())
+        });
+        let ends = solutions.flat_map(|solution| {
+            let Bounds { deflection, penetration, contact_force } = solution.bounds;
+            [deflection, penetration, contact_force].map(|interval| [interval.lower, interval.upper])
+        });
+        prop_assume!(!ends.flatten().any(is_small));
+        units_do_not_matter(&case, &Units { length, mass, force })?;
     }
     #[test]
     fn powers_of_two_in_f64(case in any_state(WIDE), exponents in prop::array::uniform3(-100..=100i32)) {
