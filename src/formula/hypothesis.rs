@@ -79,13 +79,12 @@ impl Hypothesis {
         Hypothesis { value, relation, solved_for }
     }
 
-    /// The same, solved for another symbol: one that the quantity is linear in.
-    ///
-    /// # Panics
-    /// The quantity does not depend on it.
+    /// The same, solved for another symbol: one that the quantity is linear in. If it does not depend on it, as
+    /// after a mistake in the quantity, it is solved for what it was.
     pub fn solved_for(self, symbol: &Tree) -> Self {
-        assert!(self.value.symbols().contains(name_of(symbol)), "{self} does not depend on {symbol}");
-        Hypothesis { solved_for: name_of(symbol), ..self }
+        let depends = self.value.symbols().contains(name_of(symbol));
+        let solved_for = if depends { name_of(symbol) } else { self.solved_for };
+        Hypothesis { solved_for, ..self }
     }
 
     /// A symbol is in an interval: from `lower` to `upper`, or the other way round.
@@ -246,6 +245,7 @@ mod tests {
         let stiffer = Hypothesis::new(Relation::Positive, &c - &eps);
         assert_eq!((stiffer.solved_for, stiffer.solution(&at, &0.0)), ("c", Some(2.0)));
         assert_eq!(stiffer.clone().solved_for(&eps).solution(&at, &0.0), Some(3.0));
+        assert_eq!(stiffer.clone().solved_for(&Tree::symbol("x")), stiffer);
         let other = Hypothesis { solved_for: "x", ..stiffer };
         assert_eq!(other.solution(&at, &0.0), None);
     }
