@@ -79,8 +79,8 @@ impl Hypothesis {
         Hypothesis { value, relation, solved_for }
     }
 
-    /// The same, solved for another symbol: one that the quantity is linear in. If it does not depend on it, as
-    /// after a mistake in the quantity, it is solved for what it was.
+    /// The same, solved for another symbol: one that the quantity is linear in. If it does not depend on it,
+    /// as after a mistake in the quantity, it is solved for what it was.
     pub fn solved_for(self, symbol: &Tree) -> Self {
         let depends = self.value.symbols().contains(name_of(symbol));
         let solved_for = if depends { name_of(symbol) } else { self.solved_for };
