@@ -8,12 +8,16 @@ use spring_mass_contact::formula::statement::two_bits;
 use spring_mass_contact::formula::{Hypothesis, Relation, Statement};
 use spring_mass_contact::number::Exact;
 use spring_mass_contact::number::tree::{Step, piecewise};
-use spring_mass_contact::proof::controls::{Effect, Without, changes, controls};
+use spring_mass_contact::proof::controls::{Controls, Effect, Without, changes, controls};
 use spring_mass_contact::proof::refute::{Point, Verdict, check, planted_points, raw_points};
 use spring_mass_contact::proof::{Counterexample, prove};
 use spring_mass_contact::rug::Rational;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+/// The controls of all statements, for the tests that read them.
+static CONTROLS: LazyLock<Controls> = LazyLock::new(|| controls(&statements(), registry()));
 
 fn symbols() -> Vec<&'static str> {
     registry().symbols_of(statements().iter().flat_map(Statement::trees))
@@ -29,7 +33,7 @@ fn value(hypothesis: &Hypothesis, point: &Point) -> Exact {
 
 #[test]
 fn no_change_of_a_formula_goes_unnoticed() {
-    let controls = controls(&statements(), registry());
+    let controls = &*CONTROLS;
     let unnoticed = controls.changes.iter().filter(|(_, effect)| matches!(effect, Effect::Unnoticed));
     let unnoticed: Vec<_> = unnoticed.map(|(change, _)| change.to_string()).collect();
     assert!(unnoticed.is_empty(), "{unnoticed:#?}");
@@ -38,7 +42,7 @@ fn no_change_of_a_formula_goes_unnoticed() {
 
 #[test]
 fn what_changes_nothing_is_only_the_order_in_a_square() {
-    for (change, effect) in controls(&statements(), registry()).changes {
+    for (change, effect) in &CONTROLS.changes {
         if matches!(effect, Effect::Unchanged) {
             assert!(change.to_string().ends_with("a − b → b − a"), "{change}");
         }
@@ -47,8 +51,7 @@ fn what_changes_nothing_is_only_the_order_in_a_square() {
 
 #[test]
 fn no_hypothesis_is_needless() {
-    let statements = statements();
-    for dropped in controls(&statements, registry()).dropped {
+    for dropped in &CONTROLS.dropped {
         let what = format!("{} {}: {}", dropped.equation, dropped.name, registry().supposed(&dropped.given));
         let needed = matches!(dropped.without, Without::Refuted(_)) || dropped.is_of_precision();
         assert!(needed, "{what}: {:?}", dropped.without);
@@ -161,10 +164,9 @@ fn points_reach_all_that_hypotheses_allow() {
 #[test]
 fn a_counterexample_has_all_hypotheses_but_the_dropped_one() {
     let statements = statements();
-    let dropped = controls(&statements, registry()).dropped;
-    for dropped in dropped.into_iter().filter(|dropped| !dropped.is_of_precision()) {
+    for dropped in CONTROLS.dropped.iter().filter(|dropped| !dropped.is_of_precision()) {
         let what = format!("{} {} without {}", dropped.equation, dropped.name, dropped.given);
-        let Without::Refuted(counterexample) = dropped.without else { panic!("{what}") };
+        let Without::Refuted(counterexample) = &dropped.without else { panic!("{what}") };
         // An induction's invariants may go with the hypothesis.
         let of =
             statements.iter().find(|s| (s.equation, s.name) == (dropped.equation, dropped.name)).unwrap();
@@ -178,7 +180,7 @@ fn a_counterexample_has_all_hypotheses_but_the_dropped_one() {
 
 #[test]
 fn counterexamples_are_small() {
-    let controls = controls(&statements(), registry());
+    let controls = &*CONTROLS;
     let noticed = controls.changes.iter().filter_map(|(change, outcome)| match outcome {
         Effect::Noticed { counterexample, .. } => Some((change.to_string(), counterexample)),
         Effect::Unchanged | Effect::Unnoticed => None,

@@ -200,17 +200,14 @@ impl Context {
                 Because::Order(order::at_least(&mut reader, a, b)?)
             }
             Says::Sign(relation, of) => {
-                let value = self.reduce(&reader.read(of)?);
-                let signed = self.sign(value.clone()).ok_or_else(|| Why::NoSign(value.clone()))?;
-                if !signed.sign().implies((*relation).into()) {
-                    return Err(Why::WrongSign(value, signed.sign()));
-                }
-                Because::Sign(signed)
+                let value = reader.read(of)?;
+                Because::Sign(reader.of_sign(value, (*relation).into())?)
             }
             Says::Within(of, bound) => {
                 let (of, bound) = (reader.read(of)?, reader.read(bound)?);
                 let [above, below] = self.reduce(&bound).both_sides(&self.reduce(&of));
-                Because::Within([reader.not_negative(above)?, reader.not_negative(below)?].into())
+                let not_negative = |value| reader.of_sign(value, Sign::NonNegative);
+                Because::Within([not_negative(above)?, not_negative(below)?].into())
             }
             Says::Derivative(of, by, is) => {
                 let Dual { derivative, .. } =

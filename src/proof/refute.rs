@@ -125,6 +125,9 @@ pub fn check(statement: &Statement, point: &Point) -> Verdict {
 /// An induction is about q = ρᵏ, and no step says anything of another q; its invariants are a means and not
 /// an end. And where |ρ| ≥ 1 a sequence has the limit all the same, if it has that value all along.
 fn check_goals(statement: &Statement, point: &Point) -> Verdict {
+    if let Some(sequence) = statement.amounts_to.as_ref().filter(|sequence| !sequence.within.is_empty()) {
+        return follow(statement, sequence, point).unwrap_or_else(|verdict| verdict);
+    }
     let powers = match &statement.amounts_to {
         Some(Sequence { ratio, limit: None, .. }) => {
             let ratio = exact(ratio, point);
@@ -133,9 +136,6 @@ fn check_goals(statement: &Statement, point: &Point) -> Verdict {
         }
         Some(Sequence { limit: Some(_), .. }) | None => vec![point.at(POWER)],
     };
-    if let Some(sequence) = statement.amounts_to.as_ref().filter(|sequence| !sequence.within.is_empty()) {
-        return follow(statement, sequence, point).unwrap_or_else(|verdict| verdict);
-    }
     let point = &match computed(statement, point) {
         Ok(point) => point,
         Err(verdict) => return verdict,

@@ -5,10 +5,10 @@ use super::{Experiment, MOST_STEPS, STEPS, Trial, check, exact};
 use crate::chapter::{augmented, structure, system};
 use crate::formula::claim::{MEMBERS, POWER, PRECISION, SCALES};
 use crate::formula::statement::{Sequence, Statement};
-use crate::formula::{Claim, Hypothesis, Kind};
+use crate::formula::{Claim, Hypothesis, Kind, Relation};
 use crate::number::tree::{Step, piecewise};
 use crate::number::{Exact, PositivePart, Real, ToExact, Tree};
-use crate::solver::Scalar;
+use crate::solver::{Augmentation, Plane, Scalar};
 use num_traits::{One, Zero};
 
 /// An experiment for each claim that speaks of what is rounded: it holds of what is computed.
@@ -146,8 +146,14 @@ impl<'a, T: Scalar + Real + ToExact> Floats<'a, T> {
         }
     }
 
-    fn holds(&self, given: &Hypothesis) -> Option<bool> {
-        Some(given.relation.admits(self.value(&given.value)?.cmp(&Exact::zero())))
+    fn has_sign(&self, relation: Relation, of: &Tree) -> Option<bool> {
+        Some(relation.admits(self.value(of)?.cmp(&Exact::zero())))
+    }
+
+    /// `None` unless all hypotheses hold.
+    fn suppose(&self, statement: &Statement) -> Option<()> {
+        let holds = |given: &Hypothesis| self.has_sign(given.relation, &given.value) == Some(true);
+        statement.hypotheses.iter().all(holds).then_some(())
     }
 
     fn check(&mut self, statement: &Statement, kind: &Kind) -> Option<Trial> {
@@ -155,15 +161,11 @@ impl<'a, T: Scalar + Real + ToExact> Floats<'a, T> {
             let number = self.compute(&computed.by)?;
             self.computed.push((computed.symbol, number));
         }
-        for given in &statement.hypotheses {
-            if !self.holds(given)? {
-                return None;
-            }
-        }
+        self.suppose(statement)?;
         Some(match kind {
             Kind::Within(of, bound) => within(self.value(of)?, self.value(bound)?),
             Kind::Equal(left, right) => Trial::Decided(self.value(left)? == self.value(right)?),
-            Kind::Sign(relation, of) => Trial::Decided(relation.admits(self.value(of)?.cmp(&Exact::zero()))),
+            Kind::Sign(relation, of) => Trial::Decided(self.has_sign(*relation, of)?),
             _ => return None,
         })
     }
@@ -174,11 +176,7 @@ impl<'a, T: Scalar + Real + ToExact> Floats<'a, T> {
         let ([start], [step], computed) = (&start[..], &step[..], statement.computed.as_ref()?) else {
             return None;
         };
-        for given in &statement.hypotheses {
-            if !self.holds(given)? {
-                return None;
-            }
-        }
+        self.suppose(statement)?;
         let (mut member, ratio) = (self.compute(start)?, self.value(ratio)?);
         // The bounds are the same for all k.
         let most: Vec<_> = bounds.iter().map(|(_, bound)| self.value(bound)).collect::<Option<_>>()?;
@@ -202,15 +200,13 @@ impl<'a, T: Scalar + Real + ToExact> Floats<'a, T> {
         let bits = self.precision.as_rational().numer().significant_bits() as usize;
         // Where ε ≥ c each step gains a bit or more.
         let enough = if *eps >= system.c { (bits + STEPS).min(MOST_STEPS) } else { STEPS };
-        let mut lambda = T::zero();
+        let mut steps = Augmentation::new(system, eps).over(Plane::Bilateral);
         for _ in 0..enough {
-            let u = augmented::deflection(system, eps, &lambda);
-            let next = augmented::update(system, eps, &lambda, &u);
-            if next == lambda {
-                self.computed = vec![("λ", lambda), ("u", u)];
+            let step = steps.step();
+            if *steps.multiplier() == step.multiplier {
+                self.computed = vec![("λ", step.multiplier), ("u", step.deflection)];
                 return Some(());
             }
-            lambda = next;
         }
         None
     }

@@ -25,7 +25,7 @@ pub(super) fn at_least(reader: &mut Reader, a: &Tree, b: &Tree) -> Result<Vec<Si
         (Div(a, divisor), Div(b, same)) if divisor == same => multiples(reader, divisor, a, b),
         _ => {
             let difference = reader.read(a)? - reader.read(b)?;
-            Ok(vec![reader.not_negative(difference)?])
+            Ok(vec![reader.of_sign(difference, Sign::NonNegative)?])
         }
     }
 }

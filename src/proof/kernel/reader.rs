@@ -30,10 +30,10 @@ impl<'a> Reader<'a> {
         self.context.sign(value.clone()).ok_or(Why::NoSign(value))
     }
 
-    /// The same, if it is not negative.
-    pub(super) fn not_negative(&self, value: Ratio) -> Result<Signed, Why> {
+    /// The same, if it is such a sign.
+    pub(super) fn of_sign(&self, value: Ratio, sign: Sign) -> Result<Signed, Why> {
         let signed = self.sign(value)?;
-        let holds = signed.sign().implies(Sign::NonNegative);
+        let holds = signed.sign().implies(sign);
         if holds { Ok(signed) } else { Err(Why::WrongSign(signed.value.clone(), signed.sign())) }
     }
 
