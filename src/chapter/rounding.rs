@@ -26,7 +26,7 @@ pub fn unit_roundoff<T: Field>(n: &T) -> T {
 ///
 /// `η (5 |Δ| + 4 R / (c + ε)) (1 + 2 η)`
 ///
-/// `eps` is the penalty ε in N/m, `n` is 2ᵖ. Domain: c > 0, ε > 0, R > 0. Source: §1.3.2, note 8.
+/// `eps` is the penalty ε in N/m, `n` is 2ᵖ. Domain: c > 0, ε > 0, R ≥ 0. Source: §1.3.2, note 8.
 ///
 /// ```
 /// # use spring_mass_contact::chapter::{SpringMass, rounding};
@@ -43,7 +43,7 @@ pub fn deflection_error<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: &T)
 ///
 /// `η (ε (|H| + 5 |Δ|) + 7 R) (1 + 8 η)`
 ///
-/// `eps` is the penalty ε in N/m, `n` is 2ᵖ. Domain: c > 0, ε > 0, R > 0. It grows with ε, so that half
+/// `eps` is the penalty ε in N/m, `n` is 2ᵖ. Domain: c > 0, ε > 0, R ≥ 0. It grows with ε, so that half
 /// of the digits are lost at best. Source: §1.3.2, note 8.
 ///
 /// ```
@@ -95,7 +95,7 @@ pub fn floor<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: &T) -> T {
 ///
 /// `20 F`
 ///
-/// `eps` is the penalty ε in N/m, `n` is 2ᵖ. Domain: c > 0, ε > 0, R > 0,
+/// `eps` is the penalty ε in N/m, `n` is 2ᵖ. Domain: c > 0, ε > 0, R ≥ 0,
 /// and 64 (c + ε) ≤ ε (2ᵖ + 1). Source: §1.3.3, note 8.
 ///
 /// ```
@@ -105,4 +105,20 @@ pub fn floor<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: &T) -> T {
 /// ```
 pub fn penetration_drift<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: &T) -> T {
     T::int(20) * floor(system, eps, n)
+}
+
+/// How far computed multipliers of (1.16) stay from the exact ones, from λ₀ = 0 and for all k, in N.
+///
+/// `11 (c + ε) F`
+///
+/// `eps` is the penalty ε in N/m, `n` is 2ᵖ. Domain: as of [`penetration_drift`]. A large penalty costs the
+/// multiplier digits, and the deflection none. Source: §1.3.3, note 8.
+///
+/// ```
+/// # use spring_mass_contact::chapter::{SpringMass, rounding};
+/// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
+/// assert_eq!(rounding::multiplier_drift(&system, &4.0, &1024.0), 484.0 / 1024.0);
+/// ```
+pub fn multiplier_drift<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: &T) -> T {
+    T::int(11) * penalty::total_stiffness(system, eps) * floor(system, eps, n)
 }

@@ -47,9 +47,9 @@ pub(super) fn entries() -> Vec<Entry> {
         next_in_equilibrium,
         power,
         count,
-        contact,
         later_multiplier,
         fine_enough,
+        touching,
         computed_inside,
         decay,
         near_iterate,
@@ -146,15 +146,11 @@ pub(super) fn entries() -> Vec<Entry> {
                 },
                 drift(
                     "float-drift",
-                    [stiffness, penalty, fine_enough, contact, decay, near_iterate],
+                    [stiffness, penalty, fine_enough, touching, decay, near_iterate],
                     contraction(s, eps),
                     0,
                     |lambda| update(s, eps, lambda, u).rounded(),
-                    {
-                        let floor = rounding::floor(s, eps, precision());
-                        let bound = int(11) * penalty::total_stiffness(s, eps) * floor;
-                        (multiplier_after(s, zero, q), bound)
-                    },
+                    (multiplier_after(s, zero, q), rounding::multiplier_drift(s, eps, precision())),
                     |_| {
                         let error = contact::penetration(s, u).rounded() - penetration_after(s, eps, zero, q);
                         [(error, rounding::penetration_drift(s, eps, precision()))]
@@ -169,6 +165,15 @@ pub(super) fn entries() -> Vec<Entry> {
                         [penalty, some_bits],
                         drift * precision(),
                         int(20) * lengths,
+                    )
+                },
+                {
+                    let lengths = s.h.abs() + gap(s).abs() + reaction(s) / eps;
+                    equal(
+                        "float-multiplier-drift-in-parts",
+                        [penalty, some_bits],
+                        rounding::multiplier_drift(s, eps, precision()) * precision(),
+                        int(11) * (&s.c + eps) * lengths,
                     )
                 },
                 equal(

@@ -152,7 +152,7 @@ pub(super) fn entries() -> Vec<Entry> {
                 ),
                 within(
                     "precision-law",
-                    [stiffness, penalty, contact, near_penalty],
+                    [stiffness, penalty, touching, near_penalty],
                     contact_force(s, eps, u).rounded() - force_at_root(s, eps),
                     rounding::penalty_force_error(s, eps, precision()),
                 )
@@ -217,7 +217,7 @@ pub(super) fn entries() -> Vec<Entry> {
                 equal("two-forms", [stiffness, penalty], deflection(s, eps), deflection_divided(s, eps)),
                 within(
                     "float-error",
-                    [stiffness, penalty, contact],
+                    [stiffness, penalty, touching],
                     deflection(s, eps).rounded() - deflection(s, eps),
                     rounding::deflection_error(s, eps, precision()),
                 ),
@@ -232,7 +232,7 @@ pub(super) fn entries() -> Vec<Entry> {
                 },
                 within(
                     "float-distance",
-                    [stiffness, penalty, contact],
+                    [stiffness, penalty, touching],
                     deflection(s, eps).rounded() - gap(s),
                     penetration(s, eps) + rounding::deflection_error(s, eps, precision()),
                 ),

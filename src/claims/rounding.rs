@@ -10,6 +10,7 @@ formulas! {
     "" = rounding::fixed_point_error(system, "ε", "λ", "2ᵖ");
     "F" (folded) = rounding::floor(system, "ε", "2ᵖ");
     "" = rounding::penetration_drift(system, "ε", "2ᵖ");
+    "" = rounding::multiplier_drift(system, "ε", "2ᵖ");
 }
 
 /// The unit roundoff.
