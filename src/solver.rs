@@ -13,10 +13,14 @@
 //! # Ok::<(), spring_mass_contact::solver::SolveError>(())
 //! ```
 
+#[cfg(feature = "mpfr")]
+mod advise;
 mod augmentation;
 mod check;
 #[cfg(feature = "mpfr")]
 mod count;
+#[cfg(feature = "mpfr")]
+mod reach;
 #[cfg(feature = "mpfr")]
 mod read;
 mod scalar;
@@ -24,10 +28,14 @@ mod scalar;
 mod series;
 mod solution;
 
+#[cfg(feature = "mpfr")]
+pub use advise::{Advice, Choice, MAX_AUGMENTATIONS, advise};
 pub use augmentation::{Augmentation, Iterate};
 pub use check::SolveError;
 #[cfg(feature = "mpfr")]
-pub use count::{augmentations_needed, within_reach};
+pub use count::augmentations_needed;
+#[cfg(feature = "mpfr")]
+pub use reach::{bits_needed, rounding_floor, within_reach};
 #[cfg(feature = "mpfr")]
 pub use read::ReadError;
 pub use scalar::{Interval, Scalar};

@@ -134,7 +134,7 @@ fn no_more_is_said_of_a_count_than_is_sure() {
         let output = solve(limit);
         let said = format!(
             "out_of_steps at k = {limit}: |u − u*| < 1e-14 m needs k = 2934 in exact arithmetic, which rounding may \
-             not allow; try a larger --tolerance or more bits (--scalar mpfr:BITS)"
+             not allow; a larger --penalty meets it, contact advise says which"
         );
         assert!(words(&output).contains(&said) && output.status.code() == Some(1), "{}", stdout(&output));
     }
@@ -942,7 +942,7 @@ fn no_bad_choice_gets_further_than_one_line() {
     for command in ["VERIFY", "verfy", "", "-", "1.13", "proof"] {
         let line = refusal(&[command]);
         assert!(line.contains(&format!("unrecognized subcommand '{command}'")), "{line}");
-        assert!(line.contains("verify, prove, solve, equations, completions"), "{line}");
+        assert!(line.contains("verify, prove, solve, advise, equations, completions"), "{line}");
     }
 }
 

@@ -1,7 +1,7 @@
 //! Exact rational numbers: the oracle.
 
 use super::field::ordered;
-use super::{Ball, Field, Mpfr, OrderedField, PositivePart, RangeError, Real};
+use super::{Ball, Field, Mpfr, NumberSystem, OrderedField, PositivePart, RangeError, Real};
 use num_traits::{One, Zero};
 use rug::float::Round;
 use rug::ops::NegAssign;
@@ -134,6 +134,9 @@ pub trait ToExact: Sized {
     /// It is infinite or not a number.
     fn to_exact(&self) -> Result<Exact, Inexact>;
 
+    /// The number system that it is of. Constants of [`Mpfr`] are exact.
+    fn number_system(&self) -> NumberSystem;
+
     /// `x` rounded once into this type, and at the precision that `self` has if that can differ; and how the
     /// result compares with `x`.
     ///
@@ -153,6 +156,9 @@ impl ToExact for f32 {
     fn to_exact(&self) -> Result<Exact, Inexact> {
         Rational::from_f32(*self).map(Exact).ok_or(Inexact)
     }
+    fn number_system(&self) -> NumberSystem {
+        NumberSystem::F32
+    }
     fn nearest_compared(&self, x: &Exact) -> Result<(Self, Ordering), RangeError> {
         x.to_ieee(24, "f32").map(|(x, ordering)| (x.to_f32(), ordering))
     }
@@ -160,6 +166,9 @@ impl ToExact for f32 {
 impl ToExact for f64 {
     fn to_exact(&self) -> Result<Exact, Inexact> {
         Rational::from_f64(*self).map(Exact).ok_or(Inexact)
+    }
+    fn number_system(&self) -> NumberSystem {
+        NumberSystem::F64
     }
     fn nearest_compared(&self, x: &Exact) -> Result<(Self, Ordering), RangeError> {
         x.to_ieee(53, "f64").map(|(x, ordering)| (x.to_f64(), ordering))
@@ -169,6 +178,9 @@ impl ToExact for f64 {
 impl ToExact for Mpfr {
     fn to_exact(&self) -> Result<Exact, Inexact> {
         self.to_rational().map(Exact).ok_or(Inexact)
+    }
+    fn number_system(&self) -> NumberSystem {
+        self.precision().map_or(NumberSystem::Exact, NumberSystem::Mpfr)
     }
     fn nearest_compared(&self, x: &Exact) -> Result<(Self, Ordering), RangeError> {
         Ok(match self.precision() {
@@ -183,6 +195,9 @@ impl ToExact for Mpfr {
 impl ToExact for Exact {
     fn to_exact(&self) -> Result<Exact, Inexact> {
         Ok(self.clone())
+    }
+    fn number_system(&self) -> NumberSystem {
+        NumberSystem::Exact
     }
     fn nearest_compared(&self, x: &Exact) -> Result<(Self, Ordering), RangeError> {
         Ok((x.clone(), Ordering::Equal))

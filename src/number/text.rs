@@ -84,7 +84,7 @@ impl Text for Exact {
 
 impl Exact {
     /// As a decimal of at most so many digits, on the side that the rounding says; directed, it can be one
-    /// unit further than need be.
+    /// unit further than need be, but for what has so few digits.
     ///
     /// ```
     /// # use spring_mass_contact::{number::Exact, rug::float::Round};
@@ -95,6 +95,12 @@ impl Exact {
     pub fn decimal(&self, digits: usize, round: Round) -> String {
         if self.is_zero() {
             return "0".to_string();
+        }
+        if round != Round::Nearest {
+            let nearest = self.decimal(digits, Round::Nearest);
+            if nearest.parse().as_ref() == Ok(self) {
+                return nearest;
+            }
         }
         // Four bits hold a decimal digit; both roundings go the same way.
         let x = Float::with_val_round(4 * digits as u32 + 16, self.as_rational(), round).0;
@@ -194,6 +200,8 @@ mod tests {
             ("20/3", "6.66", "6.67"),
             ("100", "100", "100"),
             ("1000", "1e3", "1e3"),
+            ("49/10", "4.9", "4.9"),
+            ("4900000000000", "4.9e12", "4.9e12"),
             ("0", "0", "0"),
         ] {
             let x: Exact = fraction.parse().unwrap();

@@ -1,7 +1,7 @@
 //! (1.33), solved for k: how many augmentations a tolerance needs, exactly.
 
 use super::{Plane, Scalar};
-use crate::chapter::{SpringMass, augmented, penalty, rounding, system};
+use crate::chapter::{SpringMass, augmented, system};
 use crate::number::{Exact, PositivePart, ToExact};
 use num_traits::{One, Zero};
 use rug::float::Round;
@@ -101,53 +101,4 @@ fn is_power(ratio: &Rational, growth: &Rational, n: &Integer) -> bool {
     let bits = u64::from(ratio.numer().significant_bits());
     let least_bits = u64::from(growth.numer().significant_bits() - 1).max(1);
     n.to_u32().is_some_and(|n| u64::from(n) * least_bits <= bits && growth.clone().pow(n) == *ratio)
-}
-
-/// Is it guaranteed that floats of this scalar meet the tolerance, from λ₀ = 0, where mass and plane touch?
-///
-/// It is for 64 (c + ε) ≤ ε (1 + 1/η) and tol > 20 F + η (|H| + 8 tol), with the drift 20 F of
-/// [`rounding::penetration_drift`]. A smaller tolerance may be met as well, by luck, or not. Rationals meet
-/// every one.
-///
-/// ```
-/// # use spring_mass_contact::{chapter::SpringMass, number::Exact};
-/// # use spring_mass_contact::solver::{Method, Outcome, solve, within_reach};
-/// let system = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
-/// let eta = Exact::power_of_two(-53);
-/// let ends = |tolerance| {
-///     let method = Method::Augmented { penalty: 1.0, tolerance, max_augmentations: 10_000, start: 0.0 };
-///     let guaranteed = within_reach(&system, &1.0, &tolerance, &eta);
-///     (guaranteed, solve(&system, &method).unwrap().outcome)
-/// };
-/// assert_eq!(ends(1e-13), (true, Outcome::Converged));
-/// assert_eq!(ends(1e-14), (false, Outcome::Converged)); // luck
-/// assert_eq!(ends(1e-16), (false, Outcome::Stagnated)); // less than η H
-/// ```
-pub fn within_reach<T: Scalar + ToExact>(
-    system: &SpringMass<T>,
-    eps: &T,
-    tolerance: &T,
-    unit_roundoff: &Exact,
-) -> bool {
-    if unit_roundoff.is_zero() {
-        return true;
-    }
-    let exact = |x: &T| x.to_exact().expect("a finite parameter");
-    let (system, eps, tolerance) = (system.map(exact), exact(eps), exact(tolerance));
-    // A plane that pulls is one that pushes, seen in a mirror: the same floats but for their signs.
-    let system = if system::reaction(&system) < Exact::zero() {
-        let SpringMass { c, m, g, l, h } = system;
-        SpringMass { c, m, g: -g, l: -l, h: -h }
-    } else {
-        system
-    };
-    let precision = Exact::one() / unit_roundoff;
-    let fine_enough =
-        Exact::from(64) * penalty::total_stiffness(&system, &eps) <= &eps * (&precision + Exact::one());
-    // Once p̂ is all drift, |p̂| < tol, and its bound |p̂| + η (|fl(l + û)| + |p̂|) is below
-    // |p̂| + η (|H| + 3 tol). Balls round that up, the bracket and the sum by less than 4 η of themselves:
-    // less than 5 η tol in all.
-    let drift = rounding::penetration_drift(&system, &eps, &precision);
-    let question = unit_roundoff * (system.h.abs() + Exact::from(8) * &tolerance);
-    fine_enough && tolerance > drift + question
 }

@@ -84,6 +84,16 @@ pub enum Method<T> {
     },
 }
 
+impl<T> Method<T> {
+    /// ε, in N/m, where there is one.
+    pub fn penalty(&self) -> Option<&T> {
+        match self {
+            Method::Lagrange => None,
+            Method::Penalty { penalty } | Method::Augmented { penalty, .. } => Some(penalty),
+        }
+    }
+}
+
 /// How a solve ended. Only an iteration can end otherwise than [`Direct`](Outcome::Direct).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Outcome {

@@ -4,6 +4,7 @@
 #[path = "../strategies/mod.rs"]
 mod strategies;
 
+mod advice;
 mod augmentation_monotone;
 mod invariances;
 mod kkt;

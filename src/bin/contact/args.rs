@@ -2,6 +2,7 @@
 
 use crate::output::Failure;
 use crate::output::shortened;
+use clap::{Args, FromArgMatches};
 use num_traits::Zero;
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::claims::{all_numbered, entries, numbered};
@@ -92,6 +93,33 @@ impl Number {
     }
 }
 
+/// Runs a generic function in the number system that was asked for; `like` is a zero of it.
+macro_rules! in_scalar {
+    ($scalar:expr, |$like:ident| $run:expr) => {{
+        use spring_mass_contact::number::{Exact, NumberSystem};
+        let zero = <Exact as num_traits::Zero>::zero();
+        match $scalar {
+            NumberSystem::F32 => {
+                let $like = &0_f32;
+                $run
+            }
+            NumberSystem::F64 => {
+                let $like = &0_f64;
+                $run
+            }
+            NumberSystem::Mpfr(bits) => {
+                let $like = &zero.to_mpfr(bits);
+                $run
+            }
+            NumberSystem::Exact => {
+                let $like = &zero;
+                $run
+            }
+        }
+    }};
+}
+pub(crate) use in_scalar;
+
 /// The five parameters, in SI units.
 #[derive(clap::Args, Clone, Debug)]
 #[command(next_help_heading = "System")]
@@ -118,6 +146,21 @@ impl System {
     pub fn typed(&self) -> SpringMass<&Number> {
         let System { stiffness, mass, gravity, free_length, height } = self;
         SpringMass { c: stiffness, m: mass, g: gravity, l: free_length, h: height }
+    }
+
+    /// The options that say so; what is as by default is left out.
+    pub fn options(&self) -> Vec<String> {
+        let command = System::augment_args(clap::Command::new("system").no_binary_name(true));
+        let matches = command.try_get_matches_from([""; 0]).expect("every option has a default");
+        let default = System::from_arg_matches(&matches).expect("every option has a default");
+        let names = ["stiffness", "mass", "gravity", "free-length", "height"];
+        let [own, default] = [self, &default].map(|system| {
+            let SpringMass { c, m, g, l, h } = system.typed();
+            [c, m, g, l, h].map(|number| number.text.clone())
+        });
+        let options = names.into_iter().zip(own.into_iter().zip(default));
+        let changed = options.filter(|(_, (own, default))| own != default);
+        changed.flat_map(|(name, (own, _))| [format!("--{name}"), own]).collect()
     }
 
     /// Each parameter rounded once into the scalar that `like` has.

@@ -3,6 +3,7 @@
 //! `args` is what the subcommands share of their arguments, `text` how numbers are written, `output` the
 //! way to stdout; each subcommand is a module.
 
+mod advise;
 mod args;
 mod equations;
 mod output;
@@ -20,12 +21,13 @@ Examples:
   contact solve                   solve the default system by Lagrange multiplier
   contact solve --method penalty --penalty 1000 --scalar exact
   contact solve --height 2 --format json
+  contact advise --tolerance 1e-12
   contact equations 1.13
   contact prove 1.17
   contact verify --scalar mpfr:1000 --cases 50
 
-Exit status: 0 all well; 1 a claim does not hold or a solve did not converge;
-2 bad input.";
+Exit status: 0 all well; 1 a claim does not hold, a solve did not converge or
+a tolerance is out of reach; 2 bad input.";
 
 /// A mass on a spring over a rigid plane: contact by Lagrange multiplier, penalty and augmentation
 ///
@@ -42,6 +44,7 @@ enum Command {
     Verify(verify::Options),
     Prove(prove::Options),
     Solve(Box<solve::Options>),
+    Advise(Box<advise::Options>),
     Equations(equations::Options),
     Completions(Completions),
 }
@@ -75,6 +78,7 @@ fn run(cli: Cli) -> Result<Exit, Failure> {
         Some(Command::Prove(options)) => prove::run(&options),
         Some(Command::Equations(options)) => equations::run(&options),
         Some(Command::Solve(options)) => solve::run(&options),
+        Some(Command::Advise(options)) => advise::run(&options),
         Some(Command::Completions(Completions { shell })) => {
             // The generator panics where it cannot write; into memory it can.
             let mut script = Vec::new();

@@ -2,19 +2,20 @@
 
 mod report;
 
-use crate::args::{Number, System, finite, positive, whole};
+use crate::args::{Number, System, finite, in_scalar, positive, whole};
 use crate::output::shortened;
 use crate::output::{self, Exit, Failure};
 use clap::ValueEnum;
 use num_traits::Zero;
 use report::Report;
+pub use report::state_in_words;
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::claims::Case;
 use spring_mass_contact::number::{Exact, NumberSystem, Text};
 use spring_mass_contact::rug::Integer;
 use spring_mass_contact::solver::{
-    Augmentation, Iterate, Method, Outcome, Plane, Scalar, Solution, SolveError, augmentations_needed,
-    solve_observed,
+    Augmentation, Iterate, MAX_AUGMENTATIONS, Method, Outcome, Plane, Scalar, Solution, SolveError,
+    augmentations_needed, solve_observed,
 };
 use std::io::{self, Write};
 
@@ -72,7 +73,7 @@ pub struct Options {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum MethodName {
+pub enum MethodName {
     /// §1.3.1: exact
     Lagrange,
     /// §1.3.2: a second spring of stiffness ε
@@ -82,8 +83,17 @@ enum MethodName {
 }
 
 impl MethodName {
+    /// Of a method.
+    pub fn of<T>(method: &Method<T>) -> Self {
+        match method {
+            Method::Lagrange => MethodName::Lagrange,
+            Method::Penalty { .. } => MethodName::Penalty,
+            Method::Augmented { .. } => MethodName::Augmented,
+        }
+    }
+
     /// As on the command line.
-    fn name(self) -> String {
+    pub fn name(self) -> String {
         self.to_possible_value().map_or(String::new(), |value| value.get_name().to_string())
     }
 }
@@ -101,12 +111,7 @@ enum Format {
 /// Solves and prints.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
     options.refuse_unused()?;
-    match options.scalar {
-        NumberSystem::F32 => run_in(options, &0_f32),
-        NumberSystem::F64 => run_in(options, &0_f64),
-        NumberSystem::Mpfr(bits) => run_in(options, &Exact::zero().to_mpfr(bits)),
-        NumberSystem::Exact => run_in(options, &Exact::zero()),
-    }
+    in_scalar!(options.scalar, |like| run_in(options, like))
 }
 
 fn run_in<T: Scalar + Text>(options: &Options, like: &T) -> Result<Exit, Failure> {
@@ -190,7 +195,7 @@ impl Options {
                 Method::Augmented {
                     penalty: round_penalty(&or(&self.penalty, "10 c, the default", ten_c))?,
                     tolerance: self.tolerance().round("--tolerance <T>", like)?,
-                    max_augmentations: self.max_augmentations.unwrap_or(1000),
+                    max_augmentations: self.max_augmentations.unwrap_or(MAX_AUGMENTATIONS),
                     start: start.round("--initial-multiplier <L>", like)?,
                 }
             }

@@ -7,11 +7,10 @@ use serde_json::Value;
 use spring_mass_contact::chapter::contact::Kkt;
 use spring_mass_contact::number::{Exact, NumberSystem, Text, brief, brief_bound, relation, visibly_rounded};
 use spring_mass_contact::rug::{Integer, float::Round};
-use spring_mass_contact::solver::{Interval, Method, Outcome, Plane, Scalar, Solution, State, within_reach};
+use spring_mass_contact::solver::{
+    Interval, Method, Outcome, Plane, Scalar, Solution, State, bits_needed, rounding_floor, within_reach,
+};
 use std::io::{self, Write};
-
-/// What helps against rounding.
-const LARGER: &str = "try a larger --tolerance or more bits (--scalar mpfr:BITS)";
 
 /// All there is to say about a solve.
 pub struct Report<'a, T> {
@@ -138,7 +137,7 @@ impl<'a, T: Scalar + Text> Report<'a, T> {
         let mut rows = vec![
             ("system", self.options.system.typed().map(|number| shortened(&number.text)).to_string()),
             ("method", self.method_in_words()),
-            ("state", self.state_in_words().to_string()),
+            ("state", state_in_words(s.state, self.problem.plane).to_string()),
             ("outcome", self.outcome_in_words()),
         ];
         let bounds = &s.bounds;
@@ -235,19 +234,31 @@ impl<'a, T: Scalar + Text> Report<'a, T> {
         format!("{name}{plane} ({})", self.options.scalar)
     }
 
-    fn state_in_words(&self) -> &'static str {
-        match (self.solution.state, self.problem.plane) {
-            (State::Contact, _) => "contact: the plane pushes",
-            (State::Grazing, _) => "grazing: mass and plane touch without force",
-            (State::Separated, Plane::Unilateral) => "separated: the mass hangs free",
-            (State::Separated, Plane::Bilateral) => "separated: only a plane that pulls holds the mass",
-        }
-    }
-
     /// Is it certain that rounding lets the method meet its tolerance?
     fn is_within_reach(&self) -> bool {
         let Method::Augmented { penalty, tolerance, .. } = &self.problem.method else { return true };
         within_reach(&self.problem.system, penalty, tolerance, &self.options.scalar.unit_roundoff())
+    }
+
+    /// What helps against rounding.
+    fn remedy(&self) -> String {
+        let Options { scalar, system, .. } = self.options;
+        let plane = self.problem.plane;
+        let tolerance = self.options.tolerance().value;
+        let floor = rounding_floor(&self.problem.system, plane, &scalar.unit_roundoff());
+        if floor.as_ref().is_some_and(|floor| tolerance > *floor) {
+            return "a larger --penalty meets it, contact advise says which".to_string();
+        }
+        let sure = floor.map_or(String::new(), |floor| {
+            format!("{scalar} is sure to meet a tolerance above {} m, ", floor.decimal(3, Round::Up))
+        });
+        let typed = system.typed().map(|number| number.value.clone());
+        match bits_needed(&typed, plane, &tolerance) {
+            Some(bits) => {
+                format!("{sure}--scalar mpfr:{bits} this one, with the --penalty of contact advise")
+            }
+            None => format!("{sure}no number of bits that can be had this one"),
+        }
     }
 
     fn outcome_in_words(&self) -> String {
@@ -260,8 +271,9 @@ impl<'a, T: Scalar + Text> Report<'a, T> {
             }
             Outcome::Stagnated => format!(
                 "stagnated at k = {k}: rounding stops the iteration short of {tolerance} m; its floor, the \
-                 least bound of |u − u*| met, is {} m; {LARGER}",
-                self.solution.floor.as_ref().map_or(String::new(), brief)
+                 least bound of |u − u*| met, is {} m; {}",
+                self.solution.floor.as_ref().map_or(String::new(), brief),
+                self.remedy()
             ),
             Outcome::OutOfSteps => {
                 let needed = self.steps_needed.as_deref().map_or(String::new(), shortened);
@@ -271,10 +283,21 @@ impl<'a, T: Scalar + Text> Report<'a, T> {
                     (NumberSystem::Exact, _) => format!("{needs}; {more}"),
                     (_, true) => format!("{needs} in exact arithmetic, and rounding may add a few; {more}"),
                     (_, false) => {
-                        format!("{needs} in exact arithmetic, which rounding may not allow; {LARGER}")
+                        let remedy = self.remedy();
+                        format!("{needs} in exact arithmetic, which rounding may not allow; {remedy}")
                     }
                 }
             }
         }
+    }
+}
+
+/// What a state means over a plane.
+pub fn state_in_words(state: State, plane: Plane) -> &'static str {
+    match (state, plane) {
+        (State::Contact, _) => "contact: the plane pushes",
+        (State::Grazing, _) => "grazing: mass and plane touch without force",
+        (State::Separated, Plane::Unilateral) => "separated: the mass hangs free",
+        (State::Separated, Plane::Bilateral) => "separated: only a plane that pulls holds the mass",
     }
 }

@@ -1,0 +1,216 @@
+//! `contact advise`: which penalty, and what it gives.
+
+use crate::args::{Number, System, in_scalar, positive};
+use crate::output::{self, Exit, Failure, shortened};
+use crate::solve::{MethodName, state_in_words};
+use clap::ValueEnum;
+use num_traits::Zero;
+use serde::Serialize;
+use spring_mass_contact::number::{NumberSystem, Text};
+use spring_mass_contact::rug::float::Round;
+use spring_mass_contact::solver::{Advice, Choice, Method, Plane, Scalar, SolveError, advise, bits_needed};
+use std::io::{self, Write};
+
+const EXAMPLES: &str = "\
+Examples:
+  contact advise --tolerance 1e-12
+      Which penalty and how many augmentations find u to 1e-12 m in f64.
+  contact advise --tolerance 1e-40 --stiffness 1e6 --height 1.01
+  contact advise --tolerance 1e-40 --scalar mpfr:200 --format json
+
+Every choice has been tried, and every penalty from .. to reaches the tolerance,
+too: a smaller one is too soft, and with a larger one rounding takes more from
+the force (of penalty, by N = ε p; of augmented, the multiplier) than the
+tolerance c T allows. The force that solve reports, m g − c u, is off by what is
+said here with any of them.
+
+Exit status: 0 a method reaches the tolerance; 1 none does; 2 bad input.";
+
+/// Say which penalty reaches a tolerance, and how many augmentations it takes
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Options {
+    #[command(flatten)]
+    system: System,
+
+    /// How far the deflection may be off in m
+    #[arg(long, value_name = "T", value_parser = positive, help_heading = "Method")]
+    tolerance: Number,
+
+    /// Number system: f32, f64, mpfr:BITS or exact
+    #[arg(long, value_name = "S", default_value_t = NumberSystem::F64, help_heading = "Output")]
+    scalar: NumberSystem,
+    /// How to print the result
+    #[arg(long, value_enum, default_value_t = Format::Table, help_heading = "Output")]
+    format: Format,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// For people
+    Table,
+    /// Numbers as strings
+    Json,
+}
+
+/// Advises and prints.
+pub fn run(options: &Options) -> Result<Exit, Failure> {
+    in_scalar!(options.scalar, |like| run_in(options, like))
+}
+
+fn run_in<T: Scalar + Text>(options: &Options, like: &T) -> Result<Exit, Failure> {
+    let system = options.system.round(like)?;
+    let tolerance = options.tolerance.round("--tolerance <T>", like)?;
+    let out_of_range = |error: SolveError| format!("--scalar {}: {error}", options.scalar);
+    let advice = advise(&system, &tolerance).map_err(out_of_range)?;
+    // Of what was typed: with more bits it is rounded to other numbers.
+    let typed = options.system.typed().map(|number| number.value.clone());
+    let bits_needed = match options.scalar {
+        NumberSystem::Exact => None,
+        _ => bits_needed(&typed, Plane::Unilateral, &options.tolerance.value),
+    };
+    let report = Report { options, tolerance, advice, bits_needed };
+    output::print(|out| match options.format {
+        Format::Table => report.table(out),
+        Format::Json => output::json(out, &report.json()),
+    })?;
+    Ok(if report.advice.choices.is_empty() { Exit::Unmet } else { Exit::Fine })
+}
+
+/// All there is to say.
+struct Report<'a, T> {
+    options: &'a Options,
+    tolerance: T,
+    advice: Advice<T>,
+    bits_needed: Option<u32>,
+}
+
+/// As JSON, quantities as texts.
+#[derive(Serialize)]
+struct Json {
+    scalar: NumberSystem,
+    tolerance: String,
+    floor: Option<String>,
+    reachable: bool,
+    bits_needed: Option<u32>,
+    choices: Vec<JsonChoice>,
+}
+
+/// A choice in it; the error in parts of the force.
+#[derive(Serialize)]
+struct JsonChoice {
+    method: String,
+    penalty: Option<String>,
+    penalty_range: Option<[Option<String>; 2]>,
+    augmentations: Option<u64>,
+    penetration: String,
+    force_error: Option<String>,
+}
+
+impl<T: Scalar + Text> Report<'_, T> {
+    fn json(&self) -> Json {
+        let choice = |choice: &Choice<T>| {
+            let penalty = choice.method.penalty();
+            let range = || choice.penalties.each_ref().map(|end| end.as_ref().map(Text::text));
+            JsonChoice {
+                method: MethodName::of(&choice.method).name(),
+                penalty: penalty.map(Text::text),
+                penalty_range: penalty.map(|_| range()),
+                augmentations: choice.augmentations,
+                penetration: choice.penetration.decimal(17, Round::Nearest),
+                force_error: choice.relative_force_error.as_ref().map(|error| error.decimal(3, Round::Up)),
+            }
+        };
+        let Report { options, tolerance, advice, bits_needed } = self;
+        Json {
+            scalar: options.scalar,
+            tolerance: tolerance.text(),
+            floor: advice.floor.as_ref().map(|floor| floor.decimal(17, Round::Up)),
+            reachable: !advice.choices.is_empty(),
+            bits_needed: *bits_needed,
+            choices: advice.choices.iter().map(choice).collect(),
+        }
+    }
+
+    fn table(&self, out: &mut dyn Write) -> io::Result<()> {
+        let Report { options, advice, .. } = self;
+        let floor = match &advice.floor {
+            Some(floor) if floor.is_zero() => "none: every tolerance is met".to_string(),
+            Some(floor) => {
+                format!("{} m: every method is sure to meet a larger tolerance", floor.decimal(3, Round::Up))
+            }
+            None => "none: with so few bits nothing is sure".to_string(),
+        };
+        let system = options.system.typed().map(|number| shortened(&number.text)).to_string();
+        let tolerance = format!("{} m ({})", shortened(&options.tolerance.text), options.scalar);
+        let state = state_in_words(advice.state, Plane::Unilateral).to_string();
+        let mut head = output::table();
+        head.add_rows([["system", &system], ["state", &state], ["tolerance", &tolerance], ["floor", &floor]]);
+        writeln!(out, "{}\n", head.trim_fmt())?;
+        if !advice.choices.is_empty() {
+            let mut table = output::table();
+            table.set_header(["method", "ε in N/m", "from", "to", "k", "p in m", "N off by"]);
+            table.add_rows(advice.choices.iter().map(row));
+            writeln!(out, "{}\n", table.trim_fmt())?;
+        }
+        if let Some(missing) = self.missing() {
+            output::wrapped(out, " ", 1, &missing)?;
+            writeln!(out)?;
+        }
+        advice.choices.iter().try_for_each(|choice| self.command(out, &choice.method))
+    }
+
+    /// What to say of methods that are not among the choices.
+    fn missing(&self) -> Option<String> {
+        let has = |name| self.advice.choices.iter().any(|choice| MethodName::of(&choice.method) == name);
+        let missing = MethodName::value_variants().iter().filter(|name| !has(**name));
+        let names: Vec<_> = missing.map(|name| name.name()).collect();
+        let bits = match self.bits_needed {
+            Some(bits) => format!("--scalar mpfr:{bits} has bits enough for every method"),
+            None => "no number of bits that can be had is enough".to_string(),
+        };
+        let scalar = self.options.scalar;
+        if names.is_empty() {
+            None
+        } else if names.len() == MethodName::value_variants().len() {
+            Some(format!("No method meets the tolerance in {scalar}; {bits}."))
+        } else {
+            Some(format!("By {} nothing is sure in {scalar}; {bits}.", names.join(" and ")))
+        }
+    }
+
+    /// The command that does it.
+    fn command(&self, out: &mut dyn Write, method: &Method<T>) -> io::Result<()> {
+        let Options { system, tolerance, scalar, .. } = self.options;
+        let mut words = vec!["contact".to_string(), "solve".to_string()];
+        words.extend(system.options());
+        let mut option = |name: &str, value: String| words.extend([format!("--{name}"), value]);
+        option("method", MethodName::of(method).name());
+        if let Some(penalty) = method.penalty() {
+            option("penalty", penalty.text());
+        }
+        if let Method::Augmented { .. } = method {
+            option("tolerance", tolerance.text.clone());
+        }
+        if *scalar != NumberSystem::F64 {
+            option("scalar", scalar.to_string());
+        }
+        output::command(out, words.iter().map(String::as_str))
+    }
+}
+
+fn row<T: Scalar + Text>(choice: &Choice<T>) -> [String; 7] {
+    let short = |x: Option<&T>, round| {
+        x.map_or(String::new(), |x| x.to_exact().expect("a penalty is finite").decimal(3, round))
+    };
+    let [from, to] = &choice.penalties;
+    [
+        MethodName::of(&choice.method).name(),
+        short(choice.method.penalty(), Round::Nearest),
+        short(from.as_ref(), Round::Up),
+        short(to.as_ref(), Round::Down),
+        choice.augmentations.map_or(String::new(), |k| k.to_string()),
+        choice.penetration.decimal(3, Round::Nearest),
+        format!("{} N", choice.force_error.decimal(2, Round::Up)),
+    ]
+}

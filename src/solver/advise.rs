@@ -1,0 +1,261 @@
+//! Which penalty, and what it gives: the laws of rounding propose, a run confirms.
+
+use super::reach::{Laws, Limits, rounding_floor};
+use super::{Method, Outcome, Plane, Scalar, SolveError, State, augmentations_needed, check, solve};
+use crate::chapter::{SpringMass, contact};
+use crate::number::{Exact, PositivePart, RangeError, Text};
+use num_traits::Zero;
+use rug::float::Round;
+
+/// The limit of augmentations where nobody names one: what advice keeps to, and the default of the command.
+pub const MAX_AUGMENTATIONS: u64 = 1000;
+
+/// What [`advise`] comes to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Advice<T> {
+    /// Contact, grazing or separated.
+    pub state: State,
+    /// The tolerance in m above which every method is promised to come, as
+    /// [`rounding_floor`] says; below it by luck.
+    pub floor: Option<Exact>,
+    /// A method each that reaches the tolerance, [`Method::Lagrange`] first. Where there is none, no method
+    /// does: Lagrange's deflection is the nearest that the scalar has, or the one that all methods have.
+    pub choices: Vec<Choice<T>>,
+}
+
+/// A method that reaches the tolerance: it has been tried.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Choice<T> {
+    /// To be given to [`solve`].
+    pub method: Method<T>,
+    /// Every penalty ε in N/m between these reaches the tolerance, [`method`](Self::method)'s among them. A
+    /// smaller one is too soft, or takes more than [`MAX_AUGMENTATIONS`]. With a larger one rounding takes
+    /// more from the force ε p, or from the multiplier, than the tolerance does; not from the deflection.
+    /// None where there is no penalty, or no limit but the range of the scalar.
+    pub penalties: [Option<T>; 2],
+    /// k of the augmentation that arrives.
+    pub augmentations: Option<u64>,
+    /// p of the deflection that is found, in m, exactly.
+    pub penetration: Exact,
+    /// How far the contact force that is found is off, in N, exactly.
+    pub force_error: Exact,
+    /// The same in parts of the force; none where there is no force.
+    pub relative_force_error: Option<Exact>,
+}
+
+/// Which method with which penalty finds the deflection of a system to a tolerance, in m, over a plane that
+/// never pulls.
+///
+/// - The penalty method with the softest penalty that will do, to two digits.
+/// - The augmentation with the fewest steps that leave the multiplier its digits: with the hardest penalty of
+///   which rounding takes no more from the multiplier than the tolerance does.
+///
+/// The laws of [`rounding`](crate::chapter::rounding) find them, for parameters as they are in their scalar;
+/// each is then run. What is not in the advice cannot be promised.
+///
+/// # Errors
+/// As [`solve`], and [`SolveError::Invalid`] for a tolerance that is not positive.
+///
+/// ```
+/// use spring_mass_contact::chapter::SpringMass;
+/// use spring_mass_contact::solver::{Method, Outcome, advise, solve};
+/// let system = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
+/// let advice = advise(&system, &1e-12)?;
+/// let penalties: Vec<_> = advice.choices.iter().map(|choice| choice.method.penalty().copied()).collect();
+/// assert_eq!(penalties, [None, Some(4.9e12), Some(7e4)]);
+/// let solution = solve(&system, &advice.choices[2].method)?;
+/// assert_eq!((solution.outcome, solution.augmentations), (Outcome::Converged, Some(2)));
+/// # Ok::<(), spring_mass_contact::solver::SolveError>(())
+/// ```
+pub fn advise<T: Scalar + Text>(system: &SpringMass<T>, tolerance: &T) -> Result<Advice<T>, SolveError> {
+    check::positive("tolerance", tolerance)?;
+    let state = solve(system, &Method::Lagrange)?.state;
+    let exact = |x: &T| x.to_exact().expect("a finite parameter");
+    let (numbers, tol) = (system.map(exact), exact(tolerance));
+    let SpringMass { c, m, g, l, h } = system;
+    let eta = [c, m, g, l, h].map(|x| x.number_system().unit_roundoff()).into_iter().max();
+    let eta = eta.expect("five parameters");
+    let floor = rounding_floor(system, Plane::Unilateral, &eta);
+    let promised = floor.as_ref().is_some_and(|floor| tol > *floor);
+    let arithmetic = match Laws::of(&numbers, &eta) {
+        _ if state == State::Separated => Arithmetic::Free { promised },
+        Some(laws) => Arithmetic::Rounded(laws),
+        None => Arithmetic::Exact,
+    };
+    let task = Task { system, tolerance, tol, answer: contact::deflection(&numbers), numbers, arithmetic };
+    let choices = task.tried(Method::Lagrange).map_or_else(Vec::new, |lagrange| {
+        let (penalty, augmentation) = task.iterative();
+        [Some(lagrange), penalty, augmentation].into_iter().flatten().collect()
+    });
+    Ok(Advice { state, floor, choices })
+}
+
+/// A larger number of two digits.
+fn two_digits_above(x: &Exact) -> Exact {
+    let up = |x: &Exact| x.decimal(2, Round::Up).parse().expect("a decimal");
+    let above = up(x);
+    if above > *x { above } else { up(&(x * Exact::from(101) / Exact::from(100))) }
+}
+
+/// What decides which penalties will do.
+enum Arithmetic {
+    /// Mass and plane touch, and nothing is rounded.
+    Exact,
+    /// They touch, and these are the laws of what is rounded.
+    Rounded(Laws),
+    /// The mass hangs free. Every method computes m g / c; the augmentation is sure to see it above the
+    /// floor.
+    Free { promised: bool },
+}
+
+/// What is to be solved, and how well.
+struct Task<'a, T> {
+    system: &'a SpringMass<T>,
+    tolerance: &'a T,
+    /// The same, exactly, with the deflection to be found.
+    numbers: SpringMass<Exact>,
+    tol: Exact,
+    answer: Exact,
+    arithmetic: Arithmetic,
+}
+
+impl<T: Scalar + Text> Task<'_, T> {
+    /// The penalty method and the augmentation, if they can be promised.
+    fn iterative(&self) -> (Option<Choice<T>>, Option<Choice<T>>) {
+        let softest = self.penalties().map(|limits| {
+            let eps = if limits.from.is_zero() { self.usual() } else { two_digits_above(&limits.from) };
+            (limits, eps)
+        });
+        let none_needed = softest.as_ref().map(|(_, eps)| eps.clone());
+        let augmentation = self.augmentations().and_then(|limits| {
+            let eps = self.fewest_augmentations(&limits, none_needed);
+            let limits = Limits { from: self.softest_augmentation(&limits, &eps), ..limits };
+            self.choice(&limits, &eps, |penalty| self.augmented(penalty))
+        });
+        let penalty = softest
+            .and_then(|(limits, eps)| self.choice(&limits, &eps, |penalty| Method::Penalty { penalty }));
+        (penalty, augmentation)
+    }
+
+    fn penalties(&self) -> Option<Limits> {
+        match &self.arithmetic {
+            Arithmetic::Exact => Some(Limits::exact(&self.numbers, &self.tol)),
+            Arithmetic::Rounded(laws) => laws.penalties(&self.tol),
+            Arithmetic::Free { .. } => Some(Limits { from: Exact::zero(), to: None }),
+        }
+    }
+
+    fn augmentations(&self) -> Option<Limits> {
+        match &self.arithmetic {
+            Arithmetic::Exact => Some(Limits { from: Exact::zero(), to: None }),
+            Arithmetic::Rounded(laws) => laws.augmentations(&self.tol),
+            // Softer than c, rounding near grazing could take it for touching.
+            Arithmetic::Free { promised } => {
+                promised.then(|| Limits { from: self.numbers.c.clone(), to: None })
+            }
+        }
+    }
+
+    /// 10 c, where every penalty will do.
+    fn usual(&self) -> Exact {
+        Exact::from(10) * &self.numbers.c
+    }
+
+    fn augmented(&self, penalty: T) -> Method<T> {
+        let tolerance = self.tolerance.clone();
+        Method::Augmented { penalty, tolerance, max_augmentations: MAX_AUGMENTATIONS, start: T::zero() }
+    }
+
+    /// The hardest penalty within the limits, but no harder than one with which there is nothing to augment.
+    fn fewest_augmentations(&self, limits: &Limits, none_needed: Option<Exact>) -> Exact {
+        let hardest = limits.to.as_ref().map(|to| to.decimal(1, Round::Down).parse().expect("a decimal"));
+        let mut eps = match hardest.into_iter().chain(none_needed).min() {
+            Some(eps) if eps > limits.from => eps,
+            _ if limits.from.is_zero() => self.usual(),
+            _ => two_digits_above(&limits.from),
+        };
+        // So many are worth some digits of the multiplier.
+        while self.takes_long(&eps) {
+            eps = eps * Exact::from(10);
+        }
+        eps
+    }
+
+    /// The softest penalty within the limits that gets there before the limit of augmentations, within a
+    /// tenth.
+    fn softest_augmentation(&self, limits: &Limits, eps: &Exact) -> Exact {
+        let always = |limits: &Limits| limits.from.is_zero();
+        if always(limits) && self.penalties().as_ref().is_some_and(always) {
+            return Exact::zero();
+        }
+        let mut softest = eps.clone();
+        for factor in [Exact::from(2), Exact::from(11) / Exact::from(10)] {
+            let softer =
+                |eps: &Exact| Some(eps / &factor).filter(|x| *x > limits.from && !self.takes_long(x));
+            while let Some(eps) = softer(&softest) {
+                softest = eps;
+            }
+        }
+        softest
+    }
+
+    /// Is it not certain that an augmentation gets there before the limit?
+    fn takes_long(&self, eps: &Exact) -> bool {
+        let most = match &self.arithmetic {
+            Arithmetic::Exact => {
+                let zero = Exact::zero();
+                Some(augmentations_needed(&self.numbers, eps, &self.tol, &zero, Plane::Unilateral))
+            }
+            Arithmetic::Rounded(laws) => laws.augmentations_at_most(eps, &self.tol),
+            Arithmetic::Free { .. } => return false,
+        };
+        most.is_none_or(|most| most > MAX_AUGMENTATIONS)
+    }
+
+    /// The choice with this penalty, if it reaches the tolerance, with the limits that do so too.
+    fn choice(&self, limits: &Limits, eps: &Exact, method: impl Fn(T) -> Method<T>) -> Option<Choice<T>> {
+        let eps = self.tolerance.nearest(eps).ok()?;
+        let choice = self.tried(method(eps.clone()))?;
+        let exactly = matches!(self.arithmetic, Arithmetic::Exact);
+        let reaches = |eps: &T| exactly || self.tried(method(eps.clone())).is_some();
+        // Rounded inwards; where it does not fit, or under- and overflow break the law, no further than ε.
+        let end = |x: &Exact, up: bool| {
+            let end = self.directed(x, up).ok().filter(|end| if up { *end < eps } else { *end > eps });
+            end.filter(reaches).unwrap_or_else(|| eps.clone())
+        };
+        let from = (!limits.from.is_zero()).then(|| end(&limits.from, true));
+        Some(Choice { penalties: [from, limits.to.as_ref().map(|to| end(to, false))], ..choice })
+    }
+
+    /// Rounded into the scalar, up or down.
+    fn directed(&self, x: &Exact, up: bool) -> Result<T, RangeError> {
+        let (nearest, ordering) = self.tolerance.nearest_compared(x)?;
+        let [below, above] = nearest.neighbours();
+        Ok(match (up, ordering) {
+            (true, std::cmp::Ordering::Less) => above,
+            (false, std::cmp::Ordering::Greater) => below,
+            _ => nearest,
+        })
+    }
+
+    /// A method, if it reaches the tolerance, with what it gives.
+    fn tried(&self, method: Method<T>) -> Option<Choice<T>> {
+        let solution = solve(self.system, &method).ok()?;
+        let exact = |x: &T| x.to_exact().expect("a solution is finite");
+        let (u, n) = (exact(&solution.deflection), exact(&solution.contact_force));
+        let reaches = match solution.outcome {
+            Outcome::Direct => (&u - &self.answer).abs() < self.tol,
+            outcome => outcome == Outcome::Converged,
+        };
+        let force = contact::contact_force(&self.numbers);
+        let force_error = (n - &force).abs();
+        reaches.then(|| Choice {
+            method,
+            penalties: [None, None],
+            augmentations: solution.augmentations,
+            penetration: contact::penetration(&self.numbers, &u),
+            relative_force_error: (!force.is_zero()).then(|| &force_error / force),
+            force_error,
+        })
+    }
+}

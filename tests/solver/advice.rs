@@ -1,0 +1,170 @@
+//! Advice keeps its word: what is advised reaches the tolerance, whatever the scalar, near grazing too; what is promised is
+//! advised; and where nothing is, nothing reaches it.
+
+use crate::in_every_float;
+use crate::strategies::*;
+use num_traits::Zero;
+use proptest::prelude::*;
+use spring_mass_contact::chapter::SpringMass;
+use spring_mass_contact::number::{Exact, PositivePart, Text, ToExact};
+use spring_mass_contact::solver::{
+    Advice, Choice, MAX_AUGMENTATIONS, Method, Outcome, Plane, Scalar, Solution, advise, bits_needed,
+    rounding_floor, solve,
+};
+
+/// Does a run bring the deflection within the tolerance, and say so if it iterates?
+fn reaches<T: Scalar + ToExact>(
+    system: &SpringMass<T>,
+    method: &Method<T>,
+    tolerance: &Exact,
+) -> Result<Solution<T>, String> {
+    let solution = solve(system, method).map_err(|error| error.to_string())?;
+    let off = (exact(&solution.deflection) - resting(&system.map(exact))).abs();
+    let said = matches!(solution.outcome, Outcome::Direct | Outcome::Converged);
+    if said && off < *tolerance { Ok(solution) } else { Err(format!("off by {off}, {}", solution.outcome)) }
+}
+
+/// The same method with another penalty.
+fn with_penalty_of<T: Float>(method: &Method<T>, eps: &T) -> Method<T> {
+    let penalty = eps.clone();
+    match method.clone() {
+        Method::Lagrange => Method::Lagrange,
+        Method::Penalty { .. } => Method::Penalty { penalty },
+        Method::Augmented { tolerance, start, .. } => {
+            Method::Augmented { penalty, tolerance, max_augmentations: MAX_AUGMENTATIONS, start }
+        }
+    }
+}
+
+/// Some penalties in the range, its ends included.
+fn within<T: Float>(choice: &Choice<T>, like: &T) -> Vec<T> {
+    let Some(own) = choice.method.penalty() else { return Vec::new() };
+    let [from, to] = &choice.penalties;
+    let own = exact(own);
+    let from = from.as_ref().map_or_else(|| &own / int(1000), exact);
+    let to = to.as_ref().map_or_else(|| &own * int(1000), exact);
+    assert!(from <= own && own <= to, "{from} {own} {to}");
+    let all = [from.clone(), (&from + &own) / int(2), (&own + &to) / int(2), to.clone()];
+    // Rounded, what is between two scalars stays between them.
+    let mut penalties = Vec::from(all);
+    let mut eps = from;
+    while eps < to {
+        penalties.push(eps.clone());
+        eps = eps * int(1000);
+    }
+    // What does not fit is no penalty.
+    penalties.iter().filter_map(|eps| like.nearest(eps).ok()).collect()
+}
+
+/// Where everything `fits` the range of the scalar, what is promised has to be there.
+fn keeps_its_word<T: Float + Text>(
+    case: &Case<Exact>,
+    tolerance: &Exact,
+    like: &T,
+    fits: bool,
+) -> Result<(), TestCaseError> {
+    let case = case.rounded(like);
+    let Ok(tolerance) = like.nearest(tolerance) else { return Ok(()) };
+    let tol = exact(&tolerance);
+    let system = &case.system;
+    let numbers = system.map(exact);
+    let Advice { choices, floor, .. } = advise(system, &tolerance).unwrap();
+    for choice in &choices {
+        let Choice { method, augmentations, penetration, force_error, .. } = choice;
+        let solution = reaches(system, method, &tol);
+        prop_assert!(solution.is_ok(), "{choice:?} {solution:?} {case:?}");
+        let solution = solution.unwrap();
+        prop_assert_eq!(solution.augmentations, *augmentations);
+        prop_assert_eq!(&numbers.l + exact(&solution.deflection) - &numbers.h, penetration.clone());
+        prop_assert_eq!(&(exact(&solution.contact_force) - pushing(&numbers)).abs(), force_error);
+        for eps in within(choice, like) {
+            let found = reaches(system, &with_penalty_of(method, &eps), &tol);
+            // Without another limit, that of the scalar.
+            let beyond = choice.penalties[1].is_none() && Some(&eps) > method.penalty();
+            if beyond && matches!(&found, Err(error) if error.contains("leaves the range")) {
+                continue;
+            }
+            prop_assert!(found.is_ok(), "ε = {eps:?} of {choice:?}: {found:?}, {tol} {case:?}");
+        }
+    }
+    if fits && floor.is_some_and(|floor| tol > floor) {
+        prop_assert_eq!(choices.len(), 3, "{:?} at {} {:?}", choices, tol, case);
+    }
+    if choices.is_empty() {
+        let exponents = [-20, -3, 0, 3, 20, 50];
+        let penalties = exponents.map(|e| like.nearest(&(&numbers.c * Exact::power_of_two(e))).unwrap());
+        for eps in penalties.into_iter().chain([case.eps.clone()]) {
+            let augmented = Method::Augmented {
+                penalty: eps.clone(),
+                tolerance: tolerance.clone(),
+                max_augmentations: 100,
+                start: like.clone() - like,
+            };
+            for method in [Method::Lagrange, Method::Penalty { penalty: eps.clone() }, augmented] {
+                prop_assert!(reaches(system, &method, &tol).is_err(), "{method:?} reaches {tol}: {case:?}");
+            }
+        }
+    }
+    Ok(())
+}
+
+/// A tolerance of the size of the system or far below, and some at the floor.
+fn advice_holds<T: Float + Text>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
+    keeps_its_word(case, &case.tolerance, like, true)?;
+    let floor = rounding_floor(&case.rounded(like).system, Plane::Unilateral, &unit_roundoff(like));
+    for share in [int(1) / int(2), int(101) / int(100), int(2)] {
+        if let Some(floor) = floor.as_ref().filter(|floor| !floor.is_zero()) {
+            keeps_its_word(case, &(floor * share), like, true)?;
+        }
+    }
+    Ok(())
+}
+
+in_every_float! {
+    advice_holds from any_state;
+}
+
+proptest! {
+    /// 10⁻³ to 10⁻⁴⁰ m, whatever the system.
+    #[test]
+    fn advice_holds_for_decimal_tolerances(case in any_state(NARROW), digits in 3u32..=40) {
+        let tolerance = int(1) / power(&int(10), digits);
+        // In f32 a penalty of R / tol may be too large.
+        keeps_its_word(&case, &tolerance, &1f32, digits < 20)?;
+        keeps_its_word(&case, &tolerance, &1f64, true)?;
+        keeps_its_word(&case, &tolerance, &int(1).to_mpfr(200), true)?;
+    }
+
+    /// With the bits that are said to be needed there is a choice of every method; with one less not for certain.
+    #[test]
+    fn bits_needed_do(case in any_state(WIDE), digits in 3u32..=400) {
+        let tolerance = int(1) / power(&int(10), digits);
+        let bits = bits_needed(&case.system, Plane::Unilateral, &tolerance).unwrap();
+        let like = int(1).to_mpfr(bits);
+        let rounded = case.rounded(&like);
+        let advice = advise(&rounded.system, &tolerance.to_mpfr(bits)).unwrap();
+        prop_assert_eq!(advice.choices.len(), 3, "{} bits for {}: {:?}", bits, tolerance, rounded);
+        if bits > 6 {
+            let fewer = case.rounded(&int(1).to_mpfr(bits - 1));
+            let floor = rounding_floor(&fewer.system, Plane::Unilateral, &Exact::power_of_two(1 - bits as i32));
+            prop_assert!(floor.is_none_or(|floor| floor >= exact(&tolerance.to_mpfr(bits - 1))));
+        }
+    }
+
+    /// Rationals round nothing: every tolerance is met, and the softest penalty is that of Remark 1.3.2.
+    #[test]
+    fn rationals_reach_everything(case in any_state(WIDE)) {
+        let advice = advise(&case.system, &case.tolerance).unwrap();
+        prop_assert_eq!(advice.floor, Some(Exact::zero()));
+        prop_assert_eq!(advice.choices.len(), 3);
+        for choice in &advice.choices {
+            prop_assert!(reaches(&case.system, &choice.method, &case.tolerance).is_ok());
+            prop_assert!(choice.augmentations.is_none_or(|k| k <= MAX_AUGMENTATIONS));
+        }
+        let from = advice.choices[1].penalties[0].clone();
+        let least = (reaction(&case) / &case.tolerance - &case.system.c).positive_part();
+        if reaction(&case) > Exact::zero() {
+            prop_assert!(from.is_none_or(|from| from > least));
+        }
+    }
+}
