@@ -122,3 +122,22 @@ pub fn penetration_drift<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: &T
 pub fn multiplier_drift<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: &T) -> T {
     T::int(11) * penalty::total_stiffness(system, eps) * floor(system, eps, n)
 }
+
+/// The square of the compliance 1 / (c + ε) at which a computed ε p serves best as a value of R, in m²/N².
+///
+/// `η (|H| + 5 |Δ|) (1 + 8 η) / (c R)`
+///
+/// `n` is 2ᵖ. A smaller ε leaves more of R to the spring, a larger one more to
+/// [rounding](penalty_force_error); the bound of both together is least here. Where H and l are 0, this is
+/// 0, and no ε is too large. Domain: c > 0, R > 0, n > 0. Source: §1.3.2, note 8.
+///
+/// ```
+/// # use spring_mass_contact::chapter::{SpringMass, rounding};
+/// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
+/// assert_eq!(rounding::best_compliance_squared(&system, &8.0), 26.0 / 64.0);
+/// ```
+pub fn best_compliance_squared<T: PositivePart>(system: &SpringMass<T>, n: &T) -> T {
+    let eta = unit_roundoff(n);
+    let lengths = system.h.abs() + T::int(5) * system::gap(system).abs();
+    &eta * lengths * (T::one() + T::int(8) * &eta) / (&system.c * system::reaction(system))
+}

@@ -167,6 +167,20 @@ pub(super) fn entries() -> Vec<Entry> {
                         &parts + int(8) * eta() * &parts,
                     )
                 },
+                // What is proved of the force as a value of R, in parts of R and but for what does not depend
+                // on ε. It is least where the square on the right vanishes.
+                {
+                    let best = &rounding::best_compliance_squared(s, precision());
+                    let error = reaction(s) - force_at_root(s, eps)
+                        + rounding::penalty_force_error(s, eps, precision());
+                    let fixed = int(7) * eta() * (int(1) + int(8) * eta()) - square(&s.c) * best;
+                    equal(
+                        "best-penalty",
+                        [stiffness, penalty, contact, some_bits],
+                        square(error / reaction(s) - fixed) - int(4) * square(&s.c) * best,
+                        square(augmented::contraction(s, eps) - &s.c * total_stiffness(s, eps) * best),
+                    )
+                },
                 {
                     let p = penetration(s, eps);
                     equal("complementarity", [stiffness, penalty], &p * force_at_root(s, eps), eps * &p * &p)

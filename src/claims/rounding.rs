@@ -11,6 +11,7 @@ formulas! {
     "F" (folded) = rounding::floor(system, "ε", "2ᵖ");
     "" = rounding::penetration_drift(system, "ε", "2ᵖ");
     "" = rounding::multiplier_drift(system, "ε", "2ᵖ");
+    "" = rounding::best_compliance_squared(system, "2ᵖ");
 }
 
 /// The unit roundoff.
