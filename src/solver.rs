@@ -27,6 +27,8 @@ mod scalar;
 #[cfg(feature = "mpfr")]
 mod series;
 mod solution;
+#[cfg(feature = "mpfr")]
+mod sweep;
 
 #[cfg(feature = "mpfr")]
 pub use advise::{Advice, Choice, MAX_AUGMENTATIONS, advise};
@@ -42,6 +44,8 @@ pub use scalar::{Interval, Scalar};
 #[cfg(feature = "mpfr")]
 pub use series::series_penetration;
 pub use solution::{Bounds, Method, Outcome, Plane, Solution, State};
+#[cfg(feature = "mpfr")]
+pub use sweep::{SweepRow, best_penalty, penalties, penalty_force_bound, sweep};
 
 use crate::chapter::{SpringMass, augmented, contact, lagrange, penalty, structure, system};
 

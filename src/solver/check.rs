@@ -2,6 +2,7 @@
 
 use super::{Method, Scalar, Solution};
 use crate::chapter::{SpringMass, penalty, structure, system};
+use std::fmt::Debug;
 
 /// Why there is no solution to return.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -28,10 +29,10 @@ pub enum SolveError {
 const POSITIVE: &str = "greater than 0 and finite";
 const FINITE: &str = "finite";
 
-fn require<T: Scalar>(
+pub(super) fn require(
     holds: bool,
     argument: &'static str,
-    value: &T,
+    value: &impl Debug,
     allowed: &'static str,
 ) -> Result<(), SolveError> {
     if holds { Ok(()) } else { Err(SolveError::Invalid { argument, value: format!("{value:?}"), allowed }) }
@@ -92,7 +93,7 @@ pub(super) fn no_precision<T: Scalar>(value: &T) -> SolveError {
     }
 }
 
-fn in_range(holds: bool, quantity: &'static str) -> Result<(), SolveError> {
+pub(super) fn in_range(holds: bool, quantity: &'static str) -> Result<(), SolveError> {
     if holds { Ok(()) } else { Err(SolveError::OutOfRange { quantity }) }
 }
 
