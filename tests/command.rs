@@ -368,9 +368,8 @@ fn a_terminal_of_80_columns_is_enough() {
     let output = contact(&proofs);
     assert_eq!((too_wide(&output), output.status.code()), (None, Some(0)));
     assert!(stdout(&output).contains("\nchanges of formulas that these claims notice\n"));
-    for line in
-        ["--help", "verify --help", "prove --help", "solve --help", "equations --help", "completions --help"]
-    {
+    for name in ["", "verify ", "prove ", "solve ", "sweep ", "equations ", "completions "] {
+        let line = format!("{name}--help");
         let mut command = Command::new(env!("CARGO_BIN_EXE_contact"));
         // Without COLUMNS clap takes what there is room for; there is no terminal.
         let output = command.env_remove("COLUMNS").args(line.split(' ')).stdin(Stdio::null()).output();
@@ -380,6 +379,8 @@ fn a_terminal_of_80_columns_is_enough() {
         "--help",
         "solve --help",
         "solve -h",
+        "sweep --help",
+        "sweep -h",
         "completions --help",
         "verify --help",
         "equations --help",
@@ -398,6 +399,9 @@ fn a_terminal_of_80_columns_is_enough() {
         "solve --method augmented --penalty 1 --tolerance 1e-14 --trace --max-augmentations 10000",
         "solve --stiffness 1.2345678901234567e-300 --mass 1.2345678901234567e-300 --gravity -1.2345678901234567",
         "solve --mass 1e100000 --scalar exact",
+        "sweep --penalty 1..1e18 --scalar f64 --scalar mpfr:3 --scalar exact",
+        "sweep --penalty 1e-99999..1e99999 --points 99 --scalar mpfr:90000 --gravity -1/3 --free-length 1234567",
+        "sweep --penalty 1234567890/123456789..12345678901234567890 --points 2 --scalar exact",
     ] {
         let output = contact(&line.split(' ').collect::<Vec<_>>());
         assert_eq!(too_wide(&output), None, "{line}");
@@ -523,6 +527,10 @@ fn no_text_can_break_the_line() {
         &["equations", "1.13\r"],
         &["equations", "\u{202e}1.13"],
         &["equations", "1.13\u{2028}"],
+        &["sweep", "--penalty", &long],
+        &["sweep", "--penalty", &format!("1..{long}")],
+        &["sweep", "--penalty", &format!("1..1.{}1", "0".repeat(90_000))],
+        &["sweep", "--penalty", "1..2", "--points", &long],
         &["solve", &long],
         &["solve", &format!("-{long}")],
         &["solve", &format!("--{long}")],
@@ -559,6 +567,82 @@ fn results_that_do_not_fit_are_refused() {
     ] {
         let line = refusal(&arguments.split(' ').collect::<Vec<_>>());
         assert!(line.contains("leaves the range of this scalar"), "{line}");
+    }
+}
+
+/// What the rows of a sweep are called, in the order of CSV.
+const COLUMNS: [&str; 8] = [
+    "scalar",
+    "penalty",
+    "deflection",
+    "penetration",
+    "contact_force",
+    "penalty_force",
+    "force_error",
+    "penalty_force_error",
+];
+
+/// Pasted, a penalty of a sweep solves what the row says; and both formats say the same.
+#[test]
+fn a_row_of_a_sweep_is_a_solve() {
+    for system in
+        ["--gravity 9.81", "--gravity -1/3 --height 7/3", "--gravity 5 --height 1.25 --free-length 1.2"]
+    {
+        let line = format!(
+            "sweep --penalty 1/3..1e9 --points 7 --scalar f32 --scalar f64 --scalar mpfr:99 --scalar exact {system}"
+        );
+        let line: Vec<_> = line.split(' ').collect();
+        let (rows, code) = json(&line);
+        let csv = contact(&[&line[..], &["--format", "csv"]].concat());
+        let mut lines = stdout(&csv).lines();
+        assert_eq!(lines.next(), Some(COLUMNS.join(",").as_str()));
+        assert_eq!((array(&rows).len(), code), (4 * 7, Some(0)));
+        for row in array(&rows) {
+            let mut names = COLUMNS;
+            names.sort_unstable();
+            assert_eq!(keys(row), names);
+            let text = |name: &str| row[name].as_str().unwrap_or_default();
+            assert_eq!(lines.next(), Some(COLUMNS.map(text).join(",").as_str()));
+            let [scalar, penalty] = ["scalar", "penalty"].map(text);
+            let (answer, _) =
+                solve(&format!("--method penalty --scalar {scalar} --penalty {penalty} {system}"));
+            for name in ["deflection", "penetration", "contact_force"] {
+                assert_eq!(row[name], answer[name], "{name} at {penalty} in {scalar}");
+            }
+            assert_eq!(row["penalty_force"].is_null(), answer["state"] == "separated");
+            assert_eq!(row["force_error"].is_null(), answer["state"] != "contact");
+            assert_eq!(row["penalty_force_error"].is_null(), answer["state"] != "contact");
+        }
+        assert_eq!(lines.next(), None);
+        // The same penalties in every number system, each once, in their order.
+        let penalties: Vec<_> = array(&rows).iter().map(|row| exact(&row["penalty"])).collect();
+        assert!(penalties.chunks(7).all(|of_one| of_one == &penalties[..7]));
+        assert!(penalties[..7].windows(2).all(|pair| pair[0] < pair[1]));
+        let ends = ["1/3", "1e9"].map(|end| end.parse::<Exact>().expect("a number"));
+        assert_eq!([&penalties[0], &penalties[6]], ends.each_ref());
+    }
+}
+
+/// Of R = 4.81 in rationals, c/(c + ε) of it; six digits are right up to half a unit of the last one.
+#[test]
+fn errors_of_a_sweep_are_correct_decimals() {
+    let (rows, _) = json(&["sweep", "--penalty", "1e-3..1e30", "--points", "67", "--scalar", "exact"]);
+    for row in array(&rows) {
+        let (c, eps) = (Exact::from(100), exact(&row["penalty"]));
+        let error = &c / (&c + eps);
+        for name in ["force_error", "penalty_force_error"] {
+            let off = (exact(&row[name]) / &error - Exact::from(1)).to_f64().expect("a small number");
+            assert!(off.abs() <= 0.5e-5, "{row}");
+        }
+    }
+}
+
+/// Only where a person looks, and nowhere else.
+#[test]
+fn a_pipe_gets_no_plot() {
+    for format in ["table", "json", "csv"] {
+        let output = contact(&["sweep", "--penalty", "1..1e18", "--format", format]);
+        assert!(!stdout(&output).contains(|c| ('\u{2800}'..'\u{2900}').contains(&c)), "{format}");
     }
 }
 
@@ -600,7 +684,14 @@ fn a_pipe_that_closes_after_a_line_is_no_error() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_is_reported() {
-    for line in ["verify --cases 1 --equation 1.1", "equations", "solve", "completions bash", "--help"] {
+    for line in [
+        "verify --cases 1 --equation 1.1",
+        "equations",
+        "solve",
+        "sweep --penalty 1..2",
+        "completions bash",
+        "--help",
+    ] {
         let full = std::fs::File::options().write(true).open("/dev/full").expect("a device");
         let output = run(command().args(line.split(' ')).stdout(full).stderr(Stdio::piped()));
         let stderr = String::from_utf8(output.stderr).expect("UTF-8");
@@ -942,7 +1033,7 @@ fn no_bad_choice_gets_further_than_one_line() {
     for command in ["VERIFY", "verfy", "", "-", "1.13", "proof"] {
         let line = refusal(&[command]);
         assert!(line.contains(&format!("unrecognized subcommand '{command}'")), "{line}");
-        assert!(line.contains("verify, prove, solve, advise, equations, completions"), "{line}");
+        assert!(line.contains("verify, prove, solve, advise, sweep, equations, completions"), "{line}");
     }
 }
 

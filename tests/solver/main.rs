@@ -10,3 +10,4 @@ mod invariances;
 mod kkt;
 mod penalty_limit;
 mod results;
+mod sweep;

@@ -9,6 +9,7 @@ mod equations;
 mod output;
 mod prove;
 mod solve;
+mod sweep;
 mod verify;
 
 use clap::{CommandFactory, Parser, Subcommand};
@@ -22,6 +23,7 @@ Examples:
   contact solve --method penalty --penalty 1000 --scalar exact
   contact solve --height 2 --format json
   contact advise --tolerance 1e-12
+  contact sweep --penalty 1..1e18
   contact equations 1.13
   contact prove 1.17
   contact verify --scalar mpfr:1000 --cases 50
@@ -45,6 +47,7 @@ enum Command {
     Prove(prove::Options),
     Solve(Box<solve::Options>),
     Advise(Box<advise::Options>),
+    Sweep(Box<sweep::Options>),
     Equations(equations::Options),
     Completions(Completions),
 }
@@ -79,6 +82,7 @@ fn run(cli: Cli) -> Result<Exit, Failure> {
         Some(Command::Equations(options)) => equations::run(&options),
         Some(Command::Solve(options)) => solve::run(&options),
         Some(Command::Advise(options)) => advise::run(&options),
+        Some(Command::Sweep(options)) => sweep::run(&options),
         Some(Command::Completions(Completions { shell })) => {
             // The generator panics where it cannot write; into memory it can.
             let mut script = Vec::new();

@@ -1,0 +1,375 @@
+//! `contact sweep`: the penalty method over a range of penalties, in one number system after the other.
+
+mod plot;
+
+use crate::args::{Number, System, positive};
+use crate::output::{self, Exit, Failure, shortened};
+use clap::ValueEnum;
+use num_traits::{One, Zero};
+use plot::Curve;
+use serde::Serialize;
+use serde::ser::Serializer;
+use spring_mass_contact::chapter::{SpringMass, rounding, system};
+use spring_mass_contact::number::{Exact, NumberSystem, Text};
+use spring_mass_contact::rug::{Float, float::Round};
+use spring_mass_contact::solver::{
+    Scalar, SolveError, State, SweepRow, best_penalty, penalties, penalty_force_bound, sweep,
+};
+use std::io::{self, IsTerminal, Write};
+
+const EXAMPLES: &str = "\
+Examples:
+  contact sweep --penalty 1..1e18
+  contact sweep --penalty 1..1e18 --points 19 --scalar f32 --scalar f64
+  contact sweep --penalty 1/10..1e40 --scalar mpfr:200 --format csv
+
+The errors are relative, |N − R|/R, for the exact contact force R of the
+parameters as rounded, and exact themselves but for their last digit. Penalties
+are the same numbers in every number system, each rounded once into it; one that
+does not fit, or has a result that does not, ends the command. On a terminal
+there is a plot as well.
+
+Exit status: 0 all well; 2 bad input.";
+
+/// Show how the penalty method depends on its penalty, with the exact errors of its two forces
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Options {
+    #[command(flatten)]
+    system: System,
+
+    /// Penalties in N/m, from one to a larger one, 0 < FROM < TO
+    #[arg(long, value_name = "FROM..TO", value_parser = range, help_heading = "Sweep")]
+    penalty: (Number, Number),
+    /// How many penalties, both ends included, from 2 to 1001; each as many times the one before
+    #[arg(long, value_name = "N", default_value = "61", value_parser = points, help_heading = "Sweep")]
+    points: usize,
+
+    /// Number system, repeatable: f32, f64, mpfr:BITS or exact [default: f64]
+    #[arg(long = "scalar", value_name = "S", help_heading = "Output")]
+    scalars: Vec<NumberSystem>,
+    /// How to print the rows
+    #[arg(long, value_enum, default_value_t = Format::Table, help_heading = "Output")]
+    format: Format,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// For people: few digits, and what they show
+    Table,
+    /// All digits, numbers as strings
+    Json,
+    /// The same in rows
+    Csv,
+}
+
+/// The columns of JSON and CSV.
+const NAMES: [&str; 8] = [
+    "scalar",
+    "penalty",
+    "deflection",
+    "penetration",
+    "contact_force",
+    "penalty_force",
+    "force_error",
+    "penalty_force_error",
+];
+
+/// As clap names it.
+const PENALTY: &str = "--penalty <FROM..TO>";
+
+/// The columns of the table: with a blank before each, they fit a page.
+const WIDTHS: [usize; 7] = [10, 11, 11, 11, 9, 11, 9];
+
+/// How many digits a table has at most, and how many of an error and in a text.
+const DIGITS: usize = 8;
+const FEW: usize = 3;
+
+/// How many digits of an error JSON and CSV have.
+const ERROR_DIGITS: usize = 6;
+
+/// Two numbers and what is between them.
+fn range(text: &str) -> Result<(Number, Number), String> {
+    let (from, to) = text.split_once("..").ok_or("must be FROM..TO, such as 1..1e12")?;
+    let end =
+        |name: &str, text| positive(text).map_err(|error| format!("{name} '{}': {error}", shortened(text)));
+    let (from, to) = (end("FROM", from)?, end("TO", to)?);
+    if from.value < to.value { Ok((from, to)) } else { Err("FROM must be less than TO".to_string()) }
+}
+
+fn points(text: &str) -> Result<usize, String> {
+    let digits = text.bytes().all(|b| b.is_ascii_digit());
+    let count = text.parse().ok().filter(|count| digits && (2..=1001).contains(count));
+    count.ok_or_else(|| "must be a whole number from 2 to 1001".to_string())
+}
+
+/// Sweeps and prints.
+pub fn run(options: &Options) -> Result<Exit, Failure> {
+    // All of it before a line is printed: bad input shall not leave half a table.
+    let sweeps = output::with_progress("sweeping", |progress| sweeps(options, progress))?;
+    output::print(|out| match options.format {
+        Format::Table => table(out, options, &sweeps, io::stdout().is_terminal()),
+        Format::Json => output::json(out, &sweeps.iter().flat_map(|sweep| &sweep.rows).collect::<Vec<_>>()),
+        Format::Csv => csv(out, &sweeps),
+    })
+}
+
+fn sweeps(options: &Options, progress: &dyn Fn(usize, usize)) -> Result<Vec<Sweep>, Failure> {
+    let (from, to) = &options.penalty;
+    let refused = |error| {
+        let typed = shortened(&format!("{}..{}", from.text, to.text));
+        let allowed = match error {
+            SolveError::Invalid { argument, allowed, .. } => format!("the {argument} must be {allowed}"),
+            other => other.to_string(),
+        };
+        Failure::Input(format!("invalid value '{typed}' for '{PENALTY}': {allowed}"))
+    };
+    let penalties = penalties(&from.value, &to.value, options.points).map_err(refused)?;
+    let number = |value| Number { text: spelled(&value), value };
+    let penalties: Vec<_> = penalties.into_iter().map(number).collect();
+    let scalars = if options.scalars.is_empty() { &[NumberSystem::F64] } else { &options.scalars[..] };
+    let first = |(i, scalar): &(usize, &NumberSystem)| !scalars[..*i].contains(scalar);
+    let scalars: Vec<_> = scalars.iter().enumerate().filter(first).map(|(_, scalar)| *scalar).collect();
+    let made = |(i, scalar): (usize, &NumberSystem)| {
+        let sweeping = Sweeping { options, penalties: &penalties, scalar: *scalar };
+        let each = |row| progress(i * penalties.len() + row, scalars.len() * penalties.len());
+        match scalar {
+            NumberSystem::F32 => sweeping.run(&0_f32, each),
+            NumberSystem::F64 => sweeping.run(&0_f64, each),
+            NumberSystem::Mpfr(bits) => sweeping.run(&Exact::zero().to_mpfr(*bits), each),
+            NumberSystem::Exact => sweeping.run(&Exact::zero(), each),
+        }
+    };
+    scalars.iter().enumerate().map(made).collect()
+}
+
+/// The shortest decimal that is this number, or a fraction.
+fn spelled(x: &Exact) -> String {
+    let decimals = (DIGITS..=100).map(|digits| x.decimal(digits, Round::Nearest));
+    let mut decimals = decimals.filter(|text| text.parse().as_ref() == Ok(x));
+    decimals.next().unwrap_or_else(|| x.to_string())
+}
+
+/// A row, in the order of [`NAMES`]; nothing where something does not apply.
+struct Row([Option<String>; 8]);
+
+impl Serialize for Row {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.collect_map(NAMES.iter().zip(&self.0))
+    }
+}
+
+/// One number system's rows, as they are printed, and what there is to say of them.
+struct Sweep {
+    scalar: NumberSystem,
+    rows: Vec<Row>,
+    notes: Vec<String>,
+    curves: [Curve; 2],
+}
+
+/// What is to be swept, where.
+struct Sweeping<'a> {
+    options: &'a Options,
+    penalties: &'a [Number],
+    scalar: NumberSystem,
+}
+
+impl Sweeping<'_> {
+    fn run<T: Scalar + Text>(&self, like: &T, each: impl Fn(usize)) -> Result<Sweep, Failure> {
+        let system = self.options.system.round(like)?;
+        let round = |eps: &Number| eps.round(PENALTY, like);
+        let rounded = self.penalties.iter().map(round).collect::<Result<Vec<T>, _>>()?;
+        let mut made =
+            Sweep { scalar: self.scalar, rows: Vec::new(), notes: Vec::new(), curves: Curve::pair() };
+        let mut least: Option<(Exact, &str)> = None;
+        for ((i, row), eps) in (1..).zip(sweep(&system, rounded.iter().cloned())).zip(self.penalties) {
+            let row = row.map_err(|error| {
+                format!("--scalar {}, --penalty {}: {error}", self.scalar, shortened(&eps.text))
+            })?;
+            let errors = [&row.force_error, &row.penalty_force_error];
+            for (curve, error) in made.curves.iter_mut().zip(errors) {
+                curve.points.extend(log10(&eps.value).zip(error.as_ref().and_then(log10)));
+            }
+            if let Some(error) = &row.penalty_force_error
+                && least.as_ref().is_none_or(|(least, _)| error < least)
+            {
+                least = Some((error.clone(), &eps.text));
+            }
+            made.rows.push(self.row(eps, &row));
+            each(i);
+        }
+        made.notes = self.notes(&system, &rounded, least);
+        Ok(made)
+    }
+
+    /// As it is printed: for people within the width of a column, or in full.
+    fn row<T: Text>(&self, eps: &Number, row: &SweepRow<T>) -> Row {
+        let people = self.options.format == Format::Table;
+        let value = |x: &T, width| {
+            if people { x.to_exact().expect("finite").decimal_within(DIGITS, width) } else { x.text() }
+        };
+        let error = |x: &Option<Exact>, width| {
+            let digits = if people { FEW } else { ERROR_DIGITS };
+            x.as_ref().map(|x| x.decimal_within(digits, if people { width } else { usize::MAX }))
+        };
+        let [penalty, u, p, force, force_error, penalty_force, penalty_force_error] = WIDTHS;
+        let fits = !people || eps.text.chars().count() <= penalty;
+        let penalty = if fits { eps.text.clone() } else { eps.value.decimal_within(DIGITS, penalty) };
+        Row([
+            Some(self.scalar.to_string()),
+            Some(penalty),
+            Some(value(&row.deflection, u)),
+            Some(value(&row.penetration, p)),
+            Some(value(&row.contact_force, force)),
+            row.penalty_force.as_ref().map(|x| value(x, penalty_force)),
+            error(&row.force_error, force_error),
+            error(&row.penalty_force_error, penalty_force_error),
+        ])
+    }
+
+    /// What the rows show.
+    fn notes<T: Scalar + Text>(
+        &self,
+        system: &SpringMass<T>,
+        penalties: &[T],
+        least: Option<(Exact, &str)>,
+    ) -> Vec<String> {
+        let eta = self.scalar.unit_roundoff();
+        let exact = |x: &T| x.to_exact().expect("a parameter is finite");
+        let few = |x: &Exact| x.decimal(FEW, Round::Nearest);
+        let s = system.map(exact);
+        let Some((least, at)) = least else {
+            let without = match State::of(system) {
+                State::Separated => "The mass hangs free, with no plane to push: there is no ε p.",
+                _ => "Grazing: the contact force is 0, and nothing is a part of it.",
+            };
+            return vec![without.to_string()];
+        };
+        let (r, c) = (system::reaction(&s), &system.c);
+        let mut notes = vec![format!(
+            "R = {} N, for the parameters as rounded, and c/(c + ε) of it is left to the spring: from \
+             ε = c = {} N/m on this error falls like 1/ε, with the slope −1.",
+            few(&r),
+            few(&exact(c)),
+        )];
+        if self.scalar == NumberSystem::Exact {
+            notes.push("Rationals do not round: there is no other error.".to_string());
+            return notes;
+        }
+        let seen = format!("The least error here is {} at ε = {} N/m.", few(&least), shortened(at));
+        let bound =
+            |eps: &T| penalty_force_bound(system, eps, &eta).map_or(String::new(), |bound| few(&bound));
+        notes.push(match best_penalty(system, &eta) {
+            Ok(Some(best)) => format!(
+                "ε p multiplies what rounding does to p: surest is ε = {} N/m, where it is certainly within \
+                 {} of R; no other ε is promised as much. {seen}",
+                few(&exact(&best)),
+                bound(&best)
+            ),
+            Ok(None) if s.h.is_zero() && s.l.is_zero() => {
+                format!("With H = l = 0 rounding does nothing to p that ε p would notice. {seen}")
+            }
+            Ok(None) => format!("ε p is lost to rounding before the penalty is stiff: none is best. {seen}"),
+            Err(_) => format!("The ε that ε p would be surest with is out of this scalar's range. {seen}"),
+        });
+        notes.push(
+            "m g − c u has no optimum: its error falls to what rounding leaves, and stays there.".to_string(),
+        );
+        let n = Exact::one() / &eta;
+        let floor = |eps: &T| few(&rounding::floor(&s, &exact(eps), &n));
+        if let [first, .., last] = penalties {
+            notes.push(format!(
+                "An augmentation stops at a penetration of about η (|H| + |Δ| + R/ε): {} m with the first \
+                 ε, {} m with the last.",
+                floor(first),
+                floor(last)
+            ));
+        }
+        notes
+    }
+}
+
+fn log10(x: &Exact) -> Option<f64> {
+    let log = Float::with_val(64, x.as_rational()).log10().to_f64();
+    (*x > Exact::zero()).then_some(log)
+}
+
+fn csv(out: &mut dyn Write, sweeps: &[Sweep]) -> io::Result<()> {
+    writeln!(out, "{}", NAMES.join(","))?;
+    for Row(cells) in sweeps.iter().flat_map(|sweep| &sweep.rows) {
+        let cells = cells.each_ref().map(|cell| cell.as_deref().unwrap_or_default());
+        writeln!(out, "{}", cells.join(","))?;
+    }
+    Ok(())
+}
+
+fn table(out: &mut dyn Write, options: &Options, sweeps: &[Sweep], plotted: bool) -> io::Result<()> {
+    let line = |cells: [&str; 7]| {
+        let cells = cells.iter().zip(WIDTHS).map(|(cell, width)| format!(" {cell:<width$}"));
+        cells.collect::<String>().trim_end().to_string()
+    };
+    let typed = options.system.typed().map(|number| shortened(&number.text));
+    output::wrapped(out, " ", 1, &typed.to_string())?;
+    for Sweep { scalar, rows, notes, curves } in sweeps {
+        writeln!(out, "\n {scalar}")?;
+        writeln!(
+            out,
+            "{}",
+            line(["ε in N/m", "u in m", "p in m", "m g − c u", "error", "ε p in N", "error"])
+        )?;
+        for Row(cells) in rows {
+            let [_, penalty, u, p, force, penalty_force, error, penalty_error] =
+                cells.each_ref().map(|cell| cell.as_deref().unwrap_or("–"));
+            writeln!(out, "{}", line([penalty, u, p, force, error, penalty_force, penalty_error]))?;
+        }
+        if plotted && let Some(plot) = plot::log_log(curves) {
+            write!(out, "\n{plot}")?;
+        }
+        writeln!(out)?;
+        notes.iter().try_for_each(|note| output::wrapped(out, " ", 1, note))?;
+    }
+    writeln!(out, "\n At most eight digits each; --format csv has all.")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::printed;
+    use clap::{Args, FromArgMatches};
+
+    fn printed_table(line: &str, plotted: bool) -> String {
+        let command = Options::augment_args(clap::Command::new("sweep"));
+        let options = Options::from_arg_matches(&command.get_matches_from(line.split(' '))).expect("options");
+        let Ok(sweeps) = sweeps(&options, &|_, _| {}) else { panic!("{line} is refused") };
+        printed(|out| table(out, &options, &sweeps, plotted))
+    }
+
+    /// Both curves, as far as there are any; and the rest of the table stays as it is.
+    #[test]
+    fn a_terminal_gets_a_plot_besides() {
+        let braille = |line: &&str| line.contains(|c| ('\u{2800}'..'\u{2900}').contains(&c));
+        for (line, plots) in [
+            ("sweep --penalty 1..1e18 --scalar f32 --scalar f64", 2),
+            ("sweep --penalty 1..1e9 --scalar exact", 1),
+            ("sweep --penalty 1..1e18 --height 2", 0),
+        ] {
+            let [bare, plotted] = [false, true].map(|plotted| printed_table(line, plotted));
+            assert_eq!(bare.lines().filter(braille).count(), 0, "{line}");
+            assert_eq!(plotted.matches("relative error of").count(), plots, "{line}");
+            assert_eq!(plotted.lines().filter(braille).count() > 16 * plots, plots > 0, "{line}");
+            assert!(plotted.lines().all(|line| line.chars().count() <= 80), "{plotted}");
+            let mut rest = plotted.lines();
+            assert!(bare.lines().all(|line| rest.any(|other| other == line)), "{line}");
+        }
+    }
+
+    #[test]
+    fn the_book_shows_the_plot_as_it_is() {
+        let page = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("book/src/command.md");
+        let page = std::fs::read_to_string(page).expect("the book");
+        let plotted = printed_table("sweep --penalty 1..1e18", true);
+        let (_, plot) = plotted.split_once("relative error of").expect("a plot");
+        let (plot, _) = plot.split_once("\n\n").expect("what is said of it");
+        assert!(page.contains(plot), "{plot}");
+    }
+}

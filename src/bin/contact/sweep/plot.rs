@@ -1,0 +1,177 @@
+//! A small log-log plot in braille, whose characters are dots, two by four.
+
+/// What is drawn, in powers of ten.
+pub struct Curve {
+    /// What it is called.
+    pub name: &'static str,
+    /// Joined by lines, or dots alone.
+    pub joined: bool,
+    /// log₁₀ of both coordinates, from left to right.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// Characters of a line at most.
+const WIDTH: usize = 80;
+/// Characters of the dots, across and down.
+const COLUMNS: usize = 68;
+const ROWS: usize = 16;
+/// Characters to the left of them, for labels.
+const MARGIN: usize = 10;
+
+/// U+2800 has no dots; these bits add them, by row and column within a character.
+const DOTS: [[u32; 2]; 4] = [[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x80]];
+
+impl Curve {
+    /// The errors of the two forces, still without points.
+    pub fn pair() -> [Curve; 2] {
+        let of = |name, joined| Curve { name, joined, points: Vec::new() };
+        [of("m g − c u", false), of("ε p", true)]
+    }
+}
+
+/// One axis: whole powers of ten, and dots for what is between them.
+struct Axis {
+    from: f64,
+    to: f64,
+    dots: usize,
+}
+
+impl Axis {
+    /// Around all of these, if there are any.
+    fn around(values: impl Iterator<Item = f64> + Clone, dots: usize) -> Option<Self> {
+        let from = values.clone().min_by(f64::total_cmp)?.floor();
+        let to = values.max_by(f64::total_cmp)?.ceil().max(from + 1.0);
+        Some(Axis { from, to, dots })
+    }
+
+    fn dot(&self, x: f64) -> usize {
+        let share = (x - self.from) / (self.to - self.from);
+        (share * (self.dots - 1) as f64).round() as usize
+    }
+
+    /// The powers that are labelled, so many at most, and where they are.
+    fn ticks(&self, most: usize) -> Vec<(i64, usize)> {
+        let (from, to) = (self.from as i64, self.to as i64);
+        let steps = (0..).flat_map(|power| [1, 2, 5].map(|digit| digit * 10_i64.pow(power)));
+        let mut steps = steps.skip_while(|step| (to - from) / step >= most as i64);
+        let step = steps.next().unwrap_or(to - from);
+        let first = from + (-from).rem_euclid(step);
+        (0..)
+            .map(|i| first + i * step)
+            .take_while(|power| *power <= to)
+            .map(|n| (n, self.dot(n as f64)))
+            .collect()
+    }
+}
+
+/// The curves with their axes and a legend, in at most 80 columns; nothing if there is nothing to draw.
+pub fn log_log(curves: &[Curve]) -> Option<String> {
+    let points = || curves.iter().flat_map(|curve| &curve.points);
+    let x = Axis::around(points().map(|(x, _)| *x), 2 * COLUMNS)?;
+    let y = Axis::around(points().map(|(_, y)| *y), 4 * ROWS)?;
+    let mut canvas = [[0; COLUMNS]; ROWS];
+    let mut set = |across: usize, up: usize| {
+        let down = 4 * ROWS - 1 - up;
+        canvas[down / 4][across / 2] |= DOTS[down % 4][across % 2];
+    };
+    for curve in curves {
+        let dots: Vec<_> = curve.points.iter().map(|(a, b)| (x.dot(*a), y.dot(*b))).collect();
+        dots.iter().for_each(|(across, up)| set(*across, *up));
+        for pair in dots.windows(2).filter(|_| curve.joined) {
+            let ((a, b), (c, d)) = (pair[0], pair[1]);
+            let steps = a.abs_diff(c).max(b.abs_diff(d)).max(1);
+            let between =
+                |from: usize, to: usize, i: usize| (from * (steps - i) + to * i + steps / 2) / steps;
+            (0..=steps).for_each(|i| set(between(a, c, i), between(b, d, i)));
+        }
+    }
+    let ticks = y.ticks(ROWS / 2);
+    let row = |(i, row): (usize, &[u32; COLUMNS])| {
+        let tick = ticks.iter().find(|(_, up)| ROWS - 1 - up / 4 == i);
+        let (label, edge) = tick.map_or((String::new(), '│'), |(power, _)| (format!("1e{power} "), '┤'));
+        let dots: String = row.iter().filter_map(|dots| char::from_u32(0x2800 + dots)).collect();
+        format!("{label:>MARGIN$}{edge}{dots}\n")
+    };
+    let rows: String = canvas.iter().enumerate().map(row).collect();
+    let mut axis = vec!['─'; COLUMNS];
+    let mut labels = String::new();
+    for (power, across) in x.ticks(COLUMNS / 10) {
+        axis[across / 2] = '┬';
+        let label = format!("1e{power}");
+        let column = (MARGIN + 1 + across / 2).saturating_sub(label.len() / 2).min(WIDTH - label.len());
+        labels += &" ".repeat(column.saturating_sub(labels.len()));
+        labels += &label;
+    }
+    let legend = curves.iter().map(|curve| {
+        let line = if curve.joined { "⠒⠒⠒" } else { "⠂⠐⠂" };
+        format!("{line} {}", curve.name)
+    });
+    let legend = legend.collect::<Vec<_>>().join("   ");
+    let axis: String = axis.into_iter().collect();
+    let left = " ".repeat(MARGIN);
+    let unit = format!("{:>WIDTH$}", "ε in N/m");
+    Some(format!("{left}relative error of {legend}\n{rows}{left}└{axis}\n{labels}\n{unit}\n"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The rows of dots: what stands right of the axis.
+    fn drawn(plot: &str) -> Vec<Vec<char>> {
+        let rows = plot.lines().filter_map(|line| line.split_once(['│', '┤']));
+        rows.map(|(_, dots)| dots.chars().collect()).collect()
+    }
+
+    fn pair(dotted: Vec<(f64, f64)>, joined: Vec<(f64, f64)>) -> String {
+        let [mut a, mut b] = Curve::pair();
+        (a.points, b.points) = (dotted, joined);
+        log_log(&[a, b]).expect("points")
+    }
+
+    fn has_dots(c: &char) -> bool {
+        *c != '\u{2800}'
+    }
+
+    /// Two points in opposite corners: their dots are the outermost ones of the outermost characters.
+    #[test]
+    fn corners_are_where_they_belong() {
+        let plot = pair(vec![(0.0, 0.0), (3.0, -6.0)], vec![]);
+        let rows = drawn(&plot);
+        assert_eq!((rows.len(), rows[0].len()), (ROWS, COLUMNS));
+        let dots: Vec<_> = rows.concat().into_iter().enumerate().filter(|(_, c)| has_dots(c)).collect();
+        // Dot 1 is the upper left one of a character, dot 8 the lower right one.
+        assert_eq!(dots, [(0, '\u{2801}'), (ROWS * COLUMNS - 1, '\u{2880}')]);
+        let labels: Vec<_> = plot.lines().filter_map(|line| line.split_once(" ┤")).collect();
+        assert_eq!((labels[0].0.trim(), labels.last().unwrap().0.trim()), ("1e0", "1e-6"));
+    }
+
+    /// A joined curve leaves no column out, and a V turns where it should.
+    #[test]
+    fn lines_are_drawn_between_points() {
+        let rows = drawn(&pair(vec![], vec![(0.0, 0.0), (5.0, -10.0), (10.0, 0.0)]));
+        assert!((0..COLUMNS).all(|column| rows.iter().any(|row| has_dots(&row[column]))));
+        let places = |row: &[char]| (0..COLUMNS).filter(|i| has_dots(&row[*i])).collect::<Vec<_>>();
+        let (top, bottom) = (places(&rows[0]), places(&rows[ROWS - 1]));
+        assert!(top.first() == Some(&0) && top.last() == Some(&(COLUMNS - 1)), "{top:?}");
+        // A row is a sixteenth of the height, and half the width is the whole of it.
+        let near = |i: &usize| i.abs_diff(COLUMNS / 2) <= COLUMNS / 2 / ROWS + 1;
+        assert!(!bottom.is_empty() && bottom.iter().all(near), "{bottom:?}");
+    }
+
+    /// However far the powers reach, they are labelled in equal steps, and no line is wider than a page.
+    #[test]
+    fn labels_are_powers_of_ten_and_fit() {
+        for (from, to) in [(0.0, 1.0), (0.3, 0.4), (-7.5, 12.0), (-99_999.0, 100_000.0), (0.0, 18.0)] {
+            let plot = pair(vec![(from, to), (to, from)], vec![(from, -to), (to, -300_000.0)]);
+            assert!(plot.lines().all(|line| line.chars().count() <= WIDTH), "{plot}");
+            let labels = plot.lines().rev().nth(1).unwrap().split_whitespace();
+            let powers: Vec<i64> = labels.map(|label| label[2..].parse().unwrap()).collect();
+            assert!(powers.len() >= 2 && powers[0] < powers[1], "{plot}");
+            let step = powers[1] - powers[0];
+            assert!(powers.windows(2).all(|pair| pair[1] - pair[0] == step), "{plot}");
+            assert!(powers[0] % step == 0 && powers[0] as f64 >= from.floor(), "{plot}");
+        }
+        assert_eq!(log_log(&Curve::pair()), None);
+    }
+}
