@@ -2,7 +2,7 @@
 
 mod plot;
 
-use crate::args::{Number, System, positive};
+use crate::args::{Number, System, in_scalar, positive};
 use crate::output::{self, Exit, Failure, shortened};
 use clap::ValueEnum;
 use num_traits::{One, Zero};
@@ -133,12 +133,7 @@ fn sweeps(options: &Options, progress: &dyn Fn(usize, usize)) -> Result<Vec<Swee
     let made = |(i, scalar): (usize, &NumberSystem)| {
         let sweeping = Sweeping { options, penalties: &penalties, scalar: *scalar };
         let each = |row| progress(i * penalties.len() + row, scalars.len() * penalties.len());
-        match scalar {
-            NumberSystem::F32 => sweeping.run(&0_f32, each),
-            NumberSystem::F64 => sweeping.run(&0_f64, each),
-            NumberSystem::Mpfr(bits) => sweeping.run(&Exact::zero().to_mpfr(*bits), each),
-            NumberSystem::Exact => sweeping.run(&Exact::zero(), each),
-        }
+        in_scalar!(*scalar, |like| sweeping.run(like, each))
     };
     scalars.iter().enumerate().map(made).collect()
 }
