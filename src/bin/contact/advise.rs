@@ -1,6 +1,6 @@
 //! `contact advise`: which penalty, and what it gives.
 
-use crate::args::{Number, System, in_scalar, positive};
+use crate::args::{Names, Number, System, in_scalar, positive};
 use crate::output::{self, Exit, Failure, shortened};
 use crate::solve::{MethodName, state_in_words};
 use clap::ValueEnum;
@@ -59,7 +59,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
 }
 
 fn run_in<T: Scalar + Text>(options: &Options, like: &T) -> Result<Exit, Failure> {
-    let system = options.system.round(like)?;
+    let system = options.system.round(Names::Options, like)?;
     let tolerance = options.tolerance.round("--tolerance <T>", like)?;
     let out_of_range = |error: SolveError| format!("--scalar {}: {error}", options.scalar);
     let advice = advise(&system, &tolerance).map_err(out_of_range)?;

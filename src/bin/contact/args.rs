@@ -7,6 +7,7 @@ use num_traits::Zero;
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::claims::{all_numbered, entries, numbered};
 use spring_mass_contact::number::{Exact, ToExact};
+use std::fmt::{self, Display};
 
 /// The arguments, if they are plain text: others could only garble the one line of an error.
 pub fn plain() -> Result<Vec<String>, Failure> {
@@ -49,6 +50,46 @@ fn takes_a_value(argument: &str) -> bool {
     argument.len() > 2 && argument.starts_with("--") && !argument.contains('=')
 }
 
+/// What an error calls an option: as it is typed, or as the key that a JSON object has for it.
+#[derive(Clone, Copy)]
+pub enum Names {
+    /// `--free-length <L>`
+    Options,
+    /// `free_length`
+    Keys,
+}
+
+/// An option in these names.
+pub struct Named(Names, &'static str);
+
+impl Names {
+    /// Of the option that help writes like this.
+    pub fn of(self, option: &'static str) -> Named {
+        Named(self, option)
+    }
+}
+
+impl Display for Named {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let Named(names, option) = self;
+        match names {
+            Names::Options => f.write_str(option),
+            Names::Keys => f.write_str(&key(option)),
+        }
+    }
+}
+
+/// The key of an option.
+pub fn key(option: &str) -> String {
+    let name = option.split(' ').next().unwrap_or(option);
+    name.trim_start_matches('-').replace('-', "_")
+}
+
+/// What is wrong with the value of an option, in one line.
+pub fn invalid(value: &str, name: impl Display, why: impl Display) -> Failure {
+    Failure::Input(format!("invalid value '{}' for '{name}': {why}", shortened(value)))
+}
+
 /// A number as it was typed, and as it was meant.
 #[derive(Clone, Debug)]
 pub struct Number {
@@ -85,11 +126,8 @@ pub fn count(text: &str) -> Result<u64, String> {
 
 impl Number {
     /// The value, rounded once into the scalar that `like` has.
-    pub fn round<T: ToExact>(&self, flag: &str, like: &T) -> Result<T, Failure> {
-        let named = |error| {
-            Failure::Input(format!("invalid value '{}' for '{flag}': {error}", shortened(&self.text)))
-        };
-        like.nearest(&self.value).map_err(named)
+    pub fn round<T: ToExact>(&self, name: impl Display, like: &T) -> Result<T, Failure> {
+        like.nearest(&self.value).map_err(|error| invalid(&self.text, name, error))
     }
 }
 
@@ -164,14 +202,14 @@ impl System {
     }
 
     /// Each parameter rounded once into the scalar that `like` has.
-    pub fn round<T: ToExact>(&self, like: &T) -> Result<SpringMass<T>, Failure> {
+    pub fn round<T: ToExact>(&self, names: Names, like: &T) -> Result<SpringMass<T>, Failure> {
         let SpringMass { c, m, g, l, h } = self.typed();
         Ok(SpringMass {
-            c: c.round("--stiffness <C>", like)?,
-            m: m.round("--mass <M>", like)?,
-            g: g.round("--gravity <G>", like)?,
-            l: l.round("--free-length <L>", like)?,
-            h: h.round("--height <H>", like)?,
+            c: c.round(names.of("--stiffness <C>"), like)?,
+            m: m.round(names.of("--mass <M>"), like)?,
+            g: g.round(names.of("--gravity <G>"), like)?,
+            l: l.round(names.of("--free-length <L>"), like)?,
+            h: h.round(names.of("--height <H>"), like)?,
         })
     }
 }
@@ -186,9 +224,7 @@ pub fn equation(text: &str) -> Result<String, String> {
 
 /// The numbers that the words of a line are; of `theorem 1.3.3`, two of them.
 pub fn equations(words: &[String]) -> Result<Vec<String>, Failure> {
-    let refused = |word: &str| {
-        Failure::Input(format!("invalid value '{}' for '[NUMBER]...': {NUMBER}", shortened(word)))
-    };
+    let refused = |word: &str| invalid(word, "[NUMBER]...", NUMBER);
     let entries = all_numbered(words).map_err(refused)?;
     Ok(entries.iter().map(|entry| entry.equation.to_string()).collect())
 }

@@ -6,6 +6,7 @@ use comfy_table::{ColumnConstraint, ContentArrangement, Table, presets};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 use spring_mass_contact::formula::GLUE;
+use std::fmt;
 use std::io::{self, BufWriter, IsTerminal, Write};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -32,7 +33,7 @@ pub fn shortened(text: &str) -> String {
 }
 
 /// What a command has to say about its result, once it is printed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Exit {
     /// All well.
     Fine,
@@ -46,6 +47,15 @@ pub enum Failure {
     Input(String),
     /// Nobody could be told.
     Output(io::Error),
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Failure::Input(line) => f.write_str(line),
+            Failure::Output(error) => write!(f, "stdout cannot be written: {error}"),
+        }
+    }
 }
 
 impl From<String> for Failure {
@@ -62,25 +72,29 @@ impl From<io::Error> for Failure {
 
 /// 0, 1 or 2, with the line on stderr.
 pub fn exit_code(answer: Result<Exit, Failure>) -> ExitCode {
-    let line = match answer {
+    let failure = match answer {
         Ok(Exit::Fine) => return ExitCode::SUCCESS,
         Ok(Exit::Unmet) => return ExitCode::from(1),
         // Whoever closed the pipe (`| head`) has seen enough.
         Err(Failure::Output(error)) if error.kind() == io::ErrorKind::BrokenPipe => return ExitCode::SUCCESS,
-        Err(Failure::Output(error)) => format!("stdout cannot be written: {error}"),
-        Err(Failure::Input(line)) => line,
+        Err(failure) => failure,
     };
     // If stderr is gone as well, the code alone has to do.
-    let _ = writeln!(io::stderr(), "error: {line}");
+    let _ = writeln!(io::stderr(), "error: {failure}");
     ExitCode::from(2)
 }
 
 /// Writes to stdout; nothing else does.
 pub fn print(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<Exit, Failure> {
+    print_answer(|out| Ok(write(out).map(|()| Exit::Fine)?))
+}
+
+/// Writes what comes out only while it is written.
+pub fn print_answer(write: impl FnOnce(&mut dyn Write) -> Result<Exit, Failure>) -> Result<Exit, Failure> {
     let mut out = BufWriter::new(io::stdout().lock());
-    write(&mut out)?;
+    let exit = write(&mut out)?;
     out.flush()?;
-    Ok(Exit::Fine)
+    Ok(exit)
 }
 
 /// Indented JSON and a line break.

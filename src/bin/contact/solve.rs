@@ -1,8 +1,9 @@
 //! `contact solve`: its options, and from them to a solution in the scalar that was asked for.
 
+mod batch;
 mod report;
 
-use crate::args::{Number, System, finite, in_scalar, positive, whole};
+use crate::args::{Names, Number, System, finite, in_scalar, positive, whole};
 use crate::output::shortened;
 use crate::output::{self, Exit, Failure};
 use clap::ValueEnum;
@@ -36,7 +37,7 @@ Exit status: 0 all well; 1 the solve did not converge, its result is printed
 all the same; 2 bad input.";
 
 /// Solve one system, with rigorous bounds and the residuals of the contact conditions
-#[derive(clap::Args)]
+#[derive(clap::Args, Clone)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
     #[command(flatten)]
@@ -70,6 +71,9 @@ pub struct Options {
     /// How to print the result
     #[arg(long, value_enum, default_value_t = Format::Table, help_heading = "Output")]
     format: Format,
+    /// Read many systems from stdin, a JSON object a line, and print a line for each
+    #[arg(long, conflicts_with_all = ["trace", "format"], help_heading = "Output")]
+    batch: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -106,48 +110,73 @@ enum Format {
     Json,
     /// One row, or with --trace one for each augmentation
     Csv,
+    /// The JSON on one line, with --batch
+    #[value(skip)]
+    Line,
 }
 
 /// Solves and prints.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
-    options.refuse_unused()?;
-    in_scalar!(options.scalar, |like| run_in(options, like))
-}
-
-fn run_in<T: Scalar + Text>(options: &Options, like: &T) -> Result<Exit, Failure> {
-    let problem = Problem {
-        system: options.system.round(like)?,
-        method: options.method(like)?,
-        plane: if options.bilateral { Plane::Bilateral } else { Plane::Unilateral },
-    };
-    let out_of_range = |error: SolveError| format!("--scalar {}: {error}", options.scalar);
-    let needed = problem.steps_needed();
-    let solution = problem.solve(needed.as_ref()).map_err(out_of_range)?;
-    if options.trace
-        && !problem.trace(&solution).all(|iterate| quantities(&iterate).iter().all(|x| x.is_finite()))
-    {
-        return Err(out_of_range(SolveError::OutOfRange { quantity: "trace" }).into());
+    if options.batch {
+        return batch::run(options);
     }
-    let report = Report::new(options, &problem, &solution, needed);
-    output::print(|out| match options.format {
-        Format::Table => report.table(out),
-        Format::Json => output::json(out, &report),
-        Format::Csv => report.csv(out),
-    })?;
-    Ok(match solution.outcome {
-        Outcome::Direct | Outcome::Converged => Exit::Fine,
-        Outcome::Stagnated | Outcome::OutOfSteps => Exit::Unmet,
-    })
+    output::print_answer(|out| options.answer(out))
 }
 
 impl Options {
+    /// Solves in the scalar that was asked for; writes nothing before the solve is at its end.
+    fn answer(&self, out: &mut dyn Write) -> Result<Exit, Failure> {
+        in_scalar!(self.scalar, |like| self.answer_in(like, out))
+    }
+
+    fn answer_in<T: Scalar + Text>(&self, like: &T, out: &mut dyn Write) -> Result<Exit, Failure> {
+        self.refuse_unused()?;
+        let problem = Problem {
+            system: self.system.round(self.names(), like)?,
+            method: self.method(like)?,
+            plane: if self.bilateral { Plane::Bilateral } else { Plane::Unilateral },
+        };
+        let out_of_range =
+            |error: SolveError| format!("{} {}: {error}", self.names().of("--scalar"), self.scalar);
+        let needed = problem.steps_needed();
+        let solve = |progress: &dyn Fn(usize, usize)| problem.solve(needed.as_ref(), progress);
+        let solution = match self.format {
+            Format::Line => solve(&|_, _| {}),
+            Format::Table | Format::Json | Format::Csv => output::with_progress("solving", |bar| solve(bar)),
+        }
+        .map_err(out_of_range)?;
+        if self.trace
+            && !problem.trace(&solution).all(|iterate| quantities(&iterate).iter().all(|x| x.is_finite()))
+        {
+            return Err(out_of_range(SolveError::OutOfRange { quantity: "trace" }).into());
+        }
+        let report = Report::new(self, &problem, &solution, needed);
+        match self.format {
+            Format::Table => report.table(out)?,
+            Format::Json => output::json(out, &report)?,
+            Format::Csv => report.csv(out)?,
+            Format::Line => serde_json::to_writer(out, &report).map_err(io::Error::from)?,
+        }
+        Ok(match solution.outcome {
+            Outcome::Direct | Outcome::Converged => Exit::Fine,
+            Outcome::Stagnated | Outcome::OutOfSteps => Exit::Unmet,
+        })
+    }
+
+    /// A line of JSON knows keys, and no options.
+    fn names(&self) -> Names {
+        if self.format == Format::Line { Names::Keys } else { Names::Options }
+    }
+
     /// An option that would change nothing is a misunderstanding.
     fn refuse_unused(&self) -> Result<(), Failure> {
-        let typed =
-            |flag, number: &Option<Number>| number.as_ref().map(|n| format!("{flag} {}", shortened(&n.text)));
+        let name = |option| self.names().of(option);
+        let typed = |option, number: &Option<Number>| {
+            number.as_ref().map(|n| format!("{} {}", name(option), shortened(&n.text)))
+        };
         let augmented = [
             typed("--tolerance", &self.tolerance),
-            self.max_augmentations.map(|n| format!("--max-augmentations {n}")),
+            self.max_augmentations.map(|n| format!("{} {n}", name("--max-augmentations"))),
             typed("--initial-multiplier", &self.initial_multiplier),
             self.trace.then(|| "--trace".to_string()),
         ];
@@ -161,8 +190,9 @@ impl Options {
         };
         match unused {
             Some(option) => Err(Failure::Input(format!(
-                "'{option}' is not used by --method {}; it belongs to --method {owner}",
-                self.method.name()
+                "'{option}' is not used by {method} {}; it belongs to {method} {owner}",
+                self.method.name(),
+                method = name("--method")
             ))),
             None => Ok(()),
         }
@@ -175,15 +205,18 @@ impl Options {
 
     fn method<T: Scalar + Text>(&self, like: &T) -> Result<Method<T>, Failure> {
         let ten_c = &self.system.stiffness.value * Exact::from(10);
-        let round_penalty = |number: &Number| number.round("--penalty <E>", like);
+        let name = |option| self.names().of(option);
+        let round_penalty = |number: &Number| number.round(name("--penalty <E>"), like);
         Ok(match self.method {
             MethodName::Lagrange => Method::Lagrange,
             MethodName::Penalty => Method::Penalty {
                 penalty: round_penalty(self.penalty.as_ref().ok_or_else(|| {
                     let example = shortened(&ten_c.to_string());
                     format!(
-                        "--method penalty needs '--penalty <E>', greater than 0; \
-                         for example 10 c: --penalty {example}"
+                        "{} penalty needs '{}', greater than 0; for example 10 c: {} {example}",
+                        name("--method"),
+                        name("--penalty <E>"),
+                        name("--penalty")
                     )
                 })?)?,
             },
@@ -194,9 +227,9 @@ impl Options {
                 let start = or(&self.initial_multiplier, "0", Exact::zero());
                 Method::Augmented {
                     penalty: round_penalty(&or(&self.penalty, "10 c, the default", ten_c))?,
-                    tolerance: self.tolerance().round("--tolerance <T>", like)?,
+                    tolerance: self.tolerance().round(name("--tolerance <T>"), like)?,
                     max_augmentations: self.max_augmentations.unwrap_or(MAX_AUGMENTATIONS),
-                    start: start.round("--initial-multiplier <L>", like)?,
+                    start: start.round(name("--initial-multiplier <L>"), like)?,
                 }
             }
         })
@@ -212,7 +245,11 @@ struct Problem<T> {
 
 impl<T: Scalar + Text> Problem<T> {
     /// How far it has come is measured by the steps that exact arithmetic needs.
-    fn solve(&self, needed: Option<&Integer>) -> Result<Solution<T>, SolveError> {
+    fn solve(
+        &self,
+        needed: Option<&Integer>,
+        progress: &dyn Fn(usize, usize),
+    ) -> Result<Solution<T>, SolveError> {
         let steps = match &self.method {
             Method::Augmented { max_augmentations, .. } => {
                 needed.and_then(Integer::to_u64).map_or(*max_augmentations, |n| n.min(*max_augmentations))
@@ -220,10 +257,8 @@ impl<T: Scalar + Text> Problem<T> {
             Method::Lagrange | Method::Penalty { .. } => 0,
         };
         let count = |k: u64| usize::try_from(k).unwrap_or(usize::MAX);
-        output::with_progress("solving", |progress| {
-            let each = |step: &Iterate<T>| progress(count(step.k), count(steps));
-            solve_observed(&self.system, &self.method, self.plane, each)
-        })
+        let each = |step: &Iterate<T>| progress(count(step.k), count(steps));
+        solve_observed(&self.system, &self.method, self.plane, each)
     }
 
     /// The augmentations that led to a solution, once more: cheaper than to keep them all.

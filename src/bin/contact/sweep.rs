@@ -2,7 +2,7 @@
 
 mod plot;
 
-use crate::args::{Number, System, in_scalar, positive};
+use crate::args::{Names, Number, System, in_scalar, positive};
 use crate::output::{self, Exit, Failure, shortened};
 use clap::ValueEnum;
 use num_traits::{One, Zero};
@@ -171,7 +171,7 @@ struct Sweeping<'a> {
 
 impl Sweeping<'_> {
     fn run<T: Scalar + Text>(&self, like: &T, each: impl Fn(usize)) -> Result<Sweep, Failure> {
-        let system = self.options.system.round(like)?;
+        let system = self.options.system.round(Names::Options, like)?;
         let round = |eps: &Number| eps.round(PENALTY, like);
         let rounded = self.penalties.iter().map(round).collect::<Result<Vec<T>, _>>()?;
         let mut made =
