@@ -53,8 +53,9 @@ macro_rules! machine {
         impl Text for $float {
             fn text(&self) -> String {
                 // Debug turns to powers of ten where Display writes hundreds of zeros; no sign for a zero.
-                let text = format!("{:?}", if self.is_zero() { 0.0 } else { *self });
-                text.strip_suffix(".0").unwrap_or(&text).to_string()
+                let mut text = format!("{:?}", if self.is_zero() { 0.0 } else { *self });
+                text.truncate(text.strip_suffix(".0").map_or(text.len(), str::len));
+                text
             }
             fn neighbours(&self) -> [Self; 2] {
                 [Real::next_down(*self), Real::next_up(*self)]

@@ -269,3 +269,19 @@ impl MethodName {
         Self::from_str(text, false).map_err(|_| format!("[possible values: {}]", names().join(", ")))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::args::key;
+    use clap::Args;
+
+    #[test]
+    fn a_line_has_the_keys_of_the_long_options() {
+        let command = Options::augment_args(clap::Command::new("solve"));
+        let options = command.get_arguments().filter_map(|option| option.get_long());
+        let own = ["format", "trace", "batch"];
+        let options: Vec<_> = options.filter(|option| !own.contains(option)).map(key).collect();
+        assert_eq!(options, KEYS.map(|(key, _)| key));
+    }
+}

@@ -1,0 +1,548 @@
+//! `contact solve --batch`, run as another program runs it: what comes back, for which line, and when.
+
+#![cfg(feature = "cli")]
+
+use oorandom::Rand64;
+use serde_json::{Value, json};
+use spring_mass_contact::number::Exact;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::process::{Child, ChildStdin, Command, Output, Stdio};
+use std::sync::mpsc;
+use std::thread;
+use std::time::Duration;
+use wait_timeout::ChildExt;
+
+/// Ten times what the longest of these takes on a busy machine.
+const DEADLINE: Duration = Duration::from_secs(60);
+
+fn contact(arguments: &str) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_contact"));
+    command.arg("solve").args(arguments.split_whitespace());
+    command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+fn spawn(arguments: &str) -> Child {
+    contact(&format!("--batch {arguments}")).spawn().expect("the command runs")
+}
+
+/// Writes all of it from a thread of its own: nobody else reads meanwhile.
+fn feed(mut stdin: ChildStdin, input: Vec<u8>) {
+    // A command that has ended does not read; what it was to say of that is asked elsewhere.
+    thread::spawn(move || stdin.write_all(&input));
+}
+
+/// What comes of it, if it ends in time.
+fn finish(mut child: Child) -> Output {
+    let collect = |mut pipe: Box<dyn Read + Send>| {
+        thread::spawn(move || {
+            let mut bytes = Vec::new();
+            pipe.read_to_end(&mut bytes).map(|_| bytes)
+        })
+    };
+    let stdout: Option<Box<dyn Read + Send>> = child.stdout.take().map(|pipe| Box::new(pipe) as _);
+    let stdout = collect(stdout.unwrap_or(Box::new(std::io::empty())));
+    let stderr = collect(Box::new(child.stderr.take().expect("a pipe")));
+    let Some(status) = child.wait_timeout(DEADLINE).expect("a child") else {
+        child.kill().and_then(|()| child.wait()).expect("the command can be ended");
+        panic!("the command is still running after {DEADLINE:?}");
+    };
+    let [stdout, stderr] = [stdout, stderr].map(|bytes| bytes.join().unwrap().expect("a pipe"));
+    Output { status, stdout, stderr }
+}
+
+fn raw(arguments: &str, input: impl Into<Vec<u8>>) -> Output {
+    let mut child = spawn(arguments);
+    feed(child.stdin.take().expect("a pipe"), input.into());
+    finish(child)
+}
+
+/// The lines that come back, and the exit status; nothing is said besides.
+fn batch(arguments: &str, input: impl Into<Vec<u8>>) -> (Vec<Value>, Option<i32>) {
+    let output = raw(arguments, input);
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+    let text = String::from_utf8(output.stdout).expect("UTF-8");
+    assert!(text.is_empty() || text.ends_with('\n'));
+    (text.lines().map(|line| serde_json::from_str(line).expect(line)).collect(), output.status.code())
+}
+
+/// The answer to one line.
+fn one(arguments: &str, line: &str) -> Value {
+    let (answers, _) = batch(arguments, line);
+    assert_eq!(answers.len(), 1, "{line}");
+    answers.into_iter().next().unwrap()
+}
+
+/// Options as on the command line, and the same as an object.
+fn draw(random: &mut Rand64) -> (String, Value) {
+    let mut drawn = Vec::new();
+    let method = ["lagrange", "penalty", "augmented"][random.rand_range(0..3) as usize];
+    drawn.push(("method", json!(method)));
+    let scalar = ["f32", "f64", "mpfr:100", "exact"][random.rand_range(0..4) as usize];
+    drawn.push(("scalar", json!(scalar)));
+    let mut number = |key, required: bool| {
+        let (p, q) = (random.rand_range(1..3000), random.rand_range(1..1000));
+        // A number of JSON, with its digits; or a text, as it is typed.
+        let value = match random.rand_range(0..if required { 4 } else { 8 }) {
+            0 => json!(format!("{p}/{q}")),
+            1 => json!(format!("{p}.{q}")),
+            2 => serde_json::from_str(&format!("{}e-3", p)).unwrap(),
+            3 => serde_json::from_str(&format!("{p}")).unwrap(),
+            _ => return,
+        };
+        drawn.push((key, value));
+    };
+    ["stiffness", "mass", "gravity", "free_length", "height"].into_iter().for_each(|key| number(key, false));
+    if method != "lagrange" {
+        number("penalty", method == "penalty");
+    }
+    if method == "augmented" {
+        number("tolerance", false);
+        number("initial_multiplier", false);
+        drawn.push(("max_augmentations", json!(random.rand_range(0..40))));
+    }
+    let mut line = "--format json".to_string();
+    for (key, value) in &drawn {
+        let text = value.as_str().map_or_else(|| value.to_string(), String::from);
+        line += &format!(" --{}={text}", key.replace('_', "-"));
+    }
+    let mut object: serde_json::Map<_, _> = drawn.into_iter().map(|(key, v)| (key.to_string(), v)).collect();
+    if random.rand_range(0..2) == 1 {
+        object.insert("bilateral".to_string(), json!(true));
+        line += " --bilateral";
+    }
+    (line, object.into())
+}
+
+/// To the letter, but for the blanks; and as many that end otherwise.
+#[test]
+fn a_line_is_what_solve_prints() {
+    let random = &mut Rand64::new(1);
+    let drawn: Vec<_> = (0..60).map(|_| draw(random)).collect();
+    let input: String = drawn.iter().map(|(_, object)| format!("{object}\n")).collect();
+    let output = raw("", input);
+    let lines: Vec<_> = std::str::from_utf8(&output.stdout).unwrap().lines().collect();
+    assert_eq!(lines.len(), drawn.len());
+    let mut codes = [0; 3];
+    for ((arguments, object), line) in drawn.iter().zip(lines) {
+        let alone = contact(arguments).stdin(Stdio::null()).output().expect("the command runs");
+        let code = alone.status.code().expect("a status") as usize;
+        codes[code] += 1;
+        if code == 2 {
+            assert!(line.starts_with("{\"id\":null,\"error\":\""), "{object}: {line}");
+        } else {
+            let printed = String::from_utf8(alone.stdout).unwrap().replace(['\n', ' '], "");
+            assert_eq!(line.replacen("\"id\":null,", "", 1), printed, "{object}");
+        }
+    }
+    // Otherwise less would have been compared than it seems.
+    assert!(codes[0] > 30 && codes[1] > 0, "{codes:?}");
+    assert_eq!(output.status.code(), Some(1));
+}
+
+/// Over a plane at H = l + n/10⁶ a heavy mass comes to rest at u = n/10⁶, whoever computes it and however long
+/// the line before takes.
+#[test]
+fn answers_come_in_the_order_of_the_lines() {
+    const LINES: usize = 20_000;
+    let line = |n: usize| {
+        let scalar = if n % 1999 == 3 { "mpfr:200000" } else { "exact" };
+        let height = format!("{}.{:06}", 1 + n / 1_000_000, n % 1_000_000);
+        format!("{{\"id\": {n}, \"height\": {height}, \"gravity\": 99, \"scalar\": \"{scalar}\"}}\n")
+    };
+    let (answers, code) = batch("", (0..LINES).map(line).collect::<String>());
+    assert_eq!((answers.len(), code), (LINES, Some(0)));
+    for (n, answer) in answers.iter().enumerate() {
+        assert_eq!(answer["id"], n);
+        if answer["scalar"] == "exact" {
+            let u: Exact = answer["deflection"].as_str().unwrap().parse().unwrap();
+            assert_eq!(u, format!("{n}/1000000").parse().unwrap());
+        }
+    }
+}
+
+/// One line, its answer, the next: a program need not know how many there will be.
+#[test]
+fn a_line_is_answered_before_the_next_one_comes() {
+    let mut child = spawn("");
+    let mut stdin = child.stdin.take().expect("a pipe");
+    let mut stdout = BufReader::new(child.stdout.take().expect("a pipe"));
+    let (to, lines) = mpsc::channel();
+    thread::spawn(move || {
+        let mut line = String::new();
+        while stdout.read_line(&mut line).is_ok_and(|bytes| bytes > 0) && to.send(line.clone()).is_ok() {
+            line.clear();
+        }
+    });
+    for n in 0..200 {
+        // Some come in two parts, some two at a time.
+        let text = format!("{{\"id\": {n}}}\n{{\"id\": -1}}\n");
+        let (text, answers) =
+            if n % 3 == 0 { (&*text, 2) } else { (text.split_inclusive('\n').next().unwrap(), 1) };
+        let (head, tail) = text.split_at(n % 8);
+        stdin.write_all(head.as_bytes()).unwrap();
+        stdin.write_all(tail.as_bytes()).unwrap();
+        for _ in 0..answers {
+            let answer = lines.recv_timeout(DEADLINE).expect("an answer before the next line");
+            assert!(
+                answer.starts_with(&format!("{{\"id\":{n},")) || answer.starts_with("{\"id\":-1,"),
+                "{answer}"
+            );
+        }
+    }
+    drop(stdin);
+    assert!(lines.recv_timeout(DEADLINE).is_err() && finish(child).status.success());
+}
+
+#[test]
+fn an_id_comes_back_as_it_is() {
+    let deep = "[".repeat(10_000) + &"]".repeat(10_000);
+    let ids = [
+        "null",
+        "true",
+        "0",
+        "-1.50e+07",
+        "123456789012345678901234567890.10",
+        "\"\"",
+        "\"a \\u00e9 é \\\" b\"",
+        "\"\\ud800\"",
+        "[1, 2]",
+        "{ \"b\": {}, \"a\": [ ] , \"b\": 1 }",
+        &deep,
+    ];
+    for id in ids {
+        // Of an answer, and of an error.
+        for rest in ["}", ", \"mass\": 0}", "}\r"] {
+            let output = raw("", format!("{{\"id\": {id}{rest}"));
+            let text = String::from_utf8(output.stdout).expect("UTF-8");
+            let with = if rest.contains("mass") { "error" } else { "method" };
+            assert!(text.starts_with(&format!("{{\"id\":{id},\"{with}\":")), "{text}");
+        }
+    }
+    // For some readers this ends a line.
+    let output = raw("", "{\"id\": [1,\r2]}");
+    assert!(output.stdout.starts_with(b"{\"id\":[1, 2],") && !output.stdout.contains(&b'\r'));
+    for line in ["{}", "{\"mass\": 2}", "x", "{\"mass\": 0}"] {
+        assert_eq!(one("", line)["id"], Value::Null, "{line}");
+    }
+}
+
+/// 1/3 and 0.1 are no floats, and these digits are more than an f64 has.
+#[test]
+fn numbers_are_read_by_their_digits() {
+    for (spelled, value) in [
+        ("0.1", "1/10"),
+        ("1e-1", "1/10"),
+        ("\"1/10\"", "1/10"),
+        ("\".1\"", "1/10"),
+        (
+            "0.10000000000000000000000000000000000001",
+            "10000000000000000000000000000000000001/100000000000000000000000000000000000000",
+        ),
+        ("1E+3", "1000"),
+        ("12345678901234567890123", "12345678901234567890123"),
+        ("1e-400", &format!("1/1{}", "0".repeat(400))),
+        ("\"\\u0031\"", "1"),
+    ] {
+        // Free, of weight and stiffness one, it is l that the penetration is made of: p = l + 1 − 10³⁰.
+        let line = format!(
+            "{{\"free_length\": {spelled}, \"scalar\": \"exact\", \"stiffness\": 1, \"gravity\": 1, \"height\": 1e30}}"
+        );
+        let answer = one("", &line);
+        let p: Exact = answer["penetration"].as_str().unwrap_or_else(|| panic!("{answer}")).parse().unwrap();
+        let one_less = "1e30".parse::<Exact>().unwrap() - Exact::from(1);
+        assert_eq!(p + one_less, value.parse().unwrap(), "{spelled}");
+    }
+}
+
+/// What is wrong, of which key, and what is allowed; and the lines after it are none the worse.
+#[test]
+fn an_error_is_a_line() {
+    const SPELLING: &str = "a number is a decimal (0.05), scientific (5e-2) or a fraction (1/20)";
+    const KEYS: &str = "[keys: id, stiffness, mass, gravity, free_length, height, method, penalty, tolerance, \
+                        max_augmentations, initial_multiplier, bilateral, scalar]";
+    const WHOLE: &str = "must be a whole number from 0 to 18446744073709551615";
+    const METHODS: &str = "[possible values: lagrange, penalty, augmented]";
+    const SCALARS: &str = "must be f32, f64, mpfr:BITS with 2 to 1000000 bits, or exact";
+    let long = "7".repeat(5000) + "x";
+    let long_key = format!("\"{long}\": 1");
+    let long_value = format!("\"mass\": \"{long}\"");
+    let augmented = |value: &str| format!("\"method\": \"augmented\", {value}");
+    let mut cases = vec![
+        (long_key, format!("unexpected key '{}…' found; {KEYS}", &long[..39])),
+        (long_value, format!("invalid value '{}…' for 'mass': not a number; {SPELLING}", &long[..39])),
+        ("\"free-length\": 1".into(), format!("unexpected key 'free-length' found; {KEYS}")),
+        ("\"trace\": true".into(), format!("unexpected key 'trace' found; {KEYS}")),
+        ("\"mass\": 1, \"mass\": 1".into(), "the key 'mass' cannot be used multiple times".into()),
+        ("\"mass\": 1, \"m\\u0061ss\": 1".into(), "the key 'mass' cannot be used multiple times".into()),
+        ("\"id\": 7".into(), "the key 'id' cannot be used multiple times".into()),
+        ("\"method\": \"lagrange\", \"method\": \"lagrange\"".into(), "the key 'method' cannot be used multiple times".into()),
+        ("\"method\": \"newton\"".into(), format!("invalid value 'newton' for 'method': {METHODS}")),
+        ("\"method\": null".into(), format!("invalid value 'null' for 'method': {METHODS}")),
+        ("\"scalar\": \"f16\"".into(), format!("invalid value 'f16' for 'scalar': {SCALARS}")),
+        ("\"scalar\": 64".into(), format!("invalid value '64' for 'scalar': {SCALARS}")),
+        ("\"bilateral\": 1".into(), "invalid value '1' for 'bilateral': must be true or false".into()),
+        ("\"penalty\": 5".into(), "'penalty 5' is not used by method lagrange; it belongs to method penalty or augmented".into()),
+        ("\"max_augmentations\": 5".into(), "'max_augmentations 5' is not used by method lagrange; it belongs to method augmented".into()),
+        ("\"initial_multiplier\": -5, \"method\": \"penalty\", \"penalty\": 1".into(), "'initial_multiplier -5' is not used by method penalty; it belongs to method augmented".into()),
+        ("\"method\": \"penalty\"".into(), "method penalty needs 'penalty', greater than 0; for example 10 c: penalty 1000".into()),
+        ("\"mass\": 1e400".into(), "invalid value '1e400' for 'mass': overflows f64; use mpfr:BITS or exact".into()),
+        ("\"mass\": 1e300, \"gravity\": 1e300".into(), "scalar f64: the contact force leaves the range of this scalar; use MPFR (mpfr:BITS) or exact rationals".into()),
+        (augmented("\"stiffness\": 1e308"), "invalid value '10 c, the default' for 'penalty': overflows f64; use mpfr:BITS or exact".into()),
+    ];
+    for value in ["1.5", "1e3", "-1", "true", "null", "\"\"", "18446744073709551616"] {
+        let key = "max_augmentations";
+        cases.push((
+            augmented(&format!("\"{key}\": {value}")),
+            format!("invalid value '{}' for '{key}': {WHOLE}", value.trim_matches('"')),
+        ));
+    }
+    for key in [
+        "stiffness",
+        "mass",
+        "gravity",
+        "free_length",
+        "height",
+        "penalty",
+        "tolerance",
+        "initial_multiplier",
+    ] {
+        for value in ["true", "null", "[1]", "{}", "\"heavy\"", "\"NaN\"", "\"1,5\"", "\" 1\"", "\"\""] {
+            let text = value.trim_matches('"');
+            let what = if text.is_empty() { "empty" } else { "not a number" };
+            cases.push((
+                augmented(&format!("\"{key}\": {value}")),
+                format!("invalid value '{text}' for '{key}': {what}; {SPELLING}"),
+            ));
+        }
+        if !["gravity", "free_length", "height", "initial_multiplier"].contains(&key) {
+            cases.push((
+                augmented(&format!("\"{key}\": -1")),
+                format!("invalid value '-1' for '{key}': must be greater than 0"),
+            ));
+        }
+    }
+    let input: String =
+        cases.iter().map(|(fields, _)| format!("{{\"id\": 1, {fields}}}\n{{\"id\": 2}}\n")).collect();
+    let (answers, code) = batch("", input);
+    assert_eq!((answers.len(), code), (2 * cases.len(), Some(1)));
+    for ((fields, error), answers) in cases.iter().zip(answers.chunks(2)) {
+        assert_eq!(answers[0], json!({ "id": 1, "error": error }), "{fields}");
+        assert_eq!((&answers[1]["id"], &answers[1]["outcome"]), (&json!(2), &json!("direct")), "{fields}");
+    }
+}
+
+/// No object, or no text at all. Not one of these stops the next.
+#[test]
+fn no_bad_line_gets_further_than_an_error() {
+    let deep = "[".repeat(100_000);
+    let bad: [&[u8]; 19] = [
+        b"x",
+        b"{",
+        b"}",
+        b"[]",
+        b"[{}]",
+        b"1",
+        b"\"\"",
+        b"null",
+        b"{\"mass\": 1",
+        b"{\"mass\": }",
+        b"{\"mass\": 1,}",
+        b"{'mass': 1}",
+        b"{\"mass\": .5}",
+        b"{\"mass\": 01}",
+        b"{\"mass\": NaN}",
+        b"{} {}",
+        b"\0",
+        b"\xff",
+        deep.as_bytes(),
+    ];
+    for line in bad {
+        let (answers, code) = batch("", [line, b"\n{}"].concat());
+        assert_eq!((answers.len(), code), (2, Some(1)), "{answers:?}");
+        let error = answers[0]["error"].as_str().expect("an error");
+        assert!(answers[0]["id"].is_null() && answers[1]["outcome"] == "direct", "{answers:?}");
+        assert!(
+            error.starts_with("invalid line '") && error.ends_with("; a line is a JSON object"),
+            "{error}"
+        );
+        assert!(error.len() < 300 && !error.contains(" at line "), "{error}");
+    }
+    // A byte order mark is no part of JSON; nor is a text in UTF-16.
+    let (answers, _) = batch("", b"\xef\xbb\xbf{}\n{\0}\0\n".as_slice());
+    assert!(answers.len() == 2 && answers.iter().all(|answer| answer["error"].is_string()), "{answers:?}");
+}
+
+#[test]
+fn blank_lines_have_no_answer() {
+    for (input, answers) in
+        [("", 0), ("\n\n", 0), (" \r\n\t\n", 0), ("\n{}\n\n \r\n{}", 2), ("{}\r\n{}\r\n", 2)]
+    {
+        let (found, code) = batch("", input);
+        assert_eq!((found.len(), code), (answers, Some(0)), "{input:?}");
+    }
+}
+
+#[test]
+fn options_are_defaults_for_the_lines() {
+    let all = "--stiffness 7 --mass 2 --gravity=-3 --free-length 2 --height 1/2 --method augmented --penalty 5 \
+               --tolerance 1e-3 --max-augmentations 77 --initial-multiplier 1 --bilateral --scalar exact";
+    let alone = |arguments: &str| -> Value {
+        let output = contact(&format!("--format json {arguments}")).output().expect("the command runs");
+        let mut answer: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        answer["id"] = Value::Null;
+        answer
+    };
+    assert_eq!(one(all, "{}"), alone(all));
+    // Each of them gives way to the line's own.
+    for (key, option, value) in [
+        ("stiffness", "--stiffness 7", "70"),
+        ("mass", "--mass 2", "20"),
+        ("gravity", "--gravity=-3", "30"),
+        ("free_length", "--free-length 2", "20"),
+        ("height", "--height 1/2", "5"),
+        ("penalty", "--penalty 5", "50"),
+        ("tolerance", "--tolerance 1e-3", "1e-5"),
+        ("max_augmentations", "--max-augmentations 77", "2"),
+        ("initial_multiplier", "--initial-multiplier 1", "10"),
+        ("scalar", "--scalar exact", "f32"),
+        ("method", "--method augmented", "augmented"),
+    ] {
+        let other = all.replace(option, &format!("--{}={value}", key.replace('_', "-")));
+        assert_eq!(one(all, &format!("{{\"{key}\": \"{value}\"}}")), alone(&other), "{key}");
+        assert!(key == "method" || alone(&other) != alone(all), "{key} changes nothing");
+    }
+    assert_eq!(one(all, "{\"bilateral\": false}"), alone(&all.replace("--bilateral", "")));
+    // Those that a line's method has no use for are not for that line.
+    let lagrange =
+        "--stiffness 7 --mass 2 --gravity=-3 --free-length 2 --height 1/2 --bilateral --scalar exact";
+    let penalty = format!("{lagrange} --method penalty --penalty 5");
+    assert_eq!(one(all, "{\"method\": \"lagrange\"}"), alone(lagrange));
+    assert_eq!(one(all, "{\"method\": \"penalty\"}"), alone(&penalty));
+    assert_eq!(one("--penalty 5", "{}")["outcome"], "direct");
+    // But what the line itself says is.
+    let error = one(all, "{\"method\": \"lagrange\", \"penalty\": 5}");
+    assert!(error["error"].as_str().unwrap().contains("not used by method lagrange"), "{error}");
+}
+
+#[test]
+fn the_exit_status_is_that_of_the_worst_line() {
+    let unmet = "{\"method\": \"augmented\", \"max_augmentations\": 0}\n";
+    for (input, status) in [("{}\n", 0), (unmet, 1), ("x\n", 1)] {
+        for around in ["", "{}\n"] {
+            let (answers, code) = batch("", format!("{around}{input}{around}"));
+            assert_eq!(code, Some(status), "{answers:?}");
+        }
+    }
+    for arguments in ["--trace", "--format json", "--mass 0", "--batch"] {
+        let output = raw(arguments, "{}\n");
+        let stderr = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(
+            (output.status.code(), output.stdout.as_slice(), stderr.lines().count()),
+            (Some(2), b"".as_slice(), 1)
+        );
+        assert!(stderr.contains(arguments.split(' ').next().unwrap()), "{stderr}");
+    }
+}
+
+/// The most that a line may have is 2²⁰ bytes. Many times that is read over, and nothing else is lost.
+#[test]
+fn a_line_that_is_too_long_is_an_error() {
+    const MOST: usize = 1 << 20;
+    let line = |bytes: usize| {
+        let rest = "{\"id\": \"\"}".len();
+        format!("{{\"id\": \"{}\"}}\n", "x".repeat(bytes - rest))
+    };
+    let input =
+        [line(MOST), line(MOST + 1), line(32 * MOST), "{\"id\": 3}\n".into(), line(MOST + 1)].concat();
+    let (answers, code) = batch("", input.trim_end());
+    let too_long = json!({ "id": null, "error": "a line must have no more than 1048576 bytes" });
+    assert_eq!((answers.len(), code), (5, Some(1)));
+    assert_eq!(answers[0]["outcome"], "direct");
+    assert_eq!((&answers[1], &answers[2], &answers[4]), (&too_long, &too_long, &too_long));
+    assert_eq!((&answers[3]["id"], &answers[3]["outcome"]), (&json!(3), &json!("direct")));
+}
+
+/// As `| head -1` does, whether or not there is more to come.
+#[test]
+fn a_closed_pipe_is_no_error() {
+    for lines in [2, 20_000] {
+        let mut child = spawn("");
+        let mut stdin = child.stdin.take().expect("a pipe");
+        drop(child.stdout.take());
+        let waiting = thread::spawn(move || {
+            // It is not for us to end: stdin stays open. Where all has been read, one more says that it is over.
+            let _ = stdin.write_all("{}\n".repeat(lines).as_bytes());
+            stdin
+        });
+        let output = finish(child);
+        assert_eq!((output.status.code(), output.stderr.as_slice()), (Some(0), b"".as_slice()), "{lines}");
+        drop(waiting.join());
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn what_cannot_be_read_or_written_is_reported() {
+    use std::fs::File;
+    let mut command = contact("--batch");
+    let output = command.stdin(File::open("/").unwrap()).output().expect("the command runs");
+    let stderr = String::from_utf8(output.stderr).expect("UTF-8");
+    assert_eq!(
+        (output.status.code(), output.stdout.as_slice(), stderr.lines().count()),
+        (Some(2), b"".as_slice(), 1)
+    );
+    assert!(stderr.starts_with("error: stdin cannot be read: "), "{stderr}");
+    let mut command = contact("--batch");
+    let full = File::options().write(true).open("/dev/full").expect("a device");
+    let mut child = command.stdout(full).spawn().expect("the command runs");
+    feed(child.stdin.take().expect("a pipe"), b"{}\n".to_vec());
+    let output = finish(child);
+    let stderr = String::from_utf8(output.stderr).expect("UTF-8");
+    assert_eq!((output.status.code(), stderr.lines().count()), (Some(2), 1), "{stderr}");
+    assert!(stderr.starts_with("error: stdout cannot be written"), "{stderr}");
+}
+
+/// Nobody reads for a while, so nothing more is read either; then all of it. Kept lines would show.
+#[cfg(target_os = "linux")]
+#[test]
+fn many_lines_take_no_more_memory_than_a_few() {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+    static WRITTEN: AtomicUsize = AtomicUsize::new(0);
+    const LINES: usize = 40_000;
+    let mut child = spawn("");
+    let peak = |child: &Child| -> usize {
+        let status = std::fs::read_to_string(format!("/proc/{}/status", child.id())).expect("a process");
+        let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).expect("a peak");
+        line.trim().trim_end_matches(" kB").parse::<usize>().expect("a number") * 1024
+    };
+    let mut stdin = child.stdin.take().expect("a pipe");
+    let writer = thread::spawn(move || {
+        let lines = format!("{{}}{}\n", " ".repeat(97)).repeat(100);
+        for _ in 0..LINES / 100 {
+            stdin.write_all(lines.as_bytes()).expect("it reads");
+            WRITTEN.fetch_add(100, Ordering::Relaxed);
+        }
+        stdin
+    });
+    let mut written = 0;
+    while written == 0 || WRITTEN.load(Ordering::Relaxed) > written {
+        written = WRITTEN.load(Ordering::Relaxed);
+        thread::sleep(Duration::from_secs(1));
+    }
+    let first = peak(&child);
+    // 100 bytes each: a pipe has room for 2¹⁶, and so has the buffer behind it.
+    assert!(written < LINES, "all is read, though nothing is taken");
+    let mut stdout = BufReader::new(child.stdout.take().expect("a pipe"));
+    let (mut line, mut bytes) = (String::new(), 0);
+    // All but a few, which it need not have passed on yet.
+    for _ in 0..LINES - 1000 {
+        line.clear();
+        bytes += stdout.read_line(&mut line).expect("an answer");
+    }
+    let last = peak(&child);
+    assert!(last < first + bytes / 4, "{first}, then {last} for {bytes} bytes of answers");
+    drop(writer.join().expect("it writes"));
+    thread::spawn(move || std::io::copy(&mut stdout, &mut std::io::sink()));
+    assert!(finish(child).status.success());
+}
