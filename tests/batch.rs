@@ -546,3 +546,48 @@ fn many_lines_take_no_more_memory_than_a_few() {
     thread::spawn(move || std::io::copy(&mut stdout, &mut std::io::sink()));
     assert!(finish(child).status.success());
 }
+
+/// The lines of the page, as far as it shows them.
+#[test]
+fn the_book_shows_what_comes_back() {
+    let page = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/book/src/command.md")).unwrap();
+    let (_, section) = page.split_once("\n## Many systems, many machines\n").expect("the section");
+    let mut blocks = section.split("```").skip(1).step_by(2);
+    let mut block = |kind: &str| blocks.next().and_then(|block| block.strip_prefix(kind)).expect("a block");
+    let (input, shown) = (block("json\n"), block("text\n"));
+    let output = raw("", input);
+    let answers = std::str::from_utf8(&output.stdout).expect("UTF-8");
+    assert_eq!((answers.lines().count(), shown.lines().count()), (3, 3));
+    for (answer, shown) in answers.lines().zip(shown.lines()) {
+        assert!(answer.starts_with(shown.strip_suffix('…').expect("there is more")), "{answer}\n{shown}");
+    }
+}
+
+/// p = R/(c + ε), and for H = 1.05 it takes ε = 10⁷ for less than 10⁻⁶.
+#[test]
+fn a_program_in_python_can_use_it() {
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/batch.py");
+    let Ok(child) = Command::new("python3")
+        .args([script, env!("CARGO_BIN_EXE_contact")])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+    else {
+        eprintln!("skipped: there is no python3");
+        return;
+    };
+    let output = finish(child);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = String::from_utf8(output.stdout).expect("UTF-8");
+    let rows: Vec<Vec<_>> = text.lines().map(|line| line.split_whitespace().collect()).collect();
+    assert_eq!(rows.len(), 1 + 9 + 1, "{text}");
+    for row in &rows[1..10] {
+        let [height, penalty, penetration] = [row[0], row[1], row[3]].map(|x| x.parse::<f64>().unwrap());
+        let reaction = 9.81 - 100.0 * (height - 1.0);
+        // l + u − H is rounded by less than 2⁻⁵² three times; what is lost of R is divided by c.
+        let expected = reaction / (100.0 + if reaction > 0.0 { penalty } else { 0.0 });
+        assert!((penetration - expected).abs() < 1e-14, "{row:?}: {expected}");
+        assert_eq!(row[2], if reaction > 0.0 { "contact" } else { "separated" }, "{row:?}");
+    }
+    assert_eq!(rows[10].join(" "), "below 1e-6 m with a penalty of 10000000 N/m");
+}

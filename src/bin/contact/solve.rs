@@ -27,14 +27,21 @@ Examples:
   contact solve --method penalty --penalty 1000 --scalar exact
   contact solve --method augmented --tolerance 1e-30 --scalar mpfr:200 --trace
   contact solve --gravity -9.81 --height 21/20 --format json
+  echo '{\"id\": 7, \"height\": 1.09}' | contact solve --batch
 
 A number is a decimal (0.05), scientific (5e-2) or a fraction (1/20), read
 exactly and rounded once into the scalar. In the table, exact: and limit: say
 where the exact answer lies, for the parameters as rounded: by augmentation that
 is the limit of its steps. JSON calls that bounds.
 
-Exit status: 0 all well; 1 the solve did not converge, its result is printed
-all the same; 2 bad input.";
+With --batch a line of stdin is a JSON object. Its keys are the long options
+with underscores (free_length), and id, which comes back; options given here
+are for the lines that do not say otherwise. The answers keep the order of the
+lines, and none waits for a later line. Each is what --format json prints, or
+has an error.
+
+Exit status: 0 all well; 1 a solve did not converge, its result is printed all
+the same, or a line of a batch is an error; 2 bad input.";
 
 /// Solve one system, with rigorous bounds and the residuals of the contact conditions
 #[derive(clap::Args, Clone)]
@@ -71,7 +78,7 @@ pub struct Options {
     /// How to print the result
     #[arg(long, value_enum, default_value_t = Format::Table, help_heading = "Output")]
     format: Format,
-    /// Read many systems from stdin, a JSON object a line, and print a line for each
+    /// Solve many systems: JSON objects from stdin, a line each, and a line for each
     #[arg(long, conflicts_with_all = ["trace", "format"], help_heading = "Output")]
     batch: bool,
 }
