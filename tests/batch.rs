@@ -246,7 +246,8 @@ fn numbers_are_read_by_their_digits() {
     ] {
         // Free, of weight and stiffness one, it is l that the penetration is made of: p = l + 1 − 10³⁰.
         let line = format!(
-            "{{\"free_length\": {spelled}, \"scalar\": \"exact\", \"stiffness\": 1, \"gravity\": 1, \"height\": 1e30}}"
+            "{{\"free_length\": {spelled}, \"scalar\": \"exact\", \"stiffness\": 1, \"gravity\": 1, \
+             \"height\": 1e30}}"
         );
         let answer = one("", &line);
         let p: Exact = answer["penetration"].as_str().unwrap_or_else(|| panic!("{answer}")).parse().unwrap();
@@ -276,19 +277,59 @@ fn an_error_is_a_line() {
         ("\"mass\": 1, \"mass\": 1".into(), "the key 'mass' cannot be used multiple times".into()),
         ("\"mass\": 1, \"m\\u0061ss\": 1".into(), "the key 'mass' cannot be used multiple times".into()),
         ("\"id\": 7".into(), "the key 'id' cannot be used multiple times".into()),
-        ("\"method\": \"lagrange\", \"method\": \"lagrange\"".into(), "the key 'method' cannot be used multiple times".into()),
+        (
+            "\"method\": \"lagrange\", \"method\": \"lagrange\"".into(),
+            "the key 'method' cannot be used \
+             multiple times"
+                .into(),
+        ),
         ("\"method\": \"newton\"".into(), format!("invalid value 'newton' for 'method': {METHODS}")),
         ("\"method\": null".into(), format!("invalid value 'null' for 'method': {METHODS}")),
         ("\"scalar\": \"f16\"".into(), format!("invalid value 'f16' for 'scalar': {SCALARS}")),
         ("\"scalar\": 64".into(), format!("invalid value '64' for 'scalar': {SCALARS}")),
         ("\"bilateral\": 1".into(), "invalid value '1' for 'bilateral': must be true or false".into()),
-        ("\"penalty\": 5".into(), "'penalty 5' is not used by method lagrange; it belongs to method penalty or augmented".into()),
-        ("\"max_augmentations\": 5".into(), "'max_augmentations 5' is not used by method lagrange; it belongs to method augmented".into()),
-        ("\"initial_multiplier\": -5, \"method\": \"penalty\", \"penalty\": 1".into(), "'initial_multiplier -5' is not used by method penalty; it belongs to method augmented".into()),
-        ("\"method\": \"penalty\"".into(), "method penalty needs 'penalty', greater than 0; for example 10 c: penalty 1000".into()),
-        ("\"mass\": 1e400".into(), "invalid value '1e400' for 'mass': overflows f64; use mpfr:BITS or exact".into()),
-        ("\"mass\": 1e300, \"gravity\": 1e300".into(), "scalar f64: the contact force leaves the range of this scalar; use MPFR (mpfr:BITS) or exact rationals".into()),
-        (augmented("\"stiffness\": 1e308"), "invalid value '10 c, the default' for 'penalty': overflows f64; use mpfr:BITS or exact".into()),
+        (
+            "\"penalty\": 5".into(),
+            "'penalty 5' is not used by method lagrange; it belongs to method penalty \
+             or augmented"
+                .into(),
+        ),
+        (
+            "\"max_augmentations\": 5".into(),
+            "'max_augmentations 5' is not used by method lagrange; it \
+             belongs to method augmented"
+                .into(),
+        ),
+        (
+            "\"initial_multiplier\": -5, \"method\": \"penalty\", \"penalty\": 1".into(),
+            "'initial_multiplier \
+             -5' is not used by method penalty; it belongs to method augmented"
+                .into(),
+        ),
+        (
+            "\"method\": \"penalty\"".into(),
+            "method penalty needs 'penalty', greater than 0; for example 10 \
+             c: penalty 1000"
+                .into(),
+        ),
+        (
+            "\"mass\": 1e400".into(),
+            "invalid value '1e400' for 'mass': overflows f64; use mpfr:BITS or \
+             exact"
+                .into(),
+        ),
+        (
+            "\"mass\": 1e300, \"gravity\": 1e300".into(),
+            "scalar f64: the contact force leaves the range of \
+             this scalar; use MPFR (mpfr:BITS) or exact rationals"
+                .into(),
+        ),
+        (
+            augmented("\"stiffness\": 1e308"),
+            "invalid value '10 c, the default' for 'penalty': overflows \
+             f64; use mpfr:BITS or exact"
+                .into(),
+        ),
     ];
     for value in ["1.5", "1e3", "-1", "true", "null", "\"\"", "18446744073709551616"] {
         let key = "max_augmentations";
@@ -547,10 +588,14 @@ fn many_lines_take_no_more_memory_than_a_few() {
     assert!(finish(child).status.success());
 }
 
+fn root() -> &'static std::path::Path {
+    std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
 /// The lines of the page, as far as it shows them.
 #[test]
 fn the_book_shows_what_comes_back() {
-    let page = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/book/src/command.md")).unwrap();
+    let page = std::fs::read_to_string(root().join("book/src/command.md")).unwrap();
     let (_, section) = page.split_once("\n## Many systems, many machines\n").expect("the section");
     let mut blocks = section.split("```").skip(1).step_by(2);
     let mut block = |kind: &str| blocks.next().and_then(|block| block.strip_prefix(kind)).expect("a block");
@@ -566,9 +611,9 @@ fn the_book_shows_what_comes_back() {
 /// p = R/(c + ε), and for H = 1.05 it takes ε = 10⁷ for less than 10⁻⁶.
 #[test]
 fn a_program_in_python_can_use_it() {
-    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/batch.py");
     let Ok(child) = Command::new("python3")
-        .args([script, env!("CARGO_BIN_EXE_contact")])
+        .arg(root().join("examples/batch.py"))
+        .arg(env!("CARGO_BIN_EXE_contact"))
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()

@@ -89,7 +89,7 @@ pub fn print(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<Exi
     print_answer(|out| Ok(write(out).map(|()| Exit::Fine)?))
 }
 
-/// Writes what comes out only while it is written.
+/// Writes what can fail otherwise than by being written, or ends as only the writing shows.
 pub fn print_answer(write: impl FnOnce(&mut dyn Write) -> Result<Exit, Failure>) -> Result<Exit, Failure> {
     let mut out = BufWriter::new(io::stdout().lock());
     let exit = write(&mut out)?;

@@ -37,8 +37,8 @@ is the limit of its steps. JSON calls that bounds.
 With --batch a line of stdin is a JSON object. Its keys are the long options
 with underscores (free_length), and id, which comes back; options given here
 are for the lines that do not say otherwise. The answers keep the order of the
-lines, and none waits for a later line. Each is what --format json prints, or
-has an error.
+lines, and wait for no line that has not come. Each is what --format json
+prints, or has an error.
 
 Exit status: 0 all well; 1 a solve did not converge, its result is printed all
 the same, or a line of a batch is an error; 2 bad input.";
@@ -122,7 +122,7 @@ enum Format {
     Line,
 }
 
-/// Solves and prints.
+/// Solves and prints, one system or many.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
     if options.batch {
         return batch::run(options);

@@ -1,8 +1,8 @@
 //! `contact solve --batch`: JSON lines in, JSON lines out, in the same order.
 //!
-//! A worker that is free takes the next lines that are there, at most a few, and never waits for more of them. It
-//! answers through a channel of its own, and these channels stand in a queue, in the order of the lines. Queue and
-//! channels have little room: where a line takes long, the others wait and are not kept.
+//! A worker that is free takes the next lines that are there, at most a few, and never waits for more of
+//! them. It answers through a channel of its own, and these channels stand in a queue, in the order of the
+//! lines. Queue and channels have little room: where a line takes long, the others wait and are not kept.
 
 use super::{Format, MethodName, Options};
 use crate::args::{finite, invalid, positive, whole};
@@ -21,8 +21,8 @@ use std::thread;
 /// Bytes that a line may have: longer ones are not kept, whatever they are.
 const LONGEST: usize = 1 << 20;
 
-/// Lines that a worker takes at once: enough that waking one costs little beside them, few enough that all have
-/// something to do where each line takes long.
+/// Lines that a worker takes at once: enough that waking one costs little beside them, few enough that all
+/// have something to do where each line takes long.
 const AT_ONCE: usize = 16;
 
 /// Bytes of input that are read at once, and of answers that are passed on at once.
