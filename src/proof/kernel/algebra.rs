@@ -11,13 +11,12 @@ pub use super::monomial::{Monomial, Symbol};
 
 use crate::operators;
 use rug::Rational;
-use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-/// A polynomial: from each monomial to its coefficient, which is not 0.
+/// A polynomial: its monomials in order, each with its coefficient, which is not 0.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Poly(BTreeMap<Monomial, Rational>);
+pub struct Poly(Vec<(Monomial, Rational)>);
 
 /// A quotient of polynomials; the denominator is not the zero polynomial.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -29,27 +28,38 @@ pub struct Ratio {
 /// The sum of terms, in any order.
 impl FromIterator<(Monomial, Rational)> for Poly {
     fn from_iter<I: IntoIterator<Item = (Monomial, Rational)>>(terms: I) -> Self {
-        Poly::zero().with(terms)
+        let mut terms: Vec<_> = terms.into_iter().collect();
+        // Where some are in order already, as in sums and products they are, this sort merges.
+        terms.sort_by(|(m, _), (n, _)| m.cmp(n));
+        terms.dedup_by(|(m, q), (n, sum)| {
+            let alike = m == n;
+            if alike {
+                *sum += &*q;
+            }
+            alike
+        });
+        terms.retain(|(_, q)| !q.is_zero());
+        Poly(terms)
     }
 }
 
 impl From<Monomial> for Poly {
     fn from(monomial: Monomial) -> Self {
-        Poly([(monomial, 1.into())].into())
+        Poly(vec![(monomial, 1.into())])
     }
 }
 
 operators! { [] Poly;
-    Add add |a, b| a.clone().with(b.0.clone());
-    Sub sub |a, b| a + -b;
+    Add add |a, b| a.0.iter().chain(&b.0).cloned().collect();
+    Sub sub |a, b| a.0.iter().cloned().chain(b.negated()).collect();
     Mul mul |a, b| a.products(b).collect();
-    - |a| a.0.iter().map(|(m, q)| (m.clone(), Rational::from(-q))).collect()
+    - |a| a.negated().collect()
 }
 
 impl Poly {
     /// 0
     pub fn zero() -> Self {
-        Poly(BTreeMap::new())
+        Poly(Vec::new())
     }
 
     /// A number.
@@ -68,29 +78,14 @@ impl Poly {
         Monomial { exponent, ..Monomial::one() }.into()
     }
 
-    fn accumulate(&mut self, monomial: Monomial, coefficient: Rational) {
-        match self.0.entry(monomial) {
-            Entry::Vacant(place) if !coefficient.is_zero() => {
-                place.insert(coefficient);
-            }
-            Entry::Vacant(_) => {}
-            Entry::Occupied(mut place) => {
-                *place.get_mut() += coefficient;
-                if place.get().is_zero() {
-                    place.remove();
-                }
-            }
-        }
-    }
-
-    fn with(mut self, terms: impl IntoIterator<Item = (Monomial, Rational)>) -> Self {
-        terms.into_iter().for_each(|(m, q)| self.accumulate(m, q));
-        self
+    /// Each term with the opposite sign.
+    fn negated(&self) -> impl Iterator<Item = (Monomial, Rational)> {
+        self.0.iter().map(|(m, q)| (m.clone(), Rational::from(-q)))
     }
 
     /// Each term of one with each of the other.
     fn products(&self, other: &Self) -> impl Iterator<Item = (Monomial, Rational)> {
-        let times = |(m, p): (&Monomial, &Rational), (n, q)| (m.times(n), Rational::from(p * q));
+        let times = |(m, p): &(Monomial, Rational), (n, q): &_| (m.times(n), Rational::from(p * q));
         self.0.iter().flat_map(move |own| other.0.iter().map(move |term| times(own, term)))
     }
 
@@ -101,21 +96,21 @@ impl Poly {
 
     /// Is it the number 1?
     pub fn is_one(&self) -> bool {
-        self.0.len() == 1 && self.0.get(&Monomial::one()).is_some_and(|q| *q == 1)
+        matches!(&self.0[..], [(m, q)] if *m == Monomial::one() && *q == 1)
     }
 
     /// Its monomials with their coefficients, in the order of division.
     pub fn terms(&self) -> impl DoubleEndedIterator<Item = (&Monomial, &Rational)> + ExactSizeIterator {
-        self.0.iter()
+        self.0.iter().map(|(m, q)| (m, q))
     }
 
-    fn leading(&self) -> Option<(&Monomial, &Rational)> {
-        self.0.last_key_value()
+    fn monomials(&self) -> impl Iterator<Item = &Monomial> {
+        self.0.iter().map(|(m, _)| m)
     }
 
     /// All its exponents.
     pub fn exponents(&self) -> impl Iterator<Item = &Ratio> {
-        self.0.keys().filter_map(Monomial::exponent)
+        self.monomials().filter_map(Monomial::exponent)
     }
 
     /// Does it have an e^…?
@@ -125,47 +120,53 @@ impl Poly {
 
     /// Its symbols, those in exponents too.
     pub fn symbols(&self) -> BTreeSet<Symbol> {
-        let own = self.0.keys().flat_map(|m| m.powers().map(|(x, _)| x));
+        let own = self.monomials().flat_map(|m| m.powers().map(|(x, _)| x));
         own.chain(self.exponents().flat_map(Ratio::symbols)).collect()
     }
 
     /// The highest power of a symbol.
     pub fn degree(&self, x: Symbol) -> u32 {
-        self.0.keys().map(|m| m.degree(x)).max().unwrap_or(0)
+        self.monomials().map(|m| m.degree(x)).max().unwrap_or(0)
     }
 
     /// The coefficients of x⁰, x¹, …; exponents are left alone.
     pub fn coefficients(&self, x: Symbol) -> Vec<Poly> {
-        let mut all = vec![Poly::zero(); self.degree(x) as usize + 1];
-        for (m, q) in &self.0 {
-            all[m.degree(x) as usize].accumulate(m.without(x), q.clone());
-        }
-        all
+        let of_power = |n| self.0.iter().filter(move |(m, _)| m.degree(x) == n);
+        let coefficient = |n| of_power(n).map(|(m, q)| (m.without(x), q.clone())).collect();
+        (0..=self.degree(x)).map(coefficient).collect()
     }
 
     /// The exact quotient, if there is one; the divisor has no e^….
     pub fn over(&self, divisor: &Self) -> Option<Self> {
-        let (first, coefficient) = divisor.leading()?;
+        let ([last, ..] , [others @ .., (first, coefficient)]) = (&divisor.0[..], &divisor.0[..]) else { return None };
         if divisor.is_one() {
             return Some(self.clone());
         }
         if divisor.has_exponentials() {
             return None;
         }
-        let (mut rest, mut quotient) = (self.clone(), Poly::zero());
-        while let Some((m, q)) = rest.leading() {
-            let (m, q) = (m.over(first)?, Rational::from(q / coefficient));
-            for (dm, dq) in &divisor.0 {
-                rest.accumulate(dm.times(&m), -Rational::from(dq * &q));
-            }
-            quotient.accumulate(m, q);
+        // Of a product, the first and the last terms are those of the factors: mostly that is seen to fail.
+        if self.0.first().is_some_and(|(m, _)| !m.has(&last.0)) {
+            return None;
         }
-        Some(quotient)
+        let mut rest: BTreeMap<_, Rational> = self.0.iter().cloned().collect();
+        let mut quotient = Vec::new();
+        while let Some((m, q)) = rest.pop_last() {
+            if q.is_zero() {
+                continue;
+            }
+            let (m, q) = (m.over(first)?, q / coefficient);
+            for (dm, dq) in others {
+                *rest.entry(dm.times(&m)).or_default() -= Rational::from(dq * &q);
+            }
+            quotient.push((m, q));
+        }
+        Some(quotient.into_iter().collect())
     }
 
     /// The largest product of powers of symbols that divides every term.
     pub fn common_monomial(&self) -> Monomial {
-        let mut monomials = self.0.keys();
+        let mut monomials = self.monomials();
         let mut common = monomials.next().map_or(Monomial::one(), Monomial::bare);
         for m in monomials {
             common.powers.retain_mut(|(x, n)| {
@@ -191,7 +192,7 @@ impl Poly {
     /// equals, so the value stays what it is wherever the monomial has the value of the quotient.
     pub fn replace(&self, pivot: &Monomial, by: &Ratio) -> Ratio {
         // The coefficients of the pivot's powers, times e^… whose exponents are replaced already.
-        let mut by_power: Vec<Poly> = Vec::new();
+        let mut by_power: Vec<Vec<(Monomial, Rational)>> = Vec::new();
         for (m, q) in &self.0 {
             let (mut rest, mut power) = (m.bare(), 0);
             while let Some(quotient) = rest.over(pivot) {
@@ -200,16 +201,16 @@ impl Poly {
             }
             let exponent = m.exponent().map(|e| e.replace(pivot, by)).filter(|e| !e.is_zero());
             rest.exponent = exponent.map(Arc::new);
-            by_power.resize(by_power.len().max(power + 1), Poly::zero());
-            by_power[power].accumulate(rest, q.clone());
+            by_power.resize(by_power.len().max(power + 1), Vec::new());
+            by_power[power].push((rest, q.clone()));
         }
-        let highest_first = by_power.into_iter().rev();
+        let highest_first = by_power.into_iter().rev().map(Poly::from_iter);
         highest_first.fold(Ratio::zero(), |sum, coefficient| sum * by + Ratio::from(coefficient))
     }
 
     /// Does a monomial occur in it, or in its exponents?
     pub fn contains(&self, pivot: &Monomial) -> bool {
-        self.0.keys().any(|m| m.has(pivot)) || self.exponents().any(|e| e.contains(pivot))
+        self.monomials().any(|m| m.has(pivot)) || self.exponents().any(|e| e.contains(pivot))
     }
 }
 
@@ -248,14 +249,14 @@ impl Ratio {
             return num.into();
         }
         // A single e^… below goes above.
-        if let (1, Some((Monomial { exponent: Some(e), .. }, _))) = (den.0.len(), den.leading()) {
+        if let [(Monomial { exponent: Some(e), .. }, _)] = &den.0[..] {
             let inverse = Poly::exponential(-&**e);
             (num, den) = (num * &inverse, den * inverse);
         }
         if let Some(quotient) = num.over(&den) {
             return quotient.into();
         }
-        if let Some((_, q)) = den.leading()
+        if let Some((_, q)) = den.0.last()
             && *q != 1
         {
             let inverse = Poly::constant(q.clone().recip());
@@ -319,7 +320,7 @@ impl Ratio {
 
     /// Is it a number?
     pub fn is_number(&self) -> bool {
-        self.den.is_one() && self.num.0.keys().all(|m| *m == Monomial::one())
+        self.den.is_one() && self.num.monomials().all(|m| *m == Monomial::one())
     }
 
     /// All its symbols.

@@ -10,7 +10,7 @@ pub struct Symbol(pub &'static str);
 
 impl PartialEq for Symbol {
     fn eq(&self, other: &Self) -> bool {
-        self.cmp(other).is_eq()
+        std::ptr::eq(self.0, other.0) || self.0 == other.0
     }
 }
 
@@ -87,18 +87,21 @@ impl Monomial {
         if divisor.exponent.is_some() {
             return None;
         }
-        let mut powers = self.powers.clone();
-        for (x, n) in divisor.powers() {
-            let (_, own) = powers.iter_mut().find(|(y, _)| *y == x)?;
-            *own = own.checked_sub(n)?;
+        if !self.has(divisor) {
+            return None;
         }
-        powers.retain(|(_, n)| *n > 0);
-        Some(Monomial { powers, exponent: self.exponent.clone() })
+        let mut rest = self.clone();
+        rest.powers.retain_mut(|(x, n)| {
+            *n -= divisor.degree(*x);
+            *n > 0
+        });
+        Some(rest)
     }
 
     /// Are all powers of the other there? Its e^… is not asked for.
     pub fn has(&self, other: &Self) -> bool {
-        other.powers().all(|(x, n)| self.degree(x) >= n)
+        let mut own = self.powers.iter();
+        other.powers.iter().all(|(x, n)| own.any(|(y, m)| x == y && m >= n))
     }
 
     /// Without its e^….
@@ -114,7 +117,7 @@ impl Monomial {
     }
 
     pub(super) fn degree(&self, x: Symbol) -> u32 {
-        self.powers().find(|(y, _)| *y == x).map_or(0, |(_, n)| n)
+        self.powers.iter().find(|(y, _)| *y == x).map_or(0, |(_, n)| *n)
     }
 
     pub(super) fn without(&self, x: Symbol) -> Self {
@@ -131,9 +134,13 @@ impl PartialOrd for Monomial {
 /// Lexicographic in the powers: an order that multiplication keeps, as long division needs.
 impl Ord for Monomial {
     fn cmp(&self, other: &Self) -> Ordering {
-        let differs = self.powers().zip(other.powers()).find(|(a, b)| a != b);
-        let first = differs.map_or(Ordering::Equal, |((x, n), (y, m))| y.cmp(&x).then(n.cmp(&m)));
-        let length = || self.powers.len().cmp(&other.powers.len());
-        first.then_with(length).then_with(|| self.exponent.cmp(&other.exponent))
+        for ((x, n), (y, m)) in self.powers.iter().zip(&other.powers) {
+            let first = y.cmp(x).then(n.cmp(m));
+            if first.is_ne() {
+                return first;
+            }
+        }
+        let length = self.powers.len().cmp(&other.powers.len());
+        length.then_with(|| self.exponent.cmp(&other.exponent))
     }
 }
