@@ -41,6 +41,7 @@ pub(super) mod algebra;
 mod context;
 mod derivation;
 mod monomial;
+mod number;
 mod order;
 mod reader;
 pub(super) mod sign;

@@ -8,6 +8,7 @@
 //! short.
 
 pub use super::monomial::{Monomial, Symbol};
+pub use super::number::Number;
 
 use crate::operators;
 use rug::Rational;
@@ -16,7 +17,7 @@ use std::sync::Arc;
 
 /// A polynomial: its monomials in order, each with its coefficient, which is not 0.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Poly(Vec<(Monomial, Rational)>);
+pub struct Poly(Vec<(Monomial, Number)>);
 
 /// A quotient of polynomials; the denominator is not the zero polynomial.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -26,19 +27,19 @@ pub struct Ratio {
 }
 
 /// The sum of terms, in any order.
-impl FromIterator<(Monomial, Rational)> for Poly {
-    fn from_iter<I: IntoIterator<Item = (Monomial, Rational)>>(terms: I) -> Self {
+impl FromIterator<(Monomial, Number)> for Poly {
+    fn from_iter<I: IntoIterator<Item = (Monomial, Number)>>(terms: I) -> Self {
         let mut terms: Vec<_> = terms.into_iter().collect();
         // Where some are in order already, as in sums and products they are, this sort merges.
         terms.sort_by(|(m, _), (n, _)| m.cmp(n));
         terms.dedup_by(|(m, q), (n, sum)| {
             let alike = m == n;
             if alike {
-                *sum += &*q;
+                *sum = &*sum + &*q;
             }
             alike
         });
-        terms.retain(|(_, q)| !q.is_zero());
+        terms.retain(|(_, q)| q.sign().is_ne());
         Poly(terms)
     }
 }
@@ -64,7 +65,7 @@ impl Poly {
 
     /// A number.
     pub fn constant(q: impl Into<Rational>) -> Self {
-        Poly::from_iter([(Monomial::one(), q.into())])
+        Poly::from_iter([(Monomial::one(), q.into().into())])
     }
 
     /// A symbol.
@@ -79,13 +80,13 @@ impl Poly {
     }
 
     /// Each term with the opposite sign.
-    fn negated(&self) -> impl Iterator<Item = (Monomial, Rational)> {
-        self.0.iter().map(|(m, q)| (m.clone(), Rational::from(-q)))
+    fn negated(&self) -> impl Iterator<Item = (Monomial, Number)> {
+        self.0.iter().map(|(m, q)| (m.clone(), -q))
     }
 
     /// Each term of one with each of the other.
-    fn products(&self, other: &Self) -> impl Iterator<Item = (Monomial, Rational)> {
-        let times = |(m, p): &(Monomial, Rational), (n, q): &_| (m.times(n), Rational::from(p * q));
+    fn products(&self, other: &Self) -> impl Iterator<Item = (Monomial, Number)> {
+        let times = |(m, p): &(Monomial, Number), (n, q): &_| (m.times(n), p * q);
         self.0.iter().flat_map(move |own| other.0.iter().map(move |term| times(own, term)))
     }
 
@@ -96,11 +97,11 @@ impl Poly {
 
     /// Is it the number 1?
     pub fn is_one(&self) -> bool {
-        matches!(&self.0[..], [(m, q)] if *m == Monomial::one() && *q == 1)
+        *self == Poly::constant(1)
     }
 
     /// Its monomials with their coefficients, in the order of division.
-    pub fn terms(&self) -> impl DoubleEndedIterator<Item = (&Monomial, &Rational)> + ExactSizeIterator {
+    pub fn terms(&self) -> impl DoubleEndedIterator<Item = (&Monomial, &Number)> + ExactSizeIterator {
         self.0.iter().map(|(m, q)| (m, q))
     }
 
@@ -149,15 +150,17 @@ impl Poly {
         if self.0.first().is_some_and(|(m, _)| !m.has(&last.0)) {
             return None;
         }
-        let mut rest: BTreeMap<_, Rational> = self.0.iter().cloned().collect();
+        let inverse = coefficient.recip();
+        let mut rest: BTreeMap<_, Number> = self.0.iter().cloned().collect();
         let mut quotient = Vec::new();
         while let Some((m, q)) = rest.pop_last() {
-            if q.is_zero() {
+            if q.sign().is_eq() {
                 continue;
             }
-            let (m, q) = (m.over(first)?, q / coefficient);
+            let (m, q) = (m.over(first)?, q * &inverse);
             for (dm, dq) in others {
-                *rest.entry(dm.times(&m)).or_default() -= Rational::from(dq * &q);
+                let left = rest.entry(dm.times(&m)).or_insert_with(|| 0.into());
+                *left = &*left - dq * &q;
             }
             quotient.push((m, q));
         }
@@ -180,7 +183,7 @@ impl Poly {
     /// The derivative by a symbol; exponents have denominators, so it is a quotient.
     pub fn derivative(&self, x: Symbol) -> Ratio {
         let lowered =
-            |m: &Monomial, q: &Rational| Some((m.over(&Monomial::of(x))?, Rational::from(q * m.degree(x))));
+            |m: &Monomial, q: &Number| Some((m.over(&Monomial::of(x))?, q * Number::from(Rational::from(m.degree(x)))));
         let powers: Poly = self.0.iter().filter_map(|(m, q)| lowered(m, q)).collect();
         self.0.iter().fold(powers.into(), |sum, (m, q)| match m.exponent() {
             None => sum,
@@ -192,7 +195,7 @@ impl Poly {
     /// equals, so the value stays what it is wherever the monomial has the value of the quotient.
     pub fn replace(&self, pivot: &Monomial, by: &Ratio) -> Ratio {
         // The coefficients of the pivot's powers, times e^… whose exponents are replaced already.
-        let mut by_power: Vec<Vec<(Monomial, Rational)>> = Vec::new();
+        let mut by_power: Vec<Vec<(Monomial, Number)>> = Vec::new();
         for (m, q) in &self.0 {
             let (mut rest, mut power) = (m.bare(), 0);
             while let Some(quotient) = rest.over(pivot) {
@@ -257,9 +260,9 @@ impl Ratio {
             return quotient.into();
         }
         if let Some((_, q)) = den.0.last()
-            && *q != 1
+            && *q != 1.into()
         {
-            let inverse = Poly::constant(q.clone().recip());
+            let inverse = Poly::constant(q.rational().recip());
             (num, den) = (num * &inverse, den * inverse);
         }
         Ratio { num, den }

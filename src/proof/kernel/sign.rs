@@ -185,7 +185,7 @@ fn within(of: &Poly, known: &Known, depth: u32) -> Option<Certificate> {
 /// Rule 1.
 fn terms(of: &Poly, known: &Known) -> Option<Certificate> {
     let sign = of.terms().try_fold(Zero, |sum, (monomial, coefficient)| {
-        let number = if coefficient.is_negative() { Negative } else { Positive };
+        let number = if coefficient.sign().is_lt() { Negative } else { Positive };
         sum.plus(number.times(of_monomial(monomial, known)?))
     });
     Some(Certificate { of: of.clone(), sign: sign?, rule: Rule::Terms })

@@ -28,9 +28,10 @@ impl Order<'_> {
     /// A polynomial as a formula.
     pub(super) fn poly(&self, poly: &Poly) -> Tree {
         // What is subtracted does not come first.
-        let (added, subtracted): (Vec<_>, Vec<_>) = poly.terms().rev().partition(|(_, q)| q.is_positive());
+        let (added, subtracted): (Vec<_>, Vec<_>) = poly.terms().rev().partition(|(_, q)| q.sign().is_gt());
         let mut sum: Option<Tree> = None;
         for (monomial, q) in added.into_iter().chain(subtracted) {
+            let q = q.rational();
             let (n, d) = (number(&q.numer().clone().abs()), number(q.denom()));
             let term = match self.product(monomial) {
                 Some(product) if *q.numer().as_abs() == 1 => product,

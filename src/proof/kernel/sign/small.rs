@@ -2,8 +2,7 @@
 
 use super::Sign::{Negative, NonNegative, NonPositive, Positive, Zero};
 use super::{Certificate, Known, Rule, Sign, of_monomial, terms};
-use crate::proof::kernel::algebra::{Monomial, Poly, Symbol};
-use rug::Rational;
+use crate::proof::kernel::algebra::{Monomial, Number, Poly, Symbol};
 use std::collections::BTreeMap;
 
 /// What is between −1 and 1: the rounding error of each step, in parts of the largest.
@@ -27,12 +26,12 @@ const TERMS_AT_ENDS: usize = 1000;
 /// Rule 5.
 pub(super) fn sizes(of: &Poly, known: &Known) -> Option<Certificate> {
     // Of each monomial, the coefficient without small factors and the sizes of those with them.
-    let mut all: BTreeMap<Monomial, [Rational; 2]> = BTreeMap::new();
+    let mut all: BTreeMap<Monomial, [Number; 2]> = BTreeMap::new();
     for (monomial, coefficient) in of.terms() {
         let rest = monomial.without_those(is_small);
         let is_whole = rest == *monomial;
-        let [own, with] = all.entry(rest).or_default();
-        if is_whole { *own += coefficient } else { *with += Rational::from(coefficient.abs_ref()) }
+        let [own, with] = all.entry(rest).or_insert_with(|| [0.into(), 0.into()]);
+        if is_whole { *own = &*own + coefficient } else { *with = &*with + coefficient.abs() }
     }
     let all: Option<Vec<_>> = all
         .into_iter()
@@ -40,7 +39,7 @@ pub(super) fn sizes(of: &Poly, known: &Known) -> Option<Certificate> {
             let size = match of_monomial(&monomial, known) {
                 Some(Positive | NonNegative | Zero) => with,
                 Some(Negative | NonPositive) => -with,
-                None if with.is_zero() => with,
+                None if with.sign().is_eq() => with,
                 None => return None,
             };
             Some((monomial, own, size))
@@ -49,8 +48,8 @@ pub(super) fn sizes(of: &Poly, known: &Known) -> Option<Certificate> {
     let all = all?;
     // The whole is `beyond` 0 with respect to what is left, so it is of its sign if both agree.
     let by = |beyond: Sign| {
-        let term = |(monomial, own, size): &(Monomial, Rational, Rational)| {
-            let left = if beyond == NonNegative { own.clone() - size } else { own.clone() + size };
+        let term = |(monomial, own, size): &(Monomial, Number, Number)| {
+            let left = if beyond == NonNegative { own - size } else { own + size };
             (monomial.clone(), left)
         };
         let rest = terms(&all.iter().map(term).collect(), known)?;
