@@ -85,9 +85,10 @@ impl Poly {
     }
 
     /// Each term of one with each of the other.
-    fn products(&self, other: &Self) -> impl Iterator<Item = (Monomial, Number)> {
+    fn products<'a>(&'a self, other: &'a Self) -> impl Iterator<Item = (Monomial, Number)> {
         let times = |(m, p): &(Monomial, Number), (n, q): &_| (m.times(n), p * q);
-        self.0.iter().flat_map(move |own| other.0.iter().map(move |term| times(own, term)))
+        let (short, long) = if self.0.len() < other.0.len() { (self, other) } else { (other, self) };
+        short.0.iter().flat_map(move |own| long.0.iter().map(move |term| times(own, term)))
     }
 
     /// Is it the zero polynomial?
@@ -97,7 +98,7 @@ impl Poly {
 
     /// Is it the number 1?
     pub fn is_one(&self) -> bool {
-        *self == Poly::constant(1)
+        matches!(&self.0[..], [(m, q)] if *m == Monomial::one() && q.is_one())
     }
 
     /// Its monomials with their coefficients, in the order of division.
@@ -121,8 +122,9 @@ impl Poly {
 
     /// Its symbols, those in exponents too.
     pub fn symbols(&self) -> BTreeSet<Symbol> {
-        let own = self.monomials().flat_map(|m| m.powers().map(|(x, _)| x));
-        own.chain(self.exponents().flat_map(Ratio::symbols)).collect()
+        let mut all: BTreeSet<_> = self.exponents().flat_map(Ratio::symbols).collect();
+        all.extend(self.monomials().flat_map(|m| m.powers().map(|(x, _)| x)));
+        all
     }
 
     /// The highest power of a symbol.
@@ -139,19 +141,17 @@ impl Poly {
 
     /// The exact quotient, if there is one; the divisor has no e^….
     pub fn over(&self, divisor: &Self) -> Option<Self> {
-        let ([last, ..] , [others @ .., (first, coefficient)]) = (&divisor.0[..], &divisor.0[..]) else { return None };
+        let [others @ .., (first, coefficient)] = &divisor.0[..] else { return None };
         if divisor.is_one() {
             return Some(self.clone());
         }
-        if divisor.has_exponentials() {
-            return None;
-        }
-        // Of a product, the first and the last terms are those of the factors: mostly that is seen to fail.
-        if self.0.first().is_some_and(|(m, _)| !m.has(&last.0)) {
+        // The last terms of factors are those of a product: mostly that is seen to fail.
+        let ends = self.0.first().zip(divisor.0.first());
+        if divisor.has_exponentials() || ends.is_some_and(|((m, _), (n, _))| !m.has(n)) {
             return None;
         }
         let inverse = coefficient.recip();
-        let mut rest: BTreeMap<_, Number> = self.0.iter().cloned().collect();
+        let mut rest: BTreeMap<_, _> = self.0.iter().cloned().collect();
         let mut quotient = Vec::new();
         while let Some((m, q)) = rest.pop_last() {
             if q.sign().is_eq() {
@@ -260,7 +260,7 @@ impl Ratio {
             return quotient.into();
         }
         if let Some((_, q)) = den.0.last()
-            && *q != 1.into()
+            && !q.is_one()
         {
             let inverse = Poly::constant(q.rational().recip());
             (num, den) = (num * &inverse, den * inverse);
@@ -295,12 +295,11 @@ impl Ratio {
 
     fn times(&self, other: &Self) -> Self {
         // Cancel crosswise what can be.
-        let cancel = |num: &Poly, den: &Poly| match num.over(den) {
-            Some(quotient) => (quotient, Poly::constant(1)),
-            None => (num.clone(), den.clone()),
-        };
-        let ((a, d), (b, c)) = (cancel(&self.num, &other.den), cancel(&other.num, &self.den));
-        Ratio::new(a * b, c * d)
+        let cancel = |num, den: &Poly| if den.is_one() { None } else { Poly::over(num, den) };
+        let (a, b) = (cancel(&self.num, &other.den), cancel(&other.num, &self.den));
+        let one = Poly::constant(1);
+        let (c, d) = (b.as_ref().map_or(&self.den, |_| &one), a.as_ref().map_or(&other.den, |_| &one));
+        Ratio::new(a.as_ref().unwrap_or(&self.num) * b.as_ref().unwrap_or(&other.num), c * d)
     }
 
     /// self / other; `None` if other is identically zero.

@@ -60,21 +60,22 @@ impl Monomial {
 
     pub(super) fn times(&self, other: &Self) -> Self {
         let mut powers = Vec::with_capacity(self.powers.len() + other.powers.len());
-        let (mut own, mut others) = (self.powers().peekable(), other.powers().peekable());
-        loop {
-            powers.push(match (own.peek(), others.peek()) {
-                (Some((x, n)), Some((y, m))) if x == y => {
-                    let sum = (*x, n.checked_add(*m).expect("a power fits 32 bits"));
-                    own.next();
-                    others.next();
-                    sum
+        let mut others = &other.powers[..];
+        for (x, n) in &self.powers {
+            let mut sum = *n;
+            while let [(y, m), rest @ ..] = others
+                && y <= x
+            {
+                others = rest;
+                if x == y {
+                    sum = sum.checked_add(*m).expect("a power fits 32 bits");
+                } else {
+                    powers.push((*y, *m));
                 }
-                (Some((x, _)), Some((y, _))) if y < x => others.next().expect("peeked"),
-                (Some(_), _) => own.next().expect("peeked"),
-                (None, Some(_)) => others.next().expect("peeked"),
-                (None, None) => break,
-            });
+            }
+            powers.push((*x, sum));
         }
+        powers.extend_from_slice(others);
         let exponent = match (&self.exponent, &other.exponent) {
             (None, e) | (e, None) => e.clone(),
             (Some(a), Some(b)) => Some(&**a + &**b).filter(|sum| !sum.is_zero()).map(Arc::new),
@@ -134,13 +135,14 @@ impl PartialOrd for Monomial {
 /// Lexicographic in the powers: an order that multiplication keeps, as long division needs.
 impl Ord for Monomial {
     fn cmp(&self, other: &Self) -> Ordering {
-        for ((x, n), (y, m)) in self.powers.iter().zip(&other.powers) {
+        let mut others = other.powers.iter();
+        for (x, n) in &self.powers {
+            let Some((y, m)) = others.next() else { return Ordering::Greater };
             let first = y.cmp(x).then(n.cmp(m));
             if first.is_ne() {
                 return first;
             }
         }
-        let length = self.powers.len().cmp(&other.powers.len());
-        length.then_with(|| self.exponent.cmp(&other.exponent))
+        others.next().map_or_else(|| self.exponent.cmp(&other.exponent), |_| Ordering::Less)
     }
 }

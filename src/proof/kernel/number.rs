@@ -93,6 +93,11 @@ impl Number {
         }
     }
 
+    /// Is it 1?
+    pub fn is_one(&self) -> bool {
+        self.0 == Small(1, 1)
+    }
+
     /// Its size.
     pub fn abs(&self) -> Self {
         if self.sign().is_lt() { -self } else { self.clone() }

@@ -164,6 +164,10 @@ const TERMS: usize = 12;
 
 /// The sign of a polynomial, if the rules find one.
 pub fn sign(of: &Poly, known: &Known) -> Option<Certificate> {
+    let small: Vec<_> = of.symbols().into_iter().filter(|x| is_small(*x)).collect();
+    if !small.is_empty() {
+        return terms(of, known).or_else(|| sizes(of, &small, known)).or_else(|| ends(of, &small, known, ENDS));
+    }
     // A short certificate before a long one.
     (0..=DEPTH).find_map(|depth| within(of, known, depth))
 }
@@ -171,9 +175,6 @@ pub fn sign(of: &Poly, known: &Known) -> Option<Certificate> {
 fn within(of: &Poly, known: &Known, depth: u32) -> Option<Certificate> {
     if let Some(certificate) = terms(of, known) {
         return Some(certificate);
-    }
-    if of.symbols().into_iter().any(is_small) {
-        return sizes(of, known).or_else(|| ends(of, known, ENDS));
     }
     let depth = depth.checked_sub(1)?;
     factor(of, known, depth)
