@@ -10,6 +10,7 @@ use crate::proof::controls::{self, Change, Controls, Dropped, Effect, controls, 
 use crate::proof::paper::Paper;
 use crate::proof::{Counterexample, Proof, prove, refute};
 use crate::verify::guard::guarded;
+use rayon::prelude::*;
 use std::time::{Duration, Instant};
 
 /// A claim and what came of it.
@@ -99,7 +100,7 @@ pub struct Summary {
 pub fn prove_all(equations: &[String]) -> Proofs {
     let all = statements();
     let start = Instant::now();
-    let mut claims: Vec<_> = all.iter().cloned().map(Proved::of).collect();
+    let mut claims: Vec<_> = all.par_iter().cloned().map(Proved::of).collect();
     let of_proofs = start.elapsed();
     let (mut controls, repairs) = if claims.iter().all(|claim| matches!(claim.answer, Answer::Proof(_))) {
         (controls(&all, registry()), Vec::new())

@@ -17,7 +17,7 @@ use std::sync::Arc;
 
 /// A polynomial: its monomials in order, each with its coefficient, which is not 0.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Poly(Vec<(Monomial, Number)>);
+pub struct Poly(Arc<Vec<(Monomial, Number)>>);
 
 /// A quotient of polynomials; the denominator is not the zero polynomial.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -40,18 +40,18 @@ impl FromIterator<(Monomial, Number)> for Poly {
             alike
         });
         terms.retain(|(_, q)| q.sign().is_ne());
-        Poly(terms)
+        Poly(terms.into())
     }
 }
 
 impl From<Monomial> for Poly {
     fn from(monomial: Monomial) -> Self {
-        Poly(vec![(monomial, 1.into())])
+        Poly(vec![(monomial, 1.into())].into())
     }
 }
 
 operators! { [] Poly;
-    Add add |a, b| a.0.iter().chain(&b.0).cloned().collect();
+    Add add |a, b| a.0.iter().chain(b.0.iter()).cloned().collect();
     Sub sub |a, b| a.0.iter().cloned().chain(b.negated()).collect();
     Mul mul |a, b| a.products(b).collect();
     - |a| a.negated().collect()
@@ -60,7 +60,7 @@ operators! { [] Poly;
 impl Poly {
     /// 0
     pub fn zero() -> Self {
-        Poly(Vec::new())
+        Poly(Vec::new().into())
     }
 
     /// A number.
@@ -196,7 +196,7 @@ impl Poly {
     pub fn replace(&self, pivot: &Monomial, by: &Ratio) -> Ratio {
         // The coefficients of the pivot's powers, times e^… whose exponents are replaced already.
         let mut by_power: Vec<Vec<(Monomial, Number)>> = Vec::new();
-        for (m, q) in &self.0 {
+        for (m, q) in self.0.iter() {
             let (mut rest, mut power) = (m.bare(), 0);
             while let Some(quotient) = rest.over(pivot) {
                 rest = quotient;
