@@ -241,7 +241,10 @@ fn run(
     let wanted =
         |equation: &str| options.equations.is_empty() || options.equations.iter().any(|e| e == equation);
     let statements: Vec<_> = statements.into_iter().filter(|statement| wanted(statement.equation)).collect();
-    let mut rows: Vec<Row> = statements.par_iter().map(proof).collect();
+    // Some proofs take long: meanwhile cases are tried.
+    let proofs = || statements.par_iter().map(proof).collect();
+    let (mut rows, tallies): (Vec<Row>, _) =
+        rayon::join(proofs, || tallies(checkers, options, &wanted, progress));
     let unproved: Vec<_> =
         rows.iter().filter(|row| row.status == Status::Failed).map(|row| (row.equation, row.claim)).collect();
     let suspects = suspects::suspects(&statements, &|s| unproved.contains(&(s.equation, s.name)));
@@ -249,7 +252,7 @@ fn run(
     let repairs =
         if unproved.is_empty() { Ok(Vec::new()) } else { guarded(|| repairs(&statements, registry())) };
     let repairs = repairs.unwrap_or_default();
-    for ((scalar, checker), tallies) in checkers.iter().zip(tallies(checkers, options, &wanted, progress)) {
+    for ((scalar, checker), tallies) in checkers.iter().zip(tallies) {
         for (head, tally) in checker.heads().into_iter().zip(tallies) {
             if wanted(head.equation) {
                 rows.push(tally.into_row(head, Some(*scalar)));

@@ -64,8 +64,8 @@ impl Poly {
     }
 
     /// A number.
-    pub fn constant(q: impl Into<Rational>) -> Self {
-        Poly::from_iter([(Monomial::one(), q.into().into())])
+    pub fn constant(q: impl Into<Number>) -> Self {
+        Poly::from_iter([(Monomial::one(), q.into())])
     }
 
     /// A symbol.
@@ -182,8 +182,9 @@ impl Poly {
 
     /// The derivative by a symbol; exponents have denominators, so it is a quotient.
     pub fn derivative(&self, x: Symbol) -> Ratio {
-        let lowered =
-            |m: &Monomial, q: &Number| Some((m.over(&Monomial::of(x))?, q * Number::from(Rational::from(m.degree(x)))));
+        let lowered = |m: &Monomial, q: &Number| {
+            Some((m.over(&Monomial::of(x))?, q * Number::from(Rational::from(m.degree(x)))))
+        };
         let powers: Poly = self.0.iter().filter_map(|(m, q)| lowered(m, q)).collect();
         self.0.iter().fold(powers.into(), |sum, (m, q)| match m.exponent() {
             None => sum,
@@ -262,7 +263,7 @@ impl Ratio {
         if let Some((_, q)) = den.0.last()
             && !q.is_one()
         {
-            let inverse = Poly::constant(q.rational().recip());
+            let inverse = Poly::constant(q.recip());
             (num, den) = (num * &inverse, den * inverse);
         }
         Ratio { num, den }

@@ -191,8 +191,8 @@ impl Context {
             let own = value.num().terms().map(|(m, _)| m).filter(large);
             let pivot = own.min_by_key(|m| known(m))?.clone();
             let coefficient = equation.terms().find(|(m, _)| **m == pivot)?.1.clone();
-            let rest = &equation - Poly::constant(coefficient.rational()) * Poly::from(pivot.clone());
-            let by = -&rest * Poly::constant(coefficient.rational().recip());
+            let rest = &equation - Poly::constant(coefficient.clone()) * Poly::from(pivot.clone());
+            let by = -&rest * Poly::constant(coefficient.recip());
             (!rest.contains(&pivot)).then_some((pivot, by.into()))
         };
         let seen_again = || {

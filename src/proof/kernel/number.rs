@@ -58,6 +58,12 @@ impl From<i32> for Number {
     }
 }
 
+impl From<(i32, i32)> for Number {
+    fn from(quotient: (i32, i32)) -> Self {
+        Rational::from(quotient).into()
+    }
+}
+
 impl From<Rational> for Number {
     fn from(q: Rational) -> Self {
         match (q.numer().to_i64(), q.denom().to_i64()) {
@@ -118,5 +124,38 @@ impl PartialOrd for Number {
 impl Ord for Number {
     fn cmp(&self, other: &Self) -> Ordering {
         self.rational().cmp(&other.rational())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Quotients of numbers at the ends of 64 bits, around 0, and beyond.
+    fn some() -> Vec<Rational> {
+        let ends = [i64::MIN, i64::MIN + 1, -6, -1, 0, 1, 4, 1 << 40, i64::MAX - 1, i64::MAX];
+        let small = ends.iter().flat_map(|n| [1, 2, 3, 1 << 50, i64::MAX].map(|d| Rational::from((*n, d))));
+        let all: Vec<_> = small.collect();
+        let large = all.iter().map(|q| Rational::from(q * q));
+        all.iter().cloned().chain(large).collect()
+    }
+
+    #[test]
+    fn arithmetic_is_that_of_rationals_of_any_size() {
+        let of = |q: &Rational| Number::from(q.clone());
+        for p in some() {
+            let x = of(&p);
+            assert_eq!((x.rational(), x.sign(), x.is_one()), (p.clone(), p.cmp0(), p == 1));
+            assert_eq!((-&x, x.abs()), (of(&Rational::from(-&p)), of(&p.clone().abs())));
+            assert!(p.is_zero() || x.recip() == of(&p.clone().recip()));
+            for q in some() {
+                let y = of(&q);
+                // Equal numbers are written alike, too.
+                assert_eq!(&x + &y, of(&Rational::from(&p + &q)), "{p} + {q}");
+                assert_eq!(&x - &y, of(&Rational::from(&p - &q)), "{p} - {q}");
+                assert_eq!(&x * &y, of(&Rational::from(&p * &q)), "{p} * {q}");
+                assert_eq!((x == y, x.cmp(&y)), (p == q, p.cmp(&q)), "{p} and {q}");
+            }
+        }
     }
 }

@@ -166,7 +166,9 @@ const TERMS: usize = 12;
 pub fn sign(of: &Poly, known: &Known) -> Option<Certificate> {
     let small: Vec<_> = of.symbols().into_iter().filter(|x| is_small(*x)).collect();
     if !small.is_empty() {
-        return terms(of, known).or_else(|| sizes(of, &small, known)).or_else(|| ends(of, &small, known, ENDS));
+        return terms(of, known)
+            .or_else(|| sizes(of, &small, known))
+            .or_else(|| ends(of, &small, known, ENDS));
     }
     // A short certificate before a long one.
     (0..=DEPTH).find_map(|depth| within(of, known, depth))

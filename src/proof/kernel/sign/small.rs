@@ -27,12 +27,12 @@ pub(super) fn sizes(of: &Poly, small: &[Symbol], known: &Known) -> Option<Certif
     let has_small = |m: &Monomial| m.powers().any(|(x, _)| small.contains(&x));
     let (with, whole): (Vec<_>, Vec<_>) = of.terms().partition(|(m, _)| has_small(m));
     let whole: Poly = whole.into_iter().map(|(m, q)| (m.clone(), q.clone())).collect();
-    // The sizes of terms whose small factors are left out: the sum of their coefficients' sizes, with the
-    // sign of what is left.
+    // Without their small factors the others are no larger in size than the sums of their coefficients'
+    // sizes, times the size of what is left of them, whose sign has to be known.
     let without = |(m, q): (&Monomial, &Number)| (m.without_those(|x| small.contains(&x)), q.abs());
     let with: Poly = with.into_iter().map(without).collect();
     let size = |(m, q): (&Monomial, &Number)| {
-        let is_negative = Sign::implies(of_monomial(m, known)?, NonPositive);
+        let is_negative = of_monomial(m, known)?.implies(NonPositive);
         Some((m.clone(), if is_negative { -q } else { q.clone() }))
     };
     let sizes: Poly = with.terms().map(size).collect::<Option<_>>()?;
