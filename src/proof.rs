@@ -10,9 +10,9 @@
 //!   statement's goals, under its hypotheses; that they amount to the claim is so because
 //!   [`Statement::of`](crate::formula::Statement::of) made it, and not seen by the kernel.
 //! - The kernel, which is `kernel.rs` with `kernel/` in `src/proof`: in `algebra.rs` the arithmetic of
-//!   polynomials, in `number.rs` that of their coefficients, in `sign.rs` six rules for signs, in `order.rs` that rounding keeps order, in `kernel.rs`
-//!   the rules for what has to be proved, in `derivation.rs` what a [`Proof`] consists of. Nothing else can
-//!   make a proof, and no one can change one.
+//!   polynomials, in `number.rs` that of their coefficients, in `sign.rs` six rules for signs, in `order.rs`
+//!   that rounding keeps order, in `kernel.rs` the rules for what has to be proved, in `derivation.rs` what a
+//!   [`Proof`] consists of. Nothing else can make a proof, and no one can change one.
 //! - That [`paper`] prints what was proved, in the names of a [`Registry`](crate::formula::Registry); the
 //!   compiler, and GMP's rational numbers.
 //! - The model of rounding: without under- and overflow, what floats of p ≥ 2 bits make of a result x is
