@@ -21,7 +21,10 @@ use Size::{Large, Small};
 // Products of two integers of 64 bits fit 127 bits, and sums of two of these fit 128.
 operators! { [] Number;
     Add add |a, b| match (&a.0, &b.0) {
-        (Small(n, d), Small(m, e)) => Number::quotient(wide(n) * wide(e) + wide(m) * wide(d), wide(d) * wide(e)),
+        (Small(n, d), Small(m, e)) => {
+            let [n, d, m, e] = [n, d, m, e].map(wide);
+            Number::quotient(n * e + m * d, d * e)
+        }
         _ => (a.rational() + b.rational()).into(),
     };
     Sub sub |a, b| a + -b;
