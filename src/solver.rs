@@ -95,9 +95,10 @@ pub fn solve_observed<T: Scalar>(
     check::system(system)?;
     check::method(method)?;
     check::products(system)?;
-    let state = State::of(system);
     let enclosed = system.map(T::enclose);
-    let target = Target::of(&enclosed, method, state, plane);
+    let reaction = system::reaction(&enclosed);
+    let state = State::by(&reaction, system);
+    let target = Target::of(&enclosed, reaction, method, state, plane);
     let bounds = target.bounds::<T>()?;
     let finish = |found: Found<T>| {
         let solution = Solution {
@@ -155,6 +156,7 @@ impl<E: crate::number::PositivePart> Target<E> {
     /// The method's own exact answer; by augmentation its limit, which is Lagrange's.
     fn of<T: Scalar<Enclosure = E>>(
         enclosed: &SpringMass<E>,
+        reaction: E,
         method: &Method<T>,
         state: State,
         plane: Plane,
@@ -178,11 +180,8 @@ impl<E: crate::number::PositivePart> Target<E> {
             Method::Lagrange | Method::Augmented { .. } => Target {
                 deflection: lagrange::deflection(enclosed),
                 penetration: E::zero(),
-                contact_force: if state == State::Grazing {
-                    E::zero()
-                } else {
-                    lagrange::multiplier(enclosed)
-                },
+                // λ = R: what `lagrange::multiplier` would compute again.
+                contact_force: if state == State::Grazing { E::zero() } else { reaction },
                 free,
             },
         }

@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 /// A value and a radius: the number meant lies no further than the radius from the value.
 ///
 /// Every operation computes the value as `T` does and the radius as an upper bound: what the operands'
-/// errors amount to, plus the rounding error of the operation itself, the sum rounded up. So a formula
+/// errors amount to, plus the rounding error of the operation itself, and enlarged by what is lost on the way. So a formula
 /// read in balls gives the float result *and* a bound of its error. Inclusion holds for every input,
 /// subnormal numbers included; a radius may be infinite where nothing can be said, as after a division
 /// by a ball that contains zero. A division by zero itself, and by nothing else, is
@@ -29,11 +29,13 @@ pub struct Ball<T> {
 
 impl<T> Ball<T> {
     /// The centre: what `T` alone would have computed.
+    #[inline]
     pub fn value(&self) -> &T {
         &self.value
     }
 
     /// How far the number meant may be from the centre, at most.
+    #[inline]
     pub fn radius(&self) -> &T {
         &self.radius
     }
@@ -41,17 +43,20 @@ impl<T> Ball<T> {
 
 impl<T: Real> Ball<T> {
     /// This number and no other.
+    #[inline]
     pub fn exactly(value: T) -> Self {
         Ball { value, radius: T::zero() }
     }
 
     /// Some number that rounds to this value.
+    #[inline]
     pub fn rounded(value: T) -> Self {
         let radius = product_error(&value);
         Ball { value, radius }
     }
 
     /// A number no greater than any in the ball.
+    #[inline]
     pub fn lower(&self) -> T {
         if !self.is_finite() {
             -T::infinity()
@@ -63,6 +68,7 @@ impl<T: Real> Ball<T> {
     }
 
     /// A number no less than any in the ball.
+    #[inline]
     pub fn upper(&self) -> T {
         if !self.is_finite() {
             T::infinity()
@@ -74,6 +80,7 @@ impl<T: Real> Ball<T> {
     }
 
     /// A number no less than the absolute value of any in the ball.
+    #[inline]
     pub fn magnitude(&self) -> T {
         if !self.is_finite() {
             T::infinity()
@@ -85,6 +92,7 @@ impl<T: Real> Ball<T> {
     }
 
     /// The sign that all numbers in the ball share; `None` if they do not.
+    #[inline]
     pub fn sign(&self) -> Option<Ordering> {
         if self.radius.is_zero() || self.value.abs() > self.radius {
             self.value.partial_cmp(&T::zero())
@@ -94,6 +102,7 @@ impl<T: Real> Ball<T> {
     }
 
     /// Can a result be trusted? Not if the value or the radius is infinite or not a number.
+    #[inline]
     pub fn is_finite(&self) -> bool {
         self.value.is_finite() && self.radius.is_finite()
     }
@@ -107,21 +116,34 @@ impl<T: Real> Ball<T> {
     /// let perhaps_zero = &one / Ball::exactly(3.0) * Ball::exactly(3.0) - &one;
     /// assert!(!(&one / perhaps_zero).is_undefined());
     /// ```
+    #[inline]
     pub fn is_undefined(&self) -> bool {
         // No other radius is not a number: sums of radii have no infinities of different signs.
         self.radius.partial_cmp(&self.radius).is_none()
     }
 
-    fn undefined(value: T) -> Self {
-        Ball { value, radius: T::infinity() - T::infinity() }
+    /// The result of an operation, from a radius that is not yet enlarged and from those that entered it.
+    #[inline]
+    fn with(value: T, error: T, entered: [&T; 2], exactly_zero: bool) -> Self {
+        let radius = error.enlarged();
+        // A finite radius has half an ulp of the value in it, so that is finite, too.
+        if !radius.is_finite() {
+            Ball::unbounded(value, entered[0] + entered[1])
+        } else if exactly_zero {
+            Ball::zero()
+        } else {
+            Ball { value, radius }
+        }
     }
 
-    fn with(value: T, error: T) -> Self {
-        // A value that is not finite says nothing of the number meant.
-        let radius = if value.is_finite() && error.is_finite() { error } else { T::infinity() };
-        Ball { value, radius }
+    /// Nothing is known of the number meant; or there is none, if what entered says so.
+    #[cold]
+    #[inline(never)]
+    fn unbounded(value: T, entered: T) -> Self {
+        Ball { value, radius: entered + T::infinity() }
     }
 
+    #[inline]
     fn is_exactly_zero(&self) -> bool {
         self.value.is_zero() && self.radius.is_zero()
     }
@@ -129,89 +151,68 @@ impl<T: Real> Ball<T> {
 
 /// The neighbour of a rounded sum, unless the sum is 0: no sum of floats rounds to 0 but 0 itself, and
 /// the neighbours of 0 in MPFR have a billion digits.
+#[inline]
 fn outward<T: Real>(sum: T, neighbour: impl Fn(T) -> T) -> T {
     if sum.is_zero() { sum } else { neighbour(sum) }
 }
 
-// Arithmetic of radii: numbers ≥ 0, every result rounded up, zero kept exact.
-
-fn add<T: Real>(a: T, b: &T) -> T {
-    if b.is_zero() {
-        a
-    } else if a.is_zero() {
-        b.clone()
-    } else {
-        (a + b).next_up()
-    }
-}
+// Radii are sums, products and quotients of numbers ≥ 0, computed to nearest like any others. Each operation may
+// take η of its result away, in parts of it. No radius goes through more than ten, for which it is enlarged in
+// the end. And among the subnormal numbers, where sums are exact, a product or quotient may lose half an
+// underflow unit. There are five: the value, its half ulp, two more, and what enlarges. The four units in
+// `product_error` are more than enough for them. 0 stays 0.
 
 /// A radius so many times; how many is not asked if it is 0.
+#[inline]
 fn times<T: Real>(radius: &T, factor: impl FnOnce() -> T) -> T {
-    if radius.is_zero() {
-        return T::zero();
-    }
-    let factor = factor();
-    if factor.is_zero() { factor } else { (factor * radius).next_up() }
-}
-
-fn div<T: Real>(a: T, b: &T) -> T {
-    if a.is_zero() { a } else { (a / b).next_up() }
+    if radius.is_zero() { T::zero() } else { factor() * radius }
 }
 
 /// Half an ulp and an absolute term, the rounding error of a product or quotient whose result is x.
+#[inline]
 fn product_error<T: Real>(x: &T) -> T {
-    add(x.half_ulp(), &T::underflow_unit())
+    x.half_ulp() + T::int(4) * T::underflow_unit()
 }
 
-/// The value, undefined where one of the operands is: what every operation begins with.
-macro_rules! of {
-    ($value:expr, $($operand:expr),*) => {{
-        let value = $value;
-        if $($operand.is_undefined())||* {
-            return Ball::undefined(value);
-        }
-        value
-    }};
-}
-
-operators! { [T: Real] Ball<T>;
+operators! { #[inline] [T: Real] Ball<T>;
     Add add |a, b| {
-        let value = of!(&a.value + &b.value, a, b);
-        let error = add(add(a.radius.clone(), &b.radius), &value.half_ulp());
-        Ball::with(value, error)
+        let value = &a.value + &b.value;
+        let error = &a.radius + &b.radius + value.half_ulp();
+        Ball::with(value, error, [&a.radius, &b.radius], false)
     };
     Sub sub |a, b| {
-        let value = of!(&a.value - &b.value, a, b);
-        let error = add(add(a.radius.clone(), &b.radius), &value.half_ulp());
-        Ball::with(value, error)
+        let value = &a.value - &b.value;
+        let error = &a.radius + &b.radius + value.half_ulp();
+        Ball::with(value, error, [&a.radius, &b.radius], false)
     };
     Mul mul |a, b| {
-        let value = of!(&a.value * &b.value, a, b);
-        if a.is_exactly_zero() || b.is_exactly_zero() { return Ball::zero() }
+        let value = &a.value * &b.value;
         // ab − a'b' = a(b − b') + b(a − a') − (a − a')(b − b')
-        let from_a = times(&a.radius, || add(b.value.magnitude(), &b.radius));
+        let from_a = times(&a.radius, || b.value.magnitude() + &b.radius);
         let from_b = times(&b.radius, || a.value.magnitude());
-        let error = add(add(from_a, &from_b), &product_error(&value));
-        Ball::with(value, error)
+        let error = from_a + (from_b + product_error(&value));
+        let zero = value.is_zero() && (a.is_exactly_zero() || b.is_exactly_zero());
+        Ball::with(value, error, [&a.radius, &b.radius], zero)
     };
     Div div |a, b| {
-        // By zero not `a / b`: Mpfr's constants are rationals and would panic.
-        let value = if b.value.is_zero() { &a.value * T::infinity() } else { &a.value / &b.value };
-        let value = of!(value, a, b);
-        if b.is_exactly_zero() { return Ball::undefined(value) }
         // No |divisor| is less than this.
-        let least = b.value.abs();
-        let least = if b.radius.is_zero() { least } else { (least - &b.radius).next_down() };
+        let least = b.value.abs() - &b.radius;
         if least.partial_cmp(&T::zero()) != Some(Ordering::Greater) {
-            return Ball { value, radius: T::infinity() }
+            // By zero not `a / b`: Mpfr's constants are rationals and would panic.
+            let value = if b.value.is_zero() { &a.value * T::infinity() } else { &a.value / &b.value };
+            let undefined = if b.is_exactly_zero() { T::infinity() - T::infinity() } else { T::zero() };
+            return Ball::unbounded(value, &a.radius + &b.radius + undefined);
         }
-        if a.is_exactly_zero() { return Ball::zero() }
+        let value = &a.value / &b.value;
         // a/b − a'/b' = ((a − a') − (a/b)(b − b')) / b'
         let own = product_error(&value);
-        let from_b = times(&b.radius, || add(value.magnitude(), &own));
-        let error = div(add(from_b, &a.radius), &least);
-        // The divisor may have more digits than a radius.
-        Ball::with(value, add(error, &own).magnitude())
+        let from_b = times(&b.radius, || value.magnitude() + &own);
+        // What underflows there, a small divisor magnifies.
+        let lost = if b.radius.is_zero() { T::zero() } else { T::underflow_unit() };
+        // The divisor may have more digits than a radius. To round it up counts as two of the ten.
+        let error = (from_b + (lost + &a.radius)) / least.magnitude() + own;
+        let zero = value.is_zero() && a.is_exactly_zero();
+        Ball::with(value, error, [&a.radius, &b.radius], zero)
     };
     - |a| Ball { value: -&a.value, radius: a.radius.clone() }
 }
@@ -239,23 +240,24 @@ impl<T: Real> Field for Ball<T> {
 }
 impl<T: Real> PositivePart for Ball<T> {
     fn positive_part(&self) -> Self {
-        let value = of!(self.value.positive_part(), self);
         match self.sign() {
             Some(Ordering::Greater) => self.clone(),
             Some(_) => Ball::zero(),
             // ⟨·⟩ brings no two numbers further apart, so the radius still holds.
-            None => Ball::with(value, self.radius.clone()),
+            None => Ball { value: self.value.positive_part(), radius: self.radius.clone() },
         }
     }
     fn min(&self, other: &Self) -> Self {
-        let value = of!(self.value.min(&other.value), self, other);
-        if self.upper() <= other.lower() {
+        let value = self.value.min(&other.value);
+        if self.is_undefined() || other.is_undefined() {
+            Ball::unbounded(value, &self.radius + &other.radius)
+        } else if self.upper() <= other.lower() {
             self.clone()
         } else if other.upper() <= self.lower() {
             other.clone()
         } else {
             let radius = if self.radius > other.radius { &self.radius } else { &other.radius };
-            Ball::with(value, radius.clone())
+            Ball { value, radius: radius.clone() }
         }
     }
 }
@@ -264,14 +266,14 @@ impl<T: Real + Exponential> Exponential for Ball<T> {
         if self.is_exactly_zero() {
             return Ball::one();
         }
-        let value = of!(self.value.exp(), self);
-        let own = product_error(&value);
+        let value = self.value.exp();
         let r = &self.radius;
-        // |eʳ − 1| ≤ r + r² for r ≤ 1.
-        if *r > T::one() {
-            return Ball { value, radius: T::infinity() };
+        if r.partial_cmp(&T::one()).is_none_or(Ordering::is_gt) {
+            return Ball::unbounded(value, r.clone());
         }
-        let growth = times(&add(times(r, || r.clone()), r), || add(value.magnitude(), &own));
-        Ball::with(value, add(growth, &own))
+        let own = product_error(&value);
+        // |eʳ − 1| ≤ r + r² for r ≤ 1.
+        let growth = times(&(r * r + r), || value.magnitude() + &own);
+        Ball::with(value, growth + own, [r, r], false)
     }
 }

@@ -160,15 +160,22 @@ pub trait Real: OrderedField {
     }
 
     /// Half a unit in the last place, or more: no operation that rounds to this result, above the
-    /// subnormal numbers, errs by more. 0 for 0, which no sum that is not 0 rounds to.
+    /// subnormal numbers, errs by more. 0 for 0, which no sum that is not 0 rounds to; not finite where the
+    /// result is not.
     fn half_ulp(&self) -> Self {
-        if self.is_zero() { Self::zero() } else { (self.abs() * self.unit_roundoff()).next_up() }
+        // η|x|, and when that is rounded it is no less: where half an ulp is no float, no sum has to be rounded.
+        self.magnitude() * self.unit_roundoff()
     }
 
     /// An upper bound of |x|, in few digits if x has very many: what the radius of a ball is made of.
     fn magnitude(&self) -> Self {
         self.abs()
     }
+
+    /// A number ≥ 0, and a little more: no less than what it would have been without rounding, after up to ten
+    /// operations that took η of their results, in parts of them. This η is that of
+    /// [magnitudes](Real::magnitude). 0 stays 0.
+    fn enlarged(self) -> Self;
 }
 
 /// Floating-point numbers with ln; as with [`Exponential`], f32 and f64 have it with the feature `mpfr`.
@@ -240,12 +247,15 @@ macro_rules! operators {
 macro_rules! ordered {
     ($($type:ty),*) => {$(
         impl PositivePart for $type {
+            #[inline]
             fn positive_part(&self) -> Self {
                 if *self > <$type>::zero() { self.clone() } else { <$type>::zero() }
             }
+            #[inline]
             fn min(&self, other: &Self) -> Self {
                 if other < self { other.clone() } else { self.clone() }
             }
+            #[inline]
             fn abs(&self) -> Self {
                 if *self < <$type>::zero() { -self } else { self.clone() }
             }
@@ -259,25 +269,40 @@ pub(crate) use ordered;
 macro_rules! machine_float {
     ($($float:ident),*) => {$(
         impl Field for $float {
+            #[inline]
             fn int(n: i32) -> Self {
                 n as $float
             }
         }
         impl Real for $float {
+            #[inline]
             fn unit_roundoff(&self) -> Self {
                 $float::EPSILON / 2.0
             }
+            #[inline]
             fn underflow_unit() -> Self {
                 $float::from_bits(1)
             }
+            #[inline]
             fn is_finite(&self) -> bool {
                 $float::is_finite(*self)
             }
+            #[inline]
             fn infinity() -> Self {
                 $float::INFINITY
             }
+            #[inline]
             fn next_up(self) -> Self {
                 $float::next_up(self)
+            }
+            #[inline]
+            fn magnitude(&self) -> Self {
+                $float::abs(*self)
+            }
+            #[inline]
+            fn enlarged(self) -> Self {
+                // By 12 η, of which the product may lose one.
+                self * (1.0 + 6.0 * $float::EPSILON)
             }
         }
     )*};

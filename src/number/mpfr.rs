@@ -4,7 +4,7 @@ use super::field::ordered;
 use super::{Exponential, Field, Logarithm, OrderedField, PositivePart, Real};
 use num_traits::{One, Zero};
 use rug::float::{Round, Special};
-use rug::ops::Pow;
+use rug::ops::{MulAssignRound, Pow};
 use rug::{Float, Integer, Rational};
 use std::cmp::Ordering;
 use std::{fmt, ops::RangeInclusive};
@@ -70,7 +70,7 @@ impl Kind {
 
 /// The four ways to own or borrow two operands meet in one: `in_place` says whose allocation may serve.
 macro_rules! operator {
-    ($($Trait:ident $f:ident $op:tt $constant_first:expr;)*) => {$(
+    ($($Trait:ident $f:ident $op:tt $small:expr, $constant_first:expr;)*) => {$(
         impl std::ops::$Trait<&Mpfr> for &Mpfr {
             type Output = Mpfr;
             fn $f(self, other: &Mpfr) -> Mpfr {
@@ -80,6 +80,7 @@ macro_rules! operator {
                     (Rounded(a), Small(b)) => Rounded(Float::with_val(a.prec(), a $op b)),
                     (Rounded(a), Constant(b)) => Rounded(Float::with_val(a.prec(), a $op b)),
                     (Rounded(a), Rounded(b)) => Rounded(Float::with_val(a.prec().max(b.prec()), a $op b)),
+                    (Small(a), Small(b)) if let Some(n) = $small(*a, *b) => Small(n),
                     (a, b) => Kind::constant(a.rational() $op b.rational()),
                 })
             }
@@ -116,10 +117,10 @@ macro_rules! operator {
     )*};
 }
 operator! {
-    Add add + |a: &Rational, b: &Float| Float::with_val(b.prec(), a + b);
-    Sub sub - |a: &Rational, b: &Float| Float::with_val(b.prec(), a - b);
-    Mul mul * |a: &Rational, b: &Float| Float::with_val(b.prec(), a * b);
-    Div div / divide_constant;
+    Add add + i32::checked_add, |a: &Rational, b: &Float| Float::with_val(b.prec(), a + b);
+    Sub sub - i32::checked_sub, |a: &Rational, b: &Float| Float::with_val(b.prec(), a - b);
+    Mul mul * i32::checked_mul, |a: &Rational, b: &Float| Float::with_val(b.prec(), a * b);
+    Div div / |_, _| None, divide_constant;
 }
 
 /// (n/d) / x = n / (d x): MPFR has no such operation, but d x is exact in enough bits.
@@ -250,11 +251,14 @@ impl Real for Mpfr {
     }
     fn half_ulp(&self) -> Self {
         match &self.0 {
-            // x lies between 2^(e−1) and 2^e.
-            Rounded(x) => x.get_exp().map_or_else(Mpfr::zero, |e| {
-                let half = e - x.prec() as i32 - 1;
-                Mpfr(Rounded(Float::with_val(RADIUS_PRECISION, Float::i_exp(1, half))))
-            }),
+            // x lies between 2^(e−1) and 2^e. 0 has no e, nor has what is not finite.
+            Rounded(x) => x.get_exp().map_or_else(
+                || self.magnitude(),
+                |e| {
+                    let half = e - x.prec() as i32 - 1;
+                    Mpfr(Rounded(Float::with_val(RADIUS_PRECISION, Float::i_exp(1, half))))
+                },
+            ),
             Small(_) | Constant(_) => Mpfr::zero(),
         }
     }
@@ -267,6 +271,14 @@ impl Real for Mpfr {
             }
             Rounded(x) => up(Float::with_val_round(RADIUS_PRECISION, x.abs_ref(), Round::Up).0),
         }
+    }
+    fn enlarged(mut self) -> Self {
+        if let Rounded(x) = &mut self.0 {
+            // By 16 η.
+            x.mul_assign_round((1u64 << 60) + 1, Round::Up);
+            *x >>= 60;
+        }
+        self
     }
 }
 

@@ -55,10 +55,13 @@ pub trait Scalar: OrderedField {
     /// A scalar no less than the absolute value of anything enclosed.
     fn magnitude(enclosure: &Self::Enclosure) -> Self;
 
+    /// The sign of everything enclosed; `None` if not all of it has the same.
+    fn sign(enclosure: &Self::Enclosure) -> Option<Ordering>;
+
     /// Neither infinite nor not-a-number.
     fn is_finite(&self) -> bool;
 
-    /// The sign of a₁b₁ + a₂b₂ − a₃b₃, without any rounding.
+    /// The sign of a₁b₁ + a₂b₂ − a₃b₃, without any rounding. It takes longer than an enclosure's.
     fn sign_of_sum(plus: [(&Self, &Self); 2], minus: (&Self, &Self)) -> Ordering;
 }
 
@@ -66,22 +69,27 @@ macro_rules! by_ball {
     ($($float:ty, $sign:expr;)*) => {$(
         impl Scalar for $float {
             type Enclosure = Ball<$float>;
+            #[inline]
             fn enclose(&self) -> Ball<$float> {
                 Ball::exactly(self.clone())
             }
+            #[inline]
             fn interval(ball: &Ball<$float>) -> Interval<Self> {
-                if ball.is_finite() {
-                    Interval { lower: ball.lower(), upper: ball.upper() }
-                } else {
-                    Interval { lower: -<$float>::infinity(), upper: <$float>::infinity() }
-                }
+                Interval { lower: ball.lower(), upper: ball.upper() }
             }
+            #[inline]
             fn magnitude(ball: &Ball<$float>) -> Self {
                 ball.magnitude()
             }
+            #[inline]
+            fn sign(ball: &Ball<$float>) -> Option<Ordering> {
+                ball.sign()
+            }
+            #[inline]
             fn is_finite(&self) -> bool {
                 Real::is_finite(self)
             }
+            #[cold]
             fn sign_of_sum(plus: [(&Self, &Self); 2], minus: (&Self, &Self)) -> Ordering {
                 $sign(plus, minus)
             }
@@ -122,6 +130,9 @@ impl Scalar for Exact {
     }
     fn magnitude(x: &Exact) -> Self {
         x.abs()
+    }
+    fn sign(x: &Exact) -> Option<Ordering> {
+        Some(x.cmp(&Exact::zero()))
     }
     fn is_finite(&self) -> bool {
         true

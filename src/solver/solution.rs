@@ -1,9 +1,9 @@
 //! What is solved for, how, and what comes of it.
 
 use super::{Interval, Scalar};
-use crate::chapter::SpringMass;
 #[cfg(feature = "mpfr")]
 use crate::chapter::contact;
+use crate::chapter::{SpringMass, system};
 #[cfg(feature = "mpfr")]
 use crate::number::{Exact, ToExact};
 use std::cmp::Ordering;
@@ -32,7 +32,9 @@ impl fmt::Display for State {
 }
 
 impl State {
-    /// The state of a system, without any rounding. Meaningful for finite parameters with c > 0.
+    /// The state of a system, whatever rounding does. Meaningful for finite parameters with c > 0.
+    ///
+    /// It is decided by the reaction and its error bound, and where these leave it open, without any rounding.
     ///
     /// ```
     /// # use spring_mass_contact::{chapter::{SpringMass, system}, solver::State};
@@ -42,8 +44,14 @@ impl State {
     /// assert_eq!(State::of(&system), State::Separated);
     /// ```
     pub fn of<T: Scalar>(system: &SpringMass<T>) -> State {
+        State::by(&system::reaction(&system.map(T::enclose)), system)
+    }
+
+    /// The state of a system whose reaction is known to be in this enclosure.
+    pub(super) fn by<T: Scalar>(reaction: &T::Enclosure, system: &SpringMass<T>) -> State {
         let SpringMass { c, m, g, l, h } = system;
-        match T::sign_of_sum([(m, g), (c, l)], (c, h)) {
+        let exactly = || T::sign_of_sum([(m, g), (c, l)], (c, h));
+        match T::sign(reaction).unwrap_or_else(exactly) {
             Ordering::Greater => State::Contact,
             Ordering::Equal => State::Grazing,
             Ordering::Less => State::Separated,

@@ -49,6 +49,7 @@ macro_rules! laws_of_floats {
 laws_of_floats! {
     neighbours_have_no_number_between_them
     the_unit_roundoff_bounds_every_rounding
+    what_is_enlarged_makes_good_ten_roundings
     exp_ln_and_ln_1p_are_correctly_rounded
 }
 
@@ -97,6 +98,37 @@ fn the_unit_roundoff_bounds_every_rounding<S: Floats<Number = N>, N: Real + ToEx
         prop_assert!(overflows || error.abs() <= &eta * rounded.abs() + underflow / Exact::int(2));
         Ok(())
     });
+}
+
+/// Each may have left no more than 1 − η of it; where numbers are subnormal, sums are exact and it need not grow. It grows
+/// by no more than 24 η, if what it is then rounded to is that fine.
+fn what_is_enlarged_makes_good_ten_roundings<S: Floats<Number = N>, N: Real + ToExact + 'static>() {
+    let normal = Tally::default();
+    for_all(S::number(), |(x, exact)| {
+        let before = x.magnitude();
+        let exact = exact.abs();
+        let bits = if S::FORMAT.bounded { S::FORMAT.bits } else { 64 };
+        let eta = Exact::power_of_two(-bits.cast_signed());
+        let after = before.clone().enlarged();
+        prop_assert_eq!(before.is_zero(), after.is_zero());
+        prop_assert!(after >= before);
+        if after.is_finite() {
+            let after = after.to_exact().unwrap();
+            let half_unit = N::underflow_unit().to_exact().unwrap() / Exact::int(2);
+            prop_assert!(
+                after <= before.to_exact().unwrap() * (Exact::one() + Exact::int(24) * &eta) + &half_unit
+            );
+            let is_normal = exact >= half_unit / &eta;
+            if normal.count(is_normal) {
+                let left = (0..10).fold(after, |x, _| x * (Exact::one() - &eta));
+                prop_assert!(left >= exact, "{} of {}", left, exact);
+            }
+        }
+        Ok(())
+    });
+    normal.assert_one_in(2, "normal numbers");
+    let [zero, infinity] = [N::zero(), N::infinity()].map(N::enlarged);
+    assert!(zero.is_zero() && infinity == N::infinity());
 }
 
 fn exp_ln_and_ln_1p_are_correctly_rounded<S: Floats<Number = N>, N: Logarithm + Exponential + 'static>() {

@@ -276,6 +276,28 @@ fn the_sign_is_exact<T: Float>(like: &T, numbers: [Extreme; 6]) -> Result<(), Te
     Ok(())
 }
 
+/// m g and c (H − l) agree as well as their digits allow, and then to some ulps of g: rounding can turn the sign of their
+/// difference. They are about as large as 2ᵏ.
+fn the_state_is_exact_where_rounding_could_turn_it<T: Float>(
+    like: &T,
+    k: i32,
+    digits: [u32; 8],
+    steps: i32,
+) -> Result<(), TestCaseError> {
+    let [c, m, l, h] = [0, 1, 2, 3].map(|i| {
+        let full = u64::from(digits[i]) << 32 | u64::from(digits[i + 4]) | 1 << 63;
+        let size = if i < 2 { k / 2 } else { k - k / 2 };
+        like.nearest(&(Exact::from(Rational::from(full)) * Exact::power_of_two(size - 63))).unwrap()
+    });
+    let g = exact(&c) * (exact(&h) - exact(&l)) / exact(&m);
+    let g = like.nearest(&g).unwrap();
+    let g = (0..steps.abs()).fold(g, |g, _| if steps < 0 { g.next_down() } else { g.next_up() });
+    let system = SpringMass { c, m, g, l, h };
+    let r = system::reaction(&system.map(exact));
+    prop_assert_eq!(State::of(&system), state_by_sign(r.cmp(&int(0))), "{:?}", system.map(exact));
+    Ok(())
+}
+
 /// With a subnormal mass, then with a subnormal stiffness: m g = c H, so that l alone has a say.
 fn a_subnormal_system_can_graze<T: Float>(
     like: &T,
@@ -347,6 +369,25 @@ proptest! {
     #[test]
     fn the_sign_is_exact_at_the_ends_of_f64(numbers in prop::array::uniform6(any_extreme())) {
         the_sign_is_exact(&1f64, numbers)?;
+    }
+    // Among the subnormal numbers, in the middle, and where the products overflow.
+    #[test]
+    fn the_state_is_exact_where_rounding_could_turn_it_in_f32(
+        k in prop_oneof![-150..-120, -3..3, 122..128], digits in prop::array::uniform8(any::<u32>()), steps in -2..=2,
+    ) {
+        the_state_is_exact_where_rounding_could_turn_it(&1f32, k, digits, steps)?;
+    }
+    #[test]
+    fn the_state_is_exact_where_rounding_could_turn_it_in_f64(
+        k in prop_oneof![-1075..-1018, -3..3, 1018..1024], digits in prop::array::uniform8(any::<u32>()), steps in -2..=2,
+    ) {
+        the_state_is_exact_where_rounding_could_turn_it(&1f64, k, digits, steps)?;
+    }
+    #[test]
+    fn the_state_is_exact_where_rounding_could_turn_it_in_mpfr(
+        bits in 2u32..200, digits in prop::array::uniform8(any::<u32>()), steps in -2..=2,
+    ) {
+        the_state_is_exact_where_rounding_could_turn_it(&int(1).to_mpfr(bits), 0, digits, steps)?;
     }
     #[test]
     fn a_subnormal_system_can_graze_in_f32(n in (1..1 << 22, 1..1 << 22, 30..80), l in any_extreme()) {
