@@ -163,7 +163,7 @@ pub trait Real: OrderedField {
     /// subnormal numbers, errs by more. 0 for 0, which no sum that is not 0 rounds to; not finite where the
     /// result is not.
     fn half_ulp(&self) -> Self {
-        // η|x|, and when that is rounded it is no less: where half an ulp is no float, no sum has to be rounded.
+        // η|x|; when that is rounded it is no less, for where half an ulp is no float, no sum is rounded.
         self.magnitude() * self.unit_roundoff()
     }
 
@@ -172,8 +172,8 @@ pub trait Real: OrderedField {
         self.abs()
     }
 
-    /// A number ≥ 0, and a little more: no less than what it would have been without rounding, after up to ten
-    /// operations that took η of their results, in parts of them. This η is that of
+    /// A number ≥ 0, and a little more: no less than what it would have been without rounding, after up to
+    /// ten operations that took η of their results, in parts of them. This η is that of
     /// [magnitudes](Real::magnitude). 0 stays 0.
     fn enlarged(self) -> Self;
 }

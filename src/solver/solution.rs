@@ -34,7 +34,7 @@ impl fmt::Display for State {
 impl State {
     /// The state of a system, whatever rounding does. Meaningful for finite parameters with c > 0.
     ///
-    /// It is decided by the reaction and its error bound, and where these leave it open, without any rounding.
+    /// It is decided by the reaction and its error bound; where these leave it open, without any rounding.
     ///
     /// ```
     /// # use spring_mass_contact::{chapter::{SpringMass, system}, solver::State};
