@@ -9,8 +9,8 @@ use std::cmp::Ordering;
 ///
 /// Every operation computes the value as `T` does and the radius as an upper bound: what the operands'
 /// errors amount to, plus the rounding error of the operation itself, enlarged by what is lost on the way.
-/// So a formula read in balls gives the float result *and* a bound of its error. Inclusion holds for every input,
-/// subnormal numbers included; a radius may be infinite where nothing can be said, as after a division
+/// So a formula read in balls gives the float result *and* a bound of its error. Inclusion holds for every
+/// input, subnormal numbers included; a radius may be infinite where nothing can be said, as after a division
 /// by a ball that contains zero. A division by zero itself, and by nothing else, is
 /// [undefined](Ball::is_undefined), and so is all that is made of it.
 ///
@@ -159,8 +159,8 @@ fn outward<T: Real>(sum: T, neighbour: impl Fn(T) -> T) -> T {
 // Radii are sums, products and quotients of numbers ≥ 0, computed to nearest like any others. Each operation
 // may take η of its result away, in parts of it. No radius goes through more than ten, for which it is
 // enlarged in the end. And among the subnormal numbers, where sums are exact, a product or quotient may lose
-// half an underflow unit. There are five: the value, its half ulp, two more, and what enlarges. The four units
-// in `product_error` are more than enough for them. 0 stays 0.
+// half an underflow unit. There are five: the value, its half ulp, two more, and what enlarges. The four
+// units in `product_error` are more than enough for them. 0 stays 0.
 
 /// A radius so many times; how many is not asked if it is 0.
 #[inline]
