@@ -18,7 +18,7 @@ const KNOWS: [(&str, &[&str]); 8] = [
     ("formula", &["number"]),
     ("proof", &["number", "formula"]),
     ("chapter", &["number"]),
-    ("solver", &["number", "chapter"]),
+    ("solver", &["number", "formula", "chapter"]),
     ("claims", &["number", "formula", "chapter", "solver"]),
     ("verify", &["number", "formula", "proof", "chapter", "solver", "claims"]),
     ("bin", &["number", "formula", "proof", "chapter", "solver", "claims", "verify"]),

@@ -75,4 +75,97 @@ impl Program {
         }
         values
     }
+
+    /// The program for many rounds, in which some quantities change and the others, those that `fixed`
+    /// knows, do not: what depends on these alone is computed here, once. `beyond` knows eˣ, ⟨·⟩ and min;
+    /// `None` if it has no answer. Division is the number system's own.
+    pub fn rounds<T: Field>(
+        &self,
+        fixed: &impl Fn(&'static str) -> Option<T>,
+        beyond: &impl Fn(Step<&T>) -> Option<T>,
+    ) -> Option<Rounds<T>> {
+        let (mut values, mut steps, mut vary) = (Vec::<T>::new(), Vec::new(), Vec::<bool>::new());
+        for (place, step) in self.steps.iter().enumerate() {
+            let mut value = T::zero();
+            let varies = if let Step::Symbol(name) = step {
+                fixed(name).map(|number| value = number).is_none()
+            } else if step.operands().any(|operand| vary[*operand]) {
+                steps.push((place, *step));
+                true
+            } else {
+                compute(&mut value, step.map(|operand| &values[*operand]), beyond)?;
+                false
+            };
+            values.push(value);
+            vary.push(varies);
+        }
+        Some(Rounds { values, steps })
+    }
+}
+
+/// A [`Program`] that is run again and again with other numbers for some of its quantities: a round computes
+/// what depends on these and nothing else, in place where the number system can
+/// ([`Field::assign`]), and bit for bit what the functions compute.
+///
+/// ```
+/// use spring_mass_contact::{formula::Program, number::Tree};
+/// let [a, x] = ["a", "x"].map(|name| Tree::symbol(name));
+/// let mut program = Program::default();
+/// let [place, result] = [&x, &((&a + &a) * &x)].map(|formula| program.add(formula));
+/// let beyond = |_: spring_mass_contact::number::tree::Step<&f64>| None;
+/// let mut rounds = program.rounds(&|name| (name == "a").then_some(2.0), &beyond).unwrap();
+/// assert_eq!(rounds.len(), 1); // a + a is known
+/// for x in [1.0, 10.0] {
+///     rounds.replace(place, x);
+///     rounds.run(&beyond);
+///     assert_eq!(rounds[result], 4.0 * x);
+/// }
+/// ```
+#[derive(Clone, Debug)]
+pub struct Rounds<T> {
+    values: Vec<T>,
+    /// What a round computes, and at which place.
+    steps: Vec<(usize, Step<usize>)>,
+}
+
+impl<T: Field> Rounds<T> {
+    /// Puts another number at a place, and returns the one that was there. At that of a quantity it stays
+    /// until it is replaced; elsewhere it only lends its memory to what is computed there next.
+    pub fn replace(&mut self, place: usize, value: T) -> T {
+        std::mem::replace(&mut self.values[place], value)
+    }
+
+    /// Computes what depends on the quantities that change; `None` if `beyond` has no answer.
+    pub fn run(&mut self, beyond: &impl Fn(Step<&T>) -> Option<T>) -> Option<()> {
+        for (place, step) in &self.steps {
+            // Every step stands after its operands.
+            let (before, rest) = self.values.split_at_mut(*place);
+            compute(&mut rest[0], step.map(|operand| &before[*operand]), beyond)?;
+        }
+        Some(())
+    }
+
+    /// How many steps a round has.
+    pub fn len(&self) -> usize {
+        self.steps.len()
+    }
+
+    /// Has it none?
+    pub fn is_empty(&self) -> bool {
+        self.steps.is_empty()
+    }
+}
+
+impl<T> std::ops::Index<usize> for Rounds<T> {
+    type Output = T;
+    fn index(&self, place: usize) -> &T {
+        &self.values[place]
+    }
+}
+
+fn compute<T: Field>(result: &mut T, step: Step<&T>, beyond: &impl Fn(Step<&T>) -> Option<T>) -> Option<()> {
+    if !result.assign(step) {
+        *result = beyond(step)?;
+    }
+    Some(())
 }

@@ -1,11 +1,12 @@
 //! Exact rational numbers: the oracle.
 
 use super::field::ordered;
+use super::tree::Step;
 use super::{Ball, Field, Mpfr, NumberSystem, OrderedField, PositivePart, RangeError, Real};
 use num_traits::{One, Zero};
 use rug::float::Round;
 use rug::ops::NegAssign;
-use rug::{Float, Rational};
+use rug::{Assign, Float, Rational};
 use std::cmp::Ordering;
 use std::fmt;
 
@@ -72,6 +73,23 @@ impl One for Exact {
 impl Field for Exact {
     fn int(n: i32) -> Self {
         Exact(Rational::from(n))
+    }
+
+    const IN_PLACE: bool = true;
+
+    fn assign(&mut self, step: Step<&Self>) -> bool {
+        match step {
+            Step::Int(n) => self.0.assign(n),
+            Step::Neg(a) => self.0.assign(-&a.0),
+            Step::Add(a, b) => self.0.assign(&a.0 + &b.0),
+            Step::Sub(a, b) => self.0.assign(&a.0 - &b.0),
+            Step::Mul(a, b) => self.0.assign(&a.0 * &b.0),
+            Step::Div(a, b) => self.0.assign(&a.0 / &b.0),
+            Step::Symbol(_) | Step::Exp(_) | Step::PositivePart(_) | Step::Min(..) | Step::Rounded(_) => {
+                return false;
+            }
+        }
+        true
     }
 }
 ordered!(Exact);

@@ -60,6 +60,7 @@
 //! assert_eq!(contact::penetration(&system, &u), Mod7(5)); // R/(c + ε) = 1/3
 //! ```
 
+use super::tree::Step;
 use num_traits::{One, Zero};
 use std::{
     fmt::Debug,
@@ -104,6 +105,27 @@ pub trait Field:
     /// yet nothing can be divided by it; nor by a ball that contains zero.
     fn is_unit(&self) -> bool {
         !self.is_zero()
+    }
+
+    /// Are operations so dear, and is so much gained by [`assign`](Self::assign), that a loop had better be
+    /// run from its record, in [`Rounds`](crate::formula::Rounds)?
+    const IN_PLACE: bool = false;
+
+    /// Puts what a step of arithmetic comes to, bit for bit, where another number was, whose memory may
+    /// serve again. Of the steps that not every field has it does nothing and says `false`.
+    fn assign(&mut self, step: Step<&Self>) -> bool {
+        *self = match step {
+            Step::Int(n) => Self::int(n),
+            Step::Neg(a) => -a,
+            Step::Add(a, b) => a + b,
+            Step::Sub(a, b) => a - b,
+            Step::Mul(a, b) => a * b,
+            Step::Div(a, b) => a / b,
+            Step::Symbol(_) | Step::Exp(_) | Step::PositivePart(_) | Step::Min(..) | Step::Rounded(_) => {
+                return false;
+            }
+        };
+        true
     }
 }
 

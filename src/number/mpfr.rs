@@ -1,11 +1,12 @@
 //! Floats of any precision, chosen at run time.
 
 use super::field::ordered;
+use super::tree::Step;
 use super::{Exponential, Field, Logarithm, OrderedField, PositivePart, Real};
 use num_traits::{One, Zero};
 use rug::float::{Round, Special};
 use rug::ops::{MulAssignRound, Pow};
-use rug::{Float, Integer, Rational};
+use rug::{Assign, Float, Integer, Rational};
 use std::cmp::Ordering;
 use std::{fmt, ops::RangeInclusive};
 
@@ -66,23 +67,44 @@ impl Kind {
             Rounded(x) => x.to_rational().expect("a finite number"),
         }
     }
+
+    /// A float to put a result of so many bits into: the one that is here, if it has as many.
+    fn float(&mut self, precision: u32) -> &mut Float {
+        if !matches!(self, Rounded(x) if x.prec() == precision) {
+            *self = Rounded(Float::new(precision));
+        }
+        match self {
+            Rounded(x) => x,
+            Small(_) | Constant(_) => unreachable!("just rounded"),
+        }
+    }
 }
 
-/// The four ways to own or borrow two operands meet in one: `in_place` says whose allocation may serve.
+/// The four ways to own or borrow two operands meet in one, which puts the result where it is told to.
 macro_rules! operator {
-    ($($Trait:ident $f:ident $op:tt $small:expr, $constant_first:expr;)*) => {$(
+    ($($Trait:ident $f:ident $op:tt $small:expr, $constant_first:expr;)*) => {
+        /// The operators, into a number that is there.
+        mod assign {
+            use super::*;
+            $(pub(super) fn $f(result: &mut Kind, a: &Mpfr, b: &Mpfr) {
+                match (&a.0, &b.0) {
+                    (Rounded(a), Rounded(b)) => result.float(a.prec().max(b.prec())).assign(a $op b),
+                    (Rounded(a), Small(b)) => result.float(a.prec()).assign(a $op b),
+                    (Rounded(a), Constant(b)) => result.float(a.prec()).assign(a $op b),
+                    (Small(a), Rounded(b)) => result.float(b.prec()).assign(a $op b),
+                    (Constant(a), Rounded(b)) => $constant_first(result.float(b.prec()), a, b),
+                    (Small(a), Small(b)) if let Some(n) = $small(*a, *b) => *result = Small(n),
+                    (a, b) => *result = Kind::constant(a.rational() $op b.rational()),
+                }
+            })*
+        }
+        $(
         impl std::ops::$Trait<&Mpfr> for &Mpfr {
             type Output = Mpfr;
             fn $f(self, other: &Mpfr) -> Mpfr {
-                Mpfr(match (&self.0, &other.0) {
-                    (Small(a), Rounded(b)) => Rounded(Float::with_val(b.prec(), a $op b)),
-                    (Constant(a), Rounded(b)) => Rounded($constant_first(a, b)),
-                    (Rounded(a), Small(b)) => Rounded(Float::with_val(a.prec(), a $op b)),
-                    (Rounded(a), Constant(b)) => Rounded(Float::with_val(a.prec(), a $op b)),
-                    (Rounded(a), Rounded(b)) => Rounded(Float::with_val(a.prec().max(b.prec()), a $op b)),
-                    (Small(a), Small(b)) if let Some(n) = $small(*a, *b) => Small(n),
-                    (a, b) => Kind::constant(a.rational() $op b.rational()),
-                })
+                let mut result = Small(0);
+                assign::$f(&mut result, self, other);
+                Mpfr(result)
             }
         }
         impl std::ops::$Trait<&Mpfr> for Mpfr {
@@ -117,19 +139,19 @@ macro_rules! operator {
     )*};
 }
 operator! {
-    Add add + i32::checked_add, |a: &Rational, b: &Float| Float::with_val(b.prec(), a + b);
-    Sub sub - i32::checked_sub, |a: &Rational, b: &Float| Float::with_val(b.prec(), a - b);
-    Mul mul * i32::checked_mul, |a: &Rational, b: &Float| Float::with_val(b.prec(), a * b);
+    Add add + i32::checked_add, |x: &mut Float, a: &Rational, b: &Float| x.assign(a + b);
+    Sub sub - i32::checked_sub, |x: &mut Float, a: &Rational, b: &Float| x.assign(a - b);
+    Mul mul * i32::checked_mul, |x: &mut Float, a: &Rational, b: &Float| x.assign(a * b);
     Div div / |_, _| None, divide_constant;
 }
 
 /// (n/d) / x = n / (d x): MPFR has no such operation, but d x is exact in enough bits.
-fn divide_constant(a: &Rational, x: &Float) -> Float {
+fn divide_constant(result: &mut Float, a: &Rational, x: &Float) {
     let wide = |bits: u32| bits.max(2);
     let n = Float::with_val(wide(a.numer().significant_bits()), a.numer());
     let dx = Float::with_val(wide(a.denom().significant_bits() + x.prec()), x * a.denom());
     // Both borrowed: an owned n would impose its own precision on the quotient.
-    Float::with_val(x.prec(), &n / &dx)
+    result.assign(&n / &dx);
 }
 
 impl std::ops::Neg for Mpfr {
@@ -187,6 +209,24 @@ impl One for Mpfr {
 impl Field for Mpfr {
     fn int(n: i32) -> Self {
         Mpfr(Small(n))
+    }
+
+    const IN_PLACE: bool = true;
+
+    fn assign(&mut self, step: Step<&Self>) -> bool {
+        match step {
+            Step::Int(n) => self.0 = Small(n),
+            Step::Neg(Mpfr(Rounded(a))) => self.0.float(a.prec()).assign(-a),
+            Step::Neg(a) => *self = -a,
+            Step::Add(a, b) => assign::add(&mut self.0, a, b),
+            Step::Sub(a, b) => assign::sub(&mut self.0, a, b),
+            Step::Mul(a, b) => assign::mul(&mut self.0, a, b),
+            Step::Div(a, b) => assign::div(&mut self.0, a, b),
+            Step::Symbol(_) | Step::Exp(_) | Step::PositivePart(_) | Step::Min(..) | Step::Rounded(_) => {
+                return false;
+            }
+        }
+        true
     }
 }
 ordered!(Mpfr);

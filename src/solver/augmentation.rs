@@ -2,7 +2,11 @@
 
 use super::Plane;
 use crate::chapter::{SpringMass, augmented, contact, structure};
-use crate::number::OrderedField;
+use crate::formula::{Program, Rounds};
+use crate::number::tree::piecewise;
+use crate::number::{OrderedField, PositivePart, Tree};
+use std::mem::replace;
+use std::sync::LazyLock;
 
 /// What one step of (1.16) arrives at.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +31,10 @@ pub struct Iterate<T> {
 
 /// The augmentation (1.16), step by step and without an end; every number system has it.
 ///
+/// Where the number system computes in place ([`Field::IN_PLACE`](crate::number::Field::IN_PLACE)), what does
+/// not depend on λ is computed once, and the four numbers of an [`Iterate`] are all that is allocated in a
+/// step; the numbers are the same. To skip to the k-th step: [`iterate_after`](super::iterate_after).
+///
 /// ```
 /// use spring_mass_contact::{chapter::SpringMass, solver::Augmentation};
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
@@ -41,12 +49,14 @@ pub struct Augmentation<'a, T> {
     plane: Plane,
     k: u64,
     multiplier: T,
+    /// Made with the first step, where it pays.
+    rounds: Option<Rounds<T>>,
 }
 
 impl<'a, T: OrderedField> Augmentation<'a, T> {
     /// From λ₀ = 0 over a plane that never pulls; the penalty ε > 0 in N/m.
     pub fn new(system: &'a SpringMass<T>, penalty: &'a T) -> Self {
-        Augmentation { system, penalty, plane: Plane::Unilateral, k: 0, multiplier: T::zero() }
+        Augmentation { system, penalty, plane: Plane::Unilateral, k: 0, multiplier: T::zero(), rounds: None }
     }
 
     /// From another λ₀, in N.
@@ -56,7 +66,7 @@ impl<'a, T: OrderedField> Augmentation<'a, T> {
 
     /// Over another plane.
     pub fn over(self, plane: Plane) -> Self {
-        Augmentation { plane, ..self }
+        Augmentation { plane, rounds: None, ..self }
     }
 
     /// ε, in N/m.
@@ -76,33 +86,47 @@ impl<'a, T: OrderedField> Augmentation<'a, T> {
 
     /// The next step; there always is one.
     pub fn step(&mut self) -> Iterate<T> {
-        let Augmentation { system, penalty, plane, .. } = *self;
-        let lambda = &self.multiplier;
-        let (u, force, next) = match plane {
-            Plane::Unilateral => {
-                let u = augmented::unilateral_deflection(system, penalty, lambda);
-                let free = u >= structure::deflection(system);
-                let force =
-                    if free { T::zero() } else { augmented::contact_force(system, &u).positive_part() };
-                let next = augmented::unilateral_update(system, penalty, lambda, &u);
-                (u, force, next)
-            }
-            Plane::Bilateral => {
-                let u = augmented::deflection(system, penalty, lambda);
-                let force = augmented::contact_force(system, &u);
-                let next = augmented::update(system, penalty, lambda, &u);
-                (u, force, next)
-            }
-        };
-        let iterate = Iterate {
-            k: self.k,
-            multiplier: std::mem::replace(&mut self.multiplier, next),
-            penetration: contact::penetration(system, &u),
-            deflection: u,
-            contact_force: force,
-        };
-        self.k += 1;
+        let mut iterate = Iterate::none();
+        self.step_over(&mut iterate);
         iterate
+    }
+
+    /// The next step, in the memory of one that is done with.
+    pub(super) fn step_over(&mut self, iterate: &mut Iterate<T>) {
+        iterate.k = self.k;
+        self.k += 1;
+        if T::IN_PLACE { self.step_in_place(iterate) } else { self.step_by_functions(iterate) }
+    }
+
+    fn step_by_functions(&mut self, iterate: &mut Iterate<T>) {
+        let step = Step::of(self.plane, self.system, self.penalty, &self.multiplier);
+        let free = step.free.is_some_and(|free| step.deflection >= free);
+        iterate.multiplier = replace(&mut self.multiplier, step.next);
+        iterate.deflection = step.deflection;
+        iterate.penetration = step.penetration;
+        iterate.contact_force = if free { T::zero() } else { step.contact_force };
+    }
+
+    fn step_in_place(&mut self, iterate: &mut Iterate<T>) {
+        let Record { program, multiplier, step } = Record::of(self.plane);
+        let rounds = self.rounds.get_or_insert_with(|| {
+            let fixed = |name| known(name, self.system, self.penalty);
+            program.rounds(&fixed, &piecewise).expect(ELEMENTARY)
+        });
+        rounds.replace(*multiplier, replace(&mut self.multiplier, T::zero()));
+        rounds.run(&piecewise).expect(ELEMENTARY);
+        let free = step.free.is_some_and(|free| rounds[step.deflection] >= rounds[free]);
+        // What is taken out leaves the number behind that was there a step ago.
+        let mut take = |place, old: &mut T| *old = rounds.replace(place, replace(old, T::zero()));
+        take(*multiplier, &mut iterate.multiplier);
+        take(step.next, &mut self.multiplier);
+        take(step.deflection, &mut iterate.deflection);
+        take(step.penetration, &mut iterate.penetration);
+        if free {
+            iterate.contact_force = T::zero();
+        } else {
+            take(step.contact_force, &mut iterate.contact_force);
+        }
     }
 }
 
@@ -111,4 +135,103 @@ impl<T: OrderedField> Iterator for Augmentation<'_, T> {
     fn next(&mut self) -> Option<Iterate<T>> {
         Some(self.step())
     }
+}
+
+impl<T: OrderedField> Iterate<T> {
+    /// A place for one.
+    pub(super) fn none() -> Self {
+        let zero = T::zero;
+        Iterate { k: 0, multiplier: zero(), deflection: zero(), penetration: zero(), contact_force: zero() }
+    }
+}
+
+/// What a step makes of λ.
+struct Step<T> {
+    deflection: T,
+    penetration: T,
+    /// Where the mass does not hang free.
+    contact_force: T,
+    /// λ of the next step.
+    next: T,
+    /// At this deflection it does, if it can.
+    free: Option<T>,
+}
+
+impl<T: PositivePart> Step<T> {
+    /// By the chapter's functions.
+    fn of(plane: Plane, system: &SpringMass<T>, penalty: &T, lambda: &T) -> Self {
+        let (u, force, next, free) = match plane {
+            Plane::Unilateral => {
+                let u = augmented::unilateral_deflection(system, penalty, lambda);
+                let force = augmented::contact_force(system, &u).positive_part();
+                let next = augmented::unilateral_update(system, penalty, lambda, &u);
+                (u, force, next, Some(structure::deflection(system)))
+            }
+            Plane::Bilateral => {
+                let u = augmented::deflection(system, penalty, lambda);
+                let force = augmented::contact_force(system, &u);
+                let next = augmented::update(system, penalty, lambda, &u);
+                (u, force, next, None)
+            }
+        };
+        Step {
+            penetration: contact::penetration(system, &u),
+            deflection: u,
+            contact_force: force,
+            next,
+            free,
+        }
+    }
+}
+
+/// The same functions, recorded.
+struct Record {
+    program: Program,
+    /// The places of λ and of what a step makes of it.
+    multiplier: usize,
+    step: Step<usize>,
+}
+
+const ELEMENTARY: &str = "a step has nothing but arithmetic, ⟨·⟩ and min";
+
+impl Record {
+    fn of(plane: Plane) -> &'static Record {
+        static UNILATERAL: LazyLock<Record> = LazyLock::new(|| Record::new(Plane::Unilateral));
+        static BILATERAL: LazyLock<Record> = LazyLock::new(|| Record::new(Plane::Bilateral));
+        match plane {
+            Plane::Unilateral => &UNILATERAL,
+            Plane::Bilateral => &BILATERAL,
+        }
+    }
+
+    fn new(plane: Plane) -> Self {
+        let system = SpringMass { c: "c", m: "m", g: "g", l: "l", h: "H" }.map(|name| Tree::symbol(name));
+        let [penalty, lambda] = ["ε", "λ"].map(|name| Tree::symbol(name));
+        let step = Step::of(plane, &system, &penalty, &lambda);
+        let mut program = Program::default();
+        let mut place = |formula: Tree| program.add(&formula);
+        let multiplier = place(lambda);
+        let step = Step {
+            deflection: place(step.deflection),
+            penetration: place(step.penetration),
+            contact_force: place(step.contact_force),
+            next: place(step.next),
+            free: step.free.map(place),
+        };
+        Record { program, multiplier, step }
+    }
+}
+
+/// The number for a symbol of the record; λ varies.
+fn known<T: Clone>(name: &str, system: &SpringMass<T>, penalty: &T) -> Option<T> {
+    let number = match name {
+        "c" => &system.c,
+        "m" => &system.m,
+        "g" => &system.g,
+        "l" => &system.l,
+        "H" => &system.h,
+        "ε" => penalty,
+        _ => return None,
+    };
+    Some(number.clone())
 }
