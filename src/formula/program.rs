@@ -135,6 +135,12 @@ impl<T: Field> Rounds<T> {
         std::mem::replace(&mut self.values[place], value)
     }
 
+    /// Takes the number at a place out. The place is empty until it is filled or computed again.
+    pub fn take(&mut self, place: usize) -> T {
+        let value = &mut self.values[place];
+        std::mem::replace(value, T::zero())
+    }
+
     /// Computes what depends on the quantities that change; `None` if `beyond` has no answer.
     pub fn run(&mut self, beyond: &impl Fn(Step<&T>) -> Option<T>) -> Option<()> {
         for (place, step) in &self.steps {

@@ -68,14 +68,16 @@ impl Kind {
         }
     }
 
-    /// A float to put a result of so many bits into: the one that is here, if it has as many.
-    fn float(&mut self, precision: u32) -> &mut Float {
-        if !matches!(self, Rounded(x) if x.prec() == precision) {
-            *self = Rounded(Float::new(precision));
-        }
+    /// Puts a result of so many bits here, and into the float that is here if it has as many.
+    #[inline]
+    fn put<V>(&mut self, precision: u32, result: V)
+    where
+        Float: Assign<V>,
+    {
         match self {
-            Rounded(x) => x,
-            Small(_) | Constant(_) => unreachable!("just rounded"),
+            Rounded(x) if x.prec() == precision => x.assign(result),
+            // Moved no more than once: a number just made is slow to move.
+            other => *other = Rounded(Float::with_val(precision, result)),
         }
     }
 }
@@ -88,11 +90,11 @@ macro_rules! operator {
             use super::*;
             $(pub(super) fn $f(result: &mut Kind, a: &Mpfr, b: &Mpfr) {
                 match (&a.0, &b.0) {
-                    (Rounded(a), Rounded(b)) => result.float(a.prec().max(b.prec())).assign(a $op b),
-                    (Rounded(a), Small(b)) => result.float(a.prec()).assign(a $op b),
-                    (Rounded(a), Constant(b)) => result.float(a.prec()).assign(a $op b),
-                    (Small(a), Rounded(b)) => result.float(b.prec()).assign(a $op b),
-                    (Constant(a), Rounded(b)) => $constant_first(result.float(b.prec()), a, b),
+                    (Rounded(a), Rounded(b)) => result.put(a.prec().max(b.prec()), a $op b),
+                    (Rounded(a), Small(b)) => result.put(a.prec(), a $op b),
+                    (Rounded(a), Constant(b)) => result.put(a.prec(), a $op b),
+                    (Small(a), Rounded(b)) => result.put(b.prec(), a $op b),
+                    (Constant(a), Rounded(b)) => $constant_first(result, a, b),
                     (Small(a), Small(b)) if let Some(n) = $small(*a, *b) => *result = Small(n),
                     (a, b) => *result = Kind::constant(a.rational() $op b.rational()),
                 }
@@ -139,19 +141,19 @@ macro_rules! operator {
     )*};
 }
 operator! {
-    Add add + i32::checked_add, |x: &mut Float, a: &Rational, b: &Float| x.assign(a + b);
-    Sub sub - i32::checked_sub, |x: &mut Float, a: &Rational, b: &Float| x.assign(a - b);
-    Mul mul * i32::checked_mul, |x: &mut Float, a: &Rational, b: &Float| x.assign(a * b);
+    Add add + i32::checked_add, |x: &mut Kind, a: &Rational, b: &Float| x.put(b.prec(), a + b);
+    Sub sub - i32::checked_sub, |x: &mut Kind, a: &Rational, b: &Float| x.put(b.prec(), a - b);
+    Mul mul * i32::checked_mul, |x: &mut Kind, a: &Rational, b: &Float| x.put(b.prec(), a * b);
     Div div / |_, _| None, divide_constant;
 }
 
 /// (n/d) / x = n / (d x): MPFR has no such operation, but d x is exact in enough bits.
-fn divide_constant(result: &mut Float, a: &Rational, x: &Float) {
+fn divide_constant(result: &mut Kind, a: &Rational, x: &Float) {
     let wide = |bits: u32| bits.max(2);
     let n = Float::with_val(wide(a.numer().significant_bits()), a.numer());
     let dx = Float::with_val(wide(a.denom().significant_bits() + x.prec()), x * a.denom());
     // Both borrowed: an owned n would impose its own precision on the quotient.
-    result.assign(&n / &dx);
+    result.put(x.prec(), &n / &dx);
 }
 
 impl std::ops::Neg for Mpfr {
@@ -216,7 +218,7 @@ impl Field for Mpfr {
     fn assign(&mut self, step: Step<&Self>) -> bool {
         match step {
             Step::Int(n) => self.0 = Small(n),
-            Step::Neg(Mpfr(Rounded(a))) => self.0.float(a.prec()).assign(-a),
+            Step::Neg(Mpfr(Rounded(a))) => self.0.put(a.prec(), -a),
             Step::Neg(a) => *self = -a,
             Step::Add(a, b) => assign::add(&mut self.0, a, b),
             Step::Sub(a, b) => assign::sub(&mut self.0, a, b),

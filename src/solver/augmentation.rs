@@ -86,46 +86,50 @@ impl<'a, T: OrderedField> Augmentation<'a, T> {
 
     /// The next step; there always is one.
     pub fn step(&mut self) -> Iterate<T> {
-        let mut iterate = Iterate::none();
-        self.step_over(&mut iterate);
+        let iterate = if T::IN_PLACE { self.step_in_place() } else { self.step_by_functions() };
+        self.k += 1;
         iterate
     }
 
-    /// The next step, in the memory of one that is done with.
-    pub(super) fn step_over(&mut self, iterate: &mut Iterate<T>) {
-        iterate.k = self.k;
-        self.k += 1;
-        if T::IN_PLACE { self.step_in_place(iterate) } else { self.step_by_functions(iterate) }
-    }
-
-    fn step_by_functions(&mut self, iterate: &mut Iterate<T>) {
+    fn step_by_functions(&mut self) -> Iterate<T> {
         let step = Step::of(self.plane, self.system, self.penalty, &self.multiplier);
         let free = step.free.is_some_and(|free| step.deflection >= free);
-        iterate.multiplier = replace(&mut self.multiplier, step.next);
-        iterate.deflection = step.deflection;
-        iterate.penetration = step.penetration;
-        iterate.contact_force = if free { T::zero() } else { step.contact_force };
+        Iterate {
+            k: self.k,
+            multiplier: replace(&mut self.multiplier, step.next),
+            deflection: step.deflection,
+            penetration: step.penetration,
+            contact_force: if free { T::zero() } else { step.contact_force },
+        }
     }
 
-    fn step_in_place(&mut self, iterate: &mut Iterate<T>) {
+    fn step_in_place(&mut self) -> Iterate<T> {
         let Record { program, multiplier, step } = Record::of(self.plane);
         let rounds = self.rounds.get_or_insert_with(|| {
             let fixed = |name| known(name, self.system, self.penalty);
             program.rounds(&fixed, &piecewise).expect(ELEMENTARY)
         });
-        rounds.replace(*multiplier, replace(&mut self.multiplier, T::zero()));
+        let spare = rounds.replace(*multiplier, replace(&mut self.multiplier, T::zero()));
         rounds.run(&piecewise).expect(ELEMENTARY);
         let free = step.free.is_some_and(|free| rounds[step.deflection] >= rounds[free]);
-        // What is taken out leaves the number behind that was there a step ago.
-        let mut take = |place, old: &mut T| *old = rounds.replace(place, replace(old, T::zero()));
-        take(*multiplier, &mut iterate.multiplier);
-        take(step.next, &mut self.multiplier);
-        take(step.deflection, &mut iterate.deflection);
-        take(step.penetration, &mut iterate.penetration);
-        if free {
-            iterate.contact_force = T::zero();
-        } else {
-            take(step.contact_force, &mut iterate.contact_force);
+        self.multiplier = rounds.replace(step.next, spare);
+        Iterate {
+            k: self.k,
+            multiplier: rounds.take(*multiplier),
+            deflection: rounds.take(step.deflection),
+            penetration: rounds.take(step.penetration),
+            contact_force: if free { T::zero() } else { rounds.take(step.contact_force) },
+        }
+    }
+
+    /// Takes back a step that is done with: the next ones are computed in its memory.
+    pub(super) fn reuse(&mut self, iterate: Iterate<T>) {
+        let Record { multiplier, step, .. } = Record::of(self.plane);
+        if let Some(rounds) = &mut self.rounds {
+            rounds.replace(*multiplier, iterate.multiplier);
+            rounds.replace(step.deflection, iterate.deflection);
+            rounds.replace(step.penetration, iterate.penetration);
+            rounds.replace(step.contact_force, iterate.contact_force);
         }
     }
 }
@@ -134,14 +138,6 @@ impl<T: OrderedField> Iterator for Augmentation<'_, T> {
     type Item = Iterate<T>;
     fn next(&mut self) -> Option<Iterate<T>> {
         Some(self.step())
-    }
-}
-
-impl<T: OrderedField> Iterate<T> {
-    /// A place for one.
-    pub(super) fn none() -> Self {
-        let zero = T::zero;
-        Iterate { k: 0, multiplier: zero(), deflection: zero(), penetration: zero(), contact_force: zero() }
     }
 }
 

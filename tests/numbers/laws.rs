@@ -9,6 +9,7 @@ use crate::mpfr::{Mpfr2, Mpfr3, Mpfr24, Mpfr53, Mpfr200, MpfrConstant, MpfrMixed
 use crate::system::{Oracle, System, operations};
 use num_traits::Zero;
 use proptest::prelude::*;
+use spring_mass_contact::number::tree::Step;
 use spring_mass_contact::number::{Exact, Field, OrderedField, PositivePart, ToExact};
 
 /// Laws of + − × ÷ alone.
@@ -22,6 +23,7 @@ laws_of_every_system! {
     zero_one_and_signs_are_neutral
     small_integers_add_and_multiply
     owned_and_borrowed_operands_give_the_same
+    a_result_is_the_same_where_another_number_was
 }
 
 // All but the duals of floats, whose derivative takes several roundings; the duals of balls bound it, and
@@ -135,6 +137,35 @@ fn owned_and_borrowed_operands_give_the_same<S: System<Number = N>, N: Field + '
         forms!(*);
         if divided.count(b.is_unit()) {
             forms!(/);
+        }
+        Ok(())
+    });
+    divided.assert_one_in(2, "divisors");
+}
+
+/// To the bit and to the precision, whatever was there.
+fn a_result_is_the_same_where_another_number_was<S: System<Number = N>, N: Field + 'static>() {
+    let bits = |x: &N| format!("{x:?}");
+    let divided = Tally::default();
+    for_all((S::pair(), S::number()), |(((a, _), (b, _)), (there, _))| {
+        let divides = divided.count(b.is_unit());
+        let steps = [
+            (Step::Int(-7), N::int(-7)),
+            (Step::Neg(&a), -&a),
+            (Step::Add(&a, &b), &a + &b),
+            (Step::Sub(&a, &b), &a - &b),
+            (Step::Mul(&a, &b), &a * &b),
+        ];
+        let quotient = divides.then(|| (Step::Div(&a, &b), &a / &b));
+        for (step, expected) in steps.into_iter().chain(quotient) {
+            let mut result = there.clone();
+            prop_assert!(result.assign(step));
+            prop_assert_eq!(bits(&result), bits(&expected), "{:?}", step);
+        }
+        for step in [Step::Symbol("a"), Step::Exp(&a), Step::PositivePart(&a), Step::Min(&a, &b)] {
+            let mut result = there.clone();
+            prop_assert!(!result.assign(step));
+            prop_assert_eq!(bits(&result), bits(&there), "{:?}", step);
         }
         Ok(())
     });
