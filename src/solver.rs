@@ -138,7 +138,7 @@ pub fn solve_observed<T: Scalar>(
         Method::Augmented { penalty: eps, tolerance, max_augmentations, start } => {
             check::stiffness(system, eps)?;
             let steps = Augmentation::new(system, eps).from_multiplier(start.clone()).over(plane);
-            finish(iterate(steps, &enclosed, &target, tolerance, *max_augmentations, each)?)
+            finish(iterate(steps, system, &enclosed, &target, tolerance, *max_augmentations, each)?)
         }
     }
 }
@@ -231,6 +231,7 @@ impl<T> Found<T> {
 
 fn iterate<T: Scalar>(
     mut steps: Augmentation<T>,
+    system: &SpringMass<T>,
     enclosed: &SpringMass<T::Enclosure>,
     target: &Target<T::Enclosure>,
     tolerance: &T,
@@ -238,6 +239,10 @@ fn iterate<T: Scalar>(
     mut each: impl FnMut(&Iterate<T>),
 ) -> Result<Found<T>, SolveError> {
     let eps = steps.penalty().enclose();
+    let free = target.free.then(|| structure::deflection(system));
+    // How far is a deflection from the answer, the rounding of this question included?
+    let bound = |u: &T| T::magnitude(&target.error(enclosed, &u.enclose()));
+    let mut previous: Option<T> = None;
     let mut floor: Option<T> = None;
     let mut side = None;
     loop {
@@ -246,17 +251,20 @@ fn iterate<T: Scalar>(
             return Err(SolveError::OutOfRange { quantity: "deflection" });
         }
         each(&step);
-        // A posteriori: how far is this iterate from the answer, the rounding of this question included?
-        let (u, lambda) = (step.deflection.enclose(), step.multiplier.enclose());
-        let error = T::magnitude(&target.error(enclosed, &u));
-        let residual = T::magnitude(&match steps.plane() {
-            Plane::Unilateral => augmented::natural_residual(enclosed, &eps, &lambda, &u),
-            Plane::Bilateral => contact::penetration(enclosed, &u),
-        });
-        let converged = residual < *tolerance && error < *tolerance;
-        if floor.as_ref().is_none_or(|least| error < *least) {
-            floor = Some(error);
-        }
+        // A posteriori. No bound is below what is computed of the error without one.
+        let within = match &free {
+            Some(free) => augmented::within_tolerance(&(&step.deflection - free), tolerance),
+            None => augmented::within_tolerance(&step.penetration, tolerance),
+        };
+        let residual_within = || {
+            let (u, lambda) = (step.deflection.enclose(), step.multiplier.enclose());
+            let residual = match steps.plane() {
+                Plane::Unilateral => augmented::natural_residual(enclosed, &eps, &lambda, &u),
+                Plane::Bilateral => contact::penetration(enclosed, &u),
+            };
+            T::magnitude(&residual) < *tolerance
+        };
+        let converged = within && bound(&step.deflection) < *tolerance && residual_within();
         // Where λ < 0 the unilateral iterate has not begun to approach, and p = 0 means nothing.
         let approaching = steps.plane() == Plane::Bilateral || step.multiplier >= T::zero();
         let sign = step.penetration.partial_cmp(&T::zero());
@@ -268,15 +276,26 @@ fn iterate<T: Scalar>(
         } else if step.k >= max_augmentations {
             Outcome::OutOfSteps
         } else {
+            if !approaching {
+                floor = Some(bound(&step.deflection));
+            }
+            // The last two deflections are kept, all else is computed over.
+            let spare = previous.replace(step.deflection).unwrap_or_else(T::zero);
+            steps.reuse(Iterate { deflection: spare, ..step });
             continue;
         };
+        let floor = (outcome == Outcome::Stagnated).then(|| {
+            // What is computed of the error falls from where it approaches, unless the last step crossed over.
+            let earlier = previous.as_ref().map(&bound).into_iter().chain(floor);
+            earlier.fold(bound(&step.deflection), |least, bound| least.min(&bound))
+        });
         return Ok(Found {
             outcome,
             deflection: step.deflection,
             contact_force: step.contact_force,
             multiplier: Some(step.multiplier),
             augmentations: Some(step.k),
-            floor: floor.filter(|_| outcome == Outcome::Stagnated),
+            floor,
         });
     }
 }

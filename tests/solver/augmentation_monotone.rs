@@ -7,10 +7,10 @@ use crate::strategies::*;
 use num_traits::Zero;
 use proptest::prelude::*;
 use spring_mass_contact::chapter::{SpringMass, augmented, contact, penalty, rounding, structure, system};
-use spring_mass_contact::number::{Exact, OrderedField, PositivePart};
+use spring_mass_contact::number::{Exact, Mpfr, OrderedField, PositivePart};
 use spring_mass_contact::rug::Integer;
 use spring_mass_contact::solver::{
-    Augmentation, Iterate, Method, Outcome, Plane, augmentations_needed, solve, solve_bilateral,
+    Augmentation, Iterate, Method, Outcome, Plane, Scalar, augmentations_needed, solve, solve_bilateral,
 };
 
 fn iterate<'a, T: OrderedField>(case: &'a Case<T>, plane: Plane) -> Augmentation<'a, T> {
@@ -331,6 +331,25 @@ fn outcomes_keep_their_promises<T: Float>(case: &Case<Exact>, like: &T) -> Resul
                 let floor = exact(answer.floor.as_ref().unwrap());
                 let least = steps.iter().map(|step| error(&step.deflection)).min().unwrap();
                 prop_assert!(least <= floor, "{:?} {:?}", plane, floats);
+                // It is the bound of a deflection that is, as computed, no further off than any other.
+                let enclosed = floats.system.map(T::enclose);
+                let free = plane == Plane::Unilateral && reaction(&case) < int(0);
+                let bound = |step: &Iterate<T>| {
+                    let u = step.deflection.enclose();
+                    exact(&<T as Scalar>::magnitude(&if free {
+                        u - structure::deflection(&enclosed)
+                    } else {
+                        contact::penetration(&enclosed, &u)
+                    }))
+                };
+                let off = |step: &Iterate<T>| {
+                    let u = &step.deflection;
+                    let free_error = || u - structure::deflection(&floats.system);
+                    exact(&if free { free_error() } else { step.penetration.clone() }).abs()
+                };
+                let least = steps.iter().map(off).min();
+                let bounds = steps.iter().filter(|step| Some(off(step)) == least).map(bound);
+                prop_assert!(bounds.max().is_some_and(|most| floor <= most), "{:?} {:?}", plane, floats);
             }
             outcome => {
                 prop_assert_eq!((outcome, k, answer.floor), (Outcome::OutOfSteps, limit, None));
@@ -338,6 +357,62 @@ fn outcomes_keep_their_promises<T: Float>(case: &Case<Exact>, like: &T) -> Resul
         }
     }
     Ok(())
+}
+
+/// Each step is what the functions make of λ, also where it is computed in place: bit for bit, and of the same
+/// precision.
+fn steps_are_what_the_functions_say<T: OrderedField>(case: &Case<T>) -> Result<(), TestCaseError> {
+    let Case { system: s, eps, start, .. } = case;
+    let bits = |x: &T| format!("{x:?}");
+    for plane in [Plane::Unilateral, Plane::Bilateral] {
+        let mut lambda = start.clone();
+        for step in iterate(case, plane).take(6) {
+            let (u, force, next) = match plane {
+                Plane::Unilateral => {
+                    let u = augmented::unilateral_deflection(s, eps, &lambda);
+                    let force = augmented::contact_force(s, &u).positive_part();
+                    let free = u >= structure::deflection(s);
+                    let next = augmented::unilateral_update(s, eps, &lambda, &u);
+                    (u, if free { T::zero() } else { force }, next)
+                }
+                Plane::Bilateral => {
+                    let u = augmented::deflection(s, eps, &lambda);
+                    let force = augmented::contact_force(s, &u);
+                    let next = augmented::update(s, eps, &lambda, &u);
+                    (u, force, next)
+                }
+            };
+            prop_assert_eq!(bits(&step.multiplier), bits(&lambda));
+            prop_assert_eq!(bits(&step.deflection), bits(&u));
+            prop_assert_eq!(bits(&step.penetration), bits(&contact::penetration(s, &u)));
+            prop_assert_eq!(bits(&step.contact_force), bits(&force));
+            lambda = next;
+        }
+    }
+    Ok(())
+}
+
+proptest! {
+    #[test]
+    fn steps_in_rationals(case in quick(WIDE)) {
+        steps_are_what_the_functions_say(&case)?;
+    }
+
+    #[test]
+    fn steps_in_f64(case in any_state(WIDE)) {
+        steps_are_what_the_functions_say(&case.rounded(&1f64))?;
+    }
+
+    /// Every parameter has a precision of its own, or none.
+    #[test]
+    fn steps_in_mpfr(case in any_state(WIDE), precisions in proptest::collection::vec(1u32..200, 8)) {
+        let mut precisions = precisions.into_iter();
+        let mixed = case.map(|x| match precisions.next() {
+            Some(p @ 2..) => x.to_mpfr(p),
+            _ => Mpfr::constant(x.as_rational().clone()),
+        });
+        steps_are_what_the_functions_say(&mixed)?;
+    }
 }
 
 in_every_float! {
