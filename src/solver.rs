@@ -17,6 +17,7 @@
 mod advise;
 mod augmentation;
 mod check;
+mod closed;
 #[cfg(feature = "mpfr")]
 mod count;
 #[cfg(feature = "mpfr")]
@@ -34,6 +35,7 @@ mod sweep;
 pub use advise::{Advice, Choice, MAX_AUGMENTATIONS, advise};
 pub use augmentation::{Augmentation, Iterate};
 pub use check::SolveError;
+pub use closed::iterate_after;
 #[cfg(feature = "mpfr")]
 pub use count::augmentations_needed;
 #[cfg(feature = "mpfr")]
@@ -193,17 +195,19 @@ impl<E: crate::number::PositivePart> Target<E> {
     }
 
     fn bounds<T: Scalar<Enclosure = E>>(&self) -> Result<Bounds<T>, SolveError> {
-        let interval = |enclosure, quantity| {
-            let interval = T::interval(enclosure);
-            let finite = interval.lower.is_finite() && interval.upper.is_finite();
-            if finite { Ok(interval) } else { Err(SolveError::OutOfRange { quantity }) }
-        };
         Ok(Bounds {
-            deflection: interval(&self.deflection, "deflection")?,
-            penetration: interval(&self.penetration, "penetration")?,
-            contact_force: interval(&self.contact_force, "contact force")?,
+            deflection: bounded(&self.deflection, "deflection")?,
+            penetration: bounded(&self.penetration, "penetration")?,
+            contact_force: bounded(&self.contact_force, "contact force")?,
         })
     }
+}
+
+/// Its ends, if the scalar has them.
+fn bounded<T: Scalar>(enclosure: &T::Enclosure, quantity: &'static str) -> Result<Interval<T>, SolveError> {
+    let interval = T::interval(enclosure);
+    let finite = interval.lower.is_finite() && interval.upper.is_finite();
+    if finite { Ok(interval) } else { Err(SolveError::OutOfRange { quantity }) }
 }
 
 /// What a method comes up with, before it is checked.

@@ -42,7 +42,7 @@ pub(super) fn positive<T: Scalar>(argument: &'static str, value: &T) -> Result<(
     require(value.is_finite() && *value > T::zero(), argument, value, POSITIVE)
 }
 
-fn finite_number<T: Scalar>(argument: &'static str, value: &T) -> Result<(), SolveError> {
+pub(super) fn finite_number<T: Scalar>(argument: &'static str, value: &T) -> Result<(), SolveError> {
     require(value.is_finite(), argument, value, FINITE)
 }
 

@@ -58,12 +58,32 @@ pub trait Scalar: OrderedField {
     /// The sign of everything enclosed; `None` if not all of it has the same.
     fn sign(enclosure: &Self::Enclosure) -> Option<Ordering>;
 
+    /// Encloses xᵏ, by repeated squaring; `None` if it is too long to be written down.
+    fn power(x: &Self::Enclosure, k: u64) -> Option<Self::Enclosure> {
+        Some(power(x, k))
+    }
+
     /// Neither infinite nor not-a-number.
     fn is_finite(&self) -> bool;
 
     /// The sign of a₁b₁ + a₂b₂ − a₃b₃, without any rounding. It takes longer than an enclosure's.
     fn sign_of_sum(plus: [(&Self, &Self); 2], minus: (&Self, &Self)) -> Ordering;
 }
+
+fn power<E: PositivePart>(x: &E, k: u64) -> E {
+    let mut power = E::one();
+    for digit in (0..u64::BITS - k.leading_zeros()).rev() {
+        power = &power * &power;
+        if k >> digit & 1 == 1 {
+            power = power * x;
+        }
+    }
+    power
+}
+
+/// More binary digits take a computer minutes and gigabytes.
+#[cfg(feature = "mpfr")]
+const LONGEST: u64 = 10_000_000;
 
 macro_rules! by_ball {
     ($($float:ty, $sign:expr;)*) => {$(
@@ -133,6 +153,9 @@ impl Scalar for Exact {
     }
     fn sign(x: &Exact) -> Option<Ordering> {
         Some(x.cmp(&Exact::zero()))
+    }
+    fn power(x: &Exact, k: u64) -> Option<Exact> {
+        (x.digits().checked_mul(k)? <= LONGEST).then(|| power(x, k))
     }
     fn is_finite(&self) -> bool {
         true
