@@ -48,7 +48,7 @@ pub fn iterate_after<T: Scalar>(
         (lambda, k)
     };
     let decay = T::power(&rho, steps).ok_or(SolveError::OutOfRange { quantity: "k-th iterate" })?;
-    let mut iterate = closed(&system, &eps, &start, &decay, plane);
+    let mut iterate = closed(&system, &eps, &start, &decay, &rho, plane);
     if steps == 0 {
         iterate.multiplier = start;
     }
@@ -72,9 +72,10 @@ fn closed<E: PositivePart>(
     eps: &E,
     start: &E,
     decay: &E,
+    rho: &E,
     plane: Plane,
 ) -> Iterate<E> {
-    let next = decay * augmented::contraction(system, eps);
+    let next = decay * rho;
     let bilateral = Iterate {
         k: 0,
         multiplier: augmented::multiplier_after(system, start, decay),
