@@ -124,8 +124,8 @@ impl<'a, T: OrderedField> Augmentation<'a, T> {
 
     /// Takes back a step that is done with: the next ones are computed in its memory.
     pub(super) fn reuse(&mut self, iterate: Iterate<T>) {
-        let Record { multiplier, step, .. } = Record::of(self.plane);
         if let Some(rounds) = &mut self.rounds {
+            let Record { multiplier, step, .. } = Record::of(self.plane);
             rounds.replace(*multiplier, iterate.multiplier);
             rounds.replace(step.deflection, iterate.deflection);
             rounds.replace(step.penetration, iterate.penetration);
