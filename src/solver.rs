@@ -289,7 +289,7 @@ fn iterate<T: Scalar>(
             continue;
         };
         let floor = (outcome == Outcome::Stagnated).then(|| {
-            // What is computed of the error falls from where it approaches, unless the last step crossed over.
+            // What is computed of the error falls once it approaches, unless the last step crossed over.
             let earlier = previous.as_ref().map(&bound).into_iter().chain(floor);
             earlier.fold(bound(&step.deflection), |least, bound| least.min(&bound))
         });

@@ -8,14 +8,15 @@ use crate::number::PositivePart;
 /// The k-th iterate of (1.16) in exact arithmetic, enclosed, for the parameters as they are in their scalar:
 /// penalty ε > 0 in N/m, `start` = λ₀ in N. For rationals both ends are the iterate itself.
 ///
-/// By the closed forms of (1.16), with ρᵏ by repeated squaring: so many products as k has binary digits, and no
-/// steps. The penetration is not found as a difference of lengths and keeps its digits while it shrinks: of those
-/// that R has, about log₂ k bits are lost. For an answer to so many digits, take
-/// [`Mpfr`](crate::number::Mpfr) of as many bits, and 64 more for any k.
+/// By the closed forms of (1.16), with ρᵏ by repeated squaring: so many products as k has binary digits, and
+/// no steps. The penetration is not found as a difference of lengths and keeps its digits while it shrinks:
+/// of those that R has, about log₂ k bits are lost. For an answer to so many digits, take
+/// [`Mpfr`](crate::number::Mpfr) of as many bits and 70 more, enough for any k, and as many again as R
+/// loses where it cancels.
 ///
 /// # Errors
-/// A parameter is not finite or not in its range, or a bound is beyond the scalar. Rationals, whose k-th iterate
-/// has about k times as many digits as ρ, are refused from some ten million binary digits on.
+/// A parameter is not finite or not in its range, or a bound is beyond the scalar. Rationals, whose k-th
+/// iterate has about k times as many digits as ρ, are refused from some ten million binary digits on.
 ///
 /// ```
 /// use spring_mass_contact::{chapter::SpringMass, solver::{Plane, iterate_after}};
@@ -63,10 +64,10 @@ pub fn iterate_after<T: Scalar>(
 
 /// The iterate at which the decay is ρᵏ; over a plane that never pulls for λ₀ ≥ 0, or for k = 0.
 ///
-/// There the next multiplier is ⟨A(λ)⟩, A being the bilateral step: where the mass hangs free, A(λ) ≤ 0, and it
-/// is 0. A rises with λ and leaves R where it is. For R ≥ 0 and λ₀ ≥ 0 no Aᵏ(λ₀) is negative, and no bracket
-/// acts; for R < 0 the Aᵏ(λ₀) fall, and from the first that is negative both sides of λ_k = ⟨Aᵏ(λ₀)⟩ are 0. The
-/// mass then hangs free, also by what is computed from Aᵏ(λ₀) without its bracket.
+/// There the next multiplier is ⟨A(λ)⟩, A being the bilateral step: where the mass hangs free, A(λ) ≤ 0, and
+/// it is 0. A rises with λ and leaves R where it is. For R ≥ 0 and λ₀ ≥ 0 no Aᵏ(λ₀) is negative, and no
+/// bracket acts; for R < 0 the Aᵏ(λ₀) fall, and from the first that is negative both sides of λ_k = ⟨Aᵏ(λ₀)⟩
+/// are 0. The mass then hangs free, also by what is computed from Aᵏ(λ₀) without its bracket.
 fn closed<E: PositivePart>(
     system: &SpringMass<E>,
     eps: &E,

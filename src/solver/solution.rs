@@ -168,9 +168,9 @@ pub struct Solution<T> {
     pub multiplier: Option<T>,
     /// k, the number of augmentations of the iterate returned; none without iteration.
     pub augmentations: Option<u64>,
-    /// The least bound of |u − u*| met, in m, if the iteration stagnated: of the last two deflections and, if it
-    /// began with λ₀ < 0, of the first. In between the error falls, as it is computed; so the bound of no other
-    /// deflection is less, or only by what bounds themselves are rounded by.
+    /// The least bound of |u − u*| met, in m, if the iteration stagnated: of the last two deflections and,
+    /// if it began with λ₀ < 0, of the first. In between the error falls, as it is computed; so the bound of
+    /// no other deflection is less, or only by what bounds themselves are rounded by.
     #[cfg_attr(feature = "serde", serde(serialize_with = "crate::number::quantity::option"))]
     pub floor: Option<T>,
     /// Where the exact answer lies.
