@@ -167,15 +167,12 @@ pub(super) fn entries() -> Vec<Entry> {
                         int(20) * lengths,
                     )
                 },
-                {
-                    let lengths = s.h.abs() + gap(s).abs() + reaction(s) / eps;
-                    equal(
-                        "float-multiplier-drift-in-parts",
-                        [penalty, some_bits],
-                        rounding::multiplier_drift(s, eps, precision()) * precision(),
-                        int(11) * (&s.c + eps) * lengths,
-                    )
-                },
+                equal(
+                    "float-multiplier-drift-in-parts",
+                    [penalty, some_bits],
+                    rounding::multiplier_drift(s, eps, precision()),
+                    int(11) * (&s.c + eps) * rounding::floor(s, eps, precision()),
+                ),
                 equal(
                     "penetration",
                     [stiffness, penalty],

@@ -12,6 +12,7 @@ pub(super) fn entries() -> Vec<Entry> {
         stiffness,
         penalty,
         softening,
+        some_bits,
         beyond_twice,
         within_twice,
         twice,
@@ -325,6 +326,15 @@ pub(super) fn entries() -> Vec<Entry> {
                         [penalty, one_bit],
                         rounding::fixed_point_error(s, eps, lambda, precision()) * precision(),
                         height + &length + growth * length,
+                    )
+                },
+                {
+                    let lengths = s.h.abs() + system::gap(s).abs() + r / eps;
+                    equal(
+                        "drift-in-parts",
+                        [penalty, some_bits],
+                        rounding::floor(s, eps, precision()) * precision(),
+                        lengths,
                     )
                 },
                 {

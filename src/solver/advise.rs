@@ -64,7 +64,7 @@ pub struct Choice<T> {
 /// let penalties: Vec<_> = advice.choices.iter().map(|choice| choice.method.penalty().copied()).collect();
 /// assert_eq!(penalties, [None, Some(4.9e12), Some(7e4)]);
 /// let solution = solve(&system, &advice.choices[2].method)?;
-/// assert_eq!((solution.outcome, solution.augmentations), (Outcome::Converged, Some(2)));
+/// assert_eq!((solution.outcome, solution.augmentations), (Outcome::Converged, Some(3)));
 /// # Ok::<(), spring_mass_contact::solver::SolveError>(())
 /// ```
 pub fn advise<T: Scalar + Text>(system: &SpringMass<T>, tolerance: &T) -> Result<Advice<T>, SolveError> {
@@ -216,8 +216,9 @@ impl<T: Scalar + Text> Task<'_, T> {
     fn choice(&self, limits: &Limits, eps: &Exact, method: impl Fn(T) -> Method<T>) -> Option<Choice<T>> {
         let eps = self.tolerance.nearest(eps).ok()?;
         let choice = self.tried(method(eps.clone()))?;
-        let exactly = matches!(self.arithmetic, Arithmetic::Exact);
-        let reaches = |eps: &T| exactly || self.tried(method(eps.clone())).is_some();
+        // In rationals the count is the run, whose numbers would become long.
+        let counted = matches!(self.arithmetic, Arithmetic::Exact) && choice.augmentations.is_some();
+        let reaches = |eps: &T| counted || self.tried(method(eps.clone())).is_some();
         // Rounded inwards; where it does not fit, or under- and overflow break the law, no further than ε.
         let end = |x: &Exact, up: bool| {
             let end = self.directed(x, up).ok().filter(|end| if up { *end < eps } else { *end > eps });

@@ -5,7 +5,7 @@ use crate::in_every_float;
 use crate::strategies::*;
 use num_traits::Zero;
 use proptest::prelude::*;
-use spring_mass_contact::chapter::SpringMass;
+use spring_mass_contact::chapter::{SpringMass, augmented, penalty, rounding, system};
 use spring_mass_contact::number::{Exact, PositivePart, Text, ToExact};
 use spring_mass_contact::solver::{
     Advice, Choice, MAX_AUGMENTATIONS, Method, Outcome, Plane, Scalar, Solution, advise, bits_needed,
@@ -108,6 +108,59 @@ fn keeps_its_word<T: Float + Text>(
     Ok(())
 }
 
+/// The hardest penalty: what the proved bound of rounding grows by on the way from no penalty to it is c tol, or all but
+/// what the scalar rounds it down by, and so little is found in a run.
+fn hardest_is_not_too_hard<T: Float + Text>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
+    let case = case.rounded(like);
+    let (numbers, tol, eta) = (case.system.map(exact), exact(&case.tolerance), unit_roundoff(like));
+    let precision = int(1) / &eta;
+    let allowed = &numbers.c * &tol;
+    // A float of so many bits is this much smaller at most.
+    let rounded_down = int(1) - int(2) * &eta;
+    let advice = advise(&case.system, &case.tolerance).unwrap();
+    let hardest = |choice: &Choice<T>| {
+        let [_, to] = &choice.penalties;
+        to.clone().filter(|to| Some(to) != choice.method.penalty())
+    };
+    let r = system::reaction(&numbers);
+    for choice in &advice.choices {
+        let Some(to) = hardest(choice) else { continue };
+        let eps = exact(&to);
+        let solution = solve(&case.system, &with_penalty_of(&choice.method, &to)).unwrap();
+        match &choice.method {
+            Method::Lagrange => unreachable!("without a penalty"),
+            Method::Penalty { .. } => {
+                let bound = |eps: &Exact| rounding::penalty_force_error(&numbers, eps, &precision);
+                let growth = bound(&eps) - bound(&Exact::zero());
+                prop_assert!(
+                    growth <= allowed && growth >= &allowed * &rounded_down,
+                    "{growth} {allowed} {case:?}"
+                );
+                let computed = exact(&penalty::contact_force(&case.system, &to, &solution.deflection));
+                let off = (computed - penalty::force_at_root(&numbers, &eps)).abs();
+                prop_assert!(off <= &allowed + bound(&Exact::zero()), "{off} {choice:?} {case:?}");
+            }
+            Method::Augmented { .. } => {
+                // 11 (c + ε) η (|H| + |Δ|): the part of the drift that grows with ε.
+                let lengths = numbers.h.abs() + (&numbers.h - &numbers.l).abs();
+                let growth = int(11) * (&numbers.c + &eps) * &eta * lengths;
+                prop_assert!(
+                    growth <= allowed && growth >= &allowed * &rounded_down,
+                    "{growth} {allowed} {case:?}"
+                );
+                let Some(last) = solution.augmentations else { unreachable!("an augmentation") };
+                let lambda = exact(solution.multiplier.as_ref().unwrap());
+                let rho = augmented::contraction(&numbers, &eps);
+                let exactly =
+                    augmented::multiplier_after(&numbers, &Exact::zero(), &power(&rho, last as u32));
+                let rest = int(11) * &eta * (&numbers.c + &eps) * &r / &eps;
+                prop_assert!((lambda - exactly).abs() <= &allowed + rest, "{choice:?} {case:?}");
+            }
+        }
+    }
+    Ok(())
+}
+
 /// A tolerance of the size of the system or far below, and some at the floor.
 fn advice_holds<T: Float + Text>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
     keeps_its_word(case, &case.tolerance, like, true)?;
@@ -122,6 +175,7 @@ fn advice_holds<T: Float + Text>(case: &Case<Exact>, like: &T) -> Result<(), Tes
 
 in_every_float! {
     advice_holds from any_state;
+    hardest_is_not_too_hard from in_contact;
 }
 
 proptest! {
