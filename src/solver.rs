@@ -39,7 +39,7 @@ pub use closed::iterate_after;
 #[cfg(feature = "mpfr")]
 pub use count::augmentations_needed;
 #[cfg(feature = "mpfr")]
-pub use reach::{bits_needed, rounding_floor, within_reach};
+pub use reach::{augmentations_promised, bits_needed, rounding_floor, within_reach};
 #[cfg(feature = "mpfr")]
 pub use read::ReadError;
 pub use scalar::{Interval, Scalar};

@@ -37,6 +37,34 @@ pub fn within_reach<T: Scalar + ToExact>(
     Laws::of(&system, unit_roundoff).is_none_or(|laws| laws.promise(&eps, &tolerance))
 }
 
+/// So many augmentations at most meet the tolerance in floats of this unit roundoff, from λ₀ = 0 where mass and
+/// plane touch; none if it is not [within reach](within_reach).
+///
+/// As many as exact arithmetic needs for what 20 F + η (|H| + 8 tol) leaves of the tolerance; in rationals, for
+/// the tolerance.
+///
+/// ```
+/// # use spring_mass_contact::{chapter::SpringMass, number::Exact, solver::augmentations_promised};
+/// let system = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
+/// let promised = |tolerance| augmentations_promised(&system, &100.0, &tolerance, &Exact::power_of_two(-53));
+/// assert_eq!(promised(1e-12), Some(35.into())); // as many as it takes without rounding
+/// assert_eq!(promised(3e-15), Some(47.into())); // 43 without; 24.01 η of 3e-15 go to rounding
+/// assert_eq!(promised(1e-15), None);
+/// ```
+pub fn augmentations_promised<T: Scalar + ToExact>(
+    system: &SpringMass<T>,
+    eps: &T,
+    tolerance: &T,
+    unit_roundoff: &Exact,
+) -> Option<Integer> {
+    let exact = |x: &T| x.to_exact().expect("a finite parameter");
+    let (system, eps, tolerance) = (system.map(exact), exact(eps), exact(tolerance));
+    match Laws::of(&system, unit_roundoff) {
+        Some(laws) => laws.augmentations_at_most(&eps, &tolerance),
+        None => Some(augmentations_needed(&system, &eps, &tolerance, &Exact::zero(), Plane::Bilateral)),
+    }
+}
+
 /// The rounding floor, in m: every tolerance above it is met by each method in floats of this unit roundoff,
 /// with a penalty that is hard enough; if there is none, no tolerance is promised (5 bits and fewer).
 ///

@@ -8,8 +8,8 @@ use proptest::prelude::*;
 use spring_mass_contact::chapter::{SpringMass, augmented, penalty, rounding, system};
 use spring_mass_contact::number::{Exact, PositivePart, Text, ToExact};
 use spring_mass_contact::solver::{
-    Advice, Choice, MAX_AUGMENTATIONS, Method, Outcome, Plane, Scalar, Solution, advise, bits_needed,
-    rounding_floor, solve,
+    Advice, Choice, MAX_AUGMENTATIONS, Method, Outcome, Plane, Scalar, Solution, advise,
+    augmentations_promised, bits_needed, rounding_floor, solve,
 };
 
 /// Does a run bring the deflection within the tolerance, and say so if it iterates?
@@ -161,6 +161,32 @@ fn hardest_is_not_too_hard<T: Float + Text>(case: &Case<Exact>, like: &T) -> Res
     Ok(())
 }
 
+/// As many augmentations as are promised get there, at the floor as well as far above it.
+fn promised_augmentations_do<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
+    let eta = unit_roundoff(like);
+    let case = case.rounded(like);
+    // Where the promise begins: the least tolerance is affine in the drift (see `within_reach`).
+    let numbers = case.system.map(exact);
+    let drift = rounding::penetration_drift(&numbers, &exact(&case.eps), &(int(1) / &eta));
+    let begins = (drift + &eta * numbers.h.abs()) / (int(1) - int(8) * &eta);
+    for share in [int(1001) / int(1000), int(3) / int(2), int(1000)] {
+        let Ok(tolerance) = like.nearest(&(&begins * share)) else { continue };
+        let promised = augmentations_promised(&case.system, &case.eps, &tolerance, &eta);
+        let Some(most) = promised.and_then(|most| most.to_u64()).filter(|most| *most < 2000) else {
+            continue;
+        };
+        let method = Method::Augmented {
+            penalty: case.eps.clone(),
+            tolerance: tolerance.clone(),
+            max_augmentations: most,
+            start: like.clone() - like,
+        };
+        let found = reaches(&case.system, &method, &exact(&tolerance));
+        prop_assert!(found.is_ok(), "{most} for {tolerance:?}: {found:?} {case:?}");
+    }
+    Ok(())
+}
+
 /// A tolerance of the size of the system or far below, and some at the floor.
 fn advice_holds<T: Float + Text>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
     keeps_its_word(case, &case.tolerance, like, true)?;
@@ -176,6 +202,7 @@ fn advice_holds<T: Float + Text>(case: &Case<Exact>, like: &T) -> Result<(), Tes
 in_every_float! {
     advice_holds from any_state;
     hardest_is_not_too_hard from in_contact;
+    promised_augmentations_do from in_contact;
 }
 
 proptest! {
