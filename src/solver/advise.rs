@@ -90,11 +90,29 @@ pub fn advise<T: Scalar + Text>(system: &SpringMass<T>, tolerance: &T) -> Result
     Ok(Advice { state, floor, choices })
 }
 
-/// A larger number of two digits.
+/// A number of so few digits, on the side that the rounding says; the number itself where that has an exponent
+/// of more digits than are read.
+fn short(x: &Exact, digits: usize, round: Round) -> Exact {
+    x.decimal(digits, round).parse().unwrap_or_else(|_| x.clone())
+}
+
+/// A larger number, of two digits.
 fn two_digits_above(x: &Exact) -> Exact {
-    let up = |x: &Exact| x.decimal(2, Round::Up).parse().expect("a decimal");
-    let above = up(x);
-    if above > *x { above } else { up(&(x * Exact::from(101) / Exact::from(100))) }
+    let above = short(x, 2, Round::Up);
+    if above > *x { above } else { short(&(x * Exact::from(101) / Exact::from(100)), 2, Round::Up) }
+}
+
+/// The last n of which something holds that holds of 0 and, once lost, of no greater one.
+fn last(holds: impl Fn(i32) -> bool) -> i32 {
+    let (mut held, mut lost) = (0, 1);
+    while holds(lost) {
+        (held, lost) = (lost, lost.saturating_mul(2));
+    }
+    while lost - held > 1 {
+        let middle = held + (lost - held) / 2;
+        if holds(middle) { held = middle } else { lost = middle }
+    }
+    held
 }
 
 /// What decides which penalties will do.
@@ -168,7 +186,7 @@ impl<T: Scalar + Text> Task<'_, T> {
 
     /// The hardest penalty within the limits, but no harder than one with which there is nothing to augment.
     fn fewest_augmentations(&self, limits: &Limits, none_needed: Option<Exact>) -> Exact {
-        let hardest = limits.to.as_ref().map(|to| to.decimal(1, Round::Down).parse().expect("a decimal"));
+        let hardest = limits.to.as_ref().map(|to| short(to, 1, Round::Down));
         let mut eps = match hardest.into_iter().chain(none_needed).min() {
             Some(eps) if eps > limits.from => eps,
             _ if limits.from.is_zero() => self.usual(),
@@ -188,15 +206,13 @@ impl<T: Scalar + Text> Task<'_, T> {
         if always(limits) && self.penalties().as_ref().is_some_and(always) {
             return Exact::zero();
         }
-        let mut softest = eps.clone();
-        for factor in [Exact::from(2), Exact::from(11) / Exact::from(10)] {
-            let softer =
-                |eps: &Exact| Some(eps / &factor).filter(|x| *x > limits.from && !self.takes_long(x));
-            while let Some(eps) = softer(&softest) {
-                softest = eps;
-            }
-        }
-        softest
+        let will_do = |eps: &Exact| *eps > limits.from && !self.takes_long(eps);
+        let halves = last(|n| will_do(&(eps * Exact::power_of_two(-n))));
+        let soft = eps * Exact::power_of_two(-halves);
+        // 1.1⁸ > 2.
+        let tenth = Exact::from(10) / Exact::from(11);
+        let softer = std::iter::successors(Some(soft), |eps| Some(eps * &tenth));
+        softer.take_while(will_do).last().unwrap_or_else(|| eps.clone())
     }
 
     /// Is it not certain that an augmentation gets there before the limit?
