@@ -19,7 +19,9 @@ pub struct Advice<T> {
     /// [`rounding_floor`] says; below it by luck.
     pub floor: Option<Exact>,
     /// A method each that reaches the tolerance, [`Method::Lagrange`] first. Where there is none, no method
-    /// does: Lagrange's deflection is the nearest that the scalar has, or the one that all methods have.
+    /// ends within the tolerance and says so: Lagrange's deflection is the nearest that the scalar has, or,
+    /// where the mass hangs free, that of all methods, but for an iterate near grazing that luck brings
+    /// nearer.
     pub choices: Vec<Choice<T>>,
 }
 
@@ -28,14 +30,16 @@ pub struct Advice<T> {
 pub struct Choice<T> {
     /// To be given to [`solve`].
     pub method: Method<T>,
-    /// Every penalty ε in N/m between these reaches the tolerance, [`method`](Self::method)'s among them. A
-    /// smaller one is too soft, or takes more than [`MAX_AUGMENTATIONS`]. With a larger one rounding takes
-    /// more from the force ε p, or from the multiplier, than the tolerance does; not from the deflection.
-    /// None where there is no penalty, or no limit but the range of the scalar.
+    /// Every penalty ε in N/m between these is sure to reach the tolerance, [`method`](Self::method)'s
+    /// among them. A smaller one is not: it is too soft, or may take more than [`MAX_AUGMENTATIONS`]. Up to
+    /// the larger one rounding takes no more from the force ε p, or from the multiplier, than c times the
+    /// tolerance; if it takes more with every one that will do, the larger one is the method's own. From
+    /// the deflection it takes no more at any. None where there is no penalty, or no limit but the range of
+    /// the scalar.
     pub penalties: [Option<T>; 2],
     /// k of the augmentation that arrives.
     pub augmentations: Option<u64>,
-    /// p of the deflection that is found, in m, exactly.
+    /// p of the deflection that is found, in m, exactly: what a run computes of it is rounded.
     pub penetration: Exact,
     /// How far the contact force that is found is off, in N, exactly.
     pub force_error: Exact,
@@ -79,7 +83,7 @@ pub fn advise<T: Scalar + Text>(system: &SpringMass<T>, tolerance: &T) -> Result
     let promised = floor.as_ref().is_some_and(|floor| tol > *floor);
     let arithmetic = match Laws::of(&numbers, &eta) {
         _ if state == State::Separated => Arithmetic::Free { promised },
-        Some(laws) => Arithmetic::Rounded(laws),
+        Some(laws) => Arithmetic::Rounded(Box::new(laws)),
         None => Arithmetic::Exact,
     };
     let task = Task { system, tolerance, tol, answer: contact::deflection(&numbers), numbers, arithmetic };
@@ -90,8 +94,8 @@ pub fn advise<T: Scalar + Text>(system: &SpringMass<T>, tolerance: &T) -> Result
     Ok(Advice { state, floor, choices })
 }
 
-/// A number of so few digits, on the side that the rounding says; the number itself where that has an exponent
-/// of more digits than are read.
+/// A number of so few digits, on the side that the rounding says; the number itself where that has an
+/// exponent of more digits than are read.
 fn short(x: &Exact, digits: usize, round: Round) -> Exact {
     x.decimal(digits, round).parse().unwrap_or_else(|_| x.clone())
 }
@@ -120,7 +124,7 @@ enum Arithmetic {
     /// Mass and plane touch, and nothing is rounded.
     Exact,
     /// They touch, and these are the laws of what is rounded.
-    Rounded(Laws),
+    Rounded(Box<Laws>),
     /// The mass hangs free. Every method computes m g / c; the augmentation is sure to see it above the
     /// floor.
     Free { promised: bool },

@@ -37,11 +37,11 @@ pub fn within_reach<T: Scalar + ToExact>(
     Laws::of(&system, unit_roundoff).is_none_or(|laws| laws.promise(&eps, &tolerance))
 }
 
-/// So many augmentations at most meet the tolerance in floats of this unit roundoff, from λ₀ = 0 where mass and
-/// plane touch; none if it is not [within reach](within_reach).
+/// So many augmentations at most meet the tolerance in floats of this unit roundoff, from λ₀ = 0 where mass
+/// and plane touch; none if it is not [within reach](within_reach).
 ///
-/// As many as exact arithmetic needs for what 20 F + η (|H| + 8 tol) leaves of the tolerance; in rationals, for
-/// the tolerance.
+/// As many as exact arithmetic needs for what 20 F + η (|H| + 8 tol) leaves of the tolerance; in rationals,
+/// for the tolerance.
 ///
 /// ```
 /// # use spring_mass_contact::{chapter::SpringMass, number::Exact, solver::augmentations_promised};
@@ -193,9 +193,9 @@ impl Laws {
 
     /// What the tolerance has to be greater than if p̂ drifts so far.
     ///
-    /// Once p̂ is all drift, |p̂| < tol, and its bound |p̂| + η (|fl(l + û)| + |p̂|) is below |p̂| + η (|H|
-    /// + 3 tol). Balls round that up, the bracket and the sum by less than 4 η of themselves: less than 5 η
-    /// tol in all.
+    /// Once p̂ is all drift, |p̂| < tol, and its bound |p̂| + η (|fl(l + û)| + |p̂|) is below
+    /// |p̂| + η (|H| + 3 tol). Balls round that up, the bracket and the sum by less than 4 η of themselves:
+    /// less than 5 η tol in all.
     fn least_tolerance(&self, drift: &Exact) -> Exact {
         (drift + &self.eta * self.system.h.abs()) / (Exact::one() - Exact::from(8) * &self.eta)
     }

@@ -1,12 +1,13 @@
 //! `contact advise`: which penalty, and what it gives.
 
-use crate::args::{Names, Number, System, in_scalar, positive};
+use crate::args::{Names, Number, System, in_scalar, positive, spelled};
 use crate::output::{self, Exit, Failure, shortened};
-use crate::solve::{MethodName, state_in_words};
+use crate::solve::{MethodName, rounded_in_words, state_in_words};
 use clap::ValueEnum;
 use num_traits::Zero;
 use serde::Serialize;
-use spring_mass_contact::number::{NumberSystem, Text};
+use spring_mass_contact::chapter::SpringMass;
+use spring_mass_contact::number::{Exact, NumberSystem, Text};
 use spring_mass_contact::rug::float::Round;
 use spring_mass_contact::solver::{Advice, Choice, Method, Plane, Scalar, SolveError, advise, bits_needed};
 use std::io::{self, Write};
@@ -18,11 +19,12 @@ Examples:
   contact advise --tolerance 1e-40 --stiffness 1e6 --height 1.01
   contact advise --tolerance 1e-40 --scalar mpfr:200 --format json
 
-Every choice has been tried, and every penalty from .. to reaches the tolerance,
-too: a smaller one is too soft, and with a larger one rounding takes more from
-the force (of penalty, by N = ε p; of augmented, the multiplier) than the
-tolerance c T allows. The force that solve reports, m g − c u, is off by what is
-said here with any of them.
+Every choice has been tried: k, p and the error of the force m g − c u are those
+of its run, p exactly that of the deflection found. Every penalty from .. to is
+sure to meet the tolerance, too, and no smaller one is; the force is then off by
+c T and what rounding adds. Up to the larger one rounding takes no more from the
+method's own force (N = ε p, or the multiplier) than c T, unless it does so with
+every penalty that will do: then the choice is the larger one.
 
 Exit status: 0 a method reaches the tolerance; 1 none does; 2 bad input.";
 
@@ -69,7 +71,7 @@ fn run_in<T: Scalar + Text>(options: &Options, like: &T) -> Result<Exit, Failure
         NumberSystem::Exact => None,
         _ => bits_needed(&typed, Plane::Unilateral, &options.tolerance.value),
     };
-    let report = Report { options, tolerance, advice, bits_needed };
+    let report = Report { options, system, tolerance, advice, bits_needed };
     output::print(|out| match options.format {
         Format::Table => report.table(out),
         Format::Json => output::json(out, &report.json()),
@@ -80,6 +82,7 @@ fn run_in<T: Scalar + Text>(options: &Options, like: &T) -> Result<Exit, Failure
 /// All there is to say.
 struct Report<'a, T> {
     options: &'a Options,
+    system: SpringMass<T>,
     tolerance: T,
     advice: Advice<T>,
     bits_needed: Option<u32>,
@@ -121,7 +124,7 @@ impl<T: Scalar + Text> Report<'_, T> {
                 force_error: choice.relative_force_error.as_ref().map(|error| error.decimal(3, Round::Up)),
             }
         };
-        let Report { options, tolerance, advice, bits_needed } = self;
+        let Report { options, tolerance, advice, bits_needed, .. } = self;
         Json {
             scalar: options.scalar,
             tolerance: tolerance.text(),
@@ -135,17 +138,22 @@ impl<T: Scalar + Text> Report<'_, T> {
     fn table(&self, out: &mut dyn Write) -> io::Result<()> {
         let Report { options, advice, .. } = self;
         let floor = match &advice.floor {
-            Some(floor) if floor.is_zero() => "none: every tolerance is met".to_string(),
+            Some(floor) if floor.is_zero() => "none: rounding keeps no method from any tolerance".to_string(),
             Some(floor) => {
                 format!("{} m: every method is sure to meet a larger tolerance", floor.decimal(3, Round::Up))
             }
-            None => "none: with so few bits nothing is sure".to_string(),
+            None => "none: with so few bits no augmentation is sure".to_string(),
         };
         let system = options.system.typed().map(|number| shortened(&number.text)).to_string();
         let tolerance = format!("{} m ({})", shortened(&options.tolerance.text), options.scalar);
         let state = state_in_words(advice.state, Plane::Unilateral).to_string();
         let mut head = output::table();
-        head.add_rows([["system", &system], ["state", &state], ["tolerance", &tolerance], ["floor", &floor]]);
+        let rounded = rounded_in_words(&options.system, &self.system, Vec::new());
+        head.add_row(["system", &system]);
+        if !rounded.is_empty() {
+            head.add_row(["as rounded", &rounded]);
+        }
+        head.add_rows([["state", &state], ["tolerance", &tolerance], ["floor", &floor]]);
         writeln!(out, "{}\n", head.trim_fmt())?;
         if !advice.choices.is_empty() {
             let mut table = output::table();
@@ -165,15 +173,23 @@ impl<T: Scalar + Text> Report<'_, T> {
         let has = |name| self.advice.choices.iter().any(|choice| MethodName::of(&choice.method) == name);
         let missing = MethodName::value_variants().iter().filter(|name| !has(**name));
         let names: Vec<_> = missing.map(|name| name.name()).collect();
+        let scalar = self.options.scalar;
+        let own = match scalar {
+            NumberSystem::F32 => f32::MANTISSA_DIGITS,
+            NumberSystem::F64 => f64::MANTISSA_DIGITS,
+            NumberSystem::Mpfr(_) | NumberSystem::Exact => 0,
+        };
         let bits = match self.bits_needed {
+            Some(bits) if bits <= own => {
+                format!("a penalty leaves its range, and --scalar mpfr:{own} has room")
+            }
             Some(bits) => format!("--scalar mpfr:{bits} has bits enough for every method"),
             None => "no number of bits that can be had is enough".to_string(),
         };
-        let scalar = self.options.scalar;
         if names.is_empty() {
             None
         } else if names.len() == MethodName::value_variants().len() {
-            Some(format!("No method meets the tolerance in {scalar}; {bits}."))
+            Some(format!("No method is sure to meet the tolerance in {scalar}; {bits}."))
         } else {
             Some(format!("By {} nothing is sure in {scalar}; {bits}.", names.join(" and ")))
         }
@@ -187,7 +203,7 @@ impl<T: Scalar + Text> Report<'_, T> {
         let mut option = |name: &str, value: String| words.extend([format!("--{name}"), value]);
         option("method", MethodName::of(method).name());
         if let Some(penalty) = method.penalty() {
-            option("penalty", penalty.text());
+            option("penalty", spelled(&exact(penalty)));
         }
         if let Method::Augmented { .. } = method {
             option("tolerance", tolerance.text.clone());
@@ -200,17 +216,24 @@ impl<T: Scalar + Text> Report<'_, T> {
 }
 
 fn row<T: Scalar + Text>(choice: &Choice<T>) -> [String; 7] {
+    let own = choice.method.penalty();
+    // Rounded inwards, but for the choice itself, which is shown one way.
     let short = |x: Option<&T>, round| {
-        x.map_or(String::new(), |x| x.to_exact().expect("a penalty is finite").decimal(3, round))
+        let round = if x == own { Round::Nearest } else { round };
+        x.map_or(String::new(), |x| exact(x).decimal(3, round))
     };
     let [from, to] = &choice.penalties;
     [
         MethodName::of(&choice.method).name(),
-        short(choice.method.penalty(), Round::Nearest),
+        short(own, Round::Nearest),
         short(from.as_ref(), Round::Up),
         short(to.as_ref(), Round::Down),
         choice.augmentations.map_or(String::new(), |k| k.to_string()),
         choice.penetration.decimal(3, Round::Nearest),
         format!("{} N", choice.force_error.decimal(2, Round::Up)),
     ]
+}
+
+fn exact<T: Text>(penalty: &T) -> Exact {
+    penalty.to_exact().expect("a penalty is finite")
 }

@@ -7,6 +7,7 @@ use num_traits::Zero;
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::claims::{all_numbered, entries, numbered};
 use spring_mass_contact::number::{Exact, ToExact};
+use spring_mass_contact::rug::float::Round;
 use std::fmt::{self, Display};
 
 /// The arguments, if they are plain text: others could only garble the one line of an error.
@@ -97,6 +98,16 @@ pub struct Number {
     pub text: String,
     /// The value, exactly.
     pub value: Exact,
+}
+
+/// Whole numbers of so many digits are written without a power of ten.
+const PLAIN: usize = 8;
+
+/// The shortest decimal that is this number, or a fraction.
+pub fn spelled(x: &Exact) -> String {
+    let decimals = (PLAIN..=100).map(|digits| x.decimal(digits, Round::Nearest));
+    let mut decimals = decimals.filter(|text| text.parse().as_ref() == Ok(x));
+    decimals.next().unwrap_or_else(|| x.to_string())
 }
 
 /// Any number.

@@ -9,7 +9,7 @@ use crate::output::{self, Exit, Failure};
 use clap::ValueEnum;
 use num_traits::Zero;
 use report::Report;
-pub use report::state_in_words;
+pub use report::{rounded_in_words, state_in_words};
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::claims::Case;
 use spring_mass_contact::number::{Exact, NumberSystem, Text};

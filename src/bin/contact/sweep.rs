@@ -2,14 +2,14 @@
 
 mod plot;
 
-use crate::args::{Names, Number, System, in_scalar, positive};
+use crate::args::{Names, Number, System, in_scalar, positive, spelled};
 use crate::output::{self, Exit, Failure, shortened};
 use clap::ValueEnum;
 use num_traits::{One, Zero};
 use plot::Curve;
 use serde::Serialize;
 use serde::ser::Serializer;
-use spring_mass_contact::chapter::{SpringMass, rounding, system};
+use spring_mass_contact::chapter::{SpringMass, penalty, rounding, system};
 use spring_mass_contact::number::{Exact, NumberSystem, Text};
 use spring_mass_contact::rug::{Float, float::Round};
 use spring_mass_contact::solver::{
@@ -138,13 +138,6 @@ fn sweeps(options: &Options, progress: &dyn Fn(usize, usize)) -> Result<Vec<Swee
     scalars.iter().enumerate().map(made).collect()
 }
 
-/// The shortest decimal that is this number, or a fraction.
-fn spelled(x: &Exact) -> String {
-    let decimals = (DIGITS..=100).map(|digits| x.decimal(digits, Round::Nearest));
-    let mut decimals = decimals.filter(|text| text.parse().as_ref() == Ok(x));
-    decimals.next().unwrap_or_else(|| x.to_string())
-}
-
 /// A row, in the order of [`NAMES`]; nothing where something does not apply.
 struct Row([Option<String>; 8]);
 
@@ -271,13 +264,18 @@ impl Sweeping<'_> {
             "m g − c u has no optimum: its error falls to what rounding leaves, and stays there.".to_string(),
         );
         let n = Exact::one() / &eta;
-        let floor = |eps: &T| few(&rounding::floor(&s, &exact(eps), &n));
-        if let [first, .., last] = penalties {
+        let floor = |eps: &T| rounding::floor(&s, &exact(eps), &n);
+        // Where it is no less than what the penalty alone leaves there is nothing to augment.
+        let augments = |eps: &&T| floor(eps) < penalty::penetration(&s, &exact(eps));
+        if let (Some(first), Some(last)) = (penalties.iter().find(augments), penalties.iter().rfind(augments))
+        {
             notes.push(format!(
-                "An augmentation stops at a penetration of about η (|H| + |Δ| + R/ε): {} m with the first \
-                 ε, {} m with the last.",
-                floor(first),
-                floor(last)
+                "An augmentation stops at a penetration of about η (|H| + |Δ| + R/ε): {} m with ε = {} N/m, \
+                 {} m with ε = {} N/m.",
+                few(&floor(first)),
+                few(&exact(first)),
+                few(&floor(last)),
+                few(&exact(last))
             ));
         }
         notes

@@ -1,9 +1,11 @@
 //! A solution as JSON, as CSV and as a table.
 
 use super::{Options, Problem, quantities};
+use crate::args::{Number, System};
 use crate::output::{self, WIDTH, shortened};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::Value;
+use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::chapter::contact::Kkt;
 use spring_mass_contact::number::{Exact, NumberSystem, Text, brief, brief_bound, relation, visibly_rounded};
 use spring_mass_contact::rug::{Integer, float::Round};
@@ -200,15 +202,8 @@ impl<'a, T: Scalar + Text> Report<'a, T> {
 
     /// The numbers that are not what was typed: the answer is for these.
     fn visibly_rounded(&self) -> String {
-        let (typed, system) = (self.options.system.typed(), &self.problem.system);
         let tolerance_typed = self.options.tolerance();
-        let mut numbers = vec![
-            ("c", Some(typed.c), &system.c, "N/m"),
-            ("m", Some(typed.m), &system.m, "kg"),
-            ("g", Some(typed.g), &system.g, "m/s²"),
-            ("l", Some(typed.l), &system.l, "m"),
-            ("H", Some(typed.h), &system.h, "m"),
-        ];
+        let mut numbers = Vec::new();
         if let Method::Penalty { penalty } | Method::Augmented { penalty, .. } = &self.problem.method {
             numbers.push(("ε", self.options.penalty.as_ref(), penalty, "N/m"));
         }
@@ -216,10 +211,7 @@ impl<'a, T: Scalar + Text> Report<'a, T> {
             numbers.push(("tolerance", Some(&tolerance_typed), tolerance, "m"));
             numbers.push(("λ₀", self.options.initial_multiplier.as_ref(), start, "N"));
         }
-        let rounded = numbers.into_iter().filter_map(|(symbol, typed, x, unit)| {
-            Some(format!("{} {unit}", visibly_rounded(symbol, &typed?.text, &typed?.value, x)?))
-        });
-        rounded.collect::<Vec<_>>().join(", ")
+        rounded_in_words(&self.options.system, &self.problem.system, numbers)
     }
 
     fn method_in_words(&self) -> String {
@@ -300,4 +292,23 @@ pub fn state_in_words(state: State, plane: Plane) -> &'static str {
         (State::Separated, Plane::Unilateral) => "separated: the mass hangs free",
         (State::Separated, Plane::Bilateral) => "separated: only a plane that pulls holds the mass",
     }
+}
+
+/// A number with its symbol and unit: as it was typed, if it was, and as it is.
+type Quantity<'a, T> = (&'static str, Option<&'a Number>, &'a T, &'static str);
+
+/// The parameters of a system, and what other numbers there are, that are visibly not what was typed.
+pub fn rounded_in_words<T: Text>(typed: &System, system: &SpringMass<T>, others: Vec<Quantity<T>>) -> String {
+    let typed = typed.typed();
+    let parameters = [
+        ("c", Some(typed.c), &system.c, "N/m"),
+        ("m", Some(typed.m), &system.m, "kg"),
+        ("g", Some(typed.g), &system.g, "m/s²"),
+        ("l", Some(typed.l), &system.l, "m"),
+        ("H", Some(typed.h), &system.h, "m"),
+    ];
+    let rounded = parameters.into_iter().chain(others).filter_map(|(symbol, typed, x, unit)| {
+        Some(format!("{} {unit}", visibly_rounded(symbol, &typed?.text, &typed?.value, x)?))
+    });
+    rounded.collect::<Vec<_>>().join(", ")
 }
