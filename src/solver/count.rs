@@ -14,8 +14,8 @@ use rug::{Float, Integer, Rational};
 /// That is the first k with |r_k| < tol, r_k the natural residual (note 4); in contact and grazing it
 /// is the penetration, so this is (1.33). It can be very large: the number of digits is about that of c/ε.
 ///
-/// Floats may take a few steps more, or fewer ([`augmentations_promised`](super::augmentations_promised)), and
-/// below what [`within_reach`](super::within_reach) promises may never get there.
+/// Floats may take a few steps more or fewer, see [`augmentations_promised`](super::augmentations_promised);
+/// and below what [`within_reach`](super::within_reach) promises they may never get there.
 ///
 /// # Panics
 /// A parameter is not finite, or ε, c or the tolerance is not positive.
