@@ -203,6 +203,12 @@ impl<E: crate::number::PositivePart> Target<E> {
     }
 }
 
+/// The value of a number that has been checked, or comes of a solve.
+#[cfg(feature = "mpfr")]
+fn exact<T: crate::number::ToExact>(x: &T) -> crate::number::Exact {
+    x.to_exact().expect("a finite number")
+}
+
 /// Its ends, if the scalar has them.
 fn bounded<T: Scalar>(enclosure: &T::Enclosure, quantity: &'static str) -> Result<Interval<T>, SolveError> {
     let interval = T::interval(enclosure);

@@ -1,7 +1,9 @@
 //! Which penalty, and what it gives: the laws of rounding propose, a run confirms.
 
 use super::reach::{Laws, Limits, rounding_floor};
-use super::{Method, Outcome, Plane, Scalar, SolveError, State, augmentations_needed, check, solve};
+use super::{
+    Method, Outcome, Plane, Scalar, Solution, SolveError, State, augmentations_needed, check, exact, solve,
+};
 use crate::chapter::{SpringMass, contact};
 use crate::number::{Exact, PositivePart, RangeError, Text};
 use num_traits::Zero;
@@ -73,8 +75,8 @@ pub struct Choice<T> {
 /// ```
 pub fn advise<T: Scalar + Text>(system: &SpringMass<T>, tolerance: &T) -> Result<Advice<T>, SolveError> {
     check::positive("tolerance", tolerance)?;
-    let state = solve(system, &Method::Lagrange)?.state;
-    let exact = |x: &T| x.to_exact().expect("a finite parameter");
+    let solution = solve(system, &Method::Lagrange)?;
+    let state = solution.state;
     let (numbers, tol) = (system.map(exact), exact(tolerance));
     let SpringMass { c, m, g, l, h } = system;
     let eta = [c, m, g, l, h].map(|x| x.number_system().unit_roundoff()).into_iter().max();
@@ -87,7 +89,7 @@ pub fn advise<T: Scalar + Text>(system: &SpringMass<T>, tolerance: &T) -> Result
         None => Arithmetic::Exact,
     };
     let task = Task { system, tolerance, tol, answer: contact::deflection(&numbers), numbers, arithmetic };
-    let choices = task.tried(Method::Lagrange).map_or_else(Vec::new, |lagrange| {
+    let choices = task.reached(Method::Lagrange, &solution).map_or_else(Vec::new, |lagrange| {
         let (penalty, augmentation) = task.iterative();
         [Some(lagrange), penalty, augmentation].into_iter().flatten().collect()
     });
@@ -149,9 +151,10 @@ impl<T: Scalar + Text> Task<'_, T> {
             (limits, eps)
         });
         let none_needed = softest.as_ref().map(|(_, eps)| eps.clone());
+        let any_will_do = softest.as_ref().is_some_and(|(limits, _)| limits.from.is_zero());
         let augmentation = self.augmentations().and_then(|limits| {
             let eps = self.fewest_augmentations(&limits, none_needed);
-            let limits = Limits { from: self.softest_augmentation(&limits, &eps), ..limits };
+            let limits = Limits { from: self.softest_augmentation(&limits, &eps, any_will_do), ..limits };
             self.choice(&limits, &eps, |penalty| self.augmented(penalty))
         });
         let penalty = softest
@@ -205,9 +208,8 @@ impl<T: Scalar + Text> Task<'_, T> {
 
     /// The softest penalty within the limits that gets there before the limit of augmentations, within a
     /// tenth.
-    fn softest_augmentation(&self, limits: &Limits, eps: &Exact) -> Exact {
-        let always = |limits: &Limits| limits.from.is_zero();
-        if always(limits) && self.penalties().as_ref().is_some_and(always) {
+    fn softest_augmentation(&self, limits: &Limits, eps: &Exact, any_will_do: bool) -> Exact {
+        if limits.from.is_zero() && any_will_do {
             return Exact::zero();
         }
         let will_do = |eps: &Exact| *eps > limits.from && !self.takes_long(eps);
@@ -262,7 +264,11 @@ impl<T: Scalar + Text> Task<'_, T> {
     /// A method, if it reaches the tolerance, with what it gives.
     fn tried(&self, method: Method<T>) -> Option<Choice<T>> {
         let solution = solve(self.system, &method).ok()?;
-        let exact = |x: &T| x.to_exact().expect("a solution is finite");
+        self.reached(method, &solution)
+    }
+
+    /// The same of a method that has been run.
+    fn reached(&self, method: Method<T>, solution: &Solution<T>) -> Option<Choice<T>> {
         let (u, n) = (exact(&solution.deflection), exact(&solution.contact_force));
         let reaches = match solution.outcome {
             Outcome::Direct => (&u - &self.answer).abs() < self.tol,

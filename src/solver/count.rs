@@ -1,6 +1,6 @@
 //! (1.33), solved for k: how many augmentations a tolerance needs, exactly.
 
-use super::{Plane, Scalar};
+use super::{Plane, Scalar, exact};
 use crate::chapter::{SpringMass, augmented, system};
 use crate::number::{Exact, PositivePart, ToExact};
 use num_traits::{One, Zero};
@@ -33,7 +33,6 @@ pub fn augmentations_needed<T: Scalar + ToExact>(
     start: &T,
     plane: Plane,
 ) -> Integer {
-    let exact = |x: &T| x.to_exact().expect("a finite parameter");
     let (system, eps, tolerance, start) = (system.map(exact), exact(eps), exact(tolerance), exact(start));
     let zero = Exact::zero();
     assert!(system.c > zero && eps > zero && tolerance > zero, "c, ε and the tolerance must be positive");

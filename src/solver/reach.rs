@@ -1,6 +1,6 @@
 //! What rounding leaves within reach: the proved laws of [`rounding`], solved for what a user asks.
 
-use super::{Plane, Scalar, State, augmentations_needed};
+use super::{Plane, Scalar, State, augmentations_needed, exact};
 use crate::chapter::{SpringMass, penalty, rounding, structure, system};
 use crate::number::{Exact, PRECISIONS, PositivePart, ToExact};
 use num_traits::{One, Zero};
@@ -32,7 +32,6 @@ pub fn within_reach<T: Scalar + ToExact>(
     tolerance: &T,
     unit_roundoff: &Exact,
 ) -> bool {
-    let exact = |x: &T| x.to_exact().expect("a finite parameter");
     let (system, eps, tolerance) = (system.map(exact), exact(eps), exact(tolerance));
     Laws::of(&system, unit_roundoff).is_none_or(|laws| laws.promise(&eps, &tolerance))
 }
@@ -57,7 +56,6 @@ pub fn augmentations_promised<T: Scalar + ToExact>(
     tolerance: &T,
     unit_roundoff: &Exact,
 ) -> Option<Integer> {
-    let exact = |x: &T| x.to_exact().expect("a finite parameter");
     let (system, eps, tolerance) = (system.map(exact), exact(eps), exact(tolerance));
     match Laws::of(&system, unit_roundoff) {
         Some(laws) => laws.augmentations_at_most(&eps, &tolerance),
@@ -82,7 +80,7 @@ pub fn rounding_floor<T: Scalar + ToExact>(
     plane: Plane,
     unit_roundoff: &Exact,
 ) -> Option<Exact> {
-    let system = system.map(|x| x.to_exact().expect("a finite parameter"));
+    let system = system.map(exact);
     let Some(laws) = Laws::of(&system, unit_roundoff) else { return Some(Exact::zero()) };
     if !laws.fine_enough() {
         return None;

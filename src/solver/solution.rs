@@ -1,5 +1,7 @@
 //! What is solved for, how, and what comes of it.
 
+#[cfg(feature = "mpfr")]
+use super::exact;
 use super::{Interval, Scalar};
 #[cfg(feature = "mpfr")]
 use crate::chapter::contact;
@@ -191,7 +193,6 @@ impl<T: Scalar + ToExact> Solution<T> {
     /// # Ok::<(), spring_mass_contact::solver::SolveError>(())
     /// ```
     pub fn certificate(&self, system: &SpringMass<T>) -> contact::Kkt<Exact> {
-        let exact = |x: &T| x.to_exact().expect("a solution and its system are finite");
         contact::kkt(&system.map(exact), &exact(&self.deflection), &exact(&self.contact_force))
     }
 }

@@ -1,7 +1,7 @@
 //! The penalty method over a range of penalties: what each one gives, and which is best for a computed ε p.
 
 use super::check::{self, SolveError};
-use super::{Method, Scalar, State, solve};
+use super::{Method, Scalar, State, exact, solve};
 use crate::chapter::{SpringMass, augmented, penalty, rounding, system};
 use crate::number::{Exact, PositivePart, ToExact};
 use num_traits::{One, Zero};
@@ -75,10 +75,6 @@ fn row<T: Scalar + ToExact>(system: &SpringMass<T>, eps: T) -> Result<SweepRow<T
         contact_force: solution.contact_force,
         penalty_force: force,
     })
-}
-
-fn exact<T: ToExact>(x: &T) -> Exact {
-    x.to_exact().expect("what was solved is finite")
 }
 
 /// The ε, in N/m, with which a computed ε p of (1.12) is surest to be near R: where

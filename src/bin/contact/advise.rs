@@ -1,13 +1,13 @@
 //! `contact advise`: which penalty, and what it gives.
 
-use crate::args::{Names, Number, System, in_scalar, positive, spelled};
+use crate::args::{Names, Number, System, exact, in_scalar, positive, spelled};
 use crate::output::{self, Exit, Failure, shortened};
 use crate::solve::{MethodName, rounded_in_words, state_in_words};
 use clap::ValueEnum;
 use num_traits::Zero;
 use serde::Serialize;
 use spring_mass_contact::chapter::SpringMass;
-use spring_mass_contact::number::{Exact, NumberSystem, Text};
+use spring_mass_contact::number::{NumberSystem, Text};
 use spring_mass_contact::rug::float::Round;
 use spring_mass_contact::solver::{Advice, Choice, Method, Plane, Scalar, SolveError, advise, bits_needed};
 use std::io::{self, Write};
@@ -232,8 +232,4 @@ fn row<T: Scalar + Text>(choice: &Choice<T>) -> [String; 7] {
         choice.penetration.decimal(3, Round::Nearest),
         format!("{} N", choice.force_error.decimal(2, Round::Up)),
     ]
-}
-
-fn exact<T: Text>(penalty: &T) -> Exact {
-    penalty.to_exact().expect("a penalty is finite")
 }

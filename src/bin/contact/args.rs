@@ -100,6 +100,11 @@ pub struct Number {
     pub value: Exact,
 }
 
+/// The value of a number that is known to be finite.
+pub fn exact<T: ToExact>(x: &T) -> Exact {
+    x.to_exact().expect("a finite number")
+}
+
 /// Whole numbers of so many digits are written without a power of ten.
 const PLAIN: usize = 8;
 

@@ -2,7 +2,7 @@
 
 mod plot;
 
-use crate::args::{Names, Number, System, in_scalar, positive, spelled};
+use crate::args::{Names, Number, System, exact, in_scalar, positive, spelled};
 use crate::output::{self, Exit, Failure, shortened};
 use clap::ValueEnum;
 use num_traits::{One, Zero};
@@ -194,7 +194,7 @@ impl Sweeping<'_> {
     fn row<T: Text>(&self, eps: &Number, row: &SweepRow<T>) -> Row {
         let people = self.options.format == Format::Table;
         let value = |x: &T, width| {
-            if people { x.to_exact().expect("finite").decimal_within(DIGITS, width) } else { x.text() }
+            if people { exact(x).decimal_within(DIGITS, width) } else { x.text() }
         };
         let error = |x: &Option<Exact>, width| {
             let digits = if people { FEW } else { ERROR_DIGITS };
@@ -223,7 +223,6 @@ impl Sweeping<'_> {
         least: Option<(Exact, &str)>,
     ) -> Vec<String> {
         let eta = self.scalar.unit_roundoff();
-        let exact = |x: &T| x.to_exact().expect("a parameter is finite");
         let few = |x: &Exact| x.decimal(FEW, Round::Nearest);
         let s = system.map(exact);
         let Some((least, at)) = least else {
@@ -266,7 +265,7 @@ impl Sweeping<'_> {
         let n = Exact::one() / &eta;
         let floor = |eps: &T| rounding::floor(&s, &exact(eps), &n);
         // Where it is no less than what the penalty alone leaves there is nothing to augment.
-        let augments = |eps: &&T| floor(eps) < penalty::penetration(&s, &exact(eps));
+        let augments = |eps: &&T| floor(eps) < penalty::penetration(&s, &exact(*eps));
         if let (Some(first), Some(last)) = (penalties.iter().find(augments), penalties.iter().rfind(augments))
         {
             notes.push(format!(

@@ -1,7 +1,7 @@
 //! A solution as JSON, as CSV and as a table.
 
 use super::{Options, Problem, quantities};
-use crate::args::{Number, System};
+use crate::args::{Number, System, exact};
 use crate::output::{self, WIDTH, shortened};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::Value;
@@ -193,8 +193,7 @@ impl<'a, T: Scalar + Text> Report<'a, T> {
         let names = ["λ in N", "u in m", "p in m", "m g − c u in N"].map(String::from);
         writeln!(out, "\n{}", line("k".to_string(), names))?;
         for iterate in self.problem.trace(self.solution) {
-            let cells =
-                quantities(&iterate).map(|x| x.to_exact().expect("finite").decimal_within(DIGITS, width));
+            let cells = quantities(&iterate).map(|x| exact(x).decimal_within(DIGITS, width));
             writeln!(out, "{}", line(iterate.k.to_string(), cells))?;
         }
         writeln!(out, "\n At most ten digits each; --format csv has all.")
