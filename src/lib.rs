@@ -43,6 +43,8 @@
 //!
 //! Without them f32, f64, balls, dual numbers, the chapter and the solver are there; eˣ of a float is not.
 
+#[cfg(feature = "mpfr")]
+pub mod check;
 pub mod chapter;
 pub mod claims;
 pub mod formula;
