@@ -1,18 +1,34 @@
-//! Holds somebody else's solver against the exact answer, and says what is wrong with it.
+//! Holds a solver against the exact answer, and says what is wrong with it.
+//!
+//! ```
+//! use spring_mass_contact::check::{Answer, Family, Reply, Verdict, check, problems};
+//! use spring_mass_contact::chapter::lagrange;
+//!
+//! // A solver whose plane also pulls.
+//! let report = check(&problems(1, 5, &Family::ALL), &"1e-6".parse()?, |problem| {
+//!     let [u, n] = [lagrange::deflection(&problem.system), lagrange::multiplier(&problem.system)];
+//!     Ok::<_, std::convert::Infallible>(Reply::Answered(Box::new(Answer::new(u, n))))
+//! })?;
+//! let families = report.families();
+//! let of = |family| families.iter().find(|row| row.family == family).unwrap().verdict;
+//! assert_eq!((of(Family::Contact), of(Family::Separated)), (Verdict::Right, Verdict::Wrong));
+//! assert_eq!(report.named().unwrap().name, "the plane also pulls");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod diagnosis;
+mod judge;
+mod mistakes;
+mod problems;
+#[cfg(test)]
+mod tests;
 
 use crate::chapter::SpringMass;
 use crate::number::Exact;
-
-/// A system to be solved.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Problem {
-    /// What it is called in requests and answers.
-    pub id: String,
-    /// Its parameters: decimals of few digits.
-    pub system: SpringMass<Exact>,
-    /// ε in N/m, if the penalty method is asked for.
-    pub penalty: Option<Exact>,
-}
+pub use diagnosis::{Answers, Diagnosis, Kind, Penalty};
+pub use judge::{Judgement, Verdict};
+pub use problems::{DIGITS, Family, NoFamily, Problem, problems};
+use std::collections::BTreeMap;
 
 /// A number that a solver gives; `None` where it is not-a-number or infinite.
 pub type Value = Option<Exact>;
@@ -32,6 +48,13 @@ pub struct Answer {
     pub used: Used,
     /// u and N of every step that led there, if it says so.
     pub steps: Vec<[Value; 2]>,
+}
+
+impl Answer {
+    /// u in m and N in N, and nothing else.
+    pub fn new(deflection: Exact, contact_force: Exact) -> Self {
+        Answer { deflection: Some(deflection), contact_force: Some(contact_force), ..Answer::default() }
+    }
 }
 
 /// What a solver has taken for a parameter; `None` where it does not say.
@@ -62,4 +85,157 @@ pub enum Reply {
     Crashed(String),
     /// It was still at it when its time was up.
     TimedOut,
+}
+
+/// A problem, what came of it, and what to think of that.
+#[derive(Clone, Debug)]
+pub struct Checked {
+    /// What was asked.
+    pub problem: Problem,
+    /// What came.
+    pub reply: Reply,
+    /// How far off it is.
+    pub judgement: Judgement,
+}
+
+/// What came of all problems.
+#[derive(Clone, Debug)]
+pub struct Report {
+    /// In the order in which they were asked.
+    pub checked: Vec<Checked>,
+    /// Did the solver answer none of the first problems, so that the others were not asked?
+    pub given_up: bool,
+    /// What the forces by their penetrations show.
+    pub penalty: Penalty,
+    /// Every known mistake that all answers fit; or else, all wrong answers. Empty if none is wrong.
+    pub diagnosis: Vec<Diagnosis>,
+}
+
+/// How many problems came to what.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Summary {
+    /// No further off than rounding explains.
+    pub right: usize,
+    /// Within the tolerance.
+    pub within_tolerance: usize,
+    /// Neither.
+    pub wrong: usize,
+    /// Not answered, with a reason.
+    pub refused: usize,
+    /// The solver ended.
+    pub crashed: usize,
+    /// The solver did not answer in time.
+    pub timed_out: usize,
+}
+
+/// What came of a family.
+#[derive(Clone, Debug)]
+pub struct Row<'a> {
+    /// Which one.
+    pub family: Family,
+    /// How many of its problems were asked.
+    pub cases: usize,
+    /// The worst verdict.
+    pub verdict: Verdict,
+    /// How many problems have it.
+    pub count: usize,
+    /// The largest error of u, in parts of |H − l| + |m g/c|; `None` if there is no number.
+    pub worst_deflection: Option<Exact>,
+    /// The largest error of N, in parts of |m g| + |c (H − l)|; `None` if there is no number.
+    pub worst_force: Option<Exact>,
+    /// Of the problems that have the worst verdict, the one whose answer is furthest off.
+    pub worst: &'a Checked,
+}
+
+/// Systems of each family by default: the least that tell all known mistakes apart with some to spare.
+pub const CASES: u64 = 5;
+
+/// A solver that answers none of so many problems is not asked any more.
+const PATIENCE: usize = 3;
+
+/// Asks a solver all problems, judges its answers in rationals, and looks for what is wrong with it.
+///
+/// # Errors
+/// The first that `ask` returns.
+pub fn check<E>(
+    problems: &[Problem],
+    tolerance: &Exact,
+    mut ask: impl FnMut(&Problem) -> Result<Reply, E>,
+) -> Result<Report, E> {
+    let mut checked = Vec::new();
+    let mut given_up = false;
+    for problem in problems {
+        let reply = ask(problem)?;
+        let judgement = Judgement::of(problem, &reply, tolerance);
+        checked.push(Checked { problem: problem.clone(), reply, judgement });
+        let silent = |of: &Checked| matches!(of.reply, Reply::Crashed(_) | Reply::TimedOut);
+        given_up = checked.len() == PATIENCE && checked.iter().all(silent);
+        if given_up {
+            break;
+        }
+    }
+    let penalty = Penalty::of(&checked, tolerance);
+    let diagnosis = diagnosis::diagnose(&checked, &penalty, tolerance);
+    Ok(Report { checked, given_up, penalty, diagnosis })
+}
+
+impl Report {
+    /// Is there an answer, and is nothing wrong? A refusal is not wrong.
+    pub fn holds(&self) -> bool {
+        let Summary { right, within_tolerance, wrong, refused: _, crashed, timed_out } = self.summary();
+        let lag = self.diagnosis.iter().any(|diagnosis| diagnosis.answers == Answers::Steps);
+        right + within_tolerance > 0 && wrong + crashed + timed_out == 0 && !lag
+    }
+
+    /// How many problems came to what.
+    pub fn summary(&self) -> Summary {
+        let count = |verdict| self.checked.iter().filter(|of| of.judgement.verdict == verdict).count();
+        Summary {
+            right: count(Verdict::Right),
+            within_tolerance: count(Verdict::WithinTolerance),
+            wrong: count(Verdict::Wrong),
+            refused: count(Verdict::Refused),
+            crashed: count(Verdict::Crashed),
+            timed_out: count(Verdict::TimedOut),
+        }
+    }
+
+    /// What came of each family that was asked for.
+    pub fn families(&self) -> Vec<Row<'_>> {
+        let mut families: BTreeMap<Family, Vec<&Checked>> = BTreeMap::new();
+        for checked in &self.checked {
+            families.entry(checked.problem.family).or_default().push(checked);
+        }
+        families.into_iter().filter_map(|(family, all)| Row::of(family, &all)).collect()
+    }
+
+    /// The mistake that was made, if exactly one is known that explains the answers.
+    pub fn named(&self) -> Option<&Diagnosis> {
+        match self.diagnosis.as_slice() {
+            [only] => Some(only),
+            _ => None,
+        }
+    }
+}
+
+impl<'a> Row<'a> {
+    fn of(family: Family, all: &[&'a Checked]) -> Option<Self> {
+        let verdict = all.iter().map(|of| of.judgement.verdict).max()?;
+        let with_it = || all.iter().filter(|of| of.judgement.verdict == verdict);
+        let worst = |error: fn(&Judgement) -> &Option<Exact>| {
+            all.iter().filter_map(|of| error(&of.judgement).clone()).max()
+        };
+        // `max_by` takes the last of equals.
+        let furthest = with_it().rev().max_by(|a, b| a.judgement.error().cmp(&b.judgement.error()))?;
+        Some(Row {
+            family,
+            cases: all.len(),
+            verdict,
+            count: with_it().count(),
+            worst_deflection: worst(|judgement| &judgement.deflection_error),
+            worst_force: worst(|judgement| &judgement.force_error),
+            worst: furthest,
+        })
+    }
 }

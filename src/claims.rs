@@ -114,6 +114,22 @@ pub fn entry(equation: &str) -> Option<&'static Entry> {
     place(equation).map(|place| &entries()[place])
 }
 
+/// The entry whose own function this is, or else one that names it.
+///
+/// ```
+/// use spring_mass_contact::claims::entry_of;
+/// assert_eq!(entry_of("penalty::deflection").unwrap().equation, "1.13");
+/// ```
+pub fn entry_of(function: &str) -> Option<&'static Entry> {
+    let named = |first: bool| {
+        entries().iter().find(|entry| match entry.functions.as_slice() {
+            [own, ..] if first => *own == function,
+            all => !first && all.contains(&function),
+        })
+    };
+    named(true).or_else(|| named(false))
+}
+
 /// Where a number stands among the entries: what is sorted by it is in the chapter's order.
 pub fn place(equation: &str) -> Option<usize> {
     entries().iter().position(|entry| entry.equation == equation)

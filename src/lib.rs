@@ -43,9 +43,9 @@
 //!
 //! Without them f32, f64, balls, dual numbers, the chapter and the solver are there; eˣ of a float is not.
 
+pub mod chapter;
 #[cfg(feature = "mpfr")]
 pub mod check;
-pub mod chapter;
 pub mod claims;
 pub mod formula;
 pub mod number;

@@ -12,7 +12,7 @@
 
 mod change;
 
-pub use change::{Change, Operator, What, changes};
+pub use change::{Change, Operator, What, changes, changes_in};
 
 use super::kernel::prove;
 use super::refute::{Counterexample, Points};

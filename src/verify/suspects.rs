@@ -1,6 +1,6 @@
 //! Where a mistake may be: what the claims that are not proved have in common.
 
-use crate::claims::{entries, registry};
+use crate::claims::{entry_of, registry};
 use crate::formula::{Formula, Statement};
 use crate::number::Tree;
 use crate::number::tree::{Site, Step};
@@ -31,7 +31,7 @@ pub(super) fn suspects(statements: &[Statement], unproved: &dyn Fn(&Statement) -
         registry().formulas().iter().filter(|f| matches!(f.tree.step(), Step::Symbol(_))).collect();
     if !idle.is_empty() {
         let suspect =
-            |f: &&Formula| Suspect { function: f.path, equation: entry_of(f.path), unproved: 0, proved: 0 };
+            |f: &&Formula| Suspect { function: f.path, equation: equation(f.path), unproved: 0, proved: 0 };
         return idle.iter().map(suspect).collect();
     }
     let sites: Vec<(bool, BTreeSet<Site>)> = statements
@@ -53,7 +53,7 @@ pub(super) fn suspects(statements: &[Statement], unproved: &dyn Fn(&Statement) -
     let suspect = |(function, own): (&&'static str, &BTreeSet<Site>)| {
         let speaking = sites.iter().filter(|(_, sites)| !sites.is_disjoint(own));
         let (unproved, proved): (Vec<_>, Vec<_>) = speaking.partition(|(unproved, _)| *unproved);
-        Suspect { function, equation: entry_of(function), unproved: unproved.len(), proved: proved.len() }
+        Suspect { function, equation: equation(function), unproved: unproved.len(), proved: proved.len() }
     };
     let all: Vec<Suspect> = own.iter().map(suspect).filter(|suspect| suspect.unproved > 0).collect();
     // With a of n claims that speak of it and f that fail, a/√(n f) is the cosine between the two sets.
@@ -66,15 +66,8 @@ pub(super) fn suspects(statements: &[Statement], unproved: &dyn Fn(&Statement) -
     all.iter().filter(|suspect| compare(suspect, best).is_eq()).cloned().collect()
 }
 
-/// The entry whose own function it is, or else one that names it.
-fn entry_of(function: &str) -> Option<&'static str> {
-    let named = |first: bool| {
-        entries().iter().find(|entry| match entry.functions.as_slice() {
-            [own, ..] if first => *own == function,
-            all => !first && all.contains(&function),
-        })
-    };
-    named(true).or_else(|| named(false)).map(|entry| entry.equation)
+fn equation(function: &str) -> Option<&'static str> {
+    entry_of(function).map(|entry| entry.equation)
 }
 
 /// The places in the source where a function does something itself, and does not call another.

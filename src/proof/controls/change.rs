@@ -310,8 +310,13 @@ fn mapped(statement: &Statement, f: &impl Fn(&Tree) -> Tree) -> Statement {
 
 /// Every change of a function of the registry that one of the statements can see.
 pub fn changes(statements: &[Statement], registry: &Registry) -> Vec<Change> {
+    changes_in(statements.iter().flat_map(Statement::trees), registry)
+}
+
+/// Every change of a function of the registry that one of these formulas can see.
+pub fn changes_in<'a>(trees: impl IntoIterator<Item = &'a Tree>, registry: &Registry) -> Vec<Change> {
     let mut all = BTreeSet::new();
-    for tree in statements.iter().flat_map(Statement::trees) {
+    for tree in trees {
         tree.visit(&mut |tree| {
             let site = tree.site();
             if registry.has_site(&site) {

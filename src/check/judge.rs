@@ -1,0 +1,234 @@
+//! How far off an answer is, without rounding.
+//!
+//! Errors are taken on the system's own scales: of u in parts of |H − l| + |m g/c|, of N in parts of
+//! |m g| + |c (H − l)|. Residuals alone would not do: a solver can be in equilibrium to twelve digits with
+//! forty times the force.
+
+use super::{Answer, Problem, Reply, Value};
+use crate::chapter::contact::{self, Kkt};
+use crate::chapter::{SpringMass, augmented, penalty, structure, system};
+use crate::number::{Ball, Exact, PositivePart};
+use crate::solver::{Method, Solution, State, solve};
+use std::fmt;
+
+/// What to think of an answer; the worse, the greater.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Verdict {
+    /// No further off than the arithmetic of f64 may take the formula itself.
+    Right,
+    /// Within the tolerance.
+    WithinTolerance,
+    /// Not answered, with a reason.
+    Refused,
+    /// Anything else that it says.
+    Wrong,
+    /// Not answered in time.
+    TimedOut,
+    /// The solver ended.
+    Crashed,
+}
+
+/// As JSON has it.
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.pad(match self {
+            Verdict::Right => "right",
+            Verdict::WithinTolerance => "within_tolerance",
+            Verdict::Refused => "refused",
+            Verdict::Wrong => "wrong",
+            Verdict::TimedOut => "timed_out",
+            Verdict::Crashed => "crashed",
+        })
+    }
+}
+
+#[cfg(feature = "serde")]
+crate::number::serialize_as_displayed!(Verdict);
+
+/// An answer beside the exact one.
+#[derive(Clone, Debug)]
+pub struct Judgement {
+    /// What to think of it.
+    pub verdict: Verdict,
+    /// The exact answer, for the parameters as they were used.
+    pub exact: Solution<Exact>,
+    /// The error of u, in parts of |H − l| + |m g/c|.
+    pub deflection_error: Option<Exact>,
+    /// The error of N, in parts of |m g| + |c (H − l)|.
+    pub force_error: Option<Exact>,
+    /// The residuals of (1.6) and of equilibrium, of the answer.
+    pub kkt: Option<Kkt<Exact>>,
+    /// What is wrong, in words.
+    pub finding: Option<String>,
+}
+
+impl Problem {
+    /// The exact answer.
+    pub fn solution(&self) -> Solution<Exact> {
+        let method = match &self.penalty {
+            None => Method::Lagrange,
+            Some(penalty) => Method::Penalty { penalty: penalty.clone() },
+        };
+        solve(&self.system, &method).expect("a system with c, m and ε > 0")
+    }
+
+    /// The problem that was really solved; or which parameter is another than was asked for, and how.
+    pub(super) fn as_used(&self, answer: &Answer, tolerance: &Exact) -> Result<Problem, String> {
+        let taken = |name: &str, asked: &Exact, used: &Option<Value>| match used {
+            None => Ok(asked.clone()),
+            Some(Some(used)) if (used - asked).abs() <= tolerance * asked.abs() => Ok(used.clone()),
+            Some(Some(used)) => Err(format!("it took {name} = {} for {}", brief(used), brief(asked))),
+            Some(None) => Err(format!("it took no number for {name} = {}", brief(asked))),
+        };
+        let SpringMass { c, m, g, l, h } = &self.system;
+        let used = &answer.used.system;
+        let system = SpringMass {
+            c: taken("stiffness", c, &used.c)?,
+            m: taken("mass", m, &used.m)?,
+            g: taken("gravity", g, &used.g)?,
+            l: taken("free_length", l, &used.l)?,
+            h: taken("height", h, &used.h)?,
+        };
+        let penalty = match &self.penalty {
+            None => None,
+            Some(asked) => Some(taken("penalty", asked, &answer.used.penalty)?),
+        };
+        Ok(Problem { system, penalty, ..self.clone() })
+    }
+}
+
+/// Six digits, for the eye.
+fn brief(x: &Exact) -> String {
+    x.decimal(6, rug::float::Round::Nearest)
+}
+
+/// What errors of u, in m, and of N, in N, are measured by.
+pub(super) fn scales(system: &SpringMass<Exact>) -> [Exact; 2] {
+    let gap = system::gap(system);
+    let free = structure::deflection(system);
+    let weight = system::weight(system);
+    [gap.abs() + free.abs(), weight.abs() + (&system.c * gap).abs()]
+}
+
+/// Where f64 may take the formulas of u and N, if the parameters fit.
+fn rounded(problem: &Problem) -> Option<[Ball<f64>; 2]> {
+    let read = |x: &Exact| Ball::around(&0f64, x);
+    let system = problem.system.try_map(read).ok()?;
+    Some(match &problem.penalty {
+        None => [contact::deflection(&system), contact::contact_force(&system)],
+        Some(penalty) => {
+            let u = penalty::unilateral_deflection(&system, &read(penalty).ok()?);
+            let n = augmented::contact_force(&system, &u).positive_part();
+            [u, n]
+        }
+    })
+}
+
+impl Judgement {
+    pub(super) fn of(problem: &Problem, reply: &Reply, tolerance: &Exact) -> Self {
+        let without_numbers = |verdict, finding: &str| Judgement {
+            verdict,
+            exact: problem.solution(),
+            deflection_error: None,
+            force_error: None,
+            kkt: None,
+            finding: Some(finding.to_string()),
+        };
+        match reply {
+            Reply::Answered(answer) => match problem.as_used(answer, tolerance) {
+                Ok(problem) => Judgement::of_answer(&problem, answer, tolerance),
+                Err(finding) => without_numbers(Verdict::Wrong, &finding),
+            },
+            Reply::Refused(why) => without_numbers(Verdict::Refused, why),
+            Reply::Garbled(why) => without_numbers(Verdict::Wrong, why),
+            Reply::Crashed(how) => without_numbers(Verdict::Crashed, how),
+            Reply::TimedOut => without_numbers(Verdict::TimedOut, "no answer in time"),
+        }
+    }
+
+    fn of_answer(problem: &Problem, answer: &Answer, tolerance: &Exact) -> Self {
+        let exact = problem.solution();
+        let numbers = [&answer.deflection, &answer.contact_force];
+        let expected = [&exact.deflection, &exact.contact_force];
+        let scales = scales(&problem.system);
+        let error = |i: usize| numbers[i].as_ref().map(|x| (x - expected[i]).abs() / &scales[i]);
+        let errors = [error(0), error(1)];
+        let near = |error: &Option<Exact>| error.as_ref().is_some_and(|error| error <= tolerance);
+        let balls = rounded(problem);
+        let to_rounding = |i: usize| match (&balls, numbers[i]) {
+            (Some(balls), Some(x)) => balls[i].is_finite() && balls[i].contains(x),
+            _ => false,
+        };
+        let finding = penetrates_otherwise(problem, answer, tolerance);
+        let right = |i: usize| numbers[i].as_ref() == Some(expected[i]) || to_rounding(i);
+        let verdict = if finding.is_some() {
+            Verdict::Wrong
+        } else if right(0) && right(1) {
+            Verdict::Right
+        } else if errors.iter().enumerate().all(|(i, error)| near(error) || right(i)) {
+            Verdict::WithinTolerance
+        } else {
+            Verdict::Wrong
+        };
+        let finding = finding.or_else(|| {
+            (verdict == Verdict::Wrong)
+                .then(|| wrong_state(numbers, exact.state, &errors, tolerance, &scales))
+                .flatten()
+        });
+        let kkt = match numbers {
+            [Some(u), Some(n)] => Some(contact::kkt(&problem.system, u, n)),
+            _ => None,
+        };
+        let [deflection_error, force_error] = errors;
+        Judgement { verdict, exact, deflection_error, force_error, kkt, finding }
+    }
+
+    /// The larger of the two errors; `None`, which is less than any, without numbers.
+    pub fn error(&self) -> Option<&Exact> {
+        self.deflection_error.as_ref().max(self.force_error.as_ref())
+    }
+}
+
+/// A penetration that is not that of the deflection.
+fn penetrates_otherwise(problem: &Problem, answer: &Answer, tolerance: &Exact) -> Option<String> {
+    let said = answer.penetration.as_ref()?;
+    let Some(p) = said else { return Some("its penetration is not a number".to_string()) };
+    let u = answer.deflection.as_ref()?;
+    let own = contact::penetration(&problem.system, u);
+    let read = |x: &Exact| Ball::around(&0f64, x).ok();
+    let rounded = problem.system.try_map(|x| read(x).ok_or(())).ok();
+    let rounded = rounded.and_then(|system| Some(contact::penetration(&system, &read(u)?)));
+    let [length, _] = scales(&problem.system);
+    let explained = (p - &own).abs() <= tolerance * length || rounded.is_some_and(|ball| ball.contains(p));
+    (!explained)
+        .then(|| format!("its penetration is {}, that of its deflection is {}", brief(p), brief(&own)))
+}
+
+/// What is wrong with the answer as a whole: no numbers, or another state.
+fn wrong_state(
+    numbers: [&Value; 2],
+    state: State,
+    errors: &[Option<Exact>; 2],
+    tolerance: &Exact,
+    scales: &[Exact; 2],
+) -> Option<String> {
+    let [Some(_), Some(n)] = numbers else {
+        let missing = if numbers[0].is_none() { "its deflection" } else { "its contact force" };
+        return Some(format!("{missing} is not a number"));
+    };
+    let small = tolerance * &scales[1];
+    let far = errors[1].as_ref().is_some_and(|error| error > tolerance);
+    let said = if *n > small {
+        "the plane pushes"
+    } else if *n < -small {
+        "the plane pulls"
+    } else {
+        "the mass hangs free"
+    };
+    let is = match state {
+        State::Contact => "the plane pushes",
+        State::Grazing => "they touch without force",
+        State::Separated => "the mass hangs free",
+    };
+    (far && said != is).then(|| format!("it says that {said}; exactly, {is}"))
+}
