@@ -1,11 +1,12 @@
 //! The command `contact`: reads its arguments, calls the library, prints.
 //!
-//! `args` is what the subcommands share of their arguments, `text` how numbers are written, `output` the
-//! way to stdout; each subcommand is a module.
+//! `args` is what the subcommands share of their arguments, `json` how objects come in, `output` the way to
+//! stdout; each subcommand is a module.
 
 mod advise;
 mod args;
 mod equations;
+mod json;
 mod output;
 mod prove;
 mod solve;

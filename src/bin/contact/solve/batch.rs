@@ -6,12 +6,12 @@
 
 use super::{Format, MethodName, Options};
 use crate::args::{finite, invalid, positive, whole};
+use crate::json::{self, BUFFER, Object};
 use crate::output::{self, Exit, Failure, shortened};
 use clap::ValueEnum;
-use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use serde_json::value::{RawValue, Value};
-use std::fmt::{self, Display};
-use std::io::{self, BufRead, BufReader, Read, Stdin};
+use std::fmt::Display;
+use std::io::{self, BufReader, Stdin};
 use std::num::NonZero;
 use std::panic::resume_unwind;
 use std::sync::mpsc::{self, Receiver, SyncSender};
@@ -24,9 +24,6 @@ const LONGEST: usize = 1 << 20;
 /// Lines that a worker takes at once: enough that waking one costs little beside them, few enough that all
 /// have something to do where each line takes long.
 const AT_ONCE: usize = 16;
-
-/// Bytes of input that are read at once, and of answers that are passed on at once.
-const BUFFER: usize = 1 << 16;
 
 /// Solves what stdin says, a system a line.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
@@ -79,7 +76,7 @@ impl Input {
             return None;
         }
         let mut lines = Vec::new();
-        let read = self.lines(&mut lines);
+        let read = json::read_lines(&mut self.stdin, AT_ONCE, LONGEST, &mut lines);
         self.ended = read.is_err() || lines.is_empty();
         if lines.is_empty() && read.is_ok() {
             return None;
@@ -87,22 +84,6 @@ impl Input {
         let (answers, block) = mpsc::sync_channel(1);
         self.queue.send(read.map(|()| block)).ok().filter(|()| !self.ended)?;
         Some((lines, answers))
-    }
-
-    /// Waits for a line, and takes with it those that have come with it.
-    fn lines(&mut self, lines: &mut Vec<u8>) -> io::Result<()> {
-        for _ in 0..AT_ONCE {
-            let start = lines.len();
-            self.stdin.by_ref().take(LONGEST as u64 + 1).read_until(b'\n', lines)?;
-            if lines.len() - start > LONGEST && !lines.ends_with(b"\n") {
-                self.stdin.skip_until(b'\n')?;
-                lines.push(b'\n');
-            }
-            if !self.stdin.buffer().contains(&b'\n') {
-                break;
-            }
-        }
-        Ok(())
     }
 }
 
@@ -128,7 +109,7 @@ fn work(input: &Mutex<Input>, defaults: &Options) {
 
 /// Solves what a line says, and writes a line.
 fn answer(line: &[u8], defaults: &Options, out: &mut Vec<u8>) -> Exit {
-    let object = Object::read(line);
+    let object = read(line);
     let id = object.as_ref().ok().and_then(|object| object.get("id")).map_or("null", RawValue::get);
     // Between the parts of a JSON text it is a blank, and some would take it for the end of the line.
     out.extend_from_slice(format!("{{\"id\":{},", id.replace('\r', " ")).as_bytes());
@@ -145,53 +126,25 @@ fn answer(line: &[u8], defaults: &Options, out: &mut Vec<u8>) -> Exit {
     exit
 }
 
-/// What a line says: keys and values, as they are spelled.
-struct Object<'a>(Vec<(String, &'a RawValue)>);
-
-impl<'a> Object<'a> {
-    fn read(line: &'a [u8]) -> Result<Self, Failure> {
-        if line.len() > LONGEST {
-            return Err(format!("a line must have no more than {LONGEST} bytes").into());
-        }
-        let refused = |why: &dyn Display| {
-            let text = String::from_utf8_lossy(line);
-            format!("invalid line '{}': {why}; a line is a JSON object", shortened(text.trim()))
-        };
-        let text = str::from_utf8(line).map_err(|_| refused(&"must be UTF-8 text"))?;
-        Ok(serde_json::from_str(text).map_err(|error| {
-            // Which line of the line is no news.
-            let why = error.to_string();
-            let place = format!(" at line {} column {}", error.line(), error.column());
-            refused(&match why.strip_suffix(&place) {
-                Some(why) => format!("{why} at column {}", error.column()),
-                None => why,
-            })
-        })?)
+/// The object that a line is.
+fn read(line: &[u8]) -> Result<Object<'_>, Failure> {
+    if line.len() > LONGEST {
+        return Err(format!("a line must have no more than {LONGEST} bytes").into());
     }
-
-    fn get(&self, key: &str) -> Option<&'a RawValue> {
-        self.0.iter().find(|(own, _)| own == key).map(|(_, value)| *value)
-    }
-}
-
-impl<'de: 'a, 'a> Deserialize<'de> for Object<'a> {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        struct Entries;
-        impl<'de> Visitor<'de> for Entries {
-            type Value = Object<'de>;
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("an object")
-            }
-            fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<Object<'de>, M::Error> {
-                let mut entries = Vec::new();
-                while let Some(entry) = map.next_entry()? {
-                    entries.push(entry);
-                }
-                Ok(Object(entries))
-            }
-        }
-        from.deserialize_map(Entries)
-    }
+    let refused = |why: &dyn Display| {
+        let text = String::from_utf8_lossy(line);
+        format!("invalid line '{}': {why}; a line is a JSON object", shortened(text.trim()))
+    };
+    let text = str::from_utf8(line).map_err(|_| refused(&"must be UTF-8 text"))?;
+    Ok(serde_json::from_str(text).map_err(|error| {
+        // Which line of the line is no news.
+        let why = error.to_string();
+        let place = format!(" at line {} column {}", error.line(), error.column());
+        refused(&match why.strip_suffix(&place) {
+            Some(why) => format!("{why} at column {}", error.column()),
+            None => why,
+        })
+    })?)
 }
 
 /// Sets an option; or what is allowed.
@@ -244,11 +197,8 @@ impl Options {
             let keys = KEYS.map(|(key, _)| key).join(", ");
             return Err(format!("unexpected key '{}' found; [keys: id, {keys}]", shortened(key)).into());
         };
-        // Of a string what it says; of anything else how it is spelled, for nothing else is lost.
-        let raw = value.get();
-        let string = raw.starts_with('"').then(|| serde_json::from_str::<String>(raw).ok()).flatten();
-        let text = string.as_deref().unwrap_or(raw);
-        KEYS[place].1(self, text).map_err(|why| invalid(text, key, why))?;
+        let text = json::text(value);
+        KEYS[place].1(self, &text).map_err(|why| invalid(&text, key, why))?;
         Ok(place)
     }
 

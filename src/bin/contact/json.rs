@@ -1,0 +1,69 @@
+//! JSON a line, from whoever writes it: lines of bounded length, and objects as they are spelled.
+
+use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
+use serde_json::value::RawValue;
+use std::borrow::Cow;
+use std::fmt;
+use std::io::{self, BufRead, BufReader, Read};
+
+/// Bytes that are read at once.
+pub const BUFFER: usize = 1 << 16;
+
+/// Waits for a line, and takes with it those that have come with it, `most` of them in all. What a line has
+/// beyond `longest` bytes and one is not kept.
+pub fn read_lines(
+    from: &mut BufReader<impl Read>,
+    most: usize,
+    longest: usize,
+    lines: &mut Vec<u8>,
+) -> io::Result<()> {
+    for _ in 0..most {
+        let start = lines.len();
+        from.by_ref().take(longest as u64 + 1).read_until(b'\n', lines)?;
+        if lines.len() - start > longest && !lines.ends_with(b"\n") {
+            from.skip_until(b'\n')?;
+            lines.push(b'\n');
+        }
+        if !from.buffer().contains(&b'\n') {
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// What an object says: keys and values, as they are spelled.
+pub struct Object<'a>(pub Vec<(String, &'a RawValue)>);
+
+impl<'a> Object<'a> {
+    /// The value of a key, the first if there are more.
+    pub fn get(&self, key: &str) -> Option<&'a RawValue> {
+        self.0.iter().find(|(own, _)| own == key).map(|(_, value)| *value)
+    }
+}
+
+impl<'de: 'a, 'a> Deserialize<'de> for Object<'a> {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        struct Entries;
+        impl<'de> Visitor<'de> for Entries {
+            type Value = Object<'de>;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("an object")
+            }
+            fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<Object<'de>, M::Error> {
+                let mut entries = Vec::new();
+                while let Some(entry) = map.next_entry()? {
+                    entries.push(entry);
+                }
+                Ok(Object(entries))
+            }
+        }
+        from.deserialize_map(Entries)
+    }
+}
+
+/// Of a string what it says; of anything else how it is spelled, for nothing else is lost.
+pub fn text(value: &RawValue) -> Cow<'_, str> {
+    let raw = value.get();
+    let string = raw.starts_with('"').then(|| serde_json::from_str(raw).ok()).flatten();
+    string.map_or(Cow::Borrowed(raw), Cow::Owned)
+}
