@@ -43,7 +43,7 @@ pub fn joined(arguments: impl IntoIterator<Item = String>) -> Vec<String> {
 }
 
 /// Not a control character of any kind: some turn the line around or end it and are no `char::is_control`.
-fn is_visible(c: char) -> bool {
+pub fn is_visible(c: char) -> bool {
     !c.is_control() && (c.is_ascii() || c.escape_debug().len() == 1)
 }
 

@@ -5,6 +5,8 @@
 
 mod advise;
 mod args;
+#[cfg_attr(not(test), allow(dead_code))]
+mod check;
 mod equations;
 mod json;
 mod output;

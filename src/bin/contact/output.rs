@@ -29,7 +29,16 @@ pub fn width() -> usize {
 
 /// The beginning of a text that may be long.
 pub fn shortened(text: &str) -> String {
-    if text.chars().count() <= 40 { text.to_string() } else { text.chars().take(39).chain(['…']).collect() }
+    shortened_to(text, 40)
+}
+
+/// The same, of at most so many characters.
+pub fn shortened_to(text: &str, most: usize) -> String {
+    if text.chars().nth(most).is_none() {
+        text.to_string()
+    } else {
+        text.chars().take(most - 1).chain(['…']).collect()
+    }
 }
 
 /// What a command has to say about its result, once it is printed.

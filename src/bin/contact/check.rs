@@ -1,0 +1,4 @@
+//! `contact check`: holds a program against the exact answer.
+
+mod program;
+mod reply;

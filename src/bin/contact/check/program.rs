@@ -1,0 +1,297 @@
+//! A program that is asked over its stdin and answers on its stdout, whatever it does.
+//!
+//! Threads of their own write its stdin and read its stdout and stderr, and nobody waits for them: each ends with
+//! its pipe, and a pipe that a stranger keeps open costs nothing but that thread.
+
+mod group;
+
+use super::reply::{self, words};
+use crate::args::{invalid, spelled};
+use crate::json::{BUFFER, read_lines};
+use crate::output::Failure;
+use group::Group;
+use spring_mass_contact::chapter::SpringMass;
+use spring_mass_contact::check::{Problem, Reply};
+use spring_mass_contact::number::Exact;
+use std::io::{self, BufReader, Read, Write};
+use std::process::{ChildStderr, ChildStdin, ChildStdout, Command, Stdio};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
+use std::sync::{Arc, Mutex, PoisonError, Weak};
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// How long a program may take to end once its stdin is closed, or its stdout: an interpreter with its libraries loaded
+/// takes some tenths of a second, and who waits for the command hardly notices one.
+const GRACE: Duration = Duration::from_secs(1);
+
+/// How often to look whether a program has ended that left its stdout to another.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// How often to look whether a program has ended that is about to.
+const SOON: Duration = Duration::from_millis(5);
+
+/// Bytes of stderr that are kept, the last.
+const TAIL: usize = 1 << 12;
+
+/// A program, started when it is first asked and again after each time that it had to be given up.
+pub struct Program {
+    words: Vec<String>,
+    timeout: Duration,
+    running: Option<Running>,
+}
+
+impl Program {
+    /// The program that these words start: its name or path, and its arguments; it has so long for each answer.
+    pub fn new(words: &[String], timeout: Duration) -> Self {
+        Program { words: words.to_vec(), timeout, running: None }
+    }
+
+    /// Puts a problem. Fails only if the program cannot be started.
+    pub fn ask(&mut self, problem: &Problem) -> Result<Reply, Failure> {
+        let start = Instant::now();
+        let left = || self.timeout.saturating_sub(start.elapsed());
+        let mut running = match self.running.take() {
+            Some(running) => running,
+            None => Running::start(&self.words).map_err(|error| self.refused(&error))?,
+        };
+        Ok(match running.ask(problem, left) {
+            Ok(reply) => {
+                self.running = Some(running);
+                reply
+            }
+            Err(Lost::Astray(why)) => Reply::Garbled(why),
+            Err(Lost::Ended) => Reply::Crashed(running.end()),
+            Err(Lost::TimedOut) => Reply::TimedOut,
+        })
+    }
+
+    fn refused(&self, error: &io::Error) -> Failure {
+        let program = self.words.first().map_or("", String::as_str);
+        let why =
+            format!("cannot be started: {error}; must be the name of a program on the path, or its own path");
+        invalid(program, "<PROGRAM>...", why)
+    }
+}
+
+impl Drop for Program {
+    fn drop(&mut self) {
+        if let Some(running) = self.running.take() {
+            running.close();
+        }
+    }
+}
+
+/// The line that puts a problem.
+pub fn request(problem: &Problem) -> String {
+    let SpringMass { c, m, g, l, h } = &problem.system;
+    let numbers = [
+        ("stiffness", Some(c)),
+        ("mass", Some(m)),
+        ("gravity", Some(g)),
+        ("free_length", Some(l)),
+        ("height", Some(h)),
+        ("penalty", problem.penalty.as_ref()),
+    ];
+    let numbers = numbers.into_iter().filter_map(|(key, value)| Some((key, value?)));
+    let numbers = numbers.map(|(key, value)| format!(", \"{key}\": {}", number(value)));
+    format!("{{\"id\": {}{}}}\n", serde_json::Value::from(problem.id.as_str()), numbers.collect::<String>())
+}
+
+/// A JSON number, or a string where there is none: a fraction that is no decimal.
+fn number(x: &Exact) -> String {
+    let text = spelled(x);
+    if text.contains('/') { format!("\"{text}\"") } else { text }
+}
+
+/// Why a program cannot be asked any further.
+enum Lost {
+    /// It answers, but not what it was asked.
+    Astray(String),
+    Ended,
+    TimedOut,
+}
+
+/// A program that has been started. Dropped, it ends at once, with all that it has started itself.
+struct Running {
+    group: Group,
+    requests: Sender<String>,
+    lines: Lines,
+    stderr: Tail,
+}
+
+impl Running {
+    fn start(words: &[String]) -> io::Result<Self> {
+        let [program, arguments @ ..] = words else { return Err(io::ErrorKind::NotFound.into()) };
+        let mut command = Command::new(program);
+        command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut group = Group::start(&mut command)?;
+        let child = group.child();
+        let pipe = "a pipe was asked for";
+        Ok(Running {
+            requests: writer(child.stdin.take().expect(pipe))?,
+            lines: Lines::of(child.stdout.take().expect(pipe))?,
+            stderr: Tail::of(child.stderr.take().expect(pipe))?,
+            group,
+        })
+    }
+
+    fn ask(&mut self, problem: &Problem, left: impl Fn() -> Duration) -> Result<Reply, Lost> {
+        // What has come by now cannot be the answer, whatever its id is.
+        loop {
+            match self.lines.next(Duration::ZERO) {
+                Ok(line) => reply::early(line, &problem.id).map_or(Ok(()), |why| Err(Lost::Astray(why)))?,
+                Err(RecvTimeoutError::Timeout) => break,
+                Err(RecvTimeoutError::Disconnected) => return Err(Lost::Ended),
+            }
+            if left().is_zero() {
+                return Err(Lost::TimedOut);
+            }
+        }
+        // Nobody takes it from a program that does not read; what becomes of that shows on its stdout.
+        let _ = self.requests.send(request(problem));
+        let mut ended = false;
+        loop {
+            match self.lines.next(left().min(LOOK)) {
+                Ok(line) => {
+                    if let Some(reply) = reply::read(line, &problem.id) {
+                        return reply.map_err(Lost::Astray);
+                    }
+                }
+                Err(RecvTimeoutError::Disconnected) => return Err(Lost::Ended),
+                // Its last words have had time to come.
+                Err(RecvTimeoutError::Timeout) if ended => return Err(Lost::Ended),
+                Err(RecvTimeoutError::Timeout) => ended = self.group.has_ended(),
+            }
+            if left().is_zero() {
+                return Err(Lost::TimedOut);
+            }
+        }
+    }
+
+    /// How it has ended, and the last that it said on stderr.
+    fn end(mut self) -> String {
+        let ended = self.ends();
+        let status = self.group.end();
+        let how = match status {
+            Ok(status) if ended => {
+                status.code().map_or(status.to_string(), |code| format!("exit status {code}"))
+            }
+            Ok(_) | Err(_) => "closed its stdout".to_string(),
+        };
+        match self.stderr.last_line() {
+            Some(line) => format!("{how}; on stderr: {line}"),
+            None => how,
+        }
+    }
+
+    /// Has it end by itself if it can.
+    fn close(mut self) {
+        let (nobody, _) = mpsc::channel();
+        drop(std::mem::replace(&mut self.requests, nobody));
+        self.ends();
+    }
+
+    /// Whether it ends by itself.
+    fn ends(&mut self) -> bool {
+        let start = Instant::now();
+        loop {
+            if self.group.has_ended() {
+                return true;
+            }
+            if start.elapsed() > GRACE {
+                return false;
+            }
+            // What it still prints must not keep it from ending.
+            if self.lines.blocks.recv_timeout(SOON) == Err(RecvTimeoutError::Disconnected) {
+                thread::sleep(SOON);
+            }
+        }
+    }
+}
+
+/// Runs beside the rest until its pipe is closed.
+fn thread(run: impl FnOnce() + Send + 'static) -> io::Result<()> {
+    thread::Builder::new().spawn(run).map(drop)
+}
+
+/// What is sent is written, as fast as the program reads.
+fn writer(mut stdin: ChildStdin) -> io::Result<Sender<String>> {
+    let (requests, queue) = mpsc::channel::<String>();
+    thread(move || while queue.recv().is_ok_and(|line| stdin.write_all(line.as_bytes()).is_ok()) {})?;
+    Ok(requests)
+}
+
+/// The lines of stdout. What came at once is passed on at once, so that what follows an answer on its heels is there
+/// before the next question; and no more than that is read ahead.
+struct Lines {
+    blocks: Receiver<Vec<u8>>,
+    block: Vec<u8>,
+    start: usize,
+}
+
+impl Lines {
+    fn of(stdout: ChildStdout) -> io::Result<Self> {
+        let (to, blocks) = mpsc::sync_channel(1);
+        thread(move || {
+            let mut stdout = BufReader::with_capacity(BUFFER, stdout);
+            loop {
+                let mut block = Vec::new();
+                let read = read_lines(&mut stdout, usize::MAX, reply::LONGEST, &mut block);
+                let ended = read.is_err() || block.is_empty();
+                if to.send(block).is_err() || ended {
+                    return;
+                }
+            }
+        })?;
+        Ok(Lines { blocks, block: Vec::new(), start: 0 })
+    }
+
+    /// The next line, if it comes so soon.
+    fn next(&mut self, soon: Duration) -> Result<&[u8], RecvTimeoutError> {
+        if self.start == self.block.len() {
+            self.block = Vec::new();
+            self.block = self.blocks.recv_timeout(soon)?;
+            self.start = 0;
+        }
+        let rest = &self.block[self.start..];
+        let line = rest.split(|byte| *byte == b'\n').next().unwrap_or(rest);
+        self.start = (self.start + line.len() + 1).min(self.block.len());
+        Ok(line)
+    }
+}
+
+/// The end of stderr, which is read so that it never fills up.
+struct Tail {
+    bytes: Arc<Mutex<Vec<u8>>>,
+    ended: Receiver<()>,
+}
+
+impl Tail {
+    fn of(mut stderr: ChildStderr) -> io::Result<Self> {
+        let bytes = Arc::new(Mutex::new(Vec::new()));
+        let tail: Weak<_> = Arc::downgrade(&bytes);
+        let (reading, ended) = mpsc::channel();
+        thread(move || {
+            let _reading = reading;
+            let mut some = [0; TAIL];
+            while let Ok(count @ 1..) = stderr.read(&mut some)
+                && let Some(tail) = tail.upgrade()
+            {
+                let mut tail = tail.lock().unwrap_or_else(PoisonError::into_inner);
+                tail.extend_from_slice(&some[..count]);
+                let surplus = tail.len().saturating_sub(TAIL);
+                tail.drain(..surplus);
+            }
+        })?;
+        Ok(Tail { bytes, ended })
+    }
+
+    /// The last line that says anything, once all has come.
+    fn last_line(&self) -> Option<String> {
+        // Nothing is sent: at its end the channel is closed. Whoever else has that pipe may keep it open.
+        let _ = self.ended.recv_timeout(GRACE);
+        let bytes = self.bytes.lock().unwrap_or_else(PoisonError::into_inner);
+        let text = String::from_utf8_lossy(&bytes);
+        text.split(['\n', '\r']).map(words).rfind(|line| !line.is_empty())
+    }
+}
