@@ -1,12 +1,12 @@
 //! What is wrong with a solver: which known mistake its answers fit.
 
 use super::judge::scales;
-use super::mistakes::{Measured, Mistake, mistakes, value};
+use super::mistakes::{Formulas, Measured, Mistake, mistakes, value};
 use super::{Answer, Checked, Problem, Reply, Verdict};
 use crate::chapter::{SpringMass, augmented, contact, system};
 use crate::claims::registry;
 use crate::formula::Notation;
-use crate::number::{Exact, PositivePart};
+use crate::number::{Ball, Exact, PositivePart, Tree};
 use num_traits::{One, Zero};
 use std::fmt;
 
@@ -61,7 +61,7 @@ impl Kind {
 pub struct Penalty {
     /// How it depends on the system.
     pub kind: Kind,
-    /// ε in N/m; or ε/c; or ε/m in 1/s². The median.
+    /// ε in N/m; or ε/c; or ε/m in 1/s². Of the answer that tells it most clearly.
     pub value: Option<Exact>,
     /// The largest by the smallest, less 1.
     pub spread: Option<Exact>,
@@ -79,18 +79,15 @@ impl Penalty {
     /// all answers that tell it; and if these are at least half of those whose force it would be.
     fn measured(answers: &[Given], by: Measured, tolerance: &Exact) -> Self {
         let acting = answers.iter().filter_map(|given| given.force(by, tolerance)).count();
-        let told = Vec::from_iter(answers.iter().filter_map(|given| {
-            let ratio = given.force(by, tolerance)? / given.penetration()?;
-            (ratio > Exact::zero()).then_some((&given.problem.system, ratio))
-        }));
-        if told.len() < 2 || 2 * told.len() < acting {
+        let told = Vec::from_iter(answers.iter().filter_map(|given| given.ratio(by, tolerance)));
+        let clearest = told.iter().max_by(|a, b| a.clarity.cmp(&b.clarity));
+        let (Some(clearest), true) = (clearest, told.len() >= 2 && 2 * told.len() >= acting) else {
             return Penalty::NONE;
-        }
+        };
         let shown = Kind::ALL.into_iter().filter_map(|kind| {
-            let mut multiples = Vec::from_iter(told.iter().map(|(system, ratio)| ratio / kind.unit(system)));
-            multiples.sort();
-            let spread = &multiples[multiples.len() - 1] / &multiples[0] - Exact::one();
-            let value = multiples.swap_remove(multiples.len() / 2);
+            let multiples = || told.iter().map(|ratio| &ratio.value / kind.unit(ratio.system));
+            let spread = multiples().max()? / multiples().min()? - Exact::one();
+            let value = &clearest.value / kind.unit(clearest.system);
             (spread <= Exact::one()).then_some(Penalty { kind, value: Some(value), spread: Some(spread) })
         });
         match shown.collect::<Vec<_>>().as_slice() {
@@ -150,6 +147,14 @@ struct Given<'a> {
     wrong: bool,
 }
 
+/// N/p, in N/m.
+struct Ratio<'a> {
+    system: &'a SpringMass<Exact>,
+    value: Exact,
+    /// How many times what it may be rounded by in f64 the penetration is.
+    clarity: Exact,
+}
+
 impl<'a> Given<'a> {
     fn of(checked: &'a Checked, tolerance: &Exact) -> Option<Self> {
         let Reply::Answered(answer) = &checked.reply else { return None };
@@ -157,14 +162,18 @@ impl<'a> Given<'a> {
         Some(Given { problem, answer, wrong: checked.judgement.verdict == Verdict::Wrong })
     }
 
-    /// The penetration, if it is more than what the lengths and the deflection may be rounded by in f64, a
-    /// thousand times over.
-    fn penetration(&self) -> Option<Exact> {
-        let u = self.answer.deflection.as_ref()?;
-        let SpringMass { l, h, .. } = &self.problem.system;
-        let rounding = (l.abs() + h.abs() + u.abs()) * Exact::power_of_two(-53);
-        let p = contact::penetration(&self.problem.system, u);
-        (p.abs() > rounding * Exact::from(1000)).then_some(p)
+    /// Force by penetration, if it is positive, and the penetration is a thousand times what the lengths and
+    /// the deflection may be rounded by in f64.
+    fn ratio(&self, by: Measured, tolerance: &Exact) -> Option<Ratio<'_>> {
+        let (force, u) = (self.force(by, tolerance)?, self.answer.deflection.as_ref()?);
+        let system = &self.problem.system;
+        let p = contact::penetration(system, u);
+        let rounding = (system.l.abs() + system.h.abs() + u.abs()) * Exact::power_of_two(-53);
+        if p.is_zero() || p.abs() < Exact::from(1000) * &rounding {
+            return None;
+        }
+        let (value, clarity) = (force / &p, Exact::one() / (rounding / p.abs()));
+        (value > Exact::zero()).then_some(Ratio { system, value, clarity })
     }
 
     /// The force that a penalty would be told by, if there is any.
@@ -186,9 +195,19 @@ impl<'a> Given<'a> {
         let system = &self.problem.system;
         let scales = scales(system);
         let numbers = [&self.answer.deflection, &self.answer.contact_force];
-        let fits = |formulas: &super::mistakes::Formulas| {
+        // What f64 makes of the formulas is theirs, too.
+        let ball = |x: &Exact| Ball::around(&0f64, x).ok();
+        let rounded =
+            system.try_map(|x| ball(x).ok_or(())).ok().map(|system| (system, penalty.and_then(ball)));
+        let within = |x: &Exact, formula: &Tree| {
+            let rounded = rounded.as_ref().and_then(|(system, eps)| value(formula, system, eps.as_ref()));
+            rounded.is_some_and(|ball| ball.is_finite() && ball.contains(x))
+        };
+        let fits = |formulas: &Formulas| {
             (0..2).all(|i| match (numbers[i], value(&formulas[i], system, penalty)) {
-                (Some(own), Some(x)) => (own - &x).abs() <= tolerance * (&scales[i] + x.abs()),
+                (Some(own), Some(x)) => {
+                    (own - &x).abs() <= tolerance * (&scales[i] + x.abs()) || within(own, &formulas[i])
+                }
                 (None, None) => true,
                 _ => false,
             })

@@ -6,7 +6,7 @@
 
 use super::{Answer, Problem, Reply, Value};
 use crate::chapter::contact::{self, Kkt};
-use crate::chapter::{SpringMass, augmented, penalty, structure, system};
+use crate::chapter::{SpringMass, penalty, structure, system};
 use crate::number::{Ball, Exact, PositivePart};
 use crate::solver::{Method, Solution, State, solve};
 use std::fmt;
@@ -117,8 +117,9 @@ fn rounded(problem: &Problem) -> Option<[Ball<f64>; 2]> {
     Some(match &problem.penalty {
         None => [contact::deflection(&system), contact::contact_force(&system)],
         Some(penalty) => {
-            let u = penalty::unilateral_deflection(&system, &read(penalty).ok()?);
-            let n = augmented::contact_force(&system, &u).positive_part();
+            let eps = read(penalty).ok()?;
+            let u = penalty::unilateral_deflection(&system, &eps);
+            let n = penalty::contact_force(&system, &eps, &u).positive_part();
             [u, n]
         }
     })

@@ -59,7 +59,10 @@ impl Mistake {
 
     /// u and N as an expression: `u = min(m g / c, H − l), N = 0`.
     pub fn formula(&self) -> String {
-        let both = |[u, n]: &Formulas| format!("u = {u}, N = {n}");
+        let both = |[u, n]: &Formulas| {
+            let short = n.rewrite(&|tree| (tree == u).then(|| symbols().u.clone()));
+            format!("u = {u}, N = {short}")
+        };
         if self.touching == self.apart {
             both(&self.touching)
         } else {
@@ -68,14 +71,14 @@ impl Mistake {
     }
 }
 
-/// The value of a formula; `None` where it divides by zero.
-pub(super) fn value(tree: &Tree, system: &SpringMass<Exact>, penalty: Option<&Exact>) -> Option<Exact> {
+/// The value of a formula for a system and a penalty; `None` where it divides by zero.
+pub(super) fn value<T: PositivePart>(tree: &Tree, system: &SpringMass<T>, penalty: Option<&T>) -> Option<T> {
     let SpringMass { c, m, g, l, h } = system;
-    let known =
-        [("c", Some(c)), ("m", Some(m)), ("g", Some(g)), ("l", Some(l)), ("H", Some(h)), ("ε", penalty)];
-    let symbol = |name: &str| known.iter().find(|(own, _)| *own == name).and_then(|(_, x)| *x);
+    let known = [("c", c), ("m", m), ("g", g), ("l", l), ("H", h)].into_iter();
+    let known: Vec<_> = known.chain(penalty.map(|eps| ("ε", eps))).collect();
+    let symbol = |name: &str| known.iter().find(|(own, _)| *own == name).map(|(_, x)| (*x).clone());
     let all = tree.symbols().into_iter().all(|name| symbol(name).is_some());
-    all.then(|| tree.replay(&|name| symbol(name).expect("known").clone(), &piecewise)).flatten()
+    all.then(|| tree.replay(&|name| symbol(name).expect("known"), &piecewise)).flatten()
 }
 
 /// The formulas that are right: of Lagrange, or by penalty.
@@ -83,7 +86,9 @@ pub(super) fn right(system: &SpringMass<Tree>, penalty: Option<&Tree>) -> Formul
     match penalty {
         None => [contact::deflection(system), contact::contact_force(system)],
         Some(eps) => {
-            [penalty::unilateral_deflection(system, eps), penalty::force_at_root(system, eps).positive_part()]
+            let u = penalty::unilateral_deflection(system, eps);
+            let n = penalty::contact_force(system, eps, &u).positive_part();
+            [u, n]
         }
     }
 }
@@ -92,7 +97,11 @@ pub(super) fn right(system: &SpringMass<Tree>, penalty: Option<&Tree>) -> Formul
 fn bilateral(system: &SpringMass<Tree>, penalty: Option<&Tree>) -> Formulas {
     match penalty {
         None => [lagrange::deflection(system), lagrange::multiplier(system)],
-        Some(eps) => [penalty::deflection(system, eps), penalty::force_at_root(system, eps)],
+        Some(eps) => {
+            let u = penalty::deflection(system, eps);
+            let n = penalty::contact_force(system, eps, &u);
+            [u, n]
+        }
     }
 }
 

@@ -8,22 +8,24 @@ use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::claims::{all_numbered, entries, numbered};
 use spring_mass_contact::number::{Exact, ToExact};
 use spring_mass_contact::rug::float::Round;
+use std::ffi::OsString;
 use std::fmt::{self, Display};
 
-/// The arguments, if they are plain text: others could only garble the one line of an error.
+/// The arguments, if they are plain text: others could only garble the one line of an error. What follows
+/// `--` is another program's, and only has to be text.
 pub fn plain() -> Result<Vec<String>, Failure> {
-    let mut arguments = Vec::new();
-    for argument in std::env::args_os() {
-        let text = argument
-            .into_string()
-            .map_err(|other| format!("argument {}: must be UTF-8 text", shortened(&format!("{other:?}"))))?;
-        if !text.chars().all(is_visible) {
-            let quoted = shortened(&format!("{text:?}"));
-            return Err(format!("argument {quoted}: must have no control characters").into());
-        }
-        arguments.push(text);
+    let text = |argument: OsString| {
+        let refused = |other| format!("argument {}: must be UTF-8 text", shortened(&format!("{other:?}")));
+        argument.into_string().map_err(refused)
+    };
+    let mut own = std::env::args_os().map(text).collect::<Result<Vec<_>, _>>()?;
+    let end = own.iter().position(|argument| argument == "--").unwrap_or(own.len());
+    let foreign = own.split_off(end);
+    if let Some(argument) = own.iter().find(|argument| !argument.chars().all(is_visible)) {
+        let quoted = shortened(&format!("{argument:?}"));
+        return Err(format!("argument {quoted}: must have no control characters").into());
     }
-    Ok(joined(arguments))
+    Ok([joined(own), foreign].concat())
 }
 
 /// clap takes `-1/2` for an option; joined to the option before it, `--gravity=-1/2`, it is a value. (To

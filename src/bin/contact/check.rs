@@ -1,4 +1,96 @@
 //! `contact check`: holds a program against the exact answer.
 
+mod json;
 mod program;
 mod reply;
+mod report;
+
+use crate::args::{Number, positive};
+use crate::cases::Drawn;
+use crate::output::{self, Exit, Failure};
+use clap::ValueEnum;
+use program::Program;
+use spring_mass_contact::check::check;
+use std::time::Duration;
+
+const EXAMPLES: &str = "\
+Examples:
+  contact check -- python3 my_adapter.py
+  contact check --family stiff --cases 50 -- ./my_solver --tolerance 1e-9
+  contact check --format json -- python3 examples/solvers/scipy_solver.py slsqp
+
+The program is started once. It reads a line from stdin, such as
+  {\"id\": \"contact-1\", \"stiffness\": 100, \"mass\": 1, \"gravity\": 9.81,
+   \"free_length\": 1, \"height\": 1.05}
+(without the line break), and answers with a line on stdout before it is given
+the next one:
+  {\"id\": \"contact-1\", \"deflection\": 0.05, \"contact_force\": 4.81}
+The book's page on checking says what else an answer may have, and how it is
+judged.
+
+Exit status: 0 nothing is wrong; 1 something is, or no answer is right; 2 bad
+input. A refusal, {\"id\": …, \"error\": …}, is not wrong.";
+
+/// Hold a program of your own against the exact answer, and say what is wrong with it
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Options {
+    #[command(flatten)]
+    drawn: Drawn,
+    /// How far off an answer may be, in parts of the system's own scales
+    #[arg(long, value_name = "T", default_value = "1e-6", value_parser = positive)]
+    tolerance: Number,
+    /// How long an answer may take in s, from 0.001 to 1000000
+    #[arg(long, value_name = "S", default_value = "10", value_parser = seconds)]
+    timeout: Duration,
+    /// Ask for the penalty method, with this ε in N/m: the exact answers are its own then
+    #[arg(long, value_name = "E", value_parser = positive)]
+    penalty: Option<Number>,
+    /// How to print the report
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+    /// The program and its arguments; it is started without a shell
+    #[arg(last = true, required = true, num_args = 1.., value_names = ["PROGRAM", "ARG"])]
+    program: Vec<String>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// For people
+    Table,
+    /// Everything; quantities as strings
+    Json,
+    /// For documents: a line a family
+    Markdown,
+}
+
+fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse().ok().filter(|seconds| (1e-3..=1e6).contains(seconds));
+    let seconds = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    seconds.ok_or_else(|| "must be a number of seconds from 0.001 to 1000000".to_string())
+}
+
+/// Checks and reports.
+pub fn run(options: &Options) -> Result<Exit, Failure> {
+    let mut problems = options.drawn.problems();
+    for problem in &mut problems {
+        problem.penalty = options.penalty.as_ref().map(|penalty| penalty.value.clone());
+    }
+    let report = output::with_progress("checking", |progress| {
+        let mut program = Program::new(&options.program, options.timeout);
+        let mut asked = 0;
+        check(&problems, &options.tolerance.value, |problem| {
+            asked += 1;
+            progress(asked, problems.len());
+            program.ask(problem)
+        })
+    })?;
+    let program = shlex::try_join(options.program.iter().map(String::as_str));
+    let program = program.map_err(|error| format!("the program's words: {error}"))?;
+    output::print(|out| match options.format {
+        Format::Table => report::table(out, &program, &report, options.tolerance.text.as_str()),
+        Format::Json => output::json(out, &json::of(&program, &report)),
+        Format::Markdown => report::markdown(out, &report),
+    })?;
+    Ok(if report.holds() { Exit::Fine } else { Exit::Unmet })
+}

@@ -5,7 +5,7 @@
 
 mod advise;
 mod args;
-#[cfg_attr(not(test), allow(dead_code))]
+mod cases;
 mod check;
 mod equations;
 mod json;
@@ -27,12 +27,13 @@ Examples:
   contact solve --height 2 --format json
   contact advise --tolerance 1e-12
   contact sweep --penalty 1..1e18
+  contact check -- python3 my_adapter.py
   contact equations 1.13
   contact prove 1.17
   contact verify --scalar mpfr:1000 --cases 50
 
-Exit status: 0 all well; 1 a claim does not hold, a solve did not converge or
-a tolerance is out of reach; 2 bad input.";
+Exit status: 0 all well; 1 a claim does not hold, a solve did not converge, a
+tolerance is out of reach or a program is wrong; 2 bad input.";
 
 /// A mass on a spring over a rigid plane: contact by Lagrange multiplier, penalty and augmentation
 ///
@@ -51,6 +52,8 @@ enum Command {
     Solve(Box<solve::Options>),
     Advise(Box<advise::Options>),
     Sweep(Box<sweep::Options>),
+    Cases(cases::Options),
+    Check(Box<check::Options>),
     Equations(equations::Options),
     Completions(Completions),
 }
@@ -86,6 +89,8 @@ fn run(cli: Cli) -> Result<Exit, Failure> {
         Some(Command::Solve(options)) => solve::run(&options),
         Some(Command::Advise(options)) => advise::run(&options),
         Some(Command::Sweep(options)) => sweep::run(&options),
+        Some(Command::Cases(options)) => cases::run(&options),
+        Some(Command::Check(options)) => check::run(&options),
         Some(Command::Completions(Completions { shell })) => {
             // The generator panics where it cannot write; into memory it can.
             let mut script = Vec::new();

@@ -249,9 +249,8 @@ impl Lines {
     /// The next line, if it comes so soon.
     fn next(&mut self, soon: Duration) -> Result<&[u8], RecvTimeoutError> {
         if self.start == self.block.len() {
-            self.block = Vec::new();
+            (self.block, self.start) = (Vec::new(), 0);
             self.block = self.blocks.recv_timeout(soon)?;
-            self.start = 0;
         }
         let rest = &self.block[self.start..];
         let line = rest.split(|byte| *byte == b'\n').next().unwrap_or(rest);

@@ -1,0 +1,113 @@
+//! `contact cases`: systems with their exact answers.
+
+use crate::args::spelled;
+use crate::output::{self, Exit, Failure};
+use clap::ValueEnum;
+use serde::Serialize;
+use serde::ser::Serializer;
+use spring_mass_contact::chapter::SpringMass;
+use spring_mass_contact::check::{self, Family, Problem, problems};
+use std::io::{self, Write};
+
+const EXAMPLES: &str = "\
+Examples:
+  contact cases
+  contact cases --family near --family far --cases 100 --seed 7 --format json
+
+Parameters are decimals of at most 12 significant digits, and meant exactly;
+answers are fractions, and exact. They are those of a plane that pushes and never
+pulls. `contact check` puts the same systems to a program.";
+
+/// Print systems with their exact answers: test vectors for any language
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Options {
+    #[command(flatten)]
+    pub drawn: Drawn,
+    /// How to print them
+    #[arg(long, value_enum, default_value_t = Format::Csv)]
+    format: Format,
+}
+
+/// Which systems.
+#[derive(clap::Args)]
+pub struct Drawn {
+    /// Systems of each family, from 1 to 10000
+    #[arg(long, value_name = "N", default_value_t = check::CASES, value_parser = few)]
+    cases: u64,
+    /// Where they are drawn from; the same seed, the same systems, on every machine
+    #[arg(long, value_name = "N", default_value = "1", value_parser = crate::args::whole)]
+    seed: u64,
+    /// Only this family, repeatable: contact, separated, grazing, near, overlap, lifted, stiff, soft,
+    /// far, huge or tiny
+    #[arg(long = "family", value_name = "F")]
+    families: Vec<Family>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// In rows
+    Csv,
+    /// Numbers as strings
+    Json,
+}
+
+fn few(text: &str) -> Result<u64, String> {
+    let few = crate::args::count(text).ok().filter(|count| *count <= 10_000);
+    few.ok_or_else(|| "must be a whole number from 1 to 10000".to_string())
+}
+
+impl Drawn {
+    /// The systems, by families.
+    pub fn problems(&self) -> Vec<Problem> {
+        let wanted = |family: &Family| self.families.is_empty() || self.families.contains(family);
+        let families: Vec<_> = Family::ALL.into_iter().filter(wanted).collect();
+        problems(self.seed, self.cases, &families)
+    }
+}
+
+/// Draws and prints.
+pub fn run(options: &Options) -> Result<Exit, Failure> {
+    let rows: Vec<_> = options.drawn.problems().iter().map(Row::of).collect();
+    output::print(|out| match options.format {
+        Format::Csv => csv(out, &rows),
+        Format::Json => output::json(out, &rows),
+    })
+}
+
+/// The columns.
+const NAMES: [&str; 10] = [
+    "id",
+    "family",
+    "stiffness",
+    "mass",
+    "gravity",
+    "free_length",
+    "height",
+    "deflection",
+    "penetration",
+    "contact_force",
+];
+
+/// A row, in the order of [`NAMES`].
+struct Row([String; 10]);
+
+impl Row {
+    fn of(problem: &Problem) -> Self {
+        let SpringMass { c, m, g, l, h } = problem.system.map(spelled);
+        let exact = problem.solution();
+        let [u, p, n] = [exact.deflection, exact.penetration, exact.contact_force].map(|x| x.to_string());
+        Row([problem.id.clone(), problem.family.to_string(), c, m, g, l, h, u, p, n])
+    }
+}
+
+impl Serialize for Row {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.collect_map(NAMES.iter().zip(&self.0))
+    }
+}
+
+fn csv(out: &mut dyn Write, rows: &[Row]) -> io::Result<()> {
+    writeln!(out, "{}", NAMES.join(","))?;
+    rows.iter().try_for_each(|Row(cells)| writeln!(out, "{}", cells.join(",")))
+}

@@ -1,0 +1,172 @@
+//! The report as JSON has it: quantities as strings, every key always there.
+
+use crate::args::spelled;
+use serde::Serialize;
+use spring_mass_contact::chapter::{SpringMass, contact::Kkt};
+use spring_mass_contact::check::{
+    Answer, Answers, Checked, Diagnosis, Family, Kind, Reply, Report, Row, Summary, Value, Verdict,
+};
+use spring_mass_contact::number::Exact;
+use spring_mass_contact::rug::float::Round;
+use spring_mass_contact::solver::State;
+
+/// Digits of an error.
+const DIGITS: usize = 6;
+
+#[derive(Serialize)]
+pub struct Json<'a> {
+    program: &'a str,
+    cases: usize,
+    given_up: bool,
+    summary: Summary,
+    families: Vec<JsonRow<'a>>,
+    penalty: JsonPenalty,
+    diagnosis: Vec<JsonDiagnosis<'a>>,
+}
+
+#[derive(Serialize)]
+struct JsonRow<'a> {
+    family: Family,
+    cases: usize,
+    verdict: Verdict,
+    worst_deflection: Option<String>,
+    worst_force: Option<String>,
+    counterexample: Option<Counterexample<'a>>,
+}
+
+#[derive(Serialize)]
+struct Counterexample<'a> {
+    request: Request<'a>,
+    answer: Option<JsonAnswer<'a>>,
+    finding: Option<&'a str>,
+    exact: Solved,
+    kkt: Option<JsonKkt>,
+}
+
+#[derive(Serialize)]
+struct Request<'a> {
+    id: &'a str,
+    stiffness: String,
+    mass: String,
+    gravity: String,
+    free_length: String,
+    height: String,
+    penalty: Option<String>,
+}
+
+#[derive(Serialize)]
+struct JsonAnswer<'a> {
+    deflection: Option<String>,
+    contact_force: Option<String>,
+    status: Option<&'a str>,
+}
+
+#[derive(Serialize)]
+struct Solved {
+    state: State,
+    deflection: String,
+    penetration: String,
+    contact_force: String,
+}
+
+#[derive(Serialize)]
+struct JsonKkt {
+    stationarity: String,
+    primal: String,
+    dual: String,
+    complementarity: String,
+}
+
+#[derive(Serialize)]
+struct JsonPenalty {
+    kind: Kind,
+    value: Option<String>,
+    spread: Option<String>,
+}
+
+#[derive(Serialize)]
+struct JsonDiagnosis<'a> {
+    name: &'a str,
+    formula: &'a str,
+    at: &'a [String],
+    answers: Answers,
+    fits: usize,
+    of: usize,
+}
+
+pub fn of<'a>(program: &'a str, report: &'a Report) -> Json<'a> {
+    let penalty = &report.penalty;
+    let row = |row: Row<'a>| JsonRow {
+        family: row.family,
+        cases: row.cases,
+        verdict: row.verdict,
+        worst_deflection: error(&row.worst_deflection),
+        worst_force: error(&row.worst_force),
+        counterexample: (row.verdict > Verdict::WithinTolerance).then(|| counterexample(row.worst)),
+    };
+    let diagnosis = |diagnosis: &'a Diagnosis| {
+        let Diagnosis { name, formula, at, answers, fits, of } = diagnosis;
+        JsonDiagnosis { name, formula, at, answers: *answers, fits: *fits, of: *of }
+    };
+    Json {
+        program,
+        cases: report.checked.len(),
+        given_up: report.given_up,
+        summary: report.summary(),
+        families: report.families().into_iter().map(row).collect(),
+        penalty: JsonPenalty {
+            kind: penalty.kind,
+            value: penalty.value.as_ref().map(|value| value.decimal(DIGITS, Round::Nearest)),
+            spread: error(&penalty.spread),
+        },
+        diagnosis: report.diagnosis.iter().map(diagnosis).collect(),
+    }
+}
+
+fn error(x: &Option<Exact>) -> Option<String> {
+    x.as_ref().map(|x| x.decimal(DIGITS, Round::Up))
+}
+
+fn counterexample(checked: &Checked) -> Counterexample<'_> {
+    let judgement = &checked.judgement;
+    let answer = |answer: &'_ Answer| {
+        let text = |value: &Value| value.as_ref().map(spelled);
+        (text(&answer.deflection), text(&answer.contact_force))
+    };
+    let answer = match &checked.reply {
+        Reply::Answered(given) => {
+            let (deflection, contact_force) = answer(given);
+            Some(JsonAnswer { deflection, contact_force, status: given.status.as_deref() })
+        }
+        _ => None,
+    };
+    let SpringMass { c, m, g, l, h } = checked.problem.system.map(spelled);
+    let residual = |x: &Exact| x.decimal(DIGITS, Round::Nearest);
+    let kkt = |kkt: &Kkt<Exact>| JsonKkt {
+        stationarity: residual(&kkt.stationarity),
+        primal: residual(&kkt.primal),
+        dual: residual(&kkt.dual),
+        complementarity: residual(&kkt.complementarity),
+    };
+    let exact = &judgement.exact;
+    Counterexample {
+        request: Request {
+            id: &checked.problem.id,
+            stiffness: c,
+            mass: m,
+            gravity: g,
+            free_length: l,
+            height: h,
+            penalty: checked.problem.penalty.as_ref().map(spelled),
+        },
+        answer,
+        finding: judgement.finding.as_deref(),
+        exact: Solved {
+            state: exact.state,
+            deflection: exact.deflection.to_string(),
+            penetration: exact.penetration.to_string(),
+            contact_force: exact.contact_force.to_string(),
+        },
+        kkt: judgement.kkt.as_ref().map(kkt),
+    }
+}

@@ -1,0 +1,188 @@
+//! The report for people, and for documents.
+
+use crate::args::spelled;
+use crate::output::{self, shortened};
+use spring_mass_contact::chapter::contact::Kkt;
+use spring_mass_contact::check::{
+    Answers, Checked, Diagnosis, Kind, Penalty, Reply, Report, Row, Summary, Value, Verdict,
+};
+use spring_mass_contact::number::Exact;
+use spring_mass_contact::rug::float::Round;
+use std::io::{self, Write};
+
+/// Digits of an error, and of a number beside another.
+const FEW: usize = 2;
+const DIGITS: usize = 12;
+
+/// Families of which an example is shown; JSON has all.
+const EXAMPLES: usize = 3;
+
+/// Mistakes that are named if several explain the answers.
+const NAMED: usize = 4;
+
+pub fn table(out: &mut dyn Write, program: &str, report: &Report, tolerance: &str) -> io::Result<()> {
+    let Summary { right, within_tolerance, wrong, refused, crashed, timed_out } = report.summary();
+    let within = format!("within {}", shortened(tolerance));
+    let counts = [
+        (right, "right"),
+        (within_tolerance, &*within),
+        (wrong, "wrong"),
+        (refused, "refused"),
+        (crashed, "crashed"),
+        (timed_out, "not answered in time"),
+    ];
+    let counts = counts.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}"));
+    let counts = format!("{}: {}", report.checked.len(), counts.collect::<Vec<_>>().join(", "));
+    let mut head = output::table();
+    head.add_rows([["program", &shortened(program)], ["systems", &counts]]);
+    writeln!(out, "{}\n", head.trim_fmt())?;
+    let families = report.families();
+    let mut table = output::table();
+    table.set_header(["family", "systems", "verdict", "u off by", "N off by"]);
+    table.add_rows(families.iter().map(|row| cells(row, &within)));
+    output::lines(out, &table)?;
+    let bad: Vec<_> = families.iter().filter(|row| row.verdict > Verdict::WithinTolerance).collect();
+    for row in bad.iter().take(EXAMPLES) {
+        writeln!(out)?;
+        example(out, row.worst)?;
+    }
+    if bad.len() > EXAMPLES {
+        writeln!(out, "\n --format json has an example of each family.")?;
+    }
+    if report.given_up {
+        writeln!(out)?;
+        let few = report.checked.len();
+        output::wrapped(
+            out,
+            " ",
+            1,
+            &format!("It has answered none of the first {few} systems: no more were put."),
+        )?;
+    }
+    if let Some(shown) = penalty(&report.penalty) {
+        writeln!(out)?;
+        output::wrapped(out, " ", 1, &shown)?;
+    }
+    diagnosed(out, &report.diagnosis)
+}
+
+pub fn markdown(out: &mut dyn Write, report: &Report) -> io::Result<()> {
+    writeln!(out, "| family | systems | verdict | u off by | N off by |")?;
+    writeln!(out, "|---|---|---|---|---|")?;
+    report
+        .families()
+        .iter()
+        .try_for_each(|row| writeln!(out, "| {} |", cells(row, "within tolerance").join(" | ")))
+}
+
+fn cells(row: &Row, within: &str) -> [String; 5] {
+    let error = |x: &Option<Exact>| x.as_ref().map_or(String::new(), |x| x.decimal(FEW, Round::Up));
+    let verdict = match row.verdict {
+        Verdict::Right => "right",
+        Verdict::WithinTolerance => within,
+        Verdict::Refused => "refused",
+        Verdict::Wrong => "wrong",
+        Verdict::TimedOut => "not in time",
+        Verdict::Crashed => "crashed",
+    };
+    let verdict = if row.verdict > Verdict::WithinTolerance && row.count < row.cases {
+        format!("{verdict}: {} of {}", row.count, row.cases)
+    } else {
+        verdict.to_string()
+    };
+    let [u, n] = [error(&row.worst_deflection), error(&row.worst_force)];
+    [row.family.to_string(), row.cases.to_string(), verdict, u, n]
+}
+
+/// A system whose answer is not what it should be.
+fn example(out: &mut dyn Write, checked: &Checked) -> io::Result<()> {
+    let mut table = output::table();
+    let mut add = |name: &str, text: String| {
+        table.add_row([name, &text]);
+    };
+    let system = checked.problem.system.map(spelled).to_string();
+    let penalty = checked.problem.penalty.as_ref().map(|eps| format!(", ε = {} N/m", spelled(eps)));
+    add(&checked.problem.id, system + &penalty.unwrap_or_default());
+    let judgement = &checked.judgement;
+    let exact = &judgement.exact;
+    let decimal = |x: &Exact| x.decimal(DIGITS, Round::Nearest);
+    if let Reply::Answered(answer) = &checked.reply {
+        let number = |x: &Value| x.as_ref().map_or("not a number".to_string(), decimal);
+        let status = answer.status.as_ref().map(|status| format!("; it says “{status}”"));
+        let [u, n] = [number(&answer.deflection), number(&answer.contact_force)];
+        add("answer", format!("u = {u} m, N = {n} N{}", status.unwrap_or_default()));
+    }
+    add("exact", format!("u = {} m, N = {} N", decimal(&exact.deflection), decimal(&exact.contact_force)));
+    if let Some(kkt) = &judgement.kkt {
+        let few = |x: &Exact| x.decimal(FEW, Round::Nearest);
+        let Kkt { stationarity, primal, dual, complementarity } = kkt;
+        add(
+            "residuals",
+            format!(
+                "equilibrium {} N, penetration {} m, pull {} N, p N = {} J",
+                few(stationarity),
+                few(primal),
+                few(dual),
+                few(complementarity)
+            ),
+        );
+    }
+    if let Some(finding) = &judgement.finding {
+        add("finding", finding.clone());
+    }
+    output::unbroken(&mut table, &[0]);
+    output::lines(out, &table)
+}
+
+/// What the forces by their penetrations show.
+fn penalty(penalty: &Penalty) -> Option<String> {
+    let value = penalty.value.as_ref()?.decimal(6, Round::Nearest);
+    let spread = penalty.spread.as_ref()?;
+    let eps = match penalty.kind {
+        Kind::None => return None,
+        Kind::Constant => format!("ε = {value} N/m"),
+        Kind::OfStiffness => format!("ε = {value} c"),
+        Kind::OfMass => format!("ε = m × {value}/s²"),
+    };
+    Some(format!(
+        "It acts like a penalty: N = ε p with {eps}, the same wherever it shows, to within {}.",
+        spread.decimal(FEW, Round::Up)
+    ))
+}
+
+fn diagnosed(out: &mut dyn Write, diagnosis: &[Diagnosis]) -> io::Result<()> {
+    match diagnosis {
+        [] => return Ok(()),
+        [only] => {
+            let Diagnosis { name, formula, at, answers, of, .. } = only;
+            let which = match answers {
+                Answers::All => format!("All {of} answers"),
+                Answers::Wrong if *of == 1 => "The wrong answer".to_string(),
+                Answers::Wrong => format!("All {of} wrong answers"),
+                Answers::Steps => format!("The steps of all {of} systems"),
+            };
+            writeln!(out)?;
+            output::wrapped(
+                out,
+                " ",
+                1,
+                &format!("{which} fit one mistake that is known, and no other: {name}."),
+            )?;
+            output::wrapped(out, "   ", 3, formula)?;
+            at.iter().try_for_each(|place| output::wrapped(out, "   ", 3, place))?;
+        }
+        several => {
+            writeln!(out)?;
+            let names: Vec<_> = several.iter().take(NAMED).map(|one| one.name.as_str()).collect();
+            let more = several.len().saturating_sub(NAMED);
+            let more = if more > 0 { format!("; and {more} more") } else { String::new() };
+            let which = if several[0].answers == Answers::All { "All answers" } else { "All wrong answers" };
+            let text = format!(
+                "{which} fit several mistakes that are known: {}{more}. More families or more cases may tell them apart.",
+                names.join("; ")
+            );
+            output::wrapped(out, " ", 1, &text)?;
+        }
+    }
+    Ok(())
+}
