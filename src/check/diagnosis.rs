@@ -1,7 +1,7 @@
 //! What is wrong with a solver: which known mistake its answers fit.
 
-use super::judge::scales;
-use super::mistakes::{Formulas, Measured, Mistake, mistakes, value};
+use super::judge::{is_within, rounded, scales};
+use super::mistakes::{Formulas, Measured, Mistake, mistakes, none, value};
 use super::{Answer, Checked, Problem, Reply, Verdict};
 use crate::chapter::{SpringMass, augmented, contact, system};
 use crate::claims::registry;
@@ -201,7 +201,7 @@ impl<'a> Given<'a> {
             system.try_map(|x| ball(x).ok_or(())).ok().map(|system| (system, penalty.and_then(ball)));
         let within = |x: &Exact, formula: &Tree| {
             let rounded = rounded.as_ref().and_then(|(system, eps)| value(formula, system, eps.as_ref()));
-            rounded.is_some_and(|ball| ball.is_finite() && ball.contains(x))
+            rounded.is_some_and(|ball| is_within(&ball, x))
         };
         let fits = |formulas: &Formulas| {
             (0..2).all(|i| match (numbers[i], value(&formulas[i], system, penalty)) {
@@ -217,6 +217,14 @@ impl<'a> Given<'a> {
         let open = reaction.abs() <= tolerance * &scales[1];
         (open || reaction > Exact::zero()) && fits(&mistake.touching)
             || (open || reaction <= Exact::zero()) && fits(&mistake.apart)
+    }
+
+    /// Is it as far off as single precision may take what is right?
+    fn is_single(&self) -> bool {
+        let numbers = [&self.answer.deflection, &self.answer.contact_force];
+        rounded(&0f32, &self.problem).is_some_and(|balls| {
+            balls.iter().zip(numbers).all(|(ball, x)| x.as_ref().is_some_and(|x| is_within(ball, x)))
+        })
     }
 
     /// Is the force of each step that of the step before? `None` if the steps do not tell.
@@ -259,16 +267,20 @@ pub(super) fn diagnose(checked: &[Checked], shown: &Penalty, tolerance: &Exact) 
         let fits = |mistake: &Mistake, given: &Given| {
             given.fits(mistake, penalty_of(mistake, given).as_ref(), tolerance)
         };
-        let whole = all.iter().filter(|mistake| answers.iter().all(|given| fits(mistake, given)));
-        let diagnosis = |mistake: &Mistake| Diagnosis {
-            name: mistake.name.clone(),
-            formula: mistake.formula(),
-            at: mistake.at.clone(),
+        let diagnosis = |name: &str, formula: String, at: &[String]| Diagnosis {
+            name: name.to_string(),
+            formula,
+            at: at.to_vec(),
             answers: which,
             fits: answers.len(),
             of: answers.len(),
         };
-        whole.map(diagnosis).collect::<Vec<_>>()
+        let single = answers.iter().all(|given| given.is_single());
+        let single =
+            single.then(|| diagnosis("it computes in single precision", none(by_penalty).formula(), &[]));
+        let whole = all.iter().filter(|mistake| answers.iter().all(|given| fits(mistake, given)));
+        let known = whole.map(|mistake| diagnosis(&mistake.name, mistake.formula(), &mistake.at));
+        single.into_iter().chain(known).collect::<Vec<_>>()
     };
     let of_all = explaining(Answers::All, &answers.iter().collect::<Vec<_>>());
     found.extend(if of_all.is_empty() { explaining(Answers::Wrong, &wrong) } else { of_all });

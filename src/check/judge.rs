@@ -7,7 +7,7 @@
 use super::{Answer, Problem, Reply, Value};
 use crate::chapter::contact::{self, Kkt};
 use crate::chapter::{SpringMass, penalty, structure, system};
-use crate::number::{Ball, Exact, PositivePart};
+use crate::number::{Ball, Exact, PositivePart, Real, ToExact};
 use crate::solver::{Method, Solution, State, solve};
 use std::fmt;
 
@@ -110,9 +110,9 @@ pub(super) fn scales(system: &SpringMass<Exact>) -> [Exact; 2] {
     [gap.abs() + free.abs(), weight.abs() + (&system.c * gap).abs()]
 }
 
-/// Where f64 may take the formulas of u and N, if the parameters fit.
-fn rounded(problem: &Problem) -> Option<[Ball<f64>; 2]> {
-    let read = |x: &Exact| Ball::around(&0f64, x);
+/// Where floats may take the formulas of u and N, if the parameters fit; `like` is one of them.
+pub(super) fn rounded<T: Real + ToExact>(like: &T, problem: &Problem) -> Option<[Ball<T>; 2]> {
+    let read = |x: &Exact| Ball::around(like, x);
     let system = problem.system.try_map(read).ok()?;
     Some(match &problem.penalty {
         None => [contact::deflection(&system), contact::contact_force(&system)],
@@ -123,6 +123,11 @@ fn rounded(problem: &Problem) -> Option<[Ball<f64>; 2]> {
             [u, n]
         }
     })
+}
+
+/// Is a number where floats may take a formula?
+pub(super) fn is_within<T: Real + ToExact>(ball: &Ball<T>, x: &Exact) -> bool {
+    ball.is_finite() && ball.contains(x)
 }
 
 impl Judgement {
@@ -155,27 +160,23 @@ impl Judgement {
         let error = |i: usize| numbers[i].as_ref().map(|x| (x - expected[i]).abs() / &scales[i]);
         let errors = [error(0), error(1)];
         let near = |error: &Option<Exact>| error.as_ref().is_some_and(|error| error <= tolerance);
-        let balls = rounded(problem);
+        let balls = rounded(&0f64, problem);
         let to_rounding = |i: usize| match (&balls, numbers[i]) {
-            (Some(balls), Some(x)) => balls[i].is_finite() && balls[i].contains(x),
+            (Some(balls), Some(x)) => is_within(&balls[i], x),
             _ => false,
         };
-        let finding = penetrates_otherwise(problem, answer, tolerance);
         let right = |i: usize| numbers[i].as_ref() == Some(expected[i]) || to_rounding(i);
-        let verdict = if finding.is_some() {
-            Verdict::Wrong
-        } else if right(0) && right(1) {
-            Verdict::Right
-        } else if errors.iter().enumerate().all(|(i, error)| near(error) || right(i)) {
-            Verdict::WithinTolerance
+        let well = errors.iter().enumerate().all(|(i, error)| near(error) || right(i));
+        let finding = if well {
+            penetrates_otherwise(problem, answer, tolerance)
         } else {
-            Verdict::Wrong
+            wrong_state(numbers, exact.state, &errors, tolerance, &scales)
         };
-        let finding = finding.or_else(|| {
-            (verdict == Verdict::Wrong)
-                .then(|| wrong_state(numbers, exact.state, &errors, tolerance, &scales))
-                .flatten()
-        });
+        let verdict = match (well, &finding) {
+            (true, None) if right(0) && right(1) => Verdict::Right,
+            (true, None) => Verdict::WithinTolerance,
+            _ => Verdict::Wrong,
+        };
         let kkt = match numbers {
             [Some(u), Some(n)] => Some(contact::kkt(&problem.system, u, n)),
             _ => None,

@@ -60,7 +60,8 @@ impl Mistake {
     /// u and N as an expression: `u = min(m g / c, H − l), N = 0`.
     pub fn formula(&self) -> String {
         let both = |[u, n]: &Formulas| {
-            let short = n.rewrite(&|tree| (tree == u).then(|| symbols().u.clone()));
+            let is_u = |tree: &Tree| tree.site() == u.site() && tree == u;
+            let short = n.rewrite(&|tree| is_u(tree).then(|| symbols().u.clone()));
             format!("u = {u}, N = {short}")
         };
         if self.touching == self.apart {

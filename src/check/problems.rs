@@ -229,8 +229,10 @@ impl Draw {
                 self.ordinary([1, 3], part)
             }
             Family::Lifted => {
-                // Upwards it goes until the spring holds it; a plane above that is in the way.
-                let part = if self.number % 2 == 1 { -self.part() } else { Exact::from(2) * self.part() };
+                // It rises until the spring holds it; only a plane that is higher still is in the way.
+                let part = Exact::from(1) / self.part();
+                let above = self.number % 2 == 1 || self.between(0, 1) == 0;
+                let part = if above { -part } else { part };
                 let SpringMass { c, m, g, l, h } = self.ordinary([1, 3], part);
                 SpringMass { c, m, g: -g, l, h }
             }

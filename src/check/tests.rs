@@ -2,12 +2,15 @@
 
 use super::mistakes::{Mistake, every, mistakes, none, value, values};
 use super::*;
-use crate::chapter::system;
+use crate::chapter::{SpringMass, contact, structure, system};
 use crate::claims::given;
-use crate::formula::{Claim, Kind, Statement};
+use crate::formula::{self, Claim, Statement};
+use crate::number::{PositivePart, ToExact};
 use crate::proof::prove;
+use crate::solver::{Augmentation, Method, State, solve};
 use num_traits::Zero;
-use std::collections::HashMap;
+use rug::float::Round;
+use std::collections::{HashMap, HashSet};
 use std::convert::Infallible;
 
 const TOLERANCE: &str = "1e-6";
@@ -70,7 +73,7 @@ fn what_is_taken_for_the_same_is_proved_to_be() {
             let same = &kept[&values(&mistake)];
             let pairs = [(&same.touching, &mistake.touching), (&same.apart, &mistake.apart)];
             for (a, b) in pairs.into_iter().flat_map(|(a, b)| a.iter().zip(b)) {
-                let claim = Claim::new("same", &given, Kind::Equal(a.clone(), b.clone()));
+                let claim = Claim::new("same", &given, formula::Kind::Equal(a.clone(), b.clone()));
                 assert!(
                     a == b || prove(&Statement::of(&claim)).is_ok(),
                     "{} and {}: {a} and {b}",
@@ -80,4 +83,291 @@ fn what_is_taken_for_the_same_is_proved_to_be() {
             }
         }
     }
+}
+
+/// The same in f64, as a program would, that reads the decimals of a request.
+#[test]
+fn rounding_hides_no_mistake() {
+    for mistake in mistakes(false) {
+        let solve = |problem: &Problem| {
+            let system = problem.system.try_map(Exact::to_f64).unwrap();
+            let [u, n] = mistake.formulas(system::reaction(&system) > 0.0);
+            let number = |tree| {
+                let infinite = |x: f64| x.to_exact().ok();
+                value(tree, &system, mistake.measured.map(|_| &3e5)).and_then(infinite)
+            };
+            Answer { deflection: number(u), contact_force: number(n), ..Answer::default() }
+        };
+        let report = run(&default_problems(), solve);
+        let found: Vec<_> = report.diagnosis.iter().map(|d| d.name.as_str()).collect();
+        assert!(!report.holds() && found == [&mistake.name], "{}: {found:?}", mistake.name);
+    }
+}
+
+fn right(problem: &Problem) -> Answer {
+    let exact = problem.solution();
+    Answer::new(exact.deflection, exact.contact_force)
+}
+
+#[test]
+fn what_is_right_is_not_diagnosed() {
+    for problems in [default_problems(), with_penalties(default_problems())] {
+        let in_f64 = |problem: &Problem| {
+            let system = problem.system.try_map(Exact::to_f64).unwrap();
+            let method = match &problem.penalty {
+                None => Method::Lagrange,
+                Some(penalty) => Method::Penalty { penalty: penalty.to_f64().unwrap() },
+            };
+            let answer = solve(&system, &method).unwrap();
+            let [u, n] = [answer.deflection, answer.contact_force].map(|x| x.to_exact().unwrap());
+            Answer { penetration: Some(answer.penetration.to_exact().ok()), ..Answer::new(u, n) }
+        };
+        for report in [run(&problems, right), run(&problems, in_f64)] {
+            assert_eq!(report.summary(), Summary { right: problems.len(), ..Summary::default() });
+            assert!(report.holds() && report.diagnosis.is_empty());
+        }
+    }
+}
+
+/// Off by the tolerance is within, by a little more is not: u and N each on its own scale.
+#[test]
+fn the_tolerance_is_the_border() {
+    let problem = &problems(1, 1, &[Family::Contact])[0];
+    let SpringMass { c, .. } = &problem.system;
+    let [gap, weight] = [system::gap(&problem.system), system::weight(&problem.system)];
+    let scales = [&gap + &weight / c, &weight + c * &gap];
+    for (i, factor, verdict) in [
+        (0, "1", Verdict::WithinTolerance),
+        (0, "-1", Verdict::WithinTolerance),
+        (0, "1.0000001", Verdict::Wrong),
+        (0, "-1.0000001", Verdict::Wrong),
+        (1, "1", Verdict::WithinTolerance),
+        (1, "1.0000001", Verdict::Wrong),
+        (1, "-1.0000001", Verdict::Wrong),
+    ] {
+        let mut answer = right(problem);
+        let number_of = if i == 0 { &mut answer.deflection } else { &mut answer.contact_force };
+        *number_of = number_of.take().map(|x| x + number(factor) * number(TOLERANCE) * &scales[i]);
+        let judgement = Judgement::of(problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE));
+        assert_eq!(judgement.verdict, verdict, "{i}, {factor}");
+        assert_eq!(judgement.error(), Some(&(number(factor) * number(TOLERANCE)).abs()));
+    }
+}
+
+/// What an answer says besides is held against it.
+#[test]
+fn findings_say_what_is_wrong() {
+    let problem = &problems(1, 1, &[Family::Contact])[0];
+    let finding = |change: &dyn Fn(&mut Answer)| {
+        let mut answer = right(problem);
+        change(&mut answer);
+        let judgement = Judgement::of(problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE));
+        (judgement.verdict, judgement.finding.unwrap_or_default())
+    };
+    let wrong = |change: &dyn Fn(&mut Answer), text: &str| {
+        let (verdict, finding) = finding(change);
+        assert!(verdict == Verdict::Wrong && finding.contains(text), "{verdict}: {finding}");
+    };
+    let more = |x: &Exact| Some(Some(x * number("1.01")));
+    let system = &problem.system;
+    wrong(&|answer| answer.deflection = None, "its deflection is not a number");
+    wrong(&|answer| answer.contact_force = None, "its contact force is not a number");
+    wrong(
+        &|answer| answer.contact_force = Some(Exact::zero()),
+        "says that the mass hangs free; exactly, the",
+    );
+    wrong(
+        &|answer| answer.contact_force = Some(number("-9")),
+        "says that the plane pulls; exactly, the plane p",
+    );
+    wrong(&|answer| answer.penetration = Some(Some(number("0.1"))), "its penetration is 0.1, that of its");
+    wrong(&|answer| answer.penetration = Some(None), "its penetration is not a number");
+    wrong(&|answer| answer.used.system.c = more(&system.c), "took stiffness =");
+    wrong(&|answer| answer.used.system.m = more(&system.m), "took mass =");
+    wrong(&|answer| answer.used.system.g = more(&system.g), "took gravity =");
+    wrong(&|answer| answer.used.system.l = more(&system.l), "took free_length =");
+    wrong(&|answer| answer.used.system.h = more(&system.h), "took height =");
+    wrong(&|answer| answer.used.system.h = Some(None), "took no number for height =");
+    let same = finding(&|answer| answer.used.system.c = Some(Some(system.c.clone())));
+    assert_eq!(same, (Verdict::Right, String::new()));
+}
+
+/// Rounded to single precision, H − l is another gap; the answer is judged by what was used.
+#[test]
+fn an_answer_is_judged_by_what_it_used() {
+    let all = problems(1, 20, &[Family::Far]);
+    let single = |problem: &Problem, says_so: bool| {
+        let used = problem.system.map(|x| x.to_f32().unwrap().to_exact().unwrap());
+        let mut answer = right(&Problem { system: used.clone(), ..problem.clone() });
+        if says_so {
+            answer.used.system = used.map(|x| Some(Some(x.clone())));
+        }
+        answer
+    };
+    let report = run(&all, |problem| single(problem, true));
+    assert_eq!(report.summary(), Summary { right: 20, ..Summary::default() });
+    let report = run(&all, |problem| single(problem, false));
+    assert_eq!(report.named().unwrap().name, "it computes in single precision");
+}
+
+/// Every reply has its own place in the tally, and none but a right answer passes.
+#[test]
+fn every_reply_is_counted() {
+    let all = problems(1, 6, &[Family::Stiff]);
+    let replies = |problem: &Problem| {
+        let answer = |off: &str| {
+            let mut answer = right(problem);
+            answer.deflection = answer.deflection.map(|u| u * number(off));
+            Reply::Answered(Box::new(answer))
+        };
+        match problem.id.as_str() {
+            "stiff-1" => answer("1"),
+            "stiff-2" => answer("1.0000001"),
+            "stiff-3" => Reply::Refused("too stiff".into()),
+            "stiff-4" => Reply::Garbled("who?".into()),
+            "stiff-5" => Reply::Crashed("signal".into()),
+            _ => Reply::TimedOut,
+        }
+    };
+    let judged = |problems: &[Problem]| {
+        check(problems, &number(TOLERANCE), |problem| Ok::<_, Infallible>(replies(problem))).unwrap()
+    };
+    let report = judged(&all);
+    let one_each = Summary { right: 1, within_tolerance: 1, wrong: 1, refused: 1, crashed: 1, timed_out: 1 };
+    assert_eq!(report.summary(), one_each);
+    let worst = &report.families()[0];
+    assert_eq!((worst.verdict, worst.count, worst.cases), (Verdict::Crashed, 1, 6));
+    assert_eq!(worst.worst.problem.id, "stiff-5");
+    // Alone; the refusal beside a right answer; the refusal alone.
+    let holds = |of: &[usize]| judged(&of.iter().map(|i| all[*i].clone()).collect::<Vec<_>>()).holds();
+    assert_eq!([0, 1, 2, 3, 4, 5].map(|i| holds(&[i])), [true, true, false, false, false, false]);
+    assert_eq!([1, 2, 3, 4, 5].map(|i| holds(&[0, i])), [true, true, false, false, false]);
+    assert_eq!([3, 4, 5].map(|i| holds(&[i, 0])), [false; 3]);
+}
+
+#[test]
+fn who_never_answers_is_left_alone() {
+    let all = default_problems();
+    let mut asked = 0;
+    let mut silent = |answers_at: usize| {
+        asked = 0;
+        let report = check(&all, &number(TOLERANCE), |problem| {
+            asked += 1;
+            let answered = || Reply::Answered(Box::new(right(problem)));
+            Ok::<_, Infallible>(if asked == answers_at { answered() } else { Reply::TimedOut })
+        });
+        let report = report.unwrap();
+        (report.given_up, report.checked.len())
+    };
+    assert_eq!(silent(usize::MAX), (true, 3));
+    assert_eq!(silent(3), (false, all.len()));
+    assert_eq!(silent(4), (true, 3));
+}
+
+/// By penalty, with a multiple of something.
+fn by_penalty(eps: impl Fn(&SpringMass<Exact>) -> Exact) -> Report {
+    run(&default_problems(), |problem| {
+        let asked = Problem { penalty: Some(eps(&problem.system)), ..problem.clone() };
+        right(&asked)
+    })
+}
+
+#[test]
+fn a_penalty_shows_what_it_is_a_multiple_of() {
+    let shown = |report: Report| {
+        let Penalty { kind, value, spread } = report.penalty.clone();
+        assert_eq!(spread, Some(Exact::zero()));
+        assert_eq!(report.named().unwrap().name, "it is the penalty method");
+        (kind, value.unwrap())
+    };
+    assert_eq!(shown(by_penalty(|_| number("1e4"))), (Kind::Constant, number("1e4")));
+    assert_eq!(shown(by_penalty(|system| &system.c * number("50"))), (Kind::OfStiffness, number("50")));
+    assert_eq!(shown(by_penalty(|system| &system.m * number("7e3"))), (Kind::OfMass, number("7e3")));
+    // A multiple of something else is no penalty that we know.
+    let of_gravity = by_penalty(|system| system.g.abs() * number("7e3"));
+    assert_eq!((of_gravity.penalty.kind, of_gravity.named()), (Kind::None, None));
+    assert_eq!(run(&default_problems(), right).penalty.kind, Kind::None);
+}
+
+/// (1.16) with ε = 3 c, a step after the other; the force of each is that of the step before, or its own.
+fn steps(problem: &Problem, lagging: bool) -> Answer {
+    let eps = &problem.system.c * number("3");
+    let mut before = Exact::zero();
+    let mut steps = Vec::new();
+    for step in Augmentation::new(&problem.system, &eps).take(12) {
+        let force = if lagging { before } else { step.contact_force.clone() };
+        steps.push([Some(step.deflection), Some(force)]);
+        before = step.contact_force;
+    }
+    Answer { steps, ..right(problem) }
+}
+
+#[test]
+fn a_force_that_lags_is_told_from_one_that_does_not() {
+    let report = run(&default_problems(), |problem| steps(problem, true));
+    let lag = report.named().unwrap();
+    assert_eq!((lag.name.as_str(), lag.answers), ("N is one step behind", Answers::Steps));
+    assert_eq!(lag.formula, "N_k = m g − c u_{k−1}");
+    assert!(!report.holds() && report.summary().right == report.checked.len());
+    let report = run(&default_problems(), |problem| steps(problem, false));
+    assert!(report.holds() && report.diagnosis.is_empty());
+    // One system in which it does not is enough.
+    let report = run(&default_problems(), |problem| steps(problem, problem.id != "contact-2"));
+    assert!(report.holds() && report.diagnosis.is_empty());
+}
+
+/// Of the wrong answers alone: a tolerance in metres that lets the mass hang free.
+#[test]
+fn what_is_wrong_in_some_systems_is_diagnosed_of_those() {
+    let report = run(&problems(1, 20, &Family::ALL), |problem| {
+        let free = structure::deflection(&problem.system);
+        let slack = contact::penetration(&problem.system, &free) < number("1e-6");
+        if slack { Answer::new(free, Exact::zero()) } else { right(problem) }
+    });
+    let names: Vec<_> = report.diagnosis.iter().map(|d| (d.name.as_str(), d.answers)).collect();
+    assert!(names.contains(&("there is no plane", Answers::Wrong)), "{names:?}");
+    let wrong = report.summary().wrong;
+    assert!(report.diagnosis.iter().all(|d| (d.fits, d.of) == (wrong, wrong)) && wrong > 0);
+}
+
+#[test]
+fn families_are_what_they_say() {
+    let all = problems(1, 40, &Family::ALL);
+    let short = |x: &Exact| x.decimal(DIGITS, Round::Nearest).parse().as_ref() == Ok(x);
+    for Problem { id, family, system, .. } in &all {
+        let SpringMass { c, m, g, l, h } = system;
+        assert!([c, m, g, l, h].into_iter().all(short), "{id}: {system}");
+        let (gap, state) = (system::gap(system), State::of(system));
+        let (zero, free) = (Exact::zero(), structure::deflection(system));
+        let between = |x: &Exact, low: &str, high: &str| number(low) <= *x && *x < number(high);
+        let holds = match family {
+            Family::Contact => state == State::Contact && gap > zero,
+            Family::Separated => state == State::Separated && *g > zero,
+            Family::Grazing => state == State::Grazing,
+            Family::Near => {
+                // A unit of the twelfth digit of a number that has a part in m g or in c Δ.
+                let part = system::reaction(system).abs() / system::weight(system).abs();
+                !part.is_zero() && part < number("1e-8")
+            }
+            Family::Overlap => gap < zero,
+            Family::Lifted => *g < zero,
+            Family::Stiff => between(c, "1e7", "1e10"),
+            Family::Soft => between(c, "1e-4", "1e-1"),
+            Family::Far => l.abs() > number("100") * (gap.abs() + free.abs()) && l.abs() >= number("1000"),
+            Family::Huge => [c, m, l].into_iter().all(|x| between(x, "1e6", "1e14")),
+            Family::Tiny => [c, m, l].into_iter().all(|x| between(x, "1e-14", "1e-6")),
+        };
+        assert!(holds, "{id}: {system}");
+    }
+    let states = |family: Family| {
+        let of = all.iter().filter(|problem| problem.family == family);
+        of.map(|problem| State::of(&problem.system)).collect::<HashSet<_>>()
+    };
+    use Family::*;
+    for family in [Near, Lifted, Stiff, Soft, Far, Huge, Tiny] {
+        assert_eq!(states(family), HashSet::from([State::Contact, State::Separated]), "{family}");
+    }
+    // The systems of a seed are its own, and those of a family do not depend on the others.
+    assert_eq!(problems(1, 3, &[Stiff]), problems(1, 40, &Family::ALL)[240..243]);
+    assert_ne!(problems(2, 3, &[Stiff]), problems(1, 3, &[Stiff]));
 }

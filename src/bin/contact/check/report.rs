@@ -41,6 +41,13 @@ pub fn table(out: &mut dyn Write, program: &str, report: &Report, tolerance: &st
     table.set_header(["family", "systems", "verdict", "u off by", "N off by"]);
     table.add_rows(families.iter().map(|row| cells(row, &within)));
     output::lines(out, &table)?;
+    writeln!(out)?;
+    output::wrapped(
+        out,
+        " ",
+        1,
+        &output::glued(&"u: in parts of |H − l| + |m g / c|; N: of |m g| + |c (H − l)|."),
+    )?;
     let bad: Vec<_> = families.iter().filter(|row| row.verdict > Verdict::WithinTolerance).collect();
     for row in bad.iter().take(EXAMPLES) {
         writeln!(out)?;
@@ -96,42 +103,40 @@ fn cells(row: &Row, within: &str) -> [String; 5] {
 
 /// A system whose answer is not what it should be.
 fn example(out: &mut dyn Write, checked: &Checked) -> io::Result<()> {
-    let mut table = output::table();
-    let mut add = |name: &str, text: String| {
-        table.add_row([name, &text]);
+    let id = &checked.problem.id;
+    let width = id.len().max("residuals".len());
+    let mut line = |name: &str, text: String| {
+        output::wrapped(out, &format!(" {name:<width$}  "), width + 3, &output::glued(&text))
     };
     let system = checked.problem.system.map(spelled).to_string();
     let penalty = checked.problem.penalty.as_ref().map(|eps| format!(", ε = {} N/m", spelled(eps)));
-    add(&checked.problem.id, system + &penalty.unwrap_or_default());
+    line(id, system + &penalty.unwrap_or_default())?;
     let judgement = &checked.judgement;
     let exact = &judgement.exact;
     let decimal = |x: &Exact| x.decimal(DIGITS, Round::Nearest);
     if let Reply::Answered(answer) = &checked.reply {
-        let number = |x: &Value| x.as_ref().map_or("not a number".to_string(), decimal);
+        let number = |name: &str, x: &Value, unit: &str| match x {
+            Some(x) => format!("{name} = {} {unit}", decimal(x)),
+            None => format!("{name} is not a number"),
+        };
         let status = answer.status.as_ref().map(|status| format!("; it says “{status}”"));
-        let [u, n] = [number(&answer.deflection), number(&answer.contact_force)];
-        add("answer", format!("u = {u} m, N = {n} N{}", status.unwrap_or_default()));
+        let [u, n] = [number("u", &answer.deflection, "m"), number("N", &answer.contact_force, "N")];
+        line("answer", format!("{u}, {n}{}", status.unwrap_or_default()))?;
     }
-    add("exact", format!("u = {} m, N = {} N", decimal(&exact.deflection), decimal(&exact.contact_force)));
+    line("exact", format!("u = {} m, N = {} N", decimal(&exact.deflection), decimal(&exact.contact_force)))?;
     if let Some(kkt) = &judgement.kkt {
         let few = |x: &Exact| x.decimal(FEW, Round::Nearest);
         let Kkt { stationarity, primal, dual, complementarity } = kkt;
-        add(
-            "residuals",
-            format!(
-                "equilibrium {} N, penetration {} m, pull {} N, p N = {} J",
-                few(stationarity),
-                few(primal),
-                few(dual),
-                few(complementarity)
-            ),
+        let residuals = format!(
+            "equilibrium {} N, penetration {} m, pull {} N, p N = {} J",
+            few(stationarity),
+            few(primal),
+            few(dual),
+            few(complementarity)
         );
+        line("residuals", residuals)?;
     }
-    if let Some(finding) = &judgement.finding {
-        add("finding", finding.clone());
-    }
-    output::unbroken(&mut table, &[0]);
-    output::lines(out, &table)
+    judgement.finding.as_ref().map_or(Ok(()), |finding| line("finding", finding.clone()))
 }
 
 /// What the forces by their penetrations show.
