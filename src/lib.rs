@@ -21,6 +21,10 @@
     feature = "mpfr",
     doc = "| [`mod@verify`] | runs proofs and number systems | the command `contact` |"
 )]
+#![cfg_attr(
+    feature = "mpfr",
+    doc = "| [`mod@check`] | holds somebody else's solver against the exact answer | the command `contact` |"
+)]
 //!
 //! The first three are an engine that knows no mechanics, and serves any other formulas as well; `chapter`
 //! and `solver` are the mechanics, and know no proofs; `claims` joins them. A test holds every module to

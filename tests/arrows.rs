@@ -13,7 +13,7 @@ fn source(path: impl AsRef<Path>) -> String {
 }
 
 /// What each room knows.
-const KNOWS: [(&str, &[&str]); 8] = [
+const KNOWS: [(&str, &[&str]); 9] = [
     ("number", &[]),
     ("formula", &["number"]),
     ("proof", &["number", "formula"]),
@@ -21,7 +21,8 @@ const KNOWS: [(&str, &[&str]); 8] = [
     ("solver", &["number", "formula", "chapter"]),
     ("claims", &["number", "formula", "chapter", "solver"]),
     ("verify", &["number", "formula", "proof", "chapter", "solver", "claims"]),
-    ("bin", &["number", "formula", "proof", "chapter", "solver", "claims", "verify"]),
+    ("check", &["number", "formula", "proof", "chapter", "solver", "claims"]),
+    ("bin", &["number", "formula", "proof", "chapter", "solver", "claims", "verify", "check"]),
 ];
 
 /// The folders of the map under `src`, in its order.

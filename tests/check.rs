@@ -1,0 +1,140 @@
+//! Programs of somebody else's, in their own languages, held against the exact answer.
+
+#![cfg(all(feature = "cli", unix))]
+
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn contact() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_contact"))
+}
+
+fn check(program: &[&str]) -> Output {
+    contact().args(["check", "--format", "json", "--"]).args(program).output().unwrap()
+}
+
+fn report(program: &[&str]) -> (Option<i32>, Value) {
+    let output = check(program);
+    let report = serde_json::from_slice(&output.stdout);
+    (output.status.code(), report.unwrap_or_else(|error| panic!("{program:?}: {error}; {output:?}")))
+}
+
+fn source(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
+}
+
+/// A program compiled into the tests' own folder.
+fn compiled(compiler: &str, path: &str) -> String {
+    let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join(Path::new(path).file_stem().unwrap());
+    let done = Command::new(compiler).arg(source(path)).arg("-o").arg(&program).output().unwrap();
+    assert!(done.status.success(), "{compiler}: {}", String::from_utf8_lossy(&done.stderr));
+    program.to_str().unwrap().to_string()
+}
+
+/// The one mistake that is found, as name and formula.
+fn diagnosed(report: &Value) -> [&str; 2] {
+    let found = report["diagnosis"].as_array().unwrap();
+    assert_eq!(found.len(), 1, "{report:#}");
+    ["name", "formula"].map(|key| found[0][key].as_str().unwrap())
+}
+
+fn has_python() -> bool {
+    let has = Command::new("python3").arg("--version").output().is_ok();
+    if !has {
+        eprintln!("no python3: nothing in Python is tried");
+    }
+    has
+}
+
+#[test]
+fn a_bilateral_program_in_python_is_diagnosed() {
+    if !has_python() {
+        return;
+    }
+    let (status, report) = report(&["python3", source("tests/adapters/bilateral.py").to_str().unwrap()]);
+    assert_eq!(status, Some(1));
+    assert_eq!(diagnosed(&report), ["the plane also pulls", "u = H − l, N = m g − c (H − l)"]);
+}
+
+#[test]
+fn a_penalty_program_in_c_is_diagnosed() {
+    let (status, report) = report(&[&compiled("cc", "tests/adapters/penalty.c")]);
+    assert_eq!(status, Some(1));
+    assert_eq!(diagnosed(&report)[0], "it is the penalty method");
+    let penalty = &report["penalty"];
+    let value: f64 = penalty["value"].as_str().unwrap().parse().unwrap();
+    // Given with six digits.
+    assert_eq!((penalty["kind"].as_str(), value), (Some("constant"), 1e7));
+}
+
+#[test]
+fn a_lagging_program_in_rust_is_diagnosed() {
+    let rustc = std::env::var("RUSTC").unwrap_or("rustc".to_string());
+    let (status, report) = report(&[&compiled(&rustc, "tests/adapters/lagging.rs")]);
+    assert_eq!(status, Some(1));
+    assert_eq!(diagnosed(&report), ["N is one step behind", "N_k = m g − c u_{k−1}"]);
+    // At the end of forty steps nobody sees it.
+    assert_eq!(report["summary"]["wrong"], 0);
+}
+
+#[test]
+fn the_adapter_to_start_from_is_right() {
+    if !has_python() {
+        return;
+    }
+    let (status, report) = report(&["python3", source("examples/adapter.py").to_str().unwrap()]);
+    assert_eq!((status, &report["summary"]["right"]), (Some(0), &report["cases"]), "{report:#}");
+}
+
+/// The command speaks the protocol itself: every method of its own in every number system is what it says.
+#[test]
+fn the_command_can_be_checked_by_itself() {
+    let batch = |options: &str| {
+        let program = format!("{} solve --batch {options}", env!("CARGO_BIN_EXE_contact"));
+        report(&program.split_whitespace().collect::<Vec<_>>())
+    };
+    for (options, diagnosis) in [
+        ("", None),
+        ("--scalar exact", None),
+        ("--scalar mpfr:53", None),
+        ("--scalar f32", Some("it computes in single precision")),
+        ("--bilateral", Some("the plane also pulls")),
+        ("--method penalty --penalty 1e6", Some("it is the penalty method")),
+        (
+            "--method penalty --penalty 1e6 --bilateral",
+            Some("it is the penalty method, and the plane also pulls"),
+        ),
+    ] {
+        let (status, report) = batch(options);
+        match diagnosis {
+            None => {
+                assert_eq!((status, &report["summary"]["right"]), (Some(0), &report["cases"]), "{options}")
+            }
+            Some(name) => assert_eq!((status, diagnosed(&report)[0]), (Some(1), name), "{options}"),
+        }
+    }
+}
+
+/// What `cases` prints is what `solve` finds for it, and what `check` asks.
+#[test]
+fn cases_are_solved_by_their_answers() {
+    let output = contact().args(["cases", "--format", "json"]).output().unwrap();
+    let cases: Vec<Value> = serde_json::from_slice(&output.stdout).unwrap();
+    let csv = contact().args(["cases"]).output().unwrap();
+    let csv = String::from_utf8(csv.stdout).unwrap();
+    assert_eq!(csv.lines().count(), cases.len() + 1);
+    let keys: Vec<_> = csv.lines().next().unwrap().split(',').collect();
+    for (case, row) in cases.iter().zip(csv.lines().skip(1)) {
+        let of = |key: &&str| case[*key].as_str().unwrap();
+        assert_eq!(keys.iter().map(of).collect::<Vec<_>>(), row.split(',').collect::<Vec<_>>());
+        let options = ["stiffness", "mass", "gravity", "free_length", "height"];
+        let options = options.map(|key| format!("--{}={}", key.replace('_', "-"), of(&key)));
+        let solved =
+            contact().args(["solve", "--scalar=exact", "--format=json"]).args(options).output().unwrap();
+        let solved: Value = serde_json::from_slice(&solved.stdout).unwrap();
+        for key in ["deflection", "penetration", "contact_force"] {
+            assert_eq!(solved[key], case[key], "{case}");
+        }
+    }
+}
