@@ -74,8 +74,15 @@ fn exact(value: &Value) -> Exact {
 
 #[test]
 fn prints_what_it_printed() {
+    let contact = std::path::Path::new(env!("CARGO_BIN_EXE_contact"));
+    // `contact check` finds the command by its name, too.
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let folders =
+        contact.parent().map(|own| own.to_path_buf()).into_iter().chain(std::env::split_paths(&path));
+    let path = std::env::join_paths(folders).unwrap();
     trycmd::TestCases::new()
-        .register_bin("contact", std::path::Path::new(env!("CARGO_BIN_EXE_contact")))
+        .register_bin("contact", contact)
+        .env("PATH", path.to_str().unwrap())
         .env("COLUMNS", "80")
         .env("NO_COLOR", "1")
         // Each of the many is over within a second.

@@ -15,8 +15,8 @@ Examples:
   contact cases --family near --family far --cases 100 --seed 7 --format json
 
 Parameters are decimals of at most 12 significant digits, and meant exactly;
-answers are fractions, and exact. They are those of a plane that pushes and never
-pulls. `contact check` puts the same systems to a program.";
+answers are fractions, and exact, for a plane that pushes and never pulls.
+`contact check` puts the same systems to a program.";
 
 /// Print systems with their exact answers: test vectors for any language
 #[derive(clap::Args)]

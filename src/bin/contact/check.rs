@@ -17,7 +17,7 @@ const EXAMPLES: &str = "\
 Examples:
   contact check -- python3 my_adapter.py
   contact check --family stiff --cases 50 -- ./my_solver --tolerance 1e-9
-  contact check --format json -- python3 examples/solvers/scipy_solver.py slsqp
+  contact check --format json -- python3 examples/adapter.py
 
 The program is started once. It reads a line from stdin, such as
   {\"id\": \"contact-1\", \"stiffness\": 100, \"mass\": 1, \"gravity\": 9.81,
@@ -86,7 +86,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
         })
     })?;
     let program = shlex::try_join(options.program.iter().map(String::as_str));
-    let program = program.map_err(|error| format!("the program's words: {error}"))?;
+    let program = reply::words(&program.map_err(|error| format!("the program's words: {error}"))?);
     output::print(|out| match options.format {
         Format::Table => report::table(out, &program, &report, options.tolerance.text.as_str()),
         Format::Json => output::json(out, &json::of(&program, &report)),

@@ -233,7 +233,12 @@ pub fn clap_message(mut error: clap::Error, commands: &[&str]) -> Result<Exit, F
                 _ => None,
             };
             let quote = apart.map_or(String::new(), |name| format!("; quote '{name}'"));
-            format!("{quote}; --help lists what is allowed")
+            let takes_program = matches!(
+                error.get(ContextKind::Usage),
+                Some(ContextValue::StyledStr(usage)) if usage.to_string().contains(" -- ")
+            );
+            let program = if takes_program { "; a program and its arguments stand after --" } else { "" };
+            format!("{quote}{program}; --help lists what is allowed")
         }
         _ => String::new(),
     };

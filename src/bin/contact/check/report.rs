@@ -6,6 +6,7 @@ use spring_mass_contact::chapter::contact::Kkt;
 use spring_mass_contact::check::{
     Answers, Checked, Diagnosis, Kind, Penalty, Reply, Report, Row, Summary, Value, Verdict,
 };
+use spring_mass_contact::formula::GLUE;
 use spring_mass_contact::number::Exact;
 use spring_mass_contact::rug::float::Round;
 use std::io::{self, Write};
@@ -34,7 +35,7 @@ pub fn table(out: &mut dyn Write, program: &str, report: &Report, tolerance: &st
     let counts = counts.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}"));
     let counts = format!("{}: {}", report.checked.len(), counts.collect::<Vec<_>>().join(", "));
     let mut head = output::table();
-    head.add_rows([["program", &shortened(program)], ["systems", &counts]]);
+    head.add_rows([["program", program], ["systems", &counts]]);
     writeln!(out, "{}\n", head.trim_fmt())?;
     let families = report.families();
     let mut table = output::table();
@@ -105,12 +106,11 @@ fn cells(row: &Row, within: &str) -> [String; 5] {
 fn example(out: &mut dyn Write, checked: &Checked) -> io::Result<()> {
     let id = &checked.problem.id;
     let width = id.len().max("residuals".len());
-    let mut line = |name: &str, text: String| {
-        output::wrapped(out, &format!(" {name:<width$}  "), width + 3, &output::glued(&text))
-    };
+    let mut line =
+        |name: &str, text: String| output::wrapped(out, &format!(" {name:<width$}  "), width + 3, &text);
     let system = checked.problem.system.map(spelled).to_string();
     let penalty = checked.problem.penalty.as_ref().map(|eps| format!(", ε = {} N/m", spelled(eps)));
-    line(id, system + &penalty.unwrap_or_default())?;
+    line(id, parts(&(system + &penalty.unwrap_or_default())))?;
     let judgement = &checked.judgement;
     let exact = &judgement.exact;
     let decimal = |x: &Exact| x.decimal(DIGITS, Round::Nearest);
@@ -121,9 +121,12 @@ fn example(out: &mut dyn Write, checked: &Checked) -> io::Result<()> {
         };
         let status = answer.status.as_ref().map(|status| format!("; it says “{status}”"));
         let [u, n] = [number("u", &answer.deflection, "m"), number("N", &answer.contact_force, "N")];
-        line("answer", format!("{u}, {n}{}", status.unwrap_or_default()))?;
+        line("answer", parts(&format!("{u}, {n}")) + &status.unwrap_or_default())?;
     }
-    line("exact", format!("u = {} m, N = {} N", decimal(&exact.deflection), decimal(&exact.contact_force)))?;
+    line(
+        "exact",
+        parts(&format!("u = {} m, N = {} N", decimal(&exact.deflection), decimal(&exact.contact_force))),
+    )?;
     if let Some(kkt) = &judgement.kkt {
         let few = |x: &Exact| x.decimal(FEW, Round::Nearest);
         let Kkt { stationarity, primal, dual, complementarity } = kkt;
@@ -134,9 +137,14 @@ fn example(out: &mut dyn Write, checked: &Checked) -> io::Result<()> {
             few(dual),
             few(complementarity)
         );
-        line("residuals", residuals)?;
+        line("residuals", parts(&residuals))?;
     }
     judgement.finding.as_ref().map_or(Ok(()), |finding| line("finding", finding.clone()))
+}
+
+/// A list whose lines end after its commas.
+fn parts(list: &str) -> String {
+    list.replace(' ', &GLUE.to_string()).replace(&format!(",{GLUE}"), ", ")
 }
 
 /// What the forces by their penetrations show.
