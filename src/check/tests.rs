@@ -371,3 +371,29 @@ fn families_are_what_they_say() {
     assert_eq!(problems(1, 3, &[Stiff]), problems(1, 40, &Family::ALL)[240..243]);
     assert_ne!(problems(2, 3, &[Stiff]), problems(1, 3, &[Stiff]));
 }
+
+#[test]
+fn the_book_names_what_is_known() {
+    let page = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("book/src/check.md");
+    let page = std::fs::read_to_string(page).unwrap();
+    let list = page.split_once("Known are").unwrap().1;
+    let is_edit = |name: &str| name.starts_with("as ") || name.contains(", and as ");
+    for mistake in mistakes(false).iter().filter(|mistake| !is_edit(&mistake.name)) {
+        assert!(list.contains(&mistake.name), "{}", mistake.name);
+    }
+    for family in Family::ALL {
+        assert!(page.contains(&format!("`{family}`")), "{family}");
+    }
+}
+
+/// Where f64 overflows, rounding explains nothing: not any number is right.
+#[test]
+fn what_overflows_explains_nothing() {
+    let problem = Problem { penalty: Some(number("1e305")), ..problems(1, 1, &[Family::Huge]).remove(0) };
+    for (off, verdict) in [("1", Verdict::Right), ("1.1", Verdict::Wrong)] {
+        let mut answer = right(&problem);
+        answer.deflection = answer.deflection.map(|u| u * number(off));
+        let judgement = Judgement::of(&problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE));
+        assert_eq!(judgement.verdict, verdict);
+    }
+}

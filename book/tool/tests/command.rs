@@ -73,8 +73,8 @@ fn the_samples_are_what_the_command_prints() {
     let snapshots: BTreeMap<_, _> =
         files(&root().join("tests/cmd")).iter().flat_map(|path| transcript(&text(path))).collect();
     let mut compared = 0;
-    let proofs = text(&root().join("book/src/proofs.md"));
-    for (command, sample) in transcript(&(page() + &proofs)) {
+    let others = ["proofs", "check"].map(|page| text(&root().join(format!("book/src/{page}.md"))));
+    for (command, sample) in transcript(&(page() + &others.concat())) {
         let Some(snapshot) = snapshots.get(&command).filter(|_| !sample.is_empty()) else { continue };
         assert_eq!(sample.len(), snapshot.len(), "{command}");
         for (line, expected) in sample.iter().zip(snapshot) {
