@@ -232,6 +232,14 @@ fn every_reply_is_counted() {
     let judged = |problems: &[Problem]| {
         check(problems, &number(TOLERANCE), |problem| Ok::<_, Infallible>(replies(problem))).unwrap()
     };
+    // Of two that are wrong the one that is further off is shown.
+    let off = |problem: &Problem| {
+        let mut answer = right(problem);
+        answer.deflection =
+            answer.deflection.map(|u| u * number(if problem.id == "stiff-4" { "3" } else { "2" }));
+        answer
+    };
+    assert_eq!(run(&all, off).families()[0].worst.problem.id, "stiff-4");
     let report = judged(&all);
     let one_each = Summary { right: 1, within_tolerance: 1, wrong: 1, refused: 1, crashed: 1, timed_out: 1 };
     assert_eq!(report.summary(), one_each);
@@ -265,8 +273,8 @@ fn who_never_answers_is_left_alone() {
 }
 
 /// By penalty, with a multiple of something.
-fn by_penalty(eps: impl Fn(&SpringMass<Exact>) -> Exact) -> Report {
-    run(&default_problems(), |problem| {
+fn by_penalty(problems: &[Problem], eps: impl Fn(&SpringMass<Exact>) -> Exact) -> Report {
+    run(problems, |problem| {
         let asked = Problem { penalty: Some(eps(&problem.system)), ..problem.clone() };
         right(&asked)
     })
@@ -274,19 +282,27 @@ fn by_penalty(eps: impl Fn(&SpringMass<Exact>) -> Exact) -> Report {
 
 #[test]
 fn a_penalty_shows_what_it_is_a_multiple_of() {
+    let all = default_problems();
     let shown = |report: Report| {
         let Penalty { kind, value, spread } = report.penalty.clone();
         assert_eq!(spread, Some(Exact::zero()));
         assert_eq!(report.named().unwrap().name, "it is the penalty method");
         (kind, value.unwrap())
     };
-    assert_eq!(shown(by_penalty(|_| number("1e4"))), (Kind::Constant, number("1e4")));
-    assert_eq!(shown(by_penalty(|system| &system.c * number("50"))), (Kind::OfStiffness, number("50")));
-    assert_eq!(shown(by_penalty(|system| &system.m * number("7e3"))), (Kind::OfMass, number("7e3")));
-    // A multiple of something else is no penalty that we know.
-    let of_gravity = by_penalty(|system| system.g.abs() * number("7e3"));
+    assert_eq!(shown(by_penalty(&all, |_| number("1e4"))), (Kind::Constant, number("1e4")));
+    assert_eq!(shown(by_penalty(&all, |system| &system.c * number("50"))), (Kind::OfStiffness, number("50")));
+    assert_eq!(shown(by_penalty(&all, |system| &system.m * number("7e3"))), (Kind::OfMass, number("7e3")));
+    // A multiple of something else is no penalty that we know, be it as alike as g is here.
+    let of_gravity = by_penalty(&problems(1, 9, &[Family::Contact]), |system| system.g.abs() * number("7e3"));
     assert_eq!((of_gravity.penalty.kind, of_gravity.named()), (Kind::None, None));
-    assert_eq!(run(&default_problems(), right).penalty.kind, Kind::None);
+    // Where c and m are the same in all systems, it may be a multiple of either.
+    let alike = |problem: &Problem| {
+        let (c, m) = (number("300"), number("2"));
+        Problem { system: SpringMass { c, m, ..problem.system.clone() }, ..problem.clone() }
+    };
+    let alike: Vec<_> = problems(1, 9, &[Family::Overlap]).iter().map(alike).collect();
+    assert_eq!(by_penalty(&alike, |_| number("1e4")).penalty.kind, Kind::None);
+    assert_eq!(run(&all, right).penalty.kind, Kind::None);
 }
 
 /// (1.16) with ε = 3 c, a step after the other; the force of each is that of the step before, or its own.
@@ -311,7 +327,13 @@ fn a_force_that_lags_is_told_from_one_that_does_not() {
     assert!(!report.holds() && report.summary().right == report.checked.len());
     let report = run(&default_problems(), |problem| steps(problem, false));
     assert!(report.holds() && report.diagnosis.is_empty());
-    // One system in which it does not is enough.
+    // One step in which it does not is enough, and one system.
+    let report = run(&default_problems(), |problem| {
+        let mut answer = steps(problem, true);
+        answer.steps[..2].clone_from_slice(&steps(problem, false).steps[..2]);
+        answer
+    });
+    assert!(report.holds() && report.diagnosis.is_empty());
     let report = run(&default_problems(), |problem| steps(problem, problem.id != "contact-2"));
     assert!(report.holds() && report.diagnosis.is_empty());
 }
