@@ -158,6 +158,9 @@ const PATIENCE: usize = 3;
 ///
 /// # Errors
 /// The first that `ask` returns.
+///
+/// # Panics
+/// A problem's c, m or ε is not greater than 0.
 pub fn check<E>(
     problems: &[Problem],
     tolerance: &Exact,

@@ -9,6 +9,7 @@ use crate::chapter::contact::{self, Kkt};
 use crate::chapter::{SpringMass, penalty, structure, system};
 use crate::number::{Ball, Exact, PositivePart, Real, ToExact};
 use crate::solver::{Method, Solution, State, solve};
+use num_traits::{One, Zero};
 use std::fmt;
 
 /// What to think of an answer; the worse, the greater.
@@ -63,7 +64,10 @@ pub struct Judgement {
 }
 
 impl Problem {
-    /// The exact answer.
+    /// The exact answer: that of (1.6), or of (1.13) and (1.12) for a plane that only pushes.
+    ///
+    /// # Panics
+    /// c, m or ε is not greater than 0.
     pub fn solution(&self) -> Solution<Exact> {
         let method = match &self.penalty {
             None => Method::Lagrange,
@@ -102,12 +106,14 @@ fn brief(x: &Exact) -> String {
     x.decimal(6, rug::float::Round::Nearest)
 }
 
-/// What errors of u, in m, and of N, in N, are measured by.
+/// What errors of u, in m, and of N, in N, are measured by: an SI unit where all that they could be measured
+/// by is zero.
 pub(super) fn scales(system: &SpringMass<Exact>) -> [Exact; 2] {
     let gap = system::gap(system);
     let free = structure::deflection(system);
     let weight = system::weight(system);
-    [gap.abs() + free.abs(), weight.abs() + (&system.c * gap).abs()]
+    let scales = [gap.abs() + free.abs(), weight.abs() + (&system.c * gap).abs()];
+    scales.map(|scale| if scale.is_zero() { Exact::one() } else { scale })
 }
 
 /// Where floats may take the formulas of u and N, if the parameters fit; `like` is one of them.

@@ -50,7 +50,7 @@ fn every_mistake_is_diagnosed_as_itself() {
             let eps = number("3e5");
             let solve = |problem: &Problem| {
                 let eps = problem.penalty.as_ref().or(mistake.measured.map(|_| &eps));
-                answer(&mistake, problem, eps)
+                answer(mistake, problem, eps)
             };
             let report = run(&problems, solve);
             assert!(!report.holds(), "{} holds", mistake.name);
@@ -406,6 +406,19 @@ fn the_book_names_what_is_known() {
     }
     for family in Family::ALL {
         assert!(page.contains(&format!("`{family}`")), "{family}");
+    }
+}
+
+/// No force, and no gap: there is nothing to measure an error by but the unit.
+#[test]
+fn nothing_can_be_measured_by_nothing() {
+    let [c, m] = ["5", "3"].map(number);
+    let system = SpringMass { c, m, g: Exact::zero(), l: number("2"), h: number("2") };
+    let problem = Problem { system, ..problems(1, 1, &[Family::Contact]).remove(0) };
+    for (u, verdict) in [("0", Verdict::Right), ("1e-6", Verdict::WithinTolerance), ("2e-6", Verdict::Wrong)]
+    {
+        let report = run(std::slice::from_ref(&problem), |_| Answer::new(number(u), Exact::zero()));
+        assert_eq!(report.checked[0].judgement.verdict, verdict, "{u}");
     }
 }
 
