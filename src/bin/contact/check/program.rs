@@ -294,3 +294,6 @@ impl Tail {
         text.split(['\n', '\r']).map(words).rfind(|line| !line.is_empty())
     }
 }
+
+#[cfg(all(test, unix))]
+mod tests;

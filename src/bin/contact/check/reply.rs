@@ -203,3 +203,6 @@ fn size(text: &str) -> usize {
 fn refused(text: &str, key: impl Display, why: impl Display) -> String {
     invalid(&words(text), key, why).to_string()
 }
+
+#[cfg(test)]
+mod tests;

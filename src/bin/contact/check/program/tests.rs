@@ -1,0 +1,415 @@
+//! Programs that do what programs do, as scripts.
+
+use super::*;
+use num_traits::One;
+use rustix::process::{Pid, Signal, kill_process};
+use spring_mass_contact::check::Answer;
+use std::fs::{self, File};
+use std::io::BufRead;
+use std::path::{Path, PathBuf};
+use std::process::Child;
+
+/// More than any of these takes on a busy machine.
+const LONG: Duration = Duration::from_secs(20);
+
+/// Enough for none that answers.
+const SHORT: Duration = Duration::from_millis(200);
+
+/// Answers what is asked, and says which process did.
+const ANSWER: &str = r#"
+answer() {
+    id=${line#*'"id": "'}
+    echo "{\"id\": \"${id%%\"*}\", \"deflection\": 1, \"contact_force\": \"1/3\", \"status\": \"$$\"}"
+}
+"#;
+
+const LOOP: &str = "while read -r line; do answer; done";
+
+fn sh(script: &str, timeout: Duration) -> Program {
+    Program::new(&["sh", "-c", &format!("{ANSWER}{script}"), "sh"].map(String::from), timeout)
+}
+
+fn problem(id: &str) -> Problem {
+    let system = SpringMass { c: "1e9", m: "3", g: "-9.81", l: "2", h: "2.00000000001" };
+    Problem { id: id.to_string(), system: system.parse().unwrap(), penalty: None }
+}
+
+fn ask(program: &mut Program, id: &str) -> Reply {
+    program.ask(&problem(id)).unwrap_or_else(|failure| panic!("{failure}"))
+}
+
+/// Which process has answered.
+fn process(reply: &Reply) -> &str {
+    match reply {
+        Reply::Answered(answer) => answer.status.as_deref().expect("its number"),
+        other => panic!("{other:?}"),
+    }
+}
+
+fn crashed(reply: &Reply) -> &str {
+    match reply {
+        Reply::Crashed(how) => how,
+        other => panic!("{other:?}"),
+    }
+}
+
+fn garbled(reply: &Reply) -> &str {
+    match reply {
+        Reply::Garbled(why) => why,
+        other => panic!("{other:?}"),
+    }
+}
+
+/// A pipe with a name, which ends when the last process is gone that has it open.
+struct Fifo(PathBuf);
+
+impl Fifo {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("contact-check-{}-{name}", std::process::id()));
+        let made = Command::new("mkfifo").arg(&path).status().expect("a command of every Unix");
+        assert!(made.success());
+        Fifo(path)
+    }
+
+    /// What a script does to take part.
+    fn open(&self) -> String {
+        open(&self.0)
+    }
+
+    /// Its lines.
+    fn read(&self) -> Receiver<String> {
+        let (path, (to, lines)) = (self.0.clone(), mpsc::channel());
+        thread::spawn(move || {
+            let lines = BufReader::new(File::open(path).expect("a pipe")).lines();
+            lines.map_while(Result::ok).try_for_each(|line| to.send(line))
+        });
+        lines
+    }
+}
+
+impl Drop for Fifo {
+    fn drop(&mut self) {
+        let _ = fs::remove_file(&self.0);
+    }
+}
+
+fn open(path: &Path) -> String {
+    format!("exec 9>'{}'; echo open >&9;", path.display())
+}
+
+/// That somebody was there, and nobody is left.
+fn nobody_is_left(lines: &Receiver<String>) {
+    assert_eq!(lines.recv_timeout(LONG).as_deref(), Ok("open"));
+    assert_eq!(lines.recv_timeout(LONG), Err(RecvTimeoutError::Disconnected));
+}
+
+#[test]
+fn a_request_is_a_line_of_decimals() {
+    let mut asked = problem("a \"b\"\n");
+    let start =
+        r#"{"id": "a \"b\"\n", "stiffness": 1e9, "mass": 3, "gravity": -9.81, "free_length": 2, "height": "#;
+    assert_eq!(request(&asked), format!("{start}2.00000000001}}\n"));
+    asked.penalty = Some("1/3".parse().unwrap());
+    assert_eq!(request(&asked), format!("{start}2.00000000001, \"penalty\": \"1/3\"}}\n"));
+    asked.system = asked.system.map(|_| "-1.23456789012e-14".parse().unwrap());
+    let object: serde_json::Value = serde_json::from_str(&request(&asked)).unwrap();
+    let keys = ["stiffness", "mass", "gravity", "free_length", "height"];
+    assert!(keys.iter().all(|key| object[key].is_number()), "{object}");
+}
+
+#[test]
+fn a_program_is_started_once_and_asked_often() {
+    let mut program = sh(LOOP, LONG);
+    let replies = ["a", "b", "c"].map(|id| ask(&mut program, id));
+    let first = process(&replies[0]);
+    let answer = Answer {
+        deflection: Some(Exact::one()),
+        contact_force: Some("1/3".parse().unwrap()),
+        status: Some(first.to_string()),
+        ..Answer::default()
+    };
+    assert!(replies.iter().all(|reply| *reply == Reply::Answered(Box::new(answer.clone()))), "{replies:?}");
+}
+
+#[test]
+fn the_environment_is_passed_on() {
+    let script = r#"read -r line; echo "{\"id\": \"a\", \"error\": \"$1 $PATH\"}""#;
+    let command = ["sh", "-c", script, "sh", "$HOME *"].map(String::from);
+    let reply = ask(&mut Program::new(&command, LONG), "a");
+    assert_eq!(reply, Reply::Refused(words(&format!("$HOME * {}", std::env::var("PATH").unwrap()))));
+}
+
+#[test]
+fn what_cannot_be_started_is_bad_input() {
+    for words in [&["/no such/program".to_string(), "x".to_string()] as &[String], &["/".to_string()], &[]] {
+        let Err(Failure::Input(line)) = Program::new(words, LONG).ask(&problem("a")) else {
+            panic!("{words:?}");
+        };
+        let name = words.first().map_or("", String::as_str);
+        assert!(
+            line.starts_with(&format!("invalid value '{name}' for '<PROGRAM>...': cannot be started: ")),
+            "{line}"
+        );
+        assert!(line.ends_with("must be the name of a program on the path, or its own path"), "{line}");
+    }
+}
+
+#[test]
+fn lines_that_are_no_object_are_passed_over() {
+    let noise = r#"printf 'hello\n\n[1]\n{oops\n{"id": "a"\n\377\n7\n"id"\n{1}\n\r\nnull\n\0\n'"#;
+    let mut program = sh(&format!("{noise}; while read -r line; do {noise}; answer; {noise}; done"), LONG);
+    let replies = ["a", "b"].map(|id| ask(&mut program, id));
+    assert_eq!(process(&replies[0]), process(&replies[1]));
+}
+
+#[test]
+fn another_id_or_none_is_garbled_and_starts_it_again() {
+    let answers = "\"deflection\": 1, \"contact_force\": 2";
+    let mut program = sh(
+        &format!(
+            "read -r line; case $line in *'\"b\"'*) answer;; *) echo '{{\"id\": \"z\", {answers}}}'; read -r line; answer;; esac"
+        ),
+        LONG,
+    );
+    assert_eq!(garbled(&ask(&mut program, "a")), "answer to 'z' where 'a' was asked");
+    process(&ask(&mut program, "b"));
+
+    let mut program = sh(&format!("read -r line; echo '{{{answers}}}'; {LOOP}"), LONG);
+    assert_eq!(garbled(&ask(&mut program, "a")), "answer without id where 'a' was asked");
+    assert_eq!(garbled(&ask(&mut program, "b")), "answer without id where 'b' was asked");
+}
+
+/// They cannot be meant for what is asked later, whatever their ids are.
+#[test]
+fn an_answer_before_its_question_is_garbled() {
+    let object = |id| format!(r#"{{"id": "{id}", "deflection": 1, "contact_force": 2}}\n"#);
+    let both = format!("read -r line; printf '{}{}'; {LOOP}", object("a"), object("b"));
+    let mut program = sh(&both, LONG);
+    assert!(matches!(ask(&mut program, "a"), Reply::Answered(_)));
+    assert_eq!(garbled(&ask(&mut program, "b")), "answer to 'b' before 'b' was asked");
+    assert_eq!(garbled(&ask(&mut program, "c")), "answer to 'a' where 'c' was asked");
+
+    let mut program =
+        sh(&format!("read -r line; answer; yes '{}'", object("b").trim_end_matches("\\n")), LONG);
+    process(&ask(&mut program, "a"));
+    thread::sleep(SHORT);
+    assert_eq!(garbled(&ask(&mut program, "b")), "answer to 'b' before 'b' was asked");
+}
+
+#[test]
+fn what_cannot_be_read_leaves_the_program_running() {
+    let bad = r#"echo '{"id": "a", "deflection": "twelve", "contact_force": 1}'"#;
+    let refused = r#"echo "{\"id\": \"b\", \"error\": \"$$\"}""#;
+    let mut program = sh(&format!("read -r line; {bad}; read -r line; {refused}; {LOOP}"), LONG);
+    assert!(garbled(&ask(&mut program, "a")).starts_with("invalid value 'twelve' for 'deflection': "));
+    let Reply::Refused(number) = ask(&mut program, "b") else { panic!("no refusal") };
+    assert_eq!(process(&ask(&mut program, "c")), number);
+}
+
+#[test]
+fn an_end_is_a_crash_and_the_next_problem_starts_it_again() {
+    for (end, how) in [
+        ("exit 3", "exit status 3"),
+        ("exit 0", "exit status 0"),
+        ("kill -9 $$", "signal: 9 (SIGKILL)"),
+        ("echo one >&2; echo two >&2; echo >&2; exit 1", "exit status 1; on stderr: two"),
+        ("printf 'no line' >&2; exit 1", "exit status 1; on stderr: no line"),
+        (
+            r"printf '\033[31mred\033[0m \342\200\256\r\n' >&2; exit 1",
+            "exit status 1; on stderr: \u{fffd}[31mred\u{fffd}[0m \u{fffd}",
+        ),
+        (r"yes | head -n 100000 >&2; echo last >&2; exit 1", "exit status 1; on stderr: last"),
+    ] {
+        let script = format!("read -r line; case $line in *'\"a\"'*) {end};; *) answer; {LOOP};; esac");
+        let mut program = sh(&script, LONG);
+        assert_eq!(crashed(&ask(&mut program, "a")), how, "{end}");
+        let [b, c] = ["b", "c"].map(|id| ask(&mut program, id));
+        assert_eq!(process(&b), process(&c), "{end}");
+    }
+    let mut program = sh("head -c 100000 /dev/zero >&2; exit 1", LONG);
+    let how = crashed(&ask(&mut program, "a")).to_string();
+    assert!(how.chars().count() < 300 && how.ends_with('…'), "{how}");
+}
+
+/// It has answered, and then ended: what came is an answer, what comes next is an end.
+#[test]
+fn an_answer_counts_though_the_program_ends_with_it() {
+    let mut program = sh("read -r line; answer; exit 5", LONG);
+    let first = process(&ask(&mut program, "a")).to_string();
+    assert_eq!(crashed(&ask(&mut program, "b")), "exit status 5");
+    assert_ne!(process(&ask(&mut program, "c")), first);
+    let mut program = sh(r#"read -r line; printf '%s' "$(answer)""#, LONG);
+    process(&ask(&mut program, "a"));
+}
+
+#[test]
+fn a_closed_stdout_is_an_end() {
+    let fifo = Fifo::new("closed");
+    let lines = fifo.read();
+    let mut program = sh(&format!("{} exec >&-; echo why >&2; sleep 1000", fifo.open()), LONG);
+    assert_eq!(crashed(&ask(&mut program, "a")), "closed its stdout; on stderr: why");
+    nobody_is_left(&lines);
+}
+
+/// Somebody else holds its pipes: that it has ended is noticed all the same, and nobody is waited for.
+#[test]
+fn an_end_is_noticed_though_the_pipes_stay_open() {
+    let fifo = Fifo::new("held");
+    let lines = fifo.read();
+    let mut program = sh(&format!("{} sleep 1000 & echo why >&2; exit 3", fifo.open()), LONG);
+    assert_eq!(crashed(&ask(&mut program, "a")), "exit status 3; on stderr: why");
+    nobody_is_left(&lines);
+    let mut program = sh("sleep 1000 & read -r line; answer; exit 3", LONG);
+    process(&ask(&mut program, "a"));
+    assert_eq!(crashed(&ask(&mut program, "b")), "exit status 3");
+}
+
+/// Neither its own silence, nor a pipe that it does not read, nor lines without end keep anybody.
+#[test]
+fn a_program_without_an_answer_is_given_up_in_time() {
+    let scripts = [
+        "sleep 1000",
+        "cat >/dev/null; sleep 1000",
+        "yes",
+        "yes '{'",
+        "cat /dev/zero",
+        "yes >&2",
+        "exec <&-; sleep 1000",
+        "trap '' TERM INT HUP PIPE; while :; do sleep 1; done",
+    ];
+    thread::scope(|scope| {
+        for (k, script) in scripts.into_iter().enumerate() {
+            scope.spawn(move || {
+                let (fifo, start) = (Fifo::new(&format!("hang-{k}")), Instant::now());
+                let lines = fifo.read();
+                // More than a pipe holds.
+                let id = "x".repeat(1 << 20);
+                let mut program = sh(&format!("{} {script}", fifo.open()), SHORT);
+                assert_eq!(ask(&mut program, &id), Reply::TimedOut, "{script}");
+                assert!((SHORT..LONG).contains(&start.elapsed()), "{script}: {:?}", start.elapsed());
+                nobody_is_left(&lines);
+            });
+        }
+    });
+}
+
+#[test]
+fn a_hang_does_not_outlive_its_question() {
+    let script = format!("read -r line; case $line in *'\"a\"'*) sleep 1000;; *) answer; {LOOP};; esac");
+    let mut program = sh(&script, Duration::from_secs(1));
+    assert_eq!(ask(&mut program, "a"), Reply::TimedOut);
+    let [b, c] = ["b", "c"].map(|id| ask(&mut program, id));
+    assert_eq!(process(&b), process(&c));
+}
+
+#[test]
+fn a_line_that_is_too_long_is_garbled() {
+    let long =
+        format!(r#"printf '{{"id": "a", "x": "'; head -c {} /dev/zero | tr '\0' x; printf '"}}\n'"#, 1 << 24);
+    let mut program = sh(&format!("read -r line; {long}; {LOOP}"), LONG);
+    assert_eq!(garbled(&ask(&mut program, "a")), "a line must have no more than 16777216 bytes");
+}
+
+/// What it writes on stderr, and on stdout when its stdin is closed, has somewhere to go.
+#[test]
+fn a_program_ends_by_itself_when_nothing_more_is_asked() {
+    let fifo = Fifo::new("end");
+    let lines = fifo.read();
+    let much = "head -c 1000000 /dev/zero";
+    let script = format!(
+        "{} while read -r line; do {much} >&2; answer; done; {much}; {much} >&2; sleep 0.1; echo ended >&9",
+        fifo.open()
+    );
+    let mut program = sh(&script, LONG);
+    let [a, b] = ["a", "b"].map(|id| ask(&mut program, id));
+    assert_eq!(process(&a), process(&b));
+    drop(program);
+    assert_eq!(lines.recv_timeout(LONG).as_deref(), Ok("open"));
+    assert_eq!(lines.recv_timeout(LONG).as_deref(), Ok("ended"));
+    assert_eq!(lines.recv_timeout(LONG), Err(RecvTimeoutError::Disconnected));
+}
+
+#[test]
+fn nobody_is_left_of_a_program_that_does_not_end_by_itself() {
+    for (name, script) in [
+        ("stays", format!("{LOOP}; sleep 1000")),
+        ("leaves", format!("sleep 1000 & {LOOP}")),
+        ("floods", format!("{LOOP}; yes")),
+        ("astray", "read -r line; answer; echo '{}'; sleep 1000".to_string()),
+    ] {
+        let fifo = Fifo::new(name);
+        let lines = fifo.read();
+        let mut program = sh(&format!("{} {script}", fifo.open()), LONG);
+        process(&ask(&mut program, "a"));
+        let start = Instant::now();
+        if name == "astray" {
+            garbled(&ask(&mut program, "b"));
+        }
+        drop(program);
+        assert!(start.elapsed() < LONG, "{name}");
+        nobody_is_left(&lines);
+    }
+}
+
+/// This very test program, to run one of the functions below by itself.
+fn alone(test: &str, path: &Path) -> Child {
+    let mut command = Command::new(std::env::current_exe().expect("its own path"));
+    let name = format!("{}::{test}", module_path!().split_once("::").expect("a crate").1);
+    command.args([&name, "--exact", "--ignored", "--nocapture"]).env("CONTACT_ALONE", path);
+    command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("it runs")
+}
+
+#[test]
+fn a_signal_ends_the_program_as_well() {
+    for signal in [Signal::INT, Signal::TERM] {
+        let fifo = Fifo::new(&format!("signal-{}", signal.as_raw()));
+        let lines = fifo.read();
+        let mut alone = alone("asks_for_ever", &fifo.0);
+        assert_eq!(lines.recv_timeout(LONG).as_deref(), Ok("open"));
+        kill_process(Pid::from_child(&alone), signal).expect("it is there");
+        assert_eq!(alone.wait().expect("a child").code(), Some(130));
+        assert_eq!(lines.recv_timeout(LONG), Err(RecvTimeoutError::Disconnected));
+    }
+}
+
+#[test]
+#[ignore = "run by another"]
+fn asks_for_ever() {
+    if let Some(path) = std::env::var_os("CONTACT_ALONE") {
+        let script = format!("{} sleep 1000 & sleep 1000", open(Path::new(&path)));
+        ask(&mut sh(&script, 5 * LONG), "a");
+    }
+}
+
+/// A few lines are kept of what nobody asked for, and of a line without end no more than a line may have.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_flood_takes_no_memory() {
+    let output = alone("is_flooded", Path::new("")).wait_with_output().expect("a child");
+    let text = String::from_utf8(output.stdout).expect("UTF-8");
+    let peak = text.lines().find_map(|line| line.strip_prefix("peak: ")).unwrap_or_else(|| panic!("{text}"));
+    let peak: usize = peak.trim().trim_end_matches(" kB").parse().expect("a number");
+    // A vector that grows has up to twice the room it needs. What else the tests take is far below one line.
+    assert!(peak * 1024 < 3 * reply::LONGEST, "{peak} kB");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+#[ignore = "run by another"]
+fn is_flooded() {
+    if std::env::var_os("CONTACT_ALONE").is_some() {
+        thread::scope(|scope| {
+            for flood in ["yes", "yes '{\"id\"'", "cat /dev/zero", "yes >&2"] {
+                scope.spawn(move || {
+                    let mut program = sh(&format!("read -r line; answer; {flood}"), 2 * SHORT);
+                    process(&ask(&mut program, "a"));
+                    thread::sleep(2 * SHORT);
+                    assert_eq!(ask(&mut program, "b"), Reply::TimedOut);
+                });
+            }
+        });
+        let status = fs::read_to_string("/proc/self/status").expect("a process");
+        let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).expect("a peak");
+        println!("\npeak: {peak}");
+    }
+}

@@ -1,0 +1,264 @@
+//! Lines that programs print.
+
+use super::*;
+use spring_mass_contact::number::Exact;
+
+fn exact(text: &str) -> Value {
+    Some(text.parse::<Exact>().unwrap())
+}
+
+/// What a line says to the question `a`.
+fn said(line: impl AsRef<[u8]>) -> Result<Reply, String> {
+    let line = line.as_ref();
+    read(line, "a").unwrap_or_else(|| panic!("no object: {}", words(&String::from_utf8_lossy(line))))
+}
+
+/// An answer with this besides its id.
+fn answered(rest: &str) -> Answer {
+    match said(format!(r#"{{"id": "a", {rest}}}"#)) {
+        Ok(Reply::Answered(answer)) => *answer,
+        other => panic!("{rest}: {other:?}"),
+    }
+}
+
+fn garbled(rest: &str) -> String {
+    match said(format!(r#"{{"id": "a", {rest}}}"#)) {
+        Ok(Reply::Garbled(why)) => why,
+        other => panic!("{rest}: {other:?}"),
+    }
+}
+
+/// u and N by these texts.
+fn numbers(u: &str, n: &str) -> [Value; 2] {
+    let Answer { deflection, contact_force, .. } =
+        answered(&format!(r#""deflection": {u}, "contact_force": {n}"#));
+    [deflection, contact_force]
+}
+
+const U: &str = r#""deflection": 1"#;
+const N: &str = r#""contact_force": 2"#;
+
+#[test]
+fn numbers_are_read_by_their_digits() {
+    let third = exact("1/3");
+    assert_eq!(numbers("0.1", r#""1/3""#), [exact("1/10"), third]);
+    assert_eq!(numbers("5e-324", "-1E+3"), [exact("5e-324"), exact("-1000")]);
+    assert_eq!(numbers(r#"" 7 ""#, r#""\u0037.5""#), [exact("7"), exact("7.5")]);
+    let long = format!("0.{}1", "0".repeat(400));
+    assert_eq!(numbers(&long, "1e100000"), [exact(&long), exact("1e100000")]);
+    assert_eq!(numbers("-0", "-0.0e9"), [exact("0"), exact("0")]);
+}
+
+#[test]
+fn what_is_not_a_number_is_an_answer() {
+    for word in [
+        "NaN",
+        "nan",
+        "-nan",
+        "+NAN",
+        "-nan(ind)",
+        "nan(0x7ff)",
+        "Inf",
+        "inf",
+        "-inf",
+        "+inf",
+        "Infinity",
+        "-Infinity",
+        "INFINITY",
+    ] {
+        let quoted = format!("\"{word}\"");
+        assert_eq!(numbers(word, "2"), [None, exact("2")], "{word}");
+        assert_eq!(numbers(&quoted, word), [None, None], "{word}");
+        assert_eq!(answered(&format!("{U}, {N}, \"penetration\": {word}")).penetration, Some(None), "{word}");
+    }
+    assert_eq!(numbers("null", "null"), [None, None]);
+    for word in ["none", "na", "infinite", "-", "nan0", "--nan", "nan("] {
+        let line = format!(r#"{{"id": "a", {U}, "contact_force": {word}}}"#);
+        assert_eq!(read(line.as_bytes(), "a"), None, "{word}");
+    }
+}
+
+/// Only words that stand where a number would are quoted.
+#[test]
+fn strings_are_left_as_they_are() {
+    let status = r#""NaN, [inf] \" , nan \\""#;
+    let answer = answered(&format!("{N},\t\"status\":{status},\"deflection\":NaN"));
+    assert_eq!((answer.deflection, answer.status.as_deref()), (None, Some(r#"NaN, [inf] " , nan \"#)));
+    for text in [r#"{"a": "NaN\"#, r#"{"#, r#"""#, r#""\"#, "", "ε{NaNε"] {
+        assert_eq!(quoted(text), text);
+    }
+    assert_eq!(quoted("[NaN,{inf}:-nan]"), r#"["NaN",{"inf"}:"-nan"]"#);
+}
+
+#[test]
+fn what_cannot_be_read_is_named() {
+    for (value, shown) in [
+        ("\"twelve\"", "twelve"),
+        ("[1]", "[1]"),
+        ("true", "true"),
+        ("{\"x\": 1}", "{\"x\": 1}"),
+        ("\"\"", ""),
+    ] {
+        let why = garbled(&format!("{U}, \"contact_force\": {value}"));
+        assert!(why.starts_with(&format!("invalid value '{shown}' for 'contact_force': ")), "{why}");
+    }
+    let out_of_range = "exponent out of range; it must lie between -100000 and 100000";
+    for value in ["1e100001", "1e-100001", "1e99999999999999999999", "-1e-2147483648"] {
+        let why = garbled(&format!("{N}, \"deflection\": {value}"));
+        assert!(why.starts_with(&format!("invalid value '{value}' for 'deflection': ")), "{why}");
+        assert!(why.ends_with(out_of_range) || why.ends_with("no more than 131072 digits"), "{why}");
+    }
+    let why = garbled(&format!(
+        "{U}, \"contact_force\": \"{}\\n\\u001b\\u202e{}\"",
+        "x".repeat(20),
+        "y".repeat(99)
+    ));
+    assert!(why.contains(&format!("'{} \u{fffd}\u{fffd}{}…'", "x".repeat(20), "y".repeat(16))), "{why}");
+    assert!(
+        garbled(&format!("{U}, {N}, \"used\": {{\"mass\": \"x\"}}"))
+            .starts_with("invalid value 'x' for 'used.mass': ")
+    );
+    assert!(
+        garbled(&format!("{U}, {N}, \"used\": 7"))
+            .starts_with("invalid value '7' for 'used': must be an object")
+    );
+    assert!(
+        garbled(&format!("{U}, {N}, \"steps\": [{{{U}, {N}}}, {{{U}, \"contact_force\": \"x\"}}]"))
+            .starts_with("invalid value 'x' for 'steps[1].contact_force': ")
+    );
+    for steps in ["7", "[7]", "{}"] {
+        let why = garbled(&format!("{U}, {N}, \"steps\": {steps}"));
+        assert_eq!(why, format!("invalid value '{steps}' for 'steps': must be an array of objects"));
+    }
+}
+
+#[test]
+fn what_is_missing_is_named() {
+    assert_eq!(garbled(U), "the key 'contact_force' is missing");
+    assert_eq!(garbled(N), "the key 'deflection' is missing");
+    let steps = format!("{U}, {N}, \"steps\": [{{{U}, {N}}}, {{{N}}}]");
+    assert_eq!(garbled(&steps), "the key 'steps[1].deflection' is missing");
+}
+
+#[test]
+fn a_key_has_one_value() {
+    assert_eq!(garbled(&format!("{U}, {N}, {U}")), "the key 'deflection' used multiple times");
+    let used = format!("{U}, {N}, \"used\": {{\"mass\": 1, \"mass\": 1}}");
+    assert_eq!(garbled(&used), "the key 'used.mass' used multiple times");
+    let twice = format!(r#"{{"id": "a", "id": "b", {U}, {N}}}"#);
+    assert_eq!(
+        said(&twice),
+        Err("answer with the key 'id' used multiple times where 'a' was asked".to_string())
+    );
+    answered(&format!("{U}, {N}, \"x\": 1, \"x\": 2"));
+}
+
+#[test]
+fn all_that_an_answer_may_say_is_read() {
+    let rest = r#""x": [], "deflection": 1, "contact_force": 2, "penetration": "1/7", "status": "ok  so\nfar",
+        "used": {"stiffness": 1, "mass": 2, "gravity": "nan", "free_length": 4, "height": null, "penalty": 6, "x": 1},
+        "steps": [{"deflection": 1, "contact_force": 2}, {"contact_force": NaN, "x": 1, "deflection": "3"}], "": 1"#;
+    let used =
+        SpringMass { c: Some(exact("1")), m: Some(exact("2")), g: Some(None), l: Some(exact("4")), h: None };
+    let answer = Answer {
+        deflection: exact("1"),
+        contact_force: exact("2"),
+        penetration: Some(exact("1/7")),
+        status: Some("ok so far".to_string()),
+        used: Used { system: used, penalty: Some(exact("6")) },
+        steps: vec![[exact("1"), exact("2")], [exact("3"), None]],
+    };
+    assert_eq!(answered(rest), answer);
+    let bare = Answer { deflection: exact("1"), contact_force: exact("2"), ..Answer::default() };
+    assert_eq!(answered(&format!("{U}, {N}")), bare);
+    let nulls = r#""penetration": null, "status": null, "used": null, "steps": null, "error": null"#;
+    assert_eq!(answered(&format!("{U}, {N}, {nulls}")), bare);
+    assert_eq!(answered(&format!("{U}, {N}, \"used\": {{}}, \"steps\": []")), bare);
+    let status = |json: &str| answered(&format!("{U}, {N}, \"status\": {json}")).status;
+    assert_eq!(status("[1, 2.50]").as_deref(), Some("[1, 2.50]"));
+    assert_eq!(status("\"\\u001b[2J\"").as_deref(), Some("\u{fffd}[2J"));
+}
+
+#[test]
+fn an_error_is_a_refusal() {
+    let refused = |error: &str| said(format!(r#"{{"id": "a", "error": {error}, {U}}}"#));
+    let of = |text: &str| Ok(Reply::Refused(text.to_string()));
+    assert_eq!(refused(r#""no\nsuch problem""#), of("no such problem"));
+    assert_eq!(refused(r#"{"code": 7}"#), of(r#"{"code": 7}"#));
+    assert_eq!(refused("\"\""), of(""));
+    assert_eq!(refused(&format!("\"{}\"", "x".repeat(1 << 20))), of(&format!("{}…", "x".repeat(199))));
+    assert_eq!(refused(&format!("\"{}\"", "ε ".repeat(1000))), of(&format!("{}ε…", "ε ".repeat(99))));
+}
+
+#[test]
+fn an_answer_is_to_what_was_asked() {
+    let answer = |id: &str| said(format!(r#"{{"id": {id}, {U}, {N}}}"#));
+    assert!(matches!(answer(r#""\u0061""#), Ok(Reply::Answered(_))));
+    for (id, own) in [
+        ("\"b\"", "b"),
+        ("7", "7"),
+        ("null", "null"),
+        ("[\"a\"]", "[\"a\"]"),
+        ("\"a \"", "a"),
+        ("\"\\ud800\"", "\"\\ud800\""),
+    ] {
+        assert_eq!(answer(id), Err(format!("answer to '{own}' where 'a' was asked")));
+    }
+    let long = format!("\"{}\"", "b".repeat(1000));
+    assert_eq!(answer(&long), Err(format!("answer to '{}…' where 'a' was asked", "b".repeat(39))));
+    assert_eq!(said("{}"), Err("answer without id where 'a' was asked".to_string()));
+    let asked = "a".repeat(100);
+    assert_eq!(
+        read(b"{}", &asked),
+        Some(Err(format!("answer without id where '{}…' was asked", "a".repeat(39))))
+    );
+    assert_eq!(early(b"{\"id\": \"a\"}", "a").as_deref(), Some("answer to 'a' before 'a' was asked"));
+    assert_eq!(early(b"a", "a"), None);
+}
+
+#[test]
+fn bytes_around_an_object_are_passed_over() {
+    let line = format!(r#"{{"id":"a",{U},{N}}}"#);
+    for (before, after) in [("", "\r"), ("\u{feff}", ""), (" \t", " \t\r"), ("\u{feff} ", "\r")] {
+        assert!(matches!(said(format!("{before}{line}{after}")), Ok(Reply::Answered(_))));
+    }
+    for other in
+        ["", "7", "\"id\"", "[{}]", "null", "NaN", "{", "{{}}", "{} {}", "x {}", "\u{feff}", "{\"id\": \"a\""]
+    {
+        assert_eq!(read(other.as_bytes(), "a"), None, "{other}");
+    }
+    // Latin-1 within a string.
+    let latin = [line.trim_end_matches('}').as_bytes(), b", \"status\": \"gel\xf6st\"}"].concat();
+    let Ok(Reply::Answered(answer)) = said(latin) else { panic!("no answer") };
+    assert_eq!(answer.status.as_deref(), Some("gel\u{fffd}st"));
+    assert_eq!(read(b"\xff{}", "a"), None);
+}
+
+/// A million brackets, and numbers that would take gigabytes and minutes.
+#[test]
+fn nothing_that_is_read_takes_long() {
+    use std::time::{Duration, Instant};
+    let start = Instant::now();
+    let deep = format!("{}{}", "[".repeat(1_000_000), "]".repeat(1_000_000));
+    answered(&format!("{U}, {N}, \"x\": {deep}"));
+    let why = garbled(&format!("{U}, \"contact_force\": {deep}"));
+    assert!(why.starts_with(&format!("invalid value '{}…'", "[".repeat(39))) && why.len() < 300, "{why}");
+    garbled(&format!("{U}, {N}, \"steps\": {deep}"));
+    assert_eq!(read("{\"a\":".repeat(1_000_000).as_bytes(), "a"), None);
+
+    let nines = "9".repeat(LONGEST_NUMBER + 1);
+    let why = garbled(&format!("{N}, \"deflection\": {nines}"));
+    assert!(why.ends_with("must have no more than 131072 digits"), "{why}");
+    assert_eq!(numbers(&nines[1..], "1")[0], exact(&nines[1..]));
+    for number in ["0e-100000", "1e100000", "0.1e-99999"] {
+        let step = format!("{{\"deflection\": {number}, \"contact_force\": {number}}}");
+        let steps = |count| format!("{U}, {N}, \"steps\": [{}]", vec![step.as_str(); count].join(","));
+        assert_eq!(answered(&steps(20)).steps.len(), 20);
+        let why = garbled(&steps(100));
+        assert!(why.contains("no more than 4194304 digits together"), "{why}");
+    }
+    let long = [b"{\"id\": \"a\"}" as &[u8], &b" ".repeat(LONGEST)].concat();
+    assert_eq!(said(long), Err("a line must have no more than 16777216 bytes".to_string()));
+    // A second or so.
+    assert!(start.elapsed() < Duration::from_secs(20), "{:?}", start.elapsed());
+}
