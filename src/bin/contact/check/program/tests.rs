@@ -242,26 +242,24 @@ fn an_answer_counts_though_the_program_ends_with_it() {
     process(&ask(&mut program, "a"));
 }
 
+/// Its stdout ends before it does, or it before its stdout, which somebody else holds: nobody is waited for.
 #[test]
-fn a_closed_stdout_is_an_end() {
-    let fifo = Fifo::new("closed");
-    let lines = fifo.read();
-    let mut program = sh(&format!("{} exec >&-; echo why >&2; sleep 1000", fifo.open()), LONG);
-    assert_eq!(crashed(&ask(&mut program, "a")), "closed its stdout; on stderr: why");
-    nobody_is_left(&lines);
-}
-
-/// Somebody else holds its pipes: that it has ended is noticed all the same, and nobody is waited for.
-#[test]
-fn an_end_is_noticed_though_the_pipes_stay_open() {
-    let fifo = Fifo::new("held");
-    let lines = fifo.read();
-    let mut program = sh(&format!("{} sleep 1000 & echo why >&2; exit 3", fifo.open()), LONG);
-    assert_eq!(crashed(&ask(&mut program, "a")), "exit status 3; on stderr: why");
-    nobody_is_left(&lines);
-    let mut program = sh("sleep 1000 & read -r line; answer; exit 3", LONG);
-    process(&ask(&mut program, "a"));
-    assert_eq!(crashed(&ask(&mut program, "b")), "exit status 3");
+fn an_end_is_noticed_whatever_ends_first() {
+    let ends = |fifo: &str, script: &str, before: &[&str]| {
+        let fifo = Fifo::new(fifo);
+        let lines = fifo.read();
+        let mut program = sh(&format!("{} {script}", fifo.open()), LONG);
+        for id in before {
+            process(&ask(&mut program, id));
+        }
+        let how = crashed(&ask(&mut program, "z")).to_string();
+        nobody_is_left(&lines);
+        how
+    };
+    let closed = ends("closed", "exec >&-; echo why >&2; sleep 1000", &[]);
+    assert_eq!(closed, "closed its stdout; on stderr: why");
+    assert_eq!(ends("held", "sleep 1000 & echo why >&2; exit 3", &[]), "exit status 3; on stderr: why");
+    assert_eq!(ends("left", "read -r line; answer; sleep 1000 & exit 3", &["a"]), "exit status 3");
 }
 
 /// Neither its own silence, nor a pipe that it does not read, nor lines without end keep anybody.
