@@ -149,8 +149,8 @@ impl Running {
         }
         // Nobody takes it from a program that does not read; what becomes of that shows on its stdout.
         let _ = self.requests.send(request(problem));
-        let mut ended = false;
         loop {
+            let ended = self.group.has_ended();
             match self.lines.next(left().min(LOOK)) {
                 Ok(line) => {
                     if let Some(reply) = reply::read(line, &problem.id) {
@@ -158,9 +158,9 @@ impl Running {
                     }
                 }
                 Err(RecvTimeoutError::Disconnected) => return Err(Lost::Ended),
-                // Its last words have had time to come.
+                // What it said before has had time to come.
                 Err(RecvTimeoutError::Timeout) if ended => return Err(Lost::Ended),
-                Err(RecvTimeoutError::Timeout) => ended = self.group.has_ended(),
+                Err(RecvTimeoutError::Timeout) => {}
             }
             if left().is_zero() {
                 return Err(Lost::TimedOut);

@@ -262,6 +262,31 @@ fn an_end_is_noticed_whatever_ends_first() {
     assert_eq!(ends("left", "read -r line; answer; sleep 1000 & exit 3", &["a"]), "exit status 3");
 }
 
+/// Who is in no group of its keeps its pipes for longer than anybody waits.
+#[test]
+fn a_stranger_that_holds_the_pipes_is_not_waited_for() {
+    let script =
+        format!("exec '{}' {} --exact --ignored", own_path().display(), own_name("leaves_a_stranger"));
+    let (mut program, start) = (sh(&script, LONG), Instant::now());
+    let how = ask(&mut program, "a");
+    assert!(crashed(&how).starts_with("exit status 3"), "{how:?}");
+    assert!(start.elapsed() < STRANGER, "{:?}", start.elapsed());
+}
+
+/// How long it stays.
+const STRANGER: Duration = Duration::from_secs(4);
+
+#[test]
+#[ignore = "run by another"]
+fn leaves_a_stranger() {
+    use std::os::unix::process::CommandExt;
+    if std::env::args().any(|argument| argument == "--exact") {
+        let mut sleep = Command::new("sleep");
+        sleep.arg(STRANGER.as_secs().to_string()).process_group(0).spawn().expect("a command of every Unix");
+        std::process::exit(3);
+    }
+}
+
 /// Neither its own silence, nor a pipe that it does not read, nor lines without end keep anybody.
 #[test]
 fn a_program_without_an_answer_is_given_up_in_time() {
@@ -313,7 +338,7 @@ fn a_line_that_is_too_long_is_garbled() {
 fn a_program_ends_by_itself_when_nothing_more_is_asked() {
     let fifo = Fifo::new("end");
     let lines = fifo.read();
-    let much = "head -c 1000000 /dev/zero";
+    let much = "yes | head -n 500000";
     let script = format!(
         "{} while read -r line; do {much} >&2; answer; done; {much}; {much} >&2; sleep 0.1; echo ended >&9",
         fifo.open()
@@ -351,10 +376,17 @@ fn nobody_is_left_of_a_program_that_does_not_end_by_itself() {
 
 /// This very test program, to run one of the functions below by itself.
 fn alone(test: &str, path: &Path) -> Child {
-    let mut command = Command::new(std::env::current_exe().expect("its own path"));
-    let name = format!("{}::{test}", module_path!().split_once("::").expect("a crate").1);
-    command.args([&name, "--exact", "--ignored", "--nocapture"]).env("CONTACT_ALONE", path);
+    let mut command = Command::new(own_path());
+    command.args([&own_name(test), "--exact", "--ignored", "--nocapture"]).env("CONTACT_ALONE", path);
     command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("it runs")
+}
+
+fn own_path() -> PathBuf {
+    std::env::current_exe().expect("a path")
+}
+
+fn own_name(test: &str) -> String {
+    format!("{}::{test}", module_path!().split_once("::").expect("a crate").1)
 }
 
 #[test]
@@ -402,7 +434,9 @@ fn is_flooded() {
                     let mut program = sh(&format!("read -r line; answer; {flood}"), 2 * SHORT);
                     process(&ask(&mut program, "a"));
                     thread::sleep(2 * SHORT);
+                    let start = Instant::now();
                     assert_eq!(ask(&mut program, "b"), Reply::TimedOut);
+                    assert!(start.elapsed() < LONG, "{flood}: {:?}", start.elapsed());
                 });
             }
         });

@@ -234,17 +234,17 @@ fn bytes_around_an_object_are_passed_over() {
     assert_eq!(read(b"\xff{}", "a"), None);
 }
 
-/// A million brackets, and numbers that would take gigabytes and minutes.
+/// A hundred thousand brackets, and numbers that would take gigabytes and minutes.
 #[test]
 fn nothing_that_is_read_takes_long() {
     use std::time::{Duration, Instant};
     let start = Instant::now();
-    let deep = format!("{}{}", "[".repeat(1_000_000), "]".repeat(1_000_000));
+    let deep = format!("{}{}", "[".repeat(100_000), "]".repeat(100_000));
     answered(&format!("{U}, {N}, \"x\": {deep}"));
     let why = garbled(&format!("{U}, \"contact_force\": {deep}"));
     assert!(why.starts_with(&format!("invalid value '{}…'", "[".repeat(39))) && why.len() < 300, "{why}");
     garbled(&format!("{U}, {N}, \"steps\": {deep}"));
-    assert_eq!(read("{\"a\":".repeat(1_000_000).as_bytes(), "a"), None);
+    assert_eq!(read("{\"a\":".repeat(100_000).as_bytes(), "a"), None);
 
     let nines = "9".repeat(LONGEST_NUMBER + 1);
     let why = garbled(&format!("{N}, \"deflection\": {nines}"));
