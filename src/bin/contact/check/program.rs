@@ -1,7 +1,7 @@
 //! A program that is asked over its stdin and answers on its stdout, whatever it does.
 //!
-//! Threads of their own write its stdin and read its stdout and stderr, and nobody waits for them: each ends with
-//! its pipe, and a pipe that a stranger keeps open costs nothing but that thread.
+//! Threads of their own write its stdin and read its stdout and stderr, and nobody waits for them: each ends
+//! with its pipe, and a pipe that a stranger keeps open costs nothing but that thread.
 
 mod group;
 
@@ -20,8 +20,8 @@ use std::sync::{Arc, Mutex, PoisonError, Weak};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// How long a program may take to end once its stdin is closed, or its stdout: an interpreter with its libraries loaded
-/// takes some tenths of a second, and who waits for the command hardly notices one.
+/// How long a program may take to end once its stdin is closed, or its stdout: an interpreter with its
+/// libraries loaded takes some tenths of a second, and who waits for the command hardly notices one.
 const GRACE: Duration = Duration::from_secs(1);
 
 /// How often to look whether a program has ended that left its stdout to another.
@@ -41,7 +41,8 @@ pub struct Program {
 }
 
 impl Program {
-    /// The program that these words start: its name or path, and its arguments; it has so long for each answer.
+    /// The program that these words start: its name or path, and its arguments; it has so long for each
+    /// answer.
     pub fn new(words: &[String], timeout: Duration) -> Self {
         Program { words: words.to_vec(), timeout, running: None }
     }
@@ -221,8 +222,8 @@ fn writer(mut stdin: ChildStdin) -> io::Result<Sender<String>> {
     Ok(requests)
 }
 
-/// The lines of stdout. What came at once is passed on at once, so that what follows an answer on its heels is there
-/// before the next question; and no more than that is read ahead.
+/// The lines of stdout. What came at once is passed on at once, so that what follows an answer on its heels
+/// is there before the next question; and no more than that is read ahead.
 struct Lines {
     blocks: Receiver<Vec<u8>>,
     block: Vec<u8>,

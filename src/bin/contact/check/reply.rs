@@ -12,8 +12,8 @@ use std::fmt::Display;
 /// Bytes that a line may have.
 pub const LONGEST: usize = 1 << 24;
 
-/// Digits that a number may have, those that its power of ten stands for included: more than the exponents that are
-/// read, few enough for a common divisor at once.
+/// Digits that a number may have, those that its power of ten stands for included: more than the exponents
+/// that are read, few enough for a common divisor at once.
 const LONGEST_NUMBER: usize = 1 << 17;
 
 /// The same of all numbers of an answer: as rationals a few megabytes, and well below a second.

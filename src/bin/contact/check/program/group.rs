@@ -5,7 +5,8 @@ use std::process::{Child, Command, ExitStatus};
 
 /// A child process; dropped, it ends.
 ///
-/// On Unix it leads a process group. A signal from the terminal then reaches this command alone, which passes it on.
+/// On Unix it leads a process group. A signal from the terminal then reaches this command alone, which passes
+/// it on.
 pub struct Group(Child);
 
 impl Group {
@@ -59,7 +60,8 @@ mod unix {
     pub fn start(command: &mut Command) -> io::Result<Child> {
         static ON_SIGNAL: Once = Once::new();
         ON_SIGNAL.call_once(|| {
-            // Without it Ctrl-C leaves to a program that hangs what any other does: that its pipes are closed.
+            // Without it Ctrl-C leaves to a program that hangs what any other does: that its pipes are
+            // closed.
             let _ = ctrlc::set_handler(|| {
                 // None is started any more.
                 let leaders = leaders();

@@ -3,7 +3,7 @@
 use super::*;
 use num_traits::One;
 use rustix::process::{Pid, Signal, kill_process};
-use spring_mass_contact::check::Answer;
+use spring_mass_contact::check::{Answer, Family};
 use std::fs::{self, File};
 use std::io::BufRead;
 use std::path::{Path, PathBuf};
@@ -31,7 +31,7 @@ fn sh(script: &str, timeout: Duration) -> Program {
 
 fn problem(id: &str) -> Problem {
     let system = SpringMass { c: "1e9", m: "3", g: "-9.81", l: "2", h: "2.00000000001" };
-    Problem { id: id.to_string(), system: system.parse().unwrap(), penalty: None }
+    Problem { id: id.to_string(), family: Family::Contact, system: system.parse().unwrap(), penalty: None }
 }
 
 fn ask(program: &mut Program, id: &str) -> Reply {

@@ -156,8 +156,9 @@ fn a_key_has_one_value() {
 #[test]
 fn all_that_an_answer_may_say_is_read() {
     let rest = r#""x": [], "deflection": 1, "contact_force": 2, "penetration": "1/7", "status": "ok  so\nfar",
-        "used": {"stiffness": 1, "mass": 2, "gravity": "nan", "free_length": 4, "height": null, "penalty": 6, "x": 1},
-        "steps": [{"deflection": 1, "contact_force": 2}, {"contact_force": NaN, "x": 1, "deflection": "3"}], "": 1"#;
+        "used": {"stiffness": 1, "mass": 2, "gravity": "nan", "free_length": 4, "height": null,
+        "penalty": 6, "x": 1}, "steps": [{"deflection": 1, "contact_force": 2},
+        {"contact_force": NaN, "x": 1, "deflection": "3"}], "": 1"#;
     let used =
         SpringMass { c: Some(exact("1")), m: Some(exact("2")), g: Some(None), l: Some(exact("4")), h: None };
     let answer = Answer {
