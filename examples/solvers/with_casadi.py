@@ -1,0 +1,44 @@
+"""CasADi with IPOPT or qpOASES: an interior-point and an active-set method, as the package brings them."""
+
+import casadi
+
+from adapter import Answer, Refused, options, serve
+
+parser = options(__doc__)
+parser.add_argument("--solver", choices=["ipopt", "qpoases"], default="ipopt")
+parser.add_argument("--tol", type=float, help="IPOPT: tol (1e-8); qpOASES: terminationTolerance (about 5e6 x 2^-52)")
+parser.add_argument("--bound-relax-factor", type=float, help="IPOPT widens bounds by this (1e-8)")
+parser.add_argument("--compl-inf-tol", type=float, help="IPOPT: complementarity, absolute (1e-4)")
+parser.add_argument("--constr-viol-tol", type=float, help="IPOPT: violation, absolute (1e-4)")
+parser.add_argument("--dual-inf-tol", type=float, help="IPOPT: gradient of the Lagrangian, absolute (1)")
+parser.add_argument("--no-scaling", action="store_true", help="IPOPT: nlp_scaling_method none")
+arguments = parser.parse_args()
+
+
+def settings(arguments):
+    """What was set, by the names of the solver; and quiet."""
+    if arguments.solver == "qpoases":
+        return {} if arguments.tol is None else {"terminationTolerance": arguments.tol}
+    names = ("tol", "bound_relax_factor", "compl_inf_tol", "constr_viol_tol", "dual_inf_tol")
+    chosen = {name: getattr(arguments, name) for name in names if getattr(arguments, name) is not None}
+    if arguments.no_scaling:
+        chosen["nlp_scaling_method"] = "none"
+    return {"ipopt": {"print_level": 0, "sb": "yes", **chosen}, "print_time": False}
+
+
+def solve(problem, arguments):
+    u = casadi.SX.sym("u")
+    energy = {"x": u, "f": problem.stiffness * u**2 / 2 - problem.load * u}
+    if arguments.solver == "ipopt":
+        solver = casadi.nlpsol("solver", "ipopt", energy, settings(arguments))
+    else:
+        quiet = {"printLevel": "none", "error_on_fail": False}
+        solver = casadi.qpsol("solver", "qpoases", energy, {**quiet, **settings(arguments)})
+    result = solver(x0=0, lbx=-casadi.inf, ubx=problem.gap)
+    stats = solver.stats()
+    if not stats["success"]:
+        raise Refused(stats["return_status"])
+    return Answer(float(result["x"]), float(result["lam_x"]), stats["return_status"])
+
+
+serve(solve, arguments)

@@ -1,0 +1,40 @@
+"""HiGHS: its active-set method for quadratic programs. Small numbers in a matrix are taken for nothing."""
+
+import highspy
+import numpy as np
+
+from adapter import Answer, Refused, given, options, serve
+
+parser = options(__doc__)
+parser.add_argument("--primal-feasibility-tolerance", type=float, help="HiGHS: 1e-7")
+parser.add_argument("--dual-feasibility-tolerance", type=float, help="HiGHS: 1e-7")
+parser.add_argument("--qp-regularization-value", type=float, help="added to the stiffness (HiGHS: 1e-7)")
+parser.add_argument("--small-matrix-value", type=float, help="entries of a matrix below are dropped (HiGHS: 1e-9)")
+arguments = parser.parse_args()
+NAMES = (
+    "primal_feasibility_tolerance", "dual_feasibility_tolerance", "qp_regularization_value", "small_matrix_value",
+)
+
+
+def solve(problem, arguments):
+    solver = highspy.Highs()
+    solver.silent()
+    for name, value in given(arguments, *NAMES).items():
+        if solver.setOptionValue(name, value) != highspy.HighsStatus.kOk:
+            raise Refused(f"{name} = {value} is not allowed")
+    solver.addVar(-highspy.kHighsInf, problem.gap)
+    solver.changeColCost(0, -problem.load)
+    one = np.array([0, 1], dtype=np.int32)
+    format = int(highspy.HessianFormat.kTriangular)
+    passed = solver.passHessian(1, 1, format, one[:1], one[:1], np.array([problem.stiffness]))
+    if passed == highspy.HighsStatus.kError:
+        raise Refused("the Hessian is not accepted")
+    solver.run()
+    status = solver.getModelStatus()
+    if status != highspy.HighsModelStatus.kOptimal:
+        raise Refused(solver.modelStatusToString(status))
+    solution = solver.getSolution()
+    return Answer(solution.col_value[0], -solution.col_dual[0], solver.modelStatusToString(status))
+
+
+serve(solve, arguments)
