@@ -7,6 +7,7 @@ from adapter import Answer, Refused, options, serve
 parser = options(__doc__)
 parser.add_argument("--solver", choices=["ipopt", "qpoases"], default="ipopt")
 parser.add_argument("--tol", type=float, help="IPOPT: tol (1e-8); qpOASES: terminationTolerance (about 5e6 x 2^-52)")
+parser.add_argument("--general", action="store_true", help="the plane as a general constraint, not as a bound")
 parser.add_argument("--bound-relax-factor", type=float, help="IPOPT widens bounds by this (1e-8)")
 parser.add_argument("--compl-inf-tol", type=float, help="IPOPT: complementarity, absolute (1e-4)")
 parser.add_argument("--constr-viol-tol", type=float, help="IPOPT: violation, absolute (1e-4)")
@@ -29,16 +30,19 @@ def settings(arguments):
 def solve(problem, arguments):
     u = casadi.SX.sym("u")
     energy = {"x": u, "f": problem.stiffness * u**2 / 2 - problem.load * u}
+    if arguments.general:
+        energy["g"] = u
     if arguments.solver == "ipopt":
         solver = casadi.nlpsol("solver", "ipopt", energy, settings(arguments))
     else:
         quiet = {"printLevel": "none", "error_on_fail": False}
         solver = casadi.qpsol("solver", "qpoases", energy, {**quiet, **settings(arguments)})
-    result = solver(x0=0, lbx=-casadi.inf, ubx=problem.gap)
+    bounds = ("lbg", "ubg", "lam_g") if arguments.general else ("lbx", "ubx", "lam_x")
+    result = solver(**{"x0": 0, bounds[0]: -casadi.inf, bounds[1]: problem.gap})
     stats = solver.stats()
     if not stats["success"]:
         raise Refused(stats["return_status"])
-    return Answer(float(result["x"]), float(result["lam_x"]), stats["return_status"])
+    return Answer(float(result["x"]), float(result[bounds[2]]), stats["return_status"])
 
 
 serve(solve, arguments)
