@@ -1,7 +1,7 @@
 """The protocol of `contact check`, once for all solvers: a line of JSON in, a line of JSON out.
 
-An adapter is a function that takes a `Problem` and the options of the command line, and returns an `Answer` or raises.
-Files are named with_*.py, because a file osqp.py would hide the package of that name from itself.
+An adapter is a function that takes a `Problem` and the options of the command line, and returns an `Answer`
+or raises. Files are named with_*.py, because a file osqp.py would hide the package of that name from itself.
 """
 
 import argparse
@@ -15,11 +15,11 @@ from typing import Optional
 
 @dataclass
 class Problem:
-    """Minimise 1/2 c u² - load u subject to u <= gap; SI units, each number the float nearest to what was asked.
+    """Minimise 1/2 c u² - load u subject to u <= gap; in SI units, each number rounded once.
 
-    `load` is m g and `gap` is H - l. They are formed of the decimals and rounded once, so that what is judged is the
-    solver, and not a subtraction in front of it. `length` and `force` are the sizes of the problem, |gap| + |load / c|
-    and |load| + |c gap|: what the judgement measures errors by, and what `--scaled` divides by.
+    `load` is m g and `gap` is H - l. They are formed of the decimals exactly, so that what is judged is the
+    solver, and not a subtraction in front of it. `length` and `force` are the sizes of the problem,
+    |gap| + |load / c| and |load| + |c gap|: what the judgement measures errors by, and `--scaled` divides by.
     """
 
     stiffness: float
@@ -36,12 +36,11 @@ class Problem:
 
 @dataclass
 class Answer:
-    """What the solver says. Only the first two are needed; `penalty` is one of the solver's own, if it has one."""
+    """What the solver says. Only the first two are needed; `penalty` is the one of a solver that has one."""
 
     deflection: float
     contact_force: float
     status: Optional[str] = None
-    penetration: Optional[float] = None
     penalty: Optional[float] = None
 
 
@@ -55,8 +54,8 @@ def options(doc):
         description=doc, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument(
-        "--scaled", action="store_true",
-        help="hand over the problem in units of its own: lengths by |gap| + |load / c|, forces by |load| + |c gap|",
+        "--scaled", nargs="?", type=float, const=1.0, metavar="SIZE",
+        help="hand over the problem in units in which its length and its force are SIZE (1), its stiffness 1",
     )
     return parser
 
@@ -73,39 +72,43 @@ def reaction(problem, deflection):
 
 def sizes(stiffness, load, gap):
     """The length and the force of the problem; 1 where nothing has a size."""
-    return abs(gap) + abs(load / stiffness) or Fraction(1), abs(load) + abs(stiffness * gap) or Fraction(1)
+    length, force = abs(gap) + abs(load / stiffness), abs(load) + abs(stiffness * gap)
+    return length or Fraction(1), force or Fraction(1)
 
 
 def read(request, scaled):
-    """The problem of a request. Scaled, its stiffness and its mass are 1, and all else is of the order of 1."""
+    """The problem of a request, and the units it is in. Scaled, its stiffness and its mass are 1."""
     names = ("stiffness", "mass", "gravity", "free_length", "height")
     c, m, g, l, h = (Fraction(request[name]) for name in names)
     load, gap = m * g, h - l
+    penalty = Fraction(request["penalty"]) if "penalty" in request else None
     length, force = sizes(c, load, gap)
-    if scaled:  # force / length is c
-        c, m, g, load, l, h, gap = 1, 1, load / force, load / force, l / length, h / length, gap / length
-    penalty = float(request["penalty"]) if "penalty" in request else None
-    if scaled and penalty is not None:
-        penalty *= float(length / force)
-    now = (1, 1) if scaled else (length, force)
-    problem = Problem(*(float(x) for x in (c, m, g, l, h, load, gap, *now)), penalty)
-    return problem, (float(length), float(force)) if scaled else (1.0, 1.0)
+    meter, newton = Fraction(1), Fraction(1)
+    if scaled:
+        meter, newton = length / Fraction(scaled), force / Fraction(scaled)
+        c, m, g, load = 1, 1, load / newton, load / newton  # newton / meter is c
+        l, h, gap, length, force = l / meter, h / meter, gap / meter, length / meter, force / newton
+        penalty = penalty and penalty * meter / newton
+    numbers = [float(x) for x in (c, m, g, l, h, load, gap, length, force)]
+    return Problem(*numbers, penalty and float(penalty)), (float(meter), float(newton))
 
 
-def write(answer, length, force):
+def write(answer, meter, newton):
     """The fields of an answer, back in the units of the request."""
     fields = {
-        "deflection": float(answer.deflection) * length,
-        "contact_force": float(answer.contact_force) * force,
+        "deflection": float(answer.deflection) * meter,
+        "contact_force": float(answer.contact_force) * newton,
         "status": answer.status,
-        "penetration": None if answer.penetration is None else float(answer.penetration) * length,
-        "used": None if answer.penalty is None else {"penalty": float(answer.penalty) * force / length},
+        "used": None if answer.penalty is None else {"penalty": float(answer.penalty) * newton / meter},
     }
     return {name: value for name, value in fields.items() if value is not None}
 
 
 def serve(solve, arguments):
-    """Answers every line of standard input. Whatever the solver prints goes to standard error: it may not end lines."""
+    """Answers every line of standard input.
+
+    What the solver itself prints goes to standard error: a line it began would swallow the answer.
+    """
     replies = os.fdopen(os.dup(1), "w", encoding="utf-8")
     os.dup2(2, 1)
     for line in sys.stdin:

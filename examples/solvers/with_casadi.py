@@ -6,8 +6,8 @@ from adapter import Answer, Refused, options, serve
 
 parser = options(__doc__)
 parser.add_argument("--solver", choices=["ipopt", "qpoases"], default="ipopt")
-parser.add_argument("--tol", type=float, help="IPOPT: tol (1e-8); qpOASES: terminationTolerance (about 5e6 x 2^-52)")
-parser.add_argument("--general", action="store_true", help="the plane as a general constraint, not as a bound")
+parser.add_argument("--tol", type=float, help="IPOPT: tol (1e-8); qpOASES: terminationTolerance")
+parser.add_argument("--general", action="store_true", help="the plane as a constraint, not as a bound")
 parser.add_argument("--bound-relax-factor", type=float, help="IPOPT widens bounds by this (1e-8)")
 parser.add_argument("--compl-inf-tol", type=float, help="IPOPT: complementarity, absolute (1e-4)")
 parser.add_argument("--constr-viol-tol", type=float, help="IPOPT: violation, absolute (1e-4)")

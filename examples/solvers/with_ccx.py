@@ -1,7 +1,8 @@
 """CalculiX: a SPRINGA element over a GAPUNI element, a static step of `ccx`.
 
-A gap element of CalculiX is a penalty that has been smoothed: it has a stiffness, 1e12 unless told otherwise, and a
-small force that pulls when it is open, 1e-3 unless told otherwise. If the request has a penalty, that is its stiffness.
+A gap element of CalculiX is a penalty that has been smoothed: it has a stiffness, 1e12 unless told otherwise,
+and a small force that pulls when it is open, 1e-3 unless told otherwise. A penalty of the request is taken for
+its stiffness.
 """
 
 import os
@@ -41,9 +42,9 @@ U, RF
 """
 
 parser = options(__doc__)
-parser.add_argument("--gap-stiffness", type=float, default=1e12, help="in N/m, or in units of c with --scaled")
-parser.add_argument("--gap-tension", type=float, default=1e-3, help="in N, or in units of the load with --scaled")
-parser.add_argument("--linear", action="store_true", help="without NLGEOM: the spring keeps its direction")
+parser.add_argument("--gap-stiffness", type=float, default=1e12, help="in N/m; with --scaled relative")
+parser.add_argument("--gap-tension", type=float, default=1e-3, help="in N; with --scaled relative")
+parser.add_argument("--linear", action="store_true", help="without NLGEOM")
 arguments = parser.parse_args()
 
 
@@ -72,19 +73,16 @@ def solve(problem, arguments):
     with tempfile.TemporaryDirectory() as directory:
         folder = pathlib.Path(directory)
         (folder / "job.inp").write_text(deck(problem, arguments, stiffness))
-        done = subprocess.run(
-            ["ccx", "job"], cwd=folder, capture_output=True, text=True, env={**os.environ, "OMP_NUM_THREADS": "1"}
-        )
+        one = {**os.environ, "OMP_NUM_THREADS": "1"}
+        done = subprocess.run(["ccx", "job"], cwd=folder, capture_output=True, text=True, env=one)
         results = folder / "job.dat"
         tables = results.read_text() if results.exists() else ""
     errors = re.findall(r"\*ERROR[^\n]*", done.stdout)
     if errors or done.returncode:
         raise Refused("; ".join(errors) or f"ccx ended with status {done.returncode}")
-    _, displacements, forces = (re.split(r"^ (?:displacements|forces)[^\n]*$", tables, flags=re.M) + ["", "", ""])[:3]
-    return Answer(
-        -third(displacements, 2), third(forces, 3), penetration=max(0.0, -third(displacements, 2) - problem.gap),
-        penalty=stiffness,
-    )
+    parts = re.split(r"^ (?:displacements|forces)[^\n]*$", tables, flags=re.M)
+    displacements, forces = parts[1:3] if len(parts) > 2 else ("", "")
+    return Answer(-third(displacements, 2), third(forces, 3), penalty=stiffness)
 
 
 if not shutil.which("ccx"):

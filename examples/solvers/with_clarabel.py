@@ -8,15 +8,13 @@ from adapter import Answer, Refused, options, serve
 
 parser = options(__doc__)
 parser.add_argument("--tol", type=float, help="tol_feas, tol_gap_abs and tol_gap_rel (Clarabel: 1e-8)")
-parser.add_argument("--no-regularization", action="store_true", help="without static regularization (Clarabel: 1e-8)")
-parser.add_argument("--no-presolve", action="store_true", help="keep constraints that look infinite")
+parser.add_argument("--no-presolve", action="store_true", help="keep constraints that look infinite (1e20)")
 arguments = parser.parse_args()
 
 
 def solve(problem, arguments):
     settings = clarabel.DefaultSettings()
     settings.verbose = False
-    settings.static_regularization_enable = not arguments.no_regularization
     settings.presolve_enable = not arguments.no_presolve
     if arguments.tol is not None:
         settings.tol_feas = settings.tol_gap_abs = settings.tol_gap_rel = arguments.tol

@@ -1,4 +1,4 @@
-"""CVXOPT: an interior-point method for cone programs, with tolerances of 1e-7 and 1e-6 unless told otherwise."""
+"""CVXOPT: an interior-point method for cone programs, with tolerances of 1e-7 and 1e-6 as it comes."""
 
 from cvxopt import matrix, solvers
 
@@ -6,7 +6,6 @@ from adapter import Answer, Refused, options, serve
 
 parser = options(__doc__)
 parser.add_argument("--tol", type=float, help="feastol, abstol and reltol (CVXOPT: 1e-7, 1e-7, 1e-6)")
-parser.add_argument("--refinement", type=int, help="steps of iterative refinement (CVXOPT: 0 here)")
 arguments = parser.parse_args()
 
 
@@ -14,8 +13,6 @@ def solve(problem, arguments):
     settings = {"show_progress": False}
     if arguments.tol is not None:
         settings.update(feastol=arguments.tol, abstol=arguments.tol, reltol=arguments.tol)
-    if arguments.refinement is not None:
-        settings.update(refinement=arguments.refinement)
     result = solvers.qp(
         matrix(problem.stiffness), matrix(-problem.load), matrix(1.0), matrix(problem.gap), options=settings
     )

@@ -6,20 +6,20 @@ import numpy as np
 from adapter import Answer, Refused, given, options, serve
 
 STATUS = {
-    2: "soft optimal", 1: "optimal", -1: "infeasible", -2: "cycling", -3: "unbounded", -4: "iteration limit",
-    -5: "not convex", -6: "overdetermined",
+    2: "soft optimal", 1: "optimal", -1: "infeasible", -2: "cycling", -3: "unbounded",
+    -4: "iteration limit", -5: "not convex", -6: "overdetermined",
 }
 
 parser = options(__doc__)
 parser.add_argument("--primal-tol", type=float, help="a constraint may be violated by so much (DAQP: 1e-6)")
 parser.add_argument("--dual-tol", type=float, help="a multiplier may be negative by so much (DAQP: 1e-12)")
 parser.add_argument("--zero-tol", type=float, help="a pivot below is zero (DAQP: 1e-11)")
-parser.add_argument("--general", action="store_true", help="the plane as a general constraint, not as a bound")
+parser.add_argument("--general", action="store_true", help="the plane as a constraint, not as a bound")
 arguments = parser.parse_args()
 
 
 def solve(problem, arguments):
-    rows = np.array([[1.0]]) if arguments.general else np.zeros((0, 1))  # more bounds than rows: simple bounds
+    rows = np.array([[1.0]]) if arguments.general else np.zeros((0, 1))  # without a row: a bound
     u, _, flag, info = daqp.solve(
         np.array([[problem.stiffness]]), np.array([-problem.load]), rows,
         np.array([problem.gap]), np.array([-1e30]), np.zeros(1, dtype=np.intc),

@@ -9,10 +9,11 @@ parser = options(__doc__)
 parser.add_argument("--primal-feasibility-tolerance", type=float, help="HiGHS: 1e-7")
 parser.add_argument("--dual-feasibility-tolerance", type=float, help="HiGHS: 1e-7")
 parser.add_argument("--qp-regularization-value", type=float, help="added to the stiffness (HiGHS: 1e-7)")
-parser.add_argument("--small-matrix-value", type=float, help="entries of a matrix below are dropped (HiGHS: 1e-9)")
+parser.add_argument("--small-matrix-value", type=float, help="smaller entries are dropped (HiGHS: 1e-9)")
 arguments = parser.parse_args()
 NAMES = (
-    "primal_feasibility_tolerance", "dual_feasibility_tolerance", "qp_regularization_value", "small_matrix_value",
+    "primal_feasibility_tolerance", "dual_feasibility_tolerance",
+    "qp_regularization_value", "small_matrix_value",
 )
 
 

@@ -1,7 +1,7 @@
-"""MuJoCo: the fall of the mass is simulated until it rests. Its contacts are soft; `solref` and `solimp` say how soft.
+"""MuJoCo: the mass is simulated until it rests. Contacts are soft; solref and solimp say how soft.
 
-The damping is critical, which changes the way to rest and not the place of it. If the mass does not come to rest, or if
-MuJoCo warns (bad numbers make it start over), there is no answer.
+The damping is critical, which changes the way to rest and not the place of it. If the mass does not come to
+rest, or if MuJoCo warns (bad numbers make it start over), there is no answer.
 """
 
 import math
@@ -15,12 +15,11 @@ from adapter import Answer, Refused, options, serve
 
 parser = options(__doc__)
 parser.add_argument("--steps", type=int, default=30_000, help="give up after so many steps")
-parser.add_argument("--rest", type=float, default=1e-8, help="speed and acceleration that count as none, relative")
-parser.add_argument("--timestep", type=float, help="in s (MuJoCo: 0.002; simulations of stiff springs need less)")
-parser.add_argument("--timestep-ratio", type=float, help="the time step in units of sqrt(m / c), instead of in s")
+parser.add_argument("--rest", type=float, default=1e-8, help="relative speed and acceleration taken for none")
+parser.add_argument("--timestep-ratio", type=float, help="time step by sqrt(m / c) (MuJoCo: 0.002 s)")
 parser.add_argument("--contact-stiffness", type=float, help="solref = -stiffness -damping, in units of c / m")
 parser.add_argument("--impedance", type=float, help="dmin and dmax of solimp (MuJoCo: 0.9, 0.95)")
-parser.add_argument("--local-origin", action="store_true", help="measure depths from the mass, not from the support")
+parser.add_argument("--local-origin", action="store_true", help="depths from the mass, not from the support")
 arguments = parser.parse_args()
 
 MODEL = """<mujoco>
@@ -36,7 +35,7 @@ MODEL = """<mujoco>
 
 
 def model(problem, arguments):
-    """A sphere whose lowest point is the mass; the spring is undeformed at depth l, the plane lies at depth H."""
+    """A sphere whose lowest point is the mass; the spring is undeformed at depth l, the plane is at H."""
     rate = math.sqrt(problem.stiffness / problem.mass)
     contact = ""
     if arguments.contact_stiffness is not None:
@@ -44,12 +43,10 @@ def model(problem, arguments):
         contact += f'solref="{-k!r} {-2 * math.sqrt(k)!r}" '
     if arguments.impedance is not None:
         contact += f'solimp="{arguments.impedance!r} {arguments.impedance!r} 1 0.5 1"'
-    timestep = 0.002 if arguments.timestep is None else arguments.timestep
-    if arguments.timestep_ratio is not None:
-        timestep = arguments.timestep_ratio / rate
-    depths = (0.0, problem.gap) if arguments.local_origin else (problem.free_length, problem.height)
+    timestep = 0.002 if arguments.timestep_ratio is None else arguments.timestep_ratio / rate
+    start, plane = (0.0, problem.gap) if arguments.local_origin else (problem.free_length, problem.height)
     return mujoco.MjModel.from_xml_string(MODEL.format(
-        down=-problem.gravity, timestep=timestep, start=-depths[0], plane=-depths[1],
+        down=-problem.gravity, timestep=timestep, start=-start, plane=-plane,
         stiffness=problem.stiffness, damping=2 * rate * problem.mass, mass=problem.mass, contact=contact,
     ))
 

@@ -10,7 +10,7 @@ parser = options(__doc__)
 parser.add_argument("--eps", type=float, help="both eps_abs and eps_rel (OSQP: 1e-3)")
 parser.add_argument("--max-iter", type=int, help="iterations (OSQP: 4000)")
 parser.add_argument("--scaling", type=int, help="steps of Ruiz scaling (OSQP: 10)")
-parser.add_argument("--polishing", action="store_true", default=None, help="solve once more on the active set found")
+parser.add_argument("--polishing", action="store_true", default=None, help="solve again on the active set")
 arguments = parser.parse_args()
 
 

@@ -1,4 +1,4 @@
-"""PIQP: an interior-point method with proximal terms, with tolerances of 1e-8 and 1e-9 unless told otherwise."""
+"""PIQP: an interior-point method with proximal terms, with tolerances of 1e-8 and 1e-9 as it comes."""
 
 import numpy as np
 import piqp

@@ -1,4 +1,4 @@
-"""ProxQP of ProxSuite: a proximal augmented Lagrangian method, with an absolute tolerance of 1e-5 unless told otherwise."""
+"""ProxQP of ProxSuite: a proximal augmented Lagrangian method, with a tolerance of 1e-5 as it comes."""
 
 import numpy as np
 from proxsuite import proxqp

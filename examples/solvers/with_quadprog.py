@@ -10,7 +10,8 @@ arguments = options(__doc__).parse_args()
 
 def solve(problem, _):
     u, _, _, _, multipliers, _ = quadprog.solve_qp(
-        np.array([[problem.stiffness]]), np.array([problem.load]), np.array([[-1.0]]), np.array([-problem.gap])
+        np.array([[problem.stiffness]]), np.array([problem.load]),
+        np.array([[-1.0]]), np.array([-problem.gap]),
     )
     return Answer(u[0], multipliers[0], "solved")
 

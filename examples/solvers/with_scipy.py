@@ -1,7 +1,7 @@
 """SciPy: the methods of scipy.optimize that take a bound or a linear constraint.
 
-`nnls` and `lsq-linear` get the problem as least squares. Only `trust-constr` has a multiplier with a meaning of its
-own; for the others the contact force is the reaction m g - c u.
+`nnls` and `lsq-linear` get the problem as least squares. Only of `trust-constr` is a multiplier taken; of the
+others the contact force is the reaction m g - c u.
 """
 
 import math
@@ -16,6 +16,7 @@ METHODS = {"slsqp": "SLSQP", "trust-constr": "trust-constr", "l-bfgs-b": "L-BFGS
 parser = options(__doc__)
 parser.add_argument("--method", choices=[*METHODS, "lsq-linear", "nnls"], default="slsqp")
 parser.add_argument("--tol", type=float, help="every tolerance that the method has")
+parser.add_argument("--gtol", type=float, help="trust-constr: 0 leaves the end to xtol and barrier_tol")
 parser.add_argument("--maxiter", type=int, help="iterations")
 arguments = parser.parse_args()
 
@@ -48,6 +49,8 @@ def minimize(problem, arguments):
     """The energy and its gradient, from u = 0 as most would start; the plane as a bound or a constraint."""
     constrained = arguments.method == "trust-constr"
     settings = {} if arguments.tol is None else dict.fromkeys(TOLERANCES[arguments.method], arguments.tol)
+    if arguments.gtol is not None:
+        settings["gtol"] = arguments.gtol
     if arguments.maxiter is not None:
         settings["maxfun" if arguments.method == "tnc" else "maxiter"] = arguments.maxiter
     return optimize.minimize(
