@@ -1,8 +1,8 @@
 """CalculiX: a SPRINGA element over a GAPUNI element, a static step of `ccx`.
 
 A gap element of CalculiX is a penalty that has been smoothed: it has a stiffness, 1e12 unless told otherwise,
-and a small force that pulls when it is open, 1e-3 unless told otherwise. A penalty of the request is taken for
-its stiffness.
+and a small force that pulls when it is open, 1e-3 unless told otherwise. A penalty in the request is taken
+for its stiffness.
 """
 
 import os
@@ -82,7 +82,8 @@ def solve(problem, arguments):
         raise Refused("; ".join(errors) or f"ccx ended with status {done.returncode}")
     parts = re.split(r"^ (?:displacements|forces)[^\n]*$", tables, flags=re.M)
     displacements, forces = parts[1:3] if len(parts) > 2 else ("", "")
-    return Answer(-third(displacements, 2), third(forces, 3), penalty=stiffness)
+    own = None if problem.penalty is not None else stiffness
+    return Answer(-third(displacements, 2), third(forces, 3), penalty=own)
 
 
 if not shutil.which("ccx"):
