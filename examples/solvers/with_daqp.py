@@ -13,7 +13,7 @@ STATUS = {
 parser = options(__doc__)
 parser.add_argument("--primal-tol", type=float, help="a constraint may be violated by so much (DAQP: 1e-6)")
 parser.add_argument("--dual-tol", type=float, help="a multiplier may be negative by so much (DAQP: 1e-12)")
-parser.add_argument("--zero-tol", type=float, help="a pivot below is zero (DAQP: 1e-11)")
+parser.add_argument("--fval-bound", type=float, help="energies above mean infeasible (DAQP: 1e30)")
 parser.add_argument("--general", action="store_true", help="the plane as a constraint, not as a bound")
 arguments = parser.parse_args()
 
@@ -23,7 +23,7 @@ def solve(problem, arguments):
     u, _, flag, info = daqp.solve(
         np.array([[problem.stiffness]]), np.array([-problem.load]), rows,
         np.array([problem.gap]), np.array([-1e30]), np.zeros(1, dtype=np.intc),
-        **given(arguments, "primal_tol", "dual_tol", "zero_tol"),
+        **given(arguments, "primal_tol", "dual_tol", "fval_bound"),
     )
     if flag < 1:
         raise Refused(STATUS.get(flag, f"exit flag {flag}"))

@@ -17,20 +17,24 @@ NAMES = (
 )
 
 
+def accept(status, what):
+    """HiGHS says so of every step, and goes on without what it does not take."""
+    if status == highspy.HighsStatus.kError:
+        raise Refused(f"HiGHS does not take {what}")
+
+
 def solve(problem, arguments):
     solver = highspy.Highs()
     solver.silent()
     for name, value in given(arguments, *NAMES).items():
-        if solver.setOptionValue(name, value) != highspy.HighsStatus.kOk:
-            raise Refused(f"{name} = {value} is not allowed")
-    solver.addVar(-highspy.kHighsInf, problem.gap)
-    solver.changeColCost(0, -problem.load)
-    one = np.array([0, 1], dtype=np.int32)
-    format = int(highspy.HessianFormat.kTriangular)
-    passed = solver.passHessian(1, 1, format, one[:1], one[:1], np.array([problem.stiffness]))
-    if passed == highspy.HighsStatus.kError:
-        raise Refused("the Hessian is not accepted")
-    solver.run()
+        accept(solver.setOptionValue(name, value), f"{name} = {value}")
+    accept(solver.addVar(-highspy.kHighsInf, problem.gap), "the bound")
+    accept(solver.changeColCost(0, -problem.load), "the linear term")
+    zero = np.array([0], dtype=np.int32)
+    triangular = int(highspy.HessianFormat.kTriangular)
+    hessian = solver.passHessian(1, 1, triangular, zero, zero, np.array([problem.stiffness]))
+    accept(hessian, "the Hessian")
+    accept(solver.run(), "the problem")
     status = solver.getModelStatus()
     if status != highspy.HighsModelStatus.kOptimal:
         raise Refused(solver.modelStatusToString(status))

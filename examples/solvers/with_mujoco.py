@@ -27,8 +27,9 @@ MODEL = """<mujoco>
   <worldbody>
     <geom type="plane" size="1 1 1" pos="0 0 {plane!r}" {contact}/>
     <body pos="0 0 {start!r}">
+      <inertial pos="0 0 0" mass="{mass!r}" diaginertia="{mass!r} {mass!r} {mass!r}"/>
       <joint type="slide" axis="0 0 -1" stiffness="{stiffness!r}" damping="{damping!r}"/>
-      <geom type="sphere" size="0.01" pos="0 0 0.01" mass="{mass!r}" condim="1" {contact}/>
+      <geom type="sphere" size="0.01" pos="0 0 0.01" condim="1" {contact}/>
     </body>
   </worldbody>
 </mujoco>"""
