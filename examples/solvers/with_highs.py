@@ -10,10 +10,11 @@ parser.add_argument("--primal-feasibility-tolerance", type=float, help="HiGHS: 1
 parser.add_argument("--dual-feasibility-tolerance", type=float, help="HiGHS: 1e-7")
 parser.add_argument("--qp-regularization-value", type=float, help="added to the stiffness (HiGHS: 1e-7)")
 parser.add_argument("--small-matrix-value", type=float, help="smaller entries are dropped (HiGHS: 1e-9)")
+parser.add_argument("--infinite-cost", type=float, help="a load beyond is dropped (HiGHS: 1e20)")
 arguments = parser.parse_args()
 NAMES = (
     "primal_feasibility_tolerance", "dual_feasibility_tolerance",
-    "qp_regularization_value", "small_matrix_value",
+    "qp_regularization_value", "small_matrix_value", "infinite_cost",
 )
 
 
