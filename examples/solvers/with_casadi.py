@@ -8,6 +8,7 @@ parser = options(__doc__)
 parser.add_argument("--solver", choices=["ipopt", "qpoases"], default="ipopt")
 parser.add_argument("--tol", type=float, help="IPOPT: tol (1e-8); qpOASES: terminationTolerance")
 parser.add_argument("--general", action="store_true", help="the plane as a constraint, not as a bound")
+parser.add_argument("--no-ramping", action="store_true", help="qpOASES: enableRamping off")
 parser.add_argument("--bound-relax-factor", type=float, help="IPOPT widens bounds by this (1e-8)")
 parser.add_argument("--compl-inf-tol", type=float, help="IPOPT: complementarity, absolute (1e-4)")
 parser.add_argument("--constr-viol-tol", type=float, help="IPOPT: violation, absolute (1e-4)")
@@ -19,7 +20,8 @@ arguments = parser.parse_args()
 def settings(arguments):
     """What was set, by the names of the solver; and quiet."""
     if arguments.solver == "qpoases":
-        return {} if arguments.tol is None else {"terminationTolerance": arguments.tol}
+        ramping = {"enableRamping": False} if arguments.no_ramping else {}
+        return ramping if arguments.tol is None else {"terminationTolerance": arguments.tol, **ramping}
     names = ("tol", "bound_relax_factor", "compl_inf_tol", "constr_viol_tol", "dual_inf_tol")
     chosen = {name: getattr(arguments, name) for name in names if getattr(arguments, name) is not None}
     if arguments.no_scaling:
