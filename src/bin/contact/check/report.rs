@@ -191,7 +191,8 @@ fn diagnosed(out: &mut dyn Write, diagnosis: &[Diagnosis]) -> io::Result<()> {
             let more = if more > 0 { format!("; and {more} more") } else { String::new() };
             let which = if several[0].answers == Answers::All { "All answers" } else { "All wrong answers" };
             let text = format!(
-                "{which} fit several mistakes that are known: {}{more}. More families or more cases may tell them apart.",
+                "{which} fit several mistakes that are known: {}{more}. More families or more cases may tell \
+                 them apart.",
                 names.join("; ")
             );
             output::wrapped(out, " ", 1, &text)?;

@@ -167,7 +167,8 @@ fn another_id_or_none_is_garbled_and_starts_it_again() {
     let answers = "\"deflection\": 1, \"contact_force\": 2";
     let mut program = sh(
         &format!(
-            "read -r line; case $line in *'\"b\"'*) answer;; *) echo '{{\"id\": \"z\", {answers}}}'; read -r line; answer;; esac"
+            "read -r line; case $line in *'\"b\"'*) answer;; \
+             *) echo '{{\"id\": \"z\", {answers}}}'; read -r line; answer;; esac"
         ),
         LONG,
     );
