@@ -181,5 +181,5 @@ macro_rules! pages {
 }
 pages! {
     introduction notation system structure contact formulations lagrange penalty augmented
-    convergence beyond loose floats proofs command check speed
+    convergence beyond loose floats proofs command check solvers speed
 }
