@@ -5,11 +5,15 @@ import json
 import sys
 
 
-def solve(stiffness, mass, gravity, free_length, height):
-    """Deflection in m, downwards, and contact force in N, not negative."""
+def solve(stiffness, mass, gravity, free_length, height, penalty=None):
+    """Deflection in m, downwards, and contact force in N, not negative; by penalty if one is asked for."""
     gap, weight = height - free_length, mass * gravity
-    touches = weight > stiffness * gap
-    return (gap, weight - stiffness * gap) if touches else (weight / stiffness, 0.0)
+    if weight <= stiffness * gap:
+        return weight / stiffness, 0.0
+    force = weight - stiffness * gap
+    if penalty is None:
+        return gap, force
+    return gap + force / (stiffness + penalty), penalty * force / (stiffness + penalty)
 
 
 for line in sys.stdin:

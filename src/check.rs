@@ -17,16 +17,23 @@
 //! ```
 
 mod diagnosis;
+mod given;
 mod judge;
+mod missed;
 mod mistakes;
+mod penalty;
 mod problems;
 #[cfg(test)]
 mod tests;
 
 use crate::chapter::SpringMass;
 use crate::number::Exact;
-pub use diagnosis::{Answers, Diagnosis, Kind, Penalty};
+pub use diagnosis::{Answers, Diagnosis};
+use given::Given;
 pub use judge::{Judgement, Verdict};
+pub use missed::{Missed, Of};
+use mistakes::Measured;
+pub use penalty::{Kind, Penalty};
 pub use problems::{DIGITS, Family, NoFamily, Problem, problems};
 use std::collections::BTreeMap;
 
@@ -83,8 +90,8 @@ pub enum Reply {
     Garbled(String),
     /// It ended instead; how, and its last words.
     Crashed(String),
-    /// It was still at it when its time was up.
-    TimedOut,
+    /// It was still at it when its time was up; what there was to see of it.
+    TimedOut(String),
 }
 
 /// A problem, what came of it, and what to think of that.
@@ -107,6 +114,8 @@ pub struct Report {
     pub given_up: bool,
     /// What the forces by their penetrations show.
     pub penalty: Penalty,
+    /// What contacts that are taken for none have in common.
+    pub missed: Option<Missed>,
     /// Every known mistake that all answers fit; or else, all wrong answers. Empty if none is wrong.
     pub diagnosis: Vec<Diagnosis>,
 }
@@ -140,6 +149,8 @@ pub struct Row<'a> {
     pub verdict: Verdict,
     /// How many problems have it.
     pub count: usize,
+    /// How many answers are right, or within the tolerance.
+    pub right: usize,
     /// The largest error of u, in parts of |H − l| + |m g/c|; `None` if there is no number.
     pub worst_deflection: Option<Exact>,
     /// The largest error of N, in parts of |m g| + |c (H − l)|; `None` if there is no number.
@@ -172,23 +183,29 @@ pub fn check<E>(
         let reply = ask(problem)?;
         let judgement = Judgement::of(problem, &reply, tolerance);
         checked.push(Checked { problem: problem.clone(), reply, judgement });
-        let silent = |of: &Checked| matches!(of.reply, Reply::Crashed(_) | Reply::TimedOut);
+        let silent = |of: &Checked| matches!(of.reply, Reply::Crashed(_) | Reply::TimedOut(_));
         given_up = checked.len() == PATIENCE && checked.iter().all(silent);
         if given_up {
             break;
         }
     }
-    let penalty = Penalty::of(&checked, tolerance);
-    let diagnosis = diagnosis::diagnose(&checked, &penalty, tolerance);
-    Ok(Report { checked, given_up, penalty, diagnosis })
+    let answers = Vec::from_iter(checked.iter().filter_map(|of| Given::of(of, tolerance)));
+    let by_penalty = problems.iter().any(|problem| problem.penalty.is_some());
+    let penalty = Penalty::measured(&answers, Measured::ByForce, tolerance);
+    let missed = Missed::of(&answers, tolerance);
+    let diagnosis = diagnosis::diagnose(&answers, by_penalty, &penalty, tolerance);
+    Ok(Report { checked, given_up, penalty, missed, diagnosis })
 }
 
 impl Report {
-    /// Is there an answer, and is nothing wrong? A refusal is not wrong.
+    /// Is nothing wrong, and something of each family right? A refusal is not wrong; but of a family that is
+    /// refused altogether nothing is known.
     pub fn holds(&self) -> bool {
-        let Summary { right, within_tolerance, wrong, refused: _, crashed, timed_out } = self.summary();
+        let Summary { wrong, crashed, timed_out, .. } = self.summary();
         let lag = self.diagnosis.iter().any(|diagnosis| diagnosis.answers == Answers::Steps);
-        right + within_tolerance > 0 && wrong + crashed + timed_out == 0 && !lag
+        let families = self.families();
+        let known = !families.is_empty() && families.iter().all(|row| row.right > 0);
+        known && wrong + crashed + timed_out == 0 && !lag
     }
 
     /// How many problems came to what.
@@ -236,6 +253,7 @@ impl<'a> Row<'a> {
             cases: all.len(),
             verdict,
             count: with_it().count(),
+            right: all.iter().filter(|of| of.judgement.verdict <= Verdict::WithinTolerance).count(),
             worst_deflection: worst(|judgement| &judgement.deflection_error),
             worst_force: worst(|judgement| &judgement.force_error),
             worst: furthest,

@@ -154,7 +154,9 @@ impl Judgement {
             Reply::Refused(why) => without_numbers(Verdict::Refused, why),
             Reply::Garbled(why) => without_numbers(Verdict::Wrong, why),
             Reply::Crashed(how) => without_numbers(Verdict::Crashed, how),
-            Reply::TimedOut => without_numbers(Verdict::TimedOut, "no answer in time"),
+            Reply::TimedOut(seen) => {
+                without_numbers(Verdict::TimedOut, &format!("no answer in time; {seen}"))
+            }
         }
     }
 

@@ -52,6 +52,11 @@ impl Mistake {
         }
     }
 
+    /// Do its formulas have an ε?
+    pub fn has_penalty(&self) -> bool {
+        self.touching.iter().chain(&self.apart).any(|formula| formula.symbols().contains("ε"))
+    }
+
     /// What it computes where R > 0, or elsewhere.
     pub fn formulas(&self, touching: bool) -> &Formulas {
         if touching { &self.touching } else { &self.apart }
@@ -149,7 +154,10 @@ pub(super) fn every(by_penalty: bool) -> Vec<Mistake> {
         [(right(own, penalty), ""), (bilateral(own, penalty), "the plane also pulls, and ")]
     {
         let edited = |change: Change| edited(change, &formulas, besides);
-        all.extend(changes_in(&formulas, registry()).into_iter().map(edited));
+        // Who has no penalty takes nothing for it.
+        let is_possible = |mistake: &Mistake| by_penalty || !mistake.has_penalty();
+        let changes = changes_in(&formulas, registry()).into_iter();
+        all.extend(changes.map(edited).filter(is_possible));
     }
     all
 }
@@ -171,7 +179,7 @@ fn people(own: &SpringMass<Tree>, penalty: Option<&Tree>) -> Vec<Mistake> {
     let of = |system: SpringMass<Tree>| right(&system, penalty);
     let [u, n] = right(own, penalty);
     let SpringMass { g, l, h, .. } = own;
-    let (zero, one) = (Tree::from(0), Tree::from(1));
+    let (zero, one, gap) = (Tree::from(0), Tree::from(1), system::gap(own));
     let while_touching = |name: &str, force: Tree| Mistake {
         apart: [u.clone(), zero.clone()],
         ..Mistake::new(name, [u.clone(), force])
@@ -182,7 +190,16 @@ fn people(own: &SpringMass<Tree>, penalty: Option<&Tree>) -> Vec<Mistake> {
         Mistake::new("H and l are swapped", of(SpringMass { l: h.clone(), h: l.clone(), ..own.clone() })),
         Mistake::new("H is taken for the gap", of(SpringMass { l: zero.clone(), ..own.clone() })),
         Mistake::new("l is added to H", of(SpringMass { l: -l, ..own.clone() })),
+        Mistake::new(
+            "an overlap is taken for no gap",
+            of(SpringMass { h: l + gap.positive_part(), ..own.clone() }),
+        ),
+        Mistake::new("the gap is taken without its sign", of(SpringMass { h: l + gap.abs(), ..own.clone() })),
         Mistake::new("gravity is reversed", of(SpringMass { g: -g, ..own.clone() })),
+        Mistake::new(
+            "gravity is 9.81 whatever it is",
+            of(SpringMass { g: Tree::from(981) / Tree::from(100), ..own.clone() }),
+        ),
         Mistake::new("m is taken for the weight", of(SpringMass { g: one.clone(), ..own.clone() })),
         Mistake::new("g is taken for the weight", of(SpringMass { m: one, ..own.clone() })),
         Mistake::new("N has the other sign", [u.clone(), -&n]),

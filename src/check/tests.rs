@@ -226,7 +226,7 @@ fn every_reply_is_counted() {
             "stiff-3" => Reply::Refused("too stiff".into()),
             "stiff-4" => Reply::Garbled("who?".into()),
             "stiff-5" => Reply::Crashed("signal".into()),
-            _ => Reply::TimedOut,
+            _ => Reply::TimedOut("nothing".into()),
         }
     };
     let judged = |problems: &[Problem]| {
@@ -262,7 +262,11 @@ fn who_never_answers_is_left_alone() {
         let report = check(&all, &number(TOLERANCE), |problem| {
             asked += 1;
             let answered = || Reply::Answered(Box::new(right(problem)));
-            Ok::<_, Infallible>(if asked == answers_at { answered() } else { Reply::TimedOut })
+            Ok::<_, Infallible>(if asked == answers_at {
+                answered()
+            } else {
+                Reply::TimedOut("nothing".into())
+            })
         });
         let report = report.unwrap();
         (report.given_up, report.checked.len())
@@ -432,4 +436,99 @@ fn what_overflows_explains_nothing() {
         let judgement = Judgement::of(&problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE));
         assert_eq!(judgement.verdict, verdict);
     }
+}
+
+/// All answers, changed alike.
+fn changed(change: impl Fn(&Problem, Exact, Exact) -> [Exact; 2]) -> Report {
+    run(&problems(1, 10, &Family::ALL), |problem| {
+        let exact = problem.solution();
+        let [u, n] = change(problem, exact.deflection, exact.contact_force);
+        Answer::new(u, n)
+    })
+}
+
+#[test]
+fn a_factor_is_found() {
+    let name = |change: fn(&Problem, Exact, Exact) -> [Exact; 2]| {
+        changed(change).named().map(|only| only.name.clone()).unwrap_or_default()
+    };
+    assert_eq!(name(|_, u, n| [u * number("1000"), n]), "u is 1000 times what is right");
+    assert_eq!(name(|_, u, n| [u, n * number("1/1000")]), "N is 0.001 times what is right");
+    let both = name(|_, u, n| [u * number("1000"), n * number("3/4")]);
+    assert_eq!(both, "u is 1000 times what is right, N is 0.75 times what is right");
+    // Of some of them it is none.
+    let some = |problem: &Problem, u: Exact, n: Exact| {
+        [u * number(if problem.id.ends_with('1') { "1000" } else { "999" }), n]
+    };
+    assert_eq!(name(some), "");
+}
+
+#[test]
+fn few_digits_are_found() {
+    let rounded = |digits| move |x: &Exact| x.decimal(digits, Round::Nearest).parse().unwrap();
+    let name = |round: &dyn Fn(&Exact) -> Exact| {
+        changed(|_, u, n| [round(&u), round(&n)]).named().map(|only| only.name.clone()).unwrap_or_default()
+    };
+    assert_eq!(name(&rounded(4)), "its numbers have no more than 4 digits");
+    let fixed = |x: &Exact| {
+        let millions = rug::Rational::from((x * number("1e6")).as_rational().round_ref());
+        Exact::from(millions) / number("1e6")
+    };
+    assert_eq!(name(&fixed), "its numbers have no more than 6 decimals");
+    // Few digits, but not of what is right.
+    let half = |x: &Exact| rounded(4)(&(x * number("1.01")));
+    assert_eq!(name(&half), "");
+}
+
+/// So little off that every mistake fits that hardly shows there; or no number, which fits no formula.
+#[test]
+fn what_shows_nothing_is_not_named() {
+    let slight = changed(|problem, u, n| {
+        let off = if problem.id == "contact-1" { "1.0000035" } else { "1" };
+        [u * number(off), n]
+    });
+    assert_eq!((slight.summary().wrong, slight.diagnosis.len()), (1, 0));
+    let nan = run(&default_problems(), |problem| {
+        let mut answer = right(problem);
+        answer.contact_force = answer.contact_force.filter(Zero::is_zero);
+        answer
+    });
+    assert!(nan.summary().wrong > 0 && nan.diagnosis.is_empty(), "{:?}", nan.diagnosis);
+}
+
+#[test]
+fn a_tolerance_of_its_own_is_found() {
+    let missing = |is_small: fn(&SpringMass<Exact>) -> bool| {
+        let report = changed(|problem, u, n| {
+            let free = structure::deflection(&problem.system);
+            if is_small(&problem.system) { [free, Exact::zero()] } else { [u, n] }
+        });
+        report.missed.expect("a threshold")
+    };
+    let through =
+        |system: &SpringMass<Exact>| structure::deflection(system) - system::gap(system) < number("1e-6");
+    let Missed { of, up_to, from, .. } = missing(through);
+    assert!(of == Of::Penetration && up_to < number("1e-6") && number("1e-6") <= from, "{up_to} {from}");
+    let Missed { of, up_to, from, .. } = missing(|system| system::reaction(system) < number("1e-2"));
+    assert!(of == Of::Force && up_to < number("1e-2") && number("1e-2") <= from, "{up_to} {from}");
+    // No threshold of one quantity; and nothing missed.
+    let by_name = changed(|problem, u, n| {
+        let free = structure::deflection(&problem.system);
+        if problem.id.ends_with('3') { [free, Exact::zero()] } else { [u, n] }
+    });
+    assert_eq!((by_name.missed, changed(|_, u, n| [u, n]).missed), (None, None));
+}
+
+/// What is refused altogether is not known to be right.
+#[test]
+fn a_family_without_an_answer_does_not_hold() {
+    let refusing = |refused: &'static str| {
+        let ask = |problem: &Problem| {
+            let refuses = problem.id.starts_with(refused);
+            let answer = || Reply::Answered(Box::new(right(problem)));
+            Ok::<_, Infallible>(if refuses { Reply::Refused("no".into()) } else { answer() })
+        };
+        check(&default_problems(), &number(TOLERANCE), ask).unwrap().holds()
+    };
+    assert_eq!(["stiff-1", "stiff", "none"].map(refusing), [true, false, true]);
 }

@@ -37,7 +37,7 @@ pub struct Drawn {
     cases: u64,
     /// Where they are drawn from; the same seed, the same systems, on every machine
     #[arg(long, value_name = "N", default_value = "1", value_parser = crate::args::whole)]
-    seed: u64,
+    pub seed: u64,
     /// Only this family, repeatable: contact, separated, grazing, near, overlap, lifted, stiff, soft,
     /// far, huge or tiny
     #[arg(long = "family", value_name = "F")]

@@ -89,7 +89,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     let program = reply::words(&program.map_err(|error| format!("the program's words: {error}"))?);
     output::print(|out| match options.format {
         Format::Table => report::table(out, &program, &report, options.tolerance.text.as_str()),
-        Format::Json => output::json(out, &json::of(&program, &report)),
+        Format::Json => output::json(out, &json::of(&program, options, &report)),
         Format::Markdown => report::markdown(out, &report),
     })?;
     Ok(if report.holds() { Exit::Fine } else { Exit::Unmet })

@@ -1,10 +1,14 @@
 //! The report as JSON has it: quantities as strings, every key always there.
 
+use super::Options;
+use super::program::request;
 use crate::args::spelled;
 use serde::Serialize;
-use spring_mass_contact::chapter::{SpringMass, contact::Kkt};
+use serde_json::value::RawValue;
+use spring_mass_contact::chapter::contact::Kkt;
 use spring_mass_contact::check::{
-    Answer, Answers, Checked, Diagnosis, Family, Kind, Reply, Report, Row, Summary, Value, Verdict,
+    Answer, Answers, Checked, Diagnosis, Family, Kind, Missed, Of, Reply, Report, Row, Summary, Value,
+    Verdict,
 };
 use spring_mass_contact::number::Exact;
 use spring_mass_contact::rug::float::Round;
@@ -16,11 +20,14 @@ const DIGITS: usize = 6;
 #[derive(Serialize)]
 pub struct Json<'a> {
     program: &'a str,
+    seed: u64,
+    tolerance: String,
     cases: usize,
     given_up: bool,
     summary: Summary,
     families: Vec<JsonRow<'a>>,
     penalty: JsonPenalty,
+    missed: Option<JsonMissed>,
     diagnosis: Vec<JsonDiagnosis<'a>>,
 }
 
@@ -36,22 +43,11 @@ struct JsonRow<'a> {
 
 #[derive(Serialize)]
 struct Counterexample<'a> {
-    request: Request<'a>,
+    request: Box<RawValue>,
     answer: Option<JsonAnswer<'a>>,
     finding: Option<&'a str>,
     exact: Solved,
     kkt: Option<JsonKkt>,
-}
-
-#[derive(Serialize)]
-struct Request<'a> {
-    id: &'a str,
-    stiffness: String,
-    mass: String,
-    gravity: String,
-    free_length: String,
-    height: String,
-    penalty: Option<String>,
 }
 
 #[derive(Serialize)]
@@ -85,6 +81,14 @@ struct JsonPenalty {
 }
 
 #[derive(Serialize)]
+struct JsonMissed {
+    count: usize,
+    of: Of,
+    up_to: String,
+    from: String,
+}
+
+#[derive(Serialize)]
 struct JsonDiagnosis<'a> {
     name: &'a str,
     formula: &'a str,
@@ -94,7 +98,7 @@ struct JsonDiagnosis<'a> {
     of: usize,
 }
 
-pub fn of<'a>(program: &'a str, report: &'a Report) -> Json<'a> {
+pub fn of<'a>(program: &'a str, options: &Options, report: &'a Report) -> Json<'a> {
     let penalty = &report.penalty;
     let row = |row: Row<'a>| JsonRow {
         family: row.family,
@@ -110,6 +114,8 @@ pub fn of<'a>(program: &'a str, report: &'a Report) -> Json<'a> {
     };
     Json {
         program,
+        seed: options.drawn.seed,
+        tolerance: spelled(&options.tolerance.value),
         cases: report.checked.len(),
         given_up: report.given_up,
         summary: report.summary(),
@@ -119,8 +125,15 @@ pub fn of<'a>(program: &'a str, report: &'a Report) -> Json<'a> {
             value: penalty.value.as_ref().map(|value| value.decimal(DIGITS, Round::Nearest)),
             spread: error(&penalty.spread),
         },
+        missed: report.missed.as_ref().map(missed),
         diagnosis: report.diagnosis.iter().map(diagnosis).collect(),
     }
+}
+
+fn missed(missed: &Missed) -> JsonMissed {
+    let Missed { count, of, up_to, from } = missed;
+    let text = |x: &Exact, round| x.decimal(DIGITS, round);
+    JsonMissed { count: *count, of: *of, up_to: text(up_to, Round::Up), from: text(from, Round::Down) }
 }
 
 fn error(x: &Option<Exact>) -> Option<String> {
@@ -140,7 +153,6 @@ fn counterexample(checked: &Checked) -> Counterexample<'_> {
         }
         _ => None,
     };
-    let SpringMass { c, m, g, l, h } = checked.problem.system.map(spelled);
     let residual = |x: &Exact| x.decimal(DIGITS, Round::Nearest);
     let kkt = |kkt: &Kkt<Exact>| JsonKkt {
         stationarity: residual(&kkt.stationarity),
@@ -150,15 +162,8 @@ fn counterexample(checked: &Checked) -> Counterexample<'_> {
     };
     let exact = &judgement.exact;
     Counterexample {
-        request: Request {
-            id: &checked.problem.id,
-            stiffness: c,
-            mass: m,
-            gravity: g,
-            free_length: l,
-            height: h,
-            penalty: checked.problem.penalty.as_ref().map(spelled),
-        },
+        request: RawValue::from_string(request(&checked.problem).trim_end().to_string())
+            .expect("a request is JSON"),
         answer,
         finding: judgement.finding.as_deref(),
         exact: Solved {

@@ -33,6 +33,9 @@ const SOON: Duration = Duration::from_millis(5);
 /// Bytes of stderr that are kept, the last.
 const TAIL: usize = 1 << 12;
 
+/// Bytes of a line that are kept to be shown, should no answer come.
+const LAST: usize = 400;
+
 /// A program, started when it is first asked and again after each time that it had to be given up.
 pub struct Program {
     words: Vec<String>,
@@ -62,7 +65,7 @@ impl Program {
             }
             Err(Lost::Astray(why)) => Reply::Garbled(why),
             Err(Lost::Ended) => Reply::Crashed(running.end()),
-            Err(Lost::TimedOut) => Reply::TimedOut,
+            Err(Lost::TimedOut(seen)) => Reply::TimedOut(seen),
         })
     }
 
@@ -109,7 +112,8 @@ enum Lost {
     /// It answers, but not what it was asked.
     Astray(String),
     Ended,
-    TimedOut,
+    /// And what it did say.
+    TimedOut(String),
 }
 
 /// A program that has been started. Dropped, it ends at once, with all that it has started itself.
@@ -145,17 +149,21 @@ impl Running {
                 Err(RecvTimeoutError::Disconnected) => return Err(Lost::Ended),
             }
             if left().is_zero() {
-                return Err(Lost::TimedOut);
+                return Err(Lost::TimedOut("too much on stdout before it was asked".to_string()));
             }
         }
         // Nobody takes it from a program that does not read; what becomes of that shows on its stdout.
         let _ = self.requests.send(request(problem));
+        let mut last = Vec::new();
         loop {
             let ended = self.group.has_ended();
             match self.lines.next(left().min(LOOK)) {
                 Ok(line) => {
                     if let Some(reply) = reply::read(line, &problem.id) {
                         return reply.map_err(Lost::Astray);
+                    }
+                    if !line.trim_ascii().is_empty() {
+                        last = line[..line.len().min(LAST)].to_vec();
                     }
                 }
                 Err(RecvTimeoutError::Disconnected) => return Err(Lost::Ended),
@@ -164,7 +172,13 @@ impl Running {
                 Err(RecvTimeoutError::Timeout) => {}
             }
             if left().is_zero() {
-                return Err(Lost::TimedOut);
+                return Err(Lost::TimedOut(match &*last {
+                    [] => "nothing on stdout: does it flush?".to_string(),
+                    line => format!(
+                        "last on stdout, and no JSON object: {}",
+                        words(&String::from_utf8_lossy(line))
+                    ),
+                }));
             }
         }
     }

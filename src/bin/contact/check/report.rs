@@ -4,10 +4,10 @@ use crate::args::spelled;
 use crate::output::{self, shortened};
 use spring_mass_contact::chapter::contact::Kkt;
 use spring_mass_contact::check::{
-    Answers, Checked, Diagnosis, Kind, Penalty, Reply, Report, Row, Summary, Value, Verdict,
+    Answers, Checked, Diagnosis, Kind, Missed, Of, Penalty, Reply, Report, Row, Summary, Value, Verdict,
 };
 use spring_mass_contact::formula::GLUE;
-use spring_mass_contact::number::Exact;
+use spring_mass_contact::number::{Exact, PositivePart};
 use spring_mass_contact::rug::float::Round;
 use std::io::{self, Write};
 
@@ -43,19 +43,15 @@ pub fn table(out: &mut dyn Write, program: &str, report: &Report, tolerance: &st
     table.add_rows(families.iter().map(|row| cells(row, &within)));
     output::lines(out, &table)?;
     writeln!(out)?;
-    output::wrapped(
-        out,
-        " ",
-        1,
-        &output::glued(&"u: in parts of |H − l| + |m g / c|; N: of |m g| + |c (H − l)|."),
-    )?;
+    writeln!(out, " u in parts of |H − l| + |m g / c|, N of |m g| + |c (H − l)|; right: off by no")?;
+    writeln!(out, " more than what rounding in f64 may do, within: than the tolerance.")?;
     let bad: Vec<_> = families.iter().filter(|row| row.verdict > Verdict::WithinTolerance).collect();
     for row in bad.iter().take(EXAMPLES) {
         writeln!(out)?;
         example(out, row.worst)?;
     }
     if bad.len() > EXAMPLES {
-        writeln!(out, "\n --format json has an example of each family.")?;
+        writeln!(out, "\n --format json has an example of each family that fails, with its request.")?;
     }
     if report.given_up {
         writeln!(out)?;
@@ -67,11 +63,19 @@ pub fn table(out: &mut dyn Write, program: &str, report: &Report, tolerance: &st
             &format!("It has answered none of the first {few} systems: no more were put."),
         )?;
     }
-    if let Some(shown) = penalty(&report.penalty) {
+    let said = [penalty(report), report.missed.as_ref().map(missed), diagnosed(report)];
+    for said in said.into_iter().flatten() {
         writeln!(out)?;
-        output::wrapped(out, " ", 1, &shown)?;
+        output::wrapped(out, " ", 1, &said)?;
     }
-    diagnosed(out, &report.diagnosis)
+    if let Some(Diagnosis { formula, at, .. }) = report.named() {
+        output::wrapped(out, "   ", 3, formula)?;
+        at.iter().try_for_each(|place| output::wrapped(out, "   ", 3, place))?;
+    }
+    if report.holds() {
+        writeln!(out, "\n Nothing is wrong with one unknown and one plane.")?;
+    }
+    Ok(())
 }
 
 pub fn markdown(out: &mut dyn Write, report: &Report) -> io::Result<()> {
@@ -127,6 +131,10 @@ fn example(out: &mut dyn Write, checked: &Checked) -> io::Result<()> {
         "exact",
         parts(&format!("u = {} m, N = {} N", decimal(&exact.deflection), decimal(&exact.contact_force))),
     )?;
+    if let (Some(u), Some(n)) = (&judgement.deflection_error, &judgement.force_error) {
+        let few = |x: &Exact| x.decimal(FEW, Round::Up);
+        line("off by", format!("{} of what u is measured by, {} of what N is", few(u), few(n)))?;
+    }
     if let Some(kkt) = &judgement.kkt {
         let few = |x: &Exact| x.decimal(FEW, Round::Nearest);
         let Kkt { stationarity, primal, dual, complementarity } = kkt;
@@ -147,56 +155,73 @@ fn parts(list: &str) -> String {
     list.replace(' ', &GLUE.to_string()).replace(&format!(",{GLUE}"), ", ")
 }
 
-/// What the forces by their penetrations show.
-fn penalty(penalty: &Penalty) -> Option<String> {
-    let value = penalty.value.as_ref()?.decimal(6, Round::Nearest);
-    let spread = penalty.spread.as_ref()?;
-    let eps = match penalty.kind {
+/// What the forces by their penetrations show, if it is not what was asked for.
+fn penalty(report: &Report) -> Option<String> {
+    let Penalty { kind, value, spread } = &report.penalty;
+    let (value, spread) = (value.as_ref()?, spread.as_ref()?);
+    let asked = report.checked.first()?.problem.penalty.as_ref();
+    if *kind == Kind::Constant && asked.is_some_and(|asked| (value - asked).abs() <= spread * asked) {
+        return None;
+    }
+    let value = value.decimal(6, Round::Nearest);
+    let (eps, besides) = match kind {
         Kind::None => return None,
-        Kind::Constant => format!("ε = {value} N/m"),
-        Kind::OfStiffness => format!("ε = {value} c"),
-        Kind::OfMass => format!("ε = m × {value}/s²"),
+        Kind::Constant => (format!("ε = {value} N/m"), ""),
+        Kind::OfStiffness => (
+            format!("ε = {value} c"),
+            " So does an iteration that stops after the same number of steps everywhere.",
+        ),
+        Kind::OfMass => (format!("ε = m × {value}/s²"), ""),
     };
+    let spread = spread.decimal(FEW, Round::Up);
     Some(format!(
-        "It acts like a penalty: N = ε p with {eps}, the same wherever it shows, to within {}.",
-        spread.decimal(FEW, Round::Up)
+        "It acts like a penalty: N = ε p with {eps}, the same wherever it shows, to within {spread}.{besides}"
     ))
 }
 
-fn diagnosed(out: &mut dyn Write, diagnosis: &[Diagnosis]) -> io::Result<()> {
-    match diagnosis {
-        [] => return Ok(()),
-        [only] => {
-            let Diagnosis { name, formula, at, answers, of, .. } = only;
-            let which = match answers {
-                Answers::All => format!("All {of} answers"),
-                Answers::Wrong if *of == 1 => "The wrong answer".to_string(),
-                Answers::Wrong => format!("All {of} wrong answers"),
-                Answers::Steps => format!("The steps of all {of} systems"),
-            };
-            writeln!(out)?;
-            output::wrapped(
-                out,
-                " ",
-                1,
-                &format!("{which} fit one mistake that is known, and no other: {name}."),
-            )?;
-            output::wrapped(out, "   ", 3, formula)?;
-            at.iter().try_for_each(|place| output::wrapped(out, "   ", 3, place))?;
-        }
+fn missed(missed: &Missed) -> String {
+    let Missed { count, of, up_to, from } = missed;
+    let [up_to, from] = [(up_to, Round::Up), (from, Round::Down)].map(|(x, round)| x.decimal(FEW, round));
+    let (what, unit) = match of {
+        Of::Penetration => ("the mass would go through it by", "m"),
+        Of::Force => ("it has to push with", "N"),
+    };
+    format!(
+        "It misses the plane in {count} systems, in which {what} up to {up_to} {unit}, and finds it in all others, \
+         from {from} {unit} on. A tolerance of its own?"
+    )
+}
+
+fn diagnosed(report: &Report) -> Option<String> {
+    let Summary { right, within_tolerance, .. } = report.summary();
+    let others = match right + within_tolerance {
+        0 => String::new(),
+        others => format!(" The other {others} are right."),
+    };
+    Some(match report.diagnosis.as_slice() {
+        [] => return None,
+        [Diagnosis { name, answers, of, .. }] => match answers {
+            Answers::All => format!("All {of} answers fit one mistake that is known, and no other: {name}."),
+            Answers::Steps => format!("The steps of all {of} systems that tell them show it: {name}."),
+            Answers::Wrong if *of == 1 => {
+                format!("The wrong answer fits one mistake that is known, and no other: {name}.{others}")
+            }
+            Answers::Wrong => {
+                format!("The {of} wrong answers fit one mistake that is known, and no other: {name}.{others}")
+            }
+        },
         several => {
-            writeln!(out)?;
             let names: Vec<_> = several.iter().take(NAMED).map(|one| one.name.as_str()).collect();
-            let more = several.len().saturating_sub(NAMED);
-            let more = if more > 0 { format!("; and {more} more") } else { String::new() };
-            let which = if several[0].answers == Answers::All { "All answers" } else { "All wrong answers" };
-            let text = format!(
-                "{which} fit several mistakes that are known: {}{more}. More families or more cases may tell \
-                 them apart.",
+            let more = match several.len().saturating_sub(NAMED) {
+                0 => String::new(),
+                more => format!("; and {more} more"),
+            };
+            let which = if several[0].answers == Answers::All { "All answers" } else { "The wrong answers" };
+            format!(
+                "{which} fit several mistakes that are known: {}{more}.{others} More families or more cases may \
+                 tell them apart.",
                 names.join("; ")
-            );
-            output::wrapped(out, " ", 1, &text)?;
+            )
         }
-    }
-    Ok(())
+    })
 }

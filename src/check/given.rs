@@ -1,0 +1,136 @@
+//! An answer to a problem, and what it fits.
+
+use super::judge::{is_within, rounded, scales};
+use super::mistakes::{Formulas, Measured, Mistake, value};
+use super::{Answer, Checked, Problem, Reply, Value, Verdict};
+use crate::chapter::{SpringMass, augmented, contact, system};
+use crate::number::{Ball, Exact, PositivePart, Tree};
+use num_traits::{One, Zero};
+
+/// An answer, and the problem that it is one of.
+pub(super) struct Given<'a> {
+    pub problem: Problem,
+    pub answer: &'a Answer,
+    pub exact: [&'a Exact; 2],
+    pub wrong: bool,
+}
+
+/// N/p, in N/m.
+pub(super) struct Ratio<'a> {
+    pub system: &'a SpringMass<Exact>,
+    pub value: Exact,
+    /// How many times what it may be rounded by in f64 the penetration is.
+    pub clarity: Exact,
+}
+
+impl<'a> Given<'a> {
+    pub fn of(checked: &'a Checked, tolerance: &Exact) -> Option<Self> {
+        let Reply::Answered(answer) = &checked.reply else { return None };
+        let problem = checked.problem.as_used(answer, tolerance).ok()?;
+        let judgement = &checked.judgement;
+        let exact = [&judgement.exact.deflection, &judgement.exact.contact_force];
+        Some(Given { problem, answer, exact, wrong: judgement.verdict == Verdict::Wrong })
+    }
+
+    /// Force by penetration, if it is positive, and the penetration is a thousand times what the lengths and
+    /// the deflection may be rounded by in f64.
+    pub fn ratio(&self, by: Measured, tolerance: &Exact) -> Option<Ratio<'_>> {
+        let (force, u) = (self.force(by, tolerance)?, self.answer.deflection.as_ref()?);
+        let system = &self.problem.system;
+        let p = contact::penetration(system, u);
+        let rounding = (system.l.abs() + system.h.abs() + u.abs()) * Exact::power_of_two(-53);
+        if p.is_zero() || p.abs() < Exact::from(1000) * &rounding {
+            return None;
+        }
+        let (value, clarity) = (force / &p, Exact::one() / (rounding / p.abs()));
+        (value > Exact::zero()).then_some(Ratio { system, value, clarity })
+    }
+
+    /// The force that a penalty would be told by, if there is any.
+    pub fn force(&self, by: Measured, tolerance: &Exact) -> Option<Exact> {
+        let system = &self.problem.system;
+        let force = match by {
+            Measured::ByForce => self.answer.contact_force.clone()?,
+            Measured::ByEquilibrium if system::reaction(system) < Exact::zero() => {
+                augmented::contact_force(system, self.answer.deflection.as_ref()?)
+            }
+            Measured::ByEquilibrium => return None,
+        };
+        let [_, scale] = scales(system);
+        (force.abs() > tolerance * scale).then_some(force)
+    }
+
+    /// u and N.
+    pub fn numbers(&self) -> [&Value; 2] {
+        [&self.answer.deflection, &self.answer.contact_force]
+    }
+
+    /// Does a program with this mistake, and this penalty, answer so? Not if it has a penalty that nobody
+    /// knows.
+    pub fn fits(&self, mistake: &Mistake, penalty: Option<&Exact>, tolerance: &Exact) -> bool {
+        let system = &self.problem.system;
+        let scales = scales(system);
+        let numbers = self.numbers();
+        if penalty.is_none() && mistake.has_penalty() {
+            return false;
+        }
+        // What f64 makes of the formulas is theirs, too.
+        let ball = |x: &Exact| Ball::around(&0f64, x).ok();
+        let rounded =
+            system.try_map(|x| ball(x).ok_or(())).ok().map(|system| (system, penalty.and_then(ball)));
+        let within = |x: &Exact, formula: &Tree| {
+            let rounded = rounded.as_ref().and_then(|(system, eps)| value(formula, system, eps.as_ref()));
+            rounded.is_some_and(|ball| is_within(&ball, x))
+        };
+        let fits = |formulas: &Formulas| {
+            (0..2).all(|i| match (numbers[i], value(&formulas[i], system, penalty)) {
+                (Some(own), Some(x)) => {
+                    (own - &x).abs() <= tolerance * (&scales[i] + x.abs()) || within(own, &formulas[i])
+                }
+                (None, None) => true,
+                _ => false,
+            })
+        };
+        let reaction = system::reaction(system);
+        // So near to grazing rounding may take one for the other.
+        let open = reaction.abs() <= tolerance * &scales[1];
+        (open || reaction > Exact::zero()) && fits(&mistake.touching)
+            || (open || reaction <= Exact::zero()) && fits(&mistake.apart)
+    }
+
+    /// Is it as far off as single precision may take what is right?
+    pub fn is_single(&self) -> bool {
+        rounded(&0f32, &self.problem).is_some_and(|balls| {
+            balls.iter().zip(self.numbers()).all(|(ball, x)| x.as_ref().is_some_and(|x| is_within(ball, x)))
+        })
+    }
+
+    /// Is the force of each step that of the step before? `None` if the steps do not tell.
+    pub fn lags(&self, tolerance: &Exact) -> Option<bool> {
+        let system = &self.problem.system;
+        let [_, scale] = scales(system);
+        let near = |force: &Exact, u: &Exact| {
+            (force - augmented::contact_force(system, u)).abs() <= tolerance * &scale
+        };
+        let steps = self.answer.steps.windows(2).filter_map(|pair| match pair {
+            [[Some(u), Some(own)], [_, Some(next)]] => Some((near(own, u), near(next, u))),
+            _ => None,
+        });
+        // Where both are near, they have come so close that they cannot be told apart.
+        let mut telling = steps.filter(|(own, next)| own != next || !own).peekable();
+        telling.peek()?;
+        Some(telling.all(|(own, next)| !own && next))
+    }
+
+    /// What is right by this factor off: u in parts of the exact one, or N. `None` where that is nearly zero,
+    /// and the number as well.
+    pub fn factor(&self, which: usize, tolerance: &Exact) -> Option<Option<Exact>> {
+        let small = |x: &Exact| x.abs() <= tolerance * &scales(&self.problem.system)[which];
+        let Some(number) = self.numbers()[which] else { return Some(None) };
+        match (small(self.exact[which]), small(number)) {
+            (true, true) => None,
+            (true, false) => Some(None),
+            (false, _) => Some(Some(number / self.exact[which])),
+        }
+    }
+}

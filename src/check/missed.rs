@@ -1,0 +1,72 @@
+//! Contacts that are taken for none, and what they have in common.
+
+use super::given::Given;
+use super::judge::scales;
+use crate::chapter::{structure, system};
+use crate::number::{Exact, PositivePart};
+use num_traits::Zero;
+use std::fmt;
+
+/// Of what a threshold may be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Of {
+    /// How far the mass would go through the plane if there were none, in m.
+    Penetration,
+    /// How hard the plane has to push, in N.
+    Force,
+}
+
+/// As JSON has it.
+impl fmt::Display for Of {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.pad(match self {
+            Of::Penetration => "penetration",
+            Of::Force => "force",
+        })
+    }
+}
+
+#[cfg(feature = "serde")]
+crate::number::serialize_as_displayed!(Of);
+
+/// A solver lets the mass hang free in some systems in which the plane pushes, and one quantity tells these
+/// from the others: most likely it compares that with a tolerance of its own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Missed {
+    /// How many it misses.
+    pub count: usize,
+    /// What tells them.
+    pub of: Of,
+    /// The largest that it misses.
+    pub up_to: Exact,
+    /// The smallest that it finds.
+    pub from: Exact,
+}
+
+/// Fewer might be told from the others by chance.
+const LEAST: usize = 2;
+
+impl Missed {
+    pub(super) fn of(answers: &[Given], tolerance: &Exact) -> Option<Self> {
+        let contacts = answers.iter().filter_map(|given| {
+            let system = &given.problem.system;
+            let (reaction, [_, scale]) = (system::reaction(system), scales(system));
+            let force = given.answer.contact_force.as_ref()?;
+            let through = structure::deflection(system) - system::gap(system);
+            let is_missed = given.wrong && force.abs() <= tolerance * &scale;
+            (reaction > tolerance * scale && (is_missed || *force > Exact::zero()))
+                .then_some((is_missed, [through, reaction]))
+        });
+        let (missed, found): (Vec<_>, Vec<_>) = contacts.partition(|(is_missed, _)| *is_missed);
+        let threshold = |(i, of): (usize, Of)| {
+            let up_to = missed.iter().map(|(_, quantities)| &quantities[i]).max()?;
+            let from = found.iter().map(|(_, quantities)| &quantities[i]).min()?;
+            let count = missed.len();
+            (up_to < from).then(|| Missed { count, of, up_to: up_to.clone(), from: from.clone() })
+        };
+        let both = [Of::Penetration, Of::Force].into_iter().enumerate().filter_map(threshold);
+        // If both tell them, the one that does more clearly.
+        let clearest = both.max_by(|a, b| (&a.from * &b.up_to).cmp(&(&b.from * &a.up_to)));
+        clearest.filter(|_| missed.len() >= LEAST && found.len() >= LEAST)
+    }
+}
