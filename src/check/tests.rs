@@ -494,6 +494,7 @@ fn what_shows_nothing_is_not_named() {
         answer
     });
     assert!(nan.summary().wrong > 0 && nan.diagnosis.is_empty(), "{:?}", nan.diagnosis);
+    assert!(run(&default_problems(), |_| Answer::default()).diagnosis.is_empty());
 }
 
 #[test]
