@@ -495,6 +495,13 @@ fn what_shows_nothing_is_not_named() {
     });
     assert!(nan.summary().wrong > 0 && nan.diagnosis.is_empty(), "{:?}", nan.diagnosis);
     assert!(run(&default_problems(), |_| Answer::default()).diagnosis.is_empty());
+    // A plane that also pulls, but for one number that is none.
+    let nearly = run(&default_problems(), |problem| {
+        let [u, n] = [system::gap(&problem.system), system::reaction(&problem.system)];
+        let answer = Answer::new(u, n);
+        if problem.id == "contact-1" { Answer { contact_force: None, ..answer } } else { answer }
+    });
+    assert!(nearly.diagnosis.is_empty(), "{:?}", nearly.diagnosis);
 }
 
 #[test]
