@@ -375,7 +375,18 @@ fn a_terminal_of_80_columns_is_enough() {
     let output = contact(&proofs);
     assert_eq!((too_wide(&output), output.status.code()), (None, Some(0)));
     assert!(stdout(&output).contains("\nchanges of formulas that these claims notice\n"));
-    for name in ["", "verify ", "prove ", "solve ", "sweep ", "equations ", "completions "] {
+    for name in [
+        "",
+        "verify ",
+        "prove ",
+        "solve ",
+        "advise ",
+        "sweep ",
+        "cases ",
+        "check ",
+        "equations ",
+        "completions ",
+    ] {
         let line = format!("{name}--help");
         let mut command = Command::new(env!("CARGO_BIN_EXE_contact"));
         // Without COLUMNS clap takes what there is room for; there is no terminal.
@@ -388,6 +399,9 @@ fn a_terminal_of_80_columns_is_enough() {
         "solve -h",
         "sweep --help",
         "sweep -h",
+        "cases -h",
+        "check -h",
+        "check -- false",
         "completions --help",
         "verify --help",
         "equations --help",
@@ -1040,7 +1054,10 @@ fn no_bad_choice_gets_further_than_one_line() {
     for command in ["VERIFY", "verfy", "", "-", "1.13", "proof"] {
         let line = refusal(&[command]);
         assert!(line.contains(&format!("unrecognized subcommand '{command}'")), "{line}");
-        assert!(line.contains("verify, prove, solve, advise, sweep, equations, completions"), "{line}");
+        assert!(
+            line.contains("verify, prove, solve, advise, sweep, cases, check, equations, completions"),
+            "{line}"
+        );
     }
 }
 
