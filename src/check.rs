@@ -99,7 +99,7 @@ pub enum Reply {
 pub struct Checked {
     /// What was asked.
     pub problem: Problem,
-    /// What came.
+    /// What came, but for its steps.
     pub reply: Reply,
     /// How far off it is.
     pub judgement: Judgement,
@@ -180,11 +180,16 @@ pub fn check<E>(
     let mut checked = Vec::new();
     let mut given_up = false;
     for problem in problems {
-        let reply = ask(problem)?;
+        let mut reply = ask(problem)?;
         let judgement = Judgement::of(problem, &reply, tolerance);
+        // They may be many, and have told what they can.
+        if let Reply::Answered(answer) = &mut reply {
+            answer.steps = Vec::new();
+        }
         checked.push(Checked { problem: problem.clone(), reply, judgement });
         let silent = |of: &Checked| matches!(of.reply, Reply::Crashed(_) | Reply::TimedOut(_));
-        given_up = checked.len() == PATIENCE && checked.iter().all(silent);
+        let more = checked.len() < problems.len();
+        given_up = more && checked.len() == PATIENCE && checked.iter().all(silent);
         if given_up {
             break;
         }
@@ -202,10 +207,9 @@ impl Report {
     /// refused altogether nothing is known.
     pub fn holds(&self) -> bool {
         let Summary { wrong, crashed, timed_out, .. } = self.summary();
-        let lag = self.diagnosis.iter().any(|diagnosis| diagnosis.answers == Answers::Steps);
         let families = self.families();
         let known = !families.is_empty() && families.iter().all(|row| row.right > 0);
-        known && wrong + crashed + timed_out == 0 && !lag
+        known && wrong + crashed + timed_out == 0 && self.lag().is_none()
     }
 
     /// How many problems came to what.
@@ -230,10 +234,22 @@ impl Report {
         families.into_iter().filter_map(|(family, all)| Row::of(family, &all)).collect()
     }
 
-    /// The mistake that was made, if exactly one is known that explains the answers.
+    /// The known mistakes that the answers fit: all of them, or all that are wrong.
+    pub fn fitting(&self) -> impl Iterator<Item = &Diagnosis> {
+        self.diagnosis.iter().filter(|diagnosis| diagnosis.answers != Answers::Steps)
+    }
+
+    /// What the steps show, if they do.
+    pub fn lag(&self) -> Option<&Diagnosis> {
+        self.diagnosis.iter().find(|diagnosis| diagnosis.answers == Answers::Steps)
+    }
+
+    /// The mistake that was made, if exactly one is known that explains the answers; or else, the steps.
     pub fn named(&self) -> Option<&Diagnosis> {
-        match self.diagnosis.as_slice() {
-            [only] => Some(only),
+        let mut fitting = self.fitting();
+        match (fitting.next(), fitting.next()) {
+            (None, _) => self.lag(),
+            (only, None) => only,
             _ => None,
         }
     }

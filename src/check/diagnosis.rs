@@ -1,19 +1,15 @@
 //! What is wrong with a solver: which known mistake its answers fit.
 
 use super::Penalty;
-use super::given::Given;
+use super::given::{Given, has_digits};
+use super::judge::fit;
 use super::mistakes::{Measured, Mistake, mistakes, none};
 use crate::claims::registry;
 use crate::formula::Notation;
 use crate::number::{Exact, PositivePart};
-use num_traits::One;
+use num_traits::{One, Zero};
 use rug::float::Round;
 use std::fmt;
-
-/// How near an answer has to be to what a mistake computes, in parts of the system's scale and of what is
-/// computed: as near as the tolerance asks for, and no nearer than this, so that the same mistakes can be
-/// told apart whatever the tolerance.
-const FIT: &str = "1e-6";
 
 /// Which answers a mistake explains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,15 +61,14 @@ pub(super) fn diagnose(
     tolerance: &Exact,
 ) -> Vec<Diagnosis> {
     let tolerance = &fit(tolerance);
-    let lag = lag(answers, tolerance);
+    let lag = lag(answers);
     let wrong = Vec::from_iter(answers.iter().filter(|given| given.wrong));
     if wrong.is_empty() {
         return Vec::from_iter(lag);
     }
     let pulled = Penalty::measured(answers, Measured::ByEquilibrium, tolerance);
     let penalty_of = |mistake: &Mistake, given: &Given| {
-        let told = given.answer.used.penalty.clone().flatten().or_else(|| given.problem.penalty.clone());
-        told.or_else(|| match mistake.measured? {
+        given.told().or_else(|| match mistake.measured? {
             Measured::ByForce => shown.at(&given.problem.system),
             Measured::ByEquilibrium => pulled.at(&given.problem.system),
         })
@@ -99,9 +94,11 @@ pub(super) fn diagnose(
             let known = mistakes(by_penalty).iter().filter(|mistake| all(&|given| fits(mistake, given)));
             found.extend(known.map(|known| diagnosis(&known.name, known.formula(), &known.at)));
         }
-        found.extend(all(&|given| given.is_single()).then(|| about("it computes in single precision")));
-        if found.is_empty() {
-            found.extend(few_digits(answers).or_else(|| factor(answers, tolerance)).map(|name| about(&name)));
+        // One answer alone could be off by anything.
+        if found.is_empty() && answers.len() > 1 {
+            let single = || all(&|given| given.is_single()).then(|| "it computes in single precision".into());
+            let name = few_digits(answers).or_else(single).or_else(|| factor(answers));
+            found.extend(name.map(|name| about(&name)));
         }
         found
     };
@@ -120,9 +117,11 @@ fn few_digits(answers: &[&Given]) -> Option<String> {
     let pairs = answers.iter().flat_map(|given| given.numbers().into_iter().zip(given.exact));
     let pairs = pairs.map(|(number, exact)| Some((number.as_ref()?, exact))).collect::<Option<Vec<_>>>()?;
     let unit = |decimals: usize| Exact::one() / ten_to(decimals);
-    let near = |x: &Exact, exact: &Exact, unit: Exact| (x - exact).abs() <= unit;
+    // Rounded to nearest; that it has been rounded before, to f64, moves hardly any of them further.
+    let near = |x: &Exact, exact: &Exact, unit: Exact| {
+        Exact::from(100) * (x - exact).abs() <= Exact::from(51) * unit
+    };
     let has_decimals = |x: &Exact, decimals: usize| (x * ten_to(decimals)).as_rational().is_integer();
-    let has_digits = |x: &Exact, digits: usize| x.decimal(digits, Round::Nearest).parse().as_ref() == Ok(x);
     let decimals = (0..FEW).find(|n| pairs.iter().all(|(x, _)| has_decimals(x, *n)));
     if let Some(n) = decimals.filter(|n| pairs.iter().all(|(x, exact)| near(x, exact, unit(*n)))) {
         return Some(format!("its numbers have no more than {n} decimals"));
@@ -138,35 +137,34 @@ fn ten_to(n: usize) -> Exact {
     (0..n).fold(Exact::one(), |power, _| power * Exact::from(10))
 }
 
+/// How nearly the same factors have to be, and how far from 1 to be one.
+const ALIKE: &str = "1e-5";
+
 /// u is the same multiple of what is right in all of them, or N is, or both are.
-fn factor(answers: &[&Given], tolerance: &Exact) -> Option<String> {
+fn factor(answers: &[&Given]) -> Option<String> {
+    let alike: Exact = ALIKE.parse().expect("a number");
     let factor = |which| {
-        let all = answers.iter().filter_map(|given| given.factor(which, tolerance));
+        let all = answers.iter().filter_map(|given| given.factor(which, &alike));
         let all = all.collect::<Option<Vec<_>>>()?;
         let (most, least) = (all.iter().max()?, all.iter().min()?);
-        ((most - least).abs() <= tolerance * most.abs() && all.len() > 1).then(|| most.clone())
+        ((most - least).abs() <= &alike * most.abs() && all.len() > 1).then(|| most.clone())
     };
-    let [u, n] = [factor(0)?, factor(1)?];
-    let is_right = |x: &Exact| (x - Exact::one()).abs() <= *tolerance;
-    let times =
-        |name: &str, x: &Exact| format!("{name} is {} times what is right", x.decimal(6, Round::Nearest));
-    match (is_right(&u), is_right(&n)) {
-        (true, true) => None,
-        (false, true) => Some(times("u", &u)),
-        (true, false) => Some(times("N", &n)),
-        (false, false) => Some(format!("{}, {}", times("u", &u), times("N", &n))),
-    }
-}
-
-/// How near an answer has to be.
-fn fit(tolerance: &Exact) -> Exact {
-    let least: Exact = FIT.parse().expect("a number");
-    if *tolerance > least { tolerance.clone() } else { least }
+    let times = |name: &str, x: &Exact| {
+        if (x - Exact::one()).abs() <= alike {
+            None
+        } else if x.is_zero() {
+            Some(format!("{name} is always 0"))
+        } else {
+            Some(format!("{name} is {} times what is right", x.decimal(6, Round::Nearest)))
+        }
+    };
+    let found: Vec<_> = [times("u", &factor(0)?), times("N", &factor(1)?)].into_iter().flatten().collect();
+    (!found.is_empty()).then(|| found.join(", "))
 }
 
 /// The force reported is that of the step before.
-fn lag(answers: &[Given], tolerance: &Exact) -> Option<Diagnosis> {
-    let told = Vec::from_iter(answers.iter().filter_map(|given| given.lags(tolerance)));
+fn lag(answers: &[Given]) -> Option<Diagnosis> {
+    let told = Vec::from_iter(answers.iter().filter_map(|given| given.lags));
     let fits = told.iter().filter(|lags| **lags).count();
     (fits > 0 && fits == told.len()).then(|| Diagnosis {
         name: "N is one step behind".to_string(),

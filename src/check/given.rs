@@ -1,17 +1,19 @@
 //! An answer to a problem, and what it fits.
 
-use super::judge::{is_within, rounded, scales};
+use super::judge::{is_within, rounded, scales, sizes};
 use super::mistakes::{Formulas, Measured, Mistake, value};
 use super::{Answer, Checked, Problem, Reply, Value, Verdict};
 use crate::chapter::{SpringMass, augmented, contact, system};
-use crate::number::{Ball, Exact, PositivePart, Tree};
+use crate::number::{Ball, Exact, PositivePart, ToExact, Tree};
 use num_traits::{One, Zero};
+use rug::float::Round;
 
 /// An answer, and the problem that it is one of.
 pub(super) struct Given<'a> {
     pub problem: Problem,
     pub answer: &'a Answer,
     pub exact: [&'a Exact; 2],
+    pub lags: Option<bool>,
     pub wrong: bool,
 }
 
@@ -29,7 +31,13 @@ impl<'a> Given<'a> {
         let problem = checked.problem.as_used(answer, tolerance).ok()?;
         let judgement = &checked.judgement;
         let exact = [&judgement.exact.deflection, &judgement.exact.contact_force];
-        Some(Given { problem, answer, exact, wrong: judgement.verdict == Verdict::Wrong })
+        Some(Given {
+            problem,
+            answer,
+            exact,
+            lags: judgement.lags,
+            wrong: judgement.verdict == Verdict::Wrong,
+        })
     }
 
     /// Force by penetration, if it is positive, and the penetration is a thousand times what the lengths and
@@ -60,6 +68,11 @@ impl<'a> Given<'a> {
         (force.abs() > tolerance * scale).then_some(force)
     }
 
+    /// The penalty that it says it took, or that it was asked for.
+    pub fn told(&self) -> Option<Exact> {
+        self.answer.used.penalty.clone().flatten().or_else(|| self.problem.penalty.clone())
+    }
+
     /// u and N.
     pub fn numbers(&self) -> [&Value; 2] {
         [&self.answer.deflection, &self.answer.contact_force]
@@ -69,23 +82,28 @@ impl<'a> Given<'a> {
     /// knows.
     pub fn fits(&self, mistake: &Mistake, penalty: Option<&Exact>, tolerance: &Exact) -> bool {
         let system = &self.problem.system;
-        let scales = scales(system);
+        let (scales, sizes) = (scales(system), sizes(system));
         let numbers = self.numbers();
         if penalty.is_none() && mistake.has_penalty() {
             return false;
         }
-        // What f64 makes of the formulas is theirs, too.
+        // What f64 makes of the formulas is theirs, too; but under a penalty that only has to be told, and not to
+        // be seen, it could be anything.
         let ball = |x: &Exact| Ball::around(&0f64, x).ok();
         let rounded =
             system.try_map(|x| ball(x).ok_or(())).ok().map(|system| (system, penalty.and_then(ball)));
-        let within = |x: &Exact, formula: &Tree| {
+        let told = self.told().is_some();
+        let within = |x: &Exact, formula: &Tree, size: &Exact| {
             let rounded = rounded.as_ref().and_then(|(system, eps)| value(formula, system, eps.as_ref()));
-            rounded.is_some_and(|ball| is_within(&ball, x))
+            rounded.is_some_and(|ball| {
+                if told { is_within(&ball, x, size) } else { ball.is_finite() && ball.contains(x) }
+            })
         };
         let fits = |formulas: &Formulas| {
             (0..2).all(|i| match (numbers[i], value(&formulas[i], system, penalty)) {
                 (Some(own), Some(x)) => {
-                    (own - &x).abs() <= tolerance * (&scales[i] + x.abs()) || within(own, &formulas[i])
+                    (own - &x).abs() <= tolerance * (&scales[i] + x.abs())
+                        || within(own, &formulas[i], &sizes[i])
                 }
                 (None, None) => true,
                 _ => false,
@@ -98,28 +116,15 @@ impl<'a> Given<'a> {
             || (open || reaction <= Exact::zero()) && fits(&mistake.apart)
     }
 
-    /// Is it as far off as single precision may take what is right?
+    /// Is it as far off as single precision may take what is right, and are its numbers of single precision?
     pub fn is_single(&self) -> bool {
+        let sizes = sizes(&self.problem.system);
         rounded(&0f32, &self.problem).is_some_and(|balls| {
-            balls.iter().zip(self.numbers()).all(|(ball, x)| x.as_ref().is_some_and(|x| is_within(ball, x)))
+            (0..2).all(|i| {
+                let x = self.numbers()[i].as_ref();
+                x.is_some_and(|x| is_within(&balls[i], x, &sizes[i]) && is_single_number(x))
+            })
         })
-    }
-
-    /// Is the force of each step that of the step before? `None` if the steps do not tell.
-    pub fn lags(&self, tolerance: &Exact) -> Option<bool> {
-        let system = &self.problem.system;
-        let [_, scale] = scales(system);
-        let near = |force: &Exact, u: &Exact| {
-            (force - augmented::contact_force(system, u)).abs() <= tolerance * &scale
-        };
-        let steps = self.answer.steps.windows(2).filter_map(|pair| match pair {
-            [[Some(u), Some(own)], [_, Some(next)]] => Some((near(own, u), near(next, u))),
-            _ => None,
-        });
-        // Where both are near, they have come so close that they cannot be told apart.
-        let mut telling = steps.filter(|(own, next)| own != next || !own).peekable();
-        telling.peek()?;
-        Some(telling.all(|(own, next)| !own && next))
     }
 
     /// What is right by this factor off: u in parts of the exact one, or N. `None` where that is nearly zero,
@@ -133,4 +138,16 @@ impl<'a> Given<'a> {
             (false, _) => Some(Some(number / self.exact[which])),
         }
     }
+}
+
+/// Is this what is printed of a number of single precision: itself, or no more than the nine digits that tell
+/// it?
+fn is_single_number(x: &Exact) -> bool {
+    let itself = x.to_f32().ok().and_then(|x| x.to_exact().ok());
+    itself.as_ref() == Some(x) || has_digits(x, 9)
+}
+
+/// Is it a decimal of so many digits?
+pub(super) fn has_digits(x: &Exact, digits: usize) -> bool {
+    x.decimal(digits, Round::Nearest).parse().as_ref() == Ok(x)
 }

@@ -6,7 +6,7 @@
 
 use super::{Answer, Problem, Reply, Value};
 use crate::chapter::contact::{self, Kkt};
-use crate::chapter::{SpringMass, penalty, structure, system};
+use crate::chapter::{SpringMass, augmented, penalty, structure, system};
 use crate::number::{Ball, Exact, PositivePart, Real, ToExact};
 use crate::solver::{Method, Solution, State, solve};
 use num_traits::{One, Zero};
@@ -61,6 +61,8 @@ pub struct Judgement {
     pub kkt: Option<Kkt<Exact>>,
     /// What is wrong, in words.
     pub finding: Option<String>,
+    /// Is the force of each step that of the step before? `None` if there are no steps that tell.
+    pub lags: Option<bool>,
 }
 
 impl Problem {
@@ -78,9 +80,15 @@ impl Problem {
 
     /// The problem that was really solved; or which parameter is another than was asked for, and how.
     pub(super) fn as_used(&self, answer: &Answer, tolerance: &Exact) -> Result<Problem, String> {
+        // The signs stay: c, m and ε are positive.
         let taken = |name: &str, asked: &Exact, used: &Option<Value>| match used {
             None => Ok(asked.clone()),
-            Some(Some(used)) if (used - asked).abs() <= tolerance * asked.abs() => Ok(used.clone()),
+            Some(Some(used))
+                if (used - asked).abs() <= tolerance * asked.abs()
+                    && used.cmp(&Exact::zero()) == asked.cmp(&Exact::zero()) =>
+            {
+                Ok(used.clone())
+            }
             Some(Some(used)) => Err(format!("it took {name} = {} for {}", brief(used), brief(asked))),
             Some(None) => Err(format!("it took no number for {name} = {}", brief(asked))),
         };
@@ -131,9 +139,28 @@ pub(super) fn rounded<T: Real + ToExact>(like: &T, problem: &Problem) -> Option<
     })
 }
 
-/// Is a number where floats may take a formula?
-pub(super) fn is_within<T: Real + ToExact>(ball: &Ball<T>, x: &Exact) -> bool {
-    ball.is_finite() && ball.contains(x)
+/// The lengths of a system together, in m, and its forces, in N.
+pub(super) fn sizes(system: &SpringMass<Exact>) -> [Exact; 2] {
+    let [_, weight] = scales(system);
+    let lengths = system.l.abs() + system.h.abs();
+    [&lengths + structure::deflection(system).abs(), weight + &system.c * lengths]
+}
+
+/// Is a number where floats may take a formula? A ball that is larger than the system itself explains nothing.
+pub(super) fn is_within<T: Real + ToExact>(ball: &Ball<T>, x: &Exact, size: &Exact) -> bool {
+    let radius = ball.radius().to_exact();
+    radius.is_ok_and(|radius| radius <= *size) && ball.is_finite() && ball.contains(x)
+}
+
+/// How near an answer has to be to what it is taken for, in parts of the system's scale and of what is
+/// computed: as near as the tolerance asks for, and no nearer than this, so that the same mistakes can be
+/// told apart whatever the tolerance.
+const FIT: &str = "1e-6";
+
+/// How near an answer has to be.
+pub(super) fn fit(tolerance: &Exact) -> Exact {
+    let least: Exact = FIT.parse().expect("a number");
+    if *tolerance > least { tolerance.clone() } else { least }
 }
 
 impl Judgement {
@@ -145,6 +172,7 @@ impl Judgement {
             force_error: None,
             kkt: None,
             finding: Some(finding.to_string()),
+            lags: None,
         };
         match reply {
             Reply::Answered(answer) => match problem.as_used(answer, tolerance) {
@@ -168,17 +196,22 @@ impl Judgement {
         let error = |i: usize| numbers[i].as_ref().map(|x| (x - expected[i]).abs() / &scales[i]);
         let errors = [error(0), error(1)];
         let near = |error: &Option<Exact>| error.as_ref().is_some_and(|error| error <= tolerance);
-        let balls = rounded(&0f64, problem);
+        let (balls, sizes) = (rounded(&0f64, problem), sizes(&problem.system));
         let to_rounding = |i: usize| match (&balls, numbers[i]) {
-            (Some(balls), Some(x)) => is_within(&balls[i], x),
+            (Some(balls), Some(x)) => is_within(&balls[i], x, &sizes[i]),
             _ => false,
         };
-        let right = |i: usize| numbers[i].as_ref() == Some(expected[i]) || to_rounding(i);
+        // Beyond that an answer is of no use, whatever explains it.
+        let useful = |i: usize| errors[i].as_ref().is_some_and(|error| *error <= fit(tolerance));
+        let right = |i: usize| to_rounding(i) && useful(i) || numbers[i].as_ref() == Some(expected[i]);
         let well = errors.iter().enumerate().all(|(i, error)| near(error) || right(i));
         let finding = if well {
             penetrates_otherwise(problem, answer, tolerance)
         } else {
-            wrong_state(numbers, exact.state, &errors, tolerance, &scales)
+            let state = || wrong_state(numbers, exact.state, &errors, tolerance, &scales);
+            let rounding = (0..2).all(|i| near(&errors[i]) || to_rounding(i));
+            let rounding = rounding.then(|| "no further off than rounding in f64 may take it".to_string());
+            rounding.or_else(state)
         };
         let verdict = match (well, &finding) {
             (true, None) if right(0) && right(1) => Verdict::Right,
@@ -190,7 +223,8 @@ impl Judgement {
             _ => None,
         };
         let [deflection_error, force_error] = errors;
-        Judgement { verdict, exact, deflection_error, force_error, kkt, finding }
+        let lags = lags(&problem.system, &answer.steps, &fit(tolerance));
+        Judgement { verdict, exact, deflection_error, force_error, kkt, finding, lags }
     }
 
     /// The larger of the two errors; `None`, which is less than any, without numbers.
@@ -241,4 +275,20 @@ fn wrong_state(
         State::Separated => "the mass hangs free",
     };
     (far && said != is).then(|| format!("it says that {said}; exactly, {is}"))
+}
+
+/// Is the force of each step that of the step before? A start is no step, so one alone does not tell.
+fn lags(system: &SpringMass<Exact>, steps: &[[Value; 2]], tolerance: &Exact) -> Option<bool> {
+    let [_, scale] = scales(system);
+    let near =
+        |force: &Exact, u: &Exact| (force - augmented::contact_force(system, u)).abs() <= tolerance * &scale;
+    let pairs = steps.windows(2).filter_map(|pair| match pair {
+        [[Some(u), Some(own)], [_, Some(next)]] => Some((near(own, u), near(next, u))),
+        _ => None,
+    });
+    // Where both are near, they have come so close that they cannot be told apart.
+    let mut telling = pairs.filter(|(own, next)| own != next || !own);
+    let lags = |(own, next): (bool, bool)| !own && next;
+    let (first, second) = (telling.next()?, telling.next()?);
+    Some(lags(first) && lags(second) && telling.all(lags))
 }

@@ -43,8 +43,21 @@ pub struct Missed {
     pub from: Exact,
 }
 
-/// Fewer might be told from the others by chance.
-const LEAST: usize = 2;
+/// So many ways there have to be to choose what is missed: by chance it would be told from the others in one
+/// of them.
+const WAYS: u128 = 1000;
+
+/// How many ways there are to choose so many of them; or at least [`WAYS`].
+fn ways(chosen: usize, of: usize) -> u128 {
+    let mut ways = 1;
+    for i in 0..chosen.min(of - chosen) as u128 {
+        ways = ways * (of as u128 - i) / (i + 1);
+        if ways >= WAYS {
+            break;
+        }
+    }
+    ways
+}
 
 impl Missed {
     pub(super) fn of(answers: &[Given], tolerance: &Exact) -> Option<Self> {
@@ -67,6 +80,6 @@ impl Missed {
         let both = [Of::Penetration, Of::Force].into_iter().enumerate().filter_map(threshold);
         // If both tell them, the one that does more clearly.
         let clearest = both.max_by(|a, b| (&a.from * &b.up_to).cmp(&(&b.from * &a.up_to)));
-        clearest.filter(|_| missed.len() >= LEAST && found.len() >= LEAST)
+        clearest.filter(|_| ways(missed.len(), missed.len() + found.len()) >= WAYS)
     }
 }

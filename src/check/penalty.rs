@@ -62,8 +62,8 @@ pub struct Penalty {
 impl Penalty {
     const NONE: Penalty = Penalty { kind: Kind::None, value: None, spread: None };
 
-    /// A penalty shows if one of the three multiples, and only one, is the same to within a factor of two in
-    /// all answers that tell it; and if these are at least half of those whose force it would be.
+    /// A penalty shows if one of the three multiples, and only one, is the same to within a tenth in all
+    /// answers that tell it; and if these are at least half of those whose force it would be.
     pub(super) fn measured(answers: &[Given], by: Measured, tolerance: &Exact) -> Self {
         let acting = answers.iter().filter_map(|given| given.force(by, tolerance)).count();
         let told = Vec::from_iter(answers.iter().filter_map(|given| given.ratio(by, tolerance)));
@@ -75,7 +75,11 @@ impl Penalty {
             let multiples = || told.iter().map(|ratio| &ratio.value / kind.unit(ratio.system));
             let spread = multiples().max()? / multiples().min()? - Exact::one();
             let value = &clearest.value / kind.unit(clearest.system);
-            (spread <= Exact::one()).then_some(Penalty { kind, value: Some(value), spread: Some(spread) })
+            (&spread * Exact::from(10) <= Exact::one()).then_some(Penalty {
+                kind,
+                value: Some(value),
+                spread: Some(spread),
+            })
         });
         match shown.collect::<Vec<_>>().as_slice() {
             [only] => only.clone(),

@@ -32,15 +32,15 @@ pub enum Family {
     Overlap,
     /// g < 0: the weight lifts.
     Lifted,
-    /// c of 10⁷ to 10¹⁰ N/m, and a gap of nanometres to millimetres.
+    /// c of 10⁷ to 10¹⁰ N/m, and a gap down to a tenth of a nanometre.
     Stiff,
     /// c of 10⁻⁴ to 10⁻¹ N/m.
     Soft,
-    /// |l| and |H| of kilometres, and a gap of centimetres.
+    /// |l| and |H| of kilometres, and a gap of a metre, or of less.
     Far,
-    /// Lengths and stiffnesses of 10⁶ to 10¹⁴ SI units.
+    /// c, m and l of 10⁶ to 10¹⁴ SI units, and a gap alike.
     Huge,
-    /// Lengths and stiffnesses of 10⁻¹⁴ to 10⁻⁶ SI units.
+    /// c, m and l of 10⁻¹⁴ to 10⁻⁶ SI units, and a gap alike.
     Tiny,
 }
 

@@ -40,6 +40,7 @@ const LAST: usize = 400;
 pub struct Program {
     words: Vec<String>,
     timeout: Duration,
+    started: bool,
     running: Option<Running>,
 }
 
@@ -47,7 +48,7 @@ impl Program {
     /// The program that these words start: its name or path, and its arguments; it has so long for each
     /// answer.
     pub fn new(words: &[String], timeout: Duration) -> Self {
-        Program { words: words.to_vec(), timeout, running: None }
+        Program { words: words.to_vec(), timeout, started: false, running: None }
     }
 
     /// Puts a problem. Fails only if the program cannot be started.
@@ -56,8 +57,16 @@ impl Program {
         let left = || self.timeout.saturating_sub(start.elapsed());
         let mut running = match self.running.take() {
             Some(running) => running,
-            None => Running::start(&self.words).map_err(|error| self.refused(&error))?,
+            None => match Running::start(&self.words) {
+                Ok(running) => running,
+                // What it has done to itself, or to us, is its own.
+                Err(error) if self.started => {
+                    return Ok(Reply::Crashed(format!("cannot be started again: {error}")));
+                }
+                Err(error) => return Err(self.refused(&error)),
+            },
         };
+        self.started = true;
         Ok(match running.ask(problem, left) {
             Ok(reply) => {
                 self.running = Some(running);
@@ -70,9 +79,12 @@ impl Program {
     }
 
     fn refused(&self, error: &io::Error) -> Failure {
-        let program = self.words.first().map_or("", String::as_str);
-        let why =
-            format!("cannot be started: {error}; must be the name of a program on the path, or its own path");
+        let program = &words(self.words.first().map_or("", String::as_str));
+        let must = match error.kind() {
+            io::ErrorKind::NotFound => "must be the name of a program on the path, or its own path",
+            _ => "must be a program that can be executed; a script begins with #!",
+        };
+        let why = format!("cannot be started: {error}; {must}");
         invalid(program, "<PROGRAM>...", why)
     }
 }

@@ -63,14 +63,21 @@ pub fn table(out: &mut dyn Write, program: &str, report: &Report, tolerance: &st
             &format!("It has answered none of the first {few} systems: no more were put."),
         )?;
     }
-    let said = [penalty(report), report.missed.as_ref().map(missed), diagnosed(report)];
-    for said in said.into_iter().flatten() {
+    let lag = report.lag();
+    let fitting = report.named().filter(|named| named.answers != Answers::Steps);
+    for (said, diagnosis) in [
+        (penalty(report), None),
+        (report.missed.as_ref().map(missed), None),
+        (lag.map(lagging), lag),
+        (diagnosed(report), fitting),
+    ] {
+        let Some(said) = said else { continue };
         writeln!(out)?;
         output::wrapped(out, " ", 1, &said)?;
-    }
-    if let Some(Diagnosis { formula, at, .. }) = report.named() {
-        output::wrapped(out, "   ", 3, formula)?;
-        at.iter().try_for_each(|place| output::wrapped(out, "   ", 3, place))?;
+        if let Some(Diagnosis { formula, at, .. }) = diagnosis {
+            output::wrapped(out, "   ", 3, formula)?;
+            at.iter().try_for_each(|place| output::wrapped(out, "   ", 3, place))?;
+        }
     }
     if report.holds() {
         writeln!(out, "\n Nothing is wrong with one unknown and one plane.")?;
@@ -192,33 +199,36 @@ fn missed(missed: &Missed) -> String {
     )
 }
 
+fn lagging(lag: &Diagnosis) -> String {
+    format!("The steps of all {} systems that tell them show it: {}.", lag.of, lag.name)
+}
+
 fn diagnosed(report: &Report) -> Option<String> {
     let Summary { right, within_tolerance, .. } = report.summary();
-    let others = match right + within_tolerance {
-        0 => String::new(),
-        others => format!(" The other {others} are right."),
+    let fitting: Vec<_> = report.fitting().collect();
+    let first = fitting.first()?;
+    let of = first.of;
+    let which = match first.answers {
+        Answers::All if of == 1 => "The only answer fits".to_string(),
+        Answers::All if of < report.checked.len() => format!("All {of} answers that can be compared fit"),
+        Answers::All => format!("All {of} answers fit"),
+        _ if of == 1 => "The wrong answer fits".to_string(),
+        _ => format!("The {of} wrong answers fit"),
     };
-    Some(match report.diagnosis.as_slice() {
-        [] => return None,
-        [Diagnosis { name, answers, of, .. }] => match answers {
-            Answers::All => format!("All {of} answers fit one mistake that is known, and no other: {name}."),
-            Answers::Steps => format!("The steps of all {of} systems that tell them show it: {name}."),
-            Answers::Wrong if *of == 1 => {
-                format!("The wrong answer fits one mistake that is known, and no other: {name}.{others}")
-            }
-            Answers::Wrong => {
-                format!("The {of} wrong answers fit one mistake that is known, and no other: {name}.{others}")
-            }
-        },
+    let others = match (first.answers, right + within_tolerance) {
+        (Answers::All, _) | (_, 0) => String::new(),
+        (_, others) => format!(" The other {others} are right."),
+    };
+    Some(match fitting.as_slice() {
+        [only] => format!("{which} one mistake that is known, and no other: {}.{others}", only.name),
         several => {
             let names: Vec<_> = several.iter().take(NAMED).map(|one| one.name.as_str()).collect();
             let more = match several.len().saturating_sub(NAMED) {
                 0 => String::new(),
                 more => format!("; and {more} more"),
             };
-            let which = if several[0].answers == Answers::All { "All answers" } else { "The wrong answers" };
             format!(
-                "{which} fit several mistakes that are known: {}{more}.{others} More families or more cases may \
+                "{which} several mistakes that are known: {}{more}.{others} More families or more cases may \
                  tell them apart.",
                 names.join("; ")
             )

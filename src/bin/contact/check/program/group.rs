@@ -44,7 +44,7 @@ use unix::{has_ended, kill, start};
 
 #[cfg(unix)]
 mod unix {
-    use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, kill_process_group, waitid};
+    use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, kill_process, kill_process_group, waitid};
     use std::io;
     use std::os::unix::process::CommandExt;
     use std::process::{Child, Command, exit};
@@ -57,6 +57,12 @@ mod unix {
         LEADERS.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    /// Ends a group, and its leader, who may have left it. It fails where nobody is left.
+    fn end(leader: Pid) {
+        let _ = kill_process_group(leader, Signal::KILL);
+        let _ = kill_process(leader, Signal::KILL);
+    }
+
     pub fn start(command: &mut Command) -> io::Result<Child> {
         static ON_SIGNAL: Once = Once::new();
         ON_SIGNAL.call_once(|| {
@@ -65,9 +71,7 @@ mod unix {
             let _ = ctrlc::set_handler(|| {
                 // None is started any more.
                 let leaders = leaders();
-                for leader in &*leaders {
-                    let _ = kill_process_group(*leader, Signal::KILL);
-                }
+                leaders.iter().copied().for_each(end);
                 exit(130);
             });
         });
@@ -86,8 +90,7 @@ mod unix {
     pub fn kill(child: &mut Child) {
         let mut leaders = leaders();
         if let Some(place) = leaders.iter().position(|leader| *leader == Pid::from_child(child)) {
-            // It fails where nobody is left.
-            let _ = kill_process_group(leaders.swap_remove(place), Signal::KILL);
+            end(leaders.swap_remove(place));
         }
     }
 }
