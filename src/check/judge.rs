@@ -149,7 +149,7 @@ pub(super) fn sizes(system: &SpringMass<Exact>) -> [Exact; 2] {
 /// Is a number where floats may take a formula? A ball that is larger than the system itself explains nothing.
 pub(super) fn is_within<T: Real + ToExact>(ball: &Ball<T>, x: &Exact, size: &Exact) -> bool {
     let radius = ball.radius().to_exact();
-    radius.is_ok_and(|radius| radius <= *size) && ball.is_finite() && ball.contains(x)
+    radius.is_ok_and(|radius| radius <= *size) && ball.contains(x)
 }
 
 /// How near an answer has to be to what it is taken for, in parts of the system's scale and of what is

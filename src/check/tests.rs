@@ -572,14 +572,17 @@ fn nothing_is_named_for_what_it_is_not() {
         .into_iter()
         .map(|problem| Problem { penalty: Some(number("1e25")), ..problem })
         .collect();
-    let garbage = run(&asked, |problem| Answer { contact_force: Some(number("12345")), ..right(problem) });
+    let garbage = run(&asked, |problem| {
+        let answer = right(problem);
+        let force = answer.contact_force.filter(Zero::is_zero).unwrap_or(number("12345"));
+        Answer { contact_force: Some(force), ..answer }
+    });
     assert!(!garbage.holds() && garbage.diagnosis.is_empty(), "{:?}", garbage.diagnosis);
-    assert_eq!(garbage.summary().right, 0);
 }
 
 #[test]
 fn a_start_is_no_step() {
-    let report = run(&default_problems(), |problem| {
+    let report = run(&problems(1, 9, &[Family::Contact]), |problem| {
         let answer = right(problem);
         let start = [Some(system::gap(&problem.system)), Some(Exact::zero())];
         Answer { steps: vec![start, [answer.deflection.clone(), answer.contact_force.clone()]], ..answer }
