@@ -570,7 +570,7 @@ fn nothing_is_named_for_what_it_is_not() {
     // Any number under a penalty of which rounding leaves nothing.
     let asked: Vec<_> = default_problems()
         .into_iter()
-        .map(|problem| Problem { penalty: Some(number("1e25")), ..problem })
+        .map(|problem| Problem { penalty: Some(number("1e30")), ..problem })
         .collect();
     let garbage = run(&asked, |problem| {
         let answer = right(problem);
@@ -578,6 +578,8 @@ fn nothing_is_named_for_what_it_is_not() {
         Answer { contact_force: Some(force), ..answer }
     });
     assert!(!garbage.holds() && garbage.diagnosis.is_empty(), "{:?}", garbage.diagnosis);
+    let findings = garbage.checked.iter().filter_map(|of| of.judgement.finding.as_deref());
+    assert!(findings.clone().count() > 0 && findings.clone().all(|finding| !finding.contains("rounding")));
 }
 
 #[test]
