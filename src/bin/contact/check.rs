@@ -22,14 +22,17 @@ Examples:
 The program is started once. It reads a line from stdin, such as
   {\"id\": \"contact-1\", \"stiffness\": 100, \"mass\": 1, \"gravity\": 9.81,
    \"free_length\": 1, \"height\": 1.05}
-(without the line break), and answers with a line on stdout before it is given
-the next one:
+(without the line break), and answers with a line on stdout, flushed, before it
+is given the next one:
   {\"id\": \"contact-1\", \"deflection\": 0.05, \"contact_force\": 4.81}
-The book's page on checking says what else an answer may have, and how it is
-judged.
+SI units; the deflection is downwards, from the undeformed spring; a plane lies
+height below the support, and pushes with the contact force, or with none. A
+negative gravity lifts. Errors are taken in parts of |H - l| + |m g/c| and of
+|m g| + |c (H - l)|. What else an answer may have, and what is diagnosed, is in
+book/src/check.md, the book's page `Check your own solver`.
 
-Exit status: 0 nothing is wrong; 1 something is, or no answer is right; 2 bad
-input. A refusal, {\"id\": …, \"error\": …}, is not wrong.";
+Exit status: 0 nothing is wrong, and something of each family is right; 1 else;
+2 bad input. A refusal, {\"id\": …, \"error\": …}, is not wrong.";
 
 /// Hold a program of your own against the exact answer, and say what is wrong with it
 #[derive(clap::Args)]
