@@ -87,8 +87,8 @@ impl<'a> Given<'a> {
         if penalty.is_none() && mistake.has_penalty() {
             return false;
         }
-        // What f64 makes of the formulas is theirs, too; but under a penalty that only has to be told, and not to
-        // be seen, it could be anything.
+        // What f64 makes of the formulas is theirs, too; but under a penalty that only has to be told, and
+        // not to be seen, it could be anything.
         let ball = |x: &Exact| Ball::around(&0f64, x).ok();
         let rounded =
             system.try_map(|x| ball(x).ok_or(())).ok().map(|system| (system, penalty.and_then(ball)));

@@ -146,7 +146,8 @@ pub(super) fn sizes(system: &SpringMass<Exact>) -> [Exact; 2] {
     [&lengths + structure::deflection(system).abs(), weight + &system.c * lengths]
 }
 
-/// Is a number where floats may take a formula? A ball that is larger than the system itself explains nothing.
+/// Is a number where floats may take a formula? A ball that is larger than the system itself explains
+/// nothing.
 pub(super) fn is_within<T: Real + ToExact>(ball: &Ball<T>, x: &Exact, size: &Exact) -> bool {
     let radius = ball.radius().to_exact();
     radius.is_ok_and(|radius| radius <= *size) && ball.contains(x)

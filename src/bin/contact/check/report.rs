@@ -194,8 +194,8 @@ fn missed(missed: &Missed) -> String {
         Of::Force => ("it has to push with", "N"),
     };
     format!(
-        "It misses the plane in {count} systems, in which {what} up to {up_to} {unit}, and finds it in all others, \
-         from {from} {unit} on. A tolerance of its own?"
+        "It misses the plane in {count} systems, in which {what} up to {up_to} {unit}, and finds it in all \
+         others, from {from} {unit} on. A tolerance of its own?"
     )
 }
 

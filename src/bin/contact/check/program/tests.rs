@@ -1,5 +1,7 @@
 //! Programs that do what programs do, as scripts.
 
+mod seen;
+
 use super::*;
 use num_traits::One;
 use rustix::process::{Pid, Signal, kill_process};
@@ -330,14 +332,6 @@ fn a_hang_does_not_outlive_its_question() {
     assert_eq!(process(&b), process(&c));
 }
 
-#[test]
-fn a_line_that_is_too_long_is_garbled() {
-    let long =
-        format!(r#"printf '{{"id": "a", "x": "'; head -c {} /dev/zero | tr '\0' x; printf '"}}\n'"#, 1 << 24);
-    let mut program = sh(&format!("read -r line; {long}; {LOOP}"), LONG);
-    assert_eq!(garbled(&ask(&mut program, "a")), "a line must have no more than 16777216 bytes");
-}
-
 /// What it writes on stderr, and on stdout when its stdin is closed, has somewhere to go.
 #[test]
 fn a_program_ends_by_itself_when_nothing_more_is_asked() {
@@ -448,18 +442,5 @@ fn is_flooded() {
         let status = fs::read_to_string("/proc/self/status").expect("a process");
         let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).expect("a peak");
         println!("\npeak: {peak}");
-    }
-}
-
-/// Quotes of Python's own, and a forgotten flush: what nearly everyone tries first.
-#[test]
-fn a_time_out_says_what_it_saw() {
-    for (script, seen) in [
-        ("read -r line; echo hello; echo \"{'id': 'a'}\"; sleep 60", "no JSON object: {'id': 'a'}"),
-        ("read -r line; sleep 60", "nothing on stdout: does it flush?"),
-    ] {
-        let mut program = sh(script, SHORT);
-        let Reply::TimedOut(own) = ask(&mut program, "a") else { panic!("{script}") };
-        assert!(own.ends_with(seen), "{own}");
     }
 }

@@ -1,0 +1,239 @@
+//! What answers show of a solver.
+
+use super::*;
+
+/// By penalty, with a multiple of something.
+fn by_penalty(problems: &[Problem], eps: impl Fn(&SpringMass<Exact>) -> Exact) -> Report {
+    run(problems, |problem| {
+        let asked = Problem { penalty: Some(eps(&problem.system)), ..problem.clone() };
+        right(&asked)
+    })
+}
+
+#[test]
+fn a_penalty_shows_what_it_is_a_multiple_of() {
+    let all = default_problems();
+    let shown = |report: Report| {
+        let Penalty { kind, value, spread } = report.penalty.clone();
+        assert_eq!(spread, Some(Exact::zero()));
+        assert_eq!(report.named().unwrap().name, "it is the penalty method");
+        (kind, value.unwrap())
+    };
+    assert_eq!(shown(by_penalty(&all, |_| number("1e4"))), (Kind::Constant, number("1e4")));
+    assert_eq!(shown(by_penalty(&all, |system| &system.c * number("50"))), (Kind::OfStiffness, number("50")));
+    assert_eq!(shown(by_penalty(&all, |system| &system.m * number("7e3"))), (Kind::OfMass, number("7e3")));
+    // One that is five times as large for half of the systems is none that we know.
+    let of_mass = |system: &SpringMass<Exact>| number(if system.m < number("1") { "1e4" } else { "5e4" });
+    let two = by_penalty(&all, of_mass);
+    assert_eq!((two.penalty.kind, two.named()), (Kind::None, None));
+    // Where c and m are the same in all systems, it may be a multiple of either.
+    let alike = |problem: &Problem| {
+        let (c, m) = (number("300"), number("2"));
+        Problem { system: SpringMass { c, m, ..problem.system.clone() }, ..problem.clone() }
+    };
+    let alike: Vec<_> = problems(1, 9, &[Family::Overlap]).iter().map(alike).collect();
+    assert_eq!(by_penalty(&alike, |_| number("1e4")).penalty.kind, Kind::None);
+    assert_eq!(run(&all, right).penalty.kind, Kind::None);
+}
+
+/// (1.16) with ε = 3 c, a step after the other; the force of each is that of the step before, or its own.
+fn steps(problem: &Problem, lagging: bool) -> Answer {
+    let eps = &problem.system.c * number("3");
+    let mut before = Exact::zero();
+    let mut steps = Vec::new();
+    for step in Augmentation::new(&problem.system, &eps).take(12) {
+        let force = if lagging { before } else { step.contact_force.clone() };
+        steps.push([Some(step.deflection), Some(force)]);
+        before = step.contact_force;
+    }
+    Answer { steps, ..right(problem) }
+}
+
+#[test]
+fn a_force_that_lags_is_told_from_one_that_does_not() {
+    let report = run(&default_problems(), |problem| steps(problem, true));
+    let lag = report.named().unwrap();
+    assert_eq!((lag.name.as_str(), lag.answers), ("N is one step behind", Answers::Steps));
+    assert_eq!(lag.formula, "N_k = m g − c u_{k−1}");
+    assert!(!report.holds() && report.summary().right == report.checked.len());
+    let report = run(&default_problems(), |problem| steps(problem, false));
+    assert!(report.holds() && report.diagnosis.is_empty());
+    // One step in which it does not is enough, and one system.
+    let report = run(&default_problems(), |problem| {
+        let mut answer = steps(problem, true);
+        answer.steps[..2].clone_from_slice(&steps(problem, false).steps[..2]);
+        answer
+    });
+    assert!(report.holds() && report.diagnosis.is_empty());
+    let report = run(&default_problems(), |problem| steps(problem, problem.id != "contact-2"));
+    assert!(report.holds() && report.diagnosis.is_empty());
+}
+
+/// Of the wrong answers alone: a tolerance in metres that lets the mass hang free.
+#[test]
+fn what_is_wrong_in_some_systems_is_diagnosed_of_those() {
+    let report = run(&problems(1, 20, &Family::ALL), |problem| {
+        let free = structure::deflection(&problem.system);
+        let slack = contact::penetration(&problem.system, &free) < number("1e-6");
+        if slack { Answer::new(free, Exact::zero()) } else { right(problem) }
+    });
+    let names: Vec<_> = report.diagnosis.iter().map(|d| (d.name.as_str(), d.answers)).collect();
+    assert!(names.contains(&("there is no plane", Answers::Wrong)), "{names:?}");
+    let wrong = report.summary().wrong;
+    assert!(report.diagnosis.iter().all(|d| (d.fits, d.of) == (wrong, wrong)) && wrong > 0);
+}
+
+/// All answers, changed alike.
+fn changed(change: impl Fn(&Problem, Exact, Exact) -> [Exact; 2]) -> Report {
+    run(&problems(1, 10, &Family::ALL), |problem| {
+        let exact = problem.solution();
+        let [u, n] = change(problem, exact.deflection, exact.contact_force);
+        Answer::new(u, n)
+    })
+}
+
+#[test]
+fn a_factor_is_found() {
+    let name = |change: fn(&Problem, Exact, Exact) -> [Exact; 2]| {
+        changed(change).named().map(|only| only.name.clone()).unwrap_or_default()
+    };
+    assert_eq!(name(|_, u, n| [u * number("1000"), n]), "u is 1000 times what is right");
+    assert_eq!(name(|_, u, n| [u, n * number("1/1000")]), "N is 0.001 times what is right");
+    let both = name(|_, u, n| [u * number("1000"), n * number("3/4")]);
+    assert_eq!(both, "u is 1000 times what is right, N is 0.75 times what is right");
+    // Of some of them it is none.
+    let some = |problem: &Problem, u: Exact, n: Exact| {
+        [u * number(if problem.id.ends_with('1') { "1000" } else { "999" }), n]
+    };
+    assert_eq!(name(some), "");
+}
+
+#[test]
+fn few_digits_are_found() {
+    let rounded = |digits| move |x: &Exact| x.decimal(digits, Round::Nearest).parse().unwrap();
+    let name = |round: &dyn Fn(&Exact) -> Exact| {
+        changed(|_, u, n| [round(&u), round(&n)]).named().map(|only| only.name.clone()).unwrap_or_default()
+    };
+    assert_eq!(name(&rounded(4)), "its numbers have no more than 4 digits");
+    let fixed = |x: &Exact| {
+        let millions = rug::Rational::from((x * number("1e6")).as_rational().round_ref());
+        Exact::from(millions) / number("1e6")
+    };
+    assert_eq!(name(&fixed), "its numbers have no more than 6 decimals");
+    // Few digits, but not of what is right.
+    let half = |x: &Exact| rounded(4)(&(x * number("1.01")));
+    assert_eq!(name(&half), "");
+}
+
+/// So little off that every mistake fits that hardly shows there; or no number, which fits no formula.
+#[test]
+fn what_shows_nothing_is_not_named() {
+    let slight = changed(|problem, u, n| {
+        let off = if problem.id == "contact-1" { "1.0000035" } else { "1" };
+        [u * number(off), n]
+    });
+    assert_eq!((slight.summary().wrong, slight.diagnosis.len()), (1, 0));
+    let nan = run(&default_problems(), |problem| {
+        let mut answer = right(problem);
+        answer.contact_force = answer.contact_force.filter(Zero::is_zero);
+        answer
+    });
+    assert!(nan.summary().wrong > 0 && nan.diagnosis.is_empty(), "{:?}", nan.diagnosis);
+    assert!(run(&default_problems(), |_| Answer::default()).diagnosis.is_empty());
+    // A plane that also pulls, but for one number that is none.
+    let nearly = run(&default_problems(), |problem| {
+        let [u, n] = [system::gap(&problem.system), system::reaction(&problem.system)];
+        let answer = Answer::new(u, n);
+        if problem.id == "contact-1" { Answer { contact_force: None, ..answer } } else { answer }
+    });
+    assert!(nearly.diagnosis.is_empty(), "{:?}", nearly.diagnosis);
+}
+
+#[test]
+fn a_tolerance_of_its_own_is_found() {
+    let missing = |is_small: fn(&SpringMass<Exact>) -> bool| {
+        let report = changed(|problem, u, n| {
+            let free = structure::deflection(&problem.system);
+            if is_small(&problem.system) { [free, Exact::zero()] } else { [u, n] }
+        });
+        report.missed.expect("a threshold")
+    };
+    let through =
+        |system: &SpringMass<Exact>| structure::deflection(system) - system::gap(system) < number("1e-6");
+    let Missed { of, up_to, from, .. } = missing(through);
+    assert!(of == Of::Penetration && up_to < number("1e-6") && number("1e-6") <= from, "{up_to} {from}");
+    let Missed { of, up_to, from, .. } = missing(|system| system::reaction(system) < number("1e-2"));
+    assert!(of == Of::Force && up_to < number("1e-2") && number("1e-2") <= from, "{up_to} {from}");
+    // No threshold of one quantity; and nothing missed.
+    let by_name = changed(|problem, u, n| {
+        let free = structure::deflection(&problem.system);
+        if problem.id.ends_with('3') { [free, Exact::zero()] } else { [u, n] }
+    });
+    assert_eq!((by_name.missed, changed(|_, u, n| [u, n]).missed), (None, None));
+}
+
+/// What looks like one thing and is another.
+#[test]
+fn nothing_is_named_for_what_it_is_not() {
+    // As near as single precision, and yet in double.
+    let exact = run(&problems(3, 5, &Family::ALL), |problem| {
+        let Answer { deflection, contact_force, .. } = right(problem);
+        let off = if problem.id == "contact-1" { "1.000005" } else { "1.00000001" };
+        let n = contact_force.map(|n| (n * number(off)).to_f64().unwrap().to_exact().unwrap());
+        Answer { deflection, contact_force: n, ..Answer::default() }
+    });
+    assert!(exact.summary().wrong > 0 && exact.diagnosis.is_empty(), "{:?}", exact.diagnosis);
+    // A factor that is none, and one that is all.
+    let slight = changed(|_, u, n| [u, n * number("1.0000015")]);
+    assert!(slight.diagnosis.is_empty(), "{:?}", slight.diagnosis);
+    let nothing = changed(|_, u, _| [u, Exact::zero()]);
+    assert_eq!(nothing.named().unwrap().name, "N is always 0");
+    // Any number under a penalty of which rounding leaves nothing.
+    let asked: Vec<_> = default_problems()
+        .into_iter()
+        .map(|problem| Problem { penalty: Some(number("1e30")), ..problem })
+        .collect();
+    let garbage = run(&asked, |problem| {
+        let answer = right(problem);
+        let force = answer.contact_force.filter(Zero::is_zero).unwrap_or(number("12345"));
+        Answer { contact_force: Some(force), ..answer }
+    });
+    assert!(!garbage.holds() && garbage.diagnosis.is_empty(), "{:?}", garbage.diagnosis);
+    let findings = garbage.checked.iter().filter_map(|of| of.judgement.finding.as_deref());
+    assert!(findings.clone().count() > 0 && findings.clone().all(|finding| !finding.contains("rounding")));
+}
+
+#[test]
+fn a_start_is_no_step() {
+    let report = run(&problems(1, 9, &[Family::Contact]), |problem| {
+        let answer = right(problem);
+        let start = [Some(system::gap(&problem.system)), Some(Exact::zero())];
+        Answer { steps: vec![start, [answer.deflection.clone(), answer.contact_force.clone()]], ..answer }
+    });
+    assert!(report.holds() && report.diagnosis.is_empty(), "{:?}", report.diagnosis);
+}
+
+#[test]
+fn a_lag_hides_no_mistake() {
+    let report = run(&default_problems(), |problem| {
+        let [u, n] = [system::gap(&problem.system), system::reaction(&problem.system)];
+        Answer { steps: steps(problem, true).steps, ..Answer::new(u, n) }
+    });
+    assert_eq!(report.lag().unwrap().name, "N is one step behind");
+    assert_eq!(report.named().unwrap().name, "the plane also pulls");
+    assert!(report.checked.iter().all(|of| matches!(&of.reply, Reply::Answered(a) if a.steps.is_empty())));
+}
+
+/// What is missed by chance, or for another reason, is seldom told by one number.
+#[test]
+fn a_threshold_is_not_seen_in_a_few() {
+    let few = problems(1, 5, &[Family::Contact, Family::Stiff]);
+    let report = run(&few, |problem| {
+        if problem.family == Family::Stiff {
+            Answer::new(structure::deflection(&problem.system), Exact::zero())
+        } else {
+            right(problem)
+        }
+    });
+    assert!(report.summary().wrong >= 2 && report.missed.is_none(), "{:?}", report.missed);
+}

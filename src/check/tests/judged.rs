@@ -1,0 +1,219 @@
+//! How answers are judged, and tallied.
+
+use super::*;
+
+#[test]
+fn what_is_right_is_not_diagnosed() {
+    for problems in [default_problems(), with_penalties(default_problems())] {
+        let in_f64 = |problem: &Problem| {
+            let system = problem.system.try_map(Exact::to_f64).unwrap();
+            let method = match &problem.penalty {
+                None => Method::Lagrange,
+                Some(penalty) => Method::Penalty { penalty: penalty.to_f64().unwrap() },
+            };
+            let answer = solve(&system, &method).unwrap();
+            let [u, n] = [answer.deflection, answer.contact_force].map(|x| x.to_exact().unwrap());
+            Answer { penetration: Some(answer.penetration.to_exact().ok()), ..Answer::new(u, n) }
+        };
+        for report in [run(&problems, right), run(&problems, in_f64)] {
+            assert_eq!(report.summary(), Summary { right: problems.len(), ..Summary::default() });
+            assert!(report.holds() && report.diagnosis.is_empty());
+        }
+    }
+}
+
+/// Off by the tolerance is within, by a little more is not: u and N each on its own scale.
+#[test]
+fn the_tolerance_is_the_border() {
+    let problem = &problems(1, 1, &[Family::Contact])[0];
+    let SpringMass { c, .. } = &problem.system;
+    let [gap, weight] = [system::gap(&problem.system), system::weight(&problem.system)];
+    let scales = [&gap + &weight / c, &weight + c * &gap];
+    for (i, factor, verdict) in [
+        (0, "1", Verdict::WithinTolerance),
+        (0, "-1", Verdict::WithinTolerance),
+        (0, "1.0000001", Verdict::Wrong),
+        (0, "-1.0000001", Verdict::Wrong),
+        (1, "1", Verdict::WithinTolerance),
+        (1, "1.0000001", Verdict::Wrong),
+        (1, "-1.0000001", Verdict::Wrong),
+    ] {
+        let mut answer = right(problem);
+        let number_of = if i == 0 { &mut answer.deflection } else { &mut answer.contact_force };
+        *number_of = number_of.take().map(|x| x + number(factor) * number(TOLERANCE) * &scales[i]);
+        let judgement = Judgement::of(problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE));
+        assert_eq!(judgement.verdict, verdict, "{i}, {factor}");
+        assert_eq!(judgement.error(), Some(&(number(factor) * number(TOLERANCE)).abs()));
+    }
+}
+
+/// What an answer says besides is held against it.
+#[test]
+fn findings_say_what_is_wrong() {
+    let problem = &problems(1, 1, &[Family::Contact])[0];
+    let finding = |change: &dyn Fn(&mut Answer)| {
+        let mut answer = right(problem);
+        change(&mut answer);
+        let judgement = Judgement::of(problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE));
+        (judgement.verdict, judgement.finding.unwrap_or_default())
+    };
+    let wrong = |change: &dyn Fn(&mut Answer), text: &str| {
+        let (verdict, finding) = finding(change);
+        assert!(verdict == Verdict::Wrong && finding.contains(text), "{verdict}: {finding}");
+    };
+    let more = |x: &Exact| Some(Some(x * number("1.01")));
+    let system = &problem.system;
+    wrong(&|answer| answer.deflection = None, "its deflection is not a number");
+    wrong(&|answer| answer.contact_force = None, "its contact force is not a number");
+    wrong(
+        &|answer| answer.contact_force = Some(Exact::zero()),
+        "says that the mass hangs free; exactly, the",
+    );
+    wrong(
+        &|answer| answer.contact_force = Some(number("-9")),
+        "says that the plane pulls; exactly, the plane p",
+    );
+    wrong(&|answer| answer.penetration = Some(Some(number("0.1"))), "its penetration is 0.1, that of its");
+    wrong(&|answer| answer.penetration = Some(None), "its penetration is not a number");
+    wrong(&|answer| answer.used.system.c = more(&system.c), "took stiffness =");
+    wrong(&|answer| answer.used.system.m = more(&system.m), "took mass =");
+    wrong(&|answer| answer.used.system.g = more(&system.g), "took gravity =");
+    wrong(&|answer| answer.used.system.l = more(&system.l), "took free_length =");
+    wrong(&|answer| answer.used.system.h = more(&system.h), "took height =");
+    wrong(&|answer| answer.used.system.h = Some(None), "took no number for height =");
+    let zero = |answer: &mut Answer| answer.used.system.c = Some(Some(Exact::zero()));
+    let mut none = right(problem);
+    zero(&mut none);
+    let judgement = Judgement::of(problem, &Reply::Answered(Box::new(none)), &number("2"));
+    assert_eq!(judgement.finding.as_deref(), Some("it took stiffness = 0 for 30"));
+    let same = finding(&|answer| answer.used.system.c = Some(Some(system.c.clone())));
+    assert_eq!(same, (Verdict::Right, String::new()));
+}
+
+/// Rounded to single precision, H − l is another gap; the answer is judged by what was used.
+#[test]
+fn an_answer_is_judged_by_what_it_used() {
+    let all = problems(1, 20, &[Family::Far]);
+    let single = |problem: &Problem, says_so: bool| {
+        let used = problem.system.map(|x| x.to_f32().unwrap().to_exact().unwrap());
+        let exact = right(&Problem { system: used.clone(), ..problem.clone() });
+        let single = |x: Option<Exact>| x.map(|x| x.to_f32().unwrap().to_exact().unwrap());
+        let [u, n] = [exact.deflection, exact.contact_force].map(single);
+        let mut answer = Answer { deflection: u, contact_force: n, ..Answer::default() };
+        if says_so {
+            answer.used.system = used.map(|x| Some(Some(x.clone())));
+        }
+        answer
+    };
+    let report = run(&all, |problem| single(problem, true));
+    assert_eq!(report.summary(), Summary { within_tolerance: 20, ..Summary::default() });
+    let report = run(&all, |problem| single(problem, false));
+    assert_eq!(report.named().unwrap().name, "it computes in single precision");
+}
+
+/// Every reply has its own place in the tally, and none but a right answer passes.
+#[test]
+fn every_reply_is_counted() {
+    let all = problems(1, 6, &[Family::Stiff]);
+    let replies = |problem: &Problem| {
+        let answer = |off: &str| {
+            let mut answer = right(problem);
+            answer.deflection = answer.deflection.map(|u| u * number(off));
+            Reply::Answered(Box::new(answer))
+        };
+        match problem.id.as_str() {
+            "stiff-1" => answer("1"),
+            "stiff-2" => answer("1.0000001"),
+            "stiff-3" => Reply::Refused("too stiff".into()),
+            "stiff-4" => Reply::Garbled("who?".into()),
+            "stiff-5" => Reply::Crashed("signal".into()),
+            _ => Reply::TimedOut("nothing".into()),
+        }
+    };
+    let judged = |problems: &[Problem]| {
+        check(problems, &number(TOLERANCE), |problem| Ok::<_, Infallible>(replies(problem))).unwrap()
+    };
+    // Of two that are wrong the one that is further off is shown.
+    let off = |problem: &Problem| {
+        let mut answer = right(problem);
+        answer.deflection =
+            answer.deflection.map(|u| u * number(if problem.id == "stiff-4" { "3" } else { "2" }));
+        answer
+    };
+    assert_eq!(run(&all, off).families()[0].worst.problem.id, "stiff-4");
+    let report = judged(&all);
+    let one_each = Summary { right: 1, within_tolerance: 1, wrong: 1, refused: 1, crashed: 1, timed_out: 1 };
+    assert_eq!(report.summary(), one_each);
+    let worst = &report.families()[0];
+    assert_eq!((worst.verdict, worst.count, worst.cases), (Verdict::Crashed, 1, 6));
+    assert_eq!(worst.worst.problem.id, "stiff-5");
+    // Alone; the refusal beside a right answer; the refusal alone.
+    let holds = |of: &[usize]| judged(&of.iter().map(|i| all[*i].clone()).collect::<Vec<_>>()).holds();
+    assert_eq!([0, 1, 2, 3, 4, 5].map(|i| holds(&[i])), [true, true, false, false, false, false]);
+    assert_eq!([1, 2, 3, 4, 5].map(|i| holds(&[0, i])), [true, true, false, false, false]);
+    assert_eq!([3, 4, 5].map(|i| holds(&[i, 0])), [false; 3]);
+}
+
+#[test]
+fn who_never_answers_is_left_alone() {
+    let all = default_problems();
+    let mut asked = 0;
+    let mut silent = |answers_at: usize| {
+        asked = 0;
+        let report = check(&all, &number(TOLERANCE), |problem| {
+            asked += 1;
+            let answered = || Reply::Answered(Box::new(right(problem)));
+            Ok::<_, Infallible>(if asked == answers_at {
+                answered()
+            } else {
+                Reply::TimedOut("nothing".into())
+            })
+        });
+        let report = report.unwrap();
+        (report.given_up, report.checked.len())
+    };
+    assert_eq!(silent(usize::MAX), (true, 3));
+    assert_eq!(silent(3), (false, all.len()));
+    assert_eq!(silent(4), (true, 3));
+    let three = check(&all[..3], &number(TOLERANCE), |_| Ok::<_, Infallible>(Reply::Crashed("so".into())));
+    assert!(!three.unwrap().given_up, "there was nothing more to ask");
+}
+
+/// No force, and no gap: there is nothing to measure an error by but the unit.
+#[test]
+fn nothing_can_be_measured_by_nothing() {
+    let [c, m] = ["5", "3"].map(number);
+    let system = SpringMass { c, m, g: Exact::zero(), l: number("2"), h: number("2") };
+    let problem = Problem { system, ..problems(1, 1, &[Family::Contact]).remove(0) };
+    for (u, verdict) in [("0", Verdict::Right), ("1e-6", Verdict::WithinTolerance), ("2e-6", Verdict::Wrong)]
+    {
+        let report = run(std::slice::from_ref(&problem), |_| Answer::new(number(u), Exact::zero()));
+        assert_eq!(report.checked[0].judgement.verdict, verdict, "{u}");
+    }
+}
+
+/// Where f64 overflows, rounding explains nothing: not any number is right.
+#[test]
+fn what_overflows_explains_nothing() {
+    let problem = Problem { penalty: Some(number("1e305")), ..problems(1, 1, &[Family::Huge]).remove(0) };
+    for (off, verdict) in [("1", Verdict::Right), ("1.1", Verdict::Wrong)] {
+        let mut answer = right(&problem);
+        answer.deflection = answer.deflection.map(|u| u * number(off));
+        let judgement = Judgement::of(&problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE));
+        assert_eq!(judgement.verdict, verdict);
+    }
+}
+
+/// What is refused altogether is not known to be right.
+#[test]
+fn a_family_without_an_answer_does_not_hold() {
+    let refusing = |refused: &'static str| {
+        let ask = |problem: &Problem| {
+            let refuses = problem.id.starts_with(refused);
+            let answer = || Reply::Answered(Box::new(right(problem)));
+            Ok::<_, Infallible>(if refuses { Reply::Refused("no".into()) } else { answer() })
+        };
+        check(&default_problems(), &number(TOLERANCE), ask).unwrap().holds()
+    };
+    assert_eq!(["stiff-1", "stiff", "none"].map(refusing), [true, false, true]);
+}
