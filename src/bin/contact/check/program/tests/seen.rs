@@ -22,3 +22,20 @@ fn a_line_that_is_too_long_is_garbled() {
     let mut program = sh(&format!("read -r line; {long}; {LOOP}"), LONG);
     assert_eq!(garbled(&ask(&mut program, "a")), "a line must have no more than 16777216 bytes");
 }
+
+/// What it does to itself is no bad input of ours.
+#[test]
+fn a_program_that_is_gone_has_crashed() {
+    let path = std::env::temp_dir().join(format!("contact-gone-{}", std::process::id()));
+    // Written by another process: what is open for writing somewhere, even between fork and exec, cannot run.
+    let script = r##"
+        printf '%s\n' '#!/bin/sh' 'read -r line; rm -f "$0"; echo "{\"id\": \"z\"}"' >"$0"
+        chmod 700 "$0"
+    "##;
+    let written = std::process::Command::new("sh").args(["-c", script]).arg(&path).status();
+    assert!(written.expect("a shell").success());
+    let mut program = Program::new(&[path.display().to_string()], LONG);
+    assert!(matches!(ask(&mut program, "a"), Reply::Garbled(_)));
+    let Reply::Crashed(how) = ask(&mut program, "b") else { panic!("it is still there") };
+    assert!(how.starts_with("cannot be started again: "), "{how}");
+}
