@@ -194,7 +194,7 @@ pub fn check<E>(
             break;
         }
     }
-    let answers = Vec::from_iter(checked.iter().filter_map(|of| Given::of(of, tolerance)));
+    let answers = Vec::from_iter(checked.iter().filter_map(Given::of));
     let by_penalty = problems.iter().any(|problem| problem.penalty.is_some());
     let penalty = Penalty::measured(&answers, Measured::ByForce, tolerance);
     let missed = Missed::of(&answers, tolerance);

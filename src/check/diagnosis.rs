@@ -4,6 +4,7 @@ use super::Penalty;
 use super::given::{Given, has_digits};
 use super::judge::fit;
 use super::mistakes::{Measured, Mistake, mistakes, none};
+use super::problems::decimal;
 use crate::claims::registry;
 use crate::formula::Notation;
 use crate::number::{Exact, PositivePart};
@@ -38,6 +39,7 @@ impl fmt::Display for Answers {
 
 /// A mistake that explains the answers.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Diagnosis {
     /// What is wrong.
     pub name: String,
@@ -116,33 +118,26 @@ const FEW: usize = 9;
 fn few_digits(answers: &[&Given]) -> Option<String> {
     let pairs = answers.iter().flat_map(|given| given.numbers().into_iter().zip(given.exact));
     let pairs = pairs.map(|(number, exact)| Some((number.as_ref()?, exact))).collect::<Option<Vec<_>>>()?;
-    let unit = |decimals: usize| Exact::one() / ten_to(decimals);
     // Rounded to nearest; that it has been rounded before, to f64, moves hardly any of them further.
     let near = |x: &Exact, exact: &Exact, unit: Exact| {
         Exact::from(100) * (x - exact).abs() <= Exact::from(51) * unit
     };
-    let has_decimals = |x: &Exact, decimals: usize| (x * ten_to(decimals)).as_rational().is_integer();
-    let decimals = (0..FEW).find(|n| pairs.iter().all(|(x, _)| has_decimals(x, *n)));
-    if let Some(n) = decimals.filter(|n| pairs.iter().all(|(x, exact)| near(x, exact, unit(*n)))) {
+    let has_decimals = |x: &Exact, decimals: i32| (x * decimal(1, decimals)).as_rational().is_integer();
+    let decimals = (0..FEW as i32).find(|n| pairs.iter().all(|(x, _)| has_decimals(x, *n)));
+    if let Some(n) = decimals.filter(|n| pairs.iter().all(|(x, exact)| near(x, exact, decimal(1, -n)))) {
         return Some(format!("its numbers have no more than {n} decimals"));
     }
     let digits = (1..FEW).find(|n| pairs.iter().all(|(x, _)| has_digits(x, *n)))?;
     // A unit of the last digit is at most this part of the number.
-    let part = unit(digits - 1);
+    let part = decimal(1, 1 - digits as i32);
     let all = pairs.iter().all(|(x, exact)| near(x, exact, &part * x.abs()));
     all.then(|| format!("its numbers have no more than {digits} digits"))
 }
 
-fn ten_to(n: usize) -> Exact {
-    (0..n).fold(Exact::one(), |power, _| power * Exact::from(10))
-}
-
-/// How nearly the same factors have to be, and how far from 1 to be one.
-const ALIKE: &str = "1e-5";
-
 /// u is the same multiple of what is right in all of them, or N is, or both are.
 fn factor(answers: &[&Given]) -> Option<String> {
-    let alike: Exact = ALIKE.parse().expect("a number");
+    // How nearly the same factors have to be, and how far from 1 to be one.
+    let alike = decimal(1, -5);
     let factor = |which| {
         let all = answers.iter().filter_map(|given| given.factor(which, &alike));
         let all = all.collect::<Option<Vec<_>>>()?;

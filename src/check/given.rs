@@ -1,17 +1,23 @@
 //! An answer to a problem, and what it fits.
 
-use super::judge::{is_within, rounded, scales, sizes};
+use super::judge::{balls, is_within, rounded, scales, sizes};
 use super::mistakes::{Formulas, Measured, Mistake, value};
+use super::problems::short;
 use super::{Answer, Checked, Problem, Reply, Value, Verdict};
 use crate::chapter::{SpringMass, augmented, contact, system};
 use crate::number::{Ball, Exact, PositivePart, ToExact, Tree};
 use num_traits::{One, Zero};
-use rug::float::Round;
 
 /// An answer, and the problem that it is one of.
 pub(super) struct Given<'a> {
-    pub problem: Problem,
+    pub problem: &'a Problem,
     pub answer: &'a Answer,
+    /// What errors of u and N are measured by.
+    pub scales: [Exact; 2],
+    /// The lengths of the system together, and its forces.
+    sizes: [Exact; 2],
+    /// The system in balls around floats of 53 bits, if it fits.
+    balls: Option<SpringMass<Ball<f64>>>,
     pub exact: [&'a Exact; 2],
     pub lags: Option<bool>,
     pub wrong: bool,
@@ -26,15 +32,18 @@ pub(super) struct Ratio<'a> {
 }
 
 impl<'a> Given<'a> {
-    pub fn of(checked: &'a Checked, tolerance: &Exact) -> Option<Self> {
+    pub fn of(checked: &'a Checked) -> Option<Self> {
         let Reply::Answered(answer) = &checked.reply else { return None };
-        let problem = checked.problem.as_used(answer, tolerance).ok()?;
         let judgement = &checked.judgement;
-        let exact = [&judgement.exact.deflection, &judgement.exact.contact_force];
+        let problem = judgement.solved.as_ref()?;
+        let system = &problem.system;
         Some(Given {
             problem,
             answer,
-            exact,
+            scales: scales(system),
+            sizes: sizes(system),
+            balls: balls(&0f64, system),
+            exact: [&judgement.exact.deflection, &judgement.exact.contact_force],
             lags: judgement.lags,
             wrong: judgement.verdict == Verdict::Wrong,
         })
@@ -64,8 +73,7 @@ impl<'a> Given<'a> {
             }
             Measured::ByEquilibrium => return None,
         };
-        let [_, scale] = scales(system);
-        (force.abs() > tolerance * scale).then_some(force)
+        (force.abs() > tolerance * &self.scales[1]).then_some(force)
     }
 
     /// The penalty that it says it took, or that it was asked for.
@@ -82,20 +90,18 @@ impl<'a> Given<'a> {
     /// knows.
     pub fn fits(&self, mistake: &Mistake, penalty: Option<&Exact>, tolerance: &Exact) -> bool {
         let system = &self.problem.system;
-        let (scales, sizes) = (scales(system), sizes(system));
+        let Given { scales, sizes, .. } = self;
         let numbers = self.numbers();
         if penalty.is_none() && mistake.has_penalty() {
             return false;
         }
         // What f64 makes of the formulas is theirs, too; but under a penalty that only has to be told, and
         // not to be seen, it could be anything.
-        let ball = |x: &Exact| Ball::around(&0f64, x).ok();
-        let rounded =
-            system.try_map(|x| ball(x).ok_or(())).ok().map(|system| (system, penalty.and_then(ball)));
+        let eps = penalty.and_then(|eps| Ball::around(&0f64, eps).ok());
         let told = self.told().is_some();
         let within = |x: &Exact, formula: &Tree, size: &Exact| {
-            let rounded = rounded.as_ref().and_then(|(system, eps)| value(formula, system, eps.as_ref()));
-            rounded.is_some_and(|ball| {
+            let ball = self.balls.as_ref().and_then(|system| value(formula, system, eps.as_ref()));
+            ball.is_some_and(|ball| {
                 if told { is_within(&ball, x, size) } else { ball.is_finite() && ball.contains(x) }
             })
         };
@@ -118,11 +124,10 @@ impl<'a> Given<'a> {
 
     /// Is it as far off as single precision may take what is right, and are its numbers of single precision?
     pub fn is_single(&self) -> bool {
-        let sizes = sizes(&self.problem.system);
-        rounded(&0f32, &self.problem).is_some_and(|balls| {
+        rounded(&0f32, self.problem).is_some_and(|balls| {
             (0..2).all(|i| {
                 let x = self.numbers()[i].as_ref();
-                x.is_some_and(|x| is_within(&balls[i], x, &sizes[i]) && is_single_number(x))
+                x.is_some_and(|x| is_within(&balls[i], x, &self.sizes[i]) && is_single_number(x))
             })
         })
     }
@@ -130,7 +135,7 @@ impl<'a> Given<'a> {
     /// What is right by this factor off: u in parts of the exact one, or N. `None` where that is nearly zero,
     /// and the number as well.
     pub fn factor(&self, which: usize, tolerance: &Exact) -> Option<Option<Exact>> {
-        let small = |x: &Exact| x.abs() <= tolerance * &scales(&self.problem.system)[which];
+        let small = |x: &Exact| x.abs() <= tolerance * &self.scales[which];
         let Some(number) = self.numbers()[which] else { return Some(None) };
         match (small(self.exact[which]), small(number)) {
             (true, true) => None,
@@ -149,5 +154,5 @@ fn is_single_number(x: &Exact) -> bool {
 
 /// Is it a decimal of so many digits?
 pub(super) fn has_digits(x: &Exact, digits: usize) -> bool {
-    x.decimal(digits, Round::Nearest).parse().as_ref() == Ok(x)
+    short(x, digits) == *x
 }

@@ -4,9 +4,11 @@
 //! |m g| + |c (H − l)|. Residuals alone would not do: a solver can be in equilibrium to twelve digits with
 //! forty times the force.
 
+use super::mistakes::right;
+use super::problems::decimal;
 use super::{Answer, Problem, Reply, Value};
 use crate::chapter::contact::{self, Kkt};
-use crate::chapter::{SpringMass, augmented, penalty, structure, system};
+use crate::chapter::{SpringMass, augmented, structure, system};
 use crate::number::{Ball, Exact, PositivePart, Real, ToExact};
 use crate::solver::{Method, Solution, State, solve};
 use num_traits::{One, Zero};
@@ -53,6 +55,8 @@ pub struct Judgement {
     pub verdict: Verdict,
     /// The exact answer, for the parameters as they were used.
     pub exact: Solution<Exact>,
+    /// The problem with these parameters, if there is an answer to it.
+    pub(super) solved: Option<Problem>,
     /// The error of u, in parts of |H − l| + |m g/c|.
     pub deflection_error: Option<Exact>,
     /// The error of N, in parts of |m g| + |c (H − l)|.
@@ -79,7 +83,7 @@ impl Problem {
     }
 
     /// The problem that was really solved; or which parameter is another than was asked for, and how.
-    pub(super) fn as_used(&self, answer: &Answer, tolerance: &Exact) -> Result<Problem, String> {
+    fn as_used(&self, answer: &Answer, tolerance: &Exact) -> Result<Problem, String> {
         // The signs stay: c, m and ε are positive.
         let taken = |name: &str, asked: &Exact, used: &Option<Value>| match used {
             None => Ok(asked.clone()),
@@ -124,19 +128,15 @@ pub(super) fn scales(system: &SpringMass<Exact>) -> [Exact; 2] {
     scales.map(|scale| if scale.is_zero() { Exact::one() } else { scale })
 }
 
+/// A system in balls around floats, if it fits; `like` is one of them.
+pub(super) fn balls<T: Real + ToExact>(like: &T, system: &SpringMass<Exact>) -> Option<SpringMass<Ball<T>>> {
+    system.try_map(|x| Ball::around(like, x)).ok()
+}
+
 /// Where floats may take the formulas of u and N, if the parameters fit; `like` is one of them.
 pub(super) fn rounded<T: Real + ToExact>(like: &T, problem: &Problem) -> Option<[Ball<T>; 2]> {
-    let read = |x: &Exact| Ball::around(like, x);
-    let system = problem.system.try_map(read).ok()?;
-    Some(match &problem.penalty {
-        None => [contact::deflection(&system), contact::contact_force(&system)],
-        Some(penalty) => {
-            let eps = read(penalty).ok()?;
-            let u = penalty::unilateral_deflection(&system, &eps);
-            let n = penalty::contact_force(&system, &eps, &u).positive_part();
-            [u, n]
-        }
-    })
+    let penalty = problem.penalty.as_ref().map(|eps| Ball::around(like, eps)).transpose().ok()?;
+    Some(right(&balls(like, &problem.system)?, penalty.as_ref()))
 }
 
 /// The lengths of a system together, in m, and its forces, in N.
@@ -154,14 +154,10 @@ pub(super) fn is_within<T: Real + ToExact>(ball: &Ball<T>, x: &Exact, size: &Exa
 }
 
 /// How near an answer has to be to what it is taken for, in parts of the system's scale and of what is
-/// computed: as near as the tolerance asks for, and no nearer than this, so that the same mistakes can be
+/// computed: as near as the tolerance asks for, and no nearer than 10⁻⁶, so that the same mistakes can be
 /// told apart whatever the tolerance.
-const FIT: &str = "1e-6";
-
-/// How near an answer has to be.
 pub(super) fn fit(tolerance: &Exact) -> Exact {
-    let least: Exact = FIT.parse().expect("a number");
-    if *tolerance > least { tolerance.clone() } else { least }
+    decimal(1, -6).max(tolerance.clone())
 }
 
 impl Judgement {
@@ -169,6 +165,7 @@ impl Judgement {
         let without_numbers = |verdict, finding: &str| Judgement {
             verdict,
             exact: problem.solution(),
+            solved: None,
             deflection_error: None,
             force_error: None,
             kkt: None,
@@ -177,7 +174,7 @@ impl Judgement {
         };
         match reply {
             Reply::Answered(answer) => match problem.as_used(answer, tolerance) {
-                Ok(problem) => Judgement::of_answer(&problem, answer, tolerance),
+                Ok(solved) => Judgement::of_answer(solved, answer, tolerance),
                 Err(finding) => without_numbers(Verdict::Wrong, &finding),
             },
             Reply::Refused(why) => without_numbers(Verdict::Refused, why),
@@ -189,7 +186,7 @@ impl Judgement {
         }
     }
 
-    fn of_answer(problem: &Problem, answer: &Answer, tolerance: &Exact) -> Self {
+    fn of_answer(problem: Problem, answer: &Answer, tolerance: &Exact) -> Self {
         let exact = problem.solution();
         let numbers = [&answer.deflection, &answer.contact_force];
         let expected = [&exact.deflection, &exact.contact_force];
@@ -197,7 +194,7 @@ impl Judgement {
         let error = |i: usize| numbers[i].as_ref().map(|x| (x - expected[i]).abs() / &scales[i]);
         let errors = [error(0), error(1)];
         let near = |error: &Option<Exact>| error.as_ref().is_some_and(|error| error <= tolerance);
-        let (balls, sizes) = (rounded(&0f64, problem), sizes(&problem.system));
+        let (balls, sizes) = (rounded(&0f64, &problem), sizes(&problem.system));
         let to_rounding = |i: usize| match (&balls, numbers[i]) {
             (Some(balls), Some(x)) => is_within(&balls[i], x, &sizes[i]),
             _ => false,
@@ -207,7 +204,7 @@ impl Judgement {
         let right = |i: usize| to_rounding(i) && useful(i) || numbers[i].as_ref() == Some(expected[i]);
         let well = errors.iter().enumerate().all(|(i, error)| near(error) || right(i));
         let finding = if well {
-            penetrates_otherwise(problem, answer, tolerance)
+            penetrates_otherwise(&problem, answer, tolerance)
         } else {
             let state = || wrong_state(numbers, exact.state, &errors, tolerance, &scales);
             let rounding = (0..2).all(|i| near(&errors[i]) || to_rounding(i));
@@ -225,7 +222,8 @@ impl Judgement {
         };
         let [deflection_error, force_error] = errors;
         let lags = lags(&problem.system, &answer.steps, &fit(tolerance));
-        Judgement { verdict, exact, deflection_error, force_error, kkt, finding, lags }
+        let solved = Some(problem);
+        Judgement { verdict, exact, solved, deflection_error, force_error, kkt, finding, lags }
     }
 
     /// The larger of the two errors; `None`, which is less than any, without numbers.
@@ -240,9 +238,8 @@ fn penetrates_otherwise(problem: &Problem, answer: &Answer, tolerance: &Exact) -
     let Some(p) = said else { return Some("its penetration is not a number".to_string()) };
     let u = answer.deflection.as_ref()?;
     let own = contact::penetration(&problem.system, u);
-    let read = |x: &Exact| Ball::around(&0f64, x).ok();
-    let rounded = problem.system.try_map(|x| read(x).ok_or(())).ok();
-    let rounded = rounded.and_then(|system| Some(contact::penetration(&system, &read(u)?)));
+    let rounded = balls(&0f64, &problem.system).zip(Ball::around(&0f64, u).ok());
+    let rounded = rounded.map(|(system, u)| contact::penetration(&system, &u));
     let [length, _] = scales(&problem.system);
     let explained = (p - &own).abs() <= tolerance * length || rounded.is_some_and(|ball| ball.contains(p));
     (!explained)

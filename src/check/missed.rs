@@ -1,7 +1,6 @@
 //! Contacts that are taken for none, and what they have in common.
 
 use super::given::Given;
-use super::judge::scales;
 use crate::chapter::{structure, system};
 use crate::number::{Exact, PositivePart};
 use num_traits::Zero;
@@ -63,10 +62,10 @@ impl Missed {
     pub(super) fn of(answers: &[Given], tolerance: &Exact) -> Option<Self> {
         let contacts = answers.iter().filter_map(|given| {
             let system = &given.problem.system;
-            let (reaction, [_, scale]) = (system::reaction(system), scales(system));
+            let (reaction, scale) = (system::reaction(system), &given.scales[1]);
             let force = given.answer.contact_force.as_ref()?;
             let through = structure::deflection(system) - system::gap(system);
-            let is_missed = given.wrong && force.abs() <= tolerance * &scale;
+            let is_missed = given.wrong && force.abs() <= tolerance * scale;
             (reaction > tolerance * scale && (is_missed || *force > Exact::zero()))
                 .then_some((is_missed, [through, reaction]))
         });

@@ -87,8 +87,8 @@ pub(super) fn value<T: PositivePart>(tree: &Tree, system: &SpringMass<T>, penalt
     all.then(|| tree.replay(&|name| symbol(name).expect("known"), &piecewise)).flatten()
 }
 
-/// The formulas that are right: of Lagrange, or by penalty.
-pub(super) fn right(system: &SpringMass<Tree>, penalty: Option<&Tree>) -> Formulas {
+/// What is right: u in m and N in N of Lagrange, or by penalty.
+pub(super) fn right<T: PositivePart>(system: &SpringMass<T>, penalty: Option<&T>) -> [T; 2] {
     match penalty {
         None => [contact::deflection(system), contact::contact_force(system)],
         Some(eps) => {

@@ -134,12 +134,12 @@ pub fn problems(seed: u64, cases: u64, families: &[Family]) -> Vec<Problem> {
 }
 
 /// mantissa × 10^exponent
-fn decimal(mantissa: i64, exponent: i32) -> Exact {
+pub(super) fn decimal(mantissa: i64, exponent: i32) -> Exact {
     format!("{mantissa}e{exponent}").parse().expect("a decimal")
 }
 
 /// The nearest decimal of so many digits.
-fn short(x: &Exact, digits: usize) -> Exact {
+pub(super) fn short(x: &Exact, digits: usize) -> Exact {
     x.decimal(digits, Round::Nearest).parse().expect("a decimal")
 }
 
@@ -174,10 +174,23 @@ impl Draw {
         decimal(mantissa, self.between(low, high) - 2)
     }
 
-    /// The gap in parts of the free deflection: in contact and apart by turns.
+    fn sixteenths(&mut self, low: i32, high: i32) -> Exact {
+        Exact::from(self.between(low, high)) / Exact::from(16)
+    }
+
+    /// The gap in parts of the free deflection, in contact.
+    fn inside(&mut self) -> Exact {
+        self.sixteenths(1, 14)
+    }
+
+    /// The same, apart.
+    fn beyond(&mut self) -> Exact {
+        self.sixteenths(18, 64)
+    }
+
+    /// By turns.
     fn part(&mut self) -> Exact {
-        let sixteenths = if self.number % 2 == 1 { self.between(1, 14) } else { self.between(18, 64) };
-        Exact::from(sixteenths) / Exact::from(16)
+        if self.number % 2 == 1 { self.inside() } else { self.beyond() }
     }
 
     fn system(mut self) -> SpringMass<Exact> {
@@ -211,11 +224,11 @@ impl Draw {
     fn draw(&mut self) -> SpringMass<Exact> {
         match self.family {
             Family::Contact => {
-                let part = Exact::from(self.between(1, 14)) / Exact::from(16);
+                let part = self.inside();
                 self.ordinary([1, 3], part)
             }
             Family::Separated => {
-                let part = Exact::from(self.between(18, 64)) / Exact::from(16);
+                let part = self.beyond();
                 self.ordinary([1, 3], part)
             }
             Family::Overlap => {

@@ -1,13 +1,10 @@
 //! `contact cases`: systems with their exact answers.
 
 use crate::args::spelled;
-use crate::output::{self, Exit, Failure};
+use crate::output::{self, Exit, Failure, Row};
 use clap::ValueEnum;
-use serde::Serialize;
-use serde::ser::Serializer;
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::check::{self, Family, Problem, problems};
-use std::io::{self, Write};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -23,7 +20,7 @@ answers are fractions, and exact, for a plane that pushes and never pulls.
 #[command(after_help = EXAMPLES)]
 pub struct Options {
     #[command(flatten)]
-    pub drawn: Drawn,
+    drawn: Drawn,
     /// How to print them
     #[arg(long, value_enum, default_value_t = Format::Csv)]
     format: Format,
@@ -68,9 +65,9 @@ impl Drawn {
 
 /// Draws and prints.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
-    let rows: Vec<_> = options.drawn.problems().iter().map(Row::of).collect();
+    let rows: Vec<_> = options.drawn.problems().iter().map(row).collect();
     output::print(|out| match options.format {
-        Format::Csv => csv(out, &rows),
+        Format::Csv => output::csv(out, &NAMES, &rows),
         Format::Json => output::json(out, &rows),
     })
 }
@@ -89,25 +86,9 @@ const NAMES: [&str; 10] = [
     "contact_force",
 ];
 
-/// A row, in the order of [`NAMES`].
-struct Row([String; 10]);
-
-impl Row {
-    fn of(problem: &Problem) -> Self {
-        let SpringMass { c, m, g, l, h } = problem.system.map(spelled);
-        let exact = problem.solution();
-        let [u, p, n] = [exact.deflection, exact.penetration, exact.contact_force].map(|x| x.to_string());
-        Row([problem.id.clone(), problem.family.to_string(), c, m, g, l, h, u, p, n])
-    }
-}
-
-impl Serialize for Row {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        to.collect_map(NAMES.iter().zip(&self.0))
-    }
-}
-
-fn csv(out: &mut dyn Write, rows: &[Row]) -> io::Result<()> {
-    writeln!(out, "{}", NAMES.join(","))?;
-    rows.iter().try_for_each(|Row(cells)| writeln!(out, "{}", cells.join(",")))
+fn row(problem: &Problem) -> Row<10> {
+    let SpringMass { c, m, g, l, h } = problem.system.map(spelled);
+    let exact = problem.solution();
+    let [u, p, n] = [exact.deflection, exact.penetration, exact.contact_force].map(|x| x.to_string());
+    Row(&NAMES, [problem.id.clone(), problem.family.to_string(), c, m, g, l, h, u, p, n].map(Some))
 }

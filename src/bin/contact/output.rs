@@ -4,7 +4,7 @@ use crate::args;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use comfy_table::{ColumnConstraint, ContentArrangement, Table, presets};
 use indicatif::{ProgressBar, ProgressStyle};
-use serde::Serialize;
+use serde::ser::{Serialize, Serializer};
 use spring_mass_contact::formula::GLUE;
 use std::fmt;
 use std::io::{self, BufWriter, IsTerminal, Write};
@@ -110,6 +110,29 @@ pub fn print_answer(write: impl FnOnce(&mut dyn Write) -> Result<Exit, Failure>)
 pub fn json(out: &mut dyn Write, value: &impl Serialize) -> io::Result<()> {
     serde_json::to_writer_pretty(&mut *out, value)?;
     writeln!(out)
+}
+
+/// Cells under their names: an object in JSON, a line in CSV; nothing where something does not apply.
+pub struct Row<const N: usize>(pub &'static [&'static str; N], pub [Option<String>; N]);
+
+impl<const N: usize> Serialize for Row<N> {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let Row(names, cells) = self;
+        to.collect_map(names.iter().zip(cells))
+    }
+}
+
+/// A line of names, and a line a row.
+pub fn csv<'a, const N: usize>(
+    out: &mut dyn Write,
+    names: &[&str; N],
+    rows: impl IntoIterator<Item = &'a Row<N>>,
+) -> io::Result<()> {
+    writeln!(out, "{}", names.join(","))?;
+    rows.into_iter().try_for_each(|Row(_, cells)| {
+        let cells = cells.each_ref().map(|cell| cell.as_deref().unwrap_or_default());
+        writeln!(out, "{}", cells.join(","))
+    })
 }
 
 /// An empty table in the style all tables share, as wide as a page, or the terminal if that is wider: in

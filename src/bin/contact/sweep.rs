@@ -3,12 +3,10 @@
 mod plot;
 
 use crate::args::{Names, Number, System, exact, in_scalar, positive, spelled};
-use crate::output::{self, Exit, Failure, shortened};
+use crate::output::{self, Exit, Failure, Row, shortened};
 use clap::ValueEnum;
 use num_traits::{One, Zero};
 use plot::Curve;
-use serde::Serialize;
-use serde::ser::Serializer;
 use spring_mass_contact::chapter::{SpringMass, penalty, rounding, system};
 use spring_mass_contact::number::{Exact, NumberSystem, Text};
 use spring_mass_contact::rug::{Float, float::Round};
@@ -110,7 +108,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     output::print(|out| match options.format {
         Format::Table => table(out, options, &sweeps, io::stdout().is_terminal()),
         Format::Json => output::json(out, &sweeps.iter().flat_map(|sweep| &sweep.rows).collect::<Vec<_>>()),
-        Format::Csv => csv(out, &sweeps),
+        Format::Csv => output::csv(out, &NAMES, sweeps.iter().flat_map(|sweep| &sweep.rows)),
     })
 }
 
@@ -138,19 +136,10 @@ fn sweeps(options: &Options, progress: &dyn Fn(usize, usize)) -> Result<Vec<Swee
     scalars.iter().enumerate().map(made).collect()
 }
 
-/// A row, in the order of [`NAMES`]; nothing where something does not apply.
-struct Row([Option<String>; 8]);
-
-impl Serialize for Row {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        to.collect_map(NAMES.iter().zip(&self.0))
-    }
-}
-
 /// One number system's rows, as they are printed, and what there is to say of them.
 struct Sweep {
     scalar: NumberSystem,
-    rows: Vec<Row>,
+    rows: Vec<Row<8>>,
     notes: Vec<String>,
     curves: [Curve; 2],
 }
@@ -191,7 +180,7 @@ impl Sweeping<'_> {
     }
 
     /// As it is printed: for people within the width of a column, or in full.
-    fn row<T: Text>(&self, eps: &Number, row: &SweepRow<T>) -> Row {
+    fn row<T: Text>(&self, eps: &Number, row: &SweepRow<T>) -> Row<8> {
         let people = self.options.format == Format::Table;
         let value = |x: &T, width| {
             if people { exact(x).decimal_within(DIGITS, width) } else { x.text() }
@@ -203,16 +192,19 @@ impl Sweeping<'_> {
         let [penalty, u, p, force, force_error, penalty_force, penalty_force_error] = WIDTHS;
         let fits = !people || eps.text.chars().count() <= penalty;
         let penalty = if fits { eps.text.clone() } else { eps.value.decimal_within(DIGITS, penalty) };
-        Row([
-            Some(self.scalar.to_string()),
-            Some(penalty),
-            Some(value(&row.deflection, u)),
-            Some(value(&row.penetration, p)),
-            Some(value(&row.contact_force, force)),
-            row.penalty_force.as_ref().map(|x| value(x, penalty_force)),
-            error(&row.force_error, force_error),
-            error(&row.penalty_force_error, penalty_force_error),
-        ])
+        Row(
+            &NAMES,
+            [
+                Some(self.scalar.to_string()),
+                Some(penalty),
+                Some(value(&row.deflection, u)),
+                Some(value(&row.penetration, p)),
+                Some(value(&row.contact_force, force)),
+                row.penalty_force.as_ref().map(|x| value(x, penalty_force)),
+                error(&row.force_error, force_error),
+                error(&row.penalty_force_error, penalty_force_error),
+            ],
+        )
     }
 
     /// What the rows show.
@@ -286,15 +278,6 @@ fn log10(x: &Exact) -> Option<f64> {
     (*x > Exact::zero()).then_some(log)
 }
 
-fn csv(out: &mut dyn Write, sweeps: &[Sweep]) -> io::Result<()> {
-    writeln!(out, "{}", NAMES.join(","))?;
-    for Row(cells) in sweeps.iter().flat_map(|sweep| &sweep.rows) {
-        let cells = cells.each_ref().map(|cell| cell.as_deref().unwrap_or_default());
-        writeln!(out, "{}", cells.join(","))?;
-    }
-    Ok(())
-}
-
 fn table(out: &mut dyn Write, options: &Options, sweeps: &[Sweep], plotted: bool) -> io::Result<()> {
     let line = |cells: [&str; 7]| {
         let cells = cells.iter().zip(WIDTHS).map(|(cell, width)| format!(" {cell:<width$}"));
@@ -309,7 +292,7 @@ fn table(out: &mut dyn Write, options: &Options, sweeps: &[Sweep], plotted: bool
             "{}",
             line(["ε in N/m", "u in m", "p in m", "m g − c u", "error", "ε p in N", "error"])
         )?;
-        for Row(cells) in rows {
+        for Row(_, cells) in rows {
             let [_, penalty, u, p, force, penalty_force, error, penalty_error] =
                 cells.each_ref().map(|cell| cell.as_deref().unwrap_or("–"));
             writeln!(out, "{}", line([penalty, u, p, force, error, penalty_force, penalty_error]))?;

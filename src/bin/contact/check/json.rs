@@ -7,8 +7,7 @@ use serde::Serialize;
 use serde_json::value::RawValue;
 use spring_mass_contact::chapter::contact::Kkt;
 use spring_mass_contact::check::{
-    Answer, Answers, Checked, Diagnosis, Family, Kind, Missed, Of, Reply, Report, Row, Summary, Value,
-    Verdict,
+    Checked, Diagnosis, Family, Kind, Missed, Of, Reply, Report, Row, Summary, Value, Verdict,
 };
 use spring_mass_contact::number::Exact;
 use spring_mass_contact::rug::float::Round;
@@ -28,7 +27,7 @@ pub struct Json<'a> {
     families: Vec<JsonRow<'a>>,
     penalty: JsonPenalty,
     missed: Option<JsonMissed>,
-    diagnosis: Vec<JsonDiagnosis<'a>>,
+    diagnosis: &'a [Diagnosis],
 }
 
 #[derive(Serialize)]
@@ -88,16 +87,6 @@ struct JsonMissed {
     from: String,
 }
 
-#[derive(Serialize)]
-struct JsonDiagnosis<'a> {
-    name: &'a str,
-    formula: &'a str,
-    at: &'a [String],
-    answers: Answers,
-    fits: usize,
-    of: usize,
-}
-
 pub fn of<'a>(program: &'a str, options: &Options, report: &'a Report) -> Json<'a> {
     let penalty = &report.penalty;
     let row = |row: Row<'a>| JsonRow {
@@ -107,10 +96,6 @@ pub fn of<'a>(program: &'a str, options: &Options, report: &'a Report) -> Json<'
         worst_deflection: error(&row.worst_deflection),
         worst_force: error(&row.worst_force),
         counterexample: (row.verdict > Verdict::WithinTolerance).then(|| counterexample(row.worst)),
-    };
-    let diagnosis = |diagnosis: &'a Diagnosis| {
-        let Diagnosis { name, formula, at, answers, fits, of } = diagnosis;
-        JsonDiagnosis { name, formula, at, answers: *answers, fits: *fits, of: *of }
     };
     Json {
         program,
@@ -126,7 +111,7 @@ pub fn of<'a>(program: &'a str, options: &Options, report: &'a Report) -> Json<'
             spread: error(&penalty.spread),
         },
         missed: report.missed.as_ref().map(missed),
-        diagnosis: report.diagnosis.iter().map(diagnosis).collect(),
+        diagnosis: &report.diagnosis,
     }
 }
 
@@ -142,15 +127,13 @@ fn error(x: &Option<Exact>) -> Option<String> {
 
 fn counterexample(checked: &Checked) -> Counterexample<'_> {
     let judgement = &checked.judgement;
-    let answer = |answer: &'_ Answer| {
-        let text = |value: &Value| value.as_ref().map(spelled);
-        (text(&answer.deflection), text(&answer.contact_force))
-    };
+    let text = |value: &Value| value.as_ref().map(spelled);
     let answer = match &checked.reply {
-        Reply::Answered(given) => {
-            let (deflection, contact_force) = answer(given);
-            Some(JsonAnswer { deflection, contact_force, status: given.status.as_deref() })
-        }
+        Reply::Answered(answer) => Some(JsonAnswer {
+            deflection: text(&answer.deflection),
+            contact_force: text(&answer.contact_force),
+            status: answer.status.as_deref(),
+        }),
         _ => None,
     };
     let residual = |x: &Exact| x.decimal(DIGITS, Round::Nearest);

@@ -53,19 +53,10 @@ pub fn table(out: &mut dyn Write, program: &str, report: &Report, tolerance: &st
     if bad.len() > EXAMPLES {
         writeln!(out, "\n --format json has an example of each family that fails, with its request.")?;
     }
-    if report.given_up {
-        writeln!(out)?;
-        let few = report.checked.len();
-        output::wrapped(
-            out,
-            " ",
-            1,
-            &format!("It has answered none of the first {few} systems: no more were put."),
-        )?;
-    }
     let lag = report.lag();
     let fitting = report.named().filter(|named| named.answers != Answers::Steps);
     for (said, diagnosis) in [
+        (given_up(report), None),
         (penalty(report), None),
         (report.missed.as_ref().map(missed), None),
         (lag.map(lagging), lag),
@@ -160,6 +151,12 @@ fn example(out: &mut dyn Write, checked: &Checked) -> io::Result<()> {
 /// A list whose lines end after its commas.
 fn parts(list: &str) -> String {
     list.replace(' ', &GLUE.to_string()).replace(&format!(",{GLUE}"), ", ")
+}
+
+fn given_up(report: &Report) -> Option<String> {
+    let few = report.checked.len();
+    let said = || format!("It has answered none of the first {few} systems: no more were put.");
+    report.given_up.then(said)
 }
 
 /// What the forces by their penetrations show, if it is not what was asked for.
