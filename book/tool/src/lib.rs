@@ -181,5 +181,6 @@ macro_rules! pages {
 }
 pages! {
     introduction notation system structure contact formulations lagrange penalty augmented
-    convergence beyond loose floats proofs command check solvers speed
+    convergence stalls elements command check solvers speed beyond loose floats claims proofs
+    sources teaching
 }
