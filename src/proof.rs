@@ -21,7 +21,7 @@
 //! - This lemma, which claims about limits of sequences rest on:
 //!
 //!   > If |ρ| < 1 then ρᵏ → 0. *Proof.* For ρ ≠ 0 write 1/|ρ| = 1 + x with x > 0. By Bernoulli's inequality
-//!   > (1 + x)ᵏ ≥ 1 + k x, so |ρ|ᵏ ≤ 1/(1 + k x), which is below any bound once k is large enough. ∎ So if
+//!   > (1 + x)ᵏ ≥ 1 + k x, so |ρ|ᵏ ≤ 1/(1 + k x), which is below any bound once k is large enough. □ So if
 //!   > f is continuous at 0, as a quotient of polynomials is where its denominator is not 0, f(ρᵏ) → f(0).
 //!
 //! Most of that need not be taken on trust: [`coq`] writes the same claims for the proof assistant Coq,
