@@ -16,7 +16,7 @@
 //! - That [`paper`] prints what was proved, in the names of a [`Registry`](crate::formula::Registry); the
 //!   compiler, and GMP's rational numbers.
 //! - The model of rounding: without under- and overflow, what floats of p ≥ 2 bits make of a result x is
-//!   x (N + e)/N for some −1 ≤ e ≤ 1, where N = 2ᵖ + 1. `kernel.rs` derives it from rounding to nearest,
+//!   x (1 + γ e) for some −1 ≤ e ≤ 1, where γ = 1/(2ᵖ + 1). `kernel.rs` derives it from rounding to nearest,
 //!   which is what machines and MPFR are trusted to do; and to round alike what is alike.
 //! - This lemma, which claims about limits of sequences rest on:
 //!

@@ -8,7 +8,7 @@ use crate::number::{Dual, Field};
 
 /// The force of the spring, in N, at the deflection `u` in m.
 ///
-/// `F = c u`
+/// `c u`
 ///
 /// Domain: all. One rounding. Source: §1.1, before (1.1).
 ///

@@ -76,7 +76,7 @@ pub fn gap<T: Field>(system: &SpringMass<T>) -> T {
 
 /// The weight, in N.
 ///
-/// `W = m g`
+/// `m g`
 ///
 /// Domain: all. One rounding. Source: §1.1, before (1.1).
 ///

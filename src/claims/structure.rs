@@ -5,7 +5,7 @@ use crate::chapter::structure::{self, *};
 use crate::chapter::system;
 
 formulas! {
-    "F" = structure::spring_force(system, "u");
+    "" = structure::spring_force(system, "u");
     "r" = structure::residual(system, "u");
     "u" = structure::deflection(system);
     "δW" = structure::virtual_work(system, "u", "δu");

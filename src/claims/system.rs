@@ -5,7 +5,7 @@ use crate::chapter::system;
 
 formulas! {
     "Δ" (folded) = system::gap(system);
-    "W" = system::weight(system);
+    "" = system::weight(system);
     "R" (folded) = system::reaction(system);
 }
 

@@ -363,7 +363,7 @@ impl Writer {
                 if arguments.is_empty() { symbol } else { symbol + &self.list(arguments) }
             }
             Factor::Group(sum) => self.brackets("(", ")", &self.sum(sum)),
-            Factor::Exp(sum) if self.is_latex() => format!("e^{{{}}}", self.small().sum(sum)),
+            Factor::Exp(sum) if self.is_latex() => format!("\\mathrm{{e}}^{{{}}}", self.small().sum(sum)),
             Factor::Exp(sum) => format!("exp{}", self.brackets("(", ")", &self.sum(sum))),
             Factor::PositivePart(sum) if self.is_latex() => {
                 self.brackets("\\langle ", " \\rangle", &self.sum(sum))

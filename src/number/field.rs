@@ -101,7 +101,7 @@ pub trait Field:
     /// A small integer, exactly (f32 holds those up to 2²⁴ in size).
     fn int(n: i32) -> Self;
 
-    /// May one divide by it? Not the same as `!is_zero()`: the dual number 0 + 1·d is not zero, and
+    /// May one divide by it? Not the same as `!is_zero()`: the dual number 0 + 1·ω is not zero, and
     /// yet nothing can be divided by it; nor by a ball that contains zero.
     fn is_unit(&self) -> bool {
         !self.is_zero()

@@ -16,7 +16,7 @@
 //! so for every claim a lemma of its own, `…_defined`, says that no divisor is 0.
 //!
 //! What is rounded is so by the library Flocq: its rounding to nearest, for every precision of two bits or
-//! more and whatever becomes of a number half-way between two. That it is x (N + e)/N, as our kernel reads
+//! more and whatever becomes of a number half-way between two. That it is x (1 + γ e), as our kernel reads
 //! it, is a lemma there.
 
 mod drift;

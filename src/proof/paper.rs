@@ -213,7 +213,7 @@ impl<'a> Paper<'a> {
     fn errors(&self, direct: &Direct) -> Option<String> {
         let own = |own: &Rounding| format!("{} of fl({})", own.error().0, self.text(own.of()));
         let errors: Vec<_> = direct.errors().iter().map(own).collect();
-        let model = format!("fl(x) = x (N + e)/N with |e| ≤ 1, N = {PRECISION} + 1: ");
+        let model = format!("fl(x) = x (1 + γ e) with |e| ≤ 1, γ = 1 / ({PRECISION} + 1): ");
         (!errors.is_empty()).then(|| model + &errors.join(", "))
     }
 

@@ -100,8 +100,8 @@ fn functions_bring_their_own_brackets() {
     let decay = (-&b / (&b + &c) * &a).exp();
     let fraction = (&a / &b).positive_part();
     check(&[
-        (&c * &decay, "c exp(−b a / (b + c))", r"c\,e^{-b\,a / (b + c)}"),
-        (&decay * &decay, "exp(−b a / (b + c))²", r"(e^{-b\,a / (b + c)})^2"),
+        (&c * &decay, "c exp(−b a / (b + c))", r"c\,\mathrm{e}^{-b\,a / (b + c)}"),
+        (&decay * &decay, "exp(−b a / (b + c))²", r"(\mathrm{e}^{-b\,a / (b + c)})^2"),
         ((&a - &b).positive_part(), "⟨a − b⟩", r"\langle a - b \rangle"),
         (-&c * fraction, "−c ⟨a / b⟩", r"-c\,\left\langle \frac{a}{b}\right\rangle"),
         ((&a / &b).min(&(&b - &c)), "min(a / b, b − c)", r"\min\left(\frac{a}{b}, b - c\right)"),

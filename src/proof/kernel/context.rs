@@ -48,7 +48,7 @@ impl Context {
     }
 
     /// What has the sign of a quotient whose denominator is positive: its numerator, without the factors
-    /// N + e, which are positive too.
+    /// 2ᵖ + 1 + e, which are positive too.
     pub(super) fn deciding(&self, value: &Ratio) -> Poly {
         let errors = value.num().symbols().into_iter().filter(|x| ERRORS.contains(&x.0));
         let largest = self.largest();
