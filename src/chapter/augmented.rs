@@ -41,7 +41,7 @@ pub fn least_value<T: Field>(system: &SpringMass<T>, eps: &T, lambda: &T) -> T {
         - &missing * &missing / (T::int(2) * penalty::total_stiffness(system, eps))
 }
 
-/// Eq. (1.15): the derivative of (1.14) by u, in N, at the deflection `u` in m.
+/// Eq. (1.15): the derivative of (1.14) with respect to u, in N, at the deflection `u` in m.
 ///
 /// `∂L/∂u = c u − m g + λ + ε p`
 ///

@@ -4,7 +4,8 @@ use super::{Exponential, Field};
 use crate::operators;
 use num_traits::{One, Zero};
 
-/// A value and its derivative by one variable: a formula read in dual numbers differentiates itself.
+/// A value and its derivative with respect to one variable: a formula read in dual numbers differentiates
+/// itself.
 ///
 /// Over rationals the derivative is exact, over balls it carries its bound, over duals it is the second.
 ///
