@@ -109,9 +109,10 @@ pub(super) fn entries() -> Vec<Entry> {
                  in closed form λ_k = «augmented::multiplier_after»",
             )
             .in_latex(concat!(
-                r"\left\{\begin{aligned} &\lambda_k = «augmented::update: u=u_{k-1}, λ=λ_{k-1}» ",
-                r"\\ &«augmented::equilibrium: u=u_k, λ=λ_k» = 0 \end{aligned}\right. \qquad k = 1, 2, ",
-                r"3, \dots",
+                r"\begin{gathered} \left\{\begin{aligned} ",
+                r"&\lambda_k = «augmented::update: u=u_{k-1}, λ=λ_{k-1}» \\ ",
+                r"&«augmented::equilibrium: u=u_k, λ=λ_k» = 0 \end{aligned}\right. \\[4pt] ",
+                r"k = 1, 2, 3, \dots \end{gathered}",
             ))
             .given([stiffness, penalty])
             .functions(["augmented::update", "augmented::equilibrium", "augmented::deflection"])

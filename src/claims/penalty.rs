@@ -206,9 +206,10 @@ pub(super) fn entries() -> Vec<Entry> {
                  with p = «penalty::penetration»",
             )
             .in_latex(concat!(
-                r"\lim_{\varepsilon\to\infty} u = ",
-                r"\lim_{\varepsilon\to\infty} «penalty::deflection» = ",
-                r"\lim_{\varepsilon\to\infty} «penalty::deflection_divided» = «system::gap»",
+                r"\begin{aligned} \lim_{\varepsilon\to\infty} u ",
+                r"&= \lim_{\varepsilon\to\infty} «penalty::deflection» \\ ",
+                r"&= \lim_{\varepsilon\to\infty} «penalty::deflection_divided» \\ ",
+                r"&= «system::gap» \end{aligned}",
             ))
             .given([stiffness, penalty])
             .functions(["penalty::deflection", "penalty::deflection_divided"])
