@@ -207,8 +207,8 @@ pub(super) fn entries() -> Vec<Entry> {
             )
             .in_latex(concat!(
                 r"\begin{aligned} \lim_{\varepsilon\to\infty} u ",
-                r"&= \lim_{\varepsilon\to\infty} «penalty::deflection» \\ ",
-                r"&= \lim_{\varepsilon\to\infty} «penalty::deflection_divided» \\ ",
+                r"&= \lim_{\varepsilon\to\infty} «penalty::deflection» \\[4pt] ",
+                r"&= \lim_{\varepsilon\to\infty} «penalty::deflection_divided» \\[4pt] ",
                 r"&= «system::gap» \end{aligned}",
             ))
             .given([stiffness, penalty])

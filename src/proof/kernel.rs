@@ -23,14 +23,14 @@
 //! A quantity that is supposed to be in an interval is, for some −1 ≤ t ≤ 1, its middle and t times half of
 //! its length; so it is replaced.
 //!
-//! **Rounding.** fl(x), the number of p bits nearest to x, is x (1 + γ e) for some −1 ≤ e ≤ 1, where
-//! γ = 1/(2ᵖ + 1); nothing is said about over- and underflow. For let 2ᵏ ≤ |x| < 2ᵏ⁺¹. Then |fl(x) − x| is
-//! at most 2ᵏ/2ᵖ, and since 2ᵏ itself has p bits, at most |x| − 2ᵏ. The first, 2ᵖ times, and the second add
-//! up to (2ᵖ + 1) |fl(x) − x| ≤ 2ᵏ + |x| − 2ᵏ = |x|. So the kernel reads it, with an e of its own for each formula that is rounded. Two of which it sees
-//! that they are equal, up to powers of two, have the same e: of what is in other units the digits are
-//! the same. Rounding keeps order: fl(a) ≥ fl(b) if, step by step, nothing in a is less than what stands
-//! in its place in b ([`order`]). It has jumps, so nothing is said of limits and derivatives of what is
-//! rounded.
+//! **Rounding.** fl(x), the number of p bits nearest to x, is x (1 + γ e) for some −1 ≤ e ≤ 1, where γ =
+//! 1/(2ᵖ + 1); nothing is said about over- and underflow. For let 2ᵏ ≤ |x| < 2ᵏ⁺¹. Then |fl(x) − x| is at
+//! most 2ᵏ/2ᵖ, and since 2ᵏ itself has p bits, at most |x| − 2ᵏ. The first, 2ᵖ times, and the second add up
+//! to (2ᵖ + 1) |fl(x) − x| ≤ 2ᵏ + |x| − 2ᵏ = |x|. So the kernel reads it, with an e of its own for each
+//! formula that is rounded. Two of which it sees that they are equal, up to powers of two, have the same e:
+//! of what is in other units the digits are the same. Rounding keeps order: fl(a) ≥ fl(b) if, step by step,
+//! nothing in a is less than what stands in its place in b ([`order`]). It has jumps, so nothing is said of
+//! limits and derivatives of what is rounded.
 //!
 //! The names of the new symbols, and of the members of an induction, must not occur in a statement otherwise:
 //! `kept` sees to it.
