@@ -228,8 +228,9 @@ pub fn recursion<T: Field>(system: &SpringMass<T>, eps: &T, u: &T, next: &T) -> 
 ///
 /// `|p| < tol`
 ///
-/// Of no use when the mass hangs free, where |p| never falls ([`natural_residual`] serves there too),
-/// and no promise in floats, where p̂ can be 0 and p is not. Exact. Source: §1.3.3.
+/// Over a plane that never pulls it is of no use when the mass hangs free, where |p| tends to |R|/c
+/// ([`natural_residual`] serves there too); and it is no promise in floats, where p̂ can be 0 and p is not.
+/// Exact. Source: §1.3.3.
 ///
 /// ```
 /// # use spring_mass_contact::chapter::augmented;
