@@ -1,5 +1,5 @@
 //! The page about the command says what the command does: its options are those of the sources, and its
-//! samples are the outputs that `tests/cmd` holds the command to.
+//! samples are the outputs that `tests/cmd` holds the command to. So are all samples of the page on stalls.
 
 use regex::Regex;
 use std::{
@@ -85,4 +85,22 @@ fn the_samples_are_what_the_command_prints() {
         compared += 1;
     }
     assert!(compared >= 5, "only {compared} samples were compared");
+}
+
+/// Each sample of the page is in its own file of `tests/cmd`, in the same order, and nothing else is. What the
+/// sample leaves out, as ` …`, the file leaves open, as `...`; the rest is held character by character.
+#[test]
+fn what_the_page_on_stalls_shows_is_what_the_command_prints() {
+    let mut shown = transcript(&text(&root().join("book/src/stalls.md")));
+    for line in shown.iter_mut().flat_map(|(_, output)| output) {
+        if line == " …" {
+            *line = "...".into();
+        }
+    }
+    let held = text(&root().join("tests/cmd/stalls.trycmd"));
+    assert!(!held.contains("[..]"), "all that is shown is held");
+    assert_eq!(shown, transcript(&held));
+    for (command, output) in &shown {
+        assert!(output.iter().any(|line| line != "..."), "{command}: nothing is shown");
+    }
 }
