@@ -260,13 +260,13 @@ impl Sweeping<'_> {
         let augments = |eps: &&T| floor(eps) < penalty::penetration(&s, &exact(*eps));
         if let (Some(first), Some(last)) = (penalties.iter().find(augments), penalties.iter().rfind(augments))
         {
+            let stops = |eps: &T| format!("{} m with ε = {} N/m", few(&floor(eps)), few(&exact(eps)));
+            let mut where_to = stops(first);
+            if first != last {
+                where_to += &format!(", {}", stops(last));
+            }
             notes.push(format!(
-                "An augmentation stops at a penetration of about η (|H| + |Δ| + R/ε): {} m with ε = {} N/m, \
-                 {} m with ε = {} N/m.",
-                few(&floor(first)),
-                few(&exact(first)),
-                few(&floor(last)),
-                few(&exact(last))
+                "An augmentation stops at a penetration of about η (|H| + |Δ| + R/ε): {where_to}."
             ));
         }
         notes
