@@ -110,3 +110,24 @@ fn what_the_page_on_stalls_shows_is_what_the_command_prints() {
         assert!(output.iter().any(|line| line != "..."), "{command}: nothing is shown");
     }
 }
+
+#[test]
+fn every_symptom_has_a_section_with_an_example_a_test_and_a_remedy() {
+    let page = text(&root().join("book/src/stalls.md"));
+    let (table, sections) = page.split_once("## The ratio").expect("what follows the table");
+    let linked = |text| -> BTreeSet<_> {
+        let link = Regex::new(r"(?m)^\| \[.*?\]\(#([\w-]+)\) \|").unwrap();
+        link.captures_iter(text).map(|found| found[1].to_string()).collect()
+    };
+    let mut shown = BTreeSet::new();
+    for section in sections.split("\n## ").filter(|section| section.contains("\n*Test.*")) {
+        let id = Regex::new(r"\{#([\w-]+)\}\n").unwrap().captures(section).expect("an anchor")[1].to_string();
+        assert!(section.contains("\n*Remedy.*"), "{id}: no remedy");
+        assert!(
+            ["console", "rust"].iter().any(|kind| section.contains(&format!("\n```{kind}\n"))),
+            "{id}: no example"
+        );
+        shown.insert(id);
+    }
+    assert_eq!(linked(table), shown);
+}
