@@ -119,9 +119,9 @@ fn every_symptom_has_a_section_with_an_example_a_test_and_a_remedy() {
         let link = Regex::new(r"(?m)^\| \[.*?\]\(#([\w-]+)\) \|").unwrap();
         link.captures_iter(text).map(|found| found[1].to_string()).collect()
     };
-    let mut shown = BTreeSet::new();
+    let (anchor, mut shown) = (Regex::new(r"\{#([\w-]+)\}\n").unwrap(), BTreeSet::new());
     for section in sections.split("\n## ").filter(|section| section.contains("\n*Test.*")) {
-        let id = Regex::new(r"\{#([\w-]+)\}\n").unwrap().captures(section).expect("an anchor")[1].to_string();
+        let id = anchor.captures(section).expect("an anchor")[1].to_string();
         assert!(section.contains("\n*Remedy.*"), "{id}: no remedy");
         assert!(
             ["console", "rust"].iter().any(|kind| section.contains(&format!("\n```{kind}\n"))),
