@@ -1,0 +1,141 @@
+//! The exercises at the end of the pages: numbered, of a known kind, with a solution that something checks.
+
+use book_tool::PAGES;
+use regex::Regex;
+use std::{fs, path::Path};
+
+/// Pages that end in exercises.
+const WITH_EXERCISES: [&str; 11] = [
+    "system",
+    "structure",
+    "contact",
+    "lagrange",
+    "penalty",
+    "augmented",
+    "convergence",
+    "loose",
+    "beyond",
+    "floats",
+    "proofs",
+];
+
+const KINDS: [&str; 4] = ["Predict", "Compute", "Prove", "Break"];
+
+fn page(name: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../src/{name}.md"));
+    fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// One exercise of a page.
+struct Exercise {
+    number: usize,
+    kind: String,
+    statement: String,
+    solution: String,
+}
+
+/// The exercises of a page, or what is wrong with them.
+fn exercises(page: &str) -> Result<Vec<Exercise>, String> {
+    let headings = Regex::new(r"(?m)^## (.*)$").unwrap();
+    let last = headings.captures_iter(page).last().ok_or("no section")?;
+    if &last[1] != "Exercises" {
+        return Err(format!("the last section is {}", &last[1]));
+    }
+    let section = &page[last.get_match().end()..];
+    let start = Regex::new(r#"(?m)^<strong id="exercise-(\d+)">(\d+)\. (\w+)\.</strong> "#).unwrap();
+    let starts: Vec<_> = start.captures_iter(section).collect();
+    if section.matches("<strong id=").count() != starts.len() {
+        return Err("an exercise begins as no other does".into());
+    }
+    let ends = starts.iter().skip(1).map(|next| next.get_match().start()).chain([section.len()]);
+    let mut exercises = Vec::new();
+    for (start, end) in starts.iter().zip(ends) {
+        let name = format!("exercise {}", &start[2]);
+        let body = &section[start.get_match().end()..end];
+        let (statement, fold) = body
+            .split_once("\n<details>\n<summary>Solution</summary>\n\n")
+            .ok_or(format!("{name} has no folded solution"))?;
+        let solution =
+            fold.trim_end().strip_suffix("\n\n</details>").ok_or(format!("{name} does not end folded"))?;
+        if solution.contains("details>") {
+            return Err(format!("{name} has two folds"));
+        }
+        if start[1] != start[2] {
+            return Err(format!("{name} has another number to be linked to"));
+        }
+        exercises.push(Exercise {
+            number: start[2].parse().unwrap(),
+            kind: start[3].into(),
+            statement: statement.into(),
+            solution: solution.into(),
+        });
+    }
+    Ok(exercises)
+}
+
+#[test]
+fn each_page_of_the_chapter_ends_in_exercises() {
+    for name in WITH_EXERCISES {
+        let exercises = exercises(&page(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let numbers: Vec<_> = exercises.iter().map(|exercise| exercise.number).collect();
+        assert!((3..=5).contains(&numbers.len()), "{name} has {} exercises", numbers.len());
+        assert_eq!(numbers, (1..=numbers.len()).collect::<Vec<_>>(), "{name}");
+        for exercise in exercises {
+            let (name, kind) = (format!("{name} {}", exercise.number), &exercise.kind);
+            assert!(KINDS.contains(&kind.as_str()), "{name} is of no kind: {kind}");
+            assert!(!exercise.statement.contains("```"), "{name} asks in code");
+        }
+    }
+    let others = PAGES.iter().filter(|name| !WITH_EXERCISES.contains(name));
+    for name in others {
+        assert!(!page(name).contains("## Exercises"), "the exercises of {name} are not looked at");
+    }
+}
+
+/// What an answer is held to: code that runs and asserts, a command's output, the formula of a function.
+#[test]
+fn each_answer_is_proved_or_checked() {
+    let fence = Regex::new(r"(?ms)^```(\S*)\n(.*?)^```$").unwrap();
+    for name in WITH_EXERCISES {
+        for Exercise { number, kind, solution, .. } in exercises(&page(name)).unwrap() {
+            let blocks: Vec<_> = fence.captures_iter(&solution).collect();
+            for block in &blocks {
+                let checks = match &block[1] {
+                    "rust" => block[2].contains("assert"),
+                    // Held by tests/command.rs.
+                    "console" => block[2].starts_with("$ contact "),
+                    _ => false,
+                };
+                assert!(checks, "{name} {number}: a block of {} that checks nothing", &block[1]);
+            }
+            match kind.as_str() {
+                "Prove" => assert!(solution.contains(r"\square"), "{name} {number}: where does the proof end?"),
+                _ => assert!(
+                    !blocks.is_empty() || solution.contains("{{#formula "),
+                    "{name} {number}: nothing checks the answer"
+                ),
+            }
+        }
+    }
+}
+
+/// Four exercises as they should be; each mistake in them is named.
+#[test]
+fn what_is_wrong_with_an_exercise_is_seen() {
+    let one = |number: usize| {
+        format!(
+            "<strong id=\"exercise-{number}\">{number}. Predict.</strong> What?\n\n\
+             <details>\n<summary>Solution</summary>\n\nThis.\n\n</details>\n\n"
+        )
+    };
+    let right = format!("# Page\n\n## Text\n\n## Exercises\n\n{}{}", one(1), one(2));
+    let read = |page: &str| exercises(page).map(|found| found.len());
+    assert_eq!(read(&right), Ok(2));
+    let wrong = |from: &str, to: &str| read(&right.replacen(from, to, 1)).unwrap_err();
+    assert_eq!(wrong("## Exercises", "## More"), "the last section is More");
+    assert_eq!(wrong("exercise-2", "exercise-1"), "exercise 2 has another number to be linked to");
+    assert_eq!(wrong("2. Predict.", "2 Predict."), "an exercise begins as no other does");
+    assert_eq!(wrong("<summary>Solution", "<summary>Answer"), "exercise 1 has no folded solution");
+    assert_eq!(wrong("This.\n\n</details>", "This.\n\n"), "exercise 1 does not end folded");
+    assert_eq!(wrong("This.", "This.\n\n</details>\n\nThat."), "exercise 1 has two folds");
+}
