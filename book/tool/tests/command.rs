@@ -1,6 +1,7 @@
 //! The page about the command says what the command does: its options are those of the sources, and its
 //! samples are the outputs that `tests/cmd` holds the command to. So are all samples of the page on stalls.
 
+use book_tool::PAGES;
 use regex::Regex;
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -73,9 +74,13 @@ fn the_samples_are_what_the_command_prints() {
     let snapshots: BTreeMap<_, _> =
         files(&root().join("tests/cmd")).iter().flat_map(|path| transcript(&text(path))).collect();
     let mut compared = 0;
-    let others = ["proofs", "check"].map(|page| text(&root().join(format!("book/src/{page}.md"))));
-    for (command, sample) in transcript(&(page() + &others.concat())) {
-        let Some(snapshot) = snapshots.get(&command).filter(|_| !sample.is_empty()) else { continue };
+    let pages = PAGES.iter().map(|page| text(&root().join(format!("book/src/{page}.md"))));
+    for (command, sample) in pages.flat_map(|page| transcript(&page)) {
+        let Some(snapshot) = snapshots.get(&command).filter(|_| !sample.is_empty()) else {
+            // All the cases take too long for a test.
+            assert!(sample.is_empty() || command == "contact", "nothing holds the output of {command}");
+            continue;
+        };
         assert_eq!(sample.len(), snapshot.len(), "{command}");
         for (line, expected) in sample.iter().zip(snapshot) {
             let pattern = regex::escape(expected).replace(r"\[\.\.\]", ".*");
