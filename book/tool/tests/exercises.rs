@@ -53,7 +53,7 @@ fn exercises(page: &str) -> Result<Vec<Exercise>, String> {
         let name = format!("exercise {}", &start[2]);
         let body = &section[start.get_match().end()..end];
         let (statement, fold) = body
-            .split_once("\n<details>\n<summary>Solution</summary>\n\n")
+            .split_once("\n<details class=\"solution\">\n<summary>Solution</summary>\n\n")
             .ok_or(format!("{name} has no folded solution"))?;
         let solution =
             fold.trim_end().strip_suffix("\n\n</details>").ok_or(format!("{name} does not end folded"))?;
@@ -127,7 +127,7 @@ fn what_is_wrong_with_an_exercise_is_seen() {
     let one = |number: usize| {
         format!(
             "<strong id=\"exercise-{number}\">{number}. Predict.</strong> What?\n\n\
-             <details>\n<summary>Solution</summary>\n\nThis.\n\n</details>\n\n"
+             <details class=\"solution\">\n<summary>Solution</summary>\n\nThis.\n\n</details>\n\n"
         )
     };
     let right = format!("# Page\n\n## Text\n\n## Exercises\n\n{}{}", one(1), one(2));
