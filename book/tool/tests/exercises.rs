@@ -121,7 +121,29 @@ fn each_answer_is_proved_or_checked() {
     }
 }
 
-/// Four exercises as they should be; each mistake in them is named.
+/// The lecturer's sheet: its minutes and points add up, and its links say where they lead.
+#[test]
+fn the_lectures_fill_their_time_and_the_problems_their_points() {
+    let sheet = page("teaching");
+    let sum = |rows: &str, pattern: &str| -> u32 {
+        let row = Regex::new(pattern).unwrap();
+        row.captures_iter(rows).map(|row| row[1].parse::<u32>().unwrap()).sum()
+    };
+    let sections: Vec<_> = sheet.split("\n## ").collect();
+    let section = |title: &str| *sections.iter().find(|text| text.starts_with(title)).unwrap();
+    for lecture in ["First lecture", "Second lecture"] {
+        assert_eq!(sum(section(lecture), r"(?m)^\| (\d+) \|"), 90, "{lecture}");
+    }
+    assert_eq!(sum(section("A problem set"), r"(?m)^\| \[\w+ \d\]\([^)]*\) \| (\d+) \|"), 100);
+    let link = Regex::new(r"\[(\w+) (\d)\]\((\w+)\.md#exercise-(\d)\)").unwrap();
+    let links: Vec<_> = link.captures_iter(&sheet).collect();
+    assert_eq!(links.len(), sheet.matches("#exercise-").count(), "a link has another text");
+    for link in links {
+        assert_eq!((&link[1], &link[2]), (&link[3], &link[4]));
+    }
+}
+
+/// Exercises as they should be; each mistake in them is named.
 #[test]
 fn what_is_wrong_with_an_exercise_is_seen() {
     let one = |number: usize| {
