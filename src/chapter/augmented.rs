@@ -19,6 +19,7 @@ use crate::number::{Field, OrderedField, PositivePart};
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(augmented::functional(&system, &4.0, &1.0, &2.5), -11.5);
 /// ```
+/// [In the book](../../../../book/augmented.html#eq-1-14)
 pub fn functional<T: Field>(system: &SpringMass<T>, eps: &T, lambda: &T, u: &T) -> T {
     let p = contact::penetration(system, u);
     structure::potential_energy(system, u) + lambda * &p + penalty::functional(eps, &p)
@@ -52,6 +53,7 @@ pub fn least_value<T: Field>(system: &SpringMass<T>, eps: &T, lambda: &T) -> T {
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(augmented::stationarity(&system, &4.0, &1.0, &2.125), 0.0);
 /// ```
+/// [In the book](../../../../book/augmented.html#eq-1-15)
 pub fn stationarity<T: Field>(system: &SpringMass<T>, eps: &T, lambda: &T, u: &T) -> T {
     structure::residual(system, u) + lambda + eps * contact::penetration(system, u)
 }
@@ -67,6 +69,7 @@ pub fn stationarity<T: Field>(system: &SpringMass<T>, eps: &T, lambda: &T, u: &T
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(augmented::update(&system, &4.0, &1.0, &2.125), 1.5);
 /// ```
+/// [In the book](../../../../book/augmented.html#eq-1-16)
 pub fn update<T: Field>(system: &SpringMass<T>, eps: &T, lambda: &T, u: &T) -> T {
     let SpringMass { l, h, .. } = system;
     lambda + eps * (l + u - h)
@@ -84,6 +87,7 @@ pub fn update<T: Field>(system: &SpringMass<T>, eps: &T, lambda: &T, u: &T) -> T
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(augmented::equilibrium(&system, &4.0, &1.0, &2.125), 0.0);
 /// ```
+/// [In the book](../../../../book/augmented.html#eq-1-16)
 pub fn equilibrium<T: Field>(system: &SpringMass<T>, eps: &T, lambda: &T, u: &T) -> T {
     let SpringMass { c, m, g, l, h } = system;
     c * u - m * g + lambda + eps * (l + u - h)
@@ -102,6 +106,7 @@ pub fn equilibrium<T: Field>(system: &SpringMass<T>, eps: &T, lambda: &T, u: &T)
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(augmented::deflection(&system, &4.0, &1.0), 2.125);
 /// ```
+/// [In the book](../../../../book/augmented.html#eq-1-16)
 pub fn deflection<T: Field>(system: &SpringMass<T>, eps: &T, lambda: &T) -> T {
     let SpringMass { c, m, g, l, h } = system;
     (m * g - lambda + eps * (h - l)) / (c + eps)
@@ -119,6 +124,7 @@ pub fn deflection<T: Field>(system: &SpringMass<T>, eps: &T, lambda: &T) -> T {
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(augmented::contact_force(&system, &2.125), 1.5);
 /// ```
+/// [In the book](../../../../book/augmented.html#fn-augmented-contact_force)
 pub fn contact_force<T: Field>(system: &SpringMass<T>, u: &T) -> T {
     let SpringMass { c, m, g, .. } = system;
     m * g - c * u
@@ -136,6 +142,7 @@ pub fn contact_force<T: Field>(system: &SpringMass<T>, u: &T) -> T {
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(augmented::contraction(&system, &4.0), 0.5);
 /// ```
+/// [In the book](../../../../book/augmented.html#eq-1-17)
 pub fn contraction<T: Field>(system: &SpringMass<T>, eps: &T) -> T {
     let SpringMass { c, .. } = system;
     c / penalty::total_stiffness(system, eps)
@@ -170,6 +177,7 @@ pub fn multiplier_after<T: Field>(system: &SpringMass<T>, start: &T, decay: &T) 
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(augmented::penetration_after(&system, &4.0, &0.0, &0.25), 0.0625); // k = 2
 /// ```
+/// [In the book](../../../../book/augmented.html#eq-1-17)
 pub fn penetration_after<T: Field>(system: &SpringMass<T>, eps: &T, start: &T, decay: &T) -> T {
     decay * (system::reaction(system) - start) / penalty::total_stiffness(system, eps)
 }
@@ -202,6 +210,7 @@ pub fn deflection_after<T: Field>(system: &SpringMass<T>, eps: &T, start: &T, de
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(augmented::harmonic_bound(&system, &4.0, &3.0), 0.25); // ρ³ = 0.125
 /// ```
+/// [In the book](../../../../book/augmented.html#eq-1-17)
 pub fn harmonic_bound<T: Field>(system: &SpringMass<T>, eps: &T, k: &T) -> T {
     let SpringMass { c, .. } = system;
     c / (c + k * eps)
@@ -219,6 +228,7 @@ pub fn harmonic_bound<T: Field>(system: &SpringMass<T>, eps: &T, k: &T) -> T {
 /// let (left, right) = augmented::recursion(&system, &4.0, &2.25, &2.125);
 /// assert_eq!((left, right), (-1.0, -1.0));
 /// ```
+/// [In the book](../../../../book/augmented.html#eq-1-21)
 pub fn recursion<T: Field>(system: &SpringMass<T>, eps: &T, u: &T, next: &T) -> (T, T) {
     let SpringMass { c, l, h, .. } = system;
     ((c + eps) * (next - u), -eps * (l - h) - eps * u)
@@ -236,6 +246,7 @@ pub fn recursion<T: Field>(system: &SpringMass<T>, eps: &T, u: &T, next: &T) -> 
 /// # use spring_mass_contact::chapter::augmented;
 /// assert!(augmented::within_tolerance(&-0.5, &1.0) && !augmented::within_tolerance(&1.0, &1.0));
 /// ```
+/// [In the book](../../../../book/augmented.html#eq-1-33)
 pub fn within_tolerance<T: OrderedField>(p: &T, tolerance: &T) -> bool {
     p.abs() < *tolerance
 }
@@ -299,6 +310,7 @@ pub fn unilateral_equilibrium<T: PositivePart>(system: &SpringMass<T>, eps: &T, 
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(augmented::unilateral_deflection(&system, &4.0, &-5.0), 2.5); // hangs free
 /// ```
+/// [In the book](../../../../book/loose.html#fn-augmented-unilateral_deflection)
 pub fn unilateral_deflection<T: PositivePart>(system: &SpringMass<T>, eps: &T, lambda: &T) -> T {
     structure::deflection(system).min(&deflection(system, eps, lambda))
 }
@@ -316,6 +328,7 @@ pub fn unilateral_deflection<T: PositivePart>(system: &SpringMass<T>, eps: &T, l
 /// assert_eq!(augmented::natural_residual(&system, &4.0, &1.0, &2.125), 0.125);
 /// assert_eq!(augmented::natural_residual(&system, &4.0, &0.0, &1.0), 0.0); // free and done
 /// ```
+/// [In the book](../../../../book/loose.html#fn-augmented-natural_residual)
 pub fn natural_residual<T: PositivePart>(system: &SpringMass<T>, eps: &T, lambda: &T, u: &T) -> T {
     -(-contact::penetration(system, u)).min(&(lambda / eps))
 }

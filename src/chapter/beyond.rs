@@ -15,6 +15,7 @@ use crate::number::{Field, PositivePart};
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(beyond::effective_penalty(&system, &8.0), 28.0); // ε = 4, k = 2
 /// ```
+/// [In the book](../../../../book/beyond.html#fn-beyond-effective_penalty)
 pub fn effective_penalty<T: Field>(system: &SpringMass<T>, growth: &T) -> T {
     let SpringMass { c, .. } = system;
     c * (growth - T::one())
@@ -61,6 +62,7 @@ pub fn relaxed_contraction<T: Field>(system: &SpringMass<T>, eps: &T, step: &T) 
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(beyond::dual_functional(&system, &0.0), -12.5); // without the plane's force: min Π
 /// ```
+/// [In the book](../../../../book/beyond.html#fn-beyond-dual_functional)
 pub fn dual_functional<T: Field>(system: &SpringMass<T>, lambda: &T) -> T {
     let SpringMass { c, .. } = system;
     let missing = lambda - system::reaction(system);
@@ -77,6 +79,7 @@ pub fn dual_functional<T: Field>(system: &SpringMass<T>, lambda: &T) -> T {
 /// # use spring_mass_contact::chapter::beyond;
 /// assert_eq!(beyond::aitken(&0.0, &1.0, &1.5), 2.0); // R
 /// ```
+/// [In the book](../../../../book/beyond.html#fn-beyond-aitken)
 pub fn aitken<T: Field>(first: &T, second: &T, third: &T) -> T {
     let step = second - first;
     first - &step * &step / (third - T::int(2) * second + first)

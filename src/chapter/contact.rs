@@ -15,6 +15,7 @@ use crate::number::{Field, PositivePart};
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(contact::penetration(&system, &2.5), 0.5);
 /// ```
+/// [In the book](../../../../book/contact.html#eq-1-5)
 pub fn penetration<T: Field>(system: &SpringMass<T>, u: &T) -> T {
     let SpringMass { l, h, .. } = system;
     l + u - h
@@ -32,6 +33,7 @@ pub fn penetration<T: Field>(system: &SpringMass<T>, u: &T) -> T {
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(contact::equilibrium(&system, &2.0, &2.0), 0.0);
 /// ```
+/// [In the book](../../../../book/contact.html#eq-1-6)
 pub fn equilibrium<T: Field>(system: &SpringMass<T>, u: &T, n: &T) -> T {
     structure::residual(system, u) + n
 }
@@ -64,6 +66,7 @@ pub struct Kkt<T> {
 /// let kkt = contact::kkt(&system, &2.25, &1.0); // the penalty method with ε = 4
 /// assert_eq!((kkt.stationarity, kkt.primal, kkt.dual, kkt.complementarity), (0.0, 0.25, 0.0, 0.25));
 /// ```
+/// [In the book](../../../../book/contact.html#eq-1-6)
 pub fn kkt<T: PositivePart>(system: &SpringMass<T>, u: &T, n: &T) -> Kkt<T> {
     let p = penetration(system, u);
     Kkt {
@@ -85,6 +88,7 @@ pub fn kkt<T: PositivePart>(system: &SpringMass<T>, u: &T, n: &T) -> Kkt<T> {
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(contact::contact_force(&system), 2.0);
 /// ```
+/// [In the book](../../../../book/contact.html#fn-contact-contact_force)
 pub fn contact_force<T: PositivePart>(system: &SpringMass<T>) -> T {
     system::reaction(system).positive_part()
 }
@@ -101,6 +105,7 @@ pub fn contact_force<T: PositivePart>(system: &SpringMass<T>) -> T {
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(contact::deflection(&system), 2.0);
 /// ```
+/// [In the book](../../../../book/contact.html#fn-contact-deflection)
 pub fn deflection<T: PositivePart>(system: &SpringMass<T>) -> T {
     structure::deflection(system).min(&system::gap(system))
 }

@@ -15,6 +15,7 @@ use crate::number::Field;
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(lagrange::functional(&system, &2.5, &2.0), -11.5);
 /// ```
+/// [In the book](../../../../book/lagrange.html#eq-1-7)
 pub fn functional<T: Field>(system: &SpringMass<T>, u: &T, lambda: &T) -> T {
     structure::potential_energy(system, u) + lambda * contact::penetration(system, u)
 }
@@ -30,6 +31,7 @@ pub fn functional<T: Field>(system: &SpringMass<T>, u: &T, lambda: &T) -> T {
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(lagrange::residual(&system, &2.0, &2.0), [0.0, 0.0]);
 /// ```
+/// [In the book](../../../../book/lagrange.html#eq-1-8)
 pub fn residual<T: Field>(system: &SpringMass<T>, u: &T, lambda: &T) -> [T; 2] {
     [contact::equilibrium(system, u, lambda), contact::penetration(system, u)]
 }
@@ -45,6 +47,7 @@ pub fn residual<T: Field>(system: &SpringMass<T>, u: &T, lambda: &T) -> [T; 2] {
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(lagrange::deflection(&system), 2.0);
 /// ```
+/// [In the book](../../../../book/lagrange.html#eq-1-8)
 pub fn deflection<T: Field>(system: &SpringMass<T>) -> T {
     system::gap(system)
 }
@@ -60,6 +63,7 @@ pub fn deflection<T: Field>(system: &SpringMass<T>) -> T {
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(lagrange::multiplier(&system), 2.0);
 /// ```
+/// [In the book](../../../../book/lagrange.html#eq-1-8)
 pub fn multiplier<T: Field>(system: &SpringMass<T>) -> T {
     system::reaction(system)
 }

@@ -18,6 +18,7 @@ use crate::number::{Exponential, Field};
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(ode::difference_equation(&system, &4.0, &2.25, &2.125), (-1.0, -1.0));
 /// ```
+/// [In the book](../../../../book/convergence.html#eq-1-22)
 pub fn difference_equation<T: Field>(system: &SpringMass<T>, eps: &T, u: &T, next: &T) -> (T, T) {
     augmented::recursion(system, eps, u, next)
 }
@@ -35,6 +36,7 @@ pub fn difference_equation<T: Field>(system: &SpringMass<T>, eps: &T, u: &T, nex
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(ode::operator(&system, &4.0, &2.0, &-1.0), 0.0);
 /// ```
+/// [In the book](../../../../book/convergence.html#eq-1-25)
 pub fn operator<T: Field>(system: &SpringMass<T>, eps: &T, u: &T, v: &T) -> T {
     let SpringMass { c, .. } = system;
     (c + eps) * v + eps * u
@@ -51,6 +53,7 @@ pub fn operator<T: Field>(system: &SpringMass<T>, eps: &T, u: &T, v: &T) -> T {
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(ode::right_side(&system, &4.0), 8.0);
 /// ```
+/// [In the book](../../../../book/convergence.html#eq-1-23)
 pub fn right_side<T: Field>(system: &SpringMass<T>, eps: &T) -> T {
     let SpringMass { l, h, .. } = system;
     -eps * (l - h)
@@ -67,6 +70,7 @@ pub fn right_side<T: Field>(system: &SpringMass<T>, eps: &T) -> T {
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(ode::velocity(&system, &4.0, &2.25), -0.125);
 /// ```
+/// [In the book](../../../../book/convergence.html#eq-1-23)
 pub fn velocity<T: Field>(system: &SpringMass<T>, eps: &T, u: &T) -> T {
     let SpringMass { c, .. } = system;
     (right_side(system, eps) - eps * u) / (c + eps)
@@ -82,6 +86,7 @@ pub fn velocity<T: Field>(system: &SpringMass<T>, eps: &T, u: &T) -> T {
 /// # use spring_mass_contact::chapter::ode;
 /// assert_eq!(ode::superposition(&0.25, &2.0), 2.25);
 /// ```
+/// [In the book](../../../../book/convergence.html#eq-1-24)
 pub fn superposition<T: Field>(homogeneous: &T, particular: &T) -> T {
     homogeneous + particular
 }
@@ -98,6 +103,7 @@ pub fn superposition<T: Field>(homogeneous: &T, particular: &T) -> T {
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(ode::characteristic(&system, &4.0, &-0.5), 0.0);
 /// ```
+/// [In the book](../../../../book/convergence.html#eq-1-26)
 pub fn characteristic<T: Field>(system: &SpringMass<T>, eps: &T, rate: &T) -> T {
     let SpringMass { c, .. } = system;
     rate * (c + eps) + eps
@@ -114,6 +120,7 @@ pub fn characteristic<T: Field>(system: &SpringMass<T>, eps: &T, rate: &T) -> T 
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(ode::rate(&system, &4.0), -0.5);
 /// ```
+/// [In the book](../../../../book/convergence.html#eq-1-26)
 pub fn rate<T: Field>(system: &SpringMass<T>, eps: &T) -> T {
     let SpringMass { c, .. } = system;
     -eps / (c + eps)
@@ -132,6 +139,7 @@ pub fn rate<T: Field>(system: &SpringMass<T>, eps: &T) -> T {
 /// assert_eq!(ode::homogeneous(&system, &4.0, &0.25, &0.0), 0.25);
 /// # }
 /// ```
+/// [In the book](../../../../book/convergence.html#eq-1-27)
 pub fn homogeneous<T: Exponential>(system: &SpringMass<T>, eps: &T, a: &T, t: &T) -> T {
     a * (rate(system, eps) * t).exp()
 }
@@ -147,6 +155,7 @@ pub fn homogeneous<T: Exponential>(system: &SpringMass<T>, eps: &T, a: &T, t: &T
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(ode::particular(&system), 2.0);
 /// ```
+/// [In the book](../../../../book/convergence.html#eq-1-28)
 pub fn particular<T: Field>(system: &SpringMass<T>) -> T {
     let SpringMass { l, h, .. } = system;
     h - l
@@ -165,6 +174,7 @@ pub fn particular<T: Field>(system: &SpringMass<T>) -> T {
 /// assert_eq!(ode::general(&system, &4.0, &0.25, &0.0), 2.25);
 /// # }
 /// ```
+/// [In the book](../../../../book/convergence.html#eq-1-29)
 pub fn general<T: Exponential>(system: &SpringMass<T>, eps: &T, a: &T, t: &T) -> T {
     superposition(&homogeneous(system, eps, a, t), &particular(system))
 }
@@ -180,6 +190,7 @@ pub fn general<T: Exponential>(system: &SpringMass<T>, eps: &T, a: &T, t: &T) ->
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(ode::constant(&system, &2.25), 0.25);
 /// ```
+/// [In the book](../../../../book/convergence.html#eq-1-30)
 pub fn constant<T: Field>(system: &SpringMass<T>, start: &T) -> T {
     let SpringMass { l, h, .. } = system;
     start - h + l
@@ -198,6 +209,7 @@ pub fn constant<T: Field>(system: &SpringMass<T>, start: &T) -> T {
 /// assert_eq!(ode::solution(&system, &4.0, &2.25, &0.0), 2.25);
 /// # }
 /// ```
+/// [In the book](../../../../book/convergence.html#eq-1-30)
 pub fn solution<T: Exponential>(system: &SpringMass<T>, eps: &T, start: &T, t: &T) -> T {
     general(system, eps, &constant(system, start), t)
 }

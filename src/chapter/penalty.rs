@@ -15,6 +15,7 @@ use crate::number::{Dual, Field, PositivePart};
 /// # use spring_mass_contact::chapter::penalty;
 /// assert_eq!(penalty::functional(&4.0, &0.5), 0.5);
 /// ```
+/// [In the book](../../../../book/penalty.html#eq-1-9)
 pub fn functional<T: Field>(eps: &T, p: &T) -> T {
     eps * p * p / T::int(2)
 }
@@ -30,6 +31,7 @@ pub fn functional<T: Field>(eps: &T, p: &T) -> T {
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(penalty::energy(&system, &4.0, &2.5), -12.0);
 /// ```
+/// [In the book](../../../../book/penalty.html#eq-1-9)
 pub fn energy<T: Field>(system: &SpringMass<T>, eps: &T, u: &T) -> T {
     structure::potential_energy(system, u) + functional(eps, &contact::penetration(system, u))
 }
@@ -62,6 +64,7 @@ pub fn least_energy<T: Field>(system: &SpringMass<T>, eps: &T) -> T {
 /// # use spring_mass_contact::chapter::penalty;
 /// assert_eq!(penalty::series(&4.0, &[8.0], &0.5), 1.0);
 /// ```
+/// [In the book](../../../../book/penalty.html#eq-1-10)
 pub fn series<T: Field>(eps: &T, higher: &[T], p: &T) -> T {
     let square = p * p;
     let mut power = square.clone();
@@ -81,6 +84,7 @@ pub fn series<T: Field>(eps: &T, higher: &[T], p: &T) -> T {
 /// # use spring_mass_contact::chapter::penalty;
 /// assert_eq!(penalty::series_force(&4.0, &[8.0], &0.5), 6.0);
 /// ```
+/// [In the book](../../../../book/penalty.html#eq-1-10)
 pub fn series_force<T: Field>(eps: &T, higher: &[T], p: &T) -> T {
     let higher: Vec<_> = higher.iter().cloned().map(Dual::constant).collect();
     series(&Dual::constant(eps.clone()), &higher, &Dual::variable(p.clone())).derivative
@@ -114,6 +118,7 @@ pub fn series_residual<T: Field>(system: &SpringMass<T>, eps: &T, higher: &[T], 
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(penalty::residual(&system, &4.0, &2.25), 0.0);
 /// ```
+/// [In the book](../../../../book/penalty.html#eq-1-11)
 pub fn residual<T: Field>(system: &SpringMass<T>, eps: &T, u: &T) -> T {
     let SpringMass { c, m, g, l, h } = system;
     c * u - m * g + eps * (l + u - h)
@@ -133,6 +138,7 @@ pub fn residual<T: Field>(system: &SpringMass<T>, eps: &T, u: &T) -> T {
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(penalty::contact_force(&system, &4.0, &2.25), 1.0);
 /// ```
+/// [In the book](../../../../book/penalty.html#eq-1-12)
 pub fn contact_force<T: Field>(system: &SpringMass<T>, eps: &T, u: &T) -> T {
     eps * contact::penetration(system, u)
 }
@@ -165,6 +171,7 @@ pub fn total_stiffness<T: Field>(system: &SpringMass<T>, eps: &T) -> T {
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(penalty::deflection(&system, &4.0), 2.25);
 /// ```
+/// [In the book](../../../../book/penalty.html#eq-1-13)
 pub fn deflection<T: Field>(system: &SpringMass<T>, eps: &T) -> T {
     let SpringMass { c, m, g, l, h } = system;
     (eps * (h - l) + m * g) / (c + eps)
@@ -181,6 +188,7 @@ pub fn deflection<T: Field>(system: &SpringMass<T>, eps: &T) -> T {
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(penalty::deflection_divided(&system, &4.0), 2.25);
 /// ```
+/// [In the book](../../../../book/penalty.html#eq-1-13)
 pub fn deflection_divided<T: Field>(system: &SpringMass<T>, eps: &T) -> T {
     let SpringMass { c, m, g, l, h } = system;
     (h - l + m * g / eps) / (c / eps + T::one())
@@ -197,6 +205,7 @@ pub fn deflection_divided<T: Field>(system: &SpringMass<T>, eps: &T) -> T {
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(penalty::penetration(&system, &4.0), 0.25);
 /// ```
+/// [In the book](../../../../book/penalty.html#fn-penalty-penetration)
 pub fn penetration<T: Field>(system: &SpringMass<T>, eps: &T) -> T {
     system::reaction(system) / total_stiffness(system, eps)
 }
@@ -228,6 +237,7 @@ pub fn force_at_root<T: Field>(system: &SpringMass<T>, eps: &T) -> T {
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(penalty::penalty_for(&system, &0.25), 4.0);
 /// ```
+/// [In the book](../../../../book/penalty.html#fn-penalty-penalty_for)
 pub fn penalty_for<T: Field>(system: &SpringMass<T>, tolerance: &T) -> T {
     let SpringMass { c, .. } = system;
     system::reaction(system) / tolerance - c
@@ -244,6 +254,7 @@ pub fn penalty_for<T: Field>(system: &SpringMass<T>, tolerance: &T) -> T {
 /// let lifted = SpringMass { c: 4.0, m: 1.0, g: 4.0, l: 1.0, h: 3.0 };
 /// assert_eq!(penalty::unilateral_deflection(&lifted, &4.0), 1.0); // hangs free
 /// ```
+/// [In the book](../../../../book/penalty.html#fn-penalty-unilateral_deflection)
 pub fn unilateral_deflection<T: PositivePart>(system: &SpringMass<T>, eps: &T) -> T {
     structure::deflection(system).min(&deflection(system, eps))
 }

@@ -33,6 +33,7 @@ pub fn spring_force<T: Field>(system: &SpringMass<T>, u: &T) -> T {
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(structure::residual(&system, &2.5), 0.0);
 /// ```
+/// [In the book](../../../../book/structure.html#eq-1-1)
 pub fn residual<T: Field>(system: &SpringMass<T>, u: &T) -> T {
     let SpringMass { c, m, g, .. } = system;
     c * u - m * g
@@ -49,6 +50,7 @@ pub fn residual<T: Field>(system: &SpringMass<T>, u: &T) -> T {
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(structure::deflection(&system), 2.5);
 /// ```
+/// [In the book](../../../../book/structure.html#eq-1-1)
 pub fn deflection<T: Field>(system: &SpringMass<T>) -> T {
     let SpringMass { c, m, g, .. } = system;
     m * g / c
@@ -66,6 +68,7 @@ pub fn deflection<T: Field>(system: &SpringMass<T>) -> T {
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(structure::virtual_work(&system, &2.0, &0.5), -1.0);
 /// ```
+/// [In the book](../../../../book/structure.html#eq-1-2)
 pub fn virtual_work<T: Field>(system: &SpringMass<T>, u: &T, du: &T) -> T {
     du * residual(system, u)
 }
@@ -83,6 +86,7 @@ pub fn virtual_work<T: Field>(system: &SpringMass<T>, u: &T, du: &T) -> T {
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(structure::first_variation(&system, &2.0, &0.5), -1.0); // (1.2)
 /// ```
+/// [In the book](../../../../book/structure.html#eq-1-3)
 pub fn first_variation<T: Field>(system: &SpringMass<T>, u: &T, du: &T) -> T {
     let path = Dual { value: u.clone(), derivative: du.clone() };
     potential_energy(&system.map(|x| Dual::constant(x.clone())), &path).derivative
@@ -99,6 +103,7 @@ pub fn first_variation<T: Field>(system: &SpringMass<T>, u: &T, du: &T) -> T {
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(structure::potential_energy(&system, &2.5), -12.5);
 /// ```
+/// [In the book](../../../../book/structure.html#eq-1-4)
 pub fn potential_energy<T: Field>(system: &SpringMass<T>, u: &T) -> T {
     let SpringMass { c, m, g, .. } = system;
     c * u * u / T::int(2) - m * g * u

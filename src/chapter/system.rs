@@ -13,6 +13,7 @@ use std::fmt;
 /// let system = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
 /// assert_eq!(system.map(|x| 2.0 * x).c, 200.0);
 /// ```
+/// [In the book](../../../../book/system.html#fn-system-SpringMass)
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct SpringMass<T> {
     /// Stiffness of the spring, c > 0, in N/m.
@@ -104,6 +105,7 @@ pub fn weight<T: Field>(system: &SpringMass<T>) -> T {
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(system::reaction(&system), 2.0);
 /// ```
+/// [In the book](../../../../book/system.html#fn-system-reaction)
 pub fn reaction<T: Field>(system: &SpringMass<T>) -> T {
     let SpringMass { c, m, g, l, h } = system;
     m * g - c * (h - l)

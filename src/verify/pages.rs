@@ -7,7 +7,7 @@ use crate::proof::prove;
 use std::fmt::Write;
 
 /// A section as entries have it, and as it is called.
-const SECTIONS: [(&str, &str); 7] = [
+pub const SECTIONS: [(&str, &str); 7] = [
     ("1.1", "1.1 Structural part"),
     ("1.2", "1.2 Contact part"),
     ("1.3.1", "1.3.1 Lagrange multiplier method"),
@@ -34,6 +34,16 @@ pub fn pages() -> Vec<Page> {
     SECTIONS.iter().map(|(section, title)| page(section, title)).collect()
 }
 
+/// The heading over an entry's claims.
+pub fn heading(entry: &Entry) -> String {
+    format!("{} {}", entry.label(), entry.title)
+}
+
+/// The heading over the proof of one of them: no other on its page is the same.
+pub fn heading_of(entry: &Entry, claim: &str) -> String {
+    format!("{claim}, {}", entry.label())
+}
+
 fn page(section: &str, title: &str) -> Page {
     let mut text = format!(
         "# Proofs: {title}\n\n\
@@ -47,7 +57,7 @@ fn page(section: &str, title: &str) -> Page {
 
 /// What is claimed of one entry.
 fn account(entry: &Entry) -> String {
-    let mut text = format!("\n## {} {}\n\n{}.\n", entry.label(), entry.title, entry.statement());
+    let mut text = format!("\n## {}\n\n{}.\n", heading(entry), entry.statement());
     let functions: Vec<_> = entry.functions.iter().map(|function| format!("`{function}`")).collect();
     if let Some((file, _)) = entry.functions.first().and_then(|first| first.split_once("::")) {
         let _ = write!(text, "\nComputed by {} in `src/chapter/{file}.rs`.\n", functions.join(", "));
@@ -56,7 +66,12 @@ fn account(entry: &Entry) -> String {
         let (statement, paper) = (Statement::of(claim), Paper::new(registry()));
         let given = registry().all_supposed(&claim.given);
         let given = if given.is_empty() { String::new() } else { format!("\n\nif `{}`", given.join("`, `")) };
-        let _ = write!(text, "\n### {}\n\n`{}`{given}\n\n", claim.name, paper.claim(&statement));
+        let _ = write!(
+            text,
+            "\n### {}\n\n`{}`{given}\n\n",
+            heading_of(entry, claim.name),
+            paper.claim(&statement)
+        );
         text += &match prove(&statement) {
             Ok(proof) => {
                 let names = paper.names(&statement).into_iter().map(|name| format!("where {name}"));

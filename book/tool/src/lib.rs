@@ -3,27 +3,32 @@
 //! | in a page | becomes |
 //! |---|---|
 //! | `$…$`, `$$…$$` | the formula as HTML |
-//! | `{{#eq 1.13}}` | the equation, numbered, to be linked to, and the Rust source of its functions |
+//! | `{{#eq 1.13}}` | the equation's box: its number, what came of its claims, and the Rust source of its functions |
 //! | `{{#ref 1.13}}` | its number as a link, from any page |
 //! | `{{#source system::gap}}` | the Rust source of a function without a number |
 //! | `{{#formula system::gap}}` | the formula that a function computes, within `$…$` or by itself |
+//! | `{{#claims}}` | all claims and what came of each |
 //!
 //! A formula stands in `src/chapter` and nowhere else: its source is shown, and typeset. The last tag takes
 //! what a hole in an [`Entry`] takes, such as `{{#formula contact::penetration: u=u_k}}`.
 
+mod claims;
 mod math;
+mod places;
 mod source;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
+use claims::Claims;
 use math::Typesetter;
 use mdbook_preprocessor::{
     Preprocessor, PreprocessorContext,
     book::{Book, Chapter},
 };
+use places::Places;
+use pulldown_cmark::{Event, Parser, Tag};
 use regex::{Captures, Regex};
 use source::Sources;
 use spring_mass_contact::claims::{Entry, entries, entry};
-use std::{collections::HashMap, path::PathBuf};
 
 /// The numbered equations of the chapter, in order, with their LaTeX.
 pub fn equations() -> impl Iterator<Item = (&'static Entry, String)> {
@@ -39,11 +44,12 @@ impl Preprocessor for Equations {
     }
 
     fn run(&self, context: &PreprocessorContext, mut book: Book) -> Result<Book> {
-        let tags = tag("eq|ref|source|formula")?;
+        let tags = tag("eq|ref|source|formula|claims")?;
         let tools = Tools {
             typesetter: Typesetter::new()?,
             sources: Sources::in_folder(&context.root.join("../src/chapter")),
-            pages: pages(&book, &tags)?,
+            places: Places::of(&book, &tags)?,
+            claims: Claims::run(),
         };
         let mut result = Ok(());
         book.for_each_chapter_mut(|chapter| {
@@ -57,93 +63,125 @@ impl Preprocessor for Equations {
     }
 }
 
-/// Where each equation is displayed. Each has to be, once.
-fn pages(book: &Book, tags: &Regex) -> Result<HashMap<String, PathBuf>> {
-    let mut pages = HashMap::new();
-    for chapter in book.chapters() {
-        for tag in tags.captures_iter(&chapter.content).filter(|tag| &tag[1] == "eq") {
-            let path = chapter.path.clone().context("an equation in a draft")?;
-            if let Some(first) = pages.insert(tag[2].to_string(), path) {
-                bail!("({}) is displayed twice, first in {}", &tag[2], first.display());
-            }
-        }
-    }
-    match equations().find(|(entry, _)| !pages.contains_key(entry.equation)) {
-        Some((missing, _)) => bail!("{} is not displayed on any page", missing.label()),
-        None => Ok(pages),
-    }
-}
-
 /// What it takes to process a page.
 struct Tools {
     typesetter: Typesetter,
     sources: Sources,
-    pages: HashMap<String, PathBuf>,
+    places: Places,
+    claims: &'static Claims,
+}
+
+/// Where on a page a tag stands.
+struct Spot {
+    /// From the page to the root of the book.
+    up: String,
+    /// The level of the heading that it stands under; 0 before the first.
+    level: usize,
 }
 
 impl Tools {
     fn process(&self, chapter: &mut Chapter, tags: &Regex) -> Result<()> {
         let text = self.typesetter.page(&chapter.content)?;
-        chapter.content = replaced(&text, tags, |tag| self.tag(tag))?;
+        let headings: Vec<_> = Parser::new(&text)
+            .into_offset_iter()
+            .filter_map(|(event, range)| match event {
+                Event::Start(Tag::Heading { level, .. }) => Some((range.start, level as usize)),
+                _ => None,
+            })
+            .collect();
+        let depth = chapter.path.as_deref().map_or(0, |path| path.components().count().saturating_sub(1));
+        chapter.content = replaced(&text, tags, |tag| {
+            let before = headings.iter().rfind(|(start, _)| *start < tag.get_match().start());
+            let spot = Spot { up: "../".repeat(depth), level: before.map_or(0, |(_, level)| *level) };
+            self.tag(tag, &spot)
+        })?;
         Ok(())
     }
 
-    fn tag(&self, tag: &Captures) -> Result<String> {
-        match (&tag[1], &tag[2]) {
-            ("eq", number) => {
-                self.equation(entry(number).with_context(|| format!("no equation ({number})"))?)
+    fn tag(&self, tag: &Captures, spot: &Spot) -> Result<String> {
+        let what = tag.get(2).map_or("", |what| what.as_str());
+        match &tag[1] {
+            "eq" => self.equation(entry(what).with_context(|| format!("no equation ({what})"))?, spot),
+            "ref" => {
+                let place = self.places.equation(what).with_context(|| format!("no equation ({what})"))?;
+                Ok(format!("[({what})]({}{place})", spot.up))
             }
-            ("ref", number) => {
-                let page = self.pages.get(number).with_context(|| format!("no equation ({number})"))?;
-                Ok(format!("[({number})]({}#{})", page.display(), anchor(number)))
-            }
-            ("source", function) => self.source(&[function]),
-            (_, _) => self.typesetter.inline(&tag[0]),
+            "source" => self.source(what, spot),
+            "claims" => Ok(self.claims.page(|entry| self.places.entry(entry))),
+            _ => self.typesetter.inline(&tag[0]),
         }
     }
 
-    fn equation(&self, entry: &Entry) -> Result<String> {
+    /// The box of an equation.
+    fn equation(&self, entry: &Entry, spot: &Spot) -> Result<String> {
         let (number, label) = (entry.equation, entry.label());
         let latex = entry.latex().with_context(|| format!("{label} has no formula"))?;
-        let (id, html) = (anchor(number), self.typesetter.display(&latex)?);
-        let formula = format!(
-            "<div class=\"equation\" id=\"{id}\"><div class=\"formula\">{html}</div>\
-             <a class=\"number\" href=\"#{id}\">{label}</a></div>"
+        let mut result = format!(
+            "\n\n<div class=\"equation\">\n\n{} Equation {number} · {} {{#{}}}\n\n\
+             <div class=\"formula\">{}</div>\n\n{}\n\n",
+            "#".repeat(spot.level + 1),
+            entry.title,
+            places::anchor(number),
+            self.typesetter.display(&latex)?,
+            self.claims.status(entry, &spot.up),
         );
         // A function that serves several equations is printed with the first and named with the others.
-        let (new, known): (Vec<_>, Vec<_>) =
-            entry.functions.iter().copied().partition(|&function| first_with(function) == Some(number));
-        let mut result = format!("\n\n{formula}\n\n");
-        if !new.is_empty() {
-            result += &self.source(&new)?;
+        for function in &entry.functions {
+            let first = places::first_with(function).context("listed")?;
+            result += &if first == number {
+                self.source(function, spot)?
+            } else {
+                let place = self.places.equation(first).context("displayed")?;
+                let links = self.links(function, &spot.up)?;
+                format!(
+                    "<div class=\"caption\">\n\n{links}, printed at [({first})]({}{place})\n\n</div>\n\n",
+                    spot.up
+                )
+            };
         }
-        for function in known {
-            let first = first_with(function).context("listed")?;
-            let page = &self.pages[first];
-            let link = format!("[({first})]({}#{})", page.display(), anchor(first));
-            result += &format!("<div class=\"caption\">\n\n`{function}`, printed at {link}\n\n</div>\n\n");
-        }
-        Ok(result)
+        Ok(result + "</div>\n\n")
     }
 
-    fn source(&self, functions: &[&str]) -> Result<String> {
-        let names =
-            functions.iter().map(|name| format!("<code>{name}</code>")).collect::<Vec<_>>().join(", ");
-        let code = functions.iter().map(|name| self.sources.function(name)).collect::<Result<Vec<_>>>()?;
-        let code = code.join("\n\n");
+    /// What a function computes, and folded away the whole of it.
+    fn source(&self, function: &str, spot: &Spot) -> Result<String> {
+        let item = self.sources.item(function)?;
+        let id = match self.places.function(function) {
+            Some(place) if place.anchor == places::anchor_of(function) => format!(" id=\"{}\"", place.anchor),
+            _ => String::new(),
+        };
+        let code = |code: &str| format!("```rust,ignore\n{code}\n```\n\n");
+        let shown = match item.body() {
+            Some(body) => {
+                let whole = code(&item.code);
+                code(&body)
+                    + &format!("<details><summary>the whole function</summary>\n\n{whole}</details>\n\n")
+            }
+            None => code(&item.code),
+        };
+        let links = self.links(function, &spot.up)?;
         Ok(format!(
-            "\n\n<div class=\"source\"><p class=\"caption\">{names}</p>\n\n```rust,ignore\n{code}\n```\n\n</div>\n\n"
+            "\n\n<div class=\"source\"{id}>\n<div class=\"caption\">\n\n{links}\n\n</div>\n\n{shown}</div>\n\n"
+        ))
+    }
+
+    /// A function's name, with links to its documentation and to its file.
+    fn links(&self, function: &str, up: &str) -> Result<String> {
+        let item = self.sources.item(function)?;
+        let (module, name) = function.split_once("::").context("a path")?;
+        let (first, last) = (item.lines.start(), item.lines.end());
+        Ok(format!(
+            "`{function}` · [documentation]({up}{DOCS}/{CRATE}/chapter/{module}/{}.{name}.html) · \
+             [source]({up}{DOCS}/src/{CRATE}/chapter/{module}.rs.html#{first}-{last})",
+            item.kind
         ))
     }
 }
 
-/// The number of the first equation that lists the function.
-fn first_with(function: &str) -> Option<&'static str> {
-    equations()
-        .map(|(entry, _)| entry)
-        .find(|entry| entry.functions.contains(&function))
-        .map(|entry| entry.equation)
-}
+/// From the root of the book to the documentation that `cargo doc` makes.
+const DOCS: &str = "../doc";
+
+/// What the crate is called there.
+const CRATE: &str = "spring_mass_contact";
 
 /// The text with each tag replaced, or the first error.
 fn replaced(text: &str, tags: &Regex, by: impl Fn(&Captures) -> Result<String>) -> Result<String> {
@@ -160,11 +198,7 @@ fn replaced(text: &str, tags: &Regex, by: impl Fn(&Captures) -> Result<String>) 
 
 /// A tag of one of these kinds; what it names may have braces of its own.
 fn tag(kinds: &str) -> Result<Regex> {
-    Ok(Regex::new(&format!(r"\{{\{{#({kinds})\s+((?:[^{{}}]|\{{[^{{}}]*\}})+?)\s*\}}\}}"))?)
-}
-
-fn anchor(number: &str) -> String {
-    format!("eq-{}", number.replace('.', "-"))
+    Ok(Regex::new(&format!(r"\{{\{{#({kinds})(?:\s+((?:[^{{}}]|\{{[^{{}}]*\}})+?))?\s*\}}\}}"))?)
 }
 
 /// The pages of the book; the Rust in them is compiled and run as documentation tests.

@@ -84,9 +84,10 @@ impl Typesetter {
     /// The LaTeX with what functions compute in the place of its tags.
     fn filled(&self, latex: &str) -> Result<String> {
         super::replaced(latex, &self.formula, |tag| {
+            let hole = tag.get(2).map_or("", |hole| hole.as_str());
             registry()
-                .formula_in(&tag[2], Notation::Latex)
-                .with_context(|| format!("no formula {} at the head of a file in src/claims", &tag[2]))
+                .formula_in(hole, Notation::Latex)
+                .with_context(|| format!("no formula {hole} at the head of a file in src/claims"))
         })
     }
 

@@ -1,5 +1,8 @@
 //! The whole book, built in process and looked through.
 
+#[path = "book/documentation.rs"]
+mod documentation;
+
 use book_tool::{Equations, PAGES, equations};
 use mdbook_driver::MDBook;
 use regex::Regex;
@@ -97,6 +100,16 @@ fn every_page_is_in_the_summary_and_has_its_snippets_run() {
 }
 
 #[test]
+fn everything_that_a_box_says_holds() {
+    let mut boxes = 0;
+    for (path, html) in with_extension("html") {
+        assert!(!html.contains("class=\"open\""), "{}: a claim is open", path.display());
+        boxes += html.matches("class=\"equation\"").count();
+    }
+    assert_eq!(boxes, 2 * equations().count(), "each once on its page, and once in the page to print");
+}
+
+#[test]
 fn no_tag_and_no_dollar_formula_is_left() {
     let code = Regex::new(r"(?s)<(code|script)[ >].*?</(code|script)>").unwrap();
     for (path, html) in with_extension("html") {
@@ -115,6 +128,11 @@ fn every_link_leads_somewhere() {
     for (page, html) in with_extension("html") {
         for link in values(html, "href").into_iter().chain(values(html, "src")) {
             if link.starts_with("https://") {
+                continue;
+            }
+            if link.starts_with("../doc/") {
+                assert!(documentation::is_documented(link), "{}: nothing for {link}", page.display());
+                checked += 1;
                 continue;
             }
             let (file, anchor) = link.split_once('#').unwrap_or((link, ""));

@@ -1,0 +1,218 @@
+//! What is claimed of an equation and what came of it: a line in its box, and a page of all.
+//!
+//! Nothing of that is written by hand: the claims are proved and tried when the book is built.
+
+use spring_mass_contact::{
+    claims::{Entry, claims, entry, exact_experiments, float_experiments, registry},
+    formula::{Hypothesis, Statement},
+    number::NumberSystem,
+    proof::paper::Paper,
+    verify::pages::{SECTIONS, heading, heading_of},
+    verify::{Options, Row, Status, verify},
+};
+use std::{collections::HashMap, fmt::Write, sync::LazyLock};
+
+/// A claim is tried on so many cases. `contact verify` tries more.
+const CASES: u64 = 50;
+
+/// What came of all claims.
+pub struct Claims {
+    rows: Vec<Row>,
+}
+
+impl Claims {
+    /// Proves and tries all of them, the first time it is called.
+    pub fn run() -> &'static Self {
+        static CLAIMS: LazyLock<Claims> = LazyLock::new(|| Claims {
+            rows: verify(&Options { cases: CASES, ..Options::default() }, &|_, _| ()).rows,
+        });
+        &CLAIMS
+    }
+
+    /// The line that says what came of an equation's claims, in Markdown; `up` leads to the root of the book.
+    pub fn status(&self, entry: &Entry, up: &str) -> String {
+        let rows: Vec<_> = self.rows.iter().filter(|row| row.equation == entry.equation).collect();
+        let count = match rows.iter().filter(|row| row.scalar.is_none()).count() {
+            1 => "1 claim".into(),
+            count => format!("{count} claims"),
+        };
+        let proved = format!("proved: [{count}]({up}{})", proofs(entry));
+        let claimed = format!("[what is claimed]({up}claims.md#{})", anchor(entry));
+        format!("<div class=\"status\">\n\n{} · {claimed}\n\n</div>", outcome(&rows, &proved))
+    }
+
+    /// All claims, in Markdown; `shown` is the place where the book shows an entry.
+    pub fn page(&self, shown: impl Fn(&Entry) -> Option<String>) -> String {
+        let given = supposed();
+        let mut text = String::new();
+        let by_entry: Vec<_> = self.rows.chunk_by(|a, b| a.equation == b.equation).collect();
+        for (section, title) in SECTIONS {
+            let _ = write!(text, "\n\n## {title}\n");
+            let of_section = by_entry.iter().filter_map(|rows| Some((entry(rows[0].equation)?, rows)));
+            for (entry, rows) in of_section.filter(|(entry, _)| entry.section == section) {
+                let _ =
+                    write!(text, "\n### {} {{#{}}}\n\n{}.", heading(entry), anchor(entry), entry.statement());
+                if let Some(place) = shown(entry) {
+                    let _ = write!(text, " [In the book]({place}).");
+                }
+                text += "\n\n";
+                for rows in rows.chunk_by(|a, b| a.claim == b.claim) {
+                    let rows: Vec<_> = rows.iter().collect();
+                    let (kind, name) = (rows[0].kind, rows[0].claim);
+                    let (statement, given) = &given[&(entry.equation, name)];
+                    let proved = format!("proved: [{name}]({})", proof(entry, name));
+                    let said = statement.as_ref().map_or(String::new(), |said| format!(": `{said}`"));
+                    let given = given.iter().map(|given| format!("`{given}`")).collect::<Vec<_>>();
+                    let given =
+                        if given.is_empty() { String::new() } else { format!(", if {}", given.join(", ")) };
+                    let came = outcome(&rows, &proved);
+                    let _ = writeln!(
+                        text,
+                        "- **{name}** ({kind}){said}{given}. <span class=\"status\">{came}</span>"
+                    );
+                }
+            }
+        }
+        text
+    }
+}
+
+/// What a claim states, if that is a formula, and what it supposes.
+type Supposed = (Option<String>, Vec<String>);
+
+/// That of each claim, by its equation and its name.
+fn supposed() -> HashMap<(&'static str, &'static str), Supposed> {
+    let given = |given: &[Hypothesis]| registry().all_supposed(given);
+    let floats = float_experiments::<f64>().into_iter().map(|e| (e.equation, e.name, e.given));
+    let rationals = exact_experiments().into_iter().map(|e| (e.equation, e.name, e.given));
+    let tried = floats.chain(rationals).map(|(equation, name, g)| ((equation, name), (None, given(&g))));
+    let recorded = claims().map(|claim| {
+        let statement = Paper::new(registry()).claim(&Statement::of(claim));
+        ((claim.equation, claim.name), (Some(statement), given(&claim.given)))
+    });
+    tried.chain(recorded).collect()
+}
+
+/// What came of claims: whether they are proved, as `proved` says it, and in which number systems they hold.
+/// What does not hold is named, and marked as open.
+fn outcome(rows: &[&Row], proved: &str) -> String {
+    let with = |scalar, status| {
+        let found = rows.iter().filter(move |row| row.scalar == scalar && row.status == status);
+        found.map(|row| row.claim).collect::<Vec<_>>()
+    };
+    let open = |what: &str, claims: &[&str]| {
+        format!("<strong class=\"open\">{what}: {}</strong>", claims.join(", "))
+    };
+    let failed = with(None, Status::Failed);
+    let mut said = Vec::new();
+    if !failed.is_empty() {
+        said.push(open("not proved", &failed));
+    } else if rows.iter().any(|row| row.scalar.is_none()) {
+        said.push(proved.into());
+    } else {
+        said.push("tried, not proved".into());
+    }
+    let mut held = Vec::new();
+    for scalar in Options::default().scalars {
+        let called = called(scalar);
+        let [wrong, undecided] = [Status::Failed, Status::Undecided].map(|status| with(Some(scalar), status));
+        if !wrong.is_empty() {
+            said.push(open(&format!("wrong in {called}"), &wrong));
+        }
+        if !undecided.is_empty() {
+            said.push(open(&format!("undecided in {called}"), &undecided));
+        }
+        if wrong.is_empty() && undecided.is_empty() && !with(Some(scalar), Status::Held).is_empty() {
+            held.push(called);
+        }
+    }
+    if !held.is_empty() {
+        said.push(format!("held in {}", held.join(", ")));
+    }
+    said.join(" · ")
+}
+
+/// A number system as a reader calls it.
+fn called(scalar: NumberSystem) -> String {
+    match scalar {
+        NumberSystem::Mpfr(bits) => format!("{bits} bits"),
+        NumberSystem::Exact => "rationals".into(),
+        float => float.to_string(),
+    }
+}
+
+/// What an entry is called in addresses: `1-13`, `note-3`, `theorem-1-3-3`.
+pub fn slug(entry: &Entry) -> String {
+    entry.equation.to_lowercase().replace(". ", "-").replace(['.', ' '], "-")
+}
+
+/// Where the page of all claims has it.
+pub fn anchor(entry: &Entry) -> String {
+    format!("claims-{}", slug(entry))
+}
+
+/// Where an entry's proofs are.
+pub fn proofs(entry: &Entry) -> String {
+    format!("proofs/{}.md#{}", entry.section, id(&heading(entry)))
+}
+
+/// Where the proof of a claim is.
+fn proof(entry: &Entry, claim: &str) -> String {
+    format!("proofs/{}.md#{}", entry.section, id(&heading_of(entry, claim)))
+}
+
+/// The address that mdBook gives a heading.
+fn id(heading: &str) -> String {
+    let letter = |c: char| match c {
+        c if c.is_alphanumeric() || c == '_' || c == '-' => Some(c),
+        c => c.is_whitespace().then_some('-'),
+    };
+    heading.to_lowercase().chars().filter_map(letter).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A row of 1.13's first claim.
+    fn row(scalar: Option<NumberSystem>, status: Status) -> Row {
+        Row {
+            equation: "1.13",
+            claim: "rate",
+            kind: "equal",
+            status,
+            scalar,
+            why: None,
+            decided: 1,
+            undecided: 0,
+            worst: None,
+            counterexample: None,
+        }
+    }
+
+    #[test]
+    fn what_holds_is_said() {
+        let rows = [row(None, Status::Proved), row(Some(NumberSystem::F32), Status::Held)];
+        assert_eq!(outcome(&rows.each_ref(), "proved"), "proved · held in f32");
+    }
+
+    #[test]
+    fn what_is_only_tried_is_not_called_proved() {
+        let rows = [row(Some(NumberSystem::Exact), Status::Held)];
+        assert_eq!(outcome(&rows.each_ref(), "proved"), "tried, not proved · held in rationals");
+    }
+
+    #[test]
+    fn what_does_not_hold_is_said() {
+        let rows = [row(None, Status::Failed), row(Some(NumberSystem::Mpfr(256)), Status::Held)];
+        let said = outcome(&rows.each_ref(), "proved");
+        assert_eq!(said, "<strong class=\"open\">not proved: rate</strong> · held in 256 bits");
+        let f64 = Some(NumberSystem::F64);
+        let rows = [row(None, Status::Proved), row(f64, Status::Failed), row(f64, Status::Held)];
+        let said = outcome(&rows.each_ref(), "proved");
+        assert_eq!(said, "proved · <strong class=\"open\">wrong in f64: rate</strong>");
+        let rows = [row(None, Status::Proved), row(f64, Status::Undecided), row(f64, Status::Held)];
+        let said = outcome(&rows.each_ref(), "proved");
+        assert_eq!(said, "proved · <strong class=\"open\">undecided in f64: rate</strong>");
+    }
+}

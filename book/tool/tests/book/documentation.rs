@@ -1,0 +1,179 @@
+//! The book and the crate's documentation lead to each other: each function from its box, and back to it.
+//!
+//! They stand side by side in `target`, as `book` and `doc`.
+
+use super::{book, values, with_extension};
+use regex::Regex;
+use std::{
+    collections::BTreeMap,
+    fs,
+    path::{Path, PathBuf},
+};
+
+const CRATE: &str = "spring_mass_contact";
+
+fn root() -> PathBuf {
+    book().join("..")
+}
+
+fn text(path: &Path) -> String {
+    fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// Is there, in the sources, what a link to `../doc/…` is to show?
+///
+/// A function's page shows it by its name, and the page of a file shows it by the lines from its first to its last.
+pub fn is_documented(link: &str) -> bool {
+    let page = Regex::new(&format!(r"^\.\./doc/{CRATE}/chapter/(\w+)/(fn|struct)\.(\w+)\.html$")).unwrap();
+    let lines = Regex::new(&format!(r"^\.\./doc/src/{CRATE}/(chapter/\w+\.rs)\.html#(\d+)-(\d+)$")).unwrap();
+    if let Some(found) = page.captures(link) {
+        let file = text(&root().join(format!("src/chapter/{}.rs", &found[1])));
+        let begins = Regex::new(&format!(r"(?m)^pub {} {}\b", &found[2], &found[3])).unwrap();
+        begins.is_match(&file)
+    } else if let Some(found) = lines.captures(link) {
+        let file = text(&root().join("src").join(&found[1]));
+        let lines: Vec<_> = file.lines().collect();
+        let [first, last] = [2, 3].map(|i| found[i].parse::<usize>().unwrap() - 1);
+        // No other item begins or ends between.
+        lines[first].starts_with("pub ")
+            && lines[first..=last].iter().position(|line| *line == "}") == Some(last - first)
+    } else {
+        false
+    }
+}
+
+/// The links in a box, in the order in which they stand there: a function's documentation, its lines.
+fn links(html: &str) -> Vec<(&str, &str)> {
+    let documented: Vec<_> =
+        values(html, "href").into_iter().filter(|link| link.starts_with("../doc/")).collect();
+    documented.chunks(2).map(|pair| (pair[0], pair[1])).collect()
+}
+
+#[test]
+fn the_lines_of_a_function_are_those_where_its_name_stands() {
+    let mut seen = 0;
+    for (_, html) in with_extension("html").filter(|(path, _)| !path.ends_with("print.html")) {
+        for (page, lines) in links(html) {
+            let name = page.rsplit('.').nth(1).unwrap();
+            let (file, first) = lines.split_once(".html#").unwrap();
+            let first: usize = first.split('-').next().unwrap().parse().unwrap();
+            let file =
+                text(&root().join("src").join(file.split_once(CRATE).unwrap().1.trim_start_matches('/')));
+            let line = file.lines().nth(first - 1).unwrap();
+            assert!(line.contains(&format!(" {name}")), "{page}, {lines}: {line}");
+            seen += 1;
+        }
+    }
+    assert!(seen > 50, "{seen}");
+}
+
+/// Where the book prints each function of the chapter, as `penalty::deflection`: the page and the address of the box.
+fn printed() -> BTreeMap<String, String> {
+    let mark = Regex::new(&format!(
+        r#"id="((?:eq|fn)-[\w-]+)"|href="\.\./doc/{CRATE}/chapter/(\w+)/\w+\.(\w+)\.html"[^\n]*(, printed at)?"#
+    ))
+    .unwrap();
+    let mut printed = BTreeMap::new();
+    for (path, html) in with_extension("html").filter(|(path, _)| !path.ends_with("print.html")) {
+        let mut address = "";
+        for found in mark.captures_iter(html) {
+            if let Some(id) = found.get(1) {
+                address = id.as_str();
+            } else if !found[0].contains(", printed at") {
+                let function = format!("{}::{}", &found[2], &found[3]);
+                let place = format!("{}#{address}", path.display());
+                // A page may show once more what stands in a box.
+                let old = printed.insert(function.clone(), place.clone());
+                if let Some(old) = old.filter(|old| old.contains("#eq-")) {
+                    printed.insert(function, old);
+                }
+            }
+        }
+    }
+    assert!(printed.len() > 50, "{}", printed.len());
+    printed
+}
+
+/// With `UPDATE=1` the links are written.
+#[test]
+fn the_documentation_of_each_function_leads_to_its_box() {
+    let update = std::env::var_os("UPDATE").is_some();
+    let printed = printed();
+    for entry in fs::read_dir(root().join("src/chapter")).unwrap() {
+        let path = entry.unwrap().path();
+        let module = path.file_stem().unwrap().to_str().unwrap();
+        let (mut found, mut expected) = (text(&path), String::new());
+        let link = |line: &str| line.starts_with("/// [In the book](");
+        for line in found.lines().filter(|line| !link(line)) {
+            let item = line.strip_prefix("pub fn ").or(line.strip_prefix("pub struct "));
+            let name = item.and_then(|rest| rest.split(['<', '(', ' ']).next());
+            if let Some(place) = name.and_then(|name| printed.get(&format!("{module}::{name}"))) {
+                let back = format!("/// [In the book](../../../../book/{place})\n");
+                // It is the last line of the comment, before attributes.
+                let attributes = expected
+                    .lines()
+                    .rev()
+                    .take_while(|line| line.starts_with("#["))
+                    .map(|line| line.len() + 1);
+                let at = expected.len() - attributes.sum::<usize>();
+                expected.insert_str(at, &back);
+            }
+            expected += line;
+            expected.push('\n');
+        }
+        if update {
+            fs::write(&path, &expected).unwrap();
+            found.clone_from(&expected);
+        }
+        let differs = found.lines().zip(expected.lines()).find(|(found, expected)| found != expected);
+        assert!(
+            found == expected,
+            "{module}.rs: {differs:?}; UPDATE=1 cargo test -p book-tool --test book writes it"
+        );
+    }
+}
+
+/// The files of a folder and its folders that end so.
+fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
+    let paths = fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    let of = |path: PathBuf| match path.is_dir() {
+        true => files(&path, ending),
+        false => vec![path],
+    };
+    paths
+        .flat_map(|entry| of(entry.unwrap().path()))
+        .filter(|path| path.to_str().unwrap().ends_with(ending))
+        .collect()
+}
+
+/// What `cargo doc` and `mdbook build` made: it takes both of them before.
+#[test]
+#[ignore = "needs target/doc and target/book"]
+fn book_and_documentation_lead_to_each_other() {
+    let target = root().join("target");
+    let (mut there, mut back) = (0, 0);
+    let check = |page: &Path, link: &str, count: &mut usize| {
+        let (file, anchor) = link.split_once('#').unwrap_or((link, ""));
+        let html = text(&page.parent().unwrap().join(file));
+        let has = |id: &str| html.contains(&format!("id=\"{id}\"")) || html.contains(&format!("id={id}"));
+        // A range of lines is marked by its ends.
+        let ids = if link.contains("/src/") { anchor.split('-').collect() } else { vec![anchor] };
+        assert!(ids.iter().all(|id| id.is_empty() || has(id)), "{}: no {link}", page.display());
+        *count += 1;
+    };
+    for page in files(&target.join("book"), ".html") {
+        let html = text(&page);
+        values(&html, "href")
+            .into_iter()
+            .filter(|link| link.contains("../doc/"))
+            .for_each(|link| check(&page, link, &mut there));
+    }
+    for page in files(&target.join(format!("doc/{CRATE}/chapter")), ".html") {
+        let html = text(&page);
+        values(&html, "href")
+            .into_iter()
+            .filter(|link| link.contains("/book/"))
+            .for_each(|link| check(&page, link, &mut back));
+    }
+    assert!(there > 100 && back > 50, "{there} links there, {back} back");
+}
