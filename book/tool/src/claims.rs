@@ -59,17 +59,16 @@ impl Claims {
                 for rows in rows.chunk_by(|a, b| a.claim == b.claim) {
                     let rows: Vec<_> = rows.iter().collect();
                     let (kind, name) = (rows[0].kind, rows[0].claim);
+                    let _ = write!(text, "- **{name}** ({kind})");
                     let (statement, given) = &given[&(entry.equation, name)];
-                    let proved = format!("proved: [{name}]({})", proof(entry, name));
-                    let said = statement.as_ref().map_or(String::new(), |said| format!(": `{said}`"));
-                    let given = given.iter().map(|given| format!("`{given}`")).collect::<Vec<_>>();
-                    let given =
-                        if given.is_empty() { String::new() } else { format!(", if {}", given.join(", ")) };
-                    let came = outcome(&rows, &proved);
-                    let _ = writeln!(
-                        text,
-                        "- **{name}** ({kind}){said}{given}. <span class=\"status\">{came}</span>"
-                    );
+                    if let Some(statement) = statement {
+                        let _ = write!(text, "\\\n  `{statement}`");
+                    }
+                    if !given.is_empty() {
+                        let _ = write!(text, "\\\n  if `{}`", given.join("`, `"));
+                    }
+                    let came = outcome(&rows, &format!("[proved]({})", proof(entry, name)));
+                    let _ = writeln!(text, "\\\n  <span class=\"status\">{came}</span>");
                 }
             }
         }

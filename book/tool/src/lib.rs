@@ -28,7 +28,10 @@ use places::Places;
 use pulldown_cmark::{Event, Parser, Tag};
 use regex::{Captures, Regex};
 use source::Sources;
-use spring_mass_contact::claims::{Entry, entries, entry};
+use spring_mass_contact::{
+    claims::{Entry, entries, entry},
+    verify::pages::heading,
+};
 
 /// The numbered equations of the chapter, in order, with their LaTeX.
 pub fn equations() -> impl Iterator<Item = (&'static Entry, String)> {
@@ -81,7 +84,7 @@ struct Spot {
 
 impl Tools {
     fn process(&self, chapter: &mut Chapter, tags: &Regex) -> Result<()> {
-        let text = self.typesetter.page(&chapter.content)?;
+        let text = self.typesetter.page(&self.led_back(chapter))?;
         let headings: Vec<_> = Parser::new(&text)
             .into_offset_iter()
             .filter_map(|(event, range)| match event {
@@ -96,6 +99,23 @@ impl Tools {
             self.tag(tag, &spot)
         })?;
         Ok(())
+    }
+
+    /// A page; one of proofs with links from each equation to where the book has it. The page as it is stored has
+    /// none, since it is read outside of the book, too.
+    fn led_back(&self, chapter: &Chapter) -> String {
+        let mut text = chapter.content.clone();
+        if chapter.path.as_deref().is_some_and(|path| path.starts_with("proofs")) {
+            for entry in entries() {
+                let heading = format!("\n## {}\n", heading(entry));
+                let place = self.places.entry(entry).map(|place| format!("[In the book](../{place}) · "));
+                let claims = format!("[what is claimed](../claims.md#{})", claims::anchor(entry));
+                let links =
+                    format!("\n{}{claims} · [what to trust](../proofs.md)\n", place.unwrap_or_default());
+                text = text.replace(&heading, &(heading.clone() + &links));
+            }
+        }
+        text
     }
 
     fn tag(&self, tag: &Captures, spot: &Spot) -> Result<String> {
