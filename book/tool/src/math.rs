@@ -17,6 +17,7 @@ pub struct Typesetter {
     katex: KatexContext,
     element: Regex,
     attribute: Regex,
+    annotation: Regex,
     formula: Regex,
 }
 
@@ -26,6 +27,7 @@ impl Typesetter {
             katex: KatexContext::default(),
             element: Regex::new(r#"<([a-zA-Z]+)((?: [\w:-]+="[^"]*"){2,})"#)?,
             attribute: Regex::new(r#" [\w:-]+="[^"]*""#)?,
+            annotation: Regex::new("<annotation .*?</annotation>")?,
             formula: super::tag("formula")?,
         })
     }
@@ -78,6 +80,8 @@ impl Typesetter {
         let latex = &self.filled(latex)?;
         let html = katex::render_to_string(&self.katex, latex, &settings)
             .with_context(|| format!("the formula {latex}"))?;
+        // The LaTeX that KaTeX adds is read by nobody but the book's search, as words.
+        let html = self.annotation.replace_all(&html, "");
         Ok(hide_from_markdown(&self.in_order(&html)))
     }
 

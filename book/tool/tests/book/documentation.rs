@@ -3,6 +3,7 @@
 //! They stand side by side in `target`, as `book` and `doc`.
 
 use super::{book, values, with_extension};
+use book_tool::equations;
 use regex::Regex;
 use std::{
     collections::BTreeMap,
@@ -176,4 +177,28 @@ fn book_and_documentation_lead_to_each_other() {
             .for_each(|link| check(&page, link, &mut back));
     }
     assert!(there > 100 && back > 50, "{there} links there, {back} back");
+}
+
+/// Whoever searches for 1.13 is to find its box before all else: what has a word in its title comes first.
+#[test]
+#[ignore = "needs target/book"]
+fn the_search_knows_each_equation_by_its_number() {
+    let index = files(&root().join("target/book"), ".js");
+    let index = index.iter().find(|path| path.to_str().unwrap().contains("searchindex")).expect("an index");
+    let index = text(index);
+    let json = index.split_once("JSON.parse('").unwrap().1.rsplit_once("')").unwrap().0;
+    let json = json.replace("\\'", "'").replace("\\\\", "\\");
+    let search: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let documents = search["index"]["documentStore"]["docs"].as_object().unwrap();
+    for (entry, _) in equations() {
+        let number = entry.equation;
+        let word = |title: &str| {
+            title.split_whitespace().any(|word| word.trim_matches(['(', ')', ',', ':']) == number)
+        };
+        let found = documents.iter().filter(|(_, document)| word(document["title"].as_str().unwrap()));
+        let found: Vec<_> =
+            found.map(|(id, _)| search["doc_urls"][id.parse::<usize>().unwrap()].as_str()).collect();
+        let id = format!("#eq-{}", number.replace('.', "-"));
+        assert!(matches!(found[..], [Some(url)] if url.ends_with(&id)), "{number}: {found:?}");
+    }
 }
