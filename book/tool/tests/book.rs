@@ -1,5 +1,7 @@
 //! The whole book, built in process and looked through.
 
+#[path = "book/contrast.rs"]
+mod contrast;
 #[path = "book/documentation.rs"]
 mod documentation;
 
