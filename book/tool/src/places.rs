@@ -75,7 +75,9 @@ impl Places {
             return Some(place.to_string());
         }
         let anchor = slug(entry);
-        let marks = [format!("{{#{anchor}}}"), format!("id=\"{anchor}\"")];
+        let figure = anchor.strip_prefix("fig-").unwrap_or_default();
+        let marks =
+            [format!("{{#{anchor}}}"), format!("id=\"{anchor}\""), format!("{{{{#figure {figure}}}}}")];
         let page = self.pages.iter().find(|(_, text)| marks.iter().any(|mark| text.contains(mark)));
         page.map(|(page, _)| format!("{}#{anchor}", page.display()))
     }

@@ -8,6 +8,7 @@ mod documentation;
 use book_tool::{Equations, PAGES, equations};
 use mdbook_driver::MDBook;
 use regex::Regex;
+use spring_mass_contact::claims::{claim_names, entries};
 use std::{
     collections::{BTreeMap, BTreeSet, HashSet},
     fs,
@@ -109,6 +110,34 @@ fn everything_that_a_box_says_holds() {
         boxes += html.matches("class=\"equation\"").count();
     }
     assert_eq!(boxes, 2 * equations().count(), "each once on its page, and once in the page to print");
+}
+
+#[test]
+fn every_claim_is_on_the_page_of_claims_with_its_proof() {
+    let page = &FILES[Path::new("claims.html")];
+    let mut seen = 0;
+    for section in page.split("<h3").skip(1) {
+        let heading = section.split("</h3>").next().unwrap();
+        let entry = entries().iter().find(|entry| heading.contains(&format!(">{} ", entry.label())));
+        let entry = entry.unwrap_or_else(|| panic!("whose heading is {heading}"));
+        let item = Regex::new(r"<li><strong>([^<]*)</strong>").unwrap();
+        let mut found: Vec<_> =
+            item.captures_iter(section).map(|found| found.get(1).unwrap().as_str()).collect();
+        let mut expected = claim_names(entry.equation);
+        found.sort_unstable();
+        expected.sort_unstable();
+        assert_eq!(found, expected, "{}", entry.label());
+        let proofs = entry.claims.len();
+        assert_eq!(section.matches(">proved</a>").count(), proofs, "{}", entry.label());
+        assert_eq!(
+            section.matches("tried, not proved").count(),
+            expected.len() - proofs,
+            "{}",
+            entry.label()
+        );
+        seen += expected.len();
+    }
+    assert_eq!(seen, entries().iter().map(|entry| claim_names(entry.equation).len()).sum::<usize>());
 }
 
 #[test]
