@@ -206,6 +206,8 @@ mod tests {
         let rows = [row(None, Status::Failed), row(Some(NumberSystem::Mpfr(256)), Status::Held)];
         let said = outcome(&rows.each_ref(), "proved");
         assert_eq!(said, "<strong class=\"open\">not proved: rate</strong> · held in 256 bits");
+        let rows = [row(None, Status::Proved), Row { claim: "limit", ..row(None, Status::Failed) }];
+        assert_eq!(outcome(&rows.each_ref(), "proved"), "<strong class=\"open\">not proved: limit</strong>");
         let f64 = Some(NumberSystem::F64);
         let rows = [row(None, Status::Proved), row(f64, Status::Failed), row(f64, Status::Held)];
         let said = outcome(&rows.each_ref(), "proved");

@@ -70,13 +70,13 @@ fn find(text: &str, name: &str) -> Option<Item> {
 mod tests {
     use super::find;
 
-    const TEXT: &str = "/// Doc.\npub fn gap_two() {\n    2\n}\n\n/// Doc.\npub fn gap<T>(\n    x: T,\n) -> T {\n    let SpringMass { c, .. } = x;\n    if c {\n    }\n}\n\nfn private() {\n}\n\npub struct Gap {\n}\n";
+    const TEXT: &str = "/// Doc.\npub fn gap_two() {\n    2\n}\n\n/// Doc.\npub fn gap<T>(\n    x: T,\n) -> T {\n    let SpringMass { c, .. } = x;\n    let d = c;\n    if d {\n    }\n}\n\nfn private() {\n}\n\npub struct Gap {\n}\n";
 
     #[test]
     fn a_function_is_found_by_its_whole_name() {
         let gap = find(TEXT, "gap").unwrap();
         assert!(gap.code.starts_with("pub fn gap<T>(\n    x: T,\n) -> T {\n") && gap.code.ends_with("\n}"));
-        assert_eq!((gap.kind, gap.lines), ("fn", 7..=13));
+        assert_eq!((gap.kind, gap.lines), ("fn", 7..=14));
     }
 
     #[test]
@@ -87,7 +87,7 @@ mod tests {
 
     #[test]
     fn a_body_is_what_is_computed() {
-        assert_eq!(find(TEXT, "gap").unwrap().body().unwrap(), "if c {\n}");
+        assert_eq!(find(TEXT, "gap").unwrap().body().unwrap(), "let d = c;\nif d {\n}");
         assert_eq!(find(TEXT, "Gap").unwrap().body(), None);
     }
 }
