@@ -8,11 +8,13 @@
 //! | `{{#source system::gap}}` | the Rust source of a function without a number |
 //! | `{{#formula system::gap}}` | the formula that a function computes, within `$…$` or by itself |
 //! | `{{#claims}}` | all claims and what came of each |
+//! | `{{#figure plane}}` | a picture or a plot, drawn from what the functions compute |
 //!
 //! A formula stands in `src/chapter` and nowhere else: its source is shown, and typeset. The last tag takes
 //! what a hole in an [`Entry`] takes, such as `{{#formula contact::penetration: u=u_k}}`.
 
 mod claims;
+pub mod figure;
 mod math;
 mod places;
 mod source;
@@ -47,7 +49,7 @@ impl Preprocessor for Equations {
     }
 
     fn run(&self, context: &PreprocessorContext, mut book: Book) -> Result<Book> {
-        let tags = tag("eq|ref|source|formula|claims")?;
+        let tags = tag("eq|ref|source|formula|figure|claims")?;
         let tools = Tools {
             typesetter: Typesetter::new()?,
             sources: Sources::in_folder(&context.root.join("../src/chapter")),
@@ -127,6 +129,7 @@ impl Tools {
                 Ok(format!("[({what})]({}{place})", spot.up))
             }
             "source" => self.source(what, spot),
+            "figure" => self.figure(what),
             "claims" => Ok(self.claims.page(|entry| self.places.entry(entry))),
             _ => self.typesetter.inline(&tag[0]),
         }
@@ -160,6 +163,15 @@ impl Tools {
             };
         }
         Ok(result + "</div>\n\n")
+    }
+
+    fn figure(&self, name: &str) -> Result<String> {
+        let figure = figure::figure(name).with_context(|| format!("no figure {name}"))?;
+        let caption = self.typesetter.page(figure.caption)?;
+        let svg = figure.inline();
+        Ok(format!(
+            "\n\n<figure class=\"drawing\" id=\"fig-{name}\">\n{svg}\n<figcaption>{caption}</figcaption>\n</figure>\n\n"
+        ))
     }
 
     /// What a function computes, and folded away the whole of it.
