@@ -30,7 +30,23 @@ pub struct Figure {
 type Draw = fn() -> Figure;
 
 /// All of them, by name.
-const FIGURES: &[(&str, Draw)] = &[("plane", plane::answer)];
+const FIGURES: &[(&str, Draw)] = &[
+    ("plane", plane::answer),
+    ("equilibrium", plane::intercepts),
+    ("free", plane::hanging),
+    ("states", plane::states),
+    ("methods", plane::methods),
+    ("multiplier", plane::multiplier),
+    ("penalty", plane::penalties),
+    ("augmented", plane::iterates),
+    ("bent", plane::bent),
+    ("step", plane::step),
+    ("energies", plots::energies),
+    ("rates", plots::rates),
+    ("rounding", plots::rounding),
+    ("1-1", drawing::system),
+    ("1-2", drawing::second_spring),
+];
 
 /// The names of all figures.
 pub fn names() -> impl Iterator<Item = &'static str> {

@@ -5,8 +5,8 @@ use super::svg::{Anchor, Point, Svg, number};
 /// How wide every picture is; a phone shows it nearly as large.
 pub const WIDTH: f64 = 360.0;
 
-const LEFT: f64 = 40.0;
-const RIGHT: f64 = 10.0;
+const LEFT: f64 = 46.0;
+const RIGHT: f64 = 16.0;
 const TOP: f64 = 26.0;
 const BOTTOM: f64 = 42.0;
 
@@ -129,11 +129,6 @@ impl Plot {
     pub fn text(&mut self, class: &str, point: (f64, f64), (right, down): Point, anchor: Anchor, text: &str) {
         let (x, y) = self.at(point);
         self.svg.text(class, (x + right, y + down), anchor, text);
-    }
-
-    /// An arrow from one point to another.
-    pub fn arrow(&mut self, class: &str, from: (f64, f64), to: (f64, f64)) {
-        self.svg.arrow(class, self.at(from), self.at(to));
     }
 
     /// A line with two heads from one point to another.

@@ -3,48 +3,64 @@
 use super::Figure;
 use super::axes::{Axis, Plot};
 use super::svg::{Anchor::*, number};
-use spring_mass_contact::chapter::{SpringMass, augmented, contact, system};
+use spring_mass_contact::chapter::{
+    SpringMass, augmented, beyond, contact, lagrange, penalty, structure, system,
+};
 use spring_mass_contact::number::{Exact, ToExact};
 
+pub const P: &str = "p in metres";
+const N: &str = "N in newtons";
+
 /// The example, with a gravity of its own.
-fn example(g: i32) -> SpringMass<Exact> {
+pub fn example(g: i32) -> SpringMass<Exact> {
     SpringMass { c: 4, m: 1, g, l: 1, h: 3 }.map(|&n| Exact::from(n))
 }
 
 /// What is drawn of a number.
-fn float(x: &Exact) -> f64 {
+pub fn float(x: &Exact) -> f64 {
     x.to_f64().expect("within range")
 }
 
 /// The deflection at a penetration.
-fn deflection(system: &SpringMass<Exact>, p: f64) -> Exact {
+pub fn deflection(system: &SpringMass<Exact>, p: f64) -> Exact {
     system::gap(system) + p.to_exact().expect("a number")
 }
 
 /// The point at a deflection and a force.
-fn point(system: &SpringMass<Exact>, u: &Exact, n: &Exact) -> (f64, f64) {
+pub fn point(system: &SpringMass<Exact>, u: &Exact, n: &Exact) -> (f64, f64) {
     (float(&contact::penetration(system, u)), float(n))
 }
 
-/// The window of the example, the same on every page.
-fn window() -> Plot {
-    let mut plot = Plot::new(
-        Axis::linear("p in metres", -0.2, 0.6, 0.2),
-        Axis::linear("N in newtons", -0.4, 2.4, 0.5),
-        290.0,
-    );
+/// The plane, and the lines where p or N is zero.
+fn plane(p: Axis, n: Axis, height: f64) -> Plot {
+    let mut plot = Plot::new(p, n, height);
     plot.zeros();
     plot
 }
 
+/// The window of the example, the same on every page.
+fn window() -> Plot {
+    plane(Axis::linear(P, -0.2, 0.6, 0.2), Axis::linear(N, -0.4, 2.4, 0.5), 290.0)
+}
+
+/// A line that a function of the deflection gives.
+fn line(plot: &mut Plot, class: &str, system: &SpringMass<Exact>, force: impl Fn(&Exact) -> Exact) {
+    plot.graph(class, |p| float(&force(&deflection(system, p))));
+}
+
 /// c p + N = R.
 fn equilibrium(plot: &mut Plot, system: &SpringMass<Exact>, class: &str) {
-    plot.graph(class, |p| float(&augmented::contact_force(system, &deflection(system, p))));
+    line(plot, class, system, |u| augmented::contact_force(system, u));
+}
+
+/// The name of that line in the example, out of the methods' way.
+fn equilibrium_below(plot: &mut Plot) {
+    plot.text("spring", (0.14, 0.3), (0.0, 0.0), Start, "c p + N = R");
 }
 
 /// p ≤ 0, N ≥ 0, p N = 0.
-fn corner(plot: &mut Plot) {
-    plot.line("plane thick", [(-9.0, 0.0), (0.0, 0.0), (0.0, 9.0)]);
+fn corner(plot: &mut Plot, class: &str) {
+    plot.line(class, [(-9.0, 0.0), (0.0, 0.0), (0.0, 9.0)]);
 }
 
 /// The answer, where equilibrium and the corner meet.
@@ -52,11 +68,34 @@ fn solution(system: &SpringMass<Exact>) -> (f64, f64) {
     point(system, &contact::deflection(system), &contact::contact_force(system))
 }
 
+/// Where the mass rests if nothing pushes it.
+fn free(system: &SpringMass<Exact>) -> (f64, f64) {
+    point(system, &structure::deflection(system), &Exact::from(0))
+}
+
+/// What the penalty method finds.
+fn penalised(system: &SpringMass<Exact>, eps: &Exact) -> (f64, f64) {
+    let u = penalty::deflection(system, eps);
+    point(system, &u, &penalty::contact_force(system, eps, &u))
+}
+
+/// The multiplier and the point of each augmentation.
+fn augmentations(system: &SpringMass<Exact>, eps: &Exact, start: i32) -> Vec<(Exact, (f64, f64))> {
+    let mut lambda = Exact::from(start);
+    let mut step = |_| {
+        let u = augmented::unilateral_deflection(system, eps, &lambda);
+        let next = augmented::unilateral_update(system, eps, &lambda, &u);
+        let at = point(system, &u, &next);
+        (std::mem::replace(&mut lambda, next), at)
+    };
+    (0..4).map(&mut step).collect()
+}
+
 fn says(what: &str, (p, n): (f64, f64)) -> String {
     format!("{what}: p = {}, N = {}", number(p), number(n))
 }
 
-fn figure(plot: Plot, title: &'static str, caption: &'static str, description: String) -> Figure {
+pub fn figure(plot: Plot, title: &'static str, caption: &'static str, description: String) -> Figure {
     let (body, size) = plot.done();
     Figure { name: "", title, caption, description, size, body }
 }
@@ -65,7 +104,7 @@ fn figure(plot: Plot, title: &'static str, caption: &'static str, description: S
 pub fn answer() -> Figure {
     let system = example(10);
     let mut plot = window();
-    corner(&mut plot);
+    corner(&mut plot, "plane thick");
     equilibrium(&mut plot, &system, "spring");
     let answer @ (p, n) = solution(&system);
     plot.mark("answer", answer, &says("The answer", answer));
@@ -73,18 +112,311 @@ pub fn answer() -> Figure {
     plot.text("spring", (0.2, 1.2), (16.0, -26.0), Start, "equilibrium");
     plot.text("spring", (0.2, 1.2), (16.0, -8.0), Start, "c p + N = R");
     plot.text("plane", (0.0, 1.0), (-10.0, 0.0), End, "contact");
-    figure(
-        plot,
-        "Equilibrium, contact, and where they meet",
-        "The plane of $p$ and $N$, for the example. Equilibrium is a line, contact a corner, and the answer is where they meet.",
-        format!(
-            "Penetration p to the right, contact force N upwards. Equilibrium, c p + N = R, is a line that falls from \
-             N = {} at p = 0 to N = 0 at p = {}. Contact is a corner: the half of the p axis where p is not positive, and \
-             the half of the N axis where N is not negative. They meet in one point, p = {}, N = {}.",
-            number(float(&system::reaction(&system))),
-            number(float(&(system::reaction(&system) / &system.c))),
-            number(p),
-            number(n),
-        ),
-    )
+    let description = format!(
+        "Penetration p to the right, contact force N upwards. Equilibrium, c p + N = R, is a line that falls from N = {} \
+         at p = 0 to N = 0 at p = {}. Contact is a corner: the half of the p axis where p is not positive, and the half of \
+         the N axis where N is not negative. They meet in one point, p = {}, N = {}.",
+        number(float(&system::reaction(&system))),
+        number(free(&system).0),
+        number(p),
+        number(n),
+    );
+    let caption = "The plane of $p$ and $N$, for the example. Equilibrium is a line, contact a corner, and the answer is \
+                   where they meet.";
+    figure(plot, "Equilibrium, contact, and where they meet", caption, description)
+}
+
+/// Equilibrium alone, with what it says at the plane and without it.
+pub fn intercepts() -> Figure {
+    let system = example(10);
+    let mut plot = window();
+    equilibrium(&mut plot, &system, "spring");
+    let held = point(&system, &lagrange::deflection(&system), &lagrange::multiplier(&system));
+    let free = free(&system);
+    plot.mark("spring", held, &says("Held at the plane", held));
+    plot.mark("spring", free, &says("Without the plane", free));
+    plot.text("spring", held, (12.0, -4.0), Start, "R, to hold it at the plane");
+    plot.text("spring", free, (-8.0, 20.0), End, "R/c, without the plane");
+    plot.text("spring", (0.2, 1.2), (16.0, -8.0), Start, "c p + N = R");
+    plot.text("", (-0.1, 0.0), (0.0, -9.0), Middle, "above");
+    plot.text("", (0.1, 0.0), (0.0, -9.0), Middle, "inside");
+    plot.text("", (0.0, -0.4), (0.0, 36.0), Middle, "u = Δ");
+    let description = format!(
+        "The line c p + N = R in the plane of penetration p and contact force N. At p = 0, where u is the gap, it takes \
+         N = {} to hold the mass; without the plane, N = 0, the mass comes to p = {}, that far inside.",
+        number(held.1),
+        number(free.0),
+    );
+    let caption = "Equilibrium in the plane of $p$ and $N$: the further in, the more the spring carries and the less is left \
+                   for the plane.";
+    figure(plot, "Equilibrium as a line", caption, description)
+}
+
+/// Without the plane: equilibrium and no force.
+pub fn hanging() -> Figure {
+    let system = example(10);
+    let mut plot = window();
+    plot.line("thick", [(-9.0, 0.0), (9.0, 0.0)]);
+    equilibrium(&mut plot, &system, "spring");
+    let free = free(&system);
+    plot.mark("answer", free, &says("The free mass", free));
+    plot.text("", (0.0, 0.0), (8.0, -9.0), Start, "no plane: N = 0");
+    plot.text("", free, (-8.0, 22.0), End, "p = R/c, u = m g/c");
+    plot.text("spring", (0.2, 1.2), (16.0, -8.0), Start, "c p + N = R");
+    let description = format!(
+        "The line of equilibrium, c p + N = R, meets the line N = 0 at p = {}: there u = {} m, and the spring alone \
+         carries the weight.",
+        number(free.0),
+        number(float(&structure::deflection(&system))),
+    );
+    let caption = "Without the plane $N = 0$, and the mass rests where equilibrium meets the $p$ axis.";
+    figure(plot, "The free mass", caption, description)
+}
+
+/// Three systems and their states.
+pub fn states() -> Figure {
+    let mut plot = plane(Axis::linear(P, -1.5, 0.75, 0.5), Axis::linear(N, -0.5, 2.5, 0.5), 290.0);
+    corner(&mut plot, "plane thick");
+    let mut words = Vec::new();
+    for (g, class, state) in
+        [(10, "spring", "contact"), (8, "spring dashed", "grazing"), (4, "spring dotted", "separated")]
+    {
+        let system = example(g);
+        equilibrium(&mut plot, &system, class);
+        let answer = solution(&system);
+        plot.mark("answer", answer, &says(&format!("g = {g}, {state}"), answer));
+        let [r, p, n] = [float(&system::reaction(&system)), answer.0, answer.1].map(number);
+        words.push(format!("for g = {g}, R = {r}, at p = {p}, N = {n}: {state}"));
+    }
+    plot.text("", (0.0, 2.0), (12.0, -5.0), Start, "g = 10:");
+    plot.text("", (0.0, 2.0), (12.0, 13.0), Start, "contact");
+    plot.text("", (0.0, 0.0), (-8.0, 22.0), End, "g = 8: grazing");
+    plot.text("", (-1.0, 0.0), (8.0, -28.0), Start, "g = 4:");
+    plot.text("", (-1.0, 0.0), (8.0, -10.0), Start, "separated");
+    let description = format!(
+        "Three parallel lines of equilibrium meet the corner of contact, each in one point: {}.",
+        words.join("; ")
+    );
+    let caption = "Less gravity moves the line of equilibrium down and to the left. It meets the corner once, wherever it is.";
+    figure(plot, "Contact, grazing and separated", caption, description)
+}
+
+/// The three methods at ε = 4.
+pub fn methods() -> Figure {
+    let (system, eps) = (example(10), Exact::from(4));
+    let mut plot = window();
+    plot.line("plane thick", [(0.0, -9.0), (0.0, 9.0)]);
+    line(&mut plot, "penalty dashed", &system, |u| penalty::contact_force(&system, &eps, u));
+    let steps = augmentations(&system, &eps, 0);
+    let (lambda, third) = &steps[3];
+    line(&mut plot, "iterate dotted", &system, |u| augmented::update(&system, &eps, lambda, u));
+    equilibrium(&mut plot, &system, "spring");
+    let (exact, soft) = (solution(&system), penalised(&system, &eps));
+    plot.mark("plane", exact, &says("Lagrange multiplier", exact));
+    plot.mark("penalty", soft, &says("Penalty", soft));
+    plot.mark("iterate", *third, &says("Augmented, k = 3", *third));
+    plot.text("plane", (0.0, 0.5), (-10.0, 0.0), End, "Lagrange");
+    plot.text("penalty", (0.45, 1.8), (-10.0, -6.0), End, "penalty");
+    plot.text("iterate", (0.16, 2.4), (12.0, 14.0), Start, "augmented, k = 3");
+    equilibrium_below(&mut plot);
+    let at = |(p, n): (f64, f64)| format!("p = {}, N = {}", number(p), number(n));
+    let description = format!(
+        "Where the line of equilibrium, c p + N = R, meets the line of each method, for ε = 4. The multiplier method's is \
+         p = 0: {}. The penalty method's is N = ε p: {}. The augmented method's after three steps is N = {} + ε p: {}.",
+        at(exact),
+        at(soft),
+        number(float(lambda)),
+        at(*third),
+    );
+    let caption = "The three methods for $\\varepsilon = 4$. Each has a line of its own in place of the corner, and finds where \
+                   it meets equilibrium.";
+    figure(plot, "Three methods", caption, description)
+}
+
+/// The plane as a constraint that may pull.
+pub fn multiplier() -> Figure {
+    let system = example(10);
+    let mut plot = window();
+    plot.line("plane thick", [(0.0, 0.0), (0.0, 9.0)]);
+    plot.line("plane thick dashed", [(0.0, 0.0), (0.0, -9.0)]);
+    equilibrium(&mut plot, &system, "spring");
+    let answer = point(&system, &lagrange::deflection(&system), &lagrange::multiplier(&system));
+    plot.mark("answer", answer, &says("The multiplier method", answer));
+    plot.text("", answer, (12.0, -6.0), Start, "u = Δ, λ = R");
+    plot.text("plane", (0.0, 1.0), (-10.0, 0.0), End, "p = 0");
+    plot.text("plane", (0.0, -0.2), (10.0, 5.0), Start, "here the plane pulls");
+    equilibrium_below(&mut plot);
+    let description = format!(
+        "The constraint p = 0 is the whole N axis; below N = 0, where the plane would pull, it is dashed. It meets the line \
+         of equilibrium, c p + N = R, at p = {}, N = {}.",
+        number(answer.0),
+        number(answer.1),
+    );
+    let caption = "The multiplier method replaces the corner by the line $p = 0$. Its lower half, dashed, is a plane to which the \
+                   mass is glued.";
+    figure(plot, "The constraint as a line", caption, description)
+}
+
+/// The second spring, for three penalties.
+pub fn penalties() -> Figure {
+    let system = example(10);
+    let mut plot = window();
+    corner(&mut plot, "plane thick ghost");
+    let mut words = Vec::new();
+    let mut found = Vec::new();
+    for eps in [4, 16, 36] {
+        let stiffness = Exact::from(eps);
+        line(&mut plot, "penalty", &system, |u| penalty::contact_force(&system, &stiffness, u));
+        let at = penalised(&system, &stiffness);
+        words.push(format!("for ε = {eps} at p = {}, N = {}", number(at.0), number(at.1)));
+        found.push((eps, at));
+    }
+    equilibrium(&mut plot, &system, "spring");
+    let (soft, exact) = (found[0].1, solution(&system));
+    plot.line("fine dashed", [exact, (soft.0, exact.1)]);
+    plot.dimension("fine", soft, (soft.0, exact.1));
+    for (eps, at) in found {
+        plot.mark("penalty", at, &says(&format!("ε = {eps}"), at));
+    }
+    plot.mark("answer", exact, &says("Exact", exact));
+    plot.text("penalty", (0.06, 2.4), (0.0, -8.0), Middle, "ε = 36");
+    plot.text("penalty", (0.19, 2.4), (0.0, -8.0), Middle, "ε = 16");
+    plot.text("penalty", (0.6, 2.4), (0.0, -8.0), End, "ε = 4");
+    plot.text("", (soft.0, 1.65), (9.0, 0.0), Start, "R − N");
+    equilibrium_below(&mut plot);
+    let description = format!(
+        "Lines N = ε p through the origin, the steeper the larger ε, meet the line of equilibrium, c p + N = R: {}. The exact \
+         answer is at p = {}, N = {}. What the force is short by, R − N, is c p.",
+        words.join(", "),
+        number(exact.0),
+        number(exact.1),
+    );
+    let caption = "The penalty turns the corner into the line $N = \\varepsilon\\,p$. What is missing, $R - N$, is what the spring \
+                   carries for it, $c\\,p$.";
+    figure(plot, "The penalty as a line", caption, description)
+}
+
+/// The line moves up by what it found.
+pub fn iterates() -> Figure {
+    let (system, eps) = (example(10), Exact::from(4));
+    let mut plot = window();
+    corner(&mut plot, "plane thick ghost");
+    let steps = augmentations(&system, &eps, 0);
+    for (lambda, _) in &steps {
+        let along = |p: f64| (p, float(&augmented::update(&system, &eps, lambda, &deflection(&system, p))));
+        plot.line("iterate fine dotted", [0.0, 0.6].map(along));
+    }
+    equilibrium(&mut plot, &system, "spring");
+    let exact = solution(&system);
+    let mut words = Vec::new();
+    for (k, (lambda, at @ (p, n))) in steps.iter().enumerate() {
+        let start = (0.0, float(lambda));
+        plot.line("iterate", [start, *at]);
+        plot.line("iterate fine dashed", [*at, (0.0, *n)]);
+        let down = if k == 0 { -9.0 } else { 5.0 };
+        plot.text("iterate", start, (-10.0, down), End, &format!("λ_{k}"));
+        words.push(format!("from {} to p = {}, N = {}", number(start.1), number(*p), number(*n)));
+    }
+    for (k, (_, at)) in steps.iter().enumerate() {
+        plot.mark("iterate", *at, &says(&format!("k = {k}"), *at));
+    }
+    plot.mark("answer", exact, &says("Exact", exact));
+    plot.text("iterate", steps[0].1, (12.0, 5.0), Start, "p_0, λ_1");
+    equilibrium_below(&mut plot);
+    let description = format!(
+        "Four parallel lines N = λ + ε p, for ε = 4, each from its λ on the N axis to the line of equilibrium: {}. The N of \
+         each is the λ of the next. They come to the corner at p = {}, N = {}.",
+        words.join(", "),
+        number(exact.0),
+        number(exact.1),
+    );
+    let caption = "Augmentation shifts the line, $N = \\lambda_k + \\varepsilon\\,p$. Where it meets equilibrium is the next $\\lambda$, \
+                   for $\\varepsilon = 4$.";
+    figure(plot, "The iterates walk to the corner", caption, description)
+}
+
+/// A plane that never pulls, and a mass that hangs free.
+pub fn bent() -> Figure {
+    let (system, eps) = (example(4), Exact::from(4));
+    let mut plot = plane(Axis::linear(P, -2.25, 0.75, 0.5), Axis::linear(N, -3.0, 5.0, 1.0), 340.0);
+    corner(&mut plot, "plane thick");
+    let steps = augmentations(&system, &eps, 10);
+    let none = Exact::from(0);
+    line(&mut plot, "penalty dashed", &system, |u| augmented::update(&system, &eps, &none, u));
+    for (lambda, _) in &steps[..3] {
+        line(&mut plot, "iterate", &system, |u| augmented::unilateral_update(&system, &eps, lambda, u));
+    }
+    equilibrium(&mut plot, &system, "spring");
+    let u = augmented::deflection(&system, &eps, &none);
+    let stuck = point(&system, &u, &augmented::contact_force(&system, &u));
+    plot.mark("penalty", stuck, &says("No bracket in equilibrium", stuck));
+    plot.mark("iterate", steps[0].1, &says("k = 0", steps[0].1));
+    plot.mark("answer", steps[1].1, &says("k = 1 and after", steps[1].1));
+    plot.text("iterate", steps[0].1, (14.0, 5.0), Start, "k = 0");
+    plot.text("", steps[1].1, (-6.0, 20.0), End, "k = 1, 2");
+    plot.text("iterate", (-1.4, 4.4), (10.0, 5.0), Start, "λ_0 = 10");
+    plot.text("iterate", (-0.3, 1.8), (-8.0, 0.0), End, "λ_1 = 3");
+    plot.text("iterate", (0.3, 0.9), (6.0, 5.0), Start, "λ_2 = 0");
+    plot.text("penalty", stuck, (12.0, 5.0), Start, "stuck, pulling");
+    plot.text("spring", (-0.9, -1.5), (0.0, 0.0), End, "c p + N = R");
+    let [(_, (p0, n0)), (lambda, (p1, n1)), ..] = &steps[..] else { unreachable!("four steps") };
+    let description = format!(
+        "A system with R = {}, whose line of equilibrium meets the other arm of the corner, N = 0. Lines N = ⟨λ + ε p⟩ with \
+         ε = 4 lie on the p axis and then rise. From λ = 10 the first meets equilibrium at p = {}, N = {}; the second, with \
+         λ = {}, at p = {}, N = {}, which is the answer. The line N = ε p without its bracket goes on below the axis and \
+         meets equilibrium at p = {}, N = {}: an update that is cut to λ = 0 comes back to it for ever.",
+        number(float(&system::reaction(&system))),
+        number(*p0),
+        number(*n0),
+        number(float(lambda)),
+        number(*p1),
+        number(*n1),
+        number(stuck.0),
+        number(stuck.1),
+    );
+    let caption = "A separated system ($g = 4$, $R = -4$): the line is bent, $N = \\langle\\lambda_k + \\varepsilon\\,p\\rangle$, and meets \
+                   equilibrium on the other arm. Not bent (dashed), it stays where the plane pulls.";
+    figure(plot, "The bent line", caption, description)
+}
+
+/// A penalty with a kink: its force is a step.
+pub fn step() -> Figure {
+    let system = example(10);
+    let mut plot = window();
+    corner(&mut plot, "plane thick ghost");
+    let tenths = |n: i32| Exact::from(n) / Exact::from(10);
+    // The slope of a line is that between any two of its points.
+    let slope = |eps: &Exact, from: i32, to: i32| {
+        let [a, b] = [from, to].map(|p| beyond::exact_penalty(eps, &tenths(p)));
+        float(&((b - a) / tenths(to - from)))
+    };
+    let mut ends = Vec::new();
+    for (eps, class) in [(tenths(22), "penalty"), (tenths(10), "penalty dashed")] {
+        let (low, high) = (slope(&eps, -9, -1), slope(&eps, 1, 9));
+        plot.line(class, [(-0.2, low), (0.0, low), (0.0, high), (0.6, high)]);
+        ends.push(high);
+    }
+    equilibrium(&mut plot, &system, "spring");
+    let exact = solution(&system);
+    // On the lower step N is a multiplier that is known, and no penalty is left.
+    let u = augmented::deflection(&system, &Exact::from(0), &tenths(10));
+    let low = point(&system, &u, &augmented::contact_force(&system, &u));
+    plot.mark("answer", exact, &says("ε = 2.2", exact));
+    plot.mark("penalty", low, &says("ε = 1", low));
+    plot.text("penalty", (0.5, ends[0]), (0.0, -6.0), Middle, "ε = 2.2");
+    plot.text("penalty", (0.5, ends[1]), (0.0, -6.0), Middle, "ε = 1");
+    equilibrium_below(&mut plot);
+    let description = format!(
+        "The force of the penalty ε⟨p⟩ is a step: 0 above the plane, ε inside it, anything between at p = 0. A step of height \
+         {} is met by the line of equilibrium in its upright part, at p = {}, N = {}, exactly. One of height {} is lower than \
+         R, and is met inside the plane, at p = {}.",
+        number(ends[0]),
+        number(exact.0),
+        number(exact.1),
+        number(ends[1]),
+        number(low.0),
+    );
+    let caption = "The exact penalty is a step. If it is at least as high as $R$, equilibrium meets its upright part, which is that \
+                   of the corner.";
+    figure(plot, "The exact penalty as a step", caption, description)
 }

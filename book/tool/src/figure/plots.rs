@@ -1,1 +1,181 @@
+//! Plots of what depends on one number.
 
+use super::Figure;
+use super::axes::{Axis, Plot};
+use super::plane::{P, deflection, example, figure, float, point};
+use super::svg::{Anchor::*, number};
+use spring_mass_contact::chapter::{SpringMass, augmented, contact, lagrange, ode, penalty, structure};
+use spring_mass_contact::number::{Exact, NumberSystem, PositivePart, ToExact};
+use spring_mass_contact::solver::{self, Scalar};
+
+/// What is to be least, as each method has it.
+pub fn energies() -> Figure {
+    let (system, eps) = (example(10), Exact::from(4));
+    let (multiplier, guess) = (lagrange::multiplier(&system), Exact::from(1));
+    let mut plot = Plot::new(
+        Axis::linear(P, -0.2, 0.6, 0.2),
+        Axis::linear("energy in joules", -12.6, -11.4, 0.2),
+        310.0,
+    );
+    type Energy<'a> = &'a dyn Fn(&Exact) -> Exact;
+    let curves: [(&str, &str, Exact, Energy); 4] = [
+        ("spring", "Π", structure::deflection(&system), &|u| structure::potential_energy(&system, u)),
+        ("penalty dashed", "Π_p", penalty::deflection(&system, &eps), &|u| {
+            penalty::energy(&system, &eps, u)
+        }),
+        ("plane", "𝓛", lagrange::deflection(&system), &|u| lagrange::functional(&system, u, &multiplier)),
+        ("iterate dotted", "L", augmented::deflection(&system, &eps, &guess), &|u| {
+            augmented::functional(&system, &eps, &guess, u)
+        }),
+    ];
+    let mut words = Vec::new();
+    let mut least = Vec::new();
+    for (class, name, u, energy) in curves {
+        plot.graph(class, |p| float(&energy(&deflection(&system, p))));
+        let at = point(&system, &u, &energy(&u));
+        let says = format!("{name}: p = {}, {} J", number(at.0), number(at.1));
+        words.push(says.replace('_', ""));
+        least.push((class, at));
+    }
+    for ((class, at), says) in least.iter().zip(&words) {
+        plot.mark(class.split(' ').next().unwrap_or_default(), *at, says);
+    }
+    plot.text("spring", least[0].1, (0.0, -10.0), Middle, "Π");
+    plot.text("penalty", (0.42, -12.12), (4.0, 14.0), Start, "Π_p");
+    plot.text("plane", (0.3, -11.82), (-6.0, -6.0), End, "𝓛");
+    plot.text("iterate", (0.42, -11.8), (0.0, 14.0), Start, "L");
+    let description = format!(
+        "Four parabolas over the penetration p, all of the same value at p = 0. Where each is least: {}.",
+        words.join("; ")
+    );
+    let caption = "What each method makes least, for the example with $\\varepsilon = 4$: the energy $\\Pi$ alone, with the penalty, with \
+                   the multiplier $\\lambda = R$, and with both at $\\lambda = 1$. They agree at $p = 0$.";
+    figure(plot, "The energies and their minima", caption, description)
+}
+
+/// Penetrations, between what two differential equations say.
+pub fn rates() -> Figure {
+    let (system, eps) = (SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 }, 4.0);
+    let start = augmented::deflection(&system, &eps, &0.0);
+    let first = contact::penetration(&system, &start);
+    // −ε/c is the rate −ε/(c + ε) of a spring that is softer by ε.
+    let softer = SpringMass { c: system.c - eps, ..system };
+    let above = |k: f64| contact::penetration(&system, &ode::solution(&system, &eps, &start, &k));
+    let below = |k: f64| ode::homogeneous(&softer, &eps, &first, &k);
+    let mut plot = Plot::new(
+        Axis::linear("k, augmentations", 0.0, 6.0, 1.0),
+        Axis::powers("penetration in metres", -4, 0, 1),
+        290.0,
+    );
+    plot.graph("", above);
+    plot.graph("dashed", below);
+    let mut lambda = 0.0;
+    let mut points = Vec::new();
+    for k in 0..=6 {
+        let u = augmented::deflection(&system, &eps, &lambda);
+        points.push((f64::from(k), contact::penetration(&system, &u)));
+        lambda = augmented::update(&system, &eps, &lambda, &u);
+    }
+    plot.line("iterate fine dotted", points.clone());
+    for (k, p) in &points {
+        plot.mark("iterate", (*k, *p), &format!("k = {k}: p = {p}"));
+    }
+    plot.text("", (3.0, above(3.0)), (4.0, -10.0), Start, "p_0 e^{−k ε/(c + ε)}");
+    plot.text("", (3.0, below(3.0)), (-10.0, 12.0), End, "p_0 e^{−k ε/c}");
+    plot.text("iterate", points[6], (-2.0, -12.0), End, "p_k");
+    let (k, p) = points[6];
+    let description = format!(
+        "Penetrations on a logarithmic axis against the number k of augmentations, for the example with ε = c = 4. All three \
+         sequences start at {first} and fall along straight lines. At k = {k} the iterate is {p:.4}, below the solution of the \
+         differential equation, {:.4}, and above the lower bound, {:.5}.",
+        above(k),
+        below(k),
+    );
+    let caption = "The iterates $p_k$ (dots) lie between their two bounds. The upper one, drawn solid, is the solution of the \
+                   differential equation; it stays behind. Here $\\varepsilon = c$.";
+    figure(plot, "Iterates between two bounds", caption, description)
+}
+
+/// The command's default, as it is read.
+fn default() -> SpringMass<Exact> {
+    SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" }.map(|text| text.parse().expect("a decimal"))
+}
+
+/// Relative errors at each penalty: of u, of m g − c u and of ε p.
+struct Errors {
+    eps: f64,
+    deflection: f64,
+    force: f64,
+    penalty_force: f64,
+}
+
+fn errors<T: Scalar + ToExact>(penalties: &[Exact], round: impl Fn(&Exact) -> T) -> Vec<Errors> {
+    let system = default().map(&round);
+    let exact = |x: &T| x.to_exact().expect("a finite number");
+    let right = contact::deflection(&system.map(exact));
+    let rows = solver::sweep(&system, penalties.iter().map(&round));
+    let errors = rows.map_while(|row| {
+        let row = row.ok()?;
+        Some(Errors {
+            eps: float(&exact(&row.penalty)),
+            deflection: float(&((exact(&row.deflection) - &right) / &right).abs()),
+            force: float(&row.force_error?),
+            penalty_force: float(&row.penalty_force_error?),
+        })
+    });
+    errors.collect()
+}
+
+/// Where each precision leaves the line, and its best penalty.
+pub fn rounding() -> Figure {
+    let power = |n: i32| format!("1e{n}").parse::<Exact>().expect("a power of ten");
+    let penalties = solver::penalties(&power(0), &power(38), 77).expect("ends in order");
+    const BITS: u32 = 113;
+    let single = |x: &Exact| x.to_f32().expect("within range");
+    let mut plot = Plot::new(
+        Axis::powers("ε in newtons per metre", 0, 40, 10),
+        Axis::powers("relative error", -40, 0, 10),
+        340.0,
+    );
+    let measured = [
+        ("f32", NumberSystem::F32, errors(&penalties, single)),
+        ("f64", NumberSystem::F64, errors(&penalties, float)),
+        ("113 bits", NumberSystem::Mpfr(BITS), errors(&penalties, |x| x.to_mpfr(BITS))),
+    ];
+    let mut best = Vec::new();
+    for (name, numbers, errors) in &measured {
+        // An error of nothing has no place on a logarithmic axis.
+        let curve = |error: fn(&Errors) -> f64| -> Vec<_> {
+            errors.iter().map(|row| (row.eps, error(row))).filter(|(_, error)| *error > 0.0).collect()
+        };
+        plot.line("penalty", curve(|row| row.penalty_force));
+        plot.line("spring", curve(|row| row.force));
+        plot.line("fine dotted", curve(|row| row.deflection));
+        let last = curve(|row| row.force).last().copied().unwrap_or_default();
+        let aside = if *name == "113 bits" { (-16.0, 4.0) } else { (0.0, -8.0) };
+        plot.text("", last, aside, End, name);
+        let eta = numbers.unit_roundoff();
+        let system = default();
+        let eps = solver::best_penalty(&system, &eta).expect("a valid system").expect("there is contact");
+        let bound = solver::penalty_force_bound(&system, &eps, &eta).expect("there is contact");
+        best.push((*name, (float(&eps), float(&bound))));
+    }
+    let mut words = Vec::new();
+    for (name, at) in &best {
+        words.push(format!("{name} ε* = {:.1e}, error at most {:.1e}", at.0, at.1));
+        plot.mark("penalty", *at, words.last().map_or("", |says| says));
+        plot.text("penalty", *at, (-7.0, 14.0), End, "ε^{∗}");
+    }
+    plot.text("penalty", (1e26, 1e-10), (-6.0, 0.0), End, "ε p");
+    plot.text("spring", (1e27, 1e-25), (10.0, 0.0), Start, "m g − c u");
+    let description = format!(
+        "Relative errors of the penalty method for the default system, on logarithmic axes, against ε. All fall along one line, \
+         c/(c + ε), at first. The force ε p leaves it soonest, near the best penalty ε*, and rises again until nothing is left \
+         of it: {}. The deflection u and the force m g − c u follow the line down to what the rounding of one number leaves, and where their lines end their error is 0.",
+        words.join("; "),
+    );
+    let caption = "Errors of $\\varepsilon\\,\\hat p$, of $m\\,g - c\\,\\hat u$ and of $\\hat u$ (dotted) in three precisions. The dots are the best penalties \
+                   $\\varepsilon^*$ with the error that is promised there. Where a \
+                   line ends, the error is 0.";
+    figure(plot, "Where rounding leaves the line", caption, description)
+}

@@ -31,10 +31,9 @@ impl Svg {
 
     /// A line with a head at its end.
     pub fn arrow(&mut self, class: &str, from: Point, to: Point) {
-        const LENGTH: f64 = 9.0;
         let (x, y) = (to.0 - from.0, to.1 - from.1);
-        let length = x.hypot(y);
-        let (x, y) = (x / length * LENGTH, y / length * LENGTH);
+        let share = (9.0 / x.hypot(y)).min(1.0);
+        let (x, y) = (x * share, y * share);
         let foot = (to.0 - x, to.1 - y);
         self.path(class, &[from, foot]);
         let side = |sign: f64| place((foot.0 - sign * 0.4 * y, foot.1 + sign * 0.4 * x));
@@ -160,8 +159,10 @@ fn symbols(text: &str) -> String {
         let rest = escaped(&word[letters.len()..]);
         match letters {
             // A symbol that looks the same in every font.
+            "𝓛" => result += "<tspan class=\"script\">L</tspan>",
             "Π" | "Δ" | "Λ" => result += letters,
-            _ if letters.chars().count() == 1 => {
+            // A letter before a digit is part of a name: f32.
+            _ if letters.chars().count() == 1 && !rest.starts_with(|c: char| c.is_ascii_digit()) => {
                 result += &format!("<tspan class=\"letter\">{letters}</tspan>")
             }
             _ => result += letters,
