@@ -7,6 +7,7 @@ use std::{
     fs,
     ops::RangeInclusive,
     path::{Path, PathBuf},
+    sync::LazyLock,
 };
 
 type Point = (f64, f64);
@@ -42,7 +43,13 @@ struct Picture {
     texts: Vec<Text>,
 }
 
-fn picture(name: &'static str) -> Picture {
+fn picture(name: &str) -> &'static Picture {
+    PICTURES.iter().find(|picture| picture.name == name).unwrap_or_else(|| panic!("no figure {name}"))
+}
+
+static PICTURES: LazyLock<Vec<Picture>> = LazyLock::new(|| names().map(read).collect());
+
+fn read(name: &'static str) -> Picture {
     let svg = figure(name).unwrap_or_else(|| panic!("no figure {name}")).inline();
     let view = &found(r#"viewBox="0 0 (\S+) (\S+)""#, &svg)[0];
     let points = |d: &str| {
@@ -80,40 +87,42 @@ fn picture(name: &'static str) -> Picture {
     }
 }
 
-/// How a reader finds the number at a place: by the numbers at the axis.
+/// How a reader finds the place of a number: by the numbers at the axis.
 struct Scale {
     ticks: Vec<(f64, f64)>,
     logarithmic: bool,
 }
 
 impl Scale {
-    /// From places and what stands there; a power of ten is `10` and its exponent.
-    fn of(ticks: Vec<(f64, &str)>, logarithmic: bool) -> Self {
-        let value =
-            |text: &str| if logarithmic { float(text.strip_prefix("10").unwrap()) } else { float(text) };
-        Scale { ticks: ticks.into_iter().map(|(place, text)| (place, value(text))).collect(), logarithmic }
+    /// From places and what stands there: numbers, or powers of ten with their exponents.
+    fn of(places: Vec<f64>, texts: &[&Text]) -> Self {
+        let powers: Option<Vec<_>> = texts.iter().map(|text| text.says.strip_prefix("10")).collect();
+        let powers = powers.filter(|powers| !powers.contains(&""));
+        let logarithmic = powers.is_some();
+        let values = powers.unwrap_or_else(|| texts.iter().map(|text| text.says.as_str()).collect());
+        assert!(texts.len() >= 2, "one number says nothing");
+        Scale { ticks: places.into_iter().zip(values.into_iter().map(float)).collect(), logarithmic }
     }
 
-    fn number(&self, place: f64) -> f64 {
-        let [(a, x), .., (b, y)] = self.ticks[..] else { panic!("one tick says nothing") };
-        let number = x + (place - a) / (b - a) * (y - x);
-        if self.logarithmic { 10_f64.powf(number) } else { number }
-    }
-
-    /// How far off a place is that is written in hundredths, as the ticks are.
-    fn tolerance(&self) -> f64 {
-        let [(a, x), .., (b, y)] = self.ticks[..] else { panic!("one tick says nothing") };
-        0.015 * ((y - x) / (b - a)).abs()
+    fn place(&self, number: f64) -> f64 {
+        let number = if self.logarithmic { number.log10() } else { number };
+        let [(a, x), .., (b, y)] = self.ticks[..] else { unreachable!("two at least") };
+        a + (number - x) / (y - x) * (b - a)
     }
 }
 
+/// Places are written in hundredths of a pixel: two of them and two ticks, none further off than half of one, and what
+/// lies beyond the ticks by less than a half of what is between them.
+const TOLERANCE: f64 = 0.03;
+
+/// Between points of a curve its chord is no further from it.
+const CHORD: f64 = 0.1;
+
 impl Picture {
-    fn scales(&self) -> (Scale, Scale) {
-        let ticks = || self.texts.iter().filter(|text| text.class == "tick");
-        let (below, beside): (Vec<_>, Vec<_>) = ticks().partition(|text| text.anchor == "middle");
-        let powers =
-            |texts: &[&Text]| texts.iter().all(|text| text.says.starts_with("10") && text.says != "10");
-        // A text hangs so far below the tick that it belongs to.
+    /// Where a reader looks for two numbers.
+    fn at(&self, (x, y): Point) -> Point {
+        let ticks = self.texts.iter().filter(|text| text.class == "tick");
+        let (below, beside): (Vec<_>, Vec<_>) = ticks.partition(|text| text.anchor == "middle");
         let lines = |horizontal: bool| -> Vec<f64> {
             let ticks = self.paths.iter().filter(|(class, _)| class == "tick").map(|(_, points)| points);
             let along = ticks.filter(|points| (points[0].1 == points[1].1) == horizontal);
@@ -121,65 +130,211 @@ impl Picture {
         };
         let (columns, rows) = (lines(false), lines(true));
         assert_eq!((columns.len(), rows.len()), (below.len(), beside.len()), "{}: ticks", self.name);
-        let says = |texts: &'_ [&'_ Text]| texts.iter().map(|text| text.says.clone()).collect::<Vec<_>>();
-        let scale = |places: Vec<f64>, texts: &[&Text]| {
-            let says = says(texts);
-            Scale::of(places.into_iter().zip(says.iter().map(String::as_str)).collect(), powers(texts))
-        };
         for (text, x) in below.iter().zip(&columns) {
             assert_eq!(text.at.0, *x, "{}: {} is not at its tick", self.name, text.says);
         }
         for (text, y) in beside.iter().zip(&rows) {
             assert!((text.at.1 - y - 4.5).abs() < 0.011, "{}: {} is not at its tick", self.name, text.says);
         }
-        (scale(columns, &below), scale(rows, &beside))
+        (Scale::of(columns, &below).place(x), Scale::of(rows, &beside).place(y))
     }
 
-    /// The marks of a class, as what they say and the numbers at their place.
-    fn marked(&self) -> Vec<(String, Point)> {
-        let (x, y) = self.scales();
-        let marks = self.marks.iter().filter(|(class, ..)| class.starts_with("mark"));
-        marks.map(|(_, at, _, says)| (says.clone(), (x.number(at.0), y.number(at.1)))).collect()
+    /// There is a mark that says this, and it is at these numbers.
+    fn marks(&self, says: &str, point: Point) {
+        let place = self.at(point);
+        let mark = self.marks.iter().find(|(.., said)| said == says);
+        let (_, at, ..) =
+            mark.unwrap_or_else(|| panic!("{}: no mark says {says:?}: {:?}", self.name, self.marks));
+        let near = (at.0 - place.0).hypot(at.1 - place.1) <= TOLERANCE;
+        assert!(near, "{}: {says} is at {at:?} and not at {place:?}", self.name);
     }
 
-    /// A mark that says this is at these numbers, and says them.
-    fn holds(&self, says: &str, (p, n): Point) {
-        let (x, y) = self.scales();
-        let marked = self.marked();
-        let (_, found) = marked
-            .iter()
-            .find(|(said, _)| said == says)
-            .unwrap_or_else(|| panic!("{}: no mark says {says:?}: {marked:?}", self.name));
-        let near = (found.0 - p).abs() <= x.tolerance() && (found.1 - n).abs() <= y.tolerance();
-        assert!(near, "{}: {says} is at {found:?}", self.name);
-    }
-
-    /// A line of this class goes through these points, to within a hundredth of a pixel.
+    /// A line of this class goes through these points.
     fn passes(&self, class: &str, points: &[Point]) {
-        let (x, y) = self.scales();
-        let reaches = |line: &[Point], (p, n): Point| {
+        let reaches = |line: &[Point], (x, y): Point| {
             line.windows(2).any(|pair| {
-                let [(a, b), (c, d)] = [pair[0], pair[1]].map(|at| (x.number(at.0), y.number(at.1)));
-                // The nearest place of the segment, where both tolerances are 1.
-                let (a, c, p) = (a / x.tolerance(), c / x.tolerance(), p / x.tolerance());
-                let (b, d, n) = (b / y.tolerance(), d / y.tolerance(), n / y.tolerance());
+                let [(a, b), (c, d)] = [pair[0], pair[1]];
                 let length = (c - a).powi(2) + (d - b).powi(2);
-                let share = (((p - a) * (c - a) + (n - b) * (d - b)) / length).clamp(0.0, 1.0);
-                (a + share * (c - a) - p).hypot(b + share * (d - b) - n) <= 2.0
+                let share = (((x - a) * (c - a) + (y - b) * (d - b)) / length).clamp(0.0, 1.0);
+                (a + share * (c - a) - x).hypot(b + share * (d - b) - y) <= TOLERANCE.max(CHORD)
             })
         };
-        let lines: Vec<_> = self.paths.iter().filter(|(found, _)| found == class).collect();
-        let through = lines.iter().any(|(_, line)| points.iter().all(|point| reaches(line, *point)));
-        assert!(through, "{}: of {} lines {class:?} none goes through {points:?}", self.name, lines.len());
+        let places: Vec<_> = points.iter().map(|point| self.at(*point)).collect();
+        let mut lines = self.paths.iter().filter(|(found, _)| found == class).map(|(_, line)| line);
+        let through = lines.any(|line| places.iter().all(|place| reaches(line, *place)));
+        assert!(through, "{}: no line of class {class:?} goes through {points:?}", self.name);
     }
 }
+
+/// c p + N = R of the example.
+const EQUILIBRIUM: [Point; 3] = [(0.0, 2.0), (0.25, 1.0), (0.5, 0.0)];
 
 #[test]
 fn the_answer_is_where_equilibrium_meets_the_corner() {
     let plane = picture("plane");
-    plane.holds("The answer: p = 0, N = 2", (0.0, 2.0));
-    plane.passes("spring", &[(0.0, 2.0), (0.25, 1.0), (0.5, 0.0)]);
+    plane.marks("The answer: p = 0, N = 2", (0.0, 2.0));
+    plane.passes("spring", &EQUILIBRIUM);
     plane.passes("plane thick", &[(-0.2, 0.0), (0.0, 0.0), (0.0, 2.4)]);
+}
+
+#[test]
+fn the_example_is_seen_through_one_window() {
+    let corners = |name| [(-0.2, -0.4), (0.6, 2.4)].map(|corner| picture(name).at(corner));
+    for name in ["equilibrium", "free", "methods", "multiplier", "penalty", "augmented", "step"] {
+        assert_eq!(corners(name), corners("plane"), "{name}");
+        assert_eq!(picture(name).size, picture("plane").size, "{name}");
+        picture(name).passes("spring", &EQUILIBRIUM);
+    }
+}
+
+#[test]
+fn the_spring_alone() {
+    let held = picture("equilibrium");
+    held.marks("Held at the plane: p = 0, N = 2", (0.0, 2.0));
+    held.marks("Without the plane: p = 0.5, N = 0", (0.5, 0.0));
+    let free = picture("free");
+    free.marks("The free mass: p = 0.5, N = 0", (0.5, 0.0));
+    free.passes("thick", &[(-0.2, 0.0), (0.5, 0.0)]);
+}
+
+/// By the table in contact.md.
+#[test]
+fn three_states() {
+    let states = picture("states");
+    states.marks("g = 10, contact: p = 0, N = 2", (0.0, 2.0));
+    states.marks("g = 8, grazing: p = 0, N = 0", (0.0, 0.0));
+    states.marks("g = 4, separated: p = −1, N = 0", (-1.0, 0.0));
+    states.passes("spring", &EQUILIBRIUM);
+    states.passes("spring dashed", &[(-0.5, 2.0), (0.0, 0.0)]);
+    states.passes("spring dotted", &[(-1.5, 2.0), (-1.0, 0.0)]);
+}
+
+#[test]
+fn the_multiplier_may_pull() {
+    let multiplier = picture("multiplier");
+    multiplier.marks("The multiplier method: p = 0, N = 2", (0.0, 2.0));
+    multiplier.passes("plane thick", &[(0.0, 0.0), (0.0, 2.4)]);
+    multiplier.passes("plane thick dashed", &[(0.0, 0.0), (0.0, -0.4)]);
+}
+
+/// By the table in formulations.md, with ε = 4.
+#[test]
+fn three_methods() {
+    let methods = picture("methods");
+    methods.marks("Lagrange multiplier: p = 0, N = 2", (0.0, 2.0));
+    methods.marks("Penalty: p = 0.25, N = 1", (0.25, 1.0));
+    methods.marks("Augmented, k = 3: p = 0.03125, N = 1.875", (0.03125, 1.875));
+    methods.passes("plane thick", &[(0.0, -0.4), (0.0, 2.4)]);
+    methods.passes("penalty dashed", &[(0.0, 0.0), (0.25, 1.0), (0.5, 2.0)]);
+    methods.passes("iterate dotted", &[(0.0, 1.75), (0.03125, 1.875)]);
+}
+
+/// By the table in penalty.md.
+#[test]
+fn three_penalties() {
+    let penalty = picture("penalty");
+    for (eps, p, n) in [("4", 0.25, 1.0), ("16", 0.1, 1.6), ("36", 0.05, 1.8)] {
+        penalty.marks(&format!("ε = {eps}: p = {p}, N = {n}"), (p, n));
+        penalty.passes("penalty", &[(0.0, 0.0), (p, n), (p * 1.2, n * 1.2)]);
+    }
+    // The gap R − N at ε = 4, from the middle to both heads, which are 9 long.
+    let (low, high) = (penalty.at((0.25, 1.0)), penalty.at((0.25, 2.0)));
+    let tips: Vec<_> =
+        penalty.paths.iter().filter(|(class, _)| class == "fine head").map(|(_, head)| head[1]).collect();
+    for (tip, end) in tips.iter().zip([low, high]) {
+        assert!((tip.0 - end.0).hypot(tip.1 - end.1) <= TOLERANCE, "{tips:?}");
+    }
+    assert_eq!(tips.len(), 2);
+}
+
+/// By the table in augmented.md.
+#[test]
+fn the_iterates_walk_to_the_corner() {
+    let augmented = picture("augmented");
+    let rows = [(0.0, 0.25, 1.0), (1.0, 0.125, 1.5), (1.5, 0.0625, 1.75), (1.75, 0.03125, 1.875)];
+    for (k, (lambda, p, next)) in rows.into_iter().enumerate() {
+        augmented.marks(&format!("k = {k}: p = {p}, N = {next}"), (p, next));
+        augmented.passes("iterate", &[(0.0, lambda), (p, next)]);
+        augmented.passes("iterate fine dotted", &[(0.0, lambda), (p, next), (0.15, lambda + 0.6)]);
+        augmented.passes("iterate fine dashed", &[(p, next), (0.0, next)]);
+    }
+    augmented.marks("Exact: p = 0, N = 2", (0.0, 2.0));
+}
+
+/// c = 4, R = −4 and ε = 4, from λ = 10: then 3 and 0.
+#[test]
+fn the_bent_line_meets_the_other_arm() {
+    let bent = picture("bent");
+    bent.passes("spring", &[(-2.0, 4.0), (-1.0, 0.0), (-0.5, -2.0)]);
+    bent.marks("k = 0: p = −1.75, N = 3", (-1.75, 3.0));
+    bent.marks("k = 1 and after: p = −1, N = 0", (-1.0, 0.0));
+    bent.marks("No bracket in equilibrium: p = −0.5, N = −2", (-0.5, -2.0));
+    bent.passes("iterate", &[(-2.0, 2.0), (-1.75, 3.0)]);
+    bent.passes("iterate", &[(-1.0, 0.0), (-0.75, 0.0), (0.0, 3.0)]);
+    bent.passes("iterate", &[(-1.0, 0.0), (0.0, 0.0), (0.5, 2.0)]);
+    bent.passes("penalty dashed", &[(-0.5, -2.0), (0.0, 0.0), (0.5, 2.0)]);
+}
+
+#[test]
+fn the_exact_penalty_is_a_step() {
+    let step = picture("step");
+    step.marks("ε = 2.2: p = 0, N = 2", (0.0, 2.0));
+    step.marks("ε = 1: p = 0.25, N = 1", (0.25, 1.0));
+    step.passes("penalty", &[(-0.2, 0.0), (0.0, 0.0), (0.0, 2.2), (0.6, 2.2)]);
+    step.passes("penalty dashed", &[(-0.2, 0.0), (0.0, 0.0), (0.0, 1.0), (0.6, 1.0)]);
+}
+
+/// Each is −12 J at p = 0; by hand −2p + 2p², −2p + 4p², 2p² and −p + 4p² more.
+#[test]
+fn the_energies_are_least_where_they_say() {
+    let energies = picture("energies");
+    let curves = [
+        ("spring", "Π", 0.5, [2.0, 2.0], -12.5),
+        ("penalty dashed", "Π_p", 0.25, [2.0, 4.0], -12.25),
+        ("plane", "𝓛", 0.0, [0.0, 2.0], -12.0),
+        ("iterate dotted", "L", 0.125, [1.0, 4.0], -12.0625),
+    ];
+    for (class, name, p, [slope, square], least) in curves {
+        let says = format!("{}: p = {p}, −{} J", name.replace('_', ""), -least);
+        energies.marks(&says, (p, least));
+        let at = |p: f64| (p, -12.0 - slope * p + square * p * p);
+        energies.passes(class, &[at(-0.1), at(0.0), at(p), at(0.4)]);
+    }
+}
+
+/// By the table in convergence.md, whose numbers have three digits after the point.
+#[test]
+fn the_iterates_lie_between_two_bounds() {
+    let rates = picture("rates");
+    for (k, p) in [(0, 0.25), (1, 0.125), (2, 0.0625), (3, 0.03125), (6, 0.00390625)] {
+        rates.marks(&format!("k = {k}: p = {p}"), (f64::from(k), p));
+    }
+    for k in [0.0, 1.0, 2.5, 6.0] {
+        rates.passes("", &[(k, 0.25 * (-k / 2.0).exp())]);
+        rates.passes("dashed", &[(k, 0.25 * (-k).exp())]);
+    }
+}
+
+/// By the formulas and numbers in floats.md.
+#[test]
+fn rounding_leaves_the_line_near_the_best_penalty() {
+    let rounding = picture("rounding");
+    // c/(c + ε) with c = 100, long before anything is rounded.
+    for class in ["spring", "penalty"] {
+        rounding.passes(class, &[(1.0, 100.0 / 101.0), (100.0, 0.5), (1e4, 1.0 / 101.0)]);
+    }
+    // Of this m g − c u keeps more than ε p does: in 113 bits to 10³⁰ at least, ε p to no more than 10¹⁸.
+    rounding.passes("spring", &[(1e4, 1.0 / 101.0), (1e30, 1e-28)]);
+    rounding.passes("penalty", &[(1e38, 1.0)]);
+    // (c + ε*)² = c R / (η (|H| + 5 |Δ|) (1 + 8 η)) with |H| + 5 |Δ| = 1.3, and the bound there is nearly 2 c/(c + ε*).
+    let marks: Vec<_> = rounding.marks.iter().map(|(_, at, ..)| *at).collect();
+    assert_eq!(marks.len(), 3);
+    for (at, bits) in marks.iter().zip([24, 53, 113]) {
+        let total = (481.0 / 1.3 * 2_f64.powi(bits)).sqrt();
+        let place = rounding.at((total - 100.0, 200.0 / total));
+        // What is left out is less than a thousandth, and a decade is narrower than 10 pixels.
+        assert!((at.0 - place.0).hypot(at.1 - place.1) < 0.05, "{bits} bits: {at:?}, {place:?}");
+    }
 }
 
 #[test]
@@ -211,7 +366,7 @@ fn every_figure_has_a_name_and_words_and_is_shown_once() {
 
 #[test]
 fn no_two_elements_have_one_id() {
-    let svgs: String = names().map(|name| picture(name).svg).collect();
+    let svgs: String = names().map(|name| picture(name).svg.as_str()).collect();
     let mut ids: Vec<_> = found(r#"\bid="([^"]*)""#, &svgs).iter().map(|id| id[1].to_string()).collect();
     let all = ids.len();
     ids.sort();
@@ -239,15 +394,16 @@ fn apart(a: &RangeInclusive<f64>, b: &RangeInclusive<f64>) -> bool {
 fn nothing_is_outside_its_picture() {
     for name in names() {
         let Picture { size: (width, height), paths, marks, texts, .. } = picture(name);
+        let (width, height) = (*width, *height);
         assert!(!paths.is_empty() && !texts.is_empty(), "{name} is empty");
         let inside = |x: f64, y: f64| (0.0..=width).contains(&x) && (0.0..=height).contains(&y);
-        for (class, points) in &paths {
+        for (class, points) in paths {
             assert!(points.iter().all(|&(x, y)| inside(x, y)), "{name}: {class} {points:?}");
         }
-        for (class, (x, y), radius, _) in &marks {
+        for (class, (x, y), radius, _) in marks {
             assert!(inside(x - radius, y - radius) && inside(x + radius, y + radius), "{name}: {class}");
         }
-        for text in &texts {
+        for text in texts {
             let (x, y) = extent(text);
             let all = inside(*x.start(), *y.start()) && inside(*x.end(), *y.end());
             assert!(all, "{name}: {:?} sticks out", text.says);
@@ -266,7 +422,7 @@ fn no_text_lies_on_a_line_or_on_another_text() {
                 let clear = apart(&x, &a) || apart(&y, &b);
                 assert!(clear, "{name}: {:?} lies on {:?}", text.says, other.says);
             }
-            for (class, points) in &paths {
+            for (class, points) in paths {
                 for pair in points.windows(2) {
                     // Enough points of the segment that none of this text's size is missed.
                     let steps = ((pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1) / 2.0).ceil();
@@ -277,7 +433,7 @@ fn no_text_lies_on_a_line_or_on_another_text() {
                     assert!(!crossed, "{name}: {:?} lies on a line of {class:?}", text.says);
                 }
             }
-            for (class, (a, b), radius, _) in &marks {
+            for (class, (a, b), radius, _) in marks {
                 let clear = apart(&x, &(a - radius..=a + radius)) || apart(&y, &(b - radius..=b + radius));
                 assert!(clear, "{name}: {:?} lies on a mark {class:?}", text.says);
             }

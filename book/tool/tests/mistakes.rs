@@ -80,6 +80,11 @@ fn a_function_that_does_not_exist() {
 }
 
 #[test]
+fn a_figure_that_does_not_exist() {
+    assert_refused("{{#figure nothing}}", "no figure nothing");
+}
+
+#[test]
 fn a_formula_that_does_not_parse() {
     assert_refused(r"$\frac{1}$", r"\frac{1}");
 }

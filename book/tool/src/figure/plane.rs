@@ -357,7 +357,7 @@ pub fn bent() -> Figure {
     plot.text("iterate", (-1.4, 4.4), (10.0, 5.0), Start, "λ_0 = 10");
     plot.text("iterate", (-0.3, 1.8), (-8.0, 0.0), End, "λ_1 = 3");
     plot.text("iterate", (0.3, 0.9), (6.0, 5.0), Start, "λ_2 = 0");
-    plot.text("penalty", stuck, (12.0, 5.0), Start, "stuck, pulling");
+    plot.text("penalty", stuck, (-14.0, 5.0), End, "stuck, pulling");
     plot.text("spring", (-0.9, -1.5), (0.0, 0.0), End, "c p + N = R");
     let [(_, (p0, n0)), (lambda, (p1, n1)), ..] = &steps[..] else { unreachable!("four steps") };
     let description = format!(
