@@ -188,6 +188,14 @@ fn the_example_is_seen_through_one_window() {
 }
 
 #[test]
+fn numbers_grow_to_the_right_and_upwards() {
+    let plots = PICTURES.iter().filter(|picture| picture.texts.iter().any(|text| text.class == "tick"));
+    let grown = plots.map(|picture| (picture.at((0.1, 0.1)), picture.at((0.2, 0.2))));
+    let grown: Vec<_> = grown.map(|(low, high)| low.0 < high.0 && low.1 > high.1).collect();
+    assert!(grown.len() > 10 && grown.iter().all(|grown| *grown), "{grown:?}");
+}
+
+#[test]
 fn the_spring_alone() {
     let held = picture("equilibrium");
     held.marks("Held at the plane: p = 0, N = 2", (0.0, 2.0));
@@ -282,6 +290,38 @@ fn the_exact_penalty_is_a_step() {
     step.marks("ε = 1: p = 0.25, N = 1", (0.25, 1.0));
     step.passes("penalty", &[(-0.2, 0.0), (0.0, 0.0), (0.0, 2.2), (0.6, 2.2)]);
     step.passes("penalty dashed", &[(-0.2, 0.0), (0.0, 0.0), (0.0, 1.0), (0.6, 1.0)]);
+}
+
+impl Picture {
+    /// How high, from the support and in parts of H: the mass and the plane or where it was.
+    fn depths(&self) -> (f64, f64) {
+        let line = |class: &str| self.paths.iter().find(|(found, _)| found == class).unwrap().1[0].1;
+        let disc = self.marks.iter().find(|(class, ..)| class == "disc").unwrap().1.1;
+        (disc - line(""), line(if self.name == "1-1" { "plane" } else { "plane dashed" }) - line(""))
+    }
+
+    /// How long the arrow of this class is, upwards.
+    fn arrow(&self, class: &str) -> f64 {
+        let path = |class: &str| &self.paths.iter().find(|(found, _)| found == class).unwrap().1;
+        path(class)[0].1 - path(&format!("{class} head"))[1].1
+    }
+}
+
+/// c = 4, m = 1, l = 1, H = 3: with g = 4 u = 1, and with g = 10 and ε = 4 u = 2.25.
+#[test]
+fn the_system_is_drawn_to_scale() {
+    let near = |a: f64, b: f64| assert!((a - b).abs() <= TOLERANCE, "{a} and {b}");
+    let separated = picture("1-1");
+    let (mass, plane) = separated.depths();
+    near(mass, plane * 2.0 / 3.0);
+    assert!(separated.arrow("spring force") > 20.0);
+    near(separated.arrow("spring force"), -separated.arrow("force")); // 4 N both
+    let pushed = picture("1-2");
+    let (mass, plane) = pushed.depths();
+    near(mass, plane * 3.25 / 3.0);
+    let newton = -pushed.arrow("force") / 10.0;
+    near(pushed.arrow("spring force"), 9.0 * newton);
+    near(pushed.arrow("penalty force"), newton);
 }
 
 /// Each is −12 J at p = 0; by hand −2p + 2p², −2p + 4p², 2p² and −p + 4p² more.
