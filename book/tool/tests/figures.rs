@@ -30,6 +30,8 @@ struct Text {
     class: String,
     at: Point,
     anchor: String,
+    /// Something in it stands above the line.
+    raised: bool,
     says: String,
 }
 
@@ -80,6 +82,7 @@ fn read(name: &'static str) -> Picture {
                 class: text[1].to_string(),
                 at: (float(&text[2]), float(&text[3])),
                 anchor: text[4].to_string(),
+                raised: text[5].contains("dy=\"-"),
                 says: Regex::new("<[^>]*>").unwrap().replace_all(&text[5], "").into_owned(),
             })
             .collect(),
@@ -423,7 +426,8 @@ fn extent(text: &Text) -> (RangeInclusive<f64>, RangeInclusive<f64>) {
         "middle" => text.at.0 - width / 2.0,
         _ => text.at.0 - width,
     };
-    (left..=left + width, text.at.1 - 0.7 * size..=text.at.1 + 0.2 * size)
+    let top = 0.7 * size + if text.raised { 5.0 } else { 0.0 };
+    (left..=left + width, text.at.1 - top..=text.at.1 + 0.2 * size)
 }
 
 fn apart(a: &RangeInclusive<f64>, b: &RangeInclusive<f64>) -> bool {

@@ -5,10 +5,10 @@ use super::svg::{Anchor, Point, Svg, number};
 /// How wide every picture is; a phone shows it nearly as large.
 pub const WIDTH: f64 = 360.0;
 
-const LEFT: f64 = 46.0;
+const LEFT: f64 = 48.0;
 const RIGHT: f64 = 16.0;
-const TOP: f64 = 26.0;
-const BOTTOM: f64 = 42.0;
+const TOP: f64 = 30.0;
+const BOTTOM: f64 = 44.0;
 
 /// From one value to another.
 pub struct Axis {
@@ -69,12 +69,12 @@ impl Plot {
         for (value, text) in ticks(&plot.x) {
             let x = plot.at((value, plot.y.from)).0;
             plot.svg.path("tick", &[(x, bottom), (x, bottom + 5.0)]);
-            plot.svg.text("tick", (x, bottom + 18.0), Anchor::Middle, &text);
+            plot.svg.text("tick", (x, bottom + 21.5), Anchor::Middle, &text);
         }
         for (value, text) in ticks(&plot.y) {
             let y = plot.at((plot.x.from, value)).1;
             plot.svg.path("tick", &[(left, y), (left - 5.0, y)]);
-            plot.svg.text("tick", (left - 8.0, y + 4.5), Anchor::End, &text);
+            plot.svg.text("tick", (left - 9.0, y + 4.5), Anchor::End, &text);
         }
         plot.svg.text("title", (right, height - 6.0), Anchor::End, plot.x.title);
         plot.svg.text("title", (4.0, 14.0), Anchor::Start, plot.y.title);

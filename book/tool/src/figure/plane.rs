@@ -40,7 +40,7 @@ fn plane(p: Axis, n: Axis, height: f64) -> Plot {
 
 /// The window of the example, the same on every page.
 fn window() -> Plot {
-    plane(Axis::linear(P, -0.2, 0.6, 0.2), Axis::linear(N, -0.4, 2.4, 0.5), 290.0)
+    plane(Axis::linear(P, -0.2, 0.6, 0.2), Axis::linear(N, -0.4, 2.4, 0.5), 296.0)
 }
 
 /// A line that a function of the deflection gives.
@@ -140,7 +140,7 @@ pub fn intercepts() -> Figure {
     plot.text("spring", (0.2, 1.2), (16.0, -8.0), Start, "c p + N = R");
     plot.text("", (-0.1, 0.0), (0.0, -9.0), Middle, "above");
     plot.text("", (0.1, 0.0), (0.0, -9.0), Middle, "inside");
-    plot.text("", (0.0, -0.4), (0.0, 36.0), Middle, "u = Δ");
+    plot.text("", (0.0, -0.4), (0.0, 38.0), Middle, "u = Δ");
     let description = format!(
         "The line c p + N = R in the plane of penetration p and contact force N. At p = 0, where u is the gap, it takes \
          N = {} to hold the mass; without the plane, N = 0, the mass comes to p = {}, that far inside.",
@@ -175,7 +175,7 @@ pub fn hanging() -> Figure {
 
 /// Three systems and their states.
 pub fn states() -> Figure {
-    let mut plot = plane(Axis::linear(P, -1.5, 0.75, 0.5), Axis::linear(N, -0.5, 2.5, 0.5), 290.0);
+    let mut plot = plane(Axis::linear(P, -1.5, 0.75, 0.5), Axis::linear(N, -0.5, 2.5, 0.5), 296.0);
     corner(&mut plot, "plane thick");
     let mut words = Vec::new();
     for (g, class, state) in

@@ -65,7 +65,7 @@ pub fn rates() -> Figure {
     let mut plot = Plot::new(
         Axis::linear("k, augmentations", 0.0, 6.0, 1.0),
         Axis::powers("penetration in metres", -4, 0, 1),
-        290.0,
+        296.0,
     );
     plot.graph("", above);
     plot.graph("dashed", below);
@@ -171,11 +171,10 @@ pub fn rounding() -> Figure {
     let description = format!(
         "Relative errors of the penalty method for the default system, on logarithmic axes, against ε. All fall along one line, \
          c/(c + ε), at first. The force ε p leaves it soonest, near the best penalty ε*, and rises again until nothing is left \
-         of it: {}. The deflection u and the force m g − c u follow the line down to what the rounding of one number leaves, and where their lines end their error is 0.",
+         of it: {}. The deflection u and the force m g − c u follow the line down to what the rounding of one number leaves; errors of 0 are left out.",
         words.join("; "),
     );
     let caption = "Errors of $\\varepsilon\\,\\hat p$, of $m\\,g - c\\,\\hat u$ and of $\\hat u$ (dotted) in three precisions. The dots are the best penalties \
-                   $\\varepsilon^*$ with the error that is promised there. Where a \
-                   line ends, the error is 0.";
+                   $\\varepsilon^*$ with the error that is promised there. Errors of 0 are left out.";
     figure(plot, "Where rounding leaves the line", caption, description)
 }
