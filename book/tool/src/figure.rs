@@ -39,6 +39,7 @@ const FIGURES: &[(&str, Draw)] = &[
     ("multiplier", plane::multiplier),
     ("penalty", plane::penalties),
     ("augmented", plane::iterates),
+    ("relaxed", plane::relaxed),
     ("bent", plane::bent),
     ("step", plane::step),
     ("energies", plots::energies),

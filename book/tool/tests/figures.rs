@@ -183,7 +183,7 @@ fn the_answer_is_where_equilibrium_meets_the_corner() {
 #[test]
 fn the_example_is_seen_through_one_window() {
     let corners = |name| [(-0.2, -0.4), (0.6, 2.4)].map(|corner| picture(name).at(corner));
-    for name in ["equilibrium", "free", "methods", "multiplier", "penalty", "augmented", "step"] {
+    for name in ["equilibrium", "free", "methods", "multiplier", "penalty", "augmented", "relaxed", "step"] {
         assert_eq!(corners(name), corners("plane"), "{name}");
         assert_eq!(picture(name).size, picture("plane").size, "{name}");
         picture(name).passes("spring", &EQUILIBRIUM);
@@ -270,6 +270,16 @@ fn the_iterates_walk_to_the_corner() {
         augmented.passes("iterate fine dashed", &[(p, next), (0.0, next)]);
     }
     augmented.marks("Exact: p = 0, N = 2", (0.0, 2.0));
+}
+
+/// p₀ = 0.25, as in the table; 4·0.25 = 1, and (4 + 4)·0.25 = 2.
+#[test]
+fn the_step_of_newton_is_at_the_height_of_the_answer() {
+    let relaxed = picture("relaxed");
+    relaxed.marks("α = 4: p = 0.25, N = 1", (0.25, 1.0));
+    relaxed.marks("α = 8: p = 0.25, N = 2", (0.25, 2.0));
+    relaxed.passes("iterate", &[(0.0, 0.0), (0.25, 1.0), (0.5, 2.0)]);
+    relaxed.passes("iterate dashed", &[(0.0, 0.0), (0.25, 2.0)]);
 }
 
 /// c = 4, R = −4 and ε = 4, from λ = 10: then 3 and 0.

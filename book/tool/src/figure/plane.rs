@@ -335,6 +335,43 @@ pub fn iterates() -> Figure {
     figure(plot, "The iterates walk to the corner", caption, description)
 }
 
+/// The update with a step of its own.
+pub fn relaxed() -> Figure {
+    let (system, eps, start) = (example(10), Exact::from(4), Exact::from(0));
+    let mut plot = window();
+    corner(&mut plot, "plane thick ghost");
+    equilibrium(&mut plot, &system, "spring");
+    let u = augmented::deflection(&system, &eps, &start);
+    let steps = [eps.clone(), penalty::total_stiffness(&system, &eps)];
+    let mut found = Vec::new();
+    for (step, class) in steps.iter().zip(["iterate", "iterate dashed"]) {
+        line(&mut plot, class, &system, |u| beyond::relaxed_update(&system, step, &start, u));
+        let at = point(&system, &u, &beyond::relaxed_update(&system, step, &start, &u));
+        plot.line("fine dashed", [at, (0.0, at.1)]);
+        found.push(at);
+    }
+    plot.line("fine dashed", found.clone());
+    for (step, at) in steps.iter().zip(&found) {
+        plot.mark("iterate", *at, &says(&format!("α = {step}"), *at));
+    }
+    plot.mark("answer", solution(&system), &says("Exact", solution(&system)));
+    plot.text("iterate", (0.45, 1.8), (10.0, 8.0), Start, "α = ε");
+    plot.text("iterate", (0.3, 2.4), (8.0, 14.0), Start, "α = c + ε");
+    plot.text("iterate", (0.0, 1.0), (-10.0, 5.0), End, "λ_1");
+    equilibrium_below(&mut plot);
+    let description = format!(
+        "Two lines N = α p through the origin, for ε = 4 and λ = 0. That with α = ε meets equilibrium at p = {}, N = {}, \
+         which is the next λ. At the same p that with α = c + ε = {} is at N = {}, which is R: the answer in one step.",
+        number(found[0].0),
+        number(found[0].1),
+        number(float(&steps[1])),
+        number(found[1].1),
+    );
+    let caption = "One step from $\\lambda_0 = 0$ with $\\varepsilon = 4$: at the same $p_0$ the steeper line, $\\alpha = c + \\varepsilon$, \
+                   is at the height of the answer.";
+    figure(plot, "A step of its own", caption, description)
+}
+
 /// A plane that never pulls, and a mass that hangs free.
 pub fn bent() -> Figure {
     let (system, eps) = (example(4), Exact::from(4));

@@ -171,7 +171,8 @@ pub fn rounding() -> Figure {
     let description = format!(
         "Relative errors of the penalty method for the default system, on logarithmic axes, against ε. All fall along one line, \
          c/(c + ε), at first. The force ε p leaves it soonest, near the best penalty ε*, and rises again until nothing is left \
-         of it: {}. The deflection u and the force m g − c u follow the line down to what the rounding of one number leaves; errors of 0 are left out.",
+         of it: {}. The deflection u and the force m g − c u follow the line down to what the rounding of one number \
+         leaves; errors of 0 are left out.",
         words.join("; "),
     );
     let caption = "Errors of $\\varepsilon\\,\\hat p$, of $m\\,g - c\\,\\hat u$ and of $\\hat u$ (dotted) in three precisions. The dots are the best penalties \
