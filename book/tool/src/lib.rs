@@ -9,10 +9,12 @@
 //! | `{{#formula system::gap}}` | the formula that a function computes, within `$…$` or by itself |
 //! | `{{#claims}}` | all claims and what came of each |
 //! | `{{#figure plane}}` | a picture or a plot, drawn from what the functions compute |
+//! | `{{#bench}}` | the [`bench`] |
 //!
 //! A formula stands in `src/chapter` and nowhere else: its source is shown, and typeset. The last tag takes
 //! what a hole in an [`Entry`] takes, such as `{{#formula contact::penetration: u=u_k}}`.
 
+pub mod bench;
 mod claims;
 pub mod figure;
 mod math;
@@ -49,7 +51,7 @@ impl Preprocessor for Equations {
     }
 
     fn run(&self, context: &PreprocessorContext, mut book: Book) -> Result<Book> {
-        let tags = tag("eq|ref|source|formula|figure|claims")?;
+        let tags = tag("eq|ref|source|formula|figure|claims|bench")?;
         let tools = Tools {
             typesetter: Typesetter::new()?,
             sources: Sources::in_folder(&context.root.join("../src/chapter")),
@@ -130,6 +132,7 @@ impl Tools {
             }
             "source" => self.source(what, spot),
             "figure" => self.figure(what),
+            "bench" => bench::html(),
             "claims" => Ok(self.claims.page(|entry| self.places.entry(entry))),
             _ => self.typesetter.inline(&tag[0]),
         }

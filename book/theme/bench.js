@@ -1,0 +1,351 @@
+// What the reader sees and touches. All of it follows from the question, and the question is in the address.
+
+const FIELDS = {
+  eps: { sign: "ε", name: "penalty", unit: "N/m", from: -3, to: 20, powers: true },
+  c: { sign: "c", name: "stiffness", unit: "N/m", from: -2, to: 6, powers: true },
+  m: { sign: "m", name: "mass", unit: "kg", from: -3, to: 3, powers: true },
+  g: { sign: "g", name: "gravity", unit: "m/s²", from: -20, to: 20 },
+  l: { sign: "l", name: "free length", unit: "m", from: 0, to: 5 },
+  H: { sign: "H", name: "height of the plane", unit: "m", from: 0, to: 5 },
+  lambda: { sign: "λ₀", name: "multiplier to start from", unit: "N", from: -50, to: 50 },
+};
+// A position of a slider as a number that is short to write.
+const written = ({ powers }, x) => (powers ? String(Number((10 ** x).toPrecision(3))) : String(Number(x.toFixed(2))));
+const position = ({ powers }, a) => (powers ? log10(a) : nearest(a, 53, -1074));
+
+const LIVE = `
+<div class="bench-views">
+  <svg class="bench-system" role="group" aria-label="The system, with the plane to be moved"></svg>
+  <svg class="bench-forces" role="img" aria-label="Forces over penetration"></svg>
+</div>
+<p class="bench-key">
+  <span class="bench-spring">equilibrium <i>c p</i> + <i>N</i> = <i>R</i></span>
+  <span class="bench-plane">the plane</span>
+  <span class="bench-iterate"><i>N</i> = <i>λ<sub>k</sub></i> + <i>ε p</i></span>
+</p>
+<div class="bench-buttons">
+  <button type="button" data-step="1">Step</button>
+  <button type="button" data-step="10">10 steps</button>
+  <button type="button" data-step="-1">Back</button>
+  <button type="button" data-step="whole">Until λ repeats</button>
+  <button type="button" data-step="start">To the start</button>
+</div>
+<p class="bench-verdict" role="status"></p>
+<div class="bench-fields">${Object.entries(FIELDS).map(([key, { sign, name, unit, from, to }]) => `
+  <label for="bench-${key}"><i>${sign}</i> <span>${name}</span></label>
+  <input type="range" min="${from}" max="${to}" step="${(to - from) / 1000}" data-slide="${key}" aria-label="${name}, ${sign}">
+  <span><input type="text" id="bench-${key}" size="9" inputmode="text" autocomplete="off" spellcheck="false" data-text="${key}" aria-describedby="bench-wrong"> ${unit}</span>`).join("")}
+  <label for="bench-numbers">numbers</label>
+  <select id="bench-numbers" data-choice="numbers">
+    <option value="f32">f32</option><option value="f64">f64</option><option value="exact">exact fractions</option>
+  </select><span></span>
+  <label for="bench-side">plane</label>
+  <select id="bench-side" data-choice="plane">
+    <option value="both">as printed: also pulls</option><option value="one">only pushes</option>
+  </select><span></span>
+</div>
+<p class="bench-wrong" id="bench-wrong" role="alert"></p>
+<svg class="bench-decay" role="img" aria-label="The penetration against the step"></svg>
+<p class="bench-key">
+  <span class="bench-dot">computed |<i>p<sub>k</sub></i>|</span>
+  <span class="bench-ring">|<i>p</i>| at the computed <i>u<sub>k</sub></i>, in fractions</span>
+  <span class="bench-line"><i>ρ<sup>k</sup></i> |<i>p</i><sub>0</sub>|, exact arithmetic</span>
+</p>
+<div class="bench-table" role="region" aria-label="The steps in numbers" tabindex="0"><table>
+  <thead><tr><th><i>k</i></th><th><i>λ<sub>k</sub></i> in N</th><th><i>u<sub>k</sub></i> in m</th><th><i>p<sub>k</sub></i> in m</th>
+  <th><i>λ<sub>k</sub></i><sub>+1</sub> in N</th></tr></thead><tbody></tbody>
+</table></div>
+<p class="bench-more"></p>`;
+
+const draw = (name, attributes = {}, ...children) => {
+  const element = document.createElementNS("http://www.w3.org/2000/svg", name);
+  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
+  element.append(...children);
+  return element;
+};
+const path = (points, attributes) =>
+  draw("path", { fill: "none", d: points.map(([x, y], i) => `${i ? "L" : "M"}${x.toFixed(2)} ${y.toFixed(2)}`).join(""), ...attributes });
+const label = (x, y, text, attributes = {}) => draw("text", { x, y, ...attributes }, text);
+
+// Where the line through two points is within a box of [x, y] corners.
+const clipped = ([x0, y0], [x1, y1], [[left, low], [right, high]]) => {
+  let [from, to] = [-Infinity, Infinity];
+  for (const [at, by, min, max] of [[x0, x1 - x0, left, right], [y0, y1 - y0, low, high]]) {
+    const [a, b] = [(min - at) / by, (max - at) / by];
+    if (by) [from, to] = [Math.max(from, Math.min(a, b)), Math.min(to, Math.max(a, b))];
+    else if (at < min || at > max) return [];
+  }
+  return from < to ? [from, to].map(t => [x0 + t * (x1 - x0), y0 + t * (y1 - y0)]) : [];
+};
+const hull = (numbers, more) => {
+  const [min, max] = [Math.min(...numbers), Math.max(...numbers)];
+  const room = (max - min || 1) * more;
+  return [min - room, max + room];
+};
+
+const floor = x => 10 ** Math.floor(Math.log10(x));
+const { f: real, exactly: toFraction } = systems.f64;
+const toFloat = a => nearest(a, 53, -1074);
+
+/* The three drawings. Numbers of any system are drawn as f64. */
+
+const seen = run => {
+  const number = value => toFloat(run.system.exactly(value));
+  const values = Object.fromEntries(Object.entries(run.values).map(([name, value]) => [name, number(value)]));
+  const finite = run.rows.filter(row => [row.u, row.p, row.next].every(run.system.finite));
+  const few = finite.length > 300 ? Math.ceil(finite.length / 300) : 1;
+  const rows = finite.map((row, k) => ({ k, row })).filter(({ k }) => k % few === 0 || k === finite.length - 1);
+  return {
+    values,
+    rows: rows.map(({ k, row }) => ({
+      k, row, lambda: number(row.lambda), u: number(row.u), p: number(row.p), next: number(row.next),
+    })),
+  };
+};
+
+// The part of the lengths that is drawn: round numbers, so that it seldom changes.
+const lengths = ({ values, rows }) => {
+  const all = [0, values.H, values.l, ...rows.map(({ u }) => values.l + u)];
+  const far = Math.max(...all.map(Math.abs)) * 1.1 || 1, unit = floor(far);
+  const most = [1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10].find(n => n * unit >= far) * unit;
+  return [Math.min(...all) < 0 ? -most : 0, most];
+};
+
+const drawSystem = (svg, { values, rows }, [least, most], question) => {
+  const width = svg.clientWidth, height = svg.clientHeight, middle = width / 2 - 10;
+  const y = length => 24 + (length - least) / (most - least) * (height - 48);
+  const hatch = (at, by) => Array.from({ length: Math.floor((width - 20) / 10) }, (_, i) => `M${14 + 10 * i} ${at}l-6 ${by}`).join("");
+  const parts = [
+    draw("path", { d: `M10 ${y(0)}H${width - 10}${hatch(y(0), -7)}`, class: "bench-thin" }),
+    path([[10, y(values.l)], [width - 10, y(values.l)]], { class: "bench-faint", "stroke-dasharray": "3 4" }),
+    label(width - 10, y(values.l) - 4, "l", { class: "bench-italic bench-end" }),
+  ];
+  const now = rows.at(-1);
+  if (now) {
+    const end = y(values.l + now.u), top = y(0), turns = 12;
+    const coil = Array.from({ length: turns }, (_, i) => [middle + (i % 2 ? 9 : -9), top + (end - top) * (i + 1.5) / (turns + 2)]);
+    parts.push(path([[middle, top], ...coil, [middle, end]], { class: "bench-spring" }));
+    parts.push(draw("circle", { cx: middle, cy: end, r: 7, class: "bench-mass" }), label(middle + 12, end - 6, "m", { class: "bench-italic" }));
+  }
+  const plane = y(values.H);
+  const slider = draw("g", {
+    role: "slider", tabindex: 0, class: "bench-plane bench-slider", "aria-label": "height of the plane, H", "aria-orientation": "vertical",
+    "aria-valuemin": least, "aria-valuemax": most, "aria-valuenow": values.H, "aria-valuetext": `${question.H} m`,
+  },
+  draw("rect", { x: 0, y: plane - 16, width, height: 40, class: "bench-grip" }),
+  draw("path", { d: `M10 ${plane}H${width - 10}`, "stroke-width": 2.5 }),
+  draw("path", { d: hatch(plane + 7, -7).replaceAll("l-6 -7", "l6 -7"), "stroke-width": 1 }),
+  label(10, Math.min(plane + 22, height - 2), `H = ${question.H} m`));
+  svg.replaceChildren(...parts, slider);
+  return (from => least + (from - 24) / (height - 48) * (most - least));
+};
+
+const drawForces = (svg, { values, rows }, run) => {
+  const width = svg.clientWidth, height = svg.clientHeight, one = run.question.plane === "one";
+  const gap = real["system::gap"](values), reaction = real["system::reaction"](values);
+  const update = real[one ? "augmented::unilateral_update" : "augmented::update"];
+  const p = u => real["contact::penetration"]({ ...values, u });
+  const free = p(real["structure::deflection"](values));
+  const [left, right] = hull([0, free, ...rows.map(row => row.p)], 0.2);
+  const [low, high] = hull([0, reaction, ...rows.flatMap(row => [row.lambda, row.next])], 0.15);
+  const box = [[left, low], [right, high]];
+  const at = ([p, n]) => [(p - left) / (right - left) * (width - 2) + 1, (high - n) / (high - low) * (height - 2) + 1];
+  const line = (a, b, attributes, within = box) => path(clipped(a, b, within).map(at), attributes);
+  const span = right - left, far = gap + span;
+  const [x0, y0] = at([0, 0]);
+  const parts = [
+    line([0, 0], [span, 0], { class: "bench-faint" }),
+    line([0, 0], [0, 1], { class: "bench-faint" }),
+    label(width - 4, y0 + 15, "p", { class: "bench-italic bench-end" }), label(x0 + 6, 14, "N", { class: "bench-italic" }),
+    line([p(gap), real["augmented::contact_force"]({ ...values, u: gap })], [p(far), real["augmented::contact_force"]({ ...values, u: far })], { class: "bench-spring" }),
+    path([at([left, 0]), at([0, 0]), at([0, high])], { class: "bench-plane", "stroke-width": 3 }),
+    label(x0 - 6, at([0, reaction])[1] - 5, "R", { class: "bench-italic bench-end" }),
+  ];
+  const now = rows.at(-1);
+  if (now) {
+    const { lambda } = now, above = one ? [[left, Math.max(low, 0)], box[1]] : box;
+    const bent = real["augmented::update"];
+    parts.push(line([p(gap), lambda], [p(far), bent({ ...values, lambda, u: far })], { class: "bench-iterate", "stroke-dasharray": "7 4" }, above));
+    const way = rows.slice(-40).flatMap(row => [[0, row.lambda], [row.p, row.next], [0, row.next]]);
+    parts.push(path(way.map(at), { class: "bench-iterate bench-thin" }));
+    for (const row of rows.slice(-40)) {
+      const [cx, cy] = at([row.p, row.next]);
+      parts.push(draw("circle", { cx, cy, r: row === now ? 5 : 2.5, class: "bench-iterate bench-dot" }));
+    }
+  }
+  svg.replaceChildren(...parts);
+};
+
+const drawDecay = (svg, { rows }, run) => {
+  const width = svg.clientWidth, height = svg.clientHeight, left = 44, bottom = height - 34;
+  const decades = a => (a.n ? log10(magnitude(a)) : undefined);
+  const points = rows.map(({ k, row }) => ({ k, computed: decades(run.system.exactly(row.p)), true: decades(penetration(run, row)) }));
+  const last = Math.max(10, points.at(-1)?.k ?? 0);
+  const known = points.flatMap(point => [point.computed, point.true]).filter(value => value !== undefined);
+  const high = Math.ceil(Math.max(...known, -Infinity) + 0.1), low = Math.min(Math.floor(Math.min(...known, Infinity) - 0.1), high - 3);
+  const x = k => left + 8 + k / last * (width - left - 20);
+  const y = value => (known.length ? 10 + (high - value) / (high - low) * (bottom - 26) : bottom - 16);
+  const every = Math.ceil((high - low) / 6);
+  const parts = [path([[left, 4], [left, bottom], [width - 4, bottom]], { class: "bench-thin" })];
+  for (let tick = high; known.length && tick >= low; tick -= every) {
+    parts.push(path([[left, y(tick)], [width - 4, y(tick)]], { class: "bench-faint" }));
+    parts.push(label(left - 5, y(tick) + 4, brief(log10Fraction(tick), 1).replace("1·", ""), { class: "bench-end" }));
+  }
+  parts.push(label(left - 5, bottom + 4, "0", { class: "bench-end" }), label(width - 4, height - 4, `k = ${last}`, { class: "bench-end" }), label(left, height - 4, "0"));
+  const first = points[0], rho = Math.log10(real["augmented::contraction"](seen(run).values));
+  if (first?.true !== undefined && run.question.plane === "both") {
+    parts.push(line2([0, first.true], [last, first.true + last * rho]));
+  }
+  for (const { k, computed, true: exact } of points) {
+    parts.push(draw("circle", { cx: x(k), cy: exact === undefined ? bottom : y(exact), r: 5, class: "bench-ring" }));
+    parts.push(draw("circle", { cx: x(k), cy: computed === undefined ? bottom : y(computed), r: 2.5, class: "bench-iterate bench-dot" }));
+  }
+  function line2(a, b) {
+    return path(clipped(a, b, [[0, low], [last, high]]).map(([k, value]) => [x(k), y(value)]), { class: "bench-faint", "stroke-dasharray": "4 3" });
+  }
+  svg.replaceChildren(...parts);
+};
+const log10Fraction = power => (power < 0 ? fraction(1n, 10n ** BigInt(-power)) : fraction(10n ** BigInt(power)));
+
+/* The page. */
+
+const SHOWN = 12;
+
+const open = root => {
+  root.insertAdjacentHTML("beforeend", `<div class="bench-live">${LIVE}</div>`);
+  root.classList.add("live");
+  const find = selector => root.querySelector(selector);
+  let question = asked(location.search), result, view, domain, length, dragged = false, width;
+
+  const fill = () => {
+    for (const key of PARAMETERS) {
+      const text = find(`[data-text=${key}]`), slide = find(`[data-slide=${key}]`);
+      if (text !== document.activeElement || text.value !== question[key]) text.value = question[key];
+      slide.setAttribute("aria-valuetext", `${question[key]} ${FIELDS[key].unit}`);
+    }
+    for (const choice of root.querySelectorAll("[data-choice]")) choice.value = question[choice.dataset.choice];
+  };
+  const paint = () => {
+    if (!result) return;
+    view = seen(result);
+    if (!dragged || !domain) domain = lengths(view);
+    const focused = document.activeElement?.getAttribute("role") === "slider";
+    length = drawSystem(find(".bench-system"), view, domain, question);
+    if (focused) find("[role=slider]").focus();
+    drawForces(find(".bench-forces"), view, result);
+    drawDecay(find(".bench-decay"), view, result);
+  };
+  const say = (selector, text) => { if (find(selector).textContent !== text) find(selector).textContent = text; };
+
+  const show = (whole = false) => {
+    const { values, wrong } = numbers(question);
+    say(".bench-wrong", Object.entries(wrong).map(([key, why]) => `${FIELDS[key].sign}: ${why}.`).join(" "));
+    for (const key of PARAMETERS) find(`[data-text=${key}]`).setAttribute("aria-invalid", key in wrong);
+    fill();
+    if (Object.keys(wrong).length) return;
+    for (const key of PARAMETERS) {
+      const slide = find(`[data-slide=${key}]`);
+      if (slide !== document.activeElement) slide.value = position(FIELDS[key], systems[question.numbers].exactly(values[key]));
+    }
+    result = run(question, values, whole);
+    const { rows, system } = result, k = rows.length - 1;
+    question = { ...question, k };
+    const { kind, text } = verdict(result);
+    const said = find(".bench-verdict");
+    if (said.textContent !== `${kind}, k = ${k}. ${text}`) {
+      said.replaceChildren(Object.assign(document.createElement("b"), { textContent: kind }), `, k = ${k}. ${text}`);
+    }
+    find(".bench-table tbody").replaceChildren(...rows.slice(-SHOWN).map((row, i) => {
+      const line = document.createElement("tr");
+      const cells = [Math.max(0, rows.length - SHOWN) + i, ...[row.lambda, row.u, row.p, row.next].map(system.show)];
+      line.append(...cells.map(cell => Object.assign(document.createElement("td"), { textContent: cell })));
+      return line;
+    }));
+    say(".bench-more", rows.length > SHOWN ? `The last ${SHOWN} of ${rows.length} steps.` : "");
+    paint();
+  };
+  const keep = () => {
+    try { history.replaceState(null, "", `${location.pathname}${address(question)}#bench`); } catch { /* the address may be fixed */ }
+  };
+  const change = (changes, whole) => {
+    question = { ...question, ...changes };
+    show(whole);
+  };
+
+  root.addEventListener("input", ({ target }) => {
+    const { slide, text, choice } = target.dataset;
+    if (slide) change({ [slide]: written(FIELDS[slide], Number(target.value)) });
+    if (text) change({ [text]: target.value });
+    if (choice) change({ [choice]: target.value });
+  });
+  root.addEventListener("change", keep);
+  root.addEventListener("click", ({ target }) => {
+    const { step } = target.dataset;
+    if (!step) return;
+    if (step === "whole") change({}, true);
+    else change({ k: step === "start" ? 0 : Math.max(0, question.k + Number(step)) });
+    keep();
+  });
+
+  // The plane: by the arrows, or dragged.
+  const move = height => {
+    const digits = Math.max(0, 2 - Math.floor(Math.log10(domain[1] - domain[0])));
+    const within = Math.min(Math.max(height, domain[0]), domain[1]);
+    change({ H: String(Number(within.toFixed(Math.min(digits, 20)))) });
+  };
+  root.addEventListener("keydown", event => {
+    // The book turns the page by arrows, and searches by a letter.
+    event.stopPropagation();
+    if (event.target.getAttribute("role") !== "slider") return;
+    const unit = floor(domain[1] - domain[0]) / 100, { H } = view.values;
+    const to = {
+      ArrowUp: H - unit, ArrowLeft: H - unit, ArrowDown: H + unit, ArrowRight: H + unit,
+      PageUp: H - 10 * unit, PageDown: H + 10 * unit, Home: domain[0], End: domain[1],
+    }[event.key];
+    if (to === undefined) return;
+    event.preventDefault();
+    move(to);
+    keep();
+  });
+  const system = find(".bench-system");
+  const drag = event => move(length(event.clientY - system.getBoundingClientRect().top));
+  system.addEventListener("pointerdown", event => {
+    if (!event.target.closest("[role=slider]")) return;
+    event.preventDefault();
+    system.setPointerCapture(event.pointerId);
+    find("[role=slider]").focus({ preventScroll: true });
+    dragged = true;
+  });
+  system.addEventListener("pointermove", event => dragged && drag(event));
+  for (const end of ["pointerup", "pointercancel"]) {
+    system.addEventListener(end, () => {
+      if (!dragged) return;
+      dragged = false;
+      paint();
+      keep();
+    });
+  }
+
+  // Links of this page that ask something of the bench need no new page.
+  const again = () => {
+    question = asked(location.search);
+    show();
+  };
+  addEventListener("popstate", again);
+  document.addEventListener("click", event => {
+    const link = event.target.closest?.("a[href$='#bench']");
+    if (!link || link.pathname !== location.pathname || !link.search) return;
+    if (event.ctrlKey || event.metaKey || event.shiftKey || event.button) return;
+    try { history.pushState(null, "", link.href); } catch { return; }
+    event.preventDefault();
+    again();
+    document.getElementById("bench")?.scrollIntoView();
+  });
+  new ResizeObserver(() => {
+    if (root.clientWidth === width) return;
+    width = root.clientWidth;
+    paint();
+  }).observe(root);
+  show();
+};
+for (const root of document.querySelectorAll(".bench")) open(root);

@@ -1,0 +1,308 @@
+// What a run of the recursion comes to. The formulas are those of `formulas`, which is generated; here are
+// the numbers they are read in, the reading of what is typed, and what can be said of a run.
+
+/* Fractions: { n, d } in lowest terms, d > 0. */
+
+const size = n => (n < 0n ? -n : n);
+const divisor = (a, b) => {
+  while (b) [a, b] = [b, a % b];
+  return size(a);
+};
+const fraction = (n, d = 1n) => {
+  const g = d < 0n ? -divisor(n, d) : divisor(n, d);
+  return { n: n / g, d: d / g };
+};
+const same = (a, b) => a.n === b.n && a.d === b.d;
+
+// Common divisors are taken out of small numbers first: of two long denominators one often divides the other.
+const sum = (a, b) => {
+  const g = divisor(a.d, b.d);
+  const n = a.n * (b.d / g) + b.n * (a.d / g);
+  const h = divisor(n, g);
+  return { n: n / h, d: (a.d / g) * (b.d / h) };
+};
+const product = (a, b) => {
+  const g = divisor(a.n, b.d), h = divisor(b.n, a.d);
+  return { n: (a.n / g) * (b.n / h), d: (a.d / h) * (b.d / g) };
+};
+const inverse = ({ n, d }) => {
+  if (!n) throw RangeError("division by zero");
+  return n < 0n ? { n: -d, d: -n } : { n: d, d: n };
+};
+const minus = a => ({ n: -a.n, d: a.d });
+const below = (a, b) => a.n * b.d < b.n * a.d;
+const zero = { n: 0n, d: 1n };
+const magnitude = a => ({ n: size(a.n), d: a.d });
+
+/* What the formulas are read in. */
+
+const fractions = {
+  int: n => ({ n: BigInt(n), d: 1n }),
+  neg: minus,
+  add: sum,
+  sub: (a, b) => sum(a, minus(b)),
+  mul: product,
+  div: (a, b) => product(a, inverse(b)),
+  positivePart: a => (a.n > 0n ? a : zero),
+  min: (a, b) => (below(b, a) ? b : a),
+};
+
+// As src/number compares: ⟨−0⟩ is 0, and of two numbers neither of which is smaller the first is taken. To
+// round what f64 computes of two f32 is to round once, since 53 ≥ 2·24 + 2.
+const floats = round => ({
+  int: n => round(n),
+  neg: a => -a,
+  add: (a, b) => round(a + b),
+  sub: (a, b) => round(a - b),
+  mul: (a, b) => round(a * b),
+  div: (a, b) => round(a / b),
+  positivePart: a => (a > 0 ? a : 0),
+  min: (a, b) => (b < a ? b : a),
+});
+
+/* Between fractions, floats and texts. */
+
+const bits = n => {
+  const digits = size(n).toString(16);
+  return n ? digits.length * 4 - Math.clz32(parseInt(digits[0], 16)) + 28 : 0;
+};
+
+// The fraction that a finite f64 is.
+const exactly = x => {
+  const [word] = new BigUint64Array(Float64Array.of(x).buffer);
+  const exponent = Number((word >> 52n) & 2047n), digits = word & (2n ** 52n - 1n);
+  const n = exponent ? digits + 2n ** 52n : digits, shift = BigInt(Math.max(exponent, 1) - 1075);
+  const a = shift < 0n ? fraction(n, 1n << -shift) : fraction(n << shift);
+  return word >> 63n ? minus(a) : a;
+};
+
+// The nearest number of so many bits, ties to even; `lowest` is the exponent of the smallest.
+const nearest = (a, precision, lowest) => {
+  const over = exponent => (exponent < 0 ? size(a.n) << BigInt(-exponent) : size(a.n));
+  const under = exponent => (exponent < 0 ? a.d : a.d << BigInt(exponent));
+  const lead = bits(a.n) - bits(a.d);
+  const exponent = Math.max(lead - precision + (over(lead) < under(lead) ? 0 : 1), lowest);
+  const q = over(exponent) / under(exponent), twice = 2n * (over(exponent) % under(exponent));
+  const up = twice > under(exponent) || (twice === under(exponent) && q % 2n === 1n);
+  // In two parts, as 2 to the exponent may be no float.
+  const half = Math.trunc(exponent / 2);
+  return (a.n < 0n ? -1 : 1) * Number(up ? q + 1n : q) * 2 ** half * 2 ** (exponent - half);
+};
+
+// log₁₀ of a positive fraction, by its digits: it may be no float.
+const log10 = ({ n, d }) => {
+  const log2 = n => {
+    const shift = Math.max(bits(n) - 53, 0);
+    return Math.log2(Number(n >> BigInt(shift))) + shift;
+  };
+  return (log2(n) - log2(d)) * Math.LOG10E * Math.LN2;
+};
+
+const LONGEST = 40, LARGEST = 400;
+
+// What a text spells, exactly: a decimal, with an exponent perhaps, or a fraction.
+const parse = text => {
+  const plain = text.trim().replace("−", "-");
+  const ratio = /^([+-]?\d+)\/(\d+)$/.exec(plain);
+  const decimal = /^([+-]?)(\d*)\.?(\d*)(?:[eE]([+-]?\d+))?$/.exec(plain);
+  if (plain.length > LONGEST) throw RangeError(`more than ${LONGEST} characters`);
+  if (ratio) {
+    if (!BigInt(ratio[2])) throw RangeError("division by zero");
+    return fraction(BigInt(ratio[1]), BigInt(ratio[2]));
+  }
+  if (!decimal || !(decimal[2] + decimal[3])) throw RangeError("not a number such as 0.05, 5e-2 or 1/20");
+  const [, sign, whole, part, power = "0"] = decimal;
+  if (Math.abs(Number(power)) > LARGEST) throw RangeError(`an exponent beyond ±${LARGEST}`);
+  const shift = Number(power) - part.length;
+  const digits = BigInt(whole + part) * (sign === "-" ? -1n : 1n);
+  return shift < 0 ? fraction(digits, 10n ** BigInt(-shift)) : fraction(digits * 10n ** BigInt(shift));
+};
+
+// A fraction to so many digits, rounded, for people: 0.0481, 4.1·10⁻¹⁷.
+const brief = (a, digits = 3) => {
+  if (!a.n) return "0";
+  const scaled = power => {
+    const [n, d] = power < 0 ? [size(a.n), a.d * 10n ** BigInt(-power)] : [size(a.n) * 10n ** BigInt(power), a.d];
+    return ((2n * n + d) / (2n * d)).toString();
+  };
+  let power = digits - 1 - Math.floor(log10(magnitude(a)));
+  // The logarithm is rounded, and so is the number: there may be a digit more, or less.
+  power += digits - scaled(power).length;
+  const text = scaled(power).slice(0, digits), exponent = digits - 1 - power + scaled(power).length - digits;
+  const trimmed = text.replace(/0+$/, "");
+  const sign = a.n < 0n ? "−" : "";
+  if (exponent >= 6 || exponent < -4) {
+    const raised = String(exponent).replace(/./g, c => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[c]));
+    return `${sign}${trimmed[0]}${trimmed.length > 1 ? "." + trimmed.slice(1) : ""}·10${raised}`;
+  }
+  if (exponent < 0) return `${sign}0.${"0".repeat(-exponent - 1)}${trimmed}`;
+  const whole = text.padEnd(exponent + 1, "0").slice(0, exponent + 1), part = trimmed.slice(exponent + 1);
+  return `${sign}${whole}${part && "." + part}`;
+};
+
+/* The number systems. */
+
+const machine = (name, precision, lowest, round) => {
+  const read = a => {
+    const x = nearest(a, precision, lowest);
+    if (!Number.isFinite(round(x))) throw RangeError(`too large for ${name}`);
+    if (a.n && !x) throw RangeError(`not zero, but nearest to zero in ${name}`);
+    return x;
+  };
+  // The shortest decimal that is read as this number.
+  const show = x => {
+    for (let digits = 1; digits < 17; digits += 1) {
+      const text = String(Number(x.toPrecision(digits)));
+      if (round(Number(text)) === x) return text;
+    }
+    return String(x);
+  };
+  return {
+    name, read, exactly, show, same: Object.is, finite: Number.isFinite, most: 10000,
+    precision: fraction(2n ** BigInt(precision)), f: formulas(floats(round)),
+  };
+};
+const systems = {
+  f32: machine("f32", 24, -149, Math.fround),
+  f64: machine("f64", 53, -1074, x => x),
+  exact: {
+    name: "exact", read: a => a, exactly: a => a, same, finite: () => true, most: 200,
+    show: a => (`${a.n}/${a.d}`.length > 24 ? `≈ ${brief(a, 12)}` : a.d === 1n ? `${a.n}` : `${a.n}/${a.d}`),
+    f: formulas(fractions),
+  },
+};
+
+/* What is asked for: the parameters as texts, how many steps, in which numbers, over which plane. */
+
+const PARAMETERS = ["c", "m", "g", "l", "H", "eps", "lambda"];
+const START = {
+  c: "100", m: "1", g: "9.81", l: "1", H: "1.05", eps: "100", lambda: "0", k: 4, numbers: "f64", plane: "both",
+};
+
+// The query of an address to what it asks for; what it does not name is as at the start.
+const asked = query => {
+  const given = new URLSearchParams(query), question = { ...START };
+  for (const name of PARAMETERS) question[name] = given.get(name) ?? START[name];
+  if (Object.hasOwn(systems, given.get("numbers"))) question.numbers = given.get("numbers");
+  if (given.get("plane") === "one") question.plane = "one";
+  if (/^\d{1,5}$/.test(given.get("k"))) question.k = Number(given.get("k"));
+  return question;
+};
+const address = question => {
+  const changed = Object.entries(question).filter(([name, value]) => value !== START[name]);
+  return changed.length ? `?${new URLSearchParams(changed)}` : "";
+};
+
+const POSITIVE = ["c", "m", "eps"];
+
+// The parameters as numbers, or what is wrong with them, by name.
+const numbers = question => {
+  const { read } = systems[question.numbers], values = {}, wrong = {};
+  for (const name of PARAMETERS) {
+    try {
+      const exact = parse(question[name]);
+      if (POSITIVE.includes(name) && exact.n <= 0n) throw RangeError("not greater than 0");
+      values[name] = read(exact);
+    } catch (error) {
+      wrong[name] = error.message;
+    }
+  }
+  return { values, wrong };
+};
+
+/* The recursion. */
+
+// More binary digits than a fraction may have: each step makes it longer.
+const LENGTH = 20000;
+
+const recursion = ({ numbers, plane }, values) => {
+  const { f } = systems[numbers], prefix = plane === "one" ? "augmented::unilateral_" : "augmented::";
+  return lambda => {
+    const u = f[`${prefix}deflection`]({ ...values, lambda });
+    const p = f["contact::penetration"]({ ...values, u });
+    return { lambda, u, p, next: f[`${prefix}update`]({ ...values, lambda, u }) };
+  };
+};
+
+// In how many steps λ is the same again, bit for bit; exactly it is at once or never.
+const period = (system, step, { lambda, next }) => {
+  for (let m = 1; m <= (system.precision ? 8 : 1); m += 1) {
+    if (system.same(next, lambda)) return m;
+    next = step(next).next;
+  }
+  return undefined;
+};
+
+// Steps 0 to k, or fewer where the numbers end; or, as a `whole`, until λ repeats.
+const run = (question, values, whole = false) => {
+  const system = systems[question.numbers], step = recursion(question, values);
+  const last = Math.min(whole ? system.most : question.k, system.most);
+  const rows = [], seen = new Set();
+  let at = step(values.lambda), ended;
+  for (;;) {
+    rows.push(at);
+    seen.add(at.lambda);
+    if (![at.u, at.p, at.next].every(system.finite)) ended = "overflow";
+    else if (!system.precision && bits(at.next.d) > LENGTH) ended = "length";
+    else if (rows.length > system.most) ended = "most";
+    if (ended || rows.length > last) break;
+    if (whole && (seen.has(at.next) || system.same(at.next, at.lambda))) break;
+    at = step(at.next);
+  }
+  return { question, values, system, rows, ended, period: ended ? undefined : period(system, step, at) };
+};
+
+/* What can be said of it. All that is compared with what was computed is computed in fractions. */
+
+const exact = systems.exact.f;
+const inFractions = ({ values, system }) =>
+  Object.fromEntries(Object.entries(values).map(([name, value]) => [name, system.exactly(value)]));
+
+// The penetration of a computed deflection.
+const penetration = (run, { u }) => exact["contact::penetration"]({ ...inFractions(run), u: run.system.exactly(u) });
+
+const verdict = run => {
+  const { question, system, rows, ended, period } = run;
+  const at = rows.at(-1), before = rows.at(-2), k = rows.length - 1;
+  const one = question.plane === "one", values = inFractions(run);
+  if (ended === "overflow") return { kind: "overflow", text: `At step ${k} a number is too large for ${system.name}.` };
+
+  const reaction = exact["system::reaction"](values);
+  const force = one ? exact["contact::contact_force"](values) : reaction;
+  const p = penetration(run, at), missing = lambda => magnitude(fractions.sub(system.exactly(lambda), force));
+  const off = lambda => {
+    const by = missing(lambda);
+    if (!by.n) return `λ is the force ${one ? "⟨R⟩" : "R"} exactly`;
+    const part = force.n ? `, ${brief(fractions.div(by, magnitude(force)))} of it` : "";
+    return `λ misses ${one ? "⟨R⟩" : "R"} = ${brief(force)} N by ${brief(by)} N${part}`;
+  };
+  const notes = [];
+  if (reaction.n < 0n && !one) notes.push("R < 0, and the plane pulls: so (1.16) is printed. One that only pushes would let go.");
+  if (reaction.n < 0n && one && system.exactly(at.next).n) notes.push("R < 0: the mass will hang free once λ is 0.");
+  if (ended === "most") notes.push(`The bench makes no more than ${system.most} steps in these numbers.`);
+  if (ended === "length") notes.push(`The bench goes no further: λ is a fraction of ${bits(at.next.d)} binary digits below the line.`);
+  const say = (kind, ...sentences) => ({ kind, text: [...sentences, ...notes].join(" ") });
+
+  if (system.precision && at.p === 0 && (p.n || missing(at.next).n)) {
+    return say("false zero", `The computed p is 0, so that λ repeats.`,
+      p.n ? `At the computed u it is ${brief(p)} m.` : `At the computed u it is 0 indeed,`, `And ${off(at.next)}.`);
+  }
+  if (period === 1) {
+    if (one && reaction.n < 0n && !system.exactly(at.lambda).n) {
+      return say("separated", `R = ${brief(reaction)} N < 0: the mass hangs free, ${brief(magnitude(p))} m above the plane, and λ stays 0.`);
+    }
+    return say("fixed point", `λ repeats bit for bit: ε p is too small to change it.`, `At the computed u, p = ${brief(p)} m. ${off(at.next)}.`);
+  }
+  if (period > 1) {
+    return say(`${period}-cycle`, `λ is the same again after ${period} steps, and never after one: a test that waits for it to repeat waits for ever.`,
+      `Now ${off(at.lambda)}; next ${off(at.next)}.`);
+  }
+  // What tends to zero: the penetration, or over a plane that only pushes the natural residual.
+  const rest = row => system.exactly(one ? system.f["augmented::natural_residual"]({ ...run.values, ...row }) : row.p);
+  const [now, then] = [at, before ?? at].map(rest);
+  if (below(magnitude(then), magnitude(now)) || now.n * then.n < 0n) {
+    return say("moving", "λ still moves, but rounding moves it: what should fall does not.", `Now ${off(at.next)}.`);
+  }
+  const rho = exact["augmented::contraction"](values);
+  return say("converging", `Exactly, a step multiplies p by ρ = c/(c + ε) = ${brief(rho)}.`, `p = ${brief(p)} m, and ${off(at.next)}.`);
+};
