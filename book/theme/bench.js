@@ -7,22 +7,25 @@ const FIELDS = {
   g: { sign: "g", name: "gravity", unit: "m/s²", from: -20, to: 20 },
   l: { sign: "l", name: "free length", unit: "m", from: 0, to: 5 },
   H: { sign: "H", name: "height of the plane", unit: "m", from: 0, to: 5 },
-  lambda: { sign: "λ₀", name: "multiplier to start from", unit: "N", from: -50, to: 50 },
+  lambda: { sign: "λ₀", name: "first multiplier", unit: "N", from: -50, to: 50 },
 };
 // A position of a slider as a number that is short to write.
 const written = ({ powers }, x) => (powers ? String(Number((10 ** x).toPrecision(3))) : String(Number(x.toFixed(2))));
 const position = ({ powers }, a) => (powers ? log10(a) : nearest(a, 53, -1074));
 
+// A line of a drawing and its name.
+const key = (of, name) => `<span><svg viewBox="0 0 28 14" aria-hidden="true">${of}</svg>${name}</span>`;
 const LIVE = `
 <div class="bench-views">
-  <svg class="bench-system" role="group" aria-label="The system, with the plane to be moved"></svg>
-  <svg class="bench-forces" role="img" aria-label="Forces over penetration"></svg>
+  <svg class="bench-system" role="group" aria-label="The system; its plane can be moved"></svg>
+  <svg class="bench-forces" role="img" aria-label="Forces over penetrations"></svg>
 </div>
-<p class="bench-key">
-  <span class="bench-spring">equilibrium <i>c p</i> + <i>N</i> = <i>R</i></span>
-  <span class="bench-plane">the plane</span>
-  <span class="bench-iterate"><i>N</i> = <i>λ<sub>k</sub></i> + <i>ε p</i></span>
-</p>
+<div class="bench-key">
+  ${key('<path class="bench-spring" d="M0 3L28 11"/>', "equilibrium, <i>c p</i> + <i>N</i> = <i>R</i>")}
+  ${key('<path class="bench-plane bench-corner" d="M0 12H14V0"/>', "the plane")}
+  ${key('<path class="bench-iterate" stroke-dasharray="7 4" d="M0 12L28 2"/>', "<i>N</i> = <i>λ<sub>k</sub></i> + <i>ε p</i>")}
+  ${key('<path class="bench-iterate bench-thin" d="M4 13L20 7H4"/><circle class="bench-dot" cx="20" cy="7" r="3"/>', "the steps")}
+</div>
 <div class="bench-buttons">
   <button type="button" data-step="1">Step</button>
   <button type="button" data-step="10">10 steps</button>
@@ -33,27 +36,28 @@ const LIVE = `
 <p class="bench-verdict" role="status"></p>
 <div class="bench-fields">${Object.entries(FIELDS).map(([key, { sign, name, unit, from, to }]) => `
   <label for="bench-${key}"><i>${sign}</i> <span>${name}</span></label>
-  <input type="range" min="${from}" max="${to}" step="${(to - from) / 1000}" data-slide="${key}" aria-label="${name}, ${sign}">
-  <span><input type="text" id="bench-${key}" size="9" inputmode="text" autocomplete="off" spellcheck="false" data-text="${key}" aria-describedby="bench-wrong"> ${unit}</span>`).join("")}
+  <input type="range" min="${from}" max="${to}" step="${(to - from) / 1000}" data-slide="${key}" aria-label="${name} ${sign}, by a slider">
+  <span><input type="text" id="bench-${key}" aria-label="${name} ${sign}, in ${unit}" size="9" autocomplete="off" autocapitalize="off" spellcheck="false" data-text="${key}" aria-describedby="bench-wrong"> <span class="bench-unit">${unit}</span></span>`).join("")}
   <label for="bench-numbers">numbers</label>
   <select id="bench-numbers" data-choice="numbers">
     <option value="f32">f32</option><option value="f64">f64</option><option value="exact">exact fractions</option>
-  </select><span></span>
+  </select>
   <label for="bench-side">plane</label>
   <select id="bench-side" data-choice="plane">
-    <option value="both">as printed: also pulls</option><option value="one">only pushes</option>
-  </select><span></span>
+    <option value="both">as printed: it also pulls</option><option value="one">it only pushes</option>
+  </select>
 </div>
 <p class="bench-wrong" id="bench-wrong" role="alert"></p>
-<svg class="bench-decay" role="img" aria-label="The penetration against the step"></svg>
-<p class="bench-key">
-  <span class="bench-dot">computed |<i>p<sub>k</sub></i>|</span>
-  <span class="bench-ring">|<i>p</i>| at the computed <i>u<sub>k</sub></i>, in fractions</span>
-  <span class="bench-line"><i>ρ<sup>k</sup></i> |<i>p</i><sub>0</sub>|, exact arithmetic</span>
-</p>
+<svg class="bench-decay" role="img" aria-label="The penetration at each step, on a scale of powers of ten"></svg>
+<div class="bench-key">
+  ${key('<circle class="bench-dot" cx="14" cy="7" r="3"/>', "|<i>p<sub>k</sub></i>| as computed")}
+  ${key('<circle class="bench-ring" cx="14" cy="7" r="5"/>', "|<i>p</i>| at the computed <i>u<sub>k</sub></i>, exactly")}
+  ${key('<path class="bench-faint" stroke-dasharray="4 3" d="M0 2L28 12"/>', "<i>ρ<sup>k</sup></i>|<i>p</i><sub>0</sub>|")}
+  ${key('<path class="bench-thin" stroke-dasharray="1 3" d="M0 7H28"/>', "<i>F</i>, of the rounding floor")}
+</div>
 <div class="bench-table" role="region" aria-label="The steps in numbers" tabindex="0"><table>
-  <thead><tr><th><i>k</i></th><th><i>λ<sub>k</sub></i> in N</th><th><i>u<sub>k</sub></i> in m</th><th><i>p<sub>k</sub></i> in m</th>
-  <th><i>λ<sub>k</sub></i><sub>+1</sub> in N</th></tr></thead><tbody></tbody>
+  <thead><tr><th scope="col"><i>k</i></th><th scope="col"><i>λ<sub>k</sub></i> in N</th><th scope="col"><i>u<sub>k</sub></i> in m</th>
+  <th scope="col"><i>p<sub>k</sub></i> in m</th><th scope="col"><i>λ</i><sub><i>k</i>+1</sub> in N</th></tr></thead><tbody></tbody>
 </table></div>
 <p class="bench-more"></p>`;
 
@@ -158,7 +162,7 @@ const drawForces = (svg, { values, rows }, run) => {
     line([0, 0], [0, 1], { class: "bench-faint" }),
     label(width - 4, y0 + 15, "p", { class: "bench-italic bench-end" }), label(x0 + 6, 14, "N", { class: "bench-italic" }),
     line([p(gap), real["augmented::contact_force"]({ ...values, u: gap })], [p(far), real["augmented::contact_force"]({ ...values, u: far })], { class: "bench-spring" }),
-    path([at([left, 0]), at([0, 0]), at([0, high])], { class: "bench-plane", "stroke-width": 3 }),
+    path([at([left, 0]), at([0, 0]), at([0, high])], { class: "bench-plane bench-corner" }),
     label(x0 - 6, at([0, reaction])[1] - 5, "R", { class: "bench-italic bench-end" }),
   ];
   const now = rows.at(-1);
@@ -170,42 +174,52 @@ const drawForces = (svg, { values, rows }, run) => {
     parts.push(path(way.map(at), { class: "bench-iterate bench-thin" }));
     for (const row of rows.slice(-40)) {
       const [cx, cy] = at([row.p, row.next]);
-      parts.push(draw("circle", { cx, cy, r: row === now ? 5 : 2.5, class: "bench-iterate bench-dot" }));
+      parts.push(draw("circle", { cx, cy, r: row === now ? 5 : 2.5, class: "bench-dot" }));
     }
   }
   svg.replaceChildren(...parts);
 };
 
-const drawDecay = (svg, { rows }, run) => {
-  const width = svg.clientWidth, height = svg.clientHeight, left = 44, bottom = height - 34;
+const drawDecay = (svg, { values, rows }, run) => {
+  const width = svg.clientWidth, height = svg.clientHeight, left = 50, bottom = height - 26;
   const decades = a => (a.n ? log10(magnitude(a)) : undefined);
-  const points = rows.map(({ k, row }) => ({ k, computed: decades(run.system.exactly(row.p)), true: decades(penetration(run, row)) }));
+  const points = rows.map(({ k, row }) => ({
+    k, computed: decades(run.system.exactly(row.p)), exact: decades(penetration(run, row)),
+  }));
+  const { precision } = run.system, given = inFractions(run);
+  const least = precision && exact["system::reaction"](given).n >= 0n
+    ? decades(exact["rounding::floor"]({ ...given, n: precision })) : undefined;
+  const known = [...points.flatMap(point => [point.computed, point.exact]), least].filter(value => value !== undefined);
   const last = Math.max(10, points.at(-1)?.k ?? 0);
-  const known = points.flatMap(point => [point.computed, point.true]).filter(value => value !== undefined);
-  const high = Math.ceil(Math.max(...known, -Infinity) + 0.1), low = Math.min(Math.floor(Math.min(...known, Infinity) - 0.1), high - 3);
-  const x = k => left + 8 + k / last * (width - left - 20);
-  const y = value => (known.length ? 10 + (high - value) / (high - low) * (bottom - 26) : bottom - 16);
-  const every = Math.ceil((high - low) / 6);
+  const high = known.length ? Math.ceil(Math.max(...known) + 0.1) : 0;
+  const low = known.length ? Math.min(Math.floor(Math.min(...known) - 0.1), high - 3) : -3;
+  const x = k => left + 10 + k / last * (width - left - 24);
+  const y = value => (value === undefined ? bottom : 12 + (high - value) / (high - low) * (bottom - 32));
+  const level = (value, attributes) => path([[left, y(value)], [width - 4, y(value)]], attributes);
   const parts = [path([[left, 4], [left, bottom], [width - 4, bottom]], { class: "bench-thin" })];
-  for (let tick = high; known.length && tick >= low; tick -= every) {
-    parts.push(path([[left, y(tick)], [width - 4, y(tick)]], { class: "bench-faint" }));
-    parts.push(label(left - 5, y(tick) + 4, brief(log10Fraction(tick), 1).replace("1·", ""), { class: "bench-end" }));
+  const every = Math.ceil((high - low) / Math.max(2, Math.floor(bottom / 40)));
+  for (let tick = high; tick >= low; tick -= every) {
+    parts.push(level(tick, { class: "bench-faint" }), label(left - 6, y(tick) + 4, `10${raised(tick)}`, { class: "bench-end" }));
   }
-  parts.push(label(left - 5, bottom + 4, "0", { class: "bench-end" }), label(width - 4, height - 4, `k = ${last}`, { class: "bench-end" }), label(left, height - 4, "0"));
-  const first = points[0], rho = Math.log10(real["augmented::contraction"](seen(run).values));
-  if (first?.true !== undefined && run.question.plane === "both") {
-    parts.push(line2([0, first.true], [last, first.true + last * rho]));
+  parts.push(
+    label(left - 6, bottom + 4, "0", { class: "bench-end" }),
+    label(left + 7, height - 8, "0"), label(width - 4, height - 8, `k = ${last}`, { class: "bench-end" }),
+  );
+  const rho = Math.log10(real["augmented::contraction"](values)), start = points[0]?.exact;
+  // As long as no bracket closes, which it does for good where the mass hangs free.
+  if (start !== undefined && (run.question.plane === "both" || exact["system::reaction"](given).n >= 0n)) {
+    const ends = clipped([0, start], [last, start + last * rho], [[0, low], [last, high]]);
+    parts.push(path(ends.map(([k, value]) => [x(k), y(value)]), { class: "bench-faint", "stroke-dasharray": "4 3" }));
   }
-  for (const { k, computed, true: exact } of points) {
-    parts.push(draw("circle", { cx: x(k), cy: exact === undefined ? bottom : y(exact), r: 5, class: "bench-ring" }));
-    parts.push(draw("circle", { cx: x(k), cy: computed === undefined ? bottom : y(computed), r: 2.5, class: "bench-iterate bench-dot" }));
+  if (least !== undefined) {
+    parts.push(level(least, { class: "bench-thin", "stroke-dasharray": "1 3" }), label(width - 4, y(least) - 4, "F", { class: "bench-italic bench-end" }));
   }
-  function line2(a, b) {
-    return path(clipped(a, b, [[0, low], [last, high]]).map(([k, value]) => [x(k), y(value)]), { class: "bench-faint", "stroke-dasharray": "4 3" });
+  for (const point of points) {
+    parts.push(draw("circle", { cx: x(point.k), cy: y(point.exact), r: 5, class: "bench-ring" }));
+    parts.push(draw("circle", { cx: x(point.k), cy: y(point.computed), r: 2.5, class: "bench-dot" }));
   }
   svg.replaceChildren(...parts);
 };
-const log10Fraction = power => (power < 0 ? fraction(1n, 10n ** BigInt(-power)) : fraction(10n ** BigInt(power)));
 
 /* The page. */
 

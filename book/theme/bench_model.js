@@ -118,27 +118,30 @@ const parse = text => {
   return shift < 0 ? fraction(digits, 10n ** BigInt(-shift)) : fraction(digits * 10n ** BigInt(shift));
 };
 
+const raised = n => String(n).replace(/./g, c => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[c]));
+
 // A fraction to so many digits, rounded, for people: 0.0481, 4.1·10⁻¹⁷.
 const brief = (a, digits = 3) => {
   if (!a.n) return "0";
-  const scaled = power => {
-    const [n, d] = power < 0 ? [size(a.n), a.d * 10n ** BigInt(-power)] : [size(a.n) * 10n ** BigInt(power), a.d];
-    return ((2n * n + d) / (2n * d)).toString();
+  const times = power => (power < 0 ? fraction(1n, 10n ** BigInt(-power)) : fraction(10n ** BigInt(power)));
+  const rounded = power => {
+    const { n, d } = product(magnitude(a), times(power));
+    return String((2n * n + d) / (2n * d));
   };
-  let power = digits - 1 - Math.floor(log10(magnitude(a)));
-  // The logarithm is rounded, and so is the number: there may be a digit more, or less.
-  power += digits - scaled(power).length;
-  const text = scaled(power).slice(0, digits), exponent = digits - 1 - power + scaled(power).length - digits;
-  const trimmed = text.replace(/0+$/, "");
-  const sign = a.n < 0n ? "−" : "";
-  if (exponent >= 6 || exponent < -4) {
-    const raised = String(exponent).replace(/./g, c => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[c]));
-    return `${sign}${trimmed[0]}${trimmed.length > 1 ? "." + trimmed.slice(1) : ""}·10${raised}`;
-  }
-  if (exponent < 0) return `${sign}0.${"0".repeat(-exponent - 1)}${trimmed}`;
-  const whole = text.padEnd(exponent + 1, "0").slice(0, exponent + 1), part = trimmed.slice(exponent + 1);
-  return `${sign}${whole}${part && "." + part}`;
+  // The logarithm is rounded, and then the number is: there may be a digit more or less than asked for.
+  let exponent = Math.floor(log10(magnitude(a)));
+  exponent += rounded(digits - 1 - exponent).length - digits;
+  const all = rounded(digits - 1 - exponent), sign = a.n < 0n ? "−" : "";
+  if (all.length > digits) exponent += 1;
+  const text = all.slice(0, digits).replace(/0+$/, "");
+  const point = (whole, part) => sign + whole + (part && `.${part}`);
+  if (exponent >= 6 || exponent < -4) return `${point(text[0], text.slice(1))}·10${raised(exponent)}`;
+  if (exponent < 0) return point("0", "0".repeat(-exponent - 1) + text);
+  return point(text.slice(0, exponent + 1).padEnd(exponent + 1, "0"), text.slice(exponent + 1));
 };
+
+// A part of something: in percent, unless it is small.
+const share = a => (below(a, { n: 1n, d: 1000n }) ? brief(a) : `${brief(product(a, { n: 100n, d: 1n }))} %`);
 
 /* The number systems. */
 
@@ -267,42 +270,46 @@ const verdict = run => {
   const one = question.plane === "one", values = inFractions(run);
   if (ended === "overflow") return { kind: "overflow", text: `At step ${k} a number is too large for ${system.name}.` };
 
-  const reaction = exact["system::reaction"](values);
-  const force = one ? exact["contact::contact_force"](values) : reaction;
-  const p = penetration(run, at), missing = lambda => magnitude(fractions.sub(system.exactly(lambda), force));
-  const off = lambda => {
-    const by = missing(lambda);
-    if (!by.n) return `λ is the force ${one ? "⟨R⟩" : "R"} exactly`;
-    const part = force.n ? `, ${brief(fractions.div(by, magnitude(force)))} of it` : "";
-    return `λ misses ${one ? "⟨R⟩" : "R"} = ${brief(force)} N by ${brief(by)} N${part}`;
+  const reaction = exact["system::reaction"](values), apart = reaction.n < 0n;
+  const force = one ? exact["contact::contact_force"](values) : reaction, name = one ? "⟨R⟩" : "R";
+  const p = penetration(run, at), n = system.precision;
+  const missed = lambda => {
+    const by = magnitude(fractions.sub(system.exactly(lambda), force));
+    return `${brief(by)} N${by.n && force.n ? ` (${share(fractions.div(by, magnitude(force)))} of it)` : ""}`;
   };
+  const wrong = system.exactly(at.next), right = same(wrong, force);
+  const off = right ? `the force λ + ε p is ${name} exactly` : `the force λ + ε p misses ${name} = ${brief(force)} N by ${missed(at.next)}`;
   const notes = [];
-  if (reaction.n < 0n && !one) notes.push("R < 0, and the plane pulls: so (1.16) is printed. One that only pushes would let go.");
-  if (reaction.n < 0n && one && system.exactly(at.next).n) notes.push("R < 0: the mass will hang free once λ is 0.");
+  if (apart && !one) notes.push("R < 0, and the plane pulls, as (1.16) is printed; one that only pushes would let go.");
+  if (apart && one && wrong.n) notes.push("R < 0: the mass will hang free once λ is 0.");
   if (ended === "most") notes.push(`The bench makes no more than ${system.most} steps in these numbers.`);
-  if (ended === "length") notes.push(`The bench goes no further: λ is a fraction of ${bits(at.next.d)} binary digits below the line.`);
+  if (ended === "length") notes.push(`The bench goes no further: the denominator of λ has ${bits(at.next.d)} binary digits.`);
   const say = (kind, ...sentences) => ({ kind, text: [...sentences, ...notes].join(" ") });
 
-  if (system.precision && at.p === 0 && (p.n || missing(at.next).n)) {
-    return say("false zero", `The computed p is 0, so that λ repeats.`,
-      p.n ? `At the computed u it is ${brief(p)} m.` : `At the computed u it is 0 indeed,`, `And ${off(at.next)}.`);
+  // What a fixed point may miss, by note 8, in exact arithmetic on what was computed.
+  const bound = () => brief(exact["rounding::fixed_point_error"]({ ...values, lambda: system.exactly(at.lambda), n }));
+  if (n && at.p === 0 && !(right && !p.n)) {
+    return say("false zero", "The computed p is 0, and so λ repeats.",
+      p.n ? `But at the computed u, p = ${brief(p)} m (at a fixed point it may be ±${bound()} m);` : "At the computed u it is 0 indeed,", `${p.n ? "" : "but "}${off}.`);
   }
+  if (apart && one && !wrong.n) {
+    return say("separated", `R = ${brief(reaction)} N < 0: the mass hangs free, ${brief(magnitude(p))} m above the plane, and λ stays 0.`);
+  }
+  if (period === 1 && !n) return say("fixed point", `p = 0, and ${off}: this is the solution.`);
   if (period === 1) {
-    if (one && reaction.n < 0n && !system.exactly(at.lambda).n) {
-      return say("separated", `R = ${brief(reaction)} N < 0: the mass hangs free, ${brief(magnitude(p))} m above the plane, and λ stays 0.`);
-    }
-    return say("fixed point", `λ repeats bit for bit: ε p is too small to change it.`, `At the computed u, p = ${brief(p)} m. ${off(at.next)}.`);
+    return say("fixed point", at.p === 0 ? "λ repeats bit for bit." : "λ repeats bit for bit: ε p is too small to change it.",
+      `At the computed u, p = ${brief(p)} m (it may be ±${bound()} m); ${off}.`);
   }
   if (period > 1) {
-    return say(`${period}-cycle`, `λ is the same again after ${period} steps, and never after one: a test that waits for it to repeat waits for ever.`,
-      `Now ${off(at.lambda)}; next ${off(at.next)}.`);
+    return say(`${period}-cycle`, `λ is the same again after ${period} steps, and never after one: who waits for it to repeat waits for ever.`,
+      `λ misses ${name} = ${brief(force)} N by ${missed(at.lambda)} now and by ${missed(at.next)} next.`);
   }
   // What tends to zero: the penetration, or over a plane that only pushes the natural residual.
   const rest = row => system.exactly(one ? system.f["augmented::natural_residual"]({ ...run.values, ...row }) : row.p);
   const [now, then] = [at, before ?? at].map(rest);
   if (below(magnitude(then), magnitude(now)) || now.n * then.n < 0n) {
-    return say("moving", "λ still moves, but rounding moves it: what should fall does not.", `Now ${off(at.next)}.`);
+    return say("moving", `λ still changes, but by rounding: what should fall does not. At the computed u, p = ${brief(p)} m, and ${off}.`);
   }
   const rho = exact["augmented::contraction"](values);
-  return say("converging", `Exactly, a step multiplies p by ρ = c/(c + ε) = ${brief(rho)}.`, `p = ${brief(p)} m, and ${off(at.next)}.`);
+  return say("converging", `Exactly, a step multiplies R − λ by ρ = ${brief(rho)}. At the computed u, p = ${brief(p)} m, and ${off}.`);
 };

@@ -4,12 +4,15 @@
 //! Without node these tests say so and pass; with `NODE=path` that one is run, and it is an error if it cannot be.
 
 use book_tool::bench::{MODEL, formulas, functions};
+use regex::Regex;
 use serde_json::{Value, json};
-use spring_mass_contact::chapter::{SpringMass, augmented};
-use spring_mass_contact::number::{Exact, Field, PositivePart};
+use spring_mass_contact::chapter::{SpringMass, augmented, contact, system};
+use spring_mass_contact::number::{Exact, Field, PositivePart, ToExact};
 use std::{
+    collections::BTreeSet,
     env,
     fmt::Write as _,
+    fs,
     io::{ErrorKind, Write as _},
     process::{Command, Stdio},
 };
@@ -34,7 +37,9 @@ fn printed(script: &str, input: &Value) -> Option<String> {
 
 fn assert_same_lines(expected: &str, found: &str) {
     for (i, (expected, found)) in expected.lines().zip(found.lines()).enumerate() {
-        assert_eq!(found, expected, "line {i}: found, expected");
+        for (expected, found) in expected.split(' ').zip(found.split(' ')) {
+            assert_eq!(found, expected, "line {i}: found, expected");
+        }
     }
     assert_eq!(found.lines().count(), expected.lines().count());
 }
@@ -135,9 +140,6 @@ fn lines<T: PositivePart>(
 
 /// The same lines by the bench; `read` makes numbers of the input's texts, `show` texts of numbers.
 const LINES: &str = r#"
-const number = new Float64Array(1), word = new BigUint64Array(number.buffer);
-const float = text => { word[0] = BigInt("0x" + text); return number[0]; };
-const hex = x => { number[0] = x; return Number.isNaN(x) ? "NaN" : word[0].toString(16).padStart(16, "0"); };
 const ratio = ({ n, d }) => (d === 1n ? `${n}` : `${n}/${d}`);
 const text = [];
 for (const [numbers, steps, ...given] of input) {
@@ -182,7 +184,7 @@ fn floats_are_those_of_the_crate_bit_for_bit() {
         lines(&mut text, (&system, &eps, &lambda, &n), steps, show);
     }
     assert!(text.contains("NaN") && text.contains("7ff0000000000000") && text.contains("8000000000000000"));
-    let Some(found) = printed(LINES, &input.into()) else { return };
+    let Some(found) = printed(&format!("{FLOAT}{LINES}"), &input.into()) else { return };
     assert_same_lines(&text, &found);
 }
 
@@ -210,6 +212,210 @@ fn fractions_are_those_of_the_crate() {
         lines(&mut text, (&system, &eps, &lambda, &n), steps, Exact::to_string);
     }
     // The bench refuses texts that are as long; its own numbers are.
-    let Some(found) = printed(LINES, &input.into()) else { return };
+    let Some(found) = printed(&format!("{FLOAT}{LINES}"), &input.into()) else { return };
     assert_same_lines(&text, &found);
+}
+
+/// The numbers of a [`Case`] in JavaScript, by their bits.
+const FLOAT: &str = r#"
+const number = new Float64Array(1), word = new BigUint64Array(number.buffer);
+const float = text => { word[0] = BigInt("0x" + text); return number[0]; };
+const hex = x => { number[0] = x; return Number.isNaN(x) ? "NaN" : word[0].toString(16).padStart(16, "0"); };
+"#;
+
+/// What is to be said of step `k`, from the definitions; what is not defined here has no name.
+fn kind<T: PositivePart + ToExact>(
+    system: &SpringMass<T>,
+    eps: &T,
+    start: &T,
+    one: bool,
+    k: usize,
+) -> &'static str {
+    let step = |lambda: &T| {
+        let u = if one {
+            augmented::unilateral_deflection(system, eps, lambda)
+        } else {
+            augmented::deflection(system, eps, lambda)
+        };
+        let update = if one { augmented::unilateral_update } else { augmented::update };
+        (update(system, eps, lambda, &u), u)
+    };
+    let lambda = (0..k).fold(start.clone(), |lambda, _| step(&lambda).0);
+    let (next, u) = step(&lambda);
+    let exact = |x: &T| x.to_exact().ok();
+    let (Some(was), Some(is), Some(then), Some(at)) =
+        (exact(&lambda), exact(&next), exact(&step(&next).0), exact(&u))
+    else {
+        return "";
+    };
+    let exactly = system.try_map(|x| x.to_exact()).unwrap();
+    let reaction = system::reaction(&exactly);
+    let force = if one { contact::contact_force(&exactly) } else { reaction.clone() };
+    let zero = Exact::from(0);
+    if contact::penetration(system, &u) == T::zero()
+        && (contact::penetration(&exactly, &at) != zero || is != force)
+    {
+        "false zero"
+    } else if one && reaction < zero && is == zero {
+        "separated"
+    } else if is == was {
+        "fixed point"
+    } else if then == was {
+        "2-cycle"
+    } else {
+        ""
+    }
+}
+
+#[test]
+fn verdicts_are_those_of_their_definitions() {
+    const KINDS: &str = r#"
+const known = ["false zero", "separated", "fixed point", "2-cycle"];
+for (const [numbers, k, ...given] of input) {
+  const [c, m, g, l, H, eps, lambda] = given.map(float);
+  for (const plane of ["both", "one"]) {
+    const { kind } = verdict(run({ numbers, plane, k }, { c, m, g, l, H, eps, lambda }));
+    console.log(known.includes(kind) ? kind : "");
+  }
+}
+"#;
+    let (mut text, mut input) = (String::new(), Vec::new());
+    // A zero with a sign is another float and the same number.
+    let valid = |x: f64| x.is_finite() && (x != 0.0 || x.is_sign_positive());
+    for Case { system, eps, lambda, steps } in cases() {
+        let all = [system.c, system.m, system.g, system.l, system.h, eps, lambda];
+        if all.into_iter().all(valid) {
+            let show = |x: &f64| bits(*x);
+            input.push(given("f64", steps, (&system, &eps, &lambda, &0.0), show));
+            for one in [false, true] {
+                writeln!(text, "{}", kind(&system, &eps, &lambda, one, steps)).unwrap();
+            }
+        }
+        if all.into_iter().all(|x| valid((x as f32).into())) && system.c as f32 > 0.0 && eps as f32 > 0.0 {
+            let (system, eps, lambda) = (system.map(|&x| x as f32), eps as f32, lambda as f32);
+            input.push(given("f32", steps, (&system, &eps, &lambda, &0.0), |x| bits(f64::from(*x))));
+            for one in [false, true] {
+                writeln!(text, "{}", kind(&system, &eps, &lambda, one, steps)).unwrap();
+            }
+        }
+    }
+    for kind in ["false zero", "separated", "fixed point", "2-cycle", ""] {
+        assert!(text.lines().any(|line| line == kind), "no {kind:?} is tried");
+    }
+    let Some(found) = printed(&format!("{FLOAT}{KINDS}"), &input.into()) else { return };
+    assert_same_lines(&text, &found);
+}
+
+/// Where the pages ask something of the bench, the title of the link says what it will say.
+#[test]
+fn links_to_the_bench_show_what_they_promise() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../src");
+    let link = Regex::new(r#"\(augmented\.html(\?[^#)\s]*)#bench(?: "([^"]*)")?\)"#).unwrap();
+    let (mut input, mut text) = (Vec::new(), String::new());
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|extension| extension == "md") {
+            let page = fs::read_to_string(&path).unwrap();
+            let links: Vec<_> = link.captures_iter(&page).collect();
+            assert_eq!(links.len(), page.matches("augmented.html?").count(), "{}", path.display());
+            for link in links {
+                let promise = link.get(2).unwrap_or_else(|| panic!("{} promises nothing", &link[0])).as_str();
+                input.push(json!(link[1]));
+                let mut pairs: Vec<_> = link[1][1..].split('&').collect();
+                pairs.sort_unstable();
+                writeln!(text, "{promise}, {}", pairs.join("&")).unwrap();
+            }
+        }
+    }
+    let promised: BTreeSet<_> = text.lines().filter_map(|line| line.split(',').next()).collect();
+    assert_eq!(Vec::from_iter(promised), ["2-cycle", "converging", "false zero", "fixed point", "separated"]);
+    const ASKED: &str = r#"
+for (const query of input) {
+  const question = asked(query), { values, wrong } = numbers(question), result = run(question, values);
+  // What is asked is what is there, and no name is misspelt.
+  const ended = result.rows.length - 1 === question.k ? "" : "ended early";
+  console.log([verdict(result).kind, address(question).slice(1).split("&").sort().join("&")].join(", ") + ended + Object.keys(wrong));
+}
+"#;
+    let Some(found) = printed(ASKED, &input.into()) else { return };
+    assert_eq!(found, text);
+}
+
+#[test]
+fn texts_are_read_as_the_crate_reads_them() {
+    let mut texts: Vec<String> = "0 -0 +1 0.05 5e-2 1/20 -7/3 +7/21 .5 5. 1.e3 1E+3 9.81 1e-45 7e-46 1.4e-45 1e39 1e308 1.8e308 1e309
+        4.9e-324 2e-324 3e-324 2.2250738585072011e-308 1e-400 1e400 16777217 16777219 9007199254740993 9007199254740995
+        9007199254740993.0000000000001 3.4028235677973366e38 3.4028235677973365e38 -1e-320 0e5 1/3 000.100
+        x 1e 1e+ e5 . - + 1/0 1/ /2 1/-2 1,5 0x10 1_0 NaN Infinity 1e5.0 1e5e5 --1 1//2 ½ ٣"
+        .split_whitespace()
+        .map(String::from)
+        .collect();
+    texts.push(String::new());
+    let mut draw = Draw(3);
+    for _ in 0..300 {
+        let power = draw.next() % 90;
+        texts.push(format!("{}.{}e{}", draw.next(), draw.next(), power as i64 - 60));
+        texts.push(format!("-{}e-{}", draw.next(), 300 + power % 30));
+    }
+    let mut expected = String::new();
+    for text in &texts {
+        let exact = text.parse::<Exact>();
+        let show = |exact: &Exact| exact.to_string();
+        let float = |exact: &Exact| exact.to_f64().map_or("refused".into(), bits);
+        let single = |exact: &Exact| exact.to_f32().map_or("refused".into(), |x| bits(x.into()));
+        let three = exact.as_ref().map(|exact| [show(exact), float(exact), single(exact)].join(" "));
+        writeln!(expected, "{text}: {}", three.unwrap_or("refused".into())).unwrap();
+    }
+    const READ: &str = r#"
+const attempt = f => { try { return f(); } catch (error) { if (error instanceof RangeError) return "refused"; throw error; } };
+for (const text of input) {
+  console.log(`${text}: ` + attempt(() => {
+    const a = parse(text);
+    const floats = ["f64", "f32"].map(name => attempt(() => {
+      const x = systems[name].read(a);
+      if (!Object.is(systems[name].read(parse(systems[name].show(x))), x)) return `shown as ${systems[name].show(x)}`;
+      if (name === "f64" && !Object.is(nearest(exactly(x), 53, -1074), x)) return "another when exact";
+      return hex(x);
+    }));
+    return [a.d === 1n ? `${a.n}` : `${a.n}/${a.d}`, ...floats].join(" ");
+  }));
+}
+"#;
+    let Some(found) = printed(&format!("{FLOAT}{READ}"), &json!(texts)) else { return };
+    assert_same_lines(&expected, &found);
+}
+
+/// What is rounded for people is as near as its digits allow.
+#[test]
+fn numbers_for_people_are_rounded_once() {
+    let mut texts: Vec<String> = "1 -1 999 999.4 999.5 999.6 0.9995 0.99951 123456 999499 999500 1e6 0.0001 0.00009999 0.000099995 1e-5 12345e300 1e-399
+        1/3 -2/3 100 1000 10 1e5 4.81 0.05 2.405 1/7"
+        .split_whitespace()
+        .map(String::from)
+        .collect();
+    let mut draw = Draw(4);
+    texts.extend((0..300).map(|_| format!("{}e{}", draw.next() + 1, draw.next() as i64 % 600 - 300)));
+    let Some(found) =
+        printed("for (const [text, digits] of input) console.log(brief(parse(text), digits));", {
+            &texts.iter().flat_map(|text| [3, 12].map(|digits| json!([text, digits]))).collect()
+        })
+    else {
+        return;
+    };
+    for (i, line) in found.lines().enumerate() {
+        let (text, digits) = (&texts[i / 2], [3, 12][i % 2]);
+        let plain: String = line
+            .replace("·10", "e")
+            .chars()
+            .map(|c| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().position(|d| d == c).map_or(c, |d| char::from(b'0' + d as u8)))
+            .map(|c| if "⁻−".contains(c) { '-' } else { c })
+            .collect();
+        let [shown, meant] = [&plain, text].map(|text| text.parse::<Exact>().unwrap());
+        // Half a unit of the last digit; one unit is no more than 10^(1 - digits) of the number.
+        let allowed = meant.abs() / Exact::from(2) / format!("1e{}", digits - 1).parse::<Exact>().unwrap();
+        assert!((shown - meant).abs() <= allowed, "{text} to {digits} digits: {line}");
+        let written = plain.split('e').next().unwrap().trim_start_matches(['-', '0', '.']).replace('.', "");
+        assert!(written.trim_end_matches('0').len() <= digits, "{text} to {digits} digits: {line}");
+    }
+    assert_eq!(found.lines().count(), 2 * texts.len());
 }

@@ -167,6 +167,7 @@ fn every_link_leads_somewhere() {
                 continue;
             }
             let (file, anchor) = link.split_once('#').unwrap_or((link, ""));
+            let file = file.split_once('?').map_or(file, |(file, _)| file);
             let target = if file.is_empty() { page.clone() } else { resolve(page, file) };
             assert!(FILES.contains_key(&target), "{}: no file {link}", page.display());
             let known = anchor.is_empty() || ids[target.as_path()].contains(anchor);
