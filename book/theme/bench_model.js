@@ -129,11 +129,9 @@ const brief = (a, digits = 3) => {
     return String((2n * n + d) / (2n * d));
   };
   // The logarithm is rounded, and then the number is: there may be a digit more or less than asked for.
-  let exponent = Math.floor(log10(magnitude(a)));
-  exponent += rounded(digits - 1 - exponent).length - digits;
-  const all = rounded(digits - 1 - exponent), sign = a.n < 0n ? "−" : "";
-  if (all.length > digits) exponent += 1;
-  const text = all.slice(0, digits).replace(/0+$/, "");
+  const guess = Math.floor(log10(magnitude(a)));
+  const exponent = guess + rounded(digits - 1 - guess).length - digits;
+  const text = rounded(digits - 1 - exponent).replace(/0+$/, ""), sign = a.n < 0n ? "−" : "";
   const point = (whole, part) => sign + whole + (part && `.${part}`);
   if (exponent >= 6 || exponent < -4) return `${point(text[0], text.slice(1))}·10${raised(exponent)}`;
   if (exponent < 0) return point("0", "0".repeat(-exponent - 1) + text);
@@ -273,8 +271,9 @@ const verdict = run => {
   const reaction = exact["system::reaction"](values), apart = reaction.n < 0n;
   const force = one ? exact["contact::contact_force"](values) : reaction, name = one ? "⟨R⟩" : "R";
   const p = penetration(run, at), n = system.precision;
+  const missing = lambda => magnitude(fractions.sub(system.exactly(lambda), force));
   const missed = lambda => {
-    const by = magnitude(fractions.sub(system.exactly(lambda), force));
+    const by = missing(lambda);
     return `${brief(by)} N${by.n && force.n ? ` (${share(fractions.div(by, magnitude(force)))} of it)` : ""}`;
   };
   const wrong = system.exactly(at.next), right = same(wrong, force);
@@ -284,7 +283,7 @@ const verdict = run => {
   if (apart && one && wrong.n) notes.push("R < 0: the mass will hang free once λ is 0.");
   if (ended === "most") notes.push(`The bench makes no more than ${system.most} steps in these numbers.`);
   if (ended === "length") notes.push(`The bench goes no further: the denominator of λ has ${bits(at.next.d)} binary digits.`);
-  const say = (kind, ...sentences) => ({ kind, text: [...sentences, ...notes].join(" ") });
+  const say = (kind, ...sentences) => ({ kind, p, missing: missing(at.next), text: [...sentences, ...notes].join(" ") });
 
   // What a fixed point may miss, by note 8, in exact arithmetic on what was computed.
   const bound = () => brief(exact["rounding::fixed_point_error"]({ ...values, lambda: system.exactly(at.lambda), n }));
