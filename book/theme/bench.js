@@ -97,7 +97,7 @@ const seen = run => {
   const number = value => toFloat(run.system.exactly(value));
   const values = Object.fromEntries(Object.entries(run.values).map(([name, value]) => [name, number(value)]));
   const finite = run.rows.filter(row => [row.u, row.p, row.next].every(run.system.finite));
-  const few = finite.length > 300 ? Math.ceil(finite.length / 300) : 1;
+  const few = Math.ceil(finite.length / 80);
   const rows = finite.map((row, k) => ({ k, row })).filter(({ k }) => k % few === 0 || k === finite.length - 1);
   return {
     values,
@@ -147,7 +147,7 @@ const drawSystem = (svg, { values, rows }, [least, most], question) => {
 const drawForces = (svg, { values, rows }, run) => {
   const width = svg.clientWidth, height = svg.clientHeight, one = run.question.plane === "one";
   const gap = real["system::gap"](values), reaction = real["system::reaction"](values);
-  const update = real[one ? "augmented::unilateral_update" : "augmented::update"];
+  const update = real["augmented::update"];
   const p = u => real["contact::penetration"]({ ...values, u });
   const free = p(real["structure::deflection"](values));
   const [left, right] = hull([0, free, ...rows.map(row => row.p)], 0.2);
@@ -163,14 +163,20 @@ const drawForces = (svg, { values, rows }, run) => {
     label(width - 4, y0 + 15, "p", { class: "bench-italic bench-end" }), label(x0 + 6, 14, "N", { class: "bench-italic" }),
     line([p(gap), real["augmented::contact_force"]({ ...values, u: gap })], [p(far), real["augmented::contact_force"]({ ...values, u: far })], { class: "bench-spring" }),
     path([at([left, 0]), at([0, 0]), at([0, high])], { class: "bench-plane bench-corner" }),
-    label(x0 - 6, at([0, reaction])[1] - 5, "R", { class: "bench-italic bench-end" }),
+    reaction < 0
+      ? label(x0 + 6, at([0, reaction])[1] - 5, "R", { class: "bench-italic" })
+      : label(x0 - 6, at([0, reaction])[1] + 16, "R", { class: "bench-italic bench-end" }),
   ];
   const now = rows.at(-1);
   if (now) {
     const { lambda } = now, above = one ? [[left, Math.max(low, 0)], box[1]] : box;
-    const bent = real["augmented::update"];
-    parts.push(line([p(gap), lambda], [p(far), bent({ ...values, lambda, u: far })], { class: "bench-iterate", "stroke-dasharray": "7 4" }, above));
-    const way = rows.slice(-40).flatMap(row => [[0, row.lambda], [row.p, row.next], [0, row.next]]);
+    parts.push(line([0, lambda], [p(far), update({ ...values, lambda, u: far })], { class: "bench-iterate", "stroke-dasharray": "7 4" }, above));
+    // Where the bracket closes, the way leads along the line no further than to N = 0.
+    const bend = ({ lambda, u, p }) => {
+      const open = update({ ...values, lambda, u });
+      return one && open < 0 && lambda > 0 ? [[p * lambda / (lambda - open), 0]] : [];
+    };
+    const way = rows.slice(-40).flatMap(row => [[0, row.lambda], ...bend(row), [row.p, row.next], [0, row.next]]);
     parts.push(path(way.map(at), { class: "bench-iterate bench-thin" }));
     for (const row of rows.slice(-40)) {
       const [cx, cy] = at([row.p, row.next]);

@@ -216,12 +216,15 @@ const numbers = question => {
 // More binary digits than a fraction may have: each step makes it longer.
 const LENGTH = 20000;
 
+// A step from λ; it may be taken thousands of times, so that the quantities are held in one place.
 const recursion = ({ numbers, plane }, values) => {
   const { f } = systems[numbers], prefix = plane === "one" ? "augmented::unilateral_" : "augmented::";
+  const [deflection, penetration, update] = [f[`${prefix}deflection`], f["contact::penetration"], f[`${prefix}update`]];
+  const all = { ...values, lambda: undefined, u: undefined };
   return lambda => {
-    const u = f[`${prefix}deflection`]({ ...values, lambda });
-    const p = f["contact::penetration"]({ ...values, u });
-    return { lambda, u, p, next: f[`${prefix}update`]({ ...values, lambda, u }) };
+    all.lambda = lambda;
+    all.u = deflection(all);
+    return { lambda, u: all.u, p: penetration(all), next: update(all) };
   };
 };
 

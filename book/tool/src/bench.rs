@@ -124,11 +124,11 @@ fn still() -> String {
          <path stroke=\"var(--figure-plane)\" stroke-width=\"3\" d=\"{corner}\"/>\n\
          <path stroke=\"var(--figure-iterate)\" d=\"{way}\"/>\n\
          <g fill=\"var(--figure-iterate)\">{dots}</g>\n\
-         <text class=\"label\" x=\"36\" y=\"{y:.1}\">R</text><text class=\"label\" x=\"40\" y=\"20\">N</text>\
+         <text class=\"label\" x=\"38\" y=\"{y:.1}\">R</text><text class=\"label\" x=\"68\" y=\"20\">N</text>\
          <text class=\"label\" x=\"340\" y=\"230\">p</text>\n\
          </svg>\n\
          <figcaption>The first steps for the example with ε = 4. Where scripts may run, this is a bench: choose other numbers, \
          and step on.</figcaption>\n</figure>",
-        y = y(force) + 6.0,
+        y = y(force) + 24.0,
     )
 }
