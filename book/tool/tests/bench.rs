@@ -73,7 +73,7 @@ impl Draw {
     }
 
     fn signed(&mut self, low: i64, high: i64) -> f64 {
-        let sign = if self.next() % 2 == 0 { 1.0 } else { -1.0 };
+        let sign = if self.next().is_multiple_of(2) { 1.0 } else { -1.0 };
         sign * self.between(low, high)
     }
 }
@@ -195,7 +195,7 @@ fn fractions_are_those_of_the_crate() {
     for i in 0..30 {
         let mut decimal = |signed: bool| {
             let digits = draw.next() as i64 % 100_000;
-            let sign = if signed && draw.next() % 2 == 0 { -1 } else { 1 };
+            let sign = if signed && draw.next().is_multiple_of(2) { -1 } else { 1 };
             Exact::int((sign * if signed { digits } else { digits + 1 }) as i32)
                 / Exact::int(10_i32.pow(i % 5))
         };
