@@ -17,7 +17,9 @@ const position = ({ powers }, a) => (powers ? log10(a) : nearest(a, 53, -1074));
 const key = (of, name) => `<span><svg viewBox="0 0 28 14" aria-hidden="true">${of}</svg>${name}</span>`;
 const LIVE = `
 <div class="bench-views">
-  <svg class="bench-system" role="group" aria-label="The system; its plane can be moved"></svg>
+  <svg class="bench-system" role="group" aria-label="The system; its plane can be moved">
+    <g></g><g class="bench-plane bench-slider" role="slider" tabindex="0" aria-label="height of the plane, H" aria-orientation="vertical" aria-valuenow="0"></g>
+  </svg>
   <svg class="bench-forces" role="img" aria-label="Forces over penetrations"></svg>
 </div>
 <div class="bench-key">
@@ -33,11 +35,11 @@ const LIVE = `
   <button type="button" data-step="whole">Until λ repeats</button>
   <button type="button" data-step="start">To the start</button>
 </div>
-<p class="bench-verdict" role="status"></p>
+<p class="bench-verdict" id="bench-verdict" role="status"></p>
 <div class="bench-fields">${Object.entries(FIELDS).map(([key, { sign, name, unit, from, to }]) => `
   <label for="bench-${key}"><i>${sign}</i> <span>${name}</span></label>
   <input type="range" min="${from}" max="${to}" step="${(to - from) / 1000}" data-slide="${key}" aria-label="${name} ${sign}, by a slider">
-  <span><input type="text" id="bench-${key}" aria-label="${name} ${sign}, in ${unit}" size="9" autocomplete="off" autocapitalize="off" spellcheck="false" data-text="${key}" aria-describedby="bench-wrong"> <span class="bench-unit">${unit}</span></span>`).join("")}
+  <span><input type="text" id="bench-${key}" aria-label="${name} ${sign}, in ${unit}" size="9" autocomplete="off" autocapitalize="off" spellcheck="false" data-text="${key}" aria-describedby="bench-verdict"> <span class="bench-unit">${unit}</span></span>`).join("")}
   <label for="bench-numbers">numbers</label>
   <select id="bench-numbers" data-choice="numbers">
     <option value="f32">f32</option><option value="f64">f64</option><option value="exact">exact fractions</option>
@@ -47,7 +49,6 @@ const LIVE = `
     <option value="both">as printed: it also pulls</option><option value="one">it only pushes</option>
   </select>
 </div>
-<p class="bench-wrong" id="bench-wrong" role="alert"></p>
 <svg class="bench-decay" role="img" aria-label="The penetration at each step, on a scale of powers of ten"></svg>
 <div class="bench-key">
   ${key('<circle class="bench-dot" cx="14" cy="7" r="3"/>', "|<i>p<sub>k</sub></i>| as computed")}
@@ -132,16 +133,17 @@ const drawSystem = (svg, { values, rows }, [least, most], question) => {
     parts.push(draw("circle", { cx: middle, cy: end, r: 7, class: "bench-mass" }), label(middle + 12, end - 6, "m", { class: "bench-italic" }));
   }
   const plane = y(values.H);
-  const slider = draw("g", {
-    role: "slider", tabindex: 0, class: "bench-plane bench-slider", "aria-label": "height of the plane, H", "aria-orientation": "vertical",
-    "aria-valuemin": least, "aria-valuemax": most, "aria-valuenow": values.H, "aria-valuetext": `${question.H} m`,
-  },
-  draw("rect", { x: 0, y: plane - 16, width, height: 40, class: "bench-grip" }),
-  draw("path", { d: `M10 ${plane}H${width - 10}`, "stroke-width": 2.5 }),
-  draw("path", { d: hatch(plane + 7, -7).replaceAll("l-6 -7", "l6 -7"), "stroke-width": 1 }),
-  label(10, Math.min(plane + 22, height - 2), `H = ${question.H} m`));
-  svg.replaceChildren(...parts, slider);
-  return (from => least + (from - 24) / (height - 48) * (most - least));
+  const [still, slider] = svg.children;
+  still.replaceChildren(...parts);
+  const limits = { "aria-valuemin": least, "aria-valuemax": most, "aria-valuenow": values.H, "aria-valuetext": `${question.H} m` };
+  for (const [name, value] of Object.entries(limits)) slider.setAttribute(name, value);
+  slider.replaceChildren(
+    draw("rect", { x: 0, y: plane - 16, width, height: 40, class: "bench-grip" }),
+    draw("path", { d: `M10 ${plane}H${width - 10}`, "stroke-width": 2.5 }),
+    draw("path", { d: hatch(plane, 7), "stroke-width": 1 }),
+    label(10, Math.min(plane + 22, height - 2), `H = ${question.H} m`),
+  );
+  return from => least + (from - 24) / (height - 48) * (most - least);
 };
 
 const drawForces = (svg, { values, rows }, run) => {
@@ -249,47 +251,46 @@ const open = root => {
     if (!result) return;
     view = seen(result);
     if (!dragged || !domain) domain = lengths(view);
-    const focused = document.activeElement?.getAttribute("role") === "slider";
     length = drawSystem(find(".bench-system"), view, domain, question);
-    if (focused) find("[role=slider]").focus();
     drawForces(find(".bench-forces"), view, result);
     drawDecay(find(".bench-decay"), view, result);
   };
-  const say = (selector, text) => { if (find(selector).textContent !== text) find(selector).textContent = text; };
+  // No line breaks before a unit, nor in a sum.
+  const whole = text => text.replace(/ (?=[Nm%][ ,.;)])| (?=[+−] )|(?<=[+−]) /g, "\u00a0");
+  const say = (kind, text) => {
+    const said = find(".bench-verdict"), rest = whole(text);
+    if (said.textContent === kind + rest) return;
+    said.replaceChildren(Object.assign(document.createElement("b"), { textContent: kind }), rest);
+  };
 
-  const show = (whole = false) => {
-    const { values, wrong } = numbers(question);
-    say(".bench-wrong", Object.entries(wrong).map(([key, why]) => `${FIELDS[key].sign}: ${why}.`).join(" "));
-    for (const key of PARAMETERS) find(`[data-text=${key}]`).setAttribute("aria-invalid", key in wrong);
+  const show = (untilRest = false) => {
+    const { values, wrong } = numbers(question), mistakes = Object.entries(wrong);
     fill();
-    if (Object.keys(wrong).length) return;
+    for (const key of PARAMETERS) find(`[data-text=${key}]`).setAttribute("aria-invalid", key in wrong);
+    if (mistakes.length) return say("", mistakes.map(([key, why]) => `${FIELDS[key].sign}: ${why}.`).join(" "));
     for (const key of PARAMETERS) {
       const slide = find(`[data-slide=${key}]`);
       if (slide !== document.activeElement) slide.value = position(FIELDS[key], systems[question.numbers].exactly(values[key]));
     }
-    result = run(question, values, whole);
-    const { rows, system } = result, k = rows.length - 1;
-    question = { ...question, k };
-    const { kind, text } = verdict(result);
-    const said = find(".bench-verdict");
-    if (said.textContent !== `${kind}, k = ${k}. ${text}`) {
-      said.replaceChildren(Object.assign(document.createElement("b"), { textContent: kind }), `, k = ${k}. ${text}`);
-    }
+    result = run(question, values, untilRest);
+    const { rows, system } = result, k = rows.length - 1, { kind, text } = verdict(result);
+    if (untilRest) question = { ...question, k };
+    say(kind, `, k = ${k}. ${text}`);
     find(".bench-table tbody").replaceChildren(...rows.slice(-SHOWN).map((row, i) => {
       const line = document.createElement("tr");
       const cells = [Math.max(0, rows.length - SHOWN) + i, ...[row.lambda, row.u, row.p, row.next].map(system.show)];
       line.append(...cells.map(cell => Object.assign(document.createElement("td"), { textContent: cell })));
       return line;
     }));
-    say(".bench-more", rows.length > SHOWN ? `The last ${SHOWN} of ${rows.length} steps.` : "");
+    find(".bench-more").textContent = rows.length > SHOWN ? `The last ${SHOWN} of ${rows.length} steps.` : "";
     paint();
   };
   const keep = () => {
     try { history.replaceState(null, "", `${location.pathname}${address(question)}#bench`); } catch { /* the address may be fixed */ }
   };
-  const change = (changes, whole) => {
+  const change = (changes, untilRest) => {
     question = { ...question, ...changes };
-    show(whole);
+    show(untilRest);
   };
 
   root.addEventListener("input", ({ target }) => {
@@ -303,7 +304,7 @@ const open = root => {
     const { step } = target.dataset;
     if (!step) return;
     if (step === "whole") change({}, true);
-    else change({ k: step === "start" ? 0 : Math.max(0, question.k + Number(step)) });
+    else change({ k: step === "start" ? 0 : Math.max(0, (result?.rows.length ?? 1) - 1 + Number(step)) });
     keep();
   });
 
@@ -316,7 +317,7 @@ const open = root => {
   root.addEventListener("keydown", event => {
     // The book turns the page by arrows, and searches by a letter.
     event.stopPropagation();
-    if (event.target.getAttribute("role") !== "slider") return;
+    if (!view || event.target.getAttribute("role") !== "slider") return;
     const unit = floor(domain[1] - domain[0]) / 100, { H } = view.values;
     const to = {
       ArrowUp: H - unit, ArrowLeft: H - unit, ArrowDown: H + unit, ArrowRight: H + unit,
@@ -330,7 +331,7 @@ const open = root => {
   const system = find(".bench-system");
   const drag = event => move(length(event.clientY - system.getBoundingClientRect().top));
   system.addEventListener("pointerdown", event => {
-    if (!event.target.closest("[role=slider]")) return;
+    if (!view || !event.target.closest("[role=slider]")) return;
     event.preventDefault();
     system.setPointerCapture(event.pointerId);
     find("[role=slider]").focus({ preventScroll: true });

@@ -5,7 +5,7 @@ mod contrast;
 #[path = "book/documentation.rs"]
 mod documentation;
 
-use book_tool::{Equations, PAGES, equations};
+use book_tool::{Equations, PAGES, bench, equations};
 use mdbook_driver::MDBook;
 use regex::Regex;
 use spring_mass_contact::claims::{claim_names, entries};
@@ -176,6 +176,16 @@ fn every_link_leads_somewhere() {
         }
     }
     assert!(checked > equations().count(), "only {checked} links were seen");
+}
+
+#[test]
+fn the_bench_is_on_its_page_as_it_was_written() {
+    let pages: Vec<_> = with_extension("html").filter(|(_, html)| html.contains(bench::MODEL)).collect();
+    let names: Vec<_> = pages.iter().map(|(path, _)| path.display().to_string()).collect();
+    assert_eq!(names, ["augmented.html", "print.html"]);
+    let written = bench::html().unwrap();
+    let script = &written[written.find("<script>").unwrap()..];
+    assert!(pages.iter().all(|(_, html)| html.contains(script)), "the script is changed");
 }
 
 #[test]
