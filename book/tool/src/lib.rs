@@ -241,11 +241,13 @@ macro_rules! pages {
     ($($page:ident)*) => {
         /// The names of the pages' files, without `.md`.
         pub const PAGES: &[&str] = &[$(stringify!($page)),*];
-        $(
-            #[cfg(doctest)]
-            #[doc = include_str!(concat!("../../src/", stringify!($page), ".md"))]
-            mod $page {}
-        )*
+        #[cfg(doctest)]
+        mod snippets {
+            $(
+                #[doc = include_str!(concat!("../../src/", stringify!($page), ".md"))]
+                mod $page {}
+            )*
+        }
     };
 }
 pages! {

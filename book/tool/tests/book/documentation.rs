@@ -25,22 +25,32 @@ fn text(path: &Path) -> String {
 ///
 /// A function's page shows it by its name, and the page of a file shows it by the lines from its first to its last.
 pub fn is_documented(link: &str) -> bool {
-    let page = Regex::new(&format!(r"^\.\./doc/{CRATE}/chapter/(\w+)/(fn|struct)\.(\w+)\.html$")).unwrap();
-    let lines = Regex::new(&format!(r"^\.\./doc/src/{CRATE}/(chapter/\w+\.rs)\.html#(\d+)-(\d+)$")).unwrap();
-    if let Some(found) = page.captures(link) {
-        let file = text(&root().join(format!("src/chapter/{}.rs", &found[1])));
-        let begins = Regex::new(&format!(r"(?m)^pub {} {}\b", &found[2], &found[3])).unwrap();
-        begins.is_match(&file)
-    } else if let Some(found) = lines.captures(link) {
-        let file = text(&root().join("src").join(&found[1]));
-        let lines: Vec<_> = file.lines().collect();
-        let [first, last] = [2, 3].map(|i| found[i].parse::<usize>().unwrap() - 1);
-        // No other item begins or ends between.
-        lines[first].starts_with("pub ")
-            && lines[first..=last].iter().position(|line| *line == "}") == Some(last - first)
-    } else {
-        false
-    }
+    shows_page(link).or_else(|| shows_lines(link)).unwrap_or(false)
+}
+
+fn shows_page(link: &str) -> Option<bool> {
+    let path = link.strip_prefix("../doc/")?.strip_prefix(CRATE)?.strip_prefix("/chapter/")?;
+    let (module, page) = path.strip_suffix(".html")?.split_once('/')?;
+    let (kind, name) = page.split_once('.')?;
+    let begins = |line: &str| {
+        let rest = line.strip_prefix("pub ")?.strip_prefix(kind)?.strip_prefix(' ')?.strip_prefix(name)?;
+        Some(rest.starts_with(['<', '(', ' ']))
+    };
+    Some(
+        text(&root().join(format!("src/chapter/{module}.rs"))).lines().any(|line| begins(line) == Some(true)),
+    )
+}
+
+fn shows_lines(link: &str) -> Option<bool> {
+    let path = link.strip_prefix("../doc/src/")?.strip_prefix(CRATE)?;
+    let (file, lines) = path.strip_prefix('/')?.split_once(".html#")?;
+    let (first, last) = lines.split_once('-')?;
+    let [first, last] = [first, last].map(|line| line.parse::<usize>().unwrap() - 1);
+    let file = text(&root().join("src").join(file));
+    let lines: Vec<_> = file.lines().skip(first).take(last + 1 - first).collect();
+    // No other item begins or ends between.
+    let end = lines.iter().position(|line| *line == "}");
+    Some(lines[0].starts_with("pub ") && end == Some(last - first))
 }
 
 /// The links in a box, in the order in which they stand there: a function's documentation, its lines.
