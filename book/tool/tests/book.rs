@@ -115,12 +115,12 @@ fn everything_that_a_box_says_holds() {
 #[test]
 fn every_claim_is_on_the_page_of_claims_with_its_proof() {
     let page = &FILES[Path::new("claims.html")];
+    let item = Regex::new(r"<li><strong>([^<]*)</strong>").unwrap();
     let mut seen = 0;
     for section in page.split("<h3").skip(1) {
         let heading = section.split("</h3>").next().unwrap();
         let entry = entries().iter().find(|entry| heading.contains(&format!(">{} ", entry.label())));
         let entry = entry.unwrap_or_else(|| panic!("whose heading is {heading}"));
-        let item = Regex::new(r"<li><strong>([^<]*)</strong>").unwrap();
         let mut found: Vec<_> =
             item.captures_iter(section).map(|found| found.get(1).unwrap().as_str()).collect();
         let mut expected = claim_names(entry.equation);
