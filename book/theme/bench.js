@@ -97,9 +97,8 @@ const toFloat = a => nearest(a, 53, -1074);
 const seen = run => {
   const number = value => toFloat(run.system.exactly(value));
   const values = Object.fromEntries(Object.entries(run.values).map(([name, value]) => [name, number(value)]));
-  const finite = run.rows.filter(row => [row.u, row.p, row.next].every(run.system.finite));
-  const few = Math.ceil(finite.length / 80);
-  const rows = finite.map((row, k) => ({ k, row })).filter(({ k }) => k % few === 0 || k === finite.length - 1);
+  const few = Math.ceil(run.rows.length / 80);
+  const rows = run.rows.map((row, k) => ({ k, row })).filter(({ k }) => k % few === 0 || k === run.rows.length - 1);
   return {
     values,
     rows: rows.map(({ k, row }) => ({
@@ -154,6 +153,7 @@ const drawForces = (svg, { values, rows }, run) => {
   const free = p(real["structure::deflection"](values));
   const [left, right] = hull([0, free, ...rows.map(row => row.p)], 0.2);
   const [low, high] = hull([0, reaction, ...rows.flatMap(row => [row.lambda, row.next])], 0.15);
+  if (![left, right, low, high].every(Number.isFinite)) return svg.replaceChildren(label(10, 20, "too large to be drawn"));
   const box = [[left, low], [right, high]];
   const at = ([p, n]) => [(p - left) / (right - left) * (width - 2) + 1, (high - n) / (high - low) * (height - 2) + 1];
   const line = (a, b, attributes, within = box) => path(clipped(a, b, within).map(at), attributes);
@@ -215,7 +215,7 @@ const drawDecay = (svg, { values, rows }, run) => {
   );
   const rho = Math.log10(real["augmented::contraction"](values)), start = points[0]?.exact;
   // As long as no bracket closes, which it does for good where the mass hangs free.
-  if (start !== undefined && (run.question.plane === "both" || exact["system::reaction"](given).n >= 0n)) {
+  if (start !== undefined && Number.isFinite(rho) && (run.question.plane === "both" || exact["system::reaction"](given).n >= 0n)) {
     const ends = clipped([0, start], [last, start + last * rho], [[0, low], [last, high]]);
     parts.push(path(ends.map(([k, value]) => [x(k), y(value)]), { class: "bench-faint", "stroke-dasharray": "4 3" }));
   }
@@ -251,6 +251,7 @@ const open = root => {
     if (!result) return;
     view = seen(result);
     if (!dragged || !domain) domain = lengths(view);
+    if (!domain.every(Number.isFinite)) return;
     length = drawSystem(find(".bench-system"), view, domain, question);
     drawForces(find(".bench-forces"), view, result);
     drawDecay(find(".bench-decay"), view, result);
@@ -274,8 +275,8 @@ const open = root => {
     }
     result = run(question, values, untilRest);
     const { rows, system } = result, k = rows.length - 1, { kind, text } = verdict(result);
-    if (untilRest) question = { ...question, k };
-    say(kind, `, k = ${k}. ${text}`);
+    if (untilRest) question = { ...question, k: Math.max(k, 0) };
+    say(kind, `${k < 0 ? "" : `, k = ${k}`}. ${text}`);
     find(".bench-table tbody").replaceChildren(...rows.slice(-SHOWN).map((row, i) => {
       const line = document.createElement("tr");
       const cells = [Math.max(0, rows.length - SHOWN) + i, ...[row.lambda, row.u, row.p, row.next].map(system.show)];

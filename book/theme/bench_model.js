@@ -150,6 +150,11 @@ const machine = (name, precision, lowest, round) => {
     if (a.n && !x) throw RangeError(`not zero, but nearest to zero in ${name}`);
     return x;
   };
+  // What overflows on the way may look harmless in the end.
+  const strictly = x => {
+    if (!Number.isFinite(round(x))) throw RangeError(`too large for ${name}`);
+    return round(x);
+  };
   // The shortest decimal that is read as this number.
   const show = x => {
     for (let digits = 1; digits < 17; digits += 1) {
@@ -159,17 +164,17 @@ const machine = (name, precision, lowest, round) => {
     return String(x);
   };
   return {
-    name, read, exactly, show, same: Object.is, finite: Number.isFinite, most: 10000,
-    precision: fraction(2n ** BigInt(precision)), f: formulas(floats(round)),
+    name, read, exactly, show, same: Object.is, most: 10000,
+    precision: fraction(2n ** BigInt(precision)), f: formulas(floats(round)), strict: formulas(floats(strictly)),
   };
 };
 const systems = {
   f32: machine("f32", 24, -149, Math.fround),
   f64: machine("f64", 53, -1074, x => x),
   exact: {
-    name: "exact", read: a => a, exactly: a => a, same, finite: () => true, most: 200,
+    name: "exact", read: a => a, exactly: a => a, same, most: 200,
     show: a => (`${a.n}/${a.d}`.length > 24 ? `≈ ${brief(a, 12)}` : a.d === 1n ? `${a.n}` : `${a.n}/${a.d}`),
-    f: formulas(fractions),
+    f: formulas(fractions), strict: formulas(fractions),
   },
 };
 
@@ -217,8 +222,8 @@ const numbers = question => {
 const LENGTH = 20000;
 
 // A step from λ; it may be taken thousands of times, so that the quantities are held in one place.
-const recursion = ({ numbers, plane }, values) => {
-  const { f } = systems[numbers], prefix = plane === "one" ? "augmented::unilateral_" : "augmented::";
+const recursion = ({ numbers, plane }, values, f = systems[numbers].f) => {
+  const prefix = plane === "one" ? "augmented::unilateral_" : "augmented::";
   const [deflection, penetration, update] = [f[`${prefix}deflection`], f["contact::penetration"], f[`${prefix}update`]];
   const all = { ...values, lambda: undefined, u: undefined };
   return lambda => {
@@ -240,20 +245,27 @@ const period = (system, step, { lambda, next }) => {
 // Steps 0 to k, or fewer where the numbers end; or, as a `whole`, until λ repeats.
 const run = (question, values, whole = false) => {
   const system = systems[question.numbers], step = recursion(question, values);
+  const strict = recursion(question, values, system.strict);
   const last = Math.min(whole ? system.most : question.k, system.most);
   const rows = [], seen = new Set();
-  let at = step(values.lambda), ended;
+  let lambda = values.lambda, ended;
   for (;;) {
-    rows.push(at);
-    seen.add(at.lambda);
-    if (![at.u, at.p, at.next].every(system.finite)) ended = "overflow";
-    else if (!system.precision && bits(at.next.d) > LENGTH) ended = "length";
+    try {
+      rows.push(strict(lambda));
+    } catch (error) {
+      if (!(error instanceof RangeError)) throw error;
+      ended = "overflow";
+      break;
+    }
+    const { next } = rows.at(-1);
+    seen.add(lambda);
+    if (!system.precision && bits(next.d) > LENGTH) ended = "length";
     else if (rows.length > system.most) ended = "most";
     if (ended || rows.length > last) break;
-    if (whole && (seen.has(at.next) || system.same(at.next, at.lambda))) break;
-    at = step(at.next);
+    if (whole && (seen.has(next) || system.same(next, lambda))) break;
+    lambda = next;
   }
-  return { question, values, system, rows, ended, period: ended ? undefined : period(system, step, at) };
+  return { question, values, system, rows, ended, period: ended ? undefined : period(system, step, rows.at(-1)) };
 };
 
 /* What can be said of it. All that is compared with what was computed is computed in fractions. */
@@ -269,7 +281,7 @@ const verdict = run => {
   const { question, system, rows, ended, period } = run;
   const at = rows.at(-1), before = rows.at(-2), k = rows.length - 1;
   const one = question.plane === "one", values = inFractions(run);
-  if (ended === "overflow") return { kind: "overflow", text: `At step ${k} a number is too large for ${system.name}.` };
+  if (ended === "overflow") return { kind: "overflow", text: `The next step has a number that is too large for ${system.name}.` };
 
   const reaction = exact["system::reaction"](values), apart = reaction.n < 0n;
   const force = one ? exact["contact::contact_force"](values) : reaction, name = one ? "⟨R⟩" : "R";
@@ -312,6 +324,7 @@ const verdict = run => {
   if (below(magnitude(then), magnitude(now)) || now.n * then.n < 0n) {
     return say("moving", `λ still changes, but by rounding: what should fall does not. At the computed u, p = ${brief(p)} m, and ${off}.`);
   }
-  const rho = exact["augmented::contraction"](values);
-  return say("converging", `Exactly, a step multiplies R − λ by ρ = ${brief(rho)}. At the computed u, p = ${brief(p)} m, and ${off}.`);
+  const rho = exact["augmented::contraction"](values), less = fractions.sub(fractions.int(1), rho);
+  const rate = below(less, { n: 1n, d: 100n }) ? `1 − ${brief(less)}` : brief(rho);
+  return say("converging", `Exactly, a step multiplies R − λ by ρ = ${rate}. At the computed u, p = ${brief(p)} m, and ${off}.`);
 };

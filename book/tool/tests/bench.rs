@@ -416,3 +416,46 @@ fn numbers_for_people_are_rounded_once() {
     }
     assert_eq!(found.lines().count(), 2 * texts.len());
 }
+
+#[test]
+fn what_no_page_links_to_has_a_verdict_too() {
+    // The sum c + ε overflows, and the quotient by it is 0: every number that is shown looks harmless.
+    let overflow = "?c=1e38&eps=3e38&numbers=f32";
+    let system = SpringMass { c: 100.0_f32, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
+    let (eps, mut lambda) = (2.99e6, 0.0);
+    let p = [0; 2].map(|_| {
+        let u = augmented::deflection(&system, &eps, &lambda);
+        lambda = augmented::update(&system, &eps, &lambda, &u);
+        contact::penetration(&system, &u)
+    });
+    assert!(p[0] * p[1] < 0.0 || p[1].abs() > p[0].abs());
+    let moving = "?eps=2.99e6&k=1&numbers=f32";
+    let long = "?c=1.23456789012345678901234567890123456&eps=2.3456789012345678901234567890123456789&k=200&numbers=exact";
+    let expected = [
+        (overflow, "overflow too large for f32"),
+        (moving, "moving by rounding"),
+        (long, "converging binary digits"),
+        ("?lambda=4.81&numbers=exact", "fixed point this is the solution"),
+        ("?k=3000&numbers=exact", "converging no more than 200 steps"),
+        ("?k=99999&eps=1e-3", "converging no more than 10000 steps"),
+        ("?highlight=x&k=-1&numbers=f16&plane=none", "converging p = 0.0015 m"),
+        ("?eps=0", "eps: not greater than 0"),
+        ("?H=1,05&numbers=f32&m=1e-50&g=1e99", "m: not zero g: too large H: not a number"),
+    ];
+    const SAY: &str = r#"
+for (const query of input) {
+  const question = asked(query), { values, wrong } = numbers(question), names = Object.entries(wrong);
+  if (names.length) { console.log(names.map(([name, why]) => `${name}: ${why}`).join(" ")); continue; }
+  const { kind, text } = verdict(run(question, values));
+  console.log(`${kind} ${text}`);
+}
+"#;
+    let Some(found) = printed(SAY, &json!(expected.map(|(query, _)| query))) else { return };
+    assert_eq!(found.lines().count(), expected.len());
+    for ((query, words), line) in expected.into_iter().zip(found.lines()) {
+        let mut rest = line;
+        for word in words.split(' ') {
+            rest = rest.split_once(word).unwrap_or_else(|| panic!("{query}: no {word:?} in {line}")).1;
+        }
+    }
+}
