@@ -9,7 +9,7 @@
 //! | `{{#formula system::gap}}` | the formula that a function computes, within `$…$` or by itself |
 //! | `{{#claims}}` | all claims and what came of each |
 //! | `{{#figure plane}}` | a picture or a plot, drawn from what the functions compute |
-//! | `{{#bench}}` | the [`bench`] |
+//! | `{{#bench}}` | the [bench](mod@bench) |
 //!
 //! A formula stands in `src/chapter` and nowhere else: its source is shown, and typeset. The last tag takes
 //! what a hole in an [`Entry`] takes, such as `{{#formula contact::penetration: u=u_k}}`.
