@@ -140,6 +140,21 @@ fn every_claim_is_on_the_page_of_claims_with_its_proof() {
     assert_eq!(seen, entries().iter().map(|entry| claim_names(entry.equation).len()).sum::<usize>());
 }
 
+/// From the proofs of each entry one link leads back to the book, and one to what a proof rests on.
+#[test]
+fn proofs_lead_back() {
+    let pages: String = with_extension("html")
+        .filter(|(path, _)| path.starts_with("proofs"))
+        .map(|(_, html)| html.as_str())
+        .collect();
+    let proved = entries().iter().filter(|entry| !entry.claims.is_empty()).count();
+    assert_eq!(pages.matches("\"../proofs.html\">what to trust</a>").count(), proved);
+    for (entry, _) in equations() {
+        let back = format!("#eq-{}\">In the book</a>", entry.equation.replace('.', "-"));
+        assert_eq!(pages.matches(&back).count(), 1, "{}", entry.label());
+    }
+}
+
 #[test]
 fn no_tag_and_no_dollar_formula_is_left() {
     let code = Regex::new(r"(?s)<(code|script)[ >].*?</(code|script)>").unwrap();
