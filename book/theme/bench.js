@@ -178,9 +178,10 @@ const drawForces = (svg, { values, rows }, run) => {
       const open = update({ ...values, lambda, u });
       return one && open < 0 && lambda > 0 ? [[p * lambda / (lambda - open), 0]] : [];
     };
-    const way = rows.slice(-40).flatMap(row => [[0, row.lambda], ...bend(row), [row.p, row.next], [0, row.next]]);
+    const first = rows.slice(0, 40);
+    const way = first.flatMap(row => [[0, row.lambda], ...bend(row), [row.p, row.next], [0, row.next]]);
     parts.push(path(way.map(at), { class: "bench-iterate bench-thin" }));
-    for (const row of rows.slice(-40)) {
+    for (const row of new Set([...first, now])) {
       const [cx, cy] = at([row.p, row.next]);
       parts.push(draw("circle", { cx, cy, r: row === now ? 5 : 2.5, class: "bench-dot" }));
     }
