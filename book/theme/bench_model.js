@@ -219,7 +219,7 @@ const numbers = question => {
 /* The recursion. */
 
 // More binary digits than a fraction may have: each step makes it longer.
-const LENGTH = 20000;
+const LENGTH = 6000;
 
 // A step from λ; it may be taken thousands of times, so that the quantities are held in one place.
 const recursion = ({ numbers, plane }, values, f = systems[numbers].f) => {
