@@ -302,7 +302,9 @@ const verdict = run => {
 
   // What a fixed point may miss, by note 8, in exact arithmetic on what was computed.
   const bound = () => brief(exact["rounding::fixed_point_error"]({ ...values, lambda: system.exactly(at.lambda), n }));
-  if (n && at.p === 0 && !(right && !p.n)) {
+  // Whether fewer than half of the digits of the force are right: that is no rest, only a p that has cancelled.
+  const error = missing(at.next), lost = n && below(product(force, force), product(n, product(error, error)));
+  if (at.p === 0 && lost) {
     return say("false zero", "The computed p is 0, and so λ repeats.",
       p.n ? `But at the computed u, p = ${brief(p)} m (at a fixed point it may be ±${bound()} m);` : "At the computed u it is 0 indeed,", `${p.n ? "" : "but "}${off}.`);
   }
@@ -311,7 +313,7 @@ const verdict = run => {
   }
   if (period === 1 && !n) return say("fixed point", `p = 0, and ${off}: this is the solution.`);
   if (period === 1) {
-    return say("fixed point", at.p === 0 ? "λ repeats bit for bit." : "λ repeats bit for bit: ε p is too small to change it.",
+    return say("fixed point", at.p === 0 ? "The computed p is 0, and so λ repeats." : "λ repeats bit for bit: ε p is too small to change it.",
       `At the computed u, p = ${brief(p)} m (it may be ±${bound()} m); ${off}.`);
   }
   if (period > 1) {

@@ -85,50 +85,19 @@ fn expression(tree: &Tree) -> Result<String> {
     })
 }
 
-/// What stands in the page: a still picture, and the script that puts the bench in its place.
+/// What stands in the page: where to find the picture that stands still, and the script that puts the bench in
+/// the place of that.
 ///
 /// # Errors
 /// Those of [`formulas`].
 pub fn html() -> Result<String> {
-    let (formulas, still) = (formulas()?, still());
+    let formulas = formulas()?;
     Ok(format!(
-        "<div class=\"bench\">\n{still}\n</div>\n\n\
+        "<div class=\"bench\">\n{STILL}\n</div>\n\n\
          <script>\n(() => {{\n\"use strict\";\n{formulas}{MODEL}{PAGE}}})();\n</script>\n"
     ))
 }
 
-/// The first steps of the example with ε = 4 as forces over penetrations, computed by the chapter's functions.
-fn still() -> String {
-    let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
-    let (eps, gap) = (4.0, system::gap(&system));
-    let [x, y] = [|p: f64| 60.0 + 520.0 * p, |n: f64| 210.0 - 90.0 * n];
-    let point = |p, n| format!("{:.1} {:.1}", x(p), y(n));
-    // Equilibrium, from where the plane pushes a little more than it has to, to where it does not.
-    let held = |u: f64| point(contact::penetration(&system, &u), augmented::contact_force(&system, &u));
-    let equilibrium = [gap - 0.05, structure::deflection(&system)].map(held).join("L");
-    let (mut lambda, mut way, mut dots) = (0.0, format!("M{}", point(0.0, 0.0)), String::new());
-    for _ in 0..5 {
-        let u = augmented::deflection(&system, &eps, &lambda);
-        lambda = augmented::update(&system, &eps, &lambda, &u);
-        let p = contact::penetration(&system, &u);
-        way += &format!("L{}H{:.1}", point(p, lambda), x(0.0));
-        dots += &format!("<circle cx=\"{:.1}\" cy=\"{:.1}\" r=\"3.5\"/>", x(p), y(lambda));
-    }
-    let corner = format!("M10 {0:.1}H{1:.1}V10", y(0.0), x(0.0));
-    let force = system::reaction(&system);
-    format!(
-        "<figure class=\"drawing\">\n\
-         <svg viewBox=\"0 0 360 240\" role=\"img\" aria-labelledby=\"bench-still\" fill=\"none\" stroke-width=\"1.6\">\n\
-         <title id=\"bench-still\">Forces over penetrations: the iterates climb along the line of equilibrium to the corner of the plane</title>\n\
-         <path stroke=\"var(--figure-spring)\" d=\"M{equilibrium}\"/>\n\
-         <path stroke=\"var(--figure-plane)\" stroke-width=\"3\" d=\"{corner}\"/>\n\
-         <path stroke=\"var(--figure-iterate)\" d=\"{way}\"/>\n\
-         <g fill=\"var(--figure-iterate)\">{dots}</g>\n\
-         <text class=\"label\" x=\"38\" y=\"{y:.1}\">R</text><text class=\"label\" x=\"68\" y=\"20\">N</text>\
-         <text class=\"label\" x=\"340\" y=\"230\">p</text>\n\
-         </svg>\n\
-         <figcaption>The first steps for the example with ε = 4. Where scripts may run, this is a bench: choose other numbers, \
-         and step on.</figcaption>\n</figure>",
-        y = y(force) + 24.0,
-    )
-}
+/// For who runs no scripts, and on paper.
+const STILL: &str = "<p>Where scripts may run, a bench stands here, on which all of this moves. Its first steps for the example stand \
+                     still in the <a href=\"#fig-augmented\">picture above</a>.</p>";
