@@ -121,8 +121,8 @@ pub fn answer() -> Figure {
         number(p),
         number(n),
     );
-    let caption = "The plane of $p$ and $N$, for the example. Equilibrium is a line, contact a corner, and the answer is \
-                   where they meet.";
+    let caption = "Force $N$ over penetration $p$, for the example. Equilibrium is a line, contact a corner, and the \
+                   answer is where they meet.";
     figure(plot, "Equilibrium, contact, and where they meet", caption, description)
 }
 
@@ -147,8 +147,7 @@ pub fn intercepts() -> Figure {
         number(held.1),
         number(free.0),
     );
-    let caption = "Equilibrium in the plane of $p$ and $N$: the further in, the more the spring carries and the less is left \
-                   for the plane.";
+    let caption = "Equilibrium: the further in the mass, the more the spring carries and the less is left for the plane.";
     figure(plot, "Equilibrium as a line", caption, description)
 }
 
