@@ -162,12 +162,11 @@ const drawForces = (svg, { values, rows }, run) => {
   const parts = [
     line([0, 0], [span, 0], { class: "bench-faint" }),
     line([0, 0], [0, 1], { class: "bench-faint" }),
-    label(width - 4, y0 + 15, "p", { class: "bench-italic bench-end" }), label(x0 + 6, 14, "N", { class: "bench-italic" }),
+    label(width - 4, y0 + 15, "p", { class: "bench-italic bench-end" }), label(x0 - 6, 14, "N", { class: "bench-italic bench-end" }),
     line([p(gap), real["augmented::contact_force"]({ ...values, u: gap })], [p(far), real["augmented::contact_force"]({ ...values, u: far })], { class: "bench-spring" }),
     path([at([left, 0]), at([0, 0]), at([0, high])], { class: "bench-plane bench-corner" }),
-    reaction < 0
-      ? label(x0 + 6, at([0, reaction])[1] - 5, "R", { class: "bench-italic" })
-      : label(x0 - 6, at([0, reaction])[1] + 16, "R", { class: "bench-italic bench-end" }),
+    label(x0 + 8, at([0, reaction])[1] - 5, `R = ${brief(exactly(reaction))} N`),
+    label(at([free, 0])[0], y0 + 15, `R/c = ${brief(exactly(free))} m`, { class: free < 0 ? "" : "bench-end" }),
   ];
   const now = rows.at(-1);
   if (now) {

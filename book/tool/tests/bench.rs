@@ -3,7 +3,7 @@
 //!
 //! Without node these tests say so and pass; with `NODE=path` that one is run, and it is an error if it cannot be.
 
-use book_tool::bench::{MODEL, formulas, functions};
+use book_tool::bench::{MODEL, formulas, functions, html};
 use serde_json::{Value, json};
 use spring_mass_contact::chapter::{SpringMass, augmented, contact, system};
 use spring_mass_contact::number::{Exact, Field, PositivePart, ToExact};
@@ -18,6 +18,11 @@ use std::{
 
 /// What the script prints that is run after the bench's own, with `input` at hand.
 fn printed(script: &str, input: &Value) -> Option<String> {
+    node(&format!("{}{MODEL}\n{script}", formulas().unwrap()), input)
+}
+
+/// What node prints that runs a script, with `input` at hand.
+fn node(script: &str, input: &Value) -> Option<String> {
     let program = env::var("NODE");
     let mut command = Command::new(program.as_deref().unwrap_or("node"));
     let mut node = match command.arg("-").stdin(Stdio::piped()).stdout(Stdio::piped()).spawn() {
@@ -27,7 +32,7 @@ fn printed(script: &str, input: &Value) -> Option<String> {
         }
         node => node.unwrap_or_else(|error| panic!("{}: {error}", program.as_deref().unwrap_or("node"))),
     };
-    let text = format!("\"use strict\";\n{}{MODEL}\nconst input = {input};\n{script}", formulas().unwrap());
+    let text = format!("\"use strict\";\nconst input = {input};\n{script}");
     node.stdin.take().unwrap().write_all(text.as_bytes()).unwrap();
     let output = node.wait_with_output().unwrap();
     assert!(output.status.success(), "the script fails");
@@ -462,4 +467,73 @@ for (const query of input) {
             rest = rest.split_once(word).unwrap_or_else(|| panic!("{query}: no {word:?} in {line}")).1;
         }
     }
+}
+
+/// A page of which the bench knows no more than what it draws: enough to run all of its script.
+const DOCUMENT: &str = r#"
+class Element {
+  constructor(name) {
+    Object.assign(this, { name, attributes: {}, children: [], found: {}, on: {}, dataset: {}, textContent: "" });
+    Object.assign(this, { classList: { add() {} }, clientWidth: 400, clientHeight: 240 });
+  }
+  setAttribute(key, value) { this.attributes[key] = String(value); }
+  append(...children) { this.children.push(...children); }
+  replaceChildren(...children) { this.children = children; }
+  insertAdjacentHTML() {}
+  addEventListener(kind, listener) { this.on[kind] = listener; }
+  querySelector(selector) { return (this.found[selector] ??= new Element(selector)); }
+  querySelectorAll() { return []; }
+  get all() { return this.children.flatMap(child => (child instanceof Element ? [child, ...child.all] : [])); }
+  get text() { return this.children.map(child => child.textContent ?? child).join(""); }
+}
+globalThis.ResizeObserver = class { observe() {} };
+globalThis.addEventListener = () => {};
+const opened = search => {
+  const root = new Element("root"), create = name => new Element(name);
+  root.querySelector(".bench-system").append(create("g"), create("g"));
+  globalThis.location = { search, pathname: "/" };
+  globalThis.history = { replaceState: (state, title, url) => { location.search = url.replace(/^\/|#.*/g, ""); } };
+  globalThis.document = { querySelectorAll: () => [root], createElement: create, addEventListener() {},
+    createElementNS: (space, name) => create(name) };
+  new Function(input.script)();
+  return root;
+};
+const numbersIn = text => (text.match(/-?[\d.]+(e[+-]?\d+)?/g) ?? []).map(Number);
+"#;
+
+/// The whole script, with what it draws: what is seen has been wrong without it.
+#[test]
+fn the_bench_draws_what_it_says() {
+    const DRAWN: &str = r#"
+for (const search of input.asked) {
+  const root = opened(search), find = selector => root.querySelector(selector);
+  root.on.click({ target: { dataset: { step: "1" } } });
+  const forces = find(".bench-forces"), drawings = [find(".bench-system"), forces, find(".bench-decay")];
+  const wrong = drawings.flatMap(svg => svg.all).filter(part => /NaN|Infinity|undefined/.test(JSON.stringify(part.attributes)));
+  // Each step is a point of the line of equilibrium.
+  const line = forces.all.find(part => part.attributes.class === "bench-spring");
+  const [x0, y0, x1, y1] = numbersIn(line.attributes.d), dots = forces.all.filter(part => part.name === "circle");
+  const off = dots.filter(({ attributes: { cx, cy } }) =>
+    Math.abs((cx - x0) * (y1 - y0) - (cy - y0) * (x1 - x0)) > 0.02 * Math.hypot(x1 - x0, y1 - y0));
+  const rows = find(".bench-table tbody").children, said = find(".bench-verdict").text;
+  console.log([said.split(",")[0], dots.length, rows.length, rows.at(-1).children[0].textContent,
+    new URLSearchParams(location.search).get("k"), wrong.length, off.length].join("|"));
+}
+"#;
+    let page = html().unwrap();
+    let script = page.split("<script>").nth(1).and_then(|rest| rest.split("</script>").next()).unwrap();
+    // What is asked, and after one more step: the verdict, points, rows, k in the last row and in the address;
+    // nothing that is no number; and the points off the line, where alone p and N are no balance of forces.
+    let expected = [
+        ("", "converging|6|6|5|5|0|0"),
+        ("?c=4&g=10&H=3&eps=4&k=3&numbers=exact", "converging|5|5|4||0|0"),
+        ("?eps=1e5&k=6", "2-cycle|8|8|7|7|0|0"),
+        ("?eps=1e8&k=0&numbers=f32", "false zero|2|2|1|1|0|2"),
+        ("?H=1.2&lambda=40&plane=one&k=9", "separated|11|11|10|10|0|0"),
+        ("?k=30", "converging|32|12|31|31|0|0"),
+    ];
+    let asked: Vec<_> = expected.iter().map(|(asked, _)| asked).collect();
+    let input = json!({ "script": script, "asked": asked });
+    let Some(found) = node(&format!("{DOCUMENT}{DRAWN}"), &input) else { return };
+    assert_eq!(found.lines().collect::<Vec<_>>(), expected.map(|(_, drawn)| drawn));
 }
