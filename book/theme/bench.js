@@ -165,8 +165,13 @@ const drawForces = (svg, { values, rows }, run) => {
     label(width - 4, y0 + 15, "p", { class: "bench-italic bench-end" }), label(x0 - 6, 14, "N", { class: "bench-italic bench-end" }),
     line([p(gap), real["augmented::contact_force"]({ ...values, u: gap })], [p(far), real["augmented::contact_force"]({ ...values, u: far })], { class: "bench-spring" }),
     path([at([left, 0]), at([0, 0]), at([0, high])], { class: "bench-plane bench-corner" }),
-    label(x0 + 8, at([0, reaction])[1] - 5, `R = ${brief(exactly(reaction))} N`),
-    label(at([free, 0])[0], y0 + 15, `R/c = ${brief(exactly(free))} m`, { class: free < 0 ? "" : "bench-end" }),
+    // Where the line leaves room, which falls from the left.
+    reaction < 0
+      ? label(x0 - 6, at([0, reaction])[1] + 14, `R = ${brief(exactly(reaction))} N`, { class: "bench-end" })
+      : label(x0 + 8, at([0, reaction])[1] - 5, `R = ${brief(exactly(reaction))} N`),
+    free < 0
+      ? label(at([free, 0])[0] + 8, y0 - 8, `${brief(exactly(free))} m`)
+      : label(at([free, 0])[0], y0 + 15, `${brief(exactly(free))} m`, { class: "bench-end" }),
   ];
   const now = rows.at(-1);
   if (now) {
