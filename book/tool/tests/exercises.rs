@@ -2,7 +2,7 @@
 
 use book_tool::PAGES;
 use regex::Regex;
-use std::{fs, path::Path};
+use std::{collections::BTreeSet, fs, path::Path};
 
 /// Pages that end in exercises.
 const WITH_EXERCISES: [&str; 11] = [
@@ -119,6 +119,41 @@ fn each_answer_is_proved_or_checked() {
             }
         }
     }
+}
+
+/// A number of three digits in an answer stands in its question, in its code or in what the command prints there, where
+/// something holds it. A proof has no code.
+#[test]
+fn the_numbers_of_an_answer_are_checked() {
+    let fence = Regex::new(r"(?ms)^```.*?^```$").unwrap();
+    let aside = Regex::new(r"\]\([^)]*\)|\{\{#.*?\}\}").unwrap();
+    let number = Regex::new(r"\d+\.?\d*").unwrap();
+    let (mut seen, mut unheld) = (0, Vec::new());
+    for name in WITH_EXERCISES {
+        for Exercise { number: which, kind, statement, solution } in exercises(&page(name)).unwrap() {
+            if kind == "Prove" {
+                continue;
+            }
+            let code: String =
+                fence.find_iter(&solution).map(|block| block.as_str().replace('_', "")).collect();
+            let held: BTreeSet<_> =
+                number.find_iter(&code).chain(number.find_iter(&statement)).map(|n| n.as_str()).collect();
+            let text = fence.replace_all(&solution, "").replace("\\,", "");
+            for found in
+                number.find_iter(&aside.replace_all(&text, "")).map(|n| n.as_str().trim_end_matches('.'))
+            {
+                let digits = found.replace('.', "");
+                if digits.trim_matches('0').len() >= 3 {
+                    if !held.contains(found) {
+                        unheld.push(format!("{name} {which}: {found}"));
+                    }
+                    seen += 1;
+                }
+            }
+        }
+    }
+    assert!(unheld.is_empty(), "nothing checks {unheld:?}");
+    assert!(seen > 20, "{seen}");
 }
 
 /// The lecturer's sheet: its minutes and points add up, and its links say where they lead.
