@@ -32,13 +32,24 @@ impl Claims {
     /// The line that says what came of an equation's claims, in Markdown; `up` leads to the root of the book.
     pub fn status(&self, entry: &Entry, up: &str) -> String {
         let rows: Vec<_> = self.rows.iter().filter(|row| row.equation == entry.equation).collect();
-        let count = match rows.iter().filter(|row| row.scalar.is_none()).count() {
+        let claims = rows.chunk_by(|a, b| a.claim == b.claim);
+        let (proved, tried): (Vec<_>, Vec<_>) = claims.partition(|rows| rows[0].scalar.is_none());
+        let count = match proved.len() {
             1 => "1 claim".into(),
             count => format!("{count} claims"),
         };
-        let proved = format!("proved: [{count}]({up}{})", proofs(entry));
+        let mut known = format!("proved: [{count}]({up}{})", proofs(entry));
+        if !tried.is_empty() {
+            let _ = write!(known, ", and {} only tried", tried.len());
+        }
+        // Of what is only tried the page of claims says where it held; here it is no part of what did.
+        let of_all = |scalar| {
+            let held = |row: &&Row| row.scalar == scalar && row.status == Status::Held;
+            let held = proved.iter().filter(|rows| rows.iter().any(held)).count();
+            (held < proved.len()).then(|| format!("{held} of {count}"))
+        };
         let claimed = format!("[what is claimed]({up}claims.md#{})", anchor(entry));
-        format!("<div class=\"status\">\n\n{} · {claimed}\n\n</div>", outcome(&rows, &proved))
+        format!("<div class=\"status\">\n\n{} · {claimed}\n\n</div>", outcome(&rows, &known, of_all))
     }
 
     /// All claims, in Markdown; `shown` is the place where the book shows an entry.
@@ -67,7 +78,11 @@ impl Claims {
                     if !given.is_empty() {
                         let _ = write!(text, "\\\n  if `{}`", given.join("`, `"));
                     }
-                    let came = outcome(&rows, &format!("[proved]({})", proof(entry, name)));
+                    let decided = |scalar| {
+                        let row = rows.iter().find(|row| row.scalar == scalar)?;
+                        (row.decided < CASES).then(|| row.decided.to_string())
+                    };
+                    let came = outcome(&rows, &format!("[proved]({})", proof(entry, name)), decided);
                     let _ = writeln!(text, "\\\n  <span class=\"status\">{came}</span>");
                 }
             }
@@ -93,8 +108,9 @@ fn supposed() -> HashMap<(&'static str, &'static str), Supposed> {
 }
 
 /// What came of claims: whether they are proved, as `proved` says it, and in which number systems they hold.
-/// What does not hold is named, and marked as open.
-fn outcome(rows: &[&Row], proved: &str) -> String {
+/// What does not hold is named, and marked as open. Of a system in which they hold, `part` says what is to stand in
+/// brackets if that is only a part.
+fn outcome(rows: &[&Row], proved: &str, part: impl Fn(Option<NumberSystem>) -> Option<String>) -> String {
     let with = |scalar, status| {
         let found = rows.iter().filter(move |row| row.scalar == scalar && row.status == status);
         found.map(|row| row.claim).collect::<Vec<_>>()
@@ -122,7 +138,10 @@ fn outcome(rows: &[&Row], proved: &str) -> String {
             said.push(open(&format!("undecided in {called}"), &undecided));
         }
         if wrong.is_empty() && undecided.is_empty() && !with(Some(scalar), Status::Held).is_empty() {
-            held.push(called);
+            held.push(match part(Some(scalar)) {
+                Some(part) => format!("{called} ({part})"),
+                None => called,
+            });
         }
     }
     if !held.is_empty() {
@@ -173,6 +192,11 @@ fn id(heading: &str) -> String {
 mod tests {
     use super::*;
 
+    /// Nothing to put in brackets.
+    fn all(_: Option<NumberSystem>) -> Option<String> {
+        None
+    }
+
     /// A row of 1.13's first claim.
     fn row(scalar: Option<NumberSystem>, status: Status) -> Row {
         Row {
@@ -192,28 +216,61 @@ mod tests {
     #[test]
     fn what_holds_is_said() {
         let rows = [row(None, Status::Proved), row(Some(NumberSystem::F32), Status::Held)];
-        assert_eq!(outcome(&rows.each_ref(), "proved"), "proved · held in f32");
+        assert_eq!(outcome(&rows.each_ref(), "proved", all), "proved · held in f32");
     }
 
     #[test]
     fn what_is_only_tried_is_not_called_proved() {
         let rows = [row(Some(NumberSystem::Exact), Status::Held)];
-        assert_eq!(outcome(&rows.each_ref(), "proved"), "tried, not proved · held in rationals");
+        assert_eq!(outcome(&rows.each_ref(), "proved", all), "tried, not proved · held in rationals");
+    }
+
+    #[test]
+    fn what_is_not_tried_everywhere_is_not_said_to_hold_there() {
+        let [f64, exact] = [NumberSystem::F64, NumberSystem::Exact].map(Some);
+        let limit = |scalar, status| Row { claim: "limit", ..row(scalar, status) };
+        let sign = |scalar| Row { claim: "sign", ..row(scalar, Status::Held) };
+        let rows = vec![
+            row(None, Status::Proved),
+            row(f64, Status::Held),
+            row(exact, Status::Held),
+            limit(None, Status::Proved),
+            limit(f64, Status::Held),
+            sign(exact),
+        ];
+        let status = Claims { rows }.status(entry("1.13").unwrap(), "");
+        assert!(status.contains("proved: [2 claims]("), "{status}");
+        assert!(
+            status.contains("), and 1 only tried · held in f64, rationals (1 of 2 claims) · "),
+            "{status}"
+        );
+    }
+
+    #[test]
+    fn the_page_says_how_many_cases_are_drawn() {
+        let page = include_str!("../../src/claims.md");
+        assert!(page.contains(" on fifty drawn systems") && CASES == 50);
+        let few = |_| Some("45".to_string());
+        let rows = [row(None, Status::Proved), row(Some(NumberSystem::F32), Status::Held)];
+        assert_eq!(outcome(&rows.each_ref(), "proved", few), "proved · held in f32 (45)");
     }
 
     #[test]
     fn what_does_not_hold_is_said() {
         let rows = [row(None, Status::Failed), row(Some(NumberSystem::Mpfr(256)), Status::Held)];
-        let said = outcome(&rows.each_ref(), "proved");
+        let said = outcome(&rows.each_ref(), "proved", all);
         assert_eq!(said, "<strong class=\"open\">not proved: rate</strong> · held in 256 bits");
         let rows = [row(None, Status::Proved), Row { claim: "limit", ..row(None, Status::Failed) }];
-        assert_eq!(outcome(&rows.each_ref(), "proved"), "<strong class=\"open\">not proved: limit</strong>");
+        assert_eq!(
+            outcome(&rows.each_ref(), "proved", all),
+            "<strong class=\"open\">not proved: limit</strong>"
+        );
         let f64 = Some(NumberSystem::F64);
         let rows = [row(None, Status::Proved), row(f64, Status::Failed), row(f64, Status::Held)];
-        let said = outcome(&rows.each_ref(), "proved");
+        let said = outcome(&rows.each_ref(), "proved", all);
         assert_eq!(said, "proved · <strong class=\"open\">wrong in f64: rate</strong>");
         let rows = [row(None, Status::Proved), row(f64, Status::Undecided), row(f64, Status::Held)];
-        let said = outcome(&rows.each_ref(), "proved");
+        let said = outcome(&rows.each_ref(), "proved", all);
         assert_eq!(said, "proved · <strong class=\"open\">undecided in f64: rate</strong>");
     }
 }

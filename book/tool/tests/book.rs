@@ -140,6 +140,94 @@ fn every_claim_is_on_the_page_of_claims_with_its_proof() {
     assert_eq!(seen, entries().iter().map(|entry| claim_names(entry.equation).len()).sum::<usize>());
 }
 
+/// What stands in code before the next block: what a claim says, and what it supposes.
+fn said(html: &str) -> Vec<&str> {
+    let end = ["<pre", "<details", "<h2", "<h3"].iter().filter_map(|next| html.find(next)).min();
+    let code = html[..end.unwrap_or(html.len())].split("<code>").skip(1);
+    code.map(|code| code.split("</code>").next().unwrap()).collect()
+}
+
+/// The heading of this address, and what follows it.
+fn headed<'a>(html: &'a str, id: &str) -> (&'a str, &'a str) {
+    let (_, rest) = html.split_once(&format!(" id=\"{id}\"><a class=\"header\"")).expect("a heading");
+    let (heading, rest) = rest.split_once("</a>").unwrap();
+    (heading.split_once('>').unwrap().1, rest)
+}
+
+/// What the page of claims says of a claim is what its proof is of, to which it leads.
+#[test]
+fn claims_are_those_of_their_proofs() {
+    let item =
+        Regex::new(r#"(?s)<li><strong>([^<]*)</strong>(.*?)<a href="([^#"]*)#([^"]*)">proved</a>(.*?)</li>"#);
+    let (item, mut seen) = (item.unwrap(), 0);
+    for section in FILES[Path::new("claims.html")].split("<h3").skip(1) {
+        let heading = section.split("</h3>").next().unwrap();
+        let entry = entries().iter().find(|entry| heading.contains(&format!(">{} ", entry.label())));
+        let label = entry.map(|entry| entry.label());
+        for found in section.split("<li>").skip(1) {
+            let found = format!("<li>{found}");
+            let Some(found) = item.captures(&found) else { continue };
+            let (name, proof) = (&found[1], headed(&FILES[Path::new(&found[3])], &found[4]));
+            assert_eq!(proof.0, format!("{name}, {}", label.as_ref().unwrap()));
+            assert_eq!(said(&found[2]), said(proof.1), "{}", proof.0);
+            assert!(!said(proof.1).is_empty(), "{} says nothing", proof.0);
+            // Rationals have no exponentials, and round nothing.
+            let exact = !said(proof.1).iter().any(|code| code.contains("exp(") || code.contains("fl("));
+            let systems = ["f32", "f64", "256 bits", "rationals"];
+            let expected = &systems[..if exact { 4 } else { 3 }];
+            let held = found[5].split_once("held in ").expect("where it held").1.split('<').next().unwrap();
+            let held: Vec<_> = held.split(", ").map(|held| held.split(" (").next().unwrap()).collect();
+            assert_eq!(held, expected, "{}", proof.0);
+            seen += 1;
+        }
+    }
+    assert_eq!(seen, entries().iter().map(|entry| entry.claims.len()).sum::<usize>());
+}
+
+/// A box says no more than the page of claims: how many claims are proved, and how many held where.
+#[test]
+fn boxes_say_what_the_page_of_claims_says() {
+    let claims = &FILES[Path::new("claims.html")];
+    let status = Regex::new(r#"(?s)id="eq-([\d-]+)".*?<div class="status">\s*<p>(.*?)</p>"#).unwrap();
+    let proved = Regex::new(r#"^proved: <a href="([^#"]*)#([^"]*)">(\d+) claims?</a>"#).unwrap();
+    let mut seen = 0;
+    for (_, html) in with_extension("html").filter(|(path, _)| !path.ends_with("print.html")) {
+        for found in status.captures_iter(html) {
+            let number = found[1].replace('-', ".");
+            let (entry, _) = equations().find(|(entry, _)| entry.equation == number).unwrap();
+            let said = &found[2];
+            let page = claims.split_once(&format!("id=\"claims-{}\"", &found[1])).unwrap().1;
+            let page = page.split("<h3").next().unwrap();
+            let link = proved.captures(said).unwrap_or_else(|| panic!("({number}): {said}"));
+            assert_eq!(link[3].parse(), Ok(entry.claims.len()), "({number})");
+            let proof = headed(&FILES[Path::new(&link[1])], &link[2]).0;
+            assert_eq!(proof, format!("{} {}", entry.label(), entry.title));
+            assert_eq!(
+                headed(html, &format!("eq-{}", &found[1])).0,
+                format!("Equation {number} · {}", entry.title)
+            );
+            let tried = page.matches("tried, not proved").count();
+            assert_eq!(said.contains(&format!(", and {tried} only tried")), tried > 0, "({number})");
+            for system in ["f32", "f64", "256 bits", "rationals"] {
+                let items = page.split("<li>").filter(|item| item.contains(">proved</a>"));
+                let held = items.filter(|item| {
+                    item.split_once("held in ").is_some_and(|(_, held)| held.contains(system))
+                });
+                let (held, all) = (held.count(), entry.claims.len());
+                let is_all = said.contains(&format!("{system}, ")) || said.contains(&format!("{system} · "));
+                assert_eq!(is_all, held == all, "({number}) {system}: {said}");
+                assert_eq!(
+                    said.contains(&format!("{system} ({held} of ")),
+                    0 < held && held < all,
+                    "({number}) {system}: {said}"
+                );
+            }
+            seen += 1;
+        }
+    }
+    assert_eq!(seen, equations().count());
+}
+
 /// From the proofs of each entry one link leads back to the book, and one to what a proof rests on.
 #[test]
 fn proofs_lead_back() {
@@ -191,6 +279,19 @@ fn every_link_leads_somewhere() {
         }
     }
     assert!(checked > equations().count(), "only {checked} links were seen");
+}
+
+#[test]
+fn a_number_leads_to_its_own_box() {
+    let link = Regex::new(r#"href="[^"]*eq-([\d-]+)">\(([\d.]+)\)</a>"#).unwrap();
+    let mut seen = 0;
+    for (page, html) in with_extension("html") {
+        for found in link.captures_iter(html) {
+            assert_eq!(found[1].replace('-', "."), found[2], "{}", page.display());
+            seen += 1;
+        }
+    }
+    assert!(seen > 100, "{seen}");
 }
 
 #[test]

@@ -6,7 +6,8 @@ use mdbook_preprocessor::{
     book::{Book, BookItem, Chapter},
     config::Config,
 };
-use std::path::Path;
+use regex::Regex;
+use std::{fs, path::Path};
 
 /// A book of one page that displays every equation, and then `text`.
 fn process(text: &str) -> Result<String, String> {
@@ -34,6 +35,32 @@ fn a_right_page_is_processed() {
     let page = process("see {{#ref 1.13}}").unwrap();
     assert!(page.ends_with("see [(1.13)](page.md#eq-1-13)"), "{page}");
     assert!(page.contains("(eps * (h - l) + m * g) / (c + eps)"));
+}
+
+#[test]
+fn a_box_has_the_formula_and_the_lines_of_its_functions() {
+    let page = process("").unwrap();
+    let lines = Regex::new(r"/chapter/(\w+)\.rs\.html#(\d+)-(\d+)\)\n").unwrap();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../src/chapter");
+    let boxes: Vec<_> = page.split("<div class=\"equation\">").skip(1).collect();
+    let mut seen = 0;
+    for ((entry, latex), html) in equations().zip(boxes) {
+        // Typeset as a display of a page is.
+        let alone = process(&format!("$${latex}$$")).unwrap();
+        let formula =
+            alone.rsplit_once("<span class=\"formula\">").unwrap().1.strip_suffix("</span>").unwrap();
+        assert!(html.contains(&format!("<div class=\"formula\">{formula}</div>")), "{}", entry.label());
+        for shown in html.split("<div class=\"source\"").skip(1) {
+            let found = lines.captures(shown).expect("lines");
+            let file = fs::read_to_string(root.join(format!("{}.rs", &found[1]))).unwrap();
+            let [first, last] = [2, 3].map(|i| found[i].parse::<usize>().unwrap());
+            let code: Vec<_> = file.lines().skip(first - 1).take(last + 1 - first).collect();
+            let code = format!("```rust,ignore\n{}\n```", code.join("\n"));
+            assert!(shown.contains(&code), "{}: {}", entry.label(), &found[0]);
+            seen += 1;
+        }
+    }
+    assert!(seen > 30, "{seen}");
 }
 
 #[test]
