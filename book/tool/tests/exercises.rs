@@ -128,6 +128,8 @@ fn the_numbers_of_an_answer_are_checked() {
     let fence = Regex::new(r"(?ms)^```.*?^```$").unwrap();
     let aside = Regex::new(r"\]\([^)]*\)|\{\{#.*?\}\}").unwrap();
     let number = Regex::new(r"\d+\.?\d*").unwrap();
+    // 999 and 999.0 are one number.
+    let value = |number: &str| number.parse::<f64>().unwrap().to_string();
     let (mut seen, mut unheld) = (0, Vec::new());
     for name in WITH_EXERCISES {
         for Exercise { number: which, kind, statement, solution } in exercises(&page(name)).unwrap() {
@@ -136,15 +138,18 @@ fn the_numbers_of_an_answer_are_checked() {
             }
             let code: String =
                 fence.find_iter(&solution).map(|block| block.as_str().replace('_', "")).collect();
-            let held: BTreeSet<_> =
-                number.find_iter(&code).chain(number.find_iter(&statement)).map(|n| n.as_str()).collect();
+            let held: BTreeSet<_> = number
+                .find_iter(&code)
+                .chain(number.find_iter(&statement))
+                .map(|n| value(n.as_str()))
+                .collect();
             let text = fence.replace_all(&solution, "").replace("\\,", "");
             for found in
                 number.find_iter(&aside.replace_all(&text, "")).map(|n| n.as_str().trim_end_matches('.'))
             {
                 let digits = found.replace('.', "");
                 if digits.trim_matches('0').len() >= 3 {
-                    if !held.contains(found) {
+                    if !held.contains(&value(found)) {
                         unheld.push(format!("{name} {which}: {found}"));
                     }
                     seen += 1;
