@@ -4,6 +4,7 @@
 //! Without node these tests say so and pass; with `NODE=path` that one is run, and it is an error if it cannot be.
 
 use book_tool::bench::{MODEL, formulas, functions, html};
+use regex::Regex;
 use serde_json::{Value, json};
 use spring_mass_contact::chapter::{SpringMass, augmented, contact, system};
 use spring_mass_contact::number::{Exact, Field, PositivePart, ToExact};
@@ -440,7 +441,19 @@ fn what_no_page_links_to_has_a_verdict_too() {
     assert!(p[0] * p[1] < 0.0 || p[1].abs() > p[0].abs());
     let moving = "?eps=2.99e6&k=1&numbers=f32";
     let long = "?c=1.23456789012345678901234567890123456&eps=2.3456789012345678901234567890123456789&k=200&numbers=exact";
+    // What the multiplier of the cycle misses, now and next; to three digits R is the 4.81 that was typed.
+    let default = SpringMass { c: 100.0_f64, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
+    let (eps, mut lambda) = (1e5, 0.0);
+    let misses = [0; 8].map(|_| {
+        let missed = format!("{:.2e}", (lambda - 4.81_f64).abs()).replace("e-11", "·10⁻¹¹");
+        let u = augmented::deflection(&default, &eps, &lambda);
+        lambda = augmented::update(&default, &eps, &lambda, &u);
+        missed
+    });
+    let cycle = format!("2-cycle by {} now and by {} next", misses[6], misses[7]);
+    assert!(misses[6] != misses[7] && cycle.matches("·10⁻¹¹").count() == 2);
     let expected = [
+        ("?eps=1e5&k=6", &*cycle),
         (overflow, "overflow too large for f32"),
         (moving, "moving by rounding"),
         (long, "converging binary digits"),
@@ -536,4 +549,86 @@ for (const search of input.asked) {
     let input = json!({ "script": script, "asked": asked });
     let Some(found) = node(&format!("{DOCUMENT}{DRAWN}"), &input) else { return };
     assert_eq!(found.lines().collect::<Vec<_>>(), expected.map(|(_, drawn)| drawn));
+}
+
+/// What is drawn, by a page that only remembers it: for the example the steps are (1/4, 1), (1/8, 3/2), … on the
+/// line of equilibrium, and the plane's corner is where p = N = 0.
+#[test]
+fn drawings_are_to_scale() {
+    const PAGE: &str = include_str!("../../theme/bench.js");
+    const DRAWN: &str = r#"
+const { values } = numbers(input), result = run(input, values);
+const drawn = draw => {
+  const svg = document.createElementNS("", "svg");
+  Object.assign(svg, { clientWidth: 400, clientHeight: 300 });
+  draw(svg, seen(result), result);
+  const of = name => svg.children.filter(child => child.name === name);
+  return {
+    paths: of("path").map(({ attributes: { class: kind, d } }) => [kind, numbersIn(d)]),
+    dots: of("circle").map(({ attributes: { class: kind, cx, cy } }) => [kind, [Number(cx), Number(cy)]]),
+  };
+};
+console.log(JSON.stringify([drawn(drawForces), drawn(drawDecay)]));
+"#;
+    const KEPT: &str = "const document = \
+        { createElementNS: (space, name) => new Element(name), querySelectorAll: () => [] };";
+    let question = json!({ "c": "4", "m": "1", "g": "10", "l": "1", "H": "3", "eps": "4", "lambda": "0", "k": 3,
+        "numbers": "f64", "plane": "both" });
+    let Some(found) = printed(&format!("{DOCUMENT}{KEPT}{PAGE}{DRAWN}"), &question) else { return };
+    let drawn: Value = serde_json::from_str(&found).unwrap();
+    let of = |drawing: usize, what: &str, kind: &str| -> Vec<Vec<f64>> {
+        let all = drawn[drawing][what].as_array().unwrap().iter().filter(|one| one[0] == kind);
+        all.map(|one| one[1].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()).collect()
+    };
+    // Paths are written in hundredths of a pixel.
+    let near = |a: f64, b: f64| assert!((a - b).abs() <= 0.011, "{a} and {b}");
+    let (steps, corner) = (of(0, "dots", "bench-dot"), of(0, "paths", "bench-plane bench-corner"));
+    let spring = &of(0, "paths", "bench-spring")[0];
+    let metre = (steps[0][0] - steps[1][0]) / 0.125;
+    let newton = (steps[0][1] - steps[1][1]) / 0.5;
+    assert!(steps.len() == 4 && metre > 100.0 && newton > 10.0, "to the right and upwards");
+    let at = |p: f64, n: f64| [steps[0][0] + (p - 0.25) * metre, steps[0][1] - (n - 1.0) * newton];
+    for (step, (p, n)) in steps.iter().zip([(0.25, 1.0), (0.125, 1.5), (0.0625, 1.75), (0.03125, 1.875)]) {
+        let [x, y] = at(p, n);
+        near(step[0], x);
+        near(step[1], y);
+        let share = (x - spring[0]) / (spring[2] - spring[0]);
+        near(spring[1] + share * (spring[3] - spring[1]), y);
+    }
+    let ([x, y], corner) = (at(0.0, 0.0), &corner[0]);
+    for (a, b) in [(corner[1], y), (corner[2], x), (corner[3], y), (corner[4], x)] {
+        near(a, b);
+    }
+    assert!(corner[0] < x && corner[5] < y, "p ≤ 0 and N ≥ 0");
+
+    // Each step halves the penetration, as computed and exactly: on a logarithmic axis they lie on one line, the law's.
+    let (dots, rings) = (of(1, "dots", "bench-dot"), of(1, "dots", "bench-ring"));
+    let law = of(1, "paths", "bench-faint").pop().unwrap();
+    let slope = (law[3] - law[1]) / (law[2] - law[0]);
+    assert!(dots.len() == 4 && slope > 0.0);
+    for (dot, ring) in dots.iter().zip(&rings) {
+        assert_eq!(dot, ring);
+        // The line's ends are rounded, and it is much longer than what lies between the steps.
+        near(law[1] + slope * (dot[0] - law[0]), dot[1]);
+    }
+}
+
+/// A quantity has one unit, on the page of notation and at its field.
+#[test]
+fn fields_have_the_units_of_the_notation() {
+    let page = include_str!("../../theme/bench.js");
+    let notation = include_str!("../../src/notation.md");
+    let field = Regex::new(r#"(?m)^  \w+: \{ sign: "([^"]*)", name: "[^"]*", unit: "([^"]*)""#).unwrap();
+    let latex = |sign: &str| sign.replace('ε', r"\varepsilon").replace("λ₀", r"\lambda");
+    let mut fields = 0;
+    for found in field.captures_iter(page) {
+        let row = Regex::new(&format!(
+            r"(?m)^\| \${}(?: > 0)?\$ \|[^|]*\| ([^|]*) \|",
+            regex::escape(&latex(&found[1]))
+        ));
+        let row = row.unwrap().captures(notation).unwrap_or_else(|| panic!("no row of {}", &found[1]));
+        assert_eq!(found[2], row[1], "{}", &found[1]);
+        fields += 1;
+    }
+    assert_eq!(fields, 7);
 }
