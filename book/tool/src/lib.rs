@@ -114,8 +114,10 @@ impl Tools {
                 let heading = format!("\n## {}\n", heading(entry));
                 let place = self.places.entry(entry).map(|place| format!("[In the book](../{place}) · "));
                 let claims = format!("[what is claimed](../claims.md#{})", claims::anchor(entry));
-                let links =
-                    format!("\n{}{claims} · [what to trust](../proofs.md)\n", place.unwrap_or_default());
+                let links = format!(
+                    "\n{}{claims} · [what to trust](../proofs.md#trust)\n",
+                    place.unwrap_or_default()
+                );
                 text = text.replace(&heading, &(heading.clone() + &links));
             }
         }

@@ -27,7 +27,7 @@ impl Typesetter {
             katex: KatexContext::default(),
             element: Regex::new(r#"<([a-zA-Z]+)((?: [\w:-]+="[^"]*"){2,})"#)?,
             attribute: Regex::new(r#" [\w:-]+="[^"]*""#)?,
-            annotation: Regex::new("<annotation .*?</annotation>")?,
+            annotation: Regex::new("(?s)<annotation .*?</annotation>")?,
             formula: super::tag("formula")?,
         })
     }

@@ -236,7 +236,7 @@ fn proofs_lead_back() {
         .map(|(_, html)| html.as_str())
         .collect();
     let proved = entries().iter().filter(|entry| !entry.claims.is_empty()).count();
-    assert_eq!(pages.matches("\"../proofs.html\">what to trust</a>").count(), proved);
+    assert_eq!(pages.matches("\"../proofs.html#trust\">what to trust</a>").count(), proved);
     for (entry, _) in equations() {
         let back = format!("#eq-{}\">In the book</a>", entry.equation.replace('.', "-"));
         assert_eq!(pages.matches(&back).count(), 1, "{}", entry.label());
@@ -248,6 +248,11 @@ fn no_tag_and_no_dollar_formula_is_left() {
     let code = Regex::new(r"(?s)<(code|script)[ >].*?</(code|script)>").unwrap();
     for (path, html) in with_extension("html") {
         assert!(!html.contains("{{#"), "{}: a tag is left", path.display());
+        assert!(
+            !html.contains("<annotation"),
+            "{}: LaTeX is left, and would be found by words",
+            path.display()
+        );
         assert!(!code.replace_all(html, "").contains('$'), "{}: a $ is left", path.display());
         assert!(!html.contains("katex-error"), "{}: a formula is in error", path.display());
     }

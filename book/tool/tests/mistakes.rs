@@ -50,6 +50,13 @@ fn a_box_has_the_formula_and_the_lines_of_its_functions() {
         let formula =
             alone.rsplit_once("<span class=\"formula\">").unwrap().1.strip_suffix("</span>").unwrap();
         assert!(html.contains(&format!("<div class=\"formula\">{formula}</div>")), "{}", entry.label());
+        for function in &entry.functions {
+            assert!(
+                html.contains(&format!("`{function}` · [documentation](")),
+                "{}: {function}",
+                entry.label()
+            );
+        }
         for shown in html.split("<div class=\"source\"").skip(1) {
             let found = lines.captures(shown).expect("lines");
             let file = fs::read_to_string(root.join(format!("{}.rs", &found[1]))).unwrap();
