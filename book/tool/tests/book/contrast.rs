@@ -81,6 +81,32 @@ fn black_on_white_has_the_most() {
     }
 }
 
+/// What book.css colours anew in code stands out from the ground of that theme's own style of code.
+#[test]
+fn code_that_is_coloured_anew_stands_out() {
+    let css = |part: &str| {
+        let named = |path: &std::path::Path| path.file_name().unwrap().to_str().unwrap().starts_with(part);
+        with_extension("css").find(|(path, _)| named(path)).unwrap_or_else(|| panic!("no {part}")).1
+    };
+    let rule = Regex::new(r"(?m)^([^{}\n]*\.hljs-[^{}]*)\{\s*color: ([^;]+);").unwrap();
+    let ground = Regex::new(r"(?s)\.hljs \{[^}]*background: ([^;]+);").unwrap();
+    let mut seen = 0;
+    for found in rule.captures_iter(css("book")) {
+        for theme in THEMES.into_iter().filter(|theme| found[1].contains(&format!(".{theme}"))) {
+            let code = css(match theme {
+                "ayu" => "ayu-highlight",
+                "coal" | "navy" => "tomorrow-night",
+                _ => "highlight",
+            });
+            let ground = colour(&ground.captures(code).expect("a ground")[1], theme != "light");
+            let found = contrast(colour(&found[2], theme != "light"), ground);
+            assert!(found >= TEXT, "{theme}: {found:.2}");
+            seen += 1;
+        }
+    }
+    assert_eq!(seen, 3);
+}
+
 #[test]
 fn links_and_drawings_stand_out_in_every_theme() {
     for theme in THEMES {
