@@ -516,6 +516,10 @@ fn the_readme_opens_with_the_plane() {
         fs::write(&file, &made).unwrap();
     }
     assert_eq!(fs::read_to_string(&file).unwrap_or_default(), made, "UPDATE=1 writes it");
+    assert!(
+        !made.contains("\n.drawing {"),
+        "the class is on the root, and a margin would push the picture out of its frame"
+    );
     let readme = fs::read_to_string(source("../../README.md")).unwrap();
     let image = found(r"!\[([^\]]+)\]\(book/src/figures/plane\.svg\)", &readme);
     assert!(
