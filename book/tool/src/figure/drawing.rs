@@ -64,7 +64,9 @@ fn distance(svg: &mut Svg, x: f64, from: f64, to: f64, name: &str) {
     let (from, to) = (level(from), level(to));
     svg.dimension("fine", (x, from), (x, to));
     let side = if x < MIDDLE { End } else { Start };
-    let aside = if x < MIDDLE { -7.0 } else { 7.0 };
+    // Beside the arrows, and beyond the lines if these are too close for a letter.
+    let far = if (to - from).abs() < 24.0 { 14.0 } else { 7.0 };
+    let aside = if x < MIDDLE { -far } else { far };
     svg.text("", (x + aside, (from + to) / 2.0 + 5.0), side, name);
 }
 

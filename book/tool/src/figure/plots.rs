@@ -166,7 +166,7 @@ pub fn rounding() -> Figure {
         plot.mark("penalty", *at, words.last().map_or("", |says| says));
         plot.text("penalty", *at, (-7.0, 14.0), End, "ε^{∗}");
     }
-    plot.text("penalty", (1e26, 1e-10), (-6.0, 0.0), End, "ε p");
+    plot.text("penalty", (1e26, 1e-4), (0.0, 0.0), End, "ε p");
     plot.text("spring", (1e27, 1e-25), (10.0, 0.0), Start, "m g − c u");
     let description = format!(
         "Relative errors of the penalty method for the default system, on logarithmic axes, against ε. All fall along one line, \
