@@ -2,6 +2,7 @@
 //!
 //! Nothing of that is written by hand: the claims are proved and tried when the book is built.
 
+use regex::{Captures, Regex};
 use spring_mass_contact::{
     claims::{Entry, claims, entry, exact_experiments, float_experiments, registry},
     formula::{Hypothesis, Statement},
@@ -61,8 +62,13 @@ impl Claims {
             let _ = write!(text, "\n\n## {title}\n");
             let of_section = by_entry.iter().filter_map(|rows| Some((entry(rows[0].equation)?, rows)));
             for (entry, rows) in of_section.filter(|(entry, _)| entry.section == section) {
-                let _ =
-                    write!(text, "\n### {} {{#{}}}\n\n{}.", heading(entry), anchor(entry), entry.statement());
+                let _ = write!(
+                    text,
+                    "\n### {} {{#{}}}\n\n{}.",
+                    heading(entry),
+                    anchor(entry),
+                    with_indices(&entry.statement())
+                );
                 if let Some(place) = shown(entry) {
                     let _ = write!(text, " [In the book]({place}).");
                 }
@@ -164,6 +170,17 @@ pub fn slug(entry: &Entry) -> String {
     entry.equation.to_lowercase().replace(". ", "-").replace(['.', ' '], "-")
 }
 
+/// A statement with its indices and exponents set as such: `u_{k+1}` as u with a small k+1.
+pub fn with_indices(statement: &str) -> String {
+    static INDEX: LazyLock<Regex> = LazyLock::new(|| Regex::new(r"([_^])(?:\{([^}]*)\}|(\w+))").unwrap());
+    let small = |index: &Captures| {
+        let element = if &index[1] == "_" { "sub" } else { "sup" };
+        let what = index.get(2).or(index.get(3)).map_or("", |what| what.as_str());
+        format!("<{element}>{what}</{element}>")
+    };
+    INDEX.replace_all(statement, small).into_owned()
+}
+
 /// Where the page of all claims has it.
 pub fn anchor(entry: &Entry) -> String {
     format!("claims-{}", slug(entry))
@@ -198,6 +215,13 @@ mod tests {
     }
 
     /// A row of 1.13's first claim.
+    #[test]
+    fn indices_are_small() {
+        let statement = "λ_{k+1} = ρ^{k+1} λ₀ and u_nh, u_k − H";
+        let set = "λ<sub>k+1</sub> = ρ<sup>k+1</sup> λ₀ and u<sub>nh</sub>, u<sub>k</sub> − H";
+        assert_eq!(with_indices(statement), set);
+    }
+
     fn row(scalar: Option<NumberSystem>, status: Status) -> Row {
         Row {
             equation: "1.13",

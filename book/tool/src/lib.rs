@@ -105,8 +105,8 @@ impl Tools {
         Ok(())
     }
 
-    /// A page; one of proofs with links from each equation to where the book has it. The page as it is stored has
-    /// none, since it is read outside of the book, too.
+    /// A page; one of proofs with links from each equation to where the book has it, and with small indices. The page
+    /// as it is stored has neither, since it is read outside of the book, too.
     fn led_back(&self, chapter: &Chapter) -> String {
         let mut text = chapter.content.clone();
         if chapter.path.as_deref().is_some_and(|path| path.starts_with("proofs")) {
@@ -119,6 +119,8 @@ impl Tools {
                     place.unwrap_or_default()
                 );
                 text = text.replace(&heading, &(heading.clone() + &links));
+                let statement = format!("\n\n{}.\n", entry.statement());
+                text = text.replace(&statement, &claims::with_indices(&statement));
             }
         }
         text
