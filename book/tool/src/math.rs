@@ -10,7 +10,13 @@ use spring_mass_contact::{claims::registry, formula::Notation};
 const SHORT: usize = 24;
 
 /// What no line begins with.
-const PUNCTUATION: [char; 6] = ['.', ',', ';', ':', ')', '?'];
+const PUNCTUATION: [char; 7] = ['.', ',', ';', ':', ')', '?', '”'];
+
+/// What no line ends with.
+const OPENING: [char; 2] = ['(', '“'];
+
+/// Between the parts of a formula it may be broken.
+const PARTS: &str = "</span><span class=\"katex-base\">";
 
 /// What turns LaTeX into HTML that Markdown leaves alone.
 pub struct Typesetter {
@@ -48,17 +54,21 @@ impl Typesetter {
             };
             result += &text[end..range.start];
             end = range.end;
-            let punctuation = text[end..].len() - text[end..].trim_start_matches(PUNCTUATION).len();
-            if punctuation == 0 {
+            let before = result.len() - result.trim_end_matches(OPENING).len();
+            let after = text[end..].len() - text[end..].trim_start_matches(PUNCTUATION).len();
+            if text[range].ends_with(r"\square$") {
+                // The end of a proof stays with its last word.
+                result.truncate(result.trim_end_matches(' ').len());
+                result += &format!("&nbsp;<span class=\"qed\">{html}</span>");
+            } else if before + after == 0 {
                 result += &html;
-            } else if short || html.matches("class=\"katex-base\"").count() == 1 {
-                // A formula that need not or cannot be broken, and what belongs on its line.
-                let after = &text[end..end + punctuation];
-                result += &format!("<span class=\"unbroken\">{html}{after}</span>");
-                end += punctuation;
             } else {
-                result += &html;
-                result += "&#8288;"; // a word joiner: no line begins with the punctuation
+                // What belongs on a line with the formula, which itself is broken only if it is long.
+                let opening = result.split_off(result.len() - before);
+                let html = if short { html } else { html.replace(PARTS, &PARTS.replace("><", "><wbr><")) };
+                result +=
+                    &format!("<span class=\"unbroken\">{opening}{html}{}</span>", &text[end..end + after]);
+                end += after;
             }
         }
         Ok(result + &text[end..])
@@ -149,9 +159,17 @@ mod tests {
             "{html}"
         );
         assert!(
-            html.contains("</span> z, <span class=\"katex") && html.contains("</span>&#8288;). <span"),
+            html.contains("</span> z, <span class=\"unbroken\"><span")
+                && html.contains("</span>).</span> <span"),
             "{html}"
         );
+        assert_eq!(html.matches("<wbr>").count(), 6, "between the parts of the long one: {html}");
+        let html = page("so ($x = 1$) it ends. $\\square$\n")?;
+        assert!(
+            html.starts_with("so <span class=\"unbroken\">(<span") && html.contains("</span>)</span> it"),
+            "{html}"
+        );
+        assert!(html.contains("it ends.&nbsp;<span class=\"qed\"><span"), "{html}");
         Ok(())
     }
 
