@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result};
 use katex::{KatexContext, Settings, StrictMode, StrictSetting};
-use pulldown_cmark::{Event, Options, Parser};
+use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 use regex::{Captures, Regex};
 use spring_mass_contact::{claims::registry, formula::Notation};
 
@@ -24,6 +24,7 @@ pub struct Typesetter {
     element: Regex,
     attribute: Regex,
     annotation: Regex,
+    tag: Regex,
     formula: Regex,
 }
 
@@ -34,6 +35,7 @@ impl Typesetter {
             element: Regex::new(r#"<([a-zA-Z]+)((?: [\w:-]+="[^"]*"){2,})"#)?,
             attribute: Regex::new(r#" [\w:-]+="[^"]*""#)?,
             annotation: Regex::new("(?s)<annotation .*?</annotation>")?,
+            tag: Regex::new("<[^>]*>")?,
             formula: super::tag("formula")?,
         })
     }
@@ -41,11 +43,20 @@ impl Typesetter {
     /// A page with its `$…$` and `$$…$$` typeset; code is left alone.
     pub fn page(&self, text: &str) -> Result<String> {
         let mut result = String::with_capacity(text.len());
-        let mut end = 0;
+        let (mut end, mut in_head) = (0, false);
         for (event, range) in
             Parser::new_ext(text, Options::ENABLE_MATH | Options::ENABLE_TABLES).into_offset_iter()
         {
             let (html, short) = match event {
+                Event::Start(Tag::TableHead) => {
+                    in_head = true;
+                    continue;
+                }
+                Event::End(TagEnd::TableHead) => {
+                    in_head = false;
+                    continue;
+                }
+                Event::InlineMath(latex) if in_head => (self.named(&self.inline(&latex)?), true),
                 Event::InlineMath(latex) => (self.inline(&latex)?, latex.chars().count() <= SHORT),
                 Event::DisplayMath(latex) => {
                     (format!("<span class=\"formula\">{}</span>", self.display(&latex)?), false)
@@ -72,6 +83,13 @@ impl Typesetter {
             }
         }
         Ok(result + &text[end..])
+    }
+
+    /// A formula that heads a column, with its letters as its name: a header of MathML alone counts as empty.
+    fn named(&self, html: &str) -> String {
+        let letters = html.split_once("</math>").map_or("", |(math, _)| math);
+        let letters = self.tag.replace_all(letters, "");
+        html.replacen("<math ", &format!("<math aria-label=\"{letters}\" "), 1)
     }
 
     /// A formula in a line of text.
@@ -170,6 +188,15 @@ mod tests {
             "{html}"
         );
         assert!(html.contains("it ends.&nbsp;<span class=\"qed\"><span"), "{html}");
+        Ok(())
+    }
+
+    #[test]
+    fn a_formula_at_the_head_of_a_column_has_a_name() -> Result<()> {
+        let table = page("| $p_k < 1$ |\n|---|\n| $q$ |\n")?;
+        assert_eq!(table.matches("<math ").count(), 2);
+        assert_eq!(table.matches("<math aria-label=").count(), 1);
+        assert!(table.contains("<math aria-label=\"pk&lt;1\" "), "{table}");
         Ok(())
     }
 
