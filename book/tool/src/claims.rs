@@ -2,6 +2,7 @@
 //!
 //! Nothing of that is written by hand: the claims are proved and tried when the book is built.
 
+use crate::places::Places;
 use regex::{Captures, Regex};
 use spring_mass_contact::{
     claims::{Entry, claims, entry, exact_experiments, float_experiments, registry},
@@ -53,8 +54,8 @@ impl Claims {
         format!("<div class=\"status\">\n\n{} · {claimed}\n\n</div>", outcome(&rows, &known, of_all))
     }
 
-    /// All claims, in Markdown; `shown` is the place where the book shows an entry.
-    pub fn page(&self, shown: impl Fn(&Entry) -> Option<String>) -> String {
+    /// All claims, in Markdown, with links to where the book has each entry.
+    pub fn page(&self, places: &Places) -> String {
         let given = supposed();
         let mut text = String::new();
         let by_entry: Vec<_> = self.rows.chunk_by(|a, b| a.equation == b.equation).collect();
@@ -69,7 +70,7 @@ impl Claims {
                     anchor(entry),
                     with_indices(&entry.statement())
                 );
-                if let Some(place) = shown(entry) {
+                if let Some(place) = places.entry(entry) {
                     let _ = write!(text, " [In the book]({place}).");
                 }
                 text += "\n\n";
@@ -214,7 +215,6 @@ mod tests {
         None
     }
 
-    /// A row of 1.13's first claim.
     #[test]
     fn indices_are_small() {
         let statement = "λ_{k+1} = ρ^{k+1} λ₀ and u_nh, u_k − H";
@@ -222,6 +222,7 @@ mod tests {
         assert_eq!(with_indices(statement), set);
     }
 
+    /// A row of 1.13's first claim.
     fn row(scalar: Option<NumberSystem>, status: Status) -> Row {
         Row {
             equation: "1.13",

@@ -31,7 +31,7 @@ use mdbook_preprocessor::{
 use places::Places;
 use pulldown_cmark::{Event, Parser, Tag};
 use regex::{Captures, Regex};
-use source::Sources;
+use source::{Item, Sources};
 use spring_mass_contact::{
     claims::{Entry, entries, entry},
     verify::pages::heading,
@@ -137,7 +137,7 @@ impl Tools {
             "source" => self.source(what, spot),
             "figure" => self.figure(what),
             "bench" => bench::html(),
-            "claims" => Ok(self.claims.page(|entry| self.places.entry(entry))),
+            "claims" => Ok(self.claims.page(&self.places)),
             _ => self.typesetter.inline(&tag[0]),
         }
     }
@@ -162,7 +162,7 @@ impl Tools {
                 self.source(function, spot)?
             } else {
                 let place = self.places.equation(first).context("displayed")?;
-                let links = self.links(function, &spot.up)?;
+                let links = links(function, &self.sources.item(function)?, &spot.up)?;
                 format!(
                     "<div class=\"caption\">\n\n{links}, printed at [({first})]({}{place})\n\n</div>\n\n",
                     spot.up
@@ -197,23 +197,22 @@ impl Tools {
             }
             None => code(&item.code),
         };
-        let links = self.links(function, &spot.up)?;
+        let links = links(function, &item, &spot.up)?;
         Ok(format!(
             "\n\n<div class=\"source\"{id}>\n<div class=\"caption\">\n\n{links}\n\n</div>\n\n{shown}</div>\n\n"
         ))
     }
+}
 
-    /// A function's name, with links to its documentation and to its file.
-    fn links(&self, function: &str, up: &str) -> Result<String> {
-        let item = self.sources.item(function)?;
-        let (module, name) = function.split_once("::").context("a path")?;
-        let (first, last) = (item.lines.start(), item.lines.end());
-        Ok(format!(
-            "`{function}` · [documentation]({up}{DOCS}/{CRATE}/chapter/{module}/{}.{name}.html) · \
-             [source]({up}{DOCS}/src/{CRATE}/chapter/{module}.rs.html#{first}-{last})",
-            item.kind
-        ))
-    }
+/// A function's name, with links to its documentation and to its file.
+fn links(function: &str, item: &Item, up: &str) -> Result<String> {
+    let (module, name) = function.split_once("::").context("a path")?;
+    let (first, last) = (item.lines.start(), item.lines.end());
+    Ok(format!(
+        "`{function}` · [documentation]({up}{DOCS}/{CRATE}/chapter/{module}/{}.{name}.html) · \
+         [source]({up}{DOCS}/src/{CRATE}/chapter/{module}.rs.html#{first}-{last})",
+        item.kind
+    ))
 }
 
 /// From the root of the book to the documentation that `cargo doc` makes.

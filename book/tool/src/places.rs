@@ -4,7 +4,7 @@ use crate::{claims::slug, equations};
 use anyhow::{Context, Result, bail};
 use mdbook_preprocessor::book::Book;
 use regex::Regex;
-use spring_mass_contact::claims::Entry;
+use spring_mass_contact::claims::{Entry, entries};
 use std::{collections::HashMap, fmt, path::PathBuf};
 
 /// A page and an address on it; displayed as a link from the root of the book.
@@ -20,21 +20,19 @@ impl fmt::Display for Place {
     }
 }
 
-/// Where each equation is displayed, and each function.
+/// Where each equation is displayed, each function, and each entry.
 pub struct Places {
     equations: HashMap<String, Place>,
     functions: HashMap<String, Place>,
-    /// The pages with their text.
-    pages: Vec<(PathBuf, String)>,
+    entries: HashMap<&'static str, Place>,
 }
 
 impl Places {
     /// Each equation has to be displayed, once; and of a function no more than its equation displays.
     pub fn of(book: &Book, tags: &Regex) -> Result<Self> {
-        let (mut equations, mut functions, mut pages) = (HashMap::new(), HashMap::new(), Vec::new());
+        let (mut equations, mut functions) = (HashMap::new(), HashMap::new());
         for chapter in book.chapters() {
             let Some(page) = &chapter.path else { bail!("{} is a draft", chapter.name) };
-            pages.push((page.clone(), chapter.content.clone()));
             for tag in tags.captures_iter(&chapter.content) {
                 let what = tag.get(2).map_or("", |what| what.as_str());
                 let (list, anchor, label) = match &tag[1] {
@@ -57,7 +55,11 @@ impl Places {
                 }
             }
         }
-        Ok(Self { equations, functions, pages })
+        let entries = entries().iter().filter_map(|entry| {
+            let displayed = equations.get(entry.equation).cloned();
+            Some((entry.equation, displayed.or_else(|| named(entry, book))?))
+        });
+        Ok(Self { entries: entries.collect(), equations, functions })
     }
 
     pub fn equation(&self, number: &str) -> Option<&Place> {
@@ -70,17 +72,18 @@ impl Places {
     }
 
     /// Where an entry is: its box, or the heading or figure that has its name for an address.
-    pub fn entry(&self, entry: &Entry) -> Option<String> {
-        if let Some(place) = self.equations.get(entry.equation) {
-            return Some(place.to_string());
-        }
-        let anchor = slug(entry);
-        let figure = anchor.strip_prefix("fig-").unwrap_or_default();
-        let marks =
-            [format!("{{#{anchor}}}"), format!("id=\"{anchor}\""), format!("{{{{#figure {figure}}}}}")];
-        let page = self.pages.iter().find(|(_, text)| marks.iter().any(|mark| text.contains(mark)));
-        page.map(|(page, _)| format!("{}#{anchor}", page.display()))
+    pub fn entry(&self, entry: &Entry) -> Option<&Place> {
+        self.entries.get(entry.equation)
     }
+}
+
+/// The heading or figure that has an entry's name for an address.
+fn named(entry: &Entry, book: &Book) -> Option<Place> {
+    let anchor = slug(entry);
+    let figure = anchor.strip_prefix("fig-").unwrap_or_default();
+    let marks = [format!("{{#{anchor}}}"), format!("id=\"{anchor}\""), format!("{{{{#figure {figure}}}}}")];
+    let chapter = book.chapters().find(|chapter| marks.iter().any(|mark| chapter.content.contains(mark)))?;
+    Some(Place { page: chapter.path.clone()?, anchor })
 }
 
 /// The address of an equation's box.
