@@ -89,7 +89,7 @@ const hull = (numbers, more) => {
 };
 
 const floor = x => 10 ** Math.floor(Math.log10(x));
-const { f: real, exactly: toFraction } = systems.f64;
+const { f: real } = systems.f64;
 const toFloat = a => nearest(a, 53, -1074);
 
 /* The three drawings. Numbers of any system are drawn as f64. */
@@ -158,20 +158,18 @@ const drawForces = (svg, { values, rows }, run) => {
   const at = ([p, n]) => [(p - left) / (right - left) * (width - 2) + 1, (high - n) / (high - low) * (height - 2) + 1];
   const line = (a, b, attributes, within = box) => path(clipped(a, b, within).map(at), attributes);
   const span = right - left, far = gap + span;
-  const [x0, y0] = at([0, 0]);
+  const [x0, y0] = at([0, 0]), [x1] = at([free, 0]), [, y1] = at([0, reaction]);
+  const force = `R = ${brief(exactly(reaction))} N`, distance = `${brief(exactly(free))} m`;
+  const held = u => [p(u), real["augmented::contact_force"]({ ...values, u })];
   const parts = [
     line([0, 0], [span, 0], { class: "bench-faint" }),
     line([0, 0], [0, 1], { class: "bench-faint" }),
     label(width - 4, y0 + 15, "p", { class: "bench-italic bench-end" }), label(x0 - 6, 14, "N", { class: "bench-italic bench-end" }),
-    line([p(gap), real["augmented::contact_force"]({ ...values, u: gap })], [p(far), real["augmented::contact_force"]({ ...values, u: far })], { class: "bench-spring" }),
+    line(held(gap), held(far), { class: "bench-spring" }),
     path([at([left, 0]), at([0, 0]), at([0, high])], { class: "bench-plane bench-corner" }),
     // Where the line leaves room, which falls from the left.
-    reaction < 0
-      ? label(x0 - 6, at([0, reaction])[1] + 14, `R = ${brief(exactly(reaction))} N`, { class: "bench-end" })
-      : label(x0 + 8, at([0, reaction])[1] - 5, `R = ${brief(exactly(reaction))} N`),
-    free < 0
-      ? label(at([free, 0])[0] + 8, y0 - 8, `${brief(exactly(free))} m`)
-      : label(at([free, 0])[0], y0 + 15, `${brief(exactly(free))} m`, { class: "bench-end" }),
+    reaction < 0 ? label(x0 - 6, y1 + 14, force, { class: "bench-end" }) : label(x0 + 8, y1 - 5, force),
+    free < 0 ? label(x1 + 8, y0 - 8, distance) : label(x1, y0 + 15, distance, { class: "bench-end" }),
   ];
   const now = rows.at(-1);
   if (now) {

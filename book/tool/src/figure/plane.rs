@@ -53,7 +53,12 @@ fn equilibrium(plot: &mut Plot, system: &SpringMass<Exact>, class: &str) {
     line(plot, class, system, |u| augmented::contact_force(system, u));
 }
 
-/// The name of that line in the example, out of the methods' way.
+/// The name of that line in the example, above it.
+fn equilibrium_above(plot: &mut Plot) {
+    plot.text("spring", (0.2, 1.2), (16.0, -8.0), Start, "c p + N = R");
+}
+
+/// The same below it, out of the methods' way.
 fn equilibrium_below(plot: &mut Plot) {
     plot.text("spring", (0.14, 0.3), (0.0, 0.0), Start, "c p + N = R");
 }
@@ -91,8 +96,13 @@ fn augmentations(system: &SpringMass<Exact>, eps: &Exact, start: i32) -> Vec<(Ex
     (0..4).map(&mut step).collect()
 }
 
-fn says(what: &str, (p, n): (f64, f64)) -> String {
-    format!("{what}: p = {}, N = {}", number(p), number(n))
+/// A point in words.
+fn words((p, n): (f64, f64)) -> String {
+    format!("p = {}, N = {}", number(p), number(n))
+}
+
+fn says(what: &str, point: (f64, f64)) -> String {
+    format!("{what}: {}", words(point))
 }
 
 pub fn figure(plot: Plot, title: &'static str, caption: &'static str, description: String) -> Figure {
@@ -106,20 +116,19 @@ pub fn answer() -> Figure {
     let mut plot = window();
     corner(&mut plot, "plane thick");
     equilibrium(&mut plot, &system, "spring");
-    let answer @ (p, n) = solution(&system);
+    let answer = solution(&system);
     plot.mark("answer", answer, &says("The answer", answer));
     plot.text("", answer, (12.0, -6.0), Start, "the answer: N = R");
     plot.text("spring", (0.2, 1.2), (16.0, -26.0), Start, "equilibrium");
-    plot.text("spring", (0.2, 1.2), (16.0, -8.0), Start, "c p + N = R");
+    equilibrium_above(&mut plot);
     plot.text("plane", (0.0, 1.0), (-10.0, 0.0), End, "contact");
     let description = format!(
         "Penetration p to the right, contact force N upwards. Equilibrium, c p + N = R, is a line that falls from N = {} \
          at p = 0 to N = 0 at p = {}. Contact is a corner: the half of the p axis where p is not positive, and the half of \
-         the N axis where N is not negative. They meet in one point, p = {}, N = {}.",
+         the N axis where N is not negative. They meet in one point, {}.",
         number(float(&system::reaction(&system))),
         number(free(&system).0),
-        number(p),
-        number(n),
+        words(answer),
     );
     let caption = "Force $N$ over penetration $p$, for the example. Equilibrium is a line, contact a corner, and the \
                    answer is where they meet.";
@@ -137,7 +146,7 @@ pub fn intercepts() -> Figure {
     plot.mark("spring", free, &says("Without the plane", free));
     plot.text("spring", held, (12.0, -4.0), Start, "R, to hold it at the plane");
     plot.text("spring", free, (-8.0, 20.0), End, "R/c, without the plane");
-    plot.text("spring", (0.2, 1.2), (16.0, -8.0), Start, "c p + N = R");
+    equilibrium_above(&mut plot);
     plot.text("", (-0.1, 0.0), (0.0, -9.0), Middle, "above");
     plot.text("", (0.1, 0.0), (0.0, -9.0), Middle, "inside");
     plot.text("", (0.0, -0.4), (0.0, 38.0), Middle, "u = Δ");
@@ -161,7 +170,7 @@ pub fn hanging() -> Figure {
     plot.mark("answer", free, &says("The free mass", free));
     plot.text("", (0.0, 0.0), (8.0, -9.0), Start, "no plane: N = 0");
     plot.text("", free, (-8.0, 22.0), End, "p = R/c, u = m g/c");
-    plot.text("spring", (0.2, 1.2), (16.0, -8.0), Start, "c p + N = R");
+    equilibrium_above(&mut plot);
     let description = format!(
         "The line of equilibrium, c p + N = R, meets the line N = 0 at p = {}: there u = {} m, and the spring alone \
          carries the weight.",
@@ -176,7 +185,7 @@ pub fn hanging() -> Figure {
 pub fn states() -> Figure {
     let mut plot = plane(Axis::linear(P, -1.5, 0.75, 0.5), Axis::linear(N, -0.5, 2.5, 0.5), 296.0);
     corner(&mut plot, "plane thick");
-    let mut words = Vec::new();
+    let mut lines = Vec::new();
     for (g, class, state) in
         [(10, "spring", "contact"), (8, "spring dashed", "grazing"), (4, "spring dotted", "separated")]
     {
@@ -184,8 +193,8 @@ pub fn states() -> Figure {
         equilibrium(&mut plot, &system, class);
         let answer = solution(&system);
         plot.mark("answer", answer, &says(&format!("g = {g}, {state}"), answer));
-        let [r, p, n] = [float(&system::reaction(&system)), answer.0, answer.1].map(number);
-        words.push(format!("for g = {g}, R = {r}, at p = {p}, N = {n}: {state}"));
+        let r = number(float(&system::reaction(&system)));
+        lines.push(format!("for g = {g}, R = {r}, at {}: {state}", words(answer)));
     }
     plot.text("", (0.0, 2.0), (12.0, -5.0), Start, "g = 10:");
     plot.text("", (0.0, 2.0), (12.0, 13.0), Start, "contact");
@@ -194,7 +203,7 @@ pub fn states() -> Figure {
     plot.text("", (-1.0, 0.0), (8.0, -10.0), Start, "separated");
     let description = format!(
         "Three parallel lines of equilibrium meet the corner of contact, each in one point: {}.",
-        words.join("; ")
+        lines.join("; ")
     );
     let caption = "Less gravity moves the line of equilibrium down and to the left. It meets the corner once, wherever it is.";
     figure(plot, "Contact, grazing and separated", caption, description)
@@ -218,14 +227,13 @@ pub fn methods() -> Figure {
     plot.text("penalty", (0.45, 1.8), (-10.0, -6.0), End, "penalty");
     plot.text("iterate", (0.16, 2.4), (12.0, 14.0), Start, "augmented, k = 3");
     equilibrium_below(&mut plot);
-    let at = |(p, n): (f64, f64)| format!("p = {}, N = {}", number(p), number(n));
     let description = format!(
         "Where the line of equilibrium, c p + N = R, meets the line of each method, for ε = 4. The multiplier method's is \
          p = 0: {}. The penalty method's is N = ε p: {}. The augmented method's after three steps is N = {} + ε p: {}.",
-        at(exact),
-        at(soft),
+        words(exact),
+        words(soft),
         number(float(lambda)),
-        at(*third),
+        words(*third),
     );
     let caption = "The three methods for $\\varepsilon = 4$. Each has a line of its own in place of the corner, and finds where \
                    it meets equilibrium.";
@@ -247,9 +255,8 @@ pub fn multiplier() -> Figure {
     equilibrium_below(&mut plot);
     let description = format!(
         "The constraint p = 0 is the whole N axis; below N = 0, where the plane would pull, it is dashed. It meets the line \
-         of equilibrium, c p + N = R, at p = {}, N = {}.",
-        number(answer.0),
-        number(answer.1),
+         of equilibrium, c p + N = R, at {}.",
+        words(answer),
     );
     let caption = "The multiplier method replaces the corner by the line $p = 0$. Its lower half, dashed, is a plane to which the \
                    mass is glued.";
@@ -261,13 +268,13 @@ pub fn penalties() -> Figure {
     let system = example(10);
     let mut plot = window();
     corner(&mut plot, "plane thick ghost");
-    let mut words = Vec::new();
+    let mut lines = Vec::new();
     let mut found = Vec::new();
     for eps in [4, 16, 36] {
         let stiffness = Exact::from(eps);
         line(&mut plot, "penalty", &system, |u| penalty::contact_force(&system, &stiffness, u));
         let at = penalised(&system, &stiffness);
-        words.push(format!("for ε = {eps} at p = {}, N = {}", number(at.0), number(at.1)));
+        lines.push(format!("for ε = {eps} at {}", words(at)));
         found.push((eps, at));
     }
     equilibrium(&mut plot, &system, "spring");
@@ -285,10 +292,9 @@ pub fn penalties() -> Figure {
     equilibrium_below(&mut plot);
     let description = format!(
         "Lines N = ε p through the origin, the steeper the larger ε, meet the line of equilibrium, c p + N = R: {}. The exact \
-         answer is at p = {}, N = {}. What the force is short by, R − N, is c p.",
-        words.join(", "),
-        number(exact.0),
-        number(exact.1),
+         answer is at {}. What the force is short by, R − N, is c p.",
+        lines.join(", "),
+        words(exact),
     );
     let caption = "The penalty turns the corner into the line $N = \\varepsilon\\,p$. What is missing, $R - N$, is what the spring \
                    carries for it, $c\\,p$.";
@@ -307,14 +313,14 @@ pub fn iterates() -> Figure {
     }
     equilibrium(&mut plot, &system, "spring");
     let exact = solution(&system);
-    let mut words = Vec::new();
-    for (k, (lambda, at @ (p, n))) in steps.iter().enumerate() {
+    let mut lines = Vec::new();
+    for (k, (lambda, at)) in steps.iter().enumerate() {
         let start = (0.0, float(lambda));
         plot.line("iterate", [start, *at]);
-        plot.line("iterate fine dashed", [*at, (0.0, *n)]);
+        plot.line("iterate fine dashed", [*at, (0.0, at.1)]);
         let down = if k == 0 { -9.0 } else { 5.0 };
         plot.text("iterate", start, (-10.0, down), End, &format!("λ_{k}"));
-        words.push(format!("from {} to p = {}, N = {}", number(start.1), number(*p), number(*n)));
+        lines.push(format!("from {} to {}", number(start.1), words(*at)));
     }
     for (k, (_, at)) in steps.iter().enumerate() {
         plot.mark("iterate", *at, &says(&format!("k = {k}"), *at));
@@ -324,10 +330,9 @@ pub fn iterates() -> Figure {
     equilibrium_below(&mut plot);
     let description = format!(
         "Four parallel lines N = λ + ε p, for ε = 4, each from its λ on the N axis to the line of equilibrium: {}. The N of \
-         each is the λ of the next. They come to the corner at p = {}, N = {}.",
-        words.join(", "),
-        number(exact.0),
-        number(exact.1),
+         each is the λ of the next. They come to the corner at {}.",
+        lines.join(", "),
+        words(exact),
     );
     let caption = "Augmentation shifts the line, $N = \\lambda_k + \\varepsilon\\,p$. Where it meets equilibrium is the next $\\lambda$, \
                    for $\\varepsilon = 4$.";
@@ -359,10 +364,9 @@ pub fn relaxed() -> Figure {
     plot.text("iterate", (0.0, 1.0), (-10.0, 5.0), End, "λ_1");
     equilibrium_below(&mut plot);
     let description = format!(
-        "Two lines N = α p through the origin, for ε = 4 and λ = 0. That with α = ε meets equilibrium at p = {}, N = {}, \
+        "Two lines N = α p through the origin, for ε = 4 and λ = 0. That with α = ε meets equilibrium at {}, \
          which is the next λ. At the same p that with α = c + ε = {} is at N = {}, which is R: the answer in one step.",
-        number(found[0].0),
-        number(found[0].1),
+        words(found[0]),
         number(float(&steps[1])),
         number(found[1].1),
     );
@@ -395,20 +399,17 @@ pub fn bent() -> Figure {
     plot.text("iterate", (0.3, 0.9), (6.0, 5.0), Start, "λ_2 = 0");
     plot.text("penalty", stuck, (-14.0, 5.0), End, "stuck, pulling");
     plot.text("spring", (-0.9, -1.5), (0.0, 0.0), End, "c p + N = R");
-    let [(_, (p0, n0)), (lambda, (p1, n1)), ..] = &steps[..] else { unreachable!("four steps") };
+    let [(_, first), (lambda, second), ..] = &steps[..] else { unreachable!("four steps") };
     let description = format!(
         "A system with R = {}, whose line of equilibrium meets the other arm of the corner, N = 0. Lines N = ⟨λ + ε p⟩ with \
-         ε = 4 lie on the p axis and then rise. From λ = 10 the first meets equilibrium at p = {}, N = {}; the second, with \
-         λ = {}, at p = {}, N = {}, which is the answer. The line N = ε p without its bracket goes on below the axis and \
-         meets equilibrium at p = {}, N = {}: an update that is cut to λ = 0 comes back to it for ever.",
+         ε = 4 lie on the p axis and then rise. From λ = 10 the first meets equilibrium at {}; the second, with \
+         λ = {}, at {}, which is the answer. The line N = ε p without its bracket goes on below the axis and \
+         meets equilibrium at {}: an update that is cut to λ = 0 comes back to it for ever.",
         number(float(&system::reaction(&system))),
-        number(*p0),
-        number(*n0),
+        words(*first),
         number(float(lambda)),
-        number(*p1),
-        number(*n1),
-        number(stuck.0),
-        number(stuck.1),
+        words(*second),
+        words(stuck),
     );
     let caption = "A separated system ($g = 4$, $R = -4$): the line is bent, $N = \\langle\\lambda_k + \\varepsilon\\,p\\rangle$, and meets \
                    equilibrium on the other arm. Not bent (dashed), it stays where the plane pulls.";
@@ -444,11 +445,10 @@ pub fn step() -> Figure {
     equilibrium_below(&mut plot);
     let description = format!(
         "The force of the penalty ε⟨p⟩ is a step: 0 above the plane, ε inside it, anything between at p = 0. A step of height \
-         {} is met by the line of equilibrium in its upright part, at p = {}, N = {}, exactly. One of height {} is lower than \
+         {} is met by the line of equilibrium in its upright part, at {}, exactly. One of height {} is lower than \
          R, and is met inside the plane, at p = {}.",
         number(ends[0]),
-        number(exact.0),
-        number(exact.1),
+        words(exact),
         number(ends[1]),
         number(low.0),
     );

@@ -98,7 +98,7 @@ pub fn rates() -> Figure {
 
 /// The command's default, as it is read.
 fn default() -> SpringMass<Exact> {
-    SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" }.map(|text| text.parse().expect("a decimal"))
+    SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" }.parse().expect("decimals")
 }
 
 /// Relative errors at each penalty: of u, of m g − c u and of ε p.
