@@ -4,11 +4,13 @@
 mod contrast;
 #[path = "book/documentation.rs"]
 mod documentation;
+#[path = "pages/files.rs"]
+mod files;
 
 use book_tool::{Equations, PAGES, bench, equations};
 use mdbook_driver::MDBook;
 use regex::Regex;
-use spring_mass_contact::claims::{claim_names, entries};
+use spring_mass_contact::claims::{Entry, claim_names, entries};
 use std::{
     collections::{BTreeMap, BTreeSet, HashSet},
     fs,
@@ -17,7 +19,7 @@ use std::{
 };
 
 fn book() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().into()
+    files::root().join("book")
 }
 
 /// The produced files with their text, which is empty for fonts and the like.
@@ -112,15 +114,20 @@ fn everything_that_a_box_says_holds() {
     assert_eq!(boxes, 2 * equations().count(), "each once on its page, and once in the page to print");
 }
 
-#[test]
-fn every_claim_is_on_the_page_of_claims_with_its_proof() {
-    let page = &FILES[Path::new("claims.html")];
-    let item = Regex::new(r"<li><strong>([^<]*)</strong>").unwrap();
-    let mut seen = 0;
-    for section in page.split("<h3").skip(1) {
+/// What the page of claims has of each entry.
+fn claimed() -> impl Iterator<Item = (&'static Entry, &'static str)> {
+    FILES[Path::new("claims.html")].split("<h3").skip(1).map(|section| {
         let heading = section.split("</h3>").next().unwrap();
         let entry = entries().iter().find(|entry| heading.contains(&format!(">{} ", entry.label())));
-        let entry = entry.unwrap_or_else(|| panic!("whose heading is {heading}"));
+        (entry.unwrap_or_else(|| panic!("whose heading is {heading}")), section)
+    })
+}
+
+#[test]
+fn every_claim_is_on_the_page_of_claims_with_its_proof() {
+    let item = Regex::new(r"<li><strong>([^<]*)</strong>").unwrap();
+    let mut seen = 0;
+    for (entry, section) in claimed() {
         let mut found: Vec<_> =
             item.captures_iter(section).map(|found| found.get(1).unwrap().as_str()).collect();
         let mut expected = claim_names(entry.equation);
@@ -160,15 +167,12 @@ fn claims_are_those_of_their_proofs() {
     let item =
         Regex::new(r#"(?s)<li><strong>([^<]*)</strong>(.*?)<a href="([^#"]*)#([^"]*)">proved</a>(.*?)</li>"#);
     let (item, mut seen) = (item.unwrap(), 0);
-    for section in FILES[Path::new("claims.html")].split("<h3").skip(1) {
-        let heading = section.split("</h3>").next().unwrap();
-        let entry = entries().iter().find(|entry| heading.contains(&format!(">{} ", entry.label())));
-        let label = entry.map(|entry| entry.label());
+    for (entry, section) in claimed() {
         for found in section.split("<li>").skip(1) {
             let found = format!("<li>{found}");
             let Some(found) = item.captures(&found) else { continue };
             let (name, proof) = (&found[1], headed(&FILES[Path::new(&found[3])], &found[4]));
-            assert_eq!(proof.0, format!("{name}, {}", label.as_ref().unwrap()));
+            assert_eq!(proof.0, format!("{name}, {}", entry.label()));
             assert_eq!(said(&found[2]), said(proof.1), "{}", proof.0);
             assert!(!said(proof.1).is_empty(), "{} says nothing", proof.0);
             // Rationals have no exponentials, and round nothing.

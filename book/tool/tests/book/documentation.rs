@@ -2,24 +2,13 @@
 //!
 //! They stand side by side in `target`, as `book` and `doc`.
 
-use super::{book, values, with_extension};
+use super::files::{files, root, text};
+use super::{values, with_extension};
 use book_tool::equations;
 use regex::Regex;
-use std::{
-    collections::BTreeMap,
-    fs,
-    path::{Path, PathBuf},
-};
+use std::{collections::BTreeMap, fs, path::Path};
 
 const CRATE: &str = "spring_mass_contact";
-
-fn root() -> PathBuf {
-    book().join("..")
-}
-
-fn text(path: &Path) -> String {
-    fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
-}
 
 /// Is there, in the sources, what a link to `../doc/…` is to show?
 ///
@@ -145,19 +134,6 @@ fn the_documentation_of_each_function_leads_to_its_box() {
             "{module}.rs: {differs:?}; UPDATE=1 cargo test -p book-tool --test book writes it"
         );
     }
-}
-
-/// The files of a folder and its folders that end so.
-fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
-    let paths = fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
-    let of = |path: PathBuf| match path.is_dir() {
-        true => files(&path, ending),
-        false => vec![path],
-    };
-    paths
-        .flat_map(|entry| of(entry.unwrap().path()))
-        .filter(|path| path.to_str().unwrap().ends_with(ending))
-        .collect()
 }
 
 /// What `cargo doc` and `mdbook build` made: it takes both of them before.

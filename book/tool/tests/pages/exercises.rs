@@ -1,8 +1,9 @@
 //! The exercises at the end of the pages: numbered, of a known kind, with a solution that something checks.
 
+use super::page;
 use book_tool::PAGES;
 use regex::Regex;
-use std::{collections::BTreeSet, fs, path::Path};
+use std::collections::BTreeSet;
 
 /// Pages that end in exercises.
 const WITH_EXERCISES: [&str; 11] = [
@@ -20,11 +21,6 @@ const WITH_EXERCISES: [&str; 11] = [
 ];
 
 const KINDS: [&str; 4] = ["Predict", "Compute", "Prove", "Break"];
-
-fn page(name: &str) -> String {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../src/{name}.md"));
-    fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
-}
 
 /// One exercise of a page.
 struct Exercise {
@@ -102,7 +98,7 @@ fn each_answer_is_proved_or_checked() {
             for block in &blocks {
                 let checks = match &block[1] {
                     "rust" => block[2].contains("assert"),
-                    // Held by tests/command.rs.
+                    // Held by command.rs.
                     "console" => block[2].starts_with("$ contact ") && block[2].lines().count() > 1,
                     _ => false,
                 };

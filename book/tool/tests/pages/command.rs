@@ -1,37 +1,18 @@
 //! The page about the command says what the command does: its options are those of the sources, and its
 //! samples are the outputs that `tests/cmd` holds the command to. So are all samples of the page on stalls.
 
+use super::files::{files, root, text};
+use super::page;
 use book_tool::PAGES;
 use regex::Regex;
-use std::{
-    collections::{BTreeMap, BTreeSet},
-    fs,
-    path::{Path, PathBuf},
-};
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
-
-fn text(path: &Path) -> String {
-    fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
-}
-
-fn page() -> String {
-    text(&root().join("book/src/command.md"))
-}
-
-fn files(folder: &Path) -> Vec<PathBuf> {
-    let paths = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    paths.flat_map(|path| if path.is_dir() { files(&path) } else { vec![path] }).collect()
-}
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The options that the command's sources declare.
 fn declared() -> BTreeSet<String> {
     // What a number may be stands in a second attribute, where the first would be too long.
     let option = r#"#\[arg\(long(?: = "([\w-]+)")?[^\n]*\)\]\s+(?:#\[arg[^\n]*\]\s+)?(?:pub )?(\w+):"#;
     let option = Regex::new(option).unwrap();
-    let sources = files(&root().join("src/bin/contact"));
+    let sources = files(&root().join("src/bin/contact"), ".rs");
     let sources: String = sources.iter().map(|path| text(path)).collect();
     option
         .captures_iter(&sources)
@@ -42,7 +23,8 @@ fn declared() -> BTreeSet<String> {
 #[test]
 fn every_option_is_on_the_page_and_no_other() {
     let flag = Regex::new(r"(?:^|[\s`])--([a-z][a-z-]+)").unwrap();
-    let mut named: BTreeSet<String> = flag.captures_iter(&page()).map(|found| found[1].into()).collect();
+    let mut named: BTreeSet<String> =
+        flag.captures_iter(&page("command")).map(|found| found[1].into()).collect();
     // Cargo's own, and the one that every command has.
     assert!(named.remove("release") && named.remove("path") && named.remove("help"));
     assert_eq!(named, declared());
@@ -72,11 +54,11 @@ fn transcript(text: &str) -> Vec<(String, Vec<String>)> {
 #[test]
 fn the_samples_are_what_the_command_prints() {
     let snapshots: BTreeMap<_, _> =
-        files(&root().join("tests/cmd")).iter().flat_map(|path| transcript(&text(path))).collect();
+        files(&root().join("tests/cmd"), ".trycmd").iter().flat_map(|path| transcript(&text(path))).collect();
     let mut compared = 0;
     // What the page on stalls shows in part has a test of its own.
     let pages = PAGES.iter().filter(|page| **page != "stalls");
-    let pages = pages.map(|page| text(&root().join(format!("book/src/{page}.md"))));
+    let pages = pages.map(|name| page(name));
     for (command, sample) in pages.flat_map(|page| transcript(&page)) {
         let Some(snapshot) = snapshots.get(&command).filter(|_| !sample.is_empty()) else {
             // All the cases take too long for a test.
@@ -98,7 +80,7 @@ fn the_samples_are_what_the_command_prints() {
 /// sample leaves out, as ` …`, the file leaves open, as `...`; the rest is held character by character.
 #[test]
 fn what_the_page_on_stalls_shows_is_what_the_command_prints() {
-    let page = text(&root().join("book/src/stalls.md"));
+    let page = page("stalls");
     let commands =
         |runs: &[(String, Vec<String>)]| -> Vec<_> { runs.iter().map(|run| run.0.clone()).collect() };
     let mut shown = transcript(&page);
@@ -120,7 +102,7 @@ fn what_the_page_on_stalls_shows_is_what_the_command_prints() {
 
 #[test]
 fn every_symptom_has_a_section_with_an_example_a_test_and_a_remedy() {
-    let page = text(&root().join("book/src/stalls.md"));
+    let page = page("stalls");
     let (table, sections) = page.split_once("## The ratio").expect("what follows the table");
     let linked = |text| -> BTreeSet<_> {
         let link = Regex::new(r"(?m)^\| \[.*?\]\(#([\w-]+)\) \|").unwrap();

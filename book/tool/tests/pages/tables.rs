@@ -1,18 +1,12 @@
 //! What pages write by hand and no snippet holds: the numbers in their tables, the code's names, the labels of sources.
 
+use super::files::root;
+use super::page;
 use book_tool::PAGES;
 use regex::Regex;
 use spring_mass_contact::chapter::{SpringMass, augmented, contact, penalty, system};
 use spring_mass_contact::number::Exact;
-use std::{fs, path::Path};
-
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap()
-}
-
-fn page(name: &str) -> String {
-    fs::read_to_string(root().join(format!("book/src/{name}.md"))).unwrap()
-}
+use std::fs;
 
 fn exact(text: &str) -> Exact {
     text.replace('−', "-").parse().unwrap_or_else(|_| panic!("{text} is no number"))

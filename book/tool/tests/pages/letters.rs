@@ -1,10 +1,11 @@
 //! Each letter of the book's formulas is on the page of notation.
 
+use super::page;
 use book_tool::{PAGES, equations};
 use pulldown_cmark::{Event, Options, Parser};
 use regex::{Captures, Regex};
 use spring_mass_contact::{claims::registry, formula::Notation};
-use std::{collections::BTreeSet, fs, path::Path};
+use std::collections::BTreeSet;
 
 const GREEK: [&str; 23] = [
     "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa", "lambda", "mu",
@@ -13,11 +14,6 @@ const GREEK: [&str; 23] = [
 
 /// It explains letters of its own, those of matrices.
 const WITH_LETTERS_OF_ITS_OWN: &str = "elements";
-
-fn page(name: &str) -> String {
-    let pages = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().join("src");
-    fs::read_to_string(pages.join(name).with_extension("md")).unwrap()
-}
 
 /// The formulas of a text, with what functions compute in the place of tags.
 fn formulas(text: &str) -> String {

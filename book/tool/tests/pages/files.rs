@@ -1,0 +1,27 @@
+//! Files of the project.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+pub fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+pub fn text(path: &Path) -> String {
+    fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// The files of a folder and its folders that end so.
+pub fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
+    let paths = fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    let of = |path: PathBuf| match path.is_dir() {
+        true => files(&path, ending),
+        false => vec![path],
+    };
+    paths
+        .flat_map(|entry| of(entry.unwrap().path()))
+        .filter(|path| path.to_str().unwrap().ends_with(ending))
+        .collect()
+}
