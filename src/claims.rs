@@ -10,7 +10,6 @@ mod beyond;
 mod case;
 mod contact;
 mod entry;
-#[cfg(feature = "mpfr")]
 mod experiments;
 mod formulas;
 mod given;
@@ -27,7 +26,6 @@ mod system;
 
 pub use case::{Case, Var, symbols};
 pub use entry::Entry;
-#[cfg(feature = "mpfr")]
 pub use experiments::{Experiment, Trial, exact_experiments, float_experiments};
 pub use formulas::computed;
 pub use given::{Given, given};
@@ -146,7 +144,6 @@ pub fn statements() -> Vec<Statement> {
 }
 
 /// The names of an entry's claims, in whatever number system they are checked.
-#[cfg(feature = "mpfr")]
 pub fn claim_names(equation: &str) -> Vec<&'static str> {
     let recorded = claims().filter(|c| !c.rounds()).map(|c| (c.equation, c.name));
     let floats = float_experiments::<f64>().into_iter().map(|e| (e.equation, e.name));

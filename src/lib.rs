@@ -9,37 +9,35 @@
 //! | module | what is in it | who reads it |
 //! |---|---|---|
 //! | [`number`] | the number systems and the few traits a formula asks for | everything below |
-//! | [`formula`] | records as data: typeset, compiled, and what is said of them | `proof`, `claims` |
-#![cfg_attr(
-    feature = "mpfr",
-    doc = "| [`proof`] | proves what is claimed of formulas, refutes what is wrong, prints both | `verify` |"
-)]
 //! | [`chapter`] | the equations, a module a section, a function a formula | everything below |
 //! | [`solver`] | [`solve`](solver::solve), the augmentation as an iterator, bounds, certificates | users |
-//! | [`claims`] | the chapter as data, and what is claimed of it | `verify` |
 #![cfg_attr(
-    feature = "mpfr",
-    doc = "| [`mod@verify`] | runs proofs and number systems | the command `contact` |"
-)]
-#![cfg_attr(
-    feature = "mpfr",
-    doc = "| [`mod@check`] | holds somebody else's solver against the exact answer | the command `contact` |"
+    feature = "prover",
+    doc = "\
+| [`formula`] | records as data: typeset, compiled, and what is said of them | `proof`, `claims` |
+| [`proof`] | proves what is claimed of formulas, refutes what is wrong, prints both | `verify` |
+| [`claims`](mod@claims) | the chapter as data, and what is claimed of it | `verify` |
+| [`verify`](mod@verify) | runs proofs and number systems | the command `contact` |
+| [`check`](mod@check) | holds somebody else's solver against the exact answer | the command `contact` |"
 )]
 //!
-//! The first three are an engine that knows no mechanics, and serves any other formulas as well; `chapter`
-//! and `solver` are the mechanics, and know no proofs; `claims` joins them. A test holds every module to
-//! that.
+//! The first three are what a user needs, and keep their promises by semantic versioning. The others are
+//! open with the feature `prover`, and what they open may change with any minor version.
+//!
+//! `number`, `formula` and `proof` are an engine that knows no mechanics, and serves any other formulas as
+//! well; `chapter` and `solver` are the mechanics, and know no proofs; `claims` joins them. A test holds
+//! every module to that.
 //!
 //! To find an equation, say (1.16): the number opens the doc comment of its functions in [`chapter`], stands
-//! beside its statement among the [`entries`](claims::entries()), and beside each of its
-//! [claims](claims::claims()). On the command line, `contact equations 1.16` names the functions and the
-//! claims, `contact prove 1.16` prints their proofs, and `contact verify --equation 1.16` runs them.
+//! beside its statement among the entries in `claims`, and beside each of its claims. On the command line,
+//! `contact equations 1.16` names the functions and the claims, `contact prove 1.16` prints their proofs, and
+//! `contact verify --equation 1.16` runs them.
 //!
 //! # Features
 //!
-//! - `mpfr` (default): MPFR floats, exact rationals, and all that needs them: claims, proofs, certificates,
-//!   step counts, reading numbers. Builds GMP and MPFR from source by way of rug, which is
-//!   LGPL-3.0-or-later.
+//! - `mpfr` (default): MPFR floats, exact rationals, and all that needs them: certificates, step counts,
+//!   advice, reading numbers. Builds GMP and MPFR from source by way of rug, which is LGPL-3.0-or-later.
+//! - `prover`, on with `cli`: the modules `formula`, `proof`, `claims`, `verify` and `check`.
 //! - `cli` (default): the command `contact`.
 //! - `serde`, on with `cli`: what the solver and the runs of claims return is `serde::Serialize`,
 //!   quantities as texts.
@@ -47,17 +45,31 @@
 //!
 //! Without them f32, f64, balls, dual numbers, the chapter and the solver are there; eˣ of a float is not.
 
+// The docs speak of all numbers, also of those that are not there.
+#![cfg_attr(not(feature = "mpfr"), allow(rustdoc::broken_intra_doc_links))]
+
 pub mod chapter;
-#[cfg(feature = "mpfr")]
+#[cfg(feature = "prover")]
 pub mod check;
+#[cfg(feature = "prover")]
 pub mod claims;
+#[cfg(feature = "prover")]
 pub mod formula;
 pub mod number;
-#[cfg(feature = "mpfr")]
+#[cfg(feature = "prover")]
 pub mod proof;
 pub mod solver;
-#[cfg(feature = "mpfr")]
+#[cfg(feature = "prover")]
 pub mod verify;
+
+/// What the solver needs of it.
+#[cfg(not(feature = "prover"))]
+mod formula {
+    #[expect(dead_code, reason = "the solver runs programs in rounds only")]
+    #[allow(rustdoc::private_doc_tests)]
+    mod program;
+    pub(crate) use program::{Program, Rounds};
+}
 
 #[cfg(feature = "mpfr")]
 pub use rug;

@@ -1,5 +1,5 @@
 //! Controls of the proofs: what is false must be noticed, and must not be proved.
-#![cfg(feature = "mpfr")]
+#![cfg(feature = "prover")]
 
 use rayon::prelude::*;
 use spring_mass_contact::claims::{given, registry, statements};

@@ -1,6 +1,6 @@
 //! The chapter in Coq: what is written, and, where Coq is installed, that it accepts it.
 
-#![cfg(feature = "mpfr")]
+#![cfg(feature = "prover")]
 
 mod gallina;
 #[allow(dead_code)]

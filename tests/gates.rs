@@ -1,6 +1,6 @@
 //! The chapter's data, its functions, its claims and their documentation belong together: what one side
 //! has and another lacks fails here.
-#![cfg(feature = "mpfr")]
+#![cfg(feature = "prover")]
 
 use spring_mass_contact::claims::{
     claim_names, claims, entries, entry, exact_experiments, float_experiments, given, registry,

@@ -1,5 +1,5 @@
 //! The laws of rounding against floats: they hold, they are nearly reached, and what is less than they say is refuted.
-#![cfg(feature = "mpfr")]
+#![cfg(feature = "prover")]
 
 use proptest::prelude::*;
 use spring_mass_contact::chapter::{augmented, contact, penalty, system};

@@ -1,5 +1,5 @@
 //! Every claim is proved for all values, from what the functions of the chapter do.
-#![cfg(feature = "mpfr")]
+#![cfg(feature = "prover")]
 
 use spring_mass_contact::claims::{registry, statements};
 use spring_mass_contact::proof::paper::Paper;

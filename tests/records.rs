@@ -1,6 +1,6 @@
 //! The record of a formula is the formula: whatever number system, what the compiled function returns, what its record
 //! replays to and what rounds of it arrive at are the same, bit for bit. Everything that reads records stands on this.
-#![cfg(feature = "mpfr")]
+#![cfg(feature = "prover")]
 
 use num_traits::{One, Zero};
 use proptest::prelude::*;

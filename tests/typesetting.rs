@@ -1,5 +1,5 @@
 //! A formula that is printed says what it computes: its text, read again, has the value of its tree.
-#![cfg(feature = "mpfr")]
+#![cfg(feature = "prover")]
 
 use proptest::prelude::*;
 use spring_mass_contact::claims::registry;

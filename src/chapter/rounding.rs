@@ -2,8 +2,8 @@
 //!
 //! A number of p bits is rounded to with a relative error of at most η = 2⁻ᵖ, for p ≥ 2; under- and
 //! overflow are left out. The parameters are meant as they are in floats, and computed is, in their
-//! order, what the functions of the other modules compute. Each bound is [claimed](crate::claims) beside
-//! the formula that it bounds, and proved.
+//! order, what the functions of the other modules compute. Each bound is claimed beside the formula that it
+//! bounds, and proved.
 
 use super::{SpringMass, penalty, system};
 use crate::number::{Field, PositivePart};

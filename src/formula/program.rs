@@ -8,6 +8,7 @@ use std::collections::HashMap;
 /// once, however many formulas speak of it.
 ///
 /// ```
+/// # #[cfg(feature = "prover")] {
 /// use num_traits::One;
 /// use spring_mass_contact::{formula::Program, number::Tree};
 /// let x = Tree::symbol("x");
@@ -17,6 +18,7 @@ use std::collections::HashMap;
 /// let values = program.run(&|_| 2.0, &|_| None);
 /// assert_eq!((values[a], values[b]), (Some(8.0), None)); // nobody said how to divide
 /// assert_eq!(program.len(), 5); // x, x², x² + x², 1 and 1/x²
+/// # }
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Program {
@@ -108,6 +110,7 @@ impl Program {
 /// ([`Field::assign`]), and bit for bit what the functions compute.
 ///
 /// ```
+/// # #[cfg(feature = "prover")] {
 /// use spring_mass_contact::{formula::Program, number::Tree};
 /// let [a, x] = ["a", "x"].map(|name| Tree::symbol(name));
 /// let mut program = Program::default();
@@ -120,6 +123,7 @@ impl Program {
 ///     rounds.run(&beyond);
 ///     assert_eq!(rounds[result], 4.0 * x);
 /// }
+/// # }
 /// ```
 #[derive(Clone, Debug)]
 pub struct Rounds<T> {

@@ -108,7 +108,7 @@ pub trait Field:
     }
 
     /// Are operations so dear, and is so much gained by [`assign`](Self::assign), that a loop had better be
-    /// run from its record, in [`Rounds`](crate::formula::Rounds)?
+    /// run from its record, in rounds that use their memory again?
     const IN_PLACE: bool = false;
 
     /// Puts what a step of arithmetic comes to, bit for bit, where another number was, whose memory may

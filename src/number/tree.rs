@@ -17,6 +17,7 @@ use std::sync::Arc;
 /// use spring_mass_contact::{chapter::{SpringMass, contact}, number::Tree};
 /// let system = SpringMass { c: "c", m: "m", g: "g", l: "l", h: "H" }.map(|name| Tree::symbol(name));
 /// let p = contact::penetration(&system, &Tree::symbol("u"));
+/// # #[cfg(feature = "prover")]
 /// assert_eq!(p.to_string(), "l + u − H");
 /// let at = |name| if name == "H" { 3.0 } else { 2.0 };
 /// assert_eq!(p.replay(&at, &|_| None), Some(1.0));

@@ -4,7 +4,7 @@ mod changed;
 
 use super::checker::Judge;
 use super::*;
-use crate::claims::{Experiment, Trial, Var};
+use crate::claims::{Experiment, Trial};
 use crate::formula::statement::{Goal, Says};
 use crate::formula::{Claim, Kind, Relation};
 use crate::number::{Exponential, Field, PositivePart, Tree};
@@ -352,7 +352,7 @@ fn json_shows_how_a_claim_fails() {
     let suspect = Suspect { equation: None, function: "penalty::deflection", unproved: 7, proved: 2 };
     let report = Report { rows, suspects: vec![suspect], repairs: Vec::new() };
     let coordinates: std::collections::BTreeMap<_, _> =
-        Var::ALL.iter().map(|var| (var.symbol(), "7/3")).collect();
+        crate::claims::Var::ALL.iter().map(|var| (var.symbol(), "7/3")).collect();
     let expected = serde_json::json!({
         "summary": {"claims": 2, "proved": 0, "held": 0, "undecided": 1, "failed": 1},
         "suspects": [{"equation": null, "function": "penalty::deflection", "unproved": 7, "proved": 2}],
