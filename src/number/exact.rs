@@ -1,11 +1,12 @@
 //! Exact rational numbers: the oracle.
 
 use super::field::ordered;
+use super::text::{fixed, to_whole};
 use super::tree::Step;
 use super::{Ball, Field, Mpfr, NumberSystem, OrderedField, PositivePart, RangeError, Real};
 use num_traits::{One, Zero};
 use rug::float::Round;
-use rug::ops::NegAssign;
+use rug::ops::{AssignRound, NegAssign};
 use rug::{Assign, Float, Rational};
 use std::cmp::Ordering;
 use std::fmt;
@@ -109,9 +110,25 @@ impl Exact {
 }
 
 /// As `p/q` in lowest terms, or as an integer; reading it back gives the same number.
+///
+/// With a number of decimals, as in `{:.5}`, it is that many, to the nearest and of two to the even one, as for
+/// the machine's floats. Width, fill and sign are honoured.
+///
+/// ```
+/// use spring_mass_contact::number::Exact;
+/// let x: Exact = "-2/3".parse()?;
+/// assert_eq!(format!("{x} {x:.3} {x:8.1}|"), "-2/3 -0.667     -0.7|");
+/// # Ok::<(), spring_mass_contact::number::ParseError>(())
+/// ```
 impl fmt::Display for Exact {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        fmt::Display::fmt(&self.0, f)
+        match f.precision() {
+            Some(decimals) => {
+                let units = |unit: &_| to_whole(Rational::from(&self.0 * unit));
+                f.pad_integral(*self >= Exact::zero(), "", &fixed(decimals, units))
+            }
+            None => fmt::Display::fmt(&self.0, f),
+        }
     }
 }
 
@@ -132,16 +149,57 @@ impl From<Exact> for Rational {
         x.0
     }
 }
-impl From<i32> for Exact {
-    fn from(n: i32) -> Self {
-        Exact::int(n)
-    }
+
+macro_rules! from_integers {
+    ($($integer:ty),*) => {$(
+        impl From<$integer> for Exact {
+            fn from(n: $integer) -> Self {
+                Exact(Rational::from(n))
+            }
+        }
+    )*};
+}
+from_integers!(i32, i64, u32, u64);
+
+macro_rules! from_floats {
+    ($($float:ty),*) => {$(
+        /// The value of the float itself, which of 0.1 is not 1/10.
+        impl TryFrom<$float> for Exact {
+            type Error = Inexact;
+            fn try_from(x: $float) -> Result<Self, Inexact> {
+                x.to_exact()
+            }
+        }
+    )*};
+}
+from_floats!(f32, f64);
+
+/// A float that has no exact value, since it is no number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+pub enum Inexact {
+    /// ∞
+    #[error("inf has no exact value; a finite number has")]
+    Infinity,
+    /// −∞
+    #[error("-inf has no exact value; a finite number has")]
+    NegativeInfinity,
+    /// Not-a-number.
+    #[error("NaN has no exact value; a finite number has")]
+    NotANumber,
 }
 
-/// A float that is infinite or not a number has no exact value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("an infinity or not-a-number has no exact value")]
-pub struct Inexact;
+impl Inexact {
+    /// Of a float that is not finite.
+    fn of(x: f64) -> Self {
+        if x.is_nan() {
+            Inexact::NotANumber
+        } else if x > 0.0 {
+            Inexact::Infinity
+        } else {
+            Inexact::NegativeInfinity
+        }
+    }
+}
 
 /// Numbers that convert to rationals exactly, and from them by one rounding: the machine's floats,
 /// [`Mpfr`], and [`Exact`] itself.
@@ -172,30 +230,31 @@ pub trait ToExact: Sized {
 }
 impl ToExact for f32 {
     fn to_exact(&self) -> Result<Exact, Inexact> {
-        Rational::from_f32(*self).map(Exact).ok_or(Inexact)
+        Rational::from_f32(*self).map(Exact).ok_or_else(|| Inexact::of(f64::from(*self)))
     }
     fn number_system(&self) -> NumberSystem {
         NumberSystem::F32
     }
     fn nearest_compared(&self, x: &Exact) -> Result<(Self, Ordering), RangeError> {
-        x.to_ieee(24, "f32").map(|(x, ordering)| (x.to_f32(), ordering))
+        to_ieee(&x.0, 24, "f32").map(|(x, ordering)| (x.to_f32(), ordering))
     }
 }
 impl ToExact for f64 {
     fn to_exact(&self) -> Result<Exact, Inexact> {
-        Rational::from_f64(*self).map(Exact).ok_or(Inexact)
+        Rational::from_f64(*self).map(Exact).ok_or_else(|| Inexact::of(*self))
     }
     fn number_system(&self) -> NumberSystem {
         NumberSystem::F64
     }
     fn nearest_compared(&self, x: &Exact) -> Result<(Self, Ordering), RangeError> {
-        x.to_ieee(53, "f64").map(|(x, ordering)| (x.to_f64(), ordering))
+        to_ieee(&x.0, 53, "f64").map(|(x, ordering)| (x.to_f64(), ordering))
     }
 }
 /// Rounding like a constant does not round.
 impl ToExact for Mpfr {
     fn to_exact(&self) -> Result<Exact, Inexact> {
-        self.to_rational().map(Exact).ok_or(Inexact)
+        let float = || self.as_float().map_or(0.0, Float::to_f64);
+        self.to_rational().map(Exact).ok_or_else(|| Inexact::of(float()))
     }
     fn number_system(&self) -> NumberSystem {
         self.precision().map_or(NumberSystem::Exact, NumberSystem::Mpfr)
@@ -267,17 +326,46 @@ impl Exact {
     pub fn to_mpfr(&self, precision: u32) -> Mpfr {
         Mpfr::rounded(precision, &self.0)
     }
+}
 
-    fn to_ieee(&self, precision: u32, scalar: &'static str) -> Result<(Float, Ordering), RangeError> {
-        let (mut x, ordering) = Float::with_val_round(precision, &self.0, Round::Nearest);
-        let ordering = x.subnormalize_ieee_round(ordering, Round::Nearest);
-        let largest = if precision == 53 { f64::MAX } else { f64::from(f32::MAX) };
-        if *x.as_abs() > largest {
-            Err(RangeError::Overflow { scalar })
-        } else if x.is_zero() && !self.is_zero() {
-            Err(RangeError::Underflow { scalar })
-        } else {
-            Ok((x, ordering))
+/// A finite number, rounded to one that a machine's float of so many bits holds.
+fn to_ieee<V>(number: V, precision: u32, scalar: &'static str) -> Result<(Float, Ordering), RangeError>
+where
+    Float: AssignRound<V, Round = Round, Ordering = Ordering>,
+{
+    let (mut x, ordering) = Float::with_val_round(precision, number, Round::Nearest);
+    let zero = x.is_zero();
+    let ordering = x.subnormalize_ieee_round(ordering, Round::Nearest);
+    let largest = if precision == 53 { f64::MAX } else { f64::from(f32::MAX) };
+    if *x.as_abs() > largest {
+        Err(RangeError::Overflow { scalar })
+    } else if x.is_zero() && !zero {
+        Err(RangeError::Underflow { scalar })
+    } else {
+        Ok((x, ordering))
+    }
+}
+
+impl Mpfr {
+    /// Rounded once to the nearest f64, ties to even, also where f64 is subnormal. What is infinite or not a
+    /// number stays so.
+    ///
+    /// # Errors
+    /// A finite value overflows, or is not zero and would round to zero.
+    ///
+    /// ```
+    /// use spring_mass_contact::number::{Exact, Mpfr, RangeError};
+    /// let third = "1/3".parse::<Exact>()?.to_mpfr(200);
+    /// assert_eq!(third.to_f64(), Ok(1.0 / 3.0));
+    /// assert_eq!(Mpfr::parse("1e400", 200)?.to_f64(), Err(RangeError::Overflow { scalar: "f64" }));
+    /// # Ok::<(), spring_mass_contact::number::ParseError>(())
+    /// ```
+    pub fn to_f64(&self) -> Result<f64, RangeError> {
+        match self.as_float() {
+            None => Exact(self.to_rational().unwrap_or_default()).to_f64(),
+            Some(x) if !x.is_finite() => Ok(x.to_f64()),
+            // Not by way of a rational, which can be longer than the memory.
+            Some(x) => to_ieee(x, 53, "f64").map(|(x, _)| x.to_f64()),
         }
     }
 }

@@ -1,11 +1,12 @@
 //! Floats of any precision, chosen at run time.
 
 use super::field::ordered;
+use super::text::{fixed, to_whole};
 use super::tree::Step;
 use super::{Exponential, Field, Logarithm, OrderedField, PositivePart, Real};
 use num_traits::{One, Zero};
 use rug::float::{Round, Special};
-use rug::ops::{MulAssignRound, Pow};
+use rug::ops::MulAssignRound;
 use rug::{Assign, Float, Integer, Rational};
 use std::cmp::Ordering;
 use std::{fmt, ops::RangeInclusive};
@@ -361,23 +362,15 @@ impl Mpfr {
         }
     }
 
-    /// The magnitude of a finite number, to the nearest of so many decimals; of two, to the even one.
-    fn decimal(&self, decimals: usize) -> String {
-        let unit = Integer::from(10).pow(decimals as u32);
-        let units = match &self.0 {
-            Small(_) | Constant(_) => {
-                let (off, nearest) = (self.0.rational() * &unit).fract_round(Integer::new());
-                // rug rounds a tie away from zero.
-                if *off.denom() == 2 && nearest.is_odd() { nearest + off.numer() } else { nearest }
-            }
+    /// The nearest whole number to so many times a finite number; of two, the even one.
+    fn to_whole(&self, times: &Integer) -> Integer {
+        match &self.0 {
+            Small(_) | Constant(_) => to_whole(self.0.rational() * times),
             Rounded(x) => {
-                let exact = Float::with_val(x.prec() + unit.significant_bits(), x * &unit);
+                let exact = Float::with_val(x.prec() + times.significant_bits(), x * times);
                 exact.to_integer_round(Round::Nearest).expect("a finite number").0
             }
-        };
-        let digits = format!("{:0>1$}", units.abs().to_string(), decimals + 1);
-        let (whole, fraction) = digits.split_at(digits.len() - decimals);
-        if decimals == 0 { whole.to_string() } else { format!("{whole}.{fraction}") }
+        }
     }
 
     /// The exact value; `None` if it is infinite or not a number.
@@ -410,7 +403,7 @@ impl fmt::Display for Mpfr {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         if let (Some(decimals), true) = (f.precision(), self.is_finite()) {
             let negative = *self < Mpfr::zero();
-            return f.pad_integral(!negative, "", &self.decimal(decimals));
+            return f.pad_integral(!negative, "", &fixed(decimals, |unit| self.to_whole(unit)));
         }
         let text = match &self.0 {
             Small(_) | Constant(_) => return fmt::Display::fmt(&self.0.rational(), f),

@@ -2,7 +2,7 @@
 
 use super::{Exact, Mpfr, Real, ToExact};
 use num_traits::Zero;
-use rug::{Float, float::Round};
+use rug::{Float, Integer, Rational, float::Round, ops::Pow};
 
 /// Numbers that are written down with nothing lost, and bounds that hold as they are written.
 pub trait Text: ToExact + Clone {
@@ -81,6 +81,21 @@ impl Text for Exact {
     fn neighbours(&self) -> [Self; 2] {
         [self.clone(), self.clone()]
     }
+}
+
+/// The nearest whole number, of two the even one.
+pub(super) fn to_whole(x: Rational) -> Integer {
+    let (off, nearest) = x.fract_round(Integer::new());
+    // rug rounds a tie away from zero.
+    if *off.denom() == 2 && nearest.is_odd() { nearest + off.numer() } else { nearest }
+}
+
+/// The size of a number with so many decimals; `units` says which multiple of 1/unit is nearest to it.
+pub(super) fn fixed(decimals: usize, units: impl FnOnce(&Integer) -> Integer) -> String {
+    let unit = Integer::from(10).pow(decimals as u32);
+    let digits = format!("{:0>1$}", units(&unit).abs().to_string(), decimals + 1);
+    let (whole, fraction) = digits.split_at(digits.len() - decimals);
+    if decimals == 0 { whole.to_string() } else { format!("{whole}.{fraction}") }
 }
 
 impl Exact {

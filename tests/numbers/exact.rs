@@ -5,7 +5,7 @@ use crate::format::{DOUBLE, Format, SINGLE};
 use crate::system::{Planted, System};
 use num_traits::{One, Zero};
 use proptest::prelude::*;
-use rug::{Integer, Rational};
+use rug::{Float, Integer, Rational};
 use spring_mass_contact::number::{Exact, Field, Inexact, Mpfr, PositivePart, RangeError, Real, ToExact};
 use std::fmt::Debug;
 
@@ -93,6 +93,11 @@ fn rationals_are_rounded_once_to_the_nearest_float_or_refused() {
         let result = x.to_f64();
         refused.count(result.is_err());
         prop_assert_eq!(result.map(|y| y.to_exact().unwrap()), converted(&x, DOUBLE, "f64"));
+        // By way of other digits than f64 has, rounded or not.
+        for y in [x.to_mpfr(60), Mpfr::constant(x.as_rational().clone())] {
+            let result = y.to_f64().map(|y| y.to_exact().unwrap());
+            prop_assert_eq!(result, converted(&y.to_exact().unwrap(), DOUBLE, "f64"));
+        }
         Ok(())
     });
     refused.assert_one_in(50, "refused");
@@ -131,20 +136,47 @@ fn overflow_and_underflow_begin_exactly_where_rounding_says() {
     }
     edges(SINGLE, Exact::to_f32, [f32::MAX, f32::from_bits(1)], "f32");
     edges(DOUBLE, Exact::to_f64, [f64::MAX, f64::from_bits(1)], "f64");
+    // Enough bits for what is drawn next to an edge.
+    edges(DOUBLE, |x| x.to_mpfr(4000).to_f64(), [f64::MAX, f64::from_bits(1)], "f64");
+    let far = |shift: i32| Mpfr::rounded(53, Float::with_val(53, 1) << shift).to_f64();
+    assert_eq!(far(1_000_000_000), Err(RangeError::Overflow { scalar: "f64" }));
+    assert_eq!(far(-1_000_000_000), Err(RangeError::Underflow { scalar: "f64" }));
     assert_eq!(Exact::zero().to_f32().map(f32::to_bits), Ok(0));
     assert_eq!(Exact::zero().to_f64().map(f64::to_bits), Ok(0));
 }
 
 #[test]
 fn what_is_not_finite_has_no_exact_value() {
-    assert_eq!(
-        [f32::INFINITY, f32::NEG_INFINITY, f32::NAN].map(|x| x.to_exact()),
-        [const { Err(Inexact) }; 3]
-    );
-    assert_eq!(
-        [f64::INFINITY, f64::NEG_INFINITY, f64::NAN].map(|x| x.to_exact()),
-        [const { Err(Inexact) }; 3]
-    );
+    let none = [Inexact::Infinity, Inexact::NegativeInfinity, Inexact::NotANumber].map(Err);
+    assert_eq!([f32::INFINITY, f32::NEG_INFINITY, f32::NAN].map(|x| x.to_exact()), none);
+    let floats = [f64::INFINITY, f64::NEG_INFINITY, f64::NAN];
+    assert_eq!(floats.map(|x| x.to_exact()), none);
     let endless = [Mpfr::infinity(), -Mpfr::infinity(), Mpfr::infinity() - Mpfr::infinity()];
-    assert_eq!(endless.map(|x| x.to_exact()), [const { Err(Inexact) }; 3]);
+    assert_eq!(endless.each_ref().map(|x| x.to_exact()), none);
+    // The error says which number it was, and a float of the machine stays what it is.
+    for (x, endless) in floats.into_iter().zip(endless) {
+        assert!(Exact::try_from(x).unwrap_err().to_string().starts_with(&format!("{x} ")));
+        assert_eq!(
+            endless.to_f64().map(|y| (y.is_nan(), y.is_sign_negative() && !y.is_nan())).ok(),
+            Some((x.is_nan(), x < 0.0))
+        );
+    }
+}
+
+#[test]
+fn integers_and_finite_floats_are_themselves() {
+    assert_eq!(Exact::from(i64::MIN).to_string(), "-9223372036854775808");
+    assert_eq!(Exact::from(u64::MAX).to_string(), "18446744073709551615");
+    assert_eq!(Exact::from(u32::MAX), Exact::from(u64::from(u32::MAX)));
+    assert_eq!(Exact::from(i32::MIN), Exact::from(i64::from(i32::MIN)));
+    // 2⁻² + 2⁻⁵⁴ and so on: the float next to a quarter, and not the quarter.
+    assert_eq!(
+        Exact::try_from(0.25_f64.next_up()),
+        Ok("1/4".parse::<Exact>().unwrap() + Exact::power_of_two(-54))
+    );
+    assert_eq!(
+        Exact::try_from(0.25_f32.next_up()),
+        Ok("1/4".parse::<Exact>().unwrap() + Exact::power_of_two(-25))
+    );
+    assert_eq!(Exact::try_from(-0.0), Ok(Exact::zero()));
 }

@@ -200,7 +200,7 @@ fn mpfr_numbers_are_padded_and_signed_like_floats() {
 
 /// A tie goes to the even digit, which is f64's way.
 #[test]
-fn mpfr_numbers_have_as_many_decimals_as_asked_for() {
+fn numbers_have_as_many_decimals_as_asked_for() {
     fn shown(x: impl Display + std::fmt::Debug) -> [String; 9] {
         [
             format!("{x:.0}"),
@@ -220,6 +220,7 @@ fn mpfr_numbers_have_as_many_decimals_as_asked_for() {
         assert_eq!(shown(Mpfr::rounded(53, x)), shown(x), "{x}");
         assert_eq!(shown(Mpfr::rounded(200, x)), shown(x), "{x}");
         assert_eq!(shown(Mpfr::constant(Rational::from_f64(x).unwrap())), shown(x), "{x}");
+        assert_eq!(shown(Exact::try_from(x).unwrap()), shown(x), "{x}");
     }
     for x in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
         assert_eq!(shown(Mpfr::rounded(53, x)), shown(x), "{x}");
