@@ -71,14 +71,14 @@ pub struct Report {
 }
 
 impl Report {
-    /// Does every claim hold, as far as it is decided?
+    /// Does every claim hold, as far as it is decided? Not if there is none: then nothing was tried.
     pub fn holds(&self) -> bool {
-        self.rows.iter().all(|row| row.status != Status::Failed)
+        !self.rows.is_empty() && self.rows.iter().all(|row| row.status != Status::Failed)
     }
 
-    /// Is every claim decided in every number system that it was tried in?
+    /// Is every claim decided in every number system that it was tried in? Not if there is none.
     pub fn is_decided(&self) -> bool {
-        self.rows.iter().all(|row| row.status != Status::Undecided)
+        !self.rows.is_empty() && self.rows.iter().all(|row| row.status != Status::Undecided)
     }
 
     /// The rows of each equation.

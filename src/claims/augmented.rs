@@ -64,7 +64,7 @@ pub(super) fn entries() -> Vec<Entry> {
             .states("L(u) = «augmented::functional»")
             .in_latex(r"L(u) = «augmented::functional»")
             .given([stiffness, penalty])
-            .functions(["augmented::functional"])
+            .functions(["augmented::functional", "augmented::least_value"])
             .follows_from(["1.7", "1.9"])
             .claims([
                 equal(
@@ -115,7 +115,13 @@ pub(super) fn entries() -> Vec<Entry> {
                 r"k = 1, 2, 3, \dots \end{gathered}",
             ))
             .given([stiffness, penalty])
-            .functions(["augmented::update", "augmented::equilibrium", "augmented::deflection"])
+            .functions([
+                "augmented::update",
+                "augmented::equilibrium",
+                "augmented::deflection",
+                "augmented::multiplier_after",
+                "augmented::deflection_after",
+            ])
             .follows_from(["1.15"])
             .claims([
                 equal(

@@ -47,7 +47,7 @@ pub(super) fn entries() -> Vec<Entry> {
                 r"\text{always:} & «contact::kkt.complementarity» = 0 & \end{array}",
             ))
             .given([stiffness])
-            .functions(["contact::kkt", "contact::equilibrium"])
+            .functions(["contact::kkt", "contact::Kkt", "contact::equilibrium"])
             .follows_from(["1.4", "1.5"])
             .claims([
                 equal(

@@ -134,6 +134,7 @@ pub(super) fn entries() -> Vec<Entry> {
                 "augmented::unilateral_equilibrium",
                 "augmented::unilateral_functional",
                 "augmented::natural_residual",
+                "penalty::unilateral_deflection",
             ])
             .follows_from(["1.6", "1.16"])
             .claims([
@@ -309,7 +310,16 @@ pub(super) fn entries() -> Vec<Entry> {
         Entry::new("note 8", "Not in every precision")
             .states("Rounding stops the augmentation at a floor of about η (|H| + R/ε)")
             .given([penalty])
-            .functions(["rounding::fixed_point_error", "rounding::floor"])
+            .functions([
+                "rounding::fixed_point_error",
+                "rounding::floor",
+                "rounding::unit_roundoff",
+                "rounding::deflection_error",
+                "rounding::penalty_force_error",
+                "rounding::best_compliance_squared",
+                "rounding::penetration_drift",
+                "rounding::multiplier_drift",
+            ])
             .follows_from(["1.16"])
             .claims([
                 within(

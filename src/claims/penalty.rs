@@ -50,7 +50,7 @@ pub(super) fn entries() -> Vec<Entry> {
             .states("Π_p(u) = «penalty::energy»")
             .in_latex(r"\Pi_p(u) = «penalty::energy»")
             .given([stiffness, penalty])
-            .functions(["penalty::energy", "penalty::functional"])
+            .functions(["penalty::energy", "penalty::functional", "penalty::least_energy"])
             .follows_from(["1.4", "1.5"])
             .claims([
                 equal(
@@ -70,7 +70,7 @@ pub(super) fn entries() -> Vec<Entry> {
             .states("W = «penalty::series» fulfils the conditions on a penalty functional")
             .in_latex(r"W_\varepsilon(p) = «penalty::series»")
             .given([penalty, quartic])
-            .functions(["penalty::series", "penalty::series_force"])
+            .functions(["penalty::series", "penalty::series_force", "penalty::series_residual"])
             .follows_from(["1.9"])
             .claims([
                 equal("vanishes-at-contact", [], series(eps, quartic_term, zero), 0),
@@ -128,7 +128,7 @@ pub(super) fn entries() -> Vec<Entry> {
             .states("N = «penalty::contact_force», which is «penalty::force_at_root» at (1.13)")
             .in_latex(r"N = «penalty::contact_force» = «penalty::contact_force in full»")
             .given([stiffness, penalty])
-            .functions(["penalty::contact_force"])
+            .functions(["penalty::contact_force", "penalty::force_at_root"])
             .follows_from(["1.11"])
             .claims([
                 equal(
@@ -282,7 +282,7 @@ pub(super) fn entries() -> Vec<Entry> {
         Entry::new("Remark 1.3.2", "Which penalty is enough")
             .states("p ≤ tol if and only if ε ≥ «penalty::penalty_for»")
             .given([stiffness, penalty, contact, tolerance])
-            .functions(["penalty::penalty_for"])
+            .functions(["penalty::penalty_for", "penalty::penetration"])
             .follows_from(["1.13"])
             .claims([
                 non_negative("enough", [tolerance, contact, enough], tol - penetration(s, eps)),

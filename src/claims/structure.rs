@@ -24,7 +24,7 @@ pub(super) fn entries() -> Vec<Entry> {
             .states("«structure::residual» = 0")
             .in_latex(r"«structure::residual» = 0")
             .given([stiffness])
-            .functions(["structure::residual", "structure::deflection"])
+            .functions(["structure::residual", "structure::spring_force", "structure::deflection"])
             .follows_from(["Fig. 1.1"])
             .claims([
                 equal("forces", [], residual(s, u), spring_force(s, u) - system::weight(s)),
@@ -84,7 +84,7 @@ pub(super) fn entries() -> Vec<Entry> {
             )
             .in_latex(r"\Pi(u) = «structure::potential_energy» \;\to\; \min")
             .given([stiffness])
-            .functions(["structure::potential_energy"])
+            .functions(["structure::potential_energy", "structure::least_energy"])
             .follows_from(["1.1"])
             .claims([
                 derivative("slope", [], potential_energy(s, u), u, residual(s, u)),

@@ -14,6 +14,6 @@ pub(super) fn entries() -> Vec<Entry> {
     vec![
         Entry::new("Fig. 1.1", "The system")
             .states("A mass hangs on a spring over a rigid plane.")
-            .functions(["system::SpringMass"]),
+            .functions(["system::SpringMass", "system::gap", "system::weight", "system::reaction"]),
     ]
 }

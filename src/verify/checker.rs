@@ -309,12 +309,13 @@ impl<J: Judge> Checks for Checker<J> {
 }
 
 impl<J: Judge> Checker<J> {
-    /// All that is asked together: what fails decides, else what is open leaves the case open.
+    /// All that is asked together: what fails decides, else what is open leaves the case open. Where nothing is asked,
+    /// as of a derivative that does not exist, nothing is decided.
     fn verdict<'a>(&'a self, asked: &[Asked], values: &[Option<J::Number>]) -> Verdict<'a>
     where
         J::Number: 'a,
     {
-        let (mut open, mut holds) = (false, true);
+        let (mut open, mut holds) = (asked.is_empty(), true);
         let mut worst: Option<(f64, J::Number)> = None;
         for asked in asked {
             let answer = match asked {

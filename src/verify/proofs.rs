@@ -119,10 +119,10 @@ pub fn prove_all(equations: &[String]) -> Proofs {
 }
 
 impl Proofs {
-    /// Is everything proved, every hypothesis needed, and every change noticed?
+    /// Is everything proved, every hypothesis needed, and every change noticed? Not if nothing was to be proved.
     pub fn hold(&self) -> bool {
         let Summary { claims, proved, controls, .. } = self.summary();
-        claims == proved && controls.unnoticed == 0 && self.controls.needless().next().is_none()
+        0 < proved && claims == proved && controls.unnoticed == 0 && self.controls.needless().next().is_none()
     }
 
     /// A claim's hypotheses, dropped one at a time.

@@ -123,17 +123,22 @@ fn a_claim_can_fail_in_one_number_system_alone() {
         let number = if zero { Tree::zero() } else { Tree::one() };
         [claim("zero", Kind::Equal(x("u") - x("u"), number)), holding()]
     };
-    for wrong in [NumberSystem::F32, NumberSystem::F64] {
+    let scalars = [NumberSystem::F32, NumberSystem::F64, NumberSystem::Mpfr(100), NumberSystem::Exact];
+    for wrong in scalars {
+        let [single, double, precise, exact] = scalars.map(|scalar| zero_is(scalar != wrong));
         let checkers = [
-            boxed(NumberSystem::F32, Floats(0f32), &zero_is(wrong != NumberSystem::F32), Vec::new()),
-            boxed(NumberSystem::F64, Floats(0f64), &zero_is(wrong != NumberSystem::F64), Vec::new()),
-            exactly(&[holding()], Vec::new()),
+            boxed(scalars[0], Floats(0f32), &single, Vec::new()),
+            boxed(scalars[1], Floats(0f64), &double, Vec::new()),
+            boxed(scalars[2], Floats(Mpfr::rounded(100, 0)), &precise, Vec::new()),
+            exactly(&exact, Vec::new()),
         ];
         let report = report(&checkers, 20);
         let failed = report.rows.iter().filter(|row| row.status == Status::Failed);
         let failed: Vec<_> = failed.map(|row| (row.claim, row.scalar)).collect();
         assert_eq!(failed, [("zero", Some(wrong))]);
-        assert!(!report.holds());
+        let Summary { claims, proved, held, undecided, failed } = report.summary();
+        assert_eq!([claims, proved, held, undecided, failed], [8, 0, 7, 0, 1]);
+        assert!(!report.holds() && report.is_decided());
     }
 }
 
@@ -164,6 +169,43 @@ fn a_claim_that_is_nowhere_decided_is_undecided_and_no_failure() {
         assert_eq!(found, (Status::Undecided, 0, all, &None), "{name}");
     }
     assert!(all > 0 && report.holds() && !report.is_decided());
+}
+
+/// Of no cases, of hypotheses that no case satisfies, and where nothing is asked: a derivative that is none, the members of
+/// no recursion.
+#[test]
+fn what_was_never_tried_does_not_hold() {
+    let positive = |value: Tree| Hypothesis::new(Relation::Positive, value);
+    let never = vec![positive(x("u")), positive(-x("u"))];
+    let wrong = || Kind::Sign(Relation::Positive, -Tree::one());
+    let skipped = Claim { given: never.clone(), ..claim("skipped", wrong()) };
+    let kink = claim("kink", Kind::Derivative { of: x("u").positive_part(), by: "u", is: x("u") });
+    let nothing = || Vec::new();
+    let members = Kind::Induction { ratio: x("q"), start: nothing(), step: nothing(), closed: nothing() };
+    let claims = [skipped, kink, claim("members", members)];
+    let experiments = || {
+        let skipped = experiment("skipped trial", |_| Trial::Decided(false));
+        vec![Experiment { given: never.clone(), ..skipped }]
+    };
+    let of = |cases| report(&[exactly(&claims, experiments())], cases);
+    let untried = |report: Report, cases| {
+        assert_eq!(report.rows.len(), 4);
+        for row in &report.rows {
+            let found = (row.status, row.decided, row.undecided);
+            assert_eq!(found, (Status::Undecided, 0, cases), "{}", row.claim);
+        }
+        assert!(!report.is_decided());
+    };
+    untried(of(2 * BLOCK), 2 * BLOCK);
+    untried(of(0), 0);
+    // In no number system, and of no claim: no report of nothing looks as if all were well.
+    for nothing in [report(&[], 10), report(&[exactly(&[], Vec::new())], 10)] {
+        assert_eq!(nothing.rows, []);
+        assert!(!nothing.holds() && !nothing.is_decided());
+    }
+    let unknown = Options { equations: vec!["1.99".to_string()], ..Options::default() };
+    assert!(!verify(&unknown, &|_, _| ()).holds());
+    assert!(!proofs::Proofs::default().hold());
 }
 
 /// 1/(u − u) in rationals and in balls; and an experiment that expects what is not there.
@@ -348,7 +390,15 @@ fn json_shows_how_a_claim_fails() {
         worst: counterexample.as_ref().map(|_| (2.5, "1/8".to_string())),
         counterexample,
     };
+    let held = || Row { equation: "1.14", ..row(Status::Held, None) };
+    let proved = || Row { equation: "1.15", scalar: None, ..row(Status::Proved, None) };
     let rows = vec![row(Status::Failed, Some(case)), row(Status::Undecided, None)];
+    let counted = [rows.clone(), vec![held(), held(), held()], vec![proved(), proved()]].concat();
+    let counted = Report { rows: counted, suspects: Vec::new(), repairs: Vec::new() };
+    assert_eq!(
+        serde_json::to_value(&counted).unwrap()["summary"],
+        serde_json::json!({"claims": 7, "proved": 2, "held": 3, "undecided": 1, "failed": 1})
+    );
     let suspect = Suspect { equation: None, function: "penalty::deflection", unproved: 7, proved: 2 };
     let report = Report { rows, suspects: vec![suspect], repairs: Vec::new() };
     let coordinates: std::collections::BTreeMap<_, _> =

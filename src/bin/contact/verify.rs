@@ -76,12 +76,20 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
         .into());
     }
     let report = output::with_progress("verifying", |progress| verify::verify(&wanted, progress));
-    output::print(|out| match options.format {
-        Format::Table => table(out, &report, &wanted),
-        Format::Json => output::json(out, &report),
-        Format::Markdown => markdown(out, &report),
-    })?;
-    Ok(if report.holds() { Exit::Fine } else { Exit::Unmet })
+    output::print(|out| print(out, &report, &wanted, options.format))?;
+    Ok(exit(&report))
+}
+
+fn exit(report: &Report) -> Exit {
+    if report.holds() { Exit::Fine } else { Exit::Unmet }
+}
+
+fn print(out: &mut dyn Write, report: &Report, options: &verify::Options, format: Format) -> io::Result<()> {
+    match format {
+        Format::Table => table(out, report, options),
+        Format::Json => output::json(out, report),
+        Format::Markdown => markdown(out, report),
+    }
 }
 
 /// What a claim is tried by: a number system, or the prover.
@@ -369,6 +377,35 @@ Rounding used at most 250 % of its bound (1.13 rate, exact).
         assert!(text.contains("\n| 1.13 | rate | equal |  | failed | 0 | 0 |  |\n"), "{text}");
         assert!(text.contains("\n| 1.13 | rate | equal | mpfr:2 | undecided | 0 | 5 |  |\n"), "{text}");
         assert!(text.contains("\n| 1.13 | rate | equal | exact | held | 4 | 1 | 2.50 |\n"), "{text}");
+    }
+
+    /// One failure, a proof or in numbers, first or last of many: in the status and however the report is printed.
+    #[test]
+    fn a_failure_is_seen_by_status_and_in_every_format() {
+        let ways = [None, Some(NumberSystem::F32), Some(NumberSystem::F64), Some(NumberSystem::Exact)];
+        let well = |way: Way| row(way, if way.is_none() { Status::Proved } else { Status::Held });
+        let printed = |report: &Report, options: &verify::Options| {
+            [Format::Table, Format::Json, Format::Markdown]
+                .map(|format| printed(|out| print(out, report, options, format)))
+        };
+        let failures = |texts: [String; 3]| texts.map(|text| text.to_lowercase().matches("failed").count());
+        let (all_well, options) = report(ways.map(well).to_vec());
+        assert_eq!(exit(&all_well), Exit::Fine);
+        // In JSON the summary counts them by this name.
+        assert_eq!(failures(printed(&all_well, &options)), [0, 1, 0]);
+        for wrong in ways {
+            let (mistaken, options) =
+                report(ways.map(|way| if way == wrong { row(way, Status::Failed) } else { well(way) }).to_vec());
+            assert_eq!(exit(&mistaken), Exit::Unmet, "{}", name(wrong));
+            let texts = printed(&mistaken, &options);
+            assert!(texts[1].contains("\"failed\": 1"), "{}", texts[1]);
+            let of_table = if wrong.is_some() { 2 } else { 1 };
+            assert_eq!(failures(texts), [of_table, 2, 1], "{}", name(wrong));
+        }
+        let (open, _) = report(vec![row(ways[1], Status::Undecided)]);
+        assert_eq!(exit(&open), Exit::Fine);
+        let (nothing, _) = report(Vec::new());
+        assert_eq!(exit(&nothing), Exit::Unmet);
     }
 
     #[test]
