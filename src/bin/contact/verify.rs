@@ -394,8 +394,9 @@ Rounding used at most 250 % of its bound (1.13 rate, exact).
         // In JSON the summary counts them by this name.
         assert_eq!(failures(printed(&all_well, &options)), [0, 1, 0]);
         for wrong in ways {
-            let (mistaken, options) =
-                report(ways.map(|way| if way == wrong { row(way, Status::Failed) } else { well(way) }).to_vec());
+            let (mistaken, options) = report(
+                ways.map(|way| if way == wrong { row(way, Status::Failed) } else { well(way) }).to_vec(),
+            );
             assert_eq!(exit(&mistaken), Exit::Unmet, "{}", name(wrong));
             let texts = printed(&mistaken, &options);
             assert!(texts[1].contains("\"failed\": 1"), "{}", texts[1]);
