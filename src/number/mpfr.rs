@@ -96,8 +96,11 @@ macro_rules! operator {
                     (Rounded(a), Constant(b)) => result.put(a.prec(), a $op b),
                     (Small(a), Rounded(b)) => result.put(b.prec(), a $op b),
                     (Constant(a), Rounded(b)) => $constant_first(result, a, b),
-                    (Small(a), Small(b)) if let Some(n) = $small(*a, *b) => *result = Small(n),
-                    (a, b) => *result = Kind::constant(a.rational() $op b.rational()),
+                    (a, b) => {
+                        let small = if let (Small(a), Small(b)) = (a, b) { $small(*a, *b) } else { None };
+                        let exact = || Kind::constant(a.rational() $op b.rational());
+                        *result = small.map_or_else(exact, Small);
+                    }
                 }
             })*
         }

@@ -196,14 +196,16 @@ impl Context {
         let mut reader = Reader::new(self);
         let because = match &goal.says {
             Says::Equal(left, right) => Because::Same(self.same(reader.read(left)?, reader.read(right)?)?),
-            Says::Sign(Relation::NonNegative, of) if let Some((a, b)) = rounded_difference(of) => {
-                reader.defined(of)?;
-                Because::Order(order::at_least(&mut reader, a, b)?)
-            }
-            Says::Sign(relation, of) => {
-                let value = reader.read(of)?;
-                Because::Sign(reader.of_sign(value, (*relation).into())?)
-            }
+            Says::Sign(relation, of) => match (relation, rounded_difference(of)) {
+                (Relation::NonNegative, Some((a, b))) => {
+                    reader.defined(of)?;
+                    Because::Order(order::at_least(&mut reader, a, b)?)
+                }
+                _ => {
+                    let value = reader.read(of)?;
+                    Because::Sign(reader.of_sign(value, (*relation).into())?)
+                }
+            },
             Says::Within(of, bound) => {
                 let (of, bound) = (reader.read(of)?, reader.read(bound)?);
                 let [above, below] = self.reduce(&bound).both_sides(&self.reduce(&of));
