@@ -1,7 +1,7 @@
 //! Every claim is proved for all values, from what the functions of the chapter do.
 #![cfg(feature = "prover")]
 
-use spring_mass_contact::claims::{registry, statements};
+use spring_mass_contact::claims::{entries, registry, statements};
 use spring_mass_contact::proof::paper::Paper;
 use spring_mass_contact::proof::prove;
 use spring_mass_contact::verify::pages::{Page, pages};
@@ -13,14 +13,18 @@ fn every_claim_is_proved() {
         .iter()
         .filter_map(|s| prove(s).err().map(|why| format!("{} {}: {why}", s.equation, s.name)))
         .collect();
-    assert!(open.is_empty(), "{open:#?}");
+    assert!(open.is_empty(), "not proved, as `contact prove` shows: {open:#?}");
+    assert!(statements().len() > 100, "{} statements", statements().len());
 }
 
 #[test]
 fn every_number_of_the_chapter_has_a_proof() {
     let proved: BTreeSet<_> = statements().iter().map(|s| s.equation).collect();
     for n in 1..=33 {
-        assert!(proved.contains(format!("1.{n}").as_str()), "nothing is proved of (1.{n})");
+        assert!(
+            proved.contains(format!("1.{n}").as_str()),
+            "nothing is proved of (1.{n}): add a claim to its entry in src/claims"
+        );
     }
 }
 
@@ -36,8 +40,13 @@ fn every_formula_of_the_chapter_is_part_of_a_proof() {
     }
     for formula in registry().formulas() {
         // A formula made by differentiating has the places of the number system that does it.
-        assert!(sites.contains(&formula.tree.site()), "{} is in no claim", formula.name());
+        assert!(
+            sites.contains(&formula.tree.site()),
+            "no claim speaks of {}: call it in one, in the entry that names it in src/claims",
+            formula.path
+        );
     }
+    assert!(registry().formulas().len() > 60, "{} formulas", registry().formulas().len());
 }
 
 #[test]
@@ -56,13 +65,19 @@ fn a_proof_can_be_read() {
 fn the_pages_of_proofs_are_what_is_printed() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("book/src/proofs");
     let update = std::env::var_os("UPDATE").is_some();
-    for Page { file, text } in pages() {
-        let path = folder.join(&file);
+    let pages = pages();
+    for Page { file, text } in &pages {
+        let path = folder.join(file);
         if update {
-            std::fs::write(&path, &text).unwrap();
+            std::fs::write(&path, text).unwrap();
         }
         let found = std::fs::read_to_string(&path).unwrap_or_default().replace("\r\n", "\n");
         let line = found.lines().zip(text.lines()).position(|(a, b)| a != b).map(|i| i + 1);
-        assert!(found == text, "book/src/proofs/{file}, line {line:?}: UPDATE=1 cargo test --test proofs");
+        assert!(
+            found == *text,
+            "book/src/proofs/{file}, line {line:?}, is not what is proved: UPDATE=1 cargo test --test proofs writes it"
+        );
     }
+    let sections: BTreeSet<_> = entries().iter().map(|e| e.section).collect();
+    assert!(pages.len() >= sections.len(), "{} pages of {} sections", pages.len(), sections.len());
 }

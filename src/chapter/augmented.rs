@@ -36,6 +36,7 @@ pub fn functional<T: Field>(system: &SpringMass<T>, eps: &T, lambda: &T, u: &T) 
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(augmented::least_value(&system, &4.0, &2.0), -12.0); // at λ = R it is Π(Δ)
 /// ```
+/// [In the book](../../../../book/augmented.html#eq-1-14)
 pub fn least_value<T: Field>(system: &SpringMass<T>, eps: &T, lambda: &T) -> T {
     let missing = system::reaction(system) - lambda;
     structure::potential_energy(system, &system::gap(system))
@@ -160,6 +161,7 @@ pub fn contraction<T: Field>(system: &SpringMass<T>, eps: &T) -> T {
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(augmented::multiplier_after(&system, &0.0, &0.25), 1.5); // k = 2
 /// ```
+/// [In the book](../../../../book/augmented.html#eq-1-16)
 pub fn multiplier_after<T: Field>(system: &SpringMass<T>, start: &T, decay: &T) -> T {
     let r = system::reaction(system);
     (start - &r) * decay + r
@@ -194,6 +196,7 @@ pub fn penetration_after<T: Field>(system: &SpringMass<T>, eps: &T, start: &T, d
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(augmented::deflection_after(&system, &4.0, &0.0, &0.25), 2.0625); // k = 2
 /// ```
+/// [In the book](../../../../book/augmented.html#eq-1-16)
 pub fn deflection_after<T: Field>(system: &SpringMass<T>, eps: &T, start: &T, decay: &T) -> T {
     system::gap(system) + penetration_after(system, eps, start, decay)
 }

@@ -40,6 +40,7 @@ pub fn equilibrium<T: Field>(system: &SpringMass<T>, u: &T, n: &T) -> T {
 
 /// The residuals of the conditions (1.6) and of equilibrium; all four are zero at the solution and
 /// only there.
+/// [In the book](../../../../book/contact.html#eq-1-6)
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Kkt<T> {
     /// The residual of equilibrium, in N, with its sign.

@@ -47,6 +47,7 @@ pub fn energy<T: Field>(system: &SpringMass<T>, eps: &T, u: &T) -> T {
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(penalty::least_energy(&system, &4.0), -12.25);
 /// ```
+/// [In the book](../../../../book/penalty.html#eq-1-9)
 pub fn least_energy<T: Field>(system: &SpringMass<T>, eps: &T) -> T {
     let r = system::reaction(system);
     structure::potential_energy(system, &system::gap(system))
@@ -102,6 +103,7 @@ pub fn series_force<T: Field>(eps: &T, higher: &[T], p: &T) -> T {
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(penalty::series_residual(&system, &4.0, &[8.0], &0.5), 6.0);
 /// ```
+/// [In the book](../../../../book/penalty.html#eq-1-10)
 pub fn series_residual<T: Field>(system: &SpringMass<T>, eps: &T, higher: &[T], p: &T) -> T {
     let SpringMass { c, .. } = system;
     c * p + series_force(eps, higher, p) - system::reaction(system)
@@ -221,6 +223,7 @@ pub fn penetration<T: Field>(system: &SpringMass<T>, eps: &T) -> T {
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(penalty::force_at_root(&system, &4.0), 1.0);
 /// ```
+/// [In the book](../../../../book/penalty.html#eq-1-12)
 pub fn force_at_root<T: Field>(system: &SpringMass<T>, eps: &T) -> T {
     eps * system::reaction(system) / total_stiffness(system, eps)
 }

@@ -17,6 +17,7 @@ use crate::number::{Dual, Field};
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(structure::spring_force(&system, &2.0), 8.0);
 /// ```
+/// [In the book](../../../../book/structure.html#eq-1-1)
 pub fn spring_force<T: Field>(system: &SpringMass<T>, u: &T) -> T {
     let SpringMass { c, .. } = system;
     c * u
@@ -120,6 +121,7 @@ pub fn potential_energy<T: Field>(system: &SpringMass<T>, u: &T) -> T {
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(structure::least_energy(&system), -12.5);
 /// ```
+/// [In the book](../../../../book/structure.html#eq-1-4)
 pub fn least_energy<T: Field>(system: &SpringMass<T>) -> T {
     let SpringMass { c, m, g, .. } = system;
     let w = m * g;

@@ -59,8 +59,11 @@ fn page(section: &str, title: &str) -> Page {
 fn account(entry: &Entry) -> String {
     let mut text = format!("\n## {}\n\n{}.\n", heading(entry), entry.statement());
     let functions: Vec<_> = entry.functions.iter().map(|function| format!("`{function}`")).collect();
-    if let Some((file, _)) = entry.functions.first().and_then(|first| first.split_once("::")) {
-        let _ = write!(text, "\nComputed by {} in `src/chapter/{file}.rs`.\n", functions.join(", "));
+    if !functions.is_empty() {
+        let modules = entry.functions.iter().filter_map(|function| function.split_once("::"));
+        let mut files: Vec<_> = modules.map(|(module, _)| format!("`src/chapter/{module}.rs`")).collect();
+        files.dedup();
+        let _ = write!(text, "\nComputed by {} in {}.\n", functions.join(", "), files.join(" and "));
     }
     for claim in &entry.claims {
         let (statement, paper) = (Statement::of(claim), Paper::new(registry()));
