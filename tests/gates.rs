@@ -22,7 +22,7 @@ fn root() -> &'static Path {
 }
 
 fn source(path: &str) -> String {
-    fs::read_to_string(root().join(path)).unwrap()
+    fs::read_to_string(root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 
 fn modules() -> Vec<String> {

@@ -171,8 +171,8 @@ fn a_claim_that_is_nowhere_decided_is_undecided_and_no_failure() {
     assert!(all > 0 && report.holds() && !report.is_decided());
 }
 
-/// In no case, under hypotheses that no case satisfies, and where nothing is asked: of a derivative that is none,
-/// of the members of no recursion.
+/// In no case, under hypotheses that no case satisfies, and where nothing is asked: of a derivative that is
+/// none, of the members of no recursion.
 #[test]
 fn what_was_never_tried_does_not_hold() {
     let positive = |value: Tree| Hypothesis::new(Relation::Positive, value);
