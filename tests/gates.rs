@@ -89,6 +89,15 @@ fn entries_are_unique() {
 
 #[test]
 fn what_follows_from_what_has_no_cycle() {
+    for e in entries() {
+        for premise in &e.follows_from {
+            assert!(
+                entry(premise).is_some(),
+                "{}: its `.follows_from([…])` in src/claims names {premise}, which has no entry",
+                e.equation
+            );
+        }
+    }
     // Entries whose premises are all known can be added; in the end all must be.
     let mut known = BTreeSet::new();
     loop {
@@ -105,7 +114,7 @@ fn what_follows_from_what_has_no_cycle() {
     let left: Vec<_> = entries().iter().map(|e| e.equation).filter(|e| !known.contains(e)).collect();
     assert!(
         left.is_empty(),
-        "{left:?}: among what these name by `.follows_from([…])` is a cycle, or a number that has no entry"
+        "the `.follows_from([…])` of these in src/claims lead round in a circle, or to one: {left:?}"
     );
 }
 
