@@ -330,7 +330,8 @@ fn no_formula_is_written_twice() {
                 let calls = formula.contains("::") || formula.contains("(system");
                 assert!(
                     allowed.contains(&pair) || calls,
-                    "in src/chapter {other} and {name} are the same formula, {formula}: let one call the other"
+                    "in src/chapter {other} and {name} are the same formula, {}: let one call the other",
+                    formula.trim()
                 );
             }
             seen += 1;

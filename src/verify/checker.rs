@@ -309,8 +309,8 @@ impl<J: Judge> Checks for Checker<J> {
 }
 
 impl<J: Judge> Checker<J> {
-    /// All that is asked together: what fails decides, else what is open leaves the case open. Where nothing is
-    /// asked, as of a derivative that does not exist, nothing is decided.
+    /// All that is asked together: what fails decides, else what is open leaves the case open. So does asking
+    /// nothing, as of a derivative that does not exist.
     fn verdict<'a>(&'a self, asked: &[Asked], values: &[Option<J::Number>]) -> Verdict<'a>
     where
         J::Number: 'a,
