@@ -119,7 +119,7 @@ pub fn prove_all(equations: &[String]) -> Proofs {
 }
 
 impl Proofs {
-    /// Is everything proved, every hypothesis needed, and every change noticed? Not if nothing was to be proved.
+    /// Is everything proved, every hypothesis needed, and every change noticed? Not if nothing is.
     pub fn hold(&self) -> bool {
         let Summary { claims, proved, controls, .. } = self.summary();
         0 < proved && claims == proved && controls.unnoticed == 0 && self.controls.needless().next().is_none()

@@ -379,7 +379,7 @@ Rounding used at most 250 % of its bound (1.13 rate, exact).
         assert!(text.contains("\n| 1.13 | rate | equal | exact | held | 4 | 1 | 2.50 |\n"), "{text}");
     }
 
-    /// One failure, a proof or in numbers, first or last of many: in the status and however the report is printed.
+    /// One failure, in a proof or in numbers, first or last: by the status and in whatever format.
     #[test]
     fn a_failure_is_seen_by_status_and_in_every_format() {
         let ways = [None, Some(NumberSystem::F32), Some(NumberSystem::F64), Some(NumberSystem::Exact)];
