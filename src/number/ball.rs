@@ -101,6 +101,25 @@ impl<T: Real> Ball<T> {
         }
     }
 
+    /// A ball that contains both.
+    ///
+    /// ```
+    /// use spring_mass_contact::number::Ball;
+    /// let hull = Ball::exactly(1.0).hull(&Ball::exactly(3.0));
+    /// assert!(hull.lower() <= 1.0 && 3.0 <= hull.upper() && hull.upper() - hull.lower() < 2.0 + 1e-14);
+    /// ```
+    pub fn hull(&self, other: &Self) -> Self {
+        // Each end is the middle and half the difference, one way or the other.
+        let two = || Ball::exactly(T::int(2));
+        let (middle, half) = ((self + other) / two(), (self - other) / two());
+        let radius = (&middle.radius + half.magnitude()).enlarged();
+        if radius.is_finite() {
+            Ball { value: middle.value, radius }
+        } else {
+            Ball::unbounded(middle.value, &self.radius + &other.radius)
+        }
+    }
+
     /// Can a result be trusted? Not if the value or the radius is infinite or not a number.
     #[inline]
     pub fn is_finite(&self) -> bool {

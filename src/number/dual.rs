@@ -1,8 +1,9 @@
 //! A value and its derivative.
 
-use super::{Exponential, Field};
+use super::{Ball, Exponential, Field, OrderedField, PositivePart, Real};
 use crate::operators;
 use num_traits::{One, Zero};
+use std::cmp::Ordering;
 
 /// A value and its derivative with respect to one variable: a formula read in dual numbers differentiates
 /// itself.
@@ -16,7 +17,34 @@ use num_traits::{One, Zero};
 /// let energy = structure::potential_energy(&system.map(|&x| Dual::constant(x)), &Dual::variable(0.5));
 /// assert_eq!(energy.derivative, structure::residual(&system, &0.5));
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+///
+/// # Order, and the derivative at a kink
+///
+/// Two duals are equal if value and derivative are, and compare by their values; where these are equal, by
+/// their derivatives. That is their order a little to the right of where they stand, where the variable has
+/// grown by less than any number. So ⟨·⟩, min and |·| have the derivative *to the right*, the one-sided one:
+/// at 0 that of ⟨x⟩ is 1, of ⟨−x⟩ it is 0, and of two equal numbers min takes the one that grows less. Where
+/// there is no kink it is the derivative. Unlike an element of the subdifferential it obeys the chain rule
+/// at a kink, too: ⟨x⟩ − ⟨−x⟩ has the derivative of x. That to the left is minus that of a variable which
+/// falls, `Dual { value, derivative: −1 }`. Floats round before they compare: next to a kink they may be on
+/// its other side.
+///
+/// ```
+/// use spring_mass_contact::{chapter::{SpringMass, contact}, number::Dual};
+/// // How does the contact force change with the height, H = 3, in contact, grazing and free?
+/// let slope = |g: f64, direction: f64| {
+///     let system = SpringMass { c: 4.0, m: 1.0, g, l: 1.0, h: 3.0 };
+///     let h = Dual { value: system.h, derivative: direction };
+///     contact::contact_force(&SpringMass { h, ..system.map(|&x| Dual::constant(x)) }).derivative
+/// };
+/// assert_eq!([slope(10.0, 1.0), slope(8.0, 1.0), slope(6.0, 1.0)], [-4.0, 0.0, 0.0]);
+/// // A grazing plane that is raised begins to push.
+/// assert_eq!(-slope(8.0, -1.0), -4.0);
+/// ```
+///
+/// The order goes with sums, and a product of two numbers > 0 is never < 0; but it can be 0, since
+/// (0 + 1·ω)² is.
+#[derive(Clone, Debug, PartialEq, PartialOrd)]
 pub struct Dual<T> {
     /// The value.
     pub value: T,
@@ -81,5 +109,41 @@ impl<T: Exponential> Exponential for Dual<T> {
     fn exp(&self) -> Self {
         let value = self.value.exp();
         Dual { derivative: &value * &self.derivative, value }
+    }
+}
+
+impl<T: OrderedField> PositivePart for Dual<T> {
+    fn positive_part(&self) -> Self {
+        if *self > Self::zero() { self.clone() } else { Self::zero() }
+    }
+    fn min(&self, other: &Self) -> Self {
+        if other < self { other.clone() } else { self.clone() }
+    }
+}
+impl<T: OrderedField> OrderedField for Dual<T> {}
+
+/// Where a ball leaves open on which side of a kink it is, the derivative has those of both sides in it.
+impl<T: Real> PositivePart for Dual<Ball<T>> {
+    fn positive_part(&self) -> Self {
+        Dual {
+            value: self.value.positive_part(),
+            derivative: match self.value.sign() {
+                Some(Ordering::Greater) => self.derivative.clone(),
+                Some(Ordering::Equal) => self.derivative.positive_part(),
+                Some(Ordering::Less) => Ball::zero(),
+                None => Ball::zero().hull(&self.derivative),
+            },
+        }
+    }
+    fn min(&self, other: &Self) -> Self {
+        Dual {
+            value: self.value.min(&other.value),
+            derivative: match (&self.value - &other.value).sign() {
+                Some(Ordering::Greater) => other.derivative.clone(),
+                Some(Ordering::Equal) => self.derivative.min(&other.derivative),
+                Some(Ordering::Less) => self.derivative.clone(),
+                None => self.derivative.hull(&other.derivative),
+            },
+        }
     }
 }

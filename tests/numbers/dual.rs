@@ -9,8 +9,10 @@ use crate::system::{Floats, Planted, System, operations};
 use num_traits::{One, Zero};
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseResult;
-use spring_mass_contact::chapter::{SpringMass, augmented, penalty, structure, system};
+use spring_mass_contact::chapter::{SpringMass, augmented, contact, penalty, structure, system};
 use spring_mass_contact::number::{Ball, Dual, Exact, Exponential, Field, PositivePart, ToExact};
+use spring_mass_contact::solver::{Augmentation, Plane};
+use std::cmp::Ordering;
 use std::fmt::Debug;
 use std::marker::PhantomData;
 
@@ -267,6 +269,160 @@ fn num_dual_and_ours_agree_with_the_exact_derivative_to_the_roundings_made() {
         prop_assert!(BallF64::stands_for(&bounded.value, &reference.value));
         prop_assert!(BallF64::stands_for(&bounded.derivative, &reference.derivative));
         prop_assert!(bounded.derivative.is_finite());
+        Ok(())
+    });
+}
+
+/// ⟨·⟩ and its like have the derivative to the right, and minus that of a falling variable is the one to the left:
+/// what difference quotients are, of a step before the next kink.
+#[test]
+fn at_a_kink_the_derivative_is_that_of_the_side() {
+    let kinks = Tally::default();
+    let near = prop_oneof![Just(0), -3..=3];
+    for_all((systems(), near, rationals()), |((mut system, eps), r, step)| {
+        // Grazing in one case of two: R = r.
+        system.g = (Exact::int(r) + &system.c * system::gap(&system)) / &system.m;
+        kinks.count(r == 0);
+        // The functions are linear between R and 0, for H c less than |R| away; of ε there is no kink at all.
+        let most = if r == 0 { Exact::one() } else { Exact::int(r).abs() / &system.c / Exact::int(2) };
+        let step = if step.is_zero() { most } else { step.abs().min(most) };
+        for direction in [1, -1] {
+            let moved = |x: &Exact| x + Exact::int(direction) * &step;
+            let dual = |x: &Exact| Dual { value: x.clone(), derivative: Exact::int(direction) };
+            let lowered = SpringMass { h: dual(&system.h), ..constants(&system) };
+            let there = SpringMass { h: moved(&system.h), ..system.clone() };
+            let quotient = |f: &dyn Fn(&SpringMass<Exact>) -> Exact| (f(&there) - f(&system)) / &step;
+            let lifted = Dual::constant(eps.clone());
+            prop_assert_eq!(
+                contact::contact_force(&lowered).derivative,
+                quotient(&|s| contact::contact_force(s))
+            );
+            prop_assert_eq!(contact::deflection(&lowered).derivative, quotient(&|s| contact::deflection(s)));
+            prop_assert_eq!(
+                penalty::unilateral_deflection(&lowered, &lifted).derivative,
+                quotient(&|s| penalty::unilateral_deflection(s, &eps))
+            );
+        }
+        // ∂u/∂ε = −R/(c + ε)² in contact, 0 where the mass hangs free and where it grazes.
+        let by_penalty = |direction: i32| {
+            let eps = Dual { value: eps.clone(), derivative: Exact::int(direction) };
+            penalty::unilateral_deflection(&constants(&system), &eps).derivative
+        };
+        let total = &system.c + &eps;
+        let pushed = Exact::int(r).positive_part() / (&total * &total);
+        prop_assert_eq!((by_penalty(1), by_penalty(-1)), (-&pushed, pushed));
+        Ok(())
+    });
+    kinks.assert_one_in(3, "kinks");
+}
+
+/// The order: of R[ω] with an ω > 0 below all numbers. It goes with sums and weakly with products.
+#[test]
+fn duals_are_an_ordered_ring() {
+    let small =
+        || (-2..=2, -2..=2).prop_map(|(v, d)| Dual { value: Exact::int(v), derivative: Exact::int(d) });
+    for_all((small(), small(), small()), |(a, b, c)| {
+        let zero = Dual::zero();
+        prop_assert_eq!(a == b, a.partial_cmp(&b) == Some(Ordering::Equal));
+        prop_assert_eq!(a < b, b > a);
+        prop_assert_eq!(a < b, &a + &c < &b + &c);
+        prop_assert_eq!(a < b, -&b < -&a);
+        prop_assert!(!(a > zero && b > zero) || &a * &b >= zero);
+        prop_assert_eq!(a.min(&b), b.min(&a));
+        prop_assert_eq!(a.positive_part() - (-&a).positive_part(), a.clone());
+        prop_assert_eq!(a.abs(), a.positive_part() + (-&a).positive_part());
+        prop_assert_eq!(a.min(&b) + &c, (&a + &c).min(&(&b + &c)));
+        // What is close to the right: x = v + d t at a t that is small enough for numbers such as these.
+        let at = |x: &Dual<Exact>| &x.value + &x.derivative / Exact::int(100);
+        prop_assert_eq!(a < b, at(&a) < at(&b));
+        prop_assert_eq!(at(&a.positive_part()), at(&a).positive_part());
+        prop_assert_eq!(at(&a.min(&b)), PositivePart::min(&at(&a), &at(&b)));
+        Ok(())
+    });
+}
+
+/// Balls that leave a sign open have both derivatives within, and else only the right one.
+#[test]
+fn dual_balls_hold_the_derivative_at_a_kink() {
+    let open = Tally::default();
+    let near = || (-3..=3i32, -3..=3i32, 0..=2i32);
+    for_all((near(), near()), |((v, d, r), (w, e, q))| {
+        // v + r/3 − r/3, whose radius is some units of the last place; and that much off.
+        let ball = |v: i32, r: i32| {
+            let third = Ball::exactly(f64::from(r)) / Ball::exactly(3.0);
+            Ball::exactly(f64::from(v)) + &third - third
+        };
+        let (a, b) = (
+            Dual { value: ball(v, r), derivative: ball(d, q) },
+            Dual { value: ball(w, q), derivative: ball(e, r) },
+        );
+        let meant = |v: &Ball<f64>, to: i32| {
+            v.value().to_exact().unwrap() + Exact::int(to) * v.radius().to_exact().unwrap()
+        };
+        open.count(a.value.sign().is_none());
+        for (i, j) in [(-1, -1), (-1, 1), (0, 0), (1, -1), (1, 1)] {
+            let dual = |x: &Dual<Ball<f64>>, i| Dual {
+                value: meant(&x.value, i),
+                derivative: meant(&x.derivative, i),
+            };
+            let (x, y) = (dual(&a, i), dual(&b, j));
+            for (found, right) in
+                [(a.positive_part(), x.positive_part()), (a.min(&b), x.min(&y)), (a.abs(), x.abs())]
+            {
+                prop_assert!(BallF64::stands_for(&found.value, &right.value), "{:?} {:?}", found, right);
+                prop_assert!(
+                    BallF64::stands_for(&found.derivative, &right.derivative),
+                    "{:?} {:?}",
+                    found,
+                    right
+                );
+            }
+        }
+        Ok(())
+    });
+    open.assert_one_in(20, "signs left open");
+}
+
+#[test]
+fn a_decided_sign_leaves_the_derivative_as_it_is() {
+    let dual = |value: f64, derivative: f64| Dual {
+        value: Ball::exactly(value),
+        derivative: Ball::exactly(derivative),
+    };
+    let exactly = |x: &Dual<Ball<f64>>| (*x.derivative.value(), *x.derivative.radius());
+    assert_eq!(exactly(&dual(2.0, 3.0).positive_part()), (3.0, 0.0));
+    assert_eq!(exactly(&dual(-2.0, 3.0).positive_part()), (0.0, 0.0));
+    assert_eq!(exactly(&dual(0.0, 3.0).positive_part()), (3.0, 0.0));
+    assert_eq!(exactly(&dual(0.0, -3.0).positive_part()), (0.0, 0.0));
+    assert_eq!(exactly(&dual(1.0, 3.0).min(&dual(1.0, 2.0))), (2.0, 0.0));
+    assert_eq!(exactly(&dual(1.0, 3.0).min(&dual(2.0, 2.0))), (3.0, 0.0));
+    // Two at once: the second derivative of ⟨x⟩³ at 0 is 0 on either side, and that of ⟨x⟩² 2 to the right.
+    let twice = |direction: f64| Dual {
+        value: Dual { value: 0.0, derivative: direction },
+        derivative: Dual { value: direction, derivative: 0.0 },
+    };
+    let second = |x: Dual<Dual<f64>>| x.derivative.derivative;
+    let part = |direction| twice(direction).positive_part();
+    assert_eq!([second(part(1.0) * part(1.0)), second(part(-1.0) * part(-1.0))], [2.0, 0.0]);
+    assert_eq!(second(part(1.0) * part(1.0) * part(1.0)), 0.0);
+}
+
+/// The iteration (1.16) differentiates itself, too: by ε, as its closed forms do.
+#[test]
+fn an_augmentation_in_duals_has_the_derivative_of_its_closed_form() {
+    for_all((systems(), 0..6usize), |((system, eps), k)| {
+        let (lifted, eps) = (constants(&system), Dual::variable(eps));
+        let step = Augmentation::new(&lifted, &eps).over(Plane::Bilateral).nth(k).unwrap();
+        let rho = augmented::contraction(&lifted, &eps);
+        let decay = (0..k).fold(Dual::one(), |decay, _| decay * &rho);
+        let start = Dual::zero();
+        prop_assert_eq!(step.penetration, augmented::penetration_after(&lifted, &eps, &start, &decay));
+        prop_assert_eq!(step.multiplier, augmented::multiplier_after(&lifted, &start, &decay));
+        // From λ₀ = 0 a plane that never pulls is the same in contact, and free it takes no part.
+        let one_sided = Augmentation::new(&lifted, &eps).nth(k).unwrap();
+        let free = system::reaction(&system) < Exact::zero();
+        let limit = structure::deflection(&lifted);
+        prop_assert_eq!(one_sided.deflection, if free { limit } else { step.deflection });
         Ok(())
     });
 }
