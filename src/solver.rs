@@ -20,10 +20,12 @@ mod check;
 mod closed;
 #[cfg(feature = "mpfr")]
 mod count;
+mod functional;
 #[cfg(feature = "mpfr")]
 mod reach;
 #[cfg(feature = "mpfr")]
 mod read;
+mod root;
 mod scalar;
 #[cfg(feature = "mpfr")]
 mod series;
@@ -38,6 +40,7 @@ pub use check::SolveError;
 pub use closed::iterate_after;
 #[cfg(feature = "mpfr")]
 pub use count::augmentations_needed;
+pub use functional::{Condition, FunctionalError, Lifted, penalty_for_functional, solve_functional};
 #[cfg(feature = "mpfr")]
 pub use reach::{augmentations_promised, bits_needed, rounding_floor, within_reach};
 #[cfg(feature = "mpfr")]

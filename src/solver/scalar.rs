@@ -70,7 +70,7 @@ pub trait Scalar: OrderedField {
     fn sign_of_sum(plus: [(&Self, &Self); 2], minus: (&Self, &Self)) -> Ordering;
 }
 
-fn power<E: PositivePart>(x: &E, k: u64) -> E {
+pub(super) fn power<E: PositivePart>(x: &E, k: u64) -> E {
     let mut power = E::one();
     for digit in (0..u64::BITS - k.leading_zeros()).rev() {
         power = &power * &power;

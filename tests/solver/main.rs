@@ -7,6 +7,7 @@ mod strategies;
 mod advice;
 mod augmentation_monotone;
 mod closed_form;
+mod functionals;
 mod invariances;
 mod kkt;
 mod penalty_limit;

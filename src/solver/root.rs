@@ -1,0 +1,260 @@
+//! c p + W′(p) = R for any W: its root, between two signs that are certain.
+
+use super::check::SolveError;
+use super::functional::{Condition, FunctionalError, broken, is_finite, vanishes};
+use super::scalar::power;
+use super::{Interval, Scalar, bounded};
+use crate::chapter::{SpringMass, structure};
+use crate::number::{Dual, PositivePart};
+use std::cmp::Ordering;
+
+/// A mass that weighs R on a spring whose gap is 0: the same equation in p, and what cancels has done so.
+pub(super) fn weighed<E: PositivePart>(c: E, reaction: E) -> SpringMass<E> {
+    SpringMass { c, m: reaction, g: E::one(), l: E::zero(), h: E::zero() }
+}
+
+/// c p + W′(p) = R, for R > 0.
+pub(super) struct Equation<E, W> {
+    pub(super) spring: SpringMass<E>,
+    functional: W,
+}
+
+/// Between which numbers the root is.
+pub(super) struct Found<T> {
+    pub(super) lower: T,
+    pub(super) upper: T,
+    /// Or was it given up?
+    pub(super) ended: bool,
+}
+
+/// Where a penetration is, by the sign of c p + W′ − R; and about how large that is.
+enum Side<T> {
+    Below(T),
+    At,
+    Above(T),
+    /// The sign is open.
+    Near,
+    /// There is no value.
+    Nowhere,
+}
+
+/// So many values of W and no more.
+const MOST_VALUES: u32 = 10_000;
+
+/// No number has more binary digits that count.
+const MOST_DIGITS: u64 = 1 << 22;
+
+impl<E: PositivePart, W: Fn(&Dual<E>) -> Dual<E>> Equation<E, W> {
+    pub(super) fn new(c: E, reaction: E, functional: W) -> Self {
+        Equation { spring: weighed(c, reaction), functional }
+    }
+
+    /// R/c, rounded up: no penetration is greater, since W′ ≥ 0.
+    pub(super) fn most<T: Scalar<Enclosure = E>>(&self) -> Result<T, SolveError> {
+        let most: Interval<T> = bounded(&structure::deflection(&self.spring), "penetration")?;
+        Ok(most.upper)
+    }
+
+    fn energy_and_force<T: Scalar<Enclosure = E>>(&self, p: &T) -> Dual<E> {
+        (self.functional)(&Dual::variable(p.enclose()))
+    }
+
+    fn side<T: Scalar<Enclosure = E>>(&self, p: &T) -> Result<Side<T>, FunctionalError> {
+        let force = self.energy_and_force(p).derivative;
+        if T::sign(&force) == Some(Ordering::Less) {
+            return Err(broken(Condition::NeverFalls, p));
+        }
+        let residual = structure::residual(&self.spring, &p.enclose()) + force;
+        let Interval { lower, upper } = T::interval(&residual);
+        if !lower.is_finite() || !upper.is_finite() {
+            return Ok(Side::Nowhere);
+        }
+        let size = half(&lower) + half(&upper);
+        Ok(match T::sign(&residual) {
+            Some(Ordering::Less) => Side::Below(size),
+            Some(Ordering::Equal) => Side::At,
+            Some(Ordering::Greater) => Side::Above(size),
+            None => Side::Near,
+        })
+    }
+
+    /// Tries the conditions at 0 and at the sixteenths of R/c.
+    pub(super) fn check<T: Scalar<Enclosure = E>>(&self, most: &T) -> Result<(), FunctionalError> {
+        let negative = |x: &E| T::sign(x) == Some(Ordering::Less);
+        let mut last = (T::zero(), self.energy_and_force(&T::zero()));
+        vanishes::<T>(&last.1.value)?;
+        if !is_finite::<T>(&last.1.derivative) {
+            return Err(broken(Condition::VanishesAtContact, &last.0));
+        }
+        for i in 1..=16 {
+            let p = most * T::int(i) / T::int(16);
+            let w = self.energy_and_force(&p);
+            if !is_finite::<T>(&w.value) || !is_finite::<T>(&w.derivative) {
+                continue;
+            }
+            let gained = &w.value - &last.1.value;
+            let further = p.enclose() - last.0.enclose();
+            // What a convex W gains is no more than the last force would have it, and no less than the first.
+            let conditions = [
+                (Condition::NeverFalls, negative(&w.derivative) || negative(&gained)),
+                (Condition::NeverSoftens, negative(&(&w.derivative - &last.1.derivative))),
+                (Condition::NeverSoftens, negative(&(&gained - &last.1.derivative * &further))),
+                (Condition::Continuous, negative(&(&w.derivative * &further - &gained))),
+            ];
+            if let Some((condition, _)) = conditions.into_iter().find(|(_, seen)| *seen) {
+                return Err(broken(condition, &p));
+            }
+            last = (p, w);
+        }
+        Ok(())
+    }
+
+    /// Between 0 and `most`, until no wider than the tolerance or signs are open.
+    ///
+    /// By quadratic interval refinement (J. Abbott): of 2ⁿ cells the one in which the straight line between
+    /// the ends has its root is tried, and n doubles if the root is there. So what is tried has few digits,
+    /// in any number system. First of all that line's root itself, which is exact for ε p²/2.
+    pub(super) fn root<T: Scalar<Enclosure = E>>(
+        &self,
+        most: &T,
+        tolerance: &T,
+    ) -> Result<Found<T>, FunctionalError> {
+        let exactly = |p: T| Ok(Found { lower: p.clone(), upper: p, ended: true });
+        let mut lower = match self.side(&T::zero())? {
+            Side::Below(size) => End { p: T::zero(), size },
+            Side::At | Side::Above(_) => return exactly(T::zero()),
+            Side::Near => return self.around(&T::zero(), &T::zero(), most),
+            Side::Nowhere => return Err(broken(Condition::VanishesAtContact, &T::zero())),
+        };
+        let (mut p, mut nowhere) = (most.clone(), most.clone());
+        let mut upper = None;
+        for _ in 0..MOST_VALUES {
+            match self.side(&p)? {
+                Side::Above(size) => {
+                    upper = Some(End { p, size });
+                    break;
+                }
+                Side::At => return exactly(p),
+                Side::Near => return self.around(&p, &lower.p, most),
+                Side::Below(_) if p == *most => return Err(broken(Condition::NeverFalls, &p)),
+                Side::Below(size) => lower = End { p, size },
+                // What overflows does so beyond the root.
+                Side::Nowhere => nowhere = p,
+            }
+            p = middle(&lower.p, &nowhere);
+            if !(lower.p < p && p < nowhere) {
+                return Ok(Found { lower: lower.p, upper: most.clone(), ended: true });
+            }
+        }
+        let Some(mut upper) = upper else {
+            return Ok(Found { lower: lower.p, upper: most.clone(), ended: false });
+        };
+        let mut digits = 0;
+        for _ in 0..MOST_VALUES / 2 {
+            if digits > 0 && &upper.p - &lower.p <= *tolerance {
+                return Ok(Found { lower: lower.p, upper: upper.p, ended: true });
+            }
+            let cell = cell(&lower, &upper, digits, tolerance);
+            let mut moved = false;
+            for p in &cell {
+                if lower.p < *p && *p < upper.p {
+                    moved = true;
+                    match self.side(p)? {
+                        Side::Below(size) => lower = End { p: p.clone(), size },
+                        Side::Above(size) => upper = End { p: p.clone(), size },
+                        Side::At => return exactly(p.clone()),
+                        Side::Near | Side::Nowhere => return self.around(p, &lower.p, &upper.p),
+                    }
+                }
+            }
+            let hit = cell == [lower.p.clone(), upper.p.clone()];
+            digits = match digits {
+                // There is no number in between.
+                1 if !moved => return Ok(Found { lower: lower.p, upper: upper.p, ended: true }),
+                _ if moved && hit => 2 * digits,
+                _ if moved => (digits / 2).max(1),
+                _ => 1,
+            };
+        }
+        Ok(Found { lower: lower.p, upper: upper.p, ended: false })
+    }
+
+    /// The bounds next to a penetration whose own sign is open, from bounds that are further away.
+    fn around<T: Scalar<Enclosure = E>>(
+        &self,
+        near: &T,
+        lower: &T,
+        upper: &T,
+    ) -> Result<Found<T>, FunctionalError> {
+        Ok(Found {
+            lower: self.towards(near, lower, |side| matches!(side, Side::Below(_)))?,
+            upper: self.towards(near, upper, |side| matches!(side, Side::Above(_)))?,
+            ended: true,
+        })
+    }
+
+    /// The nearest of the numbers `near` + (`far` − `near`)/2ᵏ whose side is certain; `far` if none is.
+    fn towards<T: Scalar<Enclosure = E>>(
+        &self,
+        near: &T,
+        far: &T,
+        certain: impl Fn(Side<T>) -> bool,
+    ) -> Result<T, FunctionalError> {
+        let at = |k| near + (far - near) * power(&half(&T::one()), k);
+        let holds = |k| -> Result<bool, FunctionalError> {
+            let p = at(k);
+            Ok(p != *near && certain(self.side(&p)?))
+        };
+        let (mut certain, mut open) = (0, 1);
+        while open < MOST_DIGITS && holds(open)? {
+            (certain, open) = (open, 2 * open);
+        }
+        while open - certain > 1 {
+            let k = certain + (open - certain) / 2;
+            if holds(k)? { certain = k } else { open = k }
+        }
+        Ok(if certain == 0 { far.clone() } else { at(certain) })
+    }
+}
+
+/// One end of the interval that holds the root.
+struct End<T> {
+    p: T,
+    /// About what the residual is there.
+    size: T,
+}
+
+/// The cell of 2ⁿ, in parts of the interval, in which the straight line between its ends has its root; of
+/// fewer, if they get narrower than the tolerance. For n = 0 that root.
+fn cell<T: Scalar>(lower: &End<T>, upper: &End<T>, digits: u64, tolerance: &T) -> [T; 2] {
+    let rise = &upper.size - &lower.size;
+    let mut part = if rise.is_unit() { -&lower.size / rise } else { T::zero() };
+    let (mut left, mut width) = (lower.p.clone(), &upper.p - &lower.p);
+    if digits == 0 {
+        let root = left + width * part;
+        return [root.clone(), root];
+    }
+    for _ in 0..digits {
+        let narrower = half(&width);
+        let middle = &left + &narrower;
+        if width <= *tolerance || middle == left {
+            break;
+        }
+        width = narrower;
+        part = T::int(2) * part;
+        if part >= T::one() {
+            part = part - T::one();
+            left = middle;
+        }
+    }
+    let right = &left + width;
+    [left, right]
+}
+
+fn half<T: Scalar>(x: &T) -> T {
+    x / T::int(2)
+}
+
+pub(super) fn middle<T: Scalar>(a: &T, b: &T) -> T {
+    a + half(&(b - a))
+}
