@@ -22,6 +22,8 @@ mod closed;
 mod count;
 mod functional;
 #[cfg(feature = "mpfr")]
+pub mod laws;
+#[cfg(feature = "mpfr")]
 mod reach;
 #[cfg(feature = "mpfr")]
 mod read;

@@ -41,15 +41,86 @@ impl<T: Text> serde::Serialize for Interval<T> {
 }
 
 /// Numbers that [`solve`](super::solve) takes: f32, f64, [`Mpfr`](crate::number::Mpfr) and
-/// [`Exact`](crate::number::Exact).
+/// [`Exact`](crate::number::Exact), and your own.
+///
+/// Its bounds rest on what the methods promise. `laws::scalar`, which comes with the feature `mpfr`, tries
+/// these promises in your own tests.
+///
+/// # Your own scalar
+///
+/// A number system by its [recipe](crate::number::field#your-own-number-system), an order, and what bounds
+/// are computed in. Here it is an f64 that counts what is done with it. It borrows the balls of f64, so
+/// that the methods pass on what those know:
+///
+/// ```
+/// use num_traits::{One, Zero};
+/// use spring_mass_contact::chapter::SpringMass;
+/// use spring_mass_contact::number::{Ball, Field, OrderedField, PositivePart};
+/// use spring_mass_contact::operators;
+/// use spring_mass_contact::solver::{Interval, Method, Scalar, solve};
+/// use std::{cell::Cell, cmp::Ordering};
+///
+/// #[derive(Clone, Debug, PartialEq, PartialOrd)]
+/// struct Counted(f64);
+///
+/// thread_local! { static OPERATIONS: Cell<u32> = const { Cell::new(0) }; }
+/// fn counted(x: f64) -> Counted {
+///     OPERATIONS.set(OPERATIONS.get() + 1);
+///     Counted(x)
+/// }
+///
+/// operators! { [] Counted;
+///     Add add |a, b| counted(a.0 + b.0);
+///     Sub sub |a, b| counted(a.0 - b.0);
+///     Mul mul |a, b| counted(a.0 * b.0);
+///     Div div |a, b| counted(a.0 / b.0);
+///     - |a| Counted(-a.0)
+/// }
+/// impl Zero for Counted {
+///     fn zero() -> Self { Counted(0.0) }
+///     fn is_zero(&self) -> bool { self.0 == 0.0 }
+/// }
+/// impl One for Counted { fn one() -> Self { Counted(1.0) } }
+/// impl Field for Counted { fn int(n: i32) -> Self { Counted(n.into()) } }
+/// impl PositivePart for Counted {
+///     fn positive_part(&self) -> Self { Counted(self.0.max(0.0)) }
+///     fn min(&self, other: &Self) -> Self { Counted(self.0.min(other.0)) }
+/// }
+/// impl OrderedField for Counted {}
+///
+/// impl Scalar for Counted {
+///     type Enclosure = Ball<f64>;
+///     fn enclose(&self) -> Ball<f64> { self.0.enclose() }
+///     fn interval(ball: &Ball<f64>) -> Interval<Self> {
+///         let Interval { lower, upper } = f64::interval(ball);
+///         Interval { lower: Counted(lower), upper: Counted(upper) }
+///     }
+///     fn magnitude(ball: &Ball<f64>) -> Self { Counted(f64::magnitude(ball)) }
+///     fn sign(ball: &Ball<f64>) -> Option<Ordering> { f64::sign(ball) }
+///     fn is_finite(&self) -> bool { self.0.is_finite() }
+///     fn sign_of_sum([a, b]: [(&Self, &Self); 2], c: (&Self, &Self)) -> Ordering {
+///         let floats = |(x, y): (&'_ Self, &'_ Self)| (x.0, y.0);
+///         let [a, b, c] = [a, b, c].map(floats);
+///         f64::sign_of_sum([(&a.0, &a.1), (&b.0, &b.1)], (&c.0, &c.1))
+///     }
+/// }
+///
+/// let floats = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
+/// let answer = solve(&floats.map(|&x| Counted(x)), &Method::Penalty { penalty: Counted(100.0) })?;
+/// let known = solve(&floats, &Method::Penalty { penalty: 100.0 })?;
+/// assert_eq!(answer.deflection.0, known.deflection);
+/// assert_eq!(answer.bounds.deflection.lower.0, known.bounds.deflection.lower);
+/// assert!(OPERATIONS.get() > 5); // those of (1.13), and a few besides
+/// # Ok::<(), spring_mass_contact::solver::SolveError>(())
+/// ```
 pub trait Scalar: OrderedField {
     /// What bounds are computed in: [`Ball`]s of a float, rationals themselves.
     type Enclosure: PositivePart;
 
-    /// This number and no other.
+    /// This number and no other. Its arithmetic, ⟨·⟩ and min must enclose the exact results.
     fn enclose(&self) -> Self::Enclosure;
 
-    /// Two scalars with everything enclosed between them.
+    /// Two scalars with everything enclosed between them; infinite ones where nothing is known.
     fn interval(enclosure: &Self::Enclosure) -> Interval<Self>;
 
     /// A scalar no less than the absolute value of anything enclosed.

@@ -10,6 +10,7 @@ mod closed_form;
 mod functionals;
 mod invariances;
 mod kkt;
+mod laws;
 mod penalty_limit;
 mod results;
 mod sweep;

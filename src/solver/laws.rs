@@ -1,0 +1,184 @@
+//! What a number system has to keep for [`solve`](super::solve) to be right with it: to be tried in your own
+//! tests.
+
+use super::{Interval, Scalar};
+use crate::number::{Exact, PositivePart};
+use num_traits::{One, Zero};
+
+/// A law of [`Scalar`], named after the method that it is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Law {
+    /// Numbers compare as their values do, and ⟨·⟩, min and |·| are exact.
+    Order,
+    /// A number with a value is finite.
+    Finite,
+    /// [`enclose`](Scalar::enclose): the number itself is within.
+    Enclose,
+    /// [`interval`](Scalar::interval): what arithmetic makes of enclosures still encloses, between two
+    /// scalars.
+    Interval,
+    /// [`magnitude`](Scalar::magnitude): no less than the absolute value.
+    Magnitude,
+    /// [`sign`](Scalar::sign): right, or `None`.
+    Sign,
+    /// [`power`](Scalar::power): encloses the power.
+    Power,
+    /// [`sign_of_sum`](Scalar::sign_of_sum): exact.
+    SignOfSum,
+}
+
+/// A law that is broken, and by what.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the law of {law:?} is broken by {by}")]
+pub struct Broken {
+    /// Which one.
+    pub law: Law,
+    /// The operation and its operands.
+    pub by: String,
+}
+
+/// Tries the laws of [`Scalar`] on all samples, their pairs and their triples, against `exact`, which says
+/// what a scalar stands for.
+///
+/// What `solve` says of its bounds rests on these laws. Good samples are those where rounding is hard:
+/// neighbours, so that differences cancel; numbers of very different size; the least and the largest ones.
+/// The time goes with the cube of their number; twenty are enough. Nothing is divided by zero. An end that
+/// is not finite bounds nothing, and breaks no law.
+///
+/// # Errors
+/// The first law that is seen broken.
+///
+/// ```
+/// use spring_mass_contact::{number::ToExact, solver::laws};
+/// let samples = [0.0, 1.0, 1.0 + f64::EPSILON, 0.1, -3.0, 1e20, 1e-20];
+/// laws::scalar(&samples, |x| x.to_exact().unwrap())?;
+/// # Ok::<(), laws::Broken>(())
+/// ```
+pub fn scalar<T: Scalar<Enclosure = E>, E: PositivePart>(
+    samples: &[T],
+    exact: impl Fn(&T) -> Exact,
+) -> Result<(), Broken> {
+    let laws = Laws { exact: &exact };
+    let known: Vec<_> = samples.iter().map(|x| Known { number: x, exact: (laws.exact)(x) }).collect();
+    for a in &known {
+        laws.of_one(a)?;
+        for b in &known {
+            laws.of_two(a, b)?;
+            for c in &known {
+                laws.of_three(a, b, c)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// A scalar, and what it stands for.
+struct Known<'a, T> {
+    number: &'a T,
+    exact: Exact,
+}
+
+struct Laws<'a, T> {
+    exact: &'a dyn Fn(&T) -> Exact,
+}
+
+impl<T: Scalar<Enclosure = E>, E: PositivePart> Laws<'_, T> {
+    fn of_one(&self, a: &Known<T>) -> Result<(), Broken> {
+        let Known { number, exact } = a;
+        let text = |what: &str| format!("{what} {number:?}");
+        hold(number.is_finite(), Law::Finite, || text(""))?;
+        self.is(&number.positive_part(), &exact.positive_part(), || text("⟨·⟩ of"))?;
+        self.is(&number.abs(), &exact.abs(), || text("|·| of"))?;
+        self.encloses(&number.enclose(), exact, Law::Enclose, || text(""))?;
+        let mut product = Exact::one();
+        for k in 0..=9 {
+            if let Some(power) = T::power(&number.enclose(), k) {
+                self.encloses(&power, &product, Law::Power, || format!("{number:?} to the power of {k}"))?;
+            }
+            product = product * exact;
+        }
+        Ok(())
+    }
+
+    fn of_two(&self, a: &Known<T>, b: &Known<T>) -> Result<(), Broken> {
+        let text = |what: &str| format!("{:?} {what} {:?}", a.number, b.number);
+        let order = a.number.partial_cmp(b.number) == Some(a.exact.cmp(&b.exact));
+        hold(order, Law::Order, || text("compared with"))?;
+        self.is(&a.number.min(b.number), &PositivePart::min(&a.exact, &b.exact), || text("min"))
+    }
+
+    fn of_three(&self, a: &Known<T>, b: &Known<T>, c: &Known<T>) -> Result<(), Broken> {
+        let numbers = [a, b, c].map(|x| x.number);
+        let text = |what: &str| {
+            let [a, b, c] = numbers;
+            format!("{what} with a = {a:?}, b = {b:?}, c = {c:?}")
+        };
+        let divisors = [!c.exact.is_zero(), !(&a.exact + &b.exact).is_zero()];
+        let enclosed = results(&numbers.map(T::enclose), divisors);
+        let exact = results(&[&a.exact, &b.exact, &c.exact].map(Exact::clone), divisors);
+        for ((what, enclosure), (_, exact)) in enclosed.iter().zip(&exact) {
+            self.encloses(enclosure, exact, Law::Interval, || text(what))?;
+        }
+        // b times what a + c loses to rounding, and two products that have nothing to do with it.
+        let sum = a.number + c.number;
+        for (plus, minus) in [([(a, b), (b, c)], None), ([(a, b), (c, a)], Some((b, c)))] {
+            let exactly = |(x, y): (&Known<T>, &Known<T>)| &x.exact * &y.exact;
+            let (last, taken) = match minus {
+                Some((x, y)) => ((x.number, y.number), exactly((x, y))),
+                None if sum.is_finite() => ((b.number, &sum), &b.exact * (self.exact)(&sum)),
+                None => continue,
+            };
+            let right = (exactly(plus[0]) + exactly(plus[1])).cmp(&taken);
+            let found = T::sign_of_sum(plus.map(|(x, y)| (x.number, y.number)), last);
+            hold(found == right, Law::SignOfSum, || {
+                let [(a, b), (c, d)] = plus.map(|(x, y)| (x.number, y.number));
+                format!("{a:?} · {b:?} + {c:?} · {d:?} − {:?} · {:?}", last.0, last.1)
+            })?;
+        }
+        Ok(())
+    }
+
+    fn is(&self, found: &T, right: &Exact, by: impl Fn() -> String) -> Result<(), Broken> {
+        hold((self.exact)(found) == *right, Law::Order, by)
+    }
+
+    fn encloses(
+        &self,
+        enclosure: &T::Enclosure,
+        x: &Exact,
+        law: Law,
+        by: impl Fn() -> String,
+    ) -> Result<(), Broken> {
+        let Interval { lower, upper } = T::interval(enclosure);
+        let magnitude = T::magnitude(enclosure);
+        let bound = |end: &T, holds: &dyn Fn(Exact) -> bool| !end.is_finite() || holds((self.exact)(end));
+        hold(bound(&lower, &|end| end <= *x) && bound(&upper, &|end| *x <= end), law, &by)?;
+        hold(bound(&magnitude, &|size| x.abs() <= size), Law::Magnitude, &by)?;
+        hold(T::sign(enclosure).is_none_or(|sign| sign == x.cmp(&Exact::zero())), Law::Sign, &by)
+    }
+}
+
+/// What arithmetic makes of three numbers: of two operations each, so that the second meets the rounding of
+/// the first. Of the divisors c and a + b it may be that none is there.
+fn results<E: PositivePart>([a, b, c]: &[E; 3], divisors: [bool; 2]) -> Vec<(&'static str, E)> {
+    let mut results = vec![
+        ("a + b − c", a + b - c),
+        ("(a − b) c", (a - b) * c),
+        ("a b − c", a * b - c),
+        ("⟨a b − c⟩", (a * b - c).positive_part()),
+        ("min(a − b, c)", (a - b).min(c)),
+        ("|a b − c|", (a * b - c).abs()),
+    ];
+    if divisors[0] {
+        results.push(("(a − b) / c", (a - b) / c));
+        results.push(("a / c − b", a / c - b));
+    }
+    if divisors[1] {
+        results.push(("c / (a + b)", c / (a + b)));
+    }
+    results
+}
+
+fn hold(holds: bool, law: Law, by: impl Fn() -> String) -> Result<(), Broken> {
+    if holds { Ok(()) } else { Err(Broken { law, by: by() }) }
+}

@@ -1,0 +1,153 @@
+//! The laws of scalars: ours keep them, and a scalar that breaks one is told which.
+
+use crate::strategies::int;
+use num_traits::{One, Zero};
+use spring_mass_contact::number::{Ball, Exact, Field, Mpfr, OrderedField, PositivePart, Real, ToExact};
+use spring_mass_contact::operators;
+use spring_mass_contact::solver::laws::{self, Broken, Law};
+use spring_mass_contact::solver::{Interval, Scalar};
+use std::cmp::Ordering;
+
+fn exact<T: ToExact>(x: &T) -> Exact {
+    x.to_exact().expect("finite")
+}
+
+/// Neighbours, thirds, tiny and huge ones; the least and the largest too, given as powers of two.
+fn samples<T: Real + ToExact>(like: &T, least: i32, largest: i32) -> Vec<T> {
+    let third = like.nearest(&(int(1) / int(3))).unwrap();
+    let power = |n: i32| like.nearest(&Exact::power_of_two(n)).unwrap();
+    let (one, tenth) = (power(0), like.nearest(&(int(1) / int(10))).unwrap());
+    let ends = [power(least), -power(least), power(largest), -power(largest)];
+    let near = [one.clone().next_up(), -one.clone().next_down(), third.clone().next_up()];
+    let middle = [power(0) - &one, one, third.clone(), -third, tenth.clone(), tenth * power(20), power(-40)];
+    ends.into_iter().chain(near).chain(middle).collect()
+}
+
+#[test]
+fn our_scalars_keep_the_laws() {
+    laws::scalar(&samples(&1f32, -149, 127), exact).unwrap();
+    laws::scalar(&samples(&1f32, -70, 60), exact).unwrap();
+    laws::scalar(&samples(&1f64, -1074, 1023), exact).unwrap();
+    laws::scalar(&samples(&1f64, -500, 500), exact).unwrap();
+    for bits in [2, 24, 53, 200] {
+        laws::scalar(&samples(&int(1).to_mpfr(bits), -9999, 9999), exact).unwrap();
+    }
+    // Precisions that meet, and constants that have none.
+    let mixed =
+        [int(1).to_mpfr(10), (int(1) / int(3)).to_mpfr(90), Mpfr::int(3), (int(1) / int(7)).to_mpfr(3)];
+    laws::scalar(&mixed, exact).unwrap();
+    let rationals: Vec<_> = samples(&1f64, -300, 300).iter().map(|x| exact(x) / int(7)).collect();
+    laws::scalar(&rationals, exact).unwrap();
+}
+
+/// An f64 that breaks the law of this number, as `Law` lists them; and none for the number 8.
+#[derive(Clone, Debug, PartialEq, PartialOrd)]
+struct Breaks<const LAW: usize>(f64);
+
+operators! { [const LAW: usize] Breaks<LAW>;
+    Add add |a, b| Breaks(a.0 + b.0);
+    Sub sub |a, b| Breaks(a.0 - b.0);
+    Mul mul |a, b| Breaks(a.0 * b.0);
+    Div div |a, b| Breaks(a.0 / b.0);
+    - |a| Breaks(-a.0)
+}
+impl<const LAW: usize> Zero for Breaks<LAW> {
+    fn zero() -> Self {
+        Breaks(0.0)
+    }
+    fn is_zero(&self) -> bool {
+        self.0 == 0.0
+    }
+}
+impl<const LAW: usize> One for Breaks<LAW> {
+    fn one() -> Self {
+        Breaks(1.0)
+    }
+}
+impl<const LAW: usize> Field for Breaks<LAW> {
+    fn int(n: i32) -> Self {
+        Breaks(n.into())
+    }
+}
+impl<const LAW: usize> PositivePart for Breaks<LAW> {
+    fn positive_part(&self) -> Self {
+        Breaks(self.0.max(0.0))
+    }
+    fn min(&self, other: &Self) -> Self {
+        Breaks(if LAW == 0 && self.0 == -other.0 { self.0.max(other.0) } else { self.0.min(other.0) })
+    }
+    fn abs(&self) -> Self {
+        Breaks(self.0.abs())
+    }
+}
+impl<const LAW: usize> OrderedField for Breaks<LAW> {}
+impl<const LAW: usize> Scalar for Breaks<LAW> {
+    type Enclosure = Ball<f64>;
+    fn enclose(&self) -> Ball<f64> {
+        // Through a narrower format.
+        if LAW == 2 { f64::from(self.0 as f32).enclose() } else { self.0.enclose() }
+    }
+    fn interval(ball: &Ball<f64>) -> Interval<Self> {
+        let Interval { lower, upper } = f64::interval(ball);
+        // Rounded to nearest, and not outward.
+        if LAW == 3 {
+            let (x, r) = (*ball.value(), *ball.radius());
+            return Interval { lower: Breaks(x - r / 2.0), upper: Breaks(x + r / 2.0) };
+        }
+        Interval { lower: Breaks(lower), upper: Breaks(upper) }
+    }
+    fn magnitude(ball: &Ball<f64>) -> Self {
+        Breaks(if LAW == 4 { ball.value().abs() } else { <f64 as Scalar>::magnitude(ball) })
+    }
+    fn sign(ball: &Ball<f64>) -> Option<Ordering> {
+        if LAW == 5 { ball.value().partial_cmp(&0.0) } else { f64::sign(ball) }
+    }
+    fn power(x: &Ball<f64>, k: u64) -> Option<Ball<f64>> {
+        let power = f64::power(x, k)?;
+        Some(if LAW == 6 { Ball::exactly(*power.value()) } else { power })
+    }
+    fn is_finite(&self) -> bool {
+        self.0.is_finite() && (LAW != 1 || self.0.abs() < 1e100)
+    }
+    fn sign_of_sum(plus: [(&Self, &Self); 2], (c, d): (&Self, &Self)) -> Ordering {
+        let floats = plus.map(|(a, b)| (a.0, b.0));
+        let [(a, b), (e, f)] = &floats;
+        match LAW {
+            7 => (a * b + e * f).partial_cmp(&(c.0 * d.0)).unwrap_or(Ordering::Equal),
+            _ => f64::sign_of_sum([(a, b), (e, f)], (&c.0, &d.0)),
+        }
+    }
+}
+
+fn tried<const LAW: usize>() -> Result<(), Broken> {
+    let samples: Vec<_> = samples(&1f64, -400, 400).into_iter().map(Breaks::<LAW>).collect();
+    laws::scalar(&samples, |x| exact(&x.0))
+}
+
+#[test]
+fn a_law_that_is_broken_is_named() {
+    let found = [
+        tried::<0>(),
+        tried::<1>(),
+        tried::<2>(),
+        tried::<3>(),
+        tried::<4>(),
+        tried::<5>(),
+        tried::<6>(),
+        tried::<7>(),
+    ];
+    let laws = [
+        Law::Order,
+        Law::Finite,
+        Law::Enclose,
+        Law::Interval,
+        Law::Magnitude,
+        Law::Sign,
+        Law::Power,
+        Law::SignOfSum,
+    ];
+    for (found, law) in found.into_iter().zip(laws) {
+        assert_eq!(found.as_ref().map_err(|broken| broken.law), Err(law), "{found:?}");
+    }
+    assert_eq!(tried::<8>(), Ok(()));
+}
