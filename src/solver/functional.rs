@@ -128,7 +128,7 @@ pub fn solve_functional<T: Scalar, const N: usize>(
     let equation = Equation::new(enclosed.c.clone(), reaction, |p| functional(&parameters, p));
     let most = equation.most()?;
     equation.check(&most)?;
-    let Found { lower, upper, ended } = equation.root(&most, tolerance)?;
+    let Found { lower, upper, ended } = equation.root(&most, |_| tolerance.clone())?;
     if upper.is_zero() {
         return Ok(rigid);
     }

@@ -109,7 +109,7 @@ impl<E: PositivePart, W: Fn(&Dual<E>) -> Dual<E>> Equation<E, W> {
         Ok(())
     }
 
-    /// Between 0 and `most`, until no wider than the tolerance or signs are open.
+    /// Between 0 and `most`, until no wider than `width` has it for the lower end, or signs are open.
     ///
     /// By quadratic interval refinement (J. Abbott): of 2ⁿ cells the one in which the straight line between
     /// the ends has its root is tried, and n doubles if the root is there. So what is tried has few digits,
@@ -117,7 +117,7 @@ impl<E: PositivePart, W: Fn(&Dual<E>) -> Dual<E>> Equation<E, W> {
     pub(super) fn root<T: Scalar<Enclosure = E>>(
         &self,
         most: &T,
-        tolerance: &T,
+        width: impl Fn(&T) -> T,
     ) -> Result<Found<T>, FunctionalError> {
         let exactly = |p: T| Ok(Found { lower: p.clone(), upper: p, ended: true });
         let mut lower = match self.side(&T::zero())? {
@@ -151,10 +151,11 @@ impl<E: PositivePart, W: Fn(&Dual<E>) -> Dual<E>> Equation<E, W> {
         };
         let mut digits = 0;
         for _ in 0..MOST_VALUES / 2 {
-            if digits > 0 && &upper.p - &lower.p <= *tolerance {
+            let width = width(&lower.p);
+            if digits > 0 && &upper.p - &lower.p <= width {
                 return Ok(Found { lower: lower.p, upper: upper.p, ended: true });
             }
-            let cell = cell(&lower, &upper, digits, tolerance);
+            let cell = cell(&lower, &upper, digits, &width);
             let mut moved = false;
             for p in &cell {
                 if lower.p < *p && *p < upper.p {
@@ -225,8 +226,8 @@ struct End<T> {
 }
 
 /// The cell of 2ⁿ, in parts of the interval, in which the straight line between its ends has its root; of
-/// fewer, if they get narrower than the tolerance. For n = 0 that root.
-fn cell<T: Scalar>(lower: &End<T>, upper: &End<T>, digits: u64, tolerance: &T) -> [T; 2] {
+/// fewer, if they are narrow enough. For n = 0 that root.
+fn cell<T: Scalar>(lower: &End<T>, upper: &End<T>, digits: u64, enough: &T) -> [T; 2] {
     let rise = &upper.size - &lower.size;
     let mut part = if rise.is_unit() { -&lower.size / rise } else { T::zero() };
     let (mut left, mut width) = (lower.p.clone(), &upper.p - &lower.p);
@@ -237,7 +238,7 @@ fn cell<T: Scalar>(lower: &End<T>, upper: &End<T>, digits: u64, tolerance: &T) -
     for _ in 0..digits {
         let narrower = half(&width);
         let middle = &left + &narrower;
-        if width <= *tolerance || middle == left {
+        if width <= *enough || middle == left {
             break;
         }
         width = narrower;

@@ -48,7 +48,7 @@ where
     // A few digits more than the answer has are enough to tell its neighbours apart.
     let digits = exact(&like.unit_roundoff())?.as_rational().denom().significant_bits();
     for precision in [1, 2, 4].map(|times| times * (digits + 64)) {
-        let Some(found) = enclosed(precision, &c, &reaction.abs(), &eps, &higher) else { break };
+        let Some(found) = enclosed([digits, precision], &c, &reaction.abs(), &eps, &higher) else { break };
         let signed = |p: Mpfr| {
             let p = p.to_exact().map_err(|_| out_of_range.clone());
             p.map(|p| if reaction < Exact::zero() { -p } else { p })
@@ -66,9 +66,9 @@ where
     Err(out_of_range)
 }
 
-/// The root for R > 0, as narrowly as so many bits can.
+/// The root for R > 0, to so many digits and some more, if as many bits are enough.
 fn enclosed(
-    precision: u32,
+    [digits, precision]: [u32; 2],
     c: &Exact,
     reaction: &Exact,
     eps: &Exact,
@@ -84,5 +84,6 @@ fn enclosed(
         penalty::series(&eps, &higher, p)
     });
     let most: Mpfr = equation.most().ok()?;
-    equation.root(&most, &Mpfr::zero()).ok()
+    let width = Mpfr::from(Float::with_val(precision, 1) >> (digits + 4));
+    equation.root(&most, |p| p * &width).ok()
 }
