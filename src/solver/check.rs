@@ -112,5 +112,6 @@ pub(super) fn stiffness<T: Scalar>(s: &SpringMass<T>, eps: &T) -> Result<(), Sol
 pub(super) fn finite<T: Scalar>(solution: &Solution<T>) -> Result<(), SolveError> {
     in_range(solution.deflection.is_finite(), "deflection")?;
     in_range(solution.penetration.is_finite(), "penetration")?;
-    in_range(solution.contact_force.is_finite(), "contact force")
+    in_range(solution.contact_force.is_finite(), "contact force")?;
+    in_range(solution.floor.as_ref().is_none_or(T::is_finite), "bound of |u − u*|")
 }

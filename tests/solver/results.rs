@@ -209,6 +209,27 @@ fn refused_as<T: Float>(name: &str, value: &T, case: &Case<T>, method: usize, po
     }
 }
 
+/// The deflection from this λ₀ is the least f32, so that no f32 bounds its error: not the least bound is returned, since
+/// there is none.
+#[test]
+fn a_floor_is_finite() {
+    let system: SpringMass<f32> = SpringMass { c: 1.0, m: 1.0, g: 1.0, l: 0.0, h: -41.0 };
+    let start = f32::MAX;
+    let method =
+        Method::Augmented { penalty: f32::MIN_POSITIVE, tolerance: 1e-6, max_augmentations: 99, start };
+    let out_of_range = SolveError::OutOfRange { quantity: "bound of |u − u*|" };
+    assert_eq!(solve(&system, &method), Err(out_of_range));
+    // A little less has one.
+    let method = Method::Augmented {
+        penalty: f32::MIN_POSITIVE,
+        tolerance: 1e-6,
+        max_augmentations: 99,
+        start: start / 2.0,
+    };
+    let solution = solve(&system, &method).unwrap();
+    assert!(solution.floor.is_some_and(|floor| floor.is_finite() && floor > start / 4.0));
+}
+
 #[test]
 fn refusals_name_the_parameter_in_f32() {
     refusals_name_the_parameter(&1f32);
