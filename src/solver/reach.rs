@@ -174,9 +174,11 @@ impl Laws {
     /// So many augmentations at most until one with this penalty meets this tolerance, if it is promised:
     /// then the exact penetration is below what drift leaves of the tolerance.
     pub(super) fn augmentations_at_most(&self, eps: &Exact, tolerance: &Exact) -> Option<Integer> {
-        let left = tolerance - self.least_tolerance(&self.penetration_drift(eps));
-        let Laws { system, .. } = self;
-        let needed = || augmentations_needed(system, eps, &left, &Exact::zero(), Plane::Bilateral);
+        let needed = || {
+            // With bits enough; with three, there is no least tolerance.
+            let left = tolerance - self.least_tolerance(&self.penetration_drift(eps));
+            augmentations_needed(&self.system, eps, &left, &Exact::zero(), Plane::Bilateral)
+        };
         self.promise(eps, tolerance).then(needed)
     }
 

@@ -24,6 +24,19 @@ fn reaches<T: Scalar + ToExact>(
     if said && off < *tolerance { Ok(solution) } else { Err(format!("off by {off}, {}", solution.outcome)) }
 }
 
+/// With three bits 1 − 8 η is 0, and with fewer it is less: nothing is promised then, whatever is asked.
+#[test]
+fn with_few_bits_nothing_is_promised() {
+    let system = SpringMass { c: "4", m: "1", g: "10", l: "1", h: "3" }.parse().unwrap();
+    for bits in 0..6 {
+        for (eps, tolerance) in [("1", "1"), ("1e9", "1e9"), ("1e-9", "1e9"), ("1e9", "1e-9")] {
+            let [eps, tolerance] = [eps, tolerance].map(|x| x.parse::<Exact>().unwrap());
+            let eta = Exact::power_of_two(-bits);
+            assert_eq!(augmentations_promised(&system, &eps, &tolerance, &eta), None, "{bits} bits");
+        }
+    }
+}
+
 /// The same method with another penalty.
 fn with_penalty_of<T: Float>(method: &Method<T>, eps: &T) -> Method<T> {
     let penalty = eps.clone();
