@@ -37,7 +37,9 @@ where
     if State::of(system) == State::Grazing {
         return Ok(T::zero());
     }
-    let like = penalty::penetration(system, eps); // of the precision the answer is to have
+    // Of the precision the answer is to have, and of no size that could leave the range.
+    let SpringMass { c, m, g, l, h } = system;
+    let like = [c, m, g, l, h, eps].into_iter().fold(T::zero(), |zero, x| zero + T::zero() * x);
     if like.unit_roundoff().is_zero() {
         return Err(check::no_precision(&like)); // constants of MPFR: nothing to round to
     }

@@ -356,6 +356,17 @@ fn series_errors_name_the_argument() {
     assert_eq!(refused, SolveError::OutOfRange { quantity: "penalty" });
 }
 
+/// R = 2¹⁶⁰ is no f32, but 2¹⁶⁰/(2¹²⁶ + 2¹²⁶) is.
+#[test]
+fn a_root_is_found_where_the_reaction_is_out_of_range() {
+    let power = |n: f32| n.exp2();
+    let system = SpringMass { c: power(126.0), m: power(80.0), g: power(80.0), l: 1.0, h: 1.0 };
+    assert_eq!(series_penetration(&system, &power(126.0), &[]), Ok(power(33.0)));
+    let soft = SpringMass { c: 1.0, ..system };
+    let out_of_range = SolveError::OutOfRange { quantity: "penetration" };
+    assert_eq!(series_penetration(&soft, &1.0, &[]), Err(out_of_range));
+}
+
 /// One of the three conditions on a penalty functional W_ε(p), §1.3.2 before (1.10).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum PenaltyCondition {
