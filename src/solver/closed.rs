@@ -16,7 +16,8 @@ use crate::number::PositivePart;
 ///
 /// # Errors
 /// A parameter is not finite or not in its range, or a bound is beyond the scalar. Rationals, whose k-th
-/// iterate has about k times as many digits as ρ, are refused from some ten million binary digits on.
+/// iterate has about k times as many digits as ρ, are refused from some ten million binary digits on; so are
+/// constants of [`Mpfr`](crate::number::Mpfr).
 ///
 /// ```
 /// use spring_mass_contact::{chapter::SpringMass, solver::{Plane, iterate_after}};

@@ -156,8 +156,14 @@ pub(super) fn power<E: PositivePart>(x: &E, k: u64) -> E {
 #[cfg(feature = "mpfr")]
 const LONGEST: u64 = 10_000_000;
 
+/// Is xᵏ short enough?
+#[cfg(feature = "mpfr")]
+fn can_be_written(x: &Exact, k: u64) -> bool {
+    x.digits().checked_mul(k).is_some_and(|digits| digits <= LONGEST)
+}
+
 macro_rules! by_ball {
-    ($($float:ty, $sign:expr;)*) => {$(
+    ($($float:ty, $sign:expr $(, $power:item)?;)*) => {$(
         impl Scalar for $float {
             type Enclosure = Ball<$float>;
             #[inline]
@@ -180,6 +186,7 @@ macro_rules! by_ball {
             fn is_finite(&self) -> bool {
                 Real::is_finite(self)
             }
+            $($power)?
             #[cold]
             fn sign_of_sum(plus: [(&Self, &Self); 2], minus: (&Self, &Self)) -> Ordering {
                 $sign(plus, minus)
@@ -207,6 +214,11 @@ by_ball! {
         let exact = |x: &Mpfr| x.to_exact().unwrap_or_else(|_| Exact::zero());
         let product = |(a, b): (&Mpfr, &Mpfr)| exact(a) * exact(b);
         (product(plus[0]) + product(plus[1])).cmp(&product(minus))
+    },
+    fn power(x: &Ball<Mpfr>, k: u64) -> Option<Ball<Mpfr>> {
+        // A constant is a rational, and its powers are as long.
+        let rational = x.value().precision().is_none().then(|| x.value().to_exact().ok()).flatten();
+        rational.is_none_or(|x| can_be_written(&x, k)).then(|| power(x, k))
     };
 }
 
@@ -226,7 +238,7 @@ impl Scalar for Exact {
         Some(x.cmp(&Exact::zero()))
     }
     fn power(x: &Exact, k: u64) -> Option<Exact> {
-        (x.digits().checked_mul(k)? <= LONGEST).then(|| power(x, k))
+        can_be_written(x, k).then(|| power(x, k))
     }
     fn is_finite(&self) -> bool {
         true

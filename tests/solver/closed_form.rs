@@ -4,7 +4,7 @@ use crate::in_every_float;
 use crate::strategies::*;
 use proptest::prelude::*;
 use spring_mass_contact::chapter::SpringMass;
-use spring_mass_contact::number::{Exact, Mpfr};
+use spring_mass_contact::number::{Exact, Field, Mpfr};
 use spring_mass_contact::solver::{
     Augmentation, Interval, Iterate, Plane, Scalar, SolveError, State, iterate_after,
 };
@@ -115,6 +115,13 @@ fn steps_without_number() {
     assert!(rough.is_err() || rough.is_ok_and(|rough| rough.penetration.lower <= 0.0));
     let refused = iterate_after(&system, &eps, &int(0), k, Plane::Unilateral);
     assert!(matches!(refused, Err(SolveError::OutOfRange { .. })));
+    // And so it is as a constant of MPFR, whatever the other parameters are.
+    let constant = |x: &Exact| Mpfr::constant(x.clone().into());
+    let mixed = SpringMass { c: constant(&system.c), ..system.map(|x| x.to_mpfr(100)) };
+    let refused = iterate_after(&mixed, &constant(&eps), &Mpfr::int(0), k, Plane::Unilateral);
+    assert!(matches!(refused, Err(SolveError::OutOfRange { .. })));
+    let accepted = iterate_after(&mixed, &constant(&eps), &Mpfr::int(0), 1000, Plane::Unilateral);
+    assert!(accepted.is_ok_and(|step| step.penetration.lower > Mpfr::int(0)));
 }
 
 fn system_reaction(system: &SpringMass<Exact>) -> Exact {
