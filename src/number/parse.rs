@@ -91,13 +91,8 @@ fn decimal(text: &str) -> Result<Rational, ParseError> {
                 return Err(ParseError::NotANumber);
             }
             // More digits than an i32 holds is out of range, whatever they say.
-            let size: i32 =
-                digits.trim_start_matches('0').parse().or_else(|e: std::num::ParseIntError| {
-                    match e.kind() {
-                        std::num::IntErrorKind::Empty => Ok(0),
-                        _ => Err(ParseError::Exponent),
-                    }
-                })?;
+            let digits = digits.trim_start_matches('0');
+            let size: i32 = if digits.is_empty() { 0 } else { digits.parse().unwrap_or(i32::MAX) };
             (mantissa, if negative { -size } else { size })
         }
         None => (text, 0),

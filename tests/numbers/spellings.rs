@@ -72,6 +72,14 @@ fn what_is_no_number_is_refused() {
 }
 
 /// At once: a number of 10¹² digits would not come back.
+/// Whatever its exponent is.
+#[test]
+fn what_is_no_number_has_no_exponent_either() {
+    for text in ["heavye99999999999", "1_0e-4294967296", "e100001", "1.2.3e99999999999", "0x1e99999999999"] {
+        assert_eq!(read(text), Err(ParseError::NotANumber), "{text}");
+    }
+}
+
 #[test]
 fn exponents_beyond_100_000_are_refused_before_anything_is_allocated() {
     assert_eq!(MAX_EXPONENT, 100_000);
