@@ -158,15 +158,24 @@ impl<'a> Development<'a> {
     /// Writes the files to a directory, which is made if it is not there.
     ///
     /// # Errors
-    /// The first that the file system reports.
+    /// The first that the file system reports. No part of a file is left then, and what was there before is
+    /// there still, unless a whole file has taken its place.
     pub fn write(&self, directory: &Path) -> io::Result<Vec<PathBuf>> {
         fs::create_dir_all(directory)?;
-        let path = |file: File| -> io::Result<PathBuf> {
-            let path = directory.join(file.name);
-            fs::write(&path, file.text)?;
-            Ok(path)
-        };
-        self.files().into_iter().map(path).collect()
+        let files = self.files();
+        let part = |file: &File| directory.join(format!("{}.part", file.name));
+        let path = |file: &File| directory.join(&file.name);
+        // All of them beside their places first: a disk that is full then leaves those as they are.
+        let written = files
+            .iter()
+            .try_for_each(|file| fs::write(part(file), &file.text))
+            .and_then(|()| files.iter().try_for_each(|file| fs::rename(part(file), path(file))));
+        if written.is_err() {
+            for file in &files {
+                let _ = fs::remove_file(part(file));
+            }
+        }
+        written.map(|()| files.iter().map(path).collect())
     }
 
     /// The claims for which there is no theorem, each with its reason.
