@@ -5,53 +5,15 @@
 
 #![cfg(feature = "cli")]
 
+mod processes;
+
+use processes::{DEADLINE, captured, command, finish};
 use serde_json::Value;
 use spring_mass_contact::chapter::{SpringMass, contact};
 use spring_mass_contact::claims::{claim_names, entries};
 use spring_mass_contact::number::{Exact, RangeError, ToExact};
 use spring_mass_contact::solver::{Method, Plane, solve_observed};
-use std::io::Read;
-use std::process::{Child, Command, Output, Stdio};
-use std::thread;
-use std::time::Duration;
-use wait_timeout::ChildExt;
-
-/// Ten times what the longest command takes on a busy machine. What takes longer is ended, and its test fails.
-const DEADLINE: Duration = Duration::from_secs(60);
-
-fn command() -> Command {
-    Command::new(env!("CARGO_BIN_EXE_contact"))
-}
-
-/// What a command writes into pipes, if it has any, when it has ended.
-fn run(command: &mut Command) -> Output {
-    finish(command.stdin(Stdio::null()).spawn().expect("the command runs"))
-}
-
-/// Runs with both outputs captured.
-fn captured(command: &mut Command) -> Output {
-    run(command.stdout(Stdio::piped()).stderr(Stdio::piped()))
-}
-
-/// Waits for a command to end, but not for ever.
-fn finish(mut child: Child) -> Output {
-    let (stdout, stderr) = (collect(child.stdout.take()), collect(child.stderr.take()));
-    let Some(status) = child.wait_timeout(DEADLINE).expect("a child") else {
-        child.kill().and_then(|()| child.wait()).expect("the command can be ended");
-        panic!("the command is still running after {DEADLINE:?}");
-    };
-    let [stdout, stderr] = [stdout, stderr].map(|bytes| bytes.join().expect("a pipe"));
-    Output { status, stdout, stderr }
-}
-
-/// Reads while the command runs: it would wait for ever if a pipe were full.
-fn collect(pipe: Option<impl Read + Send + 'static>) -> thread::JoinHandle<Vec<u8>> {
-    thread::spawn(move || {
-        let mut bytes = Vec::new();
-        pipe.map(|mut pipe| pipe.read_to_end(&mut bytes)).transpose().expect("a pipe");
-        bytes
-    })
-}
+use std::process::{Command, Output, Stdio};
 
 fn contact(arguments: &[&str]) -> Output {
     // Neither the width nor the colours of whoever runs the tests.
@@ -678,46 +640,6 @@ fn a_closed_pipe_is_no_error() {
         drop(child.stdout.take());
         let output = finish(child);
         assert_eq!((output.status.code(), output.stderr.as_slice()), (Some(0), b"".as_slice()), "{format}");
-    }
-}
-
-/// As `contact | head -1` does. Nothing is left of the report but its first line.
-#[test]
-fn a_pipe_that_closes_after_a_line_is_no_error() {
-    use std::io::{BufRead, BufReader};
-    let mut command = command();
-    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the command runs");
-    let mut stdout = BufReader::new(child.stdout.take().expect("a pipe"));
-    // Elsewhere, since nobody knows if there will be a line.
-    let line = thread::spawn(move || {
-        let mut line = String::new();
-        stdout.read_line(&mut line).expect("text");
-        line
-    });
-    let output = finish(child);
-    let line = line.join().expect("a line");
-    assert_eq!((output.status.code(), output.stderr.as_slice()), (Some(0), b"".as_slice()));
-    // Without a command it verifies, in all these.
-    let words: Vec<_> = line.split_whitespace().collect();
-    assert_eq!(words, ["number", "title", "proved", "f32", "f64", "mpfr:256", "exact"]);
-}
-
-#[cfg(target_os = "linux")]
-#[test]
-fn a_full_disk_is_reported() {
-    for line in [
-        "verify --cases 1 --equation 1.1",
-        "equations",
-        "solve",
-        "sweep --penalty 1..2",
-        "completions bash",
-        "--help",
-    ] {
-        let full = std::fs::File::options().write(true).open("/dev/full").expect("a device");
-        let output = run(command().args(line.split(' ')).stdout(full).stderr(Stdio::piped()));
-        let stderr = String::from_utf8(output.stderr).expect("UTF-8");
-        assert_eq!((output.status.code(), stderr.lines().count()), (Some(2), 1), "{line}: {stderr}");
-        assert!(stderr.starts_with("error: stdout cannot be written"), "{line}: {stderr}");
     }
 }
 

@@ -1,0 +1,47 @@
+//! The command as a process, which ends in time or is ended.
+
+#![allow(dead_code)] // every test file is a crate of its own and uses its share of this one
+
+use std::io::Read;
+use std::process::{Child, Command, Output, Stdio};
+use std::thread;
+use std::time::Duration;
+use wait_timeout::ChildExt;
+
+/// Ten times what the longest command takes on a busy machine. What takes longer is ended, and its test fails.
+pub const DEADLINE: Duration = Duration::from_secs(60);
+
+/// It, with nothing said to it.
+pub fn command() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_contact"))
+}
+
+/// What a command writes into pipes, if it has any, when it has ended.
+pub fn run(command: &mut Command) -> Output {
+    finish(command.stdin(Stdio::null()).spawn().expect("the command runs"))
+}
+
+/// Runs with both outputs captured.
+pub fn captured(command: &mut Command) -> Output {
+    run(command.stdout(Stdio::piped()).stderr(Stdio::piped()))
+}
+
+/// Waits for a command to end, but not for ever.
+pub fn finish(mut child: Child) -> Output {
+    let (stdout, stderr) = (collect(child.stdout.take()), collect(child.stderr.take()));
+    let Some(status) = child.wait_timeout(DEADLINE).expect("a child") else {
+        child.kill().and_then(|()| child.wait()).expect("the command can be ended");
+        panic!("the command is still running after {DEADLINE:?}");
+    };
+    let [stdout, stderr] = [stdout, stderr].map(|bytes| bytes.join().expect("a pipe"));
+    Output { status, stdout, stderr }
+}
+
+/// Reads while the command runs: it would wait for ever if a pipe were full.
+fn collect(pipe: Option<impl Read + Send + 'static>) -> thread::JoinHandle<Vec<u8>> {
+    thread::spawn(move || {
+        let mut bytes = Vec::new();
+        pipe.map(|mut pipe| pipe.read_to_end(&mut bytes)).transpose().expect("a pipe");
+        bytes
+    })
+}
