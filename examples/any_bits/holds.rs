@@ -1,0 +1,557 @@
+//! What must hold whatever the bytes are: each function makes its arguments of them, and panics where something does
+//! not hold.
+
+use crate::bytes::{Bytes, Number, method, plane, positive, system};
+use num_traits::Zero;
+use spring_mass_contact::chapter::{SpringMass, augmented, contact, lagrange, penalty, structure, system};
+use spring_mass_contact::number::{
+    Exact, MAX_EXPONENT, Mpfr, NumberSystem, ParseError, PositivePart, RangeError, Real, Text, ToExact,
+};
+use spring_mass_contact::rug::float::Round;
+use spring_mass_contact::rug::ops::Pow;
+use spring_mass_contact::rug::{Integer, Rational};
+use spring_mass_contact::solver::{
+    Augmentation, Bounds, Interval, Iterate, Method, Outcome, Plane, ReadError, Solution, SolveError, State,
+    advise, augmentations_needed, augmentations_promised, best_penalty, bits_needed, iterate_after,
+    penalties, penalty_for_penetration, penalty_force_bound, rounding_floor, series_penetration, solve,
+    solve_observed, sweep, within_reach,
+};
+use std::cmp::Ordering;
+use std::sync::atomic::{AtomicBool, Ordering as AtomicOrdering};
+
+/// Whether the arguments are to be seen.
+pub static SHOWN: AtomicBool = AtomicBool::new(false);
+
+fn show(arguments: impl FnOnce() -> String) {
+    if SHOWN.load(AtomicOrdering::Relaxed) {
+        println!("{}", arguments());
+    }
+}
+
+fn exact<T: ToExact>(x: &T) -> Exact {
+    x.to_exact().expect("a finite number")
+}
+
+fn zero() -> Exact {
+    Exact::zero()
+}
+
+/// A text: of bytes as they are, or of the characters that numbers are made of.
+fn text(bytes: &mut Bytes) -> String {
+    const CHARACTERS: &[u8] = b"00123456789012345678901234567890123456789..//eE--+  _x\x00naif";
+    if bytes.one_in(8) {
+        return String::from_utf8_lossy(bytes.rest()).into_owned();
+    }
+    let count = bytes.below(24);
+    let mut text: String = (0..count).map(|_| char::from(*bytes.pick(CHARACTERS))).collect();
+    // Else few would have a power of ten that can be read.
+    if bytes.one_in(2) {
+        text += &format!("e{}", bytes.bits() as i64 >> (16 + bytes.below(48)));
+    }
+    text
+}
+
+/// Every spelling is read exactly or refused; Rust's own reading of f32 and f64 is the judge.
+pub fn parse(bytes: &[u8]) {
+    let mut bytes = Bytes(bytes);
+    let text = text(&mut bytes);
+    show(|| format!("{text:?}"));
+    let read = text.parse::<Exact>();
+    let by_rust = text.parse::<f64>().ok().filter(|_| !text.contains(['n', 'N', 'i', 'I', 'y', 'Y']));
+    match &read {
+        Ok(x) if text.contains('/') => {
+            let (p, q) = text.split_once('/').expect("a fraction");
+            let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+            assert!(digits(p.trim_start_matches(['+', '-'])) && digits(q), "it is read");
+            let [p, q] =
+                [p, q].map(|text| Exact::from(Rational::from(text.parse::<Integer>().expect("digits"))));
+            assert_eq!(x * q, p);
+        }
+        Ok(x) => {
+            let by_rust = by_rust.expect("it is read");
+            let (mantissa, power) = text.split_once(['e', 'E']).unwrap_or((&text, "0"));
+            let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+            let power = power.parse::<i64>().expect("a power");
+            assert!(power.abs() <= i64::from(MAX_EXPONENT));
+            let digits = Rational::from(format!("{whole}{fraction}").parse::<Integer>().expect("digits"));
+            let ten = |n: i64| Exact::from(Rational::from(Integer::from(10).pow(n.max(0) as u32)));
+            let power = power - fraction.len() as i64;
+            assert_eq!(x * ten(-power), Exact::from(digits) * ten(power));
+            nearest(x, by_rust, "f64", x.to_f64());
+            nearest(x, text.parse::<f32>().expect("a number"), "f32", x.to_f32());
+        }
+        Err(ParseError::Empty) => assert_eq!(text, ""),
+        Err(ParseError::NotANumber) => assert_eq!(by_rust, None, "it is refused"),
+        Err(ParseError::DivisionByZero) => assert!(text.trim_end_matches('0').ends_with('/')),
+        Err(ParseError::Exponent) => {
+            let (_, power) = text.split_once(['e', 'E']).expect("a power");
+            assert!(
+                by_rust.is_some() && power.parse().is_ok_and(|n: i128| n.abs() > i128::from(MAX_EXPONENT))
+            );
+        }
+        Err(other) => panic!("{other:?}"),
+    }
+    let precision = 2 + bytes.below(63) as u32;
+    assert_eq!(Mpfr::parse(&text, precision).map(drop), read.clone().map(drop));
+    if let Ok(x) = &read
+        && bytes.one_in(16)
+        && x.digits() < 4000
+    {
+        written(x, precision);
+    }
+    if let Ok(system) = text.parse::<NumberSystem>() {
+        assert_eq!(system.to_string().parse(), Ok(system));
+    }
+    let texts = SpringMass { c: "1", m: "1", g: &*text, l: "1", h: "1" };
+    match (texts.parse(), &read) {
+        (Ok(system), Ok(x)) => assert_eq!(system.g, *x),
+        (Err(ReadError::NotANumber { argument: "gravity", value, reason }), Err(why)) => {
+            assert_eq!((&value, &reason), (&text, why));
+        }
+        (other, _) => panic!("{other:?}"),
+    }
+}
+
+/// Rounded as Rust rounds it, but for what Rust makes infinite or zero.
+fn nearest<T: Text + PartialEq + std::fmt::Debug>(
+    x: &Exact,
+    by_rust: T,
+    name: &str,
+    ours: Result<T, RangeError>,
+) {
+    match ours {
+        Ok(own) => assert_eq!(own, by_rust),
+        Err(RangeError::Overflow { scalar }) => assert!(scalar == name && by_rust.to_exact().is_err()),
+        Err(RangeError::Underflow { scalar }) => {
+            assert!(scalar == name && !x.is_zero() && exact(&by_rust).is_zero());
+        }
+        Err(other) => panic!("{other:?}"),
+    }
+}
+
+/// What is written is read as the same number, or as one on the side that was asked for.
+fn written(x: &Exact, precision: u32) {
+    assert_eq!(x.to_string().parse().as_ref(), Ok(x));
+    let digits = 1 + precision as usize % 20;
+    let [down, near, up] = [Round::Down, Round::Nearest, Round::Up].map(|round| {
+        let text = x.decimal(digits, round);
+        let mantissa = text.split('e').next().expect("a text");
+        let significant = mantissa.trim_start_matches(['-', '0', '.']).trim_end_matches(['0', '.']);
+        assert!(significant.bytes().filter(u8::is_ascii_digit).count() <= digits, "{text}");
+        text.parse::<Exact>().expect("a number")
+    });
+    assert!(down <= *x && *x <= up && down <= near && near <= up);
+    let rounded = x.to_mpfr(precision);
+    assert_eq!(Mpfr::parse(&rounded.text(), precision), Ok(rounded.clone()));
+    encloses(&rounded);
+    x.to_f64().iter().for_each(encloses);
+    x.to_f32().iter().for_each(encloses);
+}
+
+/// The texts of an interval hold as they are written.
+fn encloses<T: Number>(point: &T) {
+    let texts = Interval { lower: point.clone(), upper: point.clone() }.texts();
+    let [lower, upper] = texts.map(|text| text.parse::<Exact>().expect("a number"));
+    assert!(lower <= exact(point) && exact(point) <= upper, "{lower} to {upper}");
+}
+
+/// Both ends are finite, and not the wrong way round.
+fn in_order<T: Number>(interval: &Interval<T>) {
+    let Interval { lower, upper } = interval;
+    assert!(lower.is_number() && upper.is_number() && lower <= upper, "{lower:?} to {upper:?}");
+}
+
+/// Which arguments may be what they are, in the order in which they are looked at.
+struct Arguments(Vec<(&'static str, bool)>);
+
+impl Arguments {
+    fn of<T: Number>(system: &SpringMass<T>) -> Self {
+        let SpringMass { c, m, g, l, h } = system;
+        Arguments(Vec::new())
+            .positive("stiffness", c)
+            .positive("mass", m)
+            .finite("gravity", g)
+            .finite("free length", l)
+            .finite("height", h)
+    }
+
+    fn with(mut self, name: &'static str, valid: bool) -> Self {
+        self.0.push((name, valid));
+        self
+    }
+
+    fn positive<T: Number>(self, name: &'static str, x: &T) -> Self {
+        self.with(name, x.is_number() && *x > T::zero())
+    }
+
+    fn finite<T: Number>(self, name: &'static str, x: &T) -> Self {
+        self.with(name, x.is_number())
+    }
+
+    /// The first that may not.
+    fn wrong(&self) -> Option<&'static str> {
+        self.0.iter().find(|(_, valid)| !valid).map(|(name, _)| *name)
+    }
+
+    /// Of wrong arguments one is named; of others none.
+    fn judge<R>(&self, result: Result<R, SolveError>) -> Option<R> {
+        match result {
+            Ok(result) => {
+                assert_eq!(self.wrong(), None, "it is not refused");
+                Some(result)
+            }
+            Err(SolveError::Invalid { argument, value, allowed }) => {
+                assert!(self.0.contains(&(argument, false)), "{argument} {value}: must be {allowed}");
+                None
+            }
+            Err(SolveError::OutOfRange { .. }) => {
+                assert_eq!(self.wrong(), None, "it is not refused");
+                None
+            }
+            Err(other) => panic!("{other:?}"),
+        }
+    }
+}
+
+/// The exact answer: deflection, penetration, contact force.
+fn answer(system: &SpringMass<Exact>, method: &Method<Exact>, plane: Plane) -> [Exact; 3] {
+    match (method, plane) {
+        (Method::Penalty { .. }, Plane::Unilateral) if system::reaction(system) < zero() => {
+            let u = structure::deflection(system);
+            let p = contact::penetration(system, &u);
+            [u, p, zero()]
+        }
+        (Method::Penalty { penalty: eps }, _) => [
+            penalty::deflection(system, eps),
+            penalty::penetration(system, eps),
+            penalty::force_at_root(system, eps),
+        ],
+        (_, Plane::Unilateral) => {
+            let u = contact::deflection(system);
+            let p = contact::penetration(system, &u);
+            [u, p, contact::contact_force(system)]
+        }
+        (_, Plane::Bilateral) => [lagrange::deflection(system), zero(), lagrange::multiplier(system)],
+    }
+}
+
+fn within<T: Number>(interval: &Interval<T>, answer: &Exact, what: &str) {
+    let [lower, upper] = [&interval.lower, &interval.upper].map(exact);
+    assert!(lower <= *answer && *answer <= upper, "the {what} {answer} is not between {lower} and {upper}");
+}
+
+fn exactly<T: Number>(method: &Method<T>) -> Method<Exact> {
+    match method {
+        Method::Lagrange => Method::Lagrange,
+        Method::Penalty { penalty } => Method::Penalty { penalty: exact(penalty) },
+        Method::Augmented { penalty, tolerance, max_augmentations, start } => Method::Augmented {
+            penalty: exact(penalty),
+            tolerance: exact(tolerance),
+            max_augmentations: *max_augmentations,
+            start: exact(start),
+        },
+    }
+}
+
+/// By every method, over both planes.
+pub fn solve_any<T: Number>(bytes: &[u8]) {
+    let mut bytes = Bytes(bytes);
+    let (sample, plane) = (bytes.byte(), plane(&mut bytes));
+    let system = system::<T>(&mut bytes);
+    let method = method::<T>(&mut bytes, if T::EXACT { 12 } else { 255 });
+    let mut arguments = Arguments::of(&system);
+    if let Some(penalty) = method.penalty() {
+        arguments = arguments.positive("penalty", penalty);
+    }
+    let mut most = 0;
+    if let Method::Augmented { tolerance, start, max_augmentations, .. } = &method {
+        arguments = arguments.positive("tolerance", tolerance).finite("initial multiplier", start);
+        most = *max_augmentations;
+    }
+    show(|| format!("{system:?} {method:?} {plane:?}"));
+    let mut steps = 0;
+    let solved = solve_observed(&system, &method, plane, |step| {
+        assert_eq!(step.k, steps);
+        steps += 1;
+    });
+    let Some(solution) = arguments.judge(solved) else { return };
+    let Solution {
+        state,
+        outcome,
+        deflection,
+        penetration,
+        contact_force,
+        multiplier,
+        augmentations,
+        floor,
+        bounds,
+    } = &solution;
+    assert!(
+        [deflection, penetration, contact_force].into_iter().chain(multiplier).chain(floor).all(T::is_number)
+    );
+    assert!(plane == Plane::Bilateral || *contact_force >= T::zero(), "the plane pulls");
+    let Bounds { deflection: u, penetration: p, contact_force: n } = bounds;
+    in_order(u);
+    in_order(p);
+    in_order(n);
+    let augmented = matches!(method, Method::Augmented { .. });
+    assert_eq!((*outcome == Outcome::Direct, augmentations.is_some()), (!augmented, augmented));
+    assert_eq!(floor.is_some(), *outcome == Outcome::Stagnated);
+    assert_eq!(multiplier.is_none(), matches!(method, Method::Penalty { .. }));
+    assert!(augmentations.is_none_or(|k| k <= most && k + 1 == steps));
+    if sample % 64 != 0 && !T::EXACT {
+        return;
+    }
+    solution.certificate(&system);
+    let (system, method) = (system.map(exact), exactly(&method));
+    assert_eq!(*state, state_of(&system));
+    let answers = answer(&system, &method, plane);
+    within(u, &answers[0], "deflection");
+    within(p, &answers[1], "penetration");
+    within(n, &answers[2], "contact force");
+    let off = (exact(deflection) - &answers[0]).abs();
+    if let (Outcome::Converged, Method::Augmented { tolerance, .. }) = (outcome, &method) {
+        assert!(off < *tolerance, "it did not converge");
+    }
+    assert!(floor.as_ref().is_none_or(|floor| exact(floor) >= zero()));
+}
+
+fn state_of(system: &SpringMass<Exact>) -> State {
+    match system::reaction(system).cmp(&zero()) {
+        Ordering::Less => State::Separated,
+        Ordering::Equal => State::Grazing,
+        Ordering::Greater => State::Contact,
+    }
+}
+
+/// One of the functions beside `solve`, in one of the number systems.
+pub fn functions(bytes: &[u8]) {
+    let bytes = &mut Bytes(bytes);
+    macro_rules! any {
+        ($holds:ident, $($Number:ty),*) => {{
+            let holds: &[fn(&mut Bytes)] = &[$($holds::<$Number>),*];
+            bytes.pick(holds)(bytes)
+        }};
+    }
+    match bytes.below(8) {
+        0 => any!(advised, f32, f64, Mpfr, Exact),
+        1 => any!(swept, f32, f64, Mpfr, Exact),
+        2 => any!(iterated, f32, f64, Mpfr, Exact),
+        3 => any!(counted, f32, f64, Mpfr, Exact),
+        4 => any!(floored, f32, f64, Mpfr, Exact),
+        5 => any!(in_series, f32, f64, Mpfr),
+        6 => any!(best, f32, f64, Mpfr, Exact),
+        _ => spaced(bytes),
+    }
+}
+
+/// Does the method come to within the tolerance?
+fn reaches(solution: &Solution<impl Number>, system: &SpringMass<Exact>, tolerance: &Exact) -> bool {
+    let off = (exact(&solution.deflection) - contact::deflection(system)).abs();
+    solution.outcome != Outcome::Stagnated && solution.outcome != Outcome::OutOfSteps && off < *tolerance
+}
+
+/// Whatever is advised reaches the tolerance.
+fn advised<T: Number>(bytes: &mut Bytes) {
+    let (system, tolerance) = (system::<T>(bytes), positive::<T>(bytes));
+    let arguments = Arguments::of(&system).positive("tolerance", &tolerance);
+    show(|| format!("{system:?} tol {tolerance:?}"));
+    let Some(advice) = arguments.judge(advise(&system, &tolerance)) else { return };
+    let (exact_system, tol) = (system.map(exact), exact(&tolerance));
+    assert_eq!(advice.state, state_of(&exact_system));
+    assert!(advice.floor.is_none_or(|floor| floor >= zero()));
+    for choice in &advice.choices {
+        let solution = solve(&system, &choice.method).expect("what has been tried");
+        assert!(reaches(&solution, &exact_system, &tol), "{:?} does not reach it", choice.method);
+        assert_eq!(solution.augmentations, choice.augmentations);
+        let [from, to] = choice.penalties.each_ref().map(Option::as_ref);
+        match choice.method.penalty() {
+            None => assert!(from.is_none() && to.is_none()),
+            Some(eps) => assert!(from.is_none_or(|from| from <= eps) && to.is_none_or(|to| eps <= to)),
+        }
+        for eps in [from, to].into_iter().flatten() {
+            let method = match choice.method.clone() {
+                Method::Lagrange => Method::Lagrange,
+                Method::Penalty { .. } => Method::Penalty { penalty: eps.clone() },
+                Method::Augmented { tolerance, max_augmentations, start, .. } => {
+                    // In rationals a thousand steps would be too long.
+                    if T::EXACT {
+                        continue;
+                    }
+                    Method::Augmented { penalty: eps.clone(), tolerance, max_augmentations, start }
+                }
+            };
+            let solution = solve(&system, &method).expect("what has been tried");
+            assert!(reaches(&solution, &exact_system, &tol), "{method:?} does not reach it");
+        }
+        assert!(
+            choice.force_error >= zero() && choice.relative_force_error.as_ref().is_none_or(|x| *x >= zero())
+        );
+    }
+}
+
+fn swept<T: Number>(bytes: &mut Bytes) {
+    let system = system::<T>(bytes);
+    let eps = [(); 3].map(|()| positive::<T>(bytes));
+    show(|| format!("{system:?} {eps:?}"));
+    let arguments = |eps| Arguments::of(&system).positive("penalty", eps);
+    for (row, eps) in sweep(&system, eps.clone()).zip(&eps) {
+        let Some(row) = arguments(eps).judge(row) else { continue };
+        let numbers = [&row.penalty, &row.deflection, &row.penetration, &row.contact_force];
+        assert!(numbers.into_iter().chain(&row.penalty_force).all(T::is_number) && row.penalty == *eps);
+        assert!(
+            [&row.force_error, &row.penalty_force_error].into_iter().flatten().all(|error| *error >= zero())
+        );
+    }
+    let tolerance = positive::<T>(bytes);
+    let arguments = Arguments::of(&system).positive("tolerance", &tolerance);
+    if let Some(Some(eps)) = arguments.judge(penalty_for_penetration(&system, &tolerance)) {
+        assert!(eps.is_number() && eps > T::zero());
+    }
+}
+
+/// The step of a given number lies between its bounds.
+fn iterated<T: Number>(bytes: &mut Bytes) {
+    let (system, eps) = (system::<T>(bytes), positive::<T>(bytes));
+    let start = if bytes.one_in(3) { T::zero() } else { T::any(bytes) };
+    let plane = plane(bytes);
+    let k = bytes.bits() >> bytes.below(64);
+    // In between rationals take seconds, until they are refused.
+    let k = if T::EXACT && k >> 40 == 0 { k % 64 } else { k };
+    let arguments = Arguments::of(&system).positive("penalty", &eps).finite("initial multiplier", &start);
+    show(|| format!("{system:?} ε {eps:?} λ₀ {start:?} k {k} {plane:?}"));
+    let Some(step) = arguments.judge(iterate_after(&system, &eps, &start, k, plane)) else { return };
+    let Iterate { multiplier, deflection, penetration, contact_force, .. } = &step;
+    in_order(multiplier);
+    in_order(deflection);
+    in_order(penetration);
+    in_order(contact_force);
+    if k > 6 {
+        return;
+    }
+    let (system, eps) = (system.map(exact), exact(&eps));
+    let mut steps = Augmentation::new(&system, &eps).from_multiplier(exact(&start)).over(plane);
+    let last = steps.nth(k as usize).expect("there always is one");
+    assert_eq!(step.k, last.k);
+    within(multiplier, &last.multiplier, "multiplier");
+    within(deflection, &last.deflection, "deflection");
+    within(penetration, &last.penetration, "penetration");
+    within(contact_force, &last.contact_force, "contact force");
+}
+
+/// Valid or not, but no infinity: what is documented to panic with one is not asked.
+fn valid<T: Number>(bytes: &mut Bytes) -> Option<(SpringMass<T>, T, T)> {
+    let (system, eps, tolerance) = (system::<T>(bytes), positive::<T>(bytes), positive::<T>(bytes));
+    let arguments = Arguments::of(&system).positive("penalty", &eps).positive("tolerance", &tolerance);
+    arguments.wrong().is_none().then_some((system, eps, tolerance))
+}
+
+/// Of any precision, also where there is none such.
+fn unit_roundoff(bytes: &mut Bytes) -> Exact {
+    match bytes.below(8) {
+        0 => zero(),
+        1 => Exact::any(bytes).abs(),
+        _ => Exact::power_of_two(-(bytes.below(70) as i32)),
+    }
+}
+
+/// The count is the first step that is within the tolerance.
+fn counted<T: Number>(bytes: &mut Bytes) {
+    let Some((system, eps, tolerance)) = valid::<T>(bytes) else { return };
+    let (start, plane) = (T::any(bytes), plane(bytes));
+    if !start.is_number() {
+        return;
+    }
+    show(|| format!("{system:?} eps {eps:?} tol {tolerance:?} start {start:?} {plane:?}"));
+    let needed = augmentations_needed(&system, &eps, &tolerance, &start, plane);
+    let eta = unit_roundoff(bytes);
+    let promised = augmentations_promised(&system, &eps, &tolerance, &eta);
+    assert_eq!(promised.is_some(), within_reach(&system, &eps, &tolerance, &eta));
+    assert!(promised.is_none_or(|count| count >= 0));
+    let (system, eps, tol) = (system.map(exact), exact(&eps), exact(&tolerance));
+    let Some(k) = needed.to_usize().filter(|k| *k < 6) else {
+        assert!(needed > 0);
+        return;
+    };
+    let steps = Augmentation::new(&system, &eps).from_multiplier(exact(&start)).over(plane);
+    let residuals = steps.map(|step| match plane {
+        Plane::Unilateral => augmented::natural_residual(&system, &eps, &step.multiplier, &step.deflection),
+        Plane::Bilateral => step.penetration,
+    });
+    assert_eq!(residuals.take(k + 1).position(|residual| residual.abs() < tol), Some(k));
+}
+
+fn floored<T: Number>(bytes: &mut Bytes) {
+    let Some((system, _, tolerance)) = valid::<T>(bytes) else { return };
+    let (plane, eta) = (plane(bytes), unit_roundoff(bytes));
+    show(|| format!("{system:?} tol {tolerance:?} η = {eta}"));
+    assert!(rounding_floor(&system, plane, &eta).is_none_or(|floor| floor >= zero()));
+    let (system, tol) = (system.map(exact), exact(&tolerance));
+    if let Some(bits) = bits_needed(&system, plane, &tol) {
+        let rounded = |x: &Exact| x.rounded(bits).expect("some bits");
+        let floor = rounding_floor(&system.map(rounded), plane, &NumberSystem::Mpfr(bits).unit_roundoff());
+        assert!(floor.is_some_and(|floor| floor < rounded(&tol)));
+    }
+}
+
+/// The root has the sign of the reaction.
+fn in_series<T: Number + Real>(bytes: &mut Bytes) {
+    let system = system::<T>(bytes);
+    let eps = if bytes.one_in(3) { T::zero() } else { positive(bytes) };
+    let higher: Vec<T> = (0..bytes.below(4)).map(|_| positive(bytes)).collect();
+    let mut arguments = Arguments::of(&system);
+    let coefficient = |x: &T| x.is_number() && *x >= T::zero();
+    arguments = arguments.with("penalty", coefficient(&eps));
+    arguments = arguments.with("higher penalty", higher.iter().all(coefficient));
+    arguments = arguments.with("penalties", higher.iter().chain([&eps]).any(|x| *x > T::zero()));
+    let parameters = [&system.c, &system.m, &system.g, &system.l, &system.h].map(ToExact::number_system);
+    let rounds =
+        parameters.into_iter().chain([eps.number_system()]).any(|system| system != NumberSystem::Exact);
+    show(|| format!("{system:?} ε {eps:?} {higher:?}"));
+    match series_penetration(&system, &eps, &higher) {
+        Err(SolveError::Invalid { argument: "system", .. }) => {
+            assert!(arguments.wrong().is_none() && !rounds)
+        }
+        result => {
+            let Some(p) = arguments.judge(result) else { return };
+            let r = system::reaction(&system.map(exact));
+            assert_eq!(exact(&p).cmp(&zero()), r.cmp(&zero()));
+        }
+    }
+}
+
+fn best<T: Number>(bytes: &mut Bytes) {
+    let Some((system, eps, _)) = valid::<T>(bytes) else { return };
+    let eta = unit_roundoff(bytes);
+    show(|| format!("{system:?} eps {eps:?} η = {eta}"));
+    if let Ok(Some(best)) = best_penalty(&system, &eta) {
+        assert!(best.is_number() && best > T::zero());
+        assert!(penalty_force_bound(&system, &best, &eta).is_some());
+    }
+    let bound = penalty_force_bound(&system, &eps, &eta);
+    assert_eq!(bound.is_some(), state_of(&system.map(exact)) == State::Contact);
+    assert!(bound.is_none_or(|bound| bound > zero()));
+}
+
+/// From the one end to the other, each greater than the one before.
+fn spaced(bytes: &mut Bytes) {
+    let [from, to] = [(); 2].map(|()| Exact::any(bytes));
+    let points = bytes.below(70);
+    let arguments = Arguments(vec![
+        ("first penalty", from > zero()),
+        ("last penalty", from < to),
+        ("number of penalties", points >= 2),
+    ]);
+    show(|| format!("{from} to {to}, {points}"));
+    match penalties(&from, &to, points) {
+        // So near to one another that a hundred digits do not tell them apart.
+        Err(SolveError::Invalid { argument: "last penalty", .. }) if arguments.wrong().is_none() => {
+            assert!((&to - &from) / &to < Exact::power_of_two(-300));
+        }
+        result => {
+            let Some(list) = arguments.judge(result) else { return };
+            assert!(list.len() == points && list.first() == Some(&from) && list.last() == Some(&to));
+            assert!(list.is_sorted_by(|a, b| a < b));
+        }
+    }
+}

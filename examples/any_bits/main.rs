@@ -1,0 +1,259 @@
+//! Whatever the bits are: numbers of every size and kind as arguments, and texts of every kind as numbers. Nothing
+//! panics, nothing takes long, what is refused is refused by its name, and what is returned holds.
+//!
+//! ```sh
+//! cargo run --release --example any_bits -- --executions 10000000 --target solve_f32
+//! ```
+//!
+//! takes ten million arguments for one of the targets; without `--target` so many for each. They come of `--seed N`
+//! and their number, so that the first that fails can be had alone, with its arguments: `--from NUMBER --executions 1`. The
+//! folder `fuzz` puts the same to what a fuzzer that sees the code's branches comes up with.
+
+mod bytes;
+mod holds;
+mod of_reply;
+
+// What the command reads a program's answers with, and what that needs of it.
+#[allow(dead_code, unused_imports, unused_macros)]
+#[path = "../../src/bin/contact"]
+mod contact {
+    pub mod args;
+    pub mod json;
+    pub mod output;
+    pub mod check {
+        pub mod reply;
+    }
+}
+
+use contact::{args, json, output};
+use holds::SHOWN;
+use rayon::prelude::*;
+use spring_mass_contact::number::{Exact, Mpfr};
+use std::cell::RefCell;
+use std::panic::{AssertUnwindSafe, catch_unwind, set_hook};
+use std::process::{ExitCode, exit};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// No execution may take longer: what is drawn is short.
+const LONGEST: Duration = Duration::from_secs(1);
+
+/// One that takes so long is not waited for.
+const HANG: Duration = Duration::from_secs(60);
+
+/// splitmix64, by Steele, Lea and Flood.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let x = (self.0 ^ self.0 >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let x = (x ^ x >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+        x ^ x >> 31
+    }
+}
+
+/// A name, how many bytes it takes at most, and what must hold of them.
+type Target = (&'static str, usize, fn(&[u8]));
+
+const TARGETS: [Target; 7] = [
+    ("parse", 40, holds::parse),
+    ("solve_f32", 96, holds::solve_any::<f32>),
+    ("solve_f64", 96, holds::solve_any::<f64>),
+    ("solve_mpfr", 128, holds::solve_any::<Mpfr>),
+    ("solve_exact", 128, holds::solve_any::<Exact>),
+    ("functions", 192, holds::functions),
+    ("reply", 128, of_reply::read),
+];
+
+/// What a number stands for.
+fn drawn(seed: u64, number: u64, bytes: &mut [u8]) {
+    let mut random = Random(Random(seed).next() ^ Random(number).next());
+    for chunk in bytes.chunks_mut(8) {
+        chunk.copy_from_slice(&random.next().to_le_bytes()[..chunk.len()]);
+    }
+}
+
+thread_local! {
+    /// What the last panic of a thread said.
+    static SAID: RefCell<String> = const { RefCell::new(String::new()) };
+}
+
+/// What is wrong with an execution.
+fn wrong((_, most, holds): &Target, seed: u64, number: u64) -> Option<String> {
+    let mut bytes = [0; 256];
+    let bytes = &mut bytes[..*most];
+    drawn(seed, number, bytes);
+    catch_unwind(AssertUnwindSafe(|| holds(bytes))).err().map(|_| SAID.take())
+}
+
+/// What came of some executions.
+#[derive(Default)]
+struct Tally {
+    violations: u64,
+    slowest: (Duration, u64),
+    /// The first that fails.
+    example: Option<(u64, String)>,
+}
+
+impl Tally {
+    fn and(mut self, other: Tally) -> Tally {
+        self.violations += other.violations;
+        self.slowest = self.slowest.max(other.slowest);
+        self.example = self.example.into_iter().chain(other.example).min();
+        self
+    }
+}
+
+/// The executions that are under way, by thread.
+struct UnderWay(Vec<[AtomicU64; 2]>, Instant);
+
+impl UnderWay {
+    fn new() -> Self {
+        UnderWay((0..rayon::current_num_threads()).map(|_| Default::default()).collect(), Instant::now())
+    }
+
+    fn set(&self, number: u64) {
+        let [own, since] = &self.0[rayon::current_thread_index().unwrap_or(0)];
+        own.store(number, Ordering::Relaxed);
+        since.store(self.1.elapsed().as_millis() as u64, Ordering::Relaxed);
+    }
+
+    /// One that does not come to its end.
+    fn hanging(&self) -> Option<u64> {
+        let now = self.1.elapsed();
+        let hangs = |since: &AtomicU64| now > Duration::from_millis(since.load(Ordering::Relaxed)) + HANG;
+        self.0.iter().find(|[_, since]| hangs(since)).map(|[own, _]| own.load(Ordering::Relaxed))
+    }
+}
+
+const AT_ONCE: u64 = 64;
+
+fn run(target: &Target, seed: u64, from: u64, executions: u64) -> Tally {
+    let under_way = UnderWay::new();
+    thread::scope(|scope| {
+        let (ended, waits) = std::sync::mpsc::channel::<()>();
+        scope.spawn(|| {
+            let waits = waits;
+            while waits.recv_timeout(LONGEST) == Err(std::sync::mpsc::RecvTimeoutError::Timeout) {
+                if let Some(number) = under_way.hanging() {
+                    println!("{} {number} (or up to {AT_ONCE} later) does not end", target.0);
+                    exit(1);
+                }
+            }
+        });
+        let blocks = (0..executions.div_ceil(AT_ONCE)).into_par_iter();
+        let tally = blocks.map(|block| {
+            let mut tally = Tally::default();
+            under_way.set(from + block * AT_ONCE);
+            for number in from + block * AT_ONCE..from + ((block + 1) * AT_ONCE).min(executions) {
+                let timed = || {
+                    let start = Instant::now();
+                    let wrong = wrong(target, seed, number);
+                    (wrong, start.elapsed())
+                };
+                let (mut wrong, mut took) = timed();
+                // The machine may have been busy with something else.
+                if took > LONGEST {
+                    took = took.min(timed().1);
+                }
+                if took > LONGEST {
+                    wrong = wrong.or(Some(format!("it takes {took:?}")));
+                }
+                let example = wrong.map(|wrong| (number, wrong));
+                let violations = u64::from(example.is_some());
+                tally = tally.and(Tally { violations, slowest: (took, number), example });
+            }
+            tally
+        });
+        let tally = tally.reduce(Tally::default, Tally::and);
+        drop(ended);
+        tally
+    })
+}
+
+/// The most memory that was ever held, where the system says so.
+fn peak() -> String {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    peak.map_or("not known here".to_string(), |peak| peak.trim().to_string())
+}
+
+struct Options {
+    targets: Vec<&'static Target>,
+    seed: u64,
+    from: u64,
+    executions: u64,
+}
+
+fn options(arguments: &[String]) -> Result<Options, String> {
+    let mut options = Options { targets: TARGETS.iter().collect(), seed: 1, from: 0, executions: 1_000_000 };
+    for pair in arguments.chunks(2) {
+        let [option, value] = pair else { return Err(format!("'{}' needs a value", pair[0])) };
+        if option == "--target" {
+            options.targets.retain(|(name, ..)| name == value);
+            if options.targets.is_empty() {
+                let names = TARGETS.map(|(name, ..)| name).join(", ");
+                return Err(format!("invalid value {value:?} for '--target': must be one of {names}"));
+            }
+            continue;
+        }
+        let place = match option.as_str() {
+            "--seed" => &mut options.seed,
+            "--from" => &mut options.from,
+            "--executions" => &mut options.executions,
+            _ => {
+                return Err(format!(
+                    "unexpected {option:?}; there are --target, --executions, --seed and --from"
+                ));
+            }
+        };
+        *place = value.parse().map_err(|_| {
+            format!("invalid value {value:?} for '{option}': must be a whole number from 0 to {}", u64::MAX)
+        })?;
+    }
+    Ok(options)
+}
+
+fn main() -> ExitCode {
+    let arguments: Vec<_> =
+        std::env::args_os().skip(1).map(|text| text.to_string_lossy().into_owned()).collect();
+    let Options { targets, seed, from, executions } = match options(&arguments) {
+        Ok(options) => options,
+        Err(line) => {
+            eprintln!("error: {line}");
+            return ExitCode::from(2);
+        }
+    };
+    SHOWN.store(executions == 1, Ordering::Relaxed);
+    set_hook(Box::new(|panic| SAID.set(panic.to_string().replace('\n', " "))));
+    println!("target        executions  violations  seconds  slowest in ms");
+    let mut violations = 0;
+    for target in targets {
+        let start = Instant::now();
+        let tally = run(target, seed, from, executions);
+        let (slowest, number) = tally.slowest;
+        println!(
+            "{:11} {executions:12} {:11} {:8.1} {:10.1}, number {number}",
+            target.0,
+            tally.violations,
+            start.elapsed().as_secs_f64(),
+            slowest.as_secs_f64() * 1e3
+        );
+        if let Some((number, wrong)) = tally.example {
+            println!("  number {number}: {wrong}");
+        }
+        violations += tally.violations;
+    }
+    println!("peak memory: {}", peak());
+    ExitCode::from(u8::from(violations > 0))
+}
+
+#[test]
+fn they_find_nothing_in_some() {
+    for target in &TARGETS {
+        let tally = run(target, 1, 0, 2000);
+        assert_eq!((tally.violations, tally.example), (0, None), "{}", target.0);
+    }
+}
