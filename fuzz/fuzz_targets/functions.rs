@@ -1,0 +1,12 @@
+//! The functions beside `solve`.
+
+#![no_main]
+
+#[allow(dead_code)]
+#[path = "../../examples/any_bits/bytes.rs"]
+mod bytes;
+#[allow(dead_code)]
+#[path = "../../examples/any_bits/holds.rs"]
+mod holds;
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| holds::functions(bytes));

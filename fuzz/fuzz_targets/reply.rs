@@ -1,0 +1,24 @@
+//! A line that a program answers with.
+
+#![no_main]
+
+#[allow(dead_code)]
+#[path = "../../examples/any_bits/bytes.rs"]
+mod bytes;
+#[path = "../../examples/any_bits/of_reply.rs"]
+mod of_reply;
+
+#[allow(dead_code, unused_imports, unused_macros)]
+#[path = "../../src/bin/contact"]
+mod contact {
+    pub mod args;
+    pub mod json;
+    pub mod output;
+    pub mod check {
+        pub mod reply;
+    }
+}
+
+use contact::{args, json, output};
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| of_reply::read(bytes));
