@@ -21,6 +21,11 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
+/// The packed crate has neither the wrong edits nor what builds the book, and cargo's copy of its manifest instead.
+fn is_packed() -> bool {
+    root().join("Cargo.toml.orig").exists()
+}
+
 fn source(path: &str) -> String {
     fs::read_to_string(root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
@@ -439,6 +444,9 @@ fn no_file_of_the_source_is_longer_than_a_reader_can_hold() {
 
 #[test]
 fn every_planted_edit_still_applies() {
+    if is_packed() {
+        return eprintln!("the wrong edits are in the repository alone");
+    }
     // A patch that no longer fits its source would plant nothing. Its context has to be found there.
     for name in patches() {
         let patch = format!("tests/planted/{name}.patch");
@@ -542,6 +550,9 @@ fn pages() -> Vec<PathBuf> {
 /// Files that a text names, in backticks or as a link.
 #[test]
 fn every_file_that_a_page_names_exists() {
+    if is_packed() {
+        return eprintln!("what pages name is in the repository, and not all of it here");
+    }
     let mut seen = 0;
     for page in pages().into_iter().chain(["README.md", "CONTRIBUTING.md"].map(|name| root().join(name))) {
         let text = fs::read_to_string(&page).unwrap();
