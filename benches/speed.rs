@@ -81,7 +81,7 @@ fn floats(criterion: &mut Criterion<WallTime>) -> Vec<Ratio> {
             (CHAIN, || {
                 let mut system = black_box(SYSTEM);
                 for _ in 0..CHAIN {
-                    let touches = if State::of(&system) == State::Contact { 1.0 } else { 0.0 };
+                    let touches = if State::of(&system) == Ok(State::Contact) { 1.0 } else { 0.0 };
                     system = next(system, [touches; 3]);
                 }
                 system.h

@@ -24,6 +24,8 @@ mod functional;
 #[cfg(feature = "mpfr")]
 pub mod laws;
 #[cfg(feature = "mpfr")]
+mod display;
+#[cfg(feature = "mpfr")]
 mod reach;
 #[cfg(feature = "mpfr")]
 mod read;
@@ -36,7 +38,7 @@ mod solution;
 mod sweep;
 
 #[cfg(feature = "mpfr")]
-pub use advise::{Advice, Choice, MAX_AUGMENTATIONS, advise};
+pub use advise::{Advice, Choice, advise};
 pub use augmentation::{Augmentation, Iterate};
 pub use check::SolveError;
 pub use closed::iterate_after;
@@ -50,7 +52,7 @@ pub use read::ReadError;
 pub use scalar::{Interval, Scalar};
 #[cfg(feature = "mpfr")]
 pub use series::series_penetration;
-pub use solution::{Bounds, Method, Outcome, Plane, Solution, State};
+pub use solution::{Bounds, MAX_AUGMENTATIONS, Method, Outcome, Plane, Solution, State};
 #[cfg(feature = "mpfr")]
 pub use sweep::{SweepRow, best_penalty, penalties, penalty_force_bound, sweep};
 
@@ -144,7 +146,7 @@ pub fn solve_observed<T: Scalar>(
         }),
         Method::Augmented { penalty: eps, tolerance, max_augmentations, start } => {
             check::stiffness(system, eps)?;
-            let steps = Augmentation::new(system, eps).from_multiplier(start.clone()).over(plane);
+            let steps = Augmentation::new(system, eps).with_multiplier(start.clone()).over(plane);
             finish(iterate(steps, system, &enclosed, &target, tolerance, *max_augmentations, each)?)
         }
     }
@@ -334,9 +336,9 @@ pub fn penalty_for_penetration<T: Scalar>(
     system: &SpringMass<T>,
     tolerance: &T,
 ) -> Result<Option<T>, SolveError> {
-    check::system(system)?;
+    let state = State::of(system)?;
     check::positive("tolerance", tolerance)?;
-    if State::of(system) != State::Contact {
+    if state != State::Contact {
         return Ok(None);
     }
     let eps = penalty::penalty_for(system, tolerance);

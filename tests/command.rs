@@ -30,6 +30,26 @@ fn solve(arguments: &str) -> (Value, Option<i32>) {
     (serde_json::from_slice(&output.stdout).expect("JSON"), output.status.code())
 }
 
+/// In rationals, where every number that is not the same gives another result.
+#[test]
+fn an_augmentation_by_default_is_that_of_the_library() {
+    let system = SpringMass { c: "4", m: "1", g: "10", l: "1", h: "3" }.parse().unwrap();
+    for penalty in ["4", "1/100"] {
+        let (json, _) = solve(&format!(
+            "--method augmented --scalar exact --penalty {penalty} --stiffness 4 --mass 1 --gravity 10 \
+             --free-length 1 --height 3"
+        ));
+        let answer =
+            spring_mass_contact::solver::solve(&system, &Method::augmented(penalty.parse().unwrap()))
+                .unwrap();
+        assert_eq!(json["outcome"].as_str(), Some(answer.outcome.to_string().as_str()));
+        assert_eq!(
+            (json["augmentations"].as_u64(), exact(&json["deflection"])),
+            (answer.augmentations, answer.deflection)
+        );
+    }
+}
+
 fn exact(value: &Value) -> Exact {
     value.as_str().and_then(|text| text.parse().ok()).unwrap_or_else(|| panic!("{value} is no number"))
 }

@@ -53,6 +53,21 @@ pub struct Kkt<T> {
     pub complementarity: T,
 }
 
+impl<T: Field> Kkt<T> {
+    /// Are all four zero? In rationals then it is the solution, and otherwise not.
+    ///
+    /// ```
+    /// # use spring_mass_contact::chapter::{SpringMass, contact};
+    /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
+    /// assert!(contact::kkt(&system, &2.0, &2.0).is_zero());
+    /// assert!(!contact::kkt(&system, &2.25, &1.0).is_zero());
+    /// ```
+    pub fn is_zero(&self) -> bool {
+        let Kkt { stationarity, primal, dual, complementarity } = self;
+        [stationarity, primal, dual, complementarity].into_iter().all(T::is_zero)
+    }
+}
+
 /// Eq. (1.6): the Karush-Kuhn-Tucker conditions as residuals, at the deflection `u` in m and the
 /// contact force `n` in N.
 ///

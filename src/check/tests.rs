@@ -119,7 +119,7 @@ fn families_are_what_they_say() {
     for Problem { id, family, system, .. } in &all {
         let SpringMass { c, m, g, l, h } = system;
         assert!([c, m, g, l, h].into_iter().all(short), "{id}: {system}");
-        let (gap, state) = (system::gap(system), State::of(system));
+        let (gap, state) = (system::gap(system), State::of(system).unwrap());
         let (zero, free) = (Exact::zero(), structure::deflection(system));
         let between = |x: &Exact, low: &str, high: &str| number(low) <= *x && *x < number(high);
         let holds = match family {
@@ -143,7 +143,7 @@ fn families_are_what_they_say() {
     }
     let states = |family: Family| {
         let of = all.iter().filter(|problem| problem.family == family);
-        of.map(|problem| State::of(&problem.system)).collect::<HashSet<_>>()
+        of.map(|problem| State::of(&problem.system).unwrap()).collect::<HashSet<_>>()
     };
     use Family::*;
     for family in [Near, Lifted, Stiff, Soft, Far, Huge, Tiny] {

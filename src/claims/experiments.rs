@@ -106,7 +106,7 @@ fn state<T: Scalar + ToExact>(x: &Case<T>) -> Trial {
         Ordering::Equal => State::Grazing,
         Ordering::Less => State::Separated,
     };
-    Trial::Decided(State::of(&x.system) == expected)
+    Trial::Decided(State::of(&x.system) == Ok(expected))
 }
 
 fn encloses<T: ToExact>(interval: &Interval<T>, x: &Exact) -> bool {
@@ -244,7 +244,7 @@ fn units<T: Scalar + Real + ToExact>(x: &Case<T>) -> Trial {
 fn exact_steps(x: &Case<Exact>, start: Exact, plane: Plane) -> impl Iterator<Item = Iterate<Exact>> {
     let SpringMass { c, m, g, l, h } = &x.system;
     let given: u64 = [c, m, g, l, h, &x.eps, &start].into_iter().map(Exact::digits).sum();
-    let steps = Augmentation::new(&x.system, &x.eps).from_multiplier(start).over(plane).take(STEPS);
+    let steps = Augmentation::new(&x.system, &x.eps).with_multiplier(start).over(plane).take(STEPS);
     steps.take_while(move |step| {
         step.multiplier.digits() + step.deflection.digits() <= 8 * (step.k + 2) * given
     })

@@ -10,13 +10,10 @@ const ROOM: usize = 24;
 const DIGITS: usize = 17;
 
 fn exact<T: ToExact>(x: &T) -> Exact {
-    x.to_exact().expect("a number that is shown is finite")
+    x.to_exact().expect("what is not finite is short")
 }
 
 /// For a table: the whole text if there is room, otherwise some of its digits.
-///
-/// # Panics
-/// The number is not finite.
 ///
 /// ```
 /// use spring_mass_contact::number::{Exact, brief};
@@ -33,11 +30,20 @@ pub fn brief<T: Text>(x: &T) -> String {
     }
 }
 
-/// For a table: a bound that still holds, rounded down or up.
+/// For a table: a bound that still holds, rounded down or up. What is not finite stays so.
 ///
 /// # Panics
-/// The number is not finite, or the rounding is neither up nor down.
+/// The rounding is neither up nor down.
+///
+/// ```
+/// use spring_mass_contact::{number::{Exact, brief_bound}, rug::float::Round};
+/// let long: Exact = "1234567890123456/1234567890123457".parse().unwrap();
+/// assert_eq!(brief_bound(&long, Round::Down), "0.99999999999999918");
+/// ```
 pub fn brief_bound<T: Text>(x: &T, round: Round) -> String {
+    if x.to_exact().is_err() {
+        return x.text();
+    }
     let text = x.bound(round);
     if text.chars().count() <= ROOM { text } else { exact(x).decimal(DIGITS, round) }
 }

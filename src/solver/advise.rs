@@ -2,18 +2,17 @@
 
 use super::reach::{Laws, Limits, rounding_floor};
 use super::{
-    Method, Outcome, Plane, Scalar, Solution, SolveError, State, augmentations_needed, check, exact, solve,
+    MAX_AUGMENTATIONS, Method, Outcome, Plane, Scalar, Solution, SolveError, State, augmentations_needed,
+    check, exact, solve,
 };
 use crate::chapter::{SpringMass, contact};
 use crate::number::{Exact, PositivePart, RangeError, Text};
 use num_traits::Zero;
 use rug::float::Round;
 
-/// The limit of augmentations where nobody names one: what advice keeps to, and the default of the command.
-pub const MAX_AUGMENTATIONS: u64 = 1000;
-
 /// What [`advise`] comes to.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Advice<T> {
     /// Contact, grazing or separated.
     pub state: State,
@@ -29,6 +28,7 @@ pub struct Advice<T> {
 
 /// A method that reaches the tolerance: it has been tried.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Choice<T> {
     /// To be given to [`solve`].
     pub method: Method<T>,

@@ -11,6 +11,7 @@ use std::sync::LazyLock;
 /// What one step of (1.16) arrives at.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound = "T: crate::number::Text"))]
+#[non_exhaustive]
 pub struct Iterate<T> {
     /// The counter k, from 0.
     pub k: u64,
@@ -59,12 +60,12 @@ impl<'a, T: OrderedField> Augmentation<'a, T> {
         Augmentation { system, penalty, plane: Plane::Unilateral, k: 0, multiplier: T::zero(), rounds: None }
     }
 
-    /// From another λ₀, in N.
-    pub fn from_multiplier(self, multiplier: T) -> Self {
+    /// The same from another λ₀, in N.
+    pub fn with_multiplier(self, multiplier: T) -> Self {
         Augmentation { multiplier, ..self }
     }
 
-    /// Over another plane.
+    /// The same over another plane.
     pub fn over(self, plane: Plane) -> Self {
         Augmentation { plane, rounds: None, ..self }
     }

@@ -1,6 +1,6 @@
 //! What rounding leaves within reach: the proved laws of [`rounding`], solved for what a user asks.
 
-use super::{Plane, Scalar, State, augmentations_needed, exact};
+use super::{Plane, Scalar, SolveError, State, augmentations_needed, check, exact};
 use crate::chapter::{SpringMass, penalty, rounding, structure, system};
 use crate::number::{Exact, PRECISIONS, PositivePart, ToExact};
 use num_traits::{One, Zero};
@@ -11,6 +11,9 @@ use rug::Integer;
 /// It is for 64 (c + ε) ≤ ε (1 + 1/η) and tol > 20 F + η (|H| + 8 tol), with the drift 20 F of
 /// [`rounding::penetration_drift`]. A smaller tolerance may be met as well, by luck, or not. Rationals meet
 /// every one.
+///
+/// # Panics
+/// A parameter, the penalty or the tolerance is not finite or not in its range.
 ///
 /// ```
 /// # use spring_mass_contact::{chapter::SpringMass, number::Exact};
@@ -32,7 +35,7 @@ pub fn within_reach<T: Scalar + ToExact>(
     tolerance: &T,
     unit_roundoff: &Exact,
 ) -> bool {
-    let (system, eps, tolerance) = (system.map(exact), exact(eps), exact(tolerance));
+    let (system, eps, tolerance) = valid(system, eps, tolerance);
     Laws::of(&system, unit_roundoff).is_none_or(|laws| laws.promise(&eps, &tolerance))
 }
 
@@ -41,6 +44,9 @@ pub fn within_reach<T: Scalar + ToExact>(
 ///
 /// As many as exact arithmetic needs for what 20 F + η (|H| + 8 tol) leaves of the tolerance; in rationals,
 /// for the tolerance.
+///
+/// # Panics
+/// A parameter, the penalty or the tolerance is not finite or not in its range.
 ///
 /// ```
 /// # use spring_mass_contact::{chapter::SpringMass, number::Exact, solver::augmentations_promised};
@@ -56,7 +62,7 @@ pub fn augmentations_promised<T: Scalar + ToExact>(
     tolerance: &T,
     unit_roundoff: &Exact,
 ) -> Option<Integer> {
-    let (system, eps, tolerance) = (system.map(exact), exact(eps), exact(tolerance));
+    let (system, eps, tolerance) = valid(system, eps, tolerance);
     match Laws::of(&system, unit_roundoff) {
         Some(laws) => laws.augmentations_at_most(&eps, &tolerance),
         None => Some(augmentations_needed(&system, &eps, &tolerance, &Exact::zero(), Plane::Bilateral)),
@@ -69,6 +75,9 @@ pub fn augmentations_promised<T: Scalar + ToExact>(
 /// That is the bound of [`within_reach`] for ε → ∞; where the mass hangs free, 5 η |m g / c|, and the sum of
 /// both near grazing. Without under- and overflow; a smaller tolerance may be met by luck.
 ///
+/// # Panics
+/// A parameter is not finite or not in its range.
+///
 /// ```
 /// # use spring_mass_contact::{chapter::SpringMass, number::Exact, solver::{Plane, rounding_floor}};
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
@@ -80,13 +89,14 @@ pub fn rounding_floor<T: Scalar + ToExact>(
     plane: Plane,
     unit_roundoff: &Exact,
 ) -> Option<Exact> {
+    let state = required(State::of(system));
     let system = system.map(exact);
     let Some(laws) = Laws::of(&system, unit_roundoff) else { return Some(Exact::zero()) };
     if !laws.fine_enough() {
         return None;
     }
     let touching = laws.least_tolerance(&laws.hardest_drift());
-    Some(match (State::of(&system), plane) {
+    Some(match (state, plane) {
         (State::Separated, Plane::Unilateral) => laws.free_floor(&system, touching),
         _ => touching,
     })
@@ -96,6 +106,9 @@ pub fn rounding_floor<T: Scalar + ToExact>(
 /// for the parameters and the tolerance as rounded to so many bits. `None` if more than
 /// [`PRECISIONS`] has.
 ///
+/// # Panics
+/// A parameter or the tolerance is not in its range.
+///
 /// ```
 /// # use spring_mass_contact::{chapter::SpringMass, number::Exact, solver::{Plane, bits_needed}};
 /// let system = SpringMass { c: "4", m: "1", g: "10", l: "1", h: "3" }.parse()?;
@@ -103,6 +116,7 @@ pub fn rounding_floor<T: Scalar + ToExact>(
 /// # Ok::<(), spring_mass_contact::solver::ReadError>(())
 /// ```
 pub fn bits_needed(system: &SpringMass<Exact>, plane: Plane, tolerance: &Exact) -> Option<u32> {
+    required(check::positive("tolerance", tolerance));
     let promised = |bits: u32| {
         let rounded = |x: &Exact| x.rounded(bits).expect("some bits");
         let eta = Exact::power_of_two(-i32::try_from(bits).expect("precisions are small"));
@@ -118,6 +132,23 @@ pub fn bits_needed(system: &SpringMass<Exact>, plane: Plane, tolerance: &Exact) 
     let about = (64 + over).saturating_sub(under).clamp(least, most);
     let first = (least..about).rev().take_while(|bits| promised(*bits)).last();
     first.or_else(|| (about..=most).take(64).find(|bits| promised(*bits)))
+}
+
+/// What a caller has to see to.
+fn required<T>(checked: Result<T, SolveError>) -> T {
+    checked.unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// A system, a penalty and a tolerance, checked, as they are in their scalar.
+fn valid<T: Scalar + ToExact>(
+    system: &SpringMass<T>,
+    eps: &T,
+    tolerance: &T,
+) -> (SpringMass<Exact>, Exact, Exact) {
+    required(check::system(system));
+    required(check::positive("penalty", eps));
+    required(check::positive("tolerance", tolerance));
+    (system.map(exact), exact(eps), exact(tolerance))
 }
 
 /// Where a line through two points reaches a height; none if it is level.

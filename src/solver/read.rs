@@ -6,6 +6,7 @@ use crate::number::{Exact, ParseError};
 
 /// Why texts spell no system.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ReadError {
     /// A parameter that does not spell a number.
     #[error("{argument} '{value}': {reason}")]

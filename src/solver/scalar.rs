@@ -18,6 +18,40 @@ pub struct Interval<T> {
     pub upper: T,
 }
 
+impl<T: PartialOrd> Interval<T> {
+    /// Is the number between the ends, or one of them? Decided by comparison, without rounding; never of
+    /// not-a-number.
+    ///
+    /// ```
+    /// # use spring_mass_contact::solver::Interval;
+    /// let unit = Interval { lower: 0.0, upper: 1.0 };
+    /// assert!(unit.contains(&1.0) && !unit.contains(&1.0_f64.next_up()));
+    /// ```
+    pub fn contains(&self, x: &T) -> bool {
+        self.lower <= *x && *x <= self.upper
+    }
+}
+
+impl<T: Scalar> Interval<T> {
+    /// How far the upper end is from the lower one: exactly, if the scalar has that number, and otherwise no
+    /// less than that, by some roundings. Infinite if an end is or the distance overflows.
+    ///
+    /// ```
+    /// # use spring_mass_contact::solver::Interval;
+    /// assert_eq!(Interval { lower: 0.25, upper: 1.0 }.width(), 0.75);
+    /// // 1 + 2⁻⁶⁰ is no f64.
+    /// assert!(Interval { lower: -0.5_f64.powi(60), upper: 1.0 }.width() > 1.0);
+    /// ```
+    pub fn width(&self) -> T {
+        let Interval { lower, upper } = self;
+        let (one, width) = (T::one(), upper - lower);
+        if !width.is_finite() || T::sign_of_sum([(upper, &one), (&-lower, &one)], (&width, &one)).is_le() {
+            return width;
+        }
+        T::magnitude(&(upper.enclose() - lower.enclose()))
+    }
+}
+
 #[cfg(feature = "mpfr")]
 impl<T: Text> Interval<T> {
     /// Both ends as texts that still enclose.

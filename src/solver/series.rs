@@ -29,12 +29,12 @@ pub fn series_penetration<T>(system: &SpringMass<T>, eps: &T, higher: &[T]) -> R
 where
     T: Scalar + Real + ToExact,
 {
-    check::system(system)?;
+    let state = State::of(system)?;
     check::coefficient("penalty", eps)?;
     higher.iter().try_for_each(|e| check::coefficient("higher penalty", e))?;
     check::any_positive(std::iter::once(eps).chain(higher))?;
     let out_of_range = SolveError::OutOfRange { quantity: "penetration" };
-    if State::of(system) == State::Grazing {
+    if state == State::Grazing {
         return Ok(T::zero());
     }
     // Of the precision the answer is to have, and of no size that could leave the range.

@@ -13,6 +13,7 @@ use rug::{Float, Integer, Rational};
 /// the contact force of the problem, R where the plane pushes.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound = "T: crate::number::Text"))]
+#[non_exhaustive]
 pub struct SweepRow<T> {
     /// ε, in N/m.
     #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
@@ -40,7 +41,8 @@ pub struct SweepRow<T> {
 /// Solves a system by penalty, with one ε > 0 in N/m after the other. No row depends on another.
 ///
 /// # Errors
-/// Of a row those of [`solve`], or its ε p leaves the range of the scalar.
+/// Of a row those of [`solve`], or its ε p leaves the range of the scalar. Of no penalties the only row is
+/// [`SolveError::Invalid`].
 ///
 /// ```
 /// # use spring_mass_contact::{chapter::SpringMass, solver::sweep};
@@ -56,7 +58,10 @@ pub fn sweep<T: Scalar + ToExact>(
     system: &SpringMass<T>,
     penalties: impl IntoIterator<Item = T>,
 ) -> impl Iterator<Item = Result<SweepRow<T>, SolveError>> {
-    penalties.into_iter().map(|eps| row(system, eps))
+    let mut penalties = penalties.into_iter().peekable();
+    let none: [&T; 0] = [];
+    let none = check::require(penalties.peek().is_some(), "penalties", &none, "at least one").err();
+    none.map(Err).into_iter().chain(penalties.map(|eps| row(system, eps)))
 }
 
 fn row<T: Scalar + ToExact>(system: &SpringMass<T>, eps: T) -> Result<SweepRow<T>, SolveError> {
@@ -99,8 +104,7 @@ pub fn best_penalty<T: Scalar + ToExact>(
     system: &SpringMass<T>,
     unit_roundoff: &Exact,
 ) -> Result<Option<T>, SolveError> {
-    check::system(system)?;
-    if State::of(system) != State::Contact || unit_roundoff.is_zero() {
+    if State::of(system)? != State::Contact || unit_roundoff.is_zero() {
         return Ok(None);
     }
     let s = system.map(exact);
@@ -125,7 +129,7 @@ pub fn best_penalty<T: Scalar + ToExact>(
 /// [`rounding::penalty_force_error`]; none unless R > 0. `unit_roundoff` is η of the scalar, 0 for rationals.
 ///
 /// # Panics
-/// A parameter is not finite.
+/// A parameter or ε is not finite, or c + ε = 0.
 ///
 /// ```
 /// # use spring_mass_contact::{chapter::SpringMass, number::Exact, solver::penalty_force_bound};

@@ -14,7 +14,7 @@ use spring_mass_contact::solver::{
 };
 
 fn iterate<'a, T: OrderedField>(case: &'a Case<T>, plane: Plane) -> Augmentation<'a, T> {
-    Augmentation::new(&case.system, &case.eps).from_multiplier(case.start.clone()).over(plane)
+    Augmentation::new(&case.system, &case.eps).with_multiplier(case.start.clone()).over(plane)
 }
 
 /// p₀ of the bilateral iteration.
@@ -50,7 +50,7 @@ proptest! {
         let mut decay = int(1);
         let mut last: Option<Iterate<Exact>> = None;
         for step in iterate(&case, Plane::Bilateral).take(16) {
-            let Iterate { k, multiplier: lambda, deflection: u, penetration: p, contact_force: n } = &step;
+            let Iterate { k, multiplier: lambda, deflection: u, penetration: p, contact_force: n, .. } = &step;
             prop_assert_eq!(p, &(&decay * &p0));
             prop_assert_eq!(lambda, &(&r + (start - &r) * &decay));
             prop_assert_eq!(&augmented::multiplier_after(s, start, &decay), lambda);

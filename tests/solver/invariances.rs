@@ -35,23 +35,17 @@ impl<T: Scalar> Units<T> {
 
     fn solution(&self, answer: &Solution<T>) -> Solution<T> {
         let Units { length, force, .. } = self;
-        let interval =
-            |i: &Interval<T>, unit: &T| Interval { lower: &i.lower * unit, upper: &i.upper * unit };
-        Solution {
-            state: answer.state,
-            outcome: answer.outcome,
-            deflection: &answer.deflection * length,
-            penetration: &answer.penetration * length,
-            contact_force: &answer.contact_force * force,
-            multiplier: answer.multiplier.as_ref().map(|x| x * force),
-            augmentations: answer.augmentations,
-            floor: answer.floor.as_ref().map(|x| x * length),
-            bounds: Bounds {
-                deflection: interval(&answer.bounds.deflection, length),
-                penetration: interval(&answer.bounds.penetration, length),
-                contact_force: interval(&answer.bounds.contact_force, force),
-            },
+        let mut answer = answer.clone();
+        let Bounds { deflection, penetration, contact_force, .. } = &mut answer.bounds;
+        for (bounds, unit) in [(deflection, length), (penetration, length), (contact_force, force)] {
+            *bounds = Interval { lower: &bounds.lower * unit, upper: &bounds.upper * unit };
         }
+        answer.deflection = &answer.deflection * length;
+        answer.penetration = &answer.penetration * length;
+        answer.contact_force = &answer.contact_force * force;
+        answer.multiplier = answer.multiplier.map(|x| x * force);
+        answer.floor = answer.floor.map(|x| x * length);
+        answer
     }
 }
 
@@ -92,7 +86,7 @@ proptest! {
             [solve::<f32>, solve_bilateral::<f32>].map(|solve| solve(&case.system, &method).unwrap())
         });
         let ends = solutions.flat_map(|solution| {
-            let Bounds { deflection, penetration, contact_force } = solution.bounds;
+            let Bounds { deflection, penetration, contact_force, .. } = solution.bounds;
             [deflection, penetration, contact_force].map(|interval| [interval.lower, interval.upper])
         });
         prop_assume!(!ends.flatten().any(is_small));

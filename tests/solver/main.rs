@@ -13,4 +13,5 @@ mod kkt;
 mod laws;
 mod penalty_limit;
 mod results;
+mod shown;
 mod sweep;

@@ -68,7 +68,7 @@ fn bounds_are_narrow<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), TestC
         let answer = solve(&case.system, &method).unwrap();
         let penalty = if matches!(method, Method::Penalty { .. }) { Some(&eps) } else { None };
         let free = plane == Plane::Unilateral && answer.state == State::Separated;
-        let Bounds { deflection, penetration, contact_force } = &answer.bounds;
+        let Bounds { deflection, penetration, contact_force, .. } = &answer.bounds;
         let allowed = widths(&system, penalty, free);
         for (interval, allowed) in [deflection, penetration, contact_force].into_iter().zip(allowed) {
             let Interval { lower, upper } = interval;
@@ -206,6 +206,9 @@ fn refused_as<T: Float>(name: &str, value: &T, case: &Case<T>, method: usize, po
         let expected = format!("{name} {value:?}: must be {allowed}");
         assert!(matches!(error, SolveError::Invalid { .. }), "{error:?}");
         assert_eq!(error.to_string(), expected, "{plane:?}");
+        // A state is refused for what is wrong with a system, and for nothing else.
+        let of_the_system = parameters::<T>().0.iter().any(|(parameter, ..)| *parameter == name);
+        assert_eq!(State::of(&case.system).err(), of_the_system.then_some(error));
     }
 }
 

@@ -226,6 +226,8 @@ fn bad_input_is_refused() {
     for eps in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(sweep(&system, [eps]).next().unwrap().is_err(), "{eps}");
     }
+    let none = sweep(&system, []).map(|row| row.unwrap_err().to_string());
+    assert_eq!(none.collect::<Vec<_>>(), ["penalties []: must be at least one"]);
     assert!(best_penalty(&SpringMass { c: -1.0, ..system }, &Exact::power_of_two(-53)).is_err());
     // Nor can f64 hold a best penalty of 10³¹².
     let stiff = SpringMass { c: 1e305, m: 1e306, g: 1.0, l: 1e-9, h: 1e-9 };

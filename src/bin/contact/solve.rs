@@ -272,7 +272,7 @@ impl<T: Scalar + Text> Problem<T> {
     fn trace(&self, solution: &Solution<T>) -> impl Iterator<Item = Iterate<T>> {
         let steps = match &self.method {
             Method::Augmented { penalty, start, .. } => {
-                Some(Augmentation::new(&self.system, penalty).from_multiplier(start.clone()).over(self.plane))
+                Some(Augmentation::new(&self.system, penalty).with_multiplier(start.clone()).over(self.plane))
             }
             Method::Lagrange | Method::Penalty { .. } => None,
         };

@@ -219,7 +219,7 @@ impl Sweeping<'_> {
         let s = system.map(exact);
         let Some((least, at)) = least else {
             let without = match State::of(system) {
-                State::Separated => "The mass hangs free, with no plane to push: there is no ε p.",
+                Ok(State::Separated) => "The mass hangs free, with no plane to push: there is no ε p.",
                 _ => "Grazing: the contact force is 0, and nothing is a part of it.",
             };
             return vec![without.to_string()];

@@ -7,7 +7,7 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::Value;
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::chapter::contact::Kkt;
-use spring_mass_contact::number::{Exact, NumberSystem, Text, brief, brief_bound, relation, visibly_rounded};
+use spring_mass_contact::number::{Exact, NumberSystem, Text, brief_bound, relation, visibly_rounded};
 use spring_mass_contact::rug::{Integer, float::Round};
 use spring_mass_contact::solver::{
     Interval, Method, Outcome, Plane, Scalar, Solution, State, bits_needed, rounding_floor, within_reach,
@@ -152,11 +152,8 @@ impl<'a, T: Scalar + Text> Report<'a, T> {
             ("penetration", "p", "m", &s.penetration, &bounds.penetration),
             ("contact force", "N", "N", &s.contact_force, &bounds.contact_force),
         ] {
-            let lower = brief_bound(&interval.lower, Round::Down);
-            let upper = brief_bound(&interval.upper, Round::Up);
             rows.push((name, format!("{} {unit}", relation(symbol, value))));
-            let enclosure = if lower == upper { lower } else { format!("{lower} to {upper}") };
-            rows.push(("", format!("{answer} {enclosure} {unit}")));
+            rows.push(("", format!("{answer} {interval} {unit}")));
         }
         if let Some(multiplier) = &s.multiplier {
             rows.push(("multiplier", format!("{} N", relation("λ", multiplier))));
@@ -263,7 +260,7 @@ impl<'a, T: Scalar + Text> Report<'a, T> {
             Outcome::Stagnated => format!(
                 "stagnated at k = {k}: rounding stops the iteration short of {tolerance} m; its floor, the \
                  least bound of |u − u*| met, is {} m; {}",
-                self.solution.floor.as_ref().map_or(String::new(), brief),
+                self.solution.floor.as_ref().map_or(String::new(), |floor| brief_bound(floor, Round::Up)),
                 self.remedy()
             ),
             Outcome::OutOfSteps => {

@@ -1,0 +1,85 @@
+//! Results as a few lines for people. What is shortened is marked by ≈, and a bound still holds.
+
+use super::{Interval, Outcome, Scalar, Solution};
+use crate::chapter::contact::Kkt;
+use crate::number::{Text, brief_bound, relation};
+use rug::float::Round;
+use std::fmt;
+
+/// How many digits of a residual are written.
+const DIGITS: usize = 3;
+
+/// Both ends, rounded outwards where they are shortened; one number if that is all.
+///
+/// ```
+/// # use spring_mass_contact::{number::Exact, solver::Interval};
+/// let ends = ["1/3", "1/2"].map(|end| end.parse::<Exact>().unwrap());
+/// let [lower, upper] = ends.each_ref().map(|end| end.to_f64().unwrap());
+/// assert_eq!(Interval { lower, upper }.to_string(), "0.3333333333333333 to 0.5");
+/// assert_eq!(Interval { lower: 2.0, upper: 2.0 }.to_string(), "2");
+/// ```
+impl<T: Text> fmt::Display for Interval<T> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let [lower, upper] = [brief_bound(&self.lower, Round::Down), brief_bound(&self.upper, Round::Up)];
+        if lower == upper { f.write_str(&lower) } else { write!(f, "{lower} to {upper}") }
+    }
+}
+
+/// What was found, a line a quantity, with the enclosure of the exact answer, or of the limit of an iteration.
+///
+/// ```
+/// # use spring_mass_contact::{chapter::SpringMass, solver::{Method, solve}};
+/// let system = SpringMass { c: "4", m: "1", g: "10", l: "1", h: "3" }.parse()?;
+/// let method = Method::Augmented { penalty: 4.into(), tolerance: "0.1".parse()?, max_augmentations: 9, start: 0.into() };
+/// let shown = "\
+/// contact, converged at k = 2
+/// u = 33/16 m, limit 2 m
+/// p = 1/16 m, limit 0 m
+/// N = 7/4 N, limit 2 N
+/// λ = 3/2 N";
+/// assert_eq!(solve(&system, &method)?.to_string(), shown);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+impl<T: Scalar + Text> fmt::Display for Solution<T> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{}, {}", self.state, self.outcome)?;
+        if let Some(k) = self.augmentations {
+            write!(f, " at k = {k}")?;
+        }
+        if let Some(floor) = &self.floor {
+            write!(f, ", |u − u*| at most {} m", brief_bound(floor, Round::Up))?;
+        }
+        let answer = if self.outcome == Outcome::Direct { "exact" } else { "limit" };
+        for (symbol, unit, value, enclosure) in [
+            ("u", "m", &self.deflection, &self.bounds.deflection),
+            ("p", "m", &self.penetration, &self.bounds.penetration),
+            ("N", "N", &self.contact_force, &self.bounds.contact_force),
+        ] {
+            write!(f, "\n{} {unit}, {answer} {enclosure} {unit}", relation(symbol, value))?;
+        }
+        match &self.multiplier {
+            Some(multiplier) => write!(f, "\n{} N", relation("λ", multiplier)),
+            None => Ok(()),
+        }
+    }
+}
+
+/// The residuals with their units, to three digits; what is written as 0 is 0.
+///
+/// ```
+/// # use spring_mass_contact::chapter::{SpringMass, contact};
+/// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
+/// let kkt = contact::kkt(&system, &2.25, &1.0);
+/// assert_eq!(kkt.to_string(), "stationarity 0 N, primal 0.25 m, dual 0 N, complementarity 0.25 J");
+/// ```
+impl<T: Text> fmt::Display for Kkt<T> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let few = |x: &T| x.to_exact().map_or_else(|_| x.text(), |x| x.decimal(DIGITS, Round::Nearest));
+        let [stationarity, primal, dual, complementarity] =
+            [&self.stationarity, &self.primal, &self.dual, &self.complementarity].map(few);
+        write!(
+            f,
+            "stationarity {stationarity} N, primal {primal} m, dual {dual} N, complementarity {complementarity} J"
+        )
+    }
+}
