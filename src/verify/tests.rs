@@ -319,6 +319,13 @@ fn a_wrong_statement_is_refuted_and_an_unprovable_one_is_not_proved() {
     assert!(!report.holds() && report.rows.iter().all(|row| row.scalar.is_none()));
 }
 
+#[test]
+fn nothing_asked_is_nothing_held() {
+    let unknown = Options { equations: vec!["9.99".to_string()], ..Options::default() };
+    let report = verify(&unknown, &|_, _| ());
+    assert!(report.rows.is_empty() && !report.holds());
+}
+
 /// c + ε becomes c − ε, for all that is to be proved.
 #[test]
 fn a_mistake_is_looked_for_where_it_is() {
