@@ -227,7 +227,7 @@ fn has_room(system: &SpringMass<f32>, eps: f32) -> bool {
 fn check(parameter: &Parameter, x: f32, method: &Method<f32>, tally: &mut Tally) -> Option<String> {
     let (mut system, mut eps) = (SYSTEM, PENALTY);
     (parameter.set)(&mut system, &mut eps, x);
-    let mut method = method.clone();
+    let mut method = *method;
     match &mut method {
         Method::Lagrange => {}
         Method::Penalty { penalty } | Method::Augmented { penalty, .. } => *penalty = eps,

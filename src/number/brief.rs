@@ -53,23 +53,3 @@ pub fn relation<T: Text>(symbol: &str, x: &T) -> String {
     let text = brief(x);
     if text.starts_with('≈') { format!("{symbol} {text}") } else { format!("{symbol} = {text}") }
 }
-
-/// How many digits of a number are looked at, however few were typed: the residuals in a table have as many.
-const FEWEST: usize = 3;
-
-/// What a number became by rounding, `g = 8`, if one can see that: if it is no longer the number that was
-/// typed, of this value, when written to as many digits. Where few digits are typed, 6 for f32 and 15 for
-/// f64, it is.
-pub fn visibly_rounded<T: Text>(symbol: &str, typed: &str, value: &Exact, x: &T) -> Option<String> {
-    let mantissa = typed.split(['e', 'E']).next().unwrap_or_default();
-    let digits = mantissa.chars().filter(char::is_ascii_digit).skip_while(|digit| *digit == '0').count();
-    // A fraction is not written to any digits.
-    let digits = if typed.contains('/') { FEWEST } else { digits.max(FEWEST) };
-    let x = exact(x);
-    let written = |x: &Exact| x.decimal(digits, Round::Nearest);
-    (written(value) != written(&x)).then(|| {
-        let text = x.decimal(digits.min(DIGITS), Round::Nearest);
-        let sign = if text.parse() == Ok(x) { '=' } else { '≈' };
-        format!("{symbol} {sign} {text}")
-    })
-}

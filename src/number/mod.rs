@@ -35,7 +35,7 @@ pub mod tree;
 
 pub use ball::Ball;
 #[cfg(feature = "mpfr")]
-pub use brief::{brief, brief_bound, relation, visibly_rounded};
+pub use brief::{brief, brief_bound, relation};
 pub use dual::Dual;
 #[cfg(feature = "mpfr")]
 pub use exact::{Exact, Inexact, ToExact};

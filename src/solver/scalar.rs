@@ -10,7 +10,7 @@ use rug::float::Round;
 use std::cmp::Ordering;
 
 /// Two numbers, and all between them.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Interval<T> {
     /// The smaller one.
     pub lower: T,

@@ -81,7 +81,7 @@ pub enum Plane {
 }
 
 /// How to solve. All quantities in SI units.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Method<T> {
     /// §1.3.1: exact.
     Lagrange,

@@ -7,7 +7,7 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::Value;
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::chapter::contact::Kkt;
-use spring_mass_contact::number::{Exact, NumberSystem, Text, brief_bound, relation, visibly_rounded};
+use spring_mass_contact::number::{Exact, NumberSystem, Text, brief_bound, relation};
 use spring_mass_contact::rug::{Integer, float::Round};
 use spring_mass_contact::solver::{
     Interval, Method, Outcome, Plane, Scalar, Solution, State, bits_needed, rounding_floor, within_reach,
@@ -307,4 +307,27 @@ pub fn rounded_in_words<T: Text>(typed: &System, system: &SpringMass<T>, others:
         Some(format!("{} {unit}", visibly_rounded(symbol, &typed?.text, &typed?.value, x)?))
     });
     rounded.collect::<Vec<_>>().join(", ")
+}
+
+/// How many digits of a number are looked at, however few were typed: the residuals in a table have as many.
+const FEWEST: usize = 3;
+
+/// How many digits are written.
+const MOST: usize = 17;
+
+/// What a number became by rounding, `g = 8`, if one can see that: if it is no longer the number that was
+/// typed, of this value, when written to as many digits. Where few digits are typed, 6 for f32 and 15 for
+/// f64, it is.
+fn visibly_rounded<T: Text>(symbol: &str, typed: &str, value: &Exact, x: &T) -> Option<String> {
+    let mantissa = typed.split(['e', 'E']).next().unwrap_or_default();
+    let digits = mantissa.chars().filter(char::is_ascii_digit).skip_while(|digit| *digit == '0').count();
+    // A fraction is not written to any digits.
+    let digits = if typed.contains('/') { FEWEST } else { digits.max(FEWEST) };
+    let x = exact(x);
+    let written = |x: &Exact| x.decimal(digits, Round::Nearest);
+    (written(value) != written(&x)).then(|| {
+        let text = x.decimal(digits.min(MOST), Round::Nearest);
+        let sign = if text.parse() == Ok(x) { '=' } else { '≈' };
+        format!("{symbol} {sign} {text}")
+    })
 }
