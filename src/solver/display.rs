@@ -25,19 +25,17 @@ impl<T: Text> fmt::Display for Interval<T> {
     }
 }
 
-/// What was found, a line a quantity, with the enclosure of the exact answer, or of the limit of an iteration.
+/// What was found, a line a quantity, with the enclosure of the exact answer; of an iteration, of its limit.
 ///
 /// ```
 /// # use spring_mass_contact::{chapter::SpringMass, solver::{Method, solve}};
 /// let system = SpringMass { c: "4", m: "1", g: "10", l: "1", h: "3" }.parse()?;
-/// let method = Method::Augmented { penalty: 4.into(), tolerance: "0.1".parse()?, max_augmentations: 9, start: 0.into() };
 /// let shown = "\
-/// contact, converged at k = 2
-/// u = 33/16 m, limit 2 m
-/// p = 1/16 m, limit 0 m
-/// N = 7/4 N, limit 2 N
-/// λ = 3/2 N";
-/// assert_eq!(solve(&system, &method)?.to_string(), shown);
+/// contact, direct
+/// u = 9/4 m, exact 9/4 m
+/// p = 1/4 m, exact 1/4 m
+/// N = 1 N, exact 1 N";
+/// assert_eq!(solve(&system, &Method::Penalty { penalty: 4.into() })?.to_string(), shown);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 impl<T: Scalar + Text> fmt::Display for Solution<T> {
@@ -77,9 +75,7 @@ impl<T: Text> fmt::Display for Kkt<T> {
         let few = |x: &T| x.to_exact().map_or_else(|_| x.text(), |x| x.decimal(DIGITS, Round::Nearest));
         let [stationarity, primal, dual, complementarity] =
             [&self.stationarity, &self.primal, &self.dual, &self.complementarity].map(few);
-        write!(
-            f,
-            "stationarity {stationarity} N, primal {primal} m, dual {dual} N, complementarity {complementarity} J"
-        )
+        write!(f, "stationarity {stationarity} N, primal {primal} m, ")?;
+        write!(f, "dual {dual} N, complementarity {complementarity} J")
     }
 }
