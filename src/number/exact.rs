@@ -111,8 +111,8 @@ impl Exact {
 
 /// As `p/q` in lowest terms, or as an integer; reading it back gives the same number.
 ///
-/// With a number of decimals, as in `{:.5}`, it is that many, to the nearest and of two to the even one, as for
-/// the machine's floats. Width, fill and sign are honoured.
+/// With a number of decimals, as in `{:.5}`, it is that many, to the nearest and of two to the even one, as
+/// for the machine's floats. Width, fill and sign are honoured.
 ///
 /// ```
 /// use spring_mass_contact::number::Exact;

@@ -40,7 +40,7 @@ impl State {
     /// It is decided by the reaction and its error bound; where these leave it open, without any rounding.
     ///
     /// # Errors
-    /// [`SolveError::Invalid`] for a parameter that is not finite or not in its range: without a stiffness c > 0
+    /// [`SolveError::Invalid`] for a parameter that is not finite or not in its range: without c > 0
     /// nothing comes to rest, and R decides nothing.
     ///
     /// ```
@@ -111,8 +111,8 @@ impl<T: Field> Method<T> {
     /// By augmentation with the penalty ε > 0 in N/m, from λ₀ = 0, to a tolerance of 10⁻⁹ m, in
     /// [`MAX_AUGMENTATIONS`] at most: the defaults of the command.
     ///
-    /// A tolerance is a length, and only who knows the lengths of the system knows one that is small: name it,
-    /// by [`Method::Augmented`], or ask `advise`. Where rounding does not let this one be met, as in f32 with
+    /// A tolerance is a length, and only who knows the lengths of the system knows one that is small:
+    /// name it, by [`Method::Augmented`], or ask `advise`. Where rounding does not let this one be met, as in f32 with
     /// lengths of some metres, the outcome is [`Outcome::Stagnated`], and [`Solution::floor`] says what was
     /// reached.
     ///
