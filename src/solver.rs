@@ -20,11 +20,11 @@ mod check;
 mod closed;
 #[cfg(feature = "mpfr")]
 mod count;
+#[cfg(feature = "mpfr")]
+mod display;
 mod functional;
 #[cfg(feature = "mpfr")]
 pub mod laws;
-#[cfg(feature = "mpfr")]
-mod display;
 #[cfg(feature = "mpfr")]
 mod reach;
 #[cfg(feature = "mpfr")]

@@ -285,12 +285,13 @@ pub fn solve_any<T: Number>(bytes: &[u8]) {
         augmentations,
         floor,
         bounds,
+        ..
     } = &solution;
     assert!(
         [deflection, penetration, contact_force].into_iter().chain(multiplier).chain(floor).all(T::is_number)
     );
     assert!(plane == Plane::Bilateral || *contact_force >= T::zero(), "the plane pulls");
-    let Bounds { deflection: u, penetration: p, contact_force: n } = bounds;
+    let Bounds { deflection: u, penetration: p, contact_force: n, .. } = bounds;
     in_order(u);
     in_order(p);
     in_order(n);
@@ -430,7 +431,7 @@ fn iterated<T: Number>(bytes: &mut Bytes) {
         return;
     }
     let (system, eps) = (system.map(exact), exact(&eps));
-    let mut steps = Augmentation::new(&system, &eps).from_multiplier(exact(&start)).over(plane);
+    let mut steps = Augmentation::new(&system, &eps).with_multiplier(exact(&start)).over(plane);
     let last = steps.nth(k as usize).expect("there always is one");
     assert_eq!(step.k, last.k);
     within(multiplier, &last.multiplier, "multiplier");
@@ -473,7 +474,7 @@ fn counted<T: Number>(bytes: &mut Bytes) {
         assert!(needed > 0);
         return;
     };
-    let steps = Augmentation::new(&system, &eps).from_multiplier(exact(&start)).over(plane);
+    let steps = Augmentation::new(&system, &eps).with_multiplier(exact(&start)).over(plane);
     let residuals = steps.map(|step| match plane {
         Plane::Unilateral => augmented::natural_residual(&system, &eps, &step.multiplier, &step.deflection),
         Plane::Bilateral => step.penetration,

@@ -193,12 +193,11 @@ pub fn penalty_for_functional<T: Scalar, const N: usize>(
     tolerance: &T,
     functional: impl Fn(&[Lifted<T>; N], &Lifted<T>) -> Lifted<T>,
 ) -> Result<T, FunctionalError> {
-    check::system(system)?;
+    let touches = State::of(system)? == State::Contact;
     check::positive("tolerance", tolerance)?;
     lifted(parameters)?;
     let mut parameters = parameters.clone();
     let unbounded = || broken(Condition::GrowsWithPenalty, tolerance);
-    let touches = State::of(system) == State::Contact;
     let enclosed = system.map(T::enclose);
     let spring = weighed(enclosed.c.clone(), system::reaction(&enclosed));
     // −R²/(2c): the least energy of a mass whose weight is R.

@@ -72,7 +72,7 @@ where
     let floats = case.rounded(like);
     let case = floats.exact();
     let (s, eps) = (&case.system, &case.eps);
-    if State::of(s) != State::Contact {
+    if State::of(s) != Ok(State::Contact) {
         return Ok(());
     }
     // As thick as the mass would sink in with the soft layer alone, or half of that.
@@ -179,7 +179,7 @@ proptest! {
         let first = std::array::from_ref(eps);
         let found = penalty_for_functional(s, first, &tolerance, |[eps], p| cubic(eps, p)).unwrap();
         prop_assert!(&found >= eps);
-        if State::of(s) == State::Contact {
+        if State::of(s) == Ok(State::Contact) {
             prop_assert!(residual(s, |p| cubic(&constant(&found), p), &tolerance) > int(0));
         } else {
             prop_assert_eq!(&found, eps);
@@ -318,8 +318,9 @@ fn a_mass_that_hangs_free_asks_no_functional() {
     let grazing = SpringMass { g: 8.0, ..example() };
     for s in [lifted, grazing] {
         let found = solve_functional(&s, &[1.0], &1e-9, |_, _| panic!("asked")).unwrap();
-        let known = solve(&s, &Method::Lagrange).unwrap();
-        assert_eq!(found, Solution { multiplier: None, ..known });
+        let mut known = solve(&s, &Method::Lagrange).unwrap();
+        known.multiplier = None;
+        assert_eq!(found, known);
     }
 }
 
