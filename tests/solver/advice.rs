@@ -183,7 +183,9 @@ fn promised_augmentations_do<T: Float>(case: &Case<Exact>, like: &T) -> Result<(
     let drift = rounding::penetration_drift(&numbers, &exact(&case.eps), &(int(1) / &eta));
     let begins = (drift + &eta * numbers.h.abs()) / (int(1) - int(8) * &eta);
     for share in [int(1001) / int(1000), int(3) / int(2), int(1000)] {
-        let Ok(tolerance) = like.nearest(&(&begins * share)) else { continue };
+        // Where ε is too soft for any bound of the drift, that formula is negative.
+        let tolerance = like.nearest(&(&begins * share)).ok().filter(|tolerance| *tolerance > T::zero());
+        let Some(tolerance) = tolerance else { continue };
         let promised = augmentations_promised(&case.system, &case.eps, &tolerance, &eta);
         let Some(most) = promised.and_then(|most| most.to_u64()).filter(|most| *most < 2000) else {
             continue;

@@ -272,7 +272,8 @@ fn the_sign_is_exact<T: Float>(like: &T, numbers: [Extreme; 6]) -> Result<(), Te
     let [c, m] = [a1, a2].map(|x| x.abs());
     let system = SpringMass { c, m, g: b1, l: b2, h: b3 };
     let r = system::reaction(&system.map(exact));
-    prop_assert_eq!(State::of(&system), Ok(state_by_sign(r.cmp(&int(0)))), "{:?}", system.map(exact));
+    let (state, is_system) = (State::of(&system).ok(), !system.c.is_zero() && !system.m.is_zero());
+    prop_assert_eq!(state, is_system.then(|| state_by_sign(r.cmp(&int(0)))), "{:?}", system.map(exact));
     Ok(())
 }
 
