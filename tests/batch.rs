@@ -2,21 +2,22 @@
 
 #![cfg(feature = "cli")]
 
+mod processes;
+
 use oorandom::Rand64;
+use processes::{DEADLINE, command, finish};
+use serde_json::value::RawValue;
 use serde_json::{Value, json};
 use spring_mass_contact::number::Exact;
-use std::io::{BufRead, BufReader, Read, Write};
+use std::collections::HashMap;
+use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, ChildStdin, Command, Output, Stdio};
 use std::sync::mpsc;
 use std::thread;
 use std::time::Duration;
-use wait_timeout::ChildExt;
-
-/// Ten times what the longest of these takes on a busy machine.
-const DEADLINE: Duration = Duration::from_secs(60);
 
 fn contact(arguments: &str) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_contact"));
+    let mut command = command();
     command.arg("solve").args(arguments.split_whitespace());
     command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
     command
@@ -30,25 +31,6 @@ fn spawn(arguments: &str) -> Child {
 fn feed(mut stdin: ChildStdin, input: Vec<u8>) {
     // A command that has ended does not read; what it was to say of that is asked elsewhere.
     thread::spawn(move || stdin.write_all(&input));
-}
-
-/// What comes of it, if it ends in time.
-fn finish(mut child: Child) -> Output {
-    let collect = |mut pipe: Box<dyn Read + Send>| {
-        thread::spawn(move || {
-            let mut bytes = Vec::new();
-            pipe.read_to_end(&mut bytes).map(|_| bytes)
-        })
-    };
-    let stdout: Option<Box<dyn Read + Send>> = child.stdout.take().map(|pipe| Box::new(pipe) as _);
-    let stdout = collect(stdout.unwrap_or(Box::new(std::io::empty())));
-    let stderr = collect(Box::new(child.stderr.take().expect("a pipe")));
-    let Some(status) = child.wait_timeout(DEADLINE).expect("a child") else {
-        child.kill().and_then(|()| child.wait()).expect("the command can be ended");
-        panic!("the command is still running after {DEADLINE:?}");
-    };
-    let [stdout, stderr] = [stdout, stderr].map(|bytes| bytes.join().unwrap().expect("a pipe"));
-    Output { status, stdout, stderr }
 }
 
 fn raw(arguments: &str, input: impl Into<Vec<u8>>) -> Output {
@@ -412,6 +394,133 @@ fn no_bad_line_gets_further_than_an_error() {
     // A byte order mark is no part of JSON; nor is a text in UTF-16.
     let (answers, _) = batch("", b"\xef\xbb\xbf{}\n{\0}\0\n".as_slice());
     assert!(answers.len() == 2 && answers.iter().all(|answer| answer["error"].is_string()), "{answers:?}");
+}
+
+/// Keys that a line can have, and some that it cannot.
+const KEYS: [&str; 16] = [
+    "id",
+    "method",
+    "scalar",
+    "stiffness",
+    "mass",
+    "gravity",
+    "free_length",
+    "height",
+    "penalty",
+    "tolerance",
+    "initial_multiplier",
+    "max_augmentations",
+    "bilateral",
+    "",
+    "Mass",
+    "no such key",
+];
+
+/// What can stand where a value does; some of it is no JSON.
+const VALUES: [&str; 40] = [
+    "1",
+    "0",
+    "-0",
+    "-1",
+    "0.05",
+    "1e-9",
+    "-1E+3",
+    "1e400",
+    "1e-400",
+    "1e5000",
+    "1e100000",
+    "1e99999999999",
+    "100",
+    "\"1/3\"",
+    "\"-1/2\"",
+    "\"1/0\"",
+    "\" 1 \"",
+    "\"nan\"",
+    "\"\"",
+    "\"f32\"",
+    "\"f64\"",
+    "\"exact\"",
+    "\"mpfr:2\"",
+    "\"mpfr:70\"",
+    "\"lagrange\"",
+    "\"penalty\"",
+    "\"augmented\"",
+    "null",
+    "true",
+    "false",
+    "NaN",
+    "-inf",
+    "[]",
+    "{}",
+    "[1]",
+    "\"\\u0000\"",
+    "\"\\ud800\"",
+    "01",
+    "1.",
+    "--1",
+];
+
+/// An object as it should be, or with more and other values than belong there; and then perhaps broken.
+fn any_line(random: &mut Rand64) -> Vec<u8> {
+    let pick =
+        |random: &mut Rand64, from: &[&'static str]| from[random.rand_range(0..from.len() as u64) as usize];
+    let mut object = draw(random).1.to_string();
+    for _ in 0..random.rand_range(0_u64..4).saturating_sub(2) {
+        // Of two values for a key, the second is an error of its own.
+        object.pop();
+        object += &format!(",\"{}\":{}}}", pick(random, &KEYS), pick(random, &VALUES));
+    }
+    if random.rand_range(0..4) == 0 {
+        let mut pairs = Vec::new();
+        for _ in 0..random.rand_range(0..4) {
+            pairs.push(format!("\"{}\":{}", pick(random, &KEYS), pick(random, &VALUES)));
+        }
+        object = format!("{{{}}}", pairs.join(","));
+    }
+    let mut line = object.into_bytes();
+    for _ in 0..random.rand_range(0_u64..5).saturating_sub(3) {
+        let place = random.rand_range(0..line.len() as u64) as usize;
+        line[place] = random.rand_range(0..256) as u8;
+    }
+    if random.rand_range(0..8) == 0 {
+        line.truncate(random.rand_range(0..line.len() as u64) as usize);
+    }
+    line.retain(|byte| !b"\r\n".contains(byte));
+    line
+}
+
+/// `LINES=1000000 cargo test --release --test batch any_lines` tries so many of them, and `SEED=7` others.
+#[test]
+fn any_lines_have_an_answer_each() {
+    let number = |name, default: u64| std::env::var(name).map_or(default, |text| text.parse().expect(name));
+    let (seed, count) = (number("SEED", 1), number("LINES", 1000));
+    for batch in 0..count.div_ceil(1000) {
+        let random = &mut Rand64::new(u128::from(seed) << 64 | u128::from(batch));
+        let lines: Vec<_> = (0..1000).map(|_| any_line(random)).collect();
+        let asked: Vec<_> = lines.iter().filter(|line| !line.trim_ascii().is_empty()).collect();
+        let output = raw("", lines.join(&b'\n'));
+        // An id comes back whatever number it is, so not every answer is a `Value`.
+        let answers = std::str::from_utf8(&output.stdout).expect("UTF-8").lines();
+        let answers: Vec<HashMap<String, Box<RawValue>>> =
+            answers.map(|line| serde_json::from_str(line).expect(line)).collect();
+        assert_eq!((answers.len(), output.stderr.len()), (asked.len(), 0));
+        let mut refused = 0;
+        for (line, answer) in asked.iter().zip(&answers) {
+            let line = String::from_utf8_lossy(line);
+            match (answer.get("error").map(|error| error.get()), answer.contains_key("state")) {
+                (Some(error), false) => {
+                    assert!(!error.contains("\\n") && (10..600).contains(&error.len()), "{line}: {error}");
+                    refused += 1;
+                }
+                (None, true) => {}
+                _ => panic!("{line}: {answer:?}"),
+            }
+        }
+        // Otherwise one of the two would hardly have been tried.
+        let share = refused as f64 / answers.len() as f64;
+        assert!((0.2..0.8).contains(&share), "{refused} of {}", answers.len());
+        assert_eq!(output.status.code(), Some(1));
+    }
 }
 
 #[test]
