@@ -337,6 +337,7 @@ pub fn vanishing<const N: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::number::Exponential;
 
     #[test]
     #[should_panic(expected = "c ε is no symbol")]
@@ -350,5 +351,16 @@ mod tests {
     fn a_step_has_no_quantity_called_like_its_member() {
         let [own, q] = ["x₁", "q"].map(|name| Tree::symbol(name));
         induction("powers", [], 2, [Tree::from(1)], |[_]| [Tree::from(2) * &own], [q]);
+    }
+
+    #[test]
+    fn all_formulas_of_a_claim_are_changed() {
+        let [q, u, v] = ["q", "u", "v"].map(|name| Tree::symbol(name));
+        let given = Hypothesis::near(&u, &v, 0);
+        let claim = equal("exponential", [&given], v.exp(), &u).computing(&u, &q);
+        assert!(claim.has_exponentials() && !equal("none", [], &u, &v).has_exponentials());
+        let negated = claim.map(&|tree| -tree);
+        assert_eq!(negated.trees(), [&-v.exp(), &-u, &-q]);
+        assert_eq!(negated.given, claim.given);
     }
 }

@@ -251,6 +251,21 @@ mod tests {
     }
 
     #[test]
+    fn an_interval_has_two_ends_and_perhaps_a_middle() {
+        let [q, u, c, d] = ["q", "u", "c", "d"].map(|name| Tree::symbol(name));
+        let near = Hypothesis::near(&q, &u, &c);
+        assert_eq!(near.distance(), Some((&q - &u, &c)));
+        for other in [(&u - &c, &u + &d), (&d - &c, &u + &c), (&d - &u, &u + &c)] {
+            assert_eq!(Hypothesis::between(&q, other.0, other.1).distance(), None);
+        }
+        // Two thirds of the way it is twice as far from 1 as from 4.
+        let at = |name| if name == "u" { 1.0 } else { 4.0 };
+        let between = Hypothesis::between(&q, &u, &c);
+        assert_eq!((between.solved_for, between.solution(&at, &2.0)), ("q", Some(3.0)));
+        assert_eq!([0.0, -1.0].map(|target| between.solution(&at, &target)), [Some(1.0), None]);
+    }
+
+    #[test]
     fn what_is_undefined_does_not_hold() {
         let inverse = Tree::int(1) / Tree::symbol("c");
         for relation in [Relation::Positive, Relation::NonNegative, Relation::Zero] {

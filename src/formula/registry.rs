@@ -409,4 +409,24 @@ mod tests {
         let tree = x("z") * x("a") - x("b") + x("y");
         assert_eq!(registry().symbols_of([&tree]), ["b", "a", "y", "z"]);
     }
+
+    #[test]
+    fn either_of_two_symbols_is_mistaken_for_the_other() {
+        let registry = registry().alike(&[["a", "b"], ["c", "a"]]);
+        let others = |symbol| registry.mistaken_for(symbol).collect::<Vec<_>>();
+        assert_eq!((others("a"), others("b"), others("d")), (vec!["b", "c"], vec!["a"], vec![]));
+    }
+
+    /// k + 2 a, where k is no argument: of another k, or with another number, it is no call.
+    #[test]
+    fn a_call_is_the_same_but_for_its_arguments() {
+        let with = |a: &Tree, number: i32, k: &'static str| {
+            let (own, n) = (x(k), Tree::from(number));
+            own + n * a
+        };
+        let registry = Registry::new(&["a"], vec![Formula::new("own", "", &["a"], with(&x("a"), 2, "k"))]);
+        let is_call = |tree: &Tree| registry.call(tree).is_some();
+        assert!(is_call(&with(&x("c"), 2, "k")));
+        assert!(!is_call(&with(&x("c"), 3, "k")) && !is_call(&with(&x("c"), 2, "l")));
+    }
 }

@@ -139,7 +139,7 @@ impl Term {
         while b != 0 {
             (a, b) = (b, a % b);
         }
-        if a > 1 && self.under.number != 0 {
+        if self.under.number != 0 {
             self.over.number /= a;
             self.under.number /= a;
         }
@@ -204,7 +204,6 @@ impl Layout<'_> {
     fn collect(&self, tree: &Tree, negative: bool, sum: &mut Sum) {
         match tree.step() {
             _ if (self.name)(tree).is_some() => {}
-            Step::Neg(a) if size(a).is_none() => return self.collect(a, !negative, sum),
             Step::Add(a, b) => {
                 self.collect(a, negative, sum);
                 return self.collect(b, negative, sum);

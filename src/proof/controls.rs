@@ -292,6 +292,17 @@ mod tests {
         assert_eq!((controls.dropped.len(), needless), (2, vec![&below]));
     }
 
+    /// Whatever k is, k ≥ 0 where k ≥ 0: a change of both is not noticed.
+    #[test]
+    fn a_change_is_tried_where_what_is_supposed_holds_after_it() {
+        let k = squared(&x("a"), &x("b"));
+        let given = Hypothesis::new(Relation::NonNegative, k.clone());
+        let statements = [Statement::of(&Claim::new("k", &[&given], Kind::Sign(Relation::NonNegative, k)))];
+        let Controls { changes, .. } = controls(&statements, &registry());
+        let noticed = changes.iter().find(|(_, outcome)| matches!(outcome, Effect::Noticed { .. }));
+        assert!(noticed.is_none() && !changes.is_empty(), "{noticed:?}");
+    }
+
     #[test]
     fn a_repair_mends_what_is_wrong_and_breaks_nothing() {
         let (right, registry) = (expanded("expanded", &[]), registry());

@@ -373,3 +373,37 @@ fn explain(fact: String, reason: Vec<String>, lines: &mut Vec<String>) {
         lines.extend(reason.into_iter().map(|line| format!("  {line}")));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::formula::claim::{equal, non_negative, positive};
+    use crate::formula::{Claim, Relation};
+    use crate::number::Exponential;
+    use crate::proof::prove;
+
+    #[test]
+    fn in_a_few_words_it_is_said_how() {
+        let [a, u] = ["a", "u"].map(|name| Tree::symbol(name));
+        let given = Hypothesis::new(Relation::Positive, a.clone());
+        let how = |claim: Claim| how(&prove(&Statement::of(&claim)).unwrap());
+        let is_positive = |of: &Tree| how(positive("", [&given], of));
+        assert_eq!(how(equal("", [], &u + &u, Tree::from(2) * &u)), "identity");
+        assert_eq!(how(equal("", [], u.positive_part() - (-&u).positive_part(), &u)), "identity, 2 cases");
+        let square = &u * &u - Tree::from(2) * &u + Tree::from(2);
+        let tangent = a.exp() - &a - Tree::from(1);
+        assert_eq!(is_positive(&(&a + &a)), "sign by terms");
+        assert_eq!(is_positive(&square), "sign by square");
+        let v = Tree::symbol("v");
+        assert_eq!(how(non_negative("", [], &v * &v * square)), "sign by factors");
+        assert_eq!(is_positive(&tangent), "sign by slope");
+    }
+
+    #[test]
+    fn why_there_is_no_proof_is_said_in_the_names_of_the_registry() {
+        let [a, b] = ["a", "b"].map(|name| Tree::symbol(name));
+        let why = prove(&Statement::of(&equal("", [], &b + &a, &a))).unwrap_err();
+        let registry = Registry::new(&["a", "b"], Vec::new());
+        assert!(Paper::new(&registry).why(&why).contains("b"), "{}", Paper::new(&registry).why(&why));
+    }
+}

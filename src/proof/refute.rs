@@ -189,9 +189,8 @@ fn fails(says: &Says, point: &Point) -> Option<Option<How>> {
             }
             _ => undefined().map(Some),
         },
-        // ⟨·⟩ and min have kinks; there dual numbers know of no derivative.
-        Says::Derivative(of, ..) if of.any(&|tree| tree.step().is_bracket()) => None,
         Says::Derivative(of, by, is) => {
+            // Of ⟨·⟩ and min, which have kinks, dual numbers know of no derivative.
             let dual = of.derivative(by, &|name| Value::Exact(point.at(name)), &smooth);
             differ(dual.map(|dual| dual.derivative), value(is, point))
         }
@@ -309,7 +308,8 @@ pub fn sharpest(statement: &Statement) -> Option<(Point, Exact)> {
     let raw = raw_points(&statement.hypotheses, &symbols).take(SHARP);
     let points = raw.chain(planted_points(&statement.hypotheses, &symbols));
     let shares = points.filter_map(|point| share(statement, &point).map(|share| (point, share)));
-    let sharpest = shares.reduce(|a, b| if a.1 < b.1 { b } else { a });
+    // The first of those that use up most.
+    let sharpest = shares.min_by(|(_, a), (_, b)| b.cmp(a));
     sharpest.map(|(point, share)| (point.among(&symbols.into_iter().collect()), share))
 }
 
@@ -342,7 +342,9 @@ pub fn refute(statement: &Statement) -> Option<Counterexample> {
 mod tests {
     use super::smaller::SIMPLE;
     use super::*;
-    use crate::formula::claim::{equal, limit, non_negative, positive};
+    use crate::formula::claim::{
+        derivative, equal, induction, limit, non_negative, positive, vanishing, within,
+    };
     use crate::formula::statement::Goal;
     use crate::formula::{Claim, Rate};
     use crate::number::{Exponential, PositivePart};
@@ -392,6 +394,57 @@ mod tests {
         let wrong = Goal::of_claim("limit", Says::Limit(of.clone(), by, to + Tree::from(1)));
         let wrong = Statement { goals: vec![wrong], ..limit.clone() };
         assert!(matches!(check(&wrong, &point), Verdict::Fails("limit", How::Far(_))));
+        let three = || Tree::from(3);
+        let shifted = Goal::of_claim("limit", Says::Limit(of + three(), by, to + three()));
+        assert_eq!(check(&Statement { goals: vec![shifted], ..limit.clone() }, &point), Verdict::Holds);
+    }
+
+    /// x ← x² stays 1 from 1, and is no other sequence of powers.
+    #[test]
+    fn an_induction_is_about_the_powers_of_its_ratio() {
+        let squares = |ratio: i32| {
+            let claim = induction("squares", [], ratio, [Tree::from(1)], |[x]| [&x * &x], [x("q")]);
+            check(&Statement::of(&claim), &Point::default())
+        };
+        assert_eq!(squares(1), Verdict::Holds);
+        assert!(matches!(squares(2), Verdict::Fails("step", How::Different(..))));
+    }
+
+    /// Powers of 2 do not vanish, but what does not depend on them is its limit all along.
+    #[test]
+    fn what_is_constant_has_a_limit() {
+        let tends = |of: Tree, to: Tree| {
+            check(&Statement::of(&vanishing("tends", [], 2, of, to)), &point(&[("c", 3)]))
+        };
+        assert_eq!(tends(x("c"), x("c")), Verdict::Holds);
+        assert!(matches!(tends(x("c") * x("q"), Tree::from(0)), Verdict::Fails("|ρ| < 1", How::Sign(..))));
+    }
+
+    /// ⟨u⟩ has a slope or has none, which is not looked at; that of ⟨u⟩/0 is undefined.
+    #[test]
+    fn kinks_are_left_open() {
+        let slope = |of: Tree| {
+            let claim = derivative("slope", [], of, &x("u"), 7);
+            check(&Statement::of(&claim), &point(&[("u", 1)]))
+        };
+        assert_eq!(slope(x("u").positive_part()), Verdict::Open);
+        let undefined = slope(x("u").positive_part() / Tree::from(0));
+        assert_eq!(undefined, Verdict::Fails("", How::Undefined(Tree::from(0))));
+        assert!(matches!(slope(x("u") * x("u")), Verdict::Fails("", How::Different(..))));
+    }
+
+    /// |u| ≤ c is used up where u is c or −c, and half of 2 c there.
+    #[test]
+    fn the_sharpest_point_uses_up_most() {
+        let given = [above_zero("c"), Hypothesis::near(&x("u"), 0, x("c"))];
+        let share = |bound: Tree| {
+            let claim = within("size", [&given[0], &given[1]], x("u"), bound);
+            let (point, share) = sharpest(&Statement::of(&claim)).unwrap();
+            assert_eq!(point.at("u").abs(), point.at("c"));
+            share
+        };
+        assert_eq!(share(x("c")), Exact::one());
+        assert_eq!(share(x("c") * Tree::from(2)), "1/2".parse().unwrap());
     }
 
     #[test]
@@ -431,6 +484,10 @@ mod tests {
         let (a, b) = ("1234567890123456789012345678901", "1234567890123456789012345678902");
         assert_eq!(How::Different(exact(a), exact(b)).to_string(), format!("{a} ≠ {b}"));
         assert_eq!(How::Different(exact(a), exact("1/3")).to_string(), "≈ 1.235e30 ≠ 1/3");
+        // What has room is not shortened.
+        let (fits, longer) = ("2".repeat(24), "2".repeat(25));
+        assert_eq!(How::Different(exact(&fits), exact(&longer)).to_string(), format!("{fits} ≠ ≈ 2.222e24"));
+        assert_eq!(How::Undefined(Tree::from(0)).to_string(), "undefined: 0 is a divisor");
     }
 
     #[test]

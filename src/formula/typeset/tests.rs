@@ -108,6 +108,8 @@ fn functions_bring_their_own_brackets() {
         (-(-&a).min(&(&b / &c)), "max(a, −b / c)", r"\max\left(a, -\frac{b}{c}\right)"),
         (-a.min(&b), "−min(a, b)", r"-\min(a, b)"),
         (&c - (-&a).min(&b), "c − min(−a, b)", r"c - \min(-a, b)"),
+        ((&a - &b).abs(), "|a − b|", r"\lvert a - b \rvert"),
+        (-(&a + &b * &c).nearest(), "−fl(a + b c)", r"-\mathrm{fl}(a + b\,c)"),
     ]);
 }
 

@@ -330,6 +330,7 @@ pub fn changes_in<'a>(trees: impl IntoIterator<Item = &'a Tree>, registry: &Regi
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::formula::claim::drift;
     use crate::number::{Exponential, Field, PositivePart};
 
     #[test]
@@ -359,5 +360,37 @@ mod tests {
         edited(&a.positive_part(), &[("⟨a⟩ → a", first.clone())]);
         let maximum = ("min → max", -(-&a).min(&-&b));
         edited(&a.min(&b), &[maximum, ("min(a, b) → a", first), ("min(a, b) → b", second)]);
+    }
+
+    #[test]
+    fn a_symbol_is_mistaken_in_one_operand() {
+        let [a, c, eps] = ["a", "c", "ε"].map(|name| Tree::symbol(name));
+        let mistaken = |place| What::Symbol(place, "c", "ε");
+        let square = &c * &c;
+        assert_eq!([0, 1].map(|i| mistaken(i).edit(&square)), [Some(&eps * &c), Some(&c * &eps)]);
+        assert_eq!([0, 1].map(|i| mistaken(i).edit(&(&a * &c))), [None, Some(&a * &eps)]);
+    }
+
+    /// In its hypotheses, its goals, what is computed, and what it all amounts to.
+    #[test]
+    fn a_change_is_made_in_all_formulas_of_a_statement() {
+        let [q, u, v, x] = ["q", "u", "v", "x₁"].map(|name| Tree::symbol(name));
+        let given = [Hypothesis::near(&u, &v, 0), Hypothesis::near(&q, 0, 1), Hypothesis::near(&v, 0, 2)];
+        let [of_u, of_q, of_v] = &given;
+        let claim = drift("stays", [of_u, of_q, of_v], 1, &v, Tree::clone, (v.clone(), u.clone()), |x| {
+            [(x - &v, u.clone())]
+        });
+        let statement = Statement::of(&claim.computing(&u, &v));
+        let changed = mapped(&statement, &|tree| -tree);
+        let negated = |trees: Vec<&Tree>| trees.into_iter().map(|tree| -tree).collect::<Vec<_>>();
+        assert_eq!(changed.trees().cloned().collect::<Vec<_>>(), negated(statement.trees().collect()));
+        assert!([statement.hypotheses.len(), statement.invariants.len()].iter().all(|n| *n > 0));
+        assert_eq!(changed.computed.map(|computed| computed.by), Some(-&v));
+        let Sequence { start, step, ratio, member, within, .. } = changed.amounts_to.unwrap();
+        let all = [start, step, vec![ratio], member].concat();
+        assert_eq!(all, negated(vec![&v, &x, &Tree::from(1), &v]));
+        assert_eq!(within, [(-(&x - &v), -&u), (-(&x - &v), -&u)]);
+        let elsewhere = Change { site: (&u + &v).site(), what: What::Opposite(Operator::Add) };
+        assert!(elsewhere.apply(&statement).is_none());
     }
 }

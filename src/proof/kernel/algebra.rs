@@ -139,7 +139,7 @@ impl Poly {
         (0..=self.degree(x)).map(coefficient).collect()
     }
 
-    /// The exact quotient, if there is one; the divisor has no e^….
+    /// The exact quotient, if there is one and the divisor's last term has no e^….
     pub fn over(&self, divisor: &Self) -> Option<Self> {
         let [others @ .., (first, coefficient)] = &divisor.0[..] else { return None };
         if divisor.is_one() {
@@ -147,7 +147,7 @@ impl Poly {
         }
         // The last terms of factors are those of a product: mostly that is seen to fail.
         let ends = self.0.first().zip(divisor.0.first());
-        if divisor.has_exponentials() || ends.is_some_and(|((m, _), (n, _))| !m.has(n)) {
+        if ends.is_some_and(|((m, _), (n, _))| !m.has(n)) {
             return None;
         }
         let inverse = coefficient.recip();

@@ -71,7 +71,7 @@ impl Context {
     pub(super) fn reduce(&self, value: &Ratio) -> Ratio {
         let mut value = value.clone();
         // Pivots could bring each other back for ever; then the value just stays unreduced.
-        for _ in 0..2 * self.rules.len() {
+        for _ in &self.rules {
             let mut stays = true;
             for (pivot, by) in &self.rules {
                 if value.contains(pivot) {
@@ -145,7 +145,7 @@ impl Context {
             _ => Used::Unused,
         };
         let sign = Sign::NonNegative;
-        self.supposed.push(Supposed { given: Some(given.clone()), value: own - middle, sign, used });
+        self.supposed.push(Supposed { given: Some(given.clone()), value: own, sign, used });
     }
 
     /// From now on a monomial is replaced.

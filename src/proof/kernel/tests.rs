@@ -1,5 +1,6 @@
 //! What the kernel proves and what it must not.
 
+use super::algebra::Monomial;
 use super::*;
 use crate::formula::Claim;
 use crate::formula::claim::{PRECISION, derivative, drift, induction, positive, vanishing};
@@ -102,6 +103,17 @@ fn a_bracket_opens_where_its_sign_says_so() {
 }
 
 #[test]
+fn cases_are_nested_so_deep_and_no_deeper() {
+    let brackets = |n: u32| {
+        let all = ["u", "v", "w", "y", "z"].map(|name| x(name).positive_part());
+        let sum = all.into_iter().take(n as usize).fold(Tree::zero(), |sum, bracket| sum + bracket);
+        outcome(vec![], Says::Equal(sum.clone(), sum))
+    };
+    assert!(brackets(CASES).is_ok());
+    assert!(matches!(brackets(CASES + 1), Err(Why::OpenBracket(_))));
+}
+
+#[test]
 fn limits_by_degrees() {
     let limit = |of: Tree, to: Tree| Says::Limit(of, "t", to);
     let t = || x("t");
@@ -199,6 +211,15 @@ fn a_hypothesis_on_symbols_of_known_sign_is_used_too() {
     assert!(proved(between, Says::Sign(Relation::Positive, Tree::int(3) * x("L") - x("x"))));
 }
 
+#[test]
+fn nothing_is_divided_by_what_may_vanish() {
+    // From λ u = λ it does not follow that u = 1, but where λ > 0.
+    let given = |sign: Hypothesis| vec![sign, Hypothesis::new(Relation::Zero, x("λ") * x("u") - x("λ"))];
+    let one = || Says::Equal(x("u"), Tree::one());
+    assert!(!proved(given(multiplier().remove(0)), one()));
+    assert!(proved(given(above_zero(x("λ"))), one()));
+}
+
 /// Under these hypotheses, and for numbers of two bits or more, as every statement has it that rounds.
 fn rounded(hypotheses: Vec<Hypothesis>, says: Says) -> bool {
     proved([vec![two_bits()], hypotheses].concat(), says)
@@ -225,6 +246,17 @@ fn an_error_of_rounding_is_as_large_as_it_can_be_and_no_larger() {
     // Nor is it nothing, or of one sign.
     assert!(!rounded(vec![], Says::Equal(x("u").nearest(), x("u"))));
     assert!(!rounded(vec![above_zero(x("u"))], Says::Sign(Relation::NonNegative, error())));
+}
+
+#[test]
+fn there_are_names_for_so_many_errors_and_no_more() {
+    let roundings = |n: usize| {
+        let all = (0..n as i32).map(|i| (x("u") + int(i)).nearest());
+        let sum = all.fold(Tree::zero(), |sum, one| sum + one);
+        outcome(vec![two_bits()], Says::Equal(sum.clone(), sum))
+    };
+    assert!(roundings(ERRORS.len()).is_ok());
+    assert!(matches!(roundings(ERRORS.len() + 1), Err(Why::TooMany)));
 }
 
 #[test]
@@ -255,6 +287,16 @@ fn rounding_keeps_order() {
     assert!(
         no_less(given(&c), &a * &c, &b * &c) && no_less(given(&c), (&a / &c).nearest(), (&b / &c).nearest())
     );
+    // Of one that is rounded nothing is seen but by comparing what is in it.
+    let near = [&a, &b].map(|tree| tree.nearest());
+    let [near_a, near_b] = &near;
+    let rises: [fn(&Tree, &Tree) -> Tree; 2] = [|c, near| c * near, |c, near| near * c];
+    for step in rises {
+        assert!(no_less(given(&c), step(&c, near_a), step(&c, near_b)));
+        assert!(!no_less(given(&c), step(&c, near_b), step(&c, near_a)));
+        assert!(!no_less(given(&c), step(&c, near_a), step(&x("u"), near_b)), "another factor");
+    }
+    assert!(no_less(given(&c), -near_b, -near_a) && !no_less(given(&c), -near_a, -near_b));
     assert!(no_less(given(&-&c), &b * &c, &a * &c) && !no_less(given(&-&c), &a * &c, &b * &c));
     assert!(!no_less(given(&(&c * &c)), &a * &c, &b * &c));
     // Of two summands both count, and of a divisor that it is not 0.
@@ -293,6 +335,19 @@ fn what_is_in_an_interval_is_nowhere_else() {
     let small = || Says::Sign(Relation::NonNegative, int(1) - &q);
     assert!(proved(vec![narrow.clone(), wide.clone()], small()));
     assert!(!proved(vec![wide], small()));
+    // Nor is one used that speaks of itself, by what is supposed before.
+    let places = |given: &[&Hypothesis]| -> Vec<_> {
+        let mut context = Context::of(vec![]);
+        given.iter().for_each(|given| context.take_in(given).unwrap());
+        context.supposed.iter().map(|supposed| matches!(supposed.used, Used::Between(..))).collect()
+    };
+    let wide = Hypothesis::between(&q, int(0), int(4));
+    assert_eq!(places(&[&wide, &Hypothesis::between(&q, int(0), int(1))]), [true, false]);
+    let [v, w] = ["v", "w"].map(x);
+    let above = above_zero(&v - &w);
+    assert_eq!(places(&[&above, &Hypothesis::near(&w, &v, int(1))]), [false; 2], "v is w and more");
+    assert_eq!(places(&[&above, &Hypothesis::near(&w, int(1), &v)]), [false; 2]);
+    assert_eq!(places(&[&above, &Hypothesis::near(&w, int(1), int(2))]), [false, true]);
     // What only looks like one is none: of (1 − q)(u − 0) nothing is known of q.
     let other = not_below_zero((int(1) - &q) * (x("u") - int(0)));
     assert!(!proved(vec![other], small()));
@@ -332,6 +387,17 @@ fn what_is_computed_is_neither_a_power_nor_a_constant() {
     assert!(refused(stays(u.clone()).computing(&u, &q)));
     let same = induction("same", [&near_q], 2, [u.clone()], |[x]| [x], [u.clone()]);
     assert!(refused(same.computing(&u, &q)));
+    // Nor is what it is said to be near the member itself, or computed from it.
+    let near = |member: &Tree| {
+        let claim = drift("stays", [&near_q], 2, &v, Tree::clone, (v.clone(), int(0)), |_| []);
+        let mut statement = Statement::of(&claim.computing(&u, &q));
+        let sequence = statement.amounts_to.as_mut().unwrap();
+        sequence.member = vec![member.clone()];
+        prove(&statement)
+    };
+    assert!(near(&v).is_ok());
+    assert!(matches!(near(&x("x₁")), Err(Why::Reserved("x₁"))));
+    assert!(matches!(near(&u), Err(Why::Reserved("u"))));
     // Its slope is not 0, and q (1/q) does not vanish.
     let near_v = Hypothesis::near(&u, &v, int(0));
     assert!(refused(derivative("slope", [&near_v], &u, &v, 0).computing(&u, &v)));
@@ -363,4 +429,33 @@ fn no_interval_shrinks_with_what_tends_to_infinity() {
     let near = Hypothesis::near(&u, int(0), int(1) / &v);
     let shrinks = Says::Limit(u, "v", int(0));
     assert!(!proved(vec![above_zero(v), near], shrinks));
+}
+
+#[test]
+fn polynomials_are_divided_and_have_factors_in_common() {
+    let [u, v] = ["u", "v"].map(|name| Poly::symbol(Symbol(name)));
+    let e = Poly::exponential(v.clone().into());
+    for divisor in [&u + &v, &u + &e, &u * &v - Poly::constant(2)] {
+        assert_eq!((&divisor * &v).over(&divisor), Some(v.clone()));
+        assert_eq!((&divisor * &v + &e).over(&divisor), None);
+        assert_eq!(divisor.common_monomial(), Monomial::one());
+        assert_eq!(
+            (&divisor * &u * &v * &e).common_monomial(),
+            Monomial::of(Symbol("u")).times(&Monomial::of(Symbol("v")))
+        );
+    }
+    assert_eq!(u.over(&Poly::zero()), None);
+}
+
+/// As long division needs.
+#[test]
+fn monomials_are_in_an_order_that_multiplication_keeps() {
+    let [u, v] = ["u", "v"].map(|name| Monomial::of(Symbol(name)));
+    let all = [Monomial::one(), v.clone(), v.times(&v), u.clone(), u.times(&v), u.times(&u)];
+    for (i, a) in all.iter().enumerate() {
+        for (j, b) in all.iter().enumerate() {
+            assert_eq!(a < b, i < j, "{a:?} and {b:?}");
+            assert!(all.iter().all(|m| (a.times(m) < b.times(m)) == (i < j)));
+        }
+    }
 }
