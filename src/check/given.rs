@@ -49,14 +49,14 @@ impl<'a> Given<'a> {
         })
     }
 
-    /// Force by penetration, if it is positive, and the penetration is a thousand times what the lengths and
-    /// the deflection may be rounded by in f64.
+    /// Force by penetration, if it is positive, and the penetration is more than a thousand times what the
+    /// lengths and the deflection may be rounded by in f64.
     pub fn ratio(&self, by: Measured, tolerance: &Exact) -> Option<Ratio<'_>> {
         let (force, u) = (self.force(by, tolerance)?, self.answer.deflection.as_ref()?);
         let system = &self.problem.system;
         let p = contact::penetration(system, u);
         let rounding = (system.l.abs() + system.h.abs() + u.abs()) * Exact::power_of_two(-53);
-        if p.is_zero() || p.abs() < Exact::from(1000) * &rounding {
+        if p.abs() <= Exact::from(1000) * &rounding {
             return None;
         }
         let (value, clarity) = (force / &p, Exact::one() / (rounding / p.abs()));

@@ -6,7 +6,6 @@
 
 use crate::chapter::{SpringMass, structure, system};
 use crate::number::{Exact, PositivePart};
-use crate::solver::State;
 use num_traits::Zero;
 use oorandom::Rand64;
 use rug::float::Round;
@@ -196,28 +195,9 @@ impl Draw {
     fn system(mut self) -> SpringMass<Exact> {
         loop {
             let system = self.draw();
-            if self.admits(&system) {
+            if self.family != Family::Far || is_far(&system) {
                 return system;
             }
-        }
-    }
-
-    /// Is it what the family promises?
-    fn admits(&self, system: &SpringMass<Exact>) -> bool {
-        let (zero, gap) = (Exact::zero(), system::gap(system));
-        let Ok(state) = State::of(system) else { return false };
-        match self.family {
-            Family::Contact => state == State::Contact && gap > zero,
-            Family::Separated => state == State::Separated,
-            Family::Grazing => state == State::Grazing,
-            Family::Near => state != State::Grazing,
-            Family::Overlap => gap < zero,
-            Family::Lifted => system.g < zero && !gap.is_zero(),
-            Family::Far => {
-                let free = structure::deflection(system);
-                !gap.is_zero() && system.l.abs() > Exact::from(100) * (gap.abs() + free.abs())
-            }
-            Family::Stiff | Family::Soft | Family::Huge | Family::Tiny => !gap.is_zero(),
         }
     }
 
@@ -305,6 +285,12 @@ impl Draw {
         let g = &c * &gap / &m;
         SpringMass { h: &l + gap, c, m, g, l }
     }
+}
+
+/// Is it short to the distance of the plane and to its free deflection?
+fn is_far(system: &SpringMass<Exact>) -> bool {
+    let (gap, free) = (system::gap(system), structure::deflection(system));
+    system.l.abs() > Exact::from(100) * (gap.abs() + free.abs())
 }
 
 /// The plane is so far below as this part of the free deflection.

@@ -149,9 +149,41 @@ fn families_are_what_they_say() {
     for family in [Near, Lifted, Stiff, Soft, Far, Huge, Tiny] {
         assert_eq!(states(family), HashSet::from([State::Contact, State::Separated]), "{family}");
     }
+    // By turns, where the family leaves a choice; those near grazing may be on either side.
+    for Problem { id, family, system, .. } in &all {
+        let odd = id.ends_with(['1', '3', '5', '7', '9']);
+        let expected = if odd { State::Contact } else { State::Separated };
+        let by_turns = [Lifted, Stiff, Soft, Far, Huge, Tiny].contains(family);
+        assert!(!by_turns || State::of(system).unwrap() == expected, "{id}: {system}");
+    }
+    // Now and then there is no length, or a negative one, and a plane above what is lifted.
+    let share = |family: Family, is_so: fn(&SpringMass<Exact>) -> bool| {
+        let of = all.iter().filter(|problem| problem.family == family);
+        of.filter(|problem| is_so(&problem.system)).count()
+    };
+    assert!((1..20).contains(&share(Stiff, |system| system.l.is_zero())));
+    assert!((1..20).contains(&share(Far, |system| system.l < Exact::zero())));
+    assert!((1..20).contains(&share(Lifted, |system| system::gap(system) > Exact::zero())));
+    for Problem { id, system, .. } in problems(1, 400, &[Far]) {
+        let others = system::gap(&system).abs() + structure::deflection(&system).abs();
+        assert!(system.l.abs() > number("100") * others, "{id}: {system}");
+    }
     // The systems of a seed are its own, and those of a family do not depend on the others.
     assert_eq!(problems(1, 3, &[Stiff]), problems(1, 40, &Family::ALL)[240..243]);
     assert_ne!(problems(2, 3, &[Stiff]), problems(1, 3, &[Stiff]));
+}
+
+#[test]
+fn names_are_those_of_the_command_line_and_of_json() {
+    for family in Family::ALL {
+        assert_eq!(family.name().parse(), Ok(family));
+    }
+    assert_eq!("flat".parse::<Family>(), Err(NoFamily));
+    let verdicts = [Verdict::Right, Verdict::WithinTolerance, Verdict::Wrong, Verdict::TimedOut];
+    assert_eq!(verdicts.map(|it| it.to_string()), ["right", "within_tolerance", "wrong", "timed_out"]);
+    assert_eq!([Of::Penetration, Of::Force].map(|it| it.to_string()), ["penetration", "force"]);
+    let answers = [Answers::All, Answers::Wrong, Answers::Steps];
+    assert_eq!(answers.map(|it| it.to_string()), ["all", "wrong", "steps"]);
 }
 
 #[test]

@@ -58,6 +58,13 @@ fn a_force_that_lags_is_told_from_one_that_does_not() {
     assert!(!report.holds() && report.summary().right == report.checked.len());
     let report = run(&default_problems(), |problem| steps(problem, false));
     assert!(report.holds() && report.diagnosis.is_empty());
+    // Nor does a force lag that is of no step.
+    let report = run(&default_problems(), |problem| {
+        let mut answer = steps(problem, true);
+        answer.steps.iter_mut().for_each(|[_, n]| *n = n.take().map(|n| n * number("2") + number("1")));
+        answer
+    });
+    assert!(report.holds() && report.diagnosis.is_empty());
     // One step in which it does not is enough, and one system.
     let report = run(&default_problems(), |problem| {
         let mut answer = steps(problem, true);
@@ -236,4 +243,38 @@ fn a_threshold_is_not_seen_in_a_few() {
         }
     });
     assert!(report.summary().wrong >= 2 && report.missed.is_none(), "{:?}", report.missed);
+}
+
+/// One answer could be off by anything, and one that tells a factor.
+#[test]
+fn one_answer_shows_nothing() {
+    let few = |families: &[Family], change: fn(Exact, Exact) -> [Exact; 2]| {
+        let report = run(&problems(1, 1, families), |problem| {
+            let exact = problem.solution();
+            let [u, n] = change(exact.deflection, exact.contact_force);
+            Answer::new(u, n)
+        });
+        assert!(report.summary().wrong > 0);
+        report.diagnosis.iter().map(|d| d.name.clone()).collect::<Vec<_>>()
+    };
+    let one = [Family::Contact];
+    let digits = |u: Exact, n: Exact| [u, n].map(|x| x.decimal(4, Round::Nearest).parse().unwrap());
+    assert_eq!(few(&[Family::Stiff, Family::Soft], digits), ["its numbers have no more than 4 digits"]);
+    assert!(few(&[Family::Stiff], digits).is_empty());
+    let more = |u: Exact, n: Exact| [u, n * number("1.3")];
+    assert_eq!(few(&[Family::Contact, Family::Overlap], more), ["N is 1.3 times what is right"]);
+    assert!(few(&[Family::Contact, Family::Separated], more).is_empty());
+    assert!(few(&one, more).is_empty());
+}
+
+/// A mass that touches the plane without a spring's length or a gap.
+#[test]
+fn where_there_is_no_length_no_penetration_tells_a_penalty() {
+    let no_length = |problem: &Problem| {
+        let SpringMass { c, m, g, .. } = problem.system.clone();
+        Problem { system: SpringMass { c, m, g, l: Exact::zero(), h: Exact::zero() }, ..problem.clone() }
+    };
+    let all: Vec<_> = problems(1, 3, &[Family::Contact]).iter().map(no_length).collect();
+    let report = run(&all, |_| Answer::new(Exact::zero(), number("1")));
+    assert!(!report.holds() && report.penalty.kind == Kind::None);
 }

@@ -47,6 +47,76 @@ fn the_tolerance_is_the_border() {
     }
 }
 
+/// A penetration is compared on the scale of lengths, or with what rounding may make of that of u.
+#[test]
+fn a_penetration_is_that_of_the_deflection() {
+    let problem = &problems(1, 1, &[Family::Contact])[0];
+    let SpringMass { c, .. } = &problem.system;
+    let scale = system::gap(&problem.system) + system::weight(&problem.system) / c;
+    let verdict = |off: &str| {
+        let exact = right(problem);
+        let p = contact::penetration(&problem.system, exact.deflection.as_ref().unwrap());
+        let said = p + number(off) * number(TOLERANCE) * &scale;
+        let answer = Answer { penetration: Some(Some(said)), ..exact };
+        Judgement::of(problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE)).verdict
+    };
+    assert_eq!(["0", "1", "-1"].map(verdict), [Verdict::Right; 3]);
+    assert_eq!(["1.01", "-1.01"].map(verdict), [Verdict::Wrong; 2]);
+    // Where u is off by the tolerance its penetration is, too.
+    let [u, n] = [
+        right(problem).deflection.unwrap() + number(TOLERANCE) * &scale,
+        right(problem).contact_force.unwrap(),
+    ];
+    let own = contact::penetration(&problem.system, &u);
+    let said = |p: Exact| {
+        let answer = Answer { penetration: Some(Some(p)), ..Answer::new(u.clone(), n.clone()) };
+        Judgement::of(problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE)).verdict
+    };
+    assert_eq!([said(own.clone()), said(-own)], [Verdict::WithinTolerance, Verdict::Wrong]);
+}
+
+/// Said is that the plane pushes, pulls or does not, if N is further from 0 than the tolerance; held against it
+/// is another state, where N is further off than that.
+#[test]
+fn a_state_is_wrong_where_it_shows() {
+    let finding = |family: Family, parts: &str| {
+        let problem = &problems(1, 1, &[family])[0];
+        let weight = system::weight(&problem.system);
+        let scale = weight + &problem.system.c * system::gap(&problem.system);
+        assert!(scale > number("1"));
+        let u = right(problem).deflection.unwrap() + number("1");
+        let answer = Answer::new(u, number(parts) * number(TOLERANCE) * scale);
+        let judgement = Judgement::of(problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE));
+        assert_eq!(judgement.verdict, Verdict::Wrong);
+        judgement.finding.unwrap_or_default()
+    };
+    let in_contact = |parts| finding(Family::Contact, parts);
+    for free in ["0.5", "1", "-1"].map(in_contact) {
+        assert_eq!(free, "it says that the mass hangs free; exactly, the plane pushes");
+    }
+    assert_eq!(in_contact("-1.01"), "it says that the plane pulls; exactly, the plane pushes");
+    assert_eq!(["1.01", "3e6"].map(in_contact), ["", ""]);
+    assert_eq!(finding(Family::Grazing, "1"), "", "no further off than the tolerance");
+    let touching = "it says that the plane pushes; exactly, they touch without force";
+    assert_eq!(finding(Family::Grazing, "1.01"), touching);
+}
+
+/// It is solved as it was used; residuals are those of the numbers, if there are two.
+#[test]
+fn the_penalty_that_was_used_is_the_one_that_counts() {
+    let problem = with_penalties(problems(1, 1, &[Family::Contact])).remove(0);
+    let used = problem.penalty.as_ref().unwrap() * number("1.0000005");
+    let mut answer = right(&Problem { penalty: Some(used.clone()), ..problem.clone() });
+    answer.used.penalty = Some(Some(used.clone()));
+    let judgement =
+        |answer: Answer| Judgement::of(&problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE));
+    let judged = judgement(answer.clone());
+    assert_eq!((judged.verdict, judged.force_error), (Verdict::Right, Some(Exact::zero())));
+    let [u, n] = [answer.deflection.as_ref().unwrap(), answer.contact_force.as_ref().unwrap()];
+    assert_eq!(judged.kkt, Some(contact::kkt(&problem.system, u, n)));
+    assert_eq!(judgement(Answer { deflection: None, ..answer.clone() }).kkt, None);
+}
+
 /// What an answer says besides is held against it.
 #[test]
 fn findings_say_what_is_wrong() {
