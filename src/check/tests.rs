@@ -174,6 +174,15 @@ fn families_are_what_they_say() {
 }
 
 #[test]
+fn a_force_is_written_by_its_deflection() {
+    let no_plane = mistakes(false).iter().find(|mistake| mistake.name == "there is no plane").unwrap();
+    assert_eq!(no_plane.formula(), "u = m g / c, N = 0");
+    let formula = none(true).formula();
+    let (_, force) = formula.split_once(", N = ").unwrap();
+    assert!(force.contains('u') && !force.contains('/'), "{formula}");
+}
+
+#[test]
 fn names_are_those_of_the_command_line_and_of_json() {
     for family in Family::ALL {
         assert_eq!(family.name().parse(), Ok(family));

@@ -179,3 +179,24 @@ fn compute<T: Field>(result: &mut T, step: Step<&T>, beyond: &impl Fn(Step<&T>) 
     }
     Some(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_round_has_the_steps_that_vary() {
+        let [a, x] = ["a", "x"].map(|name| Tree::symbol(name));
+        let mut program = Program::default();
+        assert!(program.is_empty());
+        program.add(&((&a + &a) * &x * &x));
+        assert!(!program.is_empty() && program.len() == 5);
+        let rounds = |fixed: &[&str]| {
+            let number = |name| fixed.contains(&name).then_some(2.0);
+            program.rounds(&number, &|_| None).unwrap()
+        };
+        assert!(rounds(&["a", "x"]).is_empty());
+        let two = rounds(&["a"]);
+        assert!(!two.is_empty() && two.len() == 2);
+    }
+}
