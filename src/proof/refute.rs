@@ -445,6 +445,10 @@ mod tests {
         };
         assert_eq!(share(x("c")), Exact::one());
         assert_eq!(share(x("c") * Tree::from(2)), "1/2".parse().unwrap());
+        // Half of c is not enough there.
+        let half = within("half", [&given[0], &given[1]], x("u") * Tree::from(2), x("c"));
+        let at_end = check(&Statement::of(&half), &point(&[("c", 3), ("u", -3)]));
+        assert!(matches!(at_end, Verdict::Fails("", How::Beyond(..))));
     }
 
     #[test]
