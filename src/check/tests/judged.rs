@@ -75,8 +75,8 @@ fn a_penetration_is_that_of_the_deflection() {
     assert_eq!([said(own.clone()), said(-own)], [Verdict::WithinTolerance, Verdict::Wrong]);
 }
 
-/// Said is that the plane pushes, pulls or does not, if N is further from 0 than the tolerance; held against it
-/// is another state, where N is further off than that.
+/// Said is that the plane pushes, or pulls, if N is further from 0 than the tolerance; held against it is
+/// another state, where N is further off than that.
 #[test]
 fn a_state_is_wrong_where_it_shows() {
     let finding = |family: Family, parts: &str| {

@@ -1,0 +1,161 @@
+//! What is refuted and what is not.
+
+use super::smaller::SIMPLE;
+use super::*;
+use crate::formula::claim::{derivative, equal, induction, limit, non_negative, positive, vanishing, within};
+use crate::formula::statement::Goal;
+use crate::formula::{Claim, Rate};
+use crate::number::{Exponential, PositivePart};
+
+fn x(name: &'static str) -> Tree {
+    Tree::symbol(name)
+}
+
+fn above_zero(name: &'static str) -> Hypothesis {
+    Hypothesis::new(Relation::Positive, x(name))
+}
+
+fn point(numbers: &[(&'static str, i32)]) -> Point {
+    Point::new(numbers.iter().map(|(name, n)| (*name, Exact::from(*n))))
+}
+
+/// c u + ε u − R = 0 at u = R/(c + ε)
+fn root() -> Statement {
+    let u = x("R") / (x("c") + x("ε"));
+    let residual = x("c") * &u + x("ε") * &u - x("R");
+    Statement::of(&equal("root", [&above_zero("c"), &above_zero("ε")], residual, 0))
+}
+
+/// R/(c + ε) → 0
+fn vanishes() -> Statement {
+    let [stiff, penalty] = ["c", "ε"].map(above_zero);
+    let p = x("R") / (x("c") + x("ε"));
+    Statement::of(&limit("vanishes", [&stiff, &penalty], &p, &x("ε"), 0, Rate::Exactly(p.clone())))
+}
+
+#[test]
+fn a_divisor_that_is_zero_is_named() {
+    let root = root();
+    let opposite = point(&[("c", -1), ("ε", 1)]);
+    assert_eq!(check(&root, &opposite), Verdict::Excluded);
+    assert_eq!(check(&root, &point(&[("c", 3)])), Verdict::Holds);
+    let Verdict::Fails(_, how) = check(&root.without(0), &opposite) else { panic!() };
+    assert_eq!(how.to_string(), "undefined: c + ε = 0 is a divisor");
+}
+
+#[test]
+fn a_limit_is_looked_at_far_out() {
+    let limit = vanishes();
+    let point = point(&[("R", 2)]);
+    assert_eq!(check(&limit, &point), Verdict::Holds);
+    let [Goal { says: Says::Limit(of, by, to), .. }, ..] = &limit.goals[..] else { panic!() };
+    let wrong = Goal::of_claim("limit", Says::Limit(of.clone(), by, to + Tree::from(1)));
+    let wrong = Statement { goals: vec![wrong], ..limit.clone() };
+    assert!(matches!(check(&wrong, &point), Verdict::Fails("limit", How::Far(_))));
+    let three = || Tree::from(3);
+    let shifted = Goal::of_claim("limit", Says::Limit(of + three(), by, to + three()));
+    assert_eq!(check(&Statement { goals: vec![shifted], ..limit.clone() }, &point), Verdict::Holds);
+}
+
+/// x ← x² stays 1 from 1, and is no other sequence of powers.
+#[test]
+fn an_induction_is_about_the_powers_of_its_ratio() {
+    let squares = |ratio: i32| {
+        let claim = induction("squares", [], ratio, [Tree::from(1)], |[x]| [&x * &x], [x("q")]);
+        check(&Statement::of(&claim), &Point::default())
+    };
+    assert_eq!(squares(1), Verdict::Holds);
+    assert!(matches!(squares(2), Verdict::Fails("step", How::Different(..))));
+}
+
+/// Powers of 2 do not vanish, but what does not depend on them is its limit all along.
+#[test]
+fn what_is_constant_has_a_limit() {
+    let tends =
+        |of: Tree, to: Tree| check(&Statement::of(&vanishing("tends", [], 2, of, to)), &point(&[("c", 3)]));
+    assert_eq!(tends(x("c"), x("c")), Verdict::Holds);
+    assert!(matches!(tends(x("c") * x("q"), Tree::from(0)), Verdict::Fails("|ρ| < 1", How::Sign(..))));
+}
+
+/// ⟨u⟩ has a slope or has none, which is not looked at; that of ⟨u⟩/0 is undefined.
+#[test]
+fn kinks_are_left_open() {
+    let slope = |of: Tree| {
+        let claim = derivative("slope", [], of, &x("u"), 7);
+        check(&Statement::of(&claim), &point(&[("u", 1)]))
+    };
+    assert_eq!(slope(x("u").positive_part()), Verdict::Open);
+    let undefined = slope(x("u").positive_part() / Tree::from(0));
+    assert_eq!(undefined, Verdict::Fails("", How::Undefined(Tree::from(0))));
+    assert!(matches!(slope(x("u") * x("u")), Verdict::Fails("", How::Different(..))));
+}
+
+/// |u| ≤ c is used up where u is c or −c, and half of 2 c there.
+#[test]
+fn the_sharpest_point_uses_up_most() {
+    let given = [above_zero("c"), Hypothesis::near(&x("u"), 0, x("c"))];
+    let share = |bound: Tree| {
+        let claim = within("size", [&given[0], &given[1]], x("u"), bound);
+        let (point, share) = sharpest(&Statement::of(&claim)).unwrap();
+        assert_eq!(point.at("u").abs(), point.at("c"));
+        share
+    };
+    assert_eq!(share(x("c")), Exact::one());
+    assert_eq!(share(x("c") * Tree::from(2)), "1/2".parse().unwrap());
+    // Half of c is not enough there.
+    let half = within("half", [&given[0], &given[1]], x("u") * Tree::from(2), x("c"));
+    let at_end = check(&Statement::of(&half), &point(&[("c", 3), ("u", -3)]));
+    assert!(matches!(at_end, Verdict::Fails("", How::Beyond(..))));
+}
+
+#[test]
+fn what_is_true_is_not_refuted() {
+    let bracket = x("u").positive_part();
+    let true_claims: [Claim; 3] = [
+        non_negative("square", [], x("u") * x("u")),
+        equal("parts", [], &bracket - (-x("u")).positive_part(), x("u")),
+        positive("tangent", [&above_zero("u")], x("u").exp() - x("u") - Tree::from(1)),
+    ];
+    for claim in &true_claims {
+        assert_eq!(refute(&Statement::of(claim)), None, "{}", claim.name);
+    }
+    assert_eq!((refute(&root()), refute(&vanishes())), (None, None));
+}
+
+/// Where c + ε = 0, and where a sign is wrong however large the numbers are.
+#[test]
+fn a_counterexample_is_made_small() {
+    let long: Exact = "123456789012345678901234567890/987654321098765432109876543210987".parse().unwrap();
+    let names = ["c", "ε", "R"];
+    let start = Point::new(names.map(|name| (name, if name == "c" { -&long } else { long.clone() })));
+    let found_at = |statement: &Statement| found(statement, &start).expect("a counterexample");
+    let undefined = found_at(&root().without(0));
+    assert_eq!(undefined.to_string(), "c = -1, ε = 1, R = 1: undefined: c + ε = 0 is a divisor");
+    let wrong = found_at(&Statement::of(&positive("wrong", [], x("c") * x("R") * x("R"))));
+    let simple = |x: &Exact| SIMPLE.iter().any(|n| Exact::from(*n) == *x);
+    assert!(wrong.point.numbers().all(|(_, x)| simple(x)), "{wrong}");
+}
+
+/// As text: what happens far out is said in a few digits, and what differs late in all.
+#[test]
+fn long_values_are_shortened_as_far_as_they_differ() {
+    let exact = |text: &str| Value::Exact(text.parse().unwrap());
+    let far = How::Far(Value::Exact(Exact::power_of_two(200) + Exact::one()));
+    assert_eq!(far.to_string(), "far out it is still ≈ 1.607e60 off its limit");
+    let (a, b) = ("1234567890123456789012345678901", "1234567890123456789012345678902");
+    assert_eq!(How::Different(exact(a), exact(b)).to_string(), format!("{a} ≠ {b}"));
+    assert_eq!(How::Different(exact(a), exact("1/3")).to_string(), "≈ 1.235e30 ≠ 1/3");
+    // What has room is not shortened.
+    let (fits, longer) = ("2".repeat(24), "2".repeat(25));
+    assert_eq!(How::Different(exact(&fits), exact(&longer)).to_string(), format!("{fits} ≠ ≈ 2.222e24"));
+    assert_eq!(How::Undefined(Tree::from(0)).to_string(), "undefined: 0 is a divisor");
+}
+
+#[test]
+fn a_divisor_is_bent_to_zero() {
+    // No integers do that here: 7 c + 2 is 0 at −2/7 alone.
+    let divisor = Tree::from(7) * x("c") + Tree::from(2);
+    let counterexample = refute(&Statement::of(&equal("one", [], &divisor / &divisor, 1))).unwrap();
+    assert!(matches!(counterexample.how, How::Undefined(_)), "{counterexample}");
+    assert_eq!(counterexample.point.at("c"), "-2/7".parse().unwrap());
+}
