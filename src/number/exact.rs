@@ -193,7 +193,7 @@ impl Inexact {
     fn of(x: f64) -> Self {
         if x.is_nan() {
             Inexact::NotANumber
-        } else if x > 0.0 {
+        } else if x.is_sign_positive() {
             Inexact::Infinity
         } else {
             Inexact::NegativeInfinity

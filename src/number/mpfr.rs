@@ -311,7 +311,6 @@ impl Real for Mpfr {
     fn magnitude(&self) -> Self {
         let up = |x: Float| Mpfr(Rounded(x));
         match &self.0 {
-            Small(_) | Constant(_) if self.is_zero() => Mpfr::zero(),
             Small(_) | Constant(_) => {
                 up(Float::with_val_round(RADIUS_PRECISION, &self.0.rational().abs(), Round::Up).0)
             }

@@ -129,10 +129,8 @@ impl Exact {
             Ok(0) | Err(_) if exponent > -4 => {
                 format!("{sign}0.{}{text}", "0".repeat(exponent.unsigned_abs() as usize))
             }
-            Ok(whole @ 1..) if whole >= text.len() && whole <= digits => {
-                format!("{sign}{text}{}", "0".repeat(whole - text.len()))
-            }
             Ok(whole @ 1..) if whole < text.len() => format!("{sign}{}.{}", &text[..whole], &text[whole..]),
+            Ok(whole @ 1..) if whole <= digits => format!("{sign}{text:0<whole$}"),
             _ => {
                 let (first, rest) = text.split_at(1);
                 let point = if rest.is_empty() { "" } else { "." };
