@@ -101,11 +101,6 @@ impl<T> Step<T> {
         a.into_iter().chain(b)
     }
 
-    /// Is it ⟨·⟩ or min, which no quotient of polynomials has and which have kinks?
-    pub fn is_bracket(&self) -> bool {
-        matches!(self, Step::PositivePart(_) | Step::Min(..))
-    }
-
     /// The same step with other operands.
     pub fn map<U>(&self, mut f: impl FnMut(&T) -> U) -> Step<U> {
         let all = self.try_map(|operand| Some(f(operand)));
@@ -394,5 +389,38 @@ impl PositivePart for Tree {
     #[track_caller]
     fn abs(&self) -> Self {
         -PositivePart::min(&-self, self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The steps of a chain begin at one place; their rank, from the left, is shown from the second on.
+    #[test]
+    fn steps_are_known_by_their_place() {
+        let [a, b] = ["a", "b"].map(|name| Tree::symbol(name));
+        let (chain, line) = (&a + &b - &a + &b, line!());
+        let mut sites = Vec::new();
+        chain.visit(&mut |tree| sites.extend((tree.site().line == line).then(|| tree.site().to_string())));
+        let place = sites.last().expect("three of its steps").clone();
+        assert!(place.starts_with(&format!("{}:{line}:", file!())) && !place.contains(' '), "{place}");
+        assert_eq!(sites, [format!("{place} (operator 3)"), format!("{place} (operator 2)"), place]);
+    }
+
+    /// fl(fl(2 x) + 1) = 7 where 2 x + 1 = 7, but for rounding.
+    #[test]
+    fn a_rounded_formula_is_solved_as_if_it_were_not() {
+        let x = Tree::symbol("x");
+        let formula = (Tree::int(2) * &x + Tree::one()).rounded();
+        assert!(formula.rounds());
+        assert_eq!(formula.solution("x", &|_| 0.5, &7.0), Some(3.0));
+        assert_eq!(formula.solution("y", &|_| 0.5, &7.0), None);
+    }
+
+    #[test]
+    fn zero_is_zero_and_nothing_else_is() {
+        let x = Tree::symbol("x");
+        assert!(Tree::zero().is_zero() && ![Tree::one(), &x - &x, x].iter().any(Tree::is_zero));
     }
 }
