@@ -278,6 +278,18 @@ fn a_dual_ball_of_exp_holds_the_exponential_and_its_derivative<
     finite.assert_one_in(2, "finite exponentials");
 }
 
+/// |eˣ − 1| ≤ r + r² for |x| ≤ r ≤ 1, and the rest of the radius is of the size of an ulp: for r = 2⁻¹⁰ it is below
+/// r + 2 r².
+#[test]
+fn the_exponential_of_a_narrow_ball_is_narrow() {
+    let r = 1.0 / 1024.0;
+    let ball = Ball::exactly(-r).hull(&Ball::exactly(r));
+    assert!(*ball.radius() >= r);
+    let exponential = ball.exp();
+    assert_eq!(*exponential.value(), 1.0);
+    assert!(*exponential.radius() < r + 2.0 * r * r, "{exponential:?}");
+}
+
 /// Around zero the rounding of the centre adds nothing that could hide one of the radius.
 #[test]
 fn a_ball_around_zero_is_divided_and_multiplied_outwards() {
@@ -324,6 +336,7 @@ fn division_by_what_may_be_zero_gives_the_infinite_ball_and_by_zero_none() {
                     (-&quotient, quotient.min(&one)),
                     (quotient.positive_part(), one.min(&quotient)),
                     (quotient.exp(), &quotient - &quotient),
+                    (quotient.hull(&one), zero.hull(&quotient)),
                 ];
                 let undefined = divisor.is_zero();
                 assert_eq!(quotient.is_undefined(), undefined);

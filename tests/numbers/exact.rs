@@ -146,6 +146,20 @@ fn overflow_and_underflow_begin_exactly_where_rounding_says() {
 }
 
 #[test]
+fn digits_are_those_of_both_integers() {
+    for (fraction, digits) in [("-5/16", 3 + 5), ("0", 1), ("1023", 10 + 1), ("1/1024", 1 + 11)] {
+        assert_eq!(fraction.parse::<Exact>().unwrap().digits(), digits, "{fraction}");
+    }
+}
+
+#[test]
+fn no_number_has_0_bits() {
+    for x in ["1/3", "0"].map(|x| x.parse::<Exact>().unwrap()) {
+        assert_eq!((x.rounded(0), x.rounded(1).is_some()), (None, true));
+    }
+}
+
+#[test]
 fn what_is_not_finite_has_no_exact_value() {
     let none = [Inexact::Infinity, Inexact::NegativeInfinity, Inexact::NotANumber].map(Err);
     assert_eq!([f32::INFINITY, f32::NEG_INFINITY, f32::NAN].map(|x| x.to_exact()), none);

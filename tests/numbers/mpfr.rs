@@ -6,7 +6,7 @@ use crate::format::Format;
 use crate::system::{Floats, Planted, System, operations, planted};
 use num_traits::{One, Zero};
 use proptest::prelude::*;
-use rug::Rational;
+use rug::{Float, Rational};
 use spring_mass_contact::number::{
     Ball, Exact, Exponential, Field, Logarithm, Mpfr, PRECISIONS, PositivePart, Real, ToExact,
 };
@@ -119,6 +119,14 @@ fn a_constant_may_outgrow_the_integers_it_was_made_of() {
         assert_eq!((constant.to_rational(), constant.precision()), (beyond.clone(), None));
         assert!(constant > most && constant - &one == most);
     }
+}
+
+/// As for the machine's floats.
+#[test]
+fn zero_is_written_without_a_sign() {
+    let zero = Mpfr::rounded(10, 0);
+    assert!((-&zero).as_float().is_some_and(Float::is_sign_negative));
+    assert_eq!([&zero, &-&zero].map(Mpfr::to_string), ["0", "0"]);
 }
 
 /// More would make it no better, and every operation slower.
