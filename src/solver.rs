@@ -264,7 +264,7 @@ fn iterate<T: Scalar>(
     let mut side = None;
     loop {
         let step = steps.step();
-        if !step.deflection.is_finite() || !steps.multiplier().is_finite() {
+        if !step.deflection.is_finite() {
             return Err(SolveError::OutOfRange { quantity: "deflection" });
         }
         each(&step);

@@ -52,7 +52,7 @@ pub struct Choice<T> {
 /// Which method with which penalty finds the deflection of a system to a tolerance, in m, over a plane that
 /// never pulls.
 ///
-/// - The penalty method with the softest penalty that will do, to two digits.
+/// - The penalty method with the softest penalty that will do, to two digits; where every one will do, 10 c.
 /// - The augmentation with the fewest steps that leave the multiplier its digits: with the hardest penalty of
 ///   which rounding takes no more from the multiplier than the tolerance does.
 ///
@@ -196,7 +196,6 @@ impl<T: Scalar + Text> Task<'_, T> {
         let hardest = limits.to.as_ref().map(|to| short(to, 1, Round::Down));
         let mut eps = match hardest.into_iter().chain(none_needed).min() {
             Some(eps) if eps > limits.from => eps,
-            _ if limits.from.is_zero() => self.usual(),
             _ => two_digits_above(&limits.from),
         };
         // So many are worth some digits of the multiplier.
@@ -284,5 +283,17 @@ impl<T: Scalar + Text> Task<'_, T> {
             relative_force_error: (!force.is_zero()).then(|| &force_error / force),
             force_error,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::last;
+
+    #[test]
+    fn the_last_is_found_wherever_it_is() {
+        for n in (0..100).chain([i32::MAX / 2, i32::MAX - 2]) {
+            assert_eq!(last(|k| k <= n), n);
+        }
     }
 }

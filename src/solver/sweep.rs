@@ -118,7 +118,7 @@ pub fn best_penalty<T: Scalar + ToExact>(
     if excess <= Exact::zero() {
         return Ok(None);
     }
-    let bits = 64 + (Exact::one() / unit_roundoff).digits() as u32;
+    let bits = 64 + unit_roundoff.digits() as u32;
     let total =
         Exact::from(Float::with_val(bits, total.as_rational()).sqrt().to_rational().unwrap_or_default());
     let best = system.c.nearest(&(excess / (total + s.c)));
