@@ -9,7 +9,7 @@ use spring_mass_contact::chapter::{SpringMass, augmented, penalty, rounding, sys
 use spring_mass_contact::number::{Exact, PositivePart, Text, ToExact};
 use spring_mass_contact::solver::{
     Advice, Choice, MAX_AUGMENTATIONS, Method, Outcome, Plane, Scalar, Solution, advise,
-    augmentations_promised, bits_needed, rounding_floor, solve,
+    augmentations_promised, bits_needed, penalty_for_penetration, rounding_floor, solve,
 };
 
 /// Does a run bring the deflection within the tolerance, and say so if it iterates?
@@ -35,6 +35,57 @@ fn with_few_bits_nothing_is_promised() {
             assert_eq!(augmentations_promised(&system, &eps, &tolerance, &eta), None, "{bits} bits");
         }
     }
+}
+
+/// The penalties that are advised.
+fn advised<T: Scalar + Text>(system: &SpringMass<T>, tolerance: &T) -> Vec<T> {
+    let choices = advise(system, tolerance).unwrap().choices;
+    choices.iter().filter_map(|choice| choice.method.penalty().cloned()).collect()
+}
+
+/// R = 2, c = 4: p = R/(c + ε) is 1/4 for ε = 4, and *less* for the next number of two digits. p = R/c = 1/2 already
+/// is less than 1.
+#[test]
+fn the_softest_penalty_has_two_digits() {
+    let system: SpringMass<Exact> = SpringMass { c: "4", m: "1", g: "10", l: "1", h: "3" }.parse().unwrap();
+    let softest = |tolerance| advised(&system, &tolerance)[0].clone();
+    assert_eq!(softest(int(1) / int(4)), int(41) / int(10));
+    assert_eq!(softest(int(1) / int(4) - Exact::power_of_two(-99)), int(41) / int(10));
+    assert_eq!(softest(int(1)), int(40));
+    let least = |tolerance| penalty_for_penetration(&system, &tolerance).unwrap();
+    assert_eq!([least(int(1) / int(4)), least(int(1) / int(2))], [Some(int(4)), None]);
+}
+
+/// Δ = 2: rounding takes up to 5 η Δ (1 + 2 η) from the deflection of (1.13), however hard the penalty, at grazing as
+/// well as beyond. A tolerance of as much is not promised, one of any more is.
+#[test]
+fn what_rounding_takes_at_most_is_no_tolerance() {
+    for g in [2, 3] {
+        let system = SpringMass { c: 1, m: 1, g, l: 1, h: 3 }.map(|x| int(*x).to_mpfr(10));
+        let eta = Exact::power_of_two(-10);
+        let taken = int(10) * &eta * (int(1) + int(2) * &eta);
+        let advised = |tolerance: Exact| advised(&system, &tolerance.to_mpfr(99)).len();
+        let more = &taken * (int(1) + Exact::power_of_two(-40));
+        assert_eq!([advised(taken), advised(more)], [0, 1], "g = {g}");
+    }
+}
+
+/// Where the mass hangs free every penalty method computes m g/c. The augmentation is promised above 5 η m g/c, and
+/// from ε = c on.
+#[test]
+fn what_hangs_free_takes_any_penalty() {
+    let system = SpringMass { c: 1, m: 1, g: 1, l: 0, h: 3 }.map(|x| int(*x).to_mpfr(10));
+    let floor = int(5) * Exact::power_of_two(-10);
+    let more = &floor * (int(1) + Exact::power_of_two(-40));
+    let advice = |tolerance: Exact| advise(&system, &tolerance.to_mpfr(99)).unwrap().choices;
+    let penalties = |choices: &[Choice<_>]| -> Vec<_> {
+        choices.iter().map(|choice| choice.penalties[0].as_ref().map(exact)).collect()
+    };
+    assert_eq!(penalties(&advice(floor)), [None, None]);
+    let choices = advice(more);
+    assert_eq!(choices[1].method.penalty().map(exact), Some(int(10)));
+    let [None, None, Some(softest)] = &penalties(&choices)[..] else { panic!("{choices:?}") };
+    assert!(int(1) < *softest && *softest < int(11) / int(10) + Exact::power_of_two(-90), "{softest}");
 }
 
 /// The same method with another penalty.
@@ -83,13 +134,16 @@ fn keeps_its_word<T: Float + Text>(
     let numbers = system.map(exact);
     let Advice { choices, floor, .. } = advise(system, &tolerance).unwrap();
     for choice in &choices {
-        let Choice { method, augmentations, penetration, force_error, .. } = choice;
+        let Choice { method, augmentations, penetration, force_error, relative_force_error, .. } = choice;
         let solution = reaches(system, method, &tol);
         prop_assert!(solution.is_ok(), "{choice:?} {solution:?} {case:?}");
         let solution = solution.unwrap();
         prop_assert_eq!(solution.augmentations, *augmentations);
         prop_assert_eq!(&numbers.l + exact(&solution.deflection) - &numbers.h, penetration.clone());
-        prop_assert_eq!(&(exact(&solution.contact_force) - pushing(&numbers)).abs(), force_error);
+        let force = pushing(&numbers);
+        prop_assert_eq!(&(exact(&solution.contact_force) - &force).abs(), force_error);
+        let parts = relative_force_error.as_ref().map(|parts| parts * &force);
+        prop_assert_eq!(parts, (!force.is_zero()).then(|| force_error.clone()));
         for eps in within(choice, like) {
             let found = reaches(system, &with_penalty_of(method, &eps), &tol);
             // Without another limit, that of the scalar.
@@ -174,6 +228,38 @@ fn hardest_is_not_too_hard<T: Float + Text>(case: &Case<Exact>, like: &T) -> Res
     Ok(())
 }
 
+/// The softest penalty: it is promised, and the next softer one, or for the augmentation one a ninth softer, is not.
+fn softest_is_soft_enough<T: Float + Text>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
+    let case = case.rounded(like);
+    let (numbers, tol, eta) = (case.system.map(exact), exact(&case.tolerance), unit_roundoff(like));
+    if system::reaction(&numbers) <= Exact::zero() {
+        return Ok(());
+    }
+    let off = |eps: &Exact| {
+        penalty::penetration(&numbers, eps) + rounding::deflection_error(&numbers, eps, &(int(1) / &eta))
+    };
+    let arrives = |eps: &Exact| {
+        augmentations_promised(&numbers, eps, &tol, &eta).is_some_and(|most| most <= MAX_AUGMENTATIONS)
+    };
+    for choice in advise(&case.system, &case.tolerance).unwrap().choices {
+        match (&choice.method, &choice.penalties[0]) {
+            (Method::Lagrange, from) => prop_assert_eq!(from, &None),
+            (Method::Penalty { .. }, None) => prop_assert!(off(&Exact::zero()) <= tol),
+            (Method::Penalty { .. }, Some(from)) => {
+                let softer = exact(&from.neighbours()[0]);
+                prop_assert!(off(&exact(from)) <= tol, "{choice:?} {case:?}");
+                prop_assert!(off(&softer) >= tol, "{choice:?} {case:?}");
+            }
+            (Method::Augmented { .. }, from) => {
+                let from = exact(from.as_ref().expect("a softest one"));
+                prop_assert!(arrives(&from), "{choice:?} {case:?}");
+                prop_assert!(!arrives(&(from * int(8) / int(9))), "{choice:?} {case:?}");
+            }
+        }
+    }
+    Ok(())
+}
+
 /// As many augmentations as are promised get there, at the floor as well as far above it.
 fn promised_augmentations_do<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
     let eta = unit_roundoff(like);
@@ -217,6 +303,7 @@ fn advice_holds<T: Float + Text>(case: &Case<Exact>, like: &T) -> Result<(), Tes
 in_every_float! {
     advice_holds from any_state;
     hardest_is_not_too_hard from in_contact;
+    softest_is_soft_enough from in_contact;
     promised_augmentations_do from in_contact;
 }
 

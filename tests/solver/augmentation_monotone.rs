@@ -494,3 +494,49 @@ fn a_count_of_many_digits() {
         augmentations_needed(&s, &int(4), &Exact::power_of_two(-1_000_000), &int(0), Plane::Unilateral);
     assert_eq!(needed, Integer::from(999_999));
 }
+
+/// R = −1, ε = 1: from λ₀ = 1/2 the mass hangs free at once, |r₀| = λ₀/ε = 1/2, and r₁ = 0. From λ₀ = −1 it hangs free as
+/// well, and |r₀| = −λ₀/ε = 1. Neither is *less* than a tolerance of as much.
+#[test]
+fn a_residual_of_the_tolerance_is_not_below_it() {
+    let system = SpringMass { c: 1, m: 1, g: 1, l: 0, h: 2 }.map(|x| int(*x));
+    for (start, tie) in [(int(1) / int(2), int(1) / int(2)), (int(-1), int(1))] {
+        for (tolerance, needed) in [(tie.clone(), 1), (tie + Exact::power_of_two(-99), 0)] {
+            let count = augmentations_needed(&system, &int(1), &tolerance, &start, Plane::Unilateral);
+            let method =
+                Method::Augmented { penalty: int(1), tolerance, max_augmentations: 9, start: start.clone() };
+            let answer = solve(&system, &method).unwrap();
+            assert_eq!((answer.outcome, answer.augmentations), (Outcome::Converged, Some(needed)));
+            assert_eq!(count, needed);
+        }
+    }
+}
+
+/// The bound of |u₅ − u*|, taken for the tolerance, is not below it.
+#[test]
+fn a_bound_of_the_tolerance_is_not_below_it() {
+    let s = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
+    let step = Augmentation::new(&s, &100.0).nth(5).unwrap();
+    let bound = f64::magnitude(&contact::penetration(&s.map(f64::enclose), &step.deflection.enclose()));
+    assert!(step.penetration < bound);
+    for (tolerance, arrives) in [(bound, 6), (bound.next_up(), 5)] {
+        let method = Method::Augmented { penalty: 100.0, tolerance, max_augmentations: 99, start: 0.0 };
+        let answer = solve(&s, &method).unwrap();
+        assert_eq!((answer.outcome, answer.augmentations), (Outcome::Converged, Some(arrives)));
+    }
+}
+
+/// From λ₁ on over a plane that holds is as from a λ₀ like it.
+#[test]
+fn the_plane_may_change_on_the_way() {
+    let s = SpringMass { c: 1, m: 1, g: -1, l: 0, h: 0 }.map(|x| int(*x));
+    let eps = int(1);
+    let mut steps = Augmentation::new(&s, &eps).with_multiplier(int(1));
+    let first = steps.step();
+    let lambda = steps.multiplier().clone();
+    let second = steps.over(Plane::Bilateral).step();
+    let mut anew = Augmentation::new(&s, &eps).over(Plane::Bilateral).with_multiplier(lambda).step();
+    assert_eq!((first.k, anew.k), (0, 0));
+    anew.k = 1;
+    assert_eq!(second, anew);
+}

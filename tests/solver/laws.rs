@@ -40,6 +40,14 @@ fn our_scalars_keep_the_laws() {
     laws::scalar(&rationals, exact).unwrap();
 }
 
+/// An open sign breaks no law, but costs time.
+#[test]
+fn the_sign_of_a_rational_is_known() {
+    for (x, sign) in [(-1, Ordering::Less), (0, Ordering::Equal), (1, Ordering::Greater)] {
+        assert_eq!(<Exact as Scalar>::sign(&(int(x) / int(7))), Some(sign));
+    }
+}
+
 /// An f64 that breaks the law of this number, as `Law` lists them; and none for the number 8.
 #[derive(Clone, Debug, PartialEq, PartialOrd)]
 struct Breaks<const LAW: usize>(f64);

@@ -8,7 +8,8 @@ use proptest::prelude::*;
 use spring_mass_contact::chapter::{SpringMass, system};
 use spring_mass_contact::number::{Exact, PositivePart};
 use spring_mass_contact::solver::{
-    Bounds, Interval, Method, Plane, Solution, SolveError, State, solve, solve_bilateral, within_reach,
+    Bounds, Interval, Method, Plane, Solution, SolveError, State, bits_needed, rounding_floor, solve,
+    solve_bilateral, within_reach,
 };
 
 /// A way to solve, and the plane that it supposes.
@@ -212,6 +213,15 @@ fn refused_as<T: Float>(name: &str, value: &T, case: &Case<T>, method: usize, po
     }
 }
 
+/// c u = m g = c H, so that u = H, the largest f64: no f64 bounds it from above.
+#[test]
+fn bounds_are_finite() {
+    let system = SpringMass { c: 1.0, m: 1.0, g: f64::MAX, l: 0.0, h: f64::MAX };
+    assert_eq!(State::of(&system), Ok(State::Grazing));
+    let out_of_range = SolveError::OutOfRange { quantity: "deflection" };
+    assert_eq!(solve(&system, &Method::Lagrange), Err(out_of_range));
+}
+
 /// The deflection from this λ₀ is the least f32, so that no f32 bounds its error: not the least bound is returned, since
 /// there is none.
 #[test]
@@ -256,11 +266,42 @@ fn what_is_within_reach_begins_at_the_drift() {
         let reaches = |tolerance: &Exact, eta: &Exact| within_reach(&system, &int(4), tolerance, eta);
         for bits in [24, 53, 200] {
             let eta = Exact::power_of_two(-bits);
-            let [drift, more] = [113, 114].map(|n| int(n) * &eta);
+            let drift = int(113) * &eta / (int(1) - int(8) * &eta);
+            let more = &drift * (int(1) + &eta);
             assert_eq!([reaches(&drift, &eta), reaches(&more, &eta)], [false, true], "{bits} bits");
         }
         let many = int(1000);
         assert_eq!([6, 7].map(|bits| reaches(&many, &Exact::power_of_two(-bits))), [false, true]);
         assert!(reaches(&Exact::power_of_two(-1000), &int(0)));
     }
+}
+
+/// With l = 0 and H = 7 the floor is (20 η · 14 + 7 η)/(1 − 8 η): 41/8 with 6 bits, the fewest, which a tolerance of as
+/// much is not above; and 287/120 with 7.
+#[test]
+fn a_tolerance_is_above_the_floor() {
+    let system = SpringMass { c: 1, m: 1, g: 8, l: 0, h: 7 }.map(|x| int(*x));
+    let floor = |eta: Exact| rounding_floor(&system, Plane::Unilateral, &eta);
+    let fewest = int(41) / int(8);
+    assert_eq!(floor(int(1) / int(64)), Some(fewest.clone()));
+    assert_eq!(floor(int(1) / int(63)), None);
+    let bits = |tolerance| bits_needed(&system, Plane::Unilateral, &tolerance);
+    assert_eq!([bits(fewest), bits(int(6))], [Some(7), Some(6)]);
+}
+
+/// u = m g/c = 1 and l = 0: 5 η far from the plane. Touching, the floor is 41 η H/(1 − 8 η), and it is added where
+/// H − 1 is no more than it and 10 η.
+#[test]
+fn the_floor_of_what_hangs_free_near_grazing_is_both() {
+    let eta = Exact::power_of_two(-10);
+    let touching = |h: &Exact| int(41) * &eta * h / (int(1) - int(8) * &eta);
+    let alone = int(5) * &eta;
+    let near = (int(1) + int(10) * &eta) / (int(1) - touching(&int(1)));
+    assert_eq!(&near - int(1), touching(&near) + int(2) * &alone);
+    let floor = |h: &Exact| {
+        let system = SpringMass { c: int(1), m: int(1), g: int(1), l: int(0), h: h.clone() };
+        rounding_floor(&system, Plane::Unilateral, &eta).unwrap()
+    };
+    assert_eq!(floor(&near), touching(&near) + &alone);
+    assert_eq!([floor(&(near + Exact::power_of_two(-99))), floor(&int(3))], [alone.clone(), alone]);
 }

@@ -246,6 +246,8 @@ fn bad_input_is_refused() {
             other => panic!("{from}..{to}, {points}: {other:?}"),
         }
     }
+    let refused = penalties(&int(1), &int(1), 2).unwrap_err();
+    assert_eq!(refused.to_string(), "last penalty 1: must be greater than the first");
     // They are told apart by a hundred digits, and no more.
     let beside = |n| int(1) + int(1) / power(&int(10), n);
     assert_eq!(penalties(&int(1), &beside(98), 3).unwrap().len(), 3);
