@@ -235,7 +235,9 @@ impl<T: Scalar + Text> Task<'_, T> {
 
     /// The choice with this penalty, if it reaches the tolerance, with the limits that do so too.
     fn choice(&self, limits: &Limits, eps: &Exact, method: impl Fn(T) -> Method<T>) -> Option<Choice<T>> {
-        let eps = self.tolerance.nearest(eps).ok()?;
+        // To the nearest, unless that is down to what is too soft.
+        let nearest = self.tolerance.nearest(eps).ok()?;
+        let eps = if exact(&nearest) > limits.from { nearest } else { self.directed(eps, true).ok()? };
         let choice = self.tried(method(eps.clone()))?;
         // In rationals the count is the run, whose numbers would become long.
         let counted = matches!(self.arithmetic, Arithmetic::Exact) && choice.augmentations.is_some();

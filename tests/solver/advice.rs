@@ -43,14 +43,14 @@ fn advised<T: Scalar + Text>(system: &SpringMass<T>, tolerance: &T) -> Vec<T> {
     choices.iter().filter_map(|choice| choice.method.penalty().cloned()).collect()
 }
 
-/// R = 2, c = 4: p = R/(c + ε) is 1/4 for ε = 4, and *less* for the next number of two digits. p = R/c = 1/2 already
-/// is less than 1.
+/// R = 2, c = 4: p = R/(c + ε) is 1/4 for ε = 4, and *less* for the next number of two digits; 25/101 for ε = 4.08.
+/// p = R/c = 1/2 already is less than 1.
 #[test]
 fn the_softest_penalty_has_two_digits() {
     let system: SpringMass<Exact> = SpringMass { c: "4", m: "1", g: "10", l: "1", h: "3" }.parse().unwrap();
     let softest = |tolerance| advised(&system, &tolerance)[0].clone();
     assert_eq!(softest(int(1) / int(4)), int(41) / int(10));
-    assert_eq!(softest(int(1) / int(4) - Exact::power_of_two(-99)), int(41) / int(10));
+    assert_eq!(softest(int(25) / int(101)), int(41) / int(10));
     assert_eq!(softest(int(1)), int(40));
     let least = |tolerance| penalty_for_penetration(&system, &tolerance).unwrap();
     assert_eq!([least(int(1) / int(4)), least(int(1) / int(2))], [Some(int(4)), None]);
@@ -185,13 +185,11 @@ fn hardest_is_not_too_hard<T: Float + Text>(case: &Case<Exact>, like: &T) -> Res
     // A float of so many bits is this much smaller at most.
     let rounded_down = int(1) - int(2) * &eta;
     let advice = advise(&case.system, &case.tolerance).unwrap();
-    let hardest = |choice: &Choice<T>| {
-        let [_, to] = &choice.penalties;
-        to.clone().filter(|to| Some(to) != choice.method.penalty())
-    };
     let r = system::reaction(&numbers);
     for choice in &advice.choices {
-        let Some(to) = hardest(choice) else { continue };
+        let Some(to) = choice.penalties[1].clone() else { continue };
+        // The method's own, if every one that will do grows by more.
+        let own = Some(&to) == choice.method.penalty();
         let eps = exact(&to);
         let solution = solve(&case.system, &with_penalty_of(&choice.method, &to)).unwrap();
         match &choice.method {
@@ -200,9 +198,12 @@ fn hardest_is_not_too_hard<T: Float + Text>(case: &Case<Exact>, like: &T) -> Res
                 let bound = |eps: &Exact| rounding::penalty_force_error(&numbers, eps, &precision);
                 let growth = bound(&eps) - bound(&Exact::zero());
                 prop_assert!(
-                    growth <= allowed && growth >= &allowed * &rounded_down,
+                    (own || growth <= allowed) && growth >= &allowed * &rounded_down,
                     "{growth} {allowed} {case:?}"
                 );
+                if own {
+                    continue;
+                }
                 let computed = exact(&penalty::contact_force(&case.system, &to, &solution.deflection));
                 let off = (computed - penalty::force_at_root(&numbers, &eps)).abs();
                 prop_assert!(off <= &allowed + bound(&Exact::zero()), "{off} {choice:?} {case:?}");
@@ -212,9 +213,12 @@ fn hardest_is_not_too_hard<T: Float + Text>(case: &Case<Exact>, like: &T) -> Res
                 let lengths = numbers.h.abs() + (&numbers.h - &numbers.l).abs();
                 let growth = int(11) * (&numbers.c + &eps) * &eta * lengths;
                 prop_assert!(
-                    growth <= allowed && growth >= &allowed * &rounded_down,
+                    (own || growth <= allowed) && growth >= &allowed * &rounded_down,
                     "{growth} {allowed} {case:?}"
                 );
+                if own {
+                    continue;
+                }
                 let Some(last) = solution.augmentations else { unreachable!("an augmentation") };
                 let lambda = exact(solution.multiplier.as_ref().unwrap());
                 let rho = augmented::contraction(&numbers, &eps);
