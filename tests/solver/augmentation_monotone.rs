@@ -10,7 +10,8 @@ use spring_mass_contact::chapter::{SpringMass, augmented, contact, penalty, roun
 use spring_mass_contact::number::{Exact, Mpfr, OrderedField, PositivePart};
 use spring_mass_contact::rug::Integer;
 use spring_mass_contact::solver::{
-    Augmentation, Iterate, Method, Outcome, Plane, Scalar, augmentations_needed, solve, solve_bilateral,
+    Augmentation, Iterate, Method, Outcome, Plane, Scalar, State, augmentations_needed, solve,
+    solve_bilateral,
 };
 
 fn iterate<'a, T: OrderedField>(case: &'a Case<T>, plane: Plane) -> Augmentation<'a, T> {
@@ -512,18 +513,26 @@ fn a_residual_of_the_tolerance_is_not_below_it() {
     }
 }
 
-/// The bound of |u₅ − u*|, taken for the tolerance, is not below it.
+/// The bound of |u₅ − u*|, taken for the tolerance, is not below it; nor is that of what hangs free, whose u = 1/3 is
+/// rounded, and whose residual is 0.
 #[test]
 fn a_bound_of_the_tolerance_is_not_below_it() {
     let s = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
     let step = Augmentation::new(&s, &100.0).nth(5).unwrap();
     let bound = f64::magnitude(&contact::penetration(&s.map(f64::enclose), &step.deflection.enclose()));
     assert!(step.penetration < bound);
-    for (tolerance, arrives) in [(bound, 6), (bound.next_up(), 5)] {
+    let solved = |s: &SpringMass<f64>, tolerance| {
         let method = Method::Augmented { penalty: 100.0, tolerance, max_augmentations: 99, start: 0.0 };
-        let answer = solve(&s, &method).unwrap();
-        assert_eq!((answer.outcome, answer.augmentations), (Outcome::Converged, Some(arrives)));
-    }
+        let answer = solve(s, &method).unwrap();
+        (answer.outcome, answer.augmentations)
+    };
+    assert_eq!(solved(&s, bound), (Outcome::Converged, Some(6)));
+    assert_eq!(solved(&s, bound.next_up()), (Outcome::Converged, Some(5)));
+    let s = SpringMass { c: 3.0, m: 1.0, g: 1.0, l: 0.0, h: 1.0 };
+    let off = structure::deflection(&s).enclose() - structure::deflection(&s.map(f64::enclose));
+    let bound = f64::magnitude(&off);
+    assert_eq!(solved(&s, bound), (Outcome::Stagnated, Some(0)));
+    assert_eq!(solved(&s, bound.next_up()), (Outcome::Converged, Some(0)));
 }
 
 /// From λ₁ on over a plane that holds is as from a λ₀ like it.
@@ -539,4 +548,25 @@ fn the_plane_may_change_on_the_way() {
     assert_eq!((first.k, anew.k), (0, 0));
     anew.k = 1;
     assert_eq!(second, anew);
+}
+
+/// The mass hangs free, but 8 bits make 213 of u* = 22464/106 = 211.9…, which is beyond the plane at 211.97…: λ grows
+/// from 0, and u falls to 212 and below. The first u, from a λ₀ < 0, is free and 213, within half an ulp each of product
+/// and quotient, 64/106 + 1/2: nearer than what the last two are known to be.
+#[test]
+fn a_floor_is_of_the_first_deflection_too() {
+    let system = SpringMass { c: "106", m: "117", g: "192", l: "-213", h: "-131/128" };
+    let system: SpringMass<Exact> = system.parse().unwrap();
+    let system = system.map(|x| x.to_mpfr(8));
+    let [penalty, tolerance, start] = [3392, 1, -1 << 20].map(|n| int(n).to_mpfr(8));
+    let steps = Augmentation::new(&system, &penalty).with_multiplier(start.clone());
+    let deflections: Vec<_> = steps.take(99).map(|step| exact(&step.deflection)).collect();
+    let method = Method::Augmented { penalty: penalty.clone(), tolerance, max_augmentations: 99, start };
+    let answer = solve(&system, &method).unwrap();
+    assert_eq!((answer.state, answer.outcome), (State::Separated, Outcome::Stagnated));
+    let last = answer.augmentations.unwrap() as usize;
+    assert_eq!((&deflections[0], deflections[last - 1] <= int(212)), (&int(213), true));
+    assert!(exact(&answer.deflection) == deflections[last] && deflections[last] <= int(212));
+    let floor = exact(&answer.floor.unwrap());
+    assert!(int(64) / int(106) + int(1) / int(2) <= floor && floor < int(2), "{floor}");
 }
