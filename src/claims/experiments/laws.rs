@@ -1,7 +1,7 @@
 //! The laws of rounding in floats: what is claimed of what is rounded, with the numbers that are computed.
 
 use super::super::{Case, claims, given, symbols};
-use super::{Experiment, MOST_STEPS, STEPS, Trial, check, exact};
+use super::{Experiment, MOST_STEPS, STEPS, Trial, UNITS, check, exact, power_of_two};
 use crate::chapter::{augmented, structure, system};
 use crate::formula::claim::{MEMBERS, POWER, PRECISION, SCALES};
 use crate::formula::statement::{Sequence, Statement};
@@ -10,25 +10,27 @@ use crate::number::tree::{Step, piecewise};
 use crate::number::{Exact, PositivePart, Real, ToExact, Tree};
 use crate::solver::{Augmentation, Plane, Scalar};
 use num_traits::{One, Zero};
+use std::cmp::Ordering;
 
 /// An experiment for each claim that speaks of what is rounded: it holds of what is computed.
 pub(super) fn laws<T: Scalar + Real + ToExact>() -> Vec<Experiment<T>> {
-    let experiment = |claim: &'static Claim| {
-        let statement = Statement::of(claim);
-        // Where λ repeats has to be found.
-        let repeats = claim.given.contains(&given().computed_repeats);
-        let of_rounding = vanishes(&claim.kind);
-        Experiment {
-            equation: claim.equation,
-            name: claim.name,
-            given: claim.given.iter().filter(|given| is_of_parameters(given)).cloned().collect(),
-            check: check(move |case: &Case<T>| match law(&statement, &claim.kind, repeats, case) {
-                Some(Trial::Within { error, bound }) if !of_rounding => Trial::Decided(error <= bound),
-                trial => trial.unwrap_or(Trial::Undecided),
-            }),
-        }
-    };
     claims().filter(|claim| claim.rounds()).map(experiment).collect()
+}
+
+fn experiment<T: Scalar + Real + ToExact>(claim: &Claim) -> Experiment<T> {
+    let (statement, kind) = (Statement::of(claim), claim.kind.clone());
+    // Where λ repeats has to be found.
+    let repeats = claim.given.contains(&given().computed_repeats);
+    let of_rounding = vanishes(&kind);
+    Experiment {
+        equation: claim.equation,
+        name: claim.name,
+        given: claim.given.iter().filter(|given| is_of_parameters(given)).cloned().collect(),
+        check: check(move |case: &Case<T>| match law(&statement, &kind, repeats, case) {
+            Some(Trial::Within { error, bound }) if !of_rounding => Trial::Decided(error <= bound),
+            trial => trial.unwrap_or(Trial::Undecided),
+        }),
+    }
 }
 
 /// Can numbers be drawn so that it holds? Where something is computed, or how finely, is seen in each trial.
@@ -88,8 +90,8 @@ impl<'a, T: Scalar + Real + ToExact> Floats<'a, T> {
     fn of(case: &'a Case<T>) -> Option<Self> {
         let system = &case.system;
         let eta = [&system.c, &system.g, &system.l, &system.h, &case.eps, &case.u];
-        let coarsest = |a: T, b: T| if a < b { b } else { a };
-        let eta = eta.into_iter().map(Real::unit_roundoff).reduce(coarsest)?;
+        let order = |a: &T, b: &T| a.partial_cmp(b).unwrap_or(Ordering::Equal);
+        let eta = eta.into_iter().map(Real::unit_roundoff).max_by(order)?;
         let precision = Exact::one() / exact(&eta)?;
         let least = T::underflow_unit() / eta;
         Some(Floats { case, precision, least, computed: Vec::new(), power: Exact::one() })
@@ -97,11 +99,8 @@ impl<'a, T: Scalar + Real + ToExact> Floats<'a, T> {
 
     /// The number for a symbol, as a float.
     fn number(&self, name: &'static str) -> T {
-        // Any powers of two.
-        let scale =
-            |n: i32| (0..n.abs()).fold(T::one(), |x, _| if n < 0 { x / T::int(2) } else { x * T::int(2) });
         match SCALES.iter().position(|scale| *scale == name) {
-            Some(i) => scale([3, -2, 5][i]),
+            Some(i) => power_of_two(UNITS[i]),
             None => {
                 let own = self.computed.iter().rev().find(|(own, _)| *own == name);
                 own.map_or_else(|| self.case.named(name), |(_, x)| x.clone())
@@ -225,3 +224,6 @@ fn worse(a: Trial, b: Trial) -> Trial {
         _ => b,
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,133 @@
+//! A law that does not hold is seen, and what is no trial of one decides nothing.
+
+use super::*;
+use crate::chapter::SpringMass;
+use crate::claims::Var;
+use crate::formula::claim::{equal, non_negative, within};
+use crate::number::Mpfr;
+
+fn int(n: i32) -> Tree {
+    Tree::from(n)
+}
+
+/// R = 2⁻²⁴ in f32, where 1 + R is rounded to 1.
+fn case() -> Case<f32> {
+    let tiny = 2f32.powi(-24);
+    let system = SpringMass { c: 1.0, m: tiny, g: 1.0, l: 1.0, h: 1.0 };
+    Case { system, eps: 1.0, lambda: 0.0, u: tiny, q: 0.5, ..Case::of(|_| 1.0) }
+}
+
+fn tried(claim: &Claim) -> Trial {
+    (experiment(claim).check)(&case())
+}
+
+#[test]
+fn what_exceeds_its_bound_is_seen() {
+    let x = symbols();
+    let sum = &x.system.l + &x.u;
+    let error = || sum.rounded() - &sum;
+    let eta = || int(1) / Tree::symbol(PRECISION);
+    let tiny = Exact::power_of_two(-24);
+    // A bound that vanishes with η is measured, and any other is met or not.
+    for (times, bound) in [(1, tiny.clone()), (3, Exact::from(3) * &tiny)] {
+        let law = within("law", [], error(), int(times) * eta());
+        assert_eq!(tried(&law), Trial::Within { error: tiny.clone(), bound });
+    }
+    for (bound, holds) in [(int(1), true), (eta() + int(1), true), (int(1) / int(1 << 30), false)] {
+        let trial = tried(&within("law", [], error(), &bound));
+        assert_eq!(trial, Trial::Decided(holds), "{bound}");
+    }
+    let lost = || sum.rounded() - int(1);
+    assert_eq!(tried(&equal("lost", [], lost(), 0)), Trial::Decided(true));
+    assert_eq!(tried(&equal("kept", [], lost(), &x.u)), Trial::Decided(false));
+    assert_eq!(tried(&non_negative("sign", [], lost())), Trial::Decided(true));
+    assert_eq!(tried(&non_negative("sign", [], lost() - &x.u)), Trial::Decided(false));
+}
+
+#[test]
+fn of_what_is_supposed_only_parameters_are_drawn() {
+    let given = given();
+    let (parameter, computed, interval) = (&given.stiffness, &given.computed_inside, &given.decay);
+    let bits = &given.fine_enough;
+    let law = within("law", [parameter, computed, interval, bits], symbols().u.rounded(), int(1));
+    assert_eq!(experiment::<f32>(&law).given, [parameter.clone()]);
+    // And what is not drawn is looked at: fl(l + u − H) ≥ 0 here, and not where l = 0.
+    let supposing =
+        |x: &Case<f32>| (experiment(&within("law", [computed], symbols().u.rounded(), int(1))).check)(x);
+    let mut apart = case();
+    apart.system.l = 0.0;
+    assert_eq!((supposing(&case()), supposing(&apart)), (Trial::Decided(true), Trial::Undecided));
+}
+
+#[test]
+fn a_number_that_loses_bits_at_the_end_of_the_range_is_none() {
+    let Case { system: s, u, .. } = symbols();
+    let with = |c: f64, m: f64| {
+        let system = SpringMass { c, m, g: 1.0, l: 1.0, h: 1.0 };
+        Case { system, ..Case::of(|_| 0.0) }
+    };
+    let computed = |tree: &Tree, c: i32, m: i32| {
+        let case = with(power_of_two(c), power_of_two(m));
+        Floats::of(&case).unwrap().compute(tree)
+    };
+    let least = -1074 + 53;
+    let (product, quotient) = (&s.c * &s.m, &s.c / &s.m);
+    assert_eq!(computed(&product, least, 0), Some(power_of_two(least)));
+    assert_eq!(computed(&quotient, least, 0), Some(power_of_two(least)));
+    assert_eq!([computed(&product, least, -1), computed(&quotient, least, 1)], [None, None]);
+    assert_eq!([computed(&product, 1000, 1000), computed(&quotient, 1000, -1000)], [None, None]);
+    // 0 times something is no underflow, and neither is a difference.
+    assert_eq!(computed(&(u * &s.c), 0, 0), Some(0.0));
+    assert_eq!(computed(&(u / &s.c), 0, 0), Some(0.0));
+    assert_eq!(computed(&(&s.c - &s.m), least, least - 1), Some(power_of_two(least - 1)));
+}
+
+#[test]
+fn the_coarsest_number_is_the_precision() {
+    for coarse in [Var::C, Var::G, Var::L, Var::H, Var::Eps, Var::U] {
+        let bits = |var| if var == coarse { 24 } else { 53 };
+        let case = Case::of(|var| Mpfr::rounded(bits(var), 1));
+        assert_eq!(Floats::of(&case).unwrap().precision, Exact::power_of_two(24), "{coarse:?}");
+    }
+}
+
+#[test]
+fn a_power_is_one_of_a_sequence_that_is_followed() {
+    let case = case();
+    let mut floats = Floats::of(&case).unwrap();
+    let q = Tree::symbol(POWER);
+    assert_eq!(floats.value(&q), exact(&0.5f32));
+    floats.computed = vec![(MEMBERS[0], 0.0)];
+    assert_eq!(floats.value(&q), Some(Exact::one()));
+}
+
+/// With ε = c each step gains a bit, so λ repeats after some more than 53 steps; with a small ε nearly nothing
+/// is gained.
+#[test]
+fn where_the_multiplier_repeats_is_found_or_is_not() {
+    let Case { system: s, eps, lambda, u, .. } = symbols();
+    let system = SpringMass { c: 3.0, m: 1.0, g: 10.1, l: 1.0, h: 1.3 };
+    let mut case: Case<f64> = Case { system, eps: 3.0, ..Case::of(|_| 0.0) };
+    let mut floats = Floats::of(&case).unwrap();
+    assert_eq!(floats.find_repeat(), Some(()));
+    let next = floats.compute(&augmented::update(s, eps, lambda, u)).unwrap();
+    assert_eq!(next, floats.number("λ"));
+    assert!(next > 0.0);
+    case.eps = 1e-6;
+    assert_eq!(Floats::of(&case).unwrap().find_repeat(), None);
+}
+
+#[test]
+fn the_larger_share_is_the_worse() {
+    let of = |error: i32, bound: i32| super::within(Exact::from(error), Exact::from(bound));
+    let shares = [of(1, 2), of(1, 4), of(3, 4), of(5, 8), of(3, 16)];
+    let worst = |a: &Trial, b: &Trial| worse(a.clone(), b.clone());
+    let found = shares.iter().fold(Trial::Undecided, |worst_so_far, share| worst(&worst_so_far, share));
+    assert_eq!(found, of(3, 4));
+    for (less, more) in
+        [(of(1, 4), of(1, 2)), (of(3, 8), of(1, 2)), (of(3, 16), of(1, 4)), (of(0, 1), of(1, 9))]
+    {
+        assert_eq!((worst(&less, &more), worst(&more, &less)), (more.clone(), more));
+    }
+    assert_eq!(worst(&of(1, 2), &of(2, 4)), of(1, 2), "the first of equals");
+}
