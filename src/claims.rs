@@ -119,13 +119,8 @@ pub fn entry(equation: &str) -> Option<&'static Entry> {
 /// assert_eq!(entry_of("penalty::deflection").unwrap().equation, "1.13");
 /// ```
 pub fn entry_of(function: &str) -> Option<&'static Entry> {
-    let named = |first: bool| {
-        entries().iter().find(|entry| match entry.functions.as_slice() {
-            [own, ..] if first => *own == function,
-            all => !first && all.contains(&function),
-        })
-    };
-    named(true).or_else(|| named(false))
+    let own = entries().iter().find(|entry| entry.functions.first() == Some(&function));
+    own.or_else(|| entries().iter().find(|entry| entry.functions.contains(&function)))
 }
 
 /// Where a number stands among the entries: what is sorted by it is in the chapter's order.

@@ -97,7 +97,28 @@ impl Entry {
 
 #[cfg(test)]
 mod tests {
-    use crate::claims::entries;
+    use crate::claims::{entries, entry, entry_of, given};
+
+    #[test]
+    fn a_function_is_of_the_entry_it_is_first_in_or_else_of_one_that_names_it() {
+        for function in entries().iter().flat_map(|entry| &entry.functions) {
+            let own = entries().iter().any(|entry| entry.functions.starts_with(&[*function]));
+            let found = entry_of(function).unwrap();
+            assert_eq!(found.functions[0] == *function, own, "{function}: {}", found.label());
+            assert!(found.functions.contains(function));
+        }
+        assert!(entry_of("penalty::nothing").is_none());
+    }
+
+    #[test]
+    fn an_entry_says_what_it_supposes() {
+        let supposing = entries().iter().filter(|entry| entry.given.contains(&given().stiffness));
+        for entry in supposing.chain([entry("1.13").unwrap()]) {
+            assert!(entry.hypotheses().contains(&"c > 0".to_string()), "{}", entry.label());
+        }
+        let nothing = entries().iter().find(|entry| entry.given.is_empty()).unwrap();
+        assert!(nothing.hypotheses().is_empty());
+    }
 
     #[test]
     fn outside_its_holes_an_equation_has_no_formula() {
