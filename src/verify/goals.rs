@@ -133,6 +133,14 @@ mod tests {
     }
 
     #[test]
+    fn a_bound_is_met_or_not_on_either_side() {
+        for of in [x("u"), -x("u")] {
+            assert!(holds(Kind::Within(of.clone(), int(3))) && holds(Kind::Within(of.clone(), int(2))));
+            assert!(!holds(Kind::Within(of.clone(), int(1))) && !holds(Kind::Within(of, int(-3))));
+        }
+    }
+
+    #[test]
     fn a_limit_is_as_far_as_its_rate_says_on_either_side() {
         let limit = |of, rate| holds(Kind::Limit { of, by: "t", to: x("u"), rate });
         for of in [x("u") + int(3), x("u") - int(3)] {

@@ -33,3 +33,33 @@ pub fn graph(entries: &[&Entry]) -> String {
     }
     text + "}\n"
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::claims::entry;
+    use crate::formula::claim::equal;
+    use crate::number::Tree;
+
+    #[test]
+    fn a_graph_says_what_is_proved_and_what_is_not() {
+        let mut own = entry("1.13").unwrap().clone();
+        let claim = |name, right: i32| equal(name, [], Tree::from(1) + Tree::from(1), right);
+        let mut with = |claims: &[(&'static str, i32)]| {
+            own.claims = claims.iter().map(|(name, right)| claim(name, *right)).collect();
+            graph(&[&own])
+        };
+        assert!(with(&[("right", 2)]).contains("\\n1 proved\", color = darkgreen"));
+        assert!(with(&[("right", 2), ("wrong", 3), ("worse", 4)]).contains("\\n2 NOT PROVED\", color = red"));
+        assert!(with(&[]).contains("\\nchecked in numbers\", color = gray"), "there are experiments");
+        assert!(graph(&[entry("Fig. 1.1").unwrap()]).contains("\\ngiven\", color = gray"));
+    }
+
+    #[test]
+    fn arrows_lead_from_what_is_shown() {
+        let own = entry("1.6").unwrap();
+        assert!(own.follows_from.contains(&"1.5"));
+        assert!(!graph(&[own]).contains("->"));
+        assert_eq!(graph(&[own, entry("1.5").unwrap()]).matches("->").count(), 1);
+    }
+}
