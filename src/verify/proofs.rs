@@ -151,3 +151,66 @@ impl Proofs {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::claims::given;
+    use crate::formula::statement::{Goal, Says};
+    use crate::number::Tree;
+    use crate::proof::controls::{Without, changes};
+
+    fn rate() -> Statement {
+        statements().into_iter().find(|s| (s.equation, s.name) == ("1.13", "rate")).unwrap()
+    }
+
+    /// c = 0, in the place of what is claimed.
+    fn wrong() -> Statement {
+        let says = Says::Equal(Tree::symbol("c"), Tree::from(0));
+        Statement { name: "wrong", goals: vec![Goal::of_claim("", says)], ..rate() }
+    }
+
+    fn needless(statement: &Statement) -> Dropped {
+        let Statement { equation, name, .. } = *statement;
+        Dropped { equation, name, given: given().stiffness.clone(), without: Without::StillTrue }
+    }
+
+    /// One claim that is not proved, one change that is not noticed, one hypothesis that is not needed.
+    #[test]
+    fn one_of_many_that_does_not_hold_is_enough() {
+        let change = changes(&[rate()], registry())[0];
+        let hold = |statements: &[Statement], effect, dropped| {
+            let controls = Controls { changes: vec![(change, effect)], dropped };
+            let claims = statements.iter().cloned().map(Proved::of).collect();
+            Proofs { claims, controls, ..Proofs::default() }.hold()
+        };
+        assert!(hold(&[rate()], Effect::Unchanged, vec![]));
+        assert!(!hold(&[], Effect::Unchanged, vec![]));
+        assert!(!hold(&[wrong()], Effect::Unchanged, vec![]));
+        assert!(!hold(&[rate(), wrong()], Effect::Unchanged, vec![]));
+        assert!(!hold(&[rate()], Effect::Unnoticed, vec![]));
+        assert!(!hold(&[rate()], Effect::Unchanged, vec![needless(&rate())]));
+    }
+
+    #[test]
+    fn a_claim_has_its_own_hypotheses() {
+        let dropped = vec![needless(&wrong()), needless(&rate())];
+        let proofs = Proofs { controls: Controls { changes: vec![], dropped }, ..Proofs::default() };
+        let names: Vec<_> = proofs.dropped(&rate()).map(|dropped| dropped.name).collect();
+        assert_eq!(names, ["rate"]);
+        let proved = Proved::of(Statement { hypotheses: vec![given().penalty.clone()], ..wrong() });
+        assert_eq!((proved.hypotheses(), proved.status()), (vec!["ε > 0".to_string()], "refuted"));
+    }
+
+    /// With all that the claim speaks of, as a text.
+    #[cfg(feature = "serde")]
+    #[test]
+    fn json_shows_where_a_claim_does_not_hold() {
+        let proofs = Proofs { claims: vec![Proved::of(wrong())], ..Proofs::default() };
+        let json = serde_json::to_value(&proofs).unwrap();
+        let claim = &json["equations"][0]["claims"][0];
+        assert_eq!(claim["status"], "refuted");
+        let c = claim["counterexample"]["c"].as_str().unwrap();
+        assert!(c.parse::<crate::number::Exact>().unwrap() > crate::number::Exact::from(0), "{c}");
+    }
+}

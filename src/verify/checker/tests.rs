@@ -90,3 +90,50 @@ fn one_case_that_fails_decides_and_without_a_decided_case_nothing_is() {
     assert_eq!((failed.status, failed.why.as_deref()), (Status::Failed, Some("why")));
     assert!(failed.counterexample.is_some());
 }
+
+#[test]
+fn a_bound_is_shown_as_it_is() {
+    let difference = perhaps_zero();
+    assert!(*difference.radius() > 0.0);
+    assert_eq!(Floats(0.0).bound(&difference).parse(), Ok(*difference.radius()));
+    assert_eq!(Exactly.bound(&Exact::from(3)), "3");
+}
+
+/// In one case, and in many: of equals the first.
+#[test]
+fn the_worst_share_is_measured() {
+    let third = Ball::exactly(1.0) / Ball::exactly(3.0);
+    let [less, more] = [1, 3].map(|ulps| Ball::exactly(1.0 / 3.0 + f64::from(ulps) * 2f64.powi(-54)));
+    let values = [third, less, more, Ball::exactly(1.0)].map(Some);
+    let judge = Checker::with(Floats(0.0), &[], Vec::new());
+    let measured = |asked: &[Asked]| match judge.verdict(asked, &values) {
+        Verdict::Decided { measured: Some((ratio, bound)), .. } => (ratio, bound()),
+        _ => panic!("nothing is measured"),
+    };
+    let (small, large, none) = (Asked::Equal(0, 1), Asked::Equal(0, 2), Asked::Equal(3, 3));
+    assert!(measured(&[small]).0 < measured(&[large]).0);
+    assert_eq!(measured(&[small, large]), measured(&[large]));
+    assert_eq!(measured(&[large, small]), measured(&[large]));
+    let own = Asked::Equal(0, 0);
+    let (of_own, of_none) = (measured(&[own]), measured(&[none]));
+    assert_eq!((of_own.0, of_none.0), (0.0, 0.0));
+    assert_ne!(of_own.1, of_none.1);
+    assert_eq!((measured(&[own, none]), measured(&[none, own])), (of_own, of_none));
+
+    let case = super::super::cases::case(1, 0, &[]).unwrap();
+    let tally = |all: &[(f64, &'static str)]| {
+        let mut tally = Tally::default();
+        for (ratio, bound) in all.iter().copied() {
+            let measured: (f64, Box<dyn Fn() -> String>) = (ratio, Box::new(move || bound.to_string()));
+            tally.record(&case, Verdict::Decided { holds: true, measured: Some(measured) });
+        }
+        tally
+    };
+    let worst = |tally: Tally| tally.worst.map(|(_, bound)| bound);
+    assert_eq!(worst(tally(&[(0.25, "a"), (0.5, "b"), (0.5, "c"), (0.25, "d")])), Some("b".to_string()));
+    for (later, found) in [(0.25, "own"), (0.5, "own"), (0.75, "later")] {
+        let mut own = tally(&[(0.5, "own")]);
+        own.add(tally(&[(later, "later")]));
+        assert_eq!(worst(own), Some(found.to_string()));
+    }
+}
