@@ -185,6 +185,10 @@ fn series_root<T: Scalar + Real + ToExact>(
     let Ok(root) = root(&x.system, &x.eps, &higher) else { return Trial::Undecided };
     let residual =
         |p: T| exact(&p).map(|p| penalty::series_residual(&system, &eps, std::slice::from_ref(&eps4), &p));
+    // A zero without a precision has no neighbours.
+    if root.is_zero() {
+        return residual(root).map_or(Trial::Undecided, |at| Trial::Decided(at.is_zero()));
+    }
     match (residual(Real::next_down(root.clone())), residual(Real::next_up(root))) {
         (Some(below), Some(above)) => Trial::Decided(below < Exact::zero() && Exact::zero() < above),
         _ => Trial::Undecided,

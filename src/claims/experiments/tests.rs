@@ -105,6 +105,7 @@ fn a_root_with_no_change_of_sign_is_seen() {
         }
         assert_eq!(series_root(&x, |_, _, _| Ok(f64::MAX)), Trial::Undecided);
     }
+    assert_eq!(series_root(&case(8), right), RIGHT);
     // Beside an exact root no sign changes.
     for wrong in [f64::next_up, f64::next_down] {
         assert_eq!(series_root(&case(10), |s, eps, higher| right(s, eps, higher).map(wrong)), WRONG);
