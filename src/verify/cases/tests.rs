@@ -1,0 +1,277 @@
+//! What is drawn is what the profiles say, and what is bent meets its hypotheses.
+
+use super::*;
+use crate::chapter::SpringMass;
+use crate::claims::{Given, claims, exact_experiments, float_experiments};
+use crate::number::{Real, ToExact};
+use std::cmp::Ordering;
+use std::collections::{BTreeMap, BTreeSet, HashSet};
+
+/// As many as are drawn by default.
+const CASES: u64 = 1000;
+
+/// All hypotheses under which something is claimed.
+fn groups() -> BTreeMap<String, Vec<Hypothesis>> {
+    // What is rounded is tried by experiments.
+    let claims = claims().filter(|claim| !claim.rounds()).map(|claim| claim.given.clone());
+    let floats = float_experiments::<f64>().into_iter();
+    let rationals = exact_experiments().into_iter().map(|experiment| experiment.given);
+    let experiments = floats.map(|experiment| experiment.given).chain(rationals);
+    let text = |given: &[Hypothesis]| given.iter().map(|h| format!("{h}, ")).collect();
+    claims.chain(experiments).map(|given| (text(&given), given)).collect()
+}
+
+fn drawn(given: &[Hypothesis]) -> impl Iterator<Item = Case<Exact>> {
+    (0..CASES).filter_map(move |index| case(1, index, given))
+}
+
+/// Seventeen coordinates leave nothing to chance: of the integers from 1 to 9 alone there are 9¹⁷ cases.
+#[test]
+fn no_case_is_drawn_twice() {
+    for (group, given) in groups() {
+        let mut seen = HashSet::new();
+        for case in drawn(&given) {
+            let coordinates: Vec<_> =
+                Var::ALL.iter().map(|var| case.get(*var).as_rational().clone()).collect();
+            assert!(seen.insert(coordinates), "{group}: {case:?}");
+        }
+    }
+}
+
+#[test]
+fn cases_reach_all_that_hypotheses_allow_and_no_more() {
+    for (group, given) in groups() {
+        let cases: Vec<_> = drawn(&given).collect();
+        for hypothesis in &given {
+            let sign = |case| value(hypothesis, case).unwrap().cmp(&Exact::zero());
+            let signs: BTreeSet<_> = cases.iter().map(sign).collect();
+            let all = [Ordering::Less, Ordering::Equal, Ordering::Greater];
+            let allowed = all.into_iter().filter(|sign| hypothesis.relation.admits(*sign)).collect();
+            assert_eq!(signs, allowed, "{group}: {hypothesis}");
+        }
+    }
+}
+
+/// How often each parameter is subnormal, then how often m g is, in cases that these floats can hold.
+fn subnormals<T: Real + ToExact>(like: &T) -> [usize; 7] {
+    let eta = like.unit_roundoff().to_exact().unwrap();
+    // The smallest normal number is 1/(2 η) units.
+    let normal = T::underflow_unit().to_exact().unwrap() / (Exact::from(2) * eta);
+    let subnormal = |x: &Exact| !x.is_zero() && x.abs() < normal;
+    let mut found = [0; 7];
+    for case in drawn(&[given().stiffness.clone(), given().penalty.clone()]) {
+        let Ok(read) =
+            Case::try_of(|var| like.nearest(case.get(var)).map_err(drop)?.to_exact().map_err(drop))
+        else {
+            continue;
+        };
+        let SpringMass { c, m, g, l, h } = &read.system;
+        let weight = &(m * g);
+        for (count, x) in found.iter_mut().zip([c, m, g, l, h, &read.eps, weight]) {
+            *count += usize::from(subnormal(x));
+        }
+    }
+    found
+}
+
+#[test]
+fn each_parameter_is_subnormal_in_some_cases() {
+    for found in [subnormals(&1f32), subnormals(&1f64)] {
+        assert!(found.iter().all(|n| *n >= 5), "{found:?}");
+    }
+}
+
+#[test]
+fn nearly_every_case_can_be_bent_to_every_hypothesis() {
+    let Given {
+        stiffness,
+        penalty,
+        tolerance,
+        enough,
+        in_equilibrium,
+        next_in_equilibrium,
+        within_tolerance,
+        active,
+        idle,
+        ..
+    } = given();
+    // What is computed, or how finely, is not drawn.
+    let drawn = |h: &&Hypothesis| !h.value.rounds() && h.interval().is_none() && **h != given().fine_enough;
+    for hypothesis in given().all().filter(drawn) {
+        let needs = match hypothesis {
+            h if h == enough => vec![tolerance],
+            h if h == next_in_equilibrium => vec![stiffness, penalty, in_equilibrium],
+            h if h == within_tolerance => vec![stiffness, penalty],
+            h if h == active || h == idle => vec![stiffness],
+            _ => vec![],
+        };
+        let given: Vec<_> = needs.into_iter().chain([hypothesis]).cloned().collect();
+        let planted = (0..1000).filter(|i| case(1, *i, &given).is_some()).count();
+        assert!(planted > 950, "{hypothesis}: {planted} of 1000");
+    }
+}
+
+#[test]
+fn a_seed_draws_its_own_cases_and_always_the_same() {
+    let draw = |seed| (0..20).map(|i| case(seed, i, &[given().stiffness.clone()])).collect::<Vec<_>>();
+    assert_eq!(draw(1), draw(1));
+    assert_ne!(draw(1), draw(2));
+}
+
+#[test]
+fn grazing_is_met_exactly_and_on_both_sides() {
+    let grazing = PROFILES.iter().position(|p| *p == Profile::Grazing).unwrap() as u64;
+    let mut signs = std::collections::BTreeSet::new();
+    for i in 0..100 {
+        let case = case(1, grazing + i * PROFILES.len() as u64, &[given().stiffness.clone()]).unwrap();
+        signs.insert(value(&given().contact, &case).unwrap().cmp(&Exact::zero()));
+    }
+    assert_eq!(signs.len(), 3);
+}
+
+fn draw(profile: Profile) -> Draw {
+    Draw { random: Rand64::new(5), profile, small: Small::Products }
+}
+
+#[test]
+fn both_ends_of_a_range_are_drawn() {
+    let mut draw = draw(Profile::Plain);
+    let found: BTreeSet<_> = (0..100).map(|_| draw.between(-1, 2)).collect();
+    assert_eq!(found, BTreeSet::from([-1, 0, 1, 2]));
+}
+
+/// How large they are at least and at most, as a power of two, and with how many digits.
+#[test]
+fn numbers_are_positive_and_as_large_as_their_profile_says() {
+    for (profile, low, high, digits) in [
+        (Profile::Plain, 0, 4, 4),
+        (Profile::Moderate, -18, 15, 11),
+        (Profile::Single, -32, 8, 24),
+        (Profile::Double, -60, 7, 53),
+        (Profile::Huge, 5, 36, 11),
+        (Profile::Tiny, -45, -14, 11),
+    ] {
+        let mut draw = draw(profile);
+        let all: Vec<_> = (0..10_000).map(|_| draw.magnitude(Var::C)).collect();
+        let range = Exact::power_of_two(low)..=Exact::power_of_two(high);
+        assert!(all.iter().all(|x| range.contains(x)), "{profile:?}");
+        let fits = |bits| all.iter().filter(|x| x.rounded(bits).as_ref() == Some(x)).count();
+        // 2ⁿ itself has but one digit.
+        assert_eq!(fits(digits), all.len(), "{profile:?}");
+        assert!(fits(digits - 1) < all.len(), "{profile:?}");
+    }
+}
+
+/// Wrong signs and zeros are drawn, too, and not too often: hypotheses bend them.
+#[test]
+fn all_signs_are_drawn() {
+    let mut draw = draw(Profile::Tiny);
+    let all: Vec<_> = (0..400).map(|_| draw.raw()).collect();
+    for var in Var::ALL {
+        let sign = |case: &Case<Exact>| case.get(*var).cmp(&Exact::zero());
+        let [less, equal, greater] = [Ordering::Less, Ordering::Equal, Ordering::Greater]
+            .map(|sought| all.iter().filter(|case| sign(case) == sought).count());
+        let mostly_positive = [Var::C, Var::M, Var::Eps, Var::Tol, Var::Q, Var::T, Var::K].contains(var);
+        if mostly_positive {
+            assert!((10..100).contains(&less) && equal == 0, "{var:?}: {less} {equal} {greater}");
+        } else {
+            let found = less >= 100 && (10..100).contains(&equal) && greater >= 100;
+            assert!(found, "{var:?}: {less} {equal} {greater}");
+        }
+    }
+    // What has no unit is of moderate size in any profile.
+    let [eighths, whole] = [8, 1].map(|n| {
+        let of = move |x: &Exact| (x * Exact::from(n)).as_rational().is_integer();
+        move |case: &Case<Exact>, var| of(case.get(var))
+    });
+    for case in &all {
+        for var in [Var::Alpha, Var::Q, Var::T] {
+            assert!(eighths(case, var) && case.get(var).abs() <= Exact::from(4), "{var:?}");
+        }
+        assert!(whole(case, Var::K) && case.k.abs() <= Exact::from(50));
+    }
+}
+
+#[test]
+fn next_to_grazing_is_a_unit_in_the_last_place() {
+    let mut draw = draw(Profile::Grazing);
+    // c Δ = 3 · 5
+    let case = Case::of(|var| match var {
+        Var::C => Exact::from(3),
+        Var::H => Exact::from(5),
+        _ => Exact::zero(),
+    });
+    let found: HashSet<_> = (0..100).map(|_| draw.next_to_grazing(&case).as_rational().clone()).collect();
+    let units = [Exact::zero(), Exact::power_of_two(-23), Exact::power_of_two(-52)];
+    let of = |unit: &Exact| [unit * Exact::from(15), -(unit * Exact::from(15))];
+    let expected: HashSet<_> = units.iter().flat_map(of).map(|x| x.as_rational().clone()).collect();
+    assert_eq!(found, expected);
+}
+
+#[test]
+fn stiff_is_stiff_in_either_direction() {
+    let mut draw = draw(Profile::Stiff);
+    let ratios = (0..200).map(|_| draw.raw()).map(|case| case.eps / case.system.c.abs());
+    let ratios: Vec<_> = ratios.collect();
+    let least = Exact::power_of_two(-60)..Exact::power_of_two(-50);
+    let most = Exact::power_of_two(50)..=Exact::power_of_two(60);
+    let [smallest, largest] = [ratios.iter().min(), ratios.iter().max()].map(Option::unwrap);
+    assert!(least.contains(smallest) && most.contains(largest), "{smallest} {largest}");
+}
+
+/// The sign is changed and nothing else; where there is none, in the profile of grazing a unit is enough.
+#[test]
+fn what_is_bent_is_bent_no_further_than_it_must() {
+    let reaction = |case: &Case<Exact>| value(&given().contact, case).unwrap();
+    let (mut zeros, mut beside, mut near) = (0, 0, Vec::new());
+    for index in 0..CASES {
+        let raw = case(1, index, &[]).unwrap();
+        let stiff = case(1, index, &[given().stiffness.clone()]).unwrap();
+        assert_eq!(stiff.system.c, raw.system.c.abs());
+        let touching = case(1, index, &[given().touching.clone()]);
+        let bent = touching.filter(|_| reaction(&raw) < Exact::zero()).map(|case| reaction(&case));
+        zeros += usize::from(bent.as_ref().is_some_and(Zero::is_zero));
+        beside += usize::from(bent.as_ref().is_some_and(|r| *r == -reaction(&raw)));
+        assert!(bent.is_none_or(|r| r.is_zero() || r == -reaction(&raw)), "{index}");
+        let profile = PROFILES[(index % PROFILES.len() as u64) as usize];
+        let solvable = !raw.system.m.is_zero() && !raw.system.c.is_zero();
+        if profile == Profile::Grazing && reaction(&raw).is_zero() && solvable {
+            let contact = case(1, index, &[given().contact.clone()]).unwrap();
+            let force = &raw.system.c * crate::chapter::system::gap(&raw.system);
+            let few = force.is_zero() || reaction(&contact) <= force.abs() * Exact::power_of_two(-23);
+            near.push(few);
+        }
+    }
+    assert!(zeros > 20 && beside > 2 * zeros, "{zeros} {beside}");
+    let few = near.iter().filter(|few| **few).count();
+    assert!(3 * few > 2 * near.len() && near.len() > 10, "{few} of {}", near.len());
+}
+
+/// How many cases of each kind solve takes, in the floats that they are made for.
+fn taken<T: crate::solver::Scalar + Real + ToExact>(
+    like: &T,
+    profile: Profile,
+) -> BTreeMap<String, [usize; 2]> {
+    let mut found = BTreeMap::new();
+    for index in 0..300 {
+        let mut draw = Draw { random: Rand64::new(index), profile, small: Small::Products };
+        let mut case = draw.raw();
+        for var in [Var::C, Var::M, Var::Eps] {
+            *case.get_mut(var) = case.get(var).abs();
+        }
+        let [taken, all] = found.entry(format!("{:?}", draw.small)).or_insert([0, 0]);
+        *all += 1;
+        let Ok(read) = Case::try_of(|var| like.nearest(case.get(var)).map_err(drop)) else { continue };
+        let method = crate::solver::Method::Penalty { penalty: read.eps.clone() };
+        *taken += usize::from(crate::solver::solve(&read.system, &method).is_ok());
+    }
+    found
+}
+
+#[test]
+fn what_is_subnormal_can_nearly_always_be_solved() {
+    for found in [taken(&1f32, Profile::SubnormalSingle), taken(&1f64, Profile::SubnormalDouble)] {
+        assert_eq!(found.len(), Small::ALL.len());
+        assert!(found.values().all(|[taken, all]| 10 * taken > 9 * all), "{found:?}");
+    }
+}
