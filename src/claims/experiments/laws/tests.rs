@@ -50,7 +50,7 @@ fn of_what_is_supposed_only_parameters_are_drawn() {
     let (parameter, computed, interval) = (&given.stiffness, &given.computed_inside, &given.decay);
     let bits = &given.fine_enough;
     let law = within("law", [parameter, computed, interval, bits], symbols().u.rounded(), int(1));
-    assert_eq!(experiment::<f32>(&law).given, [parameter.clone()]);
+    assert_eq!(experiment::<f32>(&law).given.iter().collect::<Vec<_>>(), [parameter]);
     // And what is not drawn is looked at: fl(l + u − H) ≥ 0 here, and not where l = 0.
     let supposing =
         |x: &Case<f32>| (experiment(&within("law", [computed], symbols().u.rounded(), int(1))).check)(x);
@@ -101,8 +101,8 @@ fn a_power_is_one_of_a_sequence_that_is_followed() {
     assert_eq!(floats.value(&q), Some(Exact::one()));
 }
 
-/// With ε = c each step gains a bit, so λ repeats after some more than 53 steps; with a small ε nearly nothing
-/// is gained.
+/// With ε = c each step gains a bit, so λ repeats after some more than 53 steps; with a small ε nearly
+/// nothing is gained.
 #[test]
 fn where_the_multiplier_repeats_is_found_or_is_not() {
     let Case { system: s, eps, lambda, u, .. } = symbols();
