@@ -229,7 +229,7 @@ fn members_off_the_closed_form_are_seen() {
     }
 }
 
-/// R = −3: from 20 it takes 3 steps, since 23/8 is the first of 23/2ᵏ below 3; from 3 just one, since 6/2 is 3.
+/// R = −3: from 20 it takes 3 steps, since 23/8 is the first of 23/2ᵏ below 3; from 3 just one: 6/2 is 3.
 #[test]
 fn a_release_that_comes_too_early_or_too_late_is_seen() {
     for (start, released) in [(0, 0), (-1, 1), (-100, 1), (3, 1), (4, 2), (20, 3)] {
