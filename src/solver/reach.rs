@@ -73,7 +73,8 @@ pub fn augmentations_promised<T: Scalar + ToExact>(
 /// with a penalty that is hard enough; if there is none, no tolerance is promised (5 bits and fewer).
 ///
 /// That is the bound of [`within_reach`] for ε → ∞; where the mass hangs free, 5 η |m g / c|, and the sum of
-/// both near grazing, where |R| / c is no more than the first and twice the second. Without under- and overflow; a smaller tolerance may be met by luck.
+/// both near grazing, where |R| / c is no more than the first and twice the second. Without under- and
+/// overflow; a smaller tolerance may be met by luck.
 ///
 /// # Panics
 /// A parameter is not finite or not in its range.

@@ -57,6 +57,9 @@ where
         };
         let ends = [signed(found.lower)?, signed(found.upper)?];
         let middle = (&ends[0] + &ends[1]) / Exact::from(2);
+        if middle.is_zero() {
+            break; // of R ≠ 0 it is no root, and the neighbours of 0 in MPFR have a billion digits
+        }
         let answer = like.nearest(&middle).map_err(|_| out_of_range.clone())?;
         // Beyond the largest float there is no neighbour, and no root.
         let below = |p: T| p.to_exact().is_ok_and(|p| ends.iter().any(|end| *end <= p));
