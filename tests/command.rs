@@ -939,8 +939,28 @@ fn the_book_has_the_totals_of_the_proofs() {
     let totals: Vec<_> = stdout(&output).lines().rev().take(4).collect();
     let [_, changes, hypotheses, claims] = totals[..] else { panic!("{totals:?}") };
     for line in [changes, hypotheses, claims.split(" in ").next().unwrap()] {
-        assert!(page.contains(&format!("\n{line}")), "{line}");
+        assert!(page.contains(&format!("\n{line}")), "book/src/command.md has to have this line:\n{line}");
     }
+}
+
+/// Its rows are those of the command, whatever room each column has.
+#[test]
+fn the_readme_has_the_rows_of_the_main_job() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let readme = std::fs::read_to_string(root.join("README.md")).unwrap();
+    let (_, table) = readme.split_once("```text\n number ").expect("a table");
+    let rows = table.split("```").next().unwrap().lines().filter(|line| line.ends_with(" held"));
+    let words = |line: &str| line.split_whitespace().map(String::from).collect::<Vec<_>>();
+    let output = contact(&["verify", "--cases", "1"]);
+    let printed: Vec<_> = stdout(&output).lines().map(words).collect();
+    let mut seen = 0;
+    for row in rows {
+        let number = words(row);
+        let now = printed.iter().find(|line| line.iter().zip(&number).take(3).all(|(a, b)| a == b));
+        assert_eq!(now, Some(&number), "README.md has to have the row that the command prints");
+        seen += 1;
+    }
+    assert_eq!(seen, 4);
 }
 
 #[test]

@@ -67,8 +67,9 @@ pub(super) fn broken<T: Scalar>(condition: Condition, at: &T) -> FunctionalError
 /// for the root of c p + W′(p) = R, and else as by Lagrange.
 ///
 /// `functional` is given the `parameters` and p in m, and is differentiated by the numbers that it is read
-/// in: a generic function like [`penalty::functional`](crate::chapter::penalty::functional) will do. It is
-/// asked for 0 ≤ p ≤ R/c, and a bit more by rounding. A kink there is no hindrance: of W = ε ⟨p⟩ the answer
+/// in: a generic function like [`penalty::functional`](crate::chapter::penalty::functional) will do. Its
+/// constants are numbers of the same kind, `T::int(2)`, or in a closure `Lifted::<f64>::int(2)`. It is asked
+/// for 0 ≤ p ≤ R/c, and a bit more by rounding. A kink there is no hindrance: of W = ε ⟨p⟩ the answer
 /// is exact for ε ≥ R. Nor is a jump of W′ upwards.
 ///
 /// The [bounds](Solution::bounds) end where c p + W′ − R is < 0 for certain and where it is > 0 for
