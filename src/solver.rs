@@ -264,9 +264,8 @@ fn iterate<T: Scalar>(
     let mut side = None;
     loop {
         let step = steps.step();
-        if !step.deflection.is_finite() {
-            return Err(SolveError::OutOfRange { quantity: "deflection" });
-        }
+        check::in_range(step.deflection.is_finite(), "deflection")?;
+        check::in_range(steps.multiplier().is_finite(), "multiplier")?;
         each(&step);
         // A posteriori. No bound is below what is computed of the error without one.
         let within = match &free {

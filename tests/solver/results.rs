@@ -305,3 +305,13 @@ fn the_floor_of_what_hangs_free_near_grazing_is_both() {
     assert_eq!(floor(&near), touching(&near) + &alone);
     assert_eq!([floor(&(near + Exact::power_of_two(-99))), floor(&int(3))], [alone.clone(), alone]);
 }
+
+/// The first multiplier would be ε p, which is more than f32 has.
+#[test]
+fn a_multiplier_out_of_range_is_refused() {
+    let system =
+        SpringMass { c: 3.0137273e-4_f32, m: 2.4460823e29, g: 0.3403485, l: 0.70053273, h: 58010.57 };
+    let method =
+        Method::Augmented { penalty: f32::MAX, tolerance: 1.0363584e-4, max_augmentations: 54, start: 0.0 };
+    assert_eq!(solve(&system, &method), Err(SolveError::OutOfRange { quantity: "multiplier" }));
+}
