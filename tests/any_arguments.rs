@@ -8,7 +8,7 @@
 mod processes;
 
 use oorandom::Rand64;
-use processes::{captured, command};
+use processes::{asked, captured, command, pick, random};
 use std::ffi::{OsStr, OsString};
 use std::fs;
 use std::os::unix::ffi::OsStrExt;
@@ -137,10 +137,6 @@ const WORDS: [&str; 16] = [
 const FAMILIES: [&str; 5] = ["contact", "near", "tiny", "nowhere", "Contact"];
 const PROGRAMS: [&str; 6] = ["true", "cat", "false", "/", "", "no such program"];
 
-fn pick<'a, T>(random: &mut Rand64, from: &'a [T]) -> &'a T {
-    &from[random.rand_range(0..from.len() as u64) as usize]
-}
-
 fn one_in(random: &mut Rand64, n: u64) -> bool {
     random.rand_range(0..n) == 0
 }
@@ -231,17 +227,10 @@ fn wrong(Output { status, stdout, stderr }: &Output) -> Option<&'static str> {
     }
 }
 
-fn number(name: &str, default: u64) -> u64 {
-    let value = std::env::var(name).ok();
-    value.map_or(default, |text| {
-        text.parse().unwrap_or_else(|_| panic!("{name}={text}: must be a whole number"))
-    })
-}
-
 #[test]
 fn no_arguments_get_further_than_they_should() {
     let subcommands = &subcommands();
-    let (lists, seed) = (number("ARGUMENTS", LISTS), number("SEED", 1));
+    let (lists, seed) = (asked("ARGUMENTS", LISTS), asked("SEED", 1));
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("any_arguments");
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).expect("a folder");
@@ -255,7 +244,7 @@ fn no_arguments_get_further_than_they_should() {
             if own >= lists {
                 return (statuses, slowest);
             }
-            let list = list(&mut Rand64::new(u128::from(seed) << 64 | u128::from(own)), subcommands);
+            let list = list(&mut random(seed, own), subcommands);
             let start = Instant::now();
             let output = captured(command().args(&list).current_dir(&folder).env("NO_COLOR", "1"));
             let took = start.elapsed().as_secs_f64();

@@ -27,6 +27,7 @@ mod contact {
 
 use contact::{args, json, output};
 use holds::SHOWN;
+use oorandom::Rand64;
 use rayon::prelude::*;
 use spring_mass_contact::number::{Exact, Mpfr};
 use std::cell::RefCell;
@@ -41,18 +42,6 @@ const LONGEST: Duration = Duration::from_secs(1);
 
 /// One that takes so long is not waited for.
 const HANG: Duration = Duration::from_secs(60);
-
-/// splitmix64, by Steele, Lea and Flood.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let x = (self.0 ^ self.0 >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let x = (x ^ x >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        x ^ x >> 31
-    }
-}
 
 /// A name, how many bytes it takes at most, and what must hold of them.
 type Target = (&'static str, usize, fn(&[u8]));
@@ -69,9 +58,9 @@ const TARGETS: [Target; 7] = [
 
 /// What a number stands for.
 fn drawn(seed: u64, number: u64, bytes: &mut [u8]) {
-    let mut random = Random(Random(seed).next() ^ Random(number).next());
+    let mut random = Rand64::new(u128::from(seed) << 64 | u128::from(number));
     for chunk in bytes.chunks_mut(8) {
-        chunk.copy_from_slice(&random.next().to_le_bytes()[..chunk.len()]);
+        chunk.copy_from_slice(&random.rand_u64().to_le_bytes()[..chunk.len()]);
     }
 }
 

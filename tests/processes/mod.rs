@@ -2,6 +2,7 @@
 
 #![allow(dead_code)] // every test file is a crate of its own and uses its share of this one
 
+use oorandom::Rand64;
 use std::io::Read;
 use std::process::{Child, Command, Output, Stdio};
 use std::thread;
@@ -44,4 +45,21 @@ fn collect(pipe: Option<impl Read + Send + 'static>) -> thread::JoinHandle<Vec<u
         pipe.map(|mut pipe| pipe.read_to_end(&mut bytes)).transpose().expect("a pipe");
         bytes
     })
+}
+
+/// A whole number that the environment asks for.
+pub fn asked(name: &str, default: u64) -> u64 {
+    let value = std::env::var(name).ok();
+    value.map_or(default, |text| {
+        text.parse().unwrap_or_else(|_| panic!("{name}={text}: must be a whole number"))
+    })
+}
+
+/// What the n-th of some trials draws from.
+pub fn random(seed: u64, n: u64) -> Rand64 {
+    Rand64::new(u128::from(seed) << 64 | u128::from(n))
+}
+
+pub fn pick<'a, T>(random: &mut Rand64, from: &'a [T]) -> &'a T {
+    &from[random.rand_range(0..from.len() as u64) as usize]
 }
