@@ -22,11 +22,12 @@ mod suspects;
 #[cfg(test)]
 mod tests;
 
-use crate::claims::{Case, claims, place, registry, statements};
+use crate::claims::{Case, Var, claims, place, registry, statements};
 use crate::formula::{Hypothesis, Statement};
 use crate::number::{Exact, Mpfr, NumberSystem};
 use crate::proof::Counterexample;
 use crate::proof::controls::{Change, repairs};
+use crate::proof::refute::Point;
 use checker::{Checker, Checks, Exactly, Floats, Tally};
 pub use coq::coq;
 pub use graph::graph;
@@ -191,6 +192,18 @@ pub struct Row {
     /// A case in which the claim does not hold.
     #[cfg_attr(feature = "serde", serde(serialize_with = "serialize::coordinates"))]
     pub counterexample: Option<Case<Exact>>,
+}
+
+impl Row {
+    /// Its counterexample, as far as the claim speaks of it; all of it of what only computed numbers have.
+    pub fn point(&self) -> Option<Point> {
+        let case = self.counterexample.as_ref()?;
+        let statement =
+            statements().into_iter().find(|s| (s.equation, s.name) == (self.equation, self.claim));
+        let symbols = statement.map(|statement| registry().symbols_of(statement.trees()));
+        let all = Var::ALL.iter().map(|var| (var.symbol(), case.get(*var).clone()));
+        Some(Point::new(all.filter(|(symbol, _)| symbols.as_ref().is_none_or(|own| own.contains(symbol)))))
+    }
 }
 
 /// What of a row is no plain value.

@@ -153,7 +153,6 @@ fn value(random: &mut Rand64, option: &Opt) -> OsString {
         "--cases" | "--seed" | "--max-augmentations" | "--points" => &COUNTS,
         "--scalar" => &SCALARS,
         "--family" => &FAMILIES,
-        "--equation" => &WORDS[..4],
         "--timeout" => &["0.05", "0.01", "0", "1e9"],
         "--coq" => &["a folder", "file", "file/below"],
         _ => &NUMBERS,
@@ -197,7 +196,7 @@ fn list(random: &mut Rand64, subcommands: &[Subcommand]) -> Vec<OsString> {
         }
     }
     let little: &[&str] = match name.as_str() {
-        "verify" => &["--cases=1", "--equation=1.1"],
+        "verify" => &["--cases=1", "1.1"],
         "prove" => &["1.2"],
         "solve" if one_in(random, 2) => &["--method=augmented", "--max-augmentations=2"],
         "check" => &["--family=contact", "--cases=2"],

@@ -14,9 +14,9 @@ use std::thread;
 
 /// Every subcommand, and every way in which it prints.
 const LINES: [&str; 26] = [
-    "verify --cases 1 --equation 1.1",
-    "verify --cases 1 --equation 1.1 --format json",
-    "verify --cases 1 --equation 1.1 --format markdown",
+    "verify 1.1 --cases 1",
+    "verify 1.1 --cases 1 --format json",
+    "verify 1.1 --cases 1 --format markdown",
     "prove 1.2",
     "prove 1.2 --format json",
     "prove 1.2 --format markdown",

@@ -2,7 +2,6 @@
 
 use crate::chapter::SpringMass;
 use crate::number::{Dual, Tree};
-use std::fmt;
 use std::sync::LazyLock;
 
 macro_rules! coordinates {
@@ -121,16 +120,6 @@ impl<T: Clone> Case<T> {
     pub fn named(&self, symbol: &str) -> T {
         let var = Var::named(symbol);
         self.get(var.unwrap_or_else(|| panic!("{symbol} is no coordinate"))).clone()
-    }
-}
-
-/// `c = 1, m = 1/2` and so on, every coordinate.
-impl<T: fmt::Display> fmt::Display for Case<T> {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        for (i, var) in Var::ALL.iter().enumerate() {
-            write!(f, "{}{} = {}", if i == 0 { "" } else { ", " }, var.symbol(), self.get(*var))?;
-        }
-        Ok(())
     }
 }
 

@@ -5,7 +5,7 @@ use crate::output::shortened;
 use clap::{Args, FromArgMatches};
 use num_traits::Zero;
 use spring_mass_contact::chapter::SpringMass;
-use spring_mass_contact::claims::{all_numbered, entries, numbered};
+use spring_mass_contact::claims::all_numbered;
 use spring_mass_contact::number::{Exact, ToExact};
 use spring_mass_contact::rug::float::Round;
 use std::ffi::OsString;
@@ -235,20 +235,9 @@ impl System {
 const NUMBER: &str =
     "must be a number of the chapter as `contact equations` lists them, such as 1.13 or 'Theorem 1.3.3'";
 
-/// A number of the chapter that it has, however it is written.
-pub fn equation(text: &str) -> Result<String, String> {
-    numbered(text).map(|entry| entry.equation.to_string()).ok_or_else(|| NUMBER.to_string())
-}
-
 /// The numbers that the words of a line are; of `theorem 1.3.3`, two of them.
 pub fn equations(words: &[String]) -> Result<Vec<String>, Failure> {
     let refused = |word: &str| invalid(word, "[NUMBER]...", NUMBER);
     let entries = all_numbered(words).map_err(refused)?;
     Ok(entries.iter().map(|entry| entry.equation.to_string()).collect())
-}
-
-/// What has a name and this number, which may have got apart.
-pub fn named(number: &str) -> Option<&'static str> {
-    let mut equations = entries().iter().map(|entry| entry.equation);
-    equations.find(|equation| equation.split_once(' ').is_some_and(|(_, own)| own == number))
 }

@@ -1,6 +1,5 @@
 //! The way out: stdout, a closed pipe, one-line errors, exit codes, tables.
 
-use crate::args;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use comfy_table::{ColumnConstraint, ContentArrangement, Table, presets};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -251,17 +250,12 @@ pub fn clap_message(mut error: clap::Error, commands: &[&str]) -> Result<Exit, F
         }
         ErrorKind::InvalidSubcommand => format!("; [commands: {}]", commands.join(", ")),
         ErrorKind::UnknownArgument => {
-            let apart = match error.get(ContextKind::InvalidArg) {
-                Some(ContextValue::String(number)) => args::named(number),
-                _ => None,
-            };
-            let quote = apart.map_or(String::new(), |name| format!("; quote '{name}'"));
             let takes_program = matches!(
                 error.get(ContextKind::Usage),
                 Some(ContextValue::StyledStr(usage)) if usage.to_string().contains(" -- ")
             );
             let program = if takes_program { "; a program and its arguments stand after --" } else { "" };
-            format!("{quote}{program}; --help lists what is allowed")
+            format!("{program}; --help lists what is allowed")
         }
         _ => String::new(),
     };

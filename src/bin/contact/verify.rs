@@ -11,7 +11,7 @@ use std::io::{self, Write};
 const EXAMPLES: &str = "\
 Examples:
   contact verify
-  contact verify --equation 1.13 --equation 'Theorem 1.3.3'
+  contact verify 1.13 'Theorem 1.3.3'
   contact verify --scalar f32 --scalar mpfr:777 --cases 50 --seed 99
   contact verify --format json
 
@@ -30,6 +30,9 @@ Exit status: 0 none fails; 1 some do; 2 bad input.";
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
+    /// Only these numbers of the chapter: 1.13, 'Theorem 1.3.3', 'note 4', …
+    #[arg(value_name = "NUMBER")]
+    numbers: Vec<String>,
     /// Number system, repeatable [default: f32, f64, mpfr:256, exact]
     #[arg(long = "scalar", value_name = "S")]
     scalars: Vec<NumberSystem>,
@@ -41,9 +44,6 @@ pub struct Options {
     #[arg(value_parser = args::whole)]
     #[arg(long, value_name = "N", default_value_t = verify::Options::default().seed)]
     seed: u64,
-    /// Only this number of the chapter, repeatable: 1.13, 'note 4', …
-    #[arg(long = "equation", value_name = "NUMBER", value_parser = args::equation)]
-    equations: Vec<String>,
     /// How to print the report
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
@@ -67,10 +67,10 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
         let scalars = options.scalars.iter().enumerate().filter(|(i, scalar)| first(*i, scalar));
         wanted.scalars = scalars.map(|(_, scalar)| *scalar).collect();
     }
-    wanted.equations.clone_from(&options.equations);
+    wanted.equations = args::equations(&options.numbers)?;
     if let Some(empty) = wanted.equations.iter().find(|e| claim_names(e).is_empty()) {
         return Err(format!(
-            "invalid value '{empty}' for '--equation <NUMBER>': nothing is claimed of it; \
+            "invalid value '{empty}' for '[NUMBER]...': nothing is claimed of it; \
              `contact equations` lists how many claims each number has"
         )
         .into());
@@ -206,10 +206,13 @@ fn where_to_look(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     for Suspect { function, equation, unproved, proved } in &report.suspects {
         let number = equation.and_then(entry).map_or(String::new(), |entry| entry.label() + " ");
         writeln!(out, "{number}{function}: look here first")?;
-        if *unproved == 0 {
-            writeln!(out, "  it computes nothing, but hands on an argument")?;
-        } else {
-            writeln!(out, "  of the claims that speak of it {unproved} are not proved, and {proved} are")?;
+        match unproved {
+            0 => writeln!(out, "  it computes nothing, but hands on an argument")?,
+            1 => writeln!(out, "  or at the claim: no other that speaks of it fails")?,
+            _ => {
+                let all = unproved + proved;
+                writeln!(out, "  of {all} claims that speak of it, {unproved} are not proved")?;
+            }
         }
     }
     for change in &report.repairs {
@@ -250,8 +253,8 @@ fn failure(out: &mut dyn Write, alike: &[&Row]) -> io::Result<()> {
     if let Some(why) = why {
         output::wrapped(out, "  ", 4, why)?;
     }
-    let Some(case) = counterexample else { return Ok(()) };
-    output::wrapped(out, "  ", 2, &output::glued(case))?;
+    let (Some(point), Some(case)) = (row.point(), counterexample) else { return Ok(()) };
+    output::wrapped(out, "  ", 2, &output::glued(&point))?;
     solve::command(out, case)
 }
 
@@ -348,15 +351,13 @@ mod tests {
  (1.13)  Deflection by penalty and its limit  1 held
 
 (1.13) penalty::deflection: look here first
-  of the claims that speak of it 7 are not proved, and 2 are
+  of 9 claims that speak of it, 7 are not proved
 
 1.13 rate NOT PROVED
   the sides differ by c
 
 1.13 rate FAILED in f32, f64
-  c = 1, m = 1/2, g = -1/3, l = 7/3, H = 7/3, u = 7/3, v = 7/3, δu = 7/3,
-  α = 7/3, ε = 7/3, ε₄ = 7/3, λ = 7/3, q = 7/3, k = 7/3, t = 7/3, tol = 7/3,
-  2ᵖ = 7/3
+  c = 1, m = 1/2, g = -1/3, l = 7/3, H = 7/3, ε = 7/3
   contact solve --scalar exact --stiffness 1 --mass 1/2 --gravity -1/3 \
       --free-length 7/3 --height 7/3 --method penalty --penalty 7/3
 
@@ -377,6 +378,22 @@ Rounding used at most 250 % of its bound (1.13 rate, exact).
         assert!(text.contains("\n| 1.13 | rate | equal |  | failed | 0 | 0 |  |\n"), "{text}");
         assert!(text.contains("\n| 1.13 | rate | equal | mpfr:2 | undecided | 0 | 5 |  |\n"), "{text}");
         assert!(text.contains("\n| 1.13 | rate | equal | exact | held | 4 | 1 | 2.50 |\n"), "{text}");
+    }
+
+    /// Where a function is wrong, mostly more than one claim fails.
+    #[test]
+    fn a_single_failure_can_be_the_claims_own() {
+        for (unproved, said) in [
+            (0, "it computes nothing, but hands on an argument"),
+            (1, "or at the claim: no other that speaks of it fails"),
+            (2, "of 5 claims that speak of it, 2 are not proved"),
+        ] {
+            let (mut report, _) = report(vec![row(None, Status::Failed)]);
+            let (function, equation) = ("penalty::deflection", Some("1.13"));
+            report.suspects = vec![Suspect { function, equation, unproved, proved: 5 - unproved }];
+            let text = printed(|out| where_to_look(out, &report));
+            assert_eq!(text, format!("(1.13) penalty::deflection: look here first\n  {said}\n\n"));
+        }
     }
 
     /// One failure, in a proof or in numbers, first or last: by the status and in whatever format.

@@ -75,16 +75,16 @@ fn the_book_shows_where_to_look_after_a_mistake() {
     let of_entry = |row: &&Row| row.equation == entry.equation && row.status == Status::Failed;
     let row = report.rows.iter().find(of_entry).unwrap();
     let sample = format!(
-        "{} {}: look here first of the claims that speak of it {} are not proved, and {} are \
+        "{} {}: look here first of {} claims that speak of it, {} are not proved \
          with {repair} every claim would be proved {} {} NOT PROVED {} {} contact solve",
         entry.label(),
         suspect.function,
+        suspect.unproved + suspect.proved,
         suspect.unproved,
-        suspect.proved,
         row.equation,
         row.claim,
         row.why.as_ref().unwrap(),
-        row.counterexample.as_ref().unwrap(),
+        row.point().unwrap(),
     );
     let page = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("book/src/command.md");
     let page = in_one_line(&std::fs::read_to_string(page).unwrap());
