@@ -69,19 +69,23 @@ fn functions() -> Vec<Item> {
     items().into_iter().filter(|item| !item.path.contains(char::is_uppercase)).collect()
 }
 
+/// Nothing is amiss, or all that is is said at once.
+fn assert_none(amiss: impl IntoIterator<Item = String>) {
+    let amiss: Vec<_> = amiss.into_iter().collect();
+    assert!(amiss.is_empty(), "\n{}", amiss.join("\n"));
+}
+
 #[test]
 fn every_number_of_the_chapter_has_an_entry_and_claims() {
-    for n in 1..=33 {
-        let number = format!("1.{n}");
-        assert!(
-            entry(&number).is_some(),
-            "({number}) has no entry: add it to its section's file in src/claims"
-        );
-        assert!(
-            !claim_names(&number).is_empty(),
-            "({number}) has no claim: add one by `.claims([…])` to its entry"
-        );
-    }
+    assert_none((1..=33).map(|n| format!("1.{n}")).filter_map(|number| {
+        if entry(&number).is_none() {
+            Some(format!("({number}) has no entry: add it to its section's file in src/claims"))
+        } else if claim_names(&number).is_empty() {
+            Some(format!("({number}) has no claim: add one by `.claims([…])` to its entry"))
+        } else {
+            None
+        }
+    }));
 }
 
 #[test]
@@ -126,26 +130,23 @@ fn what_follows_from_what_has_no_cycle() {
 #[test]
 fn every_entry_names_a_function_that_exists() {
     let items: BTreeSet<_> = items().into_iter().map(|item| item.path).collect();
-    for e in entries() {
-        for function in &e.functions {
-            assert!(
-                items.contains(*function),
-                "{}: its `.functions([…])` in src/claims name {function}, which is not in src/chapter",
-                e.equation
-            );
-        }
-    }
+    let named = entries().iter().flat_map(|e| e.functions.iter().map(move |function| (e.equation, function)));
+    assert_none(named.filter(|(_, function)| !items.contains(**function)).map(|(equation, function)| {
+        format!(
+            "{equation}: its `.functions([…])` in src/claims name {function}, which is not in src/chapter"
+        )
+    }));
 }
 
 #[test]
 fn every_function_is_named_by_an_entry() {
     let named: BTreeSet<_> = entries().iter().flat_map(|e| e.functions.iter().copied()).collect();
-    for Item { path, .. } in items() {
-        assert!(
-            named.contains(path.as_str()),
-            "no entry names {path}: add it to the `.functions([…])` of the one that it belongs to, in src/claims"
-        );
-    }
+    let unnamed = items().into_iter().filter(|item| !named.contains(item.path.as_str()));
+    assert_none(unnamed.map(|Item { path, .. }| {
+        format!(
+            "no entry names {path}: add it to the `.functions([…])` of the one it belongs to, in src/claims"
+        )
+    }));
 }
 
 /// In the box of an equation, or by a tag. That each box is there, the book's own tests see to.
@@ -162,13 +163,12 @@ fn the_book_shows_every_function() {
             }
         }
     }
-    for Item { path, .. } in items() {
-        assert!(
-            shown.contains(&path),
+    assert_none(items().into_iter().filter(|item| !shown.contains(&item.path)).map(|Item { path, .. }| {
+        format!(
             "the book shows {path} nowhere: name it in an entry with a box (`.functions([…])` in src/claims), or \
              write {{{{#formula {path}}}}} or {{{{#source {path}}}}} on the page in book/src where it belongs"
-        );
-    }
+        )
+    }));
 }
 
 #[test]
@@ -219,55 +219,62 @@ fn entries_suppose_what_their_claims_suppose() {
 
 #[test]
 fn every_function_is_documented_in_the_same_order() {
-    for Item { path, docs } in functions() {
-        let find = |what: &str, found: &dyn Fn(&str) -> bool| {
-            docs.iter().position(|line| found(line)).unwrap_or_else(|| {
-                panic!("{path}: no {what} in its documentation; CONTRIBUTING.md says what belongs there")
-            })
-        };
-        let example = find("example", &|l| l == "```");
-        let place =
-            find("source", &|l| l.contains("Source: ") || l.contains("Beyond ") || l.contains("Source:"));
-        assert!(place < example, "{path}: in its documentation the example comes last, after the source");
-        let formula = find("formula", &|l| l.starts_with('`') && !l.starts_with("```") && l.ends_with('`'));
-        assert!(
-            0 < formula && formula < example,
-            "{path}: in its documentation come first its name, then the formula in backticks, last the example"
-        );
-        for number in docs[0].split("Eq. (").skip(1).filter_map(|rest| rest.split(')').next()) {
-            assert!(
-                entry(number).is_some(),
-                "{path}: its documentation names ({number}), which has no entry"
-            );
-        }
+    assert_none(
+        functions().iter().filter_map(|item| Some(format!("{}: {}", item.path, undocumented(item)?))),
+    );
+}
+
+fn is_formula(line: &str) -> bool {
+    line.starts_with('`') && !line.starts_with("```") && line.ends_with('`')
+}
+
+/// What a function's documentation lacks.
+fn undocumented(Item { docs, .. }: &Item) -> Option<String> {
+    let find = |found: &dyn Fn(&str) -> bool| docs.iter().position(|line| found(line));
+    let parts = [
+        ("the formula, a line in backticks", find(&is_formula)),
+        ("`Source: …` or `Beyond …`", find(&|l| l.contains("Source:") || l.contains("Beyond "))),
+        ("an example: a block of code that asserts a value worked out by hand", find(&|l| l == "```")),
+    ];
+    if let Some((part, _)) = parts.iter().find(|(_, at)| at.is_none()) {
+        return Some(format!("its documentation lacks {part}"));
     }
+    let [formula, source, example] = parts.map(|(_, at)| at);
+    if formula == Some(0) || formula.max(source) > example {
+        return Some("in its documentation its name comes first, and last the example".to_string());
+    }
+    let numbers = docs[0].split("Eq. (").skip(1).filter_map(|rest| rest.split(')').next());
+    let unknown = numbers.into_iter().find(|number| entry(number).is_none());
+    unknown.map(|number| format!("its documentation names ({number}), which has no entry"))
 }
 
 #[test]
 fn every_formula_for_the_eye_is_the_one_that_is_computed() {
     // A check with the outcome yes or no, which leaves no tree.
     const UNRECORDED: [&str; 1] = ["augmented::within_tolerance"];
-    let formula = |l: &&String| l.starts_with('`') && !l.starts_with("```") && l.ends_with('`');
-    for Item { path, docs } in functions() {
-        let computed = registry().line(&path);
+    let formula = |l: &&String| is_formula(l);
+    assert_none(functions().into_iter().filter_map(|Item { path, docs }| {
         let (module, name) = path.split_once("::").unwrap();
-        if UNRECORDED.contains(&path.as_str()) {
-            assert!(computed.is_none(), "{path} is registered: take it from the list in this test");
-            continue;
-        }
-        let computed = computed.unwrap_or_else(|| {
-            panic!(
+        let listed = UNRECORDED.contains(&path.as_str());
+        match (registry().line(&path), listed) {
+            (None, true) => None,
+            (Some(_), true) => Some(format!("{path} is registered: take it from the list in this test")),
+            (None, false) => Some(format!(
                 "{path} is not registered: add a line `\"symbol\" = {path}(system, …);` with the symbols of its \
                  arguments to `formulas!` at the head of src/claims/{module}.rs"
-            )
-        });
-        let written: Vec<_> = docs.iter().filter(formula).collect();
-        assert!(
-            written == [&format!("`{computed}`")],
-            "src/chapter/{module}.rs: the documentation of {name} has {written:?} where it computes `{computed}`: \
-             write that line"
-        );
-    }
+            )),
+            (Some(computed), false) => {
+                let written: Vec<_> = docs.iter().filter(formula).collect();
+                let right = written == [&format!("`{computed}`")];
+                (!right).then(|| {
+                    format!(
+                        "src/chapter/{module}.rs: the documentation of {name} has {written:?} where it computes \
+                         `{computed}`: write that line"
+                    )
+                })
+            }
+        }
+    }));
 }
 
 #[test]
@@ -303,18 +310,19 @@ fn every_function_is_claimed_something_of() {
     let sections = modules().into_iter().chain(["notes", "given", "experiments"].map(String::from));
     let texts: BTreeMap<String, String> = sections.map(|name| (name.clone(), claimed(&name))).collect();
     let is_part_of_name = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
-    for Item { path, .. } in functions() {
+    let is_unclaimed = |Item { path, .. }: &Item| {
         let (module, name) = path.split_once("::").unwrap();
         // In its own section a function is called by its name alone.
         let own = format!("{name}(");
-        let by_name = texts[module].match_indices(&own);
-        let by_name = by_name.filter(|(i, _)| !texts[module][..*i].ends_with(is_part_of_name)).count();
-        let by_path = texts.values().any(|text| text.contains(&format!("{path}(")));
-        assert!(
-            by_name > 0 || by_path,
+        let mut by_name = texts[module].match_indices(&own);
+        let by_name = by_name.any(|(i, _)| !texts[module][..i].ends_with(is_part_of_name));
+        !by_name && !texts.values().any(|text| text.contains(&format!("{path}(")))
+    };
+    assert_none(functions().into_iter().filter(is_unclaimed).map(|Item { path, .. }| {
+        format!(
             "no claim speaks of {path}: call it in one, by `.claims([…])` in the entry that names it, in src/claims"
-        );
-    }
+        )
+    }));
 }
 
 #[test]
@@ -350,9 +358,7 @@ fn assert_all(report: &Report, otherwise: &str, so: impl Fn(Status) -> bool) {
     let amiss = report.rows.iter().filter(|row| !so(row.status)).map(|row| {
         let Row { equation, claim, status, scalar, .. } = row;
         let way = scalar.map_or("the proof".to_string(), |scalar| scalar.to_string());
-        format!(
-            "{equation} {claim}: {status} in {way}: cargo run --release -- verify --equation '{equation}'"
-        )
+        format!("{equation} {claim}: {status} in {way}: cargo run --release -- verify '{equation}'")
     });
     let amiss: Vec<_> = amiss.collect();
     assert!(amiss.is_empty(), "what {otherwise}: {amiss:#?}");
