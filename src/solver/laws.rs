@@ -4,6 +4,7 @@
 use super::{Interval, Scalar};
 use crate::number::{Exact, PositivePart};
 use num_traits::{One, Zero};
+use rug::float::Round;
 
 /// A law of [`Scalar`], named after the method that it is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -33,7 +34,7 @@ pub enum Law {
 pub struct Broken {
     /// Which one.
     pub law: Law,
-    /// The operation and its operands.
+    /// The operation with its operands, what came of it, and what it should be.
     pub by: String,
 }
 
@@ -86,10 +87,10 @@ impl<T: Scalar<Enclosure = E>, E: PositivePart> Laws<'_, T> {
     fn of_one(&self, a: &Known<T>) -> Result<(), Broken> {
         let Known { number, exact } = a;
         let text = |what: &str| format!("{what} {number:?}");
-        hold(number.is_finite(), Law::Finite, || text(""))?;
+        hold(number.is_finite(), Law::Finite, || format!("{number:?}, which is {}", written(exact)))?;
         self.is(&number.positive_part(), &exact.positive_part(), || text("⟨·⟩ of"))?;
         self.is(&number.abs(), &exact.abs(), || text("|·| of"))?;
-        self.encloses(&number.enclose(), exact, Law::Enclose, || text(""))?;
+        self.encloses(&number.enclose(), exact, Law::Enclose, || text("the enclosure of"))?;
         let mut product = Exact::one();
         for k in 0..=9 {
             if let Some(power) = T::power(&number.enclose(), k) {
@@ -102,8 +103,10 @@ impl<T: Scalar<Enclosure = E>, E: PositivePart> Laws<'_, T> {
 
     fn of_two(&self, a: &Known<T>, b: &Known<T>) -> Result<(), Broken> {
         let text = |what: &str| format!("{:?} {what} {:?}", a.number, b.number);
-        let order = a.number.partial_cmp(b.number) == Some(a.exact.cmp(&b.exact));
-        hold(order, Law::Order, || text("compared with"))?;
+        let (order, right) = (a.number.partial_cmp(b.number), a.exact.cmp(&b.exact));
+        hold(order == Some(right), Law::Order, || {
+            format!("{}: {order:?}, and not {right:?}", text("compared with"))
+        })?;
         self.is(&a.number.min(b.number), &PositivePart::min(&a.exact, &b.exact), || text("min"))
     }
 
@@ -132,14 +135,17 @@ impl<T: Scalar<Enclosure = E>, E: PositivePart> Laws<'_, T> {
             let found = T::sign_of_sum(plus.map(|(x, y)| (x.number, y.number)), last);
             hold(found == right, Law::SignOfSum, || {
                 let [(a, b), (c, d)] = plus.map(|(x, y)| (x.number, y.number));
-                format!("{a:?} · {b:?} + {c:?} · {d:?} − {:?} · {:?}", last.0, last.1)
+                let (e, f) = last;
+                format!("{a:?} · {b:?} + {c:?} · {d:?} − {e:?} · {f:?}: {found:?}, and not {right:?}")
             })?;
         }
         Ok(())
     }
 
     fn is(&self, found: &T, right: &Exact, by: impl Fn() -> String) -> Result<(), Broken> {
-        hold((self.exact)(found) == *right, Law::Order, by)
+        hold((self.exact)(found) == *right, Law::Order, || {
+            format!("{}: {found:?}, and not {}", by(), written(right))
+        })
     }
 
     fn encloses(
@@ -152,9 +158,13 @@ impl<T: Scalar<Enclosure = E>, E: PositivePart> Laws<'_, T> {
         let Interval { lower, upper } = T::interval(enclosure);
         let magnitude = T::magnitude(enclosure);
         let bound = |end: &T, holds: &dyn Fn(Exact) -> bool| !end.is_finite() || holds((self.exact)(end));
-        hold(bound(&lower, &|end| end <= *x) && bound(&upper, &|end| *x <= end), law, &by)?;
-        hold(bound(&magnitude, &|size| x.abs() <= size), Law::Magnitude, &by)?;
-        hold(T::sign(enclosure).is_none_or(|sign| sign == x.cmp(&Exact::zero())), Law::Sign, &by)
+        let with = |what: String| format!("{}: {what}, of {}", by(), written(x));
+        let within = bound(&lower, &|end| end <= *x) && bound(&upper, &|end| *x <= end);
+        hold(within, law, || with(format!("between {lower:?} and {upper:?}")))?;
+        let enough = bound(&magnitude, &|size| x.abs() <= size);
+        hold(enough, Law::Magnitude, || with(format!("magnitude {magnitude:?}")))?;
+        let (sign, right) = (T::sign(enclosure), x.cmp(&Exact::zero()));
+        hold(sign.is_none_or(|sign| sign == right), Law::Sign, || with(format!("sign {sign:?}")))
     }
 }
 
@@ -177,6 +187,11 @@ fn results<E: PositivePart>([a, b, c]: &[E; 3], divisors: [bool; 2]) -> Vec<(&'s
         results.push(("c / (a + b)", c / (a + b)));
     }
     results
+}
+
+/// With as many digits as tell it from an enclosure of four floats.
+fn written(x: &Exact) -> String {
+    x.decimal(30, Round::Nearest)
 }
 
 fn hold(holds: bool, law: Law, by: impl Fn() -> String) -> Result<(), Broken> {

@@ -159,3 +159,29 @@ fn a_law_that_is_broken_is_named() {
     }
     assert_eq!(tried::<8>(), Ok(()));
 }
+
+/// What came of it, and what it should be. 1e100 is 1000000000000000015902891109759918…
+#[test]
+fn a_law_that_is_broken_says_by_what() {
+    let said = |found: Result<(), Broken>| found.unwrap_err().to_string();
+    let order = laws::scalar(&[1.0, -1.0].map(Breaks::<0>), |x| exact(&x.0));
+    assert_eq!(
+        said(order),
+        "the law of Order is broken by Breaks(1.0) min Breaks(-1.0): Breaks(1.0), and not -1"
+    );
+    let finite = laws::scalar(&[Breaks::<1>(1e100)], |x| exact(&x.0));
+    let value = "1.00000000000000001590289110976e100";
+    assert_eq!(said(finite), format!("the law of Finite is broken by Breaks(1e100), which is {value}"));
+    for (found, what) in [
+        (tried::<2>(), "the enclosure of Breaks("),
+        (tried::<2>(), "): between Breaks("),
+        (tried::<3>(), ": between Breaks("),
+        (tried::<4>(), ": magnitude Breaks("),
+        (tried::<5>(), ": sign Some("),
+        (tried::<6>(), "to the power of "),
+        (tried::<7>(), ", and not "),
+    ] {
+        let said = said(found);
+        assert!(said.contains(what), "{said}");
+    }
+}
