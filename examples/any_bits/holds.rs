@@ -544,7 +544,7 @@ fn spaced(bytes: &mut Bytes) {
         ("number of penalties", points >= 2),
     ]);
     show(|| format!("{from} to {to}, {points}"));
-    match penalties(&from, &to, points) {
+    match penalties(&from, &to, points as u32) {
         // So near to one another that a hundred digits do not tell them apart.
         Err(SolveError::Invalid { argument: "last penalty", .. }) if arguments.wrong().is_none() => {
             assert!((&to - &from) / &to < Exact::power_of_two(-300));

@@ -90,7 +90,7 @@ fn row<T: Scalar + ToExact>(system: &SpringMass<T>, eps: T) -> Result<SweepRow<T
 /// beside R). `unit_roundoff` is η of the scalar.
 ///
 /// # Errors
-/// A parameter is invalid, or the penalty leaves the range.
+/// A parameter is invalid, η is negative, or the penalty leaves the range.
 ///
 /// ```
 /// # use spring_mass_contact::{chapter::SpringMass, number::Exact, solver::best_penalty};
@@ -104,6 +104,7 @@ pub fn best_penalty<T: Scalar + ToExact>(
     system: &SpringMass<T>,
     unit_roundoff: &Exact,
 ) -> Result<Option<T>, SolveError> {
+    check::require(*unit_roundoff >= Exact::zero(), "unit roundoff", unit_roundoff, "at least 0")?;
     if State::of(system)? != State::Contact || unit_roundoff.is_zero() {
         return Ok(None);
     }
@@ -129,7 +130,7 @@ pub fn best_penalty<T: Scalar + ToExact>(
 /// [`rounding::penalty_force_error`]; none unless R > 0. `unit_roundoff` is η of the scalar, 0 for rationals.
 ///
 /// # Panics
-/// A parameter or ε is not finite, or c + ε = 0.
+/// A parameter or ε is not finite, c + ε = 0, or η < 0.
 ///
 /// ```
 /// # use spring_mass_contact::{chapter::SpringMass, number::Exact, solver::penalty_force_bound};
@@ -141,6 +142,7 @@ pub fn penalty_force_bound<T: Scalar + ToExact>(
     eps: &T,
     unit_roundoff: &Exact,
 ) -> Option<Exact> {
+    assert!(*unit_roundoff >= Exact::zero(), "unit roundoff {unit_roundoff}: must be at least 0");
     let (s, eps) = (system.map(exact), exact(eps));
     let (r, short) = (system::reaction(&s), augmented::contraction(&s, &eps));
     if r <= Exact::zero() {
@@ -171,7 +173,7 @@ const MOST_DIGITS: usize = 100;
 /// assert_eq!(spaced, ["1", "3.16", "10", "31.6", "100"].map(|x| x.parse().unwrap()));
 /// # Ok::<(), spring_mass_contact::solver::SolveError>(())
 /// ```
-pub fn penalties(from: &Exact, to: &Exact, points: usize) -> Result<Vec<Exact>, SolveError> {
+pub fn penalties(from: &Exact, to: &Exact, points: u32) -> Result<Vec<Exact>, SolveError> {
     check::require(*from > Exact::zero(), "first penalty", from, "greater than 0")?;
     check::require(from < to, "last penalty", to, "greater than the first")?;
     check::require(points >= 2, "number of penalties", &points, "at least 2")?;
@@ -185,13 +187,13 @@ pub fn penalties(from: &Exact, to: &Exact, points: usize) -> Result<Vec<Exact>, 
     })
 }
 
-fn spaced(from: &Exact, to: &Exact, points: usize, digits: usize) -> Vec<Exact> {
+fn spaced(from: &Exact, to: &Exact, points: u32, digits: usize) -> Vec<Exact> {
     // Four bits hold a decimal digit; the rest is for the logarithms of large numbers, and to spare.
     let bits = 4 * digits as u32 + 128;
     let ln = |x: &Exact| Float::with_val(bits, x.as_rational()).ln();
     let (first, last) = (ln(from), ln(to));
-    let step = Float::with_val(bits, &last - &first) / (points - 1) as u32;
-    let between = (1..points as u32 - 1).map(|i| {
+    let step = Float::with_val(bits, &last - &first) / (points - 1);
+    let between = (1..points - 1).map(|i| {
         let x = (Float::with_val(bits, &step * i) + &first).exp();
         let (_, text, exponent) = x.to_sign_string_exp_round(10, Some(digits), Round::Nearest);
         // The number is 0.text × 10^exponent.

@@ -142,13 +142,13 @@ proptest! {
     /// Between the ends xᵢ is the ideal from (to/from)^(i/(n−1)), off by at most half a unit in the third of its
     /// digits, that is 1/200 of it: to the power n − 1, without a root.
     #[test]
-    fn penalties_are_spaced_by_powers(from in positive(WIDE), more in positive(8), n in 2usize..9) {
+    fn penalties_are_spaced_by_powers(from in positive(WIDE), more in positive(8), n in 2u32..9) {
         let ratio = int(1) + more;
         let to = &from * &ratio;
         let list = penalties(&from, &to, n).unwrap();
-        prop_assert_eq!((list.len(), &list[0], &list[n - 1]), (n, &from, &to));
+        prop_assert_eq!((list.len() as u32, list.first(), list.last()), (n, Some(&from), Some(&to)));
         prop_assert!(list.windows(2).all(|pair| pair[0] < pair[1]));
-        let all = n as u32 - 1;
+        let all = n - 1;
         for (i, x) in (0..).zip(&list) {
             let off = power(&(x / &from), all) / power(&ratio, i);
             let [least, most] = [199, 201].map(|part| power(&(int(part) / int(200)), all));
@@ -229,6 +229,8 @@ fn bad_input_is_refused() {
     let none = sweep(&system, []).map(|row| row.unwrap_err().to_string());
     assert_eq!(none.collect::<Vec<_>>(), ["penalties []: must be at least one"]);
     assert!(best_penalty(&SpringMass { c: -1.0, ..system }, &Exact::power_of_two(-53)).is_err());
+    let negative = best_penalty(&system, &int(-1)).unwrap_err();
+    assert_eq!(negative.to_string(), "unit roundoff -1: must be at least 0");
     // Nor can f64 hold a best penalty of 10³¹².
     let stiff = SpringMass { c: 1e305, m: 1e306, g: 1.0, l: 1e-9, h: 1e-9 };
     let refused = Err(SolveError::OutOfRange { quantity: "best penalty" });

@@ -41,7 +41,7 @@ pub struct Options {
     penalty: (Number, Number),
     /// How many penalties, both ends included, from 2 to 1001; each as many times the one before
     #[arg(long, value_name = "N", default_value = "61", value_parser = points, help_heading = "Sweep")]
-    points: usize,
+    points: u32,
 
     /// Number system, repeatable: f32, f64, mpfr:BITS or exact [default: f64]
     #[arg(long = "scalar", value_name = "S", help_heading = "Output")]
@@ -95,7 +95,7 @@ fn range(text: &str) -> Result<(Number, Number), String> {
     if from.value < to.value { Ok((from, to)) } else { Err("FROM must be less than TO".to_string()) }
 }
 
-fn points(text: &str) -> Result<usize, String> {
+fn points(text: &str) -> Result<u32, String> {
     let digits = text.bytes().all(|b| b.is_ascii_digit());
     let count = text.parse().ok().filter(|count| digits && (2..=1001).contains(count));
     count.ok_or_else(|| "must be a whole number from 2 to 1001".to_string())
