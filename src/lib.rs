@@ -10,7 +10,7 @@
 //! |---|---|---|
 //! | [`number`] | the number systems and the few traits a formula asks for | everything below |
 //! | [`chapter`] | the equations, a module a section, a function a formula | everything below |
-//! | [`solver`] | [`solve`](solver::solve), the augmentation as an iterator, bounds, certificates | users |
+//! | [`solver`] | [`solve`](solver::solve), the augmentation as an iterator, bounds; and advice | users |
 #![cfg_attr(
     feature = "prover",
     doc = "\
@@ -28,10 +28,22 @@
 //! well; `chapter` and `solver` are the mechanics, and know no proofs; `claims` joins them. A test holds
 //! every module to that.
 //!
+//! ```
+//! use spring_mass_contact::chapter::SpringMass;
+//! use spring_mass_contact::solver::{Method, State, solve};
+//!
+//! // c in N/m, m in kg, g in m/s², l and H in m; any number system will do.
+//! let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
+//! let answer = solve(&system, &Method::Lagrange)?;
+//! assert_eq!((answer.state, answer.deflection, answer.contact_force), (State::Contact, 2.0, 2.0));
+//! assert!(answer.bounds.contact_force.contains(&2.0)); // where the exact answer is for certain
+//! # Ok::<(), spring_mass_contact::solver::SolveError>(())
+//! ```
+//!
 //! To find an equation, say (1.16): the number opens the doc comment of its functions in [`chapter`], stands
 //! beside its statement among the entries in `claims`, and beside each of its claims. On the command line,
 //! `contact equations 1.16` names the functions and the claims, `contact prove 1.16` prints their proofs, and
-//! `contact verify --equation 1.16` runs them.
+//! `contact verify 1.16` runs them.
 //!
 //! # Features
 //!

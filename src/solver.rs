@@ -65,6 +65,20 @@ use crate::chapter::{SpringMass, augmented, contact, lagrange, penalty, structur
 /// # Errors
 /// [`SolveError::Invalid`] for a parameter that is not finite or not in its range,
 /// [`SolveError::OutOfRange`] where a result does not fit the scalar.
+///
+/// ```
+/// # use spring_mass_contact::{chapter::SpringMass, solver::{Method, State, solve}};
+/// // R = 2: the plane pushes; c u + N = m g.
+/// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
+/// let exact = solve(&system, &Method::Lagrange)?;
+/// assert_eq!((exact.state, exact.penetration, exact.contact_force), (State::Contact, 0.0, 2.0));
+/// // By penalty p = R / (c + ε) and N = ε p.
+/// let soft = solve(&system, &Method::Penalty { penalty: 4.0 })?;
+/// assert_eq!((soft.penetration, soft.contact_force), (0.25, 1.0));
+/// let error = solve(&SpringMass { c: -4.0, ..system }, &Method::Lagrange).unwrap_err();
+/// assert_eq!(error.to_string(), "stiffness -4.0: must be greater than 0 and finite");
+/// # Ok::<(), spring_mass_contact::solver::SolveError>(())
+/// ```
 pub fn solve<T: Scalar>(system: &SpringMass<T>, method: &Method<T>) -> Result<Solution<T>, SolveError> {
     solve_observed(system, method, Plane::Unilateral, |_| {})
 }

@@ -114,7 +114,7 @@ impl<T: Field> Method<T> {
     /// A tolerance is a length, and only who knows the lengths of the system knows one that is small:
     /// name it, by [`Method::Augmented`], or ask `advise`. Where rounding does not let this one be met, as
     /// in f32 with lengths of some metres, the outcome is [`Outcome::Stagnated`], and [`Solution::floor`]
-    /// says what was reached.
+    /// says what was reached. In numbers so coarse that it rounds to 0, `solve` refuses it.
     ///
     /// ```
     /// # use spring_mass_contact::{chapter::SpringMass, solver::{Method, Outcome, solve}};
