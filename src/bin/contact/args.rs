@@ -2,7 +2,7 @@
 
 use crate::output::Failure;
 use crate::output::shortened;
-use clap::{Args, FromArgMatches};
+use clap::Args;
 use num_traits::Zero;
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::claims::all_numbered;
@@ -10,6 +10,7 @@ use spring_mass_contact::number::{Exact, ToExact};
 use spring_mass_contact::rug::float::Round;
 use std::ffi::OsString;
 use std::fmt::{self, Display};
+use std::ops::RangeInclusive;
 
 /// The arguments, if they are plain text: others could only garble the one line of an error. What follows
 /// `--` is another program's, and only has to be text.
@@ -129,17 +130,20 @@ pub fn positive(text: &str) -> Result<Number, String> {
     if number.value > Exact::zero() { Ok(number) } else { Err("must be greater than 0".to_string()) }
 }
 
+/// A whole number in this range, without a sign.
+pub fn whole_in(range: RangeInclusive<u64>, text: &str) -> Result<u64, String> {
+    let number = text.parse().ok().filter(|number| range.contains(number) && !text.starts_with('+'));
+    number.ok_or_else(|| format!("must be a whole number from {} to {}", range.start(), range.end()))
+}
+
 /// A count.
 pub fn whole(text: &str) -> Result<u64, String> {
-    let digits = !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
-    let count = digits.then(|| text.parse().ok()).flatten();
-    count.ok_or_else(|| format!("must be a whole number from 0 to {}", u64::MAX))
+    whole_in(0..=u64::MAX, text)
 }
 
 /// A count that is not zero.
 pub fn count(text: &str) -> Result<u64, String> {
-    let count = whole(text).ok().filter(|count| *count > 0);
-    count.ok_or_else(|| format!("must be a whole number from 1 to {}", u64::MAX))
+    whole_in(1..=u64::MAX, text)
 }
 
 impl Number {
@@ -206,17 +210,13 @@ impl System {
 
     /// The options that say so; what is as by default is left out.
     pub fn options(&self) -> Vec<String> {
-        let command = System::augment_args(clap::Command::new("system").no_binary_name(true));
-        let matches = command.try_get_matches_from([""; 0]).expect("every option has a default");
-        let default = System::from_arg_matches(&matches).expect("every option has a default");
-        let names = ["stiffness", "mass", "gravity", "free-length", "height"];
-        let [own, default] = [self, &default].map(|system| {
-            let SpringMass { c, m, g, l, h } = system.typed();
-            [c, m, g, l, h].map(|number| number.text.clone())
-        });
-        let options = names.into_iter().zip(own.into_iter().zip(default));
-        let changed = options.filter(|(_, (own, default))| own != default);
-        changed.flat_map(|(name, (own, _))| [format!("--{name}"), own]).collect()
+        let command = System::augment_args(clap::Command::new("system"));
+        let SpringMass { c, m, g, l, h } = self.typed();
+        let options = command.get_arguments().zip([c, m, g, l, h].map(|number| number.text.clone()));
+        let changed = options.filter(|(option, text)| option.get_default_values() != [text.as_str()]);
+        changed
+            .flat_map(|(option, text)| [format!("--{}", option.get_long().expect("a name")), text])
+            .collect()
     }
 
     /// Each parameter rounded once into the scalar that `like` has.

@@ -1,6 +1,6 @@
 //! `contact cases`: systems with their exact answers.
 
-use crate::args::spelled;
+use crate::args::{spelled, whole, whole_in};
 use crate::output::{self, Exit, Failure, Row};
 use clap::ValueEnum;
 use spring_mass_contact::chapter::SpringMass;
@@ -33,7 +33,7 @@ pub struct Drawn {
     #[arg(long, value_name = "N", default_value_t = check::CASES, value_parser = few)]
     cases: u64,
     /// Where they are drawn from; the same seed, the same systems, on every machine
-    #[arg(long, value_name = "N", default_value = "1", value_parser = crate::args::whole)]
+    #[arg(long, value_name = "N", default_value = "1", value_parser = whole)]
     pub seed: u64,
     /// Only this family, repeatable: contact, separated, grazing, near, overlap, lifted, stiff, soft,
     /// far, huge or tiny
@@ -50,8 +50,7 @@ enum Format {
 }
 
 fn few(text: &str) -> Result<u64, String> {
-    let few = crate::args::count(text).ok().filter(|count| *count <= 10_000);
-    few.ok_or_else(|| "must be a whole number from 1 to 10000".to_string())
+    whole_in(1..=10_000, text)
 }
 
 impl Drawn {

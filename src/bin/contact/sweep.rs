@@ -2,7 +2,7 @@
 
 mod plot;
 
-use crate::args::{Names, Number, System, exact, in_scalar, positive, spelled};
+use crate::args::{Names, Number, System, exact, in_scalar, positive, spelled, whole_in};
 use crate::output::{self, Exit, Failure, Row, shortened};
 use clap::ValueEnum;
 use num_traits::{One, Zero};
@@ -96,9 +96,7 @@ fn range(text: &str) -> Result<(Number, Number), String> {
 }
 
 fn points(text: &str) -> Result<u32, String> {
-    let digits = text.bytes().all(|b| b.is_ascii_digit());
-    let count = text.parse().ok().filter(|count| digits && (2..=1001).contains(count));
-    count.ok_or_else(|| "must be a whole number from 2 to 1001".to_string())
+    whole_in(2..=1001, text).map(|count| count as u32)
 }
 
 /// Sweeps and prints.
@@ -311,10 +309,15 @@ mod tests {
     use super::*;
     use crate::output::printed;
     use clap::{Args, FromArgMatches};
+    use std::cell::RefCell;
+
+    fn options(line: &str) -> Options {
+        let command = Options::augment_args(clap::Command::new("sweep"));
+        Options::from_arg_matches(&command.get_matches_from(line.split(' '))).expect("options")
+    }
 
     fn printed_table(line: &str, plotted: bool) -> String {
-        let command = Options::augment_args(clap::Command::new("sweep"));
-        let options = Options::from_arg_matches(&command.get_matches_from(line.split(' '))).expect("options");
+        let options = options(line);
         let Ok(sweeps) = sweeps(&options, &|_, _| {}) else { panic!("{line} is refused") };
         printed(|out| table(out, &options, &sweeps, plotted))
     }
@@ -336,6 +339,15 @@ mod tests {
             let mut rest = plotted.lines();
             assert!(bare.lines().all(|line| rest.any(|other| other == line)), "{line}");
         }
+    }
+
+    /// Over all rows of all number systems.
+    #[test]
+    fn progress_is_counted_in_rows() {
+        let seen = RefCell::new(Vec::new());
+        let options = options("sweep --penalty 1..9 --points 5 --scalar f32 --scalar f64 --scalar f32");
+        assert!(sweeps(&options, &|row, of| seen.borrow_mut().push((row, of))).is_ok());
+        assert_eq!(seen.into_inner(), (1..=10).map(|row| (row, 10)).collect::<Vec<_>>());
     }
 
     #[test]
