@@ -240,3 +240,13 @@ impl<T: Scalar + ToExact> Solution<T> {
         contact::kkt(&system.map(exact), &exact(&self.deflection), &exact(&self.contact_force))
     }
 }
+
+/// Each residual as a text, so that no reader rounds it.
+#[cfg(feature = "serde")]
+impl<T: crate::number::Text> serde::Serialize for contact::Kkt<T> {
+    fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let contact::Kkt { stationarity, primal, dual, complementarity } = self;
+        let names = ["stationarity", "primal", "dual", "complementarity"];
+        to.collect_map(names.iter().zip([stationarity, primal, dual, complementarity].map(T::text)))
+    }
+}

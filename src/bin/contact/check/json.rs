@@ -46,7 +46,7 @@ struct Counterexample<'a> {
     answer: Option<JsonAnswer<'a>>,
     finding: Option<&'a str>,
     exact: Solved,
-    kkt: Option<JsonKkt>,
+    kkt: Option<&'a Kkt<Exact>>,
 }
 
 #[derive(Serialize)]
@@ -62,14 +62,6 @@ struct Solved {
     deflection: String,
     penetration: String,
     contact_force: String,
-}
-
-#[derive(Serialize)]
-struct JsonKkt {
-    stationarity: String,
-    primal: String,
-    dual: String,
-    complementarity: String,
 }
 
 #[derive(Serialize)]
@@ -136,13 +128,6 @@ fn counterexample(checked: &Checked) -> Counterexample<'_> {
         }),
         _ => None,
     };
-    let residual = |x: &Exact| x.decimal(DIGITS, Round::Nearest);
-    let kkt = |kkt: &Kkt<Exact>| JsonKkt {
-        stationarity: residual(&kkt.stationarity),
-        primal: residual(&kkt.primal),
-        dual: residual(&kkt.dual),
-        complementarity: residual(&kkt.complementarity),
-    };
     let exact = &judgement.exact;
     Counterexample {
         request: RawValue::from_string(request(&checked.problem).trim_end().to_string())
@@ -155,6 +140,6 @@ fn counterexample(checked: &Checked) -> Counterexample<'_> {
             penetration: exact.penetration.to_string(),
             contact_force: exact.contact_force.to_string(),
         },
-        kkt: judgement.kkt.as_ref().map(kkt),
+        kkt: judgement.kkt.as_ref(),
     }
 }

@@ -2,7 +2,6 @@
 
 use crate::args::spelled;
 use crate::output::{self, shortened};
-use spring_mass_contact::chapter::contact::Kkt;
 use spring_mass_contact::check::{
     Answers, Checked, Diagnosis, Kind, Missed, Of, Penalty, Reply, Report, Row, Summary, Value, Verdict,
 };
@@ -134,16 +133,7 @@ fn example(out: &mut dyn Write, checked: &Checked) -> io::Result<()> {
         line("off by", format!("{} of what u is measured by, {} of what N is", few(u), few(n)))?;
     }
     if let Some(kkt) = &judgement.kkt {
-        let few = |x: &Exact| x.decimal(FEW, Round::Nearest);
-        let Kkt { stationarity, primal, dual, complementarity } = kkt;
-        let residuals = format!(
-            "equilibrium {} N, penetration {} m, pull {} N, p N = {} J",
-            few(stationarity),
-            few(primal),
-            few(dual),
-            few(complementarity)
-        );
-        line("residuals", parts(&residuals))?;
+        line("residuals", parts(&kkt.to_string()))?;
     }
     judgement.finding.as_ref().map_or(Ok(()), |finding| line("finding", finding.clone()))
 }

@@ -13,6 +13,7 @@ use spring_mass_contact::solver::{
     Interval, Method, Outcome, Plane, Scalar, Solution, State, bits_needed, rounding_floor, within_reach,
 };
 use std::io::{self, Write};
+use std::iter;
 
 /// All there is to say about a solve.
 pub struct Report<'a, T> {
@@ -21,15 +22,6 @@ pub struct Report<'a, T> {
     solution: &'a Solution<T>,
     kkt: Kkt<Exact>,
     steps_needed: Option<String>,
-}
-
-/// Named values in their order.
-struct Object<'a, V>(&'a [(&'static str, V)]);
-
-impl<V: Serialize> Serialize for Object<'_, V> {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        to.collect_map(self.0.iter().map(|(name, value)| (name, value)))
-    }
 }
 
 /// The rows, made while they are written: there can be very many.
@@ -48,7 +40,7 @@ impl<T: Scalar + Text> Serialize for Report<'_, T> {
             object.serialize_entry(name, &value)?;
         }
         object.serialize_entry("bounds", &self.solution.bounds)?;
-        object.serialize_entry("kkt", &Object(&self.kkt()))?;
+        object.serialize_entry("kkt", &self.kkt)?;
         if self.options.trace {
             object.serialize_entry("trace", &Trace(self.problem, self.solution))?;
         }
@@ -95,16 +87,6 @@ impl<'a, T: Scalar + Text> Report<'a, T> {
         ]
     }
 
-    fn kkt(&self) -> [(&'static str, &Exact); 4] {
-        let Kkt { stationarity, primal, dual, complementarity } = &self.kkt;
-        [
-            ("stationarity", stationarity),
-            ("primal", primal),
-            ("dual", dual),
-            ("complementarity", complementarity),
-        ]
-    }
-
     /// One row, or with a trace its rows. No value has a comma or a quote in it.
     pub fn csv(&self, out: &mut dyn Write) -> io::Result<()> {
         if self.options.trace {
@@ -126,10 +108,9 @@ impl<'a, T: Scalar + Text> Report<'a, T> {
             names.extend([format!("{name}_lo"), format!("{name}_hi")]);
             values.extend(interval.texts());
         }
-        for (name, residual) in self.kkt() {
-            names.push(format!("kkt_{name}"));
-            values.push(residual.to_string());
-        }
+        let Kkt { stationarity, primal, dual, complementarity } = &self.kkt;
+        names.extend(["stationarity", "primal", "dual", "complementarity"].map(|name| format!("kkt_{name}")));
+        values.extend([stationarity, primal, dual, complementarity].map(Exact::to_string));
         writeln!(out, "{}\n{}", names.join(","), values.join(","))
     }
 
@@ -158,10 +139,8 @@ impl<'a, T: Scalar + Text> Report<'a, T> {
         if let Some(multiplier) = &s.multiplier {
             rows.push(("multiplier", format!("{} N", relation("λ", multiplier))));
         }
-        for (i, ((name, residual), unit)) in self.kkt().into_iter().zip(["N", "m", "N", "J"]).enumerate() {
-            let residual = format!("{name} {} {unit}", residual.decimal(3, Round::Nearest));
-            rows.push((if i == 0 { "KKT residuals" } else { "" }, residual));
-        }
+        let names = ["KKT residuals"].into_iter().chain(iter::repeat(""));
+        rows.extend(names.zip(self.kkt.to_string().split(", ").map(String::from)));
         let shortened = rows.iter().any(|(_, text)| text.contains('≈'));
         let rounded = self.visibly_rounded();
         if !rounded.is_empty() {
