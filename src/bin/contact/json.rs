@@ -63,7 +63,5 @@ impl<'de: 'a, 'a> Deserialize<'de> for Object<'a> {
 
 /// Of a string what it says; of anything else how it is spelled, for nothing else is lost.
 pub fn text(value: &RawValue) -> Cow<'_, str> {
-    let raw = value.get();
-    let string = raw.starts_with('"').then(|| serde_json::from_str(raw).ok()).flatten();
-    string.map_or(Cow::Borrowed(raw), Cow::Owned)
+    serde_json::from_str(value.get()).map_or(Cow::Borrowed(value.get()), Cow::Owned)
 }

@@ -27,16 +27,10 @@ const WORDS: usize = 200;
 
 /// A text fit to be printed: one line, not long, and nothing in it that would move a cursor.
 pub fn words(text: &str) -> String {
-    let mut line = String::new();
-    for word in text.split_whitespace() {
-        line.extend((!line.is_empty()).then_some(' '));
-        let shown = |c| if is_visible(c) { c } else { char::REPLACEMENT_CHARACTER };
-        line.extend(word.chars().take(WORDS + 1).map(shown));
-        if line.len() > 4 * WORDS {
-            break; // A character has at most four bytes.
-        }
-    }
-    shortened_to(&line, WORDS)
+    let shown = |c| if is_visible(c) { c } else { char::REPLACEMENT_CHARACTER };
+    let line = text.split_whitespace().flat_map(|word| [" ", word]).flat_map(str::chars).skip(1);
+    // More than are shown say that there are more.
+    shortened_to(&line.take(WORDS + 1).map(shown).collect::<String>(), WORDS)
 }
 
 /// The reply to the problem of this id that a line is, if it is an object at all; or why it is not.
