@@ -2,20 +2,19 @@
 
 #![cfg(all(feature = "cli", unix))]
 
+mod processes;
+
+use processes::{captured, command};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-fn contact() -> Command {
-    Command::new(env!("CARGO_BIN_EXE_contact"))
-}
-
-fn check(program: &[&str]) -> Output {
-    contact().args(["check", "--format", "json", "--"]).args(program).output().unwrap()
+fn contact(arguments: &[&str]) -> Output {
+    captured(command().args(arguments))
 }
 
 fn report(program: &[&str]) -> (Option<i32>, Value) {
-    let output = check(program);
+    let output = contact(&[&["check", "--format", "json", "--"], program].concat());
     let report = serde_json::from_slice(&output.stdout);
     (output.status.code(), report.unwrap_or_else(|error| panic!("{program:?}: {error}; {output:?}")))
 }
@@ -119,9 +118,9 @@ fn the_command_can_be_checked_by_itself() {
 /// What `cases` prints is what `solve` finds for it, and what `check` asks.
 #[test]
 fn cases_are_solved_by_their_answers() {
-    let output = contact().args(["cases", "--format", "json"]).output().unwrap();
+    let output = contact(&["cases", "--format", "json"]);
     let cases: Vec<Value> = serde_json::from_slice(&output.stdout).unwrap();
-    let csv = contact().args(["cases"]).output().unwrap();
+    let csv = contact(&["cases"]);
     let csv = String::from_utf8(csv.stdout).unwrap();
     assert_eq!(csv.lines().count(), cases.len() + 1);
     let keys: Vec<_> = csv.lines().next().unwrap().split(',').collect();
@@ -130,8 +129,7 @@ fn cases_are_solved_by_their_answers() {
         assert_eq!(keys.iter().map(of).collect::<Vec<_>>(), row.split(',').collect::<Vec<_>>());
         let options = ["stiffness", "mass", "gravity", "free_length", "height"];
         let options = options.map(|key| format!("--{}={}", key.replace('_', "-"), of(&key)));
-        let solved =
-            contact().args(["solve", "--scalar=exact", "--format=json"]).args(options).output().unwrap();
+        let solved = captured(command().args(["solve", "--scalar=exact", "--format=json"]).args(options));
         let solved: Value = serde_json::from_slice(&solved.stdout).unwrap();
         for key in ["deflection", "penetration", "contact_force"] {
             assert_eq!(solved[key], case[key], "{case}");

@@ -312,6 +312,22 @@ fn quantities<T>(iterate: &Iterate<T>) -> [&T; 4] {
 mod tests {
     use super::*;
     use clap::{Args, FromArgMatches};
+    use std::cell::RefCell;
+
+    /// In steps, of those that exact arithmetic needs, or that are allowed if these are fewer.
+    #[test]
+    fn progress_ends_with_the_solve() {
+        let system = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
+        for (max_augmentations, last) in [(1000, 35), (7, 7)] {
+            let seen = RefCell::new(Vec::new());
+            let method =
+                Method::Augmented { penalty: 100.0, tolerance: 1e-12, max_augmentations, start: 0.0 };
+            let problem = Problem { system: system.clone(), method, plane: Plane::Unilateral };
+            let progress = |k, of| seen.borrow_mut().push((k, of));
+            assert!(problem.solve(problem.steps_needed().as_ref(), &progress).is_ok());
+            assert_eq!(seen.into_inner(), (0..=last).map(|k| (k, last)).collect::<Vec<_>>());
+        }
+    }
 
     /// c > 0 and m > 0, and a penalty where there is one; what is printed is read as the case that was meant.
     #[test]
