@@ -385,6 +385,10 @@ fn no_bad_line_gets_further_than_an_error() {
             "{error}"
         );
         assert!(error.len() < 300 && !error.contains(" at line "), "{error}");
+        assert!(
+            !line.starts_with(b"[") || error.contains(": invalid type: sequence, expected an object"),
+            "{error}"
+        );
     }
     // A byte order mark is no part of JSON; nor is a text in UTF-16.
     let (answers, _) = batch("", b"\xef\xbb\xbf{}\n{\0}\0\n".as_slice());

@@ -67,10 +67,7 @@ fn run_in<T: Scalar + Text>(options: &Options, like: &T) -> Result<Exit, Failure
     let advice = advise(&system, &tolerance).map_err(out_of_range)?;
     // Of what was typed: with more bits it is rounded to other numbers.
     let typed = options.system.typed().map(|number| number.value.clone());
-    let bits_needed = match options.scalar {
-        NumberSystem::Exact => None,
-        _ => bits_needed(&typed, Plane::Unilateral, &options.tolerance.value),
-    };
+    let bits_needed = bits_needed(&typed, Plane::Unilateral, &options.tolerance.value);
     let report = Report { options, system, tolerance, advice, bits_needed };
     output::print(|out| match options.format {
         Format::Table => report.table(out),

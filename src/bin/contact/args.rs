@@ -34,7 +34,7 @@ pub fn plain() -> Result<Vec<String>, Failure> {
 pub fn joined(arguments: impl IntoIterator<Item = String>) -> Vec<String> {
     let mut joined: Vec<String> = Vec::new();
     for text in arguments {
-        let negative = text.len() > 1 && text.starts_with('-') && !text.starts_with("--");
+        let negative = text.starts_with('-') && !text.starts_with("--");
         match joined.last_mut() {
             Some(option) if negative && takes_a_value(option) && text != "-h" && text != "-V" => {
                 *option += &format!("={text}");
@@ -51,7 +51,7 @@ pub fn is_visible(c: char) -> bool {
 }
 
 fn takes_a_value(argument: &str) -> bool {
-    argument.len() > 2 && argument.starts_with("--") && !argument.contains('=')
+    argument.starts_with("--") && !argument.contains('=')
 }
 
 /// What an error calls an option: as it is typed, or as the key that a JSON object has for it.

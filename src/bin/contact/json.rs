@@ -20,7 +20,7 @@ pub fn read_lines(
     for _ in 0..most {
         let start = lines.len();
         from.by_ref().take(longest as u64 + 1).read_until(b'\n', lines)?;
-        if lines.len() - start > longest && !lines.ends_with(b"\n") {
+        if lines.get(start + longest).is_some_and(|byte| *byte != b'\n') {
             from.skip_until(b'\n')?;
             lines.push(b'\n');
         }

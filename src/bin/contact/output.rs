@@ -177,7 +177,7 @@ pub fn command<'a>(out: &mut dyn Write, words: impl IntoIterator<Item = &'a str>
         line.push(' ');
         let mut rest = &*word;
         // A number that is longer than a line goes on where the next one begins: a blank would end it.
-        while word == plain && word.is_ascii() && line.len() + rest.len() > room {
+        while word == plain && line.len() + rest.len() > room {
             let (head, tail) = rest.split_at(room - line.len());
             writeln!(out, "{line}{head}\\")?;
             (line, rest) = (String::new(), tail);
@@ -298,5 +298,17 @@ mod tests {
         let nines = |n| "9".repeat(n);
         let broken = format!("a {}\n  {}\n  {}\n", nines(78), nines(78), nines(34));
         assert_eq!(printed(|out| wrapped(out, "", 2, &format!("a {}", nines(190)))), broken);
+    }
+
+    /// With room for the backslash, and a number that is longer than that goes on in the next line.
+    #[test]
+    fn a_command_fills_its_lines() {
+        let lines = |words: &[&str]| printed(|out| command(out, words.iter().copied()));
+        let [a, b, c] = [40, 35, 36].map(|n| "9".repeat(n));
+        assert_eq!(lines(&[&a, &b]), format!("  {a} {b}\n"));
+        assert_eq!(lines(&[&a, &c]), format!("  {a} \\\n      {c}\n"));
+        let [full, rest] = [76, 24].map(|n| "9".repeat(n));
+        assert_eq!(lines(&[&full]), format!("  {full}\n"));
+        assert_eq!(lines(&[&(full.clone() + &rest)]), format!("  {full}\\\n{rest}\n"));
     }
 }

@@ -94,18 +94,13 @@ fn for_coq(directory: &Path) -> Result<Exit, Failure> {
             "invalid value '{directory}' for '--coq <DIR>': must be a directory that can be written: {error}"
         )
     })?;
-    let left_out = coq().left_out();
     output::print(|out| {
-        let claims = statements().len();
-        let written = claims - left_out.len();
-        let order =
-            format!("{written} of {claims} claims written as theorems, to be compiled in this order:");
-        output::wrapped(out, "", 2, &order)?;
+        writeln!(out, "The claims as theorems, to be compiled in this order:")?;
         let text = |path: &Path| path.display().to_string();
         for file in &files {
             output::command(out, ["coqc", "-R", &text(directory), "Contact", &text(file)])?;
         }
-        left_out.iter().try_for_each(|LeftOut { equation, name, reason }| {
+        coq().left_out().iter().try_for_each(|LeftOut { equation, name, reason }| {
             output::wrapped(out, "", 2, &format!("left out: {equation} {name}: {reason}"))
         })
     })

@@ -225,7 +225,7 @@ impl Running {
             if self.group.has_ended() {
                 return true;
             }
-            if start.elapsed() > GRACE {
+            if GRACE.saturating_sub(start.elapsed()).is_zero() {
                 return false;
             }
             // What it still prints must not keep it from ending.

@@ -30,8 +30,8 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     let defaults = Arc::new(Options { format: Format::Line, ..options.clone() });
     let workers = thread::available_parallelism().map_or(1, NonZero::get);
     let (queue, blocks) = mpsc::sync_channel(2 * workers);
-    let input = Input { stdin: BufReader::with_capacity(BUFFER, io::stdin()), queue, ended: false };
-    let input = Arc::new(Mutex::new(input));
+    let input = Input { stdin: BufReader::with_capacity(BUFFER, io::stdin()), queue };
+    let input = Arc::new(Mutex::new(Some(input)));
     // They are left behind where stdout is closed: one of them may be waiting for a line that never comes.
     let worker = |_| {
         let (input, defaults) = (Arc::clone(&input), Arc::clone(&defaults));
@@ -66,31 +66,34 @@ struct Answers {
 struct Input {
     stdin: BufReader<Stdin>,
     queue: SyncSender<io::Result<Receiver<Answers>>>,
-    ended: bool,
 }
 
 impl Input {
     /// Lines, and where their answers go; `None` at the end, and when nobody listens any more.
     fn next(&mut self) -> Option<(Vec<u8>, SyncSender<Answers>)> {
-        if self.ended {
-            return None;
-        }
         let mut lines = Vec::new();
         let read = json::read_lines(&mut self.stdin, AT_ONCE, LONGEST, &mut lines);
-        self.ended = read.is_err() || lines.is_empty();
-        if lines.is_empty() && read.is_ok() {
-            return None;
-        }
         let (answers, block) = mpsc::sync_channel(1);
-        self.queue.send(read.map(|()| block)).ok().filter(|()| !self.ended)?;
-        Some((lines, answers))
+        match read {
+            Ok(()) if lines.is_empty() => None,
+            Ok(()) => self.queue.send(Ok(block)).is_ok().then_some((lines, answers)),
+            Err(error) => {
+                let _ = self.queue.send(Err(error));
+                None
+            }
+        }
     }
 }
 
-fn work(input: &Mutex<Input>, defaults: &Options) {
+fn work(input: &Mutex<Option<Input>>, defaults: &Options) {
     loop {
-        let next = input.lock().expect("reading does not panic").next();
-        let Some((lines, to)) = next else { return };
+        let mut input = input.lock().expect("reading does not panic");
+        let Some((lines, to)) = input.as_mut().and_then(Input::next) else {
+            // Nobody reads on: at the end of what is typed there would have to be a second one.
+            *input = None;
+            return;
+        };
+        drop(input);
         let mut answers = Answers { text: Vec::new(), exit: Exit::Fine };
         for line in lines.split(|byte| *byte == b'\n').filter(|line| !line.trim_ascii().is_empty()) {
             answers.exit = answers.exit.max(answer(line, defaults, &mut answers.text));

@@ -1,7 +1,16 @@
 //! A program and all that it starts, as a group of processes that ends as one.
 
+#[cfg(not(unix))]
+mod other;
+#[cfg(unix)]
+mod unix;
+
+#[cfg(not(unix))]
+use other::{has_ended, kill, start};
 use std::io;
 use std::process::{Child, Command, ExitStatus};
+#[cfg(unix)]
+use unix::{has_ended, kill, start};
 
 /// A child process; dropped, it ends.
 ///
@@ -37,76 +46,4 @@ impl Drop for Group {
         // That it cannot be waited for leaves nothing to do.
         let _ = self.end();
     }
-}
-
-#[cfg(unix)]
-use unix::{has_ended, kill, start};
-
-#[cfg(unix)]
-mod unix {
-    use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, kill_process, kill_process_group, waitid};
-    use std::io;
-    use std::os::unix::process::CommandExt;
-    use std::process::{Child, Command, exit};
-    use std::sync::{Mutex, MutexGuard, Once, PoisonError};
-
-    /// Leaders that have not been waited for, so that no stranger has their number.
-    static LEADERS: Mutex<Vec<Pid>> = Mutex::new(Vec::new());
-
-    fn leaders() -> MutexGuard<'static, Vec<Pid>> {
-        LEADERS.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// Ends a group, and its leader, who may have left it. It fails where nobody is left.
-    fn end(leader: Pid) {
-        let _ = kill_process_group(leader, Signal::KILL);
-        let _ = kill_process(leader, Signal::KILL);
-    }
-
-    pub fn start(command: &mut Command) -> io::Result<Child> {
-        static ON_SIGNAL: Once = Once::new();
-        ON_SIGNAL.call_once(|| {
-            // Without it Ctrl-C leaves to a program that hangs what any other does: that its pipes are
-            // closed.
-            let _ = ctrlc::set_handler(|| {
-                // None is started any more.
-                let leaders = leaders();
-                leaders.iter().copied().for_each(end);
-                exit(130);
-            });
-        });
-        let mut leaders = leaders();
-        let child = command.process_group(0).spawn()?;
-        leaders.push(Pid::from_child(&child));
-        Ok(child)
-    }
-
-    pub fn has_ended(child: &mut Child) -> bool {
-        // It is not waited for: its number stays that of the group, which may still have others in it.
-        let options = WaitIdOptions::EXITED | WaitIdOptions::NOHANG | WaitIdOptions::NOWAIT;
-        matches!(waitid(WaitId::Pid(Pid::from_child(child)), options), Ok(Some(_)) | Err(_))
-    }
-
-    pub fn kill(child: &mut Child) {
-        let mut leaders = leaders();
-        if let Some(place) = leaders.iter().position(|leader| *leader == Pid::from_child(child)) {
-            end(leaders.swap_remove(place));
-        }
-    }
-}
-
-#[cfg(not(unix))]
-fn start(command: &mut Command) -> io::Result<Child> {
-    command.spawn()
-}
-
-#[cfg(not(unix))]
-fn has_ended(child: &mut Child) -> bool {
-    !matches!(child.try_wait(), Ok(None))
-}
-
-#[cfg(not(unix))]
-fn kill(child: &mut Child) {
-    // It fails where it has ended.
-    let _ = child.kill();
 }
