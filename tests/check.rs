@@ -6,6 +6,7 @@ mod processes;
 
 use processes::{captured, command};
 use serde_json::Value;
+use spring_mass_contact::number::Exact;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
@@ -113,6 +114,39 @@ fn the_command_can_be_checked_by_itself() {
             Some(name) => assert_eq!((status, diagnosed(&report)[0]), (Some(1), name), "{options}"),
         }
     }
+}
+
+/// Exactly, as far as it is a decimal.
+fn exact(number: &Value) -> Exact {
+    number.as_str().map_or_else(|| number.to_string(), String::from).parse().unwrap()
+}
+
+/// Where a plane that pulls is wrong the mass hangs free: u = H − l, and what the plane pulls with is a residual.
+#[test]
+fn an_example_is_told_of_each_family_that_fails() {
+    let (_, report) =
+        report(&[env!("CARGO_BIN_EXE_contact"), "solve", "--batch", "--bilateral", "--scalar=exact"]);
+    let mut verdicts = Vec::new();
+    for row in report["families"].as_array().unwrap() {
+        let (verdict, example) = (row["verdict"].as_str().unwrap(), &row["counterexample"]);
+        verdicts.push(verdict);
+        assert_eq!(example.is_null(), verdict != "wrong", "{row:#}");
+        if verdict == "wrong" {
+            let (request, answer, kkt) = (&example["request"], &example["answer"], &example["kkt"]);
+            let gap = exact(&request["height"]) - exact(&request["free_length"]);
+            assert_eq!(
+                (exact(&answer["deflection"]), exact(&kkt["primal"])),
+                (gap, Exact::from(0)),
+                "{row:#}"
+            );
+            assert_eq!(exact(&kkt["dual"]), -exact(&answer["contact_force"]), "{row:#}");
+            assert_eq!((&example["exact"]["state"], &answer["status"]), (&"separated".into(), &Value::Null));
+        }
+    }
+    assert!(
+        ["right", "within_tolerance", "wrong"].iter().all(|verdict| verdicts.contains(verdict)),
+        "{report:#}"
+    );
 }
 
 /// What `cases` prints is what `solve` finds for it, and what `check` asks.

@@ -182,11 +182,10 @@ fn totals(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
     if proved < claims {
         return writeln!(out, "The controls wait until all are.");
     }
-    let fine = proofs.controls.dropped.iter().filter(|dropped| dropped.is_of_precision()).count();
-    let needed = hypotheses - fine - proofs.controls.needless().count();
-    let others = if fine > 0 { format!(", {fine} only asks for finer numbers") } else { String::new() };
-    let needed = format!("{needed} of {hypotheses} hypotheses needed{others}.");
-    output::wrapped(out, "", 2, &needed)?;
+    let dropped = &proofs.controls.dropped;
+    let needed = dropped.iter().filter(|dropped| matches!(dropped.without, Without::Refuted(_))).count();
+    let fine = dropped.iter().filter(|dropped| dropped.is_of_precision()).count();
+    writeln!(out, "{needed} of {hypotheses} hypotheses needed, {fine} only asks for finer numbers.")?;
     let (changes, noticed, unchanged) = (controls.changes, controls.noticed, controls.unchanged);
     let seen = noticed + unchanged;
     let seen = format!(
@@ -257,10 +256,9 @@ fn account(out: &mut dyn Write, proofs: &Proofs, proved: &Proved) -> io::Result<
         Without::StillTrue | Without::Unknown => None,
     });
     say("needs", &needed.collect::<Vec<_>>())?;
-    let sharp = statement.rounds().then(|| sharpest(statement)).flatten().and_then(|(point, share)| {
+    let sharp = statement.rounds().then(|| sharpest(statement)).flatten().map(|(point, share)| {
         let percent = (100.0 * share.as_rational().to_f64()).floor();
-        let used = || format!("{percent} % of the bound are used up at {}", output::glued(&point));
-        (percent > 0.0).then(used)
+        format!("{percent} % of the bound are used up at {}", output::glued(&point))
     });
     say("sharp", &sharp.into_iter().collect::<Vec<_>>())
 }
@@ -303,7 +301,10 @@ mod tests {
             details(out, &proofs)
         });
         assert_eq!(text.lines().find(|line| line.chars().count() > 80), None);
-        assert!(text.contains(" REFUTED\n"), "{text}");
+        assert!(
+            text.contains(" REFUTED\n") && text.contains("\nThe controls wait until all are.\n"),
+            "{text}"
+        );
         // Each counterexample that is a system has its command, in the table and in the details.
         let commands = output::printed(|out| {
             proofs.claims.iter().try_for_each(|proved| match &proved.answer {

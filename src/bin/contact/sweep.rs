@@ -188,8 +188,7 @@ impl Sweeping<'_> {
             x.as_ref().map(|x| x.decimal_within(digits, if people { width } else { usize::MAX }))
         };
         let [penalty, u, p, force, force_error, penalty_force, penalty_force_error] = WIDTHS;
-        let fits = !people || eps.text.chars().count() <= penalty;
-        let penalty = if fits { eps.text.clone() } else { eps.value.decimal_within(DIGITS, penalty) };
+        let penalty = if people { eps.value.decimal_within(DIGITS, penalty) } else { eps.text.clone() };
         Row(
             &NAMES,
             [

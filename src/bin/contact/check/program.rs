@@ -229,7 +229,7 @@ impl Running {
                 return false;
             }
             // What it still prints must not keep it from ending.
-            if self.lines.blocks.recv_timeout(SOON) == Err(RecvTimeoutError::Disconnected) {
+            if self.lines.blocks.recv_timeout(SOON).is_err() {
                 thread::sleep(SOON);
             }
         }
