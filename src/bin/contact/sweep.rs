@@ -40,8 +40,9 @@ pub struct Options {
     #[arg(long, value_name = "FROM..TO", value_parser = range, help_heading = "Sweep")]
     penalty: (Number, Number),
     /// How many penalties, both ends included, from 2 to 1001; each as many times the one before
-    #[arg(long, value_name = "N", default_value = "61", value_parser = points, help_heading = "Sweep")]
-    points: u32,
+    #[arg(value_parser = |text: &str| whole_in(2..=1001, text))]
+    #[arg(long, value_name = "N", default_value = "61", help_heading = "Sweep")]
+    points: u64,
 
     /// Number system, repeatable: f32, f64, mpfr:BITS or exact [default: f64]
     #[arg(long = "scalar", value_name = "S", help_heading = "Output")]
@@ -95,10 +96,6 @@ fn range(text: &str) -> Result<(Number, Number), String> {
     if from.value < to.value { Ok((from, to)) } else { Err("FROM must be less than TO".to_string()) }
 }
 
-fn points(text: &str) -> Result<u32, String> {
-    whole_in(2..=1001, text).map(|count| count as u32)
-}
-
 /// Sweeps and prints.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
     // All of it before a line is printed: bad input shall not leave half a table.
@@ -120,7 +117,7 @@ fn sweeps(options: &Options, progress: &dyn Fn(usize, usize)) -> Result<Vec<Swee
         };
         Failure::Input(format!("invalid value '{typed}' for '{PENALTY}': {allowed}"))
     };
-    let penalties = penalties(&from.value, &to.value, options.points).map_err(refused)?;
+    let penalties = penalties(&from.value, &to.value, options.points as u32).map_err(refused)?;
     let number = |value| Number { text: spelled(&value), value };
     let penalties: Vec<_> = penalties.into_iter().map(number).collect();
     let scalars = if options.scalars.is_empty() { &[NumberSystem::F64] } else { &options.scalars[..] };

@@ -17,9 +17,6 @@ const DIGITS: usize = 12;
 /// Families of which an example is shown; JSON has all.
 const EXAMPLES: usize = 3;
 
-/// Mistakes that are named if several explain the answers.
-const NAMED: usize = 4;
-
 pub fn table(out: &mut dyn Write, program: &str, report: &Report, tolerance: &str) -> io::Result<()> {
     let Summary { right, within_tolerance, wrong, refused, crashed, timed_out } = report.summary();
     let within = format!("within {}", shortened(tolerance));
@@ -49,7 +46,7 @@ pub fn table(out: &mut dyn Write, program: &str, report: &Report, tolerance: &st
         writeln!(out)?;
         example(out, row.worst)?;
     }
-    if bad.len() > EXAMPLES {
+    if !bad.is_empty() {
         writeln!(out, "\n --format json has an example of each family that fails, with its request.")?;
     }
     let lag = report.lag();
@@ -87,20 +84,16 @@ pub fn markdown(out: &mut dyn Write, report: &Report) -> io::Result<()> {
 fn cells(row: &Row, within: &str) -> [String; 5] {
     let error = |x: &Option<Exact>| x.as_ref().map_or(String::new(), |x| x.decimal(FEW, Round::Up));
     let verdict = match row.verdict {
-        Verdict::Right => "right",
-        Verdict::WithinTolerance => within,
-        Verdict::Refused => "refused",
-        Verdict::Wrong => "wrong",
-        Verdict::TimedOut => "not in time",
-        Verdict::Crashed => "crashed",
+        Verdict::WithinTolerance => within.to_string(),
+        Verdict::TimedOut => "not in time".to_string(),
+        verdict @ (Verdict::Right | Verdict::Refused | Verdict::Wrong | Verdict::Crashed) => {
+            verdict.to_string()
+        }
     };
-    let verdict = if row.verdict > Verdict::WithinTolerance && row.count < row.cases {
-        format!("{verdict}: {} of {}", row.count, row.cases)
-    } else {
-        verdict.to_string()
-    };
+    let some = row.verdict > Verdict::WithinTolerance && row.count < row.cases;
+    let of = if some { format!(": {} of {}", row.count, row.cases) } else { String::new() };
     let [u, n] = [error(&row.worst_deflection), error(&row.worst_force)];
-    [row.family.to_string(), row.cases.to_string(), verdict, u, n]
+    [row.family.to_string(), row.cases.to_string(), verdict + &of, u, n]
 }
 
 /// A system whose answer is not what it should be.
@@ -191,34 +184,19 @@ fn lagging(lag: &Diagnosis) -> String {
 }
 
 fn diagnosed(report: &Report) -> Option<String> {
-    let Summary { right, within_tolerance, .. } = report.summary();
     let fitting: Vec<_> = report.fitting().collect();
-    let first = fitting.first()?;
-    let of = first.of;
-    let which = match first.answers {
-        Answers::All if of == 1 => "The only answer fits".to_string(),
-        Answers::All if of < report.checked.len() => format!("All {of} answers that can be compared fit"),
-        Answers::All => format!("All {of} answers fit"),
-        _ if of == 1 => "The wrong answer fits".to_string(),
-        _ => format!("The {of} wrong answers fit"),
-    };
-    let others = match (first.answers, right + within_tolerance) {
-        (Answers::All, _) | (_, 0) => String::new(),
-        (_, others) => format!(" The other {others} are right."),
-    };
-    Some(match fitting.as_slice() {
-        [only] => format!("{which} one mistake that is known, and no other: {}.{others}", only.name),
-        several => {
-            let names: Vec<_> = several.iter().take(NAMED).map(|one| one.name.as_str()).collect();
-            let more = match several.len().saturating_sub(NAMED) {
-                0 => String::new(),
-                more => format!("; and {more} more"),
-            };
-            format!(
-                "{which} several mistakes that are known: {}{more}.{others} More families or more cases may \
-                 tell them apart.",
-                names.join("; ")
-            )
-        }
+    let Diagnosis { answers, of, .. } = fitting.first()?;
+    let which = if *answers == Answers::All { "answers" } else { "wrong answers" };
+    let names: Vec<_> = fitting.iter().map(|one| one.name.as_str()).collect();
+    Some(match names[..] {
+        [only] => format!("Each of {of} {which} fits one mistake that is known, and no other: {only}."),
+        _ => format!(
+            "Each of {of} {which} fits several mistakes that are known: {}. More families or more cases may tell \
+             them apart.",
+            names.join("; ")
+        ),
     })
 }
+
+#[cfg(test)]
+mod tests;

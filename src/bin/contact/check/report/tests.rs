@@ -1,0 +1,112 @@
+//! What is said of solvers with known mistakes.
+
+use super::*;
+use crate::output::printed;
+use spring_mass_contact::chapter::{SpringMass, contact, lagrange, structure, system};
+use spring_mass_contact::check::{Answer, CASES, Family, Problem, check, problems};
+use spring_mass_contact::solver::Augmentation;
+use std::convert::Infallible;
+
+fn number(text: &str) -> Exact {
+    text.parse().expect("a number")
+}
+
+fn report(problems: &[Problem], solver: impl Fn(&Problem) -> Answer) -> Report {
+    let ask = |problem: &Problem| Ok::<_, Infallible>(Reply::Answered(Box::new(solver(problem))));
+    check(problems, &number("1e-6"), ask).expect("no failure")
+}
+
+/// Its table, with a blank for all that is white.
+fn said(report: &Report) -> String {
+    let text = printed(|out| table(out, "program", report, "1e-6"));
+    assert_eq!(text.lines().find(|line| line.chars().count() > 80), None);
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+fn all() -> Vec<Problem> {
+    problems(1, CASES, &Family::ALL)
+}
+
+fn right(problem: &Problem) -> Answer {
+    let exact = problem.solution();
+    Answer::new(exact.deflection, exact.contact_force)
+}
+
+/// As if there were no plane, where something is below a threshold.
+fn missing(is_small: impl Fn(&SpringMass<Exact>) -> bool) -> Report {
+    report(&problems(1, 10, &Family::ALL), |problem| {
+        let free = structure::deflection(&problem.system);
+        if is_small(&problem.system) { Answer::new(free, number("0")) } else { right(problem) }
+    })
+}
+
+#[test]
+fn a_threshold_is_told_with_its_unit() {
+    let through = |system: &SpringMass<Exact>| contact::penetration(system, &structure::deflection(system));
+    for (report, what, unit) in [
+        (missing(|system| through(system) < number("1e-6")), "the mass would go through it by", "m"),
+        (missing(|system| system::reaction(system) < number("1e-2")), "it has to push with", "N"),
+    ] {
+        let Missed { count, up_to, from, .. } = report.missed.as_ref().expect("a threshold");
+        let [up_to, from] = [up_to.decimal(FEW, Round::Up), from.decimal(FEW, Round::Down)];
+        let text = format!(
+            "It misses the plane in {count} systems, in which {what} up to {up_to} {unit}, and finds it in all others, \
+             from {from} {unit} on."
+        );
+        assert!(said(&report).contains(&text), "{text}\n{}", said(&report));
+    }
+}
+
+/// Of the wrong answers alone, and of all.
+#[test]
+fn it_is_said_which_answers_a_mistake_explains() {
+    let free = missing(|system| system::reaction(system) < number("1e-2"));
+    let text = format!("Each of {} wrong answers fits", free.summary().wrong);
+    assert!(said(&free).contains(&text), "{}", said(&free));
+    let pulls = report(&all(), |problem| {
+        Answer::new(lagrange::deflection(&problem.system), lagrange::multiplier(&problem.system))
+    });
+    let text =
+        "Each of 55 answers fits one mistake that is known, and no other: the plane also pulls. u = H − l,";
+    assert!(said(&pulls).contains(text), "{}", said(&pulls));
+}
+
+/// (1.16), each force that of the step before.
+#[test]
+fn steps_that_lag_are_told() {
+    let lagging = report(&all(), |problem| {
+        let (eps, mut before) = (&problem.system.c * number("3"), number("0"));
+        let steps = Augmentation::new(&problem.system, &eps)
+            .take(12)
+            .map(|step| [Some(step.deflection), Some(std::mem::replace(&mut before, step.contact_force))]);
+        Answer { steps: steps.collect(), ..right(problem) }
+    });
+    let of = lagging.lag().expect("a lag").of;
+    let text = format!(
+        "The steps of all {of} systems that tell them show it: N is one step behind. N_k = m g − c u_{{k−1}}"
+    );
+    assert!(said(&lagging).contains(&text), "{}", said(&lagging));
+}
+
+/// Unless it is the one that was asked for.
+#[test]
+fn a_penalty_is_told_with_what_it_is_a_multiple_of() {
+    let by_penalty = |asked: Option<&str>, eps: fn(&SpringMass<Exact>) -> Exact| {
+        let asked = |problem| Problem { penalty: asked.map(number), ..problem };
+        let problems: Vec<_> = all().into_iter().map(asked).collect();
+        said(&report(&problems, |problem| {
+            right(&Problem { penalty: Some(eps(&problem.system)), ..problem.clone() })
+        }))
+    };
+    for (asked, eps, text) in [
+        (None, (|_| number("1e4")) as fn(&SpringMass<Exact>) -> Exact, "ε = 10000 N/m, the same"),
+        (Some("1e6"), |_| number("1e4"), "ε = 10000 N/m, the same"),
+        (None, |system| &system.c * number("50"), "ε = 50 c, the same"),
+        (None, |system| &system.m * number("7e3"), "ε = m × 7000/s², the same"),
+    ] {
+        let said = by_penalty(asked, eps);
+        assert!(said.contains(&format!("It acts like a penalty: N = ε p with {text}")), "{said}");
+        assert_eq!(said.contains("stops after the same number of steps"), text.contains(" c,"), "{said}");
+    }
+    assert!(!by_penalty(Some("1e4"), |_| number("1e4")).contains("It acts like"));
+}
