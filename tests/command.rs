@@ -420,7 +420,7 @@ fn a_terminal_of_80_columns_is_enough() {
         "sweep --penalty 1e-99999..1e99999 --points 99 --scalar mpfr:90000 --gravity -1/3 --free-length 1234567",
         "sweep --penalty 1234567890/123456789..12345678901234567890 --points 2 --scalar exact",
     ] {
-        let output = contact_line(&line);
+        let output = contact_line(line);
         assert_eq!(too_wide(&output), None, "{line}");
     }
 }

@@ -45,8 +45,8 @@ pub struct Program {
 }
 
 impl Program {
-    /// The program that these words start: its name or path, and its arguments; it has so long for each
-    /// answer.
+    /// The program that these words start: its name or path, the first of them, and its arguments; it has so
+    /// long for each answer.
     pub fn new(words: &[String], timeout: Duration) -> Self {
         Program { words: words.to_vec(), timeout, started: false, running: None }
     }
@@ -79,13 +79,12 @@ impl Program {
     }
 
     fn refused(&self, error: &io::Error) -> Failure {
-        let program = &words(self.words.first().map_or("", String::as_str));
         let must = match error.kind() {
             io::ErrorKind::NotFound => "must be the name of a program on the path, or its own path",
             _ => "must be a program that can be executed; a script begins with #!",
         };
         let why = format!("cannot be started: {error}; {must}");
-        invalid(program, "<PROGRAM>...", why)
+        invalid(&words(&self.words[0]), "<PROGRAM>...", why)
     }
 }
 
@@ -138,9 +137,8 @@ struct Running {
 
 impl Running {
     fn start(words: &[String]) -> io::Result<Self> {
-        let [program, arguments @ ..] = words else { return Err(io::ErrorKind::NotFound.into()) };
-        let mut command = Command::new(program);
-        command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut command = Command::new(&words[0]);
+        command.args(&words[1..]).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut group = Group::start(&mut command)?;
         let child = group.child();
         let pipe = "a pipe was asked for";

@@ -2,7 +2,7 @@
 
 use super::{Options, Problem, quantities};
 use crate::args::{Number, System, exact};
-use crate::output::{self, WIDTH, shortened};
+use crate::output::{self, shortened};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::Value;
 use spring_mass_contact::chapter::SpringMass;
@@ -158,18 +158,17 @@ impl<'a, T: Scalar + Text> Report<'a, T> {
     /// Widths are fixed, and each row is made while it is written: there can be very many.
     fn trace_table(&self, out: &mut dyn Write) -> io::Result<()> {
         const DIGITS: usize = 10;
+        // Ten digits, a sign, a point, and three zeros before them or an exponent behind.
+        const WIDE: usize = 16;
         let first = self.solution.augmentations.unwrap_or_default().to_string().len();
-        // Ten digits, a sign, a point, and three zeros before them or an exponent behind; less beside a
-        // long k.
-        let width = ((usize::from(WIDTH) - " ".len() - first) / 4 - "  ".len()).min(DIGITS + 6);
         let line = |k: String, cells: [String; 4]| {
-            let cells = cells.map(|cell| format!("  {cell:<width$}")).concat();
+            let cells = cells.map(|cell| format!("  {cell:<WIDE$}")).concat();
             format!(" {k:<first$}{cells}").trim_end().to_string()
         };
         let names = ["λ in N", "u in m", "p in m", "m g − c u in N"].map(String::from);
         writeln!(out, "\n{}", line("k".to_string(), names))?;
         for iterate in self.problem.trace(self.solution) {
-            let cells = quantities(&iterate).map(|x| exact(x).decimal_within(DIGITS, width));
+            let cells = quantities(&iterate).map(|x| exact(x).decimal_within(DIGITS, WIDE));
             writeln!(out, "{}", line(iterate.k.to_string(), cells))?;
         }
         writeln!(out, "\n At most ten digits each; --format csv has all.")

@@ -52,9 +52,8 @@ impl Axis {
     /// The powers that are labelled, so many at most, and where they are.
     fn ticks(&self, most: usize) -> Vec<(i64, usize)> {
         let (from, to) = (self.from as i64, self.to as i64);
-        let steps = (0..).flat_map(|power| [1, 2, 5].map(|digit| digit * 10_i64.pow(power)));
-        let mut steps = steps.skip_while(|step| (to - from) / step >= most as i64);
-        let step = steps.next().unwrap_or(to - from);
+        let mut steps = (0..).flat_map(|power| [1, 2, 5].map(|digit| digit * 10_i64.pow(power)));
+        let step = steps.find(|step| (to - from) / step < most as i64).expect("steps without end");
         let first = from + (-from).rem_euclid(step);
         (0..)
             .map(|i| first + i * step)
@@ -95,7 +94,7 @@ pub fn log_log(curves: &[Curve]) -> Option<String> {
     let rows: String = canvas.iter().enumerate().map(row).collect();
     let mut axis = vec!['─'; COLUMNS];
     let mut labels = String::new();
-    for (power, across) in x.ticks(COLUMNS / 10) {
+    for (power, across) in x.ticks(6) {
         axis[across / 2] = '┬';
         let label = format!("1e{power}");
         let column = (MARGIN + 1 + across / 2).saturating_sub(label.len() / 2).min(WIDTH - label.len());
@@ -162,7 +161,9 @@ mod tests {
     /// However far the powers reach, they are labelled in equal steps, and no line is wider than a page.
     #[test]
     fn labels_are_powers_of_ten_and_fit() {
-        for (from, to) in [(0.0, 1.0), (0.3, 0.4), (-7.5, 12.0), (-99_999.0, 100_000.0), (0.0, 18.0)] {
+        for (from, to) in
+            [(0.0, 1.0), (0.3, 0.4), (-7.5, 12.0), (2.0, 2.0), (-99_999.0, 100_000.0), (0.0, 18.0)]
+        {
             let plot = pair(vec![(from, to), (to, from)], vec![(from, -to), (to, -300_000.0)]);
             assert!(plot.lines().all(|line| line.chars().count() <= WIDTH), "{plot}");
             let labels = plot.lines().rev().nth(1).unwrap().split_whitespace();
