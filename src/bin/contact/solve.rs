@@ -322,7 +322,7 @@ mod tests {
             let seen = RefCell::new(Vec::new());
             let method =
                 Method::Augmented { penalty: 100.0, tolerance: 1e-12, max_augmentations, start: 0.0 };
-            let problem = Problem { system: system.clone(), method, plane: Plane::Unilateral };
+            let problem = Problem { system, method, plane: Plane::Unilateral };
             let progress = |k, of| seen.borrow_mut().push((k, of));
             assert!(problem.solve(problem.steps_needed().as_ref(), &progress).is_ok());
             assert_eq!(seen.into_inner(), (0..=last).map(|k| (k, last)).collect::<Vec<_>>());
