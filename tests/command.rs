@@ -587,7 +587,8 @@ fn results_that_do_not_fit_are_refused() {
     }
 }
 
-/// A terminal of 100 columns, as far as there is `script` to make one: a plot, and a bar while a program takes its time.
+/// A terminal of 100 columns, as far as there is `script` to make one: a plot, and a bar while a program takes its
+/// time.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_terminal_gets_a_plot_and_a_bar() {

@@ -30,7 +30,8 @@ pub struct Options {
 #[derive(clap::Args)]
 pub struct Drawn {
     /// Systems of each family, from 1 to 10000
-    #[arg(long, value_name = "N", default_value_t = check::CASES, value_parser = |text: &str| whole_in(1..=10_000, text))]
+    #[arg(long, value_name = "N", default_value_t = check::CASES)]
+    #[arg(value_parser = |text: &str| whole_in(1..=10_000, text))]
     cases: u64,
     /// Where they are drawn from; the same seed, the same systems, on every machine
     #[arg(long, value_name = "N", default_value = "1", value_parser = whole)]

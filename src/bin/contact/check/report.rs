@@ -191,8 +191,8 @@ fn diagnosed(report: &Report) -> Option<String> {
     Some(match names[..] {
         [only] => format!("Each of {of} {which} fits one mistake that is known, and no other: {only}."),
         _ => format!(
-            "Each of {of} {which} fits several mistakes that are known: {}. More families or more cases may tell \
-             them apart.",
+            "Each of {of} {which} fits several mistakes that are known: {}. More families or more cases may \
+             tell them apart.",
             names.join("; ")
         ),
     })

@@ -50,8 +50,8 @@ fn a_threshold_is_told_with_its_unit() {
         let Missed { count, up_to, from, .. } = report.missed.as_ref().expect("a threshold");
         let [up_to, from] = [up_to.decimal(FEW, Round::Up), from.decimal(FEW, Round::Down)];
         let text = format!(
-            "It misses the plane in {count} systems, in which {what} up to {up_to} {unit}, and finds it in all others, \
-             from {from} {unit} on."
+            "It misses the plane in {count} systems, in which {what} up to {up_to} {unit}, and finds it in \
+             all others, from {from} {unit} on."
         );
         assert!(said(&report).contains(&text), "{text}\n{}", said(&report));
     }
