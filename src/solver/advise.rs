@@ -8,7 +8,9 @@ use super::{
 use crate::chapter::{SpringMass, contact};
 use crate::number::{Exact, PositivePart, RangeError, Text};
 use num_traits::Zero;
+use rug::Integer;
 use rug::float::Round;
+use std::iter::successors;
 
 /// What [`advise`] comes to.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,9 +37,9 @@ pub struct Choice<T> {
     /// Every penalty ε in N/m between these is sure to reach the tolerance, [`method`](Self::method)'s
     /// among them. A smaller one is not: it is too soft, or may take more than [`MAX_AUGMENTATIONS`]. Up to
     /// the larger one rounding takes no more from the force ε p, or from the multiplier, than c times the
-    /// tolerance; if it takes more with every one that will do, the larger one is the method's own. From
-    /// the deflection it takes no more at any. None where there is no penalty, or no limit but the range of
-    /// the scalar.
+    /// tolerance; if it takes more with every one that will do, or with all but the softest, the larger one
+    /// is the method's own. From the deflection it takes no more at any. None where there is no penalty, or
+    /// no limit but the range of the scalar.
     pub penalties: [Option<T>; 2],
     /// k of the augmentation that arrives.
     pub augmentations: Option<u64>,
@@ -84,15 +86,16 @@ pub fn advise<T: Scalar + Text>(system: &SpringMass<T>, tolerance: &T) -> Result
     let floor = rounding_floor(system, Plane::Unilateral, &eta);
     let promised = floor.as_ref().is_some_and(|floor| tol > *floor);
     let arithmetic = match Laws::of(&numbers, &eta) {
-        _ if state == State::Separated => Arithmetic::Free { promised },
+        _ if state == State::Separated => Arithmetic::Free,
         Some(laws) => Arithmetic::Rounded(Box::new(laws)),
         None => Arithmetic::Exact,
     };
-    let task = Task { system, tolerance, tol, answer: contact::deflection(&numbers), numbers, arithmetic };
-    let choices = task.reached(Method::Lagrange, &solution).map_or_else(Vec::new, |lagrange| {
-        let (penalty, augmentation) = task.iterative();
-        [Some(lagrange), penalty, augmentation].into_iter().flatten().collect()
-    });
+    let answer = contact::deflection(&numbers);
+    let task = Task { system, tolerance, tol, answer, numbers, promised, arithmetic };
+    let mut choices = Vec::from_iter(task.reached(Method::Lagrange, &solution));
+    if !choices.is_empty() {
+        choices.extend(task.iterative());
+    }
     Ok(Advice { state, floor, choices })
 }
 
@@ -121,15 +124,30 @@ fn last(holds: impl Fn(i32) -> bool) -> i32 {
     held
 }
 
+/// The softest penalty that takes no more than [`MAX_AUGMENTATIONS`], within a tenth; looked for from this
+/// one on. A harder one takes no more than a softer one, and a hard one is sure to arrive.
+fn softest(eps: &Exact, augmentations: impl Fn(&Exact) -> Option<Integer>) -> Exact {
+    let in_time = |eps: &Exact| augmentations(eps).is_some_and(|most| most <= MAX_AUGMENTATIONS);
+    let times = |n: i32| eps * Exact::power_of_two(n);
+    let soft = if in_time(eps) {
+        times(-last(|n| in_time(&times(-n))))
+    } else {
+        times(last(|n| !in_time(&times(n))) + 1)
+    };
+    // 1.1⁸ > 2.
+    let tenth = Exact::from(10) / Exact::from(11);
+    let softer = successors(Some(soft), |eps| Some(eps * &tenth));
+    softer.take_while(in_time).last().expect("the first one is")
+}
+
 /// What decides which penalties will do.
 enum Arithmetic {
     /// Mass and plane touch, and nothing is rounded.
     Exact,
     /// They touch, and these are the laws of what is rounded.
     Rounded(Box<Laws>),
-    /// The mass hangs free. Every method computes m g / c; the augmentation is sure to see it above the
-    /// floor.
-    Free { promised: bool },
+    /// The mass hangs free: every method computes m g / c.
+    Free,
 }
 
 /// What is to be solved, and how well.
@@ -140,97 +158,58 @@ struct Task<'a, T> {
     numbers: SpringMass<Exact>,
     tol: Exact,
     answer: Exact,
+    /// Is the tolerance above the floor?
+    promised: bool,
     arithmetic: Arithmetic,
 }
 
 impl<T: Scalar + Text> Task<'_, T> {
     /// The penalty method and the augmentation, if they can be promised.
-    fn iterative(&self) -> (Option<Choice<T>>, Option<Choice<T>>) {
-        let softest = self.penalties().map(|limits| {
-            let eps = if limits.from.is_zero() { self.usual() } else { two_digits_above(&limits.from) };
-            (limits, eps)
-        });
-        let none_needed = softest.as_ref().map(|(_, eps)| eps.clone());
-        let any_will_do = softest.as_ref().is_some_and(|(limits, _)| limits.from.is_zero());
-        let augmentation = self.augmentations().and_then(|limits| {
-            let eps = self.fewest_augmentations(&limits, none_needed);
-            let limits = Limits { from: self.softest_augmentation(&limits, &eps, any_will_do), ..limits };
-            self.choice(&limits, &eps, |penalty| self.augmented(penalty))
-        });
-        let penalty = softest
-            .and_then(|(limits, eps)| self.choice(&limits, &eps, |penalty| Method::Penalty { penalty }));
-        (penalty, augmentation)
+    fn iterative(&self) -> Vec<Choice<T>> {
+        // Where this does not reach the tolerance, it is not promised to the augmentation.
+        let Some(limits) = self.penalties() else { return Vec::new() };
+        let any_will_do = limits.from.is_zero();
+        let eps =
+            if any_will_do { Exact::from(10) * &self.numbers.c } else { two_digits_above(&limits.from) };
+        let penalty = self.choice(&limits, &eps, |penalty| Method::Penalty { penalty });
+        let augmentation = self.promised.then(|| self.augmentation(eps, any_will_do));
+        [penalty, augmentation.flatten()].into_iter().flatten().collect()
     }
 
     fn penalties(&self) -> Option<Limits> {
         match &self.arithmetic {
             Arithmetic::Exact => Some(Limits::exact(&self.numbers, &self.tol)),
             Arithmetic::Rounded(laws) => laws.penalties(&self.tol),
-            Arithmetic::Free { .. } => Some(Limits { from: Exact::zero(), to: None }),
+            Arithmetic::Free => Some(Limits { from: Exact::zero(), to: None }),
         }
     }
 
-    fn augmentations(&self) -> Option<Limits> {
-        match &self.arithmetic {
-            Arithmetic::Exact => Some(Limits { from: Exact::zero(), to: None }),
-            Arithmetic::Rounded(laws) => laws.augmentations(&self.tol),
-            // Softer than c, rounding near grazing could take it for touching.
-            Arithmetic::Free { promised } => {
-                promised.then(|| Limits { from: self.numbers.c.clone(), to: None })
-            }
-        }
-    }
-
-    /// 10 c, where every penalty will do.
-    fn usual(&self) -> Exact {
-        Exact::from(10) * &self.numbers.c
-    }
-
-    fn augmented(&self, penalty: T) -> Method<T> {
-        let tolerance = self.tolerance.clone();
-        Method::Augmented { penalty, tolerance, max_augmentations: MAX_AUGMENTATIONS, start: T::zero() }
-    }
-
-    /// The hardest penalty within the limits, but no harder than one with which there is nothing to augment.
-    fn fewest_augmentations(&self, limits: &Limits, none_needed: Option<Exact>) -> Exact {
-        let hardest = limits.to.as_ref().map(|to| short(to, 1, Round::Down));
-        let mut eps = match hardest.into_iter().chain(none_needed).min() {
-            Some(eps) if eps > limits.from => eps,
-            _ => two_digits_above(&limits.from),
+    /// The augmentation with the hardest penalty that leaves the multiplier its digits, but no harder than one
+    /// with which there is nothing to augment; if that is too soft, with the softest that will do.
+    fn augmentation(&self, none_needed: Exact, any_will_do: bool) -> Option<Choice<T>> {
+        let to = match &self.arithmetic {
+            Arithmetic::Rounded(laws) => laws.hardest_augmentation(&self.tol),
+            Arithmetic::Exact | Arithmetic::Free => None,
         };
-        // So many are worth some digits of the multiplier.
-        while self.takes_long(&eps) {
-            eps = eps * Exact::from(10);
-        }
-        eps
-    }
-
-    /// The softest penalty within the limits that gets there before the limit of augmentations, within a
-    /// tenth.
-    fn softest_augmentation(&self, limits: &Limits, eps: &Exact, any_will_do: bool) -> Exact {
-        if limits.from.is_zero() && any_will_do {
-            return Exact::zero();
-        }
-        let will_do = |eps: &Exact| *eps > limits.from && !self.takes_long(eps);
-        let halves = last(|n| will_do(&(eps * Exact::power_of_two(-n))));
-        let soft = eps * Exact::power_of_two(-halves);
-        // 1.1⁸ > 2.
-        let tenth = Exact::from(10) / Exact::from(11);
-        let softer = std::iter::successors(Some(soft), |eps| Some(eps * &tenth));
-        softer.take_while(will_do).last().unwrap_or_else(|| eps.clone())
-    }
-
-    /// Is it not certain that an augmentation gets there before the limit?
-    fn takes_long(&self, eps: &Exact) -> bool {
-        let most = match &self.arithmetic {
+        let eps = match &to {
+            Some(to) => std::cmp::min(short(to, 1, Round::Down), none_needed),
+            None => none_needed,
+        };
+        let (zero, plane) = (Exact::zero(), Plane::Unilateral);
+        let from = match &self.arithmetic {
+            Arithmetic::Exact if any_will_do => zero,
             Arithmetic::Exact => {
-                let zero = Exact::zero();
-                Some(augmentations_needed(&self.numbers, eps, &self.tol, &zero, Plane::Unilateral))
+                softest(&eps, |eps| Some(augmentations_needed(&self.numbers, eps, &self.tol, &zero, plane)))
             }
-            Arithmetic::Rounded(laws) => laws.augmentations_at_most(eps, &self.tol),
-            Arithmetic::Free { .. } => return false,
+            Arithmetic::Rounded(laws) => softest(&eps, |eps| laws.augmentations_at_most(eps, &self.tol)),
+            // Softer than that, rounding near grazing could take it for touching.
+            Arithmetic::Free => self.numbers.c.clone(),
         };
-        most.is_none_or(|most| most > MAX_AUGMENTATIONS)
+        let eps = std::cmp::max(eps, short(&from, 2, Round::Up));
+        self.choice(&Limits { from, to }, &eps, |penalty| {
+            let (tolerance, max_augmentations) = (self.tolerance.clone(), MAX_AUGMENTATIONS);
+            Method::Augmented { penalty, tolerance, max_augmentations, start: T::zero() }
+        })
     }
 
     /// The choice with this penalty, if it reaches the tolerance, with the limits that do so too.
@@ -290,12 +269,26 @@ impl<T: Scalar + Text> Task<'_, T> {
 
 #[cfg(test)]
 mod tests {
-    use super::last;
+    use super::*;
 
     #[test]
     fn the_last_is_found_wherever_it_is() {
         for n in (0..100).chain([i32::MAX / 2, i32::MAX - 2]) {
             assert_eq!(last(|k| k <= n), n);
+        }
+    }
+
+    /// From 1 on it takes as many as are allowed, from 2 on fewer; below 1/2 it never arrives.
+    #[test]
+    fn the_softest_is_found_from_wherever_it_is_looked_for() {
+        let [half, one, two] = ["1/2", "1", "2"].map(|x| x.parse::<Exact>().unwrap());
+        let needed = |eps: &Exact| {
+            let more = i32::from(*eps < one) - i32::from(*eps >= two);
+            (*eps >= half).then(|| Integer::from(MAX_AUGMENTATIONS) + more)
+        };
+        for from in ["1e-99", "1/3", "0.999", "1", "1.001", "1.3", "2", "7", "1e99"] {
+            let found = softest(&from.parse().unwrap(), needed);
+            assert!(one <= found && found < &one + &one / Exact::from(10), "{found} from {from}");
         }
     }
 }

@@ -93,7 +93,8 @@ pub fn rounding_floor<T: Scalar + ToExact>(
     let state = required(State::of(system));
     let system = system.map(exact);
     let Some(laws) = Laws::of(&system, unit_roundoff) else { return Some(Exact::zero()) };
-    if !laws.fine_enough() {
+    // With fewer bits no penalty bounds the drift: 64 (c + ε) ≤ ε (2ᵖ + 1) for none.
+    if laws.precision <= Exact::from(63) {
         return None;
     }
     let touching = laws.least_tolerance(&laws.hardest_drift());
@@ -218,11 +219,6 @@ impl Laws {
         rounding::penetration_drift(&self.system, eps, &self.precision)
     }
 
-    /// Has it bits enough for the drift to be bounded, with some penalty?
-    fn fine_enough(&self) -> bool {
-        self.precision > Exact::from(63)
-    }
-
     /// What the tolerance has to be greater than if p̂ drifts so far.
     ///
     /// Once p̂ is all drift, |p̂| < tol, and its bound |p̂| + η (|fl(l + û)| + |p̂|) is below
@@ -236,8 +232,8 @@ impl Laws {
     /// takes no more from the force ε p for the sake of ε than the tolerance does. None if no penalty does.
     pub(super) fn penalties(&self, tolerance: &Exact) -> Option<Limits> {
         let Laws { system, precision, .. } = self;
-        let [soft, hard] = self.two_penalties();
-        // What (1.13) is off by is affine in p = R/(c + ε).
+        // What (1.13) is off by is affine in p = R/(c + ε), and two points fix a line.
+        let (soft, hard) = (system.c.clone(), Exact::from(2) * &system.c);
         let off = |eps: &Exact| {
             let p = penalty::penetration(system, eps);
             (p.clone(), p + rounding::deflection_error(system, eps, precision))
@@ -253,27 +249,15 @@ impl Laws {
         Some(Limits { from: from.positive_part(), to })
     }
 
-    /// Which penalties bring (1.16) within a tolerance: from the first on, and up to the second rounding
-    /// takes no more from the multiplier for the sake of ε than the tolerance does. None if no penalty
-    /// does.
-    pub(super) fn augmentations(&self, tolerance: &Exact) -> Option<Limits> {
+    /// Up to which penalty rounding takes no more from the multiplier of (1.16) for the sake of ε than this
+    /// tolerance does, if there is one. Above the floor that is more than c/2.
+    pub(super) fn hardest_augmentation(&self, tolerance: &Exact) -> Option<Exact> {
         let Laws { system, precision, .. } = self;
-        if !self.fine_enough() || *tolerance <= self.least_tolerance(&self.hardest_drift()) {
-            return None;
-        }
-        let [soft, hard] = self.two_penalties();
-        // The least tolerance is affine in 1/ε.
-        let off = |eps: &Exact| (Exact::one() / eps, self.least_tolerance(&self.penetration_drift(eps)));
-        let inverse = crossing(off(&soft), off(&hard), tolerance);
-        let deep = inverse.map_or_else(Exact::zero, |x| Exact::one() / x);
-        // 64 (c + ε) ≤ ε (2ᵖ + 1)
-        let fine = Exact::from(64) * &system.c / (precision - Exact::from(63));
         let level = self.without_reaction();
-        let growth =
-            (penalty::total_stiffness(system, &soft), rounding::multiplier_drift(&level, &soft, precision));
+        let drift = rounding::multiplier_drift(&level, &system.c, precision);
+        let growth = (penalty::total_stiffness(system, &system.c), drift);
         let to = crossing((Exact::zero(), Exact::zero()), growth, &(&system.c * tolerance));
-        let from = if deep > fine { deep } else { fine };
-        Some(Limits { from, to: to.map(|stiffness| stiffness - &system.c) })
+        to.map(|stiffness| stiffness - &system.c)
     }
 
     /// The floor where the mass hangs free, for ε ≥ c.
@@ -288,11 +272,6 @@ impl Laws {
         let alone = Exact::from(5) * &self.eta * structure::deflection(system).abs();
         let distance = system::reaction(&self.system) / &self.system.c;
         if distance > &touching + Exact::from(2) * &alone { alone } else { touching + alone }
-    }
-
-    /// Two points fix a line.
-    fn two_penalties(&self) -> [Exact; 2] {
-        [self.system.c.clone(), Exact::from(2) * &self.system.c]
     }
 
     /// The drift of the penetration that no penalty, however hard, has less than: that of a system of the
