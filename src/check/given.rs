@@ -6,7 +6,7 @@ use super::problems::short;
 use super::{Answer, Checked, Problem, Reply, Value, Verdict};
 use crate::chapter::{SpringMass, augmented, contact, system};
 use crate::number::{Ball, Exact, PositivePart, ToExact, Tree};
-use num_traits::{One, Zero};
+use num_traits::Zero;
 
 /// An answer, and the problem that it is one of.
 pub(super) struct Given<'a> {
@@ -59,7 +59,7 @@ impl<'a> Given<'a> {
         if p.abs() <= Exact::from(1000) * &rounding {
             return None;
         }
-        let (value, clarity) = (force / &p, Exact::one() / (rounding / p.abs()));
+        let (value, clarity) = (force / &p, p.abs() / rounding);
         (value > Exact::zero()).then_some(Ratio { system, value, clarity })
     }
 

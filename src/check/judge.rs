@@ -285,8 +285,6 @@ fn lags(system: &SpringMass<Exact>, steps: &[[Value; 2]], tolerance: &Exact) -> 
         _ => None,
     });
     // Where both are near, they have come so close that they cannot be told apart.
-    let mut telling = pairs.filter(|(own, next)| own != next || !own);
-    let lags = |(own, next): (bool, bool)| !own && next;
-    let (first, second) = (telling.next()?, telling.next()?);
-    Some(lags(first) && lags(second) && telling.all(lags))
+    let telling = Vec::from_iter(pairs.filter(|(own, next)| !(*own && *next)));
+    (telling.len() >= 2).then(|| telling.iter().all(|(_, next)| *next))
 }
