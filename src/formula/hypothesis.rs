@@ -137,19 +137,16 @@ impl Hypothesis {
     }
 
     /// As a reader writes it, with the parts that `name` knows by their names: `λ < R`.
-    pub fn typeset(&self, notation: Notation, name: &dyn Fn(&Tree) -> Option<Name>) -> String {
-        let text = |tree: &Tree| tree.typeset(notation, name);
+    pub fn typeset(&self, name: &dyn Fn(&Tree) -> Option<Name>) -> String {
+        let text = |tree: &Tree| tree.typeset(Notation::Text, name);
         let said = |left: &Tree, turned: bool, right: &Tree| {
             let between = if turned { self.relation.turned().to_string() } else { self.relation.to_string() };
             format!("{} {between} {}", text(left), text(right))
         };
         if let Some((x, lower, upper)) = self.interval() {
-            let at_most = if notation == Notation::Latex { r"\le" } else { "≤" };
             return match self.distance() {
-                Some((distance, most)) => format!("{} {at_most} {}", text(&distance.abs()), text(most)),
-                None => {
-                    format!("{} {at_most} {} {at_most} {}", text(lower), text(&Tree::symbol(x)), text(upper))
-                }
+                Some((distance, most)) => format!("{} ≤ {}", text(&distance.abs()), text(most)),
+                None => format!("{} ≤ {} ≤ {}", text(lower), text(&Tree::symbol(x)), text(upper)),
             };
         }
         let zero = Tree::int(0);
@@ -199,7 +196,7 @@ impl Hypothesis {
 /// Without names.
 impl fmt::Display for Hypothesis {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str(&self.typeset(Notation::Text, &|_| None))
+        f.write_str(&self.typeset(&|_| None))
     }
 }
 

@@ -231,7 +231,7 @@ impl Registry {
 
     /// A hypothesis as a text writes it: `λ < R`.
     pub fn supposed(&self, hypothesis: &Hypothesis) -> String {
-        hypothesis.typeset(Notation::Text, &|tree| self.named(tree))
+        hypothesis.typeset(&|tree| self.named(tree))
     }
 
     /// All of them.
