@@ -52,6 +52,16 @@ mod tests {
         assert_eq!(odd, Err("it panics".to_string()));
     }
 
+    /// The test above, run as a program of its own.
+    #[test]
+    fn a_guarded_panic_prints_nothing() {
+        let own = std::env::current_exe().unwrap();
+        let test = "verify::guard::tests::a_panic_is_a_message";
+        let run = std::process::Command::new(own).args(["--exact", test, "--nocapture"]).output().unwrap();
+        let [report, printed] = [&run.stdout, &run.stderr].map(|text| String::from_utf8_lossy(text));
+        assert!(report.contains("1 passed") && printed.is_empty(), "{report} {printed}");
+    }
+
     #[test]
     fn a_guard_within_a_guard_ends_neither_too_early() {
         let outer = guarded(|| {
