@@ -79,7 +79,7 @@ impl Small {
             (Small::Mass, G) | (Small::Gravity, M) => Some([100, 1000]),
             (Small::Mass | Small::Gravity, L | H) => Some([-30, -30]),
             (Small::Lengths, C | Eps) => Some([60, 780]),
-            (Small::Lengths, G) => Some([-37, -230]),
+            (Small::Lengths, G) => Some([-60, -250]),
             (Small::Products, _) => Some([-56, -519]),
             _ => Some([0, 0]),
         }

@@ -268,6 +268,35 @@ fn taken<T: crate::solver::Scalar + Real + ToExact>(
     found
 }
 
+/// It is a multiple of four units, and neither m g nor c H is much less than the other.
+#[test]
+fn what_is_subnormal_is_made_up_for() {
+    let order = |x: &Exact| {
+        let [over, under] = [x.as_rational().numer(), x.as_rational().denom()].map(|n| n.significant_bits());
+        i64::from(over) - i64::from(under)
+    };
+    for (profile, smallest, normal) in
+        [(Profile::SubnormalSingle, -149, -126), (Profile::SubnormalDouble, -1074, -1022)]
+    {
+        for small in Small::ALL {
+            let mut draw = Draw { small, ..draw(profile) };
+            let mut orders = Vec::new();
+            for _ in 0..99 {
+                let case = Case::of(|var| draw.magnitude(var));
+                for x in Var::ALL.iter().filter(|var| small.shift(**var).is_none()).map(|var| case.get(*var))
+                {
+                    let units = x / Exact::power_of_two(smallest + 2);
+                    assert!(units.as_rational().is_integer() && *x < Exact::power_of_two(normal), "{x}");
+                }
+                let SpringMass { c, m, g, l: _, h } = &case.system;
+                orders.push(order(&(m * g)) - order(&(c * h)));
+            }
+            orders.sort_unstable();
+            assert!(orders[49].abs() < 16, "{profile:?} {small:?}: {orders:?}");
+        }
+    }
+}
+
 #[test]
 fn what_is_subnormal_can_nearly_always_be_solved() {
     for found in [taken(&1f32, Profile::SubnormalSingle), taken(&1f64, Profile::SubnormalDouble)] {
