@@ -184,8 +184,8 @@ impl<T: Scalar + Text> Task<'_, T> {
         }
     }
 
-    /// The augmentation with the hardest penalty that leaves the multiplier its digits, but no harder than one
-    /// with which there is nothing to augment; if that is too soft, with the softest that will do.
+    /// The augmentation with the hardest penalty that leaves the multiplier its digits, but no harder than
+    /// one with which there is nothing to augment; if that is too soft, with the softest that will do.
     fn augmentation(&self, none_needed: Exact, any_will_do: bool) -> Option<Choice<T>> {
         let to = match &self.arithmetic {
             Arithmetic::Rounded(laws) => laws.hardest_augmentation(&self.tol),
