@@ -68,7 +68,7 @@ impl<'a> Given<'a> {
         let system = &self.problem.system;
         let force = match by {
             Measured::ByForce => self.answer.contact_force.clone()?,
-            Measured::ByEquilibrium if system::reaction(system) < Exact::zero() => {
+            Measured::ByEquilibrium if self.exact[1].is_zero() => {
                 augmented::contact_force(system, self.answer.deflection.as_ref()?)
             }
             Measured::ByEquilibrium => return None,
@@ -115,11 +115,9 @@ impl<'a> Given<'a> {
                 _ => false,
             })
         };
-        let reaction = system::reaction(system);
         // So near to grazing rounding may take one for the other.
-        let open = reaction.abs() <= tolerance * &scales[1];
-        (open || reaction > Exact::zero()) && fits(&mistake.touching)
-            || (open || reaction <= Exact::zero()) && fits(&mistake.apart)
+        let (reaction, near) = (system::reaction(system), tolerance * &scales[1]);
+        reaction >= -&near && fits(&mistake.touching) || reaction <= near && fits(&mistake.apart)
     }
 
     /// Is it as far off as single precision may take what is right, and are its numbers of single precision?

@@ -55,14 +55,12 @@ impl Missed {
     pub(super) fn of(answers: &[Given], tolerance: &Exact) -> Option<Self> {
         let contacts = answers.iter().filter_map(|given| {
             let system = &given.problem.system;
-            let (reaction, scale) = (system::reaction(system), &given.scales[1]);
-            let force = given.answer.contact_force.as_ref()?;
+            let reaction = system::reaction(system);
+            let is_found = given.answer.contact_force.as_ref()?.abs() > tolerance * &given.scales[1];
             let through = structure::deflection(system) - system::gap(system);
-            let is_missed = given.wrong && force.abs() <= tolerance * scale;
-            (reaction > tolerance * scale && (is_missed || *force > Exact::zero()))
-                .then_some((is_missed, [through, reaction]))
+            (reaction > Exact::zero() && (is_found || given.wrong)).then_some((is_found, [through, reaction]))
         });
-        let (missed, found): (Vec<_>, Vec<_>) = contacts.partition(|(is_missed, _)| *is_missed);
+        let (found, missed): (Vec<_>, Vec<_>) = contacts.partition(|(is_found, _)| *is_found);
         let threshold = |(i, of): (usize, Of)| {
             let up_to = missed.iter().map(|(_, quantities)| &quantities[i]).max()?;
             let from = found.iter().map(|(_, quantities)| &quantities[i]).min()?;

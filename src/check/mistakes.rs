@@ -6,7 +6,6 @@
 use super::{CASES, Family, Problem, problems};
 use crate::chapter::{SpringMass, contact, lagrange, penalty, structure, system};
 use crate::claims::{entry_of, registry, symbols};
-use crate::formula::Formula;
 use crate::number::tree::{Site, piecewise};
 use crate::number::{Exact, PositivePart, Tree};
 use crate::proof::controls::{Change, changes_in};
@@ -166,8 +165,8 @@ pub(super) fn every(by_penalty: bool) -> Vec<Mistake> {
 pub(super) fn values(mistake: &Mistake) -> Vec<Option<Exact>> {
     static SYSTEMS: LazyLock<Vec<Problem>> = LazyLock::new(|| problems(1, CASES, &Family::ALL));
     let numbered = SYSTEMS.iter().map(|problem| &problem.system).zip(2..);
-    let values = numbered.flat_map(|(system, multiple)| {
-        let penalty = &system.c * Exact::from(multiple);
+    let values = numbered.flat_map(|(system, penalty)| {
+        let penalty = Exact::from(penalty);
         let formulas = mistake.formulas(system::reaction(system) > Exact::zero());
         formulas.each_ref().map(|formula| value(formula, system, Some(&penalty)))
     });
@@ -247,15 +246,8 @@ fn edited(change: Change, formulas: &Formulas, besides: &str) -> Mistake {
     Mistake { at: vec![change.to_string()], ..Mistake::new(&name, changed) }
 }
 
-/// The number of the equation that is written at a place of the source, or is handed on from there; or what
-/// the function is called.
+/// The number of the equation that is written at a place of the source.
 fn label(site: Site) -> String {
-    let formulas = registry().formulas();
-    let Some(own) = formulas.iter().find(|formula| formula.tree.any(&|tree| tree.site() == site)) else {
-        return site.to_string();
-    };
-    let hands_on =
-        |formula: &&Formula| registry().delegate(formula).is_some_and(|call| call.formula.path == own.path);
-    let paths = [own].into_iter().chain(formulas.iter().filter(hands_on)).map(|formula| formula.path);
-    paths.filter_map(entry_of).next().map_or(own.path.to_string(), |entry| entry.label())
+    let own = registry().formulas().iter().find(|formula| formula.tree.any(&|tree| tree.site() == site));
+    own.and_then(|own| entry_of(own.path)).map_or(site.to_string(), |entry| entry.label())
 }

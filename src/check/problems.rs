@@ -1,10 +1,9 @@
 //! Systems to be solved, of every kind that a solver may find hard, with decimals of few digits.
 //!
 //! A number is drawn as an integer and a power of ten, so that a seed means the same on every machine; and
-//! every number has at most [`DIGITS`] digits, so that what is printed is what is meant. A draw that does not
-//! come out as its family should is drawn again.
+//! every number has at most [`DIGITS`] digits, so that what is printed is what is meant.
 
-use crate::chapter::{SpringMass, structure, system};
+use crate::chapter::{SpringMass, structure};
 use crate::number::{Exact, PositivePart};
 use num_traits::Zero;
 use oorandom::Rand64;
@@ -193,15 +192,6 @@ impl Draw {
     }
 
     fn system(mut self) -> SpringMass<Exact> {
-        loop {
-            let system = self.draw();
-            if self.family != Family::Far || is_far(&system) {
-                return system;
-            }
-        }
-    }
-
-    fn draw(&mut self) -> SpringMass<Exact> {
         match self.family {
             Family::Contact => {
                 let part = self.inside();
@@ -218,8 +208,8 @@ impl Draw {
             Family::Lifted => {
                 // It rises until the spring holds it; only a plane that is higher still is in the way.
                 let part = Exact::from(1) / self.part();
-                let above = self.number % 2 == 1 || self.between(0, 1) == 0;
-                let part = if above { -part } else { part };
+                let below = self.number % 2 == 0 && self.between(0, 3) == 3;
+                let part = if below { part } else { -part };
                 let SpringMass { c, m, g, l, h } = self.ordinary([1, 3], part);
                 SpringMass { c, m, g: -g, l, h }
             }
@@ -237,7 +227,8 @@ impl Draw {
                 let part = self.part();
                 let l = self.decades(3, 5);
                 let l = if self.between(0, 3) == 0 { -l } else { l };
-                let (c, m, g) = (self.decades(1, 2), self.decades(-1, 0), self.decades(0, 0));
+                // The mass hangs no further down than a metre, and the plane no further than four.
+                let (c, m, g) = (self.decades(2, 2), self.decades(-1, 0), self.decades(0, 0));
                 hung(c, m, g, l, &part)
             }
             Family::Huge => self.sized(6, 13),
@@ -281,16 +272,10 @@ impl Draw {
     fn grazing(&mut self) -> SpringMass<Exact> {
         let (c, gap, l) = (self.decades(1, 3), self.decades(-3, -1), self.decades(-1, 0));
         let twos = Exact::power_of_two(self.between(-2, 5));
-        let m = if self.between(0, 1) == 0 { twos } else { Exact::from(5) * twos };
+        let m = Exact::from(1 + 4 * self.between(0, 1)) * twos;
         let g = &c * &gap / &m;
         SpringMass { h: &l + gap, c, m, g, l }
     }
-}
-
-/// Is it short to the distance of the plane and to its free deflection?
-fn is_far(system: &SpringMass<Exact>) -> bool {
-    let (gap, free) = (system::gap(system), structure::deflection(system));
-    system.l.abs() > Exact::from(100) * (gap.abs() + free.abs())
 }
 
 /// The plane is so far below as this part of the free deflection.

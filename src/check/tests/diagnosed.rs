@@ -160,10 +160,13 @@ fn what_shows_nothing_is_not_named() {
 fn a_tolerance_of_its_own_is_found() {
     let missing = |is_small: fn(&SpringMass<Exact>) -> bool| {
         let report = changed(|problem, u, n| {
-            let free = structure::deflection(&problem.system);
-            // A tenth of what the tolerance takes for no force.
-            let hardly = system::weight(&problem.system).abs() * number(TOLERANCE) * number("0.1");
-            if is_small(&problem.system) { [free, hardly] } else { [u, n] }
+            let system = &problem.system;
+            let (free, reaction) = (structure::deflection(system), system::reaction(system));
+            let (weight, held) = (system::weight(system).abs(), &system.c * system::gap(system));
+            // All that the tolerance takes for no force; or a wrong one, where there should be none as well.
+            let hardly = (&weight + held.abs()) * number(TOLERANCE);
+            let missed = !reaction.is_zero() && is_small(system);
+            if missed { [free, hardly] } else { [u, n * number("1.3") + weight * number("0.01")] }
         });
         report.missed.expect("a threshold")
     };
@@ -179,6 +182,76 @@ fn a_tolerance_of_its_own_is_found() {
         if problem.id.ends_with('3') { [free, Exact::zero()] } else { [u, n] }
     });
     assert_eq!((by_name.missed, changed(|_, u, n| [u, n]).missed), (None, None));
+}
+
+/// So many that are missed, with R = 6 and 3 m of penetration, and as many with others.
+#[test]
+fn a_threshold_is_of_what_tells_more_clearly() {
+    let threshold = |count: usize, c: &str, weight: &str| {
+        let hung = |id: &str, c: &str, weight: &str| {
+            let [c, g] = [c, weight].map(number);
+            let system = SpringMass { c, m: number("1"), g, l: Exact::zero(), h: Exact::zero() };
+            Problem { id: id.to_string(), family: Family::Contact, system, penalty: None }
+        };
+        let all = [vec![hung("missed", "2", "6"); count], vec![hung("found", c, weight); count]].concat();
+        let report = run(&all, |problem| {
+            let free = structure::deflection(&problem.system);
+            if problem.id == "missed" { Answer::new(free, Exact::zero()) } else { right(problem) }
+        });
+        report.missed.map(|missed| (missed.of, missed.up_to, missed.from))
+    };
+    let of = |of, up_to, from| Some((of, number(up_to), number(from)));
+    assert_eq!(threshold(10, "3", "18"), of(Of::Force, "6", "18"));
+    assert_eq!(threshold(10, "3/2", "9"), of(Of::Penetration, "3", "6"));
+    assert_eq!(threshold(10, "2", "6"), None, "some are missed and others, just the same, are not");
+    assert_eq!(threshold(5, "3", "18"), None, "252 ways to choose five of ten");
+}
+
+/// What is no force is not counted; where most forces have no penetration, they are not those of a penalty.
+#[test]
+fn forces_without_penetrations_tell_no_penalty() {
+    let all = problems(1, 5, &[Family::Contact, Family::Separated, Family::Separated, Family::Separated]);
+    let kind = |parts: &str| {
+        let report = run(&all, |problem| {
+            let answer = right(&Problem { penalty: Some(number("1e4")), ..problem.clone() });
+            let system = &problem.system;
+            let scale = system::weight(system) + &system.c * system::gap(system);
+            let force = number(parts) * number(TOLERANCE) * scale;
+            if answer.contact_force == Some(Exact::zero()) {
+                Answer { contact_force: Some(force), ..answer }
+            } else {
+                answer
+            }
+        });
+        report.penalty.kind
+    };
+    assert_eq!(["1", "1.001"].map(kind), [Kind::Constant, Kind::None]);
+}
+
+/// By a tolerance of 10⁻⁶ of the system's scale and of what is computed; and where R is no further from 0 than
+/// that, by either formula.
+#[test]
+fn an_answer_fits_to_the_tolerance() {
+    let fits = |name: &str, [g, h]: [&str; 2], n: &str| {
+        let [g, h] = [g, h].map(number);
+        let system = SpringMass { c: number("1"), m: number("1"), g, l: Exact::zero(), h };
+        let problem = Problem { id: "own".into(), family: Family::Near, system, penalty: None };
+        let report = run(std::slice::from_ref(&problem), |problem| Answer {
+            contact_force: Some(number(n)),
+            ..right(problem)
+        });
+        let mistake = mistakes(false).iter().find(|mistake| mistake.name == name).unwrap();
+        Given::of(&report.checked[0]).unwrap().fits(mistake, None, &number(TOLERANCE))
+    };
+    // N = −8 in place of 8, on a scale of 10 + 2.
+    let sign = |n| fits("N has the other sign", ["10", "2"], n);
+    assert_eq!(["-8", "-7.99998", "-8.00002"].map(sign), [true; 3]);
+    assert_eq!(["-7.9999799", "-8.0000201", "8"].map(sign), [false; 3]);
+    // R = ±2 on a scale of two million, and more.
+    let weight = |system, n| fits("N is the weight", system, n);
+    assert!(weight(["999999", "1000001"], "999999") && weight(["999999", "1000001"], "0"));
+    assert!(weight(["1000001", "999999"], "1000001") && weight(["1000001", "999999"], "0"));
+    assert!(!weight(["999998.9", "1000001"], "999998.9") && !weight(["1000001.1", "999999"], "0"));
 }
 
 /// What looks like one thing and is another.

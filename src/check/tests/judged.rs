@@ -274,6 +274,20 @@ fn what_overflows_explains_nothing() {
     }
 }
 
+/// l = 10⁴ m loses 10⁻¹² m, and ε = 4.5e17 N/m times that is a million N, less than the 2e8 N of c (|l| + |H|).
+#[test]
+fn what_rounding_may_do_is_said() {
+    let [c, m, g, l, h] = ["1e4", "1", "2", "1e4", "10000.0001"].map(number);
+    let system = SpringMass { c, m, g, l, h };
+    let problem =
+        Problem { system, penalty: Some(number("4.5e17")), ..problems(1, 1, &[Family::Far]).remove(0) };
+    let mut answer = right(&problem);
+    answer.contact_force = answer.contact_force.map(|n| n + number("1000"));
+    let judgement = Judgement::of(&problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE));
+    assert_eq!(judgement.verdict, Verdict::Wrong);
+    assert_eq!(judgement.finding.as_deref(), Some("no further off than rounding in f64 may take it"));
+}
+
 /// What is refused altogether is not known to be right.
 #[test]
 fn a_family_without_an_answer_does_not_hold() {
