@@ -1,6 +1,6 @@
 //! Reading numbers: every decimal, scientific or fraction spelling exactly.
 
-use super::{Exact, Mpfr, PRECISIONS};
+use super::{Exact, Mpfr};
 use rug::{Integer, Rational, ops::Pow};
 use std::str::FromStr;
 
@@ -76,23 +76,22 @@ fn sign(text: &str) -> (bool, &str) {
     }
 }
 
-fn integer(digits: &str) -> Result<Integer, ParseError> {
-    if digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit()) {
-        return Err(ParseError::NotANumber);
-    }
-    digits.parse().map_err(|_| ParseError::NotANumber)
+/// The text, if it is digits and nothing else.
+fn digits(text: &str) -> Result<&str, ParseError> {
+    let all = !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    all.then_some(text).ok_or(ParseError::NotANumber)
+}
+
+fn integer(text: &str) -> Result<Integer, ParseError> {
+    digits(text)?.parse().map_err(|_| ParseError::NotANumber)
 }
 
 fn decimal(text: &str) -> Result<Rational, ParseError> {
     let (mantissa, exponent) = match text.split_once(['e', 'E']) {
         Some((mantissa, exponent)) => {
-            let (negative, digits) = sign(exponent);
-            if digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit()) {
-                return Err(ParseError::NotANumber);
-            }
-            // More digits than an i32 holds is out of range, whatever they say.
-            let digits = digits.trim_start_matches('0');
-            let size: i32 = if digits.is_empty() { 0 } else { digits.parse().unwrap_or(i32::MAX) };
+            let (negative, exponent) = sign(exponent);
+            // More than an i32 holds is out of range, whatever it is.
+            let size: i32 = digits(exponent)?.parse().unwrap_or(i32::MAX);
             (mantissa, if negative { -size } else { size })
         }
         None => (text, 0),
@@ -114,9 +113,8 @@ impl Mpfr {
     /// The text is no number.
     ///
     /// # Panics
-    /// The precision is not in [`PRECISIONS`].
+    /// The precision is not in [`PRECISIONS`](super::PRECISIONS).
     pub fn parse(text: &str, precision: u32) -> Result<Self, ParseError> {
-        debug_assert!(PRECISIONS.contains(&precision));
         Ok(text.parse::<Exact>()?.to_mpfr(precision))
     }
 }
