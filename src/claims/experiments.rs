@@ -195,16 +195,18 @@ fn series_root<T: Scalar + Real + ToExact>(
     }
 }
 
+/// (1.16) with what a case has for it, for [`STEPS`] steps.
+fn by_augmentation<T: Clone>(x: &Case<T>) -> Method<T> {
+    let (penalty, tolerance, start) = (x.eps.clone(), x.tol.clone(), x.lambda.clone());
+    Method::Augmented { penalty, tolerance, max_augmentations: STEPS as u64, start }
+}
+
 /// `converged` means that |û − u*| is below the tolerance, exactly; the floor is no less than the error of
 /// some step; the bounds contain the limit, whatever the outcome; the plane never pulls.
 fn promise<T: Scalar + Real + ToExact>(x: &Case<T>, solve: impl Solver<T>) -> Trial {
-    let method = Method::Augmented {
-        penalty: x.eps.clone(),
-        tolerance: x.tol.clone(),
-        max_augmentations: STEPS as u64,
-        start: x.lambda.clone(),
-    };
-    let (Ok(system), Ok(solution)) = (x.system.try_map(|y| y.to_exact()), solve(&x.system, &method)) else {
+    let (Ok(system), Ok(solution)) =
+        (x.system.try_map(|y| y.to_exact()), solve(&x.system, &by_augmentation(x)))
+    else {
         return Trial::Undecided;
     };
     let (Some(u), Some(tolerance)) = (exact(&solution.deflection), exact(&x.tol)) else {
@@ -245,15 +247,7 @@ fn units<T: Scalar + Real + ToExact>(x: &Case<T>, solve: impl Solver<T>) -> Tria
     if !laws::in_range(x) || !laws::in_range(&scaled) || !comes_back {
         return Trial::Undecided;
     }
-    let solved = |x: &Case<T>| {
-        let method = Method::Augmented {
-            penalty: x.eps.clone(),
-            tolerance: x.tol.clone(),
-            max_augmentations: STEPS as u64,
-            start: x.lambda.clone(),
-        };
-        solve(&x.system, &method)
-    };
+    let solved = |x: &Case<T>| solve(&x.system, &by_augmentation(x));
     match (solved(x), solved(&scaled)) {
         (Ok(before), Ok(after)) => Trial::Decided(
             after.outcome == before.outcome
