@@ -8,13 +8,13 @@ mod gallina;
 mod springs;
 
 use gallina::{
-    Definition, Drift, Function, Functions, Read, Said, TRIALS, Theorem, code, drawn, functions, stated,
+    Definition, Function, Functions, Read, Recursion, Said, TRIALS, Theorem, code, drawn, functions, stated,
     value,
 };
 use spring_mass_contact::claims::{registry, statements};
-use spring_mass_contact::formula::Relation;
-use spring_mass_contact::formula::claim::{MEMBERS, POWER, PRECISION, SCALES};
-use spring_mass_contact::formula::statement::{Computed, Says, Sequence, Statement, two_bits};
+use spring_mass_contact::formula::claim::{MEMBERS, PRECISION, SCALES};
+use spring_mass_contact::formula::statement::{Computed, Goal, Role, Says, Sequence, Statement, two_bits};
+use spring_mass_contact::formula::{Hypothesis, Relation};
 use spring_mass_contact::number::tree::Step;
 use spring_mass_contact::number::{Field, PositivePart, Tree};
 use spring_mass_contact::proof::coq::{Development, File, theorem_name};
@@ -74,17 +74,35 @@ fn every_claim_is_a_theorem() {
 
 /// Coq divides by 0 without complaint, so a formula with a divisor needs more than its theorem.
 #[test]
-fn every_claim_with_a_divisor_is_said_to_be_defined() {
-    let files = coq().files();
-    let lemmas: BTreeSet<_> = of_claims(&files).flat_map(|file| named(&file.text, "Lemma")).collect();
+fn every_divisor_is_said_not_to_be_0() {
+    let (_, functions) = printed();
+    let theorems = theorems();
     for statement in statements() {
-        let divides = |tree: &Tree| match tree.step() {
-            Step::Div(_, by) => !by.symbols().is_empty(),
-            _ => false,
-        };
-        let divides = statement.trees().any(|tree| tree.any(&divides));
+        let mut divisors = Vec::new();
+        for tree in statement.trees() {
+            tree.visit(&mut |tree| {
+                if let Step::Div(_, by) = tree.step()
+                    && !by.symbols().is_empty()
+                {
+                    divisors.push(by.clone());
+                }
+            });
+        }
         let name = format!("{}_defined", theorem_name(statement.equation, statement.name));
-        assert_eq!(lemmas.contains(name.as_str()), divides, "{name}");
+        let lemma = theorems.iter().find(|theorem| theorem.name == name);
+        assert_eq!(lemma.is_some(), !divisors.is_empty(), "{name}");
+        let Some(Read { mut given, follows, .. }) = lemma.map(|lemma| lemma.read(&functions)) else {
+            continue;
+        };
+        given.retain(|said| !matches!(said, Said::PowerOfTwo(..)));
+        // Of the members of what is rounded nothing is needed.
+        let invariants = statement.invariants.iter().filter(|_| !statement.rounds());
+        let own = statement.hypotheses.iter().chain(invariants);
+        assert!(all_supposed_as(own, &given), "{name} supposes something else");
+        for divisor in divisors {
+            let is_of_it = |said: &Said| matches!(said, Said::Different(a, zero) if *zero == Tree::int(0) && printed_as(&divisor, a));
+            assert!(follows.iter().any(is_of_it), "{name} says nothing of {divisor}");
+        }
     }
 }
 
@@ -126,7 +144,7 @@ fn with(definitions: &[Definition], other: Definition) -> Vec<Definition> {
 
 /// A formula in the letters that Coq takes.
 fn in_letters(tree: &Tree) -> Tree {
-    const LETTERS: [(&str, &str); 11] = [
+    const LETTERS: [(&str, &str); 12] = [
         ("H", "h"),
         ("ε", "eps"),
         ("ε₄", "eps4"),
@@ -134,6 +152,7 @@ fn in_letters(tree: &Tree) -> Tree {
         ("α", "alpha"),
         ("δu", "du"),
         ("x₁", "x1"),
+        ("x₂", "x2"),
         ("2ᵖ", "two_p"),
         ("2ᵃ", "two_a"),
         ("2ᵇ", "two_b"),
@@ -192,7 +211,8 @@ fn said_as(own: &Says, printed: &Said) -> bool {
         (Says::Equal(a, b), Said::Equal(left, right)) => printed_as(a, left) && printed_as(b, right),
         (Says::Sign(relation, a), said) => sign_printed_as(*relation, a, said),
         (Says::Within(a, bound), Said::AtMost(size, b)) => printed_as(&a.abs(), size) && printed_as(bound, b),
-        (Says::Derivative(of, by, is), Said::Derivative(a, x, b)) => {
+        (Says::Derivative(of, by, is), Said::Derivative(a, x, b))
+        | (Says::Limit(of, by, is), Said::Limit(a, x, b)) => {
             in_letters(&Tree::symbol(by)) == Tree::symbol(x) && printed_as(of, a) && printed_as(is, b)
         }
         _ => false,
@@ -215,46 +235,78 @@ fn powers_of_two(statement: &Statement) -> Vec<(&'static str, &'static str)> {
 /// What a claim supposes, in its order; where it rounds, what stands for powers of two before it.
 fn supposes_the_same(statement: &Statement, given: &[Said]) -> bool {
     let powers = powers_of_two(statement);
-    let own: Vec<_> =
-        statement.hypotheses.iter().filter(|own| !statement.rounds() || **own != two_bits()).collect();
     let (first, rest) = given.split_at(powers.len().min(given.len()));
     let is_power =
         |(own, said): (&(&str, &str), &Said)| matches!(said, Said::PowerOfTwo(x, of) if (*x, *of) == *own);
-    first.len() == powers.len()
-        && powers.iter().zip(first).all(is_power)
-        && rest.len() == own.len()
-        && own.iter().zip(rest).all(|(own, said)| sign_printed_as(own.relation, &own.value, said))
+    // A limit supposes nothing of what tends to infinity.
+    let grows = |name: &str| matches!(statement.goals[0].says, Says::Limit(_, by, _) if by == name);
+    let own = statement.hypotheses.iter().filter(|own| !own.value.symbols().into_iter().any(grows));
+    first.len() == powers.len() && powers.iter().zip(first).all(is_power) && all_supposed_as(own, rest)
 }
 
-/// A sequence that stays near a closed form, which its theorem says itself.
-fn is_the_same_sequence(own: &Sequence, computed: &Computed, drift: &Drift, follows: &[Said]) -> bool {
-    let Sequence { start, step, ratio, within, .. } = own;
-    let ([start], [step]) = (&start[..], &step[..]) else { return false };
-    let formulas =
-        [(ratio, &drift.ratio), (start, &drift.start), (step, &drift.step), (&computed.by, &drift.by)];
-    let names = [POWER, MEMBERS[0], computed.symbol].map(|name| in_letters(&Tree::symbol(name)));
-    let bounds = within.iter().map(|(of, bound)| Says::Within(of.clone(), bound.clone()));
-    names == [drift.q, drift.x, drift.u].map(|name| Tree::symbol(name))
-        && formulas.into_iter().all(|(own, printed)| printed_as(own, printed))
-        && within.len() == follows.len()
-        && bounds.zip(follows).all(|(own, said)| said_as(&own, said))
+/// That numbers have two bits is said of their exponent.
+fn all_supposed_as<'a>(own: impl Iterator<Item = &'a Hypothesis>, printed: &[Said]) -> bool {
+    let own: Vec<_> = own.filter(|own| **own != two_bits()).collect();
+    own.len() == printed.len()
+        && own.iter().zip(printed).all(|(own, said)| sign_printed_as(own.relation, &own.value, said))
+}
+
+/// A sequence of which a closed form is said, or what it stays near.
+fn is_the_same_sequence(
+    own: &Sequence,
+    computed: Option<&Computed>,
+    printed: &Recursion,
+    follows: &[Said],
+) -> bool {
+    let all_printed_as = |own: &[Tree], printed: &[Tree]| {
+        own.len() == printed.len() && own.iter().zip(printed).all(|(own, printed)| printed_as(own, printed))
+    };
+    let members: Vec<_> = MEMBERS[..own.member.len()].iter().map(|name| Tree::symbol(name)).collect();
+    let is_closed = |(member, closed): (&Tree, &Tree)| Says::Equal(member.clone(), closed.clone());
+    let is_near = |(of, bound): &(Tree, Tree)| Says::Within(of.clone(), bound.clone());
+    let says: Vec<_> = match &own.within[..] {
+        [] => members.iter().zip(&own.member).map(is_closed).collect(),
+        within => within.iter().map(is_near).collect(),
+    };
+    let is_computed = match (computed, &printed.computed) {
+        (Some(own), Some((name, by))) => {
+            printed_as(&Tree::symbol(own.symbol), &Tree::symbol(name)) && printed_as(&own.by, by)
+        }
+        (own, printed) => own.is_none() && printed.is_none(),
+    };
+    let names: Vec<_> = printed.members.iter().map(|name| Tree::symbol(name)).collect();
+    is_computed
+        && all_printed_as(&members, &names)
+        && printed_as(&own.ratio, &printed.ratio)
+        && all_printed_as(&own.start, &printed.start)
+        && all_printed_as(&own.step, &printed.step)
+        && all_said_as(&says, follows)
+}
+
+fn all_said_as(own: &[Says], said: &[Said]) -> bool {
+    own.len() == said.len() && own.iter().zip(said).all(|(own, said)| said_as(own, said))
 }
 
 /// What a claim says, and nothing else; of what is computed, where it is computed.
 fn says_the_same(statement: &Statement, Read { follows, of, .. }: &Read) -> bool {
-    match (&statement.amounts_to, &statement.computed, of) {
-        (Some(own), Some(computed), Some(drift)) => is_the_same_sequence(own, computed, drift, follows),
-        (None, computed, None) => {
-            let (Some(own), [said]) = (statement.goals.last(), &follows[..]) else { return false };
+    let computed = statement.computed.as_ref();
+    match (&statement.amounts_to, of, &follows[..]) {
+        (Some(own), Some(printed), _) => is_the_same_sequence(own, computed, printed, follows),
+        (Some(own), None, [Said::LimitOfPowers(ratio, of, to)]) => {
+            let own = [&own.ratio, &own.member[0], own.limit.as_ref().unwrap()];
+            own.into_iter().zip([ratio, of, to]).all(|(own, printed)| printed_as(own, printed))
+        }
+        (None, None, _) => {
             let by = |tree: &Tree| match computed {
                 Some(Computed { symbol, by, .. }) => tree.with(&[(symbol, by.clone())]),
                 None => tree.clone(),
             };
+            let own = statement.goals.iter().find(|goal| goal.role == Role::Claim).unwrap();
             let own = match &own.says {
                 Says::Within(of, bound) => Says::Within(by(of), by(bound)),
                 other => other.clone(),
             };
-            said_as(&own, said)
+            all_said_as(&[own], follows)
         }
         _ => false,
     }
@@ -274,11 +326,16 @@ fn every_theorem_says_what_its_claim_does() {
         let theorem = theorems.iter().find(|theorem| theorem.name == name).unwrap();
         assert_eq!(theorem.rounds(), statement.rounds(), "{name}");
         let read = theorem.read(&functions);
-        // These are about more than the numbers of one case.
-        assert_eq!(read.is_none(), ["limit", "induction", "vanishing"].contains(&statement.kind), "{name}");
-        let Some(read) = read else { continue };
         assert!(supposes_the_same(&statement, &read.given), "{name} supposes something else");
         assert!(says_the_same(&statement, &read), "{name} says something else");
+        // How fast a limit is reached is said in lemmas.
+        for Goal { part, says, .. } in statement.goals.iter().skip(1).filter(|_| statement.kind == "limit") {
+            let name = format!("{name}_{}", part.replace(' ', "_"));
+            let lemma = theorems.iter().find(|lemma| lemma.name == name).expect(&name);
+            let Read { given, follows, .. } = lemma.read(&functions);
+            assert!(all_supposed_as(statement.hypotheses.iter(), &given), "{name} supposes something else");
+            assert!(all_said_as(&[says.clone()], &follows), "{name} says something else");
+        }
     }
 }
 
@@ -324,7 +381,7 @@ fn every_law_is_tried_in_numbers() {
     let printed: Vec<_> = theorems.iter().filter(|theorem| laws.contains(&theorem.name)).collect();
     assert!(!laws.is_empty() && printed.len() == laws.len());
     for theorem in printed {
-        let read = theorem.read(&functions).expect("a law is about numbers");
+        let read = theorem.read(&functions);
         assert!(read.trials().count() > 5, "{}", theorem.name);
     }
 }

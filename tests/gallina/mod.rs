@@ -4,9 +4,9 @@
 //! tested. Of Coq's language, which is called Gallina, no more is known here than the chapter needs. Where the precision
 //! is `prec`, so many bits, a number half-way between two is rounded to the even one: that is one of all choices.
 
-mod drift;
+mod recursion;
 
-pub use drift::Drift;
+pub use recursion::Recursion;
 use spring_mass_contact::number::tree::{Step, piecewise};
 use spring_mass_contact::number::{Dual, Exact, Exponential, Field, PositivePart, Tree};
 use std::collections::{BTreeMap, BTreeSet};
@@ -100,7 +100,7 @@ impl Definition {
 
     /// What it computes; what it calls is known.
     pub fn function(&self, known: &Functions) -> Function {
-        let mut reader = Reader { rest: &self.body, known };
+        let mut reader = Reader { rest: &self.body, known, ratio: None };
         let value = reader.formula();
         assert!(reader.rest.is_empty(), "{}: what is {:?}?", self.name, reader.rest);
         for symbol in value.symbols() {
@@ -132,6 +132,8 @@ pub fn functions(definitions: &[Definition]) -> Functions {
 struct Reader<'t> {
     rest: &'t [String],
     known: &'t Functions,
+    /// The ρ of what has been read as q.
+    ratio: Option<Tree>,
 }
 
 impl<'t> Reader<'t> {
@@ -200,7 +202,18 @@ impl<'t> Reader<'t> {
             self.take();
             return -self.signed();
         }
-        self.call()
+        self.power()
+    }
+
+    /// ρ ^ n, at level 30, which is called q here.
+    fn power(&mut self) -> Tree {
+        let value = self.call();
+        if self.next() != "^" {
+            return value;
+        }
+        self.expect_all("^ n");
+        assert!(self.ratio.replace(value).is_none(), "powers of one ratio, once");
+        Tree::symbol("q")
     }
 
     /// A function and its arguments, at level 10.
@@ -252,16 +265,24 @@ impl<'t> Reader<'t> {
     }
 
     fn said(&mut self) -> Said {
-        if self.next() == "is_derive" {
-            self.take();
-            self.expect("(");
-            self.expect("fun");
+        let keyword = self.next();
+        if ["is_derive", "is_lim", "is_lim_seq"].contains(&keyword) {
+            self.expect_all(&format!("{keyword} ( fun"));
             let by = interned(self.take());
             self.expect("=>");
             let of = self.formula();
             self.expect(")");
-            self.expect(by);
-            return Said::Derivative(of, by, self.argument());
+            match keyword {
+                "is_derive" => self.expect(by),
+                "is_lim" => self.expect("p_infty"),
+                _ => assert_eq!(by, "n"),
+            }
+            let is = self.argument();
+            return match keyword {
+                "is_derive" => Said::Derivative(of, by, is),
+                "is_lim" => Said::Limit(of, by, is),
+                _ => Said::LimitOfPowers(self.ratio.take().expect("a power of a ratio"), of, is),
+            };
         }
         let left = self.formula();
         let relation = self.take();
@@ -273,6 +294,7 @@ impl<'t> Reader<'t> {
         let right = self.formula();
         match relation {
             "=" => Said::Equal(left, right),
+            "<>" => Said::Different(left, right),
             "<" => Said::Less(left, right),
             "<=" => Said::AtMost(left, right),
             _ => panic!("{relation:?} is no relation"),
@@ -285,13 +307,17 @@ pub enum Said {
     /// The first is 2 to the power of the second.
     PowerOfTwo(&'static str, &'static str),
     Equal(Tree, Tree),
+    Different(Tree, Tree),
     Less(Tree, Tree),
     AtMost(Tree, Tree),
     Derivative(Tree, &'static str, Tree),
+    Limit(Tree, &'static str, Tree),
+    /// For q = ρⁿ the second tends to the third, where ρ is the first.
+    LimitOfPowers(Tree, Tree, Tree),
 }
 
 impl Said {
-    /// Is it so? Unknown where a formula is not defined, or no rational.
+    /// Is it so? Unknown where a formula is not defined, or no rational, and of limits.
     fn holds(&self, at: &impl Fn(&'static str) -> Exact) -> Option<bool> {
         let value = |tree: &Tree| value(tree, at);
         Some(match self {
@@ -300,6 +326,7 @@ impl Said {
                 (*power, *of) == ("two_p", "prec") || power.strip_prefix("two") == of.strip_prefix("power")
             }
             Said::Equal(a, b) => value(a)? == value(b)?,
+            Said::Different(a, b) => value(a)? != value(b)?,
             Said::Less(a, b) => value(a)? < value(b)?,
             Said::AtMost(a, b) => value(a)? <= value(b)?,
             Said::Derivative(of, by, is) => {
@@ -311,6 +338,7 @@ impl Said {
                 };
                 of.derivative(by, at, &beyond)?.derivative == value(is)?
             }
+            Said::Limit(..) | Said::LimitOfPowers(..) => return None,
         })
     }
 }
@@ -338,7 +366,7 @@ pub struct Read {
     pub given: Vec<Said>,
     /// What follows: for all members of a sequence, if it speaks of one.
     pub follows: Vec<Said>,
-    pub of: Option<Drift>,
+    pub of: Option<Recursion>,
 }
 
 impl Read {
@@ -352,7 +380,7 @@ impl Read {
         match &self.of {
             _ if !given => None,
             None => follow(at),
-            Some(drift) => drift.all(at, &follow),
+            Some(recursion) => recursion.all(at, &follow),
         }
     }
 
@@ -380,33 +408,19 @@ impl Theorem {
         stated(&text).filter_map(theorem).collect()
     }
 
-    /// Does it speak of a function?
-    pub fn names(&self, function: &str) -> bool {
-        self.stated.iter().any(|token| token == function)
-    }
-
-    fn has(&self, token: &str) -> bool {
-        self.stated.iter().any(|own| own == token)
+    /// Does it speak of a function, or of what else has a name?
+    pub fn names(&self, name: &str) -> bool {
+        self.stated.iter().any(|token| token == name)
     }
 
     /// Is it about what is rounded?
     pub fn rounds(&self) -> bool {
-        self.has("prec")
+        self.names("prec")
     }
 
-    /// Is it about more than numbers can show: a limit, a sequence of rationals that only grow, or that divisors are
-    /// not 0?
-    fn is_beyond(&self) -> bool {
-        ["is_lim", "is_lim_seq", "<>"].iter().any(|token| self.has(token))
-            || self.has("nat") && !self.rounds()
-    }
-
-    /// What it supposes, and what follows; none if it is about more than numbers.
-    pub fn read(&self, known: &Functions) -> Option<Read> {
-        if self.is_beyond() {
-            return None;
-        }
-        let mut reader = Reader { rest: &self.stated, known };
+    /// What it supposes, and what follows.
+    pub fn read(&self, known: &Functions) -> Read {
+        let mut reader = Reader { rest: &self.stated, known, ratio: None };
         if self.rounds() {
             reader.precision();
         }
@@ -416,8 +430,9 @@ impl Theorem {
         let (mut given, mut of) = (Vec::new(), None);
         let follows = loop {
             if reader.next() == "forall" {
-                of = Some(reader.drift(&self.recursion));
-                break reader.all_said();
+                let (recursion, follows) = reader.sequence(&self.recursion);
+                of = Some(recursion);
+                break follows;
             }
             let mut said = reader.all_said();
             if reader.next() != "->" {
@@ -427,12 +442,12 @@ impl Theorem {
             given.append(&mut said);
         };
         assert!(reader.rest.is_empty(), "{}: what is {:?}?", self.name, reader.rest);
-        Some(Read { given, follows, of })
+        Read { given, follows, of }
     }
 
     /// Are there numbers for which it is false? These functions may be other ones than those it was proved of.
     pub fn is_false_somewhere(&self, functions: &Functions) -> bool {
-        self.read(functions).is_some_and(|read| read.trials().any(|holds| !holds))
+        self.read(functions).trials().any(|holds| !holds)
     }
 }
 

@@ -1,0 +1,143 @@
+//! A sequence, as a theorem speaks of it.
+
+use super::{Reader, Said, interned, value};
+use spring_mass_contact::number::{Exact, Tree};
+
+/// The members of a sequence, one or several numbers each, beside the powers q of a ratio.
+pub struct Recursion {
+    pub ratio: Tree,
+    pub start: Vec<Tree>,
+    /// By the members' names.
+    pub step: Vec<Tree>,
+    pub members: Vec<&'static str>,
+    /// What is computed from a member, and how.
+    pub computed: Option<(&'static str, Tree)>,
+}
+
+/// So many members are tried.
+const MEMBERS: usize = 6;
+
+impl Reader<'_> {
+    /// `let NAME := FORMULA in`
+    fn named(&mut self) -> (&'static str, Tree) {
+        self.expect("let");
+        let name = interned(self.take());
+        self.expect(":=");
+        let formula = self.formula();
+        self.expect("in");
+        (name, formula)
+    }
+
+    /// Words up to one that is not among them, which is taken, too.
+    fn until(&mut self, end: &str) -> Vec<String> {
+        let words: Vec<_> = self.rest.iter().take_while(|word| *word != end).cloned().collect();
+        self.rest = &self.rest[words.len()..];
+        self.expect(end);
+        words
+    }
+
+    /// As many formulas, in brackets with commas between them if they are several.
+    fn tuple(&mut self, many: usize) -> Vec<Tree> {
+        if many == 1 {
+            return vec![self.formula()];
+        }
+        let open = ["("].into_iter().chain(std::iter::repeat(","));
+        let all = open.take(many).map(|sign| {
+            self.expect(sign);
+            self.formula()
+        });
+        let all = all.collect();
+        self.expect(")");
+        all
+    }
+
+    /// `forall n : nat, let q := ρ ^ n in` and either `let x := ITERATES n in let u := BY in` and what is said of these,
+    /// or `ITERATES n = CLOSED`, with the recursion that ITERATES is.
+    pub(super) fn sequence(&mut self, recursion: &[String]) -> (Recursion, Vec<Said>) {
+        let reader = Reader { rest: recursion, known: self.known, ratio: None };
+        let (call, mut recursion) = reader.recursion();
+        self.expect_all("forall n : nat ,");
+        assert_eq!(self.named(), ("q", Tree::symbol("q")));
+        let follows = if self.next() == "let" {
+            self.expect_all(&format!("let {} := (", recursion.members.join(" , ")));
+            assert_eq!(self.until(")"), call);
+            self.expect("in");
+            assert_eq!(Some(self.named()), recursion.computed);
+            self.all_said()
+        } else {
+            assert_eq!(self.until("="), call);
+            let closed = self.tuple(recursion.members.len());
+            let members = recursion.members.iter().map(|name| Tree::symbol(name));
+            members.zip(closed).map(|(member, closed)| Said::Equal(member, closed)).collect()
+        };
+        recursion.ratio = self.ratio.take().expect("a power of a ratio");
+        (recursion, follows)
+    }
+
+    /// A definition, and how it calls itself; its ratio is said elsewhere.
+    fn recursion(mut self) -> (Vec<String>, Recursion) {
+        self.expect("Fixpoint");
+        let mut call = vec![self.take().to_string()];
+        self.expect("(");
+        if self.next() == "prec" {
+            self.expect_all("prec : Z ) ( choice : Z -> bool ) (");
+            call.extend(["prec", "choice"].map(String::from));
+        }
+        call.extend(self.until(":"));
+        call.push("n".to_string());
+        self.expect_all("R ) ( n : nat ) : R");
+        let more = self.until(":=");
+        assert!(more.chunks(2).all(|more| more == ["*", "R"]), "{more:?}");
+        let many = 1 + more.len() / 2;
+        self.expect_all("match n with | O =>");
+        let start = self.tuple(many);
+        self.expect_all("| S n => let");
+        let members =
+            self.until(":=").into_iter().filter(|word| !["'", "(", ",", ")"].contains(&word.as_str()));
+        let members: Vec<_> = members.map(|name| interned(&name)).collect();
+        assert_eq!(members.len(), many);
+        assert_eq!(self.until("in"), call, "of the member before");
+        let computed = (self.next() == "let").then(|| self.named());
+        let step = self.tuple(many);
+        self.expect_all("end .");
+        assert!(self.rest.is_empty(), "what is {:?}?", self.rest);
+        (call, Recursion { ratio: Tree::from(1), start, step, members, computed })
+    }
+}
+
+impl Recursion {
+    /// Does this hold of all members that are tried? None where something is not known.
+    pub fn all(
+        &self,
+        at: &impl Fn(&'static str) -> Exact,
+        holds: &impl Fn(&dyn Fn(&'static str) -> Exact) -> Option<bool>,
+    ) -> Option<bool> {
+        let ratio = value(&self.ratio, at)?;
+        let values = |trees: &[Tree], at: &dyn Fn(&'static str) -> Exact| -> Option<Vec<Exact>> {
+            trees.iter().map(|tree| value(tree, &at)).collect()
+        };
+        let (mut power, mut members) = (Exact::from(1), values(&self.start, at)?);
+        for _ in 0..MEMBERS {
+            let place = |name| self.members.iter().position(|own| *own == name);
+            let with_members = |name| match place(name) {
+                Some(i) => members[i].clone(),
+                None if name == "q" => power.clone(),
+                None => at(name),
+            };
+            let computed = match &self.computed {
+                Some((name, by)) => Some((*name, value(by, &with_members)?)),
+                None => None,
+            };
+            let here = |name| match &computed {
+                Some((own, x)) if *own == name => x.clone(),
+                _ => with_members(name),
+            };
+            if !holds(&here)? {
+                return Some(false);
+            }
+            let next = values(&self.step, &here)?;
+            (power, members) = (power * &ratio, next);
+        }
+        Some(true)
+    }
+}
