@@ -126,7 +126,7 @@ impl<'a> Development<'a> {
     pub fn files(&self) -> Vec<File> {
         let mut files = vec![
             file(TACTICS, include_str!("coq/tactics.v").to_string()),
-            file(DEFINITIONS, self.definitions_text(&self.definitions(), false)),
+            file(DEFINITIONS, definitions_text(&self.definitions(), false)),
         ];
         if self.written.iter().any(|written| written.rounds) {
             files.extend(OF_ROUNDING.map(|(name, text)| file(name, text.to_string())));
@@ -200,7 +200,7 @@ impl<'a> Development<'a> {
                 all.push(Flip {
                     function: definition.name.clone(),
                     definition: flipped[i].to_string(),
-                    file: file(&name, self.definitions_text(&flipped, rounds) + &theorems),
+                    file: file(&name, definitions_text(&flipped, rounds) + &theorems),
                 });
             }
         }
@@ -216,16 +216,15 @@ impl<'a> Development<'a> {
         };
         self.registry.formulas().iter().map(definition).collect()
     }
+}
 
-    /// With what theorems about what is rounded need, if any follow.
-    fn definitions_text(&self, definitions: &[Definition], rounds: bool) -> String {
-        let mut text =
-            format!("(** * The functions, as their source computes them. *)\n{}", head(rounds, ""));
-        for definition in definitions {
-            let _ = write!(text, "\n{definition}\n#[export] Hint Unfold {} : functions.\n", definition.name);
-        }
-        text
+/// With what theorems about what is rounded need, if any follow.
+fn definitions_text(definitions: &[Definition], rounds: bool) -> String {
+    let mut text = format!("(** * The functions, as their source computes them. *)\n{}", head(rounds, ""));
+    for definition in definitions {
+        let _ = write!(text, "\n{definition}\n#[export] Hint Unfold {} : functions.\n", definition.name);
     }
+    text
 }
 
 /// Ends a file with all that it proves as one, and says what that is called.

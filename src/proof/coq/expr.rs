@@ -2,7 +2,7 @@
 
 use super::print::ascii;
 use crate::formula::Relation;
-use crate::proof::kernel::algebra::{Monomial, Poly, Ratio, Symbol};
+use crate::proof::kernel::algebra::{Poly, Ratio, Symbol};
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -37,7 +37,7 @@ impl Expr {
         if n < 0 { size.negated() } else { size }
     }
 
-    fn negated(self) -> Self {
+    pub(super) fn negated(self) -> Self {
         Expr::Neg(self.into())
     }
 
@@ -97,10 +97,6 @@ impl Expr {
             }
         }
         sum.unwrap_or(Expr::int(0))
-    }
-
-    pub(super) fn monomial(monomial: &Monomial) -> Self {
-        Expr::poly(&monomial.clone().into())
     }
 
     pub(super) fn ratio(ratio: &Ratio) -> Self {
@@ -174,18 +170,19 @@ impl Expr {
         }
     }
 
+    /// In brackets unless it holds together as strongly as that.
+    fn within(&self, level: u32) -> String {
+        if self.level() > level { format!("({self})") } else { self.to_string() }
+    }
+
     /// As an argument: in brackets unless it is one word.
     pub(super) fn argument(&self) -> String {
-        if self.level() > 0 { format!("({self})") } else { self.to_string() }
+        self.within(0)
     }
 
     /// To be raised to a power.
     pub(super) fn base(&self) -> String {
-        if self.level() > 10 { format!("({self})") } else { self.to_string() }
-    }
-
-    fn within(&self, level: u32, f: &mut fmt::Formatter) -> fmt::Result {
-        if self.level() > level { write!(f, "({self})") } else { write!(f, "{self}") }
+        self.within(10)
     }
 }
 
@@ -221,10 +218,7 @@ impl fmt::Display for Expr {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
             Expr::Name(text) | Expr::Number(text) => f.write_str(text),
-            Expr::Neg(a) => {
-                f.write_str("- ")?;
-                a.within(34, f)
-            }
+            Expr::Neg(a) => write!(f, "- {}", a.within(34)),
             Expr::Binary(operator, a, b) => {
                 let sign = match operator {
                     Operator::Add => "+",
@@ -232,21 +226,12 @@ impl fmt::Display for Expr {
                     Operator::Mul => "*",
                     Operator::Div => "/",
                 };
-                a.within(operator.level(), f)?;
-                write!(f, " {sign} ")?;
-                b.within(operator.level() - 1, f)
+                write!(f, "{} {sign} {}", a.within(operator.level()), b.within(operator.level() - 1))
             }
-            Expr::Power(a, n) => {
-                a.within(10, f)?;
-                write!(f, " ^ {n}")
-            }
+            Expr::Power(a, n) => write!(f, "{} ^ {n}", a.base()),
             Expr::Call(function, arguments) => {
                 f.write_str(function)?;
-                for argument in arguments {
-                    f.write_str(" ")?;
-                    argument.within(0, f)?;
-                }
-                Ok(())
+                arguments.iter().try_for_each(|argument| write!(f, " {}", argument.argument()))
             }
         }
     }

@@ -2,16 +2,16 @@
 //! rule for what is half-way.
 
 use super::expr::Expr;
-use super::lemma::{Result, divisors, labels, names, numbered, says, supposed, unproved};
+use super::lemma::{
+    Result, divisors, labels, names, none_is_zero, numbered, only_derivation, says, supposed,
+};
 use super::print::{Printer, ascii};
-use super::script::Script;
+use super::script::{Script, first};
+use crate::formula::Hypothesis;
 use crate::formula::claim::{MEMBERS, PRECISION, SCALES};
 use crate::formula::statement::{Computed, Goal, Role, Says, Statement, two_bits};
-use crate::formula::{Hypothesis, Registry};
 use crate::number::Tree;
-
 use crate::proof::kernel::{Because, Derivation, Rounding};
-use crate::proof::prove;
 use std::fmt::Write;
 
 /// A statement about what is rounded, to be printed.
@@ -97,10 +97,6 @@ impl<'a> Law<'a> {
         Ok(self.defined() + &text)
     }
 
-    fn registry(&self) -> &Registry {
-        self.printer.registry
-    }
-
     /// The theorem, which speaks of these formulas.
     pub(super) fn theorem<'t>(&self, trees: impl Iterator<Item = &'t Tree>) -> Part<'a>
     where
@@ -119,7 +115,7 @@ impl<'a> Law<'a> {
         'a: 't,
     {
         let supposed = hypotheses.iter().map(|h| &h.value);
-        let mut variables = self.registry().symbols_of(supposed.chain(trees));
+        let mut variables = self.printer.registry.symbols_of(supposed.chain(trees));
         if !variables.contains(&PRECISION) {
             variables.push(PRECISION);
         }
@@ -163,14 +159,12 @@ impl<'a> Law<'a> {
     fn derivation(&self, hypotheses: &[&Hypothesis], goal: &Goal) -> Result<Derivation> {
         let own = self.statement;
         let is_supposed = |hypothesis: &Hypothesis| hypotheses.contains(&hypothesis);
-        let statement = Statement {
+        only_derivation(&Statement {
             invariants: own.invariants.iter().filter(|own| is_supposed(own)).cloned().collect(),
             computed: own.computed.clone().filter(|computed| is_supposed(&computed.hypothesis)),
             goals: vec![goal.clone()],
             ..own.clone()
-        };
-        let proof = prove(&statement).map_err(unproved)?;
-        proof.goals().first().cloned().ok_or_else(|| "there is nothing to prove".to_string())
+        })
     }
 
     /// No divisor is 0; empty if there is none.
@@ -181,12 +175,10 @@ impl<'a> Law<'a> {
         }
         let name = format!("{}_defined", self.name);
         let part = self.part(name, &self.hypotheses(Role::Begins), divisors.iter());
-        let plain = Printer { preferred: &[], ..self.printer };
-        let says: Vec<_> = divisors.iter().map(|divisor| format!("{} <> 0", plain.expr(divisor))).collect();
         let mut script = Script::new();
         script.line(&format!("{} functions.", part.intros()));
         script.line("defined P E.");
-        part.text("Lemma", &says.join(" /\\\n  "), script, self.printer)
+        part.text("Lemma", &none_is_zero(&divisors, self.printer), script, self.printer)
     }
 
     /// From models of what is rounded, or by what keeps order or scale.
@@ -203,7 +195,7 @@ impl<'a> Law<'a> {
         }
         let precision = ascii(PRECISION);
         script.line(&format!("pose proof (four_at_least prec {precision} P E) as N."));
-        for (rounding, i) in errors(derivation).iter().zip(1..) {
+        for (rounding, i) in first(derivation).errors().iter().zip(1..) {
             let (error, of) = (ascii(rounding.error().0), self.rounded(rounding));
             let model = format!("model prec choice {precision} P E {of}");
             script.line(&format!("destruct ({model}) as ({error} & B{i} & F{i})."));
@@ -255,13 +247,5 @@ impl<'a> Law<'a> {
         script.line(&format!("exact ({proof})."));
         let says = says(&Says::Within(of, bound), self.printer);
         Ok(near_text + &rest_text + &theorem.text("Theorem", &says, script, self.printer))
-    }
-}
-
-/// What is rounded in a derivation, with its errors.
-fn errors(derivation: &Derivation) -> &[Rounding] {
-    match derivation {
-        Derivation::Direct(direct) => direct.errors(),
-        Derivation::Cases(_, positive, _) => errors(positive),
     }
 }

@@ -7,14 +7,10 @@ use crate::formula::{Hypothesis, Relation};
 use crate::number::Tree;
 use crate::number::tree::Step;
 use crate::proof::kernel::Derivation;
-use crate::proof::{Why, prove};
+use crate::proof::prove;
 
 /// Why a claim cannot be printed.
 pub(super) type Result<T> = std::result::Result<T, String>;
-
-pub(super) fn unproved(why: Why) -> String {
-    format!("there is no proof to follow: {why}")
-}
 
 /// One goal under hypotheses.
 #[derive(Clone)]
@@ -82,16 +78,14 @@ pub(super) fn stated(
     format!("\n{keyword} {name} :{variables}{premises} {says}.\nProof.\n{proof}Qed.\n")
 }
 
-/// Hypotheses are shared, and in no function's own names.
 fn premises(hypotheses: &[&Hypothesis], printer: Printer) -> String {
     hypotheses.iter().map(|h| format!(" {} ->\n ", supposed(h, printer))).collect()
 }
 
 pub(super) fn supposed(hypothesis: &Hypothesis, printer: Printer) -> String {
-    let printer = Printer { preferred: &[], ..printer };
     match hypothesis.distance() {
-        Some((distance, most)) => says(&Says::Within(distance, most.clone()), printer),
-        None => printer.expr(&hypothesis.value).relation(hypothesis.relation),
+        Some((distance, most)) => says(&Says::Within(distance, most.clone()), printer.plain()),
+        None => printer.plain().expr(&hypothesis.value).relation(hypothesis.relation),
     }
 }
 
@@ -129,6 +123,16 @@ pub(super) fn divisors<'t>(trees: impl Iterator<Item = &'t Tree>) -> Vec<Tree> {
     all
 }
 
+fn not_zero(divisor: &Tree, printer: Printer) -> String {
+    format!("{} <> 0", printer.plain().expr(divisor))
+}
+
+/// That none of them is 0.
+pub(super) fn none_is_zero(divisors: &[Tree], printer: Printer) -> String {
+    let all: Vec<_> = divisors.iter().map(|divisor| not_zero(divisor, printer)).collect();
+    all.join(" /\\\n  ")
+}
+
 /// Proves of each divisor that it is not 0, and calls that N1, N2, …
 pub(super) fn divisors_script(
     script: &mut Script,
@@ -136,7 +140,6 @@ pub(super) fn divisors_script(
     divisors: &[Tree],
     printer: Printer,
 ) -> Result<()> {
-    let printer = Printer { preferred: &[], ..printer };
     for (i, divisor) in divisors.iter().enumerate() {
         let signed = |value: &Tree| {
             let goal = Goal::of_claim("", Says::Sign(Relation::Positive, value.clone()));
@@ -146,7 +149,7 @@ pub(super) fn divisors_script(
             Ok(derivation) => ("positive_not_zero", derivation),
             Err(_) => ("negative_not_zero", signed(&-divisor)?),
         };
-        script.line(&format!("assert (N{} : {} <> 0).", i + 1, printer.expr(divisor)));
+        script.line(&format!("assert (N{} : {}).", i + 1, not_zero(divisor, printer)));
         script.block("{", |own| {
             own.line(&format!("functions. apply {rule}."));
             own.derivation(&derivation)
@@ -157,9 +160,13 @@ pub(super) fn divisors_script(
 
 pub(super) fn derivation(hypotheses: &[&Hypothesis], goal: Goal) -> Result<Derivation> {
     let hypotheses = hypotheses.iter().map(|h| (*h).clone()).collect();
-    let statement = Statement { hypotheses, goals: vec![goal], ..Statement::default() };
-    let proof = prove(&statement).map_err(unproved)?;
-    proof.goals().first().cloned().ok_or_else(|| "there is nothing to prove".to_string())
+    only_derivation(&Statement { hypotheses, goals: vec![goal], ..Statement::default() })
+}
+
+/// Of a statement with one goal.
+pub(super) fn only_derivation(statement: &Statement) -> Result<Derivation> {
+    let proof = prove(statement).map_err(|why| format!("there is no proof to follow: {why}"))?;
+    Ok(proof.goals()[0].clone())
 }
 
 impl<'a> Lemma<'a> {

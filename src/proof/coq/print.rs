@@ -60,6 +60,11 @@ pub(super) struct Printer<'a> {
 }
 
 impl Printer<'_> {
+    /// What is shared speaks in no function's own names.
+    pub(super) fn plain(self) -> Self {
+        Printer { preferred: &[], ..self }
+    }
+
     /// A formula; what a function of the registry computes in it, as a call of that function.
     pub(super) fn expr(self, tree: &Tree) -> Expr {
         let place = |path: &str| self.preferred.iter().position(|known| *known == path);
@@ -86,19 +91,19 @@ impl Printer<'_> {
 
     fn last_step(self, tree: &Tree) -> Expr {
         use Operator::*;
-        let of = |tree: &Tree| Box::new(self.expr(tree));
+        let of = |tree: &Tree| self.expr(tree);
         let expr = match tree.step() {
             Step::Symbol(name) => Expr::Name(ascii(name)),
             Step::Int(n) => Expr::int(*n),
-            Step::Neg(a) => Expr::Neg(of(a)),
-            Step::Add(a, b) => Expr::Binary(Add, of(a), of(b)),
-            Step::Sub(a, b) => Expr::Binary(Sub, of(a), of(b)),
-            Step::Mul(a, b) => Expr::Binary(Mul, of(a), of(b)),
-            Step::Div(a, b) => Expr::Binary(Div, of(a), of(b)),
-            Step::Exp(a) => Expr::Call("exp".into(), vec![*of(a)]),
-            Step::PositivePart(a) => Expr::Call("Rmax".into(), vec![*of(a), Expr::int(0)]),
-            Step::Min(a, b) => Expr::Call("Rmin".into(), vec![*of(a), *of(b)]),
-            Step::Rounded(a) => Expr::Call("fl prec choice".into(), vec![*of(a)]),
+            Step::Neg(a) => of(a).negated(),
+            Step::Add(a, b) => Expr::binary(Add, of(a), of(b)),
+            Step::Sub(a, b) => Expr::binary(Sub, of(a), of(b)),
+            Step::Mul(a, b) => Expr::binary(Mul, of(a), of(b)),
+            Step::Div(a, b) => Expr::binary(Div, of(a), of(b)),
+            Step::Exp(a) => Expr::Call("exp".into(), vec![of(a)]),
+            Step::PositivePart(a) => Expr::Call("Rmax".into(), vec![of(a), Expr::int(0)]),
+            Step::Min(a, b) => Expr::Call("Rmin".into(), vec![of(a), of(b)]),
+            Step::Rounded(a) => Expr::Call("fl prec choice".into(), vec![of(a)]),
         };
         // What the rules of differentiation write is full of 0 x, 1 x and x + 0; nobody else's zeros are
         // touched.

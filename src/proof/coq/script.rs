@@ -35,7 +35,7 @@ pub(super) struct Script {
 pub(super) type Reason = &'static str;
 
 /// Any of the derivations without cases that a derivation ends in: all begin with the same suppositions.
-fn first(derivation: &Derivation) -> &Direct {
+pub(super) fn first(derivation: &Derivation) -> &Direct {
     match derivation {
         Derivation::Direct(direct) => direct,
         Derivation::Cases(_, positive, _) => first(positive),
@@ -139,7 +139,7 @@ impl Script {
                 let factor =
                     difference.over(&(supposed.value() - name)).ok_or("a hypothesis has no solution")?;
                 let (pivot, by, factor) =
-                    (Expr::monomial(pivot), Expr::ratio(by), Expr::ratio(&factor).argument());
+                    (Expr::poly(&pivot.clone().into()), Expr::ratio(by), Expr::ratio(&factor).argument());
                 if let Some(x) = named {
                     let name = ascii(x.0);
                     self.line(&format!("destruct (named_{kind} _ {hypothesis}) as ({name} & S{i} & P{i})."));
@@ -183,7 +183,7 @@ impl Script {
                     "destruct (either {}) as [{case} | {case}].",
                     Expr::poly(deciding).argument()
                 ));
-                let bullet = ["-", "+", "*", "--", "++"][(self.cases - 1).min(4)];
+                let bullet = ["-", "+", "*", "--"][self.cases - 1];
                 for branch in [positive, not] {
                     self.block(bullet, |own| {
                         let supposed =
@@ -305,7 +305,6 @@ impl Script {
         self.signs += 1;
         let i = self.signs;
         self.line(&format!("assert (F{i} : 0 {relation} {f})."));
-        let signs = self.signs;
         self.block("{", |own| {
             own.line(&format!(
                 "apply ({rule} (fun {name} => {f}) (fun {name} => {}) {name}); cbv beta.",
@@ -331,7 +330,6 @@ impl Script {
             own.block("-", |own| {
                 own.line(&again);
                 own.known = beyond.clone();
-                own.signs = signs;
                 let value = own.positive(slope)?.over(own.positive(&above_zero)?);
                 own.line(&format!("sign_by {}.", value.argument()));
                 Ok(())

@@ -3,10 +3,10 @@
 use super::expr::Expr;
 use super::law::Law;
 use super::lemma::{
-    Defined, Lemma, Result, depends, derivation, divisors, divisors_script, labels, names, numbered, says,
-    stated, supposed,
+    Defined, Lemma, Result, depends, derivation, divisors, divisors_script, labels, names, none_is_zero,
+    numbered, says, stated, supposed,
 };
-use super::print::{Printer, ascii};
+use super::print::{Printer, ascii, free};
 use super::script::Script;
 use super::{identifier, theorem_name};
 use crate::formula::claim::{MEMBERS, POWER};
@@ -64,14 +64,14 @@ impl<'a> Theorem<'a> {
         self.defined().filter(|_| hypotheses.len() == self.statement.supposed().count())
     }
 
-    /// The lemma for one of its goals.
-    fn lemma<'s>(&'s self, i: usize, without: Option<&str>) -> Lemma<'s> {
+    /// The lemma for one of its goals. If that is all that the claim says, it is the theorem.
+    fn lemma(&self, i: usize, without: Option<&str>) -> Lemma<'_> {
         let goals = &self.statement.goals;
         let part = goals[i].part;
         let same: Vec<_> = (0..goals.len()).filter(|j| goals[*j].part == part).collect();
         let count = same.iter().position(|j| *j == i).filter(|_| same.len() > 1);
         let count = count.map_or(String::new(), |count| format!(" {}", count + 1));
-        let name = format!("{}_{}", self.name, identifier(&format!("{part}{count}")));
+        let name = free(identifier(&format!("{} {part}{count}", self.name)));
         let hypotheses = self.hypotheses(without);
         let defined = self.recalled(&hypotheses);
         Lemma { name, printer: self.printer, hypotheses, says: &goals[i].says, defined }
@@ -89,26 +89,17 @@ impl<'a> Theorem<'a> {
             let (name, statement, printer) = (&self.name, &self.statement, self.printer);
             return Law { name, statement, printer }.text();
         }
-        let mut text = String::new();
-        if let Some(defined) = self.defined() {
-            text += &self.definedness(&defined)?;
-        }
-        let hypotheses = self.hypotheses(None);
-        text += &match &self.claim.kind {
+        let defined = self.defined().map(|defined| self.definedness(&defined)).transpose()?;
+        let text = match &self.claim.kind {
             Kind::Limit { by, .. } => self.limit(by)?,
-            Kind::Induction { .. } => self.induction()?,
-            Kind::Vanishing { .. } => self.vanishing()?,
+            Kind::Induction { ratio, start, step, closed } => self.induction(ratio, [start, step, closed])?,
+            Kind::Vanishing { ratio, of, to } => self.vanishing(ratio, of, to)?,
             Kind::Within(..) | Kind::Drift { .. } => return Err("a bound of what is not rounded".into()),
             Kind::Equal(..) | Kind::Sign(..) | Kind::Derivative { .. } => {
-                let [goal] = self.statement.goals.as_slice() else {
-                    return Err("a claim of this kind has several goals".into());
-                };
-                let defined = self.defined();
-                let (name, printer) = (self.name.clone(), self.printer);
-                Lemma { name, printer, hypotheses, says: &goal.says, defined }.text("Theorem")?
+                self.lemma(0, None).text("Theorem")?
             }
         };
-        Ok(text)
+        Ok(defined.unwrap_or_default() + &text)
     }
 
     /// No divisor is 0.
@@ -119,27 +110,15 @@ impl<'a> Theorem<'a> {
         script.line(&format!("intros{}{}.", names(variables), labels(hypotheses.len())));
         divisors_script(&mut script, &hypotheses, divisors, self.printer)?;
         script.line("repeat split; assumption.");
-        let plain = Printer { preferred: &[], ..self.printer };
-        let goals: Vec<_> = divisors.iter().map(|divisor| format!("{} <> 0", plain.expr(divisor))).collect();
-        let says = goals.join(" /\\\n  ");
+        let says = none_is_zero(divisors, self.printer);
         Ok(stated("Lemma", name, variables, &hypotheses, &says, script, self.printer))
     }
 
     /// The limit itself; how fast it is reached is in lemmas.
     fn limit(&self, by: &'static str) -> Result<String> {
-        let goals = &self.statement.goals;
-        let mut text = String::new();
-        for i in 1..goals.len() {
-            text += &self.lemma(i, None).text("Lemma")?;
-        }
-        let x = by;
-        let own = Lemma {
-            name: self.name.clone(),
-            printer: self.printer,
-            hypotheses: self.hypotheses(Some(x)),
-            says: &goals[0].says,
-            defined: None,
-        };
+        let lemmas = (1..self.statement.goals.len()).map(|i| self.lemma(i, None).text("Lemma"));
+        let text = lemmas.collect::<Result<String>>()?;
+        let own = self.lemma(0, Some(by));
         let variables: Vec<_> = own.variables().into_iter().filter(|var| *var != by).collect();
         let mut script = Script::new();
         script.line(&format!("intros{}{}. functions.", names(&variables), labels(own.hypotheses.len())));
@@ -148,10 +127,10 @@ impl<'a> Theorem<'a> {
         script.limit(&derivation(&all, own.goal())?, by, |script| {
             let (mut label, mut i) = (Vec::new(), 0);
             for hypothesis in &all {
-                if !depends(&hypothesis.value, x) {
+                if !depends(&hypothesis.value, by) {
                     i += 1;
                     label.push(format!("H{i}"));
-                } else if *hypothesis.value.step() != Step::Symbol(x) {
+                } else if *hypothesis.value.step() != Step::Symbol(by) {
                     return Err("more is supposed of what tends to infinity than that it is positive");
                 } else {
                     let weak = hypothesis.relation == Relation::NonNegative;
@@ -176,10 +155,7 @@ impl<'a> Theorem<'a> {
     }
 
     /// The recursion over the natural numbers, and its closed form by induction.
-    fn induction(&self) -> Result<String> {
-        let Kind::Induction { ratio, start, step, closed } = &self.claim.kind else {
-            return Err("no induction".into());
-        };
+    fn induction(&self, ratio: &Tree, [start, step, closed]: [&Vec<Tree>; 3]) -> Result<String> {
         let q = POWER;
         let lemma = |i: usize| {
             let at_start = matches!(self.statement.goals[i].role, Role::Claim | Role::Begins);
@@ -192,7 +168,6 @@ impl<'a> Theorem<'a> {
         };
         let mut text = lemmas.iter().map(|lemma| lemma.text("Lemma")).collect::<Result<String>>()?;
 
-        let names_of_values = MEMBERS.get(..start.len()).ok_or("the recursion has too many values")?;
         let hypotheses = self.hypotheses(Some(q));
         let trees = start.iter().chain(step).chain(closed).chain([ratio]);
         let free: Vec<_> = self
@@ -208,7 +183,7 @@ impl<'a> Theorem<'a> {
                 format!("({})", values.join(",\n      "))
             }
         };
-        let pattern = match names_of_values {
+        let pattern = match &MEMBERS[..start.len()] {
             [name] => ascii(name),
             names => format!("'({})", names.iter().map(|name| ascii(name)).collect::<Vec<_>>().join(", ")),
         };
@@ -226,28 +201,15 @@ impl<'a> Theorem<'a> {
         );
 
         let mut script = Script::new();
-        let all = self.hypotheses(None);
-        let of_q: Vec<_> = all.iter().filter(|h| depends(&h.value, q)).copied().collect();
+        let of_q = &self.statement.invariants;
         script.line(&format!("intros{arguments}{}.", labels(hypotheses.len())));
         // Where something is supposed of q, it is true of every power of the ratio.
-        let (mut next_label, mut next_q) = (0, 0);
-        let step_labels: Vec<_> = all
-            .iter()
-            .map(|h| {
-                let (letter, counter) =
-                    if depends(&h.value, q) { ("Q", &mut next_q) } else { ("H", &mut next_label) };
-                *counter += 1;
-                format!("{letter}{counter}")
-            })
-            .collect();
+        let all_labels = [numbered("H", hypotheses.len()), numbered("Q", of_q.len())].concat();
         let at = |lemma: &Lemma, q_is: &str| {
-            let variables = lemma.variables();
-            let arguments = variables
-                .iter()
-                .map(|var| if *var == POWER { format!(" {q_is}") } else { format!(" {}", ascii(var)) });
-            let with_q = lemma.hypotheses.len() == all.len();
-            let labels: Vec<_> = if with_q { step_labels.clone() } else { numbered("H", hypotheses.len()) };
-            format!("{}{} {}", lemma.name, arguments.collect::<String>(), labels.join(" "))
+            let argument = |var: &&str| if *var == POWER { q_is.to_string() } else { ascii(var) };
+            let arguments: Vec<_> = lemma.variables().iter().map(argument).collect();
+            let labels = &all_labels[..lemma.hypotheses.len()];
+            [&[lemma.name.clone()], &arguments[..], labels].concat().join(" ")
         };
         let power = format!("({} ^ n)", ratio.base());
         let q_pattern = match of_q.len() {
@@ -286,15 +248,9 @@ impl<'a> Theorem<'a> {
     }
 
     /// A function of the powers of what is less than 1 in size.
-    fn vanishing(&self) -> Result<String> {
-        let Kind::Vanishing { ratio, of, to } = &self.claim.kind else {
-            return Err("no limit of powers".into());
-        };
+    fn vanishing(&self, ratio: &Tree, of: &Tree, to: &Tree) -> Result<String> {
         let q = POWER;
-        let lemmas: Vec<_> = (0..self.statement.goals.len()).map(|i| self.lemma(i, Some(q))).collect();
-        let [small, limit] = lemmas.as_slice() else {
-            return Err("a limit of powers has two parts".into());
-        };
+        let [small, limit] = [0, 1].map(|i| self.lemma(i, Some(q)));
         let text = small.text("Lemma")? + &limit.text("Lemma")?;
         let hypotheses = self.hypotheses(Some(q));
         let trees = [ratio, of, to].into_iter().chain(hypotheses.iter().map(|h| &h.value));
