@@ -1,12 +1,11 @@
 //! What the subcommands share of their arguments: numbers, the system, the scalar.
 
-use crate::output::Failure;
-use crate::output::shortened;
+use crate::output::{Failure, shortened};
 use clap::Args;
 use num_traits::Zero;
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::claims::all_numbered;
-use spring_mass_contact::number::{Exact, ToExact};
+use spring_mass_contact::number::{Exact, NumberSystem, ToExact};
 use spring_mass_contact::rug::float::Round;
 use std::ffi::OsString;
 use std::fmt::{self, Display};
@@ -151,6 +150,17 @@ impl Number {
     pub fn round<T: ToExact>(&self, name: impl Display, like: &T) -> Result<T, Failure> {
         like.nearest(&self.value).map_err(|error| invalid(&self.text, name, error))
     }
+}
+
+/// The number systems that were asked for, each of them once.
+pub fn distinct(asked: &[NumberSystem]) -> Vec<NumberSystem> {
+    let mut distinct = Vec::new();
+    for scalar in asked {
+        if !distinct.contains(scalar) {
+            distinct.push(*scalar);
+        }
+    }
+    distinct
 }
 
 /// Runs a generic function in the number system that was asked for; `like` is a zero of it.

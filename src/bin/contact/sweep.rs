@@ -2,7 +2,7 @@
 
 mod plot;
 
-use crate::args::{Names, Number, System, exact, in_scalar, positive, spelled, whole_in};
+use crate::args::{self, Names, Number, System, exact, in_scalar, positive, spelled, whole_in};
 use crate::output::{self, Exit, Failure, Row, shortened};
 use clap::ValueEnum;
 use num_traits::{One, Zero};
@@ -120,9 +120,8 @@ fn sweeps(options: &Options, progress: &dyn Fn(usize, usize)) -> Result<Vec<Swee
     let penalties = penalties(&from.value, &to.value, options.points as u32).map_err(refused)?;
     let number = |value| Number { text: spelled(&value), value };
     let penalties: Vec<_> = penalties.into_iter().map(number).collect();
-    let scalars = if options.scalars.is_empty() { &[NumberSystem::F64] } else { &options.scalars[..] };
-    let first = |(i, scalar): &(usize, &NumberSystem)| !scalars[..*i].contains(scalar);
-    let scalars: Vec<_> = scalars.iter().enumerate().filter(first).map(|(_, scalar)| *scalar).collect();
+    let scalars = args::distinct(&options.scalars);
+    let scalars = if scalars.is_empty() { vec![NumberSystem::F64] } else { scalars };
     let made = |(i, scalar): (usize, &NumberSystem)| {
         let sweeping = Sweeping { options, penalties: &penalties, scalar: *scalar };
         let each = |row| progress(i * penalties.len() + row, scalars.len() * penalties.len());

@@ -63,9 +63,7 @@ enum Format {
 pub fn run(options: &Options) -> Result<Exit, Failure> {
     let mut wanted = verify::Options { cases: options.cases, seed: options.seed, ..Default::default() };
     if !options.scalars.is_empty() {
-        let first = |i: usize, scalar| !options.scalars[..i].contains(scalar);
-        let scalars = options.scalars.iter().enumerate().filter(|(i, scalar)| first(*i, scalar));
-        wanted.scalars = scalars.map(|(_, scalar)| *scalar).collect();
+        wanted.scalars = args::distinct(&options.scalars);
     }
     wanted.equations = args::equations(&options.numbers)?;
     if let Some(empty) = wanted.equations.iter().find(|e| claim_names(e).is_empty()) {

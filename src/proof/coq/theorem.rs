@@ -209,7 +209,7 @@ impl<'a> Theorem<'a> {
             let argument = |var: &&str| if *var == POWER { q_is.to_string() } else { ascii(var) };
             let arguments: Vec<_> = lemma.variables().iter().map(argument).collect();
             let labels = &all_labels[..lemma.hypotheses.len()];
-            [&[lemma.name.clone()], &arguments[..], labels].concat().join(" ")
+            [std::slice::from_ref(&lemma.name), &arguments, labels].concat().join(" ")
         };
         let power = format!("({} ^ n)", ratio.base());
         let q_pattern = match of_q.len() {
