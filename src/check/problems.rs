@@ -208,8 +208,8 @@ impl Draw {
             Family::Lifted => {
                 // It rises until the spring holds it; only a plane that is higher still is in the way.
                 let part = Exact::from(1) / self.part();
-                let below = self.number.is_multiple_of(2) && self.between(0, 3) == 3;
-                let part = if below { part } else { -part };
+                let above = self.number % 2 == 1 || self.between(0, 3) < 3;
+                let part = if above { -part } else { part };
                 let SpringMass { c, m, g, l, h } = self.ordinary([1, 3], part);
                 SpringMass { c, m, g: -g, l, h }
             }
