@@ -26,6 +26,11 @@ fn a_penalty_shows_what_it_is_a_multiple_of() {
     let of_mass = |system: &SpringMass<Exact>| number(if system.m < number("1") { "1e4" } else { "5e4" });
     let two = by_penalty(&all, of_mass);
     assert_eq!((two.penalty.kind, two.named()), (Kind::None, None));
+    // Of two that are nearly the same it is that of short systems, which are rounded less.
+    let long = |system: &SpringMass<Exact>| system.l.abs() >= number("1000");
+    let nearly = problems(1, 5, &[Family::Contact, Family::Far]);
+    let nearly = by_penalty(&nearly, |system| number(if long(system) { "1.05e4" } else { "1e4" }));
+    assert_eq!((nearly.penalty.kind, nearly.penalty.value), (Kind::Constant, Some(number("1e4"))));
     // Where c and m are the same in all systems, it may be a multiple of either.
     let alike = |problem: &Problem| {
         let (c, m) = (number("300"), number("2"));
@@ -228,8 +233,8 @@ fn forces_without_penetrations_tell_no_penalty() {
     assert_eq!(["1", "1.001"].map(kind), [Kind::Constant, Kind::None]);
 }
 
-/// By a tolerance of 10⁻⁶ of the system's scale and of what is computed; and where R is no further from 0 than
-/// that, by either formula.
+/// By a tolerance of 10⁻⁶ of the system's scale and of what is computed; and where R is no further from 0
+/// than that, by either formula.
 #[test]
 fn an_answer_fits_to_the_tolerance() {
     let fits = |name: &str, [g, h]: [&str; 2], n: &str| {

@@ -274,7 +274,8 @@ fn what_overflows_explains_nothing() {
     }
 }
 
-/// l = 10⁴ m loses 10⁻¹² m, and ε = 4.5e17 N/m times that is a million N, less than the 2e8 N of c (|l| + |H|).
+/// Of l = 10⁴ m rounding takes 10⁻¹² m, and ε = 4.5e17 N/m makes a million N of that: less than the 2e8 N of
+/// c (|l| + |H|).
 #[test]
 fn what_rounding_may_do_is_said() {
     let [c, m, g, l, h] = ["1e4", "1", "2", "1e4", "10000.0001"].map(number);
