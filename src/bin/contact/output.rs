@@ -6,7 +6,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use serde::ser::{Serialize, Serializer};
 use spring_mass_contact::formula::GLUE;
 use std::fmt;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, IsTerminal, Write};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
@@ -190,6 +190,9 @@ pub fn command<'a>(out: &mut dyn Write, words: impl IntoIterator<Item = &'a str>
 /// A bar on stderr if that is a terminal and the work takes longer than a second. The work says how much of
 /// it is done, and of how much: as often as it likes, since another thread draws.
 pub fn with_progress<T>(what: &str, work: impl FnOnce(&(dyn Fn(usize, usize) + Sync)) -> T) -> T {
+    if !io::stderr().is_terminal() {
+        return work(&|_, _| {});
+    }
     let (done, all) = (AtomicUsize::new(0), AtomicUsize::new(0));
     let bar = |working: Receiver<()>| {
         if working.recv_timeout(Duration::from_secs(1)) != Err(RecvTimeoutError::Timeout) {
