@@ -66,8 +66,7 @@ fn run_in<T: Scalar + Text>(options: &Options, like: &T) -> Result<Exit, Failure
     let out_of_range = |error: SolveError| format!("--scalar {}: {error}", options.scalar);
     let advice = advise(&system, &tolerance).map_err(out_of_range)?;
     // Of what was typed: with more bits it is rounded to other numbers.
-    let typed = options.system.typed().map(|number| number.value.clone());
-    let bits_needed = bits_needed(&typed, Plane::Unilateral, &options.tolerance.value);
+    let bits_needed = bits_needed(&options.system.values(), Plane::Unilateral, &options.tolerance.value);
     let report = Report { options, system, tolerance, advice, bits_needed };
     output::print(|out| match options.format {
         Format::Table => report.table(out),
@@ -141,12 +140,11 @@ impl<T: Scalar + Text> Report<'_, T> {
             }
             None => "none: with so few bits no augmentation is sure".to_string(),
         };
-        let system = options.system.typed().map(|number| shortened(&number.text)).to_string();
         let tolerance = format!("{} m ({})", shortened(&options.tolerance.text), options.scalar);
         let state = state_in_words(advice.state, Plane::Unilateral).to_string();
         let mut head = output::table();
         let rounded = rounded_in_words(&options.system, &self.system, Vec::new());
-        head.add_row(["system", &system]);
+        head.add_row(["system", &options.system.shown()]);
         if !rounded.is_empty() {
             head.add_row(["as rounded", &rounded]);
         }

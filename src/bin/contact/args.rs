@@ -218,6 +218,16 @@ impl System {
         SpringMass { c: stiffness, m: mass, g: gravity, l: free_length, h: height }
     }
 
+    /// The same in one line, for people.
+    pub fn shown(&self) -> String {
+        self.typed().map(|number| shortened(&number.text)).to_string()
+    }
+
+    /// As it was meant.
+    pub fn values(&self) -> SpringMass<Exact> {
+        self.typed().map(|number| number.value.clone())
+    }
+
     /// The options that say so; what is as by default is left out.
     pub fn options(&self) -> Vec<String> {
         let command = System::augment_args(clap::Command::new("system"));

@@ -1,7 +1,6 @@
 //! `contact prove`: every claim for all values, and that wrong ones would be noticed.
 
-use crate::output::shortened;
-use crate::output::{self, Exit, Failure};
+use crate::output::{self, Exit, Failure, shortened};
 use crate::{args, solve};
 use clap::ValueEnum;
 use spring_mass_contact::claims::{Entry, entry, registry, statements};

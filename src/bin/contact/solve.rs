@@ -4,8 +4,7 @@ mod batch;
 mod report;
 
 use crate::args::{Names, Number, System, finite, in_scalar, positive, whole};
-use crate::output::shortened;
-use crate::output::{self, Exit, Failure};
+use crate::output::{self, Exit, Failure, shortened};
 use clap::ValueEnum;
 use num_traits::Zero;
 use report::Report;
@@ -350,7 +349,7 @@ mod tests {
             let read =
                 Options::augment_args(clap::Command::new("solve")).try_get_matches_from(words).unwrap();
             let options = Options::from_arg_matches(&read).unwrap();
-            assert_eq!(options.system.typed().map(|number| number.value.clone()), case.system);
+            assert_eq!(options.system.values(), case.system);
             let penalty = Method::Penalty { penalty: case.eps.clone() };
             let method = options.method(&case.eps).unwrap_or_else(|_| panic!("{line}"));
             assert_eq!(method, if eps == "7" { penalty } else { Method::Lagrange });

@@ -276,8 +276,7 @@ fn table(out: &mut dyn Write, options: &Options, sweeps: &[Sweep], plotted: bool
         let cells = cells.iter().zip(WIDTHS).map(|(cell, width)| format!(" {cell:<width$}"));
         cells.collect::<String>().trim_end().to_string()
     };
-    let typed = options.system.typed().map(|number| shortened(&number.text));
-    output::wrapped(out, " ", 1, &typed.to_string())?;
+    output::wrapped(out, " ", 1, &options.system.shown())?;
     for Sweep { scalar, rows, notes, curves } in sweeps {
         writeln!(out, "\n {scalar}")?;
         writeln!(

@@ -118,7 +118,7 @@ impl<'a, T: Scalar + Text> Report<'a, T> {
     pub fn table(&self, out: &mut dyn Write) -> io::Result<()> {
         let s = self.solution;
         let mut rows = vec![
-            ("system", self.options.system.typed().map(|number| shortened(&number.text)).to_string()),
+            ("system", self.options.system.shown()),
             ("method", self.method_in_words()),
             ("state", state_in_words(s.state, self.problem.plane).to_string()),
             ("outcome", self.outcome_in_words()),
@@ -218,8 +218,7 @@ impl<'a, T: Scalar + Text> Report<'a, T> {
         let sure = floor.map_or(String::new(), |floor| {
             format!("{scalar} is sure to meet a tolerance above {} m, ", floor.decimal(3, Round::Up))
         });
-        let typed = system.typed().map(|number| number.value.clone());
-        match bits_needed(&typed, plane, &tolerance) {
+        match bits_needed(&system.values(), plane, &tolerance) {
             Some(bits) => {
                 format!("{sure}--scalar mpfr:{bits} this one, with the --penalty of contact advise")
             }
