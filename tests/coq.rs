@@ -72,6 +72,28 @@ fn every_claim_is_a_theorem() {
     }
 }
 
+/// What is proved and is not asked about could rest on anything.
+#[test]
+fn of_all_that_is_proved_it_is_asked_what_it_rests_on() {
+    let files = coq().files();
+    let [.., of_iterates, last] = &files[..] else { panic!("{files:?}") };
+    assert!(named(&of_iterates.text, "Theorem").contains(&"theorem_1_3_3"));
+    let (_, asked) = last.text.split_once("Definition everything :=").unwrap();
+    let (asked, print) = asked.split_once('.').unwrap();
+    assert_eq!(print.trim(), "Print Assumptions everything.");
+    let mut all = BTreeSet::new();
+    for File { text, .. } in of_claims(&files).chain([of_iterates]) {
+        let text = code(text);
+        let (text, together) = text.rsplit_once("Definition ").unwrap();
+        let mut together = words(together);
+        assert!(all.insert(together.next().unwrap().to_string()));
+        let proved: BTreeSet<_> =
+            [named(text, "Theorem"), named(text, "Lemma")].concat().into_iter().collect();
+        assert_eq!(together.collect::<BTreeSet<_>>(), proved);
+    }
+    assert_eq!(words(asked).map(String::from).collect::<BTreeSet<_>>(), all);
+}
+
 /// Coq divides by 0 without complaint, so a formula with a divisor needs more than its theorem.
 #[test]
 fn every_divisor_is_said_not_to_be_0() {
@@ -503,9 +525,9 @@ fn version() -> Option<String> {
     found.map(|output| String::from_utf8_lossy(&output.stdout).into_owned())
 }
 
-/// Are the libraries there? They are if what needs them compiles, in a directory of this name.
+/// Are the libraries there? They are if what needs them compiles, in a directory for this name.
 fn has_libraries(name: &str) -> bool {
-    let directory = scratch(name);
+    let directory = scratch(&format!("{name}-libraries"));
     [("Coquelicot", "Coquelicot"), ("Flocq", "Core")].into_iter().all(|(library, module)| {
         fs::write(directory.join("Try.v"), format!("From {library} Require {module}.\n")).unwrap();
         let found = compile(&directory, "Try.v").is_ok();
@@ -554,47 +576,63 @@ fn axioms(printed: &str) -> BTreeSet<&str> {
     names.filter_map(|line| line.split_whitespace().next()).collect()
 }
 
-/// Coq accepts all of it. What this Coq has accepted it need not be asked again: the texts that were.
+/// The files that a file needs, by the names in its first command.
+fn needs(file: &File) -> Vec<String> {
+    let head = code(&file.text);
+    let required =
+        head.split("From Contact Require Import").skip(1).filter_map(|rest| rest.split(".\n").next());
+    required.flat_map(words).map(|name| format!("{name}.v")).collect()
+}
+
+/// Coq accepts all of it. What this Coq has accepted it is not asked again while that, and what it needs, stays as it is.
 fn accepts(name: &str, development: &Development) {
     let Some(version) = version() else { return };
+    let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("coq-{name}"));
+    let mark = |file: &File| directory.join(&file.name).with_extension("accepted");
+    let marked = |file: &File| version.clone() + &file.text;
+    let mut done: BTreeSet<String> = BTreeSet::new();
     let mut files = development.files();
-    let texts = files.iter().fold(version, |all, file| all + &file.name + "\n" + &file.text);
-    let accepted = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("coq-accepted-{name}.txt"));
-    if fs::read_to_string(&accepted).is_ok_and(|before| before == texts) {
+    files.retain(|file| {
+        let accepted = fs::read_to_string(mark(file)).is_ok_and(|before| before == marked(file));
+        let stays = accepted && needs(file).iter().all(|name| done.contains(name));
+        if stays {
+            done.insert(file.name.clone());
+        } else {
+            let _ = fs::remove_file(mark(file));
+        }
+        !stays
+    });
+    if files.is_empty() {
         say("not a word has changed since Coq accepted it");
         return;
     }
     if !has_libraries(name) {
         return;
     }
-    let directory = scratch(name);
     development.write(&directory).unwrap();
-    let mut printed = String::new();
-    let mut done: BTreeSet<String> = BTreeSet::new();
     while !files.is_empty() {
-        // A file needs what its first command imports.
-        let ready = |file: &File| {
-            let head = code(&file.text);
-            let required =
-                head.split("From Contact Require").skip(1).filter_map(|rest| rest.split(".\n").next());
-            required.flat_map(words).all(|name| name == "Import" || done.contains(name))
-        };
+        let ready = |file: &File| needs(file).iter().all(|name| done.contains(name));
         let (mut now, later): (Vec<_>, Vec<_>) = files.into_iter().partition(ready);
         // The longest first, so that none is left over at the end.
         now.sort_by_key(|file| std::cmp::Reverse(file.text.len()));
         assert!(!now.is_empty(), "{:?} import each other", later.iter().map(|f| &f.name).collect::<Vec<_>>());
         let results = two_at_a_time(&now, |file| compile(&directory, &file.name));
         for (file, result) in now.iter().zip(results) {
-            printed += &result.unwrap_or_else(|error| panic!("{error}"));
-            done.insert(file.name.trim_end_matches(".v").to_string());
+            let printed = result.unwrap_or_else(|error| panic!("{error}"));
+            let axioms = axioms(&printed);
+            assert_eq!(
+                !axioms.is_empty(),
+                file.text.contains("Print Assumptions"),
+                "{}: {printed}",
+                file.name
+            );
+            let unknown: Vec<_> = axioms.iter().filter(|axiom| !AXIOMS.contains(axiom)).collect();
+            assert!(unknown.is_empty(), "new axioms: {unknown:?}");
+            fs::write(mark(file), marked(file)).unwrap();
+            done.insert(file.name.clone());
         }
         files = later;
     }
-    let axioms = axioms(&printed);
-    assert!(!axioms.is_empty(), "Coq did not print what everything rests on");
-    let unknown: Vec<_> = axioms.iter().filter(|axiom| !AXIOMS.contains(axiom)).collect();
-    assert!(unknown.is_empty(), "new axioms: {unknown:?}");
-    fs::write(accepted, texts).unwrap();
 }
 
 #[test]

@@ -266,15 +266,16 @@ fn file(name: &str, text: String) -> File {
 fn wrapped(text: &str) -> String {
     const WIDTH: usize = 100;
     let mut all = String::new();
-    for mut line in text.lines() {
-        let indent = line.len() - line.trim_start().len() + 4;
-        while line.len() > WIDTH {
-            let text_from = line.len() - line.trim_start().len();
-            let Some(end) = line[..WIDTH].rfind(' ').filter(|end| *end > text_from) else { break };
-            let _ = write!(all, "{}\n{:indent$}", line[..end].trim_end(), "");
-            line = line[end..].trim_start();
+    for line in text.lines() {
+        let mut rest = line.trim_start();
+        let mut indent = line.len() - rest.len();
+        let further = indent + 4;
+        while indent + rest.len() > WIDTH {
+            let Some(end) = rest[..=WIDTH - indent].rfind(' ') else { break };
+            let _ = writeln!(all, "{:indent$}{}", "", &rest[..end]);
+            (rest, indent) = (&rest[end + 1..], further);
         }
-        let _ = writeln!(all, "{line}");
+        let _ = writeln!(all, "{:indent$}{rest}", "");
     }
     all
 }
@@ -351,3 +352,60 @@ fn head(rounds: bool, more: &str) -> String {
 
 /// Few enough that files can be compiled side by side.
 const PER_FILE: usize = 12;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::formula::claim::{equal, limit};
+    use crate::formula::{Hypothesis, Rate, Relation};
+    use crate::number::{Exponential, Tree};
+
+    /// Why a claim is left out, if it is; then there is no theorem.
+    fn left_out(claim: &Claim) -> Option<String> {
+        let registry = Registry::default();
+        let development = Development::new(&registry, [Placed { claim, section: "0", functions: &[] }]);
+        let theorems = development.files().iter().filter(|file| file.text.contains("\nTheorem ")).count();
+        let [left_out] = development.left_out() else {
+            assert_eq!((theorems, development.left_out().len()), (1, 0));
+            return None;
+        };
+        assert_eq!((left_out.name, theorems), (claim.name, 0));
+        Some(left_out.reason.clone())
+    }
+
+    /// H is written h, so that (H − h)² = 0 would be a theorem about (h − h)².
+    #[test]
+    fn two_symbols_never_share_a_name() {
+        let square = |names: [&'static str; 2]| {
+            let [a, b] = names.map(|name| Tree::symbol(name));
+            left_out(&equal("square", [], (&a - &b) * (&a - &b), (&b - &a) * (&b - &a)))
+        };
+        assert_eq!(square(["H", "h"]).unwrap(), "H and h have the same name in Coq");
+        assert_eq!(square(["H", "c"]), None);
+    }
+
+    #[test]
+    fn what_has_no_proof_to_follow_is_left_out() {
+        let [a, t] = ["a", "t"].map(|name| Tree::symbol(name));
+        let above = [&a, &t].map(|x| Hypothesis::new(Relation::Positive, x.clone()));
+        let vanishes = |of: Tree| {
+            left_out(&limit("vanishes", [&above[0], &above[1]], &of, &t, 0, Rate::Exactly(of.clone())))
+        };
+        assert!(left_out(&equal("one", [], &a, 1)).unwrap().starts_with("there is no proof to follow: "));
+        assert_eq!(vanishes((-&a * &t).exp()), None);
+        // The kernel knows more of these than the lemmas that are at hand in Coq.
+        let unlike = "an exponential is not that of a constant rate, or has a factor that grows";
+        assert_eq!(vanishes(&t * (-&a * &t).exp()).unwrap(), unlike);
+        assert_eq!(vanishes((-&a * &t * &t).exp()).unwrap(), unlike);
+    }
+
+    #[test]
+    fn a_long_line_is_broken_where_there_is_a_blank() {
+        let [short, full, long] = [94, 98, 101].map(|n| "a".repeat(n));
+        let kept = format!("  {full}\n  {long}\n");
+        assert_eq!(wrapped(&kept), kept);
+        // What is broken off stands four to the right of its line.
+        let broken = format!("  head\n      {short}\n      c\n      {long} d\n");
+        assert_eq!(wrapped(&format!("  head {short} c {long} d")), broken);
+    }
+}

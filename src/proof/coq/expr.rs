@@ -66,11 +66,9 @@ impl Expr {
         match self {
             Expr::Binary(Add, a, b) if a.is(0) => *b,
             Expr::Binary(Add | Sub, a, b) if b.is(0) => *a,
-            Expr::Binary(Sub, a, b) if a.is(0) => b.negated(),
             Expr::Binary(Mul, a, b) if a.is(0) || b.is(1) => *a,
             Expr::Binary(Mul, a, b) if b.is(0) || a.is(1) => *b,
-            Expr::Binary(Div, a, b) if a.is(0) || b.is(1) => *a,
-            Expr::Neg(a) if a.is(0) => *a,
+            Expr::Binary(Div, a, _) if a.is(0) => *a,
             other => other,
         }
     }

@@ -93,11 +93,7 @@ pub(super) fn says(says: &Says, printer: Printer) -> String {
     let of = |tree: &Tree| printer.expr(tree);
     let under = |var: &str, tree: &Tree| format!("(fun {} => {})", ascii(var), of(tree));
     match says {
-        Says::Equal(a, b) => {
-            let (left, right) = (of(a).to_string(), of(b).to_string());
-            let between = if left.len() + right.len() > 80 { "\n  " } else { " " };
-            format!("{left} ={between}{right}")
-        }
+        Says::Equal(a, b) => format!("{} = {}", of(a), of(b)),
         Says::Sign(relation, a) => of(a).relation(*relation),
         Says::Within(a, bound) => format!("Rabs {} <= {}", of(a).argument(), of(bound)),
         Says::Derivative(a, by, b) => {

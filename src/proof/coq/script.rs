@@ -411,3 +411,26 @@ fn unsigned(certificate: &Certificate) -> Poly {
         Sign::Zero | Sign::NonNegative | Sign::Positive => certificate.of().clone(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_part_stands_to_the_right_of_its_bullet() {
+        let mut script = Script::new();
+        script.line("one.");
+        script
+            .block("{", |own| {
+                own.line("two.");
+                own.block("-", |own| {
+                    own.line("three.");
+                    own.line("four.");
+                    Ok(())
+                })
+            })
+            .unwrap();
+        script.line("five.");
+        assert_eq!(script.into_text(), "  one.\n  { two.\n    - three.\n      four. }\n  five.\n");
+    }
+}

@@ -279,23 +279,3 @@ impl<'a> Theorem<'a> {
         Ok(text + &stated("Theorem", &self.name, &free, &hypotheses, &says, script, self.printer))
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::formula::Registry;
-    use crate::formula::claim::equal;
-
-    /// H is written h, so that (H − h)² = 0 would be a theorem about (h − h)².
-    #[test]
-    fn two_symbols_never_share_a_name() {
-        let registry = Registry::default();
-        let text = |names: [&'static str; 2]| {
-            let [a, b] = names.map(|name| Tree::symbol(name));
-            let claim = equal("square", [], (&a - &b) * (&a - &b), (&b - &a) * (&b - &a));
-            Theorem::new(&claim, Printer { registry: &registry, preferred: &[] }).text()
-        };
-        assert_eq!(text(["H", "h"]), Err("H and h have the same name in Coq".into()));
-        assert!(text(["H", "c"]).is_ok_and(|text| text.contains("Theorem square : forall h c : R")));
-    }
-}
