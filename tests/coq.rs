@@ -117,6 +117,8 @@ fn every_divisor_is_said_not_to_be_0() {
             continue;
         };
         given.retain(|said| !matches!(said, Said::PowerOfTwo(..)));
+        let is_used = |file: &File| file.text.matches(&format!("({name} ")).count() > 0;
+        assert!(statement.rounds() || of_claims(&coq().files()).any(is_used), "no proof uses {name}");
         // Of the members of what is rounded nothing is needed.
         let invariants = statement.invariants.iter().filter(|_| !statement.rounds());
         let own = statement.hypotheses.iter().chain(invariants);
@@ -576,12 +578,12 @@ fn axioms(printed: &str) -> BTreeSet<&str> {
     names.filter_map(|line| line.split_whitespace().next()).collect()
 }
 
-/// The files that a file needs, by the names in its first command.
+/// The files that a file needs: of those that belong together, what it requires.
 fn needs(file: &File) -> Vec<String> {
-    let head = code(&file.text);
-    let required =
-        head.split("From Contact Require Import").skip(1).filter_map(|rest| rest.split(".\n").next());
-    required.flat_map(words).map(|name| format!("{name}.v")).collect()
+    let text = code(&file.text);
+    let required = text.split("From Contact Require").skip(1).filter_map(|rest| rest.split(".\n").next());
+    let names = required.flat_map(words).filter(|word| *word != "Import");
+    names.map(|name| format!("{name}.v")).collect()
 }
 
 /// Coq accepts all of it. What this Coq has accepted it is not asked again while that, and what it needs, stays as it is.

@@ -23,8 +23,6 @@ pub(super) struct Script {
     /// How many suppositions have been made, and how many of them by splitting.
     supposed: usize,
     cases: usize,
-    /// For names of what is proved on the way.
-    signs: usize,
     /// How many hypotheses have been put to use.
     given: usize,
     /// Is it about what is rounded?
@@ -183,9 +181,8 @@ impl Script {
                     "destruct (either {}) as [{case} | {case}].",
                     Expr::poly(deciding).argument()
                 ));
-                let bullet = ["-", "+", "*", "--"][self.cases - 1];
                 for branch in [positive, not] {
-                    self.block(bullet, |own| {
+                    self.block("{", |own| {
                         let supposed =
                             first(branch).supposed().get(own.supposed).ok_or("a case supposes nothing")?;
                         own.suppose(supposed, &case)?;
@@ -229,9 +226,6 @@ impl Script {
         }
         match direct.because() {
             Because::Same(_) => self.line("identity."),
-            Because::Sign(signed) if signed.sign() == Sign::Zero => {
-                self.line("match goal with |- _ ?x => replace x with 0 by identity end; lra.");
-            }
             Because::Sign(signed) => {
                 let value = self.size(signed)?;
                 self.line(&format!("sign_by {}.", value.argument()));
@@ -302,9 +296,7 @@ impl Script {
         let derivative = poly.derivative(x);
         let (at_zero, above_zero) =
             (poly.replace(&Monomial::of(x), &Ratio::zero()), below(&derivative, &beyond)?);
-        self.signs += 1;
-        let i = self.signs;
-        self.line(&format!("assert (F{i} : 0 {relation} {f})."));
+        self.line(&format!("assert (0 {relation} {f})."));
         self.block("{", |own| {
             own.line(&format!(
                 "apply ({rule} (fun {name} => {f}) (fun {name} => {}) {name}); cbv beta.",
@@ -321,7 +313,7 @@ impl Script {
                 Ok(())
             })?;
             // The same letter for another value.
-            let again = format!("rename {name} into {name}_{i}; intros {name} X{i}.");
+            let again = format!("let other := fresh in rename {name} into other; intros {name} ?.");
             own.block("-", |own| {
                 own.line(&again);
                 own.line("derivative.");

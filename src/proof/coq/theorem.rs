@@ -10,7 +10,7 @@ use super::print::{Printer, ascii, free};
 use super::script::Script;
 use super::{identifier, theorem_name};
 use crate::formula::claim::{MEMBERS, POWER};
-use crate::formula::statement::{Role, Statement};
+use crate::formula::statement::{Goal, Role, Statement};
 use crate::formula::{Claim, Hypothesis, Kind, Relation};
 use crate::number::Tree;
 use crate::number::tree::Step;
@@ -68,10 +68,9 @@ impl<'a> Theorem<'a> {
     fn lemma(&self, i: usize, without: Option<&str>) -> Lemma<'_> {
         let goals = &self.statement.goals;
         let part = goals[i].part;
-        let same: Vec<_> = (0..goals.len()).filter(|j| goals[*j].part == part).collect();
-        let count = same.iter().position(|j| *j == i).filter(|_| same.len() > 1);
-        let count = count.map_or(String::new(), |count| format!(" {}", count + 1));
-        let name = free(identifier(&format!("{} {part}{count}", self.name)));
+        let alike = |goals: &[Goal]| goals.iter().filter(|goal| goal.part == part).count();
+        let number = if alike(goals) > 1 { alike(&goals[..=i]).to_string() } else { String::new() };
+        let name = free(identifier(&format!("{} {part} {number}", self.name)));
         let hypotheses = self.hypotheses(without);
         let defined = self.recalled(&hypotheses);
         Lemma { name, printer: self.printer, hypotheses, says: &goals[i].says, defined }

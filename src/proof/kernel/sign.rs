@@ -302,7 +302,7 @@ mod tests {
     }
 
     fn found(of: Poly) -> Option<Sign> {
-        let known = [("a", Positive), ("b", Positive), ("z", NonNegative)];
+        let known = [("a", Positive), ("b", Positive), ("z", NonNegative), ("n", Negative)];
         sign(&of, &known.map(|(name, sign)| (Symbol(name), sign)).into()).map(|c| c.sign)
     }
 
@@ -344,6 +344,8 @@ mod tests {
         assert_eq!(found(-(x("a") * x("b"))), Some(Negative));
         assert_eq!(found(Poly::zero()), Some(Zero));
         assert_eq!(found(n(-2)), Some(Negative));
+        assert_eq!(found(x("n") * x("n")), Some(Positive));
+        assert_eq!(found(x("n") * x("n") * x("n")), Some(Negative));
         // An odd power of a free symbol, a difference: nothing is known.
         assert_eq!(found(x("u")), None);
         assert_eq!(found(x("a") - x("b")), None);
