@@ -1,0 +1,178 @@
+use super::*;
+use crate::output::printed;
+use spring_mass_contact::claims::Case;
+use spring_mass_contact::number::Exact;
+
+/// c = 1, m = 1/2, g = −1/3, everything else 7/3.
+fn case() -> Case<Exact> {
+    let mut case = Case::of(|_| "7/3".parse().expect("a number"));
+    let [c, m, g] = ["1", "1/2", "-1/3"].map(|text| text.parse().expect("a number"));
+    (case.system.c, case.system.m, case.system.g) = (c, m, g);
+    case
+}
+
+/// A claim of (1.13), by its proof or on five cases in a number system.
+fn row(way: Way, status: Status) -> Row {
+    let decided = if way.is_some() && status != Status::Undecided { 4 } else { 0 };
+    let failed = way.is_some() && status == Status::Failed;
+    Row {
+        equation: "1.13",
+        claim: "rate",
+        kind: "equal",
+        status,
+        scalar: way,
+        why: None,
+        decided,
+        undecided: if way.is_some() { 5 - decided } else { 0 },
+        worst: (decided > 0).then(|| (if failed { 1e80 } else { 2.5 }, "1/8".to_string())),
+        counterexample: failed.then(case),
+    }
+}
+
+fn report(rows: Vec<Row>) -> (Report, verify::Options) {
+    let scalars = rows.iter().filter_map(|row| row.scalar).collect();
+    let report = Report { rows, suspects: Vec::new(), repairs: Vec::new() };
+    (report, verify::Options { scalars, cases: 5, seed: 42, equations: Vec::new() })
+}
+
+/// Not proved, wrong in f32 and f64 in the same case, open in two bits, right in rationals; and a claim
+/// before it that is wrong for another reason, but of which nobody is suspected.
+fn mistaken() -> (Report, verify::Options) {
+    let [single, double, two_bits] = [NumberSystem::F32, NumberSystem::F64, NumberSystem::Mpfr(2)];
+    let proof = Row { why: Some("the sides differ by c".into()), ..row(None, Status::Failed) };
+    let rows = vec![
+        proof.clone(),
+        row(Some(single), Status::Failed),
+        row(Some(double), Status::Failed),
+        row(Some(two_bits), Status::Undecided),
+        row(Some(NumberSystem::Exact), Status::Held),
+    ];
+    let (mut report, options) = report(rows);
+    let suspect = Suspect { function: "penalty::deflection", equation: Some("1.13"), unproved: 7, proved: 2 };
+    report.suspects.push(suspect);
+    report.rows.insert(0, Row { equation: "1.1", claim: "root", ..proof });
+    (report, options)
+}
+
+/// A title goes over two lines if it must, and how much of a bound is used is said of claims that hold.
+#[test]
+fn the_table_shows_where_to_look_what_failed_and_how() {
+    let (report, options) = mistaken();
+    let expected = r"
+ number  title                        proved    f32       f64       mpfr:2
+ (1.1)   Equilibrium of forces        1 FAILED  -         -         -
+ (1.13)  Deflection by penalty and    1 FAILED  1 FAILED  1 FAILED  1 undecided
+         its limit
+
+ number  title                                exact
+ (1.1)   Equilibrium of forces                -
+ (1.13)  Deflection by penalty and its limit  1 held
+
+(1.13) penalty::deflection: look here first
+  of 9 claims that speak of it, 7 are not proved
+
+1.13 rate NOT PROVED
+  the sides differ by c
+
+1.13 rate FAILED in f32, f64
+  c = 1, m = 1/2, g = -1/3, l = 7/3, H = 7/3, ε = 7/3
+  contact solve --scalar exact --stiffness 1 --mass 1/2 --gravity -1/3 \
+      --free-length 7/3 --height 7/3 --method penalty --penalty 7/3
+
+1.1 root NOT PROVED
+  the sides differ by c
+
+1.13 rate undecided in mpfr:2
+  No case decides these, so nothing is known against them: try more --cases, or
+  a --scalar with more digits.
+
+0 of 2 claims proved for all values.
+1 of 4 claims hold: 12 trials decided, 8 undecidable.
+5 cases from seed 42.
+Rounding used at most 250 % of its bound (1.13 rate, exact).
+";
+    assert_eq!(format!("\n{}", printed(|out| table(out, &report, &options))), expected);
+    let text = printed(|out| markdown(out, &report));
+    assert!(text.contains("\n| 1.13 | rate | equal |  | failed | 0 | 0 |  |\n"), "{text}");
+    assert!(text.contains("\n| 1.13 | rate | equal | mpfr:2 | undecided | 0 | 5 |  |\n"), "{text}");
+    assert!(text.contains("\n| 1.13 | rate | equal | exact | held | 4 | 1 | 2.50 |\n"), "{text}");
+}
+
+/// What is not proved is said by itself, even if a number system breaks off in the same way.
+#[test]
+fn a_proof_and_a_number_system_do_not_fail_alike() {
+    let why = Some("division by 0".to_string());
+    let ways = [None, Some(NumberSystem::F32), Some(NumberSystem::F64)];
+    let broken = |way| Row { why: why.clone(), counterexample: None, ..row(way, Status::Failed) };
+    let (report, options) = report(ways.map(broken).to_vec());
+    let text = printed(|out| table(out, &report, &options));
+    let why = "\n  division by 0\n\n";
+    assert!(text.contains(&format!("1.13 rate NOT PROVED{why}1.13 rate FAILED in f32, f64{why}")), "{text}");
+}
+
+/// Where a function is wrong, mostly more than one claim fails.
+#[test]
+fn a_single_failure_can_be_the_claims_own() {
+    for (unproved, said) in [
+        (0, "it computes nothing, but hands on an argument"),
+        (1, "or at the claim: no other that speaks of it fails"),
+        (2, "of 5 claims that speak of it, 2 are not proved"),
+    ] {
+        let (mut report, _) = report(vec![row(None, Status::Failed)]);
+        let (function, equation) = ("penalty::deflection", Some("1.13"));
+        report.suspects = vec![Suspect { function, equation, unproved, proved: 5 - unproved }];
+        let text = printed(|out| where_to_look(out, &report));
+        assert_eq!(text, format!("(1.13) penalty::deflection: look here first\n  {said}\n\n"));
+    }
+}
+
+/// One failure, in a proof or in numbers, first or last: by the status and in whatever format.
+#[test]
+fn a_failure_is_seen_by_status_and_in_every_format() {
+    let ways = [None, Some(NumberSystem::F32), Some(NumberSystem::F64), Some(NumberSystem::Exact)];
+    let well = |way: Way| row(way, if way.is_none() { Status::Proved } else { Status::Held });
+    let printed = |report: &Report, options: &verify::Options| {
+        [Format::Table, Format::Json, Format::Markdown]
+            .map(|format| printed(|out| print(out, report, options, format)))
+    };
+    let failures = |texts: [String; 3]| texts.map(|text| text.to_lowercase().matches("failed").count());
+    let (all_well, options) = report(ways.map(well).to_vec());
+    assert_eq!(exit(&all_well), Exit::Fine);
+    // In JSON the summary counts them by this name.
+    assert_eq!(failures(printed(&all_well, &options)), [0, 1, 0]);
+    for wrong in ways {
+        let (mistaken, options) =
+            report(ways.map(|way| if way == wrong { row(way, Status::Failed) } else { well(way) }).to_vec());
+        assert_eq!(exit(&mistaken), Exit::Unmet, "{}", name(wrong));
+        let texts = printed(&mistaken, &options);
+        assert!(texts[1].contains("\"failed\": 1"), "{}", texts[1]);
+        let of_table = if wrong.is_some() { 2 } else { 1 };
+        assert_eq!(failures(texts), [of_table, 2, 1], "{}", name(wrong));
+    }
+    let (open, _) = report(vec![row(ways[1], Status::Undecided)]);
+    assert_eq!(exit(&open), Exit::Fine);
+    let (nothing, _) = report(Vec::new());
+    assert_eq!(exit(&nothing), Exit::Unmet);
+}
+
+#[test]
+fn a_share_is_rounded_up_and_not_far() {
+    let shares = [0.994, 0.99401, 1.0, 0.0001, 2.5].map(percent);
+    assert_eq!(shares, ["99.4 %", "99.5 %", "100 %", "0.1 %", "250 %"]);
+}
+
+/// A case that is no system has no command line, whose numbers could be broken.
+#[test]
+fn no_line_is_longer_than_a_page_whatever_the_numbers() {
+    let long = Case::of(|_| "-1234567890123456789/1152921504606846976".parse().expect("a number"));
+    for c in [Exact::power_of_two(-1074), Exact::from(0)] {
+        let mut row = row(Some(NumberSystem::F64), Status::Failed);
+        let mut case = long.clone();
+        (case.system.c, case.system.m) = (c, Exact::power_of_two(-700));
+        row.counterexample = Some(case);
+        let (report, options) = report(vec![row]);
+        let text = printed(|out| table(out, &report, &options));
+        assert_eq!(text.lines().find(|line| line.chars().count() > 80), None);
+        assert_eq!(text.contains("contact solve"), !text.contains("c = 0"), "{text}");
+    }
+}
