@@ -1,6 +1,6 @@
 //! What the subcommands share of their arguments: numbers, the system, the scalar.
 
-use crate::output::{Failure, shortened};
+use crate::output::{Failure, is_visible, shortened};
 use clap::Args;
 use num_traits::Zero;
 use spring_mass_contact::chapter::SpringMass;
@@ -42,11 +42,6 @@ pub fn joined(arguments: impl IntoIterator<Item = String>) -> Vec<String> {
         }
     }
     joined
-}
-
-/// Not a control character of any kind: some turn the line around or end it and are no `char::is_control`.
-pub fn is_visible(c: char) -> bool {
-    !c.is_control() && (c.is_ascii() || c.escape_debug().len() == 1)
 }
 
 fn takes_a_value(argument: &str) -> bool {

@@ -26,17 +26,24 @@ pub fn width() -> usize {
     terminal.map_or(WIDTH.into(), |(width, _)| width.0.max(NARROWEST)).into()
 }
 
-/// The beginning of a text that may be long.
+/// Not a control character of any kind: some turn the line around or end it and are no `char::is_control`.
+pub fn is_visible(c: char) -> bool {
+    !c.is_control() && (c.is_ascii() || c.escape_debug().len() == 1)
+}
+
+/// The beginning of a text that may be long, without what would end a line, turn it around or move a cursor.
 pub fn shortened(text: &str) -> String {
     shortened_to(text, 40)
 }
 
 /// The same, of at most so many characters.
 pub fn shortened_to(text: &str, most: usize) -> String {
-    if text.chars().nth(most).is_none() {
-        text.to_string()
+    let shown = |c| if is_visible(c) { c } else { char::REPLACEMENT_CHARACTER };
+    let text = text.chars().map(shown);
+    if text.clone().nth(most).is_none() {
+        text.collect()
     } else {
-        text.chars().take(most - 1).chain(['…']).collect()
+        text.take(most - 1).chain(['…']).collect()
     }
 }
 

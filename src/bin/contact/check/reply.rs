@@ -1,6 +1,6 @@
 //! What a line of a program's stdout comes to: nothing here trusts it.
 
-use crate::args::{invalid, is_visible};
+use crate::args::invalid;
 use crate::json::{self, Object};
 use crate::output::{shortened, shortened_to};
 use serde_json::value::RawValue;
@@ -25,12 +25,11 @@ const LONGEST_ANSWER: usize = 1 << 22;
 /// Characters of a text that is passed on.
 const WORDS: usize = 200;
 
-/// A text fit to be printed: one line, not long, and nothing in it that would move a cursor.
+/// A text fit to be printed: one line, and not long.
 pub fn words(text: &str) -> String {
-    let shown = |c| if is_visible(c) { c } else { char::REPLACEMENT_CHARACTER };
     let line = text.split_whitespace().flat_map(|word| [" ", word]).flat_map(str::chars).skip(1);
     // More than are shown say that there are more.
-    shortened_to(&line.take(WORDS + 1).map(shown).collect::<String>(), WORDS)
+    shortened_to(&line.take(WORDS + 1).collect::<String>(), WORDS)
 }
 
 /// The reply to the problem of this id that a line is, if it is an object at all; or why it is not.
