@@ -1,6 +1,6 @@
 //! Which penalty, and what it gives: the laws of rounding propose, a run confirms.
 
-use super::reach::{Laws, Limits, rounding_floor};
+use super::reach::{Laws, Limits, last, rounding_floor};
 use super::{
     MAX_AUGMENTATIONS, Method, Outcome, Plane, Scalar, Solution, SolveError, State, augmentations_needed,
     check, exact, solve,
@@ -109,19 +109,6 @@ fn short(x: &Exact, digits: usize, round: Round) -> Exact {
 fn two_digits_above(x: &Exact) -> Exact {
     let above = short(x, 2, Round::Up);
     if above > *x { above } else { short(&(x * Exact::from(101) / Exact::from(100)), 2, Round::Up) }
-}
-
-/// The last n of which something holds that holds of 0 and, once lost, of no greater one.
-fn last(holds: impl Fn(i32) -> bool) -> i32 {
-    let (mut held, mut lost) = (0, 1);
-    while holds(lost) {
-        (held, lost) = (lost, lost.saturating_mul(2));
-    }
-    while lost - held > 1 {
-        let middle = held + (lost - held) / 2;
-        if holds(middle) { held = middle } else { lost = middle }
-    }
-    held
 }
 
 /// The softest penalty that takes no more than [`MAX_AUGMENTATIONS`], within a tenth; looked for from this

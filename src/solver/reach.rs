@@ -132,8 +132,25 @@ pub fn bits_needed(system: &SpringMass<Exact>, plane: Plane, tolerance: &Exact) 
     let [over, under] =
         [ratio.as_rational().numer(), ratio.as_rational().denom()].map(Integer::significant_bits);
     let about = (64 + over).saturating_sub(under).clamp(least, most);
-    let first = (least..about).rev().take_while(|bits| promised(*bits)).last();
-    first.or_else(|| (about..=most).take(64).find(|bits| promised(*bits)))
+    let less = |n: i32| about.checked_sub(n.unsigned_abs());
+    if promised(about) {
+        // Where the mass hangs free it can be so many less that one after the other would take for ever.
+        return less(last(|n| less(n).is_some_and(|bits| bits >= least && promised(bits))));
+    }
+    (about..=most).take(64).find(|bits| promised(*bits))
+}
+
+/// The last n of which something holds that holds of 0 and, once lost, of no greater one.
+pub(super) fn last(holds: impl Fn(i32) -> bool) -> i32 {
+    let (mut held, mut lost) = (0, 1);
+    while holds(lost) {
+        (held, lost) = (lost, lost.saturating_mul(2));
+    }
+    while lost - held > 1 {
+        let middle = held + (lost - held) / 2;
+        if holds(middle) { held = middle } else { lost = middle }
+    }
+    held
 }
 
 /// What a caller has to see to.

@@ -289,6 +289,16 @@ fn a_tolerance_is_above_the_floor() {
     assert_eq!([bits(fewest), bits(int(6))], [Some(7), Some(6)]);
 }
 
+/// R = −1 and H = l = 2^400000. It is free for certain where |R|/c = 2^200000 > 21 η H/(1 − 8 η) + 10 η m |g|/c, which is
+/// so from η = 2^−200005 on; and there the floor, 5 η m |g|/c = 5/32, is below 1. By the floor of what touches it would
+/// take twice as many.
+#[test]
+fn bits_are_found_where_far_fewer_do_than_seem_to() {
+    let [soft, long] = [-200_000, 400_000].map(Exact::power_of_two);
+    let system = SpringMass { c: soft, m: int(1), g: int(-1), l: long.clone(), h: long };
+    assert_eq!(bits_needed(&system, Plane::Unilateral, &int(1)), Some(200_005));
+}
+
 /// u = m g/c = 1 and l = 0: 5 η far from the plane. Touching, the floor is 41 η H/(1 − 8 η), and it is added where
 /// H − 1 is no more than it and 10 η.
 #[test]
