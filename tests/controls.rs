@@ -54,7 +54,7 @@ fn no_hypothesis_is_needless() {
     for dropped in &CONTROLS.dropped {
         let what = format!("{} {}: {}", dropped.equation, dropped.name, registry().supposed(&dropped.given));
         let needed = matches!(dropped.without, Without::Refuted(_)) || dropped.is_of_precision();
-        assert!(needed, "{what}: the claim does not need it, so take it out: {:?}", dropped.without);
+        assert!(needed, "{what}: nothing refutes the claim without it, so take it out");
         // So it is with one hypothesis, and of no other kind.
         assert_eq!(dropped.is_of_precision(), dropped.given == given().fine_enough, "{what}");
     }
@@ -174,7 +174,9 @@ fn a_counterexample_has_all_hypotheses_but_the_dropped_one() {
     let statements = statements();
     for dropped in CONTROLS.dropped.iter().filter(|dropped| !dropped.is_of_precision()) {
         let what = format!("{} {} without {}", dropped.equation, dropped.name, dropped.given);
-        let Without::Refuted(counterexample) = &dropped.without else { panic!("{what}") };
+        let Without::Refuted(counterexample) = &dropped.without else {
+            panic!("{what}: nothing refutes it, so the hypothesis is not needed: take it out of the claim")
+        };
         // An induction's invariants may go with the hypothesis.
         let of =
             statements.iter().find(|s| (s.equation, s.name) == (dropped.equation, dropped.name)).unwrap();

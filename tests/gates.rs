@@ -212,7 +212,12 @@ fn entries_suppose_what_their_claims_suppose() {
             let runs = [&given().power, &given().count, &given().time].contains(&common);
             let text = registry().supposed(common);
             let said = e.given.contains(common) || e.statement().contains(&text);
-            assert!(runs || said, "{}: all its claims suppose {text}, and the entry does not", e.equation);
+            assert!(
+                runs || said,
+                "{}: all its claims suppose {text}, and the entry does not: add it to its `.given([…])`, or take it \
+                 out of a claim that does not need it",
+                e.equation
+            );
         }
     }
 }
@@ -269,7 +274,8 @@ fn every_formula_for_the_eye_is_the_one_that_is_computed() {
                 (!right).then(|| {
                     format!(
                         "src/chapter/{module}.rs: the documentation of {name} has {written:?} where it computes \
-                         `{computed}`: write that line"
+                         `{computed}`: write that line, if that is what is meant; if not, mend the function, or the \
+                         symbols of its arguments in src/claims/{module}.rs"
                     )
                 })
             }
@@ -430,14 +436,13 @@ fn files(folder: &str) -> Vec<String> {
 fn no_line_of_the_source_is_longer_than_a_reader_likes() {
     let files = files("src");
     assert!(files.len() > 70, "the scan of src finds {} files", files.len());
-    for path in files {
+    assert_none(files.iter().flat_map(|path| {
         // rustfmt breaks code there, but no text and no comment.
-        let text = source(&path);
-        let long = text.lines().zip(1..).find(|(line, _)| line.chars().count() > 110);
-        if let Some((line, number)) = long {
-            panic!("{path}:{number} has more than 110 characters; break it: {line}");
-        }
-    }
+        let text = source(path);
+        let long = text.lines().zip(1..).filter(|(line, _)| line.chars().count() > 110);
+        let say = |(line, number)| format!("{path}:{number} has more than 110 characters; break it: {line}");
+        long.map(say).collect::<Vec<_>>()
+    }));
 }
 
 #[test]

@@ -72,10 +72,10 @@ fn the_pages_of_proofs_are_what_is_printed() {
             std::fs::write(&path, text).unwrap();
         }
         let found = std::fs::read_to_string(&path).unwrap_or_default().replace("\r\n", "\n");
-        let line = found.lines().zip(text.lines()).position(|(a, b)| a != b).map(|i| i + 1);
+        let line = 1 + found.lines().zip(text.lines()).take_while(|(a, b)| a == b).count();
         assert!(
             found == *text,
-            "book/src/proofs/{file}, line {line:?}, is not what is proved: UPDATE=1 cargo test --test proofs writes it"
+            "book/src/proofs/{file}, line {line}, is not what is proved: UPDATE=1 cargo test --test proofs writes it"
         );
     }
     let sections: BTreeSet<_> =

@@ -127,6 +127,7 @@ impl<T: Text> serde::Serialize for Interval<T> {
 ///     fn enclose(&self) -> Ball<f64> { self.0.enclose() }
 ///     fn interval(ball: &Ball<f64>) -> Interval<Self> {
 ///         let Interval { lower, upper } = f64::interval(ball);
+///         // Numbers coarser than these floats are rounded outwards here, and up in `magnitude`.
 ///         Interval { lower: Counted(lower), upper: Counted(upper) }
 ///     }
 ///     fn magnitude(ball: &Ball<f64>) -> Self { Counted(f64::magnitude(ball)) }
