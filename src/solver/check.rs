@@ -84,15 +84,6 @@ pub(super) fn any_positive<'a, T: Scalar + 'a>(
     )
 }
 
-#[cfg(feature = "mpfr")]
-pub(super) fn no_precision<T: Scalar>(value: &T) -> SolveError {
-    SolveError::Invalid {
-        argument: "system",
-        value: format!("{value:?}"),
-        allowed: "rounded to some precision",
-    }
-}
-
 pub(super) fn in_range(holds: bool, quantity: &'static str) -> Result<(), SolveError> {
     if holds { Ok(()) } else { Err(SolveError::OutOfRange { quantity }) }
 }

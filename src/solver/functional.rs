@@ -78,8 +78,8 @@ pub(super) fn broken<T: Scalar>(condition: Condition, at: &T) -> FunctionalError
 /// tolerance is proved then, the outcome is [`Converged`](Outcome::Converged), and else
 /// [`Stagnated`](Outcome::Stagnated), with the bound in [`floor`](Solution::floor). In rationals, which
 /// leave no sign open, a tolerance is always met: a root need not be rational, and its bounds have about as
-/// many digits as the tolerance asks for. After ten thousand values of W, which none takes that is smooth
-/// near the root, it is [`OutOfSteps`](Outcome::OutOfSteps). Where nothing is left to look for it is
+/// many digits as the tolerance asks for. After ten thousand steps, which none takes that is smooth near
+/// the root, it is [`OutOfSteps`](Outcome::OutOfSteps). Where nothing is left to look for it is
 /// [`Direct`](Outcome::Direct).
 ///
 /// That there is one equilibrium, and that it is the least energy, rests on the [conditions](Condition).
@@ -129,7 +129,7 @@ pub fn solve_functional<T: Scalar, const N: usize>(
     let equation = Equation::new(enclosed.c.clone(), reaction, |p| functional(&parameters, p));
     let most = equation.most()?;
     equation.check(&most)?;
-    let Found { lower, upper, ended } = equation.root(&most, |_| tolerance.clone())?;
+    let Found { lower, upper, ended } = equation.root(&most, tolerance)?;
     if upper.is_zero() {
         return Ok(rigid);
     }
@@ -228,8 +228,7 @@ pub(super) fn vanishes<T: Scalar>(w: &T::Enclosure) -> Result<(), FunctionalErro
 }
 
 pub(super) fn is_finite<T: Scalar>(x: &T::Enclosure) -> bool {
-    let Interval { lower, upper } = T::interval(x);
-    lower.is_finite() && upper.is_finite()
+    T::magnitude(x).is_finite()
 }
 
 fn lifted<T: Scalar, const N: usize>(parameters: &[T; N]) -> Result<[Lifted<T>; N], SolveError> {

@@ -38,8 +38,8 @@ enum Side<T> {
     Nowhere,
 }
 
-/// So many values of W and no more.
-const MOST_VALUES: u32 = 10_000;
+/// So many steps and no more, each with two values of W at most.
+const MOST_STEPS: u32 = 10_000;
 
 /// No number has more binary digits that count.
 const MOST_DIGITS: u64 = 1 << 22;
@@ -65,10 +65,10 @@ impl<E: PositivePart, W: Fn(&Dual<E>) -> Dual<E>> Equation<E, W> {
             return Err(broken(Condition::NeverFalls, p));
         }
         let residual = structure::residual(&self.spring, &p.enclose()) + force;
-        let Interval { lower, upper } = T::interval(&residual);
-        if !lower.is_finite() || !upper.is_finite() {
+        if !is_finite::<T>(&residual) {
             return Ok(Side::Nowhere);
         }
+        let Interval { lower, upper } = T::interval(&residual);
         let size = half(&lower) + half(&upper);
         Ok(match T::sign(&residual) {
             Some(Ordering::Less) => Side::Below(size),
@@ -89,7 +89,7 @@ impl<E: PositivePart, W: Fn(&Dual<E>) -> Dual<E>> Equation<E, W> {
         for i in 1..=16 {
             let p = most * T::int(i) / T::int(16);
             let w = self.energy_and_force(&p);
-            if !is_finite::<T>(&w.value) || !is_finite::<T>(&w.derivative) {
+            if !is_finite::<T>(&w.derivative) {
                 continue;
             }
             let gained = &w.value - &last.1.value;
@@ -109,15 +109,16 @@ impl<E: PositivePart, W: Fn(&Dual<E>) -> Dual<E>> Equation<E, W> {
         Ok(())
     }
 
-    /// Between 0 and `most`, until no wider than `width` has it for the lower end, or signs are open.
+    /// Between 0 and `most`, until no wider than `enough`, or signs are open, or no number is in between.
     ///
     /// By quadratic interval refinement (J. Abbott): of 2ⁿ cells the one in which the straight line between
-    /// the ends has its root is tried, and n doubles if the root is there. So what is tried has few digits,
-    /// in any number system. First of all that line's root itself, which is exact for ε p²/2.
+    /// the ends has its root is tried, and n doubles if the root is there, and is 1 again if not. So what is
+    /// tried has few digits, in any number system. First of all that line's root itself, which is exact for
+    /// ε p²/2.
     pub(super) fn root<T: Scalar<Enclosure = E>>(
         &self,
         most: &T,
-        width: impl Fn(&T) -> T,
+        enough: &T,
     ) -> Result<Found<T>, FunctionalError> {
         let exactly = |p: T| Ok(Found { lower: p.clone(), upper: p, ended: true });
         let mut lower = match self.side(&T::zero())? {
@@ -128,7 +129,7 @@ impl<E: PositivePart, W: Fn(&Dual<E>) -> Dual<E>> Equation<E, W> {
         };
         let (mut p, mut nowhere) = (most.clone(), most.clone());
         let mut upper = None;
-        for _ in 0..MOST_VALUES {
+        for _ in 0..MOST_STEPS {
             match self.side(&p)? {
                 Side::Above(size) => {
                     upper = Some(End { p, size });
@@ -136,13 +137,12 @@ impl<E: PositivePart, W: Fn(&Dual<E>) -> Dual<E>> Equation<E, W> {
                 }
                 Side::At => return exactly(p),
                 Side::Near => return self.around(&p, &lower.p, most),
-                Side::Below(_) if p == *most => return Err(broken(Condition::NeverFalls, &p)),
                 Side::Below(size) => lower = End { p, size },
                 // What overflows does so beyond the root.
                 Side::Nowhere => nowhere = p,
             }
             p = middle(&lower.p, &nowhere);
-            if !(lower.p < p && p < nowhere) {
+            if p == lower.p || p == nowhere {
                 return Ok(Found { lower: lower.p, upper: most.clone(), ended: true });
             }
         }
@@ -150,12 +150,8 @@ impl<E: PositivePart, W: Fn(&Dual<E>) -> Dual<E>> Equation<E, W> {
             return Ok(Found { lower: lower.p, upper: most.clone(), ended: false });
         };
         let mut digits = 0;
-        for _ in 0..MOST_VALUES / 2 {
-            let width = width(&lower.p);
-            if digits > 0 && &upper.p - &lower.p <= width {
-                return Ok(Found { lower: lower.p, upper: upper.p, ended: true });
-            }
-            let cell = cell(&lower, &upper, digits, &width);
+        for _ in 0..MOST_STEPS {
+            let cell = cell(&lower, &upper, digits, enough);
             let mut moved = false;
             for p in &cell {
                 if lower.p < *p && *p < upper.p {
@@ -168,14 +164,12 @@ impl<E: PositivePart, W: Fn(&Dual<E>) -> Dual<E>> Equation<E, W> {
                     }
                 }
             }
-            let hit = cell == [lower.p.clone(), upper.p.clone()];
-            digits = match digits {
-                // There is no number in between.
-                1 if !moved => return Ok(Found { lower: lower.p, upper: upper.p, ended: true }),
-                _ if moved && hit => 2 * digits,
-                _ if moved => (digits / 2).max(1),
-                _ => 1,
-            };
+            // It is narrow enough, or no number is in between.
+            if digits == 1 && !moved {
+                return Ok(Found { lower: lower.p, upper: upper.p, ended: true });
+            }
+            let hit = moved && cell == [lower.p.clone(), upper.p.clone()];
+            digits = if hit { 2 * digits } else { 1 };
         }
         Ok(Found { lower: lower.p, upper: upper.p, ended: false })
     }
@@ -236,16 +230,14 @@ fn cell<T: Scalar>(lower: &End<T>, upper: &End<T>, digits: u64, enough: &T) -> [
         return [root.clone(), root];
     }
     for _ in 0..digits {
-        let narrower = half(&width);
-        let middle = &left + &narrower;
-        if width <= *enough || middle == left {
+        if width <= *enough {
             break;
         }
-        width = narrower;
+        width = half(&width);
         part = T::int(2) * part;
         if part >= T::one() {
             part = part - T::one();
-            left = middle;
+            left = left + &width;
         }
     }
     let right = &left + width;

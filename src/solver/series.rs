@@ -37,50 +37,34 @@ where
     if state == State::Grazing {
         return Ok(T::zero());
     }
-    // Of the precision the answer is to have, and of no size that could leave the range.
-    let SpringMass { c, m, g, l, h } = system;
-    let like = [c, m, g, l, h, eps].into_iter().fold(T::zero(), |zero, x| zero + T::zero() * x);
-    if like.unit_roundoff().is_zero() {
-        return Err(check::no_precision(&like)); // constants of MPFR: nothing to round to
-    }
+    // Of the precision the answer is to have: it is what there would be without the higher terms.
+    let like = penalty::penetration(system, eps);
+    let rounds = !like.unit_roundoff().is_zero(); // constants of MPFR do not
+    check::require(rounds, "system", system, "rounded to some precision")?;
     let exact = |x: &T| x.to_exact().map_err(|_| out_of_range.clone());
     let SpringMass { c, m, g, l, h } = system.try_map(exact)?;
     let reaction = system::reaction(&SpringMass { c: c.clone(), m, g, l, h });
     let (eps, higher) = (exact(eps)?, higher.iter().map(exact).collect::<Result<Vec<_>, _>>()?);
-    // A few digits more than the answer has are enough to tell its neighbours apart.
     let digits = exact(&like.unit_roundoff())?.as_rational().denom().significant_bits();
-    for precision in [1, 2, 4].map(|times| times * (digits + 64)) {
-        let Some(found) = enclosed([digits, precision], &c, &reaction.abs(), &eps, &higher) else { break };
-        let signed = |p: Mpfr| {
-            let p = p.to_exact().map_err(|_| out_of_range.clone());
-            p.map(|p| if reaction < Exact::zero() { -p } else { p })
-        };
-        let ends = [signed(found.lower)?, signed(found.upper)?];
-        let middle = (&ends[0] + &ends[1]) / Exact::from(2);
-        if middle.is_zero() {
-            break; // of R ≠ 0 it is no root, and the neighbours of 0 in MPFR have a billion digits
-        }
-        let answer = like.nearest(&middle).map_err(|_| out_of_range.clone())?;
-        // Beyond the largest float there is no neighbour, and no root.
-        let below = |p: T| p.to_exact().is_ok_and(|p| ends.iter().any(|end| *end <= p));
-        let above = |p: T| p.to_exact().is_ok_and(|p| ends.iter().any(|end| p <= *end));
-        if !below(Real::next_down(answer.clone())) && !above(Real::next_up(answer.clone())) {
-            return Ok(answer);
-        }
-    }
-    Err(out_of_range)
+    let found = enclosed(digits, &c, &reaction.abs(), &eps, &higher).ok_or(out_of_range.clone())?;
+    let end = |p: Mpfr| p.to_exact().map_err(|_| out_of_range.clone());
+    let (lower, upper) = (end(found.lower)?, end(found.upper)?);
+    let middle = (&lower + &upper) / Exact::from(2);
+    // Of R ≠ 0 it is no root, and the neighbours of 0 in MPFR have a billion digits.
+    check::in_range(!middle.is_zero(), "penetration")?;
+    let answer = like.nearest(&middle).map_err(|_| out_of_range.clone())?;
+    // Beyond the largest float there is no neighbour, and no root.
+    let below = Real::next_down(answer.clone()).to_exact().is_ok_and(|p| lower <= p);
+    let above = Real::next_up(answer.clone()).to_exact().is_ok_and(|p| p <= upper);
+    check::in_range(![below, above].contains(&true), "penetration")?;
+    Ok(if state == State::Separated { -answer } else { answer })
 }
 
-/// The root for R > 0, to so many digits and some more, if as many bits are enough.
-fn enclosed(
-    [digits, precision]: [u32; 2],
-    c: &Exact,
-    reaction: &Exact,
-    eps: &Exact,
-    higher: &[Exact],
-) -> Option<Found<Mpfr>> {
+/// The root for R > 0, to so many digits and some more: all terms are positive, so that it is off by no more,
+/// relative to itself, than they are.
+fn enclosed(digits: u32, c: &Exact, reaction: &Exact, eps: &Exact, higher: &[Exact]) -> Option<Found<Mpfr>> {
     // Not `to_mpfr`: the root of a scalar with the most bits takes more.
-    let like = Mpfr::from(Float::with_val(precision, 1));
+    let like = Mpfr::from(Float::with_val(digits + 64, 1));
     let around = |x: &Exact| Ball::around(&like, x);
     let constant = |x: &Exact| around(x).map(Dual::constant);
     let (eps, higher) =
@@ -89,6 +73,5 @@ fn enclosed(
         penalty::series(&eps, &higher, p)
     });
     let most: Mpfr = equation.most().ok()?;
-    let width = Mpfr::from(Float::with_val(precision, 1) >> (digits + 4));
-    equation.root(&most, |p| p * &width).ok()
+    equation.root(&most, &Mpfr::zero()).ok()
 }
