@@ -5,11 +5,12 @@ use crate::strategies::*;
 use num_traits::Zero;
 use proptest::prelude::*;
 use spring_mass_contact::chapter::{SpringMass, beyond, contact, penalty, system};
-use spring_mass_contact::number::{Dual, Exact, Exponential, Field, PositivePart, ToExact};
+use spring_mass_contact::number::{Dual, Exact, Exponential, Field, Mpfr, PositivePart, ToExact};
 use spring_mass_contact::solver::{
     Condition, FunctionalError, Lifted, Method, Outcome, Scalar, Solution, SolveError, State,
     penalty_for_functional, solve, solve_functional,
 };
+use std::cell::Cell;
 
 /// W = ε |p|³ / 3.
 fn cubic<T: PositivePart>(eps: &T, p: &T) -> T {
@@ -156,6 +157,7 @@ proptest! {
         prop_assert_eq!(found.outcome, Outcome::Converged);
         let p = &found.bounds.penetration;
         prop_assert!(&p.upper - &p.lower <= tolerance);
+        prop_assert_eq!(&found.contact_force, &(&s.m * &s.g - &s.c * &found.deflection));
         bounds_hold(s, &found, &tolerance, |p| cubic(&constant(eps), p))?;
     }
 
@@ -224,6 +226,69 @@ fn an_exponential_wall() {
     assert_eq!(answer.outcome, Outcome::Converged);
 }
 
+/// No number of digits takes many values of W where it is smooth: they double from step to step.
+#[test]
+fn digits_double() {
+    let s = example().map(exact);
+    let values = |digits: i32| {
+        let count = Cell::new(0);
+        let counted = |[eps]: &[Lifted<Exact>; 1], p: &Lifted<Exact>| {
+            count.set(count.get() + 1);
+            cubic(eps, p)
+        };
+        let found = solve_functional(&s, &[int(8)], &Exact::power_of_two(-digits), counted).unwrap();
+        assert_eq!(found.outcome, Outcome::Converged);
+        count.get()
+    };
+    // Sixteen at the sixteenths, two in each of 15 steps, and what it takes to come near and to end.
+    assert!(values(20_000) < 100);
+}
+
+/// An end comes of what is not smooth, too: a jump in MPFR, where no line points, gains a digit in each of ten thousand
+/// steps. The bounds hold all the same, and a floor is none.
+#[test]
+fn ten_thousand_steps_are_enough() {
+    let like = int(1).to_mpfr(11_000);
+    let s = example().map(|x| like.nearest(&exact(x)).unwrap());
+    let seventh = |p: &Lifted<Mpfr>| (p - Lifted::<Mpfr>::int(1) / Lifted::<Mpfr>::int(7)).positive_part();
+    let [force, tolerance] = [int(10), Exact::power_of_two(-10_900)].map(|x| like.nearest(&x).unwrap());
+    let found = solve_functional(&s, &[force], &tolerance, |[force], p| force * seventh(p)).unwrap();
+    assert_eq!((found.outcome, &found.floor), (Outcome::OutOfSteps, &None));
+    let [lower, upper] = [&found.bounds.penetration.lower, &found.bounds.penetration.upper].map(exact);
+    assert!(
+        lower <= int(1) / int(7) && int(1) / int(7) <= upper && upper - lower < Exact::power_of_two(-5000)
+    );
+}
+
+/// A wall without a value behind it: below it the force is 0, so that the root is behind, and R/c bounds it.
+#[test]
+fn what_has_no_value_ends_the_search() {
+    for n in 3..30 {
+        let wall = |p: &Lifted<f64>| {
+            let beyond = (p - Lifted::<f64>::int(1) / Lifted::<f64>::int(n)).positive_part();
+            let huge = Dual::constant(f64::MAX.enclose());
+            beyond * &huge * huge
+        };
+        let found = solve_functional(&example(), &[], &1e-9, |[], p| wall(p)).unwrap();
+        let p = &found.bounds.penetration;
+        assert_eq!(found.outcome, Outcome::Stagnated);
+        assert!(p.upper >= 0.5 && p.upper < 0.5 + 1e-14, "{found:?}");
+        assert!((p.lower * f64::from(n) - 1.0).abs() < 1e-14, "{found:?}");
+    }
+}
+
+/// What is proved is less than the tolerance, and not as much: a floor stays one where it is the tolerance itself.
+#[test]
+fn a_tolerance_that_is_the_floor_is_not_met() {
+    let floor = |eps: i32, tolerance: f64| {
+        let eps = f64::from(eps);
+        solve_functional(&example(), &[eps], &tolerance, |[eps], p| cubic(eps, p)).unwrap().floor
+    };
+    // With another tolerance the search can take another way, and end at another floor.
+    let floors = (1..20).map(|eps| (eps, floor(eps, 1e-200).unwrap()));
+    assert!(floors.filter(|(eps, least)| floor(*eps, *least) == Some(*least)).count() > 0);
+}
+
 /// The condition, and the nearest 32nd.
 fn refused<W>(w: W) -> (Condition, f64)
 where
@@ -263,6 +328,14 @@ fn broken_conditions_are_named() {
         x.positive_part() / x
     };
     assert_eq!(refused(|[eps], p| w(eps, p) + step(p)), (Continuous, 0.125));
+    // It does so between the sixteenths, and not at them: the force is 1, then 0, then 1 again.
+    let beyond = |p: &Lifted<f64>, n| (p - int(n) / int(128)).positive_part();
+    assert_eq!(refused(|_, p| p - beyond(p, 5) + beyond(p, 7)), (NeverSoftens, 0.0625));
+    // A fall that is hidden where there is no value, from 0.24 to 0.26.
+    let (huge, hundredths) = (Dual::constant(f64::MAX.enclose()), |n| int(n) / int(100));
+    let hole =
+        |p: &Lifted<f64>| (p - hundredths(24)).min(&(hundredths(26) - p)).positive_part() * &huge * &huge;
+    assert_eq!(refused(|[eps], p| w(eps, p) - step(&(p - hundredths(15))) + hole(p)), (NeverFalls, 0.28125));
     // A barrier that falls behind its pole.
     assert_eq!(refused(|[eps], p| eps * p * p / (int(1) / int(3) - p)).0, NeverFalls);
 
