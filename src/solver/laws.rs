@@ -197,3 +197,17 @@ fn written(x: &Exact) -> String {
 fn hold(holds: bool, law: Law, by: impl Fn() -> String) -> Result<(), Broken> {
     if holds { Ok(()) } else { Err(Broken { law, by: by() }) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is written beside a result is what is computed.
+    #[test]
+    fn results_are_what_they_are_called() {
+        let numbers = [7, 2, 3].map(Exact::from);
+        let expected = ["6", "15", "11", "11", "3", "11", "5/3", "1/3", "1/3"];
+        let found = results(&numbers, [true; 2]).into_iter().map(|(_, x)| x);
+        assert!(found.eq(expected.map(|x| x.parse().unwrap())));
+    }
+}

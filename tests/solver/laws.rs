@@ -160,6 +160,13 @@ fn a_law_that_is_broken_is_named() {
     assert_eq!(tried::<8>(), Ok(()));
 }
 
+/// Numbers of one size, of which no sum of products cancels but that with a rounded a + c.
+#[test]
+fn a_sum_that_cancels_is_tried() {
+    let found = laws::scalar(&[1.0, 1.0 / 3.0, 0.1].map(Breaks::<7>), |x| exact(&x.0));
+    assert_eq!(found.unwrap_err().law, Law::SignOfSum);
+}
+
 /// What came of it, and what it should be. 1e100 is 1000000000000000015902891109759918…
 #[test]
 fn a_law_that_is_broken_says_by_what() {
