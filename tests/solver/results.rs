@@ -316,6 +316,21 @@ fn the_floor_of_what_hangs_free_near_grazing_is_both() {
     assert_eq!([floor(&(near + Exact::power_of_two(-99))), floor(&int(3))], [alone.clone(), alone]);
 }
 
+/// What is lost altogether is refused, and not taken for 0; and so is a sum of two stiffnesses that is too large.
+#[test]
+fn lost_products_are_refused() {
+    let one = SpringMass { c: 1.0, m: 1.0, g: 1.0, l: 1.0, h: 1.0 };
+    for (system, quantity) in [
+        (SpringMass { m: 1e-200, g: 1e-200, ..one }, "weight"),
+        (SpringMass { c: 1e200, g: 1e-200, ..one }, "deflection"),
+        (SpringMass { c: 1e-200, l: 0.0, h: 1e-200, ..one }, "spring force"),
+        (SpringMass { c: f64::MAX, ..one }, "total stiffness c + ε"),
+    ] {
+        let solved = solve(&system, &Method::augmented(f64::MAX));
+        assert_eq!(solved, Err(SolveError::OutOfRange { quantity }));
+    }
+}
+
 /// The first multiplier would be ε p, which is more than f32 has.
 #[test]
 fn a_multiplier_out_of_range_is_refused() {
