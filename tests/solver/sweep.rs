@@ -157,6 +157,13 @@ proptest! {
     }
 }
 
+/// Three digits are three digits, however large the number: 10⁴ √2 = 14142…, and 1/√2 of 10⁻⁴.
+#[test]
+fn large_and_small_penalties_have_three_digits() {
+    let between = |from, to| penalties(&number(from), &number(to), 3).unwrap().swap_remove(1);
+    assert_eq!([between("1e4", "2e4"), between("5e-5", "1e-4")], ["14100", "0.0000707"].map(number));
+}
+
 fn default_system() -> SpringMass<Exact> {
     SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" }.parse().unwrap()
 }
