@@ -3,9 +3,11 @@
 use crate::in_every_float;
 use crate::strategies::*;
 use proptest::prelude::*;
-use spring_mass_contact::chapter::SpringMass;
+use spring_mass_contact::chapter::{SpringMass, contact};
 use spring_mass_contact::number::{Exact, Text};
-use spring_mass_contact::solver::{Interval, Method, Outcome, solve, solve_bilateral};
+use spring_mass_contact::solver::{
+    Condition, FunctionalError, Interval, Method, Outcome, solve, solve_bilateral,
+};
 
 /// The ends of what is written: `… to …`, or one number for both.
 fn ends(text: &str) -> [Exact; 2] {
@@ -113,4 +115,14 @@ fn a_stagnation_says_how_near_it_came() {
         direct.to_string(),
         "contact, direct\nu = 2 m, exact 2 m\np = 0 m, exact 0 m\nN = 2 N, exact 2 N\nλ = 2 N"
     );
+}
+
+#[test]
+fn conditions_and_residuals_are_told_in_words() {
+    let broken = FunctionalError::Broken { condition: Condition::Continuous, at: "0.5".to_string() };
+    assert_eq!(broken.to_string(), "the penalty functional must be continuous in p; not so at p = 0.5 m");
+    let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
+    let kkt = contact::kkt(&system, &2.25, &1.0).to_string();
+    assert_eq!(kkt, "stationarity 0 N, primal 0.25 m, dual 0 N, complementarity 0.25 J");
+    assert!(matches!(Method::augmented(4.0), Method::Augmented { tolerance: 1e-9, .. }));
 }
