@@ -514,15 +514,20 @@ fn every_planted_edit_is_known_to_be_caught() {
             continue;
         }
         caught.insert(name.to_string());
-        // An example in the docs goes by its file, and what broke off by no name.
-        let function = format!("fn {}(", test.rsplit("::").next().unwrap());
+        // An example in the docs goes by its file, and what broke off by no name; for each of some number systems
+        // a test is a module.
+        let (module, function) = test.rsplit_once("::").unwrap_or(("", test));
+        let (function, module) = (format!("fn {function}("), module.rsplit("::").next().unwrap());
+        let written = |name: &str| text.iter().any(|text| text.contains(name));
         let exists = ["doc", "book-tool"].contains(&target)
             || test == "(no result)"
-            || text.iter().any(|text| text.contains(&function));
+            || written(&function)
+            || written(&format!("fn {module}<"))
+            || written(&format!("fn {module}("));
         assert!(exists, "tests/planted/caught has {name} caught by {test}, which is no test: {again}");
     }
     // So many are older than the list, and the run that writes it goes on with them: this number only falls.
-    const NOT_RUN: usize = 184;
+    const NOT_RUN: usize = 154;
     let missing: Vec<_> = patches.difference(&caught).collect();
     assert!(
         missing.len() == NOT_RUN,
