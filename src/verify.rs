@@ -198,9 +198,8 @@ impl Row {
     /// Its counterexample, as far as the claim speaks of it; all of it of what only computed numbers have.
     pub fn point(&self) -> Option<Point> {
         let case = self.counterexample.as_ref()?;
-        let statement =
-            statements().into_iter().find(|s| (s.equation, s.name) == (self.equation, self.claim));
-        let symbols = statement.map(|statement| registry().symbols_of(statement.trees()));
+        let claim = claims().find(|claim| (claim.equation, claim.name) == (self.equation, self.claim));
+        let symbols = claim.map(|claim| registry().symbols_of(Statement::of(claim).trees()));
         let all = Var::ALL.iter().map(|var| (var.symbol(), case.get(*var).clone()));
         Some(Point::new(all.filter(|(symbol, _)| symbols.as_ref().is_none_or(|own| own.contains(symbol)))))
     }
