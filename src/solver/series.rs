@@ -56,7 +56,7 @@ where
     // Beyond the largest float there is no neighbour, and no root.
     let below = Real::next_down(answer.clone()).to_exact().is_ok_and(|p| lower <= p);
     let above = Real::next_up(answer.clone()).to_exact().is_ok_and(|p| p <= upper);
-    check::in_range(![below, above].contains(&true), "penetration")?;
+    check::in_range([below, above] == [false; 2], "penetration")?;
     Ok(if state == State::Separated { -answer } else { answer })
 }
 

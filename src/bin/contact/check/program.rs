@@ -223,7 +223,7 @@ impl Running {
             if self.group.has_ended() {
                 return true;
             }
-            if GRACE.saturating_sub(start.elapsed()).is_zero() {
+            if start.elapsed() >= GRACE {
                 return false;
             }
             // What it still prints must not keep it from ending.
