@@ -258,13 +258,6 @@ impl<T: Scalar + Text> Task<'_, T> {
 mod tests {
     use super::*;
 
-    #[test]
-    fn the_last_is_found_wherever_it_is() {
-        for n in (0..100).chain([i32::MAX / 2, i32::MAX - 2]) {
-            assert_eq!(last(|k| k <= n), n);
-        }
-    }
-
     /// From 1 on it takes as many as are allowed, from 2 on fewer; below 1/2 it never arrives.
     #[test]
     fn the_softest_is_found_from_wherever_it_is_looked_for() {

@@ -303,3 +303,15 @@ impl Laws {
         SpringMass { m: Exact::one(), g: weight, ..self.system.clone() }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::last;
+
+    #[test]
+    fn the_last_is_found_wherever_it_is() {
+        for n in (0..100).chain([i32::MAX / 2, i32::MAX - 2]) {
+            assert_eq!(last(|k| k <= n), n);
+        }
+    }
+}
