@@ -275,7 +275,6 @@ impl Context {
         let bottom = of.den().coefficients(x).pop().ok_or_else(none)?;
         let leading = sign(&bottom, &self.known).filter(|c| c.sign().is_strict()).ok_or_else(none)?;
         let found = match degrees.0.cmp(&degrees.1) {
-            _ if num.is_zero() => Ratio::zero(),
             Ordering::Less => Ratio::zero(),
             Ordering::Equal => Ratio::from(top).over(&bottom.into()).ok_or_else(none)?,
             Ordering::Greater => return Err(none()),

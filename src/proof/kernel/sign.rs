@@ -416,4 +416,24 @@ mod tests {
         // 1 + a − e^{a/(a+1)}: its slope takes two rounds.
         assert_eq!(found(tangent() - e(over(x("a"), tangent()))), Some(Positive));
     }
+
+    #[test]
+    fn long_sums_are_left_alone() {
+        let known = Known::from([(Symbol("a"), Positive)]);
+        let powers = |many: usize| {
+            std::iter::successors(Some(x("a")), |power| Some(power * x("a")))
+                .take(many)
+                .fold(n(0), |a, b| a + b)
+        };
+        // e^a − 1 + a + a² + …: its slope is one of terms that are positive.
+        let of = |terms: usize| e(x("a")) - n(1) + powers(terms - 2);
+        let tried = [TERMS - 1, TERMS, TERMS + 1].map(|many| slope(&of(many), &known, 1).is_some());
+        assert_eq!(tried, [true, true, false]);
+        assert!(slope(&powers(3), &known, 1).is_none(), "where there is no e^…, other rules are as good");
+        // (1 + e₁)(a + a² + …).
+        let of = |terms: usize| (n(1) + x("e₁")) * powers(terms / 2);
+        let many = [small::TERMS_AT_ENDS, small::TERMS_AT_ENDS + 2];
+        let tried = many.map(|many| ends(&of(many), &[Symbol("e₁")], &known, 1).is_some());
+        assert_eq!(tried, [true, false]);
+    }
 }

@@ -34,7 +34,6 @@ impl Order<'_> {
             let q = q.rational();
             let (n, d) = (number(&q.numer().clone().abs()), number(q.denom()));
             let term = match self.product(monomial) {
-                Some(product) if *q.numer().as_abs() == 1 => product,
                 Some(product) => n * product,
                 None => n,
             };
@@ -82,11 +81,7 @@ impl Order<'_> {
             Rule::Terms => vec![format!("{of} {sign}, term by term")],
             Rule::Sizes(rest) => {
                 let no = if rest.sign().implies(Sign::NonNegative) { "no less" } else { "no more" };
-                let left = match rest.of().terms().len() {
-                    n if n > SHOWN_OF_ROUNDING => format!("a sum of {n} terms"),
-                    _ => self.poly(rest.of()).to_string(),
-                };
-                let left = format!("{left} {}, term by term", text(rest.sign()));
+                let left = format!("{} {}, term by term", poly(rest.of()), text(rest.sign()));
                 vec![format!("{of} {sign}: with the sizes of errors it is {no} than {left}")]
             }
             Rule::Ends { x: Symbol(x), at } => {
@@ -186,6 +181,29 @@ mod tests {
             let q = rug::Rational::from((n, 3));
             let tree = Order::default().poly(&Poly::constant(q.clone()));
             assert_eq!(tree.replay(&|_| Exact::int(0), &|_| None), Some(Exact::from(q)));
+        }
+    }
+
+    #[test]
+    fn long_sums_are_counted_and_not_written() {
+        let powers =
+            |x: Poly, many: usize| (0..many).fold(Poly::zero(), |sum, _| &x * &sum + Poly::constant(1));
+        for (x, shown) in [("a", SHOWN), ("e₁", SHOWN_OF_ROUNDING)] {
+            let order = Order::default();
+            let x = Poly::symbol(Symbol(x));
+            let [short, long] = [shown, shown + 1].map(|many| powers(x.clone(), many));
+            assert_eq!(order.poly_or_size(&short), order.poly(&short).to_string());
+            assert_eq!(order.poly_or_size(&long), format!("a sum of {} terms", shown + 1));
+            // A quotient is written out if both of its parts are.
+            let ratio = |num: &Poly, den: &Poly| Ratio::from(num.clone()).over(&den.clone().into()).unwrap();
+            let other = |many: usize| Poly::constant(1) + powers(x.clone(), many);
+            let both = ratio(&short, &other(shown));
+            assert_eq!(order.ratio_or_size(&both), order.ratio(&both).to_string());
+            for (num, den) in [(short, other(shown + 1)), (long, other(shown))] {
+                let terms = [num.terms().len(), den.terms().len()];
+                let text = order.ratio_or_size(&ratio(&num, &den));
+                assert_eq!(text, format!("a sum of {} terms over one of {}", terms[0], terms[1]));
+            }
         }
     }
 }

@@ -190,3 +190,46 @@ pub fn planted_points(hypotheses: &[Hypothesis], symbols: &[&'static str]) -> im
         Point::new(symbols.iter().map(draw)).bent(hypotheses, &target)
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use num_traits::Signed;
+    use std::collections::HashSet;
+
+    fn all<T: Into<Exact>>(numbers: impl IntoIterator<Item = T>) -> HashSet<Exact> {
+        numbers.into_iter().map(Into::into).collect()
+    }
+
+    #[test]
+    fn small_whole_numbers_are_drawn_and_in_every_fourth_point_larger_ones() {
+        let (larger, small): (Vec<_>, Vec<_>) = (0..RAW).partition(|point| point % 4 == 3);
+        let drawn = |points: Vec<u64>| all(points.into_iter().map(|point| raw(point, "c")));
+        assert_eq!(drawn(small), all(-SMALL..=SMALL));
+        assert_eq!(drawn(larger), all(-LARGER..=LARGER));
+    }
+
+    #[test]
+    fn precisions_and_scales_are_powers_of_two() {
+        let drawn = |symbol: &str| all((0..RAW).map(|point| raw(point, symbol)));
+        assert_eq!(drawn(PRECISION), all(BITS.map(Exact::power_of_two)));
+        for scale in SCALES {
+            assert_eq!(drawn(scale), all((-4..=4).map(Exact::power_of_two)));
+        }
+        let third: Exact = "1/3".parse().unwrap();
+        let rounded = ["4", "1/4", "12", "2"].map(|n| nearest(&third, &n.parse().unwrap()));
+        assert_eq!(rounded, [Some("3/8".parse().unwrap()), None, None, None]);
+    }
+
+    #[test]
+    fn fractions_are_planted() {
+        let drawn = all(planted_points(&[], &["c", "u"]).map(|point| point.at("c")));
+        let size = |x: &Exact| x.as_rational().clone().abs();
+        let fits = |x: &Exact| (1..10).any(|n| (1..4).any(|d| size(x) == Rational::from((n, d))));
+        assert!(drawn.iter().all(fits), "{drawn:?}");
+        for sign in [1, -1] {
+            let of_sign = drawn.iter().filter(|x| x.as_rational().cmp0().is_gt() == (sign > 0));
+            assert!(of_sign.count() > 5, "{drawn:?}");
+        }
+    }
+}

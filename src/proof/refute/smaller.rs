@@ -3,7 +3,7 @@
 use super::{Counterexample, How, Point, Verdict, bent_to_zero, check_goals};
 use crate::formula::{Relation, Statement};
 use crate::number::{Exact, Tree};
-use rug::{Integer, Rational};
+use rug::Rational;
 use std::collections::BTreeSet;
 
 /// What a coordinate is best, and next best.
@@ -12,13 +12,9 @@ pub(super) const SIMPLE: [i32; 7] = [1, 0, 2, -1, 3, -2, -3];
 /// How far from simple a number is.
 fn complexity(x: &Exact) -> u64 {
     let q = x.as_rational();
-    let simple = SIMPLE.iter().position(|n| *q == *n).map(|place| place as u64);
-    // Of what is large, the length.
-    let size = |n: &Integer| match n.to_i32() {
-        Some(n) => n.unsigned_abs().into(),
-        None => u64::from(u32::MAX) + u64::from(n.significant_bits()),
-    };
-    simple.unwrap_or_else(|| SIMPLE.len() as u64 + size(q.numer()) + size(q.denom()))
+    let simple = SIMPLE.iter().position(|n| *q == *n);
+    let length = || q.numer().significant_bits() + q.denom().significant_bits();
+    simple.map_or_else(|| SIMPLE.len() as u64 + u64::from(length()), |place| place as u64)
 }
 
 /// What a coordinate could be instead, the simplest first: of a long number, fewer digits.
@@ -69,4 +65,17 @@ pub(super) fn smaller(statement: &Statement, point: &Point, part: &'static str, 
         }
     }
     best
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_long_is_far_from_simple() {
+        let complexity = |text: &str| complexity(&text.parse().unwrap());
+        let (simple, longer) = (SIMPLE.map(|n| complexity(&n.to_string())), ["4", "-15", "100", "1e30"]);
+        assert!(simple.into_iter().chain(longer.map(complexity)).is_sorted_by(|a, b| a < b));
+        assert_eq!(complexity("1/1000"), complexity("1000"));
+    }
 }

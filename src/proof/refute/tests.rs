@@ -2,7 +2,9 @@
 
 use super::smaller::SIMPLE;
 use super::*;
-use crate::formula::claim::{derivative, equal, induction, limit, non_negative, positive, vanishing, within};
+use crate::formula::claim::{
+    derivative, drift, equal, induction, limit, non_negative, positive, vanishing, within,
+};
 use crate::formula::statement::Goal;
 use crate::formula::{Claim, Rate};
 use crate::number::{Exponential, PositivePart};
@@ -108,6 +110,21 @@ fn the_sharpest_point_uses_up_most() {
     assert!(matches!(at_end, Verdict::Fails("", How::Beyond(..))));
 }
 
+/// Of the members c, 2 c, 4 c and 8 c the last is half of 16 c. That a number is computed nearly is no bound of a
+/// claim's own.
+#[test]
+fn the_sharpest_member_uses_up_most() {
+    let given = above_zero("c");
+    let double = |member: &Tree| member * Tree::from(2);
+    let (near, bound) = (Tree::from(0), x("c") * Tree::from(16));
+    let doubled = drift("doubled", [&given], 1, x("c"), double, (near, bound), |_| []);
+    let (_, share) = sharpest(&Statement::of(&doubled)).unwrap();
+    assert_eq!(share, "1/2".parse().unwrap());
+    let near = Hypothesis::near(&x("u"), x("c"), x("d"));
+    let computed = equal("computed", [&given, &near], x("u") - x("u"), 0).computing(&x("u"), x("c"));
+    assert_eq!(sharpest(&Statement::of(&computed)), None);
+}
+
 #[test]
 fn what_is_true_is_not_refuted() {
     let bracket = x("u").positive_part();
@@ -134,6 +151,11 @@ fn a_counterexample_is_made_small() {
     let wrong = found_at(&Statement::of(&positive("wrong", [], x("c") * x("R") * x("R"))));
     let simple = |x: &Exact| SIMPLE.iter().any(|n| Exact::from(*n) == *x);
     assert!(wrong.point.numbers().all(|(_, x)| simple(x)), "{wrong}");
+    // Nothing simple is as large, but half is.
+    let far = Point::new([("R", "-1234567890123456789012345678901/3".parse().unwrap())]);
+    let small = Statement::of(&positive("small", [], Tree::from(1000) - x("R") * x("R")));
+    let small = found(&small, &far).expect("a counterexample");
+    assert!((32..64).any(|n| Exact::from(n) == small.point.at("R").abs()), "{small}");
 }
 
 /// As text: what happens far out is said in a few digits, and what differs late in all.

@@ -116,5 +116,7 @@ mod tests {
         assert_eq!((Value::one() / nothing).sign(), None);
         assert!((&e * Value::zero()).is_zero());
         assert_eq!(Value::int(10_000).exp().sign(), None);
+        // What f64 cannot hold is anywhere, too.
+        assert_eq!((&e * Value::Exact(Exact::power_of_two(2000))).sign(), None);
     }
 }

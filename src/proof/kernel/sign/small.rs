@@ -20,7 +20,7 @@ pub fn is_small(x: Symbol) -> bool {
 
 /// Rule 6 is used on so many symbols, one inside the other, and on so many terms.
 pub(super) const ENDS: u32 = 4;
-const TERMS_AT_ENDS: usize = 1000;
+pub(super) const TERMS_AT_ENDS: usize = 1000;
 
 /// Rule 5.
 pub(super) fn sizes(of: &Poly, small: &[Symbol], known: &Known) -> Option<Certificate> {
