@@ -79,8 +79,7 @@ fn prints_what_it_printed() {
         .env("PATH", path.to_str().unwrap())
         .env("COLUMNS", "80")
         .env("NO_COLOR", "1")
-        // Each of the many is over within a second.
-        .timeout(DEADLINE / 6)
+        .timeout(DEADLINE)
         .case("tests/cmd/*.trycmd")
         .run();
 }

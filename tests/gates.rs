@@ -432,6 +432,62 @@ fn files(folder: &str) -> Vec<String> {
     entries.flat_map(of).collect()
 }
 
+/// What no `mod` names is never compiled, and its tests fail nowhere.
+#[test]
+fn every_file_belongs_to_a_module() {
+    let mut files = files("src");
+    for folder in fs::read_dir(root().join("tests")).unwrap().map(|entry| entry.unwrap().path()) {
+        if folder.join("main.rs").exists() {
+            files.extend(self::files(&format!("tests/{}", folder.file_name().unwrap().to_str().unwrap())));
+        }
+    }
+    let modules = files.iter().filter_map(|path| path.strip_suffix("/mod.rs").or(path.strip_suffix(".rs")));
+    let modules: Vec<_> =
+        modules.filter(|path| !["/lib", "/main"].iter().any(|end| path.ends_with(end))).collect();
+    assert!(modules.len() > 100, "the scan finds {} modules", modules.len());
+    assert_none(modules.into_iter().filter_map(|path| {
+        let (folder, name) = path.rsplit_once('/')?;
+        let parents = [
+            format!("{folder}.rs"),
+            format!("{folder}/mod.rs"),
+            format!("{folder}/lib.rs"),
+            format!("{folder}/main.rs"),
+        ];
+        let declares = |path: &String| {
+            let text = fs::read_to_string(root().join(path)).unwrap_or_default();
+            text.lines().any(|line| !line.starts_with("//") && line.ends_with(&format!("mod {name};")))
+        };
+        (!parents.iter().any(declares)).then(|| format!("{path}: say `mod {name};` in one of {parents:?}"))
+    }));
+}
+
+/// A number system that nobody tries may compute anything.
+#[test]
+fn every_number_system_is_held_to_the_laws() {
+    let text = |folder: &str| files(folder).iter().map(|path| source(path)).collect::<String>();
+    let (numbers, laws, ours) = (
+        text("tests/numbers"),
+        source("tests/solver/laws.rs"),
+        text("src/number") + &source("src/solver/scalar.rs"),
+    );
+    let name = |rest: &str| rest.split(['<', ' ']).next().unwrap_or_default().to_string();
+    let implementing = |what: &str| {
+        let named =
+            ours.lines().filter(|line| line.starts_with("impl")).filter_map(|line| line.split_once(what));
+        named.map(|(_, rest)| name(rest)).collect::<BTreeSet<_>>()
+    };
+    let (fields, scalars) = (implementing(" Field for "), implementing(" Scalar for "));
+    assert!(fields.len() > 4 && !scalars.is_empty(), "{fields:?} {scalars:?}");
+    let is_tried = |field: &String| {
+        let own = |line: &str| line.trim().strip_prefix("type Number = ").map(name);
+        field == "Tree" || numbers.lines().filter_map(own).any(|number| number.trim_end_matches(';') == field)
+    };
+    let untried = fields.iter().filter(|field| !is_tried(field));
+    let untried = untried.map(|field| format!("{field}: no `type Number = {field}` in tests/numbers"));
+    let lawless = scalars.iter().filter(|scalar| !laws.contains(scalar.as_str()));
+    assert_none(untried.chain(lawless.map(|scalar| format!("{scalar}: not in tests/solver/laws.rs"))));
+}
+
 #[test]
 fn no_line_of_the_source_is_longer_than_a_reader_likes() {
     let files = files("src");

@@ -84,7 +84,8 @@ impl<S: ?Sized, T> ImplyInner<T> for S {
 ///
 /// Each operator takes its operands owned or borrowed, in all four combinations, and the result does
 /// not depend on which. How exact the operations are is the number system's own business: rationals
-/// are, floats round each to nearest, balls say how far off they may be.
+/// are, floats round each to nearest, balls say how far off they may be. `Debug` shows every bit: that is how
+/// tests tell two results apart that are equal.
 #[rustfmt::skip]
 pub trait Field:
     Clone + Debug + PartialEq + Zero + One
@@ -98,7 +99,8 @@ pub trait Field:
         + Add<Self, Output = Self> + Sub<Self, Output = Self>
         + Mul<Self, Output = Self> + Div<Self, Output = Self>>
 {
-    /// A small integer, exactly (f32 holds those up to 2²⁴ in size).
+    /// A small integer, exactly: at least those up to 2²⁴ in size, which f32 holds. A format with fewer
+    /// digits has exact constants besides, as [`Mpfr`](crate::number::Mpfr) has.
     fn int(n: i32) -> Self;
 
     /// May one divide by it? Not the same as `!is_zero()`: the dual number 0 + 1·ω is not zero, and

@@ -9,7 +9,7 @@ use rug::float::Round;
 /// A law of [`Scalar`], named after the method that it is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Law {
-    /// Numbers compare as their values do, and ⟨·⟩, min and |·| are exact.
+    /// Numbers compare as their values do, none but 0 is zero, and ⟨·⟩, min and |·| are exact.
     Order,
     /// A number with a value is finite.
     Finite,
@@ -88,6 +88,7 @@ impl<T: Scalar<Enclosure = E>, E: PositivePart> Laws<'_, T> {
         let Known { number, exact } = a;
         let text = |what: &str| format!("{what} {number:?}");
         hold(number.is_finite(), Law::Finite, || format!("{number:?}, which is {}", written(exact)))?;
+        hold(number.is_zero() == exact.is_zero(), Law::Order, || format!("is_zero of {number:?}"))?;
         self.is(&number.positive_part(), &exact.positive_part(), || text("⟨·⟩ of"))?;
         self.is(&number.abs(), &exact.abs(), || text("|·| of"))?;
         self.encloses(&number.enclose(), exact, Law::Enclose, || text("the enclosure of"))?;

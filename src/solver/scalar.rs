@@ -164,7 +164,8 @@ pub trait Scalar: OrderedField {
     /// The sign of everything enclosed; `None` if not all of it has the same.
     fn sign(enclosure: &Self::Enclosure) -> Option<Ordering>;
 
-    /// Encloses xᵏ, by repeated squaring; `None` if it is too long to be written down.
+    /// Encloses xᵏ, by repeated squaring; `None` if it is too long to be written down. By default it never
+    /// is: where enclosures are rationals, pass on the power of [`Exact`](crate::number::Exact), which knows.
     fn power(x: &Self::Enclosure, k: u64) -> Option<Self::Enclosure> {
         Some(power(x, k))
     }

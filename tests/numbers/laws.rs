@@ -44,11 +44,18 @@ law! { numbers_are_ordered_as_what_they_stand_for:
     Binary32 Binary64 Mpfr2 Mpfr3 Mpfr24 Mpfr53 Mpfr200 MpfrMixed MpfrConstant
 }
 
+// Those of which the command and the proofs are told what they stand for.
+law! { numbers_say_what_they_stand_for:
+    Binary32 Binary64 Mpfr2 Mpfr3 Mpfr24 Mpfr53 Mpfr200 MpfrMixed MpfrConstant
+}
+
 /// For floats: the nearest float, to even, infinite beyond the largest. For balls: any that contains the
 /// exact result, for all numbers inside the operands. For exact numbers: the result.
 fn operations_return_what_the_exact_result_demands<S: System<Number = N>, N: Field + 'static>() {
-    let tried = Tally::default();
+    let (tried, told_apart) = (Tally::default(), Tally::default());
     for_all(S::pair(), |((a, exact_a), (b, exact_b))| {
+        prop_assert!(S::stands_for(&a, &exact_a), "{a:?} is drawn for {exact_a:?}");
+        told_apart.count(!S::stands_for(&a, &exact_b));
         prop_assert!(S::stands_for(&-&a, &exact_a.negative()), "-{a:?}");
         for ((name, operation), exact) in operations().into_iter().zip(exact_a.results(&exact_b)) {
             tried.count(exact.is_some());
@@ -60,6 +67,7 @@ fn operations_return_what_the_exact_result_demands<S: System<Number = N>, N: Fie
         Ok(())
     });
     tried.assert_one_in(2, "operations tried");
+    told_apart.assert_one_in(2, "pairs of which neither number stands for the other");
 }
 
 #[allow(clippy::eq_op)]
@@ -102,14 +110,14 @@ fn zero_one_and_signs_are_neutral<S: System<Number = N>, N: Field + 'static>() {
     divided.assert_one_in(2, "divisors");
 }
 
-/// With 12 bits each, so that their products fit into f32.
+/// With 12 bits each, so that their products fit into f32: what [`Field::int`] promises.
 fn small_integers_add_and_multiply<S: System<Number = N>, N: Field + 'static>() {
     let small = || prop_oneof![-10..=10, -4095..=4095];
     for_all((small(), small()), |(m, n)| {
         let (a, b) = (N::int(m), N::int(n));
-        prop_assert!(S::same(&(&a + &b), &N::int(m + n)));
-        prop_assert!(S::same(&(&a - &b), &N::int(m - n)));
-        prop_assert!(S::same(&(&a * &b), &N::int(m * n)));
+        prop_assert!(S::same(&(&a + &b), &N::int(m + n)), "int({m}) + int({n}): small integers are exact");
+        prop_assert!(S::same(&(&a - &b), &N::int(m - n)), "int({m}) - int({n}): small integers are exact");
+        prop_assert!(S::same(&(&a * &b), &N::int(m * n)), "int({m}) * int({n}): small integers are exact");
         prop_assert_eq!(a == b, m == n);
         prop_assert_eq!(a.is_zero(), m == 0);
         prop_assert_eq!(a.is_unit(), m != 0);
@@ -218,17 +226,27 @@ fn holds_exactly<S: System<Number = N, Meaning = Exact>, N: Field>(result: &N, e
 fn numbers_are_ordered_as_what_they_stand_for<S, N>()
 where
     S: System<Number = N, Meaning = Exact>,
-    N: OrderedField + ToExact + 'static,
+    N: OrderedField + 'static,
 {
     for_all(S::pair(), |((a, exact_a), (b, exact_b))| {
-        prop_assert_eq!(a.to_exact(), Ok(exact_a.clone()));
         prop_assert_eq!(a.partial_cmp(&b), Some(exact_a.cmp(&exact_b)));
         prop_assert_eq!(a == b, exact_a == exact_b);
         prop_assert_eq!(a.is_zero(), exact_a.is_zero());
         let absolute = if exact_a < Exact::zero() { -&exact_a } else { exact_a };
-        prop_assert_eq!(a.abs().to_exact(), Ok(absolute));
+        prop_assert!(holds_exactly::<S, N>(&a.abs(), &absolute), "|{a:?}| is {:?}", a.abs());
         prop_assert_eq!(a.min(&b), b.min(&a));
         prop_assert_eq!(a.positive_part() - (-&a).positive_part(), a);
+        Ok(())
+    });
+}
+
+fn numbers_say_what_they_stand_for<S, N>()
+where
+    S: System<Number = N, Meaning = Exact>,
+    N: Field + ToExact + 'static,
+{
+    for_all(S::number(), |(a, exact)| {
+        prop_assert_eq!(a.to_exact(), Ok(exact));
         Ok(())
     });
 }

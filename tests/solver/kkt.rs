@@ -21,10 +21,6 @@ fn state_by_sign(sign: Ordering) -> State {
     }
 }
 
-fn is_certified(kkt: &contact::Kkt<Exact>) -> bool {
-    [&kkt.stationarity, &kkt.primal, &kkt.dual, &kkt.complementarity].into_iter().all(Exact::is_zero)
-}
-
 fn solved<T: Float>(case: &Case<T>, method: &Method<T>) -> Solution<T> {
     solve(&case.system, method).expect("the parameters are within their ranges")
 }
@@ -55,7 +51,7 @@ proptest! {
         prop_assert_eq!(r.cmp(&Exact::zero()), sign, "the state is planted");
         let answer = solve(system, &Method::Lagrange).unwrap();
         prop_assert_eq!((answer.state, answer.outcome), (state_by_sign(sign), Outcome::Direct));
-        prop_assert!(is_certified(&answer.certificate(system)));
+        prop_assert!(answer.certificate(system).is_zero());
         prop_assert_eq!(&answer.deflection, &resting(system));
         prop_assert_eq!(&answer.contact_force, &positive_part(&r));
         prop_assert_eq!(-&system.c * &answer.penetration, positive_part(&-&r));
@@ -74,7 +70,7 @@ proptest! {
         let Case { system, .. } = &case;
         for dn in [&dn * &system.c, dn] {
             let (u, n) = (resting(system) + &du, pushing(system) + dn);
-            prop_assert!(!is_certified(&contact::kkt(system, &u, &n)));
+            prop_assert!(!contact::kkt(system, &u, &n).is_zero());
         }
     }
 

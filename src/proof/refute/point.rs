@@ -194,7 +194,6 @@ pub fn planted_points(hypotheses: &[Hypothesis], symbols: &[&'static str]) -> im
 #[cfg(test)]
 mod tests {
     use super::*;
-    use num_traits::Signed;
     use std::collections::HashSet;
 
     fn all<T: Into<Exact>>(numbers: impl IntoIterator<Item = T>) -> HashSet<Exact> {

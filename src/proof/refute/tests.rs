@@ -110,8 +110,8 @@ fn the_sharpest_point_uses_up_most() {
     assert!(matches!(at_end, Verdict::Fails("", How::Beyond(..))));
 }
 
-/// Of the members c, 2 c, 4 c and 8 c the last is half of 16 c. That a number is computed nearly is no bound of a
-/// claim's own.
+/// Of the members c, 2 c, 4 c and 8 c the last is half of 16 c. That a number is computed nearly is no bound
+/// of a claim's own.
 #[test]
 fn the_sharpest_member_uses_up_most() {
     let given = above_zero("c");
