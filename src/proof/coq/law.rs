@@ -11,6 +11,7 @@ use crate::formula::Hypothesis;
 use crate::formula::claim::{MEMBERS, PRECISION, SCALES};
 use crate::formula::statement::{Computed, Goal, Role, Says, Statement, two_bits};
 use crate::number::Tree;
+use crate::proof::kernel::algebra::Poly;
 use crate::proof::kernel::{Because, Derivation, Rounding};
 use std::fmt::Write;
 
@@ -217,7 +218,7 @@ impl<'a> Law<'a> {
             let Some(earlier) = errors[..i].iter().find(|known| known.error() == later.error()) else {
                 continue;
             };
-            let is_usual = later.scale().num().is_one() && later.scale().den().is_one();
+            let is_usual = *later.scale() == Poly::constant(1).into();
             let (usual, other) = if is_usual { (later, earlier) } else { (earlier, later) };
             let factor = other.scale().over(usual.scale()).ok_or("a scale is 0")?;
             let factor = Expr::ratio(&factor).argument();
