@@ -120,6 +120,28 @@ fn a_factor_is_found() {
     assert_eq!(name(some), "");
 }
 
+/// Where it touches, the augmentation pushes as it should: with ε = 10⁴ N/m, apart alone the plane pulls.
+#[test]
+fn what_is_wrong_apart_from_the_plane_is_found() {
+    let eps = || number("1e4");
+    let report = changed(|problem, u, n| {
+        let SpringMass { c, m, g, l, h } = &problem.system;
+        let pulled = (m * g + eps() * (h - l)) / (c + eps());
+        if n > Exact::zero() { [u, n] } else { [pulled, n] }
+    });
+    let named = report.named().map(|named| named.name.as_str());
+    assert_eq!(named, Some("only the update of the augmentation is bracketed"));
+}
+
+#[test]
+fn a_mistake_in_the_source_says_where() {
+    let edited: Vec<_> = mistakes(false).iter().filter(|mistake| mistake.name.contains(" with ")).collect();
+    assert!(edited.len() > 5, "{}", edited.len());
+    for mistake in edited {
+        assert!(mistake.at.iter().any(|at| at.starts_with("src/chapter/")), "{}", mistake.name);
+    }
+}
+
 #[test]
 fn few_digits_are_found() {
     let rounded = |digits| move |x: &Exact| x.decimal(digits, Round::Nearest).parse().unwrap();

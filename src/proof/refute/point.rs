@@ -98,8 +98,7 @@ const PLANTED: u64 = 60;
 
 /// What is drawn for a symbol depends on its name and the point's number alone.
 fn random(point: u64, symbol: &str) -> Rand64 {
-    let seed =
-        symbol.bytes().fold(u128::from(point), |seed, byte| (seed << 8) ^ (seed >> 88) ^ u128::from(byte));
+    let seed = symbol.bytes().fold(u128::from(point), |seed, byte| seed << 8 | u128::from(byte));
     Rand64::new(seed)
 }
 
@@ -194,6 +193,7 @@ pub fn planted_points(hypotheses: &[Hypothesis], symbols: &[&'static str]) -> im
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::number::Tree;
     use std::collections::HashSet;
 
     fn all<T: Into<Exact>>(numbers: impl IntoIterator<Item = T>) -> HashSet<Exact> {
@@ -226,9 +226,31 @@ mod tests {
         let size = |x: &Exact| x.as_rational().clone().abs();
         let fits = |x: &Exact| (1..10).any(|n| (1..4).any(|d| size(x) == Rational::from((n, d))));
         assert!(drawn.iter().all(fits), "{drawn:?}");
-        for sign in [1, -1] {
-            let of_sign = drawn.iter().filter(|x| x.as_rational().cmp0().is_gt() == (sign > 0));
-            assert!(of_sign.count() > 5, "{drawn:?}");
+        // A third of them are negative.
+        let negative = drawn.iter().filter(|x| **x < Exact::zero()).count();
+        assert!((drawn.len() / 6..drawn.len() / 2).contains(&negative), "{drawn:?}");
+        // And precisions and scales are what they have to be.
+        let rounded = planted_points(&[], &[PRECISION, SCALES[0]]);
+        assert_eq!(rounded.count() as u64, PLANTED);
+    }
+
+    #[test]
+    fn a_point_is_bent_where_a_hypothesis_does_not_hold_and_a_third_of_them_to_zero() {
+        let u = || Tree::symbol("u");
+        let at = |given: &[Hypothesis]| -> Vec<Exact> {
+            planted_points(given, &["u"]).map(|point| point.at("u")).collect()
+        };
+        let bent = |relation, value| at(&[Hypothesis::new(relation, value)]);
+        // All that is drawn is less.
+        let (far, zero) = (|| u() - Tree::from(20), Exact::from(20));
+        for (relation, touching) in
+            [(Relation::Positive, 0), (Relation::NonNegative, PLANTED / 3), (Relation::Zero, PLANTED)]
+        {
+            let points = bent(relation, far());
+            assert_eq!(points.iter().filter(|x| **x == zero).count() as u64, touching, "{relation:?}");
+            assert!(points.len() as u64 == PLANTED && points.iter().all(|x| *x >= zero));
         }
+        // All that is drawn is more, and stays what it is.
+        assert_eq!(bent(Relation::Positive, u() + Tree::from(20)), at(&[]));
     }
 }

@@ -74,8 +74,11 @@ mod tests {
     #[test]
     fn what_is_long_is_far_from_simple() {
         let complexity = |text: &str| complexity(&text.parse().unwrap());
-        let (simple, longer) = (SIMPLE.map(|n| complexity(&n.to_string())), ["4", "-15", "100", "1e30"]);
+        let (simple, longer) =
+            (SIMPLE.map(|n| complexity(&n.to_string())), ["4", "-15", "100", "1000/1001", "1e30"]);
         assert!(simple.into_iter().chain(longer.map(complexity)).is_sorted_by(|a, b| a < b));
         assert_eq!(complexity("1/1000"), complexity("1000"));
+        // Beyond all simple ones by so many bits: those of 100 over 1.
+        assert_eq!(complexity("4"), SIMPLE.len() as u64 + 3 + 1);
     }
 }

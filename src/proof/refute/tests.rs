@@ -151,6 +151,11 @@ fn a_counterexample_is_made_small() {
     let wrong = found_at(&Statement::of(&positive("wrong", [], x("c") * x("R") * x("R"))));
     let simple = |x: &Exact| SIMPLE.iter().any(|n| Exact::from(*n) == *x);
     assert!(wrong.point.numbers().all(|(_, x)| simple(x)), "{wrong}");
+    // For c = 1 another number has to follow, for d > c.
+    let given = Hypothesis::new(Relation::Positive, x("d") - x("c"));
+    let zero = Statement::of(&equal("zero", [&given], x("c") * x("d"), 0));
+    let apart = found(&zero, &point(&[("c", -50), ("d", -49)])).expect("a counterexample");
+    assert_eq!((apart.point.at("c"), apart.point.at("d")), (Exact::from(1), Exact::from(2)));
     // Nothing simple is as large, but half is.
     let far = Point::new([("R", "-1234567890123456789012345678901/3".parse().unwrap())]);
     let small = Statement::of(&positive("small", [], Tree::from(1000) - x("R") * x("R")));
