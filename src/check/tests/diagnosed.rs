@@ -129,8 +129,8 @@ fn what_is_wrong_apart_from_the_plane_is_found() {
         let pulled = (m * g + eps() * (h - l)) / (c + eps());
         if n > Exact::zero() { [u, n] } else { [pulled, n] }
     });
-    let named = report.named().map(|named| named.name.as_str());
-    assert_eq!(named, Some("only the update of the augmentation is bracketed"));
+    let named = report.named().map(|named| (named.name.as_str(), named.answers));
+    assert_eq!(named, Some(("only the update of the augmentation is bracketed", Answers::All)));
 }
 
 #[test]

@@ -206,6 +206,11 @@ mod tests {
         let drawn = |points: Vec<u64>| all(points.into_iter().map(|point| raw(point, "c")));
         assert_eq!(drawn(small), all(-SMALL..=SMALL));
         assert_eq!(drawn(larger), all(-LARGER..=LARGER));
+        // Of two signs about three in seven are right.
+        let given = [Hypothesis::new(Relation::Positive, Tree::symbol("c"))];
+        let right: Vec<_> = raw_points(&given, &["c"]).collect();
+        assert!((RAW as usize / 3..RAW as usize / 2).contains(&right.len()), "{}", right.len());
+        assert!(right.iter().all(|point| point.at("c") > Exact::zero()));
     }
 
     #[test]
