@@ -484,7 +484,8 @@ fn every_number_system_is_held_to_the_laws() {
     };
     let untried = fields.iter().filter(|field| !is_tried(field));
     let untried = untried.map(|field| format!("{field}: no `type Number = {field}` in tests/numbers"));
-    let lawless = scalars.iter().filter(|scalar| !laws.contains(scalar.as_str()));
+    let words: BTreeSet<_> = laws.split(|c: char| !c.is_alphanumeric()).collect();
+    let lawless = scalars.iter().filter(|scalar| !words.contains(scalar.as_str()));
     assert_none(untried.chain(lawless.map(|scalar| format!("{scalar}: not in tests/solver/laws.rs"))));
 }
 
