@@ -88,7 +88,8 @@ impl<T: Scalar<Enclosure = E>, E: PositivePart> Laws<'_, T> {
         let Known { number, exact } = a;
         let text = |what: &str| format!("{what} {number:?}");
         hold(number.is_finite(), Law::Finite, || format!("{number:?}, which is {}", written(exact)))?;
-        hold(number.is_zero() == exact.is_zero(), Law::Order, || format!("is_zero of {number:?}"))?;
+        let (zero, right) = (number.is_zero(), exact.is_zero());
+        hold(zero == right, Law::Order, || format!("is_zero of {number:?}: {zero}, and not {right}"))?;
         self.is(&number.positive_part(), &exact.positive_part(), || text("⟨·⟩ of"))?;
         self.is(&number.abs(), &exact.abs(), || text("|·| of"))?;
         self.encloses(&number.enclose(), exact, Law::Enclose, || text("the enclosure of"))?;
