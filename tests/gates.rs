@@ -435,24 +435,17 @@ fn files(folder: &str) -> Vec<String> {
 /// What no `mod` names is never compiled, and its tests fail nowhere.
 #[test]
 fn every_file_belongs_to_a_module() {
-    let mut files = files("src");
-    for folder in fs::read_dir(root().join("tests")).unwrap().map(|entry| entry.unwrap().path()) {
-        if folder.join("main.rs").exists() {
-            files.extend(self::files(&format!("tests/{}", folder.file_name().unwrap().to_str().unwrap())));
-        }
-    }
-    let modules = files.iter().filter_map(|path| path.strip_suffix("/mod.rs").or(path.strip_suffix(".rs")));
+    let (mut paths, tests) = (files("src"), files("tests"));
+    // What stands beside a `main.rs` belongs to its target.
+    let targets: Vec<_> = tests.iter().filter_map(|path| path.strip_suffix("main.rs")).collect();
+    paths.extend(tests.iter().filter(|path| targets.iter().any(|target| path.starts_with(target))).cloned());
+    let modules = paths.iter().filter_map(|path| path.strip_suffix("/mod.rs").or(path.strip_suffix(".rs")));
     let modules: Vec<_> =
         modules.filter(|path| !["/lib", "/main"].iter().any(|end| path.ends_with(end))).collect();
     assert!(modules.len() > 100, "the scan finds {} modules", modules.len());
     assert_none(modules.into_iter().filter_map(|path| {
         let (folder, name) = path.rsplit_once('/')?;
-        let parents = [
-            format!("{folder}.rs"),
-            format!("{folder}/mod.rs"),
-            format!("{folder}/lib.rs"),
-            format!("{folder}/main.rs"),
-        ];
+        let parents = [".rs", "/mod.rs", "/lib.rs", "/main.rs"].map(|end| format!("{folder}{end}"));
         let declares = |path: &String| {
             let text = fs::read_to_string(root().join(path)).unwrap_or_default();
             text.lines().any(|line| !line.starts_with("//") && line.ends_with(&format!("mod {name};")))
@@ -465,28 +458,23 @@ fn every_file_belongs_to_a_module() {
 #[test]
 fn every_number_system_is_held_to_the_laws() {
     let text = |folder: &str| files(folder).iter().map(|path| source(path)).collect::<String>();
-    let (numbers, laws, ours) = (
-        text("tests/numbers"),
-        source("tests/solver/laws.rs"),
-        text("src/number") + &source("src/solver/scalar.rs"),
-    );
-    let name = |rest: &str| rest.split(['<', ' ']).next().unwrap_or_default().to_string();
-    let implementing = |what: &str| {
-        let named =
-            ours.lines().filter(|line| line.starts_with("impl")).filter_map(|line| line.split_once(what));
-        named.map(|(_, rest)| name(rest)).collect::<BTreeSet<_>>()
+    let (numbers, laws) = (text("tests/numbers"), source("tests/solver/laws.rs"));
+    let ours = text("src/number") + &source("src/solver/scalar.rs");
+    let name = |rest: &str| rest.split(['<', ' ', ';']).next().unwrap_or_default().to_string();
+    let implementing = |what: &str| -> BTreeSet<String> {
+        let implemented = ours.lines().filter(|line| line.starts_with("impl"));
+        implemented.filter_map(|line| Some(name(line.split_once(what)?.1))).collect()
     };
     let (fields, scalars) = (implementing(" Field for "), implementing(" Scalar for "));
     assert!(fields.len() > 4 && !scalars.is_empty(), "{fields:?} {scalars:?}");
-    let is_tried = |field: &String| {
-        let own = |line: &str| line.trim().strip_prefix("type Number = ").map(name);
-        field == "Tree" || numbers.lines().filter_map(own).any(|number| number.trim_end_matches(';') == field)
-    };
-    let untried = fields.iter().filter(|field| !is_tried(field));
+    let mut tried: BTreeSet<_> =
+        numbers.lines().filter_map(|line| line.trim().strip_prefix("type Number = ").map(name)).collect();
+    tried.insert("Tree".to_string()); // a formula, and no number
+    let held: BTreeSet<_> = laws.split(|c: char| !c.is_alphanumeric()).map(String::from).collect();
+    let untried = fields.difference(&tried);
     let untried = untried.map(|field| format!("{field}: no `type Number = {field}` in tests/numbers"));
-    let words: BTreeSet<_> = laws.split(|c: char| !c.is_alphanumeric()).collect();
-    let lawless = scalars.iter().filter(|scalar| !words.contains(scalar.as_str()));
-    assert_none(untried.chain(lawless.map(|scalar| format!("{scalar}: not in tests/solver/laws.rs"))));
+    let lawless = scalars.difference(&held).map(|scalar| format!("{scalar}: not in tests/solver/laws.rs"));
+    assert_none(untried.chain(lawless));
 }
 
 #[test]
