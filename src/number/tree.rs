@@ -1,10 +1,14 @@
 //! What a formula does, step by step: the reading that all readings without numbers start from.
 
+mod step;
+
+pub use step::{Site, Step, everything, piecewise, smooth};
+
 use super::{Dual, Exponential, Field, PositivePart};
 use crate::operators;
 use num_traits::{One, Zero};
-use std::collections::BTreeSet;
-use std::fmt;
+use std::collections::{BTreeSet, HashMap, HashSet};
+use std::mem;
 use std::panic::Location;
 use std::sync::Arc;
 
@@ -29,148 +33,31 @@ pub struct Tree(Arc<Node>);
 struct Node {
     step: Step<Tree>,
     site: Site,
+    depth: u32,
+    size: u32,
 }
 
-/// The last step of a formula.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Step<T> {
-    /// A quantity.
-    Symbol(&'static str),
-    /// A small integer.
-    Int(i32),
-    /// −a
-    Neg(T),
-    /// a + b
-    Add(T, T),
-    /// a − b
-    Sub(T, T),
-    /// a b
-    Mul(T, T),
-    /// a / b
-    Div(T, T),
-    /// eᵃ
-    Exp(T),
-    /// ⟨a⟩ = max(a, 0)
-    PositivePart(T),
-    /// min(a, b)
-    Min(T, T),
-    /// fl(a): the number nearest to a in some precision
-    Rounded(T),
-}
+/// Formulas less deep than this are dropped by recursion.
+const SHALLOW: u32 = 500;
 
-/// Where in the source a step is written.
-///
-/// The steps of a chain such as `a + b + c` all begin where the chain begins; their rank, counted from
-/// the left, tells them apart.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Site {
-    /// The file, as it was named to the compiler.
-    pub file: &'static str,
-    /// The line, from 1.
-    pub line: u32,
-    /// The column, from 1.
-    pub column: u32,
-    /// How many steps begin at the same place, further inside.
-    pub rank: u32,
-}
-
-impl fmt::Display for Site {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let Site { file, line, column, rank } = self;
-        write!(f, "{file}:{line}:{column}")?;
-        if *rank > 0 { write!(f, " (operator {})", rank + 1) } else { Ok(()) }
+impl Node {
+    fn take_operands(&mut self) -> Vec<Tree> {
+        mem::replace(&mut self.step, Step::Int(0)).operands().cloned().collect()
     }
 }
 
-impl Site {
-    /// Was it written by the rules of differentiation, and by no formula?
-    pub fn is_of_duals(&self) -> bool {
-        self.file.ends_with("dual.rs")
+impl Drop for Node {
+    fn drop(&mut self) {
+        if self.depth < SHALLOW {
+            return;
+        }
+        let mut open = self.take_operands();
+        while let Some(tree) = open.pop() {
+            if let Some(mut node) = Arc::into_inner(tree.0) {
+                open.extend(node.take_operands());
+            }
+        }
     }
-}
-
-impl<T> Step<T> {
-    /// What the step is made of, in order.
-    pub fn operands(&self) -> impl Iterator<Item = &T> {
-        use Step::*;
-        let (a, b) = match self {
-            Symbol(_) | Int(_) => (None, None),
-            Neg(a) | Exp(a) | PositivePart(a) | Rounded(a) => (Some(a), None),
-            Add(a, b) | Sub(a, b) | Mul(a, b) | Div(a, b) | Min(a, b) => (Some(a), Some(b)),
-        };
-        a.into_iter().chain(b)
-    }
-
-    /// The same step with other operands.
-    pub fn map<U>(&self, mut f: impl FnMut(&T) -> U) -> Step<U> {
-        let all = self.try_map(|operand| Some(f(operand)));
-        all.expect("every operand has another")
-    }
-
-    /// The same, if there are others.
-    pub fn try_map<U>(&self, mut f: impl FnMut(&T) -> Option<U>) -> Option<Step<U>> {
-        use Step::*;
-        Some(match self {
-            Symbol(name) => Symbol(name),
-            Int(n) => Int(*n),
-            Neg(a) => Neg(f(a)?),
-            Add(a, b) => Add(f(a)?, f(b)?),
-            Sub(a, b) => Sub(f(a)?, f(b)?),
-            Mul(a, b) => Mul(f(a)?, f(b)?),
-            Div(a, b) => Div(f(a)?, f(b)?),
-            Exp(a) => Exp(f(a)?),
-            PositivePart(a) => PositivePart(f(a)?),
-            Min(a, b) => Min(f(a)?, f(b)?),
-            Rounded(a) => Rounded(f(a)?),
-        })
-    }
-}
-
-impl<T: Field> Step<T> {
-    /// What it comes to, with operands that are numbers. The rest as for [`Tree::replay`].
-    pub fn value(
-        self,
-        symbol: &impl Fn(&'static str) -> T,
-        beyond: &impl Fn(Step<&T>) -> Option<T>,
-    ) -> Option<T> {
-        use Step::*;
-        Some(match self {
-            Symbol(name) => symbol(name),
-            Int(n) => T::int(n),
-            Neg(a) => -a,
-            Add(a, b) => a + b,
-            Sub(a, b) => a - b,
-            Mul(a, b) => a * b,
-            Div(_, b) if !b.is_unit() => return None,
-            Div(a, b) => a / b,
-            Exp(a) => beyond(Exp(&a))?,
-            PositivePart(a) => beyond(PositivePart(&a))?,
-            Min(a, b) => beyond(Min(&a, &b))?,
-            Rounded(a) => beyond(Rounded(&a))?,
-        })
-    }
-}
-
-/// ⟨·⟩ and min, for [`Tree::replay`].
-pub fn piecewise<T: PositivePart>(step: Step<&T>) -> Option<T> {
-    match step {
-        Step::PositivePart(a) => Some(a.positive_part()),
-        Step::Min(a, b) => Some(a.min(b)),
-        _ => None,
-    }
-}
-
-/// eˣ, for [`Tree::replay`].
-pub fn smooth<T: Exponential>(step: Step<&T>) -> Option<T> {
-    match step {
-        Step::Exp(a) => Some(a.exp()),
-        _ => None,
-    }
-}
-
-/// eˣ, ⟨·⟩ and min, for [`Tree::replay`].
-pub fn everything<T: PositivePart + Exponential>(step: Step<&T>) -> Option<T> {
-    smooth(step).or_else(|| piecewise(step))
 }
 
 impl Tree {
@@ -217,6 +104,16 @@ impl Tree {
         self.0.site
     }
 
+    /// The number of operations between the last one and a quantity or number, at most: 0 for these.
+    pub fn depth(&self) -> u32 {
+        self.0.depth
+    }
+
+    /// The number of operations, quantities and numbers, as written out; `u32::MAX` stands for more.
+    pub fn size(&self) -> u32 {
+        self.0.size
+    }
+
     /// The formula in a number system, whose eˣ, ⟨·⟩, min and rounding are in `beyond` ([`piecewise`],
     /// [`smooth`], [`everything`]); `None` where it lacks one, or where the formula divides by what is no
     /// unit.
@@ -258,10 +155,34 @@ impl Tree {
 
     /// The tree rebuilt from its leaves: each step that `f` replaces, after its operands have been.
     pub fn rewrite(&self, f: &impl Fn(&Tree) -> Option<Tree>) -> Tree {
-        let step = self.step().map(|tree| tree.rewrite(f));
-        let same = step.operands().zip(self.step().operands()).all(|(new, old)| Arc::ptr_eq(&new.0, &old.0));
-        let tree = if same { self.clone() } else { self.with_step(step) };
-        f(&tree).unwrap_or(tree)
+        let mut rewritten: HashMap<_, Tree> = HashMap::new();
+        for old in self.distinct() {
+            let step = old.step().map(|operand| rewritten[&operand.address()].clone());
+            let same = step.operands().zip(old.step().operands()).all(|(a, b)| a.address() == b.address());
+            let tree = if same { old.clone() } else { old.with_step(step) };
+            rewritten.insert(old.address(), f(&tree).unwrap_or(tree));
+        }
+        rewritten.remove(&self.address()).expect("the last step is one of them")
+    }
+
+    fn address(&self) -> *const Node {
+        Arc::as_ptr(&self.0)
+    }
+
+    /// Its steps, each once however often it is shared, after its operands; those from left to right.
+    fn distinct(&self) -> Vec<&Tree> {
+        let (mut found, mut all, mut open) = (HashSet::new(), Vec::new(), vec![(self, false)]);
+        while let Some((tree, operands_are_done)) = open.pop() {
+            if operands_are_done {
+                all.push(tree);
+            } else if found.insert(tree.address()) {
+                open.push((tree, true));
+                let first = open.len();
+                open.extend(tree.step().operands().map(|operand| (operand, false)));
+                open[first..].reverse();
+            }
+        }
+        all
     }
 
     /// The tree with other formulas in place of quantities.
@@ -274,37 +195,46 @@ impl Tree {
 
     /// The tree with its last step replaced by another, at the same place in the source.
     pub fn with_step(&self, step: Step<Tree>) -> Tree {
-        Tree(Arc::new(Node { step, site: self.0.site }))
+        Tree::at(self.0.site, step)
+    }
+
+    fn at(site: Site, step: Step<Tree>) -> Tree {
+        let depth = step.operands().map(|operand| operand.depth().saturating_add(1)).max().unwrap_or(0);
+        let size = step.operands().fold(1, |sum: u32, operand| sum.saturating_add(operand.size()));
+        Tree(Arc::new(Node { step, site, depth, size }))
     }
 
     /// Calls `f` for every step, the last first.
     pub fn visit<'a>(&'a self, f: &mut impl FnMut(&'a Tree)) {
-        f(self);
-        self.step().operands().for_each(|tree| tree.visit(f));
+        let mut open = vec![self];
+        while let Some(tree) = open.pop() {
+            f(tree);
+            let first = open.len();
+            open.extend(tree.step().operands());
+            open[first..].reverse();
+        }
     }
 
     /// The first of its quantities, as it is read.
     pub fn first_symbol(&self) -> Option<&'static str> {
-        match self.step() {
-            Step::Symbol(name) => Some(name),
-            step => step.operands().find_map(Tree::first_symbol),
-        }
+        self.quantities().next()
     }
 
     /// The quantities it depends on.
     pub fn symbols(&self) -> BTreeSet<&'static str> {
-        let mut symbols = BTreeSet::new();
-        self.visit(&mut |tree| {
-            if let Step::Symbol(name) = tree.step() {
-                symbols.insert(*name);
-            }
-        });
-        symbols
+        self.quantities().collect()
+    }
+
+    fn quantities(&self) -> impl Iterator<Item = &'static str> {
+        self.distinct().into_iter().filter_map(|tree| match tree.step() {
+            Step::Symbol(name) => Some(*name),
+            _ => None,
+        })
     }
 
     /// Does one of its steps satisfy this?
     pub fn any(&self, f: &impl Fn(&Tree) -> bool) -> bool {
-        f(self) || self.step().operands().any(|tree| tree.any(f))
+        self.distinct().into_iter().any(f)
     }
 }
 
@@ -321,7 +251,7 @@ fn node(step: Step<Tree>) -> Tree {
     {
         site.rank = rank + 1;
     }
-    Tree(Arc::new(Node { step, site }))
+    Tree::at(site, step)
 }
 
 impl PartialEq for Tree {
@@ -406,6 +336,22 @@ mod tests {
         let place = sites.last().expect("three of its steps").clone();
         assert!(place.starts_with(&format!("{}:{line}:", file!())) && !place.contains(' '), "{place}");
         assert_eq!(sites, [format!("{place} (operator 3)"), format!("{place} (operator 2)"), place]);
+    }
+
+    /// Each doubling is one step more, and twice as many as written out.
+    #[test]
+    fn a_deep_formula_is_read_and_dropped_without_recursion() {
+        let x = Tree::symbol("x");
+        let sum = |terms: u32| (0..terms).fold(x.clone(), |sum, _| sum + &x);
+        let (deep, deeper) = (sum(100_000), sum(100_001));
+        assert_eq!((deep.depth(), deep.size()), (100_000, 200_001));
+        assert_eq!((deep.first_symbol(), deep.symbols().len()), (Some("x"), 1));
+        assert!(!deep.rounds() && deep.rounded().rounds());
+        assert_eq!(deep.with(&[("x", Tree::symbol("y"))]).symbols(), BTreeSet::from(["y"]));
+        drop((deep, deeper));
+        let doubled = (0..100).fold(x.clone(), |sum, _| &sum + &sum);
+        assert_eq!((doubled.depth(), doubled.size()), (100, u32::MAX));
+        assert_eq!(doubled.with(&[("x", Tree::one())]).first_symbol(), None);
     }
 
     /// fl(fl(2 x) + 1) = 7 where 2 x + 1 = 7, but for rounding.

@@ -33,13 +33,15 @@
 //! limits and derivatives of what is rounded.
 //!
 //! The names of the new symbols, and of the members of an induction, must not occur in a statement otherwise:
-//! `kept` sees to it.
+//! `check_names` sees to it.
 //!
-//! No hypothesis of a limit may speak of x, but to say that it is positive: it has to stay true as x grows.
+//! What is assumed of the variable of a limit has to hold for all values that are large enough: that it is
+//! positive, or that an increasing linear function of it is. That function is then the variable.
 
 pub(super) mod algebra;
 mod context;
 mod derivation;
+mod effort;
 mod monomial;
 mod number;
 mod order;
@@ -48,8 +50,9 @@ pub(super) mod sign;
 
 pub use derivation::{Because, Derivation, Direct, Proof, Rounding, Signed, Supposed, Used, Why};
 
-use self::algebra::{Poly, Ratio, Symbol};
+use self::algebra::{Monomial, Poly, Ratio, Symbol};
 use self::context::{Context, NAMES};
+pub use self::effort::MAX_EFFORT;
 use self::reader::Reader;
 use self::sign::{ERRORS, Sign, is_small, sign};
 use crate::formula::claim::{MEMBERS, POWER, PRECISION, SCALES};
@@ -69,17 +72,41 @@ impl From<Relation> for Sign {
     }
 }
 
+/// The number of operations, quantities and numbers in all formulas of a statement, at most.
+pub const MAX_SIZE: u32 = 20_000;
+
+/// The depth of a formula in a statement, at most.
+pub const MAX_DEPTH: u32 = 500;
+
 /// Proves a statement.
 ///
 /// # Errors
-/// Why it could not; that is no proof of the contrary.
+/// Returns the reason if it finds no proof, which does not refute the statement; [`Why::TooLarge`] if the
+/// statement exceeds [`MAX_SIZE`] or [`MAX_DEPTH`], or the proof [`MAX_EFFORT`].
 pub fn prove(statement: &Statement) -> Result<Proof, Why> {
+    check_size(statement)?;
+    effort::bounded(|| search(statement)).unwrap_or(Err(Why::TooLarge("its proof", MAX_EFFORT)))
+}
+
+/// # Errors
+/// Returns [`Why::TooLarge`] if the statement exceeds [`MAX_SIZE`] or [`MAX_DEPTH`].
+pub(super) fn check_size(statement: &Statement) -> Result<(), Why> {
+    let deepest = statement.trees().map(Tree::depth).max().unwrap_or(0);
+    if deepest > MAX_DEPTH {
+        return Err(Why::TooLarge("its depth", MAX_DEPTH as usize));
+    }
+    let size = statement.trees().fold(0, |sum: u32, tree| sum.saturating_add(tree.size()));
+    if size > MAX_SIZE {
+        return Err(Why::TooLarge("its size", MAX_SIZE as usize));
+    }
+    Ok(())
+}
+
+fn search(statement: &Statement) -> Result<Proof, Why> {
     if statement.goals.is_empty() {
         return Err(Why::Nothing);
     }
-    if let Some(name) = kept(statement) {
-        return Err(Why::Reserved(name));
-    }
+    check_names(statement)?;
     let roundings = roundings(statement);
     if roundings.len() > ERRORS.len() {
         return Err(Why::TooMany);
@@ -98,41 +125,58 @@ pub fn prove(statement: &Statement) -> Result<Proof, Why> {
             Role::Computed => given.chain(invariants).collect(),
             Role::Step | Role::Continues => given.chain(invariants).chain(computed).collect(),
         };
-        derive(goal, context.clone(), &hypotheses, CASES)
+        derive(goal, context.clone().with_variable(&goal.says), &hypotheses, CASES)
     });
     Ok(Proof { goals: goals.collect::<Result<_, _>>()?, statement: statement.clone() })
 }
 
-/// A name in a statement that is not its to use: one that the kernel has for the quantity of a hypothesis,
-/// or an induction for its members.
+/// Refuses a statement that uses a name in a sense that is not its to choose.
 ///
-/// What a sequence starts from, is multiplied by, tends to or is near depends on no power, no member and
-/// nothing that is computed at each step; of a member nothing is supposed but what its invariants say, and
-/// where what is computed from it is.
-fn kept(statement: &Statement) -> Option<&'static str> {
-    let variables = statement.goals.iter().filter_map(|goal| goal.says.variable());
-    let symbols = statement.trees().flat_map(Tree::symbols).chain(variables);
-    // Of a sequence that is only near a closed form, the member is spoken of.
+/// - The kernel's names for slacks, errors and interval parameters occur nowhere, and those of members of a
+///   sequence only where a perturbed recursion speaks of its first.
+/// - A computed symbol has no other meaning. It may be another number at each step: nothing is assumed of it
+///   but its interval, and it is not computed from itself.
+/// - The start, ratio and limit of a sequence depend on no power, no member and nothing computed; its closed
+///   form and the bound of its distance from that depend on no member and nothing computed; the bounds of
+///   other quantities, and the hypotheses, on no member.
+fn check_names<'t>(statement: &'t Statement) -> Result<(), Why> {
+    fn refuse<'t>(
+        trees: impl Iterator<Item = &'t Tree>,
+        names: impl Fn(&'static str) -> bool,
+    ) -> Result<(), Why> {
+        let mut symbols = trees.flat_map(Tree::symbols);
+        symbols.find(|name| names(name)).map_or(Ok(()), |name| Err(Why::Reserved(name)))
+    }
+    let is_member = |name| name == MEMBERS[0];
     let drifts = statement.amounts_to.as_ref().is_some_and(|sequence| !sequence.within.is_empty());
-    let member = |name: &&str| MEMBERS.contains(name) && !(drifts && *name == MEMBERS[0]);
-    let own = |name: &&'static str| NAMES.contains(name) || is_small(Symbol(name)) || member(name);
-    let computed = statement.computed.as_ref().map(|computed| computed.symbol);
-    // Nothing is computed that has a meaning of its own.
-    let meant =
-        |name: &&str| [POWER, PRECISION].contains(name) || [&MEMBERS[..], &SCALES].concat().contains(name);
-    symbols.into_iter().find(own).or(computed.filter(meant)).or_else(|| {
-        let Sequence { start, ratio, limit, member, within, .. } = statement.amounts_to.as_ref()?;
-        let symbols_of = |tree: &Tree| tree.symbols().into_iter();
-        let fixed = start.iter().chain([ratio]).chain(limit).flat_map(symbols_of);
-        let fixed = fixed.filter(|name| *name == POWER || MEMBERS.contains(name) || Some(*name) == computed);
-        let own_bound = within.first().map(|(_, bound)| bound);
-        let near = member.iter().chain(own_bound).flat_map(symbols_of);
-        let near = near.filter(|name| *name == MEMBERS[0] || Some(*name) == computed);
-        let bounds = within.iter().map(|(_, bound)| bound);
-        let supposed = statement.hypotheses.iter().map(|given| &given.value);
-        let of_member = bounds.chain(supposed).flat_map(symbols_of).filter(|name| *name == MEMBERS[0]);
-        fixed.chain(near).chain(of_member).next()
-    })
+    let own = |name| {
+        let is_used = drifts && is_member(name);
+        NAMES.contains(&name) || is_small(Symbol(name)) || (MEMBERS.contains(&name) && !is_used)
+    };
+    refuse(statement.trees(), own)?;
+    let mut variables = statement.goals.iter().filter_map(|goal| goal.says.variable());
+    variables.find(|name| own(name)).map_or(Ok(()), |name| Err(Why::Reserved(name)))?;
+
+    let computed = statement.computed.as_ref();
+    let is_computed = |name| computed.is_some_and(|computed| computed.symbol == name);
+    let mut meant = [POWER, PRECISION].into_iter().chain(MEMBERS).chain(SCALES);
+    meant.find(|name| is_computed(*name)).map_or(Ok(()), |name| Err(Why::Reserved(name)))?;
+
+    let values = |all: &'t [Hypothesis]| all.iter().map(|hypothesis| &hypothesis.value);
+    let hypotheses = values(&statement.hypotheses);
+    if let Some(Sequence { start, ratio, limit, member, within, .. }) = &statement.amounts_to {
+        refuse(start.iter().chain([ratio]).chain(limit), |name| {
+            name == POWER || MEMBERS.contains(&name) || is_computed(name)
+        })?;
+        let bounds = || within.iter().map(|(_, bound)| bound);
+        refuse(member.iter().chain(bounds().take(1)), |name| is_member(name) || is_computed(name))?;
+        refuse(bounds().chain(hypotheses.clone()), is_member)?;
+    }
+    let by = computed.map(|computed| &computed.by);
+    match refuse(hypotheses.chain(values(&statement.invariants)).chain(by), is_computed) {
+        Err(Why::Reserved(name)) => Err(Why::AssumedOfComputed(name)),
+        fine => fine,
+    }
 }
 
 /// Does something vary in a statement, and not from one whole number to the next?
@@ -252,18 +296,45 @@ impl Context {
         Some(rest.map(|(m, q)| (m.clone(), q.clone())).collect())
     }
 
+    /// The symbol that tends to infinity with x, if what is assumed of x holds for every x that is large
+    /// enough: that it is positive, or that an increasing linear function of it is. That is the slack which
+    /// x is replaced by.
+    fn tends_to_infinity(&self, x: Symbol) -> Option<Symbol> {
+        let mut variables = vec![x];
+        for supposed in &self.supposed {
+            let last = *variables.last()?;
+            let named = supposed.given.as_ref().is_some_and(|given| given.value.symbols().contains(x.0));
+            if !named && !supposed.value.symbols().iter().any(|symbol| variables.contains(symbol)) {
+                continue;
+            }
+            match &supposed.used {
+                _ if supposed.given.is_none() => return None,
+                Used::Follows => {}
+                Used::Unused if self.increases_linearly(&supposed.value, last) => {}
+                Used::Symbol(symbol) if *symbol == last => {}
+                Used::Pivot(pivot, by, Some(slack)) if *pivot == Monomial::of(last) => {
+                    variables.push(self.increases_linearly(by, *slack).then_some(*slack)?);
+                }
+                _ => return None,
+            }
+        }
+        variables.pop()
+    }
+
+    /// Returns `true` if a quotient is a linear function of `x` whose slope is positive.
+    fn increases_linearly(&self, of: &Ratio, x: Symbol) -> bool {
+        let Ok([constant, slope]) = <[Poly; 2]>::try_from(of.num().coefficients(x)) else { return false };
+        let depends = [&constant, &slope, of.den()].into_iter().any(|part| part.symbols().contains(&x));
+        let sign = |part: &Poly| sign(part, &self.known).map(|certificate| certificate.sign());
+        !depends && sign(&slope).zip(sign(of.den())).is_some_and(|(a, b)| a.times(b) == Sign::Positive)
+    }
+
     /// The limit for x → ∞ by the degrees in x: a quotient of polynomials tends to 0 if the degree is
     /// higher below, and to the quotient of the leading coefficients if the degrees are equal.
-    ///
-    /// Everything supposed has to stay true as x grows: of x itself nothing but that it is positive.
     fn limit(&self, of: Ratio, x: Symbol, to: Ratio) -> Result<Because, Why> {
         let none = || Why::NoLimit(of.clone());
-        let spoken_of = |s: &Supposed| {
-            let given = s.given.as_ref().is_some_and(|given| given.value.symbols().contains(x.0));
-            given || s.value.symbols().contains(&x)
-        };
-        let touched = |s: &Supposed| spoken_of(s) && !matches!(&s.used, Used::Symbol(y) if *y == x);
-        if self.supposed.iter().any(touched) || to.symbols().contains(&x) {
+        let x = self.tends_to_infinity(x).ok_or_else(none)?;
+        if to.symbols().contains(&x) {
             return Err(none());
         }
         let num = self.without_falling_exponentials(of.num(), x).ok_or_else(none)?;

@@ -286,7 +286,9 @@ impl<'a> Paper<'a> {
                 Some(match slack {
                     None => format!("by {name}: {solved}"),
                     Some(slack) => {
-                        let (value, slack) = (self.order().ratio_or_size(supposed.value()), slack.0);
+                        let quotient = supposed.divided_by().and_then(|by| supposed.value().over(by));
+                        let value = self.order().ratio_or_size(quotient.as_ref().unwrap_or(supposed.value()));
+                        let slack = slack.0;
                         let sign = if supposed.sign() == Sign::Positive { "> 0" } else { "≥ 0" };
                         format!("by {name}: {slack} = {value} {sign}, so {solved}")
                     }

@@ -331,8 +331,10 @@ fn symbols(statement: &Statement) -> Vec<&'static str> {
     symbols
 }
 
-/// Searches for a counterexample. That there is none among the points that are tried is no proof.
+/// Searches for a counterexample. That there is none among the points that are tried is no proof; of a
+/// statement that is too large for [`prove`](super::prove) none is looked for.
 pub fn refute(statement: &Statement) -> Option<Counterexample> {
+    super::kernel::check_size(statement).ok()?;
     let symbols = symbols(statement);
     let points = Points::of(statement.hypotheses.clone(), symbols);
     points.quickly(statement).or_else(|| points.thoroughly(statement))

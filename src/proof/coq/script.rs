@@ -112,6 +112,9 @@ impl Script {
             Sign::Positive => ("positive", "<", Sign::Positive),
             _ => ("nonnegative", "<=", Sign::NonNegative),
         };
+        if supposed.divided_by().is_some() {
+            return Err("a hypothesis is divided by a quantity");
+        }
         match supposed.used() {
             Used::Follows | Used::Unused => {}
             Used::Between(_, _, place) => {

@@ -7,6 +7,7 @@
 //! needs; where a numerator divides by its denominator, the division is done, to keep what a reader sees
 //! short.
 
+use super::effort;
 pub use super::monomial::{Monomial, Symbol};
 pub use super::number::Number;
 
@@ -30,6 +31,7 @@ pub struct Ratio {
 impl FromIterator<(Monomial, Number)> for Poly {
     fn from_iter<I: IntoIterator<Item = (Monomial, Number)>>(terms: I) -> Self {
         let mut terms: Vec<_> = terms.into_iter().collect();
+        effort::spend(terms.len());
         // Where some are in order already, as in sums and products they are, this sort merges.
         terms.sort_by(|(m, _), (n, _)| m.cmp(n));
         terms.dedup_by(|(m, q), (n, sum)| {
@@ -87,6 +89,7 @@ impl Poly {
     /// Each term of one with each of the other.
     fn products<'a>(&'a self, other: &'a Self) -> impl Iterator<Item = (Monomial, Number)> {
         let times = |(m, p): &(Monomial, Number), (n, q): &_| (m.times(n), p * q);
+        effort::spend(self.0.len().saturating_mul(other.0.len()));
         let (short, long) = if self.0.len() < other.0.len() { (self, other) } else { (other, self) };
         short.0.iter().flat_map(move |own| long.0.iter().map(move |term| times(own, term)))
     }
@@ -158,6 +161,7 @@ impl Poly {
                 continue;
             }
             let (m, q) = (m.over(first)?, q * &inverse);
+            effort::spend(others.len());
             for (dm, dq) in others {
                 let left = rest.entry(dm.times(&m)).or_insert_with(|| 0.into());
                 *left = &*left - dq * &q;

@@ -3,9 +3,10 @@
 use super::algebra::{Monomial, Poly, Ratio, Symbol};
 use super::derivation::{Rounding, Signed, Supposed, Used, Why};
 use super::reader::Reader;
-use super::sign::{ERRORS, Known, PLACES, Sign, is_small, sign};
+use super::sign::{Certificate, ERRORS, Known, PLACES, Sign, is_small, sign, sign_of_product};
 use crate::formula::Hypothesis;
 use crate::formula::claim::{PRECISION, SCALES};
+use crate::formula::statement::Says;
 use crate::number::Tree;
 
 /// Names for the quantities of hypotheses, which no claim may use.
@@ -22,14 +23,25 @@ pub(super) struct Context {
     pub(super) roundings: Vec<Tree>,
     /// What has been rounded in hypotheses, with its error.
     pub(super) errors: Vec<Rounding>,
+    /// What tends to infinity, in the proof of a limit.
+    variable: Option<Symbol>,
 }
 
 impl Context {
     /// Nothing yet, but that powers of two are positive.
     pub(super) fn of(roundings: Vec<Tree>) -> Self {
         let known = SCALES.into_iter().map(|name| (Symbol(name), Sign::Positive)).collect();
-        let (supposed, rules, errors) = Default::default();
-        Context { supposed, known, rules, roundings, errors }
+        let (supposed, rules, errors, variable) = Default::default();
+        Context { supposed, known, rules, roundings, errors, variable }
+    }
+
+    /// For the proof of this: hypotheses on the variable of a limit are solved for it.
+    pub(super) fn with_variable(self, says: &Says) -> Self {
+        let variable = match says {
+            Says::Limit(_, by, _) => Some(Symbol(by)),
+            _ => None,
+        };
+        Context { variable, ..self }
     }
 
     /// Takes in a hypothesis.
@@ -87,45 +99,68 @@ impl Context {
     }
 
     /// The sign of a reduced quotient, if the rules find that of numerator and denominator.
-    pub(super) fn sign(&self, value: Ratio) -> Option<Signed> {
-        let (num, den) = (sign(value.num(), &self.known)?, sign(value.den(), &self.known)?);
+    pub(super) fn sign(&self, value: Ratio, factors: &[Certificate]) -> Option<Signed> {
+        let sign = |part: &Poly| sign_of_product(part, factors, &self.known);
+        let (num, den) = (sign(value.num())?, sign(value.den())?);
         den.sign().is_strict().then_some(Signed { value, num, den })
     }
 
     /// Takes in that a quantity has a sign.
     pub(super) fn suppose(&mut self, given: Option<&Hypothesis>, value: Ratio, sign: Sign) {
         let value = self.reduce(&value);
+        let (given, mut divided_by) = (given.cloned(), None);
         let used = match sign {
-            _ if self.sign(value.clone()).is_some_and(|signed| signed.sign().implies(sign)) => Used::Follows,
+            _ if self.sign(value.clone(), &[]).is_some_and(|signed| signed.sign().implies(sign)) => {
+                Used::Follows
+            }
             Sign::Negative | Sign::NonPositive => {
-                return self.suppose(given, -value, sign.negated());
+                return self.suppose(given.as_ref(), -value, sign.negated());
             }
             Sign::Positive | Sign::NonNegative => {
                 if let Some(symbol) = as_symbol(&value) {
                     self.known.insert(symbol, sign);
                     Used::Symbol(symbol)
-                } else {
-                    let new = self.supposed.iter().filter(|s| matches!(s.used, Used::Pivot(..))).count();
-                    let name = NAMES.get(new).copied().map(Symbol);
-                    match name
-                        .and_then(|name| Some((name, self.pivot(given, &value, &Poly::symbol(name), sign)?)))
-                    {
-                        None => Used::Unused,
-                        Some((name, (pivot, by))) => {
-                            self.known.insert(name, sign);
-                            Used::Pivot(pivot, by, Some(name))
-                        }
+                } else if self.bounds_the_variable_again(&value) {
+                    Used::Unused
+                } else if let Some((divisor, (pivot, by), slack)) = self.solve(given.as_ref(), &value, sign) {
+                    divided_by = divisor;
+                    self.known.insert(slack, sign);
+                    if Some(&pivot) == self.variable.map(Monomial::of).as_ref() {
+                        self.variable = Some(slack);
                     }
+                    Used::Pivot(pivot, by, Some(slack))
+                } else {
+                    Used::Unused
                 }
             }
             Sign::Zero => self
-                .pivot(given, &value, &Poly::zero(), sign)
+                .pivot(given.as_ref(), &value, &Poly::zero(), sign)
                 .map_or(Used::Unused, |(pivot, by)| Used::Pivot(pivot, by, None)),
         };
         if let Used::Pivot(pivot, by, _) = &used {
             self.replace(pivot.clone(), by.clone());
         }
-        self.supposed.push(Supposed { given: given.cloned(), value, sign, used });
+        self.supposed.push(Supposed { given, value, sign, divided_by, used });
+    }
+
+    /// Returns `true` if a quantity depends on the slack that tends to infinity in place of the variable: one
+    /// more pivot would replace it, and what is known of it.
+    fn bounds_the_variable_again(&self, value: &Ratio) -> bool {
+        self.variable.is_some_and(|x| NAMES.contains(&x.0) && value.symbols().contains(&x))
+    }
+
+    /// A pivot of a quantity, or else of its quotient by the absolute value of a symbol that is known not to
+    /// be 0: 0 < k < 1 is k = 1/(1 + s) with s = (1 − k)/k > 0. With the divisor, if any, and the slack.
+    fn solve(&self, given: Option<&Hypothesis>, value: &Ratio, sign: Sign) -> Option<Solved> {
+        let slacks = self.supposed.iter().filter(|s| matches!(s.used, Used::Pivot(..))).count();
+        let slack = NAMES.get(slacks).copied().map(Symbol)?;
+        let pivot = |value: &Ratio| self.pivot(given, value, &Poly::symbol(slack), sign);
+        let quotient = |x: Symbol| {
+            let divisor = absolute(x, *self.known.get(&x)?)?;
+            Some((Some(divisor.clone()), pivot(&value.over(&divisor)?)?, slack))
+        };
+        let whole = pivot(value).map(|rule| (None, rule, slack));
+        whole.or_else(|| value.num().symbols().into_iter().find_map(quotient))
     }
 
     /// Takes in that a symbol is in an interval: for some t between −1 and 1 it is its middle and t times
@@ -145,7 +180,7 @@ impl Context {
             _ => Used::Unused,
         };
         let sign = Sign::NonNegative;
-        self.supposed.push(Supposed { given: Some(given.clone()), value: own, sign, used });
+        self.supposed.push(Supposed { given: Some(given.clone()), value: own, sign, divided_by: None, used });
     }
 
     /// From now on a monomial is replaced.
@@ -173,10 +208,12 @@ impl Context {
     ) -> Option<(Monomial, Ratio)> {
         // num − slack · den = 0, and den is not 0.
         let equation = value.num() - slack * value.den();
+        let mut context = self.clone();
+        context.known.extend(slack.symbols().into_iter().map(|s| (s, sign_of_slack)));
         let solved = |x: Symbol| {
             let [rest, coefficient] = <[Poly; 2]>::try_from(equation.coefficients(x)).ok()?;
             let (strict, length) =
-                (sign(&coefficient, &self.known)?.sign().is_strict(), coefficient.terms().len());
+                (sign(&coefficient, &context.known)?.sign().is_strict(), coefficient.terms().len());
             let by = Ratio::from(-rest).over(&coefficient.into())?;
             (strict && !by.symbols().contains(&x)).then_some((length, (Monomial::of(x), by)))
         };
@@ -196,16 +233,32 @@ impl Context {
             (!rest.contains(&pivot)).then_some((pivot, by.into()))
         };
         let seen_again = || {
-            let mut context = self.clone();
-            context.known.extend(slack.symbols().into_iter().map(|s| (s, sign_of_slack)));
             symbols.iter().find_map(|x| {
                 let (_, rule) = solved(*x)?;
-                let signed = context.sign(self.reduce(&rule.1))?;
+                let signed = context.sign(self.reduce(&rule.1), &[])?;
                 signed.sign().implies(*self.known.get(x)?).then_some(rule)
             })
         };
+        // In a limit first of all the variable, so that the slack tends to infinity instead.
+        let variable = self.variable.filter(|x| symbols.contains(x) && !slack.is_zero());
+        if let Some((_, rule)) = variable.and_then(solved) {
+            return Some(rule);
+        }
         let free = free.min_by_key(|(later, (terms, _))| (*later, *terms)).map(|(_, (_, rule))| rule);
         free.or_else(|| if rounds { seen_again().or_else(product) } else { product().or_else(seen_again) })
+    }
+}
+
+/// A divisor, if any; a pivot and what it equals; the slack.
+type Solved = (Option<Ratio>, (Monomial, Ratio), Symbol);
+
+/// |x| of a symbol that is not 0.
+fn absolute(x: Symbol, sign: Sign) -> Option<Ratio> {
+    let x = Ratio::from(Poly::symbol(x));
+    match sign {
+        Sign::Positive => Some(x),
+        Sign::Negative => Some(-x),
+        Sign::NonPositive | Sign::Zero | Sign::NonNegative => None,
     }
 }
 

@@ -123,6 +123,7 @@ pub struct Supposed {
     pub(super) given: Option<Hypothesis>,
     pub(super) value: Ratio,
     pub(super) sign: Sign,
+    pub(super) divided_by: Option<Ratio>,
     pub(super) used: Used,
 }
 
@@ -140,6 +141,11 @@ impl Supposed {
     /// What it says of its sign.
     pub fn sign(&self) -> Sign {
         self.sign
+    }
+
+    /// The positive divisor of the quantity, if not the quantity itself but a quotient is named by a slack.
+    pub fn divided_by(&self) -> Option<&Ratio> {
+        self.divided_by.as_ref()
     }
 
     /// How it is used.
@@ -244,6 +250,10 @@ pub enum Why {
     TooMany,
     /// A name that the kernel keeps for itself.
     Reserved(&'static str),
+    /// A hypothesis, other than its interval, mentions this computed symbol, or it is computed from itself.
+    AssumedOfComputed(&'static str),
     /// There is no goal.
     Nothing,
+    /// The statement or its proof exceeds a limit: which quantity, and the most it may be.
+    TooLarge(&'static str, usize),
 }

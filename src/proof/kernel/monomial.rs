@@ -1,6 +1,7 @@
 //! Products of powers of symbols.
 
 use super::algebra::Ratio;
+use super::effort;
 use std::cmp::Ordering;
 use std::sync::Arc;
 
@@ -68,7 +69,7 @@ impl Monomial {
             {
                 others = rest;
                 if x == y {
-                    sum = sum.checked_add(*m).expect("a power fits 32 bits");
+                    sum = sum.checked_add(*m).unwrap_or_else(|| effort::exceed());
                 } else {
                     powers.push((*y, *m));
                 }

@@ -1,5 +1,6 @@
 //! Rational numbers: of machine integers where these suffice, as nearly everywhere, and of GMP's elsewhere.
 
+use super::effort;
 use crate::operators;
 use rug::Rational;
 use std::cmp::Ordering;
@@ -25,12 +26,12 @@ operators! { [] Number;
             let [n, d, m, e] = [n, d, m, e].map(wide);
             Number::quotient(n * e + m * d, d * e)
         }
-        _ => (a.rational() + b.rational()).into(),
+        _ => Number::large(a.rational() + b.rational()),
     };
     Sub sub |a, b| a + -b;
     Mul mul |a, b| match (&a.0, &b.0) {
         (Small(n, d), Small(m, e)) => Number::quotient(wide(n) * wide(m), wide(d) * wide(e)),
-        _ => (a.rational() * b.rational()).into(),
+        _ => Number::large(a.rational() * b.rational()),
     };
     - |a| match &a.0 {
         Small(n, d) => Number::quotient(-wide(n), wide(d)),
@@ -84,6 +85,12 @@ impl Number {
             (Ok(n), Ok(d)) => Number(Small(n, d)),
             _ => Rational::from((n, d)).into(),
         }
+    }
+
+    /// One that may have many digits.
+    fn large(q: Rational) -> Self {
+        effort::spend((q.numer().significant_digits::<u64>() + q.denom().significant_digits::<u64>()) / 8);
+        q.into()
     }
 
     /// As one of GMP's.

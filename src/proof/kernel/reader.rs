@@ -3,7 +3,7 @@
 use super::algebra::{self, Poly, Ratio};
 use super::context::Context;
 use super::derivation::{Rounding, Signed, Why};
-use super::sign::{ERRORS, Sign};
+use super::sign::{Certificate, ERRORS, Sign, sign};
 use crate::formula::claim::SCALES;
 use crate::number::Tree;
 use crate::number::tree::Step;
@@ -16,18 +16,20 @@ pub(super) struct Reader<'a> {
     /// What has been rounded, without factors that are powers of two, and with which error.
     rounded: Vec<(Ratio, algebra::Symbol)>,
     pub(super) errors: Vec<Rounding>,
+    /// The factors of divisors.
+    factors: Vec<Certificate>,
 }
 
 impl<'a> Reader<'a> {
     pub(super) fn new(context: &'a Context) -> Self {
-        let (divisors, brackets, rounded) = Default::default();
-        Reader { context, divisors, brackets, rounded, errors: context.errors.clone() }
+        let (divisors, brackets, rounded, factors) = Default::default();
+        Reader { context, divisors, brackets, rounded, errors: context.errors.clone(), factors }
     }
 
     /// The sign of a quotient.
     pub(super) fn sign(&self, value: Ratio) -> Result<Signed, Why> {
         let value = self.context.reduce(&value);
-        self.context.sign(value.clone()).ok_or(Why::NoSign(value))
+        self.context.sign(value.clone(), &self.factors).ok_or(Why::NoSign(value))
     }
 
     /// The same, if it is such a sign.
@@ -56,11 +58,37 @@ impl<'a> Reader<'a> {
             return Err(Why::MightVanish(divisor));
         }
         if !divisor.is_number() && self.divisors.iter().all(|(known, _)| known != tree) {
-            let signed = self.context.sign(self.context.reduce(&divisor));
+            self.collect_factors(tree)?;
+            let signed = self.context.sign(self.context.reduce(&divisor), &self.factors);
             let signed = signed.filter(|s| s.num.sign().is_strict());
             self.divisors.push((tree.clone(), signed.ok_or_else(|| Why::MightVanish(divisor.clone()))?));
         }
         Ok(divisor)
+    }
+
+    /// Notes the signs of the factors that a divisor is a product of, also after rounding.
+    fn collect_factors(&mut self, tree: &Tree) -> Result<(), Why> {
+        match tree.step() {
+            Step::Mul(a, b) => [a, b].into_iter().try_for_each(|factor| self.collect_factors(factor)),
+            Step::Neg(a) | Step::Div(a, _) => self.collect_factors(a),
+            Step::Rounded(a) => {
+                let value = self.context.reduce(&self.read(a)?);
+                let (error, largest) = self.rounding(a, &value)?;
+                self.note_sign(&(largest + Ratio::from(Poly::symbol(error))));
+                self.collect_factors(a)
+            }
+            _ => {
+                let value = self.context.reduce(&self.read(tree)?);
+                self.note_sign(&value);
+                Ok(())
+            }
+        }
+    }
+
+    fn note_sign(&mut self, factor: &Ratio) {
+        if self.factors.iter().all(|known| known.of() != factor.num()) {
+            self.factors.extend(sign(factor.num(), &self.context.known));
+        }
     }
 
     pub(super) fn read(&mut self, tree: &Tree) -> Result<Ratio, Why> {
@@ -133,7 +161,7 @@ impl<'a> Reader<'a> {
     ) -> Result<Ratio, Why> {
         let (a, b) = (self.read(first)?, self.read(second)?);
         let value = self.context.reduce(&decides(a.clone(), b.clone()));
-        let signed = self.context.sign(value.clone()).ok_or(Why::OpenBracket(value))?;
+        let signed = self.context.sign(value.clone(), &self.factors).ok_or(Why::OpenBracket(value))?;
         let is_first = signed.sign().implies(Sign::NonNegative);
         if self.brackets.iter().all(|(known, ..)| known != bracket) {
             self.brackets.push((bracket.clone(), if is_first { first } else { second }.clone(), signed));

@@ -1,12 +1,11 @@
 //! The sign of a polynomial for all values of its symbols, with a certificate.
 //!
-//! Six rules, short certificates before long ones; each is sound by itself, and together they are not
-//! complete:
+//! Six rules, each sound by itself, short certificates before long ones; together they are not complete:
 //!
 //! 1. **Terms.** Every term has the same sign: a symbol known to be positive (or not negative) keeps it, a
 //!    free symbol does in an even power, and e^… is positive. Strict if one term is nowhere zero.
 //! 2. **Factor.** A product of powers common to all terms has a sign, and so has what is left; e^… can be
-//!    taken out of anything.
+//!    taken out of anything; and factors of divisors, whose signs are found by themselves.
 //! 3. **Square.** For a x² + b x + d with a ≠ 0: 4a(a x² + b x + d) = (2a x + b)² + (4a d − b²), so the
 //!    sign is a's if 4a d − b² is not negative.
 //! 4. **Slope.** By the mean value theorem, a function f that is continuous for x ≥ 0 and has a slope for
@@ -15,9 +14,10 @@
 //! 5. **Sizes.** Factors between −1 and 1 make a term no larger than it is without them. So the polynomial is
 //!    no less than what is left when each term with such factors is replaced by minus its size, and no more
 //!    than with plus its size.
-//! 6. **Ends.** What is of degree one in a symbol between −1 and 1 lies between its values at the two ends,
-//!    so it has a sign that both have. Where there are such symbols, this rule, the fifth and the first are
-//!    all that is tried.
+//! 6. **Ends.** A polynomial of degree n in a symbol x between −1 and 1 is a sum of products aⁱ (1 − a)ⁿ⁻ⁱ
+//!    with a = (1 + x)/2, none of them negative and not all 0, so it has a sign that all their coefficients
+//!    have (Bernstein's form); those of degree one are its values at the ends. Where there are such symbols,
+//!    this rule, the fifth, the first and factors of divisors are all that is tried.
 
 mod small;
 
@@ -108,7 +108,7 @@ pub struct Certificate {
 pub enum Rule {
     /// Rule 1.
     Terms,
-    /// Rule 2: a monomial, and what is left.
+    /// Rule 2: a factor, and what is left.
     Factor(Box<Certificate>, Box<Certificate>),
     /// Rule 3.
     Square {
@@ -125,8 +125,8 @@ pub enum Rule {
     Ends {
         /// The symbol.
         x: Symbol,
-        /// The signs at −1 and at 1.
-        at: Box<[Certificate; 2]>,
+        /// The signs of the sums, from that at −1 to that at 1.
+        at: Box<[Certificate]>,
     },
     /// Rule 4.
     Slope {
@@ -161,6 +161,17 @@ const DEPTH: u32 = 3;
 
 /// Nor is rule 4 tried on more terms than this: derivatives only grow.
 const TERMS: usize = 12;
+
+/// The sign of a polynomial, by rule 2 also with factors whose signs have been found before.
+pub fn sign_of_product(of: &Poly, factors: &[Certificate], known: &Known) -> Option<Certificate> {
+    sign(of, known).or_else(|| {
+        let factor = |factor: &Certificate| {
+            let rest = of.over(&factor.of).filter(|_| factor.of.terms().len() > 1)?;
+            Some(product(of, factor.clone(), sign_of_product(&rest, factors, known)?))
+        };
+        factors.iter().find_map(factor)
+    })
+}
 
 /// The sign of a polynomial, if the rules find one.
 pub fn sign(of: &Poly, known: &Known) -> Option<Certificate> {
@@ -211,21 +222,22 @@ fn factor(of: &Poly, known: &Known, depth: u32) -> Option<Certificate> {
         return None;
     }
     let factor = Poly::from(common);
-    product(of, &factor, within(&of.over(&factor)?, known, depth)?, known)
+    let rest = within(&of.over(&factor)?, known, depth)?;
+    Some(product(of, terms(&factor, known)?, rest))
 }
 
 /// Rule 2, with an e^…, where rule 4 decides what is left.
 fn exponential_factor(of: &Poly, known: &Known, depth: u32) -> Option<Certificate> {
     of.exponents().find_map(|exponent| {
         let rest = of * Poly::exponential(-exponent);
-        product(of, &Poly::exponential(exponent.clone()), slope(&rest, known, depth)?, known)
+        let factor = terms(&Poly::exponential(exponent.clone()), known)?;
+        Some(product(of, factor, slope(&rest, known, depth)?))
     })
 }
 
-fn product(of: &Poly, factor: &Poly, rest: Certificate, known: &Known) -> Option<Certificate> {
-    let factor = terms(factor, known)?;
+fn product(of: &Poly, factor: Certificate, rest: Certificate) -> Certificate {
     let sign = factor.sign.times(rest.sign);
-    Some(Certificate { of: of.clone(), sign, rule: Rule::Factor(factor.into(), rest.into()) })
+    Certificate { of: of.clone(), sign, rule: Rule::Factor(factor.into(), rest.into()) }
 }
 
 /// Rule 3.
@@ -271,8 +283,7 @@ fn is_continuous(of: &Poly, known: &Known) -> bool {
     of.exponents().all(|exponent| exponent.is_of_polynomials() && numerator(exponent, known).is_some())
 }
 
-/// A polynomial with the sign of the quotient: its numerator, or minus that if the denominator is negative.
-/// None if that is not known.
+/// A polynomial with the sign of the quotient, if that of its denominator is known.
 fn numerator(of: &Ratio, known: &Known) -> Option<Poly> {
     match terms(of.den(), known)?.sign {
         Positive => Some(of.num().clone()),

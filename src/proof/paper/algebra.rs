@@ -85,13 +85,19 @@ impl Order<'_> {
                 vec![format!("{of} {sign}: with the sizes of errors it is {no} than {left}")]
             }
             Rule::Ends { x: Symbol(x), at } => {
-                let mut lines = vec![format!("{of} {sign}, at {x} = −1 and at {x} = 1:")];
+                let mut lines = vec![match at.len() {
+                    2 => format!("{of} {sign}, at {x} = −1 and at {x} = 1:"),
+                    _ => format!("{of} {sign}, by its Bernstein form in {x} from −1 to 1:"),
+                }];
                 lines.extend(at.iter().flat_map(|end| self.certificate(end)));
                 lines
             }
             Rule::Factor(factor, rest) => {
                 let mut lines =
                     vec![format!("{of} = ({}) ({}) {sign}, since", poly(factor.of()), poly(rest.of()))];
+                if factor.of().terms().len() > 1 {
+                    lines.extend(self.certificate(factor));
+                }
                 lines.extend(self.certificate(rest));
                 lines
             }
@@ -127,6 +133,10 @@ impl Order<'_> {
             Why::NoLimit(value) => format!("no rule finds the limit of {}", ratio(value)),
             Why::Kink => "⟨·⟩ and min have kinks, so no derivative of them is taken".to_string(),
             Why::Reserved(name) => format!("{name} is a name that proofs keep for themselves"),
+            Why::TooLarge(what, most) => format!("{what} exceeds the limit of {most} terms"),
+            Why::AssumedOfComputed(name) => {
+                format!("{name} is computed at each step: nothing may be assumed of it but its interval")
+            }
             Why::Nothing => "it says nothing".to_string(),
         }
     }

@@ -18,8 +18,10 @@ pub fn is_small(x: Symbol) -> bool {
     ERRORS.contains(&x.0) || PLACES.contains(&x.0)
 }
 
-/// Rule 6 is used on so many symbols, one inside the other, and on so many terms.
-pub(super) const ENDS: u32 = 4;
+/// Rule 6 is used on at most this many symbols, one inside the other, up to this degree, and on at most this
+/// many terms.
+pub(super) const ENDS: u32 = 6;
+pub(super) const MAX_DEGREE: u32 = 4;
 pub(super) const TERMS_AT_ENDS: usize = 1000;
 
 /// Rule 5.
@@ -52,15 +54,34 @@ pub(super) fn ends(of: &Poly, small: &[Symbol], known: &Known, more: u32) -> Opt
         return None;
     }
     let raised = |x: &Symbol| of.exponents().any(|e| e.symbols().contains(x));
-    let linear = |x: &&Symbol| of.degree(**x) == 1 && !raised(x);
-    let x = *small.iter().find(linear)?;
-    let [rest, slope] = <[Poly; 2]>::try_from(of.coefficients(x)).ok()?;
+    let degrees = small.iter().map(|x| (of.degree(*x), *x));
+    let (_, x) = degrees.filter(|(n, x)| (1..=MAX_DEGREE).contains(n) && !raised(x)).min()?;
     let sign = |of: Poly| {
         terms(&of, known).or_else(|| sizes(&of, small, known)).or_else(|| ends(&of, small, known, more))
     };
-    let (low, high) = (sign(&rest - &slope)?, sign(rest + slope)?);
-    // Between two numbers of one sign there is no other, and no zero if neither is.
+    let at: Vec<_> = bernstein(&of.coefficients(x)).into_iter().map(sign).collect::<Option<_>>()?;
+    // Between numbers of one sign there is no other, and no zero if none is.
     let one = [Positive, Negative, NonNegative, NonPositive];
-    let both = one.into_iter().find(|sign| low.sign.implies(*sign) && high.sign.implies(*sign))?;
-    Some(Certificate { of: of.clone(), sign: both, rule: Rule::Ends { x, at: [low, high].into() } })
+    let all = one.into_iter().find(|sign| at.iter().all(|own| own.sign.implies(*sign)))?;
+    Some(Certificate { of: of.clone(), sign: all, rule: Rule::Ends { x, at: at.into() } })
+}
+
+/// The sums bᵢ for which a polynomial c₀ + c₁ x + … + cₙ xⁿ is Σ bᵢ aⁱ (1 − a)ⁿ⁻ⁱ, where a = (1 + x)/2.
+///
+/// In it xᵏ = (a − (1 − a))ᵏ (a + (1 − a))ⁿ⁻ᵏ.
+fn bernstein(coefficients: &[Poly]) -> Vec<Poly> {
+    let degree = coefficients.len() - 1;
+    let times = |factors: &[i32], by: i32| -> Vec<i32> {
+        let shifted = [0].iter().chain(factors);
+        factors.iter().chain(&[0]).zip(shifted).map(|(low, high)| by * low + high).collect()
+    };
+    // The factors of aⁱ (1 − a)ⁿ⁻ⁱ in xᵏ.
+    let factors = |k: usize| {
+        let minus = (0..k).fold(vec![1], |all, _| times(&all, -1));
+        (k..degree).fold(minus, |all, _| times(&all, 1))
+    };
+    let powers = coefficients.iter().enumerate().map(|(k, c)| (c, factors(k)));
+    powers.fold(vec![Poly::zero(); degree + 1], |sums, (c, factors)| {
+        sums.iter().zip(factors).map(|(sum, n)| sum + c * Poly::constant(n)).collect()
+    })
 }
