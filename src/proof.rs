@@ -36,5 +36,5 @@ pub mod paper;
 pub mod refute;
 
 pub use controls::{Controls, controls};
-pub use kernel::{Proof, Why, prove};
+pub use kernel::{MAX_DEPTH, MAX_EFFORT, MAX_SIZE, Proof, Why, prove};
 pub use refute::{Counterexample, refute, sharpest};

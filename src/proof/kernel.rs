@@ -10,7 +10,8 @@
 //! equals then. (For R = m g − c (H − l) > 0: m g by s + c (H − l); or H by (c l + m g − s)/c, where c ≠ 0
 //! is known.) Equals are replaced by equals, so what is proved of all values of the symbols that are left,
 //! s > 0 among them, holds in particular for those that satisfy the hypothesis. Which monomial is chosen
-//! matters for success and not for soundness.
+//! matters for success and not for soundness. Where no pivot is found, v may be divided by a symbol that is
+//! known not to be 0: for k > 0, the hypothesis 1 − k > 0 is (1 − k)/k = s > 0, and k is 1/(1 + s).
 //!
 //! | to prove | the rule |
 //! |---|---|
