@@ -5,11 +5,12 @@ mod algebra;
 use self::algebra::Order;
 use super::kernel::sign::{Certificate, Rule, Sign};
 use super::kernel::{Because, Derivation, Direct, Proof, Rounding, Signed, Supposed, Used, Why};
-use crate::formula::claim::{MEMBERS, PRECISION};
-use crate::formula::statement::{Goal, Says, Sequence, Statement};
-use crate::formula::{Formula, Hypothesis, Notation, Registry};
+use crate::formula::claim::{MEMBERS, POWER, PRECISION};
+use crate::formula::statement::{Goal, Role, Says, Sequence, Statement};
+use crate::formula::{Formula, Hypothesis, Notation, Registry, name_of_rounding};
 use crate::number::tree::Step;
 use crate::number::{PositivePart, Tree};
+use std::collections::BTreeSet;
 
 /// Writes claims and proofs in the names that a registry has for quantities.
 #[derive(Clone, Copy, Debug)]
@@ -25,34 +26,58 @@ impl<'a> Paper<'a> {
 
     /// What a claim says, in one line.
     pub fn claim(&self, statement: &Statement) -> String {
-        if let Some(Sequence { start, step, ratio, member, limit, within }) = &statement.amounts_to {
-            let together =
-                |trees: &[Tree]| trees.iter().map(|tree| self.text(tree)).collect::<Vec<_>>().join(", ");
-            let (ratio, member) = (self.text(ratio), together(member));
-            return match limit {
-                None if !within.is_empty() => {
-                    let bound =
-                        |(of, bound): &(Tree, Tree)| self.says(&Says::Within(of.clone(), bound.clone()));
-                    let bounds: Vec<_> = within.iter().map(bound).collect();
-                    let (from, to) = (together(start), together(step));
-                    let x = MEMBERS[0];
-                    format!(
-                        "k steps from {from}, each of {x} to {to}, lead to {x} with {}, where q = {ratio}ᵏ",
-                        bounds.join(" and ")
-                    )
-                }
-                Some(limit) => format!("{member} → {} for q = {ratio}ᵏ and k → ∞", self.text(limit)),
-                None => {
-                    let (from, to, members) = (together(start), together(step), &MEMBERS[..step.len()]);
-                    let members = members.join(", ");
-                    format!(
-                        "k steps from {from}, each of {members} to {to}, lead to {member}, where q = {ratio}ᵏ"
-                    )
-                }
-            };
+        let computed = statement.computed.iter();
+        let computed: String =
+            computed.map(|computed| format!("{} = {}", computed.symbol, self.text(&computed.by))).collect();
+        let Some(sequence) = &statement.amounts_to else {
+            let goals = statement.goals.iter().filter(|goal| goal.role == Role::Claim);
+            let goals: Vec<_> = goals.map(|goal| self.says(&goal.says)).collect();
+            let place = if computed.is_empty() { String::new() } else { format!(", where {computed}") };
+            return goals.join("; ") + &place;
+        };
+        let Sequence { start, step, ratio, member, limit, within } = sequence;
+        let together =
+            |trees: &[Tree]| trees.iter().map(|tree| self.text(tree)).collect::<Vec<_>>().join(", ");
+        let (index, power) = (self.index(statement), self.power(statement, ratio));
+        let place = if computed.is_empty() { power } else { format!("{power} and {computed}") };
+        if let Some(limit) = limit {
+            return format!("{} → {} for {place} and {index} → ∞", together(member), self.text(limit));
         }
-        let goals = statement.goals.iter().map(|goal| self.says(&goal.says));
-        goals.collect::<Vec<_>>().join("; ")
+        let (from, to, members) = (together(start), together(step), MEMBERS[..step.len()].join(", "));
+        let bound = |(of, bound): &(Tree, Tree)| self.says(&Says::Within(of.clone(), bound.clone()));
+        let leads_to = match &within.iter().map(bound).collect::<Vec<_>>()[..] {
+            [] => together(member),
+            bounds => format!("{members} with {}", bounds.join(" and ")),
+        };
+        format!("{index} steps from {from}, each of {members} to {to}, lead to {leads_to}, where {place}")
+    }
+
+    /// What holds of a sequence at every step, and of what is computed: part of the proof, and not supposed.
+    pub fn always(&self, statement: &Statement) -> Vec<String> {
+        let computed = statement.computed.iter().map(|computed| &computed.hypothesis);
+        let all = statement.invariants.iter().chain(computed);
+        all.map(|hypothesis| self.registry.supposed(hypothesis)).collect()
+    }
+
+    /// What counts the steps of a sequence: a letter that stands for nothing else in the statement.
+    pub fn index(&self, statement: &Statement) -> char {
+        self.letter(statement).0
+    }
+
+    /// The same with the letter as an exponent.
+    fn letter(&self, statement: &Statement) -> (char, char) {
+        let symbols: Vec<_> = statement.trees().flat_map(Tree::symbols).collect();
+        let names = self.called(statement).into_iter().map(|formula| formula.symbol);
+        let taken: BTreeSet<_> = symbols.into_iter().chain(names).collect();
+        let is_free = |(letter, _): &&(char, char)| !taken.contains(letter.to_string().as_str());
+        *LETTERS.iter().find(is_free).unwrap_or(&LETTERS[0])
+    }
+
+    /// What a power of a ratio is: `q = ρᵏ`.
+    fn power(&self, statement: &Statement, ratio: &Tree) -> String {
+        let (_, exponent) = self.letter(statement);
+        let power = ratio.raised(&exponent.to_string(), &|tree| self.registry.named(tree));
+        format!("{POWER} = {power}")
     }
 
     /// What a goal says.
@@ -93,6 +118,12 @@ impl<'a> Paper<'a> {
 
     /// What the names in a claim stand for, those that occur: `R = m g − c (H − l)`.
     pub fn names(&self, statement: &Statement) -> Vec<String> {
+        let called = self.called(statement).into_iter();
+        called.map(|f| format!("{} = {}", f.symbol, self.registry.typeset(f, Notation::Text))).collect()
+    }
+
+    /// The formulas that a statement speaks of by name, and those that these speak of.
+    fn called(&self, statement: &Statement) -> Vec<&'a Formula> {
         let mut called: Vec<&'a Formula> = Vec::new();
         fn collect<'a>(registry: &'a Registry, tree: &Tree, called: &mut Vec<&'a Formula>) {
             if let Some(call) = registry.call(tree).filter(|call| call.formula.folded) {
@@ -105,6 +136,11 @@ impl<'a> Paper<'a> {
             }
         }
         statement.trees().for_each(|tree| collect(self.registry, tree, &mut called));
+        if let Some(Sequence { start, step, ratio, member, limit, within }) = &statement.amounts_to {
+            let bounds = within.iter().flat_map(|(of, bound)| [of, bound]);
+            let all = start.iter().chain(step).chain([ratio]).chain(member).chain(limit).chain(bounds);
+            all.for_each(|tree| collect(self.registry, tree, &mut called));
+        }
         // What a name stands for may be said by further names.
         let mut i = 0;
         while let Some(formula) = called.get(i).copied() {
@@ -112,9 +148,6 @@ impl<'a> Paper<'a> {
             i += 1;
         }
         called
-            .iter()
-            .map(|f| format!("{} = {}", f.symbol, self.registry.typeset(f, Notation::Text)))
-            .collect()
     }
 
     /// Why there is no proof.
@@ -126,21 +159,30 @@ impl<'a> Paper<'a> {
     pub fn proof(&self, proof: &Proof) -> Vec<String> {
         let statement = proof.statement();
         let mut lines = Vec::new();
-        lines.extend(statement.amounts_to.as_ref().map(|sequence| {
-            let by = match sequence.limit {
-                None => "by induction on k, with q = ρᵏ: for q = 1, and from q to ρ q",
-                Some(_) => {
-                    "if |ρ| < 1 then ρᵏ → 0, and what is continuous in q at 0 tends to what it is there"
+        lines.extend(statement.amounts_to.as_ref().map(|Sequence { ratio, limit, .. }| {
+            let (index, power) = (self.index(statement), self.power(statement, ratio));
+            match limit {
+                None => {
+                    let next = self.text(&(ratio * Tree::symbol(POWER)));
+                    format!("by induction on {index}, with {power}: for {POWER} = 1, and from {POWER} to {next}")
                 }
-            };
-            by.to_string()
+                Some(_) => {
+                    let size = self.text(&ratio.abs());
+                    format!("{power} → 0 if {size} < 1, and what is continuous in {POWER} at 0 tends to what it is there")
+                }
+            }
         }));
         let single = statement.goals.len() == 1;
         for (Goal { part, says: goal, .. }, derivation) in statement.goals.iter().zip(proof.goals()) {
             if single {
                 self.derivation(derivation, 0, &mut lines);
             } else {
-                lines.push(format!("{part}: {}", self.says(goal)));
+                let part = match &statement.amounts_to {
+                    Some(Sequence { ratio, .. }) => part.replace("|ρ|", &self.text(&ratio.abs())),
+                    None => part.to_string(),
+                };
+                let colon = if part.is_empty() { "" } else { ": " };
+                lines.push(format!("{part}{colon}{}", self.says(goal)));
                 self.derivation(derivation, 1, &mut lines);
             }
         }
@@ -211,10 +253,11 @@ impl<'a> Paper<'a> {
 
     /// What is rounded, with the names of its errors.
     fn errors(&self, direct: &Direct) -> Option<String> {
-        let own = |own: &Rounding| format!("{} of fl({})", own.error().0, self.text(own.of()));
+        let own = |own: &Rounding| {
+            format!("{} of {}({})", own.error().0, name_of_rounding(own.of()), self.text(own.of()))
+        };
         let errors: Vec<_> = direct.errors().iter().map(own).collect();
-        let model = format!("fl(x) = x (1 + γ e) with |e| ≤ 1, γ = 1 / ({PRECISION} + 1): ");
-        (!errors.is_empty()).then(|| model + &errors.join(", "))
+        (!errors.is_empty()).then(|| model() + &errors.join(", "))
     }
 
     /// A bound of what is rounded: what all of its cases have in common is said once, and what is long by its
@@ -313,6 +356,27 @@ impl<'a> Paper<'a> {
     fn text(&self, tree: &Tree) -> String {
         self.registry.text(tree)
     }
+}
+
+/// Letters that count steps, the first that is free; and the same as exponents.
+const LETTERS: [(char, char); 12] = [
+    ('k', 'ᵏ'),
+    ('j', 'ʲ'),
+    ('i', 'ⁱ'),
+    ('n', 'ⁿ'),
+    ('m', 'ᵐ'),
+    ('r', 'ʳ'),
+    ('s', 'ˢ'),
+    ('t', 'ᵗ'),
+    ('w', 'ʷ'),
+    ('x', 'ˣ'),
+    ('y', 'ʸ'),
+    ('z', 'ᶻ'),
+];
+
+/// What an error of rounding is; the names of errors follow.
+fn model() -> String {
+    format!("fl(…) = … (1 + eᵢ / ({PRECISION} + 1)) with |eᵢ| ≤ 1: ")
 }
 
 /// How a claim was proved, in a few words.

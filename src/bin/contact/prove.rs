@@ -145,6 +145,7 @@ fn amiss(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
             Answer::None(why, None) => {
                 writeln!(out)?;
                 output::wrapped(out, "", 2, &format!("{equation} {name} UNKNOWN: {why}"))?;
+                output::wrapped(out, "  ", 4, &together(&paper().claim(statement)))?;
             }
             Answer::None(_, Some(counterexample)) => {
                 writeln!(out, "\n{equation} {name} REFUTED")?;
@@ -239,9 +240,11 @@ fn account(out: &mut dyn Write, proofs: &Proofs, proved: &Proved) -> io::Result<
     if !statement.hypotheses.is_empty() {
         say("if", &[proved.hypotheses().join(", ")])?;
     }
-    let invariants = registry().all_supposed(&statement.invariants);
-    if !invariants.is_empty() {
-        say("always", &[format!("{} for every k, which is part of the proof", invariants.join(", "))])?;
+    let always = paper().always(statement);
+    if !always.is_empty() {
+        let every = statement.amounts_to.as_ref().map(|_| format!(" for every {}", paper().index(statement)));
+        let every = every.unwrap_or_default();
+        say("always", &[format!("{}{every}, which is part of the proof", always.join(", "))])?;
     }
     say("where", &paper().names(statement))?;
     match answer {
@@ -267,8 +270,10 @@ fn markdown(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
     writeln!(out, "|---|---|---|---|---|---|")?;
     proofs.claims.iter().try_for_each(|proved| {
         let Statement { equation, name, .. } = &proved.statement;
-        let says = paper().claim(&proved.statement).replace('|', "\\|");
-        let (given, how, status) = (proved.hypotheses().join(", "), how(proved), proved.status());
+        // In a cell of a table.
+        let [says, given] = [paper().claim(&proved.statement), proved.hypotheses().join(", ")]
+            .map(|text| text.replace('|', "\\|"));
+        let (how, status) = (how(proved), proved.status());
         writeln!(out, "| {equation} | {name} | {says} | {given} | {how} | {status} |")
     })
 }
