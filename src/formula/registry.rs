@@ -103,7 +103,7 @@ impl Registry {
     }
 
     /// With symbols that are parameters: where a name is said with its arguments, they are not said as long
-    /// as they are themselves.
+    /// as all of them are themselves.
     pub fn quiet(self, quiet: &[&'static str]) -> Self {
         Registry { quiet: quiet.to_vec(), ..self }
     }
@@ -322,9 +322,10 @@ impl Names<'_> {
         let arguments = if named.iter().all(|(argument, name)| usual(argument, name)) {
             Vec::new()
         } else {
+            // All of the parameters or none: whoever reads fewer arguments has to know which.
             let quiet = |name: &str| self.registry.quiet.contains(&name);
-            let said = named.into_iter().filter(|(argument, name)| !quiet(name) || !usual(argument, name));
-            said.map(|(argument, _)| argument).collect()
+            let said = named.iter().any(|(argument, name)| quiet(name) && !usual(argument, name));
+            named.into_iter().filter(|(_, name)| said || !quiet(name)).map(|(argument, _)| argument).collect()
         };
         Some(Name { symbol: formula.symbol.to_string(), arguments })
     }
