@@ -51,7 +51,8 @@ struct Reader<'a> {
 /// All symbols of the tests and of the chapter, those first that begin with another.
 static SYMBOLS: LazyLock<Vec<&str>> = LazyLock::new(|| {
     let of_formulas = registry().formulas().iter().flat_map(|formula| formula.tree.symbols());
-    let of_claims = statements().into_iter().flat_map(|s| s.trees().flat_map(Tree::symbols).collect::<Vec<_>>());
+    let of_claims =
+        statements().into_iter().flat_map(|s| s.trees().flat_map(Tree::symbols).collect::<Vec<_>>());
     let mut all: Vec<_> = OWN.into_iter().chain(MEMBERS).chain(of_formulas).chain(of_claims).collect();
     all.sort_by_key(|name| std::cmp::Reverse(name.len()));
     all
@@ -156,7 +157,8 @@ impl<'a> Reader<'a> {
 
     fn term(&mut self) -> Option<Exact> {
         let (mut product, mut exact) = self.factor()?;
-        while self.rest.starts_with(['·', ' ']) && ![" + ", " − ", " / "].iter().any(|s| self.rest.starts_with(s))
+        while self.rest.starts_with(['·', ' '])
+            && ![" + ", " − ", " / "].iter().any(|s| self.rest.starts_with(s))
         {
             assert!(self.eat("·") || self.eat(" "));
             let (factor, scale) = self.factor()?;
@@ -280,6 +282,84 @@ fn rounded_trees() -> impl Strategy<Value = Tree> {
     prop_oneof![2 => some, 1 => once, 3 => steps]
 }
 
+/// LaTeX as the text that it shows: fractions as quotients in brackets, exponents in small digits.
+fn shown(latex: &str) -> String {
+    // What is in braces, and the rest.
+    fn braced(latex: &str) -> (&str, &str) {
+        let inner = latex.strip_prefix('{').unwrap_or_else(|| panic!("{latex}: no brace"));
+        let mut depth = 1;
+        let end = inner.find(|c| {
+            depth += match c {
+                '{' => 1,
+                '}' => -1,
+                _ => 0,
+            };
+            depth == 0
+        });
+        let end = end.unwrap_or_else(|| panic!("{latex}: open"));
+        (&inner[..end], &inner[end + 1..])
+    }
+    let mut symbols: Vec<_> =
+        OWN.iter().map(|name| (spring_mass_contact::formula::latex(name), *name)).collect();
+    symbols.sort_by_key(|(own, _)| std::cmp::Reverse(own.len()));
+    let (mut text, mut rest) = (String::new(), latex);
+    while !rest.is_empty() {
+        if let Some(both) = rest.strip_prefix("\\frac").or(rest.strip_prefix("\\tfrac")) {
+            let ((over, rest_of), is_number) = (braced(both), rest.starts_with("\\t"));
+            let (under, after) = braced(rest_of);
+            let quotient = format!("({}) / ({})", shown(over), shown(under));
+            text += &if is_number { format!("({quotient})") } else { quotient };
+            rest = after;
+            continue;
+        }
+        if let Some(exponent) = rest.strip_prefix("\\mathrm{e}^") {
+            let (exponent, after) = braced(exponent);
+            text += &format!("exp({})", shown(exponent));
+            rest = after;
+            continue;
+        }
+        if let Some((own, name)) = symbols.iter().find(|(own, _)| rest.starts_with(own.as_str())) {
+            text += name;
+            rest = &rest[own.len()..];
+            continue;
+        }
+        if let Some(exponent) = rest.strip_prefix('^') {
+            let (digits, after) =
+                if exponent.starts_with('{') { braced(exponent) } else { exponent.split_at(1) };
+            text.extend(
+                digits.chars().map(|c| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(c.to_digit(10).unwrap() as usize).unwrap()),
+            );
+            rest = after;
+            continue;
+        }
+        const SIGNS: [(&str, &str); 14] = [
+            ("\\,", " "),
+            (" \\cdot ", "·"),
+            ("\\langle ", "⟨"),
+            ("\\left\\langle ", "⟨"),
+            (" \\rangle", "⟩"),
+            ("\\right\\rangle", "⟩"),
+            ("\\lvert ", "|"),
+            ("\\left\\lvert ", "|"),
+            (" \\rvert", "|"),
+            ("\\right\\rvert", "|"),
+            ("\\left(", "("),
+            ("\\right)", ")"),
+            ("\\m", "m"),
+            ("-", "−"),
+        ];
+        if let Some((sign, own)) = SIGNS.iter().find(|(sign, _)| rest.starts_with(sign)) {
+            text += own;
+            rest = &rest[sign.len()..];
+            continue;
+        }
+        let c = rest.chars().next().unwrap();
+        text.push(c);
+        rest = &rest[c.len_utf8()..];
+    }
+    text
+}
+
 /// The round brackets of a text: where each opens, and what it holds.
 fn brackets(text: &str) -> Vec<(usize, &str)> {
     let (mut open, mut all) = (Vec::new(), Vec::new());
@@ -304,6 +384,20 @@ proptest! {
     fn a_text_has_the_value_of_its_tree(tree in trees()) {
         if let Some(expected) = replayed(&tree) {
             prop_assert_eq!(Reader::value(&tree), Some(expected), "{}", tree);
+        }
+    }
+
+    #[test]
+    fn latex_has_the_value_of_its_tree(tree in trees()) {
+        if let Some(expected) = replayed(&tree) {
+            let latex = tree.latex();
+            prop_assert!(!latex.contains(['²', '·', 'ᵖ', '−']), "{}", latex);
+            // No blank is seen.
+            let digit = |piece: Option<char>| piece.is_some_and(|c| c.is_ascii_digit());
+            let pieces: Vec<_> = latex.split(' ').collect();
+            let runs = |pair: &[&str]| digit(pair[0].chars().last()) && digit(pair[1].chars().next());
+            prop_assert!(!pieces.windows(2).any(runs), "{}", latex);
+            prop_assert_eq!(Reader::new(&shown(&latex)).all(), Some(expected), "{}", latex);
         }
     }
 
@@ -408,7 +502,8 @@ impl<'a> Text<'a> {
     }
 
     fn is_said(self, says: &Says) {
-        let between = |keyword: &str, close: &str| self.0.strip_prefix(keyword).and_then(|rest| rest.split_once(close));
+        let between =
+            |keyword: &str, close: &str| self.0.strip_prefix(keyword).and_then(|rest| rest.split_once(close));
         match says {
             Says::Equal(a, b) => {
                 let (left, said, right) = self.sides();
@@ -488,7 +583,10 @@ impl<'a> Text<'a> {
                 Some(bounds) => {
                     let bounds: Vec<_> = bounds.split(" and ").collect();
                     assert_eq!(bounds.len(), within.len(), "{}", self.0);
-                    bounds.iter().zip(within).for_each(|(part, (of, bound))| self.part(part).is_within(of, bound));
+                    bounds
+                        .iter()
+                        .zip(within)
+                        .for_each(|(part, (of, bound))| self.part(part).is_within(of, bound));
                 }
             }
             self.is_power(place, index, statement)
@@ -500,7 +598,11 @@ impl<'a> Text<'a> {
     fn is_power(self, place: &'a str, index: &str, statement: &Statement) -> Option<Self> {
         let (power, computed) = place.split_once(" and ").unwrap_or((place, ""));
         self.is_computed(computed, statement);
-        assert!(statement.trees().all(|tree| !tree.symbols().contains(index)), "{}: {index} is taken", self.0);
+        assert!(
+            statement.trees().all(|tree| !tree.symbols().contains(index)),
+            "{}: {index} is taken",
+            self.0
+        );
         let exponent = "kjin".chars().position(|letter| letter.to_string() == index);
         let exponent = "ᵏʲⁱⁿ".chars().nth(exponent.expect(index))?;
         let base = power.strip_suffix(exponent).expect(self.0);
@@ -534,9 +636,10 @@ fn hypotheses() -> impl Strategy<Value = Hypothesis> {
         (tree(), tree()).prop_map(|(a, b)| -a - b),
         (tree(), tree()).prop_map(|(a, b)| -a + b),
     ];
-    let sign = (relations(), value).prop_filter_map("of a number nothing is supposed", |(relation, value)| {
-        value.first_symbol().map(|_| Hypothesis::new(relation, value))
-    });
+    let sign = (relations(), value)
+        .prop_filter_map("of a number nothing is supposed", |(relation, value)| {
+            value.first_symbol().map(|_| Hypothesis::new(relation, value))
+        });
     let x = || Tree::symbol("v");
     prop_oneof![
         3 => sign,

@@ -6,6 +6,7 @@
 //! arguments, and `«penalty::contact_force in full»` spells out also what has a name of its own, here p.
 
 use super::Hypothesis;
+use super::claim::{POWER, PRECISION, SCALES};
 use super::typeset::{Name, Notation, latex};
 use crate::number::Tree;
 use crate::number::tree::{Site, Step};
@@ -75,11 +76,21 @@ impl Registry {
     /// quantities that are spoken of, in the order in which they are to be listed.
     ///
     /// # Panics
-    /// Two functions have the same name.
+    /// Two functions have the same name; or what a text writes for a [folded](Formula::folded) one stands for
+    /// something else as well: a quantity, another folded function, or what proofs and sequences call so.
     pub fn new(symbols: &[&'static str], formulas: Vec<Formula>) -> Self {
-        let mut names = BTreeSet::new();
-        for name in formulas.iter().map(Formula::name) {
+        let (mut names, mut taken) = (BTreeSet::new(), BTreeSet::new());
+        for formula in &formulas {
+            let (name, symbol) = (formula.name(), formula.symbol);
             assert!(names.insert(name.clone()), "two functions are called {name}");
+            if formula.folded {
+                assert!(!symbols.contains(&symbol), "{name} is written as {symbol}, which is a quantity");
+                assert!(
+                    !is_reserved(symbol),
+                    "{name} is written as {symbol}, which is a name that proofs keep"
+                );
+                assert!(taken.insert(symbol), "{name} is written as {symbol}, and another function too");
+            }
         }
         let mut by_site: HashMap<Site, Vec<usize>> = HashMap::new();
         let mut sites = HashSet::new();
@@ -290,6 +301,14 @@ impl Formula {
     }
 }
 
+/// Is it what printed proofs call something: 2ᵖ, q, or e, s, t, x with a number?
+fn is_reserved(symbol: &str) -> bool {
+    let numbered = symbol
+        .strip_prefix(['e', 's', 't', 'x'])
+        .is_some_and(|number| !number.is_empty() && number.chars().all(|c| ('₀'..='₉').contains(&c)));
+    numbered || [PRECISION, POWER, "fl", "nearest"].contains(&symbol) || SCALES.contains(&symbol)
+}
+
 /// What the parts of a formula are called in it.
 struct Names<'a> {
     registry: &'a Registry,
@@ -416,6 +435,29 @@ mod tests {
         let registry = registry().alike(&[["a", "b"], ["c", "a"]]);
         let others = |symbol| registry.mistaken_for(symbol).collect::<Vec<_>>();
         assert_eq!((others("a"), others("b"), others("d")), (vec!["b", "c"], vec!["a"], vec![]));
+    }
+
+    /// A name in a text stands for one thing.
+    #[test]
+    fn what_is_written_for_a_function_is_taken_by_nothing_else() {
+        let folded = |path, symbol, tree: Tree| Formula::new(path, symbol, &["a"], tree).folded();
+        let panics = |formulas: Vec<Formula>| {
+            let made = std::panic::catch_unwind(|| Registry::new(&["a", "k"], formulas)).map(|_| ());
+            *made.unwrap_err().downcast::<String>().unwrap()
+        };
+        let double = |symbol| folded("double", symbol, x("a") + x("a"));
+        assert_eq!(panics(vec![double("k")]), "double is written as k, which is a quantity");
+        let square = folded("square", "d", x("a") * x("a"));
+        assert_eq!(panics(vec![double("d"), square]), "square is written as d, and another function too");
+        for kept in ["s₁", "e₂₄", "t₆", "x₁", "q", "2ᵖ", "2ᵃ", "fl"] {
+            let expected = format!("double is written as {kept}, which is a name that proofs keep");
+            assert_eq!(panics(vec![double(kept)]), expected);
+        }
+        // Nobody writes what is not folded.
+        Registry::new(
+            &["a", "k"],
+            vec![Formula { folded: false, path: "again", ..double("k") }, double("s")],
+        );
     }
 
     /// k + 2 a, where k is no argument: of another k, or with another number, it is no call.

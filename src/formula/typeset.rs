@@ -56,11 +56,13 @@ impl Tree {
         let sum = Layout { name }.sum(self);
         let writer = Writer { notation: Notation::Text, inline: true };
         let base = match &sum[..] {
-            [term] if !term.negative && term.under.is_one() => match (&term.over.factors[..], term.over.number) {
-                ([], _) => Some(writer.term(term)),
-                ([(factor, 1)], 1) => Some(writer.base(factor)),
-                _ => None,
-            },
+            [term] if !term.negative && term.under.is_one() => {
+                match (&term.over.factors[..], term.over.number) {
+                    ([], _) => Some(writer.term(term)),
+                    ([(factor, 1)], 1) => Some(writer.base(factor)),
+                    _ => None,
+                }
+            }
             _ => None,
         };
         base.unwrap_or_else(|| format!("({})", writer.sum(&sum))) + exponent

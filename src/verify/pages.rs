@@ -95,7 +95,7 @@ fn account(entry: &Entry) -> String {
                     block
                 }
             }
-            Err(why) => format!("**not proved**: {}\n", paper.why(&why)),
+            Err(why) => format!("**not proved**: {}\n", paper.why(&statement, &why)),
         };
     }
     text

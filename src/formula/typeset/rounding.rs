@@ -92,7 +92,8 @@ fn is_implied(of: &Tree, is_left: bool, operand: &Tree) -> bool {
 
 /// Returns `true` if a text has simpler steps: 1 a is written as a, a + 0 as a, 2 · 3 as 6.
 fn is_simplified(operation: &Tree) -> bool {
-    let is = |tree: &Tree, numbers: &[i32]| matches!(unsigned(tree).step(), Int(n) if numbers.contains(&n.abs()));
+    let is =
+        |tree: &Tree, numbers: &[i32]| matches!(unsigned(tree).step(), Int(n) if numbers.contains(&n.abs()));
     match operation.step() {
         Add(a, b) | Sub(a, b) => is(a, &[0]) || is(b, &[0]),
         Mul(a, b) => is(a, &[0, 1]) || is(b, &[0, 1]) || [a, b].into_iter().all(is_number),
