@@ -2,6 +2,7 @@
 #![cfg(feature = "prover")]
 
 use proptest::prelude::*;
+use proptest::test_runner::TestRunner;
 use spring_mass_contact::claims::{registry, statements};
 use spring_mass_contact::formula::claim::{MEMBERS, POWER};
 use spring_mass_contact::formula::statement::{Role, Says, Sequence};
@@ -9,6 +10,8 @@ use spring_mass_contact::formula::{Claim, Formula, Hypothesis, Kind, Rate, Regis
 use spring_mass_contact::number::tree::{Step, piecewise};
 use spring_mass_contact::number::{Exact, Exponential, Field, PositivePart, Tree};
 use spring_mass_contact::proof::paper::Paper;
+use spring_mass_contact::proof::prove;
+use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 /// No rational is an exponential: any function serves that does not vanish or repeat by accident.
@@ -45,6 +48,8 @@ struct Reader<'a> {
     /// Whose names may stand for formulas, and the arguments that a name may be said without if they are themselves.
     registry: &'a Registry,
     quiet: &'a [&'static str],
+    /// Numbers for symbols.
+    at: &'a dyn Fn(&str) -> Exact,
     rounding: bool,
 }
 
@@ -53,7 +58,9 @@ static SYMBOLS: LazyLock<Vec<&str>> = LazyLock::new(|| {
     let of_formulas = registry().formulas().iter().flat_map(|formula| formula.tree.symbols());
     let of_claims =
         statements().into_iter().flat_map(|s| s.trees().flat_map(Tree::symbols).collect::<Vec<_>>());
-    let mut all: Vec<_> = OWN.into_iter().chain(MEMBERS).chain(of_formulas).chain(of_claims).collect();
+    let of_proofs = ["s₁", "s₂", "s₃", "s₄", "e₁", "e₂", "e₃", "e₄", "t₁", "t₂"];
+    let own = OWN.into_iter().chain(MEMBERS).chain(of_proofs);
+    let mut all: Vec<_> = own.chain(of_formulas).chain(of_claims).collect();
     all.sort_by_key(|name| std::cmp::Reverse(name.len()));
     all
 });
@@ -61,7 +68,7 @@ static NO_NAMES: LazyLock<Registry> = LazyLock::new(Registry::default);
 
 impl<'a> Reader<'a> {
     fn new(rest: &'a str) -> Self {
-        Reader { rest, registry: &NO_NAMES, quiet: &[], rounding: false }
+        Reader { rest, registry: &NO_NAMES, quiet: &[], at: &at, rounding: false }
     }
 
     /// With the names of the chapter, or others.
@@ -196,7 +203,9 @@ impl<'a> Reader<'a> {
             self.rest = &self.rest[digits..];
             return Some(number);
         }
-        let closed = |reader: &mut Self, bracket: &str| assert!(reader.eat(bracket), "{}", reader.rest);
+        let closed = |reader: &mut Self, bracket: &str| {
+            assert!(reader.eat(bracket), "no {bracket} before {:?}", reader.rest)
+        };
         for (name, function) in [("min(", false), ("max(", true)] {
             if self.eat(name) {
                 let [a, b] = self.inside(false, |reader| {
@@ -228,7 +237,7 @@ impl<'a> Reader<'a> {
             return named;
         }
         let name = SYMBOLS.iter().find(|name| self.eat(name));
-        Some(at(name.unwrap_or_else(|| panic!("neither number nor symbol: {}", self.rest))))
+        Some((self.at)(name.unwrap_or_else(|| panic!("neither number nor symbol: {}", self.rest))))
     }
 }
 
@@ -690,6 +699,150 @@ proptest! {
         let statement = Statement::of(&claim);
         Text(&Paper::new(&NO_NAMES).claim(&statement), &NO_NAMES, &[]).is_claim(&statement);
     }
+}
+
+/// Numbers for all symbols of a proof, with what its lines define as it goes on.
+struct Lines<'a> {
+    known: BTreeMap<String, Exact>,
+    /// What a line may say that it is: sides of goals, and the last divisor.
+    values: Vec<Exact>,
+    /// The next thing that a line says that it is decides a bracket.
+    decides: bool,
+    statement: &'a Statement,
+}
+
+impl Lines<'_> {
+    fn value(&self, text: &str) -> Exact {
+        let at = |name: &str| self.known.get(name).cloned().unwrap_or_else(|| at(name));
+        let value = Reader { at: &at, ..Reader::new(text) }.all();
+        value.unwrap_or_else(|| panic!("{text}: divides by zero"))
+    }
+
+    /// Two formulas are the same number.
+    fn same(&self, a: &str, b: &str, line: &str) {
+        assert_eq!(self.value(a), self.value(b), "{line}: {}", Paper::new(&NO_NAMES).claim(self.statement));
+    }
+
+    /// Holds one line against the numbers; `false` if it says nothing of formulas.
+    fn holds(&mut self, line: &str) -> bool {
+        let line = line.trim_start();
+        if let Some((divisor, reason)) = line.split_once(" ≠ 0:") {
+            self.values.push(self.value(divisor));
+            return self.holds(reason) || reason.is_empty();
+        }
+        if let Some((bracket, reason)) = line.split_once(" by the sign of ") {
+            let (left, right) = bracket.split_once(" = ").unwrap();
+            self.same(left, right, line);
+            // What decides is not said as a formula, but comes next.
+            self.values.extend(reason.split_once("it is ").map(|(_, said)| self.value(said)));
+            self.decides = true;
+            return true;
+        }
+        let of_bound = ["the bound less it is ", "the bound and it is "]
+            .iter()
+            .find_map(|start| line.strip_prefix(start));
+        let of_bound = of_bound.map(|rest| rest.split_once(" ≥ 0, ").unwrap().0);
+        if let Some(said) = line.strip_prefix("both sides are ").or(line.strip_prefix("it is ")).or(of_bound)
+        {
+            let value = self.value(said);
+            if std::mem::take(&mut self.decides) {
+                self.values.push(value.clone());
+            }
+            assert!(self.values.contains(&value), "{line}: {}", Paper::new(&NO_NAMES).claim(self.statement));
+            return true;
+        }
+        if let Some((_, definition)) = line.strip_prefix("by ").and_then(|rest| rest.split_once(": ")) {
+            let (new, solved) = definition.split_once(", so ").unwrap_or(("", definition));
+            if let Some((slack, value)) = new.split_once(" = ") {
+                let (value, _) = value.rsplit_once(['>', '≥']).unwrap();
+                let value = self.value(value.trim_end());
+                assert!(self.known.insert(slack.to_string(), value).is_none(), "{line}: {slack} again");
+            }
+            let (pivot, by) = solved.split_once(" = ").unwrap();
+            self.same(pivot, by, line);
+            return true;
+        }
+        let (fact, _) = line.split_once(", ").unwrap_or((line, ""));
+        let fact =
+            [" > 0", " ≥ 0", " < 0", " ≤ 0"].iter().find_map(|end| fact.strip_suffix(end)).unwrap_or(fact);
+        match fact.split_once(" = ") {
+            Some((left, right)) => self.same(left, right, line),
+            None if fact != line => {
+                self.value(fact);
+            }
+            None => return false,
+        }
+        true
+    }
+}
+
+/// Claims that the kernel may prove: equal formulas, squares, and what is bounded by a hypothesis.
+fn provable() -> impl Strategy<Value = Claim> {
+    let [a, b, u, k] = ["a", "b", "u", "k"].map(|name| Tree::symbol(name));
+    let leaf = prop_oneof![
+        4 => prop::sample::select(vec![a.clone(), b.clone(), u.clone(), k.clone()]),
+        1 => (-3..4).prop_map(Tree::int)
+    ];
+    let below = &a + &b;
+    let polynomial = leaf.prop_recursive(4, 12, 2, move |inner| {
+        let below = below.clone();
+        let pair = (inner.clone(), inner.clone());
+        prop_oneof![
+            2 => pair.clone().prop_map(|(x, y)| x + y),
+            2 => pair.clone().prop_map(|(x, y)| x - y),
+            3 => pair.prop_map(|(x, y)| x * y),
+            1 => inner.clone().prop_map(move |x| x / &below),
+            1 => inner.prop_map(|x| -x),
+        ]
+    });
+    (polynomial.clone(), polynomial, 0..6, any::<bool>()).prop_map(move |(x, y, kind, more)| {
+        let sign = |relation, of: &Tree| Hypothesis::new(relation, of.clone());
+        let [of_a, of_b] = [&a, &b].map(|of| sign(Relation::Positive, of));
+        let difference = sign(Relation::Positive, &(&b - Tree::int(2) * &a));
+        let product = sign(Relation::NonNegative, &(&a * &u - &b * &k));
+        let hypotheses: &[&Hypothesis] = if more { &[&of_a, &difference, &product] } else { &[&of_a, &of_b] };
+        let kind = match kind {
+            0 => Kind::Equal(&x * (&y + &a), &a * &x + &y * &x),
+            1 => Kind::Equal(&x / (&a + &b) - &y, (&x - &y * (&a + &b)) / (&a + &b)),
+            2 => Kind::Sign(Relation::Positive, &x * &x + &b),
+            3 => Kind::Sign(Relation::Positive, &u * &u * &a - &u * &k * &a + &k * &k * &b + &a),
+            4 => Kind::Sign(Relation::NonNegative, (&a * &x * &x + &a * &y * &y - &x * &y * &a) / (&b * &b)),
+            _ => Kind::Within(&x * &a, (&x * &a).abs() + &b),
+        };
+        Claim::new("drawn", hypotheses, kind)
+    })
+}
+
+#[test]
+fn a_line_of_a_proof_says_what_is_proved() {
+    let held = std::cell::Cell::new(0);
+    let config = ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(1000) };
+    let tried = TestRunner::new(config).run(&provable(), |claim| {
+        let statement = Statement::of(&claim);
+        let Ok(proof) = prove(&statement) else { return Ok(()) };
+        let said = Paper::new(&NO_NAMES).proof(&proof);
+        // In each case a name may stand for something else; and of what is long only the length is said.
+        if said.iter().any(|line| line.trim_start().starts_with("case ") || line.contains("a sum of ")) {
+            return Ok(());
+        }
+        // All that is supposed holds there.
+        let known =
+            [("a", 3), ("b", 10), ("u", 5), ("k", 1)].map(|(name, n)| (name.to_string(), Exact::from(n)));
+        let known = BTreeMap::from(known);
+        let sides = statement.goals.iter().flat_map(|goal| goal.says.trees());
+        let mut values: Vec<_> =
+            sides.filter_map(|tree| replayed_at(tree, &|name| known[name].clone())).collect();
+        if let [Says::Within(..)] =
+            statement.goals.iter().map(|goal| goal.says.clone()).collect::<Vec<_>>()[..]
+        {
+            values = vec![&values[1] - &values[0], &values[1] + &values[0]];
+        }
+        let mut lines = Lines { known, values, decides: false, statement: &statement };
+        held.set(held.get() + said.iter().filter(|line| lines.holds(line)).count());
+        Ok(())
+    });
+    tried.unwrap_or_else(|error| panic!("{error}"));
+    assert!(held.get() > 1000, "only {} lines are about formulas", held.get());
 }
 
 #[test]

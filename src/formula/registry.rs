@@ -139,6 +139,17 @@ impl Registry {
         self.alike.iter().filter_map(other)
     }
 
+    /// A registry that writes out the functions that are written like one of these quantities; `None` if there is
+    /// none.
+    pub(crate) fn without_names_of(&self, quantities: &BTreeSet<&str>) -> Option<Self> {
+        let is_taken = |formula: &Formula| formula.folded && quantities.contains(formula.symbol);
+        self.formulas.iter().any(is_taken).then(|| {
+            let mut registry = self.clone();
+            registry.formulas.iter_mut().for_each(|formula| formula.folded &= !is_taken(formula));
+            registry
+        })
+    }
+
     /// Its functions.
     pub fn formulas(&self) -> &[Formula] {
         &self.formulas

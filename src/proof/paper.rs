@@ -27,6 +27,9 @@ impl<'a> Paper<'a> {
 
     /// What a claim says, in one line.
     pub fn claim(&self, statement: &Statement) -> String {
+        if let Some(registry) = self.other_names(statement) {
+            return Paper::new(&registry).claim(statement);
+        }
         let computed = statement.computed.iter();
         let computed: String =
             computed.map(|computed| format!("{} = {}", computed.symbol, self.text(&computed.by))).collect();
@@ -55,6 +58,9 @@ impl<'a> Paper<'a> {
 
     /// What holds of a sequence at every step, and of what is computed: part of the proof, and not supposed.
     pub fn always(&self, statement: &Statement) -> Vec<String> {
+        if let Some(registry) = self.other_names(statement) {
+            return Paper::new(&registry).always(statement);
+        }
         let computed = statement.computed.iter().map(|computed| &computed.hypothesis);
         let all = statement.invariants.iter().chain(computed);
         all.map(|hypothesis| self.registry.supposed(hypothesis)).collect()
@@ -81,6 +87,11 @@ impl<'a> Paper<'a> {
         format!("{POWER} = {power}")
     }
 
+    /// The registry without names that the statement has for quantities of its own; `None` if there are none.
+    fn other_names(&self, statement: &Statement) -> Option<Registry> {
+        self.registry.without_names_of(&statement.trees().flat_map(Tree::symbols).collect())
+    }
+
     /// What a goal says.
     fn says(&self, says: &Says) -> String {
         match says {
@@ -94,6 +105,9 @@ impl<'a> Paper<'a> {
 
     /// The hypotheses that some goal's proof uses, as a reader writes them.
     pub fn used(&self, proof: &Proof) -> Vec<String> {
+        if let Some(registry) = self.other_names(proof.statement()) {
+            return Paper::new(&registry).used(proof);
+        }
         fn collect(derivation: &Derivation, all: &mut Vec<Hypothesis>) {
             match derivation {
                 Derivation::Cases(_, positive, not) => {
@@ -119,6 +133,9 @@ impl<'a> Paper<'a> {
 
     /// What the names in a claim stand for, those that occur: `R = m g − c (H − l)`.
     pub fn names(&self, statement: &Statement) -> Vec<String> {
+        if let Some(registry) = self.other_names(statement) {
+            return Paper::new(&registry).names(statement);
+        }
         let called = self.called(statement).into_iter();
         called.map(|f| format!("{} = {}", f.symbol, self.registry.typeset(f, Notation::Text))).collect()
     }
@@ -154,6 +171,9 @@ impl<'a> Paper<'a> {
     /// The whole proof, line by line.
     pub fn proof(&self, proof: &Proof) -> Vec<String> {
         let statement = proof.statement();
+        if let Some(registry) = self.other_names(statement) {
+            return Paper::new(&registry).proof(proof);
+        }
         let mut lines = Vec::new();
         lines.extend(statement.amounts_to.as_ref().map(|Sequence { ratio, limit, .. }| {
             let (index, power) = (self.index(statement), self.power(statement, ratio));
@@ -437,7 +457,7 @@ fn explain(fact: String, reason: Vec<String>, lines: &mut Vec<String>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::formula::claim::{equal, non_negative, positive};
+    use crate::formula::claim::{drift, equal, induction, non_negative, positive, vanishing};
     use crate::formula::{Claim, Relation};
     use crate::number::Exponential;
     use crate::proof::prove;
@@ -457,6 +477,85 @@ mod tests {
         let v = Tree::symbol("v");
         assert_eq!(how(non_negative("", [], &v * &v * square)), "sign by factors");
         assert_eq!(is_positive(&tangent), "sign by slope");
+    }
+
+    fn spring(a: &Tree, b: &Tree) -> Tree {
+        a * b
+    }
+
+    /// A name that the statement has for a quantity of its own is not written for a function as well.
+    #[test]
+    fn a_name_that_is_taken_is_written_out() {
+        let [a, b, other] = ["a", "b", "c"].map(|name| Tree::symbol(name));
+        let registry = Registry::new(
+            &["a", "b"],
+            vec![Formula::new("spring", "c", &["a", "b"], spring(&a, &b)).folded()],
+        );
+        let paper = Paper::new(&registry);
+        let statement =
+            |right: &Tree| Statement::of(&equal("", [], spring(&a, &b) - right, -right + &a * &b));
+        let [known, taken] = [&a, &other].map(statement);
+        assert_eq!(
+            (paper.claim(&known), paper.names(&known)),
+            ("c − a = −a + a b".into(), vec!["c = a b".into()])
+        );
+        assert_eq!((paper.claim(&taken), paper.names(&taken)), ("a b − c = −c + a b".into(), vec![]));
+        assert_eq!(paper.proof(&prove(&taken).unwrap()), ["both sides are a b − c"]);
+    }
+
+    /// The letter that counts steps stands for nothing else, and what a power is of is in brackets.
+    #[test]
+    fn steps_are_counted_by_a_letter_of_their_own() {
+        let [a, k, q] = ["a", "k", "q"].map(|name| Tree::symbol(name));
+        let powers = |ratio: &Tree| {
+            let statement =
+                Statement::of(&induction("", [], ratio, [a.clone()], |[x]| [x * ratio], [&a * &q]));
+            let paper = Paper::new(&NONE);
+            (paper.claim(&statement), paper.proof(&prove(&statement).unwrap())[0].clone())
+        };
+        let one = Tree::from(1);
+        assert_eq!(
+            powers(&(&one - &a)),
+            (
+                "k steps from a, each of x₁ to x₁ (1 − a), lead to a q, where q = (1 − a)ᵏ".into(),
+                "by induction on k, with q = (1 − a)ᵏ: for q = 1, and from q to (1 − a) q".into(),
+            )
+        );
+        assert_eq!(
+            powers(&(&one - &k)),
+            (
+                "j steps from a, each of x₁ to x₁ (1 − k), lead to a q, where q = (1 − k)ʲ".into(),
+                "by induction on j, with q = (1 − k)ʲ: for q = 1, and from q to (1 − k) q".into(),
+            )
+        );
+        let half = Tree::from(-1) / Tree::from(2);
+        let vanishes = Statement::of(&vanishing("", [], &half, &k * &q, 0));
+        assert_eq!(Paper::new(&NONE).claim(&vanishes), "k q → 0 for q = (−1 / 2)ʲ and j → ∞");
+        let lines = Paper::new(&NONE).proof(&prove(&vanishes).unwrap());
+        assert_eq!(
+            lines[..2],
+            [
+                "q = (−1 / 2)ʲ → 0 if |−1 / 2| < 1, and what is continuous in q at 0 tends to what it is there",
+                "|−1 / 2| < 1: 1 − (1 / 2)² > 0",
+            ]
+        );
+    }
+
+    static NONE: std::sync::LazyLock<Registry> = std::sync::LazyLock::new(Registry::default);
+
+    /// What is computed is part of what is claimed, whatever the claim.
+    #[test]
+    fn it_is_said_how_a_quantity_is_computed() {
+        let [a, b, u] = ["a", "b", "u"].map(|name| Tree::symbol(name));
+        let near = Hypothesis::near(&u, &a, &b);
+        let claim =
+            |claim: Claim| Paper::new(&NONE).claim(&Statement::of(&claim.computing(&u, (&a + &b).nearest())));
+        assert_eq!(claim(positive("", [&near], &u + &a)), "u + a > 0, where u = fl(a + b)");
+        let drifts = drift("", [&near], &a, 0, |x| x + &u, (a.clone(), b.clone()), |_| []);
+        assert_eq!(
+            claim(drifts),
+            "k steps from 0, each of x₁ to x₁ + u, lead to x₁ with |x₁ − a| ≤ b, where q = aᵏ and u = fl(a + b)"
+        );
     }
 
     #[test]

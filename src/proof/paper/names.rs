@@ -14,6 +14,9 @@ impl Paper<'_> {
     /// Why there is no proof of a statement, with the definitions of the names that are not its own:
     /// `no rule finds the sign of a − s₁, where s₁ = b − a > 0`.
     pub fn why(&self, statement: &Statement, why: &Why) -> String {
+        if let Some(registry) = self.other_names(statement) {
+            return Paper::new(&registry).why(statement, why);
+        }
         let said = self.order().why(why);
         let (rounded, mut supposed) = (rounded(statement), None);
         let mut definitions = Vec::new();
