@@ -536,7 +536,7 @@ mod tests {
             lines[..2],
             [
                 "q = (−1 / 2)ʲ → 0 if |−1 / 2| < 1, and what is continuous in q at 0 tends to what it is there",
-                "|−1 / 2| < 1: 1 − (1 / 2)² > 0",
+                "|−1 / 2| < 1: 1 − 1 / 4 > 0",
             ]
         );
     }
