@@ -281,6 +281,7 @@ fn markdown(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use spring_mass_contact::formula::Hypothesis;
     use spring_mass_contact::formula::statement::Says;
     use spring_mass_contact::number::{Field, Tree};
 
@@ -295,6 +296,36 @@ mod tests {
             Proved::of(statement)
         };
         Proofs { claims: statements().into_iter().map(wrong).collect(), ..Proofs::default() }
+    }
+
+    fn claim(name: &str) -> Statement {
+        statements().into_iter().find(|statement| statement.name == name).unwrap()
+    }
+
+    /// A size in a hypothesis ends no cell.
+    #[test]
+    fn a_row_of_markdown_has_as_many_cells_as_its_head() {
+        let u = Tree::symbol("u");
+        let near = Hypothesis::near(&u, Tree::from(0), Tree::symbol("tol"));
+        let statement = Statement { hypotheses: vec![near], ..claim("float-drift") };
+        let proofs = Proofs { claims: vec![Proved::of(statement)], ..Proofs::default() };
+        let text = output::printed(|out| markdown(out, &proofs));
+        let cells = |line: &str| line.replace("\\|", "").matches('|').count();
+        assert!(text.contains("\\|u\\| ≤ tol"), "{text}");
+        assert!(text.lines().all(|line| cells(line) == 7), "{text}");
+    }
+
+    /// Without its claim nobody knows what x₁ and q are.
+    #[test]
+    fn what_is_unknown_comes_with_its_claim() {
+        let mut unknown = Proved::of(claim("float-drift"));
+        unknown.answer = Answer::None("no rule finds the sign of x₁ − q".into(), None);
+        let proofs = Proofs { claims: vec![unknown], ..Proofs::default() };
+        let text = output::printed(|out| amiss(out, &proofs)).replace("\n   ", "");
+        assert!(
+            text.contains("UNKNOWN: no rule finds the sign of x₁ − q\n  k steps from 0, each of x₁ to"),
+            "{text}"
+        );
     }
 
     #[test]
