@@ -246,6 +246,16 @@ impl Registry {
         self.names(None).of(tree)
     }
 
+    /// The names of the arguments that a text says with a function, if it says so many.
+    pub(crate) fn said_of<'f>(
+        &'f self,
+        formula: &'f Formula,
+        many: usize,
+    ) -> impl Iterator<Item = &'static str> + 'f {
+        let all = many == formula.depends_on().count();
+        formula.depends_on().filter(move |name| many > 0 && (all || !self.quiet.contains(name)))
+    }
+
     /// A formula as a text writes it.
     pub fn text(&self, tree: &Tree) -> String {
         tree.typeset(Notation::Text, &|tree| self.named(tree))

@@ -8,9 +8,10 @@ use super::kernel::sign::{Certificate, Rule, Sign};
 use super::kernel::{Because, Derivation, Direct, Proof, Rounding, Signed, Supposed, Used};
 use crate::formula::claim::{MEMBERS, POWER, PRECISION};
 use crate::formula::statement::{Goal, Role, Says, Sequence, Statement};
-use crate::formula::{Formula, Hypothesis, Notation, Registry, name_of_rounding};
+use crate::formula::{Call, Formula, Hypothesis, Notation, Registry, name_of_rounding};
 use crate::number::tree::Step;
 use crate::number::{PositivePart, Tree};
+use std::cell::RefCell;
 use std::collections::BTreeSet;
 
 /// Writes claims and proofs in the names that a registry has for quantities.
@@ -74,7 +75,7 @@ impl<'a> Paper<'a> {
     /// The same with the letter as an exponent.
     fn letter(&self, statement: &Statement) -> (char, char) {
         let symbols: Vec<_> = statement.trees().flat_map(Tree::symbols).collect();
-        let names = self.called(statement).into_iter().map(|formula| formula.symbol);
+        let names = self.called(statement).into_iter().map(|called| called.formula.symbol);
         let taken: BTreeSet<_> = symbols.into_iter().chain(names).collect();
         let is_free = |(letter, _): &&(char, char)| !taken.contains(letter.to_string().as_str());
         *LETTERS.iter().find(is_free).unwrap_or(&LETTERS[0])
@@ -136,36 +137,50 @@ impl<'a> Paper<'a> {
         if let Some(registry) = self.other_names(statement) {
             return Paper::new(&registry).names(statement);
         }
-        let called = self.called(statement).into_iter();
-        called.map(|f| format!("{} = {}", f.symbol, self.registry.typeset(f, Notation::Text))).collect()
+        let definition = |Called { formula, arguments }: &Called| {
+            let names: Vec<_> = self.registry.said_of(formula, *arguments).collect();
+            let names = if names.is_empty() { String::new() } else { format!("({})", names.join(", ")) };
+            format!("{}{names} = {}", formula.symbol, self.registry.typeset(formula, Notation::Text))
+        };
+        self.called(statement).iter().map(definition).collect()
     }
 
-    /// The formulas that a statement speaks of by name, and those that these speak of.
-    fn called(&self, statement: &Statement) -> Vec<&'a Formula> {
-        let mut called: Vec<&'a Formula> = Vec::new();
-        fn collect<'a>(registry: &'a Registry, tree: &Tree, called: &mut Vec<&'a Formula>) {
-            if let Some(call) = registry.call(tree).filter(|call| call.formula.folded) {
-                if called.iter().all(|formula| formula.name() != call.formula.name()) {
-                    called.push(call.formula);
+    /// The formulas that a text of the statement has by name, and those that these have.
+    fn called(&self, statement: &Statement) -> Vec<Called<'a>> {
+        let called = RefCell::new(Vec::<Called<'a>>::new());
+        let collect = |tree: &Tree| {
+            let name = |part: &Tree| {
+                let name = self.registry.named(part)?;
+                let Call { formula, .. } = self.registry.call(part)?;
+                let (mut called, arguments) = (called.borrow_mut(), name.arguments.len());
+                match called.iter_mut().find(|known| known.formula.name() == formula.name()) {
+                    Some(known) => known.arguments = known.arguments.max(arguments),
+                    None => called.push(Called { formula, arguments }),
                 }
-                call.arguments.iter().for_each(|argument| collect(registry, argument, called));
-            } else {
-                tree.step().operands().for_each(|operand| collect(registry, operand, called));
-            }
-        }
-        statement.trees().for_each(|tree| collect(self.registry, tree, &mut called));
+                Some(name)
+            };
+            tree.typeset(Notation::Text, &name);
+        };
+        statement.trees().for_each(collect);
         if let Some(Sequence { start, step, ratio, member, limit, within }) = &statement.amounts_to {
             let bounds = within.iter().flat_map(|(of, bound)| [of, bound]);
-            let all = start.iter().chain(step).chain([ratio]).chain(member).chain(limit).chain(bounds);
-            all.for_each(|tree| collect(self.registry, tree, &mut called));
+            start
+                .iter()
+                .chain(step)
+                .chain([ratio])
+                .chain(member)
+                .chain(limit)
+                .chain(bounds)
+                .for_each(collect);
         }
         // What a name stands for may be said by further names.
         let mut i = 0;
-        while let Some(formula) = called.get(i).copied() {
-            formula.tree.step().operands().for_each(|operand| collect(self.registry, operand, &mut called));
+        loop {
+            let Some(formula) = called.borrow().get(i).map(|called| called.formula) else { break };
+            formula.tree.step().operands().for_each(collect);
             i += 1;
         }
-        called
+        called.into_inner()
     }
 
     /// The whole proof, line by line.
@@ -374,6 +389,13 @@ impl<'a> Paper<'a> {
     }
 }
 
+/// A formula that a text has by its name.
+struct Called<'a> {
+    formula: &'a Formula,
+    /// The most arguments that are said with it.
+    arguments: usize,
+}
+
 /// Letters that count steps, the first that is free; and the same as exponents.
 const LETTERS: [(char, char); 12] = [
     ('k', 'ᵏ'),
@@ -477,6 +499,24 @@ mod tests {
         let v = Tree::symbol("v");
         assert_eq!(how(non_negative("", [], &v * &v * square)), "sign by factors");
         assert_eq!(is_positive(&tangent), "sign by slope");
+    }
+
+    /// Also where only what is rounded has the name, and with the names of arguments that are said.
+    #[test]
+    fn every_name_in_a_claim_is_defined() {
+        let [a, b] = ["a", "b"].map(|name| Tree::symbol(name));
+        let registry = Registry::new(
+            &["a", "b"],
+            vec![Formula::new("spring", "c", &["a", "b"], spring(&a, &b)).folded()],
+        );
+        let names = |of: Tree| {
+            let statement = Statement::of(&positive("", [], of));
+            let paper = Paper::new(&registry);
+            (paper.claim(&statement), paper.names(&statement))
+        };
+        assert_eq!(names(spring(&a, &b).nearest()), ("fl(c) > 0".into(), vec!["c = a b".into()]));
+        let other = spring(&b, &(&a + &a)) - spring(&a, &b);
+        assert_eq!(names(other), ("c(b, a + a) − c > 0".into(), vec!["c(a, b) = a b".into()]));
     }
 
     fn spring(a: &Tree, b: &Tree) -> Tree {
