@@ -316,8 +316,8 @@ pub fn sharpest(statement: &Statement) -> Option<(Point, Exact)> {
 /// Among so many raw points the sharpest is looked for.
 const SHARP: usize = 500;
 
-/// What a statement speaks of, in the order in which it does, but for what follows from the rest: the members and
-/// powers of a sequence, and what is computed.
+/// What a statement speaks of, in the order in which it does, but for what follows from the rest: the
+/// members and powers of a sequence, and what is computed.
 fn symbols(statement: &Statement) -> Vec<&'static str> {
     let computed = statement.computed.as_ref().map(|computed| computed.symbol);
     let sequence = statement.amounts_to.as_ref().filter(|sequence| sequence.limit.is_none());

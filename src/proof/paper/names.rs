@@ -40,7 +40,8 @@ impl Paper<'_> {
         format!("{name}({of}) = {factor} (1 + {error} / ({PRECISION} + 1)) with |{error}| ≤ 1")
     }
 
-    /// The names that hypotheses bring, with their definitions. `None` if a name has several, in different cases.
+    /// The names that hypotheses bring, with their definitions; `None` if a name has several, in different
+    /// cases.
     fn supposed_names(&self, statement: &Statement) -> BTreeMap<&'static str, Option<String>> {
         let with = |goal: Goal| Statement { goals: vec![goal], ..statement.clone() };
         let fails = |goal: &&Goal| prove(&with((*goal).clone())).is_err();
@@ -110,7 +111,8 @@ impl Why {
     }
 }
 
-/// All that is rounded in a statement, each after what is rounded in it: the order in which errors have names.
+/// All that is rounded in a statement, each after what is rounded in it: the order in which errors have
+/// names.
 fn rounded(statement: &Statement) -> Vec<&Tree> {
     fn collect<'t>(tree: &'t Tree, all: &mut Vec<&'t Tree>) {
         tree.step().operands().for_each(|operand| collect(operand, all));
