@@ -1,10 +1,10 @@
 //! Rounding in a text: fl(a + b c) is a + b c with every step rounded, nearest(a + b c) is rounded once.
 //!
 //! In the brackets of fl the result of every + − × ÷ and eˣ is rounded, in the order in which they stand,
-//! from the left. A change of sign and scaling by a power of two are exact; so is all that stands in ⟨ ⟩, |
-//! |, min or max. A step whose rounding would not be read from that has an fl of its own, as in fl(a + fl(b
-//! + c)). Where a step in the brackets does not round, as in a + b c with only the sum rounded, the text
-//! says nearest instead.
+//! from the left. A change of sign and scaling by a power of two are exact; so is all that stands in ⟨ ⟩,
+//! in | | and after min or max. A step whose rounding would not be read from that has an fl of its own, as
+//! `fl(a + fl(b + c))`. Where a step in the brackets does not round, as in `a + b c` with only the sum
+//! rounded, the text says nearest instead.
 
 use super::size;
 use crate::formula::claim::SCALES;
