@@ -24,4 +24,5 @@ pub use lines::{GLUE, together};
 pub use program::{Program, Rounds};
 pub use registry::{Call, Formula, Registry};
 pub use statement::Statement;
+pub(crate) use typeset::name_of_rounding;
 pub use typeset::{Name, Notation, latex};

@@ -2,9 +2,17 @@
 #![cfg(feature = "prover")]
 
 use proptest::prelude::*;
-use spring_mass_contact::claims::registry;
+use proptest::test_runner::TestRunner;
+use spring_mass_contact::claims::{registry, statements};
+use spring_mass_contact::formula::claim::{MEMBERS, POWER};
+use spring_mass_contact::formula::statement::{Role, Says, Sequence};
+use spring_mass_contact::formula::{Claim, Formula, Hypothesis, Kind, Rate, Registry, Relation, Statement};
 use spring_mass_contact::number::tree::{Step, piecewise};
 use spring_mass_contact::number::{Exact, Exponential, Field, PositivePart, Tree};
+use spring_mass_contact::proof::paper::Paper;
+use spring_mass_contact::proof::prove;
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
 
 /// No rational is an exponential: any function serves that does not vanish or repeat by accident.
 fn exp(x: &Exact) -> Exact {
@@ -16,27 +24,128 @@ fn value(name: &str) -> Exact {
     Exact::from(seed - 5000) / Exact::from(97)
 }
 
-/// The value of a text; `None` if it divides by zero.
-struct Reader<'a> {
-    rest: &'a str,
-    symbols: Vec<&'static str>,
+/// Numbers of as many bits are rounded to.
+const BITS: u32 = 5;
+
+/// A number for a symbol: 2ᵃ is a power of two.
+fn at(name: &str) -> Exact {
+    match name {
+        "2ᵃ" => Exact::power_of_two(-3),
+        "2ᵇ" => Exact::power_of_two(2),
+        "2ᶠ" => Exact::power_of_two(5),
+        "2ᵖ" => Exact::power_of_two(BITS as i32),
+        name => value(name),
+    }
 }
 
-impl Reader<'_> {
+/// Reads formulas as a text writes them, by its rules and by nothing of what writes them: the value, `None` if it
+/// divides by zero.
+///
+/// In fl( ) the result of every + − × ÷, power and exp is rounded, from the left; what is scaled by a power of two is
+/// exact, and so is what is in ⟨ ⟩, | |, min or max. In nearest( ) all is exact, and rounded once.
+struct Reader<'a> {
+    rest: &'a str,
+    /// Whose names may stand for formulas, and the arguments that a name may be said without if they are themselves.
+    registry: &'a Registry,
+    quiet: &'a [&'static str],
+    /// Numbers for symbols.
+    at: &'a dyn Fn(&str) -> Exact,
+    rounding: bool,
+}
+
+/// All symbols of the tests and of the chapter, those first that begin with another.
+static SYMBOLS: LazyLock<Vec<&str>> = LazyLock::new(|| {
+    let of_formulas = registry().formulas().iter().flat_map(|formula| formula.tree.symbols());
+    let of_claims =
+        statements().into_iter().flat_map(|s| s.trees().flat_map(Tree::symbols).collect::<Vec<_>>());
+    let of_proofs = ["s₁", "s₂", "s₃", "s₄", "e₁", "e₂", "e₃", "e₄", "t₁", "t₂"];
+    let own = OWN.into_iter().chain(MEMBERS).chain(of_proofs);
+    let mut all: Vec<_> = own.chain(of_formulas).chain(of_claims).collect();
+    all.sort_by_key(|name| std::cmp::Reverse(name.len()));
+    all
+});
+static NO_NAMES: LazyLock<Registry> = LazyLock::new(Registry::default);
+
+impl<'a> Reader<'a> {
+    fn new(rest: &'a str) -> Self {
+        Reader { rest, registry: &NO_NAMES, quiet: &[], at: &at, rounding: false }
+    }
+
+    /// With the names of the chapter, or others.
+    fn with(self, registry: &'a Registry, quiet: &'a [&'static str]) -> Self {
+        Reader { registry, quiet, ..self }
+    }
+
     fn value(tree: &Tree) -> Option<Exact> {
-        let text = tree.to_string();
-        let mut symbols: Vec<_> = tree.symbols().into_iter().collect();
-        symbols.sort_by_key(|name| std::cmp::Reverse(name.len()));
-        let mut reader = Reader { rest: &text, symbols };
-        let value = reader.sum();
-        assert!(value.is_none() || reader.rest.is_empty(), "{text}: left {}", reader.rest);
+        Reader::new(&tree.to_string()).all()
+    }
+
+    /// The value of all of the text.
+    fn all(mut self) -> Option<Exact> {
+        let (text, value) = (self.rest, self.sum());
+        assert!(value.is_none() || self.rest.is_empty(), "{text}: left {}", self.rest);
         value
+    }
+
+    /// The value of all of the text, which is one factor: what a power is taken of.
+    fn one_factor(mut self) -> Option<Exact> {
+        let (text, value) = (self.rest, self.base());
+        assert!(value.is_none() || self.rest.is_empty(), "{text} is more than a factor: left {}", self.rest);
+        value
+    }
+
+    /// What a name stands for, with its arguments if any are said.
+    fn named(&mut self) -> Option<Option<Exact>> {
+        let mut all: Vec<_> = self.registry.formulas().iter().filter(|formula| formula.folded).collect();
+        all.sort_by_key(|formula| std::cmp::Reverse(formula.symbol.len()));
+        let formula = all.into_iter().find(|formula| self.eat(formula.symbol))?;
+        let names: Vec<_> = formula.depends_on().collect();
+        let mut said = Vec::new();
+        while self.eat(if said.is_empty() { "(" } else { ", " }) {
+            match self.sum() {
+                Some(value) => said.push(value),
+                None => return Some(None),
+            }
+        }
+        assert!(said.is_empty() || self.eat(")"), "{}", self.rest);
+        let named: Vec<_> = if said.len() == names.len() {
+            names
+        } else {
+            names.into_iter().filter(|name| !self.quiet.contains(name)).collect()
+        };
+        assert!(said.is_empty() || said.len() == named.len(), "arguments of {}", formula.symbol);
+        let tree = if self.rounding { formula.tree.rounded() } else { formula.tree.clone() };
+        Some(replayed_at(&tree, &|name| match named.iter().position(|own| *own == name) {
+            Some(place) if !said.is_empty() => said[place].clone(),
+            _ => self.argument(name),
+        }))
+    }
+
+    /// An argument that is not said: the usual one, which may have a name.
+    fn argument(&self, name: &str) -> Exact {
+        let mut formulas = self.registry.formulas().iter();
+        match formulas.find(|formula| formula.folded && formula.symbol == name) {
+            Some(formula) => replayed_at(&formula.tree, &at).unwrap(),
+            None => at(name),
+        }
     }
 
     fn eat(&mut self, token: &str) -> bool {
         let rest = self.rest.strip_prefix(token);
         self.rest = rest.unwrap_or(self.rest);
         rest.is_some()
+    }
+
+    fn rounded(&self, x: Exact) -> Exact {
+        if self.rounding { x.rounded(BITS).unwrap() } else { x }
+    }
+
+    /// What stands between brackets, with rounding or without.
+    fn inside<T>(&mut self, rounding: bool, read: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
+        let outside = std::mem::replace(&mut self.rounding, rounding);
+        let inner = read(self);
+        self.rounding = outside;
+        inner
     }
 
     fn sum(&mut self) -> Option<Exact> {
@@ -49,80 +158,107 @@ impl Reader<'_> {
             } else {
                 return Some(sum);
             }
+            sum = self.rounded(sum);
         }
     }
 
     fn term(&mut self) -> Option<Exact> {
-        let mut product = self.factor()?;
-        while self.rest.starts_with(' ') && ![" + ", " − ", " / "].iter().any(|s| self.rest.starts_with(s))
+        let (mut product, mut exact) = self.factor()?;
+        while self.rest.starts_with(['·', ' '])
+            && ![" + ", " − ", " / "].iter().any(|s| self.rest.starts_with(s))
         {
-            assert!(self.eat(" "));
-            product = product * self.factor()?;
+            assert!(self.eat("·") || self.eat(" "));
+            let (factor, scale) = self.factor()?;
+            product = product * factor;
+            product = if exact || scale { product } else { self.rounded(product) };
+            exact &= scale;
         }
         if !self.eat(" / ") {
             return Some(product);
         }
-        let under = self.factor()?;
-        under.is_unit().then(|| product / under)
+        let (under, scale) = self.factor()?;
+        let quotient = under.is_unit().then(|| product / under)?;
+        Some(if scale { quotient } else { self.rounded(quotient) })
     }
 
-    fn factor(&mut self) -> Option<Exact> {
+    /// And whether it is a power of two, by which is scaled.
+    fn factor(&mut self) -> Option<(Exact, bool)> {
+        let is_scale = |scale| self.rest.starts_with(scale) || self.rest.starts_with(&format!("({scale})"));
+        let scale = ["2ᵃ", "2ᵇ", "2ᶠ"].into_iter().any(is_scale);
         let base = self.base()?;
         let digits: Vec<_> =
             self.rest.chars().map_while(|c| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().position(|d| d == c)).collect();
         self.rest = &self.rest[self.rest.chars().take(digits.len()).map(char::len_utf8).sum::<usize>()..];
         let power = digits.iter().fold(0, |power, digit| 10 * power + digit);
-        Some((1..power).fold(base.clone(), |product, _| product * &base))
+        let times = |product: Exact, _| if scale { product * &base } else { self.rounded(product * &base) };
+        Some(((1..power).fold(base.clone(), times), scale))
     }
 
     fn base(&mut self) -> Option<Exact> {
         let digits = self.rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(self.rest.len());
         // A power of two has a name that begins with a number.
-        let named = self.symbols.iter().any(|name| name.len() > digits && self.rest.starts_with(name));
+        let named = SYMBOLS.iter().any(|name| name.len() > digits && self.rest.starts_with(name));
         if digits > 0 && !named {
             let number = self.rest[..digits].parse().unwrap();
             self.rest = &self.rest[digits..];
             return Some(number);
         }
-        let closed = |reader: &mut Self, bracket: &str| assert!(reader.eat(bracket), "{}", reader.rest);
+        let closed = |reader: &mut Self, bracket: &str| {
+            assert!(reader.eat(bracket), "no {bracket} before {:?}", reader.rest)
+        };
         for (name, function) in [("min(", false), ("max(", true)] {
             if self.eat(name) {
-                let a = self.sum()?;
-                closed(self, ", ");
-                let b = self.sum()?;
+                let [a, b] = self.inside(false, |reader| {
+                    let a = reader.sum()?;
+                    closed(reader, ", ");
+                    Some([a, reader.sum()?])
+                })?;
                 closed(self, ")");
                 return Some(if function { -PositivePart::min(&-a, &-b) } else { PositivePart::min(&a, &b) });
             }
         }
-        for (open, close) in [("exp(", ")"), ("⟨", "⟩"), ("|", "|"), ("(", ")")] {
+        for (open, close) in
+            [("exp(", ")"), ("⟨", "⟩"), ("|", "|"), ("(", ")"), ("fl(", ")"), ("nearest(", ")")]
+        {
             if self.eat(open) {
-                let inner = self.sum()?;
+                let rounding = open == "fl(" || self.rounding && ["exp(", "("].contains(&open);
+                let inner = self.inside(rounding, |reader| reader.sum())?;
                 closed(self, close);
                 return Some(match open {
-                    "exp(" => exp(&inner),
+                    "exp(" => self.rounded(exp(&inner)),
                     "⟨" => inner.positive_part(),
                     "|" => inner.abs(),
-                    _ => inner,
+                    "(" => inner,
+                    _ => inner.rounded(BITS).unwrap(),
                 });
             }
         }
-        let symbols = self.symbols.clone();
-        let name = symbols.into_iter().find(|name| self.eat(name));
-        Some(value(name.unwrap_or_else(|| panic!("neither number nor symbol: {}", self.rest))))
+        if let Some(named) = self.named() {
+            return named;
+        }
+        let name = SYMBOLS.iter().find(|name| self.eat(name));
+        Some((self.at)(name.unwrap_or_else(|| panic!("neither number nor symbol: {}", self.rest))))
     }
 }
 
 fn replayed(tree: &Tree) -> Option<Exact> {
-    let beyond = |step: Step<&Exact>| match step {
-        Step::Exp(a) => Some(exp(a)),
-        step => piecewise(step),
-    };
-    tree.replay(&|name| value(name), &beyond)
+    replayed_at(tree, &at)
 }
 
+fn replayed_at(tree: &Tree, at: &dyn Fn(&str) -> Exact) -> Option<Exact> {
+    let beyond = |step: Step<&Exact>| match step {
+        Step::Exp(a) => Some(exp(a)),
+        Step::Rounded(a) => a.rounded(BITS),
+        step => piecewise(step),
+    };
+    tree.replay(&|name| at(name), &beyond)
+}
+
+/// Symbols in trees that are drawn. k counts steps where nothing else is called so.
+const OWN: [&str; 11] = ["a", "b", "u", "k", "ρ", "λ₀", "ρᵏ", "u_{k+1}", "2ᵖ", "2ᵃ", POWER];
+
 fn trees() -> impl Strategy<Value = Tree> {
-    let symbol = prop::sample::select(&["a", "b", "u", "λ₀", "ρᵏ", "u_{k+1}", "2ᵖ"])
-        .prop_map(|name| Tree::symbol(name));
+    let symbol = prop::sample::select(&OWN).prop_map(|name| Tree::symbol(name));
     let leaf = prop_oneof![3 => symbol, 1 => (-3..4).prop_map(Tree::int)];
     leaf.prop_recursive(6, 40, 2, |inner| {
         let pair = (inner.clone(), inner.clone());
@@ -139,6 +275,98 @@ fn trees() -> impl Strategy<Value = Tree> {
             1 => inner.prop_map(|a| a.positive_part()),
         ]
     })
+}
+
+/// The same where some steps are rounded, in some trees all, in others some or only the last.
+fn rounded_trees() -> impl Strategy<Value = Tree> {
+    let some = (trees(), any::<u64>()).prop_map(|(tree, seed)| {
+        let chosen = std::cell::Cell::new(seed);
+        tree.rewrite(&|tree| {
+            chosen.set(chosen.get().rotate_left(7).wrapping_mul(0x9e37_79b9_7f4a_7c15));
+            (chosen.get() % 3 > 0).then(|| tree.nearest())
+        })
+    });
+    let once = trees().prop_map(|tree| tree.nearest());
+    let steps = trees().prop_map(|tree| tree.rounded());
+    prop_oneof![2 => some, 1 => once, 3 => steps]
+}
+
+/// LaTeX as the text that it shows: fractions as quotients in brackets, exponents in small digits.
+fn shown(latex: &str) -> String {
+    // What is in braces, and the rest.
+    fn braced(latex: &str) -> (&str, &str) {
+        let inner = latex.strip_prefix('{').unwrap_or_else(|| panic!("{latex}: no brace"));
+        let mut depth = 1;
+        let end = inner.find(|c| {
+            depth += match c {
+                '{' => 1,
+                '}' => -1,
+                _ => 0,
+            };
+            depth == 0
+        });
+        let end = end.unwrap_or_else(|| panic!("{latex}: open"));
+        (&inner[..end], &inner[end + 1..])
+    }
+    let mut symbols: Vec<_> =
+        OWN.iter().map(|name| (spring_mass_contact::formula::latex(name), *name)).collect();
+    symbols.sort_by_key(|(own, _)| std::cmp::Reverse(own.len()));
+    let (mut text, mut rest) = (String::new(), latex);
+    while !rest.is_empty() {
+        if let Some(both) = rest.strip_prefix("\\frac").or(rest.strip_prefix("\\tfrac")) {
+            let ((over, rest_of), is_number) = (braced(both), rest.starts_with("\\t"));
+            let (under, after) = braced(rest_of);
+            let quotient = format!("({}) / ({})", shown(over), shown(under));
+            text += &if is_number { format!("({quotient})") } else { quotient };
+            rest = after;
+            continue;
+        }
+        if let Some(exponent) = rest.strip_prefix("\\mathrm{e}^") {
+            let (exponent, after) = braced(exponent);
+            text += &format!("exp({})", shown(exponent));
+            rest = after;
+            continue;
+        }
+        if let Some((own, name)) = symbols.iter().find(|(own, _)| rest.starts_with(own.as_str())) {
+            text += name;
+            rest = &rest[own.len()..];
+            continue;
+        }
+        if let Some(exponent) = rest.strip_prefix('^') {
+            let (digits, after) =
+                if exponent.starts_with('{') { braced(exponent) } else { exponent.split_at(1) };
+            text.extend(
+                digits.chars().map(|c| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(c.to_digit(10).unwrap() as usize).unwrap()),
+            );
+            rest = after;
+            continue;
+        }
+        const SIGNS: [(&str, &str); 14] = [
+            ("\\,", " "),
+            (" \\cdot ", "·"),
+            ("\\langle ", "⟨"),
+            ("\\left\\langle ", "⟨"),
+            (" \\rangle", "⟩"),
+            ("\\right\\rangle", "⟩"),
+            ("\\lvert ", "|"),
+            ("\\left\\lvert ", "|"),
+            (" \\rvert", "|"),
+            ("\\right\\rvert", "|"),
+            ("\\left(", "("),
+            ("\\right)", ")"),
+            ("\\m", "m"),
+            ("-", "−"),
+        ];
+        if let Some((sign, own)) = SIGNS.iter().find(|(sign, _)| rest.starts_with(sign)) {
+            text += own;
+            rest = &rest[sign.len()..];
+            continue;
+        }
+        let c = rest.chars().next().unwrap();
+        text.push(c);
+        rest = &rest[c.len_utf8()..];
+    }
+    text
 }
 
 /// The round brackets of a text: where each opens, and what it holds.
@@ -169,6 +397,27 @@ proptest! {
     }
 
     #[test]
+    fn latex_has_the_value_of_its_tree(tree in trees()) {
+        if let Some(expected) = replayed(&tree) {
+            let latex = tree.latex();
+            prop_assert!(!latex.contains(['²', '·', 'ᵖ', '−']), "{}", latex);
+            // No blank is seen.
+            let digit = |piece: Option<char>| piece.is_some_and(|c| c.is_ascii_digit());
+            let pieces: Vec<_> = latex.split(' ').collect();
+            let runs = |pair: &[&str]| digit(pair[0].chars().last()) && digit(pair[1].chars().next());
+            prop_assert!(!pieces.windows(2).any(runs), "{}", latex);
+            prop_assert_eq!(Reader::new(&shown(&latex)).all(), Some(expected), "{}", latex);
+        }
+    }
+
+    #[test]
+    fn a_text_says_what_is_rounded(tree in rounded_trees()) {
+        if let Some(expected) = replayed(&tree) {
+            prop_assert_eq!(Reader::value(&tree), Some(expected), "{}", tree);
+        }
+    }
+
+    #[test]
     fn nothing_is_written_that_says_nothing(tree in trees()) {
         prop_assume!(replayed(&tree).is_some());
         let text = tree.to_string();
@@ -182,13 +431,450 @@ proptest! {
         for (open, inner) in brackets(&text) {
             // Those of a function, or around a sum, a product or an exponent; and never around all.
             let function = text[..open].ends_with(char::is_alphabetic);
-            prop_assert!(function || inner.contains([' ', 'ᵏ', 'ᵖ']) && inner.len() + 2 < text.len(), "{}", text);
+            prop_assert!(function || inner.contains([' ', 'ᵏ', 'ᵖ', 'ᵃ']) && inner.len() + 2 < text.len(), "{}", text);
         }
         let latex = tree.latex();
         for (open, close) in
             [("{", "}"), ("(", ")"), ("\\left", "\\right"), ("\\langle", "\\rangle"), ("\\lvert", "\\rvert")] {
             let count = |token: &str| latex.replace("\\rightarrow", "").matches(token).count();
             prop_assert_eq!(count(open), count(close), "{}", &latex);
+        }
+    }
+}
+
+/// A text, and the registry whose names it may use.
+#[derive(Clone, Copy)]
+struct Text<'a>(&'a str, &'a Registry, &'a [&'static str]);
+
+impl<'a> Text<'a> {
+    fn part(self, part: &'a str) -> Self {
+        Text(part, self.1, self.2)
+    }
+
+    fn value(self) -> Option<Exact> {
+        Reader::new(self.0).with(self.1, self.2).all()
+    }
+
+    /// The text says the value of this tree.
+    fn is(self, tree: &Tree) {
+        if let Some(value) = replayed(tree) {
+            assert_eq!(self.value(), Some(value), "{}: not what {tree} is", self.0);
+        }
+    }
+
+    /// The text says two formulas and how they are related.
+    fn sides(self) -> (Self, &'a str, Self) {
+        let relations = [" = ", " > ", " ≥ ", " < ", " ≤ "];
+        let found: Vec<_> = relations.iter().flat_map(|relation| self.0.match_indices(relation)).collect();
+        let [(place, relation)] = found[..] else { panic!("{}: one relation, not {found:?}", self.0) };
+        (self.part(&self.0[..place]), relation.trim(), self.part(&self.0[place + relation.len()..]))
+    }
+
+    /// The text says what the sign of this tree is.
+    fn is_sign(self, relation: Relation, tree: &Tree) {
+        let (left, said, right) = self.sides();
+        assert_eq!(
+            relation,
+            match said {
+                ">" | "<" => Relation::Positive,
+                "≥" | "≤" => Relation::NonNegative,
+                _ => Relation::Zero,
+            }
+        );
+        let Some(value) = replayed(tree) else { return };
+        let (left, right) = (left.value().unwrap(), right.value().unwrap());
+        let difference = if ["<", "≤"].contains(&said) { right - left } else { left - right };
+        let same = difference == value || relation == Relation::Zero && difference == -value;
+        assert!(same, "{}: not what {tree} {relation} 0 says", self.0);
+    }
+
+    fn is_within(self, of: &Tree, bound: &Tree) {
+        let (left, said, right) = self.sides();
+        assert_eq!(said, "≤", "{}", self.0);
+        left.is(&of.abs());
+        right.is(bound);
+    }
+
+    fn is_hypothesis(self, hypothesis: &Hypothesis) {
+        let Some((x, lower, upper)) = hypothesis.interval() else {
+            return self.is_sign(hypothesis.relation, &hypothesis.value);
+        };
+        match (hypothesis.distance(), &self.0.split(" ≤ ").collect::<Vec<_>>()[..]) {
+            (Some((distance, most)), [_, _]) => self.is_within(&distance, most),
+            (None, [from, middle, to]) => {
+                self.part(from).is(lower);
+                assert_eq!(*middle, x);
+                self.part(to).is(upper);
+            }
+            _ => panic!("{}: no interval", self.0),
+        }
+    }
+
+    fn is_said(self, says: &Says) {
+        let between =
+            |keyword: &str, close: &str| self.0.strip_prefix(keyword).and_then(|rest| rest.split_once(close));
+        match says {
+            Says::Equal(a, b) => {
+                let (left, said, right) = self.sides();
+                assert_eq!(said, "=");
+                left.is(a);
+                right.is(b);
+            }
+            Says::Sign(relation, of) => {
+                let (of_text, said, zero) = self.sides();
+                assert_eq!((said, zero.0), (relation.to_string().as_str(), "0"));
+                of_text.is(of);
+            }
+            Says::Within(of, bound) => self.is_within(of, bound),
+            Says::Derivative(of, by, is) => {
+                let (of_text, is_text) = between(&format!("∂/∂{by} ["), "] = ").expect(self.0);
+                self.part(of_text).is(of);
+                self.part(is_text).is(is);
+            }
+            Says::Limit(of, by, to) => {
+                let (of_text, to_text) = between("lim [", "] = ").expect(self.0);
+                let to_text = to_text.strip_suffix(&format!(" for {by} → ∞")).expect(self.0);
+                self.part(of_text).is(of);
+                self.part(to_text).is(to);
+            }
+        }
+    }
+
+    /// Each of several formulas.
+    fn are(self, trees: &[Tree]) {
+        let (mut depth, mut start, mut parts) = (0, 0, Vec::new());
+        for (i, c) in self.0.char_indices() {
+            match c {
+                '(' => depth += 1,
+                ')' => depth -= 1,
+                ',' if depth == 0 => {
+                    parts.push(&self.0[start..i]);
+                    start = i + 2;
+                }
+                _ => {}
+            }
+        }
+        parts.push(&self.0[start..]);
+        assert_eq!(parts.len(), trees.len(), "{}", self.0);
+        parts.iter().zip(trees).for_each(|(part, tree)| self.part(part).is(tree));
+    }
+
+    /// The text says what a claim comes to.
+    fn is_claim(self, statement: &Statement) {
+        let Some(Sequence { start, step, ratio, member, limit, within }) = &statement.amounts_to else {
+            let (said, computed) = self.0.split_once(", where ").unwrap_or((self.0, ""));
+            self.is_computed(computed, statement);
+            let goals = statement.goals.iter().filter(|goal| goal.role == Role::Claim);
+            let (goals, parts): (Vec<_>, Vec<_>) = (goals.collect(), said.split("; ").collect());
+            assert_eq!(goals.len(), parts.len(), "{}", self.0);
+            parts.iter().zip(goals).for_each(|(part, goal)| self.part(part).is_said(&goal.says));
+            return;
+        };
+        let place = if let Some(limit) = limit {
+            let (tends, place) = self.0.split_once(" for q = ").expect(self.0);
+            let (of, to) = tends.split_once(" → ").expect(self.0);
+            self.part(of).are(member);
+            self.part(to).is(limit);
+            let (place, infinity) = place.rsplit_once(" and ").expect(self.0);
+            assert!(infinity.ends_with(" → ∞"));
+            self.is_power(place, infinity.trim_end_matches(" → ∞"), statement)
+        } else {
+            let (index, rest) = self.0.split_once(" steps from ").expect(self.0);
+            let (from, rest) = rest.split_once(", each of ").expect(self.0);
+            let (members, rest) = rest.split_once(" to ").expect(self.0);
+            let (to, rest) = rest.split_once(", lead to ").expect(self.0);
+            let (lead, place) = rest.split_once(", where q = ").expect(self.0);
+            assert_eq!(members, MEMBERS[..step.len()].join(", "));
+            self.part(from).are(start);
+            self.part(to).are(step);
+            match lead.strip_prefix("x₁ with ") {
+                None => self.part(lead).are(member),
+                Some(bounds) => {
+                    let bounds: Vec<_> = bounds.split(" and ").collect();
+                    assert_eq!(bounds.len(), within.len(), "{}", self.0);
+                    bounds
+                        .iter()
+                        .zip(within)
+                        .for_each(|(part, (of, bound))| self.part(part).is_within(of, bound));
+                }
+            }
+            self.is_power(place, index, statement)
+        };
+        place.expect("a ratio").is(ratio);
+    }
+
+    /// What a power is taken of, before the index, which is the exponent and nothing else in the statement.
+    fn is_power(self, place: &'a str, index: &str, statement: &Statement) -> Option<Self> {
+        let (power, computed) = place.split_once(" and ").unwrap_or((place, ""));
+        self.is_computed(computed, statement);
+        assert!(
+            statement.trees().all(|tree| !tree.symbols().contains(index)),
+            "{}: {index} is taken",
+            self.0
+        );
+        let exponent = "kjin".chars().position(|letter| letter.to_string() == index);
+        let exponent = "ᵏʲⁱⁿ".chars().nth(exponent.expect(index))?;
+        let base = power.strip_suffix(exponent).expect(self.0);
+        Reader::new(base).with(self.1, self.2).one_factor();
+        Some(self.part(base))
+    }
+
+    fn is_computed(self, computed: &'a str, statement: &Statement) {
+        match (computed.split_once(" = "), &statement.computed) {
+            (None, None) => {}
+            (Some((symbol, by)), Some(computed)) => {
+                assert_eq!(symbol, computed.symbol);
+                self.part(by).is(&computed.by);
+            }
+            _ => panic!("{}: what is computed?", self.0),
+        }
+    }
+}
+
+fn relations() -> impl Strategy<Value = Relation> {
+    prop::sample::select(&[Relation::Positive, Relation::NonNegative, Relation::Zero])
+}
+
+/// Signs of anything, of what is negated and of differences; and intervals.
+fn hypotheses() -> impl Strategy<Value = Hypothesis> {
+    let tree = || prop_oneof![trees(), rounded_trees()];
+    let value = prop_oneof![
+        tree(),
+        tree().prop_map(|a| -a),
+        (tree(), tree()).prop_map(|(a, b)| a - b),
+        (tree(), tree()).prop_map(|(a, b)| -a - b),
+        (tree(), tree()).prop_map(|(a, b)| -a + b),
+    ];
+    let sign = (relations(), value)
+        .prop_filter_map("of a number nothing is supposed", |(relation, value)| {
+            value.first_symbol().map(|_| Hypothesis::new(relation, value))
+        });
+    let x = || Tree::symbol("v");
+    prop_oneof![
+        3 => sign,
+        1 => (tree(), tree()).prop_map(move |(a, b)| Hypothesis::near(&x(), a, b)),
+        1 => (tree(), tree()).prop_map(move |(a, b)| Hypothesis::between(&x(), a, b)),
+    ]
+}
+
+/// Claims of all kinds, which need not be true.
+fn claims() -> impl Strategy<Value = Claim> {
+    let some = prop::collection::vec(prop_oneof![trees(), rounded_trees()], 9);
+    (some, 0..9, relations(), any::<bool>()).prop_map(|(trees, kind, relation, computes)| {
+        let t = |i: usize| trees[i].clone();
+        let kind = match kind {
+            0 => Kind::Equal(t(0), t(1)),
+            1 => Kind::Sign(relation, t(0)),
+            2 => Kind::Derivative { of: t(0), by: "a", is: t(1) },
+            3 => Kind::Limit { of: t(0), by: "a", to: t(1), rate: Rate::Exactly(t(2)) },
+            4 => Kind::Limit { of: t(0), by: "a", to: t(1), rate: Rate::Within(t(2)) },
+            5 => {
+                let two = |i: usize| vec![t(i), t(i + 1)];
+                Kind::Induction { ratio: t(0), start: two(1), step: two(3), closed: two(5) }
+            }
+            6 => Kind::Within(t(0), t(1)),
+            7 => {
+                let (also, step) = (vec![(t(5), t(6))], Tree::symbol(MEMBERS[0]) - t(2));
+                Kind::Drift { ratio: t(0), start: t(1), step, near: t(3), bound: t(4), also }
+            }
+            _ => Kind::Vanishing { ratio: t(0), of: t(1), to: t(2) },
+        };
+        let v = Tree::symbol("v");
+        let near = Hypothesis::near(&v, t(7), t(8));
+        let claim = Claim::new("drawn", &[&near], kind);
+        if computes { claim.computing(&v, t(8)) } else { claim }
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(500))]
+
+    #[test]
+    fn a_hypothesis_says_what_is_supposed(hypothesis in hypotheses()) {
+        Text(&hypothesis.to_string(), &NO_NAMES, &[]).is_hypothesis(&hypothesis);
+    }
+
+    #[test]
+    fn a_claim_says_what_is_claimed(claim in claims()) {
+        let statement = Statement::of(&claim);
+        Text(&Paper::new(&NO_NAMES).claim(&statement), &NO_NAMES, &[]).is_claim(&statement);
+    }
+}
+
+/// Numbers for all symbols of a proof, with what its lines define as it goes on.
+struct Lines<'a> {
+    known: BTreeMap<String, Exact>,
+    /// What a line may say that it is: sides of goals, and the last divisor.
+    values: Vec<Exact>,
+    /// The next thing that a line says that it is decides a bracket.
+    decides: bool,
+    statement: &'a Statement,
+}
+
+impl Lines<'_> {
+    fn value(&self, text: &str) -> Exact {
+        let at = |name: &str| self.known.get(name).cloned().unwrap_or_else(|| at(name));
+        let value = Reader { at: &at, ..Reader::new(text) }.all();
+        value.unwrap_or_else(|| panic!("{text}: divides by zero"))
+    }
+
+    /// Two formulas are the same number.
+    fn same(&self, a: &str, b: &str, line: &str) {
+        assert_eq!(self.value(a), self.value(b), "{line}: {}", Paper::new(&NO_NAMES).claim(self.statement));
+    }
+
+    /// Holds one line against the numbers; `false` if it says nothing of formulas.
+    fn holds(&mut self, line: &str) -> bool {
+        let line = line.trim_start();
+        if let Some((divisor, reason)) = line.split_once(" ≠ 0:") {
+            self.values.push(self.value(divisor));
+            return self.holds(reason) || reason.is_empty();
+        }
+        if let Some((bracket, reason)) = line.split_once(" by the sign of ") {
+            let (left, right) = bracket.split_once(" = ").unwrap();
+            self.same(left, right, line);
+            // What decides is not said as a formula, but comes next.
+            self.values.extend(reason.split_once("it is ").map(|(_, said)| self.value(said)));
+            self.decides = true;
+            return true;
+        }
+        let of_bound = ["the bound less it is ", "the bound and it is "]
+            .iter()
+            .find_map(|start| line.strip_prefix(start));
+        let of_bound = of_bound.map(|rest| rest.split_once(" ≥ 0, ").unwrap().0);
+        if let Some(said) = line.strip_prefix("both sides are ").or(line.strip_prefix("it is ")).or(of_bound)
+        {
+            let value = self.value(said);
+            if std::mem::take(&mut self.decides) {
+                self.values.push(value.clone());
+            }
+            assert!(self.values.contains(&value), "{line}: {}", Paper::new(&NO_NAMES).claim(self.statement));
+            return true;
+        }
+        if let Some((_, definition)) = line.strip_prefix("by ").and_then(|rest| rest.split_once(": ")) {
+            let (new, solved) = definition.split_once(", so ").unwrap_or(("", definition));
+            if let Some((slack, value)) = new.split_once(" = ") {
+                let (value, _) = value.rsplit_once(['>', '≥']).unwrap();
+                let value = self.value(value.trim_end());
+                assert!(self.known.insert(slack.to_string(), value).is_none(), "{line}: {slack} again");
+            }
+            let (pivot, by) = solved.split_once(" = ").unwrap();
+            self.same(pivot, by, line);
+            return true;
+        }
+        let (fact, _) = line.split_once(", ").unwrap_or((line, ""));
+        let fact =
+            [" > 0", " ≥ 0", " < 0", " ≤ 0"].iter().find_map(|end| fact.strip_suffix(end)).unwrap_or(fact);
+        match fact.split_once(" = ") {
+            Some((left, right)) => self.same(left, right, line),
+            None if fact != line => {
+                self.value(fact);
+            }
+            None => return false,
+        }
+        true
+    }
+}
+
+/// Claims that the kernel may prove: equal formulas, squares, and what is bounded by a hypothesis.
+fn provable() -> impl Strategy<Value = Claim> {
+    let [a, b, u, k] = ["a", "b", "u", "k"].map(|name| Tree::symbol(name));
+    let leaf = prop_oneof![
+        4 => prop::sample::select(vec![a.clone(), b.clone(), u.clone(), k.clone()]),
+        1 => (-3..4).prop_map(Tree::int)
+    ];
+    let below = &a + &b;
+    let polynomial = leaf.prop_recursive(4, 12, 2, move |inner| {
+        let below = below.clone();
+        let pair = (inner.clone(), inner.clone());
+        prop_oneof![
+            2 => pair.clone().prop_map(|(x, y)| x + y),
+            2 => pair.clone().prop_map(|(x, y)| x - y),
+            3 => pair.prop_map(|(x, y)| x * y),
+            1 => inner.clone().prop_map(move |x| x / &below),
+            1 => inner.prop_map(|x| -x),
+        ]
+    });
+    (polynomial.clone(), polynomial, 0..6, any::<bool>()).prop_map(move |(x, y, kind, more)| {
+        let sign = |relation, of: &Tree| Hypothesis::new(relation, of.clone());
+        let [of_a, of_b] = [&a, &b].map(|of| sign(Relation::Positive, of));
+        let difference = sign(Relation::Positive, &(&b - Tree::int(2) * &a));
+        let product = sign(Relation::NonNegative, &(&a * &u - &b * &k));
+        let hypotheses: &[&Hypothesis] = if more { &[&of_a, &difference, &product] } else { &[&of_a, &of_b] };
+        let kind = match kind {
+            0 => Kind::Equal(&x * (&y + &a), &a * &x + &y * &x),
+            1 => Kind::Equal(&x / (&a + &b) - &y, (&x - &y * (&a + &b)) / (&a + &b)),
+            2 => Kind::Sign(Relation::Positive, &x * &x + &b),
+            3 => Kind::Sign(Relation::Positive, &u * &u * &a - &u * &k * &a + &k * &k * &b + &a),
+            4 => Kind::Sign(Relation::NonNegative, (&a * &x * &x + &a * &y * &y - &x * &y * &a) / (&b * &b)),
+            _ => Kind::Within(&x * &a, (&x * &a).abs() + &b),
+        };
+        Claim::new("drawn", hypotheses, kind)
+    })
+}
+
+#[test]
+fn a_line_of_a_proof_says_what_is_proved() {
+    let held = std::cell::Cell::new(0);
+    let config = ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(1000) };
+    let tried = TestRunner::new(config).run(&provable(), |claim| {
+        let statement = Statement::of(&claim);
+        let Ok(proof) = prove(&statement) else { return Ok(()) };
+        let said = Paper::new(&NO_NAMES).proof(&proof);
+        // In each case a name may stand for something else; and of what is long only the length is said.
+        if said.iter().any(|line| line.trim_start().starts_with("case ") || line.contains("a sum of ")) {
+            return Ok(());
+        }
+        // All that is supposed holds there.
+        let known =
+            [("a", 3), ("b", 10), ("u", 5), ("k", 1)].map(|(name, n)| (name.to_string(), Exact::from(n)));
+        let known = BTreeMap::from(known);
+        let sides = statement.goals.iter().flat_map(|goal| goal.says.trees());
+        let mut values: Vec<_> =
+            sides.filter_map(|tree| replayed_at(tree, &|name| known[name].clone())).collect();
+        if let [Says::Within(..)] =
+            statement.goals.iter().map(|goal| goal.says.clone()).collect::<Vec<_>>()[..]
+        {
+            values = vec![&values[1] - &values[0], &values[1] + &values[0]];
+        }
+        let mut lines = Lines { known, values, decides: false, statement: &statement };
+        held.set(held.get() + said.iter().filter(|line| lines.holds(line)).count());
+        Ok(())
+    });
+    tried.unwrap_or_else(|error| panic!("{error}"));
+    assert!(held.get() > 1000, "only {} lines are about formulas", held.get());
+}
+
+#[test]
+fn every_claim_of_the_chapter_says_what_is_claimed() {
+    let quiet = ["ε"];
+    for statement in statements() {
+        Text(&Paper::new(registry()).claim(&statement), registry(), &quiet).is_claim(&statement);
+        for hypothesis in statement.supposed() {
+            Text(&registry().supposed(hypothesis), registry(), &quiet).is_hypothesis(hypothesis);
+        }
+    }
+}
+
+/// a b − c
+fn spring(a: &Tree, b: &Tree, c: &Tree) -> Tree {
+    a * b - c
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    /// With two arguments that may be left unsaid, and in each other.
+    #[test]
+    fn a_name_stands_for_what_it_is_said_of(drawn in prop::collection::vec(trees(), 3), usual in 0..8, twice: bool) {
+        let [a, b, c] = ["a", "b", "u"].map(|name| Tree::symbol(name));
+        let formula = Formula::new("spring", "S", &["a", "b", "u"], spring(&a, &b, &c)).folded();
+        let names = Registry::new(&OWN, vec![formula]).quiet(&["b", "u"]);
+        let argument = |i: usize, own: &Tree| if usual & (1 << i) > 0 { own.clone() } else { drawn[i].clone() };
+        let called = spring(&argument(0, &a), &argument(1, &b), &argument(2, &c));
+        let called = if twice { spring(&a, &called, &c) } else { called };
+        for tree in [&called - &drawn[1], (-&called * &a).nearest(), (&called * &drawn[2]).rounded()] {
+            Text(&names.text(&tree), &names, &["b", "u"]).is(&tree);
         }
     }
 }

@@ -6,6 +6,7 @@
 //! arguments, and `«penalty::contact_force in full»` spells out also what has a name of its own, here p.
 
 use super::Hypothesis;
+use super::claim::{POWER, PRECISION, SCALES};
 use super::typeset::{Name, Notation, latex};
 use crate::number::Tree;
 use crate::number::tree::{Site, Step};
@@ -75,11 +76,21 @@ impl Registry {
     /// quantities that are spoken of, in the order in which they are to be listed.
     ///
     /// # Panics
-    /// Two functions have the same name.
+    /// Two functions have the same name; or what a text writes for a [folded](Formula::folded) one stands for
+    /// something else as well: a quantity, another folded function, or what proofs and sequences call so.
     pub fn new(symbols: &[&'static str], formulas: Vec<Formula>) -> Self {
-        let mut names = BTreeSet::new();
-        for name in formulas.iter().map(Formula::name) {
+        let (mut names, mut taken) = (BTreeSet::new(), BTreeSet::new());
+        for formula in &formulas {
+            let (name, symbol) = (formula.name(), formula.symbol);
             assert!(names.insert(name.clone()), "two functions are called {name}");
+            if formula.folded {
+                assert!(!symbols.contains(&symbol), "{name} is written as {symbol}, which is a quantity");
+                assert!(
+                    !is_reserved(symbol),
+                    "{name} is written as {symbol}, which is a name that proofs keep"
+                );
+                assert!(taken.insert(symbol), "{name} is written as {symbol}, and another function too");
+            }
         }
         let mut by_site: HashMap<Site, Vec<usize>> = HashMap::new();
         let mut sites = HashSet::new();
@@ -103,7 +114,7 @@ impl Registry {
     }
 
     /// With symbols that are parameters: where a name is said with its arguments, they are not said as long
-    /// as they are themselves.
+    /// as all of them are themselves.
     pub fn quiet(self, quiet: &[&'static str]) -> Self {
         Registry { quiet: quiet.to_vec(), ..self }
     }
@@ -126,6 +137,17 @@ impl Registry {
             _ => None,
         };
         self.alike.iter().filter_map(other)
+    }
+
+    /// A registry that writes out the functions that are written like one of these quantities; `None` if
+    /// there is none.
+    pub(crate) fn without_names_of(&self, quantities: &BTreeSet<&str>) -> Option<Self> {
+        let is_taken = |formula: &Formula| formula.folded && quantities.contains(formula.symbol);
+        self.formulas.iter().any(is_taken).then(|| {
+            let mut registry = self.clone();
+            registry.formulas.iter_mut().for_each(|formula| formula.folded &= !is_taken(formula));
+            registry
+        })
     }
 
     /// Its functions.
@@ -224,6 +246,16 @@ impl Registry {
         self.names(None).of(tree)
     }
 
+    /// The names of the arguments that a text says with a function, if it says so many.
+    pub(crate) fn said_of<'f>(
+        &'f self,
+        formula: &'f Formula,
+        many: usize,
+    ) -> impl Iterator<Item = &'static str> + 'f {
+        let all = many == formula.depends_on().count();
+        formula.depends_on().filter(move |name| many > 0 && (all || !self.quiet.contains(name)))
+    }
+
     /// A formula as a text writes it.
     pub fn text(&self, tree: &Tree) -> String {
         tree.typeset(Notation::Text, &|tree| self.named(tree))
@@ -290,6 +322,14 @@ impl Formula {
     }
 }
 
+/// Is it what printed proofs call something: 2ᵖ, q, or e, s, t, x with a number?
+fn is_reserved(symbol: &str) -> bool {
+    let numbered = symbol
+        .strip_prefix(['e', 's', 't', 'x'])
+        .is_some_and(|number| !number.is_empty() && number.chars().all(|c| ('₀'..='₉').contains(&c)));
+    numbered || [PRECISION, POWER, "fl", "nearest"].contains(&symbol) || SCALES.contains(&symbol)
+}
+
 /// What the parts of a formula are called in it.
 struct Names<'a> {
     registry: &'a Registry,
@@ -322,9 +362,10 @@ impl Names<'_> {
         let arguments = if named.iter().all(|(argument, name)| usual(argument, name)) {
             Vec::new()
         } else {
+            // All of the parameters or none: whoever reads fewer arguments has to know which.
             let quiet = |name: &str| self.registry.quiet.contains(&name);
-            let said = named.into_iter().filter(|(argument, name)| !quiet(name) || !usual(argument, name));
-            said.map(|(argument, _)| argument).collect()
+            let said = named.iter().any(|(argument, name)| quiet(name) && !usual(argument, name));
+            named.into_iter().filter(|(_, name)| said || !quiet(name)).map(|(argument, _)| argument).collect()
         };
         Some(Name { symbol: formula.symbol.to_string(), arguments })
     }
@@ -352,81 +393,4 @@ fn matches<'t>(
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::number::Dual;
-
-    fn x(name: &'static str) -> Tree {
-        Tree::symbol(name)
-    }
-
-    /// k = a + b
-    fn sum(a: &Tree, b: &Tree) -> Tree {
-        a + b
-    }
-
-    /// k(a b, b)
-    fn sum_with_product(a: &Tree, b: &Tree) -> Tree {
-        sum(&(a * b), b)
-    }
-
-    fn registry() -> Registry {
-        let [a, b] = ["a", "b"].map(x);
-        let formula = |path, tree| Formula::new(path, "", &["a", "b"], tree);
-        let formulas = vec![formula("sum", sum(&a, &b)), formula("more", sum_with_product(&a, &b))];
-        Registry::new(&["b", "a"], formulas)
-    }
-
-    #[test]
-    fn every_place_where_a_function_does_something_is_known() {
-        let (registry, [c, d]) = (registry(), ["c", "d"].map(x));
-        let tree = sum_with_product(&c, &d);
-        // The sum is the work of the one, and what it is called with that of the other.
-        let Step::Add(product, _) = tree.step() else { panic!("{tree} is no sum") };
-        assert!(registry.has_site(&tree.site()) && registry.has_site(&product.site()));
-        assert!(!registry.has_site(&(&c * &d).site()));
-    }
-
-    #[test]
-    fn no_function_does_what_the_rules_of_differentiation_do() {
-        let a = Dual::coordinate(x("a"), true);
-        let slope = (&a * &a).derivative;
-        assert!(slope.site().is_of_duals());
-        let registry = Registry::new(&["a"], vec![Formula::new("slope", "", &["a"], slope.clone())]);
-        assert!(!registry.has_site(&slope.site()));
-    }
-
-    #[test]
-    fn a_formula_that_only_looks_the_same_is_no_call() {
-        let (registry, [c, d]) = (registry(), ["c", "d"].map(x));
-        let call = |tree: &Tree| registry.call(tree).map(|call| (call.formula.path, call.arguments));
-        assert_eq!(call(&sum(&c, &d)), Some(("sum", vec![c.clone(), d.clone()])));
-        assert_eq!(call(&(c + d)), None);
-    }
-
-    #[test]
-    fn symbols_that_are_not_listed_follow_those_that_are() {
-        let tree = x("z") * x("a") - x("b") + x("y");
-        assert_eq!(registry().symbols_of([&tree]), ["b", "a", "y", "z"]);
-    }
-
-    #[test]
-    fn either_of_two_symbols_is_mistaken_for_the_other() {
-        let registry = registry().alike(&[["a", "b"], ["c", "a"]]);
-        let others = |symbol| registry.mistaken_for(symbol).collect::<Vec<_>>();
-        assert_eq!((others("a"), others("b"), others("d")), (vec!["b", "c"], vec!["a"], vec![]));
-    }
-
-    /// k + 2 a, where k is no argument: of another k, or with another number, it is no call.
-    #[test]
-    fn a_call_is_the_same_but_for_its_arguments() {
-        let with = |a: &Tree, number: i32, k: &'static str| {
-            let (own, n) = (x(k), Tree::from(number));
-            own + n * a
-        };
-        let registry = Registry::new(&["a"], vec![Formula::new("own", "", &["a"], with(&x("a"), 2, "k"))]);
-        let is_call = |tree: &Tree| registry.call(tree).is_some();
-        assert!(is_call(&with(&x("c"), 2, "k")));
-        assert!(!is_call(&with(&x("c"), 3, "k")) && !is_call(&with(&x("c"), 2, "l")));
-    }
-}
+mod tests;

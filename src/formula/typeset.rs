@@ -5,8 +5,10 @@
 //! 1 or a summand 0 is not written. Brackets are where they are needed and nowhere else.
 
 mod latex;
+mod rounding;
 
 pub use latex::latex;
+pub(crate) use rounding::name_of_rounding;
 
 use self::latex::{script, superscript};
 use crate::number::Tree;
@@ -48,6 +50,23 @@ impl Tree {
         let sum = Layout { name }.sum(self);
         Writer { notation, inline: notation == Notation::Text }.sum(&sum)
     }
+
+    /// The formula in plain text with something above it: `ρᵏ`, `(1 − c)ᵏ`.
+    pub(crate) fn raised(&self, exponent: &str, name: &dyn Fn(&Tree) -> Option<Name>) -> String {
+        let sum = Layout { name }.sum(self);
+        let writer = Writer { notation: Notation::Text, inline: true };
+        let base = match &sum[..] {
+            [term] if !term.negative && term.under.is_one() => {
+                match (&term.over.factors[..], term.over.number) {
+                    ([], _) => Some(writer.term(term)),
+                    ([(factor, 1)], 1) => Some(writer.base(factor)),
+                    _ => None,
+                }
+            }
+            _ => None,
+        };
+        base.unwrap_or_else(|| format!("({})", writer.sum(&sum))) + exponent
+    }
 }
 
 /// The formula as plain text.
@@ -81,7 +100,7 @@ enum Factor {
     Exp(Sum),
     PositivePart(Sum),
     Size(Sum),
-    Rounded(Sum),
+    Rounded(&'static str, Sum),
     Extremum(&'static str, [Sum; 2]),
 }
 
@@ -167,15 +186,6 @@ fn size(negated: &Tree) -> Option<&Tree> {
     }
 }
 
-/// What is rounded at every step says so once, and fl(a + b c) means fl(a + fl(b c)): the formula without the
-/// roundings inside, down to where a step does not round.
-fn unrounded(tree: &Tree) -> Tree {
-    match tree.step() {
-        Step::Rounded(a) => a.with_step(a.step().map(unrounded)),
-        _ => tree.clone(),
-    }
-}
-
 /// Arranges what is to be written.
 struct Layout<'a> {
     name: &'a dyn Fn(&Tree) -> Option<Name>,
@@ -256,7 +266,10 @@ impl Layout<'_> {
             Step::Exp(a) => Term::of(Factor::Exp(self.sum(a)), 1),
             Step::PositivePart(a) => Term::of(Factor::PositivePart(self.sum(a)), 1),
             Step::Min(a, b) => Term::of(Factor::Extremum("min", [self.sum(a), self.sum(b)]), 1),
-            Step::Rounded(_) => Term::of(Factor::Rounded(self.sum(&unrounded(tree))), 1),
+            Step::Rounded(of) => {
+                let (name, of) = rounding::brackets(of);
+                Term::of(Factor::Rounded(name, self.sum(&of)), 1)
+            }
         }
     }
 }
@@ -324,18 +337,22 @@ impl Writer {
             product.factors.iter().map(|(factor, power)| self.power(factor, *power)).collect();
         // Unlike a number, letters want a little space between them.
         let factors = factors.join(if self.is_latex() { "\\," } else { " " });
+        // 5·2ᵖ, which is not to be read as 52ᵖ.
+        let times = match factors.starts_with(|c: char| c.is_ascii_digit()) {
+            true if self.is_latex() => " \\cdot ",
+            true => "·",
+            false => " ",
+        };
         match (product.number, factors.is_empty()) {
             (number, true) => number.to_string(),
             (1, false) => factors,
-            (number, false) => format!("{number} {factors}"),
+            (number, false) => format!("{number}{times}{factors}"),
         }
     }
 
-    fn power(self, factor: &Factor, power: u32) -> String {
+    /// A factor below an exponent.
+    fn base(self, factor: &Factor) -> String {
         let base = self.factor(factor);
-        if power == 1 {
-            return base;
-        }
         // A base that has an exponent of its own.
         let raised = match factor {
             Factor::Name(symbol, _) => {
@@ -344,7 +361,14 @@ impl Writer {
             Factor::Exp(_) => self.is_latex(),
             _ => false,
         };
-        let base = if raised { self.brackets("(", ")", &base) } else { base };
+        if raised { self.brackets("(", ")", &base) } else { base }
+    }
+
+    fn power(self, factor: &Factor, power: u32) -> String {
+        if power == 1 {
+            return self.factor(factor);
+        }
+        let base = self.base(factor);
         if self.is_latex() {
             return base + &script('^', &power.to_string());
         }
@@ -370,10 +394,10 @@ impl Writer {
             Factor::PositivePart(sum) => self.brackets("⟨", "⟩", &self.sum(sum)),
             Factor::Size(sum) if self.is_latex() => self.brackets("\\lvert ", " \\rvert", &self.sum(sum)),
             Factor::Size(sum) => self.brackets("|", "|", &self.sum(sum)),
-            Factor::Rounded(sum) if self.is_latex() => {
-                format!("\\mathrm{{fl}}{}", self.brackets("(", ")", &self.sum(sum)))
+            Factor::Rounded(name, sum) => {
+                let name = if self.is_latex() { format!("\\mathrm{{{name}}}") } else { name.to_string() };
+                name + &self.brackets("(", ")", &self.sum(sum))
             }
-            Factor::Rounded(sum) => format!("fl{}", self.brackets("(", ")", &self.sum(sum))),
             Factor::Extremum(name, sums) => {
                 format!("{}{name}{}", if self.is_latex() { "\\" } else { "" }, self.list(sums))
             }

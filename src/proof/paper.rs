@@ -1,15 +1,21 @@
 //! Proofs written out, for a reader with paper.
 
 mod algebra;
+mod names;
+mod summary;
+
+pub use summary::how;
 
 use self::algebra::Order;
 use super::kernel::sign::{Certificate, Rule, Sign};
-use super::kernel::{Because, Derivation, Direct, Proof, Rounding, Signed, Supposed, Used, Why};
-use crate::formula::claim::{MEMBERS, PRECISION};
-use crate::formula::statement::{Goal, Says, Sequence, Statement};
-use crate::formula::{Formula, Hypothesis, Notation, Registry};
+use super::kernel::{Because, Derivation, Direct, Proof, Rounding, Signed, Supposed, Used};
+use crate::formula::claim::{MEMBERS, POWER, PRECISION};
+use crate::formula::statement::{Goal, Role, Says, Sequence, Statement};
+use crate::formula::{Call, Formula, Hypothesis, Notation, Registry, name_of_rounding};
 use crate::number::tree::Step;
 use crate::number::{PositivePart, Tree};
+use std::cell::RefCell;
+use std::collections::BTreeSet;
 
 /// Writes claims and proofs in the names that a registry has for quantities.
 #[derive(Clone, Copy, Debug)]
@@ -25,34 +31,69 @@ impl<'a> Paper<'a> {
 
     /// What a claim says, in one line.
     pub fn claim(&self, statement: &Statement) -> String {
-        if let Some(Sequence { start, step, ratio, member, limit, within }) = &statement.amounts_to {
-            let together =
-                |trees: &[Tree]| trees.iter().map(|tree| self.text(tree)).collect::<Vec<_>>().join(", ");
-            let (ratio, member) = (self.text(ratio), together(member));
-            return match limit {
-                None if !within.is_empty() => {
-                    let bound =
-                        |(of, bound): &(Tree, Tree)| self.says(&Says::Within(of.clone(), bound.clone()));
-                    let bounds: Vec<_> = within.iter().map(bound).collect();
-                    let (from, to) = (together(start), together(step));
-                    let x = MEMBERS[0];
-                    format!(
-                        "k steps from {from}, each of {x} to {to}, lead to {x} with {}, where q = {ratio}ᵏ",
-                        bounds.join(" and ")
-                    )
-                }
-                Some(limit) => format!("{member} → {} for q = {ratio}ᵏ and k → ∞", self.text(limit)),
-                None => {
-                    let (from, to, members) = (together(start), together(step), &MEMBERS[..step.len()]);
-                    let members = members.join(", ");
-                    format!(
-                        "k steps from {from}, each of {members} to {to}, lead to {member}, where q = {ratio}ᵏ"
-                    )
-                }
-            };
+        if let Some(registry) = self.other_names(statement) {
+            return Paper::new(&registry).claim(statement);
         }
-        let goals = statement.goals.iter().map(|goal| self.says(&goal.says));
-        goals.collect::<Vec<_>>().join("; ")
+        let computed = statement.computed.iter();
+        let computed: String =
+            computed.map(|computed| format!("{} = {}", computed.symbol, self.text(&computed.by))).collect();
+        let Some(sequence) = &statement.amounts_to else {
+            let goals = statement.goals.iter().filter(|goal| goal.role == Role::Claim);
+            let goals: Vec<_> = goals.map(|goal| self.says(&goal.says)).collect();
+            let place = if computed.is_empty() { String::new() } else { format!(", where {computed}") };
+            return goals.join("; ") + &place;
+        };
+        let Sequence { start, step, ratio, member, limit, within } = sequence;
+        let together =
+            |trees: &[Tree]| trees.iter().map(|tree| self.text(tree)).collect::<Vec<_>>().join(", ");
+        let (index, power) = (self.index(statement), self.power(statement, ratio));
+        let place = if computed.is_empty() { power } else { format!("{power} and {computed}") };
+        if let Some(limit) = limit {
+            return format!("{} → {} for {place} and {index} → ∞", together(member), self.text(limit));
+        }
+        let (from, to, members) = (together(start), together(step), MEMBERS[..step.len()].join(", "));
+        let bound = |(of, bound): &(Tree, Tree)| self.says(&Says::Within(of.clone(), bound.clone()));
+        let leads_to = match &within.iter().map(bound).collect::<Vec<_>>()[..] {
+            [] => together(member),
+            bounds => format!("{members} with {}", bounds.join(" and ")),
+        };
+        format!("{index} steps from {from}, each of {members} to {to}, lead to {leads_to}, where {place}")
+    }
+
+    /// What holds of a sequence at every step, and of what is computed: part of the proof, and not supposed.
+    pub fn always(&self, statement: &Statement) -> Vec<String> {
+        if let Some(registry) = self.other_names(statement) {
+            return Paper::new(&registry).always(statement);
+        }
+        let computed = statement.computed.iter().map(|computed| &computed.hypothesis);
+        let all = statement.invariants.iter().chain(computed);
+        all.map(|hypothesis| self.registry.supposed(hypothesis)).collect()
+    }
+
+    /// What counts the steps of a sequence: a letter that stands for nothing else in the statement.
+    pub fn index(&self, statement: &Statement) -> char {
+        self.letter(statement).0
+    }
+
+    /// The same with the letter as an exponent.
+    fn letter(&self, statement: &Statement) -> (char, char) {
+        let symbols: Vec<_> = statement.trees().flat_map(Tree::symbols).collect();
+        let names = self.called(statement).into_iter().map(|called| called.formula.symbol);
+        let taken: BTreeSet<_> = symbols.into_iter().chain(names).collect();
+        let is_free = |(letter, _): &&(char, char)| !taken.contains(letter.to_string().as_str());
+        *LETTERS.iter().find(is_free).unwrap_or(&LETTERS[0])
+    }
+
+    /// What a power of a ratio is: `q = ρᵏ`.
+    fn power(&self, statement: &Statement, ratio: &Tree) -> String {
+        let (_, exponent) = self.letter(statement);
+        let power = ratio.raised(&exponent.to_string(), &|tree| self.registry.named(tree));
+        format!("{POWER} = {power}")
+    }
+
+    /// The registry without names that the statement has for quantities of its own; `None` if there are none.
+    fn other_names(&self, statement: &Statement) -> Option<Registry> {
+        self.registry.without_names_of(&statement.trees().flat_map(Tree::symbols).collect())
     }
 
     /// What a goal says.
@@ -68,6 +109,9 @@ impl<'a> Paper<'a> {
 
     /// The hypotheses that some goal's proof uses, as a reader writes them.
     pub fn used(&self, proof: &Proof) -> Vec<String> {
+        if let Some(registry) = self.other_names(proof.statement()) {
+            return Paper::new(&registry).used(proof);
+        }
         fn collect(derivation: &Derivation, all: &mut Vec<Hypothesis>) {
             match derivation {
                 Derivation::Cases(_, positive, not) => {
@@ -93,54 +137,88 @@ impl<'a> Paper<'a> {
 
     /// What the names in a claim stand for, those that occur: `R = m g − c (H − l)`.
     pub fn names(&self, statement: &Statement) -> Vec<String> {
-        let mut called: Vec<&'a Formula> = Vec::new();
-        fn collect<'a>(registry: &'a Registry, tree: &Tree, called: &mut Vec<&'a Formula>) {
-            if let Some(call) = registry.call(tree).filter(|call| call.formula.folded) {
-                if called.iter().all(|formula| formula.name() != call.formula.name()) {
-                    called.push(call.formula);
-                }
-                call.arguments.iter().for_each(|argument| collect(registry, argument, called));
-            } else {
-                tree.step().operands().for_each(|operand| collect(registry, operand, called));
-            }
+        if let Some(registry) = self.other_names(statement) {
+            return Paper::new(&registry).names(statement);
         }
-        statement.trees().for_each(|tree| collect(self.registry, tree, &mut called));
-        // What a name stands for may be said by further names.
-        let mut i = 0;
-        while let Some(formula) = called.get(i).copied() {
-            formula.tree.step().operands().for_each(|operand| collect(self.registry, operand, &mut called));
-            i += 1;
-        }
-        called
-            .iter()
-            .map(|f| format!("{} = {}", f.symbol, self.registry.typeset(f, Notation::Text)))
-            .collect()
+        let definition = |Called { formula, arguments }: &Called| {
+            let names: Vec<_> = self.registry.said_of(formula, *arguments).collect();
+            let names = if names.is_empty() { String::new() } else { format!("({})", names.join(", ")) };
+            format!("{}{names} = {}", formula.symbol, self.registry.typeset(formula, Notation::Text))
+        };
+        self.called(statement).iter().map(definition).collect()
     }
 
-    /// Why there is no proof.
-    pub fn why(&self, why: &Why) -> String {
-        self.order().why(why)
+    /// The formulas that a text of the statement has by name, and those that these have.
+    fn called(&self, statement: &Statement) -> Vec<Called<'a>> {
+        let called = RefCell::new(Vec::<Called<'a>>::new());
+        let collect = |tree: &Tree| {
+            let name = |part: &Tree| {
+                let name = self.registry.named(part)?;
+                let Call { formula, .. } = self.registry.call(part)?;
+                let (mut called, arguments) = (called.borrow_mut(), name.arguments.len());
+                match called.iter_mut().find(|known| known.formula.name() == formula.name()) {
+                    Some(known) => known.arguments = known.arguments.max(arguments),
+                    None => called.push(Called { formula, arguments }),
+                }
+                Some(name)
+            };
+            tree.typeset(Notation::Text, &name);
+        };
+        statement.trees().for_each(collect);
+        if let Some(Sequence { start, step, ratio, member, limit, within }) = &statement.amounts_to {
+            let bounds = within.iter().flat_map(|(of, bound)| [of, bound]);
+            start
+                .iter()
+                .chain(step)
+                .chain([ratio])
+                .chain(member)
+                .chain(limit)
+                .chain(bounds)
+                .for_each(collect);
+        }
+        // What a name stands for may be said by further names.
+        let mut i = 0;
+        loop {
+            let Some(formula) = called.borrow().get(i).map(|called| called.formula) else { break };
+            formula.tree.step().operands().for_each(collect);
+            i += 1;
+        }
+        called.into_inner()
     }
 
     /// The whole proof, line by line.
     pub fn proof(&self, proof: &Proof) -> Vec<String> {
         let statement = proof.statement();
+        if let Some(registry) = self.other_names(statement) {
+            return Paper::new(&registry).proof(proof);
+        }
         let mut lines = Vec::new();
-        lines.extend(statement.amounts_to.as_ref().map(|sequence| {
-            let by = match sequence.limit {
-                None => "by induction on k, with q = ρᵏ: for q = 1, and from q to ρ q",
-                Some(_) => {
-                    "if |ρ| < 1 then ρᵏ → 0, and what is continuous in q at 0 tends to what it is there"
+        lines.extend(statement.amounts_to.as_ref().map(|Sequence { ratio, limit, .. }| {
+            let (index, power) = (self.index(statement), self.power(statement, ratio));
+            match limit {
+                None => {
+                    let next = self.text(&(ratio * Tree::symbol(POWER)));
+                    let steps = format!("for {POWER} = 1, and from {POWER} to {next}");
+                    format!("by induction on {index}, with {power}: {steps}")
                 }
-            };
-            by.to_string()
+                Some(_) => {
+                    let size = self.text(&ratio.abs());
+                    let continuous = format!("what is continuous in {POWER} at 0 tends to what it is there");
+                    format!("{power} → 0 if {size} < 1, and {continuous}")
+                }
+            }
         }));
         let single = statement.goals.len() == 1;
         for (Goal { part, says: goal, .. }, derivation) in statement.goals.iter().zip(proof.goals()) {
             if single {
                 self.derivation(derivation, 0, &mut lines);
             } else {
-                lines.push(format!("{part}: {}", self.says(goal)));
+                let part = match &statement.amounts_to {
+                    Some(Sequence { ratio, .. }) => part.replace("|ρ|", &self.text(&ratio.abs())),
+                    None => part.to_string(),
+                };
+                let colon = if part.is_empty() { "" } else { ": " };
+                lines.push(format!("{part}{colon}{}", self.says(goal)));
                 self.derivation(derivation, 1, &mut lines);
             }
         }
@@ -211,10 +289,11 @@ impl<'a> Paper<'a> {
 
     /// What is rounded, with the names of its errors.
     fn errors(&self, direct: &Direct) -> Option<String> {
-        let own = |own: &Rounding| format!("{} of fl({})", own.error().0, self.text(own.of()));
+        let own = |own: &Rounding| {
+            format!("{} of {}({})", own.error().0, name_of_rounding(own.of()), self.text(own.of()))
+        };
         let errors: Vec<_> = direct.errors().iter().map(own).collect();
-        let model = format!("fl(x) = x (1 + γ e) with |e| ≤ 1, γ = 1 / ({PRECISION} + 1): ");
-        (!errors.is_empty()).then(|| model + &errors.join(", "))
+        (!errors.is_empty()).then(|| model() + &errors.join(", "))
     }
 
     /// A bound of what is rounded: what all of its cases have in common is said once, and what is long by its
@@ -317,44 +396,32 @@ impl<'a> Paper<'a> {
     }
 }
 
-/// How a claim was proved, in a few words.
-pub fn how(proof: &Proof) -> String {
-    let cases = proof.goals().iter().map(cases).max().unwrap_or(1);
-    let means = proof.goals().last().map_or("", |derivation| means(derivation));
-    let kind = match proof.statement().kind {
-        "equal" | "sign" => means,
-        other => other,
-    };
-    let kind = if proof.statement().rounds() { format!("{kind}, any precision") } else { kind.to_string() };
-    if cases > 1 { format!("{kind}, {cases} cases") } else { kind }
+/// A formula that a text has by its name.
+struct Called<'a> {
+    formula: &'a Formula,
+    /// The most arguments that are said with it.
+    arguments: usize,
 }
 
-fn cases(derivation: &Derivation) -> usize {
-    match derivation {
-        Derivation::Cases(_, positive, not) => cases(positive) + cases(not),
-        Derivation::Direct(_) => 1,
-    }
-}
+/// Letters that count steps, the first that is free; and the same as exponents.
+const LETTERS: [(char, char); 12] = [
+    ('k', 'ᵏ'),
+    ('j', 'ʲ'),
+    ('i', 'ⁱ'),
+    ('n', 'ⁿ'),
+    ('m', 'ᵐ'),
+    ('r', 'ʳ'),
+    ('s', 'ˢ'),
+    ('t', 'ᵗ'),
+    ('w', 'ʷ'),
+    ('x', 'ˣ'),
+    ('y', 'ʸ'),
+    ('z', 'ᶻ'),
+];
 
-fn means(derivation: &Derivation) -> &'static str {
-    match derivation {
-        Derivation::Cases(_, positive, _) => means(positive),
-        Derivation::Direct(direct) => match direct.because() {
-            Because::Same(_) => "identity",
-            Because::Order(_) => "order",
-            Because::Derivative(..) => "derivative",
-            Because::Limit { .. } => "limit",
-            Because::Within(_) => "bound",
-            Because::Sign(signed) => match signed.num().rule() {
-                Rule::Sizes(_) | Rule::Ends { .. } => "rounding",
-                Rule::Terms => "sign by terms",
-                Rule::Factor(_, rest) if matches!(rest.rule(), Rule::Slope { .. }) => "sign by slope",
-                Rule::Factor(..) => "sign by factors",
-                Rule::Square { .. } => "sign by square",
-                Rule::Slope { .. } => "sign by slope",
-            },
-        },
-    }
+/// What an error of rounding is; the names of errors follow.
+fn model() -> String {
+    format!("fl(…) = … (1 + eᵢ / ({PRECISION} + 1)) with |eᵢ| ≤ 1: ")
 }
 
 /// At how many ends of errors a sign is seen; 0 if there are no errors in it.
@@ -377,35 +444,4 @@ fn explain(fact: String, reason: Vec<String>, lines: &mut Vec<String>) {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::formula::claim::{equal, non_negative, positive};
-    use crate::formula::{Claim, Relation};
-    use crate::number::Exponential;
-    use crate::proof::prove;
-
-    #[test]
-    fn in_a_few_words_it_is_said_how() {
-        let [a, u] = ["a", "u"].map(|name| Tree::symbol(name));
-        let given = Hypothesis::new(Relation::Positive, a.clone());
-        let how = |claim: Claim| how(&prove(&Statement::of(&claim)).unwrap());
-        let is_positive = |of: &Tree| how(positive("", [&given], of));
-        assert_eq!(how(equal("", [], &u + &u, Tree::from(2) * &u)), "identity");
-        assert_eq!(how(equal("", [], u.positive_part() - (-&u).positive_part(), &u)), "identity, 2 cases");
-        let square = &u * &u - Tree::from(2) * &u + Tree::from(2);
-        let tangent = a.exp() - &a - Tree::from(1);
-        assert_eq!(is_positive(&(&a + &a)), "sign by terms");
-        assert_eq!(is_positive(&square), "sign by square");
-        let v = Tree::symbol("v");
-        assert_eq!(how(non_negative("", [], &v * &v * square)), "sign by factors");
-        assert_eq!(is_positive(&tangent), "sign by slope");
-    }
-
-    #[test]
-    fn why_there_is_no_proof_is_said_in_the_names_of_the_registry() {
-        let [a, b] = ["a", "b"].map(|name| Tree::symbol(name));
-        let why = prove(&Statement::of(&equal("", [], &b + &a, &a))).unwrap_err();
-        let registry = Registry::new(&["a", "b"], Vec::new());
-        assert!(Paper::new(&registry).why(&why).contains("b"), "{}", Paper::new(&registry).why(&why));
-    }
-}
+mod tests;

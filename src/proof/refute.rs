@@ -8,7 +8,7 @@
 //!
 //! All arithmetic is exact but for eˣ, which is a ball: what is refuted is false for certain.
 
-use crate::formula::claim::{POWER, PRECISION};
+use crate::formula::claim::{MEMBERS, POWER, PRECISION};
 use crate::formula::statement::{Role, Says, Sequence, Statement};
 use crate::formula::{Hypothesis, Relation};
 use crate::number::tree::{Step, everything, smooth};
@@ -316,12 +316,20 @@ pub fn sharpest(statement: &Statement) -> Option<(Point, Exact)> {
 /// Among so many raw points the sharpest is looked for.
 const SHARP: usize = 500;
 
-/// What a statement speaks of, in the order in which it does.
+/// What a statement speaks of, in the order in which it does, but for what follows from the rest: the
+/// members and powers of a sequence, and what is computed.
 fn symbols(statement: &Statement) -> Vec<&'static str> {
+    let computed = statement.computed.as_ref().map(|computed| computed.symbol);
+    let sequence = statement.amounts_to.as_ref().filter(|sequence| sequence.limit.is_none());
+    let members = sequence.map_or(&[][..], |sequence| &MEMBERS[..sequence.step.len()]);
+    let follows = |name: &'static str| {
+        Some(name) == computed || sequence.is_some() && name == POWER || members.contains(&name)
+    };
     let mut symbols = Vec::new();
     for tree in statement.trees() {
         tree.visit(&mut |tree| {
             if let Step::Symbol(name) = tree.step()
+                && !follows(name)
                 && !symbols.contains(name)
             {
                 symbols.push(*name);

@@ -1,7 +1,7 @@
 //! Claims and proofs as pages to be read without running anything.
 
 use crate::claims::{Entry, entries, registry};
-use crate::formula::Statement;
+use crate::formula::{Hypothesis, Statement};
 use crate::proof::paper::{self, Paper};
 use crate::proof::prove;
 use std::fmt::Write;
@@ -67,8 +67,16 @@ fn account(entry: &Entry) -> String {
     }
     for claim in &entry.claims {
         let (statement, paper) = (Statement::of(claim), Paper::new(registry()));
-        let given = registry().all_supposed(&claim.given);
-        let given = if given.is_empty() { String::new() } else { format!("\n\nif `{}`", given.join("`, `")) };
+        let supposed = |given: &&Hypothesis| statement.hypotheses.contains(given);
+        let given: Vec<_> = claim.given.iter().filter(supposed).cloned().collect();
+        let mut given = [("if", registry().all_supposed(&given)), ("always", paper.always(&statement))]
+            .into_iter()
+            .filter(|(_, all)| !all.is_empty())
+            .map(|(what, all)| format!("\n\n{what} `{}`", all.join("`, `")))
+            .collect::<String>();
+        if !paper.always(&statement).is_empty() {
+            given += ", which is part of the proof";
+        }
         let _ = write!(
             text,
             "\n### {}\n\n`{}`{given}\n\n",
@@ -87,7 +95,7 @@ fn account(entry: &Entry) -> String {
                     block
                 }
             }
-            Err(why) => format!("**not proved**: {}\n", paper.why(&why)),
+            Err(why) => format!("**not proved**: {}\n", paper.why(&statement, &why)),
         };
     }
     text

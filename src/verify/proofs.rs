@@ -40,7 +40,7 @@ impl Proved {
         let none = |why| Answer::None(why, guarded(|| refute(&statement)).ok().flatten());
         let answer = match guarded(|| prove(&statement)) {
             Ok(Ok(proof)) => Answer::Proof(proof),
-            Ok(Err(why)) => none(Paper::new(registry()).why(&why)),
+            Ok(Err(why)) => none(Paper::new(registry()).why(&statement, &why)),
             Err(panic) => none(panic),
         };
         Proved { statement, answer, time: start.elapsed() }

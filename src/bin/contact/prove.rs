@@ -145,6 +145,7 @@ fn amiss(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
             Answer::None(why, None) => {
                 writeln!(out)?;
                 output::wrapped(out, "", 2, &format!("{equation} {name} UNKNOWN: {why}"))?;
+                output::wrapped(out, "  ", 4, &together(&paper().claim(statement)))?;
             }
             Answer::None(_, Some(counterexample)) => {
                 writeln!(out, "\n{equation} {name} REFUTED")?;
@@ -239,9 +240,11 @@ fn account(out: &mut dyn Write, proofs: &Proofs, proved: &Proved) -> io::Result<
     if !statement.hypotheses.is_empty() {
         say("if", &[proved.hypotheses().join(", ")])?;
     }
-    let invariants = registry().all_supposed(&statement.invariants);
-    if !invariants.is_empty() {
-        say("always", &[format!("{} for every k, which is part of the proof", invariants.join(", "))])?;
+    let always = paper().always(statement);
+    if !always.is_empty() {
+        let every = statement.amounts_to.as_ref().map(|_| format!(" for every {}", paper().index(statement)));
+        let every = every.unwrap_or_default();
+        say("always", &[format!("{}{every}, which is part of the proof", always.join(", "))])?;
     }
     say("where", &paper().names(statement))?;
     match answer {
@@ -267,8 +270,10 @@ fn markdown(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
     writeln!(out, "|---|---|---|---|---|---|")?;
     proofs.claims.iter().try_for_each(|proved| {
         let Statement { equation, name, .. } = &proved.statement;
-        let says = paper().claim(&proved.statement).replace('|', "\\|");
-        let (given, how, status) = (proved.hypotheses().join(", "), how(proved), proved.status());
+        // In a cell of a table.
+        let [says, given] = [paper().claim(&proved.statement), proved.hypotheses().join(", ")]
+            .map(|text| text.replace('|', "\\|"));
+        let (how, status) = (how(proved), proved.status());
         writeln!(out, "| {equation} | {name} | {says} | {given} | {how} | {status} |")
     })
 }
@@ -276,6 +281,7 @@ fn markdown(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use spring_mass_contact::formula::Hypothesis;
     use spring_mass_contact::formula::statement::Says;
     use spring_mass_contact::number::{Field, Tree};
 
@@ -290,6 +296,36 @@ mod tests {
             Proved::of(statement)
         };
         Proofs { claims: statements().into_iter().map(wrong).collect(), ..Proofs::default() }
+    }
+
+    fn claim(name: &str) -> Statement {
+        statements().into_iter().find(|statement| statement.name == name).unwrap()
+    }
+
+    /// A size in a hypothesis ends no cell.
+    #[test]
+    fn a_row_of_markdown_has_as_many_cells_as_its_head() {
+        let u = Tree::symbol("u");
+        let near = Hypothesis::near(&u, Tree::from(0), Tree::symbol("tol"));
+        let statement = Statement { hypotheses: vec![near], ..claim("float-drift") };
+        let proofs = Proofs { claims: vec![Proved::of(statement)], ..Proofs::default() };
+        let text = output::printed(|out| markdown(out, &proofs));
+        let cells = |line: &str| line.replace("\\|", "").matches('|').count();
+        assert!(text.contains("\\|u\\| ≤ tol"), "{text}");
+        assert!(text.lines().all(|line| cells(line) == 7), "{text}");
+    }
+
+    /// Without its claim nobody knows what x₁ and q are.
+    #[test]
+    fn what_is_unknown_comes_with_its_claim() {
+        let mut unknown = Proved::of(claim("float-drift"));
+        unknown.answer = Answer::None("no rule finds the sign of x₁ − q".into(), None);
+        let proofs = Proofs { claims: vec![unknown], ..Proofs::default() };
+        let text = output::printed(|out| amiss(out, &proofs)).replace("\n   ", "");
+        assert!(
+            text.contains("UNKNOWN: no rule finds the sign of x₁ − q\n  k steps from 0, each of x₁ to"),
+            "{text}"
+        );
     }
 
     #[test]

@@ -109,7 +109,7 @@ fn functions_bring_their_own_brackets() {
         (-a.min(&b), "−min(a, b)", r"-\min(a, b)"),
         (&c - (-&a).min(&b), "c − min(−a, b)", r"c - \min(-a, b)"),
         ((&a - &b).abs(), "|a − b|", r"\lvert a - b \rvert"),
-        (-(&a + &b * &c).nearest(), "−fl(a + b c)", r"-\mathrm{fl}(a + b\,c)"),
+        (-(&a + &b * &c).rounded(), "−fl(a + b c)", r"-\mathrm{fl}(a + b\,c)"),
     ]);
 }
 
@@ -169,5 +169,126 @@ fn symbols_become_latex() {
         ("(1 + ε/c)^{k+1}", r"(1 + \varepsilon/c)^{k+1}"),
     ] {
         assert_eq!(latex(symbol), expected);
+    }
+}
+
+/// The rounding of each step is read from the text, whatever their order; what is rounded once says so.
+#[test]
+fn what_is_rounded_can_be_read() {
+    let [a, b, c, scale] = ["a", "b", "c", "2ᵃ"].map(s);
+    let sum = (&b + &c).nearest();
+    check(&[
+        ((&a + &b * &c).nearest(), "nearest(a + b c)", r"\mathrm{nearest}(a + b\,c)"),
+        (
+            (&a + (&b * &c).nearest() + &a * &b).nearest(),
+            "nearest(a + fl(b c) + a b)",
+            r"\mathrm{nearest}(a + \mathrm{fl}(b\,c) + a\,b)",
+        ),
+        ((&a * (&b + &c)).nearest(), "nearest(a (b + c))", r"\mathrm{nearest}(a\,(b + c))"),
+        ((&a * &sum).nearest(), "fl(a (b + c))", r"\mathrm{fl}(a\,(b + c))"),
+        ((&a + &sum).nearest(), "fl(a + fl(b + c))", r"\mathrm{fl}(a + \mathrm{fl}(b + c))"),
+        ((&sum + &a).nearest(), "fl(b + c + a)", r"\mathrm{fl}(b + c + a)"),
+        ((&a - (&b - &c)).rounded(), "fl(a − fl(b − c))", r"\mathrm{fl}(a - \mathrm{fl}(b - c))"),
+        (
+            (&a / (&b / &c)).rounded(),
+            "fl(a / fl(b / c))",
+            r"\mathrm{fl}\left(\frac{a}{\mathrm{fl}(b / c)}\right)",
+        ),
+        (
+            (&a * (&b / &c)).rounded(),
+            "fl(a fl(b / c))",
+            r"\mathrm{fl}\left(a\,\mathrm{fl}\left(\frac{b}{c}\right)\right)",
+        ),
+        ((&a * (&b * &c)).rounded(), "fl(a fl(b c))", r"\mathrm{fl}(a\,\mathrm{fl}(b\,c))"),
+        ((&a * &b * &a).rounded(), "fl(fl(a b) a)", r"\mathrm{fl}(\mathrm{fl}(a\,b)\,a)"),
+        ((&a * &b * n(3)).rounded(), "fl(3 fl(a b))", r"\mathrm{fl}(3 \mathrm{fl}(a\,b))"),
+        ((n(1) * &a + &b).rounded(), "fl(fl(a) + b)", r"\mathrm{fl}(\mathrm{fl}(a) + b)"),
+        ((a.nearest() + &b).nearest(), "fl(fl(a) + b)", r"\mathrm{fl}(\mathrm{fl}(a) + b)"),
+        ((&a * &scale + &b).nearest(), "fl(a 2ᵃ + b)", r"\mathrm{fl}(a\,2^a + b)"),
+        (
+            (&b - (&a * &b).nearest().positive_part()).nearest(),
+            "fl(b − ⟨fl(a b)⟩)",
+            r"\mathrm{fl}(b - \langle \mathrm{fl}(a\,b) \rangle)",
+        ),
+    ]);
+}
+
+#[test]
+fn a_power_is_of_all_that_is_below_it() {
+    let [a, b, rho] = ["a", "b", "ρᵏ"].map(s);
+    for (tree, expected) in [
+        (a.clone(), "aᵏ"),
+        (n(2), "2ᵏ"),
+        (n(-2), "(−2)ᵏ"),
+        (-&a, "(−a)ᵏ"),
+        (n(1) - &a, "(1 − a)ᵏ"),
+        (&a * &b, "(a b)ᵏ"),
+        (&a * &a, "(a²)ᵏ"),
+        (&a / &b, "(a / b)ᵏ"),
+        (n(1) / n(2), "(1 / 2)ᵏ"),
+        (rho, "(ρᵏ)ᵏ"),
+        (a.exp(), "exp(a)ᵏ"),
+        ((&a - &b).abs(), "|a − b|ᵏ"),
+        ((&a - &b).nearest(), "fl(a − b)ᵏ"),
+    ] {
+        assert_eq!(tree.raised("ᵏ", &|_| None), expected);
+    }
+}
+
+/// 5·2ᵖ and not 52ᵖ.
+#[test]
+fn a_number_stands_apart_from_a_name_that_begins_with_one() {
+    let [a, power] = ["a", "2ᵖ"].map(s);
+    check(&[
+        (n(5) * &power * &a, "5·2ᵖ a", r"5 \cdot 2^p\,a"),
+        (&a * n(5) * &power, "5 a 2ᵖ", r"5 a\,2^p"),
+        (n(5) * &power * &power, "5 (2ᵖ)²", "5 (2^p)^2"),
+    ]);
+}
+
+/// Formulas as nobody writes them, read by hand.
+#[test]
+fn odd_formulas_keep_their_signs_and_brackets() {
+    let [a, b, c, d] = ["a", "b", "c", "d"].map(s);
+    let text = |tree: Tree| tree.to_string();
+    for (tree, expected) in [
+        (&a - (&b - (&c - &d)), "a − b + c − d"),
+        (-(&a - (&b + &c)), "−a + b + c"),
+        (&a - n(-2) * (&b - &c), "a + 2 (b − c)"),
+        (-(&a + &b) * -(&a + &b), "(a + b)²"),
+        (-((&a + &b) * (&a + &b)), "−(a + b)²"),
+        (-(&a * &a), "−a²"),
+        ((-&a) * (-&a), "a²"),
+        ((-&a) * (-&a) * (-&a), "−a³"),
+        (&a / (&b / &c) / &d, "a c / (b d)"),
+        (&a / (&b / (&c / &d)), "a c / (b d)"),
+        (&a / (&b * &c / &d), "a d / (b c)"),
+        ((&a / &b) / (&c / &d), "a d / (b c)"),
+        (&a / -(&b - &c), "−a / (b − c)"),
+        (-&a / -&b, "a / b"),
+        (&a - -(-&b), "a − b"),
+        (&a * -&b - -&c * &d, "−a b + c d"),
+        ((&a + &b) * (&c - &d), "(a + b) (c − d)"),
+        ((&a + &b) / (&c - &d) / (&a + &b), "(a + b) / ((c − d) (a + b))"),
+        ((&a / &b) * (&a / &b), "(a / b)²"),
+        (&a * &b * (&a * &b), "(a b)²"),
+        (n(-3) / &a, "−3 / a"),
+        (n(-3) / n(-6) * &a, "a / 2"),
+        (&a - n(1) / n(-2), "a + 1 / 2"),
+        (n(2) * (n(3) * &a), "6 a"),
+        ((n(2) * &a) * (n(2) * &a), "(2 a)²"),
+        ((-&a / &b).exp(), "exp(−a / b)"),
+        ((-(&a - &b)).exp(), "exp(−a + b)"),
+        ((&a / (&b / &c)).exp() / (-&a).exp(), "exp(a c / b) / exp(−a)"),
+        ((-(&a + &b)).abs() * -&c, "−|−a − b| c"),
+        (&a - (&b - &c).abs() * (&c - &b).positive_part(), "a − |b − c| ⟨c − b⟩"),
+        ((&a.abs() - &b).abs(), "||a| − b|"),
+        (a.abs() * (&b * c.abs()).abs(), "|a| |b |c||"),
+        (-((-&a).min(&-&b)), "max(a, b)"),
+        (-((-&a).min(&b)) / &c, "−min(−a, b) / c"),
+        (-(&a - &b).nearest() - (&a + &b).nearest(), "−fl(a − b) − fl(a + b)"),
+        (&a - (-&b).nearest(), "a − fl(−b)"),
+    ] {
+        assert_eq!(text(tree), expected);
     }
 }

@@ -3,10 +3,11 @@
 use super::print::{Printer, ascii};
 use super::script::Script;
 use crate::formula::statement::{Goal, Says, Statement};
-use crate::formula::{Hypothesis, Relation};
+use crate::formula::{Hypothesis, Registry, Relation};
 use crate::number::Tree;
 use crate::number::tree::Step;
 use crate::proof::kernel::Derivation;
+use crate::proof::paper::Paper;
 use crate::proof::prove;
 
 /// Why a claim cannot be printed.
@@ -161,7 +162,10 @@ pub(super) fn derivation(hypotheses: &[&Hypothesis], goal: Goal) -> Result<Deriv
 
 /// Of a statement with one goal.
 pub(super) fn only_derivation(statement: &Statement) -> Result<Derivation> {
-    let proof = prove(statement).map_err(|why| format!("there is no proof to follow: {why}"))?;
+    let proof = prove(statement).map_err(|why| {
+        let why = Paper::new(&Registry::default()).why(statement, &why);
+        format!("there is no proof to follow: {why}")
+    })?;
     Ok(proof.goals()[0].clone())
 }
 

@@ -172,7 +172,8 @@ fn text(sign: Sign) -> &'static str {
     }
 }
 
-/// With factors by name; [`Paper::why`](super::Paper::why) has them in the order of a registry.
+/// With factors by name, and with the kernel's names; [`Paper::why`](super::Paper::why) has them in the order
+/// of a registry, and defines its names.
 impl fmt::Display for Why {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str(&Order::default().why(self))

@@ -1,8 +1,8 @@
 //! Counterexamples made small.
 
-use super::{Counterexample, How, Point, Verdict, bent_to_zero, check_goals};
+use super::{Counterexample, How, Point, Verdict, bent_to_zero, check_goals, symbols};
 use crate::formula::{Relation, Statement};
-use crate::number::{Exact, Tree};
+use crate::number::Exact;
 use rug::Rational;
 use std::collections::BTreeSet;
 
@@ -27,7 +27,7 @@ fn simpler(x: &Exact) -> Vec<Exact> {
 
 /// Tries simpler numbers for one symbol after the other, as long as it stays a counterexample.
 pub(super) fn smaller(statement: &Statement, point: &Point, part: &'static str, how: How) -> Counterexample {
-    let symbols: BTreeSet<_> = statement.trees().flat_map(Tree::symbols).collect();
+    let symbols: BTreeSet<_> = symbols(statement).into_iter().collect();
     let size = |point: &Point| point.numbers().map(|(_, x)| complexity(x)).sum::<u64>();
     let mut best = Counterexample { point: point.among(&symbols), part, how };
     // The same with another number, where a further one may have to follow.
@@ -62,6 +62,14 @@ pub(super) fn smaller(statement: &Statement, point: &Point, part: &'static str, 
                 best = better;
                 improves = true;
             }
+        }
+    }
+    // A limit is looked at far out, wherever the point is.
+    if matches!(best.how, How::Far(_)) {
+        let varies = |name: &str| statement.goals.iter().any(|goal| goal.says.variable() == Some(name));
+        let fixed = best.point.among(&symbols.into_iter().filter(|name| !varies(name)).collect());
+        if fixed.satisfies(&statement.hypotheses) {
+            best.point = fixed;
         }
     }
     best

@@ -186,3 +186,22 @@ fn a_divisor_is_bent_to_zero() {
     assert!(matches!(counterexample.how, How::Undefined(_)), "{counterexample}");
     assert_eq!(counterexample.point.at("c"), "-2/7".parse().unwrap());
 }
+
+/// Numbers for what follows from others would be read as if it were a choice.
+#[test]
+fn a_counterexample_has_no_number_for_what_follows() {
+    let names = |claim: &Claim| -> Vec<_> {
+        let found = refute(&Statement::of(claim)).expect("it is wrong");
+        found.point.numbers().map(|(name, _)| name).collect()
+    };
+    let [c, q, u] = ["c", "q", "u"].map(x);
+    let wrong = induction("wrong", [], &c, [x("a")], |[x]| [&x * &c + Tree::from(1)], [x("a") * &q]);
+    assert_eq!(names(&wrong), ["a", "c"]);
+    let near = Hypothesis::near(&u, x("x₁"), 7);
+    let step = |_: &Tree| x("u") + Tree::from(9);
+    let drifts = drift("wrong", [&near], &c, x("a"), step, (x("a"), Tree::from(1)), |_| [(x("x₁"), x("a"))])
+        .computing(&u, x("x₁"));
+    assert_eq!(names(&drifts), ["a"]);
+    let far = limit("wrong", [&above_zero("u")], &u / &c, &u, 0, Rate::Exactly(&u / &c));
+    assert_eq!(names(&far), ["c"]);
+}

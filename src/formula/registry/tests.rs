@@ -1,0 +1,98 @@
+//! Names, calls and places of functions.
+
+use super::*;
+use crate::number::Dual;
+
+fn x(name: &'static str) -> Tree {
+    Tree::symbol(name)
+}
+
+/// k = a + b
+fn sum(a: &Tree, b: &Tree) -> Tree {
+    a + b
+}
+
+/// k(a b, b)
+fn sum_with_product(a: &Tree, b: &Tree) -> Tree {
+    sum(&(a * b), b)
+}
+
+fn registry() -> Registry {
+    let [a, b] = ["a", "b"].map(x);
+    let formula = |path, tree| Formula::new(path, "", &["a", "b"], tree);
+    let formulas = vec![formula("sum", sum(&a, &b)), formula("more", sum_with_product(&a, &b))];
+    Registry::new(&["b", "a"], formulas)
+}
+
+#[test]
+fn every_place_where_a_function_does_something_is_known() {
+    let (registry, [c, d]) = (registry(), ["c", "d"].map(x));
+    let tree = sum_with_product(&c, &d);
+    // The sum is the work of the one, and what it is called with that of the other.
+    let Step::Add(product, _) = tree.step() else { panic!("{tree} is no sum") };
+    assert!(registry.has_site(&tree.site()) && registry.has_site(&product.site()));
+    assert!(!registry.has_site(&(&c * &d).site()));
+}
+
+#[test]
+fn no_function_does_what_the_rules_of_differentiation_do() {
+    let a = Dual::coordinate(x("a"), true);
+    let slope = (&a * &a).derivative;
+    assert!(slope.site().is_of_duals());
+    let registry = Registry::new(&["a"], vec![Formula::new("slope", "", &["a"], slope.clone())]);
+    assert!(!registry.has_site(&slope.site()));
+}
+
+#[test]
+fn a_formula_that_only_looks_the_same_is_no_call() {
+    let (registry, [c, d]) = (registry(), ["c", "d"].map(x));
+    let call = |tree: &Tree| registry.call(tree).map(|call| (call.formula.path, call.arguments));
+    assert_eq!(call(&sum(&c, &d)), Some(("sum", vec![c.clone(), d.clone()])));
+    assert_eq!(call(&(c + d)), None);
+}
+
+#[test]
+fn symbols_that_are_not_listed_follow_those_that_are() {
+    let tree = x("z") * x("a") - x("b") + x("y");
+    assert_eq!(registry().symbols_of([&tree]), ["b", "a", "y", "z"]);
+}
+
+#[test]
+fn either_of_two_symbols_is_mistaken_for_the_other() {
+    let registry = registry().alike(&[["a", "b"], ["c", "a"]]);
+    let others = |symbol| registry.mistaken_for(symbol).collect::<Vec<_>>();
+    assert_eq!((others("a"), others("b"), others("d")), (vec!["b", "c"], vec!["a"], vec![]));
+}
+
+/// A name in a text stands for one thing.
+#[test]
+fn what_is_written_for_a_function_is_taken_by_nothing_else() {
+    let folded = |path, symbol, tree: Tree| Formula::new(path, symbol, &["a"], tree).folded();
+    let panics = |formulas: Vec<Formula>| {
+        let made = std::panic::catch_unwind(|| Registry::new(&["a", "k"], formulas)).map(|_| ());
+        *made.unwrap_err().downcast::<String>().unwrap()
+    };
+    let double = |symbol| folded("double", symbol, x("a") + x("a"));
+    assert_eq!(panics(vec![double("k")]), "double is written as k, which is a quantity");
+    let square = folded("square", "d", x("a") * x("a"));
+    assert_eq!(panics(vec![double("d"), square]), "square is written as d, and another function too");
+    for kept in ["s₁", "e₂₄", "t₆", "x₁", "q", "2ᵖ", "2ᵃ", "fl"] {
+        let expected = format!("double is written as {kept}, which is a name that proofs keep");
+        assert_eq!(panics(vec![double(kept)]), expected);
+    }
+    // Nobody writes what is not folded.
+    Registry::new(&["a", "k"], vec![Formula { folded: false, path: "again", ..double("k") }, double("s")]);
+}
+
+/// k + 2 a, where k is no argument: of another k, or with another number, it is no call.
+#[test]
+fn a_call_is_the_same_but_for_its_arguments() {
+    let with = |a: &Tree, number: i32, k: &'static str| {
+        let (own, n) = (x(k), Tree::from(number));
+        own + n * a
+    };
+    let registry = Registry::new(&["a"], vec![Formula::new("own", "", &["a"], with(&x("a"), 2, "k"))]);
+    let is_call = |tree: &Tree| registry.call(tree).is_some();
+    assert!(is_call(&with(&x("c"), 2, "k")));
+    assert!(!is_call(&with(&x("c"), 3, "k")) && !is_call(&with(&x("c"), 2, "l")));
+}

@@ -1,0 +1,194 @@
+//! Definitions of the names that a message has from the kernel and a reader from nowhere.
+
+use super::Paper;
+use crate::formula::claim::PRECISION;
+use crate::formula::name_of_rounding;
+use crate::formula::statement::{Goal, Says, Statement};
+use crate::number::Tree;
+use crate::number::tree::Step;
+use crate::proof::kernel::sign::ERRORS;
+use crate::proof::kernel::{Derivation, Supposed, Used, Why, prove};
+use std::collections::BTreeMap;
+
+impl Paper<'_> {
+    /// Why there is no proof of a statement, with the definitions of the names that are not its own:
+    /// `no rule finds the sign of a − s₁, where s₁ = b − a > 0`.
+    pub fn why(&self, statement: &Statement, why: &Why) -> String {
+        if let Some(registry) = self.other_names(statement) {
+            return Paper::new(&registry).why(statement, why);
+        }
+        let said = self.order().why(why);
+        let (rounded, mut supposed) = (rounded(statement), None);
+        let mut definitions = Vec::new();
+        for name in why.names().into_iter().filter(|name| said.contains(name)) {
+            if let Some(of) = ERRORS.iter().position(|error| *error == name).and_then(|i| rounded.get(i)) {
+                definitions.push(self.error(name, of));
+            } else if !statement.trees().any(|tree| tree.symbols().contains(name)) {
+                let supposed = supposed.get_or_insert_with(|| self.supposed_names(statement));
+                let known = supposed.get(name).and_then(Option::clone);
+                let of_case = || format!("{name} ≥ 0 is what a case of the proof is about");
+                definitions.push(known.unwrap_or_else(of_case));
+            }
+        }
+        if definitions.is_empty() { said } else { format!("{said}, where {}", definitions.join(" and ")) }
+    }
+
+    /// `fl(a b) = (a b) (1 + e₁ / (2ᵖ + 1)) with |e₁| ≤ 1`
+    fn error(&self, error: &str, of: &Tree) -> String {
+        let factor = of.raised("", &|tree| self.registry.named(tree));
+        let (name, of) = (name_of_rounding(of), self.text(of));
+        format!("{name}({of}) = {factor} (1 + {error} / ({PRECISION} + 1)) with |{error}| ≤ 1")
+    }
+
+    /// The names that hypotheses bring, with their definitions; `None` if a name has several, in different
+    /// cases.
+    fn supposed_names(&self, statement: &Statement) -> BTreeMap<&'static str, Option<String>> {
+        let with = |goal: Goal| Statement { goals: vec![goal], ..statement.clone() };
+        let fails = |goal: &&Goal| prove(&with((*goal).clone())).is_err();
+        let mut all = BTreeMap::new();
+        // What the goal supposes is taken in before it is read, so another goal has the same names.
+        let proof = statement.goals.iter().find(fails).and_then(|goal| {
+            let says = Says::Equal(Tree::from(0), Tree::from(0));
+            prove(&with(Goal { says, ..goal.clone() })).ok()
+        });
+        proof
+            .iter()
+            .flat_map(|proof| proof.goals())
+            .for_each(|derivation| self.collect(derivation, &mut all));
+        all
+    }
+
+    fn collect(&self, derivation: &Derivation, all: &mut BTreeMap<&'static str, Option<String>>) {
+        match derivation {
+            Derivation::Cases(_, positive, not) => {
+                [positive, not].into_iter().for_each(|case| self.collect(case, all));
+            }
+            Derivation::Direct(direct) => {
+                for (name, definition) in direct.supposed().iter().filter_map(|s| self.definition(s)) {
+                    let known = all.entry(name).or_insert_with(|| definition.clone());
+                    if *known != definition {
+                        *known = None;
+                    }
+                }
+            }
+        }
+    }
+
+    /// The name that a supposition brings, and its definition if it is a hypothesis.
+    fn definition(&self, supposed: &Supposed) -> Option<(&'static str, Option<String>)> {
+        match supposed.used() {
+            Used::Pivot(_, _, Some(slack)) => {
+                let definition = supposed
+                    .given()
+                    .map(|given| format!("{} = {} {} 0", slack.0, self.text(&given.value), given.relation));
+                Some((slack.0, definition))
+            }
+            Used::Between(x, _, place) => {
+                let definition =
+                    supposed.given().and_then(|given| given.interval()).map(|(_, lower, upper)| {
+                        let (lower, upper) = (self.text(lower), self.text(upper));
+                        format!("{} goes from −1 to 1 as {} goes from {lower} to {upper}", place.0, x.0)
+                    });
+                Some((place.0, definition))
+            }
+            _ => None,
+        }
+    }
+}
+
+impl Why {
+    /// The symbols of the quantity that the proof ends at.
+    fn names(&self) -> Vec<&'static str> {
+        match self {
+            Why::MightVanish(value)
+            | Why::OpenBracket(value)
+            | Why::NoSign(value)
+            | Why::WrongSign(value, _)
+            | Why::Different(value)
+            | Why::NoLimit(value) => value.symbols().into_iter().map(|symbol| symbol.0).collect(),
+            Why::Kink | Why::Jump | Why::TooMany | Why::Reserved(_) | Why::Nothing => Vec::new(),
+        }
+    }
+}
+
+/// All that is rounded in a statement, each after what is rounded in it: the order in which errors have
+/// names.
+fn rounded(statement: &Statement) -> Vec<&Tree> {
+    fn collect<'t>(tree: &'t Tree, all: &mut Vec<&'t Tree>) {
+        tree.step().operands().for_each(|operand| collect(operand, all));
+        if let Step::Rounded(of) = tree.step()
+            && !all.contains(&of)
+        {
+            all.push(of);
+        }
+    }
+    let mut all = Vec::new();
+    statement.trees().for_each(|tree| collect(tree, &mut all));
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::formula::Claim;
+    use crate::formula::claim::{equal, positive};
+    use crate::formula::{Hypothesis, Registry, Relation};
+    use crate::number::PositivePart;
+
+    fn why(claim: &Claim) -> String {
+        let statement = Statement::of(claim);
+        Paper::new(&Registry::default()).why(&statement, &prove(&statement).unwrap_err())
+    }
+
+    #[test]
+    fn a_message_defines_the_names_of_the_kernel() {
+        let [a, b, c, u] = ["a", "b", "c", "u"].map(|name| Tree::symbol(name));
+        let more = Hypothesis::new(Relation::Positive, &b - &a);
+        let least = Hypothesis::new(Relation::NonNegative, &a * &b - &c);
+        assert_eq!(
+            why(&positive("", [&more], &b - Tree::from(2) * &a)),
+            "no rule finds the sign of 2 s₁ − b, where s₁ = b − a > 0"
+        );
+        assert_eq!(
+            why(&positive("", [&more, &least], &c - &b)),
+            "no rule finds the sign of b² − b s₁ − b − s₂, where s₁ = b − a > 0 and s₂ = a b − c ≥ 0"
+        );
+        let near = Hypothesis::near(&u, &a, &b);
+        assert_eq!(
+            why(&positive("", [&near], &u)),
+            "no rule finds the sign of a + b t₁, where t₁ goes from −1 to 1 as u goes from a − b to a + b"
+        );
+        assert_eq!(
+            why(&equal("", [], (&a * (&b + &c)).nearest(), &a * (&b + &c))),
+            "the sides differ by (a b e₁ + a c e₁) / (s₁ + 5), \
+             where nearest(a (b + c)) = (a (b + c)) (1 + e₁ / (2ᵖ + 1)) with |e₁| ≤ 1 and s₁ = 2ᵖ − 4 ≥ 0"
+        );
+        let said = why(&equal("", [], (&a + &b).nearest(), &a + &b));
+        assert!(said.contains("fl(a + b) = (a + b) (1 + e₁ / (2ᵖ + 1)) with |e₁| ≤ 1"), "{said}");
+        // Nothing to define.
+        assert_eq!(why(&equal("", [], &a, &b)), "the sides differ by a − b");
+    }
+
+    #[test]
+    fn a_name_of_a_case_is_said_to_be_one() {
+        let [a, b] = ["a", "b"].map(|name| Tree::symbol(name));
+        let said = why(&positive("", [], (&a - &b).positive_part() + &b));
+        assert!(said.ends_with("where s₁ ≥ 0 is what a case of the proof is about"), "{said}");
+    }
+
+    /// The kernel's names for errors, in a proof that it makes: those of hypotheses come first.
+    #[test]
+    fn errors_are_named_in_the_order_in_which_they_are_rounded() {
+        let [a, b] = ["a", "b"].map(|name| Tree::symbol(name));
+        let given = Hypothesis::new(Relation::NonNegative, (&a + &b).nearest());
+        let of = (&a * (&a + &b) - &b).rounded();
+        let statement = Statement::of(&equal("", [&given], of.clone() * b.nearest(), b.nearest() * of));
+        let proof = prove(&statement).unwrap();
+        let Derivation::Direct(direct) = &proof.goals()[0] else { panic!("no cases") };
+        let named: Vec<_> =
+            direct.errors().iter().map(|rounding| (rounding.error().0, rounding.of())).collect();
+        let expected: Vec<_> = ERRORS.into_iter().zip(rounded(&statement)).collect();
+        assert_eq!(named, expected);
+        assert_eq!(named.len(), 4);
+    }
+}
