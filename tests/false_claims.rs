@@ -328,7 +328,7 @@ fn slopes_and_limits() -> Vec<Row> {
 }
 
 fn sequences() -> Vec<Row> {
-    let [a, c, q, u, z] = ["a", "c", "q", "u", "z"].map(x);
+    let [a, c, q, u, w, z] = ["a", "c", "q", "u", "w", "z"].map(x);
     let half = || n(1) / n(2);
     let double = |[x]: [Tree; 1]| [n(2) * x];
     let [pos_c, unit] = [above_zero(&c), Hypothesis::between(&q, 0, 1)];
@@ -337,7 +337,7 @@ fn sequences() -> Vec<Row> {
         drift(name, [&unit, &near], half(), 1, |_| u.clone(), (n(0), bound), |_| []).computing(&u, step)
     };
     let [from_one, near_q] = [not_below_zero(&q - n(1)), Hypothesis::near(&u, &q, 0)];
-    let square = &z * &z;
+    let square = &z * &z * &w * &w;
     let grows = |name, step: Tree| {
         drift(name, [&from_one, &near_q], 2, 0, |x| x + &step, (n(0), n(0)), |_| []).computing(&u, &q)
     };

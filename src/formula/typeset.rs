@@ -33,6 +33,9 @@ pub struct Name {
     pub arguments: Vec<Tree>,
 }
 
+/// The depth of a formula that is written out, at most.
+const MAX_DEPTH: u32 = 1000;
+
 impl Tree {
     /// The formula in LaTeX.
     ///
@@ -45,8 +48,12 @@ impl Tree {
         self.typeset(Notation::Latex, &|_| None)
     }
 
-    /// The formula, with the parts that `name` knows by their names.
+    /// The formula, with the parts that `name` knows by their names; its size if it is more than
+    /// [`MAX_DEPTH`] operations deep, which nobody could read.
     pub fn typeset(&self, notation: Notation, name: &dyn Fn(&Tree) -> Option<Name>) -> String {
+        if self.depth() > MAX_DEPTH {
+            return format!("a formula of {} operations and quantities", self.size());
+        }
         let sum = Layout { name }.sum(self);
         Writer { notation, inline: notation == Notation::Text }.sum(&sum)
     }

@@ -186,8 +186,9 @@ fn varies(statement: &Statement) -> bool {
     tends || statement.goals.iter().any(|goal| goal.says.variable().is_some())
 }
 
-/// All that is rounded in a statement, each after what is rounded in it.
-fn roundings(statement: &Statement) -> Vec<Tree> {
+/// All that is rounded in a statement, each after what is rounded in it: the order in which errors have
+/// names.
+pub(super) fn roundings(statement: &Statement) -> Vec<Tree> {
     fn collect(tree: &Tree, all: &mut Vec<Tree>) {
         tree.step().operands().for_each(|operand| collect(operand, all));
         if let Step::Rounded(of) = tree.step()

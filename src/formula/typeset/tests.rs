@@ -292,3 +292,12 @@ fn odd_formulas_keep_their_signs_and_brackets() {
         assert_eq!(text(tree), expected);
     }
 }
+
+#[test]
+fn a_formula_that_is_too_deep_is_not_written_out() {
+    let x = Tree::symbol("x");
+    let sum = |terms: u32| (1..terms).fold(x.clone(), |sum, _| sum + &x);
+    assert_eq!(sum(2).to_string(), "x + x");
+    assert!(sum(MAX_DEPTH + 1).to_string().ends_with("x + x"));
+    assert_eq!(sum(100_000).to_string(), "a formula of 199999 operations and quantities");
+}

@@ -5,9 +5,8 @@ use crate::formula::claim::PRECISION;
 use crate::formula::name_of_rounding;
 use crate::formula::statement::{Goal, Says, Statement};
 use crate::number::Tree;
-use crate::number::tree::Step;
 use crate::proof::kernel::sign::ERRORS;
-use crate::proof::kernel::{Derivation, Supposed, Used, Why, prove};
+use crate::proof::kernel::{Derivation, Supposed, Used, Why, prove, roundings};
 use std::collections::BTreeMap;
 
 impl Paper<'_> {
@@ -18,7 +17,7 @@ impl Paper<'_> {
             return Paper::new(&registry).why(statement, why);
         }
         let said = self.order().why(why);
-        let (rounded, mut supposed) = (rounded(statement), None);
+        let (rounded, mut supposed) = (roundings(statement), None);
         let mut definitions = Vec::new();
         for name in why.names().into_iter().filter(|name| said.contains(name)) {
             if let Some(of) = ERRORS.iter().position(|error| *error == name).and_then(|i| rounded.get(i)) {
@@ -48,7 +47,11 @@ impl Paper<'_> {
         let mut all = BTreeMap::new();
         // What the goal supposes is taken in before it is read, so another goal has the same names.
         let proof = statement.goals.iter().find(fails).and_then(|goal| {
-            let says = Says::Equal(Tree::from(0), Tree::from(0));
+            let zero = || Tree::from(0);
+            let says = match goal.says {
+                Says::Limit(_, by, _) => Says::Limit(zero(), by, zero()),
+                _ => Says::Equal(zero(), zero()),
+            };
             prove(&with(Goal { says, ..goal.clone() })).ok()
         });
         proof
@@ -78,9 +81,12 @@ impl Paper<'_> {
     fn definition(&self, supposed: &Supposed) -> Option<(&'static str, Option<String>)> {
         match supposed.used() {
             Used::Pivot(_, _, Some(slack)) => {
-                let definition = supposed
-                    .given()
-                    .map(|given| format!("{} = {} {} 0", slack.0, self.text(&given.value), given.relation));
+                let definition = supposed.given().map(|given| {
+                    let quotient = supposed.divided_by().and_then(|by| supposed.value().over(by));
+                    let value = quotient.map(|value| self.order().ratio_or_size(&value));
+                    let value = value.unwrap_or_else(|| self.text(&given.value));
+                    format!("{} = {value} {} 0", slack.0, given.relation)
+                });
                 Some((slack.0, definition))
             }
             Used::Between(x, _, place) => {
@@ -106,32 +112,22 @@ impl Why {
             | Why::WrongSign(value, _)
             | Why::Different(value)
             | Why::NoLimit(value) => value.symbols().into_iter().map(|symbol| symbol.0).collect(),
-            Why::Kink | Why::Jump | Why::TooMany | Why::Reserved(_) | Why::Nothing => Vec::new(),
+            Why::Kink
+            | Why::Jump
+            | Why::TooMany
+            | Why::Reserved(_)
+            | Why::AssumedOfComputed(_)
+            | Why::TooLarge(..)
+            | Why::Nothing => Vec::new(),
         }
     }
-}
-
-/// All that is rounded in a statement, each after what is rounded in it: the order in which errors have
-/// names.
-fn rounded(statement: &Statement) -> Vec<&Tree> {
-    fn collect<'t>(tree: &'t Tree, all: &mut Vec<&'t Tree>) {
-        tree.step().operands().for_each(|operand| collect(operand, all));
-        if let Step::Rounded(of) = tree.step()
-            && !all.contains(&of)
-        {
-            all.push(of);
-        }
-    }
-    let mut all = Vec::new();
-    statement.trees().for_each(|tree| collect(tree, &mut all));
-    all
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::formula::Claim;
-    use crate::formula::claim::{equal, positive};
+    use crate::formula::claim::{Rate, equal, limit, positive};
     use crate::formula::{Hypothesis, Registry, Relation};
     use crate::number::PositivePart;
 
@@ -170,6 +166,18 @@ mod tests {
     }
 
     #[test]
+    fn a_divided_hypothesis_and_one_on_the_variable_of_a_limit_are_defined() {
+        let [k, f, g] = ["k", "f", "g"].map(|name| Tree::symbol(name));
+        let above_zero = |value| Hypothesis::new(Relation::Positive, value);
+        let bounds = [above_zero(k.clone()), above_zero(Tree::from(1) - &k)];
+        let said = why(&positive("", bounds.each_ref(), Tree::from(2) * &k - Tree::from(1)));
+        assert!(said.contains("s₁ = (1 − k) / k > 0"), "{said}");
+        let of = &g * &g / (&g - &f);
+        let said = why(&limit("", [&above_zero(&g - &f)], of.clone(), &g, &f, Rate::Exactly(of - &f)));
+        assert!(said.contains("s₁ = g − f > 0"), "{said}");
+    }
+
+    #[test]
     fn a_name_of_a_case_is_said_to_be_one() {
         let [a, b] = ["a", "b"].map(|name| Tree::symbol(name));
         let said = why(&positive("", [], (&a - &b).positive_part() + &b));
@@ -187,7 +195,8 @@ mod tests {
         let Derivation::Direct(direct) = &proof.goals()[0] else { panic!("no cases") };
         let named: Vec<_> =
             direct.errors().iter().map(|rounding| (rounding.error().0, rounding.of())).collect();
-        let expected: Vec<_> = ERRORS.into_iter().zip(rounded(&statement)).collect();
+        let rounded = roundings(&statement);
+        let expected: Vec<_> = ERRORS.into_iter().zip(&rounded).collect();
         assert_eq!(named, expected);
         assert_eq!(named.len(), 4);
     }
