@@ -170,3 +170,15 @@ fn cases_are_solved_by_their_answers() {
         }
     }
 }
+
+/// Where the system has no file descriptors left nothing is wrong with the program.
+#[test]
+fn what_the_system_refuses_is_not_blamed_on_the_program() {
+    let limited = "ulimit -n 6; exec \"$@\"";
+    let mut sh = Command::new("sh");
+    sh.args(["-c", limited, "sh", env!("CARGO_BIN_EXE_contact"), "check", "--", "true"]);
+    let Output { status, stdout, stderr } = captured(&mut sh);
+    let line = String::from_utf8(stderr).unwrap();
+    assert_eq!((status.code(), stdout.len(), line.lines().count()), (Some(2), 0, 1), "{line}");
+    assert!(line.contains("Too many open files") && !line.contains("#!"), "{line}");
+}
