@@ -119,7 +119,7 @@ impl<'a> Given<'a> {
             })
         };
         // So near to grazing rounding may take one for the other.
-        let (reaction, near) = (system::reaction(system), tolerance * &scales[1]);
+        let (reaction, near) = (mistake.reaction(system, constants), tolerance * &scales[1]);
         reaction >= -&near && fits(&mistake.touching) || reaction <= near && fits(&mistake.apart)
     }
 
@@ -162,6 +162,15 @@ impl<'a> Given<'a> {
     pub fn factor_of(&self, estimate: &Estimate) -> Option<Exact> {
         match estimate {
             Estimate::Number(which) => self.numbers()[*which].clone(),
+            Estimate::Augmentations(steps) => {
+                let system = &self.problem.system;
+                let p = contact::penetration(system, self.answer.deflection.as_ref()?);
+                let reaction = system::reaction(system);
+                // ρᵏ of the penetration R/c without a plane, and ρ = c/(c + ε).
+                let left = (reaction > Exact::zero()).then(|| &system.c * p / reaction)?;
+                let contraction = left.to_f64().ok()?.powf(1.0 / f64::from(*steps)).to_exact().ok()?;
+                (contraction > Exact::zero()).then(|| &system.c / contraction - &system.c)
+            }
             Estimate::Ratio(which) => {
                 let (own, exact) = (self.numbers()[*which].as_ref()?, self.exact[*which]);
                 (!exact.is_zero()).then(|| own / exact)

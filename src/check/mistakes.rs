@@ -21,10 +21,12 @@ pub(super) type Formulas = [Tree; 2];
 pub(super) struct Mistake {
     /// What is wrong.
     pub name: String,
-    /// Where R > 0.
+    /// Where R > 0, or what it takes for R.
     pub touching: Formulas,
     /// Everywhere else.
     pub apart: Formulas,
+    /// What it takes for R, in N, if it is another.
+    pub decision: Option<Tree>,
     /// Where in the chapter's source that is one edit.
     pub at: Vec<String>,
     /// Whose force by its penetration is ε, if the formulas have one that nobody has told.
@@ -44,6 +46,8 @@ pub(super) enum Estimate {
     Ratio(usize),
     /// u (0) or N (1) of an answer.
     Number(usize),
+    /// The penalty by which so many augmentations leave the penetration of an answer.
+    Augmentations(i32),
 }
 
 /// ε and k, where they are known.
@@ -68,6 +72,7 @@ impl Mistake {
             name: name.to_string(),
             touching: formulas.clone(),
             apart: formulas,
+            decision: None,
             at: Vec::new(),
             measured: None,
             estimates: Vec::new(),
@@ -90,6 +95,12 @@ impl Mistake {
         self.touching.iter().chain(&self.apart).any(|formula| formula.symbols().contains("k"))
     }
 
+    /// What it takes for R.
+    pub fn reaction(&self, system: &SpringMass<Exact>, constants: &Constants<Exact>) -> Exact {
+        let own = self.decision.as_ref().and_then(|decision| value(decision, system, constants));
+        own.unwrap_or_else(|| system::reaction(system))
+    }
+
     /// What it computes where R > 0, or elsewhere.
     pub fn formulas(&self, touching: bool) -> &Formulas {
         if touching { &self.touching } else { &self.apart }
@@ -105,7 +116,8 @@ impl Mistake {
         if self.touching == self.apart {
             both(&self.touching)
         } else {
-            format!("{} if R > 0, else {}", both(&self.touching), both(&self.apart))
+            let decision = self.decision.as_ref().map_or("R".to_string(), Tree::to_string);
+            format!("{} if {decision} > 0, else {}", both(&self.touching), both(&self.apart))
         }
     }
 }
@@ -288,6 +300,10 @@ fn people(own: &SpringMass<Tree>, penalty: Option<&Tree>) -> Vec<Mistake> {
     ]
 }
 
+/// Augmentations after which a program is still taken for one that ends after a fixed number of them. Of more, n with a
+/// penalty ε and n + 1 with n/(n + 1) of it hardly differ.
+const STEPS: i32 = 8;
+
 /// Programs with a constant that nobody knows: a unit, a bound, an iteration that ends early.
 pub(super) fn fitted(by_penalty: bool) -> &'static [Mistake] {
     static LAGRANGE: LazyLock<Vec<Mistake>> = LazyLock::new(|| with_a_constant(false));
@@ -339,6 +355,14 @@ fn with_a_constant(by_penalty: bool) -> Vec<Mistake> {
         let equation = |deflection: &Tree| Estimate::Equation(deflection - &u);
         let bounded = "the iteration for u, bounded by the plane, ends at {k} of its way from 0";
         lacking.push((bounded, free_at_k.min(&gap), equation(&free_at_k)));
+        let name = format!("{bounded}, and there is N where it arrives at the plane");
+        let arriving = with(&name, [gap.clone(), system::reaction(own)], equation(&free_at_k));
+        all.push(Mistake {
+            apart: [free_at_k.clone(), Tree::from(0)],
+            decision: Some(system::reaction(&SpringMass { m: &k * m, ..own.clone() })),
+            is_share: true,
+            ..arriving
+        });
         let between = |end: &Tree| &free + &k * (end - &free);
         let from_free = "the iteration for u ends at {k} of its way from the free deflection";
         for (name, deflection, estimate) in [
@@ -349,6 +373,19 @@ fn with_a_constant(by_penalty: bool) -> Vec<Mistake> {
             all.push(Mistake { is_share: true, ..way });
         }
     }
+    // As many augmentations for every system, from λ = 0, where the penalty is no multiple of c.
+    let augmentations = if by_penalty { 2..1 } else { 2..STEPS + 1 };
+    all.extend(augmentations.map(|steps| {
+        let (zero, contraction) = (Tree::from(0), augmented::contraction(own, &k));
+        let decay = |steps: i32| (1..steps).fold(contraction.clone(), |decay, _| decay * &contraction);
+        let touching = [
+            augmented::deflection_after(own, &k, &zero, &decay(steps - 1)),
+            augmented::multiplier_after(own, &zero, &decay(steps)),
+        ];
+        let name = format!("the augmentation ends after {steps} steps, with ε = {{k}} N/m");
+        let apart = [free.clone(), zero];
+        Mistake { apart, ..with(&name, touching, Estimate::Augmentations(steps)) }
+    }));
     for (name, deflection, estimate) in lacking {
         let force = augmented::contact_force(own, &deflection);
         let bracket = force.positive_part();
