@@ -3,8 +3,11 @@
 use super::Penalty;
 use super::given::{Given, has_digits};
 use super::judge::fit;
-use super::mistakes::{Constants, Measured, Mistake, fitted, in_single, mistakes, none, rounded_once};
-use super::problems::decimal;
+use super::mistakes::{
+    Constants, Measured, Mistake, fitted, in_single, mistakes, none, rounded_once, with_rounded_parameters,
+};
+use super::problems::{DIGITS, decimal, short};
+use crate::chapter::SpringMass;
 use crate::claims::registry;
 use crate::formula::Notation;
 use crate::number::{Exact, PositivePart, Tree};
@@ -153,10 +156,28 @@ impl Search<'_> {
         if let Some(name) = few_digits(answers) {
             return vec![about(&name, formula())];
         }
+        if let Some(name) = self.few_digits_of_parameters(answers) {
+            return vec![about(&name, with_rounded_parameters(self.by_penalty).formula())];
+        }
         let fits =
             |mistake: &&Mistake| answers.iter().all(|given| given.fits_in_single(mistake, self.tolerance));
         let fitting = in_single(self.by_penalty).iter().filter(fits);
         fitting.map(|mistake| about(&mistake.name, mistake.formula())).collect()
+    }
+
+    /// What is right of lengths with few decimals, or of parameters with few digits.
+    fn few_digits_of_parameters(&self, answers: &[&Given]) -> Option<String> {
+        let fits = |change: &dyn Fn(&SpringMass<Exact>) -> SpringMass<Exact>| {
+            answers.iter().all(|given| given.fits_parameters(&change(&given.problem.system), self.tolerance))
+        };
+        let decimals = (0..DIGITS).find(|decimals| {
+            let shorten = |x: &Exact| fixed(x, *decimals);
+            fits(&|system| SpringMass { l: shorten(&system.l), h: shorten(&system.h), ..system.clone() })
+        });
+        let digits = || (1..DIGITS).find(|digits| fits(&|system| system.map(|x| short(x, *digits))));
+        decimals
+            .map(|n| format!("it takes no more than {n} decimals of l and H"))
+            .or_else(|| Some(format!("it takes no more than {} digits of its parameters", digits()?)))
     }
 
     /// Mistakes with a constant k, each with the first that all answers fit.
@@ -233,6 +254,11 @@ fn few_digits(answers: &[&Given]) -> Option<String> {
     let part = decimal(1, 1 - digits as i32);
     let all = pairs.iter().all(|(x, exact)| near(x, exact, &part * x.abs()));
     all.then(|| format!("its numbers have no more than {digits} digits"))
+}
+
+/// The nearest number with so many decimals.
+fn fixed(x: &Exact, decimals: usize) -> Exact {
+    format!("{x:.decimals$}").parse().expect("a decimal")
 }
 
 /// By which u and N are multiples of what is right, the same in all answers that tell it; not both 1.

@@ -1,7 +1,7 @@
 //! An answer to a problem, and what it fits.
 
 use super::judge::{balls, is_within, rounded, rounds_alike, scales, sizes};
-use super::mistakes::{Constants, Estimate, Formulas, Measured, Mistake, value, value_in_single};
+use super::mistakes::{Constants, Estimate, Formulas, Measured, Mistake, right, value, value_in_single};
 use super::problems::short;
 use super::{Answer, Checked, Problem, Reply, Value, Verdict};
 use crate::chapter::{SpringMass, augmented, contact, system};
@@ -142,19 +142,28 @@ impl<'a> Given<'a> {
         })
     }
 
-    /// Does a program with one rounding to single precision answer so? To what rounding in f64 may do to the right
-    /// answer, or within the tolerance.
+    /// Does a program with one rounding to single precision answer so?
     pub fn fits_in_single(&self, mistake: &Mistake, tolerance: &Exact) -> bool {
         let system = &self.problem.system;
-        let balls = rounded(&0f64, self.problem);
         let formulas = mistake.formulas(system::reaction(system) > Exact::zero());
+        let value = |tree| value_in_single(tree, system, self.problem.penalty.as_ref());
+        self.is_near(formulas.each_ref().map(value), tolerance)
+    }
+
+    /// Does a program answer so that is right but for taking these parameters?
+    pub fn fits_parameters(&self, system: &SpringMass<Exact>, tolerance: &Exact) -> bool {
+        self.is_near(right(system, self.problem.penalty.as_ref()).map(Some), tolerance)
+    }
+
+    /// Are its numbers these: to what rounding in f64 may do to the right answer, or within the tolerance?
+    fn is_near(&self, numbers: [Value; 2], tolerance: &Exact) -> bool {
+        let balls = rounded(&0f64, self.problem);
         (0..2).all(|i| {
-            let x = value_in_single(&formulas[i], system, self.problem.penalty.as_ref());
-            let (Some(x), Some(own)) = (x, self.numbers()[i]) else { return false };
-            let off = (own - &x).abs();
+            let (Some(x), Some(own)) = (&numbers[i], self.numbers()[i]) else { return false };
+            let off = (own - x).abs();
             let radius = balls.as_ref().and_then(|balls| balls[i].radius().to_exact().ok());
             let rounding = radius.is_some_and(|radius| radius <= self.sizes[i] && off <= radius);
-            rounding || off <= tolerance * &self.scales[i] || rounds_alike(own, &x)
+            rounding || off <= tolerance * &self.scales[i] || rounds_alike(own, x)
         })
     }
 

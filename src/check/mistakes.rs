@@ -446,6 +446,12 @@ pub(super) fn rounded_once(by_penalty: bool) -> Mistake {
     Mistake::new("rounded", right.each_ref().map(Tree::nearest))
 }
 
+/// What is right of parameters that are rounded.
+pub(super) fn with_rounded_parameters(by_penalty: bool) -> Mistake {
+    let system = symbols().system.map(Tree::nearest);
+    Mistake::new("rounded parameters", right(&system, by_penalty.then_some(&symbols().eps)))
+}
+
 /// Methods with a penalty that nobody asked for.
 fn unasked(own: &SpringMass<Tree>, eps: &Tree) -> Vec<Mistake> {
     let measured = |measured, mistake: Mistake| Mistake { measured: Some(measured), ..mistake };

@@ -496,3 +496,27 @@ fn a_program_in_single_precision_is_found() {
         assert_eq!(report.named().map(|d| d.name.as_str()), Some("it computes in single precision"));
     }
 }
+
+/// As they are handed on in a text: by `%g`, or with a number of decimals.
+#[test]
+fn parameters_with_few_digits_are_found() {
+    let name = |change: &dyn Fn(&SpringMass<Exact>) -> SpringMass<Exact>| {
+        let report = run(&default_problems(), |problem| {
+            right(&Problem { system: change(&problem.system), ..problem.clone() })
+        });
+        report.named().map(|only| only.name.clone()).unwrap_or_default()
+    };
+    for digits in [4, 6] {
+        let shortened = |x: &Exact| x.decimal(digits, Round::Nearest).parse().unwrap();
+        let own = format!("it takes no more than {digits} digits of its parameters");
+        assert_eq!(name(&|system| system.map(shortened)), own);
+    }
+    for decimals in [3, 6] {
+        let fixed = |x: &Exact| number(&format!("{x:.decimals$}"));
+        let lengths = |system: &SpringMass<Exact>| {
+            let SpringMass { l, h, .. } = system;
+            SpringMass { l: fixed(l), h: fixed(h), ..system.clone() }
+        };
+        assert_eq!(name(&lengths), format!("it takes no more than {decimals} decimals of l and H"));
+    }
+}
