@@ -374,7 +374,7 @@ fn with_a_constant(by_penalty: bool) -> Vec<Mistake> {
         }
     }
     // As many augmentations for every system, from λ = 0, where the penalty is no multiple of c.
-    let augmentations = if by_penalty { 2..1 } else { 2..STEPS + 1 };
+    let augmentations = (2..STEPS + 1).filter(|_| !by_penalty);
     all.extend(augmentations.map(|steps| {
         let (zero, contraction) = (Tree::from(0), augmented::contraction(own, &k));
         let decay = |steps: i32| (1..steps).fold(contraction.clone(), |decay, _| decay * &contraction);

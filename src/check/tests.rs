@@ -96,7 +96,7 @@ fn a_constant_is_found() {
             let found = report.diagnosis.iter().map(|d| (d.name.clone(), d.formula.clone()));
             let k = k.decimal(6, Round::Nearest);
             let own = (mistake.name.replace("{k}", &k), format!("{}, k = {k}", mistake.formula()));
-            assert_eq!(Vec::from_iter(found), [own.clone()], "{}", own.0);
+            assert_eq!(Vec::from_iter(found), std::slice::from_ref(&own), "{}", own.0);
         }
     }
 }

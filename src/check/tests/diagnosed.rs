@@ -520,3 +520,17 @@ fn parameters_with_few_digits_are_found() {
         assert_eq!(name(&lengths), format!("it takes no more than {decimals} decimals of l and H"));
     }
 }
+
+/// An edit of a formula would show in the other answers as well.
+#[test]
+fn an_edit_that_explains_some_answers_is_not_named() {
+    let edits = mistakes(false).iter().filter(|mistake| mistake.is_edit());
+    let named = edits.filter(|edit| {
+        let report = run(&default_problems(), |problem| match problem.family {
+            Family::Stiff | Family::Huge => answer(edit, problem, None),
+            _ => right(problem),
+        });
+        report.diagnosis.iter().any(|diagnosis| diagnosis.name == edit.name)
+    });
+    assert_eq!(named.map(|edit| &edit.name).collect::<Vec<_>>(), Vec::<&String>::new());
+}

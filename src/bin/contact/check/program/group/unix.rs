@@ -37,7 +37,7 @@ fn watch_signals() -> io::Result<()> {
     if !*watched {
         let mut signals = Signals::new([SIGHUP, SIGINT, SIGQUIT, SIGTERM])?;
         thread::Builder::new().spawn(move || {
-            for signal in signals.forever() {
+            if let Some(signal) = signals.forever().next() {
                 // None is started any more.
                 let leaders = leaders();
                 leaders.iter().copied().for_each(end);
