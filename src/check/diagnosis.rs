@@ -165,16 +165,29 @@ impl Search<'_> {
         fitting.map(|mistake| about(&mistake.name, mistake.formula())).collect()
     }
 
-    /// What is right of lengths with few decimals, or of parameters with few digits.
+    /// What is right of lengths with few decimals, or of parameters with few digits: of the float nearest to a number,
+    /// as most programs round, or of the number itself, which may be halfway between two.
     fn few_digits_of_parameters(&self, answers: &[&Given]) -> Option<String> {
         let fits = |change: &dyn Fn(&SpringMass<Exact>) -> SpringMass<Exact>| {
             answers.iter().all(|given| given.fits_parameters(&change(&given.problem.system), self.tolerance))
         };
+        let read = |text: String| text.parse().expect("a decimal");
+        let float = |x: &Exact| x.to_f64().unwrap_or_default();
+        let lengths = |system: &SpringMass<Exact>, shorten: &dyn Fn(&Exact) -> Exact| SpringMass {
+            l: shorten(&system.l),
+            h: shorten(&system.h),
+            ..system.clone()
+        };
         let decimals = (0..DIGITS).find(|decimals| {
-            let shorten = |x: &Exact| fixed(x, *decimals);
-            fits(&|system| SpringMass { l: shorten(&system.l), h: shorten(&system.h), ..system.clone() })
+            fits(&|system| lengths(system, &|x| read(format!("{:.decimals$}", float(x)))))
+                || fits(&|system| lengths(system, &|x| read(format!("{x:.decimals$}"))))
         });
-        let digits = || (1..DIGITS).find(|digits| fits(&|system| system.map(|x| short(x, *digits))));
+        let digits = || {
+            (1..DIGITS).find(|digits| {
+                fits(&|system| system.map(|x| read(format!("{:.*e}", digits - 1, float(x)))))
+                    || fits(&|system| system.map(|x| short(x, *digits)))
+            })
+        };
         decimals
             .map(|n| format!("it takes no more than {n} decimals of l and H"))
             .or_else(|| Some(format!("it takes no more than {} digits of its parameters", digits()?)))
@@ -254,11 +267,6 @@ fn few_digits(answers: &[&Given]) -> Option<String> {
     let part = decimal(1, 1 - digits as i32);
     let all = pairs.iter().all(|(x, exact)| near(x, exact, &part * x.abs()));
     all.then(|| format!("its numbers have no more than {digits} digits"))
-}
-
-/// The nearest number with so many decimals.
-fn fixed(x: &Exact, decimals: usize) -> Exact {
-    format!("{x:.decimals$}").parse().expect("a decimal")
 }
 
 /// By which u and N are multiples of what is right, the same in all answers that tell it; not both 1.

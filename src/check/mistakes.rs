@@ -378,10 +378,11 @@ fn with_a_constant(by_penalty: bool) -> Vec<Mistake> {
     all.extend(augmentations.map(|steps| {
         let (zero, contraction) = (Tree::from(0), augmented::contraction(own, &k));
         let decay = |steps: i32| (1..steps).fold(contraction.clone(), |decay, _| decay * &contraction);
-        let touching = [
-            augmented::deflection_after(own, &k, &zero, &decay(steps - 1)),
-            augmented::multiplier_after(own, &zero, &decay(steps)),
-        ];
+        let deflection = augmented::deflection_after(own, &k, &zero, &decay(steps - 1));
+        // With the rounding of its last update.
+        let before = augmented::multiplier_after(own, &zero, &decay(steps - 1));
+        let force = augmented::update(own, &k, &before, &deflection);
+        let touching = [deflection, force];
         let name = format!("the augmentation ends after {steps} steps, with ε = {{k}} N/m");
         let apart = [free.clone(), zero];
         Mistake { apart, ..with(&name, touching, Estimate::Augmentations(steps)) }

@@ -7,7 +7,7 @@ use super::mistakes::{
     Constants, Mistake, every, fitted, in_single, mistakes, none, value, value_in_single, values,
 };
 use super::*;
-use crate::chapter::{SpringMass, contact, structure, system};
+use crate::chapter::{SpringMass, augmented, contact, structure, system};
 use crate::claims::given;
 use crate::formula::{self, Claim, Statement};
 use crate::number::{PositivePart, ToExact};

@@ -497,25 +497,26 @@ fn a_program_in_single_precision_is_found() {
     }
 }
 
-/// As they are handed on in a text: by `%g`, or with a number of decimals.
+/// As they are handed on in a text, of a float: by `%g`, or with a number of decimals.
 #[test]
 fn parameters_with_few_digits_are_found() {
-    let name = |change: &dyn Fn(&SpringMass<Exact>) -> SpringMass<Exact>| {
+    let name = |change: &dyn Fn(&SpringMass<f64>) -> SpringMass<Exact>| {
         let report = run(&default_problems(), |problem| {
-            right(&Problem { system: change(&problem.system), ..problem.clone() })
+            let floats = problem.system.try_map(Exact::to_f64).unwrap();
+            right(&Problem { system: change(&floats), ..problem.clone() })
         });
         report.named().map(|only| only.name.clone()).unwrap_or_default()
     };
     for digits in [4, 6] {
-        let shortened = |x: &Exact| x.decimal(digits, Round::Nearest).parse().unwrap();
+        let shortened = |x: &f64| number(&format!("{x:.*e}", digits - 1));
         let own = format!("it takes no more than {digits} digits of its parameters");
         assert_eq!(name(&|system| system.map(shortened)), own);
     }
     for decimals in [3, 6] {
-        let fixed = |x: &Exact| number(&format!("{x:.decimals$}"));
-        let lengths = |system: &SpringMass<Exact>| {
+        let fixed = |x: &f64| number(&format!("{x:.decimals$}"));
+        let lengths = |system: &SpringMass<f64>| {
             let SpringMass { l, h, .. } = system;
-            SpringMass { l: fixed(l), h: fixed(h), ..system.clone() }
+            SpringMass { l: fixed(l), h: fixed(h), ..system.map(|x| number(&x.to_string())) }
         };
         assert_eq!(name(&lengths), format!("it takes no more than {decimals} decimals of l and H"));
     }
@@ -526,11 +527,34 @@ fn parameters_with_few_digits_are_found() {
 fn an_edit_that_explains_some_answers_is_not_named() {
     let edits = mistakes(false).iter().filter(|mistake| mistake.is_edit());
     let named = edits.filter(|edit| {
-        let report = run(&default_problems(), |problem| match problem.family {
+        let few = problems(1, CASES, &[Family::Contact, Family::Separated, Family::Stiff, Family::Huge]);
+        let report = run(&few, |problem| match problem.family {
             Family::Stiff | Family::Huge => answer(edit, problem, None),
             _ => right(problem),
         });
         report.diagnosis.iter().any(|diagnosis| diagnosis.name == edit.name)
     });
     assert_eq!(named.map(|edit| &edit.name).collect::<Vec<_>>(), Vec::<&String>::new());
+}
+
+/// (1.16) in f64, as a program computes it.
+#[test]
+fn augmentations_that_end_early_are_found() {
+    for (steps, eps) in [(2, 1e4), (3, 1e4), (5, 2e7)] {
+        let report = run(&default_problems(), |problem| {
+            let system = problem.system.try_map(Exact::to_f64).unwrap();
+            let (mut u, mut lambda) = (0.0, 0.0);
+            for _ in 0..steps {
+                u = augmented::unilateral_deflection(&system, &eps, &lambda);
+                lambda = augmented::unilateral_update(&system, &eps, &lambda, &u);
+            }
+            Answer::new(u.to_exact().unwrap(), lambda.to_exact().unwrap())
+        });
+        let name = report.named().map(|d| d.name.clone()).unwrap_or_default();
+        assert_eq!(
+            name,
+            format!("the augmentation ends after {steps} steps, with ε = {eps:e} N/m")
+                .replace("1e4", "10000")
+        );
+    }
 }
