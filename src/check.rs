@@ -26,12 +26,13 @@ mod problems;
 #[cfg(test)]
 mod tests;
 
-use crate::chapter::SpringMass;
-use crate::number::Exact;
+use crate::chapter::{SpringMass, system};
+use crate::number::{Exact, PositivePart};
+use crate::solver::State;
 pub use diagnosis::{Answers, Diagnosis};
 use given::Given;
 pub use judge::{Judgement, Verdict};
-pub use missed::{Missed, Of};
+pub use missed::{Of, Threshold};
 use mistakes::Measured;
 pub use penalty::{Kind, Penalty};
 pub use problems::{DIGITS, Family, NoFamily, Problem, problems};
@@ -115,7 +116,9 @@ pub struct Report {
     /// What the forces by their penetrations show.
     pub penalty: Penalty,
     /// What contacts that are taken for none have in common.
-    pub missed: Option<Missed>,
+    pub missed: Option<Threshold>,
+    /// What separated systems that are taken for contacts have in common.
+    pub held: Option<Threshold>,
     /// Every known mistake that all answers fit; or else, all wrong answers. Empty if none is wrong.
     pub diagnosis: Vec<Diagnosis>,
 }
@@ -197,9 +200,10 @@ pub fn check<E>(
     let answers = Vec::from_iter(checked.iter().filter_map(Given::of));
     let by_penalty = problems.iter().any(|problem| problem.penalty.is_some());
     let penalty = Penalty::measured(&answers, Measured::ByForce, tolerance);
-    let missed = Missed::of(&answers, tolerance);
+    let missed = Threshold::missed(&answers, tolerance);
+    let held = Threshold::held(&answers, tolerance);
     let diagnosis = diagnosis::diagnose(&answers, by_penalty, &penalty, tolerance);
-    Ok(Report { checked, given_up, penalty, missed, diagnosis })
+    Ok(Report { checked, given_up, penalty, missed, held, diagnosis })
 }
 
 impl Report {
@@ -210,6 +214,22 @@ impl Report {
         let families = self.families();
         let known = !families.is_empty() && families.iter().all(|row| row.right > 0);
         known && wrong + crashed + timed_out == 0 && self.lag().is_none()
+    }
+
+    /// The smallest |R| relative to |m g| + |c (H − l)| of the systems in this state that a solver which takes them for
+    /// the other state gets wrong by more than the tolerance; `None` if there are none.
+    pub fn least_deciding(&self, state: State, tolerance: &Exact) -> Option<Exact> {
+        let parts = self.checked.iter().filter_map(|checked| {
+            let system = &checked.problem.system;
+            let exact = &checked.judgement.exact;
+            let [_, loads] = judge::scales(system);
+            let part = system::reaction(system).abs() / &loads;
+            // By penalty the plane pushes with less.
+            let error =
+                if state == State::Contact { exact.contact_force.abs() / loads } else { part.clone() };
+            (exact.state == state && error > *tolerance).then_some(part)
+        });
+        parts.min()
     }
 
     /// How many problems came to what.

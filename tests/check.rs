@@ -170,3 +170,53 @@ fn cases_are_solved_by_their_answers() {
         }
     }
 }
+
+/// Where the system has no file descriptors left nothing is wrong with the program.
+#[test]
+fn what_the_system_refuses_is_not_blamed_on_the_program() {
+    let limited = "ulimit -n 6; exec \"$@\"";
+    let mut sh = Command::new("sh");
+    sh.args(["-c", limited, "sh", env!("CARGO_BIN_EXE_contact"), "check", "--", "true"]);
+    let Output { status, stdout, stderr } = captured(&mut sh);
+    let line = String::from_utf8(stderr).unwrap();
+    assert_eq!((status.code(), stdout.len(), line.lines().count()), (Some(2), 0, 1), "{line}");
+    assert!(line.contains("Too many open files") && !line.contains("#!"), "{line}");
+}
+
+/// FNV-1a of 64 bits, as `examples/solvers/run` has it.
+fn fingerprint(bytes: &[u8]) -> String {
+    let hash = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x100_0000_01b3);
+    format!("{:016x}", bytes.iter().fold(0xcbf2_9ce4_8422_2325, hash))
+}
+
+/// The book's table of solvers is of the systems that are drawn now.
+#[test]
+fn the_table_of_solvers_is_of_these_systems() {
+    // From the definition of the hash.
+    assert_eq!(
+        [&b""[..], b"a", b"foobar"].map(fingerprint),
+        ["cbf29ce484222325", "af63dc4c8601ec8c", "85944171f73967e8"]
+    );
+    let now = fingerprint(&contact(&["cases"]).stdout);
+    let page = std::fs::read_to_string(source("book/src/solvers.md")).unwrap();
+    let of_table = page.split("Systems `").nth(1).and_then(|rest| rest.split('`').next());
+    assert_eq!(
+        of_table,
+        Some(&*now),
+        "book/src/solvers.md: the systems of `contact cases` are no longer those of the table. Run \
+         examples/solvers/run --brief TABLE, put its tables and its last line into the page, and read whether what the \
+         page says of each solver still holds; without the solvers at hand, draw the systems as before"
+    );
+}
+
+/// What writes the table tells the systems by the same number.
+#[test]
+fn the_run_of_solvers_writes_the_same_fingerprint() {
+    if !has_python() {
+        return;
+    }
+    let script = "import runpy, sys; print(runpy.run_path(sys.argv[1])['fingerprint']('foobar'))";
+    let run = source("examples/solvers/run");
+    let output = captured(Command::new("python3").args(["-c", script]).arg(run));
+    assert_eq!(String::from_utf8_lossy(&output.stdout).trim(), fingerprint(b"foobar"), "{output:?}");
+}

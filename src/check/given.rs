@@ -1,12 +1,12 @@
 //! An answer to a problem, and what it fits.
 
-use super::judge::{balls, is_within, rounded, scales, sizes};
-use super::mistakes::{Formulas, Measured, Mistake, value};
+use super::judge::{balls, is_within, rounded, rounds_alike, scales, sizes};
+use super::mistakes::{Constants, Estimate, Formulas, Measured, Mistake, right, value, value_in_single};
 use super::problems::short;
 use super::{Answer, Checked, Problem, Reply, Value, Verdict};
 use crate::chapter::{SpringMass, augmented, contact, system};
 use crate::number::{Ball, Exact, PositivePart, ToExact, Tree};
-use num_traits::Zero;
+use num_traits::{One, Zero};
 
 /// An answer, and the problem that it is one of.
 pub(super) struct Given<'a> {
@@ -86,27 +86,30 @@ impl<'a> Given<'a> {
         [&self.answer.deflection, &self.answer.contact_force]
     }
 
-    /// Does a program with this mistake, and this penalty, answer so? Not if it has a penalty that nobody
+    /// Does a program with this mistake, and these constants, answer so? Not if it has a constant that nobody
     /// knows.
-    pub fn fits(&self, mistake: &Mistake, penalty: Option<&Exact>, tolerance: &Exact) -> bool {
+    pub fn fits(&self, mistake: &Mistake, constants: &Constants<Exact>, tolerance: &Exact) -> bool {
         let system = &self.problem.system;
         let Given { scales, sizes, .. } = self;
         let numbers = self.numbers();
-        if penalty.is_none() && mistake.has_penalty() {
+        let Constants { penalty, factor } = *constants;
+        if penalty.is_none() && mistake.has_penalty() || factor.is_none() && mistake.has_factor() {
             return false;
         }
         // What f64 makes of the formulas is theirs, too; but under a penalty that only has to be told, and
         // not to be seen, it could be anything.
-        let eps = penalty.and_then(|eps| Ball::around(&0f64, eps).ok());
+        let ball = |x: Option<&Exact>| x.and_then(|x| Ball::around(&0f64, x).ok());
+        let (eps, k) = (ball(penalty), ball(factor));
+        let in_balls = Constants { penalty: eps.as_ref(), factor: k.as_ref() };
         let told = self.told().is_some();
         let within = |x: &Exact, formula: &Tree, size: &Exact| {
-            let ball = self.balls.as_ref().and_then(|system| value(formula, system, eps.as_ref()));
+            let ball = self.balls.as_ref().and_then(|system| value(formula, system, &in_balls));
             ball.is_some_and(|ball| {
                 if told { is_within(&ball, x, size) } else { ball.is_finite() && ball.contains(x) }
             })
         };
         let fits = |formulas: &Formulas| {
-            (0..2).all(|i| match (numbers[i], value(&formulas[i], system, penalty)) {
+            (0..2).all(|i| match (numbers[i], value(&formulas[i], system, constants)) {
                 (Some(own), Some(x)) => {
                     (own - &x).abs() <= tolerance * (&scales[i] + x.abs())
                         || within(own, &formulas[i], &sizes[i])
@@ -116,18 +119,89 @@ impl<'a> Given<'a> {
             })
         };
         // So near to grazing rounding may take one for the other.
-        let (reaction, near) = (system::reaction(system), tolerance * &scales[1]);
+        let (reaction, near) = (mistake.reaction(system, constants), tolerance * &scales[1]);
         reaction >= -&near && fits(&mistake.touching) || reaction <= near && fits(&mistake.apart)
     }
 
-    /// Is it as far off as single precision may take what is right, and are its numbers of single precision?
+    /// Returns `true` if both numbers are what is printed of numbers of single precision, and no further off than a
+    /// program that computes in it may be.
     pub fn is_single(&self) -> bool {
-        rounded(&0f32, self.problem).is_some_and(|balls| {
-            (0..2).all(|i| {
-                let x = self.numbers()[i].as_ref();
-                x.is_some_and(|x| is_within(&balls[i], x, &self.sizes[i]) && is_single_number(x))
-            })
+        self.is_right_in_single()
+            && self.numbers().into_iter().all(|x| x.as_ref().is_some_and(is_single_number))
+    }
+
+    /// Each number relative to the lengths or the forces of the system together is off by eight roundings at most: of
+    /// its parameters (c, m and g, or l and H), and of up to four operations, whatever their order is.
+    fn is_right_in_single(&self) -> bool {
+        let penalty = self.problem.penalty.as_ref();
+        let force = penalty.map(|eps| eps * &self.sizes[0]).unwrap_or_else(Exact::zero) + &self.sizes[1];
+        let most = [&self.sizes[0] * Exact::power_of_two(-21), force * Exact::power_of_two(-21)];
+        (0..2).all(|i| {
+            let off = self.numbers()[i].as_ref().map(|x| (x - self.exact[i]).abs());
+            off.is_some_and(|off| off <= most[i] && most[i] <= self.sizes[i])
         })
+    }
+
+    /// Does a program with one rounding to single precision answer so?
+    pub fn fits_in_single(&self, mistake: &Mistake, tolerance: &Exact) -> bool {
+        let system = &self.problem.system;
+        let formulas = mistake.formulas(system::reaction(system) > Exact::zero());
+        let value = |tree| value_in_single(tree, system, self.problem.penalty.as_ref());
+        self.is_near(formulas.each_ref().map(value), tolerance)
+    }
+
+    /// Does a program answer so that is right but for taking these parameters?
+    pub fn fits_parameters(&self, system: &SpringMass<Exact>, tolerance: &Exact) -> bool {
+        self.is_near(right(system, self.problem.penalty.as_ref()).map(Some), tolerance)
+    }
+
+    /// Are its numbers these: to what rounding in f64 may do to the right answer, or within the tolerance?
+    fn is_near(&self, numbers: [Value; 2], tolerance: &Exact) -> bool {
+        let balls = rounded(&0f64, self.problem);
+        (0..2).all(|i| {
+            let (Some(x), Some(own)) = (&numbers[i], self.numbers()[i]) else { return false };
+            let off = (own - x).abs();
+            let radius = balls.as_ref().and_then(|balls| balls[i].radius().to_exact().ok());
+            let rounding = radius.is_some_and(|radius| radius <= self.sizes[i] && off <= radius);
+            rounding || off <= tolerance * &self.scales[i] || rounds_alike(own, x)
+        })
+    }
+
+    /// The constant of a mistake, by what this answer shows of it.
+    pub fn factor_of(&self, estimate: &Estimate) -> Option<Exact> {
+        match estimate {
+            Estimate::Number(which) => self.numbers()[*which].clone(),
+            Estimate::Augmentations(steps) => {
+                let system = &self.problem.system;
+                let p = contact::penetration(system, self.answer.deflection.as_ref()?);
+                let reaction = system::reaction(system);
+                // ρᵏ of the penetration R/c without a plane, and ρ = c/(c + ε).
+                let left = (reaction > Exact::zero()).then(|| &system.c * p / reaction)?;
+                let contraction = left.to_f64().ok()?.powf(1.0 / f64::from(*steps)).to_exact().ok()?;
+                (contraction > Exact::zero()).then(|| &system.c / contraction - &system.c)
+            }
+            Estimate::Ratio(which) => {
+                let (own, exact) = (self.numbers()[*which].as_ref()?, self.exact[*which]);
+                (!exact.is_zero()).then(|| own / exact)
+            }
+            Estimate::Equation(tree) => {
+                let (u, n) = (self.answer.deflection.as_ref()?, self.answer.contact_force.as_ref()?);
+                let SpringMass { c, m, g, l, h } = &self.problem.system;
+                let symbol = |name: &str| match name {
+                    "c" => c.clone(),
+                    "m" => m.clone(),
+                    "g" => g.clone(),
+                    "l" => l.clone(),
+                    "H" => h.clone(),
+                    "u" => u.clone(),
+                    "N" => n.clone(),
+                    // Of a formula that is linear in k it does not matter where one starts.
+                    "k" => Exact::one(),
+                    _ => self.problem.penalty.clone().unwrap_or_else(Exact::zero),
+                };
+                tree.solution("k", &symbol, &Exact::zero())
+            }
+        }
     }
 
     /// What is right by this factor off: u in parts of the exact one, or N. `None` where that is nearly zero,
@@ -143,11 +217,11 @@ impl<'a> Given<'a> {
     }
 }
 
-/// Is this what is printed of a number of single precision: itself, or no more than the nine digits that tell
-/// it?
+/// Is this what is printed of a number of single precision: itself, with all its digits or with those that tell it in
+/// double, or no more than the nine that tell it in single?
 fn is_single_number(x: &Exact) -> bool {
     let itself = x.to_f32().ok().and_then(|x| x.to_exact().ok());
-    itself.as_ref() == Some(x) || has_digits(x, 9)
+    itself.is_some_and(|single| rounds_alike(&single, x)) || has_digits(x, 9)
 }
 
 /// Is it a decimal of so many digits?

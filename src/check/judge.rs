@@ -153,6 +153,12 @@ pub(super) fn is_within<T: Real + ToExact>(ball: &Ball<T>, x: &Exact, size: &Exa
     radius.is_ok_and(|radius| radius <= *size) && ball.contains(x)
 }
 
+/// Returns `true` if both numbers are equal or the same in f64. The exact answer rounded once passes by this: a ball
+/// contains the exact answer, but where its radius is less than half an ulp, not always the float nearest to that.
+pub(super) fn rounds_alike(x: &Exact, y: &Exact) -> bool {
+    x == y || matches!((x.to_f64(), y.to_f64()), (Ok(x), Ok(y)) if x == y)
+}
+
 /// How near an answer has to be to what it is taken for, in parts of the system's scale and of what is
 /// computed: as near as the tolerance asks for, and no nearer than 10⁻⁶, so that the same mistakes can be
 /// told apart whatever the tolerance.
@@ -201,10 +207,12 @@ impl Judgement {
         };
         // Beyond that an answer is of no use, whatever explains it.
         let useful = |i: usize| errors[i].as_ref().is_some_and(|error| *error <= fit(tolerance));
-        let right = |i: usize| to_rounding(i) && useful(i) || numbers[i].as_ref() == Some(expected[i]);
+        let right = |i: usize| {
+            to_rounding(i) && useful(i) || numbers[i].as_ref().is_some_and(|x| rounds_alike(x, expected[i]))
+        };
         let well = errors.iter().enumerate().all(|(i, error)| near(error) || right(i));
         let finding = if well {
-            penetrates_otherwise(&problem, answer, tolerance)
+            penetrates_otherwise(&problem, &exact, answer, tolerance)
         } else {
             let state = || wrong_state(numbers, exact.state, &errors, tolerance, &scales);
             let rounding = (0..2).all(|i| near(&errors[i]) || to_rounding(i));
@@ -233,7 +241,12 @@ impl Judgement {
 }
 
 /// A penetration that is not that of the deflection.
-fn penetrates_otherwise(problem: &Problem, answer: &Answer, tolerance: &Exact) -> Option<String> {
+fn penetrates_otherwise(
+    problem: &Problem,
+    exact: &Solution<Exact>,
+    answer: &Answer,
+    tolerance: &Exact,
+) -> Option<String> {
     let said = answer.penetration.as_ref()?;
     let Some(p) = said else { return Some("its penetration is not a number".to_string()) };
     let u = answer.deflection.as_ref()?;
@@ -241,7 +254,9 @@ fn penetrates_otherwise(problem: &Problem, answer: &Answer, tolerance: &Exact) -
     let rounded = balls(&0f64, &problem.system).zip(Ball::around(&0f64, u).ok());
     let rounded = rounded.map(|(system, u)| contact::penetration(&system, &u));
     let [length, _] = scales(&problem.system);
-    let explained = (p - &own).abs() <= tolerance * length || rounded.is_some_and(|ball| ball.contains(p));
+    let rounded_once = rounds_alike(u, &exact.deflection) && rounds_alike(p, &exact.penetration);
+    let near = (p - &own).abs() <= tolerance * length;
+    let explained = near || rounded_once || rounded.is_some_and(|ball| ball.contains(p));
     (!explained)
         .then(|| format!("its penetration is {}, that of its deflection is {}", brief(p), brief(&own)))
 }

@@ -4,10 +4,10 @@
 //! can be computed with and printed.
 
 use super::{CASES, Family, Problem, problems};
-use crate::chapter::{SpringMass, contact, lagrange, penalty, structure, system};
+use crate::chapter::{SpringMass, augmented, contact, lagrange, penalty, structure, system};
 use crate::claims::{entry_of, registry, symbols};
-use crate::number::tree::{Site, piecewise};
-use crate::number::{Exact, PositivePart, Tree};
+use crate::number::tree::{Site, Step, piecewise};
+use crate::number::{Exact, PositivePart, ToExact, Tree};
 use crate::proof::controls::{Change, changes_in};
 use num_traits::Zero;
 use std::collections::HashMap;
@@ -21,14 +21,40 @@ pub(super) type Formulas = [Tree; 2];
 pub(super) struct Mistake {
     /// What is wrong.
     pub name: String,
-    /// Where R > 0.
+    /// Where R > 0, or what it takes for R.
     pub touching: Formulas,
     /// Everywhere else.
     pub apart: Formulas,
+    /// What it takes for R, in N, if it is another.
+    pub decision: Option<Tree>,
     /// Where in the chapter's source that is one edit.
     pub at: Vec<String>,
     /// Whose force by its penetration is ε, if the formulas have one that nobody has told.
     pub measured: Option<Measured>,
+    /// From which an answer's k is found, if the formulas have one; `{k}` in the name stands for it.
+    pub estimates: Vec<Estimate>,
+    /// Whether k is a share of an iteration's way, between 0 and 2.
+    pub is_share: bool,
+}
+
+/// From which the constant k of a program is found.
+#[derive(Clone, Debug)]
+pub(super) enum Estimate {
+    /// A formula of k, u and N that is linear in k, and 0 for some answers.
+    Equation(Tree),
+    /// u (0) or N (1) of an answer, relative to what is right.
+    Ratio(usize),
+    /// u (0) or N (1) of an answer.
+    Number(usize),
+    /// The penalty by which so many augmentations leave the penetration of an answer.
+    Augmentations(i32),
+}
+
+/// ε and k, where they are known.
+#[derive(Debug)]
+pub(super) struct Constants<'a, T> {
+    pub penalty: Option<&'a T>,
+    pub factor: Option<&'a T>,
 }
 
 /// What shows the penalty of a program that does not tell it.
@@ -41,19 +67,38 @@ pub(super) enum Measured {
 }
 
 impl Mistake {
-    fn new(name: &str, formulas: Formulas) -> Self {
+    pub fn new(name: &str, formulas: Formulas) -> Self {
         Mistake {
             name: name.to_string(),
             touching: formulas.clone(),
             apart: formulas,
+            decision: None,
             at: Vec::new(),
             measured: None,
+            estimates: Vec::new(),
+            is_share: false,
         }
+    }
+
+    /// Is it one edit of the chapter's source?
+    pub fn is_edit(&self) -> bool {
+        !self.at.is_empty()
     }
 
     /// Do its formulas have an ε?
     pub fn has_penalty(&self) -> bool {
         self.touching.iter().chain(&self.apart).any(|formula| formula.symbols().contains("ε"))
+    }
+
+    /// Do its formulas have a k?
+    pub fn has_factor(&self) -> bool {
+        self.touching.iter().chain(&self.apart).any(|formula| formula.symbols().contains("k"))
+    }
+
+    /// What it takes for R.
+    pub fn reaction(&self, system: &SpringMass<Exact>, constants: &Constants<Exact>) -> Exact {
+        let own = self.decision.as_ref().and_then(|decision| value(decision, system, constants));
+        own.unwrap_or_else(|| system::reaction(system))
     }
 
     /// What it computes where R > 0, or elsewhere.
@@ -71,19 +116,48 @@ impl Mistake {
         if self.touching == self.apart {
             both(&self.touching)
         } else {
-            format!("{} if R > 0, else {}", both(&self.touching), both(&self.apart))
+            let decision = self.decision.as_ref().map_or("R".to_string(), Tree::to_string);
+            format!("{} if {decision} > 0, else {}", both(&self.touching), both(&self.apart))
         }
     }
 }
 
-/// The value of a formula for a system and a penalty; `None` where it divides by zero.
-pub(super) fn value<T: PositivePart>(tree: &Tree, system: &SpringMass<T>, penalty: Option<&T>) -> Option<T> {
+/// The value of a formula for a system and constants; `None` where it divides by zero, or has a quantity that is not
+/// known.
+pub(super) fn value<T: PositivePart>(
+    tree: &Tree,
+    system: &SpringMass<T>,
+    constants: &Constants<T>,
+) -> Option<T> {
+    value_with(tree, system, constants, &piecewise)
+}
+
+/// Like [`value`], where what is rounded is rounded to single precision.
+pub(super) fn value_in_single(
+    tree: &Tree,
+    system: &SpringMass<Exact>,
+    penalty: Option<&Exact>,
+) -> Option<Exact> {
+    let extra = |step: Step<&Exact>| match step {
+        Step::Rounded(x) => x.to_f32().ok()?.to_exact().ok(),
+        other => piecewise(other),
+    };
+    value_with(tree, system, &Constants { penalty, factor: None }, &extra)
+}
+
+fn value_with<T: PositivePart>(
+    tree: &Tree,
+    system: &SpringMass<T>,
+    constants: &Constants<T>,
+    extra: &impl Fn(Step<&T>) -> Option<T>,
+) -> Option<T> {
     let SpringMass { c, m, g, l, h } = system;
     let known = [("c", c), ("m", m), ("g", g), ("l", l), ("H", h)].into_iter();
-    let known: Vec<_> = known.chain(penalty.map(|eps| ("ε", eps))).collect();
+    let known = known.chain(constants.penalty.map(|eps| ("ε", eps)));
+    let known: Vec<_> = known.chain(constants.factor.map(|k| ("k", k))).collect();
     let symbol = |name: &str| known.iter().find(|(own, _)| *own == name).map(|(_, x)| (*x).clone());
     let all = tree.symbols().into_iter().all(|name| symbol(name).is_some());
-    all.then(|| tree.replay(&|name| symbol(name).expect("known"), &piecewise)).flatten()
+    all.then(|| tree.replay(&|name| symbol(name).expect("known"), extra)).flatten()
 }
 
 /// What is right: u in m and N in N of Lagrange, or by penalty.
@@ -161,14 +235,14 @@ pub(super) fn every(by_penalty: bool) -> Vec<Mistake> {
     all
 }
 
-/// What a mistake computes on the systems of a run by default, each with a penalty of its own.
+/// What a mistake computes on the systems of a run by default, each with a penalty of its own, and k = 7.
 pub(super) fn values(mistake: &Mistake) -> Vec<Option<Exact>> {
     static SYSTEMS: LazyLock<Vec<Problem>> = LazyLock::new(|| problems(1, CASES, &Family::ALL));
     let numbered = SYSTEMS.iter().map(|problem| &problem.system).zip(2..);
     let values = numbered.flat_map(|(system, penalty)| {
-        let penalty = Exact::from(penalty);
+        let constants = Constants { penalty: Some(&Exact::from(penalty)), factor: Some(&Exact::from(7)) };
         let formulas = mistake.formulas(system::reaction(system) > Exact::zero());
-        formulas.each_ref().map(|formula| value(formula, system, Some(&penalty)))
+        formulas.each_ref().map(|formula| value(formula, system, &constants))
     });
     values.collect()
 }
@@ -182,6 +256,13 @@ fn people(own: &SpringMass<Tree>, penalty: Option<&Tree>) -> Vec<Mistake> {
     let while_touching = |name: &str, force: Tree| Mistake {
         apart: [u.clone(), zero.clone()],
         ..Mistake::new(name, [u.clone(), force])
+    };
+    let with_force = |name: &str, force: Tree| Mistake::new(name, [u.clone(), force]);
+    let added = system::weight(own) + structure::spring_force(own, &u);
+    // Of the right deflection, as of a plane that also pulls.
+    let force = match penalty {
+        None => system::reaction(own),
+        Some(eps) => penalty::contact_force(own, eps, &u),
     };
     vec![
         Mistake::new("the plane also pulls", bilateral(own, penalty)),
@@ -201,7 +282,14 @@ fn people(own: &SpringMass<Tree>, penalty: Option<&Tree>) -> Vec<Mistake> {
         ),
         Mistake::new("m is taken for the weight", of(SpringMass { g: one.clone(), ..own.clone() })),
         Mistake::new("g is taken for the weight", of(SpringMass { m: one, ..own.clone() })),
-        Mistake::new("N has the other sign", [u.clone(), -&n]),
+        with_force("N has the other sign", -&n),
+        with_force("N has the other sign, and no bracket", -&force),
+        with_force("N is taken without its sign", force.abs()),
+        while_touching("the force of the spring is added to the weight in N", added.clone()),
+        with_force("the force of the spring is added to the weight in N, also apart", added),
+        with_force("N is always 0", zero.clone()),
+        Mistake::new("u is always 0", [zero.clone(), n.clone()]),
+        Mistake::new("u and N are always 0", [zero.clone(), zero.clone()]),
         while_touching("N is the weight", system::weight(own)),
         while_touching("N is the force of the spring", structure::spring_force(own, &u)),
         Mistake::new("u is the length of the spring", [l + &u, n.clone()]),
@@ -210,6 +298,159 @@ fn people(own: &SpringMass<Tree>, penalty: Option<&Tree>) -> Vec<Mistake> {
         Mistake::new("u is counted upwards", [-&u, n.clone()]),
         Mistake::new("u and N are swapped", [n, u.clone()]),
     ]
+}
+
+/// Augmentations after which a program is still taken for one that ends after a fixed number of them. Of more, n with a
+/// penalty ε and n + 1 with n/(n + 1) of it hardly differ.
+const STEPS: i32 = 8;
+
+/// Programs with a constant that nobody knows: a unit, a bound, an iteration that ends early.
+pub(super) fn fitted(by_penalty: bool) -> &'static [Mistake] {
+    static LAGRANGE: LazyLock<Vec<Mistake>> = LazyLock::new(|| with_a_constant(false));
+    static PENALTY: LazyLock<Vec<Mistake>> = LazyLock::new(|| with_a_constant(true));
+    if by_penalty { &PENALTY } else { &LAGRANGE }
+}
+
+fn with_a_constant(by_penalty: bool) -> Vec<Mistake> {
+    let (own, eps) = (&symbols().system, &symbols().eps);
+    let penalty = by_penalty.then_some(eps);
+    let [k, u, n] = ["k", "u", "N"].map(|name| Tree::symbol(name));
+    let [exact_u, exact_n] = right(own, penalty);
+    let SpringMass { c, m, l, h, .. } = own;
+    // Of the system that the program takes its own for: equilibrium holds, and in contact the law of the plane.
+    let input = |name: &str, system: SpringMass<Tree>, penalty: Option<Tree>| {
+        let plane = match &penalty {
+            None => contact::penetration(&system, &u),
+            Some(eps) => penalty::contact_force(&system, eps, &u) - &n,
+        };
+        let estimates = [contact::equilibrium(&system, &u, &n), plane].map(Estimate::Equation);
+        let name = format!("{name} is {{k}} times what is right");
+        Mistake { estimates: estimates.into(), ..Mistake::new(&name, right(&system, penalty.as_ref())) }
+    };
+    let own_penalty = || penalty.cloned();
+    let with = |name: &str, formulas: Formulas, estimate: Estimate| Mistake {
+        estimates: vec![estimate],
+        ..Mistake::new(name, formulas)
+    };
+    let mut all = vec![
+        input("c", SpringMass { c: &k * c, ..own.clone() }, own_penalty()),
+        input("m g", SpringMass { m: &k * m, ..own.clone() }, own_penalty()),
+        input("l", SpringMass { l: &k * l, ..own.clone() }, own_penalty()),
+        input("H", SpringMass { h: &k * h, ..own.clone() }, own_penalty()),
+        input("H − l", SpringMass { l: &k * l, h: &k * h, ..own.clone() }, own_penalty()),
+        with("u is at most {k} m", [exact_u.min(&k), exact_n.clone()], Estimate::Number(0)),
+        with("N is at most {k} N", [exact_u.clone(), exact_n.min(&k)], Estimate::Number(1)),
+    ];
+    if by_penalty {
+        all.push(input("ε", own.clone(), Some(&k * eps)));
+    }
+    // An iteration for u that ends at k of its way, and N that is right or what equilibrium lacks: from no deflection;
+    // the same, while the plane is a bound; and from where the mass hangs free. What equilibrium lacks on that last way
+    // is the force of a penalty, a multiple of c, as on one from the plane.
+    let (free, gap) = (structure::deflection(own), system::gap(own));
+    let from_zero = ("the iteration for u ends at {k} of its way from 0", &k * &exact_u, Estimate::Ratio(0));
+    let mut lacking = vec![from_zero];
+    if !by_penalty {
+        let free_at_k = structure::deflection(&SpringMass { m: &k * m, ..own.clone() });
+        let equation = |deflection: &Tree| Estimate::Equation(deflection - &u);
+        let bounded = "the iteration for u, bounded by the plane, ends at {k} of its way from 0";
+        lacking.push((bounded, free_at_k.min(&gap), equation(&free_at_k)));
+        let name = format!("{bounded}, and there is N where it arrives at the plane");
+        let arriving = with(&name, [gap.clone(), system::reaction(own)], equation(&free_at_k));
+        all.push(Mistake {
+            apart: [free_at_k.clone(), Tree::from(0)],
+            decision: Some(system::reaction(&SpringMass { m: &k * m, ..own.clone() })),
+            is_share: true,
+            ..arriving
+        });
+        let between = |end: &Tree| &free + &k * (end - &free);
+        let from_free = "the iteration for u ends at {k} of its way from the free deflection";
+        for (name, deflection, estimate) in [
+            (bounded, free_at_k.min(&gap), equation(&free_at_k)),
+            (from_free, between(&exact_u), equation(&between(&gap))),
+        ] {
+            let way = with(name, [deflection, exact_n.clone()], estimate);
+            all.push(Mistake { is_share: true, ..way });
+        }
+    }
+    // As many augmentations for every system, from λ = 0, where the penalty is no multiple of c.
+    let augmentations = (2..STEPS + 1).filter(|_| !by_penalty);
+    all.extend(augmentations.map(|steps| {
+        let (zero, contraction) = (Tree::from(0), augmented::contraction(own, &k));
+        let decay = |steps: i32| (1..steps).fold(contraction.clone(), |decay, _| decay * &contraction);
+        let deflection = augmented::deflection_after(own, &k, &zero, &decay(steps - 1));
+        // With the rounding of its last update.
+        let before = augmented::multiplier_after(own, &zero, &decay(steps - 1));
+        let force = augmented::update(own, &k, &before, &deflection);
+        let touching = [deflection, force];
+        let name = format!("the augmentation ends after {steps} steps, with ε = {{k}} N/m");
+        let apart = [free.clone(), zero];
+        Mistake { apart, ..with(&name, touching, Estimate::Augmentations(steps)) }
+    }));
+    for (name, deflection, estimate) in lacking {
+        let force = augmented::contact_force(own, &deflection);
+        let bracket = force.positive_part();
+        for (force, besides) in [
+            (force, ", and N is what equilibrium lacks"),
+            (bracket, ", and N is what equilibrium lacks if that pushes"),
+        ] {
+            let way = with(&format!("{name}{besides}"), [deflection.clone(), force], estimate.clone());
+            all.push(Mistake { is_share: true, ..way });
+        }
+    }
+    all
+}
+
+/// Programs that round to single precision in one place, and compute in double elsewhere.
+pub(super) fn in_single(by_penalty: bool) -> &'static [Mistake] {
+    static LAGRANGE: LazyLock<Vec<Mistake>> = LazyLock::new(|| with_one_rounding(false));
+    static PENALTY: LazyLock<Vec<Mistake>> = LazyLock::new(|| with_one_rounding(true));
+    if by_penalty { &PENALTY } else { &LAGRANGE }
+}
+
+fn with_one_rounding(by_penalty: bool) -> Vec<Mistake> {
+    let own = &symbols().system;
+    let penalty = by_penalty.then_some(&symbols().eps);
+    let SpringMass { c, m, g, l, h } = own;
+    let of = |system: SpringMass<Tree>| right(&system, penalty);
+    let [u, n] = right(own, penalty);
+    let single = |name: &str, formulas: Formulas| {
+        Mistake::new(&format!("{name} is rounded to single precision"), formulas)
+    };
+    let computed = |name: &str, formulas: Formulas| {
+        Mistake::new(&format!("{name} is computed in single precision"), formulas)
+    };
+    let with_gap = |gap: Tree| of(SpringMass { l: Tree::from(0), h: gap, ..own.clone() });
+    let gap = (h.nearest() - l.nearest()).nearest();
+    let spring_force = structure::spring_force(own, &system::gap(own));
+    let reaction = (system::weight(own).nearest() - spring_force.nearest()).nearest();
+    let mut all = vec![
+        single("c", of(SpringMass { c: c.nearest(), ..own.clone() })),
+        single("m", of(SpringMass { m: m.nearest(), ..own.clone() })),
+        single("g", of(SpringMass { g: g.nearest(), ..own.clone() })),
+        single("l", of(SpringMass { l: l.nearest(), ..own.clone() })),
+        single("H", of(SpringMass { h: h.nearest(), ..own.clone() })),
+        single("H − l", with_gap(system::gap(own).nearest())),
+        computed("H − l", with_gap(gap)),
+        single("u", [u.nearest(), n.clone()]),
+        single("N", [u.clone(), n.nearest()]),
+    ];
+    if !by_penalty {
+        all.push(computed("R = m g − c (H − l)", [u, reaction.positive_part()]));
+    }
+    all
+}
+
+/// What is right, each of its numbers rounded.
+pub(super) fn rounded_once(by_penalty: bool) -> Mistake {
+    let right = right(&symbols().system, by_penalty.then_some(&symbols().eps));
+    Mistake::new("rounded", right.each_ref().map(Tree::nearest))
+}
+
+/// What is right of parameters that are rounded.
+pub(super) fn with_rounded_parameters(by_penalty: bool) -> Mistake {
+    let system = symbols().system.map(Tree::nearest);
+    Mistake::new("rounded parameters", right(&system, by_penalty.then_some(&symbols().eps)))
 }
 
 /// Methods with a penalty that nobody asked for.

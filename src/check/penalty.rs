@@ -60,15 +60,15 @@ pub struct Penalty {
 }
 
 impl Penalty {
-    const NONE: Penalty = Penalty { kind: Kind::None, value: None, spread: None };
+    pub(super) const NONE: Penalty = Penalty { kind: Kind::None, value: None, spread: None };
 
     /// A penalty shows if one of the three multiples, and only one, is the same to within a tenth in all
-    /// answers that tell it; and if these are at least half of those whose force it would be.
+    /// answers that tell it; and if these are three or more, and at least half of those whose force it would be.
     pub(super) fn measured(answers: &[Given], by: Measured, tolerance: &Exact) -> Self {
         let acting = answers.iter().filter_map(|given| given.force(by, tolerance)).count();
         let told = Vec::from_iter(answers.iter().filter_map(|given| given.ratio(by, tolerance)));
         let clearest = told.iter().max_by(|a, b| a.clarity.cmp(&b.clarity));
-        let (Some(clearest), true) = (clearest, told.len() >= 2 && 2 * told.len() >= acting) else {
+        let (Some(clearest), true) = (clearest, told.len() >= 3 && 2 * told.len() >= acting) else {
             return Penalty::NONE;
         };
         let shown = Kind::ALL.into_iter().filter_map(|kind| {

@@ -5,7 +5,7 @@
 
 use crate::chapter::{SpringMass, structure};
 use crate::number::{Exact, PositivePart};
-use num_traits::Zero;
+use num_traits::{One, Zero};
 use oorandom::Rand64;
 use rug::float::Round;
 use std::fmt;
@@ -14,6 +14,14 @@ use std::str::FromStr;
 /// Significant decimal digits that a parameter has at most: some readers of numbers take no more than a line
 /// of a punched card has room for.
 pub const DIGITS: usize = 12;
+
+/// The powers of ten that the decades of [`Family::Graded`] begin with.
+const GRADES: std::ops::Range<i32> = -9..-1;
+
+/// The preferred numbers of IEC 60063, E24, times ten: 24 to a decade, spaced alike on a logarithmic scale as far as
+/// two digits allow.
+const E24: [i32; 24] =
+    [10, 11, 12, 13, 15, 16, 18, 20, 22, 24, 27, 30, 33, 36, 39, 43, 47, 51, 56, 62, 68, 75, 82, 91];
 
 /// What is special about a system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -40,11 +48,14 @@ pub enum Family {
     Huge,
     /// c, m and l of 10⁻¹⁴ to 10⁻⁶ SI units, and a gap alike.
     Tiny,
+    /// |R| of 10⁻⁹ to 10⁻¹ of |m g| + |c (H − l)|, on either side: where a tolerance of the solver's own
+    /// decides. So many systems a decade as other families have in all.
+    Graded,
 }
 
 impl Family {
     /// All of them.
-    pub const ALL: [Family; 11] = [
+    pub const ALL: [Family; 12] = [
         Family::Contact,
         Family::Separated,
         Family::Grazing,
@@ -56,7 +67,13 @@ impl Family {
         Family::Far,
         Family::Huge,
         Family::Tiny,
+        Family::Graded,
     ];
+
+    /// How many systems it has where others have one.
+    fn multiplicity(self) -> u64 {
+        if self == Family::Graded { GRADES.len() as u64 } else { 1 }
+    }
 
     /// As it is called on the command line and in JSON.
     pub fn name(self) -> &'static str {
@@ -72,6 +89,7 @@ impl Family {
             Family::Far => "far",
             Family::Huge => "huge",
             Family::Tiny => "tiny",
+            Family::Graded => "graded",
         }
     }
 }
@@ -110,7 +128,7 @@ pub struct Problem {
     pub penalty: Option<Exact>,
 }
 
-/// So many systems of each of these families, drawn from a seed.
+/// So many systems of each of these families, or of each decade of [`Family::Graded`], drawn from a seed.
 ///
 /// ```
 /// use spring_mass_contact::check::{Family, problems};
@@ -121,7 +139,10 @@ pub struct Problem {
 /// assert!(grazing.iter().all(|problem| State::of(&problem.system) == Ok(State::Grazing)));
 /// ```
 pub fn problems(seed: u64, cases: u64, families: &[Family]) -> Vec<Problem> {
-    let numbered = |family: &Family| (1..=cases).map(|number| (*family, number)).collect::<Vec<_>>();
+    let numbered = |family: &Family| {
+        let count = cases * family.multiplicity();
+        (1..=count).map(|number| (*family, number)).collect::<Vec<_>>()
+    };
     let problem = |(family, number): (Family, u64)| Problem {
         id: format!("{family}-{number}"),
         family,
@@ -234,6 +255,7 @@ impl Draw {
             Family::Huge => self.sized(6, 13),
             Family::Tiny => self.sized(-14, -7),
             Family::Grazing => self.grazing(),
+            Family::Graded => self.graded(),
             Family::Near => {
                 let mut system = self.grazing();
                 let SpringMass { c, m, g, l: _, h } = &mut system;
@@ -266,6 +288,27 @@ impl Draw {
         let (l, gap) = (self.decades(exponent, exponent), self.decades(exponent, exponent));
         let g = short(&(&c * &gap / &m / part), 3);
         SpringMass { h: &l + gap, c, m, g, l }
+    }
+
+    /// |R| as a part of |m g| + |c Δ| that is spaced alike on a logarithmic scale. Every decade is on either side by
+    /// turns, and begins with its lowest quarter on both, so that few systems leave no large part out.
+    fn graded(&mut self) -> SpringMass<Exact> {
+        let grades = GRADES.len() as u64;
+        let (decade, turn) = ((self.number - 1) % grades, (self.number - 1) / grades);
+        let touches = (decade + turn) % 2 == 0;
+        // 0, 1/2, 1/4, 3/4 of a decade, and on with the quarters that these leave.
+        let quarter = [0, 2, 1, 3][(turn / 2 % 4) as usize];
+        let place = 6 * quarter + self.between(0, 5);
+        let part = decimal(E24[place as usize].into(), GRADES.start + decade as i32 - 1);
+        let SpringMass { c, m, g, l, h } = self.grazing();
+        let (more, less) = (Exact::one() + &part, Exact::one() - &part);
+        let factor = if touches { more / less } else { less / more };
+        let short = |x: Exact| short(&x, DIGITS);
+        match self.between(0, 2) {
+            0 => SpringMass { c: short(c / factor), m, g, l, h },
+            1 => SpringMass { m: short(m * factor), c, g, l, h },
+            _ => SpringMass { g: short(g * factor), c, m, l, h },
+        }
     }
 
     /// m g = c Δ: m divides it, so that g has few digits.

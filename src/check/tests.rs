@@ -3,9 +3,11 @@
 mod diagnosed;
 mod judged;
 
-use super::mistakes::{Mistake, every, mistakes, none, value, values};
+use super::mistakes::{
+    Constants, Mistake, every, fitted, in_single, mistakes, none, value, value_in_single, values,
+};
 use super::*;
-use crate::chapter::{SpringMass, contact, structure, system};
+use crate::chapter::{SpringMass, augmented, contact, structure, system};
 use crate::claims::given;
 use crate::formula::{self, Claim, Statement};
 use crate::number::{PositivePart, ToExact};
@@ -42,7 +44,8 @@ fn run(problems: &[Problem], solver: impl Fn(&Problem) -> Answer) -> Report {
 /// What a program with this mistake answers.
 fn answer(mistake: &Mistake, problem: &Problem, penalty: Option<&Exact>) -> Answer {
     let [u, n] = mistake.formulas(system::reaction(&problem.system) > Exact::zero());
-    let value = |tree| value(tree, &problem.system, penalty);
+    let constants = Constants { penalty, factor: None };
+    let value = |tree| value(tree, &problem.system, &constants);
     Answer { deflection: value(u), contact_force: value(n), ..Answer::default() }
 }
 
@@ -60,6 +63,70 @@ fn every_mistake_is_diagnosed_as_itself() {
             let names: Vec<_> = report.diagnosis.iter().map(|d| (&d.name, &d.formula, d.answers)).collect();
             let own = [(&mistake.name, &mistake.formula(), Answers::All)];
             assert_eq!(names, own, "{}", mistake.name);
+        }
+    }
+}
+
+/// A constant of which no decimal of six digits is exact.
+#[test]
+fn a_constant_is_found() {
+    for problems in [default_problems(), with_penalties(default_problems())] {
+        let by_penalty = problems[0].penalty.is_some();
+        for (mistake, k) in fitted(by_penalty).iter().flat_map(|mistake| {
+            let bound = mistake.name.contains("at most");
+            // As of units; of a share of the way; and of a bound that is neither above nor below all numbers.
+            let constants: &[&str] = match () {
+                () if bound => &["1/30", "7/3"],
+                () if mistake.name.starts_with("the augmentation") => &["1e4", "3e6"],
+                () if mistake.is_share => &["31/32", "1/3"],
+                // A spring that pushes away from its end is none.
+                () if mistake.name.starts_with("c ") => &["1000", "1/3", "0.001"],
+                () => &["1000", "1/3", "0.001", "-3"],
+            };
+            constants.iter().map(move |k| (mistake, number(k)))
+        }) {
+            let solve = |problem: &Problem| {
+                let constants = Constants { penalty: problem.penalty.as_ref(), factor: Some(&k) };
+                let touching = mistake.reaction(&problem.system, &constants) > Exact::zero();
+                let [u, n] = mistake.formulas(touching);
+                let value = |tree| value(tree, &problem.system, &constants);
+                Answer { deflection: value(u), contact_force: value(n), ..Answer::default() }
+            };
+            let report = run(&problems, solve);
+            let found = report.diagnosis.iter().map(|d| (d.name.clone(), d.formula.clone()));
+            let k = k.decimal(6, Round::Nearest);
+            let own = (mistake.name.replace("{k}", &k), format!("{}, k = {k}", mistake.formula()));
+            assert_eq!(Vec::from_iter(found), std::slice::from_ref(&own), "{}", own.0);
+        }
+    }
+}
+
+/// By default what is off by 6e-8 of c, m, g or R is within the tolerance; what hides in a difference is not.
+#[test]
+fn one_rounding_to_single_precision_is_found() {
+    for problems in [default_problems(), with_penalties(default_problems())] {
+        for mistake in in_single(problems[0].penalty.is_some()) {
+            let solve = |problem: &Problem| {
+                let [u, n] = mistake.formulas(system::reaction(&problem.system) > Exact::zero());
+                let value = |tree| value_in_single(tree, &problem.system, problem.penalty.as_ref());
+                // As a program prints them.
+                let printed = |x: Option<Exact>| Some(number(&x?.to_f64().unwrap().to_string()));
+                let [u, n] = [value(u), value(n)].map(printed);
+                Answer { deflection: u, contact_force: n, ..Answer::default() }
+            };
+            for tolerance in [TOLERANCE, "1e-12"] {
+                let ask = |problem: &Problem| Ok::<_, Infallible>(Reply::Answered(Box::new(solve(problem))));
+                let report = check(&problems, &number(tolerance), ask).unwrap();
+                let names = Vec::from_iter(report.diagnosis.iter().map(|d| d.name.as_str()));
+                let shows = tolerance != TOLERANCE
+                    || ["l", "H", "H − l"].iter().any(|name| {
+                        mistake.name == format!("{name} is rounded to single precision") && *name != "H − l"
+                            || mistake.name == format!("{name} is computed in single precision")
+                    });
+                let expected = if shows { vec![mistake.name.as_str()] } else { vec![] };
+                assert_eq!(names, expected, "{tolerance}");
+                assert_eq!(report.holds(), !shows, "{}", mistake.name);
+            }
         }
     }
 }
@@ -97,7 +164,8 @@ fn rounding_hides_no_mistake() {
             let [u, n] = mistake.formulas(system::reaction(&system) > 0.0);
             let number = |tree| {
                 let infinite = |x: f64| x.to_exact().ok();
-                value(tree, &system, mistake.measured.map(|_| &3e5)).and_then(infinite)
+                let constants = Constants { penalty: mistake.measured.map(|_| &3e5), factor: None };
+                value(tree, &system, &constants).and_then(infinite)
             };
             Answer { deflection: number(u), contact_force: number(n), ..Answer::default() }
         };
@@ -138,6 +206,7 @@ fn families_are_what_they_say() {
             Family::Far => l.abs() > number("100") * (gap.abs() + free.abs()) && l.abs() >= number("1000"),
             Family::Huge => [c, m, l].into_iter().all(|x| between(x, "1e6", "1e14")),
             Family::Tiny => [c, m, l].into_iter().all(|x| between(x, "1e-14", "1e-6")),
+            Family::Graded => between(&part(system), "0.99e-9", "0.1") && gap > zero && *g > zero,
         };
         assert!(holds, "{id}: {system}");
     }
@@ -146,7 +215,7 @@ fn families_are_what_they_say() {
         of.map(|problem| State::of(&problem.system).unwrap()).collect::<HashSet<_>>()
     };
     use Family::*;
-    for family in [Near, Lifted, Stiff, Soft, Far, Huge, Tiny] {
+    for family in [Near, Lifted, Stiff, Soft, Far, Huge, Tiny, Graded] {
         assert_eq!(states(family), HashSet::from([State::Contact, State::Separated]), "{family}");
     }
     // By turns, where the family leaves a choice; those near grazing may be on either side.
@@ -186,6 +255,55 @@ fn families_are_what_they_say() {
     assert_ne!(problems(2, 3, &[Stiff]), problems(1, 3, &[Stiff]));
 }
 
+/// |R| relative to |m g| + |c (H − l)|.
+fn part(system: &SpringMass<Exact>) -> Exact {
+    let loads = system::weight(system).abs() + (&system.c * system::gap(system)).abs();
+    system::reaction(system).abs() / loads
+}
+
+/// Where a relative tolerance may decide, there are systems on either side in every decade, however few are asked
+/// for. The first two of a decade begin with its lowest quarter, of which 16 is the last number of E24.
+#[test]
+fn grades_are_spread_over_every_decade_on_either_side() {
+    for cases in [2, 3, 5, 12] {
+        let all = problems(1, cases, &[Family::Graded]);
+        assert_eq!(all.len() as u64, 8 * cases);
+        for decade in (-9..-1).map(|power| number(&format!("1e{power}"))) {
+            let of = |state: State| {
+                let of = all.iter().filter(|problem| State::of(&problem.system).unwrap() == state);
+                let parts = of.map(|problem| part(&problem.system) / &decade);
+                let parts = parts.filter(|x| number("0.99") <= *x && *x < number("9.9"));
+                Vec::from_iter(parts)
+            };
+            for parts in [of(State::Contact), of(State::Separated)] {
+                assert!(parts.len() as u64 >= cases / 2, "{decade}");
+                // A parameter of twelve digits is off by 5e-12, which is a four-hundredth of 2e-9.
+                assert!(*parts.iter().min().unwrap() <= number("1.61"), "{decade}");
+                // On a logarithmic scale, half of them are below the middle.
+                let low = parts.iter().filter(|x| **x < number("3.2")).count();
+                assert!((parts.len() / 2..=parts.len().div_ceil(2)).contains(&low), "{decade}: {low}");
+            }
+        }
+    }
+}
+
+/// Neither the number of a case nor the seed is cut short on its way into what is drawn.
+#[test]
+fn no_two_systems_are_the_same() {
+    let mut seen = HashMap::new();
+    let mut assert_new = |seed: u64, problem: Problem| {
+        let own = format!("{} of seed {seed}", problem.id);
+        let other = seen.insert(problem.system.to_string(), own.clone());
+        assert_eq!(other, None, "{own}");
+    };
+    for problem in problems(1, 1000, &Family::ALL) {
+        assert_new(1, problem);
+    }
+    for seed in (1..64).map(|bit| 1 + (1 << bit)) {
+        problems(seed, 2, &[Family::Contact]).into_iter().for_each(|problem| assert_new(seed, problem));
+    }
+}
+
 #[test]
 fn a_force_is_written_by_its_deflection() {
     let no_plane = mistakes(false).iter().find(|mistake| mistake.name == "there is no plane").unwrap();
@@ -210,7 +328,9 @@ fn names_are_those_of_the_command_line_and_of_json() {
     assert_eq!("flat".parse::<Family>(), Err(NoFamily));
     let verdicts = [Verdict::Right, Verdict::WithinTolerance, Verdict::Wrong, Verdict::TimedOut];
     assert_eq!(verdicts.map(|it| it.to_string()), ["right", "within_tolerance", "wrong", "timed_out"]);
-    assert_eq!([Of::Penetration, Of::Force].map(|it| it.to_string()), ["penetration", "force"]);
+    let quantities = [Of::Penetration, Of::ForceByWeight, Of::PenetrationByHeight];
+    let names = ["penetration", "force_by_weight", "penetration_by_height"];
+    assert_eq!(quantities.map(|it| it.to_string()), names);
     let answers = [Answers::All, Answers::Wrong, Answers::Steps];
     assert_eq!(answers.map(|it| it.to_string()), ["all", "wrong", "steps"]);
 }
@@ -221,8 +341,16 @@ fn the_book_names_what_is_known() {
     let page = std::fs::read_to_string(page).unwrap();
     let list = page.split_once("Known are").unwrap().1;
     let is_edit = |name: &str| name.starts_with("as ") || name.contains(", and as ");
-    for mistake in mistakes(false).iter().filter(|mistake| !is_edit(&mistake.name)) {
-        assert!(list.contains(&mistake.name), "{}", mistake.name);
+    let all = [false, true].into_iter().flat_map(|by_penalty| {
+        [mistakes(by_penalty), fitted(by_penalty), in_single(by_penalty)].into_iter().flatten()
+    });
+    for mistake in all.filter(|mistake| !is_edit(&mistake.name)) {
+        let name = mistake.name.replace("{k}", "*k*");
+        let steps = |n: &i32| name.contains(&format!(" after {n} steps, "));
+        let name = (2..=20)
+            .find(steps)
+            .map_or(name.clone(), |n| name.replace(&format!(" {n} steps"), " 2 to 8 steps"));
+        assert!(list.contains(&name), "{name}");
     }
     for family in Family::ALL {
         assert!(page.contains(&format!("`{family}`")), "{family}");

@@ -29,7 +29,7 @@ pub struct Options {
 /// Which systems.
 #[derive(clap::Args)]
 pub struct Drawn {
-    /// Systems of each family, from 1 to 10000
+    /// Systems of each family and each decade of graded, from 1 to 10000
     #[arg(long, value_name = "N", default_value_t = check::CASES)]
     #[arg(value_parser = |text: &str| whole_in(1..=10_000, text))]
     cases: u64,
@@ -37,7 +37,7 @@ pub struct Drawn {
     #[arg(long, value_name = "N", default_value = "1", value_parser = whole)]
     pub seed: u64,
     /// Only this family, repeatable: contact, separated, grazing, near, overlap, lifted, stiff, soft,
-    /// far, huge or tiny
+    /// far, huge, tiny or graded
     #[arg(long = "family", value_name = "F")]
     families: Vec<Family>,
 }

@@ -31,8 +31,9 @@ negative gravity lifts. Errors are taken in parts of |H - l| + |m g/c| and of
 |m g| + |c (H - l)|. What else an answer may have, and what is diagnosed, is in
 book/src/check.md, the book's page `Check your own solver`.
 
-Exit status: 0 nothing is wrong, and something of each family is right; 1 else;
-2 bad input. A refusal, {\"id\": …, \"error\": …}, is not wrong.";
+Exit status: 0 if no answer is wrong and each family has one that is right or
+within the tolerance; 1 otherwise; 2 for bad input. A refusal,
+{\"id\": …, \"error\": …}, is not wrong.";
 
 /// Hold a program of your own against the exact answer, and say what is wrong with it
 #[derive(clap::Args)]
@@ -91,7 +92,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     let program = shlex::try_join(options.program.iter().map(String::as_str));
     let program = reply::words(&program.map_err(|error| format!("the program's words: {error}"))?);
     output::print(|out| match options.format {
-        Format::Table => report::table(out, &program, &report, options.tolerance.text.as_str()),
+        Format::Table => report::table(out, &program, &report, &options.tolerance),
         Format::Json => output::json(out, &json::of(&program, options, &report)),
         Format::Markdown => report::markdown(out, &report),
     })?;

@@ -22,6 +22,29 @@ fn what_is_right_is_not_diagnosed() {
     }
 }
 
+/// Rounded once to f64 and written with the digits that tell it, whatever the tolerance: with a penalty that is
+/// hard, too, and where the bound of rounding is wider than the system or narrower than half an ulp.
+#[test]
+fn the_exact_answer_rounded_once_is_right() {
+    let penalties = [None, Some("1e8"), Some("1e12"), Some("3.7e15")];
+    for (seed, penalty) in (1..=3).flat_map(|seed| penalties.map(|penalty| (seed, penalty))) {
+        for problem in problems(seed, 40, &Family::ALL) {
+            let problem = Problem { penalty: penalty.map(number), ..problem };
+            assert_rounded_once_is_right(&problem);
+        }
+    }
+    problems(2, 420, &[Family::Stiff]).iter().for_each(assert_rounded_once_is_right);
+}
+
+fn assert_rounded_once_is_right(problem: &Problem) {
+    let exact = problem.solution();
+    let [u, p, n] =
+        [exact.deflection, exact.penetration, exact.contact_force].map(|x| x.to_f64().unwrap().to_string());
+    let answer = Answer { penetration: Some(Some(number(&p))), ..Answer::new(number(&u), number(&n)) };
+    let judged = Judgement::of(problem, &Reply::Answered(Box::new(answer)), &number("1e-30"));
+    assert_eq!(judged.verdict, Verdict::Right, "{}, {:?}: {:?}", problem.id, problem.penalty, judged.finding);
+}
+
 /// Off by the tolerance is within, by a little more is not: u and N each on its own scale.
 #[test]
 fn the_tolerance_is_the_border() {

@@ -7,7 +7,7 @@ use serde::Serialize;
 use serde_json::value::RawValue;
 use spring_mass_contact::chapter::contact::Kkt;
 use spring_mass_contact::check::{
-    Checked, Diagnosis, Family, Kind, Missed, Of, Reply, Report, Row, Summary, Value, Verdict,
+    Checked, Diagnosis, Family, Kind, Of, Reply, Report, Row, Summary, Threshold, Value, Verdict,
 };
 use spring_mass_contact::number::Exact;
 use spring_mass_contact::rug::float::Round;
@@ -26,7 +26,8 @@ pub struct Json<'a> {
     summary: Summary,
     families: Vec<JsonRow<'a>>,
     penalty: JsonPenalty,
-    missed: Option<JsonMissed>,
+    missed: Option<JsonThreshold>,
+    held: Option<JsonThreshold>,
     diagnosis: &'a [Diagnosis],
 }
 
@@ -72,7 +73,7 @@ struct JsonPenalty {
 }
 
 #[derive(Serialize)]
-struct JsonMissed {
+struct JsonThreshold {
     count: usize,
     of: Of,
     up_to: String,
@@ -102,15 +103,16 @@ pub fn of<'a>(program: &'a str, options: &Options, report: &'a Report) -> Json<'
             value: penalty.value.as_ref().map(|value| value.decimal(DIGITS, Round::Nearest)),
             spread: error(&penalty.spread),
         },
-        missed: report.missed.as_ref().map(missed),
+        missed: report.missed.as_ref().map(threshold),
+        held: report.held.as_ref().map(threshold),
         diagnosis: &report.diagnosis,
     }
 }
 
-fn missed(missed: &Missed) -> JsonMissed {
-    let Missed { count, of, up_to, from } = missed;
+fn threshold(threshold: &Threshold) -> JsonThreshold {
+    let Threshold { count, of, up_to, from } = threshold;
     let text = |x: &Exact, round| x.decimal(DIGITS, round);
-    JsonMissed { count: *count, of: *of, up_to: text(up_to, Round::Up), from: text(from, Round::Down) }
+    JsonThreshold { count: *count, of: *of, up_to: text(up_to, Round::Up), from: text(from, Round::Down) }
 }
 
 fn error(x: &Option<Exact>) -> Option<String> {

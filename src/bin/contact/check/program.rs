@@ -8,7 +8,7 @@ mod group;
 use super::reply::{self, words};
 use crate::args::{invalid, spelled};
 use crate::json::{BUFFER, read_lines};
-use crate::output::Failure;
+use crate::output::{Failure, shortened};
 use group::Group;
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::check::{Problem, Reply};
@@ -30,6 +30,9 @@ const LOOK: Duration = Duration::from_millis(50);
 /// How often to look whether a program has ended that is about to.
 const SOON: Duration = Duration::from_millis(5);
 
+/// Allowed of a file that is to be a program.
+const EXECUTABLE: &str = "must be a program that can be executed; a script begins with #!";
+
 /// Bytes of stderr that are kept, the last.
 const TAIL: usize = 1 << 12;
 
@@ -40,6 +43,8 @@ const LAST: usize = 400;
 pub struct Program {
     words: Vec<String>,
     timeout: Duration,
+    /// How long it may take to end by itself.
+    grace: Duration,
     started: bool,
     running: Option<Running>,
 }
@@ -48,7 +53,7 @@ impl Program {
     /// The program that these words start: its name or path, the first of them, and its arguments; it has so
     /// long for each answer.
     pub fn new(words: &[String], timeout: Duration) -> Self {
-        Program { words: words.to_vec(), timeout, started: false, running: None }
+        Program { words: words.to_vec(), timeout, grace: GRACE, started: false, running: None }
     }
 
     /// Puts a problem. Fails only if the program cannot be started.
@@ -73,7 +78,7 @@ impl Program {
                 reply
             }
             Err(Lost::Astray(why)) => Reply::Garbled(why),
-            Err(Lost::Ended) => Reply::Crashed(running.end()),
+            Err(Lost::Ended) => Reply::Crashed(running.end(self.grace)),
             Err(Lost::TimedOut(seen)) => Reply::TimedOut(seen),
         })
     }
@@ -81,7 +86,10 @@ impl Program {
     fn refused(&self, error: &io::Error) -> Failure {
         let must = match error.kind() {
             io::ErrorKind::NotFound => "must be the name of a program on the path, or its own path",
-            _ => "must be a program that can be executed; a script begins with #!",
+            io::ErrorKind::PermissionDenied => EXECUTABLE,
+            _ if group::has_no_format(error) => EXECUTABLE,
+            // The system lacks something, or allows no more; no other program would do.
+            _ => return format!("'{}' cannot be started: {error}", shortened(&words(&self.words[0]))).into(),
         };
         let why = format!("cannot be started: {error}; {must}");
         invalid(&words(&self.words[0]), "<PROGRAM>...", why)
@@ -91,7 +99,7 @@ impl Program {
 impl Drop for Program {
     fn drop(&mut self) {
         if let Some(running) = self.running.take() {
-            running.close();
+            running.close(self.grace);
         }
     }
 }
@@ -182,20 +190,19 @@ impl Running {
                 Err(RecvTimeoutError::Timeout) => {}
             }
             if left().is_zero() {
-                return Err(Lost::TimedOut(match &*last {
-                    [] => "nothing on stdout: does it flush?".to_string(),
-                    line => format!(
-                        "last on stdout, and no JSON object: {}",
-                        words(&String::from_utf8_lossy(line))
-                    ),
+                let shown = |line: &[u8]| words(&String::from_utf8_lossy(line));
+                return Err(Lost::TimedOut(match (&*self.lines.unfinished(), &*last) {
+                    ([], []) => "nothing on stdout: does it flush?".to_string(),
+                    ([], line) => format!("last on stdout, and no JSON object: {}", shown(line)),
+                    (part, _) => format!("last on stdout, without a line break: {}", shown(part)),
                 }));
             }
         }
     }
 
     /// How it has ended, and the last that it said on stderr.
-    fn end(mut self) -> String {
-        let ended = self.ends();
+    fn end(mut self, grace: Duration) -> String {
+        let ended = self.ends(grace);
         let status = self.group.end();
         let how = match status {
             Ok(status) if ended => {
@@ -210,20 +217,20 @@ impl Running {
     }
 
     /// Has it end by itself if it can.
-    fn close(mut self) {
+    fn close(mut self, grace: Duration) {
         let (nobody, _) = mpsc::channel();
         drop(std::mem::replace(&mut self.requests, nobody));
-        self.ends();
+        self.ends(grace);
     }
 
-    /// Whether it ends by itself.
-    fn ends(&mut self) -> bool {
+    /// Whether it ends by itself within `grace`.
+    fn ends(&mut self, grace: Duration) -> bool {
         let start = Instant::now();
         loop {
             if self.group.has_ended() {
                 return true;
             }
-            if start.elapsed() >= GRACE {
+            if start.elapsed() >= grace {
                 return false;
             }
             // What it still prints must not keep it from ending.
@@ -252,11 +259,35 @@ struct Lines {
     blocks: Receiver<Vec<u8>>,
     block: Vec<u8>,
     start: usize,
+    unfinished: Arc<Mutex<Vec<u8>>>,
+}
+
+/// stdout, whose beginning of a line that has not ended is kept for others to see.
+struct Watched {
+    stdout: ChildStdout,
+    unfinished: Arc<Mutex<Vec<u8>>>,
+}
+
+impl Read for Watched {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let count = self.stdout.read(buffer)?;
+        let read = &buffer[..count];
+        let mut unfinished = self.unfinished.lock().unwrap_or_else(PoisonError::into_inner);
+        let line = read.rsplit(|byte| *byte == b'\n').next().unwrap_or(read);
+        if line.len() < read.len() {
+            unfinished.clear();
+        }
+        let room = LAST.saturating_sub(unfinished.len());
+        unfinished.extend_from_slice(&line[..line.len().min(room)]);
+        Ok(count)
+    }
 }
 
 impl Lines {
     fn of(stdout: ChildStdout) -> io::Result<Self> {
         let (to, blocks) = mpsc::sync_channel(1);
+        let unfinished = Arc::new(Mutex::new(Vec::new()));
+        let stdout = Watched { stdout, unfinished: unfinished.clone() };
         thread(move || {
             let mut stdout = BufReader::with_capacity(BUFFER, stdout);
             loop {
@@ -268,7 +299,12 @@ impl Lines {
                 }
             }
         })?;
-        Ok(Lines { blocks, block: Vec::new(), start: 0 })
+        Ok(Lines { blocks, block: Vec::new(), start: 0, unfinished })
+    }
+
+    /// The beginning of a line that has not ended.
+    fn unfinished(&self) -> Vec<u8> {
+        self.unfinished.lock().unwrap_or_else(PoisonError::into_inner).trim_ascii().to_vec()
     }
 
     /// The next line, if it comes so soon.

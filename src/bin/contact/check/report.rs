@@ -1,13 +1,14 @@
 //! The report for people, and for documents.
 
-use crate::args::spelled;
+use crate::args::{Number, spelled};
 use crate::output::{self, shortened};
 use spring_mass_contact::check::{
-    Answers, Checked, Diagnosis, Kind, Missed, Of, Penalty, Reply, Report, Row, Summary, Value, Verdict,
+    Answers, Checked, Diagnosis, Kind, Of, Penalty, Reply, Report, Row, Summary, Threshold, Value, Verdict,
 };
 use spring_mass_contact::formula::GLUE;
 use spring_mass_contact::number::{Exact, PositivePart};
 use spring_mass_contact::rug::float::Round;
+use spring_mass_contact::solver::State;
 use std::io::{self, Write};
 
 /// Digits of an error, and of a number beside another.
@@ -17,9 +18,9 @@ const DIGITS: usize = 12;
 /// Families of which an example is shown; JSON has all.
 const EXAMPLES: usize = 3;
 
-pub fn table(out: &mut dyn Write, program: &str, report: &Report, tolerance: &str) -> io::Result<()> {
+pub fn table(out: &mut dyn Write, program: &str, report: &Report, tolerance: &Number) -> io::Result<()> {
     let Summary { right, within_tolerance, wrong, refused, crashed, timed_out } = report.summary();
-    let within = format!("within {}", shortened(tolerance));
+    let within = format!("within {}", shortened(&tolerance.text));
     let counts = [
         (right, "right"),
         (within_tolerance, &*within),
@@ -53,8 +54,10 @@ pub fn table(out: &mut dyn Write, program: &str, report: &Report, tolerance: &st
     let fitting = report.named().filter(|named| named.answers != Answers::Steps);
     for (said, diagnosis) in [
         (given_up(report), None),
+        (families_refused(report), None),
         (penalty(report), None),
         (report.missed.as_ref().map(missed), None),
+        (report.held.as_ref().map(held), None),
         (lag.map(lagging), lag),
         (diagnosed(report), fitting),
     ] {
@@ -67,7 +70,8 @@ pub fn table(out: &mut dyn Write, program: &str, report: &Report, tolerance: &st
         }
     }
     if report.holds() {
-        writeln!(out, "\n Nothing is wrong with one unknown and one plane.")?;
+        writeln!(out)?;
+        output::wrapped(out, " ", 1, &tested(report, tolerance))?;
     }
     Ok(())
 }
@@ -166,17 +170,75 @@ fn penalty(report: &Report) -> Option<String> {
     ))
 }
 
-fn missed(missed: &Missed) -> String {
-    let Missed { count, of, up_to, from } = missed;
-    let [up_to, from] = [(up_to, Round::Up), (from, Round::Down)].map(|(x, round)| x.decimal(FEW, round));
-    let (what, unit) = match of {
-        Of::Penetration => ("the mass would go through it by", "m"),
-        Of::Force => ("it has to push with", "N"),
+fn missed(missed: &Threshold) -> String {
+    let [up_to, from] = ends(missed);
+    let what = match missed.of {
+        Of::Penetration | Of::PenetrationByHeight => "the mass would go through it by",
+        Of::Force | Of::ForceByWeight => "it has to push with",
     };
     format!(
-        "It misses the plane in {count} systems, in which {what} up to {up_to} {unit}, and finds it in all \
-         others, from {from} {unit} on. A tolerance of its own?"
+        "It misses the plane in {} systems, in which {what} up to {up_to}, and finds it in all others, from {from} \
+         on: most likely by a tolerance of its own.",
+        missed.count
     )
+}
+
+fn held(held: &Threshold) -> String {
+    let [up_to, from] = ends(held);
+    let what = match held.of {
+        Of::Penetration | Of::PenetrationByHeight => "it hangs clear of it by",
+        Of::Force | Of::ForceByWeight => "that takes a pull of",
+    };
+    format!(
+        "It holds the mass at the plane in {} systems in which it hangs free, where {what} up to {up_to}, and \
+         releases it in all others, from {from} on: most likely by a tolerance of its own.",
+        held.count
+    )
+}
+
+/// The largest that is decided wrongly and the smallest that is not, with what they are relative to.
+fn ends(threshold: &Threshold) -> [String; 2] {
+    let Threshold { count: _, of, up_to, from } = threshold;
+    let unit = match of {
+        Of::Penetration => " m",
+        Of::Force => " N",
+        Of::ForceByWeight => " |m g|",
+        Of::PenetrationByHeight => " |H|",
+    };
+    [(up_to, Round::Up), (from, Round::Down)].map(|(x, round)| {
+        // No line ends within it.
+        (x.decimal(FEW, round) + unit).replace(' ', &GLUE.to_string())
+    })
+}
+
+/// What was tested, where nothing is wrong: no more follows from it.
+fn tested(report: &Report, tolerance: &Number) -> String {
+    let least = |state, before: &str| match report.least_deciding(state, &tolerance.value) {
+        None => format!("{before} would not show at all"),
+        Some(least) => {
+            let force = format!("|R| = {} (|m g| + |c (H − l)|)", least.decimal(FEW, Round::Up));
+            format!("{before} would show from {} on", force.replace(' ', &GLUE.to_string()))
+        }
+    };
+    let missed = least(State::Contact, "A plane that is missed");
+    let held = least(State::Separated, "one that holds a mass");
+    let count =
+        |count: usize, one: &str, more: &str| format!("{count} {}", if count == 1 { one } else { more });
+    format!(
+        "No error above {} was found in {} of {}, with one unknown and one plane. {missed}, {held}.",
+        shortened(&tolerance.text),
+        count(report.checked.len(), "system", "systems"),
+        count(report.families().len(), "family", "families"),
+    )
+}
+
+/// Families that alone leave it open whether the program is right.
+fn families_refused(report: &Report) -> Option<String> {
+    let families = report.families();
+    let refused = families.iter().filter(|row| row.verdict == Verdict::Refused && row.right == 0);
+    let names = Vec::from_iter(refused.map(|row| row.family.name()));
+    let said = || format!("Of {} every system was refused: nothing is known of it.", names.join(", "));
+    (!names.is_empty()).then(said)
 }
 
 fn lagging(lag: &Diagnosis) -> String {

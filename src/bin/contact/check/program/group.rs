@@ -6,9 +6,13 @@ mod other;
 mod unix;
 
 #[cfg(not(unix))]
+pub use other::has_no_format;
+#[cfg(not(unix))]
 use other::{has_ended, kill, start};
 use std::io;
 use std::process::{Child, Command, ExitStatus};
+#[cfg(unix)]
+pub use unix::has_no_format;
 #[cfg(unix)]
 use unix::{has_ended, kill, start};
 

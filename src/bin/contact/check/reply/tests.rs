@@ -254,6 +254,10 @@ fn nothing_that_is_read_takes_long() {
     let why = garbled(&format!("{N}, \"deflection\": {nines}"));
     assert!(why.ends_with("must have no more than 4096 digits"), "{why}");
     assert_eq!(numbers(&nines[1..], "1")[0], exact(&nines[1..]));
+    for number in ["1e9999", "1E9999", "1e+9999", "1E-9999", "\"1E9999\""] {
+        let why = garbled(&format!("{N}, \"deflection\": {number}"));
+        assert!(why.ends_with("must have no more than 4096 digits"), "{why}");
+    }
     for number in ["0e-4000", "1e4000", "0.1e-4000"] {
         let step = format!("{{\"deflection\": {number}, \"contact_force\": {number}}}");
         let steps = |count| format!("{U}, {N}, \"steps\": [{}]", vec![step.as_str(); count].join(","));

@@ -1,6 +1,7 @@
 //! What is said of solvers with known mistakes.
 
 use super::*;
+use crate::args::finite;
 use crate::output::printed;
 use spring_mass_contact::chapter::{SpringMass, contact, lagrange, structure, system};
 use spring_mass_contact::check::{Answer, CASES, Family, Problem, check, problems};
@@ -18,7 +19,7 @@ fn report(problems: &[Problem], solver: impl Fn(&Problem) -> Answer) -> Report {
 
 /// Its table, with a blank for all that is white.
 fn said(report: &Report) -> String {
-    let text = printed(|out| table(out, "program", report, "1e-6"));
+    let text = printed(|out| table(out, "program", report, &finite("1e-6").expect("a number")));
     assert_eq!(text.lines().find(|line| line.chars().count() > 80), None);
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
@@ -47,11 +48,11 @@ fn a_threshold_is_told_with_its_unit() {
         (missing(|system| through(system) < number("1e-6")), "the mass would go through it by", "m"),
         (missing(|system| system::reaction(system) < number("1e-2")), "it has to push with", "N"),
     ] {
-        let Missed { count, up_to, from, .. } = report.missed.as_ref().expect("a threshold");
+        let Threshold { count, up_to, from, .. } = report.missed.as_ref().expect("a threshold");
         let [up_to, from] = [up_to.decimal(FEW, Round::Up), from.decimal(FEW, Round::Down)];
         let text = format!(
             "It misses the plane in {count} systems, in which {what} up to {up_to} {unit}, and finds it in \
-             all others, from {from} {unit} on."
+             all others, from {from} {unit} on: most likely by a tolerance of its own."
         );
         assert!(said(&report).contains(&text), "{text}\n{}", said(&report));
     }
@@ -67,7 +68,7 @@ fn it_is_said_which_answers_a_mistake_explains() {
         Answer::new(lagrange::deflection(&problem.system), lagrange::multiplier(&problem.system))
     });
     let text =
-        "Each of 55 answers fits one mistake that is known, and no other: the plane also pulls. u = H − l,";
+        "Each of 95 answers fits one mistake that is known, and no other: the plane also pulls. u = H − l,";
     assert!(said(&pulls).contains(text), "{}", said(&pulls));
 }
 
@@ -109,4 +110,53 @@ fn a_penalty_is_told_with_what_it_is_a_multiple_of() {
         assert_eq!(said.contains("stops after the same number of steps"), text.contains(" c,"), "{said}");
     }
     assert!(!by_penalty(Some("1e4"), |_| number("1e4")).contains("It acts like"));
+}
+
+/// A plane that holds the mass where a tenth of its weight would lift it off, with what the threshold is relative to.
+#[test]
+fn a_plane_that_holds_is_told() {
+    let sticking = report(&all(), |problem| {
+        let system = &problem.system;
+        let [weight, reaction] = [system::weight(system), system::reaction(system)];
+        let holds = reaction < number("0") && -&reaction * number("10") <= weight.abs();
+        if holds { Answer::new(system::gap(system), reaction) } else { right(problem) }
+    });
+    let Threshold { count, up_to, from, .. } = sticking.held.as_ref().expect("a threshold");
+    let [up_to, from] = [up_to.decimal(FEW, Round::Up), from.decimal(FEW, Round::Down)];
+    let text = format!(
+        "It holds the mass at the plane in {count} systems in which it hangs free, where that takes a pull of up to \
+         {up_to} |m g|, and releases it in all others, from {from} |m g| on: most likely by a tolerance of its own. \
+         Each of {count} wrong answers fits one mistake that is known, and no other: the plane also pulls."
+    );
+    assert!(said(&sticking).contains(&text), "{text}\n{}", said(&sticking));
+}
+
+/// No more is said of a program that is right than what was tested: families, systems, and |R| of no less than what
+/// they have.
+#[test]
+fn what_was_tested_is_told() {
+    let said_of = |families: &[Family], refused: &str| {
+        let ask = |problem: &Problem| {
+            let answer = || Reply::Answered(Box::new(right(problem)));
+            let refuses = problem.family.name() == refused;
+            Ok::<_, Infallible>(if refuses { Reply::Refused("no".into()) } else { answer() })
+        };
+        said(&check(&problems(1, 1, families), &number("1e-6"), ask).expect("no failure"))
+    };
+    let all = said_of(&Family::ALL, "");
+    assert!(
+        all.contains("No error above 1e-6 was found in 19 systems of 12 families, with one unknown and one")
+    );
+    let contact = &problems(1, 1, &[Family::Contact])[0].system;
+    let loads = system::weight(contact) + &contact.c * system::gap(contact);
+    let least = (system::reaction(contact) / loads).decimal(FEW, Round::Up);
+    let text = format!(
+        "No error above 1e-6 was found in 1 system of 1 family, with one unknown and one plane. A plane that is missed \
+         would show from |R| = {least} (|m g| + |c (H − l)|) on, one that holds a mass would not show at all."
+    );
+    let one = said_of(&[Family::Contact], "");
+    assert!(one.ends_with(&text), "{text}\n{one}");
+    // A family that nobody has solved leaves it open.
+    let refused = said_of(&Family::ALL, "stiff");
+    assert!(refused.ends_with("Of stiff every system was refused: nothing is known of it."), "{refused}");
 }

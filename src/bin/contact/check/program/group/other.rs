@@ -3,6 +3,11 @@
 use std::io;
 use std::process::{Child, Command};
 
+/// ERROR_BAD_EXE_FORMAT of Windows.
+pub fn has_no_format(error: &io::Error) -> bool {
+    error.raw_os_error() == Some(193)
+}
+
 pub fn start(command: &mut Command) -> io::Result<Child> {
     command.spawn()
 }
