@@ -781,6 +781,19 @@ fn a_seed_says_what_is_tried() {
     assert!(first.iter().zip(&other).all(|(first, other)| first != other), "another seed says the same");
 }
 
+/// 1 and 2³² + 1, in both commands that draw.
+#[test]
+fn a_seed_has_64_bits() {
+    let out = |arguments: &[&str], seed| contact(&[arguments, &["--seed", seed]].concat()).stdout;
+    for arguments in [
+        &["verify", "1.33", "--cases", "5", "--scalar", "f32", "--format", "json"][..],
+        &["cases", "--family", "near", "--cases", "3"],
+    ] {
+        assert_eq!(out(arguments, "1"), out(arguments, "1"));
+        assert_ne!(out(arguments, "1"), out(arguments, "4294967297"), "{arguments:?}");
+    }
+}
+
 #[test]
 fn one_equation_is_enough() {
     let (report, code) = json(&["verify", "--cases", "10", "note 4", "1.13"]);

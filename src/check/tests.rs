@@ -184,6 +184,10 @@ fn families_are_what_they_say() {
     // The systems of a seed are its own, and those of a family do not depend on the others.
     assert_eq!(problems(1, 3, &[Stiff]), problems(1, 40, &Family::ALL)[240..243]);
     assert_ne!(problems(2, 3, &[Stiff]), problems(1, 3, &[Stiff]));
+    // Also of seeds that agree in their lower bits.
+    for other in [1 | 1 << 32, 1 | 1 << 63] {
+        assert_ne!(problems(other, 3, &[Stiff]), problems(1, 3, &[Stiff]), "{other}");
+    }
 }
 
 #[test]
