@@ -75,15 +75,43 @@ impl Script {
 
     /// The whole derivation, from hypotheses H1, H2, …
     pub(super) fn derivation(&mut self, derivation: &Derivation) -> Result<(), Reason> {
-        // The hypotheses that come before the next case, put to use.
-        let next = first(derivation).supposed().iter().skip(self.supposed);
+        self.hypotheses(first(derivation))?;
+        self.cases(derivation)
+    }
+
+    /// The hypotheses that come before the next case, put to use.
+    fn hypotheses(&mut self, direct: &Direct) -> Result<(), Reason> {
+        let next = direct.supposed().iter().skip(self.supposed);
         for supposed in next.take_while(|supposed| supposed.given().is_some()) {
             let says_bits = supposed.given().is_some_and(|given| *given == two_bits());
             self.given += usize::from(!says_bits);
             let label = if says_bits { "M".to_string() } else { format!("H{}", self.given) };
             self.suppose(supposed, &label)?;
         }
-        self.cases(derivation)
+        Ok(())
+    }
+
+    /// One rounded formula is no less than another, from hypotheses H1, H2, …
+    pub(super) fn order(&mut self, direct: &Direct, precision: &str) -> Result<(), Reason> {
+        let rounds = |supposed: &Supposed| supposed.given().is_some_and(|given| given.value.rounds());
+        let says_bits = |supposed: &Supposed| supposed.given().is_some_and(|given| *given == two_bits());
+        let is_solved = |supposed: &Supposed| {
+            matches!(supposed.used(), Used::Pivot(..)) && !rounds(supposed) && !says_bits(supposed)
+        };
+        // Signs of symbols are put to use as they are.
+        if direct.supposed().iter().any(is_solved) {
+            if direct.supposed().iter().any(rounds) {
+                return Err(
+                    "an order that rests on one hypothesis to be solved and another about what is rounded",
+                );
+            }
+            self.line(&format!("pose proof (four_at_least prec {precision} P E) as N."));
+            self.line(&format!("assert (M : 0 <= {precision} - 4) by lra. clear E."));
+            self.hypotheses(direct)?;
+            self.line("pivots.");
+        }
+        self.line("by_order.");
+        Ok(())
     }
 
     /// A limit; the hypotheses H1, H2, … are those that do not speak of `by`, and `inside` makes use of those
@@ -201,6 +229,17 @@ impl Script {
 
     fn direct(&mut self, direct: &Direct) -> Result<(), Reason> {
         if self.rounds {
+            let of_goal: &[Signed] = match direct.because() {
+                Because::Sign(signed) => std::slice::from_ref(signed),
+                Because::Within(both) => &both[..],
+                _ => &[],
+            };
+            let of_divisors = direct.divisors().iter().map(|(_, signed)| signed);
+            let of_brackets = direct.brackets().iter().map(|(.., signed)| signed);
+            let mut signs = of_goal.iter().chain(of_divisors).chain(of_brackets);
+            if !signs.all(|signed| has_program(signed.num()) && has_program(signed.den())) {
+                return Err("the sign of what is rounded rests on a square or a slope");
+            }
             self.line(match direct.because() {
                 Because::Within(..) => "pivots. minima. apply within; bounded.",
                 _ => "pivots. minima. bounded.",
@@ -389,6 +428,17 @@ impl Script {
         self.line("- auto_derive; nonzero.");
         self.line("- identity.");
         Ok(())
+    }
+}
+
+/// Returns `true` if the program of `B_Polynomials` has all rules of a certificate.
+fn has_program(certificate: &Certificate) -> bool {
+    match certificate.rule() {
+        Rule::Terms => true,
+        Rule::Square { .. } | Rule::Slope { .. } => false,
+        Rule::Factor(factor, rest) => has_program(factor) && has_program(rest),
+        Rule::Sizes(rest) => has_program(rest),
+        Rule::Ends { at, .. } => at.iter().all(has_program),
     }
 }
 
