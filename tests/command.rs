@@ -1082,8 +1082,8 @@ fn the_whole_chapter_is_proved() {
     assert!(stdout(&table).contains(&format!("\n{claims} of {claims} claims proved in ")));
 }
 
-/// A directory's name may need quotes, or be longer than a line. Each command that is printed runs, here with what
-/// stands in for coqc.
+/// A directory's name may need quotes, or be longer than a line. Each command that is printed runs, here with a stand-in
+/// for coqc, which like it writes a cache to the directory that it is started in.
 #[cfg(unix)]
 #[test]
 fn a_directory_for_coq_can_have_any_name() {
@@ -1094,13 +1094,13 @@ fn a_directory_for_coq_can_have_any_name() {
         let output = contact(&["prove", "--coq", directory]);
         assert_eq!(output.status.code(), Some(0), "{name}");
         let (_, commands) = stdout(&output).split_once('\n').expect("commands");
-        let script = format!("coqc() {{ test $# = 4 && printf '%s\\n' \"$2\" \"$4\"; }}\n{commands}");
-        let ran = Command::new("sh").args(["-c", &script]).output().expect("a shell");
-        let lines: Vec<_> = stdout(&ran).lines().collect();
-        assert!(lines.len() > 10 && ran.status.success(), "{script}");
-        for pair in lines.chunks(2) {
-            assert!(pair[0] == directory && std::path::Path::new(pair[1]).is_file(), "{pair:?}");
-        }
+        let coqc = "test $# = 4 && test -f \"$4\" && test \"$1 $2 $3\" = '-R . Contact' && echo \"$4\" && touch .nra.cache";
+        let script = format!("set -e\ncoqc() {{ {coqc}; }}\n{commands}");
+        let started_in = std::path::Path::new(env!("CARGO_TARGET_TMPDIR"));
+        let ran = Command::new("sh").args(["-c", &script]).current_dir(started_in).output().expect("a shell");
+        assert!(stdout(&ran).lines().count() > 10 && ran.status.success(), "{script}");
+        let has_cache = |directory: &std::path::Path| directory.join(".nra.cache").is_file();
+        assert_eq!([directory.as_ref(), started_in].map(has_cache), [true, false], "{name}");
         // A page holds what can be broken.
         let fits = |line: &str| line.chars().count() <= 80 || line.contains('\'');
         assert!(commands.lines().all(fits), "{commands}");

@@ -95,9 +95,10 @@ fn for_coq(directory: &Path) -> Result<Exit, Failure> {
     })?;
     output::print(|out| {
         writeln!(out, "The claims as theorems, to be compiled in this order:")?;
-        let text = |path: &Path| path.display().to_string();
-        for file in &files {
-            output::command(out, ["coqc", "-R", &text(directory), "Contact", &text(file)])?;
+        // From the directory, since coqc writes caches such as .nra.cache to the one that it is started in.
+        output::command(out, ["cd", "--", &directory.display().to_string()])?;
+        for file in files.iter().filter_map(|file| file.file_name()) {
+            output::command(out, ["coqc", "-R", ".", "Contact", &file.to_string_lossy()])?;
         }
         coq().left_out().iter().try_for_each(|LeftOut { equation, name, reason }| {
             output::wrapped(out, "", 2, &format!("left out: {equation} {name}: {reason}"))
