@@ -143,8 +143,8 @@ impl What {
         all
     }
 
-    /// The edits of a step that may undo a mistake: [`all`](Self::all), and for an integer n also the integers up to 24,
-    /// −n, 2 n and n/2.
+    /// The edits of a step that may undo a mistake: [`all`](Self::all), and for an integer n also the integers up
+    /// to 24, −n, 2 n and n/2.
     fn repairs(tree: &Tree, registry: &Registry) -> Vec<What> {
         const LARGEST: i32 = 24;
         let mut repairs = What::all(tree, registry);
@@ -331,8 +331,8 @@ pub fn changes_in<'a>(trees: impl IntoIterator<Item = &'a Tree>, registry: &Regi
     edits_in(trees, registry, What::all)
 }
 
-/// Every change of a function of the registry that may undo a mistake in one of the statements: the [`changes`], and more
-/// integers.
+/// Every change of a function of the registry that may undo a mistake in one of the statements: the
+/// [`changes`], and more integers.
 pub fn possible_repairs(statements: &[Statement], registry: &Registry) -> Vec<Change> {
     edits_in(statements.iter().flat_map(Statement::trees), registry, What::repairs)
 }
