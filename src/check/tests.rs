@@ -230,7 +230,8 @@ fn the_book_names_what_is_known() {
     let unnamed: Vec<_> = known.filter(|name| !list.contains(name)).collect();
     assert!(
         unnamed.is_empty(),
-        "book/src/check.md does not name {unnamed:?}: add each, spelled like this, to the list that begins with \"Known are\""
+        "book/src/check.md does not name {unnamed:?}: add each, spelled like this, \
+         to the list that begins with \"Known are\""
     );
     let unnamed: Vec<_> = Family::ALL
         .into_iter()

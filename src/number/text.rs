@@ -224,8 +224,8 @@ mod tests {
         }
     }
 
-    /// ±(1/2 ± 10⁻³⁰) lies so close to a decimal that rounding to nearest, before or in place of the rounding to
-    /// a side, gives the decimal itself.
+    /// ±(1/2 ± 10⁻³⁰) lies so close to a decimal that rounding to nearest, before the rounding to a side or
+    /// in place of it, gives the decimal itself.
     #[test]
     fn decimals_next_to_a_shorter_one_stay_on_their_side() {
         let tiny: Exact = "1e-30".parse().unwrap();

@@ -137,8 +137,8 @@ pub fn controls(statements: &[Statement], registry: &Registry) -> Controls {
     Controls { changes, dropped: dropped.collect() }
 }
 
-/// The changes of one place that would make all of these statements provable, if some of them are not: where a
-/// mistake in the chapter may be. They are looked for among the [`possible_repairs`].
+/// The changes of one place that would make all of these statements provable, if some of them are not: there
+/// may be a mistake in the chapter. They are looked for among the [`possible_repairs`].
 pub fn repairs(statements: &[Statement], registry: &Registry) -> Vec<Change> {
     // What takes long is asked last.
     let mut by_cost: Vec<_> = statements.iter().collect();

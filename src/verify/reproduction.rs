@@ -8,11 +8,11 @@ use crate::proof::refute::Point;
 use crate::solver::{Method, Solution, solve};
 use num_traits::Zero;
 
-/// Returns the system of a counterexample and the method that solves it wrongly in rationals: by penalty if ε is
-/// given, otherwise by Lagrange multiplier.
+/// Returns the system of a counterexample and the method that solves it wrongly in rationals: by penalty if ε
+/// is given, otherwise by Lagrange multiplier.
 ///
-/// Returns `None` if the point has other quantities than the parameters of a system and ε, if there is no such
-/// system, or if its solution is consistent. A solve that panics is wrong.
+/// Returns `None` if the point has other quantities than the parameters of a system and ε, if there is no
+/// such system, or if its solution is consistent. A solve that panics is wrong.
 pub fn reproduction(point: &Point) -> Option<(SpringMass<Exact>, Method<Exact>)> {
     let parameters = [Var::C, Var::M, Var::G, Var::L, Var::H].map(Var::symbol);
     let penalty = Var::Eps.symbol();
@@ -67,7 +67,7 @@ mod tests {
         }
     }
 
-    /// Each answer in turn off by 1: in contact (R = 2), where the penalty method has p = 1/4, and free (R = −2).
+    /// Each answer in turn off by 1: in contact (R = 2), where the penalty method has p = 1/4, and free.
     #[test]
     fn a_wrong_answer_is_inconsistent() {
         let numbers = |h: i32| [4, 1, 10, 1, h].map(Exact::from);

@@ -55,7 +55,7 @@ pub(super) fn shared(statements: &[Statement], unproved: &dyn Fn(&Statement) -> 
     shared
 }
 
-/// The functions that some claim that is not proved depends on, with the number of claims that do, proved or not.
+/// The functions that unproved claims depend on, with the numbers of claims that do, unproved and proved.
 fn users(statements: &[Statement], unproved: &dyn Fn(&Statement) -> bool) -> Vec<Suspect> {
     let sites: Vec<(bool, BTreeSet<Site>)> = statements
         .iter()

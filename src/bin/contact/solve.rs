@@ -297,7 +297,8 @@ pub fn command(out: &mut dyn Write, counterexample: &Point) -> io::Result<()> {
 fn command_line(system: &SpringMass<Exact>, method: &Method<Exact>) -> String {
     let SpringMass { c, m, g, l, h } = system;
     let line = format!(
-        "contact solve --scalar exact --stiffness {c} --mass {m} --gravity {g} --free-length {l} --height {h} --method {}",
+        "contact solve --scalar exact --stiffness {c} --mass {m} --gravity {g} --free-length {l} \
+         --height {h} --method {}",
         MethodName::of(method).name()
     );
     match method {

@@ -211,7 +211,7 @@ fn unproved(report: &Report) -> usize {
     report.rows.iter().filter(|row| row.scalar.is_none() && row.status == Status::Failed).count()
 }
 
-/// The functions in which a mistake is likely, and the changes that would mend it; empty if all claims are proved.
+/// Prints the functions in which a mistake is likely and the changes that would mend it.
 fn where_to_look(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     for Suspect { function, equation, unproved, proved } in &report.suspects {
         let number = equation.and_then(entry).map_or(String::new(), |entry| entry.label() + " ");

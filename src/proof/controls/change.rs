@@ -143,8 +143,8 @@ impl What {
         all
     }
 
-    /// The edits of a step that may undo a mistake: [`all`](Self::all), and for an integer n also the integers up
-    /// to 24, −n, 2 n and n/2.
+    /// The edits of a step that may undo a mistake: [`all`](Self::all), and for an integer n also the
+    /// integers up to 24, −n, 2 n and n/2.
     fn repairs(tree: &Tree, registry: &Registry) -> Vec<What> {
         const LARGEST: i32 = 24;
         let mut repairs = What::all(tree, registry);
