@@ -18,6 +18,7 @@ mod graph;
 mod guard;
 pub mod pages;
 pub mod proofs;
+mod reproduction;
 mod suspects;
 #[cfg(test)]
 mod tests;
@@ -34,6 +35,7 @@ pub use graph::graph;
 use guard::guarded;
 use proofs::{Answer, Proved};
 use rayon::prelude::*;
+pub use reproduction::reproduction;
 use std::fmt;
 use std::sync::atomic::{AtomicUsize, Ordering};
 pub use suspects::Suspect;
@@ -69,6 +71,8 @@ pub struct Report {
     pub suspects: Vec<Suspect>,
     /// Each of these changes of the chapter would make every claim provable that is not.
     pub repairs: Vec<Change>,
+    /// The functions of the chapter that all claims that are not proved depend on.
+    pub shared: Vec<&'static str>,
 }
 
 impl Report {
@@ -127,10 +131,11 @@ impl serde::Serialize for Report {
             claims: &'a [Row],
         }
         let equations = self.by_equation().map(|claims| Equation { equation: claims[0].equation, claims });
-        let mut report = to.serialize_struct("Report", 4)?;
+        let mut report = to.serialize_struct("Report", 5)?;
         report.serialize_field("summary", &self.summary())?;
         report.serialize_field("suspects", &self.suspects)?;
         report.serialize_field("repairs", &self.repairs)?;
+        report.serialize_field("shared", &self.shared)?;
         report.serialize_field("equations", &equations.collect::<Vec<_>>())?;
         report.end()
     }
@@ -259,7 +264,9 @@ fn run(
         rayon::join(proofs, || tallies(checkers, options, &wanted, progress));
     let unproved: Vec<_> =
         rows.iter().filter(|row| row.status == Status::Failed).map(|row| (row.equation, row.claim)).collect();
-    let suspects = suspects::suspects(&statements, &|s| unproved.contains(&(s.equation, s.name)));
+    let is_unproved = |s: &Statement| unproved.contains(&(s.equation, s.name));
+    let suspects = suspects::suspects(&statements, &is_unproved);
+    let shared = suspects::shared(&statements, &is_unproved);
     // To look for repairs all is proved once more.
     let repairs =
         if unproved.is_empty() { Ok(Vec::new()) } else { guarded(|| repairs(&statements, registry())) };
@@ -279,7 +286,7 @@ fn run(
         let at = sorted.iter().rposition(same).map_or(sorted.len(), |i| i + 1);
         sorted.insert(at, row);
     }
-    Report { rows: sorted, suspects, repairs }
+    Report { rows: sorted, suspects, repairs, shared }
 }
 
 /// What comes of the wanted claims in numbers: for each number system, a tally for each of its heads.
@@ -355,7 +362,7 @@ fn proof(statement: &Statement) -> Row {
 }
 
 /// The case of a counterexample, with 1 for what it says nothing of.
-pub fn case_of(counterexample: &Counterexample) -> Case<Exact> {
+fn case_of(counterexample: &Counterexample) -> Case<Exact> {
     Case::of(|var| counterexample.point.at(var.symbol()))
 }
 

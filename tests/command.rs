@@ -704,9 +704,9 @@ fn numbers() -> Vec<String> {
 fn the_whole_chapter_holds() {
     let line = "verify --scalar f32 --scalar f64 --scalar exact --scalar mpfr:777 --cases 50 --seed 99";
     let (report, code) = json(&words(line));
-    assert_eq!(keys(&report), ["equations", "repairs", "summary", "suspects"]);
+    assert_eq!(keys(&report), ["equations", "repairs", "shared", "summary", "suspects"]);
     assert_eq!(keys(&report["summary"]), ["claims", "failed", "held", "proved", "undecided"]);
-    assert!(array(&report["suspects"]).is_empty() && array(&report["repairs"]).is_empty());
+    assert!(["suspects", "repairs", "shared"].iter().all(|key| array(&report[*key]).is_empty()));
     let (mut rows, mut proofs) = (0, 0);
     for equation in array(&report["equations"]) {
         assert_eq!(keys(equation), ["claims", "equation"]);
@@ -779,6 +779,19 @@ fn a_seed_says_what_is_tried() {
     let [first, again, other] = ["7", "7", "8"].map(run);
     assert!(first == again, "the same seed says something else");
     assert!(first.iter().zip(&other).all(|(first, other)| first != other), "another seed says the same");
+}
+
+/// 1 and 2³² + 1, in both commands that draw.
+#[test]
+fn a_seed_has_64_bits() {
+    let out = |arguments: &[&str], seed| contact(&[arguments, &["--seed", seed]].concat()).stdout;
+    for arguments in [
+        &["verify", "1.33", "--cases", "5", "--scalar", "f32", "--format", "json"][..],
+        &["cases", "--family", "near", "--cases", "3"],
+    ] {
+        assert_eq!(out(arguments, "1"), out(arguments, "1"));
+        assert_ne!(out(arguments, "1"), out(arguments, "4294967297"), "{arguments:?}");
+    }
 }
 
 #[test]
@@ -918,41 +931,86 @@ fn markdown_is_a_table() {
     }
 }
 
-/// But for the times.
+/// Compares a file with what it should be; with `UPDATE=1` writes it.
+fn compare(file: &str, update: impl Fn(&str) -> String) {
+    // Two tests write the same page.
+    static WRITING: std::sync::Mutex<()> = std::sync::Mutex::new(());
+    let _one_at_a_time = WRITING.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
+    let found = std::fs::read_to_string(&path).unwrap();
+    let expected = update(&found);
+    if std::env::var_os("UPDATE").is_some() {
+        std::fs::write(&path, &expected).unwrap();
+        return;
+    }
+    let differs = found.lines().zip(expected.lines()).enumerate().find(|(_, (now, then))| now != then);
+    if let Some((line, (_, then))) = differs {
+        panic!("{file}, line {}, has to be\n{then}\nUPDATE=1 cargo test --test command writes it", line + 1);
+    }
+    assert_eq!(found, expected, "{file}: UPDATE=1 cargo test --test command writes it");
+}
+
+/// The text with `update` applied to the lines of the block between `begin` and the next fence.
+fn in_block(text: &str, begin: &str, update: impl Fn(&str) -> String) -> String {
+    let (head, rest) = text.split_once(begin).unwrap_or_else(|| panic!("no block begins with {begin:?}"));
+    let (block, tail) = rest.split_once("```").expect("a fence ends the block");
+    let lines: String = block.lines().map(|line| update(line) + "\n").collect();
+    format!("{head}{begin}{lines}```{tail}")
+}
+
+/// All but the times.
 #[test]
 fn the_book_has_the_totals_of_the_proofs() {
-    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
-    let page = std::fs::read_to_string(root.join("book/src/command.md")).unwrap();
     let output = contact(&["prove"]);
     let totals: Vec<_> = stdout(&output).lines().rev().take(4).collect();
     let [_, changes, hypotheses, claims] = totals[..] else { panic!("{totals:?}") };
-    let mut totals = vec![claims.split(" in ").next().unwrap(), hypotheses, changes];
-    totals.retain(|line| !page.contains(&format!("\n{line}")));
-    assert!(
-        totals.is_empty(),
-        "in book/src/command.md the totals of `contact prove` have to be\n{}",
-        totals.join("\n")
-    );
+    let (proved, _) = claims.split_once(" in ").expect("a time");
+    let total = |line: &str| match line.split_once(" in ") {
+        Some((before, time)) if before.ends_with("claims proved") => format!("{proved} in {time}"),
+        _ if line.contains(" hypotheses needed") => hypotheses.to_string(),
+        _ if line.contains(" changes of formulas noticed") => changes.to_string(),
+        _ => line.to_string(),
+    };
+    let begin = "```text\n";
+    compare("book/src/command.md", |page| {
+        let (head, rest) = page.split_once("\n## Prove the chapter\n").expect("its section");
+        let rest = in_block(rest, begin, total);
+        for line in [proved, hypotheses, changes] {
+            assert!(
+                rest.contains(&format!("\n{line}")),
+                "book/src/command.md, \"Prove the chapter\", lacks the line {line}"
+            );
+        }
+        format!("{head}\n## Prove the chapter\n{rest}")
+    });
 }
 
-/// Its rows are those of the command, whatever room each column has.
+/// Two samples of the report, with some of its rows; and in the book its totals.
 #[test]
-fn the_readme_has_the_rows_of_the_main_job() {
-    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
-    let readme = std::fs::read_to_string(root.join("README.md")).unwrap();
-    let (_, table) = readme.split_once("```text\n number ").expect("a table");
-    let rows = table.split("```").next().unwrap().lines().filter(|line| line.ends_with(" held"));
-    let words = |line: &str| line.split_whitespace().map(String::from).collect::<Vec<_>>();
-    let output = contact(&["verify", "--cases", "1"]);
-    let printed: Vec<_> = stdout(&output).lines().map(words).collect();
-    let mut seen = 0;
-    for row in rows {
-        let number = words(row);
-        let now = printed.iter().find(|line| line.iter().zip(&number).take(3).all(|(a, b)| a == b));
-        assert_eq!(now, Some(&number), "README.md has to have the row that the command prints");
-        seen += 1;
-    }
-    assert_eq!(seen, 4);
+fn book_and_readme_have_the_rows_and_the_totals_of_the_main_job() {
+    let output = contact(&[]);
+    let printed: Vec<_> = stdout(&output).lines().collect();
+    // A row is known by its number, a total by what is counted.
+    let key = |line: &str| match line.strip_suffix(" held") {
+        Some(row) if line.starts_with(' ') => row.split("  ").next().map(String::from),
+        _ => ["claims proved for all values.", "trials decided", "Rounding used at most"]
+            .into_iter()
+            .find(|total| line.contains(total))
+            .map(String::from),
+    };
+    let refreshed = |line: &str| {
+        let Some(own) = key(line) else { return line.to_string() };
+        let now = printed.iter().find(|printed| key(printed).as_ref() == Some(&own));
+        now.unwrap_or_else(|| panic!("`contact` prints no line of {own:?}, but a sample has it")).to_string()
+    };
+    compare("book/src/command.md", |page| in_block(page, "```console\n$ contact\n", refreshed));
+    compare("README.md", |readme| in_block(readme, "```text\n number ", refreshed));
+    let samples = ["book/src/command.md", "README.md"].map(|file| {
+        let text =
+            std::fs::read_to_string(std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(file)).unwrap();
+        text.lines().filter(|line| key(line).is_some() && printed.contains(line)).count()
+    });
+    assert_eq!(samples, [8, 4], "rows and totals in the samples");
 }
 
 #[test]
@@ -1069,8 +1127,8 @@ fn the_whole_chapter_is_proved() {
     assert!(stdout(&table).contains(&format!("\n{claims} of {claims} claims proved in ")));
 }
 
-/// A directory's name may need quotes, or be longer than a line. Each command that is printed runs, here with what
-/// stands in for coqc.
+/// A directory's name may need quotes, or be longer than a line. Each command that is printed runs, here with a stand-in
+/// for coqc, which like it writes a cache to the directory that it is started in.
 #[cfg(unix)]
 #[test]
 fn a_directory_for_coq_can_have_any_name() {
@@ -1081,13 +1139,13 @@ fn a_directory_for_coq_can_have_any_name() {
         let output = contact(&["prove", "--coq", directory]);
         assert_eq!(output.status.code(), Some(0), "{name}");
         let (_, commands) = stdout(&output).split_once('\n').expect("commands");
-        let script = format!("coqc() {{ test $# = 4 && printf '%s\\n' \"$2\" \"$4\"; }}\n{commands}");
-        let ran = Command::new("sh").args(["-c", &script]).output().expect("a shell");
-        let lines: Vec<_> = stdout(&ran).lines().collect();
-        assert!(lines.len() > 10 && ran.status.success(), "{script}");
-        for pair in lines.chunks(2) {
-            assert!(pair[0] == directory && std::path::Path::new(pair[1]).is_file(), "{pair:?}");
-        }
+        let coqc = "test $# = 4 && test -f \"$4\" && test \"$1 $2 $3\" = '-R . Contact' && echo \"$4\" && touch .nra.cache";
+        let script = format!("set -e\ncoqc() {{ {coqc}; }}\n{commands}");
+        let started_in = std::path::Path::new(env!("CARGO_TARGET_TMPDIR"));
+        let ran = Command::new("sh").args(["-c", &script]).current_dir(started_in).output().expect("a shell");
+        assert!(stdout(&ran).lines().count() > 10 && ran.status.success(), "{script}");
+        let has_cache = |directory: &std::path::Path| directory.join(".nra.cache").is_file();
+        assert_eq!([directory.as_ref(), started_in].map(has_cache), [true, false], "{name}");
         // A page holds what can be broken.
         let fits = |line: &str| line.chars().count() <= 80 || line.contains('\'');
         assert!(commands.lines().all(fits), "{commands}");

@@ -3,6 +3,8 @@
 #![cfg(feature = "prover")]
 
 mod gallina;
+#[path = "coq/shapes.rs"]
+mod shapes;
 #[allow(dead_code)]
 #[path = "../examples/springs.rs"]
 mod springs;
@@ -14,10 +16,11 @@ use gallina::{
 use spring_mass_contact::claims::{registry, statements};
 use spring_mass_contact::formula::claim::{MEMBERS, PRECISION, SCALES};
 use spring_mass_contact::formula::statement::{Computed, Goal, Role, Says, Sequence, Statement, two_bits};
-use spring_mass_contact::formula::{Hypothesis, Relation};
+use spring_mass_contact::formula::{Hypothesis, Registry, Relation};
 use spring_mass_contact::number::tree::Step;
 use spring_mass_contact::number::{Field, PositivePart, Tree};
-use spring_mass_contact::proof::coq::{Development, File, theorem_name};
+use spring_mass_contact::proof::coq::{Development, File, Placed, theorem_name};
+use spring_mass_contact::proof::prove;
 use spring_mass_contact::verify::coq;
 use std::collections::BTreeSet;
 use std::io::Write;
@@ -654,6 +657,22 @@ fn coq_accepts_the_springs_in_series() {
     assert_eq!((theorems.len(), development.left_out().len()), (claims.len(), 0));
     assert_eq!(development.flips().len(), 1, "the sign of a + b");
     accepts("springs", &development);
+}
+
+/// Those of which no theorem is written are said to be left out, and all others are accepted.
+#[test]
+fn coq_accepts_divisors_of_any_shape() {
+    let claims = shapes::claims();
+    for claim in &claims {
+        let proof = prove(&Statement::of(claim));
+        assert!(proof.is_ok(), "{}: {}", claim.name, proof.unwrap_err());
+    }
+    let registry = Registry::new(&["a", "b", "c", "d", "f", "g", "x", "y"], Vec::new());
+    let placed = claims.iter().map(|claim| Placed { claim, section: "shapes", functions: &[] });
+    let development = Development::new(&registry, placed);
+    let left_out: Vec<_> = development.left_out().iter().map(|left| left.name).collect();
+    assert_eq!(left_out, ["square", "exponential"], "{:?}", development.left_out());
+    accepts("shapes", &development);
 }
 
 #[test]

@@ -157,7 +157,7 @@ fn edited(text: &str, step: &Written, what: What) -> Option<String> {
         (Kind::Negated { a }, What::DropSign) => own(a),
         (Kind::Method { a, b: None }, What::DropBracket) => own(a),
         (Kind::Method { a, b: None }, What::NegateExponent) => format!("(-{}).exp()", own(a)),
-        (Kind::Integer, What::Next(n)) => format!("T::int({})", n + 1),
+        (Kind::Integer, What::Integer(_, to)) => format!("T::int({to})"),
         (Kind::Binary { a, operator, b }, What::Symbol(place, _, to)) => {
             let name = known(text, step, to)?;
             let [a, b] = [(0, a), (1, b)].map(|(i, own)| if i == place { name } else { source(own) });
@@ -281,9 +281,10 @@ struct Run {
 }
 
 /// The command with one edit; ended when it takes too long, and then without a code.
-fn run(binary: &Path, edit: usize, limit: Duration) -> Run {
+fn run(binary: &Path, arguments: &[String], edit: usize, limit: Duration) -> Run {
     let start = Instant::now();
     let mut command = Command::new(binary);
+    command.args(arguments);
     command.env("ACTIVE_EDIT", edit.to_string()).env("COLUMNS", "80").stdin(Stdio::null());
     let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     let read = |mut pipe: Box<dyn Read + Send>| {
@@ -325,6 +326,28 @@ fn first_finding(stdout: &str) -> Option<&str> {
     stdout.lines().find(|line| findings.iter().any(|finding| line.contains(finding)))
 }
 
+/// The arguments of the commands that a report prints below its failures.
+fn commands(stdout: &str) -> Vec<Vec<String>> {
+    let text = stdout.replace(" \\\n      ", " ");
+    let lines = text.lines().filter_map(|line| line.strip_prefix("  contact "));
+    let arguments = |line: &str| line.split(' ').map(String::from).collect::<Vec<_>>();
+    let commands: std::collections::BTreeSet<_> = lines.map(arguments).collect();
+    commands.into_iter().collect()
+}
+
+/// Returns `true` if a solve in rationals breaks off, or its answer violates its bounds, equilibrium or the contact
+/// conditions of its method.
+fn is_wrong(solve: &Run) -> bool {
+    let Ok(answer) = serde_json::from_str::<serde_json::Value>(&solve.stdout) else { return true };
+    let quantities = ["deflection", "penetration", "contact_force"];
+    let exact = |quantity: &str| [0, 1].iter().all(|end| answer["bounds"][quantity][end] == answer[quantity]);
+    let conditions: &[&str] = match answer["method"].as_str() {
+        Some("penalty") => &["stationarity", "dual"],
+        _ => &["stationarity", "primal", "dual", "complementarity"],
+    };
+    !quantities.into_iter().all(exact) || conditions.iter().any(|name| answer["kkt"][name] != "0")
+}
+
 /// So long may a report take, on a machine that does nothing else.
 const LIMIT: Duration = Duration::from_secs(10);
 
@@ -344,15 +367,15 @@ fn a_mistake_in_any_formula_is_reported_in_time() {
         .status();
     assert!(build.unwrap().success(), "the copy with its switches does not build");
     let binary = target.join("release/contact");
-    let well = run(&binary, 0, 10 * LIMIT);
+    let well = run(&binary, &[], 0, 10 * LIMIT);
     assert_eq!(well.code, Some(0), "without an edit: {}{}", well.stdout, well.stderr);
 
     let effects: HashMap<Change, Effect> = controls(&statements(), registry()).changes.into_iter().collect();
     let sample = env::var("EDITS").map_or(100, |count| count.parse().expect("a number of edits"));
     let stride = made.len().div_ceil(sample).max(1);
-    let (mut times, mut amiss, mut elsewhere) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut times, mut amiss, mut elsewhere, mut solves) = (Vec::new(), Vec::new(), Vec::new(), 0);
     for (i, change) in made.iter().enumerate().step_by(stride) {
-        let result = run(&binary, i + 1, LIMIT);
+        let result = run(&binary, &[], i + 1, LIMIT);
         let finding = first_finding(&result.stdout);
         // Some edits are proved to change nothing.
         let wrong = !matches!(effects[change], Effect::Unchanged);
@@ -360,6 +383,17 @@ fn a_mistake_in_any_formula_is_reported_in_time() {
         say(&said);
         if result.code != Some(i32::from(wrong)) || !result.stderr.is_empty() || finding.is_some() != wrong {
             amiss.push(said.clone() + &result.stderr);
+        }
+        let last = result.stdout.trim_end().rsplit("\n\n").next().unwrap_or_default();
+        if result.stdout.contains(": look here first") && !last.contains(": look here first") {
+            amiss.push(said.clone() + ": the suspected function is not named last");
+        }
+        for mut arguments in commands(&result.stdout) {
+            solves += 1;
+            arguments.extend(["--format", "json"].map(String::from));
+            if !is_wrong(&run(&binary, &arguments, i + 1, LIMIT)) {
+                amiss.push(format!("{said}: not reproduced by {arguments:?}"));
+            }
         }
         let suspected = |line: &str| line.ends_with(&format!("{}: look here first", function(change)));
         // What an edit leaves nothing but the call of another function is laid to that one.
@@ -372,11 +406,18 @@ fn a_mistake_in_any_formula_is_reported_in_time() {
     times.sort_unstable();
     let (median, slowest) = (times[times.len() / 2], times[times.len() - 1]);
     say(&format!(
-        "{} edits: {median:.1?} each, {slowest:.1?} at most; {} not found where they are",
+        "{} edits: {median:.1?} each, {slowest:.1?} at most; {solves} commands to solve; {} not found where they are",
         times.len(),
         elsewhere.len()
     ));
     assert!(amiss.is_empty(), "{amiss:#?}");
+    // c − ε for c + ε makes a system that is solved wrongly.
+    let of_sum = |change: &Change| {
+        function(change) == "penalty::total_stiffness" && matches!(change.what, What::Opposite(_))
+    };
+    let wrong_sum = made.iter().position(of_sum).expect("a sum");
+    let report = run(&binary, &[], wrong_sum + 1, LIMIT);
+    assert!(!commands(&report.stdout).is_empty(), "no solve reproduces a failure: {}", report.stdout);
     assert!(20 * elsewhere.len() < times.len(), "named at another place: {elsewhere:#?}");
 }
 

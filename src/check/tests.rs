@@ -15,7 +15,7 @@ use crate::proof::prove;
 use crate::solver::{Augmentation, Method, State, solve};
 use num_traits::Zero;
 use rug::float::Round;
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 use std::convert::Infallible;
 
 const TOLERANCE: &str = "1e-6";
@@ -253,6 +253,10 @@ fn families_are_what_they_say() {
     // The systems of a seed are its own, and those of a family do not depend on the others.
     assert_eq!(problems(1, 3, &[Stiff]), problems(1, 40, &Family::ALL)[240..243]);
     assert_ne!(problems(2, 3, &[Stiff]), problems(1, 3, &[Stiff]));
+    // Also of seeds that agree in their lower bits.
+    for other in [1 | 1 << 32, 1 | 1 << 63] {
+        assert_ne!(problems(other, 3, &[Stiff]), problems(1, 3, &[Stiff]), "{other}");
+    }
 }
 
 /// |R| relative to |m g| + |c (H − l)|.
@@ -339,20 +343,28 @@ fn names_are_those_of_the_command_line_and_of_json() {
 fn the_book_names_what_is_known() {
     let page = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("book/src/check.md");
     let page = std::fs::read_to_string(page).unwrap();
-    let list = page.split_once("Known are").unwrap().1;
+    let (_, list) = page.split_once("Known are").expect("a list that begins with \"Known are\"");
     let is_edit = |name: &str| name.starts_with("as ") || name.contains(", and as ");
     let all = [false, true].into_iter().flat_map(|by_penalty| {
         [mistakes(by_penalty), fitted(by_penalty), in_single(by_penalty)].into_iter().flatten()
     });
-    for mistake in all.filter(|mistake| !is_edit(&mistake.name)) {
+    let as_listed = |mistake: &Mistake| {
         let name = mistake.name.replace("{k}", "*k*");
         let steps = |n: &i32| name.contains(&format!(" after {n} steps, "));
-        let name = (2..=20)
-            .find(steps)
-            .map_or(name.clone(), |n| name.replace(&format!(" {n} steps"), " 2 to 8 steps"));
-        assert!(list.contains(&name), "{name}");
-    }
-    for family in Family::ALL {
-        assert!(page.contains(&format!("`{family}`")), "{family}");
-    }
+        let counted = (2..=20).find(steps);
+        counted.map_or(name.clone(), |n| name.replace(&format!(" {n} steps"), " 2 to 8 steps"))
+    };
+    let names = all.filter(|mistake| !is_edit(&mistake.name)).map(|mistake| as_listed(mistake));
+    let unnamed: BTreeSet<_> = names.filter(|name| !list.contains(name)).collect();
+    assert!(
+        unnamed.is_empty(),
+        "book/src/check.md does not name {unnamed:?}: add each, spelled like this, \
+         to the list that begins with \"Known are\""
+    );
+    let names = Family::ALL.into_iter().map(|family| format!("`{family}`"));
+    let unnamed: Vec<_> = names.filter(|name| !page.contains(name)).collect();
+    assert!(
+        unnamed.is_empty(),
+        "book/src/check.md does not name the families {unnamed:?}: add each to the table of families"
+    );
 }

@@ -224,6 +224,22 @@ mod tests {
         }
     }
 
+    /// ±(1/2 ± 10⁻³⁰) lies so close to a decimal that rounding to nearest, before the rounding to a side or
+    /// in place of it, gives the decimal itself.
+    #[test]
+    fn decimals_next_to_a_shorter_one_stay_on_their_side() {
+        let tiny: Exact = "1e-30".parse().unwrap();
+        let half: Exact = "1/2".parse().unwrap();
+        for (x, down, up) in [
+            (&half + &tiny, "0.5", "0.501"),
+            (&half - &tiny, "0.499", "0.5"),
+            (&tiny - &half, "-0.5", "-0.499"),
+            (-&half - &tiny, "-0.501", "-0.5"),
+        ] {
+            assert_eq!([x.decimal(3, Round::Down), x.decimal(3, Round::Up)], [down, up], "{x}");
+        }
+    }
+
     #[test]
     fn floats_are_short() {
         assert_eq!(

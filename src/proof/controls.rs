@@ -12,7 +12,7 @@
 
 mod change;
 
-pub use change::{Change, Operator, What, changes, changes_in};
+pub use change::{Change, Operator, What, changes, changes_in, possible_repairs};
 
 use super::kernel::prove;
 use super::refute::{Counterexample, Points};
@@ -137,8 +137,8 @@ pub fn controls(statements: &[Statement], registry: &Registry) -> Controls {
     Controls { changes, dropped: dropped.collect() }
 }
 
-/// The changes that would make all of these statements provable, if some of them are not: where a mistake
-/// in the chapter may be.
+/// The changes of one place that would make all of these statements provable, if some of them are not: there
+/// may be a mistake in the chapter. They are looked for among the [`possible_repairs`].
 pub fn repairs(statements: &[Statement], registry: &Registry) -> Vec<Change> {
     // What takes long is asked last.
     let mut by_cost: Vec<_> = statements.iter().collect();
@@ -151,7 +151,7 @@ pub fn repairs(statements: &[Statement], registry: &Registry) -> Vec<Change> {
     if wrong.is_empty() {
         Vec::new()
     } else {
-        changes(statements, registry).into_par_iter().filter(repairs).collect()
+        possible_repairs(statements, registry).into_par_iter().filter(repairs).collect()
     }
 }
 
@@ -301,6 +301,21 @@ mod tests {
         let Controls { changes, .. } = controls(&statements, &registry());
         let noticed = changes.iter().find(|(_, outcome)| matches!(outcome, Effect::Noticed { .. }));
         assert!(noticed.is_none() && !changes.is_empty(), "{noticed:?}");
+    }
+
+    /// k = a²/4 in place of a²/2, and in place of a²/20, −a²/4 and a²/8.
+    #[test]
+    fn a_changed_constant_is_repaired() {
+        let quarter = |a: &Tree| a * a / Tree::from(4);
+        let formula = Formula::new("quarter", "k", &["a"], quarter(&x("a")));
+        let registry = Registry::new(&["a"], vec![formula]);
+        for right in [2, 20, -4, 8, 1] {
+            let says = Kind::Equal(quarter(&x("a")) * Tree::from(right), x("a") * x("a"));
+            let statement = Statement::of(&Claim::new("half", &[], says));
+            let repairs = repairs(&[statement], &registry);
+            let found: Vec<_> = repairs.iter().map(|change| change.what.to_string()).collect();
+            assert!(found.contains(&format!("4 → {right}")), "{found:?}");
+        }
     }
 
     #[test]

@@ -34,6 +34,29 @@ pub(super) fn suspects(statements: &[Statement], unproved: &dyn Fn(&Statement) -
             |f: &&Formula| Suspect { function: f.path, equation: equation(f.path), unproved: 0, proved: 0 };
         return idle.iter().map(suspect).collect();
     }
+    let all = users(statements, unproved);
+    // With a of n claims that speak of it and f that fail, a/√(n f) is the cosine between the two sets.
+    let weight = |s: &Suspect| (s.unproved * s.unproved, s.unproved + s.proved);
+    let compare = |a: &Suspect, b: &Suspect| {
+        let ((x, n), (y, m)) = (weight(a), weight(b));
+        (x * m).cmp(&(y * n))
+    };
+    let Some(best) = all.iter().max_by(|a, b| compare(a, b)) else { return Vec::new() };
+    all.iter().filter(|suspect| compare(suspect, best).is_eq()).cloned().collect()
+}
+
+/// The functions that every claim that is not proved depends on, in the order of the registry.
+pub(super) fn shared(statements: &[Statement], unproved: &dyn Fn(&Statement) -> bool) -> Vec<&'static str> {
+    let failures = statements.iter().filter(|statement| unproved(statement)).count();
+    let users = users(statements, unproved);
+    let mut shared: Vec<_> = registry().formulas().iter().map(|formula| formula.path).collect();
+    shared.dedup();
+    shared.retain(|path| users.iter().any(|user| user.function == *path && user.unproved == failures));
+    shared
+}
+
+/// The functions that unproved claims depend on, with the numbers of claims that do, unproved and proved.
+fn users(statements: &[Statement], unproved: &dyn Fn(&Statement) -> bool) -> Vec<Suspect> {
     let sites: Vec<(bool, BTreeSet<Site>)> = statements
         .iter()
         .map(|statement| {
@@ -50,20 +73,12 @@ pub(super) fn suspects(statements: &[Statement], unproved: &dyn Fn(&Statement) -
     for formula in registry().formulas() {
         own_sites(formula.path, &formula.tree, own.entry(formula.path).or_default());
     }
-    let suspect = |(function, own): (&&'static str, &BTreeSet<Site>)| {
+    let user = |(function, own): (&&'static str, &BTreeSet<Site>)| {
         let speaking = sites.iter().filter(|(_, sites)| !sites.is_disjoint(own));
         let (unproved, proved): (Vec<_>, Vec<_>) = speaking.partition(|(unproved, _)| *unproved);
         Suspect { function, equation: equation(function), unproved: unproved.len(), proved: proved.len() }
     };
-    let all: Vec<Suspect> = own.iter().map(suspect).filter(|suspect| suspect.unproved > 0).collect();
-    // With a of n claims that speak of it and f that fail, a/√(n f) is the cosine between the two sets.
-    let weight = |s: &Suspect| (s.unproved * s.unproved, s.unproved + s.proved);
-    let compare = |a: &Suspect, b: &Suspect| {
-        let ((x, n), (y, m)) = (weight(a), weight(b));
-        (x * m).cmp(&(y * n))
-    };
-    let Some(best) = all.iter().max_by(|a, b| compare(a, b)) else { return Vec::new() };
-    all.iter().filter(|suspect| compare(suspect, best).is_eq()).cloned().collect()
+    own.iter().map(user).filter(|user| user.unproved > 0).collect()
 }
 
 fn equation(function: &str) -> Option<&'static str> {
@@ -127,8 +142,17 @@ mod tests {
         assert_eq!(idle.map(Formula::name).collect::<Vec<_>>(), Vec::<String>::new());
     }
 
+    /// Two claims of (1.13), about the deflection and its second form, and about the deflection and its rate.
+    #[test]
+    fn shared_functions_are_those_of_every_failure() {
+        let of = |names: &[&str]| shared(&statements(), &|s| s.equation == "1.13" && names.contains(&s.name));
+        assert_eq!(of(&["two-forms"]), ["penalty::deflection", "penalty::deflection_divided"]);
+        assert_eq!(of(&["two-forms", "rate"]), ["penalty::deflection"]);
+    }
+
     #[test]
     fn nobody_is_suspected_of_what_is_proved() {
         assert_eq!(suspects(&statements(), &|_| false), []);
+        assert_eq!(shared(&statements(), &|_| false), Vec::<&str>::new());
     }
 }

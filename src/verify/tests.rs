@@ -337,6 +337,7 @@ fn a_mistake_is_looked_for_where_it_is() {
     assert_eq!(*unproved, report.rows.iter().filter(|row| row.status == Status::Failed).count());
     let back = |repair: &&Change| repair.site == total && matches!(repair.what, What::Opposite(_));
     assert_eq!(report.repairs.iter().filter(back).count(), 1, "{:?}", report.repairs);
+    assert_eq!(report.shared, ["penalty::total_stiffness"]);
     let well = run(&[], right, &options(1), &|_, _| ());
     assert!(well.holds() && well.suspects.is_empty() && well.repairs.is_empty());
 }
@@ -395,19 +396,21 @@ fn json_shows_how_a_claim_fails() {
     let proved = || Row { equation: "1.15", scalar: None, ..row(Status::Proved, None) };
     let rows = vec![row(Status::Failed, Some(case)), row(Status::Undecided, None)];
     let counted = [rows.clone(), vec![held(), held(), held()], vec![proved(), proved()]].concat();
-    let counted = Report { rows: counted, suspects: Vec::new(), repairs: Vec::new() };
+    let counted = Report { rows: counted, suspects: Vec::new(), repairs: Vec::new(), shared: Vec::new() };
     assert_eq!(
         serde_json::to_value(&counted).unwrap()["summary"],
         serde_json::json!({"claims": 7, "proved": 2, "held": 3, "undecided": 1, "failed": 1})
     );
     let suspect = Suspect { equation: None, function: "penalty::deflection", unproved: 7, proved: 2 };
-    let report = Report { rows, suspects: vec![suspect], repairs: Vec::new() };
+    let report =
+        Report { rows, suspects: vec![suspect], repairs: Vec::new(), shared: vec!["structure::deflection"] };
     let coordinates: std::collections::BTreeMap<_, _> =
         crate::claims::Var::ALL.iter().map(|var| (var.symbol(), "7/3")).collect();
     let expected = serde_json::json!({
         "summary": {"claims": 2, "proved": 0, "held": 0, "undecided": 1, "failed": 1},
         "suspects": [{"equation": null, "function": "penalty::deflection", "unproved": 7, "proved": 2}],
         "repairs": [],
+        "shared": ["structure::deflection"],
         "equations": [{"equation": "1.13", "claims": [
             {
                 "claim": "rate", "kind": "equal", "status": "failed", "scalar": "mpfr:2",

@@ -235,6 +235,26 @@ fn boxes_say_what_the_page_of_claims_says() {
     assert_eq!(seen, equations().count());
 }
 
+/// A box has a heading one level below that of the section in which it stands.
+#[test]
+fn the_heading_of_a_box_is_one_level_below_its_section() {
+    let heading = Regex::new(r#"<h([1-6])[^>]* id="([^"]*)""#).unwrap();
+    let mut boxes = 0;
+    for (path, html) in with_extension("html").filter(|(path, _)| !path.ends_with("print.html")) {
+        let mut section = 0;
+        for found in heading.captures_iter(html) {
+            let (level, id): (u32, _) = (found[1].parse().unwrap(), &found[2]);
+            if id.starts_with("eq-") {
+                assert_eq!(level, section + 1, "{}: #{id}", path.display());
+                boxes += 1;
+            } else if id != "mdbook-help-title" {
+                section = level;
+            }
+        }
+    }
+    assert_eq!(boxes, equations().count());
+}
+
 /// From the proofs of each entry one link leads back to the book, and one to what a proof rests on.
 #[test]
 fn proofs_lead_back() {

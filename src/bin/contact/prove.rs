@@ -9,8 +9,8 @@ use spring_mass_contact::proof::controls::{Change, Dropped, Effect, Without};
 use spring_mass_contact::proof::coq::LeftOut;
 use spring_mass_contact::proof::paper::{self, Paper};
 use spring_mass_contact::proof::sharpest;
+use spring_mass_contact::verify::coq;
 use spring_mass_contact::verify::proofs::{Answer, Proofs, Proved, Summary, prove_all};
-use spring_mass_contact::verify::{case_of, coq};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -95,9 +95,10 @@ fn for_coq(directory: &Path) -> Result<Exit, Failure> {
     })?;
     output::print(|out| {
         writeln!(out, "The claims as theorems, to be compiled in this order:")?;
-        let text = |path: &Path| path.display().to_string();
-        for file in &files {
-            output::command(out, ["coqc", "-R", &text(directory), "Contact", &text(file)])?;
+        // From the directory, since coqc writes caches such as .nra.cache to the one that it is started in.
+        output::command(out, ["cd", "--", &directory.display().to_string()])?;
+        for file in files.iter().filter_map(|file| file.file_name()) {
+            output::command(out, ["coqc", "-R", ".", "Contact", &file.to_string_lossy()])?;
         }
         coq().left_out().iter().try_for_each(|LeftOut { equation, name, reason }| {
             output::wrapped(out, "", 2, &format!("left out: {equation} {name}: {reason}"))
@@ -151,7 +152,7 @@ fn amiss(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
                 writeln!(out, "\n{equation} {name} REFUTED")?;
                 output::wrapped(out, "  ", 4, &together(&paper().claim(statement)))?;
                 output::wrapped(out, "  at ", 4, &output::glued(counterexample))?;
-                solve::command(out, &case_of(counterexample))?;
+                solve::command(out, &counterexample.point)?;
             }
         }
     }
@@ -329,7 +330,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_refuted_fits_on_a_page_and_can_be_pasted() {
+    fn what_is_refuted_fits_on_a_page() {
         let proofs = refuted();
         let text = output::printed(|out| {
             table(out, &proofs)?;
@@ -340,18 +341,7 @@ mod tests {
             text.contains(" REFUTED\n") && text.contains("\nThe controls wait until all are.\n"),
             "{text}"
         );
-        // Each counterexample that is a system has its command, in the table and in the details.
-        let commands = output::printed(|out| {
-            proofs.claims.iter().try_for_each(|proved| match &proved.answer {
-                Answer::None(_, Some(counterexample)) => solve::command(out, &case_of(counterexample)),
-                Answer::None(_, None) | Answer::Proof(_) => Ok(()),
-            })
-        });
-        let pasted = |text: &str| -> Vec<String> {
-            let text = text.replace(" \\\n      ", " ");
-            text.lines().filter(|line| line.starts_with("  contact solve")).map(String::from).collect()
-        };
-        assert!(text.contains(" \\\n") && pasted(&commands).len() > 50);
-        assert_eq!(pasted(&text), [pasted(&commands), pasted(&commands)].concat());
+        // The claims are wrong and the chapter is right, so a solve reproduces none of them.
+        assert!(!text.contains("contact solve"), "{text}");
     }
 }

@@ -10,13 +10,14 @@ use num_traits::Zero;
 use report::Report;
 pub use report::{rounded_in_words, state_in_words};
 use spring_mass_contact::chapter::SpringMass;
-use spring_mass_contact::claims::Case;
 use spring_mass_contact::number::{Exact, NumberSystem, Text};
+use spring_mass_contact::proof::refute::Point;
 use spring_mass_contact::rug::Integer;
 use spring_mass_contact::solver::{
     Augmentation, Iterate, MAX_AUGMENTATIONS, Method, Outcome, Plane, Scalar, Solution, SolveError,
     augmentations_needed, solve_observed,
 };
+use spring_mass_contact::verify::reproduction;
 use std::io::{self, Write};
 
 const EXAMPLES: &str = "\
@@ -286,20 +287,26 @@ impl<T: Scalar + Text> Problem<T> {
     }
 }
 
-/// The command that solves a case, if it is a system that can be solved.
-pub fn command(out: &mut dyn Write, case: &Case<Exact>) -> io::Result<()> {
-    command_line(case).map_or(Ok(()), |line| output::command(out, line.split(' ')))
+/// Prints the command that reproduces a counterexample, if there is one.
+pub fn command(out: &mut dyn Write, counterexample: &Point) -> io::Result<()> {
+    let reproduction = reproduction(counterexample);
+    reproduction
+        .map_or(Ok(()), |(system, method)| output::command(out, command_line(&system, &method).split(' ')))
 }
 
-fn command_line(case: &Case<Exact>) -> Option<String> {
-    let SpringMass { c, m, g, l, h } = &case.system;
-    let mut line = format!(
-        "contact solve --scalar exact --stiffness {c} --mass {m} --gravity {g} --free-length {l} --height {h}"
+fn command_line(system: &SpringMass<Exact>, method: &Method<Exact>) -> String {
+    let SpringMass { c, m, g, l, h } = system;
+    let line = format!(
+        "contact solve --scalar exact --stiffness {c} --mass {m} --gravity {g} --free-length {l} \
+         --height {h} --method {}",
+        MethodName::of(method).name()
     );
-    if case.eps > Exact::zero() {
-        line += &format!(" --method penalty --penalty {}", case.eps);
+    match method {
+        Method::Lagrange => line,
+        Method::Penalty { penalty } | Method::Augmented { penalty, .. } => {
+            line + &format!(" --penalty {penalty}")
+        }
     }
-    (*c > Exact::zero() && *m > Exact::zero()).then_some(line)
 }
 
 /// What an iterate says besides its k.
@@ -328,31 +335,20 @@ mod tests {
         }
     }
 
-    /// c > 0 and m > 0, and a penalty where there is one; what is printed is read as the case that was meant.
+    /// What is printed, however long, is read as the system and the method that were meant.
     #[test]
-    fn only_a_system_that_can_be_solved_has_a_command_line() {
-        let with = |c: &str, m: &str, eps: &str| {
-            let mut case = Case::of(|_| Exact::zero());
-            let number = |text: &str| text.parse().unwrap();
-            let [c, m, g, l, h] = [c, m, "-1/3", "-7", "2"].map(number);
-            (case.system, case.eps) = (SpringMass { c, m, g, l, h }, number(eps));
-            let line = command_line(&case);
-            (case, line)
-        };
-        for (c, m) in [("0", "1"), ("1", "0"), ("-1", "1"), ("1", "-1"), ("0", "0")] {
-            assert_eq!(with(c, m, "1").1, None, "c = {c}, m = {m}");
-        }
-        for eps in ["7", "0", "-1"] {
-            let (case, line) = with("1/3", "5", eps);
-            let line = line.unwrap();
+    fn a_command_line_is_read_as_what_it_was_made_from() {
+        let [c, m, g, l, h, penalty] =
+            ["1/3", "5", "-1/3", "-7", "2", "7"].map(|text| text.parse::<Exact>().unwrap());
+        let system = SpringMass { c, m, g, l, h };
+        for method in [Method::Lagrange, Method::Penalty { penalty: penalty.clone() }] {
+            let line = command_line(&system, &method);
             let words = crate::args::joined(line.split(' ').skip(1).map(String::from));
             let read =
                 Options::augment_args(clap::Command::new("solve")).try_get_matches_from(words).unwrap();
             let options = Options::from_arg_matches(&read).unwrap();
-            assert_eq!(options.system.values(), case.system);
-            let penalty = Method::Penalty { penalty: case.eps.clone() };
-            let method = options.method(&case.eps).unwrap_or_else(|_| panic!("{line}"));
-            assert_eq!(method, if eps == "7" { penalty } else { Method::Lagrange });
+            assert_eq!(options.system.values(), system);
+            assert_eq!(options.method(&penalty).unwrap_or_else(|_| panic!("{line}")), method);
             assert_eq!(options.scalar, NumberSystem::Exact);
         }
     }

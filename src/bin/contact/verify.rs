@@ -103,7 +103,11 @@ fn table(out: &mut dyn Write, report: &Report, options: &verify::Options) -> io:
         counts(out, report, ways)?;
         writeln!(out)?;
     }
-    where_to_look(out, report)?;
+    let unproved = unproved(report) > 0;
+    if unproved {
+        where_to_look(out, report)?;
+        writeln!(out)?;
+    }
     let of = |status| report.rows.iter().filter(move |row| row.status == status);
     let mut failed: Vec<&Row> = of(Status::Failed).collect();
     failed.sort_by_key(|row| report.suspects.iter().all(|suspect| suspect.equation != Some(row.equation)));
@@ -131,6 +135,11 @@ fn table(out: &mut dyn Write, report: &Report, options: &verify::Options) -> io:
         let Row { equation, claim, scalar, .. } = row;
         let share = percent(ratio);
         writeln!(out, "Rounding used at most {share} of its bound ({equation} {claim}, {}).", name(*scalar))?;
+    }
+    // Once more below all failures, where a terminal shows it.
+    if unproved {
+        writeln!(out)?;
+        where_to_look(out, report)?;
     }
     Ok(())
 }
@@ -197,7 +206,12 @@ fn counts(out: &mut dyn Write, report: &Report, ways: &[Way]) -> io::Result<()> 
     output::lines(out, &table)
 }
 
-/// What the claims that are not proved have in common, and what would mend them.
+/// The number of claims that are not proved.
+fn unproved(report: &Report) -> usize {
+    report.rows.iter().filter(|row| row.scalar.is_none() && row.status == Status::Failed).count()
+}
+
+/// Prints the functions in which a mistake is likely and the changes that would mend it.
 fn where_to_look(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     for Suspect { function, equation, unproved, proved } in &report.suspects {
         let number = equation.and_then(entry).map_or(String::new(), |entry| entry.label() + " ");
@@ -214,7 +228,17 @@ fn where_to_look(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     for change in &report.repairs {
         output::wrapped(out, "  ", 4, &format!("with {change} every claim would be proved"))?;
     }
-    if report.suspects.is_empty() { Ok(()) } else { writeln!(out) }
+    let unproved = unproved(report);
+    if unproved == 0 || !report.repairs.is_empty() {
+        return Ok(());
+    }
+    let of_all = if unproved == 1 { "the claim that is" } else { "all claims that are" };
+    let shared = match report.shared.as_slice() {
+        [] => "no function is common to all claims that are not proved: there may be several mistakes"
+            .to_string(),
+        shared => format!("functions common to {of_all} not proved: {}", shared.join(", ")),
+    };
+    output::wrapped(out, "  ", 4, &format!("no change of one operation makes every claim provable; {shared}"))
 }
 
 /// One claim, failing for the same reason in two number systems; these stand together in a report.
@@ -241,7 +265,7 @@ fn undecided(out: &mut dyn Write, rows: &[&Row]) -> io::Result<()> {
 /// Failures that are alike, of which there is at least one.
 fn failure(out: &mut dyn Write, alike: &[&Row]) -> io::Result<()> {
     let row = alike[0];
-    let Row { equation, claim, why, counterexample, .. } = row;
+    let Row { equation, claim, why, .. } = row;
     match row.scalar {
         None => writeln!(out, "{equation} {claim} NOT PROVED")?,
         Some(_) => output::wrapped(out, "", 2, &format!("{equation} {claim} FAILED in {}", names(alike)))?,
@@ -249,9 +273,9 @@ fn failure(out: &mut dyn Write, alike: &[&Row]) -> io::Result<()> {
     if let Some(why) = why {
         output::wrapped(out, "  ", 4, why)?;
     }
-    let (Some(point), Some(case)) = (row.point(), counterexample) else { return Ok(()) };
+    let Some(point) = row.point() else { return Ok(()) };
     output::wrapped(out, "  ", 2, &output::glued(&point))?;
-    solve::command(out, case)
+    solve::command(out, &point)
 }
 
 /// The number systems of rows.

@@ -84,6 +84,20 @@ fn what_is_written_for_a_function_is_taken_by_nothing_else() {
     Registry::new(&["a", "k"], vec![Formula { folded: false, path: "again", ..double("k") }, double("s")]);
 }
 
+/// k(a b, b) is a call if both b are the same, and the product is not.
+#[test]
+fn an_argument_that_occurs_twice_is_the_same_both_times() {
+    let (registry, [c, d, e]) = (registry(), ["c", "d", "e"].map(x));
+    let arguments = |tree: &Tree| {
+        let call = registry.calls(tree).find(|call| call.formula.path == "more");
+        call.map(|call| call.arguments)
+    };
+    assert_eq!(arguments(&sum_with_product(&c, &d)), Some(vec![c.clone(), d.clone()]));
+    // Made by the same function, but of another product.
+    assert_eq!(arguments(&sum(&(&c * &d), &e)), None);
+    assert_eq!(registry.call(&sum(&(&c * &d), &e)).map(|call| call.formula.path), Some("sum"));
+}
+
 /// k + 2 a, where k is no argument: of another k, or with another number, it is no call.
 #[test]
 fn a_call_is_the_same_but_for_its_arguments() {

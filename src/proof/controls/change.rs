@@ -36,8 +36,8 @@ pub enum What {
     NegateExponent,
     /// ⟨a⟩ becomes a.
     DropBracket,
-    /// n becomes n + 1.
-    Next(i32),
+    /// The first integer becomes the second.
+    Integer(i32, i32),
     /// In this operand, the first being 0, a symbol becomes another of the same unit.
     Symbol(usize, &'static str, &'static str),
 }
@@ -123,7 +123,7 @@ impl What {
         let mut all = Vec::new();
         match tree.step() {
             Step::Symbol(_) | Step::Rounded(_) => {}
-            Step::Int(n) => all.push(What::Next(*n)),
+            Step::Int(n) => all.extend(n.checked_add(1).map(|next| What::Integer(*n, next))),
             Step::Neg(_) => all.push(What::DropSign),
             Step::Exp(_) => all.push(What::NegateExponent),
             Step::PositivePart(_) => all.push(What::DropBracket),
@@ -141,6 +141,19 @@ impl What {
             }
         }
         all
+    }
+
+    /// The edits of a step that may undo a mistake: [`all`](Self::all), and for an integer n also the
+    /// integers up to 24, −n, 2 n and n/2.
+    fn repairs(tree: &Tree, registry: &Registry) -> Vec<What> {
+        const LARGEST: i32 = 24;
+        let mut repairs = What::all(tree, registry);
+        if let Step::Int(n) = *tree.step() {
+            let near = [n.checked_neg(), n.checked_mul(2), Some(n / 2)].into_iter().flatten();
+            let others: BTreeSet<i32> = (0..=LARGEST).chain(near).filter(|other| *other != n).collect();
+            repairs.extend(others.into_iter().map(|other| What::Integer(n, other)));
+        }
+        repairs
     }
 
     /// The step after the edit; `None` if there is nothing to edit.
@@ -177,9 +190,9 @@ impl What {
                 let Step::PositivePart(a) = tree.step() else { return None };
                 Some(a.clone())
             }
-            What::Next(n) => {
+            What::Integer(from, to) => {
                 let Step::Int(own) = tree.step() else { return None };
-                (*own == n).then(|| tree.with_step(Step::Int(n + 1)))
+                (*own == from).then(|| tree.with_step(Step::Int(to)))
             }
             What::Symbol(place, from, to) => {
                 let mut index = 0..;
@@ -210,7 +223,7 @@ impl fmt::Display for What {
             What::DropSign => f.write_str("−a → a"),
             What::NegateExponent => f.write_str("exp(a) → exp(−a)"),
             What::DropBracket => f.write_str("⟨a⟩ → a"),
-            What::Next(n) => write!(f, "{n} → {}", n + 1),
+            What::Integer(from, to) => write!(f, "{from} → {to}"),
             What::Symbol(place, from, to) => {
                 write!(f, "{from} → {to} in operand {}", place + 1)
             }
@@ -315,12 +328,26 @@ pub fn changes(statements: &[Statement], registry: &Registry) -> Vec<Change> {
 
 /// Every change of a function of the registry that one of these formulas can see.
 pub fn changes_in<'a>(trees: impl IntoIterator<Item = &'a Tree>, registry: &Registry) -> Vec<Change> {
+    edits_in(trees, registry, What::all)
+}
+
+/// Every change of a function of the registry that may undo a mistake in one of the statements: the
+/// [`changes`], and more integers.
+pub fn possible_repairs(statements: &[Statement], registry: &Registry) -> Vec<Change> {
+    edits_in(statements.iter().flat_map(Statement::trees), registry, What::repairs)
+}
+
+fn edits_in<'a>(
+    trees: impl IntoIterator<Item = &'a Tree>,
+    registry: &Registry,
+    edits: fn(&Tree, &Registry) -> Vec<What>,
+) -> Vec<Change> {
     let mut all = BTreeSet::new();
     for tree in trees {
         tree.visit(&mut |tree| {
             let site = tree.site();
             if registry.has_site(&site) {
-                all.extend(What::all(tree, registry).into_iter().map(|what| Change { site, what }));
+                all.extend(edits(tree, registry).into_iter().map(|what| Change { site, what }));
             }
         });
     }

@@ -6,11 +6,12 @@ use super::lemma::{
     Result, divisors, labels, names, none_is_zero, numbered, only_derivation, says, supposed,
 };
 use super::print::{Printer, ascii};
-use super::script::{Script, first};
-use crate::formula::Hypothesis;
+use super::script::{Reason, Script, first};
 use crate::formula::claim::{MEMBERS, PRECISION, SCALES};
 use crate::formula::statement::{Computed, Goal, Role, Says, Statement, two_bits};
+use crate::formula::{Hypothesis, Relation};
 use crate::number::Tree;
+use crate::number::tree::Step;
 use crate::proof::kernel::algebra::Poly;
 use crate::proof::kernel::{Because, Derivation, Rounding};
 use std::fmt::Write;
@@ -54,6 +55,15 @@ impl Part<'_> {
         format!("intros prec choice{exponents} P{variables} E{powers}{}.", labels(self.hypotheses.len()))
     }
 
+    /// Lines that make of each A1, A2, … a Q1, Q2, …, that the power of two is positive.
+    fn signs_of_scales(&self, script: &mut Script) {
+        for (scale, i) in self.scales().zip(1..) {
+            let exponent = exponent(scale);
+            script
+                .line(&format!("pose proof (bpow_gt_0 radix2 {exponent}) as Q{i}. rewrite <- A{i} in Q{i}."));
+        }
+    }
+
     /// Its name, applied to its variables, with others for some of them, and to its hypotheses.
     pub(super) fn applied(&self, replaced: &[(&str, &str)], hypotheses: &str) -> String {
         let argument = |var: &&'static str| {
@@ -88,6 +98,9 @@ impl<'a> Law<'a> {
     /// Its lemmas and the theorem itself.
     pub(super) fn text(&self) -> Result<String> {
         let Statement { goals, computed, amounts_to, .. } = self.statement;
+        if self.statement.trees().any(|tree| tree.any(&|step| matches!(step.step(), Step::Exp(_)))) {
+            return Err("an exponential in a claim about what is rounded".into());
+        }
         let sequence = amounts_to.as_ref().filter(|sequence| !sequence.within.is_empty());
         let text = match (sequence, computed, goals.as_slice()) {
             (Some(sequence), Some(computed), _) => self.drift(sequence, computed)?,
@@ -95,7 +108,7 @@ impl<'a> Law<'a> {
             (None, None, [goal]) => self.lemma("Theorem", self.name.to_string(), goal)?.1,
             _ => return Err("a law of this kind has several goals".into()),
         };
-        Ok(self.defined() + &text)
+        Ok(self.defined()? + &text)
     }
 
     /// The theorem, which speaks of these formulas.
@@ -151,6 +164,7 @@ impl<'a> Law<'a> {
         let part = self.part(name, &hypotheses, goal.says.trees().into_iter());
         let mut script = Script::of_roundings();
         script.line(&format!("{} functions.", part.intros()));
+        part.signs_of_scales(&mut script);
         self.proof(&mut script, &self.derivation(&hypotheses, goal)?)?;
         let text = part.text(keyword, &says(&goal.says, self.printer), script, self.printer);
         Ok((part, text))
@@ -169,28 +183,49 @@ impl<'a> Law<'a> {
     }
 
     /// No divisor is 0; empty if there is none.
-    fn defined(&self) -> String {
+    ///
+    /// # Errors
+    /// The sign of a divisor is open.
+    fn defined(&self) -> Result<String> {
         let divisors = divisors(self.statement.trees());
         if divisors.is_empty() {
-            return String::new();
+            return Ok(String::new());
         }
         let name = format!("{}_defined", self.name);
-        let part = self.part(name, &self.hypotheses(Role::Begins), divisors.iter());
-        let mut script = Script::new();
+        let hypotheses = self.hypotheses(Role::Begins);
+        let part = self.part(name, &hypotheses, divisors.iter());
+        let mut script = Script::of_roundings();
         script.line(&format!("{} functions.", part.intros()));
-        script.line("defined P E.");
-        part.text("Lemma", &none_is_zero(&divisors, self.printer), script, self.printer)
+        part.signs_of_scales(&mut script);
+        script.line("repeat apply conj.");
+        for divisor in &divisors {
+            // Rounded, it is 0 where it was 0.
+            let (mut exact, mut tactic) = (divisor, String::new());
+            while let Step::Rounded(inner) = exact.step() {
+                tactic += "apply fl_not_zero; [exact P | ]. ";
+                exact = inner;
+            }
+            let signed = |value: Tree| {
+                self.derivation(&hypotheses, &Goal::of_claim("", Says::Sign(Relation::Positive, value)))
+            };
+            let (rule, derivation) = match signed(exact.clone()) {
+                Ok(derivation) => ("positive_not_zero", derivation),
+                Err(_) => ("negative_not_zero", signed(-exact)?),
+            };
+            script.block("-", |own| {
+                own.line(&format!("{tactic}apply {rule}."));
+                self.proof(own, &derivation)
+            })?;
+        }
+        Ok(part.text("Lemma", &none_is_zero(&divisors, self.printer), script, self.printer))
     }
 
     /// From models of what is rounded, or by what keeps order or scale.
-    fn proof(&self, script: &mut Script, derivation: &Derivation) -> Result<()> {
+    fn proof(&self, script: &mut Script, derivation: &Derivation) -> std::result::Result<(), Reason> {
         if let Derivation::Direct(direct) = derivation {
             match direct.because() {
                 Because::Same(_) => return self.in_units(script, direct.errors()),
-                Because::Order(_) => {
-                    script.line("by_order.");
-                    return Ok(());
-                }
+                Because::Order(_) => return script.order(direct, &ascii(PRECISION)),
                 _ => {}
             }
         }
@@ -203,7 +238,7 @@ impl<'a> Law<'a> {
         }
         script.line("rounded E.");
         script.line(&format!("assert (M : 0 <= {precision} - 4) by lra."));
-        Ok(script.derivation(derivation)?)
+        script.derivation(derivation)
     }
 
     /// What is rounded, as an argument.
@@ -212,7 +247,7 @@ impl<'a> Law<'a> {
     }
 
     /// Each rounding in other units from that in the usual ones.
-    fn in_units(&self, script: &mut Script, errors: &[Rounding]) -> Result<()> {
+    fn in_units(&self, script: &mut Script, errors: &[Rounding]) -> std::result::Result<(), Reason> {
         let mut made = 0;
         for (i, later) in errors.iter().enumerate() {
             let Some(earlier) = errors[..i].iter().find(|known| known.error() == later.error()) else {

@@ -168,11 +168,13 @@ Ltac bounded :=
 (** What has the same value for all values of the variables. *)
 Ltac equal := apply Rle_antisym; bounded.
 
-(** Each minimum is one of two, whichever is seen to be less. *)
+(** Each minimum is one of two, whichever is seen to be less; each bracket is its argument or 0. *)
 Ltac minima :=
   repeat match goal with
   | |- context [Rmin ?a ?b] =>
       first [rewrite (Rmin_left a b) by bounded | rewrite (Rmin_right a b) by bounded]
+  | |- context [Rmax ?a 0] =>
+      first [rewrite (Rmax_left a 0) by bounded | rewrite (Rmax_right a 0) by bounded]
   end.
 
 (** ** Signs of what is rounded: those that it had *)
@@ -196,24 +198,12 @@ Proof.
   apply Rmult_integral_contrapositive_currified; lra.
 Qed.
 
-(** ** Divisors
-
-    Of powers of two it is known that they are positive, and that 2^prec is 4 and more. *)
-Lemma four_and_more prec n : (2 <= prec)%Z -> n = bpow radix2 prec -> exists s, n = 4 + s /\ 0 <= s.
-Proof. intros P E. pose proof (four_at_least prec n P E). exists (n - 4). lra. Qed.
-
+(** ** Divisors *)
 Ltac not_zero :=
   lazymatch goal with
   | |- fl _ _ _ <> 0 => apply fl_not_zero; [assumption | not_zero]
   | |- _ => first [apply positive_not_zero; bounded | apply negative_not_zero; bounded]
   end.
-Ltac defined P E :=
-  let s := fresh in
-  destruct (four_and_more _ _ P E) as (s & -> & ?);
-  repeat match goal with
-  | A : ?x = bpow radix2 _ |- _ => assert (0 < x) by (rewrite A; apply bpow_gt_0); clear A
-  end;
-  repeat apply conj; not_zero.
 
 (** ** Order
 
@@ -249,7 +239,7 @@ Ltac not_negative :=
   | |- 0 <= fl _ _ _ => first [assumption | apply fl_not_negative; [assumption | not_negative]]
   | |- 0 < fl _ _ _ => apply fl_positive; [assumption | not_negative]
   | |- 0 <= _ * _ => apply Rmult_le_pos; not_negative
-  | |- _ => first [positivity | lra]
+  | |- _ => first [positivity | lra | bounded]
   end.
 Ltac by_order := apply difference; step_in_order; not_negative.
 
@@ -284,6 +274,6 @@ Ltac in_units k :=
   f_equal;
   repeat match goal with U : fl _ _ _ = _ * fl _ _ _ |- _ => rewrite U; clear U end;
   field; repeat split;
-  first [apply power_not_zero; power_of_two | apply fl_not_zero; [assumption | lra]].
+  first [apply power_not_zero; power_of_two | lra | not_zero].
 Ltac by_units :=
   match goal with U : ?x = _ |- ?x = _ => rewrite U; ring end.

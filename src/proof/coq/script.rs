@@ -4,7 +4,9 @@
 //! bracket has, and a form of each quantity from which its sign can be read off. None of it is believed:
 //! each step is a goal that Coq closes by itself, or does not.
 
-use super::expr::{Expr, by_exponent};
+mod limit;
+
+use super::expr::Expr;
 use super::print::ascii;
 use crate::formula::statement::two_bits;
 use crate::number::Tree;
@@ -75,34 +77,43 @@ impl Script {
 
     /// The whole derivation, from hypotheses H1, H2, …
     pub(super) fn derivation(&mut self, derivation: &Derivation) -> Result<(), Reason> {
-        // The hypotheses that come before the next case, put to use.
-        let next = first(derivation).supposed().iter().skip(self.supposed);
+        self.hypotheses(first(derivation))?;
+        self.cases(derivation)
+    }
+
+    /// The hypotheses that come before the next case, put to use.
+    fn hypotheses(&mut self, direct: &Direct) -> Result<(), Reason> {
+        let next = direct.supposed().iter().skip(self.supposed);
         for supposed in next.take_while(|supposed| supposed.given().is_some()) {
             let says_bits = supposed.given().is_some_and(|given| *given == two_bits());
             self.given += usize::from(!says_bits);
             let label = if says_bits { "M".to_string() } else { format!("H{}", self.given) };
             self.suppose(supposed, &label)?;
         }
-        self.cases(derivation)
+        Ok(())
     }
 
-    /// A limit; the hypotheses H1, H2, … are those that do not speak of `by`, and `inside` makes use of those
-    /// that do, for a positive value X.
-    pub(super) fn limit(
-        &mut self,
-        derivation: &Derivation,
-        by: &'static str,
-        inside: impl FnOnce(&mut Self) -> Result<(), Reason>,
-    ) -> Result<(), Reason> {
-        let Derivation::Direct(direct) = derivation else { return Err("a limit in cases") };
-        let Because::Limit { of, .. } = direct.because() else { return Err("no limit") };
-        if !direct.brackets().is_empty() {
-            return Err("a limit with brackets");
+    /// One rounded formula is no less than another, from hypotheses H1, H2, …
+    pub(super) fn order(&mut self, direct: &Direct, precision: &str) -> Result<(), Reason> {
+        let rounds = |supposed: &Supposed| supposed.given().is_some_and(|given| given.value.rounds());
+        let says_bits = |supposed: &Supposed| supposed.given().is_some_and(|given| *given == two_bits());
+        let is_solved = |supposed: &Supposed| {
+            matches!(supposed.used(), Used::Pivot(..)) && !rounds(supposed) && !says_bits(supposed)
+        };
+        // Signs of symbols are put to use as they are.
+        if direct.supposed().iter().any(is_solved) {
+            if direct.supposed().iter().any(rounds) {
+                return Err(
+                    "an order that rests on one hypothesis to be solved and another about what is rounded",
+                );
+            }
+            self.line(&format!("pose proof (four_at_least prec {precision} P E) as N."));
+            self.line(&format!("assert (M : 0 <= {precision} - 4) by lra. clear E."));
+            self.hypotheses(direct)?;
+            self.line("pivots.");
         }
-        let x = Symbol(by);
-        let others = direct.supposed().iter().filter(|s| !matches!(s.used(), Used::Symbol(y) if *y == x));
-        others.enumerate().try_for_each(|(i, supposed)| self.suppose(supposed, &format!("H{}", i + 1)))?;
-        self.at_infinity(of, x, inside)
+        self.line("by_order.");
+        Ok(())
     }
 
     fn suppose(&mut self, supposed: &Supposed, hypothesis: &str) -> Result<(), Reason> {
@@ -204,6 +215,17 @@ impl Script {
 
     fn direct(&mut self, direct: &Direct) -> Result<(), Reason> {
         if self.rounds {
+            let of_goal: &[Signed] = match direct.because() {
+                Because::Sign(signed) => std::slice::from_ref(signed),
+                Because::Within(both) => &both[..],
+                _ => &[],
+            };
+            let of_divisors = direct.divisors().iter().map(|(_, signed)| signed);
+            let of_brackets = direct.brackets().iter().map(|(.., signed)| signed);
+            let mut signs = of_goal.iter().chain(of_divisors).chain(of_brackets);
+            if !signs.all(|signed| has_program(signed.num()) && has_program(signed.den())) {
+                return Err("the sign of what is rounded rests on a square or a slope");
+            }
             self.line(match direct.because() {
                 Because::Within(..) => "pivots. minima. apply within; bounded.",
                 _ => "pivots. minima. bounded.",
@@ -332,66 +354,16 @@ impl Script {
         })?;
         Ok(f)
     }
+}
 
-    /// A limit for x → ∞: the formula as one in 1/x, and one e^… that falls.
-    fn at_infinity(
-        &mut self,
-        of: &Ratio,
-        x: Symbol,
-        inside: impl FnOnce(&mut Self) -> Result<(), Reason>,
-    ) -> Result<(), Reason> {
-        let moving = by_exponent(of.num()).into_iter().filter_map(|(e, part)| Some((e?, part)));
-        let moving: Vec<_> = moving.filter(|(e, _)| e.symbols().contains(&x)).collect();
-        let rest = moving.iter().fold(of.num().clone(), |rest, (exponent, part)| {
-            rest - part * Poly::exponential((*exponent).clone())
-        });
-        let falling = match moving.as_slice() {
-            [] => None,
-            [(exponent, part)] => {
-                let rate = exponent.over(&Poly::symbol(x).into()).ok_or("an exponent is not linear")?;
-                let factor =
-                    Ratio::from(part.clone()).over(&of.den().clone().into()).ok_or("a divisor is 0")?;
-                if rate.symbols().contains(&x) || factor.symbols().contains(&x) {
-                    return Err("an exponential is not that of a constant rate, or has a factor that grows");
-                }
-                Some((factor, rate))
-            }
-            _ => return Err("there is more than one exponential"),
-        };
-        let degree = of.den().degree(x);
-        // A polynomial of x over x^degree, in y = 1/x.
-        let reversed = |poly: &Poly| {
-            let coefficients = poly.coefficients(x);
-            let terms = coefficients.iter().enumerate().map(|(i, c)| {
-                (0..degree - i as u32).fold(c.clone(), |term, _| term * Poly::symbol(Symbol("y")))
-            });
-            terms.fold(Poly::zero(), |sum, term| sum + term)
-        };
-        let g = Expr::poly(&reversed(&rest)).over(Expr::poly(&reversed(of.den())));
-        let name = ascii(x.0);
-        let (rule, more) = match &falling {
-            None => ("limit_at_infinity", String::new()),
-            Some((factor, rate)) => (
-                "limit_with_decay",
-                format!(" {} {}", Expr::ratio(factor).argument(), Expr::ratio(rate).argument()),
-            ),
-        };
-        self.line(&format!("apply ({rule} _ (fun y => {g}){more}); cbv beta."));
-        self.block("-", |own| {
-            own.line(&format!("intros {name} X."));
-            inside(own)?;
-            own.line("identity.");
-            Ok(())
-        })?;
-        if let Some((_, rate)) = &falling {
-            let certificate = |p: &Poly| sign::sign(p, &self.known).ok_or("the sign of a rate is open");
-            let (num, den) = (certificate(rate.num())?, certificate(rate.den())?);
-            let size = self.positive(&num)?.over(self.positive(&den)?);
-            self.line(&format!("- sign_by {}.", size.argument()));
-        }
-        self.line("- auto_derive; nonzero.");
-        self.line("- identity.");
-        Ok(())
+/// Returns `true` if the program of `B_Polynomials` has all rules of a certificate.
+fn has_program(certificate: &Certificate) -> bool {
+    match certificate.rule() {
+        Rule::Terms => true,
+        Rule::Square { .. } | Rule::Slope { .. } => false,
+        Rule::Factor(factor, rest) => has_program(factor) && has_program(rest),
+        Rule::Sizes(rest) => has_program(rest),
+        Rule::Ends { at, .. } => at.iter().all(has_program),
     }
 }
 

@@ -118,6 +118,16 @@ fn a_seed_draws_its_own_cases_and_always_the_same() {
     assert_ne!(draw(1), draw(2));
 }
 
+/// Seeds that agree in their lower 32 or 63 bits, and numbers of cases that do, with the same profile.
+#[test]
+fn every_bit_of_a_seed_and_of_a_number_counts() {
+    let draw = |seed, first| (first..first + 10).map(|i| case(seed, i, &[]).unwrap()).collect::<Vec<_>>();
+    for other in [1 | 1 << 32, 1 | 1 << 63] {
+        assert!(draw(1, 0).iter().zip(draw(other, 0)).all(|(case, of_other)| *case != of_other), "{other}");
+    }
+    assert!(draw(1, 0).iter().zip(draw(1, 10 << 32)).all(|(case, later)| *case != later));
+}
+
 #[test]
 fn grazing_is_met_exactly_and_on_both_sides() {
     let grazing = PROFILES.iter().position(|p| *p == Profile::Grazing).unwrap() as u64;

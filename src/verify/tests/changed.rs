@@ -76,7 +76,7 @@ fn the_book_shows_where_to_look_after_a_mistake() {
     let row = report.rows.iter().find(of_entry).unwrap();
     let sample = format!(
         "{} {}: look here first of {} claims that speak of it, {} are not proved \
-         with {repair} every claim would be proved {} {} NOT PROVED {} {} contact solve",
+         with {repair} every claim would be proved {} {} NOT PROVED {} {} {} {} FAILED",
         entry.label(),
         suspect.function,
         suspect.unproved + suspect.proved,
@@ -85,6 +85,8 @@ fn the_book_shows_where_to_look_after_a_mistake() {
         row.claim,
         row.why.as_ref().unwrap(),
         row.point().unwrap(),
+        row.equation,
+        row.claim,
     );
     let page = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("book/src/command.md");
     let page = in_one_line(&std::fs::read_to_string(page).unwrap());
