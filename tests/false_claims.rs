@@ -124,6 +124,11 @@ fn signs() -> Vec<Row> {
             positive("t", [&above_zero(&k), &above_zero(n(1) - &k)], &k - &k * &k),
         ),
         (
+            "of two bounds the lower one is strict",
+            positive("f", [&not_below_zero(&k), &above_zero(n(1) - &k)], &k - &k * &k),
+            positive("t", [&above_zero(&k), &above_zero(n(1) - &k)], &k - &k * &k),
+        ),
+        (
             "a bound that may be met",
             positive("f", [&above_zero(&k), &not_below_zero(n(1) - &k)], &k - &k * &k),
             non_negative("t", [&above_zero(&k), &not_below_zero(n(1) - &k)], &k - &k * &k),
@@ -570,7 +575,7 @@ fn false_claims_are_refuted_and_not_proved() {
     let wrong: Vec<_> = wrong.collect();
     assert!(wrong.is_empty(), "{wrong:#?}");
     let premises: BTreeSet<_> = all().map(|(premise, ..)| premise).collect();
-    assert_eq!((premises.len(), all().count()), (86, 86), "each premise has one row, and none is lost");
+    assert_eq!((premises.len(), all().count()), (87, 87), "each premise has one row, and none is lost");
 }
 
 #[test]

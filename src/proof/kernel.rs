@@ -11,7 +11,7 @@
 //! is known.) Equals are replaced by equals, so what is proved of all values of the symbols that are left,
 //! s > 0 among them, holds in particular for those that satisfy the hypothesis. Which monomial is chosen
 //! matters for success and not for soundness. Where no pivot is found, v may be divided by a symbol that is
-//! known not to be 0: for k > 0, the hypothesis 1 − k > 0 is (1 − k)/k = s > 0, and k is 1/(1 + s).
+//! positive: for k > 0, the hypothesis 1 − k > 0 is (1 − k)/k = s > 0, and k is 1/(1 + s).
 //!
 //! | to prove | the rule |
 //! |---|---|

@@ -30,8 +30,7 @@ pub struct Ratio {
 /// The sum of terms, in any order.
 impl FromIterator<(Monomial, Number)> for Poly {
     fn from_iter<I: IntoIterator<Item = (Monomial, Number)>>(terms: I) -> Self {
-        let mut terms: Vec<_> = terms.into_iter().collect();
-        effort::spend(terms.len());
+        let mut terms: Vec<_> = terms.into_iter().inspect(|_| effort::spend(1)).collect();
         // Where some are in order already, as in sums and products they are, this sort merges.
         terms.sort_by(|(m, _), (n, _)| m.cmp(n));
         terms.dedup_by(|(m, q), (n, sum)| {
@@ -89,7 +88,6 @@ impl Poly {
     /// Each term of one with each of the other.
     fn products<'a>(&'a self, other: &'a Self) -> impl Iterator<Item = (Monomial, Number)> {
         let times = |(m, p): &(Monomial, Number), (n, q): &_| (m.times(n), p * q);
-        effort::spend(self.0.len().saturating_mul(other.0.len()));
         let (short, long) = if self.0.len() < other.0.len() { (self, other) } else { (other, self) };
         short.0.iter().flat_map(move |own| long.0.iter().map(move |term| times(own, term)))
     }

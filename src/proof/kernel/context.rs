@@ -149,15 +149,17 @@ impl Context {
         self.variable.is_some_and(|x| NAMES.contains(&x.0) && value.symbols().contains(&x))
     }
 
-    /// A pivot of a quantity, or else of its quotient by the absolute value of a symbol that is known not to
-    /// be 0: 0 < k < 1 is k = 1/(1 + s) with s = (1 − k)/k > 0. With the divisor, if any, and the slack.
+    /// A pivot of a quantity, or else of its quotient by a symbol that is positive: 0 < k < 1 is k = 1/(1 + s)
+    /// with s = (1 − k)/k > 0. With the divisor, if any, and the slack.
     fn solve(&self, given: Option<&Hypothesis>, value: &Ratio, sign: Sign) -> Option<Solved> {
         let slacks = self.supposed.iter().filter(|s| matches!(s.used, Used::Pivot(..))).count();
         let slack = NAMES.get(slacks).copied().map(Symbol)?;
         let pivot = |value: &Ratio| self.pivot(given, value, &Poly::symbol(slack), sign);
         let quotient = |x: Symbol| {
-            let divisor = absolute(x, *self.known.get(&x)?)?;
-            Some((Some(divisor.clone()), pivot(&value.over(&divisor)?)?, slack))
+            let divisor = Ratio::from(Poly::symbol(x));
+            let is_positive = self.known.get(&x) == Some(&Sign::Positive);
+            let rule = pivot(&value.over(&divisor).filter(|_| is_positive)?)?;
+            Some((Some(divisor), rule, slack))
         };
         let whole = pivot(value).map(|rule| (None, rule, slack));
         whole.or_else(|| value.num().symbols().into_iter().find_map(quotient))
@@ -251,16 +253,6 @@ impl Context {
 
 /// A divisor, if any; a pivot and what it equals; the slack.
 type Solved = (Option<Ratio>, (Monomial, Ratio), Symbol);
-
-/// |x| of a symbol that is not 0.
-fn absolute(x: Symbol, sign: Sign) -> Option<Ratio> {
-    let x = Ratio::from(Poly::symbol(x));
-    match sign {
-        Sign::Positive => Some(x),
-        Sign::Negative => Some(-x),
-        Sign::NonPositive | Sign::Zero | Sign::NonNegative => None,
-    }
-}
 
 /// The symbol that a quantity is, if it is one.
 fn as_symbol(value: &Ratio) -> Option<Symbol> {

@@ -42,3 +42,45 @@ pub fn spend(terms: usize) {
 pub fn exceed() -> ! {
     resume_unwind(Box::new(Exceeded))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::algebra::{Poly, Symbol};
+    use super::*;
+
+    #[test]
+    fn effort_is_bounded_and_counted_anew_for_each_proof() {
+        let spend_all = || bounded(|| (0..MAX_EFFORT / 10).for_each(|_| spend(10)));
+        assert!(spend_all().is_some() && spend_all().is_some());
+        assert!(bounded(|| (spend(MAX_EFFORT), spend(1))).is_none());
+        assert!(bounded(|| spend(usize::MAX)).is_none());
+        // Elsewhere there is no bound, nor after one was exceeded.
+        spend(MAX_EFFORT + 1);
+        assert!(catch_unwind(|| bounded(|| panic!("of another kind"))).is_err());
+        spend(MAX_EFFORT + 1);
+    }
+
+    #[test]
+    fn arithmetic_is_an_effort() {
+        let sum = |terms: usize| {
+            let x = Poly::symbol(Symbol("x"));
+            let powers = std::iter::successors(Some(Poly::constant(1)), |power| Some(power * &x));
+            powers
+                .take(terms)
+                .flat_map(|p| p.terms().map(|(m, q)| (m.clone(), q.clone())).collect::<Vec<_>>())
+                .collect::<Poly>()
+        };
+        let rest_after = |f: &dyn Fn()| {
+            bounded(|| {
+                f();
+                REST.get()
+            })
+        };
+        let [a, b] = [sum(20), sum(30)];
+        assert_eq!(rest_after(&|| drop(&a * &b)), Some(MAX_EFFORT - 600));
+        assert_eq!(rest_after(&|| drop(&a + &b)), Some(MAX_EFFORT - 50));
+        // Of a quotient each term is subtracted as often as the divisor has others.
+        let product = &a * &b;
+        assert!(rest_after(&|| drop(product.over(&a))).unwrap() <= MAX_EFFORT - 19 * 30);
+    }
+}

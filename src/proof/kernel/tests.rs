@@ -199,6 +199,23 @@ fn the_variable_of_a_limit_may_be_larger_than_other_quantities() {
 }
 
 #[test]
+fn a_linear_function_that_increases_is_one() {
+    let context = Context::of(vec![]).with_variable(&Says::Sign(Relation::Positive, x("s")));
+    let [s, two_to_a] = ["s", "2ᵃ"].map(|name| Poly::symbol(Symbol(name)));
+    let one = || Poly::constant(1);
+    let over = |a: Poly, b: Poly| Ratio::from(a).over(&b.into()).unwrap();
+    let increases = |of: Ratio| context.increases_linearly(&of, Symbol("s"));
+    // Of the other symbol it is known that it is positive.
+    assert!(increases((&s + &two_to_a).into()) && increases(over(&s * &two_to_a - one(), &two_to_a + one())));
+    let exponential = Poly::exponential(s.clone().into());
+    let power = || &s * &two_to_a * &exponential;
+    for of in [-&s, one(), two_to_a.clone(), &s * &s, &s * (&two_to_a - one()), power(), &s - &exponential] {
+        assert!(!increases(of.clone().into()), "{of:?}");
+    }
+    assert!(!increases(over(s.clone(), &s + one())) && !increases(over(s.clone(), two_to_a - one())));
+}
+
+#[test]
 fn a_symbol_may_be_between_two_bounds_that_are_strict() {
     let k = x("k");
     let between = || vec![above_zero(k.clone()), above_zero(int(1) - &k)];
@@ -219,8 +236,8 @@ fn a_symbol_may_be_between_two_bounds_that_are_strict() {
     assert!(!proved(bounds(not_below_zero(x("c") - &k)), positive(product.clone())));
     assert!(proved(bounds(not_below_zero(x("c") - &k)), Says::Sign(Relation::NonNegative, product.clone())));
     // Nothing is divided by a symbol that may be 0.
-    let weak = vec![not_below_zero(k.clone()), above_zero(x("c")), above_zero(x("c") - &k)];
-    assert!(!proved(weak, positive(product)));
+    let weak = vec![not_below_zero(k.clone()), above_zero(int(1) - &k)];
+    assert!(!proved(weak, positive(&k - &k * &k)));
 }
 
 #[test]
