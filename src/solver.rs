@@ -61,10 +61,13 @@ use crate::chapter::{SpringMass, augmented, contact, lagrange, penalty, structur
 /// Solves a system over a plane that never pulls.
 ///
 /// Never loops for ever, and never returns a NaN or an infinity; for f32 and f64 it allocates nothing.
+/// An augmentation in rationals, which become longer with every step, ends before it would take hours: all
+/// its multipliers together have no more than 2²⁸ binary digits.
 ///
 /// # Errors
 /// [`SolveError::Invalid`] for a parameter that is not finite or not in its range,
-/// [`SolveError::OutOfRange`] where a result does not fit the scalar.
+/// [`SolveError::OutOfRange`] where a result does not fit the scalar,
+/// [`SolveError::TooLong`] where an augmentation in rationals has too many digits.
 ///
 /// ```
 /// # use spring_mass_contact::{chapter::SpringMass, solver::{Method, State, solve}};
@@ -260,6 +263,9 @@ impl<T> Found<T> {
     }
 }
 
+/// More binary digits, of the multipliers of all steps, take a computer minutes.
+const MOST_DIGITS: u64 = 1 << 28;
+
 fn iterate<T: Scalar>(
     mut steps: Augmentation<T>,
     system: &SpringMass<T>,
@@ -276,8 +282,13 @@ fn iterate<T: Scalar>(
     let mut previous: Option<T> = None;
     let mut floor: Option<T> = None;
     let mut side = None;
+    let mut digits = 0_u64;
     loop {
         let step = steps.step();
+        digits = digits.saturating_add(step.multiplier.growing_digits());
+        if digits > MOST_DIGITS {
+            return Err(SolveError::TooLong { quantity: "all multipliers together", digits: MOST_DIGITS });
+        }
         check::in_range(step.deflection.is_finite(), "deflection")?;
         check::in_range(steps.multiplier().is_finite(), "multiplier")?;
         each(&step);

@@ -230,14 +230,21 @@ impl<T: Scalar + ToExact> Solution<T> {
     ///
     /// All zero if and only if they are the exact solution. By penalty they cannot be.
     ///
+    /// # Errors
+    /// [`SolveError::Invalid`] for a parameter, a deflection or a contact force that is not finite or not in
+    /// its range.
+    ///
     /// ```
     /// # use spring_mass_contact::{chapter::SpringMass, solver::{Method, solve}};
     /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
-    /// assert!(solve(&system, &Method::Lagrange)?.certificate(&system).is_zero());
+    /// assert!(solve(&system, &Method::Lagrange)?.certificate(&system)?.is_zero());
     /// # Ok::<(), spring_mass_contact::solver::SolveError>(())
     /// ```
-    pub fn certificate(&self, system: &SpringMass<T>) -> contact::Kkt<Exact> {
-        contact::kkt(&system.map(exact), &exact(&self.deflection), &exact(&self.contact_force))
+    pub fn certificate(&self, system: &SpringMass<T>) -> Result<contact::Kkt<Exact>, SolveError> {
+        check::system(system)?;
+        check::finite_number("deflection", &self.deflection)?;
+        check::finite_number("contact force", &self.contact_force)?;
+        Ok(contact::kkt(&system.map(exact), &exact(&self.deflection), &exact(&self.contact_force)))
     }
 }
 

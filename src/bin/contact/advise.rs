@@ -63,10 +63,11 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
 fn run_in<T: Scalar + Text>(options: &Options, like: &T) -> Result<Exit, Failure> {
     let system = options.system.round(Names::Options, like)?;
     let tolerance = options.tolerance.round("--tolerance <T>", like)?;
-    let out_of_range = |error: SolveError| format!("--scalar {}: {error}", options.scalar);
+    let out_of_range = |error: SolveError| Failure::Input(format!("--scalar {}: {error}", options.scalar));
     let advice = advise(&system, &tolerance).map_err(out_of_range)?;
     // Of what was typed: with more bits it is rounded to other numbers.
-    let bits_needed = bits_needed(&options.system.values(), Plane::Unilateral, &options.tolerance.value);
+    let values = options.system.values();
+    let bits_needed = bits_needed(&values, Plane::Unilateral, &options.tolerance.value).map_err(out_of_range)?;
     let report = Report { options, system, tolerance, advice, bits_needed };
     output::print(|out| match options.format {
         Format::Table => report.table(out),

@@ -156,7 +156,7 @@ impl Options {
         {
             return Err(out_of_range(SolveError::OutOfRange { quantity: "trace" }).into());
         }
-        let report = Report::new(self, &problem, &solution, needed);
+        let report = Report::new(self, &problem, &solution, needed).map_err(out_of_range)?;
         match self.format {
             Format::Table => report.table(out)?,
             Format::Json => output::json(out, &report)?,
@@ -279,10 +279,10 @@ impl<T: Scalar + Text> Problem<T> {
         steps.into_iter().flatten().take_while(move |step| Some(step.k) <= last)
     }
 
-    /// The count of (1.33), of exact arithmetic.
+    /// The count of (1.33), of exact arithmetic; none if it has too many digits.
     fn steps_needed(&self) -> Option<Integer> {
         let Method::Augmented { penalty, tolerance, start, .. } = &self.method else { return None };
-        Some(augmentations_needed(&self.system, penalty, tolerance, start, self.plane))
+        augmentations_needed(&self.system, penalty, tolerance, start, self.plane).ok()
     }
 }
 

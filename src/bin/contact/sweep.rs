@@ -229,8 +229,9 @@ impl Sweeping<'_> {
             return notes;
         }
         let seen = format!("The least error here is {} at ε = {} N/m.", few(&least), shortened(at));
-        let bound =
-            |eps: &T| penalty_force_bound(system, eps, &eta).map_or(String::new(), |bound| few(&bound));
+        let bound = |eps: &T| {
+            penalty_force_bound(system, eps, &eta).ok().flatten().map_or(String::new(), |bound| few(&bound))
+        };
         notes.push(match best_penalty(system, &eta) {
             Ok(Some(best)) => format!(
                 "ε p multiplies what rounding does to p: surest is ε = {} N/m, where it is certainly within \
