@@ -49,5 +49,5 @@ pub use system::{NumberSystem, UnknownNumberSystem};
 #[cfg(feature = "mpfr")]
 pub use text::Text;
 #[cfg(feature = "serde")]
-pub(crate) use text::{quantity, serialize_as_displayed};
+pub(crate) use text::{lossless, quantity, serialize_as_displayed};
 pub use tree::Tree;

@@ -405,5 +405,8 @@ mod tests {
         let why = prove(&Statement::of(&equal("", [], &b + &a, &a))).unwrap_err();
         let registry = Registry::new(&["a", "b"], Vec::new());
         assert!(Paper::new(&registry).why(&why).contains("b"), "{}", Paper::new(&registry).why(&why));
+        // It is an error like any other.
+        let error: Box<dyn std::error::Error> = Box::new(why);
+        assert!(error.to_string().contains("b"), "{error}");
     }
 }

@@ -14,6 +14,7 @@ use std::iter::successors;
 
 /// What [`advise`] comes to.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound = "T: crate::number::Text"))]
 #[non_exhaustive]
 pub struct Advice<T> {
     /// Contact, grazing or separated.
@@ -30,9 +31,11 @@ pub struct Advice<T> {
 
 /// A method that reaches the tolerance: it has been tried.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound = "T: crate::number::Text"))]
 #[non_exhaustive]
 pub struct Choice<T> {
     /// To be given to [`solve`].
+    #[cfg_attr(feature = "serde", serde(flatten))]
     pub method: Method<T>,
     /// Every penalty ε in N/m between these is sure to reach the tolerance, [`method`](Self::method)'s
     /// among them. A smaller one is not: it is too soft, or may take more than [`MAX_AUGMENTATIONS`]. Up to
@@ -40,6 +43,7 @@ pub struct Choice<T> {
     /// tolerance; if it may take more with every one that will do, or with all but the softest, the larger one
     /// is the method's own. From the deflection it takes no more at any. None where there is no penalty, or
     /// no limit but the range of the scalar.
+    #[cfg_attr(feature = "serde", serde(serialize_with = "crate::number::quantity::options"))]
     pub penalties: [Option<T>; 2],
     /// k of the augmentation that arrives.
     pub augmentations: Option<u64>,
@@ -185,10 +189,10 @@ impl<T: Scalar + Text> Task<'_, T> {
         let (zero, plane) = (Exact::zero(), Plane::Unilateral);
         let from = match &self.arithmetic {
             Arithmetic::Exact if any_will_do => zero,
-            Arithmetic::Exact => {
-                softest(&eps, |eps| count(&self.numbers, eps, &self.tol, &zero, plane).ok())
+            Arithmetic::Exact => softest(&eps, |eps| count(&self.numbers, eps, &self.tol, &zero, plane).ok()),
+            Arithmetic::Rounded(laws) => {
+                softest(&eps, |eps| laws.augmentations_at_most(eps, &self.tol).ok()?)
             }
-            Arithmetic::Rounded(laws) => softest(&eps, |eps| laws.augmentations_at_most(eps, &self.tol).ok()?),
             // Softer than that, rounding near grazing could take it for touching.
             Arithmetic::Free => self.numbers.c.clone(),
         };

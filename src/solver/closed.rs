@@ -50,7 +50,8 @@ pub fn iterate_after<T: Scalar>(
     } else {
         (lambda, k)
     };
-    let decay = T::power(&rho, steps).ok_or(SolveError::TooLong { quantity: "k-th iterate", digits: LONGEST })?;
+    let decay =
+        T::power(&rho, steps).ok_or(SolveError::TooLong { quantity: "k-th iterate", digits: LONGEST })?;
     let mut iterate = closed(&system, &eps, &start, &decay, &rho, plane);
     if steps == 0 {
         iterate.multiplier = start;

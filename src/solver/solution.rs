@@ -81,24 +81,47 @@ pub enum Plane {
 }
 
 /// How to solve. All quantities in SI units.
+///
+/// With the feature `serde` it is serialised under the keys of `contact solve --batch`: `method`, `penalty`,
+/// `tolerance`, `max_augmentations`, `initial_multiplier`, quantities as texts; and read back as a
+/// [`SpringMass`] is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        tag = "method",
+        rename_all = "snake_case",
+        bound(
+            serialize = "T: crate::number::Text",
+            deserialize = "T: crate::number::Text + crate::number::Field"
+        )
+    )
+)]
 pub enum Method<T> {
     /// §1.3.1: exact.
     Lagrange,
     /// §1.3.2: with the penetration R/(c + ε).
     Penalty {
         /// ε > 0, in N/m.
+        #[cfg_attr(feature = "serde", serde(with = "crate::number::lossless"))]
         penalty: T,
     },
     /// §1.3.3: repeated until the tolerance is met.
     Augmented {
         /// ε > 0, in N/m.
+        #[cfg_attr(feature = "serde", serde(with = "crate::number::lossless"))]
         penalty: T,
         /// tol > 0, in m: how far the deflection may be from the exact one.
+        #[cfg_attr(feature = "serde", serde(with = "crate::number::lossless"))]
         tolerance: T,
         /// The last k tried; 0 solves once.
         max_augmentations: u64,
         /// λ₀ in N: 0, or a guess (a warm start).
+        #[cfg_attr(
+            feature = "serde",
+            serde(rename = "initial_multiplier", with = "crate::number::lossless")
+        )]
         start: T,
     },
 }

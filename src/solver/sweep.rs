@@ -157,6 +157,9 @@ pub fn penalty_force_bound<T: Scalar + ToExact>(
     Ok(Some(short + rounding::penalty_force_error(&s, &eps, &(Exact::one() / unit_roundoff)) / r))
 }
 
+/// The most penalties that [`penalties`] makes.
+const MOST_POINTS: u32 = 1_000_000;
+
 /// The most digits that [`penalties`] writes.
 const MOST_DIGITS: usize = 100;
 
@@ -167,8 +170,8 @@ const MOST_DIGITS: usize = 100;
 /// on every machine.
 ///
 /// # Errors
-/// The ends are not positive, the second is not the larger one, there are fewer than two points, or they
-/// need more than 100 digits.
+/// The ends are not positive, the second is not the larger one, there are fewer than two points or more than
+/// a million, or they need more than 100 digits.
 ///
 /// ```
 /// # use spring_mass_contact::{number::Exact, solver::penalties};
@@ -180,7 +183,7 @@ const MOST_DIGITS: usize = 100;
 pub fn penalties(from: &Exact, to: &Exact, points: u32) -> Result<Vec<Exact>, SolveError> {
     check::require(*from > Exact::zero(), "first penalty", from, "greater than 0")?;
     check::require(from < to, "last penalty", to, "greater than the first")?;
-    check::require(points >= 2, "number of penalties", &points, "at least 2")?;
+    check::require((2..=MOST_POINTS).contains(&points), "number of penalties", &points, "from 2 to 1000000")?;
     let spaced = (3..=MOST_DIGITS).map(|digits| spaced(from, to, points, digits));
     let mut distinct = spaced.filter(|list| list.windows(2).all(|pair| pair[0] < pair[1]));
     let further = "further from the first, or there must be fewer between them";

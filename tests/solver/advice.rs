@@ -38,6 +38,46 @@ fn with_few_bits_nothing_is_promised() {
     }
 }
 
+/// m g of 10 bits is rounded to 10 bits, however many the lengths have: the floor is that of the coarsest parameter. A
+/// tolerance between that and the floor of the finest is not promised.
+#[test]
+fn the_coarsest_parameter_decides_what_is_promised() {
+    let like = [10, 10, 10, 200, 200].map(|bits| int(1).to_mpfr(bits));
+    let numbers = SpringMass { c: "4", m: "1.1", g: "9.81", l: "1", h: "3" }.parse().unwrap();
+    let SpringMass { c, m, g, l, h } = &numbers;
+    let mut rounded = like.iter().zip([c, m, g, l, h]).map(|(like, x)| like.nearest(x).unwrap());
+    let mut next = || rounded.next().unwrap();
+    let system = SpringMass { c: next(), m: next(), g: next(), l: next(), h: next() };
+    let floor = |bits: i32| rounding_floor(&system, Plane::Unilateral, &Exact::power_of_two(-bits)).unwrap();
+    let tolerance = floor(10).unwrap() / int(2);
+    assert!(tolerance > floor(200).unwrap() * int(1000));
+    let advice = advise(&system, &tolerance.to_mpfr(200)).unwrap();
+    assert_eq!(advice.floor, floor(10));
+    assert!(
+        !advice.choices.iter().any(|choice| matches!(choice.method, Method::Augmented { .. })),
+        "{advice}"
+    );
+}
+
+/// The tolerance is rounded to as many bits, too, and may be rounded to no more than the floor.
+#[test]
+fn bits_are_needed_for_the_tolerance_as_well() {
+    let system: SpringMass<Exact> = SpringMass { c: "4", m: "1", g: "10", l: "1", h: "3" }.parse().unwrap();
+    let mut rounded_down = 0;
+    for bits in 6..30 {
+        let floor = |bits: u32| {
+            rounding_floor(&system, Plane::Unilateral, &Exact::power_of_two(-(bits as i32))).unwrap().unwrap()
+        };
+        // A little above the floor, and the parameters are the same in all of these bits.
+        let tolerance = floor(bits) * (int(1) + Exact::power_of_two(-60));
+        let enough = |bits: u32| floor(bits) < tolerance.rounded(bits).unwrap();
+        let least = (6..).find(|bits| enough(*bits));
+        assert_eq!(bits_needed(&system, Plane::Unilateral, &tolerance), Ok(least));
+        rounded_down += u32::from(least == Some(bits + 1));
+    }
+    assert!((1..24).contains(&rounded_down), "{rounded_down}");
+}
+
 /// The penalties that are advised.
 fn advised<T: Scalar + Text>(system: &SpringMass<T>, tolerance: &T) -> Vec<T> {
     let choices = advise(system, tolerance).unwrap().choices;
@@ -259,7 +299,9 @@ fn softest_is_soft_enough<T: Float + Text>(case: &Case<Exact>, like: &T) -> Resu
         penalty::penetration(&numbers, eps) + rounding::deflection_error(&numbers, eps, &(int(1) / &eta))
     };
     let arrives = |eps: &Exact| {
-        augmentations_promised(&numbers, eps, &tol, &eta).unwrap().is_some_and(|most| most <= MAX_AUGMENTATIONS)
+        augmentations_promised(&numbers, eps, &tol, &eta)
+            .unwrap()
+            .is_some_and(|most| most <= MAX_AUGMENTATIONS)
     };
     for choice in advise(&case.system, &case.tolerance).unwrap().choices {
         match (&choice.method, &choice.penalties[0]) {
@@ -348,7 +390,8 @@ fn tiny<T: Float>(case: &Case<Exact>, [force, length, mass]: [i32; 3], like: &T)
         tolerance: times(&case.tolerance, length),
     };
     let SpringMass { c, m, g, l, h } = &case.system;
-    let fits = [c, m, g, l, h, &case.eps, &case.start, &case.tolerance].iter().all(|x| like.nearest(x).is_ok());
+    let fits =
+        [c, m, g, l, h, &case.eps, &case.start, &case.tolerance].iter().all(|x| like.nearest(x).is_ok());
     (fits && solve(&case.rounded(like).system, &Method::Lagrange).is_ok()).then_some(case)
 }
 

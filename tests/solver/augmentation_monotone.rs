@@ -492,7 +492,8 @@ fn a_count_of_many_digits() {
     let s: SpringMass<Exact> = SpringMass { c: "4", m: "1", g: "10", l: "1", h: "3" }.parse().unwrap();
     // p₀ = 2/(4 + 4) = 1/4 halves with every step: 2⁻² < 2⁻¹⁰⁰⁰⁰⁰⁰ · 2ᵏ first for k = 999 999.
     let needed =
-        augmentations_needed(&s, &int(4), &Exact::power_of_two(-1_000_000), &int(0), Plane::Unilateral).unwrap();
+        augmentations_needed(&s, &int(4), &Exact::power_of_two(-1_000_000), &int(0), Plane::Unilateral)
+            .unwrap();
     assert_eq!(needed, Integer::from(999_999));
 }
 
@@ -503,7 +504,8 @@ fn a_residual_of_the_tolerance_is_not_below_it() {
     let system = SpringMass { c: 1, m: 1, g: 1, l: 0, h: 2 }.map(|x| int(*x));
     for (start, tie) in [(int(1) / int(2), int(1) / int(2)), (int(-1), int(1))] {
         for (tolerance, needed) in [(tie.clone(), 1), (tie + Exact::power_of_two(-99), 0)] {
-            let count = augmentations_needed(&system, &int(1), &tolerance, &start, Plane::Unilateral).unwrap();
+            let count =
+                augmentations_needed(&system, &int(1), &tolerance, &start, Plane::Unilateral).unwrap();
             let method =
                 Method::Augmented { penalty: int(1), tolerance, max_augmentations: 9, start: start.clone() };
             let answer = solve(&system, &method).unwrap();

@@ -209,6 +209,22 @@ fn stiff_penalties_lose_the_penalty_force_alone() {
     assert!(by_spring.collect::<Vec<_>>().windows(2).all(|pair| pair[0] > pair[1]));
 }
 
+/// The root is computed to the digits of the scalar: of (c + ε)² = c R/(η L (1 + 8 η)), L = |H| + 5 |Δ|, to within what
+/// one rounding of ε to 300 bits makes of it, 2 · 2⁻³⁰⁰, and what is lost before that.
+#[test]
+fn the_best_penalty_has_the_digits_of_its_scalar() {
+    let system = default_system().map(|x| x.to_mpfr(300));
+    let eta = Exact::power_of_two(-300);
+    let best = exact(&best_penalty(&system, &eta).unwrap().unwrap());
+    let SpringMass { c, m, g, l, h } = system.map(exact);
+    let gap = &h - &l;
+    let reaction = m * g - &c * &gap;
+    let lengths = h.abs() + int(5) * gap.abs();
+    let square = &c * reaction / (&eta * lengths * (int(1) + int(8) * &eta));
+    let total = &c + best;
+    assert!((&total * &total / square - int(1)).abs() < Exact::power_of_two(-298));
+}
+
 /// Where no length can be lost every larger ε is better; where R is next to nothing beside c Δ, every smaller one.
 #[test]
 fn there_need_be_no_best_penalty() {
@@ -224,7 +240,7 @@ fn a_force_that_does_not_fit_is_refused() {
     let length = 2_f64.powi(60);
     let system = SpringMass { c: 1.0, m: 1.68e308, g: 1.0, l: length, h: length };
     let error = sweep(&system, [1.2e306]).next().unwrap().unwrap_err();
-    assert_eq!(error, SolveError::OutOfRange { quantity: "contact force" });
+    assert_eq!(error, SolveError::OutOfRange { quantity: "penalty force" });
 }
 
 #[test]

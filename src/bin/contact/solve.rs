@@ -31,7 +31,9 @@ Examples:
 A number is a decimal (0.05), scientific (5e-2) or a fraction (1/20), read
 exactly and rounded once into the scalar. In the table, exact: and limit: say
 where the exact answer lies, for the parameters as rounded: by augmentation that
-is the limit of its steps. JSON calls that bounds.
+is the limit of its steps. JSON calls that bounds. An augmentation in rationals,
+which become longer with every step, is refused where a multiplier would have
+more than 2²² binary digits, or all of them together 2²⁸.
 
 With --batch a line of stdin is a JSON object. Its keys are the long options
 with underscores (free_length), and id, which comes back; options given here

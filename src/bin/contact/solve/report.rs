@@ -10,7 +10,8 @@ use spring_mass_contact::chapter::contact::Kkt;
 use spring_mass_contact::number::{Exact, NumberSystem, Text, brief_bound, relation};
 use spring_mass_contact::rug::{Integer, float::Round};
 use spring_mass_contact::solver::{
-    Interval, Method, Outcome, Plane, Scalar, Solution, SolveError, State, bits_needed, rounding_floor, within_reach,
+    Interval, Method, Outcome, Plane, Scalar, Solution, SolveError, State, bits_needed, rounding_floor,
+    within_reach,
 };
 use std::io::{self, Write};
 use std::iter;
