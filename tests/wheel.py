@@ -43,7 +43,7 @@ def main(version):
     with Solver(scalar="exact", method="penalty") as solver:
         refused(lambda: solver.solve(penalty="0"), "invalid value '0' for 'penalty'")
         assert Fraction(solver.solve(penalty=100)["penetration"]) == Fraction("4.81") / 200
-        stalled = solver.solve(method="augmented", scalar="f64", penalty=1, tolerance="1e-30")
+        stalled = solver.solve(method="augmented", scalar="f64", penalty=1e5, tolerance="1e-30")
         assert stalled["outcome"] == "stagnated", stalled
     refused(solver.solve, "the command has ended")
     solver.close()

@@ -44,20 +44,24 @@ def find_contact() -> str:
     return found
 
 
-def _line(system: System) -> str:
-    # A JSON number that is no finite one would be no JSON, and refused without a name.
+def _refused(message: str, index: Optional[int]) -> ContactError:
+    error = ContactError(message)
+    error.index = index
+    return error
+
+
+def _line(system: System, index: Optional[int] = None) -> str:
+    # What is not finite is no JSON.
     for key, value in system.items():
         if isinstance(value, float) and value - value != 0:
-            raise ContactError(f"invalid value '{value}' for '{key}': must be finite")
+            raise _refused(f"invalid value '{value}' for '{key}': must be finite", index)
     return json.dumps(dict(system), default=str) + "\n"
 
 
 def _answer(line: str, index: Optional[int] = None) -> Answer:
     answer = json.loads(line)
     if "error" in answer:
-        error = ContactError(answer["error"])
-        error.index = index
-        raise error
+        raise _refused(answer["error"], index)
     return answer
 
 
@@ -66,7 +70,7 @@ def solve_all(systems: Iterable[System], command: Optional[str] = None) -> List[
 
     Raises `ContactError` with the command's message for the first system that is refused.
     """
-    lines = "".join(map(_line, systems))
+    lines = "".join(_line(system, index) for index, system in enumerate(systems))
     arguments = [command or find_contact(), "solve", "--batch"]
     done = subprocess.run(arguments, input=lines, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
     # The status is 1 if a line is an error or did not converge: each answer says so itself.
