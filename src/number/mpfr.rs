@@ -436,7 +436,7 @@ impl fmt::Display for Mpfr {
 /// ```
 /// use spring_mass_contact::number::Mpfr;
 /// let third = Mpfr::rounded(24, 1) / Mpfr::rounded(24, 3);
-/// assert_eq!(format!("{third:e} {third:.2e} {third:+10.1e}"), "3.33333343e-1 3.33e-1   +3.3e-1");
+/// assert_eq!(format!("{third:e} {third:.2e} {third:+9.1e}"), "3.33333343e-1 3.33e-1   +3.3e-1");
 /// ```
 impl fmt::LowerExp for Mpfr {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
