@@ -1,7 +1,7 @@
 //! Exact rational numbers: the oracle.
 
 use super::field::ordered;
-use super::text::{fixed, rational_scientific, to_whole};
+use super::text::{fixed, to_whole};
 use super::tree::Step;
 use super::{Ball, Field, Mpfr, NumberSystem, OrderedField, PositivePart, RangeError, Real};
 use num_traits::{One, Zero};
@@ -129,20 +129,6 @@ impl fmt::Display for Exact {
             }
             None => fmt::Display::fmt(&self.0, f),
         }
-    }
-}
-
-/// In scientific notation, exactly rounded with ties to even, as the machine's floats are: `{:.2e}` has two
-/// decimals, `{:e}` all there are, or seventeen digits of a fraction that has no last one.
-///
-/// ```
-/// use spring_mass_contact::number::Exact;
-/// let [third, eighth] = ["-1/3", "1/8"].map(|text| text.parse::<Exact>().unwrap());
-/// assert_eq!(format!("{eighth:e} {eighth:.0e} {third:.3e} {third:e}"), "1.25e-1 1e-1 -3.333e-1 -3.3333333333333333e-1");
-/// ```
-impl fmt::LowerExp for Exact {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.pad_integral(*self >= Exact::zero(), "", &rational_scientific(&self.0, f.precision()))
     }
 }
 

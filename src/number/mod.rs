@@ -28,6 +28,8 @@ mod mpfr;
 #[cfg(feature = "mpfr")]
 mod parse;
 #[cfg(feature = "mpfr")]
+mod scientific;
+#[cfg(feature = "mpfr")]
 mod system;
 #[cfg(feature = "mpfr")]
 mod text;

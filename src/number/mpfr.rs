@@ -1,7 +1,7 @@
 //! Floats of any precision, chosen at run time.
 
 use super::field::ordered;
-use super::text::{fixed, rational_scientific, scientific, to_whole};
+use super::text::{fixed, to_whole};
 use super::tree::Step;
 use super::{Exponential, Field, Logarithm, OrderedField, PositivePart, Real};
 use num_traits::{One, Zero};
@@ -426,33 +426,6 @@ impl fmt::Display for Mpfr {
             "",
             &format!("{}{separator}{exponent}", mantissa.trim_start_matches('-')),
         )
-    }
-}
-
-/// In scientific notation, exactly rounded with ties to even, as the machine's floats are: `{:.2e}` has two
-/// decimals, `{:e}` the digits that read back as the same number. A constant is written as an
-/// [`Exact`](super::Exact) number.
-///
-/// ```
-/// use spring_mass_contact::number::Mpfr;
-/// let third = Mpfr::rounded(24, 1) / Mpfr::rounded(24, 3);
-/// assert_eq!(format!("{third:e} {third:.2e} {third:+9.1e}"), "3.33333343e-1 3.33e-1   +3.3e-1");
-/// ```
-impl fmt::LowerExp for Mpfr {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let text = match &self.0 {
-            Rounded(x) if !x.is_finite() => return fmt::LowerExp::fmt(&x.to_f64(), f),
-            // Not by way of a rational, which can be longer than the memory.
-            Rounded(x) if !x.is_zero() => {
-                let digits = f.precision().map(|decimals| decimals + 1);
-                let (_, text, exponent) = x.to_sign_string_exp(10, digits);
-                // The number is 0.text × 10^exponent.
-                let text = if digits.is_none() { text.trim_end_matches('0') } else { &text };
-                scientific(text, i64::from(exponent.unwrap_or_default()) - 1)
-            }
-            other => rational_scientific(&other.rational(), f.precision()),
-        };
-        f.pad_integral(*self >= Mpfr::zero(), "", &text)
     }
 }
 

@@ -112,56 +112,6 @@ pub(super) fn fixed(decimals: usize, units: impl FnOnce(&Integer) -> Integer) ->
     if decimals == 0 { whole.to_string() } else { format!("{whole}.{fraction}") }
 }
 
-/// The digits of a number in scientific notation, the first before the point, with the power of ten of the first.
-pub(super) fn scientific(digits: &str, exponent: i64) -> String {
-    let (first, rest) = digits.split_at(1);
-    let point = if rest.is_empty() { "" } else { "." };
-    format!("{first}{point}{rest}e{exponent}")
-}
-
-/// How many digits of a fraction are written where it has no last one and none are asked for.
-const ENDLESS: usize = 17;
-
-/// The absolute value of a rational in scientific notation, with so many digits behind the point: exactly
-/// rounded, ties to even. With none asked for all there are, or [`ENDLESS`] of what has no last one.
-pub(super) fn rational_scientific(x: &Rational, decimals: Option<usize>) -> String {
-    let x = Rational::from(x.abs_ref());
-    if x.is_zero() {
-        return scientific(&"0".repeat(decimals.unwrap_or(0) + 1), 0);
-    }
-    let power = |n: i64| {
-        let power = Rational::from(Integer::from(10).pow(n.unsigned_abs() as u32));
-        if n < 0 { power.recip() } else { power }
-    };
-    // The logarithm is off by less than 1.
-    let mut order = Float::with_val(64, &x).log10().floor().to_f64() as i64;
-    while power(order) > x {
-        order -= 1;
-    }
-    while power(order + 1) <= x {
-        order += 1;
-    }
-    let whole = |behind: i64| to_whole(&x * power(behind - order)).to_string();
-    let digits = match (decimals, decimals_of(&x)) {
-        (Some(decimals), _) => whole(decimals as i64),
-        (None, Some(all)) => whole(i64::from(all) + order).trim_end_matches('0').to_string(),
-        (None, None) => whole(ENDLESS as i64 - 1),
-    };
-    // 9.99 can become 10.0: a digit too many, and that a zero.
-    let most = decimals.or_else(|| decimals_of(&x).is_none().then_some(ENDLESS - 1)).map(|n| n + 1);
-    match most {
-        Some(most) if digits.len() > most => scientific(&digits[..most], order + 1),
-        _ => scientific(&digits, order),
-    }
-}
-
-/// How many decimals a rational has behind the point; none if they have no end.
-fn decimals_of(x: &Rational) -> Option<u32> {
-    let (rest, twos) = x.denom().clone().remove_factor(&Integer::from(2));
-    let (rest, fives) = rest.remove_factor(&Integer::from(5));
-    (rest == 1).then_some(twos.max(fives))
-}
-
 impl Exact {
     /// As a decimal of at most so many digits, on the side that the rounding says; directed, it can be one
     /// unit further than need be, but for what has so few digits.

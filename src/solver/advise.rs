@@ -40,9 +40,9 @@ pub struct Choice<T> {
     /// Every penalty ε in N/m between these is sure to reach the tolerance, [`method`](Self::method)'s
     /// among them. A smaller one is not: it is too soft, or may take more than [`MAX_AUGMENTATIONS`]. Up to
     /// the larger one rounding takes no more from the force ε p, or from the multiplier, than c times the
-    /// tolerance; if it may take more with every one that will do, or with all but the softest, the larger one
-    /// is the method's own. From the deflection it takes no more at any. None where there is no penalty, or
-    /// no limit but the range of the scalar.
+    /// tolerance; if it may take more with every one that will do, or with all but the softest, the
+    /// larger one is the method's own. From the deflection it takes no more at any. None where there is
+    /// no penalty, or no limit but the range of the scalar.
     #[cfg_attr(feature = "serde", serde(serialize_with = "crate::number::quantity::options"))]
     pub penalties: [Option<T>; 2],
     /// k of the augmentation that arrives.

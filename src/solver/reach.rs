@@ -93,7 +93,8 @@ pub fn augmentations_promised<T: Scalar + ToExact>(
 /// ```
 /// # use spring_mass_contact::{chapter::SpringMass, number::Exact, solver::{Plane, rounding_floor}};
 /// let system = SpringMass { c: 4, m: 1, g: 10, l: 1, h: 3 };
-/// let floor = rounding_floor(&system.map(|x| Exact::from(*x)), Plane::Unilateral, &Exact::power_of_two(-10))?;
+/// let system = system.map(|x| Exact::from(*x));
+/// let floor = rounding_floor(&system, Plane::Unilateral, &Exact::power_of_two(-10))?;
 /// assert_eq!(floor, Some("103/1016".parse()?)); // (20 η (3 + 2) + 3 η) / (1 − 8 η)
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -267,9 +268,10 @@ impl Laws {
         fine && normal && *tolerance > self.least_tolerance(&self.penetration_drift(eps))
     }
 
-    /// Returns `true` if the weight and the lengths keep all their bits: the weight is rounded by no more than
-    /// η of itself, and l + û, or û − H where l = 0, is the same for all |û| < n as for û = 0, so that nothing
-    /// is lost where û underflows. (Where H = l = 0, û is p̂, and within the tolerance by then.)
+    /// Returns `true` if the weight and the lengths keep all their bits: the weight is rounded by no more
+    /// than η of itself, and l + û, or û − H where l = 0, is the same for all |û| < n as for û = 0, so
+    /// that nothing is lost where û underflows. (Where H = l = 0, û is p̂, and within the tolerance by
+    /// then.)
     fn is_normal(&self) -> bool {
         let Laws { system, eta, least_normal, .. } = self;
         let shortest = Exact::from(4) * least_normal / eta;
@@ -284,8 +286,8 @@ impl Laws {
         gap.is_zero() || eps * gap.abs() >= Exact::from(2) * &self.least_normal
     }
 
-    /// The shortest tolerance that is promised: whatever is below n is rounded by up to η n, six times that is
-    /// 3 η of this, and so much is what [`least_tolerance`](Self::least_tolerance) has to spare.
+    /// The shortest tolerance that is promised: whatever is below n is rounded by up to η n, six times
+    /// that is 3 η of this, and so much is what [`least_tolerance`](Self::least_tolerance) has to spare.
     fn shortest_tolerance(&self) -> Exact {
         Exact::from(4) * &self.least_normal
     }
@@ -324,9 +326,9 @@ impl Laws {
     /// Which penalties bring (1.13) within a tolerance: from the first on, and up to the second rounding
     /// takes no more from the force ε p for the sake of ε than the tolerance does. None if no penalty does.
     ///
-    /// Where products underflow, m g and ε Δ are off by η n each besides, and the quotient by another η n. What
-    /// both products lose the law takes for a weight that is off by 3 η n at most: (m g + t) (1 + γ e) + ε Δ for
-    /// m g (1 + γ e) + ε Δ + t (1 + γ e). The quotient's takes so much from the tolerance.
+    /// Where products underflow, m g and ε Δ are off by η n each besides, and the quotient by another η
+    /// n. What both products lose the law takes for a weight that is off by 3 η n at most: (m g + t) (1 +
+    /// γ e) + ε Δ for m g (1 + γ e) + ε Δ + t (1 + γ e). The quotient's takes so much from the tolerance.
     pub(super) fn penalties(&self, tolerance: &Exact) -> Option<Limits> {
         let Laws { precision, .. } = self;
         let lost = &self.eta * &self.least_normal;
