@@ -38,7 +38,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("right to a thousand digits: {}", off < "1e-997".parse()?);
 
     // That many steps can be foretold, and the last one can be had without those before it.
-    println!("foretold: {}", augmentations_needed(&system, &eps, &tolerance, &start, Plane::Unilateral));
+    println!("foretold: {}", augmentations_needed(&system, &eps, &tolerance, &start, Plane::Unilateral)?);
     let step = iterate_after(&system, &eps, &start, k, Plane::Unilateral)?;
     println!("p < 1e-1000 m from the closed form: {}", step.penetration.upper < tolerance);
 

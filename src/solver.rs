@@ -57,14 +57,18 @@ pub use solution::{Bounds, MAX_AUGMENTATIONS, Method, Outcome, Plane, Solution, 
 pub use sweep::{SweepRow, best_penalty, penalties, penalty_force_bound, sweep};
 
 use crate::chapter::{SpringMass, augmented, contact, lagrange, penalty, structure, system};
+use num_traits::One;
 
 /// Solves a system over a plane that never pulls.
 ///
 /// Never loops for ever, and never returns a NaN or an infinity; for f32 and f64 it allocates nothing.
+/// An augmentation in rationals, which become longer with every step, ends before it would take hours: no
+/// multiplier has more than 2²² binary digits, and all of them together no more than 2²⁸.
 ///
 /// # Errors
 /// [`SolveError::Invalid`] for a parameter that is not finite or not in its range,
-/// [`SolveError::OutOfRange`] where a result does not fit the scalar.
+/// [`SolveError::OutOfRange`] where a result does not fit the scalar,
+/// [`SolveError::TooLong`] where an augmentation in rationals has too many digits.
 ///
 /// ```
 /// # use spring_mass_contact::{chapter::SpringMass, solver::{Method, State, solve}};
@@ -196,7 +200,7 @@ impl<E: crate::number::PositivePart> Target<E> {
                 Target {
                     deflection: penalty::deflection(enclosed, &eps),
                     penetration: penalty::penetration(enclosed, &eps),
-                    contact_force: penalty::force_at_root(enclosed, &eps),
+                    contact_force: force_at_root::<T>(enclosed, reaction, &eps),
                     free,
                 }
             }
@@ -222,6 +226,19 @@ impl<E: crate::number::PositivePart> Target<E> {
             contact_force: bounded(&self.contact_force, "contact force")?,
         })
     }
+}
+
+/// ε R / (c + ε), enclosed; where ε R overflows, as that of a reaction of 1 N, times R.
+fn force_at_root<T: Scalar>(
+    enclosed: &SpringMass<T::Enclosure>,
+    reaction: T::Enclosure,
+    eps: &T::Enclosure,
+) -> T::Enclosure {
+    let force = penalty::force_at_root(enclosed, eps);
+    if T::magnitude(&force).is_finite() {
+        return force;
+    }
+    penalty::force_at_root(&root::weighed(enclosed.c.clone(), T::Enclosure::one()), eps) * reaction
 }
 
 /// The value of a number that has been checked, or comes of a solve.
@@ -260,6 +277,10 @@ impl<T> Found<T> {
     }
 }
 
+/// More binary digits of one multiplier, or of those of all steps, take a computer minutes.
+const LONGEST: u64 = 1 << 22;
+const MOST_DIGITS: u64 = 1 << 28;
+
 fn iterate<T: Scalar>(
     mut steps: Augmentation<T>,
     system: &SpringMass<T>,
@@ -276,8 +297,16 @@ fn iterate<T: Scalar>(
     let mut previous: Option<T> = None;
     let mut floor: Option<T> = None;
     let mut side = None;
+    let mut digits = 0_u64;
     loop {
         let step = steps.step();
+        let length = step.multiplier.growing_digits();
+        digits = digits.saturating_add(length);
+        if length > LONGEST {
+            return Err(SolveError::TooLong { quantity: "multiplier", digits: LONGEST });
+        } else if digits > MOST_DIGITS {
+            return Err(SolveError::TooLong { quantity: "all multipliers together", digits: MOST_DIGITS });
+        }
         check::in_range(step.deflection.is_finite(), "deflection")?;
         check::in_range(steps.multiplier().is_finite(), "multiplier")?;
         each(&step);

@@ -8,11 +8,10 @@
 mod processes;
 
 use oorandom::Rand64;
-use processes::{asked, captured, command, pick, random};
+use processes::{Scratch, asked, captured, command, pick, random};
 use std::ffi::{OsStr, OsString};
 use std::fs;
 use std::os::unix::ffi::OsStrExt;
-use std::path::Path;
 use std::process::Output;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
@@ -230,9 +229,7 @@ fn wrong(Output { status, stdout, stderr }: &Output) -> Option<&'static str> {
 fn no_arguments_get_further_than_they_should() {
     let subcommands = &subcommands();
     let (lists, seed) = (asked("ARGUMENTS", LISTS), asked("SEED", 1));
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("any_arguments");
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).expect("a folder");
+    let folder = Scratch::new("any_arguments");
     fs::write(folder.join("file"), "").expect("a file");
     let next = AtomicU64::new(0);
     let work = || {
@@ -245,7 +242,7 @@ fn no_arguments_get_further_than_they_should() {
             }
             let list = list(&mut random(seed, own), subcommands);
             let start = Instant::now();
-            let output = captured(command().args(&list).current_dir(&folder).env("NO_COLOR", "1"));
+            let output = captured(command().args(&list).current_dir(&*folder).env("NO_COLOR", "1"));
             let took = start.elapsed().as_secs_f64();
             if took > slowest.0 {
                 slowest = (took, list.clone());
@@ -271,7 +268,6 @@ fn no_arguments_get_further_than_they_should() {
         eprintln!("status {status}: {count}");
     }
     done.iter().for_each(|(_, (took, list))| eprintln!("slowest: {took:.2} s, contact {list:?}"));
-    let _ = fs::remove_dir_all(&folder);
 }
 
 /// Of one wrong value among right ones: the option, the value, and more than that.

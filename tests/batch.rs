@@ -703,6 +703,17 @@ fn the_book_shows_what_comes_back() {
     }
 }
 
+/// Rationals whose digits do not end soon are an answer in time, and no trouble to the next line.
+#[test]
+fn endless_digits_are_an_error_in_time() {
+    let line = r#"{"method": "augmented", "scalar": "exact", "penalty": "1e-50000"}"#;
+    let (answers, code) = batch("", format!("{line}\n{{}}\n"));
+    let said = "scalar exact: multiplier: more than 4194304 binary digits; use MPFR (mpfr:BITS), a larger penalty or \
+                tolerance, or fewer augmentations";
+    assert_eq!((answers.len(), code), (2, Some(1)));
+    assert_eq!((answers[0]["error"].as_str(), answers[1]["outcome"].as_str()), (Some(said), Some("direct")));
+}
+
 /// p = R/(c + ε), and for H = 1.05 it takes ε = 10⁷ for less than 10⁻⁶.
 #[test]
 fn a_program_in_python_can_use_it() {

@@ -27,8 +27,11 @@ fn source(path: &str) -> PathBuf {
 /// A program compiled into the tests' own folder.
 fn compiled(compiler: &str, path: &str) -> String {
     let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join(Path::new(path).file_stem().unwrap());
-    let done = Command::new(compiler).arg(source(path)).arg("-o").arg(&program).output().unwrap();
+    // Another run may do the same at this moment: each puts a whole one in its place.
+    let own = program.with_extension(std::process::id().to_string());
+    let done = Command::new(compiler).arg(source(path)).arg("-o").arg(&own).output().unwrap();
     assert!(done.status.success(), "{compiler}: {}", String::from_utf8_lossy(&done.stderr));
+    std::fs::rename(own, &program).unwrap();
     program.to_str().unwrap().to_string()
 }
 

@@ -7,11 +7,12 @@
 
 mod processes;
 
-use processes::{DEADLINE, captured, command};
+use processes::{DEADLINE, Scratch, captured, command};
 use serde_json::Value;
 use spring_mass_contact::chapter::{SpringMass, contact};
 use spring_mass_contact::claims::{claim_names, entries};
-use spring_mass_contact::number::{Exact, RangeError, ToExact};
+use spring_mass_contact::number::{Exact, PositivePart, RangeError, ToExact};
+use spring_mass_contact::rug::float::Round;
 use spring_mass_contact::solver::{Method, Plane, solve_observed};
 use spring_mass_contact::verify::graph;
 use std::process::{Command, Output, Stdio};
@@ -308,7 +309,7 @@ fn the_library_serialises_what_the_command_prints() {
         let mut iterates = Vec::new();
         let solution = solve_observed(&system, &method, Plane::Unilateral, |k| iterates.push(k.clone()));
         let solution = solution.unwrap();
-        assert_eq!(printed["kkt"], serde_json::to_value(solution.certificate(&system)).unwrap());
+        assert_eq!(printed["kkt"], serde_json::to_value(solution.certificate(&system).unwrap()).unwrap());
         let solution = serde_json::to_value(solution).unwrap();
         let all = "augmentations bounds contact_force deflection floor multiplier outcome penetration state";
         assert_eq!(keys(&solution), words(all));
@@ -609,7 +610,7 @@ fn a_terminal_gets_a_plot_and_a_bar() {
 }
 
 /// What the rows of a sweep are called, in the order of CSV.
-const COLUMNS: [&str; 8] = [
+const COLUMNS: [&str; 9] = [
     "scalar",
     "penalty",
     "deflection",
@@ -618,9 +619,11 @@ const COLUMNS: [&str; 8] = [
     "penalty_force",
     "force_error",
     "penalty_force_error",
+    "error",
 ];
 
-/// Pasted, a penalty of a sweep solves what the row says; and both formats say the same.
+/// Pasted, a penalty of a sweep solves what the row says; and both formats say the same; the errors JSON
+/// says exactly, as the library does, and CSV to six digits.
 #[test]
 fn a_row_of_a_sweep_is_a_solve() {
     for system in
@@ -640,7 +643,17 @@ fn a_row_of_a_sweep_is_a_solve() {
             names.sort_unstable();
             assert_eq!(keys(row), names);
             let text = |name: &str| row[name].as_str().unwrap_or_default();
-            assert_eq!(lines.next(), Some(COLUMNS.map(text).join(",").as_str()));
+            let mut cells = lines.next().expect("a line").split(',');
+            for name in COLUMNS {
+                let (cell, text) = (cells.next().expect("a cell"), text(name));
+                if name.ends_with("_error") && !text.is_empty() {
+                    let text: Exact = text.parse().expect("a number");
+                    assert_eq!(cell, text.decimal(6, Round::Nearest), "{row}");
+                } else {
+                    assert_eq!(cell, text, "{row}");
+                }
+            }
+            assert_eq!(cells.next(), None);
             let [scalar, penalty] = ["scalar", "penalty"].map(text);
             let (answer, _) =
                 solve(&format!("--method penalty --scalar {scalar} --penalty {penalty} {system}"));
@@ -650,6 +663,7 @@ fn a_row_of_a_sweep_is_a_solve() {
             assert_eq!(row["penalty_force"].is_null(), answer["state"] == "separated");
             assert_eq!(row["force_error"].is_null(), answer["state"] != "contact");
             assert_eq!(row["penalty_force_error"].is_null(), answer["state"] != "contact");
+            assert!(row["error"].is_null());
         }
         assert_eq!(lines.next(), None);
         // The same penalties in every number system, each once, in their order.
@@ -661,16 +675,56 @@ fn a_row_of_a_sweep_is_a_solve() {
     }
 }
 
-/// Of R = 4.81 in rationals, c/(c + ε) of it; six digits are right up to half a unit of the last one.
+/// As the library returns them: each is what the row's own force is off by.
 #[test]
-fn errors_of_a_sweep_are_correct_decimals() {
+fn errors_of_a_sweep_are_exact() {
+    let (rows, _) = json(&["sweep", "--penalty", "1e-3..1e30", "--points", "67"]);
+    // The f64s beside 9.81 and 1.05.
+    let number = |x: f64| Exact::try_from(x).expect("a finite number");
+    let gap = number(1.05) - Exact::from(1);
+    let reaction = number(9.81) - Exact::from(100) * gap;
+    for row in array(&rows) {
+        for (force, error) in [("contact_force", "force_error"), ("penalty_force", "penalty_force_error")] {
+            // The text of a float is the float's, and not its value.
+            let force = number(row[force].as_str().and_then(|text| text.parse().ok()).expect("a float"));
+            assert_eq!(exact(&row[error]) * &reaction, (force - &reaction).abs(), "{row}");
+        }
+    }
+}
+
+/// The other rows are printed all the same: 10³⁰⁸ · 4 m is no f64.
+#[test]
+fn a_row_that_overflows_says_so() {
+    let line = ["sweep", "--penalty", "1..1e308", "--points", "3", "--height", "5", "--gravity", "1000"];
+    let (rows, code) = json(&line);
+    let said = "the deflection leaves the range of this scalar; use MPFR (mpfr:BITS) or exact rationals";
+    assert_eq!((array(&rows).len(), code), (3, Some(1)));
+    for row in array(&rows) {
+        let overflows = row["penalty"] == "1e308";
+        assert_eq!(row["error"].as_str(), overflows.then_some(said), "{row}");
+        for name in &COLUMNS[2..8] {
+            assert_eq!(row[name].is_null(), overflows, "{row}");
+        }
+    }
+    let csv = contact(&[&line[..], &["--format", "csv"]].concat());
+    assert!(String::from_utf8_lossy(&csv.stdout).ends_with(&format!("\nf64,1e308,,,,,,,{said}\n")));
+    let table = contact(&line);
+    let table = String::from_utf8_lossy(&table.stdout).into_owned();
+    assert!(table.contains("\n 1e308      the deflection leaves the range of this scalar\n"), "{table}");
+    // ε R overflows, but not what it is needed for: p = R/(c + ε) and N = R ε/(c + ε).
+    let (rows, code) = json(&["sweep", "--penalty", "1..1e308", "--points", "3"]);
+    assert_eq!((array(&rows).iter().all(|row| row["error"].is_null()), code), (true, Some(0)));
+}
+
+/// Of R = 4.81 in rationals, c/(c + ε) of it.
+#[test]
+fn errors_of_a_sweep_of_rationals_are_those_of_the_method() {
     let (rows, _) = json(&["sweep", "--penalty", "1e-3..1e30", "--points", "67", "--scalar", "exact"]);
     for row in array(&rows) {
         let (c, eps) = (Exact::from(100), exact(&row["penalty"]));
         let error = &c / (&c + eps);
         for name in ["force_error", "penalty_force_error"] {
-            let off = (exact(&row[name]) / &error - Exact::from(1)).to_f64().expect("a small number");
-            assert!(off.abs() <= 0.5e-5, "{row}");
+            assert_eq!(exact(&row[name]), error, "{row}");
         }
     }
 }
@@ -1133,8 +1187,9 @@ fn the_whole_chapter_is_proved() {
 #[test]
 fn a_directory_for_coq_can_have_any_name() {
     let long = "0123456789/".repeat(15);
+    let scratch = Scratch::new("coq");
     for name in ["it's $HOME, \"quoted\" & long: * ~ ü a\\b", "-1/2", &long] {
-        let directory = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("coq").join(name);
+        let directory = scratch.join(name);
         let directory = directory.to_str().expect("UTF-8");
         let output = contact(&["prove", "--coq", directory]);
         assert_eq!(output.status.code(), Some(0), "{name}");

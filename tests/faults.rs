@@ -5,10 +5,10 @@
 
 mod processes;
 
-use processes::{captured, command, finish, run};
+use processes::{Scratch, captured, command, finish, run};
 use std::fs::{self, File};
 use std::io::{BufRead, BufReader};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::thread;
 
@@ -114,7 +114,8 @@ fn a_pipe_that_closes_after_a_line_is_no_error() {
     }
 }
 
-/// What is closed when a program starts is opened as what has nothing in it.
+/// What is closed when a program starts is opened as what has nothing in it: Rust puts /dev/null in its place before
+/// `main` begins, which cannot be told from the one that other programs open for it (subprocess.DEVNULL of Python).
 #[test]
 fn closed_streams_are_empty() {
     for (redirections, line, status) in [
@@ -130,11 +131,8 @@ fn closed_streams_are_empty() {
     }
 }
 
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("faults").join(name);
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).expect("a folder");
-    folder
+fn folder(name: &str) -> Scratch {
+    Scratch::new(&format!("faults {name}"))
 }
 
 /// The names of what is in a folder.

@@ -154,7 +154,7 @@ fn augmented_method() {
     assert_eq!(augmented::recursion(s, eps, &q("0.07405"), u), sides);
     assert_eq!(ode::difference_equation(s, eps, &q("0.07405"), u), sides);
     // 0.02405 halves to below 0.001 with the fifth step: 24.05, 12.0…, 6.01…, 3.0…, 1.5…, 0.75… mm.
-    let needed = augmentations_needed(s, eps, &q("0.001"), &int(0), Plane::Unilateral);
+    let needed = augmentations_needed(s, eps, &q("0.001"), &int(0), Plane::Unilateral).unwrap();
     assert_eq!(needed, 5);
     let method =
         Method::Augmented { penalty: int(100), tolerance: q("0.001"), max_augmentations: 9, start: int(0) };

@@ -283,7 +283,7 @@ fn exact_steps<'a>(
 /// The iteration's count is the one that (1.33) solved for k gives.
 fn count(x: &Case<Exact>, plane: Plane, mut steps: impl Iterator<Item = Iterate<Exact>>) -> Trial {
     let k = augmentations_needed(&x.system, &x.eps, &x.tol, &x.lambda, plane);
-    let Some(k) = k.to_usize().filter(|k| *k < STEPS) else { return Trial::Undecided };
+    let Some(k) = k.ok().and_then(|k| k.to_usize()).filter(|k| *k < STEPS) else { return Trial::Undecided };
     let residual = |step: &Iterate<Exact>| match plane {
         Plane::Unilateral => {
             augmented::natural_residual(&x.system, &x.eps, &step.multiplier, &step.deflection)

@@ -28,6 +28,8 @@ mod mpfr;
 #[cfg(feature = "mpfr")]
 mod parse;
 #[cfg(feature = "mpfr")]
+mod scientific;
+#[cfg(feature = "mpfr")]
 mod system;
 #[cfg(feature = "mpfr")]
 mod text;
@@ -49,5 +51,5 @@ pub use system::{NumberSystem, UnknownNumberSystem};
 #[cfg(feature = "mpfr")]
 pub use text::Text;
 #[cfg(feature = "serde")]
-pub(crate) use text::{quantity, serialize_as_displayed};
+pub(crate) use text::{lossless, quantity, serialize_as_displayed};
 pub use tree::Tree;

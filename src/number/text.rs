@@ -14,16 +14,27 @@ pub trait Text: ToExact + Clone {
     /// ```
     fn text(&self) -> String;
 
+    /// Returns [`text`](Self::text) with the sign of a zero, where the number system has zeros of two signs.
+    ///
+    /// ```
+    /// # use spring_mass_contact::number::Text;
+    /// assert_eq!([-0.0, 0.0, -0.1].map(|x: f64| x.signed_text()), ["-0", "0", "-0.1"]);
+    /// ```
+    fn signed_text(&self) -> String {
+        self.text()
+    }
+
     /// The numbers next to this one, the smaller first; a rational has none and gives itself.
     fn neighbours(&self) -> [Self; 2];
 
     /// A text that spells a number no greater than this one, or no less if the rounding is up: its own or
     /// that of a number near it, since the shortest decimal of a float can lie on either side of the float.
+    /// An infinity and not-a-number are bounded by nothing else.
     ///
     /// # Panics
-    /// The number is not finite, or the rounding is neither up nor down.
+    /// The rounding is neither up nor down.
     fn bound(&self, round: Round) -> String {
-        let end = self.to_exact().expect("bounds are finite");
+        let Ok(end) = self.to_exact() else { return self.text() };
         let mut near = self.clone();
         loop {
             let text = near.text();
@@ -56,6 +67,9 @@ macro_rules! machine {
                 let mut text = format!("{:?}", if self.is_zero() { 0.0 } else { *self });
                 text.truncate(text.strip_suffix(".0").map_or(text.len(), str::len));
                 text
+            }
+            fn signed_text(&self) -> String {
+                if self.is_zero() && self.is_sign_negative() { "-0".to_string() } else { self.text() }
             }
             fn neighbours(&self) -> [Self; 2] {
                 [Real::next_down(*self), Real::next_up(*self)]
@@ -175,6 +189,43 @@ pub(crate) mod quantity {
 
     pub(crate) fn option<T: Text, S: Serializer>(x: &Option<T>, to: S) -> Result<S::Ok, S::Error> {
         x.as_ref().map(Text::text).serialize(to)
+    }
+
+    pub(crate) fn options<T: Text, S: Serializer>(x: &[Option<T>; 2], to: S) -> Result<S::Ok, S::Error> {
+        x.each_ref().map(|x| x.as_ref().map(Text::text)).serialize(to)
+    }
+}
+
+/// Quantities that are read back, too: the same bits for f32 and f64, the sign of a zero included, the same
+/// number for rationals. A float of MPFR comes back as the constant of the same value, since a text has no
+/// precision; `to_mpfr` rounds it.
+#[cfg(feature = "serde")]
+pub(crate) mod lossless {
+    use super::{Exact, Text};
+    use crate::number::ParseError;
+    use num_traits::Zero;
+    use serde::{Deserialize, Deserializer, Serializer, de::Error};
+    use std::ops::Neg;
+
+    pub(crate) fn serialize<T: Text, S: Serializer>(x: &T, to: S) -> Result<S::Ok, S::Error> {
+        to.serialize_str(&x.signed_text())
+    }
+
+    pub(crate) fn deserialize<'de, T, D>(from: D) -> Result<T, D::Error>
+    where
+        T: Text + Zero + Neg<Output = T>,
+        D: Deserializer<'de>,
+    {
+        let text = String::deserialize(from)?;
+        read(&text).map_err(|error| {
+            let shown: String = text.chars().take(40).collect();
+            D::Error::custom(format!("'{}': {error}", shown.escape_debug()))
+        })
+    }
+
+    fn read<T: Text + Zero + Neg<Output = T>>(text: &str) -> Result<T, ParseError> {
+        let x = T::zero().nearest(&text.parse::<Exact>()?)?;
+        Ok(if x.is_zero() && text.starts_with('-') { -x } else { x })
     }
 }
 

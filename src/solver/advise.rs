@@ -1,9 +1,9 @@
 //! Which penalty, and what it gives: the laws of rounding propose, a run confirms.
 
-use super::reach::{Laws, Limits, last, rounding_floor};
+use super::count::count;
+use super::reach::{Laws, Limits, last, least_normal, rounding_floor};
 use super::{
-    MAX_AUGMENTATIONS, Method, Outcome, Plane, Scalar, Solution, SolveError, State, augmentations_needed,
-    check, exact, solve,
+    MAX_AUGMENTATIONS, Method, Outcome, Plane, Scalar, Solution, SolveError, State, check, exact, solve,
 };
 use crate::chapter::{SpringMass, contact};
 use crate::number::{Exact, PositivePart, RangeError, Text};
@@ -14,12 +14,13 @@ use std::iter::successors;
 
 /// What [`advise`] comes to.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound = "T: crate::number::Text"))]
 #[non_exhaustive]
 pub struct Advice<T> {
     /// Contact, grazing or separated.
     pub state: State,
-    /// The tolerance in m above which every method is promised to come, as
-    /// [`rounding_floor`] says; below it by luck.
+    /// The tolerance in m above which every method is promised to come, as [`rounding_floor`] says; below it
+    /// by luck. None where none is promised.
     pub floor: Option<Exact>,
     /// A method each that reaches the tolerance, [`Method::Lagrange`] first. Where there is none, no method
     /// ends within the tolerance and says so: Lagrange's deflection is the nearest that the scalar has, or,
@@ -30,16 +31,19 @@ pub struct Advice<T> {
 
 /// A method that reaches the tolerance: it has been tried.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound = "T: crate::number::Text"))]
 #[non_exhaustive]
 pub struct Choice<T> {
     /// To be given to [`solve`].
+    #[cfg_attr(feature = "serde", serde(flatten))]
     pub method: Method<T>,
     /// Every penalty ε in N/m between these is sure to reach the tolerance, [`method`](Self::method)'s
     /// among them. A smaller one is not: it is too soft, or may take more than [`MAX_AUGMENTATIONS`]. Up to
     /// the larger one rounding takes no more from the force ε p, or from the multiplier, than c times the
-    /// tolerance; if it takes more with every one that will do, or with all but the softest, the larger one
-    /// is the method's own. From the deflection it takes no more at any. None where there is no penalty, or
-    /// no limit but the range of the scalar.
+    /// tolerance; if it may take more with every one that will do, or with all but the softest, the
+    /// larger one is the method's own. From the deflection it takes no more at any. None where there is
+    /// no penalty, or no limit but the range of the scalar.
+    #[cfg_attr(feature = "serde", serde(serialize_with = "crate::number::quantity::options"))]
     pub penalties: [Option<T>; 2],
     /// k of the augmentation that arrives.
     pub augmentations: Option<u64>,
@@ -83,9 +87,9 @@ pub fn advise<T: Scalar + Text>(system: &SpringMass<T>, tolerance: &T) -> Result
     let SpringMass { c, m, g, l, h } = system;
     let eta = [c, m, g, l, h].map(|x| x.number_system().unit_roundoff()).into_iter().max();
     let eta = eta.expect("five parameters");
-    let floor = rounding_floor(system, Plane::Unilateral, &eta);
+    let floor = rounding_floor(system, Plane::Unilateral, &eta)?;
     let promised = floor.as_ref().is_some_and(|floor| tol > *floor);
-    let arithmetic = match Laws::of(&numbers, &eta) {
+    let arithmetic = match Laws::of(&numbers, &eta, &least_normal(tolerance)) {
         _ if state == State::Separated => Arithmetic::Free,
         Some(laws) => Arithmetic::Rounded(Box::new(laws)),
         None => Arithmetic::Exact,
@@ -179,16 +183,16 @@ impl<T: Scalar + Text> Task<'_, T> {
             Arithmetic::Exact | Arithmetic::Free => None,
         };
         let eps = match &to {
-            Some(to) => std::cmp::min(short(to, 1, Round::Down), none_needed),
-            None => none_needed,
+            Some(to) if *to > Exact::zero() => std::cmp::min(short(to, 1, Round::Down), none_needed),
+            Some(_) | None => none_needed,
         };
         let (zero, plane) = (Exact::zero(), Plane::Unilateral);
         let from = match &self.arithmetic {
             Arithmetic::Exact if any_will_do => zero,
-            Arithmetic::Exact => {
-                softest(&eps, |eps| Some(augmentations_needed(&self.numbers, eps, &self.tol, &zero, plane)))
+            Arithmetic::Exact => softest(&eps, |eps| count(&self.numbers, eps, &self.tol, &zero, plane).ok()),
+            Arithmetic::Rounded(laws) => {
+                softest(&eps, |eps| laws.augmentations_at_most(eps, &self.tol).ok()?)
             }
-            Arithmetic::Rounded(laws) => softest(&eps, |eps| laws.augmentations_at_most(eps, &self.tol)),
             // Softer than that, rounding near grazing could take it for touching.
             Arithmetic::Free => self.numbers.c.clone(),
         };

@@ -18,6 +18,17 @@ pub enum SolveError {
         /// What it may be.
         allowed: &'static str,
     },
+    /// Rationals so long that arithmetic with them would not end in practice.
+    #[error(
+        "{quantity}: more than {digits} binary digits; use MPFR (mpfr:BITS), a larger penalty or tolerance, \
+         or fewer augmentations"
+    )]
+    TooLong {
+        /// The quantity's name.
+        quantity: &'static str,
+        /// The digits that it may have.
+        digits: u64,
+    },
     /// A result that the scalar cannot hold.
     #[error("the {quantity} leaves the range of this scalar; use MPFR (mpfr:BITS) or exact rationals")]
     OutOfRange {
@@ -70,6 +81,12 @@ pub(super) fn method<T: Scalar>(method: &Method<T>) -> Result<(), SolveError> {
 #[cfg(feature = "mpfr")]
 pub(super) fn coefficient<T: Scalar>(argument: &'static str, value: &T) -> Result<(), SolveError> {
     require(value.is_finite() && *value >= T::zero(), argument, value, "at least 0 and finite")
+}
+
+/// η: 0 where nothing is rounded.
+#[cfg(feature = "mpfr")]
+pub(super) fn unit_roundoff(eta: &crate::number::Exact) -> Result<(), SolveError> {
+    require(*eta >= num_traits::Zero::zero(), "unit roundoff", eta, "at least 0")
 }
 
 #[cfg(feature = "mpfr")]

@@ -1,6 +1,7 @@
 //! (1.16) in closed form: one iterate without those before it.
 
 use super::check::{self, SolveError};
+use super::scalar::LONGEST;
 use super::{Interval, Iterate, Plane, Scalar, bounded};
 use crate::chapter::{SpringMass, augmented, penalty, structure};
 use crate::number::PositivePart;
@@ -49,7 +50,8 @@ pub fn iterate_after<T: Scalar>(
     } else {
         (lambda, k)
     };
-    let decay = T::power(&rho, steps).ok_or(SolveError::OutOfRange { quantity: "k-th iterate" })?;
+    let decay =
+        T::power(&rho, steps).ok_or(SolveError::TooLong { quantity: "k-th iterate", digits: LONGEST })?;
     let mut iterate = closed(&system, &eps, &start, &decay, &rho, plane);
     if steps == 0 {
         iterate.multiplier = start;

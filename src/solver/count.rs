@@ -1,6 +1,6 @@
 //! (1.33), solved for k: how many augmentations a tolerance needs, exactly.
 
-use super::{Plane, Scalar, exact};
+use super::{Plane, Scalar, SolveError, check, exact};
 use crate::chapter::{SpringMass, augmented, system};
 use crate::number::{Exact, PositivePart, ToExact};
 use num_traits::{One, Zero};
@@ -17,14 +17,16 @@ use rug::{Float, Integer, Rational};
 /// Floats may take a few steps more or fewer, see [`augmentations_promised`](super::augmentations_promised);
 /// and below what [`within_reach`](super::within_reach) promises they may never get there.
 ///
-/// # Panics
-/// A parameter is not finite, or ε, c or the tolerance is not positive.
+/// # Errors
+/// [`SolveError::Invalid`] for a parameter, ε, a tolerance or λ₀ that is not finite or not in its range;
+/// [`SolveError::TooLong`] for a count of more than about a million binary digits.
 ///
 /// ```
 /// # use spring_mass_contact::{chapter::SpringMass, solver::{Plane, augmentations_needed}};
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// // p_k = 1/4, 1/8, 1/16, …: not yet *less* than 1/16 at k = 2.
-/// assert_eq!(augmentations_needed(&system, &4.0, &0.0625, &0.0, Plane::Unilateral), 3);
+/// assert_eq!(augmentations_needed(&system, &4.0, &0.0625, &0.0, Plane::Unilateral)?, 3);
+/// # Ok::<(), spring_mass_contact::solver::SolveError>(())
 /// ```
 pub fn augmentations_needed<T: Scalar + ToExact>(
     system: &SpringMass<T>,
@@ -32,43 +34,59 @@ pub fn augmentations_needed<T: Scalar + ToExact>(
     tolerance: &T,
     start: &T,
     plane: Plane,
-) -> Integer {
-    let (system, eps, tolerance, start) = (system.map(exact), exact(eps), exact(tolerance), exact(start));
+) -> Result<Integer, SolveError> {
+    check::system(system)?;
+    check::positive("penalty", eps)?;
+    check::positive("tolerance", tolerance)?;
+    check::finite_number("initial multiplier", start)?;
+    count(&system.map(exact), &exact(eps), &exact(tolerance), &exact(start), plane)
+}
+
+/// The same of numbers that have been checked.
+pub(super) fn count(
+    system: &SpringMass<Exact>,
+    eps: &Exact,
+    tolerance: &Exact,
+    start: &Exact,
+    plane: Plane,
+) -> Result<Integer, SolveError> {
     let zero = Exact::zero();
-    assert!(system.c > zero && eps > zero && tolerance > zero, "c, ε and the tolerance must be positive");
-    let first_below = |value: &Exact, bound: &Exact| first_below(value, bound, &(&eps / &system.c));
+    let first_below = |value: &Exact, bound: &Exact| first_below(value, bound, &(eps / &system.c));
     // |p_k| = ρᵏ |p₀| as long as the plane acts.
     let penetration_below = |start: &Exact| {
-        let p = augmented::penetration_after(&system, &eps, start, &Exact::one());
-        first_below(&p.abs(), &tolerance)
+        let p = augmented::penetration_after(system, eps, start, &Exact::one());
+        first_below(&p.abs(), tolerance)
     };
-    let r = system::reaction(&system);
+    let r = system::reaction(system);
     if plane == Plane::Bilateral {
-        return penetration_below(&start);
+        return penetration_below(start);
     }
-    if start <= zero && &system.c * &start + &eps * &r < zero {
+    if *start <= zero && &system.c * start + eps * &r < zero {
         // The first step hangs free and moves λ to 0, unless that is within the tolerance already.
-        return if -&start / &eps < tolerance {
+        return Ok(if -start / eps < *tolerance {
             Integer::new()
         } else if r < zero {
             Integer::from(1)
         } else {
-            penetration_below(&zero) + 1
-        };
+            penetration_below(&zero)? + 1
+        });
     }
     if r >= zero {
-        return penetration_below(&start);
+        return penetration_below(start);
     }
     // Separated from λ₀ > 0: r_k is p_k until λ would turn negative, and −λ_k/ε then; both are
     // negative and their larger one counts, so the first of the two to come within the tolerance.
-    let multiplier_below = first_below(&(&start - &r), &(&eps * &tolerance - &r));
-    penetration_below(&start).min(multiplier_below)
+    let multiplier_below = first_below(&(start - &r), &(eps * tolerance - &r))?;
+    Ok(penetration_below(start)?.min(multiplier_below))
 }
 
+/// The most bits that logarithms are computed to: it takes seconds.
+const LONGEST: u32 = 1 << 20;
+
 /// The least k ≥ 0 with value < bound · (1 + x)ᵏ, for value ≥ 0, bound > 0, x > 0.
-fn first_below(value: &Exact, bound: &Exact, x: &Exact) -> Integer {
+fn first_below(value: &Exact, bound: &Exact, x: &Exact) -> Result<Integer, SolveError> {
     if value < bound {
-        return Integer::new();
+        return Ok(Integer::new());
     }
     let ratio = value / bound;
     let (ratio, x) = (ratio.as_rational(), x.as_rational());
@@ -90,9 +108,12 @@ fn first_below(value: &Exact, bound: &Exact, x: &Exact) -> Integer {
         if let (Some(least), Some(most)) = (least, most)
             && (least == most || is_power(ratio, &growth, &most))
         {
-            return most + 1;
+            return Ok(most + 1);
         }
         precision *= 2;
+        if precision > LONGEST {
+            return Err(SolveError::TooLong { quantity: "number of augmentations", digits: LONGEST.into() });
+        }
     }
 }
 

@@ -1,8 +1,8 @@
 //! Results as a few lines for people. What is shortened is marked by ≈, and a bound still holds.
 
-use super::{Interval, Outcome, Scalar, Solution};
+use super::{Advice, Choice, Interval, Method, Outcome, Scalar, Solution};
 use crate::chapter::contact::Kkt;
-use crate::number::{Text, brief_bound, relation};
+use crate::number::{Text, brief, brief_bound, relation};
 use rug::float::Round;
 use std::fmt;
 
@@ -59,6 +59,78 @@ impl<T: Scalar + Text> fmt::Display for Solution<T> {
             Some(multiplier) => write!(f, "\n{} N", relation("λ", multiplier)),
             None => Ok(()),
         }
+    }
+}
+
+/// The method with its parameters and their units.
+///
+/// ```
+/// # use spring_mass_contact::solver::Method;
+/// let shown = "augmented Lagrangian, ε = 4 N/m, tolerance = 1e-9 m, at most 1000 augmentations, λ₀ = 0 N";
+/// assert_eq!(Method::augmented(4.0).to_string(), shown);
+/// assert_eq!(Method::Penalty { penalty: 4.0 }.to_string(), "penalty, ε = 4 N/m");
+/// ```
+impl<T: Text> fmt::Display for Method<T> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Method::Lagrange => f.write_str("Lagrange multiplier"),
+            Method::Penalty { penalty } => write!(f, "penalty, {} N/m", relation("ε", penalty)),
+            Method::Augmented { penalty, tolerance, max_augmentations, start } => write!(
+                f,
+                "augmented Lagrangian, {} N/m, {} m, at most {max_augmentations} augmentations, {} N",
+                relation("ε", penalty),
+                relation("tolerance", tolerance),
+                relation("λ₀", start),
+            ),
+        }
+    }
+}
+
+/// The method, the penalties that are sure as well, and what a run of it gives; errors rounded up.
+///
+/// ```
+/// # use spring_mass_contact::{chapter::SpringMass, solver::advise};
+/// let system = SpringMass { c: "4", m: "1", g: "10", l: "1", h: "3" }.parse()?;
+/// let advice = advise(&system, &"1/4".parse()?)?;
+/// let shown = "penalty, ε = 41/10 N/m; ε from 41/10 N/m; p = 0.247 m; N off by 0.988 N";
+/// assert_eq!(advice.choices[1].to_string(), shown);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+impl<T: Text> fmt::Display for Choice<T> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{}", self.method)?;
+        let ends = self.penalties.each_ref().map(|end| end.as_ref().map(brief));
+        match ends {
+            [None, None] => {}
+            [Some(from), None] => write!(f, "; ε from {from} N/m")?,
+            [None, Some(to)] => write!(f, "; ε to {to} N/m")?,
+            [Some(from), Some(to)] => write!(f, "; ε from {from} to {to} N/m")?,
+        }
+        if let Some(k) = self.augmentations {
+            write!(f, "; k = {k}")?;
+        }
+        let p = self.penetration.decimal(DIGITS, Round::Nearest);
+        write!(f, "; p = {p} m; N off by {} N", self.force_error.decimal(DIGITS, Round::Up))
+    }
+}
+
+/// The state and the floor, and a line for each choice.
+///
+/// ```
+/// # use spring_mass_contact::{chapter::SpringMass, solver::advise};
+/// let system = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
+/// let shown = advise(&system, &1e-12)?.to_string();
+/// let first = "contact, floor 2.56e-15 m\nLagrange multiplier; p = 0 m; N off by 0 N\npenalty, ";
+/// assert!(shown.starts_with(first), "{shown}");
+/// # Ok::<(), spring_mass_contact::solver::SolveError>(())
+/// ```
+impl<T: Text> fmt::Display for Advice<T> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match &self.floor {
+            Some(floor) => write!(f, "{}, floor {} m", self.state, floor.decimal(DIGITS, Round::Up))?,
+            None => write!(f, "{}, no floor", self.state)?,
+        }
+        self.choices.iter().try_for_each(|choice| write!(f, "\n{choice}"))
     }
 }
 

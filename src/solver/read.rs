@@ -16,6 +16,7 @@ pub enum ReadError {
         /// What it was.
         value: String,
         /// What is wrong with it.
+        #[source]
         reason: ParseError,
     },
     /// A parameter outside its range.

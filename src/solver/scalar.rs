@@ -173,6 +173,13 @@ pub trait Scalar: OrderedField {
     /// Neither infinite nor not-a-number.
     fn is_finite(&self) -> bool;
 
+    /// The binary digits of a number that arithmetic makes ever longer, as
+    /// [`Exact::digits`](crate::number::Exact::digits) counts them; 0, as by default, where all numbers have
+    /// the same length. An augmentation ends with an error before it takes for ever.
+    fn growing_digits(&self) -> u64 {
+        0
+    }
+
     /// The sign of a₁b₁ + a₂b₂ − a₃b₃, without any rounding. It takes longer than an enclosure's.
     fn sign_of_sum(plus: [(&Self, &Self); 2], minus: (&Self, &Self)) -> Ordering;
 }
@@ -189,8 +196,7 @@ pub(super) fn power<E: PositivePart>(x: &E, k: u64) -> E {
 }
 
 /// More binary digits take a computer minutes and gigabytes.
-#[cfg(feature = "mpfr")]
-const LONGEST: u64 = 10_000_000;
+pub(super) const LONGEST: u64 = 10_000_000;
 
 /// Is xᵏ short enough?
 #[cfg(feature = "mpfr")]
@@ -199,7 +205,7 @@ fn can_be_written(x: &Exact, k: u64) -> bool {
 }
 
 macro_rules! by_ball {
-    ($($float:ty, $sign:expr $(, $power:item)?;)*) => {$(
+    ($($float:ty, $sign:expr $(, $power:item)*;)*) => {$(
         impl Scalar for $float {
             type Enclosure = Ball<$float>;
             #[inline]
@@ -222,7 +228,7 @@ macro_rules! by_ball {
             fn is_finite(&self) -> bool {
                 Real::is_finite(self)
             }
-            $($power)?
+            $($power)*
             #[cold]
             fn sign_of_sum(plus: [(&Self, &Self); 2], minus: (&Self, &Self)) -> Ordering {
                 $sign(plus, minus)
@@ -255,6 +261,11 @@ by_ball! {
         // A constant is a rational, and its powers are as long.
         let rational = x.value().precision().is_none().then(|| x.value().to_exact().ok()).flatten();
         rational.is_none_or(|x| can_be_written(&x, k)).then(|| power(x, k))
+    },
+    fn growing_digits(&self) -> u64 {
+        // A constant is a rational.
+        let constant = self.precision().is_none().then(|| self.to_exact().ok()).flatten();
+        constant.map_or(0, |x| x.digits())
     };
 }
 
@@ -278,6 +289,9 @@ impl Scalar for Exact {
     }
     fn is_finite(&self) -> bool {
         true
+    }
+    fn growing_digits(&self) -> u64 {
+        self.digits()
     }
     fn sign_of_sum(plus: [(&Self, &Self); 2], minus: (&Self, &Self)) -> Ordering {
         (plus[0].0 * plus[0].1 + plus[1].0 * plus[1].1).cmp(&(minus.0 * minus.1))

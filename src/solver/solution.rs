@@ -81,24 +81,47 @@ pub enum Plane {
 }
 
 /// How to solve. All quantities in SI units.
+///
+/// With the feature `serde` it is serialised under the keys of `contact solve --batch`: `method`, `penalty`,
+/// `tolerance`, `max_augmentations`, `initial_multiplier`, quantities as texts; and read back as a
+/// [`SpringMass`] is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        tag = "method",
+        rename_all = "snake_case",
+        bound(
+            serialize = "T: crate::number::Text",
+            deserialize = "T: crate::number::Text + crate::number::Field"
+        )
+    )
+)]
 pub enum Method<T> {
     /// §1.3.1: exact.
     Lagrange,
     /// §1.3.2: with the penetration R/(c + ε).
     Penalty {
         /// ε > 0, in N/m.
+        #[cfg_attr(feature = "serde", serde(with = "crate::number::lossless"))]
         penalty: T,
     },
     /// §1.3.3: repeated until the tolerance is met.
     Augmented {
         /// ε > 0, in N/m.
+        #[cfg_attr(feature = "serde", serde(with = "crate::number::lossless"))]
         penalty: T,
         /// tol > 0, in m: how far the deflection may be from the exact one.
+        #[cfg_attr(feature = "serde", serde(with = "crate::number::lossless"))]
         tolerance: T,
         /// The last k tried; 0 solves once.
         max_augmentations: u64,
         /// λ₀ in N: 0, or a guess (a warm start).
+        #[cfg_attr(
+            feature = "serde",
+            serde(rename = "initial_multiplier", with = "crate::number::lossless")
+        )]
         start: T,
     },
 }
@@ -230,14 +253,21 @@ impl<T: Scalar + ToExact> Solution<T> {
     ///
     /// All zero if and only if they are the exact solution. By penalty they cannot be.
     ///
+    /// # Errors
+    /// [`SolveError::Invalid`] for a parameter, a deflection or a contact force that is not finite or not in
+    /// its range.
+    ///
     /// ```
     /// # use spring_mass_contact::{chapter::SpringMass, solver::{Method, solve}};
     /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
-    /// assert!(solve(&system, &Method::Lagrange)?.certificate(&system).is_zero());
+    /// assert!(solve(&system, &Method::Lagrange)?.certificate(&system)?.is_zero());
     /// # Ok::<(), spring_mass_contact::solver::SolveError>(())
     /// ```
-    pub fn certificate(&self, system: &SpringMass<T>) -> contact::Kkt<Exact> {
-        contact::kkt(&system.map(exact), &exact(&self.deflection), &exact(&self.contact_force))
+    pub fn certificate(&self, system: &SpringMass<T>) -> Result<contact::Kkt<Exact>, SolveError> {
+        check::system(system)?;
+        check::finite_number("deflection", &self.deflection)?;
+        check::finite_number("contact force", &self.contact_force)?;
+        Ok(contact::kkt(&system.map(exact), &exact(&self.deflection), &exact(&self.contact_force)))
     }
 }
 

@@ -104,7 +104,7 @@ pub fn best_penalty<T: Scalar + ToExact>(
     system: &SpringMass<T>,
     unit_roundoff: &Exact,
 ) -> Result<Option<T>, SolveError> {
-    check::require(*unit_roundoff >= Exact::zero(), "unit roundoff", unit_roundoff, "at least 0")?;
+    check::unit_roundoff(unit_roundoff)?;
     if State::of(system)? != State::Contact || unit_roundoff.is_zero() {
         return Ok(None);
     }
@@ -127,31 +127,38 @@ pub fn best_penalty<T: Scalar + ToExact>(
 }
 
 /// How far a computed ε p is from R at most, relative to R, by what is proved of (1.12) and its
-/// [`rounding::penalty_force_error`]; none unless R > 0. `unit_roundoff` is η of the scalar, 0 for rationals.
+/// [`rounding::penalty_force_error`], without under- and overflow; none unless R > 0. `unit_roundoff` is η of
+/// the scalar, 0 for rationals.
 ///
-/// # Panics
-/// A parameter or ε is not finite, c + ε = 0, or η < 0.
+/// # Errors
+/// [`SolveError::Invalid`] for a parameter, ε or η that is not finite or not in its range.
 ///
 /// ```
 /// # use spring_mass_contact::{chapter::SpringMass, number::Exact, solver::penalty_force_bound};
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
-/// assert_eq!(penalty_force_bound(&system, &12.0, &0.into()), Some("1/4".parse().unwrap()));
+/// assert_eq!(penalty_force_bound(&system, &12.0, &0.into())?, Some("1/4".parse()?));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn penalty_force_bound<T: Scalar + ToExact>(
     system: &SpringMass<T>,
     eps: &T,
     unit_roundoff: &Exact,
-) -> Option<Exact> {
-    assert!(*unit_roundoff >= Exact::zero(), "unit roundoff {unit_roundoff}: must be at least 0");
+) -> Result<Option<Exact>, SolveError> {
+    check::system(system)?;
+    check::positive("penalty", eps)?;
+    check::unit_roundoff(unit_roundoff)?;
     let (s, eps) = (system.map(exact), exact(eps));
     let (r, short) = (system::reaction(&s), augmented::contraction(&s, &eps));
     if r <= Exact::zero() {
-        return None;
+        return Ok(None);
     } else if unit_roundoff.is_zero() {
-        return Some(short);
+        return Ok(Some(short));
     }
-    Some(short + rounding::penalty_force_error(&s, &eps, &(Exact::one() / unit_roundoff)) / r)
+    Ok(Some(short + rounding::penalty_force_error(&s, &eps, &(Exact::one() / unit_roundoff)) / r))
 }
+
+/// The most penalties that [`penalties`] makes.
+const MOST_POINTS: u32 = 1_000_000;
 
 /// The most digits that [`penalties`] writes.
 const MOST_DIGITS: usize = 100;
@@ -163,8 +170,8 @@ const MOST_DIGITS: usize = 100;
 /// on every machine.
 ///
 /// # Errors
-/// The ends are not positive, the second is not the larger one, there are fewer than two points, or they
-/// need more than 100 digits.
+/// The ends are not positive, the second is not the larger one, there are fewer than two points or more than
+/// a million, or they need more than 100 digits.
 ///
 /// ```
 /// # use spring_mass_contact::{number::Exact, solver::penalties};
@@ -176,7 +183,7 @@ const MOST_DIGITS: usize = 100;
 pub fn penalties(from: &Exact, to: &Exact, points: u32) -> Result<Vec<Exact>, SolveError> {
     check::require(*from > Exact::zero(), "first penalty", from, "greater than 0")?;
     check::require(from < to, "last penalty", to, "greater than the first")?;
-    check::require(points >= 2, "number of penalties", &points, "at least 2")?;
+    check::require((2..=MOST_POINTS).contains(&points), "number of penalties", &points, "from 2 to 1000000")?;
     let spaced = (3..=MOST_DIGITS).map(|digits| spaced(from, to, points, digits));
     let mut distinct = spaced.filter(|list| list.windows(2).all(|pair| pair[0] < pair[1]));
     let further = "further from the first, or there must be fewer between them";

@@ -3,11 +3,41 @@
 #![allow(dead_code)] // every test file is a crate of its own and uses its share of this one
 
 use oorandom::Rand64;
+use std::fs;
 use std::io::Read;
+use std::ops::Deref;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::thread;
 use std::time::Duration;
 use wait_timeout::ChildExt;
+
+/// An empty folder that no other test has, nor another run in the same target directory; it is removed in the end.
+pub struct Scratch(PathBuf);
+
+impl Scratch {
+    /// With this name in its own.
+    pub fn new(name: &str) -> Self {
+        let folder = format!("{name}-{}", std::process::id());
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(folder);
+        let _ = fs::remove_dir_all(&folder);
+        fs::create_dir_all(&folder).expect("a folder");
+        Scratch(folder)
+    }
+}
+
+impl Deref for Scratch {
+    type Target = Path;
+    fn deref(&self) -> &Path {
+        &self.0
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
 
 /// Ten times what the longest command takes on a busy machine. What takes longer is ended, and its test fails.
 pub const DEADLINE: Duration = Duration::from_secs(60);

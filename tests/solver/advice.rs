@@ -33,9 +33,49 @@ fn with_few_bits_nothing_is_promised() {
         for (eps, tolerance) in [("1", "1"), ("1e9", "1e9"), ("1e-9", "1e9"), ("1e9", "1e-9")] {
             let [eps, tolerance] = [eps, tolerance].map(|x| x.parse::<Exact>().unwrap());
             let eta = Exact::power_of_two(-bits);
-            assert_eq!(augmentations_promised(&system, &eps, &tolerance, &eta), None, "{bits} bits");
+            assert_eq!(augmentations_promised(&system, &eps, &tolerance, &eta), Ok(None), "{bits} bits");
         }
     }
+}
+
+/// m g of 10 bits is rounded to 10 bits, however many the lengths have: the floor is that of the coarsest parameter. A
+/// tolerance between that and the floor of the finest is not promised.
+#[test]
+fn the_coarsest_parameter_decides_what_is_promised() {
+    let like = [10, 10, 10, 200, 200].map(|bits| int(1).to_mpfr(bits));
+    let numbers = SpringMass { c: "4", m: "1.1", g: "9.81", l: "1", h: "3" }.parse().unwrap();
+    let SpringMass { c, m, g, l, h } = &numbers;
+    let mut rounded = like.iter().zip([c, m, g, l, h]).map(|(like, x)| like.nearest(x).unwrap());
+    let mut next = || rounded.next().unwrap();
+    let system = SpringMass { c: next(), m: next(), g: next(), l: next(), h: next() };
+    let floor = |bits: i32| rounding_floor(&system, Plane::Unilateral, &Exact::power_of_two(-bits)).unwrap();
+    let tolerance = floor(10).unwrap() / int(2);
+    assert!(tolerance > floor(200).unwrap() * int(1000));
+    let advice = advise(&system, &tolerance.to_mpfr(200)).unwrap();
+    assert_eq!(advice.floor, floor(10));
+    assert!(
+        !advice.choices.iter().any(|choice| matches!(choice.method, Method::Augmented { .. })),
+        "{advice}"
+    );
+}
+
+/// The tolerance is rounded to as many bits, too, and may be rounded to no more than the floor.
+#[test]
+fn bits_are_needed_for_the_tolerance_as_well() {
+    let system: SpringMass<Exact> = SpringMass { c: "4", m: "1", g: "10", l: "1", h: "3" }.parse().unwrap();
+    let mut rounded_down = 0;
+    for bits in 6..30 {
+        let floor = |bits: u32| {
+            rounding_floor(&system, Plane::Unilateral, &Exact::power_of_two(-(bits as i32))).unwrap().unwrap()
+        };
+        // A little above the floor, and the parameters are the same in all of these bits.
+        let tolerance = floor(bits) * (int(1) + Exact::power_of_two(-60));
+        let enough = |bits: u32| floor(bits) < tolerance.rounded(bits).unwrap();
+        let least = (6..).find(|bits| enough(*bits));
+        assert_eq!(bits_needed(&system, Plane::Unilateral, &tolerance), Ok(least));
+        rounded_down += u32::from(least == Some(bits + 1));
+    }
+    assert!((1..24).contains(&rounded_down), "{rounded_down}");
 }
 
 /// The penalties that are advised.
@@ -103,27 +143,32 @@ fn with_penalty_of<T: Float>(method: &Method<T>, eps: &T) -> Method<T> {
     }
 }
 
-/// Some penalties in the range, its ends included.
-fn within<T: Float>(choice: &Choice<T>, like: &T) -> Vec<T> {
+/// Some penalties in the range, its ends included; where there is no first one, down to a part of the choice's own.
+fn within<T: Float>(choice: &Choice<T>, part: &Exact, like: &T) -> Vec<T> {
     let Some(own) = choice.method.penalty() else { return Vec::new() };
     let [from, to] = &choice.penalties;
     let own = exact(own);
-    let from = from.as_ref().map_or_else(|| &own / int(1000), exact);
+    let from = from.as_ref().map_or_else(|| &own * part, exact);
     let to = to.as_ref().map_or_else(|| &own * int(1000), exact);
     assert!(from <= own && own <= to, "{from} {own} {to}");
     let all = [from.clone(), (&from + &own) / int(2), (&own + &to) / int(2), to.clone()];
     // Rounded, what is between two scalars stays between them.
     let mut penalties = Vec::from(all);
+    let mut factor = int(1000);
+    while power(&factor, 8) * &from < to {
+        factor = &factor * &factor;
+    }
     let mut eps = from;
     while eps < to {
         penalties.push(eps.clone());
-        eps = eps * int(1000);
+        eps = eps * &factor;
     }
     // What does not fit is no penalty.
     penalties.iter().filter_map(|eps| like.nearest(eps).ok()).collect()
 }
 
-/// Where everything `fits` the range of the scalar, what is promised has to be there.
+/// Where everything `fits` the range of the scalar, what is promised has to be there. Where it does not, penalties may be
+/// very soft.
 fn keeps_its_word<T: Float + Text>(
     case: &Case<Exact>,
     tolerance: &Exact,
@@ -131,7 +176,9 @@ fn keeps_its_word<T: Float + Text>(
     fits: bool,
 ) -> Result<(), TestCaseError> {
     let case = case.rounded(like);
-    let Ok(tolerance) = like.nearest(tolerance) else { return Ok(()) };
+    let Some(tolerance) = like.nearest(tolerance).ok().filter(|tolerance| *tolerance > T::zero()) else {
+        return Ok(());
+    };
     let tol = exact(&tolerance);
     let system = &case.system;
     let numbers = system.map(exact);
@@ -147,7 +194,8 @@ fn keeps_its_word<T: Float + Text>(
         prop_assert_eq!(&(exact(&solution.contact_force) - &force).abs(), force_error);
         let parts = relative_force_error.as_ref().map(|parts| parts * &force);
         prop_assert_eq!(parts, (!force.is_zero()).then(|| force_error.clone()));
-        for eps in within(choice, like) {
+        let part = if fits { int(1) / int(1000) } else { Exact::power_of_two(-200) };
+        for eps in within(choice, &part, like) {
             let found = reaches(system, &with_penalty_of(method, &eps), &tol);
             // Without another limit, that of the scalar.
             let beyond = choice.penalties[1].is_none() && Some(&eps) > method.penalty();
@@ -160,7 +208,7 @@ fn keeps_its_word<T: Float + Text>(
     if fits && floor.is_some_and(|floor| tol > floor) {
         prop_assert_eq!(choices.len(), 3, "{:?} at {} {:?}", choices, tol, case);
     }
-    if choices.is_empty() {
+    if fits && choices.is_empty() {
         let exponents = [-20, -3, 0, 3, 20, 50];
         let penalties = exponents.map(|e| like.nearest(&(&numbers.c * Exact::power_of_two(e))).unwrap());
         for eps in penalties.into_iter().chain([case.eps.clone()]) {
@@ -251,7 +299,9 @@ fn softest_is_soft_enough<T: Float + Text>(case: &Case<Exact>, like: &T) -> Resu
         penalty::penetration(&numbers, eps) + rounding::deflection_error(&numbers, eps, &(int(1) / &eta))
     };
     let arrives = |eps: &Exact| {
-        augmentations_promised(&numbers, eps, &tol, &eta).is_some_and(|most| most <= MAX_AUGMENTATIONS)
+        augmentations_promised(&numbers, eps, &tol, &eta)
+            .unwrap()
+            .is_some_and(|most| most <= MAX_AUGMENTATIONS)
     };
     for choice in advise(&case.system, &case.tolerance).unwrap().choices {
         match (&choice.method, &choice.penalties[0]) {
@@ -284,7 +334,7 @@ fn promised_augmentations_do<T: Float>(case: &Case<Exact>, like: &T) -> Result<(
         // Where ε is too soft for any bound of the drift, that formula is negative.
         let tolerance = like.nearest(&(&begins * share)).ok().filter(|tolerance| *tolerance > T::zero());
         let Some(tolerance) = tolerance else { continue };
-        let promised = augmentations_promised(&case.system, &case.eps, &tolerance, &eta);
+        let promised = augmentations_promised(&case.system, &case.eps, &tolerance, &eta).unwrap();
         let Some(most) = promised.and_then(|most| most.to_u64()).filter(|most| *most < 2000) else {
             continue;
         };
@@ -303,9 +353,11 @@ fn promised_augmentations_do<T: Float>(case: &Case<Exact>, like: &T) -> Result<(
 /// A tolerance of the size of the system or far below, and some at the floor.
 fn advice_holds<T: Float + Text>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
     keeps_its_word(case, &case.tolerance, like, true)?;
-    let floor = rounding_floor(&case.rounded(like).system, Plane::Unilateral, &unit_roundoff(like));
+    let floor = rounding_floor(&case.rounded(like).system, Plane::Unilateral, &unit_roundoff(like)).unwrap();
     for share in [int(1) / int(2), int(101) / int(100), int(2)] {
-        if let Some(floor) = floor.as_ref().filter(|floor| !floor.is_zero()) {
+        // Without lengths there is a floor of underflow alone, and a penalty that meets it may not fit.
+        let lengths = !(case.system.h.is_zero() && case.system.l.is_zero());
+        if let Some(floor) = floor.as_ref().filter(|floor| lengths && !floor.is_zero()) {
             keeps_its_word(case, &(floor * share), like, true)?;
         }
     }
@@ -317,6 +369,72 @@ in_every_float! {
     hardest_is_not_too_hard from in_contact;
     softest_is_soft_enough from in_contact;
     promised_augmentations_do from in_contact;
+}
+
+/// A case in units so large that forces, stiffnesses and lengths are about as small as a float can be: forces of 2ᶠ,
+/// lengths of 2ˡ, masses of 2ᵐ. None if a number does not fit, or a product of the solver's is lost altogether.
+fn tiny<T: Float>(case: &Case<Exact>, [force, length, mass]: [i32; 3], like: &T) -> Option<Case<Exact>> {
+    let times = |x: &Exact, n: i32| x * Exact::power_of_two(n);
+    let SpringMass { c, m, g, l, h } = &case.system;
+    let system = SpringMass {
+        c: times(c, force - length),
+        m: times(m, mass),
+        g: times(g, force - mass),
+        l: times(l, length),
+        h: times(h, length),
+    };
+    let case = Case {
+        system,
+        eps: times(&case.eps, force - length),
+        start: times(&case.start, force),
+        tolerance: times(&case.tolerance, length),
+    };
+    let SpringMass { c, m, g, l, h } = &case.system;
+    let fits =
+        [c, m, g, l, h, &case.eps, &case.start, &case.tolerance].iter().all(|x| like.nearest(x).is_ok());
+    (fits && solve(&case.rounded(like).system, &Method::Lagrange).is_ok()).then_some(case)
+}
+
+/// Where products underflow, too. All that is in the range of a choice is tried.
+fn small_numbers_keep_their_word<T: Float + Text>(
+    case: &Case<Exact>,
+    scales: [i32; 3],
+    like: &T,
+) -> Result<(), TestCaseError> {
+    let Some(case) = tiny(case, scales, like) else { return Ok(()) };
+    keeps_its_word(&case, &case.tolerance, like, false)?;
+    let system = case.rounded(like).system;
+    let numbers = system.map(exact);
+    // The law's own floor, which knows no underflow, and what is lost by it.
+    let eta = unit_roundoff(like);
+    let lengths = int(21) * &eta * (numbers.h.abs() + (&numbers.h - &numbers.l).abs());
+    for share in [int(1) / int(4), int(101) / int(100), int(8), int(100)] {
+        keeps_its_word(&case, &(&lengths * &share), like, false)?;
+        let floor = rounding_floor(&system, Plane::Unilateral, &eta).unwrap();
+        if let Some(floor) = floor.filter(|floor| !floor.is_zero()) {
+            keeps_its_word(&case, &(floor * share), like, false)?;
+        }
+    }
+    // That is promised where mass and plane touch.
+    if system::reaction(&numbers) >= int(0) { promised_augmentations_do(&case, like) } else { Ok(()) }
+}
+
+proptest! {
+    /// f32 is subnormal below 2⁻¹²⁶.
+    #[test]
+    fn small_f32s_keep_their_word(
+        case in any_state(NARROW), force in -150..-60, length in -130..20, mass in -60..60,
+    ) {
+        small_numbers_keep_their_word(&case, [force, length, mass], &1f32)?;
+    }
+
+    /// f64 is subnormal below 2⁻¹⁰²².
+    #[test]
+    fn small_f64s_keep_their_word(
+        case in any_state(NARROW), force in -1070..-950, length in -1020..20, mass in -60..60,
+    ) {
+        small_numbers_keep_their_word(&case, [force, length, mass], &1f64)?;
+    }
 }
 
 proptest! {
@@ -334,14 +452,14 @@ proptest! {
     #[test]
     fn bits_needed_do(case in any_state(WIDE), digits in 3u32..=400) {
         let tolerance = int(1) / power(&int(10), digits);
-        let bits = bits_needed(&case.system, Plane::Unilateral, &tolerance).unwrap();
+        let bits = bits_needed(&case.system, Plane::Unilateral, &tolerance).unwrap().unwrap();
         let like = int(1).to_mpfr(bits);
         let rounded = case.rounded(&like);
         let advice = advise(&rounded.system, &tolerance.to_mpfr(bits)).unwrap();
         prop_assert_eq!(advice.choices.len(), 3, "{} bits for {}: {:?}", bits, tolerance, rounded);
         if bits > 6 {
             let fewer = case.rounded(&int(1).to_mpfr(bits - 1));
-            let floor = rounding_floor(&fewer.system, Plane::Unilateral, &Exact::power_of_two(1 - bits as i32));
+            let floor = rounding_floor(&fewer.system, Plane::Unilateral, &Exact::power_of_two(1 - bits as i32)).unwrap();
             prop_assert!(floor.is_none_or(|floor| floor >= exact(&tolerance.to_mpfr(bits - 1))));
         }
     }
@@ -363,7 +481,7 @@ proptest! {
         }
         if reaction(&case) >= Exact::zero() {
             let plane = Plane::Unilateral;
-            let needed = |eps: &Exact| augmentations_needed(&case.system, eps, &case.tolerance, &int(0), plane);
+            let needed = |eps: &Exact| augmentations_needed(&case.system, eps, &case.tolerance, &int(0), plane).unwrap();
             match &advice.choices[2].penalties[0] {
                 None => prop_assert!(reaction(&case) <= &case.system.c * &case.tolerance),
                 Some(from) => {

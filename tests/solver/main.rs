@@ -13,5 +13,7 @@ mod kkt;
 mod laws;
 mod penalty_limit;
 mod results;
+#[cfg(feature = "serde")]
+mod serialised;
 mod shown;
 mod sweep;

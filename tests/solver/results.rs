@@ -5,11 +5,12 @@ use crate::in_every_float;
 use crate::strategies::*;
 use num_traits::Zero;
 use proptest::prelude::*;
-use spring_mass_contact::chapter::{SpringMass, system};
-use spring_mass_contact::number::{Exact, PositivePart};
+use spring_mass_contact::chapter::{SpringMass, penalty, system};
+use spring_mass_contact::number::{Exact, Mpfr, PositivePart};
 use spring_mass_contact::solver::{
-    Bounds, Interval, Method, Plane, Solution, SolveError, State, bits_needed, rounding_floor, solve,
-    solve_bilateral, within_reach,
+    Bounds, Interval, Method, Outcome, Plane, Solution, SolveError, State, advise, augmentations_needed,
+    augmentations_promised, best_penalty, bits_needed, iterate_after, penalties, penalty_for_penetration,
+    penalty_force_bound, rounding_floor, series_penetration, solve, solve_bilateral, sweep, within_reach,
 };
 
 /// A way to solve, and the plane that it supposes.
@@ -263,7 +264,8 @@ fn what_is_within_reach_begins_at_the_drift() {
     let pushes = SpringMass { c: 4, m: 1, g: 10, l: 1, h: 3 }.map(|x| int(*x));
     let pulls = SpringMass { c: 4, m: 1, g: -10, l: -1, h: -3 }.map(|x| int(*x));
     for system in [pushes, pulls] {
-        let reaches = |tolerance: &Exact, eta: &Exact| within_reach(&system, &int(4), tolerance, eta);
+        let reaches =
+            |tolerance: &Exact, eta: &Exact| within_reach(&system, &int(4), tolerance, eta).unwrap();
         for bits in [24, 53, 200] {
             let eta = Exact::power_of_two(-bits);
             let drift = int(113) * &eta / (int(1) - int(8) * &eta);
@@ -281,11 +283,11 @@ fn what_is_within_reach_begins_at_the_drift() {
 #[test]
 fn a_tolerance_is_above_the_floor() {
     let system = SpringMass { c: 1, m: 1, g: 8, l: 0, h: 7 }.map(|x| int(*x));
-    let floor = |eta: Exact| rounding_floor(&system, Plane::Unilateral, &eta);
+    let floor = |eta: Exact| rounding_floor(&system, Plane::Unilateral, &eta).unwrap();
     let fewest = int(41) / int(8);
     assert_eq!(floor(int(1) / int(64)), Some(fewest.clone()));
     assert_eq!(floor(int(1) / int(63)), None);
-    let bits = |tolerance| bits_needed(&system, Plane::Unilateral, &tolerance);
+    let bits = |tolerance| bits_needed(&system, Plane::Unilateral, &tolerance).unwrap();
     assert_eq!([bits(fewest), bits(int(6))], [Some(7), Some(6)]);
 }
 
@@ -296,7 +298,7 @@ fn a_tolerance_is_above_the_floor() {
 fn bits_are_found_where_far_fewer_do_than_seem_to() {
     let [soft, long] = [-200_000, 400_000].map(Exact::power_of_two);
     let system = SpringMass { c: soft, m: int(1), g: int(-1), l: long.clone(), h: long };
-    assert_eq!(bits_needed(&system, Plane::Unilateral, &int(1)), Some(200_005));
+    assert_eq!(bits_needed(&system, Plane::Unilateral, &int(1)), Ok(Some(200_005)));
 }
 
 /// u = m g/c = 1 and l = 0: 5 η far from the plane. Touching, the floor is 41 η H/(1 − 8 η), and it is added where
@@ -310,7 +312,7 @@ fn the_floor_of_what_hangs_free_near_grazing_is_both() {
     assert_eq!(&near - int(1), touching(&near) + int(2) * &alone);
     let floor = |h: &Exact| {
         let system = SpringMass { c: int(1), m: int(1), g: int(1), l: int(0), h: h.clone() };
-        rounding_floor(&system, Plane::Unilateral, &eta).unwrap()
+        rounding_floor(&system, Plane::Unilateral, &eta).unwrap().unwrap()
     };
     assert_eq!(floor(&near), touching(&near) + &alone);
     assert_eq!([floor(&(near + Exact::power_of_two(-99))), floor(&int(3))], [alone.clone(), alone]);
@@ -339,4 +341,108 @@ fn a_multiplier_out_of_range_is_refused() {
     let method =
         Method::Augmented { penalty: f32::MAX, tolerance: 1.0363584e-4, max_augmentations: 54, start: 0.0 };
     assert_eq!(solve(&system, &method), Err(SolveError::OutOfRange { quantity: "multiplier" }));
+}
+
+/// ε R = 4.81·10³⁰⁸ does not fit, but N = ε R / (c + ε) does: 4.81, which 100/(10³⁰⁸) of itself does not change.
+#[test]
+fn a_penalty_may_be_as_large_as_a_float() {
+    let system = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
+    for penalty in [1e308, f64::MAX / 2.0] {
+        for (solve, plane) in both() {
+            let solution = solve(&system, &Method::Penalty { penalty }).unwrap();
+            let exactly = penalty::force_at_root(&system.map(exact), &exact(&penalty));
+            let Interval { lower, upper } = solution.bounds.contact_force;
+            assert!(exact(&lower) <= exactly && exactly <= exact(&upper), "{plane:?}");
+            // As narrow as for a penalty that overflows nothing.
+            let narrow = solve(&system, &Method::Penalty { penalty: 1e300 }).unwrap().bounds.contact_force;
+            assert!(upper - lower <= 2.0 * narrow.width(), "{lower} to {upper}");
+        }
+    }
+    // Soft beside the spring, where R − c p would cancel.
+    let strong = SpringMass { c: 1e20, m: 1e300, g: 1.0, l: 1.0, h: 1.0 };
+    let force = solve(&strong, &Method::Penalty { penalty: 1e9 }).unwrap().bounds.contact_force;
+    let exactly = penalty::force_at_root(&strong.map(exact), &int(1_000_000_000));
+    assert!(exact(&force.lower) <= exactly && exactly <= exact(&force.upper));
+    assert!(force.width() <= 1e-14 * force.upper);
+}
+
+/// Of whatever is not finite or not in its range an error is returned by each of them, and no panic.
+#[test]
+fn what_is_asked_of_an_invalid_system_is_an_error() {
+    let good = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
+    let eta = Exact::power_of_two(-53);
+    let (nan, inf) = (f64::NAN, f64::INFINITY);
+    let systems = [
+        (SpringMass { c: nan, ..good }, "stiffness"),
+        (SpringMass { c: -4.0, ..good }, "stiffness"),
+        (SpringMass { m: 0.0, ..good }, "mass"),
+        (SpringMass { g: inf, ..good }, "gravity"),
+        (SpringMass { l: nan, ..good }, "free length"),
+        (SpringMass { h: -inf, ..good }, "height"),
+    ];
+    fn named<R>(result: Result<R, SolveError>, expected: &str) {
+        let Err(SolveError::Invalid { argument, .. }) = result else { panic!("{expected} is not refused") };
+        assert_eq!(argument, expected);
+    }
+    let plane = Plane::Unilateral;
+    let solution = solve(&good, &Method::Lagrange).unwrap();
+    for (system, name) in &systems {
+        named(within_reach(system, &4.0, &0.1, &eta), name);
+        named(augmentations_promised(system, &4.0, &0.1, &eta), name);
+        named(augmentations_needed(system, &4.0, &0.1, &0.0, plane), name);
+        named(rounding_floor(system, plane, &eta), name);
+        named(penalty_force_bound(system, &4.0, &eta), name);
+        named(best_penalty(system, &eta), name);
+        named(penalty_for_penetration(system, &0.1), name);
+        named(iterate_after(system, &4.0, &0.0, 3, plane), name);
+        named(series_penetration(system, &4.0, &[]), name);
+        named(advise(system, &0.1), name);
+        named(solution.certificate(system), name);
+        named(sweep(system, [4.0]).next().unwrap(), name);
+    }
+    for eps in [0.0, -4.0, nan, inf] {
+        named(within_reach(&good, &eps, &0.1, &eta), "penalty");
+        named(augmentations_promised(&good, &eps, &0.1, &eta), "penalty");
+        named(augmentations_needed(&good, &eps, &0.1, &0.0, plane), "penalty");
+        named(penalty_force_bound(&good, &eps, &eta), "penalty");
+    }
+    for tolerance in [0.0, -0.1, nan, inf] {
+        named(within_reach(&good, &4.0, &tolerance, &eta), "tolerance");
+        named(augmentations_promised(&good, &4.0, &tolerance, &eta), "tolerance");
+        named(augmentations_needed(&good, &4.0, &tolerance, &0.0, plane), "tolerance");
+    }
+    named(augmentations_needed(&good, &4.0, &0.1, &nan, plane), "initial multiplier");
+    let negative = int(-1);
+    named(within_reach(&good, &4.0, &0.1, &negative), "unit roundoff");
+    named(augmentations_promised(&good, &4.0, &0.1, &negative), "unit roundoff");
+    named(rounding_floor(&good, plane, &negative), "unit roundoff");
+    named(penalty_force_bound(&good, &4.0, &negative), "unit roundoff");
+    let exactly = good.map(exact);
+    named(bits_needed(&exactly, plane, &int(0)), "tolerance");
+    named(bits_needed(&SpringMass { c: int(0), ..exactly.clone() }, plane, &int(1)), "stiffness");
+    named(augmentations_needed(&exactly, &int(-4), &int(1), &int(0), plane), "penalty");
+    named(penalties(&int(1), &int(2), u32::MAX), "number of penalties");
+    let mut broken = solution;
+    broken.contact_force = nan;
+    named(broken.certificate(&good), "contact force");
+    // Nor do texts of what is not finite.
+    assert_eq!(Interval { lower: -inf, upper: inf }.texts(), ["-inf", "inf"]);
+}
+
+/// Rationals become longer with every step: of 50 000 decimals, 166 000 digits a step.
+#[test]
+fn an_augmentation_of_endless_digits_is_refused() {
+    let system = SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" }.parse().unwrap();
+    let soft: Exact = "1e-50000".parse().unwrap();
+    let refused = solve(&system, &Method::augmented(soft.clone())).unwrap_err();
+    let said = "multiplier: more than 4194304 binary digits; use MPFR (mpfr:BITS), a larger penalty or tolerance, \
+                or fewer augmentations";
+    assert_eq!(refused.to_string(), said);
+    // Constants of MPFR are rationals, too.
+    let constant = |x: &Exact| Mpfr::constant(x.clone().into());
+    let refused = solve(&system.map(constant), &Method::augmented(constant(&soft))).unwrap_err();
+    assert!(matches!(refused, SolveError::TooLong { .. }), "{refused}");
+    // A thousand steps of everyday numbers are none too many.
+    let soft = Method::augmented("0.001".parse().unwrap());
+    assert_eq!(solve(&system, &soft).unwrap().outcome, Outcome::OutOfSteps);
 }

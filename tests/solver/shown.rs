@@ -4,7 +4,7 @@ use crate::in_every_float;
 use crate::strategies::*;
 use proptest::prelude::*;
 use spring_mass_contact::chapter::{SpringMass, contact};
-use spring_mass_contact::number::{Exact, Text};
+use spring_mass_contact::number::{Exact, ParseError, Text};
 use spring_mass_contact::solver::{
     Condition, FunctionalError, Interval, Method, Outcome, solve, solve_bilateral,
 };
@@ -125,4 +125,12 @@ fn conditions_and_residuals_are_told_in_words() {
     let kkt = contact::kkt(&system, &2.25, &1.0).to_string();
     assert_eq!(kkt, "stationarity 0 N, primal 0.25 m, dual 0 N, complementarity 0.25 J");
     assert!(matches!(Method::augmented(4.0), Method::Augmented { tolerance: 1e-9, .. }));
+}
+
+/// What is wrong with a text is the cause of what is wrong with a parameter.
+#[test]
+fn an_error_has_its_cause() {
+    let error = SpringMass { c: "1/0", m: "1", g: "1", l: "1", h: "1" }.parse().unwrap_err();
+    let cause = std::error::Error::source(&error).expect("a cause");
+    assert_eq!(cause.to_string(), ParseError::DivisionByZero.to_string());
 }

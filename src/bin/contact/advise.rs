@@ -63,10 +63,12 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
 fn run_in<T: Scalar + Text>(options: &Options, like: &T) -> Result<Exit, Failure> {
     let system = options.system.round(Names::Options, like)?;
     let tolerance = options.tolerance.round("--tolerance <T>", like)?;
-    let out_of_range = |error: SolveError| format!("--scalar {}: {error}", options.scalar);
+    let out_of_range = |error: SolveError| Failure::Input(format!("--scalar {}: {error}", options.scalar));
     let advice = advise(&system, &tolerance).map_err(out_of_range)?;
     // Of what was typed: with more bits it is rounded to other numbers.
-    let bits_needed = bits_needed(&options.system.values(), Plane::Unilateral, &options.tolerance.value);
+    let values = options.system.values();
+    let bits_needed =
+        bits_needed(&values, Plane::Unilateral, &options.tolerance.value).map_err(out_of_range)?;
     let report = Report { options, system, tolerance, advice, bits_needed };
     output::print(|out| match options.format {
         Format::Table => report.table(out),
@@ -138,7 +140,7 @@ impl<T: Scalar + Text> Report<'_, T> {
             Some(floor) => {
                 format!("{} m: every method is sure to meet a larger tolerance", floor.decimal(3, Round::Up))
             }
-            None => "none: with so few bits no augmentation is sure".to_string(),
+            None => "none: with so few bits, or numbers so small, no augmentation is sure".to_string(),
         };
         let tolerance = format!("{} m ({})", shortened(&options.tolerance.text), options.scalar);
         let state = state_in_words(advice.state, Plane::Unilateral).to_string();
@@ -176,7 +178,7 @@ impl<T: Scalar + Text> Report<'_, T> {
         };
         let bits = match self.bits_needed {
             Some(bits) if bits <= own => {
-                format!("a penalty leaves its range, and --scalar mpfr:{own} has room")
+                format!("a number leaves its range, and --scalar mpfr:{own} has room")
             }
             Some(bits) => format!("--scalar mpfr:{bits} has bits enough for every method"),
             None => "no number of bits that can be had is enough".to_string(),

@@ -32,7 +32,9 @@ Examples:
 A number is a decimal (0.05), scientific (5e-2) or a fraction (1/20), read
 exactly and rounded once into the scalar. In the table, exact: and limit: say
 where the exact answer lies, for the parameters as rounded: by augmentation that
-is the limit of its steps. JSON calls that bounds.
+is the limit of its steps. JSON calls that bounds. An augmentation in rationals,
+which become longer with every step, is refused where a multiplier would have
+more than 2²² binary digits, or all of them together 2²⁸.
 
 With --batch a line of stdin is a JSON object. Its keys are the long options
 with underscores (free_length), and id, which comes back; options given here
@@ -157,7 +159,7 @@ impl Options {
         {
             return Err(out_of_range(SolveError::OutOfRange { quantity: "trace" }).into());
         }
-        let report = Report::new(self, &problem, &solution, needed);
+        let report = Report::new(self, &problem, &solution, needed).map_err(out_of_range)?;
         match self.format {
             Format::Table => report.table(out)?,
             Format::Json => output::json(out, &report)?,
@@ -280,10 +282,10 @@ impl<T: Scalar + Text> Problem<T> {
         steps.into_iter().flatten().take_while(move |step| Some(step.k) <= last)
     }
 
-    /// The count of (1.33), of exact arithmetic.
+    /// The count of (1.33), of exact arithmetic; none if it has too many digits.
     fn steps_needed(&self) -> Option<Integer> {
         let Method::Augmented { penalty, tolerance, start, .. } = &self.method else { return None };
-        Some(augmentations_needed(&self.system, penalty, tolerance, start, self.plane))
+        augmentations_needed(&self.system, penalty, tolerance, start, self.plane).ok()
     }
 }
 

@@ -22,12 +22,12 @@ Examples:
   contact sweep --penalty 1/10..1e40 --scalar mpfr:200 --format csv
 
 The errors are relative, |N − R|/R, for the exact contact force R of the
-parameters as rounded, and exact themselves but for their last digit. Penalties
-are the same numbers in every number system, each rounded once into it; one that
-does not fit, or has a result that does not, ends the command. On a terminal
-there is a plot as well.
+parameters as rounded; in JSON they are exact, elsewhere rounded to a few
+digits. Penalties are the same numbers in every number system, each rounded once
+into it; one that does not fit ends the command. A row whose results do not fit
+has an error in their place. On a terminal there is a plot as well.
 
-Exit status: 0 all well; 2 bad input.";
+Exit status: 0 all well; 1 a row has an error; 2 bad input, or no row has results.";
 
 /// Show how the penalty method depends on its penalty, with the exact errors of its two forces
 #[derive(clap::Args)]
@@ -63,7 +63,7 @@ enum Format {
 }
 
 /// The columns of JSON and CSV.
-const NAMES: [&str; 8] = [
+const NAMES: [&str; 9] = [
     "scalar",
     "penalty",
     "deflection",
@@ -72,6 +72,7 @@ const NAMES: [&str; 8] = [
     "penalty_force",
     "force_error",
     "penalty_force_error",
+    "error",
 ];
 
 /// As clap names it.
@@ -84,7 +85,7 @@ const WIDTHS: [usize; 7] = [10, 11, 11, 11, 9, 11, 9];
 const DIGITS: usize = 8;
 const FEW: usize = 3;
 
-/// How many digits of an error JSON and CSV have.
+/// How many digits of an error CSV has, for programs that plot it.
 const ERROR_DIGITS: usize = 6;
 
 /// Two numbers and what is between them.
@@ -104,7 +105,9 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
         Format::Table => table(out, options, &sweeps, io::stdout().is_terminal()),
         Format::Json => output::json(out, &sweeps.iter().flat_map(|sweep| &sweep.rows).collect::<Vec<_>>()),
         Format::Csv => output::csv(out, &NAMES, sweeps.iter().flat_map(|sweep| &sweep.rows)),
-    })
+    })?;
+    let complete = sweeps.iter().all(|sweep| sweep.complete);
+    Ok(if complete { Exit::Fine } else { Exit::Unmet })
 }
 
 fn sweeps(options: &Options, progress: &dyn Fn(usize, usize)) -> Result<Vec<Sweep>, Failure> {
@@ -133,7 +136,9 @@ fn sweeps(options: &Options, progress: &dyn Fn(usize, usize)) -> Result<Vec<Swee
 /// One number system's rows, as they are printed, and what there is to say of them.
 struct Sweep {
     scalar: NumberSystem,
-    rows: Vec<Row<8>>,
+    rows: Vec<Row<9>>,
+    /// Does every row have results?
+    complete: bool,
     notes: Vec<String>,
     curves: [Curve; 2],
 }
@@ -150,13 +155,28 @@ impl Sweeping<'_> {
         let system = self.options.system.round(Names::Options, like)?;
         let round = |eps: &Number| eps.round(PENALTY, like);
         let rounded = self.penalties.iter().map(round).collect::<Result<Vec<T>, _>>()?;
-        let mut made =
-            Sweep { scalar: self.scalar, rows: Vec::new(), notes: Vec::new(), curves: Curve::pair() };
+        let mut made = Sweep {
+            scalar: self.scalar,
+            rows: Vec::new(),
+            complete: true,
+            notes: Vec::new(),
+            curves: Curve::pair(),
+        };
+        // Why the first row without results has none; and does any row have some?
+        let (mut refused, mut any) = (None, false);
         let mut least: Option<(Exact, &str)> = None;
         for ((i, row), eps) in (1..).zip(sweep(&system, rounded.iter().cloned())).zip(self.penalties) {
-            let row = row.map_err(|error| {
-                format!("--scalar {}, --penalty {}: {error}", self.scalar, shortened(&eps.text))
-            })?;
+            let row = match row {
+                Ok(row) => row,
+                Err(error) => {
+                    let at = format!("--scalar {}, --penalty {}", self.scalar, shortened(&eps.text));
+                    refused.get_or_insert(format!("{at}: {error}"));
+                    made.rows.push(self.row_without_results(eps, &error));
+                    each(i);
+                    continue;
+                }
+            };
+            any = true;
             let errors = [&row.force_error, &row.penalty_force_error];
             for (curve, error) in made.curves.iter_mut().zip(errors) {
                 curve.points.extend(log10(&eps.value).zip(error.as_ref().and_then(log10)));
@@ -169,33 +189,53 @@ impl Sweeping<'_> {
             made.rows.push(self.row(eps, &row));
             each(i);
         }
-        made.notes = self.notes(&system, &rounded, least);
+        made.complete = refused.is_none();
+        match refused {
+            // What is wrong with every row is wrong with the system.
+            Some(refused) if !any => return Err(refused.into()),
+            _ => made.notes = self.notes(&system, &rounded, least),
+        }
         Ok(made)
     }
 
+    fn penalty(&self, eps: &Number) -> Option<String> {
+        let people = self.options.format == Format::Table;
+        Some(if people { eps.value.decimal_within(DIGITS, WIDTHS[0]) } else { eps.text.clone() })
+    }
+
+    fn row_without_results(&self, eps: &Number, error: &SolveError) -> Row<9> {
+        let mut cells = [const { None }; 9];
+        (cells[0], cells[1]) = (Some(self.scalar.to_string()), self.penalty(eps));
+        cells[8] = Some(error.to_string());
+        Row(&NAMES, cells)
+    }
+
     /// As it is printed: for people within the width of a column, or in full.
-    fn row<T: Text>(&self, eps: &Number, row: &SweepRow<T>) -> Row<8> {
+    fn row<T: Text>(&self, eps: &Number, row: &SweepRow<T>) -> Row<9> {
         let people = self.options.format == Format::Table;
         let value = |x: &T, width| {
             if people { exact(x).decimal_within(DIGITS, width) } else { x.text() }
         };
         let error = |x: &Option<Exact>, width| {
-            let digits = if people { FEW } else { ERROR_DIGITS };
-            x.as_ref().map(|x| x.decimal_within(digits, if people { width } else { usize::MAX }))
+            x.as_ref().map(|x| match self.options.format {
+                Format::Table => x.decimal_within(FEW, width),
+                Format::Json => x.text(),
+                Format::Csv => x.decimal(ERROR_DIGITS, Round::Nearest),
+            })
         };
-        let [penalty, u, p, force, force_error, penalty_force, penalty_force_error] = WIDTHS;
-        let penalty = if people { eps.value.decimal_within(DIGITS, penalty) } else { eps.text.clone() };
+        let [_, u, p, force, force_error, penalty_force, penalty_force_error] = WIDTHS;
         Row(
             &NAMES,
             [
                 Some(self.scalar.to_string()),
-                Some(penalty),
+                self.penalty(eps),
                 Some(value(&row.deflection, u)),
                 Some(value(&row.penetration, p)),
                 Some(value(&row.contact_force, force)),
                 row.penalty_force.as_ref().map(|x| value(x, penalty_force)),
                 error(&row.force_error, force_error),
                 error(&row.penalty_force_error, penalty_force_error),
+                None,
             ],
         )
     }
@@ -229,8 +269,9 @@ impl Sweeping<'_> {
             return notes;
         }
         let seen = format!("The least error here is {} at ε = {} N/m.", few(&least), shortened(at));
-        let bound =
-            |eps: &T| penalty_force_bound(system, eps, &eta).map_or(String::new(), |bound| few(&bound));
+        let bound = |eps: &T| {
+            penalty_force_bound(system, eps, &eta).ok().flatten().map_or(String::new(), |bound| few(&bound))
+        };
         notes.push(match best_penalty(system, &eta) {
             Ok(Some(best)) => format!(
                 "ε p multiplies what rounding does to p: surest is ε = {} N/m, where it is certainly within \
@@ -277,7 +318,7 @@ fn table(out: &mut dyn Write, options: &Options, sweeps: &[Sweep], plotted: bool
         cells.collect::<String>().trim_end().to_string()
     };
     output::wrapped(out, " ", 1, &options.system.shown())?;
-    for Sweep { scalar, rows, notes, curves } in sweeps {
+    for Sweep { scalar, rows, complete, notes, curves } in sweeps {
         writeln!(out, "\n {scalar}")?;
         writeln!(
             out,
@@ -285,14 +326,24 @@ fn table(out: &mut dyn Write, options: &Options, sweeps: &[Sweep], plotted: bool
             line(["ε in N/m", "u in m", "p in m", "m g − c u", "error", "ε p in N", "error"])
         )?;
         for Row(_, cells) in rows {
-            let [_, penalty, u, p, force, penalty_force, error, penalty_error] =
+            let [_, penalty, u, p, force, penalty_force, error, penalty_error, refused] =
                 cells.each_ref().map(|cell| cell.as_deref().unwrap_or("–"));
+            if cells[8].is_some() {
+                // It fits the page, all but what helps, which stands below.
+                let what = refused.split("; ").next().unwrap_or_default();
+                writeln!(out, " {penalty:<width$} {what}", width = WIDTHS[0])?;
+                continue;
+            }
             writeln!(out, "{}", line([penalty, u, p, force, error, penalty_force, penalty_error]))?;
         }
         if plotted && let Some(plot) = plot::log_log(curves) {
             write!(out, "\n{plot}")?;
         }
         writeln!(out)?;
+        if !complete {
+            let help = "Where a result leaves the range, use MPFR (mpfr:BITS) or exact rationals.";
+            output::wrapped(out, " ", 1, help)?;
+        }
         notes.iter().try_for_each(|note| output::wrapped(out, " ", 1, note))?;
     }
     writeln!(out, "\n At most eight digits each; --format csv has all.")

@@ -180,6 +180,9 @@ impl fmt::Display for Why {
     }
 }
 
+/// So that a proof can be asked for by `?`.
+impl std::error::Error for Why {}
+
 #[cfg(test)]
 mod tests {
     use super::*;

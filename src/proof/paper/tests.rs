@@ -121,4 +121,7 @@ fn why_there_is_no_proof_is_said_in_the_names_of_the_registry() {
     let why = prove(&statement).unwrap_err();
     let registry = Registry::new(&["a", "b"], Vec::new()).with_factors(&["b", "a"]);
     assert_eq!(Paper::new(&registry).why(&statement, &why), "the sides differ by b a");
+    // It is an error like any other.
+    let error: Box<dyn std::error::Error> = Box::new(why);
+    assert_eq!(error.to_string(), "the sides differ by a b");
 }

@@ -157,7 +157,9 @@ pub fn rounding() -> Figure {
         let eta = numbers.unit_roundoff();
         let system = default();
         let eps = solver::best_penalty(&system, &eta).expect("a valid system").expect("there is contact");
-        let bound = solver::penalty_force_bound(&system, &eps, &eta).expect("there is contact");
+        let bound = solver::penalty_force_bound(&system, &eps, &eta)
+            .expect("a valid system")
+            .expect("there is contact");
         best.push((*name, (float(&eps), float(&bound))));
     }
     let mut words = Vec::new();

@@ -10,7 +10,8 @@ use spring_mass_contact::chapter::contact::Kkt;
 use spring_mass_contact::number::{Exact, NumberSystem, Text, brief_bound, relation};
 use spring_mass_contact::rug::{Integer, float::Round};
 use spring_mass_contact::solver::{
-    Interval, Method, Outcome, Plane, Scalar, Solution, State, bits_needed, rounding_floor, within_reach,
+    Interval, Method, Outcome, Plane, Scalar, Solution, SolveError, State, bits_needed, rounding_floor,
+    within_reach,
 };
 use std::io::{self, Write};
 use std::iter;
@@ -54,9 +55,10 @@ impl<'a, T: Scalar + Text> Report<'a, T> {
         problem: &'a Problem<T>,
         solution: &'a Solution<T>,
         steps_needed: Option<Integer>,
-    ) -> Self {
+    ) -> Result<Self, SolveError> {
         let steps_needed = steps_needed.map(|n| n.to_string());
-        Report { options, problem, solution, kkt: solution.certificate(&problem.system), steps_needed }
+        let kkt = solution.certificate(&problem.system)?;
+        Ok(Report { options, problem, solution, kkt, steps_needed })
     }
 
     /// The names and values that JSON and CSV share; quantities are texts, so that no reader rounds them.
@@ -203,7 +205,8 @@ impl<'a, T: Scalar + Text> Report<'a, T> {
     /// Is it certain that rounding lets the method meet its tolerance?
     fn is_within_reach(&self) -> bool {
         let Method::Augmented { penalty, tolerance, .. } = &self.problem.method else { return true };
-        within_reach(&self.problem.system, penalty, tolerance, &self.options.scalar.unit_roundoff())
+        let eta = self.options.scalar.unit_roundoff();
+        within_reach(&self.problem.system, penalty, tolerance, &eta).is_ok_and(|certain| certain)
     }
 
     /// What helps against rounding.
@@ -211,14 +214,15 @@ impl<'a, T: Scalar + Text> Report<'a, T> {
         let Options { scalar, system, .. } = self.options;
         let plane = self.problem.plane;
         let tolerance = self.options.tolerance().value;
-        let floor = rounding_floor(&self.problem.system, plane, &scalar.unit_roundoff());
+        // What has been solved is valid.
+        let floor = rounding_floor(&self.problem.system, plane, &scalar.unit_roundoff()).ok().flatten();
         if floor.as_ref().is_some_and(|floor| tolerance > *floor) {
             return "a larger --penalty meets it, contact advise says which".to_string();
         }
         let sure = floor.map_or(String::new(), |floor| {
             format!("{scalar} is sure to meet a tolerance above {} m, ", floor.decimal(3, Round::Up))
         });
-        match bits_needed(&system.values(), plane, &tolerance) {
+        match bits_needed(&system.values(), plane, &tolerance).ok().flatten() {
             Some(bits) => {
                 format!("{sure}--scalar mpfr:{bits} this one, with the --penalty of contact advise")
             }
@@ -241,7 +245,8 @@ impl<'a, T: Scalar + Text> Report<'a, T> {
                 self.remedy()
             ),
             Outcome::OutOfSteps => {
-                let needed = self.steps_needed.as_deref().map_or(String::new(), shortened);
+                let needed = self.steps_needed.as_deref();
+                let needed = needed.map_or("a number of very many digits".to_string(), shortened);
                 let needs = format!("out_of_steps at k = {k}: |u − u*| < {tolerance} m needs k = {needed}");
                 let more = "try a larger --max-augmentations or --penalty";
                 match (self.options.scalar, self.is_within_reach()) {
