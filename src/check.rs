@@ -216,8 +216,8 @@ impl Report {
         known && wrong + crashed + timed_out == 0 && self.lag().is_none()
     }
 
-    /// The smallest |R| relative to |m g| + |c (H − l)| of the systems in this state that a solver which takes them for
-    /// the other state gets wrong by more than the tolerance; `None` if there are none.
+    /// The smallest |R| relative to |m g| + |c (H − l)| of the systems in this state that a solver which
+    /// takes them for the other state gets wrong by more than the tolerance; `None` if there are none.
     pub fn least_deciding(&self, state: State, tolerance: &Exact) -> Option<Exact> {
         let parts = self.checked.iter().filter_map(|checked| {
             let system = &checked.problem.system;

@@ -58,12 +58,12 @@ pub struct Diagnosis {
     pub of: usize,
 }
 
-/// Answers that tell a mistake from what is right have to be so many: one or two could be off by anything, and a
-/// constant takes one of them to be found.
+/// Answers that tell a mistake from what is right have to be so many: one or two could be off by anything,
+/// and a constant takes one of them to be found.
 const INFORMATIVE: usize = 3;
 
-/// Wrong answers that a constant is looked for in, evenly spread: all of them in a run by default, since where few
-/// systems are in contact for a wrong program, few tell.
+/// Wrong answers that a constant is looked for in, evenly spread: all of them in a run by default, since
+/// where few systems are in contact for a wrong program, few tell.
 const SAMPLES: usize = 200;
 
 /// Every mistake that explains the answers, if some of them are wrong.
@@ -120,16 +120,16 @@ impl Search<'_> {
         given.fits(mistake, &Constants { penalty: penalty.as_ref(), factor }, &self.fit)
     }
 
-    /// Are there enough answers that differ from what is right by more than what a mistake has to fit to? Where they
-    /// are so little off, every mistake that hardly shows would fit.
+    /// Are there enough answers that differ from what is right by more than what a mistake has to fit to?
+    /// Where they are so little off, every mistake that hardly shows would fit.
     fn is_informative(&self, answers: &[&Given]) -> bool {
         let none = none(self.by_penalty);
         let telling = answers.iter().filter(|given| !self.fits(&none, None, given, &Penalty::NONE));
         telling.take(INFORMATIVE).count() == INFORMATIVE
     }
 
-    /// Mistakes without an unknown constant but ε. An edit of a formula shows in all answers; that it explains the
-    /// wrong ones alone is chance.
+    /// Mistakes without an unknown constant but ε. An edit of a formula shows in all answers; that it
+    /// explains the wrong ones alone is chance.
     fn known(&self, which: Answers, answers: &[&Given]) -> Vec<Diagnosis> {
         if !self.is_informative(answers) {
             return Vec::new();
@@ -165,8 +165,8 @@ impl Search<'_> {
         fitting.map(|mistake| about(&mistake.name, mistake.formula())).collect()
     }
 
-    /// What is right of lengths with few decimals, or of parameters with few digits: of the float nearest to a number,
-    /// as most programs round, or of the number itself, which may be halfway between two.
+    /// What is right of lengths with few decimals, or of parameters with few digits: of the float nearest to
+    /// a number, as most programs round, or of the number itself, which may be halfway between two.
     fn few_digits_of_parameters(&self, answers: &[&Given]) -> Option<String> {
         let fits = |change: &dyn Fn(&SpringMass<Exact>) -> SpringMass<Exact>| {
             answers.iter().all(|given| given.fits_parameters(&change(&given.problem.system), self.tolerance))

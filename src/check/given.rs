@@ -123,15 +123,16 @@ impl<'a> Given<'a> {
         reaction >= -&near && fits(&mistake.touching) || reaction <= near && fits(&mistake.apart)
     }
 
-    /// Returns `true` if both numbers are what is printed of numbers of single precision, and no further off than a
-    /// program that computes in it may be.
+    /// Returns `true` if both numbers are what is printed of numbers of single precision, and no further off
+    /// than a program that computes in it may be.
     pub fn is_single(&self) -> bool {
         self.is_right_in_single()
             && self.numbers().into_iter().all(|x| x.as_ref().is_some_and(is_single_number))
     }
 
-    /// Each number relative to the lengths or the forces of the system together is off by eight roundings at most: of
-    /// its parameters (c, m and g, or l and H), and of up to four operations, whatever their order is.
+    /// Each number relative to the lengths or the forces of the system together is off by eight roundings at
+    /// most: of its parameters (c, m and g, or l and H), and of up to four operations, whatever their order
+    /// is.
     fn is_right_in_single(&self) -> bool {
         let penalty = self.problem.penalty.as_ref();
         let force = penalty.map(|eps| eps * &self.sizes[0]).unwrap_or_else(Exact::zero) + &self.sizes[1];
@@ -217,8 +218,8 @@ impl<'a> Given<'a> {
     }
 }
 
-/// Is this what is printed of a number of single precision: itself, with all its digits or with those that tell it in
-/// double, or no more than the nine that tell it in single?
+/// Is this what is printed of a number of single precision: itself, with all its digits or with those that
+/// tell it in double, or no more than the nine that tell it in single?
 fn is_single_number(x: &Exact) -> bool {
     let itself = x.to_f32().ok().and_then(|x| x.to_exact().ok());
     itself.is_some_and(|single| rounds_alike(&single, x)) || has_digits(x, 9)

@@ -153,8 +153,9 @@ pub(super) fn is_within<T: Real + ToExact>(ball: &Ball<T>, x: &Exact, size: &Exa
     radius.is_ok_and(|radius| radius <= *size) && ball.contains(x)
 }
 
-/// Returns `true` if both numbers are equal or the same in f64. The exact answer rounded once passes by this: a ball
-/// contains the exact answer, but where its radius is less than half an ulp, not always the float nearest to that.
+/// Returns `true` if both numbers are equal or the same in f64. The exact answer rounded once passes by this:
+/// a ball contains the exact answer, but where its radius is less than half an ulp, not always the float
+/// nearest to that.
 pub(super) fn rounds_alike(x: &Exact, y: &Exact) -> bool {
     x == y || matches!((x.to_f64(), y.to_f64()), (Ok(x), Ok(y)) if x == y)
 }

@@ -13,8 +13,9 @@ pub enum Of {
     Penetration,
     /// |R|, the force that the plane has to push or pull with to be touched, in N.
     Force,
-    /// |R| relative to |m g|, which is |R|/c relative to the free deflection. As long as it is below 1, a threshold of
-    /// it is one of |R| relative to |c (H − l)| or to |m g| + |c (H − l)| as well, since each grows with the others.
+    /// |R| relative to |m g|, which is |R|/c relative to the free deflection. As long as it is below 1, a
+    /// threshold of it is one of |R| relative to |c (H − l)| or to |m g| + |c (H − l)| as well, since each
+    /// grows with the others.
     ForceByWeight,
     /// |R|/c relative to |H|, or to |l|, which is nearly as long where they decide.
     PenetrationByHeight,
@@ -54,8 +55,8 @@ impl Of {
     }
 }
 
-/// A solver decides some systems wrongly, and one quantity tells these from those that it decides rightly: most likely
-/// it compares that quantity with a tolerance of its own.
+/// A solver decides some systems wrongly, and one quantity tells these from those that it decides rightly:
+/// most likely it compares that quantity with a tolerance of its own.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Threshold {
     /// How many it decides wrongly.
@@ -68,8 +69,8 @@ pub struct Threshold {
     pub from: Exact,
 }
 
-/// So many ways there have to be to choose what is decided wrongly: by chance it would be told from the others in one
-/// of them, for each quantity that is tried.
+/// So many ways there have to be to choose what is decided wrongly: by chance it would be told from the
+/// others in one of them, for each quantity that is tried.
 const WAYS: usize = 1000 * Of::ALL.len();
 
 /// How many ways there are to choose so many of them, or [`WAYS`] if there are more.

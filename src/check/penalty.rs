@@ -63,7 +63,8 @@ impl Penalty {
     pub(super) const NONE: Penalty = Penalty { kind: Kind::None, value: None, spread: None };
 
     /// A penalty shows if one of the three multiples, and only one, is the same to within a tenth in all
-    /// answers that tell it; and if these are three or more, and at least half of those whose force it would be.
+    /// answers that tell it; and if these are three or more, and at least half of those whose force it would
+    /// be.
     pub(super) fn measured(answers: &[Given], by: Measured, tolerance: &Exact) -> Self {
         let acting = answers.iter().filter_map(|given| given.force(by, tolerance)).count();
         let told = Vec::from_iter(answers.iter().filter_map(|given| given.ratio(by, tolerance)));

@@ -18,8 +18,8 @@ pub const DIGITS: usize = 12;
 /// The powers of ten that the decades of [`Family::Graded`] begin with.
 const GRADES: std::ops::Range<i32> = -9..-1;
 
-/// The preferred numbers of IEC 60063, E24, times ten: 24 to a decade, spaced alike on a logarithmic scale as far as
-/// two digits allow.
+/// The preferred numbers of IEC 60063, E24, times ten: 24 to a decade, spaced alike on a logarithmic scale as
+/// far as two digits allow.
 const E24: [i32; 24] =
     [10, 11, 12, 13, 15, 16, 18, 20, 22, 24, 27, 30, 33, 36, 39, 43, 47, 51, 56, 62, 68, 75, 82, 91];
 
@@ -290,8 +290,9 @@ impl Draw {
         SpringMass { h: &l + gap, c, m, g, l }
     }
 
-    /// |R| as a part of |m g| + |c Δ| that is spaced alike on a logarithmic scale. Every decade is on either side by
-    /// turns, and begins with its lowest quarter on both, so that few systems leave no large part out.
+    /// |R| as a part of |m g| + |c Δ| that is spaced alike on a logarithmic scale. Every decade is on either
+    /// side by turns, and begins with its lowest quarter on both, so that few systems leave no large part
+    /// out.
     fn graded(&mut self) -> SpringMass<Exact> {
         let grades = GRADES.len() as u64;
         let (decade, turn) = ((self.number - 1) % grades, (self.number - 1) / grades);

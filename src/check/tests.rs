@@ -265,8 +265,8 @@ fn part(system: &SpringMass<Exact>) -> Exact {
     system::reaction(system).abs() / loads
 }
 
-/// Where a relative tolerance may decide, there are systems on either side in every decade, however few are asked
-/// for. The first two of a decade begin with its lowest quarter, of which 16 is the last number of E24.
+/// Where a relative tolerance may decide, there are systems on either side in every decade, however few are
+/// asked for. The first two of a decade begin with its lowest quarter, of which 16 is the last number of E24.
 #[test]
 fn grades_are_spread_over_every_decade_on_either_side() {
     for cases in [2, 3, 5, 12] {

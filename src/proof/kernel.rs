@@ -336,9 +336,6 @@ impl Context {
     fn limit(&self, of: Ratio, x: Symbol, to: Ratio) -> Result<Because, Why> {
         let none = || Why::NoLimit(of.clone());
         let x = self.tends_to_infinity(x).ok_or_else(none)?;
-        if to.symbols().contains(&x) {
-            return Err(none());
-        }
         let num = self.without_falling_exponentials(of.num(), x).ok_or_else(none)?;
         if of.den().has_exponentials() {
             return Err(none());

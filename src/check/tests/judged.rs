@@ -22,8 +22,8 @@ fn what_is_right_is_not_diagnosed() {
     }
 }
 
-/// Rounded once to f64 and written with the digits that tell it, whatever the tolerance: with a penalty that is
-/// hard, too, and where the bound of rounding is wider than the system or narrower than half an ulp.
+/// Rounded once to f64 and written with the digits that tell it, whatever the tolerance: with a penalty that
+/// is hard, too, and where the bound of rounding is wider than the system or narrower than half an ulp.
 #[test]
 fn the_exact_answer_rounded_once_is_right() {
     let penalties = [None, Some("1e8"), Some("1e12"), Some("3.7e15")];

@@ -149,8 +149,8 @@ impl Context {
         self.variable.is_some_and(|x| NAMES.contains(&x.0) && value.symbols().contains(&x))
     }
 
-    /// A pivot of a quantity, or else of its quotient by a symbol that is positive: 0 < k < 1 is k = 1/(1 + s)
-    /// with s = (1 − k)/k > 0. With the divisor, if any, and the slack.
+    /// A pivot of a quantity, or else of its quotient by a symbol that is positive: 0 < k < 1 is
+    /// k = 1/(1 + s) with s = (1 − k)/k > 0. With the divisor, if any, and the slack.
     fn solve(&self, given: Option<&Hypothesis>, value: &Ratio, sign: Sign) -> Option<Solved> {
         let slacks = self.supposed.iter().filter(|s| matches!(s.used, Used::Pivot(..))).count();
         let slack = NAMES.get(slacks).copied().map(Symbol)?;

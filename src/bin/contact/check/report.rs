@@ -177,8 +177,8 @@ fn missed(missed: &Threshold) -> String {
         Of::Force | Of::ForceByWeight => "it has to push with",
     };
     format!(
-        "It misses the plane in {} systems, in which {what} up to {up_to}, and finds it in all others, from {from} \
-         on: most likely by a tolerance of its own.",
+        "It misses the plane in {} systems, in which {what} up to {up_to}, and finds it in all others, \
+         from {from} on: most likely by a tolerance of its own.",
         missed.count
     )
 }
@@ -190,8 +190,8 @@ fn held(held: &Threshold) -> String {
         Of::Force | Of::ForceByWeight => "that takes a pull of",
     };
     format!(
-        "It holds the mass at the plane in {} systems in which it hangs free, where {what} up to {up_to}, and \
-         releases it in all others, from {from} on: most likely by a tolerance of its own.",
+        "It holds the mass at the plane in {} systems in which it hangs free, where {what} up to {up_to}, \
+         and releases it in all others, from {from} on: most likely by a tolerance of its own.",
         held.count
     )
 }

@@ -112,7 +112,8 @@ fn a_penalty_is_told_with_what_it_is_a_multiple_of() {
     assert!(!by_penalty(Some("1e4"), |_| number("1e4")).contains("It acts like"));
 }
 
-/// A plane that holds the mass where a tenth of its weight would lift it off, with what the threshold is relative to.
+/// A plane that holds the mass where a tenth of its weight would lift it off, with what the threshold is
+/// relative to.
 #[test]
 fn a_plane_that_holds_is_told() {
     let sticking = report(&all(), |problem| {
@@ -124,15 +125,15 @@ fn a_plane_that_holds_is_told() {
     let Threshold { count, up_to, from, .. } = sticking.held.as_ref().expect("a threshold");
     let [up_to, from] = [up_to.decimal(FEW, Round::Up), from.decimal(FEW, Round::Down)];
     let text = format!(
-        "It holds the mass at the plane in {count} systems in which it hangs free, where that takes a pull of up to \
-         {up_to} |m g|, and releases it in all others, from {from} |m g| on: most likely by a tolerance of its own. \
-         Each of {count} wrong answers fits one mistake that is known, and no other: the plane also pulls."
+        "It holds the mass at the plane in {count} systems in which it hangs free, where that takes a pull of \
+         up to {up_to} |m g|, and releases it in all others, from {from} |m g| on: most likely by a tolerance \
+         of its own. Each of {count} wrong answers fits one mistake that is known, and no other: the plane also pulls."
     );
     assert!(said(&sticking).contains(&text), "{text}\n{}", said(&sticking));
 }
 
-/// No more is said of a program that is right than what was tested: families, systems, and |R| of no less than what
-/// they have.
+/// No more is said of a program that is right than what was tested: families, systems, and |R| of no less
+/// than what they have.
 #[test]
 fn what_was_tested_is_told() {
     let said_of = |families: &[Family], refused: &str| {
@@ -151,8 +152,8 @@ fn what_was_tested_is_told() {
     let loads = system::weight(contact) + &contact.c * system::gap(contact);
     let least = (system::reaction(contact) / loads).decimal(FEW, Round::Up);
     let text = format!(
-        "No error above 1e-6 was found in 1 system of 1 family, with one unknown and one plane. A plane that is missed \
-         would show from |R| = {least} (|m g| + |c (H − l)|) on, one that holds a mass would not show at all."
+        "No error above 1e-6 was found in 1 system of 1 family, with one unknown and one plane. A plane that is \
+         missed would show from |R| = {least} (|m g| + |c (H − l)|) on, one that holds a mass would not show at all."
     );
     let one = said_of(&[Family::Contact], "");
     assert!(one.ends_with(&text), "{text}\n{one}");

@@ -28,9 +28,9 @@ pub fn has_no_format(error: &io::Error) -> bool {
     Errno::from_io_error(error) == Some(Errno::NOEXEC)
 }
 
-/// Has a signal that ends the command end all groups first, once. Without it a program that hangs would be left
-/// behind: all that it notices is that its pipes are closed. The exit status is the one that a shell reports for
-/// a command that such a signal ended.
+/// Has a signal that ends the command end all groups first, once. Without it a program that hangs would be
+/// left behind: all that it notices is that its pipes are closed. The exit status is the one that a shell
+/// reports for a command that such a signal ended.
 fn watch_signals() -> io::Result<()> {
     static WATCHED: Mutex<bool> = Mutex::new(false);
     let mut watched = WATCHED.lock().unwrap_or_else(PoisonError::into_inner);

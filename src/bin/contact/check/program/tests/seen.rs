@@ -42,7 +42,8 @@ fn a_line_that_is_too_long_is_garbled() {
 fn a_program_that_is_gone_has_crashed() {
     in_time(|| {
         let path = std::env::temp_dir().join(format!("contact-gone-{}", std::process::id()));
-        // Written by another process: what is open for writing somewhere, even between fork and exec, cannot run.
+        // Written by another process: what is open for writing somewhere, even between fork and exec, cannot
+        // run.
         let script = r##"
         printf '%s\n' '#!/bin/sh' 'read -r line; rm -f "$0"; echo "{\"id\": \"z\"}"' >"$0"
         chmod 700 "$0"

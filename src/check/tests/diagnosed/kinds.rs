@@ -1,0 +1,178 @@
+//! What kinds of mistakes are found: tolerances, bounds, single roundings, edits, ends of iterations.
+
+use super::*;
+
+/// The answers of a solver that decides by a tolerance of its own: it misses the plane, or holds the mass
+/// there, up to this threshold.
+fn deciding(
+    tolerance: &str,
+    misses: bool,
+    threshold: &str,
+    quantity: fn(&SpringMass<Exact>) -> Exact,
+) -> Report {
+    let ask = |problem: &Problem| {
+        let system = &problem.system;
+        let reaction = system::reaction(system);
+        let is_other = if misses { reaction > Exact::zero() } else { reaction < Exact::zero() };
+        let answer = match is_other && quantity(system) <= number(threshold) {
+            true if misses => Answer::new(structure::deflection(system), Exact::zero()),
+            true => Answer::new(system::gap(system), reaction),
+            false => right(problem),
+        };
+        Ok::<_, Infallible>(Reply::Answered(Box::new(answer)))
+    };
+    check(&default_problems(), &number(tolerance), ask).unwrap()
+}
+
+/// From 1.61 of each decade on: the largest that the least of a decade can be.
+#[test]
+fn a_relative_tolerance_above_that_of_the_check_is_noticed() {
+    for misses in [true, false] {
+        for (tolerance, threshold) in [
+            ("1e-12", "1.61e-9"),
+            ("1e-12", "1e-8"),
+            ("1e-9", "1.61e-9"),
+            ("1e-6", "1.61e-6"),
+            ("1e-6", "1e-5"),
+            ("1e-6", "1e-3"),
+            ("1e-6", "0.1"),
+        ] {
+            let report = deciding(tolerance, misses, threshold, part);
+            assert!(!report.holds(), "{threshold} passes {tolerance}");
+        }
+        // What is said of a right solver is where this begins to be noticed.
+        let state = if misses { State::Contact } else { State::Separated };
+        let least = run(&default_problems(), right).least_deciding(state, &number(TOLERANCE)).unwrap();
+        for (threshold, holds) in [(least.clone(), false), (&least * number("0.999"), true)] {
+            let report = deciding(TOLERANCE, misses, &threshold.to_string(), part);
+            assert_eq!(report.holds(), holds, "{threshold}");
+        }
+    }
+}
+
+#[test]
+fn a_relative_tolerance_is_found_on_either_side() {
+    let by_weight: fn(&SpringMass<Exact>) -> Exact =
+        |system| system::reaction(system).abs() / system::weight(system).abs();
+    let by_height: fn(&SpringMass<Exact>) -> Exact =
+        |system| system::reaction(system).abs() / &system.c / system.h.abs();
+    for misses in [true, false] {
+        for (of, quantity) in [(Of::ForceByWeight, by_weight), (Of::PenetrationByHeight, by_height)] {
+            for threshold in ["1e-4", "1e-3", "3e-2"] {
+                let report = deciding(TOLERANCE, misses, threshold, quantity);
+                let (found, other) =
+                    if misses { (report.missed, report.held) } else { (report.held, report.missed) };
+                let Threshold { of: found, up_to, from, .. } = found.expect(threshold);
+                assert_eq!((found, other), (of, None), "{threshold}");
+                assert!(up_to <= number(threshold) && number(threshold) < from, "{up_to} {from}");
+            }
+        }
+    }
+}
+
+/// A force that is cut off at a constant, small or large; and one that shows in two systems alone.
+#[test]
+fn a_capped_force_is_named_once_or_not_at_all() {
+    for cap in ["1e-2", "1", "100", "1e4", "1e6", "1e12", "1e30"] {
+        let capped = changed(|_, u, n| [u, if n > number(cap) { number(cap) } else { n }]);
+        let names = Vec::from_iter(capped.diagnosis.iter().map(|d| d.name.as_str()));
+        let wrong = capped.summary().wrong;
+        let own = format!("N is at most {} N", number(cap).decimal(6, Round::Nearest));
+        let expected = if wrong >= 3 { vec![&*own] } else { vec![] };
+        assert_eq!(names, expected, "{cap}: {wrong}");
+    }
+}
+
+/// No diagnosis has the formulas of what is right.
+#[test]
+fn a_diagnosis_has_its_own_formulas() {
+    let formula = |change: fn(Exact, Exact) -> [Exact; 2]| {
+        let report = changed(|_, u, n| change(u, n));
+        report.named().expect("a diagnosis").formula.clone()
+    };
+    assert_eq!(formula(|_, n| [Exact::zero(), n]), "u = 0, N = ⟨m g − c (H − l)⟩");
+    let factor = formula(|u, n| [u * number("1000"), n]);
+    assert_eq!(factor, "u = k min(m g / c, H − l), N = ⟨m g − c (H − l)⟩, k = 1000");
+    let rounded = formula(|u, n| [u, n].map(|x| x.decimal(4, Round::Nearest).parse().unwrap()));
+    assert_eq!(rounded, "u = fl(min(m g / c, H − l)), N = fl(⟨m g − c (H − l)⟩)");
+}
+
+/// All of it: numbers are printed as a program in single precision does, or one that prints them in double.
+#[test]
+fn a_program_in_single_precision_is_found() {
+    let solve = |problem: &Problem, print: fn(f32) -> String| {
+        let SpringMass { c, m, g, l, h } = problem.system.try_map(Exact::to_f32).unwrap();
+        let u = (m * g / c).min(h - l);
+        // By what equilibrium lacks, where rounding leaves a little though the mass hangs free.
+        let n = (m * g - c * u).max(0.0);
+        Answer::new(number(&print(u)), number(&print(n)))
+    };
+    let prints: [fn(f32) -> String; 3] =
+        [|x| format!("{x:e}"), |x| format!("{:e}", f64::from(x)), |x| format!("{x:.8e}")];
+    for print in prints {
+        let report = run(&default_problems(), |problem| solve(problem, print));
+        assert_eq!(report.named().map(|d| d.name.as_str()), Some("it computes in single precision"));
+    }
+}
+
+/// As they are handed on in a text, of a float: by `%g`, or with a number of decimals.
+#[test]
+fn parameters_with_few_digits_are_found() {
+    let name = |change: &dyn Fn(&SpringMass<f64>) -> SpringMass<Exact>| {
+        let report = run(&default_problems(), |problem| {
+            let floats = problem.system.try_map(Exact::to_f64).unwrap();
+            right(&Problem { system: change(&floats), ..problem.clone() })
+        });
+        report.named().map(|only| only.name.clone()).unwrap_or_default()
+    };
+    for digits in [4, 6] {
+        let shortened = |x: &f64| number(&format!("{x:.*e}", digits - 1));
+        let own = format!("it takes no more than {digits} digits of its parameters");
+        assert_eq!(name(&|system| system.map(shortened)), own);
+    }
+    for decimals in [3, 6] {
+        let fixed = |x: &f64| number(&format!("{x:.decimals$}"));
+        let lengths = |system: &SpringMass<f64>| {
+            let SpringMass { l, h, .. } = system;
+            SpringMass { l: fixed(l), h: fixed(h), ..system.map(|x| number(&x.to_string())) }
+        };
+        assert_eq!(name(&lengths), format!("it takes no more than {decimals} decimals of l and H"));
+    }
+}
+
+/// An edit of a formula would show in the other answers as well.
+#[test]
+fn an_edit_that_explains_some_answers_is_not_named() {
+    let edits = mistakes(false).iter().filter(|mistake| mistake.is_edit());
+    let named = edits.filter(|edit| {
+        let few = problems(1, CASES, &[Family::Contact, Family::Separated, Family::Stiff, Family::Huge]);
+        let report = run(&few, |problem| match problem.family {
+            Family::Stiff | Family::Huge => answer(edit, problem, None),
+            _ => right(problem),
+        });
+        report.diagnosis.iter().any(|diagnosis| diagnosis.name == edit.name)
+    });
+    assert_eq!(named.map(|edit| &edit.name).collect::<Vec<_>>(), Vec::<&String>::new());
+}
+
+/// (1.16) in f64, as a program computes it.
+#[test]
+fn augmentations_that_end_early_are_found() {
+    for (steps, eps) in [(2, 1e4), (3, 1e4), (5, 2e7)] {
+        let report = run(&default_problems(), |problem| {
+            let system = problem.system.try_map(Exact::to_f64).unwrap();
+            let (mut u, mut lambda) = (0.0, 0.0);
+            for _ in 0..steps {
+                u = augmented::unilateral_deflection(&system, &eps, &lambda);
+                lambda = augmented::unilateral_update(&system, &eps, &lambda, &u);
+            }
+            Answer::new(u.to_exact().unwrap(), lambda.to_exact().unwrap())
+        });
+        let name = report.named().map(|d| d.name.clone()).unwrap_or_default();
+        assert_eq!(
+            name,
+            format!("the augmentation ends after {steps} steps, with ε = {eps:e} N/m")
+                .replace("1e4", "10000")
+        );
+    }
+}
