@@ -125,9 +125,9 @@ fn a_plane_that_holds_is_told() {
     let Threshold { count, up_to, from, .. } = sticking.held.as_ref().expect("a threshold");
     let [up_to, from] = [up_to.decimal(FEW, Round::Up), from.decimal(FEW, Round::Down)];
     let text = format!(
-        "It holds the mass at the plane in {count} systems in which it hangs free, where that takes a pull of \
-         up to {up_to} |m g|, and releases it in all others, from {from} |m g| on: most likely by a tolerance \
-         of its own. Each of {count} wrong answers fits one mistake that is known, and no other: the plane also pulls."
+        "It holds the mass at the plane in {count} systems in which it hangs free, where that takes \
+         a pull of up to {up_to} |m g|, and releases it in all others, from {from} |m g| on: most likely by a \
+         tolerance of its own. Each of {count} wrong answers fits one mistake that is known, and no other: the plane also pulls."
     );
     assert!(said(&sticking).contains(&text), "{text}\n{}", said(&sticking));
 }
