@@ -19,6 +19,7 @@ use std::fmt;
 /// is read: decimals and fractions exactly, rounded once. So f32 and f64 come back bit by bit (finite ones;
 /// others are refused), and rationals as they were. MPFR numbers come back as constants of the same value,
 /// since a text has no precision: read a `SpringMass<Exact>`, and round it.
+/// [In the book](../../../../book/system.html#fn-system-SpringMass)
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(
     feature = "serde",
@@ -28,7 +29,6 @@ use std::fmt;
         deserialize = "T: crate::number::Text + crate::number::Field"
     ))
 )]
-/// [In the book](../../../../book/system.html#fn-system-SpringMass)
 pub struct SpringMass<T> {
     /// Stiffness of the spring, c > 0, in N/m.
     #[cfg_attr(feature = "serde", serde(rename = "stiffness", with = "crate::number::lossless"))]

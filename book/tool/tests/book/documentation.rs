@@ -116,7 +116,7 @@ fn the_documentation_of_each_function_leads_to_its_box() {
                 let attributes = expected
                     .lines()
                     .rev()
-                    .take_while(|line| line.starts_with("#["))
+                    .take_while(|line| !line.starts_with("///"))
                     .map(|line| line.len() + 1);
                 let at = expected.len() - attributes.sum::<usize>();
                 expected.insert_str(at, &back);

@@ -126,8 +126,9 @@ fn a_plane_that_holds_is_told() {
     let [up_to, from] = [up_to.decimal(FEW, Round::Up), from.decimal(FEW, Round::Down)];
     let text = format!(
         "It holds the mass at the plane in {count} systems in which it hangs free, where that takes \
-         a pull of up to {up_to} |m g|, and releases it in all others, from {from} |m g| on: most likely by a \
-         tolerance of its own. Each of {count} wrong answers fits one mistake that is known, and no other: the plane also pulls."
+         a pull of up to {up_to} |m g|, and releases it in all others, from {from} |m g| on: most likely by \
+         a tolerance of its own. Each of {count} wrong answers fits one mistake that is known, and no other: \
+         the plane also pulls."
     );
     assert!(said(&sticking).contains(&text), "{text}\n{}", said(&sticking));
 }
@@ -152,8 +153,9 @@ fn what_was_tested_is_told() {
     let loads = system::weight(contact) + &contact.c * system::gap(contact);
     let least = (system::reaction(contact) / loads).decimal(FEW, Round::Up);
     let text = format!(
-        "No error above 1e-6 was found in 1 system of 1 family, with one unknown and one plane. A plane that is \
-         missed would show from |R| = {least} (|m g| + |c (H − l)|) on, one that holds a mass would not show at all."
+        "No error above 1e-6 was found in 1 system of 1 family, with one unknown and one plane. A plane \
+         that is missed would show from |R| = {least} (|m g| + |c (H − l)|) on, one that holds a mass would \
+         not show at all."
     );
     let one = said_of(&[Family::Contact], "");
     assert!(one.ends_with(&text), "{text}\n{one}");
