@@ -1,6 +1,7 @@
 //! False claims, one for each rule, case and premise of the kernel: none is proved, all are refuted by numbers,
 //! and each has a true one beside it that differs in the premise and is proved.
 #![cfg(feature = "prover")]
+#![allow(clippy::eq_op, reason = "a quotient of equals is not always 1")]
 
 use spring_mass_contact::formula::claim::{
     Claim, Kind, PRECISION, Rate, derivative, drift, equal, induction, non_negative, positive, vanishing,
