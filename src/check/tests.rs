@@ -354,7 +354,7 @@ fn the_book_names_what_is_known() {
         let counted = (2..=20).find(steps);
         counted.map_or(name.clone(), |n| name.replace(&format!(" {n} steps"), " 2 to 8 steps"))
     };
-    let names = all.filter(|mistake| !is_edit(&mistake.name)).map(|mistake| as_listed(mistake));
+    let names = all.filter(|mistake| !is_edit(&mistake.name)).map(as_listed);
     let unnamed: BTreeSet<_> = names.filter(|name| !list.contains(name)).collect();
     assert!(
         unnamed.is_empty(),

@@ -49,7 +49,7 @@ impl Tree {
     }
 
     /// The formula, with the parts that `name` knows by their names; its size if it is more than
-    /// [`MAX_DEPTH`] operations deep, which nobody could read.
+    /// 1000 operations deep, which nobody could read.
     pub fn typeset(&self, notation: Notation, name: &dyn Fn(&Tree) -> Option<Name>) -> String {
         if self.depth() > MAX_DEPTH {
             return format!("a formula of {} operations and quantities", self.size());

@@ -99,7 +99,7 @@ impl<T> Step<T> {
 }
 
 impl<T: Field> Step<T> {
-    /// What it comes to, with operands that are numbers. The rest as for [`Tree::replay`].
+    /// What it comes to, with operands that are numbers. The rest as for [`Tree::replay`](super::Tree::replay).
     pub fn value(
         self,
         symbol: &impl Fn(&'static str) -> T,
@@ -123,7 +123,7 @@ impl<T: Field> Step<T> {
     }
 }
 
-/// ⟨·⟩ and min, for [`Tree::replay`].
+/// ⟨·⟩ and min, for [`Tree::replay`](super::Tree::replay).
 pub fn piecewise<T: PositivePart>(step: Step<&T>) -> Option<T> {
     match step {
         Step::PositivePart(a) => Some(a.positive_part()),
@@ -132,7 +132,7 @@ pub fn piecewise<T: PositivePart>(step: Step<&T>) -> Option<T> {
     }
 }
 
-/// eˣ, for [`Tree::replay`].
+/// eˣ, for [`Tree::replay`](super::Tree::replay).
 pub fn smooth<T: Exponential>(step: Step<&T>) -> Option<T> {
     match step {
         Step::Exp(a) => Some(a.exp()),
@@ -140,7 +140,7 @@ pub fn smooth<T: Exponential>(step: Step<&T>) -> Option<T> {
     }
 }
 
-/// eˣ, ⟨·⟩ and min, for [`Tree::replay`].
+/// eˣ, ⟨·⟩ and min, for [`Tree::replay`](super::Tree::replay).
 pub fn everything<T: PositivePart + Exponential>(step: Step<&T>) -> Option<T> {
     smooth(step).or_else(|| piecewise(step))
 }
