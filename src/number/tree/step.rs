@@ -99,7 +99,7 @@ impl<T> Step<T> {
 }
 
 impl<T: Field> Step<T> {
-    /// What it comes to, with operands that are numbers. The rest as for [`Tree::replay`](super::Tree::replay).
+    /// What it comes to, with operands that are numbers. The rest as for [replay](super::Tree::replay).
     pub fn value(
         self,
         symbol: &impl Fn(&'static str) -> T,
