@@ -137,8 +137,8 @@ fn search(statement: &Statement) -> Result<Proof, Why> {
 ///   sequence only where a perturbed recursion speaks of its first.
 /// - A computed symbol has no other meaning. It may be another number at each step: nothing is assumed of it
 ///   but its interval, and it is not computed from itself.
-/// - The start, ratio and limit of a sequence depend on no power, no member and nothing computed; its closed
-///   form and the bound of its distance from that depend on no member and nothing computed; the bounds of
+/// - The start, ratio and limit of a sequence depend on no power, no member and nothing computed, its step
+///   and the hypotheses of its limit on no power; its closed form and the bound of its distance from that depend on no member and nothing computed; the bounds of
 ///   other quantities, and the hypotheses, on no member.
 fn check_names<'t>(statement: &'t Statement) -> Result<(), Why> {
     fn refuse<'t>(
@@ -165,10 +165,13 @@ fn check_names<'t>(statement: &'t Statement) -> Result<(), Why> {
 
     let values = |all: &'t [Hypothesis]| all.iter().map(|hypothesis| &hypothesis.value);
     let hypotheses = values(&statement.hypotheses);
-    if let Some(Sequence { start, ratio, limit, member, within, .. }) = &statement.amounts_to {
+    if let Some(Sequence { start, step, ratio, limit, member, within }) = &statement.amounts_to {
         refuse(start.iter().chain([ratio]).chain(limit), |name| {
             name == POWER || MEMBERS.contains(&name) || is_computed(name)
         })?;
+        refuse(step.iter(), |name| name == POWER)?;
+        // What is assumed of one power need not hold as it tends to 0.
+        refuse(hypotheses.clone().filter(|_| limit.is_some()), |name| name == POWER)?;
         let bounds = || within.iter().map(|(_, bound)| bound);
         refuse(member.iter().chain(bounds().take(1)), |name| is_member(name) || is_computed(name))?;
         refuse(bounds().chain(hypotheses.clone()), is_member)?;
@@ -191,7 +194,9 @@ fn varies(statement: &Statement) -> bool {
 pub(super) fn roundings(statement: &Statement) -> Vec<Tree> {
     fn collect(tree: &Tree, all: &mut Vec<Tree>) {
         tree.step().operands().for_each(|operand| collect(operand, all));
+        // One too many is enough to know that there are too many.
         if let Step::Rounded(of) = tree.step()
+            && all.len() <= ERRORS.len()
             && !all.contains(of)
         {
             all.push(of.clone());
@@ -288,7 +293,7 @@ impl Context {
     fn without_falling_exponentials(&self, num: &Poly, x: Symbol) -> Option<Poly> {
         let moves = |e: &Ratio| e.symbols().contains(&x);
         for e in num.exponents().filter(|e| moves(e)) {
-            let leading = |p: &Poly| Some(sign(&p.coefficients(x).pop()?, &self.known)?.sign());
+            let leading = |p: &Poly| Some(sign(&p.leading_coefficient(x), &self.known)?.sign());
             let falls = leading(e.num())?.times(leading(e.den())?) == Sign::Negative;
             if !e.is_of_polynomials() || !falls || e.num().degree(x) <= e.den().degree(x) {
                 return None;
@@ -325,7 +330,7 @@ impl Context {
 
     /// Returns `true` if a quotient is a linear function of `x` whose slope is positive.
     fn increases_linearly(&self, of: &Ratio, x: Symbol) -> bool {
-        let Ok([constant, slope]) = <[Poly; 2]>::try_from(of.num().coefficients(x)) else { return false };
+        let Some([constant, slope]) = of.num().coefficients(x) else { return false };
         let depends = [&constant, &slope, of.den()].into_iter().any(|part| part.symbols().contains(&x));
         let sign = |part: &Poly| sign(part, &self.known).map(|certificate| certificate.sign());
         !depends && sign(&slope).zip(sign(of.den())).is_some_and(|(a, b)| a.times(b) == Sign::Positive)
@@ -341,8 +346,7 @@ impl Context {
             return Err(none());
         }
         let degrees = (num.degree(x), of.den().degree(x));
-        let top = num.coefficients(x).pop().ok_or_else(none)?;
-        let bottom = of.den().coefficients(x).pop().ok_or_else(none)?;
+        let [top, bottom] = [&num, of.den()].map(|part| part.leading_coefficient(x));
         let leading = sign(&bottom, &self.known).filter(|c| c.sign().is_strict()).ok_or_else(none)?;
         let found = match degrees.0.cmp(&degrees.1) {
             Ordering::Less => Ratio::zero(),

@@ -2,7 +2,7 @@
 //! rounded, in exact arithmetic and rounded.
 
 use spring_mass_contact::formula::claim::{
-    PRECISION, SCALES, derivative, equal, limit, non_negative, positive, within,
+    PRECISION, SCALES, derivative, equal, induction, limit, non_negative, positive, within,
 };
 use spring_mass_contact::formula::{Claim, Hypothesis, Rate, Relation};
 use spring_mass_contact::number::{Exponential, Field, PositivePart, Tree};
@@ -26,7 +26,14 @@ pub fn claims() -> Vec<Claim> {
     let power = above(&scale);
     let steeper = above(&(&a / &b - &c));
     let larger = at_least(&(&x - &y));
+    let wide = Hypothesis::between(&y, -100, 100);
+    let squared = (Tree::int(332) + &y) * (Tree::int(332) + &y);
+    let inverse = one() / &squared;
     vec![
+        induction("halves", [], one() / Tree::int(2), [one()], |[x]| [x / Tree::int(2)], [Tree::symbol("q")]),
+        positive("between", [&above(&x), &below_one], &x - &x * &x),
+        within("squared-interval", [&wide], once(&(one() / &squared)), one() / &squared / &n),
+        within("squared-interval-each", [&wide], inverse.rounded() - &inverse, Tree::int(8) * &inverse / &n),
         equal("lens", [&lens_f, &shorter], lens(), &f * &g / (&g - &f)),
         positive("lens-sign", [&lens_f, &lens_g, &shorter], lens()),
         within("lens-rounded", [&lens_f, &shorter], once(&lens()), lens() / &n),

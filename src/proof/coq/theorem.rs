@@ -188,11 +188,12 @@ impl<'a> Theorem<'a> {
         };
         let iterates = format!("{}_iterates", self.name);
         let (arguments, ratio) = (names(&free), self.expr(ratio));
+        let binder = if free.is_empty() { String::new() } else { format!(" ({} : R)", arguments.trim_start()) };
         let _ = write!(
             text,
-            "\nFixpoint {iterates} ({} : R) (n : nat) : {} :=\n  match n with\n  | O => {}\n  | S n =>\n\
+            "\nFixpoint {iterates}{} (n : nat) : {} :=\n  match n with\n  | O => {}\n  | S n =>\n\
              \x20     let {} := {iterates}{arguments} n in\n      {}\n  end.\n",
-            arguments.trim_start(),
+            binder,
             vec!["R"; start.len()].join(" * "),
             tuple(start),
             pattern,
@@ -201,7 +202,11 @@ impl<'a> Theorem<'a> {
 
         let mut script = Script::new();
         let of_q = &self.statement.invariants;
-        script.line(&format!("intros{arguments}{}.", labels(hypotheses.len())));
+        // Without any, `intros` would take in n.
+        let introduced = format!("{arguments}{}", labels(hypotheses.len()));
+        if !introduced.is_empty() {
+            script.line(&format!("intros{introduced}."));
+        }
         // Where something is supposed of q, it is true of every power of the ratio.
         let all_labels = [numbered("H", hypotheses.len()), numbered("Q", of_q.len())].concat();
         let at = |lemma: &Lemma, q_is: &str| {

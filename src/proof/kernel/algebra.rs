@@ -20,6 +20,10 @@ use std::sync::Arc;
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Poly(Arc<Vec<(Monomial, Number)>>);
 
+/// The number of e^… that may stand in exponents of each other: what is shared between them is read again at
+/// each place.
+const MAX_NESTING: u32 = 4;
+
 /// A quotient of polynomials; the denominator is not the zero polynomial.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Ratio {
@@ -30,7 +34,7 @@ pub struct Ratio {
 /// The sum of terms, in any order.
 impl FromIterator<(Monomial, Number)> for Poly {
     fn from_iter<I: IntoIterator<Item = (Monomial, Number)>>(terms: I) -> Self {
-        let mut terms: Vec<_> = terms.into_iter().inspect(|_| effort::spend(1)).collect();
+        let mut terms: Vec<_> = terms.into_iter().inspect(|(m, _)| effort::spend(1 + m.powers().len())).collect();
         // Where some are in order already, as in sums and products they are, this sort merges.
         terms.sort_by(|(m, _), (n, _)| m.cmp(n));
         terms.dedup_by(|(m, q), (n, sum)| {
@@ -76,6 +80,9 @@ impl Poly {
 
     /// e to a quotient.
     pub fn exponential(exponent: Ratio) -> Self {
+        if exponent.nesting() >= MAX_NESTING {
+            effort::exceed();
+        }
         let exponent = Some(exponent).filter(|e| !e.is_zero()).map(Arc::new);
         Monomial { exponent, ..Monomial::one() }.into()
     }
@@ -133,11 +140,20 @@ impl Poly {
         self.monomials().map(|m| m.degree(x)).max().unwrap_or(0)
     }
 
-    /// The coefficients of x⁰, x¹, …; exponents are left alone.
-    pub fn coefficients(&self, x: Symbol) -> Vec<Poly> {
-        let of_power = |n| self.0.iter().filter(move |(m, _)| m.degree(x) == n);
-        let coefficient = |n| of_power(n).map(|(m, q)| (m.without(x), q.clone())).collect();
-        (0..=self.degree(x)).map(coefficient).collect()
+    /// The coefficient of xⁿ; exponents are left alone.
+    pub fn coefficient(&self, x: Symbol, n: u32) -> Poly {
+        let of_power = self.0.iter().filter(|(m, _)| m.degree(x) == n);
+        of_power.map(|(m, q)| (m.without(x), q.clone())).collect()
+    }
+
+    /// The coefficient of the highest power of a symbol.
+    pub fn leading_coefficient(&self, x: Symbol) -> Poly {
+        self.coefficient(x, self.degree(x))
+    }
+
+    /// The coefficients of x⁰ to xᴺ⁻¹, if the degree in x is N − 1.
+    pub fn coefficients<const N: usize>(&self, x: Symbol) -> Option<[Poly; N]> {
+        (self.degree(x) as usize + 1 == N).then(|| std::array::from_fn(|n| self.coefficient(x, n as u32)))
     }
 
     /// The exact quotient, if there is one and the divisor's last term has no e^….
@@ -159,7 +175,7 @@ impl Poly {
                 continue;
             }
             let (m, q) = (m.over(first)?, q * &inverse);
-            effort::spend(others.len());
+            effort::spend(others.iter().map(|(n, _)| 1 + n.powers().len() + m.powers().len()).sum());
             for (dm, dq) in others {
                 let left = rest.entry(dm.times(&m)).or_insert_with(|| 0.into());
                 *left = &*left - dq * &q;
@@ -321,6 +337,12 @@ impl Ratio {
     /// Is it 0 wherever it is defined?
     pub fn is_zero(&self) -> bool {
         self.num.is_zero()
+    }
+
+    /// The number of e^… that stand in exponents of each other.
+    fn nesting(&self) -> u32 {
+        let exponents = self.num.exponents().chain(self.den.exponents());
+        exponents.map(|exponent| 1 + exponent.nesting()).max().unwrap_or(0)
     }
 
     /// Is it a number?

@@ -213,7 +213,7 @@ impl Context {
         let mut context = self.clone();
         context.known.extend(slack.symbols().into_iter().map(|s| (s, sign_of_slack)));
         let solved = |x: Symbol| {
-            let [rest, coefficient] = <[Poly; 2]>::try_from(equation.coefficients(x)).ok()?;
+            let [rest, coefficient] = equation.coefficients(x)?;
             let (strict, length) =
                 (sign(&coefficient, &context.known)?.sign().is_strict(), coefficient.terms().len());
             let by = Ratio::from(-rest).over(&coefficient.into())?;

@@ -7,9 +7,9 @@
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
-/// The number of terms that arithmetic handles in one proof, at most; a coefficient of n words counts like
-/// n/8 terms.
-pub const MAX_EFFORT: usize = 5_000_000;
+/// The number of terms and of powers in them that arithmetic handles in one proof, at most; a coefficient of
+/// n words counts like n/8 terms.
+pub const MAX_EFFORT: usize = 10_000_000;
 
 struct Exceeded;
 

@@ -28,6 +28,10 @@ impl Ord for Symbol {
     }
 }
 
+/// The highest power of a symbol. A formula within the limits of a proof has none above it, and only pivots
+/// that are replaced by each other do.
+const MAX_POWER: u32 = 20_000;
+
 /// A product of powers of symbols, times e to a quotient, if any.
 ///
 /// One exponential is enough, since eᵃ eᵇ = eᵃ⁺ᵇ.
@@ -69,7 +73,7 @@ impl Monomial {
             {
                 others = rest;
                 if x == y {
-                    sum = sum.checked_add(*m).unwrap_or_else(|| effort::exceed());
+                    sum = sum.checked_add(*m).filter(|n| *n <= MAX_POWER).unwrap_or_else(|| effort::exceed());
                 } else {
                     powers.push((*y, *m));
                 }

@@ -2,6 +2,7 @@
 
 use super::algebra::{self, Poly, Ratio};
 use super::context::Context;
+use super::effort;
 use super::derivation::{Rounding, Signed, Why};
 use super::sign::{Certificate, ERRORS, Sign, sign};
 use crate::formula::claim::SCALES;
@@ -57,6 +58,7 @@ impl<'a> Reader<'a> {
         if divisor.is_zero() {
             return Err(Why::MightVanish(divisor));
         }
+        effort::spend(self.divisors.len().saturating_mul(tree.size() as usize));
         if !divisor.is_number() && self.divisors.iter().all(|(known, _)| known != tree) {
             self.collect_factors(tree)?;
             let signed = self.context.sign(self.context.reduce(&divisor), &self.factors);
@@ -163,6 +165,7 @@ impl<'a> Reader<'a> {
         let value = self.context.reduce(&decides(a.clone(), b.clone()));
         let signed = self.context.sign(value.clone(), &self.factors).ok_or(Why::OpenBracket(value))?;
         let is_first = signed.sign().implies(Sign::NonNegative);
+        effort::spend(self.brackets.len().saturating_mul(bracket.size() as usize));
         if self.brackets.iter().all(|(known, ..)| known != bracket) {
             self.brackets.push((bracket.clone(), if is_first { first } else { second }.clone(), signed));
         }

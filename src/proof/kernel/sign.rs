@@ -243,7 +243,7 @@ fn product(of: &Poly, factor: Certificate, rest: Certificate) -> Certificate {
 /// Rule 3.
 fn square(of: &Poly, known: &Known, depth: u32) -> Option<Certificate> {
     of.symbols().into_iter().find_map(|x| {
-        let [d, b, a] = <[Poly; 3]>::try_from(of.coefficients(x)).ok()?;
+        let [d, b, a] = of.coefficients(x)?;
         if of.exponents().any(|e| e.symbols().contains(&x)) {
             return None;
         }

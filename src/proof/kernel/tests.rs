@@ -1,7 +1,7 @@
 //! What the kernel proves and what it must not.
 
 use super::*;
-use crate::formula::Claim;
+use crate::formula::{Claim, Kind};
 use crate::formula::claim::{PRECISION, derivative, drift, equal, induction, positive, vanishing};
 use crate::formula::statement::two_bits;
 use crate::number::{Exponential, Field, PositivePart};
@@ -345,12 +345,29 @@ fn a_proof_has_limits() {
     let sums = (u.positive_part() + &a) * (v.min(&w) + &b) * (&u + &v) * (&v + &w) * (&w + &a);
     let quotient = sums / ((int(1) + &d * &d) * (int(1) + &c * &c));
     assert!(too_large(Says::Within(quotient.rounded() - &quotient, int(1) / precision()), "its proof"));
-    // Powers of powers do not fit 32 bits.
-    let square = |a: &'static str, b: &'static str, n: u32| {
-        let power = (0..n).fold(int(1), |power, _| power * x(b));
-        Hypothesis::new(Relation::Zero, x(a) - power)
+    // Nor are powers of powers, long products, e^… that stand in each other's exponents, or many brackets and
+    // roundings inside each other, looked at for ever.
+    let equal_to = |a: &'static str, value: Tree| Hypothesis::new(Relation::Zero, x(a) - value);
+    let exceeds = |given: Vec<Hypothesis>, says: Says| {
+        matches!(outcome(given, says), Err(Why::TooLarge("its proof", _)))
     };
-    let chain = [("a", "b"), ("b", "c"), ("c", "d"), ("d", "f")].map(|(a, b)| square(a, b, 400));
-    let says = Says::Sign(Relation::NonNegative, x("a") - x("f"));
-    assert!(matches!(outcome(chain.to_vec(), says), Err(Why::TooLarge("its proof", _))));
+    let power = |b: &'static str, n: u32| (0..n).fold(int(1), |power, _| power * x(b));
+    let chain = [("a", "b"), ("b", "c"), ("c", "d"), ("d", "f")].map(|(a, b)| equal_to(a, power(b, 400)));
+    assert!(exceeds(chain.to_vec(), Says::Sign(Relation::NonNegative, x("a") - x("f"))));
+    let raised = ["a", "b", "c", "d", "f", "g"];
+    let raised = raised.windows(2).map(|pair| equal_to(pair[1], x(pair[0]).exp() + (int(2) * x(pair[0])).exp()));
+    assert!(exceeds(raised.collect(), Says::Sign(Relation::Positive, x("g"))));
+    let names = ["a₀", "a₁", "a₂", "a₃", "a₄", "a₅", "a₆", "a₇", "a₈", "a₉", "b₀", "b₁", "b₂", "b₃", "b₄", "b₅"];
+    let product = |names: &[&'static str]| names.chunks(4).map(|n| x(n[0]) * x(n[1]) + x(n[2]) * x(n[3]));
+    let product = |n: usize| (0..n).fold(int(1), |all, _| all * product(&names).fold(int(0), |a, b| a + b));
+    assert!(exceeds(vec![], Says::Equal(product(9), product(9))));
+    let chains = |deeper: fn(&Tree) -> Tree| {
+        let deep = |name: &&'static str| (0..480).fold(x(name), |tree, _| deeper(&tree));
+        names.iter().map(deep).fold(int(0), |sum, tree| sum + tree)
+    };
+    let positive: Vec<_> = names.iter().map(|name| above_zero(x(name))).collect();
+    let brackets = chains(|tree| tree.positive_part());
+    assert!(exceeds(positive.clone(), Says::Sign(Relation::Positive, brackets)));
+    let roundings = Says::Sign(Relation::Positive, chains(|tree| tree.nearest()));
+    assert!(matches!(outcome(positive, roundings), Err(Why::TooMany)));
 }

@@ -55,9 +55,8 @@ impl Script {
         let degree = of.den().degree(x);
         // A polynomial of x over x^degree, in y = 1/x.
         let reversed = |poly: &Poly| {
-            let coefficients = poly.coefficients(x);
-            let terms = coefficients.iter().enumerate().map(|(i, c)| {
-                (0..degree - i as u32).fold(c.clone(), |term, _| term * Poly::symbol(Symbol("y")))
+            let terms = (0..=poly.degree(x)).map(|i| {
+                (i..degree).fold(poly.coefficient(x, i), |term, _| term * Poly::symbol(Symbol("y")))
             });
             terms.fold(Poly::zero(), |sum, term| sum + term)
         };

@@ -59,18 +59,18 @@ pub(super) fn ends(of: &Poly, small: &[Symbol], known: &Known, more: u32) -> Opt
     let sign = |of: Poly| {
         terms(&of, known).or_else(|| sizes(&of, small, known)).or_else(|| ends(&of, small, known, more))
     };
-    let at: Vec<_> = bernstein(&of.coefficients(x)).into_iter().map(sign).collect::<Option<_>>()?;
+    let at: Vec<_> = bernstein(of, x).into_iter().map(sign).collect::<Option<_>>()?;
     // Between numbers of one sign there is no other, and no zero if none is.
     let one = [Positive, Negative, NonNegative, NonPositive];
     let all = one.into_iter().find(|sign| at.iter().all(|own| own.sign.implies(*sign)))?;
     Some(Certificate { of: of.clone(), sign: all, rule: Rule::Ends { x, at: at.into() } })
 }
 
-/// The sums bᵢ for which a polynomial c₀ + c₁ x + … + cₙ xⁿ is Σ bᵢ aⁱ (1 − a)ⁿ⁻ⁱ, where a = (1 + x)/2.
+/// The sums bᵢ for which a polynomial of degree n in x is Σ bᵢ aⁱ (1 − a)ⁿ⁻ⁱ, where a = (1 + x)/2.
 ///
 /// In it xᵏ = (a − (1 − a))ᵏ (a + (1 − a))ⁿ⁻ᵏ.
-fn bernstein(coefficients: &[Poly]) -> Vec<Poly> {
-    let degree = coefficients.len() - 1;
+fn bernstein(of: &Poly, x: Symbol) -> Vec<Poly> {
+    let degree = of.degree(x) as usize;
     let times = |factors: &[i32], by: i32| -> Vec<i32> {
         let shifted = [0].iter().chain(factors);
         factors.iter().chain(&[0]).zip(shifted).map(|(low, high)| by * low + high).collect()
@@ -80,8 +80,8 @@ fn bernstein(coefficients: &[Poly]) -> Vec<Poly> {
         let minus = (0..k).fold(vec![1], |all, _| times(&all, -1));
         (k..degree).fold(minus, |all, _| times(&all, 1))
     };
-    let powers = coefficients.iter().enumerate().map(|(k, c)| (c, factors(k)));
-    powers.fold(vec![Poly::zero(); degree + 1], |sums, (c, factors)| {
-        sums.iter().zip(factors).map(|(sum, n)| sum + c * Poly::constant(n)).collect()
+    (0..=degree).fold(vec![Poly::zero(); degree + 1], |sums, k| {
+        let coefficient = of.coefficient(x, k as u32);
+        sums.iter().zip(factors(k)).map(|(sum, n)| sum + &coefficient * Poly::constant(n)).collect()
     })
 }

@@ -147,3 +147,17 @@ fn nothing_is_assumed_of_a_computed_quantity_but_its_interval() {
     // Nor is it computed from itself.
     assert!(refused(Claim { computed: Some(("u", &u + (&q - &u))), ..one }));
 }
+
+/// Of a power that tends to 0 nothing else is assumed; and a step is from a member to the next, whatever the power.
+#[test]
+fn neither_the_limit_of_a_sequence_nor_its_step_depends_on_a_power() {
+    let q = x("q");
+    let refused = |claim: Claim| matches!(prove(&Statement::of(&claim)), Err(Why::Reserved("q")));
+    let half = || int(1) / int(2);
+    assert!(refused(vanishing("one", [&Hypothesis::new(Relation::Zero, &q - int(1))], half(), &q, 0)));
+    let bounds = [&above_zero(q.clone()), &above_zero(int(2) - &q)];
+    assert!(refused(vanishing("ratio", bounds, &q - int(1), &q, 0)));
+    let (start, closed) = (vec![int(5)], vec![int(5) * &q]);
+    let step = vec![int(5) * &q];
+    assert!(refused(Claim::new("step", &[], Kind::Induction { ratio: int(1), start, step, closed })));
+}
