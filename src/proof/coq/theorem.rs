@@ -188,7 +188,8 @@ impl<'a> Theorem<'a> {
         };
         let iterates = format!("{}_iterates", self.name);
         let (arguments, ratio) = (names(&free), self.expr(ratio));
-        let binder = if free.is_empty() { String::new() } else { format!(" ({} : R)", arguments.trim_start()) };
+        let binder =
+            if free.is_empty() { String::new() } else { format!(" ({} : R)", arguments.trim_start()) };
         let _ = write!(
             text,
             "\nFixpoint {iterates}{} (n : nat) : {} :=\n  match n with\n  | O => {}\n  | S n =>\n\

@@ -34,7 +34,8 @@ pub struct Ratio {
 /// The sum of terms, in any order.
 impl FromIterator<(Monomial, Number)> for Poly {
     fn from_iter<I: IntoIterator<Item = (Monomial, Number)>>(terms: I) -> Self {
-        let mut terms: Vec<_> = terms.into_iter().inspect(|(m, _)| effort::spend(1 + m.powers().len())).collect();
+        let mut terms: Vec<_> =
+            terms.into_iter().inspect(|(m, _)| effort::spend(1 + m.powers().len())).collect();
         // Where some are in order already, as in sums and products they are, this sort merges.
         terms.sort_by(|(m, _), (n, _)| m.cmp(n));
         terms.dedup_by(|(m, q), (n, sum)| {

@@ -2,8 +2,8 @@
 
 use super::algebra::{self, Poly, Ratio};
 use super::context::Context;
-use super::effort;
 use super::derivation::{Rounding, Signed, Why};
+use super::effort;
 use super::sign::{Certificate, ERRORS, Sign, sign};
 use crate::formula::claim::SCALES;
 use crate::number::Tree;

@@ -1,9 +1,9 @@
 //! What the kernel proves and what it must not.
 
 use super::*;
-use crate::formula::{Claim, Kind};
 use crate::formula::claim::{PRECISION, derivative, drift, equal, induction, positive, vanishing};
 use crate::formula::statement::two_bits;
+use crate::formula::{Claim, Kind};
 use crate::number::{Exponential, Field, PositivePart};
 use num_traits::{One, Zero};
 
@@ -355,9 +355,11 @@ fn a_proof_has_limits() {
     let chain = [("a", "b"), ("b", "c"), ("c", "d"), ("d", "f")].map(|(a, b)| equal_to(a, power(b, 400)));
     assert!(exceeds(chain.to_vec(), Says::Sign(Relation::NonNegative, x("a") - x("f"))));
     let raised = ["a", "b", "c", "d", "f", "g"];
-    let raised = raised.windows(2).map(|pair| equal_to(pair[1], x(pair[0]).exp() + (int(2) * x(pair[0])).exp()));
+    let raised =
+        raised.windows(2).map(|pair| equal_to(pair[1], x(pair[0]).exp() + (int(2) * x(pair[0])).exp()));
     assert!(exceeds(raised.collect(), Says::Sign(Relation::Positive, x("g"))));
-    let names = ["a₀", "a₁", "a₂", "a₃", "a₄", "a₅", "a₆", "a₇", "a₈", "a₉", "b₀", "b₁", "b₂", "b₃", "b₄", "b₅"];
+    let names =
+        ["a₀", "a₁", "a₂", "a₃", "a₄", "a₅", "a₆", "a₇", "a₈", "a₉", "b₀", "b₁", "b₂", "b₃", "b₄", "b₅"];
     let sum = || names.iter().fold(int(0), |sum, name| sum + x(name));
     let power = |n: usize| (0..n).fold(int(1), |power, _| power * sum());
     assert!(exceeds(vec![], Says::Equal(power(9), power(9))));
