@@ -137,8 +137,8 @@ fn search(statement: &Statement) -> Result<Proof, Why> {
 ///   sequence only where a perturbed recursion speaks of its first.
 /// - A computed symbol has no other meaning. It may be another number at each step: nothing is assumed of it
 ///   but its interval, and it is not computed from itself.
-/// - The start, ratio and limit of a sequence depend on no power, no member and nothing computed, its step and
-///   the hypotheses of its limit on no power; its closed form and the bound of its distance from that depend on
+/// - The start, ratio and limit of a sequence depend on no power, no member and nothing computed; its step
+///   and the hypotheses of its limit on no power; its closed form and the bound of its distance from that on
 ///   no member and nothing computed; the bounds of other quantities, and the hypotheses, on no member.
 fn check_names<'t>(statement: &'t Statement) -> Result<(), Why> {
     fn refuse<'t>(

@@ -148,7 +148,7 @@ fn nothing_is_assumed_of_a_computed_quantity_but_its_interval() {
     assert!(refused(Claim { computed: Some(("u", &u + (&q - &u))), ..one }));
 }
 
-/// Of a power that tends to 0 nothing else is assumed; and a step is from a member to the next, whatever the power.
+/// A hypothesis on a power may fail as the power tends to 0; a step is the same for all powers.
 #[test]
 fn neither_the_limit_of_a_sequence_nor_its_step_depends_on_a_power() {
     let q = x("q");
