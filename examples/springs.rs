@@ -30,8 +30,8 @@ pub fn claims() -> [Claim; 2] {
     let [stiff_a, stiff_b] = [&a, &b].map(|x| Hypothesis::new(Relation::Positive, x.clone()));
     let c = series(&a, &b);
     [
-        equal("elongations-add", [&stiff_a, &stiff_b], &force / &c, &force / &a + &force / &b),
-        positive("softer-than-each", [&stiff_a, &stiff_b], &a - &c),
+        equal("elongations-add", &force / &c, &force / &a + &force / &b).assuming([&stiff_a, &stiff_b]),
+        positive("softer-than-each", &a - &c).assuming([&stiff_a, &stiff_b]),
     ]
 }
 

@@ -31,7 +31,7 @@ pub use formulas::computed;
 pub use given::{Given, given};
 pub use numbers::{all_numbered, numbered};
 
-use crate::formula::{Claim, Registry, Statement};
+use crate::formula::{Registry, Statement};
 use std::sync::LazyLock;
 
 /// What the files of the sections are written with.
@@ -129,18 +129,18 @@ pub fn place(equation: &str) -> Option<usize> {
 }
 
 /// Every claim, in the order of the entries.
-pub fn claims() -> impl Iterator<Item = &'static Claim> {
+pub fn claims() -> impl Iterator<Item = &'static Statement> {
     entries().iter().flat_map(|entry| &entry.claims)
 }
 
-/// What every claim comes to.
+/// Returns a copy of every claim.
 pub fn statements() -> Vec<Statement> {
-    claims().map(Statement::of).collect()
+    claims().cloned().collect()
 }
 
 /// The names of an entry's claims, in whatever number system they are checked.
 pub fn claim_names(equation: &str) -> Vec<&'static str> {
-    let recorded = claims().filter(|c| !c.rounds()).map(|c| (c.equation, c.name));
+    let recorded = claims().filter(|c| !c.contains_rounding()).map(|c| (c.equation(), c.name()));
     let floats = float_experiments::<f64>().into_iter().map(|e| (e.equation, e.name));
     let rationals = exact_experiments().into_iter().map(|e| (e.equation, e.name));
     let all = recorded.chain(floats).chain(rationals);

@@ -18,11 +18,11 @@ mod registry;
 pub mod statement;
 mod typeset;
 
-pub use claim::{Claim, Kind, Rate};
+pub use claim::Rate;
 pub use hypothesis::{Hypothesis, Relation};
 pub use lines::{GLUE, together};
 pub use program::{Program, Rounds};
 pub use registry::{Call, Formula, Registry};
-pub use statement::Statement;
+pub use statement::{Proposition, Statement};
 pub(crate) use typeset::name_of_rounding;
 pub use typeset::{Name, Notation, latex};

@@ -203,8 +203,8 @@ impl Row {
     /// Its counterexample, as far as the claim speaks of it; all of it of what only computed numbers have.
     pub fn point(&self) -> Option<Point> {
         let case = self.counterexample.as_ref()?;
-        let claim = claims().find(|claim| (claim.equation, claim.name) == (self.equation, self.claim));
-        let symbols = claim.map(|claim| registry().symbols_of(Statement::of(claim).trees()));
+        let claim = claims().find(|claim| (claim.equation(), claim.name()) == (self.equation, self.claim));
+        let symbols = claim.map(|claim| registry().symbols_of(claim.trees()));
         let all = Var::ALL.iter().map(|var| (var.symbol(), case.get(*var).clone()));
         Some(Point::new(all.filter(|(symbol, _)| symbols.as_ref().is_none_or(|own| own.contains(symbol)))))
     }
@@ -257,14 +257,15 @@ fn run(
 ) -> Report {
     let wanted =
         |equation: &str| options.equations.is_empty() || options.equations.iter().any(|e| e == equation);
-    let statements: Vec<_> = statements.into_iter().filter(|statement| wanted(statement.equation)).collect();
+    let statements: Vec<_> =
+        statements.into_iter().filter(|statement| wanted(statement.equation())).collect();
     // Some proofs take long: meanwhile cases are tried.
     let proofs = || statements.par_iter().map(proof).collect();
     let (mut rows, tallies): (Vec<Row>, _) =
         rayon::join(proofs, || tallies(checkers, options, &wanted, progress));
     let unproved: Vec<_> =
         rows.iter().filter(|row| row.status == Status::Failed).map(|row| (row.equation, row.claim)).collect();
-    let is_unproved = |s: &Statement| unproved.contains(&(s.equation, s.name));
+    let is_unproved = |s: &Statement| unproved.contains(&(s.equation(), s.name()));
     let suspects = suspects::suspects(&statements, &is_unproved);
     let shared = suspects::shared(&statements, &is_unproved);
     // To look for repairs all is proved once more.
@@ -348,9 +349,9 @@ fn proof(statement: &Statement) -> Row {
         Answer::None(why, counterexample) => (Some(why), counterexample),
     };
     Row {
-        equation: statement.equation,
-        claim: statement.name,
-        kind: statement.kind,
+        equation: statement.equation(),
+        claim: statement.name(),
+        kind: statement.kind(),
         scalar: None,
         status: if why.is_none() { Status::Proved } else { Status::Failed },
         why,

@@ -4,7 +4,7 @@
 use rayon::prelude::*;
 use spring_mass_contact::claims::{given, registry, statements};
 use spring_mass_contact::formula::claim::PRECISION;
-use spring_mass_contact::formula::statement::two_bits;
+use spring_mass_contact::formula::statement::minimum_precision;
 use spring_mass_contact::formula::{Hypothesis, Relation, Statement};
 use spring_mass_contact::number::Exact;
 use spring_mass_contact::number::tree::{Step, piecewise};
@@ -62,7 +62,7 @@ fn no_hypothesis_is_needless() {
         CONTROLS.dropped.iter().any(|d| (d.equation, d.name, &d.given) == (s.equation, s.name, given))
     };
     for s in statements() {
-        for given in s.hypotheses.iter().filter(|given| **given != two_bits()) {
+        for given in s.hypotheses().iter().filter(|given| **given != minimum_precision()) {
             assert!(was_dropped(&s, given), "{} {}: nobody tried it without {given}", s.equation, s.name);
         }
     }
@@ -100,10 +100,10 @@ fn neighbours(statements: &[Statement]) -> Vec<(String, Statement)> {
 /// A statement for each goal: one that is false must not be proved because the next is not. The goals of an
 /// induction, or of what is computed, say something only together.
 fn goal_by_goal((name, statement): (String, Statement)) -> Vec<(String, Statement)> {
-    if matches!(statement.kind, "induction" | "drift") || statement.computed.is_some() {
+    if matches!(statement.kind(), "induction" | "drift") || statement.computed().is_some() {
         return vec![(name, statement)];
     }
-    let goals = statement.goals.clone().into_iter();
+    let goals = statement.goals().clone().into_iter();
     goals.map(|goal| (name.clone(), Statement { goals: vec![goal], ..statement.clone() })).collect()
 }
 
@@ -161,7 +161,7 @@ fn points_reach_all_that_hypotheses_allow() {
                 // No small integers make 2ᵖ + 1 a multiple of 64, and two bits would be too few.
                 let fine = &given().fine_enough;
                 let never = hypothesis == fine && std::ptr::eq(points, &raw)
-                    || *hypothesis == two_bits() && s.hypotheses.contains(fine);
+                    || *hypothesis == minimum_precision() && s.hypotheses().contains(fine);
                 let zero = zero || never;
                 assert_eq!((zero, positive), expected, "{name}: {hypothesis}");
             }
@@ -179,7 +179,7 @@ fn a_counterexample_has_all_hypotheses_but_the_dropped_one() {
         };
         // An induction's invariants may go with the hypothesis.
         let of =
-            statements.iter().find(|s| (s.equation, s.name) == (dropped.equation, dropped.name)).unwrap();
+            statements.iter().find(|s| (s.equation(), s.name()) == (dropped.equation, dropped.name)).unwrap();
         for given in &of.hypotheses {
             let sign = value(given, &counterexample.point).cmp(&Exact::from(0));
             let expected = *given != dropped.given;

@@ -15,7 +15,9 @@ use gallina::{
 };
 use spring_mass_contact::claims::{registry, statements};
 use spring_mass_contact::formula::claim::{MEMBERS, PRECISION, SCALES};
-use spring_mass_contact::formula::statement::{Computed, Goal, Role, Says, Sequence, Statement, two_bits};
+use spring_mass_contact::formula::statement::{
+    Computed, Goal, Proposition, Role, Sequence, Statement, minimum_precision,
+};
 use spring_mass_contact::formula::{Hypothesis, Registry, Relation};
 use spring_mass_contact::number::tree::Step;
 use spring_mass_contact::number::{Field, PositivePart, Tree};
@@ -64,7 +66,7 @@ fn every_claim_is_a_theorem() {
     assert!(left_out.is_empty(), "{left_out:#?}");
     let statements = statements();
     for statement in &statements {
-        let name = theorem_name(statement.equation, statement.name);
+        let name = theorem_name(statement.equation(), statement.name());
         assert!(theorems.contains(&name.as_str()), "{name}");
     }
     assert_eq!(theorems.len(), statements.len());
@@ -113,7 +115,7 @@ fn every_divisor_is_said_not_to_be_0() {
                 }
             });
         }
-        let name = format!("{}_defined", theorem_name(statement.equation, statement.name));
+        let name = format!("{}_defined", theorem_name(statement.equation(), statement.name()));
         let lemma = theorems.iter().find(|theorem| theorem.name == name);
         assert_eq!(lemma.is_some(), !divisors.is_empty(), "{name}");
         let Some(Read { mut given, follows, .. }) = lemma.map(|lemma| lemma.read(&functions)) else {
@@ -121,10 +123,13 @@ fn every_divisor_is_said_not_to_be_0() {
         };
         given.retain(|said| !matches!(said, Said::PowerOfTwo(..)));
         let is_used = |file: &File| file.text.matches(&format!("({name} ")).count() > 0;
-        assert!(statement.rounds() || of_claims(&coq().files()).any(is_used), "no proof uses {name}");
+        assert!(
+            statement.contains_rounding() || of_claims(&coq().files()).any(is_used),
+            "no proof uses {name}"
+        );
         // Of the members of what is rounded nothing is needed.
-        let invariants = statement.invariants.iter().filter(|_| !statement.rounds());
-        let own = statement.hypotheses.iter().chain(invariants);
+        let invariants = statement.invariants().iter().filter(|_| !statement.contains_rounding());
+        let own = statement.hypotheses().iter().chain(invariants);
         assert!(all_supposed_as(own, &given), "{name} supposes something else");
         for divisor in divisors {
             let is_of_it = |said: &Said| matches!(said, Said::Different(a, zero) if *zero == Tree::int(0) && printed_as(&divisor, a));
@@ -233,13 +238,15 @@ fn sign_printed_as(relation: Relation, own: &Tree, printed: &Said) -> bool {
     }
 }
 
-fn said_as(own: &Says, printed: &Said) -> bool {
+fn said_as(own: &Proposition, printed: &Said) -> bool {
     match (own, printed) {
-        (Says::Equal(a, b), Said::Equal(left, right)) => printed_as(a, left) && printed_as(b, right),
-        (Says::Sign(relation, a), said) => sign_printed_as(*relation, a, said),
-        (Says::Within(a, bound), Said::AtMost(size, b)) => printed_as(&a.abs(), size) && printed_as(bound, b),
-        (Says::Derivative(of, by, is), Said::Derivative(a, x, b))
-        | (Says::Limit(of, by, is), Said::Limit(a, x, b)) => {
+        (Proposition::Equal(a, b), Said::Equal(left, right)) => printed_as(a, left) && printed_as(b, right),
+        (Proposition::Sign(relation, a), said) => sign_printed_as(*relation, a, said),
+        (Proposition::Within(a, bound), Said::AtMost(size, b)) => {
+            printed_as(&a.abs(), size) && printed_as(bound, b)
+        }
+        (Proposition::Derivative(of, by, is), Said::Derivative(a, x, b))
+        | (Proposition::Limit(of, by, is), Said::Limit(a, x, b)) => {
             in_letters(&Tree::symbol(by)) == Tree::symbol(x) && printed_as(of, a) && printed_as(is, b)
         }
         _ => false,
@@ -255,7 +262,8 @@ fn powers_of_two(statement: &Statement) -> Vec<(&'static str, &'static str)> {
         (SCALES[2], "two_f", "power_f"),
     ];
     let spoken_of: BTreeSet<_> = statement.trees().flat_map(Tree::symbols).collect();
-    let own = NAMES.into_iter().filter(|(name, ..)| statement.rounds() && spoken_of.contains(name));
+    let own =
+        NAMES.into_iter().filter(|(name, ..)| statement.contains_rounding() && spoken_of.contains(name));
     own.map(|(_, power, of)| (power, of)).collect()
 }
 
@@ -266,14 +274,14 @@ fn supposes_the_same(statement: &Statement, given: &[Said]) -> bool {
     let is_power =
         |(own, said): (&(&str, &str), &Said)| matches!(said, Said::PowerOfTwo(x, of) if (*x, *of) == *own);
     // A limit supposes nothing of what tends to infinity.
-    let grows = |name: &str| matches!(statement.goals[0].says, Says::Limit(_, by, _) if by == name);
-    let own = statement.hypotheses.iter().filter(|own| !own.value.symbols().into_iter().any(grows));
+    let grows = |name: &str| matches!(statement.goals()[0].says, Proposition::Limit(_, by, _) if by == name);
+    let own = statement.hypotheses().iter().filter(|own| !own.value.symbols().into_iter().any(grows));
     first.len() == powers.len() && powers.iter().zip(first).all(is_power) && all_supposed_as(own, rest)
 }
 
 /// That numbers have two bits is said of their exponent.
 fn all_supposed_as<'a>(own: impl Iterator<Item = &'a Hypothesis>, printed: &[Said]) -> bool {
-    let own: Vec<_> = own.filter(|own| **own != two_bits()).collect();
+    let own: Vec<_> = own.filter(|own| **own != minimum_precision()).collect();
     own.len() == printed.len()
         && own.iter().zip(printed).all(|(own, said)| sign_printed_as(own.relation, &own.value, said))
 }
@@ -289,8 +297,8 @@ fn is_the_same_sequence(
         own.len() == printed.len() && own.iter().zip(printed).all(|(own, printed)| printed_as(own, printed))
     };
     let members: Vec<_> = MEMBERS[..own.member.len()].iter().map(|name| Tree::symbol(name)).collect();
-    let is_closed = |(member, closed): (&Tree, &Tree)| Says::Equal(member.clone(), closed.clone());
-    let is_near = |(of, bound): &(Tree, Tree)| Says::Within(of.clone(), bound.clone());
+    let is_closed = |(member, closed): (&Tree, &Tree)| Proposition::Equal(member.clone(), closed.clone());
+    let is_near = |(of, bound): &(Tree, Tree)| Proposition::Within(of.clone(), bound.clone());
     let says: Vec<_> = match &own.within[..] {
         [] => members.iter().zip(&own.member).map(is_closed).collect(),
         within => within.iter().map(is_near).collect(),
@@ -310,14 +318,14 @@ fn is_the_same_sequence(
         && all_said_as(&says, follows)
 }
 
-fn all_said_as(own: &[Says], said: &[Said]) -> bool {
+fn all_said_as(own: &[Proposition], said: &[Said]) -> bool {
     own.len() == said.len() && own.iter().zip(said).all(|(own, said)| said_as(own, said))
 }
 
 /// What a claim says, and nothing else; of what is computed, where it is computed.
 fn says_the_same(statement: &Statement, Read { follows, of, .. }: &Read) -> bool {
-    let computed = statement.computed.as_ref();
-    match (&statement.amounts_to, of, &follows[..]) {
+    let computed = statement.computed();
+    match (statement.conclusion(), of, &follows[..]) {
         (Some(own), Some(printed), _) => is_the_same_sequence(own, computed, printed, follows),
         (Some(own), None, [Said::LimitOfPowers(ratio, of, to)]) => {
             let own = [&own.ratio, &own.member[0], own.limit.as_ref().unwrap()];
@@ -328,9 +336,9 @@ fn says_the_same(statement: &Statement, Read { follows, of, .. }: &Read) -> bool
                 Some(Computed { symbol, by, .. }) => tree.with(&[(symbol, by.clone())]),
                 None => tree.clone(),
             };
-            let own = statement.goals.iter().find(|goal| goal.role == Role::Claim).unwrap();
-            let own = match &own.says {
-                Says::Within(of, bound) => Says::Within(by(of), by(bound)),
+            let own = statement.goals().iter().find(|goal| goal.role == Role::Claim).unwrap();
+            let own = match &own.proposition {
+                Proposition::Within(of, bound) => Proposition::Within(by(of), by(bound)),
                 other => other.clone(),
             };
             all_said_as(&[own], follows)
@@ -349,18 +357,20 @@ fn every_theorem_says_what_its_claim_does() {
     let (_, functions) = printed();
     let theorems = theorems();
     for statement in statements() {
-        let name = theorem_name(statement.equation, statement.name);
+        let name = theorem_name(statement.equation(), statement.name());
         let theorem = theorems.iter().find(|theorem| theorem.name == name).unwrap();
-        assert_eq!(theorem.rounds(), statement.rounds(), "{name}");
+        assert_eq!(theorem.rounds(), statement.contains_rounding(), "{name}");
         let read = theorem.read(&functions);
         assert!(supposes_the_same(&statement, &read.given), "{name} supposes something else");
         assert!(says_the_same(&statement, &read), "{name} says something else");
         // How fast a limit is reached is said in lemmas.
-        for Goal { part, says, .. } in statement.goals.iter().skip(1).filter(|_| statement.kind == "limit") {
+        for Goal { part, says, .. } in
+            statement.goals().iter().skip(1).filter(|_| statement.kind() == "limit")
+        {
             let name = format!("{name}_{}", part.replace(' ', "_"));
             let lemma = theorems.iter().find(|lemma| lemma.name == name).expect(&name);
             let Read { given, follows, .. } = lemma.read(&functions);
-            assert!(all_supposed_as(statement.hypotheses.iter(), &given), "{name} supposes something else");
+            assert!(all_supposed_as(statement.hypotheses().iter(), &given), "{name} supposes something else");
             assert!(all_said_as(std::slice::from_ref(says), &follows), "{name} says something else");
         }
     }
@@ -401,8 +411,8 @@ fn every_law_is_tried_in_numbers() {
     let (_, functions) = printed();
     let laws: BTreeSet<_> = statements()
         .iter()
-        .filter(|statement| statement.rounds())
-        .map(|statement| theorem_name(statement.equation, statement.name))
+        .filter(|statement| statement.contains_rounding())
+        .map(|statement| theorem_name(statement.equation(), statement.name()))
         .collect();
     let theorems = theorems();
     let printed: Vec<_> = theorems.iter().filter(|theorem| laws.contains(&theorem.name)).collect();
@@ -664,8 +674,8 @@ fn coq_accepts_the_springs_in_series() {
 fn coq_accepts_divisors_of_any_shape() {
     let claims = shapes::claims();
     for claim in &claims {
-        let proof = prove(&Statement::of(claim));
-        assert!(proof.is_ok(), "{}: {}", claim.name, proof.unwrap_err());
+        let proof = prove(&claim);
+        assert!(proof.is_ok(), "{}: {}", claim.name(), proof.unwrap_err());
     }
     let registry = Registry::new(&["a", "b", "c", "d", "f", "g", "x", "y"], Vec::new());
     let placed = claims.iter().map(|claim| Placed { claim, section: "shapes", functions: &[] });

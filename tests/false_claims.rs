@@ -34,7 +34,7 @@ fn zero(value: impl Into<Tree>) -> Hypothesis {
 
 /// A claim of which more is assumed than it was made with.
 fn also(claim: Claim, more: Hypothesis) -> Claim {
-    Claim { given: [claim.given, vec![more]].concat(), ..claim }
+    Claim { given: [claim.stated_hypotheses(), vec![more]].concat(), ..claim }
 }
 
 /// A rule or premise, a false claim, a true one that differs in it.
@@ -47,92 +47,96 @@ fn signs() -> Vec<Row> {
     let e1 = Hypothesis::between(&u, -1, 1);
     let e2 = Hypothesis::between(&v, -1, 1);
     vec![
-        ("a weak sign is not strict", positive("f", [&weak_a], &a), non_negative("t", [&weak_a], &a)),
+        (
+            "a weak sign is not strict",
+            positive("f", &a).assuming([&weak_a]),
+            non_negative("t", &a).assuming([&weak_a]),
+        ),
         (
             "terms of two signs have none",
-            positive("f", [&pos_a, &pos_b], &a - &b),
-            positive("t", [&pos_a, &pos_b], &a + &b),
+            positive("f", &a - &b).assuming([&pos_a, &pos_b]),
+            positive("t", &a + &b).assuming([&pos_a, &pos_b]),
         ),
-        ("a square may be 0", positive("f", [], &u * &u), non_negative("t", [], &u * &u)),
+        ("a square may be 0", positive("f", &u * &u), non_negative("t", &u * &u)),
         (
             "an odd power of a negative number is negative",
-            positive("f", [&negative_a], &a * &a * &a),
-            positive("t", [&negative_a], &a * &a),
+            positive("f", &a * &a * &a).assuming([&negative_a]),
+            positive("t", &a * &a).assuming([&negative_a]),
         ),
         (
             "a factor counts with its sign",
-            positive("f", [&negative_a], &a * (&u * &u - n(2) * &u + n(2))),
-            positive("t", [&pos_a], &a * (&u * &u - n(2) * &u + n(2))),
+            positive("f", &a * (&u * &u - n(2) * &u + n(2))).assuming([&negative_a]),
+            positive("t", &a * (&u * &u - n(2) * &u + n(2))).assuming([&pos_a]),
         ),
         (
             "a square completed over a coefficient that may be 0",
-            positive("f", [&weak_a], &a * &u * &u + &u + n(1)),
-            positive("t", [&pos_a], &a * &a * &u * &u + &a * &u + n(1)),
+            positive("f", &a * &u * &u + &u + n(1)).assuming([&weak_a]),
+            positive("t", &a * &a * &u * &u + &a * &u + n(1)).assuming([&pos_a]),
         ),
         (
             "a square that crosses 0",
-            positive("f", [], &u * &u + n(3) * &u + n(2)),
-            positive("t", [], &u * &u + n(2) * &u + n(2)),
+            positive("f", &u * &u + n(3) * &u + n(2)),
+            positive("t", &u * &u + n(2) * &u + n(2)),
         ),
         (
             "a quadratic of negative leading coefficient",
-            positive("f", [], n(1) - &u - &u * &u),
-            positive("t", [], n(1) - &u + &u * &u),
+            positive("f", n(1) - &u - &u * &u),
+            positive("t", n(1) - &u + &u * &u),
         ),
         (
             "a slope proves nothing without a start",
-            positive("f", [&pos_a], a.exp() - n(2) - &a),
-            positive("t", [&pos_a], a.exp() - n(1) - &a),
+            positive("f", a.exp() - n(2) - &a).assuming([&pos_a]),
+            positive("t", a.exp() - n(1) - &a).assuming([&pos_a]),
         ),
         (
             "a slope proves nothing where the symbol may be negative",
-            positive("f", [], u.exp() - n(1) - &u / n(2)),
-            positive("t", [&pos_a], a.exp() - n(1) - &a / n(2)),
+            positive("f", u.exp() - n(1) - &u / n(2)),
+            positive("t", a.exp() - n(1) - &a / n(2)).assuming([&pos_a]),
         ),
         (
             "a slope of the other sign",
-            positive("f", [&pos_a], n(1) + &a - (n(2) * &a).exp()),
-            positive("t", [&pos_a], (n(2) * &a).exp() - n(1) - &a),
+            positive("f", n(1) + &a - (n(2) * &a).exp()).assuming([&pos_a]),
+            positive("t", (n(2) * &a).exp() - n(1) - &a).assuming([&pos_a]),
         ),
         (
             "absolute values of terms add up",
-            non_negative("f", [&e1, &e2], n(3) + n(2) * &u + n(2) * &v),
-            non_negative("t", [&e1, &e2], n(4) + n(2) * &u + n(2) * &v),
+            non_negative("f", n(3) + n(2) * &u + n(2) * &v).assuming([&e1, &e2]),
+            non_negative("t", n(4) + n(2) * &u + n(2) * &v).assuming([&e1, &e2]),
         ),
         (
             "a coefficient without a sign bounds nothing",
-            non_negative("f", [&e1], &b * (n(2) + &u)),
-            non_negative("t", [&e1, &pos_b], &b * (n(2) + &u)),
+            non_negative("f", &b * (n(2) + &u)).assuming([&e1]),
+            non_negative("t", &b * (n(2) + &u)).assuming([&e1, &pos_b]),
         ),
         (
             "both ends count",
-            non_negative("f", [&e1, &e2], (n(1) + &u) * (n(2) + n(3) * &v)),
-            non_negative("t", [&e1, &e2], (n(1) + &u) * (n(2) + &v)),
+            non_negative("f", (n(1) + &u) * (n(2) + n(3) * &v)).assuming([&e1, &e2]),
+            non_negative("t", (n(1) + &u) * (n(2) + &v)).assuming([&e1, &e2]),
         ),
         (
             "between the ends a square may be less than at both",
-            non_negative("f", [&e1], n(4) * &u * &u - n(1)),
-            non_negative("t", [&e1], (n(2) + &u) * (n(2) + &u)),
+            non_negative("f", n(4) * &u * &u - n(1)).assuming([&e1]),
+            non_negative("t", (n(2) + &u) * (n(2) + &u)).assuming([&e1]),
         ),
         (
             "a divisor counts with its sign",
-            positive("f", [&negative_a], n(1) / &a),
-            positive("t", [&pos_a], n(1) / &a),
+            positive("f", n(1) / &a).assuming([&negative_a]),
+            positive("t", n(1) / &a).assuming([&pos_a]),
         ),
         (
             "of two strict bounds both are needed",
-            positive("f", [&above_zero(&k)], &k - &k * &k),
-            positive("t", [&above_zero(&k), &above_zero(n(1) - &k)], &k - &k * &k),
+            positive("f", &k - &k * &k).assuming([&above_zero(&k)]),
+            positive("t", &k - &k * &k).assuming([&above_zero(&k), &above_zero(n(1) - &k)]),
         ),
         (
             "of two bounds the lower one is strict",
-            positive("f", [&not_below_zero(&k), &above_zero(n(1) - &k)], &k - &k * &k),
-            positive("t", [&above_zero(&k), &above_zero(n(1) - &k)], &k - &k * &k),
+            positive("f", &k - &k * &k).assuming([&not_below_zero(&k), &above_zero(n(1) - &k)]),
+            positive("t", &k - &k * &k).assuming([&above_zero(&k), &above_zero(n(1) - &k)]),
         ),
         (
             "a bound that may be met",
-            positive("f", [&above_zero(&k), &not_below_zero(n(1) - &k)], &k - &k * &k),
-            non_negative("t", [&above_zero(&k), &not_below_zero(n(1) - &k)], &k - &k * &k),
+            positive("f", &k - &k * &k).assuming([&above_zero(&k), &not_below_zero(n(1) - &k)]),
+            non_negative("t", &k - &k * &k).assuming([&above_zero(&k), &not_below_zero(n(1) - &k)]),
         ),
     ]
 }
@@ -147,53 +151,53 @@ fn hypotheses() -> Vec<Row> {
     vec![
         (
             "a hypothesis is weak",
-            positive("f", [&not_below_zero(&b - &a)], &b - &a),
-            positive("t", [&difference], &b - &a),
+            positive("f", &b - &a).assuming([&not_below_zero(&b - &a)]),
+            positive("t", &b - &a).assuming([&difference]),
         ),
         (
             "a hypothesis is one way round",
-            positive("f", [&difference], &a - &b),
-            positive("t", [&difference], &b - &a),
+            positive("f", &a - &b).assuming([&difference]),
+            positive("t", &b - &a).assuming([&difference]),
         ),
         (
             "no factor that may be 0 is cancelled in a hypothesis",
-            equal("f", [&product(lambda.clone())], &u, 1),
-            equal("t", [&above_zero(&lambda), &product(lambda.clone())], &u, 1),
+            equal("f", &u, 1).assuming([&product(lambda.clone())]),
+            equal("t", &u, 1).assuming([&above_zero(&lambda), &product(lambda.clone())]),
         ),
         (
             "an exponential in a hypothesis is a factor",
-            equal("f", [&pos_b, &power], &u * &v, &b),
-            equal("t", [&power], &u * &v * a.exp(), &b),
+            equal("f", &u * &v, &b).assuming([&pos_b, &power]),
+            equal("t", &u * &v * a.exp(), &b).assuming([&power]),
         ),
         (
             "the sign of a symbol that is replaced",
-            positive("f", [&above_zero(&b - &a)], &b),
-            positive("t", [&above_zero(&a), &above_zero(&b - &a)], &b),
+            positive("f", &b).assuming([&above_zero(&b - &a)]),
+            positive("t", &b).assuming([&above_zero(&a), &above_zero(&b - &a)]),
         ),
         (
             "an interval has two ends",
-            non_negative("f", [&unit], n(1) / n(2) - &u),
-            non_negative("t", [&unit], n(1) - &u),
+            non_negative("f", n(1) / n(2) - &u).assuming([&unit]),
+            non_negative("t", n(1) - &u).assuming([&unit]),
         ),
         (
             "the ends of an interval may be in any order",
-            non_negative("f", [&Hypothesis::between(&u, &c, &d)], &u - &c),
-            non_negative("t", [&above_zero(&d - &c), &Hypothesis::between(&u, &c, &d)], &u - &c),
+            non_negative("f", &u - &c).assuming([&Hypothesis::between(&u, &c, &d)]),
+            non_negative("t", &u - &c).assuming([&above_zero(&d - &c), &Hypothesis::between(&u, &c, &d)]),
         ),
         (
             "the reach of an interval may be negative",
-            within("f", [&wide], &u - &v, &c),
-            within("t", [&wide, &above_zero(&c)], &u - &v, &c),
+            within("f", &u - &v, &c).assuming([&wide]),
+            within("t", &u - &v, &c).assuming([&wide, &above_zero(&c)]),
         ),
         (
             "a bound holds on both sides",
-            within("f", [&narrow, &not_below_zero(&c)], &u - &v - n(1), &c),
-            within("t", [&narrow, &not_below_zero(&c)], &u - &v - &c, &c),
+            within("f", &u - &v - n(1), &c).assuming([&narrow, &not_below_zero(&c)]),
+            within("t", &u - &v - &c, &c).assuming([&narrow, &not_below_zero(&c)]),
         ),
         (
             "a bound may not be negative",
-            within("f", [&not_below_zero(&c)], 0, -&c),
-            within("t", [&not_below_zero(&c)], 0, &c),
+            within("f", 0, -&c).assuming([&not_below_zero(&c)]),
+            within("t", 0, &c).assuming([&not_below_zero(&c)]),
         ),
     ]
 }
@@ -205,48 +209,48 @@ fn cases_and_divisors() -> Vec<Row> {
     let two = |a: Tree, b: Tree| part(&a) * part(&b) * (a - b);
     let abs = |tree: &Tree| tree.abs();
     vec![
-        ("a bracket may be closed", equal("f", [], part(&u), &u), equal("t", [&pos_c], part(&c), &c)),
-        ("a bracket may be open", equal("f", [], part(&u), 0), equal("t", [&pos_c], part(&-&c), 0)),
+        ("a bracket may be closed", equal("f", part(&u), &u), equal("t", part(&c), &c).assuming([&pos_c])),
+        ("a bracket may be open", equal("f", part(&u), 0), equal("t", part(&-&c), 0).assuming([&pos_c])),
         (
             "0 belongs to one of two cases",
-            positive("f", [], part(&u) + part(&-&u)),
-            non_negative("t", [], part(&u) + part(&-&u)),
+            positive("f", part(&u) + part(&-&u)),
+            non_negative("t", part(&u) + part(&-&u)),
         ),
         (
             "each case has a slack of its own",
-            equal("f", [], two(&u - &v, &w - &z), 0),
-            equal("t", [], two(&u - &v, &u - &v), 0),
+            equal("f", two(&u - &v, &w - &z), 0),
+            equal("t", two(&u - &v, &u - &v), 0),
         ),
         (
             "a minimum is the smaller one",
-            equal("f", [&above_zero(&b - &a)], a.min(&b), &b),
-            equal("t", [&above_zero(&b - &a)], a.min(&b), &a),
+            equal("f", a.min(&b), &b).assuming([&above_zero(&b - &a)]),
+            equal("t", a.min(&b), &a).assuming([&above_zero(&b - &a)]),
         ),
         (
             "a minimum of what is open is either",
-            equal("f", [], u.min(&v), &u),
-            equal("t", [], u.min(&v), (&u + &v - abs(&(&u - &v))) / n(2)),
+            equal("f", u.min(&v), &u),
+            equal("t", u.min(&v), (&u + &v - abs(&(&u - &v))) / n(2)),
         ),
-        ("a divisor may be 0", equal("f", [], &u / &u, 1), equal("t", [&pos_c], &c / &c, 1)),
+        ("a divisor may be 0", equal("f", &u / &u, 1), equal("t", &c / &c, 1).assuming([&pos_c])),
         (
             "a divisor of weak sign may be 0",
-            equal("f", [&weak_c], &c / &c, 1),
-            equal("t", [&weak_c], (&c + n(1)) / (&c + n(1)), 1),
+            equal("f", &c / &c, 1).assuming([&weak_c]),
+            equal("t", (&c + n(1)) / (&c + n(1)), 1).assuming([&weak_c]),
         ),
         (
             "what is multiplied by 0 has to be defined",
-            equal("f", [], n(0) * (n(1) / &u), 0),
-            equal("t", [&pos_c], n(0) * (n(1) / &c), 0),
+            equal("f", n(0) * (n(1) / &u), 0),
+            equal("t", n(0) * (n(1) / &c), 0).assuming([&pos_c]),
         ),
         (
             "a divisor that is a difference of equals",
-            equal("f", [&zero(&u - &v)], n(1) / (&u - &v + &c * &c), n(1) / (&c * &c)),
-            equal("t", [&zero(&u - &v), &pos_c], n(1) / (&u - &v + &c * &c), n(1) / (&c * &c)),
+            equal("f", n(1) / (&u - &v + &c * &c), n(1) / (&c * &c)).assuming([&zero(&u - &v)]),
+            equal("t", n(1) / (&u - &v + &c * &c), n(1) / (&c * &c)).assuming([&zero(&u - &v), &pos_c]),
         ),
         (
             "one factor of a divisor may be 0",
-            positive("f", [&pos_c], n(1) / (&c * (&u * &u))),
-            positive("t", [&pos_c], n(1) / (&c * (&u * &u + n(1)))),
+            positive("f", n(1) / (&c * (&u * &u))).assuming([&pos_c]),
+            positive("t", n(1) / (&c * (&u * &u + n(1)))).assuming([&pos_c]),
         ),
     ]
 }
@@ -262,14 +266,10 @@ fn slopes_and_limits() -> Vec<Row> {
     vec![
         (
             "a product rule has two terms",
-            derivative("f", [], &u * &u, &u, &u),
-            derivative("t", [], &u * &u, &u, n(2) * &u),
+            derivative("f", &u * &u, &u, &u),
+            derivative("t", &u * &u, &u, n(2) * &u),
         ),
-        (
-            "a slope is by one symbol",
-            derivative("f", [], &u * &w, &u, &u),
-            derivative("t", [], &u * &w, &u, &w),
-        ),
+        ("a slope is by one symbol", derivative("f", &u * &w, &u, &u), derivative("t", &u * &w, &u, &w)),
         (
             "degrees are compared",
             tends("f", &[&time], (&t * &t + n(1)) / (&t + n(1)), n(1)),
@@ -345,82 +345,62 @@ fn sequences() -> Vec<Row> {
     let [pos_c, unit] = [above_zero(&c), Hypothesis::between(&q, 0, 1)];
     let halves = |name, step: Tree, bound: Tree| {
         let near = Hypothesis::near(&u, x("x₁") / n(2), 0);
-        drift(name, [&unit, &near], half(), 1, |_| u.clone(), (n(0), bound), |_| []).computing(&u, step)
+        drift(name, half(), 1, |_| u.clone(), (n(0), bound), |_| [])
+            .assuming([&unit, &near])
+            .computing(&u, step)
     };
     let [from_one, near_q] = [not_below_zero(&q - n(1)), Hypothesis::near(&u, &q, 0)];
     let square = &z * &z * &w * &w;
     let grows = |name, step: Tree| {
-        drift(name, [&from_one, &near_q], 2, 0, |x| x + &step, (n(0), n(0)), |_| []).computing(&u, &q)
+        drift(name, 2, 0, |x| x + &step, (n(0), n(0)), |_| [])
+            .assuming([&from_one, &near_q])
+            .computing(&u, &q)
     };
     let raised = (&u * (&u - n(1)) - &square).positive_part();
     vec![
         (
             "a sequence begins where it begins",
-            induction("f", [], 2, [n(3)], double, [q.clone()]),
-            induction("t", [], 2, [n(3)], double, [n(3) * &q]),
+            induction("f", 2, [n(3)], double, [q.clone()]),
+            induction("t", 2, [n(3)], double, [n(3) * &q]),
         ),
         (
             "a sequence goes on as it goes on",
-            induction("f", [], 2, [n(1)], |[x]| [n(3) * x], [q.clone()]),
-            induction("t", [], 3, [n(1)], |[x]| [n(3) * x], [q.clone()]),
+            induction("f", 2, [n(1)], |[x]| [n(3) * x], [q.clone()]),
+            induction("t", 3, [n(1)], |[x]| [n(3) * x], [q.clone()]),
         ),
         (
             "a sequence does not start from a power",
-            induction("f", [], 2, [&q * n(1)], |[x]| [x * n(2) + n(1)], [n(2) * &q - n(1)]),
-            induction("t", [], 2, [n(1)], |[x]| [x * n(2) + n(1)], [n(2) * &q - n(1)]),
+            induction("f", 2, [&q * n(1)], |[x]| [x * n(2) + n(1)], [n(2) * &q - n(1)]),
+            induction("t", 2, [n(1)], |[x]| [x * n(2) + n(1)], [n(2) * &q - n(1)]),
         ),
         (
             "an invariant holds at the start",
-            induction(
-                "f",
-                [&not_below_zero(&q - n(2))],
-                2,
-                [n(1)],
-                |[x]| [x.clone() + (x - n(1)) * n(0) + n(0)],
-                [q.clone()],
-            ),
-            induction(
-                "t",
-                [&not_below_zero(&q - n(1))],
-                2,
-                [n(1)],
-                |[x]| [x.clone() + n(1) + (x - n(1)).positive_part()],
-                [q.clone()],
-            ),
+            induction("f", 2, [n(1)], |[x]| [x.clone() + (x - n(1)) * n(0) + n(0)], [q.clone()])
+                .assuming([&not_below_zero(&q - n(2))]),
+            induction("t", 2, [n(1)], |[x]| [x.clone() + n(1) + (x - n(1)).positive_part()], [q.clone()])
+                .assuming([&not_below_zero(&q - n(1))]),
         ),
         (
             "an invariant is passed on",
-            induction(
-                "f",
-                [&not_below_zero(n(2) - &q)],
-                2,
-                [n(1)],
-                |[x]| [x.clone() + n(2).min(&x)],
-                [q.clone()],
-            ),
-            induction(
-                "t",
-                [&above_zero(&q), &not_below_zero(n(1) - &q)],
-                half(),
-                [n(1)],
-                |[x]| [x.clone() - half() * x.min(&n(1))],
-                [q.clone()],
-            ),
+            induction("f", 2, [n(1)], |[x]| [x.clone() + n(2).min(&x)], [q.clone()])
+                .assuming([&not_below_zero(n(2) - &q)]),
+            induction("t", half(), [n(1)], |[x]| [x.clone() - half() * x.min(&n(1))], [q.clone()])
+                .assuming([&above_zero(&q), &not_below_zero(n(1) - &q)]),
         ),
         (
             "a power vanishes if the ratio is between −1 and 1",
-            vanishing("f", [&pos_c], (&c + n(1)) / (&c + n(2)) + n(1), &q, 0),
-            vanishing("t", [&pos_c], (&c + n(1)) / (&c + n(2)), &q, 0),
+            vanishing("f", (&c + n(1)) / (&c + n(2)) + n(1), &q, 0).assuming([&pos_c]),
+            vanishing("t", (&c + n(1)) / (&c + n(2)), &q, 0).assuming([&pos_c]),
         ),
         (
             "a limit is the value at 0",
-            vanishing("f", [], half(), (&q + n(1)) / (&q * &q + n(1)), 2),
-            vanishing("t", [], half(), (&q + n(1)) / (&q * &q + n(1)), 1),
+            vanishing("f", half(), (&q + n(1)) / (&q * &q + n(1)), 2),
+            vanishing("t", half(), (&q + n(1)) / (&q * &q + n(1)), 1),
         ),
         (
             "what is not continuous at 0 has another limit",
-            vanishing("f", [], half(), &q / (&q * &q + &q), 0),
-            vanishing("t", [], half(), &q / (&q * &q + n(1)), 0),
+            vanishing("f", half(), &q / (&q * &q + &q), 0),
+            vanishing("t", half(), &q / (&q * &q + n(1)), 0),
         ),
         (
             "a computed quantity is where it is assumed",
@@ -454,14 +434,18 @@ fn names() -> Vec<Row> {
     let [u, v] = ["u", "v"].map(x);
     let above = above_zero(&u - n(1));
     vec![
-        ("a slack", positive("f", [&above], x("s₁")), positive("t", [&above], &u)),
-        ("an error", non_negative("f", [], n(1) - x("e₁")), non_negative("t", [], n(1) - n(1))),
-        ("an interval parameter", non_negative("f", [], n(1) + x("t₁")), non_negative("t", [], n(1) + n(1))),
-        ("a member", equal("f", [&zero(&u - n(1))], x("x₁"), 1), equal("t", [&zero(&u - n(1))], &u, 1)),
+        ("a slack", positive("f", x("s₁")).assuming([&above]), positive("t", &u).assuming([&above])),
+        ("an error", non_negative("f", n(1) - x("e₁")), non_negative("t", n(1) - n(1))),
+        ("an interval parameter", non_negative("f", n(1) + x("t₁")), non_negative("t", n(1) + n(1))),
+        (
+            "a member",
+            equal("f", x("x₁"), 1).assuming([&zero(&u - n(1))]),
+            equal("t", &u, 1).assuming([&zero(&u - n(1))]),
+        ),
         (
             "a power of two that is computed",
-            positive("f", [&Hypothesis::near(&x("2ᵃ"), &v, 0)], x("2ᵃ")).computing(&x("2ᵃ"), &v),
-            positive("t", [&above_zero(&v), &Hypothesis::near(&u, &v, 0)], &u).computing(&u, &v),
+            positive("f", x("2ᵃ")).assuming([&Hypothesis::near(&x("2ᵃ"), &v, 0)]).computing(&x("2ᵃ"), &v),
+            positive("t", &u).assuming([&above_zero(&v), &Hypothesis::near(&u, &v, 0)]).computing(&u, &v),
         ),
     ]
 }
@@ -474,80 +458,77 @@ fn roundings() -> Vec<Row> {
     let error = || fl(u.clone()) - &u;
     let ordered = not_below_zero(&a - &b);
     vec![
-        (
-            "rounding is not exact",
-            equal("f", [], fl(u.clone()), &u),
-            equal("t", [], fl(u.clone()), fl(n(1) * &u)),
-        ),
+        ("rounding is not exact", equal("f", fl(u.clone()), &u), equal("t", fl(u.clone()), fl(n(1) * &u))),
         (
             "an error has two signs",
-            non_negative("f", [&above_zero(&u)], error()),
-            non_negative("t", [&above_zero(&u)], fl(u.clone())),
+            non_negative("f", error()).assuming([&above_zero(&u)]),
+            non_negative("t", fl(u.clone())).assuming([&above_zero(&u)]),
         ),
         (
             "an error is as large as it can be",
-            within("f", [], error(), u.abs() / n_of(2)),
-            within("t", [], error(), u.abs() / n_of(1)),
+            within("f", error(), u.abs() / n_of(2)),
+            within("t", error(), u.abs() / n_of(1)),
         ),
         (
             "equal numerators over two divisors round apart",
-            equal("f", [&pos_c, &pos_d], fl(&a / &c) * &c, fl(&a / &d) * &d),
-            equal("t", [&pos_c, &pos_d], fl(&a / &c) * &d, fl(&a / &c) * &d),
+            equal("f", fl(&a / &c) * &c, fl(&a / &d) * &d).assuming([&pos_c, &pos_d]),
+            equal("t", fl(&a / &c) * &d, fl(&a / &c) * &d).assuming([&pos_c, &pos_d]),
         ),
         (
             "equal divisors under two numerators round apart",
-            equal("f", [&pos_c], fl(&a / &c) * &b, fl(&b / &c) * &a),
-            equal("t", [&pos_c], fl(&a / &c) * &b, &b * fl(&a / &c)),
+            equal("f", fl(&a / &c) * &b, fl(&b / &c) * &a).assuming([&pos_c]),
+            equal("t", fl(&a / &c) * &b, &b * fl(&a / &c)).assuming([&pos_c]),
         ),
         (
             "a factor that is no power of two rounds apart",
-            equal("f", [], fl(n(3) * &u), n(3) * fl(u.clone())),
-            equal("t", [], fl(x("2ᵃ") * &u), x("2ᵃ") * fl(u.clone())),
+            equal("f", fl(n(3) * &u), n(3) * fl(u.clone())),
+            equal("t", fl(x("2ᵃ") * &u), x("2ᵃ") * fl(u.clone())),
         ),
         (
             "a sum rounds apart from its parts",
-            equal("f", [], fl(&a + &b), fl(a.clone()) + fl(b.clone())),
-            equal("t", [], fl(&a + &b), fl(&b + &a)),
+            equal("f", fl(&a + &b), fl(a.clone()) + fl(b.clone())),
+            equal("t", fl(&a + &b), fl(&b + &a)),
         ),
         (
             "a rounded number is rounded",
-            equal("f", [], fl(fl(u.clone()) * &a), fl(&u * &a)),
-            equal("t", [], fl(&a * fl(u.clone())), fl(fl(u.clone()) * &a)),
+            equal("f", fl(fl(u.clone()) * &a), fl(&u * &a)),
+            equal("t", fl(&a * fl(u.clone())), fl(fl(u.clone()) * &a)),
         ),
         (
             "rounding keeps order and does not make it",
-            non_negative("f", [], fl(a.clone()) - fl(b.clone())),
-            non_negative("t", [&ordered], fl(a.clone()) - fl(b.clone())),
+            non_negative("f", fl(a.clone()) - fl(b.clone())),
+            non_negative("t", fl(a.clone()) - fl(b.clone())).assuming([&ordered]),
         ),
         (
             "rounding keeps a weak order only",
-            positive("f", [&above_zero(&a - &b)], fl(a.clone()) - fl(b.clone())),
-            non_negative("t", [&above_zero(&a - &b)], fl(a.clone()) - fl(b.clone())),
+            positive("f", fl(a.clone()) - fl(b.clone())).assuming([&above_zero(&a - &b)]),
+            non_negative("t", fl(a.clone()) - fl(b.clone())).assuming([&above_zero(&a - &b)]),
         ),
         (
             "a minus turns order round",
-            non_negative("f", [&ordered], fl(&c - &a) - fl(&c - &b)),
-            non_negative("t", [&ordered], fl(&c - &b) - fl(&c - &a)),
+            non_negative("f", fl(&c - &a) - fl(&c - &b)).assuming([&ordered]),
+            non_negative("t", fl(&c - &b) - fl(&c - &a)).assuming([&ordered]),
         ),
         (
             "a negative factor turns order round",
-            non_negative("f", [&ordered, &above_zero(-&c)], fl(&a * &c) - fl(&b * &c)),
-            non_negative("t", [&ordered, &pos_c], fl(&a * &c) - fl(&b * &c)),
+            non_negative("f", fl(&a * &c) - fl(&b * &c)).assuming([&ordered, &above_zero(-&c)]),
+            non_negative("t", fl(&a * &c) - fl(&b * &c)).assuming([&ordered, &pos_c]),
         ),
         (
             "a negative divisor turns order round",
-            non_negative("f", [&ordered, &above_zero(-&c)], fl(fl(a.clone()) / &c) - fl(fl(b.clone()) / &c)),
-            non_negative("t", [&ordered, &pos_c], fl(fl(a.clone()) / &c) - fl(fl(b.clone()) / &c)),
+            non_negative("f", fl(fl(a.clone()) / &c) - fl(fl(b.clone()) / &c))
+                .assuming([&ordered, &above_zero(-&c)]),
+            non_negative("t", fl(fl(a.clone()) / &c) - fl(fl(b.clone()) / &c)).assuming([&ordered, &pos_c]),
         ),
         (
             "factors that differ keep no order",
-            non_negative("f", [&ordered, &pos_c], fl(&a * &c) - fl(&b * (&c + n(1)))),
-            non_negative("t", [&ordered, &pos_c], fl(&a * (&c + n(1))) - fl(&b * (&c + n(1)))),
+            non_negative("f", fl(&a * &c) - fl(&b * (&c + n(1)))).assuming([&ordered, &pos_c]),
+            non_negative("t", fl(&a * (&c + n(1))) - fl(&b * (&c + n(1)))).assuming([&ordered, &pos_c]),
         ),
         (
             "what is compared is defined",
-            non_negative("f", [], fl(&a / &u) - fl(&a / &u)),
-            non_negative("t", [&above_zero(&u)], fl(&a / &u) - fl(&a / &u)),
+            non_negative("f", fl(&a / &u) - fl(&a / &u)),
+            non_negative("t", fl(&a / &u) - fl(&a / &u)).assuming([&above_zero(&u)]),
         ),
     ]
 }
@@ -569,7 +550,7 @@ const BY_HAND: [(&str, &str); 4] = [
 #[test]
 fn false_claims_are_refuted_and_not_proved() {
     let wrong = all().filter_map(|(premise, claim, _)| {
-        let statement = Statement::of(&claim);
+        let statement = claim;
         let by_hand = BY_HAND.iter().any(|(own, _)| *own == premise);
         match (prove(&statement), refute(&statement)) {
             (Ok(_), _) => Some(format!("{premise}: proved")),
@@ -587,7 +568,7 @@ fn false_claims_are_refuted_and_not_proved() {
 #[test]
 fn true_claims_beside_them_are_proved_and_not_refuted() {
     let wrong = all().filter_map(|(premise, _, claim)| {
-        let statement = Statement::of(&claim);
+        let statement = claim;
         match (prove(&statement), refute(&statement)) {
             (Ok(_), None) => None,
             (_, Some(point)) => Some(format!("{premise}: refuted, {point}")),

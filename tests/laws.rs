@@ -12,7 +12,7 @@ use spring_mass_contact::proof::refute::{Point, Verdict, check};
 use spring_mass_contact::proof::{prove, refute};
 
 fn law(equation: &str, name: &str) -> &'static Claim {
-    let found = claims().find(|claim| (claim.equation, claim.name) == (equation, name));
+    let found = claims().find(|claim| (claim.equation(), claim.name()) == (equation, name));
     found.unwrap_or_else(|| panic!("{equation} {name}"))
 }
 
@@ -29,10 +29,10 @@ fn run(bits: i32, numbers: &'static str) -> Point {
 }
 
 fn holds(claim: &Claim, point: &Point) -> bool {
-    match check(&Statement::of(claim), point) {
+    match check(&claim, point) {
         Verdict::Holds => true,
         Verdict::Fails(..) => false,
-        other => panic!("{} {}: {other:?} at {point}", claim.equation, claim.name),
+        other => panic!("{} {}: {other:?} at {point}", claim.equation(), claim.name()),
     }
 }
 
@@ -44,10 +44,10 @@ fn with(claim: &Claim, part: &Tree, times: (i32, i32)) -> Claim {
         assert_ne!(less, *bound, "{part} is no part of {bound}");
         less
     };
-    let kind = match &claim.kind {
+    let kind = match &claim.kind() {
         Kind::Within(of, bound) => Kind::Within(of.clone(), lowered(bound)),
         Kind::Drift { ratio, start, step, near, bound, also } => {
-            let [(of, most)] = &also[..] else { panic!("{}", claim.name) };
+            let [(of, most)] = &also[..] else { panic!("{}", claim.name()) };
             let own =
                 |bound: &Tree| if bound.any(&|tree| tree == part) { lowered(bound) } else { bound.clone() };
             Kind::Drift {
@@ -59,7 +59,7 @@ fn with(claim: &Claim, part: &Tree, times: (i32, i32)) -> Claim {
                 also: vec![(of.clone(), own(most))],
             }
         }
-        other => panic!("{} is no bound: {other:?}", claim.name),
+        other => panic!("{} is no bound: {other:?}", claim.name()),
     };
     Claim { kind, ..claim.clone() }
 }
@@ -145,11 +145,12 @@ fn no_constant_of_a_law_can_be_much_less() {
         assert!(holds(law, point), "{equation} {name} at {point}");
         let less = with(law, part, *times);
         assert!(!holds(&less, point), "{equation} {name} with {times:?} of {part} at {point}");
-        assert!(prove(&Statement::of(&less)).is_err(), "{equation} {name} with {times:?} of {part}");
+        assert!(prove(&less).is_err(), "{equation} {name} with {times:?} of {part}");
     }
-    let shown = |claim: &&Claim| runs.iter().any(|(e, n, ..)| (*e, *n) == (claim.equation, claim.name));
-    let bounds = claims().filter(|claim| claim.rounds() && matches!(claim.kind.name(), "bound" | "drift"));
-    let unshown: Vec<_> = bounds.filter(|claim| !shown(claim)).map(|claim| claim.name).collect();
+    let shown = |claim: &&Claim| runs.iter().any(|(e, n, ..)| (*e, *n) == (claim.equation(), claim.name()));
+    let bounds = claims()
+        .filter(|claim| claim.contains_rounding() && matches!(claim.kind().name(), "bound" | "drift"));
+    let unshown: Vec<_> = bounds.filter(|claim| !shown(claim)).map(|claim| claim.name()).collect();
     // It says no more than the one before.
     assert_eq!(unshown, ["float-distance"]);
 }
@@ -196,22 +197,22 @@ fn the_order_of_operations_is_part_of_a_law() {
     for (own, other, bound, law, point) in others {
         let given: Vec<_> = law.given.iter().collect();
         let of = |formula: &Tree, bound: &Tree| {
-            let claim = within("order", [], formula.rounded() - own, bound);
+            let claim = within("order", formula.rounded() - own, bound);
             Claim { given: given.iter().copied().cloned().collect(), ..claim }
         };
         assert!(holds(law, &point), "{own} at {point}");
         let reordered = of(&other, &bound);
         assert!(!holds(&reordered, &point), "{other} at {point}");
-        assert!(prove(&Statement::of(&reordered)).is_err(), "{other}");
+        assert!(prove(&reordered).is_err(), "{other}");
     }
 }
 
 /// No law has a counterexample, where one is looked for thoroughly: at points that are drawn for it.
 #[test]
 fn no_law_is_refuted() {
-    for claim in claims().filter(|claim| claim.rounds()) {
-        let found = refute(&Statement::of(claim));
-        assert!(found.is_none(), "{} {}: {}", claim.equation, claim.name, found.unwrap());
+    for claim in claims().filter(|claim| claim.contains_rounding()) {
+        let found = refute(&claim);
+        assert!(found.is_none(), "{} {}: {}", claim.equation(), claim.name(), found.unwrap());
     }
 }
 
@@ -322,7 +323,7 @@ fn the_radius_of_a_ball_encloses_for_every_precision() {
     for (meant, value, radius, given) in radii() {
         let near = [Hypothesis::near(&x, &a, &r), Hypothesis::near(&y, &b, &s)];
         let claim = |radius: &Tree| {
-            let claim = within("encloses", [], &meant - value.rounded(), radius);
+            let claim = within("encloses", &meant - value.rounded(), radius);
             Statement::of(&Claim { given: [given.clone(), near.to_vec()].concat(), ..claim })
         };
         if let Err(why) = prove(&claim(&radius)) {

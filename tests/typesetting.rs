@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use spring_mass_contact::claims::{registry, statements};
 use spring_mass_contact::formula::claim::{MEMBERS, POWER};
-use spring_mass_contact::formula::statement::{Role, Says, Sequence};
+use spring_mass_contact::formula::statement::{Proposition, Role, Sequence};
 use spring_mass_contact::formula::{Claim, Formula, Hypothesis, Kind, Rate, Registry, Relation, Statement};
 use spring_mass_contact::number::tree::{Step, piecewise};
 use spring_mass_contact::number::{Exact, Exponential, Field, PositivePart, Tree};
@@ -510,28 +510,28 @@ impl<'a> Text<'a> {
         }
     }
 
-    fn is_said(self, says: &Says) {
+    fn is_said(self, says: &Proposition) {
         let between =
             |keyword: &str, close: &str| self.0.strip_prefix(keyword).and_then(|rest| rest.split_once(close));
         match says {
-            Says::Equal(a, b) => {
+            Proposition::Equal(a, b) => {
                 let (left, said, right) = self.sides();
                 assert_eq!(said, "=");
                 left.is(a);
                 right.is(b);
             }
-            Says::Sign(relation, of) => {
+            Proposition::Sign(relation, of) => {
                 let (of_text, said, zero) = self.sides();
                 assert_eq!((said, zero.0), (relation.to_string().as_str(), "0"));
                 of_text.is(of);
             }
-            Says::Within(of, bound) => self.is_within(of, bound),
-            Says::Derivative(of, by, is) => {
+            Proposition::Within(of, bound) => self.is_within(of, bound),
+            Proposition::Derivative(of, by, is) => {
                 let (of_text, is_text) = between(&format!("∂/∂{by} ["), "] = ").expect(self.0);
                 self.part(of_text).is(of);
                 self.part(is_text).is(is);
             }
-            Says::Limit(of, by, to) => {
+            Proposition::Limit(of, by, to) => {
                 let (of_text, to_text) = between("lim [", "] = ").expect(self.0);
                 let to_text = to_text.strip_suffix(&format!(" for {by} → ∞")).expect(self.0);
                 self.part(of_text).is(of);
@@ -561,13 +561,13 @@ impl<'a> Text<'a> {
 
     /// The text says what a claim comes to.
     fn is_claim(self, statement: &Statement) {
-        let Some(Sequence { start, step, ratio, member, limit, within }) = &statement.amounts_to else {
+        let Some(Sequence { start, step, ratio, member, limit, within }) = statement.conclusion() else {
             let (said, computed) = self.0.split_once(", where ").unwrap_or((self.0, ""));
             self.is_computed(computed, statement);
-            let goals = statement.goals.iter().filter(|goal| goal.role == Role::Claim);
+            let goals = statement.goals().iter().filter(|goal| goal.role == Role::Claim);
             let (goals, parts): (Vec<_>, Vec<_>) = (goals.collect(), said.split("; ").collect());
             assert_eq!(goals.len(), parts.len(), "{}", self.0);
-            parts.iter().zip(goals).for_each(|(part, goal)| self.part(part).is_said(&goal.says));
+            parts.iter().zip(goals).for_each(|(part, goal)| self.part(part).is_said(&goal.proposition));
             return;
         };
         let place = if let Some(limit) = limit {
@@ -620,7 +620,7 @@ impl<'a> Text<'a> {
     }
 
     fn is_computed(self, computed: &'a str, statement: &Statement) {
-        match (computed.split_once(" = "), &statement.computed) {
+        match (computed.split_once(" = "), statement.computed()) {
             (None, None) => {}
             (Some((symbol, by)), Some(computed)) => {
                 assert_eq!(symbol, computed.symbol);
@@ -696,7 +696,7 @@ proptest! {
 
     #[test]
     fn a_claim_says_what_is_claimed(claim in claims()) {
-        let statement = Statement::of(&claim);
+        let statement = claim;
         Text(&Paper::new(&NO_NAMES).claim(&statement), &NO_NAMES, &[]).is_claim(&statement);
     }
 }
@@ -818,7 +818,7 @@ fn a_line_of_a_proof_says_what_is_proved() {
     let held = std::cell::Cell::new(0);
     let config = ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(1000) };
     let tried = TestRunner::new(config).run(&provable(), |claim| {
-        let statement = Statement::of(&claim);
+        let statement = claim;
         let Ok(proof) = prove(&statement) else { return Ok(()) };
         let said = Paper::new(&NO_NAMES).proof(&proof);
         // In each case a name may stand for something else; and of what is long only the length is said.
@@ -829,11 +829,11 @@ fn a_line_of_a_proof_says_what_is_proved() {
         let known =
             [("a", 3), ("b", 10), ("u", 5), ("k", 1)].map(|(name, n)| (name.to_string(), Exact::from(n)));
         let known = BTreeMap::from(known);
-        let sides = statement.goals.iter().flat_map(|goal| goal.says.trees());
+        let sides = statement.goals().iter().flat_map(|goal| goal.proposition.trees());
         let mut values: Vec<_> =
             sides.filter_map(|tree| replayed_at(tree, &|name| known[name].clone())).collect();
-        if let [Says::Within(..)] =
-            statement.goals.iter().map(|goal| goal.says.clone()).collect::<Vec<_>>()[..]
+        if let [Proposition::Within(..)] =
+            statement.goals().iter().map(|goal| goal.proposition.clone()).collect::<Vec<_>>()[..]
         {
             values = vec![&values[1] - &values[0], &values[1] + &values[0]];
         }
@@ -850,7 +850,7 @@ fn every_claim_of_the_chapter_says_what_is_claimed() {
     let quiet = ["ε"];
     for statement in statements() {
         Text(&Paper::new(registry()).claim(&statement), registry(), &quiet).is_claim(&statement);
-        for hypothesis in statement.supposed() {
+        for hypothesis in statement.all_hypotheses() {
             Text(&registry().supposed(hypothesis), registry(), &quiet).is_hypothesis(hypothesis);
         }
     }

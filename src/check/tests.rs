@@ -144,12 +144,7 @@ fn what_is_taken_for_the_same_is_proved_to_be() {
             let pairs = [(&same.touching, &mistake.touching), (&same.apart, &mistake.apart)];
             for (a, b) in pairs.into_iter().flat_map(|(a, b)| a.iter().zip(b)) {
                 let claim = Claim::new("same", &given, formula::Kind::Equal(a.clone(), b.clone()));
-                assert!(
-                    a == b || prove(&Statement::of(&claim)).is_ok(),
-                    "{} and {}: {a} and {b}",
-                    same.name,
-                    mistake.name
-                );
+                assert!(a == b || prove(&claim).is_ok(), "{} and {}: {a} and {b}", same.name, mistake.name);
             }
         }
     }

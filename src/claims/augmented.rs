@@ -63,29 +63,20 @@ pub(super) fn entries() -> Vec<Entry> {
         Entry::new("1.14", "Augmented functional")
             .states("L(u) = «augmented::functional»")
             .in_latex(r"L(u) = «augmented::functional»")
-            .given([stiffness, penalty])
+            .assuming([stiffness, penalty])
             .functions(["augmented::functional", "augmented::least_value"])
             .follows_from(["1.7", "1.9"])
             .claims([
-                equal(
-                    "least",
-                    [stiffness, penalty],
-                    functional(s, eps, lambda, iterate),
-                    least_value(s, eps, lambda),
-                ),
+                equal("least", functional(s, eps, lambda, iterate), least_value(s, eps, lambda)),
                 equal(
                     "excess",
-                    [stiffness, penalty],
                     functional(s, eps, lambda, u) - least_value(s, eps, lambda),
                     half(penalty::total_stiffness(s, eps) * square(u - iterate)),
                 ),
-                equal("without-multiplier", [], functional(s, eps, zero, u), penalty::energy(s, eps, u)),
-                equal(
-                    "without-penalty",
-                    [],
-                    functional(s, zero, lambda, u),
-                    lagrange::functional(s, u, lambda),
-                ),
+                equal("without-multiplier", functional(s, eps, zero, u), penalty::energy(s, eps, u))
+                    .only_assuming([]),
+                equal("without-penalty", functional(s, zero, lambda, u), lagrange::functional(s, u, lambda))
+                    .only_assuming([]),
             ]),
         Entry::new("1.15", "Stationarity")
             .states("∂L/∂u = «augmented::stationarity» = 0")
@@ -93,14 +84,8 @@ pub(super) fn entries() -> Vec<Entry> {
             .functions(["augmented::stationarity"])
             .follows_from(["1.14"])
             .claims([
-                derivative(
-                    "stationary",
-                    [],
-                    functional(s, eps, lambda, u),
-                    u,
-                    stationarity(s, eps, lambda, u),
-                ),
-                equal("written-out", [], stationarity(s, eps, lambda, u), equilibrium(s, eps, lambda, u)),
+                derivative("stationary", functional(s, eps, lambda, u), u, stationarity(s, eps, lambda, u)),
+                equal("written-out", stationarity(s, eps, lambda, u), equilibrium(s, eps, lambda, u)),
             ]),
         Entry::new("1.16", "Augmentation")
             .states(
@@ -114,7 +99,7 @@ pub(super) fn entries() -> Vec<Entry> {
                 r"&«augmented::equilibrium: u=u_k, λ=λ_k» = 0 \end{aligned}\right. \\[4pt] ",
                 r"k = 1, 2, 3, \dots \end{gathered}",
             ))
-            .given([stiffness, penalty])
+            .assuming([stiffness, penalty])
             .functions([
                 "augmented::update",
                 "augmented::equilibrium",
@@ -124,15 +109,9 @@ pub(super) fn entries() -> Vec<Entry> {
             ])
             .follows_from(["1.15"])
             .claims([
-                equal(
-                    "first-step",
-                    [stiffness, penalty],
-                    deflection(s, eps, zero),
-                    penalty::deflection(s, eps),
-                ),
+                equal("first-step", deflection(s, eps, zero), penalty::deflection(s, eps)),
                 induction(
                     "closed-form",
-                    [stiffness, penalty],
                     contraction(s, eps),
                     [lambda.clone(), iterate.clone()],
                     augment,
@@ -140,20 +119,15 @@ pub(super) fn entries() -> Vec<Entry> {
                 ),
                 non_negative(
                     "float-multiplier-rises",
-                    [penalty, computed_inside],
                     update(s, eps, lambda, u).rounded() - lambda.nearest(),
-                ),
+                )
+                .only_assuming([penalty, computed_inside]),
                 {
                     let p = |lambda: &Tree| contact::penetration(s, &deflection(s, eps, lambda)).rounded();
-                    non_negative(
-                        "float-penetration-falls",
-                        [stiffness, penalty, later_multiplier],
-                        p(lambda) - p(v),
-                    )
+                    non_negative("float-penetration-falls", p(lambda) - p(v)).assuming([later_multiplier])
                 },
                 drift(
                     "float-drift",
-                    [stiffness, penalty, fine_enough, touching, decay, near_iterate],
                     contraction(s, eps),
                     0,
                     |lambda| update(s, eps, lambda, u).rounded(),
@@ -163,26 +137,22 @@ pub(super) fn entries() -> Vec<Entry> {
                         [(error, rounding::penetration_drift(s, eps, precision()))]
                     },
                 )
+                .assuming([fine_enough, touching, decay, near_iterate])
                 .computing(u, deflection(s, eps, member()).rounded()),
                 {
                     let drift = rounding::penetration_drift(s, eps, precision());
                     let lengths = s.h.abs() + gap(s).abs() + reaction(s) / eps;
-                    equal(
-                        "float-drift-in-parts",
-                        [penalty, some_bits],
-                        drift * precision(),
-                        int(20) * lengths,
-                    )
+                    equal("float-drift-in-parts", drift * precision(), int(20) * lengths)
+                        .only_assuming([penalty, some_bits])
                 },
                 equal(
                     "float-multiplier-drift-in-parts",
-                    [penalty, some_bits],
                     rounding::multiplier_drift(s, eps, precision()),
                     int(11) * (&s.c + eps) * rounding::floor(s, eps, precision()),
-                ),
+                )
+                .only_assuming([penalty, some_bits]),
                 equal(
                     "penetration",
-                    [stiffness, penalty],
                     contact::penetration(s, &deflection_after(s, eps, lambda, q)),
                     penetration_after(s, eps, lambda, q),
                 ),
@@ -192,45 +162,33 @@ pub(super) fn entries() -> Vec<Entry> {
                 "p(u_k) shrinks by the factor ρ = «augmented::contraction» in each step for every \
                  ε > 0: |p(u_k)| falls strictly unless λ₀ = R",
             )
-            .given([stiffness, penalty])
+            .assuming([stiffness, penalty])
             .functions(["augmented::contraction"])
             .follows_from(["1.16"])
             .claims([
-                vanishing(
-                    "contracts",
-                    [stiffness, penalty],
-                    contraction(s, eps),
-                    penetration_after(s, eps, lambda, q),
-                    0,
-                ),
+                vanishing("contracts", contraction(s, eps), penetration_after(s, eps, lambda, q), 0),
                 {
                     let next = contraction(s, eps) * q;
                     positive(
                         "falls",
-                        [stiffness, penalty, below_reaction, power],
                         penetration_after(s, eps, lambda, q) - penetration_after(s, eps, lambda, &next),
                     )
+                    .assuming([below_reaction, power])
                 },
                 {
                     let next = contraction(s, eps) * q;
                     positive(
                         "rises",
-                        [stiffness, penalty, above_reaction, power],
                         penetration_after(s, eps, lambda, &next) - penetration_after(s, eps, lambda, q),
                     )
+                    .assuming([above_reaction, power])
                 },
-                vanishing(
-                    "force",
-                    [stiffness, penalty],
-                    contraction(s, eps),
-                    multiplier_after(s, lambda, q),
-                    reaction(s),
-                ),
+                vanishing("force", contraction(s, eps), multiplier_after(s, lambda, q), reaction(s)),
             ]),
         Entry::new("1.17", "The limit of the theorem")
             .states("lim p(u_k) = 0, and |p_k| ≤ r |p₀| with r = «augmented::harmonic_bound»")
             .in_latex(r"\lim_{k\to\infty} p(u_k) = 0")
-            .given([stiffness, penalty])
+            .assuming([stiffness, penalty])
             .functions([
                 "augmented::harmonic_bound",
                 "augmented::contraction",
@@ -238,23 +196,17 @@ pub(super) fn entries() -> Vec<Entry> {
             ])
             .follows_from(["Theorem 1.3.3"])
             .claims([
-                positive(
-                    "stays-positive",
-                    [stiffness, penalty, below_reaction, power],
-                    penetration_after(s, eps, lambda, q),
-                ),
-                positive(
-                    "stays-negative",
-                    [stiffness, penalty, above_reaction, power],
-                    -penetration_after(s, eps, lambda, q),
-                ),
+                positive("stays-positive", penetration_after(s, eps, lambda, q))
+                    .assuming([below_reaction, power]),
+                positive("stays-negative", -penetration_after(s, eps, lambda, q))
+                    .assuming([above_reaction, power]),
                 {
                     let next = k + one;
                     non_negative(
                         "harmonic-step",
-                        [stiffness, penalty, count],
                         harmonic_bound(s, eps, &next) - contraction(s, eps) * harmonic_bound(s, eps, k),
                     )
+                    .assuming([count])
                 },
                 {
                     let sum = |k: &Tree| &s.c + k * eps;
@@ -262,78 +214,73 @@ pub(super) fn entries() -> Vec<Entry> {
                     let (next, factor) = (k + one, contraction(s, eps));
                     equal(
                         "harmonic-margin",
-                        [stiffness, penalty, count],
                         (bound(&next) - factor * bound(k)) * sum(one) * sum(k) * sum(&next),
                         &s.c * k * square(eps),
                     )
+                    .assuming([count])
                 },
-                equal("harmonic-start", [stiffness], harmonic_bound(s, eps, zero), 1),
+                equal("harmonic-start", harmonic_bound(s, eps, zero), 1).only_assuming([stiffness]),
                 limit(
                     "harmonic-limit",
-                    [stiffness, penalty, count],
                     harmonic_bound(s, eps, k),
                     k,
                     0,
                     Exactly(one / (one + k * eps / &s.c)),
-                ),
+                )
+                .assuming([count]),
             ]),
         Entry::new("1.18", "Update of the multiplier")
             .states("λ_{k+1} = «augmented::update: λ=λ_k, u=u_k» = «augmented::contact_force: u=u_k»")
             .in_latex(r"\lambda_{k+1} = «augmented::update: u=u_k, λ=λ_k»")
-            .given([in_equilibrium])
+            .assuming([in_equilibrium])
             .functions(["augmented::update"])
             .follows_from(["1.16"])
-            .claims([equal(
-                "next-multiplier",
-                [in_equilibrium],
-                update(s, eps, lambda, u),
-                contact_force(s, u),
-            )]),
+            .claims([equal("next-multiplier", update(s, eps, lambda, u), contact_force(s, u))]),
         Entry::new("1.19", "Equilibrium at step k")
             .states("«augmented::equilibrium: λ=λ_k, u=u_k» = 0")
             .in_latex(r"«augmented::equilibrium: u=u_k, λ=λ_k» = 0")
-            .given([stiffness, penalty])
+            .assuming([stiffness, penalty])
             .functions(["augmented::equilibrium"])
             .follows_from(["1.16"])
-            .claims([equal("root", [stiffness, penalty], equilibrium(s, eps, lambda, iterate), 0)]),
+            .claims([equal("root", equilibrium(s, eps, lambda, iterate), 0)]),
         Entry::new("1.20", "Equilibrium at step k + 1")
             .states("«augmented::equilibrium: λ=λ_{k+1}, u=u_{k+1}» = 0")
             .in_latex(r"«augmented::equilibrium: u=u_{k+1}, λ=λ_{k+1}» = 0")
-            .given([stiffness, penalty])
+            .assuming([stiffness, penalty])
             .functions(["augmented::equilibrium"])
             .follows_from(["1.16", "1.18"])
             .claims([
                 {
                     let [next, u] = augment([lambda.clone(), iterate.clone()]);
-                    equal("next-root", [stiffness, penalty], equilibrium(s, eps, &next, &u), 0)
+                    equal("next-root", equilibrium(s, eps, &next, &u), 0)
                 },
                 equal(
                     "missing-force",
-                    [in_equilibrium],
                     &s.c * contact::penetration(s, u),
                     reaction(s) - update(s, eps, lambda, u),
-                ),
+                )
+                .only_assuming([in_equilibrium]),
             ]),
         Entry::new("1.21", "Recursion in the deflection")
             .states("«augmented::recursion.left» = «augmented::recursion.right»")
             .in_latex(r"«augmented::recursion.left» = «augmented::recursion.right»")
-            .given([in_equilibrium, next_in_equilibrium])
+            .assuming([in_equilibrium, next_in_equilibrium])
             .functions(["augmented::recursion"])
             .follows_from(["1.18", "1.19", "1.20"])
             .claims([
                 {
                     let (left, right) = recursion(s, eps, u, v);
-                    equal("eliminated", [in_equilibrium, next_in_equilibrium], left, right)
+                    equal("eliminated", left, right)
                 },
                 {
                     let (left, right) = recursion(s, eps, u, v);
                     let next = update(s, eps, lambda, u);
                     equal(
                         "difference",
-                        [],
                         equilibrium(s, eps, &next, v) - equilibrium(s, eps, lambda, u),
                         left - right,
                     )
+                    .only_assuming([])
                 },
             ]),
     ]
@@ -348,22 +295,24 @@ pub(super) fn stopping() -> Vec<Entry> {
         Entry::new("1.33", "When to stop")
             .states("|p_k| < tol, first at k = 0 if |p₀| < tol, else at k = ⌊ln(|p₀|/tol)/ln(1 + ε/c)⌋ + 1")
             .in_latex(r"\lvert p_k \rvert = \lvert «contact::penetration: u=u_k» \rvert < \mathrm{tol}")
-            .given([stiffness, penalty, tolerance])
+            .assuming([stiffness, penalty, tolerance])
             .functions(["augmented::within_tolerance"])
             .follows_from(["1.16"])
             .claims([
                 equal(
                     "count",
-                    [stiffness, penalty],
                     penetration_after(s, eps, lambda, q) * penalty::total_stiffness(s, eps),
                     (reaction(s) - lambda) * q,
-                ),
-                equal("growth", [stiffness, penalty], one / contraction(s, eps), one + eps / &s.c),
+                )
+                .only_assuming([stiffness, penalty]),
+                equal("growth", one / contraction(s, eps), one + eps / &s.c)
+                    .only_assuming([stiffness, penalty]),
                 {
                     // λ₀ planted so that |p₀| = tol/q: after the steps with ρᵏ = q the penetration *is* the
                     // tolerance.
                     let start = reaction(s) - penalty::total_stiffness(s, eps) * tol / q;
-                    equal("tie", [stiffness, penalty, power], penetration_after(s, eps, &start, q), tol)
+                    equal("tie", penetration_after(s, eps, &start, q), tol)
+                        .only_assuming([stiffness, penalty, power])
                 },
             ]),
         Entry::new("Remark 1.3.6", "The force at step k")
@@ -374,8 +323,8 @@ pub(super) fn stopping() -> Vec<Entry> {
             .functions(["augmented::contact_force"])
             .follows_from(["1.18"])
             .claims([
-                equal("lag", [], update(s, eps, lambda, u) - lambda, penalty::contact_force(s, eps, u)),
-                within("rounding", [], contact_force(s, u).rounded() - contact_force(s, u), {
+                equal("lag", update(s, eps, lambda, u) - lambda, penalty::contact_force(s, eps, u)),
+                within("rounding", contact_force(s, u).rounded() - contact_force(s, u), {
                     let parts = [system::weight(s), structure::spring_force(s, u)];
                     let [weight, spring] = parts.map(|part| part.rounded());
                     let force = contact_force(s, u).rounded();

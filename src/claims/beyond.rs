@@ -42,14 +42,13 @@ pub(super) fn entries() -> Vec<Entry> {
     vec![
         Entry::new("beyond 1", "Moreau's decomposition")
             .states("c p + N = R splits R into its positive part N and its negative part −c p")
-            .given([stiffness])
+            .assuming([stiffness])
             .functions(["contact::contact_force"])
             .follows_from(["1.6"])
             .claims([
-                equal("force", [], contact::contact_force(s), reaction(s).positive_part()),
+                equal("force", contact::contact_force(s), reaction(s).positive_part()).only_assuming([]),
                 equal(
                     "gap",
-                    [stiffness],
                     -&s.c * contact::penetration(s, &contact::deflection(s)),
                     (-reaction(s)).positive_part(),
                 ),
@@ -59,7 +58,7 @@ pub(super) fn entries() -> Vec<Entry> {
                 "k augmentations from λ₀ = 0 equal one penalty solve with \
                  ε_eff = «beyond::effective_penalty: growth=(1 + ε/c)^{k+1}»",
             )
-            .given([stiffness, penalty])
+            .assuming([stiffness, penalty])
             .functions(["beyond::effective_penalty"])
             .follows_from(["1.13", "1.16"])
             .claims([
@@ -68,10 +67,10 @@ pub(super) fn entries() -> Vec<Entry> {
                     let effective = beyond::effective_penalty(s, &growth);
                     equal(
                         "one-penalty",
-                        [stiffness, penalty, power],
                         penalty::penetration(s, &effective),
                         augmented::penetration_after(s, eps, zero, q),
                     )
+                    .assuming([power])
                 },
                 {
                     // After steps with whatever penalties, whose (c + ε_i)/c have the product q, and one
@@ -79,12 +78,8 @@ pub(super) fn entries() -> Vec<Entry> {
                     let left = |growth: &Tree| penalty::penetration(s, &beyond::effective_penalty(s, growth));
                     let lambda = reaction(s) - &s.c * left(q);
                     let u = augmented::deflection(s, eps, &lambda);
-                    equal(
-                        "varying",
-                        [stiffness, penalty, power],
-                        contact::penetration(s, &u),
-                        left(&(q / augmented::contraction(s, eps))),
-                    )
+                    equal("varying", contact::penetration(s, &u), left(&(q / augmented::contraction(s, eps))))
+                        .assuming([power])
                 },
             ]),
         Entry::new("beyond 3", "A step of its own")
@@ -92,7 +87,7 @@ pub(super) fn entries() -> Vec<Entry> {
                 "λ′ = «beyond::relaxed_update» multiplies the error by «beyond::relaxed_contraction»; \
                  α = «penalty::total_stiffness» is exact",
             )
-            .given([stiffness, penalty])
+            .assuming([stiffness, penalty])
             .functions(["beyond::relaxed_update", "beyond::relaxed_contraction"])
             .follows_from(["1.16"])
             .claims([
@@ -100,69 +95,47 @@ pub(super) fn entries() -> Vec<Entry> {
                     let r = reaction(s);
                     equal(
                         "factor",
-                        [stiffness, penalty],
                         beyond::relaxed_update(s, alpha, lambda, iterate) - &r,
                         beyond::relaxed_contraction(s, eps, alpha) * (lambda - &r),
                     )
                 },
                 equal(
                     "newton",
-                    [stiffness, penalty],
                     beyond::relaxed_update(s, &penalty::total_stiffness(s, eps), lambda, iterate),
                     reaction(s),
                 ),
-                positive(
-                    "converges",
-                    [step, short_step],
-                    one - square(beyond::relaxed_contraction(s, eps, alpha)),
-                ),
-                positive(
-                    "diverges",
-                    [stiffness, penalty, long_step],
-                    square(beyond::relaxed_contraction(s, eps, alpha)) - one,
-                ),
-                positive(
-                    "uzawa",
-                    [step, uzawa_step],
-                    one - square(beyond::relaxed_contraction(s, zero, alpha)),
-                ),
+                positive("converges", one - square(beyond::relaxed_contraction(s, eps, alpha)))
+                    .only_assuming([step, short_step]),
+                positive("diverges", square(beyond::relaxed_contraction(s, eps, alpha)) - one)
+                    .assuming([long_step]),
+                positive("uzawa", one - square(beyond::relaxed_contraction(s, zero, alpha)))
+                    .only_assuming([step, uzawa_step]),
             ]),
         Entry::new("beyond 4", "A proximal step")
             .states("(1.16) is implicit Euler of step ε on λ̇ = (R − λ)/c")
-            .given([stiffness, penalty])
+            .assuming([stiffness, penalty])
             .functions(["beyond::dual_functional"])
             .follows_from(["1.16"])
             .claims([
                 {
                     let u = augmented::deflection(s, zero, lambda);
-                    equal(
-                        "dual",
-                        [stiffness],
-                        beyond::dual_functional(s, lambda),
-                        lagrange::functional(s, &u, lambda),
-                    )
+                    equal("dual", beyond::dual_functional(s, lambda), lagrange::functional(s, &u, lambda))
+                        .only_assuming([stiffness])
                 },
                 {
                     let next = augmented::update(s, eps, lambda, iterate);
-                    equal(
-                        "proximal-step",
-                        [stiffness, penalty],
-                        (&next - lambda) / eps,
-                        (reaction(s) - &next) / &s.c,
-                    )
+                    equal("proximal-step", (&next - lambda) / eps, (reaction(s) - &next) / &s.c)
                 },
                 {
                     let next = augmented::update(s, eps, lambda, iterate);
                     equal(
                         "envelope",
-                        [stiffness, penalty],
                         beyond::dual_functional(s, &next) - square(&next - lambda) / (int(2) * eps),
                         augmented::least_value(s, eps, lambda),
                     )
                 },
                 derivative(
                     "envelope-slope",
-                    [stiffness, penalty],
                     augmented::least_value(s, eps, lambda),
                     lambda,
                     contact::penetration(s, iterate),
@@ -170,17 +143,16 @@ pub(super) fn entries() -> Vec<Entry> {
             ]),
         Entry::new("beyond 5", "Extrapolation")
             .states("Aitken's formula gives R exactly from λ₀ ≠ R, λ₁ and λ₂")
-            .given([stiffness, penalty])
+            .assuming([stiffness, penalty])
             .functions(["beyond::aitken"])
             .follows_from(["1.16"])
             .claims([
-                equal("aitken", [stiffness, penalty, below_reaction], extrapolated, reaction(s)),
-                equal("aitken-from-above", [stiffness, penalty, above_reaction], extrapolated, reaction(s)),
+                equal("aitken", extrapolated, reaction(s)).assuming([below_reaction]),
+                equal("aitken-from-above", extrapolated, reaction(s)).assuming([above_reaction]),
                 {
                     let after = augmented::multiplier_after(s, lambda, q);
                     equal(
                         "rises",
-                        [stiffness, penalty],
                         augmented::least_value(s, eps, &after),
                         structure::potential_energy(s, &gap(s))
                             - square((reaction(s) - lambda) * q)
@@ -190,18 +162,18 @@ pub(super) fn entries() -> Vec<Entry> {
             ]),
         Entry::new("beyond 6", "An exact penalty")
             .states("Π + «beyond::exact_penalty» is least at u = «lagrange::deflection» for every ε ≥ R")
-            .given([stiffness, touching])
+            .assuming([stiffness, touching])
             .functions(["beyond::exact_penalty"])
             .follows_from(["1.4", "Remark 1.3.2"])
             .claims([{
                 let gap = gap(s);
                 non_negative(
                     "exact-penalty",
-                    [stiffness, touching, strong_enough],
                     structure::potential_energy(s, u)
                         + beyond::exact_penalty(eps, &contact::penetration(s, u))
                         - structure::potential_energy(s, &gap),
                 )
+                .assuming([strong_enough])
             }]),
     ]
 }

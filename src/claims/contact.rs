@@ -28,13 +28,14 @@ pub(super) fn entries() -> Vec<Entry> {
             .functions(["contact::penetration"])
             .follows_from(["Fig. 1.1"])
             .claims([
-                equal("at-the-gap", [], penetration(s, &gap(s)), 0),
-                derivative("slope", [], penetration(s, u), u, 1),
-                within("rounding", [], penetration(s, u).rounded() - penetration(s, u), {
+                equal("at-the-gap", penetration(s, &gap(s)), 0),
+                derivative("slope", penetration(s, u), u, 1),
+                within("rounding", penetration(s, u).rounded() - penetration(s, u), {
                     let (sum, p) = ((&s.l + u).rounded(), penetration(s, u).rounded());
                     eta() * (sum.abs() + p.abs())
                 }),
-                equal("free", [stiffness], penetration(s, &structure::deflection(s)), reaction(s) / &s.c),
+                equal("free", penetration(s, &structure::deflection(s)), reaction(s) / &s.c)
+                    .assuming([stiffness]),
             ]),
         Entry::new("1.6", "Karush-Kuhn-Tucker conditions")
             .states(
@@ -46,16 +47,16 @@ pub(super) fn entries() -> Vec<Entry> {
                 r"\text{no contact:} & p < 0 & N = 0 \\ ",
                 r"\text{always:} & «contact::kkt.complementarity» = 0 & \end{array}",
             ))
-            .given([stiffness])
+            .assuming([stiffness])
             .functions(["contact::kkt", "contact::Kkt", "contact::equilibrium"])
             .follows_from(["1.4", "1.5"])
             .claims([
                 equal(
                     "force-from-deflection",
-                    [],
                     equilibrium(s, u, lambda),
                     &s.c * penetration(s, u) + lambda - reaction(s),
-                ),
+                )
+                .only_assuming([]),
                 // By equilibrium N = m g − c u: a mass short of the plane with R > 0 would need a force
                 // there. Of two solutions, each with p N = 0, p ≤ 0 and N ≥ 0, the right side is not
                 // positive: they are one.
@@ -64,25 +65,24 @@ pub(super) fn entries() -> Vec<Entry> {
                     let n = |u: &Tree| augmented::contact_force(s, u);
                     equal(
                         "unique",
-                        [],
                         &s.c * square(u - v),
                         p(u) * n(v) + p(v) * n(u) - p(u) * n(u) - p(v) * n(v),
                     )
+                    .only_assuming([])
                 },
-                positive(
-                    "contact-excludes-gap",
-                    [stiffness, contact, clear],
-                    -(penetration(s, u) * augmented::contact_force(s, u)),
-                ),
+                positive("contact-excludes-gap", -(penetration(s, u) * augmented::contact_force(s, u)))
+                    .assuming([contact, clear]),
                 // … and one at the plane with R < 0 would be pulled.
-                positive("separation-excludes-touch", [separated], structure::residual(s, &gap(s))),
-                equal("stationarity", [stiffness], &solved.stationarity, 0),
-                equal("no-penetration", [stiffness], &solved.primal, 0),
-                equal("no-pull", [], kkt(s, u, &contact_force(s)).dual, 0),
-                equal("complementarity", [stiffness], &solved.complementarity, 0),
-                equal("product", [], kkt(s, &(gap(s) + du), lambda).complementarity, du * lambda),
-                positive("pushes", [contact], contact_force(s)),
-                positive("hangs-free", [stiffness, separated], -penetration(s, &deflection(s))),
+                positive("separation-excludes-touch", structure::residual(s, &gap(s)))
+                    .only_assuming([separated]),
+                equal("stationarity", &solved.stationarity, 0),
+                equal("no-penetration", &solved.primal, 0),
+                equal("no-pull", kkt(s, u, &contact_force(s)).dual, 0).only_assuming([]),
+                equal("complementarity", &solved.complementarity, 0),
+                equal("product", kkt(s, &(gap(s) + du), lambda).complementarity, du * lambda)
+                    .only_assuming([]),
+                positive("pushes", contact_force(s)).only_assuming([contact]),
+                positive("hangs-free", -penetration(s, &deflection(s))).assuming([separated]),
             ]),
     ]
 }

@@ -1,7 +1,7 @@
 //! One number of the chapter.
 
 use super::registry;
-use crate::formula::{Claim, Hypothesis, Notation};
+use crate::formula::{Hypothesis, Notation, Statement};
 
 /// One number of the chapter: an equation, the theorem, a remark, a figure, a loose spot (note), or
 /// something beyond it.
@@ -19,14 +19,14 @@ pub struct Entry {
     pub section: &'static str,
     statement: &'static str,
     latex: Option<&'static str>,
-    /// Under which conditions.
-    pub given: Vec<Hypothesis>,
+    /// Its conditions, which its claims inherit.
+    pub hypotheses: Vec<Hypothesis>,
     /// The functions in [`chapter`](crate::chapter) that are its formulas, as `module::name`; its own first.
     pub functions: Vec<&'static str>,
     /// The entries it is derived from.
     pub follows_from: Vec<&'static str>,
     /// What is claimed of it, for all values that satisfy the claim's hypotheses.
-    pub claims: Vec<Claim>,
+    pub claims: Vec<Statement>,
 }
 
 impl Entry {
@@ -56,9 +56,9 @@ impl Entry {
         if numbered { format!("({})", self.equation) } else { self.equation.to_string() }
     }
 
-    /// Its conditions as a reader writes them.
-    pub fn hypotheses(&self) -> Vec<String> {
-        registry().all_supposed(&self.given)
+    /// Returns its conditions as a reader writes them.
+    pub fn format_hypotheses(&self) -> Vec<String> {
+        registry().all_supposed(&self.hypotheses)
     }
 
     pub(super) fn new(equation: &'static str, title: &'static str) -> Self {
@@ -77,8 +77,8 @@ impl Entry {
         Entry { latex: Some(latex), ..self }
     }
 
-    pub(super) fn given<const N: usize>(self, given: [&Hypothesis; N]) -> Self {
-        Entry { given: given.map(Hypothesis::clone).into(), ..self }
+    pub(super) fn assuming<const N: usize>(self, hypotheses: [&Hypothesis; N]) -> Self {
+        Entry { hypotheses: hypotheses.map(Hypothesis::clone).into(), ..self }
     }
 
     pub(super) fn functions<const N: usize>(self, functions: [&'static str; N]) -> Self {
@@ -89,9 +89,10 @@ impl Entry {
         Entry { follows_from: entries.into(), ..self }
     }
 
-    pub(super) fn claims<const N: usize>(self, claims: [Claim; N]) -> Self {
-        let equation = self.equation;
-        Entry { claims: claims.map(|claim| Claim { equation, ..claim }).into(), ..self }
+    /// Adds claims, each of which inherits the conditions unless it has [only](Statement::only_assuming) its own.
+    pub(super) fn claims<const N: usize>(self, claims: [Statement; N]) -> Self {
+        let claims = claims.map(|claim| claim.inheriting(self.equation, &self.hypotheses));
+        Entry { claims: claims.into(), ..self }
     }
 }
 
@@ -112,12 +113,12 @@ mod tests {
 
     #[test]
     fn an_entry_says_what_it_supposes() {
-        let supposing = entries().iter().filter(|entry| entry.given.contains(&given().stiffness));
+        let supposing = entries().iter().filter(|entry| entry.hypotheses.contains(&given().stiffness));
         for entry in supposing.chain([entry("1.13").unwrap()]) {
-            assert!(entry.hypotheses().contains(&"c > 0".to_string()), "{}", entry.label());
+            assert!(entry.format_hypotheses().contains(&"c > 0".to_string()), "{}", entry.label());
         }
-        let nothing = entries().iter().find(|entry| entry.given.is_empty()).unwrap();
-        assert!(nothing.hypotheses().is_empty());
+        let nothing = entries().iter().find(|entry| entry.hypotheses.is_empty()).unwrap();
+        assert!(nothing.format_hypotheses().is_empty());
     }
 
     #[test]

@@ -11,7 +11,7 @@ impl Serialize for Entry {
         entry.serialize_field("section", self.section)?;
         entry.serialize_field("statement", &self.statement())?;
         entry.serialize_field("latex", &self.latex())?;
-        entry.serialize_field("hypotheses", &self.hypotheses())?;
+        entry.serialize_field("hypotheses", &self.format_hypotheses())?;
         entry.serialize_field("function", &self.functions.first())?;
         entry.serialize_field("follows_from", &self.follows_from)?;
         entry.serialize_field("claims", &claim_names(self.equation))?;

@@ -25,13 +25,13 @@ pub(super) fn entries() -> Vec<Entry> {
             .claims([
                 {
                     let [first, _] = residual(s, u, lambda);
-                    derivative("by-deflection", [], functional(s, u, lambda), u, first)
+                    derivative("by-deflection", functional(s, u, lambda), u, first)
                 },
                 {
                     let [_, second] = residual(s, u, lambda);
-                    derivative("by-multiplier", [], functional(s, u, lambda), lambda, second)
+                    derivative("by-multiplier", functional(s, u, lambda), lambda, second)
                 },
-                equal("hessian", [], hessian_determinant(), -1),
+                equal("hessian", hessian_determinant(), -1),
             ]),
         Entry::new("1.8", "Lagrange system")
             .states(
@@ -47,28 +47,28 @@ pub(super) fn entries() -> Vec<Entry> {
             .claims([
                 {
                     let [first, _] = residual(s, &deflection(s), &multiplier(s));
-                    equal("equilibrium", [], first, 0)
+                    equal("equilibrium", first, 0)
                 },
                 {
                     let [_, second] = residual(s, &deflection(s), &multiplier(s));
-                    equal("constraint", [], second, 0)
+                    equal("constraint", second, 0)
                 },
                 {
                     let [_, second] = residual(s, u, lambda);
-                    equal("unique-deflection", [], second, u - deflection(s))
+                    equal("unique-deflection", second, u - deflection(s))
                 },
                 {
                     let [first, second] = residual(s, u, lambda);
-                    equal("unique-multiplier", [], first - &s.c * second, lambda - multiplier(s))
+                    equal("unique-multiplier", first - &s.c * second, lambda - multiplier(s))
                 },
-                equal("complementary", [], contact::penetration(s, &deflection(s)) * multiplier(s), 0),
-                equal("kkt-with-multiplier", [touching], multiplier(s), contact::contact_force(s)),
+                equal("complementary", contact::penetration(s, &deflection(s)) * multiplier(s), 0),
+                equal("kkt-with-multiplier", multiplier(s), contact::contact_force(s)).assuming([touching]),
             ]),
         Entry::new("Remark 1.3.1", "Exact at the price of an unknown")
             .states("p = 0 exactly")
             .functions(["lagrange::deflection"])
             .follows_from(["1.8"])
-            .claims([equal("exact", [], contact::penetration(s, &deflection(s)), 0)]),
+            .claims([equal("exact", contact::penetration(s, &deflection(s)), 0)]),
     ]
 }
 

@@ -45,89 +45,74 @@ pub(super) fn entries() -> Vec<Entry> {
     vec![
         Entry::new("note 1", "Grazing")
             .states("p = 0 with N = 0 is a third state")
-            .given([stiffness, grazing])
+            .assuming([stiffness, grazing])
             .functions(["contact::deflection"])
             .follows_from(["1.6"])
             .claims([
-                equal("grazing-deflection", [stiffness, grazing], contact::deflection(s), gap),
-                equal("grazing-force", [grazing], contact::contact_force(s), 0),
+                equal("grazing-deflection", contact::deflection(s), gap),
+                equal("grazing-force", contact::contact_force(s), 0).only_assuming([grazing]),
             ]),
         Entry::new("note 2", "A saddle point")
             .states("(1.7) is least in u and constant in λ at (Δ, R)")
-            .given([stiffness])
+            .assuming([stiffness])
             .functions(["lagrange::functional"])
             .follows_from(["1.7", "1.8"])
             .claims([
                 equal(
                     "saddle-in-deflection",
-                    [],
                     lagrange::functional(s, u, r) - lagrange::functional(s, gap, r),
                     half(&s.c * square(u - gap)),
-                ),
+                )
+                .only_assuming([]),
                 non_negative(
                     "least-in-deflection",
-                    [stiffness],
                     lagrange::functional(s, u, r) - lagrange::functional(s, gap, r),
                 ),
                 equal(
                     "constant-in-multiplier",
-                    [],
                     lagrange::functional(s, gap, lambda),
                     structure::potential_energy(s, gap),
-                ),
+                )
+                .only_assuming([]),
                 {
                     let free = structure::deflection(s);
                     equal(
                         "separated",
-                        [stiffness],
                         lagrange::functional(s, &free, lambda),
                         structure::least_energy(s) + lambda * r / &s.c,
                     )
                 },
-                non_negative("not-positive", [stiffness], -structure::least_energy(s)),
+                non_negative("not-positive", -structure::least_energy(s)),
             ]),
         Entry::new("note 3", "What a penalty functional needs")
             .states("W_ε(p_ε) ≤ R²/(2c)")
-            .given([stiffness, penalty])
+            .assuming([stiffness, penalty])
             .functions(["penalty::functional"])
             .follows_from(["1.10"])
             .claims([
                 non_negative(
                     "energy-bound",
-                    [stiffness, penalty],
                     r * r / (int(2) * &s.c) - penalty::functional(eps, &penalty::penetration(s, eps)),
                 ),
                 // Positive, increasing and unbounded in p, and yet the penetration does not vanish.
-                equal(
-                    "not-sufficient",
-                    [stiffness, penalty],
-                    &s.c * stalled + saturating_force(eps, stalled),
-                    r,
-                ),
+                equal("not-sufficient", &s.c * stalled + saturating_force(eps, stalled), r),
                 limit(
                     "stalls",
-                    [stiffness, penalty],
                     stalled,
                     eps,
                     r / (&s.c + int(2)),
                     Exactly(stalled / ((&s.c + int(2)) * (one + eps))),
                 ),
                 // Bounded in p, and yet it does: W = ε p²/(1 + p²) is proportional to ε.
-                limit(
-                    "not-necessary",
-                    [],
-                    bounded_penalty(eps, u),
-                    u,
-                    eps,
-                    Exactly(-(eps / (one + square(u)))),
-                ),
+                limit("not-necessary", bounded_penalty(eps, u), u, eps, Exactly(-(eps / (one + square(u)))))
+                    .only_assuming([]),
             ]),
         Entry::new("note 4", "A plane that never pulls")
             .states(
                 "λ_k = «augmented::unilateral_update: λ=λ_{k−1}, u=u_{k−1}» and \
                  «augmented::unilateral_equilibrium: λ=λ_k, u=u_k» = 0",
             )
-            .given([stiffness, penalty])
+            .assuming([stiffness, penalty])
             .functions([
                 "augmented::unilateral_deflection",
                 "augmented::unilateral_update",
@@ -138,178 +123,145 @@ pub(super) fn entries() -> Vec<Entry> {
             ])
             .follows_from(["1.6", "1.16"])
             .claims([
-                equal(
-                    "equilibrium",
-                    [stiffness, penalty],
-                    augmented::unilateral_equilibrium(s, eps, lambda, unilateral),
-                    0,
-                ),
-                non_negative("never-pulls", [stiffness, penalty], next),
+                equal("equilibrium", augmented::unilateral_equilibrium(s, eps, lambda, unilateral), 0),
+                non_negative("never-pulls", next),
                 equal(
                     "functional-where-active",
-                    [penalty, multiplier, penetrating],
                     augmented::unilateral_functional(s, eps, lambda, u),
                     augmented::functional(s, eps, lambda, u),
-                ),
+                )
+                .only_assuming([penalty, multiplier, penetrating]),
                 equal(
                     "functional-elsewhere",
-                    [penalty, inactive],
                     augmented::unilateral_functional(s, eps, lambda, u),
                     structure::potential_energy(s, u) - square(lambda) / (int(2) * eps),
-                ),
-                equal("where-active", [stiffness, penalty, active], unilateral, iterate),
+                )
+                .only_assuming([penalty, inactive]),
+                equal("where-active", unilateral, iterate).assuming([active]),
                 equal(
                     "multiplier",
-                    [stiffness, penalty],
                     next,
                     ((&s.c * lambda + eps * r) / penalty::total_stiffness(s, eps)).positive_part(),
                 ),
                 equal(
                     "natural-residual",
-                    [stiffness, penalty],
                     augmented::natural_residual(s, eps, lambda, unilateral),
                     (next - lambda) / eps,
                 ),
                 non_negative(
                     "residual-bounds-error",
-                    [stiffness, penalty],
                     square(augmented::natural_residual(s, eps, lambda, unilateral))
                         - square(unilateral - contact::deflection(s)),
                 ),
                 equal(
                     "force-error",
-                    [stiffness, penalty],
                     contact::contact_force(s) - next,
                     &s.c * (unilateral - contact::deflection(s)),
                 ),
-                non_negative(
-                    "contracts",
-                    [stiffness, penalty, touching],
-                    square(lambda - r) - square(next - r),
-                ),
+                non_negative("contracts", square(lambda - r) - square(next - r)).assuming([touching]),
                 equal(
                     "active-step",
-                    [stiffness, penalty, active],
                     next,
                     augmented::multiplier_after(s, lambda, &augmented::contraction(s, eps)),
-                ),
-                equal("idle-step", [stiffness, penalty, idle], next, 0),
-                equal("idle-deflection", [stiffness, penalty, idle], unilateral, structure::deflection(s)),
-                equal("stays-free", [stiffness, penalty, separated], unilateral_step(zero), 0),
+                )
+                .assuming([active]),
+                equal("idle-step", next, 0).assuming([idle]),
+                equal("idle-deflection", unilateral, structure::deflection(s)).assuming([idle]),
+                equal("stays-free", unilateral_step(zero), 0).assuming([separated]),
                 induction(
                     "contact-sequence",
-                    [stiffness, penalty, touching, multiplier, carried],
                     augmented::contraction(s, eps),
                     [lambda.clone()],
                     |[lambda]| [unilateral_step(&lambda)],
                     [augmented::multiplier_after(s, lambda, q)],
-                ),
+                )
+                .assuming([touching, multiplier, carried]),
                 induction(
                     "grazing-sequence",
-                    [stiffness, penalty, grazing, multiplier, power],
                     augmented::contraction(s, eps),
                     [lambda.clone()],
                     |[lambda]| [unilateral_step(&lambda)],
                     [lambda * q],
-                ),
+                )
+                .assuming([grazing, multiplier, power]),
                 // λ_k > 0 as long as (1 + ε/c)ᵏ < 1 + λ₀/|R|.
                 equal(
                     "count",
-                    [separated, power],
                     augmented::multiplier_after(s, lambda, q),
                     -r * q * (one - lambda / r - one / q),
-                ),
+                )
+                .only_assuming([separated, power]),
                 equal(
                     "residual-is-penetration",
-                    [stiffness, penalty, active],
                     augmented::natural_residual(s, eps, lambda, unilateral),
                     contact::penetration(s, unilateral),
-                ),
+                )
+                .assuming([active]),
                 // With ⟨·⟩ in the update alone the iteration stops short of the answer.
                 {
                     let u = augmented::deflection(s, eps, zero);
-                    equal(
-                        "one-bracket-stalls",
-                        [stiffness, penalty, separated],
-                        augmented::unilateral_update(s, eps, zero, &u),
-                        0,
-                    )
+                    equal("one-bracket-stalls", augmented::unilateral_update(s, eps, zero, &u), 0)
+                        .assuming([separated])
                 },
-                positive(
-                    "one-bracket-errs",
-                    [stiffness, penalty, separated],
-                    augmented::deflection(s, eps, zero) - contact::deflection(s),
-                ),
+                positive("one-bracket-errs", augmented::deflection(s, eps, zero) - contact::deflection(s))
+                    .assuming([separated]),
             ]),
         Entry::new("note 5", "An analogy and no proof")
             .states("e^{−ε/c} < ρ < e^{−ε/(c+ε)} for ε > 0, and p_k → 0 also for ε < −2c")
-            .given([stiffness])
+            .assuming([stiffness])
             .functions(["augmented::contraction"])
             .follows_from(["1.16", "1.30"])
             .claims([
                 vanishing(
                     "beyond-twice",
-                    [stiffness, beyond_twice],
                     augmented::contraction(s, eps),
                     augmented::penetration_after(s, eps, lambda, q),
                     0,
-                ),
-                positive("alternates", [stiffness, beyond_twice], -augmented::contraction(s, eps)),
-                equal("twice", [stiffness, twice], augmented::contraction(s, eps), -1),
-                positive(
-                    "diverges",
-                    [softening, within_twice],
-                    square(&s.c) - square(penalty::total_stiffness(s, eps)),
-                ),
-                equal("no-solution", [opposite], augmented::equilibrium(s, eps, lambda, u), lambda - r),
-                equal(
-                    "starts-there",
-                    [stiffness, penalty, at_reaction],
-                    augmented::penetration_after(s, eps, lambda, q),
-                    0,
-                ),
+                )
+                .assuming([beyond_twice]),
+                positive("alternates", -augmented::contraction(s, eps)).assuming([beyond_twice]),
+                equal("twice", augmented::contraction(s, eps), -1).assuming([twice]),
+                positive("diverges", square(&s.c) - square(penalty::total_stiffness(s, eps)))
+                    .only_assuming([softening, within_twice]),
+                equal("no-solution", augmented::equilibrium(s, eps, lambda, u), lambda - r)
+                    .only_assuming([opposite]),
+                equal("starts-there", augmented::penetration_after(s, eps, lambda, q), 0)
+                    .assuming([penalty, at_reaction]),
                 non_negative(
                     "maximises",
-                    [beyond_once],
                     augmented::least_value(s, eps, lambda) - augmented::functional(s, eps, lambda, u),
-                ),
-                positive("ode-converges", [stiffness, beyond_once], -ode::rate(s, eps)),
-                equal("no-penalty", [stiffness], augmented::contraction(s, zero), 1),
-                positive(
-                    "strict-bound",
-                    [stiffness, penalty],
-                    ode::rate(s, eps).exp() - augmented::contraction(s, eps),
-                ),
-                positive(
-                    "other-side",
-                    [stiffness, penalty],
-                    augmented::contraction(s, eps) - (-eps / &s.c).exp(),
-                ),
+                )
+                .only_assuming([beyond_once]),
+                positive("ode-converges", -ode::rate(s, eps)).assuming([beyond_once]),
+                equal("no-penalty", augmented::contraction(s, zero), 1),
+                positive("strict-bound", ode::rate(s, eps).exp() - augmented::contraction(s, eps))
+                    .assuming([penalty]),
+                positive("other-side", augmented::contraction(s, eps) - (-eps / &s.c).exp())
+                    .assuming([penalty]),
                 // From one step to the next: a bound q + t above ρᵏ = q stays above.
                 positive(
                     "stays-strict",
-                    [stiffness, penalty, power, time],
                     ode::rate(s, eps).exp() * (q + t) - augmented::contraction(s, eps) * q,
-                ),
+                )
+                .assuming([penalty, power, time]),
                 {
                     let decay = |t: &Tree| ode::homogeneous(s, eps, one, t);
-                    equal("flow", [stiffness, penalty], decay(&(t + one)), decay(t) * decay(one))
+                    equal("flow", decay(&(t + one)), decay(t) * decay(one)).assuming([penalty])
                 },
             ]),
         Entry::new("note 6", "Which force")
             .states("«augmented::contact_force: u=u_k» = «augmented::update: λ=λ_k, u=u_k»")
-            .given([in_equilibrium])
+            .assuming([in_equilibrium])
             .functions(["augmented::contact_force"])
             .follows_from(["1.18", "1.19"])
             .claims([equal(
                 "force",
-                [in_equilibrium],
                 augmented::contact_force(s, u),
                 lambda + penalty::contact_force(s, eps, u),
             )]),
         Entry::new("note 8", "Not in every precision")
             .states("Rounding stops the augmentation at a floor of about η (|H| + R/ε)")
-            .given([penalty])
+            .assuming([penalty])
             .functions([
                 "rounding::fixed_point_error",
                 "rounding::floor",
@@ -324,56 +276,48 @@ pub(super) fn entries() -> Vec<Entry> {
             .claims([
                 within(
                     "floor",
-                    [penalty, computed_repeats],
                     contact::penetration(s, u),
                     rounding::fixed_point_error(s, eps, lambda, precision()),
-                ),
+                )
+                .assuming([computed_repeats]),
                 {
                     let growth = (int(3) + eta()) / (precision() - one);
                     let [height, length] = [s.h.abs(), lambda.abs() / eps];
                     equal(
                         "floor-in-parts",
-                        [penalty, one_bit],
                         rounding::fixed_point_error(s, eps, lambda, precision()) * precision(),
                         height + &length + growth * length,
                     )
+                    .assuming([one_bit])
                 },
                 {
                     let lengths = s.h.abs() + system::gap(s).abs() + r / eps;
-                    equal(
-                        "drift-in-parts",
-                        [penalty, some_bits],
-                        rounding::floor(s, eps, precision()) * precision(),
-                        lengths,
-                    )
+                    equal("drift-in-parts", rounding::floor(s, eps, precision()) * precision(), lengths)
+                        .assuming([some_bits])
                 },
                 {
                     let [a, ..] = scales();
                     let own = augmented::deflection(s, eps, lambda).rounded();
-                    equal("units", [stiffness, penalty], in_other_units(&own), own * a)
+                    equal("units", in_other_units(&own), own * a).only_assuming([stiffness, penalty])
                 },
                 {
                     let [_, _, f] = scales();
                     let own = augmented::update(s, eps, lambda, u).rounded();
-                    equal("units-of-force", [], in_other_units(&own), own * f)
+                    equal("units-of-force", in_other_units(&own), own * f).only_assuming([])
                 },
             ]),
         Entry::new("note 9", "The effort depends on ε")
             .states("(c/ε) Λ < Λ/ln(1 + ε/c) < (c/ε + ½) Λ for Λ = ln(|p₀|/tol) > 0")
-            .given([stiffness, penalty])
+            .assuming([stiffness, penalty])
             .follows_from(["1.33"])
             .claims([
                 {
                     let ratio = eps / &s.c;
-                    positive("more-than", [stiffness, penalty], ratio.exp() - (one + &ratio))
+                    positive("more-than", ratio.exp() - (one + &ratio))
                 },
                 {
                     let ratio = eps / &s.c;
-                    positive(
-                        "less-than",
-                        [stiffness, penalty],
-                        one + &ratio - (int(2) * &ratio / (int(2) + &ratio)).exp(),
-                    )
+                    positive("less-than", one + &ratio - (int(2) * &ratio / (int(2) + &ratio)).exp())
                 },
             ]),
     ]

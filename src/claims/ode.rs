@@ -32,14 +32,14 @@ pub(super) fn entries() -> Vec<Entry> {
         Entry::new("1.22", "Recursion in time")
             .states("«ode::difference_equation.left» = «ode::difference_equation.right»")
             .in_latex(r"«ode::difference_equation.left» = «ode::difference_equation.right»")
-            .given([stiffness, penalty])
+            .assuming([stiffness, penalty])
             .functions(["ode::difference_equation"])
             .follows_from(["1.21"])
             .claims([{
                 let after = |decay: &Tree| augmented::deflection_after(s, eps, lambda, decay);
                 let (left, right) =
                     difference_equation(s, eps, &after(q), &after(&(augmented::contraction(s, eps) * q)));
-                equal("iterates", [stiffness, penalty], left, right)
+                equal("iterates", left, right)
             }]),
         Entry::new("1.23", "Differential equation")
             .states(
@@ -47,21 +47,13 @@ pub(super) fn entries() -> Vec<Entry> {
                  of which one explicit Euler step of size 1 is (1.21)",
             )
             .in_latex(r"«ode::operator: v=u̇» = «ode::right_side», \quad u(0) = u_0")
-            .given([stiffness, penalty])
+            .assuming([stiffness, penalty])
             .functions(["ode::velocity", "ode::right_side"])
             .follows_from(["1.22"])
-            .claims([
-                equal(
-                    "velocity",
-                    [stiffness, penalty],
-                    operator(s, eps, u, &velocity(s, eps, u)),
-                    right_side(s, eps),
-                ),
-                {
-                    let (left, right) = augmented::recursion(s, eps, u, &(u + velocity(s, eps, u)));
-                    equal("explicit-euler", [stiffness, penalty], left, right)
-                },
-            ]),
+            .claims([equal("velocity", operator(s, eps, u, &velocity(s, eps, u)), right_side(s, eps)), {
+                let (left, right) = augmented::recursion(s, eps, u, &(u + velocity(s, eps, u)));
+                equal("explicit-euler", left, right)
+            }]),
         Entry::new("1.24", "Superposition")
             .states("u = «ode::superposition»")
             .in_latex(r"u = «ode::superposition»")
@@ -69,150 +61,111 @@ pub(super) fn entries() -> Vec<Entry> {
             .follows_from(["1.23"])
             .claims([equal(
                 "linear",
-                [],
                 operator(s, eps, &superposition(u, v), &superposition(du, alpha)),
                 operator(s, eps, u, du) + operator(s, eps, v, alpha),
             )]),
         Entry::new("1.25", "Homogeneous equation")
             .states("«ode::operator: v=u̇» = 0")
             .in_latex(r"«ode::operator: v=u̇» = 0")
-            .given([stiffness, penalty])
+            .assuming([stiffness, penalty])
             .functions(["ode::operator"])
             .follows_from(["1.23"])
-            .claims([equal(
-                "annihilates",
-                [stiffness, penalty],
-                operator(s, eps, u, &(rate(s, eps) * u)),
-                0,
-            )]),
+            .claims([equal("annihilates", operator(s, eps, u, &(rate(s, eps) * u)), 0)]),
         Entry::new("1.26", "Characteristic rate")
             .states("«ode::characteristic» = 0 at rate = «ode::rate»")
             .in_latex(r"«ode::characteristic: rate=s» = 0 \quad\Rightarrow\quad s = «ode::rate»")
-            .given([stiffness, penalty])
+            .assuming([stiffness, penalty])
             .functions(["ode::characteristic", "ode::rate"])
             .follows_from(["1.25"])
             .claims([
-                equal("root", [stiffness, penalty], characteristic(s, eps, &rate(s, eps)), 0),
-                equal(
-                    "from-operator",
-                    [],
-                    operator(s, eps, u, &(alpha * u)),
-                    characteristic(s, eps, alpha) * u,
-                ),
-                equal(
-                    "contraction",
-                    [stiffness, penalty],
-                    one + rate(s, eps),
-                    augmented::contraction(s, eps),
-                ),
+                equal("root", characteristic(s, eps, &rate(s, eps)), 0),
+                equal("from-operator", operator(s, eps, u, &(alpha * u)), characteristic(s, eps, alpha) * u)
+                    .only_assuming([]),
+                equal("contraction", one + rate(s, eps), augmented::contraction(s, eps)),
             ]),
         Entry::new("1.27", "Homogeneous solution")
             .states("u_h = «ode::homogeneous»")
             .in_latex(r"u_h = «ode::homogeneous»")
-            .given([stiffness, penalty])
+            .assuming([stiffness, penalty])
             .functions(["ode::homogeneous"])
             .follows_from(["1.26"])
             .claims([
                 derivative(
                     "annihilated",
-                    [stiffness, penalty],
                     homogeneous(s, eps, u, t),
                     t,
                     rate(s, eps) * homogeneous(s, eps, u, t),
                 ),
-                equal("constant", [stiffness, penalty], homogeneous(s, eps, u, zero), u),
+                equal("constant", homogeneous(s, eps, u, zero), u),
             ]),
         Entry::new("1.28", "Particular solution")
             .states("u_nh = «ode::particular»")
             .in_latex(r"u_{\mathrm{nh}} = «ode::particular»")
             .functions(["ode::particular"])
             .follows_from(["1.23"])
-            .claims([equal("particular", [], operator(s, eps, &particular(s), zero), right_side(s, eps))]),
+            .claims([equal("particular", operator(s, eps, &particular(s), zero), right_side(s, eps))]),
         Entry::new("1.29", "General solution")
             .states("u = «ode::general»")
             .in_latex(r"u = «ode::general»")
-            .given([stiffness, penalty])
+            .assuming([stiffness, penalty])
             .functions(["ode::general"])
             .follows_from(["1.24", "1.27", "1.28"])
             .claims([
-                equal("constant", [], superposition(&constant(s, u), &particular(s)), u),
-                derivative(
-                    "solves",
-                    [stiffness, penalty],
-                    general(s, eps, u, t),
-                    t,
-                    velocity(s, eps, &general(s, eps, u, t)),
-                ),
+                equal("constant", superposition(&constant(s, u), &particular(s)), u).only_assuming([]),
+                derivative("solves", general(s, eps, u, t), t, velocity(s, eps, &general(s, eps, u, t))),
             ]),
         Entry::new("1.30", "Solution of the initial-value problem")
             .states("u = «ode::solution»")
             .in_latex(r"u = «ode::solution»")
-            .given([stiffness, penalty])
+            .assuming([stiffness, penalty])
             .functions(["ode::solution", "ode::constant"])
             .follows_from(["1.29"])
             .claims([
-                equal("constant-is-penetration", [], constant(s, u), contact::penetration(s, u)),
-                derivative(
-                    "solves",
-                    [stiffness, penalty],
-                    solution(s, eps, u, t),
-                    t,
-                    velocity(s, eps, &solution(s, eps, u, t)),
-                ),
-                equal("starts", [stiffness, penalty], solution(s, eps, u, zero), u),
+                equal("constant-is-penetration", constant(s, u), contact::penetration(s, u))
+                    .only_assuming([]),
+                derivative("solves", solution(s, eps, u, t), t, velocity(s, eps, &solution(s, eps, u, t))),
+                equal("starts", solution(s, eps, u, zero), u),
             ]),
         Entry::new("1.31", "Limit of the deflection")
             .states("lim u = «ode::particular» as t → ∞")
             .in_latex(r"\lim_{t\to\infty} u = «ode::particular» \qquad\text{for } c, \varepsilon > 0")
-            .given([stiffness, penalty])
+            .assuming([stiffness, penalty])
             .functions(["ode::solution"])
             .follows_from(["1.30"])
             .claims([
-                limit(
-                    "limit",
-                    [stiffness, penalty, time, penetrating],
-                    solution(s, eps, u, t),
-                    t,
-                    gap(s),
-                    Within(reciprocal_decay.clone()),
-                ),
+                limit("limit", solution(s, eps, u, t), t, gap(s), Within(reciprocal_decay.clone()))
+                    .assuming([time, penetrating]),
                 // … and from below, or from the plane itself.
-                limit(
-                    "limit-from-below",
-                    [stiffness, penalty, time, clear],
-                    solution(s, eps, u, t),
-                    t,
-                    gap(s),
-                    Within(-reciprocal_decay),
-                ),
+                limit("limit-from-below", solution(s, eps, u, t), t, gap(s), Within(-reciprocal_decay))
+                    .assuming([time, clear]),
                 {
                     let gap = gap(s);
-                    equal("stays", [stiffness, penalty], solution(s, eps, &gap, t), gap)
+                    equal("stays", solution(s, eps, &gap, t), gap)
                 },
             ]),
         Entry::new("1.32", "Limit of the penetration")
             .states("lim p(u) = 0 as t → ∞")
             .in_latex(r"\lim_{t\to\infty} p(u(t)) = 0")
-            .given([stiffness, penalty])
+            .assuming([stiffness, penalty])
             .functions(["contact::penetration"])
             .follows_from(["1.31"])
             .claims([
                 limit(
                     "limit",
-                    [stiffness, penalty, time, penetrating],
                     contact::penetration(s, &solution(s, eps, u, t)),
                     t,
                     0,
                     Within(reciprocal_decay.clone()),
-                ),
+                )
+                .assuming([time, penetrating]),
                 limit(
                     "limit-from-below",
-                    [stiffness, penalty, time, clear],
                     contact::penetration(s, &solution(s, eps, u, t)),
                     t,
                     0,
                     Within(-reciprocal_decay),
-                ),
+                )
+                .assuming([time, clear]),
             ]),
     ]
 }

@@ -49,19 +49,13 @@ pub(super) fn entries() -> Vec<Entry> {
         Entry::new("1.9", "Penalised energy")
             .states("Π_p(u) = «penalty::energy»")
             .in_latex(r"\Pi_p(u) = «penalty::energy»")
-            .given([stiffness, penalty])
+            .assuming([stiffness, penalty])
             .functions(["penalty::energy", "penalty::functional", "penalty::least_energy"])
             .follows_from(["1.4", "1.5"])
             .claims([
-                equal(
-                    "least",
-                    [stiffness, penalty],
-                    energy(s, eps, &deflection(s, eps)),
-                    least_energy(s, eps),
-                ),
+                equal("least", energy(s, eps, &deflection(s, eps)), least_energy(s, eps)),
                 equal(
                     "excess",
-                    [stiffness, penalty],
                     energy(s, eps, u) - least_energy(s, eps),
                     half(total_stiffness(s, eps) * square(u - deflection(s, eps))),
                 ),
@@ -69,44 +63,40 @@ pub(super) fn entries() -> Vec<Entry> {
         Entry::new("1.10", "Penalty functional with many terms")
             .states("W = «penalty::series» fulfils the conditions on a penalty functional")
             .in_latex(r"W_\varepsilon(p) = «penalty::series»")
-            .given([penalty, quartic])
+            .assuming([penalty, quartic])
             .functions(["penalty::series", "penalty::series_force", "penalty::series_residual"])
             .follows_from(["1.9"])
             .claims([
-                equal("vanishes-at-contact", [], series(eps, quartic_term, zero), 0),
-                positive(
-                    "positive",
-                    [penalty, quartic, penetrating],
-                    series(eps, quartic_term, &contact::penetration(s, u)),
-                ),
-                positive(
-                    "increasing",
-                    [penalty, quartic, penetrating],
-                    series_force(eps, quartic_term, &contact::penetration(s, u)),
-                ),
-                derivative("unbounded", [], series(eps, quartic_term, u), eps, half(u * u)),
-                equal("one-term", [], series(eps, &[], u), functional(eps, u)),
-                equal("force", [], series_force(eps, quartic_term, u), eps * u + int(4) * eps4 * u * u * u),
-                derivative("slope", [], series(eps, quartic_term, u), u, series_force(eps, quartic_term, u)),
+                equal("vanishes-at-contact", series(eps, quartic_term, zero), 0).only_assuming([]),
+                positive("positive", series(eps, quartic_term, &contact::penetration(s, u)))
+                    .assuming([penetrating]),
+                positive("increasing", series_force(eps, quartic_term, &contact::penetration(s, u)))
+                    .assuming([penetrating]),
+                derivative("unbounded", series(eps, quartic_term, u), eps, half(u * u)).only_assuming([]),
+                equal("one-term", series(eps, &[], u), functional(eps, u)).only_assuming([]),
+                equal("force", series_force(eps, quartic_term, u), eps * u + int(4) * eps4 * u * u * u)
+                    .only_assuming([]),
+                derivative("slope", series(eps, quartic_term, u), u, series_force(eps, quartic_term, u))
+                    .only_assuming([]),
                 {
                     let f = |p: &Tree| series_residual(s, eps, quartic_term, p);
-                    equal("odd", [], f(u) + f(&-u), -(int(2) * reaction(s)))
+                    equal("odd", f(u) + f(&-u), -(int(2) * reaction(s))).only_assuming([])
                 },
                 derivative(
                     "stiffens",
-                    [],
                     series_residual(s, eps, quartic_term, u),
                     u,
                     total_stiffness(s, eps) + int(12) * eps4 * u * u,
-                ),
+                )
+                .only_assuming([]),
                 {
                     let dual = symbols().along(u);
                     positive(
                         "one-root",
-                        [stiffness, penalty, quartic],
                         series_residual(&dual.system, &dual.eps, std::slice::from_ref(&dual.eps4), &dual.u)
                             .derivative,
                     )
+                    .only_assuming([stiffness, penalty, quartic])
                 },
             ]),
         Entry::new("1.11", "Equilibrium by penalty")
@@ -115,11 +105,10 @@ pub(super) fn entries() -> Vec<Entry> {
             .functions(["penalty::residual"])
             .follows_from(["1.9"])
             .claims([
-                derivative("stationary", [], energy(s, eps, u), u, residual(s, eps, u)),
-                equal("root", [stiffness, penalty], residual(s, eps, &deflection(s, eps)), 0),
+                derivative("stationary", energy(s, eps, u), u, residual(s, eps, u)),
+                equal("root", residual(s, eps, &deflection(s, eps)), 0).assuming([stiffness, penalty]),
                 equal(
                     "two-springs",
-                    [],
                     residual(s, eps, u),
                     contact::equilibrium(s, u, &contact_force(s, eps, u)),
                 ),
@@ -127,45 +116,34 @@ pub(super) fn entries() -> Vec<Entry> {
         Entry::new("1.12", "Contact force by penalty")
             .states("N = «penalty::contact_force», which is «penalty::force_at_root» at (1.13)")
             .in_latex(r"N = «penalty::contact_force» = «penalty::contact_force in full»")
-            .given([stiffness, penalty])
+            .assuming([stiffness, penalty])
             .functions(["penalty::contact_force", "penalty::force_at_root"])
             .follows_from(["1.11"])
             .claims([
-                equal(
-                    "at-the-root",
-                    [stiffness, penalty],
-                    contact_force(s, eps, &deflection(s, eps)),
-                    force_at_root(s, eps),
-                ),
-                positive("pushes", [stiffness, penalty, contact], force_at_root(s, eps)),
-                equal(
-                    "error",
-                    [stiffness, penalty],
-                    reaction(s) - force_at_root(s, eps),
-                    &s.c * penetration(s, eps),
-                ),
+                equal("at-the-root", contact_force(s, eps, &deflection(s, eps)), force_at_root(s, eps)),
+                positive("pushes", force_at_root(s, eps)).assuming([contact]),
+                equal("error", reaction(s) - force_at_root(s, eps), &s.c * penetration(s, eps)),
                 equal(
                     "relative-error",
-                    [stiffness, penalty],
                     reaction(s) - force_at_root(s, eps),
                     augmented::contraction(s, eps) * reaction(s),
                 ),
                 within(
                     "precision-law",
-                    [stiffness, penalty, touching, near_penalty],
                     contact_force(s, eps, u).rounded() - force_at_root(s, eps),
                     rounding::penalty_force_error(s, eps, precision()),
                 )
+                .assuming([touching, near_penalty])
                 .computing(u, deflection(s, eps).rounded()),
                 {
                     let lengths = s.h.abs() + int(5) * gap(s).abs();
                     let parts = eps * lengths + int(7) * reaction(s);
                     equal(
                         "precision-law-in-parts",
-                        [some_bits],
                         rounding::penalty_force_error(s, eps, precision()) * precision(),
                         &parts + int(8) * eta() * &parts,
                     )
+                    .only_assuming([some_bits])
                 },
                 // What is proved of the force as a value of R, in parts of R and but for what does not depend
                 // on ε. It is least where the square on the right vanishes.
@@ -176,14 +154,14 @@ pub(super) fn entries() -> Vec<Entry> {
                     let fixed = int(7) * eta() * (int(1) + int(8) * eta()) - square(&s.c) * best;
                     equal(
                         "best-penalty",
-                        [stiffness, penalty, contact, some_bits],
                         square(error / reaction(s) - fixed) - int(4) * square(&s.c) * best,
                         square(augmented::contraction(s, eps) - &s.c * total_stiffness(s, eps) * best),
                     )
+                    .assuming([contact, some_bits])
                 },
                 {
                     let p = penetration(s, eps);
-                    equal("complementarity", [stiffness, penalty], &p * force_at_root(s, eps), eps * &p * &p)
+                    equal("complementarity", &p * force_at_root(s, eps), eps * &p * &p)
                 },
             ]),
         Entry::new("Fig. 1.2", "The penalty as a second spring")
@@ -193,12 +171,11 @@ pub(super) fn entries() -> Vec<Entry> {
             .claims([
                 derivative(
                     "force",
-                    [],
                     functional(eps, &contact::penetration(s, u)),
                     u,
                     contact_force(s, eps, u),
                 ),
-                derivative("stiffness", [], residual(s, eps, u), u, total_stiffness(s, eps)),
+                derivative("stiffness", residual(s, eps, u), u, total_stiffness(s, eps)),
             ]),
         Entry::new("1.13", "Deflection by penalty and its limit")
             .states(
@@ -211,87 +188,71 @@ pub(super) fn entries() -> Vec<Entry> {
                 r"&= \lim_{\varepsilon\to\infty} «penalty::deflection_divided» \\[4pt] ",
                 r"&= «system::gap» \end{aligned}",
             ))
-            .given([stiffness, penalty])
+            .assuming([stiffness, penalty])
             .functions(["penalty::deflection", "penalty::deflection_divided"])
             .follows_from(["1.11"])
             .claims([
-                equal(
-                    "rate",
-                    [stiffness, penalty],
-                    total_stiffness(s, eps) * (deflection(s, eps) - gap(s)),
-                    reaction(s),
-                ),
+                equal("rate", total_stiffness(s, eps) * (deflection(s, eps) - gap(s)), reaction(s)),
                 limit(
                     "limit",
-                    [stiffness, penalty],
                     deflection(s, eps),
                     eps,
                     gap(s),
                     Exactly(reaction(s) / total_stiffness(s, eps)),
                 ),
-                equal("two-forms", [stiffness, penalty], deflection(s, eps), deflection_divided(s, eps)),
+                equal("two-forms", deflection(s, eps), deflection_divided(s, eps)),
                 within(
                     "float-error",
-                    [stiffness, penalty, touching],
                     deflection(s, eps).rounded() - deflection(s, eps),
                     rounding::deflection_error(s, eps, precision()),
-                ),
+                )
+                .assuming([touching]),
                 {
                     let parts = int(5) * gap(s).abs() + int(4) * penetration(s, eps);
                     equal(
                         "float-error-in-parts",
-                        [stiffness, penalty, some_bits],
                         rounding::deflection_error(s, eps, precision()) * precision(),
                         &parts + int(2) * eta() * &parts,
                     )
+                    .assuming([some_bits])
                 },
                 within(
                     "float-distance",
-                    [stiffness, penalty, touching],
                     deflection(s, eps).rounded() - gap(s),
                     penetration(s, eps) + rounding::deflection_error(s, eps, precision()),
-                ),
+                )
+                .assuming([touching]),
                 derivative(
                     "slope",
-                    [stiffness, penalty],
                     contact::penetration(s, &deflection(s, eps)),
                     eps,
                     -reaction(s) / square(total_stiffness(s, eps)),
                 ),
                 limit(
                     "penetration-vanishes",
-                    [stiffness, penalty],
                     contact::penetration(s, &deflection(s, eps)),
                     eps,
                     0,
                     Exactly(penetration(s, eps)),
                 ),
-                equal(
-                    "unilateral",
-                    [stiffness, penalty, touching],
-                    unilateral_deflection(s, eps),
-                    deflection(s, eps),
-                ),
-                equal(
-                    "unilateral-free",
-                    [stiffness, penalty, separated],
-                    unilateral_deflection(s, eps),
-                    structure::deflection(s),
-                ),
+                equal("unilateral", unilateral_deflection(s, eps), deflection(s, eps)).assuming([touching]),
+                equal("unilateral-free", unilateral_deflection(s, eps), structure::deflection(s))
+                    .assuming([separated]),
             ]),
         Entry::new("Remark 1.3.2", "Which penalty is enough")
             .states("p ≤ tol if and only if ε ≥ «penalty::penalty_for»")
-            .given([stiffness, penalty, contact, tolerance])
+            .assuming([stiffness, penalty, contact, tolerance])
             .functions(["penalty::penalty_for", "penalty::penetration"])
             .follows_from(["1.13"])
             .claims([
-                non_negative("enough", [tolerance, contact, enough], tol - penetration(s, eps)),
-                equal("least", [tolerance, contact], penetration(s, &penalty_for(s, tol)), tol),
-                non_negative(
-                    "necessary",
-                    [stiffness, penalty, tolerance, within_tolerance],
-                    eps - penalty_for(s, tol),
-                ),
+                non_negative("enough", tol - penetration(s, eps)).only_assuming([tolerance, contact, enough]),
+                equal("least", penetration(s, &penalty_for(s, tol)), tol).only_assuming([tolerance, contact]),
+                non_negative("necessary", eps - penalty_for(s, tol)).only_assuming([
+                    stiffness,
+                    penalty,
+                    tolerance,
+                    within_tolerance,
+                ]),
             ]),
     ]
 }

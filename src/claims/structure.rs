@@ -23,19 +23,18 @@ pub(super) fn entries() -> Vec<Entry> {
         Entry::new("1.1", "Equilibrium of forces")
             .states("«structure::residual» = 0")
             .in_latex(r"«structure::residual» = 0")
-            .given([stiffness])
+            .assuming([stiffness])
             .functions(["structure::residual", "structure::spring_force", "structure::deflection"])
             .follows_from(["Fig. 1.1"])
             .claims([
-                equal("forces", [], residual(s, u), spring_force(s, u) - system::weight(s)),
-                equal("root", [stiffness], residual(s, &deflection(s)), 0),
+                equal("forces", residual(s, u), spring_force(s, u) - system::weight(s)).only_assuming([]),
+                equal("root", residual(s, &deflection(s)), 0),
                 within(
                     "rounding",
-                    [stiffness],
                     deflection(s).rounded() - deflection(s),
                     eta() * (int(2) + eta()) * deflection(s).rounded().abs(),
                 ),
-                equal("unique", [stiffness], residual(s, u), &s.c * (u - deflection(s))),
+                equal("unique", residual(s, u), &s.c * (u - deflection(s))),
             ]),
         Entry::new("1.2", "Virtual work")
             .states("«structure::virtual_work» = 0 for every δu")
@@ -45,15 +44,14 @@ pub(super) fn entries() -> Vec<Entry> {
             .claims([
                 equal(
                     "linear",
-                    [],
                     virtual_work(s, u, &(du + v)),
                     virtual_work(s, u, du) + virtual_work(s, u, v),
                 ),
-                equal("coefficient", [], virtual_work(s, u, one), residual(s, u)),
+                equal("coefficient", virtual_work(s, u, one), residual(s, u)),
                 // Zero for every δu: in particular for this one.
                 {
                     let r = residual(s, u);
-                    equal("only-equilibrium", [], virtual_work(s, u, &r), &r * &r)
+                    equal("only-equilibrium", virtual_work(s, u, &r), &r * &r)
                 },
             ]),
         Entry::new("1.3", "Variation of the energy")
@@ -64,15 +62,13 @@ pub(super) fn entries() -> Vec<Entry> {
             .claims([
                 derivative(
                     "variation",
-                    [],
                     potential_energy(s, &(u + alpha * du)),
                     alpha,
                     virtual_work(s, &(u + alpha * du), du),
                 ),
-                equal("weak-form", [], first_variation(s, u, du), virtual_work(s, u, du)),
+                equal("weak-form", first_variation(s, u, du), virtual_work(s, u, du)),
                 equal(
                     "central-difference",
-                    [],
                     potential_energy(s, &(u + du)) - potential_energy(s, &(u - du)),
                     int(2) * virtual_work(s, u, du),
                 ),
@@ -83,22 +79,21 @@ pub(super) fn entries() -> Vec<Entry> {
                  there",
             )
             .in_latex(r"\Pi(u) = «structure::potential_energy» \;\to\; \min")
-            .given([stiffness])
+            .assuming([stiffness])
             .functions(["structure::potential_energy", "structure::least_energy"])
             .follows_from(["1.1"])
             .claims([
-                derivative("slope", [], potential_energy(s, u), u, residual(s, u)),
+                derivative("slope", potential_energy(s, u), u, residual(s, u)).only_assuming([]),
                 {
                     let least = deflection(s);
                     equal(
                         "excess",
-                        [stiffness],
                         potential_energy(s, u) - potential_energy(s, &least),
                         half(&s.c * square(u - &least)),
                     )
                 },
-                non_negative("minimum", [stiffness], potential_energy(s, u) - least_energy(s)),
-                equal("least", [stiffness], potential_energy(s, &deflection(s)), least_energy(s)),
+                non_negative("minimum", potential_energy(s, u) - least_energy(s)),
+                equal("least", potential_energy(s, &deflection(s)), least_energy(s)),
             ]),
     ]
 }

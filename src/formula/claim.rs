@@ -1,366 +1,170 @@
-//! What is said of formulas.
+//! Constructors of statements.
 
-use super::hypothesis::{Hypothesis, Relation, name_of};
+use super::hypothesis::{Relation, name_of};
+use super::statement::{Form, Proposition, Sequence, Statement};
 use crate::number::Tree;
-use crate::number::tree::Step;
 
-/// How a limit is checked in numbers: by the distance to it, in a form from which the limit can be read.
+/// The rate at which a limit is reached, for checks in numbers.
 #[derive(Clone, Debug)]
 pub enum Rate {
-    /// The distance is this.
+    /// The distance from the limit.
     Exactly(Tree),
-    /// The distance is no more than this, either way.
+    /// A bound of the distance, on either side.
     Within(Tree),
 }
 
-/// What stands for 2ᵖ where formulas [round](Tree::rounded): to p bits, so that its inverse is the unit
-/// roundoff.
+/// The symbol of 2ᵖ where formulas [round](Tree::rounded) to p bits: its inverse is the unit roundoff.
 pub const PRECISION: &str = "2ᵖ";
 
-/// What stands for powers of two, with any whole exponents.
+/// The symbols of powers of two with any integer exponents.
 pub const SCALES: [&str; 3] = ["2ᵃ", "2ᵇ", "2ᶠ"];
 
-/// What q is called, which stands for the power ρᵏ in an [induction](Kind::Induction).
+/// The symbol q of the power ρᵏ in a statement about a [sequence](Sequence).
 pub const POWER: &str = "q";
 
-/// What the components of x_k are called in the step of an [induction](Kind::Induction).
+/// The symbols of the components of x_k in the step of a [sequence](Sequence).
 pub const MEMBERS: [&str; 4] = ["x₁", "x₂", "x₃", "x₄"];
 
-/// What is claimed.
-#[derive(Clone, Debug)]
-pub enum Kind {
-    /// Two formulas are equal.
-    Equal(Tree, Tree),
-    /// A formula has a sign.
-    Sign(Relation, Tree),
-    /// One formula is the derivative of another.
-    Derivative {
-        /// What is differentiated.
-        of: Tree,
-        /// By this symbol.
-        by: &'static str,
-        /// Its derivative.
-        is: Tree,
-    },
-    /// A formula tends to another as a symbol tends to infinity.
-    Limit {
-        /// The formula.
-        of: Tree,
-        /// The symbol.
-        by: &'static str,
-        /// Its limit.
-        to: Tree,
-        /// How fast.
-        rate: Rate,
-    },
-    /// A recursion x₀ = start, x_{k+1} = step(x_k) has the closed form x_k = closed at q = ratioᵏ.
-    Induction {
-        /// What is raised to the power k.
-        ratio: Tree,
-        /// x₀.
-        start: Vec<Tree>,
-        /// The next x, by the [`MEMBERS`].
-        step: Vec<Tree>,
-        /// x_k, by q.
-        closed: Vec<Tree>,
-    },
-    /// A formula is no larger in size than a bound.
-    Within(Tree, Tree),
-    /// A recursion x₀ = start, x_{k+1} = step(x_k) stays near a closed form at q = ratioᵏ, for all k.
-    Drift {
-        /// What is raised to the power k.
-        ratio: Tree,
-        /// x₀.
-        start: Tree,
-        /// The next x, by the first of the [`MEMBERS`].
-        step: Tree,
-        /// What x_k is near, by q.
-        near: Tree,
-        /// How near.
-        bound: Tree,
-        /// What else is of limited size, by the same, with its bound.
-        also: Vec<(Tree, Tree)>,
-    },
-    /// A formula in q = ratioᵏ tends to a limit as k grows: |ratio| < 1, and at q = 0 it is the limit.
-    Vanishing {
-        /// What is raised to the power k.
-        ratio: Tree,
-        /// The formula.
-        of: Tree,
-        /// Its limit.
-        to: Tree,
-    },
-}
-
-impl Kind {
-    /// Its name.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Kind::Equal(..) => "equal",
-            Kind::Sign(..) => "sign",
-            Kind::Derivative { .. } => "derivative",
-            Kind::Limit { .. } => "limit",
-            Kind::Induction { .. } => "induction",
-            Kind::Within(..) => "bound",
-            Kind::Drift { .. } => "drift",
-            Kind::Vanishing { .. } => "vanishing",
-        }
-    }
-}
-
-/// Something said of formulas under hypotheses: recorded once, and read by provers, number systems and
-/// printers.
-#[derive(Clone, Debug)]
-pub struct Claim {
-    /// The number of the equation that it belongs to.
-    pub equation: &'static str,
-    /// Its name, unique within the equation.
-    pub name: &'static str,
-    /// What it supposes.
-    pub given: Vec<Hypothesis>,
-    /// A quantity of which it supposes that it is near another; that is proved where it is computed like
-    /// this.
-    pub computed: Option<(&'static str, Tree)>,
-    /// What it says.
-    pub kind: Kind,
-}
-
-impl Claim {
-    /// A claim, of no equation yet.
-    pub fn new(name: &'static str, given: &[&Hypothesis], kind: Kind) -> Self {
-        Claim { equation: "", name, given: given.iter().copied().cloned().collect(), computed: None, kind }
-    }
-
-    /// The same where one of its quantities is computed: what it supposes of that is no longer supposed but
-    /// proved.
-    ///
-    /// # Panics
-    /// It does not suppose that the quantity, and no other, is in an interval.
-    pub fn computing(self, symbol: &Tree, by: impl Into<Tree>) -> Self {
-        let name = name_of(symbol);
-        let of_it = |given: &&Hypothesis| given.value.symbols().contains(name);
-        let supposed: Vec<_> = self.given.iter().filter(of_it).collect();
-        let [only] = supposed[..] else { panic!("{}: of {name} it is not supposed where it is", self.name) };
-        assert!(
-            only.interval().is_some_and(|(x, ..)| x == name),
-            "{}: {only} is no interval of {name}",
-            self.name
-        );
-        Claim { computed: Some((name, by.into())), ..self }
-    }
-
-    /// Its formulas, but for those of its hypotheses.
-    pub fn trees(&self) -> Vec<&Tree> {
-        let mut all = match &self.kind {
-            Kind::Equal(a, b) | Kind::Derivative { of: a, is: b, .. } | Kind::Within(a, b) => vec![a, b],
-            Kind::Sign(_, a) => vec![a],
-            Kind::Limit { of, to, rate: Rate::Exactly(rate) | Rate::Within(rate), .. } => vec![of, to, rate],
-            Kind::Vanishing { ratio, of, to } => vec![ratio, of, to],
-            Kind::Induction { ratio, start, step, closed } => {
-                [ratio].into_iter().chain(start).chain(step).chain(closed).collect()
-            }
-            Kind::Drift { ratio, start, step, near, bound, also } => {
-                let also = also.iter().flat_map(|(of, bound)| [of, bound]);
-                [ratio, start, step, near, bound].into_iter().chain(also).collect()
-            }
-        };
-        all.extend(self.computed.iter().map(|(_, by)| by));
-        all
-    }
-
-    /// Does it speak of what is rounded, which is true of floats?
-    pub fn rounds(&self) -> bool {
-        let given = self.given.iter().map(|given| &given.value);
-        self.trees().into_iter().chain(given).any(Tree::rounds)
-    }
-
-    /// Does it speak of eˣ, which rationals have not?
-    pub fn has_exponentials(&self) -> bool {
-        self.trees().into_iter().any(|tree| tree.any(&|tree| matches!(tree.step(), Step::Exp(_))))
-    }
-
-    /// With each of its formulas changed, but for those of its hypotheses.
-    pub fn map(&self, f: &impl Fn(&Tree) -> Tree) -> Self {
-        let all = |trees: &[Tree]| trees.iter().map(f).collect();
-        let kind = match &self.kind {
-            Kind::Equal(a, b) => Kind::Equal(f(a), f(b)),
-            Kind::Sign(relation, a) => Kind::Sign(*relation, f(a)),
-            Kind::Within(a, bound) => Kind::Within(f(a), f(bound)),
-            Kind::Drift { ratio, start, step, near, bound, also } => Kind::Drift {
-                ratio: f(ratio),
-                start: f(start),
-                step: f(step),
-                near: f(near),
-                bound: f(bound),
-                also: also.iter().map(|(of, bound)| (f(of), f(bound))).collect(),
-            },
-            Kind::Derivative { of, by, is } => Kind::Derivative { of: f(of), by, is: f(is) },
-            Kind::Limit { of, by, to, rate } => {
-                let rate = match rate {
-                    Rate::Exactly(rate) => Rate::Exactly(f(rate)),
-                    Rate::Within(rate) => Rate::Within(f(rate)),
-                };
-                Kind::Limit { of: f(of), by, to: f(to), rate }
-            }
-            Kind::Vanishing { ratio, of, to } => Kind::Vanishing { ratio: f(ratio), of: f(of), to: f(to) },
-            Kind::Induction { ratio, start, step, closed } => {
-                Kind::Induction { ratio: f(ratio), start: all(start), step: all(step), closed: all(closed) }
-            }
-        };
-        let computed = self.computed.as_ref().map(|(name, by)| (*name, f(by)));
-        Claim { kind, computed, ..self.clone() }
-    }
-}
-
-// How claims are written.
-
 /// Two formulas are equal.
-pub fn equal<const N: usize>(
-    name: &'static str,
-    given: [&Hypothesis; N],
-    left: impl Into<Tree>,
-    right: impl Into<Tree>,
-) -> Claim {
-    Claim::new(name, &given, Kind::Equal(left.into(), right.into()))
+pub fn equal(name: &'static str, left: impl Into<Tree>, right: impl Into<Tree>) -> Statement {
+    Statement::new(name, Proposition::Equal(left.into(), right.into()))
 }
 
 /// A formula is positive.
-pub fn positive<const N: usize>(name: &'static str, given: [&Hypothesis; N], of: impl Into<Tree>) -> Claim {
-    Claim::new(name, &given, Kind::Sign(Relation::Positive, of.into()))
+pub fn positive(name: &'static str, of: impl Into<Tree>) -> Statement {
+    Statement::new(name, Proposition::Sign(Relation::Positive, of.into()))
 }
 
 /// A formula is not negative.
-pub fn non_negative<const N: usize>(
-    name: &'static str,
-    given: [&Hypothesis; N],
-    of: impl Into<Tree>,
-) -> Claim {
-    Claim::new(name, &given, Kind::Sign(Relation::NonNegative, of.into()))
+pub fn non_negative(name: &'static str, of: impl Into<Tree>) -> Statement {
+    Statement::new(name, Proposition::Sign(Relation::NonNegative, of.into()))
 }
 
-/// A formula is no larger in size than a bound.
-pub fn within<const N: usize>(
-    name: &'static str,
-    given: [&Hypothesis; N],
-    of: impl Into<Tree>,
-    bound: impl Into<Tree>,
-) -> Claim {
-    Claim::new(name, &given, Kind::Within(of.into(), bound.into()))
+/// A formula is at most a bound in absolute value.
+pub fn within(name: &'static str, of: impl Into<Tree>, bound: impl Into<Tree>) -> Statement {
+    Statement::new(name, Proposition::Within(of.into(), bound.into()))
 }
 
-/// From x₀ = start each x leads to the next; each is near what is said of q = ratioᵏ, and what is said of
-/// it and q besides is of limited size.
+/// A formula is the derivative of another by a symbol.
 ///
 /// # Panics
-/// As for an [`induction`].
-pub fn drift<const M: usize, const N: usize>(
+/// Panics if `by` is not a symbol.
+pub fn derivative(name: &'static str, of: impl Into<Tree>, by: &Tree, is: impl Into<Tree>) -> Statement {
+    Statement::new(name, Proposition::Derivative(of.into(), name_of(by), is.into()))
+}
+
+/// A formula tends to another at a rate as a symbol tends to infinity.
+///
+/// # Panics
+/// Panics if `by` is not a symbol.
+pub fn limit(
     name: &'static str,
-    given: [&Hypothesis; M],
+    of: impl Into<Tree>,
+    by: &Tree,
+    to: impl Into<Tree>,
+    rate: Rate,
+) -> Statement {
+    let (of, to) = (of.into(), to.into());
+    let distance = &of - &to;
+    let mut parts = vec![("limit", Proposition::Limit(of, name_of(by), to))];
+    match rate {
+        Rate::Exactly(rate) => parts.push(("rate", Proposition::Equal(distance, rate))),
+        Rate::Within(bound) => {
+            let margin = &bound * &bound - &distance * &distance;
+            parts.push(("bound", Proposition::Sign(Relation::NonNegative, bound)));
+            parts.push(("within the bound", Proposition::Sign(Relation::NonNegative, margin)));
+        }
+    }
+    Statement::of_form(name, Form::Propositions(parts))
+}
+
+/// The recursion x₀ = start, x_{k+1} = step(x_k) has the closed form x_k = closed at q = ratioᵏ.
+///
+/// # Panics
+/// Panics if there are more components than [`MEMBERS`], or if the step depends on q or on a symbol with the
+/// name of a member.
+pub fn induction<const N: usize>(
+    name: &'static str,
+    ratio: impl Into<Tree>,
+    start: [Tree; N],
+    step: impl Fn([Tree; N]) -> [Tree; N],
+    closed: [Tree; N],
+) -> Statement {
+    assert!(N <= MEMBERS.len(), "{name}: an induction has at most {} components", MEMBERS.len());
+    // With numbers as members, only the symbols of the step itself are left.
+    assert_not_reserved(name, step(std::array::from_fn(|_| Tree::from(1))).iter().flat_map(Tree::symbols));
+    let step = step(std::array::from_fn(|i| Tree::symbol(MEMBERS[i])));
+    let (start, step, member, ratio) = (start.into(), step.into(), closed.into(), ratio.into());
+    let sequence = Sequence { start, step, ratio, member, limit: None, within: Vec::new() };
+    Statement::of_form(name, Form::Sequence(sequence))
+}
+
+/// The recursion x₀ = start, x_{k+1} = step(x_k) stays within a bound of a closed form at q = ratioᵏ, and so do
+/// further quantities, formulas of x_k and q, each with its bound.
+///
+/// # Panics
+/// Panics like [`induction`], and if the closed form or its bound depends on a member.
+pub fn drift<const N: usize>(
+    name: &'static str,
     ratio: impl Into<Tree>,
     start: impl Into<Tree>,
     step: impl Fn(&Tree) -> Tree,
     (near, bound): (Tree, Tree),
     also: impl Fn(&Tree) -> [(Tree, Tree); N],
-) -> Claim {
-    let member = Tree::symbol(MEMBERS[0]);
-    let nameless = step(&Tree::from(1));
-    let own = [&near, &bound, &nameless].into_iter().flat_map(Tree::symbols);
-    let also: Vec<_> = also(&member).into();
-    kept(name, own.filter(|own| *own != POWER).chain(nameless.symbols()));
-    let (ratio, start, step) = (ratio.into(), start.into(), step(&member));
-    Claim::new(name, &given, Kind::Drift { ratio, start, step, near, bound, also })
+) -> Statement {
+    let x = Tree::symbol(MEMBERS[0]);
+    let without_member = step(&Tree::from(1));
+    let symbols = [&near, &bound, &without_member].into_iter().flat_map(Tree::symbols);
+    assert_not_reserved(name, symbols.filter(|own| *own != POWER).chain(without_member.symbols()));
+    let within = [(&x - &near, bound)].into_iter().chain(also(&x)).collect();
+    let (start, step, ratio, member) = (vec![start.into()], vec![step(&x)], ratio.into(), vec![near]);
+    Statement::of_form(name, Form::Sequence(Sequence { start, step, ratio, member, limit: None, within }))
+}
+
+/// A formula of q = ratioᵏ tends to a limit as k grows.
+pub fn vanishing(
+    name: &'static str,
+    ratio: impl Into<Tree>,
+    of: impl Into<Tree>,
+    to: impl Into<Tree>,
+) -> Statement {
+    let (ratio, member, limit) = (ratio.into(), vec![of.into()], Some(to.into()));
+    let (start, step, within) = Default::default();
+    Statement::of_form(name, Form::Sequence(Sequence { start, step, ratio, member, limit, within }))
 }
 
 /// # Panics
-/// A name is one that inductions keep.
-fn kept(name: &str, symbols: impl Iterator<Item = &'static str>) {
+/// Panics if a name is reserved for sequences.
+fn assert_not_reserved(name: &str, symbols: impl Iterator<Item = &'static str>) {
     for own in symbols {
-        assert!(own != POWER && !MEMBERS.contains(&own), "{name}: {own} is a name that inductions keep");
+        assert!(own != POWER && !MEMBERS.contains(&own), "{name}: {own} is a reserved name");
     }
-}
-
-/// The derivative of a formula by a symbol is another formula.
-pub fn derivative<const N: usize>(
-    name: &'static str,
-    given: [&Hypothesis; N],
-    of: impl Into<Tree>,
-    by: &Tree,
-    is: impl Into<Tree>,
-) -> Claim {
-    Claim::new(name, &given, Kind::Derivative { of: of.into(), by: name_of(by), is: is.into() })
-}
-
-/// As a symbol tends to infinity, a formula tends to another at this rate.
-pub fn limit<const N: usize>(
-    name: &'static str,
-    given: [&Hypothesis; N],
-    of: impl Into<Tree>,
-    by: &Tree,
-    to: impl Into<Tree>,
-    rate: Rate,
-) -> Claim {
-    Claim::new(name, &given, Kind::Limit { of: of.into(), by: name_of(by), to: to.into(), rate })
-}
-
-/// From x₀ = start each x leads to the next; in closed form that is x_k, by q = ratioᵏ.
-///
-/// # Panics
-/// There are more components than [`MEMBERS`], or the step speaks of q or of a quantity that is called like
-/// one of them: then nobody could tell the two apart.
-pub fn induction<const M: usize, const N: usize>(
-    name: &'static str,
-    given: [&Hypothesis; M],
-    ratio: impl Into<Tree>,
-    start: [Tree; N],
-    step: impl Fn([Tree; N]) -> [Tree; N],
-    closed: [Tree; N],
-) -> Claim {
-    assert!(N <= MEMBERS.len(), "{name}: an induction has at most {} components", MEMBERS.len());
-    // Of members that have no names, only a step's own quantities are left.
-    kept(name, step(std::array::from_fn(|_| Tree::from(1))).iter().flat_map(Tree::symbols));
-    let members = std::array::from_fn(|i| Tree::symbol(MEMBERS[i]));
-    let (start, step, closed) = (start.into(), step(members).into(), closed.into());
-    Claim::new(name, &given, Kind::Induction { ratio: ratio.into(), start, step, closed })
-}
-
-/// A formula in q = ratioᵏ tends to a limit as k grows.
-pub fn vanishing<const N: usize>(
-    name: &'static str,
-    given: [&Hypothesis; N],
-    ratio: impl Into<Tree>,
-    of: impl Into<Tree>,
-    to: impl Into<Tree>,
-) -> Claim {
-    Claim::new(name, &given, Kind::Vanishing { ratio: ratio.into(), of: of.into(), to: to.into() })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::formula::Hypothesis;
     use crate::number::Exponential;
 
     #[test]
     #[should_panic(expected = "c ε is no symbol")]
     fn only_a_symbol_can_be_differentiated_by() {
         let [c, eps] = ["c", "ε"].map(|name| Tree::symbol(name));
-        derivative("wrong", [], &c, &(&c * &eps), &c);
+        derivative("wrong", &c, &(&c * &eps), &c);
     }
 
     #[test]
-    #[should_panic(expected = "powers: x₁ is a name that inductions keep")]
-    fn a_step_has_no_quantity_called_like_its_member() {
+    #[should_panic(expected = "powers: x₁ is a reserved name")]
+    fn a_step_has_no_symbol_with_the_name_of_its_member() {
         let [own, q] = ["x₁", "q"].map(|name| Tree::symbol(name));
-        induction("powers", [], 2, [Tree::from(1)], |[_]| [Tree::from(2) * &own], [q]);
+        induction("powers", 2, [Tree::from(1)], |[_]| [Tree::from(2) * &own], [q]);
     }
 
     #[test]
-    fn all_formulas_of_a_claim_are_changed() {
-        let [q, u, v] = ["q", "u", "v"].map(|name| Tree::symbol(name));
-        let given = Hypothesis::near(&u, &v, 0);
-        let claim = equal("exponential", [&given], v.exp(), &u).computing(&u, &q);
-        assert!(claim.has_exponentials() && !equal("none", [], &u, &v).has_exponentials());
-        let negated = claim.map(&|tree| -tree);
-        assert_eq!(negated.trees(), [&-v.exp(), &-u, &-q]);
-        assert_eq!(negated.given, claim.given);
+    fn a_limit_contains_an_exponential_where_its_formula_does() {
+        let [u, v] = ["u", "v"].map(|name| Tree::symbol(name));
+        let statement = equal("exponential", v.exp(), &u).assuming([&Hypothesis::near(&u, &v, 0)]);
+        assert!(statement.contains_exponential() && !equal("none", &u, &v).contains_exponential());
     }
 }

@@ -1,94 +1,102 @@
-//! What is to be proved: a claim, read in trees.
+//! Statements about formulas: what provers, number systems and printers read.
 
-use super::claim::{Claim, Kind, MEMBERS, POWER, PRECISION, Rate};
-use super::hypothesis::{Hypothesis, Relation};
+use super::claim::{MEMBERS, POWER, PRECISION};
+use super::hypothesis::{Hypothesis, Relation, name_of};
 use crate::number::Tree;
+use crate::number::tree::Step;
 use num_traits::{One, Zero};
 
-/// A claim as formulas: hypotheses, and goals that follow from them.
-#[derive(Clone, Debug, Default)]
+/// A statement about recorded formulas: hypotheses, and goals that follow from them.
+///
+/// Only the functions of [`claim`](super::claim) construct one, so its goals are those of what it states,
+/// and a proof of it is a proof of what is printed.
+#[derive(Clone, Debug)]
 pub struct Statement {
-    /// The entry it belongs to.
-    pub equation: &'static str,
-    /// Its name, unique within the equation.
-    pub name: &'static str,
-    /// Its [kind](Kind::name).
-    pub kind: &'static str,
-    /// What is supposed; where formulas round, [that](two_bits) as well.
-    pub hypotheses: Vec<Hypothesis>,
-    /// What holds at every step of an induction; part of its proof, and not supposed.
-    pub invariants: Vec<Hypothesis>,
-    /// What is supposed of a quantity that is computed, and proved of it.
-    pub computed: Option<Computed>,
-    /// What follows.
-    pub goals: Vec<Goal>,
-    /// What the goals amount to, where that is more than they say: for readers, and no part of what is
-    /// proved.
-    pub amounts_to: Option<Sequence>,
+    equation: &'static str,
+    name: &'static str,
+    stated: Vec<Hypothesis>,
+    inherits: bool,
+    computes: Option<(&'static str, Tree)>,
+    form: Form,
+    rounds: bool,
+    hypotheses: Vec<Hypothesis>,
+    invariants: Vec<Hypothesis>,
+    computed: Option<Computed>,
+    goals: Vec<Goal>,
 }
 
-/// A quantity that is computed.
+/// What a statement states, from which its goals are derived.
+#[derive(Clone, Debug)]
+pub(super) enum Form {
+    /// Propositions, each with the name of its part.
+    Propositions(Vec<(&'static str, Proposition)>),
+    /// A statement about all members of a sequence.
+    Sequence(Sequence),
+}
+
+/// A computed quantity.
 #[derive(Clone, Debug)]
 pub struct Computed {
-    /// What it is called.
+    /// Its symbol.
     pub symbol: &'static str,
-    /// How it is computed.
+    /// The formula that computes it.
     pub by: Tree,
-    /// In which interval it is.
+    /// The interval that contains it.
     pub hypothesis: Hypothesis,
 }
 
 /// A statement about all members of a sequence.
 #[derive(Clone, Debug)]
 pub struct Sequence {
-    /// Where it starts; empty if that is not spoken of.
+    /// The first member; empty in the limit of a sequence.
     pub start: Vec<Tree>,
-    /// Its next member, by the [`MEMBERS`]; empty if that is not spoken of.
+    /// The next member, as a formula of the [`MEMBERS`]; empty in the limit of a sequence.
     pub step: Vec<Tree>,
     /// ρ
     pub ratio: Tree,
-    /// Its k-th member, by q = ρᵏ.
+    /// The k-th member as a formula of q = ρᵏ; in a perturbed recursion the formula that it is near.
     pub member: Vec<Tree>,
-    /// Its limit; `None` if that is not spoken of.
+    /// The limit, if the statement is about one.
     pub limit: Option<Tree>,
-    /// If its k-th member is only near that: what is of limited size, with its bound.
+    /// In a perturbed recursion the quantities of bounded size, each with its bound; first the distance of the
+    /// member from its formula.
     pub within: Vec<(Tree, Tree)>,
 }
 
-/// A part of a claim.
+/// A part of a statement.
 #[derive(Clone, Debug)]
 pub struct Goal {
-    /// Which part, if there are several.
+    /// The name of the part, if there are several.
     pub part: &'static str,
-    /// What it is for.
+    /// Its place in the argument, which decides the hypotheses that it may use.
     pub role: Role,
-    /// What it says.
-    pub says: Says,
+    /// The proposition to be proved.
+    pub proposition: Proposition,
 }
 
-/// What a goal is for.
+/// The place of a goal in the argument.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// The claim, under its hypotheses.
     Claim,
     /// A step of an induction, under the invariants as well.
     Step,
-    /// An invariant holds at the start, which is not where it may be supposed.
-    Begins,
-    /// An invariant holds after a step if it does before.
-    Continues,
-    /// What is computed is where it may be supposed to be.
+    /// An invariant at the start, where no invariant may be assumed.
+    InvariantBase,
+    /// An invariant after a step, if it holds before.
+    InvariantStep,
+    /// A computed quantity is in its interval.
     Computed,
 }
 
-/// What a goal says.
+/// A proposition about formulas.
 #[derive(Clone, Debug)]
-pub enum Says {
+pub enum Proposition {
     /// Two formulas are equal, and defined.
     Equal(Tree, Tree),
     /// A formula is defined and has a sign.
     Sign(Relation, Tree),
-    /// A formula is no larger in size than another.
+    /// A formula is at most another in absolute value.
     Within(Tree, Tree),
     /// The third is the derivative of the first by a quantity.
     Derivative(Tree, &'static str, Tree),
@@ -96,184 +104,371 @@ pub enum Says {
     Limit(Tree, &'static str, Tree),
 }
 
-impl Goal {
-    /// A part of what a claim says.
-    pub fn of_claim(part: &'static str, says: Says) -> Self {
-        Goal { part, role: Role::Claim, says }
+impl Proposition {
+    /// A hypothesis as a proposition, with formulas in place of symbols.
+    ///
+    /// |x − a| ≤ b is more than a − b ≤ x ≤ a + b, since b could be negative.
+    fn of_hypothesis(hypothesis: &Hypothesis, replaced: &[(&str, Tree)]) -> Self {
+        match hypothesis.distance() {
+            Some((distance, most)) => Proposition::Within(distance.with(replaced), most.with(replaced)),
+            None => Proposition::Sign(hypothesis.relation, hypothesis.value.with(replaced)),
+        }
+    }
+
+    fn kind(&self) -> &'static str {
+        match self {
+            Proposition::Equal(..) => "equal",
+            Proposition::Sign(..) => "sign",
+            Proposition::Within(..) => "bound",
+            Proposition::Derivative(..) => "derivative",
+            Proposition::Limit(..) => "limit",
+        }
+    }
+
+    /// Returns the symbol that varies, if one does.
+    pub fn variable(&self) -> Option<&'static str> {
+        match self {
+            Proposition::Derivative(_, by, _) | Proposition::Limit(_, by, _) => Some(by),
+            Proposition::Equal(..) | Proposition::Sign(..) | Proposition::Within(..) => None,
+        }
+    }
+
+    /// Returns its formulas.
+    pub fn trees(&self) -> [&Tree; 2] {
+        match self {
+            Proposition::Equal(a, b) | Proposition::Within(a, b) => [a, b],
+            Proposition::Derivative(a, _, b) | Proposition::Limit(a, _, b) => [a, b],
+            Proposition::Sign(_, a) => [a, a],
+        }
+    }
+
+    fn map(&self, f: &impl Fn(&Tree) -> Tree) -> Self {
+        match self {
+            Proposition::Equal(a, b) => Proposition::Equal(f(a), f(b)),
+            Proposition::Sign(relation, a) => Proposition::Sign(*relation, f(a)),
+            Proposition::Within(a, b) => Proposition::Within(f(a), f(b)),
+            Proposition::Derivative(a, by, b) => Proposition::Derivative(f(a), by, f(b)),
+            Proposition::Limit(a, by, b) => Proposition::Limit(f(a), by, f(b)),
+        }
     }
 }
 
-impl Says {
-    /// A hypothesis, as something to be proved, with formulas in place of symbols.
+impl Sequence {
+    /// Returns `true` if its members are only near their formula.
+    pub fn is_perturbed(&self) -> bool {
+        !self.within.is_empty()
+    }
+
+    fn kind(&self) -> &'static str {
+        match &self.limit {
+            Some(_) => "vanishing",
+            None if self.is_perturbed() => "drift",
+            None => "induction",
+        }
+    }
+
+    fn trees(&self) -> impl Iterator<Item = &Tree> {
+        let Sequence { start, step, ratio, member, limit, within } = self;
+        let bounds = within.iter().flat_map(|(of, bound)| [of, bound]);
+        [ratio].into_iter().chain(start).chain(step).chain(member).chain(limit).chain(bounds)
+    }
+
+    fn map(&self, f: &impl Fn(&Tree) -> Tree) -> Self {
+        let all = |trees: &[Tree]| trees.iter().map(f).collect();
+        Sequence {
+            start: all(&self.start),
+            step: all(&self.step),
+            ratio: f(&self.ratio),
+            member: all(&self.member),
+            limit: self.limit.as_ref().map(f),
+            within: self.within.iter().map(|(of, bound)| (f(of), f(bound))).collect(),
+        }
+    }
+
+    /// The invariant of a perturbed recursion: the distance of a member from its formula.
+    fn invariant(&self) -> Option<Hypothesis> {
+        let ((_, bound), near) = (self.within.first()?, self.member.first()?);
+        Some(Hypothesis::near(&Tree::symbol(MEMBERS[0]), near, bound))
+    }
+
+    /// The goals of the induction over k.
     ///
-    /// |x − a| ≤ b is more than that x is between a − b and a + b, if b could be negative.
-    fn of_hypothesis(hypothesis: &Hypothesis, replaced: &[(&str, Tree)]) -> Self {
-        match hypothesis.distance() {
-            Some((distance, most)) => Says::Within(distance.with(replaced), most.with(replaced)),
-            None => Says::Sign(hypothesis.relation, hypothesis.value.with(replaced)),
+    /// A recursion has the closed form x_k = closed(ρᵏ) if closed(1) is its start and one step leads from
+    /// closed(q) to closed(ρ q), whatever q is. A hypothesis on q is an invariant: it has to hold for q = 1, by
+    /// the other hypotheses alone, and to be passed on from q to ρ q; then it may be used in the step.
+    fn goals(&self, invariants: &[Hypothesis]) -> Vec<Goal> {
+        let goal = |part, role, proposition| Goal { part, role, proposition };
+        let Sequence { start, step, ratio, member, limit, within } = self;
+        if let Some(limit) = limit {
+            let margin = Proposition::Sign(Relation::Positive, Tree::one() - ratio * ratio);
+            let at_zero = member.iter().map(|member| {
+                let at_zero = Proposition::Equal(member.with(&[(POWER, Tree::zero())]), limit.clone());
+                goal("at q = 0", Role::Claim, at_zero)
+            });
+            return [goal("|ρ| < 1", Role::Claim, margin)].into_iter().chain(at_zero).collect();
         }
-    }
-
-    /// The symbol that varies, if one does.
-    pub fn variable(&self) -> Option<&'static str> {
-        match self {
-            Says::Derivative(_, by, _) | Says::Limit(_, by, _) => Some(by),
-            Says::Equal(..) | Says::Sign(..) | Says::Within(..) => None,
+        let next = ratio * Tree::symbol(POWER);
+        let (mut at_start, mut after) = (vec![(POWER, Tree::one())], vec![(POWER, next.clone())]);
+        let mut goals = Vec::new();
+        if !self.is_perturbed() {
+            for (start, closed) in start.iter().zip(member) {
+                let equal = Proposition::Equal(closed.with(&at_start), start.clone());
+                goals.push(goal("start", Role::Claim, equal));
+            }
+            let members: Vec<_> = MEMBERS.into_iter().zip(member.iter().cloned()).collect();
+            for (step, closed) in step.iter().zip(member) {
+                let equal = Proposition::Equal(step.with(&members), closed.with(&after));
+                goals.push(goal("step", Role::Step, equal));
+            }
+        } else {
+            at_start.extend(MEMBERS.into_iter().zip(start.iter().cloned()));
+            after.extend(MEMBERS.into_iter().zip(step.iter().cloned()));
         }
-    }
-
-    /// Its formulas.
-    pub fn trees(&self) -> [&Tree; 2] {
-        match self {
-            Says::Equal(a, b) | Says::Within(a, b) => [a, b],
-            Says::Derivative(a, _, b) | Says::Limit(a, _, b) => [a, b],
-            Says::Sign(_, a) => [a, a],
+        for invariant in invariants {
+            let [base, step] = [&at_start, &after].map(|at| Proposition::of_hypothesis(invariant, at));
+            goals.push(goal("invariant at the start", Role::InvariantBase, base));
+            goals.push(goal("invariant after a step", Role::InvariantStep, step));
         }
+        // The first is an invariant.
+        goals.extend(
+            within
+                .iter()
+                .skip(1)
+                .map(|(of, bound)| goal("hence", Role::Step, Proposition::Within(of.clone(), bound.clone()))),
+        );
+        goals
     }
 }
 
 impl Statement {
-    /// A claim read in trees.
-    ///
-    /// The induction over k is here: a recursion has the closed form x_k = closed(ρᵏ) if closed(1) is its
-    /// start and one step leads from closed(q) to closed(ρ q), whatever q is. What a claim supposes of q is
-    /// an invariant: it has to hold for q = 1, by the other hypotheses alone, and to be passed on from q to
-    /// ρ q; then it may be used in the step.
-    pub fn of(claim: &Claim) -> Self {
-        let goal = Goal::of_claim;
-        let of_q = |given: &Hypothesis| given.value.symbols().contains(POWER);
-        let (mut hypotheses, mut invariants) = (claim.given.clone(), Vec::new());
-        let mut goals = Vec::new();
-        let computed = claim.computed.as_ref().and_then(|(symbol, by)| {
-            let of_it = |given: &Hypothesis| given.interval().is_some_and(|(x, ..)| x == *symbol);
-            let hypothesis = hypotheses.remove(hypotheses.iter().position(of_it)?);
-            let says = Says::of_hypothesis(&hypothesis, &[(symbol, by.clone())]);
-            goals.push(Goal { part: "computed", role: Role::Computed, says });
+    /// A proposition, of no equation and without hypotheses yet.
+    pub fn new(name: &'static str, proposition: Proposition) -> Self {
+        Statement::of_form(name, Form::Propositions(vec![("", proposition)]))
+    }
+
+    pub(super) fn of_form(name: &'static str, form: Form) -> Self {
+        let (stated, hypotheses, invariants, goals) = Default::default();
+        let (equation, inherits, computes, computed, rounds) = ("", true, None, None, false);
+        let fresh = Statement {
+            equation,
+            name,
+            stated,
+            inherits,
+            computes,
+            form,
+            rounds,
+            hypotheses,
+            invariants,
+            computed,
+            goals,
+        };
+        fresh.derived()
+    }
+
+    /// Derives the hypotheses by role, and the goals, from what is stated.
+    fn derived(mut self) -> Self {
+        let of_q = |hypothesis: &Hypothesis| hypothesis.value.symbols().contains(POWER);
+        let mut hypotheses = self.stated.clone();
+        self.goals = Vec::new();
+        self.computed = self.computes.as_ref().and_then(|(symbol, by)| {
+            let is_its_interval = |h: &Hypothesis| h.interval().is_some_and(|(x, ..)| x == *symbol);
+            let hypothesis = hypotheses.remove(hypotheses.iter().position(is_its_interval)?);
+            let proposition = Proposition::of_hypothesis(&hypothesis, &[(symbol, by.clone())]);
+            self.goals.push(Goal { part: "computed", role: Role::Computed, proposition });
             Some(Computed { symbol, by: by.clone(), hypothesis })
         });
-        let mut amounts_to = None;
-        match &claim.kind {
-            Kind::Equal(left, right) => goals.push(goal("", Says::Equal(left.clone(), right.clone()))),
-            Kind::Within(of, bound) => goals.push(goal("", Says::Within(of.clone(), bound.clone()))),
-            Kind::Sign(relation, of) => goals.push(goal("", Says::Sign(*relation, of.clone()))),
-            Kind::Derivative { of, by, is } => {
-                goals.push(goal("", Says::Derivative(of.clone(), by, is.clone())));
+        match &self.form {
+            Form::Propositions(all) => {
+                self.invariants = Vec::new();
+                self.goals.extend(all.iter().map(|(part, of)| Goal::of_claim(part, of.clone())));
             }
-            Kind::Limit { of, by, to, rate } => {
-                goals.push(goal("limit", Says::Limit(of.clone(), by, to.clone())));
-                let distance = of - to;
-                match rate {
-                    Rate::Exactly(rate) => goals.push(goal("rate", Says::Equal(distance, rate.clone()))),
-                    Rate::Within(bound) => {
-                        let margin = bound * bound - &distance * &distance;
-                        goals.push(goal("bound", Says::Sign(Relation::NonNegative, bound.clone())));
-                        goals.push(goal("within the bound", Says::Sign(Relation::NonNegative, margin)));
-                    }
-                }
-            }
-            Kind::Induction { ratio, start, step, closed } => {
-                assert!(
-                    start.len() == closed.len() && step.len() == closed.len(),
-                    "a form for each component"
-                );
-                (invariants, hypotheses) = hypotheses.into_iter().partition(of_q);
-                let q = POWER;
-                let next = ratio * Tree::symbol(q);
-                let member = |i: usize| (MEMBERS[i], closed[i].clone());
-                let members: Vec<_> = (0..closed.len()).map(member).collect();
-                for (start, closed) in start.iter().zip(closed) {
-                    let says = Says::Equal(closed.with(&[(q, Tree::one())]), start.clone());
-                    goals.push(Goal { part: "start", role: Role::Claim, says });
-                }
-                for (step, closed) in step.iter().zip(closed) {
-                    let says = Says::Equal(step.with(&members), closed.with(&[(q, next.clone())]));
-                    goals.push(Goal { part: "step", role: Role::Step, says });
-                }
-                for given in &invariants {
-                    let begins = Says::of_hypothesis(given, &[(q, Tree::one())]);
-                    let continues = Says::of_hypothesis(given, &[(q, next.clone())]);
-                    goals.extend(invariant(begins, continues));
-                }
-                let (start, step) = (start.clone(), step.clone());
-                let (ratio, member) = (ratio.clone(), closed.clone());
-                amounts_to = Some(Sequence { start, step, ratio, member, limit: None, within: Vec::new() });
-            }
-            Kind::Drift { ratio, start, step, near, bound, also } => {
-                (invariants, hypotheses) = hypotheses.into_iter().partition(of_q);
-                let x = MEMBERS[0];
-                invariants.push(Hypothesis::near(&Tree::symbol(x), near, bound));
-                let at_start = [(POWER, Tree::one()), (x, start.clone())];
-                let after = [(POWER, ratio * Tree::symbol(POWER)), (x, step.clone())];
-                for given in &invariants {
-                    let [begins, continues] = [&at_start, &after].map(|at| Says::of_hypothesis(given, at));
-                    goals.extend(invariant(begins, continues));
-                }
-                for (of, bound) in also {
-                    let says = Says::Within(of.clone(), bound.clone());
-                    goals.push(Goal { part: "hence", role: Role::Step, says });
-                }
-                let own = (Tree::symbol(x) - near, bound.clone());
-                amounts_to = Some(Sequence {
-                    start: vec![start.clone()],
-                    step: vec![step.clone()],
-                    ratio: ratio.clone(),
-                    member: vec![near.clone()],
-                    limit: None,
-                    within: [own].into_iter().chain(also.iter().cloned()).collect(),
-                });
-            }
-            Kind::Vanishing { ratio, of, to } => {
-                let margin = Tree::one() - ratio * ratio;
-                goals.push(goal("|ρ| < 1", Says::Sign(Relation::Positive, margin)));
-                let at_zero = of.with(&[(POWER, Tree::zero())]);
-                goals.push(goal("at q = 0", Says::Equal(at_zero, to.clone())));
-                let (ratio, member, limit) = (ratio.clone(), vec![of.clone()], Some(to.clone()));
-                let (start, step, within) = (Vec::new(), Vec::new(), Vec::new());
-                amounts_to = Some(Sequence { start, step, ratio, member, limit, within });
+            Form::Sequence(sequence) => {
+                self.invariants = match sequence.limit {
+                    Some(_) => Vec::new(),
+                    None => hypotheses.extract_if(.., |h| of_q(h)).chain(sequence.invariant()).collect(),
+                };
+                self.goals.extend(sequence.goals(&self.invariants));
             }
         }
-        let (equation, name, kind) = (claim.equation, claim.name, claim.kind.name());
-        if claim.rounds() {
-            // Last if others speak of the precision, for they say more.
+        let stated = self.stated.iter().map(|hypothesis| &hypothesis.value);
+        self.rounds = self.rounds || self.formulas().chain(stated).any(Tree::rounds);
+        if self.rounds {
+            // Last if others are about the precision, which are stronger.
             let of_precision = |h: &Hypothesis| h.value.symbols().contains(PRECISION);
             let place = if hypotheses.iter().any(of_precision) { hypotheses.len() } else { 0 };
-            hypotheses.insert(place, two_bits());
+            hypotheses.insert(place, minimum_precision());
         }
-        Statement { equation, name, kind, hypotheses, invariants, computed, goals, amounts_to }
+        self.hypotheses = hypotheses;
+        self
     }
 
-    /// Without one of its hypotheses.
-    pub fn without(&self, hypothesis: usize) -> Self {
+    /// The statement under further hypotheses.
+    pub fn assuming<'a>(mut self, hypotheses: impl IntoIterator<Item = &'a Hypothesis>) -> Self {
+        self.stated.extend(hypotheses.into_iter().cloned());
+        self.derived()
+    }
+
+    /// The statement under these hypotheses alone: it [inherits](Self::inheriting) none.
+    pub fn only_assuming<'a>(mut self, hypotheses: impl IntoIterator<Item = &'a Hypothesis>) -> Self {
+        (self.stated, self.inherits) = (hypotheses.into_iter().cloned().collect(), false);
+        self.derived()
+    }
+
+    /// The statement as a part of an equation, under the equation's hypotheses as well, which come first.
+    pub fn inheriting(mut self, equation: &'static str, hypotheses: &[Hypothesis]) -> Self {
+        self.equation = equation;
+        if self.inherits {
+            self.stated = [hypotheses, &self.stated].concat();
+        }
+        self.derived()
+    }
+
+    /// The statement where a quantity is computed by a formula: its interval is proved and not assumed.
+    ///
+    /// # Panics
+    /// Panics unless exactly one hypothesis is about the quantity, and it is its interval.
+    pub fn computing(mut self, symbol: &Tree, by: impl Into<Tree>) -> Self {
+        let name = name_of(symbol);
+        let of_it = |hypothesis: &&Hypothesis| hypothesis.value.symbols().contains(name);
+        let own: Vec<_> = self.stated.iter().filter(of_it).collect();
+        let [only] = own[..] else { panic!("{}: no interval of {name} is assumed", self.name) };
+        let is_interval = only.interval().is_some_and(|(x, ..)| x == name);
+        assert!(is_interval, "{}: {only} is not an interval of {name}", self.name);
+        self.computes = Some((name, by.into()));
+        self.derived()
+    }
+
+    /// The statement without one of its [hypotheses](Self::hypotheses).
+    pub fn without(&self, hypothesis: &Hypothesis) -> Self {
         let mut less = self.clone();
-        less.hypotheses.remove(hypothesis);
-        less
+        less.stated.retain(|stated| stated != hypothesis);
+        less.derived()
     }
 
-    /// Does it hold for numbers of any precision, and speak of what is rounded?
-    pub fn rounds(&self) -> bool {
-        self.hypotheses.contains(&two_bits())
+    /// Another proposition under the hypotheses of the statement.
+    pub fn with_proposition(&self, proposition: Proposition) -> Self {
+        let form = Form::Propositions(vec![("", proposition)]);
+        Statement { form, computes: None, ..self.clone() }.derived()
     }
 
-    /// All that it supposes: also its invariants, and where what is computed is.
-    pub fn supposed(&self) -> impl Iterator<Item = &Hypothesis> {
+    /// The statement with each formula replaced, in its hypotheses as well.
+    pub fn map(&self, f: &impl Fn(&Tree) -> Tree) -> Self {
+        let stated =
+            self.stated.iter().map(|stated| Hypothesis { value: f(&stated.value), ..stated.clone() });
+        let form = match &self.form {
+            Form::Propositions(all) => Form::Propositions(
+                all.iter().map(|(part, proposition)| (*part, proposition.map(f))).collect(),
+            ),
+            Form::Sequence(sequence) => Form::Sequence(sequence.map(f)),
+        };
+        let computes = self.computes.as_ref().map(|(name, by)| (*name, f(by)));
+        Statement { stated: stated.collect(), form, computes, ..self.clone() }.derived()
+    }
+
+    /// Returns the number of the equation that the statement belongs to; empty if there is none.
+    pub fn equation(&self) -> &'static str {
+        self.equation
+    }
+
+    /// Returns its name, unique within the equation.
+    pub fn name(&self) -> &'static str {
+        self.name
+    }
+
+    /// Returns the kind of statement: `equal`, `sign`, `bound`, `derivative`, `limit`, `induction`, `drift` or
+    /// `vanishing`.
+    pub fn kind(&self) -> &'static str {
+        match &self.form {
+            Form::Propositions(all) => all[0].1.kind(),
+            Form::Sequence(sequence) => sequence.kind(),
+        }
+    }
+
+    /// Returns the hypotheses as they are stated, in their order.
+    pub fn stated_hypotheses(&self) -> &[Hypothesis] {
+        &self.stated
+    }
+
+    /// Returns the hypotheses that every goal may use: those stated but for invariants and intervals of computed
+    /// quantities, and the [minimum precision](minimum_precision) where formulas round.
+    pub fn hypotheses(&self) -> &[Hypothesis] {
+        &self.hypotheses
+    }
+
+    /// Returns the hypotheses on q or a member of the sequence, which are proved by induction and not assumed.
+    pub fn invariants(&self) -> &[Hypothesis] {
+        &self.invariants
+    }
+
+    /// Returns the computed quantity, if there is one.
+    pub fn computed(&self) -> Option<&Computed> {
+        self.computed.as_ref()
+    }
+
+    /// Returns the goals, which together are the statement.
+    pub fn goals(&self) -> &[Goal] {
+        &self.goals
+    }
+
+    /// Returns the sequence that the statement is about, if it is about one.
+    pub fn conclusion(&self) -> Option<&Sequence> {
+        match &self.form {
+            Form::Propositions(_) => None,
+            Form::Sequence(sequence) => Some(sequence),
+        }
+    }
+
+    /// Returns `true` if it is about rounded numbers of any precision.
+    pub fn contains_rounding(&self) -> bool {
+        self.rounds
+    }
+
+    /// Returns `true` if a formula contains eˣ, which rationals do not have.
+    pub fn contains_exponential(&self) -> bool {
+        self.formulas().any(|tree| tree.any(&|tree| matches!(tree.step(), Step::Exp(_))))
+    }
+
+    /// Returns all hypotheses: also the invariants, and the intervals of computed quantities.
+    pub fn all_hypotheses(&self) -> impl Iterator<Item = &Hypothesis> + Clone {
         let computed = self.computed.iter().map(|computed| &computed.hypothesis);
         self.hypotheses.iter().chain(&self.invariants).chain(computed)
     }
 
-    /// All its formulas.
-    pub fn trees(&self) -> impl Iterator<Item = &Tree> {
-        let hypotheses = self.supposed().map(|h| &h.value);
-        hypotheses.chain(self.goals.iter().flat_map(|goal| goal.says.trees()))
+    /// Returns the hypotheses that a goal in this place may use.
+    pub fn hypotheses_for(&self, role: Role) -> Vec<&Hypothesis> {
+        let uses_invariants = matches!(role, Role::Computed | Role::Step | Role::InvariantStep);
+        let uses_computed = matches!(role, Role::Claim | Role::Step | Role::InvariantStep);
+        let invariants = self.invariants.iter().filter(|_| uses_invariants);
+        let computed = self.computed.iter().filter(|_| uses_computed).map(|computed| &computed.hypothesis);
+        self.hypotheses.iter().chain(invariants).chain(computed).collect()
+    }
+
+    /// Returns the formulas of all hypotheses and goals.
+    pub fn trees(&self) -> impl Iterator<Item = &Tree> + Clone {
+        let hypotheses = self.all_hypotheses().map(|h| &h.value);
+        hypotheses.chain(self.goals.iter().flat_map(|goal| goal.proposition.trees()))
+    }
+
+    /// Returns the formulas that are stated, except for those of the hypotheses.
+    fn formulas(&self) -> impl Iterator<Item = &Tree> {
+        let (propositions, sequence) = match &self.form {
+            Form::Propositions(all) => (&all[..], None),
+            Form::Sequence(sequence) => (&[][..], Some(sequence)),
+        };
+        let of_propositions = propositions.iter().flat_map(|(_, proposition)| proposition.trees());
+        let computed = self.computes.iter().map(|(_, by)| by);
+        of_propositions.chain(sequence.into_iter().flat_map(Sequence::trees)).chain(computed)
     }
 }
 
-/// What goes without saying where formulas round: numbers have 2 bits or more.
-pub fn two_bits() -> Hypothesis {
+/// Returns the hypothesis that numbers have 2 bits or more, which holds wherever formulas round.
+pub fn minimum_precision() -> Hypothesis {
     Hypothesis::new(Relation::NonNegative, Tree::symbol(PRECISION) - Tree::from(4))
 }
 
-/// What has to be shown of an invariant: it holds at the start, and after a step if it does before.
-fn invariant(begins: Says, continues: Says) -> [Goal; 2] {
-    let begins = Goal { part: "invariant at the start", role: Role::Begins, says: begins };
-    [begins, Goal { part: "invariant after a step", role: Role::Continues, says: continues }]
+impl Goal {
+    /// A part of what is claimed.
+    pub fn of_claim(part: &'static str, proposition: Proposition) -> Self {
+        Goal { part, role: Role::Claim, proposition }
+    }
 }

@@ -17,7 +17,7 @@ pub use change::{Change, Operator, What, changes, changes_in, possible_repairs};
 use super::kernel::prove;
 use super::refute::{Counterexample, Points};
 use crate::formula::claim::PRECISION;
-use crate::formula::statement::two_bits;
+use crate::formula::statement::minimum_precision;
 use crate::formula::{Hypothesis, Registry, Statement};
 use crate::number::tree::Site;
 use rayon::prelude::*;
@@ -124,14 +124,14 @@ pub fn controls(statements: &[Statement], registry: &Registry) -> Controls {
     let changes = changes.into_par_iter().map(|change| (change, bench.effect(&change))).collect();
     // That a number has two bits goes without saying.
     let all = |of: usize| {
-        let said = move |i: &usize| statements[of].hypotheses[*i] != two_bits();
-        (0..statements[of].hypotheses.len()).filter(said).map(move |i| (of, i))
+        let said = move |i: &usize| statements[of].hypotheses()[*i] != minimum_precision();
+        (0..statements[of].hypotheses().len()).filter(said).map(move |i| (of, i))
     };
     let hypotheses: Vec<_> = (0..statements.len()).flat_map(all).collect();
     let dropped = hypotheses.into_par_iter().map(|(of, i)| Dropped {
-        equation: statements[of].equation,
-        name: statements[of].name,
-        given: statements[of].hypotheses[i].clone(),
+        equation: statements[of].equation(),
+        name: statements[of].name(),
+        given: statements[of].hypotheses()[i].clone(),
         without: bench.without(of, i),
     });
     Controls { changes, dropped: dropped.collect() }
@@ -142,7 +142,7 @@ pub fn controls(statements: &[Statement], registry: &Registry) -> Controls {
 pub fn repairs(statements: &[Statement], registry: &Registry) -> Vec<Change> {
     // What takes long is asked last.
     let mut by_cost: Vec<_> = statements.iter().collect();
-    by_cost.sort_by_key(|s| (s.rounds(), s.goals.len()));
+    by_cost.sort_by_key(|s| (s.contains_rounding(), s.goals().len()));
     let (right, wrong): (Vec<_>, Vec<_>) = by_cost.into_par_iter().partition(|s| prove(s).is_ok());
     let repairs = |change: &Change| {
         wrong.iter().all(|s| change.apply(s).is_some_and(|s| prove(&s).is_ok()))
@@ -199,9 +199,9 @@ impl<'a> Bench<'a> {
                 combinations.len() - 1
             })
         };
-        let own = statements.iter().map(|s| place(s.hypotheses.clone())).collect();
+        let own = statements.iter().map(|s| place(s.hypotheses().to_vec())).collect();
         let mut less = |s: &Statement| {
-            (0..s.hypotheses.len()).map(|i| place(s.without(i).hypotheses)).collect::<Vec<_>>()
+            s.hypotheses().iter().map(|h| place(s.without(h).hypotheses().to_vec())).collect::<Vec<_>>()
         };
         let less = statements.iter().map(&mut less).collect();
         let points = combinations.into_par_iter().map(|of| Points::of(of, symbols.clone())).collect();
@@ -215,12 +215,12 @@ impl<'a> Bench<'a> {
         };
         let noticed = |(i, changed): (usize, Statement), thoroughly: bool| {
             let original = &self.statements[i];
-            let own = (original.hypotheses != changed.hypotheses)
-                .then(|| Points::of(changed.hypotheses.clone(), self.symbols.clone()));
+            let own = (original.hypotheses() != changed.hypotheses())
+                .then(|| Points::of(changed.hypotheses().to_vec(), self.symbols.clone()));
             let points = own.as_ref().unwrap_or(&self.points[self.own[i]]);
             let counterexample =
                 if thoroughly { points.thoroughly(&changed) } else { points.quickly(&changed) }?;
-            Some(Effect::Noticed { equation: original.equation, name: original.name, counterexample })
+            Some(Effect::Noticed { equation: original.equation(), name: original.name(), counterexample })
         };
         let unchanged = || touched().all(|(i, _)| change.changes_nothing(&self.statements[i], self.registry));
         touched()
@@ -231,7 +231,8 @@ impl<'a> Bench<'a> {
     }
 
     fn without(&self, statement: usize, hypothesis: usize) -> Without {
-        let less = self.statements[statement].without(hypothesis);
+        let own = &self.statements[statement];
+        let less = own.without(&own.hypotheses()[hypothesis]);
         let points = &self.points[self.less[statement][hypothesis]];
         match points.quickly(&less) {
             Some(counterexample) => Without::Refuted(counterexample),
@@ -283,7 +284,7 @@ mod tests {
         let [above, below] = ["a", "b"].map(|name| Hypothesis::new(Relation::Positive, x(name)));
         // a/a = 1 needs a > 0, whatever b is.
         let claim = Claim::new("one", &[&above, &below], Kind::Equal(x("a") / x("a"), Tree::from(1)));
-        let controls = controls(&[Statement::of(&claim)], &registry());
+        let controls = controls(&[claim], &registry());
         let became =
             |given: &Hypothesis| controls.dropped.iter().find(|d| d.given == *given).map(|d| &d.without);
         assert!(matches!(became(&above), Some(Without::Refuted(_))), "{:?}", controls.dropped);

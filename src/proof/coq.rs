@@ -27,7 +27,7 @@ mod print;
 mod script;
 mod theorem;
 
-use crate::formula::{Claim, Formula, Registry};
+use crate::formula::{Formula, Registry, Statement};
 use expr::Expr;
 use print::{Printer, ascii};
 use std::fmt::Write;
@@ -71,7 +71,7 @@ pub struct Flip {
 #[derive(Clone, Copy, Debug)]
 pub struct Placed<'a> {
     /// The claim.
-    pub claim: &'a Claim,
+    pub claim: &'a Statement,
     /// Its section: claims of one section stand together.
     pub section: &'a str,
     /// The functions that it is about: of those that compute the same, the first of these is named.
@@ -107,9 +107,15 @@ impl<'a> Development<'a> {
             let printer = Printer { registry, preferred: functions };
             match Theorem::new(claim, printer).text() {
                 Ok(text) => {
-                    written.push(Written { section: section.to_string(), rounds: claim.rounds(), text });
+                    written.push(Written {
+                        section: section.to_string(),
+                        rounds: claim.contains_rounding(),
+                        text,
+                    });
                 }
-                Err(reason) => left_out.push(LeftOut { equation: claim.equation, name: claim.name, reason }),
+                Err(reason) => {
+                    left_out.push(LeftOut { equation: claim.equation(), name: claim.name(), reason })
+                }
             }
         }
         Development { registry, written, left_out, more: None }
@@ -361,7 +367,7 @@ mod tests {
     use crate::number::{Exponential, Tree};
 
     /// Why a claim is left out, if it is; then there is no theorem.
-    fn left_out(claim: &Claim) -> Option<String> {
+    fn left_out(claim: &Statement) -> Option<String> {
         let registry = Registry::default();
         let development = Development::new(&registry, [Placed { claim, section: "0", functions: &[] }]);
         let theorems = development.files().iter().filter(|file| file.text.contains("\nTheorem ")).count();
@@ -369,7 +375,7 @@ mod tests {
             assert_eq!((theorems, development.left_out().len()), (1, 0));
             return None;
         };
-        assert_eq!((left_out.name, theorems), (claim.name, 0));
+        assert_eq!((left_out.name, theorems), (claim.name(), 0));
         Some(left_out.reason.clone())
     }
 
@@ -378,7 +384,7 @@ mod tests {
     fn two_symbols_never_share_a_name() {
         let square = |names: [&'static str; 2]| {
             let [a, b] = names.map(|name| Tree::symbol(name));
-            left_out(&equal("square", [], (&a - &b) * (&a - &b), (&b - &a) * (&b - &a)))
+            left_out(&equal("square", (&a - &b) * (&a - &b), (&b - &a) * (&b - &a)))
         };
         assert_eq!(square(["H", "h"]).unwrap(), "H and h have the same name in Coq");
         assert_eq!(square(["H", "c"]), None);
@@ -389,9 +395,11 @@ mod tests {
         let [a, t] = ["a", "t"].map(|name| Tree::symbol(name));
         let above = [&a, &t].map(|x| Hypothesis::new(Relation::Positive, x.clone()));
         let vanishes = |of: Tree| {
-            left_out(&limit("vanishes", [&above[0], &above[1]], &of, &t, 0, Rate::Exactly(of.clone())))
+            left_out(
+                &limit("vanishes", &of, &t, 0, Rate::Exactly(of.clone())).assuming([&above[0], &above[1]]),
+            )
         };
-        let wrong = left_out(&equal("one", [], &a, 1)).unwrap();
+        let wrong = left_out(&equal("one", &a, 1)).unwrap();
         assert!(wrong.starts_with("there is no proof to follow: the sides differ by a"), "{wrong}");
         assert_eq!(vanishes((-&a * &t).exp()), None);
         // The kernel knows more of these than the lemmas that are at hand in Coq.

@@ -57,7 +57,7 @@ pub use self::effort::MAX_EFFORT;
 use self::reader::Reader;
 use self::sign::{ERRORS, Sign, is_small, sign};
 use crate::formula::claim::{MEMBERS, POWER, PRECISION, SCALES};
-use crate::formula::statement::{Goal, Role, Says, Sequence, Statement};
+use crate::formula::statement::{Goal, Proposition, Sequence, Statement};
 use crate::formula::{Hypothesis, Relation};
 use crate::number::tree::{self, Step};
 use crate::number::{Dual, Tree};
@@ -85,18 +85,39 @@ pub const MAX_DEPTH: u32 = 500;
 /// Returns the reason if it finds no proof, which does not refute the statement; [`Why::TooLarge`] if the
 /// statement exceeds [`MAX_SIZE`] or [`MAX_DEPTH`], or the proof [`MAX_EFFORT`].
 pub fn prove(statement: &Statement) -> Result<Proof, Why> {
-    check_size(statement)?;
+    check_size(statement.trees())?;
     effort::bounded(|| search(statement)).unwrap_or(Err(Why::TooLarge("its proof", MAX_EFFORT)))
 }
 
+/// Derives a proposition from hypotheses, which is not a proof of any statement.
+///
 /// # Errors
-/// Returns [`Why::TooLarge`] if the statement exceeds [`MAX_SIZE`] or [`MAX_DEPTH`].
-pub(super) fn check_size(statement: &Statement) -> Result<(), Why> {
-    let deepest = statement.trees().map(Tree::depth).max().unwrap_or(0);
+/// Returns the reason if it finds no derivation, like [`prove`].
+pub(super) fn derivation(hypotheses: &[&Hypothesis], proposition: &Proposition) -> Result<Derivation, Why> {
+    let trees = || hypotheses.iter().map(|hypothesis| &hypothesis.value).chain(proposition.trees());
+    check_size(trees())?;
+    let roundings = roundings(trees());
+    if roundings.len() > ERRORS.len() {
+        return Err(Why::TooMany);
+    }
+    if !roundings.is_empty() && proposition.variable().is_some() {
+        return Err(Why::Jump);
+    }
+    let search = || {
+        let context = Context::of(roundings).with_variable(proposition);
+        derive(&Goal::of_claim("", proposition.clone()), context, hypotheses, CASES)
+    };
+    effort::bounded(search).unwrap_or(Err(Why::TooLarge("its proof", MAX_EFFORT)))
+}
+
+/// # Errors
+/// Returns [`Why::TooLarge`] if the formulas exceed [`MAX_SIZE`] or [`MAX_DEPTH`].
+pub(super) fn check_size<'t>(trees: impl Iterator<Item = &'t Tree> + Clone) -> Result<(), Why> {
+    let deepest = trees.clone().map(Tree::depth).max().unwrap_or(0);
     if deepest > MAX_DEPTH {
         return Err(Why::TooLarge("its depth", MAX_DEPTH as usize));
     }
-    let size = statement.trees().fold(0, |sum: u32, tree| sum.saturating_add(tree.size()));
+    let size = trees.fold(0, |sum: u32, tree| sum.saturating_add(tree.size()));
     if size > MAX_SIZE {
         return Err(Why::TooLarge("its size", MAX_SIZE as usize));
     }
@@ -104,29 +125,22 @@ pub(super) fn check_size(statement: &Statement) -> Result<(), Why> {
 }
 
 fn search(statement: &Statement) -> Result<Proof, Why> {
-    if statement.goals.is_empty() {
+    if statement.goals().is_empty() {
         return Err(Why::Nothing);
     }
     check_names(statement)?;
-    let roundings = roundings(statement);
+    let roundings = roundings(statement.trees());
     if roundings.len() > ERRORS.len() {
         return Err(Why::TooMany);
     }
     // What is computed varies with what it is computed from, and is a symbol all the same.
-    if (!roundings.is_empty() || statement.computed.is_some()) && varies(statement) {
+    if (!roundings.is_empty() || statement.computed().is_some()) && varies(statement) {
         return Err(Why::Jump);
     }
     let context = Context::of(roundings);
-    let goals = statement.goals.iter().map(|goal| {
-        let computed = statement.computed.iter().map(|computed| &computed.hypothesis);
-        let (given, invariants) = (statement.hypotheses.iter(), &statement.invariants);
-        let hypotheses: Vec<_> = match goal.role {
-            Role::Claim => given.chain(computed).collect(),
-            Role::Begins => given.collect(),
-            Role::Computed => given.chain(invariants).collect(),
-            Role::Step | Role::Continues => given.chain(invariants).chain(computed).collect(),
-        };
-        derive(goal, context.clone().with_variable(&goal.says), &hypotheses, CASES)
+    let goals = statement.goals().iter().map(|goal| {
+        let hypotheses = statement.hypotheses_for(goal.role);
+        derive(goal, context.clone().with_variable(&goal.proposition), &hypotheses, CASES)
     });
     Ok(Proof { goals: goals.collect::<Result<_, _>>()?, statement: statement.clone() })
 }
@@ -149,23 +163,23 @@ fn check_names<'t>(statement: &'t Statement) -> Result<(), Why> {
         symbols.find(|name| names(name)).map_or(Ok(()), |name| Err(Why::Reserved(name)))
     }
     let is_member = |name| name == MEMBERS[0];
-    let drifts = statement.amounts_to.as_ref().is_some_and(|sequence| !sequence.within.is_empty());
+    let drifts = statement.conclusion().is_some_and(|sequence| sequence.is_perturbed());
     let own = |name| {
         let is_used = drifts && is_member(name);
         NAMES.contains(&name) || is_small(Symbol(name)) || (MEMBERS.contains(&name) && !is_used)
     };
     refuse(statement.trees(), own)?;
-    let mut variables = statement.goals.iter().filter_map(|goal| goal.says.variable());
+    let mut variables = statement.goals().iter().filter_map(|goal| goal.proposition.variable());
     variables.find(|name| own(name)).map_or(Ok(()), |name| Err(Why::Reserved(name)))?;
 
-    let computed = statement.computed.as_ref();
+    let computed = statement.computed();
     let is_computed = |name| computed.is_some_and(|computed| computed.symbol == name);
     let mut meant = [POWER, PRECISION].into_iter().chain(MEMBERS).chain(SCALES);
     meant.find(|name| is_computed(*name)).map_or(Ok(()), |name| Err(Why::Reserved(name)))?;
 
     let values = |all: &'t [Hypothesis]| all.iter().map(|hypothesis| &hypothesis.value);
-    let hypotheses = values(&statement.hypotheses);
-    if let Some(Sequence { start, step, ratio, limit, member, within }) = &statement.amounts_to {
+    let hypotheses = values(&statement.hypotheses());
+    if let Some(Sequence { start, step, ratio, limit, member, within }) = statement.conclusion() {
         refuse(start.iter().chain([ratio]).chain(limit), |name| {
             name == POWER || MEMBERS.contains(&name) || is_computed(name)
         })?;
@@ -177,7 +191,7 @@ fn check_names<'t>(statement: &'t Statement) -> Result<(), Why> {
         refuse(bounds().chain(hypotheses.clone()), is_member)?;
     }
     let by = computed.map(|computed| &computed.by);
-    match refuse(hypotheses.chain(values(&statement.invariants)).chain(by), is_computed) {
+    match refuse(hypotheses.chain(values(&statement.invariants())).chain(by), is_computed) {
         Err(Why::Reserved(name)) => Err(Why::AssumedOfComputed(name)),
         fine => fine,
     }
@@ -185,13 +199,13 @@ fn check_names<'t>(statement: &'t Statement) -> Result<(), Why> {
 
 /// Does something vary in a statement, and not from one whole number to the next?
 fn varies(statement: &Statement) -> bool {
-    let tends = statement.amounts_to.as_ref().is_some_and(|sequence| sequence.limit.is_some());
-    tends || statement.goals.iter().any(|goal| goal.says.variable().is_some())
+    let tends = statement.conclusion().is_some_and(|sequence| sequence.limit.is_some());
+    tends || statement.goals().iter().any(|goal| goal.proposition.variable().is_some())
 }
 
 /// All that is rounded in a statement, each after what is rounded in it: the order in which errors have
 /// names.
-pub(super) fn roundings(statement: &Statement) -> Vec<Tree> {
+pub(super) fn roundings<'t>(trees: impl Iterator<Item = &'t Tree>) -> Vec<Tree> {
     fn collect(tree: &Tree, all: &mut Vec<Tree>) {
         tree.step().operands().for_each(|operand| collect(operand, all));
         // One too many is enough to know that there are too many.
@@ -203,7 +217,7 @@ pub(super) fn roundings(statement: &Statement) -> Vec<Tree> {
         }
     }
     let mut all = Vec::new();
-    statement.trees().for_each(|tree| collect(tree, &mut all));
+    trees.for_each(|tree| collect(tree, &mut all));
     all
 }
 
@@ -245,9 +259,11 @@ fn derive(
 impl Context {
     fn direct(&self, goal: &Goal) -> Result<Direct, Why> {
         let mut reader = Reader::new(self);
-        let because = match &goal.says {
-            Says::Equal(left, right) => Because::Same(self.same(reader.read(left)?, reader.read(right)?)?),
-            Says::Sign(relation, of) => match (relation, rounded_difference(of)) {
+        let because = match &goal.proposition {
+            Proposition::Equal(left, right) => {
+                Because::Same(self.same(reader.read(left)?, reader.read(right)?)?)
+            }
+            Proposition::Sign(relation, of) => match (relation, rounded_difference(of)) {
                 (Relation::NonNegative, Some((a, b))) => {
                     reader.defined(of)?;
                     Because::Order(order::at_least(&mut reader, a, b)?)
@@ -257,19 +273,19 @@ impl Context {
                     Because::Sign(reader.of_sign(value, (*relation).into())?)
                 }
             },
-            Says::Within(of, bound) => {
+            Proposition::Within(of, bound) => {
                 let (of, bound) = (reader.read(of)?, reader.read(bound)?);
                 let [above, below] = self.reduce(&bound).both_sides(&self.reduce(&of));
                 let not_negative = |value| reader.of_sign(value, Sign::NonNegative);
                 Because::Within([not_negative(above)?, not_negative(below)?].into())
             }
-            Says::Derivative(of, by, is) => {
+            Proposition::Derivative(of, by, is) => {
                 let Dual { derivative, .. } =
                     of.derivative(by, &|name| Tree::symbol(name), &tree::smooth).ok_or(Why::Kink)?;
                 reader.read(of)?;
                 Because::Derivative(self.same(reader.read(&derivative)?, reader.read(is)?)?)
             }
-            Says::Limit(of, by, to) => {
+            Proposition::Limit(of, by, to) => {
                 let x = Symbol(by);
                 let (of, to) = (self.reduce(&reader.read(of)?), self.reduce(&reader.read(to)?));
                 self.limit(of, x, to)?

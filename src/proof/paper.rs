@@ -10,7 +10,7 @@ use self::algebra::Order;
 use super::kernel::sign::{Certificate, Rule, Sign};
 use super::kernel::{Because, Derivation, Direct, Proof, Rounding, Signed, Supposed, Used};
 use crate::formula::claim::{MEMBERS, POWER, PRECISION};
-use crate::formula::statement::{Goal, Role, Says, Sequence, Statement};
+use crate::formula::statement::{Goal, Proposition, Role, Sequence, Statement};
 use crate::formula::{Call, Formula, Hypothesis, Notation, Registry, name_of_rounding};
 use crate::number::tree::Step;
 use crate::number::{PositivePart, Tree};
@@ -34,12 +34,12 @@ impl<'a> Paper<'a> {
         if let Some(registry) = self.other_names(statement) {
             return Paper::new(&registry).claim(statement);
         }
-        let computed = statement.computed.iter();
+        let computed = statement.computed().into_iter();
         let computed: String =
             computed.map(|computed| format!("{} = {}", computed.symbol, self.text(&computed.by))).collect();
-        let Some(sequence) = &statement.amounts_to else {
-            let goals = statement.goals.iter().filter(|goal| goal.role == Role::Claim);
-            let goals: Vec<_> = goals.map(|goal| self.says(&goal.says)).collect();
+        let Some(sequence) = statement.conclusion() else {
+            let goals = statement.goals().iter().filter(|goal| goal.role == Role::Claim);
+            let goals: Vec<_> = goals.map(|goal| self.says(&goal.proposition)).collect();
             let place = if computed.is_empty() { String::new() } else { format!(", where {computed}") };
             return goals.join("; ") + &place;
         };
@@ -52,7 +52,7 @@ impl<'a> Paper<'a> {
             return format!("{} → {} for {place} and {index} → ∞", together(member), self.text(limit));
         }
         let (from, to, members) = (together(start), together(step), MEMBERS[..step.len()].join(", "));
-        let bound = |(of, bound): &(Tree, Tree)| self.says(&Says::Within(of.clone(), bound.clone()));
+        let bound = |(of, bound): &(Tree, Tree)| self.says(&Proposition::Within(of.clone(), bound.clone()));
         let leads_to = match &within.iter().map(bound).collect::<Vec<_>>()[..] {
             [] => together(member),
             bounds => format!("{members} with {}", bounds.join(" and ")),
@@ -65,8 +65,8 @@ impl<'a> Paper<'a> {
         if let Some(registry) = self.other_names(statement) {
             return Paper::new(&registry).always(statement);
         }
-        let computed = statement.computed.iter().map(|computed| &computed.hypothesis);
-        let all = statement.invariants.iter().chain(computed);
+        let computed = statement.computed().into_iter().map(|computed| &computed.hypothesis);
+        let all = statement.invariants().iter().chain(computed);
         all.map(|hypothesis| self.registry.supposed(hypothesis)).collect()
     }
 
@@ -97,13 +97,17 @@ impl<'a> Paper<'a> {
     }
 
     /// What a goal says.
-    fn says(&self, says: &Says) -> String {
+    fn says(&self, says: &Proposition) -> String {
         match says {
-            Says::Equal(left, right) => format!("{} = {}", self.text(left), self.text(right)),
-            Says::Sign(relation, of) => format!("{} {relation} 0", self.text(of)),
-            Says::Within(of, bound) => format!("{} ≤ {}", self.text(&of.abs()), self.text(bound)),
-            Says::Derivative(of, by, is) => format!("∂/∂{} [{}] = {}", by, self.text(of), self.text(is)),
-            Says::Limit(of, by, to) => format!("lim [{}] = {} for {} → ∞", self.text(of), self.text(to), by),
+            Proposition::Equal(left, right) => format!("{} = {}", self.text(left), self.text(right)),
+            Proposition::Sign(relation, of) => format!("{} {relation} 0", self.text(of)),
+            Proposition::Within(of, bound) => format!("{} ≤ {}", self.text(&of.abs()), self.text(bound)),
+            Proposition::Derivative(of, by, is) => {
+                format!("∂/∂{} [{}] = {}", by, self.text(of), self.text(is))
+            }
+            Proposition::Limit(of, by, to) => {
+                format!("lim [{}] = {} for {} → ∞", self.text(of), self.text(to), by)
+            }
         }
     }
 
@@ -165,7 +169,7 @@ impl<'a> Paper<'a> {
             tree.typeset(Notation::Text, &name);
         };
         statement.trees().for_each(collect);
-        if let Some(Sequence { start, step, ratio, member, limit, within }) = &statement.amounts_to {
+        if let Some(Sequence { start, step, ratio, member, limit, within }) = statement.conclusion() {
             let bounds = within.iter().flat_map(|(of, bound)| [of, bound]);
             start
                 .iter()
@@ -193,7 +197,7 @@ impl<'a> Paper<'a> {
             return Paper::new(&registry).proof(proof);
         }
         let mut lines = Vec::new();
-        lines.extend(statement.amounts_to.as_ref().map(|Sequence { ratio, limit, .. }| {
+        lines.extend(statement.conclusion().map(|Sequence { ratio, limit, .. }| {
             let (index, power) = (self.index(statement), self.power(statement, ratio));
             match limit {
                 None => {
@@ -208,17 +212,17 @@ impl<'a> Paper<'a> {
                 }
             }
         }));
-        let single = statement.goals.len() == 1;
-        for (Goal { part, says: goal, .. }, derivation) in statement.goals.iter().zip(proof.goals()) {
+        let single = statement.goals().len() == 1;
+        for (Goal { part, proposition, .. }, derivation) in statement.goals().iter().zip(proof.goals()) {
             if single {
                 self.derivation(derivation, 0, &mut lines);
             } else {
-                let part = match &statement.amounts_to {
+                let part = match statement.conclusion() {
                     Some(Sequence { ratio, .. }) => part.replace("|ρ|", &self.text(&ratio.abs())),
                     None => part.to_string(),
                 };
                 let colon = if part.is_empty() { "" } else { ": " };
-                lines.push(format!("{part}{colon}{}", self.says(goal)));
+                lines.push(format!("{part}{colon}{}", self.says(proposition)));
                 self.derivation(derivation, 1, &mut lines);
             }
         }

@@ -9,7 +9,7 @@
 //! All arithmetic is exact but for eˣ, which is a ball: what is refuted is false for certain.
 
 use crate::formula::claim::{MEMBERS, POWER, PRECISION};
-use crate::formula::statement::{Role, Says, Sequence, Statement};
+use crate::formula::statement::{Proposition, Role, Sequence, Statement};
 use crate::formula::{Hypothesis, Relation};
 use crate::number::tree::{Step, everything, smooth};
 use crate::number::{Exact, PositivePart, Tree};
@@ -117,7 +117,7 @@ fn value(tree: &Tree, point: &Point) -> Option<Value> {
 
 /// The statement at one point.
 pub fn check(statement: &Statement, point: &Point) -> Verdict {
-    if point.satisfies(&statement.hypotheses) { check_goals(statement, point) } else { Verdict::Excluded }
+    if point.satisfies(&statement.hypotheses()) { check_goals(statement, point) } else { Verdict::Excluded }
 }
 
 /// The same where the hypotheses are known to hold.
@@ -125,10 +125,10 @@ pub fn check(statement: &Statement, point: &Point) -> Verdict {
 /// An induction is about q = ρᵏ, and no step says anything of another q; its invariants are a means and not
 /// an end. And where |ρ| ≥ 1 a sequence has the limit all the same, if it has that value all along.
 fn check_goals(statement: &Statement, point: &Point) -> Verdict {
-    if let Some(sequence) = statement.amounts_to.as_ref().filter(|sequence| !sequence.within.is_empty()) {
+    if let Some(sequence) = statement.conclusion().filter(|sequence| sequence.is_perturbed()) {
         return follow(statement, sequence, point).unwrap_or_else(|verdict| verdict);
     }
-    let powers = match &statement.amounts_to {
+    let powers = match statement.conclusion() {
         Some(Sequence { ratio, limit: None, .. }) => {
             let ratio = exact(ratio, point);
             let next = |q: &Exact| Some(q * ratio.as_ref()?);
@@ -143,9 +143,9 @@ fn check_goals(statement: &Statement, point: &Point) -> Verdict {
     let mut open = false;
     for q in powers {
         let point = point.with(POWER, q);
-        let goals = statement.goals.iter().filter(|goal| matches!(goal.role, Role::Claim | Role::Step));
+        let goals = statement.goals().iter().filter(|goal| matches!(goal.role, Role::Claim | Role::Step));
         for goal in goals {
-            match fails(&goal.says, &point) {
+            match fails(&goal.proposition, &point) {
                 Some(Some(How::Sign(..))) if is_constant(statement, &point) => {}
                 Some(Some(how)) => return Verdict::Fails(goal.part, how),
                 Some(None) => {}
@@ -164,7 +164,7 @@ fn exact(tree: &Tree, point: &Point) -> Option<Exact> {
 }
 
 /// How a goal fails, if it does; `None` if that cannot be decided.
-fn fails(says: &Says, point: &Point) -> Option<Option<How>> {
+fn fails(says: &Proposition, point: &Point) -> Option<Option<How>> {
     let undefined = || says.trees().into_iter().find_map(|tree| vanishing(tree, point)).map(How::Undefined);
     let differ = |left: Option<Value>, right: Option<Value>| match (left, right) {
         (Some(left), Some(right)) => match (&left - &right).sign()? {
@@ -174,22 +174,22 @@ fn fails(says: &Says, point: &Point) -> Option<Option<How>> {
         _ => undefined().map(Some),
     };
     match says {
-        Says::Equal(left, right) => differ(value(left, point), value(right, point)),
-        Says::Sign(relation, of) => match value(of, point) {
+        Proposition::Equal(left, right) => differ(value(left, point), value(right, point)),
+        Proposition::Sign(relation, of) => match value(of, point) {
             Some(value) => {
                 let admitted = relation.admits(value.sign()?);
                 Some((!admitted).then_some(How::Sign(*relation, value)))
             }
             None => undefined().map(Some),
         },
-        Says::Within(of, bound) => match (value(of, point), value(bound, point)) {
+        Proposition::Within(of, bound) => match (value(of, point), value(bound, point)) {
             (Some(of), Some(bound)) => {
                 let beyond = (&bound - of.abs()).sign()?.is_lt();
                 Some(beyond.then_some(How::Beyond(of, bound)))
             }
             _ => undefined().map(Some),
         },
-        Says::Derivative(of, by, is) => {
+        Proposition::Derivative(of, by, is) => {
             // Of ⟨·⟩ and min, which have kinks, dual numbers know of no derivative.
             let dual = of.derivative(by, &|name| Value::Exact(point.at(name)), &smooth);
             differ(dual.map(|dual| dual.derivative), value(is, point))
@@ -197,7 +197,7 @@ fn fails(says: &Says, point: &Point) -> Option<Option<How>> {
         // A quotient of polynomials behaves like a power of x beyond all its zeros and poles, and the
         // coefficients here are far too small for one at 2¹⁰⁰. A distance that tends to 0 falls like 1/x or
         // faster, so by 2⁻¹⁰⁰ or more between 2¹⁰⁰ and 2²⁰⁰; any other does not fall at all.
-        Says::Limit(of, by, to) => {
+        Proposition::Limit(of, by, to) => {
             let distance = |n| {
                 let point = point.with(by, Exact::power_of_two(n));
                 let distance = value(of, &point).zip(value(to, &point)).map(|(of, to)| of - to);
@@ -233,7 +233,7 @@ const FIRST_PLANTED: usize = 4;
 /// coordinate.
 fn divided_by_zero(statement: &Statement, point: &Point) -> Option<Counterexample> {
     let mut divisors: Vec<&Tree> = Vec::new();
-    for tree in statement.goals.iter().flat_map(|goal| goal.says.trees()) {
+    for tree in statement.goals().iter().flat_map(|goal| goal.proposition.trees()) {
         tree.visit(&mut |tree| {
             if let Step::Div(_, divisor) = tree.step()
                 && !divisors.contains(&divisor)
@@ -246,7 +246,7 @@ fn divided_by_zero(statement: &Statement, point: &Point) -> Option<Counterexampl
         divisors.into_iter().flat_map(|divisor| divisor.symbols().into_iter().map(move |by| (divisor, by)));
     pairs.into_iter().find_map(|(divisor, by)| {
         let point = bent_to_zero(divisor, by, point)?;
-        point.satisfies(&statement.hypotheses).then(|| found(statement, &point))?
+        point.satisfies(&statement.hypotheses()).then(|| found(statement, &point))?
     })
 }
 
@@ -305,8 +305,8 @@ fn found(statement: &Statement, point: &Point) -> Option<Counterexample> {
 /// said of bounds.
 pub fn sharpest(statement: &Statement) -> Option<(Point, Exact)> {
     let symbols = symbols(statement);
-    let raw = raw_points(&statement.hypotheses, &symbols).take(SHARP);
-    let points = raw.chain(planted_points(&statement.hypotheses, &symbols));
+    let raw = raw_points(&statement.hypotheses(), &symbols).take(SHARP);
+    let points = raw.chain(planted_points(&statement.hypotheses(), &symbols));
     let shares = points.filter_map(|point| share(statement, &point).map(|share| (point, share)));
     // The first of those that use up most.
     let sharpest = shares.min_by(|(_, a), (_, b)| b.cmp(a));
@@ -319,8 +319,8 @@ const SHARP: usize = 500;
 /// What a statement speaks of, in the order in which it does, but for what follows from the rest: the
 /// members and powers of a sequence, and what is computed.
 fn symbols(statement: &Statement) -> Vec<&'static str> {
-    let computed = statement.computed.as_ref().map(|computed| computed.symbol);
-    let sequence = statement.amounts_to.as_ref().filter(|sequence| sequence.limit.is_none());
+    let computed = statement.computed().map(|computed| computed.symbol);
+    let sequence = statement.conclusion().filter(|sequence| sequence.limit.is_none());
     let members = sequence.map_or(&[][..], |sequence| &MEMBERS[..sequence.step.len()]);
     let follows = |name: &'static str| {
         Some(name) == computed || sequence.is_some() && name == POWER || members.contains(&name)
@@ -342,9 +342,9 @@ fn symbols(statement: &Statement) -> Vec<&'static str> {
 /// Searches for a counterexample. That there is none among the points that are tried is no proof; of a
 /// statement that is too large for [`prove`](super::prove) none is looked for.
 pub fn refute(statement: &Statement) -> Option<Counterexample> {
-    super::kernel::check_size(statement).ok()?;
+    super::kernel::check_size(statement.trees()).ok()?;
     let symbols = symbols(statement);
-    let points = Points::of(statement.hypotheses.clone(), symbols);
+    let points = Points::of(statement.hypotheses().to_vec(), symbols);
     points.quickly(statement).or_else(|| points.thoroughly(statement))
 }
 

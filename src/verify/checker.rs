@@ -4,7 +4,7 @@ use super::goals::{Asked, Group, groups};
 use super::guard::guarded;
 use super::{Row, Status};
 use crate::claims::{Case, Experiment, Trial, exact_experiments, float_experiments};
-use crate::formula::{Claim, Hypothesis};
+use crate::formula::{Hypothesis, Statement};
 use crate::number::tree::{Step, everything, piecewise};
 use crate::number::{Ball, Exact, Exponential, Mpfr, NumberSystem, PositivePart, Real, ToExact};
 use crate::solver::Scalar;
@@ -224,37 +224,39 @@ pub(super) trait Checks: Sync {
 pub(super) struct Checker<J: Judge> {
     judge: J,
     /// In the order of the heads.
-    claims: Vec<Claim>,
+    claims: Vec<Statement>,
     groups: Vec<Group>,
     experiments: Vec<Experiment<J::Computed>>,
 }
 
 impl<J: Judge> Checker<J> {
     /// For the claims that can be asked in these numbers.
-    pub(super) fn new<'a>(judge: J, claims: impl IntoIterator<Item = &'a Claim>) -> Self {
+    pub(super) fn new<'a>(judge: J, claims: impl IntoIterator<Item = &'a Statement>) -> Self {
         let experiments = judge.experiments();
         Checker::with(judge, claims, experiments)
     }
 
     pub(super) fn with<'a>(
         judge: J,
-        claims: impl IntoIterator<Item = &'a Claim>,
+        claims: impl IntoIterator<Item = &'a Statement>,
         experiments: Vec<Experiment<J::Computed>>,
     ) -> Self {
         // What is rounded is a matter of experiments.
-        let can_be_asked = |claim: &&Claim| !claim.rounds() && (J::EXPONENTIALS || !claim.has_exponentials());
-        let claims: Vec<Claim> = claims.into_iter().filter(can_be_asked).cloned().collect();
+        let can_be_asked = |claim: &&Statement| {
+            !claim.contains_rounding() && (J::EXPONENTIALS || !claim.contains_exponential())
+        };
+        let claims: Vec<Statement> = claims.into_iter().filter(can_be_asked).cloned().collect();
         Checker { judge, groups: groups(&claims), claims, experiments }
     }
 }
 
 impl<J: Judge> Checks for Checker<J> {
     fn heads(&self) -> Vec<Head> {
-        let claim = |c: &Claim| Head {
-            equation: c.equation,
-            claim: c.name,
-            kind: c.kind.name(),
-            given: c.given.clone(),
+        let claim = |c: &Statement| Head {
+            equation: c.equation(),
+            claim: c.name(),
+            kind: c.kind(),
+            given: c.stated_hypotheses().to_vec(),
         };
         let experiment = |e: &Experiment<J::Computed>| Head {
             equation: e.equation,
@@ -274,7 +276,7 @@ impl<J: Judge> Checks for Checker<J> {
         let offset = self.claims.len();
         let group = self.groups.iter().find(|group| group.given == given);
         let mut claims: Vec<_> = group.map_or(&[][..], |group| &group.claims).iter().collect();
-        claims.retain(|(place, _)| wanted(self.claims[*place].equation));
+        claims.retain(|(place, _)| wanted(self.claims[*place].equation()));
         let mut experiments: Vec<_> = self.experiments.iter().enumerate().collect();
         experiments.retain(|(_, e)| e.given == given && wanted(e.equation));
         let places = claims.iter().map(|(i, _)| *i).chain(experiments.iter().map(|(i, _)| offset + i));

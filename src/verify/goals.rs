@@ -1,8 +1,8 @@
 //! What a claim comes to in numbers, compiled.
 
 use crate::formula::claim::{MEMBERS, POWER};
-use crate::formula::statement::{Says, Statement};
-use crate::formula::{Claim, Hypothesis, Kind, Program, Relation};
+use crate::formula::statement::Sequence;
+use crate::formula::{Hypothesis, Program, Proposition, Relation, Statement};
 use crate::number::tree::smooth;
 use crate::number::{PositivePart, Tree};
 use num_traits::One;
@@ -25,17 +25,18 @@ pub(super) struct Group {
 }
 
 /// All claims, by their hypotheses.
-pub(super) fn groups(claims: &[Claim]) -> Vec<Group> {
+pub(super) fn groups(claims: &[Statement]) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     for (place, claim) in claims.iter().enumerate() {
-        let i = groups.iter().position(|group| group.given == claim.given).unwrap_or_else(|| {
-            groups.push(Group {
-                given: claim.given.clone(),
-                program: Program::default(),
-                claims: Vec::new(),
+        let i =
+            groups.iter().position(|group| group.given == claim.stated_hypotheses()).unwrap_or_else(|| {
+                groups.push(Group {
+                    given: claim.stated_hypotheses().to_vec(),
+                    program: Program::default(),
+                    claims: Vec::new(),
+                });
+                groups.len() - 1
             });
-            groups.len() - 1
-        });
         let group = &mut groups[i];
         let asked = says(claim).iter().filter_map(|says| asked(says, &mut group.program)).collect();
         group.claims.push((place, asked));
@@ -43,18 +44,20 @@ pub(super) fn groups(claims: &[Claim]) -> Vec<Group> {
     groups
 }
 
-fn asked(says: &Says, program: &mut Program) -> Option<Asked> {
+fn asked(says: &Proposition, program: &mut Program) -> Option<Asked> {
     let mut equal = |left: &Tree, right: &Tree| Asked::Equal(program.add(left), program.add(right));
     match says {
-        Says::Equal(left, right) => Some(equal(left, right)),
-        Says::Derivative(of, by, is) => {
+        Proposition::Equal(left, right) => Some(equal(left, right)),
+        Proposition::Derivative(of, by, is) => {
             let dual = of.derivative(by, &|name| Tree::symbol(name), &smooth);
             dual.map(|dual| equal(&dual.derivative, is))
         }
-        Says::Sign(relation, of) => Some(Asked::Sign(*relation, program.add(of))),
-        Says::Within(of, bound) => Some(Asked::Sign(Relation::NonNegative, program.add(&(bound - of.abs())))),
+        Proposition::Sign(relation, of) => Some(Asked::Sign(*relation, program.add(of))),
+        Proposition::Within(of, bound) => {
+            Some(Asked::Sign(Relation::NonNegative, program.add(&(bound - of.abs()))))
+        }
         // By how fast it is reached, which is said beside it.
-        Says::Limit(..) => None,
+        Proposition::Limit(..) => None,
     }
 }
 
@@ -62,16 +65,17 @@ fn asked(says: &Says, program: &mut Program) -> Option<Asked> {
 const STEPS: usize = 3;
 
 /// All that a claim says: what is to be proved, and of a recursion its first members.
-fn says(claim: &Claim) -> Vec<Says> {
-    let mut all: Vec<Says> = Statement::of(claim).goals.into_iter().map(|goal| goal.says).collect();
-    if let Kind::Induction { ratio, start, step, closed } = &claim.kind {
+fn says(claim: &Statement) -> Vec<Proposition> {
+    let mut all: Vec<_> = claim.goals().iter().map(|goal| goal.proposition.clone()).collect();
+    let closed_form = claim.conclusion().filter(|sequence| !sequence.is_perturbed());
+    if let Some(Sequence { ratio, start, step, member, .. }) = closed_form {
         let (mut x, mut power) = (start.clone(), Tree::one());
         for _ in 0..STEPS {
             let members: Vec<_> = MEMBERS.into_iter().zip(x).collect();
             x = step.iter().map(|step| step.with(&members)).collect();
             power = power * ratio;
-            let closed = closed.iter().map(|closed| closed.with(&[(POWER, power.clone())]));
-            all.extend(x.iter().cloned().zip(closed).map(|(x, closed)| Says::Equal(x, closed)));
+            let closed = member.iter().map(|closed| closed.with(&[(POWER, power.clone())]));
+            all.extend(x.iter().cloned().zip(closed).map(|(x, closed)| Proposition::Equal(x, closed)));
         }
     }
     all

@@ -1,7 +1,7 @@
 //! Claims and proofs as pages to be read without running anything.
 
 use crate::claims::{Entry, entries, registry};
-use crate::formula::{Hypothesis, Statement};
+use crate::formula::Hypothesis;
 use crate::proof::paper::{self, Paper};
 use crate::proof::prove;
 use std::fmt::Write;
@@ -66,26 +66,22 @@ fn account(entry: &Entry) -> String {
         let _ = write!(text, "\nComputed by {} in {}.\n", functions.join(", "), files.join(" and "));
     }
     for claim in &entry.claims {
-        let (statement, paper) = (Statement::of(claim), Paper::new(registry()));
-        let supposed = |given: &&Hypothesis| statement.hypotheses.contains(given);
-        let given: Vec<_> = claim.given.iter().filter(supposed).cloned().collect();
-        let mut given = [("if", registry().all_supposed(&given)), ("always", paper.always(&statement))]
+        let paper = Paper::new(registry());
+        let supposed = |given: &&Hypothesis| claim.hypotheses().contains(given);
+        let given: Vec<_> = claim.stated_hypotheses().iter().filter(supposed).cloned().collect();
+        let mut given = [("if", registry().all_supposed(&given)), ("always", paper.always(claim))]
             .into_iter()
             .filter(|(_, all)| !all.is_empty())
             .map(|(what, all)| format!("\n\n{what} `{}`", all.join("`, `")))
             .collect::<String>();
-        if !paper.always(&statement).is_empty() {
+        if !paper.always(claim).is_empty() {
             given += ", which is part of the proof";
         }
-        let _ = write!(
-            text,
-            "\n### {}\n\n`{}`{given}\n\n",
-            heading_of(entry, claim.name),
-            paper.claim(&statement)
-        );
-        text += &match prove(&statement) {
+        let _ =
+            write!(text, "\n### {}\n\n`{}`{given}\n\n", heading_of(entry, claim.name()), paper.claim(claim));
+        text += &match prove(claim) {
             Ok(proof) => {
-                let names = paper.names(&statement).into_iter().map(|name| format!("where {name}"));
+                let names = paper.names(claim).into_iter().map(|name| format!("where {name}"));
                 let lines: Vec<_> = names.chain(paper.proof(&proof)).collect();
                 let block = format!("```text\n{}\n```\n", lines.join("\n"));
                 let summary = format!("{}, {} lines", paper::how(&proof), lines.len());
@@ -95,7 +91,7 @@ fn account(entry: &Entry) -> String {
                     block
                 }
             }
-            Err(why) => format!("**not proved**: {}\n", paper.why(&statement, &why)),
+            Err(why) => format!("**not proved**: {}\n", paper.why(claim, &why)),
         };
     }
     text

@@ -4,7 +4,7 @@
 mod json;
 
 use crate::claims::{place, registry, statements};
-use crate::formula::statement::two_bits;
+use crate::formula::statement::minimum_precision;
 use crate::formula::{Hypothesis, Statement};
 use crate::proof::controls::{self, Change, Controls, Dropped, Effect, controls, repairs};
 use crate::proof::paper::Paper;
@@ -48,7 +48,7 @@ impl Proved {
 
     /// What it supposes, as a reader writes it.
     pub fn hypotheses(&self) -> Vec<String> {
-        registry().all_supposed(&self.statement.hypotheses)
+        registry().all_supposed(&self.statement.hypotheses())
     }
 
     /// `proved`, `refuted` or `unknown`.
@@ -108,8 +108,8 @@ pub fn prove_all(equations: &[String]) -> Proofs {
         (Controls::default(), repairs(&all, registry()))
     };
     let wanted = |equation: &str| equations.is_empty() || equations.iter().any(|e| e == equation);
-    claims.retain(|claim| wanted(claim.statement.equation));
-    claims.sort_by_key(|claim| place(claim.statement.equation));
+    claims.retain(|claim| wanted(claim.statement.equation()));
+    claims.sort_by_key(|claim| place(claim.statement.equation()));
     controls.dropped.retain(|dropped| wanted(dropped.equation));
     controls.changes.retain(|(_, effect)| match effect {
         Effect::Noticed { equation, .. } => wanted(equation),
@@ -127,26 +127,31 @@ impl Proofs {
 
     /// A claim's hypotheses, dropped one at a time.
     pub fn dropped(&self, statement: &Statement) -> impl Iterator<Item = &Dropped> {
-        let of = (statement.equation, statement.name);
+        let of = (statement.equation(), statement.name());
         self.controls.dropped.iter().filter(move |dropped| (dropped.equation, dropped.name) == of)
     }
 
     /// The claims of each equation.
     pub fn by_equation(&self) -> impl Iterator<Item = &[Proved]> {
-        self.claims.chunk_by(|a, b| a.statement.equation == b.statement.equation)
+        self.claims.chunk_by(|a, b| a.statement.equation() == b.statement.equation())
     }
 
     /// The summary.
     pub fn summary(&self) -> Summary {
         let with = |status| self.claims.iter().filter(|claim| claim.status() == status).count();
         // That a number has two bits goes without saying.
-        let said = |given: &&Hypothesis| **given != two_bits();
+        let said = |given: &&Hypothesis| **given != minimum_precision();
         Summary {
             claims: self.claims.len(),
             proved: with("proved"),
             refuted: with("refuted"),
             unknown: with("unknown"),
-            hypotheses: self.claims.iter().flat_map(|claim| &claim.statement.hypotheses).filter(said).count(),
+            hypotheses: self
+                .claims
+                .iter()
+                .flat_map(|claim| claim.statement.hypotheses())
+                .filter(said)
+                .count(),
             controls: self.controls.summary(),
         }
     }
@@ -156,17 +161,17 @@ impl Proofs {
 mod tests {
     use super::*;
     use crate::claims::given;
-    use crate::formula::statement::{Goal, Says};
+    use crate::formula::statement::{Goal, Proposition};
     use crate::number::Tree;
     use crate::proof::controls::{Without, changes};
 
     fn rate() -> Statement {
-        statements().into_iter().find(|s| (s.equation, s.name) == ("1.13", "rate")).unwrap()
+        statements().into_iter().find(|s| (s.equation(), s.name()) == ("1.13", "rate")).unwrap()
     }
 
     /// c = 0, in the place of what is claimed.
     fn wrong() -> Statement {
-        let says = Says::Equal(Tree::symbol("c"), Tree::from(0));
+        let says = Proposition::Equal(Tree::symbol("c"), Tree::from(0));
         Statement { name: "wrong", goals: vec![Goal::of_claim("", says)], ..rate() }
     }
 

@@ -109,8 +109,9 @@ mod tests {
     /// The functions that are suspected after a change.
     fn after(change: &Change, statements: &[Statement]) -> Vec<&'static str> {
         let breaks = |s: &&Statement| change.apply(s).is_some_and(|changed| prove(&changed).is_err());
-        let broken: BTreeSet<_> = statements.iter().filter(breaks).map(|s| (s.equation, s.name)).collect();
-        let suspects = suspects(statements, &|s| broken.contains(&(s.equation, s.name)));
+        let broken: BTreeSet<_> =
+            statements.iter().filter(breaks).map(|s| (s.equation(), s.name())).collect();
+        let suspects = suspects(statements, &|s| broken.contains(&(s.equation(), s.name())));
         suspects.into_iter().map(|suspect| suspect.function).collect()
     }
 
@@ -145,7 +146,8 @@ mod tests {
     /// Two claims of (1.13), about the deflection and its second form, and about the deflection and its rate.
     #[test]
     fn shared_functions_are_those_of_every_failure() {
-        let of = |names: &[&str]| shared(&statements(), &|s| s.equation == "1.13" && names.contains(&s.name));
+        let of =
+            |names: &[&str]| shared(&statements(), &|s| s.equation() == "1.13" && names.contains(&s.name()));
         assert_eq!(of(&["two-forms"]), ["penalty::deflection", "penalty::deflection_divided"]);
         assert_eq!(of(&["two-forms", "rate"]), ["penalty::deflection"]);
     }

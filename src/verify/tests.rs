@@ -5,7 +5,7 @@ mod changed;
 use super::checker::Judge;
 use super::*;
 use crate::claims::{Experiment, Trial};
-use crate::formula::statement::{Goal, Says};
+use crate::formula::statement::{Goal, Proposition};
 use crate::formula::{Claim, Kind, Relation};
 use crate::number::{Exponential, Field, PositivePart, Tree};
 use crate::proof::controls::{self, What};
@@ -291,15 +291,18 @@ fn the_worst_share_is_that_of_all_cases() {
 fn a_wrong_statement_is_refuted_and_an_unprovable_one_is_not_proved() {
     let all = statements();
     let rate = all.iter().find(|s| (s.equation, s.name) == ("1.13", "rate")).unwrap();
-    let Says::Equal(left, right) = &rate.goals[0].says else { panic!("an equation") };
+    let Proposition::Equal(left, right) = &rate.goals[0].says else { panic!("an equation") };
     let goal = |says| vec![Goal::of_claim("", says)];
-    let wrong =
-        Statement { name: "wrong", goals: goal(Says::Equal(left.clone(), right + right)), ..rate.clone() };
+    let wrong = Statement {
+        name: "wrong",
+        goals: goal(Proposition::Equal(left.clone(), right + right)),
+        ..rate.clone()
+    };
     // eˣ ≥ 1 + x for every x: true, and beyond the kernel, which knows x ≥ 0 alone.
     let q = Tree::symbol("q");
-    let open = Says::Sign(Relation::NonNegative, q.exp() - Tree::one() - &q);
+    let open = Proposition::Sign(Relation::NonNegative, q.exp() - Tree::one() - &q);
     let open = Statement { name: "open", hypotheses: Vec::new(), goals: goal(open), ..rate.clone() };
-    let undefined = Says::Equal(Tree::one() / (&q - &q), Tree::one());
+    let undefined = Proposition::Equal(Tree::one() / (&q - &q), Tree::one());
     let undefined =
         Statement { name: "undefined", hypotheses: Vec::new(), goals: goal(undefined), ..rate.clone() };
     let report = run(&[], vec![rate.clone(), wrong, open, undefined], &options(1), &|_, _| ());

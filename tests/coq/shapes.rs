@@ -30,132 +30,106 @@ pub fn claims() -> Vec<Claim> {
     let squared = (Tree::int(332) + &y) * (Tree::int(332) + &y);
     let inverse = one() / &squared;
     vec![
-        induction("halves", [], one() / Tree::int(2), [one()], |[x]| [x / Tree::int(2)], [Tree::symbol("q")]),
-        positive("between", [&above(&x), &below_one], &x - &x * &x),
-        within("squared-interval", [&wide], once(&(one() / &squared)), one() / &squared / &n),
-        within("squared-interval-each", [&wide], inverse.rounded() - &inverse, Tree::int(8) * &inverse / &n),
-        equal("lens", [&lens_f, &shorter], lens(), &f * &g / (&g - &f)),
-        positive("lens-sign", [&lens_f, &lens_g, &shorter], lens()),
-        within("lens-rounded", [&lens_f, &shorter], once(&lens()), lens() / &n),
-        within("lens-rounded-g", [&lens_f, &lens_g, &shorter], once(&lens()), lens() / &n),
-        positive("lens-rounded-sign", [&lens_f, &lens_g, &shorter], lens().nearest()),
-        within(
-            "lens-twice",
-            [&lens_f, &shorter],
-            once(&(lens().nearest() * Tree::int(3))),
-            lens() * Tree::int(6) / &n,
-        ),
-        derivative("lens-slope", [&lens_f, &lens_g, &shorter], lens(), &f, lens() * lens() / (&f * &f)),
-        limit(
-            "far-side",
-            [&lens_f, &lens_g],
-            one() / (one() / &f + one() / &g),
-            &g,
-            &f,
-            Rate::Exactly(-(&f * &f / (&g + &f))),
-        ),
-        within("negative-divisor", [&stiff_a, &above_c], once(&(&a / (&b - &c))), &a / (&c - &b) / &n),
-        within("opposite-divisor", [&stiff_a, &stiff_b], once(&(&a / -&b)), &a / &b / &n),
-        positive("negative-exact", [&stiff_a, &above_c], -(&a / (&b - &c))),
-        within(
-            "quotient-of-quotients",
-            [&stiff_a, &stiff_b, &stiff_c, &stiff_d],
-            once(&((&a / &b) / (&c / &d))),
-            &a * &d / (&b * &c) / &n,
-        ),
-        equal(
-            "quotients-exact",
-            [&stiff_a, &stiff_b, &stiff_c, &stiff_d],
-            &a / (&b / (&c / &d)),
-            &a * &c / (&b * &d),
-        ),
+        induction("halves", one() / Tree::int(2), [one()], |[x]| [x / Tree::int(2)], [Tree::symbol("q")]),
+        positive("between", &x - &x * &x).assuming([&above(&x), &below_one]),
+        within("squared-interval", once(&(one() / &squared)), one() / &squared / &n).assuming([&wide]),
+        within("squared-interval-each", inverse.rounded() - &inverse, Tree::int(8) * &inverse / &n)
+            .assuming([&wide]),
+        equal("lens", lens(), &f * &g / (&g - &f)).assuming([&lens_f, &shorter]),
+        positive("lens-sign", lens()).assuming([&lens_f, &lens_g, &shorter]),
+        within("lens-rounded", once(&lens()), lens() / &n).assuming([&lens_f, &shorter]),
+        within("lens-rounded-g", once(&lens()), lens() / &n).assuming([&lens_f, &lens_g, &shorter]),
+        positive("lens-rounded-sign", lens().nearest()).assuming([&lens_f, &lens_g, &shorter]),
+        within("lens-twice", once(&(lens().nearest() * Tree::int(3))), lens() * Tree::int(6) / &n)
+            .assuming([&lens_f, &shorter]),
+        derivative("lens-slope", lens(), &f, lens() * lens() / (&f * &f))
+            .assuming([&lens_f, &lens_g, &shorter]),
+        limit("far-side", one() / (one() / &f + one() / &g), &g, &f, Rate::Exactly(-(&f * &f / (&g + &f))))
+            .assuming([&lens_f, &lens_g]),
+        within("negative-divisor", once(&(&a / (&b - &c))), &a / (&c - &b) / &n)
+            .assuming([&stiff_a, &above_c]),
+        within("opposite-divisor", once(&(&a / -&b)), &a / &b / &n).assuming([&stiff_a, &stiff_b]),
+        positive("negative-exact", -(&a / (&b - &c))).assuming([&stiff_a, &above_c]),
+        within("quotient-of-quotients", once(&((&a / &b) / (&c / &d))), &a * &d / (&b * &c) / &n)
+            .assuming([&stiff_a, &stiff_b, &stiff_c, &stiff_d]),
+        equal("quotients-exact", &a / (&b / (&c / &d)), &a * &c / (&b * &d))
+            .assuming([&stiff_a, &stiff_b, &stiff_c, &stiff_d]),
         within(
             "rounded-divisor",
-            [&stiff_a, &stiff_b, &stiff_c],
             (&a / (&b / &c)).rounded() - &a * &c / &b,
             &a * &c / &b * Tree::int(3) / &n,
-        ),
+        )
+        .assuming([&stiff_a, &stiff_b, &stiff_c]),
         within(
             "rounded-operands",
-            [&stiff_a, &stiff_b],
             (a.nearest() / b.nearest()).nearest() - &a / &b,
             &a / &b * Tree::int(4) / &n,
-        ),
+        )
+        .assuming([&stiff_a, &stiff_b]),
         within(
             "rounded-difference",
-            [&stiff_a, &shorter],
             (&a / (&g - &f)).rounded() - &a / (&g - &f),
             &a / (&g - &f) * Tree::int(3) / &n,
-        ),
-        positive("rounded-negative", [&stiff_a, &shorter], -(&a / (&f - &g)).rounded()),
-        within("bracket", [&stiff_a, &stiff_b], once(&(&a / (&b + x.positive_part()))), &a / &b / &n),
-        positive("bracket-exact", [&stiff_a, &stiff_b], &a / (&b + x.positive_part())),
-        equal("bracket-shut", [&stiff_b, &at_least(&x)], &a / (&b + (-&x).positive_part()), &a / &b),
-        within(
-            "brackets",
-            [&stiff_a, &stiff_b],
-            once(&(&a / (&b + (&x - y.positive_part()).positive_part()))),
-            &a / &b / &n,
-        ),
-        positive("brackets-exact", [&stiff_b], one() / (&b + (&x - y.positive_part()).positive_part())),
+        )
+        .assuming([&stiff_a, &shorter]),
+        positive("rounded-negative", -(&a / (&f - &g)).rounded()).assuming([&stiff_a, &shorter]),
+        within("bracket", once(&(&a / (&b + x.positive_part()))), &a / &b / &n)
+            .assuming([&stiff_a, &stiff_b]),
+        positive("bracket-exact", &a / (&b + x.positive_part())).assuming([&stiff_a, &stiff_b]),
+        equal("bracket-shut", &a / (&b + (-&x).positive_part()), &a / &b).assuming([&stiff_b, &at_least(&x)]),
+        within("brackets", once(&(&a / (&b + (&x - y.positive_part()).positive_part()))), &a / &b / &n)
+            .assuming([&stiff_a, &stiff_b]),
+        positive("brackets-exact", one() / (&b + (&x - y.positive_part()).positive_part()))
+            .assuming([&stiff_b]),
         within(
             "rounded-bracket",
-            [&stiff_a, &stiff_b],
             (&a / (&b + x.positive_part())).rounded() - &a / (&b + x.positive_part()),
             &a / &b * Tree::int(3) / &n,
-        ),
-        within(
-            "bracket-over",
-            [&stiff_a],
-            once(&(x.nearest().positive_part() / &a)),
-            x.abs() / &a * Tree::int(2) / &n,
-        ),
-        within("steeper", [&stiff_b, &steeper], once(&(one() / (&a / &b - &c))), one() / (&a / &b - &c) / &n),
-        positive("steeper-exact", [&stiff_b, &steeper], &b / (&a - &b * &c)),
-        within("negative-lens", [&lens_f, &shorter], once(&(one() / (one() / &g - one() / &f))), lens() / &n),
-        within("minimum", [&stiff_a, &stiff_b, &stiff_c], once(&(&a / b.min(&c))), (&a / &b + &a / &c) / &n),
-        positive("minimum-exact", [&stiff_a, &stiff_b, &stiff_c], &a / b.min(&c)),
-        within("size", [&stiff_a, &stiff_b], once(&(&a / (&b + x.abs()))), &a / &b / &n),
-        positive("size-exact", [&stiff_b], one() / (&b + (&x - &y).abs())),
-        non_negative("order", [&shorter, &larger], (&x / (&g - &f)).nearest() - (&y / (&g - &f)).nearest()),
-        non_negative(
-            "order-by-lens",
-            [&lens_f, &lens_g, &shorter, &larger],
-            (&x * lens()).nearest() - (&y * lens()).nearest(),
-        ),
+        )
+        .assuming([&stiff_a, &stiff_b]),
+        within("bracket-over", once(&(x.nearest().positive_part() / &a)), x.abs() / &a * Tree::int(2) / &n)
+            .assuming([&stiff_a]),
+        within("steeper", once(&(one() / (&a / &b - &c))), one() / (&a / &b - &c) / &n)
+            .assuming([&stiff_b, &steeper]),
+        positive("steeper-exact", &b / (&a - &b * &c)).assuming([&stiff_b, &steeper]),
+        within("negative-lens", once(&(one() / (one() / &g - one() / &f))), lens() / &n)
+            .assuming([&lens_f, &shorter]),
+        within("minimum", once(&(&a / b.min(&c))), (&a / &b + &a / &c) / &n)
+            .assuming([&stiff_a, &stiff_b, &stiff_c]),
+        positive("minimum-exact", &a / b.min(&c)).assuming([&stiff_a, &stiff_b, &stiff_c]),
+        within("size", once(&(&a / (&b + x.abs()))), &a / &b / &n).assuming([&stiff_a, &stiff_b]),
+        positive("size-exact", one() / (&b + (&x - &y).abs())).assuming([&stiff_b]),
+        non_negative("order", (&x / (&g - &f)).nearest() - (&y / (&g - &f)).nearest())
+            .assuming([&shorter, &larger]),
+        non_negative("order-by-lens", (&x * lens()).nearest() - (&y * lens()).nearest())
+            .assuming([&lens_f, &lens_g, &shorter, &larger]),
         non_negative(
             "order-over-lens",
-            [&lens_f, &lens_g, &shorter, &larger],
             (&x / (one() / &f - one() / &g)).nearest() - (&y / (one() / &f - one() / &g)).nearest(),
-        ),
-        within(
-            "scale-divisor",
-            [&shorter, &stiff_a],
-            once(&(&a / (&scale * (&g - &f)))),
-            &a / (&scale * (&g - &f)) / &n,
-        ),
+        )
+        .assuming([&lens_f, &lens_g, &shorter, &larger]),
+        within("scale-divisor", once(&(&a / (&scale * (&g - &f)))), &a / (&scale * (&g - &f)) / &n)
+            .assuming([&shorter, &stiff_a]),
         equal(
             "scale-lens",
-            [&lens_f, &lens_g, &shorter, &power],
             (&scale * &x / (one() / &f - one() / &g)).nearest(),
             &scale * (&x / (one() / &f - one() / &g)).nearest(),
-        ),
-        equal(
-            "scale",
-            [&shorter, &power],
-            (&scale * &x / (&g - &f)).nearest(),
-            &scale * (&x / (&g - &f)).nearest(),
-        ),
-        within("product", [&product], once(&(one() / (&f * &g - one()))), one() / (&f * &g - one()) / &n),
-        equal("product-exact", [&product], one() / (&f * &g - one()) * (one() - &f * &g), -one()),
-        within("squares", [&stiff_a], once(&(one() / (&a * &a + &x * &x))), one() / (&a * &a) / &n),
-        positive("square", [], (one() / ((&x - &y) * (&x - &y) + one())).nearest()),
-        positive("square-exact", [], one() / (&x * &x - Tree::int(2) * &x * &y + &y * &y + one())),
-        within("equation", [&stiff_b, &sum], once(&(one() / (&c - &a))), one() / &b / &n),
-        equal("equation-exact", [&stiff_b, &sum], one() / (&c - &a), one() / &b),
-        within("geometric", [&below_one], once(&(one() / (one() - &x))), one() / (one() - &x) / &n),
-        within("exponential", [&stiff_a], once(&(one() / a.exp())), (-&a).exp() / &n),
-        equal("exponential-exact", [], one() / (one() / x.exp()), x.exp()),
-        within("both-signs", [&stiff_a, &shorter], once(&(&a / (&f - &g) + &a / (&g - &f) + &a)), &a / &n),
+        )
+        .assuming([&lens_f, &lens_g, &shorter, &power]),
+        equal("scale", (&scale * &x / (&g - &f)).nearest(), &scale * (&x / (&g - &f)).nearest())
+            .assuming([&shorter, &power]),
+        within("product", once(&(one() / (&f * &g - one()))), one() / (&f * &g - one()) / &n)
+            .assuming([&product]),
+        equal("product-exact", one() / (&f * &g - one()) * (one() - &f * &g), -one()).assuming([&product]),
+        within("squares", once(&(one() / (&a * &a + &x * &x))), one() / (&a * &a) / &n).assuming([&stiff_a]),
+        positive("square", (one() / ((&x - &y) * (&x - &y) + one())).nearest()),
+        positive("square-exact", one() / (&x * &x - Tree::int(2) * &x * &y + &y * &y + one())),
+        within("equation", once(&(one() / (&c - &a))), one() / &b / &n).assuming([&stiff_b, &sum]),
+        equal("equation-exact", one() / (&c - &a), one() / &b).assuming([&stiff_b, &sum]),
+        within("geometric", once(&(one() / (one() - &x))), one() / (one() - &x) / &n).assuming([&below_one]),
+        within("exponential", once(&(one() / a.exp())), (-&a).exp() / &n).assuming([&stiff_a]),
+        equal("exponential-exact", one() / (one() / x.exp()), x.exp()),
+        within("both-signs", once(&(&a / (&f - &g) + &a / (&g - &f) + &a)), &a / &n)
+            .assuming([&stiff_a, &shorter]),
     ]
 }

@@ -6,7 +6,7 @@ use crate::places::Places;
 use regex::{Captures, Regex};
 use spring_mass_contact::{
     claims::{Entry, claims, entry, exact_experiments, float_experiments, registry},
-    formula::{Hypothesis, Statement},
+    formula::Hypothesis,
     number::NumberSystem,
     proof::paper::Paper,
     verify::pages::{SECTIONS, heading, heading_of},
@@ -108,12 +108,13 @@ fn supposed() -> HashMap<(&'static str, &'static str), Supposed> {
     let rationals = exact_experiments().into_iter().map(|e| (e.equation, e.name, e.given));
     let tried = floats.chain(rationals).map(|(equation, name, g)| ((equation, name), (None, given(&g))));
     let recorded = claims().map(|claim| {
-        let statement = Statement::of(claim);
+        let statement = claim;
         // What is part of the proof is not supposed.
-        let supposed = claim.given.iter().filter(|given| statement.hypotheses.contains(given));
+        let supposed =
+            claim.stated_hypotheses().iter().filter(|given| statement.hypotheses().contains(given));
         let supposed: Vec<_> = supposed.cloned().collect();
         let text = Paper::new(registry()).claim(&statement);
-        ((claim.equation, claim.name), (Some(text), given(&supposed)))
+        ((claim.equation(), claim.name()), (Some(text), given(&supposed)))
     });
     tried.chain(recorded).collect()
 }

@@ -80,7 +80,7 @@ fn markdown(out: &mut dyn Write, entries: &[&Entry]) -> io::Result<()> {
     writeln!(out, "|---|---|---|---|---|---|")?;
     entries.iter().try_for_each(|e| {
         let function = function(e).map_or(String::new(), |f| format!("`{f}`"));
-        let (hypotheses, claims) = (e.hypotheses().join(", "), claim_names(e.equation).join(", "));
+        let (hypotheses, claims) = (e.format_hypotheses().join(", "), claim_names(e.equation).join(", "));
         let statement = e.statement().replace('|', "\\|");
         writeln!(out, "| {} | {} | {statement} | {hypotheses} | {function} | {claims} |", e.label(), e.title)
     })
@@ -95,7 +95,7 @@ fn details(out: &mut dyn Write, entry: &Entry) -> io::Result<()> {
         }
     };
     line("states", entry.statement());
-    line("if", entry.hypotheses().join(", "));
+    line("if", entry.format_hypotheses().join(", "));
     line("functions", entry.functions.join(", "));
     line("follows from", entry.follows_from.join(", "));
     line("claims", claim_names(entry.equation).join(", "));

@@ -4,7 +4,7 @@ use crate::output::{self, Exit, Failure, shortened};
 use crate::{args, solve};
 use clap::ValueEnum;
 use spring_mass_contact::claims::{Entry, entry, registry, statements};
-use spring_mass_contact::formula::{Statement, together};
+use spring_mass_contact::formula::together;
 use spring_mass_contact::proof::controls::{Change, Dropped, Effect, Without};
 use spring_mass_contact::proof::coq::LeftOut;
 use spring_mass_contact::proof::paper::{self, Paper};
@@ -67,7 +67,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     }
     let numbers = args::equations(&options.numbers)?;
     let statements = statements();
-    let empty = |number: &&String| statements.iter().all(|s| s.equation != number.as_str());
+    let empty = |number: &&String| statements.iter().all(|s| s.equation() != number.as_str());
     if let Some(empty) = numbers.iter().find(empty) {
         return Err(format!(
             "invalid value '{empty}' for '[NUMBER]...': nothing is proved of it; \
@@ -123,8 +123,8 @@ fn table(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
             Answer::None(..) => proved.hypotheses(),
         };
         table.add_row([
-            entry(statement.equation).map(Entry::label).unwrap_or_default(),
-            statement.name.to_string(),
+            entry(statement.equation()).map(Entry::label).unwrap_or_default(),
+            statement.name().to_string(),
             how(proved),
             hypotheses.join(", "),
             format!("{:.2}", time.as_secs_f64() * 1e3),
@@ -140,7 +140,7 @@ fn table(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
 /// What is not as it should be, each after a blank line.
 fn amiss(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
     for Proved { statement, answer, .. } in &proofs.claims {
-        let Statement { equation, name, .. } = statement;
+        let (equation, name) = (statement.equation(), statement.name());
         match answer {
             Answer::Proof(_) => {}
             Answer::None(why, None) => {
@@ -203,7 +203,7 @@ fn details(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
         if i > 0 {
             writeln!(out)?;
         }
-        if let Some(entry) = entry(claims[0].statement.equation) {
+        if let Some(entry) = entry(claims[0].statement.equation()) {
             writeln!(out, "{} {}", entry.label(), entry.title)?;
         }
         for proved in claims {
@@ -227,7 +227,7 @@ fn details(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
 
 fn account(out: &mut dyn Write, proofs: &Proofs, proved: &Proved) -> io::Result<()> {
     let Proved { statement, answer, .. } = proved;
-    writeln!(out, "{} ({})", statement.name, how(proved))?;
+    writeln!(out, "{} ({})", statement.name(), how(proved))?;
     let mut say = |what: &str, lines: &[String]| {
         lines.iter().enumerate().try_for_each(|(i, line)| {
             let what = if i == 0 { what } else { "" };
@@ -238,12 +238,12 @@ fn account(out: &mut dyn Write, proofs: &Proofs, proved: &Proved) -> io::Result<
         })
     };
     say("claim", &[paper().claim(statement)])?;
-    if !statement.hypotheses.is_empty() {
+    if !statement.hypotheses().is_empty() {
         say("if", &[proved.hypotheses().join(", ")])?;
     }
     let always = paper().always(statement);
     if !always.is_empty() {
-        let every = statement.amounts_to.as_ref().map(|_| format!(" for every {}", paper().index(statement)));
+        let every = statement.conclusion().map(|_| format!(" for every {}", paper().index(statement)));
         let every = every.unwrap_or_default();
         say("always", &[format!("{}{every}, which is part of the proof", always.join(", "))])?;
     }
@@ -259,7 +259,7 @@ fn account(out: &mut dyn Write, proofs: &Proofs, proved: &Proved) -> io::Result<
         Without::StillTrue | Without::Unknown => None,
     });
     say("needs", &needed.collect::<Vec<_>>())?;
-    let sharp = statement.rounds().then(|| sharpest(statement)).flatten().map(|(point, share)| {
+    let sharp = statement.contains_rounding().then(|| sharpest(statement)).flatten().map(|(point, share)| {
         let percent = (100.0 * share.as_rational().to_f64()).floor();
         format!("{percent} % of the bound are used up at {}", output::glued(&point))
     });
@@ -270,7 +270,7 @@ fn markdown(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
     writeln!(out, "| number | claim | says | if | how | status |")?;
     writeln!(out, "|---|---|---|---|---|---|")?;
     proofs.claims.iter().try_for_each(|proved| {
-        let Statement { equation, name, .. } = &proved.statement;
+        let (equation, name) = (proved.statement.equation(), proved.statement.name());
         // In a cell of a table.
         let [says, given] = [paper().claim(&proved.statement), proved.hypotheses().join(", ")]
             .map(|text| text.replace('|', "\\|"));
@@ -283,14 +283,14 @@ fn markdown(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
 mod tests {
     use super::*;
     use spring_mass_contact::formula::Hypothesis;
-    use spring_mass_contact::formula::statement::Says;
+    use spring_mass_contact::formula::statement::Proposition;
     use spring_mass_contact::number::{Field, Tree};
 
     /// A run in which every equality is wrong by 1.
     fn refuted() -> Proofs {
         let wrong = |mut statement: Statement| {
-            for goal in &mut statement.goals {
-                if let Says::Equal(_, right) = &mut goal.says {
+            for goal in &mut statement.goals() {
+                if let Proposition::Equal(_, right) = &mut goal.proposition {
                     *right = &*right + Tree::int(1);
                 }
             }
@@ -300,7 +300,7 @@ mod tests {
     }
 
     fn claim(name: &str) -> Statement {
-        statements().into_iter().find(|statement| statement.name == name).unwrap()
+        statements().into_iter().find(|statement| statement.name() == name).unwrap()
     }
 
     /// A size in a hypothesis ends no cell.

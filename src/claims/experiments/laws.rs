@@ -4,8 +4,8 @@ use super::super::{Case, claims, given, symbols};
 use super::{Experiment, MOST_STEPS, STEPS, Trial, UNITS, check, exact, power_of_two};
 use crate::chapter::{augmented, structure, system};
 use crate::formula::claim::{MEMBERS, POWER, PRECISION, SCALES};
-use crate::formula::statement::{Sequence, Statement};
-use crate::formula::{Claim, Hypothesis, Kind, Relation};
+use crate::formula::statement::{Role, Sequence};
+use crate::formula::{Hypothesis, Proposition, Relation, Statement};
 use crate::number::tree::{Step, piecewise};
 use crate::number::{Exact, PositivePart, Real, ToExact, Tree};
 use crate::solver::{Augmentation, Plane, Scalar};
@@ -14,19 +14,19 @@ use std::cmp::Ordering;
 
 /// An experiment for each claim that speaks of what is rounded: it holds of what is computed.
 pub(super) fn laws<T: Scalar + Real + ToExact>() -> Vec<Experiment<T>> {
-    claims().filter(|claim| claim.rounds()).map(experiment).collect()
+    claims().filter(|claim| claim.contains_rounding()).map(experiment).collect()
 }
 
-fn experiment<T: Scalar + Real + ToExact>(claim: &Claim) -> Experiment<T> {
-    let (statement, kind) = (Statement::of(claim), claim.kind.clone());
+fn experiment<T: Scalar + Real + ToExact>(claim: &Statement) -> Experiment<T> {
+    let hypotheses = claim.stated_hypotheses();
     // Where λ repeats has to be found.
-    let repeats = claim.given.contains(&given().computed_repeats);
-    let of_rounding = vanishes(&kind);
+    let repeats = hypotheses.contains(&given().computed_repeats);
+    let (of_rounding, own) = (vanishes(claim), claim.clone());
     Experiment {
-        equation: claim.equation,
-        name: claim.name,
-        given: claim.given.iter().filter(|given| is_of_parameters(given)).cloned().collect(),
-        check: check(move |case: &Case<T>| match law(&statement, &kind, repeats, case) {
+        equation: claim.equation(),
+        name: claim.name(),
+        given: hypotheses.iter().filter(|given| is_of_parameters(given)).cloned().collect(),
+        check: check(move |case: &Case<T>| match law(&own, repeats, case) {
             Some(Trial::Within { error, bound }) if !of_rounding => Trial::Decided(error <= bound),
             trial => trial.unwrap_or(Trial::Undecided),
         }),
@@ -39,8 +39,8 @@ fn is_of_parameters(given: &Hypothesis) -> bool {
 }
 
 /// Does a bound vanish with η? Of one that does not, rounding uses up no share.
-fn vanishes(kind: &Kind) -> bool {
-    let Kind::Within(_, bound) = kind else { return true };
+fn vanishes(claim: &Statement) -> bool {
+    let Some(Proposition::Within(_, bound)) = proposition(claim) else { return true };
     let at = |bits: i32| {
         let number = |name| if name == PRECISION { Exact::power_of_two(bits) } else { Exact::from(2) };
         bound.replay(&number, &|step| match step {
@@ -59,18 +59,24 @@ pub(super) fn in_range<T: Scalar + Real + ToExact>(case: &Case<T>) -> bool {
     Floats::of(case).is_some_and(|floats| formulas.iter().all(|f| floats.compute(&f.rounded()).is_some()))
 }
 
-fn law<T>(statement: &Statement, kind: &Kind, repeats: bool, case: &Case<T>) -> Option<Trial>
+/// The proposition of a claim that is not about a sequence.
+fn proposition(claim: &Statement) -> Option<&Proposition> {
+    let mut goals = claim.goals().iter().filter(|goal| goal.role == Role::Claim);
+    goals.next().map(|goal| &goal.proposition)
+}
+
+fn law<T>(statement: &Statement, repeats: bool, case: &Case<T>) -> Option<Trial>
 where
     T: Scalar + Real + ToExact,
 {
     let mut floats = Floats::of(case)?;
-    if let Kind::Drift { .. } = kind {
+    if statement.conclusion().is_some() {
         return floats.follow(statement);
     }
     if repeats {
         floats.find_repeat()?;
     }
-    floats.check(statement, kind)
+    floats.check(statement)
 }
 
 /// Numbers as they are computed, and as they are.
@@ -152,27 +158,27 @@ impl<'a, T: Scalar + Real + ToExact> Floats<'a, T> {
     /// `None` unless all hypotheses hold.
     fn suppose(&self, statement: &Statement) -> Option<()> {
         let holds = |given: &Hypothesis| self.has_sign(given.relation, &given.value) == Some(true);
-        statement.hypotheses.iter().all(holds).then_some(())
+        statement.hypotheses().iter().all(holds).then_some(())
     }
 
-    fn check(&mut self, statement: &Statement, kind: &Kind) -> Option<Trial> {
-        if let Some(computed) = &statement.computed {
+    fn check(&mut self, statement: &Statement) -> Option<Trial> {
+        if let Some(computed) = statement.computed() {
             let number = self.compute(&computed.by)?;
             self.computed.push((computed.symbol, number));
         }
         self.suppose(statement)?;
-        Some(match kind {
-            Kind::Within(of, bound) => within(self.value(of)?, self.value(bound)?),
-            Kind::Equal(left, right) => Trial::Decided(self.value(left)? == self.value(right)?),
-            Kind::Sign(relation, of) => Trial::Decided(self.has_sign(*relation, of)?),
+        Some(match proposition(statement)? {
+            Proposition::Within(of, bound) => within(self.value(of)?, self.value(bound)?),
+            Proposition::Equal(left, right) => Trial::Decided(self.value(left)? == self.value(right)?),
+            Proposition::Sign(relation, of) => Trial::Decided(self.has_sign(*relation, of)?),
             _ => return None,
         })
     }
 
     /// A sequence for some steps, and where it comes nearest to its bounds.
     fn follow(&mut self, statement: &Statement) -> Option<Trial> {
-        let Sequence { start, step, ratio, within: bounds, .. } = statement.amounts_to.as_ref()?;
-        let ([start], [step], computed) = (&start[..], &step[..], statement.computed.as_ref()?) else {
+        let Sequence { start, step, ratio, within: bounds, .. } = statement.conclusion()?;
+        let ([start], [step], computed) = (&start[..], &step[..], statement.computed()?) else {
             return None;
         };
         self.suppose(statement)?;

@@ -1,7 +1,6 @@
 //! What can be changed in a formula.
 
-use crate::formula::statement::{Computed, Goal, Says, Sequence};
-use crate::formula::{Hypothesis, Registry, Statement};
+use crate::formula::{Proposition, Registry, Statement};
 use crate::number::Tree;
 use crate::number::tree::{Site, Step};
 use crate::proof::prove;
@@ -247,10 +246,7 @@ impl Change {
 
     /// The statement after the change, in its hypotheses and its goals; `None` if it does not touch it.
     pub fn apply(&self, statement: &Statement) -> Option<Statement> {
-        statement
-            .trees()
-            .any(|tree| self.touches(tree))
-            .then(|| mapped(statement, &|tree| self.rewrite(tree)))
+        statement.trees().any(|tree| self.touches(tree)).then(|| statement.map(&|tree| self.rewrite(tree)))
     }
 
     fn touches(&self, tree: &Tree) -> bool {
@@ -276,48 +272,11 @@ impl Change {
         if !self.touches(tree) {
             return true;
         }
-        let equal = |after| {
-            let says = Says::Equal(tree.clone(), after);
-            let goals = vec![Goal::of_claim("unchanged", says)];
-            prove(&Statement { goals, ..statement.clone() }).is_ok()
-        };
+        let equal =
+            |after| prove(&statement.with_proposition(Proposition::Equal(tree.clone(), after))).is_ok();
         registry.has_site(&tree.site()) && equal(self.rewrite(tree))
             || self.edit(tree).is_none()
                 && tree.step().operands().all(|operand| self.keeps(operand, statement, registry))
-    }
-}
-
-/// A statement with every formula changed.
-fn mapped(statement: &Statement, f: &impl Fn(&Tree) -> Tree) -> Statement {
-    let all = |trees: &[Tree]| trees.iter().map(f).collect();
-    let hypotheses =
-        |given: &[Hypothesis]| given.iter().map(|h| Hypothesis { value: f(&h.value), ..h.clone() }).collect();
-    let says = |says: &Says| match says {
-        Says::Equal(a, b) => Says::Equal(f(a), f(b)),
-        Says::Sign(relation, a) => Says::Sign(*relation, f(a)),
-        Says::Within(a, b) => Says::Within(f(a), f(b)),
-        Says::Derivative(a, by, b) => Says::Derivative(f(a), by, f(b)),
-        Says::Limit(a, by, b) => Says::Limit(f(a), by, f(b)),
-    };
-    let sequence = |s: &Sequence| Sequence {
-        start: all(&s.start),
-        step: all(&s.step),
-        ratio: f(&s.ratio),
-        member: all(&s.member),
-        limit: s.limit.as_ref().map(f),
-        within: s.within.iter().map(|(of, bound)| (f(of), f(bound))).collect(),
-    };
-    let computed = |c: &Computed| {
-        let hypothesis = Hypothesis { value: f(&c.hypothesis.value), ..c.hypothesis.clone() };
-        Computed { by: f(&c.by), hypothesis, ..c.clone() }
-    };
-    Statement {
-        hypotheses: hypotheses(&statement.hypotheses),
-        invariants: hypotheses(&statement.invariants),
-        computed: statement.computed.as_ref().map(computed),
-        goals: statement.goals.iter().map(|goal| Goal { says: says(&goal.says), ..goal.clone() }).collect(),
-        amounts_to: statement.amounts_to.as_ref().map(sequence),
-        ..statement.clone()
     }
 }
 
@@ -404,16 +363,15 @@ mod tests {
         let [q, u, v, x] = ["q", "u", "v", "x₁"].map(|name| Tree::symbol(name));
         let given = [Hypothesis::near(&u, &v, 0), Hypothesis::near(&q, 0, 1), Hypothesis::near(&v, 0, 2)];
         let [of_u, of_q, of_v] = &given;
-        let claim = drift("stays", [of_u, of_q, of_v], 1, &v, Tree::clone, (v.clone(), u.clone()), |x| {
-            [(x - &v, u.clone())]
-        });
+        let claim = drift("stays", 1, &v, Tree::clone, (v.clone(), u.clone()), |x| [(x - &v, u.clone())])
+            .assuming([of_u, of_q, of_v]);
         let statement = Statement::of(&claim.computing(&u, &v));
         let changed = mapped(&statement, &|tree| -tree);
         let negated = |trees: Vec<&Tree>| trees.into_iter().map(|tree| -tree).collect::<Vec<_>>();
         assert_eq!(changed.trees().cloned().collect::<Vec<_>>(), negated(statement.trees().collect()));
-        assert!([statement.hypotheses.len(), statement.invariants.len()].iter().all(|n| *n > 0));
+        assert!([statement.hypotheses().len(), statement.invariants().len()].iter().all(|n| *n > 0));
         assert_eq!(changed.computed.map(|computed| computed.by), Some(-&v));
-        let Sequence { start, step, ratio, member, within, .. } = changed.amounts_to.unwrap();
+        let Sequence { start, step, ratio, member, within, .. } = changed.conclusion().unwrap();
         let all = [start, step, vec![ratio], member].concat();
         assert_eq!(all, negated(vec![&v, &x, &Tree::from(1), &v]));
         assert_eq!(within, [(-(&x - &v), -&u), (-(&x - &v), -&u)]);

@@ -7,7 +7,7 @@ use super::print::ascii;
 use super::script::Script;
 use crate::formula::Hypothesis;
 use crate::formula::claim::{MEMBERS, POWER};
-use crate::formula::statement::{Computed, Role, Says, Sequence};
+use crate::formula::statement::{Computed, Proposition, Role, Sequence};
 use crate::number::Tree;
 use std::fmt::Write;
 
@@ -40,7 +40,7 @@ impl<'a> Law<'a> {
     /// A sequence that stays near another.
     pub(super) fn drift(&self, sequence: &Sequence, computed: &Computed) -> Result<String> {
         let (lemmas, text) = self.lemmas()?;
-        let [of_q, of_x] = &self.statement.invariants[..] else {
+        let [of_q, of_x] = &self.statement.invariants()[..] else {
             return Err("a sequence with other invariants than of a power and a member".into());
         };
         let drift = Drift::new(self, sequence, computed);
@@ -56,13 +56,13 @@ impl<'a> Law<'a> {
     fn lemmas(&self) -> Result<(Lemmas<'a>, String)> {
         let mut text = String::new();
         let (mut near, mut begins, mut continues, mut hence) = (vec![], vec![], vec![], vec![]);
-        for (goal, i) in self.statement.goals.iter().zip(1..) {
+        for (goal, i) in self.statement.goals().iter().zip(1..) {
             let (part, lemma) = self.lemma("Lemma", format!("{}_{i}", self.name), goal)?;
             text += &lemma;
             match goal.role {
                 Role::Computed => near.push(part),
-                Role::Begins => begins.push(part),
-                Role::Continues => continues.push(part),
+                Role::InvariantBase => begins.push(part),
+                Role::InvariantStep => continues.push(part),
                 Role::Claim | Role::Step => hence.push(part),
             }
         }
@@ -124,8 +124,9 @@ impl<'d, 'a> Drift<'d, 'a> {
     /// Each member is near, and so is what is computed from it.
     fn says(&self) -> String {
         let ([let_q, let_x], [_, u], by) = (self.lets(), self.names(), &self.by);
-        let bound =
-            |(of, bound): &(Tree, Tree)| says(&Says::Within(of.clone(), bound.clone()), self.law.printer);
+        let bound = |(of, bound): &(Tree, Tree)| {
+            says(&Proposition::Within(of.clone(), bound.clone()), self.law.printer)
+        };
         let bounds: Vec<_> = self.sequence.within.iter().map(bound).collect();
         let bounds = bounds.join(" /\\\n    ");
         format!("forall n : nat, {let_q}\n    {let_x}\n    let {u} := {by} in\n    {bounds}")

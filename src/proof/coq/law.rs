@@ -2,13 +2,11 @@
 //! rule for what is half-way.
 
 use super::expr::Expr;
-use super::lemma::{
-    Result, divisors, labels, names, none_is_zero, numbered, only_derivation, says, supposed,
-};
+use super::lemma::{Result, derivation, divisors, labels, names, none_is_zero, numbered, says, supposed};
 use super::print::{Printer, ascii};
 use super::script::{Reason, Script, first};
 use crate::formula::claim::{MEMBERS, PRECISION, SCALES};
-use crate::formula::statement::{Computed, Goal, Role, Says, Statement, two_bits};
+use crate::formula::statement::{Computed, Goal, Proposition, Role, Statement, minimum_precision};
 use crate::formula::{Hypothesis, Relation};
 use crate::number::Tree;
 use crate::number::tree::Step;
@@ -97,12 +95,12 @@ impl Part<'_> {
 impl<'a> Law<'a> {
     /// Its lemmas and the theorem itself.
     pub(super) fn text(&self) -> Result<String> {
-        let Statement { goals, computed, amounts_to, .. } = self.statement;
+        let statement = self.statement;
         if self.statement.trees().any(|tree| tree.any(&|step| matches!(step.step(), Step::Exp(_)))) {
             return Err("an exponential in a claim about what is rounded".into());
         }
-        let sequence = amounts_to.as_ref().filter(|sequence| !sequence.within.is_empty());
-        let text = match (sequence, computed, goals.as_slice()) {
+        let sequence = statement.conclusion().filter(|sequence| sequence.is_perturbed());
+        let text = match (sequence, statement.computed(), statement.goals()) {
             (Some(sequence), Some(computed), _) => self.drift(sequence, computed)?,
             (None, Some(computed), [near, goal]) => self.computing(computed, near, goal)?,
             (None, None, [goal]) => self.lemma("Theorem", self.name.to_string(), goal)?.1,
@@ -116,7 +114,7 @@ impl<'a> Law<'a> {
     where
         'a: 't,
     {
-        self.part(self.name.to_string(), &self.hypotheses(Role::Begins), trees)
+        self.part(self.name.to_string(), &self.statement.hypotheses_for(Role::InvariantBase), trees)
     }
 
     fn part<'t>(
@@ -133,26 +131,18 @@ impl<'a> Law<'a> {
         if !variables.contains(&PRECISION) {
             variables.push(PRECISION);
         }
-        let hypotheses = hypotheses.iter().copied().filter(|h| **h != two_bits()).collect();
+        let hypotheses = hypotheses.iter().copied().filter(|h| **h != minimum_precision()).collect();
         Part { name, hypotheses, variables }
     }
 
-    /// What is supposed where a goal is to be shown.
-    fn hypotheses(&self, role: Role) -> Vec<&'a Hypothesis> {
-        let Statement { hypotheses, invariants, computed, .. } = self.statement;
-        let invariants = matches!(role, Role::Computed | Role::Step | Role::Continues).then_some(invariants);
-        let computed = matches!(role, Role::Claim | Role::Step | Role::Continues).then_some(computed);
-        let computed = computed.into_iter().flatten().map(|computed| &computed.hypothesis);
-        hypotheses.iter().chain(invariants.into_iter().flatten()).chain(computed).collect()
-    }
-
-    /// The same, but nothing of a member nor of what is computed from it where it speaks of neither.
+    /// Returns the hypotheses for a goal, without those on a member and the quantity computed from it if the goal
+    /// contains neither.
     fn needed(&self, goal: &Goal) -> Vec<&'a Hypothesis> {
-        let computed = self.statement.computed.as_ref().map(|computed| computed.symbol);
+        let computed = self.statement.computed().map(|computed| computed.symbol);
         let own = |name: &&str| *name == MEMBERS[0] || Some(*name) == computed;
         let speaks_of_it = |tree: &Tree| tree.symbols().iter().any(own);
-        let mut hypotheses = self.hypotheses(goal.role);
-        if !goal.says.trees().into_iter().any(speaks_of_it) {
+        let mut hypotheses = self.statement.hypotheses_for(goal.role);
+        if !goal.proposition.trees().into_iter().any(speaks_of_it) {
             hypotheses.retain(|h| !speaks_of_it(&h.value));
         }
         hypotheses
@@ -161,25 +151,13 @@ impl<'a> Law<'a> {
     /// A lemma for a goal.
     pub(super) fn lemma(&self, keyword: &str, name: String, goal: &Goal) -> Result<(Part<'a>, String)> {
         let hypotheses = self.needed(goal);
-        let part = self.part(name, &hypotheses, goal.says.trees().into_iter());
+        let part = self.part(name, &hypotheses, goal.proposition.trees().into_iter());
         let mut script = Script::of_roundings();
         script.line(&format!("{} functions.", part.intros()));
         part.signs_of_scales(&mut script);
-        self.proof(&mut script, &self.derivation(&hypotheses, goal)?)?;
-        let text = part.text(keyword, &says(&goal.says, self.printer), script, self.printer);
+        self.proof(&mut script, &derivation(&hypotheses, &goal.proposition)?)?;
+        let text = part.text(keyword, &says(&goal.proposition, self.printer), script, self.printer);
         Ok((part, text))
-    }
-
-    /// Of a goal, where these are all that is supposed.
-    fn derivation(&self, hypotheses: &[&Hypothesis], goal: &Goal) -> Result<Derivation> {
-        let own = self.statement;
-        let is_supposed = |hypothesis: &Hypothesis| hypotheses.contains(&hypothesis);
-        only_derivation(&Statement {
-            invariants: own.invariants.iter().filter(|own| is_supposed(own)).cloned().collect(),
-            computed: own.computed.clone().filter(|computed| is_supposed(&computed.hypothesis)),
-            goals: vec![goal.clone()],
-            ..own.clone()
-        })
     }
 
     /// No divisor is 0; empty if there is none.
@@ -192,7 +170,7 @@ impl<'a> Law<'a> {
             return Ok(String::new());
         }
         let name = format!("{}_defined", self.name);
-        let hypotheses = self.hypotheses(Role::Begins);
+        let hypotheses = self.statement.hypotheses_for(Role::InvariantBase);
         let part = self.part(name, &hypotheses, divisors.iter());
         let mut script = Script::of_roundings();
         script.line(&format!("{} functions.", part.intros()));
@@ -205,9 +183,7 @@ impl<'a> Law<'a> {
                 tactic += "apply fl_not_zero; [exact P | ]. ";
                 exact = inner;
             }
-            let signed = |value: Tree| {
-                self.derivation(&hypotheses, &Goal::of_claim("", Says::Sign(Relation::Positive, value)))
-            };
+            let signed = |value: Tree| derivation(&hypotheses, &Proposition::Sign(Relation::Positive, value));
             let (rule, derivation) = match signed(exact.clone()) {
                 Ok(derivation) => ("positive_not_zero", derivation),
                 Err(_) => ("negative_not_zero", signed(-exact)?),
@@ -270,7 +246,7 @@ impl<'a> Law<'a> {
     fn computing(&self, computed: &Computed, near: &Goal, goal: &Goal) -> Result<String> {
         let (near, near_text) = self.lemma("Lemma", format!("{}_computed", self.name), near)?;
         let (rest, rest_text) = self.lemma("Lemma", format!("{}_nearby", self.name), goal)?;
-        let Says::Within(of, bound) = &goal.says else {
+        let Proposition::Within(of, bound) = &goal.proposition else {
             return Err("a computed quantity in a claim that is no bound".into());
         };
         let [of, bound] = [of, bound].map(|tree| tree.with(&[(computed.symbol, computed.by.clone())]));
@@ -281,7 +257,7 @@ impl<'a> Law<'a> {
         let mut script = Script::new();
         script.line(&theorem.intros());
         script.line(&format!("exact ({proof})."));
-        let says = says(&Says::Within(of, bound), self.printer);
+        let says = says(&Proposition::Within(of, bound), self.printer);
         Ok(near_text + &rest_text + &theorem.text("Theorem", &says, script, self.printer))
     }
 }

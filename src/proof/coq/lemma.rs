@@ -2,13 +2,13 @@
 
 use super::print::{Printer, ascii};
 use super::script::Script;
-use crate::formula::statement::{Goal, Says, Statement};
 use crate::formula::{Hypothesis, Registry, Relation};
+use crate::formula::{Proposition, Statement};
 use crate::number::Tree;
 use crate::number::tree::Step;
+use crate::proof::kernel;
 use crate::proof::kernel::Derivation;
 use crate::proof::paper::Paper;
-use crate::proof::prove;
 
 /// Why a claim cannot be printed.
 pub(super) type Result<T> = std::result::Result<T, String>;
@@ -19,7 +19,7 @@ pub(super) struct Lemma<'a> {
     pub(super) name: String,
     pub(super) printer: Printer<'a>,
     pub(super) hypotheses: Vec<&'a Hypothesis>,
-    pub(super) says: &'a Says,
+    pub(super) proposition: &'a Proposition,
     pub(super) defined: Option<Defined>,
 }
 
@@ -85,22 +85,22 @@ fn premises(hypotheses: &[&Hypothesis], printer: Printer) -> String {
 
 pub(super) fn supposed(hypothesis: &Hypothesis, printer: Printer) -> String {
     match hypothesis.distance() {
-        Some((distance, most)) => says(&Says::Within(distance, most.clone()), printer.plain()),
+        Some((distance, most)) => says(&Proposition::Within(distance, most.clone()), printer.plain()),
         None => printer.plain().expr(&hypothesis.value).relation(hypothesis.relation),
     }
 }
 
-pub(super) fn says(says: &Says, printer: Printer) -> String {
+pub(super) fn says(says: &Proposition, printer: Printer) -> String {
     let of = |tree: &Tree| printer.expr(tree);
     let under = |var: &str, tree: &Tree| format!("(fun {} => {})", ascii(var), of(tree));
     match says {
-        Says::Equal(a, b) => format!("{} = {}", of(a), of(b)),
-        Says::Sign(relation, a) => of(a).relation(*relation),
-        Says::Within(a, bound) => format!("Rabs {} <= {}", of(a).argument(), of(bound)),
-        Says::Derivative(a, by, b) => {
+        Proposition::Equal(a, b) => format!("{} = {}", of(a), of(b)),
+        Proposition::Sign(relation, a) => of(a).relation(*relation),
+        Proposition::Within(a, bound) => format!("Rabs {} <= {}", of(a).argument(), of(bound)),
+        Proposition::Derivative(a, by, b) => {
             format!("is_derive {}\n    {}\n    {}", under(by, a), ascii(by), of(b).argument())
         }
-        Says::Limit(a, by, b) => format!("is_lim {} p_infty {}", under(by, a), of(b).argument()),
+        Proposition::Limit(a, by, b) => format!("is_lim {} p_infty {}", under(by, a), of(b).argument()),
     }
 }
 
@@ -138,10 +138,8 @@ pub(super) fn divisors_script(
     printer: Printer,
 ) -> Result<()> {
     for (i, divisor) in divisors.iter().enumerate() {
-        let signed = |value: &Tree| {
-            let goal = Goal::of_claim("", Says::Sign(Relation::Positive, value.clone()));
-            derivation(hypotheses, goal)
-        };
+        let signed =
+            |value: &Tree| derivation(hypotheses, &Proposition::Sign(Relation::Positive, value.clone()));
         let (rule, derivation) = match signed(divisor) {
             Ok(derivation) => ("positive_not_zero", derivation),
             Err(_) => ("negative_not_zero", signed(&-divisor)?),
@@ -155,23 +153,19 @@ pub(super) fn divisors_script(
     Ok(())
 }
 
-pub(super) fn derivation(hypotheses: &[&Hypothesis], goal: Goal) -> Result<Derivation> {
-    let hypotheses = hypotheses.iter().map(|h| (*h).clone()).collect();
-    only_derivation(&Statement { hypotheses, goals: vec![goal], ..Statement::default() })
-}
-
-/// Of a statement with one goal.
-pub(super) fn only_derivation(statement: &Statement) -> Result<Derivation> {
-    let proof = prove(statement).map_err(|why| {
-        let why = Paper::new(&Registry::default()).why(statement, &why);
+/// # Errors
+/// Returns the reason if the kernel finds no derivation.
+pub(super) fn derivation(hypotheses: &[&Hypothesis], proposition: &Proposition) -> Result<Derivation> {
+    kernel::derivation(hypotheses, proposition).map_err(|why| {
+        let statement = Statement::new("", proposition.clone()).assuming(hypotheses.iter().copied());
+        let why = Paper::new(&Registry::default()).why(&statement, &why);
         format!("there is no proof to follow: {why}")
-    })?;
-    Ok(proof.goals()[0].clone())
+    })
 }
 
 impl<'a> Lemma<'a> {
     pub(super) fn trees(&self) -> impl Iterator<Item = &Tree> {
-        self.hypotheses.iter().map(|h| &h.value).chain(self.says.trees())
+        self.hypotheses.iter().map(|h| &h.value).chain(self.proposition.trees())
     }
 
     pub(super) fn variables(&self) -> Vec<&'static str> {
@@ -181,10 +175,6 @@ impl<'a> Lemma<'a> {
     /// Its name, applied to its variables by name and to its hypotheses as H1, H2, …
     pub(super) fn applied(&self) -> String {
         format!("{}{}{}", self.name, names(&self.variables()), labels(self.hypotheses.len()))
-    }
-
-    pub(super) fn goal(&self) -> Goal {
-        Goal::of_claim("", self.says.clone())
     }
 
     /// The lemma with its proof.
@@ -199,8 +189,8 @@ impl<'a> Lemma<'a> {
             None => divisors_script(&mut script, &self.hypotheses, &divisors(self.trees()), self.printer)?,
         }
         script.line("functions.");
-        script.derivation(&derivation(&self.hypotheses, self.goal())?)?;
-        let says = says(self.says, self.printer);
+        script.derivation(&derivation(&self.hypotheses, self.proposition)?)?;
+        let says = says(self.proposition, self.printer);
         Ok(stated(keyword, &self.name, &variables, &self.hypotheses, &says, script, self.printer))
     }
 }

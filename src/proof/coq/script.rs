@@ -8,7 +8,7 @@ mod limit;
 
 use super::expr::Expr;
 use super::print::ascii;
-use crate::formula::statement::two_bits;
+use crate::formula::statement::minimum_precision;
 use crate::number::Tree;
 use crate::number::tree::Step;
 use crate::proof::kernel::algebra::{Monomial, Poly, Ratio, Symbol};
@@ -85,7 +85,7 @@ impl Script {
     fn hypotheses(&mut self, direct: &Direct) -> Result<(), Reason> {
         let next = direct.supposed().iter().skip(self.supposed);
         for supposed in next.take_while(|supposed| supposed.given().is_some()) {
-            let says_bits = supposed.given().is_some_and(|given| *given == two_bits());
+            let says_bits = supposed.given().is_some_and(|given| *given == minimum_precision());
             self.given += usize::from(!says_bits);
             let label = if says_bits { "M".to_string() } else { format!("H{}", self.given) };
             self.suppose(supposed, &label)?;
@@ -96,7 +96,8 @@ impl Script {
     /// One rounded formula is no less than another, from hypotheses H1, H2, …
     pub(super) fn order(&mut self, direct: &Direct, precision: &str) -> Result<(), Reason> {
         let rounds = |supposed: &Supposed| supposed.given().is_some_and(|given| given.value.rounds());
-        let says_bits = |supposed: &Supposed| supposed.given().is_some_and(|given| *given == two_bits());
+        let says_bits =
+            |supposed: &Supposed| supposed.given().is_some_and(|given| *given == minimum_precision());
         let is_solved = |supposed: &Supposed| {
             matches!(supposed.used(), Used::Pivot(..)) && !rounds(supposed) && !says_bits(supposed)
         };

@@ -10,8 +10,8 @@ use super::print::{Printer, ascii, free};
 use super::script::Script;
 use super::{identifier, theorem_name};
 use crate::formula::claim::{MEMBERS, POWER};
-use crate::formula::statement::{Goal, Role, Statement};
-use crate::formula::{Claim, Hypothesis, Kind, Relation};
+use crate::formula::statement::{Goal, Role, Sequence};
+use crate::formula::{Hypothesis, Proposition, Relation, Statement};
 use crate::number::Tree;
 use crate::number::tree::Step;
 
@@ -19,17 +19,16 @@ use std::fmt::Write;
 
 /// A claim, to be printed.
 pub(super) struct Theorem<'a> {
-    claim: &'a Claim,
     /// What it says, it says in the names of the functions that it is about.
     printer: Printer<'a>,
-    statement: Statement,
+    statement: &'a Statement,
     name: String,
 }
 
 impl<'a> Theorem<'a> {
-    pub(super) fn new(claim: &'a Claim, printer: Printer<'a>) -> Self {
-        let name = theorem_name(claim.equation, claim.name);
-        Theorem { claim, printer, statement: Statement::of(claim), name }
+    pub(super) fn new(statement: &'a Statement, printer: Printer<'a>) -> Self {
+        let name = theorem_name(statement.equation(), statement.name());
+        Theorem { printer, statement, name }
     }
 
     /// A formula that it speaks of.
@@ -44,13 +43,13 @@ impl<'a> Theorem<'a> {
     /// Its hypotheses, but for those on one coordinate.
     fn hypotheses(&self, without: Option<&str>) -> Vec<&Hypothesis> {
         let keeps = |h: &&Hypothesis| without.is_none_or(|symbol| !depends(&h.value, symbol));
-        self.statement.supposed().filter(keeps).collect()
+        self.statement.all_hypotheses().filter(keeps).collect()
     }
 
     /// What says that no divisor is 0, if there is any.
     fn defined(&self) -> Option<Defined> {
         let divisors = divisors(self.statement.trees());
-        let hypotheses = self.statement.supposed().map(|h| &h.value);
+        let hypotheses = self.statement.all_hypotheses().map(|h| &h.value);
         let variables = self.variables(hypotheses.chain(&divisors));
         (!divisors.is_empty()).then(|| Defined {
             name: format!("{}_defined", self.name),
@@ -61,19 +60,19 @@ impl<'a> Theorem<'a> {
 
     /// The same, if these are all its hypotheses.
     fn recalled(&self, hypotheses: &[&Hypothesis]) -> Option<Defined> {
-        self.defined().filter(|_| hypotheses.len() == self.statement.supposed().count())
+        self.defined().filter(|_| hypotheses.len() == self.statement.all_hypotheses().count())
     }
 
     /// The lemma for one of its goals. If that is all that the claim says, it is the theorem.
     fn lemma(&self, i: usize, without: Option<&str>) -> Lemma<'_> {
-        let goals = &self.statement.goals;
+        let goals = self.statement.goals();
         let part = goals[i].part;
         let alike = |goals: &[Goal]| goals.iter().filter(|goal| goal.part == part).count();
         let number = if alike(goals) > 1 { alike(&goals[..=i]).to_string() } else { String::new() };
         let name = free(identifier(&format!("{} {part} {number}", self.name)));
         let hypotheses = self.hypotheses(without);
         let defined = self.recalled(&hypotheses);
-        Lemma { name, printer: self.printer, hypotheses, says: &goals[i].says, defined }
+        Lemma { name, printer: self.printer, hypotheses, proposition: &goals[i].proposition, defined }
     }
 
     /// Its lemmas and the theorem itself.
@@ -84,17 +83,21 @@ impl<'a> Theorem<'a> {
                 return Err(format!("{same} and {symbol} have the same name in Coq"));
             }
         }
-        if self.statement.rounds() {
-            let (name, statement, printer) = (&self.name, &self.statement, self.printer);
+        if self.statement.contains_rounding() {
+            let (name, statement, printer) = (&self.name, self.statement, self.printer);
             return Law { name, statement, printer }.text();
         }
         let defined = self.defined().map(|defined| self.definedness(&defined)).transpose()?;
-        let text = match &self.claim.kind {
-            Kind::Limit { by, .. } => self.limit(by)?,
-            Kind::Induction { ratio, start, step, closed } => self.induction(ratio, [start, step, closed])?,
-            Kind::Vanishing { ratio, of, to } => self.vanishing(ratio, of, to)?,
-            Kind::Within(..) | Kind::Drift { .. } => return Err("a bound of what is not rounded".into()),
-            Kind::Equal(..) | Kind::Sign(..) | Kind::Derivative { .. } => {
+        let bound = || Err("a bound of what is not rounded".to_string());
+        let text = match (self.statement.conclusion(), &self.statement.goals()[0].proposition) {
+            (Some(sequence), _) => match &sequence.limit {
+                Some(limit) => self.vanishing(sequence, limit)?,
+                None if !sequence.is_perturbed() => self.induction(sequence)?,
+                None => return bound(),
+            },
+            (None, Proposition::Limit(_, by, _)) => self.limit(by)?,
+            (None, Proposition::Within(..)) => return bound(),
+            (None, Proposition::Equal(..) | Proposition::Sign(..) | Proposition::Derivative(..)) => {
                 self.lemma(0, None).text("Theorem")?
             }
         };
@@ -115,7 +118,7 @@ impl<'a> Theorem<'a> {
 
     /// The limit itself; how fast it is reached is in lemmas.
     fn limit(&self, by: &'static str) -> Result<String> {
-        let lemmas = (1..self.statement.goals.len()).map(|i| self.lemma(i, None).text("Lemma"));
+        let lemmas = (1..self.statement.goals().len()).map(|i| self.lemma(i, None).text("Lemma"));
         let text = lemmas.collect::<Result<String>>()?;
         let own = self.lemma(0, Some(by));
         let variables: Vec<_> = own.variables().into_iter().filter(|var| *var != by).collect();
@@ -123,7 +126,7 @@ impl<'a> Theorem<'a> {
         script.line(&format!("intros{}{}. functions.", names(&variables), labels(own.hypotheses.len())));
         // Whatever is supposed of x itself is that it is positive, or less.
         let all = self.hypotheses(None);
-        script.limit(&derivation(&all, own.goal())?, by, |script| {
+        script.limit(&derivation(&all, own.proposition)?, by, |script| {
             let (mut label, mut i) = (Vec::new(), 0);
             for hypothesis in &all {
                 if !depends(&hypothesis.value, by) {
@@ -147,28 +150,28 @@ impl<'a> Theorem<'a> {
                 &self.name,
                 &variables,
                 &own.hypotheses,
-                &says(own.says, self.printer),
+                &says(own.proposition, self.printer),
                 script,
                 self.printer,
             ))
     }
 
     /// The recursion over the natural numbers, and its closed form by induction.
-    fn induction(&self, ratio: &Tree, [start, step, closed]: [&Vec<Tree>; 3]) -> Result<String> {
+    fn induction(&self, Sequence { ratio, start, step, member, .. }: &Sequence) -> Result<String> {
         let q = POWER;
         let lemma = |i: usize| {
-            let at_start = matches!(self.statement.goals[i].role, Role::Claim | Role::Begins);
+            let at_start = matches!(self.statement.goals()[i].role, Role::Claim | Role::InvariantBase);
             self.lemma(i, at_start.then_some(q))
         };
-        let lemmas: Vec<_> = (0..self.statement.goals.len()).map(lemma).collect();
+        let lemmas: Vec<_> = (0..self.statement.goals().len()).map(lemma).collect();
         let part = |role: Role| -> Vec<&Lemma> {
-            let goals = self.statement.goals.iter().zip(&lemmas);
+            let goals = self.statement.goals().iter().zip(&lemmas);
             goals.filter(|(goal, _)| goal.role == role).map(|(_, lemma)| lemma).collect()
         };
         let mut text = lemmas.iter().map(|lemma| lemma.text("Lemma")).collect::<Result<String>>()?;
 
         let hypotheses = self.hypotheses(Some(q));
-        let trees = start.iter().chain(step).chain(closed).chain([ratio]);
+        let trees = start.iter().chain(step).chain(member).chain([ratio]);
         let free: Vec<_> = self
             .variables(trees.chain(hypotheses.iter().map(|h| &h.value)))
             .into_iter()
@@ -202,7 +205,7 @@ impl<'a> Theorem<'a> {
         );
 
         let mut script = Script::new();
-        let of_q = &self.statement.invariants;
+        let of_q = &self.statement.invariants();
         // Without any, `intros` would take in n.
         let introduced = format!("{arguments}{}", labels(hypotheses.len()));
         if !introduced.is_empty() {
@@ -228,7 +231,7 @@ impl<'a> Theorem<'a> {
                 own.line(&format!(
                     "induction n as [ | n {q_pattern}]; cbn [pow]; cbv zeta in *; repeat apply conj."
                 ));
-                let (at_start, after) = (part(Role::Begins), part(Role::Continues));
+                let (at_start, after) = (part(Role::InvariantBase), part(Role::InvariantStep));
                 at_start.iter().for_each(|lemma| own.line(&format!("- exact ({}).", at(lemma, "1"))));
                 after.iter().for_each(|lemma| own.line(&format!("- exact ({}).", at(lemma, &power))));
                 Ok(())
@@ -247,14 +250,14 @@ impl<'a> Theorem<'a> {
         part(Role::Step).iter().for_each(|lemma| script.line(&format!("  + exact ({}).", at(lemma, &power))));
         let says = format!(
             "forall n : nat, let q := {power} in\n    {iterates}{arguments} n =\n    {}",
-            tuple(closed)
+            tuple(member)
         );
         Ok(text + &stated("Theorem", &self.name, &free, &hypotheses, &says, script, self.printer))
     }
 
     /// A function of the powers of what is less than 1 in size.
-    fn vanishing(&self, ratio: &Tree, of: &Tree, to: &Tree) -> Result<String> {
-        let q = POWER;
+    fn vanishing(&self, Sequence { ratio, member, .. }: &Sequence, to: &Tree) -> Result<String> {
+        let (q, of) = (POWER, &member[0]);
         let [small, limit] = [0, 1].map(|i| self.lemma(i, Some(q)));
         let text = small.text("Lemma")? + &limit.text("Lemma")?;
         let hypotheses = self.hypotheses(Some(q));

@@ -6,7 +6,7 @@ use super::reader::Reader;
 use super::sign::{Certificate, ERRORS, Known, PLACES, Sign, is_small, sign, sign_of_product};
 use crate::formula::Hypothesis;
 use crate::formula::claim::{PRECISION, SCALES};
-use crate::formula::statement::Says;
+use crate::formula::statement::Proposition;
 use crate::number::Tree;
 
 /// Names for the quantities of hypotheses, which no claim may use.
@@ -36,9 +36,9 @@ impl Context {
     }
 
     /// For the proof of this: hypotheses on the variable of a limit are solved for it.
-    pub(super) fn with_variable(self, says: &Says) -> Self {
+    pub(super) fn with_variable(self, says: &Proposition) -> Self {
         let variable = match says {
-            Says::Limit(_, by, _) => Some(Symbol(by)),
+            Proposition::Limit(_, by, _) => Some(Symbol(by)),
             _ => None,
         };
         Context { variable, ..self }

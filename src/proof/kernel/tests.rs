@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::formula::claim::{PRECISION, derivative, drift, equal, induction, positive, vanishing};
-use crate::formula::statement::two_bits;
+use crate::formula::statement::minimum_precision;
 use crate::formula::{Claim, Kind};
 use crate::number::{Exponential, Field, PositivePart};
 use num_traits::{One, Zero};
@@ -22,12 +22,12 @@ fn not_below_zero(value: Tree) -> Hypothesis {
     Hypothesis::new(Relation::NonNegative, value)
 }
 
-fn outcome(hypotheses: Vec<Hypothesis>, says: Says) -> Result<Proof, Why> {
+fn outcome(hypotheses: Vec<Hypothesis>, says: Proposition) -> Result<Proof, Why> {
     let goals = vec![Goal::of_claim("", says)];
     prove(&Statement { hypotheses, goals, ..Statement::default() })
 }
 
-fn proved(hypotheses: Vec<Hypothesis>, says: Says) -> bool {
+fn proved(hypotheses: Vec<Hypothesis>, says: Proposition) -> bool {
     outcome(hypotheses, says).is_ok()
 }
 
@@ -48,13 +48,13 @@ fn multiplier() -> Vec<Hypothesis> {
 
 #[test]
 fn a_divisor_has_to_be_seen_not_to_vanish() {
-    let one = || Says::Equal(x("c") / x("c"), Tree::one());
+    let one = || Proposition::Equal(x("c") / x("c"), Tree::one());
     assert!(proved(stiffness(), one()));
     assert!(matches!(outcome(vec![], one()), Err(Why::MightVanish(..))));
     // Not even where the quotient is multiplied by 0.
-    assert!(!proved(vec![], Says::Equal(Tree::zero() * (Tree::one() / x("u")), Tree::zero())));
-    assert!(!proved(multiplier(), Says::Equal(x("λ") / x("λ"), Tree::one())));
-    assert!(!proved(vec![], Says::Equal(Tree::one() / (x("u") - x("u")), Tree::zero())));
+    assert!(!proved(vec![], Proposition::Equal(Tree::zero() * (Tree::one() / x("u")), Tree::zero())));
+    assert!(!proved(multiplier(), Proposition::Equal(x("λ") / x("λ"), Tree::one())));
+    assert!(!proved(vec![], Proposition::Equal(Tree::one() / (x("u") - x("u")), Tree::zero())));
 }
 
 #[test]
@@ -62,46 +62,46 @@ fn equal_is_equal_everywhere() {
     let square = (x("u") + x("v")) * (x("u") + x("v"));
     let two = Tree::int(2);
     let expanded = x("u") * x("u") + two * x("u") * x("v") + x("v") * x("v");
-    assert!(proved(vec![], Says::Equal(square.clone(), expanded.clone())));
-    assert!(!proved(vec![], Says::Equal(square, expanded + x("u"))));
+    assert!(proved(vec![], Proposition::Equal(square.clone(), expanded.clone())));
+    assert!(!proved(vec![], Proposition::Equal(square, expanded + x("u"))));
 }
 
 #[test]
 fn strict_and_weak_signs_are_two_things() {
-    assert!(proved(multiplier(), Says::Sign(Relation::NonNegative, x("λ"))));
-    assert!(!proved(multiplier(), Says::Sign(Relation::Positive, x("λ"))));
-    assert!(!proved(multiplier(), Says::Sign(Relation::Zero, x("λ"))));
-    assert!(proved(stiffness(), Says::Sign(Relation::Positive, x("c"))));
-    assert!(!proved(stiffness(), Says::Sign(Relation::NonNegative, -x("c"))));
+    assert!(proved(multiplier(), Proposition::Sign(Relation::NonNegative, x("λ"))));
+    assert!(!proved(multiplier(), Proposition::Sign(Relation::Positive, x("λ"))));
+    assert!(!proved(multiplier(), Proposition::Sign(Relation::Zero, x("λ"))));
+    assert!(proved(stiffness(), Proposition::Sign(Relation::Positive, x("c"))));
+    assert!(!proved(stiffness(), Proposition::Sign(Relation::NonNegative, -x("c"))));
 }
 
 #[test]
 fn a_hypothesis_says_what_it_says_and_no_more() {
     let reaction = || x("m") * x("g") - x("c") * x("H");
     let touching = || vec![not_below_zero(reaction())];
-    assert!(proved(touching(), Says::Sign(Relation::NonNegative, reaction())));
-    assert!(!proved(touching(), Says::Sign(Relation::Positive, reaction())));
-    assert!(!proved(touching(), Says::Sign(Relation::Zero, reaction())));
+    assert!(proved(touching(), Proposition::Sign(Relation::NonNegative, reaction())));
+    assert!(!proved(touching(), Proposition::Sign(Relation::Positive, reaction())));
+    assert!(!proved(touching(), Proposition::Sign(Relation::Zero, reaction())));
     let grazing = vec![Hypothesis::new(Relation::Zero, reaction())];
-    assert!(proved(grazing.clone(), Says::Equal(x("m") * x("g"), x("c") * x("H"))));
-    assert!(!proved(grazing, Says::Equal(x("m"), x("c"))));
+    assert!(proved(grazing.clone(), Proposition::Equal(x("m") * x("g"), x("c") * x("H"))));
+    assert!(!proved(grazing, Proposition::Equal(x("m"), x("c"))));
     // That of u in eᵘ nothing is known is no matter.
     let power = vec![Hypothesis::new(Relation::Zero, x("a") * x("b") - x("u").exp())];
-    assert!(proved(power, Says::Sign(Relation::Positive, x("a") * x("b"))));
+    assert!(proved(power, Proposition::Sign(Relation::Positive, x("a") * x("b"))));
 }
 
 #[test]
 fn a_bracket_opens_where_its_sign_says_so() {
     let bracket = |t: &Tree| t.positive_part();
-    assert!(proved(stiffness(), Says::Equal(bracket(&x("c")), x("c"))));
-    assert!(proved(stiffness(), Says::Equal(bracket(&-x("c")), Tree::zero())));
-    assert!(!proved(vec![], Says::Equal(bracket(&x("u")), x("u"))));
-    assert!(!proved(vec![], Says::Equal(bracket(&x("u")), Tree::zero())));
+    assert!(proved(stiffness(), Proposition::Equal(bracket(&x("c")), x("c"))));
+    assert!(proved(stiffness(), Proposition::Equal(bracket(&-x("c")), Tree::zero())));
+    assert!(!proved(vec![], Proposition::Equal(bracket(&x("u")), x("u"))));
+    assert!(!proved(vec![], Proposition::Equal(bracket(&x("u")), Tree::zero())));
     // By cases: ⟨u⟩ − ⟨−u⟩ = u, and min(u, v) = v − ⟨v − u⟩.
-    assert!(proved(vec![], Says::Equal(bracket(&x("u")) - bracket(&-x("u")), x("u"))));
+    assert!(proved(vec![], Proposition::Equal(bracket(&x("u")) - bracket(&-x("u")), x("u"))));
     let min = x("u").min(&x("v"));
-    assert!(proved(vec![], Says::Equal(min.clone(), x("v") - bracket(&(x("v") - x("u"))))));
-    assert!(!proved(vec![], Says::Equal(min, x("u"))));
+    assert!(proved(vec![], Proposition::Equal(min.clone(), x("v") - bracket(&(x("v") - x("u"))))));
+    assert!(!proved(vec![], Proposition::Equal(min, x("u"))));
 }
 
 #[test]
@@ -109,7 +109,7 @@ fn cases_are_nested_so_deep_and_no_deeper() {
     let brackets = |n: u32| {
         let all = ["u", "v", "w", "y", "z"].map(|name| x(name).positive_part());
         let sum = all.into_iter().take(n as usize).fold(Tree::zero(), |sum, bracket| sum + bracket);
-        outcome(vec![], Says::Equal(sum.clone(), sum))
+        outcome(vec![], Proposition::Equal(sum.clone(), sum))
     };
     assert!(brackets(CASES).is_ok());
     assert!(matches!(brackets(CASES + 1), Err(Why::OpenBracket(_))));
@@ -119,25 +119,25 @@ fn cases_are_nested_so_deep_and_no_deeper() {
 fn the_cases_of_a_split_are_all_there_are() {
     // At u = 0 the sum is 0, and neither bracket is open.
     let bracket = |tree: Tree| tree.positive_part();
-    assert!(!proved(vec![], Says::Sign(Relation::Positive, bracket(x("u")) + bracket(-x("u")))));
+    assert!(!proved(vec![], Proposition::Sign(Relation::Positive, bracket(x("u")) + bracket(-x("u")))));
     // Each case has a quantity of its own: u − v and w − z, both positive, need not be equal.
     let both = |a: Tree, b: Tree| bracket(a.clone()) * bracket(b.clone()) * (a - b);
-    assert!(!proved(vec![], Says::Equal(both(x("u") - x("v"), x("w") - x("z")), Tree::zero())));
+    assert!(!proved(vec![], Proposition::Equal(both(x("u") - x("v"), x("w") - x("z")), Tree::zero())));
 }
 
 #[test]
 fn an_exponential_is_a_factor_like_others() {
     // u v eᵃ = b, so that u v = b e⁻ᵃ.
     let product = || Hypothesis::new(Relation::Zero, x("u") * x("v") * x("a").exp() - x("b"));
-    let without = || Says::Equal(x("u") * x("v"), x("b"));
+    let without = || Proposition::Equal(x("u") * x("v"), x("b"));
     assert!(!proved(vec![above_zero(x("b")), product()], without()));
     assert!(!proved(vec![product()], without()));
-    assert!(proved(vec![product()], Says::Equal(x("u") * x("v") * x("a").exp(), x("b"))));
+    assert!(proved(vec![product()], Proposition::Equal(x("u") * x("v") * x("a").exp(), x("b"))));
 }
 
 #[test]
 fn limits_by_degrees() {
-    let limit = |of: Tree, to: Tree| Says::Limit(of, "t", to);
+    let limit = |of: Tree, to: Tree| Proposition::Limit(of, "t", to);
     let t = || x("t");
     assert!(proved(stiffness(), limit(Tree::one() / (x("c") + t() * t()), Tree::zero())));
     let time = || above_zero(t());
@@ -174,20 +174,23 @@ fn limits_by_degrees() {
 fn the_variable_of_a_limit_may_be_larger_than_other_quantities() {
     let [f, g, h] = ["f", "g", "h"].map(x);
     let above = |least: &Tree| above_zero(&g - least);
-    let image = || Says::Limit(&f * &g / (&g - &f), "g", f.clone());
+    let image = || Proposition::Limit(&f * &g / (&g - &f), "g", f.clone());
     assert!(proved(vec![above_zero(f.clone()), above(&f)], image()));
     assert!(proved(vec![above_zero(f.clone()), above_zero(g.clone()), above(&f), above(&h)], image()));
     assert!(proved(
         vec![not_below_zero(&g - int(2) * &f), above_zero(f.clone())],
-        Says::Limit(&f / (&g + &f), "g", int(0))
+        Proposition::Limit(&f / (&g + &f), "g", int(0))
     ));
-    assert!(!proved(vec![above_zero(f.clone()), above(&f)], Says::Limit(&f * &g / (&g - &f), "g", int(1))));
+    assert!(!proved(
+        vec![above_zero(f.clone()), above(&f)],
+        Proposition::Limit(&f * &g / (&g - &f), "g", int(1))
+    ));
     // Without it there may be a pole on the way, and the limit may not be the variable itself.
     assert!(!proved(vec![above_zero(f.clone())], image()));
-    assert!(!proved(vec![above(&f)], Says::Limit(&f * &g / (&g - &f), "g", &g - &g + &f / &g)));
-    assert!(!proved(vec![above(&f)], Says::Limit(&g / (&g - &f), "g", &g / (&g - &f))));
+    assert!(!proved(vec![above(&f)], Proposition::Limit(&f * &g / (&g - &f), "g", &g - &g + &f / &g)));
+    assert!(!proved(vec![above(&f)], Proposition::Limit(&g / (&g - &f), "g", &g / (&g - &f))));
     // A bound from above ends as g grows, and so does one that a factor of unknown sign turns round.
-    let inverse = || Says::Limit(int(1) / (int(1) + &g * &g), "g", int(0));
+    let inverse = || Proposition::Limit(int(1) / (int(1) + &g * &g), "g", int(0));
     assert!(proved(vec![above(&f)], inverse()));
     for ends in [&f - &g, &h * &g - &f, &f * &f - &g * &g, &g * &g - &f, &f - &g * &g * &g, &g.exp() - &f] {
         assert!(!proved(vec![above_zero(ends.clone())], inverse()), "{ends} > 0");
@@ -198,12 +201,15 @@ fn the_variable_of_a_limit_may_be_larger_than_other_quantities() {
     // 1/(g − f) tends to 0 although it is assumed to be nowhere below 1/h.
     let reciprocal = int(1) / (&g - &f);
     let never = not_below_zero(&reciprocal - int(1) / &h);
-    assert!(!proved(vec![above_zero(h.clone()), above(&f), never], Says::Limit(reciprocal, "g", int(0))));
+    assert!(!proved(
+        vec![above_zero(h.clone()), above(&f), never],
+        Proposition::Limit(reciprocal, "g", int(0))
+    ));
 }
 
 #[test]
 fn a_linear_function_that_increases_is_one() {
-    let context = Context::of(vec![]).with_variable(&Says::Sign(Relation::Positive, x("s")));
+    let context = Context::of(vec![]).with_variable(&Proposition::Sign(Relation::Positive, x("s")));
     let [s, two_to_a] = ["s", "2ᵃ"].map(|name| Poly::symbol(Symbol(name)));
     let one = || Poly::constant(1);
     let over = |a: Poly, b: Poly| Ratio::from(a).over(&b.into()).unwrap();
@@ -222,7 +228,7 @@ fn a_linear_function_that_increases_is_one() {
 fn a_symbol_may_be_between_two_bounds_that_are_strict() {
     let k = x("k");
     let between = || vec![above_zero(k.clone()), above_zero(int(1) - &k)];
-    let positive = |of: Tree| Says::Sign(Relation::Positive, of);
+    let positive = |of: Tree| Proposition::Sign(Relation::Positive, of);
     for of in [&k - &k * &k, int(1) - &k * &k, int(2) - &k, k.clone(), int(1) - &k, int(1) / (int(1) - &k)] {
         assert!(proved(between(), positive(of.clone())), "{of}");
         assert!(proved(between().into_iter().rev().collect(), positive(of.clone())), "{of}");
@@ -237,7 +243,10 @@ fn a_symbol_may_be_between_two_bounds_that_are_strict() {
     let product = &k * (x("c") - &k);
     assert!(proved(bounds(above_zero(x("c") - &k)), positive(product.clone())));
     assert!(!proved(bounds(not_below_zero(x("c") - &k)), positive(product.clone())));
-    assert!(proved(bounds(not_below_zero(x("c") - &k)), Says::Sign(Relation::NonNegative, product.clone())));
+    assert!(proved(
+        bounds(not_below_zero(x("c") - &k)),
+        Proposition::Sign(Relation::NonNegative, product.clone())
+    ));
     // Nothing is divided by a symbol that may be 0.
     let weak = vec![not_below_zero(k.clone()), above_zero(int(1) - &k)];
     assert!(!proved(weak, positive(&k - &k * &k)));
@@ -247,30 +256,30 @@ fn a_symbol_may_be_between_two_bounds_that_are_strict() {
 fn derivatives_are_those_of_the_formula() {
     let square = || x("u") * x("u");
     let twice = || Tree::int(2) * x("u");
-    assert!(proved(vec![], Says::Derivative(square(), "u", twice())));
-    assert!(!proved(vec![], Says::Derivative(square(), "u", x("u"))));
-    assert!(!proved(vec![], Says::Derivative(square(), "v", twice())));
+    assert!(proved(vec![], Proposition::Derivative(square(), "u", twice())));
+    assert!(!proved(vec![], Proposition::Derivative(square(), "u", x("u"))));
+    assert!(!proved(vec![], Proposition::Derivative(square(), "v", twice())));
     // ⟨u⟩ has none at 0.
-    let bracket = Says::Derivative(x("u").positive_part(), "u", Tree::one());
+    let bracket = Proposition::Derivative(x("u").positive_part(), "u", Tree::one());
     assert!(matches!(outcome(vec![], bracket), Err(Why::Kink)));
 }
 
 #[test]
 fn a_hypothesis_on_symbols_of_known_sign_is_used_too() {
     let known = || vec![above_zero(x("a")), above_zero(x("b")), above_zero(x("b") - x("a"))];
-    assert!(proved(known(), Says::Sign(Relation::Positive, x("b") - x("a"))));
-    assert!(proved(known(), Says::Sign(Relation::Positive, x("b"))), "nothing is forgotten");
-    assert!(proved(known(), Says::Sign(Relation::Positive, x("a"))));
-    assert!(!proved(known(), Says::Sign(Relation::Positive, x("b") - Tree::int(2) * x("a"))));
+    assert!(proved(known(), Proposition::Sign(Relation::Positive, x("b") - x("a"))));
+    assert!(proved(known(), Proposition::Sign(Relation::Positive, x("b"))), "nothing is forgotten");
+    assert!(proved(known(), Proposition::Sign(Relation::Positive, x("a"))));
+    assert!(!proved(known(), Proposition::Sign(Relation::Positive, x("b") - Tree::int(2) * x("a"))));
     let between = vec![above_zero(x("x")), above_zero(x("L")), not_below_zero(x("L") - x("x"))];
-    assert!(proved(between, Says::Sign(Relation::Positive, Tree::int(3) * x("L") - x("x"))));
+    assert!(proved(between, Proposition::Sign(Relation::Positive, Tree::int(3) * x("L") - x("x"))));
 }
 
 #[test]
 fn nothing_is_divided_by_what_may_vanish() {
     // From λ u = λ it does not follow that u = 1, but where λ > 0.
     let given = |sign: Hypothesis| vec![sign, Hypothesis::new(Relation::Zero, x("λ") * x("u") - x("λ"))];
-    let one = || Says::Equal(x("u"), Tree::one());
+    let one = || Proposition::Equal(x("u"), Tree::one());
     assert!(!proved(given(multiplier().remove(0)), one()));
     assert!(proved(given(above_zero(x("λ"))), one()));
 }
@@ -284,17 +293,17 @@ fn what_is_in_an_interval_is_nowhere_else() {
     let q = x("q");
     let not_above = |ends: [i32; 2], most: Tree| {
         let between = Hypothesis::between(&q, int(ends[0]), int(ends[1]));
-        proved(vec![between], Says::Sign(Relation::NonNegative, most - &q))
+        proved(vec![between], Proposition::Sign(Relation::NonNegative, most - &q))
     };
     assert!(not_above([0, 1], int(1)) && not_above([1, 0], int(1)) && not_above([3, 3], int(3)));
     assert!(!not_above([0, 1], int(99) / int(100)) && !not_above([-1, 1], int(0)));
     // With ends that are quantities, and no more than one interval for each.
     let near = Hypothesis::near(&q, x("u"), x("c"));
-    let within = Says::Within(&q - x("u"), x("c"));
+    let within = Proposition::Within(&q - x("u"), x("c"));
     assert!(proved(vec![stiffness()[0].clone(), near.clone()], within.clone()));
     assert!(!proved(vec![near], within), "the reach might be negative");
     let [wide, narrow] = [4, 1].map(|n| Hypothesis::between(&q, int(0), int(n)));
-    let small = || Says::Sign(Relation::NonNegative, int(1) - &q);
+    let small = || Proposition::Sign(Relation::NonNegative, int(1) - &q);
     assert!(proved(vec![narrow.clone(), wide.clone()], small()));
     assert!(!proved(vec![wide], small()));
     // Nor is one used that speaks of itself, by what is supposed before.
@@ -320,56 +329,62 @@ fn what_is_in_an_interval_is_nowhere_else() {
 fn no_interval_shrinks_with_what_tends_to_infinity() {
     let [u, v] = ["u", "v"].map(x);
     let near = Hypothesis::near(&u, int(0), int(1) / &v);
-    let shrinks = Says::Limit(u, "v", int(0));
+    let shrinks = Proposition::Limit(u, "v", int(0));
     assert!(!proved(vec![above_zero(v), near], shrinks));
 }
 
 #[test]
 fn a_proof_has_limits() {
-    let too_large = |says: Says, which: &str| match outcome(vec![two_bits()], says) {
+    let too_large = |says: Proposition, which: &str| match outcome(vec![minimum_precision()], says) {
         Err(Why::TooLarge(what, _)) => what == which,
         _ => false,
     };
     let sum = |terms: u32| (1..terms).fold(x("u"), |sum, _| sum + x("u"));
-    let same = |tree: Tree| Says::Equal(tree.clone(), tree);
+    let same = |tree: Tree| Proposition::Equal(tree.clone(), tree);
     assert!(too_large(same(sum(30_000)), "its depth"));
     assert!(too_large(same(sum(MAX_DEPTH + 2)), "its depth"));
-    assert!(proved(vec![], Says::Equal(sum(MAX_DEPTH + 1), Tree::from(MAX_DEPTH as i32 + 1) * x("u"))));
+    assert!(proved(
+        vec![],
+        Proposition::Equal(sum(MAX_DEPTH + 1), Tree::from(MAX_DEPTH as i32 + 1) * x("u"))
+    ));
     // Doubled so often, a formula is large and not deep.
     let doubled = |times: u32| (0..times).fold(x("u"), |sum, _| &sum + &sum);
     assert!(too_large(same(doubled(100)), "its size"));
     assert!(too_large(same(doubled(13)), "its size"));
-    assert!(proved(vec![], Says::Equal(doubled(12), int(1 << 12) * x("u"))));
+    assert!(proved(vec![], Proposition::Equal(doubled(12), int(1 << 12) * x("u"))));
     // Nine roundings of sums and products have errors whose products are too many.
     let [a, b, c, d, u, v, w] = ["a", "b", "c", "d", "u", "v", "w"].map(x);
     let sums = (u.positive_part() + &a) * (v.min(&w) + &b) * (&u + &v) * (&v + &w) * (&w + &a);
     let quotient = sums / ((int(1) + &d * &d) * (int(1) + &c * &c));
-    assert!(too_large(Says::Within(quotient.rounded() - &quotient, int(1) / precision()), "its proof"));
+    assert!(too_large(
+        Proposition::Within(quotient.rounded() - &quotient, int(1) / precision()),
+        "its proof"
+    ));
     // Nor are powers of powers, long products, e^… that stand in each other's exponents, or many brackets and
     // roundings inside each other, looked at for ever.
     let equal_to = |a: &'static str, value: Tree| Hypothesis::new(Relation::Zero, x(a) - value);
-    let exceeds = |given: Vec<Hypothesis>, says: Says| {
+    let exceeds = |given: Vec<Hypothesis>, says: Proposition| {
         matches!(outcome(given, says), Err(Why::TooLarge("its proof", _)))
     };
     let power = |b: &'static str, n: u32| (0..n).fold(int(1), |power, _| power * x(b));
     let chain = [("a", "b"), ("b", "c"), ("c", "d"), ("d", "f")].map(|(a, b)| equal_to(a, power(b, 400)));
-    assert!(exceeds(chain.to_vec(), Says::Sign(Relation::NonNegative, x("a") - x("f"))));
+    assert!(exceeds(chain.to_vec(), Proposition::Sign(Relation::NonNegative, x("a") - x("f"))));
     let raised = ["a", "b", "c", "d", "f", "g"];
     let raised =
         raised.windows(2).map(|pair| equal_to(pair[1], x(pair[0]).exp() + (int(2) * x(pair[0])).exp()));
-    assert!(exceeds(raised.collect(), Says::Sign(Relation::Positive, x("g"))));
+    assert!(exceeds(raised.collect(), Proposition::Sign(Relation::Positive, x("g"))));
     let names =
         ["a₀", "a₁", "a₂", "a₃", "a₄", "a₅", "a₆", "a₇", "a₈", "a₉", "b₀", "b₁", "b₂", "b₃", "b₄", "b₅"];
     let sum = || names.iter().fold(int(0), |sum, name| sum + x(name));
     let power = |n: usize| (0..n).fold(int(1), |power, _| power * sum());
-    assert!(exceeds(vec![], Says::Equal(power(9), power(9))));
+    assert!(exceeds(vec![], Proposition::Equal(power(9), power(9))));
     let chains = |deeper: fn(&Tree) -> Tree| {
         let deep = |name: &&'static str| (0..480).fold(x(name), |tree, _| deeper(&tree));
         names.iter().map(deep).fold(int(0), |sum, tree| sum + tree)
     };
     let positive: Vec<_> = names.iter().map(|name| above_zero(x(name))).collect();
     let brackets = chains(|tree| tree.positive_part());
-    assert!(exceeds(positive.clone(), Says::Sign(Relation::Positive, brackets)));
-    let roundings = Says::Sign(Relation::Positive, chains(|tree| tree.nearest()));
+    assert!(exceeds(positive.clone(), Proposition::Sign(Relation::Positive, brackets)));
+    let roundings = Proposition::Sign(Relation::Positive, chains(|tree| tree.nearest()));
     assert!(matches!(outcome(positive, roundings), Err(Why::TooMany)));
 }

@@ -3,10 +3,10 @@
 use super::Paper;
 use crate::formula::claim::PRECISION;
 use crate::formula::name_of_rounding;
-use crate::formula::statement::{Goal, Says, Statement};
+use crate::formula::statement::{Goal, Proposition, Role, Statement};
 use crate::number::Tree;
 use crate::proof::kernel::sign::ERRORS;
-use crate::proof::kernel::{Derivation, Supposed, Used, Why, prove, roundings};
+use crate::proof::kernel::{Derivation, Supposed, Used, Why, derivation, roundings};
 use std::collections::BTreeMap;
 
 impl Paper<'_> {
@@ -17,7 +17,7 @@ impl Paper<'_> {
             return Paper::new(&registry).why(statement, why);
         }
         let said = self.order().why(why);
-        let (rounded, mut supposed) = (roundings(statement), None);
+        let (rounded, mut supposed) = (roundings(statement.trees()), None);
         let mut definitions = Vec::new();
         for name in why.names().into_iter().filter(|name| said.contains(name)) {
             if let Some(of) = ERRORS.iter().position(|error| *error == name).and_then(|i| rounded.get(i)) {
@@ -42,22 +42,20 @@ impl Paper<'_> {
     /// The names that hypotheses bring, with their definitions; `None` if a name has several, in different
     /// cases.
     fn supposed_names(&self, statement: &Statement) -> BTreeMap<&'static str, Option<String>> {
-        let with = |goal: Goal| Statement { goals: vec![goal], ..statement.clone() };
-        let fails = |goal: &&Goal| prove(&with((*goal).clone())).is_err();
+        let derive =
+            |role: Role, proposition: &Proposition| derivation(&statement.hypotheses_for(role), proposition);
+        let fails = |goal: &&Goal| derive(goal.role, &goal.proposition).is_err();
         let mut all = BTreeMap::new();
-        // What the goal supposes is taken in before it is read, so another goal has the same names.
-        let proof = statement.goals.iter().find(fails).and_then(|goal| {
+        // Hypotheses are read before the goal, so another goal has the same names.
+        let derivation = statement.goals().iter().find(fails).and_then(|goal| {
             let zero = || Tree::from(0);
-            let says = match goal.says {
-                Says::Limit(_, by, _) => Says::Limit(zero(), by, zero()),
-                _ => Says::Equal(zero(), zero()),
+            let trivial = match goal.proposition {
+                Proposition::Limit(_, by, _) => Proposition::Limit(zero(), by, zero()),
+                _ => Proposition::Equal(zero(), zero()),
             };
-            prove(&with(Goal { says, ..goal.clone() })).ok()
+            derive(goal.role, &trivial).ok()
         });
-        proof
-            .iter()
-            .flat_map(|proof| proof.goals())
-            .for_each(|derivation| self.collect(derivation, &mut all));
+        derivation.iter().for_each(|derivation| self.collect(derivation, &mut all));
         all
     }
 
@@ -132,7 +130,7 @@ mod tests {
     use crate::number::PositivePart;
 
     fn why(claim: &Claim) -> String {
-        let statement = Statement::of(claim);
+        let statement = claim;
         Paper::new(&Registry::default()).why(&statement, &prove(&statement).unwrap_err())
     }
 
@@ -142,27 +140,27 @@ mod tests {
         let more = Hypothesis::new(Relation::Positive, &b - &a);
         let least = Hypothesis::new(Relation::NonNegative, &a * &b - &c);
         assert_eq!(
-            why(&positive("", [&more], &b - Tree::from(2) * &a)),
+            why(&positive("", &b - Tree::from(2) * &a).assuming([&more])),
             "no rule finds the sign of 2 s₁ − b, where s₁ = b − a > 0"
         );
         assert_eq!(
-            why(&positive("", [&more, &least], &c - &b)),
+            why(&positive("", &c - &b).assuming([&more, &least])),
             "no rule finds the sign of b² − b s₁ − b − s₂, where s₁ = b − a > 0 and s₂ = a b − c ≥ 0"
         );
         let near = Hypothesis::near(&u, &a, &b);
         assert_eq!(
-            why(&positive("", [&near], &u)),
+            why(&positive("", &u).assuming([&near])),
             "no rule finds the sign of a + b t₁, where t₁ goes from −1 to 1 as u goes from a − b to a + b"
         );
         assert_eq!(
-            why(&equal("", [], (&a * (&b + &c)).nearest(), &a * (&b + &c))),
+            why(&equal("", (&a * (&b + &c)).nearest(), &a * (&b + &c))),
             "the sides differ by (a b e₁ + a c e₁) / (s₁ + 5), \
              where nearest(a (b + c)) = (a (b + c)) (1 + e₁ / (2ᵖ + 1)) with |e₁| ≤ 1 and s₁ = 2ᵖ − 4 ≥ 0"
         );
-        let said = why(&equal("", [], (&a + &b).nearest(), &a + &b));
+        let said = why(&equal("", (&a + &b).nearest(), &a + &b));
         assert!(said.contains("fl(a + b) = (a + b) (1 + e₁ / (2ᵖ + 1)) with |e₁| ≤ 1"), "{said}");
         // Nothing to define.
-        assert_eq!(why(&equal("", [], &a, &b)), "the sides differ by a − b");
+        assert_eq!(why(&equal("", &a, &b)), "the sides differ by a − b");
     }
 
     #[test]
@@ -170,17 +168,18 @@ mod tests {
         let [k, f, g] = ["k", "f", "g"].map(|name| Tree::symbol(name));
         let above_zero = |value| Hypothesis::new(Relation::Positive, value);
         let bounds = [above_zero(k.clone()), above_zero(Tree::from(1) - &k)];
-        let said = why(&positive("", bounds.each_ref(), Tree::from(2) * &k - Tree::from(1)));
+        let said = why(&positive("", Tree::from(2) * &k - Tree::from(1)).assuming(bounds.each_ref()));
         assert!(said.contains("s₁ = (1 − k) / k > 0"), "{said}");
         let of = &g * &g / (&g - &f);
-        let said = why(&limit("", [&above_zero(&g - &f)], of.clone(), &g, &f, Rate::Exactly(of - &f)));
+        let said =
+            why(&limit("", of.clone(), &g, &f, Rate::Exactly(of - &f)).assuming([&above_zero(&g - &f)]));
         assert!(said.contains("s₁ = g − f > 0"), "{said}");
     }
 
     #[test]
     fn a_name_of_a_case_is_said_to_be_one() {
         let [a, b] = ["a", "b"].map(|name| Tree::symbol(name));
-        let said = why(&positive("", [], (&a - &b).positive_part() + &b));
+        let said = why(&positive("", (&a - &b).positive_part() + &b));
         assert!(said.ends_with("where s₁ ≥ 0 is what a case of the proof is about"), "{said}");
     }
 
@@ -190,12 +189,13 @@ mod tests {
         let [a, b] = ["a", "b"].map(|name| Tree::symbol(name));
         let given = Hypothesis::new(Relation::NonNegative, (&a + &b).nearest());
         let of = (&a * (&a + &b) - &b).rounded();
-        let statement = Statement::of(&equal("", [&given], of.clone() * b.nearest(), b.nearest() * of));
+        let statement =
+            Statement::of(&equal("", of.clone() * b.nearest(), b.nearest() * of).assuming([&given]));
         let proof = prove(&statement).unwrap();
         let Derivation::Direct(direct) = &proof.goals()[0] else { panic!("no cases") };
         let named: Vec<_> =
             direct.errors().iter().map(|rounding| (rounding.error().0, rounding.of())).collect();
-        let rounded = roundings(&statement);
+        let rounded = roundings(statement.trees());
         let expected: Vec<_> = ERRORS.into_iter().zip(&rounded).collect();
         assert_eq!(named, expected);
         assert_eq!(named.len(), 4);

@@ -7,11 +7,15 @@ use crate::proof::kernel::{Because, Derivation, Proof};
 pub fn how(proof: &Proof) -> String {
     let cases = proof.goals().iter().map(cases).max().unwrap_or(1);
     let means = proof.goals().last().map_or("", |derivation| means(derivation));
-    let kind = match proof.statement().kind {
+    let kind = match proof.statement().kind() {
         "equal" | "sign" => means,
         other => other,
     };
-    let kind = if proof.statement().rounds() { format!("{kind}, any precision") } else { kind.to_string() };
+    let kind = if proof.statement().contains_rounding() {
+        format!("{kind}, any precision")
+    } else {
+        kind.to_string()
+    };
     if cases > 1 { format!("{kind}, {cases} cases") } else { kind }
 }
 

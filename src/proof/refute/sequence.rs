@@ -2,7 +2,7 @@
 
 use super::{How, Point, Verdict, exact, fails, vanishing};
 use crate::formula::claim::{MEMBERS, POWER};
-use crate::formula::statement::{Goal, Role, Says, Sequence, Statement};
+use crate::formula::statement::{Goal, Proposition, Role, Sequence, Statement};
 use crate::number::{Exact, Field, PositivePart, Tree};
 use num_traits::One;
 
@@ -11,7 +11,7 @@ pub(super) const STEPS: usize = 4;
 
 /// The point with the number that is computed there, or what it comes to if there is none.
 pub(super) fn computed(statement: &Statement, point: &Point) -> Result<Point, Verdict> {
-    match &statement.computed {
+    match statement.computed() {
         Some(computed) => Ok(point.with(computed.symbol, number(&computed.by, point)?)),
         None => Ok(point.clone()),
     }
@@ -44,7 +44,7 @@ fn members(statement: &Statement, sequence: &Sequence, point: &Point) -> Result<
 pub(super) fn follow(statement: &Statement, sequence: &Sequence, point: &Point) -> Result<Verdict, Verdict> {
     for point in members(statement, sequence, point)? {
         for (of, bound) in &sequence.within {
-            match fails(&Says::Within(of.clone(), bound.clone()), &point) {
+            match fails(&Proposition::Within(of.clone(), bound.clone()), &point) {
                 Some(Some(how)) => return Ok(Verdict::Fails("", how)),
                 Some(None) => {}
                 None => return Ok(Verdict::Open),
@@ -60,7 +60,7 @@ pub(super) fn share(statement: &Statement, point: &Point) -> Option<Exact> {
         let (of, bound) = (exact(of, point)?, exact(bound, point)?);
         bound.is_unit().then(|| of.abs() / bound)
     };
-    match statement.amounts_to.as_ref().filter(|sequence| !sequence.within.is_empty()) {
+    match statement.conclusion().filter(|sequence| sequence.is_perturbed()) {
         Some(sequence) => {
             let members = members(statement, sequence, point).ok()?;
             let shares = |point: &Point| {
@@ -71,18 +71,18 @@ pub(super) fn share(statement: &Statement, point: &Point) -> Option<Exact> {
         }
         None => {
             let point = computed(statement, point).ok()?;
-            let share = |goal: &Goal| match &goal.says {
-                Says::Within(error, bound) if goal.role == Role::Claim => of(error, bound, &point),
+            let share = |goal: &Goal| match &goal.proposition {
+                Proposition::Within(error, bound) if goal.role == Role::Claim => of(error, bound, &point),
                 _ => None,
             };
-            statement.goals.iter().filter_map(share).max()
+            statement.goals().iter().filter_map(share).max()
         }
     }
 }
 
 /// Is each member of the sequence its limit?
 pub(super) fn is_constant(statement: &Statement, point: &Point) -> bool {
-    let Some(Sequence { member, limit: Some(limit), .. }) = &statement.amounts_to else { return false };
+    let Some(Sequence { member, limit: Some(limit), .. }) = statement.conclusion() else { return false };
     let first = point.with(POWER, Exact::one());
     member.iter().all(|member| exact(member, &first).is_some_and(|x| exact(limit, point) == Some(x)))
 }

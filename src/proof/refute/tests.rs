@@ -25,14 +25,14 @@ fn point(numbers: &[(&'static str, i32)]) -> Point {
 fn root() -> Statement {
     let u = x("R") / (x("c") + x("ε"));
     let residual = x("c") * &u + x("ε") * &u - x("R");
-    Statement::of(&equal("root", [&above_zero("c"), &above_zero("ε")], residual, 0))
+    Statement::of(&equal("root", residual, 0).assuming([&above_zero("c"), &above_zero("ε")]))
 }
 
 /// R/(c + ε) → 0
 fn vanishes() -> Statement {
     let [stiff, penalty] = ["c", "ε"].map(above_zero);
     let p = x("R") / (x("c") + x("ε"));
-    Statement::of(&limit("vanishes", [&stiff, &penalty], &p, &x("ε"), 0, Rate::Exactly(p.clone())))
+    Statement::of(&limit("vanishes", &p, &x("ε"), 0, Rate::Exactly(p.clone())).assuming([&stiff, &penalty]))
 }
 
 #[test]
@@ -50,12 +50,12 @@ fn a_limit_is_looked_at_far_out() {
     let limit = vanishes();
     let point = point(&[("R", 2)]);
     assert_eq!(check(&limit, &point), Verdict::Holds);
-    let [Goal { says: Says::Limit(of, by, to), .. }, ..] = &limit.goals[..] else { panic!() };
-    let wrong = Goal::of_claim("limit", Says::Limit(of.clone(), by, to + Tree::from(1)));
+    let [Goal { says: Proposition::Limit(of, by, to), .. }, ..] = &limit.goals[..] else { panic!() };
+    let wrong = Goal::of_claim("limit", Proposition::Limit(of.clone(), by, to + Tree::from(1)));
     let wrong = Statement { goals: vec![wrong], ..limit.clone() };
     assert!(matches!(check(&wrong, &point), Verdict::Fails("limit", How::Far(_))));
     let three = || Tree::from(3);
-    let shifted = Goal::of_claim("limit", Says::Limit(of + three(), by, to + three()));
+    let shifted = Goal::of_claim("limit", Proposition::Limit(of + three(), by, to + three()));
     assert_eq!(check(&Statement { goals: vec![shifted], ..limit.clone() }, &point), Verdict::Holds);
 }
 
@@ -63,8 +63,8 @@ fn a_limit_is_looked_at_far_out() {
 #[test]
 fn an_induction_is_about_the_powers_of_its_ratio() {
     let squares = |ratio: i32| {
-        let claim = induction("squares", [], ratio, [Tree::from(1)], |[x]| [&x * &x], [x("q")]);
-        check(&Statement::of(&claim), &Point::default())
+        let claim = induction("squares", ratio, [Tree::from(1)], |[x]| [&x * &x], [x("q")]);
+        check(&claim, &Point::default())
     };
     assert_eq!(squares(1), Verdict::Holds);
     assert!(matches!(squares(2), Verdict::Fails("step", How::Different(..))));
@@ -74,7 +74,7 @@ fn an_induction_is_about_the_powers_of_its_ratio() {
 #[test]
 fn what_is_constant_has_a_limit() {
     let tends =
-        |of: Tree, to: Tree| check(&Statement::of(&vanishing("tends", [], 2, of, to)), &point(&[("c", 3)]));
+        |of: Tree, to: Tree| check(&Statement::of(&vanishing("tends", 2, of, to)), &point(&[("c", 3)]));
     assert_eq!(tends(x("c"), x("c")), Verdict::Holds);
     assert!(matches!(tends(x("c") * x("q"), Tree::from(0)), Verdict::Fails("|ρ| < 1", How::Sign(..))));
 }
@@ -83,8 +83,8 @@ fn what_is_constant_has_a_limit() {
 #[test]
 fn kinks_are_left_open() {
     let slope = |of: Tree| {
-        let claim = derivative("slope", [], of, &x("u"), 7);
-        check(&Statement::of(&claim), &point(&[("u", 1)]))
+        let claim = derivative("slope", of, &x("u"), 7);
+        check(&claim, &point(&[("u", 1)]))
     };
     assert_eq!(slope(x("u").positive_part()), Verdict::Open);
     let undefined = slope(x("u").positive_part() / Tree::from(0));
@@ -97,16 +97,16 @@ fn kinks_are_left_open() {
 fn the_sharpest_point_uses_up_most() {
     let given = [above_zero("c"), Hypothesis::near(&x("u"), 0, x("c"))];
     let share = |bound: Tree| {
-        let claim = within("size", [&given[0], &given[1]], x("u"), bound);
-        let (point, share) = sharpest(&Statement::of(&claim)).unwrap();
+        let claim = within("size", x("u"), bound).assuming([&given[0], &given[1]]);
+        let (point, share) = sharpest(&claim).unwrap();
         assert_eq!(point.at("u").abs(), point.at("c"));
         share
     };
     assert_eq!(share(x("c")), Exact::one());
     assert_eq!(share(x("c") * Tree::from(2)), "1/2".parse().unwrap());
     // Half of c is not enough there.
-    let half = within("half", [&given[0], &given[1]], x("u") * Tree::from(2), x("c"));
-    let at_end = check(&Statement::of(&half), &point(&[("c", 3), ("u", -3)]));
+    let half = within("half", x("u") * Tree::from(2), x("c")).assuming([&given[0], &given[1]]);
+    let at_end = check(&half, &point(&[("c", 3), ("u", -3)]));
     assert!(matches!(at_end, Verdict::Fails("", How::Beyond(..))));
 }
 
@@ -117,24 +117,24 @@ fn the_sharpest_member_uses_up_most() {
     let given = above_zero("c");
     let double = |member: &Tree| member * Tree::from(2);
     let (near, bound) = (Tree::from(0), x("c") * Tree::from(16));
-    let doubled = drift("doubled", [&given], 1, x("c"), double, (near, bound), |_| []);
-    let (_, share) = sharpest(&Statement::of(&doubled)).unwrap();
+    let doubled = drift("doubled", 1, x("c"), double, (near, bound), |_| []).assuming([&given]);
+    let (_, share) = sharpest(&doubled).unwrap();
     assert_eq!(share, "1/2".parse().unwrap());
     let near = Hypothesis::near(&x("u"), x("c"), x("d"));
-    let computed = equal("computed", [&given, &near], x("u") - x("u"), 0).computing(&x("u"), x("c"));
-    assert_eq!(sharpest(&Statement::of(&computed)), None);
+    let computed = equal("computed", x("u") - x("u"), 0).assuming([&given, &near]).computing(&x("u"), x("c"));
+    assert_eq!(sharpest(&computed), None);
 }
 
 #[test]
 fn what_is_true_is_not_refuted() {
     let bracket = x("u").positive_part();
     let true_claims: [Claim; 3] = [
-        non_negative("square", [], x("u") * x("u")),
-        equal("parts", [], &bracket - (-x("u")).positive_part(), x("u")),
-        positive("tangent", [&above_zero("u")], x("u").exp() - x("u") - Tree::from(1)),
+        non_negative("square", x("u") * x("u")),
+        equal("parts", &bracket - (-x("u")).positive_part(), x("u")),
+        positive("tangent", x("u").exp() - x("u") - Tree::from(1)).assuming([&above_zero("u")]),
     ];
     for claim in &true_claims {
-        assert_eq!(refute(&Statement::of(claim)), None, "{}", claim.name);
+        assert_eq!(refute(&claim), None, "{}", claim.name());
     }
     assert_eq!((refute(&root()), refute(&vanishes())), (None, None));
 }
@@ -148,17 +148,17 @@ fn a_counterexample_is_made_small() {
     let found_at = |statement: &Statement| found(statement, &start).expect("a counterexample");
     let undefined = found_at(&root().without(0));
     assert_eq!(undefined.to_string(), "c = -1, ε = 1, R = 1: undefined: c + ε = 0 is a divisor");
-    let wrong = found_at(&Statement::of(&positive("wrong", [], x("c") * x("R") * x("R"))));
+    let wrong = found_at(&Statement::of(&positive("wrong", x("c") * x("R") * x("R"))));
     let simple = |x: &Exact| SIMPLE.iter().any(|n| Exact::from(*n) == *x);
     assert!(wrong.point.numbers().all(|(_, x)| simple(x)), "{wrong}");
     // For c = 1 another number has to follow, for d > c.
     let given = Hypothesis::new(Relation::Positive, x("d") - x("c"));
-    let zero = Statement::of(&equal("zero", [&given], x("c") * x("d"), 0));
+    let zero = Statement::of(&equal("zero", x("c") * x("d"), 0).assuming([&given]));
     let apart = found(&zero, &point(&[("c", -50), ("d", -49)])).expect("a counterexample");
     assert_eq!((apart.point.at("c"), apart.point.at("d")), (Exact::from(1), Exact::from(2)));
     // Nothing simple is as large, but half is.
     let far = Point::new([("R", "-1234567890123456789012345678901/3".parse().unwrap())]);
-    let small = Statement::of(&positive("small", [], Tree::from(1000) - x("R") * x("R")));
+    let small = Statement::of(&positive("small", Tree::from(1000) - x("R") * x("R")));
     let small = found(&small, &far).expect("a counterexample");
     assert!((32..64).any(|n| Exact::from(n) == small.point.at("R").abs()), "{small}");
 }
@@ -182,7 +182,7 @@ fn long_values_are_shortened_as_far_as_they_differ() {
 fn a_divisor_is_bent_to_zero() {
     // No integers do that here: 7 c + 2 is 0 at −2/7 alone.
     let divisor = Tree::from(7) * x("c") + Tree::from(2);
-    let counterexample = refute(&Statement::of(&equal("one", [], &divisor / &divisor, 1))).unwrap();
+    let counterexample = refute(&Statement::of(&equal("one", &divisor / &divisor, 1))).unwrap();
     assert!(matches!(counterexample.how, How::Undefined(_)), "{counterexample}");
     assert_eq!(counterexample.point.at("c"), "-2/7".parse().unwrap());
 }
@@ -191,17 +191,18 @@ fn a_divisor_is_bent_to_zero() {
 #[test]
 fn a_counterexample_has_no_number_for_what_follows() {
     let names = |claim: &Claim| -> Vec<_> {
-        let found = refute(&Statement::of(claim)).expect("it is wrong");
+        let found = refute(&claim).expect("it is wrong");
         found.point.numbers().map(|(name, _)| name).collect()
     };
     let [c, q, u] = ["c", "q", "u"].map(x);
-    let wrong = induction("wrong", [], &c, [x("a")], |[x]| [&x * &c + Tree::from(1)], [x("a") * &q]);
+    let wrong = induction("wrong", &c, [x("a")], |[x]| [&x * &c + Tree::from(1)], [x("a") * &q]);
     assert_eq!(names(&wrong), ["a", "c"]);
     let near = Hypothesis::near(&u, x("x₁"), 7);
     let step = |_: &Tree| x("u") + Tree::from(9);
-    let drifts = drift("wrong", [&near], &c, x("a"), step, (x("a"), Tree::from(1)), |_| [(x("x₁"), x("a"))])
+    let drifts = drift("wrong", &c, x("a"), step, (x("a"), Tree::from(1)), |_| [(x("x₁"), x("a"))])
+        .assuming([&near])
         .computing(&u, x("x₁"));
     assert_eq!(names(&drifts), ["a"]);
-    let far = limit("wrong", [&above_zero("u")], &u / &c, &u, 0, Rate::Exactly(&u / &c));
+    let far = limit("wrong", &u / &c, &u, 0, Rate::Exactly(&u / &c)).assuming([&above_zero("u")]);
     assert_eq!(names(&far), ["c"]);
 }

@@ -61,7 +61,7 @@ fn values(counterexample: &Counterexample) -> Values {
 impl Serialize for Proofs {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         let equations = self.by_equation().map(|claims| Equation {
-            equation: claims[0].statement.equation,
+            equation: claims[0].statement.equation(),
             claims: claims.iter().map(|proved| claim(proved, self)).collect(),
         });
         let changes = self.controls.changes.iter().map(changed);
@@ -78,8 +78,8 @@ fn claim(proved: &Proved, proofs: &Proofs) -> Claim {
         Answer::None(why, counterexample) => (None, Some(why.clone()), counterexample.as_ref().map(values)),
     };
     Claim {
-        claim: statement.name,
-        kind: statement.kind,
+        claim: statement.name(),
+        kind: statement.kind(),
         statement: paper.claim(statement),
         hypotheses: proved.hypotheses(),
         status: proved.status(),

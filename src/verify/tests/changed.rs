@@ -3,14 +3,14 @@
 
 use super::super::checker::Judge;
 use super::super::*;
-use crate::formula::{Claim, Hypothesis};
+use crate::formula::Hypothesis;
 use crate::proof::controls::{Effect, Operator, What, changes, controls};
 use std::collections::BTreeMap;
 
 type Drawn = BTreeMap<String, (Vec<Hypothesis>, Vec<Option<Case<Exact>>>)>;
 
 /// The claims that fail in some case.
-fn findings<J: Judge>(judge: J, claims: &[Claim], drawn: &Drawn) -> Vec<(&'static str, &'static str)> {
+fn findings<J: Judge>(judge: J, claims: &[Statement], drawn: &Drawn) -> Vec<(&'static str, &'static str)> {
     let checker = Checker::with(judge, claims, Vec::new());
     let heads = checker.heads();
     let mut found = Vec::new();
@@ -30,17 +30,22 @@ fn findings<J: Judge>(judge: J, claims: &[Claim], drawn: &Drawn) -> Vec<(&'stati
 fn every_change_of_a_formula_is_a_finding() {
     const CASES: u64 = 6;
     let mut drawn = Drawn::new();
-    let claims = || claims().filter(|claim| !claim.rounds());
+    let claims = || claims().filter(|claim| !claim.contains_rounding());
     for claim in claims() {
-        let cases = || (0..CASES).map(|i| super::super::drawn(1, i, &claim.given)).collect();
-        drawn.entry(format!("{:?}", claim.given)).or_insert_with(|| (claim.given.clone(), cases()));
+        let cases = || (0..CASES).map(|i| super::super::drawn(1, i, claim.stated_hypotheses())).collect();
+        drawn
+            .entry(format!("{:?}", claim.stated_hypotheses()))
+            .or_insert_with(|| (claim.stated_hypotheses().to_vec(), cases()));
     }
     let all: Vec<_> = claims().cloned().collect();
     assert_eq!(findings(Exactly, &all, &drawn), []);
     assert_eq!(findings(Floats(0f64), &all, &drawn), []);
     let seen = |(change, effect): &(Change, Effect)| {
-        let touched = all.iter().filter(|claim| claim.trees().into_iter().any(|t| change.rewrite(t) != *t));
-        let changed: Vec<_> = touched.map(|claim| claim.map(&|tree| change.rewrite(tree))).collect();
+        let formulas = |claim: &Statement| claim.goals().iter().flat_map(|goal| goal.proposition.trees());
+        let touched = all.iter().filter(|claim| formulas(claim).any(|tree| change.rewrite(tree) != *tree));
+        let changed = touched
+            .map(|claim| claim.map(&|tree| change.rewrite(tree)).only_assuming(claim.stated_hypotheses()));
+        let changed: Vec<_> = changed.collect();
         let found = findings(Exactly, &changed, &drawn);
         let found = if found.is_empty() { findings(Floats(0f64), &changed, &drawn) } else { found };
         let wrong = matches!(effect, Effect::Noticed { .. });

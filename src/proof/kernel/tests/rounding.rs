@@ -3,22 +3,22 @@
 use super::*;
 
 /// Under these hypotheses, and for numbers of two bits or more, as every statement has it that rounds.
-fn rounded(hypotheses: Vec<Hypothesis>, says: Says) -> bool {
-    proved([vec![two_bits()], hypotheses].concat(), says)
+fn rounded(hypotheses: Vec<Hypothesis>, says: Proposition) -> bool {
+    proved([vec![minimum_precision()], hypotheses].concat(), says)
 }
 
 #[test]
 fn an_error_of_rounding_is_as_large_as_it_can_be_and_no_larger() {
     let error = || x("u").nearest() - x("u");
-    let within = |bound: Tree| rounded(vec![], Says::Within(error(), bound));
+    let within = |bound: Tree| rounded(vec![], Proposition::Within(error(), bound));
     assert!(within(x("u").abs() / (precision() + int(1))));
     assert!(within(x("u").abs() / precision()));
     assert!(within(x("u").nearest().abs() / precision()));
     assert!(!within(x("u").abs() / (precision() + int(2))));
     assert!(!within(x("u").nearest().abs() / (precision() + int(1))));
     // Nor is it nothing, or of one sign.
-    assert!(!rounded(vec![], Says::Equal(x("u").nearest(), x("u"))));
-    assert!(!rounded(vec![above_zero(x("u"))], Says::Sign(Relation::NonNegative, error())));
+    assert!(!rounded(vec![], Proposition::Equal(x("u").nearest(), x("u"))));
+    assert!(!rounded(vec![above_zero(x("u"))], Proposition::Sign(Relation::NonNegative, error())));
 }
 
 #[test]
@@ -26,7 +26,7 @@ fn there_are_names_for_so_many_errors_and_no_more() {
     let roundings = |n: usize| {
         let all = (0..n as i32).map(|i| (x("u") + int(i)).nearest());
         let sum = all.fold(Tree::zero(), |sum, one| sum + one);
-        outcome(vec![two_bits()], Says::Equal(sum.clone(), sum))
+        outcome(vec![minimum_precision()], Proposition::Equal(sum.clone(), sum))
     };
     assert!(roundings(ERRORS.len()).is_ok());
     assert!(matches!(roundings(ERRORS.len() + 1), Err(Why::TooMany)));
@@ -34,7 +34,7 @@ fn there_are_names_for_so_many_errors_and_no_more() {
 
 #[test]
 fn what_is_equal_rounds_alike_and_what_is_in_other_units() {
-    let alike = |a: Tree, b: Tree| rounded(vec![], Says::Equal(a, b));
+    let alike = |a: Tree, b: Tree| rounded(vec![], Proposition::Equal(a, b));
     assert!(alike((x("a") + x("b")).nearest(), (x("b") + x("a")).nearest()));
     assert!(alike((x("a") * x("2ᵃ") / x("2ᶠ")).nearest(), x("a").nearest() * x("2ᵃ") / x("2ᶠ")));
     assert!(!alike((x("a") * x("b")).nearest(), x("a").nearest() * x("b")));
@@ -44,13 +44,13 @@ fn what_is_equal_rounds_alike_and_what_is_in_other_units() {
     let positive = || ["c", "d"].map(|name| above_zero(x(name))).to_vec();
     let products_agree = |a: Tree, b: Tree, c: Tree, d: Tree| {
         let [left, right] = [(a / &c).nearest() * c, (b / &d).nearest() * d];
-        rounded(positive(), Says::Equal(left, right))
+        rounded(positive(), Proposition::Equal(left, right))
     };
     assert!(!products_agree(x("a"), x("a"), x("c"), x("d")));
     assert!(products_agree(x("a"), x("a"), x("c"), x("c")));
     assert!(!rounded(
         positive(),
-        Says::Equal((x("a") / x("c")).nearest() * x("b"), (x("b") / x("c")).nearest() * x("a"))
+        Proposition::Equal((x("a") / x("c")).nearest() * x("b"), (x("b") / x("c")).nearest() * x("a"))
     ));
     // A sum and its parts round each by itself.
     assert!(!alike((x("a") + x("b")).nearest() - x("a"), x("b").nearest()));
@@ -59,7 +59,7 @@ fn what_is_equal_rounds_alike_and_what_is_in_other_units() {
 #[test]
 fn rounding_keeps_order() {
     let no_less = |hypotheses: Vec<Hypothesis>, a: Tree, b: Tree| {
-        rounded(hypotheses, Says::Sign(Relation::NonNegative, a.nearest() - b.nearest()))
+        rounded(hypotheses, Proposition::Sign(Relation::NonNegative, a.nearest() - b.nearest()))
     };
     let [a, b, c] = ["a", "b", "c"].map(x);
     let given = |sign: &Tree| vec![not_below_zero(&a - &b), above_zero(sign.clone())];
@@ -94,18 +94,20 @@ fn rounding_keeps_order() {
 
 #[test]
 fn what_jumps_has_no_limit_and_no_derivative() {
-    let jump = |says: Says| matches!(outcome(vec![two_bits(), above_zero(x("u"))], says), Err(Why::Jump));
-    assert!(jump(Says::Limit((int(1) / x("u")).nearest(), "u", int(0))));
-    assert!(jump(Says::Derivative(x("u").nearest(), "u", int(1))));
-    let tends = vanishing("tends", [], x("c") / (x("c") + x("c")), (int(1) + x("q")).nearest(), int(1));
+    let jump = |says: Proposition| {
+        matches!(outcome(vec![minimum_precision(), above_zero(x("u"))], says), Err(Why::Jump))
+    };
+    assert!(jump(Proposition::Limit((int(1) / x("u")).nearest(), "u", int(0))));
+    assert!(jump(Proposition::Derivative(x("u").nearest(), "u", int(1))));
+    let tends = vanishing("tends", x("c") / (x("c") + x("c")), (int(1) + x("q")).nearest(), int(1));
     let stiff = Claim { given: stiffness(), ..tends };
-    assert!(matches!(prove(&Statement::of(&stiff)), Err(Why::Jump)));
+    assert!(matches!(prove(&stiff), Err(Why::Jump)));
 }
 
 #[test]
 fn what_is_compared_is_defined() {
     let quotient = |divisor: Tree| (x("u") / divisor).nearest();
-    let difference = |a: Tree| Says::Sign(Relation::NonNegative, &a - &a);
+    let difference = |a: Tree| Proposition::Sign(Relation::NonNegative, &a - &a);
     assert!(rounded(vec![], difference(quotient(int(2)))));
     assert!(!rounded(vec![], difference(quotient(x("c") - x("c")))));
     assert!(!rounded(vec![], difference(quotient(int(0)))));
