@@ -2,7 +2,7 @@
 //! changed, and written for Coq. Nothing here is of the chapter.
 
 use spring_mass_contact::formula::claim::{equal, positive};
-use spring_mass_contact::formula::{Claim, Formula, Hypothesis, Registry, Relation, Statement};
+use spring_mass_contact::formula::{Formula, Hypothesis, Registry, Relation, Statement};
 use spring_mass_contact::number::{Field, Tree};
 use spring_mass_contact::proof::controls::{Controls, Effect, controls};
 use spring_mass_contact::proof::coq::{Development, Placed};
@@ -25,7 +25,7 @@ pub fn registry() -> Registry {
 }
 
 /// What is claimed of it.
-pub fn claims() -> [Claim; 2] {
+pub fn claims() -> [Statement; 2] {
     let [a, b, force] = symbols();
     let [stiff_a, stiff_b] = [&a, &b].map(|x| Hypothesis::new(Relation::Positive, x.clone()));
     let c = series(&a, &b);
@@ -36,7 +36,7 @@ pub fn claims() -> [Claim; 2] {
 }
 
 /// All of it for Coq: a definition, and a theorem for each claim.
-pub fn coq<'a>(registry: &'a Registry, claims: &[Claim]) -> Development<'a> {
+pub fn coq<'a>(registry: &'a Registry, claims: &[Statement]) -> Development<'a> {
     Development::new(
         registry,
         claims.iter().map(|claim| Placed { claim, section: "springs", functions: &[] }),
@@ -45,13 +45,12 @@ pub fn coq<'a>(registry: &'a Registry, claims: &[Claim]) -> Development<'a> {
 
 fn main() {
     let (registry, claims) = (registry(), claims());
-    let statements = claims.each_ref().map(Statement::of);
     println!("{}, and in numbers c(3, 6) = {}", registry.line("series").unwrap(), series(&3.0, &6.0));
-    for statement in &statements {
+    for statement in &claims {
         let (paper, proof) = (Paper::new(&registry), prove(statement).expect("true"));
         println!("\n{}\n  {}", paper.claim(statement), paper.proof(&proof).join("\n  "));
     }
-    let Controls { changes, .. } = controls(&statements, &registry);
+    let Controls { changes, .. } = controls(&claims, &registry);
     println!("\nchanged, it is refuted:");
     for (change, effect) in &changes {
         let Effect::Noticed { counterexample, .. } = effect else { panic!("{change} goes unnoticed") };

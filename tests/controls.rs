@@ -59,38 +59,36 @@ fn no_hypothesis_is_needless() {
         assert_eq!(dropped.is_of_precision(), dropped.given == given().fine_enough, "{what}");
     }
     let was_dropped = |s: &Statement, given: &Hypothesis| {
-        CONTROLS.dropped.iter().any(|d| (d.equation, d.name, &d.given) == (s.equation, s.name, given))
+        CONTROLS.dropped.iter().any(|d| (d.equation, d.name, &d.given) == (s.equation(), s.name(), given))
     };
     for s in statements() {
         for given in s.hypotheses().iter().filter(|given| **given != minimum_precision()) {
-            assert!(was_dropped(&s, given), "{} {}: nobody tried it without {given}", s.equation, s.name);
+            assert!(was_dropped(&s, given), "{} {}: nobody tried it without {given}", s.equation(), s.name());
         }
     }
 }
 
 /// Without what is supposed to be > 0 but may then also be 0.
-fn weakened(statement: &Statement, hypothesis: usize) -> Option<Statement> {
-    let mut weaker = statement.clone();
-    let own = &mut weaker.hypotheses[hypothesis];
-    let positive = own.relation == Relation::Positive;
+fn weakened(statement: &Statement, hypothesis: &Hypothesis) -> Option<Statement> {
+    let mut hypotheses = statement.stated_hypotheses().to_vec();
+    let own = hypotheses.iter_mut().find(|own| *own == hypothesis && own.relation == Relation::Positive)?;
     own.relation = Relation::NonNegative;
-    positive.then_some(weaker)
+    Some(statement.clone().only_assuming(&hypotheses))
 }
 
 /// Every statement that is near a claim: the source changed at one place, a hypothesis dropped or weakened.
 fn neighbours(statements: &[Statement]) -> Vec<(String, Statement)> {
     let changes = changes(statements, registry());
     let near = |s: &Statement| {
-        let name = format!("{} {}", s.equation, s.name);
+        let name = format!("{} {}", s.equation(), s.name());
         let near: Vec<_> =
             changes.iter().filter_map(|c| Some((format!("{name} after {c}"), c.apply(s)?))).collect();
         // Of what takes long, some.
-        let every = if s.kind == "drift" { 7 } else { 1 };
+        let every = if s.kind() == "drift" { 7 } else { 1 };
         let mut near: Vec<_> = near.into_iter().step_by(every).collect();
-        for (i, hypothesis) in s.hypotheses.iter().enumerate() {
-            let given = hypothesis;
-            near.push((format!("{name} without {given}"), s.without(i)));
-            near.extend(weakened(s, i).map(|weaker| (format!("{name} with {given} or = 0"), weaker)));
+        for given in s.hypotheses() {
+            near.push((format!("{name} without {given}"), s.without(given)));
+            near.extend(weakened(s, given).map(|weaker| (format!("{name} with {given} or = 0"), weaker)));
         }
         near
     };
@@ -103,8 +101,8 @@ fn goal_by_goal((name, statement): (String, Statement)) -> Vec<(String, Statemen
     if matches!(statement.kind(), "induction" | "drift") || statement.computed().is_some() {
         return vec![(name, statement)];
     }
-    let goals = statement.goals().clone().into_iter();
-    goals.map(|goal| (name.clone(), Statement { goals: vec![goal], ..statement.clone() })).collect()
+    let goals = statement.goals().iter();
+    goals.map(|goal| (name.clone(), statement.with_proposition(goal.proposition.clone()))).collect()
 }
 
 #[test]
@@ -117,8 +115,8 @@ fn what_numbers_refute_is_not_proved() {
         // because the statement is false.
         let proved = prove(&s).is_ok();
         let (planted, raw) = if proved { (12, 60) } else { (4, 8) };
-        let planted = planted_points(&s.hypotheses, &symbols).take(planted).find(|point| fails(&s, point));
-        let raw = raw_points(&s.hypotheses, &symbols).take(raw).find(|point| fails(&s, point));
+        let planted = planted_points(s.hypotheses(), &symbols).take(planted).find(|point| fails(&s, point));
+        let raw = raw_points(s.hypotheses(), &symbols).take(raw).find(|point| fails(&s, point));
         for point in planted.iter().chain(&raw) {
             assert!(!proved, "{name} is proved, and false at {point}");
         }
@@ -134,11 +132,11 @@ fn points_reach_all_that_hypotheses_allow() {
     let symbols = symbols();
     let mut combinations: BTreeMap<String, Statement> = BTreeMap::new();
     for s in statements() {
-        combinations.insert(s.hypotheses.iter().map(|h| format!("{h}, ")).collect(), s);
+        combinations.insert(s.hypotheses().iter().map(|h| format!("{h}, ")).collect(), s);
     }
     for (name, s) in combinations {
-        let planted: Vec<_> = planted_points(&s.hypotheses, &symbols).collect();
-        let raw: Vec<_> = raw_points(&s.hypotheses, &symbols).collect();
+        let planted: Vec<_> = planted_points(s.hypotheses(), &symbols).collect();
+        let raw: Vec<_> = raw_points(s.hypotheses(), &symbols).collect();
         assert!(
             planted.len() > 20 && !raw.is_empty(),
             "{name}: {} planted, {} raw",
@@ -146,7 +144,7 @@ fn points_reach_all_that_hypotheses_allow() {
             raw.len()
         );
         // What may be 0 is so at some, and is not at others.
-        for hypothesis in &s.hypotheses {
+        for hypothesis in s.hypotheses() {
             let sign = |point: &Point| value(hypothesis, point).cmp(&Exact::from(0));
             for points in [&planted, &raw] {
                 let (zero, positive) = (
@@ -180,7 +178,7 @@ fn a_counterexample_has_all_hypotheses_but_the_dropped_one() {
         // An induction's invariants may go with the hypothesis.
         let of =
             statements.iter().find(|s| (s.equation(), s.name()) == (dropped.equation, dropped.name)).unwrap();
-        for given in &of.hypotheses {
+        for given in of.hypotheses() {
             let sign = value(given, &counterexample.point).cmp(&Exact::from(0));
             let expected = *given != dropped.given;
             assert_eq!(given.relation.admits(sign), expected, "{what}: {given} at {counterexample}");

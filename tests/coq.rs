@@ -274,7 +274,8 @@ fn supposes_the_same(statement: &Statement, given: &[Said]) -> bool {
     let is_power =
         |(own, said): (&(&str, &str), &Said)| matches!(said, Said::PowerOfTwo(x, of) if (*x, *of) == *own);
     // A limit supposes nothing of what tends to infinity.
-    let grows = |name: &str| matches!(statement.goals()[0].says, Proposition::Limit(_, by, _) if by == name);
+    let grows =
+        |name: &str| matches!(statement.goals()[0].proposition, Proposition::Limit(_, by, _) if by == name);
     let own = statement.hypotheses().iter().filter(|own| !own.value.symbols().into_iter().any(grows));
     first.len() == powers.len() && powers.iter().zip(first).all(is_power) && all_supposed_as(own, rest)
 }
@@ -364,14 +365,14 @@ fn every_theorem_says_what_its_claim_does() {
         assert!(supposes_the_same(&statement, &read.given), "{name} supposes something else");
         assert!(says_the_same(&statement, &read), "{name} says something else");
         // How fast a limit is reached is said in lemmas.
-        for Goal { part, says, .. } in
+        for Goal { part, proposition, .. } in
             statement.goals().iter().skip(1).filter(|_| statement.kind() == "limit")
         {
             let name = format!("{name}_{}", part.replace(' ', "_"));
             let lemma = theorems.iter().find(|lemma| lemma.name == name).expect(&name);
             let Read { given, follows, .. } = lemma.read(&functions);
             assert!(all_supposed_as(statement.hypotheses().iter(), &given), "{name} supposes something else");
-            assert!(all_said_as(std::slice::from_ref(says), &follows), "{name} says something else");
+            assert!(all_said_as(std::slice::from_ref(proposition), &follows), "{name} says something else");
         }
     }
 }

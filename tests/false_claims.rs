@@ -4,8 +4,7 @@
 #![allow(clippy::eq_op, reason = "a quotient of equals is not always 1")]
 
 use spring_mass_contact::formula::claim::{
-    Claim, Kind, PRECISION, Rate, derivative, drift, equal, induction, non_negative, positive, vanishing,
-    within,
+    PRECISION, Rate, derivative, drift, equal, induction, limit, non_negative, positive, vanishing, within,
 };
 use spring_mass_contact::formula::{Hypothesis, Relation, Statement};
 use spring_mass_contact::number::{Exponential, PositivePart, Tree};
@@ -33,12 +32,12 @@ fn zero(value: impl Into<Tree>) -> Hypothesis {
 }
 
 /// A claim of which more is assumed than it was made with.
-fn also(claim: Claim, more: Hypothesis) -> Claim {
-    Claim { given: [claim.stated_hypotheses(), vec![more]].concat(), ..claim }
+fn also(claim: Statement, more: Hypothesis) -> Statement {
+    claim.assuming([&more])
 }
 
 /// A rule or premise, a false claim, a true one that differs in it.
-type Row = (&'static str, Claim, Claim);
+type Row = (&'static str, Statement, Statement);
 
 fn signs() -> Vec<Row> {
     let [a, b, u, v, k] = ["a", "b", "u", "v", "k"].map(x);
@@ -260,7 +259,7 @@ fn slopes_and_limits() -> Vec<Row> {
     let [pos_a, pos_c, time, weak_c] = [above_zero(&a), above_zero(&c), above_zero(&t), not_below_zero(&c)];
     let tends = |name, given: &[&Hypothesis], of: Tree, to: Tree| {
         let rate = Rate::Exactly(&of - &to);
-        Claim::new(name, given, Kind::Limit { of, by: "t", to, rate })
+        limit(name, of, &x("t"), to, rate).assuming(given.iter().copied())
     };
     let later = above_zero(&t - &a);
     vec![

@@ -194,14 +194,14 @@ fn every_claim_belongs_to_an_entry_under_a_name_of_its_own() {
 /// claims suppose it says, among its hypotheses or in its statement.
 #[test]
 fn entries_suppose_what_their_claims_suppose() {
-    let recorded = claims().map(|c| (c.equation, c.given.clone()));
+    let recorded = claims().map(|c| (c.equation(), c.stated_hypotheses().to_vec()));
     let floats = float_experiments::<f64>().into_iter();
     let floats = floats.map(|e| (e.equation, e.given));
     let rationals = exact_experiments().into_iter().map(|e| (e.equation, e.given));
     let all: Vec<_> = recorded.chain(floats).chain(rationals).collect();
     for e in entries() {
         let of_entry = || all.iter().filter(|(equation, _)| *equation == e.equation).map(|(_, given)| given);
-        for hypothesis in &e.given {
+        for hypothesis in &e.hypotheses {
             let supposed = of_entry().any(|given| given.contains(hypothesis));
             let text = registry().supposed(hypothesis);
             assert!(supposed, "{}: none of its claims supposes {text}", e.equation);
@@ -211,10 +211,10 @@ fn entries_suppose_what_their_claims_suppose() {
             // How far on a sequence or a solution is, is no condition.
             let runs = [&given().power, &given().count, &given().time].contains(&common);
             let text = registry().supposed(common);
-            let said = e.given.contains(common) || e.statement().contains(&text);
+            let said = e.hypotheses.contains(common) || e.statement().contains(&text);
             assert!(
                 runs || said,
-                "{}: all its claims suppose {text}, and the entry does not: add it to its `.given([…])`, or take it \
+                "{}: all its claims suppose {text}, and the entry does not: add it to its `.assuming([…])`, or take it \
                  out of a claim that does not need it",
                 e.equation
             );

@@ -5,13 +5,14 @@ use proptest::prelude::*;
 use spring_mass_contact::chapter::{augmented, contact, penalty, system};
 use spring_mass_contact::claims::{claims, computed, registry, symbols};
 use spring_mass_contact::formula::claim::{PRECISION, within};
-use spring_mass_contact::formula::{Claim, Hypothesis, Kind, Relation, Statement};
+use spring_mass_contact::formula::statement::Role;
+use spring_mass_contact::formula::{Hypothesis, Proposition, Relation, Statement};
 use spring_mass_contact::number::tree::{Step, piecewise};
 use spring_mass_contact::number::{Ball, Exact, Mpfr, PositivePart, ToExact, Tree};
 use spring_mass_contact::proof::refute::{Point, Verdict, check};
 use spring_mass_contact::proof::{prove, refute};
 
-fn law(equation: &str, name: &str) -> &'static Claim {
+fn law(equation: &str, name: &str) -> &'static Statement {
     let found = claims().find(|claim| (claim.equation(), claim.name()) == (equation, name));
     found.unwrap_or_else(|| panic!("{equation} {name}"))
 }
@@ -28,40 +29,24 @@ fn run(bits: i32, numbers: &'static str) -> Point {
     Point::new(numbers.split(", ").map(number).chain([precision]))
 }
 
-fn holds(claim: &Claim, point: &Point) -> bool {
-    match check(&claim, point) {
+fn holds(claim: &Statement, point: &Point) -> bool {
+    match check(claim, point) {
         Verdict::Holds => true,
         Verdict::Fails(..) => false,
         other => panic!("{} {}: {other:?} at {point}", claim.equation(), claim.name()),
     }
 }
 
-/// The bound with a part of it, or each of its numbers of this size, as many times.
-fn with(claim: &Claim, part: &Tree, times: (i32, i32)) -> Claim {
+/// The claim with a part of its bounds, or each of its numbers of this size, as many times.
+fn with(claim: &Statement, part: &Tree, times: (i32, i32)) -> Statement {
     let factor = Tree::from(times.0) / Tree::from(times.1);
-    let lowered = |bound: &Tree| {
-        let less = bound.rewrite(&|tree| (tree == part).then(|| tree * &factor));
-        assert_ne!(less, *bound, "{part} is no part of {bound}");
-        less
+    let lowered = |bound: &Tree| bound.rewrite(&|tree| (tree == part).then(|| tree * &factor));
+    let bounds: Vec<Tree> = match claim.conclusion() {
+        Some(sequence) => sequence.within.iter().map(|(_, bound)| bound.clone()).collect(),
+        None => vec![bound(claim).clone()],
     };
-    let kind = match &claim.kind() {
-        Kind::Within(of, bound) => Kind::Within(of.clone(), lowered(bound)),
-        Kind::Drift { ratio, start, step, near, bound, also } => {
-            let [(of, most)] = &also[..] else { panic!("{}", claim.name()) };
-            let own =
-                |bound: &Tree| if bound.any(&|tree| tree == part) { lowered(bound) } else { bound.clone() };
-            Kind::Drift {
-                ratio: ratio.clone(),
-                start: start.clone(),
-                step: step.clone(),
-                near: near.clone(),
-                bound: own(bound),
-                also: vec![(of.clone(), own(most))],
-            }
-        }
-        other => panic!("{} is no bound: {other:?}", claim.name()),
-    };
-    Claim { kind, ..claim.clone() }
+    assert!(bounds.iter().any(|bound| lowered(bound) != *bound), "{part} is no part of {bounds:?}");
+    claim.map(&|tree| if bounds.contains(tree) { lowered(tree) } else { tree.clone() })
 }
 
 /// Each constant of each law, a part of it that is too little, and a run of floats that shows it. That a law holds
@@ -147,12 +132,22 @@ fn no_constant_of_a_law_can_be_much_less() {
         assert!(!holds(&less, point), "{equation} {name} with {times:?} of {part} at {point}");
         assert!(prove(&less).is_err(), "{equation} {name} with {times:?} of {part}");
     }
-    let shown = |claim: &&Claim| runs.iter().any(|(e, n, ..)| (*e, *n) == (claim.equation(), claim.name()));
-    let bounds = claims()
-        .filter(|claim| claim.contains_rounding() && matches!(claim.kind().name(), "bound" | "drift"));
+    let shown =
+        |claim: &&Statement| runs.iter().any(|(e, n, ..)| (*e, *n) == (claim.equation(), claim.name()));
+    let bounds =
+        claims().filter(|claim| claim.contains_rounding() && matches!(claim.kind(), "bound" | "drift"));
     let unshown: Vec<_> = bounds.filter(|claim| !shown(claim)).map(|claim| claim.name()).collect();
     // It says no more than the one before.
     assert_eq!(unshown, ["float-distance"]);
+}
+
+/// The bound of a claim that has only one.
+fn bound(claim: &Statement) -> &Tree {
+    let goals = claim.goals().iter().filter(|goal| goal.role == Role::Claim);
+    let [Proposition::Within(_, bound)] = goals.map(|goal| &goal.proposition).collect::<Vec<_>>()[..] else {
+        panic!("{} has no bound", claim.name())
+    };
+    bound
 }
 
 /// The same in exact arithmetic, in another order: then it is another law that holds.
@@ -161,11 +156,11 @@ fn the_order_of_operations_is_part_of_a_law() {
     let x = symbols();
     let (s, eps, u) = (&x.system, &x.eps, &x.u);
     let error = law("1.13", "float-error");
-    let Kind::Within(_, of_deflection) = &error.kind else { panic!() };
+    let of_deflection = bound(error);
     let by_reaction = system::gap(s) + system::reaction(s) / penalty::total_stiffness(s, eps);
     let by_parts = (eps * &s.h - eps * &s.l + &s.m * &s.g) / (&s.c + eps);
     let rounding = law("1.5", "rounding");
-    let Kind::Within(_, of_penetration) = &rounding.kind else { panic!() };
+    let of_penetration = bound(rounding);
     let difference_first = &s.l + (u - &s.h);
     let in_order = of_penetration.with(&[]);
     let in_other_order = of_penetration
@@ -195,10 +190,8 @@ fn the_order_of_operations_is_part_of_a_law() {
         ),
     ];
     for (own, other, bound, law, point) in others {
-        let given: Vec<_> = law.given.iter().collect();
         let of = |formula: &Tree, bound: &Tree| {
-            let claim = within("order", formula.rounded() - own, bound);
-            Claim { given: given.iter().copied().cloned().collect(), ..claim }
+            within("order", formula.rounded() - own, bound).assuming(law.stated_hypotheses())
         };
         assert!(holds(law, &point), "{own} at {point}");
         let reordered = of(&other, &bound);
@@ -323,8 +316,7 @@ fn the_radius_of_a_ball_encloses_for_every_precision() {
     for (meant, value, radius, given) in radii() {
         let near = [Hypothesis::near(&x, &a, &r), Hypothesis::near(&y, &b, &s)];
         let claim = |radius: &Tree| {
-            let claim = within("encloses", &meant - value.rounded(), radius);
-            Statement::of(&Claim { given: [given.clone(), near.to_vec()].concat(), ..claim })
+            within("encloses", &meant - value.rounded(), radius).assuming(&given).assuming(&near)
         };
         if let Err(why) = prove(&claim(&radius)) {
             panic!("{meant}: {why}");

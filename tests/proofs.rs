@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 fn every_claim_is_proved() {
     let open: Vec<_> = statements()
         .iter()
-        .filter_map(|s| prove(s).err().map(|why| format!("{} {}: {why}", s.equation, s.name)))
+        .filter_map(|s| prove(s).err().map(|why| format!("{} {}: {why}", s.equation(), s.name())))
         .collect();
     assert!(open.is_empty(), "not proved, as `contact prove` shows: {open:#?}");
     assert!(statements().len() > 100, "{} statements", statements().len());
@@ -19,7 +19,7 @@ fn every_claim_is_proved() {
 
 #[test]
 fn every_number_of_the_chapter_has_a_proof() {
-    let proved: BTreeSet<_> = statements().iter().map(|s| s.equation).collect();
+    let proved: BTreeSet<_> = statements().iter().map(|s| s.equation()).collect();
     for n in 1..=33 {
         assert!(
             proved.contains(format!("1.{n}").as_str()),
@@ -52,7 +52,7 @@ fn every_formula_of_the_chapter_is_part_of_a_proof() {
 #[test]
 fn a_proof_can_be_read() {
     let statements = statements();
-    let statement = statements.iter().find(|s| (s.equation, s.name) == ("1.13", "rate")).unwrap();
+    let statement = statements.iter().find(|s| (s.equation(), s.name()) == ("1.13", "rate")).unwrap();
     let (proof, paper) = (prove(statement).unwrap(), Paper::new(registry()));
     assert_eq!(paper.claim(statement), "(c + ε) ((ε (H − l) + m g) / (c + ε) − Δ) = R");
     assert_eq!(paper.used(&proof), ["c > 0", "ε > 0"]);

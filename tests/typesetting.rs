@@ -4,9 +4,11 @@
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use spring_mass_contact::claims::{registry, statements};
-use spring_mass_contact::formula::claim::{MEMBERS, POWER};
-use spring_mass_contact::formula::statement::{Proposition, Role, Sequence};
-use spring_mass_contact::formula::{Claim, Formula, Hypothesis, Kind, Rate, Registry, Relation, Statement};
+use spring_mass_contact::formula::claim::{
+    MEMBERS, POWER, derivative, drift, equal, induction, limit, non_negative, positive, vanishing, within,
+};
+use spring_mass_contact::formula::statement::{Role, Sequence};
+use spring_mass_contact::formula::{Formula, Hypothesis, Proposition, Rate, Registry, Relation, Statement};
 use spring_mass_contact::number::tree::{Step, piecewise};
 use spring_mass_contact::number::{Exact, Exponential, Field, PositivePart, Tree};
 use spring_mass_contact::proof::paper::Paper;
@@ -658,30 +660,28 @@ fn hypotheses() -> impl Strategy<Value = Hypothesis> {
 }
 
 /// Claims of all kinds, which need not be true.
-fn claims() -> impl Strategy<Value = Claim> {
+fn claims() -> impl Strategy<Value = Statement> {
     let some = prop::collection::vec(prop_oneof![trees(), rounded_trees()], 9);
     (some, 0..9, relations(), any::<bool>()).prop_map(|(trees, kind, relation, computes)| {
         let t = |i: usize| trees[i].clone();
-        let kind = match kind {
-            0 => Kind::Equal(t(0), t(1)),
-            1 => Kind::Sign(relation, t(0)),
-            2 => Kind::Derivative { of: t(0), by: "a", is: t(1) },
-            3 => Kind::Limit { of: t(0), by: "a", to: t(1), rate: Rate::Exactly(t(2)) },
-            4 => Kind::Limit { of: t(0), by: "a", to: t(1), rate: Rate::Within(t(2)) },
+        let a = Tree::symbol("a");
+        let claim = match kind {
+            0 => equal("drawn", t(0), t(1)),
+            1 => Statement::new("drawn", Proposition::Sign(relation, t(0))),
+            2 => derivative("drawn", t(0), &a, t(1)),
+            3 => limit("drawn", t(0), &a, t(1), Rate::Exactly(t(2))),
+            4 => limit("drawn", t(0), &a, t(1), Rate::Within(t(2))),
             5 => {
-                let two = |i: usize| vec![t(i), t(i + 1)];
-                Kind::Induction { ratio: t(0), start: two(1), step: two(3), closed: two(5) }
+                let two = |i: usize| [t(i), t(i + 1)];
+                induction("drawn", t(0), two(1), |_| two(3), two(5))
             }
-            6 => Kind::Within(t(0), t(1)),
-            7 => {
-                let (also, step) = (vec![(t(5), t(6))], Tree::symbol(MEMBERS[0]) - t(2));
-                Kind::Drift { ratio: t(0), start: t(1), step, near: t(3), bound: t(4), also }
-            }
-            _ => Kind::Vanishing { ratio: t(0), of: t(1), to: t(2) },
+            6 => within("drawn", t(0), t(1)),
+            7 => drift("drawn", t(0), t(1), |x| x - t(2), (t(3), t(4)), |_| [(t(5), t(6))]),
+            _ => vanishing("drawn", t(0), t(1), t(2)),
         };
         let v = Tree::symbol("v");
         let near = Hypothesis::near(&v, t(7), t(8));
-        let claim = Claim::new("drawn", &[&near], kind);
+        let claim = claim.assuming([&near]);
         if computes { claim.computing(&v, t(8)) } else { claim }
     })
 }
@@ -777,7 +777,7 @@ impl Lines<'_> {
 }
 
 /// Claims that the kernel may prove: equal formulas, squares, and what is bounded by a hypothesis.
-fn provable() -> impl Strategy<Value = Claim> {
+fn provable() -> impl Strategy<Value = Statement> {
     let [a, b, u, k] = ["a", "b", "u", "k"].map(|name| Tree::symbol(name));
     let leaf = prop_oneof![
         4 => prop::sample::select(vec![a.clone(), b.clone(), u.clone(), k.clone()]),
@@ -801,15 +801,15 @@ fn provable() -> impl Strategy<Value = Claim> {
         let difference = sign(Relation::Positive, &(&b - Tree::int(2) * &a));
         let product = sign(Relation::NonNegative, &(&a * &u - &b * &k));
         let hypotheses: &[&Hypothesis] = if more { &[&of_a, &difference, &product] } else { &[&of_a, &of_b] };
-        let kind = match kind {
-            0 => Kind::Equal(&x * (&y + &a), &a * &x + &y * &x),
-            1 => Kind::Equal(&x / (&a + &b) - &y, (&x - &y * (&a + &b)) / (&a + &b)),
-            2 => Kind::Sign(Relation::Positive, &x * &x + &b),
-            3 => Kind::Sign(Relation::Positive, &u * &u * &a - &u * &k * &a + &k * &k * &b + &a),
-            4 => Kind::Sign(Relation::NonNegative, (&a * &x * &x + &a * &y * &y - &x * &y * &a) / (&b * &b)),
-            _ => Kind::Within(&x * &a, (&x * &a).abs() + &b),
+        let claim = match kind {
+            0 => equal("drawn", &x * (&y + &a), &a * &x + &y * &x),
+            1 => equal("drawn", &x / (&a + &b) - &y, (&x - &y * (&a + &b)) / (&a + &b)),
+            2 => positive("drawn", &x * &x + &b),
+            3 => positive("drawn", &u * &u * &a - &u * &k * &a + &k * &k * &b + &a),
+            4 => non_negative("drawn", (&a * &x * &x + &a * &y * &y - &x * &y * &a) / (&b * &b)),
+            _ => within("drawn", &x * &a, (&x * &a).abs() + &b),
         };
-        Claim::new("drawn", hypotheses, kind)
+        claim.assuming(hypotheses.iter().copied())
     })
 }
 

@@ -9,7 +9,7 @@ use super::mistakes::{
 use super::*;
 use crate::chapter::{SpringMass, augmented, contact, structure, system};
 use crate::claims::given;
-use crate::formula::{self, Claim, Statement};
+use crate::formula::claim::equal;
 use crate::number::{PositivePart, ToExact};
 use crate::proof::prove;
 use crate::solver::{Augmentation, Method, State, solve};
@@ -143,7 +143,7 @@ fn what_is_taken_for_the_same_is_proved_to_be() {
             let same = &kept[&values(&mistake)];
             let pairs = [(&same.touching, &mistake.touching), (&same.apart, &mistake.apart)];
             for (a, b) in pairs.into_iter().flat_map(|(a, b)| a.iter().zip(b)) {
-                let claim = Claim::new("same", &given, formula::Kind::Equal(a.clone(), b.clone()));
+                let claim = equal("same", a, b).assuming(given);
                 assert!(a == b || prove(&claim).is_ok(), "{} and {}: {a} and {b}", same.name, mistake.name);
             }
         }

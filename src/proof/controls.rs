@@ -245,7 +245,8 @@ impl<'a> Bench<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::formula::{Claim, Formula, Kind, Relation};
+    use crate::formula::claim::{equal, non_negative};
+    use crate::formula::{Formula, Relation};
     use crate::number::Tree;
 
     /// k = (a − b)² + a
@@ -262,15 +263,15 @@ mod tests {
         Registry::new(&["a", "b"], vec![Formula::new("squared", "k", &["a", "b"], squared(&x("a"), &x("b")))])
     }
 
-    fn expanded(name: &'static str, given: &[&Hypothesis]) -> Statement {
+    fn expanded(name: &'static str) -> Statement {
         let [a, b] = ["a", "b"].map(x);
         let sum = &a * &a - Tree::from(2) * &a * &b + &b * &b + &a;
-        Statement::of(&Claim::new(name, given, Kind::Equal(squared(&a, &b), sum)))
+        equal(name, squared(&a, &b), sum)
     }
 
     #[test]
     fn what_does_not_matter_is_proved_not_to() {
-        let statements = [expanded("expanded", &[])];
+        let statements = [expanded("expanded")];
         let Controls { changes, .. } = controls(&statements, &registry());
         let kept = changes.iter().filter(|(_, outcome)| matches!(outcome, Effect::Unchanged));
         assert_eq!(kept.map(|(change, _)| change.what).collect::<Vec<_>>(), [What::Swap(Operator::Sub)]);
@@ -283,7 +284,7 @@ mod tests {
     fn a_needless_hypothesis_is_told_from_a_needed_one() {
         let [above, below] = ["a", "b"].map(|name| Hypothesis::new(Relation::Positive, x(name)));
         // a/a = 1 needs a > 0, whatever b is.
-        let claim = Claim::new("one", &[&above, &below], Kind::Equal(x("a") / x("a"), Tree::from(1)));
+        let claim = equal("one", x("a") / x("a"), 1).assuming([&above, &below]);
         let controls = controls(&[claim], &registry());
         let became =
             |given: &Hypothesis| controls.dropped.iter().find(|d| d.given == *given).map(|d| &d.without);
@@ -298,7 +299,7 @@ mod tests {
     fn a_change_is_tried_where_what_is_supposed_holds_after_it() {
         let k = squared(&x("a"), &x("b"));
         let given = Hypothesis::new(Relation::NonNegative, k.clone());
-        let statements = [Statement::of(&Claim::new("k", &[&given], Kind::Sign(Relation::NonNegative, k)))];
+        let statements = [non_negative("k", k).assuming([&given])];
         let Controls { changes, .. } = controls(&statements, &registry());
         let noticed = changes.iter().find(|(_, outcome)| matches!(outcome, Effect::Noticed { .. }));
         assert!(noticed.is_none() && !changes.is_empty(), "{noticed:?}");
@@ -311,8 +312,7 @@ mod tests {
         let formula = Formula::new("quarter", "k", &["a"], quarter(&x("a")));
         let registry = Registry::new(&["a"], vec![formula]);
         for right in [2, 20, -4, 8, 1] {
-            let says = Kind::Equal(quarter(&x("a")) * Tree::from(right), x("a") * x("a"));
-            let statement = Statement::of(&Claim::new("half", &[], says));
+            let statement = equal("half", quarter(&x("a")) * Tree::from(right), x("a") * x("a"));
             let repairs = repairs(&[statement], &registry);
             let found: Vec<_> = repairs.iter().map(|change| change.what.to_string()).collect();
             assert!(found.contains(&format!("4 → {right}")), "{found:?}");
@@ -321,8 +321,8 @@ mod tests {
 
     #[test]
     fn a_repair_mends_what_is_wrong_and_breaks_nothing() {
-        let (right, registry) = (expanded("expanded", &[]), registry());
-        let twice = Statement::of(&Claim::new("same", &[], Kind::Equal(squared(&x("a"), &x("a")), x("a"))));
+        let (right, registry) = (expanded("expanded"), registry());
+        let twice = equal("same", squared(&x("a"), &x("a")), x("a"));
         // (a + b)² in all that is said: its + is the mistake.
         let change = |what: What| {
             let all = changes(std::slice::from_ref(&right), &registry);
@@ -335,8 +335,7 @@ mod tests {
         assert!(repairs(&[right.clone(), twice.clone()], &registry).is_empty(), "nothing is wrong");
         // Whoever claims k = (a + b)² + a must not be obeyed against all that k = (a − b)² + a is claimed in.
         let [a, b] = ["a", "b"].map(x);
-        let says = Kind::Equal(squared(&a, &b), (&a + &b) * (&a + &b) + &a);
-        let mistaken = Statement::of(&Claim::new("mistaken", &[], says));
+        let mistaken = equal("mistaken", squared(&a, &b), (&a + &b) * (&a + &b) + &a);
         assert!(repairs(std::slice::from_ref(&mistaken), &registry).contains(&mistake));
         assert!(!repairs(&[mistaken, right], &registry).contains(&mistake));
     }

@@ -86,6 +86,7 @@ mod tests {
     use super::*;
     use crate::claims::{Case, given};
     use crate::formula::Rate;
+    use crate::formula::claim::{derivative, equal, induction, limit, non_negative, vanishing, within};
     use crate::number::{Exact, Field};
     use crate::verify::checker::{Exactly, Judge};
     use num_traits::Zero;
@@ -99,8 +100,7 @@ mod tests {
     }
 
     /// Does such a claim hold where every coordinate is 2 but q?
-    fn holds_at(q: i32, kind: Kind) -> bool {
-        let claim = Claim { equation: "1.1", ..Claim::new("tried", &[], kind) };
+    fn holds_at(q: i32, claim: Statement) -> bool {
         let groups = groups(&[claim]);
         let [Group { program, claims, .. }] = groups.as_slice() else { panic!("one group") };
         let case = Case { q: Exact::int(q), ..Case::of(|_| Exact::int(2)) };
@@ -113,17 +113,16 @@ mod tests {
         })
     }
 
-    fn holds(kind: Kind) -> bool {
-        holds_at(2, kind)
+    fn holds(claim: Statement) -> bool {
+        holds_at(2, claim)
     }
 
     #[test]
     fn what_formulas_share_is_computed_once() {
         let square = || x("u") * x("u");
-        let claim = |name, kind| Claim { equation: "1.1", ..Claim::new(name, &[], kind) };
-        let sum = claim("sum", Kind::Equal(square() + square(), int(2) * square()));
-        let sign = claim("sign", Kind::Sign(Relation::NonNegative, square()));
-        let other = Claim { given: vec![given().stiffness.clone()], ..sign.clone() };
+        let sum = equal("sum", square() + square(), int(2) * square());
+        let sign = non_negative("sign", square());
+        let other = sign.clone().assuming([&given().stiffness]);
         let groups = groups(&[sum, other, sign]);
         let of = |group: &Group| group.claims.iter().map(|(place, _)| *place).collect::<Vec<_>>();
         assert_eq!(groups.iter().map(of).collect::<Vec<_>>(), [vec![0, 2], vec![1]]);
@@ -132,21 +131,21 @@ mod tests {
 
     #[test]
     fn a_wrong_derivative_is_seen() {
-        let square = |is| Kind::Derivative { of: x("u") * x("u"), by: "u", is };
+        let square = |is: Tree| derivative("square", x("u") * x("u"), &x("u"), is);
         assert!(holds(square(x("u") + x("u"))) && !holds(square(x("u"))));
     }
 
     #[test]
     fn a_bound_is_met_or_not_on_either_side() {
         for of in [x("u"), -x("u")] {
-            assert!(holds(Kind::Within(of.clone(), int(3))) && holds(Kind::Within(of.clone(), int(2))));
-            assert!(!holds(Kind::Within(of.clone(), int(1))) && !holds(Kind::Within(of, int(-3))));
+            let is_met = |bound: i32| holds(within("bound", of.clone(), bound));
+            assert!(is_met(3) && is_met(2) && !is_met(1) && !is_met(-3));
         }
     }
 
     #[test]
     fn a_limit_is_as_far_as_its_rate_says_on_either_side() {
-        let limit = |of, rate| holds(Kind::Limit { of, by: "t", to: x("u"), rate });
+        let limit = |of: Tree, rate| holds(limit("limit", of, &x("t"), x("u"), rate));
         for of in [x("u") + int(3), x("u") - int(3)] {
             assert!(limit(of.clone(), Rate::Within(int(3))) && !limit(of.clone(), Rate::Within(int(2))));
             assert!(!limit(of, Rate::Within(int(-3))), "no bound is negative");
@@ -157,7 +156,8 @@ mod tests {
 
     #[test]
     fn a_power_vanishes_only_of_what_is_less_than_1_in_size() {
-        let vanishing = |ratio, to| holds(Kind::Vanishing { ratio, of: x("u") + x("v") * x("q"), to });
+        let vanishing =
+            |ratio: Tree, to: Tree| holds(vanishing("limit", ratio, x("u") + x("v") * x("q"), to));
         for half in [int(1) / int(2), int(-1) / int(2)] {
             assert!(vanishing(half, x("u")));
         }
@@ -170,23 +170,20 @@ mod tests {
     /// x₀ = 3, x ← 2 x − 1, so x_k − 1 = 2 · 2ᵏ.
     #[test]
     fn an_induction_has_its_start_its_step_and_its_closed_form() {
-        let induction = |start: i32, step: Tree, closed: Tree| Kind::Induction {
-            ratio: int(2),
-            start: vec![int(start)],
-            step: vec![step],
-            closed: vec![closed],
+        let induction = |start: i32, less: i32, closed: Tree| {
+            let step = |[x]: [Tree; 1]| [int(2) * x - int(less)];
+            induction("powers", 2, [int(start)], step, [closed])
         };
-        let step = || int(2) * x(MEMBERS[0]) - int(1);
         let closed = || int(2) * x("q") + int(1);
-        assert!(holds(induction(3, step(), closed())));
-        assert!(!holds(induction(4, step(), closed())));
-        assert!(!holds(induction(3, int(2) * x(MEMBERS[0]), closed())));
-        assert!(!holds(induction(3, step(), int(2) * x("q") + int(2))));
-        assert!(!holds(induction(3, step(), x("q") + int(2))), "right at the start, and then a step late");
+        assert!(holds(induction(3, 1, closed())));
+        assert!(!holds(induction(4, 1, closed())));
+        assert!(!holds(induction(3, 0, closed())));
+        assert!(!holds(induction(3, 1, int(2) * x("q") + int(2))));
+        assert!(!holds(induction(3, 1, x("q") + int(2))), "right at the start, and then a step late");
         // Right from 3 on as far as it is followed, and wrong for a power that no step meets: 3, 5, 9, 17,
         // and so on.
         let off = [1, 2, 4, 8].into_iter().fold(int(1), |off, n| off * (x("q") - int(n)));
-        let followed = || induction(3, step(), closed() + &off);
+        let followed = || induction(3, 1, closed() + &off);
         assert!(holds_at(2, followed()) && !holds_at(3, followed()));
     }
 }

@@ -161,7 +161,7 @@ impl Proofs {
 mod tests {
     use super::*;
     use crate::claims::given;
-    use crate::formula::statement::{Goal, Proposition};
+    use crate::formula::claim::equal;
     use crate::number::Tree;
     use crate::proof::controls::{Without, changes};
 
@@ -171,12 +171,11 @@ mod tests {
 
     /// c = 0, in the place of what is claimed.
     fn wrong() -> Statement {
-        let says = Proposition::Equal(Tree::symbol("c"), Tree::from(0));
-        Statement { name: "wrong", goals: vec![Goal::of_claim("", says)], ..rate() }
+        equal("wrong", Tree::symbol("c"), 0).assuming(rate().hypotheses()).inheriting("1.13", &[])
     }
 
     fn needless(statement: &Statement) -> Dropped {
-        let Statement { equation, name, .. } = *statement;
+        let (equation, name) = (statement.equation(), statement.name());
         Dropped { equation, name, given: given().stiffness.clone(), without: Without::StillTrue }
     }
 
@@ -203,7 +202,7 @@ mod tests {
         let proofs = Proofs { controls: Controls { changes: vec![], dropped }, ..Proofs::default() };
         let names: Vec<_> = proofs.dropped(&rate()).map(|dropped| dropped.name).collect();
         assert_eq!(names, ["rate"]);
-        let proved = Proved::of(Statement { hypotheses: vec![given().penalty.clone()], ..wrong() });
+        let proved = Proved::of(wrong().only_assuming([&given().penalty]));
         assert_eq!((proved.hypotheses(), proved.status()), (vec!["ε > 0".to_string()], "refuted"));
     }
 

@@ -119,7 +119,7 @@ mod tests {
     #[test]
     fn a_changed_function_is_suspected_and_hardly_another() {
         // What rounds takes longer, and adds no function.
-        let statements: Vec<_> = statements().into_iter().filter(|s| !s.rounds()).collect();
+        let statements: Vec<_> = statements().into_iter().filter(|s| !s.contains_rounding()).collect();
         let noticed = controls(&statements, registry()).changes;
         let noticed: Vec<_> = noticed.iter().filter(|(_, o)| matches!(o, Effect::Noticed { .. })).collect();
         let is_in = |function: &str, change: &Change| {

@@ -5,8 +5,9 @@ mod changed;
 use super::checker::Judge;
 use super::*;
 use crate::claims::{Experiment, Trial};
-use crate::formula::statement::{Goal, Proposition};
-use crate::formula::{Claim, Kind, Relation};
+use crate::formula::Relation;
+use crate::formula::claim::induction;
+use crate::formula::statement::Proposition;
 use crate::number::{Exponential, Field, PositivePart, Tree};
 use crate::proof::controls::{self, What};
 use num_traits::{One, Zero};
@@ -20,8 +21,8 @@ fn options(cases: u64) -> Options {
     Options { scalars: Vec::new(), cases, seed: SEED, equations: Vec::new() }
 }
 
-fn claim(name: &'static str, kind: Kind) -> Claim {
-    Claim { equation: "1.1", ..Claim::new(name, &[], kind) }
+fn claim(name: &'static str, proposition: Proposition) -> Statement {
+    Statement::new(name, proposition).inheriting("1.1", &[])
 }
 
 fn experiment<T: 'static>(name: &'static str, check: fn(&Case<T>) -> Trial) -> Experiment<T> {
@@ -33,8 +34,8 @@ fn x(name: &'static str) -> Tree {
 }
 
 /// A claim that holds, to see that what fails beside it does not take it along.
-fn holding() -> Claim {
-    claim("holds", Kind::Equal(x("u") + x("v"), x("v") + x("u")))
+fn holding() -> Statement {
+    claim("holds", Proposition::Equal(x("u") + x("v"), x("v") + x("u")))
 }
 
 /// 1/(u − u)
@@ -47,13 +48,13 @@ type Boxed = (NumberSystem, Box<dyn Checks>);
 fn boxed<J: Judge + 'static>(
     scalar: NumberSystem,
     judge: J,
-    claims: &[Claim],
+    claims: &[Statement],
     experiments: Vec<Experiment<J::Computed>>,
 ) -> Boxed {
     (scalar, Box::new(Checker::with(judge, claims, experiments)))
 }
 
-fn exactly(claims: &[Claim], experiments: Vec<Experiment<Exact>>) -> Boxed {
+fn exactly(claims: &[Statement], experiments: Vec<Experiment<Exact>>) -> Boxed {
     boxed(NumberSystem::Exact, Exactly, claims, experiments)
 }
 
@@ -95,7 +96,7 @@ fn a_claim_that_fails_in_one_of_many_cases_fails() {
         let off = [("u", &case.u), ("v", &case.v), ("l", &case.system.l)]
             .map(|(name, number)| x(name) - constant(number));
         let alone = off.iter().map(|off| off * off).reduce(|sum, square| sum + square).unwrap();
-        let alone = claim("alone", Kind::Sign(Relation::Positive, alone));
+        let alone = claim("alone", Proposition::Sign(Relation::Positive, alone));
         let experiments = vec![experiment("tried", |x| Trial::Decided(!is_wrong(x)))];
         let report = report(&[exactly(&[alone, holding()], experiments)], all);
         assert!(!report.holds() && report.is_decided());
@@ -110,7 +111,7 @@ fn a_claim_that_fails_in_one_of_many_cases_fails() {
 
 #[test]
 fn of_many_counterexamples_the_first_is_kept() {
-    let wrong = claim("wrong", Kind::Sign(Relation::Positive, -(x("u") * x("u"))));
+    let wrong = claim("wrong", Proposition::Sign(Relation::Positive, -(x("u") * x("u"))));
     let report = report(&[exactly(&[wrong], Vec::new())], 3 * BLOCK);
     let first = row(&report, "wrong", NumberSystem::Exact).counterexample.clone();
     assert_eq!(first, cases::case(SEED, 0, &[]));
@@ -121,7 +122,7 @@ fn of_many_counterexamples_the_first_is_kept() {
 fn a_claim_can_fail_in_one_number_system_alone() {
     let zero_is = |zero: bool| {
         let number = if zero { Tree::zero() } else { Tree::one() };
-        [claim("zero", Kind::Equal(x("u") - x("u"), number)), holding()]
+        [claim("zero", Proposition::Equal(x("u") - x("u"), number)), holding()]
     };
     let scalars = [NumberSystem::F32, NumberSystem::F64, NumberSystem::Mpfr(100), NumberSystem::Exact];
     for wrong in scalars {
@@ -146,7 +147,7 @@ fn a_claim_can_fail_in_one_number_system_alone() {
 #[test]
 fn a_claim_that_is_nowhere_decided_is_undecided_and_no_failure() {
     let open = x("u") / Tree::int(3) * Tree::int(3) - x("u");
-    let open = claim("open", Kind::Sign(Relation::NonNegative, Tree::one() / (&open * &open)));
+    let open = claim("open", Proposition::Sign(Relation::NonNegative, Tree::one() / (&open * &open)));
     let checkers = [
         boxed(
             NumberSystem::F64,
@@ -177,12 +178,11 @@ fn a_claim_that_is_nowhere_decided_is_undecided_and_no_failure() {
 fn what_was_never_tried_does_not_hold() {
     let positive = |value: Tree| Hypothesis::new(Relation::Positive, value);
     let never = vec![positive(x("u")), positive(-x("u"))];
-    let wrong = || Kind::Sign(Relation::Positive, -Tree::one());
-    let skipped = Claim { given: never.clone(), ..claim("skipped", wrong()) };
-    let kink = claim("kink", Kind::Derivative { of: x("u").positive_part(), by: "u", is: x("u") });
-    let nothing = || Vec::new();
-    let members = Kind::Induction { ratio: x("q"), start: nothing(), step: nothing(), closed: nothing() };
-    let claims = [skipped, kink, claim("members", members)];
+    let wrong = || Proposition::Sign(Relation::Positive, -Tree::one());
+    let skipped = claim("skipped", wrong()).assuming(&never);
+    let kink = claim("kink", Proposition::Derivative(x("u").positive_part(), "u", x("u")));
+    let members = induction("members", x("q"), [], |[]| [], []).inheriting("1.1", &[]);
+    let claims = [skipped, kink, members];
     let experiments = || {
         let skipped = experiment("skipped trial", |_| Trial::Decided(false));
         vec![Experiment { given: never.clone(), ..skipped }]
@@ -213,11 +213,11 @@ fn what_was_never_tried_does_not_hold() {
 #[test]
 fn what_is_undefined_or_breaks_off_is_a_finding_with_its_case() {
     let claims = [
-        claim("equal", Kind::Equal(undefined(), Tree::one())),
-        claim("sign", Kind::Sign(Relation::Positive, undefined())),
-        claim("factor", Kind::Equal(Tree::zero() * undefined(), Tree::zero())),
-        claim("min", Kind::Sign(Relation::NonNegative, Tree::zero().min(&undefined()))),
-        claim("derivative", Kind::Derivative { of: undefined(), by: "u", is: Tree::zero() }),
+        claim("equal", Proposition::Equal(undefined(), Tree::one())),
+        claim("sign", Proposition::Sign(Relation::Positive, undefined())),
+        claim("factor", Proposition::Equal(Tree::zero() * undefined(), Tree::zero())),
+        claim("min", Proposition::Sign(Relation::NonNegative, Tree::zero().min(&undefined()))),
+        claim("derivative", Proposition::Derivative(undefined(), "u", Tree::zero())),
         holding(),
     ];
     fn expecting<T: 'static>() -> Vec<Experiment<T>> {
@@ -290,21 +290,15 @@ fn the_worst_share_is_that_of_all_cases() {
 #[test]
 fn a_wrong_statement_is_refuted_and_an_unprovable_one_is_not_proved() {
     let all = statements();
-    let rate = all.iter().find(|s| (s.equation, s.name) == ("1.13", "rate")).unwrap();
-    let Proposition::Equal(left, right) = &rate.goals[0].says else { panic!("an equation") };
-    let goal = |says| vec![Goal::of_claim("", says)];
-    let wrong = Statement {
-        name: "wrong",
-        goals: goal(Proposition::Equal(left.clone(), right + right)),
-        ..rate.clone()
-    };
+    let rate = all.iter().find(|s| (s.equation(), s.name()) == ("1.13", "rate")).unwrap();
+    let Proposition::Equal(left, right) = &rate.goals()[0].proposition else { panic!("an equation") };
+    let named = |name, proposition| Statement::new(name, proposition).inheriting(rate.equation(), &[]);
+    let wrong = Proposition::Equal(left.clone(), right + right);
+    let wrong = named("wrong", wrong).assuming(rate.stated_hypotheses());
     // eˣ ≥ 1 + x for every x: true, and beyond the kernel, which knows x ≥ 0 alone.
     let q = Tree::symbol("q");
-    let open = Proposition::Sign(Relation::NonNegative, q.exp() - Tree::one() - &q);
-    let open = Statement { name: "open", hypotheses: Vec::new(), goals: goal(open), ..rate.clone() };
-    let undefined = Proposition::Equal(Tree::one() / (&q - &q), Tree::one());
-    let undefined =
-        Statement { name: "undefined", hypotheses: Vec::new(), goals: goal(undefined), ..rate.clone() };
+    let open = named("open", Proposition::Sign(Relation::NonNegative, q.exp() - Tree::one() - &q));
+    let undefined = named("undefined", Proposition::Equal(Tree::one() / (&q - &q), Tree::one()));
     let report = run(&[], vec![rate.clone(), wrong, open, undefined], &options(1), &|_, _| ());
     let found: Vec<_> = report
         .rows
@@ -349,7 +343,7 @@ fn a_mistake_is_looked_for_where_it_is() {
 fn only_what_is_asked_for_is_tried_and_progress_says_how_far() {
     let all = statements();
     let asked = Options { equations: vec!["1.13".to_string()], ..options(2 * BLOCK) };
-    let other = Claim { equation: "1.13", ..claim("other", Kind::Sign(Relation::Positive, Tree::one())) };
+    let other = claim("other", Proposition::Sign(Relation::Positive, Tree::one())).inheriting("1.13", &[]);
     let seen = Mutex::new(Vec::new());
     let progress = |done: usize, of: usize| seen.lock().unwrap().push((done, of));
     let report = run(&[exactly(&[holding(), other], Vec::new())], all, &asked, &progress);

@@ -4,11 +4,11 @@
 use spring_mass_contact::formula::claim::{
     PRECISION, SCALES, derivative, equal, induction, limit, non_negative, positive, within,
 };
-use spring_mass_contact::formula::{Claim, Hypothesis, Rate, Relation};
+use spring_mass_contact::formula::{Hypothesis, Rate, Relation, Statement};
 use spring_mass_contact::number::{Exponential, Field, PositivePart, Tree};
 
 /// Thirty-odd claims, each of which the kernel proves.
-pub fn claims() -> Vec<Claim> {
+pub fn claims() -> Vec<Statement> {
     let [a, b, c, d, f, g, x, y] = ["a", "b", "c", "d", "f", "g", "x", "y"].map(|name| Tree::symbol(name));
     let n = Tree::symbol(PRECISION);
     let one = || Tree::int(1);

@@ -283,18 +283,18 @@ fn markdown(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
 mod tests {
     use super::*;
     use spring_mass_contact::formula::Hypothesis;
-    use spring_mass_contact::formula::statement::Proposition;
+    use spring_mass_contact::formula::statement::{Goal, Proposition, Statement};
     use spring_mass_contact::number::{Field, Tree};
 
     /// A run in which every equality is wrong by 1.
     fn refuted() -> Proofs {
-        let wrong = |mut statement: Statement| {
-            for goal in &mut statement.goals() {
-                if let Proposition::Equal(_, right) = &mut goal.proposition {
-                    *right = &*right + Tree::int(1);
+        let wrong = |statement: Statement| {
+            Proved::of(match statement.goals() {
+                [Goal { proposition: Proposition::Equal(left, right), .. }] => {
+                    statement.with_proposition(Proposition::Equal(left.clone(), right + Tree::int(1)))
                 }
-            }
-            Proved::of(statement)
+                _ => statement,
+            })
         };
         Proofs { claims: statements().into_iter().map(wrong).collect(), ..Proofs::default() }
     }
@@ -306,13 +306,12 @@ mod tests {
     /// A size in a hypothesis ends no cell.
     #[test]
     fn a_row_of_markdown_has_as_many_cells_as_its_head() {
-        let u = Tree::symbol("u");
-        let near = Hypothesis::near(&u, Tree::from(0), Tree::symbol("tol"));
-        let statement = Statement { hypotheses: vec![near], ..claim("float-drift") };
+        let near = Hypothesis::near(&Tree::symbol("v"), 0, Tree::symbol("tol"));
+        let statement = claim("float-drift").assuming([&near]);
         let proofs = Proofs { claims: vec![Proved::of(statement)], ..Proofs::default() };
         let text = output::printed(|out| markdown(out, &proofs));
         let cells = |line: &str| line.replace("\\|", "").matches('|').count();
-        assert!(text.contains("\\|u\\| ≤ tol"), "{text}");
+        assert!(text.contains("\\|v\\| ≤ tol"), "{text}");
         assert!(text.lines().all(|line| cells(line) == 7), "{text}");
     }
 

@@ -316,7 +316,9 @@ fn edits_in<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::formula::Hypothesis;
     use crate::formula::claim::drift;
+    use crate::formula::statement::Sequence;
     use crate::number::{Exponential, Field, PositivePart};
 
     #[test]
@@ -357,24 +359,25 @@ mod tests {
         assert_eq!([0, 1].map(|i| mistaken(i).edit(&(&a * &c))), [None, Some(&a * &eps)]);
     }
 
-    /// In its hypotheses, its goals, what is computed, and what it all amounts to.
+    /// In its hypotheses, its goals, what is computed, and the sequence that it is about.
     #[test]
     fn a_change_is_made_in_all_formulas_of_a_statement() {
-        let [q, u, v, x] = ["q", "u", "v", "x₁"].map(|name| Tree::symbol(name));
-        let given = [Hypothesis::near(&u, &v, 0), Hypothesis::near(&q, 0, 1), Hypothesis::near(&v, 0, 2)];
-        let [of_u, of_q, of_v] = &given;
-        let claim = drift("stays", 1, &v, Tree::clone, (v.clone(), u.clone()), |x| [(x - &v, u.clone())])
-            .assuming([of_u, of_q, of_v]);
-        let statement = Statement::of(&claim.computing(&u, &v));
-        let changed = mapped(&statement, &|tree| -tree);
-        let negated = |trees: Vec<&Tree>| trees.into_iter().map(|tree| -tree).collect::<Vec<_>>();
-        assert_eq!(changed.trees().cloned().collect::<Vec<_>>(), negated(statement.trees().collect()));
+        let [q, u, v, w] = ["q", "u", "v", "w"].map(|name| Tree::symbol(name));
+        let given = [Hypothesis::near(&u, &v, &v), Hypothesis::near(&q, 0, &v), Hypothesis::near(&v, 0, 2)];
+        let statement = drift("stays", &v, &v, |x| x + &v, (v.clone(), &u + &v), |x| [(x - &v, u.clone())])
+            .assuming(&given)
+            .computing(&u, &v);
+        let replaced = |tree: &Tree| tree.with(&[("v", w.clone())]);
+        let changed = statement.map(&replaced);
+        let expected: Vec<_> = statement.trees().map(replaced).collect();
+        assert_eq!(changed.trees().cloned().collect::<Vec<_>>(), expected);
         assert!([statement.hypotheses().len(), statement.invariants().len()].iter().all(|n| *n > 0));
-        assert_eq!(changed.computed.map(|computed| computed.by), Some(-&v));
+        assert_eq!(changed.computed().map(|computed| &computed.by), Some(&w));
         let Sequence { start, step, ratio, member, within, .. } = changed.conclusion().unwrap();
-        let all = [start, step, vec![ratio], member].concat();
-        assert_eq!(all, negated(vec![&v, &x, &Tree::from(1), &v]));
-        assert_eq!(within, [(-(&x - &v), -&u), (-(&x - &v), -&u)]);
+        let x = Tree::symbol("x₁");
+        let all = [&start[..], step, std::slice::from_ref(ratio), member].concat();
+        assert_eq!(all, [w.clone(), &x + &w, w.clone(), w.clone()]);
+        assert_eq!(*within, [(&x - &w, &u + &w), (&x - &w, u.clone())]);
         let elsewhere = Change { site: (&u + &v).site(), what: What::Opposite(Operator::Add) };
         assert!(elsewhere.apply(&statement).is_none());
     }

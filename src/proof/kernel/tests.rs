@@ -3,7 +3,6 @@
 use super::*;
 use crate::formula::claim::{PRECISION, derivative, drift, equal, induction, positive, vanishing};
 use crate::formula::statement::minimum_precision;
-use crate::formula::{Claim, Kind};
 use crate::number::{Exponential, Field, PositivePart};
 use num_traits::{One, Zero};
 
@@ -23,8 +22,7 @@ fn not_below_zero(value: Tree) -> Hypothesis {
 }
 
 fn outcome(hypotheses: Vec<Hypothesis>, says: Proposition) -> Result<Proof, Why> {
-    let goals = vec![Goal::of_claim("", says)];
-    prove(&Statement { hypotheses, goals, ..Statement::default() })
+    prove(&Statement::new("", says).assuming(&hypotheses))
 }
 
 fn proved(hypotheses: Vec<Hypothesis>, says: Proposition) -> bool {

@@ -124,12 +124,12 @@ impl Why {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::formula::Claim;
     use crate::formula::claim::{Rate, equal, limit, positive};
     use crate::formula::{Hypothesis, Registry, Relation};
     use crate::number::PositivePart;
+    use crate::proof::prove;
 
-    fn why(claim: &Claim) -> String {
+    fn why(claim: &Statement) -> String {
         let statement = claim;
         Paper::new(&Registry::default()).why(&statement, &prove(&statement).unwrap_err())
     }
@@ -189,8 +189,7 @@ mod tests {
         let [a, b] = ["a", "b"].map(|name| Tree::symbol(name));
         let given = Hypothesis::new(Relation::NonNegative, (&a + &b).nearest());
         let of = (&a * (&a + &b) - &b).rounded();
-        let statement =
-            Statement::of(&equal("", of.clone() * b.nearest(), b.nearest() * of).assuming([&given]));
+        let statement = equal("", of.clone() * b.nearest(), b.nearest() * of).assuming([&given]);
         let proof = prove(&statement).unwrap();
         let Derivation::Direct(direct) = &proof.goals()[0] else { panic!("no cases") };
         let named: Vec<_> =

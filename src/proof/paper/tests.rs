@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::formula::claim::{drift, equal, induction, non_negative, positive, vanishing};
-use crate::formula::{Claim, Relation};
+use crate::formula::{Relation, Statement};
 use crate::number::Exponential;
 use crate::proof::prove;
 
@@ -10,7 +10,7 @@ use crate::proof::prove;
 fn in_a_few_words_it_is_said_how() {
     let [a, u] = ["a", "u"].map(|name| Tree::symbol(name));
     let given = Hypothesis::new(Relation::Positive, a.clone());
-    let how = |claim: Claim| how(&prove(&claim).unwrap());
+    let how = |claim: Statement| how(&prove(&claim).unwrap());
     let is_positive = |of: &Tree| how(positive("", of).assuming([&given]));
     assert_eq!(how(equal("", &u + &u, Tree::from(2) * &u)), "identity");
     assert_eq!(how(equal("", u.positive_part() - (-&u).positive_part(), &u)), "identity, 2 cases");
@@ -30,7 +30,7 @@ fn every_name_in_a_claim_is_defined() {
     let registry =
         Registry::new(&["a", "b"], vec![Formula::new("spring", "c", &["a", "b"], spring(&a, &b)).folded()]);
     let names = |of: Tree| {
-        let statement = Statement::of(&positive("", of));
+        let statement = positive("", of);
         let paper = Paper::new(&registry);
         (paper.claim(&statement), paper.names(&statement))
     };
@@ -50,7 +50,7 @@ fn a_name_that_is_taken_is_written_out() {
     let registry =
         Registry::new(&["a", "b"], vec![Formula::new("spring", "c", &["a", "b"], spring(&a, &b)).folded()]);
     let paper = Paper::new(&registry);
-    let statement = |right: &Tree| Statement::of(&equal("", spring(&a, &b) - right, -right + &a * &b));
+    let statement = |right: &Tree| equal("", spring(&a, &b) - right, -right + &a * &b);
     let [known, taken] = [&a, &other].map(statement);
     assert_eq!(
         (paper.claim(&known), paper.names(&known)),
@@ -65,7 +65,7 @@ fn a_name_that_is_taken_is_written_out() {
 fn steps_are_counted_by_a_letter_of_their_own() {
     let [a, k, q] = ["a", "k", "q"].map(|name| Tree::symbol(name));
     let powers = |ratio: &Tree| {
-        let statement = Statement::of(&induction("", ratio, [a.clone()], |[x]| [x * ratio], [&a * &q]));
+        let statement = induction("", ratio, [a.clone()], |[x]| [x * ratio], [&a * &q]);
         let paper = Paper::new(&NONE);
         (paper.claim(&statement), paper.proof(&prove(&statement).unwrap())[0].clone())
     };
@@ -85,7 +85,7 @@ fn steps_are_counted_by_a_letter_of_their_own() {
         )
     );
     let half = Tree::from(-1) / Tree::from(2);
-    let vanishes = Statement::of(&vanishing("", &half, &k * &q, 0));
+    let vanishes = vanishing("", &half, &k * &q, 0);
     assert_eq!(Paper::new(&NONE).claim(&vanishes), "k q → 0 for q = (−1 / 2)ʲ and j → ∞");
     let lines = Paper::new(&NONE).proof(&prove(&vanishes).unwrap());
     assert_eq!(
@@ -104,8 +104,7 @@ static NONE: std::sync::LazyLock<Registry> = std::sync::LazyLock::new(Registry::
 fn it_is_said_how_a_quantity_is_computed() {
     let [a, b, u] = ["a", "b", "u"].map(|name| Tree::symbol(name));
     let near = Hypothesis::near(&u, &a, &b);
-    let claim =
-        |claim: Claim| Paper::new(&NONE).claim(&Statement::of(&claim.computing(&u, (&a + &b).nearest())));
+    let claim = |claim: Statement| Paper::new(&NONE).claim(&claim.computing(&u, (&a + &b).nearest()));
     assert_eq!(claim(positive("", &u + &a).assuming([&near])), "u + a > 0, where u = fl(a + b)");
     let drifts = drift("", &a, 0, |x| x + &u, (a.clone(), b.clone()), |_| []).assuming([&near]);
     assert_eq!(
@@ -117,7 +116,7 @@ fn it_is_said_how_a_quantity_is_computed() {
 #[test]
 fn why_there_is_no_proof_is_said_in_the_names_of_the_registry() {
     let [a, b] = ["a", "b"].map(|name| Tree::symbol(name));
-    let statement = Statement::of(&equal("", &b + &a * &b, &b));
+    let statement = equal("", &b + &a * &b, &b);
     let why = prove(&statement).unwrap_err();
     let registry = Registry::new(&["a", "b"], Vec::new()).with_factors(&["b", "a"]);
     assert_eq!(Paper::new(&registry).why(&statement, &why), "the sides differ by b a");

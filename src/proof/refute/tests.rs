@@ -5,8 +5,7 @@ use super::*;
 use crate::formula::claim::{
     derivative, drift, equal, induction, limit, non_negative, positive, vanishing, within,
 };
-use crate::formula::statement::Goal;
-use crate::formula::{Claim, Rate};
+use crate::formula::{Rate, Statement};
 use crate::number::{Exponential, PositivePart};
 
 fn x(name: &'static str) -> Tree {
@@ -25,14 +24,14 @@ fn point(numbers: &[(&'static str, i32)]) -> Point {
 fn root() -> Statement {
     let u = x("R") / (x("c") + x("ε"));
     let residual = x("c") * &u + x("ε") * &u - x("R");
-    Statement::of(&equal("root", residual, 0).assuming([&above_zero("c"), &above_zero("ε")]))
+    equal("root", residual, 0).assuming([&above_zero("c"), &above_zero("ε")])
 }
 
 /// R/(c + ε) → 0
 fn vanishes() -> Statement {
     let [stiff, penalty] = ["c", "ε"].map(above_zero);
     let p = x("R") / (x("c") + x("ε"));
-    Statement::of(&limit("vanishes", &p, &x("ε"), 0, Rate::Exactly(p.clone())).assuming([&stiff, &penalty]))
+    limit("vanishes", &p, &x("ε"), 0, Rate::Exactly(p.clone())).assuming([&stiff, &penalty])
 }
 
 #[test]
@@ -41,7 +40,7 @@ fn a_divisor_that_is_zero_is_named() {
     let opposite = point(&[("c", -1), ("ε", 1)]);
     assert_eq!(check(&root, &opposite), Verdict::Excluded);
     assert_eq!(check(&root, &point(&[("c", 3)])), Verdict::Holds);
-    let Verdict::Fails(_, how) = check(&root.without(0), &opposite) else { panic!() };
+    let Verdict::Fails(_, how) = check(&root.without(&above_zero("c")), &opposite) else { panic!() };
     assert_eq!(how.to_string(), "undefined: c + ε = 0 is a divisor");
 }
 
@@ -50,13 +49,12 @@ fn a_limit_is_looked_at_far_out() {
     let limit = vanishes();
     let point = point(&[("R", 2)]);
     assert_eq!(check(&limit, &point), Verdict::Holds);
-    let [Goal { says: Proposition::Limit(of, by, to), .. }, ..] = &limit.goals[..] else { panic!() };
-    let wrong = Goal::of_claim("limit", Proposition::Limit(of.clone(), by, to + Tree::from(1)));
-    let wrong = Statement { goals: vec![wrong], ..limit.clone() };
-    assert!(matches!(check(&wrong, &point), Verdict::Fails("limit", How::Far(_))));
+    let Proposition::Limit(of, by, to) = &limit.goals()[0].proposition else { panic!() };
+    let wrong = limit.with_proposition(Proposition::Limit(of.clone(), by, to + Tree::from(1)));
+    assert!(matches!(check(&wrong, &point), Verdict::Fails("", How::Far(_))));
     let three = || Tree::from(3);
-    let shifted = Goal::of_claim("limit", Proposition::Limit(of + three(), by, to + three()));
-    assert_eq!(check(&Statement { goals: vec![shifted], ..limit.clone() }, &point), Verdict::Holds);
+    let shifted = limit.with_proposition(Proposition::Limit(of + three(), by, to + three()));
+    assert_eq!(check(&shifted, &point), Verdict::Holds);
 }
 
 /// x ← x² stays 1 from 1, and is no other sequence of powers.
@@ -73,8 +71,7 @@ fn an_induction_is_about_the_powers_of_its_ratio() {
 /// Powers of 2 do not vanish, but what does not depend on them is its limit all along.
 #[test]
 fn what_is_constant_has_a_limit() {
-    let tends =
-        |of: Tree, to: Tree| check(&Statement::of(&vanishing("tends", 2, of, to)), &point(&[("c", 3)]));
+    let tends = |of: Tree, to: Tree| check(&vanishing("tends", 2, of, to), &point(&[("c", 3)]));
     assert_eq!(tends(x("c"), x("c")), Verdict::Holds);
     assert!(matches!(tends(x("c") * x("q"), Tree::from(0)), Verdict::Fails("|ρ| < 1", How::Sign(..))));
 }
@@ -128,7 +125,7 @@ fn the_sharpest_member_uses_up_most() {
 #[test]
 fn what_is_true_is_not_refuted() {
     let bracket = x("u").positive_part();
-    let true_claims: [Claim; 3] = [
+    let true_claims: [Statement; 3] = [
         non_negative("square", x("u") * x("u")),
         equal("parts", &bracket - (-x("u")).positive_part(), x("u")),
         positive("tangent", x("u").exp() - x("u") - Tree::from(1)).assuming([&above_zero("u")]),
@@ -146,19 +143,19 @@ fn a_counterexample_is_made_small() {
     let names = ["c", "ε", "R"];
     let start = Point::new(names.map(|name| (name, if name == "c" { -&long } else { long.clone() })));
     let found_at = |statement: &Statement| found(statement, &start).expect("a counterexample");
-    let undefined = found_at(&root().without(0));
+    let undefined = found_at(&root().without(&above_zero("c")));
     assert_eq!(undefined.to_string(), "c = -1, ε = 1, R = 1: undefined: c + ε = 0 is a divisor");
-    let wrong = found_at(&Statement::of(&positive("wrong", x("c") * x("R") * x("R"))));
+    let wrong = found_at(&positive("wrong", x("c") * x("R") * x("R")));
     let simple = |x: &Exact| SIMPLE.iter().any(|n| Exact::from(*n) == *x);
     assert!(wrong.point.numbers().all(|(_, x)| simple(x)), "{wrong}");
     // For c = 1 another number has to follow, for d > c.
     let given = Hypothesis::new(Relation::Positive, x("d") - x("c"));
-    let zero = Statement::of(&equal("zero", x("c") * x("d"), 0).assuming([&given]));
+    let zero = equal("zero", x("c") * x("d"), 0).assuming([&given]);
     let apart = found(&zero, &point(&[("c", -50), ("d", -49)])).expect("a counterexample");
     assert_eq!((apart.point.at("c"), apart.point.at("d")), (Exact::from(1), Exact::from(2)));
     // Nothing simple is as large, but half is.
     let far = Point::new([("R", "-1234567890123456789012345678901/3".parse().unwrap())]);
-    let small = Statement::of(&positive("small", Tree::from(1000) - x("R") * x("R")));
+    let small = positive("small", Tree::from(1000) - x("R") * x("R"));
     let small = found(&small, &far).expect("a counterexample");
     assert!((32..64).any(|n| Exact::from(n) == small.point.at("R").abs()), "{small}");
 }
@@ -182,7 +179,7 @@ fn long_values_are_shortened_as_far_as_they_differ() {
 fn a_divisor_is_bent_to_zero() {
     // No integers do that here: 7 c + 2 is 0 at −2/7 alone.
     let divisor = Tree::from(7) * x("c") + Tree::from(2);
-    let counterexample = refute(&Statement::of(&equal("one", &divisor / &divisor, 1))).unwrap();
+    let counterexample = refute(&equal("one", &divisor / &divisor, 1)).unwrap();
     assert!(matches!(counterexample.how, How::Undefined(_)), "{counterexample}");
     assert_eq!(counterexample.point.at("c"), "-2/7".parse().unwrap());
 }
@@ -190,7 +187,7 @@ fn a_divisor_is_bent_to_zero() {
 /// Numbers for what follows from others would be read as if it were a choice.
 #[test]
 fn a_counterexample_has_no_number_for_what_follows() {
-    let names = |claim: &Claim| -> Vec<_> {
+    let names = |claim: &Statement| -> Vec<_> {
         let found = refute(&claim).expect("it is wrong");
         found.point.numbers().map(|(name, _)| name).collect()
     };

@@ -13,7 +13,8 @@ const CASES: u64 = 1000;
 /// All hypotheses under which something is claimed.
 fn groups() -> BTreeMap<String, Vec<Hypothesis>> {
     // What is rounded is tried by experiments.
-    let claims = claims().filter(|claim| !claim.rounds()).map(|claim| claim.given.clone());
+    let claims =
+        claims().filter(|claim| !claim.contains_rounding()).map(|claim| claim.stated_hypotheses().to_vec());
     let floats = float_experiments::<f64>().into_iter();
     let rationals = exact_experiments().into_iter().map(|experiment| experiment.given);
     let experiments = floats.map(|experiment| experiment.given).chain(rationals);

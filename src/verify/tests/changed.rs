@@ -41,11 +41,14 @@ fn every_change_of_a_formula_is_a_finding() {
     assert_eq!(findings(Exactly, &all, &drawn), []);
     assert_eq!(findings(Floats(0f64), &all, &drawn), []);
     let seen = |(change, effect): &(Change, Effect)| {
-        let formulas = |claim: &Statement| claim.goals().iter().flat_map(|goal| goal.proposition.trees());
-        let touched = all.iter().filter(|claim| formulas(claim).any(|tree| change.rewrite(tree) != *tree));
-        let changed = touched
-            .map(|claim| claim.map(&|tree| change.rewrite(tree)).only_assuming(claim.stated_hypotheses()));
-        let changed: Vec<_> = changed.collect();
+        let touched = all.iter().filter(|claim| {
+            let mut formulas = claim.goals().iter().flat_map(|goal| goal.proposition.trees());
+            formulas.any(|tree| change.rewrite(tree) != *tree)
+        });
+        let changed = |claim: &Statement| {
+            claim.map(&|tree| change.rewrite(tree)).only_assuming(claim.stated_hypotheses())
+        };
+        let changed: Vec<_> = touched.map(changed).collect();
         let found = findings(Exactly, &changed, &drawn);
         let found = if found.is_empty() { findings(Floats(0f64), &changed, &drawn) } else { found };
         let wrong = matches!(effect, Effect::Noticed { .. });

@@ -17,7 +17,7 @@ fn case() -> Case<f32> {
     Case { system, eps: 1.0, lambda: 0.0, u: tiny, q: 0.5, ..Case::of(|_| 1.0) }
 }
 
-fn tried(claim: &Claim) -> Trial {
+fn tried(claim: &Statement) -> Trial {
     (experiment(claim).check)(&case())
 }
 
@@ -30,18 +30,18 @@ fn what_exceeds_its_bound_is_seen() {
     let tiny = Exact::power_of_two(-24);
     // A bound that vanishes with η is measured, and any other is met or not.
     for (times, bound) in [(1, tiny.clone()), (3, Exact::from(3) * &tiny)] {
-        let law = within("law", [], error(), int(times) * eta());
+        let law = within("law", error(), int(times) * eta());
         assert_eq!(tried(&law), Trial::Within { error: tiny.clone(), bound });
     }
     for (bound, holds) in [(int(1), true), (eta() + int(1), true), (int(1) / int(1 << 30), false)] {
-        let trial = tried(&within("law", [], error(), &bound));
+        let trial = tried(&within("law", error(), &bound));
         assert_eq!(trial, Trial::Decided(holds), "{bound}");
     }
     let lost = || sum.rounded() - int(1);
-    assert_eq!(tried(&equal("lost", [], lost(), 0)), Trial::Decided(true));
-    assert_eq!(tried(&equal("kept", [], lost(), &x.u)), Trial::Decided(false));
-    assert_eq!(tried(&non_negative("sign", [], lost())), Trial::Decided(true));
-    assert_eq!(tried(&non_negative("sign", [], lost() - &x.u)), Trial::Decided(false));
+    assert_eq!(tried(&equal("lost", lost(), 0)), Trial::Decided(true));
+    assert_eq!(tried(&equal("kept", lost(), &x.u)), Trial::Decided(false));
+    assert_eq!(tried(&non_negative("sign", lost())), Trial::Decided(true));
+    assert_eq!(tried(&non_negative("sign", lost() - &x.u)), Trial::Decided(false));
 }
 
 #[test]
@@ -49,11 +49,11 @@ fn of_what_is_supposed_only_parameters_are_drawn() {
     let given = given();
     let (parameter, computed, interval) = (&given.stiffness, &given.computed_inside, &given.decay);
     let bits = &given.fine_enough;
-    let law = within("law", [parameter, computed, interval, bits], symbols().u.rounded(), int(1));
+    let law = within("law", symbols().u.rounded(), int(1)).assuming([parameter, computed, interval, bits]);
     assert_eq!(experiment::<f32>(&law).given.iter().collect::<Vec<_>>(), [parameter]);
     // And what is not drawn is looked at: fl(l + u − H) ≥ 0 here, and not where l = 0.
-    let supposing =
-        |x: &Case<f32>| (experiment(&within("law", [computed], symbols().u.rounded(), int(1))).check)(x);
+    let under = within("law", symbols().u.rounded(), int(1)).assuming([computed]);
+    let supposing = |x: &Case<f32>| (experiment(&under).check)(x);
     let mut apart = case();
     apart.system.l = 0.0;
     assert_eq!((supposing(&case()), supposing(&apart)), (Trial::Decided(true), Trial::Undecided));

@@ -100,8 +100,7 @@ fn what_jumps_has_no_limit_and_no_derivative() {
     assert!(jump(Proposition::Limit((int(1) / x("u")).nearest(), "u", int(0))));
     assert!(jump(Proposition::Derivative(x("u").nearest(), "u", int(1))));
     let tends = vanishing("tends", x("c") / (x("c") + x("c")), (int(1) + x("q")).nearest(), int(1));
-    let stiff = Claim { given: stiffness(), ..tends };
-    assert!(matches!(prove(&stiff), Err(Why::Jump)));
+    assert!(matches!(prove(&tends.assuming(&stiffness())), Err(Why::Jump)));
 }
 
 #[test]
