@@ -3,8 +3,8 @@
 //! A function that is generic over its number system leaves a record when it is called with [`Tree`]s. This
 //! is what can be done with records, whatever they are about: [typeset](crate::number::Tree::typeset) them,
 //! compile them to a [`Program`], run that in [`Rounds`], keep a [`Registry`] of them, by which one formula
-//! is known in another, and say something of them, as a [`Claim`] under [`Hypothesis`]es. What a claim comes
-//! to is a [`Statement`], for `proof` to prove.
+//! is known in another, and say something of them, as a [`Statement`] under [`Hypothesis`]es, for
+//! `proof` to prove.
 //!
 //! Nothing here knows of the chapter; `examples/springs.rs` has formulas of its own.
 //!
@@ -15,6 +15,7 @@ mod hypothesis;
 mod lines;
 mod program;
 mod registry;
+mod sequence;
 pub mod statement;
 mod typeset;
 

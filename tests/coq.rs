@@ -675,7 +675,7 @@ fn coq_accepts_the_springs_in_series() {
 fn coq_accepts_divisors_of_any_shape() {
     let claims = shapes::claims();
     for claim in &claims {
-        let proof = prove(&claim);
+        let proof = prove(claim);
         assert!(proof.is_ok(), "{}: {}", claim.name(), proof.unwrap_err());
     }
     let registry = Registry::new(&["a", "b", "c", "d", "f", "g", "x", "y"], Vec::new());

@@ -204,7 +204,7 @@ fn the_order_of_operations_is_part_of_a_law() {
 #[test]
 fn no_law_is_refuted() {
     for claim in claims().filter(|claim| claim.contains_rounding()) {
-        let found = refute(&claim);
+        let found = refute(claim);
         assert!(found.is_none(), "{} {}: {}", claim.equation(), claim.name(), found.unwrap());
     }
 }

@@ -673,10 +673,19 @@ fn claims() -> impl Strategy<Value = Statement> {
             4 => limit("drawn", t(0), &a, t(1), Rate::Within(t(2))),
             5 => {
                 let two = |i: usize| [t(i), t(i + 1)];
-                induction("drawn", t(0), two(1), |_| two(3), two(5))
+                // A step depends on members, and not on a power.
+                let step = |[x, y]: [Tree; 2]| [t(3).with(&[(POWER, x)]), t(4).with(&[(POWER, y)])];
+                induction("drawn", t(0), two(1), step, two(5))
             }
             6 => within("drawn", t(0), t(1)),
-            7 => drift("drawn", t(0), t(1), |x| x - t(2), (t(3), t(4)), |_| [(t(5), t(6))]),
+            7 => drift(
+                "drawn",
+                t(0),
+                t(1),
+                |x| x - t(2).with(&[(POWER, x.clone())]),
+                (t(3), t(4)),
+                |_| [(t(5), t(6))],
+            ),
             _ => vanishing("drawn", t(0), t(1), t(2)),
         };
         let v = Tree::symbol("v");

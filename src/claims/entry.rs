@@ -89,7 +89,8 @@ impl Entry {
         Entry { follows_from: entries.into(), ..self }
     }
 
-    /// Adds claims, each of which inherits the conditions unless it has [only](Statement::only_assuming) its own.
+    /// Adds claims, each of which inherits the conditions unless it has [only](Statement::only_assuming) its
+    /// own.
     pub(super) fn claims<const N: usize>(self, claims: [Statement; N]) -> Self {
         let claims = claims.map(|claim| claim.inheriting(self.equation, &self.hypotheses));
         Entry { claims: claims.into(), ..self }

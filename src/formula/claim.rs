@@ -99,8 +99,8 @@ pub fn induction<const N: usize>(
     Statement::of_form(name, Form::Sequence(sequence))
 }
 
-/// The recursion x₀ = start, x_{k+1} = step(x_k) stays within a bound of a closed form at q = ratioᵏ, and so do
-/// further quantities, formulas of x_k and q, each with its bound.
+/// The recursion x₀ = start, x_{k+1} = step(x_k) stays within a bound of a closed form at q = ratioᵏ, and so
+/// do further quantities, formulas of x_k and q, each with its bound.
 ///
 /// # Panics
 /// Panics like [`induction`], and if the closed form or its bound depends on a member.

@@ -1,10 +1,10 @@
 //! Statements about formulas: what provers, number systems and printers read.
 
-use super::claim::{MEMBERS, POWER, PRECISION};
+use super::claim::{POWER, PRECISION};
 use super::hypothesis::{Hypothesis, Relation, name_of};
+pub use super::sequence::Sequence;
 use crate::number::Tree;
 use crate::number::tree::Step;
-use num_traits::{One, Zero};
 
 /// A statement about recorded formulas: hypotheses, and goals that follow from them.
 ///
@@ -43,24 +43,6 @@ pub struct Computed {
     pub by: Tree,
     /// The interval that contains it.
     pub hypothesis: Hypothesis,
-}
-
-/// A statement about all members of a sequence.
-#[derive(Clone, Debug)]
-pub struct Sequence {
-    /// The first member; empty in the limit of a sequence.
-    pub start: Vec<Tree>,
-    /// The next member, as a formula of the [`MEMBERS`]; empty in the limit of a sequence.
-    pub step: Vec<Tree>,
-    /// ρ
-    pub ratio: Tree,
-    /// The k-th member as a formula of q = ρᵏ; in a perturbed recursion the formula that it is near.
-    pub member: Vec<Tree>,
-    /// The limit, if the statement is about one.
-    pub limit: Option<Tree>,
-    /// In a perturbed recursion the quantities of bounded size, each with its bound; first the distance of the
-    /// member from its formula.
-    pub within: Vec<(Tree, Tree)>,
 }
 
 /// A part of a statement.
@@ -108,7 +90,7 @@ impl Proposition {
     /// A hypothesis as a proposition, with formulas in place of symbols.
     ///
     /// |x − a| ≤ b is more than a − b ≤ x ≤ a + b, since b could be negative.
-    fn of_hypothesis(hypothesis: &Hypothesis, replaced: &[(&str, Tree)]) -> Self {
+    pub(super) fn of_hypothesis(hypothesis: &Hypothesis, replaced: &[(&str, Tree)]) -> Self {
         match hypothesis.distance() {
             Some((distance, most)) => Proposition::Within(distance.with(replaced), most.with(replaced)),
             None => Proposition::Sign(hypothesis.relation, hypothesis.value.with(replaced)),
@@ -150,93 +132,6 @@ impl Proposition {
             Proposition::Derivative(a, by, b) => Proposition::Derivative(f(a), by, f(b)),
             Proposition::Limit(a, by, b) => Proposition::Limit(f(a), by, f(b)),
         }
-    }
-}
-
-impl Sequence {
-    /// Returns `true` if its members are only near their formula.
-    pub fn is_perturbed(&self) -> bool {
-        !self.within.is_empty()
-    }
-
-    fn kind(&self) -> &'static str {
-        match &self.limit {
-            Some(_) => "vanishing",
-            None if self.is_perturbed() => "drift",
-            None => "induction",
-        }
-    }
-
-    fn trees(&self) -> impl Iterator<Item = &Tree> {
-        let Sequence { start, step, ratio, member, limit, within } = self;
-        let bounds = within.iter().flat_map(|(of, bound)| [of, bound]);
-        [ratio].into_iter().chain(start).chain(step).chain(member).chain(limit).chain(bounds)
-    }
-
-    fn map(&self, f: &impl Fn(&Tree) -> Tree) -> Self {
-        let all = |trees: &[Tree]| trees.iter().map(f).collect();
-        Sequence {
-            start: all(&self.start),
-            step: all(&self.step),
-            ratio: f(&self.ratio),
-            member: all(&self.member),
-            limit: self.limit.as_ref().map(f),
-            within: self.within.iter().map(|(of, bound)| (f(of), f(bound))).collect(),
-        }
-    }
-
-    /// The invariant of a perturbed recursion: the distance of a member from its formula.
-    fn invariant(&self) -> Option<Hypothesis> {
-        let ((_, bound), near) = (self.within.first()?, self.member.first()?);
-        Some(Hypothesis::near(&Tree::symbol(MEMBERS[0]), near, bound))
-    }
-
-    /// The goals of the induction over k.
-    ///
-    /// A recursion has the closed form x_k = closed(ρᵏ) if closed(1) is its start and one step leads from
-    /// closed(q) to closed(ρ q), whatever q is. A hypothesis on q is an invariant: it has to hold for q = 1, by
-    /// the other hypotheses alone, and to be passed on from q to ρ q; then it may be used in the step.
-    fn goals(&self, invariants: &[Hypothesis]) -> Vec<Goal> {
-        let goal = |part, role, proposition| Goal { part, role, proposition };
-        let Sequence { start, step, ratio, member, limit, within } = self;
-        if let Some(limit) = limit {
-            let margin = Proposition::Sign(Relation::Positive, Tree::one() - ratio * ratio);
-            let at_zero = member.iter().map(|member| {
-                let at_zero = Proposition::Equal(member.with(&[(POWER, Tree::zero())]), limit.clone());
-                goal("at q = 0", Role::Claim, at_zero)
-            });
-            return [goal("|ρ| < 1", Role::Claim, margin)].into_iter().chain(at_zero).collect();
-        }
-        let next = ratio * Tree::symbol(POWER);
-        let (mut at_start, mut after) = (vec![(POWER, Tree::one())], vec![(POWER, next.clone())]);
-        let mut goals = Vec::new();
-        if !self.is_perturbed() {
-            for (start, closed) in start.iter().zip(member) {
-                let equal = Proposition::Equal(closed.with(&at_start), start.clone());
-                goals.push(goal("start", Role::Claim, equal));
-            }
-            let members: Vec<_> = MEMBERS.into_iter().zip(member.iter().cloned()).collect();
-            for (step, closed) in step.iter().zip(member) {
-                let equal = Proposition::Equal(step.with(&members), closed.with(&after));
-                goals.push(goal("step", Role::Step, equal));
-            }
-        } else {
-            at_start.extend(MEMBERS.into_iter().zip(start.iter().cloned()));
-            after.extend(MEMBERS.into_iter().zip(step.iter().cloned()));
-        }
-        for invariant in invariants {
-            let [base, step] = [&at_start, &after].map(|at| Proposition::of_hypothesis(invariant, at));
-            goals.push(goal("invariant at the start", Role::InvariantBase, base));
-            goals.push(goal("invariant after a step", Role::InvariantStep, step));
-        }
-        // The first is an invariant.
-        goals.extend(
-            within
-                .iter()
-                .skip(1)
-                .map(|(of, bound)| goal("hence", Role::Step, Proposition::Within(of.clone(), bound.clone()))),
-        );
-        goals
     }
 }
 
@@ -375,8 +270,8 @@ impl Statement {
         self.name
     }
 
-    /// Returns the kind of statement: `equal`, `sign`, `bound`, `derivative`, `limit`, `induction`, `drift` or
-    /// `vanishing`.
+    /// Returns the kind of statement: `equal`, `sign`, `bound`, `derivative`, `limit`, `induction`, `drift`
+    /// or `vanishing`.
     pub fn kind(&self) -> &'static str {
         match &self.form {
             Form::Propositions(all) => all[0].1.kind(),
@@ -389,13 +284,14 @@ impl Statement {
         &self.stated
     }
 
-    /// Returns the hypotheses that every goal may use: those stated but for invariants and intervals of computed
-    /// quantities, and the [minimum precision](minimum_precision) where formulas round.
+    /// Returns the hypotheses that every goal may use: those stated but for invariants and intervals of
+    /// computed quantities, and the [minimum precision](minimum_precision) where formulas round.
     pub fn hypotheses(&self) -> &[Hypothesis] {
         &self.hypotheses
     }
 
-    /// Returns the hypotheses on q or a member of the sequence, which are proved by induction and not assumed.
+    /// Returns the hypotheses on q or a member of the sequence, which are proved by induction and not
+    /// assumed.
     pub fn invariants(&self) -> &[Hypothesis] {
         &self.invariants
     }

@@ -178,7 +178,7 @@ fn check_names<'t>(statement: &'t Statement) -> Result<(), Why> {
     meant.find(|name| is_computed(*name)).map_or(Ok(()), |name| Err(Why::Reserved(name)))?;
 
     let values = |all: &'t [Hypothesis]| all.iter().map(|hypothesis| &hypothesis.value);
-    let hypotheses = values(&statement.hypotheses());
+    let hypotheses = values(statement.hypotheses());
     if let Some(Sequence { start, step, ratio, limit, member, within }) = statement.conclusion() {
         refuse(start.iter().chain([ratio]).chain(limit), |name| {
             name == POWER || MEMBERS.contains(&name) || is_computed(name)
@@ -191,7 +191,7 @@ fn check_names<'t>(statement: &'t Statement) -> Result<(), Why> {
         refuse(bounds().chain(hypotheses.clone()), is_member)?;
     }
     let by = computed.map(|computed| &computed.by);
-    match refuse(hypotheses.chain(values(&statement.invariants())).chain(by), is_computed) {
+    match refuse(hypotheses.chain(values(statement.invariants())).chain(by), is_computed) {
         Err(Why::Reserved(name)) => Err(Why::AssumedOfComputed(name)),
         fine => fine,
     }

@@ -117,7 +117,7 @@ fn value(tree: &Tree, point: &Point) -> Option<Value> {
 
 /// The statement at one point.
 pub fn check(statement: &Statement, point: &Point) -> Verdict {
-    if point.satisfies(&statement.hypotheses()) { check_goals(statement, point) } else { Verdict::Excluded }
+    if point.satisfies(statement.hypotheses()) { check_goals(statement, point) } else { Verdict::Excluded }
 }
 
 /// The same where the hypotheses are known to hold.
@@ -246,7 +246,7 @@ fn divided_by_zero(statement: &Statement, point: &Point) -> Option<Counterexampl
         divisors.into_iter().flat_map(|divisor| divisor.symbols().into_iter().map(move |by| (divisor, by)));
     pairs.into_iter().find_map(|(divisor, by)| {
         let point = bent_to_zero(divisor, by, point)?;
-        point.satisfies(&statement.hypotheses()).then(|| found(statement, &point))?
+        point.satisfies(statement.hypotheses()).then(|| found(statement, &point))?
     })
 }
 
@@ -305,8 +305,8 @@ fn found(statement: &Statement, point: &Point) -> Option<Counterexample> {
 /// said of bounds.
 pub fn sharpest(statement: &Statement) -> Option<(Point, Exact)> {
     let symbols = symbols(statement);
-    let raw = raw_points(&statement.hypotheses(), &symbols).take(SHARP);
-    let points = raw.chain(planted_points(&statement.hypotheses(), &symbols));
+    let raw = raw_points(statement.hypotheses(), &symbols).take(SHARP);
+    let points = raw.chain(planted_points(statement.hypotheses(), &symbols));
     let shares = points.filter_map(|point| share(statement, &point).map(|share| (point, share)));
     // The first of those that use up most.
     let sharpest = shares.min_by(|(_, a), (_, b)| b.cmp(a));

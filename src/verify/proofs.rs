@@ -28,7 +28,7 @@ pub struct Proved {
 #[derive(Clone, Debug)]
 pub enum Answer {
     /// The proof.
-    Proof(Proof),
+    Proof(Box<Proof>),
     /// Why there is none, and where the claim does not hold, if that was found.
     None(String, Option<Counterexample>),
 }
@@ -39,7 +39,7 @@ impl Proved {
         let start = Instant::now();
         let none = |why| Answer::None(why, guarded(|| refute(&statement)).ok().flatten());
         let answer = match guarded(|| prove(&statement)) {
-            Ok(Ok(proof)) => Answer::Proof(proof),
+            Ok(Ok(proof)) => Answer::Proof(proof.into()),
             Ok(Err(why)) => none(Paper::new(registry()).why(&statement, &why)),
             Err(panic) => none(panic),
         };
@@ -48,7 +48,7 @@ impl Proved {
 
     /// What it supposes, as a reader writes it.
     pub fn hypotheses(&self) -> Vec<String> {
-        registry().all_supposed(&self.statement.hypotheses())
+        registry().all_supposed(self.statement.hypotheses())
     }
 
     /// `proved`, `refuted` or `unknown`.

@@ -113,7 +113,7 @@ fn supposed() -> HashMap<(&'static str, &'static str), Supposed> {
         let supposed =
             claim.stated_hypotheses().iter().filter(|given| statement.hypotheses().contains(given));
         let supposed: Vec<_> = supposed.cloned().collect();
-        let text = Paper::new(registry()).claim(&statement);
+        let text = Paper::new(registry()).claim(statement);
         ((claim.equation(), claim.name()), (Some(text), given(&supposed)))
     });
     tried.chain(recorded).collect()

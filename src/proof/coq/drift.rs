@@ -40,7 +40,7 @@ impl<'a> Law<'a> {
     /// A sequence that stays near another.
     pub(super) fn drift(&self, sequence: &Sequence, computed: &Computed) -> Result<String> {
         let (lemmas, text) = self.lemmas()?;
-        let [of_q, of_x] = &self.statement.invariants()[..] else {
+        let [of_q, of_x] = self.statement.invariants() else {
             return Err("a sequence with other invariants than of a power and a member".into());
         };
         let drift = Drift::new(self, sequence, computed);

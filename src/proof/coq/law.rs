@@ -135,8 +135,8 @@ impl<'a> Law<'a> {
         Part { name, hypotheses, variables }
     }
 
-    /// Returns the hypotheses for a goal, without those on a member and the quantity computed from it if the goal
-    /// contains neither.
+    /// Returns the hypotheses for a goal, without those on a member and the quantity computed from it if the
+    /// goal contains neither.
     fn needed(&self, goal: &Goal) -> Vec<&'a Hypothesis> {
         let computed = self.statement.computed().map(|computed| computed.symbol);
         let own = |name: &&str| *name == MEMBERS[0] || Some(*name) == computed;

@@ -131,7 +131,7 @@ mod tests {
 
     fn why(claim: &Statement) -> String {
         let statement = claim;
-        Paper::new(&Registry::default()).why(&statement, &prove(&statement).unwrap_err())
+        Paper::new(&Registry::default()).why(statement, &prove(statement).unwrap_err())
     }
 
     #[test]

@@ -40,9 +40,9 @@ pub(super) fn smaller(statement: &Statement, point: &Point, part: &'static str, 
             }
             How::Different(..) | How::Sign(..) | How::Beyond(..) | How::Far(_) => Vec::new(),
         };
-        let followed = followed.into_iter().filter(|point| point.satisfies(&statement.hypotheses()));
+        let followed = followed.into_iter().filter(|point| point.satisfies(statement.hypotheses()));
         let one = |relation| Exact::from(i32::from(relation == Relation::Positive));
-        let bent = point.bent(&statement.hypotheses(), &one);
+        let bent = point.bent(statement.hypotheses(), &one);
         bent.into_iter().chain(followed).find_map(|point| {
             let smaller = size(&point) < size(&best.point);
             let Verdict::Fails(part, how) = smaller.then(|| check_goals(statement, &point))? else {
@@ -69,7 +69,7 @@ pub(super) fn smaller(statement: &Statement, point: &Point, part: &'static str, 
         let varies =
             |name: &str| statement.goals().iter().any(|goal| goal.proposition.variable() == Some(name));
         let fixed = best.point.among(&symbols.into_iter().filter(|name| !varies(name)).collect());
-        if fixed.satisfies(&statement.hypotheses()) {
+        if fixed.satisfies(statement.hypotheses()) {
             best.point = fixed;
         }
     }

@@ -131,7 +131,7 @@ fn what_is_true_is_not_refuted() {
         positive("tangent", x("u").exp() - x("u") - Tree::from(1)).assuming([&above_zero("u")]),
     ];
     for claim in &true_claims {
-        assert_eq!(refute(&claim), None, "{}", claim.name());
+        assert_eq!(refute(claim), None, "{}", claim.name());
     }
     assert_eq!((refute(&root()), refute(&vanishes())), (None, None));
 }
@@ -188,7 +188,7 @@ fn a_divisor_is_bent_to_zero() {
 #[test]
 fn a_counterexample_has_no_number_for_what_follows() {
     let names = |claim: &Statement| -> Vec<_> {
-        let found = refute(&claim).expect("it is wrong");
+        let found = refute(claim).expect("it is wrong");
         found.point.numbers().map(|(name, _)| name).collect()
     };
     let [c, q, u] = ["c", "q", "u"].map(x);
