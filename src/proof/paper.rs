@@ -39,7 +39,7 @@ impl<'a> Paper<'a> {
             computed.map(|computed| format!("{} = {}", computed.symbol, self.text(&computed.by))).collect();
         let Some(sequence) = statement.conclusion() else {
             let goals = statement.goals().iter().filter(|goal| goal.role == Role::Claim);
-            let goals: Vec<_> = goals.map(|goal| self.says(&goal.proposition)).collect();
+            let goals: Vec<_> = goals.map(|goal| self.format_proposition(&goal.proposition)).collect();
             let place = if computed.is_empty() { String::new() } else { format!(", where {computed}") };
             return goals.join("; ") + &place;
         };
@@ -52,7 +52,9 @@ impl<'a> Paper<'a> {
             return format!("{} → {} for {place} and {index} → ∞", together(member), self.text(limit));
         }
         let (from, to, members) = (together(start), together(step), MEMBERS[..step.len()].join(", "));
-        let bound = |(of, bound): &(Tree, Tree)| self.says(&Proposition::Within(of.clone(), bound.clone()));
+        let bound = |(of, bound): &(Tree, Tree)| {
+            self.format_proposition(&Proposition::Within(of.clone(), bound.clone()))
+        };
         let leads_to = match &within.iter().map(bound).collect::<Vec<_>>()[..] {
             [] => together(member),
             bounds => format!("{members} with {}", bounds.join(" and ")),
@@ -97,17 +99,14 @@ impl<'a> Paper<'a> {
     }
 
     /// What a goal says.
-    fn says(&self, says: &Proposition) -> String {
-        match says {
-            Proposition::Equal(left, right) => format!("{} = {}", self.text(left), self.text(right)),
-            Proposition::Sign(relation, of) => format!("{} {relation} 0", self.text(of)),
-            Proposition::Within(of, bound) => format!("{} ≤ {}", self.text(&of.abs()), self.text(bound)),
-            Proposition::Derivative(of, by, is) => {
-                format!("∂/∂{} [{}] = {}", by, self.text(of), self.text(is))
-            }
-            Proposition::Limit(of, by, to) => {
-                format!("lim [{}] = {} for {} → ∞", self.text(of), self.text(to), by)
-            }
+    fn format_proposition(&self, proposition: &Proposition) -> String {
+        let text = |tree: &Tree| self.text(tree);
+        match proposition {
+            Proposition::Equal(left, right) => format!("{} = {}", text(left), text(right)),
+            Proposition::Sign(relation, of) => format!("{} {relation} 0", text(of)),
+            Proposition::Within(of, bound) => format!("{} ≤ {}", text(&of.abs()), text(bound)),
+            Proposition::Derivative(of, x, is) => format!("∂/∂{x} [{}] = {}", text(of), text(is)),
+            Proposition::Limit(of, x, to) => format!("lim [{}] = {} for {x} → ∞", text(of), text(to)),
         }
     }
 
@@ -222,7 +221,7 @@ impl<'a> Paper<'a> {
                     None => part.to_string(),
                 };
                 let colon = if part.is_empty() { "" } else { ": " };
-                lines.push(format!("{part}{colon}{}", self.says(proposition)));
+                lines.push(format!("{part}{colon}{}", self.format_proposition(proposition)));
                 self.derivation(derivation, 1, &mut lines);
             }
         }
