@@ -62,7 +62,6 @@ pub(super) fn entries() -> Vec<Entry> {
     vec![
         Entry::new("1.14", "Augmented functional")
             .states("L(u) = «augmented::functional»")
-            .in_latex(r"L(u) = «augmented::functional»")
             .assuming([stiffness, penalty])
             .functions(["augmented::functional", "augmented::least_value"])
             .follows_from(["1.7", "1.9"])
@@ -263,7 +262,6 @@ pub(super) fn entries() -> Vec<Entry> {
             ]),
         Entry::new("1.21", "Recursion in the deflection")
             .states("«augmented::recursion.left» = «augmented::recursion.right»")
-            .in_latex(r"«augmented::recursion.left» = «augmented::recursion.right»")
             .assuming([in_equilibrium, next_in_equilibrium])
             .functions(["augmented::recursion"])
             .follows_from(["1.18", "1.19", "1.20"])

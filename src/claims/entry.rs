@@ -40,20 +40,27 @@ impl Entry {
         registry().fill(self.statement, Notation::Text)
     }
 
-    /// The equation in LaTeX, if it is one of the chapter's numbered ones.
+    /// Returns the equation in LaTeX if it is one of the chapter's numbered ones.
     ///
     /// ```
     /// use spring_mass_contact::claims::entry;
     /// assert_eq!(entry("1.24").unwrap().latex().unwrap(), r"u = u_h + u_{\mathrm{nh}}");
     /// ```
     pub fn latex(&self) -> Option<String> {
-        self.latex.map(|latex| registry().fill(latex, Notation::Latex))
+        self.latex_template().map(|template| registry().fill(template, Notation::Latex))
     }
 
-    /// As it is written in a text: `(1.13)`, and what has a name by its name.
+    fn latex_template(&self) -> Option<&'static str> {
+        self.latex.or(self.is_numbered().then_some(self.statement))
+    }
+
+    fn is_numbered(&self) -> bool {
+        self.equation.starts_with(|c: char| c.is_ascii_digit())
+    }
+
+    /// Returns the label of the entry in a text: `(1.13)` for a number, else its name.
     pub fn label(&self) -> String {
-        let numbered = self.equation.starts_with(|c: char| c.is_ascii_digit());
-        if numbered { format!("({})", self.equation) } else { self.equation.to_string() }
+        if self.is_numbered() { format!("({})", self.equation) } else { self.equation.to_string() }
     }
 
     /// Returns its conditions as a reader writes them.
@@ -125,7 +132,7 @@ mod tests {
     #[test]
     fn outside_its_holes_an_equation_has_no_formula() {
         for entry in entries() {
-            let pieces = entry.latex.unwrap_or_default().split('«');
+            let pieces = entry.latex_template().unwrap_or_default().split('«');
             let outside = pieces.map(|piece| piece.split_once('»').map_or(piece, |(_, outside)| outside));
             for outside in outside {
                 // An index k + 1 belongs to a name.

@@ -31,7 +31,6 @@ pub(super) fn entries() -> Vec<Entry> {
     vec![
         Entry::new("1.22", "Recursion in time")
             .states("«ode::difference_equation.left» = «ode::difference_equation.right»")
-            .in_latex(r"«ode::difference_equation.left» = «ode::difference_equation.right»")
             .assuming([stiffness, penalty])
             .functions(["ode::difference_equation"])
             .follows_from(["1.21"])
@@ -56,7 +55,6 @@ pub(super) fn entries() -> Vec<Entry> {
             }]),
         Entry::new("1.24", "Superposition")
             .states("u = «ode::superposition»")
-            .in_latex(r"u = «ode::superposition»")
             .functions(["ode::superposition"])
             .follows_from(["1.23"])
             .claims([equal(
@@ -66,7 +64,6 @@ pub(super) fn entries() -> Vec<Entry> {
             )]),
         Entry::new("1.25", "Homogeneous equation")
             .states("«ode::operator: v=u̇» = 0")
-            .in_latex(r"«ode::operator: v=u̇» = 0")
             .assuming([stiffness, penalty])
             .functions(["ode::operator"])
             .follows_from(["1.23"])
@@ -85,7 +82,6 @@ pub(super) fn entries() -> Vec<Entry> {
             ]),
         Entry::new("1.27", "Homogeneous solution")
             .states("u_h = «ode::homogeneous»")
-            .in_latex(r"u_h = «ode::homogeneous»")
             .assuming([stiffness, penalty])
             .functions(["ode::homogeneous"])
             .follows_from(["1.26"])
@@ -106,7 +102,6 @@ pub(super) fn entries() -> Vec<Entry> {
             .claims([equal("particular", operator(s, eps, &particular(s), zero), right_side(s, eps))]),
         Entry::new("1.29", "General solution")
             .states("u = «ode::general»")
-            .in_latex(r"u = «ode::general»")
             .assuming([stiffness, penalty])
             .functions(["ode::general"])
             .follows_from(["1.24", "1.27", "1.28"])
@@ -116,7 +111,6 @@ pub(super) fn entries() -> Vec<Entry> {
             ]),
         Entry::new("1.30", "Solution of the initial-value problem")
             .states("u = «ode::solution»")
-            .in_latex(r"u = «ode::solution»")
             .assuming([stiffness, penalty])
             .functions(["ode::solution", "ode::constant"])
             .follows_from(["1.29"])

@@ -22,7 +22,6 @@ pub(super) fn entries() -> Vec<Entry> {
     vec![
         Entry::new("1.1", "Equilibrium of forces")
             .states("«structure::residual» = 0")
-            .in_latex(r"«structure::residual» = 0")
             .assuming([stiffness])
             .functions(["structure::residual", "structure::spring_force", "structure::deflection"])
             .follows_from(["Fig. 1.1"])
