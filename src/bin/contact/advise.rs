@@ -1,7 +1,7 @@
 //! `contact advise`: which penalty, and what it gives.
 
-use crate::args::{Names, Number, System, exact, in_scalar, positive, spelled};
-use crate::output::{self, Exit, Failure, shortened};
+use crate::args::{Names, Number, System, exact, in_scalar, parse_positive, spelled};
+use crate::output::{self, Exit, Failure, formats, shortened};
 use crate::solve::{MethodName, rounded_in_words, state_in_words};
 use clap::ValueEnum;
 use num_traits::Zero;
@@ -36,7 +36,7 @@ pub struct Options {
     system: System,
 
     /// How far the deflection may be off in m
-    #[arg(long, value_name = "T", value_parser = positive, help_heading = "Method")]
+    #[arg(long, value_name = "T", value_parser = parse_positive, help_heading = "Method")]
     tolerance: Number,
 
     /// Number system: f32, f64, mpfr:BITS or exact
@@ -47,13 +47,7 @@ pub struct Options {
     format: Format,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
-    /// For people
-    Table,
-    /// Numbers as strings
-    Json,
-}
+formats!(Table: "For people", Json: "Numbers as strings");
 
 /// Advises and prints.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
@@ -74,7 +68,7 @@ fn run_in<T: Scalar + Text>(options: &Options, like: &T) -> Result<Exit, Failure
         Format::Table => report.table(out),
         Format::Json => output::json(out, &report.json()),
     })?;
-    Ok(if report.advice.choices.is_empty() { Exit::Unmet } else { Exit::Fine })
+    Ok(Exit::from_result(!report.advice.choices.is_empty()))
 }
 
 /// All there is to say.
@@ -144,19 +138,15 @@ impl<T: Scalar + Text> Report<'_, T> {
         };
         let tolerance = format!("{} m ({})", shortened(&options.tolerance.text), options.scalar);
         let state = state_in_words(advice.state, Plane::Unilateral).to_string();
-        let mut head = output::table();
         let rounded = rounded_in_words(&options.system, &self.system, Vec::new());
-        head.add_row(["system", &options.system.shown()]);
-        if !rounded.is_empty() {
-            head.add_row(["as rounded", &rounded]);
-        }
-        head.add_rows([["state", &state], ["tolerance", &tolerance], ["floor", &floor]]);
-        writeln!(out, "{}\n", head.trim_fmt())?;
+        let head = [("system", options.system.shown()), ("as rounded", rounded), ("state", state)];
+        let head = head.into_iter().chain([("tolerance", tolerance), ("floor", floor)]);
+        output::list(out, head.filter(|(_, text)| !text.is_empty()))?;
+        writeln!(out)?;
         if !advice.choices.is_empty() {
-            let mut table = output::table();
-            table.set_header(["method", "ε in N/m", "from", "to", "k", "p in m", "N off by"]);
-            table.add_rows(advice.choices.iter().map(row));
-            writeln!(out, "{}\n", table.trim_fmt())?;
+            let names = ["method", "ε in N/m", "from", "to", "k", "p in m", "N off by"];
+            output::table(out, names, advice.choices.iter().map(row), &[])?;
+            writeln!(out)?;
         }
         if let Some(missing) = self.missing() {
             output::wrapped(out, " ", 1, &missing)?;

@@ -31,14 +31,10 @@ pub fn table(out: &mut dyn Write, program: &str, report: &Report, tolerance: &Nu
     ];
     let counts = counts.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}"));
     let counts = format!("{}: {}", report.checked.len(), counts.collect::<Vec<_>>().join(", "));
-    let mut head = output::table();
-    head.add_rows([["program", program], ["systems", &counts]]);
-    writeln!(out, "{}\n", head.trim_fmt())?;
+    output::list(out, [("program", program.to_string()), ("systems", counts)])?;
+    writeln!(out)?;
     let families = report.families();
-    let mut table = output::table();
-    table.set_header(["family", "systems", "verdict", "u off by", "N off by"]);
-    table.add_rows(families.iter().map(|row| cells(row, &within)));
-    output::lines(out, &table)?;
+    output::table(out, NAMES, families.iter().map(|row| cells(row, &within)), &[])?;
     writeln!(out)?;
     writeln!(out, " u in parts of |H − l| + |m g / c|, N of |m g| + |c (H − l)|; right: off by no")?;
     writeln!(out, " more than what rounding in f64 may do, within: than the tolerance.")?;
@@ -77,13 +73,11 @@ pub fn table(out: &mut dyn Write, program: &str, report: &Report, tolerance: &Nu
 }
 
 pub fn markdown(out: &mut dyn Write, report: &Report) -> io::Result<()> {
-    writeln!(out, "| family | systems | verdict | u off by | N off by |")?;
-    writeln!(out, "|---|---|---|---|---|")?;
-    report
-        .families()
-        .iter()
-        .try_for_each(|row| writeln!(out, "| {} |", cells(row, "within tolerance").join(" | ")))
+    output::markdown(out, NAMES, report.families().iter().map(|row| cells(row, "within tolerance")))
 }
+
+/// Columns of the table of families.
+const NAMES: [&str; 5] = ["family", "systems", "verdict", "u off by", "N off by"];
 
 fn cells(row: &Row, within: &str) -> [String; 5] {
     let error = |x: &Option<Exact>| x.as_ref().map_or(String::new(), |x| x.decimal(FEW, Round::Up));

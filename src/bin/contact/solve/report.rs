@@ -10,7 +10,7 @@ use spring_mass_contact::chapter::contact::Kkt;
 use spring_mass_contact::number::{Exact, NumberSystem, Text, brief_bound, relation};
 use spring_mass_contact::rug::{Integer, float::Round};
 use spring_mass_contact::solver::{
-    Interval, Method, Outcome, Plane, Scalar, Solution, SolveError, State, bits_needed, rounding_floor,
+    Bounds, Method, Outcome, Plane, Scalar, Solution, SolveError, State, bits_needed, rounding_floor,
     within_reach,
 };
 use std::io::{self, Write};
@@ -80,40 +80,23 @@ impl<'a, T: Scalar + Text> Report<'a, T> {
         ]
     }
 
-    fn bounds(&self) -> [(&'static str, &Interval<T>); 3] {
-        let bounds = &self.solution.bounds;
-        [
-            ("deflection", &bounds.deflection),
-            ("penetration", &bounds.penetration),
-            ("contact_force", &bounds.contact_force),
-        ]
-    }
-
-    /// One row, or with a trace its rows. No value has a comma or a quote in it.
+    /// One row, or with a trace its rows.
     pub fn csv(&self, out: &mut dyn Write) -> io::Result<()> {
         if self.options.trace {
-            writeln!(out, "k,multiplier,deflection,penetration,contact_force")?;
-            return self.problem.trace(self.solution).try_for_each(|iterate| {
-                writeln!(out, "{},{}", iterate.k, quantities(&iterate).map(Text::text).join(","))
-            });
+            return output::csv(out, self.problem.trace(self.solution));
         }
-        let (mut names, mut values) = (Vec::new(), Vec::new());
-        for (name, value) in self.fields() {
-            names.push(name.to_string());
-            values.push(match value {
-                Value::Null => String::new(),
-                Value::String(text) => text,
-                number => number.to_string(),
-            });
-        }
-        for (name, interval) in self.bounds() {
-            names.extend([format!("{name}_lo"), format!("{name}_hi")]);
-            values.extend(interval.texts());
+        let (mut names, mut values): (Vec<_>, Vec<_>) =
+            self.fields().map(|(name, value)| (name.to_string(), value)).into_iter().unzip();
+        let Bounds { deflection, penetration, contact_force, .. } = &self.solution.bounds;
+        let bounds = [deflection, penetration, contact_force];
+        for (name, interval) in ["deflection", "penetration", "contact_force"].iter().zip(bounds) {
+            names.extend(["lo", "hi"].map(|end| format!("{name}_{end}")));
+            values.extend(interval.texts().map(Value::from));
         }
         let Kkt { stationarity, primal, dual, complementarity } = &self.kkt;
         names.extend(["stationarity", "primal", "dual", "complementarity"].map(|name| format!("kkt_{name}")));
-        values.extend([stationarity, primal, dual, complementarity].map(Exact::to_string));
-        writeln!(out, "{}\n{}", names.join(","), values.join(","))
+        values.extend([stationarity, primal, dual, complementarity].map(|x| x.to_string().into()));
+        output::csv(out, [names.into_iter().map(Value::from).collect(), values])
     }
 
     /// For people: what was solved, what came out, and what that promises.
@@ -148,9 +131,7 @@ impl<'a, T: Scalar + Text> Report<'a, T> {
         if !rounded.is_empty() {
             rows.insert(1, ("as rounded", rounded));
         }
-        let mut table = output::table();
-        table.add_rows(rows.iter().map(|(name, text)| [name, text.as_str()]));
-        writeln!(out, "{}", table.trim_fmt())?;
+        output::list(out, rows)?;
         if shortened {
             writeln!(out, "\n ≈ is shortened; --format json has all digits.")?;
         }
@@ -163,9 +144,8 @@ impl<'a, T: Scalar + Text> Report<'a, T> {
         // Ten digits, a sign, a point, and three zeros before them or an exponent behind.
         const WIDE: usize = 16;
         let first = self.solution.augmentations.unwrap_or_default().to_string().len();
-        let line = |k: String, cells: [String; 4]| {
-            let cells = cells.map(|cell| format!("  {cell:<WIDE$}")).concat();
-            format!(" {k:<first$}{cells}").trim_end().to_string()
+        let line = |k: String, [a, b, c, d]: [String; 4]| {
+            output::aligned([first + 1, WIDE + 1, WIDE + 1, WIDE + 1, WIDE], [k, a, b, c, d])
         };
         let names = ["λ in N", "u in m", "p in m", "m g − c u in N"].map(String::from);
         writeln!(out, "\n{}", line("k".to_string(), names))?;
