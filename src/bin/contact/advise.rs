@@ -1,7 +1,7 @@
 //! `contact advise`: which penalty, and what it gives.
 
 use crate::args::{Names, Number, System, exact, in_scalar, parse_positive, spelled};
-use crate::output::{self, Exit, Failure, formats, shortened};
+use crate::output::{self, Exit, Failure, formats, record, shortened};
 use crate::solve::{MethodName, rounded_in_words, state_in_words};
 use clap::ValueEnum;
 use num_traits::Zero;
@@ -80,34 +80,13 @@ struct Report<'a, T> {
     bits_needed: Option<u32>,
 }
 
-/// As JSON, quantities as texts.
-#[derive(Serialize)]
-struct Json {
-    scalar: NumberSystem,
-    tolerance: String,
-    floor: Option<String>,
-    reachable: bool,
-    bits_needed: Option<u32>,
-    choices: Vec<JsonChoice>,
-}
-
-/// A choice in it; the error in parts of the force.
-#[derive(Serialize)]
-struct JsonChoice {
-    method: String,
-    penalty: Option<String>,
-    penalty_range: Option<[Option<String>; 2]>,
-    augmentations: Option<u64>,
-    penetration: String,
-    force_error: Option<String>,
-}
-
 impl<T: Scalar + Text> Report<'_, T> {
-    fn json(&self) -> Json {
+    /// JSON has quantities as texts, and the error in parts of the force.
+    fn json(&self) -> impl Serialize {
         let choice = |choice: &Choice<T>| {
             let penalty = choice.method.penalty();
             let range = || choice.penalties.each_ref().map(|end| end.as_ref().map(Text::text));
-            JsonChoice {
+            record! {
                 method: MethodName::of(&choice.method).name(),
                 penalty: penalty.map(Text::text),
                 penalty_range: penalty.map(|_| range()),
@@ -116,14 +95,14 @@ impl<T: Scalar + Text> Report<'_, T> {
                 force_error: choice.relative_force_error.as_ref().map(|error| error.decimal(3, Round::Up)),
             }
         };
-        let Report { options, tolerance, advice, bits_needed, .. } = self;
-        Json {
-            scalar: options.scalar,
-            tolerance: tolerance.text(),
-            floor: advice.floor.as_ref().map(|floor| floor.decimal(17, Round::Up)),
-            reachable: !advice.choices.is_empty(),
-            bits_needed: *bits_needed,
-            choices: advice.choices.iter().map(choice).collect(),
+        let choices = &self.advice.choices;
+        record! {
+            scalar: self.options.scalar,
+            tolerance: self.tolerance.text(),
+            floor: self.advice.floor.as_ref().map(|floor| floor.decimal(17, Round::Up)),
+            reachable: !choices.is_empty(),
+            bits_needed: self.bits_needed,
+            choices: choices.iter().map(choice).collect::<Vec<_>>(),
         }
     }
 
@@ -139,9 +118,9 @@ impl<T: Scalar + Text> Report<'_, T> {
         let tolerance = format!("{} m ({})", shortened(&options.tolerance.text), options.scalar);
         let state = state_in_words(advice.state, Plane::Unilateral).to_string();
         let rounded = rounded_in_words(&options.system, &self.system, Vec::new());
-        let head = [("system", options.system.shown()), ("as rounded", rounded), ("state", state)];
-        let head = head.into_iter().chain([("tolerance", tolerance), ("floor", floor)]);
-        output::list(out, head.filter(|(_, text)| !text.is_empty()))?;
+        let typed = options.system.shown();
+        let head = [("system", typed), ("as rounded", rounded), ("state", state), ("tolerance", tolerance)];
+        output::list(out, head.into_iter().chain([("floor", floor)]))?;
         writeln!(out)?;
         if !advice.choices.is_empty() {
             let names = ["method", "ε in N/m", "from", "to", "k", "p in m", "N off by"];

@@ -1,12 +1,10 @@
 //! `contact cases`: systems with their exact answers.
 
 use crate::args::{parse_u64, parse_u64_in, spelled};
-use crate::output::{self, Exit, Failure, formats};
+use crate::output::{self, Exit, Failure, formats, record};
 use serde::Serialize;
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::check::{self, Family, Problem, problems};
-use spring_mass_contact::number::Exact;
-use spring_mass_contact::solver::Solution;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -57,7 +55,7 @@ impl Drawn {
 
 /// Draws and prints.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
-    let cases: Vec<_> = options.drawn.problems().into_iter().map(Case::new).collect();
+    let cases: Vec<_> = options.drawn.problems().into_iter().map(case).collect();
     output::print(|out| match options.format {
         Format::Csv => output::csv(out, &cases),
         Format::Json => output::json(out, &cases),
@@ -65,36 +63,19 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
 }
 
 /// A system with its exact answer.
-#[derive(Serialize)]
-struct Case {
-    id: String,
-    family: Family,
-    stiffness: String,
-    mass: String,
-    gravity: String,
-    free_length: String,
-    height: String,
-    deflection: Exact,
-    penetration: Exact,
-    contact_force: Exact,
-}
-
-impl Case {
-    fn new(problem: Problem) -> Self {
-        let Solution { deflection, penetration, contact_force, .. } = problem.solution();
-        let Problem { id, family, system, .. } = problem;
-        let SpringMass { c: stiffness, m: mass, g: gravity, l: free_length, h: height } = system.map(spelled);
-        Case {
-            id,
-            family,
-            stiffness,
-            mass,
-            gravity,
-            free_length,
-            height,
-            deflection,
-            penetration,
-            contact_force,
-        }
+fn case(problem: Problem) -> impl Serialize {
+    let SpringMass { c, m, g, l, h } = problem.system.map(spelled);
+    let exact = problem.solution();
+    record! {
+        id: problem.id,
+        family: problem.family,
+        stiffness: c,
+        mass: m,
+        gravity: g,
+        free_length: l,
+        height: h,
+        deflection: exact.deflection,
+        penetration: exact.penetration,
+        contact_force: exact.contact_force,
     }
 }

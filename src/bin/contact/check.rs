@@ -57,7 +57,11 @@ pub struct Options {
     program: Vec<String>,
 }
 
-formats!(Table: "For people", Json: "Everything; quantities as strings", Markdown: "For documents: a line a family");
+formats!(
+    Table: "For people",
+    Json: "Everything; quantities as strings",
+    Markdown: "For documents: a line a family"
+);
 
 fn seconds(text: &str) -> Result<Duration, String> {
     let seconds = text.parse().ok().filter(|seconds| (1e-3..=1e6).contains(seconds));
@@ -84,7 +88,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     let program = reply::words(&program.map_err(|error| format!("the program's words: {error}"))?);
     output::print(|out| match options.format {
         Format::Table => report::table(out, &program, &report, &options.tolerance),
-        Format::Json => output::json(out, &json::of(&program, options, &report)),
+        Format::Json => output::json(out, &json::report(&program, options, &report)),
         Format::Markdown => report::markdown(out, &report),
     })?;
     Ok(Exit::from_result(report.holds()))

@@ -84,5 +84,5 @@ fn details(out: &mut dyn Write, entry: &Entry) -> io::Result<()> {
         ("follows from", entry.follows_from.join(", ")),
         ("claims", claim_names(entry.equation).join(", ")),
     ];
-    output::list(out, rows.into_iter().filter(|(_, text)| !text.is_empty()))
+    output::list(out, rows)
 }

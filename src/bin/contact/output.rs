@@ -116,6 +116,19 @@ macro_rules! formats {
 }
 pub(crate) use formats;
 
+/// Makes a `Serialize` struct of names and values.
+macro_rules! record {
+    ($($name:ident: $value:expr),+ $(,)?) => {{
+        #[allow(non_camel_case_types)]
+        mod record {
+            #[derive(serde::Serialize)]
+            pub struct Record<$($name),+> { $(pub $name: $name),+ }
+        }
+        record::Record { $($name: $value),+ }
+    }};
+}
+pub(crate) use record;
+
 /// Prints indented JSON and a line break.
 pub fn json(out: &mut dyn Write, value: &impl Serialize) -> io::Result<()> {
     serde_json::to_writer_pretty(&mut *out, value)?;
@@ -162,15 +175,16 @@ pub fn table<R: Into<Row>>(
     writeln!(out, "{}", table.trim_fmt())
 }
 
-/// Prints names, and beside each its text.
+/// Prints names, and beside each its text; those without a text are left out.
 pub fn list(out: &mut dyn Write, rows: impl IntoIterator<Item = (&'static str, String)>) -> io::Result<()> {
-    let rows = rows.into_iter().map(|(name, text)| [name.to_string(), text]);
+    let rows = rows.into_iter().filter(|(_, text)| !text.is_empty());
+    let rows = rows.map(|(name, text)| [name.to_string(), text]);
     writeln!(out, "{}", empty_table().add_rows(rows).trim_fmt())
 }
 
-/// Returns a line of cells, each padded to its width.
-pub fn aligned<C: Display, const N: usize>(widths: [usize; N], cells: [C; N]) -> String {
-    let cells = cells.iter().zip(widths).map(|(cell, width)| format!(" {cell:<width$}"));
+/// Returns cells, each after a blank and padded to its width.
+pub fn aligned(widths: &[usize], cells: impl IntoIterator<Item: Display>) -> String {
+    let cells = cells.into_iter().zip(widths).map(|(cell, width)| format!(" {cell:<width$}"));
     cells.collect::<String>().trim_end().to_string()
 }
 

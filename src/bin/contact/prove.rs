@@ -1,6 +1,6 @@
 //! `contact prove`: every claim for all values, and that wrong ones would be noticed.
 
-use crate::output::{self, Exit, Failure, formats, shortened};
+use crate::output::{self, Exit, Failure, formats};
 use crate::{args, solve};
 use spring_mass_contact::claims::{Entry, entry, registry, statements};
 use spring_mass_contact::formula::{Statement, together};
@@ -44,7 +44,11 @@ pub struct Options {
     format: Format,
 }
 
-formats!(Table: "For reading: a line a claim", Json: "For programs: everything", Markdown: "For documents: a line a claim");
+formats!(
+    Table: "For reading: a line a claim",
+    Json: "For programs: everything",
+    Markdown: "For documents: a line a claim"
+);
 
 /// Writes in the chapter's names.
 fn paper() -> Paper<'static> {
@@ -60,11 +64,9 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     let statements = statements();
     let empty = |number: &&String| statements.iter().all(|s| s.equation != number.as_str());
     if let Some(empty) = numbers.iter().find(empty) {
-        return Err(format!(
-            "invalid value '{empty}' for '[NUMBER]...': nothing is proved of it; \
-             `contact equations '{empty}'` says what is claimed of it"
-        )
-        .into());
+        let why =
+            format!("nothing is proved of it; `contact equations '{empty}'` says what is claimed of it");
+        return Err(args::invalid(empty, "[NUMBER]...", why));
     }
     let proofs = prove_all(&numbers);
     output::print(|out| match options.format {
@@ -79,10 +81,8 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
 /// Writes the files for Coq, and says how they are compiled and what is not among them.
 fn for_coq(directory: &Path) -> Result<Exit, Failure> {
     let files = coq().write(directory).map_err(|error| {
-        let directory = shortened(&directory.display().to_string());
-        format!(
-            "invalid value '{directory}' for '--coq <DIR>': must be a directory that can be written: {error}"
-        )
+        let why = format!("must be a directory that can be written: {error}");
+        args::invalid(&directory.display().to_string(), "--coq <DIR>", why)
     })?;
     output::print(|out| {
         writeln!(out, "The claims as theorems, to be compiled in this order:")?;

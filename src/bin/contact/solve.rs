@@ -150,7 +150,9 @@ impl Options {
         {
             return Err(out_of_range(SolveError::OutOfRange { quantity: "trace" }).into());
         }
-        let report = Report::new(self, &problem, &solution, needed).map_err(out_of_range)?;
+        let kkt = solution.certificate(&problem.system).map_err(out_of_range)?;
+        let steps_needed = needed.map(|steps| steps.to_string());
+        let report = Report { options: self, problem: &problem, solution: &solution, kkt, steps_needed };
         match self.format {
             _ if self.batch => serde_json::to_writer(out, &report).map_err(io::Error::from)?,
             Format::Table => report.table(out)?,
@@ -165,34 +167,28 @@ impl Options {
         if self.batch { Names::Keys } else { Names::Options }
     }
 
-    /// An option that would change nothing is a misunderstanding.
+    /// Refuses an option that would change nothing: it is a misunderstanding.
     fn refuse_unused(&self) -> Result<(), Failure> {
-        let name = |option| self.names().of(option);
-        let typed = |option, number: &Option<Number>| {
-            number.as_ref().map(|n| format!("{} {}", name(option), shortened(&n.text)))
-        };
-        let augmented = [
-            typed("--tolerance", &self.tolerance),
-            self.max_augmentations.map(|n| format!("{} {n}", name("--max-augmentations"))),
-            typed("--initial-multiplier", &self.initial_multiplier),
-            self.trace.then(|| "--trace".to_string()),
+        let typed = |number: &Option<Number>| number.as_ref().map(|n| format!(" {}", shortened(&n.text)));
+        let options = [
+            ("--penalty", typed(&self.penalty), "penalty or augmented"),
+            ("--tolerance", typed(&self.tolerance), "augmented"),
+            ("--max-augmentations", self.max_augmentations.map(|n| format!(" {n}")), "augmented"),
+            ("--initial-multiplier", typed(&self.initial_multiplier), "augmented"),
+            ("--trace", self.trace.then(String::new), "augmented"),
         ];
-        let penalty = typed("--penalty", &self.penalty);
-        let (unused, owner) = match self.method {
-            MethodName::Lagrange if penalty.is_some() => (penalty, "penalty or augmented"),
-            MethodName::Lagrange | MethodName::Penalty => {
-                (augmented.into_iter().flatten().next(), "augmented")
+        let own = self.method.name();
+        for (option, value, methods) in options {
+            if let Some(value) = value
+                && !methods.contains(&own)
+            {
+                let [option, method] = [option, "--method"].map(|name| self.names().of(name));
+                return Err(Failure::Input(format!(
+                    "'{option}{value}' is not used by {method} {own}; it belongs to {method} {methods}"
+                )));
             }
-            MethodName::Augmented => (None, ""),
-        };
-        match unused {
-            Some(option) => Err(Failure::Input(format!(
-                "'{option}' is not used by {method} {}; it belongs to {method} {owner}",
-                self.method.name(),
-                method = name("--method")
-            ))),
-            None => Ok(()),
         }
+        Ok(())
     }
 
     /// The default too as it would be typed.

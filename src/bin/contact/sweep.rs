@@ -52,7 +52,11 @@ pub struct Options {
     format: Format,
 }
 
-formats!(Table: "For people: few digits, and what they show", Json: "All digits, numbers as strings", Csv: "The same in rows");
+formats!(
+    Table: "For people: few digits, and what they show",
+    Json: "All digits, numbers as strings",
+    Csv: "The same in rows"
+);
 
 /// As clap names it.
 const PENALTY: &str = "--penalty <FROM..TO>";
@@ -87,18 +91,17 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
         Format::Json => output::json(out, &rows),
         Format::Csv => output::csv(out, &rows),
     })?;
-    Ok(Exit::from_result(sweeps.iter().all(|sweep| sweep.complete)))
+    Ok(Exit::from_result(rows.iter().all(|row| row.error.is_none())))
 }
 
 fn sweeps(options: &Options, progress: &dyn Fn(usize, usize)) -> Result<Vec<Sweep>, Failure> {
     let (from, to) = &options.penalty;
     let refused = |error| {
-        let typed = shortened(&format!("{}..{}", from.text, to.text));
         let allowed = match error {
             SolveError::Invalid { argument, allowed, .. } => format!("the {argument} must be {allowed}"),
             other => other.to_string(),
         };
-        Failure::Input(format!("invalid value '{typed}' for '{PENALTY}': {allowed}"))
+        args::invalid(&format!("{}..{}", from.text, to.text), PENALTY, allowed)
     };
     let penalties = penalties(&from.value, &to.value, options.points as u32).map_err(refused)?;
     let number = |value| Number { text: spelled(&value), value };
@@ -117,8 +120,6 @@ fn sweeps(options: &Options, progress: &dyn Fn(usize, usize)) -> Result<Vec<Swee
 struct Sweep {
     scalar: NumberSystem,
     rows: Vec<Row>,
-    /// Whether every row has results.
-    complete: bool,
     notes: Vec<String>,
     curves: [Curve; 2],
 }
@@ -150,13 +151,12 @@ impl Sweeping<'_> {
         let round = |eps: &Number| eps.round(PENALTY, like);
         let rounded = self.penalties.iter().map(round).collect::<Result<Vec<T>, _>>()?;
         let (mut rows, mut curves) = (Vec::new(), Curve::pair());
-        // The error of the first row that has one, and the number of rows that have none.
-        let (mut refused, mut complete) = (None, 0);
+        // The error of the first row that has one.
+        let mut refused = None;
         let mut least: Option<(Exact, &str)> = None;
         for ((i, row), eps) in (1..).zip(sweep(&system, rounded.iter().cloned())).zip(self.penalties) {
             match &row {
                 Ok(row) => {
-                    complete += 1;
                     let errors = [&row.force_error, &row.penalty_force_error];
                     for (curve, error) in curves.iter_mut().zip(errors) {
                         curve.points.extend(log10(&eps.value).zip(error.as_ref().and_then(log10)));
@@ -177,10 +177,10 @@ impl Sweeping<'_> {
         }
         match refused {
             // What is wrong with every row is wrong with the system.
-            Some(refused) if complete == 0 => Err(refused.into()),
+            Some(refused) if rows.iter().all(|row: &Row| row.error.is_some()) => Err(refused.into()),
             _ => {
                 let notes = self.notes(&system, &rounded, least);
-                Ok(Sweep { scalar: self.scalar, complete: complete == rows.len(), rows, notes, curves })
+                Ok(Sweep { scalar: self.scalar, rows, notes, curves })
             }
         }
     }
@@ -289,28 +289,25 @@ fn log10(x: &Exact) -> Option<f64> {
 fn table(out: &mut dyn Write, options: &Options, sweeps: &[Sweep], plotted: bool) -> io::Result<()> {
     const NAMES: [&str; 7] = ["ε in N/m", "u in m", "p in m", "m g − c u", "error", "ε p in N", "error"];
     output::wrapped(out, " ", 1, &options.system.shown())?;
-    for Sweep { scalar, rows, complete, notes, curves } in sweeps {
-        writeln!(out, "\n {scalar}\n{}", output::aligned(WIDTHS, NAMES))?;
+    for Sweep { scalar, rows, notes, curves } in sweeps {
+        writeln!(out, "\n {scalar}\n{}", output::aligned(&WIDTHS, NAMES))?;
         for row in rows {
-            if let Some(error) = &row.error {
-                // It fits the page, all but what helps, which stands below.
-                let error = error.split("; ").next().unwrap_or_default();
-                writeln!(out, " {:<width$} {error}", row.penalty, width = WIDTHS[0])?;
-                continue;
-            }
-            let [u, p, force] = [&row.deflection, &row.penetration, &row.contact_force];
-            let [error, penalty_force] = [&row.force_error, &row.penalty_force];
-            let cells = [u, p, force, error, penalty_force, &row.penalty_force_error];
+            let Row { penalty, deflection, penetration, contact_force, penalty_force, .. } = row;
+            let forces = [contact_force, &row.force_error, penalty_force, &row.penalty_force_error];
+            let cells = [deflection, penetration].into_iter().chain(forces);
             let cells = cells.map(|cell| cell.as_deref().unwrap_or("–"));
-            let [u, p, force, error, penalty_force, penalty_error] = cells;
-            let cells = [&row.penalty, u, p, force, error, penalty_force, penalty_error];
-            writeln!(out, "{}", output::aligned(WIDTHS, cells))?;
+            let results = match &row.error {
+                // It fits the page, all but what helps, which stands below.
+                Some(error) => format!(" {}", error.split("; ").next().unwrap_or_default()),
+                None => output::aligned(&WIDTHS[1..], cells),
+            };
+            writeln!(out, " {penalty:<width$}{results}", width = WIDTHS[0])?;
         }
         if plotted && let Some(plot) = plot::log_log(curves) {
             write!(out, "\n{plot}")?;
         }
         writeln!(out)?;
-        if !complete {
+        if rows.iter().any(|row| row.error.is_some()) {
             let help = "Where a result leaves the range, use MPFR (mpfr:BITS) or exact rationals.";
             output::wrapped(out, " ", 1, help)?;
         }

@@ -48,7 +48,11 @@ pub struct Options {
     format: Format,
 }
 
-formats!(Table: "For reading: a line an equation", Json: "For programs: everything", Markdown: "For documents: a line a claim and number system");
+formats!(
+    Table: "For reading: a line an equation",
+    Json: "For programs: everything",
+    Markdown: "For documents: a line a claim and number system"
+);
 
 /// Verifies and reports.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
@@ -58,11 +62,8 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     }
     wanted.equations = args::equations(&options.numbers)?;
     if let Some(empty) = wanted.equations.iter().find(|e| claim_names(e).is_empty()) {
-        return Err(format!(
-            "invalid value '{empty}' for '[NUMBER]...': nothing is claimed of it; \
-             `contact equations` lists how many claims each number has"
-        )
-        .into());
+        let why = "nothing is claimed of it; `contact equations` lists how many claims each number has";
+        return Err(args::invalid(empty, "[NUMBER]...", why));
     }
     let report = output::with_progress("verifying", |progress| verify::verify(&wanted, progress));
     output::print(|out| print(out, &report, &wanted, options.format))?;

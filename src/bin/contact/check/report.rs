@@ -165,11 +165,7 @@ fn penalty(report: &Report) -> Option<String> {
 }
 
 fn missed(missed: &Threshold) -> String {
-    let [up_to, from] = ends(missed);
-    let what = match missed.of {
-        Of::Penetration | Of::PenetrationByHeight => "the mass would go through it by",
-        Of::Force | Of::ForceByWeight => "it has to push with",
-    };
+    let (what, [up_to, from]) = ends(missed, "the mass would go through it by", "it has to push with");
     format!(
         "It misses the plane in {} systems, in which {what} up to {up_to}, and finds it in all others, \
          from {from} on: most likely by a tolerance of its own.",
@@ -178,11 +174,7 @@ fn missed(missed: &Threshold) -> String {
 }
 
 fn held(held: &Threshold) -> String {
-    let [up_to, from] = ends(held);
-    let what = match held.of {
-        Of::Penetration | Of::PenetrationByHeight => "it hangs clear of it by",
-        Of::Force | Of::ForceByWeight => "that takes a pull of",
-    };
+    let (what, [up_to, from]) = ends(held, "it hangs clear of it by", "that takes a pull of");
     format!(
         "It holds the mass at the plane in {} systems in which it hangs free, where {what} up to {up_to}, \
          and releases it in all others, from {from} on: most likely by a tolerance of its own.",
@@ -190,19 +182,19 @@ fn held(held: &Threshold) -> String {
     )
 }
 
-/// The largest that is decided wrongly and the smallest that is not, with what they are relative to.
-fn ends(threshold: &Threshold) -> [String; 2] {
+/// Returns the words for a penetration or for a force, and the largest that is decided wrongly and the
+/// smallest that is not, with what they are relative to.
+fn ends<'a>(threshold: &Threshold, penetration: &'a str, force: &'a str) -> (&'a str, [String; 2]) {
     let Threshold { count: _, of, up_to, from } = threshold;
-    let unit = match of {
-        Of::Penetration => " m",
-        Of::Force => " N",
-        Of::ForceByWeight => " |m g|",
-        Of::PenetrationByHeight => " |H|",
+    let (what, unit) = match of {
+        Of::Penetration => (penetration, " m"),
+        Of::Force => (force, " N"),
+        Of::ForceByWeight => (force, " |m g|"),
+        Of::PenetrationByHeight => (penetration, " |H|"),
     };
-    [(up_to, Round::Up), (from, Round::Down)].map(|(x, round)| {
-        // No line ends within it.
-        (x.decimal(FEW, round) + unit).replace(' ', &GLUE.to_string())
-    })
+    // No line ends within it.
+    let text = |x: &Exact, round| (x.decimal(FEW, round) + unit).replace(' ', &GLUE.to_string());
+    (what, [text(up_to, Round::Up), text(from, Round::Down)])
 }
 
 /// What was tested, where nothing is wrong: no more follows from it.

@@ -15,24 +15,27 @@ use std::io::{self, BufReader};
 /// Bytes that a line may have: longer ones are not kept, whatever they are.
 const LONGEST: usize = 1 << 20;
 
-/// Lines that are answered at once: enough that sharing them out costs little beside them, few enough that
-/// not much is kept.
-const AT_ONCE: usize = 256;
+/// Number of lines for each core that are answered at once: enough that sharing them out costs little beside
+/// them, few enough that not much is kept.
+const AT_ONCE: usize = 64;
 
 /// Solves what stdin says, a system a line.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
     let mut stdin = BufReader::with_capacity(BUFFER, io::stdin());
+    let most = AT_ONCE * rayon::current_num_threads();
     output::print_answer(|out| {
         let (mut exit, mut lines) = (Exit::Success, Vec::new());
         loop {
             lines.clear();
-            json::read_lines(&mut stdin, AT_ONCE, LONGEST, &mut lines)
+            json::read_lines(&mut stdin, most, LONGEST, &mut lines)
                 .map_err(|error| format!("stdin cannot be read: {error}"))?;
             if lines.is_empty() {
                 return Ok(exit);
             }
-            let lines = lines.par_split(|byte| *byte == b'\n').filter(|line| !line.trim_ascii().is_empty());
-            for (text, own) in lines.map(|line| answer(line, options)).collect::<Vec<_>>() {
+            let lines = lines.split(|byte| *byte == b'\n').filter(|line| !line.trim_ascii().is_empty());
+            let lines: Vec<_> = lines.collect();
+            let answers: Vec<_> = lines.par_iter().map(|line| answer(line, options)).collect();
+            for (text, own) in answers {
                 out.write_all(&text)?;
                 exit = exit.max(own);
             }
@@ -115,25 +118,25 @@ impl Options {
             options.set("method", method)?;
         }
         options.forget_unused();
-        let mut seen = [false; KEYS.len() + 1];
-        for (key, value) in &line.0 {
-            let place = if key == "id" { KEYS.len() } else { options.set(key, value)? };
-            if std::mem::replace(&mut seen[place], true) {
+        for (place, (key, value)) in line.0.iter().enumerate() {
+            if key != "id" {
+                options.set(key, value)?;
+            }
+            if line.0[..place].iter().any(|(other, _)| other == key) {
                 return Err(format!("the key '{key}' cannot be used multiple times").into());
             }
         }
         Ok(options)
     }
 
-    /// Sets an option by its key, and says which of them it was.
-    fn set(&mut self, key: &str, value: &RawValue) -> Result<usize, Failure> {
-        let Some(place) = KEYS.iter().position(|(own, _)| *own == key) else {
+    /// Sets an option by its key.
+    fn set(&mut self, key: &str, value: &RawValue) -> Result<(), Failure> {
+        let Some((_, set)) = KEYS.iter().find(|(own, _)| *own == key) else {
             let keys = KEYS.map(|(key, _)| key).join(", ");
             return Err(format!("unexpected key '{}' found; [keys: id, {keys}]", shortened(key)).into());
         };
         let text = json::text(value);
-        KEYS[place].1(self, &text).map_err(|why| invalid(&text, key, why))?;
-        Ok(place)
+        set(self, &text).map_err(|why| invalid(&text, key, why))
     }
 
     /// What stands on the command line is for the lines that have a use for it.

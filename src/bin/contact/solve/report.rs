@@ -8,21 +8,20 @@ use serde_json::Value;
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::chapter::contact::Kkt;
 use spring_mass_contact::number::{Exact, NumberSystem, Text, brief_bound, relation};
-use spring_mass_contact::rug::{Integer, float::Round};
+use spring_mass_contact::rug::float::Round;
 use spring_mass_contact::solver::{
-    Bounds, Method, Outcome, Plane, Scalar, Solution, SolveError, State, bits_needed, rounding_floor,
-    within_reach,
+    Bounds, Method, Outcome, Plane, Scalar, Solution, State, bits_needed, rounding_floor, within_reach,
 };
 use std::io::{self, Write};
 use std::iter;
 
 /// All there is to say about a solve.
 pub struct Report<'a, T> {
-    options: &'a Options,
-    problem: &'a Problem<T>,
-    solution: &'a Solution<T>,
-    kkt: Kkt<Exact>,
-    steps_needed: Option<String>,
+    pub options: &'a Options,
+    pub problem: &'a Problem<T>,
+    pub solution: &'a Solution<T>,
+    pub kkt: Kkt<Exact>,
+    pub steps_needed: Option<String>,
 }
 
 /// The rows, made while they are written: there can be very many.
@@ -49,18 +48,7 @@ impl<T: Scalar + Text> Serialize for Report<'_, T> {
     }
 }
 
-impl<'a, T: Scalar + Text> Report<'a, T> {
-    pub fn new(
-        options: &'a Options,
-        problem: &'a Problem<T>,
-        solution: &'a Solution<T>,
-        steps_needed: Option<Integer>,
-    ) -> Result<Self, SolveError> {
-        let steps_needed = steps_needed.map(|n| n.to_string());
-        let kkt = solution.certificate(&problem.system)?;
-        Ok(Report { options, problem, solution, kkt, steps_needed })
-    }
-
+impl<T: Scalar + Text> Report<'_, T> {
     /// The names and values that JSON and CSV share; quantities are texts, so that no reader rounds them.
     fn fields(&self) -> [(&'static str, Value); 11] {
         let maybe = |x: &Option<T>| Value::from(x.as_ref().map(Text::text));
@@ -127,10 +115,7 @@ impl<'a, T: Scalar + Text> Report<'a, T> {
         let names = ["KKT residuals"].into_iter().chain(iter::repeat(""));
         rows.extend(names.zip(self.kkt.to_string().split(", ").map(String::from)));
         let shortened = rows.iter().any(|(_, text)| text.contains('≈'));
-        let rounded = self.visibly_rounded();
-        if !rounded.is_empty() {
-            rows.insert(1, ("as rounded", rounded));
-        }
+        rows.insert(1, ("as rounded", self.visibly_rounded()));
         output::list(out, rows)?;
         if shortened {
             writeln!(out, "\n ≈ is shortened; --format json has all digits.")?;
@@ -144,14 +129,12 @@ impl<'a, T: Scalar + Text> Report<'a, T> {
         // Ten digits, a sign, a point, and three zeros before them or an exponent behind.
         const WIDE: usize = 16;
         let first = self.solution.augmentations.unwrap_or_default().to_string().len();
-        let line = |k: String, [a, b, c, d]: [String; 4]| {
-            output::aligned([first + 1, WIDE + 1, WIDE + 1, WIDE + 1, WIDE], [k, a, b, c, d])
-        };
+        let aligned = |cells| output::aligned(&[WIDE + 1; 4], cells);
         let names = ["λ in N", "u in m", "p in m", "m g − c u in N"].map(String::from);
-        writeln!(out, "\n{}", line("k".to_string(), names))?;
+        writeln!(out, "\n {:<first$} {}", "k", aligned(names))?;
         for iterate in self.problem.trace(self.solution) {
             let cells = quantities(&iterate).map(|x| exact(x).decimal_within(DIGITS, WIDE));
-            writeln!(out, "{}", line(iterate.k.to_string(), cells))?;
+            writeln!(out, " {:<first$} {}", iterate.k, aligned(cells))?;
         }
         writeln!(out, "\n At most ten digits each; --format csv has all.")
     }
