@@ -81,7 +81,7 @@ struct Report<'a, T> {
 }
 
 impl<T: Scalar + Text> Report<'_, T> {
-    /// JSON has quantities as texts, and the error in parts of the force.
+    /// Returns the report as JSON has it: quantities as texts, the error relative to the force.
     fn json(&self) -> impl Serialize {
         let choice = |choice: &Choice<T>| {
             let penalty = choice.method.penalty();

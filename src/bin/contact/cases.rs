@@ -53,7 +53,7 @@ impl Drawn {
     }
 }
 
-/// Draws and prints.
+/// Draws the systems and prints them.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
     let cases: Vec<_> = options.drawn.problems().into_iter().map(case).collect();
     output::print(|out| match options.format {
@@ -62,7 +62,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     })
 }
 
-/// A system with its exact answer.
+/// Returns a system with its exact answer.
 fn case(problem: Problem) -> impl Serialize {
     let SpringMass { c, m, g, l, h } = problem.system.map(spelled);
     let exact = problem.solution();

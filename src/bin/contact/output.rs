@@ -107,7 +107,7 @@ pub fn print_answer(write: impl FnOnce(&mut dyn Write) -> Result<Exit, Failure>)
     Ok(exit)
 }
 
-/// Declares the formats in which a subcommand prints its result, with their help.
+/// Declares `Format`: the formats in which a subcommand prints its result, each with its help.
 macro_rules! formats {
     ($($Name:ident: $help:literal),+) => {
         #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -116,7 +116,7 @@ macro_rules! formats {
 }
 pub(crate) use formats;
 
-/// Makes a `Serialize` struct of names and values.
+/// Returns a struct of these fields, which serde serialises in this order: a result as JSON and CSV have it.
 macro_rules! record {
     ($($name:ident: $value:expr),+ $(,)?) => {{
         #[allow(non_camel_case_types)]

@@ -13,6 +13,7 @@ use spring_mass_contact::rug::float::Round;
 /// Digits of an error.
 const DIGITS: usize = 6;
 
+/// Returns the report with the program and the options that it is about.
 pub fn report(program: &str, options: &Options, report: &Report) -> impl Serialize {
     let penalty = &report.penalty;
     record! {

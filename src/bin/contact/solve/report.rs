@@ -68,7 +68,7 @@ impl<T: Scalar + Text> Report<'_, T> {
         ]
     }
 
-    /// One row, or with a trace its rows.
+    /// Prints one row, or with a trace its rows.
     pub fn csv(&self, out: &mut dyn Write) -> io::Result<()> {
         if self.options.trace {
             return output::csv(out, self.problem.trace(self.solution));
@@ -87,7 +87,7 @@ impl<T: Scalar + Text> Report<'_, T> {
         output::csv(out, [names.into_iter().map(Value::from).collect(), values])
     }
 
-    /// For people: what was solved, what came out, and what that promises.
+    /// Prints for people what was solved, what came out, and what that promises.
     pub fn table(&self, out: &mut dyn Write) -> io::Result<()> {
         let s = self.solution;
         let mut rows = vec![
@@ -123,7 +123,7 @@ impl<T: Scalar + Text> Report<'_, T> {
         if self.options.trace { self.trace_table(out) } else { Ok(()) }
     }
 
-    /// Widths are fixed, and each row is made while it is written: there can be very many.
+    /// Prints the trace. Widths are fixed, and each row is made while it is written: there can be very many.
     fn trace_table(&self, out: &mut dyn Write) -> io::Result<()> {
         const DIGITS: usize = 10;
         // Ten digits, a sign, a point, and three zeros before them or an exponent behind.
