@@ -21,6 +21,8 @@ const AT_ONCE: usize = 64;
 
 /// Solves what stdin says, a system a line.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
+    let pool = rayon::ThreadPoolBuilder::new().build_global();
+    pool.map_err(|error| format!("no thread to be had: {error}"))?;
     let mut stdin = BufReader::with_capacity(BUFFER, io::stdin());
     let most = AT_ONCE * rayon::current_num_threads();
     output::print_answer(|out| {
