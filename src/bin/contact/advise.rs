@@ -1,7 +1,7 @@
 //! `contact advise`: which penalty, and what it gives.
 
-use crate::args::{Names, Number, System, exact, in_scalar, positive, spelled};
-use crate::output::{self, Exit, Failure, shortened};
+use crate::args::{Names, Number, System, exact, in_scalar, parse_positive, spelled};
+use crate::output::{self, Exit, Failure, formats, record, shortened};
 use crate::solve::{MethodName, rounded_in_words, state_in_words};
 use clap::ValueEnum;
 use num_traits::Zero;
@@ -36,7 +36,7 @@ pub struct Options {
     system: System,
 
     /// How far the deflection may be off in m
-    #[arg(long, value_name = "T", value_parser = positive, help_heading = "Method")]
+    #[arg(long, value_name = "T", value_parser = parse_positive, help_heading = "Method")]
     tolerance: Number,
 
     /// Number system: f32, f64, mpfr:BITS or exact
@@ -47,13 +47,7 @@ pub struct Options {
     format: Format,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
-    /// For people
-    Table,
-    /// Numbers as strings
-    Json,
-}
+formats!(Table: "For people", Json: "Numbers as strings");
 
 /// Advises and prints.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
@@ -74,7 +68,7 @@ fn run_in<T: Scalar + Text>(options: &Options, like: &T) -> Result<Exit, Failure
         Format::Table => report.table(out),
         Format::Json => output::json(out, &report.json()),
     })?;
-    Ok(if report.advice.choices.is_empty() { Exit::Unmet } else { Exit::Fine })
+    Ok(Exit::from_result(!report.advice.choices.is_empty()))
 }
 
 /// All there is to say.
@@ -86,34 +80,13 @@ struct Report<'a, T> {
     bits_needed: Option<u32>,
 }
 
-/// As JSON, quantities as texts.
-#[derive(Serialize)]
-struct Json {
-    scalar: NumberSystem,
-    tolerance: String,
-    floor: Option<String>,
-    reachable: bool,
-    bits_needed: Option<u32>,
-    choices: Vec<JsonChoice>,
-}
-
-/// A choice in it; the error in parts of the force.
-#[derive(Serialize)]
-struct JsonChoice {
-    method: String,
-    penalty: Option<String>,
-    penalty_range: Option<[Option<String>; 2]>,
-    augmentations: Option<u64>,
-    penetration: String,
-    force_error: Option<String>,
-}
-
 impl<T: Scalar + Text> Report<'_, T> {
-    fn json(&self) -> Json {
+    /// Returns the report as JSON has it: quantities as texts, the error relative to the force.
+    fn json(&self) -> impl Serialize {
         let choice = |choice: &Choice<T>| {
             let penalty = choice.method.penalty();
             let range = || choice.penalties.each_ref().map(|end| end.as_ref().map(Text::text));
-            JsonChoice {
+            record! {
                 method: MethodName::of(&choice.method).name(),
                 penalty: penalty.map(Text::text),
                 penalty_range: penalty.map(|_| range()),
@@ -122,14 +95,14 @@ impl<T: Scalar + Text> Report<'_, T> {
                 force_error: choice.relative_force_error.as_ref().map(|error| error.decimal(3, Round::Up)),
             }
         };
-        let Report { options, tolerance, advice, bits_needed, .. } = self;
-        Json {
-            scalar: options.scalar,
-            tolerance: tolerance.text(),
-            floor: advice.floor.as_ref().map(|floor| floor.decimal(17, Round::Up)),
-            reachable: !advice.choices.is_empty(),
-            bits_needed: *bits_needed,
-            choices: advice.choices.iter().map(choice).collect(),
+        let choices = &self.advice.choices;
+        record! {
+            scalar: self.options.scalar,
+            tolerance: self.tolerance.text(),
+            floor: self.advice.floor.as_ref().map(|floor| floor.decimal(17, Round::Up)),
+            reachable: !choices.is_empty(),
+            bits_needed: self.bits_needed,
+            choices: choices.iter().map(choice).collect::<Vec<_>>(),
         }
     }
 
@@ -144,19 +117,15 @@ impl<T: Scalar + Text> Report<'_, T> {
         };
         let tolerance = format!("{} m ({})", shortened(&options.tolerance.text), options.scalar);
         let state = state_in_words(advice.state, Plane::Unilateral).to_string();
-        let mut head = output::table();
         let rounded = rounded_in_words(&options.system, &self.system, Vec::new());
-        head.add_row(["system", &options.system.shown()]);
-        if !rounded.is_empty() {
-            head.add_row(["as rounded", &rounded]);
-        }
-        head.add_rows([["state", &state], ["tolerance", &tolerance], ["floor", &floor]]);
-        writeln!(out, "{}\n", head.trim_fmt())?;
+        let typed = options.system.shown();
+        let head = [("system", typed), ("as rounded", rounded), ("state", state), ("tolerance", tolerance)];
+        output::list(out, head.into_iter().chain([("floor", floor)]))?;
+        writeln!(out)?;
         if !advice.choices.is_empty() {
-            let mut table = output::table();
-            table.set_header(["method", "ε in N/m", "from", "to", "k", "p in m", "N off by"]);
-            table.add_rows(advice.choices.iter().map(row));
-            writeln!(out, "{}\n", table.trim_fmt())?;
+            let names = ["method", "ε in N/m", "from", "to", "k", "p in m", "N off by"];
+            output::table(out, names, advice.choices.iter().map(row), &[])?;
+            writeln!(out)?;
         }
         if let Some(missing) = self.missing() {
             output::wrapped(out, " ", 1, &missing)?;

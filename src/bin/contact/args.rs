@@ -8,7 +8,7 @@ use spring_mass_contact::claims::all_numbered;
 use spring_mass_contact::number::{Exact, NumberSystem, ToExact};
 use spring_mass_contact::rug::float::Round;
 use std::ffi::OsString;
-use std::fmt::{self, Display};
+use std::fmt::Display;
 use std::ops::RangeInclusive;
 
 /// The arguments, if they are plain text: others could only garble the one line of an error. What follows
@@ -57,22 +57,12 @@ pub enum Names {
     Keys,
 }
 
-/// An option in these names.
-pub struct Named(Names, &'static str);
-
 impl Names {
-    /// Of the option that help writes like this.
-    pub fn of(self, option: &'static str) -> Named {
-        Named(self, option)
-    }
-}
-
-impl Display for Named {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let Named(names, option) = self;
-        match names {
-            Names::Options => f.write_str(option),
-            Names::Keys => f.write_str(&key(option)),
+    /// Returns the name of the option that help writes like this.
+    pub fn of(self, option: &str) -> String {
+        match self {
+            Names::Options => option.to_string(),
+            Names::Keys => key(option),
         }
     }
 }
@@ -112,32 +102,32 @@ pub fn spelled(x: &Exact) -> String {
     decimals.next().unwrap_or_else(|| x.to_string())
 }
 
-/// Any number.
-pub fn finite(text: &str) -> Result<Number, String> {
+/// Parses any number.
+pub fn parse_number(text: &str) -> Result<Number, String> {
     let value = text.parse().map_err(|error| format!("{error}"))?;
     Ok(Number { text: text.to_string(), value })
 }
 
-/// A number greater than zero.
-pub fn positive(text: &str) -> Result<Number, String> {
-    let number = finite(text)?;
+/// Parses a number greater than zero.
+pub fn parse_positive(text: &str) -> Result<Number, String> {
+    let number = parse_number(text)?;
     if number.value > Exact::zero() { Ok(number) } else { Err("must be greater than 0".to_string()) }
 }
 
-/// A whole number in this range, without a sign.
-pub fn whole_in(range: RangeInclusive<u64>, text: &str) -> Result<u64, String> {
+/// Parses a whole number in this range, without a sign.
+pub fn parse_u64_in(range: RangeInclusive<u64>, text: &str) -> Result<u64, String> {
     let number = text.parse().ok().filter(|number| range.contains(number) && !text.starts_with('+'));
     number.ok_or_else(|| format!("must be a whole number from {} to {}", range.start(), range.end()))
 }
 
-/// A count.
-pub fn whole(text: &str) -> Result<u64, String> {
-    whole_in(0..=u64::MAX, text)
+/// Parses a count.
+pub fn parse_u64(text: &str) -> Result<u64, String> {
+    parse_u64_in(0..=u64::MAX, text)
 }
 
-/// A count that is not zero.
-pub fn count(text: &str) -> Result<u64, String> {
-    whole_in(1..=u64::MAX, text)
+/// Parses a count that is not zero.
+pub fn parse_positive_u64(text: &str) -> Result<u64, String> {
+    parse_u64_in(1..=u64::MAX, text)
 }
 
 impl Number {
@@ -190,19 +180,19 @@ pub(crate) use in_scalar;
 #[command(next_help_heading = "System")]
 pub struct System {
     /// Stiffness of the spring in N/m, c > 0
-    #[arg(long, value_name = "C", default_value = "100", value_parser = positive)]
+    #[arg(long, value_name = "C", default_value = "100", value_parser = parse_positive)]
     pub stiffness: Number,
     /// Mass in kg, m > 0
-    #[arg(long, value_name = "M", default_value = "1", value_parser = positive)]
+    #[arg(long, value_name = "M", default_value = "1", value_parser = parse_positive)]
     pub mass: Number,
     /// Gravitational acceleration in m/s²; a negative one lifts
-    #[arg(long, value_name = "G", default_value = "9.81", value_parser = finite)]
+    #[arg(long, value_name = "G", default_value = "9.81", value_parser = parse_number)]
     pub gravity: Number,
     /// Free length of the spring in m
-    #[arg(long, value_name = "L", default_value = "1", value_parser = finite)]
+    #[arg(long, value_name = "L", default_value = "1", value_parser = parse_number)]
     pub free_length: Number,
     /// Height between the support and the plane in m
-    #[arg(long, value_name = "H", default_value = "1.05", value_parser = finite)]
+    #[arg(long, value_name = "H", default_value = "1.05", value_parser = parse_number)]
     pub height: Number,
 }
 

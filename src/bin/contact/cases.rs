@@ -1,8 +1,8 @@
 //! `contact cases`: systems with their exact answers.
 
-use crate::args::{spelled, whole, whole_in};
-use crate::output::{self, Exit, Failure, Row};
-use clap::ValueEnum;
+use crate::args::{parse_u64, parse_u64_in, spelled};
+use crate::output::{self, Exit, Failure, formats, record};
+use serde::Serialize;
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::check::{self, Family, Problem, problems};
 
@@ -31,10 +31,10 @@ pub struct Options {
 pub struct Drawn {
     /// Systems of each family and each decade of graded, from 1 to 10000
     #[arg(long, value_name = "N", default_value_t = check::CASES)]
-    #[arg(value_parser = |text: &str| whole_in(1..=10_000, text))]
+    #[arg(value_parser = |text: &str| parse_u64_in(1..=10_000, text))]
     cases: u64,
     /// Where they are drawn from; the same seed, the same systems, on every machine
-    #[arg(long, value_name = "N", default_value = "1", value_parser = whole)]
+    #[arg(long, value_name = "N", default_value = "1", value_parser = parse_u64)]
     pub seed: u64,
     /// Only this family, repeatable: contact, separated, grazing, near, overlap, lifted, stiff, soft,
     /// far, huge, tiny or graded
@@ -42,13 +42,7 @@ pub struct Drawn {
     families: Vec<Family>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
-    /// In rows
-    Csv,
-    /// Numbers as strings
-    Json,
-}
+formats!(Csv: "In rows", Json: "Numbers as strings");
 
 impl Drawn {
     /// The systems, by families.
@@ -59,32 +53,29 @@ impl Drawn {
     }
 }
 
-/// Draws and prints.
+/// Draws the systems and prints them.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
-    let rows: Vec<_> = options.drawn.problems().iter().map(row).collect();
+    let cases: Vec<_> = options.drawn.problems().into_iter().map(case).collect();
     output::print(|out| match options.format {
-        Format::Csv => output::csv(out, &NAMES, &rows),
-        Format::Json => output::json(out, &rows),
+        Format::Csv => output::csv(out, &cases),
+        Format::Json => output::json(out, &cases),
     })
 }
 
-/// The columns.
-const NAMES: [&str; 10] = [
-    "id",
-    "family",
-    "stiffness",
-    "mass",
-    "gravity",
-    "free_length",
-    "height",
-    "deflection",
-    "penetration",
-    "contact_force",
-];
-
-fn row(problem: &Problem) -> Row<10> {
+/// Returns a system with its exact answer.
+fn case(problem: Problem) -> impl Serialize {
     let SpringMass { c, m, g, l, h } = problem.system.map(spelled);
     let exact = problem.solution();
-    let [u, p, n] = [exact.deflection, exact.penetration, exact.contact_force].map(|x| x.to_string());
-    Row(&NAMES, [problem.id.clone(), problem.family.to_string(), c, m, g, l, h, u, p, n].map(Some))
+    record! {
+        id: problem.id,
+        family: problem.family,
+        stiffness: c,
+        mass: m,
+        gravity: g,
+        free_length: l,
+        height: h,
+        deflection: exact.deflection,
+        penetration: exact.penetration,
+        contact_force: exact.contact_force,
+    }
 }

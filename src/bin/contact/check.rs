@@ -5,10 +5,9 @@ mod program;
 mod reply;
 mod report;
 
-use crate::args::{Number, positive};
+use crate::args::{Number, parse_positive};
 use crate::cases::Drawn;
-use crate::output::{self, Exit, Failure};
-use clap::ValueEnum;
+use crate::output::{self, Exit, Failure, formats};
 use program::Program;
 use spring_mass_contact::check::check;
 use std::time::Duration;
@@ -42,13 +41,13 @@ pub struct Options {
     #[command(flatten)]
     drawn: Drawn,
     /// How far off an answer may be, in parts of the system's own scales
-    #[arg(long, value_name = "T", default_value = "1e-6", value_parser = positive)]
+    #[arg(long, value_name = "T", default_value = "1e-6", value_parser = parse_positive)]
     tolerance: Number,
     /// How long an answer may take in s, from 0.001 to 1000000
     #[arg(long, value_name = "S", default_value = "10", value_parser = seconds)]
     timeout: Duration,
     /// Ask for the penalty method, with this ε in N/m: the exact answers are its own then
-    #[arg(long, value_name = "E", value_parser = positive)]
+    #[arg(long, value_name = "E", value_parser = parse_positive)]
     penalty: Option<Number>,
     /// How to print the report
     #[arg(long, value_enum, default_value_t = Format::Table)]
@@ -58,15 +57,11 @@ pub struct Options {
     program: Vec<String>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
-    /// For people
-    Table,
-    /// Everything; quantities as strings
-    Json,
-    /// For documents: a line a family
-    Markdown,
-}
+formats!(
+    Table: "For people",
+    Json: "Everything; quantities as strings",
+    Markdown: "For documents: a line a family"
+);
 
 fn seconds(text: &str) -> Result<Duration, String> {
     let seconds = text.parse().ok().filter(|seconds| (1e-3..=1e6).contains(seconds));
@@ -93,8 +88,8 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     let program = reply::words(&program.map_err(|error| format!("the program's words: {error}"))?);
     output::print(|out| match options.format {
         Format::Table => report::table(out, &program, &report, &options.tolerance),
-        Format::Json => output::json(out, &json::of(&program, options, &report)),
+        Format::Json => output::json(out, &json::report(&program, options, &report)),
         Format::Markdown => report::markdown(out, &report),
     })?;
-    Ok(if report.holds() { Exit::Fine } else { Exit::Unmet })
+    Ok(Exit::from_result(report.holds()))
 }

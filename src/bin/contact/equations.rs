@@ -1,8 +1,7 @@
 //! `contact equations`: the chapter as data.
 
 use crate::args;
-use crate::output::{self, Exit, Failure};
-use clap::ValueEnum;
+use crate::output::{self, Exit, Failure, formats};
 use spring_mass_contact::claims::{Entry, claim_names, entries};
 use spring_mass_contact::verify::graph;
 use std::io::{self, Write};
@@ -26,17 +25,12 @@ pub struct Options {
     format: Format,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
-    /// For reading
-    Table,
-    /// For programs
-    Json,
-    /// For documents
-    Markdown,
-    /// For Graphviz: what follows from what, and what is proved
-    Dot,
-}
+formats!(
+    Table: "For reading",
+    Json: "For programs",
+    Markdown: "For documents",
+    Dot: "For Graphviz: what follows from what, and what is proved"
+);
 
 /// Prints the entries asked for.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
@@ -58,46 +52,38 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     })
 }
 
-/// Its own function, without those beside it.
+/// Returns the function of an entry, without those beside it.
 fn function(entry: &Entry) -> Option<&'static str> {
     entry.functions.first().copied()
 }
 
 fn table(out: &mut dyn Write, entries: &[&Entry]) -> io::Result<()> {
-    let mut table = output::table();
-    table.set_header(["number", "title", "function", "claims"]);
-    for entry in entries {
+    let rows = entries.iter().map(|entry| {
         let claims = claim_names(entry.equation).len().to_string();
-        table.add_row([&entry.label(), entry.title, function(entry).unwrap_or("-"), &claims]);
-    }
+        [entry.label(), entry.title.to_string(), function(entry).unwrap_or("-").to_string(), claims]
+    });
     // A name that is broken cannot be searched for; titles break well.
-    output::unbroken(&mut table, &[0, 2, 3]);
-    output::lines(out, &table)
+    output::table(out, ["number", "title", "function", "claims"], rows, &[0, 2, 3])
 }
 
 fn markdown(out: &mut dyn Write, entries: &[&Entry]) -> io::Result<()> {
-    writeln!(out, "| number | title | statement | hypotheses | function | claims |")?;
-    writeln!(out, "|---|---|---|---|---|---|")?;
-    entries.iter().try_for_each(|e| {
-        let function = function(e).map_or(String::new(), |f| format!("`{f}`"));
-        let (hypotheses, claims) = (e.format_hypotheses().join(", "), claim_names(e.equation).join(", "));
-        let statement = e.statement().replace('|', "\\|");
-        writeln!(out, "| {} | {} | {statement} | {hypotheses} | {function} | {claims} |", e.label(), e.title)
-    })
+    let rows = entries.iter().map(|entry| {
+        let function = function(entry).map_or(String::new(), |function| format!("`{function}`"));
+        let [hypotheses, claims] =
+            [entry.format_hypotheses().join(", "), claim_names(entry.equation).join(", ")];
+        [entry.label(), entry.title.to_string(), entry.statement(), hypotheses, function, claims]
+    });
+    output::markdown(out, ["number", "title", "statement", "hypotheses", "function", "claims"], rows)
 }
 
 fn details(out: &mut dyn Write, entry: &Entry) -> io::Result<()> {
     writeln!(out, "{} {}, section {}", entry.label(), entry.title, entry.section)?;
-    let mut table = output::table();
-    let mut line = |name: &str, text: String| {
-        if !text.is_empty() {
-            table.add_row([name, &text]);
-        }
-    };
-    line("states", entry.statement());
-    line("if", entry.format_hypotheses().join(", "));
-    line("functions", entry.functions.join(", "));
-    line("follows from", entry.follows_from.join(", "));
-    line("claims", claim_names(entry.equation).join(", "));
-    output::lines(out, &table)
+    let rows = [
+        ("states", entry.statement()),
+        ("if", entry.format_hypotheses().join(", ")),
+        ("functions", entry.functions.join(", ")),
+        ("follows from", entry.follows_from.join(", ")),
+        ("claims", claim_names(entry.equation).join(", ")),
+    ];
+    output::list(out, rows)
 }

@@ -1,7 +1,7 @@
 //! The command `contact`: reads its arguments, calls the library, prints.
 //!
 //! `args` is what the subcommands share of their arguments, `json` how objects come in, `output` the way to
-//! stdout; each subcommand is a module.
+//! stdout, with one function for each format; each subcommand is a module.
 
 mod advise;
 mod args;

@@ -1,11 +1,11 @@
 //! The way out: stdout, a closed pipe, one-line errors, exit codes, tables.
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use comfy_table::{ColumnConstraint, ContentArrangement, Table, presets};
+use comfy_table::{ColumnConstraint, ContentArrangement, Row, Table, presets};
 use indicatif::{ProgressBar, ProgressStyle};
-use serde::ser::{Serialize, Serializer};
+use serde::Serialize;
 use spring_mass_contact::formula::GLUE;
-use std::fmt;
+use std::fmt::Display;
 use std::io::{self, BufWriter, IsTerminal, Write};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -47,30 +47,31 @@ pub fn shortened_to(text: &str, most: usize) -> String {
     }
 }
 
-/// What a command has to say about its result, once it is printed.
+/// Outcome of a command that has printed its result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Exit {
     /// All well.
-    Fine,
+    Success,
     /// A solve did not converge, or a claim does not hold.
-    Unmet,
+    Unsatisfied,
 }
 
-/// Why there is no result.
+impl Exit {
+    /// Returns [`Exit::Success`] if `satisfied`.
+    pub fn from_result(satisfied: bool) -> Self {
+        if satisfied { Exit::Success } else { Exit::Unsatisfied }
+    }
+}
+
+/// Reason why there is no result.
+#[derive(Debug, thiserror::Error)]
 pub enum Failure {
     /// Bad input: one line that names the argument, the value and what is allowed.
+    #[error("{0}")]
     Input(String),
-    /// Nobody could be told.
-    Output(io::Error),
-}
-
-impl fmt::Display for Failure {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        match self {
-            Failure::Input(line) => f.write_str(line),
-            Failure::Output(error) => write!(f, "stdout cannot be written: {error}"),
-        }
-    }
+    /// Writing to stdout failed.
+    #[error("stdout cannot be written: {0}")]
+    Output(#[from] io::Error),
 }
 
 impl From<String> for Failure {
@@ -79,17 +80,11 @@ impl From<String> for Failure {
     }
 }
 
-impl From<io::Error> for Failure {
-    fn from(error: io::Error) -> Self {
-        Failure::Output(error)
-    }
-}
-
 /// 0, 1 or 2, with the line on stderr.
 pub fn exit_code(answer: Result<Exit, Failure>) -> ExitCode {
     let failure = match answer {
-        Ok(Exit::Fine) => return ExitCode::SUCCESS,
-        Ok(Exit::Unmet) => return ExitCode::from(1),
+        Ok(Exit::Success) => return ExitCode::SUCCESS,
+        Ok(Exit::Unsatisfied) => return ExitCode::from(1),
         // Whoever closed the pipe (`| head`) has seen enough.
         Err(Failure::Output(error)) if error.kind() == io::ErrorKind::BrokenPipe => return ExitCode::SUCCESS,
         Err(failure) => failure,
@@ -101,7 +96,7 @@ pub fn exit_code(answer: Result<Exit, Failure>) -> ExitCode {
 
 /// Writes to stdout; nothing else does.
 pub fn print(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<Exit, Failure> {
-    print_answer(|out| Ok(write(out).map(|()| Exit::Fine)?))
+    print_answer(|out| Ok(write(out).map(|()| Exit::Success)?))
 }
 
 /// Writes what can fail otherwise than by being written, or ends as only the writing shows.
@@ -112,38 +107,90 @@ pub fn print_answer(write: impl FnOnce(&mut dyn Write) -> Result<Exit, Failure>)
     Ok(exit)
 }
 
-/// Indented JSON and a line break.
+/// Declares `Format`: the formats in which a subcommand prints its result, each with its help.
+macro_rules! formats {
+    ($($Name:ident: $help:literal),+) => {
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+        enum Format { $(#[doc = $help] $Name),+ }
+    };
+}
+pub(crate) use formats;
+
+/// Returns a struct of these fields, which serde serialises in this order: a result as JSON and CSV have it.
+macro_rules! record {
+    ($($name:ident: $value:expr),+ $(,)?) => {{
+        #[allow(non_camel_case_types)]
+        mod record {
+            #[derive(serde::Serialize)]
+            pub struct Record<$($name),+> { $(pub $name: $name),+ }
+        }
+        record::Record { $($name: $value),+ }
+    }};
+}
+pub(crate) use record;
+
+/// Prints indented JSON and a line break.
 pub fn json(out: &mut dyn Write, value: &impl Serialize) -> io::Result<()> {
     serde_json::to_writer_pretty(&mut *out, value)?;
     writeln!(out)
 }
 
-/// Cells under their names: an object in JSON, a line in CSV; nothing where something does not apply.
-pub struct Row<const N: usize>(pub &'static [&'static str; N], pub [Option<String>; N]);
-
-impl<const N: usize> Serialize for Row<N> {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let Row(names, cells) = self;
-        to.collect_map(names.iter().zip(cells))
-    }
+/// Prints a line of CSV for each row; before them, if the rows are structs, the names of their fields.
+pub fn csv(out: &mut dyn Write, rows: impl IntoIterator<Item: Serialize>) -> io::Result<()> {
+    let mut csv = csv::Writer::from_writer(out);
+    let written = rows.into_iter().try_for_each(|row| csv.serialize(row));
+    written.map_err(|error| match error.into_kind() {
+        csv::ErrorKind::Io(error) => error,
+        other => io::Error::other(format!("{other:?}")),
+    })?;
+    csv.flush()
 }
 
-/// A line of names, and a line a row.
-pub fn csv<'a, const N: usize>(
+/// Prints a table in Markdown.
+pub fn markdown<const N: usize>(
     out: &mut dyn Write,
-    names: &[&str; N],
-    rows: impl IntoIterator<Item = &'a Row<N>>,
+    names: [&str; N],
+    rows: impl IntoIterator<Item = [String; N]>,
 ) -> io::Result<()> {
-    writeln!(out, "{}", names.join(","))?;
-    rows.into_iter().try_for_each(|Row(_, cells)| {
-        let cells = cells.each_ref().map(|cell| cell.as_deref().unwrap_or_default());
-        writeln!(out, "{}", cells.join(","))
+    writeln!(out, "| {} |\n|{}", names.join(" | "), "---|".repeat(N))?;
+    rows.into_iter().try_for_each(|cells| {
+        let cells = cells.map(|cell| cell.replace('|', "\\|"));
+        writeln!(out, "| {} |", cells.join(" | "))
     })
 }
 
-/// An empty table in the style all tables share, as wide as a page, or the terminal if that is wider: in
+/// Prints a table for people. The columns in `unbroken` get all the width they need; the others share what
+/// is left.
+pub fn table<R: Into<Row>>(
+    out: &mut dyn Write,
+    names: impl Into<Row>,
+    rows: impl IntoIterator<Item = R>,
+    unbroken: &[usize],
+) -> io::Result<()> {
+    let mut table = empty_table();
+    table.set_header(names).add_rows(rows);
+    for column in table.column_iter_mut().filter(|column| unbroken.contains(&column.index)) {
+        column.set_constraint(ColumnConstraint::ContentWidth);
+    }
+    writeln!(out, "{}", table.trim_fmt())
+}
+
+/// Prints names, and beside each its text; those without a text are left out.
+pub fn list(out: &mut dyn Write, rows: impl IntoIterator<Item = (&'static str, String)>) -> io::Result<()> {
+    let rows = rows.into_iter().filter(|(_, text)| !text.is_empty());
+    let rows = rows.map(|(name, text)| [name.to_string(), text]);
+    writeln!(out, "{}", empty_table().add_rows(rows).trim_fmt())
+}
+
+/// Returns cells, each after a blank and padded to its width.
+pub fn aligned(widths: &[usize], cells: impl IntoIterator<Item: Display>) -> String {
+    let cells = cells.into_iter().zip(widths).map(|(cell, width)| format!(" {cell:<width$}"));
+    cells.collect::<String>().trim_end().to_string()
+}
+
+/// Returns a table in the style all tables share, as wide as a page, or the terminal if that is wider: in
 /// less, most would break in the middle of words.
-pub fn table() -> Table {
+fn empty_table() -> Table {
     let mut table = Table::new();
     table
         .load_style(presets::NOTHING)
@@ -226,18 +273,6 @@ pub fn with_progress<T>(what: &str, work: impl FnOnce(&(dyn Fn(usize, usize) + S
     })
 }
 
-/// Gives these columns all the width they need; the others share what is left.
-pub fn unbroken(table: &mut Table, columns: &[usize]) {
-    for column in table.column_iter_mut().filter(|column| columns.contains(&column.index)) {
-        column.set_constraint(ColumnConstraint::ContentWidth);
-    }
-}
-
-/// A table, line by line, without the blanks that would fill its last column.
-pub fn lines(out: &mut dyn Write, table: &Table) -> io::Result<()> {
-    table.lines().try_for_each(|line| writeln!(out, "{}", line.trim_end()))
-}
-
 /// What clap has to say: help and version go to stdout; an error is cut to one line.
 pub fn clap_message(mut error: clap::Error, commands: &[&str]) -> Result<Exit, Failure> {
     for kind in [ContextKind::InvalidValue, ContextKind::InvalidArg, ContextKind::InvalidSubcommand] {
@@ -253,7 +288,7 @@ pub fn clap_message(mut error: clap::Error, commands: &[&str]) -> Result<Exit, F
     let allowed = match error.kind() {
         ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
             error.print()?;
-            return Ok(Exit::Fine);
+            return Ok(Exit::Success);
         }
         ErrorKind::InvalidSubcommand => format!("; [commands: {}]", commands.join(", ")),
         ErrorKind::UnknownArgument => {

@@ -1,8 +1,7 @@
 //! `contact prove`: every claim for all values, and that wrong ones would be noticed.
 
-use crate::output::{self, Exit, Failure, shortened};
+use crate::output::{self, Exit, Failure, formats};
 use crate::{args, solve};
-use clap::ValueEnum;
 use spring_mass_contact::claims::{Entry, entry, registry, statements};
 use spring_mass_contact::formula::together;
 use spring_mass_contact::proof::controls::{Change, Dropped, Effect, Without};
@@ -45,15 +44,11 @@ pub struct Options {
     format: Format,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
-    /// For reading: a line a claim
-    Table,
-    /// For programs: everything
-    Json,
-    /// For documents: a line a claim
-    Markdown,
-}
+formats!(
+    Table: "For reading: a line a claim",
+    Json: "For programs: everything",
+    Markdown: "For documents: a line a claim"
+);
 
 /// Writes in the chapter's names.
 fn paper() -> Paper<'static> {
@@ -69,11 +64,9 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     let statements = statements();
     let empty = |number: &&String| statements.iter().all(|s| s.equation() != number.as_str());
     if let Some(empty) = numbers.iter().find(empty) {
-        return Err(format!(
-            "invalid value '{empty}' for '[NUMBER]...': nothing is proved of it; \
-             `contact equations '{empty}'` says what is claimed of it"
-        )
-        .into());
+        let why =
+            format!("nothing is proved of it; `contact equations '{empty}'` says what is claimed of it");
+        return Err(args::invalid(empty, "[NUMBER]...", why));
     }
     let proofs = prove_all(&numbers);
     output::print(|out| match options.format {
@@ -82,16 +75,14 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
         Format::Table if numbers.is_empty() => table(out, &proofs),
         Format::Table => details(out, &proofs),
     })?;
-    Ok(if proofs.hold() { Exit::Fine } else { Exit::Unmet })
+    Ok(Exit::from_result(proofs.hold()))
 }
 
 /// Writes the files for Coq, and says how they are compiled and what is not among them.
 fn for_coq(directory: &Path) -> Result<Exit, Failure> {
     let files = coq().write(directory).map_err(|error| {
-        let directory = shortened(&directory.display().to_string());
-        format!(
-            "invalid value '{directory}' for '--coq <DIR>': must be a directory that can be written: {error}"
-        )
+        let why = format!("must be a directory that can be written: {error}");
+        args::invalid(&directory.display().to_string(), "--coq <DIR>", why)
     })?;
     output::print(|out| {
         writeln!(out, "The claims as theorems, to be compiled in this order:")?;
@@ -114,31 +105,24 @@ fn how(proved: &Proved) -> String {
 }
 
 fn table(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
-    let mut table = output::table();
-    table.set_header(["number", "claim", "how", "by hypotheses", "ms"]);
-    for proved in &proofs.claims {
+    let rows = proofs.claims.iter().map(|proved| {
         let Proved { statement, answer, time } = proved;
         let hypotheses = match answer {
             Answer::Proof(proof) => paper().used(proof),
             Answer::None(..) => proved.hypotheses(),
         };
-        table.add_row([
-            entry(statement.equation()).map(Entry::label).unwrap_or_default(),
-            statement.name().to_string(),
-            how(proved),
-            hypotheses.join(", "),
-            format!("{:.2}", time.as_secs_f64() * 1e3),
-        ]);
-    }
-    output::unbroken(&mut table, &[0, 1, 4]);
-    output::lines(out, &table)?;
-    amiss(out, proofs)?;
+        let label = entry(statement.equation()).map(Entry::label).unwrap_or_default();
+        let time = format!("{:.2}", time.as_secs_f64() * 1e3);
+        [label, statement.name().to_string(), how(proved), hypotheses.join(", "), time]
+    });
+    output::table(out, ["number", "claim", "how", "by hypotheses", "ms"], rows, &[0, 1, 4])?;
+    print_problems(out, proofs)?;
     writeln!(out)?;
     totals(out, proofs)
 }
 
-/// What is not as it should be, each after a blank line.
-fn amiss(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
+/// Prints what is not as it should be, each after a blank line.
+fn print_problems(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
     for Proved { statement, answer, .. } in &proofs.claims {
         let (equation, name) = (statement.equation(), statement.name());
         match answer {
@@ -208,7 +192,7 @@ fn details(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
         }
         for proved in claims {
             writeln!(out)?;
-            account(out, proofs, proved)?;
+            print_claim(out, proofs, proved)?;
         }
     }
     let noticed = proofs.controls.changes.iter().filter_map(|(Change { site, what }, effect)| match effect {
@@ -222,10 +206,10 @@ fn details(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
         writeln!(out, "\nchanges of formulas that these claims notice")?;
         noticed.iter().try_for_each(|line| output::wrapped(out, "  ", 4, line))?;
     }
-    amiss(out, proofs)
+    print_problems(out, proofs)
 }
 
-fn account(out: &mut dyn Write, proofs: &Proofs, proved: &Proved) -> io::Result<()> {
+fn print_claim(out: &mut dyn Write, proofs: &Proofs, proved: &Proved) -> io::Result<()> {
     let Proved { statement, answer, .. } = proved;
     writeln!(out, "{} ({})", statement.name(), how(proved))?;
     let mut say = |what: &str, lines: &[String]| {
@@ -267,16 +251,13 @@ fn account(out: &mut dyn Write, proofs: &Proofs, proved: &Proved) -> io::Result<
 }
 
 fn markdown(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
-    writeln!(out, "| number | claim | says | if | how | status |")?;
-    writeln!(out, "|---|---|---|---|---|---|")?;
-    proofs.claims.iter().try_for_each(|proved| {
+    let rows = proofs.claims.iter().map(|proved| {
         let (equation, name) = (proved.statement.equation(), proved.statement.name());
-        // In a cell of a table.
-        let [says, given] = [paper().claim(&proved.statement), proved.hypotheses().join(", ")]
-            .map(|text| text.replace('|', "\\|"));
-        let (how, status) = (how(proved), proved.status());
-        writeln!(out, "| {equation} | {name} | {says} | {given} | {how} | {status} |")
-    })
+        let [number, name, status] = [equation, name, proved.status()].map(String::from);
+        let hypotheses = proved.hypotheses().join(", ");
+        [number, name, paper().claim(&proved.statement), hypotheses, how(proved), status]
+    });
+    output::markdown(out, ["number", "claim", "says", "if", "how", "status"], rows)
 }
 
 #[cfg(test)]
@@ -321,7 +302,7 @@ mod tests {
         let mut unknown = Proved::of(claim("float-drift"));
         unknown.answer = Answer::None("no rule finds the sign of x₁ − q".into(), None);
         let proofs = Proofs { claims: vec![unknown], ..Proofs::default() };
-        let text = output::printed(|out| amiss(out, &proofs)).replace("\n   ", "");
+        let text = output::printed(|out| print_problems(out, &proofs)).replace("\n   ", "");
         assert!(
             text.contains("UNKNOWN: no rule finds the sign of x₁ − q\n  k steps from 0, each of x₁ to"),
             "{text}"

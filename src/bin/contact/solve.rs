@@ -3,8 +3,8 @@
 mod batch;
 mod report;
 
-use crate::args::{Names, Number, System, finite, in_scalar, positive, whole};
-use crate::output::{self, Exit, Failure, shortened};
+use crate::args::{Names, Number, System, in_scalar, parse_number, parse_positive, parse_u64};
+use crate::output::{self, Exit, Failure, formats, shortened};
 use clap::ValueEnum;
 use num_traits::Zero;
 use report::Report;
@@ -56,16 +56,16 @@ pub struct Options {
     #[arg(long, value_enum, default_value_t = MethodName::Lagrange, help_heading = "Method")]
     method: MethodName,
     /// Penalty parameter in N/m, ε > 0, for penalty and augmented [default for augmented: 10 c]
-    #[arg(long, value_name = "E", value_parser = positive, help_heading = "Method")]
+    #[arg(long, value_name = "E", value_parser = parse_positive, help_heading = "Method")]
     penalty: Option<Number>,
     /// How far the deflection may be off in m, for augmented [default: 1e-9]
-    #[arg(long, value_name = "T", value_parser = positive, help_heading = "Method")]
+    #[arg(long, value_name = "T", value_parser = parse_positive, help_heading = "Method")]
     tolerance: Option<Number>,
     /// The last augmentation to try, for augmented [default: 1000]
-    #[arg(long, value_name = "N", value_parser = whole, help_heading = "Method")]
+    #[arg(long, value_name = "N", value_parser = parse_u64, help_heading = "Method")]
     max_augmentations: Option<u64>,
     /// Multiplier to start from in N, for augmented [default: 0]
-    #[arg(long, value_name = "L", value_parser = finite, help_heading = "Method")]
+    #[arg(long, value_name = "L", value_parser = parse_number, help_heading = "Method")]
     initial_multiplier: Option<Number>,
     /// Let the plane pull as well, as the chapter prints its equations
     #[arg(long, help_heading = "Method")]
@@ -111,18 +111,11 @@ impl MethodName {
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
-    /// For people; long numbers are shortened
-    Table,
-    /// All digits, numbers as strings
-    Json,
-    /// One row, or with --trace one for each augmentation
-    Csv,
-    /// The JSON on one line, with --batch
-    #[value(skip)]
-    Line,
-}
+formats!(
+    Table: "For people; long numbers are shortened",
+    Json: "All digits, numbers as strings",
+    Csv: "One row, or with --trace one for each augmentation"
+);
 
 /// Solves and prints, one system or many.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
@@ -149,67 +142,58 @@ impl Options {
             |error: SolveError| format!("{} {}: {error}", self.names().of("--scalar"), self.scalar);
         let needed = problem.steps_needed();
         let solve = |progress: &dyn Fn(usize, usize)| problem.solve(needed.as_ref(), progress);
-        let solution = match self.format {
-            Format::Line => solve(&|_, _| {}),
-            Format::Table | Format::Json | Format::Csv => output::with_progress("solving", |bar| solve(bar)),
-        }
-        .map_err(out_of_range)?;
+        let solution =
+            if self.batch { solve(&|_, _| {}) } else { output::with_progress("solving", |bar| solve(bar)) };
+        let solution = solution.map_err(out_of_range)?;
         if self.trace
             && !problem.trace(&solution).all(|iterate| quantities(&iterate).iter().all(|x| x.is_finite()))
         {
             return Err(out_of_range(SolveError::OutOfRange { quantity: "trace" }).into());
         }
-        let report = Report::new(self, &problem, &solution, needed).map_err(out_of_range)?;
+        let kkt = solution.certificate(&problem.system).map_err(out_of_range)?;
+        let steps_needed = needed.map(|steps| steps.to_string());
+        let report = Report { options: self, problem: &problem, solution: &solution, kkt, steps_needed };
         match self.format {
+            _ if self.batch => serde_json::to_writer(out, &report).map_err(io::Error::from)?,
             Format::Table => report.table(out)?,
             Format::Json => output::json(out, &report)?,
             Format::Csv => report.csv(out)?,
-            Format::Line => serde_json::to_writer(out, &report).map_err(io::Error::from)?,
         }
-        Ok(match solution.outcome {
-            Outcome::Direct | Outcome::Converged => Exit::Fine,
-            Outcome::Stagnated | Outcome::OutOfSteps => Exit::Unmet,
-        })
+        Ok(Exit::from_result(matches!(solution.outcome, Outcome::Direct | Outcome::Converged)))
     }
 
     /// A line of JSON knows keys, and no options.
     fn names(&self) -> Names {
-        if self.format == Format::Line { Names::Keys } else { Names::Options }
+        if self.batch { Names::Keys } else { Names::Options }
     }
 
-    /// An option that would change nothing is a misunderstanding.
+    /// Refuses an option that would change nothing: it is a misunderstanding.
     fn refuse_unused(&self) -> Result<(), Failure> {
-        let name = |option| self.names().of(option);
-        let typed = |option, number: &Option<Number>| {
-            number.as_ref().map(|n| format!("{} {}", name(option), shortened(&n.text)))
-        };
-        let augmented = [
-            typed("--tolerance", &self.tolerance),
-            self.max_augmentations.map(|n| format!("{} {n}", name("--max-augmentations"))),
-            typed("--initial-multiplier", &self.initial_multiplier),
-            self.trace.then(|| "--trace".to_string()),
+        let typed = |number: &Option<Number>| number.as_ref().map(|n| format!(" {}", shortened(&n.text)));
+        let options = [
+            ("--penalty", typed(&self.penalty), "penalty or augmented"),
+            ("--tolerance", typed(&self.tolerance), "augmented"),
+            ("--max-augmentations", self.max_augmentations.map(|n| format!(" {n}")), "augmented"),
+            ("--initial-multiplier", typed(&self.initial_multiplier), "augmented"),
+            ("--trace", self.trace.then(String::new), "augmented"),
         ];
-        let penalty = typed("--penalty", &self.penalty);
-        let (unused, owner) = match self.method {
-            MethodName::Lagrange if penalty.is_some() => (penalty, "penalty or augmented"),
-            MethodName::Lagrange | MethodName::Penalty => {
-                (augmented.into_iter().flatten().next(), "augmented")
+        let own = self.method.name();
+        for (option, value, methods) in options {
+            if let Some(value) = value
+                && !methods.contains(&own)
+            {
+                let [option, method] = [option, "--method"].map(|name| self.names().of(name));
+                return Err(Failure::Input(format!(
+                    "'{option}{value}' is not used by {method} {own}; it belongs to {method} {methods}"
+                )));
             }
-            MethodName::Augmented => (None, ""),
-        };
-        match unused {
-            Some(option) => Err(Failure::Input(format!(
-                "'{option}' is not used by {method} {}; it belongs to {method} {owner}",
-                self.method.name(),
-                method = name("--method")
-            ))),
-            None => Ok(()),
         }
+        Ok(())
     }
 
     /// The default too as it would be typed.
     fn tolerance(&self) -> Number {
-        self.tolerance.clone().unwrap_or_else(|| finite("1e-9").expect("a number"))
+        self.tolerance.clone().unwrap_or_else(|| parse_number("1e-9").expect("a number"))
     }
 
     fn method<T: Scalar + Text>(&self, like: &T) -> Result<Method<T>, Failure> {

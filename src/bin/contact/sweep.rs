@@ -2,11 +2,11 @@
 
 mod plot;
 
-use crate::args::{self, Names, Number, System, exact, in_scalar, positive, spelled, whole_in};
-use crate::output::{self, Exit, Failure, Row, shortened};
-use clap::ValueEnum;
+use crate::args::{self, Names, Number, System, exact, in_scalar, parse_positive, parse_u64_in, spelled};
+use crate::output::{self, Exit, Failure, formats, shortened};
 use num_traits::{One, Zero};
 use plot::Curve;
+use serde::Serialize;
 use spring_mass_contact::chapter::{SpringMass, penalty, rounding, system};
 use spring_mass_contact::number::{Exact, NumberSystem, Text};
 use spring_mass_contact::rug::{Float, float::Round};
@@ -40,7 +40,7 @@ pub struct Options {
     #[arg(long, value_name = "FROM..TO", value_parser = range, help_heading = "Sweep")]
     penalty: (Number, Number),
     /// How many penalties, both ends included, from 2 to 1001; each as many times the one before
-    #[arg(value_parser = |text: &str| whole_in(2..=1001, text))]
+    #[arg(value_parser = |text: &str| parse_u64_in(2..=1001, text))]
     #[arg(long, value_name = "N", default_value = "61", help_heading = "Sweep")]
     points: u64,
 
@@ -52,28 +52,11 @@ pub struct Options {
     format: Format,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
-    /// For people: few digits, and what they show
-    Table,
-    /// All digits, numbers as strings
-    Json,
-    /// The same in rows
-    Csv,
-}
-
-/// The columns of JSON and CSV.
-const NAMES: [&str; 9] = [
-    "scalar",
-    "penalty",
-    "deflection",
-    "penetration",
-    "contact_force",
-    "penalty_force",
-    "force_error",
-    "penalty_force_error",
-    "error",
-];
+formats!(
+    Table: "For people: few digits, and what they show",
+    Json: "All digits, numbers as strings",
+    Csv: "The same in rows"
+);
 
 /// As clap names it.
 const PENALTY: &str = "--penalty <FROM..TO>";
@@ -91,8 +74,9 @@ const ERROR_DIGITS: usize = 6;
 /// Two numbers and what is between them.
 fn range(text: &str) -> Result<(Number, Number), String> {
     let (from, to) = text.split_once("..").ok_or("must be FROM..TO, such as 1..1e12")?;
-    let end =
-        |name: &str, text| positive(text).map_err(|error| format!("{name} '{}': {error}", shortened(text)));
+    let end = |name: &str, text| {
+        parse_positive(text).map_err(|error| format!("{name} '{}': {error}", shortened(text)))
+    };
     let (from, to) = (end("FROM", from)?, end("TO", to)?);
     if from.value < to.value { Ok((from, to)) } else { Err("FROM must be less than TO".to_string()) }
 }
@@ -101,24 +85,23 @@ fn range(text: &str) -> Result<(Number, Number), String> {
 pub fn run(options: &Options) -> Result<Exit, Failure> {
     // All of it before a line is printed: bad input shall not leave half a table.
     let sweeps = output::with_progress("sweeping", |progress| sweeps(options, progress))?;
+    let rows: Vec<_> = sweeps.iter().flat_map(|sweep| &sweep.rows).collect();
     output::print(|out| match options.format {
         Format::Table => table(out, options, &sweeps, io::stdout().is_terminal()),
-        Format::Json => output::json(out, &sweeps.iter().flat_map(|sweep| &sweep.rows).collect::<Vec<_>>()),
-        Format::Csv => output::csv(out, &NAMES, sweeps.iter().flat_map(|sweep| &sweep.rows)),
+        Format::Json => output::json(out, &rows),
+        Format::Csv => output::csv(out, &rows),
     })?;
-    let complete = sweeps.iter().all(|sweep| sweep.complete);
-    Ok(if complete { Exit::Fine } else { Exit::Unmet })
+    Ok(Exit::from_result(rows.iter().all(|row| row.error.is_none())))
 }
 
 fn sweeps(options: &Options, progress: &dyn Fn(usize, usize)) -> Result<Vec<Sweep>, Failure> {
     let (from, to) = &options.penalty;
     let refused = |error| {
-        let typed = shortened(&format!("{}..{}", from.text, to.text));
         let allowed = match error {
             SolveError::Invalid { argument, allowed, .. } => format!("the {argument} must be {allowed}"),
             other => other.to_string(),
         };
-        Failure::Input(format!("invalid value '{typed}' for '{PENALTY}': {allowed}"))
+        args::invalid(&format!("{}..{}", from.text, to.text), PENALTY, allowed)
     };
     let penalties = penalties(&from.value, &to.value, options.points as u32).map_err(refused)?;
     let number = |value| Number { text: spelled(&value), value };
@@ -133,14 +116,26 @@ fn sweeps(options: &Options, progress: &dyn Fn(usize, usize)) -> Result<Vec<Swee
     scalars.iter().enumerate().map(made).collect()
 }
 
-/// One number system's rows, as they are printed, and what there is to say of them.
+/// Rows of one number system, as they are printed, and what there is to say of them.
 struct Sweep {
     scalar: NumberSystem,
-    rows: Vec<Row<9>>,
-    /// Does every row have results?
-    complete: bool,
+    rows: Vec<Row>,
     notes: Vec<String>,
     curves: [Curve; 2],
+}
+
+/// Results of one penalty, or the error in their place.
+#[derive(Default, Serialize)]
+struct Row {
+    scalar: String,
+    penalty: String,
+    deflection: Option<String>,
+    penetration: Option<String>,
+    contact_force: Option<String>,
+    penalty_force: Option<String>,
+    force_error: Option<String>,
+    penalty_force_error: Option<String>,
+    error: Option<String>,
 }
 
 /// What is to be swept, where.
@@ -155,89 +150,68 @@ impl Sweeping<'_> {
         let system = self.options.system.round(Names::Options, like)?;
         let round = |eps: &Number| eps.round(PENALTY, like);
         let rounded = self.penalties.iter().map(round).collect::<Result<Vec<T>, _>>()?;
-        let mut made = Sweep {
-            scalar: self.scalar,
-            rows: Vec::new(),
-            complete: true,
-            notes: Vec::new(),
-            curves: Curve::pair(),
-        };
-        // Why the first row without results has none; and does any row have some?
-        let (mut refused, mut any) = (None, false);
+        let (mut rows, mut curves) = (Vec::new(), Curve::pair());
+        // The error of the first row that has one.
+        let mut refused = None;
         let mut least: Option<(Exact, &str)> = None;
         for ((i, row), eps) in (1..).zip(sweep(&system, rounded.iter().cloned())).zip(self.penalties) {
-            let row = match row {
-                Ok(row) => row,
+            match &row {
+                Ok(row) => {
+                    let errors = [&row.force_error, &row.penalty_force_error];
+                    for (curve, error) in curves.iter_mut().zip(errors) {
+                        curve.points.extend(log10(&eps.value).zip(error.as_ref().and_then(log10)));
+                    }
+                    if let Some(error) = &row.penalty_force_error
+                        && least.as_ref().is_none_or(|(least, _)| error < least)
+                    {
+                        least = Some((error.clone(), &eps.text));
+                    }
+                }
                 Err(error) => {
                     let at = format!("--scalar {}, --penalty {}", self.scalar, shortened(&eps.text));
                     refused.get_or_insert(format!("{at}: {error}"));
-                    made.rows.push(self.row_without_results(eps, &error));
-                    each(i);
-                    continue;
                 }
-            };
-            any = true;
-            let errors = [&row.force_error, &row.penalty_force_error];
-            for (curve, error) in made.curves.iter_mut().zip(errors) {
-                curve.points.extend(log10(&eps.value).zip(error.as_ref().and_then(log10)));
             }
-            if let Some(error) = &row.penalty_force_error
-                && least.as_ref().is_none_or(|(least, _)| error < least)
-            {
-                least = Some((error.clone(), &eps.text));
-            }
-            made.rows.push(self.row(eps, &row));
+            rows.push(self.row(eps, row));
             each(i);
         }
-        made.complete = refused.is_none();
         match refused {
             // What is wrong with every row is wrong with the system.
-            Some(refused) if !any => return Err(refused.into()),
-            _ => made.notes = self.notes(&system, &rounded, least),
+            Some(refused) if rows.iter().all(|row: &Row| row.error.is_some()) => Err(refused.into()),
+            _ => {
+                let notes = self.notes(&system, &rounded, least);
+                Ok(Sweep { scalar: self.scalar, rows, notes, curves })
+            }
         }
-        Ok(made)
     }
 
-    fn penalty(&self, eps: &Number) -> Option<String> {
-        let people = self.options.format == Format::Table;
-        Some(if people { eps.value.decimal_within(DIGITS, WIDTHS[0]) } else { eps.text.clone() })
-    }
-
-    fn row_without_results(&self, eps: &Number, error: &SolveError) -> Row<9> {
-        let mut cells = [const { None }; 9];
-        (cells[0], cells[1]) = (Some(self.scalar.to_string()), self.penalty(eps));
-        cells[8] = Some(error.to_string());
-        Row(&NAMES, cells)
-    }
-
-    /// As it is printed: for people within the width of a column, or in full.
-    fn row<T: Text>(&self, eps: &Number, row: &SweepRow<T>) -> Row<9> {
-        let people = self.options.format == Format::Table;
-        let value = |x: &T, width| {
-            if people { exact(x).decimal_within(DIGITS, width) } else { x.text() }
-        };
+    /// Returns a row as it is printed: for people within the width of a column, or in full.
+    fn row<T: Text>(&self, eps: &Number, row: Result<SweepRow<T>, SolveError>) -> Row {
+        let format = self.options.format;
+        let people = format == Format::Table;
+        let value = |x: &T, width| if people { exact(x).decimal_within(DIGITS, width) } else { x.text() };
         let error = |x: &Option<Exact>, width| {
-            x.as_ref().map(|x| match self.options.format {
+            x.as_ref().map(|x| match format {
                 Format::Table => x.decimal_within(FEW, width),
                 Format::Json => x.text(),
                 Format::Csv => x.decimal(ERROR_DIGITS, Round::Nearest),
             })
         };
-        let [_, u, p, force, force_error, penalty_force, penalty_force_error] = WIDTHS;
-        Row(
-            &NAMES,
-            [
-                Some(self.scalar.to_string()),
-                self.penalty(eps),
-                Some(value(&row.deflection, u)),
-                Some(value(&row.penetration, p)),
-                Some(value(&row.contact_force, force)),
-                row.penalty_force.as_ref().map(|x| value(x, penalty_force)),
-                error(&row.force_error, force_error),
-                error(&row.penalty_force_error, penalty_force_error),
-                None,
-            ],
-        )
+        let [width, u, p, force, force_error, penalty_force, penalty_force_error] = WIDTHS;
+        let penalty = if people { eps.value.decimal_within(DIGITS, width) } else { eps.text.clone() };
+        let head = Row { scalar: self.scalar.to_string(), penalty, ..Row::default() };
+        match row {
+            Err(error) => Row { error: Some(error.to_string()), ..head },
+            Ok(row) => Row {
+                deflection: Some(value(&row.deflection, u)),
+                penetration: Some(value(&row.penetration, p)),
+                contact_force: Some(value(&row.contact_force, force)),
+                penalty_force: row.penalty_force.as_ref().map(|x| value(x, penalty_force)),
+                force_error: error(&row.force_error, force_error),
+                penalty_force_error: error(&row.penalty_force_error, penalty_force_error),
+                ..head
+            },
+        }
     }
 
     /// What the rows show.
@@ -313,34 +287,27 @@ fn log10(x: &Exact) -> Option<f64> {
 }
 
 fn table(out: &mut dyn Write, options: &Options, sweeps: &[Sweep], plotted: bool) -> io::Result<()> {
-    let line = |cells: [&str; 7]| {
-        let cells = cells.iter().zip(WIDTHS).map(|(cell, width)| format!(" {cell:<width$}"));
-        cells.collect::<String>().trim_end().to_string()
-    };
+    const NAMES: [&str; 7] = ["ε in N/m", "u in m", "p in m", "m g − c u", "error", "ε p in N", "error"];
     output::wrapped(out, " ", 1, &options.system.shown())?;
-    for Sweep { scalar, rows, complete, notes, curves } in sweeps {
-        writeln!(out, "\n {scalar}")?;
-        writeln!(
-            out,
-            "{}",
-            line(["ε in N/m", "u in m", "p in m", "m g − c u", "error", "ε p in N", "error"])
-        )?;
-        for Row(_, cells) in rows {
-            let [_, penalty, u, p, force, penalty_force, error, penalty_error, refused] =
-                cells.each_ref().map(|cell| cell.as_deref().unwrap_or("–"));
-            if cells[8].is_some() {
+    for Sweep { scalar, rows, notes, curves } in sweeps {
+        writeln!(out, "\n {scalar}\n{}", output::aligned(&WIDTHS, NAMES))?;
+        for row in rows {
+            let Row { penalty, deflection, penetration, contact_force, penalty_force, .. } = row;
+            let forces = [contact_force, &row.force_error, penalty_force, &row.penalty_force_error];
+            let cells = [deflection, penetration].into_iter().chain(forces);
+            let cells = cells.map(|cell| cell.as_deref().unwrap_or("–"));
+            let results = match &row.error {
                 // It fits the page, all but what helps, which stands below.
-                let what = refused.split("; ").next().unwrap_or_default();
-                writeln!(out, " {penalty:<width$} {what}", width = WIDTHS[0])?;
-                continue;
-            }
-            writeln!(out, "{}", line([penalty, u, p, force, error, penalty_force, penalty_error]))?;
+                Some(error) => format!(" {}", error.split("; ").next().unwrap_or_default()),
+                None => output::aligned(&WIDTHS[1..], cells),
+            };
+            writeln!(out, " {penalty:<width$}{results}", width = WIDTHS[0])?;
         }
         if plotted && let Some(plot) = plot::log_log(curves) {
             write!(out, "\n{plot}")?;
         }
         writeln!(out)?;
-        if !complete {
+        if rows.iter().any(|row| row.error.is_some()) {
             let help = "Where a result leaves the range, use MPFR (mpfr:BITS) or exact rationals.";
             output::wrapped(out, " ", 1, help)?;
         }

@@ -1,8 +1,7 @@
 //! `contact verify`: every claim, proved and in every number system, as one table.
 
-use crate::output::{self, Exit, Failure};
+use crate::output::{self, Exit, Failure, formats};
 use crate::{args, solve};
-use clap::ValueEnum;
 use spring_mass_contact::claims::{claim_names, entry};
 use spring_mass_contact::number::NumberSystem;
 use spring_mass_contact::verify::{self, Report, Row, Status, Suspect};
@@ -37,11 +36,11 @@ pub struct Options {
     #[arg(long = "scalar", value_name = "S")]
     scalars: Vec<NumberSystem>,
     /// Cases to try a claim on, at least 1
-    #[arg(value_parser = args::count)]
+    #[arg(value_parser = args::parse_positive_u64)]
     #[arg(long, value_name = "N", default_value_t = verify::Options::default().cases)]
     cases: u64,
     /// Where the cases are drawn from; the same seed, the same cases, on every machine
-    #[arg(value_parser = args::whole)]
+    #[arg(value_parser = args::parse_u64)]
     #[arg(long, value_name = "N", default_value_t = verify::Options::default().seed)]
     seed: u64,
     /// How to print the report
@@ -49,15 +48,11 @@ pub struct Options {
     format: Format,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
-    /// For reading: a line an equation
-    Table,
-    /// For programs: everything
-    Json,
-    /// For documents: a line a claim and number system
-    Markdown,
-}
+formats!(
+    Table: "For reading: a line an equation",
+    Json: "For programs: everything",
+    Markdown: "For documents: a line a claim and number system"
+);
 
 /// Verifies and reports.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
@@ -67,11 +62,8 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     }
     wanted.equations = args::equations(&options.numbers)?;
     if let Some(empty) = wanted.equations.iter().find(|e| claim_names(e).is_empty()) {
-        return Err(format!(
-            "invalid value '{empty}' for '[NUMBER]...': nothing is claimed of it; \
-             `contact equations` lists how many claims each number has"
-        )
-        .into());
+        let why = "nothing is claimed of it; `contact equations` lists how many claims each number has";
+        return Err(args::invalid(empty, "[NUMBER]...", why));
     }
     let report = output::with_progress("verifying", |progress| verify::verify(&wanted, progress));
     output::print(|out| print(out, &report, &wanted, options.format))?;
@@ -79,7 +71,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
 }
 
 fn exit(report: &Report) -> Exit {
-    if report.holds() { Exit::Fine } else { Exit::Unmet }
+    Exit::from_result(report.holds())
 }
 
 fn print(out: &mut dyn Write, report: &Report, options: &verify::Options, format: Format) -> io::Result<()> {
@@ -191,19 +183,16 @@ fn cell(rows: &[Row], way: Way) -> String {
     }
 }
 
-/// A line an equation.
+/// Prints a line for each equation.
 fn counts(out: &mut dyn Write, report: &Report, ways: &[Way]) -> io::Result<()> {
-    let mut table = output::table();
-    let names = ways.iter().copied().map(name);
-    table.set_header(["number", "title"].map(String::from).into_iter().chain(names));
-    for rows in report.by_equation() {
-        let [number, title] = entry(rows[0].equation)
-            .map_or(Default::default(), |entry| [entry.label(), entry.title.to_string()]);
-        table.add_row([number, title].into_iter().chain(ways.iter().map(|way| cell(rows, *way))));
-    }
-    let columns: Vec<usize> = (0..table.column_count()).filter(|column| *column != 1).collect();
-    output::unbroken(&mut table, &columns);
-    output::lines(out, &table)
+    let names = ["number", "title"].map(String::from).into_iter().chain(ways.iter().copied().map(name));
+    let rows = report.by_equation().map(|rows| {
+        let head = entry(rows[0].equation).map(|entry| [entry.label(), entry.title.to_string()]);
+        let cells = ways.iter().map(|way| cell(rows, *way));
+        head.unwrap_or_default().into_iter().chain(cells).collect::<Vec<_>>()
+    });
+    let unbroken: Vec<_> = [0].into_iter().chain(2..2 + ways.len()).collect();
+    output::table(out, names, rows, &unbroken)
 }
 
 /// The number of claims that are not proved.
@@ -284,17 +273,15 @@ fn names(rows: &[&Row]) -> String {
 }
 
 fn markdown(out: &mut dyn Write, report: &Report) -> io::Result<()> {
-    writeln!(out, "| number | claim | kind | scalar | status | decided | undecided | worst share |")?;
-    writeln!(out, "|---|---|---|---|---|---|---|---|")?;
-    report.rows.iter().try_for_each(|row| {
-        let Row { equation, claim, kind, status, decided, undecided, .. } = row;
+    let names = ["number", "claim", "kind", "scalar", "status", "decided", "undecided", "worst share"];
+    let rows = report.rows.iter().map(|row| {
         let scalar = row.scalar.map_or(String::new(), |scalar| scalar.to_string());
         let worst = row.worst.as_ref().map_or(String::new(), |(ratio, _)| format!("{ratio:.2}"));
-        writeln!(
-            out,
-            "| {equation} | {claim} | {kind} | {scalar} | {status} | {decided} | {undecided} | {worst} |"
-        )
-    })
+        let [equation, claim, kind] = [row.equation, row.claim, row.kind].map(String::from);
+        let [decided, undecided] = [row.decided, row.undecided].map(|count| count.to_string());
+        [equation, claim, kind, scalar, row.status.to_string(), decided, undecided, worst]
+    });
+    output::markdown(out, names, rows)
 }
 
 #[cfg(test)]

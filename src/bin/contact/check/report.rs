@@ -31,14 +31,10 @@ pub fn table(out: &mut dyn Write, program: &str, report: &Report, tolerance: &Nu
     ];
     let counts = counts.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}"));
     let counts = format!("{}: {}", report.checked.len(), counts.collect::<Vec<_>>().join(", "));
-    let mut head = output::table();
-    head.add_rows([["program", program], ["systems", &counts]]);
-    writeln!(out, "{}\n", head.trim_fmt())?;
+    output::list(out, [("program", program.to_string()), ("systems", counts)])?;
+    writeln!(out)?;
     let families = report.families();
-    let mut table = output::table();
-    table.set_header(["family", "systems", "verdict", "u off by", "N off by"]);
-    table.add_rows(families.iter().map(|row| cells(row, &within)));
-    output::lines(out, &table)?;
+    output::table(out, NAMES, families.iter().map(|row| cells(row, &within)), &[])?;
     writeln!(out)?;
     writeln!(out, " u in parts of |H − l| + |m g / c|, N of |m g| + |c (H − l)|; right: off by no")?;
     writeln!(out, " more than what rounding in f64 may do, within: than the tolerance.")?;
@@ -77,13 +73,11 @@ pub fn table(out: &mut dyn Write, program: &str, report: &Report, tolerance: &Nu
 }
 
 pub fn markdown(out: &mut dyn Write, report: &Report) -> io::Result<()> {
-    writeln!(out, "| family | systems | verdict | u off by | N off by |")?;
-    writeln!(out, "|---|---|---|---|---|")?;
-    report
-        .families()
-        .iter()
-        .try_for_each(|row| writeln!(out, "| {} |", cells(row, "within tolerance").join(" | ")))
+    output::markdown(out, NAMES, report.families().iter().map(|row| cells(row, "within tolerance")))
 }
+
+/// Columns of the table of families.
+const NAMES: [&str; 5] = ["family", "systems", "verdict", "u off by", "N off by"];
 
 fn cells(row: &Row, within: &str) -> [String; 5] {
     let error = |x: &Option<Exact>| x.as_ref().map_or(String::new(), |x| x.decimal(FEW, Round::Up));
@@ -171,11 +165,7 @@ fn penalty(report: &Report) -> Option<String> {
 }
 
 fn missed(missed: &Threshold) -> String {
-    let [up_to, from] = ends(missed);
-    let what = match missed.of {
-        Of::Penetration | Of::PenetrationByHeight => "the mass would go through it by",
-        Of::Force | Of::ForceByWeight => "it has to push with",
-    };
+    let (what, [up_to, from]) = ends(missed, "the mass would go through it by", "it has to push with");
     format!(
         "It misses the plane in {} systems, in which {what} up to {up_to}, and finds it in all others, \
          from {from} on: most likely by a tolerance of its own.",
@@ -184,11 +174,7 @@ fn missed(missed: &Threshold) -> String {
 }
 
 fn held(held: &Threshold) -> String {
-    let [up_to, from] = ends(held);
-    let what = match held.of {
-        Of::Penetration | Of::PenetrationByHeight => "it hangs clear of it by",
-        Of::Force | Of::ForceByWeight => "that takes a pull of",
-    };
+    let (what, [up_to, from]) = ends(held, "it hangs clear of it by", "that takes a pull of");
     format!(
         "It holds the mass at the plane in {} systems in which it hangs free, where {what} up to {up_to}, \
          and releases it in all others, from {from} on: most likely by a tolerance of its own.",
@@ -196,19 +182,19 @@ fn held(held: &Threshold) -> String {
     )
 }
 
-/// The largest that is decided wrongly and the smallest that is not, with what they are relative to.
-fn ends(threshold: &Threshold) -> [String; 2] {
+/// Returns the words for a penetration or for a force, and the largest that is decided wrongly and the
+/// smallest that is not, with what they are relative to.
+fn ends<'a>(threshold: &Threshold, penetration: &'a str, force: &'a str) -> (&'a str, [String; 2]) {
     let Threshold { count: _, of, up_to, from } = threshold;
-    let unit = match of {
-        Of::Penetration => " m",
-        Of::Force => " N",
-        Of::ForceByWeight => " |m g|",
-        Of::PenetrationByHeight => " |H|",
+    let (what, unit) = match of {
+        Of::Penetration => (penetration, " m"),
+        Of::Force => (force, " N"),
+        Of::ForceByWeight => (force, " |m g|"),
+        Of::PenetrationByHeight => (penetration, " |H|"),
     };
-    [(up_to, Round::Up), (from, Round::Down)].map(|(x, round)| {
-        // No line ends within it.
-        (x.decimal(FEW, round) + unit).replace(' ', &GLUE.to_string())
-    })
+    // No line ends within it.
+    let text = |x: &Exact, round| (x.decimal(FEW, round) + unit).replace(' ', &GLUE.to_string());
+    (what, [text(up_to, Round::Up), text(from, Round::Down)])
 }
 
 /// What was tested, where nothing is wrong: no more follows from it.

@@ -8,21 +8,20 @@ use serde_json::Value;
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::chapter::contact::Kkt;
 use spring_mass_contact::number::{Exact, NumberSystem, Text, brief_bound, relation};
-use spring_mass_contact::rug::{Integer, float::Round};
+use spring_mass_contact::rug::float::Round;
 use spring_mass_contact::solver::{
-    Interval, Method, Outcome, Plane, Scalar, Solution, SolveError, State, bits_needed, rounding_floor,
-    within_reach,
+    Bounds, Method, Outcome, Plane, Scalar, Solution, State, bits_needed, rounding_floor, within_reach,
 };
 use std::io::{self, Write};
 use std::iter;
 
 /// All there is to say about a solve.
 pub struct Report<'a, T> {
-    options: &'a Options,
-    problem: &'a Problem<T>,
-    solution: &'a Solution<T>,
-    kkt: Kkt<Exact>,
-    steps_needed: Option<String>,
+    pub options: &'a Options,
+    pub problem: &'a Problem<T>,
+    pub solution: &'a Solution<T>,
+    pub kkt: Kkt<Exact>,
+    pub steps_needed: Option<String>,
 }
 
 /// The rows, made while they are written: there can be very many.
@@ -49,18 +48,7 @@ impl<T: Scalar + Text> Serialize for Report<'_, T> {
     }
 }
 
-impl<'a, T: Scalar + Text> Report<'a, T> {
-    pub fn new(
-        options: &'a Options,
-        problem: &'a Problem<T>,
-        solution: &'a Solution<T>,
-        steps_needed: Option<Integer>,
-    ) -> Result<Self, SolveError> {
-        let steps_needed = steps_needed.map(|n| n.to_string());
-        let kkt = solution.certificate(&problem.system)?;
-        Ok(Report { options, problem, solution, kkt, steps_needed })
-    }
-
+impl<T: Scalar + Text> Report<'_, T> {
     /// The names and values that JSON and CSV share; quantities are texts, so that no reader rounds them.
     fn fields(&self) -> [(&'static str, Value); 11] {
         let maybe = |x: &Option<T>| Value::from(x.as_ref().map(Text::text));
@@ -80,43 +68,26 @@ impl<'a, T: Scalar + Text> Report<'a, T> {
         ]
     }
 
-    fn bounds(&self) -> [(&'static str, &Interval<T>); 3] {
-        let bounds = &self.solution.bounds;
-        [
-            ("deflection", &bounds.deflection),
-            ("penetration", &bounds.penetration),
-            ("contact_force", &bounds.contact_force),
-        ]
-    }
-
-    /// One row, or with a trace its rows. No value has a comma or a quote in it.
+    /// Prints one row, or with a trace its rows.
     pub fn csv(&self, out: &mut dyn Write) -> io::Result<()> {
         if self.options.trace {
-            writeln!(out, "k,multiplier,deflection,penetration,contact_force")?;
-            return self.problem.trace(self.solution).try_for_each(|iterate| {
-                writeln!(out, "{},{}", iterate.k, quantities(&iterate).map(Text::text).join(","))
-            });
+            return output::csv(out, self.problem.trace(self.solution));
         }
-        let (mut names, mut values) = (Vec::new(), Vec::new());
-        for (name, value) in self.fields() {
-            names.push(name.to_string());
-            values.push(match value {
-                Value::Null => String::new(),
-                Value::String(text) => text,
-                number => number.to_string(),
-            });
-        }
-        for (name, interval) in self.bounds() {
-            names.extend([format!("{name}_lo"), format!("{name}_hi")]);
-            values.extend(interval.texts());
+        let (mut names, mut values): (Vec<_>, Vec<_>) =
+            self.fields().map(|(name, value)| (name.to_string(), value)).into_iter().unzip();
+        let Bounds { deflection, penetration, contact_force, .. } = &self.solution.bounds;
+        let bounds = [deflection, penetration, contact_force];
+        for (name, interval) in ["deflection", "penetration", "contact_force"].iter().zip(bounds) {
+            names.extend(["lo", "hi"].map(|end| format!("{name}_{end}")));
+            values.extend(interval.texts().map(Value::from));
         }
         let Kkt { stationarity, primal, dual, complementarity } = &self.kkt;
         names.extend(["stationarity", "primal", "dual", "complementarity"].map(|name| format!("kkt_{name}")));
-        values.extend([stationarity, primal, dual, complementarity].map(Exact::to_string));
-        writeln!(out, "{}\n{}", names.join(","), values.join(","))
+        values.extend([stationarity, primal, dual, complementarity].map(|x| x.to_string().into()));
+        output::csv(out, [names.into_iter().map(Value::from).collect(), values])
     }
 
-    /// For people: what was solved, what came out, and what that promises.
+    /// Prints for people what was solved, what came out, and what that promises.
     pub fn table(&self, out: &mut dyn Write) -> io::Result<()> {
         let s = self.solution;
         let mut rows = vec![
@@ -144,34 +115,26 @@ impl<'a, T: Scalar + Text> Report<'a, T> {
         let names = ["KKT residuals"].into_iter().chain(iter::repeat(""));
         rows.extend(names.zip(self.kkt.to_string().split(", ").map(String::from)));
         let shortened = rows.iter().any(|(_, text)| text.contains('≈'));
-        let rounded = self.visibly_rounded();
-        if !rounded.is_empty() {
-            rows.insert(1, ("as rounded", rounded));
-        }
-        let mut table = output::table();
-        table.add_rows(rows.iter().map(|(name, text)| [name, text.as_str()]));
-        writeln!(out, "{}", table.trim_fmt())?;
+        rows.insert(1, ("as rounded", self.visibly_rounded()));
+        output::list(out, rows)?;
         if shortened {
             writeln!(out, "\n ≈ is shortened; --format json has all digits.")?;
         }
         if self.options.trace { self.trace_table(out) } else { Ok(()) }
     }
 
-    /// Widths are fixed, and each row is made while it is written: there can be very many.
+    /// Prints the trace. Widths are fixed, and each row is made while it is written: there can be very many.
     fn trace_table(&self, out: &mut dyn Write) -> io::Result<()> {
         const DIGITS: usize = 10;
         // Ten digits, a sign, a point, and three zeros before them or an exponent behind.
         const WIDE: usize = 16;
         let first = self.solution.augmentations.unwrap_or_default().to_string().len();
-        let line = |k: String, cells: [String; 4]| {
-            let cells = cells.map(|cell| format!("  {cell:<WIDE$}")).concat();
-            format!(" {k:<first$}{cells}").trim_end().to_string()
-        };
+        let aligned = |cells| output::aligned(&[WIDE + 1; 4], cells);
         let names = ["λ in N", "u in m", "p in m", "m g − c u in N"].map(String::from);
-        writeln!(out, "\n{}", line("k".to_string(), names))?;
+        writeln!(out, "\n {:<first$} {}", "k", aligned(names))?;
         for iterate in self.problem.trace(self.solution) {
             let cells = quantities(&iterate).map(|x| exact(x).decimal_within(DIGITS, WIDE));
-            writeln!(out, "{}", line(iterate.k.to_string(), cells))?;
+            writeln!(out, " {:<first$} {}", iterate.k, aligned(cells))?;
         }
         writeln!(out, "\n At most ten digits each; --format csv has all.")
     }

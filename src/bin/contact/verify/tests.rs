@@ -162,22 +162,22 @@ fn a_failure_is_seen_by_status_and_in_every_format() {
     };
     let failures = |texts: [String; 3]| texts.map(|text| text.to_lowercase().matches("failed").count());
     let (all_well, options) = report(ways.map(well).to_vec());
-    assert_eq!(exit(&all_well), Exit::Fine);
+    assert_eq!(exit(&all_well), Exit::Success);
     // In JSON the summary counts them by this name.
     assert_eq!(failures(printed(&all_well, &options)), [0, 1, 0]);
     for wrong in ways {
         let (mistaken, options) =
             report(ways.map(|way| if way == wrong { row(way, Status::Failed) } else { well(way) }).to_vec());
-        assert_eq!(exit(&mistaken), Exit::Unmet, "{}", name(wrong));
+        assert_eq!(exit(&mistaken), Exit::Unsatisfied, "{}", name(wrong));
         let texts = printed(&mistaken, &options);
         assert!(texts[1].contains("\"failed\": 1"), "{}", texts[1]);
         let of_table = if wrong.is_some() { 2 } else { 1 };
         assert_eq!(failures(texts), [of_table, 2, 1], "{}", name(wrong));
     }
     let (open, _) = report(vec![row(ways[1], Status::Undecided)]);
-    assert_eq!(exit(&open), Exit::Fine);
+    assert_eq!(exit(&open), Exit::Success);
     let (nothing, _) = report(Vec::new());
-    assert_eq!(exit(&nothing), Exit::Unmet);
+    assert_eq!(exit(&nothing), Exit::Unsatisfied);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! What is said of solvers with known mistakes.
 
 use super::*;
-use crate::args::finite;
+use crate::args::parse_number;
 use crate::output::printed;
 use spring_mass_contact::chapter::{SpringMass, contact, lagrange, structure, system};
 use spring_mass_contact::check::{Answer, CASES, Family, Problem, check, problems};
@@ -19,7 +19,7 @@ fn report(problems: &[Problem], solver: impl Fn(&Problem) -> Answer) -> Report {
 
 /// Its table, with a blank for all that is white.
 fn said(report: &Report) -> String {
-    let text = printed(|out| table(out, "program", report, &finite("1e-6").expect("a number")));
+    let text = printed(|out| table(out, "program", report, &parse_number("1e-6").expect("a number")));
     assert_eq!(text.lines().find(|line| line.chars().count() > 80), None);
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
