@@ -10,11 +10,8 @@ mod beyond;
 mod case;
 mod contact;
 mod entry;
-mod experiments;
 mod formulas;
 mod given;
-#[cfg(feature = "serde")]
-mod json;
 mod lagrange;
 mod notes;
 mod numbers;
@@ -26,7 +23,6 @@ mod system;
 
 pub use case::{Case, Var, symbols};
 pub use entry::Entry;
-pub use experiments::{Experiment, Trial, exact_experiments, float_experiments};
 pub use formulas::computed;
 pub use given::{Given, given};
 pub use numbers::{all_numbered, numbered};
@@ -136,13 +132,4 @@ pub fn claims() -> impl Iterator<Item = &'static Statement> {
 /// Returns a copy of every claim.
 pub fn statements() -> Vec<Statement> {
     claims().cloned().collect()
-}
-
-/// The names of an entry's claims, in whatever number system they are checked.
-pub fn claim_names(equation: &str) -> Vec<&'static str> {
-    let recorded = claims().filter(|c| !c.contains_rounding()).map(|c| (c.equation(), c.name()));
-    let floats = float_experiments::<f64>().into_iter().map(|e| (e.equation, e.name));
-    let rationals = exact_experiments().into_iter().map(|e| (e.equation, e.name));
-    let all = recorded.chain(floats).chain(rationals);
-    all.filter(|(e, _)| *e == equation).map(|(_, name)| name).collect()
 }

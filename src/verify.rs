@@ -13,8 +13,8 @@
 mod cases;
 mod checker;
 mod coq;
+mod experiments;
 mod goals;
-mod graph;
 mod guard;
 pub mod pages;
 pub mod proofs;
@@ -31,7 +31,7 @@ use crate::proof::controls::{Change, repairs};
 use crate::proof::refute::Point;
 use checker::{Checker, Checks, Exactly, Floats, Tally};
 pub use coq::coq;
-pub use graph::graph;
+pub use experiments::{Experiment, Trial, exact_experiments, float_experiments};
 use guard::guarded;
 use proofs::{Answer, Proved};
 use rayon::prelude::*;
@@ -374,4 +374,13 @@ fn checks(scalar: NumberSystem) -> Box<dyn Checks> {
         NumberSystem::Mpfr(bits) => Box::new(Checker::new(Floats(Mpfr::rounded(bits, 0)), claims())),
         NumberSystem::Exact => Box::new(Checker::new(Exactly, claims())),
     }
+}
+
+/// Returns the names of an entry's claims, in whatever number system they are checked.
+pub fn claim_names(equation: &str) -> Vec<&'static str> {
+    let recorded = claims().filter(|c| !c.contains_rounding()).map(|c| (c.equation(), c.name()));
+    let floats = float_experiments::<f64>().into_iter().map(|e| (e.equation, e.name));
+    let rationals = exact_experiments().into_iter().map(|e| (e.equation, e.name));
+    let all = recorded.chain(floats).chain(rationals);
+    all.filter(|(e, _)| *e == equation).map(|(_, name)| name).collect()
 }

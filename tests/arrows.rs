@@ -19,7 +19,7 @@ const KNOWS: [(&str, &[&str]); 9] = [
     ("proof", &["number", "formula"]),
     ("chapter", &["number"]),
     ("solver", &["number", "formula", "chapter"]),
-    ("claims", &["number", "formula", "chapter", "solver"]),
+    ("claims", &["number", "formula", "chapter"]),
     ("verify", &["number", "formula", "proof", "chapter", "solver", "claims"]),
     ("check", &["number", "formula", "proof", "chapter", "solver", "claims"]),
     ("bin", &["number", "formula", "proof", "chapter", "solver", "claims", "verify", "check"]),

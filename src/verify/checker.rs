@@ -1,9 +1,10 @@
 //! The claims of one number system on given cases.
 
+use super::experiments::{Experiment, Trial, exact_experiments, float_experiments};
 use super::goals::{Asked, Group, groups};
 use super::guard::guarded;
 use super::{Row, Status};
-use crate::claims::{Case, Experiment, Trial, exact_experiments, float_experiments};
+use crate::claims::Case;
 use crate::formula::{Hypothesis, Statement};
 use crate::number::tree::{Step, everything, piecewise};
 use crate::number::{Ball, Exact, Exponential, Mpfr, NumberSystem, PositivePart, Real, ToExact};

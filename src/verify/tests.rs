@@ -4,7 +4,6 @@ mod changed;
 
 use super::checker::Judge;
 use super::*;
-use crate::claims::{Experiment, Trial};
 use crate::formula::Relation;
 use crate::formula::claim::induction;
 use crate::formula::statement::Proposition;

@@ -5,12 +5,12 @@
 use crate::places::Places;
 use regex::{Captures, Regex};
 use spring_mass_contact::{
-    claims::{Entry, claims, entry, exact_experiments, float_experiments, registry},
+    claims::{Entry, claims, entry, registry},
     formula::Hypothesis,
     number::NumberSystem,
     proof::paper::Paper,
     verify::pages::{SECTIONS, heading, heading_of},
-    verify::{Options, Row, Status, verify},
+    verify::{Options, Row, Status, exact_experiments, float_experiments, verify},
 };
 use std::{collections::HashMap, fmt::Write, sync::LazyLock};
 

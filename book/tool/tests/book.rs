@@ -10,7 +10,8 @@ mod files;
 use book_tool::{Equations, PAGES, bench, equations};
 use mdbook_driver::MDBook;
 use regex::Regex;
-use spring_mass_contact::claims::{Entry, claim_names, entries};
+use spring_mass_contact::claims::{Entry, entries};
+use spring_mass_contact::verify::claim_names;
 use std::{
     collections::{BTreeMap, BTreeSet, HashSet},
     fs,

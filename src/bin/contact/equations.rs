@@ -1,9 +1,13 @@
 //! `contact equations`: the chapter as data.
 
+mod graph;
+
 use crate::args;
-use crate::output::{self, Exit, Failure, formats};
-use spring_mass_contact::claims::{Entry, claim_names, entries};
-use spring_mass_contact::verify::graph;
+use crate::output::{self, Exit, Failure, formats, record};
+use graph::graph;
+use serde::Serialize;
+use spring_mass_contact::claims::{Entry, entries};
+use spring_mass_contact::verify::claim_names;
 use std::io::{self, Write};
 
 const EXAMPLES: &str = "\
@@ -39,7 +43,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     let chosen: Vec<&'static Entry> =
         entries().iter().filter(|e| all || numbers.iter().any(|n| n == e.equation)).collect();
     output::print(|out| match options.format {
-        Format::Json => output::json(out, &chosen),
+        Format::Json => output::json(out, &chosen.iter().map(|entry| json(entry)).collect::<Vec<_>>()),
         Format::Markdown => markdown(out, &chosen),
         Format::Dot => write!(out, "{}", graph(&chosen)),
         Format::Table if all => table(out, &chosen),
@@ -50,6 +54,20 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
             details(out, entry)
         }),
     })
+}
+
+fn json(entry: &Entry) -> impl Serialize {
+    record! {
+        equation: entry.equation,
+        title: entry.title,
+        section: entry.section,
+        statement: entry.statement(),
+        latex: entry.latex(),
+        hypotheses: entry.format_hypotheses(),
+        function: function(entry),
+        follows_from: entry.follows_from.clone(),
+        claims: claim_names(entry.equation),
+    }
 }
 
 /// Returns the function of an entry, without those beside it.

@@ -2,8 +2,9 @@
 
 use crate::output::{self, Exit, Failure, formats};
 use crate::{args, solve};
-use spring_mass_contact::claims::{claim_names, entry};
+use spring_mass_contact::claims::entry;
 use spring_mass_contact::number::NumberSystem;
+use spring_mass_contact::verify::claim_names;
 use spring_mass_contact::verify::{self, Report, Row, Status, Suspect};
 use std::io::{self, Write};
 

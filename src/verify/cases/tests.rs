@@ -2,8 +2,9 @@
 
 use super::*;
 use crate::chapter::SpringMass;
-use crate::claims::{Given, claims, exact_experiments, float_experiments};
+use crate::claims::{Given, claims};
 use crate::number::{Real, ToExact};
+use crate::verify::{exact_experiments, float_experiments};
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 

@@ -1,17 +1,12 @@
-//! What follows from what, as a picture.
+//! The graph of what follows from what.
 
-use crate::claims::{Entry, claim_names};
-use crate::proof::prove;
+use spring_mass_contact::claims::Entry;
+use spring_mass_contact::proof::prove;
+use spring_mass_contact::verify::claim_names;
 use std::fmt::Write;
 
-/// A graph for Graphviz: an arrow from each of these entries to what follows from it, and how much of what is
-/// claimed of each is proved.
-///
-/// ```
-/// use spring_mass_contact::{claims::entry, verify::graph};
-/// let text = graph(&["1.5", "1.6"].map(|number| entry(number).unwrap()));
-/// assert!(text.contains(r#""1.5" -> "1.6";"#) && !text.contains("NOT PROVED"));
-/// ```
+/// Returns a graph for Graphviz: an arrow from each of these entries to what follows from it, and the number
+/// of its claims that are proved.
 pub fn graph(entries: &[&Entry]) -> String {
     let mut text = "digraph chapter {\n  rankdir = LR;\n  node [shape = box, style = rounded];\n".to_string();
     for Entry { equation, title, claims, .. } in entries {
@@ -36,9 +31,9 @@ pub fn graph(entries: &[&Entry]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::claims::entry;
-    use crate::formula::claim::equal;
-    use crate::number::Tree;
+    use spring_mass_contact::claims::entry;
+    use spring_mass_contact::formula::claim::equal;
+    use spring_mass_contact::number::Tree;
 
     #[test]
     fn a_graph_says_what_is_proved_and_what_is_not() {

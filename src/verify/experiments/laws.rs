@@ -1,8 +1,8 @@
 //! The laws of rounding in floats: what is claimed of what is rounded, with the numbers that are computed.
 
-use super::super::{Case, claims, given, symbols};
 use super::{Experiment, MOST_STEPS, STEPS, Trial, UNITS, check, exact, power_of_two};
 use crate::chapter::{augmented, structure, system};
+use crate::claims::{Case, claims, given, symbols};
 use crate::formula::claim::{MEMBERS, POWER, PRECISION, SCALES};
 use crate::formula::statement::{Role, Sequence};
 use crate::formula::{Hypothesis, Proposition, Relation, Statement};

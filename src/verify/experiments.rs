@@ -7,8 +7,8 @@ mod laws;
 #[cfg(test)]
 mod tests;
 
-use super::{Case, Var, given};
 use crate::chapter::{SpringMass, augmented, contact, penalty, structure, system};
+use crate::claims::{Case, Var, given};
 use crate::formula::Hypothesis;
 use crate::number::{Exact, PositivePart, Real, ToExact};
 use crate::solver::{
