@@ -47,7 +47,47 @@ pub struct SpringMass<T> {
     pub h: T,
 }
 
+impl SpringMass<&'static str> {
+    /// The symbols of the parameters.
+    pub const SYMBOLS: Self = SpringMass { c: "c", m: "m", g: "g", l: "l", h: "H" };
+
+    /// The names of the parameters.
+    pub const NAMES: Self =
+        SpringMass { c: "stiffness", m: "mass", g: "gravity", l: "free length", h: "height" };
+
+    /// The keys of the parameters in JSON: their names in one word.
+    pub const KEYS: Self = SpringMass { l: "free_length", ..Self::NAMES };
+
+    /// The units of the parameters.
+    pub const UNITS: Self = SpringMass { c: "N/m", m: "kg", g: "m/s²", l: "m", h: "m" };
+}
+
 impl<T> SpringMass<T> {
+    /// Returns the parameters in the order c, m, g, l, H.
+    pub fn into_array(self) -> [T; 5] {
+        let SpringMass { c, m, g, l, h } = self;
+        [c, m, g, l, h]
+    }
+
+    /// Returns the system of references to the parameters.
+    pub fn as_ref(&self) -> SpringMass<&T> {
+        let SpringMass { c, m, g, l, h } = self;
+        SpringMass { c, m, g, l, h }
+    }
+
+    /// Returns each parameter with that of another system.
+    ///
+    /// ```
+    /// # use spring_mass_contact::chapter::SpringMass;
+    /// let system = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
+    /// let named = SpringMass::NAMES.zip(system).into_array();
+    /// assert_eq!(named[3..], [("free length", 1.0), ("height", 1.05)]);
+    /// ```
+    pub fn zip<U>(self, other: SpringMass<U>) -> SpringMass<(T, U)> {
+        let SpringMass { c, m, g, l, h } = self;
+        SpringMass { c: (c, other.c), m: (m, other.m), g: (g, other.g), l: (l, other.l), h: (h, other.h) }
+    }
+
     /// The same system in other numbers.
     pub fn map<U>(&self, mut f: impl FnMut(&T) -> U) -> SpringMass<U> {
         let SpringMass { c, m, g, l, h } = self;
@@ -73,8 +113,9 @@ impl<T> SpringMass<T> {
 /// ```
 impl<T: fmt::Display> fmt::Display for SpringMass<T> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let SpringMass { c, m, g, l, h } = self;
-        write!(f, "c = {c} N/m, m = {m} kg, g = {g} m/s², l = {l} m, H = {h} m")
+        let named = SpringMass::SYMBOLS.zip(self.as_ref()).zip(SpringMass::UNITS);
+        let named = named.map(|((symbol, x), unit)| format!("{symbol} = {x} {unit}"));
+        f.write_str(&named.into_array().join(", "))
     }
 }
 

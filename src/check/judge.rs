@@ -96,15 +96,9 @@ impl Problem {
             Some(Some(used)) => Err(format!("it took {name} = {} for {}", brief(used), brief(asked))),
             Some(None) => Err(format!("it took no number for {name} = {}", brief(asked))),
         };
-        let SpringMass { c, m, g, l, h } = &self.system;
-        let used = &answer.used.system;
-        let system = SpringMass {
-            c: taken("stiffness", c, &used.c)?,
-            m: taken("mass", m, &used.m)?,
-            g: taken("gravity", g, &used.g)?,
-            l: taken("free_length", l, &used.l)?,
-            h: taken("height", h, &used.h)?,
-        };
+        let asked = SpringMass::KEYS.zip(self.system.as_ref());
+        let system = asked.zip(answer.used.system.as_ref());
+        let system = system.try_map(|((key, asked), used)| taken(key, asked, used))?;
         let penalty = match &self.penalty {
             None => None,
             Some(asked) => Some(taken("penalty", asked, &answer.used.penalty)?),

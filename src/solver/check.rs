@@ -58,12 +58,9 @@ pub(super) fn finite_number<T: Scalar>(argument: &'static str, value: &T) -> Res
 }
 
 pub(super) fn system<T: Scalar>(system: &SpringMass<T>) -> Result<(), SolveError> {
-    let SpringMass { c, m, g, l, h } = system;
-    positive("stiffness", c)?;
-    positive("mass", m)?;
-    finite_number("gravity", g)?;
-    finite_number("free length", l)?;
-    finite_number("height", h)
+    let [c, m, others @ ..] = SpringMass::NAMES.zip(system.as_ref()).into_array();
+    [c, m].into_iter().try_for_each(|(name, x)| positive(name, x))?;
+    others.into_iter().try_for_each(|(name, x)| finite_number(name, x))
 }
 
 pub(super) fn method<T: Scalar>(method: &Method<T>) -> Result<(), SolveError> {

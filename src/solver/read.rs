@@ -44,14 +44,7 @@ impl<S: AsRef<str>> SpringMass<S> {
             let refused = |reason| ReadError::NotANumber { argument, value: text.to_string(), reason };
             text.parse::<Exact>().map_err(refused)
         };
-        let SpringMass { c, m, g, l, h } = self;
-        let parsed = SpringMass {
-            c: number("stiffness", c)?,
-            m: number("mass", m)?,
-            g: number("gravity", g)?,
-            l: number("free length", l)?,
-            h: number("height", h)?,
-        };
+        let parsed = SpringMass::NAMES.zip(self.as_ref()).try_map(|(name, text)| number(name, text))?;
         check::system(&parsed)?;
         Ok(parsed)
     }

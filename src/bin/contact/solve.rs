@@ -281,12 +281,9 @@ pub fn command(out: &mut dyn Write, counterexample: &Point) -> io::Result<()> {
 }
 
 fn command_line(system: &SpringMass<Exact>, method: &Method<Exact>) -> String {
-    let SpringMass { c, m, g, l, h } = system;
-    let line = format!(
-        "contact solve --scalar exact --stiffness {c} --mass {m} --gravity {g} --free-length {l} \
-         --height {h} --method {}",
-        MethodName::of(method).name()
-    );
+    let options = SpringMass::KEYS.zip(system.as_ref());
+    let options = options.map(|(key, x)| format!("--{} {x}", key.replace('_', "-"))).into_array().join(" ");
+    let line = format!("contact solve --scalar exact {options} --method {}", MethodName::of(method).name());
     match method {
         Method::Lagrange => line,
         Method::Penalty { penalty } | Method::Augmented { penalty, .. } => {

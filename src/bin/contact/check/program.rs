@@ -106,16 +106,8 @@ impl Drop for Program {
 
 /// The line that puts a problem.
 pub fn request(problem: &Problem) -> String {
-    let SpringMass { c, m, g, l, h } = &problem.system;
-    let numbers = [
-        ("stiffness", Some(c)),
-        ("mass", Some(m)),
-        ("gravity", Some(g)),
-        ("free_length", Some(l)),
-        ("height", Some(h)),
-        ("penalty", problem.penalty.as_ref()),
-    ];
-    let numbers = numbers.into_iter().filter_map(|(key, value)| Some((key, value?)));
+    let system = SpringMass::KEYS.zip(problem.system.as_ref()).into_array();
+    let numbers = system.into_iter().chain(problem.penalty.iter().map(|penalty| ("penalty", penalty)));
     let numbers = numbers.map(|(key, value)| format!(", \"{key}\": {}", number(value)));
     format!("{{\"id\": {}{}}}\n", serde_json::Value::from(problem.id.as_str()), numbers.collect::<String>())
 }

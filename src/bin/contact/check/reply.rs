@@ -140,14 +140,7 @@ fn answer(object: &Object) -> Result<Reply, String> {
             let object: Object = serde_json::from_str(used.get())
                 .map_err(|_| refused(&json::text(used), "used", "must be an object"))?;
             let mut value = |key| optional(&object, "used.", key, &mut digits);
-            let system = SpringMass {
-                c: value("stiffness")?,
-                m: value("mass")?,
-                g: value("gravity")?,
-                l: value("free_length")?,
-                h: value("height")?,
-            };
-            Used { system, penalty: value("penalty")? }
+            Used { system: SpringMass::KEYS.try_map(|key| value(key))?, penalty: value("penalty")? }
         }
     };
     let steps = match said(object, "", "steps")? {

@@ -240,14 +240,9 @@ type Quantity<'a, T> = (&'static str, Option<&'a Number>, &'a T, &'static str);
 
 /// The parameters of a system, and what other numbers there are, that are visibly not what was typed.
 pub fn rounded_in_words<T: Text>(typed: &System, system: &SpringMass<T>, others: Vec<Quantity<T>>) -> String {
-    let typed = typed.typed();
-    let parameters = [
-        ("c", Some(typed.c), &system.c, "N/m"),
-        ("m", Some(typed.m), &system.m, "kg"),
-        ("g", Some(typed.g), &system.g, "m/s²"),
-        ("l", Some(typed.l), &system.l, "m"),
-        ("H", Some(typed.h), &system.h, "m"),
-    ];
+    let parameters = SpringMass::SYMBOLS.zip(SpringMass::UNITS).zip(typed.typed().zip(system.as_ref()));
+    let parameters =
+        parameters.into_array().map(|((symbol, unit), (typed, x))| (symbol, Some(typed), x, unit));
     let rounded = parameters.into_iter().chain(others).filter_map(|(symbol, typed, x, unit)| {
         Some(format!("{} {unit}", visibly_rounded(symbol, &typed?.text, &typed?.value, x)?))
     });
