@@ -65,26 +65,20 @@ pub mod chapter;
 pub mod check;
 #[cfg(feature = "prover")]
 pub mod claims;
-#[cfg(feature = "prover")]
-pub mod formula;
-pub mod number;
-#[cfg(feature = "prover")]
-pub mod proof;
 pub mod solver;
 #[cfg(feature = "prover")]
 pub mod verify;
 
-/// What the solver needs of it.
-#[cfg(not(feature = "prover"))]
-mod formula {
-    #[expect(dead_code, reason = "the solver runs programs in rounds only")]
-    #[allow(rustdoc::private_doc_tests)]
-    mod program;
-    pub(crate) use program::{Program, Rounds};
-}
+#[doc(inline)]
+pub use provable::{number, operators};
 
 #[cfg(feature = "mpfr")]
-pub use rug;
+#[doc(no_inline)]
+pub use provable::rug;
+
+#[cfg(feature = "prover")]
+#[doc(inline)]
+pub use provable::{formula, proof};
 
 #[cfg(all(doctest, feature = "mpfr"))]
 #[doc = include_str!("../README.md")]

@@ -11,7 +11,7 @@ use std::cmp::Ordering;
 /// Over rationals the derivative is exact, over balls it carries its bound, over duals it is the second.
 ///
 /// ```
-/// use spring_mass_contact::{chapter::{SpringMass, structure}, number::Dual};
+/// use provable::{chapter::{SpringMass, structure}, number::Dual};
 /// let system = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
 /// // (1.1) is the derivative of (1.4).
 /// let energy = structure::potential_energy(&system.map(|&x| Dual::constant(x)), &Dual::variable(0.5));
@@ -30,7 +30,7 @@ use std::cmp::Ordering;
 /// its other side.
 ///
 /// ```
-/// use spring_mass_contact::{chapter::{SpringMass, contact}, number::Dual};
+/// use provable::{chapter::{SpringMass, contact}, number::Dual};
 /// // How does the contact force change with the height, H = 3, in contact, grazing and free?
 /// let slope = |g: f64, direction: f64| {
 ///     let system = SpringMass { c: 4.0, m: 1.0, g, l: 1.0, h: 3.0 };

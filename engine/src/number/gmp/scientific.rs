@@ -11,7 +11,7 @@ use std::fmt;
 /// decimals, `{:e}` all there are, or seventeen digits of a fraction that has no last one.
 ///
 /// ```
-/// use spring_mass_contact::number::Exact;
+/// use provable::number::Exact;
 /// let [third, eighth] = ["-1/3", "1/8"].map(|text| text.parse::<Exact>().unwrap());
 /// assert_eq!(format!("{eighth:e} {eighth:.0e} {third:.3e}"), "1.25e-1 1e-1 -3.333e-1");
 /// assert_eq!(format!("{third:e}"), "-3.3333333333333333e-1");
@@ -27,7 +27,7 @@ impl fmt::LowerExp for Exact {
 /// [`Exact`](super::Exact) number.
 ///
 /// ```
-/// use spring_mass_contact::number::Mpfr;
+/// use provable::number::Mpfr;
 /// let third = Mpfr::rounded(24, 1) / Mpfr::rounded(24, 3);
 /// assert_eq!(format!("{third:e} {third:.2e} {third:+9.1e}"), "3.33333343e-1 3.33e-1   +3.3e-1");
 /// ```

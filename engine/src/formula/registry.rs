@@ -44,8 +44,8 @@ pub struct Call<'a> {
 /// Functions that formulas are made of, by which they are known in each other.
 ///
 /// ```
-/// use spring_mass_contact::formula::{Formula, Notation, Registry};
-/// use spring_mass_contact::number::{Field, Tree};
+/// use provable::formula::{Formula, Notation, Registry};
+/// use provable::number::{Field, Tree};
 ///
 /// fn parallel<T: Field>(a: &T, b: &T) -> T {
 ///     a + b
@@ -183,7 +183,7 @@ impl Registry {
     /// What a function does, as a text writes it: by name what has one, and spelled out what has none.
     ///
     /// ```
-    /// use spring_mass_contact::{claims::registry, formula::Notation};
+    /// use provable::{claims::registry, formula::Notation};
     /// let energy = registry().formula("augmented::functional").unwrap();
     /// let [text, latex] = [Notation::Text, Notation::Latex].map(|n| registry().typeset(energy, n));
     /// assert_eq!(text, "Π + λ p + ε p² / 2");

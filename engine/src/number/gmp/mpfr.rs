@@ -1,9 +1,9 @@
 //! Floats of any precision, chosen at run time.
 
-use super::field::ordered;
 use super::text::{fixed, to_whole};
-use super::tree::Step;
-use super::{Exponential, Field, Logarithm, OrderedField, PositivePart, Real};
+use crate::number::field::ordered;
+use crate::number::tree::Step;
+use crate::number::{Exponential, Field, Logarithm, OrderedField, PositivePart, Real};
 use num_traits::{One, Zero};
 use rug::float::{Round, Special};
 use rug::ops::MulAssignRound;
@@ -27,12 +27,12 @@ const RADIUS_PRECISION: u32 = 64;
 /// - The range of exponents is ±2³⁰, as good as unlimited.
 ///
 /// ```
-/// use spring_mass_contact::number::{Exact, Field, Mpfr};
+/// use provable::number::{Exact, Field, Mpfr};
 /// let third = "1/3".parse::<Exact>()?.to_mpfr(10);
 /// assert_eq!((&third * Mpfr::int(3)).precision(), Some(10));
 /// assert_eq!((&third + Mpfr::parse("0.1", 200)?).precision(), Some(200));
 /// assert_eq!((Mpfr::int(1) / Mpfr::int(3)).precision(), None); // 1/3 exactly
-/// # Ok::<(), spring_mass_contact::number::ParseError>(())
+/// # Ok::<(), provable::number::ParseError>(())
 /// ```
 #[derive(Clone)]
 pub struct Mpfr(Kind);
@@ -397,7 +397,7 @@ impl From<Float> for Mpfr {
 /// the machine's floats; for a constant, too. Width, fill and sign are honoured.
 ///
 /// ```
-/// use spring_mass_contact::number::{Field, Mpfr};
+/// use provable::number::{Field, Mpfr};
 /// let ninth = Mpfr::rounded(200, 1) / Mpfr::int(9);
 /// assert_eq!(format!("{ninth:.3} {ninth:+8.1}"), "0.111     +0.1");
 /// ```

@@ -1,16 +1,15 @@
 //! Many formulas at once.
 
-use crate::number::tree::Step;
-use crate::number::{Field, Tree};
+use super::tree::Step;
+use super::{Field, Tree};
 use std::collections::HashMap;
 
 /// Formulas compiled to a list of steps, in which what they have in common stands once: R or ρ is computed
 /// once, however many formulas speak of it.
 ///
 /// ```
-/// # #[cfg(feature = "prover")] {
 /// use num_traits::One;
-/// use spring_mass_contact::{formula::Program, number::Tree};
+/// use provable::number::{Program, Tree};
 /// let x = Tree::symbol("x");
 /// let square = &x * &x;
 /// let mut program = Program::default();
@@ -18,7 +17,6 @@ use std::collections::HashMap;
 /// let values = program.run(&|_| 2.0, &|_| None);
 /// assert_eq!((values[a], values[b]), (Some(8.0), None)); // nobody said how to divide
 /// assert_eq!(program.len(), 5); // x, x², x² + x², 1 and 1/x²
-/// # }
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Program {
@@ -110,12 +108,11 @@ impl Program {
 /// ([`Field::assign`]), and bit for bit what the functions compute.
 ///
 /// ```
-/// # #[cfg(feature = "prover")] {
-/// use spring_mass_contact::{formula::Program, number::Tree};
+/// use provable::number::{Program, Tree};
 /// let [a, x] = ["a", "x"].map(|name| Tree::symbol(name));
 /// let mut program = Program::default();
 /// let [place, result] = [&x, &((&a + &a) * &x)].map(|formula| program.add(formula));
-/// let beyond = |_: spring_mass_contact::number::tree::Step<&f64>| None;
+/// let beyond = |_: provable::number::tree::Step<&f64>| None;
 /// let mut rounds = program.rounds(&|name| (name == "a").then_some(2.0), &beyond).unwrap();
 /// assert_eq!(rounds.len(), 1); // a + a is known
 /// for x in [1.0, 10.0] {
@@ -123,7 +120,6 @@ impl Program {
 ///     rounds.run(&beyond);
 ///     assert_eq!(rounds[result], 4.0 * x);
 /// }
-/// # }
 /// ```
 #[derive(Clone, Debug)]
 pub struct Rounds<T> {

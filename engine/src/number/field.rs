@@ -32,7 +32,7 @@
 //!
 //! ```
 //! use num_traits::{One, Zero};
-//! use spring_mass_contact::{chapter::{SpringMass, contact, penalty}, number::Field, operators};
+//! use provable::{chapter::{SpringMass, contact, penalty}, number::Field, operators};
 //!
 //! #[derive(Clone, Debug, PartialEq)]
 //! struct Mod7(i32);

@@ -2,7 +2,7 @@
 //!
 //! A function that is generic over its number system leaves a record when it is called with [`Tree`]s. This
 //! is what can be done with records, whatever they are about: [typeset](crate::number::Tree::typeset) them,
-//! compile them to a [`Program`], run that in [`Rounds`], keep a [`Registry`] of them, by which one formula
+//! compile them to a [`Program`](crate::number::Program), run that in [`Rounds`](crate::number::Rounds), keep a [`Registry`] of them, by which one formula
 //! is known in another, and say something of them, as a [`Claim`] under [`Hypothesis`]es. What a claim comes
 //! to is a [`Statement`], for `proof` to prove.
 //!
@@ -13,7 +13,6 @@
 pub mod claim;
 mod hypothesis;
 mod lines;
-mod program;
 mod registry;
 pub mod statement;
 mod typeset;
@@ -21,7 +20,6 @@ mod typeset;
 pub use claim::{Claim, Kind, Rate};
 pub use hypothesis::{Hypothesis, Relation};
 pub use lines::{GLUE, together};
-pub use program::{Program, Rounds};
 pub use registry::{Call, Formula, Registry};
 pub use statement::Statement;
 pub(crate) use typeset::name_of_rounding;

@@ -38,7 +38,7 @@ pub(super) fn script(kind: char, inner: &str) -> String {
 /// A symbol of a text in LaTeX, character by character; words and indices that are words stand upright.
 ///
 /// ```
-/// use spring_mass_contact::formula::latex;
+/// use provable::formula::latex;
 /// assert_eq!(["λ₀", "u_{k−1}"].map(latex), [r"\lambda_0", "u_{k-1}"]);
 /// assert_eq!(["ε_eff", "u̇"].map(latex), [r"\varepsilon_{\mathrm{eff}}", r"\dot{u}"]);
 /// ```

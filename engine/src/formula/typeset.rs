@@ -40,7 +40,7 @@ impl Tree {
     /// The formula in LaTeX.
     ///
     /// ```
-    /// use spring_mass_contact::number::{Field, Tree};
+    /// use provable::number::{Field, Tree};
     /// let [c, u] = ["c", "u"].map(|name| Tree::symbol(name));
     /// assert_eq!((c * &u * &u / Tree::int(2)).latex(), r"\tfrac{1}{2}\,c\,u^2");
     /// ```

@@ -16,7 +16,7 @@ fn exact<T: ToExact>(x: &T) -> Exact {
 /// For a table: the whole text if there is room, otherwise some of its digits.
 ///
 /// ```
-/// use spring_mass_contact::number::{Exact, brief};
+/// use provable::number::{Exact, brief};
 /// let third: Exact = "1/3".parse().unwrap();
 /// let long: Exact = "1234567890123456/1234567890123457".parse().unwrap();
 /// assert_eq!([brief(&third), brief(&long)], ["1/3", "≈ 0.99999999999999919"]);
@@ -36,7 +36,7 @@ pub fn brief<T: Text>(x: &T) -> String {
 /// The rounding is neither up nor down.
 ///
 /// ```
-/// use spring_mass_contact::{number::{Exact, brief_bound}, rug::float::Round};
+/// use provable::{number::{Exact, brief_bound}, rug::float::Round};
 /// let long: Exact = "1234567890123456/1234567890123457".parse().unwrap();
 /// assert_eq!(brief_bound(&long, Round::Down), "0.99999999999999918");
 /// ```

@@ -15,41 +15,21 @@
 //! The traits they share, and how to add a number system of your own: [`field`].
 
 mod ball;
-#[cfg(feature = "mpfr")]
-mod brief;
 mod dual;
-#[cfg(feature = "mpfr")]
-mod exact;
 pub mod field;
 #[cfg(feature = "mpfr")]
-mod functions;
-#[cfg(feature = "mpfr")]
-mod mpfr;
-#[cfg(feature = "mpfr")]
-mod parse;
-#[cfg(feature = "mpfr")]
-mod scientific;
-#[cfg(feature = "mpfr")]
-mod system;
-#[cfg(feature = "mpfr")]
-mod text;
+mod gmp;
+mod program;
 pub mod tree;
 
 pub use ball::Ball;
-#[cfg(feature = "mpfr")]
-pub use brief::{brief, brief_bound, relation};
 pub use dual::Dual;
-#[cfg(feature = "mpfr")]
-pub use exact::{Exact, Inexact, ToExact};
 pub use field::{Exponential, Field, Logarithm, OrderedField, PositivePart, Real};
 #[cfg(feature = "mpfr")]
-pub use mpfr::{Mpfr, PRECISIONS};
-#[cfg(feature = "mpfr")]
-pub use parse::{MAX_EXPONENT, ParseError, RangeError};
-#[cfg(feature = "mpfr")]
-pub use system::{NumberSystem, UnknownNumberSystem};
-#[cfg(feature = "mpfr")]
-pub use text::Text;
-#[cfg(feature = "serde")]
-pub(crate) use text::{lossless, quantity, serialize_as_displayed};
+pub use gmp::*;
+pub use program::{Program, Rounds};
 pub use tree::Tree;
+
+#[cfg(feature = "serde")]
+#[doc(hidden)]
+pub use crate::serialize_as_displayed;

@@ -18,7 +18,7 @@ use std::sync::Arc;
 /// remembers the [`Site`] in the source that wrote it. Equality is of structure; sites do not count.
 ///
 /// ```
-/// use spring_mass_contact::{chapter::{SpringMass, contact}, number::Tree};
+/// use provable::{chapter::{SpringMass, contact}, number::Tree};
 /// let system = SpringMass { c: "c", m: "m", g: "g", l: "l", h: "H" }.map(|name| Tree::symbol(name));
 /// let p = contact::penetration(&system, &Tree::symbol("u"));
 /// # #[cfg(feature = "prover")]
@@ -77,7 +77,7 @@ impl Tree {
     /// from what is there, a sign or one of two numbers, is exact.
     ///
     /// ```
-    /// use spring_mass_contact::number::Tree;
+    /// use provable::number::Tree;
     /// let [l, u, h] = ["l", "u", "H"].map(|name| Tree::symbol(name));
     /// let sum = (&l + &u).nearest();
     /// assert_eq!((&l + &u - &h).rounded(), (sum - h).nearest());

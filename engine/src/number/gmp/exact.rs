@@ -1,9 +1,10 @@
 //! Exact rational numbers: the oracle.
 
-use super::field::ordered;
 use super::text::{fixed, to_whole};
-use super::tree::Step;
-use super::{Ball, Field, Mpfr, NumberSystem, OrderedField, PositivePart, RangeError, Real};
+use super::{Mpfr, NumberSystem, RangeError};
+use crate::number::field::ordered;
+use crate::number::tree::Step;
+use crate::number::{Ball, Field, OrderedField, PositivePart, Real};
 use num_traits::{One, Zero};
 use rug::float::Round;
 use rug::ops::{AssignRound, NegAssign};
@@ -16,11 +17,11 @@ use std::fmt;
 /// Division by zero panics, as it does for Rust's integers.
 ///
 /// ```
-/// use spring_mass_contact::number::Exact;
+/// use provable::number::Exact;
 /// let g: Exact = "9.81".parse()?;
 /// assert_eq!(g.to_string(), "981/100"); // the decimal itself, not the f64 beside it
 /// assert_eq!("1/3".parse::<Exact>()? + "0.5".parse::<Exact>()?, "5/6".parse()?);
-/// # Ok::<(), spring_mass_contact::number::ParseError>(())
+/// # Ok::<(), provable::number::ParseError>(())
 /// ```
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Exact(pub(super) Rational);
@@ -99,10 +100,10 @@ impl Exact {
     /// The nearest number of so many bits, the even one of two; 0 bits are none.
     ///
     /// ```
-    /// use spring_mass_contact::number::Exact;
+    /// use provable::number::Exact;
     /// let tenth: Exact = "0.1".parse()?;
     /// assert_eq!(tenth.rounded(3).unwrap(), "3/32".parse()?); // 0.09375; the next is 7/64
-    /// # Ok::<(), spring_mass_contact::number::ParseError>(())
+    /// # Ok::<(), provable::number::ParseError>(())
     /// ```
     pub fn rounded(&self, bits: u32) -> Option<Self> {
         (bits > 0).then(|| Float::with_val(bits, &self.0).to_rational())?.map(Exact)
@@ -115,10 +116,10 @@ impl Exact {
 /// for the machine's floats. Width, fill and sign are honoured.
 ///
 /// ```
-/// use spring_mass_contact::number::Exact;
+/// use provable::number::Exact;
 /// let x: Exact = "-2/3".parse()?;
 /// assert_eq!(format!("{x} {x:.3} {x:8.1}|"), "-2/3 -0.667     -0.7|");
-/// # Ok::<(), spring_mass_contact::number::ParseError>(())
+/// # Ok::<(), provable::number::ParseError>(())
 /// ```
 impl fmt::Display for Exact {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
@@ -290,9 +291,9 @@ impl Exact {
     /// How long it is: the binary digits of its numerator and of its denominator together.
     ///
     /// ```
-    /// # use spring_mass_contact::number::Exact;
+    /// # use provable::number::Exact;
     /// assert_eq!("-5/16".parse::<Exact>()?.digits(), 3 + 5);
-    /// # Ok::<(), spring_mass_contact::number::ParseError>(())
+    /// # Ok::<(), provable::number::ParseError>(())
     /// ```
     pub fn digits(&self) -> u64 {
         u64::from(self.0.numer().significant_bits()) + u64::from(self.0.denom().significant_bits())
@@ -354,11 +355,11 @@ impl Mpfr {
     /// A finite value overflows, or is not zero and would round to zero.
     ///
     /// ```
-    /// use spring_mass_contact::number::{Exact, Mpfr, RangeError};
+    /// use provable::number::{Exact, Mpfr, RangeError};
     /// let third = "1/3".parse::<Exact>()?.to_mpfr(200);
     /// assert_eq!(third.to_f64(), Ok(1.0 / 3.0));
     /// assert_eq!(Mpfr::parse("1e400", 200)?.to_f64(), Err(RangeError::Overflow { scalar: "f64" }));
-    /// # Ok::<(), spring_mass_contact::number::ParseError>(())
+    /// # Ok::<(), provable::number::ParseError>(())
     /// ```
     pub fn to_f64(&self) -> Result<f64, RangeError> {
         match self.as_float() {

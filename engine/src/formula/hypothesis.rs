@@ -51,8 +51,8 @@ impl fmt::Display for Relation {
 /// What is supposed: a quantity, recorded, and what is said of its sign.
 ///
 /// ```
-/// use spring_mass_contact::formula::{Hypothesis, Relation};
-/// use spring_mass_contact::number::Tree;
+/// use provable::formula::{Hypothesis, Relation};
+/// use provable::number::Tree;
 /// let [c, eps] = ["c", "ε"].map(|name| Tree::symbol(name));
 /// let stiffer = Hypothesis::new(Relation::Positive, &eps - &c);
 /// assert_eq!(stiffer.to_string(), "ε > c");
@@ -90,7 +90,7 @@ impl Hypothesis {
     /// A symbol is in an interval: from `lower` to `upper`, or the other way round.
     ///
     /// ```
-    /// use spring_mass_contact::{formula::Hypothesis, number::Tree};
+    /// use provable::{formula::Hypothesis, number::Tree};
     /// let [q, one] = [Tree::symbol("q"), Tree::from(1)];
     /// assert_eq!(Hypothesis::between(&q, Tree::from(0), one.clone()).to_string(), "0 ≤ q ≤ 1");
     /// ```

@@ -1,12 +1,12 @@
 //! Two springs in series: the engine serves any formula. It is recorded, typeset, proved things of, refuted when it is
 //! changed, and written for Coq. Nothing here is of the chapter.
 
-use spring_mass_contact::formula::claim::{equal, positive};
-use spring_mass_contact::formula::{Claim, Formula, Hypothesis, Registry, Relation, Statement};
-use spring_mass_contact::number::{Field, Tree};
-use spring_mass_contact::proof::controls::{Controls, Effect, controls};
-use spring_mass_contact::proof::coq::{Development, Placed};
-use spring_mass_contact::proof::{paper::Paper, prove};
+use provable::formula::claim::{equal, positive};
+use provable::formula::{Claim, Formula, Hypothesis, Registry, Relation, Statement};
+use provable::number::{Field, Tree};
+use provable::proof::controls::{Controls, Effect, controls};
+use provable::proof::coq::{Development, Placed};
+use provable::proof::{paper::Paper, prove};
 
 /// The stiffness of two springs in series.
 fn series<T: Field>(a: &T, b: &T) -> T {

@@ -12,17 +12,17 @@ use crate::number::Tree;
 /// it stays what it is:
 ///
 /// ```
-/// use spring_mass_contact::{claims::statements, proof::{Proof, prove}};
+/// use provable::{claims::statements, proof::{Proof, prove}};
 /// let proof: Proof = prove(&statements()[0]).unwrap();
 /// assert_eq!(proof.statement().goals.len(), 1);
 /// ```
 /// ```compile_fail
-/// # use spring_mass_contact::{claims::statements, proof::{Proof, prove}};
+/// # use provable::{claims::statements, proof::{Proof, prove}};
 /// # let mut proof: Proof = prove(&statements()[0]).unwrap();
 /// proof.statement = statements()[1].clone();
 /// ```
 /// ```compile_fail
-/// # use spring_mass_contact::{claims::statements, proof::{Proof, prove}};
+/// # use provable::{claims::statements, proof::{Proof, prove}};
 /// # let mut proof: Proof = prove(&statements()[0]).unwrap();
 /// proof.goals.clear();
 /// ```

@@ -15,7 +15,7 @@ use std::cmp::Ordering;
 /// [undefined](Ball::is_undefined), and so is all that is made of it.
 ///
 /// ```
-/// use spring_mass_contact::number::Ball;
+/// use provable::number::Ball;
 /// let third = Ball::exactly(1.0) / Ball::exactly(3.0);
 /// assert_eq!(*third.value(), 1.0 / 3.0);
 /// assert!(*third.radius() > 0.0 && *third.radius() < 6e-17);
@@ -104,7 +104,7 @@ impl<T: Real> Ball<T> {
     /// A ball that contains both.
     ///
     /// ```
-    /// use spring_mass_contact::number::Ball;
+    /// use provable::number::Ball;
     /// let hull = Ball::exactly(1.0).hull(&Ball::exactly(3.0));
     /// assert!(hull.lower() <= 1.0 && 3.0 <= hull.upper() && hull.upper() - hull.lower() < 2.0 + 1e-14);
     /// ```
@@ -129,7 +129,7 @@ impl<T: Real> Ball<T> {
     /// Is no number meant at all, for certain? So it is where something was divided by zero.
     ///
     /// ```
-    /// use spring_mass_contact::number::Ball;
+    /// use provable::number::Ball;
     /// let (one, zero) = (Ball::exactly(1.0), Ball::exactly(0.0));
     /// assert!((&one / &zero).is_undefined() && ((&one / &zero) * &zero).is_undefined());
     /// let perhaps_zero = &one / Ball::exactly(3.0) * Ball::exactly(3.0) - &one;

@@ -1,7 +1,7 @@
 //! exp and ln of the machine's floats, correctly rounded: MPFR's at 24 and 53 bits. The standard library
 //! promises no bound for its own.
 
-use super::{Exponential, Logarithm};
+use crate::number::{Exponential, Logarithm};
 use rug::Float;
 use rug::float::Round;
 use std::cmp::Ordering;

@@ -1,6 +1,7 @@
 //! Numbers as text: with nothing lost, or as decimals on the side that is asked for.
 
-use super::{Exact, Mpfr, Real, ToExact};
+use super::{Exact, Mpfr, ToExact};
+use crate::number::Real;
 use num_traits::Zero;
 use rug::{Float, Integer, Rational, float::Round, ops::Pow};
 
@@ -9,7 +10,7 @@ pub trait Text: ToExact + Clone {
     /// All of it: the shortest text that reads back as the same float, or a fraction.
     ///
     /// ```
-    /// # use spring_mass_contact::number::Text;
+    /// # use provable::number::Text;
     /// assert_eq!([1e300, 0.1, -0.0].map(|x: f64| x.text()), ["1e300", "0.1", "0"]);
     /// ```
     fn text(&self) -> String;
@@ -17,7 +18,7 @@ pub trait Text: ToExact + Clone {
     /// Returns [`text`](Self::text) with the sign of a zero, where the number system has zeros of two signs.
     ///
     /// ```
-    /// # use spring_mass_contact::number::Text;
+    /// # use provable::number::Text;
     /// assert_eq!([-0.0, 0.0, -0.1].map(|x: f64| x.signed_text()), ["-0", "0", "-0.1"]);
     /// ```
     fn signed_text(&self) -> String {
@@ -117,10 +118,10 @@ impl Exact {
     /// unit further than need be, but for what has so few digits.
     ///
     /// ```
-    /// # use spring_mass_contact::{number::Exact, rug::float::Round};
+    /// # use provable::{number::Exact, rug::float::Round};
     /// let third: Exact = "1/3".parse()?;
     /// assert_eq!([Round::Down, Round::Up].map(|side| third.decimal(3, side)), ["0.333", "0.334"]);
-    /// # Ok::<(), spring_mass_contact::number::ParseError>(())
+    /// # Ok::<(), provable::number::ParseError>(())
     /// ```
     pub fn decimal(&self, digits: usize, round: Round) -> String {
         if self.is_zero() {
@@ -163,6 +164,8 @@ impl Exact {
 
 /// Types that are serialised as they are displayed.
 #[cfg(feature = "serde")]
+#[doc(hidden)]
+#[macro_export]
 macro_rules! serialize_as_displayed {
     ($($Type:ty),*) => {$(
         impl serde::Serialize for $Type {
@@ -173,25 +176,24 @@ macro_rules! serialize_as_displayed {
     )*};
 }
 #[cfg(feature = "serde")]
-pub(crate) use serialize_as_displayed;
-#[cfg(feature = "serde")]
 serialize_as_displayed!(Exact, super::NumberSystem);
 
 /// Quantities are serialised as texts, so that no reader rounds them.
 #[cfg(feature = "serde")]
-pub(crate) mod quantity {
+#[doc(hidden)]
+pub mod quantity {
     use super::Text;
     use serde::{Serialize, Serializer};
 
-    pub(crate) fn serialize<T: Text, S: Serializer>(x: &T, to: S) -> Result<S::Ok, S::Error> {
+    pub fn serialize<T: Text, S: Serializer>(x: &T, to: S) -> Result<S::Ok, S::Error> {
         to.serialize_str(&x.text())
     }
 
-    pub(crate) fn option<T: Text, S: Serializer>(x: &Option<T>, to: S) -> Result<S::Ok, S::Error> {
+    pub fn option<T: Text, S: Serializer>(x: &Option<T>, to: S) -> Result<S::Ok, S::Error> {
         x.as_ref().map(Text::text).serialize(to)
     }
 
-    pub(crate) fn options<T: Text, S: Serializer>(x: &[Option<T>; 2], to: S) -> Result<S::Ok, S::Error> {
+    pub fn options<T: Text, S: Serializer>(x: &[Option<T>; 2], to: S) -> Result<S::Ok, S::Error> {
         x.each_ref().map(|x| x.as_ref().map(Text::text)).serialize(to)
     }
 }
@@ -200,18 +202,19 @@ pub(crate) mod quantity {
 /// number for rationals. A float of MPFR comes back as the constant of the same value, since a text has no
 /// precision; `to_mpfr` rounds it.
 #[cfg(feature = "serde")]
-pub(crate) mod lossless {
+#[doc(hidden)]
+pub mod lossless {
     use super::{Exact, Text};
     use crate::number::ParseError;
     use num_traits::Zero;
     use serde::{Deserialize, Deserializer, Serializer, de::Error};
     use std::ops::Neg;
 
-    pub(crate) fn serialize<T: Text, S: Serializer>(x: &T, to: S) -> Result<S::Ok, S::Error> {
+    pub fn serialize<T: Text, S: Serializer>(x: &T, to: S) -> Result<S::Ok, S::Error> {
         to.serialize_str(&x.signed_text())
     }
 
-    pub(crate) fn deserialize<'de, T, D>(from: D) -> Result<T, D::Error>
+    pub fn deserialize<'de, T, D>(from: D) -> Result<T, D::Error>
     where
         T: Text + Zero + Neg<Output = T>,
         D: Deserializer<'de>,
