@@ -1,5 +1,5 @@
 //! Two springs in series: the engine serves any formula. It is recorded, typeset, proved things of, refuted when it is
-//! changed, and written for Coq. Nothing here is of the chapter.
+//! changed, and written for Coq.
 
 use provable::formula::claim::{equal, positive};
 use provable::formula::{Claim, Formula, Hypothesis, Registry, Relation, Statement};
@@ -37,10 +37,8 @@ pub fn claims() -> [Claim; 2] {
 
 /// All of it for Coq: a definition, and a theorem for each claim.
 pub fn coq<'a>(registry: &'a Registry, claims: &[Claim]) -> Development<'a> {
-    Development::new(
-        registry,
-        claims.iter().map(|claim| Placed { claim, section: "springs", functions: &[] }),
-    )
+    let placed = claims.iter().map(|claim| Placed { claim, section: "springs", functions: &[] });
+    Development::new("Springs", registry, placed)
 }
 
 fn main() {

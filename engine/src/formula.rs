@@ -2,11 +2,9 @@
 //!
 //! A function that is generic over its number system leaves a record when it is called with [`Tree`]s. This
 //! is what can be done with records, whatever they are about: [typeset](crate::number::Tree::typeset) them,
-//! compile them to a [`Program`](crate::number::Program), run that in [`Rounds`](crate::number::Rounds), keep a [`Registry`] of them, by which one formula
-//! is known in another, and say something of them, as a [`Claim`] under [`Hypothesis`]es. What a claim comes
-//! to is a [`Statement`], for `proof` to prove.
-//!
-//! Nothing here knows of the chapter; `examples/springs.rs` has formulas of its own.
+//! keep a [`Registry`] of them, by which one formula is known in another, and say something of them, as a
+//! [`Claim`] under [`Hypothesis`]es. What a claim comes to is a [`Statement`], for `proof` to prove. A
+//! [`Program`](crate::number::Program) runs many of them at once.
 //!
 //! [`Tree`]: crate::number::Tree
 

@@ -1,11 +1,11 @@
-//! Proofs: every claim of the chapter for *all* values of its parameters.
+//! Proofs of claims, for *all* values of their parameters.
 //!
 //! **What has to be trusted.**
 //!
-//! - That the [`claims`](crate::claims) say what the chapter means, hypotheses included, in the words of
+//! - That the claims say what is meant, hypotheses included, in the words of
 //!   [`claim`](crate::formula::claim).
-//! - That [`Tree`](crate::number::Tree) records what the chapter's functions do (tested, bit for bit, in
-//!   every number system), and that [`Dual`](crate::number::Dual) differentiates.
+//! - That [`Tree`](crate::number::Tree) records what functions do (tested, bit for bit, in every number
+//!   system), and that [`Dual`](crate::number::Dual) differentiates.
 //! - In [`statement`](crate::formula::statement), what a claim of each kind comes to. A proof is one of the
 //!   statement's goals, under its hypotheses; that they amount to the claim is so because
 //!   [`Statement::of`](crate::formula::Statement::of) made it, and not seen by the kernel.

@@ -1,9 +1,9 @@
 //! Functions as formulas: each one recorded once, with the names of its arguments, and how a text writes
 //! them.
 //!
-//! A text for the eye has holes for formulas, to be [filled](Registry::fill): `«penalty::deflection»`
-//! becomes what the function does, `«augmented::update: u=u_k, λ=λ_k»` the same with other names for its
-//! arguments, and `«penalty::contact_force in full»` spells out also what has a name of its own, here p.
+//! A text for the eye has holes for formulas, to be [filled](Registry::fill): `«lens::image»`
+//! becomes what the function does, `«lens::focus: f=f₁, d=d₁»` the same with other names for its
+//! arguments, and `«lens::power in full»` spells out also what has a name of its own.
 
 use super::Hypothesis;
 use super::claim::{POWER, PRECISION, SCALES};
@@ -155,8 +155,7 @@ impl Registry {
         &self.formulas
     }
 
-    /// The formula of a function, or of one of its values: `penalty::deflection`,
-    /// `lagrange::residual.constraint`.
+    /// The formula of a function, or of one of its values: `lens::focus`, `lens::residual.image`.
     pub fn formula(&self, path: &str) -> Option<&Formula> {
         self.formulas.iter().find(|formula| formula.name() == path)
     }
@@ -183,11 +182,14 @@ impl Registry {
     /// What a function does, as a text writes it: by name what has one, and spelled out what has none.
     ///
     /// ```
-    /// use provable::{claims::registry, formula::Notation};
-    /// let energy = registry().formula("augmented::functional").unwrap();
-    /// let [text, latex] = [Notation::Text, Notation::Latex].map(|n| registry().typeset(energy, n));
-    /// assert_eq!(text, "Π + λ p + ε p² / 2");
-    /// assert_eq!(latex, r"\Pi + \lambda\,p + \tfrac{1}{2}\,\varepsilon\,p^2");
+    /// use provable::{formula::{Formula, Notation, Registry}, number::Tree};
+    /// let [lambda, p] = ["λ", "p"].map(|name| Tree::symbol(name));
+    /// let energy = &lambda * &p + &lambda * &p * &p / Tree::from(2);
+    /// let registry = Registry::new(&["λ", "p"], vec![Formula::new("energy", "E", &["λ", "p"], energy)]);
+    /// let energy = registry.formula("energy").unwrap();
+    /// let [text, latex] = [Notation::Text, Notation::Latex].map(|n| registry.typeset(energy, n));
+    /// assert_eq!(text, "λ p + λ p² / 2");
+    /// assert_eq!(latex, r"\lambda\,p + \tfrac{1}{2}\,\lambda\,p^2");
     /// ```
     pub fn typeset(&self, formula: &Formula, notation: Notation) -> String {
         self.names(Some(formula)).typeset(formula, notation)
@@ -310,7 +312,7 @@ impl Formula {
         Formula { folded: true, ..self }
     }
 
-    /// Its path, with the part: `contact::kkt.primal`.
+    /// Its path, with the part: `lens::residual.image`.
     pub fn name(&self) -> String {
         self.part.map_or(self.path.to_string(), |part| format!("{}.{part}", self.path))
     }

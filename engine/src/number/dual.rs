@@ -11,11 +11,10 @@ use std::cmp::Ordering;
 /// Over rationals the derivative is exact, over balls it carries its bound, over duals it is the second.
 ///
 /// ```
-/// use provable::{chapter::{SpringMass, structure}, number::Dual};
-/// let system = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
-/// // (1.1) is the derivative of (1.4).
-/// let energy = structure::potential_energy(&system.map(|&x| Dual::constant(x)), &Dual::variable(0.5));
-/// assert_eq!(energy.derivative, structure::residual(&system, &0.5));
+/// use provable::number::Dual;
+/// // A resistor of 2 Ω turns 2 i² into heat.
+/// let power = |i: Dual<f64>| Dual::constant(2.0) * &i * &i;
+/// assert_eq!(power(Dual::variable(3.0)), Dual { value: 18.0, derivative: 12.0 });
 /// ```
 ///
 /// # Order, and the derivative at a kink
@@ -30,16 +29,14 @@ use std::cmp::Ordering;
 /// its other side.
 ///
 /// ```
-/// use provable::{chapter::{SpringMass, contact}, number::Dual};
-/// // How does the contact force change with the height, H = 3, in contact, grazing and free?
-/// let slope = |g: f64, direction: f64| {
-///     let system = SpringMass { c: 4.0, m: 1.0, g, l: 1.0, h: 3.0 };
-///     let h = Dual { value: system.h, derivative: direction };
-///     contact::contact_force(&SpringMass { h, ..system.map(|&x| Dual::constant(x)) }).derivative
+/// use provable::number::{Dual, PositivePart};
+/// // A diode lets ⟨u − 1⟩ pass. How does that change with u, above its threshold, at it and below?
+/// let slope = |u: f64, direction: f64| {
+///     (Dual { value: u, derivative: direction } - Dual::constant(1.0)).positive_part().derivative
 /// };
-/// assert_eq!([slope(10.0, 1.0), slope(8.0, 1.0), slope(6.0, 1.0)], [-4.0, 0.0, 0.0]);
-/// // A grazing plane that is raised begins to push.
-/// assert_eq!(-slope(8.0, -1.0), -4.0);
+/// assert_eq!([slope(2.0, 1.0), slope(1.0, 1.0), slope(0.0, 1.0)], [1.0, 1.0, 0.0]);
+/// // To the left of the threshold nothing changes.
+/// assert_eq!(-slope(1.0, -1.0), 0.0);
 /// ```
 ///
 /// The order goes with sums, and a product of two numbers > 0 is never < 0; but it can be 0, since

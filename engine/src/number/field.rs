@@ -2,10 +2,10 @@
 //!
 //! | trait | adds | so that one can write |
 //! |---|---|---|
-//! | [`Field`] | `+ − × ÷`, zero, one, small integers | every identity of the chapter |
-//! | [`PositivePart`] | ⟨x⟩ = max(x, 0), min and \|x\| | a plane that pushes and never pulls |
-//! | [`Exponential`] | eˣ | the solution (1.30) of the analogous ODE |
-//! | [`OrderedField`] | `<` | the stop test (1.33), searches, tests |
+//! | [`Field`] | `+ − × ÷`, zero, one, small integers | identities |
+//! | [`PositivePart`] | ⟨x⟩ = max(x, 0), min and \|x\| | what holds on one side only |
+//! | [`Exponential`] | eˣ | growth and decay |
+//! | [`OrderedField`] | `<` | stop tests, searches |
 //! | [`Real`] | rounding | error bounds |
 //! | [`Logarithm`] | ln | what floats alone can do |
 //!
@@ -27,12 +27,12 @@
 //! # Your own number system
 //!
 //! A newtype, its operators from references by [`operators!`](crate::operators), `Zero`, `One` and
-//! one line of `Field`; then every formula of the chapter runs on it. Here it is the integers
+//! one line of `Field`; then every formula runs on it. Here it is the integers
 //! modulo 7, in which 1/3 = 5:
 //!
 //! ```
 //! use num_traits::{One, Zero};
-//! use provable::{chapter::{SpringMass, contact, penalty}, number::Field, operators};
+//! use provable::{number::Field, operators};
 //!
 //! #[derive(Clone, Debug, PartialEq)]
 //! struct Mod7(i32);
@@ -52,12 +52,15 @@
 //! impl One for Mod7 { fn one() -> Self { Mod7(1) } }
 //! impl Field for Mod7 { fn int(n: i32) -> Self { Mod7(n.rem_euclid(7)) } }
 //!
-//! let system = SpringMass { c: 2, m: 1, g: 5, l: 1, h: 3 }.map(|&n| Mod7(n));
-//! let eps = Mod7(1);
-//! // (1.13) solves (1.11) in any field.
-//! let u = penalty::deflection(&system, &eps);
-//! assert!(penalty::residual(&system, &eps, &u).is_zero());
-//! assert_eq!(contact::penetration(&system, &u), Mod7(5)); // R/(c + ε) = 1/3
+//! /// Two resistors side by side.
+//! fn parallel<T: Field>(a: &T, b: &T) -> T {
+//!     a * b / (a + b)
+//! }
+//!
+//! let [a, b] = [2, 1].map(Mod7);
+//! let r = parallel(&a, &b);
+//! assert_eq!(r, Mod7(3)); // 2/3, where 1/3 is 5
+//! assert_eq!(Mod7(1) / r, Mod7(1) / a + Mod7(1) / b);
 //! ```
 
 use super::tree::Step;
@@ -80,7 +83,7 @@ impl<S: ?Sized, T> ImplyInner<T> for S {
     type Is = T;
 }
 
-/// Numbers with `+ − × ÷`: enough for every identity of the chapter.
+/// Numbers with `+ − × ÷`: enough for identities.
 ///
 /// Each operator takes its operands owned or borrowed, in all four combinations, and the result does
 /// not depend on which. How exact the operations are is the number system's own business: rationals
@@ -131,7 +134,7 @@ pub trait Field:
     }
 }
 
-/// Numbers with ⟨x⟩ = max(x, 0) and min: the forms with a plane that pushes and never pulls.
+/// Numbers with ⟨x⟩ = max(x, 0) and min: what holds on one side only.
 ///
 /// These are methods and not comparisons in the formulas, since not everything a formula is read in
 /// can always decide a sign: a ball around zero cannot.
@@ -148,7 +151,7 @@ pub trait PositivePart: Field {
     }
 }
 
-/// Numbers with eˣ, for the ODE analogy (1.22)-(1.32).
+/// Numbers with eˣ.
 ///
 /// Without the feature `mpfr` f32 and f64 are none: correctly rounded functions come from MPFR.
 pub trait Exponential: Field {

@@ -12,19 +12,25 @@ use std::mem;
 use std::panic::Location;
 use std::sync::Arc;
 
-/// A formula, recorded: read a function of the chapter in trees, and its value *is* the function.
+/// A formula, recorded: read a generic function in trees, and its value *is* the function.
 ///
 /// A tree can be replayed in any number system, be proved, printed, or changed at one place. Each step
 /// remembers the [`Site`] in the source that wrote it. Equality is of structure; sites do not count.
 ///
 /// ```
-/// use provable::{chapter::{SpringMass, contact}, number::Tree};
-/// let system = SpringMass { c: "c", m: "m", g: "g", l: "l", h: "H" }.map(|name| Tree::symbol(name));
-/// let p = contact::penetration(&system, &Tree::symbol("u"));
+/// use provable::number::{Field, Tree};
+///
+/// /// What is left of a voltage after a resistor.
+/// fn remaining<T: Field>(u: &T, r: &T, i: &T) -> T {
+///     u - r * i
+/// }
+///
+/// let [u, r, i] = ["u", "R", "i"].map(|name| Tree::symbol(name));
+/// let voltage = remaining(&u, &r, &i);
 /// # #[cfg(feature = "prover")]
-/// assert_eq!(p.to_string(), "l + u − H");
-/// let at = |name| if name == "H" { 3.0 } else { 2.0 };
-/// assert_eq!(p.replay(&at, &|_| None), Some(1.0));
+/// assert_eq!(voltage.to_string(), "u − R i");
+/// let at = |name| if name == "u" { 5.0 } else { 2.0 };
+/// assert_eq!(voltage.replay(&at, &|_| None), Some(1.0));
 /// ```
 #[derive(Clone, Debug)]
 pub struct Tree(Arc<Node>);

@@ -6,7 +6,7 @@
 //! turn; if the claim still holds, the hypothesis should go.
 //!
 //! No control is written by hand, and nothing is compiled anew: the formulas are recorded as trees, whose
-//! steps know where they are written. A formula that the chapter itself differentiates in dual numbers is
+//! steps know where they are written. A formula that itself differentiates in dual numbers is
 //! recorded as the duals compute it, and a change does not reach into these steps. Where a claim speaks of
 //! such a formula, other claims are asked first.
 
@@ -138,7 +138,7 @@ pub fn controls(statements: &[Statement], registry: &Registry) -> Controls {
 }
 
 /// The changes of one place that would make all of these statements provable, if some of them are not: there
-/// may be a mistake in the chapter. They are looked for among the [`possible_repairs`].
+/// may be a mistake in the functions. They are looked for among the [`possible_repairs`].
 pub fn repairs(statements: &[Statement], registry: &Registry) -> Vec<Change> {
     // What takes long is asked last.
     let mut by_cost: Vec<_> = statements.iter().collect();

@@ -81,6 +81,7 @@ pub struct Placed<'a> {
 /// Definitions of a registry's functions, and theorems about them.
 #[derive(Clone, Debug)]
 pub struct Development<'a> {
+    library: &'a str,
     registry: &'a Registry,
     written: Vec<Written>,
     left_out: Vec<LeftOut>,
@@ -100,8 +101,12 @@ const OF_ROUNDING: [(&str, &str); 3] = [
 ];
 
 impl<'a> Development<'a> {
-    /// The claims, printed, and those that cannot be.
-    pub fn new<'c>(registry: &'a Registry, claims: impl IntoIterator<Item = Placed<'c>>) -> Self {
+    /// The claims, printed, and those that cannot be. The files require each other from the `library`.
+    pub fn new<'c>(
+        library: &'a str,
+        registry: &'a Registry,
+        claims: impl IntoIterator<Item = Placed<'c>>,
+    ) -> Self {
         let (mut written, mut left_out) = (Vec::new(), Vec::new());
         for Placed { claim, section, functions } in claims {
             let printer = Printer { registry, preferred: functions };
@@ -112,7 +117,7 @@ impl<'a> Development<'a> {
                 Err(reason) => left_out.push(LeftOut { equation: claim.equation, name: claim.name, reason }),
             }
         }
-        Development { registry, written, left_out, more: None }
+        Development { library, registry, written, left_out, more: None }
     }
 
     /// With a file of its own, written by hand, which may use all others.
@@ -122,7 +127,7 @@ impl<'a> Development<'a> {
 
     /// Everything: tactics, definitions, theorems by section, and what joins them.
     ///
-    /// They compile in this order, and in that of their names: `coqc -R DIR Contact FILE`.
+    /// They compile in this order, and in that of their names: `coqc -R DIR LIBRARY FILE`.
     pub fn files(&self) -> Vec<File> {
         let mut files = vec![
             file(TACTICS, include_str!("coq/tactics.v").to_string()),
@@ -135,24 +140,29 @@ impl<'a> Development<'a> {
         let name = |file: &File| format!(" {}", file.name.trim_end_matches(".v"));
         let mut all: String = theorems.iter().map(name).collect();
         if let Some((name, text)) = self.more {
-            let head = format!("From Contact Require Import {TACTICS} {DEFINITIONS}{all}.\n\n");
+            let head = format!("From LIBRARY Require Import {TACTICS} {DEFINITIONS}{all}.\n\n");
             theorems.push(file(name, head + text));
             all = format!("{all} {name}");
         }
         // Asking of each theorem what it rests on would take longer than all proofs.
         let parts: Vec<_> = theorems.iter_mut().map(together).collect();
         files.extend(theorems);
-        if parts.is_empty() {
-            return files;
+        if !parts.is_empty() {
+            let assumptions = format!(
+                "(** * What everything rests on. *)\n\
+                 From LIBRARY Require Import {TACTICS} {DEFINITIONS}{all}.\n\n\
+                 Definition everything :=\n  ({}).\nPrint Assumptions everything.\n",
+                parts.join(",\n   ")
+            );
+            files.push(file(ASSUMPTIONS, assumptions));
         }
-        let assumptions = format!(
-            "(** * What everything rests on. *)\n\
-             From Contact Require Import {TACTICS} {DEFINITIONS}{all}.\n\n\
-             Definition everything :=\n  ({}).\nPrint Assumptions everything.\n",
-            parts.join(",\n   ")
-        );
-        files.push(file(ASSUMPTIONS, assumptions));
-        files
+        files.into_iter().map(|file| self.named(file)).collect()
+    }
+
+    /// The file, with the library that it requires others from.
+    fn named(&self, File { name, text }: File) -> File {
+        let from = format!("From {} Require", self.library);
+        File { name, text: text.replace("From LIBRARY Require", &from) }
     }
 
     /// Writes the files to a directory, which is made if it is not there.
@@ -200,7 +210,7 @@ impl<'a> Development<'a> {
                 all.push(Flip {
                     function: definition.name.clone(),
                     definition: flipped[i].to_string(),
-                    file: file(&name, definitions_text(&flipped, rounds) + &theorems),
+                    file: self.named(file(&name, definitions_text(&flipped, rounds) + &theorems)),
                 });
             }
         }
@@ -340,7 +350,7 @@ fn by_section(written: &[Written]) -> Vec<File> {
 
 /// What a file begins with that needs tactics, perhaps those for what is rounded, and this.
 fn head(rounds: bool, more: &str) -> String {
-    let import = |names: &str| format!("From Contact Require Import {}.\n", names.trim_end());
+    let import = |names: &str| format!("From LIBRARY Require Import {}.\n", names.trim_end());
     match rounds {
         true => format!(
             "From Flocq Require Import Core.\n{}Open Scope R_scope.\n",
@@ -363,7 +373,8 @@ mod tests {
     /// Why a claim is left out, if it is; then there is no theorem.
     fn left_out(claim: &Claim) -> Option<String> {
         let registry = Registry::default();
-        let development = Development::new(&registry, [Placed { claim, section: "0", functions: &[] }]);
+        let development =
+            Development::new("Lens", &registry, [Placed { claim, section: "0", functions: &[] }]);
         let theorems = development.files().iter().filter(|file| file.text.contains("\nTheorem ")).count();
         let [left_out] = development.left_out() else {
             assert_eq!((theorems, development.left_out().len()), (1, 0));

@@ -262,10 +262,10 @@ impl Change {
         tree.rewrite(&|tree| self.edit(tree))
     }
 
-    /// Is every formula of the chapter that it changes in the statement equal to what it was, and provably
+    /// Is every formula of the registry that it changes in the statement equal to what it was, and provably
     /// so?
     ///
-    /// Not the edited step itself has to be, but some formula of the chapter that it is a part of: in (a −
+    /// Not the edited step itself has to be, but some formula of the registry that it is a part of: in (a −
     /// b)² the operands of − may trade places. That the claim's own formulas stay the same would say too
     /// little: it could multiply by 0.
     pub(super) fn changes_nothing(&self, statement: &Statement, registry: &Registry) -> bool {

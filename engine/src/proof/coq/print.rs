@@ -45,7 +45,7 @@ pub(super) fn ascii(symbol: &str) -> String {
     symbol.chars().map(letter).collect()
 }
 
-/// A function by its path: `penalty::deflection` is penalty_deflection.
+/// A function by its path: `lens::focus` is lens_focus.
 pub(super) fn function(formula: &Formula) -> String {
     free(formula.name().replace("::", "_").replace('.', "_"))
 }

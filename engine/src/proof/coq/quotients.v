@@ -1,6 +1,6 @@
 (** * Quotients of polynomials, and their signs: a program, and its proof. *)
 From Coq Require Import List Bool ZArith Reals Lra.
-From Contact Require Import B_Polynomials.
+From LIBRARY Require Import B_Polynomials.
 Import ListNotations.
 Open Scope R_scope.
 

@@ -5,8 +5,8 @@
     polynomials, whose signs a program decides. *)
 From Coq Require Import List Bool ZArith Lia.
 From Flocq Require Import Core Relative.
-From Contact Require Import A_Tactics.
-From Contact Require B_Polynomials B_Quotients.
+From LIBRARY Require Import A_Tactics.
+From LIBRARY Require B_Polynomials B_Quotients.
 Import ListNotations.
 Open Scope R_scope.
 

@@ -3,13 +3,13 @@
 #![cfg(feature = "prover")]
 #![allow(clippy::eq_op, reason = "a quotient of equals is not always 1")]
 
-use spring_mass_contact::formula::claim::{
+use provable::formula::claim::{
     Claim, Kind, PRECISION, Rate, derivative, drift, equal, induction, non_negative, positive, vanishing,
     within,
 };
-use spring_mass_contact::formula::{Hypothesis, Relation, Statement};
-use spring_mass_contact::number::{Exponential, PositivePart, Tree};
-use spring_mass_contact::proof::{prove, refute};
+use provable::formula::{Hypothesis, Relation, Statement};
+use provable::number::{Exponential, PositivePart, Tree};
+use provable::proof::{prove, refute};
 use std::collections::BTreeSet;
 
 fn x(name: &'static str) -> Tree {

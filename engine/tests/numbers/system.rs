@@ -2,7 +2,7 @@
 
 use crate::format::Format;
 use proptest::prelude::*;
-use spring_mass_contact::number::{Exact, Field};
+use provable::number::{Exact, Field};
 use std::fmt::Debug;
 
 /// A number system as the laws see it.

@@ -5,8 +5,8 @@ use crate::format::{DOUBLE, Format, SINGLE};
 use crate::system::{Planted, System};
 use num_traits::{One, Zero};
 use proptest::prelude::*;
+use provable::number::{Exact, Field, Inexact, Mpfr, PositivePart, RangeError, Real, ToExact};
 use rug::{Float, Integer, Rational};
-use spring_mass_contact::number::{Exact, Field, Inexact, Mpfr, PositivePart, RangeError, Real, ToExact};
 use std::fmt::Debug;
 
 pub struct Rationals;
@@ -33,7 +33,7 @@ impl System for Rationals {
 #[derive(Clone, Debug)]
 pub struct Fraction(pub Integer, pub Integer);
 
-spring_mass_contact::operators! { [] Fraction;
+provable::operators! { [] Fraction;
     Add add |a, b| Fraction(Integer::from(&a.0 * &b.1) + Integer::from(&b.0 * &a.1), Integer::from(&a.1 * &b.1));
     Sub sub |a, b| Fraction(Integer::from(&a.0 * &b.1) - Integer::from(&b.0 * &a.1), Integer::from(&a.1 * &b.1));
     Mul mul |a, b| Fraction(Integer::from(&a.0 * &b.0), Integer::from(&a.1 * &b.1));

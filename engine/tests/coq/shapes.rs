@@ -1,11 +1,11 @@
-//! Claims about formulas of shapes that the chapter does not have: divisors that are differences, quotients, brackets or
-//! rounded, in exact arithmetic and rounded.
+//! Claims about formulas of many shapes: divisors that are differences, quotients, brackets or rounded, in exact
+//! arithmetic and rounded.
 
-use spring_mass_contact::formula::claim::{
+use provable::formula::claim::{
     PRECISION, SCALES, derivative, equal, induction, limit, non_negative, positive, within,
 };
-use spring_mass_contact::formula::{Claim, Hypothesis, Rate, Relation};
-use spring_mass_contact::number::{Exponential, Field, PositivePart, Tree};
+use provable::formula::{Claim, Hypothesis, Rate, Relation};
+use provable::number::{Exponential, Field, PositivePart, Tree};
 
 /// Thirty-odd claims, each of which the kernel proves.
 pub fn claims() -> Vec<Claim> {

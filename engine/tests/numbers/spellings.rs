@@ -6,8 +6,8 @@ use crate::mpfr::MpfrMixed;
 use crate::system::System;
 use num_traits::{One, Zero};
 use proptest::prelude::*;
+use provable::number::{Exact, Field, MAX_EXPONENT, Mpfr, ParseError, RangeError, Real, ToExact};
 use rug::{Float, Integer, Rational};
-use spring_mass_contact::number::{Exact, Field, MAX_EXPONENT, Mpfr, ParseError, RangeError, Real, ToExact};
 use std::fmt::Display;
 
 fn read(text: &str) -> Result<Exact, ParseError> {

@@ -9,8 +9,8 @@ use crate::mpfr::{Mpfr2, Mpfr3, Mpfr24, Mpfr53, Mpfr200, MpfrConstant, MpfrMixed
 use crate::system::{Oracle, System, operations};
 use num_traits::Zero;
 use proptest::prelude::*;
-use spring_mass_contact::number::tree::Step;
-use spring_mass_contact::number::{Exact, Field, OrderedField, PositivePart, ToExact};
+use provable::number::tree::Step;
+use provable::number::{Exact, Field, OrderedField, PositivePart, ToExact};
 
 /// Laws of + − × ÷ alone.
 macro_rules! laws_of_every_system {

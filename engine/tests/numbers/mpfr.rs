@@ -6,10 +6,10 @@ use crate::format::Format;
 use crate::system::{Floats, Planted, System, operations, planted};
 use num_traits::{One, Zero};
 use proptest::prelude::*;
-use rug::{Float, Rational};
-use spring_mass_contact::number::{
+use provable::number::{
     Ball, Exact, Exponential, Field, Logarithm, Mpfr, PRECISIONS, PositivePart, Real, ToExact,
 };
+use rug::{Float, Rational};
 
 /// MPFR numbers of one precision.
 pub struct Bits<const BITS: u32>;

@@ -6,8 +6,8 @@ use crate::mpfr::{Mpfr2, Mpfr3, Mpfr24, Mpfr53, Mpfr200};
 use crate::system::{Floats, Planted, System, planted};
 use num_traits::{One, Zero};
 use proptest::prelude::*;
+use provable::number::{Exact, Exponential, Field, Logarithm, Mpfr, PositivePart, Real, ToExact};
 use rug::Float;
-use spring_mass_contact::number::{Exact, Exponential, Field, Logarithm, Mpfr, PositivePart, Real, ToExact};
 
 macro_rules! machine_floats {
     ($($Name:ident $float:ident $format:ident $convert:ident;)*) => {$(

@@ -1,9 +1,9 @@
 //! Rounding, in integers.
 
 use num_traits::Zero;
+use provable::number::{Exact, PositivePart};
 use rug::float::Round;
 use rug::{Float, Integer, Rational};
-use spring_mass_contact::number::{Exact, PositivePart};
 use std::cmp::Ordering;
 
 /// Binary floats m·2ᵉ with |m| < 2^bits.
