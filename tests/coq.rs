@@ -12,18 +12,14 @@ use gallina::{
 use spring_mass_contact::claims::{registry, statements};
 use spring_mass_contact::formula::claim::{MEMBERS, PRECISION, SCALES};
 use spring_mass_contact::formula::statement::{Computed, Goal, Role, Says, Sequence, Statement, two_bits};
-use spring_mass_contact::formula::{Hypothesis, Registry, Relation};
+use spring_mass_contact::formula::{Hypothesis, Relation};
 use spring_mass_contact::number::tree::Step;
 use spring_mass_contact::number::{Field, PositivePart, Tree};
-use spring_mass_contact::proof::coq::{Development, File, Placed, theorem_name};
-use spring_mass_contact::proof::prove;
+use spring_mass_contact::proof::coq::{File, theorem_name};
 use spring_mass_contact::verify::coq;
 use std::collections::BTreeSet;
-use std::io::Write;
-use std::path::{Path, PathBuf};
-use std::process::Command;
-use std::sync::Mutex;
-use std::{fs, thread};
+use std::fs;
+use std::path::Path;
 
 #[test]
 fn every_claim_is_a_theorem() {

@@ -1,12 +1,11 @@
-//! Claims for Coq, and, where Coq is installed, that it accepts them.
+//! Claims of many shapes for Coq, and, where Coq is installed, that it accepts them.
 #![cfg(feature = "prover")]
 
-#[path = "../../tests/coqc/mod.rs"]
+mod claims;
+#[path = "../../../tests/coqc/mod.rs"]
 mod coqc;
-#[path = "coq/shapes.rs"]
-mod shapes;
 #[allow(dead_code)]
-#[path = "../examples/springs.rs"]
+#[path = "../../examples/springs.rs"]
 mod springs;
 
 use coqc::{accepts, named, of_claims};
@@ -28,7 +27,7 @@ fn coq_accepts_the_springs_in_series() {
 /// Those of which no theorem is written are said to be left out, and all others are accepted.
 #[test]
 fn coq_accepts_divisors_of_any_shape() {
-    let claims = shapes::claims();
+    let claims = claims::claims();
     for claim in &claims {
         let proof = prove(&Statement::of(claim));
         assert!(proof.is_ok(), "{}: {}", claim.name, proof.unwrap_err());
