@@ -112,10 +112,10 @@ fn paths(tokens: TokenStream, own: &[String], krate: &str) -> Vec<Vec<String>> {
     found
 }
 
-/// Names at the crate's root that are no rooms: a macro of `number`, and a crate that is passed on.
+/// Names at the crate's root that are no rooms: macros of `number`, and a crate that is passed on.
 fn room_of(name: &str) -> Option<&str> {
     match name {
-        "operators" => Some("number"),
+        "operators" | "serialize_as_displayed" => Some("number"),
         "rug" => None,
         other => Some(other),
     }

@@ -1,4 +1,5 @@
-//! Formulas that are written once, as functions generic over their number system, and read by everything else.
+//! Formulas that are written once, as functions generic over their number system, and read by everything
+//! else.
 //!
 //! | module | what is in it | needs |
 //! |---|---|---|
@@ -21,15 +22,15 @@
 //! assert_eq!(image(&2.0, &4.0), 4.0);
 //! // It moves as fast as the thing does, where both are as far.
 //! assert_eq!(image(&Dual::constant(2.0), &Dual::variable(4.0)).derivative, -1.0);
-//! // A third is no float; where the image is for certain, is known all the same.
+//! // 1/3 is not a float; the ball contains the exact result all the same.
 //! let third = Ball::exactly(1.0) / Ball::exactly(3.0);
 //! assert!(image(&third, &Ball::exactly(1.0)).is_finite());
 //! ```
 //!
 //! # Features
 //!
-//! - `mpfr`: MPFR floats, exact rationals, reading numbers. Builds GMP and MPFR from source by way of rug, which
-//!   is LGPL-3.0-or-later.
+//! - `mpfr`: MPFR floats, exact rationals, reading numbers. Builds GMP and MPFR from source by way of rug,
+//!   which is LGPL-3.0-or-later.
 //! - `prover` (default): the modules `formula` and `proof`. What it opens may change with any minor version.
 //! - `serde`: numbers are serialised as texts, so that nothing is lost.
 //! - `gmp-untested` (default): leaves out GMP's and MPFR's own test suites, which take minutes.
