@@ -24,9 +24,9 @@
 //! The first three are what a user needs, and keep their promises by semantic versioning. The others are
 //! open with the feature `prover`, and what they open may change with any minor version.
 //!
-//! `number`, `formula` and `proof` are those of [`provable`], an engine that knows no mechanics, and serves any
-//! other formulas as well; `chapter` and `solver` are the mechanics, and know no proofs; `claims` joins them.
-//! A test holds every module to that.
+//! `number`, `formula` and `proof` are those of [`provable`], an engine that knows no mechanics, and serves
+//! any other formulas as well; `chapter` and `solver` are the mechanics, and know no proofs; `claims` joins
+//! them. A test holds every module to that.
 //!
 //! ```
 //! use spring_mass_contact::chapter::SpringMass;
