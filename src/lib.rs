@@ -14,7 +14,7 @@
 #![cfg_attr(
     feature = "prover",
     doc = "\
-| [`formula`] | records as data: typeset, compiled, and what is said of them | `proof`, `claims` |
+| [`formula`] | records as data: typeset, and what is said of them | `proof`, `claims` |
 | [`proof`] | proves what is claimed of formulas, refutes what is wrong, prints both | `verify` |
 | [`claims`](mod@claims) | the chapter as data, and what is claimed of it | `verify` |
 | [`verify`](mod@verify) | runs proofs and number systems | the command `contact` |
@@ -24,9 +24,9 @@
 //! The first three are what a user needs, and keep their promises by semantic versioning. The others are
 //! open with the feature `prover`, and what they open may change with any minor version.
 //!
-//! `number`, `formula` and `proof` are an engine that knows no mechanics, and serves any other formulas as
-//! well; `chapter` and `solver` are the mechanics, and know no proofs; `claims` joins them. A test holds
-//! every module to that.
+//! `number`, `formula` and `proof` are those of [`provable`], an engine that knows no mechanics, and serves
+//! any other formulas as well; `chapter` and `solver` are the mechanics, and know no proofs; `claims` joins
+//! them. A test holds every module to that.
 //!
 //! ```
 //! use spring_mass_contact::chapter::SpringMass;
@@ -65,26 +65,20 @@ pub mod chapter;
 pub mod check;
 #[cfg(feature = "prover")]
 pub mod claims;
-#[cfg(feature = "prover")]
-pub mod formula;
-pub mod number;
-#[cfg(feature = "prover")]
-pub mod proof;
 pub mod solver;
 #[cfg(feature = "prover")]
 pub mod verify;
 
-/// What the solver needs of it.
-#[cfg(not(feature = "prover"))]
-mod formula {
-    #[expect(dead_code, reason = "the solver runs programs in rounds only")]
-    #[allow(rustdoc::private_doc_tests)]
-    mod program;
-    pub(crate) use program::{Program, Rounds};
-}
+#[doc(inline)]
+pub use provable::{number, operators};
 
 #[cfg(feature = "mpfr")]
-pub use rug;
+#[doc(no_inline)]
+pub use provable::rug;
+
+#[cfg(feature = "prover")]
+#[doc(inline)]
+pub use provable::{formula, proof};
 
 #[cfg(all(doctest, feature = "mpfr"))]
 #[doc = include_str!("../README.md")]

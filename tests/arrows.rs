@@ -1,5 +1,6 @@
-//! Each room of the house knows only those that it may: the engine (number, formula, proof) knows no mechanics, the mechanics
-//! (number, chapter, solver) no proofs, and both are joined by claims and verify.
+//! Each room of the house knows only those that it may: the mechanics (chapter, solver) know no proofs; claims and verify
+//! join them. That the engine (number, formula, proof) knows no mechanics cargo sees to: it is a crate of its own, whose
+//! kernel is held to less than that here.
 //!
 //! Sources are read as tokens: names in comments, in strings and in the docs are no arrows, names within macros are.
 
@@ -18,17 +19,20 @@ const KNOWS: [(&str, &[&str]); 9] = [
     ("formula", &["number"]),
     ("proof", &["number", "formula"]),
     ("chapter", &["number"]),
-    ("solver", &["number", "formula", "chapter"]),
+    ("solver", &["number", "chapter"]),
     ("claims", &["number", "formula", "chapter"]),
     ("verify", &["number", "formula", "proof", "chapter", "solver", "claims"]),
     ("check", &["number", "formula", "proof", "chapter", "solver", "claims"]),
     ("bin", &["number", "formula", "proof", "chapter", "solver", "claims", "verify", "check"]),
 ];
 
-/// The folders of the map under `src`, in its order.
-fn rooms() -> Vec<String> {
+/// Where the rooms of the engine are, and those of what is built with it.
+const SOURCES: [&str; 2] = ["engine/src", "src"];
+
+/// The folders of the map under one of these, in its order.
+fn rooms(sources: &str) -> Vec<String> {
     let map = source("README.md");
-    let lines = map.lines().filter_map(|line| line.strip_prefix("src/"));
+    let lines = map.lines().filter_map(|line| line.strip_prefix(sources)?.strip_prefix('/'));
     lines.map(|line| line.split_whitespace().next().unwrap().to_string()).collect()
 }
 
@@ -37,8 +41,9 @@ fn files(folder: &Path) -> Vec<PathBuf> {
     paths.flat_map(|path| if path.is_dir() { files(&path) } else { vec![path] }).collect()
 }
 
-/// The module that a file below `src` is.
+/// The module that a file is.
 fn module(path: &str) -> Vec<String> {
+    let path = SOURCES.iter().find_map(|sources| path.strip_prefix(sources)?.strip_prefix('/')).unwrap();
     let path = path.trim_end_matches(".rs").trim_end_matches("/mod");
     path.split('/').map(String::from).collect()
 }
@@ -71,7 +76,7 @@ fn ends(start: &[String], path: &[TokenTree]) -> Vec<Vec<String>> {
     }
 }
 
-/// Where the paths in these tokens lead that begin with the crate's name, `crate`, `super` or `self`.
+/// Where the paths in these tokens lead that begin with a name of the crate or the engine, `super` or `self`.
 fn paths(tokens: TokenStream, own: &[String], krate: &str) -> Vec<Vec<String>> {
     let tokens: Vec<_> = tokens.into_iter().collect();
     let mut found = Vec::new();
@@ -84,7 +89,9 @@ fn paths(tokens: TokenStream, own: &[String], krate: &str) -> Vec<Vec<String>> {
                 }
                 let rest = after_colons(&tokens[i + 1..]);
                 match (name.to_string().as_str(), rest) {
-                    (start, Some(rest)) if start == krate => found.extend(ends(&[], rest)),
+                    (start, Some(rest)) if [krate, "provable"].contains(&start) => {
+                        found.extend(ends(&[], rest))
+                    }
                     ("self", Some(rest)) => found.extend(ends(own, rest)),
                     ("super", Some(_)) => found.extend(ends(own, &tokens[i..])),
                     _ => {}
@@ -105,10 +112,10 @@ fn paths(tokens: TokenStream, own: &[String], krate: &str) -> Vec<Vec<String>> {
     found
 }
 
-/// Names at the crate's root that are no rooms: a macro of `number`, and a crate that is passed on.
+/// Names at the crate's root that are no rooms: macros of `number`, and a crate that is passed on.
 fn room_of(name: &str) -> Option<&str> {
     match name {
-        "operators" => Some("number"),
+        "operators" | "serialize_as_displayed" => Some("number"),
         "rug" => None,
         other => Some(other),
     }
@@ -119,33 +126,38 @@ fn wrong_arrows(path: &str, text: &str) -> Vec<String> {
     let known = |name: &str| KNOWS.iter().find(|(room, _)| *room == name).map(|(_, known)| *known);
     let own = module(path);
     let knows = known(&own[0]).unwrap_or_else(|| {
-        panic!("src/{path} is in no room: add its own to KNOWS in tests/arrows.rs and to README.md")
+        panic!("{path} is in no room: add its own to KNOWS in tests/arrows.rs and to README.md")
     });
     // The command is a crate of its own.
     let krate = if own[0] == "bin" { "spring_mass_contact" } else { "crate" };
-    let tokens = text.parse().unwrap_or_else(|error| panic!("src/{path}: {error}"));
+    let tokens = text.parse().unwrap_or_else(|error| panic!("{path}: {error}"));
     let mut wrong: Vec<_> = paths(tokens, &own, krate)
         .into_iter()
         .filter(|target| {
             target.first().and_then(|name| room_of(name)).is_some_and(|name| {
-                assert!(known(name).is_some(), "src/{path} names {name}, which is in no room");
+                assert!(known(name).is_some(), "{path} names {name}, which is in no room");
                 name != own[0] && !knows.contains(&name)
             })
         })
-        .map(|target| format!("src/{path} knows {}", target.join("::")))
+        .map(|target| format!("{path} knows {}", target.join("::")))
         .collect();
     wrong.dedup();
     wrong
 }
 
+/// The files of the engine and of what is built with it, by their paths in the project.
+fn sources() -> Vec<String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let files = SOURCES.iter().flat_map(|sources| files(&root.join(sources)));
+    files.map(|file| file.strip_prefix(root).unwrap().to_str().unwrap().replace('\\', "/")).collect()
+}
+
 #[test]
 fn each_room_knows_only_those_that_it_may() {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let (mut wrong, mut seen) = (Vec::new(), BTreeSet::new());
-    for file in files(&src) {
-        let path = file.strip_prefix(&src).unwrap().to_str().unwrap().replace('\\', "/");
-        if path.ends_with(".rs") && path != "lib.rs" {
-            wrong.extend(wrong_arrows(&path, &source(&file)));
+    for path in sources() {
+        if path.ends_with(".rs") && !path.ends_with("src/lib.rs") {
+            wrong.extend(wrong_arrows(&path, &source(&path)));
             seen.insert(module(&path)[0].clone());
         }
     }
@@ -159,36 +171,38 @@ fn each_room_knows_only_those_that_it_may() {
 
 #[test]
 fn the_map_has_every_room() {
-    let root = source("src/lib.rs");
-    let declared = root.lines().filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';'));
-    let mut declared: Vec<_> = declared.map(String::from).chain(["bin".to_string()]).collect();
-    let mut rooms = rooms();
-    // The table in the docs of the crate's root has them in the same order.
-    let places: Vec<_> = rooms.iter().filter_map(|room| root.find(&format!("| [`{room}`]"))).collect();
-    assert!(
-        places.is_sorted() && places.len() >= 4,
-        "the table in src/lib.rs has its rows in another order than the map in README.md"
-    );
-    declared.sort();
-    rooms.sort();
+    let mut all = Vec::new();
+    for sources in SOURCES {
+        let root = source(format!("{sources}/lib.rs"));
+        let declared = root.lines().filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';'));
+        let command = (sources == "src").then_some("bin");
+        let declared: BTreeSet<_> = declared.chain(command).map(String::from).collect();
+        let rooms = rooms(sources);
+        // The table in the docs of the crate's root has them in the same order.
+        let places: Vec<_> = rooms.iter().filter_map(|room| root.find(&format!("| [`{room}`]"))).collect();
+        assert!(
+            places.is_sorted() && places.len() >= 2,
+            "the table in {sources}/lib.rs has its rows in another order than the map in README.md"
+        );
+        assert_eq!(
+            rooms.iter().cloned().collect::<BTreeSet<_>>(),
+            declared,
+            "each side has to have all: the rooms on the map in README.md, and the modules that {sources}/lib.rs declares"
+        );
+        all.extend(rooms);
+    }
+    let known: BTreeSet<_> = KNOWS.iter().map(|(room, _)| room.to_string()).collect();
     assert_eq!(
-        rooms, declared,
-        "each side has to have all: the rooms on the map in README.md, and the modules that src/lib.rs declares"
-    );
-    let mut known: Vec<_> = KNOWS.iter().map(|(room, _)| room.to_string()).collect();
-    known.sort();
-    assert_eq!(
-        rooms, known,
+        all.into_iter().collect::<BTreeSet<_>>(),
+        known,
         "each side has to have all: the rooms on the map in README.md, and those of the list KNOWS in this test"
     );
 }
 
-/// The kernel's files, by their paths below `src`.
+/// The kernel's files.
 fn kernel() -> Vec<String> {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let inside = files(&src.join("proof/kernel"));
-    let path = |file: &PathBuf| file.strip_prefix(&src).unwrap().to_str().unwrap().replace('\\', "/");
-    inside.iter().map(path).chain(["proof/kernel.rs".to_string()]).collect()
+    let kernel = |path: &String| path.starts_with("engine/src/proof/kernel");
+    sources().into_iter().filter(kernel).collect()
 }
 
 #[test]
@@ -196,7 +210,7 @@ fn the_kernel_knows_numbers_and_statements_alone() {
     // Whoever reads what has to be trusted need read nothing else of `proof`.
     let mut known = BTreeSet::new();
     for path in kernel() {
-        known.extend(paths(source(format!("src/{path}")).parse().unwrap(), &module(&path), "crate"));
+        known.extend(paths(source(&path).parse().unwrap(), &module(&path), "crate"));
     }
     // `proof` by itself is how far a function can be seen.
     let allowed = ["formula", "number", "operators", "proof", "proof::kernel"];
@@ -214,12 +228,14 @@ fn the_kernel_knows_numbers_and_statements_alone() {
 fn nothing_outside_the_kernel_sees_the_fields_that_proofs_are_made_of() {
     let mut structures = Vec::new();
     for path in kernel() {
-        for item in syn::parse_file(&source(format!("src/{path}"))).unwrap().items {
+        for item in syn::parse_file(&source(&path)).unwrap().items {
             let syn::Item::Struct(item) = item else { continue };
             for field in &item.fields {
                 let sealed = match &field.vis {
                     syn::Visibility::Inherited => true,
-                    syn::Visibility::Restricted(to) => path != "proof/kernel.rs" && to.path.is_ident("super"),
+                    syn::Visibility::Restricted(to) => {
+                        path != "engine/src/proof/kernel.rs" && to.path.is_ident("super")
+                    }
                     syn::Visibility::Public(_) => false,
                 };
                 // A symbol is a name, of which nothing is claimed.
@@ -239,6 +255,7 @@ fn arrows_are_found_wherever_they_are_written() {
     let wrong = |path: &str, text: &str| wrong_arrows(path, text).len();
     for text in [
         "use crate::solver::solve;",
+        "use provable::formula::Statement;",
         "use crate::{number::Exact, solver};",
         "use crate::{number::{Exact, Field}, claims::{Case, Given}};",
         "pub(crate) use super::super::verify;",
@@ -248,7 +265,7 @@ fn arrows_are_found_wherever_they_are_written() {
         "fn f() { println!(\"{}\", super::super::claims::entries().len()) }",
         "mod tests { use super::super::super::proof; }",
     ] {
-        assert_eq!(wrong("chapter/penalty.rs", text), 1, "{text}");
+        assert_eq!(wrong("src/chapter/penalty.rs", text), 1, "{text}");
     }
     for text in [
         "use crate::number::Field;",
@@ -261,16 +278,16 @@ fn arrows_are_found_wherever_they_are_written() {
         "pub(crate) fn f() { other::crate_::solver(); }",
         "mod tests { use super::*; use super::super::contact; }",
     ] {
-        assert_eq!(wrong("chapter/penalty.rs", text), 0, "{text}");
+        assert_eq!(wrong("src/chapter/penalty.rs", text), 0, "{text}");
     }
-    assert_eq!(wrong("chapter/mod.rs", "use super::solver;"), 1);
-    assert_eq!(wrong("solver.rs", "use super::claims;"), 1);
+    assert_eq!(wrong("src/chapter/mod.rs", "use super::solver;"), 1);
+    assert_eq!(wrong("src/solver.rs", "use super::claims;"), 1);
     for text in
         ["use crate::chapter::system;", "use crate::claims::given;", "use super::super::solver::solve;"]
     {
-        assert_eq!(wrong("proof/kernel.rs", text), 1, "{text}");
+        assert_eq!(wrong("engine/src/proof/kernel.rs", text), 1, "{text}");
     }
-    assert_eq!(wrong("proof/kernel.rs", "use crate::formula::{Claim, statement};"), 0);
-    assert_eq!(wrong("solver.rs", "use self::check::claims;"), 0);
-    assert_eq!(wrong("bin/contact/main.rs", "use spring_mass_contact::verify; use crate::claims;"), 0);
+    assert_eq!(wrong("engine/src/proof/kernel.rs", "use crate::formula::{Claim, statement};"), 0);
+    assert_eq!(wrong("src/solver.rs", "use self::check::claims;"), 0);
+    assert_eq!(wrong("src/bin/contact/main.rs", "use spring_mass_contact::verify; use crate::claims;"), 0);
 }

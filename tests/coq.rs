@@ -2,61 +2,26 @@
 
 #![cfg(feature = "prover")]
 
+mod coqc;
 mod gallina;
-#[path = "coq/shapes.rs"]
-mod shapes;
-#[allow(dead_code)]
-#[path = "../examples/springs.rs"]
-mod springs;
 
+use coqc::{accepts, code, compile, has_libraries, named, of_claims, scratch, two_at_a_time, version, words};
 use gallina::{
-    Definition, Function, Functions, Read, Recursion, Said, TRIALS, Theorem, code, drawn, functions, stated,
-    value,
+    Definition, Function, Functions, Read, Recursion, Said, TRIALS, Theorem, drawn, functions, stated, value,
 };
 use spring_mass_contact::claims::{registry, statements};
 use spring_mass_contact::formula::claim::{MEMBERS, PRECISION, SCALES};
 use spring_mass_contact::formula::statement::{
     Computed, Goal, Proposition, Role, Sequence, Statement, minimum_precision,
 };
-use spring_mass_contact::formula::{Hypothesis, Registry, Relation};
+use spring_mass_contact::formula::{Hypothesis, Relation};
 use spring_mass_contact::number::tree::Step;
 use spring_mass_contact::number::{Field, PositivePart, Tree};
-use spring_mass_contact::proof::coq::{Development, File, Placed, theorem_name};
-use spring_mass_contact::proof::prove;
+use spring_mass_contact::proof::coq::{File, theorem_name};
 use spring_mass_contact::verify::coq;
 use std::collections::BTreeSet;
-use std::io::Write;
-use std::path::{Path, PathBuf};
-use std::process::Command;
-use std::sync::Mutex;
-use std::{fs, thread};
-
-/// The axioms that Coq's real numbers rest on, and nothing else may.
-const AXIOMS: [&str; 4] = [
-    // Of a property of natural numbers that can be decided one by one, either all have it or one is found that
-    // has it not: with it, Dedekind's cuts can be compared.
-    "ClassicalDedekindReals.sig_forall_dec",
-    // What is not impossible is so, or it is not: a cut is a set that may ask anything.
-    "ClassicalDedekindReals.sig_not_dec",
-    // Functions with the same values are the same: cuts are functions.
-    "FunctionalExtensionality.functional_extensionality_dep",
-    // Every statement holds or does not: Coquelicot's limits and derivatives are of classical analysis.
-    "Classical_Prop.classic",
-];
-
-fn words(text: &str) -> impl Iterator<Item = &str> {
-    text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').filter(|word| !word.is_empty())
-}
-
-/// The names that a keyword introduces.
-fn named<'t>(text: &'t str, keyword: &str) -> Vec<&'t str> {
-    let all: Vec<_> = words(text).collect();
-    all.windows(2).filter(|pair| pair[0] == keyword).map(|pair| pair[1]).collect()
-}
-
-fn of_claims(files: &[File]) -> impl Iterator<Item = &File> {
-    files.iter().filter(|file| file.name.starts_with("C_"))
-}
+use std::fs;
+use std::path::Path;
 
 #[test]
 fn every_claim_is_a_theorem() {
@@ -520,177 +485,9 @@ fn nothing_is_taken_for_granted() {
     }
 }
 
-/// A directory for one test.
-fn scratch(name: &str) -> PathBuf {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("coq-{name}"));
-    let _ = fs::remove_dir_all(&path);
-    fs::create_dir_all(&path).unwrap();
-    path
-}
-
-/// Past the test harness, which keeps what a passing test prints to itself.
-fn say(line: &str) {
-    let _ = writeln!(std::io::stderr(), "{line}");
-}
-
-/// The version of the Coq that is installed, if one is.
-fn version() -> Option<String> {
-    let output = Command::new("coqc").arg("--version").output().ok();
-    let found = output.filter(|output| output.status.success());
-    if found.is_none() {
-        say("skipped: coqc is not installed (./setup --provers installs it), so Coq checks nothing here");
-    }
-    found.map(|output| String::from_utf8_lossy(&output.stdout).into_owned())
-}
-
-/// Are the libraries there? They are if what needs them compiles, in a directory for this name.
-fn has_libraries(name: &str) -> bool {
-    let directory = scratch(&format!("{name}-libraries"));
-    [("Coquelicot", "Coquelicot"), ("Flocq", "Core")].into_iter().all(|(library, module)| {
-        fs::write(directory.join("Try.v"), format!("From {library} Require {module}.\n")).unwrap();
-        let found = compile(&directory, "Try.v").is_ok();
-        if !found {
-            say(&format!(
-                "skipped: coqc has no {library} (./setup --provers installs it), so Coq checks nothing here"
-            ));
-        }
-        found
-    })
-}
-
-/// What Coq says of a file: its output, or its error.
-fn compile(directory: &Path, file: &str) -> Result<String, String> {
-    // Coquelicot warns of a coercion of its own.
-    let output =
-        Command::new("coqc").args(["-w", "none", "-R", ".", "Contact", file]).current_dir(directory).output();
-    let output = output.unwrap();
-    let text = |bytes: Vec<u8>| String::from_utf8_lossy(&bytes).into_owned();
-    if output.status.success() { Ok(text(output.stdout)) } else { Err(text(output.stderr)) }
-}
-
-/// Does all jobs, two at a time, in their order.
-fn two_at_a_time<J: Sync, R: Send>(jobs: &[J], work: impl Fn(&J) -> R + Sync) -> Vec<R> {
-    let (next, done) = (Mutex::new(0..jobs.len()), Mutex::new(Vec::new()));
-    thread::scope(|scope| {
-        for _ in 0..2 {
-            scope.spawn(|| {
-                loop {
-                    let Some(i) = next.lock().unwrap().next() else { break };
-                    let result = work(&jobs[i]);
-                    done.lock().unwrap().push((i, result));
-                }
-            });
-        }
-    });
-    let mut done = done.into_inner().unwrap();
-    done.sort_by_key(|(i, _)| *i);
-    done.into_iter().map(|(_, result)| result).collect()
-}
-
-/// The names of axioms in what `Print Assumptions` prints.
-fn axioms(printed: &str) -> BTreeSet<&str> {
-    let (_, list) = printed.split_once("Axioms:").unwrap_or_default();
-    let names = list.lines().filter(|line| line.starts_with(|c: char| c.is_ascii_alphabetic()));
-    names.filter_map(|line| line.split_whitespace().next()).collect()
-}
-
-/// The files that a file needs: of those that belong together, what it requires.
-fn needs(file: &File) -> Vec<String> {
-    let text = code(&file.text);
-    let required = text.split("From Contact Require").skip(1).filter_map(|rest| rest.split(".\n").next());
-    let names = required.flat_map(words).filter(|word| *word != "Import");
-    names.map(|name| format!("{name}.v")).collect()
-}
-
-/// Coq accepts all of it. What this Coq has accepted it is not asked again while that, and what it needs, stays as it is.
-fn accepts(name: &str, development: &Development) {
-    let Some(version) = version() else { return };
-    let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("coq-{name}"));
-    let mark = |file: &File| directory.join(&file.name).with_extension("accepted");
-    let marked = |file: &File| version.clone() + &file.text;
-    let mut done: BTreeSet<String> = BTreeSet::new();
-    let mut files = development.files();
-    files.retain(|file| {
-        let accepted = fs::read_to_string(mark(file)).is_ok_and(|before| before == marked(file));
-        let stays = accepted && needs(file).iter().all(|name| done.contains(name));
-        if stays {
-            done.insert(file.name.clone());
-        } else {
-            let _ = fs::remove_file(mark(file));
-        }
-        !stays
-    });
-    if files.is_empty() {
-        say("not a word has changed since Coq accepted it");
-        return;
-    }
-    if !has_libraries(name) {
-        return;
-    }
-    development.write(&directory).unwrap();
-    while !files.is_empty() {
-        let ready = |file: &File| needs(file).iter().all(|name| done.contains(name));
-        let (mut now, later): (Vec<_>, Vec<_>) = files.into_iter().partition(ready);
-        // The longest first, so that none is left over at the end.
-        now.sort_by_key(|file| std::cmp::Reverse(file.text.len()));
-        assert!(!now.is_empty(), "{:?} import each other", later.iter().map(|f| &f.name).collect::<Vec<_>>());
-        let results = two_at_a_time(&now, |file| compile(&directory, &file.name));
-        for (file, result) in now.iter().zip(results) {
-            let printed = result.unwrap_or_else(|error| panic!("{error}"));
-            let axioms = axioms(&printed);
-            assert_eq!(
-                !axioms.is_empty(),
-                file.text.contains("Print Assumptions"),
-                "{}: {printed}",
-                file.name
-            );
-            let unknown: Vec<_> = axioms.iter().filter(|axiom| !AXIOMS.contains(axiom)).collect();
-            assert!(unknown.is_empty(), "new axioms: {unknown:?}");
-            fs::write(mark(file), marked(file)).unwrap();
-            done.insert(file.name.clone());
-        }
-        files = later;
-    }
-}
-
 #[test]
 fn coq_accepts_everything() {
-    accepts("everything", coq());
-}
-
-/// What the engine makes of formulas that are not the chapter's.
-#[test]
-fn coq_accepts_the_springs_in_series() {
-    let (registry, claims) = (springs::registry(), springs::claims());
-    let development = springs::coq(&registry, &claims);
-    let theorems: Vec<_> =
-        of_claims(&development.files()).flat_map(|f| named(&f.text, "Theorem")).map(String::from).collect();
-    assert_eq!((theorems.len(), development.left_out().len()), (claims.len(), 0));
-    assert_eq!(development.flips().len(), 1, "the sign of a + b");
-    accepts("springs", &development);
-}
-
-/// Those of which no theorem is written are said to be left out, and all others are accepted.
-#[test]
-fn coq_accepts_divisors_of_any_shape() {
-    let claims = shapes::claims();
-    for claim in &claims {
-        let proof = prove(claim);
-        assert!(proof.is_ok(), "{}: {}", claim.name(), proof.unwrap_err());
-    }
-    let registry = Registry::new(&["a", "b", "c", "d", "f", "g", "x", "y"], Vec::new());
-    let placed = claims.iter().map(|claim| Placed { claim, section: "shapes", functions: &[] });
-    let development = Development::new(&registry, placed);
-    let left_out: Vec<_> = development.left_out().iter().map(|left| left.name).collect();
-    assert_eq!(left_out, ["between", "square", "exponential"], "{:?}", development.left_out());
-    accepts("shapes", &development);
-}
-
-#[test]
-fn axioms_are_read() {
-    let printed = "Axioms:\nA.one : forall P : Prop,\n  P\nB.two\n  : nat\n";
-    assert_eq!(axioms(printed).into_iter().collect::<Vec<_>>(), ["A.one", "B.two"]);
-    assert!(axioms("Closed under the global context\n").is_empty());
+    accepts("everything", "Contact", coq());
 }
 
 /// The theorem or lemma that a line of a file belongs to.
@@ -705,7 +502,7 @@ fn theorem_at(text: &str, line: usize) -> Option<&str> {
 /// It has to be a theorem that is refused, not a definition that Coq cannot read, nor a name that the file lacks.
 fn refused(directory: &Path, File { name, text }: &File) -> Option<String> {
     fs::write(directory.join(name), text).unwrap();
-    let error = compile(directory, name).err()?;
+    let error = compile(directory, "Contact", name).err()?;
     let line = error.split_once(", line ").and_then(|(_, rest)| rest.split(',').next()?.parse().ok());
     let theorem = line.and_then(|line| theorem_at(text, line));
     let unread = ["Syntax error", "not found in the current environment"];
@@ -725,7 +522,7 @@ fn coq_refuses_a_changed_sign() {
     let directory = scratch("signs");
     for File { name, text } in coq().files().iter().filter(|file| file.name.starts_with(['A', 'B'])) {
         fs::write(directory.join(name), text).unwrap();
-        compile(&directory, name).unwrap_or_else(|error| panic!("{error}"));
+        compile(&directory, "Contact", name).unwrap_or_else(|error| panic!("{error}"));
     }
     let flips = coq().flips();
     let refused = two_at_a_time(&flips, |flip| refused(&directory, &flip.file));

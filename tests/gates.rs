@@ -433,10 +433,16 @@ fn files(folder: &str) -> Vec<String> {
     entries.flat_map(of).collect()
 }
 
+/// Those of the package and of the engine in one of their folders. The packed crate has its own alone.
+fn of_both(folder: &str) -> Vec<String> {
+    let engine = if is_packed() { vec![] } else { files(&format!("engine/{folder}")) };
+    files(folder).into_iter().chain(engine).collect()
+}
+
 /// What no `mod` names is never compiled, and its tests fail nowhere.
 #[test]
 fn every_file_belongs_to_a_module() {
-    let (mut paths, tests) = (files("src"), files("tests"));
+    let (mut paths, tests) = (of_both("src"), of_both("tests"));
     // What stands beside a `main.rs` belongs to its target.
     let targets: Vec<_> = tests.iter().filter_map(|path| path.strip_suffix("main.rs")).collect();
     paths.extend(tests.iter().filter(|path| targets.iter().any(|target| path.starts_with(target))).cloned());
@@ -458,9 +464,12 @@ fn every_file_belongs_to_a_module() {
 /// A number system that nobody tries may compute anything.
 #[test]
 fn every_number_system_is_held_to_the_laws() {
+    if is_packed() {
+        return eprintln!("the number systems are those of another crate");
+    }
     let text = |folder: &str| files(folder).iter().map(|path| source(path)).collect::<String>();
-    let (numbers, laws) = (text("tests/numbers"), source("tests/solver/laws.rs"));
-    let ours = text("src/number") + &source("src/solver/scalar.rs");
+    let (numbers, laws) = (text("engine/tests/numbers"), source("tests/solver/laws.rs"));
+    let ours = text("engine/src/number") + &source("src/solver/scalar.rs");
     let name = |rest: &str| rest.split(['<', ' ', ';']).next().unwrap_or_default().to_string();
     let implementing = |what: &str| -> BTreeSet<String> {
         let implemented = ours.lines().filter(|line| line.starts_with("impl"));
@@ -473,14 +482,14 @@ fn every_number_system_is_held_to_the_laws() {
     tried.insert("Tree".to_string()); // a formula, and no number
     let held: BTreeSet<_> = laws.split(|c: char| !c.is_alphanumeric()).map(String::from).collect();
     let untried = fields.difference(&tried);
-    let untried = untried.map(|field| format!("{field}: no `type Number = {field}` in tests/numbers"));
+    let untried = untried.map(|field| format!("{field}: no `type Number = {field}` in engine/tests/numbers"));
     let lawless = scalars.difference(&held).map(|scalar| format!("{scalar}: not in tests/solver/laws.rs"));
     assert_none(untried.chain(lawless));
 }
 
 #[test]
 fn no_line_of_the_source_is_longer_than_a_reader_likes() {
-    let files = files("src");
+    let files = of_both("src");
     assert!(files.len() > 70, "the scan of src finds {} files", files.len());
     assert_none(files.iter().flat_map(|path| {
         // rustfmt breaks code there, but no text and no comment.
@@ -493,7 +502,7 @@ fn no_line_of_the_source_is_longer_than_a_reader_likes() {
 
 #[test]
 fn no_file_of_the_source_is_longer_than_a_reader_can_hold() {
-    for path in files("src") {
+    for path in of_both("src") {
         let lines = source(&path).lines().count();
         assert!(lines <= 450, "{path} has {lines} lines, and 450 are enough: split it by a noun");
     }
@@ -546,7 +555,8 @@ fn every_planted_edit_is_known_to_be_caught() {
         return eprintln!("the wrong edits are in the repository alone");
     }
     let (patches, mut caught) = (patches(), BTreeSet::new());
-    let text = files("src").into_iter().chain(files("tests")).chain(files("book/tool")).collect::<Vec<_>>();
+    let text =
+        of_both("src").into_iter().chain(of_both("tests")).chain(files("book/tool")).collect::<Vec<_>>();
     let text: Vec<_> = text.iter().filter(|path| path.ends_with(".rs")).map(|path| source(path)).collect();
     let listed = source("tests/planted/caught");
     for line in listed.lines() {
@@ -593,8 +603,10 @@ fn every_target_of_tests_has_a_layer() {
     let map = run.split_once("\nlayers='").and_then(|(_, rest)| rest.split_once('\'')).unwrap().0;
     let listed: BTreeSet<_> = map.lines().filter_map(|line| line.split_whitespace().next()).collect();
     let mut seen = 0;
-    for path in files("tests").into_iter().chain(files("book/tool/tests")) {
-        let path = path.trim_start_matches("book/tool/").trim_start_matches("tests/");
+    for path in of_both("tests").into_iter().chain(files("book/tool/tests")) {
+        let path =
+            ["book/tool/", "engine/"].iter().fold(path.as_str(), |path, of| path.trim_start_matches(of));
+        let path = path.trim_start_matches("tests/");
         let target = path.strip_suffix("/main.rs").or(path.strip_suffix(".rs"));
         if let Some(target) = target.filter(|target| !target.contains('/')) {
             assert!(
@@ -625,8 +637,9 @@ fn every_file_that_a_page_names_exists() {
     for page in pages().into_iter().chain(["README.md", "CONTRIBUTING.md"].map(|name| root().join(name))) {
         let text = fs::read_to_string(&page).unwrap();
         for word in text.split(|c: char| c.is_whitespace() || "`()[]<>\"',".contains(c)) {
-            let named =
-                ["src/", "tests/", "book/", "examples/", ".ci/"].iter().any(|room| word.starts_with(room));
+            let named = ["src/", "engine/", "tests/", "book/", "examples/", ".ci/"]
+                .iter()
+                .any(|room| word.starts_with(room));
             let path = word.split(['#', ':', '*']).next().unwrap().trim_end_matches(['.', ';']);
             if named && !word.contains(['*', '{']) {
                 assert!(root().join(path).exists(), "{} names {path}, which does not exist", page.display());

@@ -47,7 +47,7 @@ const fractions = {
   min: (a, b) => (below(b, a) ? b : a),
 };
 
-// As src/number compares: ⟨−0⟩ is 0, and of two numbers neither of which is smaller the first is taken. To
+// As engine/src/number compares: ⟨−0⟩ is 0, and of two numbers neither of which is smaller the first is taken. To
 // round what f64 computes of two f32 is to round once, since 53 ≥ 2·24 + 2.
 const floats = round => ({
   int: n => round(n),

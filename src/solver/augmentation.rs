@@ -2,9 +2,8 @@
 
 use super::Plane;
 use crate::chapter::{SpringMass, augmented, contact, structure};
-use crate::formula::{Program, Rounds};
 use crate::number::tree::piecewise;
-use crate::number::{OrderedField, PositivePart, Tree};
+use crate::number::{OrderedField, PositivePart, Program, Rounds, Tree};
 use std::mem::replace;
 use std::sync::LazyLock;
 

@@ -11,7 +11,7 @@ pub fn coq() -> &'static Development<'static> {
             let place = |claim| Placed { claim, section: entry.section, functions: &entry.functions };
             entry.claims.iter().map(place)
         });
-        Development::new(registry(), placed).with("D_Iterates", include_str!("iterates.v"))
+        Development::new("Contact", registry(), placed).with("D_Iterates", include_str!("iterates.v"))
     });
     &CHAPTER
 }

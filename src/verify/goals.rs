@@ -2,9 +2,9 @@
 
 use crate::formula::claim::{MEMBERS, POWER};
 use crate::formula::statement::Sequence;
-use crate::formula::{Hypothesis, Program, Proposition, Relation, Statement};
+use crate::formula::{Hypothesis, Proposition, Relation, Statement};
 use crate::number::tree::smooth;
-use crate::number::{PositivePart, Tree};
+use crate::number::{PositivePart, Program, Tree};
 use num_traits::One;
 
 /// What is asked of the values of a [`Program`].

@@ -6,32 +6,12 @@
 
 mod recursion;
 
+use super::coqc::code;
 pub use recursion::Recursion;
 use spring_mass_contact::number::tree::{Step, piecewise};
 use spring_mass_contact::number::{Dual, Exact, Exponential, Field, PositivePart, Tree};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Mutex;
-
-/// Text without comments.
-pub fn code(text: &str) -> String {
-    let (mut depth, mut code) = (0, String::new());
-    let mut rest = text.chars().peekable();
-    while let Some(c) = rest.next() {
-        match (c, rest.peek()) {
-            ('(', Some('*')) => {
-                rest.next();
-                depth += 1;
-            }
-            ('*', Some(')')) if depth > 0 => {
-                rest.next();
-                depth -= 1;
-            }
-            _ if depth == 0 => code.push(c),
-            _ => {}
-        }
-    }
-    code
-}
 
 /// The parts of a text between proofs.
 pub fn stated(text: &str) -> impl Iterator<Item = &str> {

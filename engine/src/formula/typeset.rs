@@ -1,0 +1,430 @@
+//! How a formula is written: one layout for the eye, in two notations.
+//!
+//! The layout says what a formula says and keeps its order, but not its every step: sums and products are
+//! flat, signs stand in front of products and numbers at their head, equal factors are a power, and a factor
+//! 1 or a summand 0 is not written. Brackets are where they are needed and nowhere else.
+
+mod latex;
+mod rounding;
+
+pub use latex::latex;
+pub(crate) use rounding::name_of_rounding;
+
+use self::latex::{script, superscript};
+use crate::number::Tree;
+use crate::number::tree::Step;
+use std::fmt;
+
+/// How symbols and structure become characters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Notation {
+    /// `u = (ε (H − l) + m g) / (c + ε)`
+    Text,
+    /// `u = \frac{\varepsilon\,(H - l) + m\,g}{c + \varepsilon}`
+    Latex,
+}
+
+/// What a part of a formula is called, if it is to be named instead of written out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Name {
+    /// Its symbol, as a text writes it: `Π`, `u_{k−1}`, `λ₀`.
+    pub symbol: String,
+    /// What it is taken of, where that has to be said: the Δ of `Π(Δ)`.
+    pub arguments: Vec<Tree>,
+}
+
+/// The depth of a formula that is written out, at most.
+const MAX_DEPTH: u32 = 1000;
+
+impl Tree {
+    /// The formula in LaTeX.
+    ///
+    /// ```
+    /// use provable::number::{Field, Tree};
+    /// let [c, u] = ["c", "u"].map(|name| Tree::symbol(name));
+    /// assert_eq!((c * &u * &u / Tree::int(2)).latex(), r"\tfrac{1}{2}\,c\,u^2");
+    /// ```
+    pub fn latex(&self) -> String {
+        self.typeset(Notation::Latex, &|_| None)
+    }
+
+    /// The formula, with the parts that `name` knows by their names; its size if it is more than
+    /// 1000 operations deep, which nobody could read.
+    pub fn typeset(&self, notation: Notation, name: &dyn Fn(&Tree) -> Option<Name>) -> String {
+        if self.depth() > MAX_DEPTH {
+            return format!("a formula of {} operations and quantities", self.size());
+        }
+        let sum = Layout { name }.sum(self);
+        Writer { notation, inline: notation == Notation::Text }.sum(&sum)
+    }
+
+    /// The formula in plain text with something above it: `ρᵏ`, `(1 − c)ᵏ`.
+    pub(crate) fn raised(&self, exponent: &str, name: &dyn Fn(&Tree) -> Option<Name>) -> String {
+        let sum = Layout { name }.sum(self);
+        let writer = Writer { notation: Notation::Text, inline: true };
+        let base = match &sum[..] {
+            [term] if !term.negative && term.under.is_one() => {
+                match (&term.over.factors[..], term.over.number) {
+                    ([], _) => Some(writer.term(term)),
+                    ([(factor, 1)], 1) => Some(writer.base(factor)),
+                    _ => None,
+                }
+            }
+            _ => None,
+        };
+        base.unwrap_or_else(|| format!("({})", writer.sum(&sum))) + exponent
+    }
+}
+
+/// The formula as plain text.
+impl fmt::Display for Tree {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(&self.typeset(Notation::Text, &|_| None))
+    }
+}
+
+/// Terms to be added; never empty.
+type Sum = Vec<Term>;
+
+/// A product over another, with its sign.
+#[derive(Clone, PartialEq)]
+struct Term {
+    negative: bool,
+    over: Product,
+    under: Product,
+}
+
+#[derive(Clone, PartialEq)]
+struct Product {
+    number: u64,
+    factors: Vec<(Factor, u32)>,
+}
+
+#[derive(Clone, PartialEq)]
+enum Factor {
+    Name(String, Vec<Sum>),
+    Group(Sum),
+    Exp(Sum),
+    PositivePart(Sum),
+    Size(Sum),
+    Rounded(&'static str, Sum),
+    Extremum(&'static str, [Sum; 2]),
+}
+
+impl Product {
+    fn number(number: u64) -> Self {
+        Product { number, factors: Vec::new() }
+    }
+
+    fn is_one(&self) -> bool {
+        self.number == 1 && self.factors.is_empty()
+    }
+
+    fn pieces(&self) -> usize {
+        self.factors.len() + usize::from(self.number != 1)
+    }
+
+    fn push(&mut self, factor: Factor, power: u32) {
+        match self.factors.iter_mut().find(|(own, _)| *own == factor) {
+            Some((_, own)) => *own += power,
+            None => self.factors.push((factor, power)),
+        }
+    }
+
+    fn multiply(&mut self, other: Product) {
+        match self.number.checked_mul(other.number) {
+            Some(number) => self.number = number,
+            None => self.push(Factor::Group(vec![Term::over(Product::number(other.number))]), 1),
+        }
+        other.factors.into_iter().for_each(|(factor, power)| self.push(factor, power));
+    }
+}
+
+impl Term {
+    fn over(over: Product) -> Self {
+        Term { negative: false, over, under: Product::number(1) }
+    }
+
+    fn of(factor: Factor, power: u32) -> Self {
+        Term::over(Product { number: 1, factors: vec![(factor, power)] })
+    }
+
+    fn negated(self) -> Self {
+        Term { negative: !self.negative, ..self }
+    }
+
+    fn inverse(self) -> Self {
+        Term { over: self.under, under: self.over, ..self }
+    }
+
+    fn times(mut self, other: Term) -> Self {
+        self.negative ^= other.negative;
+        self.over.multiply(other.over);
+        self.under.multiply(other.under);
+        let (mut a, mut b) = (self.over.number, self.under.number);
+        while b != 0 {
+            (a, b) = (b, a % b);
+        }
+        if self.under.number != 0 {
+            self.over.number /= a;
+            self.under.number /= a;
+        }
+        if self.is_zero() { Term::over(Product::number(0)) } else { self }
+    }
+
+    fn is_zero(&self) -> bool {
+        self.over.number == 0 && self.under.number != 0
+    }
+
+    /// Its only factor, if it is nothing else.
+    fn only(&self) -> Option<&Factor> {
+        match &self.over.factors[..] {
+            [(factor, 1)] if self.over.number == 1 && self.under.is_one() => Some(factor),
+            _ => None,
+        }
+    }
+}
+
+/// The x of −min(−x, x), which is |x|: what is negated.
+fn size(negated: &Tree) -> Option<&Tree> {
+    match negated.step() {
+        Step::Min(y, x) if matches!(y.step(), Step::Neg(z) if z == x) => Some(x),
+        _ => None,
+    }
+}
+
+/// Arranges what is to be written.
+struct Layout<'a> {
+    name: &'a dyn Fn(&Tree) -> Option<Name>,
+}
+
+impl Layout<'_> {
+    fn sum(&self, tree: &Tree) -> Sum {
+        let mut sum = Vec::new();
+        self.collect(tree, false, &mut sum);
+        if sum.iter().all(Term::is_zero) {
+            return vec![Term::over(Product::number(0))];
+        }
+        sum.retain(|term| !term.is_zero());
+        // −min(−a, b) reads better as max(a, −b).
+        if let [term] = &mut sum[..]
+            && term.negative
+            && let Some(Factor::Extremum("min", [a, b])) = term.only()
+            && (a[0].negative || b[0].negative)
+        {
+            let negated = |sum: &Sum| sum.iter().cloned().map(Term::negated).collect();
+            *term = Term::of(Factor::Extremum("max", [negated(a), negated(b)]), 1);
+        }
+        sum
+    }
+
+    fn collect(&self, tree: &Tree, negative: bool, sum: &mut Sum) {
+        match tree.step() {
+            _ if (self.name)(tree).is_some() => {}
+            Step::Add(a, b) => {
+                self.collect(a, negative, sum);
+                return self.collect(b, negative, sum);
+            }
+            Step::Sub(a, b) => {
+                self.collect(a, negative, sum);
+                return self.collect(b, !negative, sum);
+            }
+            _ => {}
+        }
+        let mut term = self.term(tree);
+        term.negative ^= negative;
+        match term.only() {
+            // What is left of 1 (a + b).
+            Some(Factor::Group(inner)) => {
+                sum.extend(inner.iter().cloned().map(|t| Term { negative: t.negative ^ term.negative, ..t }))
+            }
+            _ => sum.push(term),
+        }
+    }
+
+    fn term(&self, tree: &Tree) -> Term {
+        if let Some(Name { symbol, arguments }) = (self.name)(tree) {
+            let arguments = arguments.iter().map(|argument| self.sum(argument)).collect();
+            return Term::of(Factor::Name(symbol, arguments), 1);
+        }
+        match tree.step() {
+            Step::Symbol(name) => Term::of(Factor::Name(name.to_string(), Vec::new()), 1),
+            Step::Int(n) => {
+                let number = Term::over(Product::number(n.unsigned_abs().into()));
+                Term { negative: *n < 0, ..number }
+            }
+            Step::Neg(a) => match size(a) {
+                Some(a) => Term::of(Factor::Size(self.sum(a)), 1),
+                None => self.term(a).negated(),
+            },
+            Step::Add(..) | Step::Sub(..) => match <[Term; 1]>::try_from(self.sum(tree)) {
+                Ok([term]) => term,
+                Err(sum) => Term::of(Factor::Group(sum), 1),
+            },
+            Step::Mul(a, b) => {
+                let (first, second) = (self.term(a), self.term(b));
+                // The square of a product stays one: (m g)² and not m² g².
+                if a == b && first.over.pieces() + first.under.pieces() > 1 {
+                    return Term::of(Factor::Group(vec![Term { negative: false, ..first }]), 2);
+                }
+                first.times(second)
+            }
+            Step::Div(a, b) => self.term(a).times(self.term(b).inverse()),
+            Step::Exp(a) => Term::of(Factor::Exp(self.sum(a)), 1),
+            Step::PositivePart(a) => Term::of(Factor::PositivePart(self.sum(a)), 1),
+            Step::Min(a, b) => Term::of(Factor::Extremum("min", [self.sum(a), self.sum(b)]), 1),
+            Step::Rounded(of) => {
+                let (name, of) = rounding::brackets(of);
+                Term::of(Factor::Rounded(name, self.sum(&of)), 1)
+            }
+        }
+    }
+}
+
+/// Writes what is arranged.
+#[derive(Clone, Copy)]
+struct Writer {
+    notation: Notation,
+    /// With a / b for fractions: in a line of text, and where LaTeX's would become too small.
+    inline: bool,
+}
+
+impl Writer {
+    fn is_latex(self) -> bool {
+        self.notation == Notation::Latex
+    }
+
+    fn small(self) -> Self {
+        Writer { inline: true, ..self }
+    }
+
+    fn sum(self, sum: &Sum) -> String {
+        let minus = if self.is_latex() { '-' } else { '−' };
+        let mut text = String::new();
+        for (i, term) in sum.iter().enumerate() {
+            text += &match (i, term.negative) {
+                (0, false) => String::new(),
+                (0, true) => minus.to_string(),
+                (_, false) => " + ".to_string(),
+                (_, true) => format!(" {minus} "),
+            };
+            text += &self.term(term);
+        }
+        text
+    }
+
+    fn term(self, Term { over, under, .. }: &Term) -> String {
+        if under.is_one() {
+            return self.product(over);
+        }
+        if self.inline {
+            let brackets = under.pieces() > 1;
+            let under = self.product(under);
+            let under = if brackets { self.brackets("(", ")", &under) } else { under };
+            return format!("{} / {under}", self.product(over));
+        }
+        if under.factors.is_empty() {
+            let number = format!("\\tfrac{{{}}}{{{}}}", over.number, under.number);
+            let rest = Product { number: 1, factors: over.factors.clone() };
+            return if rest.is_one() { number } else { format!("{number}\\,{}", self.product(&rest)) };
+        }
+        format!("\\frac{{{}}}{{{}}}", self.small().whole(over), self.small().whole(under))
+    }
+
+    /// A product that stands by itself: a sum needs no brackets.
+    fn whole(self, product: &Product) -> String {
+        match &product.factors[..] {
+            [(Factor::Group(sum), 1)] if product.number == 1 => self.sum(sum),
+            _ => self.product(product),
+        }
+    }
+
+    fn product(self, product: &Product) -> String {
+        let factors: Vec<_> =
+            product.factors.iter().map(|(factor, power)| self.power(factor, *power)).collect();
+        // Unlike a number, letters want a little space between them.
+        let factors = factors.join(if self.is_latex() { "\\," } else { " " });
+        // 5·2ᵖ, which is not to be read as 52ᵖ.
+        let times = match factors.starts_with(|c: char| c.is_ascii_digit()) {
+            true if self.is_latex() => " \\cdot ",
+            true => "·",
+            false => " ",
+        };
+        match (product.number, factors.is_empty()) {
+            (number, true) => number.to_string(),
+            (1, false) => factors,
+            (number, false) => format!("{number}{times}{factors}"),
+        }
+    }
+
+    /// A factor below an exponent.
+    fn base(self, factor: &Factor) -> String {
+        let base = self.factor(factor);
+        // A base that has an exponent of its own.
+        let raised = match factor {
+            Factor::Name(symbol, _) => {
+                symbol.contains('^') || symbol.chars().any(|c| superscript(c).is_some())
+            }
+            Factor::Exp(_) => self.is_latex(),
+            _ => false,
+        };
+        if raised { self.brackets("(", ")", &base) } else { base }
+    }
+
+    fn power(self, factor: &Factor, power: u32) -> String {
+        if power == 1 {
+            return self.factor(factor);
+        }
+        let base = self.base(factor);
+        if self.is_latex() {
+            return base + &script('^', &power.to_string());
+        }
+        let digits = power.to_string();
+        base + &digits
+            .chars()
+            .filter_map(|d| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(d as usize - '0' as usize))
+            .collect::<String>()
+    }
+
+    fn factor(self, factor: &Factor) -> String {
+        match factor {
+            Factor::Name(symbol, arguments) => {
+                let symbol = if self.is_latex() { latex(symbol) } else { symbol.clone() };
+                if arguments.is_empty() { symbol } else { symbol + &self.list(arguments) }
+            }
+            Factor::Group(sum) => self.brackets("(", ")", &self.sum(sum)),
+            Factor::Exp(sum) if self.is_latex() => format!("\\mathrm{{e}}^{{{}}}", self.small().sum(sum)),
+            Factor::Exp(sum) => format!("exp{}", self.brackets("(", ")", &self.sum(sum))),
+            Factor::PositivePart(sum) if self.is_latex() => {
+                self.brackets("\\langle ", " \\rangle", &self.sum(sum))
+            }
+            Factor::PositivePart(sum) => self.brackets("⟨", "⟩", &self.sum(sum)),
+            Factor::Size(sum) if self.is_latex() => self.brackets("\\lvert ", " \\rvert", &self.sum(sum)),
+            Factor::Size(sum) => self.brackets("|", "|", &self.sum(sum)),
+            Factor::Rounded(name, sum) => {
+                let name = if self.is_latex() { format!("\\mathrm{{{name}}}") } else { name.to_string() };
+                name + &self.brackets("(", ")", &self.sum(sum))
+            }
+            Factor::Extremum(name, sums) => {
+                format!("{}{name}{}", if self.is_latex() { "\\" } else { "" }, self.list(sums))
+            }
+        }
+    }
+
+    fn list(self, sums: &[Sum]) -> String {
+        let sums: Vec<_> = sums.iter().map(|sum| self.sum(sum)).collect();
+        self.brackets("(", ")", &sums.join(", "))
+    }
+
+    /// Brackets that are as high as what they hold.
+    fn brackets(self, open: &str, close: &str, inner: &str) -> String {
+        if inner.contains("\\frac") {
+            format!("\\left{open}{inner}\\right{}", close.trim_start())
+        } else {
+            format!("{open}{inner}{close}")
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,437 @@
+//! Floats of any precision, chosen at run time.
+
+use super::text::{fixed, to_whole};
+use crate::number::field::ordered;
+use crate::number::tree::Step;
+use crate::number::{Exponential, Field, Logarithm, OrderedField, PositivePart, Real};
+use num_traits::{One, Zero};
+use rug::float::{Round, Special};
+use rug::ops::MulAssignRound;
+use rug::{Assign, Float, Integer, Rational};
+use std::cmp::Ordering;
+use std::{fmt, ops::RangeInclusive};
+
+/// The precisions in bits that [`Mpfr`] can have.
+pub const PRECISIONS: RangeInclusive<u32> = 2..=1_000_000;
+
+/// The digits of a radius; more would make it no better.
+const RADIUS_PRECISION: u32 = 64;
+
+/// A float of the MPFR library whose precision is a run-time value.
+///
+/// - Every operation is one correctly rounded MPFR operation, to nearest.
+/// - The result of two rounded operands has the larger of their precisions. It never depends on which
+///   operand is borrowed. (rug's own `Float` takes the precision of the owned operand.)
+/// - A constant (zero, one, small integers, and what is made of them) has no precision of its own: it
+///   stays an exact rational until it meets a rounded number.
+/// - The range of exponents is ±2³⁰, as good as unlimited.
+///
+/// ```
+/// use provable::number::{Exact, Field, Mpfr};
+/// let third = "1/3".parse::<Exact>()?.to_mpfr(10);
+/// assert_eq!((&third * Mpfr::int(3)).precision(), Some(10));
+/// assert_eq!((&third + Mpfr::parse("0.1", 200)?).precision(), Some(200));
+/// assert_eq!((Mpfr::int(1) / Mpfr::int(3)).precision(), None); // 1/3 exactly
+/// # Ok::<(), provable::number::ParseError>(())
+/// ```
+#[derive(Clone)]
+pub struct Mpfr(Kind);
+
+#[derive(Clone, Debug)]
+enum Kind {
+    /// A constant, too: nearly all of them are small integers, and these need no memory of their own.
+    Small(i32),
+    Constant(Rational),
+    Rounded(Float),
+}
+use Kind::{Constant, Rounded, Small};
+
+impl Kind {
+    fn constant(q: Rational) -> Self {
+        if *q.denom() == 1
+            && let Some(n) = q.numer().to_i32()
+        {
+            Small(n)
+        } else {
+            Constant(q)
+        }
+    }
+
+    /// The exact value.
+    ///
+    /// # Panics
+    /// It is infinite or not a number.
+    fn rational(&self) -> Rational {
+        match self {
+            Small(n) => Rational::from(*n),
+            Constant(q) => q.clone(),
+            Rounded(x) => x.to_rational().expect("a finite number"),
+        }
+    }
+
+    /// Puts a result of so many bits here, and into the float that is here if it has as many.
+    #[inline]
+    fn put<V>(&mut self, precision: u32, result: V)
+    where
+        Float: Assign<V>,
+    {
+        match self {
+            Rounded(x) if x.prec() == precision => x.assign(result),
+            // Moved no more than once: a number just made is slow to move.
+            other => *other = Rounded(Float::with_val(precision, result)),
+        }
+    }
+}
+
+/// The four ways to own or borrow two operands meet in one, which puts the result where it is told to.
+macro_rules! operator {
+    ($($Trait:ident $f:ident $op:tt $small:expr, $constant_first:expr;)*) => {
+        /// The operators, into a number that is there.
+        mod assign {
+            use super::*;
+            $(pub(super) fn $f(result: &mut Kind, a: &Mpfr, b: &Mpfr) {
+                match (&a.0, &b.0) {
+                    (Rounded(a), Rounded(b)) => result.put(a.prec().max(b.prec()), a $op b),
+                    (Rounded(a), Small(b)) => result.put(a.prec(), a $op b),
+                    (Rounded(a), Constant(b)) => result.put(a.prec(), a $op b),
+                    (Small(a), Rounded(b)) => result.put(b.prec(), a $op b),
+                    (Constant(a), Rounded(b)) => $constant_first(result, a, b),
+                    (a, b) => {
+                        let small = if let (Small(a), Small(b)) = (a, b) { $small(*a, *b) } else { None };
+                        let exact = || Kind::constant(a.rational() $op b.rational());
+                        *result = small.map_or_else(exact, Small);
+                    }
+                }
+            })*
+        }
+        $(
+        impl std::ops::$Trait<&Mpfr> for &Mpfr {
+            type Output = Mpfr;
+            fn $f(self, other: &Mpfr) -> Mpfr {
+                let mut result = Small(0);
+                assign::$f(&mut result, self, other);
+                Mpfr(result)
+            }
+        }
+        impl std::ops::$Trait<&Mpfr> for Mpfr {
+            type Output = Mpfr;
+            fn $f(self, other: &Mpfr) -> Mpfr {
+                match (self.0, &other.0) {
+                    (Rounded(a), Rounded(b)) if a.prec() >= b.prec() => Mpfr(Rounded(a $op b)),
+                    (Rounded(a), Small(b)) => Mpfr(Rounded(a $op b)),
+                    (Rounded(a), Constant(b)) => Mpfr(Rounded(a $op b)),
+                    (a, _) => &Mpfr(a) $op other,
+                }
+            }
+        }
+        impl std::ops::$Trait<Mpfr> for &Mpfr {
+            type Output = Mpfr;
+            fn $f(self, other: Mpfr) -> Mpfr {
+                match (&self.0, other.0) {
+                    (Rounded(a), Rounded(b)) if b.prec() >= a.prec() => Mpfr(Rounded(a $op b)),
+                    (_, b) => self $op &Mpfr(b),
+                }
+            }
+        }
+        impl std::ops::$Trait<Mpfr> for Mpfr {
+            type Output = Mpfr;
+            fn $f(self, other: Mpfr) -> Mpfr {
+                match (&self.0, &other.0) {
+                    (Rounded(a), Rounded(b)) if b.prec() > a.prec() => &self $op other,
+                    _ => self $op &other,
+                }
+            }
+        }
+    )*};
+}
+operator! {
+    Add add + i32::checked_add, |x: &mut Kind, a: &Rational, b: &Float| x.put(b.prec(), a + b);
+    Sub sub - i32::checked_sub, |x: &mut Kind, a: &Rational, b: &Float| x.put(b.prec(), a - b);
+    Mul mul * i32::checked_mul, |x: &mut Kind, a: &Rational, b: &Float| x.put(b.prec(), a * b);
+    Div div / |_, _| None, divide_constant;
+}
+
+/// (n/d) / x = n / (d x): MPFR has no such operation, but d x is exact in enough bits.
+fn divide_constant(result: &mut Kind, a: &Rational, x: &Float) {
+    let wide = |bits: u32| bits.max(2);
+    let n = Float::with_val(wide(a.numer().significant_bits()), a.numer());
+    let dx = Float::with_val(wide(a.denom().significant_bits() + x.prec()), x * a.denom());
+    // Both borrowed: an owned n would impose its own precision on the quotient.
+    result.put(x.prec(), &n / &dx);
+}
+
+impl std::ops::Neg for Mpfr {
+    type Output = Mpfr;
+    fn neg(self) -> Mpfr {
+        Mpfr(match self.0 {
+            // The least integer has no opposite among them.
+            Small(n) => n.checked_neg().map_or_else(|| Constant(-Rational::from(n)), Small),
+            Constant(q) => Constant(-q),
+            Rounded(x) => Rounded(-x),
+        })
+    }
+}
+impl std::ops::Neg for &Mpfr {
+    type Output = Mpfr;
+    fn neg(self) -> Mpfr {
+        -self.clone()
+    }
+}
+impl PartialEq for Mpfr {
+    fn eq(&self, other: &Self) -> bool {
+        self.partial_cmp(other) == Some(Ordering::Equal)
+    }
+}
+impl PartialOrd for Mpfr {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        match (&self.0, &other.0) {
+            (Small(a), Rounded(b)) => a.partial_cmp(b),
+            (Constant(a), Rounded(b)) => a.partial_cmp(b),
+            (Rounded(a), Small(b)) => a.partial_cmp(b),
+            (Rounded(a), Constant(b)) => a.partial_cmp(b),
+            (Rounded(a), Rounded(b)) => a.partial_cmp(b),
+            (Small(a), Small(b)) => a.partial_cmp(b),
+            (a, b) => a.rational().partial_cmp(&b.rational()),
+        }
+    }
+}
+impl Zero for Mpfr {
+    fn zero() -> Self {
+        Mpfr(Small(0))
+    }
+    fn is_zero(&self) -> bool {
+        match &self.0 {
+            Small(n) => *n == 0,
+            Constant(q) => q.is_zero(),
+            Rounded(x) => x.is_zero(),
+        }
+    }
+}
+impl One for Mpfr {
+    fn one() -> Self {
+        Mpfr::int(1)
+    }
+}
+impl Field for Mpfr {
+    fn int(n: i32) -> Self {
+        Mpfr(Small(n))
+    }
+
+    const IN_PLACE: bool = true;
+
+    fn assign(&mut self, step: Step<&Self>) -> bool {
+        match step {
+            Step::Int(n) => self.0 = Small(n),
+            Step::Neg(Mpfr(Rounded(a))) => self.0.put(a.prec(), -a),
+            Step::Neg(a) => *self = -a,
+            Step::Add(a, b) => assign::add(&mut self.0, a, b),
+            Step::Sub(a, b) => assign::sub(&mut self.0, a, b),
+            Step::Mul(a, b) => assign::mul(&mut self.0, a, b),
+            Step::Div(a, b) => assign::div(&mut self.0, a, b),
+            Step::Symbol(_) | Step::Exp(_) | Step::PositivePart(_) | Step::Min(..) | Step::Rounded(_) => {
+                return false;
+            }
+        }
+        true
+    }
+}
+ordered!(Mpfr);
+
+/// The functions of a constant would be irrational: there is no precision to round them to.
+fn no_precision(function: &str) -> ! {
+    panic!("{function} of a constant of no precision: round it first, with Mpfr::rounded")
+}
+
+/// # Panics
+/// exp and ln of a constant that has met no rounded number, except exp 0 = 1, ln 1 = 0, ln_1p 0 = 0.
+impl Exponential for Mpfr {
+    fn exp(&self) -> Self {
+        match &self.0 {
+            Rounded(x) => Mpfr(Rounded(Float::with_val(x.prec(), x.exp_ref()))),
+            Small(_) | Constant(_) if self.is_zero() => Mpfr::one(),
+            Small(_) | Constant(_) => no_precision("exp"),
+        }
+    }
+}
+impl Logarithm for Mpfr {
+    fn ln(&self) -> Self {
+        match &self.0 {
+            Rounded(x) => Mpfr(Rounded(Float::with_val(x.prec(), x.ln_ref()))),
+            Small(_) | Constant(_) if self.is_one() => Mpfr::zero(),
+            Small(_) | Constant(_) => no_precision("ln"),
+        }
+    }
+    fn ln_1p(&self) -> Self {
+        match &self.0 {
+            Rounded(x) => Mpfr(Rounded(Float::with_val(x.prec(), x.ln_1p_ref()))),
+            Small(_) | Constant(_) if self.is_zero() => Mpfr::zero(),
+            Small(_) | Constant(_) => no_precision("ln_1p"),
+        }
+    }
+}
+impl Real for Mpfr {
+    fn unit_roundoff(&self) -> Self {
+        match &self.0 {
+            Rounded(x) => Mpfr(Rounded(Float::with_val(RADIUS_PRECISION, 1) >> x.prec())),
+            Small(_) | Constant(_) => Mpfr::zero(),
+        }
+    }
+    fn underflow_unit() -> Self {
+        Mpfr::zero()
+    }
+    fn is_finite(&self) -> bool {
+        match &self.0 {
+            Small(_) | Constant(_) => true,
+            Rounded(x) => x.is_finite(),
+        }
+    }
+    fn infinity() -> Self {
+        Mpfr(Rounded(Float::with_val(RADIUS_PRECISION, Special::Infinity)))
+    }
+    /// A constant has no neighbours and is returned as it is.
+    fn next_up(mut self) -> Self {
+        if let Rounded(x) = &mut self.0 {
+            x.next_up();
+        }
+        self
+    }
+    fn half_ulp(&self) -> Self {
+        match &self.0 {
+            // x lies between 2^(e−1) and 2^e. 0 has no e, nor has what is not finite.
+            Rounded(x) => x.get_exp().map_or_else(
+                || self.magnitude(),
+                |e| {
+                    let half = e - x.prec() as i32 - 1;
+                    Mpfr(Rounded(Float::with_val(RADIUS_PRECISION, Float::i_exp(1, half))))
+                },
+            ),
+            Small(_) | Constant(_) => Mpfr::zero(),
+        }
+    }
+    fn magnitude(&self) -> Self {
+        let up = |x: Float| Mpfr(Rounded(x));
+        match &self.0 {
+            Small(_) | Constant(_) => {
+                up(Float::with_val_round(RADIUS_PRECISION, &self.0.rational().abs(), Round::Up).0)
+            }
+            Rounded(x) => up(Float::with_val_round(RADIUS_PRECISION, x.abs_ref(), Round::Up).0),
+        }
+    }
+    fn enlarged(mut self) -> Self {
+        if let Rounded(x) = &mut self.0 {
+            // By 16 η.
+            x.mul_assign_round((1u64 << 60) + 1, Round::Up);
+            *x >>= 60;
+        }
+        self
+    }
+}
+
+impl Mpfr {
+    /// Any number of the crate rug, rounded once to `precision` bits, to nearest.
+    ///
+    /// # Panics
+    /// The precision is not in [`PRECISIONS`].
+    pub fn rounded<V>(precision: u32, value: V) -> Self
+    where
+        Float: rug::Assign<V> + rug::ops::AssignRound<V, Round = Round, Ordering = Ordering>,
+    {
+        assert!(
+            PRECISIONS.contains(&precision),
+            "a precision of {precision} bits; 2 to 1000000 are possible"
+        );
+        Mpfr(Rounded(Float::with_val(precision, value)))
+    }
+
+    /// An exact constant, which has no precision of its own.
+    pub fn constant(value: Rational) -> Self {
+        Mpfr(Kind::constant(value))
+    }
+
+    /// The precision in bits; `None` for a constant.
+    pub fn precision(&self) -> Option<u32> {
+        match &self.0 {
+            Small(_) | Constant(_) => None,
+            Rounded(x) => Some(x.prec()),
+        }
+    }
+
+    /// rug's own float within; `None` for a constant.
+    pub fn as_float(&self) -> Option<&Float> {
+        match &self.0 {
+            Small(_) | Constant(_) => None,
+            Rounded(x) => Some(x),
+        }
+    }
+
+    /// The nearest whole number to so many times a finite number; of two, the even one.
+    fn to_whole(&self, times: &Integer) -> Integer {
+        match &self.0 {
+            Small(_) | Constant(_) => to_whole(self.0.rational() * times),
+            Rounded(x) => {
+                let exact = Float::with_val(x.prec() + times.significant_bits(), x * times);
+                exact.to_integer_round(Round::Nearest).expect("a finite number").0
+            }
+        }
+    }
+
+    /// The exact value; `None` if it is infinite or not a number.
+    pub fn to_rational(&self) -> Option<Rational> {
+        match &self.0 {
+            Small(_) | Constant(_) => Some(self.0.rational()),
+            Rounded(x) => x.to_rational(),
+        }
+    }
+}
+
+impl From<Float> for Mpfr {
+    fn from(x: Float) -> Self {
+        Mpfr(Rounded(x))
+    }
+}
+
+/// All digits: reading the text back with the same precision gives the same number, if its exponent is
+/// one that is read ([`MAX_EXPONENT`](super::MAX_EXPONENT)). A constant is printed as a fraction.
+///
+/// With a number of decimals, as in `{:.5}`, it is that many, correctly rounded from the exact value, as for
+/// the machine's floats; for a constant, too. Width, fill and sign are honoured.
+///
+/// ```
+/// use provable::number::{Field, Mpfr};
+/// let ninth = Mpfr::rounded(200, 1) / Mpfr::int(9);
+/// assert_eq!(format!("{ninth:.3} {ninth:+8.1}"), "0.111     +0.1");
+/// ```
+impl fmt::Display for Mpfr {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        if let (Some(decimals), true) = (f.precision(), self.is_finite()) {
+            let negative = *self < Mpfr::zero();
+            return f.pad_integral(!negative, "", &fixed(decimals, |unit| self.to_whole(unit)));
+        }
+        let text = match &self.0 {
+            Small(_) | Constant(_) => return fmt::Display::fmt(&self.0.rational(), f),
+            Rounded(x) if !x.is_finite() => return fmt::Display::fmt(&x.to_f64(), f),
+            Rounded(x) if x.is_zero() => "0".to_string(),
+            Rounded(x) => x.to_string_radix(10, None),
+        };
+        // rug pads the mantissa with zeros to the digits of the precision; they say nothing.
+        let (mantissa, exponent) = text.split_once('e').map_or((text.as_str(), ""), |(m, e)| (m, e));
+        let mantissa = if mantissa.contains('.') {
+            mantissa.trim_end_matches('0').trim_end_matches('.')
+        } else {
+            mantissa
+        };
+        let separator = if exponent.is_empty() { "" } else { "e" };
+        f.pad_integral(
+            !mantissa.starts_with('-'),
+            "",
+            &format!("{}{separator}{exponent}", mantissa.trim_start_matches('-')),
+        )
+    }
+}
+
+/// As it is displayed.
+impl fmt::Debug for Mpfr {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}

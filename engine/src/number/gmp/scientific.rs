@@ -1,0 +1,102 @@
+//! Exact numbers and floats of MPFR in scientific notation.
+
+use super::text::to_whole;
+use super::{Exact, Mpfr};
+use num_traits::Zero;
+use rug::ops::Pow;
+use rug::{Float, Integer, Rational};
+use std::fmt;
+
+/// In scientific notation, exactly rounded with ties to even, as the machine's floats are: `{:.2e}` has two
+/// decimals, `{:e}` all there are, or seventeen digits of a fraction that has no last one.
+///
+/// ```
+/// use provable::number::Exact;
+/// let [third, eighth] = ["-1/3", "1/8"].map(|text| text.parse::<Exact>().unwrap());
+/// assert_eq!(format!("{eighth:e} {eighth:.0e} {third:.3e}"), "1.25e-1 1e-1 -3.333e-1");
+/// assert_eq!(format!("{third:e}"), "-3.3333333333333333e-1");
+/// ```
+impl fmt::LowerExp for Exact {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.pad_integral(*self >= Exact::zero(), "", &rational(self.as_rational(), f.precision()))
+    }
+}
+
+/// In scientific notation, exactly rounded with ties to even, as the machine's floats are: `{:.2e}` has two
+/// decimals, `{:e}` the digits that read back as the same number. A constant is written as an
+/// [`Exact`](super::Exact) number.
+///
+/// ```
+/// use provable::number::Mpfr;
+/// let third = Mpfr::rounded(24, 1) / Mpfr::rounded(24, 3);
+/// assert_eq!(format!("{third:e} {third:.2e} {third:+9.1e}"), "3.33333343e-1 3.33e-1   +3.3e-1");
+/// ```
+impl fmt::LowerExp for Mpfr {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let text = match self.as_float() {
+            None => rational(&self.to_rational().unwrap_or_default(), f.precision()),
+            Some(x) if !x.is_finite() => return fmt::LowerExp::fmt(&x.to_f64(), f),
+            Some(x) if x.is_zero() => rational(&Rational::new(), f.precision()),
+            // Not by way of a rational, which can be longer than the memory.
+            Some(x) => {
+                let digits = f.precision().map(|decimals| decimals + 1);
+                let (_, text, exponent) = x.to_sign_string_exp(10, digits);
+                // The number is 0.text × 10^exponent.
+                let text = if digits.is_none() { text.trim_end_matches('0') } else { &text };
+                scientific(text, i64::from(exponent.unwrap_or_default()) - 1)
+            }
+        };
+        f.pad_integral(*self >= Mpfr::zero(), "", &text)
+    }
+}
+
+/// The digits of a number in scientific notation, the first before the point, with the power of ten of
+/// the first.
+fn scientific(digits: &str, exponent: i64) -> String {
+    let (first, rest) = digits.split_at(1);
+    let point = if rest.is_empty() { "" } else { "." };
+    format!("{first}{point}{rest}e{exponent}")
+}
+
+/// How many digits of a fraction are written where it has no last one and none are asked for.
+const ENDLESS: usize = 17;
+
+/// The absolute value of a rational in scientific notation, with so many digits behind the point: exactly
+/// rounded, ties to even. With none asked for all there are, or [`ENDLESS`] of what has no last one.
+fn rational(x: &Rational, decimals: Option<usize>) -> String {
+    let x = Rational::from(x.abs_ref());
+    if x.is_zero() {
+        return scientific(&"0".repeat(decimals.unwrap_or(0) + 1), 0);
+    }
+    let power = |n: i64| {
+        let power = Rational::from(Integer::from(10).pow(n.unsigned_abs() as u32));
+        if n < 0 { power.recip() } else { power }
+    };
+    // The logarithm is off by less than 1.
+    let mut order = Float::with_val(64, &x).log10().floor().to_f64() as i64;
+    while power(order) > x {
+        order -= 1;
+    }
+    while power(order + 1) <= x {
+        order += 1;
+    }
+    let whole = |behind: i64| to_whole(&x * power(behind - order)).to_string();
+    let digits = match (decimals, decimals_of(&x)) {
+        (Some(decimals), _) => whole(decimals as i64),
+        (None, Some(all)) => whole(i64::from(all) + order).trim_end_matches('0').to_string(),
+        (None, None) => whole(ENDLESS as i64 - 1),
+    };
+    // 9.99 can become 10.0: a digit too many, and that a zero.
+    let most = decimals.or_else(|| decimals_of(&x).is_none().then_some(ENDLESS - 1)).map(|n| n + 1);
+    match most {
+        Some(most) if digits.len() > most => scientific(&digits[..most], order + 1),
+        _ => scientific(&digits, order),
+    }
+}
+
+/// How many decimals a rational has behind the point; none if they have no end.
+fn decimals_of(x: &Rational) -> Option<u32> {
+    let (rest, twos) = x.denom().clone().remove_factor(&Integer::from(2));
+    let (rest, fives) = rest.remove_factor(&Integer::from(5));
+    (rest == 1).then_some(twos.max(fives))
+}

@@ -1,0 +1,40 @@
+//! Proofs of claims, for *all* values of their parameters.
+//!
+//! **What has to be trusted.**
+//!
+//! - That the claims say what is meant, hypotheses included, in the words of
+//!   [`claim`](crate::formula::claim).
+//! - That [`Tree`](crate::number::Tree) records what functions do (tested, bit for bit, in every number
+//!   system), and that [`Dual`](crate::number::Dual) differentiates.
+//! - In [`statement`](crate::formula::statement), what a claim of each kind comes to. A proof is one of the
+//!   statement's goals, under its hypotheses; that they amount to the claim is so because
+//!   [`Statement::of`](crate::formula::Statement::of) made it, and not seen by the kernel.
+//! - The kernel, which is `kernel.rs` with `kernel/` in `src/proof`: in `algebra.rs` the arithmetic of
+//!   polynomials, in `number.rs` that of their coefficients, in `sign.rs` six rules for signs, in `order.rs`
+//!   that rounding keeps order, in `kernel.rs` the rules for what has to be proved, in `derivation.rs` what a
+//!   [`Proof`] consists of. Nothing else can make a proof, and no one can change one.
+//! - That [`paper`] prints what was proved, in the names of a [`Registry`](crate::formula::Registry); the
+//!   compiler, and GMP's rational numbers.
+//! - The model of rounding: without under- and overflow, what floats of p ≥ 2 bits make of a result x is
+//!   x (1 + γ e) for some −1 ≤ e ≤ 1, where γ = 1/(2ᵖ + 1). `kernel.rs` derives it from rounding to nearest,
+//!   which is what machines and MPFR are trusted to do; and to round alike what is alike.
+//! - This lemma, which claims about limits of sequences rest on:
+//!
+//!   > If |ρ| < 1 then ρᵏ → 0. *Proof.* For ρ ≠ 0 write 1/|ρ| = 1 + x with x > 0. By Bernoulli's inequality
+//!   > (1 + x)ᵏ ≥ 1 + k x, so |ρ|ᵏ ≤ 1/(1 + k x), which is below any bound once k is large enough. □ So if
+//!   > f is continuous at 0, as a quotient of polynomials is where its denominator is not 0, f(ρᵏ) → f(0).
+//!
+//! Most of that need not be taken on trust: [`coq`] writes the same claims for the proof assistant Coq,
+//! whose kernel checks them anew, and what numbers [`refute`](mod@refute) must not be proved here (tested).
+//! What floats make of a formula is proved as well, for every precision. What is claimed of the solver in
+//! floats, of its promises and counts, is tried as experiments, and not proved.
+
+pub mod controls;
+pub mod coq;
+mod kernel;
+pub mod paper;
+pub mod refute;
+
+pub use controls::{Controls, controls};
+pub use kernel::{MAX_DEPTH, MAX_EFFORT, MAX_SIZE, Proof, Why, prove};
+pub use refute::{Counterexample, refute, sharpest};

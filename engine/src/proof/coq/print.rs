@@ -1,0 +1,204 @@
+//! What formulas and functions are called in Coq.
+
+use super::expr::{Expr, Operator};
+use crate::formula::{Formula, Registry};
+use crate::number::Tree;
+use crate::number::tree::Step;
+
+/// Words that mean something else to Coq, or to our proofs.
+const TAKEN: [&str; 27] = [
+    "R", "Prop", "Set", "Type", "as", "at", "cofix", "else", "end", "exists", "exp", "fix", "for", "forall",
+    "fun", "if", "in", "let", "match", "mod", "nat", "pow", "return", "then", "using", "where", "with",
+];
+
+/// The word, or another if that one is taken. A letter with a number is what proofs call what they find.
+pub(super) fn free(word: String) -> String {
+    let numbered = |rest: &str| !rest.is_empty() && rest.bytes().all(|byte| byte.is_ascii_digit());
+    let found = word.strip_prefix(|c: char| c == 's' || c.is_ascii_uppercase()).is_some_and(numbered);
+    if found || TAKEN.contains(&word.as_str()) { format!("{word}_") } else { word }
+}
+
+/// A symbol in letters that Coq takes: ε₄ is eps4, δu is du.
+pub(super) fn ascii(symbol: &str) -> String {
+    if symbol.is_ascii() && symbol != "H" {
+        return free(symbol.replace(|c: char| !c.is_ascii_alphanumeric(), "_"));
+    }
+    let letter = |c: char| match c {
+        'ε' => "eps".to_string(),
+        'λ' => "lambda".to_string(),
+        'α' => "alpha".to_string(),
+        'ρ' => "rho".to_string(),
+        'δ' => "d".to_string(),
+        'ᵏ' => "_k".to_string(),
+        // Powers of two: 2ᵖ is two_p.
+        '2' => "two".to_string(),
+        'ᵃ' => "_a".to_string(),
+        'ᵇ' => "_b".to_string(),
+        'ᶠ' => "_f".to_string(),
+        'ᵖ' => "_p".to_string(),
+        // What begins with H is a hypothesis.
+        'H' => "h".to_string(),
+        '₀'..='₉' => (u32::from(c) - u32::from('₀')).to_string(),
+        c if c.is_ascii_alphanumeric() => c.to_string(),
+        c => format!("u{:x}", u32::from(c)),
+    };
+    symbol.chars().map(letter).collect()
+}
+
+/// A function by its path: `lens::focus` is lens_focus.
+pub(super) fn function(formula: &Formula) -> String {
+    free(formula.name().replace("::", "_").replace('.', "_"))
+}
+
+/// Prints formulas in the names of a registry's functions.
+#[derive(Clone, Copy)]
+pub(super) struct Printer<'a> {
+    pub(super) registry: &'a Registry,
+    /// Of functions that compute the same, the first of these is called.
+    pub(super) preferred: &'a [&'static str],
+}
+
+impl Printer<'_> {
+    /// What is shared speaks in no function's own names.
+    pub(super) fn plain(self) -> Self {
+        Printer { preferred: &[], ..self }
+    }
+
+    /// A formula; what a function of the registry computes in it, as a call of that function.
+    pub(super) fn expr(self, tree: &Tree) -> Expr {
+        let place = |path: &str| self.preferred.iter().position(|known| *known == path);
+        let place = |path: &str| place(path).unwrap_or(self.preferred.len());
+        match self.registry.calls(tree).min_by_key(|call| place(call.formula.path)) {
+            Some(call) => {
+                let common = self.registry.common(call.formula);
+                let arguments = call.arguments.iter().map(|argument| self.expr(argument));
+                let all = common.map(|name| Expr::Name(ascii(name))).chain(arguments).collect();
+                Expr::Call(function(call.formula), all)
+            }
+            None => self.last_step(tree),
+        }
+    }
+
+    /// What a function does: its last step is its own, unless all it does is call another.
+    pub(super) fn body(self, formula: &Formula) -> Expr {
+        if self.registry.delegate(formula).is_some() {
+            self.expr(&formula.tree)
+        } else {
+            self.last_step(&formula.tree)
+        }
+    }
+
+    fn last_step(self, tree: &Tree) -> Expr {
+        use Operator::*;
+        let of = |tree: &Tree| self.expr(tree);
+        let expr = match tree.step() {
+            Step::Symbol(name) => Expr::Name(ascii(name)),
+            Step::Int(n) => Expr::int(*n),
+            Step::Neg(a) => of(a).negated(),
+            Step::Add(a, b) => Expr::binary(Add, of(a), of(b)),
+            Step::Sub(a, b) => Expr::binary(Sub, of(a), of(b)),
+            Step::Mul(a, b) => Expr::binary(Mul, of(a), of(b)),
+            Step::Div(a, b) => Expr::binary(Div, of(a), of(b)),
+            Step::Exp(a) => Expr::Call("exp".into(), vec![of(a)]),
+            Step::PositivePart(a) => Expr::Call("Rmax".into(), vec![of(a), Expr::int(0)]),
+            Step::Min(a, b) => Expr::Call("Rmin".into(), vec![of(a), of(b)]),
+            Step::Rounded(a) => Expr::Call("fl prec choice".into(), vec![of(a)]),
+        };
+        // What the rules of differentiation write is full of 0 x, 1 x and x + 0; nobody else's zeros are
+        // touched.
+        if tree.site().is_of_duals() { expr.simplified() } else { expr }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::{Dual, Exponential, Field, PositivePart};
+
+    fn printed(tree: &Tree) -> Expr {
+        Printer { registry: &Registry::default(), preferred: &[] }.expr(tree)
+    }
+
+    fn text(tree: &Tree) -> String {
+        printed(tree).to_string()
+    }
+
+    #[test]
+    fn brackets_where_coq_needs_them() {
+        let [a, b, c] = ["a", "b", "ε₄"].map(|name| Tree::symbol(name));
+        assert_eq!(text(&(&a - &(&b - &c))), "a - (b - eps4)");
+        assert_eq!(text(&(&a - &b - &c)), "a - b - eps4");
+        assert_eq!(text(&(&a / &(&b * &c))), "a / (b * eps4)");
+        assert_eq!(text(&(&a * &b / &c)), "a * b / eps4");
+        assert_eq!(text(&(-(&a + &b) * &c)), "- (a + b) * eps4");
+        // Coq reads - a * b as (- a) * b.
+        assert_eq!(text(&-(&a * &b)), "- (a * b)");
+        assert_eq!(text(&-(-&a)), "- (- a)");
+        assert_eq!(text(&(&a - Tree::int(-2))), "a - - 2");
+        assert_eq!(text(&(&a - &b).exp().positive_part()), "Rmax (exp (a - b)) 0");
+        assert_eq!(text(&a.min(&-&b)), "Rmin a (- b)");
+    }
+
+    #[test]
+    fn what_is_taken_is_called_otherwise() {
+        let names = ["R", "N", "in", "s1", "N1", "s₁", "H", "λ₀", "σ", "∂u", "2ᵖ", "ρᵏ", "e_1", "e'"];
+        let letters = [
+            "R_", "N", "in_", "s1_", "N1_", "s1", "h", "lambda0", "u3c3", "u2202u", "two_p", "rho_k", "e_1",
+            "e_",
+        ];
+        assert_eq!(names.map(ascii), letters);
+        let fix = Formula::new("fix", "", &["x"], Tree::symbol("x"));
+        assert_eq!(function(&fix), "fix_");
+    }
+
+    #[test]
+    fn a_call_is_a_call_and_a_definition_is_its_own_work() {
+        fn double<T: Field>(x: &T) -> T {
+            T::int(2) * x
+        }
+        fn quadruple<T: Field>(x: &T, k: &T) -> T {
+            double(&double(x)) * k
+        }
+        fn again<T: Field>(x: &T) -> T {
+            double(x)
+        }
+        let slope = |x: &Tree| (double(&Dual::variable(x * x)) + Dual::int(2) / Dual::int(3)).derivative;
+        let [x, k] = ["x", "k"].map(|name| Tree::symbol(name));
+        let all = vec![
+            Formula::new("m::double", "", &["x"], double(&x)),
+            Formula::new("m::quadruple", "", &["x"], quadruple(&x, &k)),
+            Formula::new("m::again", "", &["x"], again(&x)),
+            Formula::new("m::slope", "", &["x"], slope(&x)),
+        ];
+        let registry = Registry::new(&["k", "x"], all);
+        let body = |path: &str| {
+            let printer = Printer { registry: &registry, preferred: &[] };
+            printer.body(registry.formula(path).unwrap()).to_string()
+        };
+        assert_eq!(body("m::double"), "2 * x");
+        assert_eq!(body("m::quadruple"), "m_double (m_double x) * k");
+        assert_eq!(body("m::again"), "m_double x");
+        // Formed by differentiating, without the zeros and ones.
+        assert_eq!(body("m::slope"), "2");
+        // What all functions may depend on comes before the arguments, and of those that hand on, the
+        // preferred is called.
+        let call = quadruple(&(&x + &k), &k);
+        let printed = |preferred| Printer { registry: &registry, preferred }.expr(&call).to_string();
+        assert_eq!(printed(&[]), "m_quadruple k (x + k)");
+        let again = Printer { registry: &registry, preferred: &["m::again"] };
+        let called = |printer: Printer| printer.expr(&double(&k)).to_string();
+        assert_eq!([again, again.plain()].map(called), ["m_again k", "m_double k"]);
+    }
+
+    #[test]
+    fn a_flip_changes_one_sign() {
+        let [a, b, c] = ["a", "b", "c"].map(|name| Tree::symbol(name));
+        let flips = printed(&(-(&a + &b) * &c - &a)).flips();
+        let texts: Vec<_> = flips.iter().map(Expr::to_string).collect();
+        assert_eq!(texts, ["- (a + b) * c + a", "(a + b) * c - a", "- (a - b) * c - a"]);
+        // Wherever the sign stands.
+        let flips = printed(&a.min(&-(&b + &c)).exp().positive_part()).flips();
+        let texts: Vec<_> = flips.iter().map(Expr::to_string).collect();
+        assert_eq!(texts, ["Rmax (exp (Rmin a (b + c))) 0", "Rmax (exp (Rmin a (- (b - c)))) 0"]);
+    }
+}

@@ -1,0 +1,279 @@
+(** * Rounding to nearest, and the signs of formulas in which each rounding has an unknown of its own.
+
+    Without under- and overflow, to round to [prec] bits is to multiply by 1 + e/(n + 1), where n = 2^prec
+    and e is some number from -1 to 1. What is said of computed values is then said of quotients of
+    polynomials, whose signs a program decides. *)
+From Coq Require Import List Bool ZArith Lia.
+From Flocq Require Import Core Relative.
+From LIBRARY Require Import A_Tactics.
+From LIBRARY Require B_Polynomials B_Quotients.
+Import ListNotations.
+Open Scope R_scope.
+
+(** ** Rounding
+
+    To [prec] bits; [choice] says what becomes of a number half-way between two. *)
+Definition fl (prec : Z) (choice : Z -> bool) (x : R) : R :=
+  round radix2 (FLX_exp prec) (Znearest choice) x.
+
+Section Rounding.
+Variables (prec : Z) (choice : Z -> bool) (n : R).
+Variable two_bits : (2 <= prec)%Z.
+Variable power : n = bpow radix2 prec.
+
+#[local] Instance some_bits : Prec_gt_0 prec.
+Proof. unfold Prec_gt_0. lia. Qed.
+
+Lemma four_at_least : 4 <= n.
+Proof. rewrite power. change 4 with (bpow radix2 2). apply bpow_le, two_bits. Qed.
+
+Lemma model x : exists e, -1 <= e <= 1 /\ fl prec choice x = x * (n + 1 + e) / (n + 1).
+Proof.
+  pose proof four_at_least as N.
+  destruct (relative_error_N_FLX'_ex radix2 prec some_bits choice x) as (d & B & E).
+  replace (u_ro radix2 prec / (1 + u_ro radix2 prec)) with (/ (n + 1)) in B.
+  - apply Rabs_le_inv in B. exists (d * (n + 1)). split.
+    + assert (/ (n + 1) * (n + 1) = 1) by (field; lra). nra.
+    + unfold fl. rewrite E. field. lra.
+  - unfold u_ro. rewrite bpow_plus, bpow_opp, <- power. change (bpow radix2 1) with 2. field. lra.
+Qed.
+
+Lemma fl_le x y : x <= y -> fl prec choice x <= fl prec choice y.
+Proof. apply round_le; typeclasses eauto. Qed.
+
+(** The unit does not matter, if it is a power of 2. *)
+Lemma fl_scale a x : fl prec choice (bpow radix2 a * x) = bpow radix2 a * fl prec choice x.
+Proof.
+  destruct (Req_dec x 0) as [-> | X].
+  - unfold fl. rewrite Rmult_0_r, round_0 by typeclasses eauto. ring.
+  - unfold fl, round, scaled_mantissa, F2R, cexp, FLX_exp; cbn [Fnum Fexp].
+    rewrite (Rmult_comm _ x), mag_mult_bpow, Rmult_assoc, <- bpow_plus by exact X.
+    replace (a + - _)%Z with (- (mag radix2 x - prec))%Z by lia.
+    replace (mag radix2 x + a - prec)%Z with (a + (mag radix2 x - prec))%Z by lia.
+    rewrite bpow_plus. ring.
+Qed.
+End Rounding.
+
+(** With what [model] says of each rounding, the last of them first. *)
+Ltac rounded E :=
+  repeat match goal with
+  | F : fl _ _ ?x = ?x * _ / _ |- _ => rewrite F in *; clear F
+  end;
+  clear E.
+
+(** ** Sizes *)
+Lemma within x b : 0 <= b - x -> 0 <= b + x -> Rabs x <= b.
+Proof. intros. apply Rabs_le. lra. Qed.
+
+(** What lies between two values, by something that lies between -1 and 1. *)
+Lemma between a b x :
+  0 <= (b - x) * (x - a) -> exists t, -1 <= t <= 1 /\ x = (a + b) / 2 + (b - a) / 2 * t.
+Proof.
+  intro H. destruct (Req_dec a b) as [<- | D].
+  - exists 0. split; [lra | nra].
+  - exists ((2 * x - a - b) / (b - a)). split; [ | field; lra].
+    enough (0 <= 1 - (2 * x - a - b) / (b - a) * ((2 * x - a - b) / (b - a))) by nra.
+    replace (1 - _) with (4 * ((b - x) * (x - a)) / ((b - a) * (b - a))) by (field; lra).
+    apply Rdiv_le_0_compat; [lra | ]. apply Rsqr_pos_lt. lra.
+Qed.
+
+Lemma near a m x : Rabs (x - a) <= m -> exists t, -1 <= t <= 1 /\ x = a + m * t.
+Proof.
+  intro H. apply Rabs_le_inv in H.
+  destruct (between (a - m) (a + m) x) as (t & T & E); [nra | ].
+  exists t. split; [exact T | lra].
+Qed.
+
+(** ** Signs
+
+    The variables of a formula, before those in [l]: whatever is not computed from others. *)
+Ltac variables x l :=
+  let two a b := (let l := variables a l in variables b l) in
+  let one x := lazymatch l with context [x :: _] => l | _ => constr:(x :: l) end in
+  lazymatch x with
+  | ?a + ?b => two a b
+  | ?a - ?b => two a b
+  | ?a * ?b => two a b
+  | ?a / ?b => two a b
+  | - ?a => variables a l
+  | / ?a => variables a l
+  | ?a ^ ?n => let known := isnatcst n in lazymatch known with true => variables a l | _ => one x end
+  | IZR ?z => let known := isZcst z in lazymatch known with true => l | _ => one x end
+  | _ => one x
+  end.
+
+(** First those of which no more is known than a sign, with what is known of them. *)
+Ltac in_order l units :=
+  lazymatch l with
+  | [] => constr:((@nil B_Polynomials.kind, units))
+  | ?x :: ?l =>
+      let put k :=
+        (let r := in_order l units in
+         lazymatch r with (?kinds, ?env) => constr:((k :: kinds, x :: env)) end) in
+      match goal with
+      | _ : -1 <= x <= 1 |- _ => in_order l (x :: units)
+      | _ : 0 < x |- _ => put B_Polynomials.Positive
+      | _ : 0 <= x |- _ => put B_Polynomials.NonNegative
+      | _ => put B_Polynomials.Free
+      end
+  end.
+
+Ltac place x l :=
+  lazymatch l with
+  | x :: _ => constr:(O)
+  | _ :: ?l => let n := place x l in constr:(S n)
+  end.
+
+(** A formula as the program reads it. *)
+Ltac formula x l :=
+  let two f a b := (let a := formula a l in let b := formula b l in constr:(f a b)) in
+  let one f a := (let a := formula a l in constr:(f a)) in
+  lazymatch l with
+  | context [x :: _] => let n := place x l in constr:(B_Quotients.Symbol n)
+  | _ =>
+      lazymatch x with
+      | ?a + ?b => two B_Quotients.Sum a b
+      | ?a - ?b => formula (a + - b) l
+      | ?a * ?b => two B_Quotients.Product a b
+      | ?a / ?b => formula (a * / b) l
+      | - ?a => one B_Quotients.Opposite a
+      | / ?a => one B_Quotients.Inverse a
+      | ?a ^ ?n => let a := formula a l in constr:(B_Quotients.Power a n)
+      | IZR ?z => constr:(B_Quotients.Literal z)
+      end
+  end.
+
+Ltac by_program rule x :=
+  let l := variables x (@nil R) in
+  let r := in_order l (@nil R) in
+  lazymatch r with
+  | (?kinds, ?env) =>
+      let f := formula x env in
+      let fitting := fresh in
+      assert (fitting : B_Polynomials.fits kinds env);
+      [ cbn [B_Polynomials.fits B_Polynomials.units B_Polynomials.of_kind hd tl];
+        repeat (apply conj; [first [exact I | assumption] | ]); exact I
+      | exact (rule kinds env fitting f ltac:(vm_compute; reflexivity)) ]
+  end.
+
+(** A sign, from [0 < v], [0 <= v] or [-1 <= v <= 1] for each of the variables; or a comparison. *)
+Ltac bounded :=
+  lazymatch goal with
+  | |- 0 < ?x => first [by_program B_Quotients.above x | fail 1 "no sign"]
+  | |- 0 <= ?x => first [by_program B_Quotients.at_least x | fail 1 "no sign"]
+  | |- _ < _ => apply Rminus_gt_0_lt; bounded
+  | |- _ <= _ => apply Rminus_le_0; bounded
+  end.
+
+(** What has the same value for all values of the variables. *)
+Ltac equal := apply Rle_antisym; bounded.
+
+(** Each minimum is one of two, whichever is seen to be less; each bracket is its argument or 0. *)
+Ltac minima :=
+  repeat match goal with
+  | |- context [Rmin ?a ?b] =>
+      first [rewrite (Rmin_left a b) by bounded | rewrite (Rmin_right a b) by bounded]
+  | |- context [Rmax ?a 0] =>
+      first [rewrite (Rmax_left a 0) by bounded | rewrite (Rmax_right a 0) by bounded]
+  end.
+
+(** ** Signs of what is rounded: those that it had *)
+Lemma fl_by_factor prec choice x : (2 <= prec)%Z -> exists k, 0 < k /\ fl prec choice x = x * k.
+Proof.
+  intro P. pose proof (four_at_least prec _ P eq_refl) as N.
+  destruct (model prec choice _ P eq_refl x) as (e & B & ->).
+  exists ((bpow radix2 prec + 1 + e) / (bpow radix2 prec + 1)).
+  split; [apply Rdiv_lt_0_compat; lra | field; lra].
+Qed.
+
+Lemma fl_not_negative prec choice x : (2 <= prec)%Z -> 0 <= x -> 0 <= fl prec choice x.
+Proof. intros P X. destruct (fl_by_factor prec choice x P) as (k & K & ->). apply Rmult_le_pos; lra. Qed.
+
+Lemma fl_positive prec choice x : (2 <= prec)%Z -> 0 < x -> 0 < fl prec choice x.
+Proof. intros P X. destruct (fl_by_factor prec choice x P) as (k & K & ->). apply Rmult_lt_0_compat; lra. Qed.
+
+Lemma fl_not_zero prec choice x : (2 <= prec)%Z -> x <> 0 -> fl prec choice x <> 0.
+Proof.
+  intros P X. destruct (fl_by_factor prec choice x P) as (k & K & ->).
+  apply Rmult_integral_contrapositive_currified; lra.
+Qed.
+
+(** ** Divisors *)
+Ltac not_zero :=
+  lazymatch goal with
+  | |- fl _ _ _ <> 0 => apply fl_not_zero; [assumption | not_zero]
+  | |- _ => first [apply positive_not_zero; bounded | apply negative_not_zero; bounded]
+  end.
+
+(** ** Order
+
+    Rounding keeps it, and so does each step; what is left is to compare what is no longer alike, and that
+    a factor or divisor in common is not negative. *)
+Lemma difference a b : a <= b -> 0 <= b - a.
+Proof. lra. Qed.
+
+Lemma quotient_le a b d : 0 < d -> a <= b -> a / d <= b / d.
+Proof. intros. apply Rmult_le_compat_r; [ | assumption]. apply Rlt_le, Rinv_0_lt_compat. assumption. Qed.
+
+Ltac step_in_order :=
+  lazymatch goal with
+  | |- ?a <= ?a => apply Rle_refl
+  | |- fl _ _ _ <= fl _ _ _ => apply fl_le; [assumption | step_in_order]
+  | |- ?a + _ <= ?a + _ => apply Rplus_le_compat_l; step_in_order
+  | |- _ + ?a <= _ + ?a => apply Rplus_le_compat_r; step_in_order
+  | |- _ + _ <= _ + _ => apply Rplus_le_compat; step_in_order
+  | |- _ - _ <= _ - _ => apply Rplus_le_compat; [ | apply Ropp_le_contravar]; step_in_order
+  | |- - _ <= - _ => apply Ropp_le_contravar; step_in_order
+  | |- ?a * _ <= ?a * _ => apply Rmult_le_compat_l; [ | step_in_order]
+  | |- _ * ?a <= _ * ?a => apply Rmult_le_compat_r; [ | step_in_order]
+  | |- _ / ?a <= _ / ?a => apply quotient_le; [ | step_in_order]
+  | |- _ => idtac
+  end.
+
+Lemma not_less a b : 0 <= b -> a <= a + b.
+Proof. lra. Qed.
+
+Ltac not_negative :=
+  lazymatch goal with
+  | |- ?a <= ?a + _ => apply not_less; not_negative
+  | |- 0 <= fl _ _ _ => first [assumption | apply fl_not_negative; [assumption | not_negative]]
+  | |- 0 < fl _ _ _ => apply fl_positive; [assumption | not_negative]
+  | |- 0 <= _ * _ => apply Rmult_le_pos; not_negative
+  | |- _ => first [positivity | lra | bounded]
+  end.
+Ltac by_order := apply difference; step_in_order; not_negative.
+
+(** ** Units
+
+    That of one rounding follows from those inside it. *)
+Lemma fl_power prec choice k x :
+  (exists a, k = bpow radix2 a) -> fl prec choice (k * x) = k * fl prec choice x.
+Proof. intros [a ->]. apply fl_scale. Qed.
+
+Lemma power_of_product x y :
+  (exists a, x = bpow radix2 a) -> (exists a, y = bpow radix2 a) -> exists a, x * y = bpow radix2 a.
+Proof. intros [a ->] [b ->]. exists (a + b)%Z. rewrite bpow_plus. reflexivity. Qed.
+
+Lemma power_of_quotient x y :
+  (exists a, x = bpow radix2 a) -> (exists a, y = bpow radix2 a) -> exists a, x / y = bpow radix2 a.
+Proof.
+  intros [a ->] [b ->]. exists (a - b)%Z. unfold Zminus. rewrite bpow_plus, bpow_opp. reflexivity.
+Qed.
+
+Lemma power_not_zero k : (exists a, k = bpow radix2 a) -> k <> 0.
+Proof. intros [a ->]. apply Rgt_not_eq, bpow_gt_0. Qed.
+
+Ltac power_of_two :=
+  first
+    [ eexists; eassumption
+    | apply power_of_product; power_of_two
+    | apply power_of_quotient; power_of_two
+    | exists 0%Z; reflexivity ].
+Ltac in_units k :=
+  rewrite <- (fl_power _ _ k) by power_of_two;
+  f_equal;
+  repeat match goal with U : fl _ _ _ = _ * fl _ _ _ |- _ => rewrite U; clear U end;
+  field; repeat split;
+  first [apply power_not_zero; power_of_two | lra | not_zero].
+Ltac by_units :=
+  match goal with U : ?x = _ |- ?x = _ => rewrite U; ring end.

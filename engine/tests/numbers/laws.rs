@@ -1,0 +1,252 @@
+//! Laws of every number system, and of the ordered ones.
+
+use crate::ball::{BallF32, BallF64, BallMpfr2, BallMpfr53};
+use crate::draw::{Tally, for_all};
+use crate::dual::{DualBallF32, DualBallF64, DualExact, DualF64};
+use crate::exact::Rationals;
+use crate::floats::{Binary32, Binary64};
+use crate::mpfr::{Mpfr2, Mpfr3, Mpfr24, Mpfr53, Mpfr200, MpfrConstant, MpfrMixed};
+use crate::system::{Oracle, System, operations};
+use num_traits::Zero;
+use proptest::prelude::*;
+use provable::number::tree::Step;
+use provable::number::{Exact, Field, OrderedField, PositivePart, ToExact};
+
+/// Laws of + − × ÷ alone.
+macro_rules! laws_of_every_system {
+    ($($law:ident)+) => {$(law! { $law:
+        Binary32 Binary64 Mpfr2 Mpfr3 Mpfr24 Mpfr53 Mpfr200 MpfrMixed MpfrConstant Rationals
+        BallF32 BallF64 BallMpfr2 BallMpfr53 DualExact DualF64 DualBallF32 DualBallF64
+    })+};
+}
+laws_of_every_system! {
+    zero_one_and_signs_are_neutral
+    small_integers_add_and_multiply
+    owned_and_borrowed_operands_give_the_same
+    a_result_is_the_same_where_another_number_was
+}
+
+// All but the duals of floats, whose derivative takes several roundings; the duals of balls bound it, and
+// `dual_floats_are_the_centres_of_dual_balls`.
+law! { operations_return_what_the_exact_result_demands:
+    Binary32 Binary64 Mpfr2 Mpfr3 Mpfr24 Mpfr53 Mpfr200 MpfrMixed MpfrConstant Rationals
+    BallF32 BallF64 BallMpfr2 BallMpfr53 DualExact DualBallF32 DualBallF64
+}
+
+law! { exact_numbers_are_a_commutative_ring_with_inverses: Rationals MpfrConstant DualExact }
+
+law! { positive_part_and_minimum_return_what_the_exact_result_demands:
+    Binary32 Binary64 Mpfr2 Mpfr3 Mpfr24 Mpfr53 Mpfr200 MpfrMixed MpfrConstant
+    BallF32 BallF64 BallMpfr2 BallMpfr53
+}
+
+law! { numbers_are_ordered_as_what_they_stand_for:
+    Binary32 Binary64 Mpfr2 Mpfr3 Mpfr24 Mpfr53 Mpfr200 MpfrMixed MpfrConstant
+}
+
+// Those of which the command and the proofs are told what they stand for.
+law! { numbers_say_what_they_stand_for:
+    Binary32 Binary64 Mpfr2 Mpfr3 Mpfr24 Mpfr53 Mpfr200 MpfrMixed MpfrConstant
+}
+
+/// For floats: the nearest float, to even, infinite beyond the largest. For balls: any that contains the
+/// exact result, for all numbers inside the operands. For exact numbers: the result.
+fn operations_return_what_the_exact_result_demands<S: System<Number = N>, N: Field + 'static>() {
+    let (tried, told_apart) = (Tally::default(), Tally::default());
+    for_all(S::pair(), |((a, exact_a), (b, exact_b))| {
+        prop_assert!(S::stands_for(&a, &exact_a), "{a:?} is drawn for {exact_a:?}");
+        told_apart.count(!S::stands_for(&a, &exact_b));
+        prop_assert!(S::stands_for(&-&a, &exact_a.negative()), "-{a:?}");
+        for ((name, operation), exact) in operations().into_iter().zip(exact_a.results(&exact_b)) {
+            tried.count(exact.is_some());
+            if let Some(exact) = exact {
+                let result = operation(&a, &b);
+                prop_assert!(S::stands_for(&result, &exact), "{name} gives {result:?}, exactly {exact:?}");
+            }
+        }
+        Ok(())
+    });
+    tried.assert_one_in(2, "operations tried");
+    told_apart.assert_one_in(2, "pairs of which neither number stands for the other");
+}
+
+#[allow(clippy::eq_op)]
+fn zero_one_and_signs_are_neutral<S: System<Number = N>, N: Field + 'static>() {
+    let (zero, one) = (N::zero(), N::one());
+    assert!(zero.is_zero() && !zero.is_unit() && !one.is_zero() && one.is_unit());
+    let divided = Tally::default();
+    for_all(S::pair(), |((a, _), (b, _))| {
+        let mut equations = vec![
+            ("a + 0 = a", &a + &zero, a.clone()),
+            ("0 + a = a", &zero + &a, a.clone()),
+            ("a - 0 = a", &a - &zero, a.clone()),
+            ("0 - a = -a", &zero - &a, -&a),
+            ("a - a = 0", &a - &a, zero.clone()),
+            ("1 a = a", &one * &a, a.clone()),
+            ("a 1 = a", &a * &one, a.clone()),
+            ("a 0 = 0", &a * &zero, zero.clone()),
+            ("0 a = 0", &zero * &a, zero.clone()),
+            ("a / 1 = a", &a / &one, a.clone()),
+            ("-(-a) = a", -(-&a), a.clone()),
+            ("a + b = b + a", &a + &b, &b + &a),
+            ("a b = b a", &a * &b, &b * &a),
+            ("a - b = a + (-b)", &a - &b, &a + -&b),
+            ("a - b = -(b - a)", &a - &b, -(&b - &a)),
+            ("(-a) b = -(a b)", -&a * &b, -(&a * &b)),
+        ];
+        if divided.count(a.is_unit()) {
+            equations.extend([
+                ("a / a = 1", &a / &a, one.clone()),
+                ("0 / a = 0", &zero / &a, zero.clone()),
+                ("b / (-a) = -(b / a)", &b / -&a, -(&b / &a)),
+                ("(-b) / a = -(b / a)", -&b / &a, -(&b / &a)),
+            ]);
+        }
+        for (equation, left, right) in equations {
+            prop_assert!(S::same(&left, &right), "{equation}: {left:?}, {right:?}");
+        }
+        Ok(())
+    });
+    divided.assert_one_in(2, "divisors");
+}
+
+/// With 12 bits each, so that their products fit into f32: what [`Field::int`] promises.
+fn small_integers_add_and_multiply<S: System<Number = N>, N: Field + 'static>() {
+    let small = || prop_oneof![-10..=10, -4095..=4095];
+    for_all((small(), small()), |(m, n)| {
+        let (a, b) = (N::int(m), N::int(n));
+        prop_assert!(S::same(&(&a + &b), &N::int(m + n)), "int({m}) + int({n}): small integers are exact");
+        prop_assert!(S::same(&(&a - &b), &N::int(m - n)), "int({m}) - int({n}): small integers are exact");
+        prop_assert!(S::same(&(&a * &b), &N::int(m * n)), "int({m}) * int({n}): small integers are exact");
+        prop_assert_eq!(a == b, m == n);
+        prop_assert_eq!(a.is_zero(), m == 0);
+        prop_assert_eq!(a.is_unit(), m != 0);
+        Ok(())
+    });
+}
+
+/// To the bit and to the precision: that is what the debug format shows.
+fn owned_and_borrowed_operands_give_the_same<S: System<Number = N>, N: Field + 'static>() {
+    let bits = |x: N| format!("{x:?}");
+    let divided = Tally::default();
+    for_all(S::pair(), |((a, _), (b, _))| {
+        let own = || (a.clone(), b.clone());
+        prop_assert_eq!(bits(-a.clone()), bits(-&a));
+        macro_rules! forms {
+            ($op:tt) => {
+                let expected = bits(&a $op &b);
+                prop_assert_eq!(bits(own().0 $op &b), expected.clone());
+                prop_assert_eq!(bits(&a $op own().1), expected.clone());
+                prop_assert_eq!(bits(own().0 $op own().1), expected);
+            };
+        }
+        forms!(+);
+        forms!(-);
+        forms!(*);
+        if divided.count(b.is_unit()) {
+            forms!(/);
+        }
+        Ok(())
+    });
+    divided.assert_one_in(2, "divisors");
+}
+
+/// To the bit and to the precision, whatever was there.
+fn a_result_is_the_same_where_another_number_was<S: System<Number = N>, N: Field + 'static>() {
+    let bits = |x: &N| format!("{x:?}");
+    let divided = Tally::default();
+    for_all((S::pair(), S::number()), |(((a, _), (b, _)), (there, _))| {
+        let divides = divided.count(b.is_unit());
+        let steps = [
+            (Step::Int(-7), N::int(-7)),
+            (Step::Neg(&a), -&a),
+            (Step::Add(&a, &b), &a + &b),
+            (Step::Sub(&a, &b), &a - &b),
+            (Step::Mul(&a, &b), &a * &b),
+        ];
+        let quotient = divides.then(|| (Step::Div(&a, &b), &a / &b));
+        for (step, expected) in steps.into_iter().chain(quotient) {
+            let mut result = there.clone();
+            prop_assert!(result.assign(step));
+            prop_assert_eq!(bits(&result), bits(&expected), "{:?}", step);
+        }
+        for step in [Step::Symbol("a"), Step::Exp(&a), Step::PositivePart(&a), Step::Min(&a, &b)] {
+            let mut result = there.clone();
+            prop_assert!(!result.assign(step));
+            prop_assert_eq!(bits(&result), bits(&there), "{:?}", step);
+        }
+        Ok(())
+    });
+    divided.assert_one_in(2, "divisors");
+}
+
+fn exact_numbers_are_a_commutative_ring_with_inverses<S: System<Number = N>, N: Field + 'static>() {
+    let inverted = Tally::default();
+    for_all((S::pair(), S::number()), |(((a, _), (b, _)), (c, _))| {
+        prop_assert_eq!((&a + &b) + &c, &a + (&b + &c));
+        prop_assert_eq!((&a * &b) * &c, &a * (&b * &c));
+        prop_assert_eq!(&a * (&b + &c), &a * &b + &a * &c);
+        prop_assert_eq!((&a - &b) * &c, &a * &c - &b * &c);
+        prop_assert_eq!(&a + &b, &b + &a);
+        prop_assert_eq!(&a * &b, &b * &a);
+        prop_assert_eq!(&a + -&a, N::zero());
+        if inverted.count(c.is_unit()) {
+            prop_assert_eq!(&c * (N::one() / &c), N::one());
+            prop_assert_eq!(&a / &c * &c, a.clone());
+            prop_assert_eq!((&a + &b) / &c, &a / &c + &b / &c);
+        }
+        Ok(())
+    });
+    inverted.assert_one_in(2, "divisors");
+}
+
+fn positive_part_and_minimum_return_what_the_exact_result_demands<S, N>()
+where
+    S: System<Number = N, Meaning = Exact>,
+    N: PositivePart + 'static,
+{
+    for_all(S::pair(), |((a, exact_a), (b, exact_b))| {
+        let (part, least) = (a.positive_part(), a.min(&b));
+        let exact_part = if exact_a > Exact::zero() { exact_a.clone() } else { Exact::zero() };
+        let exact_least = if exact_a < exact_b { exact_a } else { exact_b };
+        prop_assert!(holds_exactly::<S, N>(&part, &exact_part), "positive part {part:?} of {exact_part:?}");
+        prop_assert!(
+            holds_exactly::<S, N>(&least, &exact_least),
+            "minimum {least:?}, exactly {exact_least:?}"
+        );
+        Ok(())
+    });
+}
+
+/// ⟨·⟩ and min choose among numbers and round nothing, so a zero of no precision may come out.
+fn holds_exactly<S: System<Number = N, Meaning = Exact>, N: Field>(result: &N, exact: &Exact) -> bool {
+    S::stands_for(result, exact) || (exact.is_zero() && *result == N::zero())
+}
+
+fn numbers_are_ordered_as_what_they_stand_for<S, N>()
+where
+    S: System<Number = N, Meaning = Exact>,
+    N: OrderedField + 'static,
+{
+    for_all(S::pair(), |((a, exact_a), (b, exact_b))| {
+        prop_assert_eq!(a.partial_cmp(&b), Some(exact_a.cmp(&exact_b)));
+        prop_assert_eq!(a == b, exact_a == exact_b);
+        prop_assert_eq!(a.is_zero(), exact_a.is_zero());
+        let absolute = if exact_a < Exact::zero() { -&exact_a } else { exact_a };
+        prop_assert!(holds_exactly::<S, N>(&a.abs(), &absolute), "|{a:?}| is {:?}", a.abs());
+        prop_assert_eq!(a.min(&b), b.min(&a));
+        prop_assert_eq!(a.positive_part() - (-&a).positive_part(), a);
+        Ok(())
+    });
+}
+
+fn numbers_say_what_they_stand_for<S, N>()
+where
+    S: System<Number = N, Meaning = Exact>,
+    N: Field + ToExact + 'static,
+{
+    for_all(S::number(), |(a, exact)| {
+        prop_assert_eq!(a.to_exact(), Ok(exact));
+        Ok(())
+    });
+}

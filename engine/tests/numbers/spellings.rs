@@ -1,0 +1,242 @@
+//! How numbers are read and written.
+
+use crate::draw::{for_all, rationals};
+use crate::floats::{Binary32, Binary64};
+use crate::mpfr::MpfrMixed;
+use crate::system::System;
+use num_traits::{One, Zero};
+use proptest::prelude::*;
+use provable::number::{Exact, Field, MAX_EXPONENT, Mpfr, ParseError, RangeError, Real, ToExact};
+use rug::{Float, Integer, Rational};
+use std::fmt::Display;
+
+fn read(text: &str) -> Result<Exact, ParseError> {
+    text.parse()
+}
+
+#[test]
+fn every_spelling_is_read_exactly() {
+    let ratio = |p: i64, q: i64| Ok(Exact::from(Rational::from((p, q))));
+    for (text, p, q) in [
+        ("0", 0, 1),
+        ("-0", 0, 1),
+        ("0.000", 0, 1),
+        ("0e5", 0, 1),
+        ("7", 7, 1),
+        ("+7", 7, 1),
+        ("007", 7, 1),
+        ("-3", -3, 1),
+        ("9.81", 981, 100),
+        ("-9.81", -981, 100),
+        (".5", 1, 2),
+        ("-.5", -1, 2),
+        ("5.", 5, 1),
+        ("0.1", 1, 10),
+        ("1e3", 1000, 1),
+        ("1E3", 1000, 1),
+        ("1e+3", 1000, 1),
+        ("1e-3", 1, 1000),
+        ("1e0003", 1000, 1),
+        ("1e0", 1, 1),
+        ("1e-0", 1, 1),
+        ("2.50e1", 25, 1),
+        ("-2.5e-1", -1, 4),
+        (".5e1", 5, 1),
+        ("5.e1", 50, 1),
+        ("1/2", 1, 2),
+        ("-1/2", -1, 2),
+        ("+6/4", 3, 2),
+        ("0/5", 0, 1),
+        ("9007199254740993", 9_007_199_254_740_993, 1),
+        ("0.30000000000000004", 30_000_000_000_000_004, 100_000_000_000_000_000),
+    ] {
+        assert_eq!(read(text), ratio(p, q), "{text}");
+    }
+}
+
+#[test]
+fn what_is_no_number_is_refused() {
+    for text in [
+        "NaN", "nan", "inf", "-inf", "Infinity", "1e", "1e+", "1e-", "e5", "e", ".", "-.", "+", "-", "--1",
+        "+-1", "-+1", "1-", "1_000", "1,5", "1 000", " 1", "1 ", "\t1", "1\n", " ", "0x10", "0b1", "1f",
+        "1.5.2", "1..2", "1e5.5", "1e5e5", "1e--5", "1e 5", ".e5", "1/2/3", "1.5/2", "1/2.5", "1e5/2",
+        "1/1e5", "/2", "1/", "/", "1/-2", "-1/-2", "1/+2", "1 / 2", "½", "١", "１", "−1", "1\0", "x1", "one",
+    ] {
+        assert_eq!(read(text), Err(ParseError::NotANumber), "{text:?}");
+        assert_eq!(Mpfr::parse(text, 53), Err(ParseError::NotANumber), "{text:?}");
+    }
+    assert_eq!(read(""), Err(ParseError::Empty));
+    for text in ["1/0", "0/0", "-1/0", "1/000"] {
+        assert_eq!(read(text), Err(ParseError::DivisionByZero), "{text:?}");
+    }
+}
+
+/// At once: a number of 10¹² digits would not come back.
+/// Whatever its exponent is.
+#[test]
+fn what_is_no_number_has_no_exponent_either() {
+    for text in ["heavye99999999999", "1_0e-4294967296", "e100001", "1.2.3e99999999999", "0x1e99999999999"] {
+        assert_eq!(read(text), Err(ParseError::NotANumber), "{text}");
+    }
+}
+
+#[test]
+fn exponents_beyond_100_000_are_refused_before_anything_is_allocated() {
+    assert_eq!(MAX_EXPONENT, 100_000);
+    let endless = format!("1e{}", "9".repeat(10_000));
+    for text in
+        ["1e100001", "1e-100001", "0e100001", "1.5e+100001", "1e999999999999", "-1e-999999999999", &endless]
+    {
+        assert_eq!(read(text), Err(ParseError::Exponent), "{text:.20}");
+        assert_eq!(Mpfr::parse(text, 2), Err(ParseError::Exponent), "{text:.20}");
+    }
+    let large = Exact::from(Rational::from(Integer::from(Integer::u_pow_u(10, 100_000))));
+    assert_eq!(read("1e100000").as_ref(), Ok(&large));
+    assert_eq!(read("-1e-000100000"), Ok(-Exact::one() / large));
+}
+
+#[test]
+fn numbers_too_large_or_too_small_for_a_float_are_refused_and_never_inf_or_zero() {
+    let to_f32 = |text| read(text).and_then(|x| Ok(x.to_f32()?));
+    let to_f64 = |text| read(text).and_then(|x| Ok(x.to_f64()?));
+    fn overflow<F>(scalar: &'static str) -> Result<F, ParseError> {
+        Err(RangeError::Overflow { scalar }.into())
+    }
+    fn underflow<F>(scalar: &'static str) -> Result<F, ParseError> {
+        Err(RangeError::Underflow { scalar }.into())
+    }
+    for text in ["1e39", "-1e39", "3.4028236e38", "1e100000"] {
+        assert_eq!(to_f32(text), overflow("f32"), "{text}");
+    }
+    for text in ["1e309", "-1.8e308", "1e100000"] {
+        assert_eq!(to_f64(text), overflow("f64"), "{text}");
+    }
+    for text in ["7e-46", "-7e-46", "1e-100000"] {
+        assert_eq!(to_f32(text), underflow("f32"), "{text}");
+    }
+    for text in ["2e-324", "-2e-324", "1e-100000"] {
+        assert_eq!(to_f64(text), underflow("f64"), "{text}");
+    }
+    assert_eq!((to_f32("0e-5"), to_f64("-0.0")), (Ok(0.0), Ok(0.0)));
+}
+
+/// The standard library reads decimals with correct rounding, too.
+#[test]
+fn decimals_become_the_floats_that_the_standard_library_reads() {
+    let decimal =
+        (any::<bool>(), any::<u64>(), 0usize..20, -340..310).prop_map(|(negative, digits, point, e)| {
+            let mut text = format!("{digits:020}");
+            text.insert(point, '.');
+            format!("{}{text}e{e}", if negative { "-" } else { "" })
+        });
+    for_all(decimal, |text| {
+        let (exact, double) = (read(&text).unwrap(), text.parse::<f64>().unwrap());
+        let in_range = double.is_finite() && double != 0.0;
+        prop_assert!(in_range || exact.is_zero() || exact.to_f64().is_err());
+        prop_assert!(!in_range || exact.to_f64() == Ok(double));
+        let single = text.parse::<f32>().unwrap();
+        let in_range = single.is_finite() && single != 0.0;
+        prop_assert!(!in_range || exact.to_f32() == Ok(single));
+        Ok(())
+    });
+}
+
+#[test]
+fn what_is_printed_reads_back_as_the_same_number() {
+    for_all((Binary32::number(), Binary64::number(), rationals()), |((single, _), (double, _), exact)| {
+        for text in [format!("{single}"), format!("{single:e}"), format!("{single:?}")] {
+            prop_assert_eq!(read(&text).map(|x| x.to_f32()), Ok(Ok(single)), "{}", text);
+        }
+        for text in [format!("{double}"), format!("{double:e}"), format!("{double:?}")] {
+            prop_assert_eq!(read(&text).map(|x| x.to_f64()), Ok(Ok(double)), "{}", text);
+        }
+        prop_assert_eq!(read(&exact.to_string()), Ok(exact));
+        Ok(())
+    });
+    for_all(MpfrMixed::number(), |(x, _)| {
+        let text = x.to_string();
+        let read = match x.precision() {
+            Some(bits) => Mpfr::parse(&text, bits).unwrap().to_exact(),
+            None => Ok(read(&text).unwrap()),
+        };
+        prop_assert_eq!(read, x.to_exact(), "{}", text);
+        Ok(())
+    });
+}
+
+#[test]
+fn mpfr_numbers_with_huge_exponents_read_back_as_far_as_exponents_are_read() {
+    for text in ["1.5e99999", "-1.5e99999", "1.5e-99999", "-3.25e-99999"] {
+        for bits in [2, 53, 200] {
+            let x = Mpfr::parse(text, bits).unwrap();
+            assert_eq!(Mpfr::parse(&x.to_string(), bits).unwrap(), x, "{x}");
+        }
+    }
+    // 2^400000 has 120412 digits; as text it is short all the same.
+    let beyond = Mpfr::rounded(53, Float::with_val(53, 1) << 400_000);
+    assert!(beyond.to_string().ends_with("e120411") && beyond.to_string().len() < 30);
+    assert_eq!(Mpfr::parse(&beyond.to_string(), 53), Err(ParseError::Exponent));
+}
+
+/// What `format!` can do with an f64 it does with an MPFR number.
+#[test]
+fn mpfr_numbers_are_padded_and_signed_like_floats() {
+    fn shown(x: impl Display) -> [String; 8] {
+        [
+            format!("{x}"),
+            format!("{x:+}"),
+            format!("{x:12}|"),
+            format!("{x:<12}|"),
+            format!("{x:^12}|"),
+            format!("{x:>12}|"),
+            format!("{x:*>+12}|"),
+            format!("{x:012}|"),
+        ]
+    }
+    for x in [0.0, 1.0, -1.0, 1.5, -12.25, 1234.5, -1e6] {
+        assert_eq!(shown(Mpfr::rounded(53, x)), shown(x), "{x}");
+        assert_eq!(shown(Mpfr::rounded(200, x)), shown(x), "{x}");
+    }
+    for x in [0, 1, -1, 1234] {
+        assert_eq!(shown(Mpfr::int(x)), shown(x), "{x}");
+    }
+    // Scientific, where the digits would begin or end with zeros; padded all the same.
+    let small = Mpfr::rounded(53, -0.25);
+    assert_eq!(shown(&small)[2..5], ["     -2.5e-1|", "-2.5e-1     |", "  -2.5e-1   |"]);
+    assert_eq!(format!("{:e<8}|{:<+8}|", Mpfr::infinity(), Mpfr::infinity()), "infeeeee|+inf    |");
+}
+
+/// A tie goes to the even digit, which is f64's way.
+#[test]
+fn numbers_have_as_many_decimals_as_asked_for() {
+    fn shown(x: impl Display + std::fmt::Debug) -> [String; 9] {
+        [
+            format!("{x:.0}"),
+            format!("{x:.1}"),
+            format!("{x:.2}"),
+            format!("{x:.5}"),
+            format!("{x:.40}"),
+            format!("{x:+012.3}|"),
+            format!("{x:*<12.3}|"),
+            format!("{x:>12.3}|"),
+            format!("{x:.3?}|"),
+        ]
+    }
+    let ties = [0.5, 1.5, 2.5, -2.5, -3.5, 0.25, 0.75, 0.125, 0.375, 1.0625, -0.03125];
+    let others = [0.0, 1.0, -1.0, 9.81, 1.05, 0.1, -0.05, 999.999, -0.999_999, 1e-9, 1e22, 1e300, 5e-324];
+    for x in ties.into_iter().chain(others) {
+        assert_eq!(shown(Mpfr::rounded(53, x)), shown(x), "{x}");
+        assert_eq!(shown(Mpfr::rounded(200, x)), shown(x), "{x}");
+        assert_eq!(shown(Mpfr::constant(Rational::from_f64(x).unwrap())), shown(x), "{x}");
+        assert_eq!(shown(Exact::try_from(x).unwrap()), shown(x), "{x}");
+    }
+    for x in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
+        assert_eq!(shown(Mpfr::rounded(53, x)), shown(x), "{x}");
+    }
+    // Next to nothing has nothing to show, and is found out without writing it down.
+    let tiny = Mpfr::rounded(53, Float::with_val(53, 1) >> 1_000_000_000);
+    assert_eq!([format!("{tiny:.2}"), format!("{:.2}", -tiny)], ["0.00", "-0.00"]);
+    // Beyond what any f64 holds: 1/3 in 200 bits is off in the 61st digit.
+    let third = Mpfr::rounded(200, 1) / Mpfr::int(3);
+    assert_eq!(format!("{third:.60}"), format!("0.{}", "3".repeat(60)));
+}

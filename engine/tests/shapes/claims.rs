@@ -1,0 +1,135 @@
+//! Claims about formulas of shapes that the chapter does not have: divisors that are differences, quotients, brackets or
+//! rounded, in exact arithmetic and rounded.
+
+use provable::formula::claim::{
+    PRECISION, SCALES, derivative, equal, induction, limit, non_negative, positive, within,
+};
+use provable::formula::{Hypothesis, Rate, Relation, Statement};
+use provable::number::{Exponential, Field, PositivePart, Tree};
+
+/// Thirty-odd claims, each of which the kernel proves.
+pub fn claims() -> Vec<Statement> {
+    let [a, b, c, d, f, g, x, y] = ["a", "b", "c", "d", "f", "g", "x", "y"].map(|name| Tree::symbol(name));
+    let n = Tree::symbol(PRECISION);
+    let one = || Tree::int(1);
+    let above = |value: &Tree| Hypothesis::new(Relation::Positive, value.clone());
+    let at_least = |value: &Tree| Hypothesis::new(Relation::NonNegative, value.clone());
+    let [stiff_a, stiff_b, stiff_c, stiff_d] = [&a, &b, &c, &d].map(above);
+    let (lens_f, lens_g, shorter) = (above(&f), above(&g), above(&(&g - &f)));
+    let lens = || one() / (one() / &f - one() / &g);
+    let once = |of: &Tree| of.nearest() - of;
+    let product = above(&(&f * &g - one()));
+    let below_one = above(&(one() - &x));
+    let sum = Hypothesis::new(Relation::Zero, &a + &b - &c);
+    let above_c = above(&(&c - &b));
+    let scale = Tree::symbol(SCALES[0]);
+    let power = above(&scale);
+    let steeper = above(&(&a / &b - &c));
+    let larger = at_least(&(&x - &y));
+    let wide = Hypothesis::between(&y, -100, 100);
+    let squared = (Tree::int(332) + &y) * (Tree::int(332) + &y);
+    let inverse = one() / &squared;
+    vec![
+        induction("halves", one() / Tree::int(2), [one()], |[x]| [x / Tree::int(2)], [Tree::symbol("q")]),
+        positive("between", &x - &x * &x).assuming([&above(&x), &below_one]),
+        within("squared-interval", once(&(one() / &squared)), one() / &squared / &n).assuming([&wide]),
+        within("squared-interval-each", inverse.rounded() - &inverse, Tree::int(8) * &inverse / &n)
+            .assuming([&wide]),
+        equal("lens", lens(), &f * &g / (&g - &f)).assuming([&lens_f, &shorter]),
+        positive("lens-sign", lens()).assuming([&lens_f, &lens_g, &shorter]),
+        within("lens-rounded", once(&lens()), lens() / &n).assuming([&lens_f, &shorter]),
+        within("lens-rounded-g", once(&lens()), lens() / &n).assuming([&lens_f, &lens_g, &shorter]),
+        positive("lens-rounded-sign", lens().nearest()).assuming([&lens_f, &lens_g, &shorter]),
+        within("lens-twice", once(&(lens().nearest() * Tree::int(3))), lens() * Tree::int(6) / &n)
+            .assuming([&lens_f, &shorter]),
+        derivative("lens-slope", lens(), &f, lens() * lens() / (&f * &f))
+            .assuming([&lens_f, &lens_g, &shorter]),
+        limit("far-side", one() / (one() / &f + one() / &g), &g, &f, Rate::Exactly(-(&f * &f / (&g + &f))))
+            .assuming([&lens_f, &lens_g]),
+        within("negative-divisor", once(&(&a / (&b - &c))), &a / (&c - &b) / &n)
+            .assuming([&stiff_a, &above_c]),
+        within("opposite-divisor", once(&(&a / -&b)), &a / &b / &n).assuming([&stiff_a, &stiff_b]),
+        positive("negative-exact", -(&a / (&b - &c))).assuming([&stiff_a, &above_c]),
+        within("quotient-of-quotients", once(&((&a / &b) / (&c / &d))), &a * &d / (&b * &c) / &n)
+            .assuming([&stiff_a, &stiff_b, &stiff_c, &stiff_d]),
+        equal("quotients-exact", &a / (&b / (&c / &d)), &a * &c / (&b * &d))
+            .assuming([&stiff_a, &stiff_b, &stiff_c, &stiff_d]),
+        within(
+            "rounded-divisor",
+            (&a / (&b / &c)).rounded() - &a * &c / &b,
+            &a * &c / &b * Tree::int(3) / &n,
+        )
+        .assuming([&stiff_a, &stiff_b, &stiff_c]),
+        within(
+            "rounded-operands",
+            (a.nearest() / b.nearest()).nearest() - &a / &b,
+            &a / &b * Tree::int(4) / &n,
+        )
+        .assuming([&stiff_a, &stiff_b]),
+        within(
+            "rounded-difference",
+            (&a / (&g - &f)).rounded() - &a / (&g - &f),
+            &a / (&g - &f) * Tree::int(3) / &n,
+        )
+        .assuming([&stiff_a, &shorter]),
+        positive("rounded-negative", -(&a / (&f - &g)).rounded()).assuming([&stiff_a, &shorter]),
+        within("bracket", once(&(&a / (&b + x.positive_part()))), &a / &b / &n)
+            .assuming([&stiff_a, &stiff_b]),
+        positive("bracket-exact", &a / (&b + x.positive_part())).assuming([&stiff_a, &stiff_b]),
+        equal("bracket-shut", &a / (&b + (-&x).positive_part()), &a / &b).assuming([&stiff_b, &at_least(&x)]),
+        within("brackets", once(&(&a / (&b + (&x - y.positive_part()).positive_part()))), &a / &b / &n)
+            .assuming([&stiff_a, &stiff_b]),
+        positive("brackets-exact", one() / (&b + (&x - y.positive_part()).positive_part()))
+            .assuming([&stiff_b]),
+        within(
+            "rounded-bracket",
+            (&a / (&b + x.positive_part())).rounded() - &a / (&b + x.positive_part()),
+            &a / &b * Tree::int(3) / &n,
+        )
+        .assuming([&stiff_a, &stiff_b]),
+        within("bracket-over", once(&(x.nearest().positive_part() / &a)), x.abs() / &a * Tree::int(2) / &n)
+            .assuming([&stiff_a]),
+        within("steeper", once(&(one() / (&a / &b - &c))), one() / (&a / &b - &c) / &n)
+            .assuming([&stiff_b, &steeper]),
+        positive("steeper-exact", &b / (&a - &b * &c)).assuming([&stiff_b, &steeper]),
+        within("negative-lens", once(&(one() / (one() / &g - one() / &f))), lens() / &n)
+            .assuming([&lens_f, &shorter]),
+        within("minimum", once(&(&a / b.min(&c))), (&a / &b + &a / &c) / &n)
+            .assuming([&stiff_a, &stiff_b, &stiff_c]),
+        positive("minimum-exact", &a / b.min(&c)).assuming([&stiff_a, &stiff_b, &stiff_c]),
+        within("size", once(&(&a / (&b + x.abs()))), &a / &b / &n).assuming([&stiff_a, &stiff_b]),
+        positive("size-exact", one() / (&b + (&x - &y).abs())).assuming([&stiff_b]),
+        non_negative("order", (&x / (&g - &f)).nearest() - (&y / (&g - &f)).nearest())
+            .assuming([&shorter, &larger]),
+        non_negative("order-by-lens", (&x * lens()).nearest() - (&y * lens()).nearest())
+            .assuming([&lens_f, &lens_g, &shorter, &larger]),
+        non_negative(
+            "order-over-lens",
+            (&x / (one() / &f - one() / &g)).nearest() - (&y / (one() / &f - one() / &g)).nearest(),
+        )
+        .assuming([&lens_f, &lens_g, &shorter, &larger]),
+        within("scale-divisor", once(&(&a / (&scale * (&g - &f)))), &a / (&scale * (&g - &f)) / &n)
+            .assuming([&shorter, &stiff_a]),
+        equal(
+            "scale-lens",
+            (&scale * &x / (one() / &f - one() / &g)).nearest(),
+            &scale * (&x / (one() / &f - one() / &g)).nearest(),
+        )
+        .assuming([&lens_f, &lens_g, &shorter, &power]),
+        equal("scale", (&scale * &x / (&g - &f)).nearest(), &scale * (&x / (&g - &f)).nearest())
+            .assuming([&shorter, &power]),
+        within("product", once(&(one() / (&f * &g - one()))), one() / (&f * &g - one()) / &n)
+            .assuming([&product]),
+        equal("product-exact", one() / (&f * &g - one()) * (one() - &f * &g), -one()).assuming([&product]),
+        within("squares", once(&(one() / (&a * &a + &x * &x))), one() / (&a * &a) / &n).assuming([&stiff_a]),
+        positive("square", (one() / ((&x - &y) * (&x - &y) + one())).nearest()),
+        positive("square-exact", one() / (&x * &x - Tree::int(2) * &x * &y + &y * &y + one())),
+        within("equation", once(&(one() / (&c - &a))), one() / &b / &n).assuming([&stiff_b, &sum]),
+        equal("equation-exact", one() / (&c - &a), one() / &b).assuming([&stiff_b, &sum]),
+        within("geometric", once(&(one() / (one() - &x))), one() / (one() - &x) / &n).assuming([&below_one]),
+        within("exponential", once(&(one() / a.exp())), (-&a).exp() / &n).assuming([&stiff_a]),
+        equal("exponential-exact", one() / (one() / x.exp()), x.exp()),
+        within("both-signs", once(&(&a / (&f - &g) + &a / (&g - &f) + &a)), &a / &n)
+            .assuming([&stiff_a, &shorter]),
+    ]
+}

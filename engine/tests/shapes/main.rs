@@ -1,0 +1,41 @@
+//! Claims of many shapes for Coq, and, where Coq is installed, that it accepts them.
+#![cfg(feature = "prover")]
+
+mod claims;
+#[path = "../../../tests/coqc/mod.rs"]
+mod coqc;
+#[allow(dead_code)]
+#[path = "../../examples/springs.rs"]
+mod springs;
+
+use coqc::{accepts, named, of_claims};
+use provable::formula::Registry;
+use provable::proof::coq::{Development, Placed};
+use provable::proof::prove;
+
+#[test]
+fn coq_accepts_the_springs_in_series() {
+    let (registry, claims) = (springs::registry(), springs::claims());
+    let development = springs::coq(&registry, &claims);
+    let theorems: Vec<_> =
+        of_claims(&development.files()).flat_map(|f| named(&f.text, "Theorem")).map(String::from).collect();
+    assert_eq!((theorems.len(), development.left_out().len()), (claims.len(), 0));
+    assert_eq!(development.flips().len(), 1, "the sign of a + b");
+    accepts("springs", "Springs", &development);
+}
+
+/// Those of which no theorem is written are said to be left out, and all others are accepted.
+#[test]
+fn coq_accepts_divisors_of_any_shape() {
+    let claims = claims::claims();
+    for claim in &claims {
+        let proof = prove(claim);
+        assert!(proof.is_ok(), "{}: {}", claim.name(), proof.unwrap_err());
+    }
+    let registry = Registry::new(&["a", "b", "c", "d", "f", "g", "x", "y"], Vec::new());
+    let placed = claims.iter().map(|claim| Placed { claim, section: "shapes", functions: &[] });
+    let development = Development::new("Shapes", &registry, placed);
+    let left_out: Vec<_> = development.left_out().iter().map(|left| left.name).collect();
+    assert_eq!(left_out, ["between", "square", "exponential"], "{:?}", development.left_out());
+    accepts("shapes", "Shapes", &development);
+}

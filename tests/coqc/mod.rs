@@ -1,0 +1,199 @@
+//! What Coq is asked, and what it may answer, for the tests of both packages.
+
+#![allow(dead_code)] // every test file is a crate of its own and uses its share of this one
+
+use provable::proof::coq::{Development, File};
+use std::collections::BTreeSet;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::Mutex;
+use std::{fs, thread};
+
+/// Text without comments.
+pub fn code(text: &str) -> String {
+    let (mut depth, mut code) = (0, String::new());
+    let mut rest = text.chars().peekable();
+    while let Some(c) = rest.next() {
+        match (c, rest.peek()) {
+            ('(', Some('*')) => {
+                rest.next();
+                depth += 1;
+            }
+            ('*', Some(')')) if depth > 0 => {
+                rest.next();
+                depth -= 1;
+            }
+            _ if depth == 0 => code.push(c),
+            _ => {}
+        }
+    }
+    code
+}
+
+/// The axioms that Coq's real numbers rest on, and nothing else may.
+const AXIOMS: [&str; 4] = [
+    // Of a property of natural numbers that can be decided one by one, either all have it or one is found that
+    // has it not: with it, Dedekind's cuts can be compared.
+    "ClassicalDedekindReals.sig_forall_dec",
+    // What is not impossible is so, or it is not: a cut is a set that may ask anything.
+    "ClassicalDedekindReals.sig_not_dec",
+    // Functions with the same values are the same: cuts are functions.
+    "FunctionalExtensionality.functional_extensionality_dep",
+    // Every statement holds or does not: Coquelicot's limits and derivatives are of classical analysis.
+    "Classical_Prop.classic",
+];
+
+pub fn words(text: &str) -> impl Iterator<Item = &str> {
+    text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').filter(|word| !word.is_empty())
+}
+
+/// The names that a keyword introduces.
+pub fn named<'t>(text: &'t str, keyword: &str) -> Vec<&'t str> {
+    let all: Vec<_> = words(text).collect();
+    all.windows(2).filter(|pair| pair[0] == keyword).map(|pair| pair[1]).collect()
+}
+
+pub fn of_claims(files: &[File]) -> impl Iterator<Item = &File> {
+    files.iter().filter(|file| file.name.starts_with("C_"))
+}
+
+/// A directory for one test.
+pub fn scratch(name: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("coq-{name}"));
+    let _ = fs::remove_dir_all(&path);
+    fs::create_dir_all(&path).unwrap();
+    path
+}
+
+/// Past the test harness, which keeps what a passing test prints to itself.
+fn say(line: &str) {
+    let _ = writeln!(std::io::stderr(), "{line}");
+}
+
+/// The version of the Coq that is installed, if one is.
+pub fn version() -> Option<String> {
+    let output = Command::new("coqc").arg("--version").output().ok();
+    let found = output.filter(|output| output.status.success());
+    if found.is_none() {
+        say("skipped: coqc is not installed (./setup --provers installs it), so Coq checks nothing here");
+    }
+    found.map(|output| String::from_utf8_lossy(&output.stdout).into_owned())
+}
+
+/// Are the libraries there? They are if what needs them compiles, in a directory for this name.
+pub fn has_libraries(name: &str) -> bool {
+    let directory = scratch(&format!("{name}-libraries"));
+    [("Coquelicot", "Coquelicot"), ("Flocq", "Core")].into_iter().all(|(library, module)| {
+        fs::write(directory.join("Try.v"), format!("From {library} Require {module}.\n")).unwrap();
+        let found = compile(&directory, "Try", "Try.v").is_ok();
+        if !found {
+            say(&format!(
+                "skipped: coqc has no {library} (./setup --provers installs it), so Coq checks nothing here"
+            ));
+        }
+        found
+    })
+}
+
+/// What Coq says of a file of a library: its output, or its error.
+pub fn compile(directory: &Path, library: &str, file: &str) -> Result<String, String> {
+    // Coquelicot warns of a coercion of its own.
+    let output =
+        Command::new("coqc").args(["-w", "none", "-R", ".", library, file]).current_dir(directory).output();
+    let output = output.unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8_lossy(&bytes).into_owned();
+    if output.status.success() { Ok(text(output.stdout)) } else { Err(text(output.stderr)) }
+}
+
+/// Does all jobs, two at a time, in their order.
+pub fn two_at_a_time<J: Sync, R: Send>(jobs: &[J], work: impl Fn(&J) -> R + Sync) -> Vec<R> {
+    let (next, done) = (Mutex::new(0..jobs.len()), Mutex::new(Vec::new()));
+    thread::scope(|scope| {
+        for _ in 0..2 {
+            scope.spawn(|| {
+                loop {
+                    let Some(i) = next.lock().unwrap().next() else { break };
+                    let result = work(&jobs[i]);
+                    done.lock().unwrap().push((i, result));
+                }
+            });
+        }
+    });
+    let mut done = done.into_inner().unwrap();
+    done.sort_by_key(|(i, _)| *i);
+    done.into_iter().map(|(_, result)| result).collect()
+}
+
+/// The names of axioms in what `Print Assumptions` prints.
+fn axioms(printed: &str) -> BTreeSet<&str> {
+    let (_, list) = printed.split_once("Axioms:").unwrap_or_default();
+    let names = list.lines().filter(|line| line.starts_with(|c: char| c.is_ascii_alphabetic()));
+    names.filter_map(|line| line.split_whitespace().next()).collect()
+}
+
+/// The files that a file needs: of those that belong together, what it requires.
+fn needs(library: &str, file: &File) -> Vec<String> {
+    let (text, from) = (code(&file.text), format!("From {library} Require"));
+    let required = text.split(&from).skip(1).filter_map(|rest| rest.split(".\n").next());
+    let names = required.flat_map(words).filter(|word| *word != "Import");
+    names.map(|name| format!("{name}.v")).collect()
+}
+
+/// Coq accepts all of it. What this Coq has accepted it is not asked again while that, and what it needs, stays as it is.
+pub fn accepts(name: &str, library: &str, development: &Development) {
+    let Some(version) = version() else { return };
+    let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("coq-{name}"));
+    let mark = |file: &File| directory.join(&file.name).with_extension("accepted");
+    let marked = |file: &File| version.clone() + &file.text;
+    let mut done: BTreeSet<String> = BTreeSet::new();
+    let mut files = development.files();
+    files.retain(|file| {
+        let accepted = fs::read_to_string(mark(file)).is_ok_and(|before| before == marked(file));
+        let stays = accepted && needs(library, file).iter().all(|name| done.contains(name));
+        if stays {
+            done.insert(file.name.clone());
+        } else {
+            let _ = fs::remove_file(mark(file));
+        }
+        !stays
+    });
+    if files.is_empty() {
+        say("not a word has changed since Coq accepted it");
+        return;
+    }
+    if !has_libraries(name) {
+        return;
+    }
+    development.write(&directory).unwrap();
+    while !files.is_empty() {
+        let ready = |file: &File| needs(library, file).iter().all(|name| done.contains(name));
+        let (mut now, later): (Vec<_>, Vec<_>) = files.into_iter().partition(ready);
+        // The longest first, so that none is left over at the end.
+        now.sort_by_key(|file| std::cmp::Reverse(file.text.len()));
+        assert!(!now.is_empty(), "{:?} import each other", later.iter().map(|f| &f.name).collect::<Vec<_>>());
+        let results = two_at_a_time(&now, |file| compile(&directory, library, &file.name));
+        for (file, result) in now.iter().zip(results) {
+            let printed = result.unwrap_or_else(|error| panic!("{error}"));
+            let axioms = axioms(&printed);
+            assert_eq!(
+                !axioms.is_empty(),
+                file.text.contains("Print Assumptions"),
+                "{}: {printed}",
+                file.name
+            );
+            let unknown: Vec<_> = axioms.iter().filter(|axiom| !AXIOMS.contains(axiom)).collect();
+            assert!(unknown.is_empty(), "new axioms: {unknown:?}");
+            fs::write(mark(file), marked(file)).unwrap();
+            done.insert(file.name.clone());
+        }
+        files = later;
+    }
+}
+
+#[test]
+fn axioms_are_read() {
+    let printed = "Axioms:\nA.one : forall P : Prop,\n  P\nB.two\n  : nat\n";
+    assert_eq!(axioms(printed).into_iter().collect::<Vec<_>>(), ["A.one", "B.two"]);
+    assert!(axioms("Closed under the global context\n").is_empty());
+}
