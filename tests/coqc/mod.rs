@@ -145,7 +145,7 @@ pub fn accepts(name: &str, library: &str, development: &Development) {
     let Some(version) = version() else { return };
     let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("coq-{name}"));
     let mark = |file: &File| directory.join(&file.name).with_extension("accepted");
-    let marked = |file: &File| version.clone() + &file.text;
+    let marked = |file: &File| format!("{version}{library}\n{}", file.text);
     let mut done: BTreeSet<String> = BTreeSet::new();
     let mut files = development.files();
     files.retain(|file| {

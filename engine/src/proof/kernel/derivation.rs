@@ -12,26 +12,26 @@ use crate::number::Tree;
 /// it stays what it is:
 ///
 /// ```
-/// use provable::formula::{Statement, claim::equal};
+/// use provable::formula::claim::equal;
 /// use provable::{number::Tree, proof::{Proof, prove}};
 /// let x = Tree::symbol("x");
-/// let statement = Statement::of(&equal("twice", [], &x + &x, Tree::from(2) * &x));
+/// let statement = equal("twice", &x + &x, Tree::from(2) * &x);
 /// let proof: Proof = prove(&statement).unwrap();
-/// assert_eq!(proof.statement().goals.len(), 1);
+/// assert_eq!(proof.statement().goals().len(), 1);
 /// ```
 /// ```compile_fail
-/// # use provable::formula::{Statement, claim::equal};
+/// # use provable::formula::claim::equal;
 /// # use provable::{number::Tree, proof::{Proof, prove}};
 /// # let x = Tree::symbol("x");
-/// # let statement = Statement::of(&equal("twice", [], &x + &x, Tree::from(2) * &x));
+/// # let statement = equal("twice", &x + &x, Tree::from(2) * &x);
 /// # let mut proof: Proof = prove(&statement).unwrap();
 /// proof.statement = statement.clone();
 /// ```
 /// ```compile_fail
-/// # use provable::formula::{Statement, claim::equal};
+/// # use provable::formula::claim::equal;
 /// # use provable::{number::Tree, proof::{Proof, prove}};
 /// # let x = Tree::symbol("x");
-/// # let statement = Statement::of(&equal("twice", [], &x + &x, Tree::from(2) * &x));
+/// # let statement = equal("twice", &x + &x, Tree::from(2) * &x);
 /// # let mut proof: Proof = prove(&statement).unwrap();
 /// proof.goals.clear();
 /// ```
