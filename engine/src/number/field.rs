@@ -119,18 +119,7 @@ pub trait Field:
     /// Puts what a step of arithmetic comes to, bit for bit, where another number was, whose memory may
     /// serve again. Of the steps that not every field has it does nothing and says `false`.
     fn assign(&mut self, step: Step<&Self>) -> bool {
-        *self = match step {
-            Step::Int(n) => Self::int(n),
-            Step::Neg(a) => -a,
-            Step::Add(a, b) => a + b,
-            Step::Sub(a, b) => a - b,
-            Step::Mul(a, b) => a * b,
-            Step::Div(a, b) => a / b,
-            Step::Symbol(_) | Step::Exp(_) | Step::PositivePart(_) | Step::Min(..) | Step::Rounded(_) => {
-                return false;
-            }
-        };
-        true
+        step.arithmetic().map(|result| *self = result).is_some()
     }
 }
 

@@ -53,25 +53,14 @@ impl Program {
         symbol: &impl Fn(&'static str) -> T,
         beyond: &impl Fn(Step<&T>) -> Option<T>,
     ) -> Vec<Option<T>> {
-        use Step::*;
         let mut values: Vec<Option<T>> = Vec::with_capacity(self.steps.len());
         for step in &self.steps {
-            let value = |place: &usize| values[*place].as_ref();
-            let both = |a, b| value(a).zip(value(b));
-            let result = match step {
-                Symbol(name) => Some(symbol(name)),
-                Int(n) => Some(T::int(*n)),
-                Neg(a) => value(a).map(|a| -a),
-                Add(a, b) => both(a, b).map(|(a, b)| a + b),
-                Sub(a, b) => both(a, b).map(|(a, b)| a - b),
-                Mul(a, b) => both(a, b).map(|(a, b)| a * b),
-                Div(a, b) => both(a, b).and_then(|(a, b)| beyond(Div(a, b))),
-                Exp(a) => value(a).and_then(|a| beyond(Exp(a))),
-                PositivePart(a) => value(a).and_then(|a| beyond(PositivePart(a))),
-                Min(a, b) => both(a, b).and_then(|(a, b)| beyond(Min(a, b))),
-                Rounded(a) => value(a).and_then(|a| beyond(Rounded(a))),
-            };
-            values.push(result);
+            let operands = step.try_map(|place| values[*place].as_ref());
+            values.push(operands.and_then(|step| match step {
+                Step::Symbol(name) => Some(symbol(name)),
+                Step::Div(..) => beyond(step),
+                step => step.arithmetic().or_else(|| beyond(step)),
+            }));
         }
         values
     }

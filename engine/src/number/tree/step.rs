@@ -74,13 +74,13 @@ impl<T> Step<T> {
     }
 
     /// The same step with other operands.
-    pub fn map<U>(&self, mut f: impl FnMut(&T) -> U) -> Step<U> {
+    pub fn map<'a, U>(&'a self, mut f: impl FnMut(&'a T) -> U) -> Step<U> {
         let all = self.try_map(|operand| Some(f(operand)));
         all.expect("every operand has another")
     }
 
     /// The same, if there are others.
-    pub fn try_map<U>(&self, mut f: impl FnMut(&T) -> Option<U>) -> Option<Step<U>> {
+    pub fn try_map<'a, U>(&'a self, mut f: impl FnMut(&'a T) -> Option<U>) -> Option<Step<U>> {
         use Step::*;
         Some(match self {
             Symbol(name) => Symbol(name),
@@ -98,6 +98,23 @@ impl<T> Step<T> {
     }
 }
 
+impl<T: Field> Step<&T> {
+    /// Returns the result of an operation that every field has, and `None` for any other. A divisor has to be
+    /// [invertible](Field::is_unit).
+    pub fn arithmetic(self) -> Option<T> {
+        use Step::*;
+        Some(match self {
+            Int(n) => T::int(n),
+            Neg(a) => -a,
+            Add(a, b) => a + b,
+            Sub(a, b) => a - b,
+            Mul(a, b) => a * b,
+            Div(a, b) => a / b,
+            Symbol(_) | Exp(_) | PositivePart(_) | Min(..) | Rounded(_) => return None,
+        })
+    }
+}
+
 impl<T: Field> Step<T> {
     /// What it comes to, with operands that are numbers. The rest as for [replay](super::Tree::replay).
     pub fn value(
@@ -105,21 +122,11 @@ impl<T: Field> Step<T> {
         symbol: &impl Fn(&'static str) -> T,
         beyond: &impl Fn(Step<&T>) -> Option<T>,
     ) -> Option<T> {
-        use Step::*;
-        Some(match self {
-            Symbol(name) => symbol(name),
-            Int(n) => T::int(n),
-            Neg(a) => -a,
-            Add(a, b) => a + b,
-            Sub(a, b) => a - b,
-            Mul(a, b) => a * b,
-            Div(_, b) if !b.is_unit() => return None,
-            Div(a, b) => a / b,
-            Exp(a) => beyond(Exp(&a))?,
-            PositivePart(a) => beyond(PositivePart(&a))?,
-            Min(a, b) => beyond(Min(&a, &b))?,
-            Rounded(a) => beyond(Rounded(&a))?,
-        })
+        match self.map(|operand| operand) {
+            Step::Symbol(name) => Some(symbol(name)),
+            Step::Div(_, b) if !b.is_unit() => None,
+            step => step.arithmetic().or_else(|| beyond(step)),
+        }
     }
 }
 
