@@ -13,48 +13,24 @@
 //! # Ok::<(), spring_mass_contact::solver::SolveError>(())
 //! ```
 
-#[cfg(feature = "mpfr")]
-mod advise;
 mod augmentation;
 mod check;
 mod closed;
 #[cfg(feature = "mpfr")]
-mod count;
-#[cfg(feature = "mpfr")]
-mod display;
+mod exact;
 mod functional;
-#[cfg(feature = "mpfr")]
-pub mod laws;
-#[cfg(feature = "mpfr")]
-mod reach;
-#[cfg(feature = "mpfr")]
-mod read;
 mod root;
 mod scalar;
-#[cfg(feature = "mpfr")]
-mod series;
 mod solution;
-#[cfg(feature = "mpfr")]
-mod sweep;
 
-#[cfg(feature = "mpfr")]
-pub use advise::{Advice, Choice, advise};
 pub use augmentation::{Augmentation, Iterate};
 pub use check::SolveError;
 pub use closed::iterate_after;
 #[cfg(feature = "mpfr")]
-pub use count::augmentations_needed;
+pub use exact::*;
 pub use functional::{Condition, FunctionalError, Lifted, penalty_for_functional, solve_functional};
-#[cfg(feature = "mpfr")]
-pub use reach::{augmentations_promised, bits_needed, rounding_floor, within_reach};
-#[cfg(feature = "mpfr")]
-pub use read::ReadError;
 pub use scalar::{Interval, Scalar};
-#[cfg(feature = "mpfr")]
-pub use series::series_penetration;
 pub use solution::{Bounds, MAX_AUGMENTATIONS, Method, Outcome, Plane, Solution, State};
-#[cfg(feature = "mpfr")]
-pub use sweep::{SweepRow, best_penalty, penalties, penalty_force_bound, sweep};
 
 use crate::chapter::{SpringMass, augmented, contact, lagrange, penalty, structure, system};
 use num_traits::One;
@@ -239,12 +215,6 @@ fn force_at_root<T: Scalar>(
         return force;
     }
     penalty::force_at_root(&root::weighed(enclosed.c.clone(), T::Enclosure::one()), eps) * reaction
-}
-
-/// The value of a number that has been checked, or comes of a solve.
-#[cfg(feature = "mpfr")]
-fn exact<T: crate::number::ToExact>(x: &T) -> crate::number::Exact {
-    x.to_exact().expect("a finite number")
 }
 
 /// Its ends, if the scalar has them.

@@ -75,29 +75,6 @@ pub(super) fn method<T: Scalar>(method: &Method<T>) -> Result<(), SolveError> {
     }
 }
 
-#[cfg(feature = "mpfr")]
-pub(super) fn coefficient<T: Scalar>(argument: &'static str, value: &T) -> Result<(), SolveError> {
-    require(value.is_finite() && *value >= T::zero(), argument, value, "at least 0 and finite")
-}
-
-/// η: 0 where nothing is rounded.
-#[cfg(feature = "mpfr")]
-pub(super) fn unit_roundoff(eta: &crate::number::Exact) -> Result<(), SolveError> {
-    require(*eta >= num_traits::Zero::zero(), "unit roundoff", eta, "at least 0")
-}
-
-#[cfg(feature = "mpfr")]
-pub(super) fn any_positive<'a, T: Scalar + 'a>(
-    mut coefficients: impl Iterator<Item = &'a T>,
-) -> Result<(), SolveError> {
-    require(
-        coefficients.any(|e| *e > T::zero()),
-        "penalties",
-        &T::zero(),
-        "greater than 0, at least one of them",
-    )
-}
-
 pub(super) fn in_range(holds: bool, quantity: &'static str) -> Result<(), SolveError> {
     if holds { Ok(()) } else { Err(SolveError::OutOfRange { quantity }) }
 }

@@ -1,12 +1,6 @@
 //! What the solver asks of its numbers, beyond arithmetic: bounds and an exact sign.
 
 use crate::number::{Ball, OrderedField, PositivePart, Real};
-#[cfg(feature = "mpfr")]
-use crate::number::{Exact, Mpfr, Text, ToExact};
-#[cfg(feature = "mpfr")]
-use num_traits::Zero;
-#[cfg(feature = "mpfr")]
-use rug::float::Round;
 use std::cmp::Ordering;
 
 /// Two numbers, and all between them.
@@ -49,28 +43,6 @@ impl<T: Scalar> Interval<T> {
             return width;
         }
         T::magnitude(&(upper.enclose() - lower.enclose()))
-    }
-}
-
-#[cfg(feature = "mpfr")]
-impl<T: Text> Interval<T> {
-    /// Both ends as texts that still enclose.
-    ///
-    /// ```
-    /// # use spring_mass_contact::solver::Interval;
-    /// // The f64 beside 0.1 is a little larger than 0.1.
-    /// assert_eq!(Interval { lower: 0.1, upper: 0.1 }.texts(), ["0.1", "0.10000000000000002"]);
-    /// ```
-    pub fn texts(&self) -> [String; 2] {
-        [self.lower.bound(Round::Down), self.upper.bound(Round::Up)]
-    }
-}
-
-/// As its two texts.
-#[cfg(feature = "serde")]
-impl<T: Text> serde::Serialize for Interval<T> {
-    fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        self.texts().serialize(to)
     }
 }
 
@@ -198,12 +170,6 @@ pub(super) fn power<E: PositivePart>(x: &E, k: u64) -> E {
 /// More binary digits take a computer minutes and gigabytes.
 pub(super) const LONGEST: u64 = 10_000_000;
 
-/// Is xᵏ short enough?
-#[cfg(feature = "mpfr")]
-fn can_be_written(x: &Exact, k: u64) -> bool {
-    x.digits().checked_mul(k).is_some_and(|digits| digits <= LONGEST)
-}
-
 macro_rules! by_ball {
     ($($float:ty, $sign:expr $(, $power:item)*;)*) => {$(
         impl Scalar for $float {
@@ -236,6 +202,9 @@ macro_rules! by_ball {
         }
     )*};
 }
+#[cfg(feature = "mpfr")]
+pub(super) use by_ball;
+
 #[allow(clippy::clone_on_copy)]
 mod machine {
     use super::*;
@@ -249,55 +218,6 @@ mod machine {
         };
     }
 }
-#[cfg(feature = "mpfr")]
-by_ball! {
-    Mpfr, |plus: [(&Mpfr, &Mpfr); 2], minus: (&Mpfr, &Mpfr)| {
-        // Numbers that are not finite are refused before anybody asks for a sign.
-        let exact = |x: &Mpfr| x.to_exact().unwrap_or_else(|_| Exact::zero());
-        let product = |(a, b): (&Mpfr, &Mpfr)| exact(a) * exact(b);
-        (product(plus[0]) + product(plus[1])).cmp(&product(minus))
-    },
-    fn power(x: &Ball<Mpfr>, k: u64) -> Option<Ball<Mpfr>> {
-        // A constant is a rational, and its powers are as long.
-        let rational = x.value().precision().is_none().then(|| x.value().to_exact().ok()).flatten();
-        rational.is_none_or(|x| can_be_written(&x, k)).then(|| power(x, k))
-    },
-    fn growing_digits(&self) -> u64 {
-        // A constant is a rational.
-        let constant = self.precision().is_none().then(|| self.to_exact().ok()).flatten();
-        constant.map_or(0, |x| x.digits())
-    };
-}
-
-#[cfg(feature = "mpfr")]
-impl Scalar for Exact {
-    type Enclosure = Exact;
-    fn enclose(&self) -> Exact {
-        self.clone()
-    }
-    fn interval(x: &Exact) -> Interval<Self> {
-        Interval { lower: x.clone(), upper: x.clone() }
-    }
-    fn magnitude(x: &Exact) -> Self {
-        x.abs()
-    }
-    fn sign(x: &Exact) -> Option<Ordering> {
-        Some(x.cmp(&Exact::zero()))
-    }
-    fn power(x: &Exact, k: u64) -> Option<Exact> {
-        can_be_written(x, k).then(|| power(x, k))
-    }
-    fn is_finite(&self) -> bool {
-        true
-    }
-    fn growing_digits(&self) -> u64 {
-        self.digits()
-    }
-    fn sign_of_sum(plus: [(&Self, &Self); 2], minus: (&Self, &Self)) -> Ordering {
-        (plus[0].0 * plus[0].1 + plus[1].0 * plus[1].1).cmp(&(minus.0 * minus.1))
-    }
-}
-
 fn sign_of_sum(plus: [(f64, f64); 2], (a, b): (f64, f64)) -> Ordering {
     let mut sum = Accumulator::new();
     for (a, b) in [plus[0], plus[1], (-a, b)] {

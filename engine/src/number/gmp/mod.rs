@@ -1,6 +1,5 @@
 //! Numbers of GMP and MPFR, and numbers as text.
 
-mod brief;
 mod exact;
 mod functions;
 mod mpfr;
@@ -9,7 +8,6 @@ mod scientific;
 mod system;
 mod text;
 
-pub use brief::{brief, brief_bound, relation};
 pub use exact::{Exact, Inexact, ToExact};
 pub use mpfr::{Mpfr, PRECISIONS};
 pub use parse::{MAX_EXPONENT, ParseError, RangeError};

@@ -7,10 +7,11 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::Value;
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::chapter::contact::Kkt;
-use spring_mass_contact::number::{Exact, NumberSystem, Text, brief_bound, relation};
+use spring_mass_contact::number::{Exact, NumberSystem, Text};
 use spring_mass_contact::rug::float::Round;
 use spring_mass_contact::solver::{
-    Bounds, Method, Outcome, Plane, Scalar, Solution, State, bits_needed, rounding_floor, within_reach,
+    Bounds, Method, Outcome, Plane, Scalar, Solution, State, bits_needed, format_equation,
+    format_short_bound, rounding_floor, within_reach,
 };
 use std::io::{self, Write};
 use std::iter;
@@ -106,11 +107,11 @@ impl<T: Scalar + Text> Report<'_, T> {
             ("penetration", "p", "m", &s.penetration, &bounds.penetration),
             ("contact force", "N", "N", &s.contact_force, &bounds.contact_force),
         ] {
-            rows.push((name, format!("{} {unit}", relation(symbol, value))));
+            rows.push((name, format!("{} {unit}", format_equation(symbol, value))));
             rows.push(("", format!("{answer} {interval} {unit}")));
         }
         if let Some(multiplier) = &s.multiplier {
-            rows.push(("multiplier", format!("{} N", relation("λ", multiplier))));
+            rows.push(("multiplier", format!("{} N", format_equation("λ", multiplier))));
         }
         let names = ["KKT residuals"].into_iter().chain(iter::repeat(""));
         rows.extend(names.zip(self.kkt.to_string().split(", ").map(String::from)));
@@ -156,9 +157,9 @@ impl<T: Scalar + Text> Report<'_, T> {
     fn method_in_words(&self) -> String {
         let name = match &self.problem.method {
             Method::Lagrange => "Lagrange multiplier".to_string(),
-            Method::Penalty { penalty } => format!("penalty, {} N/m", relation("ε", penalty)),
+            Method::Penalty { penalty } => format!("penalty, {} N/m", format_equation("ε", penalty)),
             Method::Augmented { penalty, .. } => {
-                format!("augmented Lagrangian, {} N/m", relation("ε", penalty))
+                format!("augmented Lagrangian, {} N/m", format_equation("ε", penalty))
             }
         };
         let plane = if self.problem.plane == Plane::Bilateral { ", bilateral" } else { "" };
@@ -204,7 +205,10 @@ impl<T: Scalar + Text> Report<'_, T> {
             Outcome::Stagnated => format!(
                 "stagnated at k = {k}: rounding stops the iteration short of {tolerance} m; its floor, the \
                  least bound of |u − u*| met, is {} m; {}",
-                self.solution.floor.as_ref().map_or(String::new(), |floor| brief_bound(floor, Round::Up)),
+                self.solution
+                    .floor
+                    .as_ref()
+                    .map_or(String::new(), |floor| format_short_bound(floor, Round::Up)),
                 self.remedy()
             ),
             Outcome::OutOfSteps => {

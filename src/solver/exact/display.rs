@@ -1,8 +1,9 @@
 //! Results as a few lines for people. What is shortened is marked by ≈, and a bound still holds.
 
 use super::{Advice, Choice, Interval, Method, Outcome, Scalar, Solution};
+use super::{format_equation, format_short, format_short_bound};
 use crate::chapter::contact::Kkt;
-use crate::number::{Text, brief, brief_bound, relation};
+use crate::number::Text;
 use rug::float::Round;
 use std::fmt;
 
@@ -20,7 +21,8 @@ const DIGITS: usize = 3;
 /// ```
 impl<T: Text> fmt::Display for Interval<T> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let [lower, upper] = [brief_bound(&self.lower, Round::Down), brief_bound(&self.upper, Round::Up)];
+        let [lower, upper] =
+            [format_short_bound(&self.lower, Round::Down), format_short_bound(&self.upper, Round::Up)];
         if lower == upper { f.write_str(&lower) } else { write!(f, "{lower} to {upper}") }
     }
 }
@@ -45,7 +47,7 @@ impl<T: Scalar + Text> fmt::Display for Solution<T> {
             write!(f, " at k = {k}")?;
         }
         if let Some(floor) = &self.floor {
-            write!(f, ", |u − u*| at most {} m", brief_bound(floor, Round::Up))?;
+            write!(f, ", |u − u*| at most {} m", format_short_bound(floor, Round::Up))?;
         }
         let answer = if self.outcome == Outcome::Direct { "exact" } else { "limit" };
         for (symbol, unit, value, enclosure) in [
@@ -53,10 +55,10 @@ impl<T: Scalar + Text> fmt::Display for Solution<T> {
             ("p", "m", &self.penetration, &self.bounds.penetration),
             ("N", "N", &self.contact_force, &self.bounds.contact_force),
         ] {
-            write!(f, "\n{} {unit}, {answer} {enclosure} {unit}", relation(symbol, value))?;
+            write!(f, "\n{} {unit}, {answer} {enclosure} {unit}", format_equation(symbol, value))?;
         }
         match &self.multiplier {
-            Some(multiplier) => write!(f, "\n{} N", relation("λ", multiplier)),
+            Some(multiplier) => write!(f, "\n{} N", format_equation("λ", multiplier)),
             None => Ok(()),
         }
     }
@@ -74,13 +76,13 @@ impl<T: Text> fmt::Display for Method<T> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
             Method::Lagrange => f.write_str("Lagrange multiplier"),
-            Method::Penalty { penalty } => write!(f, "penalty, {} N/m", relation("ε", penalty)),
+            Method::Penalty { penalty } => write!(f, "penalty, {} N/m", format_equation("ε", penalty)),
             Method::Augmented { penalty, tolerance, max_augmentations, start } => write!(
                 f,
                 "augmented Lagrangian, {} N/m, {} m, at most {max_augmentations} augmentations, {} N",
-                relation("ε", penalty),
-                relation("tolerance", tolerance),
-                relation("λ₀", start),
+                format_equation("ε", penalty),
+                format_equation("tolerance", tolerance),
+                format_equation("λ₀", start),
             ),
         }
     }
@@ -99,7 +101,7 @@ impl<T: Text> fmt::Display for Method<T> {
 impl<T: Text> fmt::Display for Choice<T> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(f, "{}", self.method)?;
-        let ends = self.penalties.each_ref().map(|end| end.as_ref().map(brief));
+        let ends = self.penalties.each_ref().map(|end| end.as_ref().map(format_short));
         match ends {
             [None, None] => {}
             [Some(from), None] => write!(f, "; ε from {from} N/m")?,

@@ -1,0 +1,32 @@
+//! What needs MPFR numbers and exact rationals: advice, step counts, promises, sweeps, reading and display.
+
+mod advise;
+mod check;
+mod count;
+mod display;
+mod format;
+pub mod laws;
+mod reach;
+mod read;
+mod residuals;
+mod scalar;
+mod series;
+mod sweep;
+
+pub use advise::{Advice, Choice, advise};
+pub use count::augmentations_needed;
+pub use format::{format_equation, format_short, format_short_bound};
+pub use reach::{augmentations_promised, bits_needed, rounding_floor, within_reach};
+pub use read::ReadError;
+pub use series::series_penetration;
+pub use sweep::{SweepRow, best_penalty, penalties, penalty_force_bound, sweep};
+
+use super::{
+    Interval, MAX_AUGMENTATIONS, Method, Outcome, Plane, Scalar, Solution, SolveError, State, root, solve,
+};
+use crate::number::{Exact, ToExact};
+
+/// Returns the value of a number that has been checked, or is the result of a solve.
+fn exact<T: ToExact>(x: &T) -> Exact {
+    x.to_exact().expect("a finite number")
+}

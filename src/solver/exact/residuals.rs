@@ -1,0 +1,39 @@
+//! The residuals of a solution.
+
+use super::{check, exact};
+use crate::chapter::{SpringMass, contact};
+use crate::number::{Exact, ToExact};
+use crate::solver::{Scalar, Solution, SolveError};
+
+impl<T: Scalar + ToExact> Solution<T> {
+    /// The residuals of (1.6) and of equilibrium, in exact rationals, of the numbers returned.
+    ///
+    /// All zero if and only if they are the exact solution. By penalty they cannot be.
+    ///
+    /// # Errors
+    /// [`SolveError::Invalid`] for a parameter, a deflection or a contact force that is not finite or not in
+    /// its range.
+    ///
+    /// ```
+    /// # use spring_mass_contact::{chapter::SpringMass, solver::{Method, solve}};
+    /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
+    /// assert!(solve(&system, &Method::Lagrange)?.certificate(&system)?.is_zero());
+    /// # Ok::<(), spring_mass_contact::solver::SolveError>(())
+    /// ```
+    pub fn certificate(&self, system: &SpringMass<T>) -> Result<contact::Kkt<Exact>, SolveError> {
+        check::system(system)?;
+        check::finite_number("deflection", &self.deflection)?;
+        check::finite_number("contact force", &self.contact_force)?;
+        Ok(contact::kkt(&system.map(exact), &exact(&self.deflection), &exact(&self.contact_force)))
+    }
+}
+
+/// Each residual as a text, so that no reader rounds it.
+#[cfg(feature = "serde")]
+impl<T: crate::number::Text> serde::Serialize for contact::Kkt<T> {
+    fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let contact::Kkt { stationarity, primal, dual, complementarity } = self;
+        let names = ["stationarity", "primal", "dual", "complementarity"];
+        to.collect_map(names.iter().zip([stationarity, primal, dual, complementarity].map(T::text)))
+    }
+}

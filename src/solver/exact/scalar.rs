@@ -1,0 +1,81 @@
+//! MPFR numbers and rationals as scalars.
+
+use crate::number::{Ball, Exact, Mpfr, PositivePart, Real, Text, ToExact};
+use crate::solver::scalar::{LONGEST, by_ball, power};
+use crate::solver::{Interval, Scalar};
+use num_traits::Zero;
+use rug::float::Round;
+use std::cmp::Ordering;
+
+/// Is xᵏ short enough?
+fn can_be_written(x: &Exact, k: u64) -> bool {
+    x.digits().checked_mul(k).is_some_and(|digits| digits <= LONGEST)
+}
+
+impl<T: Text> Interval<T> {
+    /// Both ends as texts that still enclose.
+    ///
+    /// ```
+    /// # use spring_mass_contact::solver::Interval;
+    /// // The f64 beside 0.1 is a little larger than 0.1.
+    /// assert_eq!(Interval { lower: 0.1, upper: 0.1 }.texts(), ["0.1", "0.10000000000000002"]);
+    /// ```
+    pub fn texts(&self) -> [String; 2] {
+        [self.lower.bound(Round::Down), self.upper.bound(Round::Up)]
+    }
+}
+
+/// As its two texts.
+#[cfg(feature = "serde")]
+impl<T: Text> serde::Serialize for Interval<T> {
+    fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        self.texts().serialize(to)
+    }
+}
+
+by_ball! {
+    Mpfr, |plus: [(&Mpfr, &Mpfr); 2], minus: (&Mpfr, &Mpfr)| {
+        // Numbers that are not finite are refused before anybody asks for a sign.
+        let exact = |x: &Mpfr| x.to_exact().unwrap_or_else(|_| Exact::zero());
+        let product = |(a, b): (&Mpfr, &Mpfr)| exact(a) * exact(b);
+        (product(plus[0]) + product(plus[1])).cmp(&product(minus))
+    },
+    fn power(x: &Ball<Mpfr>, k: u64) -> Option<Ball<Mpfr>> {
+        // A constant is a rational, and its powers are as long.
+        let rational = x.value().precision().is_none().then(|| x.value().to_exact().ok()).flatten();
+        rational.is_none_or(|x| can_be_written(&x, k)).then(|| power(x, k))
+    },
+    fn growing_digits(&self) -> u64 {
+        // A constant is a rational.
+        let constant = self.precision().is_none().then(|| self.to_exact().ok()).flatten();
+        constant.map_or(0, |x| x.digits())
+    };
+}
+
+impl Scalar for Exact {
+    type Enclosure = Exact;
+    fn enclose(&self) -> Exact {
+        self.clone()
+    }
+    fn interval(x: &Exact) -> Interval<Self> {
+        Interval { lower: x.clone(), upper: x.clone() }
+    }
+    fn magnitude(x: &Exact) -> Self {
+        x.abs()
+    }
+    fn sign(x: &Exact) -> Option<Ordering> {
+        Some(x.cmp(&Exact::zero()))
+    }
+    fn power(x: &Exact, k: u64) -> Option<Exact> {
+        can_be_written(x, k).then(|| power(x, k))
+    }
+    fn is_finite(&self) -> bool {
+        true
+    }
+    fn growing_digits(&self) -> u64 {
+        self.digits()
+    }
+    fn sign_of_sum(plus: [(&Self, &Self); 2], minus: (&Self, &Self)) -> Ordering {
+        (plus[0].0 * plus[0].1 + plus[1].0 * plus[1].1).cmp(&(minus.0 * minus.1))
+    }
+}
