@@ -469,7 +469,7 @@ fn every_number_system_is_held_to_the_laws() {
     }
     let text = |folder: &str| files(folder).iter().map(|path| source(path)).collect::<String>();
     let (numbers, laws) = (text("engine/tests/numbers"), source("tests/solver/laws.rs"));
-    let ours = text("engine/src/number") + &source("src/solver/scalar.rs");
+    let ours = text("engine/src/number") + &source("src/solver/exact/scalar.rs");
     let name = |rest: &str| rest.split(['<', ' ', ';']).next().unwrap_or_default().to_string();
     let implementing = |what: &str| -> BTreeSet<String> {
         let implemented = ours.lines().filter(|line| line.starts_with("impl"));

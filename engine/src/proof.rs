@@ -6,9 +6,9 @@
 //!   [`claim`](crate::formula::claim).
 //! - That [`Tree`](crate::number::Tree) records what functions do (tested, bit for bit, in every number
 //!   system), and that [`Dual`](crate::number::Dual) differentiates.
-//! - In [`statement`](crate::formula::statement), what a claim of each kind comes to. A proof is one of the
-//!   statement's goals, under its hypotheses; that they amount to the claim is so because
-//!   [`Statement::of`](crate::formula::Statement::of) made it, and not seen by the kernel.
+//! - In [`statement`](crate::formula::statement), the goals of a claim of each kind. A proof is one of these
+//!   goals, under the hypotheses; only the constructors of [`claim`](crate::formula::claim) make a
+//!   [`Statement`](crate::formula::Statement), so its goals are those of what it prints.
 //! - The kernel, which is `kernel.rs` with `kernel/` in `src/proof`: in `algebra.rs` the arithmetic of
 //!   polynomials, in `number.rs` that of their coefficients, in `sign.rs` six rules for signs, in `order.rs`
 //!   that rounding keeps order, in `kernel.rs` the rules for what has to be proved, in `derivation.rs` what a

@@ -27,7 +27,8 @@ pub fn format_short<T: Text>(x: &T) -> String {
     }
 }
 
-/// Returns a bound as text for a table, rounded down or up so that it still holds. What is not finite stays so.
+/// Returns a bound as text for a table, rounded down or up so that it still holds. What is not finite stays
+/// so.
 ///
 /// # Panics
 /// Panics if the rounding is neither up nor down.
