@@ -1,4 +1,5 @@
-//! What needs MPFR numbers and exact rationals: advice, step counts, promises, sweeps, reading and display.
+//! The part of the solver for MPFR numbers and exact rationals: advice, step counts, promises, sweeps,
+//! reading and display.
 
 mod advise;
 mod check;

@@ -25,7 +25,7 @@ pub struct Statement {
     goals: Vec<Goal>,
 }
 
-/// What a statement states, from which its goals are derived.
+/// The contents of a statement, from which its goals are derived.
 #[derive(Clone, Debug)]
 pub(super) enum Form {
     /// Propositions, each with the name of its part.
@@ -284,7 +284,7 @@ impl Statement {
         &self.stated
     }
 
-    /// Returns the hypotheses that every goal may use: those stated but for invariants and intervals of
+    /// Returns the hypotheses that every goal may use: those stated, except for invariants and intervals of
     /// computed quantities, and the [minimum precision](minimum_precision) where formulas round.
     pub fn hypotheses(&self) -> &[Hypothesis] {
         &self.hypotheses

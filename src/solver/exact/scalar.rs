@@ -7,7 +7,7 @@ use num_traits::Zero;
 use rug::float::Round;
 use std::cmp::Ordering;
 
-/// Is xᵏ short enough?
+/// Returns `true` if xᵏ has at most [`LONGEST`] binary digits.
 fn can_be_written(x: &Exact, k: u64) -> bool {
     x.digits().checked_mul(k).is_some_and(|digits| digits <= LONGEST)
 }

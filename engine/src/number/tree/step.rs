@@ -116,7 +116,7 @@ impl<T: Field> Step<&T> {
 }
 
 impl<T: Field> Step<T> {
-    /// What it comes to, with operands that are numbers. The rest as for [replay](super::Tree::replay).
+    /// Returns the result for operands that are numbers; see [`replay`](super::Tree::replay) for the others.
     pub fn value(
         self,
         symbol: &impl Fn(&'static str) -> T,
