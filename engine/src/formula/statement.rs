@@ -8,8 +8,17 @@ use crate::number::tree::Step;
 
 /// A statement about recorded formulas: hypotheses, and goals that follow from them.
 ///
-/// Only the functions of [`claim`](super::claim) construct one, so its goals are those of what it states,
-/// and a proof of it is a proof of what is printed.
+/// The functions of [`claim`](super::claim) construct one. Whatever is done to it, its goals are derived from
+/// what it states and cannot be set, so a proof of it is a proof of what is printed.
+///
+/// ```
+/// use provable::formula::{Hypothesis, Relation, claim::positive};
+/// use provable::{number::Tree, proof::prove};
+/// let [f, g] = ["f", "g"].map(|name| Tree::symbol(name));
+/// let further = Hypothesis::new(Relation::Positive, &g - &f);
+/// let claim = positive("distance", &g - &f).assuming([&further]);
+/// assert!(prove(&claim).is_ok() && prove(&claim.without(&further)).is_err());
+/// ```
 #[derive(Clone, Debug)]
 pub struct Statement {
     equation: &'static str,
