@@ -3,13 +3,13 @@
 #![no_main]
 
 #[allow(dead_code)]
-#[path = "../../examples/any_bits/bytes.rs"]
+#[path = "../../command/examples/any_bits/bytes.rs"]
 mod bytes;
-#[path = "../../examples/any_bits/of_reply.rs"]
+#[path = "../../command/examples/any_bits/of_reply.rs"]
 mod of_reply;
 
 #[allow(dead_code, unused_imports, unused_macros)]
-#[path = "../../src/bin/contact"]
+#[path = "../../command/src"]
 mod contact {
     pub mod args;
     pub mod json;

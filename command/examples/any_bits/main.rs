@@ -15,7 +15,7 @@ mod of_reply;
 
 // What the command reads a program's answers with, and what that needs of it.
 #[allow(dead_code, unused_imports, unused_macros)]
-#[path = "../../src/bin/contact"]
+#[path = "../../src"]
 mod contact {
     pub mod args;
     pub mod json;
