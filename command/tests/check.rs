@@ -56,7 +56,8 @@ fn a_bilateral_program_in_python_is_diagnosed() {
     if !has_python() {
         return;
     }
-    let (status, report) = report(&["python3", source("command/tests/adapters/bilateral.py").to_str().unwrap()]);
+    let (status, report) =
+        report(&["python3", source("command/tests/adapters/bilateral.py").to_str().unwrap()]);
     assert_eq!(status, Some(1));
     assert_eq!(diagnosed(&report), ["the plane also pulls", "u = H − l, N = m g − c (H − l)"]);
 }

@@ -13,12 +13,13 @@ mod of_reply;
 mod contact {
     pub mod args;
     pub mod json;
+    pub mod lines;
     pub mod output;
     pub mod check {
         pub mod reply;
     }
 }
 
-use contact::{args, json, output};
+use contact::{args, json, lines, output};
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| of_reply::read(bytes));

@@ -19,13 +19,14 @@ mod of_reply;
 mod contact {
     pub mod args;
     pub mod json;
+    pub mod lines;
     pub mod output;
     pub mod check {
         pub mod reply;
     }
 }
 
-use contact::{args, json, output};
+use contact::{args, json, lines, output};
 use holds::SHOWN;
 use oorandom::Rand64;
 use rayon::prelude::*;
