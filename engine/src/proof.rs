@@ -8,7 +8,7 @@
 //!   system), and that [`Dual`](crate::number::Dual) differentiates.
 //! - In [`statement`](crate::formula::statement), what a claim of each kind comes to. A proof is one of the
 //!   statement's goals, under its hypotheses; that they amount to the claim is so because
-//!   [`Statement::of`](crate::formula::Statement::of) made it, and not seen by the kernel.
+//!   [`Statement::new`](crate::formula::Statement::new) made it, and not seen by the kernel.
 //! - The kernel, which is `kernel.rs` with `kernel/` in `src/proof`: in `algebra.rs` the arithmetic of
 //!   polynomials, in `number.rs` that of their coefficients, in `sign.rs` six rules for signs, in `order.rs`
 //!   that rounding keeps order, in `kernel.rs` the rules for what has to be proved, in `derivation.rs` what a
