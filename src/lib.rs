@@ -49,13 +49,13 @@
 //!
 //! - `mpfr` (default): MPFR floats, exact rationals, and all that needs them: certificates, step counts,
 //!   advice, reading numbers. Builds GMP and MPFR from source by way of rug, which is LGPL-3.0-or-later.
-//! - `prover`, on with `cli`: the modules `formula`, `proof`, `claims`, `verify` and `check`.
-//! - `cli` (default): the command `contact`.
-//! - `serde`, on with `cli`: what the solver and the runs of claims return is `serde::Serialize`,
-//!   quantities as texts.
+//! - `prover`: the modules `formula`, `proof`, `claims`, `verify` and `check`.
+//! - `serde`: what the solver and the runs of claims return is `serde::Serialize`, quantities as texts.
 //! - `gmp-untested` (default): leaves out GMP's and MPFR's own test suites, which take minutes.
 //!
 //! Without them f32, f64, balls, dual numbers, the chapter and the solver are there; eˣ of a float is not.
+//!
+//! The command `contact` is a package of its own, `spring-mass-contact-cli`.
 
 // The docs speak of all numbers, also of those that are not there.
 #![cfg_attr(not(feature = "mpfr"), allow(rustdoc::broken_intra_doc_links))]

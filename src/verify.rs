@@ -16,7 +16,6 @@ mod coq;
 mod experiments;
 mod goals;
 mod guard;
-pub mod pages;
 pub mod proofs;
 mod reproduction;
 mod suspects;

@@ -1,6 +1,6 @@
 //! Each room of the house knows only those that it may: the mechanics (chapter, solver) know no proofs; claims and verify
-//! join them. That the engine (number, formula, proof) knows no mechanics cargo sees to: it is a crate of its own, whose
-//! kernel is held to less than that here.
+//! join them. Cargo holds the engine (number, formula, proof), which knows no mechanics, and the command, which nothing
+//! knows: these are crates of their own. Within the engine the kernel is held to less here.
 //!
 //! Sources are read as tokens: names in comments, in strings and in the docs are no arrows, names within macros are.
 
@@ -14,7 +14,7 @@ fn source(path: impl AsRef<Path>) -> String {
 }
 
 /// What each room knows.
-const KNOWS: [(&str, &[&str]); 9] = [
+const KNOWS: [(&str, &[&str]); 8] = [
     ("number", &[]),
     ("formula", &["number"]),
     ("proof", &["number", "formula"]),
@@ -23,7 +23,6 @@ const KNOWS: [(&str, &[&str]); 9] = [
     ("claims", &["number", "formula", "chapter"]),
     ("verify", &["number", "formula", "proof", "chapter", "solver", "claims"]),
     ("check", &["number", "formula", "proof", "chapter", "solver", "claims"]),
-    ("bin", &["number", "formula", "proof", "chapter", "solver", "claims", "verify", "check"]),
 ];
 
 /// Where the rooms of the engine are, and those of what is built with it.
@@ -77,7 +76,7 @@ fn ends(start: &[String], path: &[TokenTree]) -> Vec<Vec<String>> {
 }
 
 /// Where the paths in these tokens lead that begin with a name of the crate or the engine, `super` or `self`.
-fn paths(tokens: TokenStream, own: &[String], krate: &str) -> Vec<Vec<String>> {
+fn paths(tokens: TokenStream, own: &[String]) -> Vec<Vec<String>> {
     let tokens: Vec<_> = tokens.into_iter().collect();
     let mut found = Vec::new();
     for (i, token) in tokens.iter().enumerate() {
@@ -89,7 +88,7 @@ fn paths(tokens: TokenStream, own: &[String], krate: &str) -> Vec<Vec<String>> {
                 }
                 let rest = after_colons(&tokens[i + 1..]);
                 match (name.to_string().as_str(), rest) {
-                    (start, Some(rest)) if [krate, "provable"].contains(&start) => {
+                    (start, Some(rest)) if ["crate", "provable"].contains(&start) => {
                         found.extend(ends(&[], rest))
                     }
                     ("self", Some(rest)) => found.extend(ends(own, rest)),
@@ -104,7 +103,7 @@ fn paths(tokens: TokenStream, own: &[String], krate: &str) -> Vec<Vec<String>> {
                     }
                     _ => own.to_vec(),
                 };
-                found.extend(paths(group.stream(), &inner, krate));
+                found.extend(paths(group.stream(), &inner));
             }
             TokenTree::Punct(_) | TokenTree::Literal(_) => {}
         }
@@ -128,10 +127,8 @@ fn wrong_arrows(path: &str, text: &str) -> Vec<String> {
     let knows = known(&own[0]).unwrap_or_else(|| {
         panic!("{path} is in no room: add its own to KNOWS in tests/arrows.rs and to README.md")
     });
-    // The command is a crate of its own.
-    let krate = if own[0] == "bin" { "spring_mass_contact" } else { "crate" };
     let tokens = text.parse().unwrap_or_else(|error| panic!("{path}: {error}"));
-    let mut wrong: Vec<_> = paths(tokens, &own, krate)
+    let mut wrong: Vec<_> = paths(tokens, &own)
         .into_iter()
         .filter(|target| {
             target.first().and_then(|name| room_of(name)).is_some_and(|name| {
@@ -175,8 +172,7 @@ fn the_map_has_every_room() {
     for sources in SOURCES {
         let root = source(format!("{sources}/lib.rs"));
         let declared = root.lines().filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';'));
-        let command = (sources == "src").then_some("bin");
-        let declared: BTreeSet<_> = declared.chain(command).map(String::from).collect();
+        let declared: BTreeSet<_> = declared.map(String::from).collect();
         let rooms = rooms(sources);
         // The table in the docs of the crate's root has them in the same order.
         let places: Vec<_> = rooms.iter().filter_map(|room| root.find(&format!("| [`{room}`]"))).collect();
@@ -210,7 +206,7 @@ fn the_kernel_knows_numbers_and_statements_alone() {
     // Whoever reads what has to be trusted need read nothing else of `proof`.
     let mut known = BTreeSet::new();
     for path in kernel() {
-        known.extend(paths(source(&path).parse().unwrap(), &module(&path), "crate"));
+        known.extend(paths(source(&path).parse().unwrap(), &module(&path)));
     }
     // `proof` by itself is how far a function can be seen.
     let allowed = ["formula", "number", "operators", "proof", "proof::kernel"];
@@ -289,5 +285,4 @@ fn arrows_are_found_wherever_they_are_written() {
     }
     assert_eq!(wrong("engine/src/proof/kernel.rs", "use crate::formula::{Claim, statement};"), 0);
     assert_eq!(wrong("src/solver.rs", "use self::check::claims;"), 0);
-    assert_eq!(wrong("src/bin/contact/main.rs", "use spring_mass_contact::verify; use crate::claims;"), 0);
 }

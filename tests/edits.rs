@@ -3,7 +3,7 @@
 //! Every change that the controls generate is made as an edit of the source, all of them in one copy of the project: an
 //! edited step is a `match` on the number of the edit that is to be active. So one build serves for all, and each
 //! run is the command that somebody has who made that one mistake.
-#![cfg(feature = "cli")]
+#![cfg(feature = "prover")]
 
 use proc_macro2::LineColumn;
 use spring_mass_contact::claims::{registry, statements};
@@ -361,7 +361,7 @@ fn a_mistake_in_any_formula_is_reported_in_time() {
     assert!(20 * left.len() < made.len(), "an edit is made of nearly every change");
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("edits-target");
     let build = Command::new(env!("CARGO"))
-        .args(["build", "--release", "--bin", "contact", "-p", "spring-mass-contact", "--quiet"])
+        .args(["build", "--release", "--bin", "contact", "-p", "spring-mass-contact-cli", "--quiet"])
         .current_dir(&folder)
         .env("CARGO_TARGET_DIR", &target)
         .status();

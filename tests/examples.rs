@@ -1,5 +1,5 @@
 //! What the examples print is what their first lines say.
-#![cfg(feature = "cli")]
+#![cfg(feature = "prover")]
 
 use std::fs;
 use std::path::Path;

@@ -433,16 +433,17 @@ fn files(folder: &str) -> Vec<String> {
     entries.flat_map(of).collect()
 }
 
-/// Those of the package and of the engine in one of their folders. The packed crate has its own alone.
-fn of_both(folder: &str) -> Vec<String> {
-    let engine = if is_packed() { vec![] } else { files(&format!("engine/{folder}")) };
-    files(folder).into_iter().chain(engine).collect()
+/// Those of the library, the engine and the command in one of their folders. The packed crate has its own alone.
+fn of_all(folder: &str) -> Vec<String> {
+    let others = if is_packed() { [].as_slice() } else { &["engine", "command"] };
+    let others = others.iter().flat_map(|package| files(&format!("{package}/{folder}")));
+    files(folder).into_iter().chain(others).collect()
 }
 
 /// What no `mod` names is never compiled, and its tests fail nowhere.
 #[test]
 fn every_file_belongs_to_a_module() {
-    let (mut paths, tests) = (of_both("src"), of_both("tests"));
+    let (mut paths, tests) = (of_all("src"), of_all("tests"));
     // What stands beside a `main.rs` belongs to its target.
     let targets: Vec<_> = tests.iter().filter_map(|path| path.strip_suffix("main.rs")).collect();
     paths.extend(tests.iter().filter(|path| targets.iter().any(|target| path.starts_with(target))).cloned());
@@ -489,7 +490,7 @@ fn every_number_system_is_held_to_the_laws() {
 
 #[test]
 fn no_line_of_the_source_is_longer_than_a_reader_likes() {
-    let files = of_both("src");
+    let files = of_all("src");
     assert!(files.len() > 70, "the scan of src finds {} files", files.len());
     assert_none(files.iter().flat_map(|path| {
         // rustfmt breaks code there, but no text and no comment.
@@ -502,7 +503,7 @@ fn no_line_of_the_source_is_longer_than_a_reader_likes() {
 
 #[test]
 fn no_file_of_the_source_is_longer_than_a_reader_can_hold() {
-    for path in of_both("src") {
+    for path in of_all("src") {
         let lines = source(&path).lines().count();
         assert!(lines <= 450, "{path} has {lines} lines, and 450 are enough: split it by a noun");
     }
@@ -555,8 +556,7 @@ fn every_planted_edit_is_known_to_be_caught() {
         return eprintln!("the wrong edits are in the repository alone");
     }
     let (patches, mut caught) = (patches(), BTreeSet::new());
-    let text =
-        of_both("src").into_iter().chain(of_both("tests")).chain(files("book/tool")).collect::<Vec<_>>();
+    let text = of_all("src").into_iter().chain(of_all("tests")).chain(files("book/tool")).collect::<Vec<_>>();
     let text: Vec<_> = text.iter().filter(|path| path.ends_with(".rs")).map(|path| source(path)).collect();
     let listed = source("tests/planted/caught");
     for line in listed.lines() {
@@ -603,9 +603,10 @@ fn every_target_of_tests_has_a_layer() {
     let map = run.split_once("\nlayers='").and_then(|(_, rest)| rest.split_once('\'')).unwrap().0;
     let listed: BTreeSet<_> = map.lines().filter_map(|line| line.split_whitespace().next()).collect();
     let mut seen = 0;
-    for path in of_both("tests").into_iter().chain(files("book/tool/tests")) {
-        let path =
-            ["book/tool/", "engine/"].iter().fold(path.as_str(), |path, of| path.trim_start_matches(of));
+    for path in of_all("tests").into_iter().chain(files("book/tool/tests")) {
+        let path = ["book/tool/", "engine/", "command/"]
+            .iter()
+            .fold(path.as_str(), |path, of| path.trim_start_matches(of));
         let path = path.trim_start_matches("tests/");
         let target = path.strip_suffix("/main.rs").or(path.strip_suffix(".rs"));
         if let Some(target) = target.filter(|target| !target.contains('/')) {
@@ -637,7 +638,7 @@ fn every_file_that_a_page_names_exists() {
     for page in pages().into_iter().chain(["README.md", "CONTRIBUTING.md"].map(|name| root().join(name))) {
         let text = fs::read_to_string(&page).unwrap();
         for word in text.split(|c: char| c.is_whitespace() || "`()[]<>\"',".contains(c)) {
-            let named = ["src/", "engine/", "tests/", "book/", "examples/", ".ci/"]
+            let named = ["src/", "engine/", "command/", "tests/", "book/", "examples/", ".ci/"]
                 .iter()
                 .any(|room| word.starts_with(room));
             let path = word.split(['#', ':', '*']).next().unwrap().trim_end_matches(['.', ';']);

@@ -1,10 +1,9 @@
 //! Every claim is proved for all values, from what the functions of the chapter do.
 #![cfg(feature = "prover")]
 
-use spring_mass_contact::claims::{entries, registry, statements};
+use spring_mass_contact::claims::{registry, statements};
 use spring_mass_contact::proof::paper::Paper;
 use spring_mass_contact::proof::prove;
-use spring_mass_contact::verify::pages::{Page, pages};
 use std::collections::BTreeSet;
 
 #[test]
@@ -58,27 +57,4 @@ fn a_proof_can_be_read() {
     assert_eq!(paper.used(&proof), ["c > 0", "ε > 0"]);
     let lines = paper.proof(&proof);
     assert_eq!(lines.first().map(String::as_str), Some("c + ε ≠ 0: c + ε > 0, term by term"));
-}
-
-/// The pages of proofs in the book are what is proved. With `UPDATE=1` they are written.
-#[test]
-fn the_pages_of_proofs_are_what_is_printed() {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("book/src/proofs");
-    let update = std::env::var_os("UPDATE").is_some();
-    let pages = pages();
-    for Page { file, text } in &pages {
-        let path = folder.join(file);
-        if update {
-            std::fs::write(&path, text).unwrap();
-        }
-        let found = std::fs::read_to_string(&path).unwrap_or_default().replace("\r\n", "\n");
-        let line = 1 + found.lines().zip(text.lines()).take_while(|(a, b)| a == b).count();
-        assert!(
-            found == *text,
-            "book/src/proofs/{file}, line {line}, is not what is proved: UPDATE=1 cargo test --test proofs writes it"
-        );
-    }
-    let sections: BTreeSet<_> =
-        entries().iter().filter(|e| !e.claims.is_empty()).map(|e| e.section).collect();
-    assert_eq!(pages.len(), sections.len(), "pages, and sections with a claim");
 }

@@ -10,7 +10,6 @@
 
 pub mod claim;
 mod hypothesis;
-mod lines;
 mod registry;
 mod sequence;
 pub mod statement;
@@ -18,7 +17,6 @@ mod typeset;
 
 pub use claim::Rate;
 pub use hypothesis::{Hypothesis, Relation};
-pub use lines::{GLUE, together};
 pub use registry::{Call, Formula, Registry};
 pub use statement::{Proposition, Statement};
 pub(crate) use typeset::name_of_rounding;

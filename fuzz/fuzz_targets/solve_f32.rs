@@ -3,10 +3,10 @@
 #![no_main]
 
 #[allow(dead_code)]
-#[path = "../../examples/any_bits/bytes.rs"]
+#[path = "../../command/examples/any_bits/bytes.rs"]
 mod bytes;
 #[allow(dead_code)]
-#[path = "../../examples/any_bits/holds.rs"]
+#[path = "../../command/examples/any_bits/holds.rs"]
 mod holds;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| holds::solve_any::<f32>(bytes));

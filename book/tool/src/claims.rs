@@ -3,13 +3,13 @@
 //! Nothing of that is written by hand: the claims are proved and tried when the book is built.
 
 use crate::places::Places;
+use crate::proofs::{SECTIONS, heading, heading_of};
 use regex::{Captures, Regex};
 use spring_mass_contact::{
     claims::{Entry, claims, entry, registry},
     formula::Hypothesis,
     number::NumberSystem,
     proof::paper::Paper,
-    verify::pages::{SECTIONS, heading, heading_of},
     verify::{Options, Row, Status, exact_experiments, float_experiments, verify},
 };
 use std::{collections::HashMap, fmt::Write, sync::LazyLock};

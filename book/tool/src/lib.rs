@@ -19,6 +19,7 @@ mod claims;
 pub mod figure;
 mod math;
 mod places;
+pub mod proofs;
 mod source;
 
 use anyhow::{Context, Result};
@@ -29,13 +30,11 @@ use mdbook_preprocessor::{
     book::{Book, Chapter},
 };
 use places::Places;
+use proofs::heading;
 use pulldown_cmark::{Event, Parser, Tag};
 use regex::{Captures, Regex};
 use source::{Item, Sources};
-use spring_mass_contact::{
-    claims::{Entry, entries, entry},
-    verify::pages::heading,
-};
+use spring_mass_contact::claims::{Entry, entries, entry};
 
 /// The numbered equations of the chapter, in order, with their LaTeX.
 pub fn equations() -> impl Iterator<Item = (&'static Entry, String)> {

@@ -1,5 +1,5 @@
 //! The page about the command says what the command does: its options are those of the sources, and its
-//! samples are the outputs that `tests/cmd` holds the command to. So are all samples of the page on stalls.
+//! samples are the outputs that `command/tests/cmd` holds the command to. So are all samples of the page on stalls.
 
 use super::files::{files, root, text};
 use super::page;
@@ -12,7 +12,7 @@ fn declared() -> BTreeSet<String> {
     // What a number may be stands in a second attribute, where the first would be too long.
     let option = r#"#\[arg\(long(?: = "([\w-]+)")?[^\n]*\)\]\s+(?:#\[arg[^\n]*\]\s+)?(?:pub )?(\w+):"#;
     let option = Regex::new(option).unwrap();
-    let sources = files(&root().join("src/bin/contact"), ".rs");
+    let sources = files(&root().join("command/src"), ".rs");
     let sources: String = sources.iter().map(|path| text(path)).collect();
     option
         .captures_iter(&sources)
@@ -53,8 +53,10 @@ fn transcript(text: &str) -> Vec<(String, Vec<String>)> {
 
 #[test]
 fn the_samples_are_what_the_command_prints() {
-    let snapshots: BTreeMap<_, _> =
-        files(&root().join("tests/cmd"), ".trycmd").iter().flat_map(|path| transcript(&text(path))).collect();
+    let snapshots: BTreeMap<_, _> = files(&root().join("command/tests/cmd"), ".trycmd")
+        .iter()
+        .flat_map(|path| transcript(&text(path)))
+        .collect();
     let mut compared = 0;
     // What the page on stalls shows in part has a test of its own.
     let pages = PAGES.iter().filter(|page| **page != "stalls");
@@ -76,7 +78,7 @@ fn the_samples_are_what_the_command_prints() {
     assert!(compared >= 5, "only {compared} samples were compared");
 }
 
-/// Each sample of the page is in its own file of `tests/cmd`, in the same order, and nothing else is. What the
+/// Each sample of the page is in its own file of `command/tests/cmd`, in the same order, and nothing else is. What the
 /// sample leaves out, as ` …`, the file leaves open, as `...`; the rest is held character by character.
 #[test]
 fn what_the_page_on_stalls_shows_is_what_the_command_prints() {
@@ -90,7 +92,7 @@ fn what_the_page_on_stalls_shows_is_what_the_command_prints() {
             *line = "...".into();
         }
     }
-    let held = text(&root().join("tests/cmd/stalls.trycmd"));
+    let held = text(&root().join("command/tests/cmd/stalls.trycmd"));
     assert!(!held.contains("[..]"), "all that is shown is held");
     let held = transcript(&held);
     assert_eq!(commands(&shown), commands(&held));

@@ -4,6 +4,7 @@ mod command;
 mod exercises;
 mod files;
 mod letters;
+mod proofs;
 mod tables;
 
 /// A page, by the name of its file.

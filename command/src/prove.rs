@@ -1,9 +1,9 @@
 //! `contact prove`: every claim for all values, and that wrong ones would be noticed.
 
+use crate::lines::join_operands;
 use crate::output::{self, Exit, Failure, formats};
 use crate::{args, solve};
 use spring_mass_contact::claims::{Entry, entry, registry, statements};
-use spring_mass_contact::formula::together;
 use spring_mass_contact::proof::controls::{Change, Dropped, Effect, Without};
 use spring_mass_contact::proof::coq::LeftOut;
 use spring_mass_contact::proof::paper::{self, Paper};
@@ -130,11 +130,11 @@ fn print_problems(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
             Answer::None(why, None) => {
                 writeln!(out)?;
                 output::wrapped(out, "", 2, &format!("{equation} {name} UNKNOWN: {why}"))?;
-                output::wrapped(out, "  ", 4, &together(&paper().claim(statement)))?;
+                output::wrapped(out, "  ", 4, &join_operands(&paper().claim(statement)))?;
             }
             Answer::None(_, Some(counterexample)) => {
                 writeln!(out, "\n{equation} {name} REFUTED")?;
-                output::wrapped(out, "  ", 4, &together(&paper().claim(statement)))?;
+                output::wrapped(out, "  ", 4, &join_operands(&paper().claim(statement)))?;
                 output::wrapped(out, "  at ", 4, &output::glued(counterexample))?;
                 solve::command(out, &counterexample.point)?;
             }
@@ -218,7 +218,7 @@ fn print_claim(out: &mut dyn Write, proofs: &Proofs, proved: &Proved) -> io::Res
             let text = line.trim_start();
             let first = format!("  {what:<8} {}", " ".repeat(line.len() - text.len()));
             // Further in than what is a step of its own.
-            output::wrapped(out, &first, first.len() + 4, &together(text))
+            output::wrapped(out, &first, first.len() + 4, &join_operands(text))
         })
     };
     say("claim", &[paper().claim(statement)])?;

@@ -1,10 +1,10 @@
 //! The way out: stdout, a closed pipe, one-line errors, exit codes, tables.
 
+use crate::lines::NO_BREAK_SPACE;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use comfy_table::{ColumnConstraint, ContentArrangement, Row, Table, presets};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
-use spring_mass_contact::formula::GLUE;
 use std::fmt::Display;
 use std::io::{self, BufWriter, IsTerminal, Write};
 use std::process::ExitCode;
@@ -201,7 +201,7 @@ fn empty_table() -> Table {
 
 /// A point whose lines end between its numbers.
 pub fn glued(point: &impl ToString) -> String {
-    point.to_string().replace(" = ", &format!("{GLUE}={GLUE}"))
+    point.to_string().replace(" = ", &format!("{NO_BREAK_SPACE}={NO_BREAK_SPACE}"))
 }
 
 /// Text in as many lines as it needs; the first begins with `first`, the others are indented by `rest`
@@ -213,7 +213,7 @@ pub fn wrapped(out: &mut dyn Write, first: &str, rest: usize, text: &str) -> io:
         .subsequent_indent(&rest)
         .word_splitter(textwrap::WordSplitter::NoHyphenation);
     let lines = textwrap::wrap(text, options);
-    lines.iter().try_for_each(|line| writeln!(out, "{}", line.replace(GLUE, " ")))
+    lines.iter().try_for_each(|line| writeln!(out, "{}", line.replace(NO_BREAK_SPACE, " ")))
 }
 
 /// A command for the shell, indented, to be pasted as it stands: its words are quoted, and where the line
@@ -335,9 +335,9 @@ mod tests {
         assert!(widths.iter().all(|width| *width <= 80) && widths[0] >= 78, "{widths:?}");
         assert_eq!(
             lines.iter().map(|l| l.trim()).collect::<Vec<_>>().join(" "),
-            format!("first {}", text.replace(GLUE, " "))
+            format!("first {}", text.replace(NO_BREAK_SPACE, " "))
         );
-        let glued = format!("{} a{GLUE}b", "x".repeat(77));
+        let glued = format!("{} a{NO_BREAK_SPACE}b", "x".repeat(77));
         assert_eq!(printed(|out| wrapped(out, "", 2, &glued)), format!("{}\n  a b\n", "x".repeat(77)));
         // Only a word that is longer than a line is broken.
         let nines = |n| "9".repeat(n);

@@ -1,10 +1,11 @@
-//! Where a line of formulas may end.
+//! Line breaks in formulas.
 
-/// A blank at which no line may end.
-pub const GLUE: char = '\u{a0}';
+/// A space at which no line is broken.
+pub const NO_BREAK_SPACE: char = '\u{a0}';
 
-/// Text whose lines end before an operator or a relation: what is multiplied or divided stays together.
-pub fn together(text: &str) -> String {
+/// Joins each operator or relation to its right operand, and factors and quotients to each other, by no-break
+/// spaces: a line is broken before an operator, and products stay together.
+pub fn join_operands(text: &str) -> String {
     let is_operator = |word: &str| ["+", "−", "/", "=", "≠", "<", ">", "≤", "≥", "→"].contains(&word);
     let is_factor = |word: &str| {
         let letters = word.chars().filter(|c| c.is_alphabetic()).count();
@@ -14,8 +15,8 @@ pub fn together(text: &str) -> String {
     let mut all = words.first().unwrap_or(&"").to_string();
     for pair in words.windows(2) {
         let (word, next) = (pair[0], pair[1]);
-        let glued = is_operator(word) || next == "/" || is_factor(word) && is_factor(next);
-        all.push(if glued { GLUE } else { ' ' });
+        let is_joined = is_operator(word) || next == "/" || is_factor(word) && is_factor(next);
+        all.push(if is_joined { NO_BREAK_SPACE } else { ' ' });
         all.push_str(next);
     }
     all
@@ -27,8 +28,9 @@ mod tests {
 
     #[test]
     fn products_stay_together() {
-        let parts =
-            |text: &str| together(text).split(' ').map(|part| part.replace(GLUE, "_")).collect::<Vec<_>>();
+        let parts = |text: &str| -> Vec<_> {
+            join_operands(text).split(' ').map(|part| part.replace(NO_BREAK_SPACE, "_")).collect()
+        };
         assert_eq!(parts("it is 2 c ε² / (c + ε) − s₁ u"), ["it", "is", "2_c_ε²_/_(c", "+_ε)", "−_s₁_u"]);
         assert_eq!(parts("c > 0, ε ≥ 0: m g"), ["c", ">_0,", "ε", "≥_0:", "m_g"]);
         assert_eq!(parts(""), [""]);

@@ -1,4 +1,4 @@
-"""What the module of the wheel promises, tried on the one that is installed: `python -I tests/wheel.py VERSION`."""
+"""What the module of the wheel promises, tried on the one that is installed: `python -I command/tests/wheel.py VERSION`."""
 
 import pathlib
 import sys

@@ -1,6 +1,6 @@
 //! Programs of somebody else's, in their own languages, held against the exact answer.
 
-#![cfg(all(feature = "cli", unix))]
+#![cfg(unix)]
 
 mod processes;
 
@@ -20,8 +20,9 @@ fn report(program: &[&str]) -> (Option<i32>, Value) {
     (output.status.code(), report.unwrap_or_else(|error| panic!("{program:?}: {error}; {output:?}")))
 }
 
+/// A file of the project.
 fn source(path: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join(path)
 }
 
 /// A program compiled into the tests' own folder.
@@ -55,14 +56,15 @@ fn a_bilateral_program_in_python_is_diagnosed() {
     if !has_python() {
         return;
     }
-    let (status, report) = report(&["python3", source("tests/adapters/bilateral.py").to_str().unwrap()]);
+    let (status, report) =
+        report(&["python3", source("command/tests/adapters/bilateral.py").to_str().unwrap()]);
     assert_eq!(status, Some(1));
     assert_eq!(diagnosed(&report), ["the plane also pulls", "u = H − l, N = m g − c (H − l)"]);
 }
 
 #[test]
 fn a_penalty_program_in_c_is_diagnosed() {
-    let (status, report) = report(&[&compiled("cc", "tests/adapters/penalty.c")]);
+    let (status, report) = report(&[&compiled("cc", "command/tests/adapters/penalty.c")]);
     assert_eq!(status, Some(1));
     assert_eq!(diagnosed(&report)[0], "it is the penalty method");
     let penalty = &report["penalty"];
@@ -74,7 +76,7 @@ fn a_penalty_program_in_c_is_diagnosed() {
 #[test]
 fn a_lagging_program_in_rust_is_diagnosed() {
     let rustc = std::env::var("RUSTC").unwrap_or("rustc".to_string());
-    let (status, report) = report(&[&compiled(&rustc, "tests/adapters/lagging.rs")]);
+    let (status, report) = report(&[&compiled(&rustc, "command/tests/adapters/lagging.rs")]);
     assert_eq!(status, Some(1));
     assert_eq!(diagnosed(&report), ["N is one step behind", "N_k = m g − c u_{k−1}"]);
     // At the end of forty steps nobody sees it.

@@ -1,9 +1,13 @@
 //! Claims and proofs as pages to be read without running anything.
 
-use crate::claims::{Entry, entries, registry};
-use crate::formula::Hypothesis;
-use crate::proof::paper::{self, Paper};
-use crate::proof::prove;
+use spring_mass_contact::{
+    claims::{Entry, entries, registry},
+    formula::Hypothesis,
+    proof::{
+        paper::{self, Paper},
+        prove,
+    },
+};
 use std::fmt::Write;
 
 /// A section as entries have it, and as it is called.

@@ -1,7 +1,7 @@
 //! The command `contact`: reads its arguments, calls the library, prints.
 //!
 //! `args` is what the subcommands share of their arguments, `json` how objects come in, `output` the way to
-//! stdout, with one function for each format; each subcommand is a module.
+//! stdout, with one function for each format, `lines` the line breaks of formulas; each subcommand is a module.
 
 mod advise;
 mod args;
@@ -9,6 +9,7 @@ mod cases;
 mod check;
 mod equations;
 mod json;
+mod lines;
 mod output;
 mod prove;
 mod solve;

@@ -3,8 +3,6 @@
 //! What it prints is in `tests/cmd`, with a reason for each value; here is what snapshots cannot say:
 //! that bounds hold, that formats agree, that no bad input gets further than one line.
 
-#![cfg(feature = "cli")]
-
 mod processes;
 
 use processes::{DEADLINE, Scratch, captured, command};
@@ -985,12 +983,16 @@ fn markdown_is_a_table() {
     }
 }
 
-/// Compares a file with what it should be; with `UPDATE=1` writes it.
+fn root() -> &'static std::path::Path {
+    std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
+}
+
+/// Compares a file of the project with what it should be; with `UPDATE=1` writes it.
 fn compare(file: &str, update: impl Fn(&str) -> String) {
     // Two tests write the same page.
     static WRITING: std::sync::Mutex<()> = std::sync::Mutex::new(());
     let _one_at_a_time = WRITING.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
+    let path = root().join(file);
     let found = std::fs::read_to_string(&path).unwrap();
     let expected = update(&found);
     if std::env::var_os("UPDATE").is_some() {
@@ -1060,8 +1062,7 @@ fn book_and_readme_have_the_rows_and_the_totals_of_the_main_job() {
     compare("book/src/command.md", |page| in_block(page, "```console\n$ contact\n", refreshed));
     compare("README.md", |readme| in_block(readme, "```text\n number ", refreshed));
     let samples = ["book/src/command.md", "README.md"].map(|file| {
-        let text =
-            std::fs::read_to_string(std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(file)).unwrap();
+        let text = std::fs::read_to_string(root().join(file)).unwrap();
         text.lines().filter(|line| key(line).is_some() && printed.contains(line)).count()
     });
     assert_eq!(samples, [8, 4], "rows and totals in the samples");

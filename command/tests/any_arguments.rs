@@ -3,7 +3,7 @@
 //!
 //! `ARGUMENTS=100000 cargo test --release --test any_arguments` tries so many lists of them, and `SEED=7` others.
 
-#![cfg(all(feature = "cli", unix))]
+#![cfg(unix)]
 
 mod processes;
 

@@ -1,7 +1,7 @@
 //! The command where the system says no: full disks, closed pipes, files in the place of folders. Each is said in one
 //! line, with the status that the README names; nothing panics, and no part of a file is left.
 
-#![cfg(all(feature = "cli", unix))]
+#![cfg(unix)]
 
 mod processes;
 

@@ -1,11 +1,11 @@
 //! The report for people, and for documents.
 
 use crate::args::{Number, spelled};
+use crate::lines::NO_BREAK_SPACE;
 use crate::output::{self, shortened};
 use spring_mass_contact::check::{
     Answers, Checked, Diagnosis, Kind, Of, Penalty, Reply, Report, Row, Summary, Threshold, Value, Verdict,
 };
-use spring_mass_contact::formula::GLUE;
 use spring_mass_contact::number::{Exact, PositivePart};
 use spring_mass_contact::rug::float::Round;
 use spring_mass_contact::solver::State;
@@ -131,7 +131,7 @@ fn example(out: &mut dyn Write, checked: &Checked) -> io::Result<()> {
 
 /// A list whose lines end after its commas.
 fn parts(list: &str) -> String {
-    list.replace(' ', &GLUE.to_string()).replace(&format!(",{GLUE}"), ", ")
+    list.replace(' ', &NO_BREAK_SPACE.to_string()).replace(&format!(",{NO_BREAK_SPACE}"), ", ")
 }
 
 fn given_up(report: &Report) -> Option<String> {
@@ -193,7 +193,7 @@ fn ends<'a>(threshold: &Threshold, penetration: &'a str, force: &'a str) -> (&'a
         Of::PenetrationByHeight => (penetration, " |H|"),
     };
     // No line ends within it.
-    let text = |x: &Exact, round| (x.decimal(FEW, round) + unit).replace(' ', &GLUE.to_string());
+    let text = |x: &Exact, round| (x.decimal(FEW, round) + unit).replace(' ', &NO_BREAK_SPACE.to_string());
     (what, [text(up_to, Round::Up), text(from, Round::Down)])
 }
 
@@ -203,7 +203,7 @@ fn tested(report: &Report, tolerance: &Number) -> String {
         None => format!("{before} would not show at all"),
         Some(least) => {
             let force = format!("|R| = {} (|m g| + |c (H − l)|)", least.decimal(FEW, Round::Up));
-            format!("{before} would show from {} on", force.replace(' ', &GLUE.to_string()))
+            format!("{before} would show from {} on", force.replace(' ', &NO_BREAK_SPACE.to_string()))
         }
     };
     let missed = least(State::Contact, "A plane that is missed");

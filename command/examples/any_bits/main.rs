@@ -15,17 +15,18 @@ mod of_reply;
 
 // What the command reads a program's answers with, and what that needs of it.
 #[allow(dead_code, unused_imports, unused_macros)]
-#[path = "../../src/bin/contact"]
+#[path = "../../src"]
 mod contact {
     pub mod args;
     pub mod json;
+    pub mod lines;
     pub mod output;
     pub mod check {
         pub mod reply;
     }
 }
 
-use contact::{args, json, output};
+use contact::{args, json, lines, output};
 use holds::SHOWN;
 use oorandom::Rand64;
 use rayon::prelude::*;

@@ -1,0 +1,29 @@
+//! The pages of proofs are printed by the prover.
+
+use super::files::root;
+use book_tool::proofs::{Page, pages};
+use spring_mass_contact::claims::entries;
+use std::collections::BTreeSet;
+
+/// The pages of proofs in the book are what is proved. With `UPDATE=1` they are written.
+#[test]
+fn the_pages_of_proofs_are_what_is_printed() {
+    let folder = root().join("book/src/proofs");
+    let update = std::env::var_os("UPDATE").is_some();
+    let pages = pages();
+    for Page { file, text } in &pages {
+        let path = folder.join(file);
+        if update {
+            std::fs::write(&path, text).unwrap();
+        }
+        let found = std::fs::read_to_string(&path).unwrap_or_default().replace("\r\n", "\n");
+        let line = 1 + found.lines().zip(text.lines()).take_while(|(a, b)| a == b).count();
+        assert!(
+            found == *text,
+            "book/src/proofs/{file}, line {line}, is not what is proved: UPDATE=1 cargo test --test pages writes it"
+        );
+    }
+    let sections: BTreeSet<_> =
+        entries().iter().filter(|e| !e.claims.is_empty()).map(|e| e.section).collect();
+    assert_eq!(pages.len(), sections.len(), "pages, and sections with a claim");
+}
