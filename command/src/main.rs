@@ -1,7 +1,8 @@
 //! The command `contact`: reads its arguments, calls the library, prints.
 //!
 //! `args` is what the subcommands share of their arguments, `json` how objects come in, `output` the way to
-//! stdout, with one function for each format, `lines` the line breaks of formulas; each subcommand is a module.
+//! stdout, with one function for each format, `lines` the line breaks of formulas; each subcommand is a
+//! module.
 
 mod advise;
 mod args;
