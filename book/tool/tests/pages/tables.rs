@@ -117,10 +117,11 @@ fn what_is_named_in_code_exists() {
     assert!(seen > 20, "{seen}");
 }
 
-/// The files of a module that has a folder.
+/// Returns the files of a module that has a folder, and of the folders in it.
 fn folder(module: &str) -> Vec<String> {
-    let files = fs::read_dir(root().join("src").join(module)).into_iter().flatten();
-    files.map(|file| format!("src/{module}/{}", file.unwrap().file_name().to_str().unwrap())).collect()
+    let entries = fs::read_dir(root().join("src").join(module)).into_iter().flatten();
+    let paths = entries.map(|entry| format!("{module}/{}", entry.unwrap().file_name().to_str().unwrap()));
+    paths.flat_map(|path| [vec![format!("src/{path}")], folder(&path)].concat()).collect()
 }
 
 /// `courant-1943` is **Courant 1943**, a work of that year.
