@@ -450,7 +450,8 @@ fn every_file_belongs_to_a_module() {
     let modules = paths.iter().filter_map(|path| path.strip_suffix("/mod.rs").or(path.strip_suffix(".rs")));
     let modules: Vec<_> =
         modules.filter(|path| !["/lib", "/main"].iter().any(|end| path.ends_with(end))).collect();
-    assert!(modules.len() > 100, "the scan finds {} modules", modules.len());
+    // The packed crate has neither the engine's nor the command's.
+    assert!(modules.len() > if is_packed() { 60 } else { 150 }, "the scan finds {} modules", modules.len());
     assert_none(modules.into_iter().filter_map(|path| {
         let (folder, name) = path.rsplit_once('/')?;
         let parents = [".rs", "/mod.rs", "/lib.rs", "/main.rs"].map(|end| format!("{folder}{end}"));
