@@ -8,7 +8,7 @@
     feature = "prover",
     doc = "\
 | [`formula`] | records as data: typeset, and what is said of them | `number` |
-| [`proof`] | proves what is claimed of formulas, refutes what is wrong, prints both | `formula` |"
+| [`proof`] | proves what is claimed of formulas, refutes what is wrong, prints both | `number`, `formula` |"
 )]
 //!
 //! ```

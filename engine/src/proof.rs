@@ -6,12 +6,12 @@
 //!   [`claim`](crate::formula::claim).
 //! - That [`Tree`](crate::number::Tree) records what functions do (tested, bit for bit, in every number
 //!   system), and that [`Dual`](crate::number::Dual) differentiates.
-//! - In [`statement`](crate::formula::statement), the goals of a claim of each kind. A proof is one of these
+//! - In [`statement`](crate::formula::statement) and `sequence.rs`, the goals of a claim of each kind. A proof is one of these
 //!   goals, under the hypotheses; only the constructors of [`claim`](crate::formula::claim) make a
 //!   [`Statement`](crate::formula::Statement), so its goals are those of what it prints.
 //! - The kernel, which is `kernel.rs` with `kernel/` in `src/proof`: in `algebra.rs` the arithmetic of
 //!   polynomials, in `number.rs` that of their coefficients, in `sign.rs` six rules for signs, in `order.rs`
-//!   that rounding keeps order, in `kernel.rs` the rules for what has to be proved, in `derivation.rs` what a
+//!   that rounding keeps order, in `reader.rs` and `context.rs` how formulas and hypotheses are read, in `kernel.rs` the rules for what has to be proved, in `derivation.rs` what a
 //!   [`Proof`] consists of. Nothing else can make a proof, and no one can change one.
 //! - That [`paper`] prints what was proved, in the names of a [`Registry`](crate::formula::Registry); the
 //!   compiler, and GMP's rational numbers.
