@@ -15,11 +15,11 @@ Examples:
   contact verify --scalar f32 --scalar mpfr:777 --cases 50 --seed 99
   contact verify --format json
 
-Claims about formulas, and about how they round, are proved for all values;
-what a solver makes of them in floats is tried. A claim holds in a number system if it does in every case
-that can be decided there, and at least one can. Rationals are compared by
-equality, floats within the error bounds that balls compute along the way: there
-are no tolerances.
+Claims about formulas, and about how they round, are proved for all values; what
+a solver makes of them in floats is tried. A claim holds in a number system if
+it does in every case that can be decided there, and at least one can. Rationals
+are compared by equality, floats within the error bounds that balls compute
+along the way: there are no tolerances.
 
 What no case decides is undecided, which says nothing against it: so it is with
 few cases, and with few digits.

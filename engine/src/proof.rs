@@ -34,6 +34,7 @@ pub mod coq;
 mod kernel;
 pub mod paper;
 pub mod refute;
+mod search;
 
 pub use controls::{Controls, controls};
 pub use kernel::{MAX_DEPTH, MAX_EFFORT, MAX_SIZE, Proof, Why, prove};

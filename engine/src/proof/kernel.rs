@@ -16,7 +16,7 @@
 //! | to prove | the rule |
 //! |---|---|
 //! | a = b | a − b is the zero polynomial over some denominator |
-//! | a > 0, a ≥ 0, a = 0 | the sign of its numerator and of its denominator ([`sign`](mod@sign)) |
+//! | a > 0, a ≥ 0, a = 0 | the sign of its numerator and of its denominator ([`sign`]) |
 //! | da/dx = b | dual numbers differentiate a by the sum, product and quotient rules; then as a = b |
 //! | \|a\| ≤ b | the signs of b − a and b + a |
 //! | lim a = b for x → ∞ | degrees in x; e^… with an exponent that tends to −∞ vanishes against any power |
@@ -33,14 +33,14 @@
 //! nothing in a is less than what stands in its place in b ([`order`]). It has jumps, so nothing is said of
 //! limits and derivatives of what is rounded.
 //!
-//! The names of the new symbols, and of the members of an induction, must not occur in a statement otherwise:
-//! `check_names` sees to it.
+//! New symbols are none of the statement's ([`Symbol`]). Those of an induction, its members and the power q, must
+//! not occur in what is the same at each of its steps: `check_names` sees to it.
 //!
 //! What is assumed of the variable of a limit has to hold for all values that are large enough: that it is
 //! positive, or that an increasing linear function of it is. That function is then the variable.
 
 pub(super) mod algebra;
-mod context;
+pub(super) mod context;
 mod derivation;
 mod effort;
 mod monomial;
@@ -52,10 +52,10 @@ pub(super) mod sign;
 pub use derivation::{Because, Derivation, Direct, Proof, Rounding, Signed, Supposed, Used, Why};
 
 use self::algebra::{Monomial, Poly, Ratio, Symbol};
-use self::context::{Context, NAMES};
+use self::context::{Context, sign};
 pub use self::effort::MAX_EFFORT;
 use self::reader::Reader;
-use self::sign::{ERRORS, Sign, is_small, sign};
+use self::sign::Sign;
 use crate::formula::claim::{MEMBERS, POWER, PRECISION, SCALES};
 use crate::formula::statement::{Goal, Proposition, Sequence, Statement};
 use crate::formula::{Hypothesis, Relation};
@@ -79,6 +79,9 @@ pub const MAX_SIZE: u32 = 20_000;
 /// The depth of a formula in a statement, at most.
 pub const MAX_DEPTH: u32 = 500;
 
+/// The number of formulas in a statement that are rounded, at most.
+pub const MAX_ROUNDINGS: usize = 24;
+
 /// Proves a statement.
 ///
 /// # Errors
@@ -97,7 +100,7 @@ pub(super) fn derivation(hypotheses: &[&Hypothesis], proposition: &Proposition) 
     let trees = || hypotheses.iter().map(|hypothesis| &hypothesis.value).chain(proposition.trees());
     check_size(trees())?;
     let roundings = roundings(trees());
-    if roundings.len() > ERRORS.len() {
+    if roundings.len() > MAX_ROUNDINGS {
         return Err(Why::TooMany);
     }
     if !roundings.is_empty() && proposition.variable().is_some() {
@@ -130,7 +133,7 @@ fn search(statement: &Statement) -> Result<Proof, Why> {
     }
     check_names(statement)?;
     let roundings = roundings(statement.trees());
-    if roundings.len() > ERRORS.len() {
+    if roundings.len() > MAX_ROUNDINGS {
         return Err(Why::TooMany);
     }
     // What is computed varies with what it is computed from, and is a symbol all the same.
@@ -147,8 +150,8 @@ fn search(statement: &Statement) -> Result<Proof, Why> {
 
 /// Refuses a statement that uses a name in a sense that is not its to choose.
 ///
-/// - The kernel's names for slacks, errors and interval parameters occur nowhere, and those of members of a
-///   sequence only where a perturbed recursion speaks of its first.
+/// - Names that a reader would take for symbols of a proof occur nowhere, and those of members of a sequence
+///   only where a perturbed recursion speaks of its first.
 /// - A computed symbol has no other meaning. It may be another number at each step: nothing is assumed of it
 ///   but its interval, and it is not computed from itself.
 /// - The start, ratio and limit of a sequence depend on no power, no member and nothing computed; its step
@@ -166,7 +169,7 @@ fn check_names<'t>(statement: &'t Statement) -> Result<(), Why> {
     let drifts = statement.conclusion().is_some_and(|sequence| sequence.is_perturbed());
     let own = |name| {
         let is_used = drifts && is_member(name);
-        NAMES.contains(&name) || is_small(Symbol(name)) || (MEMBERS.contains(&name) && !is_used)
+        Symbol::is_reserved(name) || (MEMBERS.contains(&name) && !is_used)
     };
     refuse(statement.trees(), own)?;
     let mut variables = statement.goals().iter().filter_map(|goal| goal.proposition.variable());
@@ -210,7 +213,7 @@ pub(super) fn roundings<'t>(trees: impl Iterator<Item = &'t Tree>) -> Vec<Tree> 
         tree.step().operands().for_each(|operand| collect(operand, all));
         // One too many is enough to know that there are too many.
         if let Step::Rounded(of) = tree.step()
-            && all.len() <= ERRORS.len()
+            && all.len() <= MAX_ROUNDINGS
             && !all.contains(of)
         {
             all.push(of.clone());
@@ -286,7 +289,7 @@ impl Context {
                 Because::Derivative(self.same(reader.read(&derivative)?, reader.read(is)?)?)
             }
             Proposition::Limit(of, by, to) => {
-                let x = Symbol(by);
+                let x = Symbol::Own(by);
                 let (of, to) = (self.reduce(&reader.read(of)?), self.reduce(&reader.read(to)?));
                 self.limit(of, x, to)?
             }
@@ -326,7 +329,7 @@ impl Context {
         let mut variables = vec![x];
         for supposed in &self.supposed {
             let last = *variables.last()?;
-            let named = supposed.given.as_ref().is_some_and(|given| given.value.symbols().contains(x.0));
+            let named = supposed.given.as_ref().is_some_and(|given| given.value.symbols().contains(x.name()));
             if !named && !supposed.value.symbols().iter().any(|symbol| variables.contains(symbol)) {
                 continue;
             }

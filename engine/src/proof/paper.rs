@@ -122,9 +122,9 @@ impl<'a> Paper<'a> {
                     collect(not, all);
                 }
                 Derivation::Direct(direct) => {
-                    for supposed in direct.supposed() {
-                        if let Some(given) = supposed.given()
-                            && !matches!(supposed.used(), Used::Unused | Used::Follows)
+                    for supposed in &direct.supposed {
+                        if let Some(given) = &supposed.given
+                            && !matches!(&supposed.used, Used::Unused | Used::Follows)
                             && !all.contains(given)
                         {
                             all.push(given.clone());
@@ -247,12 +247,12 @@ impl<'a> Paper<'a> {
     }
 
     fn direct(&self, direct: &Direct) -> Vec<String> {
-        let mut lines: Vec<String> = direct.supposed().iter().filter_map(|s| self.supposed(s)).collect();
+        let mut lines: Vec<String> = direct.supposed.iter().filter_map(|s| self.supposed(s)).collect();
         lines.extend(self.errors(direct));
-        for (divisor, nonzero) in direct.divisors() {
+        for (divisor, nonzero) in &direct.divisors {
             explain(format!("{} ≠ 0", self.text(divisor)), self.signed(nonzero), &mut lines);
         }
-        for (bracket, value, decides) in direct.brackets() {
+        for (bracket, value, decides) in &direct.brackets {
             let decisive = match bracket.step() {
                 Step::Min(..) => "the second less the first",
                 _ => "its argument",
@@ -263,7 +263,7 @@ impl<'a> Paper<'a> {
                 &mut lines,
             );
         }
-        match direct.because() {
+        match &direct.because {
             Because::Same(value) => {
                 lines.push(format!("both sides are {}", self.order().ratio_or_size(value)))
             }
@@ -281,7 +281,7 @@ impl<'a> Paper<'a> {
                 lines.push(format!("it is {}", self.order().ratio(of)));
                 lines.push(format!(
                     "degrees {n} above and {d} below in {}, hence the limit is {}, since below",
-                    by.0,
+                    by.name(),
                     self.order().ratio(to)
                 ));
                 lines.extend(self.order().certificate(leading).into_iter().map(|line| format!("  {line}")));
@@ -293,9 +293,9 @@ impl<'a> Paper<'a> {
     /// What is rounded, with the names of its errors.
     fn errors(&self, direct: &Direct) -> Option<String> {
         let own = |own: &Rounding| {
-            format!("{} of {}({})", own.error().0, name_of_rounding(own.of()), self.text(own.of()))
+            format!("{} of {}({})", own.error.name(), name_of_rounding(&own.of), self.text(&own.of))
         };
-        let errors: Vec<_> = direct.errors().iter().map(own).collect();
+        let errors: Vec<_> = direct.errors.iter().map(own).collect();
         (!errors.is_empty()).then(|| model() + &errors.join(", "))
     }
 
@@ -320,12 +320,12 @@ impl<'a> Paper<'a> {
         }
         let mut all = Vec::new();
         leaves(derivation, Vec::new(), self.order(), &mut all);
-        let (_, first) = all.first().filter(|(_, direct)| !direct.errors().is_empty())?;
+        let (_, first) = all.first().filter(|(_, direct)| !direct.errors.is_empty())?;
         let mut lines: Vec<_> = self.errors(first).into_iter().collect();
-        let given = first.supposed().iter().filter(|supposed| supposed.given().is_some());
+        let given = first.supposed.iter().filter(|supposed| supposed.given.is_some());
         lines.extend(given.filter_map(|supposed| self.supposed(supposed)));
         for (case, direct) in all {
-            let Because::Within(sides) = direct.because() else { return None };
+            let Because::Within(sides) = &direct.because else { return None };
             let within = self.within(sides);
             if case.is_empty() {
                 lines.extend(within);
@@ -340,8 +340,8 @@ impl<'a> Paper<'a> {
     /// What a bound exceeds a size by, on either side.
     fn within(&self, [above, below]: &[Signed; 2]) -> [String; 2] {
         [("less it", above), ("and it", below)].map(|(what, signed)| {
-            let value = self.order().ratio_or_size(signed.value());
-            let how = match [signed.num(), signed.den()].map(ends).iter().max() {
+            let value = self.order().ratio_or_size(&signed.value);
+            let how = match [&signed.num, &signed.den].map(ends).iter().max() {
                 Some(0) | None => "term by term".to_string(),
                 Some(1) => "with the sizes of errors".to_string(),
                 Some(ends) => format!("with the sizes of errors, at {ends} ends"),
@@ -352,26 +352,27 @@ impl<'a> Paper<'a> {
 
     /// How a supposition is used, if that has to be said.
     fn supposed(&self, supposed: &Supposed) -> Option<String> {
-        let name = supposed.given().map_or("the case".to_string(), |given| self.registry.supposed(given));
-        match supposed.used() {
+        let name =
+            supposed.given.as_ref().map_or("the case".to_string(), |given| self.registry.supposed(given));
+        match &supposed.used {
             Used::Symbol(_) => None,
             Used::Follows => Some(format!("{name} follows")),
             Used::Unused => Some(format!("{name} is not used")),
             Used::Between(x, by, place) => Some(format!(
                 "by {name}: {} = {}, where −1 ≤ {} ≤ 1",
-                x.0,
+                x.name(),
                 self.order().ratio_or_size(by),
-                place.0
+                place.name()
             )),
             Used::Pivot(pivot, by, slack) => {
                 let solved = format!("{} = {}", self.order().monomial(pivot), self.order().ratio_or_size(by));
                 Some(match slack {
                     None => format!("by {name}: {solved}"),
                     Some(slack) => {
-                        let quotient = supposed.divided_by().and_then(|by| supposed.value().over(by));
-                        let value = self.order().ratio_or_size(quotient.as_ref().unwrap_or(supposed.value()));
-                        let slack = slack.0;
-                        let sign = if supposed.sign() == Sign::Positive { "> 0" } else { "≥ 0" };
+                        let quotient = supposed.divided_by.as_ref().and_then(|by| supposed.value.over(by));
+                        let value = self.order().ratio_or_size(quotient.as_ref().unwrap_or(&supposed.value));
+                        let slack = slack.name();
+                        let sign = if supposed.sign == Sign::Positive { "> 0" } else { "≥ 0" };
                         format!("by {name}: {slack} = {value} {sign}, so {solved}")
                     }
                 })
@@ -382,11 +383,11 @@ impl<'a> Paper<'a> {
     /// Why a quotient has its sign.
     fn signed(&self, signed: &Signed) -> Vec<String> {
         let mut lines = Vec::new();
-        if !signed.value().den().is_one() {
-            lines.push(format!("it is {}", self.order().ratio_or_size(signed.value())));
-            lines.extend(self.order().certificate(signed.den()));
+        if !signed.value.den().is_one() {
+            lines.push(format!("it is {}", self.order().ratio_or_size(&signed.value)));
+            lines.extend(self.order().certificate(&signed.den));
         }
-        lines.extend(self.order().certificate(signed.num()));
+        lines.extend(self.order().certificate(&signed.num));
         lines
     }
 

@@ -194,7 +194,7 @@ pub(super) fn by_exponent(poly: &Poly) -> BTreeMap<Option<&Ratio>, Poly> {
 }
 
 fn power((symbol, n): (Symbol, u32)) -> Expr {
-    let symbol = Expr::Name(ascii(symbol.0));
+    let symbol = Expr::Name(ascii(symbol.name()));
     match n {
         1 => symbol,
         // As a square wherever it is one, so that its sign is seen.
@@ -241,7 +241,7 @@ mod tests {
 
     #[test]
     fn polynomials_are_sums_of_powers() {
-        let x = |name| Poly::symbol(Symbol(name));
+        let x = |name| Poly::symbol(Symbol::Own(name));
         let square = x("a") * x("a");
         let fourth = Poly::constant(-3) * &square * &square;
         assert_eq!(Expr::poly(&(fourth + x("b"))).to_string(), "- (3 * (a ^ 2) ^ 2) + b");

@@ -199,16 +199,16 @@ impl<'a> Law<'a> {
     /// From models of what is rounded, or by what keeps order or scale.
     fn proof(&self, script: &mut Script, derivation: &Derivation) -> std::result::Result<(), Reason> {
         if let Derivation::Direct(direct) = derivation {
-            match direct.because() {
-                Because::Same(_) => return self.in_units(script, direct.errors()),
+            match &direct.because {
+                Because::Same(_) => return self.in_units(script, &direct.errors),
                 Because::Order(_) => return script.order(direct, &ascii(PRECISION)),
                 _ => {}
             }
         }
         let precision = ascii(PRECISION);
         script.line(&format!("pose proof (four_at_least prec {precision} P E) as N."));
-        for (rounding, i) in first(derivation).errors().iter().zip(1..) {
-            let (error, of) = (ascii(rounding.error().0), self.rounded(rounding));
+        for (rounding, i) in first(derivation).errors.iter().zip(1..) {
+            let (error, of) = (ascii(rounding.error.name()), self.rounded(rounding));
             let model = format!("model prec choice {precision} P E {of}");
             script.line(&format!("destruct ({model}) as ({error} & B{i} & F{i})."));
         }
@@ -219,19 +219,19 @@ impl<'a> Law<'a> {
 
     /// What is rounded, as an argument.
     fn rounded(&self, rounding: &Rounding) -> String {
-        self.printer.expr(rounding.of()).argument()
+        self.printer.expr(&rounding.of).argument()
     }
 
     /// Each rounding in other units from that in the usual ones.
     fn in_units(&self, script: &mut Script, errors: &[Rounding]) -> std::result::Result<(), Reason> {
         let mut made = 0;
         for (i, later) in errors.iter().enumerate() {
-            let Some(earlier) = errors[..i].iter().find(|known| known.error() == later.error()) else {
+            let Some(earlier) = errors[..i].iter().find(|known| known.error == later.error) else {
                 continue;
             };
-            let is_usual = *later.scale() == Poly::constant(1).into();
+            let is_usual = later.scale == Poly::constant(1).into();
             let (usual, other) = if is_usual { (later, earlier) } else { (earlier, later) };
-            let factor = other.scale().over(usual.scale()).ok_or("a scale is 0")?;
+            let factor = other.scale.over(&usual.scale).ok_or("a scale is 0")?;
             let factor = Expr::ratio(&factor).argument();
             let [usual, other] =
                 [usual, other].map(|rounding| format!("fl prec choice {}", self.rounded(rounding)));

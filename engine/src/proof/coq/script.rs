@@ -12,8 +12,9 @@ use crate::formula::statement::minimum_precision;
 use crate::number::Tree;
 use crate::number::tree::Step;
 use crate::proof::kernel::algebra::{Monomial, Poly, Ratio, Symbol};
-use crate::proof::kernel::sign::{self, Certificate, Known, Rule, Sign};
+use crate::proof::kernel::sign::{Certificate, Known, Rule, Sign};
 use crate::proof::kernel::{Because, Derivation, Direct, Signed, Supposed, Used};
+use crate::proof::search;
 use std::fmt::Write;
 
 /// Lines of a proof, and what is known at their end.
@@ -83,9 +84,9 @@ impl Script {
 
     /// The hypotheses that come before the next case, put to use.
     fn hypotheses(&mut self, direct: &Direct) -> Result<(), Reason> {
-        let next = direct.supposed().iter().skip(self.supposed);
-        for supposed in next.take_while(|supposed| supposed.given().is_some()) {
-            let says_bits = supposed.given().is_some_and(|given| *given == minimum_precision());
+        let next = direct.supposed.iter().skip(self.supposed);
+        for supposed in next.take_while(|supposed| supposed.given.is_some()) {
+            let says_bits = supposed.given.as_ref().is_some_and(|given| *given == minimum_precision());
             self.given += usize::from(!says_bits);
             let label = if says_bits { "M".to_string() } else { format!("H{}", self.given) };
             self.suppose(supposed, &label)?;
@@ -95,15 +96,15 @@ impl Script {
 
     /// One rounded formula is no less than another, from hypotheses H1, H2, …
     pub(super) fn order(&mut self, direct: &Direct, precision: &str) -> Result<(), Reason> {
-        let rounds = |supposed: &Supposed| supposed.given().is_some_and(|given| given.value.rounds());
+        let rounds = |supposed: &Supposed| supposed.given.as_ref().is_some_and(|given| given.value.rounds());
         let says_bits =
-            |supposed: &Supposed| supposed.given().is_some_and(|given| *given == minimum_precision());
+            |supposed: &Supposed| supposed.given.as_ref().is_some_and(|given| *given == minimum_precision());
         let is_solved = |supposed: &Supposed| {
-            matches!(supposed.used(), Used::Pivot(..)) && !rounds(supposed) && !says_bits(supposed)
+            matches!(&supposed.used, Used::Pivot(..)) && !rounds(supposed) && !says_bits(supposed)
         };
         // Signs of symbols are put to use as they are.
-        if direct.supposed().iter().any(is_solved) {
-            if direct.supposed().iter().any(rounds) {
+        if direct.supposed.iter().any(is_solved) {
+            if direct.supposed.iter().any(rounds) {
                 return Err(
                     "an order that rests on one hypothesis to be solved and another about what is rounded",
                 );
@@ -120,26 +121,27 @@ impl Script {
     fn suppose(&mut self, supposed: &Supposed, hypothesis: &str) -> Result<(), Reason> {
         self.supposed += 1;
         let i = self.supposed;
-        let (kind, relation, sign) = match supposed.sign() {
+        let (kind, relation, sign) = match supposed.sign {
             Sign::Positive => ("positive", "<", Sign::Positive),
             _ => ("nonnegative", "<=", Sign::NonNegative),
         };
-        if supposed.divided_by().is_some() {
+        if supposed.divided_by.as_ref().is_some() {
             return Err("a hypothesis is divided by a quantity");
         }
-        match supposed.used() {
+        match &supposed.used {
             Used::Follows | Used::Unused => {}
             Used::Between(_, _, place) => {
-                let near = supposed.given().is_some_and(|given| given.distance().is_some());
-                let (rule, place) = (if near { "near" } else { "between" }, ascii(place.0));
+                let near = supposed.given.as_ref().is_some_and(|given| given.distance().is_some());
+                let (rule, place) = (if near { "near" } else { "between" }, ascii(place.name()));
                 self.line(&format!("destruct ({rule} _ _ _ {hypothesis}) as ({place} & T{i} & ->)."));
             }
             Used::Symbol(x) => {
                 self.known.insert(*x, sign);
-                if supposed.given().is_some_and(|given| *given.value.step() == Step::Symbol(x.0)) {
+                if supposed.given.as_ref().is_some_and(|given| *given.value.step() == Step::Symbol(x.name()))
+                {
                     return Ok(());
                 }
-                let name = ascii(x.0);
+                let name = ascii(x.name());
                 self.line(&format!(
                     "assert (P{i} : 0 {relation} {name}) by (apply (same_{kind} _ _ {hypothesis}); {}).",
                     self.same()
@@ -150,11 +152,11 @@ impl Script {
                 let difference = Ratio::from(Poly::from(pivot.clone())) - by;
                 let name = named.map_or(Ratio::zero(), |name| Poly::symbol(name).into());
                 let factor =
-                    difference.over(&(supposed.value() - name)).ok_or("a hypothesis has no solution")?;
+                    difference.over(&(&supposed.value - name)).ok_or("a hypothesis has no solution")?;
                 let (pivot, by, factor) =
                     (Expr::poly(&pivot.clone().into()), Expr::ratio(by), Expr::ratio(&factor).argument());
                 if let Some(x) = named {
-                    let name = ascii(x.0);
+                    let name = ascii(x.name());
                     self.line(&format!("destruct (named_{kind} _ {hypothesis}) as ({name} & S{i} & P{i})."));
                     self.line(&format!(
                         "assert (E{i} : pivot {} {}) by \
@@ -199,7 +201,7 @@ impl Script {
                 for branch in [positive, not] {
                     self.block("{", |own| {
                         let supposed =
-                            first(branch).supposed().get(own.supposed).ok_or("a case supposes nothing")?;
+                            first(branch).supposed.get(own.supposed).ok_or("a case supposes nothing")?;
                         own.suppose(supposed, &case)?;
                         own.derivation(branch)
                     })?;
@@ -216,18 +218,18 @@ impl Script {
 
     fn direct(&mut self, direct: &Direct) -> Result<(), Reason> {
         if self.rounds {
-            let of_goal: &[Signed] = match direct.because() {
+            let of_goal: &[Signed] = match &direct.because {
                 Because::Sign(signed) => std::slice::from_ref(signed),
                 Because::Within(both) => &both[..],
                 _ => &[],
             };
-            let of_divisors = direct.divisors().iter().map(|(_, signed)| signed);
-            let of_brackets = direct.brackets().iter().map(|(.., signed)| signed);
+            let of_divisors = direct.divisors.iter().map(|(_, signed)| signed);
+            let of_brackets = direct.brackets.iter().map(|(.., signed)| signed);
             let mut signs = of_goal.iter().chain(of_divisors).chain(of_brackets);
-            if !signs.all(|signed| has_program(signed.num()) && has_program(signed.den())) {
+            if !signs.all(|signed| has_program(&signed.num) && has_program(&signed.den)) {
                 return Err("the sign of what is rounded rests on a square or a slope");
             }
-            self.line(match direct.because() {
+            self.line(match &direct.because {
                 Because::Within(..) => "pivots. minima. apply within; bounded.",
                 _ => "pivots. minima. bounded.",
             });
@@ -235,22 +237,22 @@ impl Script {
         }
         // A divisor that is itself a quotient, or that hypotheses rewrite, is asked for by its numerator.
         let quotient = |tree: &Tree| tree.any(&|step| matches!(step.step(), Step::Div(..)));
-        let rewritten = direct.supposed().iter().any(|s| matches!(s.used(), Used::Pivot(..)));
-        let numerators = direct.divisors().iter().filter(|(tree, _)| rewritten || quotient(tree));
+        let rewritten = direct.supposed.iter().any(|s| matches!(&s.used, Used::Pivot(..)));
+        let numerators = direct.divisors.iter().filter(|(tree, _)| rewritten || quotient(tree));
         for (i, (_, signed)) in numerators.enumerate() {
-            let value = self.positive(signed.num())?;
+            let value = self.positive(&signed.num)?;
             self.line(&format!(
                 "assert (M{} : {value} <> 0) by (apply positive_not_zero; positivity).",
                 i + 1
             ));
         }
-        for (i, (bracket, result, signed)) in direct.brackets().iter().enumerate() {
+        for (i, (bracket, result, signed)) in direct.brackets.iter().enumerate() {
             // All its occurrences are rewritten at once.
-            if direct.brackets()[..i].iter().all(|(known, ..)| known != bracket) {
+            if direct.brackets[..i].iter().all(|(known, ..)| known != bracket) {
                 self.bracket(bracket, result, signed)?;
             }
         }
-        match direct.because() {
+        match &direct.because {
             Because::Same(_) => self.line("identity."),
             Because::Sign(signed) => {
                 let value = self.size(signed)?;
@@ -279,7 +281,7 @@ impl Script {
 
     /// The absolute value of a quotient, in a form that shows that it is not negative.
     pub(super) fn size(&mut self, signed: &Signed) -> Result<Expr, Reason> {
-        Ok(self.positive(signed.num())?.over(self.positive(signed.den())?))
+        Ok(self.positive(&signed.num)?.over(self.positive(&signed.den)?))
     }
 
     /// The absolute value of a polynomial, in a form that shows that it is not negative.
@@ -309,7 +311,7 @@ impl Script {
         slope: &Certificate,
     ) -> Result<Expr, Reason> {
         let poly = unsigned(certificate);
-        let (f, name) = (Expr::poly(&poly), ascii(x.0));
+        let (f, name) = (Expr::poly(&poly), ascii(x.name()));
         let strict = certificate.sign().is_strict();
         let rule = match (strict, start.sign().is_strict()) {
             (true, true) => "rises_from_positive",
@@ -369,7 +371,7 @@ fn has_program(certificate: &Certificate) -> bool {
 }
 
 fn below(value: &Ratio, known: &Known) -> Result<Certificate, Reason> {
-    sign::sign(value.den(), known).ok_or("the sign of a divisor is open")
+    search::sign(value.den(), &known.clone().into()).ok_or("the sign of a divisor is open")
 }
 
 /// A polynomial or its opposite, whichever is not negative.

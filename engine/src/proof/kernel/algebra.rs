@@ -384,7 +384,7 @@ mod tests {
 
     #[test]
     fn polynomials_are_divided_and_have_factors_in_common() {
-        let [u, v] = ["u", "v"].map(|name| Poly::symbol(Symbol(name)));
+        let [u, v] = ["u", "v"].map(|name| Poly::symbol(Symbol::Own(name)));
         let e = Poly::exponential(v.clone().into());
         for divisor in [&u + &v, &u + &e, &u * &v - Poly::constant(2)] {
             assert_eq!((&divisor * &v).over(&divisor), Some(v.clone()));
@@ -392,7 +392,7 @@ mod tests {
             assert_eq!(divisor.common_monomial(), Monomial::one());
             assert_eq!(
                 (&divisor * &u * &v * &e).common_monomial(),
-                Monomial::of(Symbol("u")).times(&Monomial::of(Symbol("v")))
+                Monomial::of(Symbol::Own("u")).times(&Monomial::of(Symbol::Own("v")))
             );
         }
         assert_eq!(u.over(&Poly::zero()), None);
@@ -401,7 +401,7 @@ mod tests {
     /// As long division needs.
     #[test]
     fn monomials_are_in_an_order_that_multiplication_keeps() {
-        let [u, v] = ["u", "v"].map(|name| Monomial::of(Symbol(name)));
+        let [u, v] = ["u", "v"].map(|name| Monomial::of(Symbol::Own(name)));
         let all = [Monomial::one(), v.clone(), v.times(&v), u.clone(), u.times(&v), u.times(&u)];
         for (i, a) in all.iter().enumerate() {
             for (j, b) in all.iter().enumerate() {

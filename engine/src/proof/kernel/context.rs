@@ -3,21 +3,19 @@
 use super::algebra::{Monomial, Poly, Ratio, Symbol};
 use super::derivation::{Rounding, Signed, Supposed, Used, Why};
 use super::reader::Reader;
-use super::sign::{Certificate, ERRORS, Known, PLACES, Sign, is_small, sign, sign_of_product};
+use super::sign::{Certificate, Known, Sign};
 use crate::formula::Hypothesis;
 use crate::formula::claim::{PRECISION, SCALES};
 use crate::formula::statement::Proposition;
 use crate::number::Tree;
-
-/// Names for the quantities of hypotheses, which no claim may use.
-pub(super) const NAMES: [&str; 12] =
-    ["s₁", "s₂", "s₃", "s₄", "s₅", "s₆", "s₇", "s₈", "s₉", "s₁₀", "s₁₁", "s₁₂"];
+use crate::proof::search;
+use std::sync::Arc;
 
 /// What is supposed, ready for use.
 #[derive(Clone, Debug)]
-pub(super) struct Context {
+pub(in crate::proof) struct Context {
     pub(super) supposed: Vec<Supposed>,
-    pub(super) known: Known,
+    pub(super) known: Arc<Known>,
     rules: Vec<(Monomial, Ratio)>,
     /// What is rounded: with the errors of the same place.
     pub(super) roundings: Vec<Tree>,
@@ -30,15 +28,15 @@ pub(super) struct Context {
 impl Context {
     /// Nothing yet, but that powers of two are positive.
     pub(super) fn of(roundings: Vec<Tree>) -> Self {
-        let known = SCALES.into_iter().map(|name| (Symbol(name), Sign::Positive)).collect();
+        let known = SCALES.into_iter().map(|name| (Symbol::Own(name), Sign::Positive)).collect();
         let (supposed, rules, errors, variable) = Default::default();
-        Context { supposed, known, rules, roundings, errors, variable }
+        Context { supposed, known: Arc::new(known), rules, roundings, errors, variable }
     }
 
     /// For the proof of this: hypotheses on the variable of a limit are solved for it.
     pub(super) fn with_variable(self, says: &Proposition) -> Self {
         let variable = match says {
-            Proposition::Limit(_, by, _) => Some(Symbol(by)),
+            Proposition::Limit(_, by, _) => Some(Symbol::Own(by)),
             _ => None,
         };
         Context { variable, ..self }
@@ -50,7 +48,7 @@ impl Context {
         if let Some((x, lower, upper)) = hypothesis.interval() {
             let [lower, upper] = [reader.read(lower)?, reader.read(upper)?];
             self.errors = reader.errors;
-            self.suppose_between(hypothesis, Symbol(x), &lower, &upper);
+            self.suppose_between(hypothesis, Symbol::Own(x), &lower, &upper);
         } else {
             let value = reader.read(&hypothesis.value)?;
             self.errors = reader.errors;
@@ -62,7 +60,7 @@ impl Context {
     /// What has the sign of a quotient whose denominator is positive: its numerator, without the factors
     /// 2ᵖ + 1 + e, which are positive too.
     pub(super) fn deciding(&self, value: &Ratio) -> Poly {
-        let errors = value.num().symbols().into_iter().filter(|x| ERRORS.contains(&x.0));
+        let errors = value.num().symbols().into_iter().filter(|x| matches!(x, Symbol::Error(_)));
         let largest = self.largest();
         errors.fold(value.num().clone(), |rest, error| {
             let nearest = &largest + Ratio::from(Poly::symbol(error));
@@ -76,7 +74,7 @@ impl Context {
 
     /// N
     pub(super) fn largest(&self) -> Ratio {
-        self.reduce(&Ratio::from(Poly::symbol(Symbol(PRECISION)) + Poly::constant(1)))
+        self.reduce(&Ratio::from(Poly::symbol(Symbol::Own(PRECISION)) + Poly::constant(1)))
     }
 
     /// With every pivot replaced, until there is none left; equal in value to what is given.
@@ -100,9 +98,31 @@ impl Context {
 
     /// The sign of a reduced quotient, if the rules find that of numerator and denominator.
     pub(super) fn sign(&self, value: Ratio, factors: &[Certificate]) -> Option<Signed> {
-        let sign = |part: &Poly| sign_of_product(part, factors, &self.known);
+        self.sign_under(value, factors, &self.known)
+    }
+
+    fn sign_under(&self, value: Ratio, factors: &[Certificate], known: &Arc<Known>) -> Option<Signed> {
+        let find = |of: &Poly, known: &Arc<Known>| search::sign_of_product(of, factors, known);
+        let sign = |part: &Poly| Certificate::found(part, known, &find);
         let (num, den) = (sign(value.num())?, sign(value.den())?);
         den.sign().is_strict().then_some(Signed { value, num, den })
+    }
+
+    /// Returns the sign of a quotient under other signs of symbols.
+    pub(in crate::proof) fn reduced_sign(&self, value: &Ratio, known: &Arc<Known>) -> Option<Sign> {
+        Some(self.sign_under(self.reduce(value), &[], known)?.sign())
+    }
+
+    pub(in crate::proof) fn known(&self) -> &Known {
+        &self.known
+    }
+
+    pub(in crate::proof) fn variable(&self) -> Option<Symbol> {
+        self.variable
+    }
+
+    fn know(&mut self, symbol: Symbol, sign: Sign) {
+        Arc::make_mut(&mut self.known).insert(symbol, sign);
     }
 
     /// Takes in that a quantity has a sign.
@@ -118,13 +138,13 @@ impl Context {
             }
             Sign::Positive | Sign::NonNegative => {
                 if let Some(symbol) = as_symbol(&value) {
-                    self.known.insert(symbol, sign);
+                    self.know(symbol, sign);
                     Used::Symbol(symbol)
                 } else if self.bounds_the_variable_again(&value) {
                     Used::Unused
                 } else if let Some((divisor, (pivot, by), slack)) = self.solve(given.as_ref(), &value, sign) {
                     divided_by = divisor;
-                    self.known.insert(slack, sign);
+                    self.know(slack, sign);
                     if Some(&pivot) == self.variable.map(Monomial::of).as_ref() {
                         self.variable = Some(slack);
                     }
@@ -134,7 +154,7 @@ impl Context {
                 }
             }
             Sign::Zero => self
-                .pivot(given.as_ref(), &value, &Poly::zero(), sign)
+                .pivot(given.as_ref(), &value, None)
                 .map_or(Used::Unused, |(pivot, by)| Used::Pivot(pivot, by, None)),
         };
         if let Used::Pivot(pivot, by, _) = &used {
@@ -146,15 +166,15 @@ impl Context {
     /// Returns `true` if a quantity depends on the slack that tends to infinity in place of the variable: one
     /// more pivot would replace it, and what is known of it.
     fn bounds_the_variable_again(&self, value: &Ratio) -> bool {
-        self.variable.is_some_and(|x| NAMES.contains(&x.0) && value.symbols().contains(&x))
+        self.variable.is_some_and(|x| matches!(x, Symbol::Slack(_)) && value.symbols().contains(&x))
     }
 
     /// A pivot of a quantity, or else of its quotient by a symbol that is positive: 0 < k < 1 is
     /// k = 1/(1 + s) with s = (1 − k)/k > 0. With the divisor, if any, and the slack.
     fn solve(&self, given: Option<&Hypothesis>, value: &Ratio, sign: Sign) -> Option<Solved> {
         let slacks = self.supposed.iter().filter(|s| matches!(s.used, Used::Pivot(..))).count();
-        let slack = NAMES.get(slacks).copied().map(Symbol)?;
-        let pivot = |value: &Ratio| self.pivot(given, value, &Poly::symbol(slack), sign);
+        let slack = Symbol::Slack(slacks.try_into().ok()?);
+        let pivot = |value: &Ratio| self.pivot(given, value, Some((slack, sign)));
         let quotient = |x: Symbol| {
             let divisor = Ratio::from(Poly::symbol(x));
             let is_positive = self.known.get(&x) == Some(&Sign::Positive);
@@ -173,8 +193,8 @@ impl Context {
         let own = Ratio::from(Poly::symbol(x));
         let open = self.reduce(&own) == own;
         let named = self.supposed.iter().filter(|s| matches!(s.used, Used::Between(..))).count();
-        let used = match PLACES.get(named).copied().map(Symbol) {
-            Some(place) if open && !middle.symbols().contains(&x) && !reach.symbols().contains(&x) => {
+        let used = match named.try_into().map(Symbol::Place) {
+            Ok(place) if open && !middle.symbols().contains(&x) && !reach.symbols().contains(&x) => {
                 let by = &middle + reach * Ratio::from(Poly::symbol(place));
                 self.replace(Monomial::of(x), by.clone());
                 Used::Between(x, by, place)
@@ -193,62 +213,43 @@ impl Context {
         self.rules.push((pivot, by));
     }
 
-    /// A monomial of the quantity, and what it equals if the quantity is `slack`.
-    ///
-    /// Best a symbol of which nothing is known and that stands alone or times what is not 0, so that it
-    /// disappears for good; else a product of symbols of which little is known, so that little is forgotten;
-    /// else a symbol whose sign is then seen again: with b = a + s for b − a > 0 that of b is.
-    ///
-    /// Where there are errors in it, the symbol that the hypothesis is solved for comes first, and products
-    /// last: they would be forgotten for something long.
+    /// Returns a monomial of the quantity, and what it equals if the quantity is the slack, or 0 without one.
     fn pivot(
         &self,
         given: Option<&Hypothesis>,
         value: &Ratio,
-        slack: &Poly,
-        sign_of_slack: Sign,
+        slack: Option<(Symbol, Sign)>,
     ) -> Option<(Monomial, Ratio)> {
         // num − slack · den = 0, and den is not 0.
-        let equation = value.num() - slack * value.den();
-        let mut context = self.clone();
-        context.known.extend(slack.symbols().into_iter().map(|s| (s, sign_of_slack)));
-        let solved = |x: Symbol| {
-            let [rest, coefficient] = equation.coefficients(x)?;
-            let (strict, length) =
-                (sign(&coefficient, &context.known)?.sign().is_strict(), coefficient.terms().len());
-            let by = Ratio::from(-rest).over(&coefficient.into())?;
-            (strict && !by.symbols().contains(&x)).then_some((length, (Monomial::of(x), by)))
-        };
-        let symbols = value.num().symbols();
-        let rounds = symbols.iter().any(|x| is_small(*x));
-        let comes_later = |x: &Symbol| rounds && given.is_none_or(|given| given.solved_for != x.0);
-        let free = |x: &&Symbol| !self.known.contains_key(x) && !is_small(**x);
-        let free = symbols.iter().filter(free).filter_map(|x| Some((comes_later(x), solved(*x)?)));
-        let product = || {
-            let known = |m: &Monomial| m.powers().filter(|(x, _)| self.known.contains_key(x)).count();
-            let large = |m: &&Monomial| m.powers().len() > 1 && !m.powers().any(|(x, _)| is_small(x));
-            let own = value.num().terms().map(|(m, _)| m).filter(large);
-            let pivot = own.min_by_key(|m| known(m))?.clone();
-            let coefficient = equation.terms().find(|(m, _)| **m == pivot)?.1.clone();
-            let rest = &equation - Poly::constant(coefficient.clone()) * Poly::from(pivot.clone());
-            let by = -&rest * Poly::constant(coefficient.recip());
-            (!rest.contains(&pivot)).then_some((pivot, by.into()))
-        };
-        let seen_again = || {
-            symbols.iter().find_map(|x| {
-                let (_, rule) = solved(*x)?;
-                let signed = context.sign(self.reduce(&rule.1), &[])?;
-                signed.sign().implies(*self.known.get(x)?).then_some(rule)
-            })
-        };
-        // In a limit first of all the variable, so that the slack tends to infinity instead.
-        let variable = self.variable.filter(|x| symbols.contains(x) && !slack.is_zero());
-        if let Some((_, rule)) = variable.and_then(solved) {
-            return Some(rule);
+        let (mut equation, mut known) = (value.num().clone(), self.known.clone());
+        if let Some((slack, sign)) = slack {
+            equation = equation - Poly::symbol(slack) * value.den();
+            Arc::make_mut(&mut known).insert(slack, sign);
         }
-        let free = free.min_by_key(|(later, (terms, _))| (*later, *terms)).map(|(_, (_, rule))| rule);
-        free.or_else(|| if rounds { seen_again().or_else(product) } else { product().or_else(seen_again) })
+        let pivot = search::pivot(self, given, value, &equation, &known)?;
+        let by = solved_for(&pivot, &equation, &known)?;
+        Some((pivot, by))
     }
+}
+
+/// Returns the value of a monomial by the equation `of` = 0: of a symbol whose factor is not 0, or of a product
+/// that stands in one term.
+pub(in crate::proof) fn solved_for(pivot: &Monomial, of: &Poly, known: &Arc<Known>) -> Option<Ratio> {
+    let by = if let Some(x) = pivot.as_symbol() {
+        let [rest, coefficient] = of.coefficients(x)?;
+        sign(&coefficient, known).filter(|certificate| certificate.sign().is_strict())?;
+        Ratio::from(-rest).over(&coefficient.into())?
+    } else {
+        let (_, coefficient) = of.terms().find(|(m, _)| *m == pivot)?;
+        let rest = of - Poly::from_iter([(pivot.clone(), coefficient.clone())]);
+        (-rest * Poly::constant(coefficient.recip())).into()
+    };
+    (!by.contains(pivot)).then_some(by)
+}
+
+/// Returns the sign of a polynomial, if the search finds it.
+pub(super) fn sign(of: &Poly, known: &Arc<Known>) -> Option<Certificate> {
+    Certificate::found(of, known, &search::sign)
 }
 
 /// A divisor, if any; a pivot and what it equals; the slack.

@@ -1,7 +1,7 @@
-//! What a proof consists of: read by whoever prints it, made by the kernel alone.
+//! The parts of a proof.
 //!
-//! The fields of a structure are seen by nobody else. So a variant of an enum, which anyone in this crate
-//! can write down, gets into a [`Proof`] here or not at all.
+//! Anyone in this crate may write down a derivation, which proves nothing: only the kernel puts one into a
+//! [`Proof`].
 
 use super::algebra::{Monomial, Poly, Ratio, Symbol};
 use super::sign::{Certificate, Sign};
@@ -65,102 +65,42 @@ pub enum Derivation {
 /// A derivation without cases of its own.
 #[derive(Clone, Debug)]
 pub struct Direct {
-    pub(super) supposed: Vec<Supposed>,
-    pub(super) errors: Vec<Rounding>,
-    pub(super) divisors: Vec<(Tree, Signed)>,
-    pub(super) brackets: Vec<(Tree, Tree, Signed)>,
-    pub(super) because: Because,
-}
-
-impl Direct {
-    /// What is supposed, and how it is used.
-    pub fn supposed(&self) -> &[Supposed] {
-        &self.supposed
-    }
-
-    /// Each formula that is rounded, and what its error is called, those inside it before it.
-    pub fn errors(&self) -> &[Rounding] {
-        &self.errors
-    }
-
-    /// Each divisor, and why it is not 0.
-    ///
-    /// Its numerator has a strict sign; its own divisors are listed before it.
-    pub fn divisors(&self) -> &[(Tree, Signed)] {
-        &self.divisors
-    }
-
-    /// Each bracket, which of its values it has, and why: the sign of what decides it.
-    pub fn brackets(&self) -> &[(Tree, Tree, Signed)] {
-        &self.brackets
-    }
-
-    /// The rest.
-    pub fn because(&self) -> &Because {
-        &self.because
-    }
+    /// The suppositions, and how they are used.
+    pub supposed: Vec<Supposed>,
+    /// The formulas that are rounded, each after those inside it.
+    pub errors: Vec<Rounding>,
+    /// The divisors, each after its own, and why they are not 0: their numerators have strict signs.
+    pub divisors: Vec<(Tree, Signed)>,
+    /// The brackets, which of their values they have, and why: the sign of what decides.
+    pub brackets: Vec<(Tree, Tree, Signed)>,
+    /// The last step.
+    pub because: Because,
 }
 
 /// A rounding.
 #[derive(Clone, Debug)]
 pub struct Rounding {
-    pub(super) of: Tree,
-    pub(super) error: Symbol,
-    pub(super) scale: Ratio,
-}
-
-impl Rounding {
-    /// What is rounded.
-    pub fn of(&self) -> &Tree {
-        &self.of
-    }
-
-    /// What its error is called: the same for all that is the same but for powers of two.
-    pub fn error(&self) -> Symbol {
-        self.error
-    }
-
-    /// By which powers of two it differs from what else has that error, in other units.
-    pub fn scale(&self) -> &Ratio {
-        &self.scale
-    }
+    /// The formula that is rounded.
+    pub of: Tree,
+    /// Its error: the same for all that is the same but for powers of two.
+    pub error: Symbol,
+    /// The powers of two by which it differs from what else has that error, in other units.
+    pub scale: Ratio,
 }
 
 /// A supposition and what became of it.
 #[derive(Clone, Debug)]
 pub struct Supposed {
-    pub(super) given: Option<Hypothesis>,
-    pub(super) value: Ratio,
-    pub(super) sign: Sign,
-    pub(super) divided_by: Option<Ratio>,
-    pub(super) used: Used,
-}
-
-impl Supposed {
     /// The hypothesis, or `None` for the case of a split.
-    pub fn given(&self) -> Option<&Hypothesis> {
-        self.given.as_ref()
-    }
-
+    pub given: Option<Hypothesis>,
     /// The quantity it speaks of, before this supposition is used.
-    pub fn value(&self) -> &Ratio {
-        &self.value
-    }
-
-    /// What it says of its sign.
-    pub fn sign(&self) -> Sign {
-        self.sign
-    }
-
+    pub value: Ratio,
+    /// The sign that it has.
+    pub sign: Sign,
     /// The positive divisor of the quantity, if not the quantity itself but a quotient is named by a slack.
-    pub fn divided_by(&self) -> Option<&Ratio> {
-        self.divided_by.as_ref()
-    }
-
-    /// How it is used.
-    pub fn used(&self) -> &Used {
-        &self.used
-    }
+    pub divided_by: Option<Ratio>,
+    /// The use that is made of it.
+    pub used: Used,
 }
 
 /// How a supposition is used.
@@ -181,28 +121,16 @@ pub enum Used {
 /// The sign of a quotient.
 #[derive(Clone, Debug)]
 pub struct Signed {
-    pub(super) value: Ratio,
-    pub(super) num: Certificate,
-    pub(super) den: Certificate,
+    /// The quotient, reduced by the suppositions.
+    pub value: Ratio,
+    /// The sign of its numerator.
+    pub num: Certificate,
+    /// The strict sign of its denominator.
+    pub den: Certificate,
 }
 
 impl Signed {
-    /// The quotient, reduced by the suppositions.
-    pub fn value(&self) -> &Ratio {
-        &self.value
-    }
-
-    /// The sign of its numerator.
-    pub fn num(&self) -> &Certificate {
-        &self.num
-    }
-
-    /// The strict sign of its denominator.
-    pub fn den(&self) -> &Certificate {
-        &self.den
-    }
-
-    /// The sign of the quotient.
+    /// Returns the sign of the quotient.
     pub fn sign(&self) -> Sign {
         self.num.sign().times(self.den.sign())
     }

@@ -63,7 +63,7 @@ mod tests {
     #[test]
     fn arithmetic_is_an_effort() {
         let sum = |terms: usize| {
-            let x = Poly::symbol(Symbol("x"));
+            let x = Poly::symbol(Symbol::Own("x"));
             let powers = std::iter::successors(Some(Poly::constant(1)), |power| Some(power * &x));
             powers
                 .take(terms)

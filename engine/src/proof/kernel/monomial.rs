@@ -1,30 +1,55 @@
-//! Products of powers of symbols.
+//! Symbols, and products of their powers.
 
 use super::algebra::Ratio;
 use super::effort;
 use std::cmp::Ordering;
-use std::sync::Arc;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex};
 
-/// A quantity by its name.
-#[derive(Clone, Copy, Debug, Eq)]
-pub struct Symbol(pub &'static str);
-
-impl PartialEq for Symbol {
-    fn eq(&self, other: &Self) -> bool {
-        std::ptr::eq(self.0, other.0) || self.0 == other.0
-    }
+/// A symbol of a polynomial.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Symbol {
+    /// A symbol of the statement.
+    Own(&'static str),
+    /// The error of a rounding in units of the largest, e₁, e₂, …: −1 ≤ e ≤ 1.
+    Error(u8),
+    /// The value of a hypothesis, s₁, s₂, ….
+    Slack(u8),
+    /// The place of a quantity in its interval, t₁, t₂, …: −1 ≤ t ≤ 1.
+    Place(u8),
 }
 
-impl PartialOrd for Symbol {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
+impl Symbol {
+    /// Returns `true` if it is between −1 and 1.
+    pub fn is_small(self) -> bool {
+        matches!(self, Symbol::Error(_) | Symbol::Place(_))
     }
-}
 
-/// By name; where two names are one, that is seen without reading them.
-impl Ord for Symbol {
-    fn cmp(&self, other: &Self) -> Ordering {
-        if std::ptr::eq(self.0, other.0) { Ordering::Equal } else { self.0.cmp(other.0) }
+    /// Returns the name that a reader sees.
+    pub fn name(self) -> &'static str {
+        static NAMES: Mutex<BTreeMap<Symbol, &str>> = Mutex::new(BTreeMap::new());
+        let numbered = |letter: char, index: u8| {
+            let name = || {
+                let digits = (index + 1).to_string();
+                let subscript = |digit: u8| char::from_u32(u32::from('₀') + u32::from(digit - b'0'));
+                let name: String = [letter].into_iter().chain(digits.bytes().filter_map(subscript)).collect();
+                &*name.leak()
+            };
+            let mut names = NAMES.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+            *names.entry(self).or_insert_with(name)
+        };
+        match self {
+            Symbol::Own(name) => name,
+            Symbol::Error(index) => numbered('e', index),
+            Symbol::Slack(index) => numbered('s', index),
+            Symbol::Place(index) => numbered('t', index),
+        }
+    }
+
+    /// Returns `true` if a reader would take a symbol of this name for one of a proof.
+    pub fn is_reserved(name: &str) -> bool {
+        let digits = name.strip_prefix(['e', 's', 't']).unwrap_or_default();
+        !digits.is_empty() && digits.chars().all(|digit| ('₀'..='₉').contains(&digit))
     }
 }
 
@@ -51,6 +76,14 @@ impl Monomial {
     /// A symbol.
     pub fn of(x: Symbol) -> Self {
         Monomial { powers: vec![(x, 1)], exponent: None }
+    }
+
+    /// Returns the symbol that it is, if it is one.
+    pub fn as_symbol(&self) -> Option<Symbol> {
+        match (&self.powers[..], &self.exponent) {
+            ([(x, 1)], None) => Some(*x),
+            _ => None,
+        }
     }
 
     /// The powers of its symbols, by name.

@@ -1,10 +1,10 @@
 //! Formulas read as quotients.
 
 use super::algebra::{self, Poly, Ratio};
-use super::context::Context;
+use super::context::{Context, sign};
 use super::derivation::{Rounding, Signed, Why};
 use super::effort;
-use super::sign::{Certificate, ERRORS, Sign, sign};
+use super::sign::{Certificate, Sign};
 use crate::formula::claim::SCALES;
 use crate::number::Tree;
 use crate::number::tree::Step;
@@ -98,9 +98,9 @@ impl<'a> Reader<'a> {
         Ok(match tree.step() {
             // What rounding makes of a formula is long: soon in the symbols that are left, it is shorter.
             Symbol(name) if self.context.rounds() => {
-                self.context.reduce(&Poly::symbol(algebra::Symbol(name)).into())
+                self.context.reduce(&Poly::symbol(algebra::Symbol::Own(name)).into())
             }
-            Symbol(name) => Poly::symbol(algebra::Symbol(name)).into(),
+            Symbol(name) => Poly::symbol(algebra::Symbol::Own(name)).into(),
             Int(n) => Poly::constant(*n).into(),
             Neg(a) => -self.read(a)?,
             Add(a, b) => self.read(a)? + self.read(b)?,
@@ -132,7 +132,7 @@ impl<'a> Reader<'a> {
         let (value, scale) = without_scales(value);
         // What is equal has the same errors in it, if none cancels; then it is not seen to be equal.
         let errors = |value: &Ratio| -> Vec<_> {
-            value.symbols().into_iter().filter(|x| ERRORS.contains(&x.0)).collect()
+            value.symbols().into_iter().filter(|x| matches!(x, algebra::Symbol::Error(_))).collect()
         };
         let own = errors(&value);
         let mut alike = self.rounded.iter().filter(|(known, _)| errors(known) == own);
@@ -141,7 +141,8 @@ impl<'a> Reader<'a> {
             Some((_, error)) => *error,
             None => {
                 let place = self.context.roundings.iter().position(|known| known == of);
-                let error = algebra::Symbol(ERRORS[place.ok_or(Why::TooMany)?]);
+                let place = place.and_then(|place| place.try_into().ok());
+                let error = algebra::Symbol::Error(place.ok_or(Why::TooMany)?);
                 self.rounded.push((value, error));
                 error
             }
@@ -173,10 +174,13 @@ impl<'a> Reader<'a> {
     }
 }
 
+fn is_scale(x: algebra::Symbol) -> bool {
+    SCALES.iter().any(|scale| x == algebra::Symbol::Own(scale))
+}
+
 /// A quotient without factors that are powers of two, and these.
 fn without_scales(value: &Ratio) -> (Ratio, Ratio) {
-    let scales =
-        |poly: &Poly| -> Poly { poly.common_monomial().without_those(|x| !SCALES.contains(&x.0)).into() };
+    let scales = |poly: &Poly| -> Poly { poly.common_monomial().without_those(|x| !is_scale(x)).into() };
     let scale = Ratio::from(scales(value.num())).over(&scales(value.den()).into());
     let scale = scale.unwrap_or_else(|| Poly::constant(1).into());
     (value.over(&scale).unwrap_or_else(|| value.clone()), scale)

@@ -208,10 +208,10 @@ fn the_variable_of_a_limit_may_be_larger_than_other_quantities() {
 #[test]
 fn a_linear_function_that_increases_is_one() {
     let context = Context::of(vec![]).with_variable(&Proposition::Sign(Relation::Positive, x("s")));
-    let [s, two_to_a] = ["s", "2ᵃ"].map(|name| Poly::symbol(Symbol(name)));
+    let [s, two_to_a] = ["s", "2ᵃ"].map(|name| Poly::symbol(Symbol::Own(name)));
     let one = || Poly::constant(1);
     let over = |a: Poly, b: Poly| Ratio::from(a).over(&b.into()).unwrap();
-    let increases = |of: Ratio| context.increases_linearly(&of, Symbol("s"));
+    let increases = |of: Ratio| context.increases_linearly(&of, Symbol::Own("s"));
     // Of the other symbol it is known that it is positive.
     assert!(increases((&s + &two_to_a).into()) && increases(over(&s * &two_to_a - one(), &two_to_a + one())));
     let exponential = Poly::exponential(s.clone().into());

@@ -3,7 +3,7 @@
 use crate::number::{Exponential, Field, Tree};
 use crate::proof::Why;
 use crate::proof::kernel::algebra::{Monomial, Poly, Ratio, Symbol};
-use crate::proof::kernel::sign::{Certificate, Rule, Sign, is_small};
+use crate::proof::kernel::sign::{Certificate, Rule, Sign};
 use rug::Integer;
 use std::fmt;
 
@@ -15,8 +15,9 @@ pub(super) struct Order<'a>(pub(super) &'a [&'static str]);
 impl Order<'_> {
     fn product(&self, monomial: &Monomial) -> Option<Tree> {
         let mut powers: Vec<_> = monomial.powers().collect();
-        powers.sort_by_key(|(x, _)| self.0.iter().position(|name| *name == x.0));
-        let powers = powers.into_iter().flat_map(|(x, n)| std::iter::repeat_n(Tree::symbol(x.0), n as usize));
+        powers.sort_by_key(|(x, _)| self.0.iter().position(|name| Symbol::Own(name) == *x));
+        let powers =
+            powers.into_iter().flat_map(|(x, n)| std::iter::repeat_n(Tree::symbol(x.name()), n as usize));
         powers.chain(monomial.exponent().map(|e| self.ratio(e).exp())).reduce(|a, b| a * b)
     }
 
@@ -84,7 +85,8 @@ impl Order<'_> {
                 let left = format!("{} {}, term by term", poly(rest.of()), text(rest.sign()));
                 vec![format!("{of} {sign}: with the sizes of errors it is {no} than {left}")]
             }
-            Rule::Ends { x: Symbol(x), at } => {
+            Rule::Ends { x, at } => {
+                let x = x.name();
                 let mut lines = vec![match at.len() {
                     2 => format!("{of} {sign}, at {x} = −1 and at {x} = 1:"),
                     _ => format!("{of} {sign}, by its Bernstein form in {x} from −1 to 1:"),
@@ -108,7 +110,8 @@ impl Order<'_> {
                 lines.extend(self.certificate(rest));
                 lines
             }
-            Rule::Slope { x: Symbol(x), start, slope } => {
+            Rule::Slope { x, start, slope } => {
+                let x = x.name();
                 let mut lines = vec![format!("{of} {sign}, by its value at {x} = 0 and its slope in {x}:")];
                 lines.push(format!("at {x} = 0:"));
                 lines.extend(self.certificate(start));
@@ -147,7 +150,7 @@ const SHOWN: usize = 24;
 const SHOWN_OF_ROUNDING: usize = 8;
 
 fn shown(poly: &Poly) -> usize {
-    if poly.symbols().into_iter().any(is_small) { SHOWN_OF_ROUNDING } else { SHOWN }
+    if poly.symbols().into_iter().any(Symbol::is_small) { SHOWN_OF_ROUNDING } else { SHOWN }
 }
 
 /// A number as a formula; a large one in pieces, since a formula has only small ones.
@@ -202,9 +205,9 @@ mod tests {
     fn long_sums_are_counted_and_not_written() {
         let powers =
             |x: Poly, many: usize| (0..many).fold(Poly::zero(), |sum, _| &x * &sum + Poly::constant(1));
-        for (x, shown) in [("a", SHOWN), ("e₁", SHOWN_OF_ROUNDING)] {
+        for (x, shown) in [(Symbol::Own("a"), SHOWN), (Symbol::Error(0), SHOWN_OF_ROUNDING)] {
             let order = Order::default();
-            let x = Poly::symbol(Symbol(x));
+            let x = Poly::symbol(x);
             let [short, long] = [shown, shown + 1].map(|many| powers(x.clone(), many));
             assert_eq!(order.poly_or_size(&short), order.poly(&short).to_string());
             assert_eq!(order.poly_or_size(&long), format!("a sum of {} terms", shown + 1));

@@ -5,9 +5,9 @@ use crate::formula::claim::PRECISION;
 use crate::formula::name_of_rounding;
 use crate::formula::statement::{Goal, Proposition, Role, Statement};
 use crate::number::Tree;
-use crate::proof::kernel::sign::ERRORS;
+use crate::proof::kernel::algebra::Symbol;
 use crate::proof::kernel::{Derivation, Supposed, Used, Why, derivation, roundings};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 impl Paper<'_> {
     /// Why there is no proof of a statement, with the definitions of the names that are not its own:
@@ -19,14 +19,18 @@ impl Paper<'_> {
         let said = self.order().why(why);
         let (rounded, mut supposed) = (roundings(statement.trees()), None);
         let mut definitions = Vec::new();
-        for name in why.names().into_iter().filter(|name| said.contains(name)) {
-            if let Some(of) = ERRORS.iter().position(|error| *error == name).and_then(|i| rounded.get(i)) {
-                definitions.push(self.error(name, of));
-            } else if !statement.trees().any(|tree| tree.symbols().contains(name)) {
-                let supposed = supposed.get_or_insert_with(|| self.supposed_names(statement));
-                let known = supposed.get(name).and_then(Option::clone);
-                let of_case = || format!("{name} ≥ 0 is what a case of the proof is about");
-                definitions.push(known.unwrap_or_else(of_case));
+        for symbol in why.symbols().into_iter().filter(|symbol| said.contains(symbol.name())) {
+            match symbol {
+                Symbol::Own(_) => {}
+                Symbol::Error(i) => {
+                    definitions.extend(rounded.get(usize::from(i)).map(|of| self.error(symbol.name(), of)));
+                }
+                Symbol::Slack(_) | Symbol::Place(_) => {
+                    let supposed = supposed.get_or_insert_with(|| self.supposed_names(statement));
+                    let known = supposed.get(&symbol).and_then(Option::clone);
+                    let of_case = || format!("{} ≥ 0 is what a case of the proof is about", symbol.name());
+                    definitions.push(known.unwrap_or_else(of_case));
+                }
             }
         }
         if definitions.is_empty() { said } else { format!("{said}, where {}", definitions.join(" and ")) }
@@ -41,7 +45,7 @@ impl Paper<'_> {
 
     /// The names that hypotheses bring, with their definitions; `None` if a name has several, in different
     /// cases.
-    fn supposed_names(&self, statement: &Statement) -> BTreeMap<&'static str, Option<String>> {
+    fn supposed_names(&self, statement: &Statement) -> BTreeMap<Symbol, Option<String>> {
         let derive =
             |role: Role, proposition: &Proposition| derivation(&statement.hypotheses_for(role), proposition);
         let fails = |goal: &&Goal| derive(goal.role, &goal.proposition).is_err();
@@ -59,13 +63,13 @@ impl Paper<'_> {
         all
     }
 
-    fn collect(&self, derivation: &Derivation, all: &mut BTreeMap<&'static str, Option<String>>) {
+    fn collect(&self, derivation: &Derivation, all: &mut BTreeMap<Symbol, Option<String>>) {
         match derivation {
             Derivation::Cases(_, positive, not) => {
                 [positive, not].into_iter().for_each(|case| self.collect(case, all));
             }
             Derivation::Direct(direct) => {
-                for (name, definition) in direct.supposed().iter().filter_map(|s| self.definition(s)) {
+                for (name, definition) in direct.supposed.iter().filter_map(|s| self.definition(s)) {
                     let known = all.entry(name).or_insert_with(|| definition.clone());
                     if *known != definition {
                         *known = None;
@@ -75,25 +79,29 @@ impl Paper<'_> {
         }
     }
 
-    /// The name that a supposition brings, and its definition if it is a hypothesis.
-    fn definition(&self, supposed: &Supposed) -> Option<(&'static str, Option<String>)> {
-        match supposed.used() {
+    /// The symbol that a supposition brings, and its definition if it is a hypothesis.
+    fn definition(&self, supposed: &Supposed) -> Option<(Symbol, Option<String>)> {
+        match &supposed.used {
             Used::Pivot(_, _, Some(slack)) => {
-                let definition = supposed.given().map(|given| {
-                    let quotient = supposed.divided_by().and_then(|by| supposed.value().over(by));
+                let definition = supposed.given.as_ref().map(|given| {
+                    let quotient = supposed.divided_by.as_ref().and_then(|by| supposed.value.over(by));
                     let value = quotient.map(|value| self.order().ratio_or_size(&value));
                     let value = value.unwrap_or_else(|| self.text(&given.value));
-                    format!("{} = {value} {} 0", slack.0, given.relation)
+                    format!("{} = {value} {} 0", slack.name(), given.relation)
                 });
-                Some((slack.0, definition))
+                Some((*slack, definition))
             }
             Used::Between(x, _, place) => {
                 let definition =
-                    supposed.given().and_then(|given| given.interval()).map(|(_, lower, upper)| {
+                    supposed.given.as_ref().and_then(|given| given.interval()).map(|(_, lower, upper)| {
                         let (lower, upper) = (self.text(lower), self.text(upper));
-                        format!("{} goes from −1 to 1 as {} goes from {lower} to {upper}", place.0, x.0)
+                        format!(
+                            "{} goes from −1 to 1 as {} goes from {lower} to {upper}",
+                            place.name(),
+                            x.name()
+                        )
                     });
-                Some((place.0, definition))
+                Some((*place, definition))
             }
             _ => None,
         }
@@ -101,22 +109,22 @@ impl Paper<'_> {
 }
 
 impl Why {
-    /// The symbols of the quantity that the proof ends at.
-    fn names(&self) -> Vec<&'static str> {
+    /// Returns the symbols of the quantity that the proof ends at.
+    fn symbols(&self) -> BTreeSet<Symbol> {
         match self {
             Why::MightVanish(value)
             | Why::OpenBracket(value)
             | Why::NoSign(value)
             | Why::WrongSign(value, _)
             | Why::Different(value)
-            | Why::NoLimit(value) => value.symbols().into_iter().map(|symbol| symbol.0).collect(),
+            | Why::NoLimit(value) => value.symbols(),
             Why::Kink
             | Why::Jump
             | Why::TooMany
             | Why::Reserved(_)
             | Why::AssumedOfComputed(_)
             | Why::TooLarge(..)
-            | Why::Nothing => Vec::new(),
+            | Why::Nothing => BTreeSet::new(),
         }
     }
 }
@@ -192,10 +200,9 @@ mod tests {
         let statement = equal("", of.clone() * b.nearest(), b.nearest() * of).assuming([&given]);
         let proof = prove(&statement).unwrap();
         let Derivation::Direct(direct) = &proof.goals()[0] else { panic!("no cases") };
-        let named: Vec<_> =
-            direct.errors().iter().map(|rounding| (rounding.error().0, rounding.of())).collect();
+        let named: Vec<_> = direct.errors.iter().map(|rounding| (rounding.error, &rounding.of)).collect();
         let rounded = roundings(statement.trees());
-        let expected: Vec<_> = ERRORS.into_iter().zip(&rounded).collect();
+        let expected: Vec<_> = (0..).map(Symbol::Error).zip(&rounded).collect();
         assert_eq!(named, expected);
         assert_eq!(named.len(), 4);
     }

@@ -29,13 +29,13 @@ fn cases(derivation: &Derivation) -> usize {
 fn means(derivation: &Derivation) -> &'static str {
     match derivation {
         Derivation::Cases(_, positive, _) => means(positive),
-        Derivation::Direct(direct) => match direct.because() {
+        Derivation::Direct(direct) => match &direct.because {
             Because::Same(_) => "identity",
             Because::Order(_) => "order",
             Because::Derivative(..) => "derivative",
             Because::Limit { .. } => "limit",
             Because::Within(_) => "bound",
-            Because::Sign(signed) => match signed.num().rule() {
+            Because::Sign(signed) => match signed.num.rule() {
                 Rule::Sizes(_) | Rule::Ends { .. } => "rounding",
                 Rule::Terms => "sign by terms",
                 Rule::Factor(_, rest) if matches!(rest.rule(), Rule::Slope { .. }) => "sign by slope",

@@ -4,8 +4,8 @@ use super::super::expr::{Expr, by_exponent};
 use super::super::print::ascii;
 use super::{Reason, Script};
 use crate::proof::kernel::algebra::{Poly, Ratio, Symbol};
-use crate::proof::kernel::sign;
 use crate::proof::kernel::{Because, Derivation, Used};
+use crate::proof::search;
 
 impl Script {
     /// A limit; the hypotheses H1, H2, … are those that do not speak of `by`, and `inside` makes use of those
@@ -17,12 +17,12 @@ impl Script {
         inside: impl FnOnce(&mut Self) -> Result<(), Reason>,
     ) -> Result<(), Reason> {
         let Derivation::Direct(direct) = derivation else { return Err("a limit in cases") };
-        let Because::Limit { of, .. } = direct.because() else { return Err("no limit") };
-        if !direct.brackets().is_empty() {
+        let Because::Limit { of, .. } = &direct.because else { return Err("no limit") };
+        if !direct.brackets.is_empty() {
             return Err("a limit with brackets");
         }
-        let x = Symbol(by);
-        let others = direct.supposed().iter().filter(|s| !matches!(s.used(), Used::Symbol(y) if *y == x));
+        let x = Symbol::Own(by);
+        let others = direct.supposed.iter().filter(|s| !matches!(&s.used, Used::Symbol(y) if *y == x));
         others.enumerate().try_for_each(|(i, supposed)| self.suppose(supposed, &format!("H{}", i + 1)))?;
         self.at_infinity(of, x, inside)
     }
@@ -56,12 +56,12 @@ impl Script {
         // A polynomial of x over x^degree, in y = 1/x.
         let reversed = |poly: &Poly| {
             let terms = (0..=poly.degree(x)).map(|i| {
-                (i..degree).fold(poly.coefficient(x, i), |term, _| term * Poly::symbol(Symbol("y")))
+                (i..degree).fold(poly.coefficient(x, i), |term, _| term * Poly::symbol(Symbol::Own("y")))
             });
             terms.fold(Poly::zero(), |sum, term| sum + term)
         };
         let g = Expr::poly(&reversed(&rest)).over(Expr::poly(&reversed(of.den())));
-        let name = ascii(x.0);
+        let name = ascii(x.name());
         let (rule, more) = match &falling {
             None => ("limit_at_infinity", String::new()),
             Some((factor, rate)) => (
@@ -77,7 +77,8 @@ impl Script {
             Ok(())
         })?;
         if let Some((_, rate)) = &falling {
-            let certificate = |p: &Poly| sign::sign(p, &self.known).ok_or("the sign of a rate is open");
+            let certificate =
+                |p: &Poly| search::sign(p, &self.known.clone().into()).ok_or("the sign of a rate is open");
             let (num, den) = (certificate(rate.num())?, certificate(rate.den())?);
             let size = self.positive(&num)?.over(self.positive(&den)?);
             self.line(&format!("- sign_by {}.", size.argument()));

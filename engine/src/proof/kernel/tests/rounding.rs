@@ -28,8 +28,8 @@ fn there_are_names_for_so_many_errors_and_no_more() {
         let sum = all.fold(Tree::zero(), |sum, one| sum + one);
         outcome(vec![minimum_precision()], Proposition::Equal(sum.clone(), sum))
     };
-    assert!(roundings(ERRORS.len()).is_ok());
-    assert!(matches!(roundings(ERRORS.len() + 1), Err(Why::TooMany)));
+    assert!(roundings(MAX_ROUNDINGS).is_ok());
+    assert!(matches!(roundings(MAX_ROUNDINGS + 1), Err(Why::TooMany)));
 }
 
 #[test]
