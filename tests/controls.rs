@@ -172,9 +172,10 @@ fn a_counterexample_has_all_hypotheses_but_the_dropped_one() {
     let statements = statements();
     for dropped in CONTROLS.dropped.iter().filter(|dropped| !dropped.is_of_precision()) {
         let what = format!("{} {} without {}", dropped.equation, dropped.name, dropped.given);
-        let Without::Refuted(counterexample) = &dropped.without else {
+        let Without::Refuted(refutation) = &dropped.without else {
             panic!("{what}: nothing refutes it, so the hypothesis is not needed: take it out of the claim")
         };
+        let counterexample = refutation.counterexample();
         // An induction's invariants may go with the hypothesis.
         let of =
             statements.iter().find(|s| (s.equation(), s.name()) == (dropped.equation, dropped.name)).unwrap();
@@ -190,11 +191,11 @@ fn a_counterexample_has_all_hypotheses_but_the_dropped_one() {
 fn counterexamples_are_small() {
     let controls = &*CONTROLS;
     let noticed = controls.changes.iter().filter_map(|(change, outcome)| match outcome {
-        Effect::Noticed { counterexample, .. } => Some((change.to_string(), counterexample)),
+        Effect::Noticed { refutation, .. } => Some((change.to_string(), refutation.counterexample())),
         Effect::Unchanged | Effect::Unnoticed => None,
     });
     let dropped = controls.dropped.iter().filter_map(|dropped| match &dropped.without {
-        Without::Refuted(counterexample) => Some((format!("{dropped:?}"), counterexample)),
+        Without::Refuted(refutation) => Some((format!("{dropped:?}"), refutation.counterexample())),
         Without::StillTrue | Without::Unknown => None,
     });
     let size = |c: &Counterexample| {
@@ -205,6 +206,6 @@ fn counterexamples_are_small() {
     };
     // Raw points are integers of this size, and nearly all that is wrong shows at one of them.
     for (what, counterexample) in noticed.chain(dropped) {
-        assert!(size(counterexample) <= 9, "{what}: {counterexample}");
+        assert!(size(&counterexample) <= 9, "{what}: {counterexample}");
     }
 }

@@ -196,8 +196,9 @@ fn details(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
         }
     }
     let noticed = proofs.controls.changes.iter().filter_map(|(Change { site, what }, effect)| match effect {
-        Effect::Noticed { equation, name, counterexample } => {
-            Some(format!("{site}: {what}, by {equation} {name} at {}", output::glued(counterexample)))
+        Effect::Noticed { equation, name, refutation } => {
+            let at = output::glued(&refutation.counterexample());
+            Some(format!("{site}: {what}, by {equation} {name} at {at}"))
         }
         Effect::Unchanged | Effect::Unnoticed => None,
     });
@@ -237,8 +238,9 @@ fn print_claim(out: &mut dyn Write, proofs: &Proofs, proved: &Proved) -> io::Res
         Answer::None(why, _) => say("no proof", std::slice::from_ref(why))?,
     }
     let needed = proofs.dropped(statement).filter_map(|Dropped { given, without, .. }| match without {
-        Without::Refuted(counterexample) => {
-            Some(format!("{}: without it, at {}", registry().supposed(given), output::glued(counterexample)))
+        Without::Refuted(refutation) => {
+            let at = output::glued(&refutation.counterexample());
+            Some(format!("{}: without it, at {at}", registry().supposed(given)))
         }
         Without::StillTrue | Without::Unknown => None,
     });

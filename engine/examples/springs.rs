@@ -51,8 +51,8 @@ fn main() {
     let Controls { changes, .. } = controls(&claims, &registry);
     println!("\nchanged, it is refuted:");
     for (change, effect) in &changes {
-        let Effect::Noticed { counterexample, .. } = effect else { panic!("{change} goes unnoticed") };
-        println!("  {}: {counterexample}", change.what);
+        let Effect::Noticed { refutation, .. } = effect else { panic!("{change} goes unnoticed") };
+        println!("  {}: {}", change.what, refutation.counterexample());
     }
     println!("\nfor Coq:\n{}", coq(&registry, &claims).files()[1].text);
 }

@@ -38,4 +38,4 @@ mod search;
 
 pub use controls::{Controls, controls};
 pub use kernel::{MAX_DEPTH, MAX_EFFORT, MAX_SIZE, Proof, Why, prove};
-pub use refute::{Counterexample, refute, sharpest};
+pub use refute::{Counterexample, Refutation, refute, sharpest};

@@ -15,7 +15,7 @@ mod change;
 pub use change::{Change, Operator, What, changes, changes_in, possible_repairs};
 
 use super::kernel::prove;
-use super::refute::{Counterexample, Points};
+use super::refute::{Points, Refutation};
 use crate::formula::claim::PRECISION;
 use crate::formula::statement::minimum_precision;
 use crate::formula::{Hypothesis, Registry, Statement};
@@ -32,8 +32,8 @@ pub enum Effect {
         equation: &'static str,
         /// Its name.
         name: &'static str,
-        /// Where it does not hold.
-        counterexample: Counterexample,
+        /// Numbers at which it does not hold.
+        refutation: Refutation,
     },
     /// It is proved that every formula stays what it was.
     Unchanged,
@@ -45,7 +45,7 @@ pub enum Effect {
 #[derive(Clone, Debug)]
 pub enum Without {
     /// It does not hold: the hypothesis is needed.
-    Refuted(Counterexample),
+    Refuted(Refutation),
     /// It is proved: the hypothesis is not needed.
     StillTrue,
     /// Neither.
@@ -218,9 +218,8 @@ impl<'a> Bench<'a> {
             let own = (original.hypotheses() != changed.hypotheses())
                 .then(|| Points::of(changed.hypotheses().to_vec(), self.symbols.clone()));
             let points = own.as_ref().unwrap_or(&self.points[self.own[i]]);
-            let counterexample =
-                if thoroughly { points.thoroughly(&changed) } else { points.quickly(&changed) }?;
-            Some(Effect::Noticed { equation: original.equation(), name: original.name(), counterexample })
+            let refutation = if thoroughly { points.thoroughly(&changed) } else { points.quickly(&changed) }?;
+            Some(Effect::Noticed { equation: original.equation(), name: original.name(), refutation })
         };
         let unchanged = || touched().all(|(i, _)| change.changes_nothing(&self.statements[i], self.registry));
         touched()
@@ -235,7 +234,7 @@ impl<'a> Bench<'a> {
         let less = own.without(&own.hypotheses()[hypothesis]);
         let points = &self.points[self.less[statement][hypothesis]];
         match points.quickly(&less) {
-            Some(counterexample) => Without::Refuted(counterexample),
+            Some(refutation) => Without::Refuted(refutation),
             None if prove(&less).is_ok() => Without::StillTrue,
             None => points.thoroughly(&less).map_or(Without::Unknown, Without::Refuted),
         }

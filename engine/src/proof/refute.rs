@@ -97,6 +97,20 @@ pub struct Counterexample {
     pub how: How,
 }
 
+/// A counterexample as it was found, with the statement that it refutes.
+#[derive(Clone, Debug)]
+pub struct Refutation {
+    statement: Statement,
+    found: Counterexample,
+}
+
+impl Refutation {
+    /// Returns the counterexample with simpler numbers, as far as some are found.
+    pub fn counterexample(&self) -> Counterexample {
+        smaller(&self.statement, self.found.clone())
+    }
+}
+
 /// The numbers, then how it fails.
 impl fmt::Display for Counterexample {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
@@ -231,7 +245,7 @@ const FIRST_PLANTED: usize = 4;
 
 /// A counterexample where a divisor is 0, by bending a point to that: divisors mostly are linear in some
 /// coordinate.
-fn divided_by_zero(statement: &Statement, point: &Point) -> Option<Counterexample> {
+fn divided_by_zero(statement: &Statement, point: &Point) -> Option<Refutation> {
     let mut divisors: Vec<&Tree> = Vec::new();
     for tree in statement.goals().iter().flat_map(|goal| goal.proposition.trees()) {
         tree.visit(&mut |tree| {
@@ -272,14 +286,14 @@ impl Points {
         Points { hypotheses, symbols, first: [raw, planted], all: OnceLock::new() }
     }
 
-    /// A counterexample at one of the first points.
-    pub(super) fn quickly(&self, statement: &Statement) -> Option<Counterexample> {
+    /// Returns a refutation at one of the first points.
+    pub(super) fn quickly(&self, statement: &Statement) -> Option<Refutation> {
         let [raw, planted] = &self.first;
         raw.iter().take(8).chain(planted).find_map(|point| found(statement, point))
     }
 
-    /// A counterexample at one of the others.
-    pub(super) fn thoroughly(&self, statement: &Statement) -> Option<Counterexample> {
+    /// Returns a refutation at one of the others.
+    pub(super) fn thoroughly(&self, statement: &Statement) -> Option<Refutation> {
         let [raw, planted] = &self.first;
         let some = raw.iter().skip(8).find_map(|point| found(statement, point));
         let divided = || planted.iter().find_map(|point| divided_by_zero(statement, point));
@@ -293,10 +307,13 @@ impl Points {
     }
 }
 
-/// The counterexample at a point at which the hypotheses hold, made small.
-fn found(statement: &Statement, point: &Point) -> Option<Counterexample> {
+/// Returns a refutation at a point at which the hypotheses hold.
+fn found(statement: &Statement, point: &Point) -> Option<Refutation> {
     match check_goals(statement, point) {
-        Verdict::Fails(part, how) => Some(smaller(statement, point, part, how)),
+        Verdict::Fails(part, how) => {
+            let found = Counterexample { point: point.clone(), part, how };
+            Some(Refutation { statement: statement.clone(), found })
+        }
         Verdict::Excluded | Verdict::Holds | Verdict::Open => None,
     }
 }
@@ -345,7 +362,8 @@ pub fn refute(statement: &Statement) -> Option<Counterexample> {
     super::kernel::check_size(statement.trees()).ok()?;
     let symbols = symbols(statement);
     let points = Points::of(statement.hypotheses().to_vec(), symbols);
-    points.quickly(statement).or_else(|| points.thoroughly(statement))
+    let refutation = points.quickly(statement).or_else(|| points.thoroughly(statement))?;
+    Some(refutation.counterexample())
 }
 
 #[cfg(test)]

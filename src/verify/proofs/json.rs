@@ -92,7 +92,7 @@ fn claim(proved: &Proved, proofs: &Proofs) -> Claim {
 
 fn dropped(Dropped { given, without, .. }: &Dropped) -> Less {
     let (status, counterexample) = match without {
-        Without::Refuted(counterexample) => ("refuted", Some(values(counterexample))),
+        Without::Refuted(refutation) => ("refuted", Some(values(&refutation.counterexample()))),
         Without::StillTrue => ("still_true", None),
         Without::Unknown => ("unknown", None),
     };
@@ -101,8 +101,8 @@ fn dropped(Dropped { given, without, .. }: &Dropped) -> Less {
 
 fn changed((Change { site, what }, effect): &(Change, Effect)) -> Changed {
     let (status, by, counterexample) = match effect {
-        Effect::Noticed { equation, name, counterexample } => {
-            ("noticed", Some(format!("{equation} {name}")), Some(values(counterexample)))
+        Effect::Noticed { equation, name, refutation } => {
+            ("noticed", Some(format!("{equation} {name}")), Some(values(&refutation.counterexample())))
         }
         Effect::Unchanged => ("unchanged", None, None),
         Effect::Unnoticed => ("unnoticed", None, None),

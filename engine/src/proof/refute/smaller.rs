@@ -26,10 +26,10 @@ fn simpler(x: &Exact) -> Vec<Exact> {
 }
 
 /// Tries simpler numbers for one symbol after the other, as long as it stays a counterexample.
-pub(super) fn smaller(statement: &Statement, point: &Point, part: &'static str, how: How) -> Counterexample {
+pub(super) fn smaller(statement: &Statement, found: Counterexample) -> Counterexample {
     let symbols: BTreeSet<_> = symbols(statement).into_iter().collect();
     let size = |point: &Point| point.numbers().map(|(_, x)| complexity(x)).sum::<u64>();
-    let mut best = Counterexample { point: point.among(&symbols), part, how };
+    let mut best = Counterexample { point: found.point.among(&symbols), ..found };
     // The same with another number, where a further one may have to follow.
     let with = |best: &Counterexample, symbol: &'static str, x: Exact| {
         let point = best.point.with(symbol, x);
