@@ -21,18 +21,24 @@ use std::collections::BTreeSet;
 #[derive(Clone, Copy, Debug)]
 pub struct Paper<'a> {
     registry: &'a Registry,
+    is_full: bool,
 }
 
 impl<'a> Paper<'a> {
     /// With the names of this registry.
     pub fn new(registry: &'a Registry) -> Self {
-        Paper { registry }
+        Paper { registry, is_full: false }
+    }
+
+    /// Writes every polynomial and certificate in full, however long it is.
+    pub fn in_full(self) -> Self {
+        Paper { is_full: true, ..self }
     }
 
     /// What a claim says, in one line.
     pub fn claim(&self, statement: &Statement) -> String {
         if let Some(registry) = self.other_names(statement) {
-            return Paper::new(&registry).claim(statement);
+            return Paper { registry: &registry, ..*self }.claim(statement);
         }
         let computed = statement.computed().into_iter();
         let computed: String =
@@ -65,7 +71,7 @@ impl<'a> Paper<'a> {
     /// What holds of a sequence at every step, and of what is computed: part of the proof, and not supposed.
     pub fn always(&self, statement: &Statement) -> Vec<String> {
         if let Some(registry) = self.other_names(statement) {
-            return Paper::new(&registry).always(statement);
+            return Paper { registry: &registry, ..*self }.always(statement);
         }
         let computed = statement.computed().into_iter().map(|computed| &computed.hypothesis);
         let all = statement.invariants().iter().chain(computed);
@@ -113,7 +119,7 @@ impl<'a> Paper<'a> {
     /// The hypotheses that some goal's proof uses, as a reader writes them.
     pub fn used(&self, proof: &Proof) -> Vec<String> {
         if let Some(registry) = self.other_names(proof.statement()) {
-            return Paper::new(&registry).used(proof);
+            return Paper { registry: &registry, ..*self }.used(proof);
         }
         fn collect(derivation: &Derivation, all: &mut Vec<Hypothesis>) {
             match derivation {
@@ -141,7 +147,7 @@ impl<'a> Paper<'a> {
     /// What the names in a claim stand for, those that occur: `R = m g − c (H − l)`.
     pub fn names(&self, statement: &Statement) -> Vec<String> {
         if let Some(registry) = self.other_names(statement) {
-            return Paper::new(&registry).names(statement);
+            return Paper { registry: &registry, ..*self }.names(statement);
         }
         let definition = |Called { formula, arguments }: &Called| {
             let names: Vec<_> = self.registry.said_of(formula, *arguments).collect();
@@ -193,7 +199,7 @@ impl<'a> Paper<'a> {
     pub fn proof(&self, proof: &Proof) -> Vec<String> {
         let statement = proof.statement();
         if let Some(registry) = self.other_names(statement) {
-            return Paper::new(&registry).proof(proof);
+            return Paper { registry: &registry, ..*self }.proof(proof);
         }
         let mut lines = Vec::new();
         lines.extend(statement.conclusion().map(|Sequence { ratio, limit, .. }| {
@@ -229,7 +235,7 @@ impl<'a> Paper<'a> {
     }
 
     fn derivation(&self, derivation: &Derivation, depth: usize, lines: &mut Vec<String>) {
-        if let Some(law) = self.law(derivation) {
+        if let Some(law) = self.law(derivation).filter(|_| !self.is_full) {
             lines.extend(law.into_iter().map(|line| format!("{}{line}", "  ".repeat(depth))));
             return;
         }
@@ -271,6 +277,13 @@ impl<'a> Paper<'a> {
             Because::Order(signs) => {
                 lines.push("rounding keeps order, and so does each step, since".to_string());
                 lines.extend(signs.iter().flat_map(|signed| self.signed(signed)));
+            }
+            Because::Within(sides) if self.is_full => {
+                for (what, signed) in SIDES.into_iter().zip(&**sides) {
+                    let value = self.order().ratio_or_size(&signed.value);
+                    lines.push(format!("the bound {what} is {value} ≥ 0:"));
+                    lines.extend(self.signed(signed).into_iter().map(|line| format!("  {line}")));
+                }
             }
             Because::Within(sides) => lines.extend(self.within(sides)),
             Because::Derivative(value) => lines.push(format!(
@@ -338,8 +351,9 @@ impl<'a> Paper<'a> {
     }
 
     /// What a bound exceeds a size by, on either side.
-    fn within(&self, [above, below]: &[Signed; 2]) -> [String; 2] {
-        [("less it", above), ("and it", below)].map(|(what, signed)| {
+    fn within(&self, sides: &[Signed; 2]) -> [String; 2] {
+        std::array::from_fn(|i| {
+            let (what, signed) = (SIDES[i], &sides[i]);
             let value = self.order().ratio_or_size(&signed.value);
             let how = match [&signed.num, &signed.den].map(ends).iter().max() {
                 Some(0) | None => "term by term".to_string(),
@@ -392,7 +406,7 @@ impl<'a> Paper<'a> {
     }
 
     fn order(&self) -> Order<'a> {
-        Order(self.registry.factors())
+        Order { factors: self.registry.factors(), is_full: self.is_full }
     }
 
     fn text(&self, tree: &Tree) -> String {
@@ -427,6 +441,9 @@ const LETTERS: [(char, char); 12] = [
 fn model() -> String {
     format!("fl(…) = … (1 + eᵢ / ({PRECISION} + 1)) with |eᵢ| ≤ 1: ")
 }
+
+/// The two numbers by which a bound exceeds a size: the bound …
+const SIDES: [&str; 2] = ["less it", "and it"];
 
 /// At how many ends of errors a sign is seen; 0 if there are no errors in it.
 fn ends(certificate: &Certificate) -> usize {

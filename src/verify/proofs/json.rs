@@ -72,7 +72,7 @@ impl Serialize for Proofs {
 
 fn claim(proved: &Proved, proofs: &Proofs) -> Claim {
     let Proved { statement, answer, .. } = proved;
-    let paper = Paper::new(registry());
+    let paper = Paper::new(registry()).in_full();
     let (certificate, why, counterexample) = match answer {
         Answer::Proof(proof) => (Some(paper.proof(proof).join("\n")), None, None),
         Answer::None(why, counterexample) => (None, Some(why.clone()), counterexample.as_ref().map(values)),

@@ -7,15 +7,19 @@ use crate::proof::kernel::sign::{Certificate, Rule, Sign};
 use rug::Integer;
 use std::fmt;
 
-/// The order in which the factors of a product are written, by their symbols. Others come before them, by
-/// name.
+/// The form in which polynomials are written.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Order<'a>(pub(super) &'a [&'static str]);
+pub(super) struct Order<'a> {
+    /// The order of the factors of a product, by their symbols. Others come before them, by name.
+    pub(super) factors: &'a [&'static str],
+    /// Sums are written out however long they are.
+    pub(super) is_full: bool,
+}
 
 impl Order<'_> {
     fn product(&self, monomial: &Monomial) -> Option<Tree> {
         let mut powers: Vec<_> = monomial.powers().collect();
-        powers.sort_by_key(|(x, _)| self.0.iter().position(|name| Symbol::Own(name) == *x));
+        powers.sort_by_key(|(x, _)| self.factors.iter().position(|name| Symbol::Own(name) == *x));
         let powers =
             powers.into_iter().flat_map(|(x, n)| std::iter::repeat_n(Tree::symbol(x.name()), n as usize));
         powers.chain(monomial.exponent().map(|e| self.ratio(e).exp())).reduce(|a, b| a * b)
@@ -55,10 +59,19 @@ impl Order<'_> {
         if ratio.den().is_one() { num } else { num / self.poly(ratio.den()) }
     }
 
+    /// Returns the number of terms that are written out.
+    fn shown(&self, poly: &Poly) -> usize {
+        match poly.symbols().into_iter().any(Symbol::is_small) {
+            _ if self.is_full => usize::MAX,
+            true => SHOWN_OF_ROUNDING,
+            false => SHOWN,
+        }
+    }
+
     /// A polynomial as text, of a very long one how long it is.
     pub(super) fn poly_or_size(&self, poly: &Poly) -> String {
         match poly.terms().len() {
-            n if n > shown(poly) => format!("a sum of {n} terms"),
+            n if n > self.shown(poly) => format!("a sum of {n} terms"),
             _ => self.poly(poly).to_string(),
         }
     }
@@ -66,7 +79,7 @@ impl Order<'_> {
     /// A quotient as text, of a very long one how long it is.
     pub(super) fn ratio_or_size(&self, ratio: &Ratio) -> String {
         match [ratio.num(), ratio.den()].map(|poly| poly.terms().len()) {
-            [n, d] if n > shown(ratio.num()) || d > shown(ratio.den()) => {
+            [n, d] if n > self.shown(ratio.num()) || d > self.shown(ratio.den()) => {
                 format!("a sum of {n} terms over one of {d}")
             }
             _ => self.ratio(ratio).to_string(),
@@ -149,10 +162,6 @@ impl Order<'_> {
 const SHOWN: usize = 24;
 const SHOWN_OF_ROUNDING: usize = 8;
 
-fn shown(poly: &Poly) -> usize {
-    if poly.symbols().into_iter().any(Symbol::is_small) { SHOWN_OF_ROUNDING } else { SHOWN }
-}
-
 /// A number as a formula; a large one in pieces, since a formula has only small ones.
 fn number(n: &Integer) -> Tree {
     n.to_i32().map_or_else(
@@ -216,6 +225,8 @@ mod tests {
             let other = |many: usize| Poly::constant(1) + powers(x.clone(), many);
             let both = ratio(&short, &other(shown));
             assert_eq!(order.ratio_or_size(&both), order.ratio(&both).to_string());
+            let full = Order { is_full: true, ..order };
+            assert_eq!(full.poly_or_size(&long), order.poly(&long).to_string());
             for (num, den) in [(short, other(shown + 1)), (long, other(shown))] {
                 let terms = [num.terms().len(), den.terms().len()];
                 let text = order.ratio_or_size(&ratio(&num, &den));

@@ -14,7 +14,7 @@ impl Paper<'_> {
     /// `no rule finds the sign of a − s₁, where s₁ = b − a > 0`.
     pub fn why(&self, statement: &Statement, why: &Why) -> String {
         if let Some(registry) = self.other_names(statement) {
-            return Paper::new(&registry).why(statement, why);
+            return Paper { registry: &registry, ..*self }.why(statement, why);
         }
         let said = self.order().why(why);
         let (rounded, mut supposed) = (roundings(statement.trees()), None);
