@@ -60,7 +60,14 @@ static SYMBOLS: LazyLock<Vec<&str>> = LazyLock::new(|| {
     let of_formulas = registry().formulas().iter().flat_map(|formula| formula.tree.symbols());
     let of_claims =
         statements().into_iter().flat_map(|s| s.trees().flat_map(Tree::symbols).collect::<Vec<_>>());
-    let of_proofs = ["s₁", "s₂", "s₃", "s₄", "e₁", "e₂", "e₃", "e₄", "t₁", "t₂"];
+    let of_proofs: Vec<String> = (0..75)
+        .map(|i| {
+            let digit = |d: u8| char::from_u32('₀' as u32 + u32::from(d - b'0')).unwrap();
+            let index: String = (i / 3).to_string().bytes().map(digit).collect();
+            format!("{}{index}", ['s', 'e', 't'][i % 3])
+        })
+        .collect();
+    let of_proofs = of_proofs.into_iter().map(|name| &*name.leak());
     let own = OWN.into_iter().chain(MEMBERS).chain(of_proofs);
     let mut all: Vec<_> = own.chain(of_formulas).chain(of_claims).collect();
     all.sort_by_key(|name| std::cmp::Reverse(name.len()));
@@ -852,6 +859,151 @@ fn a_line_of_a_proof_says_what_is_proved() {
     });
     tried.unwrap_or_else(|error| panic!("{error}"));
     assert!(held.get() > 1000, "only {} lines are about formulas", held.get());
+}
+
+/// Reads certificates as they are printed in full, and checks every line with numbers: symbols are positive, errors and
+/// places between −1 and 1.
+struct Certificates<'l> {
+    lines: &'l [String],
+    at: &'l dyn Fn(&str) -> Exact,
+    checked: usize,
+}
+
+impl Certificates<'_> {
+    fn value(&self, text: &str) -> Exact {
+        Reader { at: self.at, ..Reader::new(text) }.all().unwrap_or_else(|| panic!("{text}: divides by zero"))
+    }
+
+    fn value_with(&self, text: &str, name: &str, x: &Exact) -> Exact {
+        let at = |own: &str| if own == name { x.clone() } else { (self.at)(own) };
+        Reader { at: &at, ..Reader::new(text) }.all().unwrap_or_else(|| panic!("{text}: divides by zero"))
+    }
+
+    /// A formula and its sign, which has to be that of its value.
+    fn fact<'t>(&self, text: &'t str) -> &'t str {
+        let signs: [(&str, fn(&Exact) -> bool); 5] = [
+            (" > 0", |x| *x > Exact::from(0)),
+            (" ≥ 0", |x| *x >= Exact::from(0)),
+            (" = 0", |x| *x == Exact::from(0)),
+            (" ≤ 0", |x| *x <= Exact::from(0)),
+            (" < 0", |x| *x < Exact::from(0)),
+        ];
+        let (formula, holds) =
+            signs.iter().find_map(|(end, holds)| Some((text.strip_suffix(end)?, holds))).unwrap();
+        assert!(holds(&self.value(formula)), "{text}");
+        formula
+    }
+
+    /// The formula of the certificate that comes next, if one does.
+    fn next(&mut self) -> Option<&str> {
+        let (line, rest) = self.lines.split_first()?;
+        let facts = ["≠ 0: ", "by the sign of its argument: ", "by the sign of the second less the first: "];
+        let reason = facts.iter().find_map(|fact| line.split_once(fact));
+        let line = reason.map_or(line.trim_start(), |(_, reason)| reason);
+        let formula = if line == "0 = 0" {
+            "0"
+        } else if let Some((of, reason)) = line.split_once(": with the sizes of errors it is no ") {
+            let (relation, left) = reason.strip_suffix(", term by term")?.split_once(" than ")?;
+            let (of, left) = (self.fact(of), self.fact(left));
+            let [of_value, left] = [of, left].map(|text| self.value(text));
+            assert!(if relation == "less" { of_value >= left } else { of_value <= left }, "{line}");
+            of
+        } else if let Some(of) = line.strip_suffix(", term by term").filter(|of| !of.contains(':')) {
+            self.fact(of)
+        } else if let Some((of, ends)) =
+            line.strip_suffix(" = 1:").and_then(|start| start.split_once(", at "))
+        {
+            let (of, (name, _)) = (self.fact(of), ends.split_once(" = −1")?);
+            self.lines = rest;
+            for x in [-1, 1] {
+                let end = self.next().unwrap_or_else(|| panic!("{line}: no certificate")).to_string();
+                assert_eq!(self.value(&end), self.value_with(of, name, &Exact::from(x)), "{line}: {end}");
+            }
+            self.checked += 1;
+            return Some(of);
+        } else if let Some((of, form)) = line.split_once(", by its Bernstein form in ") {
+            let (of, (name, _)) = (self.fact(of), form.split_once(" from")?);
+            self.lines = rest;
+            let mut sums: Vec<String> = Vec::new();
+            // As many as the degree says, of which nothing else is printed.
+            let half = Exact::from(1) / Exact::from(2);
+            let is_form = |all: &[String], own: &Self| {
+                let of_all: Vec<_> = all.iter().map(|text| own.value(text)).collect();
+                [-1, 0, 1, 2, 3].into_iter().map(Exact::from).all(|x| {
+                    let (a, b) = (&half * (Exact::from(1) + &x), &half * (Exact::from(1) - &x));
+                    let power = |x: &Exact, n: usize| (0..n).fold(Exact::from(1), |product, _| product * x);
+                    let n = all.len() - 1;
+                    let terms =
+                        of_all.iter().enumerate().map(|(i, sum)| sum * power(&a, i) * power(&b, n - i));
+                    terms.fold(Exact::from(0), |sum, term| sum + term) == own.value_with(of, name, &x)
+                })
+            };
+            while sums.is_empty() || !is_form(&sums, self) {
+                assert!(sums.len() < 6, "{line}: no Bernstein form");
+                sums.push(self.next().unwrap_or_else(|| panic!("{line}: no certificate")).to_string());
+            }
+            self.checked += 1;
+            return Some(of);
+        } else if let Some(product) = line.strip_suffix(", since").filter(|line| !line.starts_with("4 (")) {
+            let (of, factors) = product.split_once(" = (")?;
+            self.fact(&format!("{of}{}", &product[product.rfind(')')? + 1..]));
+            let (first, second) = factors[..factors.rfind(')')?].split_once(") (")?;
+            assert_eq!(self.value(of), self.value(first) * self.value(second), "{line}");
+            of
+        } else if let Some((square, hence)) = line.split_once(", hence ") {
+            let of = self.fact(hence.strip_suffix(", since")?);
+            let (left, right) = square.split_once(" = ")?;
+            assert!(left.ends_with(&format!("({of})")), "{line}");
+            assert_eq!(self.value(left), self.value(right), "{line}");
+            of
+        } else {
+            return None;
+        };
+        self.lines = rest;
+        self.checked += 1;
+        Some(formula)
+    }
+}
+
+/// What `contact prove --format json` prints can be checked line by line, also what is too long for a page.
+#[test]
+fn every_line_of_a_certificate_holds() {
+    let at = |name: &str| match name.chars().next() {
+        Some('e' | 't') if name.chars().nth(1).is_some_and(|c| ('₀'..='₉').contains(&c)) => {
+            value(name) / Exact::from(60)
+        }
+        _ => value(name).abs() + Exact::from(1),
+    };
+    assert!(["e₁", "t₂", "e₁₂"].iter().all(|name| at(name).abs() <= Exact::from(1)));
+    let mut checked = 0;
+    for statement in statements() {
+        let text = Paper::new(registry()).in_full().proof(&prove(&statement).unwrap());
+        assert!(
+            text.iter().all(|line| !line.contains("a sum of ")),
+            "{} {}",
+            statement.equation(),
+            statement.name()
+        );
+        // Slopes speak of a symbol at 0.
+        if statement.contains_exponential() {
+            continue;
+        }
+        let mut certificates = Certificates { lines: &text, at: &at, checked: 0 };
+        while !certificates.lines.is_empty() {
+            if certificates.next().is_none() {
+                let line = &certificates.lines[0];
+                let is_one =
+                    [", term by term", " = 1:", ", since", "Bernstein"].iter().any(|end| line.contains(end));
+                assert!(
+                    !is_one || line.contains("since below") || line.contains("rounding keeps order"),
+                    "not checked: {line}"
+                );
+                certificates.lines = &certificates.lines[1..];
+            }
+        }
+        checked += certificates.checked;
+    }
+    assert!(checked > 500, "{checked}");
 }
 
 #[test]

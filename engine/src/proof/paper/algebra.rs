@@ -30,27 +30,46 @@ impl Order<'_> {
         self.product(monomial).unwrap_or_else(|| Tree::int(1))
     }
 
-    /// A polynomial as a formula.
-    pub(super) fn poly(&self, poly: &Poly) -> Tree {
-        // What is subtracted does not come first.
+    /// The terms of a sum without their signs, and which of them are negative. Negative ones do not come first.
+    fn terms(&self, poly: &Poly) -> impl Iterator<Item = (bool, Tree)> {
         let (added, subtracted): (Vec<_>, Vec<_>) = poly.terms().rev().partition(|(_, q)| q.sign().is_gt());
-        let mut sum: Option<Tree> = None;
-        for (monomial, q) in added.into_iter().chain(subtracted) {
+        added.into_iter().chain(subtracted).map(|(monomial, q)| {
             let q = q.rational();
             let (n, d) = (number(&q.numer().clone().abs()), number(q.denom()));
             let term = match self.product(monomial) {
                 Some(product) => n * product,
                 None => n,
             };
-            let term = if *q.denom() == 1 { term } else { term / d };
-            sum = Some(match (sum, q.is_negative()) {
+            (q.is_negative(), if *q.denom() == 1 { term } else { term / d })
+        })
+    }
+
+    /// A polynomial as a formula.
+    pub(super) fn poly(&self, poly: &Poly) -> Tree {
+        let sum = self.terms(poly).fold(None, |sum, (is_negative, term)| {
+            Some(match (sum, is_negative) {
                 (None, false) => term,
                 (None, true) => -term,
                 (Some(sum), false) => sum + term,
                 (Some(sum), true) => sum - term,
-            });
-        }
+            })
+        });
         sum.unwrap_or_else(|| Tree::int(0))
+    }
+
+    /// A polynomial as text, however long it is.
+    fn text(&self, poly: &Poly) -> String {
+        let mut text = String::new();
+        for (is_negative, term) in self.terms(poly) {
+            let sign = match (text.is_empty(), is_negative) {
+                (true, false) => "",
+                (true, true) => "−",
+                (false, false) => " + ",
+                (false, true) => " − ",
+            };
+            text = text + sign + &term.to_string();
+        }
+        if text.is_empty() { "0".to_string() } else { text }
     }
 
     /// A quotient as a formula.
@@ -72,7 +91,7 @@ impl Order<'_> {
     pub(super) fn poly_or_size(&self, poly: &Poly) -> String {
         match poly.terms().len() {
             n if n > self.shown(poly) => format!("a sum of {n} terms"),
-            _ => self.poly(poly).to_string(),
+            _ => self.text(poly),
         }
     }
 
@@ -82,7 +101,12 @@ impl Order<'_> {
             [n, d] if n > self.shown(ratio.num()) || d > self.shown(ratio.den()) => {
                 format!("a sum of {n} terms over one of {d}")
             }
-            _ => self.ratio(ratio).to_string(),
+            _ if ratio.den().is_one() => self.text(ratio.num()),
+            [n, _] => {
+                let (num, den) = (self.text(ratio.num()), self.text(ratio.den()));
+                let num = if n > 1 { format!("({num})") } else { num };
+                if den.contains(' ') { format!("{num} / ({den})") } else { format!("{num} / {den}") }
+            }
         }
     }
 

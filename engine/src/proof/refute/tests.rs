@@ -142,7 +142,10 @@ fn a_counterexample_is_made_small() {
     let long: Exact = "123456789012345678901234567890/987654321098765432109876543210987".parse().unwrap();
     let names = ["c", "ε", "R"];
     let start = Point::new(names.map(|name| (name, if name == "c" { -&long } else { long.clone() })));
-    let found_at = |statement: &Statement| found(statement, &start).expect("a counterexample");
+    let small = |statement: &Statement, point: &Point| {
+        found(statement, point).expect("a counterexample").counterexample()
+    };
+    let found_at = |statement: &Statement| small(statement, &start);
     let undefined = found_at(&root().without(&above_zero("c")));
     assert_eq!(undefined.to_string(), "c = -1, ε = 1, R = 1: undefined: c + ε = 0 is a divisor");
     let wrong = found_at(&positive("wrong", x("c") * x("R") * x("R")));
@@ -151,12 +154,11 @@ fn a_counterexample_is_made_small() {
     // For c = 1 another number has to follow, for d > c.
     let given = Hypothesis::new(Relation::Positive, x("d") - x("c"));
     let zero = equal("zero", x("c") * x("d"), 0).assuming([&given]);
-    let apart = found(&zero, &point(&[("c", -50), ("d", -49)])).expect("a counterexample");
+    let apart = small(&zero, &point(&[("c", -50), ("d", -49)]));
     assert_eq!((apart.point.at("c"), apart.point.at("d")), (Exact::from(1), Exact::from(2)));
     // Nothing simple is as large, but half is.
     let far = Point::new([("R", "-1234567890123456789012345678901/3".parse().unwrap())]);
-    let small = positive("small", Tree::from(1000) - x("R") * x("R"));
-    let small = found(&small, &far).expect("a counterexample");
+    let small = small(&positive("small", Tree::from(1000) - x("R") * x("R")), &far);
     assert!((32..64).any(|n| Exact::from(n) == small.point.at("R").abs()), "{small}");
 }
 
