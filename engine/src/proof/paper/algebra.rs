@@ -104,7 +104,7 @@ impl Order<'_> {
             _ if ratio.den().is_one() => self.text(ratio.num()),
             [n, _] => {
                 let (num, den) = (self.text(ratio.num()), self.text(ratio.den()));
-                let num = if n > 1 { format!("({num})") } else { num };
+                let num = if n > 1 || num.contains('/') { format!("({num})") } else { num };
                 if den.contains(' ') { format!("{num} / ({den})") } else { format!("{num} / {den}") }
             }
         }
