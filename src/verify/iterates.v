@@ -95,4 +95,226 @@ Proof.
   intro k. symmetry. apply iterates_penetrate. lra.
 Qed.
 
+(** (1.33): so many steps, and no fewer, bring the penetration below a tolerance. [up x] is the integer after
+    x, the greatest that is not above x, plus 1. *)
+Lemma iterates_in_size :
+  0 < c -> 0 < eps -> forall k, Rabs (p k) * (1 + eps / c) ^ k = Rabs (p 0).
+Proof.
+  intros C E k. induction k as [ | k I]; [cbn [pow]; ring | ].
+  assert (0 < eps / c) by (apply Rdiv_lt_0_compat; lra).
+  assert (F : augmented_contraction c eps = / (1 + eps / c)) by (functions; field; lra).
+  rewrite <- I, iterates_contract, Rabs_mult, F by lra.
+  rewrite (Rabs_pos_eq (/ _)) by (apply Rlt_le, Rinv_0_lt_compat; lra).
+  cbn [pow]. field. lra.
+Qed.
+
+Theorem eq_1_33_steps (tol : R) :
+  0 < c -> 0 < eps -> 0 < tol -> tol <= Rabs (p 0) ->
+  let n := Z.to_nat (up (ln (Rabs (p 0) / tol) / ln (1 + eps / c))) in
+  Rabs (p n) < tol /\ forall k, (k < n)%nat -> tol <= Rabs (p k).
+Proof.
+  intros C E T P n.
+  assert (Q : 0 < eps / c) by (apply Rdiv_lt_0_compat; lra).
+  assert (G : 0 < ln (1 + eps / c)) by (rewrite <- ln_1; apply ln_increasing; lra).
+  assert (O : 1 <= Rabs (p 0) / tol) by (apply Rle_div_r; lra).
+  assert (X : 0 <= ln (Rabs (p 0) / tol)).
+  { rewrite <- ln_1. destruct O as [O | <-]; [left; apply ln_increasing; lra | lra]. }
+  set (x := ln (Rabs (p 0) / tol) / ln (1 + eps / c)) in n.
+  assert (0 <= x) by (apply Rdiv_le_0_compat; assumption).
+  destruct (archimed x) as [A B].
+  assert (N : INR n = IZR (up x)).
+  { unfold n. rewrite INR_IZR_INZ, Z2Nat.id; [reflexivity | ]. apply le_IZR. lra. }
+  (* The k-th penetration is below the tolerance if and only if x < k. *)
+  assert (L : ln (Rabs (p 0) / tol) = x * ln (1 + eps / c)) by (unfold x; field; lra).
+  assert (W : forall k, 0 < (1 + eps / c) ^ k) by (intro k; apply pow_lt; lra).
+  assert (D : Rabs (p 0) / tol = exp (x * ln (1 + eps / c))) by (rewrite <- L, exp_ln; lra).
+  assert (V : forall k, (1 + eps / c) ^ k = exp (INR k * ln (1 + eps / c))).
+  { intro k. rewrite <- (exp_ln (1 + eps / c)) at 1 by lra. rewrite <- Rpower_pow by apply exp_pos.
+    unfold Rpower. rewrite ln_exp. reflexivity. }
+  assert (S : forall k, Rabs (p k) = tol * exp (x * ln (1 + eps / c)) / (1 + eps / c) ^ k).
+  { intro k. rewrite <- D, <- (iterates_in_size C E k). specialize (W k).
+    set (power := (1 + eps / c) ^ k) in *. clearbody power. field. lra. }
+  split.
+  - rewrite S, V. apply Rlt_div_l; [apply exp_pos | ]. apply Rmult_lt_compat_l; [exact T | ].
+    apply exp_increasing, Rmult_lt_compat_r; lra.
+  - intros k K. rewrite S, V. apply Rle_div_r; [apply exp_pos | ].
+    apply Rmult_le_compat_l; [lra | ].
+    assert (INR k <= x).
+    { apply lt_INR in K as K'. assert (INR k + 1 <= INR n) by (rewrite <- S_INR; apply le_INR; exact K). lra. }
+    destruct (Rle_lt_or_eq_dec (INR k) x) as [J | ->]; [assumption | | lra].
+    left. apply exp_increasing, Rmult_lt_compat_r; lra.
+Qed.
+
 End Iterates.
+
+(** * Penalties that vary: beyond 2
+
+    The augmentation with a penalty of its own at each step. *)
+Fixpoint varying_multiplier (c m g l h : R) (eps : nat -> R) (lambda : R) (k : nat) : R :=
+  match k with
+  | O => lambda
+  | S k =>
+      let before := varying_multiplier c m g l h eps lambda k in
+      augmented_update l h (eps k) before (augmented_deflection c m g l h (eps k) before)
+  end.
+
+Section Varying.
+
+Variables c m g l h lambda : R.
+Variable eps : nat -> R.
+Variable stiffness : 0 < c.
+Variable penalties : forall k, 0 < eps k.
+
+Let error k := varying_multiplier c m g l h eps lambda k - system_reaction c m g l h.
+Fixpoint growth (k : nat) : R := match k with O => 1 | S k => growth k * (1 + eps k / c) end.
+Fixpoint total (k : nat) : R := match k with O => 0 | S k => total k + eps k end.
+
+Lemma ratio_positive k : 0 < eps k / c.
+Proof. apply Rdiv_lt_0_compat; [apply penalties | exact stiffness]. Qed.
+
+Lemma growth_positive k : 0 < growth k.
+Proof.
+  induction k as [ | k I]; cbn [growth]; [lra | ].
+  pose proof (ratio_positive k). apply Rmult_lt_0_compat; lra.
+Qed.
+
+(** The product of the factors c / (c + eps). *)
+Lemma error_after k : error k = error 0 / growth k.
+Proof.
+  induction k as [ | k I]; [cbn [growth]; field | ].
+  pose proof (growth_positive k). pose proof (penalties k).
+  transitivity (error k / (1 + eps k / c)).
+  - unfold error. cbn [varying_multiplier]. functions. field. lra.
+  - rewrite I. cbn [growth]. field. lra.
+Qed.
+
+Lemma growth_at_least k : 1 + total k / c <= growth k.
+Proof.
+  induction k as [ | k I]; cbn [growth total]; [right; field; lra | ].
+  pose proof (ratio_positive k). pose proof (growth_positive k).
+  assert (1 <= growth k).
+  { clear - k penalties stiffness. induction k as [ | k J]; cbn [growth]; [lra | ].
+    pose proof (ratio_positive k). nra. }
+  replace (1 + (total k + eps k) / c) with (1 + total k / c + eps k / c) by (field; lra). nra.
+Qed.
+
+Lemma growth_at_most k : growth k <= exp (total k / c).
+Proof.
+  induction k as [ | k I]; cbn [growth total].
+  - replace (0 / c) with 0 by (field; lra). rewrite exp_0. lra.
+  - pose proof (ratio_positive k). pose proof (growth_positive k).
+    replace ((total k + eps k) / c) with (total k / c + eps k / c) by (field; lra).
+    rewrite exp_plus. apply Rmult_le_compat; [lra | lra | exact I | ].
+    apply exp_ineq1_le.
+Qed.
+
+(** They lead to the reaction if their sum grows beyond all bounds, *)
+Theorem beyond_2_varying_converges :
+  is_lim_seq total p_infty ->
+  is_lim_seq (varying_multiplier c m g l h eps lambda) (system_reaction c m g l h).
+Proof.
+  intro T.
+  apply is_lim_seq_ext with (fun k => error 0 * / growth k + system_reaction c m g l h).
+  { intro k. pose proof (error_after k) as A. unfold error in A at 1. unfold Rdiv in A. lra. }
+  replace (Finite (system_reaction c m g l h))
+    with (Finite (error 0 * 0 + system_reaction c m g l h)) by (f_equal; ring).
+  apply is_lim_seq_plus'; [ | apply is_lim_seq_const].
+  apply (is_lim_seq_scal_l _ _ 0), (is_lim_seq_inv _ p_infty); [ | discriminate].
+  apply is_lim_seq_le_p_loc with (fun k => 1 + / c * total k).
+  - exists O. intros k _. replace (/ c * total k) with (total k / c) by (field; lra). apply growth_at_least.
+  - apply is_lim_seq_plus with 1 p_infty; [apply is_lim_seq_const | | reflexivity].
+    replace p_infty with (Rbar_mult (/ c) p_infty); [apply is_lim_seq_scal_l, T | ].
+    apply is_Rbar_mult_unique. apply is_Rbar_mult_sym, is_Rbar_mult_p_infty_pos.
+    apply Rinv_0_lt_compat, stiffness.
+Qed.
+
+(** and only then, unless they start there. *)
+Theorem beyond_2_varying_only_then :
+  lambda <> system_reaction c m g l h ->
+  is_lim_seq (varying_multiplier c m g l h eps lambda) (system_reaction c m g l h) ->
+  is_lim_seq total p_infty.
+Proof.
+  intros D V.
+  assert (E : error 0 <> 0) by (unfold error; cbn [varying_multiplier]; lra).
+  assert (G : is_lim_seq (fun k => / growth k) 0).
+  { apply is_lim_seq_ext with
+      (fun k => / error 0 * (varying_multiplier c m g l h eps lambda k + - system_reaction c m g l h)).
+    - intro k. pose proof (error_after k) as A. unfold error in A at 1. pose proof (growth_positive k).
+      replace (varying_multiplier c m g l h eps lambda k + - system_reaction c m g l h)
+        with (error 0 / growth k) by lra.
+      field. lra.
+    - replace (Finite 0) with
+        (Finite (/ error 0 * (system_reaction c m g l h + - system_reaction c m g l h))) by (f_equal; ring).
+      apply (is_lim_seq_scal_l _ _ (system_reaction c m g l h + - system_reaction c m g l h)).
+      apply is_lim_seq_plus'; [exact V | apply is_lim_seq_const]. }
+  (* Where 1/growth < exp (- M / c), the sum is greater than M. *)
+  intros P [M B]. cbn [eventually filtermap] in *.
+  assert (0 < exp (- (M / c))) by apply exp_pos.
+  destruct (G (fun x => x < exp (- (M / c)))) as [n N].
+  { exists (mkposreal _ H). intros y Y. cbn in Y. unfold ball in Y. cbn in Y.
+    unfold AbsRing_ball, abs, minus, plus, opp in Y. cbn in Y. apply Rabs_def2 in Y. lra. }
+  exists n. intros k K. apply B. specialize (N k K). cbn in N.
+  pose proof (growth_positive k) as W. pose proof (growth_at_most k) as U.
+  assert (I : exp (- (total k / c)) <= / growth k).
+  { rewrite exp_Ropp. apply Rinv_le_contravar; assumption. }
+  assert (L : exp (- (total k / c)) < exp (- (M / c))) by lra.
+  apply exp_lt_inv in L. assert (M / c < total k / c) by lra.
+  apply (Rmult_lt_reg_r (/ c)); [apply Rinv_0_lt_compat, stiffness | exact H0].
+Qed.
+
+End Varying.
+
+(** * Many contacts
+
+    With the compliance S of a structure at its contacts, p - p* = - S (lambda' - lambda* ), one augmentation
+    with brackets brings the multipliers nearer to the solution, whatever opens and closes. Vectors have the
+    components 0 to n. *)
+Section Contacts.
+
+Variable n : nat.
+
+Definition dot (x y : nat -> R) : R := sum_f_R0 (fun i => x i * y i) n.
+
+Lemma dot_of_difference a (x y : nat -> R) :
+  dot (fun i => a * x i - y i) (fun i => a * x i - y i) = a * a * dot x x - 2 * a * dot x y + dot y y.
+Proof. unfold dot. induction n as [ | k I]; cbn [sum_f_R0]; [ring | rewrite I; ring]. Qed.
+
+Lemma dot_sum (x y z : nat -> R) a : dot x (fun i => y i + a * z i) = dot x y + a * dot x z.
+Proof. unfold dot. induction n as [ | k I]; cbn [sum_f_R0]; [ring | rewrite I; ring]. Qed.
+
+Lemma square_not_negative (x : nat -> R) : 0 <= dot x x.
+Proof. apply cond_pos_sum. intro i. apply Rle_0_sqr. Qed.
+
+(** Brackets bring two numbers no further apart. *)
+Lemma brackets a b : (Rmax a 0 - Rmax b 0) * (Rmax a 0 - Rmax b 0) <= (Rmax a 0 - Rmax b 0) * (a - b).
+Proof. unfold Rmax. destruct (Rle_dec a 0), (Rle_dec b 0); nra. Qed.
+
+Theorem contacts_contract (compliance : (nat -> R) -> nat -> R) (s eps : R) (lambda next best p q : nat -> R) :
+  0 <= s -> 0 <= eps ->
+  (forall x, s * dot x x <= dot x (compliance x)) ->
+  (forall i, (i <= n)%nat -> next i = Rmax (lambda i + eps * p i) 0) ->
+  (forall i, (i <= n)%nat -> best i = Rmax (best i + eps * q i) 0) ->
+  (forall i, (i <= n)%nat -> p i - q i = - compliance (fun j => next j - best j) i) ->
+  (1 + eps * s) ^ 2 * dot (fun i => next i - best i) (fun i => next i - best i) <=
+    dot (fun i => lambda i - best i) (fun i => lambda i - best i).
+Proof.
+  intros S E A N B P.
+  set (after := fun i => next i - best i). set (before := fun i => lambda i - best i).
+  assert (F : dot after after <= dot after (fun i => before i + - eps * compliance after i)).
+  { apply sum_Rle. intros i I. pose proof (brackets (lambda i + eps * p i) (best i + eps * q i)) as M.
+    rewrite <- (N i I), <- (B i I) in M. fold (after i) in M.
+    replace (before i + - eps * compliance after i) with (lambda i + eps * p i - (best i + eps * q i)).
+    - exact M.
+    - unfold before, after. replace (p i) with (q i + - compliance (fun j => next j - best j) i)
+        by (specialize (P i I); lra). ring. }
+  rewrite dot_sum in F. specialize (A after).
+  pose proof (square_not_negative (fun i => (1 + eps * s) * after i - before i)) as Q.
+  rewrite dot_of_difference in Q.
+  assert (K : (1 + eps * s) * dot after after <= dot after before) by nra.
+  assert (0 <= 1 + eps * s) by nra.
+  assert ((1 + eps * s) * ((1 + eps * s) * dot after after) <= (1 + eps * s) * dot after before)
+    by (apply Rmult_le_compat_l; assumption).
+  nra.
+Qed.
+
+End Contacts.
