@@ -140,7 +140,7 @@ Proof.
   - intros k K. rewrite S, V. apply Rle_div_r; [apply exp_pos | ].
     apply Rmult_le_compat_l; [lra | ].
     assert (INR k <= x).
-    { apply lt_INR in K as K'. assert (INR k + 1 <= INR n) by (rewrite <- S_INR; apply le_INR; exact K). lra. }
+    { assert (INR k + 1 <= INR n) by (rewrite <- S_INR; apply le_INR; exact K). lra. }
     destruct (Rle_lt_or_eq_dec (INR k) x) as [J | ->]; [assumption | | lra].
     left. apply exp_increasing, Rmult_lt_compat_r; lra.
 Qed.

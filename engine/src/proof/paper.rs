@@ -1,13 +1,14 @@
 //! Proofs written out, for a reader with paper.
 
 mod algebra;
+mod bound;
 mod names;
 mod summary;
 
 pub use summary::how;
 
 use self::algebra::Order;
-use super::kernel::sign::{Certificate, Rule, Sign};
+use super::kernel::sign::Sign;
 use super::kernel::{Because, Derivation, Direct, Proof, Rounding, Signed, Supposed, Used};
 use crate::formula::claim::{MEMBERS, POWER, PRECISION};
 use crate::formula::statement::{Goal, Proposition, Role, Sequence, Statement};
@@ -278,13 +279,7 @@ impl<'a> Paper<'a> {
                 lines.push("rounding keeps order, and so does each step, since".to_string());
                 lines.extend(signs.iter().flat_map(|signed| self.signed(signed)));
             }
-            Because::Within(sides) if self.is_full => {
-                for (what, signed) in SIDES.into_iter().zip(&**sides) {
-                    let value = self.order().ratio_or_size(&signed.value);
-                    lines.push(format!("the bound {what} is {value} ≥ 0:"));
-                    lines.extend(self.signed(signed).into_iter().map(|line| format!("  {line}")));
-                }
-            }
+            Because::Within(sides) if self.is_full => lines.extend(self.within_in_full(sides)),
             Because::Within(sides) => lines.extend(self.within(sides)),
             Because::Derivative(value) => lines.push(format!(
                 "dual numbers differentiate it to {}, which is the right side",
@@ -310,58 +305,6 @@ impl<'a> Paper<'a> {
         };
         let errors: Vec<_> = direct.errors.iter().map(own).collect();
         (!errors.is_empty()).then(|| model() + &errors.join(", "))
-    }
-
-    /// A bound of what is rounded: what all of its cases have in common is said once, and what is long by its
-    /// length.
-    fn law(&self, derivation: &Derivation) -> Option<Vec<String>> {
-        fn leaves<'d>(
-            derivation: &'d Derivation,
-            path: Vec<String>,
-            order: Order,
-            all: &mut Vec<(String, &'d Direct)>,
-        ) {
-            match derivation {
-                Derivation::Direct(direct) => all.push((path.join(", "), direct)),
-                Derivation::Cases(on, positive, not) => {
-                    for (branch, sign) in [(positive, "> 0"), (not, "≤ 0")] {
-                        let case = format!("{} {sign}", order.poly_or_size(on));
-                        leaves(branch, [path.clone(), vec![case]].concat(), order, all);
-                    }
-                }
-            }
-        }
-        let mut all = Vec::new();
-        leaves(derivation, Vec::new(), self.order(), &mut all);
-        let (_, first) = all.first().filter(|(_, direct)| !direct.errors.is_empty())?;
-        let mut lines: Vec<_> = self.errors(first).into_iter().collect();
-        let given = first.supposed.iter().filter(|supposed| supposed.given.is_some());
-        lines.extend(given.filter_map(|supposed| self.supposed(supposed)));
-        for (case, direct) in all {
-            let Because::Within(sides) = &direct.because else { return None };
-            let within = self.within(sides);
-            if case.is_empty() {
-                lines.extend(within);
-            } else {
-                lines.push(format!("where {case}:"));
-                lines.extend(within.into_iter().map(|line| format!("  {line}")));
-            }
-        }
-        Some(lines)
-    }
-
-    /// What a bound exceeds a size by, on either side.
-    fn within(&self, sides: &[Signed; 2]) -> [String; 2] {
-        std::array::from_fn(|i| {
-            let (what, signed) = (SIDES[i], &sides[i]);
-            let value = self.order().ratio_or_size(&signed.value);
-            let how = match [&signed.num, &signed.den].map(ends).iter().max() {
-                Some(0) | None => "term by term".to_string(),
-                Some(1) => "with the sizes of errors".to_string(),
-                Some(ends) => format!("with the sizes of errors, at {ends} ends"),
-            };
-            format!("the bound {what} is {value} ≥ 0, {how}")
-        })
     }
 
     /// How a supposition is used, if that has to be said.
@@ -440,18 +383,6 @@ const LETTERS: [(char, char); 12] = [
 /// What an error of rounding is; the names of errors follow.
 fn model() -> String {
     format!("fl(…) = … (1 + eᵢ / ({PRECISION} + 1)) with |eᵢ| ≤ 1: ")
-}
-
-/// The two numbers by which a bound exceeds a size: the bound …
-const SIDES: [&str; 2] = ["less it", "and it"];
-
-/// At how many ends of errors a sign is seen; 0 if there are no errors in it.
-fn ends(certificate: &Certificate) -> usize {
-    match certificate.rule() {
-        Rule::Ends { at, .. } => at.iter().map(|end| ends(end).max(1)).sum(),
-        Rule::Sizes(_) => 1,
-        _ => 0,
-    }
 }
 
 /// A fact and the reason for it, on one line if that is short.
