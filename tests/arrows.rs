@@ -139,7 +139,7 @@ fn wrong_arrows(path: &str, text: &str) -> Vec<String> {
                 name != own[0] && !knows.contains(&name)
             })
         })
-        .map(|target| format!("{path} knows {}", target.join("::")))
+        .map(|target| format!("{path} knows {}", target[0]))
         .collect();
     wrong.dedup();
     wrong

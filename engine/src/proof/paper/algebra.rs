@@ -100,12 +100,12 @@ impl Order<'_> {
             [n, d] if n > self.shown(ratio.num()) || d > self.shown(ratio.den()) => {
                 format!("a sum of {n} terms over one of {d}")
             }
-            _ if ratio.den().is_one() => self.text(ratio.num()),
-            [n, _] => {
-                let (num, den) = (self.text(ratio.num()), self.text(ratio.den()));
-                let num = if n > 1 || num.contains('/') { format!("({num})") } else { num };
-                if den.contains(' ') { format!("{num} / ({den})") } else { format!("{num} / {den}") }
+            // A formula has a limit to its length.
+            [n, _] if n > SHOWN && ratio.den().is_one() => self.text(ratio.num()),
+            [n, d] if n.max(d) > SHOWN => {
+                format!("({}) / ({})", self.text(ratio.num()), self.text(ratio.den()))
             }
+            _ => self.ratio(ratio).to_string(),
         }
     }
 
