@@ -100,14 +100,14 @@ pub struct Counterexample {
 /// A counterexample as it was found, with the statement that it refutes.
 #[derive(Clone, Debug)]
 pub struct Refutation {
-    statement: Statement,
-    found: Counterexample,
+    statement: Box<Statement>,
+    found: Box<Counterexample>,
 }
 
 impl Refutation {
     /// Returns the counterexample with simpler numbers, as far as some are found.
     pub fn counterexample(&self) -> Counterexample {
-        smaller(&self.statement, self.found.clone())
+        smaller(&self.statement, (*self.found).clone())
     }
 }
 
@@ -312,7 +312,7 @@ fn found(statement: &Statement, point: &Point) -> Option<Refutation> {
     match check_goals(statement, point) {
         Verdict::Fails(part, how) => {
             let found = Counterexample { point: point.clone(), part, how };
-            Some(Refutation { statement: statement.clone(), found })
+            Some(Refutation { statement: statement.clone().into(), found: found.into() })
         }
         Verdict::Excluded | Verdict::Holds | Verdict::Open => None,
     }

@@ -205,9 +205,8 @@ impl Poly {
 
     /// The derivative by a symbol; exponents have denominators, so it is a quotient.
     pub fn derivative(&self, x: Symbol) -> Ratio {
-        let lowered = |m: &Monomial, q: &Number| {
-            Some((m.over(&Monomial::of(x))?, Number::from(q * Number::from(m.degree(x)))))
-        };
+        let lowered =
+            |m: &Monomial, q: &Number| Some((m.over(&Monomial::of(x))?, q * Number::from(m.degree(x))));
         let powers: Poly = self.0.iter().filter_map(|(m, q)| lowered(m, q)).collect();
         self.0.iter().fold(powers.into(), |sum, (m, q)| match m.exponent() {
             None => sum,
