@@ -48,7 +48,7 @@ fn of_all_that_is_proved_it_is_asked_what_it_rests_on() {
     let files = coq().files();
     let [.., of_iterates, last] = &files[..] else { panic!("{files:?}") };
     let by_hand = ["theorem_1_3_3", "eq_1_33_steps", "beyond_2_varying_converges", "contacts_contract"];
-    let theorems: Vec<_> = named(&of_iterates.text, "Theorem").collect();
+    let theorems = named(&of_iterates.text, "Theorem");
     assert!(by_hand.iter().all(|name| theorems.contains(name)), "{theorems:?}");
     let (_, asked) = last.text.split_once("Definition everything :=").unwrap();
     let (asked, print) = asked.split_once('.').unwrap();

@@ -881,16 +881,17 @@ impl Certificates<'_> {
 
     /// A formula and its sign, which has to be that of its value.
     fn fact<'t>(&self, text: &'t str) -> &'t str {
-        let signs: [(&str, fn(&Exact) -> bool); 5] = [
-            (" > 0", |x| *x > Exact::from(0)),
-            (" ≥ 0", |x| *x >= Exact::from(0)),
-            (" = 0", |x| *x == Exact::from(0)),
-            (" ≤ 0", |x| *x <= Exact::from(0)),
-            (" < 0", |x| *x < Exact::from(0)),
+        use std::cmp::Ordering::{Equal, Greater, Less};
+        let signs: [(&str, &[_]); 5] = [
+            (" > 0", &[Greater]),
+            (" ≥ 0", &[Greater, Equal]),
+            (" = 0", &[Equal]),
+            (" ≤ 0", &[Less, Equal]),
+            (" < 0", &[Less]),
         ];
-        let (formula, holds) =
-            signs.iter().find_map(|(end, holds)| Some((text.strip_suffix(end)?, holds))).unwrap();
-        assert!(holds(&self.value(formula)), "{text}");
+        let (formula, sign) =
+            signs.iter().find_map(|(end, sign)| Some((text.strip_suffix(end)?, sign))).unwrap();
+        assert!(sign.contains(&self.value(formula).cmp(&Exact::from(0))), "{text}");
         formula
     }
 
