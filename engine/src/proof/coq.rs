@@ -2,10 +2,12 @@
 //! them anew.
 //!
 //! A [`Development`] has every function of a registry as a definition, printed from its recorded formula,
-//! and every claim as a theorem about these definitions, with its hypotheses as premises. The proofs follow
-//! what the kernel found, but nothing of it is taken on trust: if Coq accepts the files, what is left to
-//! trust is Coq's own kernel, its axioms of the real numbers, and that definitions and theorems read as
-//! their sources do.
+//! and every claim as a theorem about these definitions, with its hypotheses as premises. Signs and
+//! equalities are decided by a program in Coq that is proved correct there (`polynomials.v`, `quotients.v`).
+//! What it needs is taken from the kernel's derivation: the names of the hypotheses' quantities, the
+//! monomials that they replace, the cases, and the part of a quantity that has the sign of its slope. Nothing
+//! of that is taken on trust: if Coq accepts the files, what is left to trust is Coq's own kernel, its axioms
+//! of the real numbers, and that definitions and theorems read as their sources do.
 //!
 //! A function that only hands on what another computes leaves no step of its own in a record, so a theorem
 //! speaks in the names of the functions that its entry lists. A definition that no theorem names would

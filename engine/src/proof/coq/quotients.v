@@ -43,12 +43,6 @@ Definition prod (a b : quotient) : quotient :=
   let '(_, m, y) := shared (top b) (bottom a) in
   over (l ++ m) (y ++ x).
 
-Fixpoint power (a : quotient) (n : nat) : quotient :=
-  match n with
-  | O => over [] []
-  | S n => prod a (power a n)
-  end.
-
 (** Is it positive, or is it negative? *)
 Definition strict (signs : list sign) (p : poly) : option bool :=
   match sign_of signs p with
@@ -79,8 +73,7 @@ Inductive formula :=
   | Sum (a b : formula)
   | Product (a b : formula)
   | Opposite (a : formula)
-  | Inverse (a : formula)
-  | Power (a : formula) (n : nat).
+  | Inverse (a : formula).
 
 Fixpoint meaning (env : list R) (f : formula) : R :=
   match f with
@@ -90,7 +83,6 @@ Fixpoint meaning (env : list R) (f : formula) : R :=
   | Product a b => meaning env a * meaning env b
   | Opposite a => - meaning env a
   | Inverse a => / meaning env a
-  | Power a n => meaning env a ^ n
   end.
 
 Definition with_two (f : quotient -> quotient -> quotient) (a b : option quotient) : option quotient :=
@@ -108,7 +100,6 @@ Fixpoint quotient_of (signs : list sign) (f : formula) : option quotient :=
   | Product a b => with_two prod (quotient_of signs a) (quotient_of signs b)
   | Opposite a => option_map opposite (quotient_of signs a)
   | Inverse a => match quotient_of signs a with Some a => inverse signs a | None => None end
-  | Power a n => option_map (fun a => power a n) (quotient_of signs a)
   end.
 
 Definition sign_of_formula (signs : list sign) (f : formula) : sign :=
@@ -188,12 +179,6 @@ Proof.
   split; [apply Rmult_integral_contrapositive_currified | field; repeat split]; not_zero_by A B.
 Qed.
 
-Lemma means_power a x n : means a x -> means (power a n) (x ^ n).
-Proof.
-  intro A. induction n as [ | n I]; simpl; [split; simpl; [lra | field] | ].
-  apply means_prod; assumption.
-Qed.
-
 Lemma of_strict p b : strict signs p = Some b -> 0 < (if b then value env p else - value env p).
 Proof.
   unfold strict. intro S. pose proof (of_poly signs p env fitting) as P.
@@ -214,7 +199,7 @@ Qed.
 
 Lemma means_formula f a : quotient_of signs f = Some a -> means a (meaning env f).
 Proof.
-  revert a; induction f as [z | n | f I g J | f I g J | f I | f I | f I n]; simpl; intros a E;
+  revert a; induction f as [z | n | f I g J | f I g J | f I | f I]; simpl; intros a E;
     try (destruct (quotient_of signs f) as [b | ]; simpl in E; [specialize (I b eq_refl) | discriminate]);
     try (destruct (quotient_of signs g) as [c | ]; simpl in E; [specialize (J c eq_refl) | discriminate]);
     try (injection E as <-).
@@ -224,7 +209,6 @@ Proof.
   - apply means_prod; assumption.
   - apply means_opposite; assumption.
   - apply (means_inverse b); assumption.
-  - apply means_power; assumption.
 Qed.
 
 Lemma product_signed l : exists k, 0 < k /\ product env l = k * value env (signed signs l).

@@ -1,8 +1,8 @@
 //! The proof of a goal as Coq's tactics.
 //!
 //! What the kernel *found* is used, as far as Coq would have to guess it: which quantities to name, into
-//! which cases to split, whether a slope decides. None of it is believed: each step is a goal that Coq closes by
-//! itself, or does not.
+//! which cases to split, and what has the sign of its slope. None of it is believed: each step is a goal that
+//! Coq closes by itself, or does not.
 
 mod limit;
 mod rounding;
@@ -33,9 +33,6 @@ struct Place<'l> {
     supposed: usize,
     cases: usize,
 }
-
-/// The end of every proof.
-const DECIDED: &str = "decide_goal.";
 
 /// # Errors
 /// Returns the reason if the kernel finds no derivation.
@@ -190,17 +187,26 @@ impl Script {
     }
 
     fn direct(&mut self, direct: &Direct) -> Result<()> {
-        let mut passing = direct.divisors().iter().map(|(_, signed)| signed);
-        let mut passing = passing.by_ref().chain(direct.brackets().iter().map(|(.., signed)| signed));
-        if passing.any(|signed| slope(signed.num()).is_some()) {
-            return Err("a divisor or a bracket whose sign is that of a slope".into());
-        }
-        let decided = match direct.because() {
-            Because::Sign(signed) => slope_of(signed),
-            _ => None,
+        let divisors = direct.divisors().iter().map(|(_, signed)| signed);
+        let mut passing = divisors.chain(direct.brackets().iter().map(|(.., signed)| signed));
+        let (decided, slopes) = match direct.because() {
+            Because::Sign(signed) => (slope_of(signed), slopes(signed.num())),
+            _ => (None, 0),
         };
-        self.line(decided.as_deref().unwrap_or(DECIDED));
+        if slopes != usize::from(decided.is_some()) || passing.any(|signed| self::slopes(signed.num()) > 0) {
+            return Err("the sign of a divisor, a bracket or a slope rests on a slope".into());
+        }
+        self.line(decided.as_deref().unwrap_or("decide_goal."));
         Ok(())
+    }
+}
+
+/// On how many slopes a sign rests.
+fn slopes(certificate: &Certificate) -> usize {
+    match certificate.rule() {
+        Rule::Terms | Rule::Sizes(_) | Rule::Ends { .. } => 0,
+        Rule::Factor(a, b) | Rule::Square { leading: a, rest: b, .. } => slopes(a) + slopes(b),
+        Rule::Slope { start, slope, .. } => 1 + slopes(start) + slopes(slope),
     }
 }
 

@@ -75,7 +75,7 @@ Ltac formula x l :=
       | ?a / ?b => formula (a * / b) l
       | - ?a => one A_Quotients.Opposite a
       | / ?a => one A_Quotients.Inverse a
-      | ?a ^ ?n => let a := formula a l in constr:(A_Quotients.Power a n)
+      | ?a ^ ?n => let x := eval cbn [pow] in (a ^ n) in formula x l
       | IZR ?z => constr:(A_Quotients.Literal z)
       end
   end.
@@ -228,36 +228,15 @@ Proof. destruct (Rlt_le_dec 0 d) as [H | H]; [left | right]; lra. Qed.
 
 (** ** Functions that rise
 
-    A function with a derivative of one sign, from a start of that sign. *)
-Section Rises.
-Variables (f f' : R -> R) (x : R).
-Variable slope : forall z, 0 <= z -> is_derive f z (f' z).
-
-Lemma by_some_slope : 0 < x -> exists z, 0 < z /\ f x = f 0 + f' z * x.
+    From a start of one sign, with slopes of that sign. *)
+Lemma by_some_slope (f f' : R -> R) (x : R) :
+  (forall z, 0 <= z -> is_derive f z (f' z)) -> 0 <= x -> exists z, 0 < z /\ f x = f 0 + f' z * x.
 Proof.
-  intro X. destruct (MVT_cor2 f f' 0 x X) as (z & E & Z).
-  { intros z [Z _]. apply is_derive_Reals, slope, Z. }
+  intros D [X | <-]; [ | exists 1; split; [lra | ring]].
+  destruct (MVT_cor2 f f' 0 x X) as (z & E & Z).
+  { intros z [Z _]. apply is_derive_Reals, D, Z. }
   exists z. replace (x - 0) with x in E by ring. split; lra.
 Qed.
-
-Lemma rises : 0 <= x -> 0 <= f 0 -> (forall z, 0 < z -> 0 <= f' z) -> 0 <= f x.
-Proof.
-  intros [X | <-] F P; [ | exact F].
-  destruct (by_some_slope X) as (z & Z & ->). pose proof (Rmult_le_pos _ _ (P z Z) (Rlt_le _ _ X)). lra.
-Qed.
-
-Lemma rises_from_positive : 0 <= x -> 0 < f 0 -> (forall z, 0 < z -> 0 <= f' z) -> 0 < f x.
-Proof.
-  intros [X | <-] F P; [ | exact F].
-  destruct (by_some_slope X) as (z & Z & ->). pose proof (Rmult_le_pos _ _ (P z Z) (Rlt_le _ _ X)). lra.
-Qed.
-
-Lemma rises_strictly : 0 < x -> 0 <= f 0 -> (forall z, 0 < z -> 0 < f' z) -> 0 < f x.
-Proof.
-  intros X F P.
-  destruct (by_some_slope X) as (z & Z & ->). pose proof (Rmult_lt_0_compat _ _ (P z Z) X). lra.
-Qed.
-End Rises.
 
 (** The sign of [n], which is that at [x] = 0 and that of the slope in [x]. *)
 Ltac rising x n :=
@@ -269,16 +248,15 @@ Ltac rising x n :=
       intro D;
       lazymatch type of D with
       | forall z, _ -> is_derive _ z (@?f' z) =>
-          let slope := fresh "D" in
-          assert (slope : forall z, 0 <= z -> is_derive f z (f' z)) by (intros; apply D; divisors);
-          clear D;
-          let by_sign := (cbv beta in *; intros; decide_goal) in
-          first
-            [ apply (rises_strictly f f' x slope); by_sign
-            | apply (rises_from_positive f f' x slope); by_sign
-            | apply (rises f f' x slope); by_sign ]
+          let z := fresh "z" in
+          destruct (by_some_slope f f' x) as (z & ? & ->);
+          [intros; apply D; divisors | bounded | cbv beta; clear D]
       end
-  end.
+  end;
+  first
+    [ apply Rplus_le_lt_0_compat; [decide_goal | apply Rmult_lt_0_compat; decide_goal]
+    | apply Rplus_lt_le_0_compat; [decide_goal | apply Rmult_le_pos; decide_goal]
+    | apply Rplus_le_le_0_compat; [decide_goal | apply Rmult_le_pos; decide_goal] ].
 
 (** The goal is about [n] times [rest]. *)
 Ltac slope x n rest :=
