@@ -195,7 +195,8 @@ impl<'a> Development<'a> {
             let binders = binders.collect::<Vec<_>>().join(" ");
             let _ = write!(
                 text,
-                "\nDefinition {name} ({binders} : R) : R :=\n  {body}.\n#[export] Hint Unfold {name} : functions.\n"
+                "\nDefinition {name} ({binders} : R) : R :=\n  {body}.\n\
+                 #[export] Hint Unfold {name} : functions.\n"
             );
         }
         text

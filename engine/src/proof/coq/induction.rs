@@ -50,7 +50,7 @@ impl<'a> Claim<'a> {
         let bound =
             |var: &str| var == POWER || MEMBERS.contains(&var) || computed.is_some_and(|c| c.symbol == var);
         theorem.variables.retain(|var| !bound(var));
-        let choice = if theorem.rounds() { " prec choice" } else { "" };
+        let choice = if theorem.rounds { " prec choice" } else { "" };
         let iterates = format!("{}_iterates{choice}{}", self.name, names(&theorem.variables));
         let power = format!("({} ^ n)", self.printer.expr(ratio).base());
         let induction = Induction { claim: self, sequence, theorem, lemmas, iterates, power };
@@ -64,10 +64,12 @@ impl Induction<'_, '_> {
     }
 
     /// `let u := BY in`, if something is computed from a member.
-    fn computed(&self) -> String {
-        self.claim.statement.computed().map_or(String::new(), |computed| {
-            format!("let {} := {} in\n", ascii(computed.symbol), self.claim.printer.expr(&computed.by))
-        })
+    fn computed(&self, indent: &str) -> String {
+        let text = self.claim.statement.computed().map(|computed| {
+            let by = self.claim.printer.expr(&computed.by);
+            format!("{indent}let {} := {by} in\n", ascii(computed.symbol))
+        });
+        text.unwrap_or_default()
     }
 
     /// From its start, each member by the last.
@@ -82,18 +84,15 @@ impl Induction<'_, '_> {
             none if none.is_empty() => none,
             names => format!(" ({} : R)", names.trim_start()),
         };
-        let choice = if self.theorem.rounds() { " (prec : Z) (choice : Z -> bool)" } else { "" };
+        let choice = if self.theorem.rounds { " (prec : Z) (choice : Z -> bool)" } else { "" };
         let head = format!("{}_iterates{choice}{variables} (n : nat)", self.claim.name);
         let kind = vec!["R"; start.len()].join(" * ");
-        let computed = match self.computed() {
-            none if none.is_empty() => none,
-            lets => format!("      {lets}"),
-        };
         format!(
-            "\nFixpoint {head} : {kind} :=\n  match n with\n  | O => {}\n  | S n =>\n      let {pattern} := {} n in\n\
-             {computed}      {}\n  end.\n",
+            "\nFixpoint {head} : {kind} :=\n  match n with\n  | O => {}\n  | S n =>\n\
+             \x20     let {pattern} := {} n in\n{}      {}\n  end.\n",
             self.tuple(start),
             self.iterates,
+            self.computed("      "),
             self.tuple(step)
         )
     }
@@ -120,7 +119,8 @@ impl Induction<'_, '_> {
             says(&Proposition::Within(of.clone(), bound.clone()), self.claim.printer)
         };
         let bounds: Vec<_> = self.sequence.within.iter().map(bound).collect();
-        format!("forall n : nat, {}\n    {}    {}", self.lets(), self.computed(), bounds.join(" /\\\n    "))
+        let (lets, computed) = (self.lets(), self.computed("    "));
+        format!("forall n : nat, {lets}\n{computed}    {}", bounds.join(" /\\\n    "))
     }
 
     fn closed(&self) -> String {

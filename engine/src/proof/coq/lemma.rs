@@ -17,8 +17,8 @@ pub(super) struct Lemma<'a> {
     pub(super) name: String,
     pub(super) printer: Printer<'a>,
     pub(super) variables: Vec<&'static str>,
+    pub(super) rounds: bool,
     hypotheses: Vec<&'a Hypothesis>,
-    rounds: bool,
 }
 
 /// The exponent of a power of two: that of 2ᵃ is power_a.
@@ -104,10 +104,6 @@ impl<'a> Lemma<'a> {
         Lemma { name, printer, variables, hypotheses, rounds }
     }
 
-    pub(super) fn rounds(&self) -> bool {
-        self.rounds
-    }
-
     /// Its hypotheses, but for that of the precision, which Coq is told otherwise.
     pub(super) fn hypotheses(&self) -> impl Iterator<Item = &'a Hypothesis> {
         self.hypotheses.iter().copied().filter(|given| **given != minimum_precision())
@@ -181,31 +177,26 @@ impl<'a> Lemma<'a> {
 
     /// What it says, with its proof.
     pub(super) fn text(&self, keyword: &str, says: &str, proof: Script) -> String {
-        let variables = format!("forall{} : R,", names(&self.variables));
-        let mut lines = Vec::new();
+        let (mut start, mut lines, mut powers) = (" ", Vec::new(), Vec::new());
         if self.rounds {
             let exponents = self.exponents();
-            let exponents = match exponents.trim_start() {
-                "" => String::new(),
-                exponents => format!(" ({exponents} : Z)"),
-            };
-            lines.push(format!("\n  forall (prec : Z) (choice : Z -> bool){exponents},"));
-            lines.extend(["(2 <= prec)%Z ->".into(), variables]);
-            lines.push(format!("{} = bpow radix2 prec ->", ascii(PRECISION)));
-            lines.extend(
+            let exponents =
+                if exponents.is_empty() { exponents } else { format!(" ({} : Z)", &exponents[1..]) };
+            lines.push(format!("forall (prec : Z) (choice : Z -> bool){exponents},"));
+            lines.push("(2 <= prec)%Z ->".into());
+            powers.push(format!("{} = bpow radix2 prec ->", ascii(PRECISION)));
+            powers.extend(
                 self.scales().map(|own| format!("{} = bpow radix2 {} ->", ascii(own), exponent(own))),
             );
-        } else if !self.variables.is_empty() {
-            lines.push(format!(" {variables}"));
-        } else {
-            return self.stated(keyword, &format!(" {says}"), proof);
+            start = "\n  ";
         }
+        if !self.variables.is_empty() {
+            lines.push(format!("forall{} : R,", names(&self.variables)));
+        }
+        lines.extend(powers);
         lines.extend(self.hypotheses().map(|given| format!("{} ->", supposed(given, self.printer))));
         lines.push(says.to_string());
-        self.stated(keyword, &lines.join("\n  "), proof)
-    }
-
-    fn stated(&self, keyword: &str, says: &str, proof: Script) -> String {
-        format!("\n{keyword} {} :{says}.\nProof.\n{}Qed.\n", self.name, proof.into_text())
+        let (name, says, proof) = (&self.name, lines.join("\n  "), proof.into_text());
+        format!("\n{keyword} {name} :{start}{says}.\nProof.\n{proof}Qed.\n")
     }
 }

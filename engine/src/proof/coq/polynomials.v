@@ -214,7 +214,8 @@ Fixpoint sign_of_terms (signs : list sign) (p : poly) : sign :=
   | Positive :: others, Grow p q => both (sign_of_terms others p) (sign_of_terms signs q)
   | NonNegative :: others, Grow p q => both (sign_of_terms others p) (weak (sign_of_terms signs q))
   | Unknown :: others, Grow p (Const 0) => sign_of_terms others p
-  | Unknown :: others, Grow p (Grow (Const 0) q) => both (sign_of_terms others p) (weak (sign_of_terms signs q))
+  | Unknown :: others, Grow p (Grow (Const 0) q) =>
+      both (sign_of_terms others p) (weak (sign_of_terms signs q))
   | Unknown :: _, Grow _ _ => Unknown
   end.
 

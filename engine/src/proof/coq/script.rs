@@ -92,7 +92,7 @@ impl Script {
         match direct.because() {
             Because::Same(_) if !direct.errors().is_empty() => return self.in_units(direct.errors(), lemma),
             Because::Order(_) => return self.order(direct, lemma),
-            _ if lemma.rounds() => self.models(direct.errors(), lemma),
+            _ if lemma.rounds => self.models(direct.errors(), lemma),
             _ => {}
         }
         self.derivation(Place { lemma, supposed: 0, cases: 0 }, &derivation)

@@ -1,7 +1,7 @@
 (** * What every proof here uses: how a goal is put to the program, and nothing about contact.
 
     Quantities of hypotheses get names, and what they stand for is replaced; a bracket is one of its values;
-    the program then decides equalities and signs. Slopes, limits, derivatives and exponentials have lemmas. *)
+    the program then decides equalities and signs. Slopes and limits have lemmas. *)
 From Coq Require Export Reals Lra.
 From Coquelicot Require Export Coquelicot.
 From Coq Require Import List.
