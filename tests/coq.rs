@@ -5,9 +5,13 @@
 mod coqc;
 mod gallina;
 
-use coqc::{accepts, code, compile, has_libraries, named, of_claims, scratch, two_at_a_time, version, words};
+use coqc::{
+    DEFINITIONS, accepts, code, compile, has_libraries, named, of_claims, scratch, two_at_a_time, version,
+    words,
+};
 use gallina::{
-    Definition, Function, Functions, Read, Recursion, Said, TRIALS, Theorem, drawn, functions, stated, value,
+    Definition, Function, Functions, Read, Recursion, Said, TRIALS, Theorem, drawn, flips, functions, stated,
+    value,
 };
 use spring_mass_contact::claims::{registry, statements};
 use spring_mass_contact::formula::claim::{MEMBERS, PRECISION, SCALES};
@@ -89,11 +93,6 @@ fn every_divisor_is_said_not_to_be_0() {
             continue;
         };
         given.retain(|said| !matches!(said, Said::PowerOfTwo(..)));
-        let is_used = |file: &File| file.text.matches(&format!("({name} ")).count() > 0;
-        assert!(
-            statement.contains_rounding() || of_claims(&coq().files()).any(is_used),
-            "no proof uses {name}"
-        );
         // Of the members of what is rounded nothing is needed.
         let invariants = statement.invariants().iter().filter(|_| !statement.contains_rounding());
         let own = statement.hypotheses().iter().chain(invariants);
@@ -107,14 +106,14 @@ fn every_divisor_is_said_not_to_be_0() {
 
 #[test]
 fn every_function_is_a_definition() {
-    let files = coq().files();
-    let definitions = named(&files[1].text, "Definition");
+    let text = definitions_text();
+    let definitions = named(&text, "Definition");
     assert_eq!(definitions.len(), registry().formulas().len());
     assert!(
         definitions.contains(&"penalty_deflection") && definitions.contains(&"lagrange_residual_constraint")
     );
     // A call is a call.
-    assert!(files[1].text.contains("eps * system_reaction c m g l h / penalty_total_stiffness c eps."));
+    assert!(text.contains("eps * system_reaction c m g l h / penalty_total_stiffness c eps."));
 }
 
 /// A definition that no theorem speaks of could be any other.
@@ -123,14 +122,18 @@ fn every_definition_is_named_by_a_theorem() {
     let files = coq().files();
     let texts: Vec<_> = of_claims(&files).map(|file| code(&file.text)).collect();
     let known: BTreeSet<_> = texts.iter().flat_map(|text| stated(text)).flat_map(words).collect();
-    let unnamed: Vec<_> =
-        named(&files[1].text, "Definition").into_iter().filter(|name| !known.contains(name)).collect();
+    let mut unnamed = printed().0;
+    unnamed.retain(|definition| !known.contains(definition.name.as_str()));
     assert!(unnamed.is_empty(), "{unnamed:#?}");
+}
+
+fn definitions_text() -> String {
+    coq().files().into_iter().find(|file| file.name == DEFINITIONS).unwrap().text
 }
 
 /// The functions as they are printed.
 fn printed() -> (Vec<Definition>, Functions) {
-    let definitions = Definition::all(&coq().files()[1].text);
+    let definitions = Definition::all(&definitions_text());
     let functions = functions(&definitions);
     (definitions, functions)
 }
@@ -415,7 +418,7 @@ fn every_flip_changes_one_sign_and_makes_a_theorem_false() {
     let (definitions, _) = printed();
     let sign = |token: &&String| ["+", "-"].contains(&token.as_str());
     let signs: usize = definitions.iter().map(|definition| definition.body.iter().filter(sign).count()).sum();
-    let flips = coq().flips();
+    let flips = flips(coq());
     let different: BTreeSet<_> = flips.iter().map(|flip| &flip.definition).collect();
     assert_eq!((flips.len(), different.len()), (signs, signs), "one for every sign");
     let all = theorems().len();
@@ -526,7 +529,7 @@ fn coq_refuses_a_changed_sign() {
         fs::write(directory.join(name), text).unwrap();
         compile(&directory, "Contact", name).unwrap_or_else(|error| panic!("{error}"));
     }
-    let flips = coq().flips();
+    let flips = flips(coq());
     let refused = two_at_a_time(&flips, |flip| refused(&directory, &flip.file));
     let unnoticed: Vec<_> =
         flips.iter().zip(&refused).filter(|(_, by)| by.is_none()).map(|(flip, _)| &flip.definition).collect();

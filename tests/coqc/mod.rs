@@ -54,6 +54,9 @@ pub fn named<'t>(text: &'t str, keyword: &str) -> Vec<&'t str> {
     all.windows(2).filter(|pair| pair[0] == keyword).map(|pair| pair[1]).collect()
 }
 
+/// The file of what functions compute.
+pub const DEFINITIONS: &str = "B_Definitions.v";
+
 pub fn of_claims(files: &[File]) -> impl Iterator<Item = &File> {
     files.iter().filter(|file| file.name.starts_with("C_"))
 }

@@ -4,9 +4,11 @@
 //! tested. Of Coq's language, which is called Gallina, no more is known here than the chapter needs. Where the precision
 //! is `prec`, so many bits, a number half-way between two is rounded to the even one: that is one of all choices.
 
+mod flips;
 mod recursion;
 
 use super::coqc::code;
+pub use flips::flips;
 pub use recursion::Recursion;
 use spring_mass_contact::number::tree::{Step, piecewise};
 use spring_mass_contact::number::{Dual, Exact, Exponential, Field, PositivePart, Tree};

@@ -2,10 +2,12 @@
 //! them anew.
 //!
 //! A [`Development`] has every function of a registry as a definition, printed from its recorded formula,
-//! and every claim as a theorem about these definitions, with its hypotheses as premises. The proofs follow
-//! what the kernel found, but nothing of it is taken on trust: if Coq accepts the files, what is left to
-//! trust is Coq's own kernel, its axioms of the real numbers, and that definitions and theorems read as
-//! their sources do.
+//! and every claim as a theorem about these definitions, with its hypotheses as premises. Signs and
+//! equalities are decided by a program in Coq that is proved correct there (`polynomials.v`, `quotients.v`).
+//! What it needs is taken from the kernel's derivation: the names of the hypotheses' quantities, the
+//! monomials that they replace, the cases, and the part of a quantity that has the sign of its slope. Nothing
+//! of that is taken on trust: if Coq accepts the files, what is left to trust is Coq's own kernel, its axioms
+//! of the real numbers, and that definitions and theorems read as their sources do.
 //!
 //! A function that only hands on what another computes leaves no step of its own in a record, so a theorem
 //! speaks in the names of the functions that its entry lists. A definition that no theorem names would
@@ -19,21 +21,19 @@
 //! more and whatever becomes of a number half-way between two. That it is x (1 + γ e), as our kernel reads
 //! it, is a lemma there.
 
-mod drift;
 mod expr;
-mod law;
+mod induction;
 mod lemma;
 mod print;
 mod script;
 mod theorem;
 
-use crate::formula::{Formula, Registry, Statement};
-use expr::Expr;
+use crate::formula::{Registry, Statement};
 use print::{Printer, ascii};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
-use theorem::Theorem;
+use theorem::Claim;
 
 /// A file for Coq.
 #[derive(Clone, Debug)]
@@ -53,18 +53,6 @@ pub struct LeftOut {
     pub name: &'static str,
     /// Why.
     pub reason: String,
-}
-
-/// One sign of one definition changed: not all that speaks of it should still be provable.
-#[derive(Clone, Debug)]
-pub struct Flip {
-    /// The changed function, by its name in Coq.
-    pub function: String,
-    /// The definition as it is now.
-    pub definition: String,
-    /// All definitions with this one among them, then every theorem that speaks of the function, the shortest
-    /// first. It needs those of the [files](Development::files) that come before theorems.
-    pub file: File,
 }
 
 /// A claim and where it belongs.
@@ -93,11 +81,11 @@ const DEFINITIONS: &str = "B_Definitions";
 const ROUNDING: &str = "B_Rounding";
 const ASSUMPTIONS: &str = "E_Assumptions";
 
-/// What theorems about what is rounded stand on; none comes before what it needs.
-const OF_ROUNDING: [(&str, &str); 3] = [
-    ("B_Polynomials", include_str!("coq/polynomials.v")),
-    ("B_Quotients", include_str!("coq/quotients.v")),
-    (ROUNDING, include_str!("coq/rounding.v")),
+/// What all theorems stand on; none comes before what it needs.
+const PROGRAM: [(&str, &str); 3] = [
+    ("A_Polynomials", include_str!("coq/polynomials.v")),
+    ("A_Quotients", include_str!("coq/quotients.v")),
+    (TACTICS, include_str!("coq/tactics.v")),
 ];
 
 impl<'a> Development<'a> {
@@ -110,7 +98,7 @@ impl<'a> Development<'a> {
         let (mut written, mut left_out) = (Vec::new(), Vec::new());
         for Placed { claim, section, functions } in claims {
             let printer = Printer { registry, preferred: functions };
-            match Theorem::new(claim, printer).text() {
+            match Claim::new(claim, printer).text() {
                 Ok(text) => {
                     written.push(Written {
                         section: section.to_string(),
@@ -135,12 +123,10 @@ impl<'a> Development<'a> {
     ///
     /// They compile in this order, and in that of their names: `coqc -R DIR LIBRARY FILE`.
     pub fn files(&self) -> Vec<File> {
-        let mut files = vec![
-            file(TACTICS, include_str!("coq/tactics.v").to_string()),
-            file(DEFINITIONS, definitions_text(&self.definitions(), false)),
-        ];
+        let mut files: Vec<_> = PROGRAM.iter().map(|(name, text)| file(name, text.to_string())).collect();
+        files.push(file(DEFINITIONS, self.definitions()));
         if self.written.iter().any(|written| written.rounds) {
-            files.extend(OF_ROUNDING.map(|(name, text)| file(name, text.to_string())));
+            files.push(file(ROUNDING, include_str!("coq/rounding.v").to_string()));
         }
         let mut theorems = by_section(&self.written);
         let name = |file: &File| format!(" {}", file.name.trim_end_matches(".v"));
@@ -199,48 +185,22 @@ impl<'a> Development<'a> {
         &self.left_out
     }
 
-    /// Every way to change one sign of one definition.
-    pub fn flips(&self) -> Vec<Flip> {
-        let definitions = self.definitions();
-        let mut all = Vec::new();
-        for (i, definition) in definitions.iter().enumerate() {
-            let speaks_of_it = |theorem: &&Written| speaks_of(&theorem.text, &definition.name);
-            let mut theorems: Vec<_> = self.written.iter().filter(speaks_of_it).collect();
-            theorems.sort_by_key(|theorem| theorem.text.len());
-            let rounds = theorems.iter().any(|theorem| theorem.rounds);
-            let theorems: String = theorems.iter().map(|theorem| theorem.text.as_str()).collect();
-            for (count, body) in definition.body.flips().into_iter().enumerate() {
-                let mut flipped = definitions.clone();
-                flipped[i].body = body;
-                let name = format!("F_{}_{}", definition.name, count + 1);
-                all.push(Flip {
-                    function: definition.name.clone(),
-                    definition: flipped[i].to_string(),
-                    file: self.named(file(&name, definitions_text(&flipped, rounds) + &theorems)),
-                });
-            }
-        }
-        all
-    }
-
-    fn definitions(&self) -> Vec<Definition> {
+    /// The file of definitions.
+    fn definitions(&self) -> String {
         let printer = Printer { registry: self.registry, preferred: &[] };
-        let definition = |formula: &Formula| Definition {
-            name: print::function(formula),
-            binders: self.registry.common(formula).chain(formula.depends_on()).map(ascii).collect(),
-            body: printer.body(formula),
-        };
-        self.registry.formulas().iter().map(definition).collect()
+        let mut text = format!("(** * The functions, as their source computes them. *)\n{}", head(false, ""));
+        for formula in self.registry.formulas() {
+            let (name, body) = (print::function(formula), printer.body(formula));
+            let binders = self.registry.common(formula).chain(formula.depends_on()).map(ascii);
+            let binders = binders.collect::<Vec<_>>().join(" ");
+            let _ = write!(
+                text,
+                "\nDefinition {name} ({binders} : R) : R :=\n  {body}.\n\
+                 #[export] Hint Unfold {name} : functions.\n"
+            );
+        }
+        text
     }
-}
-
-/// With what theorems about what is rounded need, if any follow.
-fn definitions_text(definitions: &[Definition], rounds: bool) -> String {
-    let mut text = format!("(** * The functions, as their source computes them. *)\n{}", head(rounds, ""));
-    for definition in definitions {
-        let _ = write!(text, "\n{definition}\n#[export] Hint Unfold {} : functions.\n", definition.name);
-    }
-    text
 }
 
 /// Ends a file with all that it proves as one, and says what that is called.
@@ -266,12 +226,6 @@ fn proved(text: &str) -> impl Iterator<Item = &str> {
 pub fn theorem_name(equation: &str, name: &str) -> String {
     let number = if equation.starts_with(|c: char| c.is_ascii_digit()) { "eq " } else { "" };
     print::free(identifier(&format!("{number}{equation} {name}")))
-}
-
-/// Does what is stated name a function? What only proofs name says nothing of it.
-fn speaks_of(text: &str, function: &str) -> bool {
-    let mut stated = text.split("\nProof.\n").map(|part| part.rsplit("Qed.\n").next().unwrap_or_default());
-    stated.any(|stated| stated.split(|c: char| !is_part_of_name(c)).any(|word| word == function))
 }
 
 fn file(name: &str, text: String) -> File {
@@ -304,20 +258,6 @@ fn is_part_of_name(c: char) -> bool {
 fn identifier(text: &str) -> String {
     let words = text.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
     words.map(str::to_lowercase).collect::<Vec<_>>().join("_")
-}
-
-/// A function, to be printed.
-#[derive(Clone)]
-struct Definition {
-    name: String,
-    binders: Vec<String>,
-    body: Expr,
-}
-
-impl std::fmt::Display for Definition {
-    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        write!(f, "Definition {} ({} : R) : R :=\n  {}.", self.name, self.binders.join(" "), self.body)
-    }
 }
 
 /// A claim, printed: its lemmas, its theorem, all with their proofs.

@@ -129,6 +129,10 @@ pub fn claims() -> Vec<Statement> {
         within("geometric", once(&(one() / (one() - &x))), one() / (one() - &x) / &n).assuming([&below_one]),
         within("exponential", once(&(one() / a.exp())), (-&a).exp() / &n).assuming([&stiff_a]),
         equal("exponential-exact", one() / (one() / x.exp()), x.exp()),
+        positive("slope-divisor", one() / (a.exp() - &a - one())).assuming([&stiff_a]),
+        positive("slope-of-slope", (&a + &a).exp() - Tree::int(2) * &a * a.exp() - one())
+            .assuming([&stiff_a]),
+        positive("slope-exact", a.exp() - &a - one()).assuming([&stiff_a]),
         within("both-signs", once(&(&a / (&f - &g) + &a / (&g - &f) + &a)), &a / &n)
             .assuming([&stiff_a, &shorter]),
     ]

@@ -124,38 +124,6 @@ impl Expr {
         }
     }
 
-    /// Every formula that is this one but for one sign: a + for a − or the other way round, or a − lost.
-    pub(super) fn flips(&self) -> Vec<Expr> {
-        match self {
-            Expr::Neg(a) => {
-                let inside = a.flips().into_iter().map(Expr::negated);
-                std::iter::once((**a).clone()).chain(inside).collect()
-            }
-            Expr::Binary(operator, a, b) => {
-                let own = match operator {
-                    Operator::Add => Some(Operator::Sub),
-                    Operator::Sub => Some(Operator::Add),
-                    Operator::Mul | Operator::Div => None,
-                };
-                let own = own.map(|flipped| Expr::Binary(flipped, a.clone(), b.clone()));
-                let left = a.flips().into_iter().map(|a| Expr::Binary(*operator, a.into(), b.clone()));
-                let right = b.flips().into_iter().map(|b| Expr::Binary(*operator, a.clone(), b.into()));
-                own.into_iter().chain(left).chain(right).collect()
-            }
-            Expr::Power(a, n) => a.flips().into_iter().map(|a| Expr::Power(a.into(), *n)).collect(),
-            Expr::Call(function, arguments) => {
-                let with = |i: usize, flipped| {
-                    let mut all = arguments.clone();
-                    all[i] = flipped;
-                    Expr::Call(function.clone(), all)
-                };
-                let of = |i: usize| arguments[i].flips().into_iter().map(move |flipped| with(i, flipped));
-                (0..arguments.len()).flat_map(of).collect()
-            }
-            Expr::Name(_) | Expr::Number(_) => Vec::new(),
-        }
-    }
-
     /// How strongly it holds together, on Coq's own scale: less is stronger.
     fn level(&self) -> u32 {
         match self {

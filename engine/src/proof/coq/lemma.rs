@@ -1,45 +1,29 @@
-//! One goal under hypotheses, with its proof.
+//! What is said under hypotheses, as a lemma.
 
 use super::print::{Printer, ascii};
 use super::script::Script;
-use crate::formula::{Hypothesis, Registry, Relation};
-use crate::formula::{Proposition, Statement};
+use crate::formula::claim::{PRECISION, SCALES};
+use crate::formula::statement::minimum_precision;
+use crate::formula::{Hypothesis, Proposition};
 use crate::number::Tree;
 use crate::number::tree::Step;
-use crate::proof::kernel;
-use crate::proof::kernel::Derivation;
-use crate::proof::paper::Paper;
 
 /// Why a claim cannot be printed.
 pub(super) type Result<T> = std::result::Result<T, String>;
 
-/// One goal under hypotheses.
+/// What a lemma speaks of and supposes; where it rounds, that is for every precision.
 #[derive(Clone)]
 pub(super) struct Lemma<'a> {
     pub(super) name: String,
     pub(super) printer: Printer<'a>,
-    pub(super) hypotheses: Vec<&'a Hypothesis>,
-    pub(super) proposition: &'a Proposition,
-    pub(super) defined: Option<Defined>,
-}
-
-/// A lemma that no divisor is 0, under the hypotheses of a claim.
-#[derive(Clone)]
-pub(super) struct Defined {
-    pub(super) name: String,
     pub(super) variables: Vec<&'static str>,
-    pub(super) divisors: Vec<Tree>,
+    pub(super) rounds: bool,
+    hypotheses: Vec<&'a Hypothesis>,
 }
 
-impl Defined {
-    /// Brings in what it says as N1, N2, …
-    pub(super) fn recall(&self, hypotheses: &str) -> String {
-        let lemma = format!("{}{}{hypotheses}", self.name, names(&self.variables));
-        match self.divisors.len() {
-            1 => format!("pose proof ({lemma}) as N1."),
-            n => format!("destruct ({lemma}) as ({}).", numbered("N", n).join(" & ")),
-        }
-    }
+/// The exponent of a power of two: that of 2ᵃ is power_a.
+fn exponent(scale: &str) -> String {
+    ascii(scale).replace("two", "power")
 }
 
 /// H1, H2, …
@@ -47,40 +31,13 @@ pub(super) fn numbered(letter: &str, n: usize) -> Vec<String> {
     (1..=n).map(|i| format!("{letter}{i}")).collect()
 }
 
-pub(super) fn depends(tree: &Tree, on: &str) -> bool {
-    tree.symbols().contains(on)
+/// Words, each after a blank.
+pub(super) fn spaced<W: AsRef<str>>(words: impl IntoIterator<Item = W>) -> String {
+    words.into_iter().map(|word| format!(" {}", word.as_ref())).collect()
 }
 
 pub(super) fn names(variables: &[&'static str]) -> String {
-    variables.iter().map(|var| format!(" {}", ascii(var))).collect()
-}
-
-fn for_all(variables: &[&'static str]) -> String {
-    if variables.is_empty() { String::new() } else { format!(" forall{} : R,\n ", names(variables)) }
-}
-
-/// H1 H2 …, each after a blank.
-pub(super) fn labels(n: usize) -> String {
-    numbered("H", n).iter().map(|label| format!(" {label}")).collect()
-}
-
-/// What is said under hypotheses, with its proof.
-pub(super) fn stated(
-    keyword: &str,
-    name: &str,
-    variables: &[&'static str],
-    hypotheses: &[&Hypothesis],
-    says: &str,
-    proof: Script,
-    printer: Printer,
-) -> String {
-    let (variables, proof) = (for_all(variables), proof.into_text());
-    let premises = premises(hypotheses, printer);
-    format!("\n{keyword} {name} :{variables}{premises} {says}.\nProof.\n{proof}Qed.\n")
-}
-
-fn premises(hypotheses: &[&Hypothesis], printer: Printer) -> String {
-    hypotheses.iter().map(|h| format!(" {} ->\n ", supposed(h, printer))).collect()
+    spaced(variables.iter().map(|var| ascii(var)))
 }
 
 pub(super) fn supposed(hypothesis: &Hypothesis, printer: Printer) -> String {
@@ -120,77 +77,126 @@ pub(super) fn divisors<'t>(trees: impl Iterator<Item = &'t Tree>) -> Vec<Tree> {
     all
 }
 
-fn not_zero(divisor: &Tree, printer: Printer) -> String {
-    format!("{} <> 0", printer.plain().expr(divisor))
-}
-
 /// That none of them is 0.
 pub(super) fn none_is_zero(divisors: &[Tree], printer: Printer) -> String {
-    let all: Vec<_> = divisors.iter().map(|divisor| not_zero(divisor, printer)).collect();
+    let all: Vec<_> =
+        divisors.iter().map(|divisor| format!("{} <> 0", printer.plain().expr(divisor))).collect();
     all.join(" /\\\n  ")
 }
 
-/// Proves of each divisor that it is not 0, and calls that N1, N2, …
-pub(super) fn divisors_script(
-    script: &mut Script,
-    hypotheses: &[&Hypothesis],
-    divisors: &[Tree],
-    printer: Printer,
-) -> Result<()> {
-    for (i, divisor) in divisors.iter().enumerate() {
-        let signed =
-            |value: &Tree| derivation(hypotheses, &Proposition::Sign(Relation::Positive, value.clone()));
-        let (rule, derivation) = match signed(divisor) {
-            Ok(derivation) => ("positive_not_zero", derivation),
-            Err(_) => ("negative_not_zero", signed(&-divisor)?),
-        };
-        script.line(&format!("assert (N{} : {}).", i + 1, not_zero(divisor, printer)));
-        script.block("{", |own| {
-            own.line(&format!("functions. apply {rule}."));
-            own.derivation(&derivation)
-        })?;
-    }
-    Ok(())
-}
-
-/// # Errors
-/// Returns the reason if the kernel finds no derivation.
-pub(super) fn derivation(hypotheses: &[&Hypothesis], proposition: &Proposition) -> Result<Derivation> {
-    kernel::derivation(hypotheses, proposition).map_err(|why| {
-        let statement = Statement::new("", proposition.clone()).assuming(hypotheses.iter().copied());
-        let why = Paper::new(&Registry::default()).why(&statement, &why);
-        format!("there is no proof to follow: {why}")
-    })
-}
-
 impl<'a> Lemma<'a> {
-    pub(super) fn trees(&self) -> impl Iterator<Item = &Tree> {
-        self.hypotheses.iter().map(|h| &h.value).chain(self.proposition.trees())
-    }
-
-    pub(super) fn variables(&self) -> Vec<&'static str> {
-        self.printer.registry.symbols_of(self.trees())
-    }
-
-    /// Its name, applied to its variables by name and to its hypotheses as H1, H2, …
-    pub(super) fn applied(&self) -> String {
-        format!("{}{}{}", self.name, names(&self.variables()), labels(self.hypotheses.len()))
-    }
-
-    /// The lemma with its proof.
-    pub(super) fn text(&self, keyword: &str) -> Result<String> {
-        let variables = self.variables();
-        let mut script = Script::new();
-        script.line(&format!("intros{}{}.", names(&variables), labels(self.hypotheses.len())));
-        let recalled =
-            self.defined.as_ref().filter(|d| d.variables.iter().all(|var| variables.contains(var)));
-        match recalled {
-            Some(defined) => script.line(&defined.recall(&labels(self.hypotheses.len()))),
-            None => divisors_script(&mut script, &self.hypotheses, &divisors(self.trees()), self.printer)?,
+    /// Under these hypotheses, of these formulas.
+    pub(super) fn new<'t>(
+        name: String,
+        printer: Printer<'a>,
+        rounds: bool,
+        hypotheses: Vec<&'a Hypothesis>,
+        trees: impl Iterator<Item = &'t Tree>,
+    ) -> Self
+    where
+        'a: 't,
+    {
+        let supposed = hypotheses.iter().map(|h| &h.value);
+        let mut variables = printer.registry.symbols_of(supposed.chain(trees));
+        if rounds && !variables.contains(&PRECISION) {
+            variables.push(PRECISION);
         }
-        script.line("functions.");
-        script.derivation(&derivation(&self.hypotheses, self.proposition)?)?;
-        let says = says(self.proposition, self.printer);
-        Ok(stated(keyword, &self.name, &variables, &self.hypotheses, &says, script, self.printer))
+        Lemma { name, printer, variables, hypotheses, rounds }
+    }
+
+    /// Its hypotheses, but for that of the precision, which Coq is told otherwise.
+    pub(super) fn hypotheses(&self) -> impl Iterator<Item = &'a Hypothesis> {
+        self.hypotheses.iter().copied().filter(|given| **given != minimum_precision())
+    }
+
+    /// All of them.
+    pub(super) fn given(&self) -> &[&'a Hypothesis] {
+        &self.hypotheses
+    }
+
+    /// What a hypothesis is called in proofs: H1, H2, …, and M for that of the precision.
+    pub(super) fn label(&self, hypothesis: &Hypothesis) -> Option<String> {
+        if *hypothesis == minimum_precision() {
+            return Some("M".into());
+        }
+        self.hypotheses().position(|own| own == hypothesis).map(|i| format!("H{}", i + 1))
+    }
+
+    /// Without what speaks of a variable.
+    pub(super) fn without(mut self, variable: &str) -> Self {
+        self.hypotheses.retain(|given| !given.value.symbols().contains(variable));
+        self.variables.retain(|own| *own != variable);
+        self
+    }
+
+    /// Which powers of two it speaks of besides 2ᵖ.
+    fn scales(&self) -> impl Iterator<Item = &'static str> {
+        SCALES.into_iter().filter(|scale| self.rounds && self.variables.contains(scale))
+    }
+
+    fn exponents(&self) -> String {
+        spaced(self.scales().map(exponent))
+    }
+
+    /// Introduces all of it: P, E, A1, A2, … for what is said of powers of two, and H1, H2, … for hypotheses.
+    pub(super) fn intros(&self) -> String {
+        let (variables, labels) = (names(&self.variables), numbered("H", self.hypotheses().count()));
+        let labels = spaced(labels);
+        if self.rounds {
+            let (exponents, powers) = (self.exponents(), spaced(numbered("A", self.scales().count())));
+            return format!("intros prec choice{exponents} P{variables} E{powers}{labels}.");
+        }
+        // Without any, `intros` would take in what the statement says.
+        if self.variables.is_empty() { String::new() } else { format!("intros{variables}{labels}.") }
+    }
+
+    /// Lines that make of each A1, A2, … a Q1, Q2, …, that the power of two is positive.
+    pub(super) fn signs_of_scales(&self) -> Vec<String> {
+        let sign = |(scale, i)| {
+            let exponent = exponent(scale);
+            format!("pose proof (bpow_gt_0 radix2 {exponent}) as Q{i}. rewrite <- A{i} in Q{i}.")
+        };
+        self.scales().zip(1..).map(sign).collect()
+    }
+
+    /// Its name, applied to its variables, with others for some of them, and to its hypotheses by what they
+    /// are called.
+    pub(super) fn applied(&self, replaced: &[(&str, &str)], label: impl Fn(&Hypothesis) -> String) -> String {
+        let argument = |var: &&'static str| {
+            let other = replaced.iter().find(|(own, _)| own == var);
+            other.map_or_else(|| ascii(var), |(_, other)| other.to_string())
+        };
+        let (variables, labels) =
+            (spaced(self.variables.iter().map(argument)), spaced(self.hypotheses().map(label)));
+        let name = &self.name;
+        if self.rounds {
+            return format!("{name} prec choice{} P{variables} E{labels}", self.exponents());
+        }
+        format!("{name}{variables}{labels}")
+    }
+
+    /// What it says, with its proof.
+    pub(super) fn text(&self, keyword: &str, says: &str, proof: Script) -> String {
+        let (mut start, mut lines, mut powers) = (" ", Vec::new(), Vec::new());
+        if self.rounds {
+            let exponents = self.exponents();
+            let exponents =
+                if exponents.is_empty() { exponents } else { format!(" ({} : Z)", &exponents[1..]) };
+            lines.push(format!("forall (prec : Z) (choice : Z -> bool){exponents},"));
+            lines.push("(2 <= prec)%Z ->".into());
+            powers.push(format!("{} = bpow radix2 prec ->", ascii(PRECISION)));
+            powers.extend(
+                self.scales().map(|own| format!("{} = bpow radix2 {} ->", ascii(own), exponent(own))),
+            );
+            start = "\n  ";
+        }
+        if !self.variables.is_empty() {
+            lines.push(format!("forall{} : R,", names(&self.variables)));
+        }
+        lines.extend(powers);
+        lines.extend(self.hypotheses().map(|given| format!("{} ->", supposed(given, self.printer))));
+        lines.push(says.to_string());
+        let (name, says, proof) = (&self.name, lines.join("\n  "), proof.into_text());
+        format!("\n{keyword} {name} :{start}{says}.\nProof.\n{proof}Qed.\n")
     }
 }

@@ -1,6 +1,6 @@
 (** * Polynomials with whole coefficients, and their signs: a program, and its proof.
 
-    What is said of computed values is a quotient of polynomials, too large for [positivity]. *)
+    Whatever claims say of signs and equalities is decided by it; see [A_Tactics]. *)
 From Coq Require Import List Bool ZArith Reals Lra Lia.
 Import ListNotations.
 Open Scope R_scope.
@@ -135,20 +135,12 @@ Qed.
     The variables come in two parts: first those of known sign, or of which nothing is known; then the
     units, which lie between -1 and 1. For each monomial in the first ones stands a polynomial in the
     units. If all of these are at least 0, and their monomials are, the whole is. *)
-Inductive kind := Positive | NonNegative | Free.
-Inductive sign := Above | AtLeast | Unknown.
-
-Definition of_kind (k : kind) (x : R) : Prop :=
-  match k with
-  | Positive => 0 < x
-  | NonNegative => 0 <= x
-  | Free => True
-  end.
+Inductive sign := Positive | NonNegative | Unknown.
 
 Definition of_sign (s : sign) (x : R) : Prop :=
   match s with
-  | Above => 0 < x
-  | AtLeast => 0 <= x
+  | Positive => 0 < x
+  | NonNegative => 0 <= x
   | Unknown => True
   end.
 
@@ -158,10 +150,10 @@ Fixpoint units (env : list R) : Prop :=
   | e :: env => -1 <= e <= 1 /\ units env
   end.
 
-Fixpoint fits (kinds : list kind) (env : list R) : Prop :=
-  match kinds with
+Fixpoint fits (signs : list sign) (env : list R) : Prop :=
+  match signs with
   | [] => units env
-  | k :: kinds => of_kind k (hd 0 env) /\ fits kinds (tl env)
+  | k :: signs => of_sign k (hd 0 env) /\ fits signs (tl env)
   end.
 
 (** Of a polynomial in units: no value is greater in size. *)
@@ -196,8 +188,8 @@ Fixpoint least (n : nat) (p : poly) : Z :=
 
 Definition sign_of_number (z : Z) : sign :=
   match z with
-  | Zpos _ => Above
-  | Z0 => AtLeast
+  | Zpos _ => Positive
+  | Z0 => NonNegative
   | Zneg _ => Unknown
   end.
 
@@ -205,25 +197,65 @@ Definition sign_of_number (z : Z) : sign :=
 Definition both (s t : sign) : sign :=
   match s, t with
   | Unknown, _ | _, Unknown => Unknown
-  | AtLeast, AtLeast => AtLeast
-  | _, _ => Above
+  | NonNegative, NonNegative => NonNegative
+  | _, _ => Positive
   end.
 
 Definition weak (s : sign) : sign :=
   match s with
-  | Above => AtLeast
+  | Positive => NonNegative
   | _ => s
   end.
 
-Fixpoint sign_of (kinds : list kind) (p : poly) : sign :=
-  match kinds, p with
+Fixpoint sign_of_terms (signs : list sign) (p : poly) : sign :=
+  match signs, p with
   | _, Const z => sign_of_number z
   | [], _ => sign_of_number (least 24 p)
-  | Positive :: others, Grow p q => both (sign_of others p) (sign_of kinds q)
-  | NonNegative :: others, Grow p q => both (sign_of others p) (weak (sign_of kinds q))
-  | Free :: others, Grow p (Const 0) => sign_of others p
-  | Free :: others, Grow p (Grow (Const 0) q) => both (sign_of others p) (weak (sign_of kinds q))
-  | Free :: _, Grow _ _ => Unknown
+  | Positive :: others, Grow p q => both (sign_of_terms others p) (sign_of_terms signs q)
+  | NonNegative :: others, Grow p q => both (sign_of_terms others p) (weak (sign_of_terms signs q))
+  | Unknown :: others, Grow p (Const 0) => sign_of_terms others p
+  | Unknown :: others, Grow p (Grow (Const 0) q) =>
+      both (sign_of_terms others p) (weak (sign_of_terms signs q))
+  | Unknown :: _, Grow _ _ => Unknown
+  end.
+
+(** With a number for the n-th variable. *)
+Fixpoint put (n : nat) (z : Z) (p : poly) : poly :=
+  match n, p with
+  | _, Const y => Const y
+  | O, Grow p q => add (grow p (Const 0)) (scale z (put O z q))
+  | S n, Grow p q => grow (put n z p) (put (S n) z q)
+  end.
+
+(** If twice a polynomial is p + x (q + x r), and 4 r p - q^2 is at least 0, then so is it if r > 0: for 4 r
+    times that is (2 r x + q)^2 more than this. If r = 0, then q = 0, and the sign is that of p. *)
+Definition sign_of_square (signs : list sign) (a : poly) (n : nat) : sign :=
+  let x := variable n in
+  let p := times 2 (put n 0 a) in
+  let q := add (put n 1 a) (times (-1) (put n (-1) a)) in
+  let r := add (add (put n 1 a) (put n (-1) a)) (times (-1) p) in
+  if same (times 2 a) (add p (mul x (add q (mul x r)))) then
+    match sign_of_terms signs r, sign_of_terms signs p with
+    | Unknown, _ | NonNegative, Unknown => Unknown
+    | _, _ => sign_of_terms signs (add (times 4 (mul r p)) (times (-1) (mul q q)))
+    end
+  else Unknown.
+
+Fixpoint sign_of_squares (signs : list sign) (a : poly) (n : nat) : sign :=
+  match n with
+  | O => Unknown
+  | S n =>
+      match sign_of_square signs a n with
+      | Unknown => sign_of_squares signs a n
+      | s => s
+      end
+  end.
+
+(** By its terms, or else as a square in one of the variables, but for units. *)
+Definition sign_of (signs : list sign) (p : poly) : sign :=
+  match sign_of_terms signs p with
+  | Unknown => sign_of_squares signs p (length signs)
+  | s => s
   end.
 
 Lemma units_tl env : units env -> units (tl env) /\ -1 <= hd 0 env <= 1.
@@ -290,19 +322,50 @@ Proof. destruct s; simpl; intros; try exact I; apply Rmult_le_pos; lra. Qed.
 Lemma of_positive s x y : of_sign s x -> 0 < y -> of_sign s (y * x).
 Proof. destruct s; simpl; intros; try exact I; [apply Rmult_lt_0_compat | apply Rmult_le_pos]; lra. Qed.
 
-Lemma of_poly kinds p env : fits kinds env -> of_sign (sign_of kinds p) (value env p).
+Lemma complete_square s (p q r x : R) :
+  0 < r \/ 0 = r /\ 0 <= p -> of_sign s (4 * (r * p) + -1 * (q * q)) -> of_sign s (p + x * (q + x * r)).
 Proof.
-  revert kinds p env; fix right 2; intros kinds [z | p q] env F.
-  - destruct kinds as [ | [ | | ] others]; apply of_number, Rle_refl.
-  - destruct kinds as [ | k others]; [apply of_number, (value_least 24 (Grow p q)), F | ].
+  intros [R | [<- P]] D.
+  - replace (p + _) with (/ (4 * r) * (4 * (r * p) + -1 * (q * q) + Rsqr (2 * r * x + q)))
+      by (unfold Rsqr; field; lra).
+    apply of_positive; [ | apply Rinv_0_lt_compat; lra].
+    pose proof (Rle_0_sqr (2 * r * x + q)). destruct s; simpl in *; lra.
+  - pose proof (Rle_0_sqr q) as Q. unfold Rsqr in Q. destruct s; simpl in *; try exact I; [lra | ].
+    replace q with 0 by (symmetry; apply Rsqr_0_uniq; unfold Rsqr; lra). lra.
+Qed.
+
+Lemma of_terms signs p env : fits signs env -> of_sign (sign_of_terms signs p) (value env p).
+Proof.
+  revert signs p env; fix right 2; intros signs [z | p q] env F.
+  - destruct signs as [ | [ | | ] others]; apply of_number, Rle_refl.
+  - destruct signs as [ | k others]; [apply of_number, (value_least 24 (Grow p q)), F | ].
     pose proof F as [K T]. pose proof (right others p _ T) as P.
     pose proof (right (k :: others) q _ F) as Q.
-    destruct k; cbn [sign_of value].
+    destruct k; cbn [sign_of_terms value].
     + apply of_both, of_positive; assumption.
     + apply of_both, of_weak; assumption.
     + destruct q as [[ | | ] | [[ | | ] | ] q]; try exact I.
       * simpl. rewrite Rmult_0_r, Rplus_0_r. exact P.
       * apply of_both; [exact P | ]. cbn [value].
         replace (_ * _) with (hd 0 env * hd 0 env * value env q) by ring.
-        apply of_weak; [apply (right (Free :: others)), F | apply Rle_0_sqr].
+        apply of_weak; [apply (right (Unknown :: others)), F | apply Rle_0_sqr].
+Qed.
+
+Lemma of_poly signs p env : fits signs env -> of_sign (sign_of signs p) (value env p).
+Proof.
+  intro F. unfold sign_of. pose proof (of_terms signs p env F) as T.
+  destruct (sign_of_terms signs p); [exact T | exact T | clear T].
+  induction (length signs) as [ | n I]; [exact Logic.I | ]. cbn [sign_of_squares].
+  enough (of_sign (sign_of_square signs p n) (value env p))
+    by (destruct (sign_of_square signs p n); assumption).
+  unfold sign_of_square. destruct (same _ _) eqn:E; [ | exact Logic.I].
+  apply (same_value _ _ env) in E. rewrite value_times, value_add, value_mul, value_add, value_mul in E.
+  set (a := times 2 _) in *. set (q := add _ (times _ (put _ _ _))) in *. set (r := add (add _ _) _) in *.
+  pose proof (of_terms signs a env F) as A. pose proof (of_terms signs r env F) as R.
+  pose proof (of_terms signs (add (times 4 (mul r a)) (times (-1) (mul q q))) env F) as D.
+  rewrite value_add, !value_times, !value_mul in D.
+  replace (value env p) with (/ 2 * (2 * value env p)) by field. rewrite E.
+  apply of_positive; [ | lra].
+  destruct (sign_of_terms signs r), (sign_of_terms signs a); try exact Logic.I;
+    (apply complete_square; [ | exact D]); simpl in *; lra.
 Qed.

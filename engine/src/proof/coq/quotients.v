@@ -1,6 +1,6 @@
 (** * Quotients of polynomials, and their signs: a program, and its proof. *)
 From Coq Require Import List Bool ZArith Reals Lra.
-From LIBRARY Require Import B_Polynomials.
+From LIBRARY Require Import A_Polynomials.
 Import ListNotations.
 Open Scope R_scope.
 
@@ -43,32 +43,26 @@ Definition prod (a b : quotient) : quotient :=
   let '(_, m, y) := shared (top b) (bottom a) in
   over (l ++ m) (y ++ x).
 
-Fixpoint power (a : quotient) (n : nat) : quotient :=
-  match n with
-  | O => over [] []
-  | S n => prod a (power a n)
-  end.
-
 (** Is it positive, or is it negative? *)
-Definition strict (kinds : list kind) (p : poly) : option bool :=
-  match sign_of kinds p with
-  | Above => Some true
-  | _ => match sign_of kinds (times (-1) p) with Above => Some false | _ => None end
+Definition strict (signs : list sign) (p : poly) : option bool :=
+  match sign_of signs p with
+  | Positive => Some true
+  | _ => match sign_of signs (times (-1) p) with Positive => Some false | _ => None end
   end.
 
-Definition inverse (kinds : list kind) (a : quotient) : option quotient :=
-  if forallb (fun p => if strict kinds p then true else false) (top a)
+Definition inverse (signs : list sign) (a : quotient) : option quotient :=
+  if forallb (fun p => if strict signs p then true else false) (top a)
   then Some (over (bottom a) (top a)) else None.
 
 (** A polynomial of the same sign as a product: factors of known sign are left out but for that sign. *)
-Fixpoint signed (kinds : list kind) (l : list poly) : poly :=
+Fixpoint signed (signs : list sign) (l : list poly) : poly :=
   match l with
   | [] => Const 1
   | p :: l =>
-      match strict kinds p with
-      | Some true => signed kinds l
-      | Some false => times (-1) (signed kinds l)
-      | None => mul p (signed kinds l)
+      match strict signs p with
+      | Some true => signed signs l
+      | Some false => times (-1) (signed signs l)
+      | None => mul p (signed signs l)
       end
   end.
 
@@ -79,8 +73,7 @@ Inductive formula :=
   | Sum (a b : formula)
   | Product (a b : formula)
   | Opposite (a : formula)
-  | Inverse (a : formula)
-  | Power (a : formula) (n : nat).
+  | Inverse (a : formula).
 
 Fixpoint meaning (env : list R) (f : formula) : R :=
   match f with
@@ -90,7 +83,6 @@ Fixpoint meaning (env : list R) (f : formula) : R :=
   | Product a b => meaning env a * meaning env b
   | Opposite a => - meaning env a
   | Inverse a => / meaning env a
-  | Power a n => meaning env a ^ n
   end.
 
 Definition with_two (f : quotient -> quotient -> quotient) (a b : option quotient) : option quotient :=
@@ -100,21 +92,27 @@ Definition with_two (f : quotient -> quotient -> quotient) (a b : option quotien
   end.
 
 (** A formula as a quotient, if all its divisors have signs. *)
-Fixpoint quotient_of (kinds : list kind) (f : formula) : option quotient :=
+Fixpoint quotient_of (signs : list sign) (f : formula) : option quotient :=
   match f with
   | Literal z => Some (over [Const z] [])
   | Symbol n => Some (over [variable n] [])
-  | Sum a b => with_two sum (quotient_of kinds a) (quotient_of kinds b)
-  | Product a b => with_two prod (quotient_of kinds a) (quotient_of kinds b)
-  | Opposite a => option_map opposite (quotient_of kinds a)
-  | Inverse a => match quotient_of kinds a with Some a => inverse kinds a | None => None end
-  | Power a n => option_map (fun a => power a n) (quotient_of kinds a)
+  | Sum a b => with_two sum (quotient_of signs a) (quotient_of signs b)
+  | Product a b => with_two prod (quotient_of signs a) (quotient_of signs b)
+  | Opposite a => option_map opposite (quotient_of signs a)
+  | Inverse a => match quotient_of signs a with Some a => inverse signs a | None => None end
   end.
 
-Definition sign_of_formula (kinds : list kind) (f : formula) : sign :=
-  match quotient_of kinds f with
-  | Some a => sign_of kinds (signed kinds (bottom a ++ top a))
+Definition sign_of_formula (signs : list sign) (f : formula) : sign :=
+  match quotient_of signs f with
+  | Some a => sign_of signs (signed signs (bottom a ++ top a))
   | None => Unknown
+  end.
+
+(** Is it 0? *)
+Definition is_zero (signs : list sign) (f : formula) : bool :=
+  match quotient_of signs f with
+  | Some a => same (signed signs (top a)) (Const 0)
+  | None => false
   end.
 
 Lemma product_app env l m : product env (l ++ m) = product env l * product env m.
@@ -144,8 +142,8 @@ Proof.
 Qed.
 
 Section Right.
-Variables (kinds : list kind) (env : list R).
-Variable fitting : fits kinds env.
+Variables (signs : list sign) (env : list R).
+Variable fitting : fits signs env.
 
 Definition means (a : quotient) (x : R) : Prop :=
   product env (bottom a) <> 0 /\ product env (top a) / product env (bottom a) = x.
@@ -181,35 +179,29 @@ Proof.
   split; [apply Rmult_integral_contrapositive_currified | field; repeat split]; not_zero_by A B.
 Qed.
 
-Lemma means_power a x n : means a x -> means (power a n) (x ^ n).
+Lemma of_strict p b : strict signs p = Some b -> 0 < (if b then value env p else - value env p).
 Proof.
-  intro A. induction n as [ | n I]; simpl; [split; simpl; [lra | field] | ].
-  apply means_prod; assumption.
+  unfold strict. intro S. pose proof (of_poly signs p env fitting) as P.
+  pose proof (of_poly signs (times (-1) p) env fitting) as Q. rewrite value_times in Q.
+  destruct (sign_of signs p), (sign_of signs (times (-1) p)); inversion S; simpl in *; lra.
 Qed.
 
-Lemma of_strict p b : strict kinds p = Some b -> 0 < (if b then value env p else - value env p).
-Proof.
-  unfold strict. intro S. pose proof (of_poly kinds p env fitting) as P.
-  pose proof (of_poly kinds (times (-1) p) env fitting) as Q. rewrite value_times in Q.
-  destruct (sign_of kinds p), (sign_of kinds (times (-1) p)); inversion S; simpl in *; lra.
-Qed.
-
-Lemma means_inverse a b x : inverse kinds a = Some b -> means a x -> means b (/ x).
+Lemma means_inverse a b x : inverse signs a = Some b -> means a x -> means b (/ x).
 Proof.
   unfold inverse, means. destruct (forallb _ (top a)) eqn:N; [ | discriminate].
   assert (product env (top a) <> 0).
   { induction (top a) as [ | p l I]; simpl; [lra | ].
-    apply andb_prop in N as [P N]. destruct (strict kinds p) as [b' | ] eqn:S; [ | discriminate].
+    apply andb_prop in N as [P N]. destruct (strict signs p) as [b' | ] eqn:S; [ | discriminate].
     apply Rmult_integral_contrapositive_currified; [ | exact (I N)].
     pose proof (of_strict p b' S). destruct b'; lra. }
   intros [= <-] [A <-]. simpl. split; [assumption | field; auto].
 Qed.
 
-Lemma means_formula f a : quotient_of kinds f = Some a -> means a (meaning env f).
+Lemma means_formula f a : quotient_of signs f = Some a -> means a (meaning env f).
 Proof.
-  revert a; induction f as [z | n | f I g J | f I g J | f I | f I | f I n]; simpl; intros a E;
-    try (destruct (quotient_of kinds f) as [b | ]; simpl in E; [specialize (I b eq_refl) | discriminate]);
-    try (destruct (quotient_of kinds g) as [c | ]; simpl in E; [specialize (J c eq_refl) | discriminate]);
+  revert a; induction f as [z | n | f I g J | f I g J | f I | f I]; simpl; intros a E;
+    try (destruct (quotient_of signs f) as [b | ]; simpl in E; [specialize (I b eq_refl) | discriminate]);
+    try (destruct (quotient_of signs g) as [c | ]; simpl in E; [specialize (J c eq_refl) | discriminate]);
     try (injection E as <-).
   - apply (means_one (Const z)).
   - rewrite <- value_variable. apply means_one.
@@ -217,22 +209,21 @@ Proof.
   - apply means_prod; assumption.
   - apply means_opposite; assumption.
   - apply (means_inverse b); assumption.
-  - apply means_power; assumption.
 Qed.
 
-Lemma product_signed l : exists k, 0 < k /\ product env l = k * value env (signed kinds l).
+Lemma product_signed l : exists k, 0 < k /\ product env l = k * value env (signed signs l).
 Proof.
   induction l as [ | p l (k & K & I)]; cbn [product fold_right signed]; [exists 1; simpl; lra | ].
   change (fold_right _ 1 l) with (product env l). rewrite I.
-  destruct (strict kinds p) as [b | ] eqn:S; [pose proof (of_strict p b S); destruct b | ].
+  destruct (strict signs p) as [b | ] eqn:S; [pose proof (of_strict p b S); destruct b | ].
   - exists (value env p * k). split; [apply Rmult_lt_0_compat; assumption | ring].
   - exists (- value env p * k). rewrite value_times. split; [apply Rmult_lt_0_compat; assumption | ring].
   - exists k. rewrite value_mul. split; [exact K | ring].
 Qed.
 
-Lemma of_formula f : of_sign (sign_of_formula kinds f) (meaning env f).
+Lemma of_formula f : of_sign (sign_of_formula signs f) (meaning env f).
 Proof.
-  unfold sign_of_formula. destruct (quotient_of kinds f) as [a | ] eqn:Q; [ | exact I].
+  unfold sign_of_formula. destruct (quotient_of signs f) as [a | ] eqn:Q; [ | exact I].
   destruct (means_formula f a Q) as [B <-].
   destruct (product_signed (bottom a ++ top a)) as (k & K & P). rewrite product_app in P.
   set (s := value env _) in P. set (b := product env (bottom a)) in *.
@@ -242,12 +233,19 @@ Proof.
   - transitivity (k * s / (b * b)); [field; exact B | ]. rewrite <- P. field. exact B.
 Qed.
 
-Lemma above f : sign_of_formula kinds f = Above -> 0 < meaning env f.
+Lemma zero f : is_zero signs f = true -> meaning env f = 0.
+Proof.
+  unfold is_zero. destruct (quotient_of signs f) as [a | ] eqn:Q; [ | discriminate].
+  intro Z. apply (same_value _ _ env) in Z. destruct (means_formula f a Q) as [B <-].
+  destruct (product_signed (top a)) as (k & _ & ->). rewrite Z. simpl. field. exact B.
+Qed.
+
+Lemma above f : sign_of_formula signs f = Positive -> 0 < meaning env f.
 Proof. intro S. pose proof (of_formula f) as P. rewrite S in P. exact P. Qed.
 
-Lemma at_least f : weak (sign_of_formula kinds f) = AtLeast -> 0 <= meaning env f.
+Lemma at_least f : weak (sign_of_formula signs f) = NonNegative -> 0 <= meaning env f.
 Proof.
   intro S. pose proof (of_formula f) as P.
-  destruct (sign_of_formula kinds f); simpl in *; [lra | exact P | discriminate].
+  destruct (sign_of_formula signs f); simpl in *; [lra | exact P | discriminate].
 Qed.
 End Right.

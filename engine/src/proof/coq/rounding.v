@@ -3,11 +3,9 @@
     Without under- and overflow, to round to [prec] bits is to multiply by 1 + e/(n + 1), where n = 2^prec
     and e is some number from -1 to 1. What is said of computed values is then said of quotients of
     polynomials, whose signs a program decides. *)
-From Coq Require Import List Bool ZArith Lia.
+From Coq Require Import ZArith Lia.
 From Flocq Require Import Core Relative.
 From LIBRARY Require Import A_Tactics.
-From LIBRARY Require B_Polynomials B_Quotients.
-Import ListNotations.
 Open Scope R_scope.
 
 (** ** Rounding
@@ -61,122 +59,6 @@ Ltac rounded E :=
   end;
   clear E.
 
-(** ** Sizes *)
-Lemma within x b : 0 <= b - x -> 0 <= b + x -> Rabs x <= b.
-Proof. intros. apply Rabs_le. lra. Qed.
-
-(** What lies between two values, by something that lies between -1 and 1. *)
-Lemma between a b x :
-  0 <= (b - x) * (x - a) -> exists t, -1 <= t <= 1 /\ x = (a + b) / 2 + (b - a) / 2 * t.
-Proof.
-  intro H. destruct (Req_dec a b) as [<- | D].
-  - exists 0. split; [lra | nra].
-  - exists ((2 * x - a - b) / (b - a)). split; [ | field; lra].
-    enough (0 <= 1 - (2 * x - a - b) / (b - a) * ((2 * x - a - b) / (b - a))) by nra.
-    replace (1 - _) with (4 * ((b - x) * (x - a)) / ((b - a) * (b - a))) by (field; lra).
-    apply Rdiv_le_0_compat; [lra | ]. apply Rsqr_pos_lt. lra.
-Qed.
-
-Lemma near a m x : Rabs (x - a) <= m -> exists t, -1 <= t <= 1 /\ x = a + m * t.
-Proof.
-  intro H. apply Rabs_le_inv in H.
-  destruct (between (a - m) (a + m) x) as (t & T & E); [nra | ].
-  exists t. split; [exact T | lra].
-Qed.
-
-(** ** Signs
-
-    The variables of a formula, before those in [l]: whatever is not computed from others. *)
-Ltac variables x l :=
-  let two a b := (let l := variables a l in variables b l) in
-  let one x := lazymatch l with context [x :: _] => l | _ => constr:(x :: l) end in
-  lazymatch x with
-  | ?a + ?b => two a b
-  | ?a - ?b => two a b
-  | ?a * ?b => two a b
-  | ?a / ?b => two a b
-  | - ?a => variables a l
-  | / ?a => variables a l
-  | ?a ^ ?n => let known := isnatcst n in lazymatch known with true => variables a l | _ => one x end
-  | IZR ?z => let known := isZcst z in lazymatch known with true => l | _ => one x end
-  | _ => one x
-  end.
-
-(** First those of which no more is known than a sign, with what is known of them. *)
-Ltac in_order l units :=
-  lazymatch l with
-  | [] => constr:((@nil B_Polynomials.kind, units))
-  | ?x :: ?l =>
-      let put k :=
-        (let r := in_order l units in
-         lazymatch r with (?kinds, ?env) => constr:((k :: kinds, x :: env)) end) in
-      match goal with
-      | _ : -1 <= x <= 1 |- _ => in_order l (x :: units)
-      | _ : 0 < x |- _ => put B_Polynomials.Positive
-      | _ : 0 <= x |- _ => put B_Polynomials.NonNegative
-      | _ => put B_Polynomials.Free
-      end
-  end.
-
-Ltac place x l :=
-  lazymatch l with
-  | x :: _ => constr:(O)
-  | _ :: ?l => let n := place x l in constr:(S n)
-  end.
-
-(** A formula as the program reads it. *)
-Ltac formula x l :=
-  let two f a b := (let a := formula a l in let b := formula b l in constr:(f a b)) in
-  let one f a := (let a := formula a l in constr:(f a)) in
-  lazymatch l with
-  | context [x :: _] => let n := place x l in constr:(B_Quotients.Symbol n)
-  | _ =>
-      lazymatch x with
-      | ?a + ?b => two B_Quotients.Sum a b
-      | ?a - ?b => formula (a + - b) l
-      | ?a * ?b => two B_Quotients.Product a b
-      | ?a / ?b => formula (a * / b) l
-      | - ?a => one B_Quotients.Opposite a
-      | / ?a => one B_Quotients.Inverse a
-      | ?a ^ ?n => let a := formula a l in constr:(B_Quotients.Power a n)
-      | IZR ?z => constr:(B_Quotients.Literal z)
-      end
-  end.
-
-Ltac by_program rule x :=
-  let l := variables x (@nil R) in
-  let r := in_order l (@nil R) in
-  lazymatch r with
-  | (?kinds, ?env) =>
-      let f := formula x env in
-      let fitting := fresh in
-      assert (fitting : B_Polynomials.fits kinds env);
-      [ cbn [B_Polynomials.fits B_Polynomials.units B_Polynomials.of_kind hd tl];
-        repeat (apply conj; [first [exact I | assumption] | ]); exact I
-      | exact (rule kinds env fitting f ltac:(vm_compute; reflexivity)) ]
-  end.
-
-(** A sign, from [0 < v], [0 <= v] or [-1 <= v <= 1] for each of the variables; or a comparison. *)
-Ltac bounded :=
-  lazymatch goal with
-  | |- 0 < ?x => first [by_program B_Quotients.above x | fail 1 "no sign"]
-  | |- 0 <= ?x => first [by_program B_Quotients.at_least x | fail 1 "no sign"]
-  | |- _ < _ => apply Rminus_gt_0_lt; bounded
-  | |- _ <= _ => apply Rminus_le_0; bounded
-  end.
-
-(** What has the same value for all values of the variables. *)
-Ltac equal := apply Rle_antisym; bounded.
-
-(** Each minimum is one of two, whichever is seen to be less; each bracket is its argument or 0. *)
-Ltac minima :=
-  repeat match goal with
-  | |- context [Rmin ?a ?b] =>
-      first [rewrite (Rmin_left a b) by bounded | rewrite (Rmin_right a b) by bounded]
-  | |- context [Rmax ?a 0] =>
-      first [rewrite (Rmax_left a 0) by bounded | rewrite (Rmax_right a 0) by bounded]
-  end.
-
 (** ** Signs of what is rounded: those that it had *)
 Lemma fl_by_factor prec choice x : (2 <= prec)%Z -> exists k, 0 < k /\ fl prec choice x = x * k.
 Proof.
@@ -197,13 +79,6 @@ Proof.
   intros P X. destruct (fl_by_factor prec choice x P) as (k & K & ->).
   apply Rmult_integral_contrapositive_currified; lra.
 Qed.
-
-(** ** Divisors *)
-Ltac not_zero :=
-  lazymatch goal with
-  | |- fl _ _ _ <> 0 => apply fl_not_zero; [assumption | not_zero]
-  | |- _ => first [apply positive_not_zero; bounded | apply negative_not_zero; bounded]
-  end.
 
 (** ** Order
 
@@ -239,7 +114,7 @@ Ltac not_negative :=
   | |- 0 <= fl _ _ _ => first [assumption | apply fl_not_negative; [assumption | not_negative]]
   | |- 0 < fl _ _ _ => apply fl_positive; [assumption | not_negative]
   | |- 0 <= _ * _ => apply Rmult_le_pos; not_negative
-  | |- _ => first [positivity | lra | bounded]
+  | |- _ => first [lra | bounded]
   end.
 Ltac by_order := apply difference; step_in_order; not_negative.
 
@@ -274,6 +149,6 @@ Ltac in_units k :=
   f_equal;
   repeat match goal with U : fl _ _ _ = _ * fl _ _ _ |- _ => rewrite U; clear U end;
   field; repeat split;
-  first [apply power_not_zero; power_of_two | lra | not_zero].
+  first [apply power_not_zero; power_of_two | lra | apply fl_not_zero; [assumption | not_zero] | not_zero].
 Ltac by_units :=
   match goal with U : ?x = _ |- ?x = _ => rewrite U; ring end.

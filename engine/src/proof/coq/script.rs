@@ -1,42 +1,51 @@
-//! The proof of a goal as Coq's tactics: the kernel's derivation, retold.
+//! The proof of a goal as Coq's tactics.
 //!
-//! What the kernel *found* is used: which quantities to name, into which cases to split, which value a
-//! bracket has, and a form of each quantity from which its sign can be read off. None of it is believed:
-//! each step is a goal that Coq closes by itself, or does not.
+//! What the kernel *found* is used, as far as Coq would have to guess it: which quantities to name, into
+//! which cases to split, and what has the sign of its slope. None of it is believed: each step is a goal that
+//! Coq closes by itself, or does not.
 
 mod limit;
+mod rounding;
 
 use super::expr::Expr;
+use super::lemma::{Lemma, Result};
 use super::print::ascii;
-use crate::formula::statement::minimum_precision;
-use crate::number::Tree;
+use crate::formula::{Hypothesis, Proposition, Registry, Statement};
 use crate::number::tree::Step;
-use crate::proof::kernel::algebra::{Monomial, Poly, Ratio, Symbol};
-use crate::proof::kernel::sign::{Certificate, Known, Rule, Sign};
+use crate::proof::kernel;
+use crate::proof::kernel::algebra::{Poly, Ratio, Symbol};
+use crate::proof::kernel::sign::{Certificate, Rule, Sign};
 use crate::proof::kernel::{Because, Derivation, Direct, Signed, Supposed, Used};
-use crate::proof::search;
+use crate::proof::paper::Paper;
 use std::fmt::Write;
 
-/// Lines of a proof, and what is known at their end.
-#[derive(Clone, Default)]
+/// Lines of a proof.
+#[derive(Default)]
 pub(super) struct Script {
     lines: String,
     indent: usize,
-    known: Known,
-    /// How many suppositions have been made, and how many of them by splitting.
-    supposed: usize,
-    cases: usize,
-    /// How many hypotheses have been put to use.
-    given: usize,
-    /// Is it about what is rounded?
-    rounds: bool,
 }
 
-/// Why a derivation has no script.
-pub(super) type Reason = &'static str;
+/// Where a proof stands: in which lemma, after how many suppositions, how many of them by splitting.
+#[derive(Clone, Copy)]
+struct Place<'l> {
+    lemma: &'l Lemma<'l>,
+    supposed: usize,
+    cases: usize,
+}
+
+/// # Errors
+/// Returns the reason if the kernel finds no derivation.
+pub(super) fn derivation(hypotheses: &[&Hypothesis], proposition: &Proposition) -> Result<Derivation> {
+    kernel::derivation(hypotheses, proposition).map_err(|why| {
+        let statement = Statement::new("", proposition.clone()).assuming(hypotheses.iter().copied());
+        let why = Paper::new(&Registry::default()).why(&statement, &why);
+        format!("there is no proof to follow: {why}")
+    })
+}
 
 /// Any of the derivations without cases that a derivation ends in: all begin with the same suppositions.
-pub(super) fn first(derivation: &Derivation) -> &Direct {
+fn first(derivation: &Derivation) -> &Direct {
     match derivation {
         Derivation::Direct(direct) => direct,
         Derivation::Cases(_, positive, _) => first(positive),
@@ -48,9 +57,13 @@ impl Script {
         Script { indent: 1, ..Script::default() }
     }
 
-    /// For what is rounded: there are other tactics for that.
-    pub(super) fn of_roundings() -> Self {
-        Script { rounds: true, ..Script::new() }
+    /// With all that a lemma speaks of and supposes.
+    pub(super) fn of(lemma: &Lemma) -> Self {
+        let mut script = Script::new();
+        let intros = lemma.intros();
+        script.line(format!("{intros} functions.").trim_start());
+        lemma.signs_of_scales().iter().for_each(|line| script.line(line));
+        script
     }
 
     pub(super) fn into_text(self) -> String {
@@ -61,13 +74,9 @@ impl Script {
         let _ = writeln!(self.lines, "{:1$}{text}", "", 2 * self.indent);
     }
 
-    /// A part of its own; its names end with it.
-    pub(super) fn block(
-        &mut self,
-        bullet: &str,
-        inside: impl FnOnce(&mut Self) -> Result<(), Reason>,
-    ) -> Result<(), Reason> {
-        let mut own = Script { lines: String::new(), indent: self.indent + 1, ..self.clone() };
+    /// A part of its own.
+    pub(super) fn block(&mut self, bullet: &str, inside: impl FnOnce(&mut Self) -> Result<()>) -> Result<()> {
+        let mut own = Script { lines: String::new(), indent: self.indent + 1 };
         inside(&mut own)?;
         let pad = " ".repeat(2 * self.indent);
         let text = own.lines.trim_start();
@@ -76,134 +85,45 @@ impl Script {
         Ok(())
     }
 
-    /// The whole derivation, from hypotheses H1, H2, …
-    pub(super) fn derivation(&mut self, derivation: &Derivation) -> Result<(), Reason> {
-        self.hypotheses(first(derivation))?;
-        self.cases(derivation)
+    /// Proves a proposition, or another whose proof supposes the same, from what a lemma supposes.
+    pub(super) fn goal(&mut self, lemma: &Lemma, proposition: &Proposition) -> Result<()> {
+        let derivation = derivation(lemma.given(), proposition)?;
+        let direct = first(&derivation);
+        match &direct.because {
+            Because::Same(_) if !direct.errors.is_empty() => return self.in_units(&direct.errors, lemma),
+            Because::Order(_) => return self.order(direct, lemma),
+            _ if lemma.rounds => self.models(&direct.errors, lemma),
+            _ => {}
+        }
+        self.derivation(Place { lemma, supposed: 0, cases: 0 }, &derivation)
     }
 
-    /// The hypotheses that come before the next case, put to use.
-    fn hypotheses(&mut self, direct: &Direct) -> Result<(), Reason> {
-        let next = direct.supposed.iter().skip(self.supposed);
-        for supposed in next.take_while(|supposed| supposed.given.is_some()) {
-            let says_bits = supposed.given.as_ref().is_some_and(|given| *given == minimum_precision());
-            self.given += usize::from(!says_bits);
-            let label = if says_bits { "M".to_string() } else { format!("H{}", self.given) };
-            self.suppose(supposed, &label)?;
+    /// Puts the hypotheses that come before the next case to use.
+    fn hypotheses(&mut self, place: &mut Place, direct: &Direct) -> Result<()> {
+        while let Some(next) = direct.supposed.get(place.supposed)
+            && let Some(given) = next.given.as_ref()
+        {
+            place.supposed += 1;
+            self.suppose(place.supposed, next, place.lemma.label(given))?;
         }
         Ok(())
     }
 
-    /// One rounded formula is no less than another, from hypotheses H1, H2, …
-    pub(super) fn order(&mut self, direct: &Direct, precision: &str) -> Result<(), Reason> {
-        let rounds = |supposed: &Supposed| supposed.given.as_ref().is_some_and(|given| given.value.rounds());
-        let says_bits =
-            |supposed: &Supposed| supposed.given.as_ref().is_some_and(|given| *given == minimum_precision());
-        let is_solved = |supposed: &Supposed| {
-            matches!(&supposed.used, Used::Pivot(..)) && !rounds(supposed) && !says_bits(supposed)
-        };
-        // Signs of symbols are put to use as they are.
-        if direct.supposed.iter().any(is_solved) {
-            if direct.supposed.iter().any(rounds) {
-                return Err(
-                    "an order that rests on one hypothesis to be solved and another about what is rounded",
-                );
-            }
-            self.line(&format!("pose proof (four_at_least prec {precision} P E) as N."));
-            self.line(&format!("assert (M : 0 <= {precision} - 4) by lra. clear E."));
-            self.hypotheses(direct)?;
-            self.line("pivots.");
-        }
-        self.line("by_order.");
-        Ok(())
-    }
-
-    fn suppose(&mut self, supposed: &Supposed, hypothesis: &str) -> Result<(), Reason> {
-        self.supposed += 1;
-        let i = self.supposed;
-        let (kind, relation, sign) = match supposed.sign {
-            Sign::Positive => ("positive", "<", Sign::Positive),
-            _ => ("nonnegative", "<=", Sign::NonNegative),
-        };
-        if supposed.divided_by.as_ref().is_some() {
-            return Err("a hypothesis is divided by a quantity");
-        }
-        match &supposed.used {
-            Used::Follows | Used::Unused => {}
-            Used::Between(_, _, place) => {
-                let near = supposed.given.as_ref().is_some_and(|given| given.distance().is_some());
-                let (rule, place) = (if near { "near" } else { "between" }, ascii(place.name()));
-                self.line(&format!("destruct ({rule} _ _ _ {hypothesis}) as ({place} & T{i} & ->)."));
-            }
-            Used::Symbol(x) => {
-                self.known.insert(*x, sign);
-                if supposed.given.as_ref().is_some_and(|given| *given.value.step() == Step::Symbol(x.name()))
-                {
-                    return Ok(());
-                }
-                let name = ascii(x.name());
-                self.line(&format!(
-                    "assert (P{i} : 0 {relation} {name}) by (apply (same_{kind} _ _ {hypothesis}); {}).",
-                    self.same()
-                ));
-            }
-            Used::Pivot(pivot, by, named) => {
-                // pivot − by = factor · (the quantity − its name)
-                let difference = Ratio::from(Poly::from(pivot.clone())) - by;
-                let name = named.map_or(Ratio::zero(), |name| Poly::symbol(name).into());
-                let factor =
-                    difference.over(&(&supposed.value - name)).ok_or("a hypothesis has no solution")?;
-                let (pivot, by, factor) =
-                    (Expr::poly(&pivot.clone().into()), Expr::ratio(by), Expr::ratio(&factor).argument());
-                if let Some(x) = named {
-                    let name = ascii(x.name());
-                    self.line(&format!("destruct (named_{kind} _ {hypothesis}) as ({name} & S{i} & P{i})."));
-                    self.line(&format!(
-                        "assert (E{i} : pivot {} {}) by \
-                         (apply (solved_for _ _ {factor} _ _ S{i}); {}).",
-                        pivot.argument(),
-                        by.argument(),
-                        self.same()
-                    ));
-                    if self.rounds {
-                        // The name itself may be replaced later, and not by what it was given to.
-                        self.line(&format!("clear S{i}."));
-                    }
-                    self.known.insert(*x, sign);
-                } else if self.rounds {
-                    self.line(&format!(
-                        "assert (E{i} : pivot {} {}) by (apply (solved _ {factor} _ _ {hypothesis}); {}).",
-                        pivot.argument(),
-                        by.argument(),
-                        self.same()
-                    ));
-                } else {
-                    self.line(&format!(
-                        "assert (E{i} : {pivot} = {by}) by \
-                         (apply (solved _ {factor} _ _ {hypothesis}); identity)."
-                    ));
-                }
-            }
-        }
-        Ok(())
-    }
-
-    fn cases(&mut self, derivation: &Derivation) -> Result<(), Reason> {
+    fn derivation(&mut self, mut place: Place, derivation: &Derivation) -> Result<()> {
+        self.hypotheses(&mut place, first(derivation))?;
         match derivation {
             Derivation::Direct(direct) => self.direct(direct),
             Derivation::Cases(deciding, positive, not) => {
-                self.cases += 1;
-                let case = format!("C{}", self.cases);
-                self.line(&format!(
-                    "destruct (either {}) as [{case} | {case}].",
-                    Expr::poly(deciding).argument()
-                ));
+                place.supposed += 1;
+                place.cases += 1;
+                let case = format!("C{}", place.cases);
+                let deciding = Expr::poly(deciding).argument();
+                self.line(&format!("destruct (either {deciding}) as [{case} | {case}]."));
                 for branch in [positive, not] {
                     self.block("{", |own| {
-                        let supposed =
-                            first(branch).supposed.get(own.supposed).ok_or("a case supposes nothing")?;
-                        own.suppose(supposed, &case)?;
-                        own.derivation(branch)
+                        let split = &first(branch).supposed[place.supposed - 1];
+                        own.suppose(place.supposed, split, Some(case.clone()))?;
+                        own.derivation(place, branch)
                     })?;
                 }
                 Ok(())
@@ -211,175 +131,111 @@ impl Script {
         }
     }
 
-    /// How two formulas are seen to be the same.
-    fn same(&self) -> &'static str {
-        if self.rounds { "pivots; equal" } else { "identity" }
-    }
-
-    fn direct(&mut self, direct: &Direct) -> Result<(), Reason> {
-        if self.rounds {
-            let of_goal: &[Signed] = match &direct.because {
-                Because::Sign(signed) => std::slice::from_ref(signed),
-                Because::Within(both) => &both[..],
-                _ => &[],
-            };
-            let of_divisors = direct.divisors.iter().map(|(_, signed)| signed);
-            let of_brackets = direct.brackets.iter().map(|(.., signed)| signed);
-            let mut signs = of_goal.iter().chain(of_divisors).chain(of_brackets);
-            if !signs.all(|signed| has_program(&signed.num) && has_program(&signed.den)) {
-                return Err("the sign of what is rounded rests on a square or a slope");
+    /// Puts the i-th supposition to use.
+    fn suppose(&mut self, i: usize, supposed: &Supposed, hypothesis: Option<String>) -> Result<()> {
+        let strict = supposed.sign.is_strict();
+        let is_said_of = |x: &Symbol| {
+            supposed.given.as_ref().is_some_and(|given| *given.value.step() == Step::Symbol(x.name()))
+        };
+        match (&supposed.used, hypothesis) {
+            (Used::Follows | Used::Unused, _) => {}
+            (Used::Symbol(x), _) if is_said_of(x) => {}
+            (_, None) => {
+                return Err("more is supposed of what tends to infinity than that it is positive".into());
             }
-            self.line(match &direct.because {
-                Because::Within(..) => "pivots. minima. apply within; bounded.",
-                _ => "pivots. minima. bounded.",
-            });
-            return Ok(());
-        }
-        // A divisor that is itself a quotient, or that hypotheses rewrite, is asked for by its numerator.
-        let quotient = |tree: &Tree| tree.any(&|step| matches!(step.step(), Step::Div(..)));
-        let rewritten = direct.supposed.iter().any(|s| matches!(&s.used, Used::Pivot(..)));
-        let numerators = direct.divisors.iter().filter(|(tree, _)| rewritten || quotient(tree));
-        for (i, (_, signed)) in numerators.enumerate() {
-            let value = self.positive(&signed.num)?;
-            self.line(&format!(
-                "assert (M{} : {value} <> 0) by (apply positive_not_zero; positivity).",
-                i + 1
-            ));
-        }
-        for (i, (bracket, result, signed)) in direct.brackets.iter().enumerate() {
-            // All its occurrences are rewritten at once.
-            if direct.brackets[..i].iter().all(|(known, ..)| known != bracket) {
-                self.bracket(bracket, result, signed)?;
+            (Used::Symbol(x), Some(hypothesis)) => self.line(&format!(
+                "assert (P{i} : 0 {} {}) by (apply (same_sign _ _ _ {hypothesis}); decide_goal).",
+                if strict { "<" } else { "<=" },
+                ascii(x.name())
+            )),
+            (Used::Between(_, _, place), Some(hypothesis)) => {
+                let near = supposed.given.as_ref().is_some_and(|given| given.distance().is_some());
+                let (rule, place) = (if near { "near" } else { "between" }, ascii(place.name()));
+                self.line(&format!("destruct ({rule} _ _ _ {hypothesis}) as ({place} & T{i} & ->)."));
             }
-        }
-        match &direct.because {
-            Because::Same(_) => self.line("identity."),
-            Because::Sign(signed) => {
-                let value = self.size(signed)?;
-                self.line(&format!("sign_by {}.", value.argument()));
+            (Used::Pivot(pivot, by, named), Some(hypothesis)) => {
+                let (mut value, mut hypothesis) = (Some(supposed.value.clone()), hypothesis);
+                if let Some(divisor) = supposed.divided_by.as_ref() {
+                    value = supposed.value.over(divisor);
+                    let (divisor, rule) = (Expr::ratio(divisor), if strict { "lt" } else { "le" });
+                    hypothesis =
+                        format!("(Rdiv_{rule}_0_compat _ _ {hypothesis} (ltac:(bounded) : 0 < {divisor}))");
+                }
+                let mut equation = hypothesis.clone();
+                if let Some(x) = named {
+                    let name = ascii(x.name());
+                    self.line(&format!("destruct (named _ _ {hypothesis}) as ({name} & S{i} & P{i})."));
+                    equation = format!("(eq_sym S{i})");
+                }
+                // pivot − by = factor · (the quantity − its name)
+                let difference = Ratio::from(Poly::from(pivot.clone())) - by;
+                let name = named.map_or(Ratio::zero(), |name| Poly::symbol(name).into());
+                let factor = value.and_then(|value| difference.over(&(value - name)));
+                let factor = factor.ok_or("a hypothesis has no solution")?;
+                let [by, factor] = [by, &factor].map(|ratio| Expr::ratio(ratio).argument());
+                let pivot = Expr::poly(&pivot.clone().into()).argument();
+                self.line(&format!(
+                    "assert (E{i} : pivot {pivot} {by}) by (apply (solved _ _ {factor} _ _ {equation}); \
+                     decide_goal)."
+                ));
+                if named.is_some() {
+                    // The name itself may be replaced later, and not by what it was given to.
+                    self.line(&format!("clear S{i}."));
+                }
             }
-            Because::Derivative(..) => self.line("derivative."),
-            Because::Within(..) | Because::Order(_) => return Err("a bound"),
-            Because::Limit { .. } => return Err("a limit among other goals"),
         }
         Ok(())
     }
 
-    fn bracket(&mut self, bracket: &Tree, result: &Tree, signed: &Signed) -> Result<(), Reason> {
-        let first = signed.sign().implies(Sign::NonNegative);
-        let tactic = match (bracket.step(), first) {
-            (Step::Min(..), true) => "minimum_first",
-            (Step::Min(..), false) => "minimum_second",
-            (_, true) => "bracket_open",
-            (_, false) => "bracket_shut",
+    fn direct(&mut self, direct: &Direct) -> Result<()> {
+        let divisors = direct.divisors.iter().map(|(_, signed)| signed);
+        let mut passing = divisors.chain(direct.brackets.iter().map(|(.., signed)| signed));
+        let (decided, slopes) = match &direct.because {
+            Because::Sign(signed) => (slope_of(signed), slopes(&signed.num)),
+            _ => (None, 0),
         };
-        debug_assert!(!matches!(bracket.step(), Step::Min(a, _) if first != (a == result)), "{bracket}");
-        let size = self.size(signed)?;
-        self.line(&format!("{tactic} {}.", size.argument()));
+        if slopes != usize::from(decided.is_some()) || passing.any(|signed| self::slopes(&signed.num) > 0) {
+            return Err("the sign of a divisor, a bracket or a slope rests on a slope".into());
+        }
+        self.line(decided.as_deref().unwrap_or("decide_goal."));
         Ok(())
-    }
-
-    /// The absolute value of a quotient, in a form that shows that it is not negative.
-    pub(super) fn size(&mut self, signed: &Signed) -> Result<Expr, Reason> {
-        Ok(self.positive(&signed.num)?.over(self.positive(&signed.den)?))
-    }
-
-    /// The absolute value of a polynomial, in a form that shows that it is not negative.
-    fn positive(&mut self, certificate: &Certificate) -> Result<Expr, Reason> {
-        Ok(match certificate.rule() {
-            Rule::Terms => Expr::poly(&unsigned(certificate)),
-            Rule::Sizes(_) | Rule::Ends { .. } => return Err("a bound by sizes"),
-            Rule::Factor(factor, rest) => {
-                let factor = self.positive(factor)?;
-                factor.times(self.positive(rest)?)
-            }
-            Rule::Square { leading, root, rest } => {
-                let root = Expr::Power(Expr::poly(root).into(), 2);
-                let top = if rest.of().is_zero() { root } else { root.plus(self.positive(rest)?) };
-                top.over(Expr::Number("4".into()).times(self.positive(leading)?))
-            }
-            Rule::Slope { x, start, slope } => self.slope(certificate, *x, start, slope)?,
-        })
-    }
-
-    /// By its value at 0 and its slope: no form shows its sign, so it is proved on the way.
-    fn slope(
-        &mut self,
-        certificate: &Certificate,
-        x: Symbol,
-        start: &Certificate,
-        slope: &Certificate,
-    ) -> Result<Expr, Reason> {
-        let poly = unsigned(certificate);
-        let (f, name) = (Expr::poly(&poly), ascii(x.name()));
-        let strict = certificate.sign().is_strict();
-        let rule = match (strict, start.sign().is_strict()) {
-            (true, true) => "rises_from_positive",
-            (true, false) => "rises_strictly",
-            (false, _) => "rises",
-        };
-        let relation = if strict { "<" } else { "<=" };
-        let mut beyond = self.known.clone();
-        beyond.insert(x, Sign::Positive);
-        let derivative = poly.derivative(x);
-        let (at_zero, above_zero) =
-            (poly.replace(&Monomial::of(x), &Ratio::zero()), below(&derivative, &beyond)?);
-        self.line(&format!("assert (0 {relation} {f})."));
-        self.block("{", |own| {
-            own.line(&format!(
-                "apply ({rule} (fun {name} => {f}) (fun {name} => {}) {name}); cbv beta.",
-                Expr::ratio(&derivative)
-            ));
-            own.block("-", |own| {
-                own.line("positivity.");
-                Ok(())
-            })?;
-            own.block("-", |own| {
-                let below = below(&at_zero, &own.known)?;
-                let value = own.positive(start)?.over(own.positive(&below)?);
-                own.line(&format!("sign_by {}.", value.argument()));
-                Ok(())
-            })?;
-            // The same letter for another value.
-            let again = format!("let other := fresh in rename {name} into other; intros {name} ?.");
-            own.block("-", |own| {
-                own.line(&again);
-                own.line("derivative.");
-                Ok(())
-            })?;
-            own.block("-", |own| {
-                own.line(&again);
-                own.known = beyond.clone();
-                let value = own.positive(slope)?.over(own.positive(&above_zero)?);
-                own.line(&format!("sign_by {}.", value.argument()));
-                Ok(())
-            })
-        })?;
-        Ok(f)
     }
 }
 
-/// Returns `true` if the program of `B_Polynomials` has all rules of a certificate.
-fn has_program(certificate: &Certificate) -> bool {
+/// On how many slopes a sign rests.
+fn slopes(certificate: &Certificate) -> usize {
     match certificate.rule() {
-        Rule::Terms => true,
-        Rule::Square { .. } | Rule::Slope { .. } => false,
-        Rule::Factor(factor, rest) => has_program(factor) && has_program(rest),
-        Rule::Sizes(rest) => has_program(rest),
-        Rule::Ends { at, .. } => at.iter().all(has_program),
+        Rule::Terms | Rule::Sizes(_) | Rule::Ends { .. } => 0,
+        Rule::Factor(a, b) | Rule::Square { leading: a, rest: b, .. } => slopes(a) + slopes(b),
+        Rule::Slope { start, slope, .. } => 1 + slopes(start) + slopes(slope),
     }
 }
 
-fn below(value: &Ratio, known: &Known) -> Result<Certificate, Reason> {
-    search::sign(value.den(), &known.clone().into()).ok_or("the sign of a divisor is open")
+/// A polynomial as a part whose sign is that of its slope in a symbol, times the rest; if there is one.
+fn slope(certificate: &Certificate) -> Option<(&Certificate, Symbol, Poly)> {
+    let times = |factor: &Certificate, of| {
+        let (part, x, rest) = slope(of)?;
+        Some((part, x, rest * factor.of()))
+    };
+    match certificate.rule() {
+        Rule::Slope { x, .. } => Some((certificate, *x, Poly::constant(1))),
+        Rule::Factor(a, b) => times(a, b).or_else(|| times(b, a)),
+        _ => None,
+    }
 }
 
-/// A polynomial or its opposite, whichever is not negative.
-fn unsigned(certificate: &Certificate) -> Poly {
-    match certificate.sign() {
-        Sign::Negative | Sign::NonPositive => -certificate.of(),
-        Sign::Zero | Sign::NonNegative | Sign::Positive => certificate.of().clone(),
-    }
+/// How a sign is decided that is that of a slope.
+fn slope_of(signed: &Signed) -> Option<String> {
+    let (part, x, rest) = slope(&signed.num)?;
+    let rest = Ratio::from(rest).over(&signed.value.den().clone().into())?;
+    let positive = part.sign().implies(Sign::NonNegative);
+    let (part, rest) = if positive { (part.of().clone(), rest) } else { (-part.of(), -rest) };
+    Some(format!(
+        "slope {} {} {}.",
+        ascii(x.name()),
+        Expr::poly(&part).argument(),
+        Expr::ratio(&rest).argument()
+    ))
 }
 
 #[cfg(test)]

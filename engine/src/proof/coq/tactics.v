@@ -1,9 +1,12 @@
-(** * What every proof here uses: a few lemmas and tactics, and nothing about contact.
+(** * What every proof here uses: how a goal is put to the program, and nothing about contact.
 
-    [lra] and [field] decide what they are made for, so proofs are led to goals of their kind:
-    identities between quotients, and sums of products whose sign can be read off. *)
+    Quantities of hypotheses get names, and what they stand for is replaced; a bracket is one of its values;
+    the program then decides equalities and signs. Slopes and limits have lemmas. *)
 From Coq Require Export Reals Lra.
 From Coquelicot Require Export Coquelicot.
+From Coq Require Import List.
+From LIBRARY Require A_Polynomials A_Quotients.
+Import ListNotations.
 Open Scope R_scope.
 
 Create HintDb functions.
@@ -11,87 +14,143 @@ Create HintDb functions.
 (** Every function of the functions by its formula. *)
 Ltac functions := autounfold with functions in *; cbv beta in *.
 
-(** ** Signs
-
-    The sign of a sum, product, quotient or power whose parts have known signs. *)
-Ltac positivity :=
-  first
-    [ assumption
-    | lazymatch goal with
-      | |- 0 < exp _ => apply exp_pos
-      | |- 0 <= exp _ => left; apply exp_pos
-      | |- 0 < _ + _ =>
-          first
-            [ apply Rplus_lt_le_0_compat; positivity
-            | apply Rplus_le_lt_0_compat; positivity ]
-      | |- 0 <= _ + _ => apply Rplus_le_le_0_compat; positivity
-      | |- 0 < _ * _ => apply Rmult_lt_0_compat; positivity
-      | |- 0 <= _ * _ => apply Rmult_le_pos; positivity
-      | |- 0 < _ / _ => apply Rdiv_lt_0_compat; positivity
-      | |- 0 <= _ / _ => apply Rdiv_le_0_compat; positivity
-      | |- 0 < _ ^ _ => apply pow_lt; positivity
-      | |- 0 <= _ ^ 2 => apply pow2_ge_0
-      | |- 0 <= (_ ^ _) ^ 2 => apply pow2_ge_0
-      | |- 0 <= _ ^ _ => apply pow_le; positivity
-      end
-    | match goal with |- 0 <= _ => left; assumption end
-    | lra ].
-
-(** ** Divisors
-
-    [field] asks for its divisors not to be 0. They are among the hypotheses, or have a sign. *)
 Lemma positive_not_zero x : 0 < x -> x <> 0.
-Proof. intro H. apply Rgt_not_eq. exact H. Qed.
+Proof. lra. Qed.
 
 Lemma negative_not_zero x : 0 < - x -> x <> 0.
-Proof. intro H. lra. Qed.
+Proof. lra. Qed.
 
-Ltac nonzero_one :=
-  first
-    [ assumption
-    | match goal with
-      | N : ?n <> 0 |- ?x <> 0 =>
-          first
-            [ replace x with n by ring; exact N
-            | replace x with (- n) by ring; apply Ropp_neq_0_compat; exact N ]
-      | P : 0 < ?p |- ?x <> 0 =>
-          first
-            [ replace x with p by ring; apply Rgt_not_eq; exact P
-            | replace x with (- p) by ring; apply Rlt_not_eq, Ropp_lt_gt_0_contravar; exact P ]
+(** ** Goals for the program
+
+    The variables of a formula, before those in [l]: whatever is not computed from others. *)
+Ltac variables x l :=
+  let two a b := (let l := variables a l in variables b l) in
+  let one x := lazymatch l with context [x :: _] => l | _ => constr:(x :: l) end in
+  lazymatch x with
+  | ?a + ?b => two a b
+  | ?a - ?b => two a b
+  | ?a * ?b => two a b
+  | ?a / ?b => two a b
+  | - ?a => variables a l
+  | / ?a => variables a l
+  | ?a ^ ?n => let known := isnatcst n in lazymatch known with true => variables a l | _ => one x end
+  | IZR ?z => let known := isZcst z in lazymatch known with true => l | _ => one x end
+  | _ => one x
+  end.
+
+(** First those of which no more is known than a sign, with what is known of them. *)
+Ltac in_order l units :=
+  lazymatch l with
+  | [] => constr:((@nil A_Polynomials.sign, units))
+  | ?x :: ?l =>
+      let put k :=
+        (let r := in_order l units in
+         lazymatch r with (?signs, ?env) => constr:((k :: signs, x :: env)) end) in
+      match goal with
+      | _ : -1 <= x <= 1 |- _ => in_order l (x :: units)
+      | _ => lazymatch x with exp _ => put A_Polynomials.Positive end
+      | _ : 0 < x |- _ => put A_Polynomials.Positive
+      | _ : 0 <= x |- _ => put A_Polynomials.NonNegative
+      | _ => put A_Polynomials.Unknown
       end
-    | lra
-    | apply positive_not_zero; solve [positivity]
-    | apply Rmult_integral_contrapositive_currified; nonzero_one ].
-Ltac nonzero := repeat split; nonzero_one.
+  end.
 
-(** ** Identities
+Ltac place x l :=
+  lazymatch l with
+  | x :: _ => constr:(O)
+  | _ :: ?l => let n := place x l in constr:(S n)
+  end.
 
-    Equal as quotients of polynomials and exponentials, given what the hypotheses say of products of
-    symbols. *)
-Ltac quotients :=
-  first
-    [ solve [field; nonzero]
-    | match goal with
-      | E : _ * _ = _, F : _ * _ = _ |- _ => solve [field [E F]; nonzero]
+(** A formula as the program reads it. *)
+Ltac formula x l :=
+  let two f a b := (let a := formula a l in let b := formula b l in constr:(f a b)) in
+  let one f a := (let a := formula a l in constr:(f a)) in
+  lazymatch l with
+  | context [x :: _] => let n := place x l in constr:(A_Quotients.Symbol n)
+  | _ =>
+      lazymatch x with
+      | ?a + ?b => two A_Quotients.Sum a b
+      | ?a - ?b => formula (a + - b) l
+      | ?a * ?b => two A_Quotients.Product a b
+      | ?a / ?b => formula (a * / b) l
+      | - ?a => one A_Quotients.Opposite a
+      | / ?a => one A_Quotients.Inverse a
+      | ?a ^ ?n => let x := eval cbn [pow] in (a ^ n) in formula x l
+      | IZR ?z => constr:(A_Quotients.Literal z)
       end
-    | match goal with E : _ * _ = _ |- _ => solve [field [E]; nonzero] end ].
+  end.
+
+Ltac by_program rule x :=
+  let l := variables x (@nil R) in
+  let r := in_order l (@nil R) in
+  lazymatch r with
+  | (?signs, ?env) =>
+      let f := formula x env in
+      let fitting := fresh in
+      assert (fitting : A_Polynomials.fits signs env);
+      [ cbn [A_Polynomials.fits A_Polynomials.units A_Polynomials.of_sign hd tl];
+        repeat (apply conj; [first [exact I | assumption | apply exp_pos] | ]); exact I
+      | exact (rule signs env fitting f ltac:(vm_compute; reflexivity)) ]
+  end.
+
+Ltac by_sign :=
+  lazymatch goal with
+  | |- 0 < ?x => by_program A_Quotients.above x
+  | |- 0 <= ?x => by_program A_Quotients.at_least x
+  | |- ?x = 0 => by_program A_Quotients.zero x
+  end.
+
+(** The same, where something is known of a product of variables. *)
+Ltac by_product E :=
+  lazymatch goal with
+  | |- 0 < ?x => field_simplify [E] x
+  | |- 0 <= ?x => field_simplify [E] x
+  | |- ?x = 0 => field_simplify [E] x
+  end;
+  [by_sign | repeat split; first [apply positive_not_zero; by_sign | apply negative_not_zero; by_sign] ..].
+
+(** A sign, from [0 < v], [0 <= v] or [-1 <= v <= 1] for each of the variables; or a comparison; or that two
+    values are equal for all values of the variables. *)
+Ltac bounded :=
+  lazymatch goal with
+  | |- 0 < _ => idtac
+  | |- 0 <= _ => idtac
+  | |- _ = 0 => idtac
+  | |- _ < _ => apply Rminus_gt_0_lt
+  | |- _ <= _ => apply Rminus_le_0
+  | |- _ = _ => apply Rminus_diag_uniq
+  end;
+  first [by_sign | match goal with E : _ * _ = _ |- _ => by_product E end | fail 1 "no sign"].
+
+Ltac not_zero := first [apply positive_not_zero; bounded | apply negative_not_zero; bounded].
+
+Ltac divisors := repeat split; not_zero.
+
+(** Each minimum is one of two, whichever is seen to be less; each bracket is its argument or 0. *)
+Ltac minima :=
+  repeat match goal with
+  | |- context [Rmin ?a ?b] =>
+      first [rewrite (Rmin_left a b) by bounded | rewrite (Rmin_right a b) by bounded]
+  | |- context [Rmax ?a 0] =>
+      first [rewrite (Rmax_left a 0) by bounded | rewrite (Rmax_right a 0) by bounded]
+  end.
 
 (** An exponential with the exponent 0, or that of another, or its opposite, or the sum of two others, is
     written so. *)
 Ltac exponential a :=
   match goal with
-  | _ => replace (exp a) with 1 by (symmetry; replace a with 0 by quotients; apply exp_0)
+  | _ => replace (exp a) with 1 by (symmetry; replace a with 0 by bounded; apply exp_0)
   | |- context [exp ?b] =>
       tryif constr_eq a b then fail else
         first
-          [ replace (exp a) with (exp b) by (f_equal; quotients)
-          | replace (exp a) with (/ exp b) by (rewrite <- exp_Ropp; f_equal; quotients) ]
+          [ replace (exp a) with (exp b) by (f_equal; bounded)
+          | replace (exp a) with (/ exp b) by (rewrite <- exp_Ropp; f_equal; bounded) ]
   | |- context [exp ?b] =>
       tryif constr_eq a b then fail else
         match goal with
         | |- context [exp ?d] =>
             tryif constr_eq a d then fail else
-              replace (exp a) with (exp b * exp d) by (rewrite <- exp_plus; f_equal; quotients)
+              replace (exp a) with (exp b * exp d) by (rewrite <- exp_plus; f_equal; bounded)
         end
   end.
 Ltac exponentials := repeat match goal with |- context [exp ?a] => exponential a end.
@@ -113,120 +172,100 @@ Ltac pivots :=
     end;
   unfold pivot in *.
 
-(** By what the hypotheses' names stand for, or by the names. *)
-Ltac identity :=
-  first
-    [ solve [subst; quotients]
-    | solve [pivots; quotients]
-    | match goal with
-      | |- context [exp _] =>
-          first
-            [ solve [subst; exponentials; first [reflexivity | quotients]]
-            | solve [pivots; exponentials; first [reflexivity | quotients]] ]
-      end ].
+Lemma within x b : 0 <= b - x -> 0 <= b + x -> Rabs x <= b.
+Proof. intros. apply Rabs_le. lra. Qed.
 
-(** The goal is about a quantity that equals [e], whose sign can be read off. *)
-Ltac sign_by e :=
-  match goal with
-  | |- 0 < ?x => replace x with e by identity
-  | |- 0 <= ?x => replace x with e by identity
-  end;
-  positivity.
+(** The end of every proof. *)
+Ltac decide_goal :=
+  pivots;
+  lazymatch goal with
+  | |- is_derive _ _ _ => auto_derive; [divisors | decide_goal]
+  | |- ex_derive _ _ => auto_derive; divisors
+  | |- _ =>
+      exponentials; minima;
+      lazymatch goal with
+      | |- Rabs _ <= _ => apply within; bounded
+      | |- _ <> 0 => not_zero
+      | |- _ => bounded
+      end
+  end.
 
 (** ** Hypotheses
 
     A quantity of known sign gets a name of its own; or, if it is a symbol, the symbol has the sign. *)
-Lemma named_positive q : 0 < q -> exists s, s = q /\ 0 < s.
+Lemma named (P : R -> Prop) q : P q -> exists s, s = q /\ P s.
 Proof. intro H. exists q. split; [reflexivity | exact H]. Qed.
 
-Lemma named_nonnegative q : 0 <= q -> exists s, s = q /\ 0 <= s.
-Proof. intro H. exists q. split; [reflexivity | exact H]. Qed.
-
-Lemma same_positive q x : 0 < q -> x = q -> 0 < x.
-Proof. intros H ->. exact H. Qed.
-
-Lemma same_nonnegative q x : 0 <= q -> x = q -> 0 <= x.
+Lemma same_sign (P : R -> Prop) q x : P q -> x = q -> P x.
 Proof. intros H ->. exact H. Qed.
 
 (** An equation, solved. *)
-Lemma solved q k x y : q = 0 -> x - y = k * q -> x = y.
-Proof. intros -> E. rewrite Rmult_0_r in E. apply Rminus_diag_uniq. exact E. Qed.
+Lemma solved s q k x y : q = s -> x - y = k * (q - s) -> pivot x y.
+Proof. intros -> E. apply Rminus_diag_uniq. rewrite E. ring. Qed.
 
-Lemma solved_for s q k x y : s = q -> x - y = k * (q - s) -> pivot x y.
-Proof. intros E. apply solved. rewrite E. ring. Qed.
+(** What lies between two values, by something that lies between -1 and 1. *)
+Lemma between a b x :
+  0 <= (b - x) * (x - a) -> exists t, -1 <= t <= 1 /\ x = (a + b) / 2 + (b - a) / 2 * t.
+Proof.
+  intro H. destruct (Req_dec a b) as [<- | D].
+  - exists 0. split; [lra | nra].
+  - exists ((2 * x - a - b) / (b - a)). split; [ | field; lra].
+    enough (0 <= 1 - (2 * x - a - b) / (b - a) * ((2 * x - a - b) / (b - a))) by nra.
+    replace (1 - _) with (4 * ((b - x) * (x - a)) / ((b - a) * (b - a))) by (field; lra).
+    apply Rdiv_le_0_compat; [lra | ]. apply Rsqr_pos_lt. lra.
+Qed.
+
+Lemma near a m x : Rabs (x - a) <= m -> exists t, -1 <= t <= 1 /\ x = a + m * t.
+Proof.
+  intro H. apply Rabs_le_between in H.
+  destruct (between (a - m) (a + m) x) as (t & T & E); [nra | ].
+  exists t. split; [exact T | lra].
+Qed.
 
 (** Two cases. *)
 Lemma either d : {0 < d} + {0 <= - d}.
 Proof. destruct (Rlt_le_dec 0 d) as [H | H]; [left | right]; lra. Qed.
 
-(** ** Brackets
-
-    Which of its values a bracket has follows from a sign: that of its argument, or of the difference of its
-    two arguments, which is [e] or its opposite. *)
-Ltac bracket_open e :=
-  match goal with
-  | |- context [Rmax ?a 0] =>
-      rewrite (Rmax_left a 0) by (replace a with e by identity; positivity)
-  end.
-Ltac bracket_shut e :=
-  match goal with
-  | |- context [Rmax ?a 0] =>
-      rewrite (Rmax_right a 0)
-        by (apply Ropp_le_cancel; rewrite Ropp_0; replace (- a) with e by identity; positivity)
-  end.
-Ltac minimum_first e :=
-  match goal with
-  | |- context [Rmin ?a ?b] =>
-      rewrite (Rmin_left a b) by (apply Rminus_le_0; replace (b - a) with e by identity; positivity)
-  end.
-Ltac minimum_second e :=
-  match goal with
-  | |- context [Rmin ?a ?b] =>
-      rewrite (Rmin_right a b) by (apply Rminus_le_0; replace (a - b) with e by identity; positivity)
-  end.
-
-(** ** Derivatives *)
-Ltac derivative := auto_derive; [nonzero | identity].
-
 (** ** Functions that rise
 
-    A function with a derivative of one sign, from a start of that sign. *)
+    From a start of one sign, with slopes of that sign. *)
 Lemma by_some_slope (f f' : R -> R) (x : R) :
-  0 < x -> (forall z, 0 <= z -> is_derive f z (f' z)) ->
-  exists z, 0 < z /\ f x = f 0 + f' z * x.
+  (forall z, 0 <= z -> is_derive f z (f' z)) -> 0 <= x -> exists z, 0 < z /\ f x = f 0 + f' z * x.
 Proof.
-  intros X D.
+  intros D [X | <-]; [ | exists 1; split; [lra | ring]].
   destruct (MVT_cor2 f f' 0 x X) as (z & E & Z).
   { intros z [Z _]. apply is_derive_Reals, D, Z. }
   exists z. replace (x - 0) with x in E by ring. split; lra.
 Qed.
 
-Lemma rises (f f' : R -> R) (x : R) :
-  0 <= x -> 0 <= f 0 ->
-  (forall z, 0 <= z -> is_derive f z (f' z)) -> (forall z, 0 < z -> 0 <= f' z) ->
-  0 <= f x.
-Proof.
-  intros [X | <-] F D P; [ | exact F].
-  destruct (by_some_slope f f' x X D) as (z & Z & ->). specialize (P z Z). positivity.
-Qed.
+(** The sign of [n], which is that at [x] = 0 and that of the slope in [x]. *)
+Ltac rising x n :=
+  let f := eval pattern x in n in
+  lazymatch f with
+  | ?f _ =>
+      auto_derive_fun f;
+      let D := fresh "D" in
+      intro D;
+      lazymatch type of D with
+      | forall z, _ -> is_derive _ z (@?f' z) =>
+          let z := fresh "z" in
+          destruct (by_some_slope f f' x) as (z & ? & ->);
+          [intros; apply D; divisors | bounded | cbv beta; clear D]
+      end
+  end;
+  first
+    [ apply Rplus_le_lt_0_compat; [decide_goal | apply Rmult_lt_0_compat; decide_goal]
+    | apply Rplus_lt_le_0_compat; [decide_goal | apply Rmult_le_pos; decide_goal]
+    | apply Rplus_le_le_0_compat; [decide_goal | apply Rmult_le_pos; decide_goal] ].
 
-Lemma rises_strictly (f f' : R -> R) (x : R) :
-  0 < x -> 0 <= f 0 ->
-  (forall z, 0 <= z -> is_derive f z (f' z)) -> (forall z, 0 < z -> 0 < f' z) ->
-  0 < f x.
-Proof.
-  intros X F D P.
-  destruct (by_some_slope f f' x X D) as (z & Z & ->). specialize (P z Z). positivity.
-Qed.
-
-Lemma rises_from_positive (f f' : R -> R) (x : R) :
-  0 <= x -> 0 < f 0 ->
-  (forall z, 0 <= z -> is_derive f z (f' z)) -> (forall z, 0 < z -> 0 <= f' z) ->
-  0 < f x.
-Proof.
-  intros [X | <-] F D P; [ | exact F].
-  destruct (by_some_slope f f' x X D) as (z & Z & ->). specialize (P z Z). positivity.
-Qed.
+(** The goal is about [n] times [rest]. *)
+Ltac slope x n rest :=
+  pivots;
+  lazymatch goal with
+  | |- _ < ?v => replace v with (n * rest) by decide_goal; apply Rmult_lt_0_compat
+  | |- _ <= ?v => replace v with (n * rest) by decide_goal; apply Rmult_le_pos
+  end;
+  [rising x n | decide_goal].
 
 (** ** Limits
 
@@ -267,6 +306,11 @@ Proof.
   - apply (limit_at_infinity _ g); auto.
   - apply (is_lim_scal_l (fun x => exp (r * x)) b p_infty 0), exp_vanishes, P.
 Qed.
+
+Ltac at_infinity g :=
+  apply (limit_at_infinity _ g); cbv beta; [intros | | ]; decide_goal.
+Ltac with_decay g b r :=
+  apply (limit_with_decay _ g b r); cbv beta; [intros | | | ]; decide_goal.
 
 (** A continuous function of a power that vanishes. *)
 Lemma limit_of_powers (f : R -> R) (rho y : R) :

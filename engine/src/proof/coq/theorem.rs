@@ -1,289 +1,175 @@
 //! A claim as theorem and lemmas, with their proofs.
 
 use super::expr::Expr;
-use super::law::Law;
-use super::lemma::{
-    Defined, Lemma, Result, depends, derivation, divisors, divisors_script, labels, names, none_is_zero,
-    numbered, says, stated, supposed,
-};
+use super::lemma::{Lemma, Result, divisors, none_is_zero, says};
 use super::print::{Printer, ascii, free};
 use super::script::Script;
 use super::{identifier, theorem_name};
 use crate::formula::claim::{MEMBERS, POWER};
-use crate::formula::statement::{Goal, Role, Sequence};
+use crate::formula::statement::{Computed, Goal, Role, Sequence};
 use crate::formula::{Hypothesis, Proposition, Relation, Statement};
 use crate::number::Tree;
-use crate::number::tree::Step;
-
-use std::fmt::Write;
 
 /// A claim, to be printed.
-pub(super) struct Theorem<'a> {
+pub(super) struct Claim<'a> {
     /// What it says, it says in the names of the functions that it is about.
-    printer: Printer<'a>,
-    statement: &'a Statement,
-    name: String,
+    pub(super) printer: Printer<'a>,
+    pub(super) statement: &'a Statement,
+    pub(super) name: String,
 }
 
-impl<'a> Theorem<'a> {
+impl<'a> Claim<'a> {
     pub(super) fn new(statement: &'a Statement, printer: Printer<'a>) -> Self {
         let name = theorem_name(statement.equation(), statement.name());
-        Theorem { printer, statement, name }
+        Claim { printer, statement, name }
     }
 
-    /// A formula that it speaks of.
-    fn expr(&self, tree: &Tree) -> Expr {
-        self.printer.expr(tree)
-    }
-
-    fn variables<'t>(&self, trees: impl Iterator<Item = &'t Tree>) -> Vec<&'static str> {
-        self.printer.registry.symbols_of(trees)
-    }
-
-    /// Its hypotheses, but for those on one coordinate.
-    fn hypotheses(&self, without: Option<&str>) -> Vec<&Hypothesis> {
-        let keeps = |h: &&Hypothesis| without.is_none_or(|symbol| !depends(&h.value, symbol));
-        self.statement.all_hypotheses().filter(keeps).collect()
-    }
-
-    /// What says that no divisor is 0, if there is any.
-    fn defined(&self) -> Option<Defined> {
-        let divisors = divisors(self.statement.trees());
-        let hypotheses = self.statement.all_hypotheses().map(|h| &h.value);
-        let variables = self.variables(hypotheses.chain(&divisors));
-        (!divisors.is_empty()).then(|| Defined {
-            name: format!("{}_defined", self.name),
-            variables,
-            divisors,
-        })
-    }
-
-    /// The same, if these are all its hypotheses.
-    fn recalled(&self, hypotheses: &[&Hypothesis]) -> Option<Defined> {
-        self.defined().filter(|_| hypotheses.len() == self.statement.all_hypotheses().count())
-    }
-
-    /// The lemma for one of its goals. If that is all that the claim says, it is the theorem.
-    fn lemma(&self, i: usize, without: Option<&str>) -> Lemma<'_> {
-        let goals = self.statement.goals();
-        let part = goals[i].part;
-        let alike = |goals: &[Goal]| goals.iter().filter(|goal| goal.part == part).count();
-        let number = if alike(goals) > 1 { alike(&goals[..=i]).to_string() } else { String::new() };
-        let name = free(identifier(&format!("{} {part} {number}", self.name)));
-        let hypotheses = self.hypotheses(without);
-        let defined = self.recalled(&hypotheses);
-        Lemma { name, printer: self.printer, hypotheses, proposition: &goals[i].proposition, defined }
-    }
-
-    /// Its lemmas and the theorem itself.
+    /// Its theorem and the lemmas before it.
     pub(super) fn text(&self) -> Result<String> {
-        let symbols = self.variables(self.statement.trees());
+        let symbols = self.printer.registry.symbols_of(self.statement.trees());
         for (i, symbol) in symbols.iter().enumerate() {
             if let Some(same) = symbols[..i].iter().find(|other| ascii(other) == ascii(symbol)) {
                 return Err(format!("{same} and {symbol} have the same name in Coq"));
             }
         }
-        if self.statement.contains_rounding() {
-            let (name, statement, printer) = (&self.name, self.statement, self.printer);
-            return Law { name, statement, printer }.text();
-        }
-        let defined = self.defined().map(|defined| self.definedness(&defined)).transpose()?;
-        let bound = || Err("a bound of what is not rounded".to_string());
-        let text = match (self.statement.conclusion(), &self.statement.goals()[0].proposition) {
-            (Some(sequence), _) => match &sequence.limit {
+        let sequence = self.statement.conclusion();
+        let text = match (sequence, self.statement.computed(), self.statement.goals()) {
+            (Some(sequence), ..) => match &sequence.limit {
                 Some(limit) => self.vanishing(sequence, limit)?,
-                None if !sequence.is_perturbed() => self.induction(sequence)?,
-                None => return bound(),
+                None => self.induction(sequence)?,
             },
-            (None, Proposition::Limit(_, by, _)) => self.limit(by)?,
-            (None, Proposition::Within(..)) => return bound(),
-            (None, Proposition::Equal(..) | Proposition::Sign(..) | Proposition::Derivative(..)) => {
-                self.lemma(0, None).text("Theorem")?
-            }
+            (None, Some(computed), [near, goal]) => self.computing(computed, near, goal)?,
+            (None, None, [goal, rates @ ..]) => match goal.proposition {
+                Proposition::Limit(_, by, _) => self.limit(by, goal, rates)?,
+                _ if rates.is_empty() => self.proved("Theorem", &self.lemma(goal), goal)?,
+                _ => return Err("several goals".into()),
+            },
+            _ => return Err("a computed quantity among several goals".into()),
         };
-        Ok(defined.unwrap_or_default() + &text)
+        Ok(self.defined()? + &text)
     }
 
-    /// No divisor is 0.
-    fn definedness(&self, defined: &Defined) -> Result<String> {
-        let Defined { name, variables, divisors } = defined;
-        let hypotheses = self.hypotheses(None);
+    /// What is supposed, and of which formulas something is said.
+    pub(super) fn supposing<'t>(
+        &self,
+        name: &str,
+        hypotheses: Vec<&'a Hypothesis>,
+        trees: impl IntoIterator<Item = &'t Tree>,
+    ) -> Lemma<'a>
+    where
+        'a: 't,
+    {
+        let name = free(identifier(&format!("{} {name}", self.name)));
+        Lemma::new(name, self.printer, self.statement.contains_rounding(), hypotheses, trees.into_iter())
+    }
+
+    /// For a goal: without hypotheses on a member and the quantity computed from it if the goal contains
+    /// neither. Its name is that of its part, with a number if there are others.
+    pub(super) fn lemma(&self, goal: &Goal) -> Lemma<'a> {
+        let computed = self.statement.computed().map(|computed| computed.symbol);
+        let own = |name: &&str| *name == MEMBERS[0] || Some(*name) == computed;
+        let speaks_of_it = |tree: &Tree| tree.symbols().iter().any(own);
+        let mut hypotheses = self.statement.hypotheses_for(goal.role);
+        if !goal.proposition.trees().into_iter().any(speaks_of_it) {
+            hypotheses.retain(|h| !speaks_of_it(&h.value));
+        }
+        let alike: Vec<_> = self.statement.goals().iter().filter(|other| other.part == goal.part).collect();
+        let place = alike.iter().position(|other| std::ptr::eq(*other, goal)).map_or(0, |place| place + 1);
+        let number = if alike.len() > 1 { place.to_string() } else { String::new() };
+        self.supposing(&format!("{} {number}", goal.part), hypotheses, goal.proposition.trees())
+    }
+
+    /// A goal with its proof.
+    pub(super) fn proved(&self, keyword: &str, lemma: &Lemma, goal: &Goal) -> Result<String> {
+        let mut script = Script::of(lemma);
+        script.goal(lemma, &goal.proposition)?;
+        Ok(lemma.text(keyword, &says(&goal.proposition, self.printer), script))
+    }
+
+    /// No divisor is 0; empty if there is none.
+    fn defined(&self) -> Result<String> {
+        let divisors = divisors(self.statement.trees());
+        if divisors.is_empty() {
+            return Ok(String::new());
+        }
+        // Of what is rounded, nothing that is proved by induction is needed.
+        let hypotheses = if self.statement.contains_rounding() {
+            self.statement.hypotheses_for(Role::InvariantBase)
+        } else {
+            self.statement.all_hypotheses().collect()
+        };
+        let lemma = self.supposing("defined", hypotheses, &divisors);
+        let mut script = Script::of(&lemma);
+        script.line("repeat apply conj.");
+        for divisor in &divisors {
+            script.block("-", |own| {
+                let signed = |value: &Tree| Proposition::Sign(Relation::Positive, value.clone());
+                own.goal(&lemma, &signed(divisor)).or_else(|_| own.goal(&lemma, &signed(&-divisor)))
+            })?;
+        }
+        Ok(lemma.text("Lemma", &none_is_zero(&divisors, self.printer), script))
+    }
+
+    /// A quantity is near another, and so the claim holds of the one that is computed.
+    fn computing(&self, computed: &Computed, near: &Goal, goal: &Goal) -> Result<String> {
+        let (is_near, mut rest) = (self.lemma(near), self.lemma(goal));
+        rest.name += "_nearby";
+        let text = self.proved("Lemma", &is_near, near)? + &self.proved("Lemma", &rest, goal)?;
+        let Proposition::Within(of, bound) = &goal.proposition else {
+            return Err("a computed quantity in a claim that is no bound".into());
+        };
+        let [of, bound] = [of, bound].map(|tree| tree.with(&[(computed.symbol, computed.by.clone())]));
+        let theorem = self.supposing("", self.statement.hypotheses_for(Role::InvariantBase), [&of, &bound]);
+        let by = self.printer.expr(&computed.by).argument();
+        let label = |given: &Hypothesis| theorem.label(given).unwrap_or_default();
+        let near = is_near.applied(&[], label);
+        let of_it = |given: &Hypothesis| match theorem.label(given) {
+            Some(label) => label,
+            None => format!("({near})"),
+        };
         let mut script = Script::new();
-        script.line(&format!("intros{}{}.", names(variables), labels(hypotheses.len())));
-        divisors_script(&mut script, &hypotheses, divisors, self.printer)?;
-        script.line("repeat split; assumption.");
-        let says = none_is_zero(divisors, self.printer);
-        Ok(stated("Lemma", name, variables, &hypotheses, &says, script, self.printer))
+        script.line(&theorem.intros());
+        script.line(&format!("exact ({}).", rest.applied(&[(computed.symbol, &by)], of_it)));
+        let says = says(&Proposition::Within(of, bound), self.printer);
+        Ok(text + &theorem.text("Theorem", &says, script))
     }
 
     /// The limit itself; how fast it is reached is in lemmas.
-    fn limit(&self, by: &'static str) -> Result<String> {
-        let lemmas = (1..self.statement.goals().len()).map(|i| self.lemma(i, None).text("Lemma"));
-        let text = lemmas.collect::<Result<String>>()?;
-        let own = self.lemma(0, Some(by));
-        let variables: Vec<_> = own.variables().into_iter().filter(|var| *var != by).collect();
-        let mut script = Script::new();
-        script.line(&format!("intros{}{}. functions.", names(&variables), labels(own.hypotheses.len())));
-        // Whatever is supposed of x itself is that it is positive, or less.
-        let all = self.hypotheses(None);
-        script.limit(&derivation(&all, own.proposition)?, by, |script| {
-            let (mut label, mut i) = (Vec::new(), 0);
-            for hypothesis in &all {
-                if !depends(&hypothesis.value, by) {
-                    i += 1;
-                    label.push(format!("H{i}"));
-                } else if *hypothesis.value.step() != Step::Symbol(by) {
-                    return Err("more is supposed of what tends to infinity than that it is positive");
-                } else {
-                    let weak = hypothesis.relation == Relation::NonNegative;
-                    label.push(if weak { "(Rlt_le _ _ X)".into() } else { "X".into() });
-                }
-            }
-            if let Some(defined) = self.defined() {
-                script.line(&format!("{} functions.", defined.recall(&format!(" {}", label.join(" ")))));
-            }
-            Ok(())
-        })?;
-        Ok(text
-            + &stated(
-                "Theorem",
-                &self.name,
-                &variables,
-                &own.hypotheses,
-                &says(own.proposition, self.printer),
-                script,
-                self.printer,
-            ))
-    }
-
-    /// The recursion over the natural numbers, and its closed form by induction.
-    fn induction(&self, Sequence { ratio, start, step, member, .. }: &Sequence) -> Result<String> {
-        let q = POWER;
-        let lemma = |i: usize| {
-            let at_start = matches!(self.statement.goals()[i].role, Role::Claim | Role::InvariantBase);
-            self.lemma(i, at_start.then_some(q))
-        };
-        let lemmas: Vec<_> = (0..self.statement.goals().len()).map(lemma).collect();
-        let part = |role: Role| -> Vec<&Lemma> {
-            let goals = self.statement.goals().iter().zip(&lemmas);
-            goals.filter(|(goal, _)| goal.role == role).map(|(_, lemma)| lemma).collect()
-        };
-        let mut text = lemmas.iter().map(|lemma| lemma.text("Lemma")).collect::<Result<String>>()?;
-
-        let hypotheses = self.hypotheses(Some(q));
-        let trees = start.iter().chain(step).chain(member).chain([ratio]);
-        let free: Vec<_> = self
-            .variables(trees.chain(hypotheses.iter().map(|h| &h.value)))
-            .into_iter()
-            .filter(|var| *var != POWER && !MEMBERS.contains(var))
-            .collect();
-        let tuple = |trees: &[Tree]| {
-            let values: Vec<_> = trees.iter().map(|tree| self.expr(tree).to_string()).collect();
-            if let [value] = values.as_slice() {
-                value.clone()
-            } else {
-                format!("({})", values.join(",\n      "))
-            }
-        };
-        let pattern = match &MEMBERS[..start.len()] {
-            [name] => ascii(name),
-            names => format!("'({})", names.iter().map(|name| ascii(name)).collect::<Vec<_>>().join(", ")),
-        };
-        let iterates = format!("{}_iterates", self.name);
-        let (arguments, ratio) = (names(&free), self.expr(ratio));
-        let binder =
-            if free.is_empty() { String::new() } else { format!(" ({} : R)", arguments.trim_start()) };
-        let _ = write!(
-            text,
-            "\nFixpoint {iterates}{} (n : nat) : {} :=\n  match n with\n  | O => {}\n  | S n =>\n\
-             \x20     let {} := {iterates}{arguments} n in\n      {}\n  end.\n",
-            binder,
-            vec!["R"; start.len()].join(" * "),
-            tuple(start),
-            pattern,
-            tuple(step),
-        );
-
-        let mut script = Script::new();
-        let of_q = &self.statement.invariants();
-        // Without any, `intros` would take in n.
-        let introduced = format!("{arguments}{}", labels(hypotheses.len()));
-        if !introduced.is_empty() {
-            script.line(&format!("intros{introduced}."));
-        }
-        // Where something is supposed of q, it is true of every power of the ratio.
-        let all_labels = [numbered("H", hypotheses.len()), numbered("Q", of_q.len())].concat();
-        let at = |lemma: &Lemma, q_is: &str| {
-            let argument = |var: &&str| if *var == POWER { q_is.to_string() } else { ascii(var) };
-            let arguments: Vec<_> = lemma.variables().iter().map(argument).collect();
-            let labels = &all_labels[..lemma.hypotheses.len()];
-            [std::slice::from_ref(&lemma.name), &arguments, labels].concat().join(" ")
-        };
-        let power = format!("({} ^ n)", ratio.base());
-        let q_pattern = match of_q.len() {
-            1 => "Q1".to_string(),
-            n => format!("({})", numbered("Q", n).join(" & ")),
-        };
-        if !of_q.is_empty() {
-            let told: Vec<_> = of_q.iter().map(|h| supposed(h, self.printer)).collect();
-            script.line(&format!("assert (Q : forall n : nat, let q := {power} in {}).", told.join(" /\\ ")));
-            script.block("{", |own| {
-                own.line(&format!(
-                    "induction n as [ | n {q_pattern}]; cbn [pow]; cbv zeta in *; repeat apply conj."
-                ));
-                let (at_start, after) = (part(Role::InvariantBase), part(Role::InvariantStep));
-                at_start.iter().for_each(|lemma| own.line(&format!("- exact ({}).", at(lemma, "1"))));
-                after.iter().for_each(|lemma| own.line(&format!("- exact ({}).", at(lemma, &power))));
-                Ok(())
-            })?;
-        }
-        script.line(&format!("induction n as [ | n I]; cbn [{iterates} pow]; cbv zeta in *."));
-        let pairs = "repeat apply (f_equal2 pair)";
-        script.line("- symmetry.");
-        script.line(&format!("  {pairs}."));
-        part(Role::Claim).iter().for_each(|lemma| script.line(&format!("  + exact ({}).", at(lemma, "1"))));
-        script.line("- rewrite I.");
-        if !of_q.is_empty() {
-            script.line(&format!("  pose proof (Q n) as {q_pattern}."));
-        }
-        script.line(&format!("  {pairs}."));
-        part(Role::Step).iter().for_each(|lemma| script.line(&format!("  + exact ({}).", at(lemma, &power))));
-        let says = format!(
-            "forall n : nat, let q := {power} in\n    {iterates}{arguments} n =\n    {}",
-            tuple(member)
-        );
-        Ok(text + &stated("Theorem", &self.name, &free, &hypotheses, &says, script, self.printer))
+    fn limit(&self, by: &'static str, goal: &Goal, rates: &[Goal]) -> Result<String> {
+        let rates = rates.iter().map(|rate| self.proved("Lemma", &self.lemma(rate), rate));
+        let text = rates.collect::<Result<String>>()?;
+        let all = self.statement.hypotheses_for(Role::Claim);
+        let theorem = self.supposing("", all.clone(), goal.proposition.trees()).without(by);
+        let mut script = Script::of(&theorem);
+        script.limit(&theorem, &all, &goal.proposition)?;
+        Ok(text + &theorem.text("Theorem", &says(&goal.proposition, self.printer), script))
     }
 
     /// A function of the powers of what is less than 1 in size.
     fn vanishing(&self, Sequence { ratio, member, .. }: &Sequence, to: &Tree) -> Result<String> {
-        let (q, of) = (POWER, &member[0]);
-        let [small, limit] = [0, 1].map(|i| self.lemma(i, Some(q)));
-        let text = small.text("Lemma")? + &limit.text("Lemma")?;
-        let hypotheses = self.hypotheses(Some(q));
-        let trees = [ratio, of, to].into_iter().chain(hypotheses.iter().map(|h| &h.value));
-        let free: Vec<_> = self.variables(trees.clone()).into_iter().filter(|var| *var != POWER).collect();
-        let (ratio, to) = (self.expr(ratio), self.expr(to));
-        let power = Expr::name(format!("({} ^ n)", ratio.base()));
+        let goals @ [_, at_zero] = self.statement.goals() else {
+            return Err("a limit of several components".into());
+        };
+        let [small, limit] = [0, 1].map(|i| self.lemma(&goals[i]));
+        let text = self.proved("Lemma", &small, &goals[0])? + &self.proved("Lemma", &limit, at_zero)?;
+        let hypotheses = self.statement.hypotheses_for(Role::Claim);
+        let theorem = self.supposing("", hypotheses, [ratio, &member[0], to]).without(POWER);
+        let [ratio, of, to] = [ratio, &member[0], to].map(|tree| self.printer.expr(tree));
+        let (name, power) = (ascii(POWER), Expr::name(format!("({} ^ n)", ratio.base())));
+        let exact = |lemma: &Lemma| {
+            format!("- exact ({}).", lemma.applied(&[], |given| theorem.label(given).unwrap_or_default()))
+        };
         let mut script = Script::new();
-        script.line(&format!("intros{}{}.", names(&free), labels(hypotheses.len())));
-        match self.recalled(&hypotheses) {
-            Some(defined) => script.line(&defined.recall(&labels(hypotheses.len()))),
-            None => {
-                let divisors = divisors(self.statement.trees());
-                divisors_script(&mut script, &hypotheses, &divisors, self.printer)?
-            }
-        }
-        let name = ascii(q);
-        script.line(&format!(
-            "apply (limit_of_powers (fun {name} => {}) {}).",
-            self.expr(of),
-            ratio.argument()
-        ));
-        script.line(&format!("- exact ({}).", small.applied()));
-        script.line("- functions. auto_derive; nonzero.");
-        script.line(&format!("- exact ({}).", limit.applied()));
-        let says = format!("is_lim_seq (fun n => {}) {}", self.expr(of).with(&name, &power), to.argument());
-        Ok(text + &stated("Theorem", &self.name, &free, &hypotheses, &says, script, self.printer))
+        script.line(&theorem.intros());
+        script.line(&format!("apply (limit_of_powers (fun {name} => {of}) {}).", ratio.argument()));
+        script.line(&exact(&small));
+        // That it is continuous there supposes the same.
+        script.block("-", |own| {
+            own.line("functions.");
+            own.goal(&limit, &at_zero.proposition)
+        })?;
+        script.line(&exact(&limit));
+        let says = format!("is_lim_seq (fun n => {}) {}", of.with(&name, &power), to.argument());
+        Ok(text + &theorem.text("Theorem", &says, script))
     }
 }

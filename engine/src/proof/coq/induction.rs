@@ -1,0 +1,198 @@
+//! What is said of all members of a sequence: by induction over the natural numbers.
+
+use super::expr::Expr;
+use super::lemma::{Lemma, Result, names, numbered, says, supposed};
+use super::print::ascii;
+use super::script::Script;
+use super::theorem::Claim;
+use crate::formula::Hypothesis;
+use crate::formula::claim::{MEMBERS, POWER};
+use crate::formula::statement::{Goal, Proposition, Role, Sequence};
+use crate::number::Tree;
+
+/// The sequence, and its theorem.
+struct Induction<'c, 'a> {
+    claim: &'c Claim<'a>,
+    sequence: &'c Sequence,
+    theorem: Lemma<'a>,
+    /// A lemma for each goal.
+    lemmas: Vec<(&'c Goal, Lemma<'a>)>,
+    /// What the recursion is called, with what it is applied to before n.
+    iterates: String,
+    /// ρᵏ.
+    power: String,
+}
+
+/// One formula, or several in brackets.
+fn tuple(values: Vec<String>) -> String {
+    match &values[..] {
+        [value] => value.clone(),
+        values => format!("({})", values.join(",\n      ")),
+    }
+}
+
+impl<'a> Claim<'a> {
+    /// A sequence with a closed form, or one that stays near it.
+    pub(super) fn induction(&self, sequence: &Sequence) -> Result<String> {
+        let Sequence { start, step, ratio, member, within, .. } = sequence;
+        if sequence.is_perturbed() && start.len() > 1 {
+            return Err("a perturbed sequence of several components".into());
+        }
+        let lemmas: Vec<_> = self.statement.goals().iter().map(|goal| (goal, self.lemma(goal))).collect();
+        let proved = lemmas.iter().map(|(goal, lemma)| self.proved("Lemma", lemma, goal));
+        let text = proved.collect::<Result<String>>()?;
+
+        let computed = self.statement.computed();
+        let own = start.iter().chain(step).chain(member).chain([ratio]);
+        let trees = own.chain(within.iter().flat_map(|(of, bound)| [of, bound]));
+        let trees = trees.chain(computed.map(|computed| &computed.by));
+        let mut theorem = self.supposing("", self.statement.hypotheses_for(Role::InvariantBase), trees);
+        let bound =
+            |var: &str| var == POWER || MEMBERS.contains(&var) || computed.is_some_and(|c| c.symbol == var);
+        theorem.variables.retain(|var| !bound(var));
+        let choice = if theorem.rounds { " prec choice" } else { "" };
+        let iterates = format!("{}_iterates{choice}{}", self.name, names(&theorem.variables));
+        let power = format!("({} ^ n)", self.printer.expr(ratio).base());
+        let induction = Induction { claim: self, sequence, theorem, lemmas, iterates, power };
+        Ok(text + &induction.recursion() + &induction.text()?)
+    }
+}
+
+impl Induction<'_, '_> {
+    fn tuple(&self, trees: &[Tree]) -> String {
+        tuple(trees.iter().map(|tree| self.claim.printer.expr(tree).to_string()).collect())
+    }
+
+    /// `let u := BY in`, if something is computed from a member.
+    fn computed(&self, indent: &str) -> String {
+        let text = self.claim.statement.computed().map(|computed| {
+            let by = self.claim.printer.expr(&computed.by);
+            format!("{indent}let {} := {by} in\n", ascii(computed.symbol))
+        });
+        text.unwrap_or_default()
+    }
+
+    /// From its start, each member by the last.
+    fn recursion(&self) -> String {
+        let Sequence { start, step, .. } = self.sequence;
+        let members: Vec<_> = MEMBERS[..start.len()].iter().map(|name| ascii(name)).collect();
+        let pattern = match &members[..] {
+            [name] => name.clone(),
+            names => format!("'({})", names.join(", ")),
+        };
+        let variables = match names(&self.theorem.variables) {
+            none if none.is_empty() => none,
+            names => format!(" ({} : R)", names.trim_start()),
+        };
+        let choice = if self.theorem.rounds { " (prec : Z) (choice : Z -> bool)" } else { "" };
+        let head = format!("{}_iterates{choice}{variables} (n : nat)", self.claim.name);
+        let kind = vec!["R"; start.len()].join(" * ");
+        format!(
+            "\nFixpoint {head} : {kind} :=\n  match n with\n  | O => {}\n  | S n =>\n\
+             \x20     let {pattern} := {} n in\n{}      {}\n  end.\n",
+            self.tuple(start),
+            self.iterates,
+            self.computed("      "),
+            self.tuple(step)
+        )
+    }
+
+    /// `let q := ρⁿ in`, and `let x := MEMBER in` where something else than a closed form is said.
+    fn lets(&self) -> String {
+        let power = format!("let {} := {} in", ascii(POWER), self.power);
+        match self.sequence.is_perturbed() {
+            true => format!("{power}\n    let {} := {} in", ascii(MEMBERS[0]), self.member()),
+            false => power,
+        }
+    }
+
+    fn member(&self) -> String {
+        format!("({} n)", self.iterates)
+    }
+
+    /// Each member is its closed form, or near it, and so is what is computed from it.
+    fn says(&self) -> String {
+        if !self.sequence.is_perturbed() {
+            return format!("forall n : nat, {}\n    {}", self.lets(), self.closed());
+        }
+        let bound = |(of, bound): &(Tree, Tree)| {
+            says(&Proposition::Within(of.clone(), bound.clone()), self.claim.printer)
+        };
+        let bounds: Vec<_> = self.sequence.within.iter().map(bound).collect();
+        let (lets, computed) = (self.lets(), self.computed("    "));
+        format!("forall n : nat, {lets}\n{computed}    {}", bounds.join(" /\\\n    "))
+    }
+
+    fn closed(&self) -> String {
+        format!("{} n =\n    {}", self.iterates, self.tuple(&self.sequence.member))
+    }
+
+    /// By induction the invariants and the closed form; then what follows from the invariants.
+    fn text(&self) -> Result<String> {
+        let perturbed = self.sequence.is_perturbed();
+        let invariants = self.claim.statement.invariants().iter();
+        let mut told: Vec<_> = invariants.map(|given| supposed(given, self.claim.printer)).collect();
+        told.extend((!perturbed).then(|| self.closed()));
+        let (labels, own) = (numbered("I", told.len()), self.claim.name.clone() + "_iterates");
+        let pattern = if labels.len() == 1 { labels[0].clone() } else { format!("({})", labels.join(" & ")) };
+        let last = labels.last().ok_or("nothing is said of the sequence")?;
+
+        let mut script = Script::new();
+        script.line(&self.theorem.intros());
+        script.line(&format!("assert (I : forall n : nat, {} {}).", self.lets(), told.join(" /\\ ")));
+        script.block("{", |script| {
+            script.line(&format!("induction n as [ | n {pattern}]; cbn [{own} pow]; cbv zeta in *;"));
+            script.line("  repeat apply conj.");
+            let pairs = |own: &mut Script, before: &str, role: Role| {
+                own.line(&format!("- {before} repeat apply (f_equal2 pair)."));
+                self.by(role).for_each(|lemma| own.line(&format!("  + exact ({lemma}).")));
+            };
+            self.by(Role::InvariantBase).for_each(|lemma| script.line(&format!("- exact ({lemma}).")));
+            if !perturbed {
+                pairs(script, "symmetry.", Role::Claim);
+            }
+            self.by(Role::InvariantStep).for_each(|lemma| script.line(&format!("- exact ({lemma}).")));
+            if !perturbed {
+                pairs(script, &format!("rewrite {last}."), Role::Step);
+            }
+            Ok(())
+        })?;
+        script.line(&format!("intro n. pose proof (I n) as {pattern}. cbv zeta. repeat apply conj."));
+        script.line(&format!("- exact {last}."));
+        if perturbed {
+            self.by(Role::Step).for_each(|lemma| script.line(&format!("- exact ({lemma}).")));
+        }
+        Ok(self.theorem.text("Theorem", &self.says(), script))
+    }
+
+    /// The lemmas for what has this place in the argument, for ρⁿ and the n-th member, of which the
+    /// invariants are known as I1, I2, …
+    fn by(&self, role: Role) -> impl Iterator<Item = String> {
+        let own = move |(goal, _): &&(&Goal, Lemma)| goal.role == role;
+        self.lemmas.iter().filter(own).map(|(_, lemma)| self.at(lemma))
+    }
+
+    fn at(&self, lemma: &Lemma) -> String {
+        let member = self.member();
+        let mut replaced = vec![(POWER, self.power.as_str()), (MEMBERS[0], &member)];
+        let computed = self.claim.statement.computed();
+        let by = computed.map(|computed| {
+            let by = self.claim.printer.expr(&computed.by);
+            (computed.symbol, by.with(&ascii(MEMBERS[0]), &Expr::name(member.clone())).argument())
+        });
+        replaced.extend(by.as_ref().map(|(symbol, by)| (*symbol, by.as_str())));
+        let label = |given: &Hypothesis| {
+            let invariant = self.claim.statement.invariants().iter().position(|own| own == given);
+            invariant.map(|i| format!("I{}", i + 1)).or_else(|| self.theorem.label(given))
+        };
+        lemma.applied(&replaced, |given| label(given).unwrap_or_else(|| self.near(&replaced, label)))
+    }
+
+    /// That what is computed is in its interval.
+    fn near(&self, replaced: &[(&str, &str)], label: impl Fn(&Hypothesis) -> Option<String>) -> String {
+        let computed = self.lemmas.iter().filter(|(goal, _)| goal.role == Role::Computed);
+        let near =
+            computed.map(|(_, lemma)| lemma.applied(replaced, |given| label(given).unwrap_or_default()));
+        format!("({})", near.collect::<String>())
+    }
+}
