@@ -6,8 +6,8 @@ mod summary;
 
 pub use summary::how;
 
-use self::algebra::Order;
-use super::kernel::sign::{Certificate, Rule, Sign};
+use self::algebra::{Order, ends};
+use super::kernel::sign::Sign;
 use super::kernel::{Because, Derivation, Direct, Proof, Rounding, Signed, Supposed, Used};
 use crate::formula::claim::{MEMBERS, POWER, PRECISION};
 use crate::formula::statement::{Goal, Proposition, Role, Sequence, Statement};
@@ -34,20 +34,20 @@ impl<'a> Paper<'a> {
         if let Some(registry) = self.other_names(statement) {
             return Paper::new(&registry).claim(statement);
         }
-        let computed = statement.computed().into_iter();
-        let computed: String =
+        let computed = statement.computed().iter();
+        let computed: Vec<_> =
             computed.map(|computed| format!("{} = {}", computed.symbol, self.text(&computed.by))).collect();
         let Some(sequence) = statement.conclusion() else {
             let goals = statement.goals().iter().filter(|goal| goal.role == Role::Claim);
             let goals: Vec<_> = goals.map(|goal| self.format_proposition(&goal.proposition)).collect();
-            let place = if computed.is_empty() { String::new() } else { format!(", where {computed}") };
-            return goals.join("; ") + &place;
+            let place = if computed.is_empty() { "" } else { ", where " };
+            return goals.join("; ") + place + &computed.join(" and ");
         };
         let Sequence { start, step, ratio, member, limit, within } = sequence;
         let together =
             |trees: &[Tree]| trees.iter().map(|tree| self.text(tree)).collect::<Vec<_>>().join(", ");
         let (index, power) = (self.index(statement), self.power(statement, ratio));
-        let place = if computed.is_empty() { power } else { format!("{power} and {computed}") };
+        let place = [&[power], &computed[..]].concat().join(" and ");
         if let Some(limit) = limit {
             return format!("{} → {} for {place} and {index} → ∞", together(member), self.text(limit));
         }
@@ -67,7 +67,7 @@ impl<'a> Paper<'a> {
         if let Some(registry) = self.other_names(statement) {
             return Paper::new(&registry).always(statement);
         }
-        let computed = statement.computed().into_iter().map(|computed| &computed.hypothesis);
+        let computed = statement.computed().iter().map(|computed| &computed.hypothesis);
         let all = statement.invariants().iter().chain(computed);
         all.map(|hypothesis| self.registry.supposed(hypothesis)).collect()
     }
@@ -346,7 +346,8 @@ impl<'a> Paper<'a> {
                 Some(1) => "with the sizes of errors".to_string(),
                 Some(ends) => format!("with the sizes of errors, at {ends} ends"),
             };
-            format!("the bound {what} is {value} ≥ 0, {how}")
+            let kept = signed.less().map(|less| self.order().kept(less) + " ").unwrap_or_default();
+            format!("the bound {what} is {value} ≥ 0, {kept}{how}")
         })
     }
 
@@ -356,6 +357,7 @@ impl<'a> Paper<'a> {
         match supposed.used() {
             Used::Symbol(_) => None,
             Used::Follows => Some(format!("{name} follows")),
+            Used::Kept => Some(format!("{name} is kept as it is")),
             Used::Unused => Some(format!("{name} is not used")),
             Used::Between(x, by, place) => Some(format!(
                 "by {name}: {} = {}, where −1 ≤ {} ≤ 1",
@@ -382,8 +384,11 @@ impl<'a> Paper<'a> {
     /// Why a quotient has its sign.
     fn signed(&self, signed: &Signed) -> Vec<String> {
         let mut lines = Vec::new();
-        if !signed.value().den().is_one() {
+        if !signed.value().den().is_one() || signed.less().is_some() {
             lines.push(format!("it is {}", self.order().ratio_or_size(signed.value())));
+        }
+        lines.extend(signed.less().map(|less| self.order().kept(less)));
+        if !signed.den().of().is_one() {
             lines.extend(self.order().certificate(signed.den()));
         }
         lines.extend(self.order().certificate(signed.num()));
@@ -425,15 +430,6 @@ const LETTERS: [(char, char); 12] = [
 /// What an error of rounding is; the names of errors follow.
 fn model() -> String {
     format!("fl(…) = … (1 + eᵢ / ({PRECISION} + 1)) with |eᵢ| ≤ 1: ")
-}
-
-/// At how many ends of errors a sign is seen; 0 if there are no errors in it.
-fn ends(certificate: &Certificate) -> usize {
-    match certificate.rule() {
-        Rule::Ends { at, .. } => at.iter().map(|end| ends(end).max(1)).sum(),
-        Rule::Sizes(_) => 1,
-        _ => 0,
-    }
 }
 
 /// A fact and the reason for it, on one line if that is short.

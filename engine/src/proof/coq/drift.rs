@@ -60,7 +60,7 @@ impl<'a> Law<'a> {
             let (part, lemma) = self.lemma("Lemma", format!("{}_{i}", self.name), goal)?;
             text += &lemma;
             match goal.role {
-                Role::Computed => near.push(part),
+                Role::Computed(_) => near.push(part),
                 Role::InvariantBase => begins.push(part),
                 Role::InvariantStep => continues.push(part),
                 Role::Claim | Role::Step => hence.push(part),

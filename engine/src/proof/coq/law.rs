@@ -101,9 +101,10 @@ impl<'a> Law<'a> {
         }
         let sequence = statement.conclusion().filter(|sequence| sequence.is_perturbed());
         let text = match (sequence, statement.computed(), statement.goals()) {
-            (Some(sequence), Some(computed), _) => self.drift(sequence, computed)?,
-            (None, Some(computed), [near, goal]) => self.computing(computed, near, goal)?,
-            (None, None, [goal]) => self.lemma("Theorem", self.name.to_string(), goal)?.1,
+            (Some(sequence), [computed], _) => self.drift(sequence, computed)?,
+            (None, [computed], [near, goal]) => self.computing(computed, near, goal)?,
+            (None, [], [goal]) => self.lemma("Theorem", self.name.to_string(), goal)?.1,
+            (_, [_, _, ..], _) => return Err("several computed quantities".into()),
             _ => return Err("a law of this kind has several goals".into()),
         };
         Ok(self.defined()? + &text)
@@ -138,8 +139,9 @@ impl<'a> Law<'a> {
     /// Returns the hypotheses for a goal, without those on a member and the quantity computed from it if the
     /// goal contains neither.
     fn needed(&self, goal: &Goal) -> Vec<&'a Hypothesis> {
-        let computed = self.statement.computed().map(|computed| computed.symbol);
-        let own = |name: &&str| *name == MEMBERS[0] || Some(*name) == computed;
+        let computed = self.statement.computed();
+        let own =
+            |name: &&str| *name == MEMBERS[0] || computed.iter().any(|computed| computed.symbol == *name);
         let speaks_of_it = |tree: &Tree| tree.symbols().iter().any(own);
         let mut hypotheses = self.statement.hypotheses_for(goal.role);
         if !goal.proposition.trees().into_iter().any(speaks_of_it) {

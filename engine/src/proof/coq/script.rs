@@ -128,7 +128,7 @@ impl Script {
             return Err("a hypothesis is divided by a quantity");
         }
         match supposed.used() {
-            Used::Follows | Used::Unused => {}
+            Used::Follows | Used::Kept | Used::Unused => {}
             Used::Between(_, _, place) => {
                 let near = supposed.given().is_some_and(|given| given.distance().is_some());
                 let (rule, place) = (if near { "near" } else { "between" }, ascii(place.0));
@@ -219,11 +219,15 @@ impl Script {
             let of_goal: &[Signed] = match direct.because() {
                 Because::Sign(signed) => std::slice::from_ref(signed),
                 Because::Within(both) => &both[..],
+                Because::Order(_) => return Err("rounding keeps order, case by case"),
                 _ => &[],
             };
             let of_divisors = direct.divisors().iter().map(|(_, signed)| signed);
             let of_brackets = direct.brackets().iter().map(|(.., signed)| signed);
             let mut signs = of_goal.iter().chain(of_divisors).chain(of_brackets);
+            if signs.clone().any(|signed| signed.less().is_some()) {
+                return Err("a hypothesis without a pivot");
+            }
             if !signs.all(|signed| has_program(signed.num()) && has_program(signed.den())) {
                 return Err("the sign of what is rounded rests on a square or a slope");
             }
@@ -279,6 +283,9 @@ impl Script {
 
     /// The absolute value of a quotient, in a form that shows that it is not negative.
     pub(super) fn size(&mut self, signed: &Signed) -> Result<Expr, Reason> {
+        if signed.less().is_some() {
+            return Err("a hypothesis without a pivot");
+        }
         Ok(self.positive(signed.num())?.over(self.positive(signed.den())?))
     }
 

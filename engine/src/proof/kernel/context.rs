@@ -1,7 +1,7 @@
 //! What is supposed, ready for use.
 
 use super::algebra::{Monomial, Poly, Ratio, Symbol};
-use super::derivation::{Rounding, Signed, Supposed, Used, Why};
+use super::derivation::{Multiple, Rounding, Signed, Supposed, Used, Why};
 use super::reader::Reader;
 use super::sign::{Certificate, ERRORS, Known, PLACES, Sign, is_small, sign, sign_of_product};
 use crate::formula::Hypothesis;
@@ -19,6 +19,8 @@ pub(super) struct Context {
     pub(super) supposed: Vec<Supposed>,
     pub(super) known: Known,
     rules: Vec<(Monomial, Ratio)>,
+    /// What is assumed, with its sign, and not seen in the symbols that are left.
+    kept: Vec<(Ratio, Sign)>,
     /// What is rounded: with the errors of the same place.
     pub(super) roundings: Vec<Tree>,
     /// What has been rounded in hypotheses, with its error.
@@ -31,8 +33,8 @@ impl Context {
     /// Nothing yet, but that powers of two are positive.
     pub(super) fn of(roundings: Vec<Tree>) -> Self {
         let known = SCALES.into_iter().map(|name| (Symbol(name), Sign::Positive)).collect();
-        let (supposed, rules, errors, variable) = Default::default();
-        Context { supposed, known, rules, roundings, errors, variable }
+        let (supposed, rules, kept, errors, variable) = Default::default();
+        Context { supposed, known, rules, kept, roundings, errors, variable }
     }
 
     /// For the proof of this: hypotheses on the variable of a limit are solved for it.
@@ -102,7 +104,37 @@ impl Context {
     pub(super) fn sign(&self, value: Ratio, factors: &[Certificate]) -> Option<Signed> {
         let sign = |part: &Poly| sign_of_product(part, factors, &self.known);
         let (num, den) = (sign(value.num())?, sign(value.den())?);
-        den.sign().is_strict().then_some(Signed { value, num, den })
+        den.sign().is_strict().then_some(Signed { value, less: None, num, den })
+    }
+
+    /// The same also by what is [kept](Self::kept): v = m h + (v − m h) has the sign that both parts have,
+    /// where h is assumed to have one. The factor m is one for which a symbol cancels: an error or an
+    /// interval parameter, if there is one in both.
+    pub(super) fn sign_by_kept(&self, value: Ratio, factors: &[Certificate]) -> Option<Signed> {
+        let by = |h: &Ratio, sign: Sign, m: &Ratio| {
+            let factor = self.sign(m.clone(), factors)?;
+            let rest = self.sign(&value - m * h, factors)?;
+            let whole = factor.sign().times(sign).plus(rest.sign())?;
+            let less = Some(Multiple { factor, of: h.clone(), whole }.into());
+            Some(Signed { value: value.clone(), less, ..rest })
+        };
+        self.sign(value.clone(), factors).or_else(|| {
+            self.kept.iter().rev().find_map(|(h, sign)| {
+                let h = self.reduce(h);
+                let scale = Ratio::from(h.den().clone()).over(&value.den().clone().into())?;
+                let factor = |x: Symbol| {
+                    let [[_, own], [_, other]] = [value.num().coefficients(x)?, h.num().coefficients(x)?];
+                    Some(&scale * Ratio::from(own).over(&other.into())?)
+                };
+                let (small, others): (Vec<_>, Vec<_>) =
+                    h.num().symbols().into_iter().partition(|x| is_small(*x));
+                let cancelling = |of: Vec<Symbol>| of.into_iter().filter_map(factor).collect::<Vec<_>>();
+                let small = cancelling(small);
+                let mut all = if small.is_empty() { cancelling(others) } else { small };
+                all.dedup();
+                all.iter().find_map(|m| by(&h, *sign, m))
+            })
+        })
     }
 
     /// Takes in that a quantity has a sign.
@@ -130,7 +162,8 @@ impl Context {
                     }
                     Used::Pivot(pivot, by, Some(slack))
                 } else {
-                    Used::Unused
+                    self.kept.push((value.clone(), sign));
+                    Used::Kept
                 }
             }
             Sign::Zero => self
@@ -166,7 +199,7 @@ impl Context {
     }
 
     /// Takes in that a symbol is in an interval: for some t between −1 and 1 it is its middle and t times
-    /// half of its length.
+    /// half of its length. That does not show a sign that is known of the symbol, which is kept.
     fn suppose_between(&mut self, given: &Hypothesis, x: Symbol, lower: &Ratio, upper: &Ratio) {
         let half = Ratio::from(Poly::constant((1, 2)));
         let [middle, reach] = [upper + lower, upper - lower].map(|sum| self.reduce(&(sum * &half)));
@@ -176,6 +209,7 @@ impl Context {
         let used = match PLACES.get(named).copied().map(Symbol) {
             Some(place) if open && !middle.symbols().contains(&x) && !reach.symbols().contains(&x) => {
                 let by = &middle + reach * Ratio::from(Poly::symbol(place));
+                self.kept.extend(self.known.remove(&x).map(|sign| (own.clone(), sign)));
                 self.replace(Monomial::of(x), by.clone());
                 Used::Between(x, by, place)
             }
@@ -247,7 +281,13 @@ impl Context {
             return Some(rule);
         }
         let free = free.min_by_key(|(later, (terms, _))| (*later, *terms)).map(|(_, (_, rule))| rule);
-        free.or_else(|| if rounds { seen_again().or_else(product) } else { product().or_else(seen_again) })
+        free.or_else(|| {
+            if rounds || self.rounds() {
+                seen_again().or_else(product)
+            } else {
+                product().or_else(seen_again)
+            }
+        })
     }
 }
 

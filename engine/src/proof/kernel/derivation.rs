@@ -174,7 +174,9 @@ pub enum Used {
     Pivot(Monomial, Ratio, Option<Symbol>),
     /// In its interval the symbol is this, by a new symbol between −1 and 1.
     Between(Symbol, Ratio, Symbol),
-    /// Not at all: there is no pivot. What is proved holds without it, too.
+    /// As it is: there is no pivot. Multiples of it may be [subtracted](Signed::less).
+    Kept,
+    /// Not at all. What is proved holds without it, too.
     Unused,
 }
 
@@ -182,6 +184,7 @@ pub enum Used {
 #[derive(Clone, Debug)]
 pub struct Signed {
     pub(super) value: Ratio,
+    pub(super) less: Option<Box<Multiple>>,
     pub(super) num: Certificate,
     pub(super) den: Certificate,
 }
@@ -192,19 +195,46 @@ impl Signed {
         &self.value
     }
 
-    /// The sign of its numerator.
+    /// The multiple of an assumption that is subtracted first, if one is.
+    pub fn less(&self) -> Option<&Multiple> {
+        self.less.as_deref()
+    }
+
+    /// The sign of its numerator, or of that of the difference.
     pub fn num(&self) -> &Certificate {
         &self.num
     }
 
-    /// The strict sign of its denominator.
+    /// The strict sign of the denominator.
     pub fn den(&self) -> &Certificate {
         &self.den
     }
 
     /// The sign of the quotient.
     pub fn sign(&self) -> Sign {
-        self.num.sign().times(self.den.sign())
+        let rest = self.num.sign().times(self.den.sign());
+        self.less.as_ref().map_or(rest, |less| less.whole)
+    }
+}
+
+/// A multiple of an assumed quantity, whose sign is that of the factor times that of the quantity.
+#[derive(Clone, Debug)]
+pub struct Multiple {
+    pub(super) factor: Signed,
+    pub(super) of: Ratio,
+    /// The sign of the sum of this and the rest.
+    pub(super) whole: Sign,
+}
+
+impl Multiple {
+    /// The factor.
+    pub fn factor(&self) -> &Signed {
+        &self.factor
+    }
+
+    /// The quantity.
+    pub fn of(&self) -> &Ratio {
+        &self.of
     }
 }
 

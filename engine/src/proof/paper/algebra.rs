@@ -2,10 +2,20 @@
 
 use crate::number::{Exponential, Field, Tree};
 use crate::proof::Why;
+use crate::proof::kernel::Multiple;
 use crate::proof::kernel::algebra::{Monomial, Poly, Ratio, Symbol};
 use crate::proof::kernel::sign::{Certificate, Rule, Sign, is_small};
 use rug::Integer;
 use std::fmt;
+
+/// The number of ends of errors at which a sign is seen; 0 if there are no errors in it.
+pub(super) fn ends(certificate: &Certificate) -> usize {
+    match certificate.rule() {
+        Rule::Ends { at, .. } => at.iter().map(|end| ends(end).max(1)).sum(),
+        Rule::Sizes(_) => 1,
+        _ => 0,
+    }
+}
 
 /// The order in which the factors of a product are written, by their symbols. Others come before them, by
 /// name.
@@ -70,6 +80,12 @@ impl Order<'_> {
             }
             _ => self.ratio(ratio).to_string(),
         }
+    }
+
+    /// The part of a quotient that has its sign by assumption.
+    pub(super) fn kept(&self, less: &Multiple) -> String {
+        let part = less.factor().value() * less.of();
+        format!("of which {} has this sign by assumption and the rest", self.ratio_or_size(&part))
     }
 
     /// Why a polynomial has its sign: one line a rule, the last one first.
