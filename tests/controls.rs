@@ -98,7 +98,7 @@ fn neighbours(statements: &[Statement]) -> Vec<(String, Statement)> {
 /// A statement for each goal: one that is false must not be proved because the next is not. The goals of an
 /// induction, or of what is computed, say something only together.
 fn goal_by_goal((name, statement): (String, Statement)) -> Vec<(String, Statement)> {
-    if matches!(statement.kind(), "induction" | "drift") || statement.computed().is_some() {
+    if matches!(statement.kind(), "induction" | "drift") || !statement.computed().is_empty() {
         return vec![(name, statement)];
     }
     let goals = statement.goals().iter();

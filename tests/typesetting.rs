@@ -629,13 +629,12 @@ impl<'a> Text<'a> {
     }
 
     fn is_computed(self, computed: &'a str, statement: &Statement) {
-        match (computed.split_once(" = "), statement.computed()) {
-            (None, None) => {}
-            (Some((symbol, by)), Some(computed)) => {
-                assert_eq!(symbol, computed.symbol);
-                self.part(by).is(&computed.by);
-            }
-            _ => panic!("{}: what is computed?", self.0),
+        let all: Vec<_> = computed.split(" and ").filter(|said| !said.is_empty()).collect();
+        assert_eq!(all.len(), statement.computed().len(), "{}: what is computed?", self.0);
+        for (said, computed) in all.into_iter().zip(statement.computed()) {
+            let (symbol, by) = said.split_once(" = ").expect(self.0);
+            assert_eq!(symbol, computed.symbol);
+            self.part(by).is(&computed.by);
         }
     }
 }
@@ -669,7 +668,7 @@ fn hypotheses() -> impl Strategy<Value = Hypothesis> {
 /// Claims of all kinds, which need not be true.
 fn claims() -> impl Strategy<Value = Statement> {
     let some = prop::collection::vec(prop_oneof![trees(), rounded_trees()], 9);
-    (some, 0..9, relations(), any::<bool>()).prop_map(|(trees, kind, relation, computes)| {
+    (some, 0..9, relations(), 0..3usize).prop_map(|(trees, kind, relation, computes)| {
         let t = |i: usize| trees[i].clone();
         let a = Tree::symbol("a");
         let claim = match kind {
@@ -695,10 +694,9 @@ fn claims() -> impl Strategy<Value = Statement> {
             ),
             _ => vanishing("drawn", t(0), t(1), t(2)),
         };
-        let v = Tree::symbol("v");
-        let near = Hypothesis::near(&v, t(7), t(8));
-        let claim = claim.assuming([&near]);
-        if computes { claim.computing(&v, t(8)) } else { claim }
+        let computed = ["v", "w"].map(|name| Tree::symbol(name));
+        let claim = claim.assuming(&computed.each_ref().map(|x| Hypothesis::near(x, t(7), t(8))));
+        computed.iter().take(computes).fold(claim, |claim, x| claim.computing(x, t(8)))
     })
 }
 

@@ -92,7 +92,7 @@ fn for_coq(directory: &Path) -> Result<Exit, Failure> {
             output::command(out, ["coqc", "-R", ".", "Contact", &file.to_string_lossy()])?;
         }
         coq().left_out().iter().try_for_each(|LeftOut { equation, name, reason }| {
-            output::wrapped(out, "", 2, &format!("left out: {equation} {name}: {reason}"))
+            writeln!(out, "  # left out: {equation} {name}: {reason}")
         })
     })
 }
@@ -170,7 +170,7 @@ fn totals(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
     let dropped = &proofs.controls.dropped;
     let needed = dropped.iter().filter(|dropped| matches!(dropped.without, Without::Refuted(_))).count();
     let fine = dropped.iter().filter(|dropped| dropped.is_of_precision()).count();
-    writeln!(out, "{needed} of {hypotheses} hypotheses needed, {fine} only asks for finer numbers.")?;
+    writeln!(out, "{needed} of {hypotheses} hypotheses needed, {fine} only for finer numbers.")?;
     let (changes, noticed, unchanged) = (controls.changes, controls.noticed, controls.unchanged);
     let seen = noticed + unchanged;
     let seen = format!(

@@ -145,6 +145,7 @@ fn hypotheses() -> Vec<Row> {
     let difference = above_zero(&b - &a);
     let product = |factor: Tree| zero(&factor * &u - &factor);
     let [pos_b, unit] = [above_zero(&b), Hypothesis::between(&u, 0, 1)];
+    let near = Hypothesis::near(&u, &a, &b);
     let power = zero(&u * &v * a.exp() - &b);
     let (wide, narrow) = (Hypothesis::near(&u, &v, &c), Hypothesis::near(&u, &v, 0));
     vec![
@@ -197,6 +198,21 @@ fn hypotheses() -> Vec<Row> {
             "a bound may not be negative",
             within("f", 0, -&c).assuming([&not_below_zero(&c)]),
             within("t", 0, &c).assuming([&not_below_zero(&c)]),
+        ),
+        (
+            "of what is kept more is not known",
+            non_negative("f", &u - &b).assuming([&not_below_zero(&u), &pos_b, &near]),
+            non_negative("t", &u + &b).assuming([&not_below_zero(&u), &pos_b, &near]),
+        ),
+        (
+            "a multiple of what is kept has a sign if the factor has",
+            non_negative("f", &c * &u).assuming([&not_below_zero(&u), &pos_b, &near]),
+            non_negative("t", &b * &u).assuming([&not_below_zero(&u), &pos_b, &near]),
+        ),
+        (
+            "a bracket brings nothing nearer to what is negative",
+            within("f", u.positive_part() - &a, &b).assuming([&pos_b, &near]),
+            within("t", u.positive_part() - &a, &b).assuming([&pos_b, &near, &not_below_zero(&a)]),
         ),
     ]
 }
@@ -338,7 +354,7 @@ fn slopes_and_limits() -> Vec<Row> {
 }
 
 fn sequences() -> Vec<Row> {
-    let [a, c, q, u, w, z] = ["a", "c", "q", "u", "w", "z"].map(x);
+    let [a, c, q, u, v, w, z] = ["a", "c", "q", "u", "v", "w", "z"].map(x);
     let half = || n(1) / n(2);
     let double = |[x]: [Tree; 1]| [n(2) * x];
     let [pos_c, unit] = [above_zero(&c), Hypothesis::between(&q, 0, 1)];
@@ -354,6 +370,13 @@ fn sequences() -> Vec<Row> {
         drift(name, 2, 0, |x| x + &step, (n(0), n(0)), |_| [])
             .assuming([&from_one, &near_q])
             .computing(&u, &q)
+    };
+    let above = |least: i32| x("x₁") / n(2) + (n(least) - x("x₁")).positive_part();
+    let chain = |name, last: Tree| {
+        within(name, &v - &w, 2)
+            .assuming([&Hypothesis::near(&u, &w, 1), &Hypothesis::near(&v, &w, 2)])
+            .computing(&u, &w + n(1))
+            .computing(&v, last)
     };
     let raised = (&u * (&u - n(1)) - &square).positive_part();
     vec![
@@ -415,6 +438,12 @@ fn sequences() -> Vec<Row> {
             "a bound is kept at the start",
             halves("f", x("x₁") / n(2), &q / n(2)),
             halves("t", x("x₁") / n(2), n(1) * &q),
+        ),
+        ("a computed quantity rests on those before it alone", chain("f", &u + n(2)), chain("t", &u + n(1))),
+        (
+            "what is supposed of a member is true at the start",
+            also(halves("f", above(2), n(2) * &q), not_below_zero(x("x₁") - n(2))),
+            also(halves("t", above(0), n(2) * &q), not_below_zero(x("x₁"))),
         ),
         (
             "nothing but its interval is assumed of a computed quantity",
@@ -561,7 +590,7 @@ fn false_claims_are_refuted_and_not_proved() {
     let wrong: Vec<_> = wrong.collect();
     assert!(wrong.is_empty(), "{wrong:#?}");
     let premises: BTreeSet<_> = all().map(|(premise, ..)| premise).collect();
-    assert_eq!((premises.len(), all().count()), (88, 88), "each premise has one row, and none is lost");
+    assert_eq!((premises.len(), all().count()), (93, 93), "each premise has one row, and none is lost");
 }
 
 #[test]

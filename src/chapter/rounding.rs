@@ -95,7 +95,7 @@ pub fn floor<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: &T) -> T {
 ///
 /// `20 F`
 ///
-/// `eps` is the penalty ε in N/m, `n` is 2ᵖ. Domain: c > 0, ε > 0, R ≥ 0,
+/// So they do in its unilateral form. `eps` is the penalty ε in N/m, `n` is 2ᵖ. Domain: c > 0, ε > 0, R ≥ 0,
 /// and 64 (c + ε) ≤ ε (2ᵖ + 1). Source: §1.3.3, note 8.
 ///
 /// ```

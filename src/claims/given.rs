@@ -2,7 +2,7 @@
 
 use super::prelude::{eta, member, precision};
 use super::{Case, symbols};
-use crate::chapter::{augmented, contact, penalty, rounding, system};
+use crate::chapter::{SpringMass, augmented, contact, penalty, rounding, system};
 use crate::formula::{Hypothesis, Relation};
 use crate::number::{PositivePart, Tree};
 use std::sync::LazyLock;
@@ -38,6 +38,12 @@ macro_rules! hypotheses {
             &GIVEN
         }
     };
+}
+
+/// How far a computed deflection is from the root for the multiplier that is computed before it.
+fn iterate_error(s: &SpringMass<Tree>, eps: &Tree) -> Tree {
+    eta() * (Tree::from(5) * system::gap(s).abs() + Tree::from(5) * penalty::penetration(s, eps))
+        + rounding::floor(s, eps, precision())
 }
 
 // Where numbers are looked for, the reaction gets its sign by gravity, so that the other parameters stay as
@@ -117,8 +123,23 @@ hypotheses! {
     near_iterate "|u − (m g − x₁ + ε (H − l)) / (c + ε)| ≤ η (5 |Δ| + 5 R / (c + ε)) + F" = Hypothesis::near(
         u,
         augmented::deflection(s, eps, member()),
-        eta() * (Tree::from(5) * system::gap(s).abs() + Tree::from(5) * penalty::penetration(s, eps))
-            + rounding::floor(s, eps, precision())
+        iterate_error(s, eps)
+    );
+    near_printed "|v − (m g − x₁ + ε (H − l)) / (c + ε)| ≤ η (5 |Δ| + 5 R / (c + ε)) + F" = Hypothesis::near(
+        v, augmented::deflection(s, eps, member()), iterate_error(s, eps)
+    );
+    pushes "x₁ ≥ 0" = non_negative(member());
+    near_bilateral
+        "|v − (m g + ε (H − l)) / (c + ε)| ≤ 5 η (1 + 2 η) (|Δ| + |R| / (c + ε))" = Hypothesis::near(
+        v,
+        augmented::deflection(s, eps, &Tree::from(0)),
+        Tree::from(5) * eta() * (Tree::from(1) + Tree::from(2) * eta())
+            * (system::gap(s).abs() + system::reaction(s).abs() / penalty::total_stiffness(s, eps)),
+    );
+    near_next "|λ + R ρ q − R| ≤ 11 (c + ε) F" = Hypothesis::near(
+        lambda,
+        augmented::multiplier_after(s, &Tree::from(0), &(augmented::contraction(s, eps) * q)),
+        rounding::multiplier_drift(s, eps, precision()),
     );
 }
 

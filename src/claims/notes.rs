@@ -7,10 +7,17 @@ use std::sync::LazyLock;
 
 /// Its entries, with what is claimed of each.
 pub(super) fn entries() -> Vec<Entry> {
-    let Case { system: s, u, eps, lambda, q, t, .. } = symbols();
+    let Case { system: s, u, v, eps, lambda, q, t, .. } = symbols();
     let Given {
         stiffness,
         penalty,
+        fine_enough,
+        decay,
+        pushes,
+        near_printed,
+        near_iterate,
+        near_next,
+        near_bilateral,
         softening,
         some_bits,
         beyond_twice,
@@ -184,6 +191,49 @@ pub(super) fn entries() -> Vec<Entry> {
                     [lambda * q],
                 )
                 .assuming([grazing, multiplier, power]),
+                drift(
+                    "float-unilateral-drift",
+                    augmented::contraction(s, eps),
+                    0,
+                    |_| lambda.positive_part(),
+                    (
+                        augmented::multiplier_after(s, zero, q),
+                        rounding::multiplier_drift(s, eps, precision()),
+                    ),
+                    |_| {
+                        let exact = augmented::penetration_after(s, eps, zero, q);
+                        let error = contact::penetration(s, u).rounded() - exact;
+                        [(error, rounding::penetration_drift(s, eps, precision()))]
+                    },
+                )
+                .assuming([fine_enough, touching, decay, pushes, near_printed, near_iterate, near_next])
+                .computing(v, augmented::deflection(s, eps, member()).rounded())
+                .computing(u, structure::deflection(s).rounded().min(v))
+                .computing(lambda, augmented::update(s, eps, member(), u).rounded()),
+                {
+                    let free = structure::deflection(s);
+                    let bound = int(2) * free.abs()
+                        + int(8) * (gap.abs() + r.abs() / penalty::total_stiffness(s, eps));
+                    within(
+                        "float-nearly-free",
+                        structure::deflection(s).rounded().min(v) - free,
+                        eta() * bound,
+                    )
+                    .assuming([separated, near_bilateral])
+                    .computing(v, augmented::deflection(s, eps, zero).rounded())
+                },
+                {
+                    let p = |free: Tree| contact::penetration(s, u).rounded().with(&[("u", free)]);
+                    let free = structure::deflection(s).rounded();
+                    non_negative("float-no-deeper", p(free.clone()) - p(free.min(v)))
+                        .only_assuming([stiffness])
+                },
+                {
+                    let free = structure::deflection(s);
+                    let p = contact::penetration(s, u).rounded().with(&[("u", free.rounded())]);
+                    non_negative("float-hardly-inside", eta() * (int(3) * free.abs() + s.h.abs()) - p)
+                        .only_assuming([stiffness, separated])
+                },
                 // λ_k > 0 as long as (1 + ε/c)ᵏ < 1 + λ₀/|R|.
                 equal(
                     "count",
@@ -358,4 +408,26 @@ fn saturating_force(eps: &Tree, p: &Tree) -> Tree {
 /// A functional that lacks one of them.
 fn bounded_penalty(eps: &Tree, p: &Tree) -> Tree {
     eps * p * p / (int(1) + p * p)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::formula::Statement;
+
+    /// The quantities that a step of the drift computes on the way are those of the functions themselves.
+    #[test]
+    fn the_drift_is_that_of_the_unilateral_functions() {
+        let Case { system: s, u, eps, .. } = symbols();
+        let own =
+            |claim: &&Statement| (claim.equation(), claim.name()) == ("note 4", "float-unilateral-drift");
+        let claim = crate::claims::claims().find(own).expect("the claim");
+        let ([v, deflection, bracket], Some(sequence)) = (claim.computed(), claim.conclusion()) else {
+            panic!("three computed quantities of a sequence");
+        };
+        let computed = deflection.by.with(&[(v.symbol, v.by.clone())]);
+        assert_eq!(computed, augmented::unilateral_deflection(s, eps, member()).rounded());
+        let next = sequence.step[0].with(&[(bracket.symbol, bracket.by.clone())]);
+        assert_eq!(next, augmented::unilateral_update(s, eps, member(), u).rounded());
+    }
 }

@@ -56,6 +56,13 @@ impl Sequence {
         }
     }
 
+    /// Returns `true` if a hypothesis is about what changes from step to step: a power, or in a perturbed
+    /// recursion a member.
+    pub(super) fn changes(&self, hypothesis: &Hypothesis) -> bool {
+        let symbols = hypothesis.value.symbols();
+        symbols.contains(POWER) || self.is_perturbed() && symbols.contains(MEMBERS[0])
+    }
+
     /// The invariant of a perturbed recursion: the distance of a member from its formula.
     pub(super) fn invariant(&self) -> Option<Hypothesis> {
         let ((_, bound), near) = (self.within.first()?, self.member.first()?);
@@ -65,8 +72,9 @@ impl Sequence {
     /// The goals of the induction over k.
     ///
     /// A recursion has the closed form x_k = closed(ρᵏ) if closed(1) is its start and one step leads from
-    /// closed(q) to closed(ρ q), whatever q is. A hypothesis on q is an invariant: it has to hold for q = 1,
-    /// by the other hypotheses alone, and to be passed on from q to ρ q; then it may be used in the step.
+    /// closed(q) to closed(ρ q), whatever q is. A hypothesis on q, or on a member of a perturbed recursion,
+    /// is an invariant: it has to hold at the start, for q = 1, by the other hypotheses alone, and to be
+    /// passed on from q to ρ q and from a member to the next; then it may be used in the step.
     pub(super) fn goals(&self, invariants: &[Hypothesis]) -> Vec<Goal> {
         let goal = |part, role, proposition| Goal { part, role, proposition };
         let Sequence { start, step, ratio, member, limit, within } = self;

@@ -1,6 +1,6 @@
 //! Statements about formulas: what provers, number systems and printers read.
 
-use super::claim::{POWER, PRECISION};
+use super::claim::PRECISION;
 use super::hypothesis::{Hypothesis, Relation, name_of};
 pub use super::sequence::Sequence;
 use crate::number::Tree;
@@ -25,12 +25,12 @@ pub struct Statement {
     name: &'static str,
     stated: Vec<Hypothesis>,
     inherits: bool,
-    computes: Option<(&'static str, Tree)>,
+    computes: Vec<(&'static str, Tree)>,
     form: Form,
     rounds: bool,
     hypotheses: Vec<Hypothesis>,
     invariants: Vec<Hypothesis>,
-    computed: Option<Computed>,
+    computed: Vec<Computed>,
     goals: Vec<Goal>,
 }
 
@@ -76,8 +76,9 @@ pub enum Role {
     InvariantBase,
     /// An invariant after a step, if it holds before.
     InvariantStep,
-    /// A computed quantity is in its interval.
-    Computed,
+    /// A computed quantity is in its interval, under the invariants and the intervals of those before it, of
+    /// which this is the number.
+    Computed(usize),
 }
 
 /// A proposition about formulas.
@@ -151,8 +152,8 @@ impl Statement {
     }
 
     pub(super) fn of_form(name: &'static str, form: Form) -> Self {
-        let (stated, hypotheses, invariants, goals) = Default::default();
-        let (equation, inherits, computes, computed, rounds) = ("", true, None, None, false);
+        let (stated, computes, hypotheses, invariants, computed, goals) = Default::default();
+        let (equation, inherits, rounds) = ("", true, false);
         let fresh = Statement {
             equation,
             name,
@@ -171,16 +172,18 @@ impl Statement {
 
     /// Derives the hypotheses by role, and the goals, from what is stated.
     fn derived(mut self) -> Self {
-        let of_q = |hypothesis: &Hypothesis| hypothesis.value.symbols().contains(POWER);
         let mut hypotheses = self.stated.clone();
         self.goals = Vec::new();
-        self.computed = self.computes.as_ref().and_then(|(symbol, by)| {
+        self.computed = Vec::new();
+        for (symbol, by) in &self.computes {
             let is_its_interval = |h: &Hypothesis| h.interval().is_some_and(|(x, ..)| x == *symbol);
-            let hypothesis = hypotheses.remove(hypotheses.iter().position(is_its_interval)?);
+            let Some(place) = hypotheses.iter().position(is_its_interval) else { continue };
+            let hypothesis = hypotheses.remove(place);
             let proposition = Proposition::of_hypothesis(&hypothesis, &[(symbol, by.clone())]);
-            self.goals.push(Goal { part: "computed", role: Role::Computed, proposition });
-            Some(Computed { symbol, by: by.clone(), hypothesis })
-        });
+            let role = Role::Computed(self.computed.len());
+            self.goals.push(Goal { part: "computed", role, proposition });
+            self.computed.push(Computed { symbol, by: by.clone(), hypothesis });
+        }
         match &self.form {
             Form::Propositions(all) => {
                 self.invariants = Vec::new();
@@ -189,7 +192,10 @@ impl Statement {
             Form::Sequence(sequence) => {
                 self.invariants = match sequence.limit {
                     Some(_) => Vec::new(),
-                    None => hypotheses.extract_if(.., |h| of_q(h)).chain(sequence.invariant()).collect(),
+                    None => {
+                        let changes = |h: &mut Hypothesis| sequence.changes(h);
+                        hypotheses.extract_if(.., changes).chain(sequence.invariant()).collect()
+                    }
                 };
                 self.goals.extend(sequence.goals(&self.invariants));
             }
@@ -229,8 +235,11 @@ impl Statement {
 
     /// The statement where a quantity is computed by a formula: its interval is proved and not assumed.
     ///
+    /// Of several such quantities each may be computed from those before it.
+    ///
     /// # Panics
-    /// Panics unless exactly one hypothesis is about the quantity, and it is its interval.
+    /// Panics unless exactly one hypothesis is about the quantity, and it is its interval; and if the
+    /// quantity is computed already.
     pub fn computing(mut self, symbol: &Tree, by: impl Into<Tree>) -> Self {
         let name = name_of(symbol);
         let of_it = |hypothesis: &&Hypothesis| hypothesis.value.symbols().contains(name);
@@ -238,7 +247,12 @@ impl Statement {
         let [only] = own[..] else { panic!("{}: no interval of {name} is assumed", self.name) };
         let is_interval = only.interval().is_some_and(|(x, ..)| x == name);
         assert!(is_interval, "{}: {only} is not an interval of {name}", self.name);
-        self.computes = Some((name, by.into()));
+        assert!(
+            self.computes.iter().all(|(other, _)| *other != name),
+            "{}: {name} is computed already",
+            self.name
+        );
+        self.computes.push((name, by.into()));
         self.derived()
     }
 
@@ -252,7 +266,7 @@ impl Statement {
     /// Another proposition under the hypotheses of the statement.
     pub fn with_proposition(&self, proposition: Proposition) -> Self {
         let form = Form::Propositions(vec![("", proposition)]);
-        Statement { form, computes: None, ..self.clone() }.derived()
+        Statement { form, computes: Vec::new(), ..self.clone() }.derived()
     }
 
     /// The statement with each formula replaced, in its hypotheses as well.
@@ -265,7 +279,7 @@ impl Statement {
             ),
             Form::Sequence(sequence) => Form::Sequence(sequence.map(f)),
         };
-        let computes = self.computes.as_ref().map(|(name, by)| (*name, f(by)));
+        let computes = self.computes.iter().map(|(name, by)| (*name, f(by))).collect();
         Statement { stated: stated.collect(), form, computes, ..self.clone() }.derived()
     }
 
@@ -305,9 +319,9 @@ impl Statement {
         &self.invariants
     }
 
-    /// Returns the computed quantity, if there is one.
-    pub fn computed(&self) -> Option<&Computed> {
-        self.computed.as_ref()
+    /// Returns the computed quantities, each after those that it is computed from.
+    pub fn computed(&self) -> &[Computed] {
+        &self.computed
     }
 
     /// Returns the goals, which together are the statement.
@@ -341,10 +355,14 @@ impl Statement {
 
     /// Returns the hypotheses that a goal in this place may use.
     pub fn hypotheses_for(&self, role: Role) -> Vec<&Hypothesis> {
-        let uses_invariants = matches!(role, Role::Computed | Role::Step | Role::InvariantStep);
-        let uses_computed = matches!(role, Role::Claim | Role::Step | Role::InvariantStep);
+        let uses_invariants = matches!(role, Role::Computed(_) | Role::Step | Role::InvariantStep);
+        let computed = match role {
+            Role::Claim | Role::Step | Role::InvariantStep => &self.computed[..],
+            Role::Computed(before) => &self.computed[..before],
+            Role::InvariantBase => &[],
+        };
         let invariants = self.invariants.iter().filter(|_| uses_invariants);
-        let computed = self.computed.iter().filter(|_| uses_computed).map(|computed| &computed.hypothesis);
+        let computed = computed.iter().map(|computed| &computed.hypothesis);
         self.hypotheses.iter().chain(invariants).chain(computed).collect()
     }
 

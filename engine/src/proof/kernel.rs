@@ -24,6 +24,10 @@
 //! A quantity that is supposed to be in an interval is, for some −1 ≤ t ≤ 1, its middle and t times half of
 //! its length; so it is replaced.
 //!
+//! A hypothesis h > 0 without a pivot is kept as it is, and so is a known sign of what is replaced by its
+//! place in an interval. Where no rule finds the sign of v, one may find those of m and of v − m h, for a
+//! quotient m that makes a symbol cancel: v = m h + (v − m h) has the sign that both parts have.
+//!
 //! **Rounding.** fl(x), the number of p bits nearest to x, is x (1 + γ e) for some −1 ≤ e ≤ 1, where γ =
 //! 1/(2ᵖ + 1); nothing is said about over- and underflow. For let 2ᵏ ≤ |x| < 2ᵏ⁺¹. Then |fl(x) − x| is at
 //! most 2ᵏ/2ᵖ, and since 2ᵏ itself has p bits, at most |x| − 2ᵏ. The first, 2ᵖ times, and the second add up
@@ -48,7 +52,7 @@ mod order;
 mod reader;
 pub(super) mod sign;
 
-pub use derivation::{Because, Derivation, Direct, Proof, Rounding, Signed, Supposed, Used, Why};
+pub use derivation::{Because, Derivation, Direct, Multiple, Proof, Rounding, Signed, Supposed, Used, Why};
 
 use self::algebra::{Monomial, Poly, Ratio, Symbol};
 use self::context::{Context, sign};
@@ -61,6 +65,7 @@ use crate::formula::{Hypothesis, Relation};
 use crate::number::tree::{self, Step};
 use crate::number::{Dual, Tree};
 use std::cmp::Ordering;
+use std::iter;
 
 impl From<Relation> for Sign {
     fn from(relation: Relation) -> Self {
@@ -136,7 +141,7 @@ fn search(statement: &Statement) -> Result<Proof, Why> {
         return Err(Why::TooMany);
     }
     // What is computed varies with what it is computed from, and is a symbol all the same.
-    if (!roundings.is_empty() || statement.computed().is_some()) && varies(statement) {
+    if (!roundings.is_empty() || !statement.computed().is_empty()) && varies(statement) {
         return Err(Why::Jump);
     }
     let context = Context::of(roundings);
@@ -152,10 +157,10 @@ fn search(statement: &Statement) -> Result<Proof, Why> {
 /// - Names that a reader would take for symbols of a proof occur nowhere, and those of members of a sequence
 ///   only where a perturbed recursion speaks of its first.
 /// - A computed symbol has no other meaning. It may be another number at each step: nothing is assumed of it
-///   but its interval, and it is not computed from itself.
+///   but its interval, and it is computed neither from itself nor from one that is computed after it.
 /// - The start, ratio and limit of a sequence depend on no power, no member and nothing computed; its step
 ///   and the hypotheses of its limit on no power; its closed form and the bound of its distance from that on
-///   no member and nothing computed; the bounds of other quantities, and the hypotheses, on no member.
+///   no member and nothing computed; the bounds of other quantities on no member.
 fn check_names<'t>(statement: &'t Statement) -> Result<(), Why> {
     fn refuse<'t>(
         trees: impl Iterator<Item = &'t Tree>,
@@ -175,7 +180,8 @@ fn check_names<'t>(statement: &'t Statement) -> Result<(), Why> {
     variables.find(|name| own(name)).map_or(Ok(()), |name| Err(Why::Reserved(name)))?;
 
     let computed = statement.computed();
-    let is_computed = |name| computed.is_some_and(|computed| computed.symbol == name);
+    let is_computed_from = |i: usize, name| computed[i..].iter().any(|computed| computed.symbol == name);
+    let is_computed = |name| is_computed_from(0, name);
     let mut meant = [POWER, PRECISION].into_iter().chain(MEMBERS).chain(SCALES);
     meant.find(|name| is_computed(*name)).map_or(Ok(()), |name| Err(Why::Reserved(name)))?;
 
@@ -190,13 +196,12 @@ fn check_names<'t>(statement: &'t Statement) -> Result<(), Why> {
         refuse(hypotheses.clone().filter(|_| limit.is_some()), |name| name == POWER)?;
         let bounds = || within.iter().map(|(_, bound)| bound);
         refuse(member.iter().chain(bounds().take(1)), |name| is_member(name) || is_computed(name))?;
-        refuse(bounds().chain(hypotheses.clone()), is_member)?;
+        refuse(bounds(), is_member)?;
     }
-    let by = computed.map(|computed| &computed.by);
-    match refuse(hypotheses.chain(values(statement.invariants())).chain(by), is_computed) {
-        Err(Why::Reserved(name)) => Err(Why::AssumedOfComputed(name)),
-        fine => fine,
-    }
+    let rename = |why| if let Why::Reserved(name) = why { Why::AssumedOfComputed(name) } else { why };
+    refuse(hypotheses.chain(values(statement.invariants())), is_computed).map_err(rename)?;
+    let mut all = computed.iter().enumerate();
+    all.try_for_each(|(i, own)| refuse(iter::once(&own.by), |name| is_computed_from(i, name)).map_err(rename))
 }
 
 /// Does something vary in a statement, and not from one whole number to the next?
@@ -335,7 +340,7 @@ impl Context {
             match &supposed.used {
                 _ if supposed.given.is_none() => return None,
                 Used::Follows => {}
-                Used::Unused if self.increases_linearly(&supposed.value, last) => {}
+                Used::Kept | Used::Unused if self.increases_linearly(&supposed.value, last) => {}
                 Used::Symbol(symbol) if *symbol == last => {}
                 Used::Pivot(pivot, by, Some(slack)) if *pivot == Monomial::of(last) => {
                     variables.push(self.increases_linearly(by, *slack).then_some(*slack)?);

@@ -41,20 +41,20 @@ impl<'a> Paper<'a> {
         if let Some(registry) = self.other_names(statement) {
             return Paper { registry: &registry, ..*self }.claim(statement);
         }
-        let computed = statement.computed().into_iter();
-        let computed: String =
+        let computed = statement.computed().iter();
+        let computed: Vec<_> =
             computed.map(|computed| format!("{} = {}", computed.symbol, self.text(&computed.by))).collect();
         let Some(sequence) = statement.conclusion() else {
             let goals = statement.goals().iter().filter(|goal| goal.role == Role::Claim);
             let goals: Vec<_> = goals.map(|goal| self.format_proposition(&goal.proposition)).collect();
-            let place = if computed.is_empty() { String::new() } else { format!(", where {computed}") };
-            return goals.join("; ") + &place;
+            let place = if computed.is_empty() { "" } else { ", where " };
+            return goals.join("; ") + place + &computed.join(" and ");
         };
         let Sequence { start, step, ratio, member, limit, within } = sequence;
         let together =
             |trees: &[Tree]| trees.iter().map(|tree| self.text(tree)).collect::<Vec<_>>().join(", ");
         let (index, power) = (self.index(statement), self.power(statement, ratio));
-        let place = if computed.is_empty() { power } else { format!("{power} and {computed}") };
+        let place = [&[power], &computed[..]].concat().join(" and ");
         if let Some(limit) = limit {
             return format!("{} → {} for {place} and {index} → ∞", together(member), self.text(limit));
         }
@@ -74,7 +74,7 @@ impl<'a> Paper<'a> {
         if let Some(registry) = self.other_names(statement) {
             return Paper { registry: &registry, ..*self }.always(statement);
         }
-        let computed = statement.computed().into_iter().map(|computed| &computed.hypothesis);
+        let computed = statement.computed().iter().map(|computed| &computed.hypothesis);
         let all = statement.invariants().iter().chain(computed);
         all.map(|hypothesis| self.registry.supposed(hypothesis)).collect()
     }
@@ -314,6 +314,7 @@ impl<'a> Paper<'a> {
         match &supposed.used {
             Used::Symbol(_) => None,
             Used::Follows => Some(format!("{name} follows")),
+            Used::Kept => Some(format!("{name} is kept as it is")),
             Used::Unused => Some(format!("{name} is not used")),
             Used::Between(x, by, place) => Some(format!(
                 "by {name}: {} = {}, where −1 ≤ {} ≤ 1",
@@ -340,8 +341,14 @@ impl<'a> Paper<'a> {
     /// Why a quotient has its sign.
     fn signed(&self, signed: &Signed) -> Vec<String> {
         let mut lines = Vec::new();
-        if !signed.value.den().is_one() {
+        if !signed.value.den().is_one() || signed.less.is_some() {
             lines.push(format!("it is {}", self.order().ratio_or_size(&signed.value)));
+        }
+        if let Some(less) = &signed.less {
+            lines.push(self.order().kept(less));
+            lines.extend(self.is_full.then(|| self.signed(&less.factor)).into_iter().flatten());
+        }
+        if !signed.den.of().is_one() {
             lines.extend(self.order().certificate(&signed.den));
         }
         lines.extend(self.order().certificate(&signed.num));

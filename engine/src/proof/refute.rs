@@ -336,11 +336,11 @@ const SHARP: usize = 500;
 /// What a statement speaks of, in the order in which it does, but for what follows from the rest: the
 /// members and powers of a sequence, and what is computed.
 fn symbols(statement: &Statement) -> Vec<&'static str> {
-    let computed = statement.computed().map(|computed| computed.symbol);
     let sequence = statement.conclusion().filter(|sequence| sequence.limit.is_none());
     let members = sequence.map_or(&[][..], |sequence| &MEMBERS[..sequence.step.len()]);
     let follows = |name: &'static str| {
-        Some(name) == computed || sequence.is_some() && name == POWER || members.contains(&name)
+        let is_computed = statement.computed().iter().any(|computed| computed.symbol == name);
+        is_computed || sequence.is_some() && name == POWER || members.contains(&name)
     };
     let mut symbols = Vec::new();
     for tree in statement.trees() {

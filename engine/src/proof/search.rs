@@ -145,7 +145,27 @@ pub fn pivot(
             sign.implies(*context.known().get(x)?).then_some(pivot)
         })
     };
-    free.or_else(|| if rounds { seen_again().or_else(product) } else { product().or_else(seen_again) })
+    free.or_else(|| {
+        if rounds || context.rounds() { seen_again().or_else(product) } else { product().or_else(seen_again) }
+    })
+}
+
+/// Returns the factors with which a symbol cancels in the difference of a value and a multiple of another: an error
+/// or an interval parameter, if there is one in both.
+pub fn multipliers(value: &Ratio, other: &Ratio) -> Vec<Ratio> {
+    let factor = |x: Symbol| {
+        let [[_, own], [_, other]] = [value.num().coefficients(x)?, other.num().coefficients(x)?];
+        Ratio::from(own).over(&other.into())
+    };
+    let scale = Ratio::from(other.den().clone()).over(&value.den().clone().into());
+    let cancelling = |of: Vec<Symbol>| -> Vec<Ratio> {
+        of.into_iter().filter_map(|x| Some(scale.as_ref()? * factor(x)?)).collect()
+    };
+    let (small, others): (Vec<_>, Vec<_>) = other.num().symbols().into_iter().partition(|x| x.is_small());
+    let small = cancelling(small);
+    let mut all = if small.is_empty() { cancelling(others) } else { small };
+    all.dedup();
+    all
 }
 
 #[cfg(test)]

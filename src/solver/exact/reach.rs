@@ -10,8 +10,8 @@ use rug::Integer;
 /// Is it guaranteed that floats of this scalar meet the tolerance, from λ₀ = 0, where mass and plane touch?
 ///
 /// It is for 64 (c + ε) ≤ ε (1 + 1/η) and tol > 20 F + η (|H| + 8 tol), with the drift 20 F of
-/// [`rounding::penetration_drift`]. A smaller tolerance may be met as well, by luck, or not. Rationals meet
-/// every one.
+/// [`rounding::penetration_drift`], which is proved for both planes. A smaller tolerance may be met as well,
+/// by luck, or not. Rationals meet every one.
 ///
 /// The machine's floats have numbers below their least normal one, n, that are rounded by more than η of
 /// themselves. So in f32 and f64 it also takes a weight that is 0 or at least n, a gap that is 0 or has
@@ -372,12 +372,11 @@ impl Laws {
 
     /// The floor where the mass hangs free, for ε ≥ c.
     ///
-    /// Computed is û = min(â, b̂) of a = m g / c and b = (m g + ε Δ) / (c + ε), to first order with errors
-    /// of 2 η |a| and η (5 |Δ| + 4 |R| / (c + ε)), and b − a = |R| ε / (c (c + ε)) is at least |R| / (2 c),
-    /// and at least the last of these terms. So û is off by 2 η |a|, or by 5 η |Δ| more if b is as near as
-    /// that; its bound, a ball around â, adds its radius, 2 η |a|. What is of higher order is less than the
-    /// rest. The natural residual is 0, or what p̂ is off by, less than 3 η |H|, if |R| / c is as small as
-    /// that.
+    /// Computed is û = min(â, b̂) of a = m g / c and b = (m g + ε Δ) / (c + ε). Proved (note 4) is that û is
+    /// off by no more than η (2 |a| + 8 (|Δ| + |R| / (c + ε))), and that the natural residual, p̂ if that is
+    /// positive, is no more than η (3 |a| + |H|). The bound of û, a ball around â, adds its radius, 2 η |a|.
+    /// Far from grazing û is â, and off by 2 η |a|: b − a = |R| ε / (c (c + ε)) is at least |R| / (2 c), and
+    /// at least the last term of b̂'s error, to first order η (5 |Δ| + 4 |R| / (c + ε)).
     fn free_floor(&self, system: &SpringMass<Exact>, touching: Exact) -> Exact {
         let alone = Exact::from(5) * &self.eta * structure::deflection(system).abs();
         let distance = system::reaction(&self.system) / &self.system.c;

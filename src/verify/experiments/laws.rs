@@ -18,7 +18,7 @@ pub(super) fn laws<T: Scalar + Real + ToExact>() -> Vec<Experiment<T>> {
 }
 
 fn experiment<T: Scalar + Real + ToExact>(claim: &Statement) -> Experiment<T> {
-    let hypotheses = claim.stated_hypotheses();
+    let hypotheses = claim.hypotheses();
     // Where λ repeats has to be found.
     let repeats = hypotheses.contains(&given().computed_repeats);
     let (of_rounding, own) = (vanishes(claim), claim.clone());
@@ -161,11 +161,17 @@ impl<'a, T: Scalar + Real + ToExact> Floats<'a, T> {
         statement.hypotheses().iter().all(holds).then_some(())
     }
 
-    fn check(&mut self, statement: &Statement) -> Option<Trial> {
-        if let Some(computed) = statement.computed() {
+    /// Computes what the statement has computed.
+    fn compute_all(&mut self, statement: &Statement) -> Option<()> {
+        for computed in statement.computed() {
             let number = self.compute(&computed.by)?;
             self.computed.push((computed.symbol, number));
         }
+        Some(())
+    }
+
+    fn check(&mut self, statement: &Statement) -> Option<Trial> {
+        self.compute_all(statement)?;
         self.suppose(statement)?;
         Some(match proposition(statement)? {
             Proposition::Within(of, bound) => within(self.value(of)?, self.value(bound)?),
@@ -178,9 +184,7 @@ impl<'a, T: Scalar + Real + ToExact> Floats<'a, T> {
     /// A sequence for some steps, and where it comes nearest to its bounds.
     fn follow(&mut self, statement: &Statement) -> Option<Trial> {
         let Sequence { start, step, ratio, within: bounds, .. } = statement.conclusion()?;
-        let ([start], [step], computed) = (&start[..], &step[..], statement.computed()?) else {
-            return None;
-        };
+        let ([start], [step]) = (&start[..], &step[..]) else { return None };
         self.suppose(statement)?;
         let (mut member, ratio) = (self.compute(start)?, self.value(ratio)?);
         // The bounds are the same for all k.
@@ -188,8 +192,7 @@ impl<'a, T: Scalar + Real + ToExact> Floats<'a, T> {
         let mut worst = Trial::Undecided;
         for _ in 0..STEPS {
             self.computed = vec![(MEMBERS[0], member)];
-            let number = self.compute(&computed.by)?;
-            self.computed.push((computed.symbol, number));
+            self.compute_all(statement)?;
             for ((of, _), bound) in bounds.iter().zip(&most) {
                 worst = worse(worst, within(self.value(of)?, bound.clone()));
             }

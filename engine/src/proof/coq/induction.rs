@@ -45,10 +45,10 @@ impl<'a> Claim<'a> {
         let computed = self.statement.computed();
         let own = start.iter().chain(step).chain(member).chain([ratio]);
         let trees = own.chain(within.iter().flat_map(|(of, bound)| [of, bound]));
-        let trees = trees.chain(computed.map(|computed| &computed.by));
+        let trees = trees.chain(computed.iter().map(|computed| &computed.by));
         let mut theorem = self.supposing("", self.statement.hypotheses_for(Role::InvariantBase), trees);
         let bound =
-            |var: &str| var == POWER || MEMBERS.contains(&var) || computed.is_some_and(|c| c.symbol == var);
+            |var: &str| var == POWER || MEMBERS.contains(&var) || computed.iter().any(|c| c.symbol == var);
         theorem.variables.retain(|var| !bound(var));
         let choice = if theorem.rounds { " prec choice" } else { "" };
         let iterates = format!("{}_iterates{choice}{}", self.name, names(&theorem.variables));
@@ -65,11 +65,12 @@ impl Induction<'_, '_> {
 
     /// `let u := BY in`, if something is computed from a member.
     fn computed(&self, indent: &str) -> String {
-        let text = self.claim.statement.computed().map(|computed| {
+        let computed = self.claim.statement.computed().iter();
+        let text = computed.map(|computed| {
             let by = self.claim.printer.expr(&computed.by);
             format!("{indent}let {} := {by} in\n", ascii(computed.symbol))
         });
-        text.unwrap_or_default()
+        text.collect()
     }
 
     /// From its start, each member by the last.
@@ -175,7 +176,7 @@ impl Induction<'_, '_> {
     fn at(&self, lemma: &Lemma) -> String {
         let member = self.member();
         let mut replaced = vec![(POWER, self.power.as_str()), (MEMBERS[0], &member)];
-        let computed = self.claim.statement.computed();
+        let computed = self.claim.statement.computed().first();
         let by = computed.map(|computed| {
             let by = self.claim.printer.expr(&computed.by);
             (computed.symbol, by.with(&ascii(MEMBERS[0]), &Expr::name(member.clone())).argument())
@@ -190,7 +191,7 @@ impl Induction<'_, '_> {
 
     /// That what is computed is in its interval.
     fn near(&self, replaced: &[(&str, &str)], label: impl Fn(&Hypothesis) -> Option<String>) -> String {
-        let computed = self.lemmas.iter().filter(|(goal, _)| goal.role == Role::Computed);
+        let computed = self.lemmas.iter().filter(|(goal, _)| matches!(goal.role, Role::Computed(_)));
         let near =
             computed.map(|(_, lemma)| lemma.applied(replaced, |given| label(given).unwrap_or_default()));
         format!("({})", near.collect::<String>())

@@ -138,7 +138,7 @@ impl Script {
             supposed.given.as_ref().is_some_and(|given| *given.value.step() == Step::Symbol(x.name()))
         };
         match (&supposed.used, hypothesis) {
-            (Used::Follows | Used::Unused, _) => {}
+            (Used::Follows | Used::Kept | Used::Unused, _) => {}
             (Used::Symbol(x), _) if is_said_of(x) => {}
             (_, None) => {
                 return Err("more is supposed of what tends to infinity than that it is positive".into());
@@ -190,6 +190,15 @@ impl Script {
     fn direct(&mut self, direct: &Direct) -> Result<()> {
         let divisors = direct.divisors.iter().map(|(_, signed)| signed);
         let mut passing = divisors.chain(direct.brackets.iter().map(|(.., signed)| signed));
+        let decisive: &[Signed] = match &direct.because {
+            Because::Sign(signed) => std::slice::from_ref(signed),
+            Because::Within(both) => &both[..],
+            Because::Order(signs) => signs,
+            _ => &[],
+        };
+        if passing.clone().chain(decisive).any(|signed| signed.less.is_some()) {
+            return Err("a hypothesis without a pivot".into());
+        }
         let (decided, slopes) = match &direct.because {
             Because::Sign(signed) => (slope_of(signed), slopes(&signed.num)),
             _ => (None, 0),

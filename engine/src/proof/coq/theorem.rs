@@ -34,12 +34,13 @@ impl<'a> Claim<'a> {
         }
         let sequence = self.statement.conclusion();
         let text = match (sequence, self.statement.computed(), self.statement.goals()) {
+            (_, [_, _, ..], _) => return Err("several computed quantities".into()),
             (Some(sequence), ..) => match &sequence.limit {
                 Some(limit) => self.vanishing(sequence, limit)?,
                 None => self.induction(sequence)?,
             },
-            (None, Some(computed), [near, goal]) => self.computing(computed, near, goal)?,
-            (None, None, [goal, rates @ ..]) => match goal.proposition {
+            (None, [computed], [near, goal]) => self.computing(computed, near, goal)?,
+            (None, [], [goal, rates @ ..]) => match goal.proposition {
                 Proposition::Limit(_, by, _) => self.limit(by, goal, rates)?,
                 _ if rates.is_empty() => self.proved("Theorem", &self.lemma(goal), goal)?,
                 _ => return Err("several goals".into()),
@@ -66,8 +67,8 @@ impl<'a> Claim<'a> {
     /// For a goal: without hypotheses on a member and the quantity computed from it if the goal contains
     /// neither. Its name is that of its part, with a number if there are others.
     pub(super) fn lemma(&self, goal: &Goal) -> Lemma<'a> {
-        let computed = self.statement.computed().map(|computed| computed.symbol);
-        let own = |name: &&str| *name == MEMBERS[0] || Some(*name) == computed;
+        let computed = self.statement.computed();
+        let own = |name: &&str| *name == MEMBERS[0] || computed.iter().any(|own| own.symbol == *name);
         let speaks_of_it = |tree: &Tree| tree.symbols().iter().any(own);
         let mut hypotheses = self.statement.hypotheses_for(goal.role);
         if !goal.proposition.trees().into_iter().any(speaks_of_it) {

@@ -1,7 +1,7 @@
 //! What is supposed, ready for use.
 
 use super::algebra::{Monomial, Poly, Ratio, Symbol};
-use super::derivation::{Rounding, Signed, Supposed, Used, Why};
+use super::derivation::{Multiple, Rounding, Signed, Supposed, Used, Why};
 use super::reader::Reader;
 use super::sign::{Certificate, Known, Sign};
 use crate::formula::Hypothesis;
@@ -17,6 +17,8 @@ pub(in crate::proof) struct Context {
     pub(super) supposed: Vec<Supposed>,
     pub(super) known: Arc<Known>,
     rules: Vec<(Monomial, Ratio)>,
+    /// What is assumed, with its sign, and not seen in the symbols that are left.
+    kept: Vec<(Ratio, Sign)>,
     /// What is rounded: with the errors of the same place.
     pub(super) roundings: Vec<Tree>,
     /// What has been rounded in hypotheses, with its error.
@@ -29,8 +31,8 @@ impl Context {
     /// Nothing yet, but that powers of two are positive.
     pub(super) fn of(roundings: Vec<Tree>) -> Self {
         let known = SCALES.into_iter().map(|name| (Symbol::Own(name), Sign::Positive)).collect();
-        let (supposed, rules, errors, variable) = Default::default();
-        Context { supposed, known: Arc::new(known), rules, roundings, errors, variable }
+        let (supposed, rules, kept, errors, variable) = Default::default();
+        Context { supposed, known: Arc::new(known), rules, kept, roundings, errors, variable }
     }
 
     /// For the proof of this: hypotheses on the variable of a limit are solved for it.
@@ -68,7 +70,7 @@ impl Context {
         })
     }
 
-    pub(super) fn rounds(&self) -> bool {
+    pub(in crate::proof) fn rounds(&self) -> bool {
         !self.roundings.is_empty()
     }
 
@@ -105,7 +107,25 @@ impl Context {
         let find = |of: &Poly, known: &Arc<Known>| search::sign_of_product(of, factors, known);
         let sign = |part: &Poly| Certificate::found(part, known, &find);
         let (num, den) = (sign(value.num())?, sign(value.den())?);
-        den.sign().is_strict().then_some(Signed { value, num, den })
+        den.sign().is_strict().then_some(Signed { value, less: None, num, den })
+    }
+
+    /// The same also by what is [kept](Self::kept): v = m h + (v − m h) has the sign that both parts have,
+    /// where h is assumed to have one.
+    pub(super) fn sign_by_kept(&self, value: Ratio, factors: &[Certificate]) -> Option<Signed> {
+        let by = |h: &Ratio, sign: Sign, m: Ratio| {
+            let rest = self.sign(&value - &m * h, factors)?;
+            let factor = self.sign(m, factors)?;
+            let whole = factor.sign().times(sign).plus(rest.sign())?;
+            let less = Some(Multiple { factor, of: h.clone(), whole }.into());
+            Some(Signed { value: value.clone(), less, ..rest })
+        };
+        let kept = || self.kept.iter().rev().map(|(h, sign)| (self.reduce(h), *sign));
+        self.sign(value.clone(), factors).or_else(|| {
+            kept().find_map(|(h, sign)| {
+                search::multipliers(&value, &h).into_iter().find_map(|m| by(&h, sign, m))
+            })
+        })
     }
 
     /// Returns the sign of a quotient under other signs of symbols.
@@ -150,7 +170,8 @@ impl Context {
                     }
                     Used::Pivot(pivot, by, Some(slack))
                 } else {
-                    Used::Unused
+                    self.kept.push((value.clone(), sign));
+                    Used::Kept
                 }
             }
             Sign::Zero => self
@@ -186,7 +207,7 @@ impl Context {
     }
 
     /// Takes in that a symbol is in an interval: for some t between −1 and 1 it is its middle and t times
-    /// half of its length.
+    /// half of its length. That does not show a sign that is known of the symbol, which is kept.
     fn suppose_between(&mut self, given: &Hypothesis, x: Symbol, lower: &Ratio, upper: &Ratio) {
         let half = Ratio::from(Poly::constant((1, 2)));
         let [middle, reach] = [upper + lower, upper - lower].map(|sum| self.reduce(&(sum * &half)));
@@ -196,6 +217,7 @@ impl Context {
         let used = match named.try_into().map(Symbol::Place) {
             Ok(place) if open && !middle.symbols().contains(&x) && !reach.symbols().contains(&x) => {
                 let by = &middle + reach * Ratio::from(Poly::symbol(place));
+                self.kept.extend(Arc::make_mut(&mut self.known).remove(&x).map(|sign| (own.clone(), sign)));
                 self.replace(Monomial::of(x), by.clone());
                 Used::Between(x, by, place)
             }

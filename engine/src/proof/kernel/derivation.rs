@@ -114,7 +114,9 @@ pub enum Used {
     Pivot(Monomial, Ratio, Option<Symbol>),
     /// In its interval the symbol is this, by a new symbol between −1 and 1.
     Between(Symbol, Ratio, Symbol),
-    /// Not at all: there is no pivot. What is proved holds without it, too.
+    /// As it is: there is no pivot. Multiples of it may be [subtracted](Signed::less).
+    Kept,
+    /// Not at all. What is proved holds without it, too.
     Unused,
 }
 
@@ -123,17 +125,31 @@ pub enum Used {
 pub struct Signed {
     /// The quotient, reduced by the suppositions.
     pub value: Ratio,
-    /// The sign of its numerator.
+    /// The multiple of an assumption that is subtracted first, if one is.
+    pub less: Option<Box<Multiple>>,
+    /// The sign of its numerator, or of that of the difference.
     pub num: Certificate,
-    /// The strict sign of its denominator.
+    /// The strict sign of the denominator.
     pub den: Certificate,
 }
 
 impl Signed {
     /// Returns the sign of the quotient.
     pub fn sign(&self) -> Sign {
-        self.num.sign().times(self.den.sign())
+        let rest = self.num.sign().times(self.den.sign());
+        self.less.as_ref().map_or(rest, |less| less.whole)
     }
+}
+
+/// A multiple of an assumed quantity, whose sign is that of the factor times that of the quantity.
+#[derive(Clone, Debug)]
+pub struct Multiple {
+    /// The sign of the factor.
+    pub factor: Signed,
+    /// The quantity.
+    pub of: Ratio,
+    /// The sign of the sum of this and the rest.
+    pub whole: Sign,
 }
 
 /// The last step of a derivation.

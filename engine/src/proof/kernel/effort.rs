@@ -9,7 +9,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
 /// The number of terms and of powers in them that arithmetic handles in one proof, at most; a coefficient of
 /// n words counts like n/8 terms.
-pub const MAX_EFFORT: usize = 10_000_000;
+pub const MAX_EFFORT: usize = 20_000_000;
 
 struct Exceeded;
 

@@ -30,7 +30,7 @@ impl<'a> Reader<'a> {
     /// The sign of a quotient.
     pub(super) fn sign(&self, value: Ratio) -> Result<Signed, Why> {
         let value = self.context.reduce(&value);
-        self.context.sign(value.clone(), &self.factors).ok_or(Why::NoSign(value))
+        self.context.sign_by_kept(value.clone(), &self.factors).ok_or(Why::NoSign(value))
     }
 
     /// The same, if it is such a sign.
@@ -164,7 +164,8 @@ impl<'a> Reader<'a> {
     ) -> Result<Ratio, Why> {
         let (a, b) = (self.read(first)?, self.read(second)?);
         let value = self.context.reduce(&decides(a.clone(), b.clone()));
-        let signed = self.context.sign(value.clone(), &self.factors).ok_or(Why::OpenBracket(value))?;
+        let signed =
+            self.context.sign_by_kept(value.clone(), &self.factors).ok_or(Why::OpenBracket(value))?;
         let is_first = signed.sign().implies(Sign::NonNegative);
         effort::spend(self.brackets.len().saturating_mul(bracket.size() as usize));
         if self.brackets.iter().all(|(known, ..)| known != bracket) {

@@ -1,7 +1,7 @@
 //! What the kernel proves and what it must not.
 
 use super::*;
-use crate::formula::claim::{PRECISION, derivative, drift, equal, induction, positive, vanishing};
+use crate::formula::claim::{PRECISION, derivative, drift, equal, induction, positive, vanishing, within};
 use crate::formula::statement::minimum_precision;
 use crate::number::{Exponential, Field, PositivePart};
 use num_traits::{One, Zero};
@@ -100,6 +100,32 @@ fn a_bracket_opens_where_its_sign_says_so() {
     let min = x("u").min(&x("v"));
     assert!(proved(vec![], Proposition::Equal(min.clone(), x("v") - bracket(&(x("v") - x("u"))))));
     assert!(!proved(vec![], Proposition::Equal(min, x("u"))));
+}
+
+/// |u − a| ≤ b for b ≥ 0, and more.
+#[test]
+fn what_has_no_pivot_is_kept() {
+    let [a, b, u] = ["a", "b", "u"].map(x);
+    let near = || vec![not_below_zero(b.clone()), Hypothesis::near(&u, &a, &b)];
+    let sign = |relation, of: Tree| Proposition::Sign(relation, of);
+    let within = |of: Tree, bound: &Tree| Proposition::Within(of, bound.clone());
+    let bracket = || u.positive_part() - &a;
+    // ⟨·⟩ brings what is near a number no further from it, if that is not negative.
+    assert!(proved([near(), vec![not_below_zero(a.clone())]].concat(), within(bracket(), &b)));
+    assert!(!proved(near(), within(bracket(), &b)));
+    assert!(!proved([near(), vec![not_below_zero(-&a)]].concat(), within(bracket(), &b)));
+    assert!(!proved([near(), vec![not_below_zero(a.clone())]].concat(), within(bracket(), &(&b / int(2)))));
+    // That u ≥ 0 is not forgotten for its place in an interval, nor taken for more; and what is left counts.
+    let both = || [vec![not_below_zero(u.clone())], near()].concat();
+    assert!(proved(both(), sign(Relation::NonNegative, u.clone())));
+    assert!(proved(both(), sign(Relation::NonNegative, int(2) * &u + &b)));
+    assert!(!proved(both(), sign(Relation::Positive, u.clone())));
+    assert!(!proved(both(), sign(Relation::NonNegative, -&u)));
+    assert!(!proved(both(), sign(Relation::NonNegative, &u - &b)));
+    assert!(!proved(near(), sign(Relation::NonNegative, u.clone())));
+    let last = || [vec![not_below_zero(a.clone())], near(), vec![not_below_zero(u.clone())]].concat();
+    assert!(proved(last(), sign(Relation::NonNegative, u.clone())));
+    assert!(!proved(last(), sign(Relation::Positive, u.clone())));
 }
 
 #[test]

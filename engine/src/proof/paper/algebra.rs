@@ -2,6 +2,7 @@
 
 use crate::number::{Exponential, Field, Tree};
 use crate::proof::Why;
+use crate::proof::kernel::Multiple;
 use crate::proof::kernel::algebra::{Monomial, Poly, Ratio, Symbol};
 use crate::proof::kernel::sign::{Certificate, Rule, Sign};
 use rug::Integer;
@@ -107,6 +108,12 @@ impl Order<'_> {
             }
             _ => self.ratio(ratio).to_string(),
         }
+    }
+
+    /// The part of a quotient that has its sign by assumption.
+    pub(super) fn kept(&self, less: &Multiple) -> String {
+        let part = &less.factor.value * &less.of;
+        format!("of which {} has this sign by assumption and the rest", self.ratio_or_size(&part))
     }
 
     /// Why a polynomial has its sign: one line a rule, the last one first.

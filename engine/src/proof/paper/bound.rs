@@ -54,7 +54,8 @@ impl Paper<'_> {
                 Some(1) => "with the sizes of errors".to_string(),
                 Some(ends) => format!("with the sizes of errors, at {ends} ends"),
             };
-            format!("the bound {what} is {value} ≥ 0, {how}")
+            let kept = signed.less.as_ref().map(|less| self.order().kept(less) + " ").unwrap_or_default();
+            format!("the bound {what} is {value} ≥ 0, {kept}{how}")
         })
     }
 

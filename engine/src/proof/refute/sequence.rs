@@ -9,12 +9,12 @@ use num_traits::One;
 /// As many steps of an induction are tried.
 pub(super) const STEPS: usize = 4;
 
-/// The point with the number that is computed there, or what it comes to if there is none.
+/// The point with the numbers that are computed there, or what it comes to if there is none.
 pub(super) fn computed(statement: &Statement, point: &Point) -> Result<Point, Verdict> {
-    match statement.computed() {
-        Some(computed) => Ok(point.with(computed.symbol, number(&computed.by, point)?)),
-        None => Ok(point.clone()),
-    }
+    let mut all = statement.computed().iter();
+    all.try_fold(point.clone(), |point, computed| {
+        Ok(point.with(computed.symbol, number(&computed.by, &point)?))
+    })
 }
 
 fn number(tree: &Tree, point: &Point) -> Result<Exact, Verdict> {

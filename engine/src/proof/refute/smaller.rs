@@ -17,12 +17,14 @@ fn complexity(x: &Exact) -> u64 {
     simple.map_or_else(|| SIMPLE.len() as u64 + u64::from(length()), |place| place as u64)
 }
 
-/// What a coordinate could be instead, the simplest first: of a long number, fewer digits.
+/// What a coordinate could be instead, the simplest first: of a long number, fewer digits; of one that is not
+/// whole, those next to it.
 fn simpler(x: &Exact) -> Vec<Exact> {
     let whole = Exact::from(x.as_rational().clone().trunc());
     let half = Exact::from((whole.as_rational() / Rational::from(2)).trunc());
     let simple = SIMPLE.iter().map(|n| Exact::from(*n)).take_while(|n| n != x);
-    simple.chain([half, whole]).collect()
+    let next = &whole + if *x < Exact::from(0) { Exact::from(-1) } else { Exact::from(1) };
+    simple.chain([half, whole, next]).collect()
 }
 
 /// Tries simpler numbers for one symbol after the other, as long as it stays a counterexample.

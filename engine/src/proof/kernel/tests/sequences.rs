@@ -59,11 +59,45 @@ fn drifts(given: &[Hypothesis]) -> Result<Proof, Why> {
 }
 
 #[test]
-fn of_a_member_nothing_is_supposed_but_that_it_is_near() {
+fn what_is_supposed_of_a_member_is_proved_of_each() {
     assert!(drifts(&[]).is_ok());
-    assert!(matches!(drifts(&[not_below_zero(x("x₁") - int(7))]), Err(Why::Reserved("x₁"))));
-    // Not even if it is true at the start.
-    assert!(matches!(drifts(&[not_below_zero(x("x₁"))]), Err(Why::Reserved("x₁"))));
+    assert!(drifts(&[not_below_zero(x("x₁"))]).is_ok());
+    // Not true at the start, although passed on; or not passed on.
+    assert!(matches!(drifts(&[not_below_zero(-x("x₁"))]), Err(Why::WrongSign(..))));
+    assert!(matches!(drifts(&[not_below_zero(x("x₁") - int(7))]), Err(Why::WrongSign(..))));
+    assert!(drifts(&[not_below_zero(x("x₁") * int(2) - int(1))]).is_err());
+    // Nor is it known of a sequence of which a closed form is claimed.
+    let closed = induction("halves", 2, [int(1)], |[x]| [x * int(2)], [x("q")]);
+    let supposed = not_below_zero(x("x₁"));
+    assert!(matches!(prove(&closed.assuming([&supposed])), Err(Why::Reserved("x₁"))));
+}
+
+/// Each is in its interval because those before it are, and not because it is itself.
+#[test]
+fn a_computed_quantity_rests_on_those_before_it() {
+    let [a, u, v] = ["a", "u", "v"].map(x);
+    let given = [Hypothesis::near(&u, &a, int(1)), Hypothesis::near(&v, &a, int(2))];
+    let claim = |bound: i32| within("near", &v - &a, int(bound)).assuming(&given);
+    let chain = |claim: Statement| claim.computing(&u, &a + int(1)).computing(&v, &u + int(1));
+    assert!(prove(&chain(claim(2))).is_ok());
+    assert!(prove(&chain(claim(1))).is_err());
+    // v is computed from u, so u comes first; and neither without the other.
+    let turned = claim(2).computing(&v, &u + int(1)).computing(&u, &a + int(1));
+    assert!(matches!(prove(&turned), Err(Why::AssumedOfComputed("u"))));
+    let circular = claim(2).computing(&u, &v - int(1)).computing(&v, &u + int(1));
+    assert!(matches!(prove(&circular), Err(Why::AssumedOfComputed("v"))));
+    // The second is 3 off.
+    assert!(prove(&claim(2).computing(&u, &a + int(1)).computing(&v, &u + int(2))).is_err());
+    // What is not computed from the first says nothing of it.
+    assert!(prove(&claim(2).computing(&u, &a + int(2)).computing(&v, &a)).is_err());
+}
+
+#[test]
+#[should_panic(expected = "near: u is computed already")]
+fn a_quantity_is_computed_once() {
+    let [a, u] = ["a", "u"].map(x);
+    let claim = within("near", &u - &a, int(1)).assuming([&Hypothesis::near(&u, &a, int(1))]);
+    let _ = claim.computing(&u, &a).computing(&u, &a + int(1));
 }
 
 /// What is computed at each step is no constant, and has no other meaning.
