@@ -133,6 +133,7 @@ pub fn claims() -> Vec<Statement> {
         positive("slope-of-slope", (&a + &a).exp() - Tree::int(2) * &a * a.exp() - one())
             .assuming([&stiff_a]),
         positive("slope-exact", a.exp() - &a - one()).assuming([&stiff_a]),
+        positive("bits", &n - Tree::int(3)).assuming([&at_least(&(&n - Tree::int(4)))]),
         within("both-signs", once(&(&a / (&f - &g) + &a / (&g - &f) + &a)), &a / &n)
             .assuming([&stiff_a, &shorter]),
     ]

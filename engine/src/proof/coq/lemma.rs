@@ -104,9 +104,13 @@ impl<'a> Lemma<'a> {
         Lemma { name, printer, variables, hypotheses, rounds }
     }
 
+    fn says_bits(&self, hypothesis: &Hypothesis) -> bool {
+        self.rounds && *hypothesis == minimum_precision()
+    }
+
     /// Its hypotheses, but for that of the precision, which Coq is told otherwise.
     pub(super) fn hypotheses(&self) -> impl Iterator<Item = &'a Hypothesis> {
-        self.hypotheses.iter().copied().filter(|given| **given != minimum_precision())
+        self.hypotheses.iter().copied().filter(|given| !self.says_bits(given))
     }
 
     /// All of them.
@@ -116,7 +120,7 @@ impl<'a> Lemma<'a> {
 
     /// What a hypothesis is called in proofs: H1, H2, …, and M for that of the precision.
     pub(super) fn label(&self, hypothesis: &Hypothesis) -> Option<String> {
-        if *hypothesis == minimum_precision() {
+        if self.says_bits(hypothesis) {
             return Some("M".into());
         }
         self.hypotheses().position(|own| own == hypothesis).map(|i| format!("H{}", i + 1))
