@@ -5,8 +5,11 @@
 
 use super::kernel::algebra::{Monomial, Poly, Ratio, Symbol};
 use super::kernel::context::{Context, solved_for};
-use super::kernel::sign::{Certificate, Known};
+use super::kernel::sign::{Certificate, Known, Sign};
 use crate::formula::Hypothesis;
+use oorandom::Rand32;
+use rug::Rational;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// The depth to which certificates may rest on others.
@@ -23,6 +26,9 @@ const TERMS_AT_ENDS: usize = 1000;
 
 /// Returns the sign of a polynomial, by rule 2 also with factors whose signs have been found before.
 pub fn sign_of_product(of: &Poly, factors: &[Certificate], known: &Arc<Known>) -> Option<Certificate> {
+    if has_both_signs(of, known) {
+        return None;
+    }
     sign(of, known).or_else(|| {
         let factor = |factor: &Certificate| {
             let rest = of.over(factor.of()).filter(|_| factor.of().terms().len() > 1)?;
@@ -41,6 +47,38 @@ pub fn sign(of: &Poly, known: &Arc<Known>) -> Option<Certificate> {
     }
     // A short certificate before a long one.
     (0..=DEPTH).find_map(|depth| within(of, known, depth))
+}
+
+/// The number of points at which both signs are looked for.
+const POINTS: u32 = 12;
+
+/// Returns `true` if a polynomial has values of both signs, as floats see it at some points: then no rule finds its sign.
+fn has_both_signs(of: &Poly, known: &Known) -> bool {
+    if of.has_exponentials() {
+        return false;
+    }
+    let mut random = Rand32::new(1);
+    let mut number = |x: &Symbol| match known.get(x) {
+        _ if x.is_small() => [-1.0, -0.5, 0.5, 1.0][random.rand_range(0..4) as usize],
+        sign => {
+            let size = 2.0_f64.powi(random.rand_range(0..13) as i32 - 6);
+            let is_negative = sign.map_or(random.rand_u32() % 2 == 0, |sign| sign.implies(Sign::NonPositive));
+            if is_negative { -size } else { size }
+        }
+    };
+    let symbols = of.symbols();
+    let mut signs = (0..POINTS).filter_map(|_| {
+        let point: BTreeMap<_, _> = symbols.iter().map(|x| (*x, number(x))).collect();
+        let term = |(m, q): (&Monomial, &Rational)| {
+            m.powers().fold(q.to_f64(), |product, (x, n)| product * point[&x].powi(n as i32))
+        };
+        let (sum, sizes) =
+            of.terms().map(term).fold((0.0, 0.0), |(sum, sizes), x| (sum + x, sizes + x.abs()));
+        // Where less is left than rounding may have made, nothing is seen.
+        (sum.abs() > 1e-9 * sizes).then_some(sum > 0.0)
+    });
+    let first = signs.next();
+    signs.any(|sign| Some(sign) != first)
 }
 
 fn within(of: &Poly, known: &Arc<Known>, depth: u32) -> Option<Certificate> {
@@ -171,7 +209,7 @@ pub fn multipliers(value: &Ratio, other: &Ratio) -> Vec<Ratio> {
 #[cfg(test)]
 mod tests {
     use super::super::kernel::algebra::Ratio;
-    use super::super::kernel::sign::Sign::{self, *};
+    use super::super::kernel::sign::Sign::*;
     use super::*;
 
     fn x(name: &'static str) -> Poly {
