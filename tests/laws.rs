@@ -124,6 +124,34 @@ fn no_constant_of_a_law_can_be_much_less() {
             (11, 40),
             run(10, "c = 1/4, ε = 268, m = 519, g = 549, l = -21, H = 1"),
         ),
+        (
+            "note 4",
+            "float-unilateral-drift",
+            int(11),
+            (13, 22),
+            run(24, "c = 771/8192, ε = 2049, m = 65, g = 537995264, l = 1, H = 5589/4"),
+        ),
+        (
+            "note 4",
+            "float-unilateral-drift",
+            int(20),
+            (11, 40),
+            run(10, "c = 1/4, ε = 268, m = 519, g = 549, l = -21, H = 1"),
+        ),
+        (
+            "note 4",
+            "float-nearly-free",
+            int(2),
+            (3, 4),
+            run(5, "c = 25, ε = 1048576, m = 11, g = -3, l = 1, H = 1"),
+        ),
+        (
+            "note 4",
+            "float-nearly-free",
+            int(8),
+            (1, 7),
+            run(8, "c = 74, ε = 1/4, m = 42, g = -120, l = 6, H = -62"),
+        ),
     ];
     for (equation, name, part, times, point) in &runs {
         let law = law(equation, name);
