@@ -10,7 +10,7 @@
 //!   goals, under the hypotheses; only the constructors of [`claim`](crate::formula::claim) make a
 //!   [`Statement`](crate::formula::Statement), so its goals are those of what it prints.
 //! - The kernel, which is `kernel.rs` with `kernel/` in `src/proof`: in `algebra.rs` and `monomial.rs` the
-//!   arithmetic of polynomials, in `sign.rs` six rules for signs, in
+//!   arithmetic of polynomials, in `number.rs` that of their coefficients, in `sign.rs` six rules for signs, in
 //!   `order.rs` that rounding keeps order, in `reader.rs` and `context.rs` the reading of formulas and
 //!   hypotheses, in `kernel.rs` the rules for goals. Nothing else can make a proof, and no one can change one.
 //!   `search.rs`, which finds certificates for signs, is not trusted: only the rules make them.

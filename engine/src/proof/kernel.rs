@@ -48,6 +48,7 @@ pub(super) mod context;
 mod derivation;
 mod effort;
 mod monomial;
+mod number;
 mod order;
 mod reader;
 pub(super) mod sign;

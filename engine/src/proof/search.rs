@@ -3,12 +3,11 @@
 //! Nothing here is trusted: only the rules of the [kernel](super::kernel) make certificates, and it is the
 //! kernel that solves.
 
-use super::kernel::algebra::{Monomial, Poly, Ratio, Symbol};
+use super::kernel::algebra::{Monomial, Number, Poly, Ratio, Symbol};
 use super::kernel::context::{Context, solved_for};
 use super::kernel::sign::{Certificate, Known, Sign};
 use crate::formula::Hypothesis;
 use oorandom::Rand32;
-use rug::Rational;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -69,8 +68,8 @@ fn has_both_signs(of: &Poly, known: &Known) -> bool {
     let symbols = of.symbols();
     let mut signs = (0..POINTS).filter_map(|_| {
         let point: BTreeMap<_, _> = symbols.iter().map(|x| (*x, number(x))).collect();
-        let term = |(m, q): (&Monomial, &Rational)| {
-            m.powers().fold(q.to_f64(), |product, (x, n)| product * point[&x].powi(n as i32))
+        let term = |(m, q): (&Monomial, &Number)| {
+            m.powers().fold(q.rational().to_f64(), |product, (x, n)| product * point[&x].powi(n as i32))
         };
         let (sum, sizes) =
             of.terms().map(term).fold((0.0, 0.0), |(sum, sizes), x| (sum + x, sizes + x.abs()));

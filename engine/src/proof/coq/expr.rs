@@ -79,6 +79,7 @@ impl Expr {
         for (exponent, part) in by_exponent(poly) {
             let exponential = exponent.map(|e| Expr::Call("exp".into(), vec![Expr::ratio(e)]));
             for (monomial, coefficient) in part.terms().rev() {
+                let coefficient = coefficient.rational();
                 let number = |n: &rug::Integer| Expr::Number(n.clone().abs().to_string());
                 let mut factors: Vec<Expr> = monomial.powers().map(power).collect();
                 factors.extend(exponential.clone());

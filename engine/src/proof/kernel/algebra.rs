@@ -9,9 +9,10 @@
 
 use super::effort;
 pub use super::monomial::{Monomial, Symbol};
+pub use super::number::Number;
 
 use crate::operators;
-use rug::Rational as Number;
+use rug::Rational;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -22,11 +23,6 @@ pub struct Poly(Arc<Vec<(Monomial, Number)>>);
 /// The number of e^… that may stand in exponents of each other: what is shared between them is read again at
 /// each place.
 const MAX_NESTING: u32 = 4;
-
-/// The number of words that a number takes.
-fn length(q: &Number) -> usize {
-    q.numer().significant_digits::<u64>() + q.denom().significant_digits::<u64>()
-}
 
 /// A quotient of polynomials; the denominator is not the zero polynomial.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -39,17 +35,17 @@ pub struct Ratio {
 impl FromIterator<(Monomial, Number)> for Poly {
     fn from_iter<I: IntoIterator<Item = (Monomial, Number)>>(terms: I) -> Self {
         let mut terms: Vec<_> =
-            terms.into_iter().inspect(|(m, q)| effort::spend(1 + m.powers().len() + length(q) / 8)).collect();
+            terms.into_iter().inspect(|(m, _)| effort::spend(1 + m.powers().len())).collect();
         // Where some are in order already, as in sums and products they are, this sort merges.
         terms.sort_by(|(m, _), (n, _)| m.cmp(n));
         terms.dedup_by(|(m, q), (n, sum)| {
             let alike = m == n;
             if alike {
-                *sum += &*q;
+                *sum = &*sum + &*q;
             }
             alike
         });
-        terms.retain(|(_, q)| q.cmp0().is_ne());
+        terms.retain(|(_, q)| q.sign().is_ne());
         Poly(terms.into())
     }
 }
@@ -94,12 +90,12 @@ impl Poly {
 
     /// Each term with the opposite sign.
     fn negated(&self) -> impl Iterator<Item = (Monomial, Number)> {
-        self.0.iter().map(|(m, q)| (m.clone(), Number::from(-q)))
+        self.0.iter().map(|(m, q)| (m.clone(), -q))
     }
 
     /// Each term of one with each of the other.
     fn products<'a>(&'a self, other: &'a Self) -> impl Iterator<Item = (Monomial, Number)> {
-        let times = |(m, p): &(Monomial, Number), (n, q): &_| (m.times(n), Number::from(p * q));
+        let times = |(m, p): &(Monomial, Number), (n, q): &_| (m.times(n), p * q);
         let (short, long) = if self.0.len() < other.0.len() { (self, other) } else { (other, self) };
         short.0.iter().flat_map(move |own| long.0.iter().map(move |term| times(own, term)))
     }
@@ -111,7 +107,7 @@ impl Poly {
 
     /// Is it the number 1?
     pub fn is_one(&self) -> bool {
-        matches!(&self.0[..], [(m, q)] if *m == Monomial::one() && *q == 1)
+        matches!(&self.0[..], [(m, q)] if *m == Monomial::one() && q.is_one())
     }
 
     /// Its monomials with their coefficients, in the order of division.
@@ -172,18 +168,18 @@ impl Poly {
         if ends.is_some_and(|((m, _), (n, _))| !m.has(n)) {
             return None;
         }
-        let inverse = coefficient.clone().recip();
+        let inverse = coefficient.recip();
         let mut rest: BTreeMap<_, _> = self.0.iter().cloned().collect();
         let mut quotient = Vec::new();
         while let Some((m, q)) = rest.pop_last() {
-            if q.is_zero() {
+            if q.sign().is_eq() {
                 continue;
             }
             let (m, q) = (m.over(first)?, q * &inverse);
             effort::spend(others.iter().map(|(n, _)| 1 + n.powers().len() + m.powers().len()).sum());
             for (dm, dq) in others {
-                let left = rest.entry(dm.times(&m)).or_insert_with(Number::new);
-                *left -= Number::from(dq * &q);
+                let left = rest.entry(dm.times(&m)).or_insert_with(|| 0.into());
+                *left = &*left - dq * &q;
             }
             quotient.push((m, q));
         }
@@ -205,8 +201,9 @@ impl Poly {
 
     /// The derivative by a symbol; exponents have denominators, so it is a quotient.
     pub fn derivative(&self, x: Symbol) -> Ratio {
-        let lowered =
-            |m: &Monomial, q: &Number| Some((m.over(&Monomial::of(x))?, q * Number::from(m.degree(x))));
+        let lowered = |m: &Monomial, q: &Number| {
+            Some((m.over(&Monomial::of(x))?, q * Number::from(Rational::from(m.degree(x)))))
+        };
         let powers: Poly = self.0.iter().filter_map(|(m, q)| lowered(m, q)).collect();
         self.0.iter().fold(powers.into(), |sum, (m, q)| match m.exponent() {
             None => sum,
@@ -283,9 +280,9 @@ impl Ratio {
             return quotient.into();
         }
         if let Some((_, q)) = den.0.last()
-            && *q != 1
+            && !q.is_one()
         {
-            let inverse = Poly::constant(q.clone().recip());
+            let inverse = Poly::constant(q.recip());
             (num, den) = (num * &inverse, den * inverse);
         }
         Ratio { num, den }

@@ -264,7 +264,7 @@ pub(in crate::proof) fn solved_for(pivot: &Monomial, of: &Poly, known: &Arc<Know
     } else {
         let (_, coefficient) = of.terms().find(|(m, _)| *m == pivot)?;
         let rest = of - Poly::from_iter([(pivot.clone(), coefficient.clone())]);
-        (-rest * Poly::constant(coefficient.clone().recip())).into()
+        (-rest * Poly::constant(coefficient.recip())).into()
     };
     (!by.contains(pivot)).then_some(by)
 }

@@ -16,8 +16,7 @@
 //!    with a = (1 + x)/2, none of them negative and not all 0, so it has a sign that all their coefficients
 //!    have (Bernstein's form); those of degree one are its values at the ends.
 
-use super::algebra::{Monomial, Poly, Ratio, Symbol};
-use rug::Rational as Number;
+use super::algebra::{Monomial, Number, Poly, Ratio, Symbol};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -166,7 +165,7 @@ impl Certificate {
     /// Rule 1.
     pub fn terms(of: &Poly, known: &Arc<Known>) -> Option<Self> {
         let sign = of.terms().try_fold(Zero, |sum, (monomial, coefficient)| {
-            let number = if coefficient.is_negative() { Negative } else { Positive };
+            let number = if coefficient.sign().is_lt() { Negative } else { Positive };
             sum.plus(number.times(of_monomial(monomial, known)?))
         });
         Some(Certificate { known: known.clone(), of: of.clone(), sign: sign?, rule: Rule::Terms })
@@ -219,11 +218,11 @@ impl Certificate {
         let whole: Poly = whole.into_iter().map(|(m, q)| (m.clone(), q.clone())).collect();
         // Without their small factors the others are no larger in size than the sums of their coefficients'
         // sizes, times the size of what is left of them, whose sign has to be known.
-        let without = |(m, q): (&Monomial, &Number)| (m.without_those(Symbol::is_small), q.clone().abs());
+        let without = |(m, q): (&Monomial, &Number)| (m.without_those(Symbol::is_small), q.abs());
         let with: Poly = with.into_iter().map(without).collect();
         let size = |(m, q): (&Monomial, &Number)| {
             let is_negative = of_monomial(m, known)?.implies(NonPositive);
-            Some((m.clone(), if is_negative { Number::from(-q) } else { q.clone() }))
+            Some((m.clone(), if is_negative { -q } else { q.clone() }))
         };
         let sizes: Poly = with.terms().map(size).collect::<Option<_>>()?;
         // The whole is `beyond` 0 with respect to what is left, so it is of its sign if both agree.

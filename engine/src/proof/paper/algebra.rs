@@ -33,8 +33,9 @@ impl Order<'_> {
 
     /// The terms of a sum without their signs, and which of them are negative. Negative ones do not come first.
     fn terms(&self, poly: &Poly) -> impl Iterator<Item = (bool, Tree)> {
-        let (added, subtracted): (Vec<_>, Vec<_>) = poly.terms().rev().partition(|(_, q)| q.is_positive());
+        let (added, subtracted): (Vec<_>, Vec<_>) = poly.terms().rev().partition(|(_, q)| q.sign().is_gt());
         added.into_iter().chain(subtracted).map(|(monomial, q)| {
+            let q = q.rational();
             let (n, d) = (number(&q.numer().clone().abs()), number(q.denom()));
             let term = match self.product(monomial) {
                 Some(product) => n * product,
