@@ -3,12 +3,11 @@
 //! Nothing here is trusted: only the rules of the [kernel](super::kernel) make certificates, and it is the
 //! kernel that solves.
 
-use super::kernel::algebra::{Monomial, Number, Poly, Ratio, Symbol};
+use super::kernel::algebra::{Monomial, Poly, Ratio, Symbol};
 use super::kernel::context::{Context, solved_for};
 use super::kernel::sign::{Certificate, Known, Sign};
 use crate::formula::Hypothesis;
 use oorandom::Rand32;
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// The depth to which certificates may rest on others.
@@ -65,14 +64,15 @@ fn has_both_signs(of: &Poly, known: &Known) -> bool {
             if is_negative { -size } else { size }
         }
     };
-    let symbols = of.symbols();
+    let symbols: Vec<_> = of.symbols().into_iter().collect();
+    let place = |x: Symbol| symbols.binary_search(&x).unwrap_or_default();
+    let powers = |m: &Monomial| m.powers().map(|(x, n)| (place(x), n as i32)).collect::<Vec<_>>();
+    let terms: Vec<_> = of.terms().map(|(m, q)| (q.to_f64(), powers(m))).collect();
     let mut signs = (0..POINTS).filter_map(|_| {
-        let point: BTreeMap<_, _> = symbols.iter().map(|x| (*x, number(x))).collect();
-        let term = |(m, q): (&Monomial, &Number)| {
-            m.powers().fold(q.rational().to_f64(), |product, (x, n)| product * point[&x].powi(n as i32))
-        };
-        let (sum, sizes) =
-            of.terms().map(term).fold((0.0, 0.0), |(sum, sizes), x| (sum + x, sizes + x.abs()));
+        let point: Vec<f64> = symbols.iter().map(&mut number).collect();
+        let values =
+            terms.iter().map(|(q, powers)| powers.iter().fold(*q, |x, (i, n)| x * point[*i].powi(*n)));
+        let (sum, sizes) = values.fold((0.0, 0.0), |(sum, sizes), x| (sum + x, sizes + x.abs()));
         // Where less is left than rounding may have made, nothing is seen.
         (sum.abs() > 1e-9 * sizes).then_some(sum > 0.0)
     });
@@ -249,6 +249,21 @@ mod tests {
         // An odd power of a free symbol, a difference: nothing is known.
         assert_eq!(found(x("u")), None);
         assert_eq!(found(x("a") - x("b")), None);
+    }
+
+    #[test]
+    fn both_signs_are_seen_where_both_are_taken() {
+        let known = [("a", Positive), ("z", NonNegative), ("n", Negative)];
+        let known = Known::from(known.map(|(name, sign)| (Symbol::Own(name), sign)));
+        for of in [x("u"), x("a") - n(1), x("z") * x("u"), error(0), n(3) * x("a") * error(0) - x("z")] {
+            assert!(has_both_signs(&of, &known), "{of:?}");
+        }
+        // A square touches 0, and so does 1 + e; what is lost in floats is not seen.
+        let square = (x("u") - x("v")) * (x("u") - x("v"));
+        let lost = x("a") - (x("a") + x("z")) + x("z");
+        for of in [square, n(1) + error(0), -x("n") * x("a"), x("z"), lost, e(x("u")) - x("a")] {
+            assert!(!has_both_signs(&of, &known), "{of:?}");
+        }
     }
 
     #[test]

@@ -101,6 +101,14 @@ impl Number {
         }
     }
 
+    /// Returns the float nearby.
+    pub fn to_f64(&self) -> f64 {
+        match &self.0 {
+            Small(n, d) => *n as f64 / *d as f64,
+            Large(q) => q.to_f64(),
+        }
+    }
+
     /// Its sign, compared with 0.
     pub fn sign(&self) -> Ordering {
         match &self.0 {
