@@ -15,8 +15,8 @@
     feature = "prover",
     doc = "\
 | [`formula`] | records as data: typeset, and what is said of them | `proof`, `claims` |
-| [`proof`] | proves what is claimed of formulas, refutes what is wrong, prints both | `verify`, command, book |
-| [`claims`](mod@claims) | the chapter as data, and what is claimed of it | `verify`, command, book |
+| [`proof`] | proves what is claimed of formulas, refutes what is wrong, prints both | `verify`, `contact` |
+| [`claims`](mod@claims) | the chapter as data, and what is claimed of it | `verify`, `check` |
 | [`verify`](mod@verify) | runs proofs and number systems | the command `contact` |
 | [`check`](mod@check) | holds somebody else's solver against the exact answer | the command `contact` |"
 )]

@@ -6,14 +6,14 @@
 //!   [`claim`](crate::formula::claim).
 //! - That [`Tree`](crate::number::Tree) records what functions do (tested, bit for bit, in every number
 //!   system), and that [`Dual`](crate::number::Dual) differentiates.
-//! - In [`statement`](crate::formula::statement) and `sequence.rs`, the goals of a claim of each kind. A proof is one of these
-//!   goals, under the hypotheses; only the constructors of [`claim`](crate::formula::claim) make a
-//!   [`Statement`](crate::formula::Statement), so its goals are those of what it prints.
+//! - In [`statement`](crate::formula::statement) and `sequence.rs`, the goals of a claim of each kind. It is
+//!   these that are proved, under the hypotheses; only the constructors of [`claim`](crate::formula::claim)
+//!   make a [`Statement`](crate::formula::Statement), so its goals are those of what it prints.
 //! - The kernel, which is `kernel.rs` with `kernel/` in `src/proof`: in `algebra.rs` and `monomial.rs` the
-//!   arithmetic of polynomials, in `number.rs` that of their coefficients, in `sign.rs` six rules for signs, in
-//!   `order.rs` that rounding keeps order, in `reader.rs` and `context.rs` the reading of formulas and
-//!   hypotheses, in `kernel.rs` the rules for goals. Nothing else can make a proof, and no one can change one.
-//!   `search.rs`, which finds certificates for signs, is not trusted: only the rules make them.
+//!   arithmetic of polynomials, in `number.rs` that of their coefficients, in `sign.rs` six rules for signs,
+//!   in `order.rs` that rounding keeps order, in `reader.rs` and `context.rs` the reading of formulas and
+//!   hypotheses, in `kernel.rs` the rules for goals. Nothing else can make a proof, and no one can change
+//!   one. `search.rs`, which finds certificates for signs, is not trusted: only the rules make them.
 //! - That [`paper`] prints what was proved, in the names of a [`Registry`](crate::formula::Registry); the
 //!   compiler, and GMP's rational numbers.
 //! - The model of rounding: without under- and overflow, what floats of p ≥ 2 bits make of a result x is

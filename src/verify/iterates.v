@@ -289,7 +289,8 @@ Proof. apply cond_pos_sum. intro i. apply Rle_0_sqr. Qed.
 Lemma brackets a b : (Rmax a 0 - Rmax b 0) * (Rmax a 0 - Rmax b 0) <= (Rmax a 0 - Rmax b 0) * (a - b).
 Proof. unfold Rmax. destruct (Rle_dec a 0), (Rle_dec b 0); nra. Qed.
 
-Theorem contacts_contract (compliance : (nat -> R) -> nat -> R) (s eps : R) (lambda next best p q : nat -> R) :
+Theorem contacts_contract
+  (compliance : (nat -> R) -> nat -> R) (s eps : R) (lambda next best p q : nat -> R) :
   0 <= s -> 0 <= eps ->
   (forall x, s * dot x x <= dot x (compliance x)) ->
   (forall i, (i <= n)%nat -> next i = Rmax (lambda i + eps * p i) 0) ->

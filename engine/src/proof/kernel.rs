@@ -37,8 +37,8 @@
 //! nothing in a is less than what stands in its place in b ([`order`]). It has jumps, so nothing is said of
 //! limits and derivatives of what is rounded.
 //!
-//! New symbols are none of the statement's ([`Symbol`]). Those of an induction, its members and the power q, must
-//! not occur in what is the same at each of its steps: `check_names` sees to it.
+//! New symbols are none of the statement's ([`Symbol`]). Those of an induction, its members and the power q,
+//! must not occur in what is the same at each of its steps: `check_names` sees to it.
 //!
 //! What is assumed of the variable of a limit has to hold for all values that are large enough: that it is
 //! positive, or that an increasing linear function of it is. That function is then the variable.

@@ -50,7 +50,8 @@ pub fn sign(of: &Poly, known: &Arc<Known>) -> Option<Certificate> {
 /// The number of points at which both signs are looked for.
 const POINTS: u32 = 12;
 
-/// Returns `true` if a polynomial has values of both signs, as floats see it at some points: then no rule finds its sign.
+/// Returns `true` if a polynomial has values of both signs, as floats see it at some points: then no rule
+/// finds its sign.
 fn has_both_signs(of: &Poly, known: &Known) -> bool {
     if of.has_exponentials() {
         return false;
@@ -60,7 +61,8 @@ fn has_both_signs(of: &Poly, known: &Known) -> bool {
         _ if x.is_small() => [-1.0, -0.5, 0.5, 1.0][random.rand_range(0..4) as usize],
         sign => {
             let size = 2.0_f64.powi(random.rand_range(0..13) as i32 - 6);
-            let is_negative = sign.map_or(random.rand_u32() % 2 == 0, |sign| sign.implies(Sign::NonPositive));
+            let is_negative =
+                sign.map_or(random.rand_range(0..2) == 0, |sign| sign.implies(Sign::NonPositive));
             if is_negative { -size } else { size }
         }
     };
@@ -136,7 +138,8 @@ fn bounded(of: &Poly, known: &Arc<Known>, symbols: u32) -> Option<Certificate> {
     })
 }
 
-/// Returns the monomial of a quantity for which the equation is best solved that the quantity is its slack, or 0.
+/// Returns the monomial of a quantity for which the equation is best solved that the quantity is its slack,
+/// or 0.
 ///
 /// Best a symbol of which nothing is known and that stands alone or times what is not 0, so that it
 /// disappears for good; else a product of symbols of which little is known, so that little is forgotten;
@@ -187,8 +190,8 @@ pub fn pivot(
     })
 }
 
-/// Returns the factors with which a symbol cancels in the difference of a value and a multiple of another: an error
-/// or an interval parameter, if there is one in both.
+/// Returns the factors with which a symbol cancels in the difference of a value and a multiple of another:
+/// an error or an interval parameter, if there is one in both.
 pub fn multipliers(value: &Ratio, other: &Ratio) -> Vec<Ratio> {
     let factor = |x: Symbol| {
         let [[_, own], [_, other]] = [value.num().coefficients(x)?, other.num().coefficients(x)?];

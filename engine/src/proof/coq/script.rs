@@ -91,6 +91,9 @@ impl Script {
         let direct = first(&derivation);
         match &direct.because {
             Because::Same(_) if !direct.errors.is_empty() => return self.in_units(&direct.errors, lemma),
+            Because::Order(_) if matches!(derivation, Derivation::Cases(..)) => {
+                return Err("rounding keeps order, case by case".into());
+            }
             Because::Order(_) => return self.order(direct, lemma),
             _ if lemma.rounds => self.models(&direct.errors, lemma),
             _ => {}

@@ -254,8 +254,8 @@ impl Context {
     }
 }
 
-/// Returns the value of a monomial by the equation `of` = 0: of a symbol whose factor is not 0, or of a product
-/// that stands in one term.
+/// Returns the value of a monomial by the equation `of` = 0: of a symbol whose factor is not 0, or of a
+/// product that stands in one term.
 pub(in crate::proof) fn solved_for(pivot: &Monomial, of: &Poly, known: &Arc<Known>) -> Option<Ratio> {
     let by = if let Some(x) = pivot.as_symbol() {
         let [rest, coefficient] = of.coefficients(x)?;

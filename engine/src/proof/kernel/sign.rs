@@ -1,7 +1,7 @@
 //! Rules for the sign of a polynomial for all values of its symbols.
 //!
-//! A [`Certificate`] is made by one of six rules, each sound by itself; which of them to try on what is decided in
-//! [`search`](super::super::search), and not trusted.
+//! A [`Certificate`] is made by one of six rules, each sound by itself. Which of them to try on what is
+//! decided in `search.rs`, and not trusted.
 //!
 //! 1. **Terms.** Every term has the same sign: a symbol known to be positive (or not negative) keeps it, a
 //!    free symbol does in an even power, and e^… is positive. Strict if one term is nowhere zero.
@@ -133,7 +133,8 @@ pub enum Rule {
     },
 }
 
-/// A search for the sign of a polynomial; what it finds is used if it is about that polynomial and those signs.
+/// A search for the sign of a polynomial; what it finds is used if it is about that polynomial and those
+/// signs.
 pub type Find<'f> = &'f dyn Fn(&Poly, &Arc<Known>) -> Option<Certificate>;
 
 impl Certificate {
@@ -264,8 +265,8 @@ fn of_monomial(monomial: &Monomial, known: &Known) -> Option<Sign> {
     monomial.powers().try_fold(Positive, |product, x| Some(product.times(power(x)?)))
 }
 
-/// Returns `true` if exponents have a value wherever this is known: if they are quotients of polynomials and no
-/// denominator vanishes.
+/// Returns `true` if exponents have a value wherever this is known: if they are quotients of polynomials and
+/// no denominator vanishes.
 fn is_continuous(of: &Poly, known: &Arc<Known>) -> bool {
     of.exponents().all(|exponent| exponent.is_of_polynomials() && numerator(exponent, known).is_some())
 }

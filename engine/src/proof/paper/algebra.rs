@@ -31,7 +31,7 @@ impl Order<'_> {
         self.product(monomial).unwrap_or_else(|| Tree::int(1))
     }
 
-    /// The terms of a sum without their signs, and which of them are negative. Negative ones do not come first.
+    /// The terms of a sum without their signs, and which of them are negative: these come last.
     fn terms(&self, poly: &Poly) -> impl Iterator<Item = (bool, Tree)> {
         let (added, subtracted): (Vec<_>, Vec<_>) = poly.terms().rev().partition(|(_, q)| q.sign().is_gt());
         added.into_iter().chain(subtracted).map(|(monomial, q)| {
