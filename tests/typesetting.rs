@@ -964,7 +964,7 @@ impl Certificates<'_> {
     }
 }
 
-/// What `contact prove --format json` prints can be checked line by line, also what is too long for a page.
+/// The certificates of `contact prove --format json` can be checked line by line, those too long for a page as well.
 #[test]
 fn every_line_of_a_certificate_holds() {
     let at = |name: &str| match name.chars().next() {

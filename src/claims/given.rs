@@ -40,7 +40,7 @@ macro_rules! hypotheses {
     };
 }
 
-/// How far a computed deflection is from the root for the multiplier that is computed before it.
+/// A bound of the distance of a computed deflection from the root for the multiplier computed before it.
 fn iterate_error(s: &SpringMass<Tree>, eps: &Tree) -> Tree {
     eta() * (Tree::from(5) * system::gap(s).abs() + Tree::from(5) * penalty::penetration(s, eps))
         + rounding::floor(s, eps, precision())

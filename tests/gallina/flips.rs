@@ -29,7 +29,7 @@ fn flipped(text: &str) -> Vec<String> {
     signs.map(flip).collect()
 }
 
-/// What a file of theorems begins with, and its claims: lemmas and what else comes before each theorem, and that.
+/// Splits a file of theorems into its head and its claims, each with the lemmas before its theorem.
 fn claims(file: &File) -> (&str, Vec<&str>) {
     let (head, mut rest) = file.text.split_once("\n\n").unwrap();
     let mut all = Vec::new();
@@ -41,7 +41,7 @@ fn claims(file: &File) -> (&str, Vec<&str>) {
     (head, all)
 }
 
-/// Does what is stated name a function? What only proofs name says nothing of it.
+/// Returns `true` if a statement names a function; names in proofs do not count.
 fn speaks_of(text: &str, function: &str) -> bool {
     stated(text).any(|stated| words(stated).any(|word| word == function))
 }

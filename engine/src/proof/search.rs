@@ -123,7 +123,7 @@ fn slope(of: &Poly, known: &Arc<Known>, depth: u32) -> Option<Certificate> {
     of.symbols().into_iter().find_map(|x| Certificate::slope(of, x, known, &find))
 }
 
-/// Rules 1, 5 and 6, the last on so many symbols.
+/// Returns the sign by rules 1, 5 and 6, the last of them on at most this many symbols.
 fn bounded(of: &Poly, known: &Arc<Known>, symbols: u32) -> Option<Certificate> {
     let by_terms = Certificate::terms(of, known).or_else(|| Certificate::sizes(of, known));
     by_terms.or_else(|| {

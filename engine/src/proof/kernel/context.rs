@@ -17,7 +17,7 @@ pub(in crate::proof) struct Context {
     pub(super) supposed: Vec<Supposed>,
     pub(super) known: Arc<Known>,
     rules: Vec<(Monomial, Ratio)>,
-    /// What is assumed, with its sign, and not seen in the symbols that are left.
+    /// Assumed quantities, each with its sign, that the remaining symbols do not show.
     kept: Vec<(Ratio, Sign)>,
     /// What is rounded: with the errors of the same place.
     pub(super) roundings: Vec<Tree>,
@@ -110,8 +110,8 @@ impl Context {
         den.sign().is_strict().then_some(Signed { value, less: None, num, den })
     }
 
-    /// The same also by what is [kept](Self::kept): v = m h + (v − m h) has the sign that both parts have,
-    /// where h is assumed to have one.
+    /// Returns the sign of a reduced quotient, also by an assumption that is [kept](Self::kept): where h is
+    /// assumed to have a sign, v = m h + (v − m h) has the sign that both parts have.
     pub(super) fn sign_by_kept(&self, value: Ratio, factors: &[Certificate]) -> Option<Signed> {
         let by = |h: &Ratio, sign: Sign, m: Ratio| {
             let rest = self.sign(&value - &m * h, factors)?;

@@ -65,7 +65,7 @@ pub enum Derivation {
 /// A derivation without cases of its own.
 #[derive(Clone, Debug)]
 pub struct Direct {
-    /// The suppositions, and how they are used.
+    /// The assumptions, and how they are used.
     pub supposed: Vec<Supposed>,
     /// The formulas that are rounded, each after those inside it.
     pub errors: Vec<Rounding>,
@@ -82,7 +82,7 @@ pub struct Direct {
 pub struct Rounding {
     /// The formula that is rounded.
     pub of: Tree,
-    /// Its error: the same for all that is the same but for powers of two.
+    /// Its error: formulas that differ by powers of two have the same.
     pub error: Symbol,
     /// The powers of two by which it differs from what else has that error, in other units.
     pub scale: Ratio,
@@ -114,7 +114,7 @@ pub enum Used {
     Pivot(Monomial, Ratio, Option<Symbol>),
     /// In its interval the symbol is this, by a new symbol between −1 and 1.
     Between(Symbol, Ratio, Symbol),
-    /// As it is: there is no pivot. Multiples of it may be [subtracted](Signed::less).
+    /// Unchanged, as there is no pivot. Multiples of it may be [subtracted](Signed::less).
     Kept,
     /// Not at all. What is proved holds without it, too.
     Unused,
@@ -123,7 +123,7 @@ pub enum Used {
 /// The sign of a quotient.
 #[derive(Clone, Debug)]
 pub struct Signed {
-    /// The quotient, reduced by the suppositions.
+    /// The quotient, reduced by the assumptions.
     pub value: Ratio,
     /// The multiple of an assumption that is subtracted first, if one is.
     pub less: Option<Box<Multiple>>,

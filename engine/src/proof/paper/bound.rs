@@ -44,7 +44,7 @@ impl Paper<'_> {
         Some(lines)
     }
 
-    /// What a bound exceeds a size by, on either side.
+    /// The two numbers by which a bound exceeds a size.
     pub(super) fn within(&self, sides: &[Signed; 2]) -> [String; 2] {
         std::array::from_fn(|i| {
             let (what, signed) = (SIDES[i], &sides[i]);
@@ -59,7 +59,7 @@ impl Paper<'_> {
         })
     }
 
-    /// The same with every line.
+    /// The two numbers by which a bound exceeds a size, with the certificates of their signs.
     pub(super) fn within_in_full(&self, sides: &[Signed; 2]) -> Vec<String> {
         let mut lines = Vec::new();
         for (what, signed) in SIDES.into_iter().zip(sides) {
@@ -74,7 +74,7 @@ impl Paper<'_> {
 /// The two numbers by which a bound exceeds a size: the bound …
 const SIDES: [&str; 2] = ["less it", "and it"];
 
-/// At how many ends of errors a sign is seen; 0 if there are no errors in it.
+/// The number of ends of errors at which a sign is found; 0 if there are no errors in it.
 fn ends(certificate: &Certificate) -> usize {
     match certificate.rule() {
         Rule::Ends { at, .. } => at.iter().map(|end| ends(end).max(1)).sum(),
