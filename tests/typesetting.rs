@@ -715,6 +715,11 @@ proptest! {
     }
 }
 
+/// The value of a text at these numbers, at which it divides by nothing that is 0.
+fn value_of(text: &str, at: &dyn Fn(&str) -> Exact) -> Exact {
+    Reader { at, ..Reader::new(text) }.all().unwrap_or_else(|| panic!("{text}: divides by zero"))
+}
+
 /// Numbers for all symbols of a proof, with what its lines define as it goes on.
 struct Lines<'a> {
     known: BTreeMap<String, Exact>,
@@ -728,8 +733,7 @@ struct Lines<'a> {
 impl Lines<'_> {
     fn value(&self, text: &str) -> Exact {
         let at = |name: &str| self.known.get(name).cloned().unwrap_or_else(|| at(name));
-        let value = Reader { at: &at, ..Reader::new(text) }.all();
-        value.unwrap_or_else(|| panic!("{text}: divides by zero"))
+        value_of(text, &at)
     }
 
     /// Two formulas are the same number.
@@ -869,12 +873,12 @@ struct Certificates<'l> {
 
 impl Certificates<'_> {
     fn value(&self, text: &str) -> Exact {
-        Reader { at: self.at, ..Reader::new(text) }.all().unwrap_or_else(|| panic!("{text}: divides by zero"))
+        value_of(text, self.at)
     }
 
     fn value_with(&self, text: &str, name: &str, x: &Exact) -> Exact {
         let at = |own: &str| if own == name { x.clone() } else { (self.at)(own) };
-        Reader { at: &at, ..Reader::new(text) }.all().unwrap_or_else(|| panic!("{text}: divides by zero"))
+        value_of(text, &at)
     }
 
     /// A formula and its sign, which has to be that of its value.

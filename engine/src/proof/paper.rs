@@ -346,7 +346,9 @@ impl<'a> Paper<'a> {
         }
         if let Some(less) = &signed.less {
             lines.push(self.order().kept(less));
-            lines.extend(self.is_full.then(|| self.signed(&less.factor)).into_iter().flatten());
+            if self.is_full {
+                lines.extend(self.signed(&less.factor));
+            }
         }
         if !signed.den.of().is_one() {
             lines.extend(self.order().certificate(&signed.den));

@@ -30,7 +30,7 @@ impl Symbol {
         static NAMES: Mutex<BTreeMap<Symbol, &str>> = Mutex::new(BTreeMap::new());
         let numbered = |letter: char, index: u8| {
             let name = || {
-                let digits = (index + 1).to_string();
+                let digits = (u32::from(index) + 1).to_string();
                 let subscript = |digit: u8| char::from_u32(u32::from('₀') + u32::from(digit - b'0'));
                 let name: String = [letter].into_iter().chain(digits.bytes().filter_map(subscript)).collect();
                 &*name.leak()
@@ -182,5 +182,17 @@ impl Ord for Monomial {
             }
         }
         others.next().map_or_else(|| self.exponent.cmp(&other.exponent), |_| Ordering::Less)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_symbol_of_a_proof_has_a_name_that_is_reserved() {
+        let all = [Symbol::Error(0), Symbol::Slack(11), Symbol::Place(u8::MAX), Symbol::Own("e")];
+        assert_eq!(all.map(Symbol::name), ["e₁", "s₁₂", "t₂₅₆", "e"]);
+        assert_eq!(all.map(|symbol| Symbol::is_reserved(symbol.name())), [true, true, true, false]);
     }
 }
