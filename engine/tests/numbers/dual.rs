@@ -175,7 +175,8 @@ fn duals_are_an_ordered_ring() {
 #[test]
 fn dual_balls_hold_the_derivative_at_a_kink() {
     let open = Tally::default();
-    let near = || (-3..=3i32, -3..=3i32, 0..=2i32);
+    // One in seven alone leaves so few signs open that a run in two hundred has too few.
+    let near = || (prop_oneof![1 => Just(0), 3 => -3..=3i32], -3..=3i32, 0..=2i32);
     for_all((near(), near()), |((v, d, r), (w, e, q))| {
         // v + r/3 − r/3, whose radius is some units of the last place; and that much off.
         let ball = |v: i32, r: i32| {
