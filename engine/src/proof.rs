@@ -30,6 +30,7 @@
 //! What floats make of a formula is proved as well, for every precision. What is claimed of the solver in
 //! floats, of its promises and counts, is tried as experiments, and not proved.
 
+mod bounds;
 pub mod controls;
 pub mod coq;
 mod kernel;
@@ -37,6 +38,7 @@ pub mod paper;
 pub mod refute;
 mod search;
 
+pub use bounds::{NoBound, RoundingBound, rounding_bound};
 pub use controls::{Controls, controls};
 pub use kernel::{MAX_DEPTH, MAX_EFFORT, MAX_SIZE, Proof, Why, prove};
 pub use refute::{Counterexample, Refutation, refute, sharpest};

@@ -3,6 +3,8 @@
 use super::hypothesis::{Relation, name_of};
 use super::statement::{Form, Proposition, Sequence, Statement};
 use crate::number::Tree;
+use std::collections::BTreeMap;
+use std::sync::Mutex;
 
 /// The rate at which a limit is reached, for checks in numbers.
 #[derive(Clone, Debug)]
@@ -24,6 +26,19 @@ pub const POWER: &str = "q";
 
 /// The symbols of the components of x_k in the step of a [sequence](Sequence).
 pub const MEMBERS: [&str; 4] = ["x₁", "x₂", "x₃", "x₄"];
+
+/// Returns the name of a letter with the index above this one: v₁ for 0.
+pub(crate) fn numbered(letter: char, index: u8) -> &'static str {
+    static NAMES: Mutex<BTreeMap<(char, u8), &str>> = Mutex::new(BTreeMap::new());
+    let name = || {
+        let digits = (u32::from(index) + 1).to_string();
+        let subscript = |digit: u8| char::from_u32(u32::from('₀') + u32::from(digit - b'0'));
+        let name: String = [letter].into_iter().chain(digits.bytes().filter_map(subscript)).collect();
+        &*name.leak()
+    };
+    let mut names = NAMES.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    names.entry((letter, index)).or_insert_with(name)
+}
 
 /// Two formulas are equal.
 pub fn equal(name: &'static str, left: impl Into<Tree>, right: impl Into<Tree>) -> Statement {

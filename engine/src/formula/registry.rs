@@ -300,6 +300,20 @@ impl Registry {
     }
 }
 
+/// A registry of formulas, whose quantities are their arguments.
+impl FromIterator<Formula> for Registry {
+    fn from_iter<I: IntoIterator<Item = Formula>>(formulas: I) -> Self {
+        let formulas: Vec<_> = formulas.into_iter().collect();
+        let mut quantities = Vec::new();
+        for name in formulas.iter().flat_map(|formula| &formula.arguments) {
+            if !quantities.contains(name) {
+                quantities.push(*name);
+            }
+        }
+        Registry::new(&quantities, formulas)
+    }
+}
+
 impl Formula {
     /// A function of one value.
     pub fn new(path: &'static str, symbol: &'static str, arguments: &[&'static str], tree: Tree) -> Self {

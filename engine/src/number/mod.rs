@@ -28,7 +28,7 @@ pub use field::{Exponential, Field, Logarithm, OrderedField, PositivePart, Real}
 #[cfg(feature = "mpfr")]
 pub use gmp::*;
 pub use program::{Program, Rounds};
-pub use tree::Tree;
+pub use tree::{Tree, symbols};
 
 #[cfg(feature = "serde")]
 #[doc(hidden)]

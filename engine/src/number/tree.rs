@@ -244,6 +244,17 @@ impl Tree {
     }
 }
 
+/// Returns a quantity for each name.
+///
+/// ```
+/// let [u, v] = provable::number::symbols(["u", "v"]);
+/// assert_eq!((&u + &v).symbols(), ["u", "v"].into());
+/// ```
+#[track_caller]
+pub fn symbols<const N: usize>(names: [&'static str; N]) -> [Tree; N] {
+    names.map(|name| Tree::symbol(name))
+}
+
 #[track_caller]
 fn node(step: Step<Tree>) -> Tree {
     let at = Location::caller();

@@ -85,7 +85,7 @@ pub const MAX_SIZE: u32 = 20_000;
 pub const MAX_DEPTH: u32 = 500;
 
 /// The number of formulas in a statement that are rounded, at most.
-pub const MAX_ROUNDINGS: usize = 24;
+pub const MAX_ROUNDINGS: usize = 64;
 
 /// Proves a statement.
 ///

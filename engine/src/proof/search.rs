@@ -126,7 +126,7 @@ fn slope(of: &Poly, known: &Arc<Known>, depth: u32) -> Option<Certificate> {
 /// Returns the sign by rules 1, 5 and 6, the last of them on at most this many symbols.
 fn bounded(of: &Poly, known: &Arc<Known>, symbols: u32) -> Option<Certificate> {
     let by_terms = Certificate::terms(of, known).or_else(|| Certificate::sizes(of, known));
-    by_terms.or_else(|| {
+    by_terms.or_else(|| small_factor(of, known, symbols)).or_else(|| {
         let symbols = symbols.checked_sub(1)?;
         if of.terms().len() > TERMS_AT_ENDS {
             return None;
@@ -136,6 +136,14 @@ fn bounded(of: &Poly, known: &Arc<Known>, symbols: u32) -> Option<Certificate> {
         let degrees = small.map(|x| (of.degree(x), x)).filter(|(n, _)| *n <= MAX_DEGREE);
         Certificate::ends(of, degrees.min()?.1, known, &|of, known| bounded(of, known, symbols))
     })
+}
+
+/// Rule 2, with squares of symbols between −1 and 1.
+fn small_factor(of: &Poly, known: &Arc<Known>, symbols: u32) -> Option<Certificate> {
+    let common = of.common_monomial();
+    let small = common.without_those(|x| !x.is_small());
+    let factor = Certificate::terms(&small.into(), known).filter(|factor| !factor.of().is_one())?;
+    Certificate::product(factor.clone(), bounded(&of.over(factor.of())?, known, symbols)?)
 }
 
 /// Returns the monomial of a quantity for which the equation is best solved that the quantity is its slack,

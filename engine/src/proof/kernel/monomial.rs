@@ -2,9 +2,9 @@
 
 use super::algebra::Ratio;
 use super::effort;
+use crate::formula::claim::numbered;
 use std::cmp::Ordering;
-use std::collections::BTreeMap;
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
 /// A symbol of a polynomial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -27,17 +27,6 @@ impl Symbol {
 
     /// Returns the name that a reader sees.
     pub fn name(self) -> &'static str {
-        static NAMES: Mutex<BTreeMap<Symbol, &str>> = Mutex::new(BTreeMap::new());
-        let numbered = |letter: char, index: u8| {
-            let name = || {
-                let digits = (u32::from(index) + 1).to_string();
-                let subscript = |digit: u8| char::from_u32(u32::from('₀') + u32::from(digit - b'0'));
-                let name: String = [letter].into_iter().chain(digits.bytes().filter_map(subscript)).collect();
-                &*name.leak()
-            };
-            let mut names = NAMES.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-            *names.entry(self).or_insert_with(name)
-        };
         match self {
             Symbol::Own(name) => name,
             Symbol::Error(index) => numbered('e', index),

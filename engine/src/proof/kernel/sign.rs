@@ -9,9 +9,10 @@
 //! 3. **Square.** If 4 a f = r² + d with a ≠ 0 and d is not negative, the sign of f is a's.
 //! 4. **Slope.** By the mean value theorem, a function f that is continuous for x ≥ 0 and has a slope for
 //!    x > 0 is f(0) + x f'(ξ) for some ξ > 0: its sign is that of such a sum.
-//! 5. **Sizes.** Factors between −1 and 1 make a term no larger than it is without them. So the polynomial is
-//!    no less than what is left when each term with such factors is replaced by minus its size, and no more
-//!    than with plus its size.
+//! 5. **Sizes.** Factors between −1 and 1 make a term no larger than it is without them, and their squares do
+//!    not change its sign. So the polynomial is no less than what is left when each term with such factors is
+//!    replaced by minus its size, or by 0 if they are squares and the term is not negative; and likewise no
+//!    more.
 //! 6. **Ends.** A polynomial of degree n in a symbol x between −1 and 1 is a sum of products aⁱ (1 − a)ⁿ⁻ⁱ
 //!    with a = (1 + x)/2, none of them negative and not all 0, so it has a sign that all their coefficients
 //!    have (Bernstein's form); those of degree one are its values at the ends.
@@ -217,17 +218,22 @@ impl Certificate {
         let has_small = |m: &Monomial| m.powers().any(|(x, _)| x.is_small());
         let (with, whole): (Vec<_>, Vec<_>) = of.terms().partition(|(m, _)| has_small(m));
         let whole: Poly = whole.into_iter().map(|(m, q)| (m.clone(), q.clone())).collect();
-        // Without their small factors the others are no larger in size than the sums of their coefficients'
-        // sizes, times the size of what is left of them, whose sign has to be known.
-        let without = |(m, q): (&Monomial, &Number)| (m.without_those(Symbol::is_small), q.abs());
-        let with: Poly = with.into_iter().map(without).collect();
+        // The size of a term without its small factors, and the sign of the term if they are squares: what is
+        // left of it has to be of a known sign.
         let size = |(m, q): (&Monomial, &Number)| {
-            let is_negative = of_monomial(m, known)?.implies(NonPositive);
-            Some((m.clone(), if is_negative { -q } else { q.clone() }))
+            let rest = m.without_those(Symbol::is_small);
+            let sign = of_monomial(&rest, known)?;
+            let size = if sign.implies(NonPositive) { -q.abs() } else { q.abs() };
+            let is_even = m.powers().all(|(x, n)| !x.is_small() || n % 2 == 0);
+            let number = if q.sign().is_lt() { Negative } else { Positive };
+            Some(((rest, size), is_even.then(|| number.times(sign))))
         };
-        let sizes: Poly = with.terms().map(size).collect::<Option<_>>()?;
+        let with: Vec<_> = with.into_iter().map(size).collect::<Option<_>>()?;
         // The whole is `beyond` 0 with respect to what is left, so it is of its sign if both agree.
         let by = |beyond: Sign| {
+            let is_beyond = |sign: &Option<Sign>| sign.is_some_and(|sign| sign.implies(beyond));
+            let against = with.iter().filter(|(_, sign)| !is_beyond(sign));
+            let sizes: Poly = against.map(|(size, _)| size.clone()).collect();
             let rest = if beyond == NonNegative { &whole - &sizes } else { &whole + &sizes };
             let rest = Certificate::terms(&rest, known)?;
             let sign = rest.sign.plus(beyond)?;

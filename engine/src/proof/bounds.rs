@@ -1,0 +1,301 @@
+//! Bounds of rounding errors, found by bisection and proved.
+//!
+//! Each rounded result of a formula has a symbol, and a bound of its distance from the exact value: K/2ᵖ, or
+//! K |x|/2ᵖ for a value x of known sign where that says no less. The smallest K that the kernel proves from
+//! the bounds before it is found by bisection, which need not be trusted: what is returned is a proof of all
+//! of them in a chain.
+
+use super::kernel::{self, Proof, Why, prove};
+use crate::formula::claim::{PRECISION, numbered, within};
+use crate::formula::statement::{Proposition, minimum_precision};
+use crate::formula::{Hypothesis, Relation, Statement};
+use crate::number::tree::Step;
+use crate::number::{Field, Tree};
+use rayon::iter::Either;
+use rayon::prelude::*;
+use std::collections::BTreeSet;
+use std::fmt;
+
+/// A proved bound of the rounding error of a formula.
+#[derive(Clone, Debug)]
+pub struct RoundingBound {
+    constant: f64,
+    proof: Proof,
+}
+
+impl RoundingBound {
+    /// Returns K, exactly.
+    pub fn constant(&self) -> f64 {
+        self.constant
+    }
+
+    /// Returns the proof, whose statement names each rounded result.
+    pub fn proof(&self) -> &Proof {
+        &self.proof
+    }
+}
+
+/// The reason why no bound of a rounding error is found.
+#[derive(Clone, Debug)]
+pub struct NoBound {
+    /// The first formula of whose rounding error no bound is found.
+    pub formula: Tree,
+    /// The reason.
+    pub why: Why,
+}
+
+impl fmt::Display for NoBound {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "no bound of the rounding error of {} is found: {}", self.formula, self.why)
+    }
+}
+
+impl std::error::Error for NoBound {}
+
+/// Returns the smallest constant K, up to 2 %, for which |fl(f) − f| ≤ K m/2ᵖ is proved from hypotheses for
+/// every precision of p bits, with its proof. Here fl(f) is `of` with [each operation
+/// rounded](Tree::rounded), and m is `scale`: 1 for an absolute bound, f > 0 itself for a relative one.
+///
+/// The model is that of [`prove`]: rounding to nearest without under- and overflow. The larger the least
+/// precision that the hypotheses allow, the smaller is K.
+///
+/// ```
+/// use provable::formula::{Hypothesis, Relation, claim::PRECISION};
+/// use provable::number::{Field, Tree};
+/// use provable::proof::rounding_bound;
+///
+/// let x = Tree::symbol("x");
+/// let in_interval = Hypothesis::between(&x, 1, 2);
+/// let half_or_more = Hypothesis::new(Relation::NonNegative, Tree::symbol(PRECISION) - Tree::int(1 << 11));
+/// let inverse = Tree::int(1) / (Tree::int(1) + &x);
+/// let bound = rounding_bound(&inverse, &Tree::int(1), &[in_interval, half_or_more])?;
+/// // Half of a unit in the last place of 1/2 for the quotient, and as much for the sum.
+/// assert!(1.0 <= bound.constant() && bound.constant() <= 1.03);
+/// # Ok::<(), provable::proof::NoBound>(())
+/// ```
+///
+/// # Errors
+/// Returns the first formula of whose rounding error no bound is found, with the reason.
+pub fn rounding_bound(of: &Tree, scale: &Tree, hypotheses: &[Hypothesis]) -> Result<RoundingBound, NoBound> {
+    let forms = [Form::Absolute, Form::Relative, Form::Opaque].into_par_iter();
+    let all = forms.map(|form| Chain::new(of, hypotheses, form).bound(of, scale));
+    let (mut failed, mut found): (Vec<_>, Vec<_>) = all.partition_map(|chain| match chain {
+        Ok(found) => Either::Right(found),
+        Err(failed) => Either::Left(failed),
+    });
+    found.sort_by(|(a, _), (b, _)| f64::total_cmp(a, b));
+    for (constant, claim) in found {
+        match prove(&claim) {
+            Ok(proof) => return Ok(RoundingBound { constant, proof }),
+            Err(why) => failed.push(NoBound { formula: exact(of), why }),
+        }
+    }
+    Err(failed.swap_remove(0))
+}
+
+/// The form of the bounds in a chain.
+#[derive(Clone, Copy, PartialEq)]
+enum Form {
+    /// K/2ᵖ
+    Absolute,
+    /// K |x|/2ᵖ, if the sign of the value x is known; else K/2ᵖ.
+    Relative,
+    /// K/2ᵖ, where exact values have symbols and intervals as well: what is then lost is how they depend on
+    /// each other, and what is gained are short formulas.
+    Opaque,
+}
+
+/// A formula without its roundings.
+fn exact(of: &Tree) -> Tree {
+    of.rewrite(&|tree| match tree.step() {
+        Step::Rounded(of) => Some(of.clone()),
+        _ => None,
+    })
+}
+
+/// m 2ⁿ, with 64 ≤ m ≤ 128 or m = 0.
+type Number = (i32, i32);
+
+fn number((mut m, mut n): Number) -> Tree {
+    while n < 0 && m % 2 == 0 && m != 0 {
+        (m, n) = (m / 2, n + 1);
+    }
+    let power = |n: i32| (0..n / 24).fold(Tree::int(1 << (n % 24)), |all, _| all * Tree::int(1 << 24));
+    match n {
+        ..0 => Tree::int(m) / power(-n),
+        0..24 => Tree::int(m << n),
+        _ => Tree::int(m) * power(n),
+    }
+}
+
+/// The largest and least powers of two that are tried.
+const POWERS: i32 = 128;
+
+/// Returns the least number for which something holds that holds for all larger ones.
+fn least<E>(holds: impl Fn(&Tree) -> Result<(), E>) -> Result<Number, E> {
+    let is = |m: i32, n: i32| holds(&number((m, n)));
+    // In steps that double, beyond the power; then back in halves of them.
+    let (mut above, mut below, mut step) = (0, 0, 1);
+    if is(64, 0).is_ok() {
+        while is(64, below).is_ok() {
+            if below < -POWERS {
+                return is(0, 0).map(|()| (0, 0)).or(Ok((64, below)));
+            }
+            (above, below, step) = (below, below - step, 2 * step);
+        }
+    } else {
+        while let Err(why) = is(64, above) {
+            if above > POWERS {
+                return Err(why);
+            }
+            (below, above, step) = (above, above + step, 2 * step);
+        }
+    }
+    while above - below > 1 {
+        let middle = (above + below).div_euclid(2);
+        if is(64, middle).is_ok() { above = middle } else { below = middle }
+    }
+    let (mut more, mut less) = (128, 64);
+    while more - less > 1 {
+        let middle = (more + less) / 2;
+        if is(middle, below).is_ok() { more = middle } else { less = middle }
+    }
+    Ok((more, below))
+}
+
+/// A computed quantity, in a formula of which it is a part.
+struct Named {
+    part: Tree,
+    by_symbol: Tree,
+    symbol: Tree,
+    by: Tree,
+    interval: Hypothesis,
+}
+
+/// The bounds that have been found.
+struct Chain {
+    hypotheses: Vec<Hypothesis>,
+    form: Form,
+    named: Vec<Named>,
+    taken: BTreeSet<&'static str>,
+}
+
+impl Chain {
+    fn new(of: &Tree, hypotheses: &[Hypothesis], form: Form) -> Self {
+        // What is assumed of the precision comes first.
+        let is_other = |h: &Hypothesis| !h.value.symbols().contains(PRECISION);
+        let mut hypotheses: Vec<_> = hypotheses.iter().cloned().chain([minimum_precision()]).collect();
+        hypotheses.sort_by_key(is_other);
+        let taken = hypotheses.iter().map(|h| &h.value).chain([of]).flat_map(Tree::symbols).collect();
+        Chain { hypotheses, form, named: Vec::new(), taken }
+    }
+
+    fn bound(mut self, of: &Tree, scale: &Tree) -> Result<(f64, Statement), NoBound> {
+        let formula = exact(of);
+        let no_bound = |why| NoBound { formula: formula.clone(), why };
+        let rounded = if of.rounds() { of.clone() } else { of.rounded() };
+        for rounding in kernel::roundings([&rounded].into_iter()) {
+            let node = rounding.nearest();
+            if node != rounded {
+                self.name(&node)?;
+            }
+        }
+        let (value, scale) = (self.value(&formula), self.value(scale));
+        let error = self.computed(&rounded) - value;
+        let constant = self.constant(&error, &scale).map_err(no_bound)?;
+        let claim = within("rounding-error", error, bounding(constant, &scale)).assuming(&self.hypotheses);
+        let claim = self.named.iter().fold(claim, |claim, Named { symbol, by, interval, .. }| {
+            claim.assuming([interval]).computing(symbol, by)
+        });
+        Ok((f64::from(constant.0) * 2.0_f64.powi(constant.1), claim))
+    }
+
+    /// Takes in a rounded result with a bound of its error.
+    fn name(&mut self, node: &Tree) -> Result<(), NoBound> {
+        let (formula, computed) = (exact(node), self.computed(node));
+        let no_bound = |why| NoBound { formula: formula.clone(), why };
+        let value = self.value(&formula);
+        let has_sign = |of: &Tree| self.proves(Proposition::Sign(Relation::NonNegative, of.clone())).is_ok();
+        let error = &computed - &value;
+        let by = |size: Tree| Ok((self.constant(&error, &size)?, size));
+        let sizes = [value.clone(), -&value].into_iter().filter(|_| self.form == Form::Relative);
+        let relative = sizes.into_iter().find(has_sign).and_then(|size| by(size).ok());
+        let (constant, size) = relative.map_or_else(|| by(Tree::int(1)), Ok).map_err(no_bound)?;
+        let most = bounding(constant, &size);
+        if self.form == Form::Opaque {
+            let (lower, upper) = self.interval(&value).map_err(no_bound)?;
+            let exact = self.fresh('w');
+            let within = Hypothesis::between(&exact, lower, upper);
+            self.name_as(value.clone(), exact.clone(), exact.clone(), value, within);
+            let symbol = self.fresh('d');
+            let near = Hypothesis::near(&symbol, 0, most);
+            self.name_as(computed, exact + &symbol, symbol, error, near);
+        } else {
+            let symbol = self.fresh('v');
+            let near = Hypothesis::near(&symbol, value, most);
+            self.name_as(computed.clone(), symbol.clone(), symbol, computed, near);
+        }
+        Ok(())
+    }
+
+    fn name_as(&mut self, part: Tree, by_symbol: Tree, symbol: Tree, by: Tree, interval: Hypothesis) {
+        self.named.push(Named { part, by_symbol, symbol, by, interval });
+    }
+
+    fn fresh(&mut self, letter: char) -> Tree {
+        let mut names = (0..=u8::MAX).map(|index| numbered(letter, index));
+        let name =
+            names.find(|name| self.taken.insert(name)).expect("no formula within the limits has as many");
+        Tree::symbol(name)
+    }
+
+    /// Returns an interval of a value.
+    fn interval(&self, of: &Tree) -> Result<(Tree, Tree), Why> {
+        let most = number(least(|k| self.proves(Proposition::Within(of.clone(), k.clone())))?);
+        let beyond = |of: &Tree| {
+            let margin = |k: &Tree| self.proves(Proposition::Sign(Relation::NonNegative, k - &most - of));
+            Ok(number(least(margin)?) - &most)
+        };
+        Ok((-beyond(&-of)?, beyond(of)?))
+    }
+
+    /// A rounded formula, with its rounded parts by their symbols.
+    fn computed(&self, of: &Tree) -> Tree {
+        self.by_symbols(of, true)
+    }
+
+    /// The value of an exact formula, with those of opaque parts by their symbols.
+    fn value(&self, of: &Tree) -> Tree {
+        self.by_symbols(of, false)
+    }
+
+    fn by_symbols(&self, of: &Tree, rounded: bool) -> Tree {
+        let named =
+            || self.named.iter().filter(|named| matches!(named.part.step(), Step::Rounded(_)) == rounded);
+        of.rewrite(&|tree| named().find(|named| named.part == *tree).map(|named| named.by_symbol.clone()))
+    }
+
+    /// Returns the least K for which |error| ≤ K m/2ᵖ is proved.
+    fn constant(&self, error: &Tree, scale: &Tree) -> Result<Number, Why> {
+        least(|k| self.proves(Proposition::Within(error.clone(), k * scale / Tree::symbol(PRECISION))))
+    }
+
+    fn proves(&self, proposition: Proposition) -> Result<(), Why> {
+        // What occurs in it, and in intervals of that.
+        let mut symbols: BTreeSet<_> = proposition.trees().into_iter().flat_map(Tree::symbols).collect();
+        let mut intervals = Vec::new();
+        for Named { symbol, interval, .. } in self.named.iter().rev() {
+            if symbol.first_symbol().is_some_and(|name| symbols.contains(name)) {
+                symbols.extend(interval.value.symbols());
+                intervals.push(interval);
+            }
+        }
+        let hypotheses: Vec<_> = self.hypotheses.iter().chain(intervals.into_iter().rev()).collect();
+        kernel::derivation(&hypotheses, &proposition).map(drop)
+    }
+}
+
+/// K m/2ᵖ
+fn bounding(constant: Number, scale: &Tree) -> Tree {
+    number(constant) * scale / Tree::symbol(PRECISION)
+}
