@@ -94,7 +94,7 @@ pub fn rounding_bound(of: &Tree, scale: &Tree, hypotheses: &[Hypothesis]) -> Res
 }
 
 /// The form of the bounds in a chain.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 enum Form {
     /// K/2ᵖ
     Absolute,
@@ -223,9 +223,9 @@ impl Chain {
         let (constant, size) = relative.map_or_else(|| by(Tree::int(1)), Ok).map_err(no_bound)?;
         let most = bounding(constant, &size);
         if self.form == Form::Opaque {
-            let (lower, upper) = self.interval(&value).map_err(no_bound)?;
+            let (middle, half) = self.interval(&value).map_err(no_bound)?;
             let exact = self.fresh('w');
-            let within = Hypothesis::between(&exact, lower, upper);
+            let within = Hypothesis::near(&exact, middle, half);
             self.name_as(value.clone(), exact.clone(), exact.clone(), value, within);
             let symbol = self.fresh('d');
             let near = Hypothesis::near(&symbol, 0, most);
@@ -249,14 +249,15 @@ impl Chain {
         Tree::symbol(name)
     }
 
-    /// Returns an interval of a value.
+    /// Returns the middle of an interval of a value, and half of its length.
     fn interval(&self, of: &Tree) -> Result<(Tree, Tree), Why> {
         let most = number(least(|k| self.proves(Proposition::Within(of.clone(), k.clone())))?);
         let beyond = |of: &Tree| {
             let margin = |k: &Tree| self.proves(Proposition::Sign(Relation::NonNegative, k - &most - of));
             Ok(number(least(margin)?) - &most)
         };
-        Ok((-beyond(&-of)?, beyond(of)?))
+        let (lower, upper) = (-beyond(&-of)?, beyond(of)?);
+        Ok([&upper + &lower, upper - lower].map(|sum| sum / Tree::int(2)).into())
     }
 
     /// A rounded formula, with its rounded parts by their symbols.
@@ -298,4 +299,98 @@ impl Chain {
 /// K m/2ᵖ
 fn bounding(constant: Number, scale: &Tree) -> Tree {
     number(constant) * scale / Tree::symbol(PRECISION)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::tree::piecewise;
+    use crate::number::{Exact, symbols};
+
+    fn at_least(bits: u32) -> Hypothesis {
+        Hypothesis::new(Relation::NonNegative, Tree::symbol(PRECISION) - Tree::int(1 << bits))
+    }
+
+    /// The definitions of a statement in place of the symbols that they define.
+    fn spelled_out(statement: &Statement) -> (Tree, Tree) {
+        let Proposition::Within(of, bound) = &statement.goals().last().unwrap().proposition else { panic!() };
+        statement.computed().iter().rev().fold((of.clone(), bound.clone()), |(of, bound), computed| {
+            let definition = [(computed.symbol, computed.by.clone())];
+            (of.with(&definition), bound.with(&definition))
+        })
+    }
+
+    #[test]
+    fn a_bound_is_one_of_the_rounded_formula() {
+        let [x, y] = symbols(["x", "y"]);
+        let one = Tree::int(1);
+        let in_intervals = [Hypothesis::between(&x, -2, 3), Hypothesis::between(&y, 1, 4)];
+        let squares = &x * &x + &y;
+        for of in
+            [&x / &y - &one, &squares / (&squares + &one), -(&x * &y), x.clone(), (&x + &y).nearest() * &x]
+        {
+            let assumed = [&in_intervals[..], &[at_least(11)]].concat();
+            for form in [Form::Absolute, Form::Relative, Form::Opaque] {
+                let found = Chain::new(&of, &assumed, form).bound(&of, &one);
+                // Of the quotient of squares each form by itself is too long but one.
+                let Ok((constant, claim)) = found else {
+                    assert!(form != Form::Opaque && of.size() > 10, "{form:?} of {of}");
+                    continue;
+                };
+                assert!(prove(&claim).is_ok(), "{form:?} of {of}: {}", prove(&claim).unwrap_err());
+                let (error, bound) = spelled_out(&claim);
+                let rounded = if of.rounds() { of.clone() } else { of.rounded() };
+                // Rounded to f32 both are the same, but for what f64 loses of numbers below 100.
+                let rounding = |step: Step<&f64>| match step {
+                    Step::Rounded(x) => Some(f64::from(*x as f32)),
+                    step => piecewise(step),
+                };
+                let exact_error = rounded - exact(&of);
+                for at in [(-1.7, 3.3), (0.1, 1.1), (2.9, 1.9)] {
+                    let at = |name| if name == "x" { at.0 } else { at.1 };
+                    let [a, b] = [&error, &exact_error].map(|tree| tree.replay(&at, &rounding).unwrap());
+                    assert!(
+                        (a - b).abs() < 1e-12 && (a != 0.0 || !of.rounded().rounds()),
+                        "{of} by {form:?}: {a} {b}"
+                    );
+                }
+                let at_one = bound.replay(&|_| Exact::int(1), &piecewise).unwrap();
+                assert_eq!(at_one, Exact::from(rug::Rational::from_f64(constant).unwrap()));
+            }
+        }
+    }
+
+    #[test]
+    fn bounds_are_those_that_are_known() {
+        let [x, y] = symbols(["x", "y"]);
+        let positive = [&x, &y].map(|x| Hypothesis::new(Relation::Positive, x.clone()));
+        let bound = |of: &Tree, scale: &Tree, assumed: &[Hypothesis]| {
+            rounding_bound(of, scale, &[assumed, &[at_least(24)]].concat()).map(|bound| bound.constant())
+        };
+        // One rounding, two and three of terms of one sign, whatever their size: the least K is 1, 2 and 2.
+        let (one, product, sum) = (Tree::int(1), &x * &y, &x * &y + &x);
+        for (of, least) in [(&product, 1.0), (&sum, 2.0), (&(&sum / &y), 3.0)] {
+            let found = bound(of, of, &positive).unwrap();
+            assert!(least * 0.999 < found && found <= least * 1.02, "{of}: {found}");
+        }
+        // No bound without an interval, nor where digits cancel, nor where a divisor may vanish.
+        assert!(bound(&product, &one, &positive).is_err());
+        let difference = &x * &y - &x;
+        assert!(bound(&difference, &difference, &positive).is_err());
+        let around_zero = Hypothesis::between(&x, -1, 1);
+        let refused = bound(&(&one / &x), &one, &[around_zero]).unwrap_err();
+        assert!(matches!(refused.why, Why::MightVanish(_)) && refused.formula == &one / &x, "{refused}");
+        // Nothing is rounded.
+        assert_eq!(bound(&x, &one, &[]).unwrap(), 0.0);
+    }
+
+    #[test]
+    fn the_least_number_is_found_up_to_a_sixty_fourth() {
+        let value = |tree: &Tree| tree.replay(&|_| f64::NAN, &piecewise).unwrap();
+        for limit in [0.0, 1e-30, 0.9, 1.0, 1.01, 63.5, 64.0, 127.9, 1e6, 3e11, 1e30] {
+            let found = value(&number(least(|k| if value(k) >= limit { Ok(()) } else { Err(()) }).unwrap()));
+            assert!(limit <= found && found <= limit * 65.0 / 64.0, "{found} for {limit}");
+        }
+        assert_eq!(least(|_| Err::<(), _>("never")), Err("never"));
+    }
 }

@@ -22,6 +22,9 @@ const ENDS: u32 = 6;
 const MAX_DEGREE: u32 = 4;
 const TERMS_AT_ENDS: usize = 1000;
 
+/// Rule 3 is tried on at most this many terms if there are symbols between −1 and 1.
+const TERMS_OF_SQUARE: usize = 40;
+
 /// Returns the sign of a polynomial, by rule 2 also with factors whose signs have been found before.
 pub fn sign_of_product(of: &Poly, factors: &[Certificate], known: &Arc<Known>) -> Option<Certificate> {
     if has_both_signs(of, known) {
@@ -38,10 +41,10 @@ pub fn sign_of_product(of: &Poly, factors: &[Certificate], known: &Arc<Known>) -
 
 /// Returns the sign of a polynomial, if the rules find one.
 ///
-/// Where there are symbols between −1 and 1, rules 1, 5 and 6 are all that is tried.
+/// Where there are symbols between −1 and 1, rule 4 is not tried.
 pub fn sign(of: &Poly, known: &Arc<Known>) -> Option<Certificate> {
     if of.symbols().into_iter().any(Symbol::is_small) {
-        return bounded(of, known, ENDS);
+        return bounded(of, known, ENDS).or_else(|| small_square(of, known));
     }
     // A short certificate before a long one.
     (0..=DEPTH).find_map(|depth| within(of, known, depth))
@@ -123,7 +126,7 @@ fn slope(of: &Poly, known: &Arc<Known>, depth: u32) -> Option<Certificate> {
     of.symbols().into_iter().find_map(|x| Certificate::slope(of, x, known, &find))
 }
 
-/// Returns the sign by rules 1, 5 and 6, the last of them on at most this many symbols.
+/// Returns the sign by rules 1, 2, 5 and 6, the last of them on at most this many symbols.
 fn bounded(of: &Poly, known: &Arc<Known>, symbols: u32) -> Option<Certificate> {
     let by_terms = Certificate::terms(of, known).or_else(|| Certificate::sizes(of, known));
     by_terms.or_else(|| small_factor(of, known, symbols)).or_else(|| {
@@ -136,6 +139,13 @@ fn bounded(of: &Poly, known: &Arc<Known>, symbols: u32) -> Option<Certificate> {
         let degrees = small.map(|x| (of.degree(x), x)).filter(|(n, _)| *n <= MAX_DEGREE);
         Certificate::ends(of, degrees.min()?.1, known, &|of, known| bounded(of, known, symbols))
     })
+}
+
+/// Rule 3, with a square in a symbol between −1 and 1.
+fn small_square(of: &Poly, known: &Arc<Known>) -> Option<Certificate> {
+    let small = of.symbols().into_iter().filter(|x| x.is_small() && of.terms().len() <= TERMS_OF_SQUARE);
+    let find = |of: &Poly, known: &Arc<Known>| bounded(of, known, ENDS);
+    small.into_iter().find_map(|x| Certificate::square(of, x, known, &find))
 }
 
 /// Rule 2, with squares of symbols between −1 and 1.
@@ -314,6 +324,22 @@ mod tests {
     }
 
     #[test]
+    fn squares_of_small_factors_keep_the_sign_of_a_term() {
+        let square = || error(0) * error(0);
+        let [of_both, cube] = [square() * error(1), square() * error(0)];
+        assert_eq!(found(n(1) + n(3) * square() - error(1)), Some(NonNegative));
+        assert_eq!(found(n(2) + x("a") * square() * (n(1) + square()) + error(1)), Some(Positive));
+        assert_eq!(found(x("n") * square() - n(2) - error(1)), Some(Negative));
+        assert_eq!(found(square() * (n(3) - error(1)) * (n(3) - error(0))), Some(NonNegative));
+        // Not of two factors of which one is no square, nor of a cube, nor without a sign.
+        assert_eq!(found(n(1) + n(3) * of_both - error(0)), None);
+        assert_eq!(found(n(1) + n(3) * cube - error(1)), None);
+        assert_eq!(found(n(1) + x("u") * square() - error(1)), None);
+        assert_eq!(found(n(1) - n(3) * square() - error(1)), None);
+        assert_eq!(found(x("n") * square() + n(2) + error(1)), None);
+    }
+
+    #[test]
     fn what_is_linear_lies_between_its_ends() {
         // Its terms alone do not show it: with the sizes of all it is 1 − 2.
         let product = || (n(1) + error(0)) * (n(2) + error(1));
@@ -321,8 +347,9 @@ mod tests {
         assert_eq!(found(-product()), Some(NonPositive));
         assert_eq!(found(x("a") * product() + x("b")), Some(Positive));
         assert_eq!(found(product() - x("a")), None);
-        // Not of a square, and not where it is in an exponent as well.
-        assert_eq!(found(error(0) * error(0) * n(4) - n(4) * error(0) + n(1)), None);
+        // Nor do they show a square, which is completed; not where it is in an exponent as well.
+        assert_eq!(found(error(0) * error(0) * n(4) - n(4) * error(0) + n(1)), Some(NonNegative));
+        assert_eq!(found(error(0) * error(0) * n(4) - n(4) * error(0) - error(1)), None);
         assert_eq!(found(e(error(0)) - n(1) - error(0)), None);
     }
 
