@@ -5,6 +5,7 @@ use crate::formula::claim::PRECISION;
 use crate::formula::name_of_rounding;
 use crate::formula::statement::{Goal, Proposition, Role, Statement};
 use crate::number::Tree;
+use crate::proof::hints::sufficient;
 use crate::proof::kernel::algebra::Symbol;
 use crate::proof::kernel::{Derivation, Supposed, Used, Why, derivation, roundings};
 use std::collections::{BTreeMap, BTreeSet};
@@ -34,6 +35,30 @@ impl Paper<'_> {
             }
         }
         if definitions.is_empty() { said } else { format!("{said}, where {}", definitions.join(" and ")) }
+    }
+
+    /// Returns the reason why there is no proof, and up to three [hypotheses](sufficient) with which there is
+    /// one.
+    ///
+    /// # Examples
+    /// ```
+    /// use provable::formula::{Hypothesis, Registry, Relation, claim::positive};
+    /// use provable::proof::{paper::Paper, prove};
+    /// let [f, g] = ["f", "g"].map(|name| provable::number::Tree::symbol(name));
+    /// let converging = Hypothesis::new(Relation::Positive, f.clone());
+    /// let claim = positive("real image", &f * &g / (&g - &f)).assuming([&converging]);
+    /// assert_eq!(
+    ///     Paper::new(&Registry::default()).explain(&claim, &prove(&claim).unwrap_err()),
+    ///     "the divisor g − f might be 0; it is proved if g > f or if g < 0"
+    /// );
+    /// ```
+    pub fn explain(&self, statement: &Statement, why: &Why) -> String {
+        if let Some(registry) = self.other_names(statement) {
+            return Paper { registry: &registry, ..*self }.explain(statement, why);
+        }
+        let hypotheses = self.registry.all_supposed(&sufficient(statement, why));
+        let hint = if hypotheses.is_empty() { "" } else { "; it is proved if " };
+        self.why(statement, why) + hint + &hypotheses.join(" or if ")
     }
 
     /// `fl(a b) = (a b) (1 + e₁ / (2ᵖ + 1)) with |e₁| ≤ 1`
