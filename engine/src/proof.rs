@@ -33,6 +33,7 @@
 mod bounds;
 pub mod controls;
 pub mod coq;
+mod hints;
 mod kernel;
 pub mod paper;
 pub mod refute;
@@ -40,5 +41,6 @@ mod search;
 
 pub use bounds::{NoBound, RoundingBound, rounding_bound};
 pub use controls::{Controls, controls};
+pub use hints::sufficient;
 pub use kernel::{MAX_DEPTH, MAX_EFFORT, MAX_SIZE, Proof, Why, prove};
 pub use refute::{Counterexample, Refutation, refute, sharpest};

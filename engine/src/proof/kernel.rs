@@ -46,7 +46,7 @@
 pub(super) mod algebra;
 pub(super) mod context;
 mod derivation;
-mod effort;
+pub(super) mod effort;
 mod monomial;
 mod number;
 mod order;

@@ -8,6 +8,7 @@ mod summary;
 pub use summary::how;
 
 use self::algebra::Order;
+use super::kernel::algebra::Poly;
 use super::kernel::sign::Sign;
 use super::kernel::{Because, Derivation, Direct, Proof, Rounding, Signed, Supposed, Used};
 use crate::formula::claim::{MEMBERS, POWER, PRECISION};
@@ -388,6 +389,11 @@ const LETTERS: [(char, char); 12] = [
     ('y', 'ʸ'),
     ('z', 'ᶻ'),
 ];
+
+/// A polynomial as a formula.
+pub(super) fn formula(poly: &Poly) -> Tree {
+    Order::default().poly(poly)
+}
 
 /// What an error of rounding is; the names of errors follow.
 fn model() -> String {

@@ -335,7 +335,7 @@ const SHARP: usize = 500;
 
 /// What a statement speaks of, in the order in which it does, but for what follows from the rest: the
 /// members and powers of a sequence, and what is computed.
-fn symbols(statement: &Statement) -> Vec<&'static str> {
+pub(super) fn symbols(statement: &Statement) -> Vec<&'static str> {
     let sequence = statement.conclusion().filter(|sequence| sequence.limit.is_none());
     let members = sequence.map_or(&[][..], |sequence| &MEMBERS[..sequence.step.len()]);
     let follows = |name: &'static str| {

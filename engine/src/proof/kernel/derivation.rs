@@ -4,7 +4,7 @@
 //! [`Proof`].
 
 use super::algebra::{Monomial, Poly, Ratio, Symbol};
-use super::sign::{Certificate, Sign};
+use super::sign::{Certificate, Known, Sign};
 use crate::formula::{Hypothesis, Statement};
 use crate::number::Tree;
 
@@ -183,12 +183,12 @@ pub enum Because {
 /// Why there is no proof: where a search for a counterexample may start.
 #[derive(Clone, Debug)]
 pub enum Why {
-    /// A divisor might be 0.
-    MightVanish(Ratio),
+    /// A divisor might be 0: its formula, and its value under the hypotheses.
+    MightVanish(Tree, Ratio),
     /// It is not known whether a bracket opens, and no case can be made of it.
     OpenBracket(Ratio),
-    /// No rule finds the sign.
-    NoSign(Ratio),
+    /// No rule finds the sign under these signs of symbols.
+    NoSign(Ratio, std::sync::Arc<Known>),
     /// The sign is another.
     WrongSign(Ratio, Sign),
     /// Two sides differ by this.

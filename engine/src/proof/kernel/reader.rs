@@ -5,7 +5,7 @@ use super::context::{Context, sign};
 use super::derivation::{Rounding, Signed, Why};
 use super::effort;
 use super::sign::{Certificate, Sign};
-use crate::formula::claim::SCALES;
+use crate::formula::claim::{PRECISION, SCALES};
 use crate::number::Tree;
 use crate::number::tree::Step;
 
@@ -29,8 +29,8 @@ impl<'a> Reader<'a> {
 
     /// The sign of a quotient.
     pub(super) fn sign(&self, value: Ratio) -> Result<Signed, Why> {
-        let value = self.context.reduce(&value);
-        self.context.sign_by_kept(value.clone(), &self.factors).ok_or(Why::NoSign(value))
+        let (value, known) = (self.context.reduce(&value), self.context.known.clone());
+        self.context.sign_by_kept(value.clone(), &self.factors).ok_or(Why::NoSign(value, known))
     }
 
     /// The same, if it is such a sign.
@@ -56,14 +56,15 @@ impl<'a> Reader<'a> {
     fn divisor(&mut self, tree: &Tree) -> Result<Ratio, Why> {
         let divisor = self.read(tree)?;
         if divisor.is_zero() {
-            return Err(Why::MightVanish(divisor));
+            return Err(Why::MightVanish(tree.clone(), divisor));
         }
         effort::spend(self.divisors.len().saturating_mul(tree.size() as usize));
         if !divisor.is_number() && self.divisors.iter().all(|(known, _)| known != tree) {
             self.collect_factors(tree)?;
-            let signed = self.context.sign(self.context.reduce(&divisor), &self.factors);
+            let value = self.context.reduce(&divisor);
+            let signed = self.context.sign(value.clone(), &self.factors);
             let signed = signed.filter(|s| s.num.sign().is_strict());
-            self.divisors.push((tree.clone(), signed.ok_or_else(|| Why::MightVanish(divisor.clone()))?));
+            self.divisors.push((tree.clone(), signed.ok_or_else(|| Why::MightVanish(tree.clone(), value))?));
         }
         Ok(divisor)
     }
@@ -108,7 +109,7 @@ impl<'a> Reader<'a> {
             Mul(a, b) => self.read(a)? * self.read(b)?,
             Div(a, b) => {
                 let (value, divisor) = (self.read(a)?, self.divisor(b)?);
-                value.over(&divisor).ok_or(Why::MightVanish(divisor))?
+                value.over(&divisor).ok_or_else(|| Why::MightVanish(b.clone(), divisor))?
             }
             Exp(a) => {
                 let exponent = self.context.reduce(&self.read(a)?);
@@ -120,7 +121,8 @@ impl<'a> Reader<'a> {
                 let value = self.context.reduce(&self.read(a)?);
                 let (error, largest) = self.rounding(a, &value)?;
                 let nearest = &largest + Ratio::from(Poly::symbol(error));
-                (value * nearest).over(&largest).ok_or(Why::MightVanish(largest))?
+                let divisor = || Tree::symbol(PRECISION) + Tree::from(1);
+                (value * nearest).over(&largest).ok_or_else(|| Why::MightVanish(divisor(), largest))?
             }
         })
     }

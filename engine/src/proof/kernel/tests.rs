@@ -48,7 +48,7 @@ fn multiplier() -> Vec<Hypothesis> {
 fn a_divisor_has_to_be_seen_not_to_vanish() {
     let one = || Proposition::Equal(x("c") / x("c"), Tree::one());
     assert!(proved(stiffness(), one()));
-    assert!(matches!(outcome(vec![], one()), Err(Why::MightVanish(..))));
+    assert!(matches!(outcome(vec![], one()), Err(Why::MightVanish(of, _)) if of == x("c")));
     // Not even where the quotient is multiplied by 0.
     assert!(!proved(vec![], Proposition::Equal(Tree::zero() * (Tree::one() / x("u")), Tree::zero())));
     assert!(!proved(multiplier(), Proposition::Equal(x("λ") / x("λ"), Tree::one())));

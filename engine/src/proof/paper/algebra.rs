@@ -4,9 +4,11 @@ use crate::number::{Exponential, Field, Tree};
 use crate::proof::Why;
 use crate::proof::kernel::Multiple;
 use crate::proof::kernel::algebra::{Monomial, Poly, Ratio, Symbol};
-use crate::proof::kernel::sign::{Certificate, Rule, Sign};
+use crate::proof::kernel::sign::{Certificate, Known, Rule, Sign};
+use crate::proof::search;
 use rug::Integer;
 use std::fmt;
+use std::sync::Arc;
 
 /// The form in which polynomials are written.
 #[derive(Clone, Copy, Default)]
@@ -166,15 +168,41 @@ impl Order<'_> {
         }
     }
 
-    /// Why there is no proof.
-    pub(super) fn why(&self, why: &Why) -> String {
+    /// Returns which terms of a quotient are not known to have the sign of its denominator, if these are one
+    /// or two and not all: `: the term −b is < 0`.
+    fn obstacles(&self, value: &Ratio, known: &Arc<Known>) -> String {
+        let sign = |part: &Poly| search::sign(part, known).map(|found| found.sign());
+        let Some(den) = sign(value.den()) else { return String::new() };
+        let terms = value.num().terms().map(|(m, q)| Poly::from_iter([(m.clone(), q.clone())]));
+        let with_signs = terms.map(|term| (sign(&term), term));
+        let fits = |sign: &Option<Sign>| sign.is_some_and(|s| s.times(den).implies(Sign::NonNegative));
+        let (fitting, others): (Vec<_>, Vec<_>) = with_signs.partition(|(sign, _)| fits(sign));
+        if fitting.is_empty() || others.len() > 2 {
+            return String::new();
+        }
+        let described = others.iter().map(|(sign, term)| match sign {
+            Some(sign) => format!("the term {} is {}", self.poly_or_size(term), text(*sign)),
+            None => format!("the sign of the term {} is unknown", self.poly_or_size(term)),
+        });
+        format!(": {}", described.collect::<Vec<_>>().join(" and "))
+    }
+
+    /// Why there is no proof, with formulas as `formula` writes them.
+    pub(super) fn why(&self, why: &Why, formula: &dyn Fn(&Tree) -> String) -> String {
         let ratio = |ratio: &Ratio| self.ratio_or_size(ratio);
         match why {
             Why::Jump => "rounding has jumps, so nothing is said of limits and derivatives of it".to_string(),
             Why::TooMany => "it rounds more often than there are names for errors".to_string(),
-            Why::MightVanish(value) => format!("{} might be 0", ratio(value)),
+            Why::MightVanish(of, value) if value.is_zero() => format!("the divisor {} is 0", formula(of)),
+            Why::MightVanish(of, value) => {
+                let is_as_written = value.symbols().into_iter().map(Symbol::name).eq(of.symbols());
+                let reduced = if is_as_written { String::new() } else { format!(" = {}", ratio(value)) };
+                format!("the divisor {}{reduced} might be 0", formula(of))
+            }
             Why::OpenBracket(value) => format!("the sign of {} is open", ratio(value)),
-            Why::NoSign(value) => format!("no rule finds the sign of {}", ratio(value)),
+            Why::NoSign(value, known) => {
+                format!("no rule finds the sign of {}{}", ratio(value), self.obstacles(value, known))
+            }
             Why::WrongSign(value, sign) => format!("{} is {}", ratio(value), text(*sign)),
             Why::Different(value) => format!("the sides differ by {}", ratio(value)),
             Why::NoLimit(value) => format!("no rule finds the limit of {}", ratio(value)),
@@ -219,7 +247,7 @@ fn text(sign: Sign) -> &'static str {
 /// of a registry, and defines its names.
 impl fmt::Display for Why {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str(&Order::default().why(self))
+        f.write_str(&Order::default().why(self, &Tree::to_string))
     }
 }
 

@@ -5,18 +5,19 @@ use crate::formula::claim::PRECISION;
 use crate::formula::name_of_rounding;
 use crate::formula::statement::{Goal, Proposition, Role, Statement};
 use crate::number::Tree;
+use crate::proof::hints::sufficient;
 use crate::proof::kernel::algebra::Symbol;
 use crate::proof::kernel::{Derivation, Supposed, Used, Why, derivation, roundings};
 use std::collections::{BTreeMap, BTreeSet};
 
 impl Paper<'_> {
     /// Why there is no proof of a statement, with the definitions of the names that are not its own:
-    /// `no rule finds the sign of a − s₁, where s₁ = b − a > 0`.
+    /// `no rule finds the sign of a − s₁: the term −s₁ is < 0, where s₁ = b − a > 0`.
     pub fn why(&self, statement: &Statement, why: &Why) -> String {
         if let Some(registry) = self.other_names(statement) {
             return Paper { registry: &registry, ..*self }.why(statement, why);
         }
-        let said = self.order().why(why);
+        let said = self.order().why(why, &|tree| self.text(tree));
         let (rounded, mut supposed) = (roundings(statement.trees()), None);
         let mut definitions = Vec::new();
         for symbol in why.symbols().into_iter().filter(|symbol| said.contains(symbol.name())) {
@@ -34,6 +35,30 @@ impl Paper<'_> {
             }
         }
         if definitions.is_empty() { said } else { format!("{said}, where {}", definitions.join(" and ")) }
+    }
+
+    /// Returns the reason why there is no proof, and up to three [hypotheses](sufficient) with which there is
+    /// one.
+    ///
+    /// # Examples
+    /// ```
+    /// use provable::formula::{Hypothesis, Registry, Relation, claim::positive};
+    /// use provable::proof::{paper::Paper, prove};
+    /// let [f, g] = ["f", "g"].map(|name| provable::number::Tree::symbol(name));
+    /// let converging = Hypothesis::new(Relation::Positive, f.clone());
+    /// let claim = positive("real image", &f * &g / (&g - &f)).assuming([&converging]);
+    /// assert_eq!(
+    ///     Paper::new(&Registry::default()).explain(&claim, &prove(&claim).unwrap_err()),
+    ///     "the divisor g − f might be 0; it is proved if g > f or if g < 0"
+    /// );
+    /// ```
+    pub fn explain(&self, statement: &Statement, why: &Why) -> String {
+        if let Some(registry) = self.other_names(statement) {
+            return Paper { registry: &registry, ..*self }.explain(statement, why);
+        }
+        let hypotheses = self.registry.all_supposed(&sufficient(statement, why));
+        let hint = if hypotheses.is_empty() { "" } else { "; it is proved if " };
+        self.why(statement, why) + hint + &hypotheses.join(" or if ")
     }
 
     /// `fl(a b) = (a b) (1 + e₁ / (2ᵖ + 1)) with |e₁| ≤ 1`
@@ -112,9 +137,9 @@ impl Why {
     /// Returns the symbols of the quantity that the proof ends at.
     fn symbols(&self) -> BTreeSet<Symbol> {
         match self {
-            Why::MightVanish(value)
+            Why::MightVanish(_, value)
             | Why::OpenBracket(value)
-            | Why::NoSign(value)
+            | Why::NoSign(value, _)
             | Why::WrongSign(value, _)
             | Why::Different(value)
             | Why::NoLimit(value) => value.symbols(),
@@ -133,7 +158,7 @@ impl Why {
 mod tests {
     use super::*;
     use crate::formula::claim::{Rate, equal, limit, positive};
-    use crate::formula::{Hypothesis, Registry, Relation};
+    use crate::formula::{Formula, Hypothesis, Registry, Relation};
     use crate::number::PositivePart;
     use crate::proof::prove;
 
@@ -149,7 +174,7 @@ mod tests {
         let least = Hypothesis::new(Relation::NonNegative, &a * &b - &c);
         assert_eq!(
             why(&positive("", &b - Tree::from(2) * &a).assuming([&more])),
-            "no rule finds the sign of 2 s₁ − b, where s₁ = b − a > 0"
+            "no rule finds the sign of 2 s₁ − b: the sign of the term −b is unknown, where s₁ = b − a > 0"
         );
         assert_eq!(
             why(&positive("", &c - &b).assuming([&more, &least])),
@@ -167,14 +192,54 @@ mod tests {
         );
         let said = why(&equal("", (&a + &b).nearest(), &a + &b));
         assert!(said.contains("fl(a + b) = (a + b) (1 + e₁ / (2ᵖ + 1)) with |e₁| ≤ 1"), "{said}");
+        let opposite =
+            positive("", &a + &b - &u).assuming(&[a.clone(), b.clone(), u.clone()].map(above_zero));
+        assert_eq!(why(&opposite), "no rule finds the sign of a + b − u: the term −u is < 0");
+        // A negative divisor turns the signs round.
+        let below = positive("", (&a - &u * &u + &b * &c) / (-&a - &b));
+        assert_eq!(
+            why(&below.assuming(&[a.clone(), b.clone()].map(above_zero))),
+            "no rule finds the sign of (u² − a − b c) / (a + b): \
+             the sign of the term −b c is unknown and the term −a is < 0"
+        );
         // Nothing to define.
         assert_eq!(why(&equal("", &a, &b)), "the sides differ by a − b");
+    }
+
+    fn above_zero(value: Tree) -> Hypothesis {
+        Hypothesis::new(Relation::Positive, value)
+    }
+
+    #[test]
+    fn a_divisor_is_written_as_it_stands_in_the_claim() {
+        let [a, b, c] = ["a", "b", "c"].map(|name| Tree::symbol(name));
+        let inverse = |of: Tree| positive("", Tree::from(1) / of);
+        let more = above_zero(&a - &b);
+        let divisor = |text: &str| format!("the divisor {text}");
+        assert_eq!(why(&inverse(&b + (&c + &a))), divisor("b + c + a might be 0"));
+        assert_eq!(
+            why(&inverse(&c + &a).assuming([&more])),
+            divisor("c + a = b + c + s₁ might be 0, where s₁ = a − b > 0")
+        );
+        let equal = Hypothesis::new(Relation::Zero, &a - &b);
+        assert_eq!(why(&inverse(&a - &c).assuming([&equal])), divisor("a − c = b − c might be 0"));
+        assert_eq!(why(&inverse(&a - &b).assuming([&equal])), divisor("a − b is 0"));
+        assert_eq!(why(&inverse(&a - &a)), divisor("a − a is 0"));
+        // With the names of a registry.
+        let spring = Formula::new("spring", "k", &["a", "b"], product(&a, &b)).folded();
+        let registry = Registry::new(&["a", "b"], vec![spring]);
+        let claim = inverse(product(&a, &b));
+        let why = prove(&claim).unwrap_err();
+        assert_eq!(Paper::new(&registry).why(&claim, &why), divisor("k might be 0"));
+    }
+
+    fn product(a: &Tree, b: &Tree) -> Tree {
+        a * b
     }
 
     #[test]
     fn a_divided_hypothesis_and_one_on_the_variable_of_a_limit_are_defined() {
         let [k, f, g] = ["k", "f", "g"].map(|name| Tree::symbol(name));
-        let above_zero = |value| Hypothesis::new(Relation::Positive, value);
         let bounds = [above_zero(k.clone()), above_zero(Tree::from(1) - &k)];
         let said = why(&positive("", Tree::from(2) * &k - Tree::from(1)).assuming(bounds.each_ref()));
         assert!(said.contains("s₁ = (1 − k) / k > 0"), "{said}");

@@ -1,0 +1,275 @@
+//! Hypotheses with which a claim that has no proof would have one.
+//!
+//! Nothing here is trusted: what is suggested is proved by the kernel.
+
+use super::kernel::algebra::Monomial;
+use super::kernel::{Derivation, Used, Why, derivation, effort, prove};
+use super::paper::formula;
+use super::refute::{Verdict, check, planted_points, symbols};
+use crate::formula::claim::{POWER, PRECISION, SCALES, equal};
+use crate::formula::statement::{Proposition, Role, Statement};
+use crate::formula::{Hypothesis, Relation};
+use crate::number::Tree;
+
+/// The number of symbols whose signs and differences are tried, at most.
+const MAX_SYMBOLS: usize = 6;
+
+/// The size of the formula at which a proof ended that is tried, at most.
+const MAX_OBSTACLE: u32 = 24;
+
+/// The number of hypotheses that are suggested, at most.
+const MAX_HINTS: usize = 3;
+
+/// The number of points at which a claim is tried before a proof is attempted.
+const POINTS: usize = 4;
+
+/// Returns simple hypotheses, at most three, with each of which a statement is proved that is not proved
+/// without, for the reason `why`.
+///
+/// Candidates are, in this order, signs of symbols, comparisons of two symbols, and the sign of the formula
+/// that the proof ended at. Numbers show that each can hold together with the statement's own hypotheses, and
+/// not only where its quantity is 0. None follows from another, and none is what is claimed. An empty list is
+/// no evidence against the statement.
+///
+/// # Examples
+/// ```
+/// use provable::formula::{Hypothesis, Relation, claim::positive};
+/// use provable::{number::Tree, proof::{prove, sufficient}};
+/// let [f, g] = ["f", "g"].map(|name| Tree::symbol(name));
+/// let converging = Hypothesis::new(Relation::Positive, f.clone());
+/// let claim = positive("real image", &f * &g / (&g - &f)).assuming([&converging]);
+/// let hypotheses = sufficient(&claim, &prove(&claim).unwrap_err());
+/// assert_eq!(hypotheses[0].to_string(), "g > f");
+/// assert!(prove(&claim.assuming([&hypotheses[0]])).is_ok());
+/// ```
+pub fn sufficient(statement: &Statement, why: &Why) -> Vec<Hypothesis> {
+    if let Why::TooLarge(..) = why {
+        return Vec::new(); // So would be the proofs under more hypotheses.
+    }
+    let symbols = symbols(statement);
+    let is_free = |name: &&str| *name != POWER && *name != PRECISION && !SCALES.contains(name);
+    let own: Vec<_> = symbols.iter().copied().filter(is_free).take(MAX_SYMBOLS).map(Tree::symbol).collect();
+    let differences = own.iter().flat_map(|x| own.iter().filter(move |y| x != *y).map(move |y| x - y));
+    let is_own = |of: &Tree| of.first_symbol().is_some() && of.symbols().iter().all(|x| symbols.contains(x));
+    let is_short = |of: &Tree| of.size() <= MAX_OBSTACLE;
+    let simple = own.iter().cloned().chain(differences).chain(own.iter().map(|x| -x));
+    let weakest = |value: Tree| {
+        let candidates = [Relation::NonNegative, Relation::Positive];
+        let mut candidates = candidates.into_iter().map(|relation| Hypothesis::new(relation, value.clone()));
+        candidates.find(|candidate| suffices(statement, candidate, &symbols))
+    };
+    // Under those of the statement, the first from the second.
+    let follows = |first: &Hypothesis, second: &Hypothesis| {
+        let proposition = Proposition::Sign(first.relation, first.value.clone());
+        prove(&statement.with_proposition(proposition).assuming([second])).is_ok()
+    };
+
+    let mut found: Vec<Hypothesis> = Vec::new();
+    for new in simple.filter_map(weakest) {
+        if found.iter().all(|known| !follows(known, &new)) {
+            found.retain(|known| !follows(&new, known));
+            found.push(new);
+        }
+    }
+    let obstacle = obstacle(statement, why).filter(is_own).filter(is_short).into_iter();
+    for new in obstacle.flat_map(|of| [-&of, of]).rev().filter_map(weakest) {
+        if found.iter().all(|known| !follows(known, &new) && !follows(&new, known)) {
+            found.push(new);
+        }
+    }
+    found.truncate(MAX_HINTS);
+    found
+}
+
+/// Returns `true` if a hypothesis makes a statement provable, is not what it claims, and can hold with its
+/// hypotheses where the quantity is not 0.
+fn suffices(statement: &Statement, candidate: &Hypothesis, symbols: &[&'static str]) -> bool {
+    let strict = Hypothesis { relation: Relation::Positive, ..candidate.clone() };
+    let hypotheses = [statement.hypotheses(), &[strict]].concat();
+    let claim = statement.clone().assuming([candidate]);
+    let points: Vec<_> = planted_points(&hypotheses, symbols).take(POINTS).collect();
+    let is_claimed = |proposition: &Proposition| match proposition {
+        Proposition::Sign(_, of) => prove(&equal("", of, &candidate.value)).is_ok(),
+        _ => false,
+    };
+    !points.is_empty()
+        && points.iter().all(|point| !matches!(check(&claim, point), Verdict::Fails(..)))
+        && prove(&claim).is_ok()
+        && statement.goals().iter().all(|goal| !is_claimed(&goal.proposition))
+}
+
+/// Returns the formula whose sign is missing, in the symbols of the statement and without common factors.
+fn obstacle(statement: &Statement, why: &Why) -> Option<Tree> {
+    let value = match why {
+        Why::MightVanish(divisor, _) => return Some(divisor.clone()),
+        Why::NoSign(value, _) | Why::WrongSign(value, _) | Why::OpenBracket(value) => value,
+        _ => return None,
+    };
+    let trivial = Proposition::Equal(Tree::from(0), Tree::from(0));
+    let read = derivation(&statement.hypotheses_for(Role::Claim), &trivial).ok()?;
+    let Derivation::Direct(direct) = read else { return None };
+    let in_own_symbols = || {
+        direct.supposed.iter().rev().fold(value.clone(), |value, supposed| match supposed.used {
+            Used::Pivot(_, _, Some(slack)) => {
+                let quotient = supposed.divided_by.as_ref().and_then(|by| supposed.value.over(by));
+                value.replace(&Monomial::of(slack), quotient.as_ref().unwrap_or(&supposed.value))
+            }
+            _ => value,
+        })
+    };
+    let num = effort::bounded(in_own_symbols)?.num().clone();
+    let rest = num.over(&num.common_monomial().into())?;
+    (rest.terms().len() <= MAX_OBSTACLE as usize).then(|| formula(&rest))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::formula::Registry;
+    use crate::formula::claim::{non_negative, positive};
+    use crate::number::{Exponential, tree};
+    use crate::proof::MAX_SIZE;
+    use crate::proof::paper::Paper;
+    use crate::proof::refute::raw_points;
+
+    fn above_zero(value: impl Into<Tree>) -> Hypothesis {
+        Hypothesis::new(Relation::Positive, value.into())
+    }
+
+    fn explained(claim: &Statement) -> String {
+        Paper::new(&Registry::default()).explain(claim, &prove(claim).unwrap_err())
+    }
+
+    fn hints(claim: &Statement) -> Vec<String> {
+        sufficient(claim, &prove(claim).unwrap_err()).iter().map(Hypothesis::to_string).collect()
+    }
+
+    /// The distance of the image of what is `s` away, by a thin lens.
+    fn image(f: &Tree, s: &Tree) -> Tree {
+        f * s / (s - f)
+    }
+
+    /// A voltage divider under a load.
+    fn loaded(u: &Tree, a: &Tree, b: &Tree, load: &Tree) -> Tree {
+        let parallel = b * load / (b + load);
+        u * &parallel / (a + &parallel)
+    }
+
+    fn charged(u: &Tree, t: &Tree, r: &Tree, c: &Tree) -> Tree {
+        u * (Tree::from(1) - (-t / (r * c)).exp())
+    }
+
+    #[test]
+    fn a_lens_lacks_the_place_of_its_object() {
+        let [f, s] = tree::symbols(["f", "s"]);
+        let [converging, real] = [&f, &s].map(above_zero);
+        let is_real = positive("", image(&f, &s));
+        assert_eq!(
+            explained(&is_real.clone().assuming([&converging])),
+            "the divisor s − f might be 0; it is proved if s > f or if s < 0"
+        );
+        let one = || Tree::from(1);
+        let law = equal("", one() / image(&f, &s), one() / &f - one() / &s);
+        assert_eq!(
+            explained(&law.assuming([&converging, &real])),
+            "the divisor s − f might be 0; it is proved if f > s or if s > f"
+        );
+        // A single hypothesis does not suffice.
+        assert_eq!(explained(&is_real), "the divisor s − f might be 0");
+    }
+
+    #[test]
+    fn a_divider_lacks_the_sign_of_its_load() {
+        let [u, a, b, load] = tree::symbols(["U", "R₁", "R₂", "R"]);
+        let claim = positive("", loaded(&u, &a, &b, &load)).assuming(&[&a, &b, &u].map(above_zero));
+        assert_eq!(
+            explained(&claim),
+            "the divisor R₂ + R might be 0; it is proved if R > 0 or if R₂ + R < 0"
+        );
+        let lower = &u * &b / (&a + &b) - loaded(&u, &a, &b, &load);
+        assert_eq!(hints(&positive("", lower).assuming(&[&a, &b, &load].map(above_zero))), ["U > 0"]);
+    }
+
+    #[test]
+    fn the_weakest_hypothesis_on_a_charging_curve_is_suggested() {
+        let [u, t, r, c] = tree::symbols(["U", "t", "R", "C"]);
+        let voltage = charged(&u, &t, &r, &c);
+        let parts = [&u, &r, &c].map(above_zero);
+        let missing = "no rule finds the sign of U − U exp(−t / (C R)): the term −U exp(−t / (C R)) is < 0";
+        let explained = |claim: Statement| explained(&claim.assuming(&parts));
+        assert_eq!(explained(non_negative("", &voltage)), format!("{missing}; it is proved if t ≥ 0"));
+        assert_eq!(explained(positive("", &voltage)), format!("{missing}; it is proved if t > 0"));
+        let claim = positive("", voltage).assuming(&[&u, &t, &r].map(above_zero));
+        assert_eq!(hints(&claim), ["C > 0"]);
+    }
+
+    #[test]
+    fn what_contradicts_a_hypothesis_is_not_suggested() {
+        let [f, s] = tree::symbols(["f", "s"]);
+        let claim = positive("", image(&f, &s)).assuming([&above_zero(&f), &above_zero(&f - &s)]);
+        assert_eq!(hints(&claim), ["s < 0"]);
+        // With a ≤ 0 it would hold, but only where a = 0.
+        let [a, c] = tree::symbols(["a", "c"]);
+        let not_negative = |value: &Tree| Hypothesis::new(Relation::NonNegative, value.clone());
+        let claim = non_negative("", &c - &a).assuming([&not_negative(&a), &not_negative(&c)]);
+        assert!(prove(&claim.clone().assuming([&not_negative(&-&a)])).is_ok());
+        assert_eq!(hints(&claim), Vec::<String>::new());
+    }
+
+    #[test]
+    fn neither_the_claim_nor_what_is_stronger_than_needed_is_suggested() {
+        let [a, b, c, d] = tree::symbols(["a", "b", "c", "d"]);
+        assert_eq!(hints(&positive("", &a - &b)), Vec::<String>::new());
+        // a > d, so b ≥ a would do as well.
+        let claim = positive("", &b + &c - &d).assuming(&[b.clone(), c.clone(), &a - &d].map(above_zero));
+        assert_eq!(hints(&claim), ["b ≥ d", "c ≥ d"]);
+    }
+
+    #[test]
+    fn an_obstacle_is_written_in_the_symbols_of_the_statement() {
+        let [a, b, c, d] = tree::symbols(["a", "b", "c", "d"]);
+        assert_eq!(hints(&positive("", &a * &b * &c - &a * &d).assuming([&above_zero(&a)])), ["b c > d"]);
+        let long = [&a, &b, &c, &d].into_iter().fold(Tree::from(0), |sum, x| sum + x * x * x);
+        assert_eq!(hints(&positive("", long)), Vec::<String>::new());
+        // Hypotheses replace a and d.
+        let claim =
+            positive("", &a * &b * &c - &d * &b).assuming(&[b.clone(), &a - &c, &d - &a].map(above_zero));
+        assert_eq!(hints(&claim), ["a c > d"]);
+    }
+
+    #[test]
+    fn nothing_is_suggested_where_no_hypothesis_can_be_missing() {
+        let none = Vec::<String>::new();
+        let one = || Tree::from(1);
+        assert_eq!(hints(&equal("", one() / (one() - one()), 0)), none);
+        let [a, b] = tree::symbols(["a", "b"]);
+        assert_eq!(hints(&equal("", &a / (&b - &b), 0)), none);
+        let large = (0..MAX_SIZE).fold(a.clone(), |sum, _| sum + &b);
+        assert_eq!(hints(&positive("", large).assuming([&above_zero(a)])), none);
+    }
+
+    /// Whatever is suggested, in some hundreds of claims; integers satisfy all hypotheses.
+    #[test]
+    fn what_is_suggested_suffices_and_can_hold() {
+        let [a, b, c] = tree::symbols(["a", "b", "c"]);
+        let parts = [a.clone(), b.clone(), &a - &b, &b - &c, &a * &b - &c, Tree::from(1)];
+        let mut suggested = 0;
+        for (i, j, k) in (0..216).map(|n| (n / 36, n / 6 % 6, n % 6)) {
+            let of = &parts[i] + &parts[j] * &parts[k] / &parts[(i + j) % 5];
+            let given = above_zero(parts[(j + k) % 5].clone());
+            for claim in [non_negative("", &of), positive("", &of)].map(|claim| claim.assuming([&given])) {
+                let Err(why) = prove(&claim) else { continue };
+                let hypotheses = sufficient(&claim, &why);
+                assert!(hypotheses.len() <= MAX_HINTS);
+                for hypothesis in &hypotheses {
+                    let claim = claim.clone().assuming([hypothesis]);
+                    assert!(prove(&claim).is_ok(), "{of} ≥ 0 if {hypothesis}");
+                    let mut points = raw_points(claim.hypotheses(), &["a", "b", "c"]);
+                    assert!(points.next().is_some(), "{given} and {hypothesis}");
+                }
+                suggested += hypotheses.len();
+            }
+        }
+        assert!(suggested > 100, "{suggested}");
+    }
+}
