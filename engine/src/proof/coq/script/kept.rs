@@ -112,17 +112,14 @@ impl Kept {
     fn supposed(&self, of: &Ratio, place: &Place, direct: &Direct) -> Option<(String, Ratio)> {
         let by_case = self.0.iter().find_map(|(bracket, case)| {
             let less = sign_of(bracket, direct)?.less.as_ref().filter(|less| less.of == *of)?;
-            let factor = less.factor.value.clone();
-            Some((
-                case.clone()?,
-                if less.factor.sign().implies(Sign::NonNegative) { factor } else { -factor },
-            ))
+            let (size, is_negative) = (less.factor.value.clone(), less.factor.sign() == Sign::Negative);
+            Some((case.clone()?, if is_negative { -size } else { size }))
         });
         by_case.or_else(|| {
-            let is_of_it = |own: &&Supposed| match &own.used {
-                Used::Symbol(x) if !is_said_of(own, x) => false,
-                Used::Kept | Used::Symbol(_) => reduced(&own.value, direct) == *of,
-                _ => false,
+            let is_of_it = |own: &&Supposed| {
+                let stands = matches!(own.used, Used::Kept)
+                    || matches!(&own.used, Used::Symbol(x) if is_said_of(own, x));
+                stands && reduced(&own.value, direct) == *of
             };
             let given = direct.supposed.iter().find(is_of_it)?.given.as_ref()?;
             Some((place.lemma.label(given)?, Poly::constant(1).into()))
