@@ -27,25 +27,12 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-/// Claims that are proved by the kernel alone: of several computed quantities, by signs that rest on what has no
-/// pivot, by order in each of two cases.
-const LEFT_OUT: [(&str, &str); 3] =
-    [("note 4", "float-unilateral-drift"), ("note 4", "float-nearly-free"), ("note 4", "float-no-deeper")];
-
-/// The claims that are theorems.
-fn statements() -> Vec<Statement> {
-    let mut all = claims::statements();
-    all.retain(|s| !LEFT_OUT.contains(&(s.equation(), s.name())));
-    all
-}
-
 #[test]
 fn every_claim_is_a_theorem() {
     let files = coq().files();
     let theorems: Vec<_> = of_claims(&files).flat_map(|file| named(&file.text, "Theorem")).collect();
-    let left_out: Vec<_> = coq().left_out().iter().map(|own| (own.equation, own.name)).collect();
-    assert_eq!(left_out, LEFT_OUT);
-    let statements = statements();
+    assert!(coq().left_out().is_empty(), "{:?}", coq().left_out());
+    let statements = claims::statements();
     for statement in &statements {
         let name = theorem_name(statement.equation(), statement.name());
         assert!(theorems.contains(&name.as_str()), "{name}");
@@ -87,7 +74,7 @@ fn of_all_that_is_proved_it_is_asked_what_it_rests_on() {
 fn every_divisor_is_said_not_to_be_0() {
     let (_, functions) = printed();
     let theorems = theorems();
-    for statement in statements() {
+    for statement in claims::statements() {
         let mut divisors = Vec::new();
         for tree in statement.trees() {
             tree.visit(&mut |tree| {
@@ -286,14 +273,12 @@ fn is_the_same_sequence(
         [] => members.iter().zip(&own.member).map(is_closed).collect(),
         within => within.iter().map(is_near).collect(),
     };
-    let is_computed = match (computed, &printed.computed) {
-        ([own], Some((name, by))) => {
-            printed_as(&Tree::symbol(own.symbol), &Tree::symbol(name)) && printed_as(&own.by, by)
-        }
-        (own, printed) => own.is_empty() && printed.is_none(),
+    let is_computed = |(own, (name, by)): (&Computed, &(&'static str, Tree))| {
+        printed_as(&Tree::symbol(own.symbol), &Tree::symbol(name)) && printed_as(&own.by, by)
     };
     let names: Vec<_> = printed.members.iter().map(|name| Tree::symbol(name)).collect();
-    is_computed
+    computed.len() == printed.computed.len()
+        && computed.iter().zip(&printed.computed).all(is_computed)
         && all_printed_as(&members, &names)
         && printed_as(&own.ratio, &printed.ratio)
         && all_printed_as(&own.start, &printed.start)
@@ -315,9 +300,9 @@ fn says_the_same(statement: &Statement, Read { follows, of, .. }: &Read) -> bool
             own.into_iter().zip([ratio, of, to]).all(|(own, printed)| printed_as(own, printed))
         }
         (None, None, _) => {
-            let by = |tree: &Tree| match computed {
-                [Computed { symbol, by, .. }] => tree.with(&[(symbol, by.clone())]),
-                _ => tree.clone(),
+            let by = |tree: &Tree| {
+                let put = |tree: Tree, own: &Computed| tree.with(&[(own.symbol, own.by.clone())]);
+                computed.iter().rev().fold(tree.clone(), put)
             };
             let own = statement.goals().iter().find(|goal| goal.role == Role::Claim).unwrap();
             let own = match &own.proposition {
@@ -339,7 +324,7 @@ fn theorems() -> Vec<Theorem> {
 fn every_theorem_says_what_its_claim_does() {
     let (_, functions) = printed();
     let theorems = theorems();
-    for statement in statements() {
+    for statement in claims::statements() {
         let name = theorem_name(statement.equation(), statement.name());
         let theorem = theorems.iter().find(|theorem| theorem.name == name).unwrap();
         assert_eq!(theorem.rounds(), statement.contains_rounding(), "{name}");
@@ -392,7 +377,7 @@ fn what_is_rounded_is_so_by_flocq() {
 #[test]
 fn every_law_is_tried_in_numbers() {
     let (_, functions) = printed();
-    let laws: BTreeSet<_> = statements()
+    let laws: BTreeSet<_> = claims::statements()
         .iter()
         .filter(|statement| statement.contains_rounding())
         .map(|statement| theorem_name(statement.equation(), statement.name()))

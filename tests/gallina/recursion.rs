@@ -10,8 +10,8 @@ pub struct Recursion {
     /// By the members' names.
     pub step: Vec<Tree>,
     pub members: Vec<&'static str>,
-    /// What is computed from a member, and how.
-    pub computed: Option<(&'static str, Tree)>,
+    /// What is computed from a member, and how, each perhaps from those before it.
+    pub computed: Vec<(&'static str, Tree)>,
 }
 
 /// So many members are tried.
@@ -26,6 +26,15 @@ impl Reader<'_> {
         let formula = self.formula();
         self.expect("in");
         (name, formula)
+    }
+
+    /// As many of these as there are.
+    fn all_named(&mut self) -> Vec<(&'static str, Tree)> {
+        let mut all = Vec::new();
+        while self.next() == "let" {
+            all.push(self.named());
+        }
+        all
     }
 
     /// Words up to one that is not among them, which is taken, too.
@@ -51,8 +60,8 @@ impl Reader<'_> {
         all
     }
 
-    /// `forall n : nat, let q := ρ ^ n in` and either `let x := ITERATES n in let u := BY in` and what is said of these,
-    /// or `ITERATES n = CLOSED`, with the recursion that ITERATES is.
+    /// `forall n : nat, let q := ρ ^ n in` and either `let x := ITERATES n in`, any number of `let u := BY in` and what
+    /// is said of these, or `ITERATES n = CLOSED`, with the recursion that ITERATES is.
     pub(super) fn sequence(&mut self, recursion: &[String]) -> (Recursion, Vec<Said>) {
         let reader = Reader { rest: recursion, known: self.known, ratio: None };
         let (call, mut recursion) = reader.recursion();
@@ -62,7 +71,7 @@ impl Reader<'_> {
             self.expect_all(&format!("let {} := (", recursion.members.join(" , ")));
             assert_eq!(self.until(")"), call);
             self.expect("in");
-            assert_eq!(Some(self.named()), recursion.computed);
+            assert_eq!(self.all_named(), recursion.computed);
             self.all_said()
         } else {
             assert_eq!(self.until("="), call);
@@ -97,7 +106,7 @@ impl Reader<'_> {
         let members: Vec<_> = members.map(|name| interned(&name)).collect();
         assert_eq!(members.len(), many);
         assert_eq!(self.until("in"), call, "of the member before");
-        let computed = (self.next() == "let").then(|| self.named());
+        let computed = self.all_named();
         let step = self.tuple(many);
         self.expect_all("end .");
         assert!(self.rest.is_empty(), "what is {:?}?", self.rest);
@@ -124,14 +133,15 @@ impl Recursion {
                 None if name == "q" => power.clone(),
                 None => at(name),
             };
-            let computed = match &self.computed {
-                Some((name, by)) => Some((*name, value(by, &with_members)?)),
-                None => None,
+            let mut computed = Vec::new();
+            let here = |name, computed: &[(&str, Exact)]| {
+                let found = computed.iter().find(|(own, _)| *own == name);
+                found.map_or_else(|| with_members(name), |(_, x)| x.clone())
             };
-            let here = |name| match &computed {
-                Some((own, x)) if *own == name => x.clone(),
-                _ => with_members(name),
-            };
+            for (name, by) in &self.computed {
+                computed.push((*name, value(by, &|name| here(name, &computed))?));
+            }
+            let here = |name| here(name, &computed);
             if !holds(&here)? {
                 return Some(false);
             }

@@ -27,6 +27,8 @@ pub fn claims() -> Vec<Statement> {
     let steeper = above(&(&a / &b - &c));
     let larger = at_least(&(&x - &y));
     let wide = Hypothesis::between(&y, -100, 100);
+    let unit = Hypothesis::between(&x, -1, 1);
+    let near_x = |own: &Tree, ulps: i32| Hypothesis::near(own, &x, x.abs() * Tree::int(ulps) / &n);
     let squared = (Tree::int(332) + &y) * (Tree::int(332) + &y);
     let inverse = one() / &squared;
     vec![
@@ -108,6 +110,18 @@ pub fn claims() -> Vec<Statement> {
             (&x / (one() / &f - one() / &g)).nearest() - (&y / (one() / &f - one() / &g)).nearest(),
         )
         .assuming([&lens_f, &lens_g, &shorter, &larger]),
+        non_negative("order-in-cases", x.nearest() - x.min(&y).nearest()),
+        non_negative("order-by-negative", ((&f - &g) * &y).nearest() - ((&f - &g) * &x).nearest())
+            .assuming([&shorter, &larger]),
+        // Computed one from the other.
+        within("chain", d.nearest() - &x, x.abs() * Tree::int(6) / &n)
+            .assuming([&near_x(&c, 1), &near_x(&d, 3)])
+            .computing(&c, x.nearest())
+            .computing(&d, c.nearest()),
+        // That x is between −1 and 1 does not show that it is not negative.
+        non_negative("kept", x.clone()).assuming([&at_least(&x), &unit]),
+        positive("kept-strictly", x.clone()).assuming([&above(&x), &unit]),
+        equal("kept-bracket", x.positive_part(), x.clone()).assuming([&at_least(&x), &unit]),
         within("scale-divisor", once(&(&a / (&scale * (&g - &f)))), &a / (&scale * (&g - &f)) / &n)
             .assuming([&shorter, &stiff_a]),
         equal(

@@ -1,6 +1,5 @@
 //! What is said of all members of a sequence: by induction over the natural numbers.
 
-use super::expr::Expr;
 use super::lemma::{Lemma, Result, names, numbered, says, supposed};
 use super::print::ascii;
 use super::script::Script;
@@ -166,34 +165,26 @@ impl Induction<'_, '_> {
         Ok(self.theorem.text("Theorem", &self.says(), script))
     }
 
-    /// The lemmas for what has this place in the argument, for ρⁿ and the n-th member, of which the
-    /// invariants are known as I1, I2, …
+    /// The lemmas for what has this place in the argument; in a step for ρⁿ, the n-th member, of which the
+    /// invariants are known as I1, I2, …, and what is computed from it.
     fn by(&self, role: Role) -> impl Iterator<Item = String> {
         let own = move |(goal, _): &&(&Goal, Lemma)| goal.role == role;
-        self.lemmas.iter().filter(own).map(|(_, lemma)| self.at(lemma))
+        let known =
+            if matches!(role, Role::Step | Role::InvariantStep) { self.known() } else { String::new() };
+        let all = self.lemmas.iter().filter(own);
+        all.map(move |(_, lemma)| format!("{known}{}", self.claim.applied(lemma, |given| self.label(given))))
     }
 
-    fn at(&self, lemma: &Lemma) -> String {
-        let member = self.member();
-        let mut replaced = vec![(POWER, self.power.as_str()), (MEMBERS[0], &member)];
-        let computed = self.claim.statement.computed().first();
-        let by = computed.map(|computed| {
-            let by = self.claim.printer.expr(&computed.by);
-            (computed.symbol, by.with(&ascii(MEMBERS[0]), &Expr::name(member.clone())).argument())
-        });
-        replaced.extend(by.as_ref().map(|(symbol, by)| (*symbol, by.as_str())));
-        let label = |given: &Hypothesis| {
-            let invariant = self.claim.statement.invariants().iter().position(|own| own == given);
-            invariant.map(|i| format!("I{}", i + 1)).or_else(|| self.theorem.label(given))
-        };
-        lemma.applied(&replaced, |given| label(given).unwrap_or_else(|| self.near(&replaced, label)))
-    }
-
-    /// That what is computed is in its interval.
-    fn near(&self, replaced: &[(&str, &str)], label: impl Fn(&Hypothesis) -> Option<String>) -> String {
+    fn known(&self) -> String {
+        let member = format!("let {} := {} in ", ascii(MEMBERS[0]), self.member());
+        let member = if self.sequence.is_perturbed() { member } else { String::new() };
         let computed = self.lemmas.iter().filter(|(goal, _)| matches!(goal.role, Role::Computed(_)));
-        let near =
-            computed.map(|(_, lemma)| lemma.applied(replaced, |given| label(given).unwrap_or_default()));
-        format!("({})", near.collect::<String>())
+        let computed = self.claim.computing(computed.map(|(_, lemma)| lemma), |given| self.label(given));
+        format!("let {} := {} in {member}{computed}", ascii(POWER), self.power)
+    }
+
+    fn label(&self, given: &Hypothesis) -> Option<String> {
+        let invariant = self.claim.statement.invariants().iter().position(|own| own == given);
+        invariant.map(|i| format!("I{}", i + 1)).or_else(|| self.theorem.label(given))
     }
 }

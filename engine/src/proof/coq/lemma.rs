@@ -163,15 +163,9 @@ impl<'a> Lemma<'a> {
         self.scales().zip(1..).map(sign).collect()
     }
 
-    /// Its name, applied to its variables, with others for some of them, and to its hypotheses by what they
-    /// are called.
-    pub(super) fn applied(&self, replaced: &[(&str, &str)], label: impl Fn(&Hypothesis) -> String) -> String {
-        let argument = |var: &&'static str| {
-            let other = replaced.iter().find(|(own, _)| own == var);
-            other.map_or_else(|| ascii(var), |(_, other)| other.to_string())
-        };
-        let (variables, labels) =
-            (spaced(self.variables.iter().map(argument)), spaced(self.hypotheses().map(label)));
+    /// Its name, applied to its variables, and to its hypotheses by what they are called.
+    pub(super) fn applied(&self, label: impl Fn(&Hypothesis) -> String) -> String {
+        let (variables, labels) = (names(&self.variables), spaced(self.hypotheses().map(label)));
         let name = &self.name;
         if self.rounds {
             return format!("{name} prec choice{} P{variables} E{labels}", self.exponents());

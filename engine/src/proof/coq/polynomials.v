@@ -251,10 +251,10 @@ Fixpoint sign_of_squares (signs : list sign) (a : poly) (n : nat) : sign :=
       end
   end.
 
-(** By its terms, or else as a square in one of the variables, but for units. *)
+(** By its terms, or else as a square in one of the variables, of the units in one of the first twelve. *)
 Definition sign_of (signs : list sign) (p : poly) : sign :=
   match sign_of_terms signs p with
-  | Unknown => sign_of_squares signs p (length signs)
+  | Unknown => sign_of_squares signs p (12 + length signs)
   | s => s
   end.
 
@@ -355,7 +355,7 @@ Lemma of_poly signs p env : fits signs env -> of_sign (sign_of signs p) (value e
 Proof.
   intro F. unfold sign_of. pose proof (of_terms signs p env F) as T.
   destruct (sign_of_terms signs p); [exact T | exact T | clear T].
-  induction (length signs) as [ | n I]; [exact Logic.I | ]. cbn [sign_of_squares].
+  induction (12 + length signs)%nat as [ | n I]; [exact Logic.I | ]. cbn [sign_of_squares].
   enough (of_sign (sign_of_square signs p n) (value env p))
     by (destruct (sign_of_square signs p n); assumption).
   unfold sign_of_square. destruct (same _ _) eqn:E; [ | exact Logic.I].

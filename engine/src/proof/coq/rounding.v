@@ -68,12 +68,6 @@ Proof.
   split; [apply Rdiv_lt_0_compat; lra | field; lra].
 Qed.
 
-Lemma fl_not_negative prec choice x : (2 <= prec)%Z -> 0 <= x -> 0 <= fl prec choice x.
-Proof. intros P X. destruct (fl_by_factor prec choice x P) as (k & K & ->). apply Rmult_le_pos; lra. Qed.
-
-Lemma fl_positive prec choice x : (2 <= prec)%Z -> 0 < x -> 0 < fl prec choice x.
-Proof. intros P X. destruct (fl_by_factor prec choice x P) as (k & K & ->). apply Rmult_lt_0_compat; lra. Qed.
-
 Lemma fl_not_zero prec choice x : (2 <= prec)%Z -> x <> 0 -> fl prec choice x <> 0.
 Proof.
   intros P X. destruct (fl_by_factor prec choice x P) as (k & K & ->).
@@ -89,34 +83,6 @@ Proof. lra. Qed.
 
 Lemma quotient_le a b d : 0 < d -> a <= b -> a / d <= b / d.
 Proof. intros. apply Rmult_le_compat_r; [ | assumption]. apply Rlt_le, Rinv_0_lt_compat. assumption. Qed.
-
-Ltac step_in_order :=
-  lazymatch goal with
-  | |- ?a <= ?a => apply Rle_refl
-  | |- fl _ _ _ <= fl _ _ _ => apply fl_le; [assumption | step_in_order]
-  | |- ?a + _ <= ?a + _ => apply Rplus_le_compat_l; step_in_order
-  | |- _ + ?a <= _ + ?a => apply Rplus_le_compat_r; step_in_order
-  | |- _ + _ <= _ + _ => apply Rplus_le_compat; step_in_order
-  | |- _ - _ <= _ - _ => apply Rplus_le_compat; [ | apply Ropp_le_contravar]; step_in_order
-  | |- - _ <= - _ => apply Ropp_le_contravar; step_in_order
-  | |- ?a * _ <= ?a * _ => apply Rmult_le_compat_l; [ | step_in_order]
-  | |- _ * ?a <= _ * ?a => apply Rmult_le_compat_r; [ | step_in_order]
-  | |- _ / ?a <= _ / ?a => apply quotient_le; [ | step_in_order]
-  | |- _ => idtac
-  end.
-
-Lemma not_less a b : 0 <= b -> a <= a + b.
-Proof. lra. Qed.
-
-Ltac not_negative :=
-  lazymatch goal with
-  | |- ?a <= ?a + _ => apply not_less; not_negative
-  | |- 0 <= fl _ _ _ => first [assumption | apply fl_not_negative; [assumption | not_negative]]
-  | |- 0 < fl _ _ _ => apply fl_positive; [assumption | not_negative]
-  | |- 0 <= _ * _ => apply Rmult_le_pos; not_negative
-  | |- _ => first [lra | bounded]
-  end.
-Ltac by_order := apply difference; step_in_order; not_negative.
 
 (** ** Units
 

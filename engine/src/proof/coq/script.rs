@@ -4,6 +4,7 @@
 //! which cases to split, and what has the sign of its slope. None of it is believed: each step is a goal that
 //! Coq closes by itself, or does not.
 
+mod kept;
 mod limit;
 mod rounding;
 
@@ -17,6 +18,7 @@ use crate::proof::kernel::algebra::{Poly, Ratio, Symbol};
 use crate::proof::kernel::sign::{Certificate, Rule, Sign};
 use crate::proof::kernel::{Because, Derivation, Direct, Signed, Supposed, Used};
 use crate::proof::paper::Paper;
+use kept::Kept;
 use std::fmt::Write;
 
 /// Lines of a proof.
@@ -27,11 +29,24 @@ pub(super) struct Script {
 }
 
 /// Where a proof stands: in which lemma, after how many suppositions, how many of them by splitting.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 struct Place<'l> {
     lemma: &'l Lemma<'l>,
+    proposition: &'l Proposition,
     supposed: usize,
     cases: usize,
+    kept: Kept,
+}
+
+impl<'l> Place<'l> {
+    fn new(lemma: &'l Lemma<'l>, proposition: &'l Proposition, kept: Kept) -> Self {
+        Place { lemma, proposition, supposed: 0, cases: 0, kept }
+    }
+}
+
+/// Returns `true` if a hypothesis is the sign of a symbol.
+fn is_said_of(supposed: &Supposed, x: &Symbol) -> bool {
+    supposed.given.as_ref().is_some_and(|given| *given.value.step() == Step::Symbol(x.name()))
 }
 
 /// # Errors
@@ -89,16 +104,19 @@ impl Script {
     pub(super) fn goal(&mut self, lemma: &Lemma, proposition: &Proposition) -> Result<()> {
         let derivation = derivation(lemma.given(), proposition)?;
         let direct = first(&derivation);
-        match &direct.because {
-            Because::Same(_) if !direct.errors.is_empty() => return self.in_units(&direct.errors, lemma),
-            Because::Order(_) if matches!(derivation, Derivation::Cases(..)) => {
-                return Err("rounding keeps order, case by case".into());
+        match (&direct.because, proposition) {
+            (Because::Same(_), _) if !direct.errors.is_empty() => {
+                return self.in_units(&direct.errors, lemma);
             }
-            Because::Order(_) => return self.order(direct, lemma),
-            _ if lemma.rounds => self.models(&direct.errors, lemma),
+            (Because::Order(_), Proposition::Sign(_, of)) => return self.order(of, lemma),
             _ => {}
         }
-        self.derivation(Place { lemma, supposed: 0, cases: 0 }, &derivation)
+        let kept = Kept::of(&derivation);
+        kept.name(self, lemma);
+        if lemma.rounds {
+            self.models(&direct.errors, lemma);
+        }
+        self.derivation(Place::new(lemma, proposition, kept), &derivation)
     }
 
     /// Puts the hypotheses that come before the next case to use.
@@ -115,18 +133,21 @@ impl Script {
     fn derivation(&mut self, mut place: Place, derivation: &Derivation) -> Result<()> {
         self.hypotheses(&mut place, first(derivation))?;
         match derivation {
-            Derivation::Direct(direct) => self.direct(direct),
+            Derivation::Direct(direct) => self.direct(&place, direct),
             Derivation::Cases(deciding, positive, not) => {
                 place.supposed += 1;
                 place.cases += 1;
-                let case = format!("C{}", place.cases);
-                let deciding = Expr::poly(deciding).argument();
-                self.line(&format!("destruct (either {deciding}) as [{case} | {case}]."));
-                for branch in [positive, not] {
+                let (case, branches) = (format!("C{}", place.cases), [positive, not]);
+                let split = |branch| first(branch).supposed.get(place.supposed - 1);
+                if !place.kept.decide(self, &case, split(positive), first(positive)) {
+                    let deciding = Expr::poly(deciding).argument();
+                    self.line(&format!("destruct (either {deciding}) as [{case} | {case}]."));
+                }
+                for branch in branches {
                     self.block("{", |own| {
                         let split = &first(branch).supposed[place.supposed - 1];
                         own.suppose(place.supposed, split, Some(case.clone()))?;
-                        own.derivation(place, branch)
+                        own.derivation(place.clone(), branch)
                     })?;
                 }
                 Ok(())
@@ -137,12 +158,9 @@ impl Script {
     /// Puts the i-th supposition to use.
     fn suppose(&mut self, i: usize, supposed: &Supposed, hypothesis: Option<String>) -> Result<()> {
         let strict = supposed.sign.is_strict();
-        let is_said_of = |x: &Symbol| {
-            supposed.given.as_ref().is_some_and(|given| *given.value.step() == Step::Symbol(x.name()))
-        };
         match (&supposed.used, hypothesis) {
             (Used::Follows | Used::Kept | Used::Unused, _) => {}
-            (Used::Symbol(x), _) if is_said_of(x) => {}
+            (Used::Symbol(x), _) if is_said_of(supposed, x) => {}
             (_, None) => {
                 return Err("more is supposed of what tends to infinity than that it is positive".into());
             }
@@ -190,17 +208,16 @@ impl Script {
         Ok(())
     }
 
-    fn direct(&mut self, direct: &Direct) -> Result<()> {
+    fn direct(&mut self, place: &Place, direct: &Direct) -> Result<()> {
         let divisors = direct.divisors.iter().map(|(_, signed)| signed);
         let mut passing = divisors.chain(direct.brackets.iter().map(|(.., signed)| signed));
         let decisive: &[Signed] = match &direct.because {
             Because::Sign(signed) => std::slice::from_ref(signed),
             Because::Within(both) => &both[..],
-            Because::Order(signs) => signs,
             _ => &[],
         };
-        if passing.clone().chain(decisive).any(|signed| signed.less.is_some()) {
-            return Err("a hypothesis without a pivot".into());
+        if place.kept.signs(self, place, direct, decisive)? {
+            return Ok(());
         }
         let (decided, slopes) = match &direct.because {
             Because::Sign(signed) => (slope_of(signed), slopes(&signed.num)),

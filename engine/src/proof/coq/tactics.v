@@ -22,20 +22,28 @@ Proof. lra. Qed.
 
 (** ** Goals for the program
 
-    The variables of a formula, before those in [l]: whatever is not computed from others. *)
+    What is not computed by the program's steps is a variable for it. *)
+Ltac names :=
+  repeat
+    (let named x := (let y := fresh in set (y := x) in *; clearbody y) in
+     match goal with
+     | |- context [exp ?a] => pose proof (exp_pos a); named (exp a)
+     | |- context [Rmin ?a ?b] => named (Rmin a b)
+     | |- context [Rmax ?a ?b] => named (Rmax a b)
+     | |- context [?a ^ ?n] => is_var n; named (a ^ n)
+     end).
+
+(** The variables that there are, before [l]; and those of [l] that are in a formula. *)
+Ltac known l :=
+  match goal with
+  | x : R |- _ =>
+      let l := lazymatch l with context [x :: _] => fail | _ => constr:(x :: l) end in known l
+  | _ => l
+  end.
 Ltac variables x l :=
-  let two a b := (let l := variables a l in variables b l) in
-  let one x := lazymatch l with context [x :: _] => l | _ => constr:(x :: l) end in
-  lazymatch x with
-  | ?a + ?b => two a b
-  | ?a - ?b => two a b
-  | ?a * ?b => two a b
-  | ?a / ?b => two a b
-  | - ?a => variables a l
-  | / ?a => variables a l
-  | ?a ^ ?n => let known := isnatcst n in lazymatch known with true => variables a l | _ => one x end
-  | IZR ?z => let known := isZcst z in lazymatch known with true => l | _ => one x end
-  | _ => one x
+  lazymatch l with
+  | ?v :: ?l => let l := variables x l in lazymatch x with context [v] => constr:(v :: l) | _ => l end
+  | _ => l
   end.
 
 (** First those of which no more is known than a sign, with what is known of them. *)
@@ -48,40 +56,37 @@ Ltac in_order l units :=
          lazymatch r with (?signs, ?env) => constr:((k :: signs, x :: env)) end) in
       match goal with
       | _ : -1 <= x <= 1 |- _ => in_order l (x :: units)
-      | _ => lazymatch x with exp _ => put A_Polynomials.Positive end
       | _ : 0 < x |- _ => put A_Polynomials.Positive
       | _ : 0 <= x |- _ => put A_Polynomials.NonNegative
       | _ => put A_Polynomials.Unknown
       end
   end.
 
-Ltac place x l :=
-  lazymatch l with
-  | x :: _ => constr:(O)
-  | _ :: ?l => let n := place x l in constr:(S n)
+(** A formula of [env], with each step by what the program calls it. *)
+Ltac abstracted x env :=
+  lazymatch env with
+  | [] => x
+  | ?v :: ?env => let f := abstracted x env in lazymatch eval pattern v in f with ?f _ => f end
   end.
-
-(** A formula as the program reads it. *)
-Ltac formula x l :=
-  let two f a b := (let a := formula a l in let b := formula b l in constr:(f a b)) in
-  let one f a := (let a := formula a l in constr:(f a)) in
-  lazymatch l with
-  | context [x :: _] => let n := place x l in constr:(A_Quotients.Symbol n)
-  | _ =>
-      lazymatch x with
-      | ?a + ?b => two A_Quotients.Sum a b
-      | ?a - ?b => formula (a + - b) l
-      | ?a * ?b => two A_Quotients.Product a b
-      | ?a / ?b => formula (a * / b) l
-      | - ?a => one A_Quotients.Opposite a
-      | / ?a => one A_Quotients.Inverse a
-      | ?a ^ ?n => let x := eval cbn [pow] in (a ^ n) in formula x l
-      | IZR ?z => constr:(A_Quotients.Literal z)
-      end
+Ltac at_symbols f n env :=
+  lazymatch env with
+  | [] => f
+  | _ :: ?env => at_symbols constr:(f (A_Quotients.Symbol n)) (S n) env
+  end.
+Ltac formula x env :=
+  let x := eval cbv [Rminus Rdiv pow] in x in
+  let f := abstracted x env in
+  lazymatch eval pattern R, Rplus, Rmult, Ropp, Rinv, IZR in f with
+  | ?f _ _ _ _ _ _ =>
+      let f := constr:(f A_Quotients.formula A_Quotients.Sum A_Quotients.Product A_Quotients.Opposite
+                         A_Quotients.Inverse A_Quotients.Literal) in
+      let f := at_symbols f O env in
+      eval cbv beta in f
   end.
 
 Ltac by_program rule x :=
-  let l := variables x (@nil R) in
+  let l := known (@nil R) in
+  let l := variables x l in
   let r := in_order l (@nil R) in
   lazymatch r with
   | (?signs, ?env) =>
@@ -89,11 +94,12 @@ Ltac by_program rule x :=
       let fitting := fresh in
       assert (fitting : A_Polynomials.fits signs env);
       [ cbn [A_Polynomials.fits A_Polynomials.units A_Polynomials.of_sign hd tl];
-        repeat (apply conj; [first [exact I | assumption | apply exp_pos] | ]); exact I
+        repeat (apply conj; [first [exact I | assumption] | ]); exact I
       | exact (rule signs env fitting f ltac:(vm_compute; reflexivity)) ]
   end.
 
 Ltac by_sign :=
+  names;
   lazymatch goal with
   | |- 0 < ?x => by_program A_Quotients.above x
   | |- 0 <= ?x => by_program A_Quotients.at_least x
@@ -174,6 +180,26 @@ Ltac pivots :=
 
 Lemma within x b : 0 <= b - x -> 0 <= b + x -> Rabs x <= b.
 Proof. intros. apply Rabs_le. lra. Qed.
+
+(** A sign by one that is supposed: by [m] times its quantity, and by the rest. *)
+Lemma multiple h m v : 0 <= h -> 0 <= m -> 0 <= v - m * h -> 0 <= v.
+Proof. intros H M. pose proof (Rmult_le_pos m h M H). lra. Qed.
+
+Ltac by_multiple H m :=
+  first [apply (multiple _ m _ H) | apply (multiple _ m _ (Rlt_le _ _ H))]; bounded.
+
+(** A minimum or bracket of which nothing else says which of two it is. *)
+Lemma minimum a b : 0 < b - a /\ Rmin a b = a \/ 0 <= - (b - a) /\ Rmin a b = b.
+Proof.
+  destruct (Rlt_le_dec a b) as [H | H]; [left | right]; (split; [lra | ]);
+    [apply Rmin_left | apply Rmin_right]; lra.
+Qed.
+
+Lemma bracket a : 0 < a /\ Rmax a 0 = a \/ 0 <= - a /\ Rmax a 0 = 0.
+Proof.
+  destruct (Rlt_le_dec 0 a) as [H | H]; [left | right]; (split; [lra | ]);
+    [apply Rmax_left | apply Rmax_right]; lra.
+Qed.
 
 (** The end of every proof. *)
 Ltac decide_goal :=

@@ -6,7 +6,7 @@ use super::print::{Printer, ascii, free};
 use super::script::Script;
 use super::{identifier, theorem_name};
 use crate::formula::claim::{MEMBERS, POWER};
-use crate::formula::statement::{Computed, Goal, Role, Sequence};
+use crate::formula::statement::{Goal, Role, Sequence};
 use crate::formula::{Hypothesis, Proposition, Relation, Statement};
 use crate::number::Tree;
 
@@ -34,17 +34,16 @@ impl<'a> Claim<'a> {
         }
         let sequence = self.statement.conclusion();
         let text = match (sequence, self.statement.computed(), self.statement.goals()) {
-            (_, [_, _, ..], _) => return Err("several computed quantities".into()),
             (Some(sequence), ..) => match &sequence.limit {
                 Some(limit) => self.vanishing(sequence, limit)?,
                 None => self.induction(sequence)?,
             },
-            (None, [computed], [near, goal]) => self.computing(computed, near, goal)?,
             (None, [], [goal, rates @ ..]) => match goal.proposition {
                 Proposition::Limit(_, by, _) => self.limit(by, goal, rates)?,
                 _ if rates.is_empty() => self.proved("Theorem", &self.lemma(goal), goal)?,
                 _ => return Err("several goals".into()),
             },
+            (None, own, [near @ .., goal]) if near.len() == own.len() => self.computed(near, goal)?,
             _ => return Err("a computed quantity among several goals".into()),
         };
         Ok(self.defined()? + &text)
@@ -111,28 +110,51 @@ impl<'a> Claim<'a> {
         Ok(lemma.text("Lemma", &none_is_zero(&divisors, self.printer), script))
     }
 
-    /// A quantity is near another, and so the claim holds of the one that is computed.
-    fn computing(&self, computed: &Computed, near: &Goal, goal: &Goal) -> Result<String> {
-        let (is_near, mut rest) = (self.lemma(near), self.lemma(goal));
+    /// Quantities are near others, and so the claim holds of those that are computed.
+    fn computed(&self, near: &[Goal], goal: &Goal) -> Result<String> {
+        let (are_near, mut rest) = (near.iter().map(|near| self.lemma(near)), self.lemma(goal));
+        let are_near: Vec<_> = are_near.collect();
         rest.name += "_nearby";
-        let text = self.proved("Lemma", &is_near, near)? + &self.proved("Lemma", &rest, goal)?;
+        let near = are_near.iter().zip(near).map(|(lemma, near)| self.proved("Lemma", lemma, near));
+        let text = near.collect::<Result<String>>()? + &self.proved("Lemma", &rest, goal)?;
         let Proposition::Within(of, bound) = &goal.proposition else {
             return Err("a computed quantity in a claim that is no bound".into());
         };
-        let [of, bound] = [of, bound].map(|tree| tree.with(&[(computed.symbol, computed.by.clone())]));
-        let theorem = self.supposing("", self.statement.hypotheses_for(Role::InvariantBase), [&of, &bound]);
-        let by = self.printer.expr(&computed.by).argument();
-        let label = |given: &Hypothesis| theorem.label(given).unwrap_or_default();
-        let near = is_near.applied(&[], label);
-        let of_it = |given: &Hypothesis| match theorem.label(given) {
-            Some(label) => label,
-            None => format!("({near})"),
+        let spelled_out = |tree: &Tree| {
+            let last_first = self.statement.computed().iter().rev();
+            last_first.fold(tree.clone(), |tree, own| tree.with(&[(own.symbol, own.by.clone())]))
         };
+        let [of, bound] = [of, bound].map(spelled_out);
+        let theorem = self.supposing("", self.statement.hypotheses_for(Role::InvariantBase), [&of, &bound]);
+        let label = |given: &Hypothesis| theorem.label(given);
+        let (computing, applied) = (self.computing(are_near.iter(), label), self.applied(&rest, label));
         let mut script = Script::new();
         script.line(&theorem.intros());
-        script.line(&format!("exact ({}).", rest.applied(&[(computed.symbol, &by)], of_it)));
+        script.line(&format!("exact ({computing}{applied})."));
         let says = says(&Proposition::Within(of, bound), self.printer);
         Ok(text + &theorem.text("Theorem", &says, script))
+    }
+
+    /// `let u := BY in let N1 := NEAR in`: what is computed, and that it is in its interval, by these lemmas.
+    pub(super) fn computing<'l>(
+        &self,
+        near: impl Iterator<Item = &'l Lemma<'l>>,
+        label: impl Fn(&Hypothesis) -> Option<String>,
+    ) -> String {
+        let all = self.statement.computed().iter().zip(near).zip(1..);
+        let lets = all.map(|((computed, near), i)| {
+            let (name, by) = (ascii(computed.symbol), self.printer.expr(&computed.by));
+            format!("let {name} := {by} in let N{i} := {} in ", self.applied(near, &label))
+        });
+        lets.collect()
+    }
+
+    /// A lemma, applied to what is called so, and to N1, N2, … for the intervals of what is computed.
+    pub(super) fn applied(&self, lemma: &Lemma, label: impl Fn(&Hypothesis) -> Option<String>) -> String {
+        let place =
+            |given: &Hypothesis| self.statement.computed().iter().position(|own| own.hypothesis == *given);
+        let near = |given: &Hypothesis| Some(format!("N{}", place(given)? + 1));
+        lemma.applied(|given| near(given).or_else(|| label(given)).unwrap_or_default())
     }
 
     /// The limit itself; how fast it is reached is in lemmas.
@@ -157,9 +179,8 @@ impl<'a> Claim<'a> {
         let theorem = self.supposing("", hypotheses, [ratio, &member[0], to]).without(POWER);
         let [ratio, of, to] = [ratio, &member[0], to].map(|tree| self.printer.expr(tree));
         let (name, power) = (ascii(POWER), Expr::name(format!("({} ^ n)", ratio.base())));
-        let exact = |lemma: &Lemma| {
-            format!("- exact ({}).", lemma.applied(&[], |given| theorem.label(given).unwrap_or_default()))
-        };
+        let exact =
+            |lemma: &Lemma| format!("- exact ({}).", self.applied(lemma, |given| theorem.label(given)));
         let mut script = Script::new();
         script.line(&theorem.intros());
         script.line(&format!("apply (limit_of_powers (fun {name} => {of}) {}).", ratio.argument()));

@@ -2,6 +2,7 @@
 
 use super::super::expr::{Expr, by_exponent};
 use super::super::lemma::{Lemma, Result};
+use super::kept::Kept;
 use super::{Place, Script, derivation};
 use crate::formula::{Hypothesis, Proposition};
 use crate::proof::kernel::algebra::{Poly, Ratio, Symbol};
@@ -22,7 +23,7 @@ impl Script {
         if !direct.brackets.is_empty() {
             return Err("a limit with brackets".into());
         }
-        self.hypotheses(&mut Place { lemma, supposed: 0, cases: 0 }, direct)?;
+        self.hypotheses(&mut Place::new(lemma, proposition, Kept::default()), direct)?;
         self.at_infinity(of, *by)
     }
 

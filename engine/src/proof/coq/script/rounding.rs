@@ -3,29 +3,28 @@
 use super::super::expr::Expr;
 use super::super::lemma::{Lemma, Result};
 use super::super::print::ascii;
-use super::{Place, Script};
+use super::Script;
 use crate::formula::claim::PRECISION;
-use crate::formula::statement::minimum_precision;
+use crate::formula::{Proposition, Relation};
+use crate::number::Tree;
+use crate::number::tree::Step;
+use crate::proof::kernel::Rounding;
 use crate::proof::kernel::algebra::Poly;
-use crate::proof::kernel::{Direct, Rounding, Supposed, Used};
 
 /// What is rounded, as an argument.
 fn rounded(rounding: &Rounding, lemma: &Lemma) -> String {
     lemma.printer.expr(&rounding.of).argument()
 }
 
+/// Writes the proof of a part.
+type Part<'p> = &'p dyn Fn(&mut Script) -> Result<()>;
+
 impl Script {
-    /// M, that 2ᵖ is at least 4.
-    fn bits(&mut self) {
+    /// M, that 2ᵖ is at least 4; and what is rounded is what it was, by an unknown factor near 1.
+    pub(super) fn models(&mut self, errors: &[Rounding], lemma: &Lemma) {
         let precision = ascii(PRECISION);
         self.line(&format!("pose proof (four_at_least prec {precision} P E) as N."));
         self.line(&format!("assert (M : 0 <= {precision} - 4) by lra."));
-    }
-
-    /// What is rounded is what it was, by an unknown factor near 1.
-    pub(super) fn models(&mut self, errors: &[Rounding], lemma: &Lemma) {
-        let precision = ascii(PRECISION);
-        self.bits();
         for (rounding, i) in errors.iter().zip(1..) {
             let (error, of) = (ascii(rounding.error.name()), rounded(rounding, lemma));
             let model = format!("model prec choice {precision} P E {of}");
@@ -35,26 +34,62 @@ impl Script {
     }
 
     /// One rounded formula is no less than another.
-    pub(super) fn order(&mut self, direct: &Direct, lemma: &Lemma) -> Result<()> {
-        let rounds = |supposed: &Supposed| supposed.given.as_ref().is_some_and(|given| given.value.rounds());
-        // Signs of symbols are put to use as they are.
-        let is_solved = |supposed: &Supposed| {
-            let says_bits = supposed.given.as_ref().is_some_and(|given| *given == minimum_precision());
-            matches!(&supposed.used, Used::Pivot(..)) && !says_bits && !rounds(supposed)
+    pub(super) fn order(&mut self, of: &Tree, lemma: &Lemma) -> Result<()> {
+        let Step::Sub(a, b) = of.step() else { return Err("an order of no difference".into()) };
+        self.line("apply difference.");
+        self.at_least(a, b, lemma)
+    }
+
+    /// Rounding keeps order, and so does each step; what is left is to compare what is no longer alike, and
+    /// the sign of a factor or divisor in common.
+    fn at_least(&mut self, a: &Tree, b: &Tree, lemma: &Lemma) -> Result<()> {
+        use Step::*;
+        let sign = |relation, of: &Tree| Proposition::Sign(relation, of.clone());
+        let mut rule = |rule: &str, parts: [Part; 2]| {
+            self.line(rule);
+            parts.into_iter().try_for_each(|part| self.block("-", part))
         };
-        let supposed = &direct.supposed;
-        if supposed.iter().any(is_solved) && supposed.iter().any(rounds) {
-            return Err(
-                "an order that rests on one hypothesis to be solved and another about what is rounded".into(),
-            );
+        match (a.step(), b.step()) {
+            _ if a == b => self.line("apply Rle_refl."),
+            (Rounded(a), Rounded(b)) => {
+                self.line("apply fl_le; [exact P | ].");
+                self.at_least(a, b, lemma)?;
+            }
+            (Neg(a), Neg(b)) => {
+                self.line("apply Ropp_le_contravar.");
+                self.at_least(b, a, lemma)?;
+            }
+            (Add(a, c), Add(b, d)) => rule(
+                "apply Rplus_le_compat.",
+                [&|own| own.at_least(a, b, lemma), &|own| own.at_least(c, d, lemma)],
+            )?,
+            (Sub(a, c), Sub(b, d)) => rule(
+                "apply Rplus_le_compat; [ | apply Ropp_le_contravar].",
+                [&|own| own.at_least(a, b, lemma), &|own| own.at_least(d, c, lemma)],
+            )?,
+            (Mul(factor, a), Mul(same, b)) if factor == same => rule(
+                "apply Rmult_le_compat_l.",
+                [&|own| own.goal(lemma, &sign(Relation::NonNegative, factor)), &|own| {
+                    own.at_least(a, b, lemma)
+                }],
+            )?,
+            (Mul(a, factor), Mul(b, same)) if factor == same => rule(
+                "apply Rmult_le_compat_r.",
+                [&|own| own.goal(lemma, &sign(Relation::NonNegative, factor)), &|own| {
+                    own.at_least(a, b, lemma)
+                }],
+            )?,
+            (Div(a, divisor), Div(b, same)) if divisor == same => rule(
+                "apply quotient_le.",
+                [&|own| own.goal(lemma, &sign(Relation::Positive, divisor)), &|own| {
+                    own.at_least(a, b, lemma)
+                }],
+            )?,
+            _ => {
+                self.line("apply Rminus_le_0.");
+                self.goal(lemma, &sign(Relation::NonNegative, &(a - b)))?;
+            }
         }
-        if !supposed.iter().any(rounds) {
-            self.bits();
-            self.line("clear E.");
-            self.hypotheses(&mut Place { lemma, supposed: 0, cases: 0 }, direct)?;
-            self.line("pivots.");
-        }
-        self.line("by_order.");
         Ok(())
     }
 
