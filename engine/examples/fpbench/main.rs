@@ -37,7 +37,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let time = start.elapsed().as_millis();
         let (constant, ours) = (bound.constant(), bound.constant() / 2.0_f64.powi(53));
         let (gappa, ratio) = gappa(&benchmark)?
-            .map_or_else(Default::default, |gappa| (format!("{gappa:.2e}"), format!("{:.2}", ours / gappa)));
+            .map_or_else(Default::default, |gappa| (format!("{gappa:.2e}"), format_ratio(ours / gappa)));
         let Benchmark { name, .. } = benchmark;
         let (operations, seen) = (operations(&benchmark.formula.tree), largest_error(&benchmark));
         println!(
@@ -45,6 +45,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         );
     }
     Ok(())
+}
+
+fn format_ratio(ratio: f64) -> String {
+    if ratio < 0.005 { "< 0.01".to_string() } else { format!("{ratio:.2}") }
 }
 
 fn bound(benchmark: &Benchmark) -> Result<RoundingBound, Box<dyn Error>> {
