@@ -9,9 +9,11 @@ mod coqc;
 mod springs;
 
 use coqc::{accepts, named, of_claims};
-use provable::formula::Registry;
+use provable::formula::claim::PRECISION;
+use provable::formula::{Hypothesis, Registry, Relation};
+use provable::number::{Field, Tree, symbols};
 use provable::proof::coq::{Development, Placed};
-use provable::proof::prove;
+use provable::proof::{prove, rounding_bound};
 
 #[test]
 fn coq_accepts_the_springs_in_series() {
@@ -21,6 +23,25 @@ fn coq_accepts_the_springs_in_series() {
         of_claims(&development.files()).flat_map(|f| named(&f.text, "Theorem")).map(String::from).collect();
     assert_eq!((theorems.len(), development.left_out().len()), (claims.len(), 0));
     accepts("springs", "Springs", &development);
+}
+
+/// Chains of computed quantities, with bounds that leave no room.
+#[test]
+fn coq_accepts_bounds_of_rounding_errors() {
+    let [x, y] = symbols(["x", "y"]);
+    let one = Tree::int(1);
+    let intervals = [Hypothesis::between(&x, -2, 3), Hypothesis::between(&y, 1, 4)];
+    let precision = Hypothesis::new(Relation::NonNegative, Tree::symbol(PRECISION) - Tree::int(1 << 11));
+    let assumed = [&intervals[..], &[precision]].concat();
+    let all = [&x * &y - &x, (&x + &y) * (&x - &y), &one / (&y + &one), (&x - &one) / (&y * &y)];
+    let bounds = all.map(|of| rounding_bound(&of, &one, &assumed).unwrap());
+    let registry = Registry::new(&["x", "y"], Vec::new());
+    let claims = bounds.iter().map(|bound| bound.proof().statement());
+    let placed = claims.zip(["product", "sums", "quotient", "fraction"]);
+    let placed = placed.map(|(claim, section)| Placed { claim, section, functions: &[] });
+    let development = Development::new("Bounds", &registry, placed);
+    assert!(development.left_out().is_empty(), "{:?}", development.left_out());
+    accepts("bounds", "Bounds", &development);
 }
 
 /// Those of which no theorem is written are said to be left out, and all others are accepted.

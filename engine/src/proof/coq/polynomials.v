@@ -171,7 +171,8 @@ Fixpoint least_by_size (p : poly) : Z :=
   end.
 
 (** The same, sharper where it must be. In p + e (q + e r), what is of degree one in e is least at one of
-    the ends of e, and e^2 lies between 0 and 1. No more than [n] units are tried. *)
+    the ends of e, and e^2 lies between 0 and 1. If there is no higher power, Bernstein's form is tried as
+    well. No more than [n] units are tried. *)
 Fixpoint least (n : nat) (p : poly) : Z :=
   let z := least_by_size p in
   match n with
@@ -182,7 +183,14 @@ Fixpoint least (n : nat) (p : poly) : Z :=
       | Const z => z
       | Grow p (Const z) => least n p - Z.abs z
       | Grow p (Grow q r) =>
-          Z.min (least n (add p q)) (least n (add p (times (-1) q))) + Z.min 0 (least n r)
+          let z := (Z.min (least n (add p q)) (least n (add p (times (-1) q))) + Z.min 0 (least n r))%Z in
+          match r with
+          | Grow _ (Grow _ _) | Grow _ (Const (Zpos _ | Zneg _)) => z
+          | Const _ | Grow _ (Const 0) =>
+              let r := match r with Grow r _ => r | r => r end in
+              let ends := Z.min (least n (add (add p r) q)) (least n (add (add p r) (times (-1) q))) in
+              if (0 <? z)%Z then z else Z.max z (Z.min ends (least n (add p (times (-1) r))))
+          end
       end
   end.
 
@@ -296,15 +304,40 @@ Proof.
   lra.
 Qed.
 
+(** Bernstein's form of degree two. *)
+Lemma least_of_square (e p q r : R) (x y z : Z) :
+  -1 <= e <= 1 -> IZR x <= p + r + q -> IZR y <= p + r + -1 * q -> IZR z <= p + -1 * r ->
+  IZR (Z.min (Z.min x y) z) <= p + e * (q + e * r).
+Proof.
+  intros B X Y L. set (m := Z.min (Z.min x y) z).
+  assert (IZR m <= p + r + q) by (apply Rle_trans with (2 := X), IZR_le; unfold m; lia).
+  assert (IZR m <= p + r + -1 * q) by (apply Rle_trans with (2 := Y), IZR_le; unfold m; lia).
+  assert (IZR m <= p + -1 * r) by (apply Rle_trans with (2 := L), IZR_le; unfold m; lia).
+  assert (0 <= (1 + e) * (1 + e)) by apply Rle_0_sqr.
+  assert (0 <= (1 - e) * (1 - e)) by apply Rle_0_sqr.
+  assert (0 <= (1 + e) * (1 - e)) by nra.
+  nra.
+Qed.
+
 Lemma value_least n p env : units env -> IZR (least n p) <= value env p.
 Proof.
   revert p env; induction n as [ | n I]; intros p env U; pose proof (value_least_by_size p env U) as S;
     cbn [least]; [exact S | destruct (0 <? least_by_size p)%Z; [exact S | clear S]].
   destruct p as [z | p [z | q r]]; [apply Rle_refl | |]; pose proof (units_tl env U) as [T B].
   - apply (value_least_from _ p (Const z) env U), I, T.
-  - apply least_at_ends; [exact B | | | apply I, U].
-    + rewrite <- value_add. apply I, T.
-    + rewrite <- value_times, <- value_add. apply I, T.
+  - cbv zeta. set (z := (Z.min (least n (add p q)) _ + _)%Z).
+    assert (A : IZR z <= value env (Grow p (Grow q r))).
+    { apply least_at_ends; [exact B | | | apply I, U].
+      + rewrite <- value_add. apply I, T.
+      + rewrite <- value_times, <- value_add. apply I, T. }
+    assert (forall r', value env r = value (tl env) r' ->
+      IZR (Z.min (Z.min (least n (add (add p r') q)) (least n (add (add p r') (times (-1) q))))
+        (least n (add p (times (-1) r')))) <= value env (Grow p (Grow q r))) as C.
+    { intros r' E. cbn [value]. rewrite E. apply least_of_square; [exact B | | |];
+        rewrite <- ?value_times, <- ?value_add; apply I, T. }
+    destruct r as [y | r [[ | y | y] | ? ?]]; try exact A;
+      (destruct (0 <? z)%Z; [exact A | ]); unfold Z.max; destruct (z ?= _)%Z; try exact A; apply C;
+      cbn [value]; ring.
 Qed.
 
 Lemma of_number z x : IZR z <= x -> of_sign (sign_of_number z) x.

@@ -92,8 +92,12 @@ impl<'a> Claim<'a> {
         if divisors.is_empty() {
             return Ok(String::new());
         }
+        let symbols: Vec<_> = self.statement.computed().iter().map(|computed| computed.symbol).collect();
+        let is_computed = |divisor: &Tree| divisor.symbols().iter().any(|name| symbols.contains(name));
         // Of what is rounded, nothing that is proved by induction is needed.
-        let hypotheses = if self.statement.contains_rounding() {
+        let hypotheses = if divisors.iter().any(is_computed) {
+            self.statement.hypotheses_for(Role::Claim)
+        } else if self.statement.contains_rounding() {
             self.statement.hypotheses_for(Role::InvariantBase)
         } else {
             self.statement.all_hypotheses().collect()
