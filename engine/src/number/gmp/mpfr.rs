@@ -6,10 +6,11 @@ use crate::number::tree::Step;
 use crate::number::{Exponential, Field, Logarithm, OrderedField, PositivePart, Real};
 use num_traits::{One, Zero};
 use rug::float::{Round, Special};
-use rug::ops::MulAssignRound;
+use rug::ops::{AddFrom, DivFrom, MulAssignRound, MulFrom, SubFrom};
 use rug::{Assign, Float, Integer, Rational};
 use std::cmp::Ordering;
-use std::{fmt, ops::RangeInclusive};
+use std::fmt;
+use std::ops::{AddAssign, DivAssign, MulAssign, RangeInclusive, SubAssign};
 
 /// The precisions in bits that [`Mpfr`] can have.
 pub const PRECISIONS: RangeInclusive<u32> = 2..=1_000_000;
@@ -85,7 +86,7 @@ impl Kind {
 
 /// The four ways to own or borrow two operands meet in one, which puts the result where it is told to.
 macro_rules! operator {
-    ($($Trait:ident $f:ident $op:tt $small:expr, $constant_first:expr;)*) => {
+    ($($Trait:ident $f:ident $assign:ident $from:ident $op:tt $small:expr, $constant_first:expr;)*) => {
         /// The operators, into a number that is there.
         mod assign {
             use super::*;
@@ -115,40 +116,43 @@ macro_rules! operator {
         }
         impl std::ops::$Trait<&Mpfr> for Mpfr {
             type Output = Mpfr;
-            fn $f(self, other: &Mpfr) -> Mpfr {
-                match (self.0, &other.0) {
-                    (Rounded(a), Rounded(b)) if a.prec() >= b.prec() => Mpfr(Rounded(a $op b)),
-                    (Rounded(a), Small(b)) => Mpfr(Rounded(a $op b)),
-                    (Rounded(a), Constant(b)) => Mpfr(Rounded(a $op b)),
-                    (a, _) => &Mpfr(a) $op other,
+            fn $f(mut self, other: &Mpfr) -> Mpfr {
+                match (&mut self.0, &other.0) {
+                    (Rounded(a), Rounded(b)) if a.prec() >= b.prec() => a.$assign(b),
+                    (Rounded(a), Small(b)) => a.$assign(b),
+                    (Rounded(a), Constant(b)) => a.$assign(b),
+                    _ => return &self $op other,
                 }
+                self
             }
         }
         impl std::ops::$Trait<Mpfr> for &Mpfr {
             type Output = Mpfr;
-            fn $f(self, other: Mpfr) -> Mpfr {
-                match (&self.0, other.0) {
-                    (Rounded(a), Rounded(b)) if b.prec() >= a.prec() => Mpfr(Rounded(a $op b)),
-                    (_, b) => self $op &Mpfr(b),
+            fn $f(self, mut other: Mpfr) -> Mpfr {
+                match (&self.0, &mut other.0) {
+                    (Rounded(a), Rounded(b)) if b.prec() >= a.prec() => b.$from(a),
+                    (Small(a), Rounded(b)) => b.$from(a),
+                    _ => return self $op &other,
                 }
+                other
             }
         }
         impl std::ops::$Trait<Mpfr> for Mpfr {
             type Output = Mpfr;
             fn $f(self, other: Mpfr) -> Mpfr {
-                match (&self.0, &other.0) {
-                    (Rounded(a), Rounded(b)) if b.prec() > a.prec() => &self $op other,
-                    _ => self $op &other,
-                }
+                if self.precision() < other.precision() { &self $op other } else { self $op &other }
             }
         }
     )*};
 }
 operator! {
-    Add add + i32::checked_add, |x: &mut Kind, a: &Rational, b: &Float| x.put(b.prec(), a + b);
-    Sub sub - i32::checked_sub, |x: &mut Kind, a: &Rational, b: &Float| x.put(b.prec(), a - b);
-    Mul mul * i32::checked_mul, |x: &mut Kind, a: &Rational, b: &Float| x.put(b.prec(), a * b);
-    Div div / |_, _| None, divide_constant;
+    Add add add_assign add_from + i32::checked_add,
+        |x: &mut Kind, a: &Rational, b: &Float| x.put(b.prec(), a + b);
+    Sub sub sub_assign sub_from - i32::checked_sub,
+        |x: &mut Kind, a: &Rational, b: &Float| x.put(b.prec(), a - b);
+    Mul mul mul_assign mul_from * i32::checked_mul,
+        |x: &mut Kind, a: &Rational, b: &Float| x.put(b.prec(), a * b);
+    Div div div_assign div_from / |_, _| None, divide_constant;
 }
 
 /// (n/d) / x = n / (d x): MPFR has no such operation, but d x is exact in enough bits.
