@@ -181,34 +181,39 @@ impl<E: PositivePart, W: Fn(&Dual<E>) -> Dual<E>> Equation<E, W> {
         lower: &T,
         upper: &T,
     ) -> Result<Found<T>, FunctionalError> {
-        Ok(Found {
-            lower: self.towards(near, lower, |side| matches!(side, Side::Below(_)))?,
-            upper: self.towards(near, upper, |side| matches!(side, Side::Above(_)))?,
-            ended: true,
-        })
+        let (lower, k) = self.towards(near, lower, 1, |side| matches!(side, Side::Below(_)))?;
+        let (upper, _) = self.towards(near, upper, k, |side| matches!(side, Side::Above(_)))?;
+        Ok(Found { lower, upper, ended: true })
     }
 
-    /// The nearest of the numbers `near` + (`far` − `near`)/2ᵏ whose side is certain; `far` if none is.
+    /// The nearest of the numbers `near` + (`far` − `near`)/2ᵏ whose side is certain, and its k; `far` and 0
+    /// if none is. It is looked for from `first` on.
     fn towards<T: Scalar<Enclosure = E>>(
         &self,
         near: &T,
         far: &T,
+        first: u64,
         certain: impl Fn(Side<T>) -> bool,
-    ) -> Result<T, FunctionalError> {
+    ) -> Result<(T, u64), FunctionalError> {
         let at = |k| near + (far - near) * power(&half(&T::one()), k);
         let holds = |k| -> Result<bool, FunctionalError> {
             let p = at(k);
             Ok(p != *near && certain(self.side(&p)?))
         };
-        let (mut certain, mut open) = (0, 1);
+        // Twice as far each time, to the side on which the last such number is.
+        let (mut certain, mut open, mut further) = (0, first.max(1), 1);
         while open < MOST_DIGITS && holds(open)? {
-            (certain, open) = (open, 2 * open);
+            (certain, open, further) = (open, open + further, 2 * further);
+        }
+        while certain == 0 && further < open {
+            let k = open - further;
+            if holds(k)? { certain = k } else { (open, further) = (k, 2 * further) }
         }
         while open - certain > 1 {
             let k = certain + (open - certain) / 2;
             if holds(k)? { certain = k } else { open = k }
         }
-        Ok(if certain == 0 { far.clone() } else { at(certain) })
+        Ok((if certain == 0 { far.clone() } else { at(certain) }, certain))
     }
 }
 
@@ -250,4 +255,31 @@ fn half<T: Scalar>(x: &T) -> T {
 
 pub(super) fn middle<T: Scalar>(a: &T, b: &T) -> T {
     a + half(&(b - a))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::Ball;
+
+    /// p + p = 2/3: the root is a third, and no float.
+    #[test]
+    fn a_bound_is_the_same_from_wherever_it_is_looked_for() {
+        let two_thirds = Ball::exactly(2.0) / Ball::exactly(3.0);
+        let equation = Equation::new(Ball::exactly(1.0), two_thirds, |p: &Dual<Ball<f64>>| {
+            p * p / Dual::constant(Ball::exactly(2.0))
+        });
+        let from = |far: f64, first: u64| {
+            let certain = |side| matches!(side, Side::Below(_) | Side::Above(_));
+            equation.towards(&(1.0 / 3.0), &far, first, certain).unwrap()
+        };
+        for far in [0.0, 1.0, 0.25, 1.0 / 3.0 + 1e-12, (1.0f64 / 3.0).next_up()] {
+            let (bound, k) = from(far, 1);
+            assert_eq!(bound == far, k == 0, "{far}");
+            for first in [0, 2, 3, k, k + 1, k + 2, 2 * k + 3, 60, 1000] {
+                assert_eq!(from(far, first), (bound, k), "{far} from {first}");
+            }
+        }
+        assert!(from(0.0, 1).1 > 40, "it is near");
+    }
 }

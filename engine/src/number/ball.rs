@@ -205,13 +205,15 @@ operators! { #[inline] [T: Real] Ball<T>;
         Ball::with(value, error, [&a.radius, &b.radius], false)
     };
     Mul mul |a, b| {
+        if a.is_exactly_zero() && b.is_finite() || b.is_exactly_zero() && a.is_finite() {
+            return Ball::zero();
+        }
         let value = &a.value * &b.value;
         // ab − a'b' = a(b − b') + b(a − a') − (a − a')(b − b')
         let from_a = times(&a.radius, || b.value.magnitude() + &b.radius);
         let from_b = times(&b.radius, || a.value.magnitude());
         let error = from_a + (from_b + product_error(&value));
-        let zero = value.is_zero() && (a.is_exactly_zero() || b.is_exactly_zero());
-        Ball::with(value, error, [&a.radius, &b.radius], zero)
+        Ball::with(value, error, [&a.radius, &b.radius], false)
     };
     Div div |a, b| {
         // No |divisor| is less than this.
