@@ -36,6 +36,11 @@ impl Program {
         })
     }
 
+    /// Its steps, each after its operands, which are named by their places.
+    pub fn steps(&self) -> &[Step<usize>] {
+        &self.steps
+    }
+
     /// How many steps it has.
     pub fn len(&self) -> usize {
         self.steps.len()

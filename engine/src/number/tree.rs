@@ -128,7 +128,8 @@ impl Tree {
         symbol: &impl Fn(&'static str) -> T,
         beyond: &impl Fn(Step<&T>) -> Option<T>,
     ) -> Option<T> {
-        self.step().try_map(|operand| operand.replay(symbol, beyond))?.value(symbol, beyond)
+        let operands = self.step().try_map(|operand| operand.replay(symbol, beyond))?;
+        operands.map(|operand| operand).value(symbol, beyond)
     }
 
     /// The value of the formula and its derivative by one of its quantities; `None` as for

@@ -7,10 +7,11 @@ use crate::formula::claim::{MEMBERS, POWER, PRECISION, SCALES};
 use crate::formula::statement::{Role, Sequence};
 use crate::formula::{Hypothesis, Proposition, Relation, Statement};
 use crate::number::tree::{Step, piecewise};
-use crate::number::{Exact, PositivePart, Real, ToExact, Tree};
+use crate::number::{Exact, PositivePart, Program, Real, ToExact};
 use crate::solver::{Augmentation, Plane, Scalar};
 use num_traits::{One, Zero};
 use std::cmp::Ordering;
+use std::sync::LazyLock;
 
 /// An experiment for each claim that speaks of what is rounded: it holds of what is computed.
 pub(super) fn laws<T: Scalar + Real + ToExact>() -> Vec<Experiment<T>> {
@@ -18,15 +19,12 @@ pub(super) fn laws<T: Scalar + Real + ToExact>() -> Vec<Experiment<T>> {
 }
 
 fn experiment<T: Scalar + Real + ToExact>(claim: &Statement) -> Experiment<T> {
-    let hypotheses = claim.hypotheses();
-    // Where λ repeats has to be found.
-    let repeats = hypotheses.contains(&given().computed_repeats);
-    let (of_rounding, own) = (vanishes(claim), claim.clone());
+    let (of_rounding, law) = (vanishes(claim), Law::of(claim));
     Experiment {
         equation: claim.equation(),
         name: claim.name(),
-        given: hypotheses.iter().filter(|given| is_of_parameters(given)).cloned().collect(),
-        check: check(move |case: &Case<T>| match law(&own, repeats, case) {
+        given: claim.hypotheses().iter().filter(|given| is_of_parameters(given)).cloned().collect(),
+        check: check(move |case: &Case<T>| match law.trial(case) {
             Some(Trial::Within { error, bound }) if !of_rounding => Trial::Decided(error <= bound),
             trial => trial.unwrap_or(Trial::Undecided),
         }),
@@ -53,10 +51,17 @@ fn vanishes(claim: &Statement) -> bool {
 
 /// Is what is computed what rounding to p bits makes of it, without over- and underflow?
 pub(super) fn in_range<T: Scalar + Real + ToExact>(case: &Case<T>) -> bool {
-    let Case { system: s, eps, lambda, .. } = symbols();
-    let u = augmented::deflection(s, eps, lambda);
-    let formulas = [augmented::update(s, eps, lambda, &u), structure::deflection(s), system::reaction(s)];
-    Floats::of(case).is_some_and(|floats| formulas.iter().all(|f| floats.compute(&f.rounded()).is_some()))
+    static FORMULAS: LazyLock<(Program, [usize; 3])> = LazyLock::new(|| {
+        let Case { system: s, eps, lambda, .. } = symbols();
+        let u = augmented::deflection(s, eps, lambda);
+        let formulas = [augmented::update(s, eps, lambda, &u), structure::deflection(s), system::reaction(s)];
+        let mut program = Program::default();
+        let places = formulas.map(|formula| program.add(&formula.rounded()));
+        (program, places)
+    });
+    let (program, places) = &*FORMULAS;
+    Floats::of(case, program, &[])
+        .is_some_and(|mut floats| places.iter().all(|place| floats.compute(*place).is_some()))
 }
 
 /// The proposition of a claim that is not about a sequence.
@@ -65,23 +70,86 @@ fn proposition(claim: &Statement) -> Option<&Proposition> {
     goals.next().map(|goal| &goal.proposition)
 }
 
-fn law<T>(statement: &Statement, repeats: bool, case: &Case<T>) -> Option<Trial>
-where
-    T: Scalar + Real + ToExact,
-{
-    let mut floats = Floats::of(case)?;
-    if statement.conclusion().is_some() {
-        return floats.follow(statement);
+/// A claim whose formulas are compiled, each named by its place in the program.
+struct Law {
+    program: Program,
+    /// Which values change with what is computed.
+    varies: Vec<bool>,
+    hypotheses: Vec<(Relation, usize)>,
+    computed: Vec<(&'static str, usize)>,
+    asks: Asks,
+    /// Where λ repeats has to be found.
+    repeats: bool,
+}
+
+/// What is asked of the values.
+enum Asks {
+    Within(usize, usize),
+    Equal(usize, usize),
+    Sign(Relation, usize),
+    /// Of a sequence: the bounded formulas with their bounds.
+    Sequence {
+        start: usize,
+        step: usize,
+        ratio: usize,
+        within: Vec<(usize, usize)>,
+    },
+    Nothing,
+}
+
+impl Law {
+    fn of(claim: &Statement) -> Self {
+        let mut program = Program::default();
+        let hypotheses =
+            claim.hypotheses().iter().map(|given| (given.relation, program.add(&given.value))).collect();
+        let computed: Vec<_> =
+            claim.computed().iter().map(|computed| (computed.symbol, program.add(&computed.by))).collect();
+        let asks = match (claim.conclusion(), proposition(claim)) {
+            (Some(Sequence { start, step, ratio, within, .. }), _) => match (&start[..], &step[..]) {
+                ([start], [step]) => Asks::Sequence {
+                    start: program.add(start),
+                    step: program.add(step),
+                    ratio: program.add(ratio),
+                    within: within.iter().map(|(of, bound)| (program.add(of), program.add(bound))).collect(),
+                },
+                _ => Asks::Nothing,
+            },
+            (_, Some(Proposition::Within(of, bound))) => Asks::Within(program.add(of), program.add(bound)),
+            (_, Some(Proposition::Equal(left, right))) => Asks::Equal(program.add(left), program.add(right)),
+            (_, Some(Proposition::Sign(relation, of))) => Asks::Sign(*relation, program.add(of)),
+            _ => Asks::Nothing,
+        };
+        let is_computed =
+            |name| [MEMBERS[0], POWER].contains(&name) || computed.iter().any(|(symbol, _)| *symbol == name);
+        let mut varies = Vec::with_capacity(program.len());
+        for step in program.steps() {
+            let own = matches!(step, Step::Symbol(name) if is_computed(name));
+            varies.push(own || step.operands().any(|operand| varies[*operand]));
+        }
+        let repeats = claim.hypotheses().contains(&given().computed_repeats);
+        Law { program, varies, hypotheses, computed, asks, repeats }
     }
-    if repeats {
-        floats.find_repeat()?;
+
+    fn trial<T: Scalar + Real + ToExact>(&self, case: &Case<T>) -> Option<Trial> {
+        let mut floats = Floats::of(case, &self.program, &self.varies)?;
+        if let Asks::Sequence { start, step, ratio, within } = &self.asks {
+            return floats.follow(self, [*start, *step, *ratio], within);
+        }
+        if self.repeats {
+            floats.find_repeat()?;
+        }
+        floats.check(self)
     }
-    floats.check(statement)
 }
 
 /// Numbers as they are computed, and as they are.
 struct Floats<'a, T> {
     case: &'a Case<T>,
+    program: &'a Program,
+    /// Which of its values change with what is computed.
+    varies: &'a [bool],
+    /// Its values so far, as floats compute them and as they are.
+    known: Vec<(Option<T>, Option<Exact>)>,
     /// 2ᵖ
     precision: Exact,
     /// From here on a number has all its bits.
@@ -93,14 +161,23 @@ struct Floats<'a, T> {
 }
 
 impl<'a, T: Scalar + Real + ToExact> Floats<'a, T> {
-    fn of(case: &'a Case<T>) -> Option<Self> {
+    fn of(case: &'a Case<T>, program: &'a Program, varies: &'a [bool]) -> Option<Self> {
         let system = &case.system;
         let eta = [&system.c, &system.g, &system.l, &system.h, &case.eps, &case.u];
         let order = |a: &T, b: &T| a.partial_cmp(b).unwrap_or(Ordering::Equal);
         let eta = eta.into_iter().map(Real::unit_roundoff).max_by(order)?;
         let precision = Exact::one() / exact(&eta)?;
         let least = T::underflow_unit() / eta;
-        Some(Floats { case, precision, least, computed: Vec::new(), power: Exact::one() })
+        let (known, computed) = (vec![(None, None); program.len()], Vec::new());
+        Some(Floats { case, program, varies, known, precision, least, computed, power: Exact::one() })
+    }
+
+    /// Takes a number as computed: what depends on it is no longer known.
+    fn set(&mut self, symbol: &'static str, number: T) {
+        self.computed.push((symbol, number));
+        for (known, _) in self.known.iter_mut().zip(self.varies).filter(|(_, varies)| **varies) {
+            *known = (None, None);
+        }
     }
 
     /// The number for a symbol, as a float.
@@ -116,90 +193,98 @@ impl<'a, T: Scalar + Real + ToExact> Floats<'a, T> {
 
     /// A formula as floats compute it; `None` where a number is too large or too small for that: then it
     /// is not what rounding to p bits makes of it.
-    fn compute(&self, tree: &Tree) -> Option<T> {
-        let step = match tree.step() {
-            Step::Rounded(inner) => inner.step(),
-            step => step,
-        };
-        let operands = step.try_map(|operand| self.compute(operand))?;
-        // Sums never underflow; a product or quotient that is not 0 has all its bits from here on.
-        let is_zero = match &operands {
-            Step::Mul(a, b) => Some(a.is_zero() || b.is_zero()),
-            Step::Div(a, _) => Some(a.is_zero()),
-            _ => None,
-        };
-        let value = operands.value(&|name| self.number(name), &piecewise)?;
-        let is_small = || value.is_zero() || value.abs() < self.least;
-        let in_range = Real::is_finite(&value) && !is_zero.is_some_and(|is_zero| !is_zero && is_small());
-        in_range.then_some(value)
+    fn compute(&mut self, place: usize) -> Option<&T> {
+        let steps = self.program.steps();
+        if self.known[place].0.is_none() {
+            let step = match &steps[place] {
+                Step::Rounded(inner) => &steps[*inner],
+                step => step,
+            };
+            step.operands().try_for_each(|operand| self.compute(*operand).map(drop))?;
+            let operands = step.try_map(|operand| self.known[*operand].0.as_ref())?;
+            // Sums never underflow; a product or quotient that is not 0 has all its bits from here on.
+            let is_zero = match operands {
+                Step::Mul(a, b) => Some(a.is_zero() || b.is_zero()),
+                Step::Div(a, _) => Some(a.is_zero()),
+                _ => None,
+            };
+            let value = operands.value(&|name| self.number(name), &piecewise)?;
+            let is_small = || value.is_zero() || value.abs() < self.least;
+            let in_range = Real::is_finite(&value) && !is_zero.is_some_and(|is_zero| !is_zero && is_small());
+            self.known[place].0 = in_range.then_some(value);
+        }
+        self.known[place].0.as_ref()
     }
 
     /// A formula as it is; what is rounded in it is computed.
-    fn value(&self, tree: &Tree) -> Option<Exact> {
-        let symbol = |name: &'static str| match name {
-            PRECISION => Some(self.precision.clone()),
-            POWER if !self.computed.is_empty() => Some(self.power.clone()),
-            name => exact(&self.number(name)),
-        };
-        match tree.step() {
-            Step::Rounded(_) => exact(&self.compute(tree)?),
-            Step::Symbol(name) => symbol(name),
-            step => {
-                let operands = step.try_map(|operand| self.value(operand))?;
-                operands.value(&|_| Exact::zero(), &piecewise)
-            }
+    fn value(&mut self, place: usize) -> Option<&Exact> {
+        if self.known[place].1.is_none() {
+            let value = match &self.program.steps()[place] {
+                Step::Rounded(_) => exact(self.compute(place)?),
+                Step::Symbol(PRECISION) => Some(self.precision.clone()),
+                Step::Symbol(POWER) if !self.computed.is_empty() => Some(self.power.clone()),
+                Step::Symbol(name) => exact(&self.number(name)),
+                step => {
+                    step.operands().try_for_each(|operand| self.value(*operand).map(drop))?;
+                    let operands = step.try_map(|operand| self.known[*operand].1.as_ref())?;
+                    operands.value(&|_| Exact::zero(), &piecewise)
+                }
+            };
+            self.known[place].1 = value;
         }
+        self.known[place].1.as_ref()
     }
 
-    fn has_sign(&self, relation: Relation, of: &Tree) -> Option<bool> {
+    fn has_sign(&mut self, relation: Relation, of: usize) -> Option<bool> {
         Some(relation.admits(self.value(of)?.cmp(&Exact::zero())))
     }
 
     /// `None` unless all hypotheses hold.
-    fn suppose(&self, statement: &Statement) -> Option<()> {
-        let holds = |given: &Hypothesis| self.has_sign(given.relation, &given.value) == Some(true);
-        statement.hypotheses().iter().all(holds).then_some(())
+    fn suppose(&mut self, law: &Law) -> Option<()> {
+        law.hypotheses.iter().all(|(relation, of)| self.has_sign(*relation, *of) == Some(true)).then_some(())
     }
 
-    /// Computes what the statement has computed.
-    fn compute_all(&mut self, statement: &Statement) -> Option<()> {
-        for computed in statement.computed() {
-            let number = self.compute(&computed.by)?;
-            self.computed.push((computed.symbol, number));
-        }
-        Some(())
+    /// Computes what the law has computed.
+    fn compute_all(&mut self, law: &Law) -> Option<()> {
+        law.computed.iter().try_for_each(|(symbol, by)| {
+            let number = self.compute(*by)?.clone();
+            self.set(symbol, number);
+            Some(())
+        })
     }
 
-    fn check(&mut self, statement: &Statement) -> Option<Trial> {
-        self.compute_all(statement)?;
-        self.suppose(statement)?;
-        Some(match proposition(statement)? {
-            Proposition::Within(of, bound) => within(self.value(of)?, self.value(bound)?),
-            Proposition::Equal(left, right) => Trial::Decided(self.value(left)? == self.value(right)?),
-            Proposition::Sign(relation, of) => Trial::Decided(self.has_sign(*relation, of)?),
-            _ => return None,
+    fn check(&mut self, law: &Law) -> Option<Trial> {
+        self.compute_all(law)?;
+        self.suppose(law)?;
+        Some(match law.asks {
+            Asks::Within(of, bound) => within(self.value(of)?.clone(), self.value(bound)?.clone()),
+            Asks::Equal(left, right) => Trial::Decided(self.value(left)?.clone() == *self.value(right)?),
+            Asks::Sign(relation, of) => Trial::Decided(self.has_sign(relation, of)?),
+            Asks::Sequence { .. } | Asks::Nothing => return None,
         })
     }
 
     /// A sequence for some steps, and where it comes nearest to its bounds.
-    fn follow(&mut self, statement: &Statement) -> Option<Trial> {
-        let Sequence { start, step, ratio, within: bounds, .. } = statement.conclusion()?;
-        let ([start], [step]) = (&start[..], &step[..]) else { return None };
-        self.suppose(statement)?;
-        let (mut member, ratio) = (self.compute(start)?, self.value(ratio)?);
+    fn follow(&mut self, law: &Law, places: [usize; 3], bounds: &[(usize, usize)]) -> Option<Trial> {
+        let [start, step, ratio] = places;
+        self.suppose(law)?;
+        let (mut member, ratio) = (self.compute(start)?.clone(), self.value(ratio)?.clone());
         // The bounds are the same for all k.
-        let most: Vec<_> = bounds.iter().map(|(_, bound)| self.value(bound)).collect::<Option<_>>()?;
-        let mut worst = Trial::Undecided;
+        let bound = |(of, bound): &(usize, usize)| Some((*of, self.value(*bound)?.clone(), Exact::zero()));
+        let mut bounds: Vec<_> = bounds.iter().map(bound).collect::<Option<_>>()?;
         for _ in 0..STEPS {
-            self.computed = vec![(MEMBERS[0], member)];
-            self.compute_all(statement)?;
-            for ((of, _), bound) in bounds.iter().zip(&most) {
-                worst = worse(worst, within(self.value(of)?, bound.clone()));
+            self.computed.clear();
+            self.set(MEMBERS[0], member);
+            self.compute_all(law)?;
+            for (of, _, largest) in &mut bounds {
+                let error = self.value(*of)?.abs();
+                *largest = error.max(largest.clone());
             }
-            member = self.compute(step)?;
+            member = self.compute(step)?.clone();
             self.power = &self.power * &ratio;
         }
-        Some(worst)
+        let trials = bounds.into_iter().map(|(_, bound, error)| Trial::Within { error, bound });
+        Some(trials.fold(Trial::Undecided, worse))
     }
 
     /// Repeats the augmentation until λ does.
@@ -212,7 +297,8 @@ impl<'a, T: Scalar + Real + ToExact> Floats<'a, T> {
         for _ in 0..enough {
             let step = steps.step();
             if *steps.multiplier() == step.multiplier {
-                self.computed = vec![("λ", step.multiplier), ("u", step.deflection)];
+                self.set("λ", step.multiplier);
+                self.set("u", step.deflection);
                 return Some(());
             }
         }

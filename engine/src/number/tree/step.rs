@@ -113,16 +113,14 @@ impl<T: Field> Step<&T> {
             Symbol(_) | Exp(_) | PositivePart(_) | Min(..) | Rounded(_) => return None,
         })
     }
-}
 
-impl<T: Field> Step<T> {
     /// Returns the result for operands that are numbers; see [`replay`](super::Tree::replay) for the others.
     pub fn value(
         self,
         symbol: &impl Fn(&'static str) -> T,
         beyond: &impl Fn(Step<&T>) -> Option<T>,
     ) -> Option<T> {
-        match self.map(|operand| operand) {
+        match self {
             Step::Symbol(name) => Some(symbol(name)),
             Step::Div(_, b) if !b.is_unit() => None,
             step => step.arithmetic().or_else(|| beyond(step)),

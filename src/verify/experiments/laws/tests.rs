@@ -4,7 +4,7 @@ use super::*;
 use crate::chapter::SpringMass;
 use crate::claims::Var;
 use crate::formula::claim::{equal, non_negative, within};
-use crate::number::Mpfr;
+use crate::number::{Mpfr, Tree};
 
 fn int(n: i32) -> Tree {
     Tree::from(n)
@@ -15,6 +15,13 @@ fn case() -> Case<f32> {
     let tiny = 2f32.powi(-24);
     let system = SpringMass { c: 1.0, m: tiny, g: 1.0, l: 1.0, h: 1.0 };
     Case { system, eps: 1.0, lambda: 0.0, u: tiny, q: 0.5, ..Case::of(|_| 1.0) }
+}
+
+/// What floats make of a formula.
+fn computed<T: Scalar + Real + ToExact>(formula: &Tree, case: &Case<T>) -> Option<T> {
+    let mut program = Program::default();
+    let place = program.add(formula);
+    Floats::of(case, &program, &[]).unwrap().compute(place).cloned()
 }
 
 fn tried(claim: &Statement) -> Trial {
@@ -66,10 +73,7 @@ fn a_number_that_loses_bits_at_the_end_of_the_range_is_none() {
         let system = SpringMass { c, m, g: 1.0, l: 1.0, h: 1.0 };
         Case { system, ..Case::of(|_| 0.0) }
     };
-    let computed = |tree: &Tree, c: i32, m: i32| {
-        let case = with(power_of_two(c), power_of_two(m));
-        Floats::of(&case).unwrap().compute(tree)
-    };
+    let computed = |tree: &Tree, c: i32, m: i32| computed(tree, &with(power_of_two(c), power_of_two(m)));
     let least = -1074 + 53;
     let (product, quotient) = (&s.c * &s.m, &s.c / &s.m);
     assert_eq!(computed(&product, least, 0), Some(power_of_two(least)));
@@ -87,18 +91,24 @@ fn the_coarsest_number_is_the_precision() {
     for coarse in [Var::C, Var::G, Var::L, Var::H, Var::Eps, Var::U] {
         let bits = |var| if var == coarse { 24 } else { 53 };
         let case = Case::of(|var| Mpfr::rounded(bits(var), 1));
-        assert_eq!(Floats::of(&case).unwrap().precision, Exact::power_of_two(24), "{coarse:?}");
+        assert_eq!(
+            Floats::of(&case, &Program::default(), &[]).unwrap().precision,
+            Exact::power_of_two(24),
+            "{coarse:?}"
+        );
     }
 }
 
 #[test]
 fn a_power_is_one_of_a_sequence_that_is_followed() {
     let case = case();
-    let mut floats = Floats::of(&case).unwrap();
-    let q = Tree::symbol(POWER);
-    assert_eq!(floats.value(&q), exact(&0.5f32));
-    floats.computed = vec![(MEMBERS[0], 0.0)];
-    assert_eq!(floats.value(&q), Some(Exact::one()));
+    let law = Law::of(&equal("power", Tree::symbol(POWER), &symbols().u));
+    let mut floats = Floats::of(&case, &law.program, &law.varies).unwrap();
+    let Asks::Equal(q, u) = law.asks else { panic!("an equation") };
+    assert_eq!((floats.value(q).cloned(), floats.value(u).cloned()), (exact(&0.5f32), exact(&case.u)));
+    floats.set(MEMBERS[0], 0.0);
+    assert_eq!((law.varies[q], law.varies[u]), (true, false));
+    assert_eq!((floats.value(q).cloned(), floats.value(u).cloned()), (Some(Exact::one()), exact(&case.u)));
 }
 
 /// With ε = c each step gains a bit, so λ repeats after some more than 53 steps; with a small ε nearly
@@ -106,15 +116,17 @@ fn a_power_is_one_of_a_sequence_that_is_followed() {
 #[test]
 fn where_the_multiplier_repeats_is_found_or_is_not() {
     let Case { system: s, eps, lambda, u, .. } = symbols();
+    let mut program = Program::default();
+    let next = program.add(&augmented::update(s, eps, lambda, u));
     let system = SpringMass { c: 3.0, m: 1.0, g: 10.1, l: 1.0, h: 1.3 };
     let mut case: Case<f64> = Case { system, eps: 3.0, ..Case::of(|_| 0.0) };
-    let mut floats = Floats::of(&case).unwrap();
+    let mut floats = Floats::of(&case, &program, &[]).unwrap();
     assert_eq!(floats.find_repeat(), Some(()));
-    let next = floats.compute(&augmented::update(s, eps, lambda, u)).unwrap();
+    let next = *floats.compute(next).unwrap();
     assert_eq!(next, floats.number("λ"));
     assert!(next > 0.0);
     case.eps = 1e-6;
-    assert_eq!(Floats::of(&case).unwrap().find_repeat(), None);
+    assert_eq!(Floats::of(&case, &program, &[]).unwrap().find_repeat(), None);
 }
 
 #[test]
