@@ -1,25 +1,25 @@
-//! Two things timed side by side, and the ratio of their times.
+//! Relative timing of two computations.
 
 use criterion::{Criterion, Throughput};
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-/// A comparison: how long ours takes, in multiples of a reference that is timed in the same run.
+/// A comparison: the time of our computation relative to a reference timed in the same run.
 pub struct Ratio {
     name: String,
     reference: &'static str,
     wanted: f64,
-    /// Nanoseconds of the reference and of ours, the least of many.
+    /// Least times of the reference and of our computation, in nanoseconds.
     least: [f64; 2],
 }
 
-/// How often both are timed in turns, and for how long each time: a machine's speed drifts over seconds.
+/// Number and duration of the alternating turns; the speed of a machine drifts over seconds.
 const TURNS: usize = 100;
 const TURN: Duration = Duration::from_millis(5);
 
 impl Ratio {
-    /// Times both; a call of each does so many things. Criterion has the first words: it shows how each one
-    /// is distributed, and what has become faster since the last run.
+    /// Times both computations, each call of which performs `things` operations. Criterion also reports the
+    /// distribution of each time and its change since the last run.
     pub fn of<A, B>(
         criterion: &mut Criterion,
         name: impl Into<String>,
@@ -47,7 +47,7 @@ impl Ratio {
     }
 }
 
-/// Nanoseconds of a call, over one turn.
+/// Returns the nanoseconds of a call, averaged over one turn.
 fn turn<A>(call: &mut impl FnMut() -> A) -> f64 {
     let (start, mut calls) = (Instant::now(), 0);
     while start.elapsed() < TURN || calls == 0 {
@@ -57,7 +57,7 @@ fn turn<A>(call: &mut impl FnMut() -> A) -> f64 {
     start.elapsed().as_nanos() as f64 / f64::from(calls)
 }
 
-/// The ratios that have been timed, as a table in Markdown.
+/// Returns the timed ratios as a table in Markdown.
 pub fn table(ratios: &[Ratio]) -> String {
     let mut lines = vec![
         "| work | against | reference | own | ratio | wanted |".to_string(),
@@ -71,14 +71,14 @@ pub fn table(ratios: &[Ratio]) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Nanoseconds in the unit that fits.
+/// Formats nanoseconds in a suitable unit.
 fn duration(ns: f64) -> String {
     let units = [(1.0, "ns"), (1e3, "µs"), (1e6, "ms"), (1e9, "s")];
     let (unit, name) = units.into_iter().rev().find(|(unit, _)| ns >= *unit).unwrap_or(units[0]);
     format!("{} {name}", digits(ns / unit))
 }
 
-/// Two or three digits.
+/// Formats two or three digits.
 fn digits(x: f64) -> String {
     if x >= 100.0 {
         format!("{x:.0}")

@@ -1,13 +1,14 @@
-//! How fast: each thing in multiples of a reference that is timed in the same run.
+//! Speed relative to references timed in the same run.
 //!
-//! `cargo bench -p benches` times all and prints the table; `cargo bench -p benches -- mpfr` times what has that in its name.
+//! `cargo bench -p benches` times everything and prints the table; `cargo bench -p benches -- mpfr` times the
+//! benchmarks with that name.
 
 use benches::{Ratio, table};
 use criterion::{Criterion, measurement::WallTime};
 use spring_mass_contact::chapter::{SpringMass, augmented, contact, lagrange, penalty};
 use spring_mass_contact::number::{Ball, Exact, Mpfr, ToExact};
 use spring_mass_contact::rug::{Assign, Float, ops::SubFrom};
-use spring_mass_contact::solver::{Augmentation, Method, Outcome, Plane, State, iterate_after, solve};
+use spring_mass_contact::solver::{Augmentation, Method, Outcome, Plane, State, kth_iterate, solve};
 use std::hint::black_box;
 use std::time::Duration;
 
@@ -15,17 +16,17 @@ use std::time::Duration;
 const SYSTEM: SpringMass<f64> = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
 const PENALTY: f64 = 1000.0;
 
-/// How many things a chain, a study or a loop does in one call.
+/// Number of systems in one call of a chain, a study or a loop.
 const CHAIN: u64 = 1000;
 const STUDY: u64 = 1_000_000;
 const STEPS: u64 = 100;
 
-/// The next system of a chain, the same: it has to wait for what came of the one before.
+/// Returns the same system for the next step of a chain, which depends on the results of the previous one.
 fn next(system: SpringMass<f64>, results: [f64; 3]) -> SpringMass<f64> {
     SpringMass { h: system.h + results.iter().sum::<f64>() * 0.0, ..system }
 }
 
-/// The formulas of a method, one after the other.
+/// Evaluates the formulas of a method in a chain.
 fn chain_of_formulas(formulas: impl Fn(&SpringMass<f64>) -> [f64; 3]) -> impl FnMut() -> f64 {
     move || {
         let mut system = black_box(SYSTEM);
@@ -57,7 +58,7 @@ fn floats(criterion: &mut Criterion<WallTime>) -> Vec<Ratio> {
     };
     let chain = "its formulas, each waiting for the one before";
     let systems: Vec<_> = (0..CHAIN).map(|i| SpringMass { h: 1.05 + i as f64 * 1e-5, ..SYSTEM }).collect();
-    let balls: Vec<_> = systems.iter().map(|s| s.map(|x| Ball::exactly(*x))).collect();
+    let balls: Vec<_> = systems.iter().map(|s| s.map(|x| Ball::point(*x))).collect();
     let study: Vec<_> = (0..STUDY).map(|i| SpringMass { h: 1.05 + i as f64 * 1e-9, ..SYSTEM }).collect();
     vec![
         Ratio::of(
@@ -97,7 +98,7 @@ fn floats(criterion: &mut Criterion<WallTime>) -> Vec<Ratio> {
                 }
             }),
             (CHAIN, || {
-                let eps = Ball::exactly(PENALTY);
+                let eps = Ball::point(PENALTY);
                 for system in black_box(&balls) {
                     black_box(penalty::deflection(system, black_box(&eps)));
                 }
@@ -114,7 +115,7 @@ fn floats(criterion: &mut Criterion<WallTime>) -> Vec<Ratio> {
     ]
 }
 
-/// (1.16) by hand: rug's floats, each in its place. What is `fixed` does not depend on λ.
+/// (1.16) by hand with rug's floats in place. The `fixed` terms do not depend on λ.
 struct Raw {
     system: SpringMass<Float>,
     eps: Float,
@@ -174,7 +175,7 @@ impl Raw {
     }
 }
 
-/// The default system in so many bits, with ε = 10 c.
+/// Returns the default system in `bits` bits with ε = 10 c.
 fn in_bits(bits: u32) -> (SpringMass<Mpfr>, Mpfr) {
     let system = SYSTEM.map(|x| x.to_exact().expect("finite").to_mpfr(bits));
     (system, Exact::from(1000).to_mpfr(bits))
@@ -211,7 +212,7 @@ fn mpfr(criterion: &mut Criterion<WallTime>) -> Vec<Ratio> {
     ratios
 }
 
-/// About 4000 steps to 1e-1200 at 4096 bits, and the last of them by closed form.
+/// About 4000 steps to 1e-1200 with 4096 bits, and the last iterate in closed form.
 fn digits(criterion: &mut Criterion<WallTime>) -> Vec<Ratio> {
     let bits = 4096;
     let (system, _) = in_bits(bits);
@@ -246,7 +247,7 @@ fn digits(criterion: &mut Criterion<WallTime>) -> Vec<Ratio> {
         criterion,
         "the last iterate by closed form, mpfr 4096",
         ("the loop that leads to it", 1, converged),
-        (1, || iterate_after(&system, &eps, &start, k, Plane::Unilateral).expect("an iterate")),
+        (1, || kth_iterate(&system, &eps, &start, k, Plane::Unilateral).expect("an iterate")),
         0.001,
     );
     vec![by_hand, closed]

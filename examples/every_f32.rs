@@ -1,15 +1,14 @@
-//! Every f32 there is, as each parameter of a system in turn: solved by all three methods, nothing panics, what is no
-//! parameter is refused by its name, and the exact answer lies within the bounds.
+//! Test with every f32 as each parameter of a system: all three methods solve it without a panic, invalid
+//! parameters are refused by name, and the bounds contain the exact solution.
 //!
 //! ```sh
 //! cargo run --release --example every_f32 -- --stride 1009
 //! ```
+//! tests every 1009th bit pattern; the default is all 2³². An odd stride also varies the last bits.
 //!
-//! takes every 1009th bit pattern; all 2³² of them by default. An odd stride also varies the last bits.
-//!
-//! Rationals for each would take too long. Products of f32s are exact in f64, and a ball of f64s around the exact
-//! answer is tiny beside an interval of f32s: rationals are asked only where an end of the interval lies within the
-//! ball.
+//! Rationals would take too long for each case. Products of f32s are exact in f64, and a ball of f64s around
+//! the exact solution is tiny relative to an interval of f32s, so rationals are needed only if a bound lies
+//! within the ball.
 
 use rayon::prelude::*;
 use spring_mass_contact::chapter::{SpringMass, augmented, contact, lagrange, penalty, structure, system};
@@ -22,14 +21,14 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
 use std::time::Instant;
 
-/// As the command has it by default.
+/// Default system of the command.
 const SYSTEM: SpringMass<f32> = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
 const PENALTY: f32 = 1000.0;
 const TOLERANCE: f32 = 1e-6;
-/// About as many as the default takes: more cost time and say nothing of bounds.
+/// About the number that the default takes; more would cost time without testing bounds.
 const MAX_AUGMENTATIONS: u64 = 8;
 
-/// A parameter: what an error calls it, whether it must be positive, and how it is set.
+/// A parameter: its name in errors, whether it must be positive, and its setter.
 struct Parameter {
     name: &'static str,
     positive: bool,
@@ -45,7 +44,7 @@ const PARAMETERS: [Parameter; 6] = [
     Parameter { name: "penalty", positive: true, set: |_, eps, x| *eps = x },
 ];
 
-/// What came of some solves.
+/// Number of solves for each outcome.
 #[derive(Clone, Debug, Default)]
 struct Tally {
     solves: u64,
@@ -53,7 +52,7 @@ struct Tally {
     out_of_range: u64,
     by_rationals: u64,
     violations: u64,
-    /// One of them.
+    /// One wrong case.
     example: Option<String>,
 }
 
@@ -68,7 +67,7 @@ impl AddAssign for Tally {
     }
 }
 
-/// The exact answer: deflection, penetration, contact force.
+/// Returns the exact deflection, penetration and contact force.
 fn answer<T: Field>(system: &SpringMass<T>, eps: Option<&T>, state: Ordering) -> [T; 3] {
     match eps {
         _ if state == Ordering::Less => {
@@ -80,15 +79,15 @@ fn answer<T: Field>(system: &SpringMass<T>, eps: Option<&T>, state: Ordering) ->
         Some(eps) => [
             penalty::deflection(system, eps),
             penalty::penetration(system, eps),
-            penalty::force_at_root(system, eps),
+            penalty::contact_force_at_equilibrium(system, eps),
         ],
     }
 }
 
-/// A case, in balls of f64; in rationals where these do not tell.
+/// A case, in balls of f64, and in rationals if these do not decide.
 struct Oracle<'a> {
     system: &'a SpringMass<f32>,
-    /// Of the penalty method alone: the limit of the augmented one is Lagrange's.
+    /// Penalty of the penalty method; the limit of the augmentation is the solution by Lagrange multiplier.
     eps: Option<f32>,
     state: Ordering,
     balls: [Ball<f64>; 3],
@@ -101,7 +100,7 @@ fn exact(x: f32) -> Exact {
 
 impl<'a> Oracle<'a> {
     fn new(system: &'a SpringMass<f32>, eps: Option<f32>) -> Self {
-        let ball = |x: f32| Ball::exactly(f64::from(x));
+        let ball = |x: f32| Ball::point(f64::from(x));
         let balls = system.map(|x| ball(*x));
         let (state, by_rationals) = match system::reaction(&balls).sign() {
             Some(state) => (state, false),
@@ -111,7 +110,8 @@ impl<'a> Oracle<'a> {
         Oracle { system, eps, state, balls, by_rationals }
     }
 
-    /// Does this part of the answer lie there? The same is asked in f64 and in rationals, for which there is no doubt.
+    /// Returns `true` if this part of the solution satisfies a predicate, in f64 or, if that is undecided, in
+    /// rationals.
     fn lies(
         &mut self,
         part: usize,
@@ -134,7 +134,7 @@ impl<'a> Oracle<'a> {
             && self.lies(part, certain, |x| exact(*lower) <= *x && *x <= exact(*upper))
     }
 
-    /// What is wrong with a solution.
+    /// Returns the error in a solution, if any.
     fn wrong(&mut self, solution: &Solution<f32>) -> Option<&'static str> {
         let Solution { deflection, penetration, contact_force, bounds, .. } = solution;
         let state = match solution.state {
@@ -145,7 +145,7 @@ impl<'a> Oracle<'a> {
         let (u, tolerance) = (*deflection, TOLERANCE);
         let near = |least: f64, most: f64| {
             let (u, tolerance) = (f64::from(u), f64::from(tolerance));
-            // Neither difference is off by more than it takes to the next number.
+            // Each difference is off by less than the distance to the next number.
             (most - u).next_up() < tolerance && (u - least).next_up() < tolerance
         };
         let nearby = |x: &Exact| {
@@ -170,12 +170,13 @@ impl<'a> Oracle<'a> {
     }
 }
 
-/// A number, and whether all that led to it had room in f32, with some to spare.
+/// A number, and whether f32 can represent all intermediate results with a margin.
 #[derive(Clone, Debug, PartialEq)]
 struct Roomy(f64, bool);
 
 fn roomy(value: f64, operands: [&Roomy; 2]) -> Roomy {
-    // Between the least f32 and a quarter of the largest: four values, or one and its error, can be added.
+    // Between the smallest f32 and a quarter of the largest, so that four values, or one and its error, can
+    // be added.
     let fits =
         value == 0.0 || (f64::from(f32::from_bits(1))..=f64::from(f32::MAX) / 4.0).contains(&value.abs());
     Roomy(value, fits && operands.iter().all(|operand| operand.1))
@@ -210,7 +211,7 @@ impl Field for Roomy {
     }
 }
 
-/// Has f32 room for all of it? Then nothing may be refused for want of room.
+/// Returns `true` if f32 can represent all results; then no overflow may be reported.
 fn has_room(system: &SpringMass<f32>, eps: f32) -> bool {
     let number = |x: f32| roomy(f64::from(x), [&Roomy(0.0, true); 2]);
     let (system, eps) = (system.map(|x| number(*x)), number(eps));
@@ -223,7 +224,7 @@ fn has_room(system: &SpringMass<f32>, eps: f32) -> bool {
     [free, held, penalised, forces].iter().flatten().all(|x| x.1)
 }
 
-/// What is wrong with a solve.
+/// Returns the error in a solve, if any.
 fn check(parameter: &Parameter, x: f32, method: &Method<f32>, tally: &mut Tally) -> Option<String> {
     let (mut system, mut eps) = (SYSTEM, PENALTY);
     (parameter.set)(&mut system, &mut eps, x);
@@ -254,7 +255,7 @@ fn check(parameter: &Parameter, x: f32, method: &Method<f32>, tally: &mut Tally)
     }
 }
 
-/// One bit pattern as a parameter, by each method that has it.
+/// Tests one bit pattern as a parameter with each method that has it.
 fn try_pattern(parameter: &Parameter, bits: u32) -> Tally {
     let x = f32::from_bits(bits);
     let methods = [
@@ -280,7 +281,7 @@ fn try_pattern(parameter: &Parameter, bits: u32) -> Tally {
     tally
 }
 
-/// Every so many-th bit pattern as this parameter.
+/// Tests every `stride`-th bit pattern as this parameter.
 fn try_parameter(parameter: &Parameter, stride: u32) -> Tally {
     let sum = |mut a: Tally, b| {
         a += b;
@@ -297,7 +298,7 @@ fn stride(arguments: &[String]) -> Result<u32, String> {
             let stride = number.parse().ok().filter(|stride| *stride > 0);
             stride.ok_or_else(|| {
                 format!(
-                    "invalid value {number:?} for '--stride N': must be a whole number from 1 to {}",
+                    "invalid value {number:?} for '--stride N': must be an integer from 1 to {}",
                     u32::MAX
                 )
             })
@@ -351,7 +352,7 @@ fn it_finds_nothing_in_some() {
     }
 }
 
-/// Where balls cannot tell: grazing, R = 1·10 − 4 (3.5 − 1) = 0, and an end that is the answer itself.
+/// Cases that balls do not decide: grazing, R = 1·10 − 4 (3.5 − 1) = 0, and a bound equal to the solution.
 #[test]
 fn rationals_decide_where_balls_do_not() {
     let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.5 };

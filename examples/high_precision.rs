@@ -1,4 +1,4 @@
-//! A thousand digits: the same functions, on floats of as many bits as that takes. It prints:
+//! A thousand digits: the same functions with floats of sufficient precision. Prints
 //!
 //! ```text
 //! converged after 3317 augmentations: N = 4.81000000000000000000000000000000000000000000000000 N
@@ -11,11 +11,11 @@
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::number::{Exact, PositivePart, ToExact};
 use spring_mass_contact::solver::{
-    Method, Plane, augmentations_needed, iterate_after, solve, solve_functional,
+    Method, Plane, exact_augmentation_count, kth_iterate, solve, solve_functional,
 };
 use std::error::Error;
 
-/// A thousand digits are 3322 bits; some more for what roundings take.
+/// A thousand digits are 3322 bits; the rest is a margin for rounding.
 const BITS: u32 = 3322 + 64;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -37,12 +37,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     let off = (answer.contact_force.to_exact()? - "4.81".parse::<Exact>()?).abs();
     println!("right to a thousand digits: {}", off < "1e-997".parse()?);
 
-    // That many steps can be foretold, and the last one can be had without those before it.
-    println!("foretold: {}", augmentations_needed(&system, &eps, &tolerance, &start, Plane::Unilateral)?);
-    let step = iterate_after(&system, &eps, &start, k, Plane::Unilateral)?;
+    // The number of steps can be predicted, and the last iterate computed directly.
+    println!("foretold: {}", exact_augmentation_count(&system, &eps, &tolerance, &start, Plane::Unilateral)?);
+    let step = kth_iterate(&system, &eps, &start, k, Plane::Unilateral)?;
     println!("p < 1e-1000 m from the closed form: {}", step.penetration.upper < tolerance);
 
-    // The golden section, by a penalty of one's own: R = 1, c = 1, W = p³/3, so that p + p² = 1.
+    // The golden ratio by a user-defined penalty functional: R = 1, c = 1, W = p³/3, so p + p² = 1.
     let golden = SpringMass { c: "1", m: "1", g: "1", l: "1", h: "1" }.parse()?.map(|x| x.to_mpfr(BITS));
     let answer = solve_functional(&golden, &[], &tolerance, |_, p| cube(p))?;
     let p = answer.bounds.penetration;

@@ -1,6 +1,6 @@
-//! A number system of one's own, all the way to `solve`: fixed-point decimals, nanometres and nanonewtons.
+//! A user-defined number system for `solve`: fixed-point decimals, nanometres and nanonewtons.
 //!
-//! Everything is read and rounded in decimals, so that 0.05 is 0.05. It prints:
+//! Numbers are read and rounded in decimals, so that 0.05 is 0.05. Prints
 //!
 //! ```text
 //! u = 0.050000000 m, N = 4.810000000 N, for certain 4.810000000 to 4.810000000; direct
@@ -13,13 +13,13 @@ use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::number::{Exact, Field, OrderedField, PositivePart};
 use spring_mass_contact::operators;
 use spring_mass_contact::rug::Rational;
-use spring_mass_contact::solver::laws::{self, Broken};
+use spring_mass_contact::solver::laws::{self, LawViolation};
 use spring_mass_contact::solver::{Interval, Method, Scalar, SolveError, solve};
 use std::cmp::Ordering;
 use std::error::Error;
 use std::fmt;
 
-/// So many billionths. What leaves the range stays beyond it, and is never taken for a number again.
+/// A number of billionths. A result out of range stays out of range.
 #[derive(Clone, PartialEq, PartialOrd)]
 struct Nano(i128);
 
@@ -31,13 +31,13 @@ impl Nano {
         Rational::from((self.0, UNITS)).into()
     }
 
-    /// The integer next to so many billionths, by one of the roundings of rationals.
+    /// Rounds to billionths in the given direction.
     fn rounded(x: Exact, integer: fn(Rational) -> Rational) -> Self {
         let units = integer(Rational::from(x) * UNITS);
         Nano(units.numer().to_i128().unwrap_or(if *units.numer() < 0 { -BEYOND } else { BEYOND }))
     }
 
-    /// An operation on two numbers, rounded to nearest.
+    /// Returns the result of an operation, rounded to nearest.
     fn with(&self, other: &Self, operation: fn(Exact, Exact) -> Exact) -> Self {
         match [self, other].into_iter().find(|x| !x.is_finite()) {
             Some(beyond) => beyond.clone(),
@@ -80,7 +80,7 @@ impl Field for Nano {
     }
 }
 
-// 2. Order, for a plane that pushes and never pulls.
+// 2. Order, for unilateral contact.
 impl PositivePart for Nano {
     fn positive_part(&self) -> Self {
         Nano(self.0.max(0))
@@ -91,7 +91,7 @@ impl PositivePart for Nano {
 }
 impl OrderedField for Nano {}
 
-// 3. Bounds, for `solve`: rationals enclose exactly, and are rounded outward in the end.
+// 3. Bounds, for `solve`: rationals enclose exactly, and the result is rounded outwards.
 impl Scalar for Nano {
     type Enclosure = Exact;
     fn enclose(&self) -> Exact {
@@ -128,10 +128,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// What `solve` relies on, in your own tests.
-fn laws_hold() -> Result<(), Broken> {
+/// Tests the requirements of `solve`.
+fn laws_hold() -> Result<(), LawViolation> {
     let samples = [0, 1, -1, 2, 3, UNITS, UNITS + 1, UNITS / 3, -UNITS / 7, 12_345_678_901_234_567].map(Nano);
-    laws::scalar(&samples, Nano::exact)
+    laws::check_scalar_laws(&samples, Nano::exact)
 }
 
 fn solve_in_decimals(system: &SpringMass<Nano>) -> Result<(), SolveError> {

@@ -1,7 +1,7 @@
-//! Penalty functionals of one's own: write W once, as a generic function, and hand it over.
+//! User-defined penalty functionals: W is written once, as a generic function, and passed to the solver.
 //!
-//! Its force W′ is not written down: the numbers that W is read in differentiate it, and bound its rounding. It
-//! prints, for the example system with R = 2 N on a spring of 4 N/m:
+//! Its force W′ is not needed: dual numbers differentiate W and bound its rounding error. Prints for the
+//! example system with R = 2 N and a spring of 4 N/m
 //!
 //! ```text
 //! cubic, ε = 1e0: N = 0.202041 N, p = 4.494897e-1 m to 4.494897e-1 m
@@ -9,19 +9,19 @@
 //! cubic, ε = 1e8: N = 1.999434 N, p = 1.414014e-4 m to 1.414014e-4 m
 //! layered: N = 1.599400 N, p = 0.100150 m
 //! cubic, ε = 2.306e18: p < 9.3e-10 m
-//! the penalty functional must be convex in p: its force must not fall as p grows; not so at p = 0.03125000000000006 m
+//! the penalty functional must be convex in p: its force must not decrease with p; violated at p = 0.03125000000000006 m
 //! ```
 
 use spring_mass_contact::chapter::{SpringMass, penalty};
 use spring_mass_contact::number::PositivePart;
 use spring_mass_contact::solver::{FunctionalError, penalty_for_functional, solve_functional};
 
-/// W = ε |p|³ / 3: a force that grows like the square of the penetration, ε in N/m².
+/// W = ε |p|³ / 3: the force grows with the square of the penetration; ε in N/m².
 fn cubic<T: PositivePart>(eps: &T, p: &T) -> T {
     eps * p * p * p.abs() / T::int(3)
 }
 
-/// A soft layer of thickness `d` before a stiff base: two springs, the second of which begins to push at d.
+/// A soft layer of thickness `d` on a stiff base: two springs, the second of which acts from p = d.
 fn layered<T: PositivePart>(soft: &T, stiff: &T, d: &T, p: &T) -> T {
     penalty::functional(soft, p) + penalty::functional(stiff, &(p - d).positive_part())
 }
@@ -40,12 +40,12 @@ fn main() -> Result<(), FunctionalError> {
     let answer = solve_functional(&system, &layer, &1e-14, |[soft, stiff, d], p| layered(soft, stiff, d, p))?;
     println!("layered: N = {:.6} N, p = {:.6} m", answer.contact_force, answer.penetration);
 
-    // Which ε keeps the penetration below a micrometre for certain?
+    // The ε that guarantees a penetration below a micrometre.
     let eps = penalty_for_functional(&system, &[1.0], &1e-6, |[eps], p| cubic(eps, p))?;
     let answer = solve_functional(&system, &[eps], &1e-14, |[eps], p| cubic(eps, p))?;
     println!("cubic, ε = {eps:.3e}: p < {:.1e} m", answer.bounds.penetration.upper);
 
-    // A condition that is broken is named.
+    // The error names the violated condition.
     let softening = solve_functional(&system, &[1.0], &1e-14, |[eps], p| eps * p / (eps + p));
     println!("{}", softening.unwrap_err());
     Ok(())

@@ -1,8 +1,7 @@
-//! A study of one's own: a million systems on all cores.
+//! A parameter study: a million systems on all cores.
 //!
-//! The formulas are functions on plain numbers, so a loop over them is a loop over numbers, and the time goes to
-//! memory and to adding up. Where a result needs its state and its bounds, `solve` gives them, at some tens of
-//! nanoseconds each. It prints, and how long it took besides:
+//! The formulas are functions of plain numbers, so most of the time is spent on memory and summation. `solve`
+//! also returns the state and bounds, in some tens of nanoseconds per system. Prints, besides the times,
 //!
 //! ```text
 //! 1000000 contact forces: 2.4059 N on average
@@ -16,7 +15,7 @@ use std::time::Instant;
 
 const MANY: u32 = 1_000_000;
 
-/// The plane at `i` of a million heights, from where the mass hangs free to where it is well compressed.
+/// Returns the `i`-th of a million systems, from separation to strong compression.
 fn system(i: u32) -> SpringMass<f64> {
     SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.2 - f64::from(i) * 2e-7 }
 }
@@ -27,7 +26,7 @@ fn main() -> Result<(), SolveError> {
     println!("{MANY} contact forces: {:.4} N on average", forces / f64::from(MANY));
     eprintln!("in {:.0?}", start.elapsed());
 
-    // With the state decided exactly and the force enclosed: how wide is the widest bound?
+    // With the state decided exactly and the force enclosed, the widest bound is determined.
     let start = Instant::now();
     let solved = (0..MANY).into_par_iter().map(|i| {
         let solution = solve(&system(i), &Method::Lagrange)?;

@@ -1,4 +1,4 @@
-//! One system by each of the three methods, and how to read what comes back. It prints:
+//! One system by each of the three methods, with its results. Prints
 //!
 //! ```text
 //! u = 0.050000000000000 m, N = 4.81000000000000 N, at once
@@ -22,16 +22,16 @@ fn main() -> Result<(), SolveError> {
         Method::Augmented { penalty: 1e4, tolerance: 1e-12, max_augmentations: 100, start: 0.0 },
     ];
     for method in methods {
-        // An error is what the caller did wrong, and names the argument.
+        // An error names the invalid argument.
         let answer = solve(&system, &method)?;
         let how = match answer.outcome {
             Outcome::Direct => "at once".to_string(),
             Outcome::Converged => format!("after {} augmentations", answer.augmentations.unwrap_or(0)),
-            // Still an answer: see `floor` and the bounds for how good it is.
-            Outcome::Stagnated | Outcome::OutOfSteps => "not to the tolerance".to_string(),
+            // The result is still valid; `floor` and the bounds tell its accuracy.
+            Outcome::Stagnated | Outcome::IterationLimit => "not to the tolerance".to_string(),
         };
         println!("u = {:.15} m, N = {:.14} N, {how}", answer.deflection, answer.contact_force);
-        // Where the exact answer is for certain: the method's own, or the limit of an iteration.
+        // Encloses the exact solution of the method, or the limit of an iteration.
         let force = &answer.bounds.contact_force;
         println!("    N is between {} and {}", force.lower, force.upper);
         assert_eq!(answer.state, State::Contact);

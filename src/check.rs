@@ -1,4 +1,4 @@
-//! Holds a solver against the exact answer, and says what is wrong with it.
+//! Comparison of an external solver with exact solutions, and diagnosis of its mistakes.
 //!
 //! ```
 //! use spring_mass_contact::check::{Answer, Family, Reply, Verdict, check, problems};
@@ -12,169 +12,169 @@
 //! let families = report.families();
 //! let of = |family| families.iter().find(|row| row.family == family).unwrap().verdict;
 //! assert_eq!((of(Family::Contact), of(Family::Separated)), (Verdict::Right, Verdict::Wrong));
-//! assert_eq!(report.named().unwrap().name, "the plane also pulls");
+//! assert_eq!(report.identified_mistake().unwrap().name, "the plane also pulls");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod assessment;
 mod diagnosis;
-mod given;
-mod judge;
-mod missed;
 mod mistakes;
+mod observation;
 mod penalty;
 mod problems;
 #[cfg(test)]
 mod tests;
+mod threshold;
 
 use crate::chapter::{SpringMass, system};
 use crate::number::{Exact, PositivePart};
 use crate::solver::State;
-pub use diagnosis::{Answers, Diagnosis};
-use given::Given;
-pub use judge::{Judgement, Verdict};
-pub use missed::{Of, Threshold};
-use mistakes::Measured;
-pub use penalty::{Kind, Penalty};
-pub use problems::{DIGITS, Family, NoFamily, Problem, problems};
+pub use assessment::{Assessment, Verdict};
+pub use diagnosis::{Diagnosis, DiagnosisScope};
+use mistakes::PenaltyEvidence;
+use observation::Observation;
+pub use penalty::{Penalty, PenaltyScaling};
+pub use problems::{DIGITS, Family, Problem, UnknownFamily, problems};
 use std::collections::BTreeMap;
+pub use threshold::{Threshold, ThresholdQuantity};
 
-/// A number that a solver gives; `None` where it is not-a-number or infinite.
+/// A number reported by a solver; `None` if it is infinite or NaN.
 pub type Value = Option<Exact>;
 
-/// What a solver answers, in SI units.
+/// Answer of a solver, in SI units.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Answer {
     /// u, in m.
     pub deflection: Value,
     /// N, in N.
     pub contact_force: Value,
-    /// p, in m, if it says so.
+    /// Penetration p, in m, if it is reported.
     pub penetration: Option<Value>,
-    /// How it ended, in its own words.
+    /// Status reported by the solver.
     pub status: Option<String>,
-    /// What it has really taken, where that is not what it was asked for.
-    pub used: Used,
-    /// u and N of every step that led there, if it says so.
+    /// Parameters that the solver used, if they differ from those of the problem.
+    pub used: UsedParameters,
+    /// u and N of every step, if they are reported.
     pub steps: Vec<[Value; 2]>,
 }
 
 impl Answer {
-    /// u in m and N in N, and nothing else.
+    /// Returns an answer with u in m and N in N.
     pub fn new(deflection: Exact, contact_force: Exact) -> Self {
         Answer { deflection: Some(deflection), contact_force: Some(contact_force), ..Answer::default() }
     }
 }
 
-/// What a solver has taken for a parameter; `None` where it does not say.
+/// Parameters that a solver used; `None` if they are not reported.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Used {
+pub struct UsedParameters {
     /// The five parameters.
     pub system: SpringMass<Option<Value>>,
     /// ε, in N/m.
     pub penalty: Option<Value>,
 }
 
-impl Default for Used {
+impl Default for UsedParameters {
     fn default() -> Self {
-        Used { system: SpringMass { c: None, m: None, g: None, l: None, h: None }, penalty: None }
+        UsedParameters { system: SpringMass { c: None, m: None, g: None, l: None, h: None }, penalty: None }
     }
 }
 
-/// What comes of asking a solver.
+/// Reply of a solver to a problem.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reply {
-    /// Numbers.
+    /// The solver returned numbers.
     Answered(Box<Answer>),
-    /// It says that it cannot, and why.
+    /// The solver refused the problem, with a reason.
     Refused(String),
-    /// Something that is no answer to what was asked, and why.
-    Garbled(String),
-    /// It ended instead; how, and its last words.
+    /// The response is not an answer to the problem, with a reason.
+    InvalidResponse(String),
+    /// The solver terminated, with its last output.
     Crashed(String),
-    /// It was still at it when its time was up; what there was to see of it.
+    /// The solver exceeded the time limit, with its last output.
     TimedOut(String),
 }
 
-/// A problem, what came of it, and what to think of that.
+/// A problem with its reply and assessment.
 #[derive(Clone, Debug)]
-pub struct Checked {
-    /// What was asked.
+pub struct CaseResult {
+    /// The problem.
     pub problem: Problem,
-    /// What came, but for its steps.
+    /// The reply, without its steps.
     pub reply: Reply,
-    /// How far off it is.
-    pub judgement: Judgement,
+    /// The assessment of the reply.
+    pub assessment: Assessment,
 }
 
-/// What came of all problems.
+/// Results for all problems.
 #[derive(Clone, Debug)]
 pub struct Report {
-    /// In the order in which they were asked.
-    pub checked: Vec<Checked>,
-    /// Did the solver answer none of the first problems, so that the others were not asked?
+    /// Results in the order of the problems.
+    pub results: Vec<CaseResult>,
+    /// Whether the remaining problems were skipped because the solver answered none of the first ones.
     pub given_up: bool,
-    /// What the forces by their penetrations show.
+    /// Penalty parameter identified from forces and penetrations.
     pub penalty: Penalty,
-    /// What contacts that are taken for none have in common.
-    pub missed: Option<Threshold>,
-    /// What separated systems that are taken for contacts have in common.
-    pub held: Option<Threshold>,
-    /// Every known mistake that all answers fit; or else, all wrong answers. Empty if none is wrong.
+    /// Threshold below which contacts are taken for separation.
+    pub missed_contacts: Option<Threshold>,
+    /// Threshold below which separated systems are taken for contacts.
+    pub false_contacts: Option<Threshold>,
+    /// Known mistakes that explain all answers, or otherwise all wrong answers. Empty if no answer is wrong.
     pub diagnosis: Vec<Diagnosis>,
 }
 
-/// How many problems came to what.
+/// Numbers of problems by verdict.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Summary {
-    /// No further off than rounding explains.
+    /// Within the rounding error of f64.
     pub right: usize,
     /// Within the tolerance.
     pub within_tolerance: usize,
-    /// Neither.
+    /// Beyond the tolerance.
     pub wrong: usize,
-    /// Not answered, with a reason.
+    /// Refused, with a reason.
     pub refused: usize,
-    /// The solver ended.
+    /// The solver terminated.
     pub crashed: usize,
     /// The solver did not answer in time.
     pub timed_out: usize,
 }
 
-/// What came of a family.
+/// Results of a family.
 #[derive(Clone, Debug)]
 pub struct Row<'a> {
-    /// Which one.
+    /// The family.
     pub family: Family,
-    /// How many of its problems were asked.
+    /// Number of its problems.
     pub cases: usize,
     /// The worst verdict.
     pub verdict: Verdict,
-    /// How many problems have it.
+    /// Number of problems with the worst verdict.
     pub count: usize,
-    /// How many answers are right, or within the tolerance.
+    /// Number of answers that are right or within the tolerance.
     pub right: usize,
-    /// The largest error of u, in parts of |H − l| + |m g/c|; `None` if there is no number.
+    /// Largest error of u relative to |H − l| + |m g/c|; `None` without numbers.
     pub worst_deflection: Option<Exact>,
-    /// The largest error of N, in parts of |m g| + |c (H − l)|; `None` if there is no number.
+    /// Largest error of N relative to |m g| + |c (H − l)|; `None` without numbers.
     pub worst_force: Option<Exact>,
-    /// Of the problems that have the worst verdict, the one whose answer is furthest off.
-    pub worst: &'a Checked,
+    /// The result with the largest error among those with the worst verdict.
+    pub worst: &'a CaseResult,
 }
 
-/// Systems of each family by default: the least that tell all known mistakes apart with some to spare.
+/// Default number of systems in each family: sufficient to distinguish all known mistakes, with a margin.
 pub const CASES: u64 = 5;
 
-/// A solver that answers none of so many problems is not asked any more.
-const PATIENCE: usize = 3;
+/// Number of consecutive failures at the start after which the solver is no longer called.
+const MAX_INITIAL_FAILURES: usize = 3;
 
-/// Asks a solver all problems, judges its answers in rationals, and looks for what is wrong with it.
+/// Passes all problems to a solver, assesses its answers in rationals, and diagnoses its mistakes.
 ///
 /// # Errors
-/// The first that `ask` returns.
+/// Returns the first error of `ask`.
 ///
 /// # Panics
-/// A problem's c, m or ε is not greater than 0.
+/// Panics if c, m or ε of a problem is not positive.
 pub fn check<E>(
     problems: &[Problem],
     tolerance: &Exact,
@@ -184,31 +184,38 @@ pub fn check<E>(
     let mut given_up = false;
     for problem in problems {
         let mut reply = ask(problem)?;
-        let judgement = Judgement::of(problem, &reply, tolerance);
-        // They may be many, and have told what they can.
+        let judgement = Assessment::of(problem, &reply, tolerance);
+        // The steps have been assessed, and may be numerous.
         if let Reply::Answered(answer) = &mut reply {
             answer.steps = Vec::new();
         }
-        checked.push(Checked { problem: problem.clone(), reply, judgement });
-        let silent = |of: &Checked| matches!(of.reply, Reply::Crashed(_) | Reply::TimedOut(_));
+        checked.push(CaseResult { problem: problem.clone(), reply, assessment: judgement });
+        let silent = |of: &CaseResult| matches!(of.reply, Reply::Crashed(_) | Reply::TimedOut(_));
         let more = checked.len() < problems.len();
-        given_up = more && checked.len() == PATIENCE && checked.iter().all(silent);
+        given_up = more && checked.len() == MAX_INITIAL_FAILURES && checked.iter().all(silent);
         if given_up {
             break;
         }
     }
-    let answers = Vec::from_iter(checked.iter().filter_map(Given::of));
+    let answers = Vec::from_iter(checked.iter().filter_map(Observation::of));
     let by_penalty = problems.iter().any(|problem| problem.penalty.is_some());
-    let penalty = Penalty::measured(&answers, Measured::ByForce, tolerance);
-    let missed = Threshold::missed(&answers, tolerance);
-    let held = Threshold::held(&answers, tolerance);
+    let penalty = Penalty::measured(&answers, PenaltyEvidence::ByForce, tolerance);
+    let missed = Threshold::of_missed_contacts(&answers, tolerance);
+    let held = Threshold::of_false_contacts(&answers, tolerance);
     let diagnosis = diagnosis::diagnose(&answers, by_penalty, &penalty, tolerance);
-    Ok(Report { checked, given_up, penalty, missed, held, diagnosis })
+    Ok(Report {
+        results: checked,
+        given_up,
+        penalty,
+        missed_contacts: missed,
+        false_contacts: held,
+        diagnosis,
+    })
 }
 
 impl Report {
-    /// Is nothing wrong, and something of each family right? A refusal is not wrong; but of a family that is
-    /// refused altogether nothing is known.
+    /// Returns `true` if no answer is wrong and every family has a correct one. A refusal is not wrong, but a
+    /// family without answers is not known to be right.
     pub fn holds(&self) -> bool {
         let Summary { wrong, crashed, timed_out, .. } = self.summary();
         let families = self.families();
@@ -216,15 +223,15 @@ impl Report {
         known && wrong + crashed + timed_out == 0 && self.lag().is_none()
     }
 
-    /// The smallest |R| relative to |m g| + |c (H − l)| of the systems in this state that a solver which
-    /// takes them for the other state gets wrong by more than the tolerance; `None` if there are none.
+    /// Returns the smallest |R| relative to |m g| + |c (H − l)| among the systems in this state for which
+    /// confusing the state causes an error beyond the tolerance; `None` if there are none.
     pub fn least_deciding(&self, state: State, tolerance: &Exact) -> Option<Exact> {
-        let parts = self.checked.iter().filter_map(|checked| {
+        let parts = self.results.iter().filter_map(|checked| {
             let system = &checked.problem.system;
-            let exact = &checked.judgement.exact;
-            let [_, loads] = judge::scales(system);
+            let exact = &checked.assessment.exact;
+            let [_, loads] = assessment::scales(system);
             let part = system::reaction(system).abs() / &loads;
-            // By penalty the plane pushes with less.
+            // The contact force by the penalty method is smaller.
             let error =
                 if state == State::Contact { exact.contact_force.abs() / loads } else { part.clone() };
             (exact.state == state && error > *tolerance).then_some(part)
@@ -232,9 +239,9 @@ impl Report {
         parts.min()
     }
 
-    /// How many problems came to what.
+    /// Returns the numbers of problems by verdict.
     pub fn summary(&self) -> Summary {
-        let count = |verdict| self.checked.iter().filter(|of| of.judgement.verdict == verdict).count();
+        let count = |verdict| self.results.iter().filter(|of| of.assessment.verdict == verdict).count();
         Summary {
             right: count(Verdict::Right),
             within_tolerance: count(Verdict::WithinTolerance),
@@ -245,27 +252,27 @@ impl Report {
         }
     }
 
-    /// What came of each family that was asked for.
+    /// Returns the results of each family.
     pub fn families(&self) -> Vec<Row<'_>> {
-        let mut families: BTreeMap<Family, Vec<&Checked>> = BTreeMap::new();
-        for checked in &self.checked {
+        let mut families: BTreeMap<Family, Vec<&CaseResult>> = BTreeMap::new();
+        for checked in &self.results {
             families.entry(checked.problem.family).or_default().push(checked);
         }
         families.into_iter().filter_map(|(family, all)| Row::of(family, &all)).collect()
     }
 
-    /// The known mistakes that the answers fit: all of them, or all that are wrong.
+    /// Returns the known mistakes that explain all answers, or all wrong ones.
     pub fn fitting(&self) -> impl Iterator<Item = &Diagnosis> {
-        self.diagnosis.iter().filter(|diagnosis| diagnosis.answers != Answers::Steps)
+        self.diagnosis.iter().filter(|diagnosis| diagnosis.answers != DiagnosisScope::Steps)
     }
 
-    /// What the steps show, if they do.
+    /// Returns the diagnosis of the steps, if there is one.
     pub fn lag(&self) -> Option<&Diagnosis> {
-        self.diagnosis.iter().find(|diagnosis| diagnosis.answers == Answers::Steps)
+        self.diagnosis.iter().find(|diagnosis| diagnosis.answers == DiagnosisScope::Steps)
     }
 
-    /// The mistake that was made, if exactly one is known that explains the answers; or else, the steps.
-    pub fn named(&self) -> Option<&Diagnosis> {
+    /// Returns the known mistake if exactly one explains the answers, otherwise the diagnosis of the steps.
+    pub fn identified_mistake(&self) -> Option<&Diagnosis> {
         let mut fitting = self.fitting();
         match (fitting.next(), fitting.next()) {
             (None, _) => self.lag(),
@@ -276,20 +283,20 @@ impl Report {
 }
 
 impl<'a> Row<'a> {
-    fn of(family: Family, all: &[&'a Checked]) -> Option<Self> {
-        let verdict = all.iter().map(|of| of.judgement.verdict).max()?;
-        let with_it = || all.iter().filter(|of| of.judgement.verdict == verdict);
-        let worst = |error: fn(&Judgement) -> &Option<Exact>| {
-            all.iter().filter_map(|of| error(&of.judgement).clone()).max()
+    fn of(family: Family, all: &[&'a CaseResult]) -> Option<Self> {
+        let verdict = all.iter().map(|of| of.assessment.verdict).max()?;
+        let with_it = || all.iter().filter(|of| of.assessment.verdict == verdict);
+        let worst = |error: fn(&Assessment) -> &Option<Exact>| {
+            all.iter().filter_map(|of| error(&of.assessment).clone()).max()
         };
-        // `max_by` takes the last of equals.
-        let furthest = with_it().rev().max_by(|a, b| a.judgement.error().cmp(&b.judgement.error()))?;
+        // `max_by` returns the last of equal elements.
+        let furthest = with_it().rev().max_by(|a, b| a.assessment.error().cmp(&b.assessment.error()))?;
         Some(Row {
             family,
             cases: all.len(),
             verdict,
             count: with_it().count(),
-            right: all.iter().filter(|of| of.judgement.verdict <= Verdict::WithinTolerance).count(),
+            right: all.iter().filter(|of| of.assessment.verdict <= Verdict::WithinTolerance).count(),
             worst_deflection: worst(|judgement| &judgement.deflection_error),
             worst_force: worst(|judgement| &judgement.force_error),
             worst: furthest,

@@ -1,9 +1,9 @@
-//! The chapter as data: [`entries`] say what it states, and what is [claimed](claims()) of it.
+//! The chapter as data: [`entries`] contain its equations with their [claims](claims()).
 //!
-//! There is a file for each section of the chapter, with the symbols of its formulas at its head, and then
-//! its entries with their claims. A claim is made of the chapter's functions, called with [`symbols`], and
-//! so recorded once. In rationals it is checked with `==`; in balls, within the bounds they compute; for
-//! all values it is proved. What it supposes is [`given`]; a [`Case`] holds the numbers for one trial.
+//! Each section of the chapter has a file with the symbols of its formulas, followed by its entries and their
+//! claims. A claim is constructed from the chapter's functions, called with [`symbols`], and so recorded
+//! once. It is proved for all values, checked in rationals with `==`, and checked in balls within their
+//! computed bounds. Its [`hypotheses`] have names; a [`Case`] holds the numbers of one trial.
 
 mod augmented;
 mod beyond;
@@ -11,7 +11,7 @@ mod case;
 mod contact;
 mod entry;
 mod formulas;
-mod given;
+mod hypotheses;
 mod lagrange;
 mod notes;
 mod numbers;
@@ -24,32 +24,33 @@ mod system;
 pub use case::{Case, Var, symbols};
 pub use entry::Entry;
 pub use formulas::computed;
-pub use given::{Given, given};
-pub use numbers::{all_numbered, numbered};
+pub use hypotheses::{Hypotheses, hypotheses};
+pub use numbers::{find_entries, find_entry};
 
 use crate::formula::{Registry, Statement};
 use std::sync::LazyLock;
 
-/// What the files of the sections are written with.
+/// Imports of the files of the sections.
 mod prelude {
     pub(super) use super::formulas::formulas;
     pub(super) use super::rounding::eta;
-    pub(super) use super::{Case, Entry, Given, given, symbols};
-    pub(super) use crate::formula::Rate::{Exactly, Within};
+    pub(super) use super::{Case, Entry, Hypotheses, hypotheses, symbols};
+    pub(super) use crate::formula::Rate::{Equal, Within};
     use crate::formula::claim;
     pub(super) use crate::formula::claim::{
-        derivative, drift, equal, induction, limit, non_negative, positive, vanishing, within,
+        derivative, equal, geometric_limit, induction, limit, non_negative, perturbed_recursion, positive,
+        within,
     };
     pub(super) use crate::number::{Dual, Exponential, Field, PositivePart, Tree};
     use std::sync::LazyLock;
 
-    /// 2ᵖ for numbers of p bits.
+    /// Returns 2ᵖ for numbers of p bits.
     pub(super) fn precision() -> &'static Tree {
         static PRECISION: LazyLock<Tree> = LazyLock::new(|| Tree::symbol(claim::PRECISION));
         &PRECISION
     }
 
-    /// What a sequence has come to, in the step of an induction.
+    /// Returns the member of a sequence, for the step of an induction.
     pub(super) fn member() -> &'static Tree {
         static MEMBER: LazyLock<Tree> = LazyLock::new(|| Tree::symbol(claim::MEMBERS[0]));
         &MEMBER
@@ -69,19 +70,19 @@ mod prelude {
     }
 }
 
-/// The functions of the chapter as formulas.
+/// Returns the recorded functions of the chapter.
 pub fn registry() -> &'static Registry {
     static REGISTRY: LazyLock<Registry> = LazyLock::new(|| {
         let symbols: Vec<_> = Var::ALL.iter().map(|var| var.symbol()).collect();
         Registry::new(&symbols, formulas::recorded())
-            .alike(&[["c", "ε"], ["l", "H"]])
-            .quiet(&["ε"])
+            .with_confusable(&[["c", "ε"], ["l", "H"]])
+            .with_implicit(&["ε"])
             .with_factors(&["k", "q", "t", "tol", "c", "ε", "ε₄", "m", "g", "l", "H", "u", "v", "λ"])
     });
     &REGISTRY
 }
 
-/// All entries, in the chapter's order.
+/// Returns all entries in the chapter's order.
 pub fn entries() -> &'static [Entry] {
     static ENTRIES: LazyLock<Vec<Entry>> = LazyLock::new(|| {
         let sections = [
@@ -103,28 +104,30 @@ pub fn entries() -> &'static [Entry] {
     &ENTRIES
 }
 
-/// The entry of a number.
+/// Returns the entry with this equation number.
 pub fn entry(equation: &str) -> Option<&'static Entry> {
-    place(equation).map(|place| &entries()[place])
+    index_of(equation).map(|index| &entries()[index])
 }
 
-/// The entry whose own function this is, or else one that names it.
+/// Returns the entry to which this function belongs, or otherwise one that names it.
+///
+/// # Examples
 ///
 /// ```
-/// use spring_mass_contact::claims::entry_of;
-/// assert_eq!(entry_of("penalty::deflection").unwrap().equation, "1.13");
+/// use spring_mass_contact::claims::entry_for_function;
+/// assert_eq!(entry_for_function("penalty::deflection").unwrap().equation, "1.13");
 /// ```
-pub fn entry_of(function: &str) -> Option<&'static Entry> {
+pub fn entry_for_function(function: &str) -> Option<&'static Entry> {
     let own = entries().iter().find(|entry| entry.functions.first() == Some(&function));
     own.or_else(|| entries().iter().find(|entry| entry.functions.contains(&function)))
 }
 
-/// Where a number stands among the entries: what is sorted by it is in the chapter's order.
-pub fn place(equation: &str) -> Option<usize> {
+/// Returns the index of an equation number in the chapter's order.
+pub fn index_of(equation: &str) -> Option<usize> {
     entries().iter().position(|entry| entry.equation == equation)
 }
 
-/// Every claim, in the order of the entries.
+/// Returns all claims in the order of the entries.
 pub fn claims() -> impl Iterator<Item = &'static Statement> {
     entries().iter().flat_map(|entry| &entry.claims)
 }

@@ -14,19 +14,18 @@
 #![cfg_attr(
     feature = "prover",
     doc = "\
-| [`formula`] | records as data: typeset, and what is said of them | `proof`, `claims` |
-| [`proof`] | proves what is claimed of formulas, refutes what is wrong, prints both | `verify`, `contact` |
-| [`claims`](mod@claims) | the chapter as data, and what is claimed of it | `verify`, `check` |
-| [`verify`](mod@verify) | runs proofs and number systems | the command `contact` |
-| [`check`](mod@check) | holds somebody else's solver against the exact answer | the command `contact` |"
+| [`formula`] | recorded formulas as data: typesetting, hypotheses, statements | `proof`, `claims` |
+| [`proof`] | proofs and refutations of statements, in print and for Coq | `verify`, `contact` |
+| [`claims`](mod@claims) | the chapter as data: equations with claims | `verify`, `check` |
+| [`verify`](mod@verify) | proofs and checks in number systems | the command `contact` |
+| [`check`](mod@check) | comparison of an external solver with exact solutions | the command `contact` |"
 )]
+//! `number`, `chapter` and `solver` are the public API and follow semantic versioning. The feature `prover`
+//! opens the other modules, whose API may change with any minor version.
 //!
-//! The first three are what a user needs, and keep their promises by semantic versioning. The others are
-//! open with the feature `prover`, and what they open may change with any minor version.
-//!
-//! `number`, `formula` and `proof` are those of [`provable`], an engine that knows no mechanics, and serves
-//! any other formulas as well; `chapter` and `solver` are the mechanics, and know no proofs; `claims` joins
-//! them. A test holds every module to that.
+//! `number`, `formula` and `proof` are those of [`provable`], an engine that is independent of mechanics and
+//! serves other formulas as well. `chapter` and `solver` are the mechanics and do not depend on proofs;
+//! `claims` connects the two. A test checks the dependencies of every module.
 //!
 //! ```
 //! use spring_mass_contact::chapter::SpringMass;
@@ -39,25 +38,25 @@
 //! assert!(answer.bounds.contact_force.contains(&2.0)); // where the exact answer is for certain
 //! # Ok::<(), spring_mass_contact::solver::SolveError>(())
 //! ```
-//!
-//! To find an equation, say (1.16): the number opens the doc comment of its functions in [`chapter`], stands
-//! beside its statement among the entries in `claims`, and beside each of its claims. On the command line,
-//! `contact equations 1.16` names the functions and the claims, `contact prove 1.16` prints their proofs, and
-//! `contact verify 1.16` runs them.
+//! To find an equation, for example (1.16): its number begins the doc comments of its functions in
+//! [`chapter`], and names its entry and its claims in `claims`. On the command line, `contact equations 1.16`
+//! names the functions and the claims, `contact prove 1.16` prints their proofs, and `contact verify 1.16`
+//! checks them.
 //!
 //! # Features
-//!
 //! - `mpfr` (default): MPFR floats, exact rationals, and all that needs them: certificates, step counts,
-//!   advice, reading numbers. Builds GMP and MPFR from source by way of rug, which is LGPL-3.0-or-later.
+//!   advice and parsing. Builds GMP and MPFR from source through rug, which is LGPL-3.0-or-later.
 //! - `prover`: the modules `formula`, `proof`, `claims`, `verify` and `check`.
-//! - `serde`: what the solver and the runs of claims return is `serde::Serialize`, quantities as texts.
-//! - `gmp-untested` (default): leaves out GMP's and MPFR's own test suites, which take minutes.
+//! - `serde`: implements `serde::Serialize` for the results of the solver and of checks, with quantities as
+//!   texts.
+//! - `gmp-untested` (default): omits the test suites of GMP and MPFR, which take minutes.
 //!
-//! Without them f32, f64, balls, dual numbers, the chapter and the solver are there; eˣ of a float is not.
+//! f32, f64, balls, dual numbers, the chapter and the solver need none of these features; only eˣ of floats
+//! needs `mpfr`.
 //!
-//! The command `contact` is a package of its own, `spring-mass-contact-cli`.
+//! The command `contact` is a separate package, `spring-mass-contact-cli`.
 
-// The docs speak of all numbers, also of those that are not there.
+// The documentation also links to numbers that a build without `mpfr` lacks.
 #![cfg_attr(not(feature = "mpfr"), allow(rustdoc::broken_intra_doc_links))]
 
 pub mod chapter;

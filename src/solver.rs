@@ -1,4 +1,4 @@
-//! What a user calls: [`solve`] a system by a [`Method`], get a [`Solution`] with rigorous bounds.
+//! Solution of a system: [`solve`] applies a [`Method`] and returns a [`Solution`] with rigorous bounds.
 //!
 //! ```
 //! use spring_mass_contact::{chapter::SpringMass, solver::{Method, Outcome, State, solve}};
@@ -25,26 +25,28 @@ mod solution;
 
 pub use augmentation::{Augmentation, Iterate};
 pub use check::SolveError;
-pub use closed::iterate_after;
+pub use closed::kth_iterate;
 #[cfg(feature = "mpfr")]
 pub use exact::*;
-pub use functional::{Condition, FunctionalError, Lifted, penalty_for_functional, solve_functional};
+pub use functional::{Condition, DualEnclosure, FunctionalError, penalty_for_functional, solve_functional};
 pub use scalar::{Interval, Scalar};
 pub use solution::{Bounds, MAX_AUGMENTATIONS, Method, Outcome, Plane, Solution, State};
 
 use crate::chapter::{SpringMass, augmented, contact, lagrange, penalty, structure, system};
 use num_traits::One;
 
-/// Solves a system over a plane that never pulls.
+/// Solves a system with unilateral contact: the plane pushes and never pulls.
 ///
-/// Never loops for ever, and never returns a NaN or an infinity; for f32 and f64 it allocates nothing.
-/// An augmentation in rationals, which become longer with every step, ends before it would take hours: no
-/// multiplier has more than 2²² binary digits, and all of them together no more than 2²⁸.
+/// Always terminates, and never returns a NaN or an infinity; allocates nothing for f32 and f64. An
+/// augmentation in rationals, whose length grows with every step, ends before it would take hours: a
+/// multiplier has at most 2²² binary digits, and all of them together at most 2²⁸.
 ///
 /// # Errors
-/// [`SolveError::Invalid`] for a parameter that is not finite or not in its range,
-/// [`SolveError::OutOfRange`] where a result does not fit the scalar,
-/// [`SolveError::TooLong`] where an augmentation in rationals has too many digits.
+/// Returns [`SolveError::Invalid`] if a parameter is not finite or out of its range,
+/// [`SolveError::OutOfRange`] if the scalar cannot represent a result, and [`SolveError::TooLong`] if an
+/// augmentation in rationals exceeds the limit of digits.
+///
+/// # Examples
 ///
 /// ```
 /// # use spring_mass_contact::{chapter::SpringMass, solver::{Method, State, solve}};
@@ -63,10 +65,11 @@ pub fn solve<T: Scalar>(system: &SpringMass<T>, method: &Method<T>) -> Result<So
     solve_observed(system, method, Plane::Unilateral, |_| {})
 }
 
-/// Solves a system as the chapter prints it: the plane also pulls, so that R < 0 has N < 0.
+/// Solves a system with bilateral contact, as the chapter prints it: the plane also pulls, so that R < 0
+/// gives N < 0.
 ///
 /// # Errors
-/// As [`solve`].
+/// Returns the errors of [`solve`].
 pub fn solve_bilateral<T: Scalar>(
     system: &SpringMass<T>,
     method: &Method<T>,
@@ -74,11 +77,12 @@ pub fn solve_bilateral<T: Scalar>(
     solve_observed(system, method, Plane::Bilateral, |_| {})
 }
 
-/// As [`solve`] or [`solve_bilateral`], and shows every step of an augmentation to `each` as it is made: to
-/// whoever waits for a long one, or wants to keep them.
+/// Solves a system over the given plane and passes every augmentation to `each` as it is computed.
 ///
 /// # Errors
-/// As [`solve`].
+/// Returns the errors of [`solve`].
+///
+/// # Examples
 ///
 /// ```
 /// # use spring_mass_contact::{chapter::SpringMass, solver::{Method, Plane, solve_observed}};
@@ -100,10 +104,10 @@ pub fn solve_observed<T: Scalar>(
     check::products(system)?;
     let enclosed = system.map(T::enclose);
     let reaction = system::reaction(&enclosed);
-    let state = State::by(&reaction, system);
-    let target = Target::of(&enclosed, reaction, method, state, plane);
+    let state = State::from_reaction(&reaction, system);
+    let target = ExactSolution::of(&enclosed, reaction, method, state, plane);
     let bounds = target.bounds::<T>()?;
-    let finish = |found: Found<T>| {
+    let finish = |found: RawSolution<T>| {
         let solution = Solution {
             state,
             outcome: found.outcome,
@@ -115,7 +119,7 @@ pub fn solve_observed<T: Scalar>(
             floor: found.floor,
             bounds,
         };
-        check::finite(&solution)?;
+        check::require_finite(&solution)?;
         Ok(solution)
     };
     match method {
@@ -128,15 +132,15 @@ pub fn solve_observed<T: Scalar>(
             let deflection =
                 if target.free { structure::deflection(system) } else { lagrange::deflection(system) };
             let multiplier = Some(contact_force.clone());
-            finish(Found { multiplier, ..Found::directly(deflection, contact_force) })
+            finish(RawSolution { multiplier, ..RawSolution::direct(deflection, contact_force) })
         }
         Method::Penalty { penalty: eps } => finish(if target.free {
-            Found::directly(structure::deflection(system), T::zero())
+            RawSolution::direct(structure::deflection(system), T::zero())
         } else {
             let deflection = penalty::deflection(system, eps);
             let force = augmented::contact_force(system, &deflection);
             let force = if plane == Plane::Unilateral { force.positive_part() } else { force };
-            Found::directly(deflection, force)
+            RawSolution::direct(deflection, force)
         }),
         Method::Augmented { penalty: eps, tolerance, max_augmentations, start } => {
             check::stiffness(system, eps)?;
@@ -146,17 +150,18 @@ pub fn solve_observed<T: Scalar>(
     }
 }
 
-/// The exact answer, enclosed.
-struct Target<E> {
+/// Enclosures of the exact solution.
+struct ExactSolution<E> {
     deflection: E,
     penetration: E,
     contact_force: E,
-    /// Does the mass hang free of the plane?
+    /// Whether the mass is separated from a unilateral plane.
     free: bool,
 }
 
-impl<E: crate::number::PositivePart> Target<E> {
-    /// The method's own exact answer; by augmentation its limit, which is Lagrange's.
+impl<E: crate::number::PositivePart> ExactSolution<E> {
+    /// Encloses the exact solution of the method; for the augmentation its limit, which is the solution by
+    /// Lagrange multiplier.
     fn of<T: Scalar<Enclosure = E>>(
         enclosed: &SpringMass<E>,
         reaction: E,
@@ -169,63 +174,67 @@ impl<E: crate::number::PositivePart> Target<E> {
             _ if free => {
                 let deflection = structure::deflection(enclosed);
                 let penetration = contact::penetration(enclosed, &deflection);
-                Target { deflection, penetration, contact_force: E::zero(), free }
+                ExactSolution { deflection, penetration, contact_force: E::zero(), free }
             }
             Method::Penalty { penalty: eps } => {
                 let eps = eps.enclose();
-                Target {
+                ExactSolution {
                     deflection: penalty::deflection(enclosed, &eps),
                     penetration: penalty::penetration(enclosed, &eps),
                     contact_force: force_at_root::<T>(enclosed, reaction, &eps),
                     free,
                 }
             }
-            Method::Lagrange | Method::Augmented { .. } => Target {
+            Method::Lagrange | Method::Augmented { .. } => ExactSolution {
                 deflection: lagrange::deflection(enclosed),
                 penetration: E::zero(),
-                // λ = R: what `lagrange::multiplier` would compute again.
+                // λ = R, which `lagrange::multiplier` would compute again.
                 contact_force: if state == State::Grazing { E::zero() } else { reaction },
                 free,
             },
         }
     }
 
-    /// u − u*, in contact by the penetration of u, which is formed without a detour.
+    /// Returns an enclosure of u − u*; in contact it is the penetration of u, which avoids cancellation.
     fn error(&self, enclosed: &SpringMass<E>, u: &E) -> E {
         if self.free { u - &self.deflection } else { contact::penetration(enclosed, u) }
     }
 
     fn bounds<T: Scalar<Enclosure = E>>(&self) -> Result<Bounds<T>, SolveError> {
         Ok(Bounds {
-            deflection: bounded(&self.deflection, "deflection")?,
-            penetration: bounded(&self.penetration, "penetration")?,
-            contact_force: bounded(&self.contact_force, "contact force")?,
+            deflection: to_interval(&self.deflection, "deflection")?,
+            penetration: to_interval(&self.penetration, "penetration")?,
+            contact_force: to_interval(&self.contact_force, "contact force")?,
         })
     }
 }
 
-/// ε R / (c + ε), enclosed; where ε R overflows, as that of a reaction of 1 N, times R.
+/// Encloses ε R / (c + ε). If ε R overflows, multiplies the result for a reaction of 1 N by R.
 fn force_at_root<T: Scalar>(
     enclosed: &SpringMass<T::Enclosure>,
     reaction: T::Enclosure,
     eps: &T::Enclosure,
 ) -> T::Enclosure {
-    let force = penalty::force_at_root(enclosed, eps);
+    let force = penalty::contact_force_at_equilibrium(enclosed, eps);
     if T::magnitude(&force).is_finite() {
         return force;
     }
-    penalty::force_at_root(&root::weighed(enclosed.c.clone(), T::Enclosure::one()), eps) * reaction
+    penalty::contact_force_at_equilibrium(&root::reduced_system(enclosed.c.clone(), T::Enclosure::one()), eps)
+        * reaction
 }
 
-/// Its ends, if the scalar has them.
-fn bounded<T: Scalar>(enclosure: &T::Enclosure, quantity: &'static str) -> Result<Interval<T>, SolveError> {
+/// Returns the bounds of the enclosure, or an error if the scalar cannot represent them.
+fn to_interval<T: Scalar>(
+    enclosure: &T::Enclosure,
+    quantity: &'static str,
+) -> Result<Interval<T>, SolveError> {
     let interval = T::interval(enclosure);
     let finite = interval.lower.is_finite() && interval.upper.is_finite();
     if finite { Ok(interval) } else { Err(SolveError::OutOfRange { quantity }) }
 }
 
-/// What a method comes up with, before it is checked.
-struct Found<T> {
+/// Result of a method before it is checked.
+struct RawSolution<T> {
     outcome: Outcome,
     deflection: T,
     contact_force: T,
@@ -234,9 +243,9 @@ struct Found<T> {
     floor: Option<T>,
 }
 
-impl<T> Found<T> {
-    fn directly(deflection: T, contact_force: T) -> Self {
-        Found {
+impl<T> RawSolution<T> {
+    fn direct(deflection: T, contact_force: T) -> Self {
+        RawSolution {
             outcome: Outcome::Direct,
             deflection,
             contact_force,
@@ -247,7 +256,7 @@ impl<T> Found<T> {
     }
 }
 
-/// More binary digits of one multiplier, or of those of all steps, take a computer minutes.
+/// Limits of binary digits, for one multiplier and for all steps together; beyond them a step takes minutes.
 const LONGEST: u64 = 1 << 22;
 const MOST_DIGITS: u64 = 1 << 28;
 
@@ -255,14 +264,14 @@ fn iterate<T: Scalar>(
     mut steps: Augmentation<T>,
     system: &SpringMass<T>,
     enclosed: &SpringMass<T::Enclosure>,
-    target: &Target<T::Enclosure>,
+    target: &ExactSolution<T::Enclosure>,
     tolerance: &T,
     max_augmentations: u64,
     mut each: impl FnMut(&Iterate<T>),
-) -> Result<Found<T>, SolveError> {
+) -> Result<RawSolution<T>, SolveError> {
     let eps = steps.penalty().enclose();
     let free = target.free.then(|| structure::deflection(system));
-    // How far is a deflection from the answer, the rounding of this question included?
+    // The bound includes the rounding error of the difference itself.
     let bound = |u: &T| T::magnitude(&target.error(enclosed, &u.enclose()));
     let mut previous: Option<T> = None;
     let mut floor: Option<T> = None;
@@ -280,7 +289,7 @@ fn iterate<T: Scalar>(
         check::in_range(step.deflection.is_finite(), "deflection")?;
         check::in_range(steps.multiplier().is_finite(), "multiplier")?;
         each(&step);
-        // A posteriori. No bound is below what is computed of the error without one.
+        // An a posteriori test; the error computed without a bound is never larger than its bound.
         let within = match &free {
             Some(free) => augmented::within_tolerance(&(&step.deflection - free), tolerance),
             None => augmented::within_tolerance(&step.penetration, tolerance),
@@ -294,7 +303,7 @@ fn iterate<T: Scalar>(
             T::magnitude(&residual) < *tolerance
         };
         let converged = within && bound(&step.deflection) < *tolerance && residual_within();
-        // Where λ < 0 the unilateral iterate has not begun to approach, and p = 0 means nothing.
+        // While λ < 0 the unilateral iterate does not approach the solution yet, and p = 0 has no meaning.
         let approaching = steps.plane() == Plane::Bilateral || step.multiplier >= T::zero();
         let sign = step.penetration.partial_cmp(&T::zero());
         let crossed = approaching && (step.penetration.is_zero() || *side.get_or_insert(sign) != sign);
@@ -303,22 +312,23 @@ fn iterate<T: Scalar>(
         } else if crossed || *steps.multiplier() == step.multiplier {
             Outcome::Stagnated
         } else if step.k >= max_augmentations {
-            Outcome::OutOfSteps
+            Outcome::IterationLimit
         } else {
             if !approaching {
                 floor = Some(bound(&step.deflection));
             }
-            // The last two deflections are kept, all else is computed over.
+            // Only the last two deflections are kept; all other memory is reused.
             let spare = previous.replace(step.deflection).unwrap_or_else(T::zero);
             steps.reuse(Iterate { deflection: spare, ..step });
             continue;
         };
         let floor = (outcome == Outcome::Stagnated).then(|| {
-            // What is computed of the error falls once it approaches, unless the last step crossed over.
+            // The computed error decreases while the iterate approaches, unless the last step crossed the
+            // solution.
             let earlier = previous.as_ref().map(&bound).into_iter().chain(floor);
             earlier.fold(bound(&step.deflection), |least, bound| least.min(&bound))
         });
-        return Ok(Found {
+        return Ok(RawSolution {
             outcome,
             deflection: step.deflection,
             contact_force: step.contact_force,
@@ -329,13 +339,16 @@ fn iterate<T: Scalar>(
     }
 }
 
-/// Remark 1.3.2 as a user asks it: the least penalty, in N/m, whose penetration is at most `tolerance`
-/// in m; `None` if every ε > 0 has that (the mass hangs free, or the spring alone is stiff enough).
+/// Returns the smallest penalty ε, in N/m, whose penetration is at most `tolerance`, in m (remark 1.3.2).
+/// Returns `None` if every ε > 0 satisfies this, because the mass is separated or the spring alone is stiff
+/// enough.
 ///
-/// In floats it is rounded like any formula; read [`penalty::penalty_for`] in balls for its bound.
+/// In floats the result is rounded; evaluate [`penalty::penalty_for`] in balls for a bound.
 ///
 /// # Errors
-/// A parameter is invalid, or the penalty leaves the range.
+/// Returns an error if a parameter is invalid or the penalty leaves the range of the scalar.
+///
+/// # Examples
 ///
 /// ```
 /// # use spring_mass_contact::{chapter::SpringMass, solver::penalty_for_penetration};

@@ -1,4 +1,4 @@
-//! Proves the claims, runs them in the number systems, and reports.
+//! Proofs and checks of the claims in number systems, with reports.
 //!
 //! ```
 //! use spring_mass_contact::verify::{Options, Status, verify};
@@ -11,48 +11,48 @@
 //! ```
 
 mod cases;
+mod catch_panic;
 mod checker;
 mod coq;
 mod experiments;
 mod goals;
-mod guard;
 pub mod proofs;
 mod reproduction;
 mod suspects;
 #[cfg(test)]
 mod tests;
 
-use crate::claims::{Case, Var, claims, place, registry, statements};
+use crate::claims::{Case, Var, claims, index_of, registry, statements};
 use crate::formula::{Hypothesis, Statement};
 use crate::number::{Exact, Mpfr, NumberSystem};
 use crate::proof::Counterexample;
-use crate::proof::controls::{Change, repairs};
+use crate::proof::mutation::{Mutant, find_repairs};
 use crate::proof::refute::Point;
-use checker::{Checker, Checks, Exactly, Floats, Tally};
+use catch_panic::catch_panic;
+use checker::{Checker, ErasedChecker, FloatDomain, RationalDomain, Tally};
 pub use coq::coq;
 pub use experiments::{Experiment, Trial, exact_experiments, float_experiments};
-use guard::guarded;
-use proofs::{Answer, Proved};
+use proofs::{ProofAttempt, ProofOutcome};
 use rayon::prelude::*;
 pub use reproduction::reproduction;
 use std::fmt;
 use std::sync::atomic::{AtomicUsize, Ordering};
 pub use suspects::Suspect;
 
-/// What to verify.
+/// Options of a verification.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// In which number systems.
+    /// Number systems.
     pub scalars: Vec<NumberSystem>,
-    /// How many cases a claim is tried on; at least 1.
+    /// Number of cases for each claim, at least 1.
     pub cases: u64,
-    /// Where the cases are drawn from.
+    /// Seed of the cases.
     pub seed: u64,
-    /// Only these entries; all if empty.
+    /// Entries to verify; all if empty.
     pub equations: Vec<String>,
 }
 
-/// f32, f64, 256 bits and rationals; 1000 cases from seed 1; everything.
+/// f32, f64, 256 bits and rationals; 1000 cases from seed 1; all entries.
 impl Default for Options {
     fn default() -> Self {
         let scalars =
@@ -61,36 +61,36 @@ impl Default for Options {
     }
 }
 
-/// What was found.
+/// Results of a verification.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
-    /// A row a claim and what it was tried by, in the chapter's order: its proof first, then number systems.
+    /// One row for each claim and number system, in the chapter's order; the proof of a claim comes first.
     pub rows: Vec<Row>,
-    /// Where to look first if some claim is not proved: the functions that these claims have in common.
+    /// Functions of the chapter that are most likely wrong, if a claim is not proved.
     pub suspects: Vec<Suspect>,
-    /// Each of these changes of the chapter would make every claim provable that is not.
-    pub repairs: Vec<Change>,
-    /// The functions of the chapter that all claims that are not proved depend on.
+    /// Mutants of the chapter, each of which would make all unproved claims provable.
+    pub repairs: Vec<Mutant>,
+    /// Functions of the chapter on which all unproved claims depend.
     pub shared: Vec<&'static str>,
 }
 
 impl Report {
-    /// Does every claim hold, as far as it is decided? Not if there is none: then nothing was tried.
+    /// Returns `true` if no claim failed, and there is at least one row.
     pub fn holds(&self) -> bool {
         !self.rows.is_empty() && self.rows.iter().all(|row| row.status != Status::Failed)
     }
 
-    /// Is every claim decided in every number system that it was tried in? Not if there is none.
+    /// Returns `true` if every claim is decided in each number system, and there is at least one row.
     pub fn is_decided(&self) -> bool {
         !self.rows.is_empty() && self.rows.iter().all(|row| row.status != Status::Undecided)
     }
 
-    /// The rows of each equation.
+    /// Returns the rows of each equation.
     pub fn by_equation(&self) -> impl Iterator<Item = &[Row]> {
         self.rows.chunk_by(|a, b| a.equation == b.equation)
     }
 
-    /// The summary.
+    /// Returns the summary.
     pub fn summary(&self) -> Summary {
         let count = |status| self.rows.iter().filter(|row| row.status == status).count();
         Summary {
@@ -103,23 +103,23 @@ impl Report {
     }
 }
 
-/// How many rows came out how.
+/// Numbers of rows by status.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Summary {
-    /// All of them.
+    /// All rows.
     pub claims: usize,
-    /// Proved.
+    /// Proved claims.
     pub proved: usize,
-    /// Held in a number system.
+    /// Claims that hold in a number system.
     pub held: usize,
-    /// Decided by no case.
+    /// Claims without a decided case.
     pub undecided: usize,
-    /// Not proved, or wrong in some case.
+    /// Claims that are not proved, or wrong in a case.
     pub failed: usize,
 }
 
-/// As JSON has it: the summary, where to look, and the rows of each equation.
+/// Serialises the summary, the suspects, and the rows of each equation.
 #[cfg(feature = "serde")]
 impl serde::Serialize for Report {
     fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
@@ -140,20 +140,20 @@ impl serde::Serialize for Report {
     }
 }
 
-/// Whether a claim holds.
+/// Status of a claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// For all values of its quantities.
+    /// Proved for all values of its quantities.
     Proved,
-    /// In every case that could be decided, and there was one.
+    /// True in every decided case, of which there is at least one.
     Held,
-    /// Nothing is known: no case could be decided. More cases may help, or more digits.
+    /// No case could be decided. More cases or a higher precision may help.
     Undecided,
-    /// Not in some case; or there is no proof.
+    /// Wrong in a case, or not proved.
     Failed,
 }
 
-/// As JSON and Markdown have it.
+/// Writes the name used in JSON and Markdown.
 impl fmt::Display for Status {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.pad(match self {
@@ -168,38 +168,38 @@ impl fmt::Display for Status {
 #[cfg(feature = "serde")]
 crate::number::serialize_as_displayed!(Status);
 
-/// One claim, proved or in one number system.
+/// Result for one claim: its proof, or its cases in one number system.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Row {
     /// The entry.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub equation: &'static str,
-    /// The claim's name.
+    /// Name of the claim.
     pub claim: &'static str,
     /// Its kind.
     pub kind: &'static str,
-    /// What came of it.
+    /// Status.
     pub status: Status,
-    /// The number system; none for the proof.
+    /// Number system; `None` for a proof.
     pub scalar: Option<NumberSystem>,
-    /// Why there is no proof; or why the claim broke off in its counterexample, as where that divides by
+    /// Reason why there is no proof, or why evaluating the counterexample failed, for example by division by
     /// zero.
     pub why: Option<String>,
-    /// Cases that were decided.
+    /// Number of decided cases.
     pub decided: u64,
-    /// Cases that could not be: a sign lost in rounding, or numbers out of the scalar's range.
+    /// Number of undecided cases: a sign is lost in rounding, or a number is out of range.
     pub undecided: u64,
-    /// The largest |left − right|/bound, and that case's bound; none where nothing is measured.
+    /// Largest ratio |left − right|/bound, with its bound; `None` if nothing is measured.
     #[cfg_attr(feature = "serde", serde(flatten, serialize_with = "serialize::worst"))]
     pub worst: Option<(f64, String)>,
-    /// A case in which the claim does not hold.
+    /// Case in which the claim does not hold.
     #[cfg_attr(feature = "serde", serde(serialize_with = "serialize::coordinates"))]
     pub counterexample: Option<Case<Exact>>,
 }
 
 impl Row {
-    /// Its counterexample, as far as the claim speaks of it; all of it of what only computed numbers have.
+    /// Returns the counterexample with the quantities of the claim only; with all of them for an experiment.
     pub fn point(&self) -> Option<Point> {
         let case = self.counterexample.as_ref()?;
         let claim = claims().find(|claim| (claim.equation(), claim.name()) == (self.equation, self.claim));
@@ -209,11 +209,11 @@ impl Row {
     }
 }
 
-/// What of a row is no plain value.
+/// Serialisation of fields without a direct representation.
 #[cfg(feature = "serde")]
 mod serialize {
     use crate::claims::{Case, Var};
-    use crate::number::{Exact, Text};
+    use crate::number::{Exact, ExactText};
     use serde::ser::{Serialize, SerializeStruct, Serializer};
     use std::collections::BTreeMap;
 
@@ -232,24 +232,25 @@ mod serialize {
     }
 }
 
-/// As many cases are drawn and checked at a time.
+/// Number of cases sampled and checked at a time.
 const BLOCK: u64 = 50;
 
-/// And as many blocks are under way at a time.
+/// Number of blocks processed at a time.
 const WINDOW: usize = 100;
 
-/// Tries every claim, in parallel; `progress` is told how many of how many pieces of work are done.
+/// Proves and checks every claim, in parallel. `progress` receives the numbers of finished and of all pieces
+/// of work.
 ///
-/// It ends and returns whatever the formulas are: a claim that is not defined somewhere, or breaks off,
-/// does not hold there.
+/// Always returns, even for wrong formulas: a claim that is undefined, or whose evaluation panics, does not
+/// hold.
 pub fn verify(options: &Options, progress: &(dyn Fn(usize, usize) + Sync)) -> Report {
     let checkers: Vec<_> = options.scalars.iter().map(|scalar| (*scalar, checks(*scalar))).collect();
     run(&checkers, statements(), options, progress)
 }
 
-/// The claims in some number systems, and the statements to be proved.
+/// Runs the checkers, and proves the statements.
 fn run(
-    checkers: &[(NumberSystem, Box<dyn Checks>)],
+    checkers: &[(NumberSystem, Box<dyn ErasedChecker>)],
     statements: Vec<Statement>,
     options: &Options,
     progress: &(dyn Fn(usize, usize) + Sync),
@@ -258,7 +259,7 @@ fn run(
         |equation: &str| options.equations.is_empty() || options.equations.iter().any(|e| e == equation);
     let statements: Vec<_> =
         statements.into_iter().filter(|statement| wanted(statement.equation())).collect();
-    // Some proofs take long: meanwhile cases are tried.
+    // Cases are checked while long proofs run.
     let proofs = || statements.par_iter().map(proof).collect();
     let (mut rows, tallies): (Vec<Row>, _) =
         rayon::join(proofs, || tallies(checkers, options, &wanted, progress));
@@ -267,9 +268,12 @@ fn run(
     let is_unproved = |s: &Statement| unproved.contains(&(s.equation(), s.name()));
     let suspects = suspects::suspects(&statements, &is_unproved);
     let shared = suspects::shared(&statements, &is_unproved);
-    // To look for repairs all is proved once more.
-    let repairs =
-        if unproved.is_empty() { Ok(Vec::new()) } else { guarded(|| repairs(&statements, registry())) };
+    // The search for repairs proves everything again.
+    let repairs = if unproved.is_empty() {
+        Ok(Vec::new())
+    } else {
+        catch_panic(|| find_repairs(&statements, registry()))
+    };
     let repairs = repairs.unwrap_or_default();
     for ((scalar, checker), tallies) in checkers.iter().zip(tallies) {
         for (head, tally) in checker.heads().into_iter().zip(tallies) {
@@ -278,8 +282,8 @@ fn run(
             }
         }
     }
-    rows.sort_by_key(|row| place(row.equation));
-    // Within an equation all rows of a claim stand together.
+    rows.sort_by_key(|row| index_of(row.equation));
+    // All rows of a claim are adjacent.
     let mut sorted: Vec<Row> = Vec::with_capacity(rows.len());
     for row in rows {
         let same = |r: &Row| r.equation == row.equation && r.claim == row.claim;
@@ -289,9 +293,9 @@ fn run(
     Report { rows: sorted, suspects, repairs, shared }
 }
 
-/// What comes of the wanted claims in numbers: for each number system, a tally for each of its heads.
+/// Returns for each number system a tally for each of its claims.
 fn tallies(
-    checkers: &[(NumberSystem, Box<dyn Checks>)],
+    checkers: &[(NumberSystem, Box<dyn ErasedChecker>)],
     options: &Options,
     wanted: &(dyn Fn(&str) -> bool + Sync),
     progress: &(dyn Fn(usize, usize) + Sync),
@@ -308,7 +312,7 @@ fn tallies(
     let (done, all) = (AtomicUsize::new(0), blocks as usize * groups.len());
     let mut totals: Vec<Vec<Tally>> =
         checkers.iter().map(|(_, c)| c.heads().iter().map(|_| Tally::default()).collect()).collect();
-    // Some blocks at a time, so that any number of cases takes the same memory.
+    // Blocks are processed in windows, so that memory does not grow with the number of cases.
     for window in (0..blocks).step_by(WINDOW) {
         let window = window..blocks.min(window + WINDOW as u64);
         let jobs: Vec<(u64, &Vec<Hypothesis>)> =
@@ -318,7 +322,7 @@ fn tallies(
             .par_iter()
             .map(|(block, given)| {
                 let indices = block * BLOCK..(block * BLOCK).saturating_add(BLOCK).min(options.cases);
-                let cases: Vec<_> = indices.map(|i| drawn(options.seed, i, given)).collect();
+                let cases: Vec<_> = indices.map(|i| sample_case(options.seed, i, given)).collect();
                 let tallies =
                     checkers.iter().map(|(_, checker)| checker.check(given, wanted, &cases)).collect();
                 progress(done.fetch_add(1, Ordering::Relaxed) + 1, all);
@@ -336,16 +340,16 @@ fn tallies(
     totals
 }
 
-/// A case, if there is one: hypotheses are made of formulas, too.
-fn drawn(seed: u64, index: u64, given: &[Hypothesis]) -> Option<Case<Exact>> {
-    guarded(|| cases::case(seed, index, given)).ok().flatten()
+/// Returns a case, or `None` if evaluating a hypothesis panics.
+fn sample_case(seed: u64, index: u64, given: &[Hypothesis]) -> Option<Case<Exact>> {
+    catch_panic(|| cases::case(seed, index, given)).ok().flatten()
 }
 
-/// The row of a proof.
+/// Returns the row of a proof.
 fn proof(statement: &Statement) -> Row {
-    let (why, counterexample) = match Proved::of(statement.clone()).answer {
-        Answer::Proof(_) => (None, None),
-        Answer::None(why, counterexample) => (Some(why), counterexample),
+    let (why, counterexample) = match ProofAttempt::of(statement.clone()).answer {
+        ProofOutcome::Proof(_) => (None, None),
+        ProofOutcome::None(why, counterexample) => (Some(why), counterexample),
     };
     Row {
         equation: statement.equation(),
@@ -361,21 +365,21 @@ fn proof(statement: &Statement) -> Row {
     }
 }
 
-/// The case of a counterexample, with 1 for what it says nothing of.
+/// Returns the case of a counterexample, with 1 for quantities that it does not contain.
 fn case_of(counterexample: &Counterexample) -> Case<Exact> {
     Case::of(|var| counterexample.point.at(var.symbol()))
 }
 
-fn checks(scalar: NumberSystem) -> Box<dyn Checks> {
+fn checks(scalar: NumberSystem) -> Box<dyn ErasedChecker> {
     match scalar {
-        NumberSystem::F32 => Box::new(Checker::new(Floats(0.0f32), claims())),
-        NumberSystem::F64 => Box::new(Checker::new(Floats(0.0f64), claims())),
-        NumberSystem::Mpfr(bits) => Box::new(Checker::new(Floats(Mpfr::rounded(bits, 0)), claims())),
-        NumberSystem::Exact => Box::new(Checker::new(Exactly, claims())),
+        NumberSystem::F32 => Box::new(Checker::new(FloatDomain(0.0f32), claims())),
+        NumberSystem::F64 => Box::new(Checker::new(FloatDomain(0.0f64), claims())),
+        NumberSystem::Mpfr(bits) => Box::new(Checker::new(FloatDomain(Mpfr::rounded(bits, 0)), claims())),
+        NumberSystem::Exact => Box::new(Checker::new(RationalDomain, claims())),
     }
 }
 
-/// Returns the names of an entry's claims, in whatever number system they are checked.
+/// Returns the names of an entry's claims in all number systems.
 pub fn claim_names(equation: &str) -> Vec<&'static str> {
     let recorded = claims().filter(|c| !c.contains_rounding()).map(|c| (c.equation(), c.name()));
     let floats = float_experiments::<f64>().into_iter().map(|e| (e.equation, e.name));

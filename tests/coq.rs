@@ -1,4 +1,4 @@
-//! The chapter in Coq: what is written, and, where Coq is installed, that it accepts it.
+//! The chapter in Coq: the exported text, and, if Coq is installed, its acceptance.
 
 #![cfg(feature = "prover")]
 
@@ -19,7 +19,7 @@ use spring_mass_contact::formula::statement::{
     Computed, Goal, Proposition, Role, Sequence, Statement, minimum_precision,
 };
 use spring_mass_contact::formula::{Hypothesis, Relation};
-use spring_mass_contact::number::tree::Step;
+use spring_mass_contact::number::tree::Op;
 use spring_mass_contact::number::{Field, PositivePart, Tree};
 use spring_mass_contact::proof::coq::{File, theorem_name};
 use spring_mass_contact::verify::coq;
@@ -31,7 +31,7 @@ use std::path::Path;
 fn every_claim_is_a_theorem() {
     let files = coq().files();
     let theorems: Vec<_> = of_claims(&files).flat_map(|file| named(&file.text, "Theorem")).collect();
-    assert!(coq().left_out().is_empty(), "{:?}", coq().left_out());
+    assert!(coq().omitted().is_empty(), "{:?}", coq().omitted());
     let statements = claims::statements();
     for statement in &statements {
         let name = theorem_name(statement.equation(), statement.name());
@@ -45,7 +45,7 @@ fn every_claim_is_a_theorem() {
     }
 }
 
-/// What is proved and is not asked about could rest on anything.
+/// A theorem whose axioms are not printed could rest on anything.
 #[test]
 fn of_all_that_is_proved_it_is_asked_what_it_rests_on() {
     let files = coq().files();
@@ -69,7 +69,7 @@ fn of_all_that_is_proved_it_is_asked_what_it_rests_on() {
     assert_eq!(words(asked).map(String::from).collect::<BTreeSet<_>>(), all);
 }
 
-/// Coq divides by 0 without complaint, so a formula with a divisor needs more than its theorem.
+/// Coq defines division by 0, so a formula with a divisor needs more than its theorem.
 #[test]
 fn every_divisor_is_said_not_to_be_0() {
     let (_, functions) = printed();
@@ -78,7 +78,7 @@ fn every_divisor_is_said_not_to_be_0() {
         let mut divisors = Vec::new();
         for tree in statement.trees() {
             tree.visit(&mut |tree| {
-                if let Step::Div(_, by) = tree.step()
+                if let Op::Div(_, by) = tree.op()
                     && !by.symbols().is_empty()
                 {
                     divisors.push(by.clone());
@@ -92,7 +92,7 @@ fn every_divisor_is_said_not_to_be_0() {
             continue;
         };
         given.retain(|said| !matches!(said, Said::PowerOfTwo(..)));
-        // Of the members of what is rounded nothing is needed.
+        // Members of rounded sequences need nothing.
         let invariants = statement.invariants().iter().filter(|_| !statement.contains_rounding());
         let own = statement.hypotheses().iter().chain(invariants);
         assert!(all_supposed_as(own, &given), "{name} supposes something else");
@@ -115,7 +115,7 @@ fn every_function_is_a_definition() {
     assert!(text.contains("eps * system_reaction c m g l h / penalty_total_stiffness c eps."));
 }
 
-/// A definition that no theorem speaks of could be any other.
+/// A definition without a theorem could be any other.
 #[test]
 fn every_definition_is_named_by_a_theorem() {
     let files = coq().files();
@@ -130,20 +130,20 @@ fn definitions_text() -> String {
     coq().files().into_iter().find(|file| file.name == DEFINITIONS).unwrap().text
 }
 
-/// The functions as they are printed.
+/// Returns the printed functions.
 fn printed() -> (Vec<Definition>, Functions) {
     let definitions = Definition::all(&definitions_text());
     let functions = functions(&definitions);
     (definitions, functions)
 }
 
-/// One definition in place of another of the same name.
+/// Returns the definitions with one replaced.
 fn with(definitions: &[Definition], other: Definition) -> Vec<Definition> {
     let choose = |own: &Definition| if own.name == other.name { other.clone() } else { own.clone() };
     definitions.iter().map(choose).collect()
 }
 
-/// A formula in the letters that Coq takes.
+/// Returns a formula with Coq's letters.
 fn in_letters(tree: &Tree) -> Tree {
     const LETTERS: [(&str, &str); 12] = [
         ("H", "h"),
@@ -159,21 +159,21 @@ fn in_letters(tree: &Tree) -> Tree {
         ("2ᵇ", "two_b"),
         ("2ᶠ", "two_f"),
     ];
-    tree.rewrite(&|tree| match tree.step() {
-        Step::Symbol(name) => LETTERS.iter().find(|(own, _)| own == name).map(|(_, new)| Tree::symbol(new)),
+    tree.rewrite(&|tree| match tree.op() {
+        Op::Symbol(name) => LETTERS.iter().find(|(own, _)| own == name).map(|(_, new)| Tree::symbol(new)),
         _ => None,
     })
 }
 
-/// Are they the same, step by step, or, since what differentiation leaves is printed without its zeros and ones, in
-/// their values?
+/// Returns `true` if two formulas agree in their operations, or, since derivatives are printed without zeros
+/// and ones, in their values.
 fn same(a: &Tree, b: &Tree) -> bool {
     let values = |tree| (0..TRIALS).map(|i| value(tree, &|name| drawn(name, i))).collect::<Vec<_>>();
     let agree = |a: Vec<_>, b| a == b && a.iter().any(Option::is_some);
     a == b || agree(values(a), values(b))
 }
 
-/// What is printed is read here by another hand.
+/// An independent reader parses the printed text.
 #[test]
 fn every_definition_computes_what_its_function_does() {
     let (_, functions) = printed();
@@ -185,15 +185,15 @@ fn every_definition_computes_what_its_function_does() {
         let own: Vec<_> = own.filter(|name| symbols.contains(name)).collect();
         assert_eq!(own.len(), arguments.len(), "{name}");
         let place = |name| own.iter().position(|known| *known == name);
-        let renamed = formula.tree.rewrite(&|tree| match tree.step() {
-            Step::Symbol(name) => place(*name).map(|place| Tree::symbol(arguments[place])),
+        let renamed = formula.tree.rewrite(&|tree| match tree.op() {
+            Op::Symbol(name) => place(*name).map(|place| Tree::symbol(arguments[place])),
             _ => None,
         });
         assert!(same(&renamed, printed), "{name}");
     }
 }
 
-/// Is a formula the same as one that is printed?
+/// Returns `true` if a formula equals a printed one.
 fn printed_as(own: &Tree, printed: &Tree) -> bool {
     same(&in_letters(own), printed)
 }
@@ -222,7 +222,7 @@ fn said_as(own: &Proposition, printed: &Said) -> bool {
     }
 }
 
-/// Of which powers of two a theorem speaks, by the names of their exponents: the precision first.
+/// Returns the powers of two in a theorem with the names of their exponents, the precision first.
 fn powers_of_two(statement: &Statement) -> Vec<(&'static str, &'static str)> {
     const NAMES: [(&str, &str, &str); 4] = [
         (PRECISION, "two_p", "prec"),
@@ -236,27 +236,28 @@ fn powers_of_two(statement: &Statement) -> Vec<(&'static str, &'static str)> {
     own.map(|(_, power, of)| (power, of)).collect()
 }
 
-/// What a claim supposes, in its order; where it rounds, what stands for powers of two before it.
+/// Returns `true` if the premises are those of the claim in the same order, preceded by those on powers of
+/// two if it contains roundings.
 fn supposes_the_same(statement: &Statement, given: &[Said]) -> bool {
     let powers = powers_of_two(statement);
     let (first, rest) = given.split_at(powers.len().min(given.len()));
     let is_power =
         |(own, said): (&(&str, &str), &Said)| matches!(said, Said::PowerOfTwo(x, of) if (*x, *of) == *own);
-    // A limit supposes nothing of what tends to infinity.
+    // A limit has no premises on its variable.
     let grows =
         |name: &str| matches!(statement.goals()[0].proposition, Proposition::Limit(_, by, _) if by == name);
     let own = statement.hypotheses().iter().filter(|own| !own.value.symbols().into_iter().any(grows));
     first.len() == powers.len() && powers.iter().zip(first).all(is_power) && all_supposed_as(own, rest)
 }
 
-/// That numbers have two bits is said of their exponent.
+/// The minimum precision is a premise on the exponent.
 fn all_supposed_as<'a>(own: impl Iterator<Item = &'a Hypothesis>, printed: &[Said]) -> bool {
     let own: Vec<_> = own.filter(|own| **own != minimum_precision()).collect();
     own.len() == printed.len()
         && own.iter().zip(printed).all(|(own, said)| sign_printed_as(own.relation, &own.value, said))
 }
 
-/// A sequence of which a closed form is said, or what it stays near.
+/// Returns `true` if the statement is about the same sequence.
 fn is_the_same_sequence(
     own: &Sequence,
     computed: &[Computed],
@@ -274,7 +275,7 @@ fn is_the_same_sequence(
         within => within.iter().map(is_near).collect(),
     };
     let is_computed = |(own, (name, by)): (&Computed, &(&'static str, Tree))| {
-        printed_as(&Tree::symbol(own.symbol), &Tree::symbol(name)) && printed_as(&own.by, by)
+        printed_as(&Tree::symbol(own.symbol), &Tree::symbol(name)) && printed_as(&own.formula, by)
     };
     let names: Vec<_> = printed.members.iter().map(|name| Tree::symbol(name)).collect();
     computed.len() == printed.computed.len()
@@ -290,7 +291,7 @@ fn all_said_as(own: &[Proposition], said: &[Said]) -> bool {
     own.len() == said.len() && own.iter().zip(said).all(|(own, said)| said_as(own, said))
 }
 
-/// What a claim says, and nothing else; of what is computed, where it is computed.
+/// Returns `true` if the conclusion is that of the claim, with computed quantities where they are computed.
 fn says_the_same(statement: &Statement, Read { follows, of, .. }: &Read) -> bool {
     let computed = statement.computed();
     match (statement.conclusion(), of, &follows[..]) {
@@ -301,7 +302,7 @@ fn says_the_same(statement: &Statement, Read { follows, of, .. }: &Read) -> bool
         }
         (None, None, _) => {
             let by = |tree: &Tree| {
-                let put = |tree: Tree, own: &Computed| tree.with(&[(own.symbol, own.by.clone())]);
+                let put = |tree: Tree, own: &Computed| tree.substitute(&[(own.symbol, own.formula.clone())]);
                 computed.iter().rev().fold(tree.clone(), put)
             };
             let own = statement.goals().iter().find(|goal| goal.role == Role::Claim).unwrap();
@@ -319,7 +320,7 @@ fn theorems() -> Vec<Theorem> {
     of_claims(&coq().files()).flat_map(|file| Theorem::all(&file.text)).collect()
 }
 
-/// A theorem that says less than its claim would be as easily proved.
+/// A theorem weaker than its claim would be as easy to prove.
 #[test]
 fn every_theorem_says_what_its_claim_does() {
     let (_, functions) = printed();
@@ -331,7 +332,7 @@ fn every_theorem_says_what_its_claim_does() {
         let read = theorem.read(&functions);
         assert!(supposes_the_same(&statement, &read.given), "{name} supposes something else");
         assert!(says_the_same(&statement, &read), "{name} says something else");
-        // How fast a limit is reached is said in lemmas.
+        // Lemmas state the rates of limits.
         for Goal { part, proposition, .. } in
             statement.goals().iter().skip(1).filter(|_| statement.kind() == "limit")
         {
@@ -355,7 +356,7 @@ fn no_theorem_is_false() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// What the laws call fl is no function of ours: all of Flocq's rounding to nearest, and nothing else.
+/// fl is the rounding to nearest of Flocq in all files.
 #[test]
 fn what_is_rounded_is_so_by_flocq() {
     let files = coq().files();
@@ -365,7 +366,7 @@ fn what_is_rounded_is_so_by_flocq() {
     let expected =
         "(prec : Z) (choice : Z -> bool) (x : R) : R := round radix2 (FLX_exp prec) (Znearest choice) x";
     assert_eq!(definition.join(" "), expected);
-    // Nor does any file give other names to what is read here by these.
+    // No file redefines the names that are parsed here.
     for File { name, text } in &files {
         for keyword in ["Notation", "Infix", "Coercion"] {
             assert!(words(&code(text)).all(|word| word != keyword), "{name}: {keyword}");
@@ -373,7 +374,7 @@ fn what_is_rounded_is_so_by_flocq() {
     }
 }
 
-/// If what a law supposes were never so, it could say anything.
+/// A theorem with inconsistent premises could state anything.
 #[test]
 fn every_law_is_tried_in_numbers() {
     let (_, functions) = printed();
@@ -391,8 +392,8 @@ fn every_law_is_tried_in_numbers() {
     }
 }
 
-/// To be named is not enough: if a theorem has the same call on both sides, anything could be defined. An inequality
-/// may notice only one that is less.
+/// If a theorem has the same call on both sides, the definition could be any. An inequality may detect only a
+/// smaller value.
 #[test]
 fn no_definition_could_be_another() {
     let (definitions, _) = printed();
@@ -409,7 +410,7 @@ fn no_definition_could_be_another() {
     }
 }
 
-/// What Coq is to refuse has to be wrong, and has to be something that it can read.
+/// A mutant for Coq has to be wrong, and has to be readable.
 #[test]
 fn every_flip_changes_one_sign_and_makes_a_theorem_false() {
     let (definitions, _) = printed();
@@ -423,7 +424,7 @@ fn every_flip_changes_one_sign_and_makes_a_theorem_false() {
     for flip in &flips {
         let own = definitions.iter().find(|definition| definition.name == flip.function).unwrap();
         let flipped = Definition::of(&flip.definition);
-        // But for brackets one sign is another, or a leading one is lost.
+        // Apart from brackets one sign is changed, or a leading one is removed.
         let bare = |definition: &Definition| {
             let kept = definition.body.iter().filter(|token| !["(", ")"].contains(&token.as_str()));
             kept.cloned().collect::<Vec<_>>()
@@ -492,16 +493,17 @@ fn coq_accepts_everything() {
     accepts("everything", "Contact", coq());
 }
 
-/// The theorem or lemma that a line of a file belongs to.
+/// Returns the theorem or lemma of a line of a file.
 fn theorem_at(text: &str, line: usize) -> Option<&str> {
     let lines: Vec<_> = text.lines().take(line).collect();
     let begins = |line: &&&str| ["Theorem ", "Lemma "].iter().any(|keyword| line.starts_with(keyword));
     lines.iter().rev().find(begins).and_then(|line| words(line).nth(1))
 }
 
-/// The first theorem that Coq refuses, in a directory where what it stands on is compiled; none if it accepts all.
+/// Returns the first theorem that Coq rejects, in a directory with the compiled files that it requires;
+/// `None` if it accepts all.
 ///
-/// It has to be a theorem that is refused, not a definition that Coq cannot read, nor a name that the file lacks.
+/// A theorem has to be rejected, not an unreadable definition or a missing name.
 fn refused(directory: &Path, File { name, text }: &File) -> Option<String> {
     fs::write(directory.join(name), text).unwrap();
     let error = compile(directory, "Contact", name).err()?;
@@ -514,7 +516,7 @@ fn refused(directory: &Path, File { name, text }: &File) -> Option<String> {
     }
 }
 
-/// One changed sign in one definition, whichever, and some theorem about it is no longer proved.
+/// After a changed sign in any definition some theorem about it is no longer proved.
 #[test]
 #[ignore = "asks Coq once for every sign of the chapter, which takes a minute or two; .ci/run does"]
 fn coq_refuses_a_changed_sign() {

@@ -1,5 +1,5 @@
-//! The chapter in dual numbers: what it computes of itself are its derivatives, exactly in rationals, and within the
-//! roundings made in floats.
+//! The chapter in dual numbers: its derivatives are exact in rationals, and within the rounding errors in
+//! floats.
 #![cfg(feature = "mpfr")]
 
 mod strategies;
@@ -11,7 +11,7 @@ use spring_mass_contact::number::{Ball, Dual, Exact, Field, PositivePart, ToExac
 use spring_mass_contact::solver::{Augmentation, Plane};
 use strategies::{NARROW, exact, nonzero, number, positive};
 
-/// A system and a penalty; every divisor of the chapter's formulas is positive.
+/// A system and a penalty for which every divisor in the chapter is positive.
 fn systems() -> impl Strategy<Value = (SpringMass<Exact>, Exact)> {
     let [c, m, eps] = [(); 3].map(|()| positive(NARROW));
     let [g, l, h] = [(); 3].map(|()| number(NARROW));
@@ -27,8 +27,8 @@ fn central_difference_quotient(f: impl Fn(&Exact) -> Exact, x: &Exact, step: &Ex
     (f(&(x + step)) - f(&(x - step))) / (Exact::int(2) * step)
 }
 
-/// γₙ = nη/(1 − nη): n roundings in a row, of products, quotients and sums, change a term of a sum by no
-/// more than γₙ times its size. (Nicholas Higham, Accuracy and Stability of Numerical Algorithms, §3.1.)
+/// γₙ = nη/(1 − nη): n successive roundings of products, quotients and sums change a term of a sum by at most
+/// γₙ relative to itself. (Nicholas Higham, Accuracy and Stability of Numerical Algorithms, §3.1.)
 fn gamma(n: i32) -> Exact {
     let roundings = Exact::int(n) * Exact::power_of_two(-53);
     &roundings / (Exact::one() - &roundings)
@@ -113,8 +113,8 @@ proptest! {
         }
 
         // And ours within the bound that it computes itself.
-        let balls = constants(&system.map(|&x| Ball::exactly(x)));
-        let bounded = penalty::deflection(&balls, &Dual::variable(Ball::exactly(x)));
+        let balls = constants(&system.map(|&x| Ball::point(x)));
+        let bounded = penalty::deflection(&balls, &Dual::variable(Ball::point(x)));
         prop_assert_eq!((*bounded.value.value(), *bounded.derivative.value()), (ours.value, ours.derivative));
         let encloses = |ball: &Ball<f64>, x: &Exact| (exact(ball.value()) - x).abs() <= exact(ball.radius());
         prop_assert!(encloses(&bounded.value, &reference.value));
@@ -122,8 +122,8 @@ proptest! {
         prop_assert!(bounded.derivative.is_finite());
     }
 
-    /// ⟨·⟩ and its like have the derivative to the right, and minus that of a falling variable is the one to the left:
-    /// what difference quotients are, of a step before the next kink.
+    /// ⟨·⟩ and the like have the right-hand derivative, and minus that of a decreasing variable is the
+    /// left-hand one: difference quotients with a step that does not reach the next kink.
     #[test]
     fn at_a_kink_the_derivative_is_that_of_the_side(
         (mut system, eps) in systems(), r in prop_oneof![Just(0), -3..=3], step in number(NARROW),
@@ -160,7 +160,7 @@ proptest! {
         prop_assert_eq!((by_penalty(1), by_penalty(-1)), (-&pushed, pushed));
     }
 
-    /// The iteration (1.16) differentiates itself, too: by ε, as its closed forms do.
+    /// The iteration (1.16) is differentiated with respect to ε like its closed forms.
     #[test]
     fn an_augmentation_in_duals_has_the_derivative_of_its_closed_form((system, eps) in systems(), k in 0..6usize) {
         let (lifted, eps) = (constants(&system), Dual::variable(eps));

@@ -1,13 +1,14 @@
-//! Wrong formulas, for the whole command: what `contact` makes of a mistake in the source of `src/chapter`.
+//! Wrong formulas tested with the command: the reaction of `contact` to a mistake in the source of
+//! `src/chapter`.
 //!
-//! Every change that the controls generate is made as an edit of the source, all of them in one copy of the project: an
-//! edited step is a `match` on the number of the edit that is to be active. So one build serves for all, and each
-//! run is the command that somebody has who made that one mistake.
+//! Every generated mutation is made as an edit of the source, all of them in one copy of the project: an
+//! edited operation is a `match` on the number of the active edit. So a single build serves for all, and each
+//! run is the command with one mistake.
 #![cfg(feature = "prover")]
 
 use proc_macro2::LineColumn;
 use spring_mass_contact::claims::{registry, statements};
-use spring_mass_contact::proof::controls::{Change, Effect, What, changes, controls};
+use spring_mass_contact::proof::mutation::{Mutant, Mutation, MutationOutcome, mutants, test_mutations};
 use std::collections::{BTreeMap, HashMap};
 use std::fmt::Write as _;
 use std::io::{Read, Write as _};
@@ -21,10 +22,10 @@ use syn::visit::{self, Visit};
 use syn::{BinOp, Expr, UnOp};
 use wait_timeout::ChildExt;
 
-/// A place in a source file, as the compiler counts: line and column from 1, and the rank within a chain.
+/// A place in a source file as the compiler counts: line and column from 1, and the rank within a chain.
 type Place = (u32, u32, u32);
 
-/// A step that is written in the source.
+/// An operation in the source.
 struct Written {
     range: Range<usize>,
     what: Kind,
@@ -48,7 +49,7 @@ enum Kind {
     Integer,
 }
 
-/// The steps of a file.
+/// The operations of a file.
 struct Steps<'a> {
     lines: Vec<usize>,
     text: &'a str,
@@ -72,7 +73,7 @@ impl<'a> Steps<'a> {
         self.offset(of.span().start())..self.offset(of.span().end())
     }
 
-    /// How many steps begin where this one does, further inside; `None` if it is no step.
+    /// Returns the number of inner operations that begin at the same place; `None` if it is not an operation.
     fn rank(expr: &Expr) -> Option<u32> {
         let start = expr.span().start();
         match without_parentheses(expr) {
@@ -134,12 +135,12 @@ impl Visit<'_> for Steps<'_> {
     }
 }
 
-/// The step after the change, as source; `None` if it cannot be written there, for want of a name.
-fn edited(text: &str, step: &Written, what: What) -> Option<String> {
+/// Returns the source of a mutated operation; `None` if a name is not available there.
+fn edited(text: &str, step: &Written, what: Mutation) -> Option<String> {
     let source = |range: &Range<usize>| &text[range.clone()];
     let own = |range: &Range<usize>| format!("({}).clone()", source(range));
     Some(match (&step.what, what) {
-        (Kind::Binary { a, operator, b }, What::Opposite(_)) => {
+        (Kind::Binary { a, operator, b }, Mutation::Opposite(_)) => {
             let opposite = match source(operator) {
                 "+" => "-",
                 "-" => "+",
@@ -148,27 +149,27 @@ fn edited(text: &str, step: &Written, what: What) -> Option<String> {
             };
             format!("({}) {opposite} ({})", source(a), source(b))
         }
-        (Kind::Binary { a, operator, b }, What::Swap(_)) => {
+        (Kind::Binary { a, operator, b }, Mutation::Swap(_)) => {
             format!("({}) {} ({})", source(b), source(operator), source(a))
         }
-        (Kind::Binary { a, .. } | Kind::Method { a, .. }, What::First(_)) => own(a),
-        (Kind::Binary { b, .. } | Kind::Method { b: Some(b), .. }, What::Second(_)) => own(b),
-        (Kind::Method { a, b: Some(b) }, What::Maximum) => format!("-((-{}).min(&-{}))", own(a), own(b)),
-        (Kind::Negated { a }, What::DropSign) => own(a),
-        (Kind::Method { a, b: None }, What::DropBracket) => own(a),
-        (Kind::Method { a, b: None }, What::NegateExponent) => format!("(-{}).exp()", own(a)),
-        (Kind::Integer, What::Integer(_, to)) => format!("T::int({to})"),
-        (Kind::Binary { a, operator, b }, What::Symbol(place, _, to)) => {
+        (Kind::Binary { a, .. } | Kind::Method { a, .. }, Mutation::FirstOperand(_)) => own(a),
+        (Kind::Binary { b, .. } | Kind::Method { b: Some(b), .. }, Mutation::SecondOperand(_)) => own(b),
+        (Kind::Method { a, b: Some(b) }, Mutation::Maximum) => format!("-((-{}).min(&-{}))", own(a), own(b)),
+        (Kind::Negated { a }, Mutation::DropSign) => own(a),
+        (Kind::Method { a, b: None }, Mutation::DropPositivePart) => own(a),
+        (Kind::Method { a, b: None }, Mutation::NegateExponent) => format!("(-{}).exp()", own(a)),
+        (Kind::Integer, Mutation::Integer(_, to)) => format!("T::int({to})"),
+        (Kind::Binary { a, operator, b }, Mutation::Symbol(place, _, to)) => {
             let name = known(text, step, to)?;
             let [a, b] = [(0, a), (1, b)].map(|(i, own)| if i == place { name } else { source(own) });
             format!("({a}) {} ({b})", source(operator))
         }
-        (Kind::Negated { .. }, What::Symbol(_, _, to)) => format!("-({})", known(text, step, to)?),
+        (Kind::Negated { .. }, Mutation::Symbol(_, _, to)) => format!("-({})", known(text, step, to)?),
         _ => return None,
     })
 }
 
-/// What a quantity is called in the function around a step, if it is known there.
+/// Returns the name of a quantity in the function around an operation, if it has one.
 fn known(text: &str, step: &Written, symbol: &str) -> Option<&'static str> {
     let head = &text[..step.range.start];
     let function = &head[head.rfind("\npub fn ")?..];
@@ -181,7 +182,7 @@ fn known(text: &str, step: &Written, symbol: &str) -> Option<&'static str> {
     names.split(|c: char| !c.is_alphanumeric()).any(|word| word == name).then_some(name)
 }
 
-/// The file with a switch at each step that is to be edited.
+/// Returns the file with a switch at each edited operation.
 fn switched(
     text: &str,
     steps: &BTreeMap<Place, Written>,
@@ -216,7 +217,7 @@ fn render(
     out + &text[at..range.end]
 }
 
-/// What the switches ask.
+/// Source of the switches.
 const SWITCH: &str = r#"
 
 #[doc(hidden)]
@@ -231,8 +232,9 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// A copy of the project in which every edit is a switch, numbered from 1; which edits are in it, and the others.
-fn copy() -> (PathBuf, Vec<Change>, Vec<Change>) {
+/// Returns a copy of the project in which every edit is a switch, numbered from 1, with the edits in it and
+/// the remaining ones.
+fn copy() -> (PathBuf, Vec<Mutant>, Vec<Mutant>) {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("edits");
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).unwrap();
@@ -244,8 +246,8 @@ fn copy() -> (PathBuf, Vec<Change>, Vec<Change>) {
         fs::copy(from, to).unwrap();
     }
     let (mut made, mut left) = (Vec::new(), Vec::new());
-    let mut files: BTreeMap<&str, Vec<Change>> = BTreeMap::new();
-    for change in changes(&statements(), registry()) {
+    let mut files: BTreeMap<&str, Vec<Mutant>> = BTreeMap::new();
+    for change in mutants(&statements(), registry()) {
         files.entry(change.site.file).or_default().push(change);
     }
     for (file, all) in files {
@@ -254,7 +256,7 @@ fn copy() -> (PathBuf, Vec<Change>, Vec<Change>) {
         let mut edits: BTreeMap<Place, Vec<(usize, String)>> = BTreeMap::new();
         for change in all {
             let place = (change.site.line, change.site.column, change.site.rank);
-            match steps.found.get(&place).and_then(|step| edited(&text, step, change.what)) {
+            match steps.found.get(&place).and_then(|step| edited(&text, step, change.mutation)) {
                 Some(edited) => {
                     made.push(change);
                     edits.entry(place).or_default().push((made.len(), edited));
@@ -272,7 +274,7 @@ fn copy() -> (PathBuf, Vec<Change>, Vec<Change>) {
     (folder, made, left)
 }
 
-/// What a run came to.
+/// Result of a run.
 struct Run {
     code: Option<i32>,
     stdout: String,
@@ -280,7 +282,7 @@ struct Run {
     time: Duration,
 }
 
-/// The command with one edit; ended when it takes too long, and then without a code.
+/// Runs the command with one edit, and ends it without a code after a time limit.
 fn run(binary: &Path, arguments: &[String], edit: usize, limit: Duration) -> Run {
     let start = Instant::now();
     let mut command = Command::new(binary);
@@ -305,8 +307,8 @@ fn run(binary: &Path, arguments: &[String], edit: usize, limit: Duration) -> Run
     Run { code: status.and_then(|status| status.code()), stdout, stderr, time: start.elapsed() }
 }
 
-/// The function that a change is in, as `module::name`.
-fn function(change: &Change) -> String {
+/// Returns the function of a mutant as `module::name`.
+fn function(change: &Mutant) -> String {
     let text = fs::read_to_string(root().join(change.site.file)).unwrap();
     let before: Vec<_> = text.lines().take(change.site.line as usize).collect();
     let head = before.iter().rev().find_map(|line| line.strip_prefix("pub fn ")).unwrap();
@@ -314,19 +316,19 @@ fn function(change: &Change) -> String {
     format!("{module}::{}", head.split(['<', '(']).next().unwrap())
 }
 
-/// Is it a step of `x.abs()`?
-fn is_size(text: &str, change: &Change) -> bool {
+/// Returns `true` if the operation belongs to `x.abs()`.
+fn is_size(text: &str, change: &Mutant) -> bool {
     let line = text.lines().nth(change.site.line as usize - 1).unwrap();
     line.chars().skip(change.site.column as usize - 1).collect::<String>().starts_with("abs()")
 }
 
-/// The first finding of a report.
+/// Returns the first finding of a report.
 fn first_finding(stdout: &str) -> Option<&str> {
     let findings = [": look here first", " NOT PROVED", " FAILED in "];
     stdout.lines().find(|line| findings.iter().any(|finding| line.contains(finding)))
 }
 
-/// The arguments of the commands that a report prints below its failures.
+/// Returns the arguments of the commands printed below failures.
 fn commands(stdout: &str) -> Vec<Vec<String>> {
     let text = stdout.replace(" \\\n      ", " ");
     let lines = text.lines().filter_map(|line| line.strip_prefix("  contact "));
@@ -335,8 +337,8 @@ fn commands(stdout: &str) -> Vec<Vec<String>> {
     commands.into_iter().collect()
 }
 
-/// Returns `true` if a solve in rationals breaks off, or its answer violates its bounds, equilibrium or the contact
-/// conditions of its method.
+/// Returns `true` if a solve in rationals fails, or its solution violates its bounds, equilibrium or the
+/// contact conditions of its method.
 fn is_wrong(solve: &Run) -> bool {
     let Ok(answer) = serde_json::from_str::<serde_json::Value>(&solve.stdout) else { return true };
     let quantities = ["deflection", "penetration", "contact_force"];
@@ -348,15 +350,15 @@ fn is_wrong(solve: &Run) -> bool {
     !quantities.into_iter().all(exact) || conditions.iter().any(|name| answer["kkt"][name] != "0")
 }
 
-/// So long may a report take, on a machine that does nothing else.
+/// Time limit of a report on an idle machine.
 const LIMIT: Duration = Duration::from_secs(10);
 
-/// A sample of a hundred, or of as many as `EDITS` says.
+/// A sample of a hundred mutations, or of `EDITS`.
 #[test]
 #[ignore = "builds a copy of the project and runs it many times: some minutes"]
 fn a_mistake_in_any_formula_is_reported_in_time() {
     let (folder, made, left) = copy();
-    let left: Vec<_> = left.iter().map(Change::to_string).collect();
+    let left: Vec<_> = left.iter().map(Mutant::to_string).collect();
     say(&format!("{} edits; the source has no place for {left:#?}", made.len()));
     assert!(20 * left.len() < made.len(), "an edit is made of nearly every change");
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("edits-target");
@@ -370,7 +372,8 @@ fn a_mistake_in_any_formula_is_reported_in_time() {
     let well = run(&binary, &[], 0, 10 * LIMIT);
     assert_eq!(well.code, Some(0), "without an edit: {}{}", well.stdout, well.stderr);
 
-    let effects: HashMap<Change, Effect> = controls(&statements(), registry()).changes.into_iter().collect();
+    let effects: HashMap<Mutant, MutationOutcome> =
+        test_mutations(&statements(), registry()).mutants.into_iter().collect();
     let sample = env::var("EDITS").map_or(100, |count| count.parse().expect("a number of edits"));
     let stride = made.len().div_ceil(sample).max(1);
     let (mut times, mut amiss, mut elsewhere, mut solves) = (Vec::new(), Vec::new(), Vec::new(), 0);
@@ -378,7 +381,7 @@ fn a_mistake_in_any_formula_is_reported_in_time() {
         let result = run(&binary, &[], i + 1, LIMIT);
         let finding = first_finding(&result.stdout);
         // Some edits are proved to change nothing.
-        let wrong = !matches!(effects[change], Effect::Unchanged);
+        let wrong = !matches!(effects[change], MutationOutcome::Equivalent);
         let said = format!("{:.1?} {:?} {change}: {}", result.time, result.code, finding.unwrap_or("-"));
         say(&said);
         if result.code != Some(i32::from(wrong)) || !result.stderr.is_empty() || finding.is_some() != wrong {
@@ -397,7 +400,8 @@ fn a_mistake_in_any_formula_is_reported_in_time() {
         }
         let suspected = |line: &str| line.ends_with(&format!("{}: look here first", function(change)));
         // What an edit leaves nothing but the call of another function is laid to that one.
-        let leaves_an_operand = matches!(change.what, What::First(_) | What::Second(_));
+        let leaves_an_operand =
+            matches!(change.mutation, Mutation::FirstOperand(_) | Mutation::SecondOperand(_));
         if wrong && !leaves_an_operand && !result.stdout.lines().any(suspected) {
             elsewhere.push(said);
         }
@@ -412,8 +416,8 @@ fn a_mistake_in_any_formula_is_reported_in_time() {
     ));
     assert!(amiss.is_empty(), "{amiss:#?}");
     // c − ε for c + ε makes a system that is solved wrongly.
-    let of_sum = |change: &Change| {
-        function(change) == "penalty::total_stiffness" && matches!(change.what, What::Opposite(_))
+    let of_sum = |change: &Mutant| {
+        function(change) == "penalty::total_stiffness" && matches!(change.mutation, Mutation::Opposite(_))
     };
     let wrong_sum = made.iter().position(of_sum).expect("a sum");
     let report = run(&binary, &[], wrong_sum + 1, LIMIT);
@@ -421,7 +425,7 @@ fn a_mistake_in_any_formula_is_reported_in_time() {
     assert!(20 * elsewhere.len() < times.len(), "named at another place: {elsewhere:#?}");
 }
 
-/// Past the test harness, which keeps what a passing test prints to itself.
+/// Prints past the test harness, which captures the output of passing tests.
 fn say(line: &str) {
     let _ = writeln!(std::io::stderr(), "{line}");
 }

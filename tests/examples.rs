@@ -1,11 +1,11 @@
-//! What the examples print is what their first lines say.
+//! The output of the examples is that in their first comments.
 #![cfg(feature = "prover")]
 
 use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// The block of text in the comment that opens an example.
+/// Returns the block of text in the first comment of an example.
 fn promised(source: &str) -> Option<String> {
     let comment = source.lines().map_while(|line| line.strip_prefix("//!"));
     let lines: Vec<_> = comment.map(|line| line.strip_prefix(' ').unwrap_or(line)).collect();

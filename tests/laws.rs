@@ -1,4 +1,5 @@
-//! The laws of rounding against floats: they hold, they are nearly reached, and what is less than they say is refuted.
+//! Laws of rounding compared with floats: they hold, they are nearly attained, and stronger statements are
+//! refuted.
 #![cfg(feature = "prover")]
 
 use proptest::prelude::*;
@@ -7,7 +8,7 @@ use spring_mass_contact::claims::{claims, computed, registry, symbols};
 use spring_mass_contact::formula::claim::{PRECISION, within};
 use spring_mass_contact::formula::statement::Role;
 use spring_mass_contact::formula::{Hypothesis, Proposition, Relation, Statement};
-use spring_mass_contact::number::tree::{Step, piecewise};
+use spring_mass_contact::number::tree::{Op, piecewise_ops};
 use spring_mass_contact::number::{Ball, Exact, Mpfr, PositivePart, ToExact, Tree};
 use spring_mass_contact::proof::refute::{Point, Verdict, check};
 use spring_mass_contact::proof::{prove, refute};
@@ -17,12 +18,12 @@ fn law(equation: &str, name: &str) -> &'static Statement {
     found.unwrap_or_else(|| panic!("{equation} {name}"))
 }
 
-/// Numbers of so many bits: `c = 3/16, ε = 33`.
+/// Parses numbers of `bits` bits: `c = 3/16, ε = 33`.
 fn run(bits: i32, numbers: &'static str) -> Point {
     let number = |pair: &'static str| {
         let (name, x) = pair.split_once(" = ").unwrap();
         let x: Exact = x.parse().unwrap();
-        assert_eq!(x.rounded(bits as u32), Some(x.clone()), "{pair} has not {bits} bits");
+        assert_eq!(x.round_to_bits(bits as u32), Some(x.clone()), "{pair} has not {bits} bits");
         (name, x)
     };
     let precision = (PRECISION, Exact::power_of_two(bits));
@@ -37,7 +38,8 @@ fn holds(claim: &Statement, point: &Point) -> bool {
     }
 }
 
-/// The claim with a part of its bounds, or each of its numbers of this size, as many times.
+/// Returns the claim with a part of its bounds, or each of its numbers of this value, multiplied by a
+/// fraction.
 fn with(claim: &Statement, part: &Tree, times: (i32, i32)) -> Statement {
     let factor = Tree::from(times.0) / Tree::from(times.1);
     let lowered = |bound: &Tree| bound.rewrite(&|tree| (tree == part).then(|| tree * &factor));
@@ -49,8 +51,7 @@ fn with(claim: &Statement, part: &Tree, times: (i32, i32)) -> Statement {
     claim.map(&|tree| if bounds.contains(tree) { lowered(tree) } else { tree.clone() })
 }
 
-/// Each constant of each law, a part of it that is too little, and a run of floats that shows it. That a law holds
-/// says little if half of it would do.
+/// Each constant of each law, a fraction of it that is too small, and a run of floats that shows this.
 #[test]
 fn no_constant_of_a_law_can_be_much_less() {
     let s = &symbols().system;
@@ -61,26 +62,26 @@ fn no_constant_of_a_law_can_be_much_less() {
     let (sum, weight, spring) = (&s.l + u, &s.m * &s.g, &s.c * u);
     let runs = [
         ("1.1", "rounding", int(2), (3, 4), run(5, "m = 11, g = 3, c = 25")),
-        ("1.5", "rounding", sum.rounded().abs(), (99, 100), run(2, "l = 1/4, u = 1, H = 1")),
-        ("1.5", "rounding", penetration.rounded().abs(), (99, 100), run(2, "l = 3, u = -8, H = 1")),
+        ("1.5", "rounding", sum.with_rounding().abs(), (99, 100), run(2, "l = 1/4, u = 1, H = 1")),
+        ("1.5", "rounding", penetration.with_rounding().abs(), (99, 100), run(2, "l = 3, u = -8, H = 1")),
         (
             "Remark 1.3.6",
             "rounding",
-            weight.rounded().abs(),
+            weight.with_rounding().abs(),
             (99, 100),
             run(3, "m = 3, g = -3, c = 3/4, u = 3/2"),
         ),
         (
             "Remark 1.3.6",
             "rounding",
-            spring.rounded().abs(),
+            spring.with_rounding().abs(),
             (99, 100),
             run(3, "m = 3/4, g = -3/2, c = 3, u = 3"),
         ),
         (
             "Remark 1.3.6",
             "rounding",
-            force.rounded().abs(),
+            force.with_rounding().abs(),
             (99, 100),
             run(3, "m = 3, g = -3, c = 3/4, u = 3/2"),
         ),
@@ -169,7 +170,7 @@ fn no_constant_of_a_law_can_be_much_less() {
     assert_eq!(unshown, ["float-distance"]);
 }
 
-/// The bound of a claim that has only one.
+/// Returns the bound of a claim with a single bound.
 fn bound(claim: &Statement) -> &Tree {
     let goals = claim.goals().iter().filter(|goal| goal.role == Role::Claim);
     let [Proposition::Within(_, bound)] = goals.map(|goal| &goal.proposition).collect::<Vec<_>>()[..] else {
@@ -178,7 +179,7 @@ fn bound(claim: &Statement) -> &Tree {
     bound
 }
 
-/// The same in exact arithmetic, in another order: then it is another law that holds.
+/// Another order of operations, equal in exact arithmetic, satisfies another law.
 #[test]
 fn the_order_of_operations_is_part_of_a_law() {
     let x = symbols();
@@ -190,9 +191,10 @@ fn the_order_of_operations_is_part_of_a_law() {
     let rounding = law("1.5", "rounding");
     let of_penetration = bound(rounding);
     let difference_first = &s.l + (u - &s.h);
-    let in_order = of_penetration.with(&[]);
-    let in_other_order = of_penetration
-        .rewrite(&|tree| (*tree == contact::penetration(s, u).rounded()).then(|| difference_first.rounded()));
+    let in_order = of_penetration.substitute(&[]);
+    let in_other_order = of_penetration.rewrite(&|tree| {
+        (*tree == contact::penetration(s, u).with_rounding()).then(|| difference_first.with_rounding())
+    });
     assert_ne!(in_order, in_other_order);
     let others = [
         (
@@ -219,7 +221,7 @@ fn the_order_of_operations_is_part_of_a_law() {
     ];
     for (own, other, bound, law, point) in others {
         let of = |formula: &Tree, bound: &Tree| {
-            within("order", formula.rounded() - own, bound).assuming(law.stated_hypotheses())
+            within("order", formula.with_rounding() - own, bound).assuming(law.stated_hypotheses())
         };
         assert!(holds(law, &point), "{own} at {point}");
         let reordered = of(&other, &bound);
@@ -228,7 +230,7 @@ fn the_order_of_operations_is_part_of_a_law() {
     }
 }
 
-/// No law has a counterexample, where one is looked for thoroughly: at points that are drawn for it.
+/// A thorough search at specially drawn points finds no counterexample to a law.
 #[test]
 fn no_law_is_refuted() {
     for claim in claims().filter(|claim| claim.contains_rounding()) {
@@ -237,16 +239,16 @@ fn no_law_is_refuted() {
     }
 }
 
-/// The value of a record that rounds, by exact arithmetic and rounding.
+/// Returns the value of a record with rounding, by exact arithmetic.
 fn rounded_to(bits: u32, tree: &Tree, at: &dyn Fn(&'static str) -> Exact) -> Option<Exact> {
-    tree.replay(&|name| at(name), &|step| match step {
-        Step::Rounded(x) => x.rounded(bits),
-        step => piecewise(step),
+    tree.eval(&|name| at(name), &|step| match step {
+        Op::Rounded(x) => x.round_to_bits(bits),
+        step => piecewise_ops(step),
     })
 }
 
-/// Every function of the chapter without eˣ, recorded as it rounds, is what floats compute: bit for bit, for numbers
-/// far from over- and underflow.
+/// Every function of the chapter without eˣ, recorded with rounding, equals the result of floats bit for bit,
+/// far from overflow and underflow.
 fn records_round_as_floats_do<T: ToExact + Clone>(
     bits: u32,
     at: &dyn Fn(&'static str) -> T,
@@ -255,11 +257,11 @@ fn records_round_as_floats_do<T: ToExact + Clone>(
     let exact = |name: &'static str| at(name).to_exact().unwrap();
     let mut compared = 0;
     for (formula, value) in registry().formulas().iter().zip(computed) {
-        if formula.tree.any(&|tree| matches!(tree.step(), Step::Exp(_))) {
+        if formula.tree.any(&|tree| matches!(tree.op(), Op::Exp(_))) {
             continue;
         }
         if let (Some(expected), Ok(value)) =
-            (rounded_to(bits, &formula.tree.rounded(), &exact), value.to_exact())
+            (rounded_to(bits, &formula.tree.with_rounding(), &exact), value.to_exact())
         {
             prop_assert_eq!(value, expected, "{}", formula.name());
             compared += 1;
@@ -272,10 +274,10 @@ fn records_round_as_floats_do<T: ToExact + Clone>(
 proptest! {
     #![proptest_config(ProptestConfig { cases: 100, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// And what is proved is what balls compute: no radius is less.
+    /// No radius of a ball is smaller than the proved bound.
     #[test]
     fn the_radius_of_a_ball_is_no_less_than_what_is_proved(seed in any::<u64>()) {
-        let x = |name| Ball::exactly(f64::from(drawn(seed, name)));
+        let x = |name| Ball::point(f64::from(drawn(seed, name)));
         let [a, b] = [x("u") / x("v") * x("w"), x("c") / x("m") + x("g")];
         let at = |name: &str| match name {
             "a" => a.value().to_exact().unwrap(),
@@ -315,12 +317,12 @@ proptest! {
     }
 }
 
-/// What the radius of each operation of a ball is made of, around `a` ∘ `b`: for numbers x and y no further from a and
-/// b than r and s.
+/// Returns the terms of the radius of each operation of a ball around `a` ∘ `b`, for numbers x and y within r
+/// and s of a and b.
 fn radii() -> [(Tree, Tree, Tree, Vec<Hypothesis>); 4] {
     let [a, b, x, y, r, s] = ["a", "b", "x", "y", "r", "s"].map(|name| Tree::symbol(name));
     let eta = || Tree::from(1) / Tree::symbol(PRECISION);
-    let own = |value: &Tree| eta() * value.rounded().abs();
+    let own = |value: &Tree| eta() * value.with_rounding().abs();
     let positive = |value: Tree| Hypothesis::new(Relation::Positive, value);
     let given = vec![
         Hypothesis::new(Relation::NonNegative, r.clone()),
@@ -329,7 +331,7 @@ fn radii() -> [(Tree, Tree, Tree, Vec<Hypothesis>); 4] {
     let (sum, difference, product, quotient) = (&a + &b, &a - &b, &a * &b, &a / &b);
     let away = positive(b.abs() - &s);
     let of_quotient =
-        ((quotient.rounded().abs() + own(&quotient)) * &s + &r) / (b.abs() - &s) + own(&quotient);
+        ((quotient.with_rounding().abs() + own(&quotient)) * &s + &r) / (b.abs() - &s) + own(&quotient);
     [
         (&x + &y, sum.clone(), &r + &s + own(&sum), given.clone()),
         (&x - &y, difference.clone(), &r + &s + own(&difference), given.clone()),
@@ -344,7 +346,7 @@ fn the_radius_of_a_ball_encloses_for_every_precision() {
     for (meant, value, radius, given) in radii() {
         let near = [Hypothesis::near(&x, &a, &r), Hypothesis::near(&y, &b, &s)];
         let claim = |radius: &Tree| {
-            within("encloses", &meant - value.rounded(), radius).assuming(&given).assuming(&near)
+            within("encloses", &meant - value.with_rounding(), radius).assuming(&given).assuming(&near)
         };
         if let Err(why) = prove(&claim(&radius)) {
             panic!("{meant}: {why}");
@@ -359,7 +361,7 @@ fn the_radius_of_a_ball_encloses_for_every_precision() {
     }
 }
 
-/// A number for a symbol, not 0, and of up to 20 bits.
+/// Draws a nonzero number of up to 20 bits for a symbol.
 fn drawn(seed: u64, name: &str) -> i32 {
     let mixed = name
         .bytes()

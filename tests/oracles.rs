@@ -23,7 +23,7 @@ use spring_mass_contact::chapter::{
 };
 use spring_mass_contact::number::{Exact, Exponential, Field, Mpfr, PositivePart, ToExact};
 use spring_mass_contact::operators;
-use spring_mass_contact::solver::{Method, Plane, augmentations_needed, penalty_for_penetration, solve};
+use spring_mass_contact::solver::{Method, Plane, exact_augmentation_count, penalty_for_penetration, solve};
 use strategies::int;
 
 fn q(text: &str) -> Exact {
@@ -91,7 +91,7 @@ fn penalty_method() {
     assert_eq!(&penalty::unilateral_deflection(s, eps), u);
     assert_eq!(penalty::penetration(s, eps), q("0.02405"));
     assert_eq!(penalty::contact_force(s, eps, u), q("2.405"));
-    assert_eq!(penalty::force_at_root(s, eps), q("2.405"));
+    assert_eq!(penalty::contact_force_at_equilibrium(s, eps), q("2.405"));
     assert_eq!(penalty::residual(s, eps, u), int(0));
     // 10 − 9.81 + 100 · 0.05.
     assert_eq!(penalty::residual(s, eps, &q("0.1")), q("5.19"));
@@ -154,7 +154,7 @@ fn augmented_method() {
     assert_eq!(augmented::recursion(s, eps, &q("0.07405"), u), sides);
     assert_eq!(ode::difference_equation(s, eps, &q("0.07405"), u), sides);
     // 0.02405 halves to below 0.001 with the fifth step: 24.05, 12.0…, 6.01…, 3.0…, 1.5…, 0.75… mm.
-    let needed = augmentations_needed(s, eps, &q("0.001"), &int(0), Plane::Unilateral).unwrap();
+    let needed = exact_augmentation_count(s, eps, &q("0.001"), &int(0), Plane::Unilateral).unwrap();
     assert_eq!(needed, 5);
     let method =
         Method::Augmented { penalty: int(100), tolerance: q("0.001"), max_augmentations: 9, start: int(0) };
@@ -172,7 +172,7 @@ fn the_ode_and_beyond() {
     assert_eq!(ode::characteristic(s, eps, &q("-1/2")), int(0));
     assert_eq!(ode::characteristic(s, eps, &int(1)), int(300));
     assert_eq!(ode::particular(s), q("0.05"));
-    assert_eq!(ode::constant(s, &q("0.07405")), q("0.02405"));
+    assert_eq!(ode::integration_constant(s, &q("0.07405")), q("0.02405"));
     assert_eq!(ode::superposition(&q("0.1"), &q("0.2")), q("0.3"));
     // e⁻¹ = 0.36787944117144232…, at t = 2 with rate −1/2; to 40 bits, 3 roundings of less than 2⁻⁴⁰ each.
     let like = int(1).to_mpfr(40);
@@ -197,10 +197,10 @@ fn the_ode_and_beyond() {
 }
 
 fn at_precision(like: &Mpfr, x: &Exact) -> Mpfr {
-    like.nearest(x).unwrap()
+    like.round_from_exact(x).unwrap()
 }
 
-/// num-dual's dual numbers as a number system of the chapter.
+/// num-dual's dual numbers as a number system.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct NumDual(Dual64);
 
@@ -243,7 +243,7 @@ impl Exponential for NumDual {
     }
 }
 
-/// f′(x) by num-dual.
+/// Returns f′(x) by num-dual.
 fn slope(f: impl Fn(&NumDual) -> NumDual, x: f64) -> f64 {
     f(&NumDual(Dual64::from_re(x).derivative())).0.eps
 }
@@ -253,8 +253,8 @@ fn constant(x: &f64) -> NumDual {
 }
 
 proptest! {
-    /// Every residual is the derivative of its energy. Integers below 2⁶ in size: the largest term,
-    /// 3 p⁶ and its derivative, is below 2⁵³, f64 is exact, and `==` is meant.
+    /// Every residual is the derivative of its energy. For integers below 2⁶ in absolute value the largest
+    /// term, 3 p⁶ and its derivative, is below 2⁵³, so f64 is exact and `==` is meant.
     #[test]
     fn residuals_are_derivatives(
         (c, m, eps) in (1..64i32, 1..64i32, 1..64i32), signed in prop::array::uniform6(-63..64i32),

@@ -1,9 +1,9 @@
-//! Every claim is proved for all values, from what the functions of the chapter do.
+//! Every claim is proved for all values, from the chapter's functions.
 #![cfg(feature = "prover")]
 
 use spring_mass_contact::claims::{registry, statements};
-use spring_mass_contact::proof::paper::Paper;
 use spring_mass_contact::proof::prove;
+use spring_mass_contact::proof::render::ProofPrinter;
 use std::collections::BTreeSet;
 
 #[test]
@@ -52,7 +52,7 @@ fn every_formula_of_the_chapter_is_part_of_a_proof() {
 fn a_proof_can_be_read() {
     let statements = statements();
     let statement = statements.iter().find(|s| (s.equation(), s.name()) == ("1.13", "rate")).unwrap();
-    let (proof, paper) = (prove(statement).unwrap(), Paper::new(registry()));
+    let (proof, paper) = (prove(statement).unwrap(), ProofPrinter::new(registry()));
     assert_eq!(paper.claim(statement), "(c + ε) ((ε (H − l) + m g) / (c + ε) − Δ) = R");
     assert_eq!(paper.used(&proof), ["c > 0", "ε > 0"]);
     let lines = paper.proof(&proof);

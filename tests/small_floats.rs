@@ -1,10 +1,10 @@
-//! Every system of floats with very few bits, through every method and its bounds, against rationals.
+//! Every system of floats with very few bits, by every method and with its bounds, compared with rationals.
 //!
-//! A sample can miss the one case in which a bound is an ulp too small; where all mantissas are tried, all
-//! ways of rounding are. c and m have one exponent (by what they are scaled changes nothing), ε, g, l and
-//! H have several, with signs and zero. All systems of 2 bits and a sample of the larger sets are tried by
-//! default, in a few seconds; all 628 864 of 3 bits and 2 515 456 of 4 bits by
-//! `cargo test --test small_floats -- --ignored`, in minutes.
+//! A sample can miss the one case in which a bound is an ulp too small; with all mantissas, all kinds of
+//! rounding are tested. c and m have one exponent (scaling them changes nothing), ε, g, l and H have several,
+//! with signs and zero. By default all systems of 2 bits and a sample of the larger sets are tested, in a few
+//! seconds; all 628 864 of 3 bits and 2 515 456 of 4 bits by `cargo test --test small_floats -- --ignored`,
+//! in minutes.
 
 #![cfg(feature = "mpfr")]
 
@@ -21,20 +21,20 @@ use std::cmp::Ordering;
 use std::ops::Range;
 use strategies::{exact, int, positive_part};
 
-/// Far more than these few bits ever take: every iteration ends by itself.
+/// Far more than any of these systems takes.
 const MAX_AUGMENTATIONS: u64 = 1000;
 
 /// A float and its value.
 type Pair = (Mpfr, Exact);
 
-/// All floats of `bits` bits whose leading bit has its weight in `exponents`.
+/// Returns all floats of `bits` bits whose leading bit has a weight in `exponents`.
 fn positives(bits: u32, exponents: Range<i32>) -> Vec<Pair> {
     let mantissas = 1 << (bits - 1)..1 << bits;
     let all = exponents.flat_map(|e| mantissas.clone().map(move |n| (n, e - bits as i32 + 1)));
     all.map(|(n, e)| int(n) * Exact::power_of_two(e)).map(|x| (x.to_mpfr(bits), x)).collect()
 }
 
-/// The same with both signs, and zero.
+/// Returns the floats with both signs, and zero.
 fn signed(bits: u32, exponents: Range<i32>) -> Vec<Pair> {
     let up = positives(bits, exponents);
     let down: Vec<_> = up.iter().map(|(x, value)| (-x, -value)).collect();
@@ -65,12 +65,12 @@ impl Grid {
         }
     }
 
-    /// How many systems there are, each with all penalties.
+    /// Returns the number of systems, each with all penalties.
     fn len(&self) -> usize {
         self.stiffnesses.len() * self.masses.len() * self.others.len().pow(3)
     }
 
-    /// The system of a number below [`len`](Self::len): c, m, g, l, H.
+    /// Returns the system with an index below [`len`](Self::len): c, m, g, l, H.
     fn get(&self, mut index: usize) -> [&Pair; 5] {
         let Grid { stiffnesses, masses, others, .. } = self;
         [stiffnesses, masses, others, others, others].map(|list| {
@@ -80,7 +80,7 @@ impl Grid {
         })
     }
 
-    /// Checks every `stride`-th system with all penalties; says how often each thing happened.
+    /// Checks every `stride`-th system with all penalties, and returns the counts of events.
     fn check(&self, stride: usize) -> Tally {
         let one = |i| {
             let mut tally = Tally::default();
@@ -162,7 +162,7 @@ fn contains(interval: &Interval<Mpfr>, x: &Exact) -> bool {
     exact(&interval.lower) <= *x && *x <= exact(&interval.upper)
 }
 
-/// How many systems, and how many iterations, there were of each kind.
+/// Numbers of systems and of iterations of each kind.
 #[derive(Debug, Default)]
 struct Tally {
     contact: usize,
@@ -183,7 +183,7 @@ impl Tally {
         }
     }
 
-    /// Something of everything was among `systems` checked.
+    /// Asserts that all kinds occurred among `systems` systems.
     fn is_complete(&self, systems: usize) {
         assert_eq!(self.contact + self.grazing + self.separated, systems);
         let kinds = [self.contact, self.grazing, self.separated, self.converged, self.stagnated];

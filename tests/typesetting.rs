@@ -5,14 +5,15 @@ use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use spring_mass_contact::claims::{registry, statements};
 use spring_mass_contact::formula::claim::{
-    MEMBERS, POWER, derivative, drift, equal, induction, limit, non_negative, positive, vanishing, within,
+    MEMBERS, POWER, derivative, equal, geometric_limit, induction, limit, non_negative, perturbed_recursion,
+    positive, within,
 };
 use spring_mass_contact::formula::statement::{Role, Sequence};
 use spring_mass_contact::formula::{Formula, Hypothesis, Proposition, Rate, Registry, Relation, Statement};
-use spring_mass_contact::number::tree::{Step, piecewise};
+use spring_mass_contact::number::tree::{Op, piecewise_ops};
 use spring_mass_contact::number::{Exact, Exponential, Field, PositivePart, Tree};
-use spring_mass_contact::proof::paper::Paper;
 use spring_mass_contact::proof::prove;
+use spring_mass_contact::proof::render::ProofPrinter;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
@@ -105,7 +106,7 @@ impl<'a> Reader<'a> {
 
     /// What a name stands for, with its arguments if any are said.
     fn named(&mut self) -> Option<Option<Exact>> {
-        let mut all: Vec<_> = self.registry.formulas().iter().filter(|formula| formula.folded).collect();
+        let mut all: Vec<_> = self.registry.formulas().iter().filter(|formula| formula.abbreviated).collect();
         all.sort_by_key(|formula| std::cmp::Reverse(formula.symbol.len()));
         let formula = all.into_iter().find(|formula| self.eat(formula.symbol))?;
         let names: Vec<_> = formula.depends_on().collect();
@@ -123,7 +124,7 @@ impl<'a> Reader<'a> {
             names.into_iter().filter(|name| !self.quiet.contains(name)).collect()
         };
         assert!(said.is_empty() || said.len() == named.len(), "arguments of {}", formula.symbol);
-        let tree = if self.rounding { formula.tree.rounded() } else { formula.tree.clone() };
+        let tree = if self.rounding { formula.tree.with_rounding() } else { formula.tree.clone() };
         Some(replayed_at(&tree, &|name| match named.iter().position(|own| *own == name) {
             Some(place) if !said.is_empty() => said[place].clone(),
             _ => self.argument(name),
@@ -133,7 +134,7 @@ impl<'a> Reader<'a> {
     /// An argument that is not said: the usual one, which may have a name.
     fn argument(&self, name: &str) -> Exact {
         let mut formulas = self.registry.formulas().iter();
-        match formulas.find(|formula| formula.folded && formula.symbol == name) {
+        match formulas.find(|formula| formula.abbreviated && formula.symbol == name) {
             Some(formula) => replayed_at(&formula.tree, &at).unwrap(),
             None => at(name),
         }
@@ -146,7 +147,7 @@ impl<'a> Reader<'a> {
     }
 
     fn rounded(&self, x: Exact) -> Exact {
-        if self.rounding { x.rounded(BITS).unwrap() } else { x }
+        if self.rounding { x.round_to_bits(BITS).unwrap() } else { x }
     }
 
     /// What stands between brackets, with rounding or without.
@@ -186,7 +187,7 @@ impl<'a> Reader<'a> {
             return Some(product);
         }
         let (under, scale) = self.factor()?;
-        let quotient = under.is_unit().then(|| product / under)?;
+        let quotient = under.is_invertible().then(|| product / under)?;
         Some(if scale { quotient } else { self.rounded(quotient) })
     }
 
@@ -238,7 +239,7 @@ impl<'a> Reader<'a> {
                     "⟨" => inner.positive_part(),
                     "|" => inner.abs(),
                     "(" => inner,
-                    _ => inner.rounded(BITS).unwrap(),
+                    _ => inner.round_to_bits(BITS).unwrap(),
                 });
             }
         }
@@ -255,12 +256,12 @@ fn replayed(tree: &Tree) -> Option<Exact> {
 }
 
 fn replayed_at(tree: &Tree, at: &dyn Fn(&str) -> Exact) -> Option<Exact> {
-    let beyond = |step: Step<&Exact>| match step {
-        Step::Exp(a) => Some(exp(a)),
-        Step::Rounded(a) => a.rounded(BITS),
-        step => piecewise(step),
+    let beyond = |step: Op<&Exact>| match step {
+        Op::Exp(a) => Some(exp(a)),
+        Op::Rounded(a) => a.round_to_bits(BITS),
+        step => piecewise_ops(step),
     };
-    tree.replay(&|name| at(name), &beyond)
+    tree.eval(&|name| at(name), &beyond)
 }
 
 /// Symbols in trees that are drawn. k counts steps where nothing else is called so.
@@ -292,11 +293,11 @@ fn rounded_trees() -> impl Strategy<Value = Tree> {
         let chosen = std::cell::Cell::new(seed);
         tree.rewrite(&|tree| {
             chosen.set(chosen.get().rotate_left(7).wrapping_mul(0x9e37_79b9_7f4a_7c15));
-            (chosen.get() % 3 > 0).then(|| tree.nearest())
+            (chosen.get() % 3 > 0).then(|| tree.round())
         })
     });
-    let once = trees().prop_map(|tree| tree.nearest());
-    let steps = trees().prop_map(|tree| tree.rounded());
+    let once = trees().prop_map(|tree| tree.round());
+    let steps = trees().prop_map(|tree| tree.with_rounding());
     prop_oneof![2 => some, 1 => once, 3 => steps]
 }
 
@@ -634,7 +635,7 @@ impl<'a> Text<'a> {
         for (said, computed) in all.into_iter().zip(statement.computed()) {
             let (symbol, by) = said.split_once(" = ").expect(self.0);
             assert_eq!(symbol, computed.symbol);
-            self.part(by).is(&computed.by);
+            self.part(by).is(&computed.formula);
         }
     }
 }
@@ -675,24 +676,25 @@ fn claims() -> impl Strategy<Value = Statement> {
             0 => equal("drawn", t(0), t(1)),
             1 => Statement::new("drawn", Proposition::Sign(relation, t(0))),
             2 => derivative("drawn", t(0), &a, t(1)),
-            3 => limit("drawn", t(0), &a, t(1), Rate::Exactly(t(2))),
+            3 => limit("drawn", t(0), &a, t(1), Rate::Equal(t(2))),
             4 => limit("drawn", t(0), &a, t(1), Rate::Within(t(2))),
             5 => {
                 let two = |i: usize| [t(i), t(i + 1)];
                 // A step depends on members, and not on a power.
-                let step = |[x, y]: [Tree; 2]| [t(3).with(&[(POWER, x)]), t(4).with(&[(POWER, y)])];
+                let step =
+                    |[x, y]: [Tree; 2]| [t(3).substitute(&[(POWER, x)]), t(4).substitute(&[(POWER, y)])];
                 induction("drawn", t(0), two(1), step, two(5))
             }
             6 => within("drawn", t(0), t(1)),
-            7 => drift(
+            7 => perturbed_recursion(
                 "drawn",
                 t(0),
                 t(1),
-                |x| x - t(2).with(&[(POWER, x.clone())]),
+                |x| x - t(2).substitute(&[(POWER, x.clone())]),
                 (t(3), t(4)),
                 |_| [(t(5), t(6))],
             ),
-            _ => vanishing("drawn", t(0), t(1), t(2)),
+            _ => geometric_limit("drawn", t(0), t(1), t(2)),
         };
         let computed = ["v", "w"].map(|name| Tree::symbol(name));
         let claim = claim.assuming(&computed.each_ref().map(|x| Hypothesis::near(x, t(7), t(8))));
@@ -711,7 +713,7 @@ proptest! {
     #[test]
     fn a_claim_says_what_is_claimed(claim in claims()) {
         let statement = claim;
-        Text(&Paper::new(&NO_NAMES).claim(&statement), &NO_NAMES, &[]).is_claim(&statement);
+        Text(&ProofPrinter::new(&NO_NAMES).claim(&statement), &NO_NAMES, &[]).is_claim(&statement);
     }
 }
 
@@ -738,10 +740,15 @@ impl Lines<'_> {
 
     /// Two formulas are the same number.
     fn same(&self, a: &str, b: &str, line: &str) {
-        assert_eq!(self.value(a), self.value(b), "{line}: {}", Paper::new(&NO_NAMES).claim(self.statement));
+        assert_eq!(
+            self.value(a),
+            self.value(b),
+            "{line}: {}",
+            ProofPrinter::new(&NO_NAMES).claim(self.statement)
+        );
     }
 
-    /// Holds one line against the numbers; `false` if it says nothing of formulas.
+    /// Holds one line against the numbers; `false` if it has no goals of formulas.
     fn holds(&mut self, line: &str) -> bool {
         let line = line.trim_start();
         if let Some((divisor, reason)) = line.split_once(" ≠ 0:") {
@@ -766,7 +773,11 @@ impl Lines<'_> {
             if std::mem::take(&mut self.decides) {
                 self.values.push(value.clone());
             }
-            assert!(self.values.contains(&value), "{line}: {}", Paper::new(&NO_NAMES).claim(self.statement));
+            assert!(
+                self.values.contains(&value),
+                "{line}: {}",
+                ProofPrinter::new(&NO_NAMES).claim(self.statement)
+            );
             return true;
         }
         if let Some((_, definition)) = line.strip_prefix("by ").and_then(|rest| rest.split_once(": ")) {
@@ -838,7 +849,7 @@ fn a_line_of_a_proof_says_what_is_proved() {
     let tried = TestRunner::new(config).run(&provable(), |claim| {
         let statement = claim;
         let Ok(proof) = prove(&statement) else { return Ok(()) };
-        let said = Paper::new(&NO_NAMES).proof(&proof);
+        let said = ProofPrinter::new(&NO_NAMES).proof(&proof);
         // In each case a name may stand for something else; and of what is long only the length is said.
         if said.iter().any(|line| line.trim_start().starts_with("case ") || line.contains("a sum of ")) {
             return Ok(());
@@ -905,7 +916,9 @@ impl Certificates<'_> {
         let line = reason.map_or(line.trim_start(), |(_, reason)| reason);
         let formula = if line == "0 = 0" {
             "0"
-        } else if let Some((of, reason)) = line.split_once(": with the sizes of errors it is no ") {
+        } else if let Some((of, reason)) =
+            line.split_once(": by the triangle inequality for the errors it is no ")
+        {
             let (relation, left) = reason.strip_suffix(", term by term")?.split_once(" than ")?;
             let (of, left) = (self.fact(of), self.fact(left));
             let [of_value, left] = [of, left].map(|text| self.value(text));
@@ -980,7 +993,7 @@ fn every_line_of_a_certificate_holds() {
     assert!(["e₁", "t₂", "e₁₂"].iter().all(|name| at(name).abs() <= Exact::from(1)));
     let mut checked = 0;
     for statement in statements() {
-        let text = Paper::new(registry()).in_full().proof(&prove(&statement).unwrap());
+        let text = ProofPrinter::new(registry()).in_full().proof(&prove(&statement).unwrap());
         assert!(
             text.iter().all(|line| !line.contains("a sum of ")),
             "{} {}",
@@ -998,7 +1011,7 @@ fn every_line_of_a_certificate_holds() {
                 let is_one =
                     [", term by term", " = 1:", ", since", "Bernstein"].iter().any(|end| line.contains(end));
                 assert!(
-                    !is_one || line.contains("since below") || line.contains("rounding keeps order"),
+                    !is_one || line.contains("since below") || line.contains("rounding preserves order"),
                     "not checked: {line}"
                 );
                 certificates.lines = &certificates.lines[1..];
@@ -1013,9 +1026,9 @@ fn every_line_of_a_certificate_holds() {
 fn every_claim_of_the_chapter_says_what_is_claimed() {
     let quiet = ["ε"];
     for statement in statements() {
-        Text(&Paper::new(registry()).claim(&statement), registry(), &quiet).is_claim(&statement);
+        Text(&ProofPrinter::new(registry()).claim(&statement), registry(), &quiet).is_claim(&statement);
         for hypothesis in statement.all_hypotheses() {
-            Text(&registry().supposed(hypothesis), registry(), &quiet).is_hypothesis(hypothesis);
+            Text(&registry().format_hypothesis(hypothesis), registry(), &quiet).is_hypothesis(hypothesis);
         }
     }
 }
@@ -1032,13 +1045,13 @@ proptest! {
     #[test]
     fn a_name_stands_for_what_it_is_said_of(drawn in prop::collection::vec(trees(), 3), usual in 0..8, twice: bool) {
         let [a, b, c] = ["a", "b", "u"].map(|name| Tree::symbol(name));
-        let formula = Formula::new("spring", "S", &["a", "b", "u"], spring(&a, &b, &c)).folded();
-        let names = Registry::new(&OWN, vec![formula]).quiet(&["b", "u"]);
+        let formula = Formula::new("spring", "S", &["a", "b", "u"], spring(&a, &b, &c)).abbreviated();
+        let names = Registry::new(&OWN, vec![formula]).with_implicit(&["b", "u"]);
         let argument = |i: usize, own: &Tree| if usual & (1 << i) > 0 { own.clone() } else { drawn[i].clone() };
         let called = spring(&argument(0, &a), &argument(1, &b), &argument(2, &c));
         let called = if twice { spring(&a, &called, &c) } else { called };
-        for tree in [&called - &drawn[1], (-&called * &a).nearest(), (&called * &drawn[2]).rounded()] {
-            Text(&names.text(&tree), &names, &["b", "u"]).is(&tree);
+        for tree in [&called - &drawn[1], (-&called * &a).round(), (&called * &drawn[2]).with_rounding()] {
+            Text(&names.format_tree(&tree), &names, &["b", "u"]).is(&tree);
         }
     }
 }

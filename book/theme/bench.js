@@ -1,4 +1,4 @@
-// What the reader sees and touches. All of it follows from the question, and the question is in the address.
+// User interface of the bench. Its state is the question, that is, the settings, which are stored in the address.
 
 const FIELDS = {
   eps: { sign: "ε", name: "penalty", unit: "N/m", from: -3, to: 20, powers: true },
@@ -6,21 +6,21 @@ const FIELDS = {
   m: { sign: "m", name: "mass", unit: "kg", from: -3, to: 3, powers: true },
   g: { sign: "g", name: "gravity", unit: "m/s²", from: -20, to: 20 },
   l: { sign: "l", name: "free length", unit: "m", from: 0, to: 5 },
-  H: { sign: "H", name: "height of the plane", unit: "m", from: 0, to: 5 },
-  lambda: { sign: "λ₀", name: "first multiplier", unit: "N", from: -50, to: 50 },
+  H: { sign: "H", name: "support height", unit: "m", from: 0, to: 5 },
+  lambda: { sign: "λ₀", name: "initial multiplier", unit: "N", from: -50, to: 50 },
 };
-// A position of a slider as a number that is short to write.
+// Conversion between the position of a slider and a number with few digits.
 const written = ({ powers }, x) => (powers ? String(Number((10 ** x).toPrecision(3))) : String(Number(x.toFixed(2))));
 const position = ({ powers }, a) => (powers ? log10(a) : nearest(a, 53, -1074));
 
-// A line of a drawing and its name.
+// An entry of a legend.
 const key = (of, name) => `<span><svg viewBox="0 0 28 14" aria-hidden="true">${of}</svg>${name}</span>`;
 const LIVE = `
 <div class="bench-views">
-  <svg class="bench-system" role="group" aria-label="The system; its plane can be moved">
-    <g></g><g class="bench-plane bench-slider" role="slider" tabindex="0" aria-label="height of the plane, H" aria-orientation="vertical" aria-valuenow="0"></g>
+  <svg class="bench-system" role="group" aria-label="The system; the plane can be moved">
+    <g></g><g class="bench-plane bench-slider" role="slider" tabindex="0" aria-label="height H of the support above the plane" aria-orientation="vertical" aria-valuenow="0"></g>
   </svg>
-  <svg class="bench-forces" role="img" aria-label="Forces over penetrations"></svg>
+  <svg class="bench-forces" role="img" aria-label="Contact force over penetration"></svg>
 </div>
 <div class="bench-key">
   ${key('<path class="bench-spring" d="M0 3L28 11"/>', "equilibrium, <i>c p</i> + <i>N</i> = <i>R</i>")}
@@ -40,23 +40,23 @@ const LIVE = `
   <label for="bench-${key}"><i>${sign}</i> <span>${name}</span></label>
   <input type="range" min="${from}" max="${to}" step="${(to - from) / 1000}" data-slide="${key}" aria-label="${name} ${sign}, by a slider">
   <span><input type="text" id="bench-${key}" aria-label="${name} ${sign}, in ${unit}" size="9" autocomplete="off" autocapitalize="off" spellcheck="false" data-text="${key}" aria-describedby="bench-verdict"> <span class="bench-unit">${unit}</span></span>`).join("")}
-  <label for="bench-numbers">numbers</label>
+  <label for="bench-numbers">number system</label>
   <select id="bench-numbers" data-choice="numbers">
     <option value="f32">f32</option><option value="f64">f64</option><option value="exact">exact fractions</option>
   </select>
-  <label for="bench-side">plane</label>
+  <label for="bench-side">contact</label>
   <select id="bench-side" data-choice="plane">
-    <option value="both">as printed: it also pulls</option><option value="one">it only pushes</option>
+    <option value="both">bilateral, as printed</option><option value="one">unilateral</option>
   </select>
 </div>
-<svg class="bench-decay" role="img" aria-label="The penetration at each step, on a scale of powers of ten"></svg>
+<svg class="bench-decay" role="img" aria-label="The penetration at each step, on a logarithmic scale"></svg>
 <div class="bench-key">
   ${key('<circle class="bench-dot" cx="14" cy="7" r="3"/>', "|<i>p<sub>k</sub></i>| as computed")}
-  ${key('<circle class="bench-ring" cx="14" cy="7" r="5"/>', "|<i>p</i>| at the computed <i>u<sub>k</sub></i>, exactly")}
+  ${key('<circle class="bench-ring" cx="14" cy="7" r="5"/>', "exact |<i>p</i>| at the computed <i>u<sub>k</sub></i>")}
   ${key('<path class="bench-faint" stroke-dasharray="4 3" d="M0 2L28 12"/>', "<i>ρ<sup>k</sup></i>|<i>p</i><sub>0</sub>|")}
-  ${key('<path class="bench-thin" stroke-dasharray="1 3" d="M0 7H28"/>', "<i>F</i>, of the rounding floor")}
+  ${key('<path class="bench-thin" stroke-dasharray="1 3" d="M0 7H28"/>', "<i>F</i>, scale of the rounding floor")}
 </div>
-<div class="bench-table" role="region" aria-label="The steps in numbers" tabindex="0"><table>
+<div class="bench-table" role="region" aria-label="Values of the steps" tabindex="0"><table>
   <thead><tr><th scope="col"><i>k</i></th><th scope="col"><i>λ<sub>k</sub></i> in N</th><th scope="col"><i>u<sub>k</sub></i> in m</th>
   <th scope="col"><i>p<sub>k</sub></i> in m</th><th scope="col"><i>λ</i><sub><i>k</i>+1</sub> in N</th></tr></thead><tbody></tbody>
 </table></div>
@@ -72,7 +72,7 @@ const path = (points, attributes) =>
   draw("path", { fill: "none", d: points.map(([x, y], i) => `${i ? "L" : "M"}${x.toFixed(2)} ${y.toFixed(2)}`).join(""), ...attributes });
 const label = (x, y, text, attributes = {}) => draw("text", { x, y, ...attributes }, text);
 
-// Where the line through two points is within a box of [x, y] corners.
+// Clips the line through two points to a box given by two [x, y] corners.
 const clipped = ([x0, y0], [x1, y1], [[left, low], [right, high]]) => {
   let [from, to] = [-Infinity, Infinity];
   for (const [at, by, min, max] of [[x0, x1 - x0, left, right], [y0, y1 - y0, low, high]]) {
@@ -92,7 +92,7 @@ const floor = x => 10 ** Math.floor(Math.log10(x));
 const { f: real } = systems.f64;
 const toFloat = a => nearest(a, 53, -1074);
 
-/* The three drawings. Numbers of any system are drawn as f64. */
+/* The three drawings. All numbers are converted to f64. */
 
 const seen = run => {
   const number = value => toFloat(run.system.exactly(value));
@@ -107,7 +107,7 @@ const seen = run => {
   };
 };
 
-// The part of the lengths that is drawn: round numbers, so that it seldom changes.
+// The range of lengths that is drawn, with round limits, so that it changes rarely.
 const lengths = ({ values, rows }) => {
   const all = [0, values.H, values.l, ...rows.map(({ u }) => values.l + u)];
   const far = Math.max(...all.map(Math.abs)) * 1.1 || 1, unit = floor(far);
@@ -153,7 +153,7 @@ const drawForces = (svg, { values, rows }, run) => {
   const free = p(real["structure::deflection"](values));
   const [left, right] = hull([0, free, ...rows.map(row => row.p)], 0.2);
   const [low, high] = hull([0, reaction, ...rows.flatMap(row => [row.lambda, row.next])], 0.15);
-  if (![left, right, low, high].every(Number.isFinite)) return svg.replaceChildren(label(10, 20, "too large to be drawn"));
+  if (![left, right, low, high].every(Number.isFinite)) return svg.replaceChildren(label(10, 20, "too large to draw"));
   const box = [[left, low], [right, high]];
   const at = ([p, n]) => [(p - left) / (right - left) * (width - 2) + 1, (high - n) / (high - low) * (height - 2) + 1];
   const line = (a, b, attributes, within = box) => path(clipped(a, b, within).map(at), attributes);
@@ -167,7 +167,7 @@ const drawForces = (svg, { values, rows }, run) => {
     label(width - 4, y0 + 15, "p", { class: "bench-italic bench-end" }), label(x0 - 6, 14, "N", { class: "bench-italic bench-end" }),
     line(held(gap), held(far), { class: "bench-spring" }),
     path([at([left, 0]), at([0, 0]), at([0, high])], { class: "bench-plane bench-corner" }),
-    // Where the line leaves room, which falls from the left.
+    // Labels stand clear of the falling line.
     reaction < 0 ? label(x0 - 6, y1 + 14, force, { class: "bench-end" }) : label(x0 + 8, y1 - 5, force),
     free < 0 ? label(x1 + 8, y0 - 8, distance) : label(x1, y0 + 15, distance, { class: "bench-end" }),
   ];
@@ -175,7 +175,7 @@ const drawForces = (svg, { values, rows }, run) => {
   if (now) {
     const { lambda } = now, above = one ? [[left, Math.max(low, 0)], box[1]] : box;
     parts.push(line([0, lambda], [p(far), update({ ...values, lambda, u: far })], { class: "bench-iterate", "stroke-dasharray": "7 4" }, above));
-    // Where the bracket closes, the way leads along the line no further than to N = 0.
+    // If the positive part vanishes, the path along the line ends at N = 0.
     const bend = ({ lambda, u, p }) => {
       const open = update({ ...values, lambda, u });
       return one && open < 0 && lambda > 0 ? [[p * lambda / (lambda - open), 0]] : [];
@@ -199,7 +199,7 @@ const drawDecay = (svg, { values, rows }, run) => {
   }));
   const { precision } = run.system, given = inFractions(run);
   const least = precision && exact["system::reaction"](given).n >= 0n
-    ? decades(exact["rounding::floor"]({ ...given, n: precision })) : undefined;
+    ? decades(exact["rounding::floor_scale"]({ ...given, n: precision })) : undefined;
   const known = [...points.flatMap(point => [point.computed, point.exact]), least].filter(value => value !== undefined);
   const last = Math.max(10, points.at(-1)?.k ?? 0);
   const high = known.length ? Math.ceil(Math.max(...known) + 0.1) : 0;
@@ -217,7 +217,7 @@ const drawDecay = (svg, { values, rows }, run) => {
     label(left + 7, height - 8, "0"), label(width - 4, height - 8, `k = ${last}`, { class: "bench-end" }),
   );
   const rho = Math.log10(real["augmented::contraction"](values)), start = points[0]?.exact;
-  // As long as no bracket closes, which it does for good where the mass hangs free.
+  // The law ρᵏ holds as long as the contact is active.
   if (start !== undefined && Number.isFinite(rho) && (run.question.plane === "both" || exact["system::reaction"](given).n >= 0n)) {
     const ends = clipped([0, start], [last, start + last * rho], [[0, low], [last, high]]);
     parts.push(path(ends.map(([k, value]) => [x(k), y(value)]), { class: "bench-faint", "stroke-dasharray": "4 3" }));
@@ -232,7 +232,7 @@ const drawDecay = (svg, { values, rows }, run) => {
   svg.replaceChildren(...parts);
 };
 
-/* The page. */
+/* The interactive page. */
 
 const SHOWN = 12;
 
@@ -259,12 +259,12 @@ const open = root => {
     drawForces(find(".bench-forces"), view, result);
     drawDecay(find(".bench-decay"), view, result);
   };
-  // No line breaks before a unit, nor in a sum.
+  // Prevents line breaks before a unit and in a sum.
   const whole = text => text.replace(/ (?=[Nm%][ ,.;)])| (?=[+−] )|(?<=[+−]) /g, "\u00a0");
   const say = (kind, text) => {
-    const said = find(".bench-verdict"), rest = whole(text);
-    if (said.textContent === kind + rest) return;
-    said.replaceChildren(Object.assign(document.createElement("b"), { textContent: kind }), rest);
+    const output = find(".bench-verdict"), rest = whole(text);
+    if (output.textContent === kind + rest) return;
+    output.replaceChildren(Object.assign(document.createElement("b"), { textContent: kind }), rest);
   };
 
   const show = (untilRest = false) => {
@@ -312,14 +312,14 @@ const open = root => {
     keep();
   });
 
-  // The plane: by the arrows, or dragged.
+  // Moves the plane, by arrow keys or by dragging.
   const move = height => {
     const digits = Math.max(0, 2 - Math.floor(Math.log10(domain[1] - domain[0])));
     const within = Math.min(Math.max(height, domain[0]), domain[1]);
     change({ H: String(Number(within.toFixed(Math.min(digits, 20)))) });
   };
   root.addEventListener("keydown", event => {
-    // The book turns the page by arrows, and searches by a letter.
+    // The book uses arrow keys to turn pages, and a letter to search.
     event.stopPropagation();
     if (!view || event.target.getAttribute("role") !== "slider") return;
     const unit = floor(domain[1] - domain[0]) / 100, { H } = view.values;
@@ -351,7 +351,7 @@ const open = root => {
     });
   }
 
-  // Links of this page that ask something of the bench need no new page.
+  // Links on this page that change the settings do not reload the page.
   const again = () => {
     question = asked(location.search);
     show();

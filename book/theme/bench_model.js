@@ -1,5 +1,5 @@
-// What a run of the recursion comes to. The formulas are those of `formulas`, which is generated; here are
-// the numbers they are read in, the reading of what is typed, and what can be said of a run.
+// Runs of the recursion. The formulas are those of `formulas`, which is generated; this file has the number systems,
+// the parsing of the input, and the analysis of a run.
 
 /* Fractions: { n, d } in lowest terms, d > 0. */
 
@@ -34,7 +34,7 @@ const below = (a, b) => a.n * b.d < b.n * a.d;
 const zero = { n: 0n, d: 1n };
 const magnitude = a => ({ n: size(a.n), d: a.d });
 
-/* What the formulas are read in. */
+/* Arithmetic of the formulas. */
 
 const fractions = {
   int: n => ({ n: BigInt(n), d: 1n }),
@@ -47,8 +47,8 @@ const fractions = {
   min: (a, b) => (below(b, a) ? b : a),
 };
 
-// As engine/src/number compares: ⟨−0⟩ is 0, and of two numbers neither of which is smaller the first is taken. To
-// round what f64 computes of two f32 is to round once, since 53 ≥ 2·24 + 2.
+// Comparisons agree with engine/src/number: ⟨−0⟩ is 0, and the minimum of equal numbers is the first. Rounding the
+// f64 result of two f32 operands is a single rounding, since 53 ≥ 2·24 + 2.
 const floats = round => ({
   int: n => round(n),
   neg: a => -a,
@@ -67,7 +67,7 @@ const bits = n => {
   return n ? digits.length * 4 - Math.clz32(parseInt(digits[0], 16)) + 28 : 0;
 };
 
-// The fraction that a finite f64 is.
+// A finite f64 as a fraction.
 const exactly = x => {
   const [word] = new BigUint64Array(Float64Array.of(x).buffer);
   const exponent = Number((word >> 52n) & 2047n), digits = word & (2n ** 52n - 1n);
@@ -76,7 +76,7 @@ const exactly = x => {
   return word >> 63n ? minus(a) : a;
 };
 
-// The nearest number of so many bits, ties to even; `lowest` is the exponent of the smallest.
+// Rounds to `precision` bits, ties to even; `lowest` is the exponent of the smallest subnormal.
 const nearest = (a, precision, lowest) => {
   const over = exponent => (exponent < 0 ? size(a.n) << BigInt(-exponent) : size(a.n));
   const under = exponent => (exponent < 0 ? a.d : a.d << BigInt(exponent));
@@ -84,12 +84,12 @@ const nearest = (a, precision, lowest) => {
   const exponent = Math.max(lead - precision + (over(lead) < under(lead) ? 0 : 1), lowest);
   const q = over(exponent) / under(exponent), twice = 2n * (over(exponent) % under(exponent));
   const up = twice > under(exponent) || (twice === under(exponent) && q % 2n === 1n);
-  // In two parts, as 2 to the exponent may be no float.
+  // In two parts, since 2 to the exponent may overflow or underflow.
   const half = Math.trunc(exponent / 2);
   return (a.n < 0n ? -1 : 1) * Number(up ? q + 1n : q) * 2 ** half * 2 ** (exponent - half);
 };
 
-// log₁₀ of a positive fraction, by its digits: it may be no float.
+// log₁₀ of a positive fraction, which may be out of the range of floats.
 const log10 = ({ n, d }) => {
   const log2 = n => {
     const shift = Math.max(bits(n) - 53, 0);
@@ -100,7 +100,7 @@ const log10 = ({ n, d }) => {
 
 const LONGEST = 40, LARGEST = 400;
 
-// What a text spells, exactly: a decimal, with an exponent perhaps, or a fraction.
+// Parses a decimal, with an optional exponent, or a fraction exactly.
 const parse = text => {
   const plain = text.trim().replace("−", "-");
   const ratio = /^([+-]?\d+)\/(\d+)$/.exec(plain);
@@ -120,7 +120,7 @@ const parse = text => {
 
 const raised = n => String(n).replace(/./g, c => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[c]));
 
-// A fraction to so many digits, rounded, for people: 0.0481, 4.1·10⁻¹⁷.
+// Formats a fraction, rounded to `digits` digits: 0.0481, 4.1·10⁻¹⁷.
 const brief = (a, digits = 3) => {
   if (!a.n) return "0";
   const times = power => (power < 0 ? fraction(1n, 10n ** BigInt(-power)) : fraction(10n ** BigInt(power)));
@@ -128,7 +128,7 @@ const brief = (a, digits = 3) => {
     const { n, d } = product(magnitude(a), times(power));
     return String((2n * n + d) / (2n * d));
   };
-  // The logarithm is rounded, and then the number is: there may be a digit more or less than asked for.
+  // Rounding of the logarithm or of the number may change the number of digits by one.
   const guess = Math.floor(log10(magnitude(a)));
   const exponent = guess + rounded(digits - 1 - guess).length - digits;
   const text = rounded(digits - 1 - exponent).replace(/0+$/, ""), sign = a.n < 0n ? "−" : "";
@@ -138,7 +138,7 @@ const brief = (a, digits = 3) => {
   return point(text.slice(0, exponent + 1).padEnd(exponent + 1, "0"), text.slice(exponent + 1));
 };
 
-// A part of something: in percent, unless it is small.
+// Formats a ratio in percent, unless it is small.
 const share = a => (below(a, { n: 1n, d: 1000n }) ? brief(a) : `${brief(product(a, { n: 100n, d: 1n }))} %`);
 
 /* The number systems. */
@@ -147,15 +147,15 @@ const machine = (name, precision, lowest, round) => {
   const read = a => {
     const x = nearest(a, precision, lowest);
     if (!Number.isFinite(round(x))) throw RangeError(`too large for ${name}`);
-    if (a.n && !x) throw RangeError(`not zero, but nearest to zero in ${name}`);
+    if (a.n && !x) throw RangeError(`not zero, but rounded to zero in ${name}`);
     return x;
   };
-  // What overflows on the way may look harmless in the end.
+  // The result after an intermediate overflow may look normal.
   const strictly = x => {
     if (!Number.isFinite(round(x))) throw RangeError(`too large for ${name}`);
     return round(x);
   };
-  // The shortest decimal that is read as this number.
+  // Formats a float as the shortest decimal that is parsed as the same float.
   const show = x => {
     for (let digits = 1; digits < 17; digits += 1) {
       const text = String(Number(x.toPrecision(digits)));
@@ -178,14 +178,14 @@ const systems = {
   },
 };
 
-/* What is asked for: the parameters as texts, how many steps, in which numbers, over which plane. */
+/* The settings: the parameters as texts, the number of steps, the number system, and the kind of contact. */
 
 const PARAMETERS = ["c", "m", "g", "l", "H", "eps", "lambda"];
 const START = {
   c: "100", m: "1", g: "9.81", l: "1", H: "1.05", eps: "100", lambda: "0", k: 4, numbers: "f64", plane: "both",
 };
 
-// The query of an address to what it asks for; what it does not name is as at the start.
+// Parses the query of an address; missing settings have their initial values.
 const asked = query => {
   const given = new URLSearchParams(query), question = { ...START };
   for (const name of PARAMETERS) question[name] = given.get(name) ?? START[name];
@@ -201,7 +201,7 @@ const address = question => {
 
 const POSITIVE = ["c", "m", "eps"];
 
-// The parameters as numbers, or what is wrong with them, by name.
+// The parameters as numbers, or error messages, by name.
 const numbers = question => {
   const { read } = systems[question.numbers], values = {}, wrong = {};
   for (const name of PARAMETERS) {
@@ -218,10 +218,10 @@ const numbers = question => {
 
 /* The recursion. */
 
-// More binary digits than a fraction may have: each step makes it longer.
+// Maximum number of binary digits of a fraction, which grows with each step.
 const LENGTH = 6000;
 
-// A step from λ; it may be taken thousands of times, so that the quantities are held in one place.
+// A step from λ; it may be called thousands of times, so the object of quantities is reused.
 const recursion = ({ numbers, plane }, values, f = systems[numbers].f) => {
   const prefix = plane === "one" ? "augmented::unilateral_" : "augmented::";
   const [deflection, penetration, update] = [f[`${prefix}deflection`], f["contact::penetration"], f[`${prefix}update`]];
@@ -242,7 +242,7 @@ const period = (system, step, { lambda, next }) => {
   return undefined;
 };
 
-// Steps 0 to k, or fewer where the numbers end; or, as a `whole`, until λ repeats.
+// Steps 0 to k, or fewer if the numbers overflow; or, if `whole`, until λ repeats.
 const run = (question, values, whole = false) => {
   const system = systems[question.numbers], step = recursion(question, values);
   const strict = recursion(question, values, system.strict);
@@ -268,7 +268,7 @@ const run = (question, values, whole = false) => {
   return { question, values, system, rows, ended, period: ended ? undefined : period(system, step, rows.at(-1)) };
 };
 
-/* What can be said of it. All that is compared with what was computed is computed in fractions. */
+/* Analysis of a run. The values with which computed numbers are compared are computed in fractions. */
 
 const exact = systems.exact.f;
 const inFractions = ({ values, system }) =>
@@ -281,32 +281,32 @@ const verdict = run => {
   const { question, system, rows, ended, period } = run;
   const at = rows.at(-1), before = rows.at(-2), k = rows.length - 1;
   const one = question.plane === "one", values = inFractions(run);
-  if (ended === "overflow") return { kind: "overflow", text: `The next step has a number that is too large for ${system.name}.` };
+  if (ended === "overflow") return { kind: "overflow", text: `A number of the next step is too large for ${system.name}.` };
 
   const reaction = exact["system::reaction"](values), apart = reaction.n < 0n;
   const force = one ? exact["contact::contact_force"](values) : reaction, name = one ? "⟨R⟩" : "R";
   const p = penetration(run, at), n = system.precision;
-  const missing = lambda => magnitude(fractions.sub(system.exactly(lambda), force));
-  const missed = lambda => {
-    const by = missing(lambda);
+  const errorOf = lambda => magnitude(fractions.sub(system.exactly(lambda), force));
+  const describeError = lambda => {
+    const by = errorOf(lambda);
     return `${brief(by)} N${by.n && force.n ? ` (${share(fractions.div(by, magnitude(force)))} of it)` : ""}`;
   };
   const wrong = system.exactly(at.next), right = same(wrong, force);
-  const off = right ? `the force λ + ε p is ${name} exactly` : `the force λ + ε p misses ${name} = ${brief(force)} N by ${missed(at.next)}`;
+  const off = right ? `the force λ + ε p is exactly ${name}` : `the force λ + ε p differs from ${name} = ${brief(force)} N by ${describeError(at.next)}`;
   const notes = [];
-  if (apart && !one) notes.push("R < 0, and the plane pulls, as (1.16) is printed; one that only pushes would let go.");
+  if (apart && !one) notes.push("R < 0, and the plane pulls: (1.16) as printed describes a bilateral contact. With unilateral contact the mass would hang free.");
   if (apart && one && wrong.n) notes.push("R < 0: the mass will hang free once λ is 0.");
-  if (ended === "most") notes.push(`The bench makes no more than ${system.most} steps in these numbers.`);
-  if (ended === "length") notes.push(`The bench goes no further: the denominator of λ has ${bits(at.next.d)} binary digits.`);
-  const say = (kind, ...sentences) => ({ kind, p, missing: missing(at.next), text: [...sentences, ...notes].join(" ") });
+  if (ended === "most") notes.push(`The bench computes at most ${system.most} steps in this number system.`);
+  if (ended === "length") notes.push(`The bench stops here: the denominator of λ has ${bits(at.next.d)} binary digits.`);
+  const say = (kind, ...sentences) => ({ kind, p, error: errorOf(at.next), text: [...sentences, ...notes].join(" ") });
 
-  // What a fixed point may miss, by note 8, in exact arithmetic on what was computed.
+  // Bound on the penetration at a fixed point by note 8, evaluated exactly for the computed numbers.
   const bound = () => brief(exact["rounding::fixed_point_error"]({ ...values, lambda: system.exactly(at.lambda), n }));
-  // Whether fewer than half of the digits of the force are right: that is no rest, only a p that has cancelled.
-  const error = missing(at.next), lost = n && below(product(force, force), product(n, product(error, error)));
+  // Whether fewer than half of the digits of the force are right: then p is zero only by cancellation.
+  const error = errorOf(at.next), lost = n && below(product(force, force), product(n, product(error, error)));
   if (at.p === 0 && lost) {
     return say("false zero", "The computed p is 0, and so λ repeats.",
-      p.n ? `But at the computed u, p = ${brief(p)} m (at a fixed point it may be ±${bound()} m);` : "At the computed u it is 0 indeed,", `${p.n ? "" : "but "}${off}.`);
+      p.n ? `But at the computed u, p = ${brief(p)} m (the bound at a fixed point is ±${bound()} m);` : "At the computed u it is indeed 0,", `${p.n ? "" : "but "}${off}.`);
   }
   if (apart && one && !wrong.n) {
     return say("separated", `R = ${brief(reaction)} N < 0: the mass hangs free, ${brief(magnitude(p))} m above the plane, and λ stays 0.`);
@@ -314,19 +314,19 @@ const verdict = run => {
   if (period === 1 && !n) return say("fixed point", `p = 0, and ${off}: this is the solution.`);
   if (period === 1) {
     return say("fixed point", at.p === 0 ? "The computed p is 0, and so λ repeats." : "λ repeats bit for bit: ε p is too small to change it.",
-      `At the computed u, p = ${brief(p)} m (it may be ±${bound()} m); ${off}.`);
+      `At the computed u, p = ${brief(p)} m (within the bound ±${bound()} m); ${off}.`);
   }
   if (period > 1) {
-    return say(`${period}-cycle`, `λ is the same again after ${period} steps, and never after one: who waits for it to repeat waits for ever.`,
-      `λ misses ${name} = ${brief(force)} N by ${missed(at.lambda)} now and by ${missed(at.next)} next.`);
+    return say(`${period}-cycle`, `λ repeats after ${period} steps, but never after one: a test for two equal λ in a row never stops.`,
+      `λ differs from ${name} = ${brief(force)} N by ${describeError(at.lambda)} now and by ${describeError(at.next)} in the next step.`);
   }
-  // What tends to zero: the penetration, or over a plane that only pushes the natural residual.
+  // The quantity that tends to zero: the penetration or, with unilateral contact, the natural residual.
   const rest = row => system.exactly(one ? system.f["augmented::natural_residual"]({ ...run.values, ...row }) : row.p);
   const [now, then] = [at, before ?? at].map(rest);
   if (below(magnitude(then), magnitude(now)) || now.n * then.n < 0n) {
-    return say("moving", `λ still changes, but by rounding: what should fall does not. At the computed u, p = ${brief(p)} m, and ${off}.`);
+    return say("moving", `λ still changes, but only by rounding: the residual no longer falls. At the computed u, p = ${brief(p)} m, and ${off}.`);
   }
   const rho = exact["augmented::contraction"](values), less = fractions.sub(fractions.int(1), rho);
   const rate = below(less, { n: 1n, d: 100n }) ? `1 − ${brief(less)}` : brief(rho);
-  return say("converging", `Exactly, a step multiplies R − λ by ρ = ${rate}. At the computed u, p = ${brief(p)} m, and ${off}.`);
+  return say("converging", `In exact arithmetic, each step multiplies R − λ by ρ = ${rate}. At the computed u, p = ${brief(p)} m, and ${off}.`);
 };

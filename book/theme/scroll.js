@@ -1,4 +1,4 @@
-// What is too wide for its place scrolls: then, and only then, it can be reached and scrolled by the keyboard as well.
+// Makes elements that scroll, and only these, focusable, so that they can be scrolled by keyboard.
 (() => {
     const names = { formula: 'formula', 'table-wrapper': 'table' };
     const look = (box) => {

@@ -1,19 +1,19 @@
-//! What the subcommands share of their arguments: numbers, the system, the scalar.
+//! Arguments shared by subcommands: numbers, the system, the scalar.
 
 use crate::output::{Failure, is_visible, shortened};
 use clap::Args;
 use num_traits::Zero;
 use spring_mass_contact::chapter::SpringMass;
-use spring_mass_contact::claims::all_numbered;
+use spring_mass_contact::claims::find_entries;
 use spring_mass_contact::number::{Exact, NumberSystem, ToExact};
 use spring_mass_contact::rug::float::Round;
 use std::ffi::OsString;
 use std::fmt::Display;
 use std::ops::RangeInclusive;
 
-/// The arguments, if they are plain text: others could only garble the one line of an error. What follows
-/// `--` is another program's, and only has to be text.
-pub fn plain() -> Result<Vec<String>, Failure> {
+/// Returns the arguments if they are plain text, since others could garble the one line of an error.
+/// Arguments after `--` belong to another program and only have to be Unicode.
+pub fn checked_arguments() -> Result<Vec<String>, Failure> {
     let text = |argument: OsString| {
         let refused = |other| format!("argument {}: must be UTF-8 text", shortened(&format!("{other:?}")));
         argument.into_string().map_err(refused)
@@ -25,12 +25,13 @@ pub fn plain() -> Result<Vec<String>, Failure> {
         let quoted = shortened(&format!("{argument:?}"));
         return Err(format!("argument {quoted}: must have no control characters").into());
     }
-    Ok([joined(own), foreign].concat())
+    Ok([join_negative_values(own), foreign].concat())
 }
 
-/// clap takes `-1/2` for an option; joined to the option before it, `--gravity=-1/2`, it is a value. (To
-/// allow it values that begin with a hyphen would hide that the value of `--mass --gravity 9` is missing.)
-pub fn joined(arguments: impl IntoIterator<Item = String>) -> Vec<String> {
+/// Joins values such as `-1/2` to the preceding option, `--gravity=-1/2`, because clap would take them for
+/// options. (Allowing values that begin with a hyphen would hide that the value of `--mass --gravity 9` is
+/// missing.)
+pub fn join_negative_values(arguments: impl IntoIterator<Item = String>) -> Vec<String> {
     let mut joined: Vec<String> = Vec::new();
     for text in arguments {
         let negative = text.starts_with('-') && !text.starts_with("--");
@@ -48,55 +49,55 @@ fn takes_a_value(argument: &str) -> bool {
     argument.starts_with("--") && !argument.contains('=')
 }
 
-/// What an error calls an option: as it is typed, or as the key that a JSON object has for it.
+/// Form of option names in errors: as typed, or as keys of a JSON object.
 #[derive(Clone, Copy)]
-pub enum Names {
+pub enum NameStyle {
     /// `--free-length <L>`
     Options,
     /// `free_length`
     Keys,
 }
 
-impl Names {
-    /// Returns the name of the option that help writes like this.
+impl NameStyle {
+    /// Returns the name for an option as help writes it.
     pub fn of(self, option: &str) -> String {
         match self {
-            Names::Options => option.to_string(),
-            Names::Keys => key(option),
+            NameStyle::Options => option.to_string(),
+            NameStyle::Keys => key(option),
         }
     }
 }
 
-/// The key of an option.
+/// Returns the key of an option.
 pub fn key(option: &str) -> String {
     let name = option.split(' ').next().unwrap_or(option);
     name.trim_start_matches('-').replace('-', "_")
 }
 
-/// What is wrong with the value of an option, in one line.
+/// Returns the one-line error for an invalid value of an option.
 pub fn invalid(value: &str, name: impl Display, why: impl Display) -> Failure {
     Failure::Input(format!("invalid value '{}' for '{name}': {why}", shortened(value)))
 }
 
-/// A number as it was typed, and as it was meant.
+/// A number as typed, with its exact value.
 #[derive(Clone, Debug)]
 pub struct Number {
-    /// The spelling.
+    /// The text.
     pub text: String,
-    /// The value, exactly.
+    /// The exact value.
     pub value: Exact,
 }
 
-/// The value of a number that is known to be finite.
+/// Returns the value of a number that is known to be finite.
 pub fn exact<T: ToExact>(x: &T) -> Exact {
     x.to_exact().expect("a finite number")
 }
 
-/// Whole numbers of so many digits are written without a power of ten.
+/// Largest number of digits of an integer that is written without a power of ten.
 const PLAIN: usize = 8;
 
-/// The shortest decimal that is this number, or a fraction.
-pub fn spelled(x: &Exact) -> String {
+/// Returns the shortest decimal equal to this number, or a fraction.
+pub fn format_exact(x: &Exact) -> String {
     let decimals = (PLAIN..=100).map(|digits| x.decimal(digits, Round::Nearest));
     let mut decimals = decimals.filter(|text| text.parse().as_ref() == Ok(x));
     decimals.next().unwrap_or_else(|| x.to_string())
@@ -114,30 +115,30 @@ pub fn parse_positive(text: &str) -> Result<Number, String> {
     if number.value > Exact::zero() { Ok(number) } else { Err("must be greater than 0".to_string()) }
 }
 
-/// Parses a whole number in this range, without a sign.
+/// Parses an unsigned integer in this range.
 pub fn parse_u64_in(range: RangeInclusive<u64>, text: &str) -> Result<u64, String> {
     let number = text.parse().ok().filter(|number| range.contains(number) && !text.starts_with('+'));
-    number.ok_or_else(|| format!("must be a whole number from {} to {}", range.start(), range.end()))
+    number.ok_or_else(|| format!("must be an integer from {} to {}", range.start(), range.end()))
 }
 
-/// Parses a count.
+/// Parses an unsigned integer.
 pub fn parse_u64(text: &str) -> Result<u64, String> {
     parse_u64_in(0..=u64::MAX, text)
 }
 
-/// Parses a count that is not zero.
+/// Parses a positive integer.
 pub fn parse_positive_u64(text: &str) -> Result<u64, String> {
     parse_u64_in(1..=u64::MAX, text)
 }
 
 impl Number {
-    /// The value, rounded once into the scalar that `like` has.
+    /// Returns the value, rounded once into the scalar of `like`.
     pub fn round<T: ToExact>(&self, name: impl Display, like: &T) -> Result<T, Failure> {
-        like.nearest(&self.value).map_err(|error| invalid(&self.text, name, error))
+        like.round_from_exact(&self.value).map_err(|error| invalid(&self.text, name, error))
     }
 }
 
-/// The number systems that were asked for, each of them once.
+/// Returns the number systems without repetition.
 pub fn distinct(asked: &[NumberSystem]) -> Vec<NumberSystem> {
     let mut distinct = Vec::new();
     for scalar in asked {
@@ -148,7 +149,7 @@ pub fn distinct(asked: &[NumberSystem]) -> Vec<NumberSystem> {
     distinct
 }
 
-/// Runs a generic function in the number system that was asked for; `like` is a zero of it.
+/// Calls a generic function in a number system; `like` is a zero of it.
 macro_rules! in_scalar {
     ($scalar:expr, |$like:ident| $run:expr) => {{
         use spring_mass_contact::number::{Exact, NumberSystem};
@@ -185,35 +186,35 @@ pub struct System {
     /// Mass in kg, m > 0
     #[arg(long, value_name = "M", default_value = "1", value_parser = parse_positive)]
     pub mass: Number,
-    /// Gravitational acceleration in m/s²; a negative one lifts
+    /// Gravitational acceleration in m/s²; negative acts upwards
     #[arg(long, value_name = "G", default_value = "9.81", value_parser = parse_number)]
     pub gravity: Number,
     /// Free length of the spring in m
     #[arg(long, value_name = "L", default_value = "1", value_parser = parse_number)]
     pub free_length: Number,
-    /// Height between the support and the plane in m
+    /// Height of the support above the plane in m
     #[arg(long, value_name = "H", default_value = "1.05", value_parser = parse_number)]
     pub height: Number,
 }
 
 impl System {
-    /// As it was typed.
+    /// Returns the parameters as typed.
     pub fn typed(&self) -> SpringMass<&Number> {
         let System { stiffness, mass, gravity, free_length, height } = self;
         SpringMass { c: stiffness, m: mass, g: gravity, l: free_length, h: height }
     }
 
-    /// The same in one line, for people.
+    /// Formats the parameters in one line.
     pub fn shown(&self) -> String {
         self.typed().map(|number| shortened(&number.text)).to_string()
     }
 
-    /// As it was meant.
+    /// Returns the exact values.
     pub fn values(&self) -> SpringMass<Exact> {
         self.typed().map(|number| number.value.clone())
     }
 
-    /// The options that say so; what is as by default is left out.
+    /// Returns the options for these parameters, without those at their defaults.
     pub fn options(&self) -> Vec<String> {
         let command = System::augment_args(clap::Command::new("system"));
         let SpringMass { c, m, g, l, h } = self.typed();
@@ -224,8 +225,8 @@ impl System {
             .collect()
     }
 
-    /// Each parameter rounded once into the scalar that `like` has.
-    pub fn round<T: ToExact>(&self, names: Names, like: &T) -> Result<SpringMass<T>, Failure> {
+    /// Rounds each parameter once into the scalar of `like`.
+    pub fn round<T: ToExact>(&self, names: NameStyle, like: &T) -> Result<SpringMass<T>, Failure> {
         let SpringMass { c, m, g, l, h } = self.typed();
         Ok(SpringMass {
             c: c.round(names.of("--stiffness <C>"), like)?,
@@ -237,12 +238,11 @@ impl System {
     }
 }
 
-const NUMBER: &str =
-    "must be a number of the chapter as `contact equations` lists them, such as 1.13 or 'Theorem 1.3.3'";
+const NUMBER: &str = "must be a number listed by `contact equations`, such as 1.13 or 'Theorem 1.3.3'";
 
-/// The numbers that the words of a line are; of `theorem 1.3.3`, two of them.
+/// Parses equation numbers; `theorem 1.3.3` consists of two words.
 pub fn equations(words: &[String]) -> Result<Vec<String>, Failure> {
     let refused = |word: &str| invalid(word, "[NUMBER]...", NUMBER);
-    let entries = all_numbered(words).map_err(refused)?;
+    let entries = find_entries(words).map_err(refused)?;
     Ok(entries.iter().map(|entry| entry.equation.to_string()).collect())
 }

@@ -1,6 +1,6 @@
-//! `contact cases`: systems with their exact answers.
+//! `contact cases`: systems with exact solutions.
 
-use crate::args::{parse_u64, parse_u64_in, spelled};
+use crate::args::{format_exact, parse_u64, parse_u64_in};
 use crate::output::{self, Exit, Failure, formats, record};
 use serde::Serialize;
 use spring_mass_contact::chapter::SpringMass;
@@ -11,29 +11,29 @@ Examples:
   contact cases
   contact cases --family near --family far --cases 100 --seed 7 --format json
 
-Parameters are decimals of at most 12 significant digits, and meant exactly;
-answers are fractions, and exact, for a plane that pushes and never pulls.
-`contact check` puts the same systems to a program.";
+Parameters are decimals with at most 12 significant digits, to be read exactly;
+solutions are exact fractions for unilateral contact: the plane never pulls.
+`contact check` uses the same systems.";
 
-/// Print systems with their exact answers: test vectors for any language
+/// Print systems with exact solutions: test vectors for any language
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
     #[command(flatten)]
-    drawn: Drawn,
-    /// How to print them
+    drawn: Selection,
+    /// Output format
     #[arg(long, value_enum, default_value_t = Format::Csv)]
     format: Format,
 }
 
-/// Which systems.
+/// Selection of systems.
 #[derive(clap::Args)]
-pub struct Drawn {
+pub struct Selection {
     /// Systems of each family and each decade of graded, from 1 to 10000
     #[arg(long, value_name = "N", default_value_t = check::CASES)]
     #[arg(value_parser = |text: &str| parse_u64_in(1..=10_000, text))]
     cases: u64,
-    /// Where they are drawn from; the same seed, the same systems, on every machine
+    /// Seed of the systems, which are the same on every machine
     #[arg(long, value_name = "N", default_value = "1", value_parser = parse_u64)]
     pub seed: u64,
     /// Only this family, repeatable: contact, separated, grazing, near, overlap, lifted, stiff, soft,
@@ -44,8 +44,8 @@ pub struct Drawn {
 
 formats!(Csv: "In rows", Json: "Numbers as strings");
 
-impl Drawn {
-    /// The systems, by families.
+impl Selection {
+    /// Returns the systems by families.
     pub fn problems(&self) -> Vec<Problem> {
         let wanted = |family: &Family| self.families.is_empty() || self.families.contains(family);
         let families: Vec<_> = Family::ALL.into_iter().filter(wanted).collect();
@@ -53,7 +53,7 @@ impl Drawn {
     }
 }
 
-/// Draws the systems and prints them.
+/// Prints the systems.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
     let cases: Vec<_> = options.drawn.problems().into_iter().map(case).collect();
     output::print(|out| match options.format {
@@ -62,9 +62,9 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     })
 }
 
-/// Returns a system with its exact answer.
+/// Returns a system with its exact solution.
 fn case(problem: Problem) -> impl Serialize {
-    let SpringMass { c, m, g, l, h } = problem.system.map(spelled);
+    let SpringMass { c, m, g, l, h } = problem.system.map(format_exact);
     let exact = problem.solution();
     record! {
         id: problem.id,

@@ -1,4 +1,4 @@
-//! `contact check`: holds a program against the exact answer.
+//! `contact check`: compares an external solver with exact solutions.
 
 mod json;
 mod program;
@@ -6,7 +6,7 @@ mod reply;
 mod report;
 
 use crate::args::{Number, parse_positive};
-use crate::cases::Drawn;
+use crate::cases::Selection;
 use crate::output::{self, Exit, Failure, formats};
 use program::Program;
 use spring_mass_contact::check::check;
@@ -22,37 +22,38 @@ The program is started once. It reads a line from stdin, such as
   {\"id\": \"contact-1\", \"stiffness\": 100, \"mass\": 1, \"gravity\": 9.81,
    \"free_length\": 1, \"height\": 1.05}
 (without the line break), and answers with a line on stdout, flushed, before it
-is given the next one:
+receives the next one:
   {\"id\": \"contact-1\", \"deflection\": 0.05, \"contact_force\": 4.81}
-SI units; the deflection is downwards, from the undeformed spring; a plane lies
-height below the support, and pushes with the contact force, or with none. A
-negative gravity lifts. Errors are taken in parts of |H - l| + |m g/c| and of
-|m g| + |c (H - l)|. What else an answer may have, and what is diagnosed, is in
-book/src/check.md, the book's page `Check your own solver`.
+All quantities are in SI units. The deflection is measured downwards from the
+undeformed spring; height is that of the support above the plane, which pushes
+with the contact force or not at all. A negative gravity acts upwards. The error
+of u is relative to |H - l| + |m g/c|, that of N to |m g| + |c (H - l)|. The page
+`Check your own solver` of the book (book/src/check.md) lists the optional keys
+of an answer and the mistakes that are diagnosed.
 
 Exit status: 0 if no answer is wrong and each family has one that is right or
 within the tolerance; 1 otherwise; 2 for bad input. A refusal,
 {\"id\": …, \"error\": …}, is not wrong.";
 
-/// Hold a program of your own against the exact answer, and say what is wrong with it
+/// Check an external solver against exact solutions, and diagnose its mistakes
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
     #[command(flatten)]
-    drawn: Drawn,
-    /// How far off an answer may be, in parts of the system's own scales
+    drawn: Selection,
+    /// Largest relative error of an answer (u relative to |H - l| + |m g/c|, N to |m g| + |c (H - l)|)
     #[arg(long, value_name = "T", default_value = "1e-6", value_parser = parse_positive)]
     tolerance: Number,
-    /// How long an answer may take in s, from 0.001 to 1000000
+    /// Time limit for an answer in s, from 0.001 to 1000000
     #[arg(long, value_name = "S", default_value = "10", value_parser = seconds)]
     timeout: Duration,
-    /// Ask for the penalty method, with this ε in N/m: the exact answers are its own then
+    /// Check the penalty method with this ε in N/m; the exact solutions are then those of this method
     #[arg(long, value_name = "E", value_parser = parse_positive)]
     penalty: Option<Number>,
-    /// How to print the report
+    /// Output format
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
-    /// The program and its arguments; it is started without a shell
+    /// Program with its arguments; it is started without a shell
     #[arg(last = true, required = true, num_args = 1.., value_names = ["PROGRAM", "ARG"])]
     program: Vec<String>,
 }
@@ -60,7 +61,7 @@ pub struct Options {
 formats!(
     Table: "For people",
     Json: "Everything; quantities as strings",
-    Markdown: "For documents: a line a family"
+    Markdown: "For documents: one line for each family"
 );
 
 fn seconds(text: &str) -> Result<Duration, String> {
@@ -69,7 +70,7 @@ fn seconds(text: &str) -> Result<Duration, String> {
     seconds.ok_or_else(|| "must be a number of seconds from 0.001 to 1000000".to_string())
 }
 
-/// Checks and reports.
+/// Checks the program and prints the report.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
     let mut problems = options.drawn.problems();
     for problem in &mut problems {

@@ -17,14 +17,14 @@ Examples:
   contact equations --format json
   contact equations --format dot | dot -Tsvg > chapter.svg";
 
-/// List what the chapter states: each number, its function and its claims
+/// List the equations of the chapter with their functions and claims
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
     /// Only these, with their statements: 1.13, 'Theorem 1.3.3', 'note 4', …
     #[arg(value_name = "NUMBER")]
     numbers: Vec<String>,
-    /// How to print them
+    /// Output format
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
 }
@@ -33,10 +33,10 @@ formats!(
     Table: "For reading",
     Json: "For programs",
     Markdown: "For documents",
-    Dot: "For Graphviz: what follows from what, and what is proved"
+    Dot: "For Graphviz: dependencies, and what is proved"
 );
 
-/// Prints the entries asked for.
+/// Prints the entries.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
     let numbers = args::equations(&options.numbers)?;
     let all = numbers.is_empty();
@@ -70,7 +70,7 @@ fn json(entry: &Entry) -> impl Serialize {
     }
 }
 
-/// Returns the function of an entry, without those beside it.
+/// Returns the first function of an entry.
 fn function(entry: &Entry) -> Option<&'static str> {
     entry.functions.first().copied()
 }
@@ -80,7 +80,7 @@ fn table(out: &mut dyn Write, entries: &[&Entry]) -> io::Result<()> {
         let claims = claim_names(entry.equation).len().to_string();
         [entry.label(), entry.title.to_string(), function(entry).unwrap_or("-").to_string(), claims]
     });
-    // A name that is broken cannot be searched for; titles break well.
+    // A broken name cannot be searched for; titles may be broken.
     output::table(out, ["number", "title", "function", "claims"], rows, &[0, 2, 3])
 }
 

@@ -1,4 +1,4 @@
-//! JSON a line, from whoever writes it: lines of bounded length, and objects as they are spelled.
+//! JSON lines from external programs: lines of limited length, and objects in their original spelling.
 
 use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use serde_json::value::RawValue;
@@ -6,11 +6,11 @@ use std::borrow::Cow;
 use std::fmt;
 use std::io::{self, BufRead, BufReader, Read};
 
-/// Bytes that are read at once.
+/// Number of bytes read at once.
 pub const BUFFER: usize = 1 << 16;
 
-/// Waits for a line, and takes with it those that have come with it, `most` of them in all. What a line has
-/// beyond `longest` bytes and one is not kept.
+/// Waits for a line and returns it with the lines that arrived with it, at most `most`. Bytes of a line
+/// beyond `longest` and one are discarded.
 pub fn read_lines(
     from: &mut BufReader<impl Read>,
     most: usize,
@@ -31,11 +31,11 @@ pub fn read_lines(
     Ok(())
 }
 
-/// What an object says: keys and values, as they are spelled.
+/// Keys and values of an object in their original spelling.
 pub struct Object<'a>(pub Vec<(String, &'a RawValue)>);
 
 impl<'a> Object<'a> {
-    /// The value of a key, the first if there are more.
+    /// Returns the value of a key, the first if there are several.
     pub fn get(&self, key: &str) -> Option<&'a RawValue> {
         self.0.iter().find(|(own, _)| own == key).map(|(_, value)| *value)
     }
@@ -61,7 +61,7 @@ impl<'de: 'a, 'a> Deserialize<'de> for Object<'a> {
     }
 }
 
-/// Of a string what it says; of anything else how it is spelled, for nothing else is lost.
+/// Returns the contents of a string, or the original spelling of any other value, so that nothing is lost.
 pub fn text(value: &RawValue) -> Cow<'_, str> {
     serde_json::from_str(value.get()).map_or(Cow::Borrowed(value.get()), Cow::Owned)
 }

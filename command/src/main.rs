@@ -1,8 +1,7 @@
-//! The command `contact`: reads its arguments, calls the library, prints.
+//! The command `contact`.
 //!
-//! `args` is what the subcommands share of their arguments, `json` how objects come in, `output` the way to
-//! stdout, with one function for each format, `lines` the line breaks of formulas; each subcommand is a
-//! module.
+//! The module `args` contains arguments shared by subcommands, `json` the input of objects, `output` one
+//! function for each output format, and `lines` the line breaks of formulas; each subcommand is a module.
 
 mod advise;
 mod args;
@@ -23,7 +22,7 @@ use std::process::ExitCode;
 
 const EXAMPLES: &str = "\
 Examples:
-  contact                         prove the whole chapter, and check it in numbers
+  contact                         prove and check the whole chapter
   contact solve                   solve the default system by Lagrange multiplier
   contact solve --method penalty --penalty 1000 --scalar exact
   contact solve --height 2 --format json
@@ -34,12 +33,12 @@ Examples:
   contact prove 1.17
   contact verify --scalar mpfr:1000 --cases 50
 
-Exit status: 0 all well; 1 a claim does not hold, a solve did not converge, a
-tolerance is out of reach or a program is wrong; 2 bad input.";
+Exit status: 0 success; 1 a claim does not hold, a solve did not converge, a
+tolerance is not attainable or a checked program is wrong; 2 bad input.";
 
-/// A mass on a spring over a rigid plane: contact by Lagrange multiplier, penalty and augmentation
+/// A mass on a spring over a rigid plane: contact by Lagrange multiplier, penalty and augmented Lagrangian
 ///
-/// Without a command: verify.
+/// Without a command, runs verify.
 #[derive(Parser)]
 #[command(name = "contact", version, after_help = EXAMPLES, max_term_width = output::WIDTH.into())]
 struct Cli {
@@ -66,12 +65,12 @@ enum Command {
     after_help = "Example:\n  contact completions bash > ~/.local/share/bash-completion/completions/contact"
 )]
 struct Completions {
-    /// Which shell
+    /// Shell
     shell: clap_complete::Shell,
 }
 
 fn main() -> ExitCode {
-    let answer = args::plain().and_then(|arguments| match Cli::try_parse_from(arguments) {
+    let answer = args::checked_arguments().and_then(|arguments| match Cli::try_parse_from(arguments) {
         Ok(cli) => run(cli),
         Err(error) => {
             let command = Cli::command();
@@ -94,7 +93,7 @@ fn run(cli: Cli) -> Result<Exit, Failure> {
         Some(Command::Cases(options)) => cases::run(&options),
         Some(Command::Check(options)) => check::run(&options),
         Some(Command::Completions(Completions { shell })) => {
-            // The generator panics where it cannot write; into memory it can.
+            // The generator panics on write errors, which do not occur in memory.
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Cli::command(), "contact", &mut script);
             output::print(|out| out.write_all(&script))

@@ -1,4 +1,4 @@
-//! The way out: stdout, a closed pipe, one-line errors, exit codes, tables.
+//! Output: stdout, closed pipes, one-line errors, exit codes and tables.
 
 use crate::lines::NO_BREAK_SPACE;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -13,30 +13,31 @@ use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::thread;
 use std::time::Duration;
 
-/// Columns of a page: of help, and of what is not read on a terminal.
+/// Columns of a page, for help and for output that is not a terminal.
 pub const WIDTH: u8 = 80;
 
-/// Columns that are left for text on the narrowest of terminals.
+/// Columns for text on the narrowest terminal.
 const NARROWEST: u16 = 40;
 
-/// Columns that lines for people fit into: as many as the terminal has, if stdout is one.
+/// Returns the number of columns of a line: that of the terminal, if stdout is one.
 pub fn width() -> usize {
-    // Tests print into memory; whatever runs them may have a terminal.
+    // Tests print into memory, although they may run in a terminal.
     let terminal = if cfg!(test) { None } else { terminal_size::terminal_size_of(io::stdout()) };
     terminal.map_or(WIDTH.into(), |(width, _)| width.0.max(NARROWEST)).into()
 }
 
-/// Not a control character of any kind: some turn the line around or end it and are no `char::is_control`.
+/// Returns `true` unless the character is a control character of any kind; some that reverse or end a line
+/// are not `char::is_control`.
 pub fn is_visible(c: char) -> bool {
     !c.is_control() && (c.is_ascii() || c.escape_debug().len() == 1)
 }
 
-/// The beginning of a text that may be long, without what would end a line, turn it around or move a cursor.
+/// Returns the beginning of a text without characters that end a line, reverse it or move the cursor.
 pub fn shortened(text: &str) -> String {
     shortened_to(text, 40)
 }
 
-/// The same, of at most so many characters.
+/// Like [`shortened`], with at most `most` characters.
 pub fn shortened_to(text: &str, most: usize) -> String {
     let shown = |c| if is_visible(c) { c } else { char::REPLACEMENT_CHARACTER };
     let text = text.chars().map(shown);
@@ -50,7 +51,7 @@ pub fn shortened_to(text: &str, most: usize) -> String {
 /// Outcome of a command that has printed its result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Exit {
-    /// All well.
+    /// The result is satisfactory.
     Success,
     /// A solve did not converge, or a claim does not hold.
     Unsatisfied,
@@ -70,7 +71,7 @@ pub enum Failure {
     #[error("{0}")]
     Input(String),
     /// Writing to stdout failed.
-    #[error("stdout cannot be written: {0}")]
+    #[error("cannot write to stdout: {0}")]
     Output(#[from] io::Error),
 }
 
@@ -80,26 +81,26 @@ impl From<String> for Failure {
     }
 }
 
-/// 0, 1 or 2, with the line on stderr.
+/// Returns 0, 1 or 2, and prints an error to stderr.
 pub fn exit_code(answer: Result<Exit, Failure>) -> ExitCode {
     let failure = match answer {
         Ok(Exit::Success) => return ExitCode::SUCCESS,
         Ok(Exit::Unsatisfied) => return ExitCode::from(1),
-        // Whoever closed the pipe (`| head`) has seen enough.
+        // The reader closed the pipe (`| head`), which is not an error.
         Err(Failure::Output(error)) if error.kind() == io::ErrorKind::BrokenPipe => return ExitCode::SUCCESS,
         Err(failure) => failure,
     };
-    // If stderr is gone as well, the code alone has to do.
+    // If stderr is closed as well, only the code remains.
     let _ = writeln!(io::stderr(), "error: {failure}");
     ExitCode::from(2)
 }
 
-/// Writes to stdout; nothing else does.
+/// Writes to stdout, as the only function that does.
 pub fn print(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<Exit, Failure> {
     print_answer(|out| Ok(write(out).map(|()| Exit::Success)?))
 }
 
-/// Writes what can fail otherwise than by being written, or ends as only the writing shows.
+/// Writes a result that can also fail otherwise, or whose outcome is known only after writing.
 pub fn print_answer(write: impl FnOnce(&mut dyn Write) -> Result<Exit, Failure>) -> Result<Exit, Failure> {
     let mut out = BufWriter::new(io::stdout().lock());
     let exit = write(&mut out)?;
@@ -107,7 +108,7 @@ pub fn print_answer(write: impl FnOnce(&mut dyn Write) -> Result<Exit, Failure>)
     Ok(exit)
 }
 
-/// Declares `Format`: the formats in which a subcommand prints its result, each with its help.
+/// Declares `Format`: the output formats of a subcommand, each with its help.
 macro_rules! formats {
     ($($Name:ident: $help:literal),+) => {
         #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -116,7 +117,7 @@ macro_rules! formats {
 }
 pub(crate) use formats;
 
-/// Returns a struct of these fields, which serde serialises in this order: a result as JSON and CSV have it.
+/// Returns a struct with these fields in this order, for JSON and CSV.
 macro_rules! record {
     ($($name:ident: $value:expr),+ $(,)?) => {{
         #[allow(non_camel_case_types)]
@@ -135,7 +136,7 @@ pub fn json(out: &mut dyn Write, value: &impl Serialize) -> io::Result<()> {
     writeln!(out)
 }
 
-/// Prints a line of CSV for each row; before them, if the rows are structs, the names of their fields.
+/// Prints a line of CSV for each row, after the names of the fields if the rows are structs.
 pub fn csv(out: &mut dyn Write, rows: impl IntoIterator<Item: Serialize>) -> io::Result<()> {
     let mut csv = csv::Writer::from_writer(out);
     let written = rows.into_iter().try_for_each(|row| csv.serialize(row));
@@ -159,8 +160,7 @@ pub fn markdown<const N: usize>(
     })
 }
 
-/// Prints a table for people. The columns in `unbroken` get all the width they need; the others share what
-/// is left.
+/// Prints a table. The columns in `unbroken` get the width they need; the others share the remaining width.
 pub fn table<R: Into<Row>>(
     out: &mut dyn Write,
     names: impl Into<Row>,
@@ -175,7 +175,7 @@ pub fn table<R: Into<Row>>(
     writeln!(out, "{}", table.trim_fmt())
 }
 
-/// Prints names, and beside each its text; those without a text are left out.
+/// Prints names with texts in a second column; names without a text are omitted.
 pub fn list(out: &mut dyn Write, rows: impl IntoIterator<Item = (&'static str, String)>) -> io::Result<()> {
     let rows = rows.into_iter().filter(|(_, text)| !text.is_empty());
     let rows = rows.map(|(name, text)| [name.to_string(), text]);
@@ -188,8 +188,7 @@ pub fn aligned(widths: &[usize], cells: impl IntoIterator<Item: Display>) -> Str
     cells.collect::<String>().trim_end().to_string()
 }
 
-/// Returns a table in the style all tables share, as wide as a page, or the terminal if that is wider: in
-/// less, most would break in the middle of words.
+/// Returns an empty table in the common style, as wide as a page, or as the terminal if that is wider.
 fn empty_table() -> Table {
     let mut table = Table::new();
     table
@@ -199,13 +198,12 @@ fn empty_table() -> Table {
     table
 }
 
-/// A point whose lines end between its numbers.
-pub fn glued(point: &impl ToString) -> String {
+/// Formats a point so that lines are broken only between its numbers.
+pub fn join_coordinates(point: &impl ToString) -> String {
     point.to_string().replace(" = ", &format!("{NO_BREAK_SPACE}={NO_BREAK_SPACE}"))
 }
 
-/// Text in as many lines as it needs; the first begins with `first`, the others are indented by `rest`
-/// blanks.
+/// Prints a text in several lines; the first begins with `first`, the others are indented by `rest` blanks.
 pub fn wrapped(out: &mut dyn Write, first: &str, rest: usize, text: &str) -> io::Result<()> {
     let rest = " ".repeat(rest);
     let options = textwrap::Options::new(width())
@@ -216,8 +214,8 @@ pub fn wrapped(out: &mut dyn Write, first: &str, rest: usize, text: &str) -> io:
     lines.iter().try_for_each(|line| writeln!(out, "{}", line.replace(NO_BREAK_SPACE, " ")))
 }
 
-/// A command for the shell, indented, to be pasted as it stands: its words are quoted, and where the line
-/// is too long it goes on after a backslash.
+/// Prints a shell command that can be copied, indented, with quoted words; long lines continue after a
+/// backslash.
 pub fn command<'a>(out: &mut dyn Write, words: impl IntoIterator<Item = &'a str>) -> io::Result<()> {
     let room = width() - " \\".len();
     let mut line = String::from(" ");
@@ -230,7 +228,8 @@ pub fn command<'a>(out: &mut dyn Write, words: impl IntoIterator<Item = &'a str>
         }
         line.push(' ');
         let mut rest = &*word;
-        // A number that is longer than a line goes on where the next one begins: a blank would end it.
+        // A number that is longer than a line continues at the beginning of the next one, since a blank would
+        // end it.
         while word == plain && line.len() + rest.len() > room {
             let (head, tail) = rest.split_at(room - line.len());
             writeln!(out, "{line}{head}\\")?;
@@ -241,8 +240,8 @@ pub fn command<'a>(out: &mut dyn Write, words: impl IntoIterator<Item = &'a str>
     writeln!(out, "{line}")
 }
 
-/// A bar on stderr if that is a terminal and the work takes longer than a second. The work says how much of
-/// it is done, and of how much: as often as it likes, since another thread draws.
+/// Shows a progress bar on stderr if that is a terminal and the work takes longer than a second. The work
+/// reports its progress as often as it likes, since another thread draws the bar.
 pub fn with_progress<T>(what: &str, work: impl FnOnce(&(dyn Fn(usize, usize) + Sync)) -> T) -> T {
     if !io::stderr().is_terminal() {
         return work(&|_, _| {});
@@ -263,7 +262,7 @@ pub fn with_progress<T>(what: &str, work: impl FnOnce(&(dyn Fn(usize, usize) + S
         bar.finish_and_clear();
     };
     thread::scope(|scope| {
-        // Nothing is sent: when the work is at its end, one way or the other, the channel is closed.
+        // The channel is closed when the work ends.
         let (_work, working) = mpsc::channel();
         scope.spawn(|| bar(working));
         work(&|now, of| {
@@ -273,7 +272,7 @@ pub fn with_progress<T>(what: &str, work: impl FnOnce(&(dyn Fn(usize, usize) + S
     })
 }
 
-/// What clap has to say: help and version go to stdout; an error is cut to one line.
+/// Prints a message of clap: help and version to stdout, an error as one line.
 pub fn clap_message(mut error: clap::Error, commands: &[&str]) -> Result<Exit, Failure> {
     for kind in [ContextKind::InvalidValue, ContextKind::InvalidArg, ContextKind::InvalidSubcommand] {
         if let Some(ContextValue::String(value)) = error.get(kind)
@@ -281,7 +280,7 @@ pub fn clap_message(mut error: clap::Error, commands: &[&str]) -> Result<Exit, F
         {
             let value = ContextValue::String(shortened(value));
             error.insert(kind, value);
-            // They repeat the value.
+            // Suggestions repeat the value.
             error.remove(ContextKind::Suggested);
         }
     }
@@ -309,9 +308,9 @@ pub fn clap_message(mut error: clap::Error, commands: &[&str]) -> Result<Exit, F
     Err(Failure::Input(format!("{line}{allowed}")))
 }
 
-/// What is written, for tests.
+/// Returns the output, for tests.
 #[cfg(test)]
-pub fn printed(print: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> String {
+pub fn capture(print: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> String {
     let mut bytes = Vec::new();
     print(&mut bytes).expect("memory can be written");
     String::from_utf8(bytes).expect("UTF-8")
@@ -323,9 +322,9 @@ mod tests {
 
     #[test]
     fn lines_end_before_a_page_does_but_not_at_glue() {
-        // An ε, a − and an ü each take one column, however many bytes they have.
+        // An ε, a − and an ü each take one column, regardless of their bytes.
         let text = "ε − ü ".repeat(40) + &"no".repeat(3) + "\u{a0}end";
-        let lines = printed(|out| wrapped(out, "  first ", 4, &text));
+        let lines = capture(|out| wrapped(out, "  first ", 4, &text));
         let lines: Vec<&str> = lines.lines().collect();
         assert!(
             lines[0].starts_with("  first ε − ü")
@@ -338,17 +337,17 @@ mod tests {
             format!("first {}", text.replace(NO_BREAK_SPACE, " "))
         );
         let glued = format!("{} a{NO_BREAK_SPACE}b", "x".repeat(77));
-        assert_eq!(printed(|out| wrapped(out, "", 2, &glued)), format!("{}\n  a b\n", "x".repeat(77)));
+        assert_eq!(capture(|out| wrapped(out, "", 2, &glued)), format!("{}\n  a b\n", "x".repeat(77)));
         // Only a word that is longer than a line is broken.
         let nines = |n| "9".repeat(n);
         let broken = format!("a {}\n  {}\n  {}\n", nines(78), nines(78), nines(34));
-        assert_eq!(printed(|out| wrapped(out, "", 2, &format!("a {}", nines(190)))), broken);
+        assert_eq!(capture(|out| wrapped(out, "", 2, &format!("a {}", nines(190)))), broken);
     }
 
-    /// With room for the backslash, and a number that is longer than that goes on in the next line.
+    /// A line has room for the backslash; a longer number continues in the next line.
     #[test]
     fn a_command_fills_its_lines() {
-        let lines = |words: &[&str]| printed(|out| command(out, words.iter().copied()));
+        let lines = |words: &[&str]| capture(|out| command(out, words.iter().copied()));
         let [a, b, c] = [40, 35, 36].map(|n| "9".repeat(n));
         assert_eq!(lines(&[&a, &b]), format!("  {a} {b}\n"));
         assert_eq!(lines(&[&a, &c]), format!("  {a} \\\n      {c}\n"));

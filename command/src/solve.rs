@@ -1,21 +1,21 @@
-//! `contact solve`: its options, and from them to a solution in the scalar that was asked for.
+//! `contact solve`: options, and the solution in the selected number system.
 
 mod batch;
 mod report;
 
-use crate::args::{Names, Number, System, in_scalar, parse_number, parse_positive, parse_u64};
+use crate::args::{NameStyle, Number, System, in_scalar, parse_number, parse_positive, parse_u64};
 use crate::output::{self, Exit, Failure, formats, shortened};
 use clap::ValueEnum;
 use num_traits::Zero;
 use report::Report;
 pub use report::{rounded_in_words, state_in_words};
 use spring_mass_contact::chapter::SpringMass;
-use spring_mass_contact::number::{Exact, NumberSystem, Text};
+use spring_mass_contact::number::{Exact, ExactText, NumberSystem};
 use spring_mass_contact::proof::refute::Point;
 use spring_mass_contact::rug::Integer;
 use spring_mass_contact::solver::{
     Augmentation, Iterate, MAX_AUGMENTATIONS, Method, Outcome, Plane, Scalar, Solution, SolveError,
-    augmentations_needed, solve_observed,
+    exact_augmentation_count, solve_observed,
 };
 use spring_mass_contact::verify::reproduction;
 use std::io::{self, Write};
@@ -30,73 +30,73 @@ Examples:
   echo '{\"id\": 7, \"height\": 1.09}' | contact solve --batch
 
 A number is a decimal (0.05), scientific (5e-2) or a fraction (1/20), read
-exactly and rounded once into the scalar. In the table, exact: and limit: say
-where the exact answer lies, for the parameters as rounded: by augmentation that
-is the limit of its steps. JSON calls that bounds. An augmentation in rationals,
-which become longer with every step, is refused where a multiplier would have
-more than 2²² binary digits, or all of them together 2²⁸.
+exactly and rounded once into the scalar. In the table, exact: and limit: are
+bounds of the exact solution for the rounded parameters; for an augmentation, of
+its limit. JSON has them under bounds. An augmentation in rationals, whose
+length grows with every step, ends with an error if a multiplier would have more
+than 2²² binary digits, or all of them together 2²⁸.
 
-With --batch a line of stdin is a JSON object. Its keys are the long options
-with underscores (free_length), and id, which comes back; options given here
-are for the lines that do not say otherwise. The answers keep the order of the
-lines, and wait for no line that has not come. Each is what --format json
-prints, or has an error.
+With --batch each line of stdin is a JSON object. Its keys are the long options
+with underscores (free_length), and id, which is returned; options on the
+command line are defaults for the lines. Answers are printed in the order of the
+lines, without waiting for further input. Each is what --format json prints, or
+has an error.
 
-Exit status: 0 all well; 1 a solve did not converge, its result is printed all
-the same, or a line of a batch is an error; 2 bad input.";
+Exit status: 0 success; 1 a solve did not converge (its result is still
+printed), or a line of a batch is an error; 2 bad input.";
 
-/// Solve one system, with rigorous bounds and the residuals of the contact conditions
+/// Solve a system, with rigorous bounds and the residuals of the contact conditions
 #[derive(clap::Args, Clone)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
     #[command(flatten)]
     system: System,
 
-    /// How to enforce the contact
+    /// Method that enforces the contact
     #[arg(long, value_enum, default_value_t = MethodName::Lagrange, help_heading = "Method")]
     method: MethodName,
     /// Penalty parameter in N/m, ε > 0, for penalty and augmented [default for augmented: 10 c]
     #[arg(long, value_name = "E", value_parser = parse_positive, help_heading = "Method")]
     penalty: Option<Number>,
-    /// How far the deflection may be off in m, for augmented [default: 1e-9]
+    /// Largest error of the deflection in m, for augmented [default: 1e-9]
     #[arg(long, value_name = "T", value_parser = parse_positive, help_heading = "Method")]
     tolerance: Option<Number>,
-    /// The last augmentation to try, for augmented [default: 1000]
+    /// Largest number of augmentations, for augmented [default: 1000]
     #[arg(long, value_name = "N", value_parser = parse_u64, help_heading = "Method")]
     max_augmentations: Option<u64>,
-    /// Multiplier to start from in N, for augmented [default: 0]
+    /// Initial multiplier in N, for augmented [default: 0]
     #[arg(long, value_name = "L", value_parser = parse_number, help_heading = "Method")]
     initial_multiplier: Option<Number>,
-    /// Let the plane pull as well, as the chapter prints its equations
+    /// Use bilateral contact: the plane also pulls, as in the chapter's printed equations
     #[arg(long, help_heading = "Method")]
     bilateral: bool,
 
     /// Number system: f32, f64, mpfr:BITS or exact
     #[arg(long, value_name = "S", default_value_t = NumberSystem::F64, help_heading = "Output")]
     scalar: NumberSystem,
-    /// Show every augmentation, for augmented; as csv, these rows alone
+    /// Show every augmentation, for augmented; csv then has these rows only
     #[arg(long, help_heading = "Output")]
     trace: bool,
-    /// How to print the result
+    /// Output format
     #[arg(long, value_enum, default_value_t = Format::Table, help_heading = "Output")]
     format: Format,
-    /// Solve many systems: JSON objects from stdin, a line each, and a line for each
+    /// Solve many systems: one JSON object per line of stdin, one line of output for each
     #[arg(long, conflicts_with_all = ["trace", "format"], help_heading = "Output")]
     batch: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum MethodName {
-    /// §1.3.1: exact
+    /// Lagrange multiplier (§1.3.1): exact
     Lagrange,
-    /// §1.3.2: a second spring of stiffness ε
+    /// Penalty (§1.3.2): a second spring of stiffness ε
     Penalty,
-    /// §1.3.3: penalty, repeated with a growing multiplier
+    /// Augmented Lagrangian (§1.3.3): penalty, repeated with an updated multiplier
     Augmented,
 }
 
 impl MethodName {
-    /// Of a method.
+    /// Returns the name of a method.
     pub fn of<T>(method: &Method<T>) -> Self {
         match method {
             Method::Lagrange => MethodName::Lagrange,
@@ -105,7 +105,7 @@ impl MethodName {
         }
     }
 
-    /// As on the command line.
+    /// Returns the name on the command line.
     pub fn name(self) -> String {
         self.to_possible_value().map_or(String::new(), |value| value.get_name().to_string())
     }
@@ -117,7 +117,7 @@ formats!(
     Csv: "One row, or with --trace one for each augmentation"
 );
 
-/// Solves and prints, one system or many.
+/// Solves one system or many, and prints the results.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
     if options.batch {
         return batch::run(options);
@@ -126,12 +126,12 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
 }
 
 impl Options {
-    /// Solves in the scalar that was asked for; writes nothing before the solve is at its end.
+    /// Solves in the selected number system, and writes only after the solve has ended.
     fn answer(&self, out: &mut dyn Write) -> Result<Exit, Failure> {
         in_scalar!(self.scalar, |like| self.answer_in(like, out))
     }
 
-    fn answer_in<T: Scalar + Text>(&self, like: &T, out: &mut dyn Write) -> Result<Exit, Failure> {
+    fn answer_in<T: Scalar + ExactText>(&self, like: &T, out: &mut dyn Write) -> Result<Exit, Failure> {
         self.refuse_unused()?;
         let problem = Problem {
             system: self.system.round(self.names(), like)?,
@@ -162,12 +162,12 @@ impl Options {
         Ok(Exit::from_result(matches!(solution.outcome, Outcome::Direct | Outcome::Converged)))
     }
 
-    /// A line of JSON knows keys, and no options.
-    fn names(&self) -> Names {
-        if self.batch { Names::Keys } else { Names::Options }
+    /// Returns the form of names in errors: keys for a line of JSON, otherwise options.
+    fn names(&self) -> NameStyle {
+        if self.batch { NameStyle::Keys } else { NameStyle::Options }
     }
 
-    /// Refuses an option that would change nothing: it is a misunderstanding.
+    /// Refuses an option without effect, which indicates a misunderstanding.
     fn refuse_unused(&self) -> Result<(), Failure> {
         let typed = |number: &Option<Number>| number.as_ref().map(|n| format!(" {}", shortened(&n.text)));
         let options = [
@@ -184,19 +184,19 @@ impl Options {
             {
                 let [option, method] = [option, "--method"].map(|name| self.names().of(name));
                 return Err(Failure::Input(format!(
-                    "'{option}{value}' is not used by {method} {own}; it belongs to {method} {methods}"
+                    "'{option}{value}' has no effect with {method} {own}; use it with {method} {methods}"
                 )));
             }
         }
         Ok(())
     }
 
-    /// The default too as it would be typed.
+    /// Returns the tolerance; the default as it would be typed.
     fn tolerance(&self) -> Number {
         self.tolerance.clone().unwrap_or_else(|| parse_number("1e-9").expect("a number"))
     }
 
-    fn method<T: Scalar + Text>(&self, like: &T) -> Result<Method<T>, Failure> {
+    fn method<T: Scalar + ExactText>(&self, like: &T) -> Result<Method<T>, Failure> {
         let ten_c = &self.system.stiffness.value * Exact::from(10);
         let name = |option| self.names().of(option);
         let round_penalty = |number: &Number| number.round(name("--penalty <E>"), like);
@@ -229,15 +229,15 @@ impl Options {
     }
 }
 
-/// What is to be solved, in the scalar it is solved in.
+/// A system and a method in the selected number system.
 struct Problem<T> {
     system: SpringMass<T>,
     method: Method<T>,
     plane: Plane,
 }
 
-impl<T: Scalar + Text> Problem<T> {
-    /// How far it has come is measured by the steps that exact arithmetic needs.
+impl<T: Scalar + ExactText> Problem<T> {
+    /// Progress is relative to the number of steps in exact arithmetic.
     fn solve(
         &self,
         needed: Option<&Integer>,
@@ -254,7 +254,7 @@ impl<T: Scalar + Text> Problem<T> {
         solve_observed(&self.system, &self.method, self.plane, each)
     }
 
-    /// The augmentations that led to a solution, once more: cheaper than to keep them all.
+    /// Recomputes the augmentations of a solution, which is cheaper than storing them.
     fn trace(&self, solution: &Solution<T>) -> impl Iterator<Item = Iterate<T>> {
         let steps = match &self.method {
             Method::Augmented { penalty, start, .. } => {
@@ -266,10 +266,10 @@ impl<T: Scalar + Text> Problem<T> {
         steps.into_iter().flatten().take_while(move |step| Some(step.k) <= last)
     }
 
-    /// The count of (1.33), of exact arithmetic; none if it has too many digits.
+    /// Returns the count of (1.33) in exact arithmetic; `None` if it has too many digits.
     fn steps_needed(&self) -> Option<Integer> {
         let Method::Augmented { penalty, tolerance, start, .. } = &self.method else { return None };
-        augmentations_needed(&self.system, penalty, tolerance, start, self.plane).ok()
+        exact_augmentation_count(&self.system, penalty, tolerance, start, self.plane).ok()
     }
 }
 
@@ -292,7 +292,7 @@ fn command_line(system: &SpringMass<Exact>, method: &Method<Exact>) -> String {
     }
 }
 
-/// What an iterate says besides its k.
+/// Returns the quantities of an iterate.
 fn quantities<T>(iterate: &Iterate<T>) -> [&T; 4] {
     [&iterate.multiplier, &iterate.deflection, &iterate.penetration, &iterate.contact_force]
 }
@@ -303,7 +303,7 @@ mod tests {
     use clap::{Args, FromArgMatches};
     use std::cell::RefCell;
 
-    /// In steps, of those that exact arithmetic needs, or that are allowed if these are fewer.
+    /// Counted in steps of exact arithmetic, or allowed steps if these are fewer.
     #[test]
     fn progress_ends_with_the_solve() {
         let system = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
@@ -318,7 +318,7 @@ mod tests {
         }
     }
 
-    /// What is printed, however long, is read as the system and the method that were meant.
+    /// Every printed command parses as the system and the method it was printed for.
     #[test]
     fn a_command_line_is_read_as_what_it_was_made_from() {
         let [c, m, g, l, h, penalty] =
@@ -326,7 +326,7 @@ mod tests {
         let system = SpringMass { c, m, g, l, h };
         for method in [Method::Lagrange, Method::Penalty { penalty: penalty.clone() }] {
             let line = command_line(&system, &method);
-            let words = crate::args::joined(line.split(' ').skip(1).map(String::from));
+            let words = crate::args::join_negative_values(line.split(' ').skip(1).map(String::from));
             let read =
                 Options::augment_args(clap::Command::new("solve")).try_get_matches_from(words).unwrap();
             let options = Options::from_arg_matches(&read).unwrap();

@@ -1,14 +1,16 @@
-//! `contact sweep`: the penalty method over a range of penalties, in one number system after the other.
+//! `contact sweep`: the penalty method over a range of penalties, in several number systems.
 
 mod plot;
 
-use crate::args::{self, Names, Number, System, exact, in_scalar, parse_positive, parse_u64_in, spelled};
+use crate::args::{
+    self, NameStyle, Number, System, exact, format_exact, in_scalar, parse_positive, parse_u64_in,
+};
 use crate::output::{self, Exit, Failure, formats, shortened};
 use num_traits::{One, Zero};
 use plot::Curve;
 use serde::Serialize;
 use spring_mass_contact::chapter::{SpringMass, penalty, rounding, system};
-use spring_mass_contact::number::{Exact, NumberSystem, Text};
+use spring_mass_contact::number::{Exact, ExactText, NumberSystem};
 use spring_mass_contact::rug::{Float, float::Round};
 use spring_mass_contact::solver::{
     Scalar, SolveError, State, SweepRow, best_penalty, penalties, penalty_force_bound, sweep,
@@ -21,25 +23,25 @@ Examples:
   contact sweep --penalty 1..1e18 --points 19 --scalar f32 --scalar f64
   contact sweep --penalty 1/10..1e40 --scalar mpfr:200 --format csv
 
-The errors are relative, |N − R|/R, for the exact contact force R of the
-parameters as rounded; in JSON they are exact, elsewhere rounded to a few
-digits. Penalties are the same numbers in every number system, each rounded once
-into it; one that does not fit ends the command. A row whose results do not fit
-has an error in their place. On a terminal there is a plot as well.
+The errors are relative, |N − R|/R, for the exact contact force R of the rounded
+parameters; in JSON they are exact, elsewhere rounded to a few digits. Penalties
+are the same numbers in every number system, each rounded once; one that is out
+of range ends the command. A row whose results are out of range has an error
+instead. On a terminal there is also a plot.
 
-Exit status: 0 all well; 1 a row has an error; 2 bad input, or no row has results.";
+Exit status: 0 success; 1 a row has an error; 2 bad input, or no row has results.";
 
-/// Show how the penalty method depends on its penalty, with the exact errors of its two forces
+/// Show the penalty method over a range of penalties, with the exact errors of its two forces
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
     #[command(flatten)]
     system: System,
 
-    /// Penalties in N/m, from one to a larger one, 0 < FROM < TO
+    /// Range of penalties in N/m, 0 < FROM < TO
     #[arg(long, value_name = "FROM..TO", value_parser = range, help_heading = "Sweep")]
     penalty: (Number, Number),
-    /// How many penalties, both ends included, from 2 to 1001; each as many times the one before
+    /// Number of penalties with both ends, from 2 to 1001, in equal ratios
     #[arg(value_parser = |text: &str| parse_u64_in(2..=1001, text))]
     #[arg(long, value_name = "N", default_value = "61", help_heading = "Sweep")]
     points: u64,
@@ -47,31 +49,31 @@ pub struct Options {
     /// Number system, repeatable: f32, f64, mpfr:BITS or exact [default: f64]
     #[arg(long = "scalar", value_name = "S", help_heading = "Output")]
     scalars: Vec<NumberSystem>,
-    /// How to print the rows
+    /// Output format
     #[arg(long, value_enum, default_value_t = Format::Table, help_heading = "Output")]
     format: Format,
 }
 
 formats!(
-    Table: "For people: few digits, and what they show",
+    Table: "For people: few digits, with notes",
     Json: "All digits, numbers as strings",
     Csv: "The same in rows"
 );
 
-/// As clap names it.
+/// Name of the option in clap.
 const PENALTY: &str = "--penalty <FROM..TO>";
 
-/// The columns of the table: with a blank before each, they fit a page.
+/// Widths of the table's columns: with a blank before each they fit a page.
 const WIDTHS: [usize; 7] = [10, 11, 11, 11, 9, 11, 9];
 
-/// How many digits a table has at most, and how many of an error and in a text.
+/// Largest number of digits in a table, and of an error and in a text.
 const DIGITS: usize = 8;
 const FEW: usize = 3;
 
-/// How many digits of an error CSV has, for programs that plot it.
+/// Number of digits of an error in CSV, for plots.
 const ERROR_DIGITS: usize = 6;
 
-/// Two numbers and what is between them.
+/// Parses a range of two numbers.
 fn range(text: &str) -> Result<(Number, Number), String> {
     let (from, to) = text.split_once("..").ok_or("must be FROM..TO, such as 1..1e12")?;
     let end = |name: &str, text| {
@@ -81,9 +83,9 @@ fn range(text: &str) -> Result<(Number, Number), String> {
     if from.value < to.value { Ok((from, to)) } else { Err("FROM must be less than TO".to_string()) }
 }
 
-/// Sweeps and prints.
+/// Sweeps and prints the rows.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
-    // All of it before a line is printed: bad input shall not leave half a table.
+    // Computed before a line is printed, so that an error leaves no incomplete table.
     let sweeps = output::with_progress("sweeping", |progress| sweeps(options, progress))?;
     let rows: Vec<_> = sweeps.iter().flat_map(|sweep| &sweep.rows).collect();
     output::print(|out| match options.format {
@@ -104,7 +106,7 @@ fn sweeps(options: &Options, progress: &dyn Fn(usize, usize)) -> Result<Vec<Swee
         args::invalid(&format!("{}..{}", from.text, to.text), PENALTY, allowed)
     };
     let penalties = penalties(&from.value, &to.value, options.points as u32).map_err(refused)?;
-    let number = |value| Number { text: spelled(&value), value };
+    let number = |value| Number { text: format_exact(&value), value };
     let penalties: Vec<_> = penalties.into_iter().map(number).collect();
     let scalars = args::distinct(&options.scalars);
     let scalars = if scalars.is_empty() { vec![NumberSystem::F64] } else { scalars };
@@ -116,7 +118,7 @@ fn sweeps(options: &Options, progress: &dyn Fn(usize, usize)) -> Result<Vec<Swee
     scalars.iter().enumerate().map(made).collect()
 }
 
-/// Rows of one number system, as they are printed, and what there is to say of them.
+/// Formatted rows of one number system, with notes.
 struct Sweep {
     scalar: NumberSystem,
     rows: Vec<Row>,
@@ -124,7 +126,7 @@ struct Sweep {
     curves: [Curve; 2],
 }
 
-/// Results of one penalty, or the error in their place.
+/// Results for one penalty, or the error.
 #[derive(Default, Serialize)]
 struct Row {
     scalar: String,
@@ -138,7 +140,7 @@ struct Row {
     error: Option<String>,
 }
 
-/// What is to be swept, where.
+/// A sweep in one number system.
 struct Sweeping<'a> {
     options: &'a Options,
     penalties: &'a [Number],
@@ -146,12 +148,12 @@ struct Sweeping<'a> {
 }
 
 impl Sweeping<'_> {
-    fn run<T: Scalar + Text>(&self, like: &T, each: impl Fn(usize)) -> Result<Sweep, Failure> {
-        let system = self.options.system.round(Names::Options, like)?;
+    fn run<T: Scalar + ExactText>(&self, like: &T, each: impl Fn(usize)) -> Result<Sweep, Failure> {
+        let system = self.options.system.round(NameStyle::Options, like)?;
         let round = |eps: &Number| eps.round(PENALTY, like);
         let rounded = self.penalties.iter().map(round).collect::<Result<Vec<T>, _>>()?;
         let (mut rows, mut curves) = (Vec::new(), Curve::pair());
-        // The error of the first row that has one.
+        // Error of the first row with an error.
         let mut refused = None;
         let mut least: Option<(Exact, &str)> = None;
         for ((i, row), eps) in (1..).zip(sweep(&system, rounded.iter().cloned())).zip(self.penalties) {
@@ -176,7 +178,7 @@ impl Sweeping<'_> {
             each(i);
         }
         match refused {
-            // What is wrong with every row is wrong with the system.
+            // An error in every row is an error of the system.
             Some(refused) if rows.iter().all(|row: &Row| row.error.is_some()) => Err(refused.into()),
             _ => {
                 let notes = self.notes(&system, &rounded, least);
@@ -185,8 +187,8 @@ impl Sweeping<'_> {
         }
     }
 
-    /// Returns a row as it is printed: for people within the width of a column, or in full.
-    fn row<T: Text>(&self, eps: &Number, row: Result<SweepRow<T>, SolveError>) -> Row {
+    /// Returns a formatted row: within the width of a column for tables, otherwise in full.
+    fn row<T: ExactText>(&self, eps: &Number, row: Result<SweepRow<T>, SolveError>) -> Row {
         let format = self.options.format;
         let people = format == Format::Table;
         let value = |x: &T, width| if people { exact(x).decimal_within(DIGITS, width) } else { x.text() };
@@ -214,8 +216,8 @@ impl Sweeping<'_> {
         }
     }
 
-    /// What the rows show.
-    fn notes<T: Scalar + Text>(
+    /// Returns notes on the rows.
+    fn notes<T: Scalar + ExactText>(
         &self,
         system: &SpringMass<T>,
         penalties: &[T],
@@ -226,15 +228,15 @@ impl Sweeping<'_> {
         let s = system.map(exact);
         let Some((least, at)) = least else {
             let without = match State::of(system) {
-                Ok(State::Separated) => "The mass hangs free, with no plane to push: there is no ε p.",
-                _ => "Grazing: the contact force is 0, and nothing is a part of it.",
+                Ok(State::Separated) => "The mass is separated from the plane, so there is no force ε p.",
+                _ => "Grazing: the contact force is 0, so there are no relative errors.",
             };
             return vec![without.to_string()];
         };
         let (r, c) = (system::reaction(&s), &system.c);
         let mut notes = vec![format!(
-            "R = {} N, for the parameters as rounded, and c/(c + ε) of it is left to the spring: from \
-             ε = c = {} N/m on this error falls like 1/ε, with the slope −1.",
+            "R = {} N for the rounded parameters, of which the spring carries c/(c + ε): from \
+             ε = c = {} N/m on this error decreases like 1/ε, with the slope −1.",
             few(&r),
             few(&exact(c)),
         )];
@@ -242,29 +244,32 @@ impl Sweeping<'_> {
             notes.push("Rationals do not round: there is no other error.".to_string());
             return notes;
         }
-        let seen = format!("The least error here is {} at ε = {} N/m.", few(&least), shortened(at));
+        let seen = format!("The smallest error here is {} at ε = {} N/m.", few(&least), shortened(at));
         let bound = |eps: &T| {
             penalty_force_bound(system, eps, &eta).ok().flatten().map_or(String::new(), |bound| few(&bound))
         };
         notes.push(match best_penalty(system, &eta) {
             Ok(Some(best)) => format!(
-                "ε p multiplies what rounding does to p: surest is ε = {} N/m, where it is certainly within \
-                 {} of R; no other ε is promised as much. {seen}",
+                "ε p amplifies the rounding error of p: the best bound is that of ε = {} N/m, where ε p is \
+                 within {} of R. {seen}",
                 few(&exact(&best)),
                 bound(&best)
             ),
             Ok(None) if s.h.is_zero() && s.l.is_zero() => {
-                format!("With H = l = 0 rounding does nothing to p that ε p would notice. {seen}")
+                format!("With H = l = 0 rounding does not limit the accuracy of ε p. {seen}")
             }
-            Ok(None) => format!("ε p is lost to rounding before the penalty is stiff: none is best. {seen}"),
-            Err(_) => format!("The ε that ε p would be surest with is out of this scalar's range. {seen}"),
+            Ok(None) => {
+                format!("Rounding dominates ε p before the penalty is stiff, so no ε is best. {seen}")
+            }
+            Err(_) => format!("The ε with the best bound of ε p is out of the range of this scalar. {seen}"),
         });
         notes.push(
-            "m g − c u has no optimum: its error falls to what rounding leaves, and stays there.".to_string(),
+            "m g − c u has no optimum: its error decreases to the level of rounding and stays there."
+                .to_string(),
         );
         let n = Exact::one() / &eta;
-        let floor = |eps: &T| rounding::floor(&s, &exact(eps), &n);
-        // Where it is no less than what the penalty alone leaves there is nothing to augment.
+        let floor = |eps: &T| rounding::floor_scale(&s, &exact(eps), &n);
+        // If the floor is at least the penetration by penalty, there is nothing to augment.
         let augments = |eps: &&T| floor(eps) < penalty::penetration(&s, &exact(*eps));
         if let (Some(first), Some(last)) = (penalties.iter().find(augments), penalties.iter().rfind(augments))
         {
@@ -297,7 +302,7 @@ fn table(out: &mut dyn Write, options: &Options, sweeps: &[Sweep], plotted: bool
             let cells = [deflection, penetration].into_iter().chain(forces);
             let cells = cells.map(|cell| cell.as_deref().unwrap_or("–"));
             let results = match &row.error {
-                // It fits the page, all but what helps, which stands below.
+                // It fits the page without its remedy, which is printed below.
                 Some(error) => format!(" {}", error.split("; ").next().unwrap_or_default()),
                 None => output::aligned(&WIDTHS[1..], cells),
             };
@@ -308,7 +313,7 @@ fn table(out: &mut dyn Write, options: &Options, sweeps: &[Sweep], plotted: bool
         }
         writeln!(out)?;
         if rows.iter().any(|row| row.error.is_some()) {
-            let help = "Where a result leaves the range, use MPFR (mpfr:BITS) or exact rationals.";
+            let help = "If a result is out of range, use MPFR (mpfr:BITS) or exact rationals.";
             output::wrapped(out, " ", 1, help)?;
         }
         notes.iter().try_for_each(|note| output::wrapped(out, " ", 1, note))?;
@@ -319,7 +324,7 @@ fn table(out: &mut dyn Write, options: &Options, sweeps: &[Sweep], plotted: bool
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::output::printed;
+    use crate::output::capture;
     use clap::{Args, FromArgMatches};
     use std::cell::RefCell;
 
@@ -331,10 +336,10 @@ mod tests {
     fn printed_table(line: &str, plotted: bool) -> String {
         let options = options(line);
         let Ok(sweeps) = sweeps(&options, &|_, _| {}) else { panic!("{line} is refused") };
-        printed(|out| table(out, &options, &sweeps, plotted))
+        capture(|out| table(out, &options, &sweeps, plotted))
     }
 
-    /// Both curves, as far as there are any; and the rest of the table stays as it is.
+    /// Both curves, as far as they have points; the rest of the table is unchanged.
     #[test]
     fn a_terminal_gets_a_plot_besides() {
         let braille = |line: &&str| line.contains(|c| ('\u{2800}'..'\u{2900}').contains(&c));

@@ -1,4 +1,4 @@
-//! `contact verify`: every claim, proved and in every number system, as one table.
+//! `contact verify`: every claim, proved and checked in every number system.
 
 use crate::output::{self, Exit, Failure, formats};
 use crate::{args, solve};
@@ -15,16 +15,16 @@ Examples:
   contact verify --scalar f32 --scalar mpfr:777 --cases 50 --seed 99
   contact verify --format json
 
-Claims about formulas, and about how they round, are proved for all values; what
-a solver makes of them in floats is tried. A claim holds in a number system if
-it does in every case that can be decided there, and at least one can. Rationals
-are compared by equality, floats within the error bounds that balls compute
-along the way: there are no tolerances.
+Claims about formulas and their rounding errors are proved for all values;
+properties of the solver in floats are tested. A claim holds in a number system
+if it holds in every decided case, of which there is at least one. Rationals are
+compared by equality, floats within the error bounds that balls compute with
+them: there are no tolerances.
 
-What no case decides is undecided, which says nothing against it: so it is with
-few cases, and with few digits.
+A claim without a decided case is undecided, which is not a failure; few cases
+or a low precision can be the reason.
 
-Exit status: 0 none fails; 1 some do; 2 bad input.";
+Exit status: 0 no claim fails; 1 some do; 2 bad input.";
 
 /// Prove every claim of the chapter, and check it in every number system
 #[derive(clap::Args)]
@@ -36,26 +36,26 @@ pub struct Options {
     /// Number system, repeatable [default: f32, f64, mpfr:256, exact]
     #[arg(long = "scalar", value_name = "S")]
     scalars: Vec<NumberSystem>,
-    /// Cases to try a claim on, at least 1
+    /// Number of cases for each claim, at least 1
     #[arg(value_parser = args::parse_positive_u64)]
     #[arg(long, value_name = "N", default_value_t = verify::Options::default().cases)]
     cases: u64,
-    /// Where the cases are drawn from; the same seed, the same cases, on every machine
+    /// Seed of the cases, which are the same on every machine
     #[arg(value_parser = args::parse_u64)]
     #[arg(long, value_name = "N", default_value_t = verify::Options::default().seed)]
     seed: u64,
-    /// How to print the report
+    /// Output format
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
 }
 
 formats!(
-    Table: "For reading: a line an equation",
+    Table: "For reading: one line for each equation",
     Json: "For programs: everything",
-    Markdown: "For documents: a line a claim and number system"
+    Markdown: "For documents: one line for each claim and number system"
 );
 
-/// Verifies and reports.
+/// Verifies and prints the report.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
     let mut wanted = verify::Options { cases: options.cases, seed: options.seed, ..Default::default() };
     if !options.scalars.is_empty() {
@@ -63,7 +63,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     }
     wanted.equations = args::equations(&options.numbers)?;
     if let Some(empty) = wanted.equations.iter().find(|e| claim_names(e).is_empty()) {
-        let why = "nothing is claimed of it; `contact equations` lists how many claims each number has";
+        let why = "it has no claims; `contact equations` lists the number of claims of each";
         return Err(args::invalid(empty, "[NUMBER]...", why));
     }
     let report = output::with_progress("verifying", |progress| verify::verify(&wanted, progress));
@@ -83,7 +83,7 @@ fn print(out: &mut dyn Write, report: &Report, options: &verify::Options, format
     }
 }
 
-/// What a claim is tried by: a number system, or the prover.
+/// Column of the report: a number system, or the prover.
 type Way = Option<NumberSystem>;
 
 fn name(way: Way) -> String {
@@ -127,9 +127,13 @@ fn table(out: &mut dyn Write, report: &Report, options: &verify::Options) -> io:
     if let Some((ratio, row)) = worst.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|(ratio, _)| *ratio > 0.0) {
         let Row { equation, claim, scalar, .. } = row;
         let share = percent(ratio);
-        writeln!(out, "Rounding used at most {share} of its bound ({equation} {claim}, {}).", name(*scalar))?;
+        writeln!(
+            out,
+            "Rounding errors: at most {share} of the bound ({equation} {claim}, {}).",
+            name(*scalar)
+        )?;
     }
-    // Once more below all failures, where a terminal shows it.
+    // Repeated below all failures, where a terminal shows it.
     if unproved {
         writeln!(out)?;
         where_to_look(out, report)?;
@@ -137,7 +141,7 @@ fn table(out: &mut dyn Write, report: &Report, options: &verify::Options) -> io:
     Ok(())
 }
 
-/// A share in per cent: with one decimal, and up, so that "at most" is true.
+/// Formats a fraction in per cent with one decimal, rounded up, since it is an upper bound.
 fn percent(share: f64) -> String {
     format!("{} %", (1e3 * share).ceil() / 10.0)
 }
@@ -146,13 +150,13 @@ fn counted(count: u64, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
-/// What these columns have for themselves; the number and the title's longest word need the rest of a line.
+/// Width for these columns; the number and the longest word of the title need the rest of a line.
 const ROOM: usize = 45;
 
-/// The blanks around a column.
+/// Blanks around a column.
 const BLANKS: usize = 2;
 
-/// The ways in groups whose columns fit beside each other.
+/// Groups columns that fit beside each other.
 fn side_by_side<'a>(report: &Report, ways: &'a [Way]) -> Vec<&'a [Way]> {
     let width = |way: Way| {
         let cells = report.by_equation().map(|rows| cell(rows, way).len());
@@ -171,7 +175,7 @@ fn side_by_side<'a>(report: &Report, ways: &'a [Way]) -> Vec<&'a [Way]> {
     groups
 }
 
-/// How many of an equation's claims are proved, or hold in a number system.
+/// Returns how many claims of an equation are proved, or hold in a number system.
 fn cell(rows: &[Row], way: Way) -> String {
     let rows = || rows.iter().filter(|row| row.scalar == way);
     let count = |status| rows().filter(|row| row.status == status).count();
@@ -196,27 +200,27 @@ fn counts(out: &mut dyn Write, report: &Report, ways: &[Way]) -> io::Result<()> 
     output::table(out, names, rows, &unbroken)
 }
 
-/// The number of claims that are not proved.
+/// Returns the number of unproved claims.
 fn unproved(report: &Report) -> usize {
     report.rows.iter().filter(|row| row.scalar.is_none() && row.status == Status::Failed).count()
 }
 
-/// Prints the functions in which a mistake is likely and the changes that would mend it.
+/// Prints the functions that are likely wrong, and the mutants that would repair them.
 fn where_to_look(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     for Suspect { function, equation, unproved, proved } in &report.suspects {
         let number = equation.and_then(entry).map_or(String::new(), |entry| entry.label() + " ");
-        writeln!(out, "{number}{function}: look here first")?;
+        writeln!(out, "{number}{function}: most likely wrong")?;
         match unproved {
-            0 => writeln!(out, "  it computes nothing, but hands on an argument")?,
-            1 => writeln!(out, "  or at the claim: no other that speaks of it fails")?,
+            0 => writeln!(out, "  it only returns an argument")?,
+            1 => writeln!(out, "  or the claim itself: no other claim about it fails")?,
             _ => {
                 let all = unproved + proved;
-                writeln!(out, "  of {all} claims that speak of it, {unproved} are not proved")?;
+                writeln!(out, "  {unproved} of {all} claims about it are not proved")?;
             }
         }
     }
     for change in &report.repairs {
-        output::wrapped(out, "  ", 4, &format!("with {change} every claim would be proved"))?;
+        output::wrapped(out, "  ", 4, &format!("{change} would make every claim provable"))?;
     }
     let unproved = unproved(report);
     if unproved == 0 || !report.repairs.is_empty() {
@@ -224,20 +228,24 @@ fn where_to_look(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     }
     let of_all = if unproved == 1 { "the claim that is" } else { "all claims that are" };
     let shared = match report.shared.as_slice() {
-        [] => "no function is common to all claims that are not proved: there may be several mistakes"
-            .to_string(),
+        [] => "the unproved claims have no function in common: there may be several mistakes".to_string(),
         shared => format!("functions common to {of_all} not proved: {}", shared.join(", ")),
     };
-    output::wrapped(out, "  ", 4, &format!("no change of one operation makes every claim provable; {shared}"))
+    output::wrapped(
+        out,
+        "  ",
+        4,
+        &format!("no mutation of one operation makes every claim provable; {shared}"),
+    )
 }
 
-/// One claim, failing for the same reason in two number systems; these stand together in a report.
+/// Returns `true` if the same claim fails for the same reason in two number systems; their rows are adjacent.
 fn fail_alike(a: &Row, b: &Row) -> bool {
     let key = |row: &Row| (row.equation, row.claim, row.scalar.is_none());
     key(a) == key(b) && (&a.why, &a.counterexample) == (&b.why, &b.counterexample)
 }
 
-/// What no case decided, a line a claim, and what helps.
+/// Prints the undecided claims, one per line, and a remedy.
 fn undecided(out: &mut dyn Write, rows: &[&Row]) -> io::Result<()> {
     for alike in rows.chunk_by(|a, b| (a.equation, a.claim) == (b.equation, b.claim)) {
         let Row { equation, claim, .. } = alike[0];
@@ -246,13 +254,13 @@ fn undecided(out: &mut dyn Write, rows: &[&Row]) -> io::Result<()> {
     if rows.is_empty() {
         return Ok(());
     }
-    const ADVICE: &str = "No case decides these, so nothing is known against them: try more --cases, or a \
-                          --scalar with more digits.";
+    const ADVICE: &str = "No case decides these, which is not a failure: try more --cases, or a \
+                          --scalar with a higher precision.";
     output::wrapped(out, "  ", 2, ADVICE)?;
     writeln!(out)
 }
 
-/// Failures that are alike, of which there is at least one.
+/// Prints equal failures, at least one.
 fn failure(out: &mut dyn Write, alike: &[&Row]) -> io::Result<()> {
     let row = alike[0];
     let Row { equation, claim, why, .. } = row;
@@ -264,11 +272,11 @@ fn failure(out: &mut dyn Write, alike: &[&Row]) -> io::Result<()> {
         output::wrapped(out, "  ", 4, why)?;
     }
     let Some(point) = row.point() else { return Ok(()) };
-    output::wrapped(out, "  ", 2, &output::glued(&point))?;
+    output::wrapped(out, "  ", 2, &output::join_coordinates(&point))?;
     solve::command(out, &point)
 }
 
-/// The number systems of rows.
+/// Returns the number systems of rows.
 fn names(rows: &[&Row]) -> String {
     rows.iter().map(|row| name(row.scalar)).collect::<Vec<_>>().join(", ")
 }

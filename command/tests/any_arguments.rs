@@ -250,7 +250,7 @@ fn no_arguments_get_further_than_they_should() {
             // A batch without lines has no answers.
             let silent =
                 output.stdout.is_empty() && output.stderr.is_empty() && !list.contains(&"--batch".into());
-            if let Some(wrong) = wrong(&output).or(silent.then_some("it says nothing")) {
+            if let Some(wrong) = wrong(&output).or(silent.then_some("it has no goals")) {
                 panic!("list {own}: contact {list:?}: {wrong}: {output:?}");
             }
             statuses[output.status.code().expect("a status") as usize] += 1;

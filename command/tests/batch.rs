@@ -246,7 +246,7 @@ fn an_error_is_a_line() {
     const SPELLING: &str = "a number is a decimal (0.05), scientific (5e-2) or a fraction (1/20)";
     const KEYS: &str = "[keys: id, stiffness, mass, gravity, free_length, height, method, penalty, tolerance, \
                         max_augmentations, initial_multiplier, bilateral, scalar]";
-    const WHOLE: &str = "must be a whole number from 0 to 18446744073709551615";
+    const WHOLE: &str = "must be an integer from 0 to 18446744073709551615";
     const METHODS: &str = "[possible values: lagrange, penalty, augmented]";
     const SCALARS: &str = "must be f32, f64, mpfr:BITS with 2 to 1000000 bits, or exact";
     let long = "7".repeat(5000) + "x";
@@ -274,20 +274,20 @@ fn an_error_is_a_line() {
         ("\"bilateral\": 1".into(), "invalid value '1' for 'bilateral': must be true or false".into()),
         (
             "\"penalty\": 5".into(),
-            "'penalty 5' is not used by method lagrange; it belongs to method penalty \
+            "'penalty 5' has no effect with method lagrange; use it with method penalty \
              or augmented"
                 .into(),
         ),
         (
             "\"max_augmentations\": 5".into(),
-            "'max_augmentations 5' is not used by method lagrange; it \
-             belongs to method augmented"
+            "'max_augmentations 5' has no effect with method lagrange; use it \
+             with method augmented"
                 .into(),
         ),
         (
             "\"initial_multiplier\": -5, \"method\": \"penalty\", \"penalty\": 1".into(),
             "'initial_multiplier \
-             -5' is not used by method penalty; it belongs to method augmented"
+             -5' has no effect with method penalty; use it with method augmented"
                 .into(),
         ),
         (
@@ -304,7 +304,7 @@ fn an_error_is_a_line() {
         ),
         (
             "\"mass\": 1e300, \"gravity\": 1e300".into(),
-            "scalar f64: the contact force leaves the range of \
+            "scalar f64: the contact force is out of the range of \
              this scalar; use MPFR (mpfr:BITS) or exact rationals"
                 .into(),
         ),
@@ -556,7 +556,7 @@ fn options_are_defaults_for_the_lines() {
     assert_eq!(one("--penalty 5", "{}")["outcome"], "direct");
     // But what the line itself says is.
     let error = one(all, "{\"method\": \"lagrange\", \"penalty\": 5}");
-    assert!(error["error"].as_str().unwrap().contains("not used by method lagrange"), "{error}");
+    assert!(error["error"].as_str().unwrap().contains("has no effect with method lagrange"), "{error}");
 }
 
 #[test]
@@ -626,7 +626,7 @@ fn what_cannot_be_read_or_written_is_reported() {
         (output.status.code(), output.stdout.as_slice(), stderr.lines().count()),
         (Some(2), b"".as_slice(), 1)
     );
-    assert!(stderr.starts_with("error: stdin cannot be read: "), "{stderr}");
+    assert!(stderr.starts_with("error: cannot read stdin: "), "{stderr}");
     let mut command = contact("--batch");
     let full = File::options().write(true).open("/dev/full").expect("a device");
     let mut child = command.stdout(full).spawn().expect("the command runs");
@@ -634,7 +634,7 @@ fn what_cannot_be_read_or_written_is_reported() {
     let output = finish(child);
     let stderr = String::from_utf8(output.stderr).expect("UTF-8");
     assert_eq!((output.status.code(), stderr.lines().count()), (Some(2), 1), "{stderr}");
-    assert!(stderr.starts_with("error: stdout cannot be written"), "{stderr}");
+    assert!(stderr.starts_with("error: cannot write to stdout"), "{stderr}");
 }
 
 /// Nobody reads for a while, so nothing more is read either; then all of it. Kept lines would show.

@@ -96,10 +96,10 @@ fn solves_end_as_they_should() {
         ("--penalty 1e12 --tolerance 1e-18", "stagnated", None, Some("1")),
         // ln(4.805…e-5/1e-17)/ln 1001 = 4.22….
         ("--penalty 1e5 --tolerance 1e-17", "stagnated", None, Some("5")),
-        ("--penalty 1e-9 --tolerance 1e-3", "out_of_steps", Some(1000), Some("387328217713")),
+        ("--penalty 1e-9 --tolerance 1e-3", "iteration_limit", Some(1000), Some("387328217713")),
         (
             "--penalty 1e-9 --tolerance 1e-3 --max-augmentations 0",
-            "out_of_steps",
+            "iteration_limit",
             Some(0),
             Some("387328217713"),
         ),
@@ -132,8 +132,8 @@ fn no_more_is_said_of_a_count_than_is_sure() {
     for limit in ["1000", "2934"] {
         let output = solve(limit);
         let said = format!(
-            "out_of_steps at k = {limit}: |u − u*| < 1e-14 m needs k = 2934 in exact arithmetic, which rounding may \
-             not allow; a larger --penalty meets it, contact advise says which"
+            "iteration_limit at k = {limit}: |u − u*| < 1e-14 m needs k = 2934 in exact arithmetic, which rounding may \
+             prevent; a larger --penalty meets it, see contact advise"
         );
         assert!(words(&output).contains(&said) && output.status.code() == Some(1), "{}", stdout(&output));
     }
@@ -164,7 +164,8 @@ fn the_force_of_f32_is_enclosed() {
 
 /// The exact answer for the parameters as rounded, by (1.6) in rationals.
 fn enclosed<T: ToExact>(system: &SpringMass<Exact>, like: &T, bounds: &Value) {
-    let rounded = |x: &Exact| -> Result<Exact, RangeError> { Ok(like.nearest(x)?.to_exact().unwrap()) };
+    let rounded =
+        |x: &Exact| -> Result<Exact, RangeError> { Ok(like.round_from_exact(x)?.to_exact().unwrap()) };
     let system = system.try_map(rounded).unwrap();
     let u = contact::deflection(&system);
     let answers = [
@@ -356,7 +357,7 @@ fn a_terminal_of_80_columns_is_enough() {
     let proofs: Vec<_> = ["prove"].into_iter().chain(provable.map(|entry| entry.equation)).collect();
     let output = contact(&proofs);
     assert_eq!((too_wide(&output), output.status.code()), (None, Some(0)));
-    assert!(stdout(&output).contains("\nchanges of formulas that these claims notice\n"));
+    assert!(stdout(&output).contains("\nmutations of formulas that these claims detect\n"));
     for name in [
         "",
         "verify ",
@@ -479,7 +480,7 @@ fn no_bad_count_gets_further_than_one_line() {
     {
         let line = refusal(&["solve", "--method", "augmented", flag, value]);
         assert!(line.contains(&format!("'{value}' for '{flag} ")), "{line}");
-        assert!(line.contains("must be a whole number from 0 to 18446744073709551615"), "{line}");
+        assert!(line.contains("must be an integer from 0 to 18446744073709551615"), "{line}");
     }
     missing_or_twice(flag, "augmented", "1");
 }
@@ -509,8 +510,8 @@ fn an_option_without_effect_is_refused() {
     }
     for (method, option, owner) in cases {
         let line = refusal(&[&["solve", "--method"], method, option].concat());
-        let said = format!("'{}' is not used by --method {}", option.join(" "), method[0]);
-        assert!(line.contains(&said) && line.contains(&format!("belongs to --method {owner}")), "{line}");
+        let said = format!("'{}' has no effect with --method {}", option.join(" "), method[0]);
+        assert!(line.contains(&said) && line.contains(&format!("use it with --method {owner}")), "{line}");
     }
 }
 
@@ -569,7 +570,7 @@ fn results_that_do_not_fit_are_refused() {
         "solve --scalar f32 --stiffness 3e38 --method augmented --penalty 3e38 --mass 1e30 --height 1",
     ] {
         let line = refusal(&words(arguments));
-        assert!(line.contains("leaves the range of this scalar"), "{line}");
+        assert!(line.contains("is out of the range of this scalar"), "{line}");
     }
 }
 
@@ -695,7 +696,7 @@ fn errors_of_a_sweep_are_exact() {
 fn a_row_that_overflows_says_so() {
     let line = ["sweep", "--penalty", "1..1e308", "--points", "3", "--height", "5", "--gravity", "1000"];
     let (rows, code) = json(&line);
-    let said = "the deflection leaves the range of this scalar; use MPFR (mpfr:BITS) or exact rationals";
+    let said = "the deflection is out of the range of this scalar; use MPFR (mpfr:BITS) or exact rationals";
     assert_eq!((array(&rows).len(), code), (3, Some(1)));
     for row in array(&rows) {
         let overflows = row["penalty"] == "1e308";
@@ -708,7 +709,7 @@ fn a_row_that_overflows_says_so() {
     assert!(String::from_utf8_lossy(&csv.stdout).ends_with(&format!("\nf64,1e308,,,,,,,{said}\n")));
     let table = contact(&line);
     let table = String::from_utf8_lossy(&table.stdout).into_owned();
-    assert!(table.contains("\n 1e308      the deflection leaves the range of this scalar\n"), "{table}");
+    assert!(table.contains("\n 1e308      the deflection is out of the range of this scalar\n"), "{table}");
     // ε R overflows, but not what it is needed for: p = R/(c + ε) and N = R ε/(c + ε).
     let (rows, code) = json(&["sweep", "--penalty", "1..1e308", "--points", "3"]);
     assert_eq!((array(&rows).iter().all(|row| row["error"].is_null()), code), (true, Some(0)));
@@ -1049,7 +1050,7 @@ fn book_and_readme_have_the_rows_and_the_totals_of_the_main_job() {
     // A row is known by its number, a total by what is counted.
     let key = |line: &str| match line.strip_suffix(" held") {
         Some(row) if line.starts_with(' ') => row.split("  ").next().map(String::from),
-        _ => ["claims proved for all values.", "trials decided", "Rounding used at most"]
+        _ => ["claims proved for all values.", "trials decided", "Rounding errors: at most"]
             .into_iter()
             .find(|total| line.contains(total))
             .map(String::from),
@@ -1070,9 +1071,8 @@ fn book_and_readme_have_the_rows_and_the_totals_of_the_main_job() {
 
 #[test]
 fn no_bad_choice_gets_further_than_one_line() {
-    let whole = "must be a whole number from";
-    let number =
-        "must be a number of the chapter as `contact equations` lists them, such as 1.13 or 'Theorem 1.3.3'";
+    let whole = "must be an integer from";
+    let number = "must be a number listed by `contact equations`, such as 1.13 or 'Theorem 1.3.3'";
     let scalar = "must be f32, f64, mpfr:BITS with 2 to 1000000 bits, or exact";
     let formats = "[possible values: table, json, markdown]";
     let cases = [
@@ -1098,7 +1098,7 @@ fn no_bad_choice_gets_further_than_one_line() {
             );
         }
     }
-    for (command, why) in [("prove", "nothing is proved of it"), ("verify", "nothing is claimed of it")] {
+    for (command, why) in [("prove", "it has no claim to be proved"), ("verify", "it has no claims")] {
         let line = refusal(&[command, "Fig. 1.1"]);
         assert!(line.contains("'Fig. 1.1' for '[NUMBER]...'") && line.contains(why), "{line}");
     }

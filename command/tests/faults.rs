@@ -75,7 +75,7 @@ fn a_full_disk_is_reported() {
     for line in LINES {
         let full = File::options().write(true).open("/dev/full").expect("a device");
         let output = run(words(line).stdout(full).stderr(Stdio::piped()));
-        refused(&output, "stdout cannot be written: ", line);
+        refused(&output, "cannot write to stdout: ", line);
     }
 }
 
@@ -159,10 +159,7 @@ fn what_is_no_folder_is_refused() {
         let output = prove(place);
         refused(&output, REFUSED, &place.display().to_string());
         let stderr = String::from_utf8_lossy(&output.stderr);
-        assert!(
-            stderr.contains("' for '--coq <DIR>': must be a directory that can be written: "),
-            "{stderr}"
-        );
+        assert!(stderr.contains("' for '--coq <DIR>': must be a writable directory: "), "{stderr}");
         assert_eq!(output.stdout, b"", "{}", place.display());
     }
     assert_eq!((names(&own), fs::read(&file).expect("a file")), (vec!["file".to_string()], b"kept".to_vec()));

@@ -1,18 +1,18 @@
-//! A weak acid in water: how far it dissociates, without a root, and why dilution helps.
+//! A weak acid in water: its degree of dissociation, and why dilution increases it.
 
 use provable::formula::claim::{PRECISION, derivative, equal, positive};
 use provable::formula::{Hypothesis, Notation, Registry, Relation};
 use provable::number::{Dual, Field, Tree, symbols};
-use provable::proof::{paper::Paper, prove, refute, rounding_bound};
+use provable::proof::{prove, refute, render::ProofPrinter, rounding_bound};
 use provable::record;
 
-/// The constant of the equilibrium HA ⇌ H⁺ + A⁻, in mol/l, from the whole concentration c of the acid and the share α
-/// of it that has dissociated: Ostwald's law of dilution.
+/// Returns the equilibrium constant of HA ⇌ H⁺ + A⁻, in mol/l, for the total concentration c of the acid and
+/// its degree of dissociation α: Ostwald's law of dilution.
 fn constant<T: Field>(c: &T, alpha: &T) -> T {
     c * alpha * alpha / (T::int(1) - alpha)
 }
 
-/// The concentration at which the share α of the acid dissociates.
+/// Returns the concentration at which the degree of dissociation is α.
 fn concentration<T: Field>(k: &T, alpha: &T) -> T {
     k * (T::int(1) - alpha) / (alpha * alpha)
 }
@@ -20,7 +20,7 @@ fn concentration<T: Field>(k: &T, alpha: &T) -> T {
 fn main() {
     let registry =
         Registry::from_iter([record!("K" = constant(c, alpha)), record!("C" = concentration(k, alpha))]);
-    println!("{}", registry.line("constant").unwrap());
+    println!("{}", registry.format_equation("constant").unwrap());
     println!("{}", registry.formulas()[0].tree.typeset(Notation::Latex, &|_| None));
     println!(
         "acetic acid, K = 1.8e-5 mol/l, dissociates by a tenth at {:.2e} mol/l",
@@ -38,17 +38,17 @@ fn main() {
     let claims = [
         equal("inverse", constant(&diluted, &alpha), &k),
         derivative("slope", diluted.clone(), &alpha, slope.clone()),
-        // The more of it dissociates, the thinner it is.
+        // The degree of dissociation increases with dilution.
         positive("dilution-helps", -slope),
-        // What is commonly neglected, 1 − α, makes the constant too small.
+        // The usual approximation 1 − α ≈ 1 gives too small a constant.
         positive("approximation-is-below", constant(&c, &alpha) - &c * &alpha * &alpha),
     ];
-    let paper = Paper::new(&registry);
+    let paper = ProofPrinter::new(&registry);
     for claim in claims.map(|claim| claim.assuming(&positives).assuming([&partly])) {
         prove(&claim).unwrap_or_else(|why| panic!("{}", paper.explain(&claim, &why)));
         println!("proved: {} ({})", paper.claim(&claim), claim.name());
     }
-    // Without it the law has no meaning.
+    // Without this hypothesis the law is undefined.
     let open = positive("constant", constant(&c, &alpha)).assuming(&positives);
     println!("not proved: {}", paper.explain(&open, &prove(&open).expect_err("α may be 1")));
     let twice = constant(&c, &(&two * &alpha)) - &two * &two * constant(&c, &alpha);

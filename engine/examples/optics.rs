@@ -1,22 +1,22 @@
-//! Two thin lenses: the power of both, when they form a telescope, and what a distance that is slightly off changes.
+//! Two thin lenses: their combined power, the telescope, and the effect of a small error in their distance.
 
 use provable::formula::claim::{PRECISION, Rate, derivative, equal, limit, positive};
 use provable::formula::{Hypothesis, Registry, Relation};
 use provable::number::{Field, Tree, symbols};
-use provable::proof::{paper::Paper, prove, refute, rounding_bound};
+use provable::proof::{prove, refute, render::ProofPrinter, rounding_bound};
 use provable::record;
 
-/// The distance of the image from a lens of the focal length f, of what is g in front of it.
+/// Returns the image distance of a lens of focal length f for the object distance g.
 fn image<T: Field>(f: &T, g: &T) -> T {
     f * g / (g - f)
 }
 
-/// The power of two lenses at a distance d, in dioptres if lengths are in metres: Gullstrand's equation.
+/// Returns the power of two lenses at a distance d, in dioptres for lengths in metres: Gullstrand's equation.
 fn power<T: Field>(f1: &T, f2: &T, d: &T) -> T {
     T::int(1) / f1 + T::int(1) / f2 - d / (f1 * f2)
 }
 
-/// The distance of the focus from the second lens.
+/// Returns the distance of the focus from the second lens.
 fn back_focus<T: Field>(f1: &T, f2: &T, d: &T) -> T {
     f2 * (f1 - d) / (f1 + f2 - d)
 }
@@ -27,7 +27,10 @@ fn main() {
         record!("P" = power(f1, f2, d)),
         record!("B" = back_focus(f1, f2, d)),
     ]);
-    println!("{}", ["image", "power", "back_focus"].map(|path| registry.line(path).unwrap()).join(", "));
+    println!(
+        "{}",
+        ["image", "power", "back_focus"].map(|path| registry.format_equation(path).unwrap()).join(", ")
+    );
     println!("0.2 m and 0.1 m, 0.05 m apart: {} dioptres", power(&0.2, &0.1, &0.05));
 
     let [f, g, f1, f2, d] = symbols(["f", "g", "f1", "f2", "d"]);
@@ -36,17 +39,17 @@ fn main() {
     let closer = above(&f1 - &d);
     let both = power(&f1, &f2, &d);
     let claims = [
-        // What comes from far away has its first image at f₁, which is d − f₁ in front of the second lens.
+        // The first image of a distant object is at f₁, which is d − f₁ in front of the second lens.
         equal("through-both", image(&f2, &(&d - &f1)), back_focus(&f1, &f2, &d))
             .assuming(&lenses)
             .assuming([&closer]),
         equal("telescope", power(&f1, &f2, &(&f1 + &f2)), 0).assuming(&lenses),
         positive("stronger-than-the-first", &both - Tree::int(1) / &f1).assuming(&lenses).assuming([&closer]),
         derivative("adjustment", both.clone(), &d, -(Tree::int(1) / (&f1 * &f2))).assuming(&lenses),
-        limit("from-far", image(&f, &g), &g, &f, Rate::Exactly(&f * &f / (&g - &f)))
+        limit("from-far", image(&f, &g), &g, &f, Rate::Equal(&f * &f / (&g - &f)))
             .assuming([&above(f.clone()), &above(&g - &f)]),
     ];
-    let paper = Paper::new(&registry);
+    let paper = ProofPrinter::new(&registry);
     for claim in &claims {
         prove(claim).unwrap_or_else(|why| panic!("{}: {}", claim.name(), paper.explain(claim, &why)));
         println!("proved: {} ({})", paper.claim(claim), claim.name());

@@ -1,23 +1,23 @@
 //! The Beverton-Holt model of a population: a recursion, its closed form for every generation, and its limit.
 
-use provable::formula::claim::{equal, induction, positive, vanishing};
+use provable::formula::claim::{equal, geometric_limit, induction, positive};
 use provable::formula::{Hypothesis, Registry, Relation};
 use provable::number::{Exact, Field, Tree, symbols};
-use provable::proof::{paper::Paper, prove, refute};
+use provable::proof::{prove, refute, render::ProofPrinter};
 use provable::record;
 
-/// The next generation of n, which grows by the factor r > 1 as long as it is small; m is (r − 1) times less than the
-/// size that it tends to.
+/// Returns the next generation after n, which grows by the factor r > 1 while it is small; m is the capacity
+/// divided by r − 1.
 fn next<T: Field>(r: &T, m: &T, n: &T) -> T {
     r * n / (T::int(1) + n / m)
 }
 
-/// The size that stays as it is.
+/// Returns the equilibrium of the population.
 fn capacity<T: Field>(r: &T, m: &T) -> T {
     m * (r - T::int(1))
 }
 
-/// The size after k generations from n, where q = (1/r)ᵏ.
+/// Returns the population after k generations from n, with q = (1/r)ᵏ.
 fn generation<T: Field>(r: &T, m: &T, n: &T, q: &T) -> T {
     let whole = capacity(r, m);
     &whole * n / (n + (&whole - n) * q)
@@ -25,7 +25,11 @@ fn generation<T: Field>(r: &T, m: &T, n: &T, q: &T) -> T {
 
 fn main() {
     let registry = Registry::from_iter([record!("N" = next(r, m, n)), record!("K" = capacity(r, m))]);
-    println!("{} and {}", registry.line("next").unwrap(), registry.line("capacity").unwrap());
+    println!(
+        "{} and {}",
+        registry.format_equation("next").unwrap(),
+        registry.format_equation("capacity").unwrap()
+    );
     let (mut size, half) = (Exact::int(10), Exact::int(1) / Exact::int(2));
     for k in 0..10 {
         let q = (0..k).fold(Exact::int(1), |q, _| q * &half);
@@ -51,9 +55,11 @@ fn main() {
             .assuming(&positives)
             .assuming([&growing])
             .assuming(&powers),
-        vanishing("tends-to-capacity", &one / &r, closed, &whole).assuming(&positives).assuming([&growing]),
+        geometric_limit("tends-to-capacity", &one / &r, closed, &whole)
+            .assuming(&positives)
+            .assuming([&growing]),
     ];
-    let paper = Paper::new(&registry);
+    let paper = ProofPrinter::new(&registry);
     for claim in &claims {
         prove(claim).unwrap_or_else(|why| panic!("{}", paper.explain(claim, &why)));
         println!("proved: {}", paper.claim(claim));

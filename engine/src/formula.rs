@@ -1,10 +1,9 @@
-//! Records as data: what functions compute, and what is claimed of it.
+//! Recorded formulas and statements about them.
 //!
-//! A function that is generic over its number system leaves a record when it is called with [`Tree`]s. This
-//! is what can be done with records, whatever they are about: [typeset](crate::number::Tree::typeset) them,
-//! keep a [`Registry`] of them, by which one formula is known in another, and say something of them, as a
-//! [`Statement`] under [`Hypothesis`]es, for `proof` to prove. A [`Program`](crate::number::Program) runs
-//! many of them at once.
+//! A generic function that is called with [`Tree`]s returns a record of what it computes. Records of any
+//! subject can be [typeset](crate::number::Tree::typeset), collected in a [`Registry`], which recognises one
+//! formula within another, and made part of a [`Statement`] under [`Hypothesis`]es, which `proof` proves. A
+//! [`Program`](crate::number::Program) evaluates many of them at once.
 //!
 //! [`Tree`]: crate::number::Tree
 
@@ -22,8 +21,10 @@ pub use statement::{Proposition, Statement};
 pub(crate) use typeset::name_of_rounding;
 pub use typeset::{Name, Notation, latex};
 
-/// Records a generic function of some quantities, with the symbol of its value, as a
+/// Records a generic function of named quantities, with the symbol of its value, as a
 /// [`Formula`](crate::formula::Formula).
+///
+/// # Examples
 ///
 /// ```
 /// use provable::number::Field;
@@ -38,8 +39,7 @@ pub use typeset::{Name, Notation, latex};
 /// assert_eq!(formula.tree.to_string(), "f g / (g − f)");
 /// assert_eq!((formula.path, formula.arguments), ("image", vec!["f", "g"]));
 /// ```
-///
-/// The arguments have to be as many as those of the function, and different:
+/// The number of arguments must be that of the function, and their names must differ:
 ///
 /// ```compile_fail,E0061
 /// # use provable::{number::Field, record};
@@ -57,6 +57,6 @@ macro_rules! record {
         let [$($argument),+] = $crate::number::symbols([$(stringify!($argument)),+]);
         let path = concat!(stringify!($first) $(, "::", stringify!($rest))*);
         let value = $first$(::$rest)*($(&$argument),+);
-        $crate::formula::Formula::new(path, $symbol, &[$(stringify!($argument)),+], value).folded()
+        $crate::formula::Formula::new(path, $symbol, &[$(stringify!($argument)),+], value).abbreviated()
     }};
 }

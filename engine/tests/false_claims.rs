@@ -1,10 +1,11 @@
-//! False claims, one for each rule, case and premise of the kernel: none is proved, all are refuted by numbers,
-//! and each has a true one beside it that differs in the premise and is proved.
+//! False claims, one for each rule, case and premise of the kernel: none is proved, all are refuted by
+//! numbers, and for each a true claim that differs only in the premise is proved.
 #![cfg(feature = "prover")]
 #![allow(clippy::eq_op, reason = "a quotient of equals is not always 1")]
 
 use provable::formula::claim::{
-    PRECISION, Rate, derivative, drift, equal, induction, limit, non_negative, positive, vanishing, within,
+    PRECISION, Rate, derivative, equal, geometric_limit, induction, limit, non_negative, perturbed_recursion,
+    positive, within,
 };
 use provable::formula::{Hypothesis, Relation, Statement};
 use provable::number::{Exponential, PositivePart, Tree};
@@ -31,12 +32,12 @@ fn zero(value: impl Into<Tree>) -> Hypothesis {
     Hypothesis::new(Relation::Zero, value.into())
 }
 
-/// A claim of which more is assumed than it was made with.
+/// Returns a claim with an additional hypothesis.
 fn also(claim: Statement, more: Hypothesis) -> Statement {
     claim.assuming([&more])
 }
 
-/// A rule or premise, a false claim, a true one that differs in it.
+/// A rule or premise, a false claim, and a true one that differs only in it.
 type Row = (&'static str, Statement, Statement);
 
 fn signs() -> Vec<Row> {
@@ -274,7 +275,7 @@ fn slopes_and_limits() -> Vec<Row> {
     let [a, c, t, u, w] = ["a", "c", "t", "u", "w"].map(x);
     let [pos_a, pos_c, time, weak_c] = [above_zero(&a), above_zero(&c), above_zero(&t), not_below_zero(&c)];
     let tends = |name, given: &[&Hypothesis], of: Tree, to: Tree| {
-        let rate = Rate::Exactly(&of - &to);
+        let rate = Rate::Equal(&of - &to);
         limit(name, of, &x("t"), to, rate).assuming(given.iter().copied())
     };
     let later = above_zero(&t - &a);
@@ -360,14 +361,14 @@ fn sequences() -> Vec<Row> {
     let [pos_c, unit] = [above_zero(&c), Hypothesis::between(&q, 0, 1)];
     let halves = |name, step: Tree, bound: Tree| {
         let near = Hypothesis::near(&u, x("x₁") / n(2), 0);
-        drift(name, half(), 1, |_| u.clone(), (n(0), bound), |_| [])
+        perturbed_recursion(name, half(), 1, |_| u.clone(), (n(0), bound), |_| [])
             .assuming([&unit, &near])
             .computing(&u, step)
     };
     let [from_one, near_q] = [not_below_zero(&q - n(1)), Hypothesis::near(&u, &q, 0)];
     let square = &z * &z * &w * &w;
     let grows = |name, step: Tree| {
-        drift(name, 2, 0, |x| x + &step, (n(0), n(0)), |_| [])
+        perturbed_recursion(name, 2, 0, |x| x + &step, (n(0), n(0)), |_| [])
             .assuming([&from_one, &near_q])
             .computing(&u, &q)
     };
@@ -411,18 +412,18 @@ fn sequences() -> Vec<Row> {
         ),
         (
             "a power vanishes if the ratio is between −1 and 1",
-            vanishing("f", (&c + n(1)) / (&c + n(2)) + n(1), &q, 0).assuming([&pos_c]),
-            vanishing("t", (&c + n(1)) / (&c + n(2)), &q, 0).assuming([&pos_c]),
+            geometric_limit("f", (&c + n(1)) / (&c + n(2)) + n(1), &q, 0).assuming([&pos_c]),
+            geometric_limit("t", (&c + n(1)) / (&c + n(2)), &q, 0).assuming([&pos_c]),
         ),
         (
             "a limit is the value at 0",
-            vanishing("f", half(), (&q + n(1)) / (&q * &q + n(1)), 2),
-            vanishing("t", half(), (&q + n(1)) / (&q * &q + n(1)), 1),
+            geometric_limit("f", half(), (&q + n(1)) / (&q * &q + n(1)), 2),
+            geometric_limit("t", half(), (&q + n(1)) / (&q * &q + n(1)), 1),
         ),
         (
             "what is not continuous at 0 has another limit",
-            vanishing("f", half(), &q / (&q * &q + &q), 0),
-            vanishing("t", half(), &q / (&q * &q + n(1)), 0),
+            geometric_limit("f", half(), &q / (&q * &q + &q), 0),
+            geometric_limit("t", half(), &q / (&q * &q + n(1)), 0),
         ),
         (
             "a computed quantity is where it is assumed",
@@ -480,7 +481,7 @@ fn names() -> Vec<Row> {
 
 fn roundings() -> Vec<Row> {
     let [a, b, c, d, u] = ["a", "b", "c", "d", "u"].map(x);
-    let fl = |tree: Tree| tree.nearest();
+    let fl = |tree: Tree| tree.round();
     let [pos_c, pos_d] = [above_zero(&c), above_zero(&d)];
     let n_of = |more: i32| x(PRECISION) + n(more);
     let error = || fl(u.clone()) - &u;
@@ -567,7 +568,7 @@ fn all() -> impl Iterator<Item = Row> {
         .flat_map(|rows| rows())
 }
 
-/// The counterexamples that exact arithmetic does not find, since e^… is no rational number.
+/// Counterexamples by hand, which exact arithmetic does not find because e^… is irrational.
 const BY_HAND: [(&str, &str); 4] = [
     ("an exponential in a hypothesis is a factor", "a = u = v = 1, b = e"),
     ("an exponential in a denominator grows", "the limit is 0"),

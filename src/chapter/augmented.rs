@@ -1,4 +1,4 @@
-//! §1.3.3 Augmented Lagrangian method: the multiplier is found by repetition. Equations (1.14)-(1.21),
+//! §1.3.3 Augmented Lagrangian method: the multiplier is found by iteration. Equations (1.14)-(1.21),
 //! (1.33).
 //!
 //! As printed the plane also pulls; the forms named *unilateral* (note 4) only push. What follows the
@@ -131,7 +131,7 @@ pub fn contact_force<T: Field>(system: &SpringMass<T>, u: &T) -> T {
     m * g - c * u
 }
 
-/// The contraction factor of (1.16), a pure number: each step multiplies the penetration by it.
+/// The contraction factor of (1.16), dimensionless: each step multiplies the penetration by it.
 ///
 /// `ρ = c / (c + ε)`
 ///
@@ -237,12 +237,12 @@ pub fn recursion<T: Field>(system: &SpringMass<T>, eps: &T, u: &T, next: &T) -> 
     ((c + eps) * (next - u), -eps * (l - h) - eps * u)
 }
 
-/// Eq. (1.33): is the penetration `p` smaller than the tolerance, both in m?
+/// Eq. (1.33): returns `true` if the penetration `p` is smaller than the tolerance, both in m.
 ///
 /// `|p| < tol`
 ///
-/// Over a plane that never pulls it is of no use when the mass hangs free, where |p| tends to |R|/c
-/// ([`natural_residual`] serves there too); and it is no promise in floats, where p̂ can be 0 and p is not.
+/// With unilateral contact use [`natural_residual`] instead: if the mass is separated, |p| tends to |R|/c. It
+/// guarantees nothing in floats, where p̂ can be 0 although p is not.
 /// Exact. Source: §1.3.3.
 ///
 /// ```
@@ -254,7 +254,7 @@ pub fn within_tolerance<T: OrderedField>(p: &T, tolerance: &T) -> bool {
     p.abs() < *tolerance
 }
 
-/// Note 4: the augmented functional of a plane that never pulls, in J, at the deflection `u` in m.
+/// Note 4: the augmented functional of unilateral contact, in J, at the deflection `u` in m.
 ///
 /// `L = Π + (⟨λ + ε (l + u − H)⟩² − λ²) / (2 ε)`
 ///
@@ -270,7 +270,7 @@ pub fn unilateral_functional<T: PositivePart>(system: &SpringMass<T>, eps: &T, l
     structure::potential_energy(system, u) + (&n * &n - lambda * lambda) / (T::int(2) * eps)
 }
 
-/// Note 4: the next multiplier of a plane that never pulls, in N, from the deflection `u` in m.
+/// Note 4: the next multiplier of unilateral contact, in N, from the deflection `u` in m.
 ///
 /// `λ′ = ⟨λ + ε (l + u − H)⟩`
 ///
@@ -285,7 +285,7 @@ pub fn unilateral_update<T: PositivePart>(system: &SpringMass<T>, eps: &T, lambd
     update(system, eps, lambda, u).positive_part()
 }
 
-/// Note 4: the residual of equilibrium at one step over a plane that never pulls, in N, at `u` in m.
+/// Note 4: the residual of equilibrium at one step with unilateral contact, in N, at `u` in m.
 ///
 /// `r = c u − m g + ⟨λ + ε (l + u − H)⟩`
 ///
@@ -301,7 +301,7 @@ pub fn unilateral_equilibrium<T: PositivePart>(system: &SpringMass<T>, eps: &T, 
     contact::equilibrium(system, u, &unilateral_update(system, eps, lambda, u))
 }
 
-/// Note 4: the deflection at one step over a plane that never pulls, in m.
+/// Note 4: the deflection at one step with unilateral contact, in m.
 ///
 /// `u = min(m g / c, (m g − λ + ε (H − l)) / (c + ε))`
 ///
@@ -318,7 +318,7 @@ pub fn unilateral_deflection<T: PositivePart>(system: &SpringMass<T>, eps: &T, l
     structure::deflection(system).min(&deflection(system, eps, lambda))
 }
 
-/// Note 4: the natural residual, in m, at the deflection `u` in m: how far one step still moves.
+/// Note 4: the natural residual, in m, at the deflection `u` in m: the change of one step.
 ///
 /// `r = max(p, −λ / ε)`
 ///

@@ -1,14 +1,14 @@
-//! Beyond the chapter: what its equations imply and it does not say.
+//! Beyond the chapter: further consequences of its equations.
 
 use super::{SpringMass, contact, penalty, structure, system};
 use crate::number::{Field, PositivePart};
 
 /// Beyond 2: the one penalty, in N/m, that leaves the penetration of k augmentations from λ₀ = 0, with
-/// `growth` = ((c + ε)/c)ᵏ⁺¹, a pure number.
+/// `growth` = ((c + ε)/c)ᵏ⁺¹, dimensionless.
 ///
 /// `ε_eff = c (growth − 1)`
 ///
-/// Penalties may vary from step to step: then `growth` is the product of the (c + ε_i)/c. Domain: all.
+/// If penalties vary from step to step, `growth` is the product of the (c + ε_i)/c. Domain: all.
 ///
 /// ```
 /// # use spring_mass_contact::chapter::{SpringMass, beyond};

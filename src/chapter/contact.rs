@@ -1,4 +1,4 @@
-//! §1.2 Contact part: the mass must not go through the plane. Equations (1.5)-(1.6).
+//! §1.2 Contact part: the mass must not penetrate the plane. Equations (1.5)-(1.6).
 
 use super::{SpringMass, structure, system};
 use crate::number::{Field, PositivePart};
@@ -45,16 +45,16 @@ pub fn equilibrium<T: Field>(system: &SpringMass<T>, u: &T, n: &T) -> T {
 pub struct Kkt<T> {
     /// The residual of equilibrium, in N, with its sign.
     pub stationarity: T,
-    /// How far the mass is inside the plane, in m.
+    /// Penetration of the plane, in m.
     pub primal: T,
-    /// How hard the plane pulls, in N.
+    /// Force with which the plane pulls, in N.
     pub dual: T,
     /// Penetration times force, in J, with its sign.
     pub complementarity: T,
 }
 
 impl<T: Field> Kkt<T> {
-    /// Are all four zero? In rationals then it is the solution, and otherwise not.
+    /// Returns `true` if all four are zero. In rationals this holds for the solution only.
     ///
     /// ```
     /// # use spring_mass_contact::chapter::{SpringMass, contact};
@@ -93,7 +93,7 @@ pub fn kkt<T: PositivePart>(system: &SpringMass<T>, u: &T, n: &T) -> Kkt<T> {
     }
 }
 
-/// Eq. (1.6), solved for the force: the contact force of a plane that never pulls, in N.
+/// Eq. (1.6), solved for the force: the contact force of unilateral contact, in N.
 ///
 /// `N = ⟨R⟩`
 ///
@@ -109,8 +109,7 @@ pub fn contact_force<T: PositivePart>(system: &SpringMass<T>) -> T {
     system::reaction(system).positive_part()
 }
 
-/// Eq. (1.6), solved for the deflection: where the mass comes to rest over a plane that never pulls,
-/// in m.
+/// Eq. (1.6), solved for the deflection: the equilibrium of unilateral contact, in m.
 ///
 /// `u = min(m g / c, Δ)`
 ///

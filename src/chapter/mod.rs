@@ -1,4 +1,4 @@
-//! The chapter: each equation once, as a free function in the module of its section.
+//! The equations of the chapter, each a function in the module of its section.
 //!
 //! | section | module | equations |
 //! |---|---|---|
@@ -8,9 +8,9 @@
 //! | 1.3.1 Lagrange multiplier method | [`lagrange`] | (1.7)-(1.8) |
 //! | 1.3.2 Penalty method | [`penalty`] | (1.9)-(1.13), Fig. 1.2 |
 //! | 1.3.3 Augmented Lagrangian method | [`augmented`] | (1.14)-(1.21), (1.33) |
-//! | its convergence as an ODE | [`ode`] | (1.22)-(1.32) |
-//! | in floating point | [`rounding`] | note 8: what rounding does to them |
-//! | beyond the chapter | [`beyond`] | what else follows |
+//! | convergence as an ODE | [`ode`] | (1.22)-(1.32) |
+//! | in floating point | [`rounding`] | note 8: rounding errors |
+//! | beyond the chapter | [`beyond`] | further results |
 //!
 //! Notation: stiffness c > 0 in N/m, mass m in kg, gravity g in m/s² (any sign), free length l and
 //! height H in m, deflection u in m (positive towards the plane), penetration p in m, multiplier λ and

@@ -1,8 +1,8 @@
-//! §1.3.3, the theorem's analogy: the recursion (1.21) read as a differential equation. Equations
+//! §1.3.3, the theorem's analogy: the recursion (1.21) as a differential equation. Equations
 //! (1.22)-(1.32).
 //!
-//! An analogy and no proof: the solution of the ODE bounds the iterates strictly and never equals
-//! them (note 5). Time t is a pure number here, the continuous counterpart of the step k.
+//! An analogy, not a proof: the solution of the ODE bounds the iterates strictly and never equals
+//! them (note 5). Time t is dimensionless here, the continuous counterpart of the step k.
 
 use super::{SpringMass, augmented};
 use crate::number::{Exponential, Field};
@@ -188,10 +188,10 @@ pub fn general<T: Exponential>(system: &SpringMass<T>, eps: &T, a: &T, t: &T) ->
 /// ```
 /// # use spring_mass_contact::chapter::{SpringMass, ode};
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
-/// assert_eq!(ode::constant(&system, &2.25), 0.25);
+/// assert_eq!(ode::integration_constant(&system, &2.25), 0.25);
 /// ```
 /// [In the book](../../../../book/convergence.html#eq-1-30)
-pub fn constant<T: Field>(system: &SpringMass<T>, start: &T) -> T {
+pub fn integration_constant<T: Field>(system: &SpringMass<T>, start: &T) -> T {
     let SpringMass { l, h, .. } = system;
     start - h + l
 }
@@ -211,5 +211,5 @@ pub fn constant<T: Field>(system: &SpringMass<T>, start: &T) -> T {
 /// ```
 /// [In the book](../../../../book/convergence.html#eq-1-30)
 pub fn solution<T: Exponential>(system: &SpringMass<T>, eps: &T, start: &T, t: &T) -> T {
-    general(system, eps, &constant(system, start), t)
+    general(system, eps, &integration_constant(system, start), t)
 }

@@ -95,7 +95,7 @@ pub fn series_force<T: Field>(eps: &T, higher: &[T], p: &T) -> T {
 ///
 /// `r = c p + W′ − R`
 ///
-/// Odd and strictly increasing but for the constant, so it has exactly one root;
+/// Odd and strictly increasing, except for the constant, so it has exactly one root;
 /// [`series_penetration`](crate::solver) finds it. Source: §1.3.2, from (1.10).
 ///
 /// ```
@@ -221,10 +221,10 @@ pub fn penetration<T: Field>(system: &SpringMass<T>, eps: &T) -> T {
 /// ```
 /// # use spring_mass_contact::chapter::{SpringMass, penalty};
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
-/// assert_eq!(penalty::force_at_root(&system, &4.0), 1.0);
+/// assert_eq!(penalty::contact_force_at_equilibrium(&system, &4.0), 1.0);
 /// ```
 /// [In the book](../../../../book/penalty.html#eq-1-12)
-pub fn force_at_root<T: Field>(system: &SpringMass<T>, eps: &T) -> T {
+pub fn contact_force_at_equilibrium<T: Field>(system: &SpringMass<T>, eps: &T) -> T {
     eps * system::reaction(system) / total_stiffness(system, eps)
 }
 
@@ -233,7 +233,7 @@ pub fn force_at_root<T: Field>(system: &SpringMass<T>, eps: &T) -> T {
 ///
 /// `ε = R / tol − c`
 ///
-/// For R > 0; if it is not positive, and for R ≤ 0, any ε > 0 will do. Source: §1.3.2.
+/// For R > 0; if it is not positive, and for R ≤ 0, any ε > 0 suffices. Source: §1.3.2.
 ///
 /// ```
 /// # use spring_mass_contact::chapter::{SpringMass, penalty};

@@ -1,4 +1,4 @@
-//! What floats make of the chapter's formulas: bounds that hold in every precision. Note 8.
+//! Bounds of rounding errors of the chapter's formulas, for every precision (note 8).
 //!
 //! A number of p bits is rounded to with a relative error of at most η = 2⁻ᵖ, for p ≥ 2; under- and
 //! overflow are left out. The parameters are meant as they are in floats, and computed is, in their
@@ -8,7 +8,7 @@
 use super::{SpringMass, penalty, system};
 use crate::number::{Field, PositivePart};
 
-/// The unit roundoff of numbers of p bits, a pure number: no result is further off, in parts of itself.
+/// The unit roundoff of numbers of p bits, dimensionless: bounds the relative rounding error.
 ///
 /// `η = 1 / 2ᵖ`
 ///
@@ -22,7 +22,7 @@ pub fn unit_roundoff<T: Field>(n: &T) -> T {
     T::one() / n
 }
 
-/// How far a computed (1.13) is from the exact one, in m.
+/// Bound of the error of a computed (1.13), in m.
 ///
 /// `η (5 |Δ| + 4 R / (c + ε)) (1 + 2 η)`
 ///
@@ -39,7 +39,7 @@ pub fn deflection_error<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: &T)
     &eta * lengths * (T::one() + T::int(2) * &eta)
 }
 
-/// How far a computed ε p at a computed (1.13) is from the force (1.12), in N.
+/// Bound of the error of a computed ε p at a computed (1.13) as the force (1.12), in N.
 ///
 /// `η (ε (|H| + 5 |Δ|) + 7 R) (1 + 8 η)`
 ///
@@ -57,7 +57,7 @@ pub fn penalty_force_error<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: 
     &eta * (eps * lengths + T::int(7) * system::reaction(system)) * (T::one() + T::int(8) * &eta)
 }
 
-/// How far inside the plane, or above it, the mass may be where a computed (1.16) changes λ no more, in m.
+/// Bound of |p| at a fixed point of a computed (1.16), in m.
 ///
 /// `η |H| + η (1 + η)² |λ| / ((1 − η) ε)`
 ///
@@ -75,7 +75,7 @@ pub fn fixed_point_error<T: PositivePart>(system: &SpringMass<T>, eps: &T, lambd
     &eta * system.h.abs() + &eta * &growth * &growth * lambda.abs() / ((T::one() - &eta) * eps)
 }
 
-/// What the rounding floor of (1.16) is a multiple of, in m.
+/// Scale of the rounding floor of (1.16), in m.
 ///
 /// `F = η (|H| + |Δ| + R / ε)`
 ///
@@ -85,13 +85,13 @@ pub fn fixed_point_error<T: PositivePart>(system: &SpringMass<T>, eps: &T, lambd
 /// ```
 /// # use spring_mass_contact::chapter::{SpringMass, rounding};
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
-/// assert_eq!(rounding::floor(&system, &4.0, &2.0), 2.75);
+/// assert_eq!(rounding::floor_scale(&system, &4.0, &2.0), 2.75);
 /// ```
-pub fn floor<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: &T) -> T {
+pub fn floor_scale<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: &T) -> T {
     unit_roundoff(n) * (system.h.abs() + system::gap(system).abs() + system::reaction(system) / eps)
 }
 
-/// How far computed penetrations of (1.16) stay from the exact ones, from λ₀ = 0 and for all k, in m.
+/// Bound of the errors of computed penetrations of (1.16), from λ₀ = 0 and for all k, in m.
 ///
 /// `20 F`
 ///
@@ -104,10 +104,10 @@ pub fn floor<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: &T) -> T {
 /// assert_eq!(rounding::penetration_drift(&system, &4.0, &1024.0), 110.0 / 1024.0);
 /// ```
 pub fn penetration_drift<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: &T) -> T {
-    T::int(20) * floor(system, eps, n)
+    T::int(20) * floor_scale(system, eps, n)
 }
 
-/// How far computed multipliers of (1.16) stay from the exact ones, from λ₀ = 0 and for all k, in N.
+/// Bound of the errors of computed multipliers of (1.16), from λ₀ = 0 and for all k, in N.
 ///
 /// `11 (c + ε) F`
 ///
@@ -120,7 +120,7 @@ pub fn penetration_drift<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: &T
 /// assert_eq!(rounding::multiplier_drift(&system, &4.0, &1024.0), 484.0 / 1024.0);
 /// ```
 pub fn multiplier_drift<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: &T) -> T {
-    T::int(11) * penalty::total_stiffness(system, eps) * floor(system, eps, n)
+    T::int(11) * penalty::total_stiffness(system, eps) * floor_scale(system, eps, n)
 }
 
 /// The square of the compliance 1 / (c + ε) at which a computed ε p serves best as a value of R, in m²/N².

@@ -23,7 +23,7 @@ pub fn spring_force<T: Field>(system: &SpringMass<T>, u: &T) -> T {
     c * u
 }
 
-/// Eq. (1.1): the residual of equilibrium without the plane, in N; zero where the mass comes to rest.
+/// Eq. (1.1): the residual of equilibrium without the plane, in N; zero at equilibrium.
 ///
 /// `r = c u − m g`
 ///
@@ -114,7 +114,7 @@ pub fn potential_energy<T: Field>(system: &SpringMass<T>, u: &T) -> T {
 ///
 /// `min Π = −(m g)² / (2 c)`
 ///
-/// Never positive, so (1.4) is no "positive polynomial". Domain: c ≠ 0. Source: §1.1, after (1.4).
+/// Never positive, so (1.4) is not a "positive polynomial". Domain: c ≠ 0. Source: §1.1, after (1.4).
 ///
 /// ```
 /// # use spring_mass_contact::chapter::{SpringMass, structure};

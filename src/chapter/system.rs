@@ -25,8 +25,8 @@ use std::fmt;
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(bound(
-        serialize = "T: crate::number::Text",
-        deserialize = "T: crate::number::Text + crate::number::Field"
+        serialize = "T: crate::number::ExactText",
+        deserialize = "T: crate::number::ExactText + crate::number::Field"
     ))
 )]
 pub struct SpringMass<T> {
@@ -88,13 +88,13 @@ impl<T> SpringMass<T> {
         SpringMass { c: (c, other.c), m: (m, other.m), g: (g, other.g), l: (l, other.l), h: (h, other.h) }
     }
 
-    /// The same system in other numbers.
+    /// Returns the system with each parameter mapped.
     pub fn map<U>(&self, mut f: impl FnMut(&T) -> U) -> SpringMass<U> {
         let SpringMass { c, m, g, l, h } = self;
         SpringMass { c: f(c), m: f(m), g: f(g), l: f(l), h: f(h) }
     }
 
-    /// The same system in other numbers, where that can fail.
+    /// Returns the system with each parameter converted, or the first error.
     ///
     /// # Errors
     /// The first error that `f` returns.

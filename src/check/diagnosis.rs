@@ -1,11 +1,12 @@
-//! What is wrong with a solver: which known mistake its answers fit.
+//! Diagnosis: known mistakes that explain the answers of a solver.
 
 use super::Penalty;
-use super::given::{Given, has_digits};
-use super::judge::fit;
+use super::assessment::fit;
 use super::mistakes::{
-    Constants, Measured, Mistake, fitted, in_single, mistakes, none, rounded_once, with_rounded_parameters,
+    Constants, Mistake, PenaltyEvidence, fitted, in_single, mistakes, reference, rounded_once,
+    with_rounded_parameters,
 };
+use super::observation::{Observation, has_digits};
 use super::problems::{DIGITS, decimal, short};
 use crate::chapter::SpringMass;
 use crate::claims::registry;
@@ -15,27 +16,27 @@ use num_traits::{One, Zero};
 use rug::float::Round;
 use std::fmt;
 
-/// Which answers a mistake explains.
+/// Answers that a mistake explains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Answers {
-    /// All of them.
+pub enum DiagnosisScope {
+    /// All answers.
     All,
-    /// All that are wrong, and not all that are right.
+    /// All wrong answers, but not all right ones.
     Wrong,
-    /// All whose steps are told.
+    /// All answers with steps.
     Steps,
 }
 
 #[cfg(feature = "serde")]
-crate::number::serialize_as_displayed!(Answers);
+crate::number::serialize_as_displayed!(DiagnosisScope);
 
-/// As JSON has it.
-impl fmt::Display for Answers {
+/// Writes the name used in JSON.
+impl fmt::Display for DiagnosisScope {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.pad(match self {
-            Answers::All => "all",
-            Answers::Wrong => "wrong",
-            Answers::Steps => "steps",
+            DiagnosisScope::All => "all",
+            DiagnosisScope::Wrong => "wrong",
+            DiagnosisScope::Steps => "steps",
         })
     }
 }
@@ -44,31 +45,31 @@ impl fmt::Display for Answers {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Diagnosis {
-    /// What is wrong.
+    /// Description of the mistake.
     pub name: String,
-    /// u and N as such a program computes them.
+    /// Formulas of u and N with the mistake.
     pub formula: String,
-    /// Where in the chapter's source that is one edit, and which one.
+    /// Edits of the chapter's source that cause it, if it is a single one.
     pub at: Vec<String>,
-    /// Which answers it explains.
-    pub answers: Answers,
-    /// How many answers fit.
-    pub fits: usize,
-    /// Of how many.
+    /// Answers that it explains.
+    pub answers: DiagnosisScope,
+    /// Number of answers explained.
+    pub explained: usize,
+    /// Number of answers considered.
     pub of: usize,
 }
 
-/// Answers that tell a mistake from what is right have to be so many: one or two could be off by anything,
-/// and a constant takes one of them to be found.
+/// Number of answers required to distinguish a mistake from the right formulas: one or two could differ by
+/// chance, and one determines a constant.
 const INFORMATIVE: usize = 3;
 
-/// Wrong answers that a constant is looked for in, evenly spread: all of them in a run by default, since
-/// where few systems are in contact for a wrong program, few tell.
+/// Largest number of wrong answers in which a constant is searched, evenly spaced: all of a default run,
+/// since few of them may be informative.
 const SAMPLES: usize = 200;
 
-/// Every mistake that explains the answers, if some of them are wrong.
+/// Returns every mistake that explains the answers, if some of them are wrong.
 pub(super) fn diagnose(
-    answers: &[Given],
+    answers: &[Observation],
     by_penalty: bool,
     shown: &Penalty,
     tolerance: &Exact,
@@ -81,64 +82,76 @@ pub(super) fn diagnose(
     }
     let all = Vec::from_iter(answers);
     let found = [
-        search.known(Answers::All, &all),
+        search.known(DiagnosisScope::All, &all),
         search.rounded(&all),
         search.with_a_constant(&all, &wrong),
         search.factors(&all),
-        search.known(Answers::Wrong, &wrong),
+        search.known(DiagnosisScope::Wrong, &wrong),
     ];
     let found = found.into_iter().find(|found| !found.is_empty());
     steps.into_iter().chain(found.unwrap_or_default()).collect()
 }
 
 struct Search<'a> {
-    answers: &'a [Given<'a>],
+    answers: &'a [Observation<'a>],
     by_penalty: bool,
     shown: &'a Penalty,
     tolerance: &'a Exact,
-    /// How near an answer has to be to what a mistake makes of it.
+    /// Largest distance of an answer from the value that explains it.
     fit: Exact,
 }
 
 impl Search<'_> {
-    fn diagnosis(&self, which: Answers, answers: &[&Given], name: &str, formula: String) -> Diagnosis {
+    fn diagnosis(
+        &self,
+        which: DiagnosisScope,
+        answers: &[&Observation],
+        name: &str,
+        formula: String,
+    ) -> Diagnosis {
         Diagnosis {
             name: name.to_string(),
             formula,
             at: Vec::new(),
             answers: which,
-            fits: answers.len(),
+            explained: answers.len(),
             of: answers.len(),
         }
     }
 
-    fn fits(&self, mistake: &Mistake, factor: Option<&Exact>, given: &Given, pulled: &Penalty) -> bool {
-        let penalty = given.told().or_else(|| match mistake.measured? {
-            Measured::ByForce => self.shown.at(&given.problem.system),
-            Measured::ByEquilibrium => pulled.at(&given.problem.system),
+    fn explains(
+        &self,
+        mistake: &Mistake,
+        factor: Option<&Exact>,
+        given: &Observation,
+        pulled: &Penalty,
+    ) -> bool {
+        let penalty = given.reported_penalty().or_else(|| match mistake.measured? {
+            PenaltyEvidence::ByForce => self.shown.at(&given.problem.system),
+            PenaltyEvidence::ByEquilibrium => pulled.at(&given.problem.system),
         });
-        given.fits(mistake, &Constants { penalty: penalty.as_ref(), factor }, &self.fit)
+        given.is_explained_by(mistake, &Constants { penalty: penalty.as_ref(), factor }, &self.fit)
     }
 
-    /// Are there enough answers that differ from what is right by more than what a mistake has to fit to?
-    /// Where they are so little off, every mistake that hardly shows would fit.
-    fn is_informative(&self, answers: &[&Given]) -> bool {
-        let none = none(self.by_penalty);
-        let telling = answers.iter().filter(|given| !self.fits(&none, None, given, &Penalty::NONE));
+    /// Returns `true` if enough answers differ from the right ones by more than the fitting tolerance.
+    /// Otherwise every mistake with a small effect would fit.
+    fn is_informative(&self, answers: &[&Observation]) -> bool {
+        let none = reference(self.by_penalty);
+        let telling = answers.iter().filter(|given| !self.explains(&none, None, given, &Penalty::NONE));
         telling.take(INFORMATIVE).count() == INFORMATIVE
     }
 
-    /// Mistakes without an unknown constant but ε. An edit of a formula shows in all answers; that it
-    /// explains the wrong ones alone is chance.
-    fn known(&self, which: Answers, answers: &[&Given]) -> Vec<Diagnosis> {
+    /// Returns the mistakes without an unknown constant except ε. A mutated formula affects all answers, so
+    /// explaining only the wrong ones would be a coincidence.
+    fn known(&self, which: DiagnosisScope, answers: &[&Observation]) -> Vec<Diagnosis> {
         if !self.is_informative(answers) {
             return Vec::new();
         }
-        let pulled = Penalty::measured(self.answers, Measured::ByEquilibrium, &self.fit);
+        let pulled = Penalty::measured(self.answers, PenaltyEvidence::ByEquilibrium, &self.fit);
         let known = mistakes(self.by_penalty).iter();
-        let known = known.filter(|mistake| which == Answers::All || !mistake.is_edit());
+        let known = known.filter(|mistake| which == DiagnosisScope::All || !mistake.is_edit());
         let known =
-            known.filter(|mistake| answers.iter().all(|given| self.fits(mistake, None, given, &pulled)));
+            known.filter(|mistake| answers.iter().all(|given| self.explains(mistake, None, given, &pulled)));
         let diagnosis = |known: &Mistake| Diagnosis {
             at: known.at.clone(),
             ..self.diagnosis(which, answers, &known.name, known.formula())
@@ -146,10 +159,10 @@ impl Search<'_> {
         known.map(diagnosis).collect()
     }
 
-    /// Few digits, or single precision.
-    fn rounded(&self, answers: &[&Given]) -> Vec<Diagnosis> {
+    /// Returns the diagnoses of few digits and of single precision.
+    fn rounded(&self, answers: &[&Observation]) -> Vec<Diagnosis> {
         let formula = || rounded_once(self.by_penalty).formula();
-        let about = |name: &str, formula: String| self.diagnosis(Answers::All, answers, name, formula);
+        let about = |name: &str, formula: String| self.diagnosis(DiagnosisScope::All, answers, name, formula);
         if answers.iter().all(|given| given.is_single()) {
             return vec![about("it computes in single precision", formula())];
         }
@@ -159,17 +172,20 @@ impl Search<'_> {
         if let Some(name) = self.few_digits_of_parameters(answers) {
             return vec![about(&name, with_rounded_parameters(self.by_penalty).formula())];
         }
-        let fits =
-            |mistake: &&Mistake| answers.iter().all(|given| given.fits_in_single(mistake, self.tolerance));
+        let fits = |mistake: &&Mistake| {
+            answers.iter().all(|given| given.is_explained_in_single(mistake, self.tolerance))
+        };
         let fitting = in_single(self.by_penalty).iter().filter(fits);
         fitting.map(|mistake| about(&mistake.name, mistake.formula())).collect()
     }
 
-    /// What is right of lengths with few decimals, or of parameters with few digits: of the float nearest to
-    /// a number, as most programs round, or of the number itself, which may be halfway between two.
-    fn few_digits_of_parameters(&self, answers: &[&Given]) -> Option<String> {
+    /// Returns the diagnosis of lengths with few decimals, or of parameters with few digits: rounded from the
+    /// nearest float, like most programs do, or from the number itself, which may be a tie.
+    fn few_digits_of_parameters(&self, answers: &[&Observation]) -> Option<String> {
         let fits = |change: &dyn Fn(&SpringMass<Exact>) -> SpringMass<Exact>| {
-            answers.iter().all(|given| given.fits_parameters(&change(&given.problem.system), self.tolerance))
+            answers
+                .iter()
+                .all(|given| given.is_explained_by_parameters(&change(&given.problem.system), self.tolerance))
         };
         let read = |text: String| text.parse().expect("a decimal");
         let float = |x: &Exact| x.to_f64().unwrap_or_default();
@@ -189,12 +205,12 @@ impl Search<'_> {
             })
         };
         decimals
-            .map(|n| format!("it takes no more than {n} decimals of l and H"))
-            .or_else(|| Some(format!("it takes no more than {} digits of its parameters", digits()?)))
+            .map(|n| format!("it uses at most {n} decimals of l and H"))
+            .or_else(|| Some(format!("it uses at most {} digits of its parameters", digits()?)))
     }
 
-    /// Mistakes with a constant k, each with the first that all answers fit.
-    fn with_a_constant(&self, answers: &[&Given], wrong: &[&Given]) -> Vec<Diagnosis> {
+    /// Returns mistakes with a constant k, each with the first k that explains all answers.
+    fn with_a_constant(&self, answers: &[&Observation], wrong: &[&Observation]) -> Vec<Diagnosis> {
         if !self.is_informative(answers) {
             return Vec::new();
         }
@@ -203,15 +219,16 @@ impl Search<'_> {
             let samples = wrong.iter().step_by(step);
             let estimates = samples
                 .flat_map(|given| mistake.estimates.iter().filter_map(|estimate| given.factor_of(estimate)));
-            let fits =
-                |k: &Exact| answers.iter().all(|given| self.fits(mistake, Some(k), given, &Penalty::NONE));
+            let fits = |k: &Exact| {
+                answers.iter().all(|given| self.explains(mistake, Some(k), given, &Penalty::NONE))
+            };
             let is_possible =
                 |k: &Exact| !k.is_zero() && (!mistake.is_share || *k > Exact::zero() && *k < Exact::from(2));
             let k = estimates.filter(is_possible).find(fits)?;
             let spelled = k.decimal(6, Round::Nearest);
             let name = mistake.name.replace("{k}", &spelled);
             Some(self.diagnosis(
-                Answers::All,
+                DiagnosisScope::All,
                 answers,
                 &name,
                 format!("{}, k = {spelled}", mistake.formula()),
@@ -220,13 +237,13 @@ impl Search<'_> {
         found.collect()
     }
 
-    /// u and N, each a multiple of what is right.
-    fn factors(&self, answers: &[&Given]) -> Vec<Diagnosis> {
+    /// Returns the diagnosis of u and N being constant multiples of the right ones.
+    fn factors(&self, answers: &[&Observation]) -> Vec<Diagnosis> {
         if !self.is_informative(answers) {
             return Vec::new();
         }
         let Some(factors) = factors(answers) else { return Vec::new() };
-        let [u, n] = none(self.by_penalty).touching;
+        let [u, n] = reference(self.by_penalty).in_contact;
         let times = |symbol: &'static str, x: &Exact, tree: Tree| match x {
             x if x.is_zero() => Tree::from(0),
             x if *x == Exact::one() => tree,
@@ -238,40 +255,41 @@ impl Search<'_> {
         let (names, constants): (Vec<_>, Vec<_>) = said
             .map(|(name, symbol, factor)| {
                 let factor = factor.decimal(6, Round::Nearest);
-                (format!("{name} is {factor} times what is right"), format!("{symbol} = {factor}"))
+                (format!("{name} is {factor} times the right value"), format!("{symbol} = {factor}"))
             })
             .unzip();
         let formula = format!("{}, {}", Mistake::new("factors", formulas).formula(), constants.join(", "));
-        vec![self.diagnosis(Answers::All, answers, &names.join(", "), formula)]
+        vec![self.diagnosis(DiagnosisScope::All, answers, &names.join(", "), formula)]
     }
 }
 
-/// Digits, or decimals, that numbers may have for this to be why they are off.
+/// Largest number of digits or decimals that counts as few.
 const FEW: usize = 9;
 
-/// All numbers are what is right, written with few digits or decimals.
-fn few_digits(answers: &[&Given]) -> Option<String> {
+/// Returns the diagnosis of right numbers written with few digits or decimals.
+fn few_digits(answers: &[&Observation]) -> Option<String> {
     let pairs = answers.iter().flat_map(|given| given.numbers().into_iter().zip(given.exact));
     let pairs = pairs.map(|(number, exact)| Some((number.as_ref()?, exact))).collect::<Option<Vec<_>>>()?;
-    // Rounded to nearest; that it has been rounded before, to f64, moves hardly any of them further.
+    // Rounded to nearest; a previous rounding to f64 rarely matters.
     let near = |x: &Exact, exact: &Exact, unit: Exact| {
         Exact::from(100) * (x - exact).abs() <= Exact::from(51) * unit
     };
     let has_decimals = |x: &Exact, decimals: i32| (x * decimal(1, decimals)).as_rational().is_integer();
     let decimals = (0..FEW as i32).find(|n| pairs.iter().all(|(x, _)| has_decimals(x, *n)));
     if let Some(n) = decimals.filter(|n| pairs.iter().all(|(x, exact)| near(x, exact, decimal(1, -n)))) {
-        return Some(format!("its numbers have no more than {n} decimals"));
+        return Some(format!("its numbers have at most {n} decimals"));
     }
     let digits = (1..FEW).find(|n| pairs.iter().all(|(x, _)| has_digits(x, *n)))?;
-    // A unit of the last digit is at most this part of the number.
+    // One unit of the last digit is at most this fraction of the number.
     let part = decimal(1, 1 - digits as i32);
     let all = pairs.iter().all(|(x, exact)| near(x, exact, &part * x.abs()));
-    all.then(|| format!("its numbers have no more than {digits} digits"))
+    all.then(|| format!("its numbers have at most {digits} digits"))
 }
 
-/// By which u and N are multiples of what is right, the same in all answers that tell it; not both 1.
-fn factors(answers: &[&Given]) -> Option<[Exact; 2]> {
-    // How nearly the same factors have to be, and how far from 1 to be one.
+/// Returns the factors of u and N relative to the right ones, if they agree in all informative answers; not
+/// both 1.
+fn factors(answers: &[&Observation]) -> Option<[Exact; 2]> {
+    // Largest relative difference of equal factors, and smallest of a factor from 1.
     let alike = decimal(1, -5);
     let factor = |which| {
         let all = answers.iter().filter_map(|given| given.factor(which, &alike));
@@ -285,16 +303,16 @@ fn factors(answers: &[&Given]) -> Option<[Exact; 2]> {
     factors.iter().any(|factor| *factor != Exact::one()).then_some(factors)
 }
 
-/// The force reported is that of the step before.
-fn lag(answers: &[Given]) -> Option<Diagnosis> {
+/// Returns the diagnosis of a reported force that is the one of the previous step.
+fn lag(answers: &[Observation]) -> Option<Diagnosis> {
     let told = Vec::from_iter(answers.iter().filter_map(|given| given.lags));
     let fits = told.iter().filter(|lags| **lags).count();
     (fits > 0 && fits == told.len()).then(|| Diagnosis {
         name: "N is one step behind".to_string(),
-        formula: registry().fill("N_k = «augmented::contact_force: u=u_{k−1}»", Notation::Text),
+        formula: registry().render_template("N_k = «augmented::contact_force: u=u_{k−1}»", Notation::Text),
         at: Vec::new(),
-        answers: Answers::Steps,
-        fits,
+        answers: DiagnosisScope::Steps,
+        explained: fits,
         of: told.len(),
     })
 }

@@ -1,7 +1,6 @@
-//! Wrong programs: every small change of the formulas that give u and N, and what people do.
+//! Known mistakes: every small mutation of the formulas for u and N, and common mistakes.
 //!
-//! All of them are recorded from the chapter's functions, called otherwise than they should be, so that they
-//! can be computed with and printed.
+//! They are recorded from the chapter's functions, called wrongly, so that they can be computed and printed.
 
 mod fitted;
 
@@ -9,10 +8,10 @@ pub(super) use fitted::fitted;
 
 use super::{CASES, Family, Problem, problems};
 use crate::chapter::{SpringMass, augmented, contact, lagrange, penalty, structure, system};
-use crate::claims::{entry_of, registry, symbols};
-use crate::number::tree::{Site, Step, piecewise};
+use crate::claims::{entry_for_function, registry, symbols};
+use crate::number::tree::{Op, Site, piecewise_ops};
 use crate::number::{Exact, PositivePart, ToExact, Tree};
-use crate::proof::controls::{Change, changes_in};
+use crate::proof::mutation::{Mutant, mutants_in};
 use num_traits::Zero;
 use std::collections::HashMap;
 use std::sync::LazyLock;
@@ -20,53 +19,53 @@ use std::sync::LazyLock;
 /// u in m and N in N, as formulas.
 pub(super) type Formulas = [Tree; 2];
 
-/// What a wrong program computes.
+/// Formulas of a wrong program.
 #[derive(Clone, Debug)]
 pub(super) struct Mistake {
-    /// What is wrong.
+    /// Description of the mistake.
     pub name: String,
-    /// Where R > 0, or what it takes for R.
-    pub touching: Formulas,
-    /// Everywhere else.
-    pub apart: Formulas,
-    /// What it takes for R, in N, if it is another.
+    /// Formulas for R > 0, or for its replacement `decision`.
+    pub in_contact: Formulas,
+    /// Formulas otherwise.
+    pub separated: Formulas,
+    /// Replacement of R, in N, if the decision is wrong.
     pub decision: Option<Tree>,
-    /// Where in the chapter's source that is one edit.
+    /// Edits of the chapter's source that cause the mistake.
     pub at: Vec<String>,
-    /// Whose force by its penetration is ε, if the formulas have one that nobody has told.
-    pub measured: Option<Measured>,
-    /// From which an answer's k is found, if the formulas have one; `{k}` in the name stands for it.
+    /// Force from which ε is determined, if the formulas contain an ε that is not reported.
+    pub measured: Option<PenaltyEvidence>,
+    /// Equations from which k is determined, if the formulas contain a k, which `{k}` in the name denotes.
     pub estimates: Vec<Estimate>,
-    /// Whether k is a share of an iteration's way, between 0 and 2.
+    /// Whether k is a fraction of the full step of an iteration, between 0 and 2.
     pub is_share: bool,
 }
 
-/// From which the constant k of a program is found.
+/// Equation for the constant k of a program.
 #[derive(Clone, Debug)]
 pub(super) enum Estimate {
     /// A formula of k, u and N that is linear in k, and 0 for some answers.
     Equation(Tree),
-    /// u (0) or N (1) of an answer, relative to what is right.
+    /// u (0) or N (1) of an answer, relative to the right value.
     Ratio(usize),
     /// u (0) or N (1) of an answer.
     Number(usize),
-    /// The penalty by which so many augmentations leave the penetration of an answer.
+    /// Penalty for which this number of augmentations leaves the penetration of an answer.
     Augmentations(i32),
 }
 
-/// ε and k, where they are known.
+/// ε and k, if they are known.
 #[derive(Debug)]
 pub(super) struct Constants<'a, T> {
     pub penalty: Option<&'a T>,
     pub factor: Option<&'a T>,
 }
 
-/// What shows the penalty of a program that does not tell it.
+/// Force from which an unreported penalty is determined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Measured {
+pub(super) enum PenaltyEvidence {
     /// N/p
     ByForce,
-    /// (m g − c u)/p where the plane should not act.
+    /// (m g − c u)/p for a separated system
     ByEquilibrium,
 }
 
@@ -74,8 +73,8 @@ impl Mistake {
     pub fn new(name: &str, formulas: Formulas) -> Self {
         Mistake {
             name: name.to_string(),
-            touching: formulas.clone(),
-            apart: formulas,
+            in_contact: formulas.clone(),
+            separated: formulas,
             decision: None,
             at: Vec::new(),
             measured: None,
@@ -84,67 +83,67 @@ impl Mistake {
         }
     }
 
-    /// Is it one edit of the chapter's source?
+    /// Returns `true` if a single edit of the chapter's source causes the mistake.
     pub fn is_edit(&self) -> bool {
         !self.at.is_empty()
     }
 
-    /// Do its formulas have an ε?
+    /// Returns `true` if its formulas contain ε.
     pub fn has_penalty(&self) -> bool {
-        self.touching.iter().chain(&self.apart).any(|formula| formula.symbols().contains("ε"))
+        self.in_contact.iter().chain(&self.separated).any(|formula| formula.symbols().contains("ε"))
     }
 
-    /// Do its formulas have a k?
+    /// Returns `true` if its formulas contain k.
     pub fn has_factor(&self) -> bool {
-        self.touching.iter().chain(&self.apart).any(|formula| formula.symbols().contains("k"))
+        self.in_contact.iter().chain(&self.separated).any(|formula| formula.symbols().contains("k"))
     }
 
-    /// What it takes for R.
+    /// Returns the value that decides the state in place of R.
     pub fn reaction(&self, system: &SpringMass<Exact>, constants: &Constants<Exact>) -> Exact {
         let own = self.decision.as_ref().and_then(|decision| value(decision, system, constants));
         own.unwrap_or_else(|| system::reaction(system))
     }
 
-    /// What it computes where R > 0, or elsewhere.
+    /// Returns the formulas for R > 0, or otherwise.
     pub fn formulas(&self, touching: bool) -> &Formulas {
-        if touching { &self.touching } else { &self.apart }
+        if touching { &self.in_contact } else { &self.separated }
     }
 
-    /// u and N as an expression: `u = min(m g / c, H − l), N = 0`.
+    /// Formats u and N: `u = min(m g / c, H − l), N = 0`.
     pub fn formula(&self) -> String {
         let both = |[u, n]: &Formulas| {
             let is_u = |tree: &Tree| tree.site() == u.site() && tree == u;
             let short = n.rewrite(&|tree| is_u(tree).then(|| symbols().u.clone()));
             format!("u = {u}, N = {short}")
         };
-        if self.touching == self.apart {
-            both(&self.touching)
+        if self.in_contact == self.separated {
+            both(&self.in_contact)
         } else {
             let decision = self.decision.as_ref().map_or("R".to_string(), Tree::to_string);
-            format!("{} if {decision} > 0, else {}", both(&self.touching), both(&self.apart))
+            format!("{} if {decision} > 0, else {}", both(&self.in_contact), both(&self.separated))
         }
     }
 }
 
-/// The value of a formula for a system and constants; `None` where it divides by zero, or has a quantity that
-/// is not known.
+/// Returns the value of a formula for a system and constants; `None` if it divides by zero, or contains an
+/// unknown quantity.
 pub(super) fn value<T: PositivePart>(
     tree: &Tree,
     system: &SpringMass<T>,
     constants: &Constants<T>,
 ) -> Option<T> {
-    value_with(tree, system, constants, &piecewise)
+    value_with(tree, system, constants, &piecewise_ops)
 }
 
-/// Like [`value`], where what is rounded is rounded to single precision.
+/// Like [`value`], with roundings to single precision.
 pub(super) fn value_in_single(
     tree: &Tree,
     system: &SpringMass<Exact>,
     penalty: Option<&Exact>,
 ) -> Option<Exact> {
-    let extra = |step: Step<&Exact>| match step {
-        Step::Rounded(x) => x.to_f32().ok()?.to_exact().ok(),
-        other => piecewise(other),
+    let extra = |step: Op<&Exact>| match step {
+        Op::Rounded(x) => x.to_f32().ok()?.to_exact().ok(),
+        other => piecewise_ops(other),
     };
     value_with(tree, system, &Constants { penalty, factor: None }, &extra)
 }
@@ -153,7 +152,7 @@ fn value_with<T: PositivePart>(
     tree: &Tree,
     system: &SpringMass<T>,
     constants: &Constants<T>,
-    extra: &impl Fn(Step<&T>) -> Option<T>,
+    extra: &impl Fn(Op<&T>) -> Option<T>,
 ) -> Option<T> {
     let SpringMass { c, m, g, l, h } = system;
     let known = [("c", c), ("m", m), ("g", g), ("l", l), ("H", h)].into_iter();
@@ -161,10 +160,10 @@ fn value_with<T: PositivePart>(
     let known: Vec<_> = known.chain(constants.factor.map(|k| ("k", k))).collect();
     let symbol = |name: &str| known.iter().find(|(own, _)| *own == name).map(|(_, x)| (*x).clone());
     let all = tree.symbols().into_iter().all(|name| symbol(name).is_some());
-    all.then(|| tree.replay(&|name| symbol(name).expect("known"), extra)).flatten()
+    all.then(|| tree.eval(&|name| symbol(name).expect("known"), extra)).flatten()
 }
 
-/// What is right: u in m and N in N of Lagrange, or by penalty.
+/// Returns the right formulas of u in m and N in N, by Lagrange multiplier or by penalty.
 pub(super) fn right<T: PositivePart>(system: &SpringMass<T>, penalty: Option<&T>) -> [T; 2] {
     match penalty {
         None => [contact::deflection(system), contact::contact_force(system)],
@@ -176,7 +175,7 @@ pub(super) fn right<T: PositivePart>(system: &SpringMass<T>, penalty: Option<&T>
     }
 }
 
-/// The same of a plane that also pulls.
+/// Returns the formulas for bilateral contact.
 fn bilateral(system: &SpringMass<Tree>, penalty: Option<&Tree>) -> Formulas {
     match penalty {
         None => [lagrange::deflection(system), lagrange::multiplier(system)],
@@ -188,20 +187,19 @@ fn bilateral(system: &SpringMass<Tree>, penalty: Option<&Tree>) -> Formulas {
     }
 }
 
-/// Every mistake of solvers by Lagrange, or by penalty. No two of them are the same function, and none is
-/// right: of those that are the same to all the systems of a run by default, the first is left, with the
-/// places of all.
+/// Returns the mistakes of solvers by Lagrange multiplier, or by penalty. They are distinct functions, and
+/// none is right: of those that agree for all default systems, only the first is kept, with the edits of all.
 pub(super) fn mistakes(by_penalty: bool) -> &'static [Mistake] {
-    static LAGRANGE: LazyLock<Vec<Mistake>> = LazyLock::new(|| different(false));
-    static PENALTY: LazyLock<Vec<Mistake>> = LazyLock::new(|| different(true));
+    static LAGRANGE: LazyLock<Vec<Mistake>> = LazyLock::new(|| distinct_mistakes(false));
+    static PENALTY: LazyLock<Vec<Mistake>> = LazyLock::new(|| distinct_mistakes(true));
     if by_penalty { &PENALTY } else { &LAGRANGE }
 }
 
-fn different(by_penalty: bool) -> Vec<Mistake> {
-    let none = values(&none(by_penalty));
+fn distinct_mistakes(by_penalty: bool) -> Vec<Mistake> {
+    let none = values(&reference(by_penalty));
     let mut places: HashMap<Vec<Option<Exact>>, usize> = HashMap::new();
     let mut different: Vec<Mistake> = Vec::new();
-    for mistake in every(by_penalty) {
+    for mistake in candidates(by_penalty) {
         let values = values(&mistake);
         if let Some(&place) = places.get(&values) {
             different[place].at.extend(mistake.at);
@@ -213,33 +211,33 @@ fn different(by_penalty: bool) -> Vec<Mistake> {
     different
 }
 
-/// What is right, for comparison.
-pub(super) fn none(by_penalty: bool) -> Mistake {
+/// Returns the right formulas for comparison.
+pub(super) fn reference(by_penalty: bool) -> Mistake {
     Mistake::new("none", right(&symbols().system, by_penalty.then_some(&symbols().eps)))
 }
 
-/// Every mistake, and some more than once.
-pub(super) fn every(by_penalty: bool) -> Vec<Mistake> {
+/// Returns all mistakes, some repeatedly.
+pub(super) fn candidates(by_penalty: bool) -> Vec<Mistake> {
     let eps = &symbols().eps;
     let penalty = by_penalty.then_some(eps);
     let own = &symbols().system;
-    let mut all = people(own, penalty);
+    let mut all = common_mistakes(own, penalty);
     if !by_penalty {
-        all.extend(unasked(own, eps));
+        all.extend(unrequested_methods(own, eps));
     }
     for (formulas, besides) in
         [(right(own, penalty), ""), (bilateral(own, penalty), "the plane also pulls, and ")]
     {
-        let edited = |change: Change| edited(change, &formulas, besides);
-        // Who has no penalty takes nothing for it.
+        let edited = |change: Mutant| edited(change, &formulas, besides);
+        // A program without a penalty does not use ε by mistake.
         let is_possible = |mistake: &Mistake| by_penalty || !mistake.has_penalty();
-        let changes = changes_in(&formulas, registry()).into_iter();
+        let changes = mutants_in(&formulas, registry()).into_iter();
         all.extend(changes.map(edited).filter(is_possible));
     }
     all
 }
 
-/// What a mistake computes on the systems of a run by default, each with a penalty of its own, and k = 7.
+/// Returns the values of a mistake for the default systems, with a different penalty for each, and k = 7.
 pub(super) fn values(mistake: &Mistake) -> Vec<Option<Exact>> {
     static SYSTEMS: LazyLock<Vec<Problem>> = LazyLock::new(|| problems(1, CASES, &Family::ALL));
     let numbered = SYSTEMS.iter().map(|problem| &problem.system).zip(2..);
@@ -251,19 +249,19 @@ pub(super) fn values(mistake: &Mistake) -> Vec<Option<Exact>> {
     values.collect()
 }
 
-/// What people do.
-fn people(own: &SpringMass<Tree>, penalty: Option<&Tree>) -> Vec<Mistake> {
+/// Returns common mistakes of programmers.
+fn common_mistakes(own: &SpringMass<Tree>, penalty: Option<&Tree>) -> Vec<Mistake> {
     let of = |system: SpringMass<Tree>| right(&system, penalty);
     let [u, n] = right(own, penalty);
     let SpringMass { g, l, h, .. } = own;
     let (zero, one, gap) = (Tree::from(0), Tree::from(1), system::gap(own));
     let while_touching = |name: &str, force: Tree| Mistake {
-        apart: [u.clone(), zero.clone()],
+        separated: [u.clone(), zero.clone()],
         ..Mistake::new(name, [u.clone(), force])
     };
     let with_force = |name: &str, force: Tree| Mistake::new(name, [u.clone(), force]);
     let added = system::weight(own) + structure::spring_force(own, &u);
-    // Of the right deflection, as of a plane that also pulls.
+    // The force of the right deflection with bilateral contact.
     let force = match penalty {
         None => system::reaction(own),
         Some(eps) => penalty::contact_force(own, eps, &u),
@@ -272,39 +270,42 @@ fn people(own: &SpringMass<Tree>, penalty: Option<&Tree>) -> Vec<Mistake> {
         Mistake::new("the plane also pulls", bilateral(own, penalty)),
         Mistake::new("there is no plane", [structure::deflection(own), zero.clone()]),
         Mistake::new("H and l are swapped", of(SpringMass { l: h.clone(), h: l.clone(), ..own.clone() })),
-        Mistake::new("H is taken for the gap", of(SpringMass { l: zero.clone(), ..own.clone() })),
+        Mistake::new("H is used as the gap", of(SpringMass { l: zero.clone(), ..own.clone() })),
         Mistake::new("l is added to H", of(SpringMass { l: -l, ..own.clone() })),
         Mistake::new(
-            "an overlap is taken for no gap",
+            "an overlap is treated as a zero gap",
             of(SpringMass { h: l + gap.positive_part(), ..own.clone() }),
         ),
-        Mistake::new("the gap is taken without its sign", of(SpringMass { h: l + gap.abs(), ..own.clone() })),
+        Mistake::new(
+            "the absolute value of the gap is used",
+            of(SpringMass { h: l + gap.abs(), ..own.clone() }),
+        ),
         Mistake::new("gravity is reversed", of(SpringMass { g: -g, ..own.clone() })),
         Mistake::new(
-            "gravity is 9.81 whatever it is",
+            "gravity is always 9.81",
             of(SpringMass { g: Tree::from(981) / Tree::from(100), ..own.clone() }),
         ),
-        Mistake::new("m is taken for the weight", of(SpringMass { g: one.clone(), ..own.clone() })),
-        Mistake::new("g is taken for the weight", of(SpringMass { m: one, ..own.clone() })),
-        with_force("N has the other sign", -&n),
-        with_force("N has the other sign, and no bracket", -&force),
-        with_force("N is taken without its sign", force.abs()),
-        while_touching("the force of the spring is added to the weight in N", added.clone()),
-        with_force("the force of the spring is added to the weight in N, also apart", added),
+        Mistake::new("m is used as the weight", of(SpringMass { g: one.clone(), ..own.clone() })),
+        Mistake::new("g is used as the weight", of(SpringMass { m: one, ..own.clone() })),
+        with_force("N has the wrong sign", -&n),
+        with_force("N has the wrong sign, and no bracket", -&force),
+        with_force("N is replaced by its absolute value", force.abs()),
+        while_touching("the spring force is added to the weight in N", added.clone()),
+        with_force("the spring force is added to the weight in N, also when separated", added),
         with_force("N is always 0", zero.clone()),
         Mistake::new("u is always 0", [zero.clone(), n.clone()]),
         Mistake::new("u and N are always 0", [zero.clone(), zero.clone()]),
         while_touching("N is the weight", system::weight(own)),
-        while_touching("N is the force of the spring", structure::spring_force(own, &u)),
+        while_touching("N is the spring force", structure::spring_force(own, &u)),
         Mistake::new("u is the length of the spring", [l + &u, n.clone()]),
-        Mistake::new("u is counted from the plane", [contact::penetration(own, &u), n.clone()]),
-        Mistake::new("u is counted from the plane upwards", [-contact::penetration(own, &u), n.clone()]),
-        Mistake::new("u is counted upwards", [-&u, n.clone()]),
+        Mistake::new("u is measured from the plane", [contact::penetration(own, &u), n.clone()]),
+        Mistake::new("u is measured upwards from the plane", [-contact::penetration(own, &u), n.clone()]),
+        Mistake::new("u is measured upwards", [-&u, n.clone()]),
         Mistake::new("u and N are swapped", [n, u.clone()]),
     ]
 }
 
-/// Programs that round to single precision in one place, and compute in double elsewhere.
+/// Returns programs with one rounding to single precision, which otherwise compute in double precision.
 pub(super) fn in_single(by_penalty: bool) -> &'static [Mistake] {
     static LAGRANGE: LazyLock<Vec<Mistake>> = LazyLock::new(|| with_one_rounding(false));
     static PENALTY: LazyLock<Vec<Mistake>> = LazyLock::new(|| with_one_rounding(true));
@@ -324,19 +325,19 @@ fn with_one_rounding(by_penalty: bool) -> Vec<Mistake> {
         Mistake::new(&format!("{name} is computed in single precision"), formulas)
     };
     let with_gap = |gap: Tree| of(SpringMass { l: Tree::from(0), h: gap, ..own.clone() });
-    let gap = (h.nearest() - l.nearest()).nearest();
+    let gap = (h.round() - l.round()).round();
     let spring_force = structure::spring_force(own, &system::gap(own));
-    let reaction = (system::weight(own).nearest() - spring_force.nearest()).nearest();
+    let reaction = (system::weight(own).round() - spring_force.round()).round();
     let mut all = vec![
-        single("c", of(SpringMass { c: c.nearest(), ..own.clone() })),
-        single("m", of(SpringMass { m: m.nearest(), ..own.clone() })),
-        single("g", of(SpringMass { g: g.nearest(), ..own.clone() })),
-        single("l", of(SpringMass { l: l.nearest(), ..own.clone() })),
-        single("H", of(SpringMass { h: h.nearest(), ..own.clone() })),
-        single("H − l", with_gap(system::gap(own).nearest())),
+        single("c", of(SpringMass { c: c.round(), ..own.clone() })),
+        single("m", of(SpringMass { m: m.round(), ..own.clone() })),
+        single("g", of(SpringMass { g: g.round(), ..own.clone() })),
+        single("l", of(SpringMass { l: l.round(), ..own.clone() })),
+        single("H", of(SpringMass { h: h.round(), ..own.clone() })),
+        single("H − l", with_gap(system::gap(own).round())),
         computed("H − l", with_gap(gap)),
-        single("u", [u.nearest(), n.clone()]),
-        single("N", [u.clone(), n.nearest()]),
+        single("u", [u.round(), n.clone()]),
+        single("N", [u.clone(), n.round()]),
     ];
     if !by_penalty {
         all.push(computed("R = m g − c (H − l)", [u, reaction.positive_part()]));
@@ -344,54 +345,57 @@ fn with_one_rounding(by_penalty: bool) -> Vec<Mistake> {
     all
 }
 
-/// What is right, each of its numbers rounded.
+/// Returns the right formulas with rounded results.
 pub(super) fn rounded_once(by_penalty: bool) -> Mistake {
     let right = right(&symbols().system, by_penalty.then_some(&symbols().eps));
-    Mistake::new("rounded", right.each_ref().map(Tree::nearest))
+    Mistake::new("rounded", right.each_ref().map(Tree::round))
 }
 
-/// What is right of parameters that are rounded.
+/// Returns the right formulas with rounded parameters.
 pub(super) fn with_rounded_parameters(by_penalty: bool) -> Mistake {
-    let system = symbols().system.map(Tree::nearest);
+    let system = symbols().system.map(Tree::round);
     Mistake::new("rounded parameters", right(&system, by_penalty.then_some(&symbols().eps)))
 }
 
-/// Methods with a penalty that nobody asked for.
-fn unasked(own: &SpringMass<Tree>, eps: &Tree) -> Vec<Mistake> {
+/// Returns methods with a penalty that the problem does not contain.
+fn unrequested_methods(own: &SpringMass<Tree>, eps: &Tree) -> Vec<Mistake> {
     let measured = |measured, mistake: Mistake| Mistake { measured: Some(measured), ..mistake };
     let (exact, [pulled, pull]) = (right(own, None), bilateral(own, Some(eps)));
     let zero = Tree::from(0);
     let update = |name: &str, force: Tree| Mistake {
-        touching: exact.clone(),
+        in_contact: exact.clone(),
         ..Mistake::new(name, [pulled.clone(), force])
     };
     vec![
-        measured(Measured::ByForce, Mistake::new("it is the penalty method", right(own, Some(eps)))),
+        measured(PenaltyEvidence::ByForce, Mistake::new("it is the penalty method", right(own, Some(eps)))),
         measured(
-            Measured::ByForce,
+            PenaltyEvidence::ByForce,
             Mistake::new(
                 "it is the penalty method, and the plane also pulls",
                 [pulled.clone(), pull.clone()],
             ),
         ),
-        measured(Measured::ByEquilibrium, update("only the update of the augmentation is bracketed", zero)),
         measured(
-            Measured::ByEquilibrium,
+            PenaltyEvidence::ByEquilibrium,
+            update("only the update of the augmentation is bracketed", zero),
+        ),
+        measured(
+            PenaltyEvidence::ByEquilibrium,
             update("only the update of the augmentation is bracketed, and N is not", pull),
         ),
     ]
 }
 
-/// The formulas after a change of the source.
-fn edited(change: Change, formulas: &Formulas, besides: &str) -> Mistake {
+/// Returns the formulas after a mutation.
+fn edited(change: Mutant, formulas: &Formulas, besides: &str) -> Mistake {
     let label = label(change.site);
-    let name = format!("{besides}as {label} with {}", change.what);
+    let name = format!("{besides}as {label} with {}", change.mutation);
     let changed = formulas.each_ref().map(|tree| change.rewrite(tree));
     Mistake { at: vec![change.to_string()], ..Mistake::new(&name, changed) }
 }
 
-/// The number of the equation that is written at a place of the source.
+/// Returns the label of the equation at a site of the source.
 fn label(site: Site) -> String {
     let own = registry().formulas().iter().find(|formula| formula.tree.any(&|tree| tree.site() == site));
-    own.and_then(|own| entry_of(own.path)).map_or(site.to_string(), |entry| entry.label())
+    own.and_then(|own| entry_for_function(own.path)).map_or(site.to_string(), |entry| entry.label())
 }

@@ -1,78 +1,78 @@
-//! Whether a solver is a penalty method, and with which penalty.
+//! Identification of the penalty method and its penalty parameter.
 
-use super::given::Given;
-use super::mistakes::Measured;
+use super::mistakes::PenaltyEvidence;
+use super::observation::Observation;
 use crate::chapter::SpringMass;
 use crate::number::Exact;
 use num_traits::One;
 use std::fmt;
 
-/// How a penalty depends on the system.
+/// Dependence of a penalty on the system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// No penalty shows.
+pub enum PenaltyScaling {
+    /// No penalty identified.
     None,
-    /// The same ε everywhere.
+    /// The same ε for all systems.
     Constant,
-    /// A multiple of c.
+    /// Proportional to c.
     OfStiffness,
-    /// A multiple of m.
+    /// Proportional to m.
     OfMass,
 }
 
-/// As JSON has it.
-impl fmt::Display for Kind {
+/// Writes the name used in JSON.
+impl fmt::Display for PenaltyScaling {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.pad(match self {
-            Kind::None => "none",
-            Kind::Constant => "constant",
-            Kind::OfStiffness => "of_stiffness",
-            Kind::OfMass => "of_mass",
+            PenaltyScaling::None => "none",
+            PenaltyScaling::Constant => "constant",
+            PenaltyScaling::OfStiffness => "of_stiffness",
+            PenaltyScaling::OfMass => "of_mass",
         })
     }
 }
 
 #[cfg(feature = "serde")]
-crate::number::serialize_as_displayed!(Kind);
+crate::number::serialize_as_displayed!(PenaltyScaling);
 
-impl Kind {
-    const ALL: [Kind; 3] = [Kind::Constant, Kind::OfStiffness, Kind::OfMass];
+impl PenaltyScaling {
+    const ALL: [PenaltyScaling; 3] =
+        [PenaltyScaling::Constant, PenaltyScaling::OfStiffness, PenaltyScaling::OfMass];
 
-    /// What the penalty is a multiple of.
+    /// Returns the factor of the penalty.
     fn unit(self, system: &SpringMass<Exact>) -> Exact {
         match self {
-            Kind::None | Kind::Constant => Exact::one(),
-            Kind::OfStiffness => system.c.clone(),
-            Kind::OfMass => system.m.clone(),
+            PenaltyScaling::None | PenaltyScaling::Constant => Exact::one(),
+            PenaltyScaling::OfStiffness => system.c.clone(),
+            PenaltyScaling::OfMass => system.m.clone(),
         }
     }
 }
 
-/// The penalty that forces by their penetrations show.
+/// Penalty identified from forces and penetrations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Penalty {
-    /// How it depends on the system.
-    pub kind: Kind,
-    /// ε in N/m; or ε/c; or ε/m in 1/s². Of the answer that tells it most clearly.
+    /// Dependence on the system.
+    pub kind: PenaltyScaling,
+    /// ε in N/m, ε/c, or ε/m in 1/s², from the most accurate answer.
     pub value: Option<Exact>,
-    /// The largest by the smallest, less 1.
+    /// Ratio of the largest and the smallest value, less 1.
     pub spread: Option<Exact>,
 }
 
 impl Penalty {
-    pub(super) const NONE: Penalty = Penalty { kind: Kind::None, value: None, spread: None };
+    pub(super) const NONE: Penalty = Penalty { kind: PenaltyScaling::None, value: None, spread: None };
 
-    /// A penalty shows if one of the three multiples, and only one, is the same to within a tenth in all
-    /// answers that tell it; and if these are three or more, and at least half of those whose force it would
-    /// be.
-    pub(super) fn measured(answers: &[Given], by: Measured, tolerance: &Exact) -> Self {
+    /// Identifies a penalty if exactly one of the three multiples agrees within a tenth in all informative
+    /// answers, and these are at least three and at least half of those with a contact force.
+    pub(super) fn measured(answers: &[Observation], by: PenaltyEvidence, tolerance: &Exact) -> Self {
         let acting = answers.iter().filter_map(|given| given.force(by, tolerance)).count();
         let told = Vec::from_iter(answers.iter().filter_map(|given| given.ratio(by, tolerance)));
         let clearest = told.iter().max_by(|a, b| a.clarity.cmp(&b.clarity));
         let (Some(clearest), true) = (clearest, told.len() >= 3 && 2 * told.len() >= acting) else {
             return Penalty::NONE;
         };
-        let shown = Kind::ALL.into_iter().filter_map(|kind| {
+        let shown = PenaltyScaling::ALL.into_iter().filter_map(|kind| {
             let multiples = || told.iter().map(|ratio| &ratio.value / kind.unit(ratio.system));
             let spread = multiples().max()? / multiples().min()? - Exact::one();
             let value = &clearest.value / kind.unit(clearest.system);

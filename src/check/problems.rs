@@ -1,7 +1,7 @@
-//! Systems to be solved, of every kind that a solver may find hard, with decimals of few digits.
+//! Test systems of all kinds that may be difficult for a solver, as decimals with few digits.
 //!
-//! A number is drawn as an integer and a power of ten, so that a seed means the same on every machine; and
-//! every number has at most [`DIGITS`] digits, so that what is printed is what is meant.
+//! A number is drawn as an integer and a power of ten, so that a seed has the same meaning on every machine,
+//! and has at most [`DIGITS`] digits, so that its text is exact.
 
 use crate::chapter::{SpringMass, structure};
 use crate::number::{Exact, PositivePart};
@@ -11,50 +11,48 @@ use rug::float::Round;
 use std::fmt;
 use std::str::FromStr;
 
-/// Significant decimal digits that a parameter has at most: some readers of numbers take no more than a line
-/// of a punched card has room for.
+/// Largest number of significant decimal digits of a parameter, since some parsers read only short fields.
 pub const DIGITS: usize = 12;
 
-/// The powers of ten that the decades of [`Family::Graded`] begin with.
+/// Exponents of ten at which the decades of [`Family::Graded`] begin.
 const GRADES: std::ops::Range<i32> = -9..-1;
 
-/// The preferred numbers of IEC 60063, E24, times ten: 24 to a decade, spaced alike on a logarithmic scale as
-/// far as two digits allow.
+/// The preferred numbers of IEC 60063, E24, times ten: 24 per decade in about equal ratios.
 const E24: [i32; 24] =
     [10, 11, 12, 13, 15, 16, 18, 20, 22, 24, 27, 30, 33, 36, 39, 43, 47, 51, 56, 62, 68, 75, 82, 91];
 
-/// What is special about a system.
+/// Family of test systems.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Family {
-    /// Nothing, and the plane pushes.
+    /// Ordinary systems in contact.
     Contact,
-    /// Nothing, and the mass hangs free.
+    /// Ordinary separated systems.
     Separated,
-    /// R = 0: it touches without force.
+    /// R = 0: mass and plane touch without force.
     Grazing,
-    /// As near beside R = 0 as [`DIGITS`] digits of one parameter allow, on either side.
+    /// As close to R = 0 as [`DIGITS`] digits of one parameter allow, on either side.
     Near,
-    /// H < l: the spring has to be shortened before the mass fits above the plane.
+    /// H < l: the spring must be compressed for the mass to fit above the plane.
     Overlap,
-    /// g < 0: the weight lifts.
+    /// g < 0: the weight acts upwards.
     Lifted,
-    /// c of 10⁷ to 10¹⁰ N/m, and a gap down to a tenth of a nanometre.
+    /// c from 10⁷ to 10¹⁰ N/m, and gaps down to a tenth of a nanometre.
     Stiff,
-    /// c of 10⁻⁴ to 10⁻¹ N/m.
+    /// c from 10⁻⁴ to 10⁻¹ N/m.
     Soft,
-    /// |l| and |H| of kilometres, and a gap of a metre, or of less.
+    /// |l| and |H| of kilometres, and gaps of at most a metre.
     Far,
-    /// c, m and l of 10⁶ to 10¹⁴ SI units, and a gap alike.
+    /// c, m, l and the gap from 10⁶ to 10¹⁴ SI units.
     Huge,
-    /// c, m and l of 10⁻¹⁴ to 10⁻⁶ SI units, and a gap alike.
+    /// c, m, l and the gap from 10⁻¹⁴ to 10⁻⁶ SI units.
     Tiny,
-    /// |R| of 10⁻⁹ to 10⁻¹ of |m g| + |c (H − l)|, on either side: where a tolerance of the solver's own
-    /// decides. So many systems a decade as other families have in all.
+    /// |R| from 10⁻⁹ to 10⁻¹ of |m g| + |c (H − l)|, on either side, where an internal
+    /// tolerance of the solver decides. Each decade has as many systems as another family.
     Graded,
 }
 
 impl Family {
-    /// All of them.
+    /// All families.
     pub const ALL: [Family; 12] = [
         Family::Contact,
         Family::Separated,
@@ -70,12 +68,12 @@ impl Family {
         Family::Graded,
     ];
 
-    /// How many systems it has where others have one.
+    /// Returns its number of systems relative to other families.
     fn multiplicity(self) -> u64 {
         if self == Family::Graded { GRADES.len() as u64 } else { 1 }
     }
 
-    /// As it is called on the command line and in JSON.
+    /// Returns its name on the command line and in JSON.
     pub fn name(self) -> &'static str {
         match self {
             Family::Contact => "contact",
@@ -100,35 +98,37 @@ impl fmt::Display for Family {
     }
 }
 
-/// There is no family of this name.
+/// There is no family with this name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("[possible values: {}]", Family::ALL.map(Family::name).join(", "))]
-pub struct NoFamily;
+pub struct UnknownFamily;
 
 impl FromStr for Family {
-    type Err = NoFamily;
-    fn from_str(text: &str) -> Result<Self, NoFamily> {
-        Family::ALL.into_iter().find(|family| family.name() == text).ok_or(NoFamily)
+    type Err = UnknownFamily;
+    fn from_str(text: &str) -> Result<Self, UnknownFamily> {
+        Family::ALL.into_iter().find(|family| family.name() == text).ok_or(UnknownFamily)
     }
 }
 
 #[cfg(feature = "serde")]
 crate::number::serialize_as_displayed!(Family);
 
-/// A system to be solved.
+/// A test system.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
-    /// What it is called in requests and answers: `stiff-2`.
+    /// Identifier in requests and answers: `stiff-2`.
     pub id: String,
-    /// What is special about it.
+    /// Its family.
     pub family: Family,
-    /// Its parameters: decimals of at most [`DIGITS`] digits.
+    /// Its parameters: decimals with at most [`DIGITS`] digits.
     pub system: SpringMass<Exact>,
-    /// ε > 0 in N/m, if the penalty method is asked for.
+    /// ε > 0 in N/m, for the penalty method.
     pub penalty: Option<Exact>,
 }
 
-/// So many systems of each of these families, or of each decade of [`Family::Graded`], drawn from a seed.
+/// Returns `cases` systems of each family, or of each decade of [`Family::Graded`], drawn from a seed.
+///
+/// # Examples
 ///
 /// ```
 /// use spring_mass_contact::check::{Family, problems};
@@ -157,12 +157,12 @@ pub(super) fn decimal(mantissa: i64, exponent: i32) -> Exact {
     format!("{mantissa}e{exponent}").parse().expect("a decimal")
 }
 
-/// The nearest decimal of so many digits.
+/// Returns the nearest decimal with this number of digits.
 pub(super) fn short(x: &Exact, digits: usize) -> Exact {
     x.decimal(digits, Round::Nearest).parse().expect("a decimal")
 }
 
-/// One unit of the last digit that a number may have.
+/// Returns one unit of the last allowed digit.
 fn last_digit(x: &Exact) -> Exact {
     let first = x.abs().decimal(1, Round::Down);
     let digit = first.chars().find_map(|c| c.to_digit(10).filter(|digit| *digit > 0)).expect("not zero");
@@ -170,7 +170,7 @@ fn last_digit(x: &Exact) -> Exact {
     first / Exact::from(digit as i32) * decimal(1, 1 - DIGITS as i32)
 }
 
-/// Where the systems of a family come from.
+/// Random source of the systems of a family.
 struct Draw {
     random: Rand64,
     family: Family,
@@ -187,7 +187,7 @@ impl Draw {
         low + self.random.rand_range(0..(high - low + 1) as u64) as i32
     }
 
-    /// Three digits, from 10^low to 10^(high + 1).
+    /// Draws three digits between 10^low and 10^(high + 1).
     fn decades(&mut self, low: i32, high: i32) -> Exact {
         let mantissa = self.between(100, 999).into();
         decimal(mantissa, self.between(low, high) - 2)
@@ -197,17 +197,17 @@ impl Draw {
         Exact::from(self.between(low, high)) / Exact::from(16)
     }
 
-    /// The gap in parts of the free deflection, in contact.
+    /// Draws the gap relative to the free deflection, in contact.
     fn inside(&mut self) -> Exact {
         self.sixteenths(1, 14)
     }
 
-    /// The same, apart.
+    /// Draws the gap relative to the free deflection, separated.
     fn beyond(&mut self) -> Exact {
         self.sixteenths(18, 64)
     }
 
-    /// By turns.
+    /// Alternates between contact and separation.
     fn part(&mut self) -> Exact {
         if self.number % 2 == 1 { self.inside() } else { self.beyond() }
     }
@@ -227,7 +227,7 @@ impl Draw {
                 self.ordinary([1, 3], part)
             }
             Family::Lifted => {
-                // It rises until the spring holds it; only a plane that is higher still is in the way.
+                // The mass rises until the spring holds it; contact requires a higher plane.
                 let part = Exact::from(1) / self.part();
                 let above = self.number % 2 == 1 || self.between(0, 3) < 3;
                 let part = if above { -part } else { part };
@@ -248,7 +248,8 @@ impl Draw {
                 let part = self.part();
                 let l = self.decades(3, 5);
                 let l = if self.between(0, 3) == 0 { -l } else { l };
-                // The mass hangs no further down than a metre, and the plane no further than four.
+                // The free deflection is at most one metre, and the plane at most four metres below the
+                // support.
                 let (c, m, g) = (self.decades(2, 2), self.decades(-1, 0), self.decades(0, 0));
                 hung(c, m, g, l, &part)
             }
@@ -272,7 +273,7 @@ impl Draw {
         }
     }
 
-    /// A system of everyday size but for its stiffness.
+    /// Returns an ordinary system except for its stiffness.
     fn ordinary(&mut self, stiffness: [i32; 2], part: Exact) -> SpringMass<Exact> {
         let [low, high] = stiffness;
         let (c, m, g, l) =
@@ -280,7 +281,7 @@ impl Draw {
         hung(c, m, g, l, &part)
     }
 
-    /// Lengths and stiffness between these powers of ten; gravity makes up for them.
+    /// Draws lengths and stiffness between these powers of ten, which gravity compensates.
     fn sized(&mut self, low: i32, high: i32) -> SpringMass<Exact> {
         let part = self.part();
         let (c, m) = (self.decades(low, high), self.decades(low, high));
@@ -290,14 +291,13 @@ impl Draw {
         SpringMass { h: &l + gap, c, m, g, l }
     }
 
-    /// |R| as a part of |m g| + |c Δ| that is spaced alike on a logarithmic scale. Every decade is on either
-    /// side by turns, and begins with its lowest quarter on both, so that few systems leave no large part
-    /// out.
+    /// Draws |R| relative to |m g| + |c Δ| in about equal ratios. Every decade alternates between both sides,
+    /// and begins with its lowest quarter on both, so that few systems leave no large part out.
     fn graded(&mut self) -> SpringMass<Exact> {
         let grades = GRADES.len() as u64;
         let (decade, turn) = ((self.number - 1) % grades, (self.number - 1) / grades);
         let touches = (decade + turn) % 2 == 0;
-        // 0, 1/2, 1/4, 3/4 of a decade, and on with the quarters that these leave.
+        // 0, 1/2, 1/4, 3/4 of a decade, then the remaining quarters.
         let quarter = [0, 2, 1, 3][(turn / 2 % 4) as usize];
         let place = 6 * quarter + self.between(0, 5);
         let part = decimal(E24[place as usize].into(), GRADES.start + decade as i32 - 1);
@@ -312,7 +312,7 @@ impl Draw {
         }
     }
 
-    /// m g = c Δ: m divides it, so that g has few digits.
+    /// m g = c Δ, where m is a divisor, so that g has few digits.
     fn grazing(&mut self) -> SpringMass<Exact> {
         let (c, gap, l) = (self.decades(1, 3), self.decades(-3, -1), self.decades(-1, 0));
         let twos = Exact::power_of_two(self.between(-2, 5));
@@ -322,7 +322,7 @@ impl Draw {
     }
 }
 
-/// The plane is so far below as this part of the free deflection.
+/// Returns a system whose gap is this fraction of the free deflection.
 fn hung(c: Exact, m: Exact, g: Exact, l: Exact, part: &Exact) -> SpringMass<Exact> {
     let system = SpringMass { c, m, g, h: l.clone(), l };
     let gap = short(&(structure::deflection(&system) * part), 3);

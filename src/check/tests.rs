@@ -1,14 +1,14 @@
-//! That wrong solvers are found out, and told apart.
+//! Tests that wrong solvers are detected and distinguished.
 
 mod diagnosed;
 mod judged;
 
 use super::mistakes::{
-    Constants, Mistake, every, fitted, in_single, mistakes, none, value, value_in_single, values,
+    Constants, Mistake, candidates, fitted, in_single, mistakes, reference, value, value_in_single, values,
 };
 use super::*;
 use crate::chapter::{SpringMass, augmented, contact, structure, system};
-use crate::claims::given;
+use crate::claims::hypotheses;
 use crate::formula::claim::equal;
 use crate::number::{PositivePart, ToExact};
 use crate::proof::prove;
@@ -28,7 +28,7 @@ fn default_problems() -> Vec<Problem> {
     problems(1, CASES, &Family::ALL)
 }
 
-/// A penalty that no two systems have in common, as multiples of c have.
+/// Adds penalties that are different for all systems, also as multiples of c.
 fn with_penalties(mut problems: Vec<Problem>) -> Vec<Problem> {
     for (i, problem) in problems.iter_mut().enumerate() {
         problem.penalty = Some(&problem.system.c * Exact::from(i as i32 + 2));
@@ -41,7 +41,7 @@ fn run(problems: &[Problem], solver: impl Fn(&Problem) -> Answer) -> Report {
     check(problems, &number(TOLERANCE), ask).unwrap()
 }
 
-/// What a program with this mistake answers.
+/// Returns the answer of a program with this mistake.
 fn answer(mistake: &Mistake, problem: &Problem, penalty: Option<&Exact>) -> Answer {
     let [u, n] = mistake.formulas(system::reaction(&problem.system) > Exact::zero());
     let constants = Constants { penalty, factor: None };
@@ -61,25 +61,25 @@ fn every_mistake_is_diagnosed_as_itself() {
             let report = run(&problems, solve);
             assert!(!report.holds(), "{} holds", mistake.name);
             let names: Vec<_> = report.diagnosis.iter().map(|d| (&d.name, &d.formula, d.answers)).collect();
-            let own = [(&mistake.name, &mistake.formula(), Answers::All)];
+            let own = [(&mistake.name, &mistake.formula(), DiagnosisScope::All)];
             assert_eq!(names, own, "{}", mistake.name);
         }
     }
 }
 
-/// A constant of which no decimal of six digits is exact.
+/// No decimal of six digits is the exact constant.
 #[test]
 fn a_constant_is_found() {
     for problems in [default_problems(), with_penalties(default_problems())] {
         let by_penalty = problems[0].penalty.is_some();
         for (mistake, k) in fitted(by_penalty).iter().flat_map(|mistake| {
             let bound = mistake.name.contains("at most");
-            // As of units; of a share of the way; and of a bound that is neither above nor below all numbers.
+            // Constants of units, fractions of a step, and bounds within the range of the values.
             let constants: &[&str] = match () {
                 () if bound => &["1/30", "7/3"],
                 () if mistake.name.starts_with("the augmentation") => &["1e4", "3e6"],
                 () if mistake.is_share => &["31/32", "1/3"],
-                // A spring that pushes away from its end is none.
+                // A spring with negative stiffness is not tested.
                 () if mistake.name.starts_with("c ") => &["1000", "1/3", "0.001"],
                 () => &["1000", "1/3", "0.001", "-3"],
             };
@@ -101,7 +101,7 @@ fn a_constant_is_found() {
     }
 }
 
-/// By default what is off by 6e-8 of c, m, g or R is within the tolerance; what hides in a difference is not.
+/// By default an error of 6e-8 of c, m, g or R is within the tolerance, but not that of a difference.
 #[test]
 fn one_rounding_to_single_precision_is_found() {
     for problems in [default_problems(), with_penalties(default_problems())] {
@@ -109,7 +109,7 @@ fn one_rounding_to_single_precision_is_found() {
             let solve = |problem: &Problem| {
                 let [u, n] = mistake.formulas(system::reaction(&problem.system) > Exact::zero());
                 let value = |tree| value_in_single(tree, &problem.system, problem.penalty.as_ref());
-                // As a program prints them.
+                // As printed by a program.
                 let printed = |x: Option<Exact>| Some(number(&x?.to_f64().unwrap().to_string()));
                 let [u, n] = [value(u), value(n)].map(printed);
                 Answer { deflection: u, contact_force: n, ..Answer::default() }
@@ -131,17 +131,17 @@ fn one_rounding_to_single_precision_is_found() {
     }
 }
 
-/// Two mistakes that compute the same on all systems of a run by default are one.
+/// Two mistakes that agree for all default systems are one.
 #[test]
 fn what_is_taken_for_the_same_is_proved_to_be() {
-    let given = given();
+    let given = hypotheses();
     let given = [&given.stiffness, &given.penalty];
     for by_penalty in [false, true] {
-        let kept = [none(by_penalty)].into_iter().chain(mistakes(by_penalty).iter().cloned());
+        let kept = [reference(by_penalty)].into_iter().chain(mistakes(by_penalty).iter().cloned());
         let kept: HashMap<_, _> = kept.map(|mistake| (values(&mistake), mistake)).collect();
-        for mistake in every(by_penalty) {
+        for mistake in candidates(by_penalty) {
             let same = &kept[&values(&mistake)];
-            let pairs = [(&same.touching, &mistake.touching), (&same.apart, &mistake.apart)];
+            let pairs = [(&same.in_contact, &mistake.in_contact), (&same.separated, &mistake.separated)];
             for (a, b) in pairs.into_iter().flat_map(|(a, b)| a.iter().zip(b)) {
                 let claim = equal("same", a, b).assuming(given);
                 assert!(a == b || prove(&claim).is_ok(), "{} and {}: {a} and {b}", same.name, mistake.name);
@@ -150,7 +150,7 @@ fn what_is_taken_for_the_same_is_proved_to_be() {
     }
 }
 
-/// The same in f64, as a program would, that reads the decimals of a request.
+/// In f64, like a program that parses the decimals of a request.
 #[test]
 fn rounding_hides_no_mistake() {
     for mistake in mistakes(false) {
@@ -190,7 +190,7 @@ fn families_are_what_they_say() {
             Family::Separated => state == State::Separated && *g > zero,
             Family::Grazing => state == State::Grazing && between(&gap, "1e-3", "1"),
             Family::Near => {
-                // A unit of the twelfth digit of a number that has a part in m g or in c Δ.
+                // One unit of the twelfth digit of a number in m g or in c Δ.
                 let part = system::reaction(system).abs() / system::weight(system).abs();
                 !part.is_zero() && part < number("1e-8")
             }
@@ -213,14 +213,14 @@ fn families_are_what_they_say() {
     for family in [Near, Lifted, Stiff, Soft, Far, Huge, Tiny, Graded] {
         assert_eq!(states(family), HashSet::from([State::Contact, State::Separated]), "{family}");
     }
-    // By turns, where the family leaves a choice; those near grazing may be on either side.
+    // Both states alternate if the family allows it; those near grazing may be on either side.
     for Problem { id, family, system, .. } in &all {
         let odd = id.ends_with(['1', '3', '5', '7', '9']);
         let expected = if odd { State::Contact } else { State::Separated };
         let by_turns = [Lifted, Stiff, Soft, Far, Huge, Tiny].contains(family);
         assert!(!by_turns || State::of(system).unwrap() == expected, "{id}: {system}");
     }
-    // Each of four parameters is the one with more than ten digits, a unit above or below, by turns.
+    // Each of four parameters in turn has more than ten digits, one unit above or below.
     let mut changed = HashSet::new();
     for Problem { id, system, .. } in all.iter().filter(|problem| problem.family == Near) {
         let SpringMass { c, m, g, l: _, h } = system;
@@ -237,7 +237,7 @@ fn families_are_what_they_say() {
     let expected =
         [1, 5].into_iter().flat_map(|n| (-2..=5).map(move |k| Exact::from(n) * Exact::power_of_two(k)));
     assert_eq!(masses, expected.map(|m| m.to_string()).collect());
-    // Now and then there is no length, or a negative one, and a plane below what is lifted.
+    // Some systems have zero or negative length, and a plane below a lifted mass.
     let share = |family: Family, is_so: fn(&SpringMass<Exact>) -> bool| {
         let of = all.iter().filter(|problem| problem.family == family);
         of.filter(|problem| is_so(&problem.system)).count()
@@ -245,23 +245,23 @@ fn families_are_what_they_say() {
     assert!((1..20).contains(&share(Stiff, |system| system.l.is_zero())));
     assert!((1..20).contains(&share(Far, |system| system.l < Exact::zero())));
     assert!((1..10).contains(&share(Lifted, |system| system::gap(system) > Exact::zero())));
-    // The systems of a seed are its own, and those of a family do not depend on the others.
+    // The systems depend on the seed, and those of a family not on the others.
     assert_eq!(problems(1, 3, &[Stiff]), problems(1, 40, &Family::ALL)[240..243]);
     assert_ne!(problems(2, 3, &[Stiff]), problems(1, 3, &[Stiff]));
-    // Also of seeds that agree in their lower bits.
+    // Also for seeds that agree in their lower bits.
     for other in [1 | 1 << 32, 1 | 1 << 63] {
         assert_ne!(problems(other, 3, &[Stiff]), problems(1, 3, &[Stiff]), "{other}");
     }
 }
 
-/// |R| relative to |m g| + |c (H − l)|.
+/// Returns |R| relative to |m g| + |c (H − l)|.
 fn part(system: &SpringMass<Exact>) -> Exact {
     let loads = system::weight(system).abs() + (&system.c * system::gap(system)).abs();
     system::reaction(system).abs() / loads
 }
 
-/// Where a relative tolerance may decide, there are systems on either side in every decade, however few are
-/// asked for. The first two of a decade begin with its lowest quarter, of which 16 is the last number of E24.
+/// Every decade has systems on both sides, for any number of systems. The first two of a decade lie in its
+/// lowest quarter, of which 16 is the last number of E24.
 #[test]
 fn grades_are_spread_over_every_decade_on_either_side() {
     for cases in [2, 3, 5, 12] {
@@ -276,9 +276,9 @@ fn grades_are_spread_over_every_decade_on_either_side() {
             };
             for parts in [of(State::Contact), of(State::Separated)] {
                 assert!(parts.len() as u64 >= cases / 2, "{decade}");
-                // A parameter of twelve digits is off by 5e-12, which is a four-hundredth of 2e-9.
+                // The error of a parameter with twelve digits is 5e-12, a four-hundredth of 2e-9.
                 assert!(*parts.iter().min().unwrap() <= number("1.61"), "{decade}");
-                // On a logarithmic scale, half of them are below the middle.
+                // On a logarithmic scale half of them are below the middle.
                 let low = parts.iter().filter(|x| **x < number("3.2")).count();
                 assert!((parts.len() / 2..=parts.len().div_ceil(2)).contains(&low), "{decade}: {low}");
             }
@@ -286,7 +286,7 @@ fn grades_are_spread_over_every_decade_on_either_side() {
     }
 }
 
-/// Neither the number of a case nor the seed is cut short on its way into what is drawn.
+/// All bits of the index and the seed are used.
 #[test]
 fn no_two_systems_are_the_same() {
     let mut seen = HashMap::new();
@@ -307,7 +307,7 @@ fn no_two_systems_are_the_same() {
 fn a_force_is_written_by_its_deflection() {
     let no_plane = mistakes(false).iter().find(|mistake| mistake.name == "there is no plane").unwrap();
     assert_eq!(no_plane.formula(), "u = m g / c, N = 0");
-    let formula = none(true).formula();
+    let formula = reference(true).formula();
     let (_, force) = formula.split_once(", N = ").unwrap();
     assert!(force.contains('u') && !force.contains('/'), "{formula}");
 }
@@ -324,13 +324,17 @@ fn names_are_those_of_the_command_line_and_of_json() {
     for family in Family::ALL {
         assert_eq!(family.name().parse(), Ok(family));
     }
-    assert_eq!("flat".parse::<Family>(), Err(NoFamily));
+    assert_eq!("flat".parse::<Family>(), Err(UnknownFamily));
     let verdicts = [Verdict::Right, Verdict::WithinTolerance, Verdict::Wrong, Verdict::TimedOut];
     assert_eq!(verdicts.map(|it| it.to_string()), ["right", "within_tolerance", "wrong", "timed_out"]);
-    let quantities = [Of::Penetration, Of::ForceByWeight, Of::PenetrationByHeight];
+    let quantities = [
+        ThresholdQuantity::Penetration,
+        ThresholdQuantity::ForceByWeight,
+        ThresholdQuantity::PenetrationByHeight,
+    ];
     let names = ["penetration", "force_by_weight", "penetration_by_height"];
     assert_eq!(quantities.map(|it| it.to_string()), names);
-    let answers = [Answers::All, Answers::Wrong, Answers::Steps];
+    let answers = [DiagnosisScope::All, DiagnosisScope::Wrong, DiagnosisScope::Steps];
     assert_eq!(answers.map(|it| it.to_string()), ["all", "wrong", "steps"]);
 }
 

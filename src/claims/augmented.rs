@@ -1,4 +1,4 @@
-//! By augmented Lagrangian: (1.14) to (1.21), Theorem 1.3.3; and when to stop: (1.33), Remark 1.3.6.
+//! Augmented Lagrangian: (1.14) to (1.21), Theorem 1.3.3, and the stopping criterion: (1.33), Remark 1.3.6.
 
 use super::prelude::*;
 use crate::chapter::augmented::{self, *};
@@ -6,14 +6,14 @@ use crate::chapter::system::{gap, reaction};
 use crate::chapter::{contact, lagrange, penalty, rounding, structure, system};
 
 formulas! {
-    "L" (folded) = augmented::functional(system, "ε", "λ", "u");
+    "L" (abbreviated) = augmented::functional(system, "ε", "λ", "u");
     "min L" = augmented::least_value(system, "ε", "λ");
     "∂L/∂u" = augmented::stationarity(system, "ε", "λ", "u");
     "λ′" = augmented::update(system, "ε", "λ", "u");
     "r" = augmented::equilibrium(system, "ε", "λ", "u");
     "u" = augmented::deflection(system, "ε", "λ");
     "N" = augmented::contact_force(system, "u");
-    "ρ" (folded) = augmented::contraction(system, "ε");
+    "ρ" (abbreviated) = augmented::contraction(system, "ε");
     "λ_k" = augmented::multiplier_after(system, "λ₀", "ρᵏ");
     "p_k" = augmented::penetration_after(system, "ε", "λ₀", "ρᵏ");
     "u_k" = augmented::deflection_after(system, "ε", "λ₀", "ρᵏ");
@@ -27,7 +27,7 @@ formulas! {
     "r" = augmented::natural_residual(system, "ε", "λ", "u");
 }
 
-/// One step of (1.16): the next multiplier and the deflection that goes with it.
+/// One step of (1.16): the next multiplier and its deflection.
 pub(super) fn augment([lambda, u]: [Tree; 2]) -> [Tree; 2] {
     let Case { system: s, eps, .. } = symbols();
     let lambda = update(s, eps, &lambda, &u);
@@ -35,10 +35,10 @@ pub(super) fn augment([lambda, u]: [Tree; 2]) -> [Tree; 2] {
     [lambda, u]
 }
 
-/// The entries up to (1.21), with what is claimed of each.
+/// Returns the entries up to (1.21).
 pub(super) fn entries() -> Vec<Entry> {
     let Case { system: s, u, v, eps, lambda, q, k, .. } = symbols();
-    let Given {
+    let Hypotheses {
         stiffness,
         penalty,
         below_reaction,
@@ -49,13 +49,13 @@ pub(super) fn entries() -> Vec<Entry> {
         count,
         later_multiplier,
         fine_enough,
-        touching,
+        in_contact,
         computed_inside,
         decay,
         near_iterate,
         some_bits,
         ..
-    } = given();
+    } = hypotheses();
     let iterate = &deflection(s, eps, lambda);
     let zero = &int(0);
     let one = &int(1);
@@ -118,26 +118,28 @@ pub(super) fn entries() -> Vec<Entry> {
                 ),
                 non_negative(
                     "float-multiplier-rises",
-                    update(s, eps, lambda, u).rounded() - lambda.nearest(),
+                    update(s, eps, lambda, u).with_rounding() - lambda.round(),
                 )
                 .only_assuming([penalty, computed_inside]),
                 {
-                    let p = |lambda: &Tree| contact::penetration(s, &deflection(s, eps, lambda)).rounded();
+                    let p =
+                        |lambda: &Tree| contact::penetration(s, &deflection(s, eps, lambda)).with_rounding();
                     non_negative("float-penetration-falls", p(lambda) - p(v)).assuming([later_multiplier])
                 },
-                drift(
+                perturbed_recursion(
                     "float-drift",
                     contraction(s, eps),
                     0,
-                    |lambda| update(s, eps, lambda, u).rounded(),
+                    |lambda| update(s, eps, lambda, u).with_rounding(),
                     (multiplier_after(s, zero, q), rounding::multiplier_drift(s, eps, precision())),
                     |_| {
-                        let error = contact::penetration(s, u).rounded() - penetration_after(s, eps, zero, q);
+                        let error =
+                            contact::penetration(s, u).with_rounding() - penetration_after(s, eps, zero, q);
                         [(error, rounding::penetration_drift(s, eps, precision()))]
                     },
                 )
-                .assuming([fine_enough, touching, decay, near_iterate])
-                .computing(u, deflection(s, eps, member()).rounded()),
+                .assuming([fine_enough, in_contact, decay, near_iterate])
+                .computing(u, deflection(s, eps, member()).with_rounding()),
                 {
                     let drift = rounding::penetration_drift(s, eps, precision());
                     let lengths = s.h.abs() + gap(s).abs() + reaction(s) / eps;
@@ -147,7 +149,7 @@ pub(super) fn entries() -> Vec<Entry> {
                 equal(
                     "float-multiplier-drift-in-parts",
                     rounding::multiplier_drift(s, eps, precision()),
-                    int(11) * (&s.c + eps) * rounding::floor(s, eps, precision()),
+                    int(11) * (&s.c + eps) * rounding::floor_scale(s, eps, precision()),
                 )
                 .only_assuming([penalty, some_bits]),
                 equal(
@@ -165,7 +167,7 @@ pub(super) fn entries() -> Vec<Entry> {
             .functions(["augmented::contraction"])
             .follows_from(["1.16"])
             .claims([
-                vanishing("contracts", contraction(s, eps), penetration_after(s, eps, lambda, q), 0),
+                geometric_limit("contracts", contraction(s, eps), penetration_after(s, eps, lambda, q), 0),
                 {
                     let next = contraction(s, eps) * q;
                     positive(
@@ -182,7 +184,7 @@ pub(super) fn entries() -> Vec<Entry> {
                     )
                     .assuming([above_reaction, power])
                 },
-                vanishing("force", contraction(s, eps), multiplier_after(s, lambda, q), reaction(s)),
+                geometric_limit("force", contraction(s, eps), multiplier_after(s, lambda, q), reaction(s)),
             ]),
         Entry::new("1.17", "The limit of the theorem")
             .states("lim p(u_k) = 0, and |p_k| ≤ r |p₀| with r = «augmented::harmonic_bound»")
@@ -219,14 +221,8 @@ pub(super) fn entries() -> Vec<Entry> {
                     .assuming([count])
                 },
                 equal("harmonic-start", harmonic_bound(s, eps, zero), 1).only_assuming([stiffness]),
-                limit(
-                    "harmonic-limit",
-                    harmonic_bound(s, eps, k),
-                    k,
-                    0,
-                    Exactly(one / (one + k * eps / &s.c)),
-                )
-                .assuming([count]),
+                limit("harmonic-limit", harmonic_bound(s, eps, k), k, 0, Equal(one / (one + k * eps / &s.c)))
+                    .assuming([count]),
             ]),
         Entry::new("1.18", "Update of the multiplier")
             .states("λ_{k+1} = «augmented::update: λ=λ_k, u=u_k» = «augmented::contact_force: u=u_k»")
@@ -284,13 +280,13 @@ pub(super) fn entries() -> Vec<Entry> {
     ]
 }
 
-/// The entries after (1.32), with what is claimed of each.
+/// Returns the entries after (1.32).
 pub(super) fn stopping() -> Vec<Entry> {
     let Case { system: s, u, eps, lambda, q, tol, .. } = symbols();
-    let Given { stiffness, penalty, tolerance, power, .. } = given();
+    let Hypotheses { stiffness, penalty, tolerance, power, .. } = hypotheses();
     let one = &int(1);
     vec![
-        Entry::new("1.33", "When to stop")
+        Entry::new("1.33", "Stopping criterion")
             .states("|p_k| < tol, first at k = 0 if |p₀| < tol, else at k = ⌊ln(|p₀|/tol)/ln(1 + ε/c)⌋ + 1")
             .in_latex(r"\lvert p_k \rvert = \lvert «contact::penetration: u=u_k» \rvert < \mathrm{tol}")
             .assuming([stiffness, penalty, tolerance])
@@ -306,7 +302,7 @@ pub(super) fn stopping() -> Vec<Entry> {
                 equal("growth", one / contraction(s, eps), one + eps / &s.c)
                     .only_assuming([stiffness, penalty]),
                 {
-                    // λ₀ planted so that |p₀| = tol/q: after the steps with ρᵏ = q the penetration *is* the
+                    // λ₀ chosen so that |p₀| = tol/q: after the steps with ρᵏ = q the penetration *is* the
                     // tolerance.
                     let start = reaction(s) - penalty::total_stiffness(s, eps) * tol / q;
                     equal("tie", penetration_after(s, eps, &start, q), tol)
@@ -322,10 +318,10 @@ pub(super) fn stopping() -> Vec<Entry> {
             .follows_from(["1.18"])
             .claims([
                 equal("lag", update(s, eps, lambda, u) - lambda, penalty::contact_force(s, eps, u)),
-                within("rounding", contact_force(s, u).rounded() - contact_force(s, u), {
+                within("rounding", contact_force(s, u).with_rounding() - contact_force(s, u), {
                     let parts = [system::weight(s), structure::spring_force(s, u)];
-                    let [weight, spring] = parts.map(|part| part.rounded());
-                    let force = contact_force(s, u).rounded();
+                    let [weight, spring] = parts.map(|part| part.with_rounding());
+                    let force = contact_force(s, u).with_rounding();
                     eta() * (weight.abs() + spring.abs() + force.abs())
                 }),
             ]),

@@ -1,4 +1,4 @@
-//! What follows beyond the chapter.
+//! Results beyond the chapter.
 
 use super::augmented::augment;
 use super::prelude::*;
@@ -16,13 +16,13 @@ formulas! {
     "W" = beyond::exact_penalty("ε", "p");
 }
 
-/// Its entries, with what is claimed of each.
+/// Returns the entries beyond the chapter.
 pub(super) fn entries() -> Vec<Entry> {
     let Case { system: s, u, alpha, eps, lambda, q, .. } = symbols();
-    let Given {
+    let Hypotheses {
         stiffness,
         penalty,
-        touching,
+        in_contact,
         strong_enough,
         below_reaction,
         above_reaction,
@@ -32,7 +32,7 @@ pub(super) fn entries() -> Vec<Entry> {
         uzawa_step,
         power,
         ..
-    } = given();
+    } = hypotheses();
     let iterate = &augmented::deflection(s, eps, lambda);
     let zero = &int(0);
     let one = &int(1);
@@ -73,8 +73,8 @@ pub(super) fn entries() -> Vec<Entry> {
                     .assuming([power])
                 },
                 {
-                    // After steps with whatever penalties, whose (c + ε_i)/c have the product q, and one
-                    // more with ε.
+                    // After steps with arbitrary penalties, for which the product of (c + ε_i)/c is q, and
+                    // one more with ε.
                     let left = |growth: &Tree| penalty::penetration(s, &beyond::effective_penalty(s, growth));
                     let lambda = reaction(s) - &s.c * left(q);
                     let u = augmented::deflection(s, eps, &lambda);
@@ -82,7 +82,7 @@ pub(super) fn entries() -> Vec<Entry> {
                         .assuming([power])
                 },
             ]),
-        Entry::new("beyond 3", "A step of its own")
+        Entry::new("beyond 3", "A separate step size")
             .states(
                 "λ′ = «beyond::relaxed_update» multiplies the error by «beyond::relaxed_contraction»; \
                  α = «penalty::total_stiffness» is exact",
@@ -162,7 +162,7 @@ pub(super) fn entries() -> Vec<Entry> {
             ]),
         Entry::new("beyond 6", "An exact penalty")
             .states("Π + «beyond::exact_penalty» is least at u = «lagrange::deflection» for every ε ≥ R")
-            .assuming([stiffness, touching])
+            .assuming([stiffness, in_contact])
             .functions(["beyond::exact_penalty"])
             .follows_from(["1.4", "Remark 1.3.2"])
             .claims([{

@@ -1,4 +1,4 @@
-//! The quantities that claims speak of.
+//! Quantities of claims.
 
 use crate::chapter::SpringMass;
 use crate::number::{Dual, Tree};
@@ -17,16 +17,16 @@ macro_rules! coordinates {
             G,
             /// Free length, in m.
             L,
-            /// Height, in m.
+            /// Height of the support above the plane, in m.
             H,
             $(#[doc = $text] $Var,)*
         }
 
         impl Var {
-            /// All of them.
+            /// All coordinates.
             pub const ALL: &[Var] = &[Var::C, Var::M, Var::G, Var::L, Var::H, $(Var::$Var),*];
 
-            /// The coordinate of this name.
+            /// Returns the coordinate with this symbol.
             pub fn named(symbol: &str) -> Option<Var> {
                 match symbol {
                     $($symbol => Some(Var::$Var),)*
@@ -36,7 +36,7 @@ macro_rules! coordinates {
                 }
             }
 
-            /// Its symbol in the chapter's notation.
+            /// Returns the symbol in the chapter's notation.
             pub fn symbol(self) -> &'static str {
                 match self {
                     $(Var::$Var => $symbol,)*
@@ -45,7 +45,7 @@ macro_rules! coordinates {
             }
         }
 
-        /// The numbers of one trial: a system and everything else a claim may speak of.
+        /// Numbers of one trial: a system and all other quantities of claims.
         #[derive(Clone, Debug, PartialEq)]
         pub struct Case<T> {
             /// The five parameters.
@@ -54,17 +54,17 @@ macro_rules! coordinates {
         }
 
         impl<T> Case<T> {
-            /// The case whose coordinates the function gives.
+            /// Returns the case with the coordinates that the function returns.
             ///
             /// # Errors
-            /// The first that it returns.
+            /// Returns the first error of the function.
             pub fn try_of<E>(mut f: impl FnMut(Var) -> Result<T, E>) -> Result<Self, E> {
                 let (c, m, g) = (f(Var::C)?, f(Var::M)?, f(Var::G)?);
                 let system = SpringMass { c, m, g, l: f(Var::L)?, h: f(Var::H)? };
                 Ok(Case { system, $($field: f(Var::$Var)?),* })
             }
 
-            /// One coordinate.
+            /// Returns a coordinate.
             pub fn get(&self, var: Var) -> &T {
                 match var {
                     $(Var::$Var => &self.$field,)*
@@ -73,7 +73,7 @@ macro_rules! coordinates {
                 }
             }
 
-            /// One coordinate, to be changed.
+            /// Returns a mutable reference to a coordinate.
             pub fn get_mut(&mut self, var: Var) -> &mut T {
                 match var {
                     $(Var::$Var => &mut self.$field,)*
@@ -88,7 +88,7 @@ coordinates! {
     U u "u" "A deflection, in m.";
     V v "v" "Another deflection, or the next one, in m.";
     Du du "δu" "A virtual displacement, in m.";
-    Alpha alpha "α" "A pure number, or a step of its own in N/m.";
+    Alpha alpha "α" "A dimensionless number, or a separate step size in N/m.";
     Eps eps "ε" "The penalty, in N/m.";
     Eps4 eps4 "ε₄" "The second coefficient of (1.10), in N/m³.";
     Lambda lambda "λ" "A multiplier, in N.";
@@ -100,37 +100,37 @@ coordinates! {
 }
 
 impl<T> Case<T> {
-    /// The case whose coordinates the function gives.
+    /// Returns the case with the coordinates that the function returns.
     pub fn of(mut f: impl FnMut(Var) -> T) -> Self {
         let case = Case::try_of(|var| Ok::<T, std::convert::Infallible>(f(var)));
         case.unwrap_or_else(|never| match never {})
     }
 
-    /// The same case in other numbers.
+    /// Returns the case with each coordinate mapped.
     pub fn map<U>(&self, mut f: impl FnMut(Var, &T) -> U) -> Case<U> {
         Case::of(|var| f(var, self.get(var)))
     }
 }
 
 impl<T: Clone> Case<T> {
-    /// The coordinate of this name.
+    /// Returns the coordinate with this symbol.
     ///
     /// # Panics
-    /// There is none.
-    pub fn named(&self, symbol: &str) -> T {
+    /// Panics if there is none.
+    pub fn get_by_symbol(&self, symbol: &str) -> T {
         let var = Var::named(symbol);
-        self.get(var.unwrap_or_else(|| panic!("{symbol} is no coordinate"))).clone()
+        self.get(var.unwrap_or_else(|| panic!("{symbol} is not a coordinate"))).clone()
     }
 }
 
 impl Case<Tree> {
-    /// The same case in dual numbers, with this coordinate as the variable.
-    pub fn along(&self, by: &Tree) -> Case<Dual<Tree>> {
+    /// Returns the case in dual numbers with this coordinate as the variable.
+    pub fn with_dual_variable(&self, by: &Tree) -> Case<Dual<Tree>> {
         self.map(|_, x| Dual::coordinate(x.clone(), x == by))
     }
 }
 
-/// The case whose coordinates are themselves: what is claimed is said of it.
+/// Returns the case whose coordinates are symbols, from which claims are constructed.
 pub fn symbols() -> &'static Case<Tree> {
     static SYMBOLS: LazyLock<Case<Tree>> = LazyLock::new(|| Case::of(|var| Tree::symbol(var.symbol())));
     &SYMBOLS

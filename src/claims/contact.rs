@@ -6,7 +6,7 @@ use crate::chapter::system::{gap, reaction};
 use crate::chapter::{augmented, structure};
 
 formulas! {
-    "p" (folded) = contact::penetration(system, "u");
+    "p" (abbreviated) = contact::penetration(system, "u");
     "r" = contact::equilibrium(system, "u", "N");
     "" = contact::kkt(system, "u", "N"), "stationarity" is |Kkt { stationarity, .. }| stationarity;
     "" = contact::kkt(system, "u", "N"), "primal" is |Kkt { primal, .. }| primal;
@@ -16,10 +16,10 @@ formulas! {
     "u" = contact::deflection(system);
 }
 
-/// Its entries, with what is claimed of each.
+/// Returns the entries.
 pub(super) fn entries() -> Vec<Entry> {
     let Case { system: s, u, v, du, lambda, .. } = symbols();
-    let Given { stiffness, contact, separated, clear, .. } = given();
+    let Hypotheses { stiffness, contact, separated, gap_open, .. } = hypotheses();
     let solved = kkt(s, &deflection(s), &contact_force(s));
     vec![
         Entry::new("1.5", "Penetration")
@@ -30,8 +30,8 @@ pub(super) fn entries() -> Vec<Entry> {
             .claims([
                 equal("at-the-gap", penetration(s, &gap(s)), 0),
                 derivative("slope", penetration(s, u), u, 1),
-                within("rounding", penetration(s, u).rounded() - penetration(s, u), {
-                    let (sum, p) = ((&s.l + u).rounded(), penetration(s, u).rounded());
+                within("rounding", penetration(s, u).with_rounding() - penetration(s, u), {
+                    let (sum, p) = ((&s.l + u).with_rounding(), penetration(s, u).with_rounding());
                     eta() * (sum.abs() + p.abs())
                 }),
                 equal("free", penetration(s, &structure::deflection(s)), reaction(s) / &s.c)
@@ -57,9 +57,9 @@ pub(super) fn entries() -> Vec<Entry> {
                     &s.c * penetration(s, u) + lambda - reaction(s),
                 )
                 .only_assuming([]),
-                // By equilibrium N = m g − c u: a mass short of the plane with R > 0 would need a force
-                // there. Of two solutions, each with p N = 0, p ≤ 0 and N ≥ 0, the right side is not
-                // positive: they are one.
+                // By equilibrium N = m g − c u: a mass above the plane with R > 0 would need a force there.
+                // For two solutions, each with p N = 0, p ≤ 0 and N ≥ 0, the right side is not positive, so
+                // they are equal.
                 {
                     let p = |u: &Tree| penetration(s, u);
                     let n = |u: &Tree| augmented::contact_force(s, u);
@@ -71,8 +71,8 @@ pub(super) fn entries() -> Vec<Entry> {
                     .only_assuming([])
                 },
                 positive("contact-excludes-gap", -(penetration(s, u) * augmented::contact_force(s, u)))
-                    .assuming([contact, clear]),
-                // … and one at the plane with R < 0 would be pulled.
+                    .assuming([contact, gap_open]),
+                // … and a mass at the plane with R < 0 would be pulled.
                 positive("separation-excludes-touch", structure::residual(s, &gap(s)))
                     .only_assuming([separated]),
                 equal("stationarity", &solved.stationarity, 0),

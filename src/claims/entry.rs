@@ -1,53 +1,57 @@
-//! One number of the chapter.
+//! Entries of the chapter.
 
 use super::registry;
 use crate::formula::{Hypothesis, Notation, Statement};
 
-/// One number of the chapter: an equation, the theorem, a remark, a figure, a loose spot (note), or
-/// something beyond it.
+/// An entry of the chapter: an equation, the theorem, a remark, a figure, a note on a loose spot, or a result
+/// beyond the chapter.
 ///
-/// Its statement and its LaTeX have holes for formulas, as
-/// [`Registry::fill`](crate::formula::Registry::fill) describes them. Outside the holes stand words,
-/// relations and the names of quantities, and what no function computes.
+/// Its statement and its LaTeX contain placeholders for formulas, see
+/// [`Registry::render_template`](crate::formula::Registry::render_template). The remaining text consists of
+/// words, relations, names of quantities, and expressions that no function computes.
 #[derive(Clone, Debug, Default)]
 pub struct Entry {
     /// "1.13", "Theorem 1.3.3", "Remark 1.3.2", "Fig. 1.1", "note 4" or "beyond 2".
     pub equation: &'static str,
-    /// Its name.
+    /// Title.
     pub title: &'static str,
-    /// The section it stands in.
+    /// Section.
     pub section: &'static str,
     statement: &'static str,
     latex: Option<&'static str>,
-    /// Its conditions, which its claims inherit.
+    /// Hypotheses that its claims inherit.
     pub hypotheses: Vec<Hypothesis>,
-    /// The functions in [`chapter`](crate::chapter) that are its formulas, as `module::name`; its own first.
+    /// Functions in [`chapter`](crate::chapter) with its formulas, as `module::name`, its own first.
     pub functions: Vec<&'static str>,
-    /// The entries it is derived from.
+    /// Entries from which it is derived.
     pub follows_from: Vec<&'static str>,
-    /// What is claimed of it, for all values that satisfy the claim's hypotheses.
+    /// Claims about it.
     pub claims: Vec<Statement>,
 }
 
 impl Entry {
-    /// What it states.
+    /// Returns its statement with all formulas.
+    ///
+    /// # Examples
     ///
     /// ```
     /// use spring_mass_contact::claims::entry;
     /// assert_eq!(entry("1.12").unwrap().statement(), "N = ε p, which is ε R / (c + ε) at (1.13)");
     /// ```
     pub fn statement(&self) -> String {
-        registry().fill(self.statement, Notation::Text)
+        registry().render_template(self.statement, Notation::Text)
     }
 
-    /// Returns the equation in LaTeX if it is one of the chapter's numbered ones.
+    /// Returns the equation in LaTeX if it is a numbered equation of the chapter.
+    ///
+    /// # Examples
     ///
     /// ```
     /// use spring_mass_contact::claims::entry;
     /// assert_eq!(entry("1.24").unwrap().latex().unwrap(), r"u = u_h + u_{\mathrm{nh}}");
     /// ```
     pub fn latex(&self) -> Option<String> {
-        self.latex_template().map(|template| registry().fill(template, Notation::Latex))
+        self.latex_template().map(|template| registry().render_template(template, Notation::Latex))
     }
 
     fn latex_template(&self) -> Option<&'static str> {
@@ -58,14 +62,14 @@ impl Entry {
         self.equation.starts_with(|c: char| c.is_ascii_digit())
     }
 
-    /// Returns the label of the entry in a text: `(1.13)` for a number, else its name.
+    /// Returns its label in a text: `(1.13)` for an equation number, otherwise its name.
     pub fn label(&self) -> String {
         if self.is_numbered() { format!("({})", self.equation) } else { self.equation.to_string() }
     }
 
-    /// Returns its conditions as a reader writes them.
+    /// Returns its hypotheses as text.
     pub fn format_hypotheses(&self) -> Vec<String> {
-        registry().all_supposed(&self.hypotheses)
+        registry().format_hypotheses(&self.hypotheses)
     }
 
     pub(super) fn new(equation: &'static str, title: &'static str) -> Self {
@@ -96,8 +100,7 @@ impl Entry {
         Entry { follows_from: entries.into(), ..self }
     }
 
-    /// Adds claims, each of which inherits the conditions unless it has [only](Statement::only_assuming) its
-    /// own.
+    /// Adds claims, which inherit the hypotheses unless they [replace](Statement::only_assuming) them.
     pub(super) fn claims<const N: usize>(self, claims: [Statement; N]) -> Self {
         let claims = claims.map(|claim| claim.inheriting(self.equation, &self.hypotheses));
         Entry { claims: claims.into(), ..self }
@@ -106,22 +109,22 @@ impl Entry {
 
 #[cfg(test)]
 mod tests {
-    use crate::claims::{entries, entry, entry_of, given};
+    use crate::claims::{entries, entry, entry_for_function, hypotheses};
 
     #[test]
     fn a_function_is_of_the_entry_it_is_first_in_or_else_of_one_that_names_it() {
         for function in entries().iter().flat_map(|entry| &entry.functions) {
             let own = entries().iter().any(|entry| entry.functions.starts_with(&[*function]));
-            let found = entry_of(function).unwrap();
+            let found = entry_for_function(function).unwrap();
             assert_eq!(found.functions[0] == *function, own, "{function}: {}", found.label());
             assert!(found.functions.contains(function));
         }
-        assert!(entry_of("penalty::nothing").is_none());
+        assert!(entry_for_function("penalty::nothing").is_none());
     }
 
     #[test]
     fn an_entry_says_what_it_supposes() {
-        let supposing = entries().iter().filter(|entry| entry.hypotheses.contains(&given().stiffness));
+        let supposing = entries().iter().filter(|entry| entry.hypotheses.contains(&hypotheses().stiffness));
         for entry in supposing.chain([entry("1.13").unwrap()]) {
             assert!(entry.format_hypotheses().contains(&"c > 0".to_string()), "{}", entry.label());
         }
@@ -135,7 +138,7 @@ mod tests {
             let pieces = entry.latex_template().unwrap_or_default().split('«');
             let outside = pieces.map(|piece| piece.split_once('»').map_or(piece, |(_, outside)| outside));
             for outside in outside {
-                // An index k + 1 belongs to a name.
+                // A subscript k + 1 belongs to a name.
                 let names = outside.split("_{").enumerate();
                 let after = |(i, piece): (usize, &'static str)| match piece.split_once('}') {
                     Some((_, after)) if i > 0 => after,

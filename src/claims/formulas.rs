@@ -1,11 +1,11 @@
-//! The functions of the chapter as formulas, section by section.
+//! The functions of the chapter as formulas, by section.
 
 use super::{augmented, beyond, contact, lagrange, ode, penalty, rounding, structure, system};
 use crate::formula::Formula;
 use crate::number::{Exponential, PositivePart, Tree};
 
-/// The arguments of a function: `system` stands for the five parameters, a name for a quantity, one in
-/// brackets for a list of one.
+/// Expands an argument of a function: `system` is the five parameters, a name is a quantity, a name in
+/// brackets is a list of one.
 macro_rules! argument {
     ($own:ident $symbol:ident system) => {
         &$own
@@ -29,14 +29,14 @@ macro_rules! names {
     };
 }
 
-/// The formulas of a section: `"p" (folded) = contact::penetration(system, "u");`.
+/// Defines the formulas of a section: `"p" (abbreviated) = contact::penetration(system, "u");`.
 ///
-/// `(folded)` after a symbol: formulas may speak of the quantity by it. A value without a symbol is a
-/// residual, a side of an equation, or has no name in the chapter. Of several values each `is` a part.
+/// `(abbreviated)` after a symbol lets formulas use the symbol for the quantity. A value without a symbol is
+/// a residual, a side of an equation, or has no name in the chapter. Each `is` denotes one of several values.
 macro_rules! formulas {
-    ($($symbol:literal $(($folded:ident))? = $module:ident::$name:ident($($argument:tt),*)
+    ($($symbol:literal $(($abbreviated:ident))? = $module:ident::$name:ident($($argument:tt),*)
        $(, $part:literal is |$pattern:pat_param| $value:expr)? $(, written $written:literal)?;)*) => {
-        /// What each of the section's functions computes in a number system.
+        /// Returns the values of the section's functions in a number system.
         pub(super) fn computed<T>(symbol: &impl Fn(&'static str) -> T) -> Vec<T>
         where
             T: crate::number::PositivePart + crate::number::Exponential,
@@ -50,16 +50,16 @@ macro_rules! formulas {
             }),*]
         }
 
-        /// The section's functions, with what they compute in trees.
+        /// Returns the section's functions with their recorded formulas.
         pub(super) fn formulas(computed: Vec<crate::number::Tree>) -> Vec<crate::formula::Formula> {
             let mut trees = computed.into_iter();
             vec![$(crate::formula::Formula {
                 path: concat!(stringify!($module), "::", stringify!($name)),
                 part: None$(.or(Some($part)))?,
                 symbol: $symbol,
-                folded: !stringify!($($folded)?).is_empty(),
+                abbreviated: !stringify!($($abbreviated)?).is_empty(),
                 arguments: $crate::claims::formulas::names!([] $($argument)*),
-                written: { let written = "«»"; $(let _ = written; let written = $written;)? written },
+                template: { let written = "«»"; $(let _ = written; let written = $written;)? written },
                 tree: trees.next().expect("a value each"),
             }),*]
         }
@@ -69,15 +69,15 @@ pub(super) use {argument, formulas, names};
 
 macro_rules! sections {
     ($($section:ident)*) => {
-        /// What each function of the [`registry`](super::registry) computes in a number system, in its
-        /// order: by the functions themselves, and not by their records.
+        /// Returns the value of each function of the [`registry`](super::registry) in a number system, in its
+        /// order, computed by the functions themselves and not by their records.
         pub fn computed<T: PositivePart + Exponential>(symbol: &impl Fn(&'static str) -> T) -> Vec<T> {
             let mut all = Vec::new();
             $(all.extend($section::computed(symbol));)*
             all
         }
 
-        /// Every function of the chapter that has a formula; none comes before what it calls.
+        /// Returns every function of the chapter that has a formula, each after those it calls.
         pub(super) fn recorded() -> Vec<Formula> {
             let mut all = Vec::new();
             $(all.extend($section::formulas($section::computed(&|name| Tree::symbol(name))));)*
@@ -97,17 +97,17 @@ mod tests {
     #[test]
     fn a_call_is_known_by_its_place_and_not_by_its_looks() {
         let formula = |path: &str| registry().formula(path).unwrap();
-        // (1.11) writes l + u − H itself, (1.12) calls (1.5).
+        // (1.11) contains l + u − H itself, (1.12) calls (1.5).
         let within = |path: &str, callee: &str| {
             formula(path).tree.any(&|t| registry().call(t).is_some_and(|c| c.formula.path == callee))
         };
         assert!(within("penalty::contact_force", "contact::penetration"));
         assert!(!within("penalty::residual", "contact::penetration"));
         assert_eq!(
-            registry().delegate(formula("lagrange::multiplier")).unwrap().formula.path,
+            registry().delegated_call(formula("lagrange::multiplier")).unwrap().formula.path,
             "system::reaction"
         );
-        assert!(registry().delegate(formula("system::reaction")).is_none());
+        assert!(registry().delegated_call(formula("system::reaction")).is_none());
     }
 
     #[test]
@@ -132,7 +132,7 @@ mod tests {
         let names = |tree: &Tree| registry().calls(tree).map(|call| call.formula.name()).collect::<Vec<_>>();
         assert_eq!(names(&system::gap(&own)), ["system::gap", "lagrange::deflection"]);
         let [eps, u, t] = ["ε", "x", "t"].map(|name| Tree::symbol(name));
-        // What begins with any constant A is no solution from an initial value.
+        // A solution with any constant A is not the solution of an initial value problem.
         assert_eq!(names(&ode::general(&own, &eps, &u, &t)), ["ode::superposition", "ode::general"]);
         let all = ["ode::superposition", "ode::general", "ode::solution"];
         assert_eq!(names(&ode::solution(&own, &eps, &u, &t)), all);
@@ -182,19 +182,22 @@ mod tests {
             (augmented::functional(&own, &eps, &r, &gap), "L(R, Δ)"),
             (augmented::contraction(&own, &(&eps + &r)), "ρ(ε + R)"),
         ] {
-            assert_eq!(registry().text(&tree), text);
+            assert_eq!(registry().format_tree(&tree), text);
         }
     }
 
     #[test]
     fn lines_say_what_several_values_are() {
-        assert_eq!(registry().line("contact::kkt").unwrap(), "c u − m g + N = 0, ⟨p⟩ = 0, ⟨−N⟩ = 0, p N = 0");
         assert_eq!(
-            registry().line("augmented::recursion").unwrap(),
+            registry().format_equation("contact::kkt").unwrap(),
+            "c u − m g + N = 0, ⟨p⟩ = 0, ⟨−N⟩ = 0, p N = 0"
+        );
+        assert_eq!(
+            registry().format_equation("augmented::recursion").unwrap(),
             "(c + ε) (u_{k+1} − u_k) = −ε (l − H) − ε u_k"
         );
-        assert_eq!(registry().line("ode::operator").unwrap(), "(c + ε) v + ε u");
-        assert_eq!(registry().line("augmented::within_tolerance"), None);
+        assert_eq!(registry().format_equation("ode::operator").unwrap(), "(c + ε) v + ε u");
+        assert_eq!(registry().format_equation("augmented::within_tolerance"), None);
     }
 
     #[test]
@@ -210,7 +213,7 @@ mod tests {
             ("«penalty::contact_force: u=u_k»", "ε p(u_k)", r"\varepsilon\,p(u_k)"),
             ("«penalty::contact_force in full»", "ε (l + u − H)", r"\varepsilon\,(l + u - H)"),
             ("«lagrange::residual.constraint», «contact::kkt.dual»", "p, ⟨−N⟩", r"p, \langle -N \rangle"),
-            // These name nothing.
+            // These names do not exist.
             (
                 "«system::gap: x=y» «system::gap",
                 "«system::gap: x=y» «system::gap",
@@ -220,7 +223,7 @@ mod tests {
             ("«system::gap: H»", "«system::gap: H»", "«system::gap: H»"),
         ] {
             assert_eq!(
-                [Notation::Text, Notation::Latex].map(|n| registry().fill(template, n)),
+                [Notation::Text, Notation::Latex].map(|n| registry().render_template(template, n)),
                 [text, latex]
             );
         }

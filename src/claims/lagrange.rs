@@ -1,21 +1,21 @@
-//! By Lagrange multiplier: (1.7), (1.8), Remark 1.3.1.
+//! Lagrange multiplier: (1.7), (1.8), Remark 1.3.1.
 
 use super::prelude::*;
 use crate::chapter::contact;
 use crate::chapter::lagrange::{self, *};
 
 formulas! {
-    "𝓛" (folded) = lagrange::functional(system, "u", "λ");
+    "𝓛" (abbreviated) = lagrange::functional(system, "u", "λ");
     "" = lagrange::residual(system, "u", "λ"), "equilibrium" is |[equilibrium, _]| equilibrium;
     "" = lagrange::residual(system, "u", "λ"), "constraint" is |[_, constraint]| constraint;
     "u" = lagrange::deflection(system);
     "λ" = lagrange::multiplier(system);
 }
 
-/// Its entries, with what is claimed of each.
+/// Returns the entries.
 pub(super) fn entries() -> Vec<Entry> {
     let Case { system: s, u, lambda, .. } = symbols();
-    let Given { touching, .. } = given();
+    let Hypotheses { in_contact, .. } = hypotheses();
     vec![
         Entry::new("1.7", "Lagrange functional")
             .states("𝓛(u, λ) = «lagrange::functional» is stationary at its only saddle point")
@@ -62,7 +62,7 @@ pub(super) fn entries() -> Vec<Entry> {
                     equal("unique-multiplier", first - &s.c * second, lambda - multiplier(s))
                 },
                 equal("complementary", contact::penetration(s, &deflection(s)) * multiplier(s), 0),
-                equal("kkt-with-multiplier", multiplier(s), contact::contact_force(s)).assuming([touching]),
+                equal("kkt-with-multiplier", multiplier(s), contact::contact_force(s)).assuming([in_contact]),
             ]),
         Entry::new("Remark 1.3.1", "Exact at the price of an unknown")
             .states("p = 0 exactly")
@@ -72,11 +72,11 @@ pub(super) fn entries() -> Vec<Entry> {
     ]
 }
 
-/// Both partial derivatives of the two lines of (1.8): the Hessian of (1.7).
+/// Determinant of the Hessian of (1.7): both partial derivatives of the two lines of (1.8).
 fn hessian_determinant() -> Tree {
     let Case { u, lambda, .. } = symbols();
     let along = |by| {
-        let dual = symbols().along(by);
+        let dual = symbols().with_dual_variable(by);
         residual(&dual.system, &dual.u, &dual.lambda).map(|line| line.derivative)
     };
     let ([a, c], [b, d]) = (along(u), along(lambda));

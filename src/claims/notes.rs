@@ -1,14 +1,14 @@
-//! Where the chapter is loose: notes 1 to 9.
+//! Notes 1 to 9 on loose spots of the chapter.
 
 use super::prelude::*;
 use crate::chapter::{SpringMass, augmented, contact, lagrange, ode, penalty, rounding, structure, system};
 use crate::formula::claim;
 use std::sync::LazyLock;
 
-/// Its entries, with what is claimed of each.
+/// Returns the entries.
 pub(super) fn entries() -> Vec<Entry> {
     let Case { system: s, u, v, eps, lambda, q, t, .. } = symbols();
-    let Given {
+    let Hypotheses {
         stiffness,
         penalty,
         fine_enough,
@@ -20,20 +20,20 @@ pub(super) fn entries() -> Vec<Entry> {
         near_bilateral,
         softening,
         some_bits,
-        beyond_twice,
+        penalty_below_minus_two_c,
         within_twice,
         twice,
-        touching,
+        in_contact,
         grazing,
         separated,
-        opposite,
+        zero_total_stiffness,
         beyond_once,
         penetrating,
         multiplier,
         at_reaction,
-        carried,
+        next_multiplier_nonnegative,
         active,
-        idle,
+        releases,
         inactive,
         in_equilibrium,
         power,
@@ -41,11 +41,11 @@ pub(super) fn entries() -> Vec<Entry> {
         computed_repeats,
         one_bit,
         ..
-    } = given();
+    } = hypotheses();
     let iterate = &augmented::deflection(s, eps, lambda);
     let (gap, r) = (&system::gap(s), &system::reaction(s));
     let (zero, one) = (&int(0), &int(1));
-    // The same over a plane that never pulls: the deflection that goes with λ, and the next λ.
+    // The deflection for λ and the next λ with unilateral contact.
     let unilateral = &augmented::unilateral_deflection(s, eps, lambda);
     let next = &augmented::unilateral_update(s, eps, lambda, unilateral);
     let stalled = &(r / (&s.c + saturating_force(eps, one)));
@@ -91,7 +91,7 @@ pub(super) fn entries() -> Vec<Entry> {
                 },
                 non_negative("not-positive", -structure::least_energy(s)),
             ]),
-        Entry::new("note 3", "What a penalty functional needs")
+        Entry::new("note 3", "Conditions on a penalty functional")
             .states("W_ε(p_ε) ≤ R²/(2c)")
             .assuming([stiffness, penalty])
             .functions(["penalty::functional"])
@@ -101,20 +101,20 @@ pub(super) fn entries() -> Vec<Entry> {
                     "energy-bound",
                     r * r / (int(2) * &s.c) - penalty::functional(eps, &penalty::penetration(s, eps)),
                 ),
-                // Positive, increasing and unbounded in p, and yet the penetration does not vanish.
+                // Positive, increasing and unbounded in p, but the penetration does not vanish.
                 equal("not-sufficient", &s.c * stalled + saturating_force(eps, stalled), r),
                 limit(
                     "stalls",
                     stalled,
                     eps,
                     r / (&s.c + int(2)),
-                    Exactly(stalled / ((&s.c + int(2)) * (one + eps))),
+                    Equal(stalled / ((&s.c + int(2)) * (one + eps))),
                 ),
-                // Bounded in p, and yet it does: W = ε p²/(1 + p²) is proportional to ε.
-                limit("not-necessary", bounded_penalty(eps, u), u, eps, Exactly(-(eps / (one + square(u)))))
+                // Bounded in p, but the penetration vanishes: W = ε p²/(1 + p²) is proportional to ε.
+                limit("not-necessary", bounded_penalty(eps, u), u, eps, Equal(-(eps / (one + square(u)))))
                     .only_assuming([]),
             ]),
-        Entry::new("note 4", "A plane that never pulls")
+        Entry::new("note 4", "Unilateral contact")
             .states(
                 "λ_k = «augmented::unilateral_update: λ=λ_{k−1}, u=u_{k−1}» and \
                  «augmented::unilateral_equilibrium: λ=λ_k, u=u_k» = 0",
@@ -165,15 +165,15 @@ pub(super) fn entries() -> Vec<Entry> {
                     contact::contact_force(s) - next,
                     &s.c * (unilateral - contact::deflection(s)),
                 ),
-                non_negative("contracts", square(lambda - r) - square(next - r)).assuming([touching]),
+                non_negative("contracts", square(lambda - r) - square(next - r)).assuming([in_contact]),
                 equal(
                     "active-step",
                     next,
                     augmented::multiplier_after(s, lambda, &augmented::contraction(s, eps)),
                 )
                 .assuming([active]),
-                equal("idle-step", next, 0).assuming([idle]),
-                equal("idle-deflection", unilateral, structure::deflection(s)).assuming([idle]),
+                equal("idle-step", next, 0).assuming([releases]),
+                equal("idle-deflection", unilateral, structure::deflection(s)).assuming([releases]),
                 equal("stays-free", unilateral_step(zero), 0).assuming([separated]),
                 induction(
                     "contact-sequence",
@@ -182,7 +182,7 @@ pub(super) fn entries() -> Vec<Entry> {
                     |[lambda]| [unilateral_step(&lambda)],
                     [augmented::multiplier_after(s, lambda, q)],
                 )
-                .assuming([touching, multiplier, carried]),
+                .assuming([in_contact, multiplier, next_multiplier_nonnegative]),
                 induction(
                     "grazing-sequence",
                     augmented::contraction(s, eps),
@@ -191,7 +191,7 @@ pub(super) fn entries() -> Vec<Entry> {
                     [lambda * q],
                 )
                 .assuming([grazing, multiplier, power]),
-                drift(
+                perturbed_recursion(
                     "float-unilateral-drift",
                     augmented::contraction(s, eps),
                     0,
@@ -202,39 +202,41 @@ pub(super) fn entries() -> Vec<Entry> {
                     ),
                     |_| {
                         let exact = augmented::penetration_after(s, eps, zero, q);
-                        let error = contact::penetration(s, u).rounded() - exact;
+                        let error = contact::penetration(s, u).with_rounding() - exact;
                         [(error, rounding::penetration_drift(s, eps, precision()))]
                     },
                 )
-                .assuming([fine_enough, touching, decay, pushes, near_printed, near_iterate, near_next])
-                .computing(v, augmented::deflection(s, eps, member()).rounded())
-                .computing(u, structure::deflection(s).rounded().min(v))
-                .computing(lambda, augmented::update(s, eps, member(), u).rounded()),
+                .assuming([fine_enough, in_contact, decay, pushes, near_printed, near_iterate, near_next])
+                .computing(v, augmented::deflection(s, eps, member()).with_rounding())
+                .computing(u, structure::deflection(s).with_rounding().min(v))
+                .computing(lambda, augmented::update(s, eps, member(), u).with_rounding()),
                 {
                     let free = structure::deflection(s);
                     let bound = int(2) * free.abs()
                         + int(8) * (gap.abs() + r.abs() / penalty::total_stiffness(s, eps));
                     within(
                         "float-nearly-free",
-                        structure::deflection(s).rounded().min(v) - free,
+                        structure::deflection(s).with_rounding().min(v) - free,
                         eta() * bound,
                     )
                     .assuming([separated, near_bilateral])
-                    .computing(v, augmented::deflection(s, eps, zero).rounded())
+                    .computing(v, augmented::deflection(s, eps, zero).with_rounding())
                 },
                 {
-                    let p = |free: Tree| contact::penetration(s, u).rounded().with(&[("u", free)]);
-                    let free = structure::deflection(s).rounded();
+                    let p =
+                        |free: Tree| contact::penetration(s, u).with_rounding().substitute(&[("u", free)]);
+                    let free = structure::deflection(s).with_rounding();
                     non_negative("float-no-deeper", p(free.clone()) - p(free.min(v)))
                         .only_assuming([stiffness])
                 },
                 {
                     let free = structure::deflection(s);
-                    let p = contact::penetration(s, u).rounded().with(&[("u", free.rounded())]);
+                    let p =
+                        contact::penetration(s, u).with_rounding().substitute(&[("u", free.with_rounding())]);
                     non_negative("float-hardly-inside", eta() * (int(3) * free.abs() + s.h.abs()) - p)
                         .only_assuming([stiffness, separated])
                 },
-                // λ_k > 0 as long as (1 + ε/c)ᵏ < 1 + λ₀/|R|.
+                // λ_k > 0 while (1 + ε/c)ᵏ < 1 + λ₀/|R|.
                 equal(
                     "count",
                     augmented::multiplier_after(s, lambda, q),
@@ -247,7 +249,7 @@ pub(super) fn entries() -> Vec<Entry> {
                     contact::penetration(s, unilateral),
                 )
                 .assuming([active]),
-                // With ⟨·⟩ in the update alone the iteration stops short of the answer.
+                // With ⟨·⟩ in the update alone the iteration stops before the solution.
                 {
                     let u = augmented::deflection(s, eps, zero);
                     equal("one-bracket-stalls", augmented::unilateral_update(s, eps, zero, &u), 0)
@@ -256,25 +258,25 @@ pub(super) fn entries() -> Vec<Entry> {
                 positive("one-bracket-errs", augmented::deflection(s, eps, zero) - contact::deflection(s))
                     .assuming([separated]),
             ]),
-        Entry::new("note 5", "An analogy and no proof")
+        Entry::new("note 5", "An analogy, not a proof")
             .states("e^{−ε/c} < ρ < e^{−ε/(c+ε)} for ε > 0, and p_k → 0 also for ε < −2c")
             .assuming([stiffness])
             .functions(["augmented::contraction"])
             .follows_from(["1.16", "1.30"])
             .claims([
-                vanishing(
+                geometric_limit(
                     "beyond-twice",
                     augmented::contraction(s, eps),
                     augmented::penetration_after(s, eps, lambda, q),
                     0,
                 )
-                .assuming([beyond_twice]),
-                positive("alternates", -augmented::contraction(s, eps)).assuming([beyond_twice]),
+                .assuming([penalty_below_minus_two_c]),
+                positive("alternates", -augmented::contraction(s, eps)).assuming([penalty_below_minus_two_c]),
                 equal("twice", augmented::contraction(s, eps), -1).assuming([twice]),
                 positive("diverges", square(&s.c) - square(penalty::total_stiffness(s, eps)))
                     .only_assuming([softening, within_twice]),
                 equal("no-solution", augmented::equilibrium(s, eps, lambda, u), lambda - r)
-                    .only_assuming([opposite]),
+                    .only_assuming([zero_total_stiffness]),
                 equal("starts-there", augmented::penetration_after(s, eps, lambda, q), 0)
                     .assuming([penalty, at_reaction]),
                 non_negative(
@@ -288,7 +290,7 @@ pub(super) fn entries() -> Vec<Entry> {
                     .assuming([penalty]),
                 positive("other-side", augmented::contraction(s, eps) - (-eps / &s.c).exp())
                     .assuming([penalty]),
-                // From one step to the next: a bound q + t above ρᵏ = q stays above.
+                // From one step to the next: a bound q + t above ρᵏ = q stays above it.
                 positive(
                     "stays-strict",
                     ode::rate(s, eps).exp() * (q + t) - augmented::contraction(s, eps) * q,
@@ -314,7 +316,7 @@ pub(super) fn entries() -> Vec<Entry> {
             .assuming([penalty])
             .functions([
                 "rounding::fixed_point_error",
-                "rounding::floor",
+                "rounding::floor_scale",
                 "rounding::unit_roundoff",
                 "rounding::deflection_error",
                 "rounding::penalty_force_error",
@@ -342,17 +344,17 @@ pub(super) fn entries() -> Vec<Entry> {
                 },
                 {
                     let lengths = s.h.abs() + system::gap(s).abs() + r / eps;
-                    equal("drift-in-parts", rounding::floor(s, eps, precision()) * precision(), lengths)
+                    equal("drift-in-parts", rounding::floor_scale(s, eps, precision()) * precision(), lengths)
                         .assuming([some_bits])
                 },
                 {
                     let [a, ..] = scales();
-                    let own = augmented::deflection(s, eps, lambda).rounded();
+                    let own = augmented::deflection(s, eps, lambda).with_rounding();
                     equal("units", in_other_units(&own), own * a).only_assuming([stiffness, penalty])
                 },
                 {
                     let [_, _, f] = scales();
-                    let own = augmented::update(s, eps, lambda, u).rounded();
+                    let own = augmented::update(s, eps, lambda, u).with_rounding();
                     equal("units-of-force", in_other_units(&own), own * f).only_assuming([])
                 },
             ]),
@@ -373,13 +375,13 @@ pub(super) fn entries() -> Vec<Entry> {
     ]
 }
 
-/// Other units, by powers of two: those of length, mass and force.
+/// Scales of length, mass and force, as powers of two.
 fn scales() -> [&'static Tree; 3] {
     static SCALES: LazyLock<[Tree; 3]> = LazyLock::new(|| claim::SCALES.map(|name| Tree::symbol(name)));
     SCALES.each_ref()
 }
 
-/// A formula of quantities that are given in these units.
+/// Returns a formula of quantities in these units.
 fn in_other_units(formula: &Tree) -> Tree {
     let Case { system: SpringMass { c, m, g, l, h }, u, eps, lambda, .. } = symbols();
     let [a, b, f] = scales();
@@ -387,17 +389,17 @@ fn in_other_units(formula: &Tree) -> Tree {
     let own = [(u, a.clone()), (eps, f / a), (lambda, f.clone())];
     let scaled =
         units.into_iter().chain(own).map(|(x, unit)| (x.first_symbol().expect("a symbol"), x * unit));
-    formula.with(&scaled.collect::<Vec<_>>())
+    formula.substitute(&scaled.collect::<Vec<_>>())
 }
 
-/// The next multiplier over a plane that never pulls.
+/// Returns the next multiplier with unilateral contact.
 fn unilateral_step(lambda: &Tree) -> Tree {
     let Case { system: s, eps, .. } = symbols();
     augmented::unilateral_update(s, eps, lambda, &augmented::unilateral_deflection(s, eps, lambda))
 }
 
-/// The slope at p of a functional W = (1 − 1/(2 (1 + ε))) p² that has all three properties which the
-/// chapter asks for.
+/// Slope at p of the functional W = (1 − 1/(2 (1 + ε))) p², which has all three properties that the chapter
+/// requires.
 fn saturating_force(eps: &Tree, p: &Tree) -> Tree {
     let (eps, p) = (Dual::constant(eps.clone()), Dual::variable(p.clone()));
     let one = Dual::<Tree>::int(1);
@@ -405,7 +407,7 @@ fn saturating_force(eps: &Tree, p: &Tree) -> Tree {
     functional.derivative
 }
 
-/// A functional that lacks one of them.
+/// A functional without one of these properties.
 fn bounded_penalty(eps: &Tree, p: &Tree) -> Tree {
     eps * p * p / (int(1) + p * p)
 }
@@ -415,7 +417,7 @@ mod tests {
     use super::*;
     use crate::formula::Statement;
 
-    /// The quantities that a step of the drift computes on the way are those of the functions themselves.
+    /// The intermediate quantities of the drift are those of the functions themselves.
     #[test]
     fn the_drift_is_that_of_the_unilateral_functions() {
         let Case { system: s, u, eps, .. } = symbols();
@@ -425,9 +427,9 @@ mod tests {
         let ([v, deflection, bracket], Some(sequence)) = (claim.computed(), claim.conclusion()) else {
             panic!("three computed quantities of a sequence");
         };
-        let computed = deflection.by.with(&[(v.symbol, v.by.clone())]);
-        assert_eq!(computed, augmented::unilateral_deflection(s, eps, member()).rounded());
-        let next = sequence.step[0].with(&[(bracket.symbol, bracket.by.clone())]);
-        assert_eq!(next, augmented::unilateral_update(s, eps, member(), u).rounded());
+        let computed = deflection.formula.substitute(&[(v.symbol, v.formula.clone())]);
+        assert_eq!(computed, augmented::unilateral_deflection(s, eps, member()).with_rounding());
+        let next = sequence.step[0].substitute(&[(bracket.symbol, bracket.formula.clone())]);
+        assert_eq!(next, augmented::unilateral_update(s, eps, member(), u).with_rounding());
     }
 }

@@ -1,41 +1,45 @@
-//! The chapter's numbers as people write them.
+//! Equation numbers in usual notation.
 
 use super::{Entry, entries};
 
-/// The entry of this number, in any of the ways that numbers are written: `1.13`, `(1.13)`, `Eq. (1.13)`,
-/// `theorem 1.3.3`, `Fig 1.2`.
+/// Returns the entry with this number, in any usual notation: `1.13`, `(1.13)`, `Eq. (1.13)`, `theorem
+/// 1.3.3`, `Fig 1.2`.
+///
+/// # Examples
 ///
 /// ```
-/// # use spring_mass_contact::claims::numbered;
-/// assert_eq!(numbered("thm. 1.3.3").map(|entry| entry.equation), Some("Theorem 1.3.3"));
-/// assert!(numbered("1.3.3").is_none()); // no equation has this number
+/// # use spring_mass_contact::claims::find_entry;
+/// assert_eq!(find_entry("thm. 1.3.3").map(|entry| entry.equation), Some("Theorem 1.3.3"));
+/// assert!(find_entry("1.3.3").is_none()); // no equation has this number
 /// ```
-pub fn numbered(text: &str) -> Option<&'static Entry> {
+pub fn find_entry(text: &str) -> Option<&'static Entry> {
     let wanted = name_and_number(text);
     entries().iter().find(|entry| name_and_number(entry.equation) == wanted)
 }
 
-/// The entries whose numbers the words of a line are; a name and its number may be two of them.
+/// Returns the entries whose numbers the words are; a name and its number may be two words.
 ///
 /// # Errors
-/// The first word that is no number, and no name of one.
+/// Returns the first word that is neither a number nor the name of one.
+///
+/// # Examples
 ///
 /// ```
-/// # use spring_mass_contact::claims::all_numbered;
-/// let numbers = |words| all_numbered(words).map(|all| all.iter().map(|e| e.equation).collect::<Vec<_>>());
+/// # use spring_mass_contact::claims::find_entries;
+/// let numbers = |words| find_entries(words).map(|all| all.iter().map(|e| e.equation).collect::<Vec<_>>());
 /// let words = ["eq.", "1.13", "theorem 1.3.3", "note", "4"];
 /// assert_eq!(numbers(&words), Ok(vec!["1.13", "Theorem 1.3.3", "note 4"]));
 /// assert_eq!(numbers(&["1.13", "theorem", "1.13"]), Err("theorem"));
 /// ```
-pub fn all_numbered<S: AsRef<str>>(words: &[S]) -> Result<Vec<&'static Entry>, &str> {
+pub fn find_entries<S: AsRef<str>>(words: &[S]) -> Result<Vec<&'static Entry>, &str> {
     let mut all = Vec::new();
     let mut left = words;
     while let [word, rest @ ..] = left {
         let word = word.as_ref();
         let is_name = !word.is_empty() && word.chars().all(|c| c.is_alphabetic() || c == '.');
-        // A name alone is no number, so it can only belong to the word behind it.
-        let (found, rest) = match (numbered(word), rest) {
-            (None, [next, rest @ ..]) if is_name => (numbered(&format!("{word} {}", next.as_ref())), rest),
+        // A name without a number can only belong to the next word.
+        let (found, rest) = match (find_entry(word), rest) {
+            (None, [next, rest @ ..]) if is_name => (find_entry(&format!("{word} {}", next.as_ref())), rest),
             (found, rest) => (found, rest),
         };
         all.push(found.ok_or(word)?);
@@ -44,7 +48,7 @@ pub fn all_numbered<S: AsRef<str>>(words: &[S]) -> Result<Vec<&'static Entry>, &
     Ok(all)
 }
 
-/// What a number is called, none for an equation, and its digits, without how they are written.
+/// Returns the kind of number in lower case, empty for an equation, and its digits.
 fn name_and_number(text: &str) -> (String, &str) {
     let bare = |text| {
         let text = str::trim(text);
@@ -69,7 +73,7 @@ mod tests {
     use super::*;
 
     fn equation(text: &str) -> Option<&'static str> {
-        numbered(text).map(|entry| entry.equation)
+        find_entry(text).map(|entry| entry.equation)
     }
 
     #[test]
@@ -124,7 +128,7 @@ mod tests {
         }
     }
 
-    /// A section's number is no theorem's, and one figure's no equation's.
+    /// The number of a section is not that of a theorem, and that of a figure is not that of an equation.
     #[test]
     fn what_is_no_number_is_not_guessed() {
         for text in [

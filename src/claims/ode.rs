@@ -16,17 +16,17 @@ formulas! {
     "u_h" = ode::homogeneous(system, "ε", "A", "t");
     "u_nh" = ode::particular(system);
     "u" = ode::general(system, "ε", "A", "t");
-    "A" = ode::constant(system, "u₀");
+    "A" = ode::integration_constant(system, "u₀");
     "u" = ode::solution(system, "ε", "u₀", "t");
 }
 
-/// Its entries, with what is claimed of each.
+/// Returns the entries.
 pub(super) fn entries() -> Vec<Entry> {
     let Case { system: s, u, v, du, alpha, eps, lambda, q, t, .. } = symbols();
-    let Given { stiffness, penalty, penetrating, clear, time, .. } = given();
+    let Hypotheses { stiffness, penalty, penetrating, gap_open, time, .. } = hypotheses();
     let zero = &int(0);
     let one = &int(1);
-    // A bound of the distance of (1.30) from Δ that tends to zero: e⁻ˢ ≤ 1/(1 + s).
+    // A bound of the distance of (1.30) from Δ that tends to zero, since e⁻ˢ ≤ 1/(1 + s).
     let reciprocal_decay = &(contact::penetration(s, u) / (one - rate(s, eps) * t));
     vec![
         Entry::new("1.22", "Recursion in time")
@@ -106,16 +106,17 @@ pub(super) fn entries() -> Vec<Entry> {
             .functions(["ode::general"])
             .follows_from(["1.24", "1.27", "1.28"])
             .claims([
-                equal("constant", superposition(&constant(s, u), &particular(s)), u).only_assuming([]),
+                equal("constant", superposition(&integration_constant(s, u), &particular(s)), u)
+                    .only_assuming([]),
                 derivative("solves", general(s, eps, u, t), t, velocity(s, eps, &general(s, eps, u, t))),
             ]),
         Entry::new("1.30", "Solution of the initial-value problem")
             .states("u = «ode::solution»")
             .assuming([stiffness, penalty])
-            .functions(["ode::solution", "ode::constant"])
+            .functions(["ode::solution", "ode::integration_constant"])
             .follows_from(["1.29"])
             .claims([
-                equal("constant-is-penetration", constant(s, u), contact::penetration(s, u))
+                equal("constant-is-penetration", integration_constant(s, u), contact::penetration(s, u))
                     .only_assuming([]),
                 derivative("solves", solution(s, eps, u, t), t, velocity(s, eps, &solution(s, eps, u, t))),
                 equal("starts", solution(s, eps, u, zero), u),
@@ -131,7 +132,7 @@ pub(super) fn entries() -> Vec<Entry> {
                     .assuming([time, penetrating]),
                 // … and from below, or from the plane itself.
                 limit("limit-from-below", solution(s, eps, u, t), t, gap(s), Within(-reciprocal_decay))
-                    .assuming([time, clear]),
+                    .assuming([time, gap_open]),
                 {
                     let gap = gap(s);
                     equal("stays", solution(s, eps, &gap, t), gap)
@@ -159,7 +160,7 @@ pub(super) fn entries() -> Vec<Entry> {
                     0,
                     Within(-reciprocal_decay),
                 )
-                .assuming([time, clear]),
+                .assuming([time, gap_open]),
             ]),
     ]
 }

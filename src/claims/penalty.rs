@@ -1,4 +1,4 @@
-//! By penalty: (1.9) to (1.13), Fig. 1.2, Remark 1.3.2.
+//! Penalty method: (1.9) to (1.13), Fig. 1.2, Remark 1.3.2.
 
 use super::prelude::*;
 use crate::chapter::penalty::{self, *};
@@ -9,40 +9,40 @@ use crate::chapter::{
 
 formulas! {
     "W" = penalty::functional("ε", "p");
-    "Π_p" (folded) = penalty::energy(system, "ε", "u");
+    "Π_p" (abbreviated) = penalty::energy(system, "ε", "u");
     "" = penalty::total_stiffness(system, "ε");
     "min Π_p" = penalty::least_energy(system, "ε");
     "W" = penalty::series("ε", ["ε₄"], "p"), written "«» + …";
-    "W′" (folded) = penalty::series_force("ε", ["ε₄"], "p"), written "∂W/∂p";
+    "W′" (abbreviated) = penalty::series_force("ε", ["ε₄"], "p"), written "∂W/∂p";
     "r" = penalty::series_residual(system, "ε", ["ε₄"], "p");
     "r" = penalty::residual(system, "ε", "u");
     "N" = penalty::contact_force(system, "ε", "u");
     "u" = penalty::deflection(system, "ε");
     "u" = penalty::deflection_divided(system, "ε");
     "p" = penalty::penetration(system, "ε");
-    "N" = penalty::force_at_root(system, "ε");
+    "N" = penalty::contact_force_at_equilibrium(system, "ε");
     "ε" = penalty::penalty_for(system, "tol");
     "u" = penalty::unilateral_deflection(system, "ε");
 }
 
-/// Its entries, with what is claimed of each.
+/// Returns the entries.
 pub(super) fn entries() -> Vec<Entry> {
     let Case { system: s, u, eps, eps4, tol, .. } = symbols();
-    let Given {
+    let Hypotheses {
         stiffness,
         penalty,
         quartic,
         contact,
-        touching,
+        in_contact,
         separated,
         penetrating,
         tolerance,
-        enough,
+        sufficient_penalty,
         within_tolerance,
         near_penalty,
         some_bits,
         ..
-    } = given();
+    } = hypotheses();
     let zero = &int(0);
     let quartic_term = std::slice::from_ref(eps4);
     vec![
@@ -61,7 +61,7 @@ pub(super) fn entries() -> Vec<Entry> {
                 ),
             ]),
         Entry::new("1.10", "Penalty functional with many terms")
-            .states("W = «penalty::series» fulfils the conditions on a penalty functional")
+            .states("W = «penalty::series» satisfies the conditions on a penalty functional")
             .in_latex(r"W_\varepsilon(p) = «penalty::series»")
             .assuming([penalty, quartic])
             .functions(["penalty::series", "penalty::series_force", "penalty::series_residual"])
@@ -90,7 +90,7 @@ pub(super) fn entries() -> Vec<Entry> {
                 )
                 .only_assuming([]),
                 {
-                    let dual = symbols().along(u);
+                    let dual = symbols().with_dual_variable(u);
                     positive(
                         "one-root",
                         series_residual(&dual.system, &dual.eps, std::slice::from_ref(&dual.eps4), &dual.u)
@@ -114,27 +114,37 @@ pub(super) fn entries() -> Vec<Entry> {
                 ),
             ]),
         Entry::new("1.12", "Contact force by penalty")
-            .states("N = «penalty::contact_force», which is «penalty::force_at_root» at (1.13)")
+            .states(
+                "N = «penalty::contact_force», which is «penalty::contact_force_at_equilibrium» at (1.13)",
+            )
             .in_latex(r"N = «penalty::contact_force» = «penalty::contact_force in full»")
             .assuming([stiffness, penalty])
-            .functions(["penalty::contact_force", "penalty::force_at_root"])
+            .functions(["penalty::contact_force", "penalty::contact_force_at_equilibrium"])
             .follows_from(["1.11"])
             .claims([
-                equal("at-the-root", contact_force(s, eps, &deflection(s, eps)), force_at_root(s, eps)),
-                positive("pushes", force_at_root(s, eps)).assuming([contact]),
-                equal("error", reaction(s) - force_at_root(s, eps), &s.c * penetration(s, eps)),
+                equal(
+                    "at-the-root",
+                    contact_force(s, eps, &deflection(s, eps)),
+                    contact_force_at_equilibrium(s, eps),
+                ),
+                positive("pushes", contact_force_at_equilibrium(s, eps)).assuming([contact]),
+                equal(
+                    "error",
+                    reaction(s) - contact_force_at_equilibrium(s, eps),
+                    &s.c * penetration(s, eps),
+                ),
                 equal(
                     "relative-error",
-                    reaction(s) - force_at_root(s, eps),
+                    reaction(s) - contact_force_at_equilibrium(s, eps),
                     augmented::contraction(s, eps) * reaction(s),
                 ),
                 within(
                     "precision-law",
-                    contact_force(s, eps, u).rounded() - force_at_root(s, eps),
+                    contact_force(s, eps, u).with_rounding() - contact_force_at_equilibrium(s, eps),
                     rounding::penalty_force_error(s, eps, precision()),
                 )
-                .assuming([touching, near_penalty])
-                .computing(u, deflection(s, eps).rounded()),
+                .assuming([in_contact, near_penalty])
+                .computing(u, deflection(s, eps).with_rounding()),
                 {
                     let lengths = s.h.abs() + int(5) * gap(s).abs();
                     let parts = eps * lengths + int(7) * reaction(s);
@@ -145,11 +155,11 @@ pub(super) fn entries() -> Vec<Entry> {
                     )
                     .only_assuming([some_bits])
                 },
-                // What is proved of the force as a value of R, in parts of R and but for what does not depend
-                // on ε. It is least where the square on the right vanishes.
+                // The error of the force relative to R, without the part that is independent of ε. It is
+                // smallest if the square on the right vanishes.
                 {
                     let best = &rounding::best_compliance_squared(s, precision());
-                    let error = reaction(s) - force_at_root(s, eps)
+                    let error = reaction(s) - contact_force_at_equilibrium(s, eps)
                         + rounding::penalty_force_error(s, eps, precision());
                     let fixed = int(7) * eta() * (int(1) + int(8) * eta()) - square(&s.c) * best;
                     equal(
@@ -161,7 +171,7 @@ pub(super) fn entries() -> Vec<Entry> {
                 },
                 {
                     let p = penetration(s, eps);
-                    equal("complementarity", &p * force_at_root(s, eps), eps * &p * &p)
+                    equal("complementarity", &p * contact_force_at_equilibrium(s, eps), eps * &p * &p)
                 },
             ]),
         Entry::new("Fig. 1.2", "The penalty as a second spring")
@@ -193,20 +203,14 @@ pub(super) fn entries() -> Vec<Entry> {
             .follows_from(["1.11"])
             .claims([
                 equal("rate", total_stiffness(s, eps) * (deflection(s, eps) - gap(s)), reaction(s)),
-                limit(
-                    "limit",
-                    deflection(s, eps),
-                    eps,
-                    gap(s),
-                    Exactly(reaction(s) / total_stiffness(s, eps)),
-                ),
+                limit("limit", deflection(s, eps), eps, gap(s), Equal(reaction(s) / total_stiffness(s, eps))),
                 equal("two-forms", deflection(s, eps), deflection_divided(s, eps)),
                 within(
                     "float-error",
-                    deflection(s, eps).rounded() - deflection(s, eps),
+                    deflection(s, eps).with_rounding() - deflection(s, eps),
                     rounding::deflection_error(s, eps, precision()),
                 )
-                .assuming([touching]),
+                .assuming([in_contact]),
                 {
                     let parts = int(5) * gap(s).abs() + int(4) * penetration(s, eps);
                     equal(
@@ -218,10 +222,10 @@ pub(super) fn entries() -> Vec<Entry> {
                 },
                 within(
                     "float-distance",
-                    deflection(s, eps).rounded() - gap(s),
+                    deflection(s, eps).with_rounding() - gap(s),
                     penetration(s, eps) + rounding::deflection_error(s, eps, precision()),
                 )
-                .assuming([touching]),
+                .assuming([in_contact]),
                 derivative(
                     "slope",
                     contact::penetration(s, &deflection(s, eps)),
@@ -233,19 +237,23 @@ pub(super) fn entries() -> Vec<Entry> {
                     contact::penetration(s, &deflection(s, eps)),
                     eps,
                     0,
-                    Exactly(penetration(s, eps)),
+                    Equal(penetration(s, eps)),
                 ),
-                equal("unilateral", unilateral_deflection(s, eps), deflection(s, eps)).assuming([touching]),
+                equal("unilateral", unilateral_deflection(s, eps), deflection(s, eps)).assuming([in_contact]),
                 equal("unilateral-free", unilateral_deflection(s, eps), structure::deflection(s))
                     .assuming([separated]),
             ]),
-        Entry::new("Remark 1.3.2", "Which penalty is enough")
+        Entry::new("Remark 1.3.2", "Sufficient penalty")
             .states("p ≤ tol if and only if ε ≥ «penalty::penalty_for»")
             .assuming([stiffness, penalty, contact, tolerance])
             .functions(["penalty::penalty_for", "penalty::penetration"])
             .follows_from(["1.13"])
             .claims([
-                non_negative("enough", tol - penetration(s, eps)).only_assuming([tolerance, contact, enough]),
+                non_negative("enough", tol - penetration(s, eps)).only_assuming([
+                    tolerance,
+                    contact,
+                    sufficient_penalty,
+                ]),
                 equal("least", penetration(s, &penalty_for(s, tol)), tol).only_assuming([tolerance, contact]),
                 non_negative("necessary", eps - penalty_for(s, tol)).only_assuming([
                     stiffness,

@@ -9,15 +9,15 @@ formulas! {
     "r" = structure::residual(system, "u");
     "u" = structure::deflection(system);
     "δW" = structure::virtual_work(system, "u", "δu");
-    "Π" (folded) = structure::potential_energy(system, "u");
+    "Π" (abbreviated) = structure::potential_energy(system, "u");
     "δΠ" = structure::first_variation(system, "u", "δu"), written "δu ∂Π/∂u";
     "min Π" = structure::least_energy(system);
 }
 
-/// Its entries, with what is claimed of each.
+/// Returns the entries.
 pub(super) fn entries() -> Vec<Entry> {
     let Case { system: s, u, v, du, alpha, .. } = symbols();
-    let Given { stiffness, .. } = given();
+    let Hypotheses { stiffness, .. } = hypotheses();
     let one = &int(1);
     vec![
         Entry::new("1.1", "Equilibrium of forces")
@@ -30,8 +30,8 @@ pub(super) fn entries() -> Vec<Entry> {
                 equal("root", residual(s, &deflection(s)), 0),
                 within(
                     "rounding",
-                    deflection(s).rounded() - deflection(s),
-                    eta() * (int(2) + eta()) * deflection(s).rounded().abs(),
+                    deflection(s).with_rounding() - deflection(s),
+                    eta() * (int(2) + eta()) * deflection(s).with_rounding().abs(),
                 ),
                 equal("unique", residual(s, u), &s.c * (u - deflection(s))),
             ]),
@@ -47,7 +47,7 @@ pub(super) fn entries() -> Vec<Entry> {
                     virtual_work(s, u, du) + virtual_work(s, u, v),
                 ),
                 equal("coefficient", virtual_work(s, u, one), residual(s, u)),
-                // Zero for every δu: in particular for this one.
+                // Zero for every δu, in particular for this one.
                 {
                     let r = residual(s, u);
                     equal("only-equilibrium", virtual_work(s, u, &r), &r * &r)

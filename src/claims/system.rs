@@ -4,12 +4,12 @@ use super::prelude::*;
 use crate::chapter::system;
 
 formulas! {
-    "Δ" (folded) = system::gap(system);
+    "Δ" (abbreviated) = system::gap(system);
     "" = system::weight(system);
-    "R" (folded) = system::reaction(system);
+    "R" (abbreviated) = system::reaction(system);
 }
 
-/// Its entries, with what is claimed of each.
+/// Returns the entries.
 pub(super) fn entries() -> Vec<Entry> {
     vec![
         Entry::new("Fig. 1.1", "The system")

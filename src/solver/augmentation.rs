@@ -1,18 +1,18 @@
-//! (1.16) as an iterator.
+//! The augmentation (1.16) as an iterator.
 
 use super::Plane;
 use crate::chapter::{SpringMass, augmented, contact, structure};
-use crate::number::tree::piecewise;
-use crate::number::{OrderedField, PositivePart, Program, Rounds, Tree};
+use crate::number::tree::piecewise_ops;
+use crate::number::{OrderedField, PositivePart, Program, SpecializedProgram, Tree};
 use std::mem::replace;
 use std::sync::LazyLock;
 
-/// What one step of (1.16) arrives at.
+/// One iterate of (1.16).
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound = "T: crate::number::Text"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound = "T: crate::number::ExactText"))]
 #[non_exhaustive]
 pub struct Iterate<T> {
-    /// The counter k, from 0.
+    /// Number k of the augmentation, from 0.
     pub k: u64,
     /// λ_k, in N.
     #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
@@ -23,17 +23,19 @@ pub struct Iterate<T> {
     /// p_k, in m.
     #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
     pub penetration: T,
-    /// m g − c u_k, in N: the force that is in equilibrium with u_k; 0 where the mass hangs free. In
-    /// exact arithmetic it is λ_{k+1} (note 6).
+    /// m g − c u_k, in N: the force in equilibrium with u_k, or 0 if the mass is separated. In exact
+    /// arithmetic it is λ_{k+1} (note 6).
     #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
     pub contact_force: T,
 }
 
-/// The augmentation (1.16), step by step and without an end; every number system has it.
+/// The augmentation (1.16) as an infinite iterator, for every number system.
 ///
-/// Where the number system computes in place ([`Field::IN_PLACE`](crate::number::Field::IN_PLACE)), what does
-/// not depend on λ is computed once, and the four numbers of an [`Iterate`] are all that is allocated in a
-/// step; the numbers are the same. To skip to the k-th step: [`iterate_after`](super::iterate_after).
+/// If the number system computes in place ([`Field::IN_PLACE`](crate::number::Field::IN_PLACE)), subformulas
+/// without λ are computed once, and a step allocates only the four numbers of an [`Iterate`]; the results are
+/// the same. [`kth_iterate`](super::kth_iterate) computes the k-th iterate directly.
+///
+/// # Examples
 ///
 /// ```
 /// use spring_mass_contact::{chapter::SpringMass, solver::Augmentation};
@@ -49,42 +51,42 @@ pub struct Augmentation<'a, T> {
     plane: Plane,
     k: u64,
     multiplier: T,
-    /// Made with the first step, where it pays.
-    rounds: Option<Rounds<T>>,
+    /// Created with the first step if computing in place pays.
+    rounds: Option<SpecializedProgram<T>>,
 }
 
 impl<'a, T: OrderedField> Augmentation<'a, T> {
-    /// From λ₀ = 0 over a plane that never pulls; the penalty ε > 0 in N/m.
+    /// Starts from λ₀ = 0 with unilateral contact; `penalty` is ε > 0 in N/m.
     pub fn new(system: &'a SpringMass<T>, penalty: &'a T) -> Self {
         Augmentation { system, penalty, plane: Plane::Unilateral, k: 0, multiplier: T::zero(), rounds: None }
     }
 
-    /// The same from another λ₀, in N.
+    /// Sets the initial multiplier λ₀, in N.
     pub fn with_multiplier(self, multiplier: T) -> Self {
         Augmentation { multiplier, ..self }
     }
 
-    /// The same over another plane.
+    /// Sets the plane.
     pub fn over(self, plane: Plane) -> Self {
         Augmentation { plane, rounds: None, ..self }
     }
 
-    /// ε, in N/m.
+    /// Returns ε, in N/m.
     pub fn penalty(&self) -> &T {
         self.penalty
     }
 
-    /// Which plane.
+    /// Returns the plane.
     pub fn plane(&self) -> Plane {
         self.plane
     }
 
-    /// λ of the step that comes next, in N.
+    /// Returns the multiplier λ of the next step, in N.
     pub fn multiplier(&self) -> &T {
         &self.multiplier
     }
 
-    /// The next step; there always is one.
+    /// Computes the next iterate; there always is one.
     pub fn step(&mut self) -> Iterate<T> {
         let iterate = if T::IN_PLACE { self.step_in_place() } else { self.step_by_functions() };
         self.k += 1;
@@ -107,10 +109,10 @@ impl<'a, T: OrderedField> Augmentation<'a, T> {
         let Record { program, multiplier, step } = Record::of(self.plane);
         let rounds = self.rounds.get_or_insert_with(|| {
             let fixed = |name| known(name, self.system, self.penalty);
-            program.rounds(&fixed, &piecewise).expect(ELEMENTARY)
+            program.specialize(&fixed, &piecewise_ops).expect(ELEMENTARY)
         });
         let spare = rounds.replace(*multiplier, replace(&mut self.multiplier, T::zero()));
-        rounds.run(&piecewise).expect(ELEMENTARY);
+        rounds.run(&piecewise_ops).expect(ELEMENTARY);
         let free = step.free.is_some_and(|free| rounds[step.deflection] >= rounds[free]);
         self.multiplier = rounds.replace(step.next, spare);
         Iterate {
@@ -122,7 +124,7 @@ impl<'a, T: OrderedField> Augmentation<'a, T> {
         }
     }
 
-    /// Takes back a step that is done with: the next ones are computed in its memory.
+    /// Returns the memory of a used iterate, in which the next ones are computed.
     pub(super) fn reuse(&mut self, iterate: Iterate<T>) {
         if let Some(rounds) = &mut self.rounds {
             let Record { multiplier, step, .. } = Record::of(self.plane);
@@ -141,20 +143,20 @@ impl<T: OrderedField> Iterator for Augmentation<'_, T> {
     }
 }
 
-/// What a step makes of λ.
+/// Results of one step for a given λ.
 struct Step<T> {
     deflection: T,
     penetration: T,
-    /// Where the mass does not hang free.
+    /// Contact force if the mass is not separated.
     contact_force: T,
-    /// λ of the next step.
+    /// Multiplier of the next step.
     next: T,
-    /// At this deflection it does, if it can.
+    /// Deflection of the separated mass, for a unilateral plane.
     free: Option<T>,
 }
 
 impl<T: PositivePart> Step<T> {
-    /// By the chapter's functions.
+    /// Computes the step with the chapter's functions.
     fn of(plane: Plane, system: &SpringMass<T>, penalty: &T, lambda: &T) -> Self {
         let (u, force, next, free) = match plane {
             Plane::Unilateral => {
@@ -180,15 +182,15 @@ impl<T: PositivePart> Step<T> {
     }
 }
 
-/// The same functions, recorded.
+/// The recorded functions of a step.
 struct Record {
     program: Program,
-    /// The places of λ and of what a step makes of it.
+    /// Places of λ and of the results in the program.
     multiplier: usize,
     step: Step<usize>,
 }
 
-const ELEMENTARY: &str = "a step has nothing but arithmetic, ⟨·⟩ and min";
+const ELEMENTARY: &str = "a step contains only arithmetic, ⟨·⟩ and min";
 
 impl Record {
     fn of(plane: Plane) -> &'static Record {
@@ -218,7 +220,7 @@ impl Record {
     }
 }
 
-/// The number for a symbol of the record; λ varies.
+/// Returns the value of a symbol, or `None` for λ, which varies.
 fn known<T: Clone>(name: &str, system: &SpringMass<T>, penalty: &T) -> Option<T> {
     let number = match name {
         "c" => &system.c,

@@ -1,38 +1,38 @@
-//! What the caller can have done wrong.
+//! Errors of the solver, and checks of its arguments and results.
 
 use super::{Method, Scalar, Solution};
 use crate::chapter::{SpringMass, penalty, structure, system};
 use std::fmt::Debug;
 
-/// Why there is no solution to return.
+/// Error of the solver.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SolveError {
-    /// A parameter outside its range.
+    /// A parameter is outside its range.
     #[error("{argument} {value}: must be {allowed}")]
     Invalid {
-        /// The parameter's name.
+        /// Name of the parameter.
         argument: &'static str,
-        /// What it was.
+        /// Its value.
         value: String,
-        /// What it may be.
+        /// The values allowed.
         allowed: &'static str,
     },
-    /// Rationals so long that arithmetic with them would not end in practice.
+    /// A rational has too many digits for the computation to end in practice.
     #[error(
         "{quantity}: more than {digits} binary digits; use MPFR (mpfr:BITS), a larger penalty or tolerance, \
          or fewer augmentations"
     )]
     TooLong {
-        /// The quantity's name.
+        /// Name of the quantity.
         quantity: &'static str,
-        /// The digits that it may have.
+        /// The largest number of digits allowed.
         digits: u64,
     },
-    /// A result that the scalar cannot hold.
-    #[error("the {quantity} leaves the range of this scalar; use MPFR (mpfr:BITS) or exact rationals")]
+    /// The scalar cannot represent a result.
+    #[error("the {quantity} is out of the range of this scalar; use MPFR (mpfr:BITS) or exact rationals")]
     OutOfRange {
-        /// The quantity's name.
+        /// Name of the quantity.
         quantity: &'static str,
     },
 }
@@ -79,7 +79,7 @@ pub(super) fn in_range(holds: bool, quantity: &'static str) -> Result<(), SolveE
     if holds { Ok(()) } else { Err(SolveError::OutOfRange { quantity }) }
 }
 
-/// A product of nonzero numbers that is zero has lost all its digits.
+/// Returns an error if a product of nonzero factors underflows to zero.
 pub(super) fn products<T: Scalar>(s: &SpringMass<T>) -> Result<(), SolveError> {
     let gap = system::gap(s);
     in_range(s.g.is_zero() || !system::weight(s).is_zero(), "weight")?;
@@ -91,7 +91,7 @@ pub(super) fn stiffness<T: Scalar>(s: &SpringMass<T>, eps: &T) -> Result<(), Sol
     in_range(penalty::total_stiffness(s, eps).is_finite(), "total stiffness c + ε")
 }
 
-pub(super) fn finite<T: Scalar>(solution: &Solution<T>) -> Result<(), SolveError> {
+pub(super) fn require_finite<T: Scalar>(solution: &Solution<T>) -> Result<(), SolveError> {
     in_range(solution.deflection.is_finite(), "deflection")?;
     in_range(solution.penetration.is_finite(), "penetration")?;
     in_range(solution.contact_force.is_finite(), "contact force")?;

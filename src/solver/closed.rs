@@ -1,37 +1,39 @@
-//! (1.16) in closed form: one iterate without those before it.
+//! The closed form of (1.16): the k-th iterate without those before it.
 
 use super::check::{self, SolveError};
 use super::scalar::LONGEST;
-use super::{Interval, Iterate, Plane, Scalar, bounded};
+use super::{Interval, Iterate, Plane, Scalar, to_interval};
 use crate::chapter::{SpringMass, augmented, penalty, structure};
 use crate::number::PositivePart;
 
-/// The k-th iterate of (1.16) in exact arithmetic, enclosed, for the parameters as they are in their scalar:
-/// penalty ε > 0 in N/m, `start` = λ₀ in N. For rationals both ends are the iterate itself.
+/// Encloses the k-th iterate of (1.16) in exact arithmetic, for the parameters as represented in their
+/// scalar; `penalty` is ε > 0 in N/m and `start` is λ₀ in N. For rationals both bounds are the iterate
+/// itself.
 ///
-/// By the closed forms of (1.16), with ρᵏ by repeated squaring: so many products as k has binary digits, and
-/// no steps. The penetration is not found as a difference of lengths and keeps its digits while it shrinks:
-/// of those that R has, about log₂ k bits are lost. For an answer to so many digits, take
-/// [`Mpfr`](crate::number::Mpfr) of as many bits and 70 more, enough for any k, and as many again as R
-/// loses where it cancels.
+/// Evaluates the closed form with ρᵏ by repeated squaring, which takes about log₂ k products. The penetration
+/// is not computed as a difference of lengths, so its relative accuracy stays while it decreases; about log₂
+/// k bits of the accuracy of R are lost. For a result with n bits use [`Mpfr`](crate::number::Mpfr) with n +
+/// 70 bits, which suffices for every k, plus the bits that R loses by cancellation.
 ///
 /// # Errors
-/// A parameter is not finite or not in its range, or a bound is beyond the scalar. Rationals, whose k-th
-/// iterate has about k times as many digits as ρ, are refused from some ten million binary digits on; so are
-/// constants of [`Mpfr`](crate::number::Mpfr).
+/// Returns an error if a parameter is not finite or out of its range, if the scalar cannot represent a bound,
+/// or if a rational iterate (or a constant of [`Mpfr`](crate::number::Mpfr)), which has about k times as many
+/// digits as ρ, would have more than about ten million binary digits.
+///
+/// # Examples
 ///
 /// ```
-/// use spring_mass_contact::{chapter::SpringMass, solver::{Plane, iterate_after}};
+/// use spring_mass_contact::{chapter::SpringMass, solver::{Plane, kth_iterate}};
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// // p_k = 2^−(k+2), of which l + u − H has nothing left at k = 100.
-/// let step = iterate_after(&system, &4.0, &0.0, 100, Plane::Unilateral)?;
+/// let step = kth_iterate(&system, &4.0, &0.0, 100, Plane::Unilateral)?;
 /// let p = 2f64.powi(-102);
 /// assert!(step.penetration.lower <= p && p <= step.penetration.upper);
 /// assert!(step.penetration.upper - step.penetration.lower < 1e-12 * p);
 /// assert!(step.multiplier.lower <= 2.0 && 2.0 <= step.multiplier.upper);
 /// # Ok::<(), spring_mass_contact::solver::SolveError>(())
 /// ```
-pub fn iterate_after<T: Scalar>(
+pub fn kth_iterate<T: Scalar>(
     system: &SpringMass<T>,
     eps: &T,
     start: &T,
@@ -43,8 +45,7 @@ pub fn iterate_after<T: Scalar>(
     check::finite_number("initial multiplier", start)?;
     let (system, eps, lambda) = (system.map(T::enclose), eps.enclose(), start.enclose());
     let rho = augmented::contraction(&system, &eps);
-    // From λ ≥ 0 on, brackets around the closed forms are all it takes (see `closed`). A negative λ₀ has one
-    // step of its own.
+    // For λ ≥ 0 the closed forms with brackets suffice (see `closed`). A negative λ₀ needs one separate step.
     let (start, steps) = if plane == Plane::Unilateral && k > 0 && *start < T::zero() {
         (augmented::multiplier_after(&system, &lambda, &rho).positive_part(), k - 1)
     } else {
@@ -58,19 +59,20 @@ pub fn iterate_after<T: Scalar>(
     }
     Ok(Iterate {
         k,
-        multiplier: bounded(&iterate.multiplier, "multiplier")?,
-        deflection: bounded(&iterate.deflection, "deflection")?,
-        penetration: bounded(&iterate.penetration, "penetration")?,
-        contact_force: bounded(&iterate.contact_force, "contact force")?,
+        multiplier: to_interval(&iterate.multiplier, "multiplier")?,
+        deflection: to_interval(&iterate.deflection, "deflection")?,
+        penetration: to_interval(&iterate.penetration, "penetration")?,
+        contact_force: to_interval(&iterate.contact_force, "contact force")?,
     })
 }
 
-/// The iterate at which the decay is ρᵏ; over a plane that never pulls for λ₀ ≥ 0, or for k = 0.
+/// Returns the iterate for the decay ρᵏ. A unilateral plane requires λ₀ ≥ 0 or k = 0.
 ///
-/// There the next multiplier is ⟨A(λ)⟩, A being the bilateral step: where the mass hangs free, A(λ) ≤ 0, and
-/// it is 0. A rises with λ and leaves R where it is. For R ≥ 0 and λ₀ ≥ 0 no Aᵏ(λ₀) is negative, and no
-/// bracket acts; for R < 0 the Aᵏ(λ₀) fall, and from the first that is negative both sides of λ_k = ⟨Aᵏ(λ₀)⟩
-/// are 0. The mass then hangs free, also by what is computed from Aᵏ(λ₀) without its bracket.
+/// With unilateral contact the next multiplier is ⟨A(λ)⟩, where A is the bilateral step; if the mass is
+/// separated, A(λ) ≤ 0 and the multiplier is 0. A increases with λ and has the fixed point R. For R ≥ 0 and
+/// λ₀ ≥ 0 no Aᵏ(λ₀) is negative, and no bracket is active. For R < 0 the Aᵏ(λ₀) decrease, and from the first
+/// negative one both sides of λ_k = ⟨Aᵏ(λ₀)⟩ are 0; the mass is then separated, also in the result computed
+/// from Aᵏ(λ₀) without its bracket.
 fn closed<E: PositivePart>(
     system: &SpringMass<E>,
     eps: &E,
@@ -93,7 +95,7 @@ fn closed<E: PositivePart>(
             k: 0,
             multiplier: bilateral.multiplier.positive_part(),
             deflection: bilateral.deflection.min(&structure::deflection(system)),
-            // With no penalty it is that of a mass which hangs free.
+            // Without a penalty it is the penetration of the separated mass.
             penetration: bilateral.penetration.min(&penalty::penetration(system, &E::zero())),
             contact_force: bilateral.contact_force.positive_part(),
         },

@@ -1,5 +1,5 @@
-//! The part of the solver for MPFR numbers and exact rationals: advice, step counts, promises, sweeps,
-//! reading and display.
+//! The part of the solver for MPFR numbers and exact rationals: advice, step counts, guarantees, sweeps,
+//! parsing and display.
 
 mod advise;
 mod check;
@@ -14,10 +14,12 @@ mod scalar;
 mod series;
 mod sweep;
 
-pub use advise::{Advice, Choice, advise};
-pub use count::augmentations_needed;
+pub use advise::{Advice, Recommendation, advise};
+pub use count::exact_augmentation_count;
 pub use format::{format_equation, format_short, format_short_bound};
-pub use reach::{augmentations_promised, bits_needed, rounding_floor, within_reach};
+pub use reach::{
+    guaranteed_max_augmentations, is_convergence_guaranteed, required_precision, rounding_floor,
+};
 pub use read::ReadError;
 pub use series::series_penetration;
 pub use sweep::{SweepRow, best_penalty, penalties, penalty_force_bound, sweep};

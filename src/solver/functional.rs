@@ -1,60 +1,61 @@
-//! Penalty functionals of one's own (§1.3.2): what they have to be, and their equilibrium.
+//! User-defined penalty functionals (§1.3.2): their conditions and their equilibrium.
 
 use super::check::{self, SolveError};
-use super::root::{Equation, Found, middle, weighed};
-use super::{Bounds, Interval, Method, Outcome, Scalar, Solution, State, bounded, solve};
+use super::root::{Equation, RootBracket, middle, reduced_system};
+use super::{Bounds, Interval, Method, Outcome, Scalar, Solution, State, solve, to_interval};
 use crate::chapter::{SpringMass, augmented, contact, structure, system};
 use crate::number::{Dual, PositivePart};
 use num_traits::Zero;
 use std::cmp::Ordering;
 use std::fmt;
 
-/// What a penalty functional is read in: an enclosure, which bounds the rounding, and its derivative.
-pub type Lifted<T> = Dual<<T as Scalar>::Enclosure>;
+/// Argument and value of a penalty functional: an enclosure, which bounds the rounding error, with its
+/// derivative.
+pub type DualEnclosure<T> = Dual<<T as Scalar>::Enclosure>;
 
-/// What a penalty functional W(p) has to be, for p ≥ 0.
+/// Condition on a penalty functional W(p) for p ≥ 0.
 ///
-/// The first two and the last are the chapter's, as note 3 mends them. The others are what
-/// [`solve_functional`] needs besides: of a W whose force falls there can be more than one equilibrium.
+/// The first two and the last are those of the chapter, as corrected by note 3. [`solve_functional`] also
+/// requires the others: if the force of W decreases, there can be more than one equilibrium.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Condition {
     /// Condition 1: W(0) = 0.
-    VanishesAtContact,
-    /// Condition 2: W does not fall as p grows.
-    NeverFalls,
-    /// W has no jumps.
+    ZeroAtContact,
+    /// Condition 2: W does not decrease with p.
+    Monotone,
+    /// W is continuous.
     Continuous,
-    /// W is convex: its force W′ does not fall as p grows.
-    NeverSoftens,
-    /// Condition 3: W grows beyond all bounds with the penalty, at a fixed p > 0.
-    GrowsWithPenalty,
+    /// W is convex: its force W′ does not decrease with p.
+    Convex,
+    /// Condition 3: W at a fixed p > 0 is unbounded as the penalty grows.
+    UnboundedInPenalty,
 }
 
 impl fmt::Display for Condition {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.pad(match self {
-            Condition::VanishesAtContact => "must be 0 at p = 0",
-            Condition::NeverFalls => "must not fall as p grows",
+            Condition::ZeroAtContact => "must be 0 at p = 0",
+            Condition::Monotone => "must not decrease with p",
             Condition::Continuous => "must be continuous in p",
-            Condition::NeverSoftens => "must be convex in p: its force must not fall as p grows",
-            Condition::GrowsWithPenalty => "must grow beyond all bounds with its penalty",
+            Condition::Convex => "must be convex in p: its force must not decrease with p",
+            Condition::UnboundedInPenalty => "must be unbounded as its penalty grows",
         })
     }
 }
 
-/// Why a penalty functional has no answer to return.
+/// Error of solving with a penalty functional.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FunctionalError {
-    /// A parameter outside its range, or a result that the scalar cannot hold.
+    /// A parameter is outside its range, or the scalar cannot represent a result.
     #[error(transparent)]
     Solve(#[from] SolveError),
-    /// A condition that the functional is seen to break.
-    #[error("the penalty functional {condition}; not so at p = {at} m")]
+    /// The functional violates a condition.
+    #[error("the penalty functional {condition}; violated at p = {at} m")]
     Broken {
-        /// Which one.
+        /// The condition.
         condition: Condition,
-        /// The penetration at which it was seen, in m.
+        /// Penetration at which it is violated, in m.
         at: String,
     },
 }
@@ -63,37 +64,38 @@ pub(super) fn broken<T: Scalar>(condition: Condition, at: &T) -> FunctionalError
     FunctionalError::Broken { condition, at: format!("{at:?}") }
 }
 
-/// Solves a system by a penalty functional W of one's own, in J, over a plane that never pulls: where R > 0
-/// for the root of c p + W′(p) = R, and else as by Lagrange.
+/// Solves a system with unilateral contact by a user-defined penalty functional W, in J: for R > 0 the root
+/// of c p + W′(p) = R, otherwise the solution by Lagrange multiplier.
 ///
-/// `functional` is given the `parameters` and p in m, and is differentiated by the numbers that it is read
-/// in: a generic function like [`penalty::functional`](crate::chapter::penalty::functional) will do. Its
-/// constants are numbers of the same kind, `T::int(2)`, or in a closure `Lifted::<f64>::int(2)`. It is asked
-/// for 0 ≤ p ≤ R/c, and a bit more by rounding. A kink there is no hindrance: of W = ε ⟨p⟩ the answer
-/// is exact for ε ≥ R. Nor is a jump of W′ upwards.
+/// `functional` receives the `parameters` and p in m, and is differentiated by the dual numbers it is
+/// evaluated in: any generic function like [`penalty::functional`](crate::chapter::penalty::functional) is
+/// suitable. Its constants are numbers of the same type, `T::int(2)`, or in a closure
+/// `DualEnclosure::<f64>::int(2)`. It is evaluated for 0 ≤ p ≤ R/c, slightly exceeded by rounding. Kinks are
+/// allowed: for W = ε ⟨p⟩ the result is exact if ε ≥ R. Upward jumps of W′ are allowed, too.
 ///
-/// The [bounds](Solution::bounds) end where c p + W′ − R is < 0 for certain and where it is > 0 for
-/// certain, its rounding included, or at 0 and R/c, between which every equilibrium is. They are narrowed
-/// until they are no wider than `tolerance` > 0, in m, or rounding leaves the sign open. If |u − u*| <
-/// tolerance is proved then, the outcome is [`Converged`](Outcome::Converged), and else
-/// [`Stagnated`](Outcome::Stagnated), with the bound in [`floor`](Solution::floor). In rationals, which
-/// leave no sign open, a tolerance is always met: a root need not be rational, and its bounds have about as
-/// many digits as the tolerance asks for. After ten thousand steps, which none takes that is smooth near
-/// the root, it is [`OutOfSteps`](Outcome::OutOfSteps). Where nothing is left to look for it is
-/// [`Direct`](Outcome::Direct).
+/// The [bounds](Solution::bounds) end where c p + W′ − R is certainly negative and certainly positive,
+/// rounding included, or at 0 and R/c, which contain every equilibrium. They are narrowed until their width
+/// is at most `tolerance` > 0, in m, or rounding leaves the sign undecided. If |u − u*| < tolerance is then
+/// proved, the outcome is [`Converged`](Outcome::Converged), otherwise [`Stagnated`](Outcome::Stagnated) with
+/// the bound in [`floor`](Solution::floor). Rationals always meet the tolerance; the bounds have about as
+/// many digits as the tolerance requires. After ten thousand steps, which no functional needs that is smooth
+/// near the root, the outcome is [`IterationLimit`](Outcome::IterationLimit). If there is nothing to iterate
+/// it is [`Direct`](Outcome::Direct).
 ///
-/// That there is one equilibrium, and that it is the least energy, rests on the [conditions](Condition).
-/// That W(0) = 0 is tried at 0; the others but the last are tried at all sixteenths of R/c, and that W does
-/// not fall wherever the search comes by. So whoever breaks them in between goes unseen. The last is not
-/// about one functional but about a family: [`penalty_for_functional`] tries it.
+/// The [conditions](Condition) ensure that there is one equilibrium, with the least energy. W(0) = 0 is
+/// tested at 0, the others except the last at all sixteenths of R/c, and monotonicity at every evaluation of
+/// the search. A violation in between remains undetected. The last condition concerns a family of
+/// functionals: [`penalty_for_functional`] tests it.
 ///
 /// # Errors
-/// Those of [`solve`]; a parameter that is not finite, or a tolerance that is not > 0; or a condition that is
-/// broken for certain, with the penetration at which it is. W or W′ that is not finite at p = 0 counts as not
-/// being 0 there; elsewhere it counts as beyond the root.
+/// Returns the errors of [`solve`], and an error if a parameter is not finite, the tolerance is not positive,
+/// or a condition is certainly violated, with the penetration concerned. A non-finite W or W′ violates the
+/// condition at p = 0; elsewhere it counts as a point beyond the root.
 ///
 /// # Panics
-/// If `functional` does, as a division of rationals by 0.
+/// Panics if `functional` does, for example by a division of rationals by 0.
+///
+/// # Examples
 ///
 /// ```
 /// use spring_mass_contact::{chapter::SpringMass, number::PositivePart};
@@ -116,7 +118,7 @@ pub fn solve_functional<T: Scalar, const N: usize>(
     system: &SpringMass<T>,
     parameters: &[T; N],
     tolerance: &T,
-    functional: impl Fn(&[Lifted<T>; N], &Lifted<T>) -> Lifted<T>,
+    functional: impl Fn(&[DualEnclosure<T>; N], &DualEnclosure<T>) -> DualEnclosure<T>,
 ) -> Result<Solution<T>, FunctionalError> {
     let rigid = Solution { multiplier: None, ..solve(system, &Method::Lagrange)? };
     check::positive("tolerance", tolerance)?;
@@ -129,15 +131,16 @@ pub fn solve_functional<T: Scalar, const N: usize>(
     let equation = Equation::new(enclosed.c.clone(), reaction, |p| functional(&parameters, p));
     let most = equation.most()?;
     equation.check(&most)?;
-    let Found { lower, upper, ended } = equation.root(&most, tolerance)?;
+    let RootBracket { lower, upper, ended } = equation.root(&most, tolerance)?;
     if upper.is_zero() {
         return Ok(rigid);
     }
     let below = |p: &T| system::gap(&enclosed) + p.enclose();
-    // R − c p: the less of it, the deeper.
+    // R − c p, which decreases with the penetration.
     let force = |p: &T| augmented::contact_force(&equation.spring, &p.enclose()).positive_part();
     let ends = |lower, upper, quantity| -> Result<Interval<T>, SolveError> {
-        let (lower, upper): (Interval<T>, _) = (bounded(&lower, quantity)?, bounded(&upper, quantity)?);
+        let (lower, upper): (Interval<T>, _) =
+            (to_interval(&lower, quantity)?, to_interval(&upper, quantity)?);
         Ok(Interval { lower: lower.lower, upper: upper.upper })
     };
     let deflection = system::gap(system) + middle(&lower, &upper);
@@ -147,7 +150,7 @@ pub fn solve_functional<T: Scalar, const N: usize>(
     let outcome = match ended {
         _ if error < *tolerance => Outcome::Converged,
         true => Outcome::Stagnated,
-        false => Outcome::OutOfSteps,
+        false => Outcome::IterationLimit,
     };
     let bounds = Bounds {
         deflection: ends(below(&lower), below(&upper), "deflection")?,
@@ -163,22 +166,24 @@ pub fn solve_functional<T: Scalar, const N: usize>(
         bounds,
         ..rigid
     };
-    check::finite(&solution)?;
+    check::require_finite(&solution)?;
     Ok(solution)
 }
 
-/// A penalty, the first of the `parameters` in its own units, with which the minimum by one's own
-/// functional has a penetration of at most `tolerance` > 0 in m: the given one, doubled as often as that
-/// takes.
+/// Returns a penalty, the first of the `parameters` in its own units, for which the minimum with a
+/// user-defined functional has a penetration of at most `tolerance` > 0, in m. It is the given penalty,
+/// doubled as often as necessary.
 ///
-/// By note 3: where W(0) = 0, the minimum has W ≤ R²/(2c), so that a W which is larger at the tolerance,
-/// and does not fall, keeps p below it. Such a penalty exists for every tolerance if and only if the
-/// functional meets the chapter's condition 3. It is not the least one.
+/// By note 3: if W(0) = 0, the minimum satisfies W ≤ R²/(2c), so a monotone W that is larger at the tolerance
+/// keeps p below it. Such a penalty exists for every tolerance if and only if the functional satisfies
+/// condition 3 of the chapter. It is not the smallest one.
 ///
 /// # Errors
-/// Those of [`solve_functional`], of the conditions the first and the last: W(0) is not 0, or a thousand
-/// doublings do not suffice, or lead out of the scalar's range. That is no proof that W is bounded: it may
-/// grow slowly.
+/// Returns the errors of [`solve_functional`], with the first and the last condition: W(0) is not 0, or a
+/// thousand doublings do not suffice or leave the range of the scalar. This does not prove that W is bounded,
+/// since it may grow slowly.
+///
+/// # Examples
 ///
 /// ```
 /// use spring_mass_contact::{chapter::{SpringMass, penalty}, solver::penalty_for_functional};
@@ -192,21 +197,21 @@ pub fn penalty_for_functional<T: Scalar, const N: usize>(
     system: &SpringMass<T>,
     parameters: &[T; N],
     tolerance: &T,
-    functional: impl Fn(&[Lifted<T>; N], &Lifted<T>) -> Lifted<T>,
+    functional: impl Fn(&[DualEnclosure<T>; N], &DualEnclosure<T>) -> DualEnclosure<T>,
 ) -> Result<T, FunctionalError> {
     let touches = State::of(system)? == State::Contact;
     check::positive("tolerance", tolerance)?;
     lifted(parameters)?;
     let mut parameters = parameters.clone();
-    let unbounded = || broken(Condition::GrowsWithPenalty, tolerance);
+    let unbounded = || broken(Condition::UnboundedInPenalty, tolerance);
     let enclosed = system.map(T::enclose);
-    let spring = weighed(enclosed.c.clone(), system::reaction(&enclosed));
-    // −R²/(2c): the least energy of a mass whose weight is R.
+    let spring = reduced_system(enclosed.c.clone(), system::reaction(&enclosed));
+    // −R²/(2c), the least energy of a mass of weight R.
     let least = structure::least_energy(&spring);
     let p = Dual::constant(tolerance.enclose());
     for _ in 0..=1000 {
         let lifted = lifted(&parameters)?;
-        let at = |p: &Lifted<T>| functional(&lifted, p).value;
+        let at = |p: &DualEnclosure<T>| functional(&lifted, p).value;
         vanishes::<T>(&at(&Dual::zero()))?;
         let w = at(&p);
         let eps = parameters.first_mut().ok_or_else(unbounded)?;
@@ -221,17 +226,17 @@ pub fn penalty_for_functional<T: Scalar, const N: usize>(
     Err(unbounded())
 }
 
-/// Is it a number, and perhaps 0?
+/// Returns an error unless W is finite and its enclosure contains 0.
 pub(super) fn vanishes<T: Scalar>(w: &T::Enclosure) -> Result<(), FunctionalError> {
     let holds = is_finite::<T>(w) && T::sign(w).is_none_or(Ordering::is_eq);
-    if holds { Ok(()) } else { Err(broken(Condition::VanishesAtContact, &T::zero())) }
+    if holds { Ok(()) } else { Err(broken(Condition::ZeroAtContact, &T::zero())) }
 }
 
 pub(super) fn is_finite<T: Scalar>(x: &T::Enclosure) -> bool {
     T::magnitude(x).is_finite()
 }
 
-fn lifted<T: Scalar, const N: usize>(parameters: &[T; N]) -> Result<[Lifted<T>; N], SolveError> {
+fn lifted<T: Scalar, const N: usize>(parameters: &[T; N]) -> Result<[DualEnclosure<T>; N], SolveError> {
     parameters.iter().try_for_each(|x| check::finite_number("penalty parameter", x))?;
     Ok(parameters.each_ref().map(|x| Dual::constant(x.enclose())))
 }

@@ -1,57 +1,58 @@
-//! c p + W′(p) = R for any W: its root, between two signs that are certain.
+//! Root of c p + W′(p) = R for any W, between two points with certain signs.
 
 use super::check::SolveError;
 use super::functional::{Condition, FunctionalError, broken, is_finite, vanishes};
 use super::scalar::power;
-use super::{Interval, Scalar, bounded};
+use super::{Interval, Scalar, to_interval};
 use crate::chapter::{SpringMass, structure};
 use crate::number::{Dual, PositivePart};
 use std::cmp::Ordering;
 
-/// A mass that weighs R on a spring whose gap is 0: the same equation in p, and what cancels has done so.
-pub(super) fn weighed<E: PositivePart>(c: E, reaction: E) -> SpringMass<E> {
+/// Returns a system of weight R with gap 0. It has the same equation in p, and its terms cancel no further.
+pub(super) fn reduced_system<E: PositivePart>(c: E, reaction: E) -> SpringMass<E> {
     SpringMass { c, m: reaction, g: E::one(), l: E::zero(), h: E::zero() }
 }
 
-/// c p + W′(p) = R, for R > 0.
+/// The equation c p + W′(p) = R, for R > 0.
 pub(super) struct Equation<E, W> {
     pub(super) spring: SpringMass<E>,
     functional: W,
 }
 
-/// Between which numbers the root is.
-pub(super) struct Found<T> {
+/// Bounds of the root.
+pub(super) struct RootBracket<T> {
     pub(super) lower: T,
     pub(super) upper: T,
-    /// Or was it given up?
+    /// Whether the search reached its limit of steps.
     pub(super) ended: bool,
 }
 
-/// Where a penetration is, by the sign of c p + W′ − R; and about how large that is.
+/// Position of a penetration relative to the root, by the sign of c p + W′ − R, with an estimate of its
+/// magnitude.
 enum Side<T> {
     Below(T),
     At,
     Above(T),
-    /// The sign is open.
+    /// The sign is undecided.
     Near,
-    /// There is no value.
+    /// W or W′ is not finite.
     Nowhere,
 }
 
-/// So many steps and no more, each with two values of W at most.
+/// Largest number of steps, each with at most two evaluations of W.
 const MOST_STEPS: u32 = 10_000;
 
-/// No number has more binary digits that count.
+/// Largest number of significant binary digits.
 const MOST_DIGITS: u64 = 1 << 22;
 
 impl<E: PositivePart, W: Fn(&Dual<E>) -> Dual<E>> Equation<E, W> {
     pub(super) fn new(c: E, reaction: E, functional: W) -> Self {
-        Equation { spring: weighed(c, reaction), functional }
+        Equation { spring: reduced_system(c, reaction), functional }
     }
 
-    /// R/c, rounded up: no penetration is greater, since W′ ≥ 0.
+    /// Returns R/c, rounded up; no penetration is larger, since W′ ≥ 0.
     pub(super) fn most<T: Scalar<Enclosure = E>>(&self) -> Result<T, SolveError> {
-        let most: Interval<T> = bounded(&structure::deflection(&self.spring), "penetration")?;
+        let most: Interval<T> = to_interval(&structure::deflection(&self.spring), "penetration")?;
         Ok(most.upper)
     }
 
@@ -62,7 +63,7 @@ impl<E: PositivePart, W: Fn(&Dual<E>) -> Dual<E>> Equation<E, W> {
     fn side<T: Scalar<Enclosure = E>>(&self, p: &T) -> Result<Side<T>, FunctionalError> {
         let force = self.energy_and_force(p).derivative;
         if T::sign(&force) == Some(Ordering::Less) {
-            return Err(broken(Condition::NeverFalls, p));
+            return Err(broken(Condition::Monotone, p));
         }
         let residual = structure::residual(&self.spring, &p.enclose()) + force;
         if !is_finite::<T>(&residual) {
@@ -78,13 +79,13 @@ impl<E: PositivePart, W: Fn(&Dual<E>) -> Dual<E>> Equation<E, W> {
         })
     }
 
-    /// Tries the conditions at 0 and at the sixteenths of R/c.
+    /// Tests the conditions at 0 and at the sixteenths of R/c.
     pub(super) fn check<T: Scalar<Enclosure = E>>(&self, most: &T) -> Result<(), FunctionalError> {
         let negative = |x: &E| T::sign(x) == Some(Ordering::Less);
         let mut last = (T::zero(), self.energy_and_force(&T::zero()));
         vanishes::<T>(&last.1.value)?;
         if !is_finite::<T>(&last.1.derivative) {
-            return Err(broken(Condition::VanishesAtContact, &last.0));
+            return Err(broken(Condition::ZeroAtContact, &last.0));
         }
         for i in 1..=16 {
             let p = most * T::int(i) / T::int(16);
@@ -94,11 +95,11 @@ impl<E: PositivePart, W: Fn(&Dual<E>) -> Dual<E>> Equation<E, W> {
             }
             let gained = &w.value - &last.1.value;
             let further = p.enclose() - last.0.enclose();
-            // What a convex W gains is no more than the last force would have it, and no less than the first.
+            // The increase of a convex W is at most that for the last force, and at least that for the first.
             let conditions = [
-                (Condition::NeverFalls, negative(&w.derivative) || negative(&gained)),
-                (Condition::NeverSoftens, negative(&(&w.derivative - &last.1.derivative))),
-                (Condition::NeverSoftens, negative(&(&gained - &last.1.derivative * &further))),
+                (Condition::Monotone, negative(&w.derivative) || negative(&gained)),
+                (Condition::Convex, negative(&(&w.derivative - &last.1.derivative))),
+                (Condition::Convex, negative(&(&gained - &last.1.derivative * &further))),
                 (Condition::Continuous, negative(&(&w.derivative * &further - &gained))),
             ];
             if let Some((condition, _)) = conditions.into_iter().find(|(_, seen)| *seen) {
@@ -109,23 +110,23 @@ impl<E: PositivePart, W: Fn(&Dual<E>) -> Dual<E>> Equation<E, W> {
         Ok(())
     }
 
-    /// Between 0 and `most`, until no wider than `enough`, or signs are open, or no number is in between.
+    /// Encloses the root between 0 and `most`, until the width is at most `enough`, a sign is undecided, or
+    /// no number lies in between.
     ///
-    /// By quadratic interval refinement (J. Abbott): of 2ⁿ cells the one in which the straight line between
-    /// the ends has its root is tried, and n doubles if the root is there, and is 1 again if not. So what is
-    /// tried has few digits, in any number system. First of all that line's root itself, which is exact for
-    /// ε p²/2.
+    /// Uses quadratic interval refinement (J. Abbott): tests the one of 2ⁿ cells in which the secant has its
+    /// root, doubles n if the root is there, and otherwise sets n to 1. The tested numbers have few digits in
+    /// every number system. The first one is the root of the secant itself, which is exact for ε p²/2.
     pub(super) fn root<T: Scalar<Enclosure = E>>(
         &self,
         most: &T,
         enough: &T,
-    ) -> Result<Found<T>, FunctionalError> {
-        let exactly = |p: T| Ok(Found { lower: p.clone(), upper: p, ended: true });
+    ) -> Result<RootBracket<T>, FunctionalError> {
+        let exactly = |p: T| Ok(RootBracket { lower: p.clone(), upper: p, ended: true });
         let mut lower = match self.side(&T::zero())? {
             Side::Below(size) => End { p: T::zero(), size },
             Side::At | Side::Above(_) => return exactly(T::zero()),
             Side::Near => return self.around(&T::zero(), &T::zero(), most),
-            Side::Nowhere => return Err(broken(Condition::VanishesAtContact, &T::zero())),
+            Side::Nowhere => return Err(broken(Condition::ZeroAtContact, &T::zero())),
         };
         let (mut p, mut nowhere) = (most.clone(), most.clone());
         let mut upper = None;
@@ -138,16 +139,16 @@ impl<E: PositivePart, W: Fn(&Dual<E>) -> Dual<E>> Equation<E, W> {
                 Side::At => return exactly(p),
                 Side::Near => return self.around(&p, &lower.p, most),
                 Side::Below(size) => lower = End { p, size },
-                // What overflows does so beyond the root.
+                // An overflow occurs only beyond the root.
                 Side::Nowhere => nowhere = p,
             }
             p = middle(&lower.p, &nowhere);
             if p == lower.p || p == nowhere {
-                return Ok(Found { lower: lower.p, upper: most.clone(), ended: true });
+                return Ok(RootBracket { lower: lower.p, upper: most.clone(), ended: true });
             }
         }
         let Some(mut upper) = upper else {
-            return Ok(Found { lower: lower.p, upper: most.clone(), ended: false });
+            return Ok(RootBracket { lower: lower.p, upper: most.clone(), ended: false });
         };
         let mut digits = 0;
         for _ in 0..MOST_STEPS {
@@ -164,30 +165,30 @@ impl<E: PositivePart, W: Fn(&Dual<E>) -> Dual<E>> Equation<E, W> {
                     }
                 }
             }
-            // It is narrow enough, or no number is in between.
+            // The interval is narrow enough, or no number lies in between.
             if digits == 1 && !moved {
-                return Ok(Found { lower: lower.p, upper: upper.p, ended: true });
+                return Ok(RootBracket { lower: lower.p, upper: upper.p, ended: true });
             }
             let hit = moved && cell == [lower.p.clone(), upper.p.clone()];
             digits = if hit { 2 * digits } else { 1 };
         }
-        Ok(Found { lower: lower.p, upper: upper.p, ended: false })
+        Ok(RootBracket { lower: lower.p, upper: upper.p, ended: false })
     }
 
-    /// The bounds next to a penetration whose own sign is open, from bounds that are further away.
+    /// Returns the bounds next to a penetration with undecided sign, from bounds that are further away.
     fn around<T: Scalar<Enclosure = E>>(
         &self,
         near: &T,
         lower: &T,
         upper: &T,
-    ) -> Result<Found<T>, FunctionalError> {
+    ) -> Result<RootBracket<T>, FunctionalError> {
         let (lower, k) = self.towards(near, lower, 1, |side| matches!(side, Side::Below(_)))?;
         let (upper, _) = self.towards(near, upper, k, |side| matches!(side, Side::Above(_)))?;
-        Ok(Found { lower, upper, ended: true })
+        Ok(RootBracket { lower, upper, ended: true })
     }
 
-    /// The nearest of the numbers `near` + (`far` − `near`)/2ᵏ whose side is certain, and its k; `far` and 0
-    /// if none is. It is looked for from `first` on.
+    /// Returns the nearest of the numbers `near` + (`far` − `near`)/2ᵏ with a certain sign, and its k; `far`
+    /// and 0 if there is none. The search begins with k = `first`.
     fn towards<T: Scalar<Enclosure = E>>(
         &self,
         near: &T,
@@ -200,7 +201,7 @@ impl<E: PositivePart, W: Fn(&Dual<E>) -> Dual<E>> Equation<E, W> {
             let p = at(k);
             Ok(p != *near && certain(self.side(&p)?))
         };
-        // Twice as far each time, to the side on which the last such number is.
+        // The distance doubles in each step, towards the last such number.
         let (mut certain, mut open, mut further) = (0, first.max(1), 1);
         while open < MOST_DIGITS && holds(open)? {
             (certain, open, further) = (open, open + further, 2 * further);
@@ -217,18 +218,18 @@ impl<E: PositivePart, W: Fn(&Dual<E>) -> Dual<E>> Equation<E, W> {
     }
 }
 
-/// One end of the interval that holds the root.
+/// One bound of the interval that contains the root.
 struct End<T> {
     p: T,
-    /// About what the residual is there.
+    /// Estimate of the residual there.
     size: T,
 }
 
-/// The cell of 2ⁿ, in parts of the interval, in which the straight line between its ends has its root; of
-/// fewer, if they are narrow enough. For n = 0 that root.
+/// Returns the cell, of 2ⁿ equal parts of the interval, that contains the root of the secant; fewer parts if
+/// they are narrow enough. For n = 0 returns that root.
 fn cell<T: Scalar>(lower: &End<T>, upper: &End<T>, digits: u64, enough: &T) -> [T; 2] {
     let rise = &upper.size - &lower.size;
-    let mut part = if rise.is_unit() { -&lower.size / rise } else { T::zero() };
+    let mut part = if rise.is_invertible() { -&lower.size / rise } else { T::zero() };
     let (mut left, mut width) = (lower.p.clone(), &upper.p - &lower.p);
     if digits == 0 {
         let root = left + width * part;
@@ -262,12 +263,12 @@ mod tests {
     use super::*;
     use crate::number::Ball;
 
-    /// p + p = 2/3: the root is a third, and no float.
+    /// p + p = 2/3: the root is 1/3, which is not a float.
     #[test]
     fn a_bound_is_the_same_from_wherever_it_is_looked_for() {
-        let two_thirds = Ball::exactly(2.0) / Ball::exactly(3.0);
-        let equation = Equation::new(Ball::exactly(1.0), two_thirds, |p: &Dual<Ball<f64>>| {
-            p * p / Dual::constant(Ball::exactly(2.0))
+        let two_thirds = Ball::point(2.0) / Ball::point(3.0);
+        let equation = Equation::new(Ball::point(1.0), two_thirds, |p: &Dual<Ball<f64>>| {
+            p * p / Dual::constant(Ball::point(2.0))
         });
         let from = |far: f64, first: u64| {
             let certain = |side| matches!(side, Side::Below(_) | Side::Above(_));

@@ -1,20 +1,21 @@
-//! What the solver asks of its numbers, beyond arithmetic: bounds and an exact sign.
+//! Requirements of the solver on numbers beyond arithmetic: bounds and an exact sign.
 
 use crate::number::{Ball, OrderedField, PositivePart, Real};
 use std::cmp::Ordering;
 
-/// Two numbers, and all between them.
+/// A closed interval.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Interval<T> {
-    /// The smaller one.
+    /// Lower bound.
     pub lower: T,
-    /// The larger one.
+    /// Upper bound.
     pub upper: T,
 }
 
 impl<T: PartialOrd> Interval<T> {
-    /// Is the number between the ends, or one of them? Decided by comparison, without rounding; never of
-    /// not-a-number.
+    /// Returns `true` if the interval contains the number. The comparison is exact; NaN is in no interval.
+    ///
+    /// # Examples
     ///
     /// ```
     /// # use spring_mass_contact::solver::Interval;
@@ -27,8 +28,10 @@ impl<T: PartialOrd> Interval<T> {
 }
 
 impl<T: Scalar> Interval<T> {
-    /// How far the upper end is from the lower one: exactly, if the scalar has that number, and otherwise no
-    /// less than that, by some roundings. Infinite if an end is or the distance overflows.
+    /// Returns the distance of the bounds: exact if the scalar can represent it, otherwise an upper bound,
+    /// larger by a few roundings. Infinite if a bound is infinite or the distance overflows.
+    ///
+    /// # Examples
     ///
     /// ```
     /// # use spring_mass_contact::solver::Interval;
@@ -46,17 +49,16 @@ impl<T: Scalar> Interval<T> {
     }
 }
 
-/// Numbers that [`solve`](super::solve) takes: f32, f64, [`Mpfr`](crate::number::Mpfr) and
-/// [`Exact`](crate::number::Exact), and your own.
+/// Numbers for [`solve`](super::solve): f32, f64, [`Mpfr`](crate::number::Mpfr),
+/// [`Exact`](crate::number::Exact) and user-defined types.
 ///
-/// Its bounds rest on what the methods promise. `laws::scalar`, which comes with the feature `mpfr`, tries
-/// these promises in your own tests.
+/// The bounds of the solver rest on the requirements of these methods. `laws::check_scalar_laws`, which
+/// requires the feature `mpfr`, checks them in your own tests.
 ///
 /// # Your own scalar
-///
-/// A number system by its [recipe](crate::number::field#your-own-number-system), an order, and what bounds
-/// are computed in. Here it is an f64 that counts what is done with it. It borrows the balls of f64, so
-/// that the methods pass on what those know:
+/// A scalar is a number system ([recipe](crate::number::field#your-own-number-system)) with an order and a
+/// type of enclosures. This example is an f64 that counts its operations. It uses the balls of f64, to which
+/// its methods delegate:
 ///
 /// ```
 /// use num_traits::{One, Zero};
@@ -121,38 +123,40 @@ impl<T: Scalar> Interval<T> {
 /// # Ok::<(), spring_mass_contact::solver::SolveError>(())
 /// ```
 pub trait Scalar: OrderedField {
-    /// What bounds are computed in: [`Ball`]s of a float, rationals themselves.
+    /// Type of enclosures: [`Ball`]s of a float, or rationals themselves.
     type Enclosure: PositivePart;
 
-    /// This number and no other. Its arithmetic, ⟨·⟩ and min must enclose the exact results.
+    /// Returns an enclosure of exactly this number. Arithmetic on enclosures, ⟨·⟩ and min must enclose the
+    /// exact results.
     fn enclose(&self) -> Self::Enclosure;
 
-    /// Two scalars with everything enclosed between them; infinite ones where nothing is known.
+    /// Returns an interval of scalars that contains the enclosure; infinite if nothing is known.
     fn interval(enclosure: &Self::Enclosure) -> Interval<Self>;
 
-    /// A scalar no less than the absolute value of anything enclosed.
+    /// Returns a scalar not less than the absolute value of any number in the enclosure.
     fn magnitude(enclosure: &Self::Enclosure) -> Self;
 
-    /// The sign of everything enclosed; `None` if not all of it has the same.
+    /// Returns the common sign of all numbers in the enclosure; `None` if they differ.
     fn sign(enclosure: &Self::Enclosure) -> Option<Ordering>;
 
-    /// Encloses xᵏ, by repeated squaring; `None` if it is too long to be written down. By default it never
-    /// is: where enclosures are rationals, pass on the power of [`Exact`](crate::number::Exact), which knows.
+    /// Encloses xᵏ by repeated squaring; `None` if the result would be too long. The default never returns
+    /// `None`: if enclosures are rationals, delegate to the power of [`Exact`](crate::number::Exact), which
+    /// does.
     fn power(x: &Self::Enclosure, k: u64) -> Option<Self::Enclosure> {
         Some(power(x, k))
     }
 
-    /// Neither infinite nor not-a-number.
+    /// Returns `true` if the number is neither infinite nor NaN.
     fn is_finite(&self) -> bool;
 
-    /// The binary digits of a number that arithmetic makes ever longer, as
-    /// [`Exact::digits`](crate::number::Exact::digits) counts them; 0, as by default, where all numbers have
-    /// the same length. An augmentation ends with an error before it takes for ever.
+    /// Returns the number of binary digits of a number whose length grows with arithmetic, counted as by
+    /// [`Exact::bit_length`](crate::number::Exact::bit_length). The default is 0, for numbers of constant
+    /// length. An augmentation ends with an error before it takes too long.
     fn growing_digits(&self) -> u64 {
         0
     }
 
-    /// The sign of a₁b₁ + a₂b₂ − a₃b₃, without any rounding. It takes longer than an enclosure's.
+    /// Returns the exact sign of a₁b₁ + a₂b₂ − a₃b₃. It is slower than the sign of an enclosure.
     fn sign_of_sum(plus: [(&Self, &Self); 2], minus: (&Self, &Self)) -> Ordering;
 }
 
@@ -167,7 +171,7 @@ pub(super) fn power<E: PositivePart>(x: &E, k: u64) -> E {
     power
 }
 
-/// More binary digits take a computer minutes and gigabytes.
+/// Limit of binary digits, beyond which a computation takes minutes and gigabytes.
 pub(super) const LONGEST: u64 = 10_000_000;
 
 macro_rules! by_ball {
@@ -176,7 +180,7 @@ macro_rules! by_ball {
             type Enclosure = Ball<$float>;
             #[inline]
             fn enclose(&self) -> Ball<$float> {
-                Ball::exactly(self.clone())
+                Ball::point(self.clone())
             }
             #[inline]
             fn interval(ball: &Ball<$float>) -> Interval<Self> {
@@ -226,13 +230,13 @@ fn sign_of_sum(plus: [(f64, f64); 2], (a, b): (f64, f64)) -> Ordering {
     sum.sign()
 }
 
-/// The weight of the accumulator's last bit is 2^−2148, the square of the smallest f64.
+/// Exponent of the last bit of the accumulator: 2^−2148 is the square of the smallest f64.
 const LAST_BIT: i32 = 2 * -1074;
-/// From 2^−2148 to beyond 2^2048, the square of the largest, with room for carries and a sign.
+/// Range from 2^−2148 to more than 2^2048, the square of the largest f64, with room for carries and a sign.
 const LIMBS: usize = 68;
 
-/// A sum of products of f64s without rounding: an integer so wide that every product fits, in two's
-/// complement, least limb first.
+/// Exact sum of products of f64s: an integer in two's complement, least limb first, that is wide enough for
+/// every product.
 struct Accumulator([u64; LIMBS]);
 
 impl Accumulator {
@@ -274,7 +278,7 @@ impl Accumulator {
     }
 }
 
-/// A finite |x| as an integer below 2^53 and the power of two it is to be multiplied by.
+/// Returns a finite |x| as an integer below 2^53 and the exponent of its power of two.
 fn decode(x: f64) -> (u64, i32) {
     let bits = x.to_bits();
     let (fraction, exponent) = (bits & ((1 << 52) - 1), ((bits >> 52) & 0x7ff) as i32);

@@ -1,4 +1,4 @@
-//! What is solved for, how, and what comes of it.
+//! Types of the solver: state, plane, method, outcome and solution.
 
 use super::{Interval, Scalar, SolveError, check};
 use crate::chapter::{SpringMass, system};
@@ -6,18 +6,18 @@ use crate::number::Field;
 use std::cmp::Ordering;
 use std::fmt;
 
-/// Whether the mass and the plane touch, decided exactly by the sign of R = m g − c (H − l).
+/// Contact state of mass and plane, decided exactly by the sign of R = m g − c (H − l).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum State {
-    /// R > 0: the plane pushes.
+    /// R > 0: the plane pushes (active contact).
     Contact,
-    /// R = 0: they touch without force, which (1.6) as printed leaves out (note 1).
+    /// R = 0: mass and plane touch without force, which (1.6) as printed omits (note 1).
     Grazing,
-    /// R < 0: the mass hangs free.
+    /// R < 0: the mass is separated from the plane.
     Separated,
 }
 
-/// As JSON and CSV have it.
+/// Writes the name used in JSON and CSV.
 impl fmt::Display for State {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.pad(match self {
@@ -29,13 +29,16 @@ impl fmt::Display for State {
 }
 
 impl State {
-    /// The state of a system, whatever rounding does.
+    /// Returns the exact state of a system, independent of rounding.
     ///
-    /// It is decided by the reaction and its error bound; where these leave it open, without any rounding.
+    /// The reaction and its error bound decide it; if they leave it undecided, it is computed without
+    /// rounding.
     ///
     /// # Errors
-    /// [`SolveError::Invalid`] for a parameter that is not finite or not in its range: without c > 0
-    /// nothing comes to rest, and R decides nothing.
+    /// Returns [`SolveError::Invalid`] if a parameter is not finite or out of its range: without c > 0 there
+    /// is no equilibrium.
+    ///
+    /// # Examples
     ///
     /// ```
     /// # use spring_mass_contact::{chapter::{SpringMass, system}, solver::State};
@@ -49,11 +52,11 @@ impl State {
     /// ```
     pub fn of<T: Scalar>(system: &SpringMass<T>) -> Result<State, SolveError> {
         check::system(system)?;
-        Ok(State::by(&system::reaction(&system.map(T::enclose)), system))
+        Ok(State::from_reaction(&system::reaction(&system.map(T::enclose)), system))
     }
 
-    /// The state of a system whose reaction is known to be in this enclosure.
-    pub(super) fn by<T: Scalar>(reaction: &T::Enclosure, system: &SpringMass<T>) -> State {
+    /// Returns the state of a system from an enclosure of its reaction.
+    pub(super) fn from_reaction<T: Scalar>(reaction: &T::Enclosure, system: &SpringMass<T>) -> State {
         let SpringMass { c, m, g, l, h } = system;
         let exactly = || T::sign_of_sum([(m, g), (c, l)], (c, h));
         match T::sign(reaction).unwrap_or_else(exactly) {
@@ -64,21 +67,21 @@ impl State {
     }
 }
 
-/// Which way the plane can act.
+/// Direction of the force that the plane can exert.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Plane {
-    /// It pushes and never pulls: what (1.6) asks for, and what a user needs.
+    /// Unilateral contact: the plane pushes and never pulls, as in (1.6).
     #[default]
     Unilateral,
-    /// It pushes and pulls, as the equations of the chapter read where they are printed (note 4).
+    /// Bilateral contact: the plane pushes and pulls, as in the printed equations of the chapter (note 4).
     Bilateral,
 }
 
-/// How to solve. All quantities in SI units.
+/// Method of solution, with all quantities in SI units.
 ///
-/// With the feature `serde` it is serialised under the keys of `contact solve --batch`: `method`, `penalty`,
-/// `tolerance`, `max_augmentations`, `initial_multiplier`, quantities as texts; and read back as a
-/// [`SpringMass`] is.
+/// The feature `serde` serialises it with the keys of `contact solve --batch`: `method`, `penalty`,
+/// `tolerance`, `max_augmentations`, `initial_multiplier`, with quantities as texts, and deserialises it like
+/// a [`SpringMass`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(
     feature = "serde",
@@ -87,31 +90,31 @@ pub enum Plane {
         tag = "method",
         rename_all = "snake_case",
         bound(
-            serialize = "T: crate::number::Text",
-            deserialize = "T: crate::number::Text + crate::number::Field"
+            serialize = "T: crate::number::ExactText",
+            deserialize = "T: crate::number::ExactText + crate::number::Field"
         )
     )
 )]
 pub enum Method<T> {
-    /// §1.3.1: exact.
+    /// Lagrange multiplier (§1.3.1): exact.
     Lagrange,
-    /// §1.3.2: with the penetration R/(c + ε).
+    /// Penalty (§1.3.2), with the penetration R/(c + ε).
     Penalty {
         /// ε > 0, in N/m.
         #[cfg_attr(feature = "serde", serde(with = "crate::number::lossless"))]
         penalty: T,
     },
-    /// §1.3.3: repeated until the tolerance is met.
+    /// Augmented Lagrangian (§1.3.3), iterated until the tolerance is met.
     Augmented {
         /// ε > 0, in N/m.
         #[cfg_attr(feature = "serde", serde(with = "crate::number::lossless"))]
         penalty: T,
-        /// tol > 0, in m: how far the deflection may be from the exact one.
+        /// Tolerance > 0, in m: the allowed error of the deflection.
         #[cfg_attr(feature = "serde", serde(with = "crate::number::lossless"))]
         tolerance: T,
-        /// The last k tried; 0 solves once.
+        /// Largest k; 0 solves once.
         max_augmentations: u64,
-        /// λ₀ in N: 0, or a guess (a warm start).
+        /// λ₀ in N: 0, or an estimate (warm start).
         #[cfg_attr(
             feature = "serde",
             serde(rename = "initial_multiplier", with = "crate::number::lossless")
@@ -120,18 +123,17 @@ pub enum Method<T> {
     },
 }
 
-/// The limit of augmentations where nobody names one: what [`Method::augmented`] and advice keep to, and
-/// the default of the command.
+/// Default limit of augmentations, used by [`Method::augmented`], by the advice and by the command.
 pub const MAX_AUGMENTATIONS: u64 = 1000;
 
 impl<T: Field> Method<T> {
-    /// By augmentation with the penalty ε > 0 in N/m, from λ₀ = 0, to a tolerance of 10⁻⁹ m, in
-    /// [`MAX_AUGMENTATIONS`] at most: the defaults of the command.
+    /// Returns the augmentation with the penalty ε > 0, in N/m, from λ₀ = 0, to a tolerance of 10⁻⁹ m in at
+    /// most [`MAX_AUGMENTATIONS`]: the defaults of the command.
     ///
-    /// A tolerance is a length, and only who knows the lengths of the system knows one that is small:
-    /// name it, by [`Method::Augmented`], or ask `advise`. Where rounding does not let this one be met, as
-    /// in f32 with lengths of some metres, the outcome is [`Outcome::Stagnated`], and [`Solution::floor`]
-    /// says what was reached. In numbers so coarse that it rounds to 0, `solve` refuses it.
+    /// The tolerance is a length that should be small relative to the lengths of the system: choose it with
+    /// [`Method::Augmented`] or with `advise`. If rounding prevents convergence to this tolerance, as in f32
+    /// with lengths of some metres, the outcome is [`Outcome::Stagnated`], and [`Solution::floor`] is the
+    /// accuracy attained. In numbers so coarse that it rounds to 0, `solve` refuses it.
     ///
     /// ```
     /// # use spring_mass_contact::{chapter::SpringMass, solver::{Method, Outcome, solve}};
@@ -146,7 +148,7 @@ impl<T: Field> Method<T> {
     pub fn augmented(penalty: T) -> Self {
         Method::Augmented {
             penalty,
-            // One rounding: 10⁹ is a float.
+            // One rounding, since 10⁹ is a float.
             tolerance: T::one() / T::int(1_000_000_000),
             max_augmentations: MAX_AUGMENTATIONS,
             start: T::zero(),
@@ -155,7 +157,7 @@ impl<T: Field> Method<T> {
 }
 
 impl<T> Method<T> {
-    /// ε, in N/m, where there is one.
+    /// Returns ε, in N/m, if the method has a penalty.
     pub fn penalty(&self) -> Option<&T> {
         match self {
             Method::Lagrange => None,
@@ -164,29 +166,28 @@ impl<T> Method<T> {
     }
 }
 
-/// How a solve ended. Only an iteration can end otherwise than [`Direct`](Outcome::Direct).
+/// Outcome of a solve. Only an iteration can end otherwise than [`Direct`](Outcome::Direct).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Outcome {
     /// There was nothing to iterate.
     Direct,
     /// The natural residual and a rigorous bound of |u − u*| are both below the tolerance.
     Converged,
-    /// Rounding stopped the iteration before: the multiplier repeats, or the penetration is zero or
-    /// changes sign. What more steps would gain is a matter of luck; [`Solution::floor`] says what was
-    /// reached.
+    /// Rounding stopped the iteration: the multiplier repeats, or the penetration is zero or changes sign.
+    /// Further steps could improve the result only by chance; [`Solution::floor`] is the accuracy attained.
     Stagnated,
-    /// The limit of augmentations came first.
-    OutOfSteps,
+    /// The limit of augmentations was reached.
+    IterationLimit,
 }
 
-/// As JSON and CSV have it.
+/// Writes the name used in JSON and CSV.
 impl fmt::Display for Outcome {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.pad(match self {
             Outcome::Direct => "direct",
             Outcome::Converged => "converged",
             Outcome::Stagnated => "stagnated",
-            Outcome::OutOfSteps => "out_of_steps",
+            Outcome::IterationLimit => "iteration_limit",
         })
     }
 }
@@ -194,29 +195,30 @@ impl fmt::Display for Outcome {
 #[cfg(feature = "serde")]
 crate::number::serialize_as_displayed!(State, Outcome);
 
-/// Rigorous enclosures of the exact answer, for the parameters as they are in their scalar.
+/// Rigorous enclosures of the exact solution, for the parameters as represented in their scalar.
 ///
-/// For Lagrange and penalty the method's own exact answer; for augmented the limit, whatever the outcome.
+/// For the Lagrange multiplier and the penalty it is the exact solution of the method; for the augmentation
+/// its limit, for every outcome.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound = "T: crate::number::Text"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound = "T: crate::number::ExactText"))]
 #[non_exhaustive]
 pub struct Bounds<T> {
-    /// Of the deflection, in m.
+    /// Enclosure of the deflection, in m.
     pub deflection: Interval<T>,
-    /// Of the penetration, in m.
+    /// Enclosure of the penetration, in m.
     pub penetration: Interval<T>,
-    /// Of the contact force, in N.
+    /// Enclosure of the contact force, in N.
     pub contact_force: Interval<T>,
 }
 
-/// What [`solve`](super::solve) finds.
+/// Result of [`solve`](super::solve).
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound = "T: crate::number::Text"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound = "T: crate::number::ExactText"))]
 #[non_exhaustive]
 pub struct Solution<T> {
-    /// Contact, grazing or separated.
+    /// State: contact, grazing or separated.
     pub state: State,
-    /// How the solve ended.
+    /// Outcome of the method.
     pub outcome: Outcome,
     /// u, in m.
     #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
@@ -224,19 +226,19 @@ pub struct Solution<T> {
     /// p = l + u − H of this deflection, in m.
     #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
     pub penetration: T,
-    /// N = m g − c u, in N; exactly 0 where the mass hangs free, and at grazing by Lagrange.
+    /// N = m g − c u, in N; exactly 0 if the mass is separated, and at grazing by Lagrange multiplier.
     #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
     pub contact_force: T,
-    /// λ (of this step: λ_k), in N; none by penalty.
+    /// Multiplier λ_k of the iterate, in N; `None` for the penalty method.
     #[cfg_attr(feature = "serde", serde(serialize_with = "crate::number::quantity::option"))]
     pub multiplier: Option<T>,
-    /// k, the number of augmentations of the iterate returned; none without iteration.
+    /// Number k of augmentations of the returned iterate; `None` without iteration.
     pub augmentations: Option<u64>,
-    /// The least bound of |u − u*| met, in m, if the iteration stagnated: of the last two deflections and,
-    /// if it began with λ₀ < 0, of the first. In between the error falls, as it is computed; so the bound of
-    /// no other deflection is less, or only by what bounds themselves are rounded by.
+    /// Smallest bound of |u − u*|, in m, that a stagnated iteration attained: over the last two deflections
+    /// and, if λ₀ < 0, the first. The computed error decreases in between, so the bound of no other
+    /// deflection is smaller, except by the rounding of the bounds themselves.
     #[cfg_attr(feature = "serde", serde(serialize_with = "crate::number::quantity::option"))]
     pub floor: Option<T>,
-    /// Where the exact answer lies.
+    /// Enclosures of the exact solution.
     pub bounds: Bounds<T>,
 }

@@ -1,20 +1,20 @@
-//! Numbers to try the claims on: drawn from a seed, then bent until the hypotheses hold.
+//! Sampling of cases: numbers are drawn from a seed, then adjusted until the hypotheses hold.
 //!
-//! A number is drawn as an integer mantissa and an integer exponent, so that a seed means the same on
+//! A number is drawn as an integer mantissa and an integer exponent, so that a seed has the same meaning on
 //! every machine.
 
-use crate::claims::{Case, Var, given};
+use crate::claims::{Case, Var, hypotheses};
 use crate::formula::{Hypothesis, Relation};
 use crate::number::{Exact, PositivePart};
 use num_traits::Zero;
 use oorandom::Rand64;
 
-/// How large the numbers of a case are, and what is special about them.
+/// Magnitudes and special properties of the numbers of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Profile {
     /// Integers from 1 to 9.
     Plain,
-    /// Some digits, some decades.
+    /// Few digits, few decades.
     Moderate,
     /// All the digits of an f32.
     Single,
@@ -30,7 +30,7 @@ enum Profile {
     Tiny,
     /// Subnormal parameters or products in f32.
     SubnormalSingle,
-    /// The same in f64, out of the range of f32.
+    /// Subnormal parameters or products in f64, out of the range of f32.
     SubnormalDouble,
 }
 
@@ -47,8 +47,8 @@ const PROFILES: &[Profile] = &[
     Profile::SubnormalDouble,
 ];
 
-/// What is subnormal in a case. The other quantities make up for it: no force, and no quotient of a force
-/// and a stiffness, vanishes by rounding, or [`solve`](crate::solver::solve) would refuse the case.
+/// Subnormal quantities of a case. The other quantities compensate for them: no force and no quotient of a
+/// force and a stiffness vanishes by rounding, since [`solve`](crate::solver::solve) would refuse the case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Small {
     /// c and ε.
@@ -59,7 +59,7 @@ enum Small {
     Gravity,
     /// l and H.
     Lengths,
-    /// m g and c Δ, of parameters that are not.
+    /// m g and c Δ, with normal parameters.
     Products,
 }
 
@@ -67,8 +67,8 @@ impl Small {
     const ALL: [Small; 5] =
         [Small::Stiffnesses, Small::Mass, Small::Gravity, Small::Lengths, Small::Products];
 
-    /// By how many powers of two a quantity is larger than one of moderate size, for f32 and for f64;
-    /// `None` if it is subnormal.
+    /// Returns the exponents of two by which a quantity exceeds one of moderate magnitude, for f32 and for
+    /// f64; `None` if it is subnormal.
     fn shift(self, var: Var) -> Option<[i32; 2]> {
         use Var::*;
         match (self, var) {
@@ -86,11 +86,11 @@ impl Small {
     }
 }
 
-/// The source of one case.
+/// Random source of one case.
 struct Draw {
     random: Rand64,
     profile: Profile,
-    /// For the subnormal profiles.
+    /// Subnormal quantities, for the subnormal profiles.
     small: Small,
 }
 
@@ -103,7 +103,7 @@ impl Draw {
         low + self.below((high - low + 1) as u64) as i32
     }
 
-    /// A positive number.
+    /// Draws a positive number.
     fn magnitude(&mut self, var: Var) -> Exact {
         let (bits, low, high) = match self.profile {
             Profile::Plain => return Exact::from(self.between(1, 9)),
@@ -119,11 +119,11 @@ impl Draw {
         Exact::from(rug::Rational::from(mantissa) << self.between(low, high))
     }
 
-    /// The ranges of mantissa and exponent in a subnormal case of floats of this precision, whose smallest
-    /// number is this power of two. What is subnormal is a multiple of four times it, so that a unit four
-    /// times as large (note 8) changes no digit.
+    /// Returns the ranges of mantissa and exponent in a subnormal case of floats of this precision, whose
+    /// smallest number is this power of two. Subnormal numbers are multiples of four times it, so that a four
+    /// times larger unit (note 8) changes no digit.
     fn subnormal(&self, var: Var, float: usize, smallest: i32, precision: i32) -> (u32, i32, i32) {
-        // Few digits, so that a product of two such numbers is small and yet no less than the smallest.
+        // Few digits, so that a product of two such numbers is small and not less than the smallest number.
         let digits = if self.small == Small::Products { 6 } else { 11 };
         match self.small.shift(var) {
             None => (11, smallest + 2, smallest + precision - 13),
@@ -131,7 +131,7 @@ impl Draw {
         }
     }
 
-    /// A number with no unit, of moderate size.
+    /// Draws a dimensionless number of moderate magnitude.
     fn pure(&mut self) -> Exact {
         Exact::from(self.between(1, 32)) / Exact::from(8)
     }
@@ -151,7 +151,7 @@ impl Draw {
         }
     }
 
-    /// A unit in the last place of c Δ, or nothing.
+    /// Returns one unit in the last place of c Δ, or 0.
     fn next_to_grazing(&mut self, case: &Case<Exact>) -> Exact {
         let ulp = |n: i32| {
             (&case.system.c * crate::chapter::system::gap(&case.system)).abs() * Exact::power_of_two(n)
@@ -175,13 +175,14 @@ impl Draw {
         }
         if self.profile == Profile::Grazing {
             let reaction = self.next_to_grazing(&case);
-            let _ = plant(&mut case, &given().grazing, &reaction);
+            let _ = solve_for(&mut case, &hypotheses().grazing, &reaction);
         }
         case
     }
 }
 
-/// Case number `index` of a seed, with the hypotheses; `None` if it cannot be bent to them.
+/// Returns case number `index` of a seed with the hypotheses satisfied; `None` if it cannot be adjusted to
+/// them.
 pub(super) fn case(seed: u64, index: u64, given: &[Hypothesis]) -> Option<Case<Exact>> {
     let profile = PROFILES[(index % PROFILES.len() as u64) as usize];
     let random = Rand64::new((u128::from(seed) << 64) | u128::from(index));
@@ -189,7 +190,7 @@ pub(super) fn case(seed: u64, index: u64, given: &[Hypothesis]) -> Option<Case<E
     let mut case = draw.raw();
     let mut bent = false;
     for hypothesis in given {
-        if hypothesis.holds(&|symbol| case.named(symbol)) {
+        if hypothesis.holds(&|symbol| case.get_by_symbol(symbol)) {
             continue;
         }
         let value = value(hypothesis, &case)?;
@@ -202,21 +203,21 @@ pub(super) fn case(seed: u64, index: u64, given: &[Hypothesis]) -> Option<Case<E
             },
             _ => value.abs(),
         };
-        plant(&mut case, hypothesis, &target)?;
+        solve_for(&mut case, hypothesis, &target)?;
         bent = true;
     }
-    // What is bent to one hypothesis may no longer satisfy another.
-    let holds = |hypothesis: &Hypothesis| hypothesis.holds(&|symbol| case.named(symbol));
+    // Adjusting a case to one hypothesis may violate another.
+    let holds = |hypothesis: &Hypothesis| hypothesis.holds(&|symbol| case.get_by_symbol(symbol));
     (!bent || given.iter().all(holds)).then_some(case)
 }
 
 fn value(hypothesis: &Hypothesis, case: &Case<Exact>) -> Option<Exact> {
-    hypothesis.value.replay(&|symbol| case.named(symbol), &|_| None)
+    hypothesis.value.eval(&|symbol| case.get_by_symbol(symbol), &|_| None)
 }
 
-/// Chooses the coordinate that a hypothesis is solved for so that its quantity has this value.
-fn plant(case: &mut Case<Exact>, hypothesis: &Hypothesis, target: &Exact) -> Option<()> {
-    let x = hypothesis.solution(&|symbol| case.named(symbol), target)?;
+/// Solves a hypothesis for its coordinate so that its quantity has this value.
+fn solve_for(case: &mut Case<Exact>, hypothesis: &Hypothesis, target: &Exact) -> Option<()> {
+    let x = hypothesis.solve(&|symbol| case.get_by_symbol(symbol), target)?;
     *case.get_mut(Var::named(hypothesis.solved_for)?) = x;
     Some(())
 }

@@ -1,39 +1,39 @@
-//! The claims of one number system on given cases.
+//! Checks of claims in one number system.
 
+use super::catch_panic::catch_panic;
 use super::experiments::{Experiment, Trial, exact_experiments, float_experiments};
-use super::goals::{Asked, Group, groups};
-use super::guard::guarded;
+use super::goals::{Group, Test, groups};
 use super::{Row, Status};
 use crate::claims::Case;
 use crate::formula::{Hypothesis, Statement};
-use crate::number::tree::{Step, everything, piecewise};
+use crate::number::tree::{Op, all_ops, piecewise_ops};
 use crate::number::{Ball, Exact, Exponential, Mpfr, NumberSystem, PositivePart, Real, ToExact};
 use crate::solver::Scalar;
 use num_traits::Zero;
 use std::borrow::Cow;
 use std::cmp::Ordering;
 
-/// What a claim is called and supposes, in whatever number system.
+/// Identification and hypotheses of a claim in any number system.
 #[derive(Clone)]
-pub(super) struct Head {
+pub(super) struct ClaimKey {
     pub(super) equation: &'static str,
     claim: &'static str,
     kind: &'static str,
     pub(super) given: Vec<Hypothesis>,
 }
 
-/// What came of a claim's trials.
+/// Results of the cases of a claim.
 #[derive(Default)]
 pub(super) struct Tally {
     decided: u64,
     undecided: u64,
     worst: Option<(f64, String)>,
-    /// The first case in which the claim does not hold, and what broke it off there.
+    /// First case in which the claim does not hold, with the reason if its evaluation failed.
     failure: Option<(Case<Exact>, Option<String>)>,
 }
 
 impl Tally {
-    /// Takes in another, whose cases come later.
+    /// Adds the tally of later cases.
     pub(super) fn add(&mut self, other: Tally) {
         self.decided += other.decided;
         self.undecided += other.undecided;
@@ -46,7 +46,7 @@ impl Tally {
     fn record(&mut self, case: &Case<Exact>, verdict: Verdict<'_>) {
         match verdict {
             Verdict::Undecided => self.undecided += 1,
-            Verdict::Broken(why) => {
+            Verdict::Failed(why) => {
                 self.decided += 1;
                 self.failure.get_or_insert_with(|| (case.clone(), Some(why)));
             }
@@ -64,7 +64,7 @@ impl Tally {
         }
     }
 
-    pub(super) fn into_row(self, head: Head, scalar: Option<NumberSystem>) -> Row {
+    pub(super) fn into_row(self, head: ClaimKey, scalar: Option<NumberSystem>) -> Row {
         let status = match (&self.failure, self.decided) {
             (Some(_), _) => Status::Failed,
             (None, 0) => Status::Undecided,
@@ -86,52 +86,52 @@ impl Tally {
     }
 }
 
-/// What one case says of a claim; the bound is formatted only if it is the worst so far.
+/// Result of a claim in one case; the bound is formatted only if it is the worst so far.
 enum Verdict<'a> {
     Undecided,
-    /// It does not hold, since it is not even defined or breaks off otherwise: why.
-    Broken(String),
+    /// The evaluation failed, for example because the claim is undefined; with the reason.
+    Failed(String),
     Decided {
         holds: bool,
         measured: Option<(f64, Box<dyn Fn() -> String + 'a>)>,
     },
 }
 
-/// A number system in which claims are checked.
-pub(super) trait Judge: Sync {
-    /// The numbers of the claims.
+/// Number system in which claims are checked.
+pub(super) trait NumberDomain: Sync {
+    /// Numbers of the claims.
     type Number: PositivePart;
-    /// The numbers of the experiments.
+    /// Numbers of the experiments.
     type Computed: Clone;
 
-    /// Has it exponentials?
+    /// Whether it has exponentials.
     const EXPONENTIALS: bool;
-    /// A quotient, eˣ, ⟨·⟩ or min; none where there is none.
-    fn step(step: Step<&Self::Number>) -> Option<Self::Number>;
+    /// Evaluates a quotient, eˣ, ⟨·⟩ or min; `None` if it is undefined.
+    fn step(step: Op<&Self::Number>) -> Option<Self::Number>;
     fn experiments(&self) -> Vec<Experiment<Self::Computed>>;
 
-    /// A case in these numbers; none if one of its coordinates is out of range.
+    /// Returns a case in these numbers; `None` if a coordinate is out of range.
     fn read<'a>(&self, case: &'a Case<Exact>) -> Option<Cow<'a, Case<Self::Number>>>;
-    /// The same as the experiments take it.
+    /// Returns the case in the numbers of the experiments.
     fn computed<'a>(&self, case: &'a Case<Self::Number>) -> Cow<'a, Case<Self::Computed>>;
 
-    /// left − right: does it contain 0, what share of its bound does it use up, and the bound.
+    /// Returns for left − right whether it may be 0, the ratio of error and bound, and the difference.
     fn difference(&self, left: &Self::Number, right: &Self::Number) -> Option<(bool, f64, Self::Number)>;
     fn bound(&self, difference: &Self::Number) -> String;
     fn sign(&self, x: &Self::Number) -> Option<Ordering>;
 }
 
-/// Rationals, by `==`.
-pub(super) struct Exactly;
+/// Rationals, compared by `==`.
+pub(super) struct RationalDomain;
 
-impl Judge for Exactly {
+impl NumberDomain for RationalDomain {
     type Number = Exact;
     type Computed = Exact;
     const EXPONENTIALS: bool = false;
-    fn step(step: Step<&Exact>) -> Option<Exact> {
+    fn step(step: Op<&Exact>) -> Option<Exact> {
         match step {
-            Step::Div(a, b) => (!b.is_zero()).then(|| a / b),
-            other => piecewise(other),
+            Op::Div(a, b) => (!b.is_zero()).then(|| a / b),
+            other => piecewise_ops(other),
         }
     }
     fn experiments(&self) -> Vec<Experiment<Exact>> {
@@ -154,28 +154,28 @@ impl Judge for Exactly {
     }
 }
 
-/// Floats, by balls; the number within says of which type and precision.
-pub(super) struct Floats<T>(pub(super) T);
+/// Floats, enclosed by balls; the field determines their type and precision.
+pub(super) struct FloatDomain<T>(pub(super) T);
 
-impl<T> Judge for Floats<T>
+impl<T> NumberDomain for FloatDomain<T>
 where
     T: Scalar + Real + Exponential + ToExact + std::fmt::Display + Sync,
 {
     type Number = Ball<T>;
     type Computed = T;
     const EXPONENTIALS: bool = true;
-    fn step(step: Step<&Ball<T>>) -> Option<Ball<T>> {
+    fn step(step: Op<&Ball<T>>) -> Option<Ball<T>> {
         match step {
-            // By a ball that contains 0 the quotient is any number.
-            Step::Div(a, b) => Some(a / b).filter(|quotient| !quotient.is_undefined()),
-            other => everything(other),
+            // The quotient by a ball that contains 0 is unbounded.
+            Op::Div(a, b) => Some(a / b).filter(|quotient| !quotient.is_undefined()),
+            other => all_ops(other),
         }
     }
     fn experiments(&self) -> Vec<Experiment<T>> {
         float_experiments()
     }
     fn read<'a>(&self, case: &'a Case<Exact>) -> Option<Cow<'a, Case<Ball<T>>>> {
-        Case::try_of(|var| Ball::around(&self.0, case.get(var))).ok().map(Cow::Owned)
+        Case::try_of(|var| Ball::enclosing(&self.0, case.get(var))).ok().map(Cow::Owned)
     }
     fn computed<'a>(&self, case: &'a Case<Ball<T>>) -> Cow<'a, Case<T>> {
         Cow::Owned(case.map(|_, ball| ball.value().clone()))
@@ -197,7 +197,7 @@ where
     }
 }
 
-/// What share of its bound an error uses up, for a report only.
+/// Returns the ratio of an error and its bound, for a report only.
 fn share<T: Scalar + ToExact>(error: &T, bound: &T) -> f64 {
     match (error.is_zero(), bound.is_zero()) {
         (true, _) => 0.0,
@@ -208,12 +208,12 @@ fn share<T: Scalar + ToExact>(error: &T, bound: &T) -> f64 {
     }
 }
 
-/// The claims and experiments of a number system, with the types hidden.
-pub(super) trait Checks: Sync {
-    /// All of them, in order.
-    fn heads(&self) -> Vec<Head>;
+/// Claims and experiments of a number system with its types erased.
+pub(super) trait ErasedChecker: Sync {
+    /// Returns all claims and experiments in order.
+    fn heads(&self) -> Vec<ClaimKey>;
 
-    /// Tries those with these hypotheses; each tally comes with its place among the heads.
+    /// Checks those with these hypotheses; each tally has the index of its claim.
     fn check(
         &self,
         given: &[Hypothesis],
@@ -222,16 +222,16 @@ pub(super) trait Checks: Sync {
     ) -> Vec<(usize, Tally)>;
 }
 
-pub(super) struct Checker<J: Judge> {
+pub(super) struct Checker<J: NumberDomain> {
     judge: J,
-    /// In the order of the heads.
+    /// In the order of the keys.
     claims: Vec<Statement>,
     groups: Vec<Group>,
     experiments: Vec<Experiment<J::Computed>>,
 }
 
-impl<J: Judge> Checker<J> {
-    /// For the claims that can be asked in these numbers.
+impl<J: NumberDomain> Checker<J> {
+    /// Returns a checker of the claims that can be evaluated in these numbers.
     pub(super) fn new<'a>(judge: J, claims: impl IntoIterator<Item = &'a Statement>) -> Self {
         let experiments = judge.experiments();
         Checker::with(judge, claims, experiments)
@@ -242,7 +242,7 @@ impl<J: Judge> Checker<J> {
         claims: impl IntoIterator<Item = &'a Statement>,
         experiments: Vec<Experiment<J::Computed>>,
     ) -> Self {
-        // What is rounded is a matter of experiments.
+        // Experiments check claims about rounding.
         let can_be_asked = |claim: &&Statement| {
             !claim.contains_rounding() && (J::EXPONENTIALS || !claim.contains_exponential())
         };
@@ -251,15 +251,15 @@ impl<J: Judge> Checker<J> {
     }
 }
 
-impl<J: Judge> Checks for Checker<J> {
-    fn heads(&self) -> Vec<Head> {
-        let claim = |c: &Statement| Head {
+impl<J: NumberDomain> ErasedChecker for Checker<J> {
+    fn heads(&self) -> Vec<ClaimKey> {
+        let claim = |c: &Statement| ClaimKey {
             equation: c.equation(),
             claim: c.name(),
             kind: c.kind(),
             given: c.stated_hypotheses().to_vec(),
         };
-        let experiment = |e: &Experiment<J::Computed>| Head {
+        let experiment = |e: &Experiment<J::Computed>| ClaimKey {
             equation: e.equation,
             claim: e.name,
             kind: "experiment",
@@ -293,7 +293,7 @@ impl<J: Judge> Checks for Checker<J> {
             };
             let (of_claims, of_experiments) = tallies.split_at_mut(claims.len());
             if let Some(group) = group.filter(|_| !claims.is_empty()) {
-                let values = group.program.run(&|name| read.named(name), &J::step);
+                let values = group.program.run(&|name| read.get_by_symbol(name), &J::step);
                 for ((_, asked), (_, tally)) in claims.iter().zip(of_claims) {
                     tally.record(exact, self.verdict(asked, &values));
                 }
@@ -303,18 +303,18 @@ impl<J: Judge> Checks for Checker<J> {
             }
             let computed = self.judge.computed(&read);
             for ((_, experiment), (_, tally)) in experiments.iter().zip(of_experiments) {
-                let verdict = guarded(|| of_trial((experiment.check)(&computed)));
-                tally.record(exact, verdict.unwrap_or_else(Verdict::Broken));
+                let verdict = catch_panic(|| of_trial((experiment.check)(&computed)));
+                tally.record(exact, verdict.unwrap_or_else(Verdict::Failed));
             }
         }
         tallies
     }
 }
 
-impl<J: Judge> Checker<J> {
-    /// All that is asked together: what fails decides, else what is open leaves the case open. So does asking
-    /// nothing, as of a derivative that does not exist.
-    fn verdict<'a>(&'a self, asked: &[Asked], values: &[Option<J::Number>]) -> Verdict<'a>
+impl<J: NumberDomain> Checker<J> {
+    /// Combines all tests of a claim: a failure decides, otherwise an undecided test leaves the case
+    /// undecided. So does a claim without tests, for example about a derivative that does not exist.
+    fn verdict<'a>(&'a self, asked: &[Test], values: &[Option<J::Number>]) -> Verdict<'a>
     where
         J::Number: 'a,
     {
@@ -322,7 +322,7 @@ impl<J: Judge> Checker<J> {
         let mut worst: Option<(f64, J::Number)> = None;
         for asked in asked {
             let answer = match asked {
-                Asked::Equal(left, right) => {
+                Test::Equal(left, right) => {
                     values[*left].as_ref().zip(values[*right].as_ref()).map(|(left, right)| {
                         let (equal, ratio, difference) = self.judge.difference(left, right)?;
                         if worst.as_ref().is_none_or(|(r, _)| ratio > *r) {
@@ -331,12 +331,12 @@ impl<J: Judge> Checker<J> {
                         Some(equal)
                     })
                 }
-                Asked::Sign(relation, x) => {
+                Test::Sign(relation, x) => {
                     values[*x].as_ref().map(|x| self.judge.sign(x).map(|sign| relation.admits(sign)))
                 }
             };
             match answer {
-                None => return Verdict::Broken("division by zero".to_string()),
+                None => return Verdict::Failed("division by zero".to_string()),
                 Some(None) => open = true,
                 Some(Some(answer)) => holds &= answer,
             }

@@ -1,53 +1,53 @@
-//! What only computed numbers have: rounding floors, stagnation, promises of the solver, counts.
+//! Experiments on computed numbers: rounding floors, stagnation, guarantees of the solver, counts.
 //!
-//! The bounds are those of the chapter on floating point in the book, where they are derived. "True"
-//! always means: of the parameters as they are in their scalar.
+//! The book's chapter on floating point derives their bounds. "Exact" always refers to the parameters as
+//! represented in their scalar.
 
 mod laws;
 #[cfg(test)]
 mod tests;
 
 use crate::chapter::{SpringMass, augmented, contact, penalty, structure, system};
-use crate::claims::{Case, Var, given};
+use crate::claims::{Case, Var, hypotheses};
 use crate::formula::Hypothesis;
 use crate::number::{Exact, PositivePart, Real, ToExact};
 use crate::solver::{
     Augmentation, Interval, Iterate, Method, Outcome, Plane, Scalar, Solution, SolveError, State,
-    augmentations_needed, series_penetration, solve, solve_bilateral,
+    exact_augmentation_count, series_penetration, solve, solve_bilateral,
 };
 use num_traits::{One, Zero};
 use std::cmp::Ordering;
 use std::iter::successors;
 use std::sync::Arc;
 
-/// How one trial of an experiment went.
+/// Result of one trial of an experiment.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Trial {
-    /// An error and the bound it must not exceed.
+    /// An error and its bound.
     Within {
         /// The error.
         error: Exact,
         /// Its bound.
         bound: Exact,
     },
-    /// Right or wrong.
+    /// The property holds or not.
     Decided(bool),
-    /// Nothing can be said: the statement's conditions are not met, or the scalar's range is left.
+    /// Undecided: a condition is not met, or a number is out of range.
     Undecided,
 }
 
-/// One trial.
+/// Function of one trial.
 pub type Check<T> = Arc<dyn Fn(&Case<T>) -> Trial + Send + Sync>;
 
-/// A claim about what is *computed* in one number system.
+/// A claim about *computed* results in one number system.
 pub struct Experiment<T> {
-    /// The entry it belongs to.
+    /// Its entry.
     pub equation: &'static str,
     /// Its name, unique within the equation.
     pub name: &'static str,
-    /// What it supposes.
+    /// Its hypotheses.
     pub given: Vec<Hypothesis>,
-    /// One trial.
+    /// Its trial.
     pub check: Check<T>,
 }
 
@@ -60,19 +60,20 @@ macro_rules! list {
         vec![$(Experiment {
             equation: $equation,
             name: $name,
-            given: vec![$(given().$given.clone()),*],
+            given: vec![$(hypotheses().$given.clone()),*],
             check: check($check),
         }),*]
     };
 }
 
-/// As many steps as an experiment follows.
+/// Number of steps that an experiment follows.
 const STEPS: usize = 24;
 
-/// And as many to a fixed point.
+/// Largest number of steps to a fixed point.
 const MOST_STEPS: usize = 1000;
 
-/// Claims about floats: those that are proved for every precision, then those that are only tried.
+/// Returns the experiments on floats: claims proved for every precision, then properties that are only
+/// tested.
 pub fn float_experiments<T: Scalar + Real + ToExact>() -> Vec<Experiment<T>> {
     let tried = list! {
         "1.6" "exact-state" [stiffness grazing] |x| state(x, State::of);
@@ -86,7 +87,7 @@ pub fn float_experiments<T: Scalar + Real + ToExact>() -> Vec<Experiment<T>> {
     laws::laws().into_iter().chain(tried).collect()
 }
 
-/// Claims about what is computed without rounding.
+/// Returns the experiments on exact results.
 pub fn exact_experiments() -> Vec<Experiment<Exact>> {
     list! {
         "1.33" "steps" [stiffness penalty tolerance]
@@ -95,21 +96,21 @@ pub fn exact_experiments() -> Vec<Experiment<Exact>> {
             |x| count(x, Plane::Bilateral, exact_steps(x, &x.lambda, Plane::Bilateral));
         "1.33" "tie-goes-on" [stiffness penalty tolerance]
             |x| tie(x, exact_steps(x, &start_of_tie(x), Plane::Bilateral));
-        "note 4" "closed-form" [stiffness penalty touching]
+        "note 4" "closed-form" [stiffness penalty in_contact]
             |x| unilateral_closed_form(x, exact_steps(x, &x.lambda, Plane::Unilateral));
         "note 4" "release" [stiffness penalty separated]
             |x| release(x, exact_steps(x, &x.lambda, Plane::Unilateral));
     }
 }
 
-// What is tried is handed to each experiment, so that tests can hand it something wrong.
+// Solver of a system by a method; an argument of the experiments, so that tests can pass a wrong one.
 
-/// What solves a system by a method.
+/// Solver of a system by a method.
 trait Solver<T>: Fn(&SpringMass<T>, &Method<T>) -> Result<Solution<T>, SolveError> {}
 
 impl<T, F: Fn(&SpringMass<T>, &Method<T>) -> Result<Solution<T>, SolveError>> Solver<T> for F {}
 
-/// Powers of two for the units of length, of mass and of force. Any would do.
+/// Arbitrary powers of two for the units of length, mass and force.
 const UNITS: [i32; 3] = [3, -2, 5];
 
 fn power_of_two<T: Scalar>(n: i32) -> T {
@@ -120,7 +121,7 @@ fn exact<T: ToExact>(x: &T) -> Option<Exact> {
     x.to_exact().ok()
 }
 
-/// The state is that of the exact sign of R, next to grazing too.
+/// The state agrees with the exact sign of R, also near grazing.
 fn state<T: Scalar + ToExact>(
     x: &Case<T>,
     of: impl Fn(&SpringMass<T>) -> Result<State, SolveError>,
@@ -139,11 +140,11 @@ fn encloses<T: ToExact>(interval: &Interval<T>, x: &Exact) -> bool {
     end(&interval.lower).is_ok_and(|y| y <= *x) && end(&interval.upper).is_ok_and(|y| *x <= y)
 }
 
-/// The exact deflection and contact force of a method over a plane that never pulls.
+/// Returns the exact deflection and contact force of a method with unilateral contact.
 fn answer(system: &SpringMass<Exact>, penalty: Option<&Exact>) -> (Exact, Exact) {
     let touches = system::reaction(system) > Exact::zero();
     match penalty.filter(|_| touches) {
-        Some(eps) => (penalty::deflection(system, eps), penalty::force_at_root(system, eps)),
+        Some(eps) => (penalty::deflection(system, eps), penalty::contact_force_at_equilibrium(system, eps)),
         None => (contact::deflection(system), contact::contact_force(system)),
     }
 }
@@ -159,7 +160,7 @@ fn contains_answer<T: Scalar + ToExact>(
         && encloses(&solution.bounds.contact_force, &force)
 }
 
-/// The bounds of a direct method contain its exact answer, and so does the interval around the result.
+/// The bounds of a direct method contain its exact solution, and so does the interval around the result.
 fn bounds<T: Scalar + ToExact>(x: &Case<T>, method: &Method<T>, solve: impl Solver<T>) -> Trial {
     let (Ok(system), Ok(solution)) = (x.system.try_map(|y| y.to_exact()), solve(&x.system, method)) else {
         return Trial::Undecided;
@@ -171,7 +172,7 @@ fn bounds<T: Scalar + ToExact>(x: &Case<T>, method: &Method<T>, solve: impl Solv
     Trial::Decided(contains_answer(&solution, &system, eps.as_ref()))
 }
 
-/// The exact residual of (1.10) changes sign between the root's two neighbours.
+/// The exact residual of (1.10) changes sign between the two neighbours of the root.
 fn series_root<T: Scalar + Real + ToExact>(
     x: &Case<T>,
     root: impl Fn(&SpringMass<T>, &T, &[T]) -> Result<T, SolveError>,
@@ -195,14 +196,14 @@ fn series_root<T: Scalar + Real + ToExact>(
     }
 }
 
-/// (1.16) with what a case has for it, for [`STEPS`] steps.
+/// Returns (1.16) with the numbers of a case, for [`STEPS`] steps.
 fn by_augmentation<T: Clone>(x: &Case<T>) -> Method<T> {
     let (penalty, tolerance, start) = (x.eps.clone(), x.tol.clone(), x.lambda.clone());
     Method::Augmented { penalty, tolerance, max_augmentations: STEPS as u64, start }
 }
 
-/// `converged` means that |û − u*| is below the tolerance, exactly; the floor is no less than the error of
-/// some step; the bounds contain the limit, whatever the outcome; the plane never pulls.
+/// `converged` implies that |û − u*| is below the tolerance, exactly; the floor is at least the error of some
+/// step; the bounds contain the limit for every outcome; the plane never pulls.
 fn promise<T: Scalar + Real + ToExact>(x: &Case<T>, solve: impl Solver<T>) -> Trial {
     let (Ok(system), Ok(solution)) =
         (x.system.try_map(|y| y.to_exact()), solve(&x.system, &by_augmentation(x)))
@@ -222,14 +223,14 @@ fn promise<T: Scalar + Real + ToExact>(x: &Case<T>, solve: impl Solver<T>) -> Tr
     let kept = match solution.outcome {
         Outcome::Converged => error(u) < tolerance,
         Outcome::Stagnated => solution.floor.as_ref().and_then(exact).is_some_and(is_met),
-        Outcome::OutOfSteps => solution.augmentations == Some(STEPS as u64),
+        Outcome::IterationLimit => solution.augmentations == Some(STEPS as u64),
         Outcome::Direct => false,
     };
     let pushes = solution.contact_force >= T::zero();
     Trial::Decided(kept && pushes && contains_answer(&solution, &system, None))
 }
 
-/// Other units, if they are powers of two, change no digit.
+/// A change of units by powers of two changes no digit.
 fn units<T: Scalar + Real + ToExact>(x: &Case<T>, solve: impl Solver<T>) -> Trial {
     let [length, mass, force] = UNITS;
     let scale = |y: &T, n: i32| y.clone() * power_of_two::<T>(n);
@@ -242,7 +243,7 @@ fn units<T: Scalar + Real + ToExact>(x: &Case<T>, solve: impl Solver<T>) -> Tria
         _ => 0,
     };
     let scaled = x.map(|var, y| scale(y, unit(var)));
-    // Subnormal numbers lose digits where they are scaled.
+    // Subnormal numbers lose digits when they are scaled.
     let comes_back = scaled.map(|var, y| scale(y, -unit(var))) == *x;
     if !laws::in_range(x) || !laws::in_range(&scaled) || !comes_back {
         return Trial::Undecided;
@@ -260,29 +261,29 @@ fn units<T: Scalar + Real + ToExact>(x: &Case<T>, solve: impl Solver<T>) -> Tria
     }
 }
 
-/// (1.16) in rationals, for no more than [`STEPS`] steps, and for no more digits than right formulas come
-/// to: wrong ones can double them from step to step.
+/// Returns (1.16) in rationals, for at most [`STEPS`] steps, and with at most as many digits as right
+/// formulas need: wrong ones can double them in each step.
 ///
-/// The closed forms of λ_k and u_k are quotients, of degree k + 1 at most in c and ε, and of degree 1 in
-/// everything else. So with the digits s of all that is given, numerators and denominators counted, both
-/// parts of each fraction are products of 2 (k + 1) s digits at most; two of them are 8 (k + 1) s. What is
-/// left over are carries.
+/// The closed forms of λ_k and u_k are quotients of degree at most k + 1 in c and ε, and of degree 1 in all
+/// other quantities. For s digits of all given numbers, numerators and denominators together, both parts of
+/// each fraction are products of at most 2 (k + 1) s digits; two of them have 8 (k + 1) s. The rest is a
+/// margin for carries.
 fn exact_steps<'a>(
     x: &'a Case<Exact>,
     start: &Exact,
     plane: Plane,
 ) -> impl Iterator<Item = Iterate<Exact>> + use<'a> {
     let SpringMass { c, m, g, l, h } = &x.system;
-    let given: u64 = [c, m, g, l, h, &x.eps, start].into_iter().map(Exact::digits).sum();
+    let given: u64 = [c, m, g, l, h, &x.eps, start].into_iter().map(Exact::bit_length).sum();
     let steps = Augmentation::new(&x.system, &x.eps).with_multiplier(start.clone()).over(plane).take(STEPS);
     steps.take_while(move |step| {
-        step.multiplier.digits() + step.deflection.digits() <= 8 * (step.k + 2) * given
+        step.multiplier.bit_length() + step.deflection.bit_length() <= 8 * (step.k + 2) * given
     })
 }
 
-/// The iteration's count is the one that (1.33) solved for k gives.
+/// The count of the iteration is that of (1.33) solved for k.
 fn count(x: &Case<Exact>, plane: Plane, mut steps: impl Iterator<Item = Iterate<Exact>>) -> Trial {
-    let k = augmentations_needed(&x.system, &x.eps, &x.tol, &x.lambda, plane);
+    let k = exact_augmentation_count(&x.system, &x.eps, &x.tol, &x.lambda, plane);
     let Some(k) = k.ok().and_then(|k| k.to_usize()).filter(|k| *k < STEPS) else { return Trial::Undecided };
     let residual = |step: &Iterate<Exact>| match plane {
         Plane::Unilateral => {
@@ -294,20 +295,20 @@ fn count(x: &Case<Exact>, plane: Plane, mut steps: impl Iterator<Item = Iterate<
     Trial::Decided(found == Some(k))
 }
 
-/// From here p₂ *is* the tolerance.
+/// Returns the λ₀ for which p₂ *is* the tolerance.
 fn start_of_tie(x: &Case<Exact>) -> Exact {
     let ratio = augmented::contraction(&x.system, &x.eps);
     let missing = penalty::total_stiffness(&x.system, &x.eps) * &x.tol / (&ratio * &ratio);
     system::reaction(&x.system) - missing
 }
 
-/// Where some |p_k| *is* the tolerance, the iteration goes on: its count is k + 1.
+/// If some |p_k| *is* the tolerance, the iteration continues: its count is k + 1.
 fn tie(x: &Case<Exact>, mut steps: impl Iterator<Item = Iterate<Exact>>) -> Trial {
     let found = steps.position(|step| augmented::within_tolerance(&step.penetration, &x.tol));
     Trial::Decided(found == Some(3))
 }
 
-/// For R ≥ 0 and any start, λ_k = R + ρ^{k−1} (λ₁ − R) for k ≥ 1.
+/// For R ≥ 0 and every start, λ_k = R + ρ^{k−1} (λ₁ − R) for k ≥ 1.
 fn unilateral_closed_form(x: &Case<Exact>, steps: impl Iterator<Item = Iterate<Exact>>) -> Trial {
     let steps: Vec<_> = steps.skip(1).take(6).collect();
     let [first, later @ ..] = steps.as_slice() else { return Trial::Decided(false) };
@@ -320,7 +321,7 @@ fn unilateral_closed_form(x: &Case<Exact>, steps: impl Iterator<Item = Iterate<E
     Trial::Decided(holds && later.len() == 5)
 }
 
-/// For R < 0 the multiplier first vanishes at K, and the mass hangs free from step max(K − 1, 0) on.
+/// For R < 0 the multiplier first vanishes at K, and the mass is separated from step max(K − 1, 0) on.
 fn release(x: &Case<Exact>, steps: impl Iterator<Item = Iterate<Exact>>) -> Trial {
     let steps: Vec<_> = steps.collect();
     if steps.len() < STEPS {
@@ -329,7 +330,7 @@ fn release(x: &Case<Exact>, steps: impl Iterator<Item = Iterate<Exact>>) -> Tria
     let Some(first) = steps.iter().position(|step| step.multiplier.is_zero()) else {
         return Trial::Undecided;
     };
-    // K: 1 from below, else the least for which the closed form is no push any more.
+    // K is 1 for a negative start, otherwise the smallest k for which the closed form is not positive.
     let ratio = augmented::contraction(&x.system, &x.eps);
     let mut decays = successors(Some(Exact::one()), |decay| Some(decay * &ratio)).take(STEPS);
     let pulls = |decay| augmented::multiplier_after(&x.system, &x.lambda, &decay) <= Exact::zero();

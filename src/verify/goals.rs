@@ -1,30 +1,30 @@
-//! What a claim comes to in numbers, compiled.
+//! Compiled claims for checks in number systems.
 
 use crate::formula::claim::{MEMBERS, POWER};
 use crate::formula::statement::Sequence;
 use crate::formula::{Hypothesis, Proposition, Relation, Statement};
-use crate::number::tree::smooth;
+use crate::number::tree::smooth_ops;
 use crate::number::{PositivePart, Program, Tree};
 use num_traits::One;
 
-/// What is asked of the values of a [`Program`].
+/// Test of the values of a [`Program`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Asked {
-    /// Are these equal?
+pub(super) enum Test {
+    /// Two values are equal.
     Equal(usize, usize),
-    /// Has this the sign?
+    /// A value has a sign.
     Sign(Relation, usize),
 }
 
-/// The claims with the same hypotheses, which are tried on the same cases.
+/// Claims with the same hypotheses, which are checked on the same cases.
 pub(super) struct Group {
     pub(super) given: Vec<Hypothesis>,
     pub(super) program: Program,
-    /// Each with its place among all claims, and what is asked.
-    pub(super) claims: Vec<(usize, Vec<Asked>)>,
+    /// Each claim with its index and its tests.
+    pub(super) claims: Vec<(usize, Vec<Test>)>,
 }
 
-/// All claims, by their hypotheses.
+/// Groups claims by their hypotheses.
 pub(super) fn groups(claims: &[Statement]) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     for (place, claim) in claims.iter().enumerate() {
@@ -38,43 +38,43 @@ pub(super) fn groups(claims: &[Statement]) -> Vec<Group> {
                 groups.len() - 1
             });
         let group = &mut groups[i];
-        let asked = says(claim).iter().filter_map(|says| asked(says, &mut group.program)).collect();
+        let asked = propositions(claim).iter().filter_map(|says| asked(says, &mut group.program)).collect();
         group.claims.push((place, asked));
     }
     groups
 }
 
-fn asked(says: &Proposition, program: &mut Program) -> Option<Asked> {
-    let mut equal = |left: &Tree, right: &Tree| Asked::Equal(program.add(left), program.add(right));
+fn asked(says: &Proposition, program: &mut Program) -> Option<Test> {
+    let mut equal = |left: &Tree, right: &Tree| Test::Equal(program.add(left), program.add(right));
     match says {
         Proposition::Equal(left, right) => Some(equal(left, right)),
         Proposition::Derivative(of, by, is) => {
-            let dual = of.derivative(by, &|name| Tree::symbol(name), &smooth);
+            let dual = of.derivative(by, &|name| Tree::symbol(name), &smooth_ops);
             dual.map(|dual| equal(&dual.derivative, is))
         }
-        Proposition::Sign(relation, of) => Some(Asked::Sign(*relation, program.add(of))),
+        Proposition::Sign(relation, of) => Some(Test::Sign(*relation, program.add(of))),
         Proposition::Within(of, bound) => {
-            Some(Asked::Sign(Relation::NonNegative, program.add(&(bound - of.abs()))))
+            Some(Test::Sign(Relation::NonNegative, program.add(&(bound - of.abs()))))
         }
-        // By how fast it is reached, which is said beside it.
+        // The rate of the limit is checked instead.
         Proposition::Limit(..) => None,
     }
 }
 
-/// A recursion is followed for this many steps; its closed form is also tried at any q.
+/// Number of steps for which a recursion is followed; its closed form is also checked for arbitrary q.
 const STEPS: usize = 3;
 
-/// All that a claim says: what is to be proved, and of a recursion its first members.
-fn says(claim: &Statement) -> Vec<Proposition> {
+/// Returns all propositions of a claim: its goals, and for a recursion its first members.
+fn propositions(claim: &Statement) -> Vec<Proposition> {
     let mut all: Vec<_> = claim.goals().iter().map(|goal| goal.proposition.clone()).collect();
     let closed_form = claim.conclusion().filter(|sequence| !sequence.is_perturbed());
     if let Some(Sequence { ratio, start, step, member, .. }) = closed_form {
         let (mut x, mut power) = (start.clone(), Tree::one());
         for _ in 0..STEPS {
             let members: Vec<_> = MEMBERS.into_iter().zip(x).collect();
-            x = step.iter().map(|step| step.with(&members)).collect();
+            x = step.iter().map(|step| step.substitute(&members)).collect();
             power = power * ratio;
-            let closed = member.iter().map(|closed| closed.with(&[(POWER, power.clone())]));
+            let closed = member.iter().map(|closed| closed.substitute(&[(POWER, power.clone())]));
             all.extend(x.iter().cloned().zip(closed).map(|(x, closed)| Proposition::Equal(x, closed)));
         }
     }
@@ -84,11 +84,11 @@ fn says(claim: &Statement) -> Vec<Proposition> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::claims::{Case, given};
+    use crate::claims::{Case, hypotheses};
     use crate::formula::Rate;
-    use crate::formula::claim::{derivative, equal, induction, limit, non_negative, vanishing, within};
+    use crate::formula::claim::{derivative, equal, geometric_limit, induction, limit, non_negative, within};
     use crate::number::{Exact, Field};
-    use crate::verify::checker::{Exactly, Judge};
+    use crate::verify::checker::{NumberDomain, RationalDomain};
     use num_traits::Zero;
 
     fn x(name: &'static str) -> Tree {
@@ -99,17 +99,17 @@ mod tests {
         Tree::int(n)
     }
 
-    /// Does such a claim hold where every coordinate is 2 but q?
+    /// Returns `true` if such a claim holds where every coordinate except q is 2.
     fn holds_at(q: i32, claim: Statement) -> bool {
         let groups = groups(&[claim]);
         let [Group { program, claims, .. }] = groups.as_slice() else { panic!("one group") };
         let case = Case { q: Exact::int(q), ..Case::of(|_| Exact::int(2)) };
-        let values = program.run(&|name| case.named(name), &Exactly::step);
+        let values = program.run(&|name| case.get_by_symbol(name), &RationalDomain::step);
         let value = |place: &usize| values[*place].clone().expect("defined");
         let [(0, asked)] = claims.as_slice() else { panic!("one claim") };
         asked.iter().all(|asked| match asked {
-            Asked::Equal(left, right) => value(left) == value(right),
-            Asked::Sign(relation, x) => relation.admits(value(x).cmp(&Exact::zero())),
+            Test::Equal(left, right) => value(left) == value(right),
+            Test::Sign(relation, x) => relation.admits(value(x).cmp(&Exact::zero())),
         })
     }
 
@@ -122,7 +122,7 @@ mod tests {
         let square = || x("u") * x("u");
         let sum = equal("sum", square() + square(), int(2) * square());
         let sign = non_negative("sign", square());
-        let other = sign.clone().assuming([&given().stiffness]);
+        let other = sign.clone().assuming([&hypotheses().stiffness]);
         let groups = groups(&[sum, other, sign]);
         let of = |group: &Group| group.claims.iter().map(|(place, _)| *place).collect::<Vec<_>>();
         assert_eq!(groups.iter().map(of).collect::<Vec<_>>(), [vec![0, 2], vec![1]]);
@@ -150,14 +150,14 @@ mod tests {
             assert!(limit(of.clone(), Rate::Within(int(3))) && !limit(of.clone(), Rate::Within(int(2))));
             assert!(!limit(of, Rate::Within(int(-3))), "no bound is negative");
         }
-        assert!(limit(x("u") + int(3), Rate::Exactly(int(3))));
-        assert!(!limit(x("u") - int(3), Rate::Exactly(int(3))));
+        assert!(limit(x("u") + int(3), Rate::Equal(int(3))));
+        assert!(!limit(x("u") - int(3), Rate::Equal(int(3))));
     }
 
     #[test]
     fn a_power_vanishes_only_of_what_is_less_than_1_in_size() {
         let vanishing =
-            |ratio: Tree, to: Tree| holds(vanishing("limit", ratio, x("u") + x("v") * x("q"), to));
+            |ratio: Tree, to: Tree| holds(geometric_limit("limit", ratio, x("u") + x("v") * x("q"), to));
         for half in [int(1) / int(2), int(-1) / int(2)] {
             assert!(vanishing(half, x("u")));
         }
@@ -180,8 +180,8 @@ mod tests {
         assert!(!holds(induction(3, 0, closed())));
         assert!(!holds(induction(3, 1, int(2) * x("q") + int(2))));
         assert!(!holds(induction(3, 1, x("q") + int(2))), "right at the start, and then a step late");
-        // Right from 3 on as far as it is followed, and wrong for a power that no step meets: 3, 5, 9, 17,
-        // and so on.
+        // Right from 3 for all steps followed, and wrong for a power that no step meets: 3, 5, 9, 17, and so
+        // on.
         let off = [1, 2, 4, 8].into_iter().fold(int(1), |off, n| off * (x("q") - int(n)));
         let followed = || induction(3, 1, closed() + &off);
         assert!(holds_at(2, followed()) && !holds_at(3, followed()));

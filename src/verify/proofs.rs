@@ -1,145 +1,150 @@
-//! The proofs of all claims, with the controls that show they could have failed.
+//! Proofs of all claims, with mutations and dropped hypotheses that show that they could fail.
 
 #[cfg(feature = "serde")]
 mod json;
 
-use crate::claims::{place, registry, statements};
+use crate::claims::{index_of, registry, statements};
 use crate::formula::statement::minimum_precision;
 use crate::formula::{Hypothesis, Statement};
-use crate::proof::controls::{self, Change, Controls, Dropped, Effect, controls, repairs};
-use crate::proof::paper::Paper;
+use crate::proof::mutation::{
+    self, DroppedHypothesis, Mutant, MutationOutcome, MutationReport, find_repairs, test_mutations,
+};
+use crate::proof::render::ProofPrinter;
 use crate::proof::{Counterexample, Proof, prove, refute};
-use crate::verify::guard::guarded;
+use crate::verify::catch_panic::catch_panic;
 use rayon::prelude::*;
 use std::time::{Duration, Instant};
 
-/// A claim and what came of it.
+/// A claim with its proof or refutation.
 #[derive(Clone, Debug)]
-pub struct Proved {
-    /// What was to be proved.
+pub struct ProofAttempt {
+    /// The claim.
     pub statement: Statement,
-    /// The proof, if there is one.
-    pub answer: Answer,
-    /// How long it took.
+    /// The outcome.
+    pub answer: ProofOutcome,
+    /// Time of the attempt.
     pub time: Duration,
 }
 
-/// A proof, or none.
+/// Outcome of proving a claim.
 #[derive(Clone, Debug)]
-pub enum Answer {
+pub enum ProofOutcome {
     /// The proof.
     Proof(Box<Proof>),
-    /// Why there is none, and where the claim does not hold, if that was found.
+    /// The reason why there is no proof, and a counterexample if one was found.
     None(String, Option<Counterexample>),
 }
 
-impl Proved {
-    /// Proves a statement, or tries to refute it; what breaks off is not proved.
+impl ProofAttempt {
+    /// Proves a statement, or tries to refute it. A statement whose proof panics is not proved.
     pub fn of(statement: Statement) -> Self {
         let start = Instant::now();
-        let none = |why| Answer::None(why, guarded(|| refute(&statement)).ok().flatten());
-        let answer = match guarded(|| prove(&statement)) {
-            Ok(Ok(proof)) => Answer::Proof(proof.into()),
-            Ok(Err(why)) => none(Paper::new(registry()).why(&statement, &why)),
+        let none = |why| ProofOutcome::None(why, catch_panic(|| refute(&statement)).ok().flatten());
+        let answer = match catch_panic(|| prove(&statement)) {
+            Ok(Ok(proof)) => ProofOutcome::Proof(proof.into()),
+            Ok(Err(why)) => none(ProofPrinter::new(registry()).describe(&statement, &why)),
             Err(panic) => none(panic),
         };
-        Proved { statement, answer, time: start.elapsed() }
+        ProofAttempt { statement, answer, time: start.elapsed() }
     }
 
-    /// What it supposes, as a reader writes it.
+    /// Returns its hypotheses as text.
     pub fn hypotheses(&self) -> Vec<String> {
-        registry().all_supposed(self.statement.hypotheses())
+        registry().format_hypotheses(self.statement.hypotheses())
     }
 
-    /// `proved`, `refuted` or `unknown`.
+    /// Returns `proved`, `refuted` or `unknown`.
     pub fn status(&self) -> &'static str {
         match &self.answer {
-            Answer::Proof(_) => "proved",
-            Answer::None(_, Some(_)) => "refuted",
-            Answer::None(_, None) => "unknown",
+            ProofOutcome::Proof(_) => "proved",
+            ProofOutcome::None(_, Some(_)) => "refuted",
+            ProofOutcome::None(_, None) => "unknown",
         }
     }
 }
 
-/// All that is proved of some equations, and what is not.
+/// Proofs of the claims of some equations.
 #[derive(Clone, Debug, Default)]
 pub struct Proofs {
-    /// In the chapter's order.
-    pub claims: Vec<Proved>,
-    /// Those about these claims: a change belongs to the one that notices it.
-    pub controls: Controls,
-    /// With one of these all claims would be proved.
-    pub repairs: Vec<Change>,
-    /// How long the proofs took.
-    pub of_proofs: Duration,
-    /// And the controls with them.
-    pub in_all: Duration,
+    /// Claims in the chapter's order.
+    pub claims: Vec<ProofAttempt>,
+    /// Mutations and dropped hypotheses of these claims; a mutant belongs to the claim that detects it.
+    pub mutation: MutationReport,
+    /// Mutants, each of which would make all claims provable.
+    pub repairs: Vec<Mutant>,
+    /// Time of the proofs.
+    pub proof_time: Duration,
+    /// Time of the proofs with mutations and dropped hypotheses.
+    pub total_time: Duration,
 }
 
-/// How many proofs and controls came out how.
+/// Numbers of proofs and mutations by outcome.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Summary {
     /// All claims.
     pub claims: usize,
-    /// Those that are proved.
+    /// Proved claims.
     pub proved: usize,
-    /// Those with a counterexample.
+    /// Claims with a counterexample.
     pub refuted: usize,
-    /// Neither.
+    /// Claims that are neither proved nor refuted.
     pub unknown: usize,
-    /// Of all claims.
+    /// Hypotheses of all claims.
     pub hypotheses: usize,
-    /// What changes of formulas came to.
+    /// Outcomes of the mutations.
     #[cfg_attr(feature = "serde", serde(flatten))]
-    pub controls: controls::Summary,
+    pub controls: mutation::Summary,
 }
 
-/// Proves every claim of the chapter, and runs the controls if all are proved: of others they say nothing.
-/// What is not about these equations is left out; that no claim notices a change is about all of them.
+/// Proves every claim of the chapter, and tests mutations and dropped hypotheses if all are proved. The
+/// result contains those of the given equations; undetected mutants concern all equations.
 pub fn prove_all(equations: &[String]) -> Proofs {
     let all = statements();
     let start = Instant::now();
-    let mut claims: Vec<_> = all.par_iter().cloned().map(Proved::of).collect();
-    let of_proofs = start.elapsed();
-    let (mut controls, repairs) = if claims.iter().all(|claim| matches!(claim.answer, Answer::Proof(_))) {
-        (controls(&all, registry()), Vec::new())
+    let mut claims: Vec<_> = all.par_iter().cloned().map(ProofAttempt::of).collect();
+    let proof_time = start.elapsed();
+    let (mut mutation, repairs) = if claims.iter().all(|claim| matches!(claim.answer, ProofOutcome::Proof(_)))
+    {
+        (test_mutations(&all, registry()), Vec::new())
     } else {
-        (Controls::default(), repairs(&all, registry()))
+        (MutationReport::default(), find_repairs(&all, registry()))
     };
     let wanted = |equation: &str| equations.is_empty() || equations.iter().any(|e| e == equation);
     claims.retain(|claim| wanted(claim.statement.equation()));
-    claims.sort_by_key(|claim| place(claim.statement.equation()));
-    controls.dropped.retain(|dropped| wanted(dropped.equation));
-    controls.changes.retain(|(_, effect)| match effect {
-        Effect::Noticed { equation, .. } => wanted(equation),
-        Effect::Unchanged | Effect::Unnoticed => equations.is_empty(),
+    claims.sort_by_key(|claim| index_of(claim.statement.equation()));
+    mutation.dropped.retain(|dropped| wanted(dropped.equation));
+    mutation.mutants.retain(|(_, effect)| match effect {
+        MutationOutcome::Detected { equation, .. } => wanted(equation),
+        MutationOutcome::Equivalent | MutationOutcome::Undetected => equations.is_empty(),
     });
-    Proofs { claims, controls, repairs, of_proofs, in_all: start.elapsed() }
+    Proofs { claims, mutation, repairs, proof_time, total_time: start.elapsed() }
 }
 
 impl Proofs {
-    /// Is everything proved, every hypothesis needed, and every change noticed? Not if nothing is.
+    /// Returns `true` if every claim is proved, every hypothesis needed, and every mutant detected, and there
+    /// is at least one claim.
     pub fn hold(&self) -> bool {
         let Summary { claims, proved, controls, .. } = self.summary();
-        0 < proved && claims == proved && controls.unnoticed == 0 && self.controls.needless().next().is_none()
+        let is_redundant = self.mutation.redundant_hypotheses().next().is_some();
+        0 < proved && claims == proved && controls.unnoticed == 0 && !is_redundant
     }
 
-    /// A claim's hypotheses, dropped one at a time.
-    pub fn dropped(&self, statement: &Statement) -> impl Iterator<Item = &Dropped> {
+    /// Returns the outcomes of dropping each hypothesis of a claim.
+    pub fn dropped(&self, statement: &Statement) -> impl Iterator<Item = &DroppedHypothesis> {
         let of = (statement.equation(), statement.name());
-        self.controls.dropped.iter().filter(move |dropped| (dropped.equation, dropped.name) == of)
+        self.mutation.dropped.iter().filter(move |dropped| (dropped.equation, dropped.name) == of)
     }
 
-    /// The claims of each equation.
-    pub fn by_equation(&self) -> impl Iterator<Item = &[Proved]> {
+    /// Returns the claims of each equation.
+    pub fn by_equation(&self) -> impl Iterator<Item = &[ProofAttempt]> {
         self.claims.chunk_by(|a, b| a.statement.equation() == b.statement.equation())
     }
 
-    /// The summary.
+    /// Returns the summary.
     pub fn summary(&self) -> Summary {
         let with = |status| self.claims.iter().filter(|claim| claim.status() == status).count();
-        // That a number has two bits goes without saying.
+        // The minimum precision is not counted.
         let said = |given: &&Hypothesis| **given != minimum_precision();
         Summary {
             claims: self.claims.len(),
@@ -152,7 +157,7 @@ impl Proofs {
                 .flat_map(|claim| claim.statement.hypotheses())
                 .filter(said)
                 .count(),
-            controls: self.controls.summary(),
+            controls: self.mutation.summary(),
         }
     }
 }
@@ -160,57 +165,62 @@ impl Proofs {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::claims::given;
+    use crate::claims::hypotheses;
     use crate::formula::claim::equal;
     use crate::number::Tree;
-    use crate::proof::controls::{Without, changes};
+    use crate::proof::mutation::{DropOutcome, mutants};
 
     fn rate() -> Statement {
         statements().into_iter().find(|s| (s.equation(), s.name()) == ("1.13", "rate")).unwrap()
     }
 
-    /// c = 0, in the place of what is claimed.
+    /// Returns the false claim c = 0.
     fn wrong() -> Statement {
         equal("wrong", Tree::symbol("c"), 0).assuming(rate().hypotheses()).inheriting("1.13", &[])
     }
 
-    fn needless(statement: &Statement) -> Dropped {
+    fn redundant(statement: &Statement) -> DroppedHypothesis {
         let (equation, name) = (statement.equation(), statement.name());
-        Dropped { equation, name, given: given().stiffness.clone(), without: Without::StillTrue }
+        DroppedHypothesis {
+            equation,
+            name,
+            hypothesis: hypotheses().stiffness.clone(),
+            outcome: DropOutcome::StillProved,
+        }
     }
 
-    /// One claim that is not proved, one change that is not noticed, one hypothesis that is not needed.
+    /// One unproved claim, one undetected mutant, or one redundant hypothesis suffices.
     #[test]
     fn one_of_many_that_does_not_hold_is_enough() {
-        let change = changes(&[rate()], registry())[0];
+        let change = mutants(&[rate()], registry())[0];
         let hold = |statements: &[Statement], effect, dropped| {
-            let controls = Controls { changes: vec![(change, effect)], dropped };
-            let claims = statements.iter().cloned().map(Proved::of).collect();
-            Proofs { claims, controls, ..Proofs::default() }.hold()
+            let mutation = MutationReport { mutants: vec![(change, effect)], dropped };
+            let claims = statements.iter().cloned().map(ProofAttempt::of).collect();
+            Proofs { claims, mutation, ..Proofs::default() }.hold()
         };
-        assert!(hold(&[rate()], Effect::Unchanged, vec![]));
-        assert!(!hold(&[], Effect::Unchanged, vec![]));
-        assert!(!hold(&[wrong()], Effect::Unchanged, vec![]));
-        assert!(!hold(&[rate(), wrong()], Effect::Unchanged, vec![]));
-        assert!(!hold(&[rate()], Effect::Unnoticed, vec![]));
-        assert!(!hold(&[rate()], Effect::Unchanged, vec![needless(&rate())]));
+        assert!(hold(&[rate()], MutationOutcome::Equivalent, vec![]));
+        assert!(!hold(&[], MutationOutcome::Equivalent, vec![]));
+        assert!(!hold(&[wrong()], MutationOutcome::Equivalent, vec![]));
+        assert!(!hold(&[rate(), wrong()], MutationOutcome::Equivalent, vec![]));
+        assert!(!hold(&[rate()], MutationOutcome::Undetected, vec![]));
+        assert!(!hold(&[rate()], MutationOutcome::Equivalent, vec![redundant(&rate())]));
     }
 
     #[test]
     fn a_claim_has_its_own_hypotheses() {
-        let dropped = vec![needless(&wrong()), needless(&rate())];
-        let proofs = Proofs { controls: Controls { changes: vec![], dropped }, ..Proofs::default() };
+        let dropped = vec![redundant(&wrong()), redundant(&rate())];
+        let proofs = Proofs { mutation: MutationReport { mutants: vec![], dropped }, ..Proofs::default() };
         let names: Vec<_> = proofs.dropped(&rate()).map(|dropped| dropped.name).collect();
         assert_eq!(names, ["rate"]);
-        let proved = Proved::of(wrong().only_assuming([&given().penalty]));
+        let proved = ProofAttempt::of(wrong().only_assuming([&hypotheses().penalty]));
         assert_eq!((proved.hypotheses(), proved.status()), (vec!["ε > 0".to_string()], "refuted"));
     }
 
-    /// With all that the claim speaks of, as a text.
+    /// JSON contains all quantities of the claim as texts.
     #[cfg(feature = "serde")]
     #[test]
     fn json_shows_where_a_claim_does_not_hold() {
-        let proofs = Proofs { claims: vec![Proved::of(wrong())], ..Proofs::default() };
+        let proofs = Proofs { claims: vec![ProofAttempt::of(wrong())], ..Proofs::default() };
         let json = serde_json::to_value(&proofs).unwrap();
         let claim = &json["equations"][0]["claims"][0];
         assert_eq!(claim["status"], "refuted");

@@ -1,6 +1,6 @@
 //! Counterexamples that `contact solve` reproduces.
 
-use super::guard::guarded;
+use super::catch_panic::catch_panic;
 use crate::chapter::SpringMass;
 use crate::claims::Var;
 use crate::number::Exact;
@@ -18,14 +18,15 @@ pub fn reproduction(point: &Point) -> Option<(SpringMass<Exact>, Method<Exact>)>
     let penalty = Var::Eps.symbol();
     let known = |symbol: &str| parameters.contains(&symbol) || symbol == penalty;
     let mut has_penalty = false;
-    for (symbol, _) in point.numbers() {
+    for (symbol, _) in point.coordinates() {
         has_penalty |= symbol == penalty;
         known(symbol).then_some(())?;
     }
     let [c, m, g, l, h] = parameters.map(|symbol| point.at(symbol));
     let system = SpringMass { c, m, g, l, h };
     let method = if has_penalty { Method::Penalty { penalty: point.at(penalty) } } else { Method::Lagrange };
-    let wrong = match guarded(|| Some(is_inconsistent(&solve(&system, &method).ok()?, &system, &method))) {
+    let wrong = match catch_panic(|| Some(is_inconsistent(&solve(&system, &method).ok()?, &system, &method)))
+    {
         Ok(inconsistent) => inconsistent?,
         Err(_) => true,
     };
@@ -67,7 +68,8 @@ mod tests {
         }
     }
 
-    /// Each answer in turn off by 1: in contact (R = 2), where the penalty method has p = 1/4, and free.
+    /// Each result in turn is off by 1: in contact (R = 2), where the penalty method has p = 1/4, and
+    /// separated.
     #[test]
     fn a_wrong_answer_is_inconsistent() {
         let numbers = |h: i32| [4, 1, 10, 1, h].map(Exact::from);

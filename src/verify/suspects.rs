@@ -1,41 +1,41 @@
-//! Where a mistake may be: what the claims that are not proved have in common.
+//! Localisation of mistakes by the functions that unproved claims have in common.
 
-use crate::claims::{entry_of, registry};
+use crate::claims::{entry_for_function, registry};
 use crate::formula::{Formula, Statement};
 use crate::number::Tree;
-use crate::number::tree::{Site, Step};
+use crate::number::tree::{Op, Site};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A function of the chapter in which there may be a mistake.
+/// A function of the chapter that may be wrong.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Suspect {
-    /// The entry whose own function it is, or which names it.
+    /// Entry to which the function belongs, or which names it.
     pub equation: Option<&'static str>,
-    /// Its path: `penalty::deflection`.
+    /// Path of the function: `penalty::deflection`.
     pub function: &'static str,
-    /// Of the claims that speak of it, so many are not proved; 0 if it computes nothing, but hands on an
-    /// argument: then no claim can be seen to speak of it.
+    /// Number of unproved claims that depend on it; 0 if it only returns an argument, so that claims cannot
+    /// be seen to depend on it.
     pub unproved: usize,
-    /// And so many are.
+    /// Number of proved claims that depend on it.
     pub proved: usize,
 }
 
-/// The functions that best tell the claims that are not proved from the others: most of these speak of
-/// them, and few others do. The best one, and those as good.
+/// Returns the functions that best separate unproved claims from the others: most unproved claims depend on
+/// them, and few other claims do. Only the best ones are returned.
 pub(super) fn suspects(statements: &[Statement], unproved: &dyn Fn(&Statement) -> bool) -> Vec<Suspect> {
     if !statements.iter().any(unproved) {
         return Vec::new();
     }
     let idle: Vec<_> =
-        registry().formulas().iter().filter(|f| matches!(f.tree.step(), Step::Symbol(_))).collect();
+        registry().formulas().iter().filter(|f| matches!(f.tree.op(), Op::Symbol(_))).collect();
     if !idle.is_empty() {
         let suspect =
             |f: &&Formula| Suspect { function: f.path, equation: equation(f.path), unproved: 0, proved: 0 };
         return idle.iter().map(suspect).collect();
     }
     let all = users(statements, unproved);
-    // With a of n claims that speak of it and f that fail, a/√(n f) is the cosine between the two sets.
+    // If a of n dependent claims and of f failing claims agree, a/√(n f) is the cosine between the two sets.
     let weight = |s: &Suspect| (s.unproved * s.unproved, s.unproved + s.proved);
     let compare = |a: &Suspect, b: &Suspect| {
         let ((x, n), (y, m)) = (weight(a), weight(b));
@@ -45,7 +45,7 @@ pub(super) fn suspects(statements: &[Statement], unproved: &dyn Fn(&Statement) -
     all.iter().filter(|suspect| compare(suspect, best).is_eq()).cloned().collect()
 }
 
-/// The functions that every claim that is not proved depends on, in the order of the registry.
+/// Returns the functions on which every unproved claim depends, in the order of the registry.
 pub(super) fn shared(statements: &[Statement], unproved: &dyn Fn(&Statement) -> bool) -> Vec<&'static str> {
     let failures = statements.iter().filter(|statement| unproved(statement)).count();
     let users = users(statements, unproved);
@@ -55,7 +55,8 @@ pub(super) fn shared(statements: &[Statement], unproved: &dyn Fn(&Statement) -> 
     shared
 }
 
-/// The functions that unproved claims depend on, with the numbers of claims that do, unproved and proved.
+/// Returns the functions on which unproved claims depend, with the numbers of unproved and proved claims that
+/// do.
 fn users(statements: &[Statement], unproved: &dyn Fn(&Statement) -> bool) -> Vec<Suspect> {
     let sites: Vec<(bool, BTreeSet<Site>)> = statements
         .iter()
@@ -82,10 +83,10 @@ fn users(statements: &[Statement], unproved: &dyn Fn(&Statement) -> bool) -> Vec
 }
 
 fn equation(function: &str) -> Option<&'static str> {
-    entry_of(function).map(|entry| entry.equation)
+    entry_for_function(function).map(|entry| entry.equation)
 }
 
-/// The places in the source where a function does something itself, and does not call another.
+/// Collects the sites at which a function has operations of its own and does not call another function.
 fn own_sites(path: &str, tree: &Tree, sites: &mut BTreeSet<Site>) {
     match registry().call(tree).filter(|call| call.formula.path != path) {
         Some(call) => call.arguments.iter().for_each(|argument| own_sites(path, argument, sites)),
@@ -93,7 +94,7 @@ fn own_sites(path: &str, tree: &Tree, sites: &mut BTreeSet<Site>) {
             if registry().has_site(&tree.site()) {
                 sites.insert(tree.site());
             }
-            tree.step().operands().for_each(|operand| own_sites(path, operand, sites));
+            tree.op().operands().for_each(|operand| own_sites(path, operand, sites));
         }
     }
 }
@@ -102,12 +103,12 @@ fn own_sites(path: &str, tree: &Tree, sites: &mut BTreeSet<Site>) {
 mod tests {
     use super::*;
     use crate::claims::statements;
-    use crate::proof::controls::{Change, Effect, controls};
+    use crate::proof::mutation::{Mutant, MutationOutcome, test_mutations};
     use crate::proof::prove;
     use rayon::prelude::*;
 
-    /// The functions that are suspected after a change.
-    fn after(change: &Change, statements: &[Statement]) -> Vec<&'static str> {
+    /// Returns the suspects after a mutation.
+    fn after(change: &Mutant, statements: &[Statement]) -> Vec<&'static str> {
         let breaks = |s: &&Statement| change.apply(s).is_some_and(|changed| prove(&changed).is_err());
         let broken: BTreeSet<_> =
             statements.iter().filter(breaks).map(|s| (s.equation(), s.name())).collect();
@@ -115,20 +116,21 @@ mod tests {
         suspects.into_iter().map(|suspect| suspect.function).collect()
     }
 
-    /// All but a few in a hundred: a change can break just those claims that speak of a caller, too.
+    /// Except for a few per cent: a mutation can also break only claims about a caller.
     #[test]
     fn a_changed_function_is_suspected_and_hardly_another() {
-        // What rounds takes longer, and adds no function.
+        // Claims about rounding take longer, and add no function.
         let statements: Vec<_> = statements().into_iter().filter(|s| !s.contains_rounding()).collect();
-        let noticed = controls(&statements, registry()).changes;
-        let noticed: Vec<_> = noticed.iter().filter(|(_, o)| matches!(o, Effect::Noticed { .. })).collect();
-        let is_in = |function: &str, change: &Change| {
+        let noticed = test_mutations(&statements, registry()).mutants;
+        let noticed: Vec<_> =
+            noticed.iter().filter(|(_, o)| matches!(o, MutationOutcome::Detected { .. })).collect();
+        let is_in = |function: &str, change: &Mutant| {
             let mut sites = BTreeSet::new();
             let own = registry().formulas().iter().filter(|formula| formula.path == function);
             own.for_each(|formula| own_sites(formula.path, &formula.tree, &mut sites));
             sites.contains(&change.site)
         };
-        let found = |(change, _): &&(Change, Effect)| {
+        let found = |(change, _): &&(Mutant, MutationOutcome)| {
             let suspects = after(change, &statements);
             assert!((1..=3).contains(&suspects.len()), "{change}: {suspects:?}");
             suspects.iter().any(|function| is_in(function, change))
@@ -139,7 +141,7 @@ mod tests {
 
     #[test]
     fn every_function_of_the_chapter_computes_something() {
-        let idle = registry().formulas().iter().filter(|f| matches!(f.tree.step(), Step::Symbol(_)));
+        let idle = registry().formulas().iter().filter(|f| matches!(f.tree.op(), Op::Symbol(_)));
         assert_eq!(idle.map(Formula::name).collect::<Vec<_>>(), Vec::<String>::new());
     }
 

@@ -1,14 +1,14 @@
-//! Wrong claims through a whole run: what watches the formulas is itself seen failing.
+//! Complete runs with wrong claims, to see that the checks fail.
 
 mod changed;
 
-use super::checker::Judge;
+use super::checker::NumberDomain;
 use super::*;
 use crate::formula::Relation;
 use crate::formula::claim::induction;
 use crate::formula::statement::Proposition;
 use crate::number::{Exponential, Field, PositivePart, Tree};
-use crate::proof::controls::{self, What};
+use crate::proof::mutation::{self, Mutation};
 use num_traits::{One, Zero};
 use rug::Integer;
 use std::collections::BTreeSet;
@@ -32,7 +32,7 @@ fn x(name: &'static str) -> Tree {
     Tree::symbol(name)
 }
 
-/// A claim that holds, to see that what fails beside it does not take it along.
+/// Returns a claim that holds next to one that fails.
 fn holding() -> Statement {
     claim("holds", Proposition::Equal(x("u") + x("v"), x("v") + x("u")))
 }
@@ -42,9 +42,9 @@ fn undefined() -> Tree {
     Tree::one() / (x("u") - x("u"))
 }
 
-type Boxed = (NumberSystem, Box<dyn Checks>);
+type Boxed = (NumberSystem, Box<dyn ErasedChecker>);
 
-fn boxed<J: Judge + 'static>(
+fn boxed<J: NumberDomain + 'static>(
     scalar: NumberSystem,
     judge: J,
     claims: &[Statement],
@@ -54,7 +54,7 @@ fn boxed<J: Judge + 'static>(
 }
 
 fn exactly(claims: &[Statement], experiments: Vec<Experiment<Exact>>) -> Boxed {
-    boxed(NumberSystem::Exact, Exactly, claims, experiments)
+    boxed(NumberSystem::Exact, RationalDomain, claims, experiments)
 }
 
 fn report(checkers: &[Boxed], cases: u64) -> Report {
@@ -65,7 +65,7 @@ fn row<'a>(report: &'a Report, name: &str, scalar: NumberSystem) -> &'a Row {
     report.rows.iter().find(|row| row.claim == name && row.scalar == Some(scalar)).unwrap()
 }
 
-/// A number as a formula.
+/// Returns a number as a formula.
 fn constant(number: &Exact) -> Tree {
     fn integer(n: &Integer) -> Tree {
         n.to_i32().map_or_else(
@@ -80,7 +80,7 @@ fn constant(number: &Exact) -> Tree {
     integer(q.numer()) / integer(q.denom())
 }
 
-/// The first case, the last of a block, the first of another, the last of a window, the last of all.
+/// The first case, the last of a block, the first of another, the last of a window, and the last of all.
 #[test]
 fn a_claim_that_fails_in_one_of_many_cases_fails() {
     static WRONG: Mutex<Option<Case<Exact>>> = Mutex::new(None);
@@ -127,9 +127,9 @@ fn a_claim_can_fail_in_one_number_system_alone() {
     for wrong in scalars {
         let [single, double, precise, exact] = scalars.map(|scalar| zero_is(scalar != wrong));
         let checkers = [
-            boxed(scalars[0], Floats(0f32), &single, Vec::new()),
-            boxed(scalars[1], Floats(0f64), &double, Vec::new()),
-            boxed(scalars[2], Floats(Mpfr::rounded(100, 0)), &precise, Vec::new()),
+            boxed(scalars[0], FloatDomain(0f32), &single, Vec::new()),
+            boxed(scalars[1], FloatDomain(0f64), &double, Vec::new()),
+            boxed(scalars[2], FloatDomain(Mpfr::rounded(100, 0)), &precise, Vec::new()),
             exactly(&exact, Vec::new()),
         ];
         let report = report(&checkers, 20);
@@ -142,7 +142,7 @@ fn a_claim_can_fail_in_one_number_system_alone() {
     }
 }
 
-/// u/3 · 3 − u: of that balls know no sign.
+/// u/3 · 3 − u, whose sign balls cannot decide.
 #[test]
 fn a_claim_that_is_nowhere_decided_is_undecided_and_no_failure() {
     let open = x("u") / Tree::int(3) * Tree::int(3) - x("u");
@@ -150,13 +150,13 @@ fn a_claim_that_is_nowhere_decided_is_undecided_and_no_failure() {
     let checkers = [
         boxed(
             NumberSystem::F64,
-            Floats(0f64),
+            FloatDomain(0f64),
             &[open, holding()],
             vec![experiment("out of range", |_| Trial::Undecided)],
         ),
         exactly(&[holding()], vec![experiment("out of range", |_| Trial::Undecided)]),
     ];
-    // In a case with u = 0 it would be undefined.
+    // It is undefined in a case with u = 0.
     let all = (0..).take_while(|i| !cases::case(SEED, *i, &[]).unwrap().u.is_zero()).count() as u64;
     let report = report(&checkers, all);
     for (name, scalar) in [
@@ -171,8 +171,8 @@ fn a_claim_that_is_nowhere_decided_is_undecided_and_no_failure() {
     assert!(all > 0 && report.holds() && !report.is_decided());
 }
 
-/// In no case, under hypotheses that no case satisfies, and where nothing is asked: of a derivative that is
-/// none, of the members of no recursion.
+/// Without cases, under hypotheses that no case satisfies, and without tests: of a derivative that does not
+/// exist, and of a recursion without members.
 #[test]
 fn what_was_never_tried_does_not_hold() {
     let positive = |value: Tree| Hypothesis::new(Relation::Positive, value);
@@ -197,7 +197,7 @@ fn what_was_never_tried_does_not_hold() {
     };
     untried(of(2 * BLOCK), 2 * BLOCK);
     untried(of(0), 0);
-    // In no number system, and of no claim: no report of nothing looks as if all were well.
+    // A report without number systems or without claims does not hold.
     for nothing in [report(&[], 10), report(&[exactly(&[], Vec::new())], 10)] {
         assert_eq!(nothing.rows, []);
         assert!(!nothing.holds() && !nothing.is_decided());
@@ -208,7 +208,7 @@ fn what_was_never_tried_does_not_hold() {
     assert!(!proofs::Proofs::default().hold());
 }
 
-/// 1/(u − u) in rationals and in balls; and an experiment that expects what is not there.
+/// 1/(u − u) in rationals and in balls, and an experiment that panics.
 #[test]
 fn what_is_undefined_or_breaks_off_is_a_finding_with_its_case() {
     let claims = [
@@ -224,9 +224,9 @@ fn what_is_undefined_or_breaks_off_is_a_finding_with_its_case() {
     }
     let scalars = [NumberSystem::F32, NumberSystem::F64, NumberSystem::Mpfr(100), NumberSystem::Exact];
     let checkers = [
-        boxed(scalars[0], Floats(0f32), &claims, expecting()),
-        boxed(scalars[1], Floats(0f64), &claims, expecting()),
-        boxed(scalars[2], Floats(Mpfr::rounded(100, 0)), &claims, expecting()),
+        boxed(scalars[0], FloatDomain(0f32), &claims, expecting()),
+        boxed(scalars[1], FloatDomain(0f64), &claims, expecting()),
+        boxed(scalars[2], FloatDomain(Mpfr::rounded(100, 0)), &claims, expecting()),
         exactly(&claims, expecting()),
     ];
     let report = report(&checkers, 10);
@@ -240,7 +240,7 @@ fn what_is_undefined_or_breaks_off_is_a_finding_with_its_case() {
             ("expects", "no root"),
         ] {
             let row = row(&report, name, scalar);
-            // In f32 some cases are out of range, and those leave it undecided; the others decide.
+            // In f32 some cases are out of range and undecided; the others decide.
             assert_eq!((row.status, row.why.as_deref()), (Status::Failed, Some(why)), "{name} {scalar}");
             assert_eq!(row.decided + row.undecided, 10);
             assert!(row.decided > 5 && row.counterexample.is_some(), "{name} {scalar}");
@@ -268,7 +268,7 @@ fn each_case_of_a_run_is_another_one_and_each_is_tried_once() {
     assert_eq!(distinct, drawn);
 }
 
-/// Where it is: in the first case, in the midst, in the last.
+/// The worst case is the first, one in the middle, or the last.
 #[test]
 fn the_worst_share_is_that_of_all_cases() {
     static WORST: Mutex<Option<Case<Exact>>> = Mutex::new(None);
@@ -294,7 +294,7 @@ fn a_wrong_statement_is_refuted_and_an_unprovable_one_is_not_proved() {
     let named = |name, proposition| Statement::new(name, proposition).inheriting(rate.equation(), &[]);
     let wrong = Proposition::Equal(left.clone(), right + right);
     let wrong = named("wrong", wrong).assuming(rate.stated_hypotheses());
-    // eˣ ≥ 1 + x for every x: true, and beyond the kernel, which knows x ≥ 0 alone.
+    // eˣ ≥ 1 + x for every x is true, but the kernel proves it for x ≥ 0 only.
     let q = Tree::symbol("q");
     let open = named("open", Proposition::Sign(Relation::NonNegative, q.exp() - Tree::one() - &q));
     let undefined = named("undefined", Proposition::Equal(Tree::one() / (&q - &q), Tree::one()));
@@ -316,13 +316,14 @@ fn a_wrong_statement_is_refuted_and_an_unprovable_one_is_not_proved() {
     assert!(!report.holds() && report.rows.iter().all(|row| row.scalar.is_none()));
 }
 
-/// c + ε becomes c − ε, for all that is to be proved.
+/// c + ε is replaced by c − ε in all claims to be proved.
 #[test]
 fn a_mistake_is_looked_for_where_it_is() {
     let right = statements();
     let total = registry().formula("penalty::total_stiffness").unwrap().tree.site();
-    let all = controls::changes(&right, registry());
-    let opposite = |change: &&Change| change.site == total && matches!(change.what, What::Opposite(_));
+    let all = mutation::mutants(&right, registry());
+    let opposite =
+        |change: &&Mutant| change.site == total && matches!(change.mutation, Mutation::Opposite(_));
     let change = all.iter().find(opposite).unwrap();
     let wrong = right.iter().map(|statement| change.apply(statement).unwrap_or_else(|| statement.clone()));
     let report = run(&[], wrong.collect(), &options(1), &|_, _| ());
@@ -331,7 +332,7 @@ fn a_mistake_is_looked_for_where_it_is() {
     };
     assert_eq!((*function, *equation), ("penalty::total_stiffness", Some("Fig. 1.2")));
     assert_eq!(*unproved, report.rows.iter().filter(|row| row.status == Status::Failed).count());
-    let back = |repair: &&Change| repair.site == total && matches!(repair.what, What::Opposite(_));
+    let back = |repair: &&Mutant| repair.site == total && matches!(repair.mutation, Mutation::Opposite(_));
     assert_eq!(report.repairs.iter().filter(back).count(), 1, "{:?}", report.repairs);
     assert_eq!(report.shared, ["penalty::total_stiffness"]);
     let well = run(&[], right, &options(1), &|_, _| ());
@@ -357,12 +358,12 @@ fn only_what_is_asked_for_is_tried_and_progress_says_how_far() {
 #[test]
 fn the_rows_of_a_claim_stand_together_in_the_order_of_the_chapter() {
     let report = verify(&Options { cases: 1, ..Options::default() }, &|_, _| ());
-    assert!(report.rows.is_sorted_by_key(|row| place(row.equation)));
+    assert!(report.rows.is_sorted_by_key(|row| index_of(row.equation)));
     let claims = report.rows.chunk_by(|a, b| (a.equation, a.claim) == (b.equation, b.claim));
     let mut known = BTreeSet::new();
     for rows in claims {
         assert!(known.insert((rows[0].equation, rows[0].claim)), "{} {}", rows[0].equation, rows[0].claim);
-        // The proof, where there is one, and then the number systems in the order they were asked for.
+        // The proof comes first, then the number systems in the requested order.
         let ways: Vec<_> = rows.iter().map(|row| row.scalar).collect();
         let order = |way: &Option<NumberSystem>| {
             way.map_or(0, |s| 1 + Options::default().scalars.iter().position(|t| *t == s).unwrap())
@@ -371,7 +372,7 @@ fn the_rows_of_a_claim_stand_together_in_the_order_of_the_chapter() {
     }
 }
 
-/// Every key is always there, quantities are texts, and a counterexample has all coordinates.
+/// Every key is present, quantities are texts, and a counterexample has all coordinates.
 #[cfg(feature = "serde")]
 #[test]
 fn json_shows_how_a_claim_fails() {

@@ -1,4 +1,4 @@
-//! What Coq is asked, and what it may answer, for the tests of both packages.
+//! Calls of Coq and checks of its output, for the tests of both packages.
 
 #![allow(dead_code)] // every test file is a crate of its own and uses its share of this one
 
@@ -10,7 +10,7 @@ use std::process::Command;
 use std::sync::Mutex;
 use std::{fs, thread};
 
-/// Text without comments.
+/// Returns a text without comments.
 pub fn code(text: &str) -> String {
     let (mut depth, mut code) = (0, String::new());
     let mut rest = text.chars().peekable();
@@ -31,16 +31,16 @@ pub fn code(text: &str) -> String {
     code
 }
 
-/// The axioms that Coq's real numbers rest on, and nothing else may.
+/// The axioms of Coq's real numbers, the only ones allowed.
 const AXIOMS: [&str; 4] = [
-    // Of a property of natural numbers that can be decided one by one, either all have it or one is found that
-    // has it not: with it, Dedekind's cuts can be compared.
+    // For a decidable property of natural numbers, either all have it or one is found that does not have it:
+    // this makes Dedekind cuts comparable.
     "ClassicalDedekindReals.sig_forall_dec",
-    // What is not impossible is so, or it is not: a cut is a set that may ask anything.
+    // ¬P is decidable: a cut is an arbitrary set.
     "ClassicalDedekindReals.sig_not_dec",
-    // Functions with the same values are the same: cuts are functions.
+    // Functions with the same values are equal; cuts are functions.
     "FunctionalExtensionality.functional_extensionality_dep",
-    // Every statement holds or does not: Coquelicot's limits and derivatives are of classical analysis.
+    // Excluded middle: Coquelicot's limits and derivatives are those of classical analysis.
     "Classical_Prop.classic",
 ];
 
@@ -48,20 +48,20 @@ pub fn words(text: &str) -> impl Iterator<Item = &str> {
     text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').filter(|word| !word.is_empty())
 }
 
-/// The names that a keyword introduces.
+/// Returns the names that a keyword introduces.
 pub fn named<'t>(text: &'t str, keyword: &str) -> Vec<&'t str> {
     let all: Vec<_> = words(text).collect();
     all.windows(2).filter(|pair| pair[0] == keyword).map(|pair| pair[1]).collect()
 }
 
-/// The file of what functions compute.
+/// File of the definitions.
 pub const DEFINITIONS: &str = "B_Definitions.v";
 
 pub fn of_claims(files: &[File]) -> impl Iterator<Item = &File> {
     files.iter().filter(|file| file.name.starts_with("C_"))
 }
 
-/// A directory for one test.
+/// Returns a directory for one test.
 pub fn scratch(name: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("coq-{name}"));
     let _ = fs::remove_dir_all(&path);
@@ -69,12 +69,12 @@ pub fn scratch(name: &str) -> PathBuf {
     path
 }
 
-/// Past the test harness, which keeps what a passing test prints to itself.
+/// Prints past the test harness, which captures the output of passing tests.
 fn say(line: &str) {
     let _ = writeln!(std::io::stderr(), "{line}");
 }
 
-/// The version of the Coq that is installed, if one is.
+/// Returns the version of the installed Coq.
 pub fn version() -> Option<String> {
     let output = Command::new("coqc").arg("--version").output().ok();
     let found = output.filter(|output| output.status.success());
@@ -84,7 +84,7 @@ pub fn version() -> Option<String> {
     found.map(|output| String::from_utf8_lossy(&output.stdout).into_owned())
 }
 
-/// Are the libraries there? They are if what needs them compiles, in a directory for this name.
+/// Returns `true` if the libraries are installed: a file that needs them compiles.
 pub fn has_libraries(name: &str) -> bool {
     let directory = scratch(&format!("{name}-libraries"));
     [("Coquelicot", "Coquelicot"), ("Flocq", "Core")].into_iter().all(|(library, module)| {
@@ -99,9 +99,9 @@ pub fn has_libraries(name: &str) -> bool {
     })
 }
 
-/// What Coq says of a file of a library: its output, or its error.
+/// Compiles a file of a library and returns its output, or its error.
 pub fn compile(directory: &Path, library: &str, file: &str) -> Result<String, String> {
-    // Coquelicot warns of a coercion of its own.
+    // Coquelicot prints a warning about a coercion of its own.
     let output =
         Command::new("coqc").args(["-w", "none", "-R", ".", library, file]).current_dir(directory).output();
     let output = output.unwrap();
@@ -109,7 +109,7 @@ pub fn compile(directory: &Path, library: &str, file: &str) -> Result<String, St
     if output.status.success() { Ok(text(output.stdout)) } else { Err(text(output.stderr)) }
 }
 
-/// Does all jobs, two at a time, in their order.
+/// Runs all jobs, two at a time, in their order.
 pub fn two_at_a_time<J: Sync, R: Send>(jobs: &[J], work: impl Fn(&J) -> R + Sync) -> Vec<R> {
     let (next, done) = (Mutex::new(0..jobs.len()), Mutex::new(Vec::new()));
     thread::scope(|scope| {
@@ -128,14 +128,14 @@ pub fn two_at_a_time<J: Sync, R: Send>(jobs: &[J], work: impl Fn(&J) -> R + Sync
     done.into_iter().map(|(_, result)| result).collect()
 }
 
-/// The names of axioms in what `Print Assumptions` prints.
+/// Returns the names of axioms in the output of `Print Assumptions`.
 fn axioms(printed: &str) -> BTreeSet<&str> {
     let (_, list) = printed.split_once("Axioms:").unwrap_or_default();
     let names = list.lines().filter(|line| line.starts_with(|c: char| c.is_ascii_alphabetic()));
     names.filter_map(|line| line.split_whitespace().next()).collect()
 }
 
-/// The files that a file needs: of those that belong together, what it requires.
+/// Returns the files that a file requires.
 fn needs(library: &str, file: &File) -> Vec<String> {
     let (text, from) = (code(&file.text), format!("From {library} Require"));
     let required = text.split(&from).skip(1).filter_map(|rest| rest.split(".\n").next());
@@ -143,7 +143,8 @@ fn needs(library: &str, file: &File) -> Vec<String> {
     names.map(|name| format!("{name}.v")).collect()
 }
 
-/// Coq accepts all of it. What this Coq has accepted it is not asked again while that, and what it needs, stays as it is.
+/// Asserts that Coq accepts all files. Files that were accepted and have not changed, nor what they require,
+/// are not compiled again.
 pub fn accepts(name: &str, library: &str, development: &Development) {
     let Some(version) = version() else { return };
     let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("coq-{name}"));
@@ -172,7 +173,7 @@ pub fn accepts(name: &str, library: &str, development: &Development) {
     while !files.is_empty() {
         let ready = |file: &File| needs(library, file).iter().all(|name| done.contains(name));
         let (mut now, later): (Vec<_>, Vec<_>) = files.into_iter().partition(ready);
-        // The longest first, so that none is left over at the end.
+        // The longest files first, so that none is left alone at the end.
         now.sort_by_key(|file| std::cmp::Reverse(file.text.len()));
         assert!(!now.is_empty(), "{:?} import each other", later.iter().map(|f| &f.name).collect::<Vec<_>>());
         let results = two_at_a_time(&now, |file| compile(&directory, library, &file.name));

@@ -1,20 +1,20 @@
-//! Definitions with one sign changed: not all that speaks of them should still be provable.
+//! Definitions with one changed sign, for which some theorem must fail.
 
 use super::super::coqc::{DEFINITIONS, of_claims, words};
 use super::stated;
 use spring_mass_contact::proof::coq::{Development, File};
 
-/// One sign of one definition changed.
+/// A definition with one changed sign.
 pub struct Flip {
-    /// The changed function, by its name in Coq.
+    /// Name of the changed function in Coq.
     pub function: String,
-    /// The definition as it is now.
+    /// The changed definition.
     pub definition: String,
-    /// All definitions with this one among them, then every claim that speaks of the function, the shortest first.
+    /// All definitions with this one among them, then every claim about the function, the shortest first.
     pub file: File,
 }
 
-/// A text with one sign changed, for each of its signs: a + for a − or the other way round, or a leading − lost.
+/// Returns a text with one sign changed, for each sign: + for − or vice versa, or a leading − removed.
 fn flipped(text: &str) -> Vec<String> {
     let signs = text.match_indices(['+', '-']);
     let flip = |(at, sign): (usize, &str)| {
@@ -41,12 +41,12 @@ fn claims(file: &File) -> (&str, Vec<&str>) {
     (head, all)
 }
 
-/// Returns `true` if a statement names a function; names in proofs do not count.
+/// Returns `true` if a statement contains a function; names in proofs do not count.
 fn speaks_of(text: &str, function: &str) -> bool {
     stated(text).any(|stated| words(stated).any(|word| word == function))
 }
 
-/// Every way to change one sign of one definition.
+/// Returns every definition with one changed sign.
 pub fn flips(development: &Development) -> Vec<Flip> {
     let files = development.files();
     let definitions = &files.iter().find(|file| file.name == DEFINITIONS).unwrap().text;
@@ -79,7 +79,7 @@ pub fn flips(development: &Development) -> Vec<Flip> {
 #[test]
 fn a_flip_changes_one_sign() {
     assert_eq!(flipped("- (a + b) * c - a"), ["(a + b) * c - a", "- (a - b) * c - a", "- (a + b) * c + a"]);
-    // Wherever the sign stands.
+    // At every position of the sign.
     assert_eq!(
         flipped("exp (Rmin a (- b)) - - 2"),
         ["exp (Rmin a (b)) - - 2", "exp (Rmin a (- b)) + - 2", "exp (Rmin a (- b)) - 2"]

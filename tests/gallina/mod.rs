@@ -1,8 +1,8 @@
-//! Reads definitions and theorems as Coq does, and says where in the rationals a theorem is false.
+//! Parser of definitions and theorems of Coq, which finds rationals at which a theorem is false.
 //!
-//! By the levels that Coq's manual gives, and by nothing of what printed the text: it is the printing that is
-//! tested. Of Coq's language, which is called Gallina, no more is known here than the chapter needs. Where the precision
-//! is `prec`, so many bits, a number half-way between two is rounded to the even one: that is one of all choices.
+//! It uses the precedence levels of Coq's manual and nothing of the printer, which it tests. It supports only
+//! the part of Coq's language, Gallina, that the chapter needs. With the precision `prec` ties are rounded to
+//! even, which is one possible choice.
 
 mod flips;
 mod recursion;
@@ -10,17 +10,17 @@ mod recursion;
 use super::coqc::code;
 pub use flips::flips;
 pub use recursion::Recursion;
-use spring_mass_contact::number::tree::{Step, piecewise};
+use spring_mass_contact::number::tree::{Op, piecewise_ops};
 use spring_mass_contact::number::{Dual, Exact, Exponential, Field, PositivePart, Tree};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Mutex;
 
-/// The parts of a text between proofs.
+/// Returns the parts of a text between proofs.
 pub fn stated(text: &str) -> impl Iterator<Item = &str> {
     text.split("\nProof.\n").map(|part| part.rsplit("Qed.\n").next().unwrap())
 }
 
-/// The words and signs of a text.
+/// Returns the words and signs of a text.
 pub fn tokens(text: &str) -> Vec<String> {
     const PAIRS: [&str; 6] = [":=", "->", "=>", "<=", "<>", "/\\"];
     let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
@@ -37,7 +37,7 @@ pub fn tokens(text: &str) -> Vec<String> {
     all
 }
 
-/// Each name once, since those of symbols are for ever.
+/// Stores each name once, since symbols have static names.
 fn interned(name: &str) -> &'static str {
     static KNOWN: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
     let mut known = KNOWN.lock().unwrap();
@@ -53,7 +53,7 @@ fn interned(name: &str) -> &'static str {
 pub struct Definition {
     pub name: String,
     pub arguments: Vec<&'static str>,
-    /// As [`tokens`].
+    /// Its [`tokens`].
     pub body: Vec<String>,
 }
 
@@ -73,14 +73,14 @@ impl Definition {
         Definition { name: name.clone(), arguments, body: body.to_vec() }
     }
 
-    /// Those of a file.
+    /// Returns the definitions of a file.
     pub fn all(text: &str) -> Vec<Self> {
         let text = code(text);
         let starts = text.match_indices("Definition ").map(|(start, _)| start);
         starts.map(|start| Definition::of(text[start..].split_inclusive(".\n").next().unwrap())).collect()
     }
 
-    /// What it computes; what it calls is known.
+    /// Returns the function, whose callees are known.
     pub fn function(&self, known: &Functions) -> Function {
         let mut reader = Reader { rest: &self.body, known, ratio: None };
         let value = reader.formula();
@@ -92,7 +92,7 @@ impl Definition {
     }
 }
 
-/// A function with all its calls spelled out.
+/// A function with all its calls expanded.
 #[derive(Clone, Debug)]
 pub struct Function {
     pub arguments: Vec<&'static str>,
@@ -101,7 +101,7 @@ pub struct Function {
 
 pub type Functions = BTreeMap<String, Function>;
 
-/// What all of them compute; none comes before what it calls.
+/// Returns the functions of definitions, each after those it calls.
 pub fn functions(definitions: &[Definition]) -> Functions {
     definitions.iter().fold(Functions::new(), |mut known, definition| {
         let function = definition.function(&known);
@@ -110,11 +110,11 @@ pub fn functions(definitions: &[Definition]) -> Functions {
     })
 }
 
-/// What is left to read.
+/// Remaining tokens.
 struct Reader<'t> {
     rest: &'t [String],
     known: &'t Functions,
-    /// The ρ of what has been read as q.
+    /// The ρ of q, if it has been read.
     ratio: Option<Tree>,
 }
 
@@ -133,12 +133,12 @@ impl<'t> Reader<'t> {
         assert_eq!(self.take(), token, "before {:?}", self.rest);
     }
 
-    /// These tokens.
+    /// Consumes these tokens.
     fn expect_all(&mut self, tokens: &str) {
         tokens.split(' ').for_each(|token| self.expect(token));
     }
 
-    /// One or several things said.
+    /// Parses one or several propositions.
     fn all_said(&mut self) -> Vec<Said> {
         let mut all = vec![self.said()];
         while self.next() == "/\\" {
@@ -148,7 +148,8 @@ impl<'t> Reader<'t> {
         all
     }
 
-    /// Whatever the precision, from two bits, whatever the choice, and whatever other powers of two there are.
+    /// Parses the premises for every precision of at least two bits, every choice of ties, and other powers
+    /// of two.
     fn precision(&mut self) {
         self.expect_all("forall ( prec : Z ) ( choice : Z -> bool )");
         if self.next() == "(" {
@@ -158,7 +159,7 @@ impl<'t> Reader<'t> {
         self.expect_all(", ( 2 <= prec ) % Z ->");
     }
 
-    /// Sums at level 50, of products at level 40, each from the left.
+    /// Parses sums at level 50 of products at level 40, from the left.
     fn formula(&mut self) -> Tree {
         self.chain(&[["+", "-"], ["*", "/"]])
     }
@@ -178,7 +179,7 @@ impl<'t> Reader<'t> {
         value
     }
 
-    /// A leading minus, at level 35: it holds more strongly than a product. There is no leading plus.
+    /// Parses a leading minus, at level 35: it binds more strongly than a product. There is no leading plus.
     fn signed(&mut self) -> Tree {
         if self.next() == "-" {
             self.take();
@@ -187,7 +188,7 @@ impl<'t> Reader<'t> {
         self.power()
     }
 
-    /// ρ ^ n, at level 30, which is called q here.
+    /// Parses ρ ^ n, at level 30, as q.
     fn power(&mut self) -> Tree {
         let value = self.call();
         if self.next() != "^" {
@@ -198,7 +199,7 @@ impl<'t> Reader<'t> {
         Tree::symbol("q")
     }
 
-    /// A function and its arguments, at level 10.
+    /// Parses a function with its arguments, at level 10.
     fn call(&mut self) -> Tree {
         let arity = match self.next() {
             "exp" | "Rabs" => 1,
@@ -218,20 +219,20 @@ impl<'t> Reader<'t> {
             ("Rabs", [a]) => a.abs(),
             ("fl", [precision, choice, a]) => {
                 assert_eq!([precision, choice], [&Tree::symbol("prec"), &Tree::symbol("choice")]);
-                a.nearest()
+                a.round()
             }
             _ => {
                 let Function { arguments, value } = &self.known[name];
                 let place = |name| arguments.iter().position(|known| *known == name);
-                value.rewrite(&|tree| match tree.step() {
-                    Step::Symbol(name) => place(*name).map(|place| values[place].clone()),
+                value.rewrite(&|tree| match tree.op() {
+                    Op::Symbol(name) => place(*name).map(|place| values[place].clone()),
                     _ => None,
                 })
             }
         }
     }
 
-    /// One word, or anything in brackets.
+    /// Parses one word, or an expression in brackets.
     fn argument(&mut self) -> Tree {
         let word = self.take();
         if word == "(" {
@@ -269,7 +270,7 @@ impl<'t> Reader<'t> {
         let left = self.formula();
         let relation = self.take();
         if self.next() == "bpow" {
-            let Step::Symbol(power) = left.step() else { panic!("{left} is no name") };
+            let Op::Symbol(power) = left.op() else { panic!("{left} is no name") };
             self.expect_all("bpow radix2");
             return Said::PowerOfTwo(power, interned(self.take()));
         }
@@ -284,7 +285,7 @@ impl<'t> Reader<'t> {
     }
 }
 
-/// What may be said of numbers.
+/// A proposition about numbers.
 pub enum Said {
     /// The first is 2 to the power of the second.
     PowerOfTwo(&'static str, &'static str),
@@ -299,11 +300,11 @@ pub enum Said {
 }
 
 impl Said {
-    /// Is it so? Unknown where a formula is not defined, or no rational, and of limits.
+    /// Returns whether it holds; `None` if a formula is undefined or irrational, and for limits.
     fn holds(&self, at: &impl Fn(&'static str) -> Exact) -> Option<bool> {
         let value = |tree: &Tree| value(tree, at);
         Some(match self {
-            // So they are drawn.
+            // They are drawn that way.
             Said::PowerOfTwo(power, of) => {
                 (*power, *of) == ("two_p", "prec") || power.strip_prefix("two") == of.strip_prefix("power")
             }
@@ -312,8 +313,8 @@ impl Said {
             Said::Less(a, b) => value(a)? < value(b)?,
             Said::AtMost(a, b) => value(a)? <= value(b)?,
             Said::Derivative(of, by, is) => {
-                let beyond = |step: Step<&Dual<Exact>>| match step {
-                    Step::Exp(a) if a.value == Exact::from(0) => {
+                let beyond = |step: Op<&Dual<Exact>>| match step {
+                    Op::Exp(a) if a.value == Exact::from(0) => {
                         Some(Dual { value: Exact::from(1), derivative: a.derivative.clone() })
                     }
                     _ => None,
@@ -325,12 +326,12 @@ impl Said {
     }
 }
 
-/// The value of a formula: of exponentials that at 0 alone is a rational.
+/// Returns the value of a formula; an exponential is rational at 0 only.
 pub fn value(tree: &Tree, at: &impl Fn(&'static str) -> Exact) -> Option<Exact> {
-    tree.replay(at, &|step| match step {
-        Step::Exp(a) if *a == Exact::from(0) => Some(Exact::from(1)),
-        Step::Rounded(a) => a.rounded(at("two_p").as_rational().numer().significant_bits() - 1),
-        step => piecewise(step),
+    tree.eval(at, &|step| match step {
+        Op::Exp(a) if *a == Exact::from(0) => Some(Exact::from(1)),
+        Op::Rounded(a) => a.round_to_bits(at("two_p").as_rational().numer().significant_bits() - 1),
+        step => piecewise_ops(step),
     })
 }
 

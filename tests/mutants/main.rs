@@ -1,15 +1,15 @@
-//! What no test notices, and why nobody could.
+//! Mutants of the source that no test detects, with the reasons.
 //!
-//! `tests/mutants/run` has cargo-mutants change one operator, one condition, one value of the source after the
-//! other, and runs the fast tests on each. A change that none of them notices has to be noticed by a new test, or
-//! `excused` beside this file says why it changes nothing.
+//! `tests/mutants/run` lets cargo-mutants change one operator, one condition, one value of the source after
+//! another, and runs the fast tests on each. A mutant that survives needs a new test, or an entry in
+//! `excused` beside this file that explains why it is equivalent.
 
 use serde_json::Value;
 use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
 
-/// A mutant as cargo-mutants names it, with the line of the source in place of its number.
+/// A mutant as cargo-mutants names it, with the source line in place of its number.
 #[derive(PartialEq, Eq, Hash, Debug)]
 struct Mutant {
     file: String,
@@ -25,8 +25,8 @@ fn read(path: &str) -> String {
     fs::read_to_string(root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 
-/// The mutants that are excused, with the reason. Each takes three lines: `file: change`, the line of the source,
-/// and why it changes nothing. An empty line follows.
+/// Returns the excused mutants with reasons. Each has three lines: `file: mutation`, the source line, and the
+/// reason. An empty line follows.
 fn excuses() -> HashMap<Mutant, String> {
     let mut excuses = HashMap::new();
     for block in read("tests/mutants/excused").split("\n\n") {
@@ -61,7 +61,7 @@ fn every_excuse_is_for_a_line_that_is_there() {
     }
 }
 
-/// Those of a run, of which the text names some.
+/// Returns the mutants of a run that are named in the text.
 fn mutants(all: &Value, named: impl Fn(&str) -> bool) -> Vec<Mutant> {
     let all = all.as_array().expect("a list of mutants");
     let named = all.iter().filter(|mutant| named(mutant["name"].as_str().expect("a name")));

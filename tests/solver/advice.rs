@@ -6,11 +6,11 @@ use crate::strategies::*;
 use num_traits::Zero;
 use proptest::prelude::*;
 use spring_mass_contact::chapter::{SpringMass, augmented, penalty, rounding, system};
-use spring_mass_contact::number::{Exact, PositivePart, Text, ToExact};
+use spring_mass_contact::number::{Exact, ExactText, PositivePart, ToExact};
 use spring_mass_contact::solver::{
-    Advice, Choice, MAX_AUGMENTATIONS, Method, Outcome, Plane, Scalar, Solution, advise,
-    augmentations_needed, augmentations_promised, bits_needed, penalty_for_penetration, rounding_floor,
-    solve,
+    Advice, MAX_AUGMENTATIONS, Method, Outcome, Plane, Recommendation, Scalar, Solution, advise,
+    exact_augmentation_count, guaranteed_max_augmentations, penalty_for_penetration, required_precision,
+    rounding_floor, solve,
 };
 
 /// Does a run bring the deflection within the tolerance, and say so if it iterates?
@@ -33,7 +33,11 @@ fn with_few_bits_nothing_is_promised() {
         for (eps, tolerance) in [("1", "1"), ("1e9", "1e9"), ("1e-9", "1e9"), ("1e9", "1e-9")] {
             let [eps, tolerance] = [eps, tolerance].map(|x| x.parse::<Exact>().unwrap());
             let eta = Exact::power_of_two(-bits);
-            assert_eq!(augmentations_promised(&system, &eps, &tolerance, &eta), Ok(None), "{bits} bits");
+            assert_eq!(
+                guaranteed_max_augmentations(&system, &eps, &tolerance, &eta),
+                Ok(None),
+                "{bits} bits"
+            );
         }
     }
 }
@@ -45,7 +49,7 @@ fn the_coarsest_parameter_decides_what_is_promised() {
     let like = [10, 10, 10, 200, 200].map(|bits| int(1).to_mpfr(bits));
     let numbers = SpringMass { c: "4", m: "1.1", g: "9.81", l: "1", h: "3" }.parse().unwrap();
     let SpringMass { c, m, g, l, h } = &numbers;
-    let mut rounded = like.iter().zip([c, m, g, l, h]).map(|(like, x)| like.nearest(x).unwrap());
+    let mut rounded = like.iter().zip([c, m, g, l, h]).map(|(like, x)| like.round_from_exact(x).unwrap());
     let mut next = || rounded.next().unwrap();
     let system = SpringMass { c: next(), m: next(), g: next(), l: next(), h: next() };
     let floor = |bits: i32| rounding_floor(&system, Plane::Unilateral, &Exact::power_of_two(-bits)).unwrap();
@@ -54,7 +58,7 @@ fn the_coarsest_parameter_decides_what_is_promised() {
     let advice = advise(&system, &tolerance.to_mpfr(200)).unwrap();
     assert_eq!(advice.floor, floor(10));
     assert!(
-        !advice.choices.iter().any(|choice| matches!(choice.method, Method::Augmented { .. })),
+        !advice.recommendations.iter().any(|choice| matches!(choice.method, Method::Augmented { .. })),
         "{advice}"
     );
 }
@@ -70,17 +74,17 @@ fn bits_are_needed_for_the_tolerance_as_well() {
         };
         // A little above the floor, and the parameters are the same in all of these bits.
         let tolerance = floor(bits) * (int(1) + Exact::power_of_two(-60));
-        let enough = |bits: u32| floor(bits) < tolerance.rounded(bits).unwrap();
+        let enough = |bits: u32| floor(bits) < tolerance.round_to_bits(bits).unwrap();
         let least = (6..).find(|bits| enough(*bits));
-        assert_eq!(bits_needed(&system, Plane::Unilateral, &tolerance), Ok(least));
+        assert_eq!(required_precision(&system, Plane::Unilateral, &tolerance), Ok(least));
         rounded_down += u32::from(least == Some(bits + 1));
     }
     assert!((1..24).contains(&rounded_down), "{rounded_down}");
 }
 
 /// The penalties that are advised.
-fn advised<T: Scalar + Text>(system: &SpringMass<T>, tolerance: &T) -> Vec<T> {
-    let choices = advise(system, tolerance).unwrap().choices;
+fn advised<T: Scalar + ExactText>(system: &SpringMass<T>, tolerance: &T) -> Vec<T> {
+    let choices = advise(system, tolerance).unwrap().recommendations;
     choices.iter().filter_map(|choice| choice.method.penalty().cloned()).collect()
 }
 
@@ -121,9 +125,9 @@ fn what_hangs_free_takes_any_penalty() {
     let system = SpringMass { c: 1, m: 1, g: 1, l: 0, h: 3 }.map(|x| int(*x).to_mpfr(10));
     let floor = int(5) * Exact::power_of_two(-10);
     let more = &floor * (int(1) + Exact::power_of_two(-40));
-    let advice = |tolerance: Exact| advise(&system, &tolerance.to_mpfr(99)).unwrap().choices;
-    let penalties = |choices: &[Choice<_>]| -> Vec<_> {
-        choices.iter().map(|choice| choice.penalties[0].as_ref().map(exact)).collect()
+    let advice = |tolerance: Exact| advise(&system, &tolerance.to_mpfr(99)).unwrap().recommendations;
+    let penalties = |choices: &[Recommendation<_>]| -> Vec<_> {
+        choices.iter().map(|choice| choice.penalty_range[0].as_ref().map(exact)).collect()
     };
     assert_eq!(penalties(&advice(floor)), [None, None]);
     let choices = advice(more);
@@ -144,9 +148,9 @@ fn with_penalty_of<T: Float>(method: &Method<T>, eps: &T) -> Method<T> {
 }
 
 /// Some penalties in the range, its ends included; where there is no first one, down to a part of the choice's own.
-fn within<T: Float>(choice: &Choice<T>, part: &Exact, like: &T) -> Vec<T> {
+fn within<T: Float>(choice: &Recommendation<T>, part: &Exact, like: &T) -> Vec<T> {
     let Some(own) = choice.method.penalty() else { return Vec::new() };
-    let [from, to] = &choice.penalties;
+    let [from, to] = &choice.penalty_range;
     let own = exact(own);
     let from = from.as_ref().map_or_else(|| &own * part, exact);
     let to = to.as_ref().map_or_else(|| &own * int(1000), exact);
@@ -164,27 +168,29 @@ fn within<T: Float>(choice: &Choice<T>, part: &Exact, like: &T) -> Vec<T> {
         eps = eps * &factor;
     }
     // What does not fit is no penalty.
-    penalties.iter().filter_map(|eps| like.nearest(eps).ok()).collect()
+    penalties.iter().filter_map(|eps| like.round_from_exact(eps).ok()).collect()
 }
 
 /// Where everything `fits` the range of the scalar, what is promised has to be there. Where it does not, penalties may be
 /// very soft.
-fn keeps_its_word<T: Float + Text>(
+fn keeps_its_word<T: Float + ExactText>(
     case: &Case<Exact>,
     tolerance: &Exact,
     like: &T,
     fits: bool,
 ) -> Result<(), TestCaseError> {
     let case = case.rounded(like);
-    let Some(tolerance) = like.nearest(tolerance).ok().filter(|tolerance| *tolerance > T::zero()) else {
+    let Some(tolerance) = like.round_from_exact(tolerance).ok().filter(|tolerance| *tolerance > T::zero())
+    else {
         return Ok(());
     };
     let tol = exact(&tolerance);
     let system = &case.system;
     let numbers = system.map(exact);
-    let Advice { choices, floor, .. } = advise(system, &tolerance).unwrap();
+    let Advice { recommendations: choices, floor, .. } = advise(system, &tolerance).unwrap();
     for choice in &choices {
-        let Choice { method, augmentations, penetration, force_error, relative_force_error, .. } = choice;
+        let Recommendation { method, augmentations, penetration, force_error, relative_force_error, .. } =
+            choice;
         let solution = reaches(system, method, &tol);
         prop_assert!(solution.is_ok(), "{choice:?} {solution:?} {case:?}");
         let solution = solution.unwrap();
@@ -198,8 +204,8 @@ fn keeps_its_word<T: Float + Text>(
         for eps in within(choice, &part, like) {
             let found = reaches(system, &with_penalty_of(method, &eps), &tol);
             // Without another limit, that of the scalar.
-            let beyond = choice.penalties[1].is_none() && Some(&eps) > method.penalty();
-            if beyond && matches!(&found, Err(error) if error.contains("leaves the range")) {
+            let beyond = choice.penalty_range[1].is_none() && Some(&eps) > method.penalty();
+            if beyond && matches!(&found, Err(error) if error.contains("out of the range")) {
                 continue;
             }
             prop_assert!(found.is_ok(), "ε = {eps:?} of {choice:?}: {found:?}, {tol} {case:?}");
@@ -210,7 +216,8 @@ fn keeps_its_word<T: Float + Text>(
     }
     if fits && choices.is_empty() {
         let exponents = [-20, -3, 0, 3, 20, 50];
-        let penalties = exponents.map(|e| like.nearest(&(&numbers.c * Exact::power_of_two(e))).unwrap());
+        let penalties =
+            exponents.map(|e| like.round_from_exact(&(&numbers.c * Exact::power_of_two(e))).unwrap());
         for eps in penalties.into_iter().chain([case.eps.clone()]) {
             let augmented = Method::Augmented {
                 penalty: eps.clone(),
@@ -228,7 +235,7 @@ fn keeps_its_word<T: Float + Text>(
 
 /// The hardest penalty: what the proved bound of rounding grows by on the way from no penalty to it is c tol, or all but
 /// what the scalar rounds it down by, and so little is found in a run.
-fn hardest_is_not_too_hard<T: Float + Text>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
+fn hardest_is_not_too_hard<T: Float + ExactText>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
     let case = case.rounded(like);
     let (numbers, tol, eta) = (case.system.map(exact), exact(&case.tolerance), unit_roundoff(like));
     let precision = int(1) / &eta;
@@ -237,8 +244,8 @@ fn hardest_is_not_too_hard<T: Float + Text>(case: &Case<Exact>, like: &T) -> Res
     let rounded_down = int(1) - int(2) * &eta;
     let advice = advise(&case.system, &case.tolerance).unwrap();
     let r = system::reaction(&numbers);
-    for choice in &advice.choices {
-        let Some(to) = choice.penalties[1].clone() else {
+    for choice in &advice.recommendations {
+        let Some(to) = choice.penalty_range[1].clone() else {
             // Without lengths nothing grows; and rounded the mass may hang free.
             let nothing = numbers.h.is_zero() && numbers.l.is_zero() || r < Exact::zero();
             prop_assert!(nothing || matches!(choice.method, Method::Lagrange), "{choice:?} {case:?}");
@@ -261,7 +268,7 @@ fn hardest_is_not_too_hard<T: Float + Text>(case: &Case<Exact>, like: &T) -> Res
                     continue;
                 }
                 let computed = exact(&penalty::contact_force(&case.system, &to, &solution.deflection));
-                let off = (computed - penalty::force_at_root(&numbers, &eps)).abs();
+                let off = (computed - penalty::contact_force_at_equilibrium(&numbers, &eps)).abs();
                 prop_assert!(off <= &allowed + bound(&Exact::zero()), "{off} {choice:?} {case:?}");
             }
             Method::Augmented { .. } => {
@@ -289,7 +296,7 @@ fn hardest_is_not_too_hard<T: Float + Text>(case: &Case<Exact>, like: &T) -> Res
 }
 
 /// The softest penalty: it is promised, and the next softer one, or for the augmentation one a ninth softer, is not.
-fn softest_is_soft_enough<T: Float + Text>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
+fn softest_is_soft_enough<T: Float + ExactText>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
     let case = case.rounded(like);
     let (numbers, tol, eta) = (case.system.map(exact), exact(&case.tolerance), unit_roundoff(like));
     if system::reaction(&numbers) <= Exact::zero() {
@@ -299,12 +306,12 @@ fn softest_is_soft_enough<T: Float + Text>(case: &Case<Exact>, like: &T) -> Resu
         penalty::penetration(&numbers, eps) + rounding::deflection_error(&numbers, eps, &(int(1) / &eta))
     };
     let arrives = |eps: &Exact| {
-        augmentations_promised(&numbers, eps, &tol, &eta)
+        guaranteed_max_augmentations(&numbers, eps, &tol, &eta)
             .unwrap()
             .is_some_and(|most| most <= MAX_AUGMENTATIONS)
     };
-    for choice in advise(&case.system, &case.tolerance).unwrap().choices {
-        match (&choice.method, &choice.penalties[0]) {
+    for choice in advise(&case.system, &case.tolerance).unwrap().recommendations {
+        match (&choice.method, &choice.penalty_range[0]) {
             (Method::Lagrange, from) => prop_assert_eq!(from, &None),
             (Method::Penalty { .. }, None) => prop_assert!(off(&Exact::zero()) <= tol),
             (Method::Penalty { .. }, Some(from)) => {
@@ -326,15 +333,16 @@ fn softest_is_soft_enough<T: Float + Text>(case: &Case<Exact>, like: &T) -> Resu
 fn promised_augmentations_do<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
     let eta = unit_roundoff(like);
     let case = case.rounded(like);
-    // Where the promise begins: the least tolerance is affine in the drift (see `within_reach`).
+    // Where the promise begins: the least tolerance is affine in the drift (see `is_convergence_guaranteed`).
     let numbers = case.system.map(exact);
     let drift = rounding::penetration_drift(&numbers, &exact(&case.eps), &(int(1) / &eta));
     let begins = (drift + &eta * numbers.h.abs()) / (int(1) - int(8) * &eta);
     for share in [int(1001) / int(1000), int(3) / int(2), int(1000)] {
         // Where ε is too soft for any bound of the drift, that formula is negative.
-        let tolerance = like.nearest(&(&begins * share)).ok().filter(|tolerance| *tolerance > T::zero());
+        let tolerance =
+            like.round_from_exact(&(&begins * share)).ok().filter(|tolerance| *tolerance > T::zero());
         let Some(tolerance) = tolerance else { continue };
-        let promised = augmentations_promised(&case.system, &case.eps, &tolerance, &eta).unwrap();
+        let promised = guaranteed_max_augmentations(&case.system, &case.eps, &tolerance, &eta).unwrap();
         let Some(most) = promised.and_then(|most| most.to_u64()).filter(|most| *most < 2000) else {
             continue;
         };
@@ -351,7 +359,7 @@ fn promised_augmentations_do<T: Float>(case: &Case<Exact>, like: &T) -> Result<(
 }
 
 /// A tolerance of the size of the system or far below, and some at the floor.
-fn advice_holds<T: Float + Text>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
+fn advice_holds<T: Float + ExactText>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
     keeps_its_word(case, &case.tolerance, like, true)?;
     let floor = rounding_floor(&case.rounded(like).system, Plane::Unilateral, &unit_roundoff(like)).unwrap();
     for share in [int(1) / int(2), int(101) / int(100), int(2)] {
@@ -390,13 +398,14 @@ fn tiny<T: Float>(case: &Case<Exact>, [force, length, mass]: [i32; 3], like: &T)
         tolerance: times(&case.tolerance, length),
     };
     let SpringMass { c, m, g, l, h } = &case.system;
-    let fits =
-        [c, m, g, l, h, &case.eps, &case.start, &case.tolerance].iter().all(|x| like.nearest(x).is_ok());
+    let fits = [c, m, g, l, h, &case.eps, &case.start, &case.tolerance]
+        .iter()
+        .all(|x| like.round_from_exact(x).is_ok());
     (fits && solve(&case.rounded(like).system, &Method::Lagrange).is_ok()).then_some(case)
 }
 
 /// Where products underflow, too. All that is in the range of a choice is tried.
-fn small_numbers_keep_their_word<T: Float + Text>(
+fn small_numbers_keep_their_word<T: Float + ExactText>(
     case: &Case<Exact>,
     scales: [i32; 3],
     like: &T,
@@ -452,11 +461,11 @@ proptest! {
     #[test]
     fn bits_needed_do(case in any_state(WIDE), digits in 3u32..=400) {
         let tolerance = int(1) / power(&int(10), digits);
-        let bits = bits_needed(&case.system, Plane::Unilateral, &tolerance).unwrap().unwrap();
+        let bits = required_precision(&case.system, Plane::Unilateral, &tolerance).unwrap().unwrap();
         let like = int(1).to_mpfr(bits);
         let rounded = case.rounded(&like);
         let advice = advise(&rounded.system, &tolerance.to_mpfr(bits)).unwrap();
-        prop_assert_eq!(advice.choices.len(), 3, "{} bits for {}: {:?}", bits, tolerance, rounded);
+        prop_assert_eq!(advice.recommendations.len(), 3, "{} bits for {}: {:?}", bits, tolerance, rounded);
         if bits > 6 {
             let fewer = case.rounded(&int(1).to_mpfr(bits - 1));
             let floor = rounding_floor(&fewer.system, Plane::Unilateral, &Exact::power_of_two(1 - bits as i32)).unwrap();
@@ -469,20 +478,20 @@ proptest! {
     fn rationals_reach_everything(case in any_state(WIDE)) {
         let advice = advise(&case.system, &case.tolerance).unwrap();
         prop_assert_eq!(advice.floor, Some(Exact::zero()));
-        prop_assert_eq!(advice.choices.len(), 3);
-        for choice in &advice.choices {
+        prop_assert_eq!(advice.recommendations.len(), 3);
+        for choice in &advice.recommendations {
             prop_assert!(reaches(&case.system, &choice.method, &case.tolerance).is_ok());
             prop_assert!(choice.augmentations.is_none_or(|k| k <= MAX_AUGMENTATIONS));
         }
-        let from = advice.choices[1].penalties[0].clone();
+        let from = advice.recommendations[1].penalty_range[0].clone();
         let least = (reaction(&case) / &case.tolerance - &case.system.c).positive_part();
         if reaction(&case) > Exact::zero() {
             prop_assert!(from.is_none_or(|from| from > least));
         }
         if reaction(&case) >= Exact::zero() {
             let plane = Plane::Unilateral;
-            let needed = |eps: &Exact| augmentations_needed(&case.system, eps, &case.tolerance, &int(0), plane).unwrap();
-            match &advice.choices[2].penalties[0] {
+            let needed = |eps: &Exact| exact_augmentation_count(&case.system, eps, &case.tolerance, &int(0), plane).unwrap();
+            match &advice.recommendations[2].penalty_range[0] {
                 None => prop_assert!(reaction(&case) <= &case.system.c * &case.tolerance),
                 Some(from) => {
                     prop_assert!(needed(from) <= MAX_AUGMENTATIONS);

@@ -10,7 +10,7 @@ use spring_mass_contact::chapter::{SpringMass, augmented, contact, penalty, roun
 use spring_mass_contact::number::{Exact, Mpfr, OrderedField, PositivePart};
 use spring_mass_contact::rug::Integer;
 use spring_mass_contact::solver::{
-    Augmentation, Iterate, Method, Outcome, Plane, Scalar, State, augmentations_needed, solve,
+    Augmentation, Iterate, Method, Outcome, Plane, Scalar, State, exact_augmentation_count, solve,
     solve_bilateral,
 };
 
@@ -166,7 +166,7 @@ proptest! {
                     augmented::within_tolerance(&r, tolerance)
                 }
             };
-            let needed = augmentations_needed(s, eps, tolerance, start, plane).unwrap();
+            let needed = exact_augmentation_count(s, eps, tolerance, start, plane).unwrap();
             let needed = needed.to_usize().expect("small, by the choice of ε and the tolerance");
             let counted = iterate(&case, plane).take(needed + 2).position(|step| done(&step));
             prop_assert_eq!(counted, Some(needed), "{:?}", plane);
@@ -188,7 +188,7 @@ proptest! {
                 outcome => prop_assert!(exactly_there, "{:?}", outcome),
             }
             if let Some(fewer) = needed.checked_sub(1) {
-                prop_assert_eq!(run(fewer).unwrap().outcome, Outcome::OutOfSteps);
+                prop_assert_eq!(run(fewer).unwrap().outcome, Outcome::IterationLimit);
             }
         }
     }
@@ -202,8 +202,8 @@ proptest! {
         let Case { system: s, eps, tolerance, start } = &tie;
         let more = tolerance * (int(1) + Exact::power_of_two(-200));
         for plane in [Plane::Unilateral, Plane::Bilateral] {
-            prop_assert_eq!(augmentations_needed(s, eps, tolerance, start, plane).unwrap(), n + 1);
-            prop_assert_eq!(augmentations_needed(s, eps, &more, start, plane).unwrap(), n);
+            prop_assert_eq!(exact_augmentation_count(s, eps, tolerance, start, plane).unwrap(), n + 1);
+            prop_assert_eq!(exact_augmentation_count(s, eps, &more, start, plane).unwrap(), n);
         }
     }
 
@@ -212,7 +212,7 @@ proptest! {
     fn the_count_of_a_tiny_penalty(case in in_contact(WIDE), e in 20..3000i32, digits in 1..100i32) {
         let case = with_penalty(Case { start: int(0), ..case }, &Exact::power_of_two(-e));
         let tolerance = first_penetration(&case) * Exact::power_of_two(-digits);
-        let needed = augmentations_needed(&case.system, &case.eps, &tolerance, &case.start, Plane::Bilateral).unwrap();
+        let needed = exact_augmentation_count(&case.system, &case.eps, &tolerance, &case.start, Plane::Bilateral).unwrap();
         let needed = Exact::from(spring_mass_contact::rug::Rational::from(needed));
         // Λ = digits · ln 2, and 693147180/10⁹ < ln 2 < 693147181/10⁹.
         let billion = int(1_000_000_000);
@@ -276,7 +276,7 @@ fn close_to_the_closed_form<T: Float>(case: &Case<Exact>, like: &T) -> Result<()
     if r <= int(0) || int(64) * &stiffness > &case.eps * (&n + int(1)) {
         return Ok(());
     }
-    let of_multiplier = int(11) * stiffness * rounding::floor(&case.system, &case.eps, &n);
+    let of_multiplier = int(11) * stiffness * rounding::floor_scale(&case.system, &case.eps, &n);
     let of_penetration = rounding::penetration_drift(&case.system, &case.eps, &n);
     let mut decay = int(1);
     for step in iterate(&floats, Plane::Bilateral).take(24) {
@@ -353,7 +353,7 @@ fn outcomes_keep_their_promises<T: Float>(case: &Case<Exact>, like: &T) -> Resul
                 prop_assert!(bounds.max().is_some_and(|most| floor <= most), "{:?} {:?}", plane, floats);
             }
             outcome => {
-                prop_assert_eq!((outcome, k, answer.floor), (Outcome::OutOfSteps, limit, None));
+                prop_assert_eq!((outcome, k, answer.floor), (Outcome::IterationLimit, limit, None));
             }
         }
     }
@@ -456,7 +456,7 @@ fn a_penetration_of_zero_promises_nothing() {
 /// Every outcome, and both ways to stagnate, occur on this grid: nothing above holds for want of cases.
 #[test]
 fn every_outcome_occurs() {
-    let (mut converged, mut repeats, mut crosses, mut out_of_steps) = (0, 0, 0, 0);
+    let (mut converged, mut repeats, mut crosses, mut iteration_limit) = (0, 0, 0, 0);
     for penalty in (-10..30).map(|e| 2f64.powi(e) * 100.0) {
         for tolerance in [1e-6, 1e-12, 1e-15, 1e-17] {
             let s = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
@@ -466,11 +466,11 @@ fn every_outcome_occurs() {
                 Outcome::Converged => converged += 1,
                 Outcome::Stagnated if answer.penetration > 0.0 => repeats += 1,
                 Outcome::Stagnated => crosses += 1,
-                _ => out_of_steps += 1,
+                _ => iteration_limit += 1,
             }
         }
     }
-    let all = [converged, repeats, crosses, out_of_steps];
+    let all = [converged, repeats, crosses, iteration_limit];
     assert!(all.iter().all(|n| *n > 0), "{all:?}");
 }
 
@@ -492,7 +492,7 @@ fn a_count_of_many_digits() {
     let s: SpringMass<Exact> = SpringMass { c: "4", m: "1", g: "10", l: "1", h: "3" }.parse().unwrap();
     // p₀ = 2/(4 + 4) = 1/4 halves with every step: 2⁻² < 2⁻¹⁰⁰⁰⁰⁰⁰ · 2ᵏ first for k = 999 999.
     let needed =
-        augmentations_needed(&s, &int(4), &Exact::power_of_two(-1_000_000), &int(0), Plane::Unilateral)
+        exact_augmentation_count(&s, &int(4), &Exact::power_of_two(-1_000_000), &int(0), Plane::Unilateral)
             .unwrap();
     assert_eq!(needed, Integer::from(999_999));
 }
@@ -505,7 +505,7 @@ fn a_residual_of_the_tolerance_is_not_below_it() {
     for (start, tie) in [(int(1) / int(2), int(1) / int(2)), (int(-1), int(1))] {
         for (tolerance, needed) in [(tie.clone(), 1), (tie + Exact::power_of_two(-99), 0)] {
             let count =
-                augmentations_needed(&system, &int(1), &tolerance, &start, Plane::Unilateral).unwrap();
+                exact_augmentation_count(&system, &int(1), &tolerance, &start, Plane::Unilateral).unwrap();
             let method =
                 Method::Augmented { penalty: int(1), tolerance, max_augmentations: 9, start: start.clone() };
             let answer = solve(&system, &method).unwrap();

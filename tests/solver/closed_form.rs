@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::number::{Exact, Field, Mpfr};
 use spring_mass_contact::solver::{
-    Augmentation, Interval, Iterate, Plane, Scalar, SolveError, State, iterate_after,
+    Augmentation, Interval, Iterate, Plane, Scalar, SolveError, State, kth_iterate,
 };
 
 const PLANES: [Plane; 2] = [Plane::Unilateral, Plane::Bilateral];
@@ -16,7 +16,7 @@ fn numbers<T>(x: Iterate<T>) -> [T; 4] {
 }
 
 fn after<T: Scalar>(x: &Case<T>, k: u64, plane: Plane) -> Result<Iterate<Interval<T>>, SolveError> {
-    iterate_after(&x.system, &x.eps, &x.start, k, plane)
+    kth_iterate(&x.system, &x.eps, &x.start, k, plane)
 }
 
 fn step(x: &Case<Exact>, k: u64, plane: Plane) -> Iterate<Exact> {
@@ -76,7 +76,7 @@ fn the_penetration_keeps_its_digits() {
     let system = SpringMass { c: 100.0, m: 1.0, g: 10.0, l: 1.0, h: 1.0625 };
     let eta = f64::EPSILON / 2.0;
     for k in [0, 1, 10, 1000, 5000] {
-        let p = iterate_after(&system, &3.0, &0.0, k, Plane::Unilateral).unwrap().penetration;
+        let p = kth_iterate(&system, &3.0, &0.0, k, Plane::Unilateral).unwrap().penetration;
         let few = 12.0 * k as f64 + 2.0 * 20.0 + 4.0;
         assert!(p.lower > 0.0 && p.upper - p.lower <= few * eta * p.upper, "k = {k}: {p:?}");
     }
@@ -92,7 +92,7 @@ fn steps_without_number() {
     // ρᵏ = (1 + ε/c)⁻ᵏ is between exp(−k ε/c) and the same with k ε²/(2 c²) less in the exponent, which is nothing.
     let bits = |x: &Exact| x.to_mpfr(300);
     let narrow = Mpfr::rounded(300, 1) / bits(&Exact::power_of_two(60));
-    let p = iterate_after(&system.map(bits), &bits(&eps), &bits(&int(0)), k, Plane::Unilateral).unwrap();
+    let p = kth_iterate(&system.map(bits), &bits(&eps), &bits(&int(0)), k, Plane::Unilateral).unwrap();
     let p = p.penetration;
     assert!(p.lower > bits(&int(0)) && &p.upper - &p.lower < &narrow * &p.lower);
     let exponent = -(&eps / &system.c * Exact::from(spring_mass_contact::rug::Rational::from(k)));
@@ -105,22 +105,17 @@ fn steps_without_number() {
     let most = Mpfr::rounded(300, 1) / bits(&Exact::power_of_two(48));
     assert!(off < most && -off < most);
     // In f64 ρ is known to too few digits for that, and says so; as a rational it is refused.
-    let rough = iterate_after(
-        &system.map(|x| x.to_f64().unwrap()),
-        &eps.to_f64().unwrap(),
-        &0.0,
-        k,
-        Plane::Unilateral,
-    );
+    let rough =
+        kth_iterate(&system.map(|x| x.to_f64().unwrap()), &eps.to_f64().unwrap(), &0.0, k, Plane::Unilateral);
     assert!(rough.is_err() || rough.is_ok_and(|rough| rough.penetration.lower <= 0.0));
-    let refused = iterate_after(&system, &eps, &int(0), k, Plane::Unilateral);
+    let refused = kth_iterate(&system, &eps, &int(0), k, Plane::Unilateral);
     assert!(matches!(refused, Err(SolveError::TooLong { .. })));
     // And so it is as a constant of MPFR, whatever the other parameters are.
     let constant = |x: &Exact| Mpfr::constant(x.clone().into());
     let mixed = SpringMass { c: constant(&system.c), ..system.map(|x| x.to_mpfr(100)) };
-    let refused = iterate_after(&mixed, &constant(&eps), &Mpfr::int(0), k, Plane::Unilateral);
+    let refused = kth_iterate(&mixed, &constant(&eps), &Mpfr::int(0), k, Plane::Unilateral);
     assert!(matches!(refused, Err(SolveError::TooLong { .. })));
-    let accepted = iterate_after(&mixed, &constant(&eps), &Mpfr::int(0), 1000, Plane::Unilateral);
+    let accepted = kth_iterate(&mixed, &constant(&eps), &Mpfr::int(0), 1000, Plane::Unilateral);
     assert!(accepted.is_ok_and(|step| step.penetration.lower > Mpfr::int(0)));
 }
 
@@ -139,10 +134,10 @@ fn what_is_not_in_range_is_refused() {
         (good, f64::INFINITY, 0.0),
         (good, 4.0, f64::NAN),
     ] {
-        let refused = iterate_after(&system, &eps, &start, 3, Plane::Unilateral);
+        let refused = kth_iterate(&system, &eps, &start, 3, Plane::Unilateral);
         assert!(matches!(refused, Err(SolveError::Invalid { .. })), "{refused:?}");
     }
     let huge = SpringMass { m: 1e300, g: 1e300, ..good };
-    let refused = iterate_after(&huge, &4.0, &0.0, 3, Plane::Unilateral);
+    let refused = kth_iterate(&huge, &4.0, &0.0, 3, Plane::Unilateral);
     assert!(matches!(refused, Err(SolveError::OutOfRange { .. })), "{refused:?}");
 }

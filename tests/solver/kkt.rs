@@ -174,7 +174,7 @@ fn certificate_is_small<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), Te
     let kkt = penalty.certificate(&case.system).unwrap();
     let (u, n) = (exact(&penalty.deflection), exact(&penalty.contact_force));
     // The rounding error of (1.13), computed: the formula read in balls.
-    let balls = case.map(|x| Ball::exactly(x.clone()));
+    let balls = case.map(|x| Ball::point(x.clone()));
     let u_error = match r.cmp(&int(0)) {
         Ordering::Less => twice,
         _ => exact(penalty::deflection(&balls.system, &balls.eps).radius()),
@@ -236,7 +236,7 @@ fn exactly_grazing(bits: u32) -> impl Strategy<Value = SpringMass<Exact>> {
 /// sign.
 fn extreme<T: Float>(like: &T, (kind, digits, negative): (u8, u32, bool)) -> T {
     let eta = unit_roundoff(like);
-    let units = |n: Exact| like.nearest(&(n * exact(&T::underflow_unit()))).unwrap();
+    let units = |n: Exact| like.round_from_exact(&(n * exact(&T::min_subnormal()))).unwrap();
     // A fraction of the smallest normal number, which is 1/(2 η) units.
     let fraction = int(1) / (int(2) * &eta) * Exact::from(Rational::from((digits, u32::MAX)));
     let whole = |x: Exact| Exact::from(Rational::from(x.as_rational().ceil_ref()));
@@ -247,7 +247,9 @@ fn extreme<T: Float>(like: &T, (kind, digits, negative): (u8, u32, bool)) -> T {
         4 => units(whole(fraction) + int(1) / (int(2) * &eta)),
         5 => (0..digits % 4).fold(T::infinity().next_down(), |x, _| x.next_down()),
         _ => like
-            .nearest(&(int(1 + (digits % 1000) as i32) * Exact::power_of_two((digits % 7) as i32 * 5 - 15)))
+            .round_from_exact(
+                &(int(1 + (digits % 1000) as i32) * Exact::power_of_two((digits % 7) as i32 * 5 - 15)),
+            )
             .unwrap(),
     };
     if negative { -x } else { x }
@@ -284,14 +286,14 @@ fn the_state_is_exact_where_rounding_could_turn_it<T: Float>(
         // More digits than any of the machine's floats have.
         let full = 1 << 63 | (u64::from(digits[i]) << 31 | u64::from(!digits[3 - i])) >> zeros[i];
         let size = if i < 2 { k / 2 } else { k - k / 2 };
-        like.nearest(&(Exact::from(Rational::from(full)) * Exact::power_of_two(size - 63))).unwrap()
+        like.round_from_exact(&(Exact::from(Rational::from(full)) * Exact::power_of_two(size - 63))).unwrap()
     });
     // Then H − l is rounded, too.
     let l = if below { -l } else { l };
     // The neighbours of 0 in MPFR have a billion digits.
     prop_assume!(h != l);
     let g = exact(&c) * (exact(&h) - exact(&l)) / exact(&m);
-    let mut g = like.nearest(&g).unwrap().next_down().next_down();
+    let mut g = like.round_from_exact(&g).unwrap().next_down().next_down();
     for _ in 0..5 {
         let [c, m, l, h] = [&c, &m, &l, &h].map(T::clone);
         let system = SpringMass { c, m, g: g.clone(), l, h };
@@ -312,13 +314,13 @@ fn a_subnormal_system_can_graze<T: Float>(
     (n, k, shift): (i32, i32, i32),
     l: Extreme,
 ) -> Result<(), TestCaseError> {
-    let (unit, scale) = (exact(&T::underflow_unit()), Exact::power_of_two(shift));
+    let (unit, scale) = (exact(&T::min_subnormal()), Exact::power_of_two(shift));
     let (n, k) = (int(n), int(k));
     for (m, g, c, h) in [
         (&n * &unit, &k * &scale, &k * &unit * &scale, n.clone()),
         (&n * &unit * &scale, k.clone(), &k * &unit, &n * &scale),
     ] {
-        let [c, m, g, h] = [c, m, g, h].map(|x| like.nearest(&x).unwrap());
+        let [c, m, g, h] = [c, m, g, h].map(|x| like.round_from_exact(&x).unwrap());
         let l = extreme(like, l);
         let sign = exact(&l).cmp(&int(0));
         let system = SpringMass { c, m, g, l, h };
@@ -329,7 +331,7 @@ fn a_subnormal_system_can_graze<T: Float>(
 
 /// One ulp on any parameter, up or down, tips the state to the side that the sign of ∂R says.
 fn one_ulp_decides<T: Float>(s: &SpringMass<Exact>, like: &T) -> Result<(), TestCaseError> {
-    let s = s.try_map(|x| like.nearest(x)).unwrap();
+    let s = s.try_map(|x| like.round_from_exact(x)).unwrap();
     prop_assert_eq!(solve(&s, &Method::Lagrange).unwrap().state, State::Grazing);
     let gap = system::gap(&s.map(exact));
     let (zero, one) = (int(0), int(1));

@@ -21,10 +21,10 @@ proptest! {
         prop_assert_eq!(&penalty::deflection_divided(s, eps), &u);
         prop_assert_eq!(penalty::residual(s, eps, &u), int(0));
         prop_assert_eq!(penalty::penetration(s, eps), contact::penetration(s, &u));
-        prop_assert_eq!(penalty::force_at_root(s, eps), penalty::contact_force(s, eps, &u));
+        prop_assert_eq!(penalty::contact_force_at_equilibrium(s, eps), penalty::contact_force(s, eps, &u));
         prop_assert_eq!(penalty::total_stiffness(s, eps) * penalty::penetration(s, eps), r.clone());
         // (R − N)/R = c/(c + ε), multiplied out.
-        prop_assert_eq!((&r - penalty::force_at_root(s, eps)) * (&s.c + eps), &s.c * r);
+        prop_assert_eq!((&r - penalty::contact_force_at_equilibrium(s, eps)) * (&s.c + eps), &s.c * r);
     }
 
     /// The definition of the limit: for every δ > 0 there is an ε from which on the error is below δ.
@@ -71,7 +71,7 @@ proptest! {
         let expected = if free { structure::deflection(s) } else { penalty::deflection(s, eps) };
         prop_assert_eq!(&one.deflection, &expected);
         prop_assert_eq!(&two.deflection, &penalty::deflection(s, eps));
-        prop_assert_eq!(&two.contact_force, &penalty::force_at_root(s, eps));
+        prop_assert_eq!(&two.contact_force, &penalty::contact_force_at_equilibrium(s, eps));
         for answer in [one, two] {
             prop_assert_eq!(answer.outcome, Outcome::Direct);
             prop_assert_eq!((answer.multiplier, answer.augmentations, answer.floor), (None, None, None));
@@ -128,7 +128,7 @@ fn the_precision_law<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), TestC
     let bound = rounding::penalty_force_error(&pushed(s), eps, &(int(1) / unit_roundoff(like)));
     let u = penalty::deflection(&floats.system, &floats.eps);
     let n = exact(&penalty::contact_force(&floats.system, &floats.eps, &u));
-    prop_assert!((&n - penalty::force_at_root(s, eps)).abs() <= bound, "{:?}", case);
+    prop_assert!((&n - penalty::contact_force_at_equilibrium(s, eps)).abs() <= bound, "{:?}", case);
     let short = &s.c * penalty::penetration(s, eps).abs();
     prop_assert!((n - reaction(&case)).abs() <= short + bound, "{:?}", case);
     Ok(())
@@ -139,7 +139,7 @@ fn the_penalty_for_a_penetration_rounds<T: Float>(case: &Case<Exact>, like: &T) 
     let floats = case.rounded(like);
     let case = floats.exact();
     let tol = &case.tolerance;
-    let balls = floats.map(|x| Ball::exactly(x.clone()));
+    let balls = floats.map(|x| Ball::point(x.clone()));
     let ball = penalty::penalty_for(&balls.system, &balls.tolerance);
     let least = penalty::penalty_for(&case.system, tol);
     prop_assert!(ball.contains(&least), "{:?}", case);
@@ -215,7 +215,7 @@ fn root_is_the_best<T: Float>(
     (eps, higher): &(Exact, Vec<Exact>),
     like: &T,
 ) -> Result<(), TestCaseError> {
-    let round = |x: &Exact| like.nearest(x).unwrap();
+    let round = |x: &Exact| like.round_from_exact(x).unwrap();
     let (s, eps, higher) = (s.map(round), round(eps), higher.iter().map(round).collect::<Vec<_>>());
     let p = series_penetration(&s, &eps, &higher).unwrap();
     let terms: Vec<_> = higher.iter().map(exact).collect();
@@ -269,8 +269,8 @@ proptest! {
         let found = series_penetration(&f, &eps.to_f64().unwrap(), &higher).unwrap();
         prop_assert_eq!(exact(&found), p.clone());
         let like = int(1).to_mpfr(60);
-        let [eps, e4, e6] = [eps, e4, e6].map(|x| like.nearest(&x).unwrap());
-        let s = s.map(|x| like.nearest(x).unwrap());
+        let [eps, e4, e6] = [eps, e4, e6].map(|x| like.round_from_exact(&x).unwrap());
+        let s = s.map(|x| like.round_from_exact(x).unwrap());
         prop_assert_eq!(exact(&series_penetration(&s, &eps, &[e4, e6]).unwrap()), p);
     }
 
@@ -308,10 +308,10 @@ proptest! {
 #[test]
 fn a_quartic_alone_has_slope_minus_a_third() {
     let like = int(1).to_mpfr(200);
-    let s = default_system().map(|x| like.nearest(x).unwrap());
+    let s = default_system().map(|x| like.round_from_exact(x).unwrap());
     let r = system::reaction(&s.map(exact));
     let root = |n: i32| {
-        let e4 = like.nearest(&Exact::power_of_two(n)).unwrap();
+        let e4 = like.round_from_exact(&Exact::power_of_two(n)).unwrap();
         exact(&series_penetration(&s, &Exact::zero().to_mpfr(200), &[e4]).unwrap())
     };
     for n in (10..100).step_by(9) {
@@ -449,7 +449,7 @@ fn a_root_next_to_grazing_is_found() {
     let r = Exact::power_of_two(-250);
     let s = SpringMass { c: int(1), m: int(1), g: int(1) + &r, l: int(0), h: int(1) };
     let like = int(1).to_mpfr(300);
-    let s = s.map(|x| like.nearest(x).unwrap());
+    let s = s.map(|x| like.round_from_exact(x).unwrap());
     let p = series_penetration(&s, &like, &[]).unwrap();
     assert_eq!(exact(&p), r / int(2));
 }

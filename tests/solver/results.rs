@@ -8,9 +8,10 @@ use proptest::prelude::*;
 use spring_mass_contact::chapter::{SpringMass, penalty, system};
 use spring_mass_contact::number::{Exact, Mpfr, PositivePart};
 use spring_mass_contact::solver::{
-    Bounds, Interval, Method, Outcome, Plane, Solution, SolveError, State, advise, augmentations_needed,
-    augmentations_promised, best_penalty, bits_needed, iterate_after, penalties, penalty_for_penetration,
-    penalty_force_bound, rounding_floor, series_penetration, solve, solve_bilateral, sweep, within_reach,
+    Bounds, Interval, Method, Outcome, Plane, Solution, SolveError, State, advise, best_penalty,
+    exact_augmentation_count, guaranteed_max_augmentations, is_convergence_guaranteed, kth_iterate,
+    penalties, penalty_for_penetration, penalty_force_bound, required_precision, rounding_floor,
+    series_penetration, solve, solve_bilateral, sweep,
 };
 
 /// A way to solve, and the plane that it supposes.
@@ -102,7 +103,7 @@ fn grazing_but_for_rounding(bits: u32) -> impl Strategy<Value = SpringMass<Exact
 
 /// Touching without force is no matter of rounding: no force of the size of an ulp is left.
 fn grazing_has_no_force_at_all<T: Float>(s: &SpringMass<Exact>, like: &T) -> Result<(), TestCaseError> {
-    let floats = s.try_map(|x| like.nearest(x)).unwrap();
+    let floats = s.try_map(|x| like.round_from_exact(x)).unwrap();
     prop_assert_eq!(&floats.map(exact), s, "the parameters fit");
     prop_assume!(!system::reaction(&floats).is_zero());
     let one = like.clone();
@@ -169,7 +170,7 @@ fn refusals_name_the_parameter<T: Float>(like: &T) {
     let infinity = like * T::infinity();
     let not_a_number = infinity.clone() - &infinity;
     let never = [not_a_number, infinity.clone(), -&infinity];
-    let not_positive = [zero.clone(), -&zero, -&one, -T::underflow_unit()];
+    let not_positive = [zero.clone(), -&zero, -&one, -T::min_subnormal()];
     let system =
         SpringMass { c: one.clone(), m: one.clone(), g: one.clone(), l: one.clone(), h: one.clone() };
     let case = Case { system, eps: one.clone(), start: one.clone(), tolerance: one.clone() };
@@ -264,8 +265,9 @@ fn what_is_within_reach_begins_at_the_drift() {
     let pushes = SpringMass { c: 4, m: 1, g: 10, l: 1, h: 3 }.map(|x| int(*x));
     let pulls = SpringMass { c: 4, m: 1, g: -10, l: -1, h: -3 }.map(|x| int(*x));
     for system in [pushes, pulls] {
-        let reaches =
-            |tolerance: &Exact, eta: &Exact| within_reach(&system, &int(4), tolerance, eta).unwrap();
+        let reaches = |tolerance: &Exact, eta: &Exact| {
+            is_convergence_guaranteed(&system, &int(4), tolerance, eta).unwrap()
+        };
         for bits in [24, 53, 200] {
             let eta = Exact::power_of_two(-bits);
             let drift = int(113) * &eta / (int(1) - int(8) * &eta);
@@ -287,7 +289,7 @@ fn a_tolerance_is_above_the_floor() {
     let fewest = int(41) / int(8);
     assert_eq!(floor(int(1) / int(64)), Some(fewest.clone()));
     assert_eq!(floor(int(1) / int(63)), None);
-    let bits = |tolerance| bits_needed(&system, Plane::Unilateral, &tolerance).unwrap();
+    let bits = |tolerance| required_precision(&system, Plane::Unilateral, &tolerance).unwrap();
     assert_eq!([bits(fewest), bits(int(6))], [Some(7), Some(6)]);
 }
 
@@ -298,7 +300,7 @@ fn a_tolerance_is_above_the_floor() {
 fn bits_are_found_where_far_fewer_do_than_seem_to() {
     let [soft, long] = [-200_000, 400_000].map(Exact::power_of_two);
     let system = SpringMass { c: soft, m: int(1), g: int(-1), l: long.clone(), h: long };
-    assert_eq!(bits_needed(&system, Plane::Unilateral, &int(1)), Ok(Some(200_005)));
+    assert_eq!(required_precision(&system, Plane::Unilateral, &int(1)), Ok(Some(200_005)));
 }
 
 /// u = m g/c = 1 and l = 0: 5 η far from the plane. Touching, the floor is 41 η H/(1 − 8 η), and it is added where
@@ -350,7 +352,7 @@ fn a_penalty_may_be_as_large_as_a_float() {
     for penalty in [1e308, f64::MAX / 2.0] {
         for (solve, plane) in both() {
             let solution = solve(&system, &Method::Penalty { penalty }).unwrap();
-            let exactly = penalty::force_at_root(&system.map(exact), &exact(&penalty));
+            let exactly = penalty::contact_force_at_equilibrium(&system.map(exact), &exact(&penalty));
             let Interval { lower, upper } = solution.bounds.contact_force;
             assert!(exact(&lower) <= exactly && exactly <= exact(&upper), "{plane:?}");
             // As narrow as for a penalty that overflows nothing.
@@ -361,7 +363,7 @@ fn a_penalty_may_be_as_large_as_a_float() {
     // Soft beside the spring, where R − c p would cancel.
     let strong = SpringMass { c: 1e20, m: 1e300, g: 1.0, l: 1.0, h: 1.0 };
     let force = solve(&strong, &Method::Penalty { penalty: 1e9 }).unwrap().bounds.contact_force;
-    let exactly = penalty::force_at_root(&strong.map(exact), &int(1_000_000_000));
+    let exactly = penalty::contact_force_at_equilibrium(&strong.map(exact), &int(1_000_000_000));
     assert!(exact(&force.lower) <= exactly && exactly <= exact(&force.upper));
     assert!(force.width() <= 1e-14 * force.upper);
 }
@@ -387,40 +389,40 @@ fn what_is_asked_of_an_invalid_system_is_an_error() {
     let plane = Plane::Unilateral;
     let solution = solve(&good, &Method::Lagrange).unwrap();
     for (system, name) in &systems {
-        named(within_reach(system, &4.0, &0.1, &eta), name);
-        named(augmentations_promised(system, &4.0, &0.1, &eta), name);
-        named(augmentations_needed(system, &4.0, &0.1, &0.0, plane), name);
+        named(is_convergence_guaranteed(system, &4.0, &0.1, &eta), name);
+        named(guaranteed_max_augmentations(system, &4.0, &0.1, &eta), name);
+        named(exact_augmentation_count(system, &4.0, &0.1, &0.0, plane), name);
         named(rounding_floor(system, plane, &eta), name);
         named(penalty_force_bound(system, &4.0, &eta), name);
         named(best_penalty(system, &eta), name);
         named(penalty_for_penetration(system, &0.1), name);
-        named(iterate_after(system, &4.0, &0.0, 3, plane), name);
+        named(kth_iterate(system, &4.0, &0.0, 3, plane), name);
         named(series_penetration(system, &4.0, &[]), name);
         named(advise(system, &0.1), name);
         named(solution.certificate(system), name);
         named(sweep(system, [4.0]).next().unwrap(), name);
     }
     for eps in [0.0, -4.0, nan, inf] {
-        named(within_reach(&good, &eps, &0.1, &eta), "penalty");
-        named(augmentations_promised(&good, &eps, &0.1, &eta), "penalty");
-        named(augmentations_needed(&good, &eps, &0.1, &0.0, plane), "penalty");
+        named(is_convergence_guaranteed(&good, &eps, &0.1, &eta), "penalty");
+        named(guaranteed_max_augmentations(&good, &eps, &0.1, &eta), "penalty");
+        named(exact_augmentation_count(&good, &eps, &0.1, &0.0, plane), "penalty");
         named(penalty_force_bound(&good, &eps, &eta), "penalty");
     }
     for tolerance in [0.0, -0.1, nan, inf] {
-        named(within_reach(&good, &4.0, &tolerance, &eta), "tolerance");
-        named(augmentations_promised(&good, &4.0, &tolerance, &eta), "tolerance");
-        named(augmentations_needed(&good, &4.0, &tolerance, &0.0, plane), "tolerance");
+        named(is_convergence_guaranteed(&good, &4.0, &tolerance, &eta), "tolerance");
+        named(guaranteed_max_augmentations(&good, &4.0, &tolerance, &eta), "tolerance");
+        named(exact_augmentation_count(&good, &4.0, &tolerance, &0.0, plane), "tolerance");
     }
-    named(augmentations_needed(&good, &4.0, &0.1, &nan, plane), "initial multiplier");
+    named(exact_augmentation_count(&good, &4.0, &0.1, &nan, plane), "initial multiplier");
     let negative = int(-1);
-    named(within_reach(&good, &4.0, &0.1, &negative), "unit roundoff");
-    named(augmentations_promised(&good, &4.0, &0.1, &negative), "unit roundoff");
+    named(is_convergence_guaranteed(&good, &4.0, &0.1, &negative), "unit roundoff");
+    named(guaranteed_max_augmentations(&good, &4.0, &0.1, &negative), "unit roundoff");
     named(rounding_floor(&good, plane, &negative), "unit roundoff");
     named(penalty_force_bound(&good, &4.0, &negative), "unit roundoff");
     let exactly = good.map(exact);
-    named(bits_needed(&exactly, plane, &int(0)), "tolerance");
-    named(bits_needed(&SpringMass { c: int(0), ..exactly.clone() }, plane, &int(1)), "stiffness");
-    named(augmentations_needed(&exactly, &int(-4), &int(1), &int(0), plane), "penalty");
+    named(required_precision(&exactly, plane, &int(0)), "tolerance");
+    named(required_precision(&SpringMass { c: int(0), ..exactly.clone() }, plane, &int(1)), "stiffness");
+    named(exact_augmentation_count(&exactly, &int(-4), &int(1), &int(0), plane), "penalty");
     named(penalties(&int(1), &int(2), u32::MAX), "number of penalties");
     let mut broken = solution;
     broken.contact_force = nan;
@@ -444,5 +446,5 @@ fn an_augmentation_of_endless_digits_is_refused() {
     assert!(matches!(refused, SolveError::TooLong { .. }), "{refused}");
     // A thousand steps of everyday numbers are none too many.
     let soft = Method::augmented("0.001".parse().unwrap());
-    assert_eq!(solve(&system, &soft).unwrap().outcome, Outcome::OutOfSteps);
+    assert_eq!(solve(&system, &soft).unwrap().outcome, Outcome::IterationLimit);
 }

@@ -4,7 +4,7 @@ use crate::in_every_float;
 use crate::strategies::*;
 use proptest::prelude::*;
 use spring_mass_contact::chapter::{SpringMass, contact};
-use spring_mass_contact::number::{Exact, ParseError, Text};
+use spring_mass_contact::number::{Exact, ExactText, ParseError};
 use spring_mass_contact::solver::{
     Condition, FunctionalError, Interval, Method, Outcome, solve, solve_bilateral,
 };
@@ -23,7 +23,7 @@ fn enclosure<'a>(shown: &'a str, symbol: &str, name: &str) -> &'a str {
 }
 
 /// Ends and floors are rounded outwards, however short they are written.
-fn what_is_written_encloses<T: Float + Text>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
+fn what_is_written_encloses<T: Float + ExactText>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
     let case = case.rounded(like);
     for method in case.methods(200) {
         for solve in [solve::<T>, solve_bilateral::<T>] {
@@ -61,7 +61,7 @@ fn a_width_is_no_less_than_the_distance<T: Float>(case: &Case<Exact>, like: &T) 
     for (x, y) in numbers.into_iter().flat_map(|x| numbers.map(|y| (x, y))).filter(|(x, y)| x <= y) {
         let width = exact(&Interval { lower: x.clone(), upper: y.clone() }.width());
         let distance = exact(y) - exact(x);
-        match like.nearest(&distance) {
+        match like.round_from_exact(&distance) {
             Ok(nearest) if exact(&nearest) == distance => prop_assert_eq!(width, distance),
             _ => {
                 let most = &distance * (int(1) + int(8) * unit_roundoff(like));
@@ -120,7 +120,7 @@ fn a_stagnation_says_how_near_it_came() {
 #[test]
 fn conditions_and_residuals_are_told_in_words() {
     let broken = FunctionalError::Broken { condition: Condition::Continuous, at: "0.5".to_string() };
-    assert_eq!(broken.to_string(), "the penalty functional must be continuous in p; not so at p = 0.5 m");
+    assert_eq!(broken.to_string(), "the penalty functional must be continuous in p; violated at p = 0.5 m");
     let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
     let kkt = contact::kkt(&system, &2.25, &1.0).to_string();
     assert_eq!(kkt, "stationarity 0 N, primal 0.25 m, dual 0 N, complementarity 0.25 J");

@@ -36,7 +36,7 @@ fn a_row_is_a_solve<T: Scalar + ToExact>(case: &Case<Exact>, like: &T) -> Result
     prop_assert_eq!(&found.penetration, &answer.penetration);
     prop_assert_eq!(&found.contact_force, &answer.contact_force);
     let product = exact(&floats.eps) * exact(&answer.penetration);
-    let force = (answer.state != State::Separated).then(|| like.nearest(&product).unwrap());
+    let force = (answer.state != State::Separated).then(|| like.round_from_exact(&product).unwrap());
     prop_assert_eq!(&found.penalty_force, &force);
     // No force is what a plane pushes with that does not, and nothing is a part of it.
     let r = pushing(&floats.exact().system);
@@ -170,10 +170,10 @@ fn default_system() -> SpringMass<Exact> {
 
 /// The default system, from ten times c up to where rounding can be a tenth of the error.
 fn falls_with_slope_minus_one<T: Float>(like: &T, most: i32) {
-    let system = default_system().map(|x| like.nearest(x).unwrap());
+    let system = default_system().map(|x| like.round_from_exact(x).unwrap());
     let eta = unit_roundoff(like);
     let exactly = system.map(exact);
-    let eps = (3..=most).map(|n| like.nearest(&power(&int(10), n as u32)).unwrap());
+    let eps = (3..=most).map(|n| like.round_from_exact(&power(&int(10), n as u32)).unwrap());
     let rows: Vec<_> = sweep(&system, eps).collect::<Result<_, _>>().unwrap();
     // Of errors times c + ε the slope −1 makes a constant, which is c: by the law up to a part that is small.
     for row in &rows {

@@ -64,7 +64,7 @@ impl<T: Clone> Case<T> {
 impl Case<Exact> {
     /// Every number rounded once into the scalar, at the precision, of `like`.
     pub fn rounded<T: ToExact>(&self, like: &T) -> Case<T> {
-        self.map(|x| like.nearest(x).expect("the parameters fit every float they are rounded into"))
+        self.map(|x| like.round_from_exact(x).expect("the parameters fit every float they are rounded into"))
     }
 }
 

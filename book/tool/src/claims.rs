@@ -1,6 +1,6 @@
-//! What is claimed of an equation and what came of it: a line in its box, and a page of all.
+//! Status of the claims: a line in the box of each equation, and a page of all claims.
 //!
-//! Nothing of that is written by hand: the claims are proved and tried when the book is built.
+//! Claims are proved and tested when the book is built; no status is written by hand.
 
 use crate::places::Places;
 use crate::proofs::{SECTIONS, heading, heading_of};
@@ -9,21 +9,21 @@ use spring_mass_contact::{
     claims::{Entry, claims, entry, registry},
     formula::Hypothesis,
     number::NumberSystem,
-    proof::paper::Paper,
+    proof::render::ProofPrinter,
     verify::{Options, Row, Status, exact_experiments, float_experiments, verify},
 };
 use std::{collections::HashMap, fmt::Write, sync::LazyLock};
 
-/// A claim is tried on so many cases. `contact verify` tries more.
+/// Number of cases on which each claim is tested; `contact verify` uses more.
 const CASES: u64 = 50;
 
-/// What came of all claims.
+/// Results of all claims.
 pub struct Claims {
     rows: Vec<Row>,
 }
 
 impl Claims {
-    /// Proves and tries all of them, the first time it is called.
+    /// Proves and tests all claims on the first call, and returns the stored results afterwards.
     pub fn run() -> &'static Self {
         static CLAIMS: LazyLock<Claims> = LazyLock::new(|| Claims {
             rows: verify(&Options { cases: CASES, ..Options::default() }, &|_, _| ()).rows,
@@ -31,32 +31,32 @@ impl Claims {
         &CLAIMS
     }
 
-    /// The line that says what came of an equation's claims, in Markdown; `up` leads to the root of the book.
+    /// Returns the status line of an equation in Markdown; `up` is the relative path to the root of the book.
     pub fn status(&self, entry: &Entry, up: &str) -> String {
         let rows: Vec<_> = self.rows.iter().filter(|row| row.equation == entry.equation).collect();
         let claims = rows.chunk_by(|a, b| a.claim == b.claim);
-        let (proved, tried): (Vec<_>, Vec<_>) = claims.partition(|rows| rows[0].scalar.is_none());
+        let (proved, tested): (Vec<_>, Vec<_>) = claims.partition(|rows| rows[0].scalar.is_none());
         let count = match proved.len() {
             1 => "1 claim".into(),
             count => format!("{count} claims"),
         };
-        let mut known = format!("proved: [{count}]({up}{})", proofs(entry));
-        if !tried.is_empty() {
-            let _ = write!(known, ", and {} only tried", tried.len());
+        let mut summary = format!("proved: [{count}]({up}{})", proofs(entry));
+        if !tested.is_empty() {
+            let _ = write!(summary, ", and {} only tested", tested.len());
         }
-        // Of what is only tried the page of claims says where it held; here it is no part of what did.
-        let of_all = |scalar| {
+        // Tested claims are not counted here; the page of claims lists the number systems in which they hold.
+        let fraction = |scalar| {
             let held = |row: &&Row| row.scalar == scalar && row.status == Status::Held;
             let held = proved.iter().filter(|rows| rows.iter().any(held)).count();
             (held < proved.len()).then(|| format!("{held} of {count}"))
         };
-        let claimed = format!("[what is claimed]({up}claims.md#{})", anchor(entry));
-        format!("<div class=\"status\">\n\n{} · {claimed}\n\n</div>", outcome(&rows, &known, of_all))
+        let link = format!("[claims]({up}claims.md#{})", anchor(entry));
+        format!("<div class=\"status\">\n\n{} · {link}\n\n</div>", outcome(&rows, &summary, fraction))
     }
 
-    /// All claims, in Markdown, with links to where the book has each entry.
+    /// Returns the page of all claims in Markdown, with links to the entries in the book.
     pub fn page(&self, places: &Places) -> String {
-        let given = supposed();
+        let texts = claim_texts();
         let mut text = String::new();
         let by_entry: Vec<_> = self.rows.chunk_by(|a, b| a.equation == b.equation).collect();
         for (section, title) in SECTIONS {
@@ -78,19 +78,19 @@ impl Claims {
                     let rows: Vec<_> = rows.iter().collect();
                     let (kind, name) = (rows[0].kind, rows[0].claim);
                     let _ = write!(text, "- **{name}** ({kind})");
-                    let (statement, given) = &given[&(entry.equation, name)];
+                    let (statement, hypotheses) = &texts[&(entry.equation, name)];
                     if let Some(statement) = statement {
                         let _ = write!(text, "\\\n  `{statement}`");
                     }
-                    if !given.is_empty() {
-                        let _ = write!(text, "\\\n  if `{}`", given.join("`, `"));
+                    if !hypotheses.is_empty() {
+                        let _ = write!(text, "\\\n  if `{}`", hypotheses.join("`, `"));
                     }
                     let decided = |scalar| {
                         let row = rows.iter().find(|row| row.scalar == scalar)?;
                         (row.decided < CASES).then(|| row.decided.to_string())
                     };
-                    let came = outcome(&rows, &format!("[proved]({})", proof(entry, name)), decided);
-                    let _ = writeln!(text, "\\\n  <span class=\"status\">{came}</span>");
+                    let status = outcome(&rows, &format!("[proved]({})", proof(entry, name)), decided);
+                    let _ = writeln!(text, "\\\n  <span class=\"status\">{status}</span>");
                 }
             }
         }
@@ -98,72 +98,72 @@ impl Claims {
     }
 }
 
-/// What a claim states, if that is a formula, and what it supposes.
-type Supposed = (Option<String>, Vec<String>);
+/// Statement of a claim, if it is a formula, and its hypotheses.
+type ClaimText = (Option<String>, Vec<String>);
 
-/// That of each claim, by its equation and its name.
-fn supposed() -> HashMap<(&'static str, &'static str), Supposed> {
-    let given = |given: &[Hypothesis]| registry().all_supposed(given);
+/// Returns the texts of all claims by equation number and claim name.
+fn claim_texts() -> HashMap<(&'static str, &'static str), ClaimText> {
+    let format = |hypotheses: &[Hypothesis]| registry().format_hypotheses(hypotheses);
     let floats = float_experiments::<f64>().into_iter().map(|e| (e.equation, e.name, e.given));
     let rationals = exact_experiments().into_iter().map(|e| (e.equation, e.name, e.given));
-    let tried = floats.chain(rationals).map(|(equation, name, g)| ((equation, name), (None, given(&g))));
+    let tested = floats.chain(rationals).map(|(equation, name, h)| ((equation, name), (None, format(&h))));
     let recorded = claims().map(|claim| {
         let statement = claim;
-        // What is part of the proof is not supposed.
-        let supposed =
-            claim.stated_hypotheses().iter().filter(|given| statement.hypotheses().contains(given));
-        let supposed: Vec<_> = supposed.cloned().collect();
-        let text = Paper::new(registry()).claim(statement);
-        ((claim.equation(), claim.name()), (Some(text), given(&supposed)))
+        // Invariants are part of the proof and not hypotheses of the claim.
+        let hypotheses = claim.stated_hypotheses().iter().filter(|h| statement.hypotheses().contains(h));
+        let hypotheses: Vec<_> = hypotheses.cloned().collect();
+        let text = ProofPrinter::new(registry()).claim(statement);
+        ((claim.equation(), claim.name()), (Some(text), format(&hypotheses)))
     });
-    tried.chain(recorded).collect()
+    tested.chain(recorded).collect()
 }
 
-/// What came of claims: whether they are proved, as `proved` says it, and in which number systems they hold.
-/// What does not hold is named, and marked as open. Of a system in which they hold, `part` says what is to stand in
-/// brackets if that is only a part.
+/// Returns the status of claims: `proved` if they are proved, and the number systems in which they hold.
+///
+/// Claims that fail or are undecided are listed by name and marked as open. `part` returns the text in parentheses
+/// after a number system in which only some claims or cases were decided.
 fn outcome(rows: &[&Row], proved: &str, part: impl Fn(Option<NumberSystem>) -> Option<String>) -> String {
     let with = |scalar, status| {
         let found = rows.iter().filter(move |row| row.scalar == scalar && row.status == status);
         found.map(|row| row.claim).collect::<Vec<_>>()
     };
-    let open = |what: &str, claims: &[&str]| {
-        format!("<strong class=\"open\">{what}: {}</strong>", claims.join(", "))
+    let open = |problem: &str, claims: &[&str]| {
+        format!("<strong class=\"open\">{problem}: {}</strong>", claims.join(", "))
     };
     let failed = with(None, Status::Failed);
-    let mut said = Vec::new();
+    let mut parts = Vec::new();
     if !failed.is_empty() {
-        said.push(open("not proved", &failed));
+        parts.push(open("not proved", &failed));
     } else if rows.iter().any(|row| row.scalar.is_none()) {
-        said.push(proved.into());
+        parts.push(proved.into());
     } else {
-        said.push("tried, not proved".into());
+        parts.push("tested, not proved".into());
     }
     let mut held = Vec::new();
     for scalar in Options::default().scalars {
-        let called = called(scalar);
+        let name = display_name(scalar);
         let [wrong, undecided] = [Status::Failed, Status::Undecided].map(|status| with(Some(scalar), status));
         if !wrong.is_empty() {
-            said.push(open(&format!("wrong in {called}"), &wrong));
+            parts.push(open(&format!("wrong in {name}"), &wrong));
         }
         if !undecided.is_empty() {
-            said.push(open(&format!("undecided in {called}"), &undecided));
+            parts.push(open(&format!("undecided in {name}"), &undecided));
         }
         if wrong.is_empty() && undecided.is_empty() && !with(Some(scalar), Status::Held).is_empty() {
             held.push(match part(Some(scalar)) {
-                Some(part) => format!("{called} ({part})"),
-                None => called,
+                Some(part) => format!("{name} ({part})"),
+                None => name,
             });
         }
     }
     if !held.is_empty() {
-        said.push(format!("held in {}", held.join(", ")));
+        parts.push(format!("held in {}", held.join(", ")));
     }
-    said.join(" · ")
+    parts.join(" · ")
 }
 
-/// A number system as a reader calls it.
-fn called(scalar: NumberSystem) -> String {
+/// Returns the name of a number system in the book.
+fn display_name(scalar: NumberSystem) -> String {
     match scalar {
         NumberSystem::Mpfr(bits) => format!("{bits} bits"),
         NumberSystem::Exact => "rationals".into(),
@@ -171,38 +171,38 @@ fn called(scalar: NumberSystem) -> String {
     }
 }
 
-/// What an entry is called in addresses: `1-13`, `note-3`, `theorem-1-3-3`.
+/// Returns the name of an entry in addresses: `1-13`, `note-3`, `theorem-1-3-3`.
 pub fn slug(entry: &Entry) -> String {
     entry.equation.to_lowercase().replace(". ", "-").replace(['.', ' '], "-")
 }
 
-/// A statement with its indices and exponents set as such: `u_{k+1}` as u with a small k+1.
+/// Typesets the indices and exponents of a statement as HTML: `u_{k+1}` becomes `u<sub>k+1</sub>`.
 pub fn with_indices(statement: &str) -> String {
     static INDEX: LazyLock<Regex> = LazyLock::new(|| Regex::new(r"([_^])(?:\{([^}]*)\}|(\w+))").unwrap());
     let small = |index: &Captures| {
         let element = if &index[1] == "_" { "sub" } else { "sup" };
-        let what = index.get(2).or(index.get(3)).map_or("", |what| what.as_str());
-        format!("<{element}>{what}</{element}>")
+        let content = index.get(2).or(index.get(3)).map_or("", |content| content.as_str());
+        format!("<{element}>{content}</{element}>")
     };
     INDEX.replace_all(statement, small).into_owned()
 }
 
-/// Where the page of all claims has it.
+/// Returns the anchor of an entry on the page of claims.
 pub fn anchor(entry: &Entry) -> String {
     format!("claims-{}", slug(entry))
 }
 
-/// Where an entry's proofs are.
+/// Returns the link to the proofs of an entry.
 pub fn proofs(entry: &Entry) -> String {
     format!("proofs/{}.md#{}", entry.section, id(&heading(entry)))
 }
 
-/// Where the proof of a claim is.
+/// Returns the link to the proof of a claim.
 fn proof(entry: &Entry, claim: &str) -> String {
     format!("proofs/{}.md#{}", entry.section, id(&heading_of(entry, claim)))
 }
 
-/// The address that mdBook gives a heading.
+/// Returns the anchor that mdBook generates for a heading.
 fn id(heading: &str) -> String {
     let letter = |c: char| match c {
         c if c.is_alphanumeric() || c == '_' || c == '-' => Some(c),
@@ -215,7 +215,7 @@ fn id(heading: &str) -> String {
 mod tests {
     use super::*;
 
-    /// Nothing to put in brackets.
+    /// All cases are decided.
     fn all(_: Option<NumberSystem>) -> Option<String> {
         None
     }
@@ -227,7 +227,7 @@ mod tests {
         assert_eq!(with_indices(statement), set);
     }
 
-    /// A row of 1.13's first claim.
+    /// Returns a row of the first claim about (1.13).
     fn row(scalar: Option<NumberSystem>, status: Status) -> Row {
         Row {
             equation: "1.13",
@@ -244,19 +244,19 @@ mod tests {
     }
 
     #[test]
-    fn what_holds_is_said() {
+    fn outcome_lists_proof_and_number_systems() {
         let rows = [row(None, Status::Proved), row(Some(NumberSystem::F32), Status::Held)];
         assert_eq!(outcome(&rows.each_ref(), "proved", all), "proved · held in f32");
     }
 
     #[test]
-    fn what_is_only_tried_is_not_called_proved() {
+    fn tested_claim_is_not_called_proved() {
         let rows = [row(Some(NumberSystem::Exact), Status::Held)];
-        assert_eq!(outcome(&rows.each_ref(), "proved", all), "tried, not proved · held in rationals");
+        assert_eq!(outcome(&rows.each_ref(), "proved", all), "tested, not proved · held in rationals");
     }
 
     #[test]
-    fn what_is_not_tried_everywhere_is_not_said_to_hold_there() {
+    fn status_counts_claims_held_per_number_system() {
         let [f64, exact] = [NumberSystem::F64, NumberSystem::Exact].map(Some);
         let limit = |scalar, status| Row { claim: "limit", ..row(scalar, status) };
         let sign = |scalar| Row { claim: "sign", ..row(scalar, Status::Held) };
@@ -271,25 +271,25 @@ mod tests {
         let status = Claims { rows }.status(entry("1.13").unwrap(), "");
         assert!(status.contains("proved: [2 claims]("), "{status}");
         assert!(
-            status.contains("), and 1 only tried · held in f64, rationals (1 of 2 claims) · "),
+            status.contains("), and 1 only tested · held in f64, rationals (1 of 2 claims) · "),
             "{status}"
         );
     }
 
     #[test]
-    fn the_page_says_how_many_cases_are_drawn() {
+    fn page_states_number_of_cases() {
         let page = include_str!("../../src/claims.md");
-        assert!(page.contains(" on fifty drawn systems") && CASES == 50);
+        assert!(page.contains(" for fifty random systems") && CASES == 50);
         let few = |_| Some("45".to_string());
         let rows = [row(None, Status::Proved), row(Some(NumberSystem::F32), Status::Held)];
         assert_eq!(outcome(&rows.each_ref(), "proved", few), "proved · held in f32 (45)");
     }
 
     #[test]
-    fn what_does_not_hold_is_said() {
+    fn open_claims_are_listed() {
         let rows = [row(None, Status::Failed), row(Some(NumberSystem::Mpfr(256)), Status::Held)];
-        let said = outcome(&rows.each_ref(), "proved", all);
-        assert_eq!(said, "<strong class=\"open\">not proved: rate</strong> · held in 256 bits");
+        let status = outcome(&rows.each_ref(), "proved", all);
+        assert_eq!(status, "<strong class=\"open\">not proved: rate</strong> · held in 256 bits");
         let rows = [row(None, Status::Proved), Row { claim: "limit", ..row(None, Status::Failed) }];
         assert_eq!(
             outcome(&rows.each_ref(), "proved", all),
@@ -297,10 +297,10 @@ mod tests {
         );
         let f64 = Some(NumberSystem::F64);
         let rows = [row(None, Status::Proved), row(f64, Status::Failed), row(f64, Status::Held)];
-        let said = outcome(&rows.each_ref(), "proved", all);
-        assert_eq!(said, "proved · <strong class=\"open\">wrong in f64: rate</strong>");
+        let status = outcome(&rows.each_ref(), "proved", all);
+        assert_eq!(status, "proved · <strong class=\"open\">wrong in f64: rate</strong>");
         let rows = [row(None, Status::Proved), row(f64, Status::Undecided), row(f64, Status::Held)];
-        let said = outcome(&rows.each_ref(), "proved", all);
-        assert_eq!(said, "proved · <strong class=\"open\">undecided in f64: rate</strong>");
+        let status = outcome(&rows.each_ref(), "proved", all);
+        assert_eq!(status, "proved · <strong class=\"open\">undecided in f64: rate</strong>");
     }
 }

@@ -1,7 +1,7 @@
-//! The book's pictures and plots, as SVG. Where anything is drawn, a function of the crate has computed it.
+//! The figures of the book as SVG; all positions are computed by functions of the crate.
 //!
-//! Most of them are one picture, the plane of p and N: equilibrium is a line in it, contact a corner, each method
-//! a line of its own, and what a method finds is where two of them meet.
+//! Most figures show the plane of p and N: equilibrium is a line, contact a corner, each method another line, and the
+//! result of a method is an intersection.
 
 mod axes;
 mod drawing;
@@ -12,24 +12,24 @@ mod svg;
 use regex::Regex;
 use svg::escaped;
 
-/// A picture, before it is put into a page.
+/// Figure with its texts.
 pub struct Figure {
-    /// What it is called in a page's tag.
+    /// Name in the tag of a page.
     pub name: &'static str,
-    /// What it shows.
+    /// Title.
     pub title: &'static str,
-    /// The same for somebody who does not see it, with its numbers.
+    /// Description with the numbers of the figure, for screen readers.
     pub description: String,
-    /// What stands below it in the book; may hold `$…$`.
+    /// Caption in the book; may contain `$…$`.
     pub caption: &'static str,
     size: (f64, f64),
     body: String,
 }
 
-/// A function that draws.
+/// Function that draws a figure.
 type Draw = fn() -> Figure;
 
-/// All of them, by name.
+/// All figures by name.
 const FIGURES: &[(&str, Draw)] = &[
     ("plane", plane::answer),
     ("equilibrium", plane::intercepts),
@@ -49,24 +49,24 @@ const FIGURES: &[(&str, Draw)] = &[
     ("1-2", drawing::second_spring),
 ];
 
-/// The names of all figures.
+/// Returns the names of all figures.
 pub fn names() -> impl Iterator<Item = &'static str> {
     FIGURES.iter().map(|(name, _)| *name)
 }
 
-/// The figure of that name.
+/// Draws the figure of that name. Returns `None` if there is none.
 pub fn figure(name: &str) -> Option<Figure> {
     let (name, draw) = FIGURES.iter().find(|(known, _)| *known == name)?;
     Some(Figure { name, ..draw() })
 }
 
 impl Figure {
-    /// As an element of a page, which brings the style.
+    /// Returns the figure as an SVG element for a page, which provides the style.
     pub fn inline(&self) -> String {
         self.element("", "")
     }
 
-    /// As a file of its own, shown as an image: the style is inside, and the colours are the reader's light or dark.
+    /// Returns the figure as an SVG file with embedded style, in light or dark colours as the reader prefers.
     pub fn standalone(&self) -> String {
         let (width, height) = self.size;
         let attributes = format!(
@@ -87,7 +87,7 @@ impl Figure {
     }
 }
 
-/// The style of the book's figures, with the two sets of colours apart.
+/// Returns the style of the book's figures, with separate rules for light and dark colours.
 fn style() -> String {
     let css = include_str!("../../theme/figures.css");
     let (colours, rules) = css.split_once("}\n").expect("the colours come first");

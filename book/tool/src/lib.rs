@@ -1,18 +1,19 @@
-//! The book's preprocessor: formulas typeset, equations with their numbers and their source.
+//! The book's preprocessor, which typesets formulas and inserts equations with their numbers and source.
 //!
-//! | in a page | becomes |
+//! | tag in a page | replacement |
 //! |---|---|
 //! | `$…$`, `$$…$$` | the formula as HTML |
-//! | `{{#eq 1.13}}` | the equation's box: its number, what came of its claims, and the Rust source of its functions |
-//! | `{{#ref 1.13}}` | its number as a link, from any page |
+//! | `{{#eq 1.13}}` | the equation's box: its number, the status of its claims, and the Rust source of its functions |
+//! | `{{#ref 1.13}}` | the equation number as a link, from any page |
 //! | `{{#source system::gap}}` | the Rust source of a function without a number |
-//! | `{{#formula system::gap}}` | the formula that a function computes, within `$…$` or by itself |
-//! | `{{#claims}}` | all claims and what came of each |
-//! | `{{#figure plane}}` | a picture or a plot, drawn from what the functions compute |
+//! | `{{#formula system::gap}}` | the formula that a function computes, within `$…$` or outside |
+//! | `{{#claims}}` | all claims and their status |
+//! | `{{#figure plane}}` | a figure drawn from the results of the functions |
 //! | `{{#bench}}` | the [bench](mod@bench) |
 //!
-//! A formula stands in `src/chapter` and nowhere else: its source is shown, and typeset. The last tag takes
-//! what a hole in an [`Entry`] takes, such as `{{#formula contact::penetration: u=u_k}}`.
+//! Formulas are defined only in `src/chapter`; the book shows their source and typesets the recorded formula.
+//! `{{#formula}}` accepts the same arguments as a placeholder in an [`Entry`], such as
+//! `{{#formula contact::penetration: u=u_k}}`.
 
 pub mod bench;
 mod claims;
@@ -36,12 +37,12 @@ use regex::{Captures, Regex};
 use source::{Item, Sources};
 use spring_mass_contact::claims::{Entry, entries, entry};
 
-/// The numbered equations of the chapter, in order, with their LaTeX.
+/// Returns the numbered equations of the chapter in order, with their LaTeX.
 pub fn equations() -> impl Iterator<Item = (&'static Entry, String)> {
     entries().iter().filter_map(|entry| Some((entry, entry.latex()?)))
 }
 
-/// The preprocessor.
+/// Preprocessor that expands the tags of the book.
 pub struct Equations;
 
 impl Preprocessor for Equations {
@@ -51,7 +52,7 @@ impl Preprocessor for Equations {
 
     fn run(&self, context: &PreprocessorContext, mut book: Book) -> Result<Book> {
         let tags = tag("eq|ref|source|formula|figure|claims|bench")?;
-        let tools = Tools {
+        let expander = TagExpander {
             typesetter: Typesetter::new()?,
             sources: Sources::in_folder(&context.root.join("../src/chapter")),
             places: Places::of(&book, &tags)?,
@@ -60,7 +61,7 @@ impl Preprocessor for Equations {
         let mut result = Ok(());
         book.for_each_chapter_mut(|chapter| {
             if result.is_ok() {
-                result = tools.process(chapter, &tags).with_context(|| {
+                result = expander.process(chapter, &tags).with_context(|| {
                     format!("in {}", chapter.path.as_deref().unwrap_or("".as_ref()).display())
                 });
             }
@@ -69,25 +70,25 @@ impl Preprocessor for Equations {
     }
 }
 
-/// What it takes to process a page.
-struct Tools {
+/// Expands the tags of a page.
+struct TagExpander {
     typesetter: Typesetter,
     sources: Sources,
     places: Places,
     claims: &'static Claims,
 }
 
-/// Where on a page a tag stands.
-struct Spot {
-    /// From the page to the root of the book.
+/// Location of a tag in the book.
+struct TagContext {
+    /// Relative path from the page to the root of the book.
     up: String,
-    /// The level of the heading that it stands under; 0 before the first.
+    /// Level of the preceding heading; 0 before the first.
     level: usize,
 }
 
-impl Tools {
+impl TagExpander {
     fn process(&self, chapter: &mut Chapter, tags: &Regex) -> Result<()> {
-        let text = self.typesetter.page(&self.led_back(chapter))?;
+        let text = self.typesetter.page(&self.with_back_links(chapter))?;
         let headings: Vec<_> = Parser::new(&text)
             .into_offset_iter()
             .filter_map(|(event, range)| match event {
@@ -98,21 +99,22 @@ impl Tools {
         let depth = chapter.path.as_deref().map_or(0, |path| path.components().count().saturating_sub(1));
         chapter.content = replaced(&text, tags, |tag| {
             let before = headings.iter().rfind(|(start, _)| *start < tag.get_match().start());
-            let spot = Spot { up: "../".repeat(depth), level: before.map_or(0, |(_, level)| *level) };
-            self.tag(tag, &spot)
+            let context =
+                TagContext { up: "../".repeat(depth), level: before.map_or(0, |(_, level)| *level) };
+            self.tag(tag, &context)
         })?;
         Ok(())
     }
 
-    /// A page; one of proofs with links from each equation to where the book has it, and with small indices. The page
-    /// as it is stored has neither, since it is read outside of the book, too.
-    fn led_back(&self, chapter: &Chapter) -> String {
+    /// Returns the text of a page. On a page of proofs it inserts links from each equation to the book and typesets
+    /// indices; the stored page has neither, since it is also read outside of the book.
+    fn with_back_links(&self, chapter: &Chapter) -> String {
         let mut text = chapter.content.clone();
         if chapter.path.as_deref().is_some_and(|path| path.starts_with("proofs")) {
             for entry in entries() {
                 let heading = format!("\n## {}\n", heading(entry));
                 let place = self.places.entry(entry).map(|place| format!("[In the book](../{place}) · "));
-                let claims = format!("[what is claimed](../claims.md#{})", claims::anchor(entry));
+                let claims = format!("[claims](../claims.md#{})", claims::anchor(entry));
                 let links = format!(
                     "\n{}{claims} · [what to trust](../proofs.md#trust)\n",
                     place.unwrap_or_default()
@@ -125,46 +127,46 @@ impl Tools {
         text
     }
 
-    fn tag(&self, tag: &Captures, spot: &Spot) -> Result<String> {
-        let what = tag.get(2).map_or("", |what| what.as_str());
+    fn tag(&self, tag: &Captures, context: &TagContext) -> Result<String> {
+        let name = tag.get(2).map_or("", |name| name.as_str());
         match &tag[1] {
-            "eq" => self.equation(entry(what).with_context(|| format!("no equation ({what})"))?, spot),
+            "eq" => self.equation(entry(name).with_context(|| format!("no equation ({name})"))?, context),
             "ref" => {
-                let place = self.places.equation(what).with_context(|| format!("no equation ({what})"))?;
-                Ok(format!("[({what})]({}{place})", spot.up))
+                let place = self.places.equation(name).with_context(|| format!("no equation ({name})"))?;
+                Ok(format!("[({name})]({}{place})", context.up))
             }
-            "source" => self.source(what, spot),
-            "figure" => self.figure(what),
+            "source" => self.source(name, context),
+            "figure" => self.figure(name),
             "bench" => bench::html(),
             "claims" => Ok(self.claims.page(&self.places)),
             _ => self.typesetter.inline(&tag[0]),
         }
     }
 
-    /// The box of an equation.
-    fn equation(&self, entry: &Entry, spot: &Spot) -> Result<String> {
+    /// Renders the box of an equation.
+    fn equation(&self, entry: &Entry, context: &TagContext) -> Result<String> {
         let (number, label) = (entry.equation, entry.label());
         let latex = entry.latex().with_context(|| format!("{label} has no formula"))?;
         let mut result = format!(
             "\n\n<div class=\"equation\">\n\n{} Equation {number} · {} {{#{}}}\n\n\
              <div class=\"formula\">{}</div>\n\n{}\n\n",
-            "#".repeat(spot.level + 1),
+            "#".repeat(context.level + 1),
             entry.title,
             places::anchor(number),
             self.typesetter.display(&latex)?,
-            self.claims.status(entry, &spot.up),
+            self.claims.status(entry, &context.up),
         );
-        // A function that serves several equations is printed with the first and named with the others.
+        // A function of several equations is printed with the first and linked from the others.
         for function in &entry.functions {
             let first = places::first_with(function).context("listed")?;
             result += &if first == number {
-                self.source(function, spot)?
+                self.source(function, context)?
             } else {
                 let place = self.places.equation(first).context("displayed")?;
-                let links = links(function, &self.sources.item(function)?, &spot.up)?;
+                let links = links(function, &self.sources.item(function)?, &context.up)?;
                 format!(
                     "<div class=\"caption\">\n\n{links}, printed at [({first})]({}{place})\n\n</div>\n\n",
-                    spot.up
+                    context.up
                 )
             };
         }
@@ -180,8 +182,8 @@ impl Tools {
         ))
     }
 
-    /// What a function computes, and folded away the whole of it.
-    fn source(&self, function: &str, spot: &Spot) -> Result<String> {
+    /// Renders the body of a function, followed by a folded block with the whole function.
+    fn source(&self, function: &str, context: &TagContext) -> Result<String> {
         let item = self.sources.item(function)?;
         let id = match self.places.function(function) {
             Some(place) if place.anchor == places::anchor_of(function) => format!(" id=\"{}\"", place.anchor),
@@ -196,14 +198,14 @@ impl Tools {
             }
             None => code(&item.code),
         };
-        let links = links(function, &item, &spot.up)?;
+        let links = links(function, &item, &context.up)?;
         Ok(format!(
             "\n\n<div class=\"source\"{id}>\n<div class=\"caption\">\n\n{links}\n\n</div>\n\n{shown}</div>\n\n"
         ))
     }
 }
 
-/// A function's name, with links to its documentation and to its file.
+/// Returns the name of a function with links to its documentation and source.
 fn links(function: &str, item: &Item, up: &str) -> Result<String> {
     let (module, name) = function.split_once("::").context("a path")?;
     let (first, last) = (item.lines.start(), item.lines.end());
@@ -214,13 +216,13 @@ fn links(function: &str, item: &Item, up: &str) -> Result<String> {
     ))
 }
 
-/// From the root of the book to the documentation that `cargo doc` makes.
+/// Relative path from the root of the book to the output of `cargo doc`.
 const DOCS: &str = "../doc";
 
-/// What the crate is called there.
+/// Name of the crate's folder in [`DOCS`].
 const CRATE: &str = "spring_mass_contact";
 
-/// The text with each tag replaced, or the first error.
+/// Replaces each tag by the result of `by`, or returns the first error.
 fn replaced(text: &str, tags: &Regex, by: impl Fn(&Captures) -> Result<String>) -> Result<String> {
     let mut result = String::with_capacity(text.len());
     let mut end = 0;
@@ -233,15 +235,15 @@ fn replaced(text: &str, tags: &Regex, by: impl Fn(&Captures) -> Result<String>) 
     Ok(result + &text[end..])
 }
 
-/// A tag of one of these kinds; what it names may have braces of its own.
+/// Returns a pattern for tags of these kinds; their argument may contain braces.
 fn tag(kinds: &str) -> Result<Regex> {
     Ok(Regex::new(&format!(r"\{{\{{#({kinds})(?:\s+((?:[^{{}}]|\{{[^{{}}]*\}})+?))?\s*\}}\}}"))?)
 }
 
-/// The pages of the book; the Rust in them is compiled and run as documentation tests.
+// The Rust snippets of the pages are compiled and run as documentation tests.
 macro_rules! pages {
     ($($page:ident)*) => {
-        /// The names of the pages' files, without `.md`.
+        /// File names of the pages, without `.md`.
         pub const PAGES: &[&str] = &[$(stringify!($page)),*];
         #[cfg(doctest)]
         mod snippets {

@@ -1,4 +1,4 @@
-//! The preprocessor as mdBook runs it: the book comes on standard input and goes to standard output.
+//! The preprocessor executable: reads the book from standard input and writes it to standard output.
 
 use anyhow::Result;
 use book_tool::Equations;
@@ -6,7 +6,7 @@ use mdbook_preprocessor::Preprocessor;
 use std::io;
 
 fn main() -> Result<()> {
-    // mdBook asks `supports RENDERER`; the answer is the exit status, and it is yes.
+    // mdBook calls `supports RENDERER`; exit status 0 means that the renderer is supported.
     if std::env::args().nth(1).is_some_and(|command| command == "supports") {
         return Ok(());
     }

@@ -1,4 +1,4 @@
-//! LaTeX to HTML, without a browser and without a network.
+//! Conversion of LaTeX to HTML.
 
 use anyhow::{Context, Result};
 use katex::{KatexContext, Settings, StrictMode, StrictSetting};
@@ -6,19 +6,19 @@ use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 use regex::{Captures, Regex};
 use spring_mass_contact::{claims::registry, formula::Notation};
 
-/// A formula of no more characters fits on every line.
-const SHORT: usize = 24;
+/// Maximum length in characters of a formula that is never broken.
+const MAX_UNBROKEN: usize = 24;
 
-/// What no line begins with.
+/// Characters that must not begin a line.
 const PUNCTUATION: [char; 7] = ['.', ',', ';', ':', ')', '?', '”'];
 
-/// What no line ends with.
+/// Characters that must not end a line.
 const OPENING: [char; 2] = ['(', '“'];
 
-/// Between the parts of a formula it may be broken.
+/// Boundary between parts of a formula, where it may be broken.
 const PARTS: &str = "</span><span class=\"katex-base\">";
 
-/// What turns LaTeX into HTML that Markdown leaves alone.
+/// Converts LaTeX to HTML that Markdown leaves unchanged.
 pub struct Typesetter {
     katex: KatexContext,
     element: Regex,
@@ -40,7 +40,7 @@ impl Typesetter {
         })
     }
 
-    /// A page with its `$…$` and `$$…$$` typeset; code is left alone.
+    /// Typesets the `$…$` and `$$…$$` of a page; code is left unchanged.
     pub fn page(&self, text: &str) -> Result<String> {
         let mut result = String::with_capacity(text.len());
         let (mut end, mut in_head) = (0, false);
@@ -56,8 +56,8 @@ impl Typesetter {
                     in_head = false;
                     continue;
                 }
-                Event::InlineMath(latex) if in_head => (self.named(&self.inline(&latex)?), true),
-                Event::InlineMath(latex) => (self.inline(&latex)?, latex.chars().count() <= SHORT),
+                Event::InlineMath(latex) if in_head => (self.labelled(&self.inline(&latex)?), true),
+                Event::InlineMath(latex) => (self.inline(&latex)?, latex.chars().count() <= MAX_UNBROKEN),
                 Event::DisplayMath(latex) => {
                     (format!("<span class=\"formula\">{}</span>", self.display(&latex)?), false)
                 }
@@ -68,13 +68,13 @@ impl Typesetter {
             let before = result.len() - result.trim_end_matches(OPENING).len();
             let after = text[end..].len() - text[end..].trim_start_matches(PUNCTUATION).len();
             if text[range].ends_with(r"\square$") {
-                // The end of a proof stays with its last word.
+                // The end mark of a proof stays with the last word.
                 result.truncate(result.trim_end_matches(' ').len());
                 result += &format!("&nbsp;<span class=\"qed\">{html}</span>");
             } else if before + after == 0 {
                 result += &html;
             } else {
-                // What belongs on a line with the formula, which itself is broken only if it is long.
+                // Punctuation stays with the formula, which is broken only if it is long.
                 let opening = result.split_off(result.len() - before);
                 let html = if short { html } else { html.replace(PARTS, &PARTS.replace("><", "><wbr><")) };
                 result +=
@@ -85,19 +85,19 @@ impl Typesetter {
         Ok(result + &text[end..])
     }
 
-    /// A formula that heads a column, with its letters as its name: a header of MathML alone counts as empty.
-    fn named(&self, html: &str) -> String {
+    /// Adds the letters of a formula as its label: accessibility tools treat a header of MathML alone as empty.
+    fn labelled(&self, html: &str) -> String {
         let letters = html.split_once("</math>").map_or("", |(math, _)| math);
         let letters = self.tag.replace_all(letters, "");
         html.replacen("<math ", &format!("<math aria-label=\"{letters}\" "), 1)
     }
 
-    /// A formula in a line of text.
+    /// Typesets an inline formula.
     pub fn inline(&self, latex: &str) -> Result<String> {
         self.html(latex, false)
     }
 
-    /// A formula on a line of its own.
+    /// Typesets a display formula.
     pub fn display(&self, latex: &str) -> Result<String> {
         self.html(latex, true)
     }
@@ -105,26 +105,26 @@ impl Typesetter {
     fn html(&self, latex: &str, display: bool) -> Result<String> {
         let settings =
             Settings::builder().display_mode(display).strict(StrictSetting::Mode(StrictMode::Error)).build();
-        let latex = &self.filled(latex)?;
+        let latex = &self.expand(latex)?;
         let html = katex::render_to_string(&self.katex, latex, &settings)
             .with_context(|| format!("the formula {latex}"))?;
-        // The LaTeX that KaTeX adds is read by nobody but the book's search, as words.
+        // The LaTeX that KaTeX adds would be indexed by the book's search as words.
         let html = self.annotation.replace_all(&html, "");
-        Ok(hide_from_markdown(&self.in_order(&html)))
+        Ok(hide_from_markdown(&self.sort_attributes(&html)))
     }
 
-    /// The LaTeX with what functions compute in the place of its tags.
-    fn filled(&self, latex: &str) -> Result<String> {
+    /// Replaces the tags in LaTeX by the formulas of the functions.
+    fn expand(&self, latex: &str) -> Result<String> {
         super::replaced(latex, &self.formula, |tag| {
-            let hole = tag.get(2).map_or("", |hole| hole.as_str());
+            let path = tag.get(2).map_or("", |path| path.as_str());
             registry()
-                .formula_in(hole, Notation::Latex)
-                .with_context(|| format!("no formula {hole} at the head of a file in src/claims"))
+                .render_placeholder(path, Notation::Latex)
+                .with_context(|| format!("no formula {path} at the head of a file in src/claims"))
         })
     }
 
-    /// Sorts attributes, whose order varies from run to run, so that equal books are equal files.
-    fn in_order(&self, html: &str) -> String {
+    /// Sorts the attributes, whose order varies from run to run, so that the output is reproducible.
+    fn sort_attributes(&self, html: &str) -> String {
         let sorted = |element: &Captures| {
             let mut attributes: Vec<_> = self.attribute.find_iter(&element[2]).map(|a| a.as_str()).collect();
             attributes.sort_unstable();
@@ -134,7 +134,7 @@ impl Typesetter {
     }
 }
 
-/// Writes as entities what Markdown and mdBook would take for their own.
+/// Replaces the characters that Markdown or mdBook would interpret by entities.
 fn hide_from_markdown(html: &str) -> String {
     html.chars()
         .map(|c| match c {
@@ -155,14 +155,14 @@ mod tests {
     }
 
     #[test]
-    fn code_and_prices_are_no_formulas() -> Result<()> {
+    fn code_and_single_dollars_are_not_formulas() -> Result<()> {
         let text = "`$x$` costs 5 $\n\n```text\n$y$\n```\n";
         assert_eq!(page(text)?, text);
         Ok(())
     }
 
     #[test]
-    fn a_formula_survives_markdown() -> Result<()> {
+    fn formula_is_protected_from_markdown() -> Result<()> {
         let html = page(r"a $x_1 * y_2 \vert z$ b")?;
         assert!(html.starts_with("a <span") && html.ends_with("</span> b"), "{html}");
         assert!(!html.contains(['_', '*', '|', '\\', '\n']), "{html}");
@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn a_formula_at_the_head_of_a_column_has_a_name() -> Result<()> {
+    fn formula_in_table_header_has_label() -> Result<()> {
         let table = page("| $p_k < 1$ |\n|---|\n| $q$ |\n")?;
         assert_eq!(table.matches("<math ").count(), 2);
         assert_eq!(table.matches("<math aria-label=").count(), 1);
@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tag_is_the_formula_that_is_computed() -> Result<()> {
+    fn tag_expands_to_recorded_formula() -> Result<()> {
         let tag = "{{#formula augmented::update: u=u_{k-1}, λ=λ₀}}";
         let latex = r"\lambda_0 + \varepsilon\,(l + u_{k-1} - H)";
         assert_eq!(
@@ -215,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn a_formula_that_does_not_parse_is_an_error() {
+    fn invalid_formula_is_an_error() {
         let error = page(r"$\frac{1}$").unwrap_err();
         assert!(error.to_string().contains(r"\frac{1}"), "{error:?}");
         assert!(page(r"$\unknown$").is_err());

@@ -1,4 +1,4 @@
-//! Where the book shows what.
+//! Locations of equations, functions and entries in the book.
 
 use crate::{claims::slug, equations};
 use anyhow::{Context, Result, bail};
@@ -7,7 +7,7 @@ use regex::Regex;
 use spring_mass_contact::claims::{Entry, entries};
 use std::{collections::HashMap, fmt, path::PathBuf};
 
-/// A page and an address on it; displayed as a link from the root of the book.
+/// Page and anchor; `Display` writes a link relative to the root of the book.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Place {
     pub page: PathBuf,
@@ -20,7 +20,7 @@ impl fmt::Display for Place {
     }
 }
 
-/// Where each equation is displayed, each function, and each entry.
+/// Locations of all equations, functions and entries.
 pub struct Places {
     equations: HashMap<String, Place>,
     functions: HashMap<String, Place>,
@@ -28,19 +28,22 @@ pub struct Places {
 }
 
 impl Places {
-    /// Each equation has to be displayed, once; and of a function no more than its equation displays.
+    /// Collects the locations from the tags of the pages.
+    ///
+    /// # Errors
+    /// Returns an error if an equation is not displayed, or if an equation or a function is displayed twice.
     pub fn of(book: &Book, tags: &Regex) -> Result<Self> {
         let (mut equations, mut functions) = (HashMap::new(), HashMap::new());
         for chapter in book.chapters() {
             let Some(page) = &chapter.path else { bail!("{} is a draft", chapter.name) };
             for tag in tags.captures_iter(&chapter.content) {
-                let what = tag.get(2).map_or("", |what| what.as_str());
+                let name = tag.get(2).map_or("", |name| name.as_str());
                 let (list, anchor, label) = match &tag[1] {
-                    "eq" => (&mut equations, anchor(what), format!("({what})")),
-                    "source" => (&mut functions, anchor_of(what), what.into()),
+                    "eq" => (&mut equations, anchor(name), format!("({name})")),
+                    "source" => (&mut functions, anchor_of(name), name.into()),
                     _ => continue,
                 };
-                if let Some(first) = list.insert(what.to_string(), Place { page: page.clone(), anchor }) {
+                if let Some(first) = list.insert(name.to_string(), Place { page: page.clone(), anchor }) {
                     bail!("{label} is displayed twice, first in {}", first.page.display());
                 }
             }
@@ -49,7 +52,7 @@ impl Places {
             let place = equations.get(entry.equation);
             let place = place.with_context(|| format!("{} is not displayed on any page", entry.label()))?;
             for function in &entry.functions {
-                // What stands in a box is found there, even if a page shows it once more.
+                // The box takes precedence over a page that shows the function again.
                 if first_with(function) == Some(entry.equation) {
                     functions.insert(function.to_string(), place.clone());
                 }
@@ -57,28 +60,29 @@ impl Places {
         }
         let entries = entries().iter().filter_map(|entry| {
             let displayed = equations.get(entry.equation).cloned();
-            Some((entry.equation, displayed.or_else(|| named(entry, book))?))
+            Some((entry.equation, displayed.or_else(|| find_anchor(entry, book))?))
         });
         Ok(Self { entries: entries.collect(), equations, functions })
     }
 
+    /// Returns the location of an equation's box.
     pub fn equation(&self, number: &str) -> Option<&Place> {
         self.equations.get(number)
     }
 
-    /// Where a function's source is.
+    /// Returns the location of a function's source.
     pub fn function(&self, path: &str) -> Option<&Place> {
         self.functions.get(path)
     }
 
-    /// Where an entry is: its box, or the heading or figure that has its name for an address.
+    /// Returns the location of an entry: its box, or the heading or figure with its name as anchor.
     pub fn entry(&self, entry: &Entry) -> Option<&Place> {
         self.entries.get(entry.equation)
     }
 }
 
-/// The heading or figure that has an entry's name for an address.
-fn named(entry: &Entry, book: &Book) -> Option<Place> {
+/// Finds the heading or figure with the name of an entry as anchor.
+fn find_anchor(entry: &Entry, book: &Book) -> Option<Place> {
     let anchor = slug(entry);
     let figure = anchor.strip_prefix("fig-").unwrap_or_default();
     let marks = [format!("{{#{anchor}}}"), format!("id=\"{anchor}\""), format!("{{{{#figure {figure}}}}}")];
@@ -86,17 +90,17 @@ fn named(entry: &Entry, book: &Book) -> Option<Place> {
     Some(Place { page: chapter.path.clone()?, anchor })
 }
 
-/// The address of an equation's box.
+/// Returns the anchor of an equation's box.
 pub fn anchor(number: &str) -> String {
     format!("eq-{}", number.replace('.', "-"))
 }
 
-/// The address of a function that a page shows by itself.
+/// Returns the anchor of a function that a page shows outside of a box.
 pub fn anchor_of(function: &str) -> String {
     format!("fn-{}", function.replace("::", "-"))
 }
 
-/// The number of the first equation that lists the function.
+/// Returns the number of the first equation that lists the function.
 pub fn first_with(function: &str) -> Option<&'static str> {
     equations()
         .map(|(entry, _)| entry)

@@ -1,16 +1,16 @@
-//! Claims and proofs as pages to be read without running anything.
+//! The pages of claims and proofs, in Markdown.
 
 use spring_mass_contact::{
     claims::{Entry, entries, registry},
     formula::Hypothesis,
     proof::{
-        paper::{self, Paper},
         prove,
+        render::{self, ProofPrinter},
     },
 };
 use std::fmt::Write;
 
-/// A section as entries have it, and as it is called.
+/// Sections of the entries, each with its title.
 pub const SECTIONS: [(&str, &str); 7] = [
     ("1.1", "1.1 Structural part"),
     ("1.2", "1.2 Contact part"),
@@ -21,29 +21,29 @@ pub const SECTIONS: [(&str, &str); 7] = [
     ("beyond", "Beyond the chapter"),
 ];
 
-/// A proof of more lines than this is folded away.
-const LONG: usize = 40;
+/// Maximum number of lines of a proof that is not folded.
+const MAX_OPEN_LINES: usize = 40;
 
-/// A page of Markdown.
+/// Page in Markdown.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Page {
-    /// The name of its file.
+    /// File name.
     pub file: String,
-    /// What stands on it.
+    /// Markdown text.
     pub text: String,
 }
 
-/// A page for each section of the chapter: its entries, what is claimed of each, and the proofs.
+/// Returns a page for each section, with its entries, their claims and the proofs.
 pub fn pages() -> Vec<Page> {
     SECTIONS.iter().map(|(section, title)| page(section, title)).collect()
 }
 
-/// The heading over an entry's claims.
+/// Returns the heading of an entry.
 pub fn heading(entry: &Entry) -> String {
     format!("{} {}", entry.label(), entry.title)
 }
 
-/// The heading over the proof of one of them: no other on its page is the same.
+/// Returns the heading of the proof of a claim, which is unique on its page.
 pub fn heading_of(entry: &Entry, claim: &str) -> String {
     format!("{claim}, {}", entry.label())
 }
@@ -51,16 +51,16 @@ pub fn heading_of(entry: &Entry, claim: &str) -> String {
 fn page(section: &str, title: &str) -> Page {
     let mut text = format!(
         "# Proofs: {title}\n\n\
-         Printed by the prover; a test holds this page to what it prints.\n\
-         What the lines mean is said in [What is proved, and how](../proofs.md).\n"
+         This page is printed by the prover, and a test compares the two.\n\
+         [What is proved, and how](../proofs.md) explains the notation.\n"
     );
     let of_section = |entry: &&Entry| entry.section == section && !entry.claims.is_empty();
-    entries().iter().filter(of_section).for_each(|entry| text += &account(entry));
+    entries().iter().filter(of_section).for_each(|entry| text += &render_entry(entry));
     Page { file: format!("{section}.md"), text }
 }
 
-/// What is claimed of one entry.
-fn account(entry: &Entry) -> String {
+/// Renders an entry with its claims and proofs.
+fn render_entry(entry: &Entry) -> String {
     let mut text = format!("\n## {}\n\n{}.\n", heading(entry), entry.statement());
     let functions: Vec<_> = entry.functions.iter().map(|function| format!("`{function}`")).collect();
     if !functions.is_empty() {
@@ -70,32 +70,34 @@ fn account(entry: &Entry) -> String {
         let _ = write!(text, "\nComputed by {} in {}.\n", functions.join(", "), files.join(" and "));
     }
     for claim in &entry.claims {
-        let paper = Paper::new(registry());
-        let supposed = |given: &&Hypothesis| claim.hypotheses().contains(given);
-        let given: Vec<_> = claim.stated_hypotheses().iter().filter(supposed).cloned().collect();
-        let mut given = [("if", registry().all_supposed(&given)), ("always", paper.always(claim))]
+        let printer = ProofPrinter::new(registry());
+        let is_hypothesis = |h: &&Hypothesis| claim.hypotheses().contains(h);
+        let hypotheses: Vec<_> = claim.stated_hypotheses().iter().filter(is_hypothesis).cloned().collect();
+        let lists =
+            [("if", registry().format_hypotheses(&hypotheses)), ("always", printer.invariants(claim))];
+        let mut conditions = lists
             .into_iter()
-            .filter(|(_, all)| !all.is_empty())
-            .map(|(what, all)| format!("\n\n{what} `{}`", all.join("`, `")))
+            .filter(|(_, list)| !list.is_empty())
+            .map(|(word, list)| format!("\n\n{word} `{}`", list.join("`, `")))
             .collect::<String>();
-        if !paper.always(claim).is_empty() {
-            given += ", which is part of the proof";
+        if !printer.invariants(claim).is_empty() {
+            conditions += ", which is part of the proof";
         }
-        let _ =
-            write!(text, "\n### {}\n\n`{}`{given}\n\n", heading_of(entry, claim.name()), paper.claim(claim));
+        let heading = heading_of(entry, claim.name());
+        let _ = write!(text, "\n### {heading}\n\n`{}`{conditions}\n\n", printer.claim(claim));
         text += &match prove(claim) {
             Ok(proof) => {
-                let names = paper.names(claim).into_iter().map(|name| format!("where {name}"));
-                let lines: Vec<_> = names.chain(paper.proof(&proof)).collect();
+                let names = printer.names(claim).into_iter().map(|name| format!("where {name}"));
+                let lines: Vec<_> = names.chain(printer.proof(&proof)).collect();
                 let block = format!("```text\n{}\n```\n", lines.join("\n"));
-                let summary = format!("{}, {} lines", paper::how(&proof), lines.len());
-                if lines.len() > LONG {
+                let summary = format!("{}, {} lines", render::proof_summary(&proof), lines.len());
+                if lines.len() > MAX_OPEN_LINES {
                     format!("<details><summary>{summary}</summary>\n\n{block}\n</details>\n")
                 } else {
                     block
                 }
             }
-            Err(why) => format!("**not proved**: {}\n", paper.why(claim, &why)),
+            Err(error) => format!("**not proved**: {}\n", printer.describe(claim, &error)),
         };
     }
     text

@@ -1,4 +1,4 @@
-//! The functions of `src/chapter`, as they stand there.
+//! Source text of the functions in `src/chapter`.
 
 use anyhow::{Context, Result};
 use std::{
@@ -7,19 +7,19 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// The folder with a module a section.
+/// Folder with one module per section.
 pub struct Sources {
     folder: PathBuf,
 }
 
-/// A public function or type, as it stands in its file.
+/// Source text of a public function or type.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Item {
-    /// `fn` or `struct`, as its page of documentation is called.
+    /// `fn` or `struct`, as in the file name of its documentation.
     pub kind: &'static str,
-    /// Its lines, without its documentation.
+    /// Source lines without documentation.
     pub code: String,
-    /// Their numbers in the file, from 1.
+    /// Line numbers in the file, counted from 1.
     pub lines: RangeInclusive<usize>,
 }
 
@@ -28,9 +28,10 @@ impl Sources {
         Self { folder: folder.into() }
     }
 
-    /// `module::name`.
+    /// Returns the item with the path `module::name`.
     pub fn item(&self, path: &str) -> Result<Item> {
-        let (module, name) = path.split_once("::").with_context(|| format!("{path} is no module::name"))?;
+        let (module, name) =
+            path.split_once("::").with_context(|| format!("{path} is not of the form module::name"))?;
         let file = self.folder.join(module).with_extension("rs");
         let text = fs::read_to_string(&file).with_context(|| format!("the module of {path}"))?;
         find(&text, name).with_context(|| format!("{module}.rs has no public function `{name}`"))
@@ -38,20 +39,19 @@ impl Sources {
 }
 
 impl Item {
-    /// What a function does, without its signature and without the line that names the parameters; nothing for
-    /// what is no function.
+    /// Returns the body of a function, without the line that destructures the parameters. Returns `None` for a type.
     pub fn body(&self) -> Option<String> {
         let mut lines = self.code.lines().skip_while(|line| !line.ends_with('{')).skip(1).collect::<Vec<_>>();
         if self.kind != "fn" || lines.pop() != Some("}") {
             return None;
         }
-        let said = lines.iter().filter(|line| !line.starts_with("    let SpringMass {"));
-        Some(said.map(|line| line.strip_prefix("    ").unwrap_or(line)).collect::<Vec<_>>().join("\n"))
+        let body = lines.iter().filter(|line| !line.starts_with("    let SpringMass {"));
+        Some(body.map(|line| line.strip_prefix("    ").unwrap_or(line)).collect::<Vec<_>>().join("\n"))
     }
 }
 
-/// From the line that begins with `pub fn name` or `pub struct name` to the brace that closes it: the
-/// first one at the beginning of a line, since the sources are formatted.
+/// Finds the lines from `pub fn name` or `pub struct name` to the closing brace: the first one at the beginning of a
+/// line, since the sources are formatted.
 fn find(text: &str, name: &str) -> Option<Item> {
     let kind = |line: &str| {
         ["fn", "struct"].into_iter().find(|kind| {
@@ -73,20 +73,20 @@ mod tests {
     const TEXT: &str = "/// Doc.\npub fn gap_two() {\n    2\n}\n\n/// Doc.\npub fn gap<T>(\n    x: T,\n) -> T {\n    let SpringMass { c, .. } = x;\n    let d = c;\n    if d {\n    }\n}\n\nfn private() {\n}\n\npub struct Gap {\n}\n";
 
     #[test]
-    fn a_function_is_found_by_its_whole_name() {
+    fn function_is_found_by_full_name() {
         let gap = find(TEXT, "gap").unwrap();
         assert!(gap.code.starts_with("pub fn gap<T>(\n    x: T,\n) -> T {\n") && gap.code.ends_with("\n}"));
         assert_eq!((gap.kind, gap.lines), ("fn", 7..=14));
     }
 
     #[test]
-    fn what_is_not_public_is_not_found() {
+    fn private_items_and_prefixes_are_not_found() {
         assert_eq!(find(TEXT, "private"), None);
         assert_eq!(find(TEXT, "ga"), None);
     }
 
     #[test]
-    fn a_body_is_what_is_computed() {
+    fn body_excludes_signature_and_destructuring() {
         assert_eq!(find(TEXT, "gap").unwrap().body().unwrap(), "let d = c;\nif d {\n}");
         assert_eq!(find(TEXT, "Gap").unwrap().body(), None);
     }

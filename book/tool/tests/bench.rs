@@ -1,7 +1,7 @@
-//! The bench computes what the crate computes: its generated script is run by node and compared bit for bit,
-//! and what is written by hand for it, of reading numbers and of judging a run, is tried there too.
+//! Tests of the bench: its generated script is run by node and compared with the crate bit for bit, and the scripts
+//! written by hand, for parsing numbers and analysing a run, are tested as well.
 //!
-//! Without node these tests say so and pass; with `NODE=path` that one is run, and it is an error if it cannot be.
+//! Without node these tests print a note and pass; `NODE=path` selects the node to run, and it is an error if it fails.
 
 use book_tool::bench::{MODEL, formulas, functions, html};
 use regex::Regex;
@@ -18,21 +18,21 @@ use std::{
     sync::Once,
 };
 
-/// What the script prints that is run after the bench's own, with `input` at hand.
+/// Runs a script after the bench's own and returns its output; the script can use `input`.
 fn printed(script: &str, input: &Value) -> Option<String> {
     node(&format!("{}{MODEL}\n{script}", formulas().unwrap()), input)
 }
 
-/// What node prints that runs a script, with `input` at hand.
+/// Runs a script in node and returns its output; the script can use `input`.
 fn node(script: &str, input: &Value) -> Option<String> {
     let program = env::var("NODE");
     let mut command = Command::new(program.as_deref().unwrap_or("node"));
     let mut node = match command.arg("-").stdin(Stdio::piped()).stdout(Stdio::piped()).spawn() {
         Err(error) if program.is_err() && error.kind() == ErrorKind::NotFound => {
-            // Not by `eprintln`, of which nobody sees anything where a test passes.
-            static SAID: Once = Once::new();
-            SAID.call_once(|| {
-                let _ = writeln!(io::stderr(), "skipped: there is no node to run the bench");
+            // The output of `eprintln` would be captured in a test that passes.
+            static NOTED: Once = Once::new();
+            NOTED.call_once(|| {
+                let _ = writeln!(io::stderr(), "skipped: node is not installed");
             });
             return None;
         }
@@ -54,12 +54,12 @@ fn assert_same_lines(expected: &str, found: &str) {
     assert_eq!(found.lines().count(), expected.lines().count());
 }
 
-/// A number by its bits: what is not a number has many.
+/// Returns the bits of a number; all NaNs are equal.
 fn bits(x: f64) -> String {
     if x.is_nan() { "NaN".into() } else { format!("{:016x}", x.to_bits()) }
 }
 
-/// Parameters, among them the least and the largest, and the zero with a sign.
+/// Parameters of a run.
 struct Case {
     system: SpringMass<f64>,
     eps: f64,
@@ -67,16 +67,16 @@ struct Case {
     steps: usize,
 }
 
-/// A generator of numbers that nobody chose.
-struct Draw(u64);
+/// Generator of pseudorandom numbers.
+struct Random(u64);
 
-impl Draw {
+impl Random {
     fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         self.0 >> 33
     }
 
-    /// A number of any digits, of a size between two powers of two.
+    /// Returns a positive number with an exponent between `low` and `high`.
     fn between(&mut self, low: i64, high: i64) -> f64 {
         let power = low + (self.next() % (high - low + 1) as u64) as i64;
         (1.0 + self.next() as f64 / 2.0_f64.powi(31)) * 2.0_f64.powi(power as i32)
@@ -114,7 +114,7 @@ fn cases() -> Vec<Case> {
         cases.push(Case { system: default, eps, lambda: 0.0, steps: 200 });
     }
     cases.push(Case { system: SpringMass { h: 1.0981, ..default }, eps: 100.0, lambda: 3.0, steps: 60 }); // grazes
-    let mut draw = Draw(1);
+    let mut draw = Random(1);
     for spread in [0, 3, 10, 40].into_iter().flat_map(|spread| [spread; 25]) {
         let [c, m] = [0; 2].map(|_| draw.between(-spread, spread));
         let [g, l, h] = [0; 3].map(|_| draw.signed(-spread, spread));
@@ -124,7 +124,7 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// One line a step, with the value of every function.
+/// Writes one line per step, with the value of every function.
 fn lines<T: PositivePart>(
     text: &mut String,
     (system, eps, lambda, n): (&SpringMass<T>, &T, &T, &T),
@@ -149,7 +149,7 @@ fn lines<T: PositivePart>(
     }
 }
 
-/// The same lines by the bench; `read` makes numbers of the input's texts, `show` texts of numbers.
+/// Script that prints these lines by the bench; `read` parses the numbers of the input and `show` formats numbers.
 const LINES: &str = r#"
 const text = [];
 for (const [numbers, steps, ...given] of input) {
@@ -168,7 +168,7 @@ for (const [numbers, steps, ...given] of input) {
 console.log(text.join("\n"));
 "#;
 
-fn given<T>(
+fn bench_input<T>(
     name: &str,
     steps: usize,
     all: (&SpringMass<T>, &T, &T, &T),
@@ -181,16 +181,16 @@ fn given<T>(
 }
 
 #[test]
-fn floats_are_those_of_the_crate_bit_for_bit() {
+fn floats_agree_bit_for_bit() {
     let (mut text, mut input) = (String::new(), Vec::new());
     for Case { system, eps, lambda, steps } in cases() {
         let (n, show) = (2.0_f64.powi(53), |x: &f64| bits(*x));
-        input.push(given("f64", steps, (&system, &eps, &lambda, &n), show));
+        input.push(bench_input("f64", steps, (&system, &eps, &lambda, &n), show));
         lines(&mut text, (&system, &eps, &lambda, &n), steps, show);
 
         let (n, show) = (2.0_f32.powi(24), |x: &f32| bits(f64::from(*x)));
         let (system, eps, lambda) = (system.map(|&x| x as f32), eps as f32, lambda as f32);
-        input.push(given("f32", steps, (&system, &eps, &lambda, &n), show));
+        input.push(bench_input("f32", steps, (&system, &eps, &lambda, &n), show));
         lines(&mut text, (&system, &eps, &lambda, &n), steps, show);
     }
     assert!(text.contains("NaN") && text.contains("7ff0000000000000") && text.contains("8000000000000000"));
@@ -199,9 +199,9 @@ fn floats_are_those_of_the_crate_bit_for_bit() {
 }
 
 #[test]
-fn fractions_are_those_of_the_crate() {
+fn fractions_agree() {
     let (mut text, mut input) = (String::new(), Vec::new());
-    let mut draw = Draw(2);
+    let mut draw = Random(2);
     for i in 0..30 {
         let mut decimal = |signed: bool| {
             let digits = draw.next() as i64 % 100_000;
@@ -218,15 +218,15 @@ fn fractions_are_those_of_the_crate() {
         };
         let (eps, lambda, n) = (decimal(false), decimal(true), Exact::power_of_two(24));
         let steps = if i == 0 { 150 } else { 10 };
-        input.push(given("exact", steps, (&system, &eps, &lambda, &n), Exact::to_string));
+        input.push(bench_input("exact", steps, (&system, &eps, &lambda, &n), Exact::to_string));
         lines(&mut text, (&system, &eps, &lambda, &n), steps, Exact::to_string);
     }
-    // The bench refuses texts that are as long; its own numbers are.
+    // The bench refuses texts of this length, but its own numbers may be as long.
     let Some(found) = printed(&format!("{FLOAT}{LINES}"), &input.into()) else { return };
     assert_same_lines(&text, &found);
 }
 
-/// Floats by their bits, and fractions as the crate writes them.
+/// Conversion of floats by their bits, and of fractions in the crate's format.
 const FLOAT: &str = r#"
 const ratio = ({ n, d }) => (d === 1n ? `${n}` : `${n}/${d}`);
 const number = new Float64Array(1), word = new BigUint64Array(number.buffer);
@@ -234,8 +234,8 @@ const float = text => { word[0] = BigInt("0x" + text); return number[0]; };
 const hex = x => { number[0] = x; return Number.isNaN(x) ? "NaN" : word[0].toString(16).padStart(16, "0"); };
 "#;
 
-/// What is to be said of step `k`, from the definitions, with the exact penetration of what is computed and
-/// what the force misses; what is not defined here has no name.
+/// Returns the expected verdict on step `k` by its definition, with the exact penetration of the computed deflection and
+/// the error of the force. The verdict is empty if it is not defined here.
 fn kind<T: PositivePart + ToExact>(
     system: &SpringMass<T>,
     eps: &T,
@@ -256,25 +256,25 @@ fn kind<T: PositivePart + ToExact>(
     let lambda = (0..k).fold(start.clone(), |lambda, _| step(&lambda).0);
     let (next, u) = step(&lambda);
     let exact = |x: &T| x.to_exact().ok();
-    let (Some(was), Some(is), Some(then), Some(at)) =
+    let (Some(before), Some(after), Some(later), Some(exact_u)) =
         (exact(&lambda), exact(&next), exact(&step(&next).0), exact(&u))
     else {
         return String::new();
     };
-    let exactly = system.try_map(|x| x.to_exact()).unwrap();
-    let reaction = system::reaction(&exactly);
-    let force = if one { contact::contact_force(&exactly) } else { reaction.clone() };
-    let (zero, p) = (Exact::from(0), contact::penetration(&exactly, &at));
-    let error = (is.clone() - &force).abs();
+    let exact_system = system.try_map(|x| x.to_exact()).unwrap();
+    let reaction = system::reaction(&exact_system);
+    let force = if one { contact::contact_force(&exact_system) } else { reaction.clone() };
+    let (zero, p) = (Exact::from(0), contact::penetration(&exact_system, &exact_u));
+    let error = (after.clone() - &force).abs();
     // Fewer than half of the digits of the force are right.
     let lost = error.clone() * &error * precision > force.clone() * &force;
     let kind = if contact::penetration(system, &u) == T::zero() && lost {
         "false zero"
-    } else if one && reaction < zero && is == zero {
+    } else if one && reaction < zero && after == zero {
         "separated"
-    } else if is == was {
+    } else if after == before {
         "fixed point"
-    } else if then == was {
+    } else if later == before {
         "2-cycle"
     } else {
         ""
@@ -283,48 +283,51 @@ fn kind<T: PositivePart + ToExact>(
 }
 
 #[test]
-fn verdicts_are_those_of_their_definitions() {
+fn verdicts_agree_with_their_definitions() {
     const KINDS: &str = r#"
 const known = ["false zero", "separated", "fixed point", "2-cycle"];
 for (const [numbers, k, ...given] of input) {
   const [c, m, g, l, H, eps, lambda] = given.map(float);
   for (const plane of ["both", "one"]) {
-    const { kind, p, missing } = verdict(run({ numbers, plane, k }, { c, m, g, l, H, eps, lambda }));
-    console.log(p ? `${known.includes(kind) ? kind : ""} ${ratio(p)} ${ratio(missing)}` : "");
+    const { kind, p, error } = verdict(run({ numbers, plane, k }, { c, m, g, l, H, eps, lambda }));
+    console.log(p ? `${known.includes(kind) ? kind : ""} ${ratio(p)} ${ratio(error)}` : "");
   }
 }
 "#;
     let (mut text, mut input) = (String::new(), Vec::new());
     let [f32_digits, f64_digits] = [24, 53].map(Exact::power_of_two);
-    // A zero with a sign is another float and the same number.
+    // Signed zeros are different floats and equal numbers.
     let valid = |x: f64| x.is_finite() && (x != 0.0 || x.is_sign_positive());
     for Case { system, eps, lambda, steps } in cases() {
         let all = [system.c, system.m, system.g, system.l, system.h, eps, lambda];
         if all.into_iter().all(valid) {
             let show = |x: &f64| bits(*x);
-            input.push(given("f64", steps, (&system, &eps, &lambda, &0.0), show));
+            input.push(bench_input("f64", steps, (&system, &eps, &lambda, &0.0), show));
             for one in [false, true] {
                 writeln!(text, "{}", kind(&system, &eps, &lambda, one, steps, &f64_digits)).unwrap();
             }
         }
         if all.into_iter().all(|x| valid((x as f32).into())) && system.c as f32 > 0.0 && eps as f32 > 0.0 {
             let (system, eps, lambda) = (system.map(|&x| x as f32), eps as f32, lambda as f32);
-            input.push(given("f32", steps, (&system, &eps, &lambda, &0.0), |x| bits(f64::from(*x))));
+            input.push(bench_input("f32", steps, (&system, &eps, &lambda, &0.0), |x| bits(f64::from(*x))));
             for one in [false, true] {
                 writeln!(text, "{}", kind(&system, &eps, &lambda, one, steps, &f32_digits)).unwrap();
             }
         }
     }
     for kind in ["false zero", "separated", "fixed point", "2-cycle", ""] {
-        assert!(text.lines().any(|line| line.starts_with(&format!("{kind} "))), "no {kind:?} is tried");
+        assert!(
+            text.lines().any(|line| line.starts_with(&format!("{kind} "))),
+            "no case has the verdict {kind:?}"
+        );
     }
     let Some(found) = printed(&format!("{FLOAT}{KINDS}"), &input.into()) else { return };
     assert_same_lines(&text, &found);
 }
 
-/// Where the pages ask something of the bench, the title of the link says what it will say.
+/// The title of a link to the bench is the verdict that the bench will show.
 #[test]
-fn links_to_the_bench_show_what_they_promise() {
+fn links_to_the_bench_have_the_right_verdict() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../src");
     let (mut input, mut text) = (Vec::new(), String::new());
     for entry in fs::read_dir(folder).unwrap() {
@@ -333,22 +336,22 @@ fn links_to_the_bench_show_what_they_promise() {
             let page = fs::read_to_string(&path).unwrap();
             for link in page.split("augmented.html?").skip(1) {
                 let link = link.split(')').next().unwrap();
-                let (query, promise) = link
+                let (query, verdict) = link
                     .split_once("#bench \"")
-                    .unwrap_or_else(|| panic!("{}: {link} promises nothing", path.display()));
+                    .unwrap_or_else(|| panic!("{}: {link} has no verdict", path.display()));
                 input.push(json!(format!("?{query}")));
                 let mut pairs: Vec<_> = query.split('&').collect();
                 pairs.sort_unstable();
-                writeln!(text, "{}, {}", promise.trim_end_matches('"'), pairs.join("&")).unwrap();
+                writeln!(text, "{}, {}", verdict.trim_end_matches('"'), pairs.join("&")).unwrap();
             }
         }
     }
-    let promised: BTreeSet<_> = text.lines().filter_map(|line| line.split(',').next()).collect();
-    assert_eq!(Vec::from_iter(promised), ["2-cycle", "converging", "false zero", "fixed point", "separated"]);
+    let verdicts: BTreeSet<_> = text.lines().filter_map(|line| line.split(',').next()).collect();
+    assert_eq!(Vec::from_iter(verdicts), ["2-cycle", "converging", "false zero", "fixed point", "separated"]);
     const ASKED: &str = r#"
 for (const query of input) {
   const question = asked(query), { values, wrong } = numbers(question), result = run(question, values);
-  // What is asked is what is there, and no name is misspelt.
+  // The address has to contain exactly the settings, without misspelt names.
   const ended = result.rows.length - 1 === question.k ? "" : "ended early";
   console.log([verdict(result).kind, address(question).slice(1).split("&").sort().join("&")].join(", ") + ended + Object.keys(wrong));
 }
@@ -358,7 +361,7 @@ for (const query of input) {
 }
 
 #[test]
-fn texts_are_read_as_the_crate_reads_them() {
+fn numbers_are_parsed_like_in_the_crate() {
     let mut texts: Vec<String> = "0 -0 +1 0.05 5e-2 1/20 -7/3 +7/21 .5 5. 1.e3 1E+3 9.81 1e-45 7e-46 1.4e-45 1e39 1e308 1.8e308 1e309
         4.9e-324 2e-324 3e-324 2.2250738585072011e-308 1e-400 1e400 16777217 16777219 9007199254740993 9007199254740995
         9007199254740993.0000000000001 3.4028235677973366e38 3.4028235677973365e38 -1e-320 0e5 1/3 000.100
@@ -367,7 +370,7 @@ fn texts_are_read_as_the_crate_reads_them() {
         .map(String::from)
         .collect();
     texts.push(String::new());
-    let mut draw = Draw(3);
+    let mut draw = Random(3);
     for _ in 0..300 {
         let power = draw.next() % 90;
         texts.push(format!("{}.{}e{}", draw.next(), draw.next(), power as i64 - 60));
@@ -401,15 +404,15 @@ for (const text of input) {
     assert_same_lines(&expected, &found);
 }
 
-/// What is rounded for people is as near as its digits allow.
+/// Rounded numbers are within half a unit of the last digit.
 #[test]
-fn numbers_for_people_are_rounded_once() {
+fn displayed_numbers_are_rounded_once() {
     let mut texts: Vec<String> = "1 -1 999 999.4 999.5 999.6 0.9995 0.99951 123456 999499 999500 1e6 0.0001 0.00009999 0.000099995 1e-5 12345e300 1e-399
         1/3 -2/3 100 1000 10 1e5 4.81 0.05 2.405 1/7"
         .split_whitespace()
         .map(String::from)
         .collect();
-    let mut draw = Draw(4);
+    let mut draw = Random(4);
     texts.extend((0..300).map(|_| format!("{}e{}", draw.next() + 1, draw.next() as i64 % 600 - 300)));
     let input: Value = texts.iter().flat_map(|text| [3, 12].map(|digits| json!([text, digits]))).collect();
     let script = "for (const [text, digits] of input) console.log(brief(parse(text), digits));";
@@ -423,7 +426,7 @@ fn numbers_for_people_are_rounded_once() {
             .map(|c| if "⁻−".contains(c) { '-' } else { c })
             .collect();
         let [shown, meant] = [&plain, text].map(|text| text.parse::<Exact>().unwrap());
-        // Half a unit of the last digit; one unit is no more than 10^(1 - digits) of the number.
+        // One unit of the last digit is at most 10^(1 - digits) times the number.
         let allowed = meant.abs() / Exact::from(2) / format!("1e{}", digits - 1).parse::<Exact>().unwrap();
         assert!((shown - meant).abs() <= allowed, "{text} to {digits} digits: {line}");
         let written = plain.split('e').next().unwrap().trim_start_matches(['-', '0', '.']).replace('.', "");
@@ -433,8 +436,8 @@ fn numbers_for_people_are_rounded_once() {
 }
 
 #[test]
-fn what_no_page_links_to_has_a_verdict_too() {
-    // The sum c + ε overflows, and the quotient by it is 0: every number that is shown looks harmless.
+fn other_settings_have_verdicts() {
+    // The sum c + ε overflows, and the quotient by it is 0: every displayed number looks normal.
     let overflow = "?c=1e38&eps=3e38&numbers=f32";
     let system = SpringMass { c: 100.0_f32, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
     let (eps, mut lambda) = (2.99e6, 0.0);
@@ -446,25 +449,25 @@ fn what_no_page_links_to_has_a_verdict_too() {
     assert!(p[0] * p[1] < 0.0 || p[1].abs() > p[0].abs());
     let moving = "?eps=2.99e6&k=1&numbers=f32";
     let long = "?c=1.23456789012345678901234567890123456&eps=2.3456789012345678901234567890123456789&k=200&numbers=exact";
-    // What the multiplier of the cycle misses, now and next; to three digits R is the 4.81 that was typed.
+    // Error of the multiplier in the cycle, now and in the next step; to three digits R is 4.81.
     let default = SpringMass { c: 100.0_f64, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
     let (eps, mut lambda) = (1e5, 0.0);
-    let misses = [0; 8].map(|_| {
-        let missed = format!("{:.2e}", (lambda - 4.81_f64).abs()).replace("e-11", "·10⁻¹¹");
+    let errors = [0; 8].map(|_| {
+        let error = format!("{:.2e}", (lambda - 4.81_f64).abs()).replace("e-11", "·10⁻¹¹");
         let u = augmented::deflection(&default, &eps, &lambda);
         lambda = augmented::update(&default, &eps, &lambda, &u);
-        missed
+        error
     });
-    let cycle = format!("2-cycle by {} now and by {} next", misses[6], misses[7]);
-    assert!(misses[6] != misses[7] && cycle.matches("·10⁻¹¹").count() == 2);
+    let cycle = format!("2-cycle by {} now and by {} next", errors[6], errors[7]);
+    assert!(errors[6] != errors[7] && cycle.matches("·10⁻¹¹").count() == 2);
     let expected = [
         ("?eps=1e5&k=6", &*cycle),
         (overflow, "overflow too large for f32"),
         (moving, "moving by rounding"),
         (long, "converging binary digits"),
         ("?lambda=4.81&numbers=exact", "fixed point this is the solution"),
-        ("?k=3000&numbers=exact", "converging no more than 200 steps"),
-        ("?k=99999&eps=1e-3", "converging no more than 10000 steps"),
+        ("?k=3000&numbers=exact", "converging at most 200 steps"),
+        ("?k=99999&eps=1e-3", "converging at most 10000 steps"),
         ("?highlight=x&k=-1&numbers=f16&plane=none", "converging p = 0.0015 m"),
         ("?eps=0", "eps: not greater than 0"),
         ("?H=1,05&numbers=f32&m=1e-50&g=1e99", "m: not zero g: too large H: not a number"),
@@ -487,7 +490,7 @@ for (const query of input) {
     }
 }
 
-/// A page of which the bench knows no more than what it draws: enough to run all of its script.
+/// Minimal document for running the whole script of the bench.
 const DOCUMENT: &str = r#"
 class Element {
   constructor(name) {
@@ -519,29 +522,29 @@ const opened = search => {
 const numbersIn = text => (text.match(/-?[\d.]+(e[+-]?\d+)?/g) ?? []).map(Number);
 "#;
 
-/// The whole script, with what it draws: what is seen has been wrong without it.
+/// Runs the whole script and checks the drawings.
 #[test]
-fn the_bench_draws_what_it_says() {
+fn drawings_agree_with_the_table() {
     const DRAWN: &str = r#"
 for (const search of input.asked) {
   const root = opened(search), find = selector => root.querySelector(selector);
   root.on.click({ target: { dataset: { step: "1" } } });
   const forces = find(".bench-forces"), drawings = [find(".bench-system"), forces, find(".bench-decay")];
   const wrong = drawings.flatMap(svg => svg.all).filter(part => /NaN|Infinity|undefined/.test(JSON.stringify(part.attributes)));
-  // Each step is a point of the line of equilibrium.
+  // Each step is a point on the line of equilibrium.
   const line = forces.all.find(part => part.attributes.class === "bench-spring");
   const [x0, y0, x1, y1] = numbersIn(line.attributes.d), dots = forces.all.filter(part => part.name === "circle");
   const off = dots.filter(({ attributes: { cx, cy } }) =>
     Math.abs((cx - x0) * (y1 - y0) - (cy - y0) * (x1 - x0)) > 0.02 * Math.hypot(x1 - x0, y1 - y0));
-  const rows = find(".bench-table tbody").children, said = find(".bench-verdict").text;
-  console.log([said.split(",")[0], dots.length, rows.length, rows.at(-1).children[0].textContent,
+  const rows = find(".bench-table tbody").children, shown = find(".bench-verdict").text;
+  console.log([shown.split(",")[0], dots.length, rows.length, rows.at(-1).children[0].textContent,
     new URLSearchParams(location.search).get("k"), wrong.length, off.length].join("|"));
 }
 "#;
     let page = html().unwrap();
     let script = page.split("<script>").nth(1).and_then(|rest| rest.split("</script>").next()).unwrap();
-    // What is asked, and after one more step: the verdict, points, rows, k in the last row and in the address;
-    // nothing that is no number; and the points off the line, where alone p and N are no balance of forces.
+    // Settings, and the result after one more step: the verdict, the numbers of points and rows, k in the last row and in
+    // the address, the number of invalid attributes, and the number of points off the line, where forces do not balance.
     let expected = [
         ("", "converging|6|6|5|5|0|0"),
         ("?c=4&g=10&H=3&eps=4&k=3&numbers=exact", "converging|5|5|4||0|0"),
@@ -556,8 +559,8 @@ for (const search of input.asked) {
     assert_eq!(found.lines().collect::<Vec<_>>(), expected.map(|(_, drawn)| drawn));
 }
 
-/// What is drawn, by a page that only remembers it: for the example the steps are (1/4, 1), (1/8, 3/2), … on the
-/// line of equilibrium, and the plane's corner is where p = N = 0.
+/// For the example the steps are (1/4, 1), (1/8, 3/2), … on the line of equilibrium, and the corner of the plane is at
+/// p = N = 0.
 #[test]
 fn drawings_are_to_scale() {
     const PAGE: &str = include_str!("../../theme/bench.js");
@@ -575,18 +578,18 @@ const drawn = draw => {
 };
 console.log(JSON.stringify([drawn(drawForces), drawn(drawDecay)]));
 "#;
-    const KEPT: &str = "const document = \
+    const STUB: &str = "const document = \
         { createElementNS: (space, name) => new Element(name), querySelectorAll: () => [] };";
     let question = json!({ "c": "4", "m": "1", "g": "10", "l": "1", "H": "3", "eps": "4", "lambda": "0", "k": 3,
         "numbers": "f64", "plane": "both" });
-    let Some(found) = printed(&format!("{DOCUMENT}{KEPT}{PAGE}{DRAWN}"), &question) else { return };
+    let Some(found) = printed(&format!("{DOCUMENT}{STUB}{PAGE}{DRAWN}"), &question) else { return };
     let drawn: Value = serde_json::from_str(&found).unwrap();
     let of = |drawing: usize, what: &str, kind: &str| -> Vec<Vec<f64>> {
         let all = drawn[drawing][what].as_array().unwrap().iter().filter(|one| one[0] == kind);
         all.map(|one| one[1].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()).collect()
     };
     // Paths are written in hundredths of a pixel.
-    let near = |a: f64, b: f64| assert!((a - b).abs() <= 0.011, "{a} and {b}");
+    let assert_close = |a: f64, b: f64| assert!((a - b).abs() <= 0.011, "{a} and {b}");
     let (steps, corner) = (of(0, "dots", "bench-dot"), of(0, "paths", "bench-plane bench-corner"));
     let spring = &of(0, "paths", "bench-spring")[0];
     let metre = (steps[0][0] - steps[1][0]) / 0.125;
@@ -595,30 +598,30 @@ console.log(JSON.stringify([drawn(drawForces), drawn(drawDecay)]));
     let at = |p: f64, n: f64| [steps[0][0] + (p - 0.25) * metre, steps[0][1] - (n - 1.0) * newton];
     for (step, (p, n)) in steps.iter().zip([(0.25, 1.0), (0.125, 1.5), (0.0625, 1.75), (0.03125, 1.875)]) {
         let [x, y] = at(p, n);
-        near(step[0], x);
-        near(step[1], y);
+        assert_close(step[0], x);
+        assert_close(step[1], y);
         let share = (x - spring[0]) / (spring[2] - spring[0]);
-        near(spring[1] + share * (spring[3] - spring[1]), y);
+        assert_close(spring[1] + share * (spring[3] - spring[1]), y);
     }
     let ([x, y], corner) = (at(0.0, 0.0), &corner[0]);
     for (a, b) in [(corner[1], y), (corner[2], x), (corner[3], y), (corner[4], x)] {
-        near(a, b);
+        assert_close(a, b);
     }
     assert!(corner[0] < x && corner[5] < y, "p ≤ 0 and N ≥ 0");
 
-    // Each step halves the penetration, as computed and exactly: on a logarithmic axis they lie on one line, the law's.
+    // Each step halves the penetration, computed and exact: on a logarithmic axis the points lie on the line of ρᵏ.
     let (dots, rings) = (of(1, "dots", "bench-dot"), of(1, "dots", "bench-ring"));
     let law = of(1, "paths", "bench-faint").pop().unwrap();
     let slope = (law[3] - law[1]) / (law[2] - law[0]);
     assert!(dots.len() == 4 && slope > 0.0);
     for (dot, ring) in dots.iter().zip(&rings) {
         assert_eq!(dot, ring);
-        // The line's ends are rounded, and it is much longer than what lies between the steps.
-        near(law[1] + slope * (dot[0] - law[0]), dot[1]);
+        // The ends of the line are rounded, but it is much longer than the distance of the steps.
+        assert_close(law[1] + slope * (dot[0] - law[0]), dot[1]);
     }
 }
 
-/// A quantity has one unit, on the page of notation and at its field.
+/// The fields of the bench have the units of the page of notation.
 #[test]
 fn fields_have_the_units_of_the_notation() {
     let page = include_str!("../../theme/bench.js");

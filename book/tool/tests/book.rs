@@ -1,4 +1,4 @@
-//! The whole book, built in process and looked through.
+//! Tests of the whole book, which is built in process.
 
 #[path = "book/contrast.rs"]
 mod contrast;
@@ -23,7 +23,7 @@ fn book() -> PathBuf {
     files::root().join("book")
 }
 
-/// The produced files with their text, which is empty for fonts and the like.
+/// Generated files with their text, which is empty for binary files.
 static FILES: LazyLock<BTreeMap<PathBuf, String>> = LazyLock::new(|| {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("book");
     let _ = fs::remove_dir_all(&folder);
@@ -51,13 +51,13 @@ fn with_extension(extension: &str) -> impl Iterator<Item = (&'static PathBuf, &'
     FILES.iter().filter(move |(path, _)| path.extension().is_some_and(|e| e == extension))
 }
 
-/// The values of an attribute in a page.
+/// Returns the values of an attribute in a page.
 fn values<'a>(html: &'a str, attribute: &str) -> Vec<&'a str> {
     let pattern = Regex::new(&format!(r#"[\s"]{attribute}="([^"]*)""#)).unwrap();
     pattern.captures_iter(html).map(|found| found.get(1).unwrap().as_str()).collect()
 }
 
-/// The file that a relative link in `file` means.
+/// Resolves a relative link in `file`.
 fn resolve(file: &Path, link: &str) -> PathBuf {
     let mut target = file.parent().unwrap().to_path_buf();
     for part in link.split('/') {
@@ -71,7 +71,7 @@ fn resolve(file: &Path, link: &str) -> PathBuf {
 }
 
 #[test]
-fn every_equation_of_the_chapter_is_displayed_once() {
+fn every_equation_is_displayed_once() {
     let expected: Vec<_> = (1..=33).map(|n| format!("1.{n}")).collect();
     assert_eq!(equations().map(|(entry, _)| entry.equation).collect::<Vec<_>>(), expected);
     for number in expected {
@@ -88,7 +88,7 @@ fn every_equation_of_the_chapter_is_displayed_once() {
 }
 
 #[test]
-fn every_page_is_in_the_summary_and_has_its_snippets_run() {
+fn every_page_is_in_the_summary_and_in_pages() {
     let listed: BTreeSet<_> = PAGES.iter().map(|page| format!("{page}.md")).collect();
     let pages = |folder: &str| -> BTreeSet<String> {
         let entries = fs::read_dir(book().join("src").join(folder)).unwrap();
@@ -96,31 +96,31 @@ fn every_page_is_in_the_summary_and_has_its_snippets_run() {
         let names = names.filter(|name| name.ends_with(".md") && name != "SUMMARY.md");
         names.map(|name| format!("{folder}{name}")).collect()
     };
-    // The pages of proofs are printed, and have no snippets.
-    let (written, printed) = (pages(""), pages("proofs/"));
+    // The pages of proofs are generated, and have no snippets.
+    let (written, generated) = (pages(""), pages("proofs/"));
     let loaded = MDBook::load(book()).unwrap();
     let summary: BTreeSet<_> =
         loaded.book.chapters().map(|c| c.path.as_ref().unwrap().display().to_string()).collect();
-    assert_eq!(&written | &printed, summary, "files, summary");
+    assert_eq!(&written | &generated, summary, "files, summary");
     assert_eq!(written, listed, "files, PAGES");
 }
 
 #[test]
-fn everything_that_a_box_says_holds() {
+fn no_claim_is_open() {
     let mut boxes = 0;
     for (path, html) in with_extension("html") {
         assert!(!html.contains("class=\"open\""), "{}: a claim is open", path.display());
         boxes += html.matches("class=\"equation\"").count();
     }
-    assert_eq!(boxes, 2 * equations().count(), "each once on its page, and once in the page to print");
+    assert_eq!(boxes, 2 * equations().count(), "each box is on its page and on the page for printing");
 }
 
-/// What the page of claims has of each entry.
-fn claimed() -> impl Iterator<Item = (&'static Entry, &'static str)> {
+/// Returns the entries with their sections on the page of claims.
+fn claim_sections() -> impl Iterator<Item = (&'static Entry, &'static str)> {
     FILES[Path::new("claims.html")].split("<h3").skip(1).map(|section| {
         let heading = section.split("</h3>").next().unwrap();
         let entry = entries().iter().find(|entry| heading.contains(&format!(">{} ", entry.label())));
-        (entry.unwrap_or_else(|| panic!("whose heading is {heading}")), section)
+        (entry.unwrap_or_else(|| panic!("no entry has the heading {heading}")), section)
     })
 }
 
@@ -128,7 +128,7 @@ fn claimed() -> impl Iterator<Item = (&'static Entry, &'static str)> {
 fn every_claim_is_on_the_page_of_claims_with_its_proof() {
     let item = Regex::new(r"<li><strong>([^<]*)</strong>").unwrap();
     let mut seen = 0;
-    for (entry, section) in claimed() {
+    for (entry, section) in claim_sections() {
         let mut found: Vec<_> =
             item.captures_iter(section).map(|found| found.get(1).unwrap().as_str()).collect();
         let mut expected = claim_names(entry.equation);
@@ -138,7 +138,7 @@ fn every_claim_is_on_the_page_of_claims_with_its_proof() {
         let proofs = entry.claims.len();
         assert_eq!(section.matches(">proved</a>").count(), proofs, "{}", entry.label());
         assert_eq!(
-            section.matches("tried, not proved").count(),
+            section.matches("tested, not proved").count(),
             expected.len() - proofs,
             "{}",
             entry.label()
@@ -148,42 +148,49 @@ fn every_claim_is_on_the_page_of_claims_with_its_proof() {
     assert_eq!(seen, entries().iter().map(|entry| claim_names(entry.equation).len()).sum::<usize>());
 }
 
-/// What stands in code before the next block: what a claim says, and what it supposes. What always holds is part of
-/// the proof.
-fn said(html: &str) -> Vec<&str> {
+/// Returns the statement of a claim and its hypotheses, the code before the next block. Invariants are part of the
+/// proof.
+fn claim_text(html: &str) -> Vec<&str> {
     let end =
         ["<pre", "<details", "<h2", "<h3", "<p>always "].iter().filter_map(|next| html.find(next)).min();
     let code = html[..end.unwrap_or(html.len())].split("<code>").skip(1);
     code.map(|code| code.split("</code>").next().unwrap()).collect()
 }
 
-/// The heading of this address, and what follows it.
-fn headed<'a>(html: &'a str, id: &str) -> (&'a str, &'a str) {
+/// Returns the heading with this id and the text after it.
+fn find_heading<'a>(html: &'a str, id: &str) -> (&'a str, &'a str) {
     let (_, rest) = html.split_once(&format!(" id=\"{id}\"><a class=\"header\"")).expect("a heading");
     let (heading, rest) = rest.split_once("</a>").unwrap();
     (heading.split_once('>').unwrap().1, rest)
 }
 
-/// What the page of claims says of a claim is what its proof is of, to which it leads.
+/// The page of claims states each claim as in the proof to which it links.
 #[test]
-fn claims_are_those_of_their_proofs() {
+fn claims_agree_with_their_proofs() {
     let item =
         Regex::new(r#"(?s)<li><strong>([^<]*)</strong>(.*?)<a href="([^#"]*)#([^"]*)">proved</a>(.*?)</li>"#);
     let (item, mut seen) = (item.unwrap(), 0);
-    for (entry, section) in claimed() {
+    for (entry, section) in claim_sections() {
         for found in section.split("<li>").skip(1) {
             let found = format!("<li>{found}");
             let Some(found) = item.captures(&found) else { continue };
-            let (name, proof) = (&found[1], headed(&FILES[Path::new(&found[3])], &found[4]));
+            let (name, proof) = (&found[1], find_heading(&FILES[Path::new(&found[3])], &found[4]));
             assert_eq!(proof.0, format!("{name}, {}", entry.label()));
-            assert_eq!(said(&found[2]), said(proof.1), "{}", proof.0);
-            assert!(!said(proof.1).is_empty(), "{} says nothing", proof.0);
-            // Rationals have no exponentials, and round nothing.
+            assert_eq!(claim_text(&found[2]), claim_text(proof.1), "{}", proof.0);
+            assert!(!claim_text(proof.1).is_empty(), "{} has no statement", proof.0);
+            // Rationals have no exponentials and do not round.
             let inexact = ["exp(", "fl(", "nearest("];
-            let exact = !said(proof.1).iter().any(|code| inexact.iter().any(|name| code.contains(name)));
+            let exact =
+                !claim_text(proof.1).iter().any(|code| inexact.iter().any(|name| code.contains(name)));
             let systems = ["f32", "f64", "256 bits", "rationals"];
             let expected = &systems[..if exact { 4 } else { 3 }];
-            let held = found[5].split_once("held in ").expect("where it held").1.split('<').next().unwrap();
+            let held = found[5]
+                .split_once("held in ")
+                .expect("a list of number systems")
+                .1
+                .split('<')
+                .next()
+                .unwrap();
             let held: Vec<_> = held.split(", ").map(|held| held.split(" (").next().unwrap()).collect();
             assert_eq!(held, expected, "{}", proof.0);
             seen += 1;
@@ -192,42 +199,43 @@ fn claims_are_those_of_their_proofs() {
     assert_eq!(seen, entries().iter().map(|entry| entry.claims.len()).sum::<usize>());
 }
 
-/// A box says no more than the page of claims: how many claims are proved, and how many held where.
+/// The status in a box agrees with the page of claims.
 #[test]
-fn boxes_say_what_the_page_of_claims_says() {
+fn boxes_agree_with_the_page_of_claims() {
     let claims = &FILES[Path::new("claims.html")];
-    let status = Regex::new(r#"(?s)id="eq-([\d-]+)".*?<div class="status">\s*<p>(.*?)</p>"#).unwrap();
+    let status_line = Regex::new(r#"(?s)id="eq-([\d-]+)".*?<div class="status">\s*<p>(.*?)</p>"#).unwrap();
     let proved = Regex::new(r#"^proved: <a href="([^#"]*)#([^"]*)">(\d+) claims?</a>"#).unwrap();
     let mut seen = 0;
     for (_, html) in with_extension("html").filter(|(path, _)| !path.ends_with("print.html")) {
-        for found in status.captures_iter(html) {
+        for found in status_line.captures_iter(html) {
             let number = found[1].replace('-', ".");
             let (entry, _) = equations().find(|(entry, _)| entry.equation == number).unwrap();
-            let said = &found[2];
+            let status = &found[2];
             let page = claims.split_once(&format!("id=\"claims-{}\"", &found[1])).unwrap().1;
             let page = page.split("<h3").next().unwrap();
-            let link = proved.captures(said).unwrap_or_else(|| panic!("({number}): {said}"));
+            let link = proved.captures(status).unwrap_or_else(|| panic!("({number}): {status}"));
             assert_eq!(link[3].parse(), Ok(entry.claims.len()), "({number})");
-            let proof = headed(&FILES[Path::new(&link[1])], &link[2]).0;
+            let proof = find_heading(&FILES[Path::new(&link[1])], &link[2]).0;
             assert_eq!(proof, format!("{} {}", entry.label(), entry.title));
             assert_eq!(
-                headed(html, &format!("eq-{}", &found[1])).0,
+                find_heading(html, &format!("eq-{}", &found[1])).0,
                 format!("Equation {number} · {}", entry.title)
             );
-            let tried = page.matches("tried, not proved").count();
-            assert_eq!(said.contains(&format!(", and {tried} only tried")), tried > 0, "({number})");
+            let tested = page.matches("tested, not proved").count();
+            assert_eq!(status.contains(&format!(", and {tested} only tested")), tested > 0, "({number})");
             for system in ["f32", "f64", "256 bits", "rationals"] {
                 let items = page.split("<li>").filter(|item| item.contains(">proved</a>"));
                 let held = items.filter(|item| {
                     item.split_once("held in ").is_some_and(|(_, held)| held.contains(system))
                 });
                 let (held, all) = (held.count(), entry.claims.len());
-                let is_all = said.contains(&format!("{system}, ")) || said.contains(&format!("{system} · "));
-                assert_eq!(is_all, held == all, "({number}) {system}: {said}");
+                let is_all =
+                    status.contains(&format!("{system}, ")) || status.contains(&format!("{system} · "));
+                assert_eq!(is_all, held == all, "({number}) {system}: {status}");
                 assert_eq!(
-                    said.contains(&format!("{system} ({held} of ")),
+                    status.contains(&format!("{system} ({held} of ")),
                     0 < held && held < all,
-                    "({number}) {system}: {said}"
+                    "({number}) {system}: {status}"
                 );
             }
             seen += 1;
@@ -236,9 +244,8 @@ fn boxes_say_what_the_page_of_claims_says() {
     assert_eq!(seen, equations().count());
 }
 
-/// A box has a heading one level below that of the section in which it stands.
 #[test]
-fn the_heading_of_a_box_is_one_level_below_its_section() {
+fn heading_of_a_box_is_one_level_below_its_section() {
     let heading = Regex::new(r#"<h([1-6])[^>]* id="([^"]*)""#).unwrap();
     let mut boxes = 0;
     for (path, html) in with_extension("html").filter(|(path, _)| !path.ends_with("print.html")) {
@@ -256,9 +263,9 @@ fn the_heading_of_a_box_is_one_level_below_its_section() {
     assert_eq!(boxes, equations().count());
 }
 
-/// From the proofs of each entry one link leads back to the book, and one to what a proof rests on.
+/// The proofs of each entry link back to the book, and to what has to be trusted.
 #[test]
-fn proofs_lead_back() {
+fn proofs_link_back_to_the_book() {
     let pages: String = with_extension("html")
         .filter(|(path, _)| path.starts_with("proofs"))
         .map(|(_, html)| html.as_str())
@@ -272,7 +279,7 @@ fn proofs_lead_back() {
 }
 
 #[test]
-fn no_tag_and_no_dollar_formula_is_left() {
+fn all_tags_and_formulas_are_replaced() {
     let code = Regex::new(r"(?s)<(code|script)[ >].*?</(code|script)>").unwrap();
     for (path, html) in with_extension("html") {
         assert!(!html.contains("{{#"), "{}: a tag is left", path.display());
@@ -287,7 +294,7 @@ fn no_tag_and_no_dollar_formula_is_left() {
 }
 
 #[test]
-fn every_link_leads_somewhere() {
+fn every_link_has_a_target() {
     let ids: BTreeMap<_, HashSet<_>> = with_extension("html")
         .map(|(path, html)| (path.as_path(), values(html, "id").into_iter().collect()))
         .collect();
@@ -311,11 +318,11 @@ fn every_link_leads_somewhere() {
             checked += 1;
         }
     }
-    assert!(checked > equations().count(), "only {checked} links were seen");
+    assert!(checked > equations().count(), "only {checked} links were checked");
 }
 
 #[test]
-fn a_number_leads_to_its_own_box() {
+fn equation_numbers_link_to_their_box() {
     let link = Regex::new(r#"href="[^"]*eq-([\d-]+)">\(([\d.]+)\)</a>"#).unwrap();
     let mut seen = 0;
     for (page, html) in with_extension("html") {
@@ -328,17 +335,17 @@ fn a_number_leads_to_its_own_box() {
 }
 
 #[test]
-fn the_bench_is_on_its_page_as_it_was_written() {
+fn bench_is_on_its_page_unchanged() {
     let pages: Vec<_> = with_extension("html").filter(|(_, html)| html.contains(bench::MODEL)).collect();
     let names: Vec<_> = pages.iter().map(|(path, _)| path.display().to_string()).collect();
     assert_eq!(names, ["augmented.html", "print.html"]);
-    let written = bench::html().unwrap();
-    let script = &written[written.find("<script>").unwrap()..];
-    assert!(pages.iter().all(|(_, html)| html.contains(script)), "the script is changed");
+    let html = bench::html().unwrap();
+    let script = &html[html.find("<script>").unwrap()..];
+    assert!(pages.iter().all(|(_, html)| html.contains(script)), "the script has changed");
 }
 
 #[test]
-fn nothing_is_fetched_from_outside() {
+fn no_external_resources_are_loaded() {
     let fetching =
         Regex::new(r#"<(script|link|img|iframe|source|object)\b[^>]*(src|href|data)="(https?:)?//"#).unwrap();
     for (path, html) in with_extension("html") {

@@ -1,4 +1,4 @@
-//! What an author can get wrong stops the build, with a message that names it.
+//! Mistakes of an author that stop the build with an error message.
 
 use book_tool::{Equations, equations};
 use mdbook_preprocessor::{
@@ -9,7 +9,7 @@ use mdbook_preprocessor::{
 use regex::Regex;
 use std::{fs, path::Path};
 
-/// A book of one page that displays every equation, and then `text`.
+/// Processes a book of one page that displays every equation, followed by `text`.
 fn process(text: &str) -> Result<String, String> {
     let all: String = equations().map(|(entry, _)| format!("{{{{#eq {}}}}}\n\n", entry.equation)).collect();
     process_page(&(all + text))
@@ -31,21 +31,21 @@ fn assert_refused(text: &str, message: &str) {
 }
 
 #[test]
-fn a_right_page_is_processed() {
+fn valid_page_is_processed() {
     let page = process("see {{#ref 1.13}}").unwrap();
     assert!(page.ends_with("see [(1.13)](page.md#eq-1-13)"), "{page}");
     assert!(page.contains("(eps * (h - l) + m * g) / (c + eps)"));
 }
 
 #[test]
-fn a_box_has_the_formula_and_the_lines_of_its_functions() {
+fn box_shows_formula_and_source_lines() {
     let page = process("").unwrap();
     let lines = Regex::new(r"/chapter/(\w+)\.rs\.html#(\d+)-(\d+)\)\n").unwrap();
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../src/chapter");
     let boxes: Vec<_> = page.split("<div class=\"equation\">").skip(1).collect();
     let mut seen = 0;
     for ((entry, latex), html) in equations().zip(boxes) {
-        // Typeset as a display of a page is.
+        // The box typesets the formula like a display formula of a page.
         let alone = process(&format!("$${latex}$$")).unwrap();
         let formula =
             alone.rsplit_once("<span class=\"formula\">").unwrap().1.strip_suffix("</span>").unwrap();
@@ -71,23 +71,23 @@ fn a_box_has_the_formula_and_the_lines_of_its_functions() {
 }
 
 #[test]
-fn a_reference_to_nothing() {
+fn unknown_reference_is_refused() {
     assert_refused("{{#ref 1.34}}", "no equation (1.34)");
 }
 
 #[test]
-fn an_equation_that_does_not_exist() {
+fn unknown_equation_is_refused() {
     assert_refused("{{#eq 1.34}}", "no equation (1.34)");
 }
 
 #[test]
-fn an_entry_without_a_formula() {
+fn entry_without_formula_is_refused() {
     assert_refused("{{#eq note}}", "no equation (note)");
     assert_refused("{{#eq note 1}}", "note 1 has no formula");
 }
 
 #[test]
-fn a_formula_by_itself() {
+fn formula_tag_works_outside_of_math() {
     let page = process("the gap {{#formula system::gap}} is").unwrap();
     assert_eq!(
         page.rsplit_once("the gap ").unwrap().1,
@@ -98,27 +98,27 @@ fn a_formula_by_itself() {
 }
 
 #[test]
-fn an_equation_displayed_twice() {
+fn duplicate_equation_is_refused() {
     assert_refused("{{#eq 1.13}}", "(1.13) is displayed twice");
 }
 
 #[test]
-fn an_equation_forgotten() {
+fn missing_equation_is_refused() {
     assert!(process_page("nothing").unwrap_err().contains("(1.1) is not displayed"));
 }
 
 #[test]
-fn a_function_that_does_not_exist() {
+fn unknown_function_is_refused() {
     assert_refused("{{#source penalty::nothing}}", "no public function `nothing`");
     assert_refused("{{#source nothing::gap}}", "the module of nothing::gap");
 }
 
 #[test]
-fn a_figure_that_does_not_exist() {
+fn unknown_figure_is_refused() {
     assert_refused("{{#figure nothing}}", "no figure nothing");
 }
 
 #[test]
-fn a_formula_that_does_not_parse() {
+fn invalid_formula_is_refused() {
     assert_refused(r"$\frac{1}$", r"\frac{1}");
 }

@@ -1,5 +1,4 @@
-//! What is said where the crate is published: by Cargo.toml, by pyproject.toml, and by the README, which others show than
-//! those who have the repository.
+//! Consistency of the metadata that registries show: Cargo.toml, pyproject.toml and the README.
 
 use pulldown_cmark::{Event, Parser, Tag};
 use regex::Regex;
@@ -14,7 +13,7 @@ fn text(path: &str) -> String {
     fs::read_to_string(root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 
-/// The packages of the workspace as cargo reads them, this crate's first.
+/// Packages of the workspace as read by cargo, with the main crate first.
 static PACKAGES: LazyLock<Vec<Value>> = LazyLock::new(|| {
     let mut cargo = Command::new(env::var_os("CARGO").unwrap());
     let output =
@@ -26,17 +25,18 @@ static PACKAGES: LazyLock<Vec<Value>> = LazyLock::new(|| {
     packages
 });
 
-fn said(key: &str) -> &'static str {
+/// Returns a field of the main crate's Cargo.toml.
+fn package_field(key: &str) -> &'static str {
     PACKAGES[0][key].as_str().unwrap_or_else(|| panic!("Cargo.toml has no {key}"))
 }
 
-/// The name by which GitHub knows a heading.
+/// Returns the anchor that GitHub generates for a heading.
 fn anchor(heading: &str) -> String {
-    let kept = heading.trim().to_lowercase().replace(' ', "-");
-    kept.chars().filter(|c| c.is_alphanumeric() || "-_".contains(*c)).collect()
+    let dashed = heading.trim().to_lowercase().replace(' ', "-");
+    dashed.chars().filter(|c| c.is_alphanumeric() || "-_".contains(*c)).collect()
 }
 
-/// Links and pictures, the latter marked.
+/// Returns the targets of links (`false`) and images (`true`).
 fn targets(markdown: &str) -> Vec<(bool, String)> {
     let target = |event| match event {
         Event::Start(Tag::Link { dest_url, .. }) => Some((false, dest_url.to_string())),
@@ -46,12 +46,16 @@ fn targets(markdown: &str) -> Vec<(bool, String)> {
     Parser::new(markdown).filter_map(target).collect()
 }
 
-/// The registry of crates completes what is relative by the address of the repository, at three hosts, and takes files of
-/// some names from there as pictures and all others as pages.
+/// The crate registry resolves relative links against the repository on three hosts, and treats some extensions as
+/// images and all others as pages.
 #[test]
-fn the_readme_leads_somewhere_where_a_registry_shows_it() {
+fn readme_links_work_on_the_registry() {
     let address = Regex::new(r"^https://(github\.com|gitlab\.com|bitbucket\.org)/[\w.-]+/[\w.-]+$").unwrap();
-    assert!(address.is_match(said("repository")), "no host that is completed: {}", said("repository"));
+    assert!(
+        address.is_match(package_field("repository")),
+        "relative links are not resolved for this host: {}",
+        package_field("repository")
+    );
     let (mut links, mut pictures) = (0, 0);
     for (is_picture, target) in targets(&text("README.md")) {
         if target.starts_with("https://") {
@@ -59,7 +63,7 @@ fn the_readme_leads_somewhere_where_a_registry_shows_it() {
         }
         let (file, heading) = target.split_once('#').unwrap_or((&target, ""));
         assert!(!file.starts_with(['/', '.']) && !file.contains("..") && !file.is_empty(), "{target}");
-        assert!(root().join(file).is_file(), "{target}: no such file");
+        assert!(root().join(file).is_file(), "{target}: the file does not exist");
         assert_eq!(file.ends_with(".svg") || file.ends_with(".png"), is_picture, "{target}");
         let headings = if heading.is_empty() { String::new() } else { text(file) };
         let known = headings.lines().filter(|line| line.starts_with('#'));
@@ -70,36 +74,36 @@ fn the_readme_leads_somewhere_where_a_registry_shows_it() {
     assert!(links > 20 && pictures == 1, "{links} links, {pictures} pictures");
 }
 
-/// An index of wheels completes nothing.
+/// The Python package index does not resolve relative links.
 #[test]
-fn what_is_said_of_the_wheel_has_no_link_that_needs_the_repository() {
+fn wheel_readme_has_absolute_links_only() {
     let project = text("pyproject.toml");
-    let (_, said) = project.split_once("\ntext = \"\"\"\n").expect("a text of its own");
-    let (said, _) = said.split_once("\n\"\"\"").unwrap();
-    assert!(said.len() > 200, "{said}");
-    for (_, target) in targets(said) {
+    let (_, readme) = project.split_once("\ntext = \"\"\"\n").expect("a readme text");
+    let (readme, _) = readme.split_once("\n\"\"\"").unwrap();
+    assert!(readme.len() > 200, "{readme}");
+    for (_, target) in targets(readme) {
         assert!(target.starts_with("https://"), "{target}");
     }
 }
 
 #[test]
-fn what_cargo_knows_is_said_of_the_wheel_by_nobody_else() {
+fn wheel_metadata_comes_from_cargo_toml() {
     let project = text("pyproject.toml");
     let keys: Vec<_> =
         project.lines().filter_map(|line| line.split_once(" = ")).map(|(key, _)| key).collect();
     let dynamic =
-        project.lines().find_map(|line| line.strip_prefix("dynamic = ")).expect("what Cargo.toml says");
+        project.lines().find_map(|line| line.strip_prefix("dynamic = ")).expect("the dynamic fields");
     for key in ["version", "description", "keywords", "urls"] {
         assert!(dynamic.contains(&format!("\"{key}\"")) && !keys.contains(&key), "{key}");
     }
-    assert!(project.contains(&format!("\nname = \"{}\"\n", said("name"))));
-    let license = format!("\nlicense = \"({}) AND LGPL-3.0-or-later\"\n", said("license"));
+    assert!(project.contains(&format!("\nname = \"{}\"\n", package_field("name"))));
+    let license = format!("\nlicense = \"({}) AND LGPL-3.0-or-later\"\n", package_field("license"));
     assert!(project.contains(&license), "{license}");
 }
 
 #[test]
-fn the_readme_says_what_cargo_says() {
-    let (readme, rust) = (text("README.md"), said("rust_version"));
+fn readme_agrees_with_cargo_toml() {
+    let (readme, rust) = (text("README.md"), package_field("rust_version"));
     for package in PACKAGES.iter() {
         assert_eq!(package["rust_version"], rust, "{}", package["name"]);
     }
@@ -107,25 +111,25 @@ fn the_readme_says_what_cargo_says() {
     assert!(
         readme.contains(&format!("![Rust {rust} or newer](https://img.shields.io/badge/rust-{rust}+-blue)"))
     );
-    let license = said("license").replace(" OR ", " or ");
+    let license = package_field("license").replace(" OR ", " or ");
     let badge = license.replace('-', "--").replace(' ', "_");
     assert!(
         readme.contains(&format!("![Licence: {license}](https://img.shields.io/badge/licence-{badge}-blue)"))
     );
     let badges = targets(&readme).into_iter().filter(|(_, target)| target.contains("img.shields.io"));
-    assert_eq!(badges.count(), 2, "a badge says what nothing holds it to");
-    let version = format!("version = \"{}\"", said("version").rsplit_once('.').unwrap().0);
-    assert!(readme.contains(&format!("\n{} = {{ {version},", said("name"))), "{version}");
+    assert_eq!(badges.count(), 2, "a badge without a test");
+    let version = format!("version = \"{}\"", package_field("version").rsplit_once('.').unwrap().0);
+    assert!(readme.contains(&format!("\n{} = {{ {version},", package_field("name"))), "{version}");
     let changes = text("CHANGELOG.md");
-    let version = said("version");
+    let version = package_field("version");
     let released = changes.contains(&format!("\n## [{version}]"));
     assert!(released || changes.contains(&format!("\nWill be {version},")), "CHANGELOG.md: {version}");
 }
 
-/// An owner who moves the project changes Cargo.toml, and is told what else has its address.
+/// If the project moves, this test lists the files that contain its address.
 #[test]
-fn the_address_is_in_one_place() {
-    let name = said("name");
+fn repository_address_agrees_with_cargo_toml() {
+    let name = package_field("name");
     let place =
         Regex::new(&format!(r"https://[\w.-]+/[\w.-]+/{name}\b|https://[\w.-]+\.github\.io\b[\w/.-]*"))
             .unwrap();
@@ -136,9 +140,9 @@ fn the_address_is_in_one_place() {
         ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "pyproject.toml", ".ci/wheel", "book/book.toml"];
     for file in fixed.map(String::from).into_iter().chain(workflows) {
         for found in place.find_iter(&text(&file)) {
-            assert_eq!(found.as_str(), said("repository"), "{file}");
+            assert_eq!(found.as_str(), package_field("repository"), "{file}");
         }
     }
     assert!(place.is_match(&text("Cargo.toml")));
-    assert_eq!(said("documentation"), format!("https://docs.rs/{name}"));
+    assert_eq!(package_field("documentation"), format!("https://docs.rs/{name}"));
 }

@@ -2,7 +2,7 @@
 //! handled wrongly.
 
 use spring_mass_contact::chapter::{SpringMass, structure};
-use spring_mass_contact::number::{Exact, Mpfr, Text, ToExact};
+use spring_mass_contact::number::{Exact, ExactText, Mpfr, ToExact};
 use spring_mass_contact::rug::{Float, float::Special};
 use spring_mass_contact::solver::{Method, Plane, Scalar};
 
@@ -39,7 +39,7 @@ impl Bytes<'_> {
 }
 
 /// A scalar that bytes make.
-pub trait Number: Scalar + Text + PartialEq {
+pub trait Number: Scalar + ExactText + PartialEq {
     /// Anything, finite or not.
     fn any(bytes: &mut Bytes) -> Self;
 

@@ -5,16 +5,16 @@ use crate::bytes::{Bytes, Number, method, plane, positive, system};
 use num_traits::Zero;
 use spring_mass_contact::chapter::{SpringMass, augmented, contact, lagrange, penalty, structure, system};
 use spring_mass_contact::number::{
-    Exact, MAX_EXPONENT, Mpfr, NumberSystem, ParseError, PositivePart, RangeError, Real, Text, ToExact,
+    Exact, ExactText, MAX_EXPONENT, Mpfr, NumberSystem, ParseError, PositivePart, RangeError, Real, ToExact,
 };
 use spring_mass_contact::rug::float::Round;
 use spring_mass_contact::rug::ops::Pow;
 use spring_mass_contact::rug::{Integer, Rational};
 use spring_mass_contact::solver::{
     Augmentation, Bounds, Interval, Iterate, Method, Outcome, Plane, ReadError, Solution, SolveError, State,
-    advise, augmentations_needed, augmentations_promised, best_penalty, bits_needed, iterate_after,
-    penalties, penalty_for_penetration, penalty_force_bound, rounding_floor, series_penetration, solve,
-    solve_observed, sweep, within_reach,
+    advise, best_penalty, exact_augmentation_count, guaranteed_max_augmentations, is_convergence_guaranteed,
+    kth_iterate, penalties, penalty_for_penetration, penalty_force_bound, required_precision, rounding_floor,
+    series_penetration, solve, solve_observed, sweep,
 };
 use std::cmp::Ordering;
 use std::sync::atomic::{AtomicBool, Ordering as AtomicOrdering};
@@ -95,7 +95,7 @@ pub fn parse(bytes: &[u8]) {
     assert_eq!(Mpfr::parse(&text, precision).map(drop), read.clone().map(drop));
     if let Ok(x) = &read
         && bytes.one_in(16)
-        && x.digits() < 4000
+        && x.bit_length() < 4000
     {
         written(x, precision);
     }
@@ -113,7 +113,7 @@ pub fn parse(bytes: &[u8]) {
 }
 
 /// Rounded as Rust rounds it, but for what Rust makes infinite or zero.
-fn nearest<T: Text + PartialEq + std::fmt::Debug>(
+fn nearest<T: ExactText + PartialEq + std::fmt::Debug>(
     x: &Exact,
     by_rust: T,
     name: &str,
@@ -224,7 +224,7 @@ fn answer(system: &SpringMass<Exact>, method: &Method<Exact>, plane: Plane) -> [
         (Method::Penalty { penalty: eps }, _) => [
             penalty::deflection(system, eps),
             penalty::penetration(system, eps),
-            penalty::force_at_root(system, eps),
+            penalty::contact_force_at_equilibrium(system, eps),
         ],
         (_, Plane::Unilateral) => {
             let u = contact::deflection(system);
@@ -349,7 +349,7 @@ pub fn functions(bytes: &[u8]) {
 /// Does the method come to within the tolerance?
 fn reaches(solution: &Solution<impl Number>, system: &SpringMass<Exact>, tolerance: &Exact) -> bool {
     let off = (exact(&solution.deflection) - contact::deflection(system)).abs();
-    solution.outcome != Outcome::Stagnated && solution.outcome != Outcome::OutOfSteps && off < *tolerance
+    solution.outcome != Outcome::Stagnated && solution.outcome != Outcome::IterationLimit && off < *tolerance
 }
 
 /// Whatever is advised reaches the tolerance.
@@ -361,11 +361,11 @@ fn advised<T: Number>(bytes: &mut Bytes) {
     let (exact_system, tol) = (system.map(exact), exact(&tolerance));
     assert_eq!(advice.state, state_of(&exact_system));
     assert!(advice.floor.is_none_or(|floor| floor >= zero()));
-    for choice in &advice.choices {
+    for choice in &advice.recommendations {
         let solution = solve(&system, &choice.method).expect("what has been tried");
         assert!(reaches(&solution, &exact_system, &tol), "{:?} does not reach it", choice.method);
         assert_eq!(solution.augmentations, choice.augmentations);
-        let [from, to] = choice.penalties.each_ref().map(Option::as_ref);
+        let [from, to] = choice.penalty_range.each_ref().map(Option::as_ref);
         match choice.method.penalty() {
             None => assert!(from.is_none() && to.is_none()),
             Some(eps) => assert!(from.is_none_or(|from| from <= eps) && to.is_none_or(|to| eps <= to)),
@@ -421,7 +421,7 @@ fn iterated<T: Number>(bytes: &mut Bytes) {
     let k = if T::EXACT && k >> 40 == 0 { k % 64 } else { k };
     let arguments = Arguments::of(&system).positive("penalty", &eps).finite("initial multiplier", &start);
     show(|| format!("{system:?} ε {eps:?} λ₀ {start:?} k {k} {plane:?}"));
-    let Some(step) = arguments.judge(iterate_after(&system, &eps, &start, k, plane)) else { return };
+    let Some(step) = arguments.judge(kth_iterate(&system, &eps, &start, k, plane)) else { return };
     let Iterate { multiplier, deflection, penetration, contact_force, .. } = &step;
     in_order(multiplier);
     in_order(deflection);
@@ -456,14 +456,14 @@ fn counted<T: Number>(bytes: &mut Bytes) {
     show(|| format!("{system:?} eps {eps:?} tol {tolerance:?} start {start:?} {plane:?}"));
     let arguments = Arguments::of(&system).positive("penalty", &eps).positive("tolerance", &tolerance);
     let eta = unit_roundoff(bytes);
-    let promised = arguments.judge(augmentations_promised(&system, &eps, &tolerance, &eta));
-    let reaches = arguments.judge(within_reach(&system, &eps, &tolerance, &eta));
+    let promised = arguments.judge(guaranteed_max_augmentations(&system, &eps, &tolerance, &eta));
+    let reaches = arguments.judge(is_convergence_guaranteed(&system, &eps, &tolerance, &eta));
     if let (Some(promised), Some(reaches)) = (promised, reaches) {
         assert_eq!(promised.is_some(), reaches);
         assert!(promised.is_none_or(|count| count >= 0));
     }
     let arguments = arguments.with("initial multiplier", start.is_number());
-    let needed = augmentations_needed(&system, &eps, &tolerance, &start, plane);
+    let needed = exact_augmentation_count(&system, &eps, &tolerance, &start, plane);
     let Some(needed) = arguments.judge(needed) else { return };
     let (system, eps, tol) = (system.map(exact), exact(&eps), exact(&tolerance));
     let Some(k) = needed.to_usize().filter(|k| *k < 6) else {
@@ -487,8 +487,8 @@ fn floored<T: Number>(bytes: &mut Bytes) {
     assert!(floor.is_none_or(|floor| floor >= zero()));
     let (system, Ok(tol)) = (system.map(exact), tolerance.to_exact()) else { return };
     let arguments = arguments.with("tolerance", tol > zero());
-    if let Some(Some(bits)) = arguments.judge(bits_needed(&system, plane, &tol)) {
-        let rounded = |x: &Exact| x.rounded(bits).expect("some bits");
+    if let Some(Some(bits)) = arguments.judge(required_precision(&system, plane, &tol)) {
+        let rounded = |x: &Exact| x.round_to_bits(bits).expect("some bits");
         let floor = rounding_floor(&system.map(rounded), plane, &NumberSystem::Mpfr(bits).unit_roundoff());
         assert!(floor.unwrap().is_some_and(|floor| floor < rounded(&tol)));
     }
@@ -546,7 +546,7 @@ fn spaced(bytes: &mut Bytes) {
     ]);
     show(|| format!("{from} to {to}, {points}"));
     match penalties(&from, &to, points as u32) {
-        // So near to one another that a hundred digits do not tell them apart.
+        // So near to one another that a hundred digits do not distinguish them.
         Err(SolveError::Invalid { argument: "last penalty", .. }) if arguments.wrong().is_none() => {
             assert!((&to - &from) / &to < Exact::power_of_two(-300));
         }

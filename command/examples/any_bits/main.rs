@@ -200,7 +200,7 @@ fn options(arguments: &[String]) -> Result<Options, String> {
             }
         };
         *place = value.parse().map_err(|_| {
-            format!("invalid value {value:?} for '{option}': must be a whole number from 0 to {}", u64::MAX)
+            format!("invalid value {value:?} for '{option}': must be an integer from 0 to {}", u64::MAX)
         })?;
     }
     Ok(options)

@@ -136,15 +136,15 @@ pub fn read(bytes: &[u8]) {
         Err(why) => return one_line(&why),
         Ok(reply) => reply,
     };
-    if let Reply::Refused(text) | Reply::Garbled(text) = &reply {
+    if let Reply::Refused(text) | Reply::InvalidResponse(text) = &reply {
         one_line(text);
     }
     let asked = &PROBLEMS[first..first + many];
     let Ok(report) = check(asked, &tolerance, |_| Ok::<_, Infallible>(reply.clone()));
-    assert_eq!(report.checked.len(), many);
+    assert_eq!(report.results.len(), many);
     let no_number = |answer: &Answer| answer.deflection.is_none() || answer.contact_force.is_none();
-    for checked in &report.checked {
-        let verdict = checked.judgement.verdict;
+    for checked in &report.results {
+        let verdict = checked.assessment.verdict;
         let fits = match &reply {
             Reply::Answered(answer) if no_number(answer) => verdict == Verdict::Wrong,
             Reply::Answered(_) => verdict <= Verdict::Wrong,
@@ -156,6 +156,6 @@ pub fn read(bytes: &[u8]) {
     let summary = report.summary();
     let counted = summary.right + summary.within_tolerance + summary.wrong + summary.refused;
     assert_eq!((counted, report.families().iter().map(|row| row.cases).sum()), (many, many));
-    report.named();
+    report.identified_mistake();
     report.holds();
 }

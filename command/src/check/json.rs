@@ -1,26 +1,26 @@
-//! The report as JSON has it: quantities as strings, every key always there.
+//! The report as JSON: quantities are texts, and every key is always present.
 
 use super::Options;
 use super::program::request;
-use crate::args::spelled;
+use crate::args::format_exact;
 use crate::output::record;
 use serde::Serialize;
 use serde_json::value::RawValue;
-use spring_mass_contact::check::{Checked, Reply, Report, Row, Threshold, Value, Verdict};
+use spring_mass_contact::check::{CaseResult, Reply, Report, Row, Threshold, Value, Verdict};
 use spring_mass_contact::number::Exact;
 use spring_mass_contact::rug::float::Round;
 
-/// Digits of an error.
+/// Number of digits of an error.
 const DIGITS: usize = 6;
 
-/// Returns the report with the program and the options that it is about.
+/// Returns the report with the program and the options.
 pub fn report(program: &str, options: &Options, report: &Report) -> impl Serialize {
     let penalty = &report.penalty;
     record! {
         program: program.to_string(),
         seed: options.drawn.seed,
-        tolerance: spelled(&options.tolerance.value),
-        cases: report.checked.len(),
+        tolerance: format_exact(&options.tolerance.value),
+        cases: report.results.len(),
         given_up: report.given_up,
         summary: report.summary(),
         families: report.families().iter().map(family).collect::<Vec<_>>(),
@@ -29,8 +29,8 @@ pub fn report(program: &str, options: &Options, report: &Report) -> impl Seriali
             value: penalty.value.as_ref().map(|value| value.decimal(DIGITS, Round::Nearest)),
             spread: error(&penalty.spread),
         },
-        missed: report.missed.as_ref().map(threshold),
-        held: report.held.as_ref().map(threshold),
+        missed: report.missed_contacts.as_ref().map(threshold),
+        held: report.false_contacts.as_ref().map(threshold),
         diagnosis: &report.diagnosis,
     }
 }
@@ -59,10 +59,10 @@ fn error(x: &Option<Exact>) -> Option<String> {
     x.as_ref().map(|x| x.decimal(DIGITS, Round::Up))
 }
 
-fn counterexample(checked: &Checked) -> impl Serialize {
-    let judgement = &checked.judgement;
+fn counterexample(checked: &CaseResult) -> impl Serialize {
+    let judgement = &checked.assessment;
     let exact = &judgement.exact;
-    let text = |value: &Value| value.as_ref().map(spelled);
+    let text = |value: &Value| value.as_ref().map(format_exact);
     let answer = match &checked.reply {
         Reply::Answered(answer) => Some(record! {
             deflection: text(&answer.deflection),

@@ -1,12 +1,12 @@
-//! A program that is asked over its stdin and answers on its stdout, whatever it does.
+//! Communication with a program over its stdin and stdout, robust against any behaviour.
 //!
-//! Threads of their own write its stdin and read its stdout and stderr, and nobody waits for them: each ends
-//! with its pipe, and a pipe that a stranger keeps open costs nothing but that thread.
+//! Separate threads write its stdin and read its stdout and stderr. They end with their pipes and are never
+//! waited for, so a pipe that another process keeps open only costs a thread.
 
 mod group;
 
 use super::reply::{self, words};
-use crate::args::{invalid, spelled};
+use crate::args::{format_exact, invalid};
 use crate::json::{BUFFER, read_lines};
 use crate::output::{Failure, shortened};
 use group::Group;
@@ -20,43 +20,42 @@ use std::sync::{Arc, Mutex, PoisonError, Weak};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// How long a program may take to end once its stdin is closed, or its stdout: an interpreter with its
-/// libraries loaded takes some tenths of a second, and who waits for the command hardly notices one.
+/// Time for a program to end after its stdin or stdout is closed: an interpreter with its libraries needs
+/// some tenths of a second.
 const GRACE: Duration = Duration::from_secs(1);
 
-/// How often to look whether a program has ended that left its stdout to another.
-const LOOK: Duration = Duration::from_millis(50);
+/// Interval of polls for the end of a program that has left its stdout to another process.
+const POLL_INTERVAL: Duration = Duration::from_millis(50);
 
-/// How often to look whether a program has ended that is about to.
-const SOON: Duration = Duration::from_millis(5);
+/// Interval of polls for the end of a program that is about to end.
+const EXIT_POLL_INTERVAL: Duration = Duration::from_millis(5);
 
-/// Allowed of a file that is to be a program.
-const EXECUTABLE: &str = "must be a program that can be executed; a script begins with #!";
+/// Requirement on the file of a program.
+const EXECUTABLE: &str = "must be an executable program; a script begins with #!";
 
-/// Bytes of stderr that are kept, the last.
+/// Number of bytes kept of stderr, the last ones.
 const TAIL: usize = 1 << 12;
 
-/// Bytes of a line that are kept to be shown, should no answer come.
-const LAST: usize = 400;
+/// Number of bytes kept of an unanswered line, for a message.
+const MAX_ECHO_BYTES: usize = 400;
 
-/// A program, started when it is first asked and again after each time that it had to be given up.
+/// An external program, which is started for the first problem and restarted after each failure.
 pub struct Program {
     words: Vec<String>,
     timeout: Duration,
-    /// How long it may take to end by itself.
+    /// Time for it to end by itself.
     grace: Duration,
     started: bool,
     running: Option<Running>,
 }
 
 impl Program {
-    /// The program that these words start: its name or path, the first of them, and its arguments; it has so
-    /// long for each answer.
+    /// Returns the program with its name or path, its arguments, and a time limit for each answer.
     pub fn new(words: &[String], timeout: Duration) -> Self {
         Program { words: words.to_vec(), timeout, grace: GRACE, started: false, running: None }
     }
 
-    /// Puts a problem. Fails only if the program cannot be started.
+    /// Passes a problem to the program. Returns an error only if the program cannot be started.
     pub fn ask(&mut self, problem: &Problem) -> Result<Reply, Failure> {
         let start = Instant::now();
         let left = || self.timeout.saturating_sub(start.elapsed());
@@ -64,7 +63,7 @@ impl Program {
             Some(running) => running,
             None => match Running::start(&self.words) {
                 Ok(running) => running,
-                // What it has done to itself, or to us, is its own.
+                // A later failure to start is a failure of the program.
                 Err(error) if self.started => {
                     return Ok(Reply::Crashed(format!("cannot be started again: {error}")));
                 }
@@ -77,18 +76,18 @@ impl Program {
                 self.running = Some(running);
                 reply
             }
-            Err(Lost::Astray(why)) => Reply::Garbled(why),
-            Err(Lost::Ended) => Reply::Crashed(running.end(self.grace)),
-            Err(Lost::TimedOut(seen)) => Reply::TimedOut(seen),
+            Err(SessionError::UnexpectedReply(why)) => Reply::InvalidResponse(why),
+            Err(SessionError::Ended) => Reply::Crashed(running.end(self.grace)),
+            Err(SessionError::TimedOut(seen)) => Reply::TimedOut(seen),
         })
     }
 
     fn refused(&self, error: &io::Error) -> Failure {
         let must = match error.kind() {
-            io::ErrorKind::NotFound => "must be the name of a program on the path, or its own path",
+            io::ErrorKind::NotFound => "must be the name of a program on the PATH, or its path",
             io::ErrorKind::PermissionDenied => EXECUTABLE,
             _ if group::has_no_format(error) => EXECUTABLE,
-            // The system lacks something, or allows no more; no other program would do.
+            // A limit of the operating system, not a property of the program.
             _ => return format!("'{}' cannot be started: {error}", shortened(&words(&self.words[0]))).into(),
         };
         let why = format!("cannot be started: {error}; {must}");
@@ -104,7 +103,7 @@ impl Drop for Program {
     }
 }
 
-/// The line that puts a problem.
+/// Returns the request for a problem, one line of JSON.
 pub fn request(problem: &Problem) -> String {
     let system = SpringMass::KEYS.zip(problem.system.as_ref()).into_array();
     let numbers = system.into_iter().chain(problem.penalty.iter().map(|penalty| ("penalty", penalty)));
@@ -112,22 +111,22 @@ pub fn request(problem: &Problem) -> String {
     format!("{{\"id\": {}{}}}\n", serde_json::Value::from(problem.id.as_str()), numbers.collect::<String>())
 }
 
-/// A JSON number, or a string where there is none: a fraction that is no decimal.
+/// Returns a JSON number, or a string for a fraction that is not a decimal.
 fn number(x: &Exact) -> String {
-    let text = spelled(x);
+    let text = format_exact(x);
     if text.contains('/') { format!("\"{text}\"") } else { text }
 }
 
-/// Why a program cannot be asked any further.
-enum Lost {
-    /// It answers, but not what it was asked.
-    Astray(String),
+/// Reason why a running program cannot be used further.
+enum SessionError {
+    /// It returned something other than the answer.
+    UnexpectedReply(String),
     Ended,
-    /// And what it did say.
+    /// It did not answer in time, with its output.
     TimedOut(String),
 }
 
-/// A program that has been started. Dropped, it ends at once, with all that it has started itself.
+/// A running program, which is killed with all its children when dropped.
 struct Running {
     group: Group,
     requests: Sender<String>,
@@ -150,49 +149,52 @@ impl Running {
         })
     }
 
-    fn ask(&mut self, problem: &Problem, left: impl Fn() -> Duration) -> Result<Reply, Lost> {
-        // What has come by now cannot be the answer, whatever its id is.
+    fn ask(&mut self, problem: &Problem, left: impl Fn() -> Duration) -> Result<Reply, SessionError> {
+        // Output that precedes the request cannot be the answer.
         loop {
             match self.lines.next(Duration::ZERO) {
-                Ok(line) => reply::early(line, &problem.id).map_or(Ok(()), |why| Err(Lost::Astray(why)))?,
+                Ok(line) => reply::early(line, &problem.id)
+                    .map_or(Ok(()), |why| Err(SessionError::UnexpectedReply(why)))?,
                 Err(RecvTimeoutError::Timeout) => break,
-                Err(RecvTimeoutError::Disconnected) => return Err(Lost::Ended),
+                Err(RecvTimeoutError::Disconnected) => return Err(SessionError::Ended),
             }
             if left().is_zero() {
-                return Err(Lost::TimedOut("too much on stdout before it was asked".to_string()));
+                return Err(SessionError::TimedOut(
+                    "too much output on stdout before the first request".to_string(),
+                ));
             }
         }
-        // Nobody takes it from a program that does not read; what becomes of that shows on its stdout.
+        // A program that does not read is detected by its stdout.
         let _ = self.requests.send(request(problem));
         let mut last = Vec::new();
         loop {
             let ended = self.group.has_ended();
-            match self.lines.next(left().min(LOOK)) {
+            match self.lines.next(left().min(POLL_INTERVAL)) {
                 Ok(line) => {
                     if let Some(reply) = reply::read(line, &problem.id) {
-                        return reply.map_err(Lost::Astray);
+                        return reply.map_err(SessionError::UnexpectedReply);
                     }
                     if !line.trim_ascii().is_empty() {
-                        last = line[..line.len().min(LAST)].to_vec();
+                        last = line[..line.len().min(MAX_ECHO_BYTES)].to_vec();
                     }
                 }
-                Err(RecvTimeoutError::Disconnected) => return Err(Lost::Ended),
-                // What it said before has had time to come.
-                Err(RecvTimeoutError::Timeout) if ended => return Err(Lost::Ended),
+                Err(RecvTimeoutError::Disconnected) => return Err(SessionError::Ended),
+                // Its previous output has had time to arrive.
+                Err(RecvTimeoutError::Timeout) if ended => return Err(SessionError::Ended),
                 Err(RecvTimeoutError::Timeout) => {}
             }
             if left().is_zero() {
                 let shown = |line: &[u8]| words(&String::from_utf8_lossy(line));
-                return Err(Lost::TimedOut(match (&*self.lines.unfinished(), &*last) {
-                    ([], []) => "nothing on stdout: does it flush?".to_string(),
-                    ([], line) => format!("last on stdout, and no JSON object: {}", shown(line)),
-                    (part, _) => format!("last on stdout, without a line break: {}", shown(part)),
+                return Err(SessionError::TimedOut(match (&*self.lines.unfinished(), &*last) {
+                    ([], []) => "nothing on stdout; it may not flush its output".to_string(),
+                    ([], line) => format!("last output, not a JSON object: {}", shown(line)),
+                    (part, _) => format!("last output, without a line break: {}", shown(part)),
                 }));
             }
         }
     }
 
-    /// How it has ended, and the last that it said on stderr.
+    /// Returns its exit status and its last line on stderr.
     fn end(mut self, grace: Duration) -> String {
         let ended = self.ends(grace);
         let status = self.group.end();
@@ -208,14 +210,14 @@ impl Running {
         }
     }
 
-    /// Has it end by itself if it can.
+    /// Lets it end by itself if possible.
     fn close(mut self, grace: Duration) {
         let (nobody, _) = mpsc::channel();
         drop(std::mem::replace(&mut self.requests, nobody));
         self.ends(grace);
     }
 
-    /// Whether it ends by itself within `grace`.
+    /// Returns `true` if it ends by itself within `grace`.
     fn ends(&mut self, grace: Duration) -> bool {
         let start = Instant::now();
         loop {
@@ -225,28 +227,28 @@ impl Running {
             if start.elapsed() >= grace {
                 return false;
             }
-            // What it still prints must not keep it from ending.
-            if self.lines.blocks.recv_timeout(SOON).is_err() {
-                thread::sleep(SOON);
+            // Further output must not keep it from ending.
+            if self.lines.blocks.recv_timeout(EXIT_POLL_INTERVAL).is_err() {
+                thread::sleep(EXIT_POLL_INTERVAL);
             }
         }
     }
 }
 
-/// Runs beside the rest until its pipe is closed.
+/// Runs a function on a thread until its pipe is closed.
 fn thread(run: impl FnOnce() + Send + 'static) -> io::Result<()> {
     thread::Builder::new().spawn(run).map(drop)
 }
 
-/// What is sent is written, as fast as the program reads.
+/// Starts a thread that writes what is sent, as fast as the program reads.
 fn writer(mut stdin: ChildStdin) -> io::Result<Sender<String>> {
     let (requests, queue) = mpsc::channel::<String>();
     thread(move || while queue.recv().is_ok_and(|line| stdin.write_all(line.as_bytes()).is_ok()) {})?;
     Ok(requests)
 }
 
-/// The lines of stdout. What came at once is passed on at once, so that what follows an answer on its heels
-/// is there before the next question; and no more than that is read ahead.
+/// The lines of stdout. Lines that arrive together are passed on together, so that output after an answer is
+/// available before the next request; no more is read ahead.
 struct Lines {
     blocks: Receiver<Vec<u8>>,
     block: Vec<u8>,
@@ -254,7 +256,7 @@ struct Lines {
     unfinished: Arc<Mutex<Vec<u8>>>,
 }
 
-/// stdout, whose beginning of a line that has not ended is kept for others to see.
+/// stdout, whose incomplete last line is visible to other threads.
 struct Watched {
     stdout: ChildStdout,
     unfinished: Arc<Mutex<Vec<u8>>>,
@@ -269,7 +271,7 @@ impl Read for Watched {
         if line.len() < read.len() {
             unfinished.clear();
         }
-        let room = LAST.saturating_sub(unfinished.len());
+        let room = MAX_ECHO_BYTES.saturating_sub(unfinished.len());
         unfinished.extend_from_slice(&line[..line.len().min(room)]);
         Ok(count)
     }
@@ -294,12 +296,12 @@ impl Lines {
         Ok(Lines { blocks, block: Vec::new(), start: 0, unfinished })
     }
 
-    /// The beginning of a line that has not ended.
+    /// Returns the incomplete last line.
     fn unfinished(&self) -> Vec<u8> {
         self.unfinished.lock().unwrap_or_else(PoisonError::into_inner).trim_ascii().to_vec()
     }
 
-    /// The next line, if it comes so soon.
+    /// Returns the next line, if it arrives within `soon`.
     fn next(&mut self, soon: Duration) -> Result<&[u8], RecvTimeoutError> {
         if self.start == self.block.len() {
             (self.block, self.start) = (Vec::new(), 0);
@@ -312,7 +314,7 @@ impl Lines {
     }
 }
 
-/// The end of stderr, which is read so that it never fills up.
+/// The end of stderr, which is read continuously so that it never fills up.
 struct Tail {
     bytes: Arc<Mutex<Vec<u8>>>,
     ended: Receiver<()>,
@@ -338,9 +340,9 @@ impl Tail {
         Ok(Tail { bytes, ended })
     }
 
-    /// The last line that says anything, once all has come.
+    /// Returns the last line that is not blank, after the end of stderr.
     fn last_line(&self) -> Option<String> {
-        // Nothing is sent: at its end the channel is closed. Whoever else has that pipe may keep it open.
+        // The channel is closed at the end. Another process may keep the pipe open.
         let _ = self.ended.recv_timeout(GRACE);
         let bytes = self.bytes.lock().unwrap_or_else(PoisonError::into_inner);
         let text = String::from_utf8_lossy(&bytes);

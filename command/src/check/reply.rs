@@ -1,51 +1,53 @@
-//! What a line of a program's stdout comes to: nothing here trusts it.
+//! Parsing of a program's output, which is not trusted.
 
 use crate::args::invalid;
 use crate::json::{self, Object};
 use crate::output::{shortened, shortened_to};
 use serde_json::value::RawValue;
 use spring_mass_contact::chapter::SpringMass;
-use spring_mass_contact::check::{Answer, Reply, Used, Value};
+use spring_mass_contact::check::{Answer, Reply, UsedParameters, Value};
 use std::borrow::Cow;
 use std::fmt::Display;
 
-/// Bytes that a line may have.
+/// Largest number of bytes of a line.
 pub const LONGEST: usize = 1 << 24;
 
-/// Digits that a number may have, those that its power of ten stands for included: more than any solver
-/// prints, few enough that nothing takes long in rationals.
+/// Largest number of digits of a number, including those of its power of ten: more than any solver prints,
+/// and few enough for fast arithmetic in rationals.
 const LONGEST_NUMBER: usize = 1 << 12;
 
-/// Steps that an answer may have.
+/// Largest number of steps of an answer.
 const MOST_STEPS: usize = 10_000;
 
-/// The same of all numbers of an answer: as rationals a few megabytes, and well below a second.
+/// Largest number of digits of all numbers of an answer: some megabytes as rationals, and well below a
+/// second.
 const LONGEST_ANSWER: usize = 1 << 22;
 
-/// Characters of a text that is passed on.
+/// Largest number of characters of a text that is displayed.
 const WORDS: usize = 200;
 
-/// A text fit to be printed: one line, and not long.
+/// Returns a text for display: one line of limited length.
 pub fn words(text: &str) -> String {
     let line = text.split_whitespace().flat_map(|word| [" ", word]).flat_map(str::chars).skip(1);
-    // More than are shown say that there are more.
+    // One more than displayed marks the text as shortened.
     shortened_to(&line.take(WORDS + 1).collect::<String>(), WORDS)
 }
 
-/// The reply to the problem of this id that a line is, if it is an object at all; or why it is not.
+/// Returns the reply to the problem with this id, or the reason why the line is none; `None` if it is not an
+/// object.
 pub fn read(line: &[u8], id: &str) -> Option<Result<Reply, String>> {
     if line.len() > LONGEST {
         return Some(Err(format!("a line must have no more than {LONGEST} bytes")));
     }
     object(line, |object| match own_id(object) {
-        Ok(Some(own)) if own == id => Ok(answer(object).unwrap_or_else(Reply::Garbled)),
-        own => Err(format!("{} where '{}' was asked", answer_to(own), shortened(id))),
+        Ok(Some(own)) if own == id => Ok(answer(object).unwrap_or_else(Reply::InvalidResponse)),
+        own => Err(format!("{} instead of an answer to '{}'", answer_to(own), shortened(id))),
     })
 }
 
-/// What is wrong with a line that has come before the problem of this id was put, if it is an object at all.
+/// Describes a line that arrived before its request; `None` if it is not an object.
 pub fn early(line: &[u8], id: &str) -> Option<String> {
-    object(line, |object| format!("{} before '{}' was asked", answer_to(own_id(object)), shortened(id)))
+    object(line, |object| format!("{} before the request '{}'", answer_to(own_id(object)), shortened(id)))
 }
 
 fn answer_to(id: Result<Option<Cow<str>>, String>) -> String {
@@ -56,9 +58,9 @@ fn answer_to(id: Result<Option<Cow<str>>, String>) -> String {
     }
 }
 
-/// Looks at the object that a line is.
+/// Parses the object in a line.
 fn object<T>(line: &[u8], look: impl FnOnce(&Object) -> T) -> Option<T> {
-    // What is no UTF-8 can only stand within a string, and is no reason to wait for another answer.
+    // Invalid UTF-8 can only stand within a string, and is not a reason to wait for another line.
     let text = String::from_utf8_lossy(line);
     let text = text.trim_start_matches('\u{feff}').trim();
     if !text.starts_with('{') {
@@ -70,7 +72,7 @@ fn object<T>(line: &[u8], look: impl FnOnce(&Object) -> T) -> Option<T> {
     serde_json::from_str(&quoted(text)).ok().as_ref().map(look)
 }
 
-/// The same with the words for what is no number in quotes: JSON has none, those who print numbers have.
+/// Quotes the words for numbers that are not finite, which JSON does not have but solvers print.
 fn quoted(mut text: &str) -> String {
     let ends = |c: char| c.is_whitespace() || "{}[],:\"".contains(c);
     let mut quoted = String::with_capacity(text.len() + 64);
@@ -87,7 +89,7 @@ fn quoted(mut text: &str) -> String {
     quoted
 }
 
-/// Bytes of the string that a text begins with.
+/// Returns the number of bytes of the string at the beginning of a text.
 fn string(text: &str) -> usize {
     let mut escaped = true; // As if the first quote were: it does not end the string.
     let end = text.bytes().position(|byte| {
@@ -98,7 +100,8 @@ fn string(text: &str) -> usize {
     end.map_or(text.len(), |end| end + 1)
 }
 
-/// As any language prints it: `NaN`, `-nan`, `nan(0x1)`, `inf`, `-Infinity`.
+/// Returns `true` for NaN or infinity as any language prints it: `NaN`, `-nan`, `nan(0x1)`, `inf`,
+/// `-Infinity`.
 fn is_not_a_number(word: &str) -> bool {
     let word = word.strip_prefix(['-', '+']).unwrap_or(word);
     let is = |name: &str| word.eq_ignore_ascii_case(name);
@@ -110,7 +113,7 @@ fn own_id<'a>(object: &Object<'a>) -> Result<Option<Cow<'a, str>>, String> {
     Ok(once(object, "", "id")?.map(json::text))
 }
 
-/// The value of a key that says anything. Of two values nobody knows which is meant.
+/// Returns the value of a key, or an error if there are two.
 fn once<'a>(object: &Object<'a>, within: &str, key: &str) -> Result<Option<&'a RawValue>, String> {
     match object.0.iter().filter(|(own, _)| own == key).count() {
         0 | 1 => Ok(object.get(key)),
@@ -118,13 +121,13 @@ fn once<'a>(object: &Object<'a>, within: &str, key: &str) -> Result<Option<&'a R
     }
 }
 
-/// The value of a key that may be left out; null leaves it out, too.
+/// Returns the value of an optional key; null counts as missing.
 fn said<'a>(object: &Object<'a>, within: &str, key: &str) -> Result<Option<&'a RawValue>, String> {
     Ok(once(object, within, key)?.filter(|value| value.get() != "null"))
 }
 
 fn answer(object: &Object) -> Result<Reply, String> {
-    // Some say beside the numbers that there was no error.
+    // Some programs report explicitly that there was no error.
     let is_none = |error: &RawValue| ["false", "0", "\"\""].contains(&error.get());
     let answers = object.get("deflection").is_some() && object.get("contact_force").is_some();
     if let Some(error) = said(object, "", "error")?.filter(|error| !(answers && is_none(error))) {
@@ -135,12 +138,12 @@ fn answer(object: &Object) -> Result<Reply, String> {
     let penetration = optional(object, "", "penetration", &mut digits)?;
     let status = said(object, "", "status")?.map(|status| words(&json::text(status)));
     let used = match said(object, "", "used")? {
-        None => Used::default(),
+        None => UsedParameters::default(),
         Some(used) => {
             let object: Object = serde_json::from_str(used.get())
                 .map_err(|_| refused(&json::text(used), "used", "must be an object"))?;
             let mut value = |key| optional(&object, "used.", key, &mut digits);
-            Used { system: SpringMass::KEYS.try_map(|key| value(key))?, penalty: value("penalty")? }
+            UsedParameters { system: SpringMass::KEYS.try_map(|key| value(key))?, penalty: value("penalty")? }
         }
     };
     let steps = match said(object, "", "steps")? {
@@ -158,7 +161,7 @@ fn answer(object: &Object) -> Result<Reply, String> {
     Ok(Reply::Answered(Box::new(Answer { deflection, contact_force, penetration, status, used, steps })))
 }
 
-/// What every answer and every step of one has.
+/// Returns the required numbers of an answer or a step.
 fn needed(object: &Object, within: &str, digits: &mut usize) -> Result<[Value; 2], String> {
     let mut value = |key| match once(object, within, key)? {
         Some(value) => number(value, within, key, digits),
@@ -171,7 +174,7 @@ fn optional(object: &Object, within: &str, key: &str, digits: &mut usize) -> Res
     said(object, within, key)?.map(|value| number(value, within, key, digits)).transpose()
 }
 
-/// A number by its digits, which are taken from those that are left. null is what some make of a NaN.
+/// Parses a number, whose digits are subtracted from those allowed. null counts as NaN.
 fn number(value: &RawValue, within: &str, key: &str, digits: &mut usize) -> Result<Value, String> {
     let text = json::text(value);
     let text = text.trim();
@@ -189,7 +192,7 @@ fn number(value: &RawValue, within: &str, key: &str, digits: &mut usize) -> Resu
     text.parse().map(Some).map_err(|error| refused(&error))
 }
 
-/// About as many digits as a number has that is written out.
+/// Returns the approximate number of digits of a number written out.
 fn size(text: &str) -> usize {
     let power = text.split_once(['e', 'E']).and_then(|(_, power)| power.parse::<i32>().ok());
     text.len() + power.map_or(0, |power| power.unsigned_abs() as usize)

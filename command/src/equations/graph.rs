@@ -1,12 +1,12 @@
-//! The graph of what follows from what.
+//! Graph of the dependencies of equations.
 
 use spring_mass_contact::claims::Entry;
 use spring_mass_contact::proof::prove;
 use spring_mass_contact::verify::claim_names;
 use std::fmt::Write;
 
-/// Returns a graph for Graphviz: an arrow from each of these entries to what follows from it, and the number
-/// of its claims that are proved.
+/// Returns a graph for Graphviz: an arrow from each entry to those derived from it, and the number of its
+/// proved claims.
 pub fn graph(entries: &[&Entry]) -> String {
     let mut text = "digraph chapter {\n  rankdir = LR;\n  node [shape = box, style = rounded];\n".to_string();
     for Entry { equation, title, claims, .. } in entries {

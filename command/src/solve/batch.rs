@@ -1,6 +1,6 @@
 //! `contact solve --batch`: JSON lines in, JSON lines out, in the same order.
 //!
-//! Lines that have come together are answered together, on all cores; and all of them before more is read.
+//! Lines that arrive together are solved together on all cores, before more is read.
 
 use super::{MethodName, Options};
 use crate::args::{invalid, parse_number, parse_positive, parse_u64};
@@ -12,17 +12,17 @@ use serde_json::value::{RawValue, Value};
 use std::fmt::Display;
 use std::io::{self, BufReader};
 
-/// Bytes that a line may have: longer ones are not kept, whatever they are.
+/// Largest number of bytes of a line; longer ones are discarded.
 const LONGEST: usize = 1 << 20;
 
-/// Number of lines for each core that are answered at once: enough that sharing them out costs little beside
-/// them, few enough that not much is kept.
+/// Number of lines per core that are solved at once: large enough to make distributing them cheap, small
+/// enough to limit memory.
 const AT_ONCE: usize = 64;
 
-/// Solves what stdin says, a system a line.
+/// Solves the systems on stdin, one per line.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
     let pool = rayon::ThreadPoolBuilder::new().build_global();
-    pool.map_err(|error| format!("no thread to be had: {error}"))?;
+    pool.map_err(|error| format!("cannot start a thread: {error}"))?;
     let mut stdin = BufReader::with_capacity(BUFFER, io::stdin());
     let most = AT_ONCE * rayon::current_num_threads();
     output::print_answer(|out| {
@@ -30,7 +30,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
         loop {
             lines.clear();
             json::read_lines(&mut stdin, most, LONGEST, &mut lines)
-                .map_err(|error| format!("stdin cannot be read: {error}"))?;
+                .map_err(|error| format!("cannot read stdin: {error}"))?;
             if lines.is_empty() {
                 return Ok(exit);
             }
@@ -46,11 +46,11 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     })
 }
 
-/// Returns the answer to a line, itself a line.
+/// Returns the answer to a line as a line.
 fn answer(line: &[u8], defaults: &Options) -> (Vec<u8>, Exit) {
     let object = read(line);
     let id = object.as_ref().ok().and_then(|object| object.get("id")).map_or("null", RawValue::get);
-    // Between the parts of a JSON text it is a blank, and some would take it for the end of the line.
+    // In JSON it is white space, but some readers would take it for the end of the line.
     let mut out = format!("{{\"id\":{},", id.replace('\r', " ")).into_bytes();
     let start = out.len();
     let answered = object.and_then(|object| defaults.with(&object)?.answer(&mut out));
@@ -65,7 +65,7 @@ fn answer(line: &[u8], defaults: &Options) -> (Vec<u8>, Exit) {
     (out, exit)
 }
 
-/// The object that a line is.
+/// Returns the object in a line.
 fn read(line: &[u8]) -> Result<Object<'_>, Failure> {
     if line.len() > LONGEST {
         return Err(format!("a line must have no more than {LONGEST} bytes").into());
@@ -76,7 +76,7 @@ fn read(line: &[u8]) -> Result<Object<'_>, Failure> {
     };
     let text = str::from_utf8(line).map_err(|_| refused(&"must be UTF-8 text"))?;
     Ok(serde_json::from_str(text).map_err(|error| {
-        // Which line of the line is no news.
+        // The line number within the line is omitted.
         let why = error.to_string();
         let place = format!(" at line {} column {}", error.line(), error.column());
         refused(&match why.strip_suffix(&place) {
@@ -86,10 +86,10 @@ fn read(line: &[u8]) -> Result<Object<'_>, Failure> {
     })?)
 }
 
-/// Sets an option; or what is allowed.
+/// Sets an option, or returns the values allowed.
 type Set = fn(&mut Options, &str) -> Result<(), String>;
 
-/// The keys besides `id`: those of the long options.
+/// Keys in addition to `id`, named like the long options.
 const KEYS: [(&str, Set); 12] = [
     ("stiffness", |to, text| put(&mut to.system.stiffness, parse_positive(text))),
     ("mass", |to, text| put(&mut to.system.mass, parse_positive(text))),
@@ -113,7 +113,7 @@ fn put<T>(place: &mut T, read: Result<T, String>) -> Result<(), String> {
 }
 
 impl Options {
-    /// These, but for what a line says.
+    /// Returns these options with the values of a line.
     fn with(&self, line: &Object) -> Result<Options, Failure> {
         let mut options = self.clone();
         if let Some(method) = line.get("method") {
@@ -141,7 +141,7 @@ impl Options {
         set(self, &text).map_err(|why| invalid(&text, key, why))
     }
 
-    /// What stands on the command line is for the lines that have a use for it.
+    /// Removes options of the command line that the method does not use.
     fn forget_unused(&mut self) {
         if self.method != MethodName::Augmented {
             (self.tolerance, self.max_augmentations, self.initial_multiplier) = (None, None, None);

@@ -1,4 +1,4 @@
-//! A solution as JSON, as CSV and as a table.
+//! Output of a solution as JSON, CSV and a table.
 
 use super::{Options, Problem, quantities};
 use crate::args::{Number, System, exact};
@@ -7,16 +7,16 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::Value;
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::chapter::contact::Kkt;
-use spring_mass_contact::number::{Exact, NumberSystem, Text};
+use spring_mass_contact::number::{Exact, ExactText, NumberSystem};
 use spring_mass_contact::rug::float::Round;
 use spring_mass_contact::solver::{
-    Bounds, Method, Outcome, Plane, Scalar, Solution, State, bits_needed, format_equation,
-    format_short_bound, rounding_floor, within_reach,
+    Bounds, Method, Outcome, Plane, Scalar, Solution, State, format_equation, format_short_bound,
+    is_convergence_guaranteed, required_precision, rounding_floor,
 };
 use std::io::{self, Write};
 use std::iter;
 
-/// All there is to say about a solve.
+/// Contents of the report on a solve.
 pub struct Report<'a, T> {
     pub options: &'a Options,
     pub problem: &'a Problem<T>,
@@ -25,16 +25,16 @@ pub struct Report<'a, T> {
     pub steps_needed: Option<String>,
 }
 
-/// The rows, made while they are written: there can be very many.
+/// Rows of a trace, computed while they are written, since there can be many.
 struct Trace<'a, T>(&'a Problem<T>, &'a Solution<T>);
 
-impl<T: Scalar + Text> Serialize for Trace<'_, T> {
+impl<T: Scalar + ExactText> Serialize for Trace<'_, T> {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         to.collect_seq(self.0.trace(self.1))
     }
 }
 
-impl<T: Scalar + Text> Serialize for Report<'_, T> {
+impl<T: Scalar + ExactText> Serialize for Report<'_, T> {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         let mut object = to.serialize_map(None)?;
         for (name, value) in self.fields() {
@@ -49,10 +49,10 @@ impl<T: Scalar + Text> Serialize for Report<'_, T> {
     }
 }
 
-impl<T: Scalar + Text> Report<'_, T> {
-    /// The names and values that JSON and CSV share; quantities are texts, so that no reader rounds them.
+impl<T: Scalar + ExactText> Report<'_, T> {
+    /// Names and values shared by JSON and CSV; quantities are texts, so that no reader rounds them.
     fn fields(&self) -> [(&'static str, Value); 11] {
-        let maybe = |x: &Option<T>| Value::from(x.as_ref().map(Text::text));
+        let maybe = |x: &Option<T>| Value::from(x.as_ref().map(ExactText::text));
         let s = self.solution;
         [
             ("method", self.options.method.name().into()),
@@ -69,7 +69,7 @@ impl<T: Scalar + Text> Report<'_, T> {
         ]
     }
 
-    /// Prints one row, or with a trace its rows.
+    /// Prints one row, or the rows of a trace.
     pub fn csv(&self, out: &mut dyn Write) -> io::Result<()> {
         if self.options.trace {
             return output::csv(out, self.problem.trace(self.solution));
@@ -88,7 +88,7 @@ impl<T: Scalar + Text> Report<'_, T> {
         output::csv(out, [names.into_iter().map(Value::from).collect(), values])
     }
 
-    /// Prints for people what was solved, what came out, and what that promises.
+    /// Prints the problem, the solution and its guarantees.
     pub fn table(&self, out: &mut dyn Write) -> io::Result<()> {
         let s = self.solution;
         let mut rows = vec![
@@ -119,15 +119,15 @@ impl<T: Scalar + Text> Report<'_, T> {
         rows.insert(1, ("as rounded", self.visibly_rounded()));
         output::list(out, rows)?;
         if shortened {
-            writeln!(out, "\n ≈ is shortened; --format json has all digits.")?;
+            writeln!(out, "\n ≈ marks a shortened number; --format json has all digits.")?;
         }
         if self.options.trace { self.trace_table(out) } else { Ok(()) }
     }
 
-    /// Prints the trace. Widths are fixed, and each row is made while it is written: there can be very many.
+    /// Prints the trace with fixed widths. Rows are computed while they are written, since there can be many.
     fn trace_table(&self, out: &mut dyn Write) -> io::Result<()> {
         const DIGITS: usize = 10;
-        // Ten digits, a sign, a point, and three zeros before them or an exponent behind.
+        // Ten digits, a sign, a point, and three leading zeros or an exponent.
         const WIDE: usize = 16;
         let first = self.solution.augmentations.unwrap_or_default().to_string().len();
         let aligned = |cells| output::aligned(&[WIDE + 1; 4], cells);
@@ -140,7 +140,7 @@ impl<T: Scalar + Text> Report<'_, T> {
         writeln!(out, "\n At most ten digits each; --format csv has all.")
     }
 
-    /// The numbers that are not what was typed: the answer is for these.
+    /// Describes the parameters that differ from those typed because of rounding.
     fn visibly_rounded(&self) -> String {
         let tolerance_typed = self.options.tolerance();
         let mut numbers = Vec::new();
@@ -166,31 +166,31 @@ impl<T: Scalar + Text> Report<'_, T> {
         format!("{name}{plane} ({})", self.options.scalar)
     }
 
-    /// Is it certain that rounding lets the method meet its tolerance?
+    /// Returns `true` if the method is guaranteed to meet its tolerance in spite of rounding.
     fn is_within_reach(&self) -> bool {
         let Method::Augmented { penalty, tolerance, .. } = &self.problem.method else { return true };
         let eta = self.options.scalar.unit_roundoff();
-        within_reach(&self.problem.system, penalty, tolerance, &eta).is_ok_and(|certain| certain)
+        is_convergence_guaranteed(&self.problem.system, penalty, tolerance, &eta).is_ok_and(|certain| certain)
     }
 
-    /// What helps against rounding.
+    /// Describes the remedy against rounding.
     fn remedy(&self) -> String {
         let Options { scalar, system, .. } = self.options;
         let plane = self.problem.plane;
         let tolerance = self.options.tolerance().value;
-        // What has been solved is valid.
+        // A solved system is valid.
         let floor = rounding_floor(&self.problem.system, plane, &scalar.unit_roundoff()).ok().flatten();
         if floor.as_ref().is_some_and(|floor| tolerance > *floor) {
-            return "a larger --penalty meets it, contact advise says which".to_string();
+            return "a larger --penalty meets it, see contact advise".to_string();
         }
         let sure = floor.map_or(String::new(), |floor| {
-            format!("{scalar} is sure to meet a tolerance above {} m, ", floor.decimal(3, Round::Up))
+            format!("{scalar} is guaranteed to meet a tolerance above {} m, ", floor.decimal(3, Round::Up))
         });
-        match bits_needed(&system.values(), plane, &tolerance).ok().flatten() {
+        match required_precision(&system.values(), plane, &tolerance).ok().flatten() {
             Some(bits) => {
                 format!("{sure}--scalar mpfr:{bits} this one, with the --penalty of contact advise")
             }
-            None => format!("{sure}no number of bits that can be had this one"),
+            None => format!("{sure}no available precision this one"),
         }
     }
 
@@ -203,25 +203,26 @@ impl<T: Scalar + Text> Report<'_, T> {
                 format!("converged at k = {k}: |u − u*| < {tolerance} m, proved by the bound")
             }
             Outcome::Stagnated => format!(
-                "stagnated at k = {k}: rounding stops the iteration short of {tolerance} m; its floor, the \
-                 least bound of |u − u*| met, is {} m; {}",
+                "stagnated at k = {k}: rounding stops the iteration before {tolerance} m; its floor, the \
+                 smallest bound of |u − u*|, is {} m; {}",
                 self.solution
                     .floor
                     .as_ref()
                     .map_or(String::new(), |floor| format_short_bound(floor, Round::Up)),
                 self.remedy()
             ),
-            Outcome::OutOfSteps => {
+            Outcome::IterationLimit => {
                 let needed = self.steps_needed.as_deref();
                 let needed = needed.map_or("a number of very many digits".to_string(), shortened);
-                let needs = format!("out_of_steps at k = {k}: |u − u*| < {tolerance} m needs k = {needed}");
+                let needs =
+                    format!("iteration_limit at k = {k}: |u − u*| < {tolerance} m needs k = {needed}");
                 let more = "try a larger --max-augmentations or --penalty";
                 match (self.options.scalar, self.is_within_reach()) {
                     (NumberSystem::Exact, _) => format!("{needs}; {more}"),
                     (_, true) => format!("{needs} in exact arithmetic, and rounding may add a few; {more}"),
                     (_, false) => {
                         let remedy = self.remedy();
-                        format!("{needs} in exact arithmetic, which rounding may not allow; {remedy}")
+                        format!("{needs} in exact arithmetic, which rounding may prevent; {remedy}")
                     }
                 }
             }
@@ -229,21 +230,25 @@ impl<T: Scalar + Text> Report<'_, T> {
     }
 }
 
-/// What a state means over a plane.
+/// Describes a state for a plane.
 pub fn state_in_words(state: State, plane: Plane) -> &'static str {
     match (state, plane) {
         (State::Contact, _) => "contact: the plane pushes",
         (State::Grazing, _) => "grazing: mass and plane touch without force",
-        (State::Separated, Plane::Unilateral) => "separated: the mass hangs free",
-        (State::Separated, Plane::Bilateral) => "separated: only a plane that pulls holds the mass",
+        (State::Separated, Plane::Unilateral) => "separated: the mass does not touch the plane",
+        (State::Separated, Plane::Bilateral) => "separated: the mass is held by a pulling plane only",
     }
 }
 
-/// A number with its symbol and unit: as it was typed, if it was, and as it is.
+/// A number with its symbol and unit: as typed, if it was, and as rounded.
 type Quantity<'a, T> = (&'static str, Option<&'a Number>, &'a T, &'static str);
 
-/// The parameters of a system, and what other numbers there are, that are visibly not what was typed.
-pub fn rounded_in_words<T: Text>(typed: &System, system: &SpringMass<T>, others: Vec<Quantity<T>>) -> String {
+/// Describes the parameters and other numbers that visibly differ from those typed.
+pub fn rounded_in_words<T: ExactText>(
+    typed: &System,
+    system: &SpringMass<T>,
+    others: Vec<Quantity<T>>,
+) -> String {
     let parameters = SpringMass::SYMBOLS.zip(SpringMass::UNITS).zip(typed.typed().zip(system.as_ref()));
     let parameters =
         parameters.into_array().map(|((symbol, unit), (typed, x))| (symbol, Some(typed), x, unit));
@@ -253,19 +258,18 @@ pub fn rounded_in_words<T: Text>(typed: &System, system: &SpringMass<T>, others:
     rounded.collect::<Vec<_>>().join(", ")
 }
 
-/// How many digits of a number are looked at, however few were typed: the residuals in a table have as many.
+/// Smallest number of digits compared, regardless of those typed; the residuals in a table have as many.
 const FEWEST: usize = 3;
 
-/// How many digits are written.
+/// Largest number of digits written.
 const MOST: usize = 17;
 
-/// What a number became by rounding, `g = 8`, if one can see that: if it is no longer the number that was
-/// typed, of this value, when written to as many digits. Where few digits are typed, 6 for f32 and 15 for
-/// f64, it is.
-fn visibly_rounded<T: Text>(symbol: &str, typed: &str, value: &Exact, x: &T) -> Option<String> {
+/// Returns the rounded value, `g = 8`, if it visibly differs from the number typed, when written with as many
+/// digits. It does not if few digits are typed, up to 6 for f32 and 15 for f64.
+fn visibly_rounded<T: ExactText>(symbol: &str, typed: &str, value: &Exact, x: &T) -> Option<String> {
     let mantissa = typed.split(['e', 'E']).next().unwrap_or_default();
     let digits = mantissa.chars().filter(char::is_ascii_digit).skip_while(|digit| *digit == '0').count();
-    // A fraction is not written to any digits.
+    // A fraction has no decimal digits.
     let digits = if typed.contains('/') { FEWEST } else { digits.max(FEWEST) };
     let x = exact(x);
     let written = |x: &Exact| x.decimal(digits, Round::Nearest);

@@ -1,35 +1,35 @@
-//! A small log-log plot in braille, whose characters are dots, two by four.
+//! A small log-log plot in braille characters, each with two by four dots.
 
-/// What is drawn, in powers of ten.
+/// A curve in powers of ten.
 pub struct Curve {
-    /// What it is called.
+    /// Name.
     pub name: &'static str,
-    /// Joined by lines, or dots alone.
+    /// Whether the points are joined by lines.
     pub joined: bool,
     /// log₁₀ of both coordinates, from left to right.
     pub points: Vec<(f64, f64)>,
 }
 
-/// Characters of a line at most.
+/// Largest number of characters of a line.
 const WIDTH: usize = 80;
-/// Characters of the dots, across and down.
+/// Characters of the plot area, across and down.
 const COLUMNS: usize = 68;
 const ROWS: usize = 16;
-/// Characters to the left of them, for labels.
+/// Characters to the left of the plot area, for labels.
 const MARGIN: usize = 10;
 
 /// U+2800 has no dots; these bits add them, by row and column within a character.
 const DOTS: [[u32; 2]; 4] = [[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x80]];
 
 impl Curve {
-    /// The errors of the two forces, still without points.
+    /// Returns the curves of the errors of the two forces, without points.
     pub fn pair() -> [Curve; 2] {
         let of = |name, joined| Curve { name, joined, points: Vec::new() };
         [of("m g − c u", false), of("ε p", true)]
     }
 }
 
-/// One axis: whole powers of ten, and dots for what is between them.
+/// An axis labelled with integer powers of ten.
 struct Axis {
     from: f64,
     to: f64,
@@ -37,7 +37,7 @@ struct Axis {
 }
 
 impl Axis {
-    /// Around all of these, if there are any.
+    /// Returns an axis that contains all values, if there are any.
     fn around(values: impl Iterator<Item = f64> + Clone, dots: usize) -> Option<Self> {
         let from = values.clone().min_by(f64::total_cmp)?.floor();
         let to = values.max_by(f64::total_cmp)?.ceil().max(from + 1.0);
@@ -49,7 +49,7 @@ impl Axis {
         (share * (self.dots - 1) as f64).round() as usize
     }
 
-    /// The powers that are labelled, so many at most, and where they are.
+    /// Returns the labelled powers, at most `most`, with their positions.
     fn ticks(&self, most: usize) -> Vec<(i64, usize)> {
         let (from, to) = (self.from as i64, self.to as i64);
         let mut steps = (0..).flat_map(|power| [1, 2, 5].map(|digit| digit * 10_i64.pow(power)));
@@ -63,7 +63,7 @@ impl Axis {
     }
 }
 
-/// The curves with their axes and a legend, in at most 80 columns; nothing if there is nothing to draw.
+/// Returns the curves with axes and a legend, in at most 80 columns; `None` if there is nothing to draw.
 pub fn log_log(curves: &[Curve]) -> Option<String> {
     let points = || curves.iter().flat_map(|curve| &curve.points);
     let x = Axis::around(points().map(|(x, _)| *x), 2 * COLUMNS)?;
@@ -116,7 +116,7 @@ pub fn log_log(curves: &[Curve]) -> Option<String> {
 mod tests {
     use super::*;
 
-    /// The rows of dots: what stands right of the axis.
+    /// Returns the rows of dots right of the axis.
     fn drawn(plot: &str) -> Vec<Vec<char>> {
         let rows = plot.lines().filter_map(|line| line.split_once(['│', '┤']));
         rows.map(|(_, dots)| dots.chars().collect()).collect()
@@ -132,20 +132,20 @@ mod tests {
         *c != '\u{2800}'
     }
 
-    /// Two points in opposite corners: their dots are the outermost ones of the outermost characters.
+    /// Two points in opposite corners of the plot area.
     #[test]
     fn corners_are_where_they_belong() {
         let plot = pair(vec![(0.0, 0.0), (3.0, -6.0)], vec![]);
         let rows = drawn(&plot);
         assert_eq!((rows.len(), rows[0].len()), (ROWS, COLUMNS));
         let dots: Vec<_> = rows.concat().into_iter().enumerate().filter(|(_, c)| has_dots(c)).collect();
-        // Dot 1 is the upper left one of a character, dot 8 the lower right one.
+        // Dot 1 is the upper left dot of a character, dot 8 the lower right one.
         assert_eq!(dots, [(0, '\u{2801}'), (ROWS * COLUMNS - 1, '\u{2880}')]);
         let labels: Vec<_> = plot.lines().filter_map(|line| line.split_once(" ┤")).collect();
         assert_eq!((labels[0].0.trim(), labels.last().unwrap().0.trim()), ("1e0", "1e-6"));
     }
 
-    /// A joined curve leaves no column out, and a V turns where it should.
+    /// A joined curve covers every column, and a V has its minimum in the middle.
     #[test]
     fn lines_are_drawn_between_points() {
         let rows = drawn(&pair(vec![], vec![(0.0, 0.0), (5.0, -10.0), (10.0, 0.0)]));
@@ -153,12 +153,12 @@ mod tests {
         let places = |row: &[char]| (0..COLUMNS).filter(|i| has_dots(&row[*i])).collect::<Vec<_>>();
         let (top, bottom) = (places(&rows[0]), places(&rows[ROWS - 1]));
         assert!(top.first() == Some(&0) && top.last() == Some(&(COLUMNS - 1)), "{top:?}");
-        // A row is a sixteenth of the height, and half the width is the whole of it.
+        // A row is a sixteenth of the height, and half the width spans the whole height.
         let near = |i: &usize| i.abs_diff(COLUMNS / 2) <= COLUMNS / 2 / ROWS + 1;
         assert!(!bottom.is_empty() && bottom.iter().all(near), "{bottom:?}");
     }
 
-    /// However far the powers reach, they are labelled in equal steps, and no line is wider than a page.
+    /// For any range the labels have equal steps, and no line is wider than a page.
     #[test]
     fn labels_are_powers_of_ten_and_fit() {
         for (from, to) in

@@ -1,9 +1,9 @@
 use super::*;
-use crate::output::printed;
+use crate::output::capture;
 use spring_mass_contact::claims::Case;
 use spring_mass_contact::number::Exact;
 use spring_mass_contact::number::tree::Site;
-use spring_mass_contact::proof::controls::{Change, Operator, What};
+use spring_mass_contact::proof::mutation::{Mutant, Mutation, Operator};
 
 /// c = 1, m = 1/2, g = −1/3, everything else 7/3.
 fn case() -> Case<Exact> {
@@ -13,7 +13,7 @@ fn case() -> Case<Exact> {
     case
 }
 
-/// A claim of (1.13), by its proof or on five cases in a number system.
+/// Returns the row of a claim of (1.13), with its proof or five cases in a number system.
 fn row(way: Way, status: Status) -> Row {
     let decided = if way.is_some() && status != Status::Undecided { 4 } else { 0 };
     let failed = way.is_some() && status == Status::Failed;
@@ -37,8 +37,8 @@ fn report(rows: Vec<Row>) -> (Report, verify::Options) {
     (report, verify::Options { scalars, cases: 5, seed: 42, equations: Vec::new() })
 }
 
-/// Not proved, wrong in f32 and f64 in the same case, open in two bits, right in rationals; and a claim
-/// before it that is wrong for another reason, but of which nobody is suspected.
+/// A claim that is not proved, wrong in f32 and f64 in the same case, undecided with two bits, and right in
+/// rationals; before it a claim that is wrong for another reason, without suspects.
 fn mistaken() -> (Report, verify::Options) {
     let [single, double, two_bits] = [NumberSystem::F32, NumberSystem::F64, NumberSystem::Mpfr(2)];
     let proof = Row { why: Some("the sides differ by c".into()), ..row(None, Status::Failed) };
@@ -53,12 +53,12 @@ fn mistaken() -> (Report, verify::Options) {
     let suspect = Suspect { function: "penalty::deflection", equation: Some("1.13"), unproved: 7, proved: 2 };
     report.suspects.push(suspect);
     let site = Site { file: "src/chapter/penalty.rs", line: 179, column: 12, rank: 0 };
-    report.repairs.push(Change { site, what: What::Swap(Operator::Sub) });
+    report.repairs.push(Mutant { site, mutation: Mutation::Swap(Operator::Sub) });
     report.rows.insert(0, Row { equation: "1.1", claim: "root", ..proof });
     (report, options)
 }
 
-/// A title goes over two lines if it must, and how much of a bound is used is said of claims that hold.
+/// A long title is broken, and the ratio of error and bound is printed for claims that hold.
 #[test]
 fn the_table_shows_where_to_look_what_failed_and_how() {
     let (report, options) = mistaken();
@@ -72,9 +72,9 @@ fn the_table_shows_where_to_look_what_failed_and_how() {
  (1.1)   Equilibrium of forces                -
  (1.13)  Deflection by penalty and its limit  1 held
 
-(1.13) penalty::deflection: look here first
-  of 9 claims that speak of it, 7 are not proved
-  with src/chapter/penalty.rs:179:12 a − b → b − a every claim would be proved
+(1.13) penalty::deflection: most likely wrong
+  7 of 9 claims about it are not proved
+  src/chapter/penalty.rs:179:12 a − b → b − a would make every claim provable
 
 1.13 rate NOT PROVED
   the sides differ by c
@@ -86,84 +86,84 @@ fn the_table_shows_where_to_look_what_failed_and_how() {
   the sides differ by c
 
 1.13 rate undecided in mpfr:2
-  No case decides these, so nothing is known against them: try more --cases, or
-  a --scalar with more digits.
+  No case decides these, which is not a failure: try more --cases, or a --scalar
+  with a higher precision.
 
 0 of 2 claims proved for all values.
 1 of 4 claims hold: 12 trials decided, 8 undecidable.
 5 cases from seed 42.
-Rounding used at most 250 % of its bound (1.13 rate, exact).
+Rounding errors: at most 250 % of the bound (1.13 rate, exact).
 
-(1.13) penalty::deflection: look here first
-  of 9 claims that speak of it, 7 are not proved
-  with src/chapter/penalty.rs:179:12 a − b → b − a every claim would be proved
+(1.13) penalty::deflection: most likely wrong
+  7 of 9 claims about it are not proved
+  src/chapter/penalty.rs:179:12 a − b → b − a would make every claim provable
 ";
-    assert_eq!(format!("\n{}", printed(|out| table(out, &report, &options))), expected);
-    let text = printed(|out| markdown(out, &report));
+    assert_eq!(format!("\n{}", capture(|out| table(out, &report, &options))), expected);
+    let text = capture(|out| markdown(out, &report));
     assert!(text.contains("\n| 1.13 | rate | equal |  | failed | 0 | 0 |  |\n"), "{text}");
     assert!(text.contains("\n| 1.13 | rate | equal | mpfr:2 | undecided | 0 | 5 |  |\n"), "{text}");
     assert!(text.contains("\n| 1.13 | rate | equal | exact | held | 4 | 1 | 2.50 |\n"), "{text}");
 }
 
-/// What is not proved is said by itself, even if a number system breaks off in the same way.
+/// An unproved claim is reported separately, even if a number system fails in the same way.
 #[test]
 fn a_proof_and_a_number_system_do_not_fail_alike() {
     let why = Some("division by 0".to_string());
     let ways = [None, Some(NumberSystem::F32), Some(NumberSystem::F64)];
     let broken = |way| Row { why: why.clone(), counterexample: None, ..row(way, Status::Failed) };
     let (report, options) = report(ways.map(broken).to_vec());
-    let text = printed(|out| table(out, &report, &options));
+    let text = capture(|out| table(out, &report, &options));
     let why = "\n  division by 0\n\n";
     assert!(text.contains(&format!("1.13 rate NOT PROVED{why}1.13 rate FAILED in f32, f64{why}")), "{text}");
 }
 
-/// Where a function is wrong, mostly more than one claim fails.
+/// A wrong function usually makes several claims fail.
 #[test]
 fn a_single_failure_can_be_the_claims_own() {
     for (unproved, said) in [
-        (0, "it computes nothing, but hands on an argument"),
-        (1, "or at the claim: no other that speaks of it fails"),
-        (2, "of 5 claims that speak of it, 2 are not proved"),
+        (0, "it only returns an argument"),
+        (1, "or the claim itself: no other claim about it fails"),
+        (2, "2 of 5 claims about it are not proved"),
     ] {
         let (mut report, _) = report(vec![row(Some(NumberSystem::Exact), Status::Failed)]);
         let (function, equation) = ("penalty::deflection", Some("1.13"));
         report.suspects = vec![Suspect { function, equation, unproved, proved: 5 - unproved }];
-        let text = printed(|out| where_to_look(out, &report));
-        assert_eq!(text, format!("(1.13) penalty::deflection: look here first\n  {said}\n"));
+        let text = capture(|out| where_to_look(out, &report));
+        assert_eq!(text, format!("(1.13) penalty::deflection: most likely wrong\n  {said}\n"));
     }
 }
 
-/// One claim, two that have functions in common, and two that have none.
+/// One claim, two with common functions, and two without.
 #[test]
 fn without_a_repair_the_functions_that_failures_share_are_named() {
-    let none = "  no change of one operation makes every claim provable; ";
+    let none = "  no mutation of one operation makes every claim provable; ";
     for (failures, shared, expected) in [
         (1, &["a::b"][..], "functions common to the claim that is not proved: a::b"),
         (2, &["a::b", "c::d"], "functions common to all claims that are not proved: a::b, c::d"),
-        (2, &[], "no function is common to all claims that are not proved: there may be several mistakes"),
+        (2, &[], "the unproved claims have no function in common: there may be several mistakes"),
     ] {
         let (mut report, _) = report(vec![row(None, Status::Failed); failures]);
         report.shared = shared.to_vec();
-        let text = printed(|out| where_to_look(out, &report));
+        let text = capture(|out| where_to_look(out, &report));
         let in_one_line = text.split_whitespace().collect::<Vec<_>>().join(" ");
         assert_eq!(in_one_line, none.trim_start().to_string() + expected);
         assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
     }
 }
 
-/// One failure, in a proof or in numbers, first or last: by the status and in whatever format.
+/// One failure, in a proof or in numbers, first or last, is visible in the status and in every format.
 #[test]
 fn a_failure_is_seen_by_status_and_in_every_format() {
     let ways = [None, Some(NumberSystem::F32), Some(NumberSystem::F64), Some(NumberSystem::Exact)];
     let well = |way: Way| row(way, if way.is_none() { Status::Proved } else { Status::Held });
     let printed = |report: &Report, options: &verify::Options| {
         [Format::Table, Format::Json, Format::Markdown]
-            .map(|format| printed(|out| print(out, report, options, format)))
+            .map(|format| capture(|out| print(out, report, options, format)))
     };
     let failures = |texts: [String; 3]| texts.map(|text| text.to_lowercase().matches("failed").count());
     let (all_well, options) = report(ways.map(well).to_vec());
     assert_eq!(exit(&all_well), Exit::Success);
-    // In JSON the summary counts them by this name.
+    // The summary in JSON has a key with this name.
     assert_eq!(failures(printed(&all_well, &options)), [0, 1, 0]);
     for wrong in ways {
         let (mistaken, options) =
@@ -193,6 +193,6 @@ fn no_line_is_longer_than_a_page_whatever_the_numbers() {
     (case.system.c, case.system.m) = (Exact::power_of_two(-1074), Exact::power_of_two(-700));
     row.counterexample = Some(case);
     let (report, options) = report(vec![row]);
-    let text = printed(|out| table(out, &report, &options));
+    let text = capture(|out| table(out, &report, &options));
     assert_eq!(text.lines().find(|line| line.chars().count() > 80), None);
 }

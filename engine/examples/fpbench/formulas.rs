@@ -6,7 +6,7 @@ use provable::formula::{Formula, Hypothesis};
 use provable::number::{Field, Tree};
 use provable::record;
 
-/// A formula, and the interval of each of its arguments: two numerators and their denominator.
+/// A formula with the interval of each argument: two numerators and their denominator.
 pub struct Benchmark {
     pub name: &'static str,
     pub formula: Formula,
@@ -72,7 +72,7 @@ benchmarks! {
         g in [-10, 10] / 1, h in [-10, 10] / 1, i in [-10, 10] / 1);
 }
 
-/// A decimal number, rounded once.
+/// Returns a decimal number, rounded once.
 fn decimal<T: Field>(n: i32, over: i32) -> T {
     if over == 1 { T::int(n) } else { T::int(n) / T::int(over) }
 }
@@ -161,7 +161,7 @@ fn sine<T: Field>(x: &T) -> T {
     x - x * x * x / T::int(6) + x * x * x * x * x / T::int(120) - x * x * x * x * x * x * x / T::int(5040)
 }
 
-/// With nine digits of its constants.
+/// The constants have nine digits.
 fn sine_of_order_3<T: Field>(z: &T) -> T {
     decimal::<T>(954_929_659, 1_000_000_000) * z - decimal::<T>(129_006_138, 1_000_000_000) * (z * z * z)
 }

@@ -1,16 +1,16 @@
-//! Bounds of rounding errors for every precision, next to Gappa's for one: formulas of FPBench.
+//! Bounds of rounding errors for every precision, compared with those of Gappa for one: formulas of FPBench.
 //!
-//! Prints a table in Markdown. For each formula: the number of its operations; K, for which its error is proved
-//! to be at most K/2ᵖ in every precision of 24 bits or more; the bound that this is in f64; the bound that Gappa
-//! computes for f64, where it is installed, and the ratio of the two; the largest error of f64 at random points,
-//! against MPFR with 200 bits; and the time that the bound takes, proof included.
+//! Prints a table in Markdown. Its columns are the number of operations; K, for which the error is proved to
+//! be at most K/2ᵖ for every precision p ≥ 24; this bound in f64; the bound that Gappa computes for f64, if
+//! it is installed, and the ratio of the two; the largest error of f64 at random points, compared with MPFR
+//! with 200 bits; and the time for bound and proof.
 
 mod formulas;
 
 use formulas::{Benchmark, benchmarks};
 use provable::formula::claim::PRECISION;
 use provable::formula::{Hypothesis, Relation};
-use provable::number::tree::{Step, piecewise};
+use provable::number::tree::{Op, piecewise_ops};
 use provable::number::{Field, Mpfr, Tree};
 use provable::proof::{RoundingBound, rounding_bound};
 use std::collections::BTreeSet;
@@ -19,10 +19,10 @@ use std::io::Write;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-/// The least precision: that of f32.
+/// Smallest precision, that of f32.
 const LEAST_BITS: u32 = 24;
 
-/// The number of random points at which errors are computed.
+/// Number of random points at which errors are computed.
 const POINTS: usize = 20_000;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -58,7 +58,7 @@ fn bound(benchmark: &Benchmark) -> Result<RoundingBound, Box<dyn Error>> {
     Ok(rounding_bound(&benchmark.formula.tree, &Tree::int(1), &hypotheses)?)
 }
 
-/// The number of different operations that round.
+/// Returns the number of different operations that round.
 fn operations(tree: &Tree) -> usize {
     let mut all = BTreeSet::new();
     infix(tree, &mut |operation| {
@@ -68,7 +68,7 @@ fn operations(tree: &Tree) -> usize {
     all.len()
 }
 
-/// The largest distance of the value in f64 from that with 200 bits.
+/// Returns the largest distance of the value in f64 from that with 200 bits.
 fn largest_error(benchmark: &Benchmark) -> f64 {
     let (tree, mut random) = (&benchmark.formula.tree, oorandom::Rand64::new(1));
     let errors = (0..POINTS).map(|_| {
@@ -79,29 +79,30 @@ fn largest_error(benchmark: &Benchmark) -> f64 {
         let point: Vec<f64> = benchmark.ranges.iter().map(&mut at).collect();
         let place =
             |name| benchmark.formula.arguments.iter().position(|own| *own == name).expect("an argument");
-        let computed = tree.replay(&|name| point[place(name)], &piecewise).expect("no divisor is 0");
-        let exact =
-            tree.replay(&|name| Mpfr::rounded(200, point[place(name)]), &piecewise).expect("no divisor is 0");
+        let computed = tree.eval(&|name| point[place(name)], &piecewise_ops).expect("no divisor is 0");
+        let exact = tree
+            .eval(&|name| Mpfr::rounded(200, point[place(name)]), &piecewise_ops)
+            .expect("no divisor is 0");
         (exact - Mpfr::rounded(200, computed)).as_float().map_or(f64::NAN, |error| error.to_f64().abs())
     });
     errors.fold(0.0, f64::max)
 }
 
-/// Gappa's bound for f64; `None` if it is not installed.
+/// Returns the bound of Gappa for f64; `None` if Gappa is not installed.
 fn gappa(benchmark: &Benchmark) -> Result<Option<f64>, Box<dyn Error>> {
     let piped =
         Command::new("gappa").stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
     let Ok(mut child) = piped else { return Ok(None) };
     child.stdin.take().ok_or("no input")?.write_all(script(benchmark).as_bytes())?;
     let said = String::from_utf8(child.wait_with_output()?.stderr)?;
-    // `|m - e| in [0, 15b-46 {2.13163e-13, 2^(-42.0931)}]`
+    // Example of the output: `|m - e| in [0, 15b-46 {2.13163e-13, 2^(-42.0931)}]`.
     let upper = said.split_once(" in [").and_then(|(_, interval)| interval.split_once(", "));
     let upper = upper.map(|(_, upper)| upper.split_once('{').map_or(upper, |(_, value)| value));
     let number = upper.and_then(|upper| upper.split([',', ']', ' ']).next());
     Ok(Some(number.and_then(|number| number.parse().ok()).ok_or_else(|| format!("Gappa says {said}"))?))
 }
 
-/// The formula as exact and as rounded, for Gappa.
+/// Returns a script for Gappa with the exact and the rounded formula.
 fn script(benchmark: &Benchmark) -> String {
     let Benchmark { formula, ranges, .. } = benchmark;
     let mut rounded = Vec::new();
@@ -128,22 +129,22 @@ fn script(benchmark: &Benchmark) -> String {
     format!("@rnd = float<ieee_64, ne>;\n{definitions}{{ {intervals} -> |{result} - {exact}| in ? }}\n")
 }
 
-/// A formula by infix operations, each of which is written by `operation`.
+/// Writes a formula with infix operations; `operation` names each of them.
 fn infix(tree: &Tree, operation: &mut impl FnMut(String) -> String) -> String {
-    let parts: Vec<_> = tree.step().operands().map(|part| infix(part, operation)).collect();
-    match tree.step() {
-        Step::Symbol(name) => name.to_string(),
-        Step::Int(n) => n.to_string(),
-        Step::Neg(_) => format!("(-{})", parts[0]),
-        Step::Add(..) => operation(parts.join(" + ")),
-        Step::Sub(..) => operation(parts.join(" - ")),
-        Step::Mul(..) => operation(parts.join(" * ")),
-        Step::Div(..) => operation(parts.join(" / ")),
+    let parts: Vec<_> = tree.op().operands().map(|part| infix(part, operation)).collect();
+    match tree.op() {
+        Op::Symbol(name) => name.to_string(),
+        Op::Int(n) => n.to_string(),
+        Op::Neg(_) => format!("(-{})", parts[0]),
+        Op::Add(..) => operation(parts.join(" + ")),
+        Op::Sub(..) => operation(parts.join(" - ")),
+        Op::Mul(..) => operation(parts.join(" * ")),
+        Op::Div(..) => operation(parts.join(" / ")),
         step => unreachable!("no formula has {step:?}"),
     }
 }
 
-/// The columns of the table in the README that do not depend on the machine are those that are computed.
+/// The columns of the table in the README that are independent of the machine are recomputed.
 #[test]
 fn the_table_is_what_is_computed() {
     let readme = include_str!("../../README.md");

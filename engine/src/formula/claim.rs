@@ -6,29 +6,29 @@ use crate::number::Tree;
 use std::collections::BTreeMap;
 use std::sync::Mutex;
 
-/// The rate at which a limit is reached, for checks in numbers.
+/// Rate of convergence to a limit, for numerical checks.
 #[derive(Clone, Debug)]
 pub enum Rate {
     /// The distance from the limit.
-    Exactly(Tree),
-    /// A bound of the distance, on either side.
+    Equal(Tree),
+    /// A bound of the absolute distance from the limit.
     Within(Tree),
 }
 
-/// The symbol of 2ᵖ where formulas [round](Tree::rounded) to p bits: its inverse is the unit roundoff.
+/// Symbol of 2ᵖ in formulas [rounded](Tree::with_rounding) to p bits; its inverse is the unit roundoff.
 pub const PRECISION: &str = "2ᵖ";
 
-/// The symbols of powers of two with any integer exponents.
+/// Symbols of powers of two with arbitrary integer exponents.
 pub const SCALES: [&str; 3] = ["2ᵃ", "2ᵇ", "2ᶠ"];
 
-/// The symbol q of the power ρᵏ in a statement about a [sequence](Sequence).
+/// Symbol q of the power ρᵏ in a statement about a [sequence](Sequence).
 pub const POWER: &str = "q";
 
-/// The symbols of the components of x_k in the step of a [sequence](Sequence).
+/// Symbols of the components of x_k in the step of a [sequence](Sequence).
 pub const MEMBERS: [&str; 4] = ["x₁", "x₂", "x₃", "x₄"];
 
-/// Returns the name of a letter with the index above this one: v₁ for 0.
-pub(crate) fn numbered(letter: char, index: u8) -> &'static str {
+/// Returns a letter with the subscript `index` + 1: v₁ for 0.
+pub(crate) fn subscripted(letter: char, index: u8) -> &'static str {
     static NAMES: Mutex<BTreeMap<(char, u8), &str>> = Mutex::new(BTreeMap::new());
     let name = || {
         let digits = (u32::from(index) + 1).to_string();
@@ -40,27 +40,27 @@ pub(crate) fn numbered(letter: char, index: u8) -> &'static str {
     names.entry((letter, index)).or_insert_with(name)
 }
 
-/// Two formulas are equal.
+/// States that two formulas are equal.
 pub fn equal(name: &'static str, left: impl Into<Tree>, right: impl Into<Tree>) -> Statement {
     Statement::new(name, Proposition::Equal(left.into(), right.into()))
 }
 
-/// A formula is positive.
+/// States that a formula is positive.
 pub fn positive(name: &'static str, of: impl Into<Tree>) -> Statement {
     Statement::new(name, Proposition::Sign(Relation::Positive, of.into()))
 }
 
-/// A formula is not negative.
+/// States that a formula is not negative.
 pub fn non_negative(name: &'static str, of: impl Into<Tree>) -> Statement {
     Statement::new(name, Proposition::Sign(Relation::NonNegative, of.into()))
 }
 
-/// A formula is at most a bound in absolute value.
+/// States that a formula is at most a bound in absolute value.
 pub fn within(name: &'static str, of: impl Into<Tree>, bound: impl Into<Tree>) -> Statement {
     Statement::new(name, Proposition::Within(of.into(), bound.into()))
 }
 
-/// A formula is the derivative of another by a symbol.
+/// States that a formula is the derivative of another with respect to a symbol.
 ///
 /// # Panics
 /// Panics if `by` is not a symbol.
@@ -68,7 +68,7 @@ pub fn derivative(name: &'static str, of: impl Into<Tree>, by: &Tree, is: impl I
     Statement::new(name, Proposition::Derivative(of.into(), name_of(by), is.into()))
 }
 
-/// A formula tends to another at a rate as a symbol tends to infinity.
+/// States that a formula tends to a limit at a given rate as a symbol tends to infinity.
 ///
 /// # Panics
 /// Panics if `by` is not a symbol.
@@ -83,7 +83,7 @@ pub fn limit(
     let distance = &of - &to;
     let mut parts = vec![("limit", Proposition::Limit(of, name_of(by), to))];
     match rate {
-        Rate::Exactly(rate) => parts.push(("rate", Proposition::Equal(distance, rate))),
+        Rate::Equal(rate) => parts.push(("rate", Proposition::Equal(distance, rate))),
         Rate::Within(bound) => {
             let margin = &bound * &bound - &distance * &distance;
             parts.push(("bound", Proposition::Sign(Relation::NonNegative, bound)));
@@ -93,7 +93,7 @@ pub fn limit(
     Statement::of_form(name, Form::Propositions(parts))
 }
 
-/// The recursion x₀ = start, x_{k+1} = step(x_k) has the closed form x_k = closed at q = ratioᵏ.
+/// States that the recursion x₀ = start, x_{k+1} = step(x_k) has the closed form x_k = closed at q = ratioᵏ.
 ///
 /// # Panics
 /// Panics if there are more components than [`MEMBERS`], or if the step depends on q or on a symbol with the
@@ -106,7 +106,7 @@ pub fn induction<const N: usize>(
     closed: [Tree; N],
 ) -> Statement {
     assert!(N <= MEMBERS.len(), "{name}: an induction has at most {} components", MEMBERS.len());
-    // With numbers as members, only the symbols of the step itself are left.
+    // With numbers as members, only the symbols of the step itself remain.
     assert_not_reserved(name, step(std::array::from_fn(|_| Tree::from(1))).iter().flat_map(Tree::symbols));
     let step = step(std::array::from_fn(|i| Tree::symbol(MEMBERS[i])));
     let (start, step, member, ratio) = (start.into(), step.into(), closed.into(), ratio.into());
@@ -114,12 +114,12 @@ pub fn induction<const N: usize>(
     Statement::of_form(name, Form::Sequence(sequence))
 }
 
-/// The recursion x₀ = start, x_{k+1} = step(x_k) stays within a bound of a closed form at q = ratioᵏ, and so
-/// do further quantities, formulas of x_k and q, each with its bound.
+/// States that the recursion x₀ = start, x_{k+1} = step(x_k) stays within a bound of a closed form at q =
+/// ratioᵏ, and that further quantities, formulas of x_k and q, are bounded.
 ///
 /// # Panics
 /// Panics like [`induction`], and if the closed form or its bound depends on a member.
-pub fn drift<const N: usize>(
+pub fn perturbed_recursion<const N: usize>(
     name: &'static str,
     ratio: impl Into<Tree>,
     start: impl Into<Tree>,
@@ -136,8 +136,8 @@ pub fn drift<const N: usize>(
     Statement::of_form(name, Form::Sequence(Sequence { start, step, ratio, member, limit: None, within }))
 }
 
-/// A formula of q = ratioᵏ tends to a limit as k grows.
-pub fn vanishing(
+/// States that a formula of q = ratioᵏ tends to a limit as k tends to infinity.
+pub fn geometric_limit(
     name: &'static str,
     ratio: impl Into<Tree>,
     of: impl Into<Tree>,
@@ -163,7 +163,7 @@ mod tests {
     use crate::number::Exponential;
 
     #[test]
-    #[should_panic(expected = "c ε is no symbol")]
+    #[should_panic(expected = "c ε is not a symbol")]
     fn only_a_symbol_can_be_differentiated_by() {
         let [c, eps] = ["c", "ε"].map(|name| Tree::symbol(name));
         derivative("wrong", &c, &(&c * &eps), &c);

@@ -1,12 +1,12 @@
-//! What is supposed.
+//! Hypotheses: assumptions about the signs of quantities.
 
 use super::typeset::{Name, Notation};
-use crate::number::tree::{Step, piecewise};
+use crate::number::tree::{Op, piecewise_ops};
 use crate::number::{Field, PositivePart, Tree};
 use std::cmp::Ordering;
 use std::fmt;
 
-/// What is said of the sign of a quantity.
+/// Relation of a quantity to zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Relation {
     /// > 0
@@ -18,7 +18,7 @@ pub enum Relation {
 }
 
 impl Relation {
-    /// Does a number of this sign satisfy it?
+    /// Returns `true` if a number of this sign satisfies the relation.
     pub fn admits(self, sign: Ordering) -> bool {
         match self {
             Relation::Positive => sign.is_gt(),
@@ -27,7 +27,7 @@ impl Relation {
         }
     }
 
-    /// As a reader writes it if the sides have traded places.
+    /// Returns the sign of the relation with its sides exchanged.
     fn turned(self) -> &'static str {
         match self {
             Relation::Positive => "<",
@@ -37,7 +37,7 @@ impl Relation {
     }
 }
 
-/// As a reader writes it, between two sides: `>`.
+/// Writes the sign between two sides: `>`.
 impl fmt::Display for Relation {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str(match self {
@@ -48,7 +48,9 @@ impl fmt::Display for Relation {
     }
 }
 
-/// What is supposed: a quantity, recorded, and what is said of its sign.
+/// A hypothesis: a recorded quantity and its relation to zero.
+///
+/// # Examples
 ///
 /// ```
 /// use provable::formula::{Hypothesis, Relation};
@@ -62,41 +64,43 @@ impl fmt::Display for Relation {
 pub struct Hypothesis {
     /// The quantity.
     pub value: Tree,
-    /// What is said of its sign.
+    /// Its relation to zero.
     pub relation: Relation,
-    /// The symbol to be chosen so that it holds, where numbers are looked for.
+    /// Symbol to solve for when points that satisfy the hypothesis are constructed.
     pub solved_for: &'static str,
 }
 
 impl Hypothesis {
-    /// A hypothesis, solved for the first of the symbols in its record.
+    /// Returns a hypothesis, to be solved for the first symbol in its quantity.
     ///
     /// # Panics
-    /// There is none: of a number nothing is to be supposed.
+    /// Panics if the quantity is a number without symbols.
     pub fn new(relation: Relation, value: Tree) -> Self {
-        let solved_for =
-            value.first_symbol().unwrap_or_else(|| panic!("of a number, {value}, nothing is to be supposed"));
+        let solved_for = value
+            .first_symbol()
+            .unwrap_or_else(|| panic!("a hypothesis needs a symbol, and {value} has none"));
         Hypothesis { value, relation, solved_for }
     }
 
-    /// The same, solved for another symbol: one that the quantity is linear in. If it does not depend on it,
-    /// as after a mistake in the quantity, it is solved for what it was.
+    /// Sets the symbol to solve for, in which the quantity must be linear. If the quantity does not depend on
+    /// it, as after a mutation, the symbol stays unchanged.
     pub fn solved_for(self, symbol: &Tree) -> Self {
         let depends = self.value.symbols().contains(name_of(symbol));
         let solved_for = if depends { name_of(symbol) } else { self.solved_for };
         Hypothesis { solved_for, ..self }
     }
 
-    /// A symbol is in an interval: from `lower` to `upper`, or the other way round.
+    /// Assumes that a symbol lies in an interval; the bounds may be given in either order.
+    ///
+    /// # Examples
     ///
     /// ```
     /// use provable::{formula::Hypothesis, number::Tree};
     /// let [q, one] = [Tree::symbol("q"), Tree::from(1)];
     /// assert_eq!(Hypothesis::between(&q, Tree::from(0), one.clone()).to_string(), "0 ≤ q ≤ 1");
     /// ```
-    ///
     /// # Panics
-    /// It is no symbol, or an end depends on it.
+    /// Panics if `symbol` is not a symbol, or if a bound depends on it.
     pub fn between(symbol: &Tree, lower: impl Into<Tree>, upper: impl Into<Tree>) -> Self {
         let (lower, upper) = (lower.into(), upper.into());
         let name = name_of(symbol);
@@ -106,37 +110,38 @@ impl Hypothesis {
         Hypothesis { solved_for: name, ..hypothesis }
     }
 
-    /// A symbol is no further than `most` from a quantity: `|u − Δ| ≤ tol`.
+    /// Assumes that the distance of a symbol from a quantity is at most `most`: `|u − Δ| ≤ tol`.
     ///
     /// # Panics
-    /// As [`between`](Self::between).
+    /// Panics like [`between`](Self::between).
     pub fn near(symbol: &Tree, quantity: impl Into<Tree>, most: impl Into<Tree>) -> Self {
         let (quantity, most) = (quantity.into(), most.into());
         Hypothesis::between(symbol, &quantity - &most, quantity + most)
     }
 
-    /// What it is in an interval, with the two ends, if that is what it says.
+    /// Returns the symbol and the bounds if the hypothesis is an interval.
     pub fn interval(&self) -> Option<(&'static str, &Tree, &Tree)> {
-        let Step::Mul(above, below) = self.value.step() else { return None };
-        let (Step::Sub(upper, x), Step::Sub(y, lower)) = (above.step(), below.step()) else { return None };
-        let Step::Symbol(name) = x.step() else { return None };
+        let Op::Mul(above, below) = self.value.op() else { return None };
+        let (Op::Sub(upper, x), Op::Sub(y, lower)) = (above.op(), below.op()) else { return None };
+        let Op::Symbol(name) = x.op() else { return None };
         let depends = |end: &Tree| end.symbols().contains(name);
         let says_so = self.relation == Relation::NonNegative && x == y && !depends(lower) && !depends(upper);
         says_so.then_some((*name, lower, upper))
     }
 
-    /// Its distance from a quantity, and the most that it may be, if it is [near](Self::near) one.
+    /// Returns the distance and its bound if the hypothesis states that a symbol is [near](Self::near) a
+    /// quantity.
     pub fn distance(&self) -> Option<(Tree, &Tree)> {
         let (x, lower, upper) = self.interval()?;
-        match (lower.step(), upper.step()) {
-            (Step::Sub(a, least), Step::Add(b, most)) if a == b && least == most => {
+        match (lower.op(), upper.op()) {
+            (Op::Sub(a, least), Op::Add(b, most)) if a == b && least == most => {
                 Some((Tree::symbol(x) - a, most))
             }
             _ => None,
         }
     }
 
-    /// As a reader writes it, with the parts that `name` knows by their names: `λ < R`.
+    /// Formats the hypothesis, with the names that `name` returns for subformulas: `λ < R`.
     pub fn typeset(&self, name: &dyn Fn(&Tree) -> Option<Name>) -> String {
         let text = |tree: &Tree| tree.typeset(Notation::Text, name);
         let said = |left: &Tree, turned: bool, right: &Tree| {
@@ -150,13 +155,13 @@ impl Hypothesis {
             };
         }
         let zero = Tree::int(0);
-        let is_symbol = |tree: &Tree| matches!(tree.step(), Step::Symbol(_));
-        match self.value.step() {
+        let is_symbol = |tree: &Tree| matches!(tree.op(), Op::Symbol(_));
+        match self.value.op() {
             _ if name(&self.value).is_some() => said(&self.value, false, &zero),
-            Step::Neg(a) => said(a, true, &zero),
-            Step::Sub(a, b) => match a.step() {
-                Step::Neg(a) => said(a, true, &-b),
-                // What is alone comes first.
+            Op::Neg(a) => said(a, true, &zero),
+            Op::Sub(a, b) => match a.op() {
+                Op::Neg(a) => said(a, true, &-b),
+                // A single symbol comes first.
                 _ if is_symbol(b) && !is_symbol(a) => said(b, true, a),
                 _ => said(a, false, b),
             },
@@ -164,50 +169,51 @@ impl Hypothesis {
         }
     }
 
-    /// Does it hold at these numbers? Not where its quantity is undefined.
+    /// Returns `true` if the hypothesis holds for these numbers. Returns `false` if its quantity is
+    /// undefined.
     pub fn holds<T: PositivePart + PartialOrd>(&self, symbol: &impl Fn(&'static str) -> T) -> bool {
-        self.holds_with(symbol, &piecewise)
+        self.holds_with(symbol, &piecewise_ops)
     }
 
-    /// The same with other steps than + − × ÷ as [`Tree::replay`] has them.
+    /// Like [`holds`](Self::holds), with operations beyond + − × ÷ as in [`Tree::eval`].
     pub fn holds_with<T: Field + PartialOrd>(
         &self,
         symbol: &impl Fn(&'static str) -> T,
-        beyond: &impl Fn(Step<&T>) -> Option<T>,
+        beyond: &impl Fn(Op<&T>) -> Option<T>,
     ) -> bool {
-        let value = self.value.replay(symbol, beyond);
+        let value = self.value.eval(symbol, beyond);
         value.and_then(|value| value.partial_cmp(&T::zero())).is_some_and(|sign| self.relation.admits(sign))
     }
 
-    /// The number for the symbol that it is [solved for](field@Self::solved_for) with which the quantity,
-    /// if it is linear there, has the value `target`; `None` if it does not depend on it. In an interval,
-    /// `target` ≥ 0 is the distance from the lower end over that from the upper one.
-    pub fn solution<T: PositivePart>(&self, symbol: &impl Fn(&'static str) -> T, target: &T) -> Option<T> {
+    /// Solves for the symbol [`solved_for`](field@Self::solved_for) so that the quantity, if it is linear in
+    /// the symbol, has the value `target`; `None` if it does not depend on it. For an interval, `target` ≥ 0
+    /// is the distance from the lower bound divided by that from the upper one.
+    pub fn solve<T: PositivePart>(&self, symbol: &impl Fn(&'static str) -> T, target: &T) -> Option<T> {
         if let Some((_, lower, upper)) = self.interval() {
-            let [lower, upper] = [lower, upper].map(|end| end.replay(symbol, &piecewise));
+            let [lower, upper] = [lower, upper].map(|end| end.eval(symbol, &piecewise_ops));
             let (lower, upper) = (lower?, upper?);
             let whole = target + T::one();
-            return whole.is_unit().then(|| &lower + (upper - &lower) * target / whole);
+            return whole.is_invertible().then(|| &lower + (upper - &lower) * target / whole);
         }
-        self.value.solution(self.solved_for, symbol, target)
+        self.value.solve_linear(self.solved_for, symbol, target)
     }
 }
 
-/// Without names.
+/// Writes the hypothesis without names of subformulas.
 impl fmt::Display for Hypothesis {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str(&self.typeset(&|_| None))
     }
 }
 
-/// The name of a symbol.
+/// Returns the name of a symbol.
 ///
 /// # Panics
-/// It is another formula.
+/// Panics if the formula is not a symbol.
 pub(super) fn name_of(symbol: &Tree) -> &'static str {
-    match symbol.step() {
-        Step::Symbol(name) => name,
-        _ => panic!("{symbol} is no symbol"),
+    match symbol.op() {
+        Op::Symbol(name) => name,
+        _ => panic!("{symbol} is not a symbol"),
     }
 }
 
@@ -240,11 +246,11 @@ mod tests {
         let [c, eps] = ["c", "ε"].map(|name| Tree::symbol(name));
         let at = |name| if name == "c" { 3.0 } else { 2.0 };
         let stiffer = Hypothesis::new(Relation::Positive, &c - &eps);
-        assert_eq!((stiffer.solved_for, stiffer.solution(&at, &0.0)), ("c", Some(2.0)));
-        assert_eq!(stiffer.clone().solved_for(&eps).solution(&at, &0.0), Some(3.0));
+        assert_eq!((stiffer.solved_for, stiffer.solve(&at, &0.0)), ("c", Some(2.0)));
+        assert_eq!(stiffer.clone().solved_for(&eps).solve(&at, &0.0), Some(3.0));
         assert_eq!(stiffer.clone().solved_for(&Tree::symbol("x")), stiffer);
         let other = Hypothesis { solved_for: "x", ..stiffer };
-        assert_eq!(other.solution(&at, &0.0), None);
+        assert_eq!(other.solve(&at, &0.0), None);
     }
 
     #[test]
@@ -255,11 +261,11 @@ mod tests {
         for other in [(&u - &c, &u + &d), (&d - &c, &u + &c), (&d - &u, &u + &c)] {
             assert_eq!(Hypothesis::between(&q, other.0, other.1).distance(), None);
         }
-        // Two thirds of the way it is twice as far from 1 as from 4.
+        // At two thirds of the interval the distance from 1 is twice that from 4.
         let at = |name| if name == "u" { 1.0 } else { 4.0 };
         let between = Hypothesis::between(&q, &u, &c);
-        assert_eq!((between.solved_for, between.solution(&at, &2.0)), ("q", Some(3.0)));
-        assert_eq!([0.0, -1.0].map(|target| between.solution(&at, &target)), [Some(1.0), None]);
+        assert_eq!((between.solved_for, between.solve(&at, &2.0)), ("q", Some(3.0)));
+        assert_eq!([0.0, -1.0].map(|target| between.solve(&at, &target)), [Some(1.0), None]);
     }
 
     #[test]

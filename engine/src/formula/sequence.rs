@@ -15,17 +15,17 @@ pub struct Sequence {
     pub step: Vec<Tree>,
     /// ρ
     pub ratio: Tree,
-    /// The k-th member as a formula of q = ρᵏ; in a perturbed recursion the formula that it is near.
+    /// The k-th member as a formula of q = ρᵏ; for a perturbed recursion its approximation.
     pub member: Vec<Tree>,
     /// The limit, if the statement is about one.
     pub limit: Option<Tree>,
-    /// In a perturbed recursion the quantities of bounded size, each with its bound; first the distance of
-    /// the member from its formula.
+    /// Bounded quantities of a perturbed recursion with their bounds; the first is the distance of the member
+    /// from its formula.
     pub within: Vec<(Tree, Tree)>,
 }
 
 impl Sequence {
-    /// Returns `true` if its members are only near their formula.
+    /// Returns `true` if the members are only near their formula.
     pub fn is_perturbed(&self) -> bool {
         !self.within.is_empty()
     }
@@ -56,32 +56,32 @@ impl Sequence {
         }
     }
 
-    /// Returns `true` if a hypothesis is about what changes from step to step: a power, or in a perturbed
+    /// Returns `true` if a hypothesis concerns a quantity that changes with k: a power, or in a perturbed
     /// recursion a member.
     pub(super) fn changes(&self, hypothesis: &Hypothesis) -> bool {
         let symbols = hypothesis.value.symbols();
         symbols.contains(POWER) || self.is_perturbed() && symbols.contains(MEMBERS[0])
     }
 
-    /// The invariant of a perturbed recursion: the distance of a member from its formula.
+    /// Returns the invariant of a perturbed recursion: the distance of a member from its formula.
     pub(super) fn invariant(&self) -> Option<Hypothesis> {
         let ((_, bound), near) = (self.within.first()?, self.member.first()?);
         Some(Hypothesis::near(&Tree::symbol(MEMBERS[0]), near, bound))
     }
 
-    /// The goals of the induction over k.
+    /// Returns the goals of the induction over k.
     ///
     /// A recursion has the closed form x_k = closed(ρᵏ) if closed(1) is its start and one step leads from
-    /// closed(q) to closed(ρ q), whatever q is. A hypothesis on q, or on a member of a perturbed recursion,
-    /// is an invariant: it has to hold at the start, for q = 1, by the other hypotheses alone, and to be
-    /// passed on from q to ρ q and from a member to the next; then it may be used in the step.
+    /// closed(q) to closed(ρ q) for every q. A hypothesis on q, or on a member of a perturbed recursion, is
+    /// an invariant: it must hold at the start, for q = 1, by the other hypotheses alone, and be preserved
+    /// from q to ρ q and from a member to the next; then the step may use it.
     pub(super) fn goals(&self, invariants: &[Hypothesis]) -> Vec<Goal> {
         let goal = |part, role, proposition| Goal { part, role, proposition };
         let Sequence { start, step, ratio, member, limit, within } = self;
         if let Some(limit) = limit {
             let margin = Proposition::Sign(Relation::Positive, Tree::one() - ratio * ratio);
             let at_zero = member.iter().map(|member| {
-                let at_zero = Proposition::Equal(member.with(&[(POWER, Tree::zero())]), limit.clone());
+                let at_zero = Proposition::Equal(member.substitute(&[(POWER, Tree::zero())]), limit.clone());
                 goal("at q = 0", Role::Claim, at_zero)
             });
             return [goal("|ρ| < 1", Role::Claim, margin)].into_iter().chain(at_zero).collect();
@@ -91,12 +91,12 @@ impl Sequence {
         let mut goals = Vec::new();
         if !self.is_perturbed() {
             for (start, closed) in start.iter().zip(member) {
-                let equal = Proposition::Equal(closed.with(&at_start), start.clone());
+                let equal = Proposition::Equal(closed.substitute(&at_start), start.clone());
                 goals.push(goal("start", Role::Claim, equal));
             }
             let members: Vec<_> = MEMBERS.into_iter().zip(member.iter().cloned()).collect();
             for (step, closed) in step.iter().zip(member) {
-                let equal = Proposition::Equal(step.with(&members), closed.with(&after));
+                let equal = Proposition::Equal(step.substitute(&members), closed.substitute(&after));
                 goals.push(goal("step", Role::Step, equal));
             }
         } else {
@@ -108,7 +108,7 @@ impl Sequence {
             goals.push(goal("invariant at the start", Role::InvariantBase, base));
             goals.push(goal("invariant after a step", Role::InvariantStep, step));
         }
-        // The first is an invariant.
+        // The first one is an invariant.
         goals.extend(
             within
                 .iter()

@@ -1,15 +1,17 @@
-//! Statements about formulas: what provers, number systems and printers read.
+//! Statements about formulas, for provers, number systems and printers.
 
 use super::claim::PRECISION;
 use super::hypothesis::{Hypothesis, Relation, name_of};
 pub use super::sequence::Sequence;
 use crate::number::Tree;
-use crate::number::tree::Step;
+use crate::number::tree::Op;
 
 /// A statement about recorded formulas: hypotheses, and goals that follow from them.
 ///
-/// The functions of [`claim`](super::claim) construct one. Whatever is done to it, its goals are derived from
-/// what it states and cannot be set, so a proof of it is a proof of what is printed.
+/// The functions of [`claim`](super::claim) construct it. Its goals are derived from its contents and cannot
+/// be set, so a proof of it proves what is printed.
+///
+/// # Examples
 ///
 /// ```
 /// use provable::formula::{Hypothesis, Relation, claim::positive};
@@ -49,7 +51,7 @@ pub struct Computed {
     /// Its symbol.
     pub symbol: &'static str,
     /// The formula that computes it.
-    pub by: Tree,
+    pub formula: Tree,
     /// The interval that contains it.
     pub hypothesis: Hypothesis,
 }
@@ -59,25 +61,25 @@ pub struct Computed {
 pub struct Goal {
     /// The name of the part, if there are several.
     pub part: &'static str,
-    /// Its place in the argument, which decides the hypotheses that it may use.
+    /// Role in the argument, which decides the hypotheses that it may use.
     pub role: Role,
     /// The proposition to be proved.
     pub proposition: Proposition,
 }
 
-/// The place of a goal in the argument.
+/// Role of a goal in the argument.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// The claim, under its hypotheses.
     Claim,
-    /// A step of an induction, under the invariants as well.
+    /// A step of an induction, for which the invariants are assumed as well.
     Step,
     /// An invariant at the start, where no invariant may be assumed.
     InvariantBase,
-    /// An invariant after a step, if it holds before.
+    /// An invariant after a step, if it holds before the step.
     InvariantStep,
-    /// A computed quantity is in its interval, under the invariants and the intervals of those before it, of
-    /// which this is the number.
+    /// A computed quantity is in its interval, under the invariants and the intervals of the quantities
+    /// before it; the number is their count.
     Computed(usize),
 }
 
@@ -90,20 +92,22 @@ pub enum Proposition {
     Sign(Relation, Tree),
     /// A formula is at most another in absolute value.
     Within(Tree, Tree),
-    /// The third is the derivative of the first by a quantity.
+    /// The third is the derivative of the first with respect to a quantity.
     Derivative(Tree, &'static str, Tree),
     /// The first tends to the third as a quantity tends to infinity.
     Limit(Tree, &'static str, Tree),
 }
 
 impl Proposition {
-    /// A hypothesis as a proposition, with formulas in place of symbols.
+    /// Returns a hypothesis as a proposition, with formulas substituted for symbols.
     ///
-    /// |x − a| ≤ b is more than a − b ≤ x ≤ a + b, since b could be negative.
+    /// |x − a| ≤ b is stronger than a − b ≤ x ≤ a + b, since b could be negative.
     pub(super) fn of_hypothesis(hypothesis: &Hypothesis, replaced: &[(&str, Tree)]) -> Self {
         match hypothesis.distance() {
-            Some((distance, most)) => Proposition::Within(distance.with(replaced), most.with(replaced)),
-            None => Proposition::Sign(hypothesis.relation, hypothesis.value.with(replaced)),
+            Some((distance, most)) => {
+                Proposition::Within(distance.substitute(replaced), most.substitute(replaced))
+            }
+            None => Proposition::Sign(hypothesis.relation, hypothesis.value.substitute(replaced)),
         }
     }
 
@@ -117,7 +121,7 @@ impl Proposition {
         }
     }
 
-    /// Returns the symbol that varies, if one does.
+    /// Returns the symbol of differentiation or of a limit.
     pub fn variable(&self) -> Option<&'static str> {
         match self {
             Proposition::Derivative(_, by, _) | Proposition::Limit(_, by, _) => Some(by),
@@ -146,7 +150,7 @@ impl Proposition {
 }
 
 impl Statement {
-    /// A proposition, of no equation and without hypotheses yet.
+    /// Returns a proposition without an equation number and without hypotheses.
     pub fn new(name: &'static str, proposition: Proposition) -> Self {
         Statement::of_form(name, Form::Propositions(vec![("", proposition)]))
     }
@@ -170,7 +174,7 @@ impl Statement {
         fresh.derived()
     }
 
-    /// Derives the hypotheses by role, and the goals, from what is stated.
+    /// Derives the hypotheses for each role and the goals.
     fn derived(mut self) -> Self {
         let mut hypotheses = self.stated.clone();
         self.goals = Vec::new();
@@ -182,7 +186,7 @@ impl Statement {
             let proposition = Proposition::of_hypothesis(&hypothesis, &[(symbol, by.clone())]);
             let role = Role::Computed(self.computed.len());
             self.goals.push(Goal { part: "computed", role, proposition });
-            self.computed.push(Computed { symbol, by: by.clone(), hypothesis });
+            self.computed.push(Computed { symbol, formula: by.clone(), hypothesis });
         }
         match &self.form {
             Form::Propositions(all) => {
@@ -201,9 +205,10 @@ impl Statement {
             }
         }
         let stated = self.stated.iter().map(|hypothesis| &hypothesis.value);
-        self.rounds = self.rounds || self.formulas().chain(stated).any(Tree::rounds);
+        self.rounds = self.rounds || self.formulas().chain(stated).any(Tree::contains_rounding);
         if self.rounds {
-            // Last if others are about the precision, which are stronger.
+            // The minimum precision comes last if other hypotheses on the precision, which are stronger,
+            // exist.
             let of_precision = |h: &Hypothesis| h.value.symbols().contains(PRECISION);
             let place = if hypotheses.iter().any(of_precision) { hypotheses.len() } else { 0 };
             hypotheses.insert(place, minimum_precision());
@@ -212,19 +217,19 @@ impl Statement {
         self
     }
 
-    /// The statement under further hypotheses.
+    /// Adds hypotheses.
     pub fn assuming<'a>(mut self, hypotheses: impl IntoIterator<Item = &'a Hypothesis>) -> Self {
         self.stated.extend(hypotheses.into_iter().cloned());
         self.derived()
     }
 
-    /// The statement under these hypotheses alone: it [inherits](Self::inheriting) none.
+    /// Replaces the hypotheses; those of an equation are not [inherited](Self::inheriting).
     pub fn only_assuming<'a>(mut self, hypotheses: impl IntoIterator<Item = &'a Hypothesis>) -> Self {
         (self.stated, self.inherits) = (hypotheses.into_iter().cloned().collect(), false);
         self.derived()
     }
 
-    /// The statement as a part of an equation, under the equation's hypotheses as well, which come first.
+    /// Makes the statement part of an equation, whose hypotheses are assumed first.
     pub fn inheriting(mut self, equation: &'static str, hypotheses: &[Hypothesis]) -> Self {
         self.equation = equation;
         if self.inherits {
@@ -233,13 +238,13 @@ impl Statement {
         self.derived()
     }
 
-    /// The statement where a quantity is computed by a formula: its interval is proved and not assumed.
+    /// States that a quantity is computed by a formula: its interval is proved and not assumed.
     ///
-    /// Of several such quantities each may be computed from those before it.
+    /// Each of several such quantities may be computed from those before it.
     ///
     /// # Panics
-    /// Panics unless exactly one hypothesis is about the quantity, and it is its interval; and if the
-    /// quantity is computed already.
+    /// Panics unless exactly one hypothesis concerns the quantity and is its interval, and if the quantity is
+    /// computed already.
     pub fn computing(mut self, symbol: &Tree, by: impl Into<Tree>) -> Self {
         let name = name_of(symbol);
         let of_it = |hypothesis: &&Hypothesis| hypothesis.value.symbols().contains(name);
@@ -256,20 +261,20 @@ impl Statement {
         self.derived()
     }
 
-    /// The statement without one of its [hypotheses](Self::hypotheses).
+    /// Returns the statement without one of its [hypotheses](Self::hypotheses).
     pub fn without(&self, hypothesis: &Hypothesis) -> Self {
         let mut less = self.clone();
         less.stated.retain(|stated| stated != hypothesis);
         less.derived()
     }
 
-    /// Another proposition under the hypotheses of the statement.
+    /// Returns another proposition under the same hypotheses.
     pub fn with_proposition(&self, proposition: Proposition) -> Self {
         let form = Form::Propositions(vec![("", proposition)]);
         Statement { form, computes: Vec::new(), ..self.clone() }.derived()
     }
 
-    /// The statement with each formula replaced, in its hypotheses as well.
+    /// Returns the statement with each formula mapped, also in its hypotheses.
     pub fn map(&self, f: &impl Fn(&Tree) -> Tree) -> Self {
         let stated =
             self.stated.iter().map(|stated| Hypothesis { value: f(&stated.value), ..stated.clone() });
@@ -283,7 +288,7 @@ impl Statement {
         Statement { stated: stated.collect(), form, computes, ..self.clone() }.derived()
     }
 
-    /// Returns the number of the equation that the statement belongs to; empty if there is none.
+    /// Returns the equation number that the statement belongs to; empty if there is none.
     pub fn equation(&self) -> &'static str {
         self.equation
     }
@@ -308,7 +313,7 @@ impl Statement {
     }
 
     /// Returns the hypotheses that every goal may use: those stated, except for invariants and intervals of
-    /// computed quantities, and the [minimum precision](minimum_precision) where formulas round.
+    /// computed quantities, and the [minimum precision](minimum_precision) if formulas contain roundings.
     pub fn hypotheses(&self) -> &[Hypothesis] {
         &self.hypotheses
     }
@@ -337,23 +342,23 @@ impl Statement {
         }
     }
 
-    /// Returns `true` if it is about rounded numbers of any precision.
+    /// Returns `true` if it concerns rounding to any precision.
     pub fn contains_rounding(&self) -> bool {
         self.rounds
     }
 
-    /// Returns `true` if a formula contains eˣ, which rationals do not have.
+    /// Returns `true` if a formula contains eˣ, which rationals cannot compute.
     pub fn contains_exponential(&self) -> bool {
-        self.formulas().any(|tree| tree.any(&|tree| matches!(tree.step(), Step::Exp(_))))
+        self.formulas().any(|tree| tree.any(&|tree| matches!(tree.op(), Op::Exp(_))))
     }
 
-    /// Returns all hypotheses: also the invariants, and the intervals of computed quantities.
+    /// Returns all hypotheses, including the invariants and the intervals of computed quantities.
     pub fn all_hypotheses(&self) -> impl Iterator<Item = &Hypothesis> + Clone {
         let computed = self.computed.iter().map(|computed| &computed.hypothesis);
         self.hypotheses.iter().chain(&self.invariants).chain(computed)
     }
 
-    /// Returns the hypotheses that a goal in this place may use.
+    /// Returns the hypotheses that a goal with this role may use.
     pub fn hypotheses_for(&self, role: Role) -> Vec<&Hypothesis> {
         let uses_invariants = matches!(role, Role::Computed(_) | Role::Step | Role::InvariantStep);
         let computed = match role {
@@ -372,7 +377,7 @@ impl Statement {
         hypotheses.chain(self.goals.iter().flat_map(|goal| goal.proposition.trees()))
     }
 
-    /// Returns the formulas that are stated, except for those of the hypotheses.
+    /// Returns the formulas of the statement without those of the hypotheses.
     fn formulas(&self) -> impl Iterator<Item = &Tree> {
         let (propositions, sequence) = match &self.form {
             Form::Propositions(all) => (&all[..], None),
@@ -384,13 +389,14 @@ impl Statement {
     }
 }
 
-/// Returns the hypothesis that numbers have 2 bits or more, which holds wherever formulas round.
+/// Returns the hypothesis that the precision is at least 2 bits, which holds wherever formulas contain
+/// roundings.
 pub fn minimum_precision() -> Hypothesis {
     Hypothesis::new(Relation::NonNegative, Tree::symbol(PRECISION) - Tree::from(4))
 }
 
 impl Goal {
-    /// A part of what is claimed.
+    /// Returns a goal with the role of a claim.
     pub fn of_claim(part: &'static str, proposition: Proposition) -> Self {
         Goal { part, role: Role::Claim, proposition }
     }

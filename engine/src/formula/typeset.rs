@@ -1,8 +1,8 @@
-//! How a formula is written: one layout for the eye, in two notations.
+//! Typesetting of formulas: one layout with two notations.
 //!
-//! The layout says what a formula says and keeps its order, but not its every step: sums and products are
-//! flat, signs stand in front of products and numbers at their head, equal factors are a power, and a factor
-//! 1 or a summand 0 is not written. Brackets are where they are needed and nowhere else.
+//! The layout preserves the meaning and the order of a formula, but not every operation: sums and products
+//! are flat, signs stand in front of products and numbers at their head, equal factors form a power, and a
+//! factor 1 or a summand 0 is omitted. Brackets occur only where they are needed.
 
 mod latex;
 mod rounding;
@@ -12,10 +12,10 @@ pub(crate) use rounding::name_of_rounding;
 
 use self::latex::{script, superscript};
 use crate::number::Tree;
-use crate::number::tree::Step;
+use crate::number::tree::Op;
 use std::fmt;
 
-/// How symbols and structure become characters.
+/// Output notation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Notation {
     /// `u = (ε (H − l) + m g) / (c + ε)`
@@ -24,20 +24,22 @@ pub enum Notation {
     Latex,
 }
 
-/// What a part of a formula is called, if it is to be named instead of written out.
+/// Abbreviation of a subformula.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Name {
-    /// Its symbol, as a text writes it: `Π`, `u_{k−1}`, `λ₀`.
+    /// Symbol in plain text: `Π`, `u_{k−1}`, `λ₀`.
     pub symbol: String,
-    /// What it is taken of, where that has to be said: the Δ of `Π(Δ)`.
+    /// Displayed arguments, such as the Δ of `Π(Δ)`.
     pub arguments: Vec<Tree>,
 }
 
-/// The depth of a formula that is written out, at most.
+/// Largest depth of a formula that is written out.
 const MAX_DEPTH: u32 = 1000;
 
 impl Tree {
-    /// The formula in LaTeX.
+    /// Returns the formula in LaTeX.
+    ///
+    /// # Examples
     ///
     /// ```
     /// use provable::number::{Field, Tree};
@@ -48,8 +50,8 @@ impl Tree {
         self.typeset(Notation::Latex, &|_| None)
     }
 
-    /// The formula, with the parts that `name` knows by their names; its size if it is more than
-    /// 1000 operations deep, which nobody could read.
+    /// Formats the formula with the names that `name` returns for subformulas. Returns only its size if it is
+    /// more than 1000 operations deep.
     pub fn typeset(&self, notation: Notation, name: &dyn Fn(&Tree) -> Option<Name>) -> String {
         if self.depth() > MAX_DEPTH {
             return format!("a formula of {} operations and quantities", self.size());
@@ -58,7 +60,7 @@ impl Tree {
         Writer { notation, inline: notation == Notation::Text }.sum(&sum)
     }
 
-    /// The formula in plain text with something above it: `ρᵏ`, `(1 − c)ᵏ`.
+    /// Returns the formula in plain text with an exponent: `ρᵏ`, `(1 − c)ᵏ`.
     pub(crate) fn raised(&self, exponent: &str, name: &dyn Fn(&Tree) -> Option<Name>) -> String {
         let sum = Layout { name }.sum(self);
         let writer = Writer { notation: Notation::Text, inline: true };
@@ -76,17 +78,17 @@ impl Tree {
     }
 }
 
-/// The formula as plain text.
+/// Writes the formula in plain text.
 impl fmt::Display for Tree {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str(&self.typeset(Notation::Text, &|_| None))
     }
 }
 
-/// Terms to be added; never empty.
+/// Terms of a sum, at least one.
 type Sum = Vec<Term>;
 
-/// A product over another, with its sign.
+/// A quotient of products with its sign.
 #[derive(Clone, PartialEq)]
 struct Term {
     negative: bool,
@@ -176,7 +178,7 @@ impl Term {
         self.over.number == 0 && self.under.number != 0
     }
 
-    /// Its only factor, if it is nothing else.
+    /// Returns the factor if the product consists of one.
     fn only(&self) -> Option<&Factor> {
         match &self.over.factors[..] {
             [(factor, 1)] if self.over.number == 1 && self.under.is_one() => Some(factor),
@@ -185,15 +187,15 @@ impl Term {
     }
 }
 
-/// The x of −min(−x, x), which is |x|: what is negated.
+/// Returns the x of −min(−x, x), which is |x|; the argument is what is negated.
 fn size(negated: &Tree) -> Option<&Tree> {
-    match negated.step() {
-        Step::Min(y, x) if matches!(y.step(), Step::Neg(z) if z == x) => Some(x),
+    match negated.op() {
+        Op::Min(y, x) if matches!(y.op(), Op::Neg(z) if z == x) => Some(x),
         _ => None,
     }
 }
 
-/// Arranges what is to be written.
+/// Arranges a formula in sums and products.
 struct Layout<'a> {
     name: &'a dyn Fn(&Tree) -> Option<Name>,
 }
@@ -206,7 +208,7 @@ impl Layout<'_> {
             return vec![Term::over(Product::number(0))];
         }
         sum.retain(|term| !term.is_zero());
-        // −min(−a, b) reads better as max(a, −b).
+        // −min(−a, b) is more readable as max(a, −b).
         if let [term] = &mut sum[..]
             && term.negative
             && let Some(Factor::Extremum("min", [a, b])) = term.only()
@@ -219,13 +221,13 @@ impl Layout<'_> {
     }
 
     fn collect(&self, tree: &Tree, negative: bool, sum: &mut Sum) {
-        match tree.step() {
+        match tree.op() {
             _ if (self.name)(tree).is_some() => {}
-            Step::Add(a, b) => {
+            Op::Add(a, b) => {
                 self.collect(a, negative, sum);
                 return self.collect(b, negative, sum);
             }
-            Step::Sub(a, b) => {
+            Op::Sub(a, b) => {
                 self.collect(a, negative, sum);
                 return self.collect(b, !negative, sum);
             }
@@ -234,7 +236,7 @@ impl Layout<'_> {
         let mut term = self.term(tree);
         term.negative ^= negative;
         match term.only() {
-            // What is left of 1 (a + b).
+            // The remainder of 1 (a + b).
             Some(Factor::Group(inner)) => {
                 sum.extend(inner.iter().cloned().map(|t| Term { negative: t.negative ^ term.negative, ..t }))
             }
@@ -247,33 +249,33 @@ impl Layout<'_> {
             let arguments = arguments.iter().map(|argument| self.sum(argument)).collect();
             return Term::of(Factor::Name(symbol, arguments), 1);
         }
-        match tree.step() {
-            Step::Symbol(name) => Term::of(Factor::Name(name.to_string(), Vec::new()), 1),
-            Step::Int(n) => {
+        match tree.op() {
+            Op::Symbol(name) => Term::of(Factor::Name(name.to_string(), Vec::new()), 1),
+            Op::Int(n) => {
                 let number = Term::over(Product::number(n.unsigned_abs().into()));
                 Term { negative: *n < 0, ..number }
             }
-            Step::Neg(a) => match size(a) {
+            Op::Neg(a) => match size(a) {
                 Some(a) => Term::of(Factor::Size(self.sum(a)), 1),
                 None => self.term(a).negated(),
             },
-            Step::Add(..) | Step::Sub(..) => match <[Term; 1]>::try_from(self.sum(tree)) {
+            Op::Add(..) | Op::Sub(..) => match <[Term; 1]>::try_from(self.sum(tree)) {
                 Ok([term]) => term,
                 Err(sum) => Term::of(Factor::Group(sum), 1),
             },
-            Step::Mul(a, b) => {
+            Op::Mul(a, b) => {
                 let (first, second) = (self.term(a), self.term(b));
-                // The square of a product stays one: (m g)² and not m² g².
+                // The square of a product is kept: (m g)² and not m² g².
                 if a == b && first.over.pieces() + first.under.pieces() > 1 {
                     return Term::of(Factor::Group(vec![Term { negative: false, ..first }]), 2);
                 }
                 first.times(second)
             }
-            Step::Div(a, b) => self.term(a).times(self.term(b).inverse()),
-            Step::Exp(a) => Term::of(Factor::Exp(self.sum(a)), 1),
-            Step::PositivePart(a) => Term::of(Factor::PositivePart(self.sum(a)), 1),
-            Step::Min(a, b) => Term::of(Factor::Extremum("min", [self.sum(a), self.sum(b)]), 1),
-            Step::Rounded(of) => {
+            Op::Div(a, b) => self.term(a).times(self.term(b).inverse()),
+            Op::Exp(a) => Term::of(Factor::Exp(self.sum(a)), 1),
+            Op::PositivePart(a) => Term::of(Factor::PositivePart(self.sum(a)), 1),
+            Op::Min(a, b) => Term::of(Factor::Extremum("min", [self.sum(a), self.sum(b)]), 1),
+            Op::Rounded(of) => {
                 let (name, of) = rounding::brackets(of);
                 Term::of(Factor::Rounded(name, self.sum(&of)), 1)
             }
@@ -281,11 +283,11 @@ impl Layout<'_> {
     }
 }
 
-/// Writes what is arranged.
+/// Writes arranged sums and products.
 #[derive(Clone, Copy)]
 struct Writer {
     notation: Notation,
-    /// With a / b for fractions: in a line of text, and where LaTeX's would become too small.
+    /// Whether fractions are written as a / b: in plain text, and where those of LaTeX would be too small.
     inline: bool,
 }
 
@@ -328,11 +330,11 @@ impl Writer {
             let rest = Product { number: 1, factors: over.factors.clone() };
             return if rest.is_one() { number } else { format!("{number}\\,{}", self.product(&rest)) };
         }
-        format!("\\frac{{{}}}{{{}}}", self.small().whole(over), self.small().whole(under))
+        format!("\\frac{{{}}}{{{}}}", self.small().standalone(over), self.small().standalone(under))
     }
 
-    /// A product that stands by itself: a sum needs no brackets.
-    fn whole(self, product: &Product) -> String {
+    /// Writes a product that stands alone, so that a sum needs no brackets.
+    fn standalone(self, product: &Product) -> String {
         match &product.factors[..] {
             [(Factor::Group(sum), 1)] if product.number == 1 => self.sum(sum),
             _ => self.product(product),
@@ -342,9 +344,9 @@ impl Writer {
     fn product(self, product: &Product) -> String {
         let factors: Vec<_> =
             product.factors.iter().map(|(factor, power)| self.power(factor, *power)).collect();
-        // Unlike a number, letters want a little space between them.
+        // Letters are separated by a thin space.
         let factors = factors.join(if self.is_latex() { "\\," } else { " " });
-        // 5·2ᵖ, which is not to be read as 52ᵖ.
+        // 5·2ᵖ, which must not be read as 52ᵖ.
         let times = match factors.starts_with(|c: char| c.is_ascii_digit()) {
             true if self.is_latex() => " \\cdot ",
             true => "·",
@@ -357,10 +359,10 @@ impl Writer {
         }
     }
 
-    /// A factor below an exponent.
+    /// Writes a factor with an exponent.
     fn base(self, factor: &Factor) -> String {
         let base = self.factor(factor);
-        // A base that has an exponent of its own.
+        // A base with an exponent of its own needs brackets.
         let raised = match factor {
             Factor::Name(symbol, _) => {
                 symbol.contains('^') || symbol.chars().any(|c| superscript(c).is_some())
@@ -416,7 +418,7 @@ impl Writer {
         self.brackets("(", ")", &sums.join(", "))
     }
 
-    /// Brackets that are as high as what they hold.
+    /// Writes brackets as high as their content.
     fn brackets(self, open: &str, close: &str, inner: &str) -> String {
         if inner.contains("\\frac") {
             format!("\\left{open}{inner}\\right{}", close.trim_start())

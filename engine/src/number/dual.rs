@@ -1,14 +1,17 @@
-//! A value and its derivative.
+//! Values with derivatives.
 
 use super::{Ball, Exponential, Field, OrderedField, PositivePart, Real};
 use crate::operators;
 use num_traits::{One, Zero};
 use std::cmp::Ordering;
 
-/// A value and its derivative with respect to one variable: a formula read in dual numbers differentiates
-/// itself.
+/// A value and its derivative with respect to one variable. A formula evaluated in dual numbers
+/// differentiates itself.
 ///
-/// Over rationals the derivative is exact, over balls it carries its bound, over duals it is the second.
+/// The derivative is exact over rationals, carries its bound over balls, and over dual numbers it is the
+/// second derivative.
+///
+/// # Examples
 ///
 /// ```
 /// use provable::number::Dual;
@@ -16,17 +19,16 @@ use std::cmp::Ordering;
 /// let power = |i: Dual<f64>| Dual::constant(2.0) * &i * &i;
 /// assert_eq!(power(Dual::variable(3.0)), Dual { value: 18.0, derivative: 12.0 });
 /// ```
-///
 /// # Order, and the derivative at a kink
+/// Two dual numbers are equal if their values and derivatives are. They compare by their values; if these are
+/// equal, by their derivatives, which is the order immediately to the right of the point. So ⟨·⟩, min and |·|
+/// have the *right-hand* derivative: at 0 that of ⟨x⟩ is 1 and that of ⟨−x⟩ is 0, and the minimum of two
+/// equal numbers is the one that increases less. Without a kink it is the derivative. Unlike an element of
+/// the subdifferential it satisfies the chain rule at a kink: ⟨x⟩ − ⟨−x⟩ has the derivative of x. The
+/// left-hand derivative is minus that of a decreasing variable, `Dual { value, derivative: −1 }`. Floats
+/// round before they compare, so close to a kink they may be on its other side.
 ///
-/// Two duals are equal if value and derivative are, and compare by their values; where these are equal, by
-/// their derivatives. That is their order a little to the right of where they stand, where the variable has
-/// grown by less than any number. So ⟨·⟩, min and |·| have the derivative *to the right*, the one-sided one:
-/// at 0 that of ⟨x⟩ is 1, of ⟨−x⟩ it is 0, and of two equal numbers min takes the one that grows less. Where
-/// there is no kink it is the derivative. Unlike an element of the subdifferential it obeys the chain rule
-/// at a kink, too: ⟨x⟩ − ⟨−x⟩ has the derivative of x. That to the left is minus that of a variable which
-/// falls, `Dual { value, derivative: −1 }`. Floats round before they compare: next to a kink they may be on
-/// its other side.
+/// # Examples
 ///
 /// ```
 /// use provable::number::{Dual, PositivePart};
@@ -38,29 +40,28 @@ use std::cmp::Ordering;
 /// // To the left of the threshold nothing changes.
 /// assert_eq!(-slope(1.0, -1.0), 0.0);
 /// ```
-///
-/// The order goes with sums, and a product of two numbers > 0 is never < 0; but it can be 0, since
-/// (0 + 1·ω)² is.
+/// The order is compatible with sums, and a product of two positive numbers is never negative; but it can be
+/// 0, as (0 + 1·ω)² is.
 #[derive(Clone, Debug, PartialEq, PartialOrd)]
 pub struct Dual<T> {
     /// The value.
     pub value: T,
-    /// Its derivative.
+    /// The derivative.
     pub derivative: T,
 }
 
 impl<T: Field> Dual<T> {
-    /// A number that does not depend on the variable.
+    /// Returns a number that does not depend on the variable.
     pub fn constant(value: T) -> Self {
         Dual { value, derivative: T::zero() }
     }
 
-    /// The variable itself.
+    /// Returns the variable.
     pub fn variable(value: T) -> Self {
         Dual { value, derivative: T::one() }
     }
 
-    /// A coordinate: the variable if it varies, and else a constant.
+    /// Returns the variable if `varies`, and a constant otherwise.
     pub fn coordinate(value: T, varies: bool) -> Self {
         if varies { Dual::variable(value) } else { Dual::constant(value) }
     }
@@ -98,8 +99,8 @@ impl<T: Field> Field for Dual<T> {
     fn int(n: i32) -> Self {
         Dual::constant(T::int(n))
     }
-    fn is_unit(&self) -> bool {
-        self.value.is_unit()
+    fn is_invertible(&self) -> bool {
+        self.value.is_invertible()
     }
 }
 impl<T: Exponential> Exponential for Dual<T> {
@@ -119,7 +120,7 @@ impl<T: OrderedField> PositivePart for Dual<T> {
 }
 impl<T: OrderedField> OrderedField for Dual<T> {}
 
-/// Where a ball leaves open on which side of a kink it is, the derivative has those of both sides in it.
+/// If a ball contains a kink, the derivative contains those on both sides.
 impl<T: Real> PositivePart for Dual<Ball<T>> {
     fn positive_part(&self) -> Self {
         Dual {

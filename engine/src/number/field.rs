@@ -1,34 +1,32 @@
-//! What a formula asks of the numbers it is read in.
+//! Traits of the numbers that formulas are evaluated in.
 //!
-//! | trait | adds | so that one can write |
+//! | trait | adds | for |
 //! |---|---|---|
 //! | [`Field`] | `+ − × ÷`, zero, one, small integers | identities |
-//! | [`PositivePart`] | ⟨x⟩ = max(x, 0), min and \|x\| | what holds on one side only |
+//! | [`PositivePart`] | ⟨x⟩ = max(x, 0), min and \|x\| | unilateral conditions |
 //! | [`Exponential`] | eˣ | growth and decay |
-//! | [`OrderedField`] | `<` | stop tests, searches |
+//! | [`OrderedField`] | `<` | stopping criteria, searches |
 //! | [`Real`] | rounding | error bounds |
-//! | [`Logarithm`] | ln | what floats alone can do |
+//! | [`Logarithm`] | ln | floats only |
 //!
-//! # The one clever thing here
+//! # Operators on references
+//! A formula should read like the book, `(eps * (h - l) + m * g) / (c + eps)`, both for numbers that are
+//! cheap to copy and for numbers that are not. So every operator has to exist in four forms, with each
+//! operand owned or borrowed. In Rust a trait implies its bounds on `Self`, but a bound on `&'r Self` in a
+//! `where` clause has to be repeated by every function that uses the trait. Only bounds on `Self` *and on its
+//! associated types* are implied. Therefore the trait [`Imply<X>`] holds for every type and has an associated
+//! type `Is` that equals `X`. `Field: Imply<&'r Self, Is: Add<…>>` is a bound on an associated type of
+//! `Self`, and therefore implied; since `Is` *is* `&'r Self`, it has the effect of the `where` clause. This
+//! takes two traits, because the equality `Is = X` is implied only in the header of a supertrait.
 //!
-//! A formula should read like the book, `(eps * (h - l) + m * g) / (c + eps)`, for numbers that are
-//! cheap to copy and for numbers that are not. So every operator has to exist in four forms, each
-//! operand owned or borrowed. Rust lets a trait imply what it says of `Self`, but what it says of
-//! `&'r Self` in a `where` clause has to be repeated by every function that uses the trait. Only
-//! bounds on `Self` *and on its associated types* are implied. Hence a detour: [`Imply<X>`] is true
-//! of every type and has an associated type `Is` that equals `X`. `Field: Imply<&'r Self, Is: Add<…>>`
-//! is a bound on an associated type of `Self`, and therefore implied; since `Is` *is* `&'r Self`,
-//! it says what the `where` clause would have said. The detour takes two traits, because the
-//! equality `Is = X` is implied too only where it stands in a supertrait's header.
-//! (It works for type parameters, `T: Field`. An associated type cannot be bounded by `Field` itself,
-//! but by a trait that has it as a supertrait, such as [`PositivePart`]. The language's side of it is the
-//! long-standing issue rust-lang/rust#44491.)
+//! (It works for type parameters, `T: Field`. An associated type cannot be bounded by `Field` itself, but by
+//! a trait that has it as a supertrait, such as [`PositivePart`]. The limitation of the language is issue
+//! rust-lang/rust#44491.)
 //!
 //! # Your own number system
-//!
-//! A newtype, its operators from references by [`operators!`](crate::operators), `Zero`, `One` and
-//! one line of `Field`; then every formula runs on it. Here it is the integers
-//! modulo 7, in which 1/3 = 5:
+//! A number system is a newtype with its operators on references by [`operators!`](crate::operators), `Zero`,
+//! `One` and one line of `Field`; every formula then runs on it. This example is the integers modulo 7, in
+//! which 1/3 = 5:
 //!
 //! ```
 //! use num_traits::{One, Zero};
@@ -63,18 +61,18 @@
 //! assert_eq!(Mod7(1) / r, Mod7(1) / a + Mod7(1) / b);
 //! ```
 
-use super::tree::Step;
+use super::tree::Op;
 use num_traits::{One, Zero};
 use std::{
     fmt::Debug,
     ops::{Add, Div, Mul, Neg, Sub},
 };
 
-/// Names the type `T` from the header of a trait, so that its bounds come along with the trait.
+/// Names the type `T` in the header of a trait, so that its bounds are implied by the trait.
 pub trait Imply<T>: ImplyInner<T, Is = T> {}
 impl<S: ?Sized, T> Imply<T> for S {}
 
-/// The half of [`Imply`] that holds the type.
+/// The supertrait of [`Imply`] that holds the type.
 pub trait ImplyInner<T> {
     /// `T` itself.
     type Is;
@@ -83,12 +81,12 @@ impl<S: ?Sized, T> ImplyInner<T> for S {
     type Is = T;
 }
 
-/// Numbers with `+ − × ÷`: enough for identities.
+/// Numbers with `+ − × ÷`, which suffice for identities.
 ///
-/// Each operator takes its operands owned or borrowed, in all four combinations, and the result does
-/// not depend on which. How exact the operations are is the number system's own business: rationals
-/// are, floats round each to nearest, balls say how far off they may be. `Debug` shows every bit: that is how
-/// tests tell two results apart that are equal.
+/// Each operator takes its operands owned or borrowed, in all four combinations, and the result does not
+/// depend on which. The exactness of the operations is that of the number system: rationals are exact, floats
+/// round each result to nearest, balls bound the error. `Debug` shows every bit, so that tests can
+/// distinguish results that compare equal.
 #[rustfmt::skip]
 pub trait Field:
     Clone + Debug + PartialEq + Zero + One
@@ -102,39 +100,39 @@ pub trait Field:
         + Add<Self, Output = Self> + Sub<Self, Output = Self>
         + Mul<Self, Output = Self> + Div<Self, Output = Self>>
 {
-    /// A small integer, exactly: at least those up to 2²⁴ in size, which f32 holds. A format with fewer
-    /// digits has exact constants besides, as [`Mpfr`](crate::number::Mpfr) has.
+    /// Returns a small integer exactly, at least for |n| ≤ 2²⁴, which f32 can represent. A format with fewer
+    /// digits needs exact constants like those of [`Mpfr`](crate::number::Mpfr).
     fn int(n: i32) -> Self;
 
-    /// May one divide by it? Not the same as `!is_zero()`: the dual number 0 + 1·ω is not zero, and
-    /// yet nothing can be divided by it; nor by a ball that contains zero.
-    fn is_unit(&self) -> bool {
+    /// Returns `true` if `self` is invertible. This differs from `!is_zero()`: neither the dual number 0 +
+    /// 1·ω nor a ball that contains zero is invertible.
+    fn is_invertible(&self) -> bool {
         !self.is_zero()
     }
 
-    /// Are operations so dear, and is so much gained by [`assign`](Self::assign), that a loop had better be
-    /// run from its record, in rounds that use their memory again?
+    /// Whether loops should reuse storage through [`assign_op`](Self::assign_op); set it for types whose
+    /// operations allocate.
     const IN_PLACE: bool = false;
 
-    /// Puts what a step of arithmetic comes to, bit for bit, where another number was, whose memory may
-    /// serve again. Of the steps that not every field has it does nothing and says `false`.
-    fn assign(&mut self, step: Step<&Self>) -> bool {
+    /// Replaces `self` by the result of an arithmetic operation, bit for bit, and may reuse its memory.
+    /// Returns `false` without a change for an operation that not every field has.
+    fn assign_op(&mut self, step: Op<&Self>) -> bool {
         step.arithmetic().map(|result| *self = result).is_some()
     }
 }
 
-/// Numbers with ⟨x⟩ = max(x, 0) and min: what holds on one side only.
+/// Numbers with ⟨x⟩ = max(x, 0) and min, for unilateral conditions.
 ///
-/// These are methods and not comparisons in the formulas, since not everything a formula is read in
-/// can always decide a sign: a ball around zero cannot.
+/// These are methods because not every number system can decide a comparison: a ball that contains zero
+/// cannot.
 pub trait PositivePart: Field {
-    /// ⟨x⟩ = max(x, 0). Exact.
+    /// Returns ⟨x⟩ = max(x, 0), exactly.
     fn positive_part(&self) -> Self;
 
-    /// The smaller of two numbers. Exact.
+    /// Returns the smaller of two numbers, exactly.
     fn min(&self, other: &Self) -> Self;
 
-    /// |x|, the larger of x and −x. Exact.
+    /// Returns |x|, exactly.
     fn abs(&self) -> Self {
         -(-self).min(self)
     }
@@ -142,71 +140,71 @@ pub trait PositivePart: Field {
 
 /// Numbers with eˣ.
 ///
-/// Without the feature `mpfr` f32 and f64 are none: correctly rounded functions come from MPFR.
+/// f32 and f64 implement it with the feature `mpfr`, since correctly rounded functions come from MPFR.
 pub trait Exponential: Field {
-    /// eˣ, correctly rounded on floats.
+    /// Returns eˣ, correctly rounded for floats.
     fn exp(&self) -> Self;
 }
 
-/// Numbers that can be compared.
+/// Numbers with an order.
 pub trait OrderedField: PositivePart + PartialOrd {}
 
 /// Floating-point numbers: f32, f64 and [`Mpfr`](super::Mpfr). Every operation rounds to nearest.
 pub trait Real: OrderedField {
-    /// η, the unit roundoff at the precision of this value: 2⁻²⁴, 2⁻⁵³, or 2⁻ᵖ for p bits (0 for a
-    /// constant, which is exact).
+    /// Returns the unit roundoff η at the precision of this value: 2⁻²⁴, 2⁻⁵³, or 2⁻ᵖ for p bits; 0 for an
+    /// exact constant.
     fn unit_roundoff(&self) -> Self;
 
-    /// The smallest positive number, where results are rounded to multiples of it; 0 where the range
-    /// of exponents has no end.
-    fn underflow_unit() -> Self;
+    /// Returns the smallest positive number, of which subnormal results are multiples; 0 if the range of
+    /// exponents is unlimited.
+    fn min_subnormal() -> Self;
 
-    /// Neither infinite nor not-a-number.
+    /// Returns `true` if the number is neither infinite nor NaN.
     fn is_finite(&self) -> bool;
 
-    /// +∞, the radius of a ball about which nothing is known.
+    /// Returns +∞, the radius of a ball about which nothing is known.
     fn infinity() -> Self;
 
-    /// The next larger number of the same precision.
+    /// Returns the next larger number of the same precision.
     fn next_up(self) -> Self;
 
-    /// The next smaller number of the same precision.
+    /// Returns the next smaller number of the same precision.
     fn next_down(self) -> Self {
         -(-self).next_up()
     }
 
-    /// Half a unit in the last place, or more: no operation that rounds to this result, above the
-    /// subnormal numbers, errs by more. 0 for 0, which no sum that is not 0 rounds to; not finite where the
-    /// result is not.
+    /// Returns half a unit in the last place or slightly more: an upper bound of the error of an operation
+    /// that rounds to this result, above the subnormal numbers. 0 for 0, to which only a zero sum rounds; not
+    /// finite if the result is not.
     fn half_ulp(&self) -> Self {
-        // η|x|; when that is rounded it is no less, for where half an ulp is no float, no sum is rounded.
+        // η|x|. Its own rounding does not decrease it: if half an ulp is not a float, no sum is rounded.
         self.magnitude() * self.unit_roundoff()
     }
 
-    /// An upper bound of |x|, in few digits if x has very many: what the radius of a ball is made of.
+    /// Returns an upper bound of |x| with few digits if x has very many; it is used for radii of balls.
     fn magnitude(&self) -> Self {
         self.abs()
     }
 
-    /// A number ≥ 0, and a little more: no less than what it would have been without rounding, after up to
-    /// ten operations that took η of their results, in parts of them. This η is that of
-    /// [magnitudes](Real::magnitude). 0 stays 0.
-    fn enlarged(self) -> Self;
+    /// Returns a slightly larger number for x ≥ 0: at least the exact result of up to ten operations, each of
+    /// which decreased its result by η relative to itself, where η is that of [magnitudes](Real::magnitude).
+    /// 0 stays 0.
+    fn inflated(self) -> Self;
 }
 
-/// Floating-point numbers with ln; as with [`Exponential`], f32 and f64 have it with the feature `mpfr`.
+/// Floating-point numbers with ln. f32 and f64 implement it with the feature `mpfr`.
 pub trait Logarithm: Real {
-    /// ln x, correctly rounded; x > 0.
+    /// Returns ln x, correctly rounded; x > 0.
     fn ln(&self) -> Self;
 
-    /// ln(1 + x), correctly rounded and accurate for small x; x > −1.
+    /// Returns ln(1 + x), correctly rounded and accurate for small x; x > −1.
     fn ln_1p(&self) -> Self;
 }
 
-/// Writes the operators of a number system from their forms on references, each in the four
-/// combinations of owned and borrowed operands that [`Field`] asks for.
+/// Implements the operators of a number system from their forms on references, in the four combinations of
+/// owned and borrowed operands that [`Field`] requires.
 ///
-/// First attributes for the operators' functions, if any, and the generics in brackets, then the type, then
+/// The arguments are attributes of the operators' functions, if any, the generics in brackets, the type, and
 /// the five operators. See the [recipe](self#your-own-number-system).
 #[macro_export]
 macro_rules! operators {
@@ -259,7 +257,7 @@ macro_rules! operators {
     };
 }
 
-/// ⟨x⟩, min and |x| for numbers that compare.
+/// Implements ⟨x⟩, min and |x| for numbers with an order.
 macro_rules! ordered {
     ($($type:ty),*) => {$(
         impl PositivePart for $type {
@@ -296,7 +294,7 @@ macro_rules! machine_float {
                 $float::EPSILON / 2.0
             }
             #[inline]
-            fn underflow_unit() -> Self {
+            fn min_subnormal() -> Self {
                 $float::from_bits(1)
             }
             #[inline]
@@ -316,8 +314,8 @@ macro_rules! machine_float {
                 $float::abs(*self)
             }
             #[inline]
-            fn enlarged(self) -> Self {
-                // By 12 η, of which the product may lose one.
+            fn inflated(self) -> Self {
+                // Multiplies by 1 + 12 η; the product may lose one η.
                 self * (1.0 + 6.0 * $float::EPSILON)
             }
         }

@@ -1,18 +1,21 @@
-//! Number systems: what a formula can be read in.
+//! Number systems.
 //!
-//! | number | what it is | when to use it |
+//! | number | meaning | purpose |
 //! |---|---|---|
-//! | `f32`, `f64` | the machine's floats | to compute |
+//! | `f32`, `f64` | machine floats | computation |
 #![cfg_attr(
     feature = "mpfr",
-    doc = "| [`Mpfr`] | a float of 2 to 1 000 000 bits, chosen at run time | to compute to more digits |"
+    doc = "| [`Mpfr`] | a float of 2 to 1 000 000 bits, chosen at run time | high precision |"
 )]
-#![cfg_attr(feature = "mpfr", doc = "| [`Exact`] | a rational number | to know; the oracle of every test |")]
-//! | [`Ball<T>`] | a float and a bound of its error | to know how far a float is off |
-//! | [`Dual<T>`] | a value and its derivative, over any of the others | to differentiate a formula |
-//! | [`Tree`] | the formula itself, step by step | to prove it, print it, change it |
+#![cfg_attr(
+    feature = "mpfr",
+    doc = "| [`Exact`] | a rational number | exact results, the reference of every test |"
+)]
+//! | [`Ball<T>`] | a float with an error bound | rounding errors |
+//! | [`Dual<T>`] | a value with its derivative, over any other number system | differentiation |
+//! | [`Tree`] | the recorded formula | proofs, printing, mutation |
 //!
-//! The traits they share, and how to add a number system of your own: [`field`].
+//! The module [`field`] contains their traits and explains how to add a number system.
 
 mod ball;
 mod dual;
@@ -27,7 +30,7 @@ pub use dual::Dual;
 pub use field::{Exponential, Field, Logarithm, OrderedField, PositivePart, Real};
 #[cfg(feature = "mpfr")]
 pub use gmp::*;
-pub use program::{Program, Rounds};
+pub use program::{Program, SpecializedProgram};
 pub use tree::{Tree, symbols};
 
 #[cfg(feature = "serde")]

@@ -1,11 +1,13 @@
-//! Many formulas at once.
+//! Compiled programs of several formulas.
 
-use super::tree::Step;
+use super::tree::Op;
 use super::{Field, Tree};
 use std::collections::HashMap;
 
-/// Formulas compiled to a list of steps, in which what they have in common stands once: R or ρ is computed
-/// once, however many formulas speak of it.
+/// Formulas compiled to a list of operations that contains common subformulas once: R or ρ is computed once
+/// for all formulas.
+///
+/// # Examples
 ///
 /// ```
 /// use num_traits::One;
@@ -20,15 +22,15 @@ use std::collections::HashMap;
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Program {
-    /// Each after its operands, which are named by their places.
-    steps: Vec<Step<usize>>,
-    places: HashMap<Step<usize>, usize>,
+    /// Operations after their operands, which are indices.
+    steps: Vec<Op<usize>>,
+    places: HashMap<Op<usize>, usize>,
 }
 
 impl Program {
-    /// Takes in a formula, and says at which place its value will be.
+    /// Adds a formula and returns the index of its value.
     pub fn add(&mut self, formula: &Tree) -> usize {
-        let step = formula.step().map(|operand| self.add(operand));
+        let step = formula.op().map(|operand| self.add(operand));
         let next = self.steps.len();
         *self.places.entry(step).or_insert_with(|| {
             self.steps.push(step);
@@ -36,136 +38,138 @@ impl Program {
         })
     }
 
-    /// Its steps, each after its operands, which are named by their places.
-    pub fn steps(&self) -> &[Step<usize>] {
+    /// Returns the operations, each after its operands, which are indices.
+    pub fn ops(&self) -> &[Op<usize>] {
         &self.steps
     }
 
-    /// How many steps it has.
+    /// Returns the number of operations.
     pub fn len(&self) -> usize {
         self.steps.len()
     }
 
-    /// Has it none?
+    /// Returns `true` if there are no operations.
     pub fn is_empty(&self) -> bool {
         self.steps.is_empty()
     }
 
-    /// The value at each place: what [`Tree::replay`] would compute, bit for bit. How to divide, and eˣ,
-    /// ⟨·⟩ and min, is for `beyond` to say; where that has no answer, there is no value.
+    /// Returns the value at each index, bit for bit as [`Tree::eval`] computes it. `extra_ops` evaluates eˣ,
+    /// ⟨·⟩, min and division by a number that is not invertible; the value is `None` if it returns `None`.
     pub fn run<T: Field>(
         &self,
         symbol: &impl Fn(&'static str) -> T,
-        beyond: &impl Fn(Step<&T>) -> Option<T>,
+        extra_ops: &impl Fn(Op<&T>) -> Option<T>,
     ) -> Vec<Option<T>> {
         let mut values: Vec<Option<T>> = Vec::with_capacity(self.steps.len());
         for step in &self.steps {
             let operands = step.try_map(|place| values[*place].as_ref());
             values.push(operands.and_then(|step| match step {
-                Step::Symbol(name) => Some(symbol(name)),
-                Step::Div(..) => beyond(step),
-                step => step.arithmetic().or_else(|| beyond(step)),
+                Op::Symbol(name) => Some(symbol(name)),
+                Op::Div(..) => extra_ops(step),
+                step => step.arithmetic().or_else(|| extra_ops(step)),
             }));
         }
         values
     }
 
-    /// The program for many rounds, in which some quantities change and the others, those that `fixed`
-    /// knows, do not: what depends on these alone is computed here, once. `beyond` knows eˣ, ⟨·⟩ and min;
-    /// `None` if it has no answer. Division is the number system's own.
-    pub fn rounds<T: Field>(
+    /// Specialises the program for repeated runs in which the quantities that `fixed` returns stay the same:
+    /// subformulas of these alone are computed here, once. Returns `None` if `extra_ops` does, which
+    /// evaluates eˣ, ⟨·⟩ and min. Division is that of the number system.
+    pub fn specialize<T: Field>(
         &self,
         fixed: &impl Fn(&'static str) -> Option<T>,
-        beyond: &impl Fn(Step<&T>) -> Option<T>,
-    ) -> Option<Rounds<T>> {
+        extra_ops: &impl Fn(Op<&T>) -> Option<T>,
+    ) -> Option<SpecializedProgram<T>> {
         let (mut values, mut steps, mut vary) = (Vec::<T>::new(), Vec::new(), Vec::<bool>::new());
         for (place, step) in self.steps.iter().enumerate() {
             let mut value = T::zero();
-            let varies = if let Step::Symbol(name) = step {
+            let varies = if let Op::Symbol(name) = step {
                 fixed(name).map(|number| value = number).is_none()
             } else if step.operands().any(|operand| vary[*operand]) {
                 steps.push((place, *step));
                 true
             } else {
-                compute(&mut value, step.map(|operand| &values[*operand]), beyond)?;
+                compute(&mut value, step.map(|operand| &values[*operand]), extra_ops)?;
                 false
             };
             values.push(value);
             vary.push(varies);
         }
-        Some(Rounds { values, steps })
+        Some(SpecializedProgram { values, steps })
     }
 }
 
-/// A [`Program`] that is run again and again with other numbers for some of its quantities: a round computes
-/// what depends on these and nothing else, in place where the number system can
-/// ([`Field::assign`]), and bit for bit what the functions compute.
+/// A [`Program`] that is run repeatedly with different values of some quantities. A run computes only what
+/// depends on these, in place if the number system can ([`Field::assign_op`]), with the same bits as the
+/// functions.
+///
+/// # Examples
 ///
 /// ```
 /// use provable::number::{Program, Tree};
 /// let [a, x] = ["a", "x"].map(|name| Tree::symbol(name));
 /// let mut program = Program::default();
 /// let [place, result] = [&x, &((&a + &a) * &x)].map(|formula| program.add(formula));
-/// let beyond = |_: provable::number::tree::Step<&f64>| None;
-/// let mut rounds = program.rounds(&|name| (name == "a").then_some(2.0), &beyond).unwrap();
+/// let extra_ops = |_: provable::number::tree::Op<&f64>| None;
+/// let mut rounds = program.specialize(&|name| (name == "a").then_some(2.0), &extra_ops).unwrap();
 /// assert_eq!(rounds.len(), 1); // a + a is known
 /// for x in [1.0, 10.0] {
 ///     rounds.replace(place, x);
-///     rounds.run(&beyond);
+///     rounds.run(&extra_ops);
 ///     assert_eq!(rounds[result], 4.0 * x);
 /// }
 /// ```
 #[derive(Clone, Debug)]
-pub struct Rounds<T> {
+pub struct SpecializedProgram<T> {
     values: Vec<T>,
-    /// What a round computes, and at which place.
-    steps: Vec<(usize, Step<usize>)>,
+    /// Operations of a run with the indices of their results.
+    steps: Vec<(usize, Op<usize>)>,
 }
 
-impl<T: Field> Rounds<T> {
-    /// Puts another number at a place, and returns the one that was there. At that of a quantity it stays
-    /// until it is replaced; elsewhere it only lends its memory to what is computed there next.
+impl<T: Field> SpecializedProgram<T> {
+    /// Stores a number at an index and returns the previous one. At the index of a quantity it stays until it
+    /// is replaced; elsewhere only its memory is reused for the next result.
     pub fn replace(&mut self, place: usize, value: T) -> T {
         std::mem::replace(&mut self.values[place], value)
     }
 
-    /// Takes the number at a place out. The place is empty until it is filled or computed again.
+    /// Removes and returns the number at an index, which stays empty until it is replaced or computed again.
     pub fn take(&mut self, place: usize) -> T {
         let value = &mut self.values[place];
         std::mem::replace(value, T::zero())
     }
 
-    /// Computes what depends on the quantities that change; `None` if `beyond` has no answer.
-    pub fn run(&mut self, beyond: &impl Fn(Step<&T>) -> Option<T>) -> Option<()> {
+    /// Computes what depends on the varying quantities; returns `None` if `extra_ops` does.
+    pub fn run(&mut self, extra_ops: &impl Fn(Op<&T>) -> Option<T>) -> Option<()> {
         for (place, step) in &self.steps {
-            // Every step stands after its operands.
+            // Every operation stands after its operands.
             let (before, rest) = self.values.split_at_mut(*place);
-            compute(&mut rest[0], step.map(|operand| &before[*operand]), beyond)?;
+            compute(&mut rest[0], step.map(|operand| &before[*operand]), extra_ops)?;
         }
         Some(())
     }
 
-    /// How many steps a round has.
+    /// Returns the number of operations of a run.
     pub fn len(&self) -> usize {
         self.steps.len()
     }
 
-    /// Has it none?
+    /// Returns `true` if a run has no operations.
     pub fn is_empty(&self) -> bool {
         self.steps.is_empty()
     }
 }
 
-impl<T> std::ops::Index<usize> for Rounds<T> {
+impl<T> std::ops::Index<usize> for SpecializedProgram<T> {
     type Output = T;
     fn index(&self, place: usize) -> &T {
         &self.values[place]
     }
 }
 
-fn compute<T: Field>(result: &mut T, step: Step<&T>, beyond: &impl Fn(Step<&T>) -> Option<T>) -> Option<()> {
-    if !result.assign(step) {
-        *result = beyond(step)?;
+fn compute<T: Field>(result: &mut T, step: Op<&T>, extra_ops: &impl Fn(Op<&T>) -> Option<T>) -> Option<()> {
+    if !result.assign_op(step) {
+        *result = extra_ops(step)?;
     }
     Some(())
 }
@@ -183,7 +187,7 @@ mod tests {
         assert!(!program.is_empty() && program.len() == 5);
         let rounds = |fixed: &[&str]| {
             let number = |name| fixed.contains(&name).then_some(2.0);
-            program.rounds(&number, &|_| None).unwrap()
+            program.specialize(&number, &|_| None).unwrap()
         };
         assert!(rounds(&["a", "x"]).is_empty());
         let two = rounds(&["a"]);

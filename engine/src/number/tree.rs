@@ -1,8 +1,8 @@
-//! What a formula does, step by step: the reading that all readings without numbers start from.
+//! Recorded formulas, which are the source of proofs, printing and mutation.
 
-mod step;
+mod op;
 
-pub use step::{Site, Step, everything, piecewise, smooth};
+pub use op::{Op, Site, all_ops, piecewise_ops, smooth_ops};
 
 use super::{Dual, Exponential, Field, PositivePart};
 use crate::operators;
@@ -12,10 +12,12 @@ use std::mem;
 use std::panic::Location;
 use std::sync::Arc;
 
-/// A formula, recorded: read a generic function in trees, and its value *is* the function.
+/// A recorded formula: the value of a generic function that is called with trees.
 ///
-/// A tree can be replayed in any number system, be proved, printed, or changed at one place. Each step
-/// remembers the [`Site`] in the source that wrote it. Equality is of structure; sites do not count.
+/// A tree can be evaluated in any number system, proved about, printed, or mutated at one place. Each
+/// operation has the [`Site`] of the source that performed it. Equality is structural and ignores sites.
+///
+/// # Examples
 ///
 /// ```
 /// use provable::number::{Field, Tree};
@@ -30,25 +32,25 @@ use std::sync::Arc;
 /// # #[cfg(feature = "prover")]
 /// assert_eq!(voltage.to_string(), "u − R i");
 /// let at = |name| if name == "u" { 5.0 } else { 2.0 };
-/// assert_eq!(voltage.replay(&at, &|_| None), Some(1.0));
+/// assert_eq!(voltage.eval(&at, &|_| None), Some(1.0));
 /// ```
 #[derive(Clone, Debug)]
 pub struct Tree(Arc<Node>);
 
 #[derive(Debug)]
 struct Node {
-    step: Step<Tree>,
+    step: Op<Tree>,
     site: Site,
     depth: u32,
     size: u32,
 }
 
-/// Formulas less deep than this are dropped by recursion.
+/// Depth below which a formula is dropped recursively.
 const SHALLOW: u32 = 500;
 
 impl Node {
     fn take_operands(&mut self) -> Vec<Tree> {
-        mem::replace(&mut self.step, Step::Int(0)).operands().cloned().collect()
+        mem::replace(&mut self.step, Op::Int(0)).operands().cloned().collect()
     }
 }
 
@@ -67,106 +69,110 @@ impl Drop for Node {
 }
 
 impl Tree {
-    /// A quantity.
+    /// Returns a quantity.
     #[track_caller]
     pub fn symbol(name: &'static str) -> Self {
-        node(Step::Symbol(name))
+        node(Op::Symbol(name))
     }
 
-    /// The number nearest to it in some precision, as one step more.
+    /// Returns fl(x), the number nearest to x in some precision, as a further operation.
     #[track_caller]
-    pub fn nearest(&self) -> Self {
-        node(Step::Rounded(self.clone()))
+    pub fn round(&self) -> Self {
+        node(Op::Rounded(self.clone()))
     }
 
-    /// The formula as a machine computes it: the result of every + − × ÷ and eˣ is rounded. What is taken
-    /// from what is there, a sign or one of two numbers, is exact.
+    /// Returns the formula as a machine computes it: the result of every + − × ÷ and eˣ is rounded. A change
+    /// of sign and the choice of one of two numbers are exact.
+    ///
+    /// # Examples
     ///
     /// ```
     /// use provable::number::Tree;
     /// let [l, u, h] = ["l", "u", "H"].map(|name| Tree::symbol(name));
-    /// let sum = (&l + &u).nearest();
-    /// assert_eq!((&l + &u - &h).rounded(), (sum - h).nearest());
+    /// let sum = (&l + &u).round();
+    /// assert_eq!((&l + &u - &h).with_rounding(), (sum - h).round());
     /// ```
-    pub fn rounded(&self) -> Self {
-        use Step::{Add, Div, Exp, Mul, Sub};
-        let rounds = |tree: &Tree| matches!(tree.step(), Add(..) | Sub(..) | Mul(..) | Div(..) | Exp(_));
-        // At the place of the step itself.
-        self.rewrite(&|tree| rounds(tree).then(|| tree.with_step(Step::Rounded(tree.clone()))))
+    pub fn with_rounding(&self) -> Self {
+        use Op::{Add, Div, Exp, Mul, Sub};
+        let rounds = |tree: &Tree| matches!(tree.op(), Add(..) | Sub(..) | Mul(..) | Div(..) | Exp(_));
+        // The rounding has the site of the operation itself.
+        self.rewrite(&|tree| rounds(tree).then(|| tree.with_op(Op::Rounded(tree.clone()))))
     }
 
-    /// Does it round?
-    pub fn rounds(&self) -> bool {
-        self.any(&|tree| matches!(tree.step(), Step::Rounded(_)))
+    /// Returns `true` if the formula contains fl(·).
+    pub fn contains_rounding(&self) -> bool {
+        self.any(&|tree| matches!(tree.op(), Op::Rounded(_)))
     }
 
-    /// The last step.
-    pub fn step(&self) -> &Step<Tree> {
+    /// Returns the last operation.
+    pub fn op(&self) -> &Op<Tree> {
         &self.0.step
     }
 
-    /// Where it is written.
+    /// Returns the place of the last operation in the source.
     pub fn site(&self) -> Site {
         self.0.site
     }
 
-    /// The number of operations between the last one and a quantity or number, at most: 0 for these.
+    /// Returns the largest number of operations between the last one and a quantity or number; 0 for these.
     pub fn depth(&self) -> u32 {
         self.0.depth
     }
 
-    /// The number of operations, quantities and numbers, as written out; `u32::MAX` stands for more.
+    /// Returns the number of operations, quantities and numbers of the formula written out, at most
+    /// `u32::MAX`.
     pub fn size(&self) -> u32 {
         self.0.size
     }
 
-    /// The formula in a number system, whose eˣ, ⟨·⟩, min and rounding are in `beyond` ([`piecewise`],
-    /// [`smooth`], [`everything`]); `None` where it lacks one, or where the formula divides by what is no
-    /// unit.
-    pub fn replay<T: Field>(
+    /// Evaluates the formula in a number system. `extra_ops` evaluates eˣ, ⟨·⟩, min and rounding
+    /// ([`piecewise_ops`], [`smooth_ops`], [`all_ops`]). Returns `None` if it does, or if a divisor is not
+    /// invertible.
+    pub fn eval<T: Field>(
         &self,
         symbol: &impl Fn(&'static str) -> T,
-        beyond: &impl Fn(Step<&T>) -> Option<T>,
+        extra_ops: &impl Fn(Op<&T>) -> Option<T>,
     ) -> Option<T> {
-        let operands = self.step().try_map(|operand| operand.replay(symbol, beyond))?;
-        operands.map(|operand| operand).value(symbol, beyond)
+        let operands = self.op().try_map(|operand| operand.eval(symbol, extra_ops))?;
+        operands.map(|operand| operand).value(symbol, extra_ops)
     }
 
-    /// The value of the formula and its derivative by one of its quantities; `None` as for
-    /// [`replay`](Self::replay).
+    /// Returns the value of the formula and its derivative with respect to a quantity; `None` as for
+    /// [`eval`](Self::eval).
     pub fn derivative<T: Field>(
         &self,
         by: &str,
         symbol: &impl Fn(&'static str) -> T,
-        beyond: &impl Fn(Step<&Dual<T>>) -> Option<Dual<T>>,
+        extra_ops: &impl Fn(Op<&Dual<T>>) -> Option<Dual<T>>,
     ) -> Option<Dual<T>> {
-        self.replay(&|name| Dual::coordinate(symbol(name), name == by), beyond)
+        self.eval(&|name| Dual::coordinate(symbol(name), name == by), extra_ops)
     }
 
-    /// The number for one of its quantities at which the formula, if it is linear in that quantity and the
-    /// others are as they are, has the value `target`; `None` if it does not depend on it, or has eˣ, ⟨·⟩
-    /// or min. What is rounded is taken as it is, so that the value may be off by as much.
-    pub fn solution<T: Field>(
+    /// Solves the formula = `target` for one quantity in which it is linear, with the other quantities given.
+    /// Returns `None` if the formula does not depend on the quantity, or contains eˣ, ⟨·⟩ or min. Roundings
+    /// are ignored, so the result has their error.
+    pub fn solve_linear<T: Field>(
         &self,
         by: &'static str,
         symbol: &impl Fn(&'static str) -> T,
         target: &T,
     ) -> Option<T> {
-        let beyond = |step: Step<&Dual<T>>| match step {
-            Step::Rounded(x) => Some(x.clone()),
+        let extra_ops = |step: Op<&Dual<T>>| match step {
+            Op::Rounded(x) => Some(x.clone()),
             _ => None,
         };
-        let Dual { value, derivative } = self.derivative(by, symbol, &beyond)?;
-        derivative.is_unit().then(|| symbol(by) + (target - value) / derivative)
+        let Dual { value, derivative } = self.derivative(by, symbol, &extra_ops)?;
+        derivative.is_invertible().then(|| symbol(by) + (target - value) / derivative)
     }
 
-    /// The tree rebuilt from its leaves: each step that `f` replaces, after its operands have been.
+    /// Rebuilds the tree from its leaves: `f` may replace each operation, after its operands have been
+    /// rebuilt.
     pub fn rewrite(&self, f: &impl Fn(&Tree) -> Option<Tree>) -> Tree {
         let mut rewritten: HashMap<_, Tree> = HashMap::new();
         for old in self.distinct() {
-            let step = old.step().map(|operand| rewritten[&operand.address()].clone());
-            let same = step.operands().zip(old.step().operands()).all(|(a, b)| a.address() == b.address());
-            let tree = if same { old.clone() } else { old.with_step(step) };
+            let step = old.op().map(|operand| rewritten[&operand.address()].clone());
+            let same = step.operands().zip(old.op().operands()).all(|(a, b)| a.address() == b.address());
+            let tree = if same { old.clone() } else { old.with_op(step) };
             rewritten.insert(old.address(), f(&tree).unwrap_or(tree));
         }
         rewritten.remove(&self.address()).expect("the last step is one of them")
@@ -176,7 +182,7 @@ impl Tree {
         Arc::as_ptr(&self.0)
     }
 
-    /// Its steps, each once however often it is shared, after its operands; those from left to right.
+    /// Returns each operation once, even if shared, after its operands, from left to right.
     fn distinct(&self) -> Vec<&Tree> {
         let (mut found, mut all, mut open) = (HashSet::new(), Vec::new(), vec![(self, false)]);
         while let Some((tree, operands_are_done)) = open.pop() {
@@ -185,67 +191,69 @@ impl Tree {
             } else if found.insert(tree.address()) {
                 open.push((tree, true));
                 let first = open.len();
-                open.extend(tree.step().operands().map(|operand| (operand, false)));
+                open.extend(tree.op().operands().map(|operand| (operand, false)));
                 open[first..].reverse();
             }
         }
         all
     }
 
-    /// The tree with other formulas in place of quantities.
-    pub fn with(&self, replaced: &[(&str, Tree)]) -> Tree {
-        self.rewrite(&|tree| match tree.step() {
-            Step::Symbol(name) => replaced.iter().find(|(own, _)| own == name).map(|(_, tree)| tree.clone()),
+    /// Substitutes formulas for quantities.
+    pub fn substitute(&self, replaced: &[(&str, Tree)]) -> Tree {
+        self.rewrite(&|tree| match tree.op() {
+            Op::Symbol(name) => replaced.iter().find(|(own, _)| own == name).map(|(_, tree)| tree.clone()),
             _ => None,
         })
     }
 
-    /// The tree with its last step replaced by another, at the same place in the source.
-    pub fn with_step(&self, step: Step<Tree>) -> Tree {
+    /// Returns the tree with another last operation at the same place of the source.
+    pub fn with_op(&self, step: Op<Tree>) -> Tree {
         Tree::at(self.0.site, step)
     }
 
-    fn at(site: Site, step: Step<Tree>) -> Tree {
+    fn at(site: Site, step: Op<Tree>) -> Tree {
         let depth = step.operands().map(|operand| operand.depth().saturating_add(1)).max().unwrap_or(0);
         let size = step.operands().fold(1, |sum: u32, operand| sum.saturating_add(operand.size()));
         Tree(Arc::new(Node { step, site, depth, size }))
     }
 
-    /// Calls `f` for every step, the last first.
+    /// Calls `f` for every operation, the last first.
     pub fn visit<'a>(&'a self, f: &mut impl FnMut(&'a Tree)) {
         let mut open = vec![self];
         while let Some(tree) = open.pop() {
             f(tree);
             let first = open.len();
-            open.extend(tree.step().operands());
+            open.extend(tree.op().operands());
             open[first..].reverse();
         }
     }
 
-    /// The first of its quantities, as it is read.
+    /// Returns the first quantity in reading order.
     pub fn first_symbol(&self) -> Option<&'static str> {
         self.quantities().next()
     }
 
-    /// The quantities it depends on.
+    /// Returns the quantities that the formula depends on.
     pub fn symbols(&self) -> BTreeSet<&'static str> {
         self.quantities().collect()
     }
 
     fn quantities(&self) -> impl Iterator<Item = &'static str> {
-        self.distinct().into_iter().filter_map(|tree| match tree.step() {
-            Step::Symbol(name) => Some(*name),
+        self.distinct().into_iter().filter_map(|tree| match tree.op() {
+            Op::Symbol(name) => Some(*name),
             _ => None,
         })
     }
 
-    /// Does one of its steps satisfy this?
+    /// Returns `true` if an operation satisfies the predicate.
     pub fn any(&self, f: &impl Fn(&Tree) -> bool) -> bool {
         self.distinct().into_iter().any(f)
     }
 }
 
 /// Returns a quantity for each name.
+///
+/// # Examples
 ///
 /// ```
 /// let [u, v] = provable::number::symbols(["u", "v"]);
@@ -257,7 +265,7 @@ pub fn symbols<const N: usize>(names: [&'static str; N]) -> [Tree; N] {
 }
 
 #[track_caller]
-fn node(step: Step<Tree>) -> Tree {
+fn node(step: Op<Tree>) -> Tree {
     let at = Location::caller();
     let (file, line, column) = (at.file(), at.line(), at.column());
     let mut site = Site { file, line, column, rank: 0 };
@@ -274,7 +282,7 @@ fn node(step: Step<Tree>) -> Tree {
 
 impl PartialEq for Tree {
     fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.0, &other.0) || self.step() == other.step()
+        Arc::ptr_eq(&self.0, &other.0) || self.op() == other.op()
     }
 }
 
@@ -287,52 +295,52 @@ impl From<&Tree> for Tree {
 impl From<i32> for Tree {
     #[track_caller]
     fn from(n: i32) -> Self {
-        node(Step::Int(n))
+        node(Op::Int(n))
     }
 }
 
 operators! { #[track_caller] [] Tree;
-    Add add |a, b| node(Step::Add(a.clone(), b.clone()));
-    Sub sub |a, b| node(Step::Sub(a.clone(), b.clone()));
-    Mul mul |a, b| node(Step::Mul(a.clone(), b.clone()));
-    Div div |a, b| node(Step::Div(a.clone(), b.clone()));
-    - |a| node(Step::Neg(a.clone()))
+    Add add |a, b| node(Op::Add(a.clone(), b.clone()));
+    Sub sub |a, b| node(Op::Sub(a.clone(), b.clone()));
+    Mul mul |a, b| node(Op::Mul(a.clone(), b.clone()));
+    Div div |a, b| node(Op::Div(a.clone(), b.clone()));
+    - |a| node(Op::Neg(a.clone()))
 }
 impl Zero for Tree {
     #[track_caller]
     fn zero() -> Self {
-        node(Step::Int(0))
+        node(Op::Int(0))
     }
     fn is_zero(&self) -> bool {
-        *self.step() == Step::Int(0)
+        *self.op() == Op::Int(0)
     }
 }
 impl One for Tree {
     #[track_caller]
     fn one() -> Self {
-        node(Step::Int(1))
+        node(Op::Int(1))
     }
 }
 impl Field for Tree {
     #[track_caller]
     fn int(n: i32) -> Self {
-        node(Step::Int(n))
+        node(Op::Int(n))
     }
 }
 impl Exponential for Tree {
     #[track_caller]
     fn exp(&self) -> Self {
-        node(Step::Exp(self.clone()))
+        node(Op::Exp(self.clone()))
     }
 }
 impl PositivePart for Tree {
     #[track_caller]
     fn positive_part(&self) -> Self {
-        node(Step::PositivePart(self.clone()))
+        node(Op::PositivePart(self.clone()))
     }
     #[track_caller]
     fn min(&self, other: &Self) -> Self {
-        node(Step::Min(self.clone(), other.clone()))
+        node(Op::Min(self.clone(), other.clone()))
     }
     #[track_caller]
     fn abs(&self) -> Self {
@@ -344,7 +352,7 @@ impl PositivePart for Tree {
 mod tests {
     use super::*;
 
-    /// The steps of a chain begin at one place; their rank, from the left, is shown from the second on.
+    /// The operations of a chain begin at one place; the rank, from the left, is shown from the second on.
     #[test]
     fn steps_are_known_by_their_place() {
         let [a, b] = ["a", "b"].map(|name| Tree::symbol(name));
@@ -356,7 +364,7 @@ mod tests {
         assert_eq!(sites, [format!("{place} (operator 3)"), format!("{place} (operator 2)"), place]);
     }
 
-    /// Each doubling is one step more, and twice as many as written out.
+    /// Each doubling is one further operation and doubles the size written out.
     #[test]
     fn a_deep_formula_is_read_and_dropped_without_recursion() {
         let x = Tree::symbol("x");
@@ -364,22 +372,22 @@ mod tests {
         let (deep, deeper) = (sum(100_000), sum(100_001));
         assert_eq!((deep.depth(), deep.size()), (100_000, 200_001));
         assert_eq!((deep.first_symbol(), deep.symbols().len()), (Some("x"), 1));
-        assert!(!deep.rounds() && deep.rounded().rounds());
-        assert_eq!(deep.with(&[("x", Tree::symbol("y"))]).symbols(), BTreeSet::from(["y"]));
+        assert!(!deep.contains_rounding() && deep.with_rounding().contains_rounding());
+        assert_eq!(deep.substitute(&[("x", Tree::symbol("y"))]).symbols(), BTreeSet::from(["y"]));
         drop((deep, deeper));
         let doubled = (0..100).fold(x.clone(), |sum, _| &sum + &sum);
         assert_eq!((doubled.depth(), doubled.size()), (100, u32::MAX));
-        assert_eq!(doubled.with(&[("x", Tree::one())]).first_symbol(), None);
+        assert_eq!(doubled.substitute(&[("x", Tree::one())]).first_symbol(), None);
     }
 
-    /// fl(fl(2 x) + 1) = 7 where 2 x + 1 = 7, but for rounding.
+    /// fl(fl(2 x) + 1) = 7 is solved as 2 x + 1 = 7.
     #[test]
     fn a_rounded_formula_is_solved_as_if_it_were_not() {
         let x = Tree::symbol("x");
-        let formula = (Tree::int(2) * &x + Tree::one()).rounded();
-        assert!(formula.rounds());
-        assert_eq!(formula.solution("x", &|_| 0.5, &7.0), Some(3.0));
-        assert_eq!(formula.solution("y", &|_| 0.5, &7.0), None);
+        let formula = (Tree::int(2) * &x + Tree::one()).with_rounding();
+        assert!(formula.contains_rounding());
+        assert_eq!(formula.solve_linear("x", &|_| 0.5, &7.0), Some(3.0));
+        assert_eq!(formula.solve_linear("y", &|_| 0.5, &7.0), None);
     }
 
     #[test]

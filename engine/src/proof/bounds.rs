@@ -1,15 +1,15 @@
-//! Bounds of rounding errors, found by bisection and proved.
+//! Proved bounds of rounding errors, found by bisection.
 //!
-//! Each rounded result of a formula has a symbol, and a bound of its distance from the exact value: K/2ᵖ, or
-//! K |x|/2ᵖ for a value x of known sign where that says no less. The smallest K that the kernel proves from
-//! the bounds before it is found by bisection, which need not be trusted: what is returned is a proof of all
-//! of them in a chain.
+//! Each rounded result of a formula has a symbol and a bound of its distance from the exact value: K/2ᵖ, or K
+//! |x|/2ᵖ for a value x of known sign if that is not weaker. The smallest K that the kernel proves from the
+//! previous bounds is found by bisection, which need not be trusted: the result contains a proof of the whole
+//! chain.
 
-use super::kernel::{self, Proof, Why, prove};
-use crate::formula::claim::{PRECISION, numbered, within};
+use super::kernel::{self, Proof, ProofError, prove};
+use crate::formula::claim::{PRECISION, subscripted, within};
 use crate::formula::statement::{Proposition, minimum_precision};
 use crate::formula::{Hypothesis, Relation, Statement};
-use crate::number::tree::Step;
+use crate::number::tree::Op;
 use crate::number::{Field, Tree};
 use rayon::iter::Either;
 use rayon::prelude::*;
@@ -35,29 +35,31 @@ impl RoundingBound {
     }
 }
 
-/// The reason why no bound of a rounding error is found.
+/// Error of a search for a bound.
 #[derive(Clone, Debug)]
 pub struct NoBound {
-    /// The first formula of whose rounding error no bound is found.
+    /// First formula without a bound of its rounding error.
     pub formula: Tree,
     /// The reason.
-    pub why: Why,
+    pub why: ProofError,
 }
 
 impl fmt::Display for NoBound {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "no bound of the rounding error of {} is found: {}", self.formula, self.why)
+        write!(f, "no bound of the rounding error of {} was found: {}", self.formula, self.why)
     }
 }
 
 impl std::error::Error for NoBound {}
 
 /// Returns the smallest constant K, up to 2 %, for which |fl(f) − f| ≤ K m/2ᵖ is proved from hypotheses for
-/// every precision of p bits, with its proof. Here fl(f) is `of` with [each operation
-/// rounded](Tree::rounded), and m is `scale`: 1 for an absolute bound, f > 0 itself for a relative one.
+/// every precision p, with its proof. Here fl(f) is `of` with [each operation rounded](Tree::with_rounding),
+/// and m is `scale`: 1 for an absolute bound, f > 0 itself for a relative one.
 ///
-/// The model is that of [`prove`]: rounding to nearest without under- and overflow. The larger the least
-/// precision that the hypotheses allow, the smaller is K.
+/// The model is that of [`prove`]: rounding to nearest without underflow and overflow. K is smaller if the
+/// hypotheses require a higher precision.
+///
+/// # Examples
 ///
 /// ```
 /// use provable::formula::{Hypothesis, Relation, claim::PRECISION};
@@ -73,9 +75,8 @@ impl std::error::Error for NoBound {}
 /// assert!(1.0 <= bound.constant() && bound.constant() <= 1.03);
 /// # Ok::<(), provable::proof::NoBound>(())
 /// ```
-///
 /// # Errors
-/// Returns the first formula of whose rounding error no bound is found, with the reason.
+/// Returns the first formula for which no bound is found, with the reason.
 pub fn rounding_bound(of: &Tree, scale: &Tree, hypotheses: &[Hypothesis]) -> Result<RoundingBound, NoBound> {
     let forms = [Form::Absolute, Form::Relative, Form::Opaque].into_par_iter();
     let all = forms.map(|form| Chain::new(of, hypotheses, form).bound(of, scale));
@@ -93,22 +94,22 @@ pub fn rounding_bound(of: &Tree, scale: &Tree, hypotheses: &[Hypothesis]) -> Res
     Err(failed.swap_remove(0))
 }
 
-/// The form of the bounds in a chain.
+/// Form of the bounds in a chain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Form {
     /// K/2ᵖ
     Absolute,
-    /// K |x|/2ᵖ, if the sign of the value x is known; else K/2ᵖ.
+    /// K |x|/2ᵖ if the sign of the value x is known, otherwise K/2ᵖ.
     Relative,
-    /// K/2ᵖ, where exact values have symbols and intervals as well: what is then lost is how they depend on
-    /// each other, and what is gained are short formulas.
+    /// K/2ᵖ with symbols and intervals for exact values as well, which makes formulas shorter but loses the
+    /// dependence between values.
     Opaque,
 }
 
-/// A formula without its roundings.
+/// Returns a formula without its roundings.
 fn exact(of: &Tree) -> Tree {
-    of.rewrite(&|tree| match tree.step() {
-        Step::Rounded(of) => Some(of.clone()),
+    of.rewrite(&|tree| match tree.op() {
+        Op::Rounded(of) => Some(of.clone()),
         _ => None,
     })
 }
@@ -128,13 +129,13 @@ fn number((mut m, mut n): Number) -> Tree {
     }
 }
 
-/// The largest and least powers of two that are tried.
+/// Largest absolute exponent of the powers of two that are tried.
 const POWERS: i32 = 128;
 
-/// Returns the least number for which something holds that holds for all larger ones.
+/// Returns the smallest number for which a monotone predicate holds.
 fn least<E>(holds: impl Fn(&Tree) -> Result<(), E>) -> Result<Number, E> {
     let is = |m: i32, n: i32| holds(&number((m, n)));
-    // In steps that double, beyond the power; then back in halves of them.
+    // Steps are doubled until they pass the power, then halved.
     let (mut above, mut below, mut step) = (0, 0, 1);
     if is(64, 0).is_ok() {
         while is(64, below).is_ok() {
@@ -163,8 +164,8 @@ fn least<E>(holds: impl Fn(&Tree) -> Result<(), E>) -> Result<Number, E> {
     Ok((more, below))
 }
 
-/// A computed quantity, in a formula of which it is a part.
-struct Named {
+/// A computed quantity that is part of a formula.
+struct NamedTree {
     part: Tree,
     by_symbol: Tree,
     symbol: Tree,
@@ -172,17 +173,17 @@ struct Named {
     interval: Hypothesis,
 }
 
-/// The bounds that have been found.
+/// Bounds found so far.
 struct Chain {
     hypotheses: Vec<Hypothesis>,
     form: Form,
-    named: Vec<Named>,
+    named: Vec<NamedTree>,
     taken: BTreeSet<&'static str>,
 }
 
 impl Chain {
     fn new(of: &Tree, hypotheses: &[Hypothesis], form: Form) -> Self {
-        // What is assumed of the precision comes first.
+        // Hypotheses on the precision come first.
         let is_other = |h: &Hypothesis| !h.value.symbols().contains(PRECISION);
         let mut hypotheses: Vec<_> = hypotheses.iter().cloned().chain([minimum_precision()]).collect();
         hypotheses.sort_by_key(is_other);
@@ -193,9 +194,9 @@ impl Chain {
     fn bound(mut self, of: &Tree, scale: &Tree) -> Result<(f64, Statement), NoBound> {
         let formula = exact(of);
         let no_bound = |why| NoBound { formula: formula.clone(), why };
-        let rounded = if of.rounds() { of.clone() } else { of.rounded() };
+        let rounded = if of.contains_rounding() { of.clone() } else { of.with_rounding() };
         for rounding in kernel::roundings([&rounded].into_iter()) {
-            let node = rounding.nearest();
+            let node = rounding.round();
             if node != rounded {
                 self.name(&node)?;
             }
@@ -204,13 +205,13 @@ impl Chain {
         let error = self.computed(&rounded) - value;
         let constant = self.constant(&error, &scale).map_err(no_bound)?;
         let claim = within("rounding-error", error, bounding(constant, &scale)).assuming(&self.hypotheses);
-        let claim = self.named.iter().fold(claim, |claim, Named { symbol, by, interval, .. }| {
+        let claim = self.named.iter().fold(claim, |claim, NamedTree { symbol, by, interval, .. }| {
             claim.assuming([interval]).computing(symbol, by)
         });
         Ok((f64::from(constant.0) * 2.0_f64.powi(constant.1), claim))
     }
 
-    /// Takes in a rounded result with a bound of its error.
+    /// Adds a rounded result with a bound of its error.
     fn name(&mut self, node: &Tree) -> Result<(), NoBound> {
         let (formula, computed) = (exact(node), self.computed(node));
         let no_bound = |why| NoBound { formula: formula.clone(), why };
@@ -239,18 +240,18 @@ impl Chain {
     }
 
     fn name_as(&mut self, part: Tree, by_symbol: Tree, symbol: Tree, by: Tree, interval: Hypothesis) {
-        self.named.push(Named { part, by_symbol, symbol, by, interval });
+        self.named.push(NamedTree { part, by_symbol, symbol, by, interval });
     }
 
     fn fresh(&mut self, letter: char) -> Tree {
-        let mut names = (0..=u8::MAX).map(|index| numbered(letter, index));
+        let mut names = (0..=u8::MAX).map(|index| subscripted(letter, index));
         let name =
             names.find(|name| self.taken.insert(name)).expect("no formula within the limits has as many");
         Tree::symbol(name)
     }
 
-    /// Returns the middle of an interval of a value, and half of its length.
-    fn interval(&self, of: &Tree) -> Result<(Tree, Tree), Why> {
+    /// Returns the midpoint of an interval of a value, and half its width.
+    fn interval(&self, of: &Tree) -> Result<(Tree, Tree), ProofError> {
         let most = number(least(|k| self.proves(Proposition::Within(of.clone(), k.clone())))?);
         let beyond = |of: &Tree| {
             let margin = |k: &Tree| self.proves(Proposition::Sign(Relation::NonNegative, k - &most - of));
@@ -260,32 +261,31 @@ impl Chain {
         Ok([&upper + &lower, upper - lower].map(|sum| sum / Tree::int(2)).into())
     }
 
-    /// A rounded formula, with its rounded parts by their symbols.
+    /// Returns a rounded formula with symbols for its rounded parts.
     fn computed(&self, of: &Tree) -> Tree {
         self.by_symbols(of, true)
     }
 
-    /// The value of an exact formula, with those of opaque parts by their symbols.
+    /// Returns an exact formula with symbols for its opaque parts.
     fn value(&self, of: &Tree) -> Tree {
         self.by_symbols(of, false)
     }
 
     fn by_symbols(&self, of: &Tree, rounded: bool) -> Tree {
-        let named =
-            || self.named.iter().filter(|named| matches!(named.part.step(), Step::Rounded(_)) == rounded);
+        let named = || self.named.iter().filter(|named| matches!(named.part.op(), Op::Rounded(_)) == rounded);
         of.rewrite(&|tree| named().find(|named| named.part == *tree).map(|named| named.by_symbol.clone()))
     }
 
-    /// Returns the least K for which |error| ≤ K m/2ᵖ is proved.
-    fn constant(&self, error: &Tree, scale: &Tree) -> Result<Number, Why> {
+    /// Returns the smallest K for which |error| ≤ K m/2ᵖ is proved.
+    fn constant(&self, error: &Tree, scale: &Tree) -> Result<Number, ProofError> {
         least(|k| self.proves(Proposition::Within(error.clone(), k * scale / Tree::symbol(PRECISION))))
     }
 
-    fn proves(&self, proposition: Proposition) -> Result<(), Why> {
-        // What occurs in it, and in intervals of that.
+    fn proves(&self, proposition: Proposition) -> Result<(), ProofError> {
+        // Symbols in the proposition, and in their intervals.
         let mut symbols: BTreeSet<_> = proposition.trees().into_iter().flat_map(Tree::symbols).collect();
         let mut intervals = Vec::new();
-        for Named { symbol, interval, .. } in self.named.iter().rev() {
+        for NamedTree { symbol, interval, .. } in self.named.iter().rev() {
             if symbol.first_symbol().is_some_and(|name| symbols.contains(name)) {
                 symbols.extend(interval.value.symbols());
                 intervals.push(interval);
@@ -304,19 +304,19 @@ fn bounding(constant: Number, scale: &Tree) -> Tree {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::number::tree::piecewise;
+    use crate::number::tree::piecewise_ops;
     use crate::number::{Exact, symbols};
 
     fn at_least(bits: u32) -> Hypothesis {
         Hypothesis::new(Relation::NonNegative, Tree::symbol(PRECISION) - Tree::int(1 << bits))
     }
 
-    /// The definitions of a statement in place of the symbols that they define.
+    /// Returns both sides of a statement with its definitions substituted.
     fn spelled_out(statement: &Statement) -> (Tree, Tree) {
         let Proposition::Within(of, bound) = &statement.goals().last().unwrap().proposition else { panic!() };
         statement.computed().iter().rev().fold((of.clone(), bound.clone()), |(of, bound), computed| {
-            let definition = [(computed.symbol, computed.by.clone())];
-            (of.with(&definition), bound.with(&definition))
+            let definition = [(computed.symbol, computed.formula.clone())];
+            (of.substitute(&definition), bound.substitute(&definition))
         })
     }
 
@@ -327,34 +327,34 @@ mod tests {
         let in_intervals = [Hypothesis::between(&x, -2, 3), Hypothesis::between(&y, 1, 4)];
         let squares = &x * &x + &y;
         for of in
-            [&x / &y - &one, &squares / (&squares + &one), -(&x * &y), x.clone(), (&x + &y).nearest() * &x]
+            [&x / &y - &one, &squares / (&squares + &one), -(&x * &y), x.clone(), (&x + &y).round() * &x]
         {
             let assumed = [&in_intervals[..], &[at_least(11)]].concat();
             for form in [Form::Absolute, Form::Relative, Form::Opaque] {
                 let found = Chain::new(&of, &assumed, form).bound(&of, &one);
-                // Of the quotient of squares each form by itself is too long but one.
+                // For the quotient of squares only one form is short enough to be proved.
                 let Ok((constant, claim)) = found else {
                     assert!(form != Form::Opaque && of.size() > 10, "{form:?} of {of}");
                     continue;
                 };
                 assert!(prove(&claim).is_ok(), "{form:?} of {of}: {}", prove(&claim).unwrap_err());
                 let (error, bound) = spelled_out(&claim);
-                let rounded = if of.rounds() { of.clone() } else { of.rounded() };
-                // Rounded to f32 both are the same, but for what f64 loses of numbers below 100.
-                let rounding = |step: Step<&f64>| match step {
-                    Step::Rounded(x) => Some(f64::from(*x as f32)),
-                    step => piecewise(step),
+                let rounded = if of.contains_rounding() { of.clone() } else { of.with_rounding() };
+                // Both are the same when rounded to f32, except for the error of f64 below 100.
+                let rounding = |step: Op<&f64>| match step {
+                    Op::Rounded(x) => Some(f64::from(*x as f32)),
+                    step => piecewise_ops(step),
                 };
                 let exact_error = rounded - exact(&of);
                 for at in [(-1.7, 3.3), (0.1, 1.1), (2.9, 1.9)] {
                     let at = |name| if name == "x" { at.0 } else { at.1 };
-                    let [a, b] = [&error, &exact_error].map(|tree| tree.replay(&at, &rounding).unwrap());
+                    let [a, b] = [&error, &exact_error].map(|tree| tree.eval(&at, &rounding).unwrap());
                     assert!(
-                        (a - b).abs() < 1e-12 && (a != 0.0 || !of.rounded().rounds()),
+                        (a - b).abs() < 1e-12 && (a != 0.0 || !of.with_rounding().contains_rounding()),
                         "{of} by {form:?}: {a} {b}"
                     );
                 }
-                let at_one = bound.replay(&|_| Exact::int(1), &piecewise).unwrap();
+                let at_one = bound.eval(&|_| Exact::int(1), &piecewise_ops).unwrap();
                 assert_eq!(at_one, Exact::from(rug::Rational::from_f64(constant).unwrap()));
             }
         }
@@ -367,26 +367,30 @@ mod tests {
         let bound = |of: &Tree, scale: &Tree, assumed: &[Hypothesis]| {
             rounding_bound(of, scale, &[assumed, &[at_least(24)]].concat()).map(|bound| bound.constant())
         };
-        // One rounding, two and three of terms of one sign, whatever their size: the least K is 1, 2 and 2.
+        // One, two and three roundings of terms with one sign, of any magnitude: the smallest K is 1, 2 and
+        // 2.
         let (one, product, sum) = (Tree::int(1), &x * &y, &x * &y + &x);
         for (of, least) in [(&product, 1.0), (&sum, 2.0), (&(&sum / &y), 3.0)] {
             let found = bound(of, of, &positive).unwrap();
             assert!(least * 0.999 < found && found <= least * 1.02, "{of}: {found}");
         }
-        // No bound without an interval, nor where digits cancel, nor where a divisor may vanish.
+        // There is no bound without an interval, with cancellation, or if a divisor may vanish.
         assert!(bound(&product, &one, &positive).is_err());
         let difference = &x * &y - &x;
         assert!(bound(&difference, &difference, &positive).is_err());
         let around_zero = Hypothesis::between(&x, -1, 1);
         let refused = bound(&(&one / &x), &one, &[around_zero]).unwrap_err();
-        assert!(matches!(refused.why, Why::MightVanish(..)) && refused.formula == &one / &x, "{refused}");
+        assert!(
+            matches!(refused.why, ProofError::PossibleZeroDivisor(..)) && refused.formula == &one / &x,
+            "{refused}"
+        );
         // Nothing is rounded.
         assert_eq!(bound(&x, &one, &[]).unwrap(), 0.0);
     }
 
     #[test]
     fn the_least_number_is_found_up_to_a_sixty_fourth() {
-        let value = |tree: &Tree| tree.replay(&|_| f64::NAN, &piecewise).unwrap();
+        let value = |tree: &Tree| tree.eval(&|_| f64::NAN, &piecewise_ops).unwrap();
         for limit in [0.0, 1e-30, 0.9, 1.0, 1.01, 63.5, 64.0, 127.9, 1e6, 3e11, 1e30] {
             let found = value(&number(least(|k| if value(k) >= limit { Ok(()) } else { Err(()) }).unwrap()));
             assert!(limit <= found && found <= limit * 65.0 / 64.0, "{found} for {limit}");

@@ -1,25 +1,24 @@
-//! The second route: functions and what is claimed of them for the proof assistant Coq, whose kernel checks
-//! them anew.
+//! Export of functions and claims to the proof assistant Coq (now named Rocq), whose kernel checks them
+//! independently.
 //!
-//! A [`Development`] has every function of a registry as a definition, printed from its recorded formula,
-//! and every claim as a theorem about these definitions, with its hypotheses as premises. Signs and
-//! equalities are decided by a program in Coq that is proved correct there (`polynomials.v`, `quotients.v`).
-//! What it needs is taken from the kernel's derivation: the names of the hypotheses' quantities, the
-//! monomials that they replace, the cases, and the part of a quantity that has the sign of its slope. Nothing
-//! of that is taken on trust: if Coq accepts the files, what is left to trust is Coq's own kernel, its axioms
-//! of the real numbers, and that definitions and theorems read as their sources do.
+//! A [`Development`] contains each function of a registry as a definition, printed from its recorded formula,
+//! and each claim as a theorem about these definitions with its hypotheses as premises. A program in Coq that
+//! is proved correct there decides signs and equalities (`polynomials.v`, `quotients.v`). Its input comes
+//! from the kernel's derivation: names of the quantities in hypotheses, the monomials that they replace, the
+//! cases, and the factors whose sign is that of a slope. None of this has to be trusted: if Coq accepts the
+//! files, it remains to trust Coq's kernel, its axioms of the real numbers, and that definitions and theorems
+//! agree with their sources.
 //!
-//! A function that only hands on what another computes leaves no step of its own in a record, so a theorem
-//! speaks in the names of the functions that its entry lists. A definition that no theorem names would
-//! protect nothing.
+//! A function that returns the result of another unchanged leaves no operation in a record, so theorems use
+//! the names of the functions that their entry lists. A definition that no theorem uses would protect
+//! nothing.
 //!
-//! What goes further than our own kernel: an induction is one over the natural numbers, a limit is one in
-//! the sense of ε and N, a derivative is one in the sense of a limit. Coq lets everything be divided by 0,
-//! so for every claim a lemma of its own, `…_defined`, says that no divisor is 0.
+//! Some statements are stronger than in our kernel: an induction is over the natural numbers, a limit is in
+//! the sense of ε and N, and a derivative is a limit. Since division by 0 is defined in Coq, each claim has a
+//! further lemma, `…_defined`, which states that no divisor is 0.
 //!
-//! What is rounded is so by the library Flocq: its rounding to nearest, for every precision of two bits or
-//! more and whatever becomes of a number half-way between two. That it is x (1 + γ e), as our kernel reads
-//! it, is a lemma there.
+//! Rounding is that of the library Flocq: to nearest, for every precision of at least two bits, with any rule
+//! for ties. A lemma there proves the model x (1 + γ e) of our kernel.
 
 mod expr;
 mod induction;
@@ -30,49 +29,50 @@ mod theorem;
 
 use crate::formula::{Registry, Statement};
 use print::{Printer, ascii};
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 use theorem::Claim;
 
-/// A file for Coq.
+/// A file of a development.
 #[derive(Clone, Debug)]
 pub struct File {
-    /// Its name, which ends in `.v`. A file needs only files whose names come before its own.
+    /// File name, which ends in `.v`. A file requires only files whose names precede its own.
     pub name: String,
-    /// What is in it.
+    /// Contents.
     pub text: String,
 }
 
-/// A claim that is not among the files.
+/// A claim that could not be exported.
 #[derive(Clone, Debug)]
-pub struct LeftOut {
-    /// The entry it belongs to.
+pub struct Omitted {
+    /// Its entry.
     pub equation: &'static str,
     /// Its name.
     pub name: &'static str,
-    /// Why.
+    /// The reason.
     pub reason: String,
 }
 
-/// A claim and where it belongs.
+/// A claim with its section and functions.
 #[derive(Clone, Copy, Debug)]
-pub struct Placed<'a> {
+pub struct LocatedClaim<'a> {
     /// The claim.
     pub claim: &'a Statement,
-    /// Its section: claims of one section stand together.
+    /// Its section; claims of one section share files.
     pub section: &'a str,
-    /// The functions that it is about: of those that compute the same, the first of these is named.
+    /// The functions that it concerns; the first of those that compute the same is named.
     pub functions: &'a [&'static str],
 }
 
-/// Definitions of a registry's functions, and theorems about them.
+/// Definitions of the functions of a registry, and theorems about them.
 #[derive(Clone, Debug)]
 pub struct Development<'a> {
     library: &'a str,
     registry: &'a Registry,
     written: Vec<Written>,
-    left_out: Vec<LeftOut>,
+    omitted: Vec<Omitted>,
     more: Option<(&'static str, &'static str)>,
 }
 
@@ -81,7 +81,7 @@ const DEFINITIONS: &str = "B_Definitions";
 const ROUNDING: &str = "B_Rounding";
 const ASSUMPTIONS: &str = "E_Assumptions";
 
-/// What all theorems stand on; none comes before what it needs.
+/// Files that all theorems require, in order of dependency.
 const PROGRAM: [(&str, &str); 3] = [
     ("A_Polynomials", include_str!("coq/polynomials.v")),
     ("A_Quotients", include_str!("coq/quotients.v")),
@@ -89,16 +89,24 @@ const PROGRAM: [(&str, &str); 3] = [
 ];
 
 impl<'a> Development<'a> {
-    /// The claims, printed, and those that cannot be. The files require each other from the `library`.
+    /// Exports the claims. The files require each other from the `library`.
     pub fn new<'c>(
         library: &'a str,
         registry: &'a Registry,
-        claims: impl IntoIterator<Item = Placed<'c>>,
+        claims: impl IntoIterator<Item = LocatedClaim<'c>>,
     ) -> Self {
-        let (mut written, mut left_out) = (Vec::new(), Vec::new());
-        for Placed { claim, section, functions } in claims {
+        let (mut written, mut omitted, mut names) = (Vec::new(), Vec::new(), BTreeSet::new());
+        for LocatedClaim { claim, section, functions } in claims {
             let printer = Printer { registry, preferred: functions };
-            match Claim::new(claim, printer).text() {
+            let name = theorem_name(claim.equation(), claim.name());
+            let text = match name.starts_with(|c: char| c.is_ascii_alphabetic()) {
+                false => Err(format!("its name in Coq, '{name}', does not begin with a letter")),
+                true if !names.insert((section, name.clone())) => {
+                    Err(format!("another claim is named {name} in Coq"))
+                }
+                true => Claim::new(claim, printer).text(),
+            };
+            match text {
                 Ok(text) => {
                     written.push(Written {
                         section: section.to_string(),
@@ -107,21 +115,21 @@ impl<'a> Development<'a> {
                     });
                 }
                 Err(reason) => {
-                    left_out.push(LeftOut { equation: claim.equation(), name: claim.name(), reason })
+                    omitted.push(Omitted { equation: claim.equation(), name: claim.name(), reason })
                 }
             }
         }
-        Development { library, registry, written, left_out, more: None }
+        Development { library, registry, written, omitted, more: None }
     }
 
-    /// With a file of its own, written by hand, which may use all others.
-    pub fn with(self, name: &'static str, text: &'static str) -> Self {
+    /// Adds a handwritten file, which may require all others.
+    pub fn with_file(self, name: &'static str, text: &'static str) -> Self {
         Development { more: Some((name, text)), ..self }
     }
 
-    /// Everything: tactics, definitions, theorems by section, and what joins them.
+    /// Returns all files: tactics, definitions, theorems by section, and their conjunctions.
     ///
-    /// They compile in this order, and in that of their names: `coqc -R DIR LIBRARY FILE`.
+    /// They compile in this order, which is also that of their names: `coqc -R DIR LIBRARY FILE`.
     pub fn files(&self) -> Vec<File> {
         let mut files: Vec<_> = PROGRAM.iter().map(|(name, text)| file(name, text.to_string())).collect();
         files.push(file(DEFINITIONS, self.definitions()));
@@ -136,8 +144,8 @@ impl<'a> Development<'a> {
             theorems.push(file(name, head + text));
             all = format!("{all} {name}");
         }
-        // Asking of each theorem what it rests on would take longer than all proofs.
-        let parts: Vec<_> = theorems.iter_mut().map(together).collect();
+        // Printing the axioms of each theorem would take longer than all proofs.
+        let parts: Vec<_> = theorems.iter_mut().map(conjunction).collect();
         files.extend(theorems);
         if !parts.is_empty() {
             let assumptions = format!(
@@ -148,26 +156,27 @@ impl<'a> Development<'a> {
             );
             files.push(file(ASSUMPTIONS, assumptions));
         }
-        files.into_iter().map(|file| self.named(file)).collect()
+        files.into_iter().map(|file| self.with_library(file)).collect()
     }
 
-    /// The file, with the library that it requires others from.
-    fn named(&self, File { name, text }: File) -> File {
+    /// Returns the file with the name of the library.
+    fn with_library(&self, File { name, text }: File) -> File {
         let from = format!("From {} Require", self.library);
         File { name, text: text.replace("From LIBRARY Require", &from) }
     }
 
-    /// Writes the files to a directory, which is made if it is not there.
+    /// Writes the files to a directory, which is created if it does not exist.
     ///
     /// # Errors
-    /// The first that the file system reports. No part of a file is left then, and what was there before is
-    /// there still, unless a whole file has taken its place.
+    /// Returns the first error of the file system. No incomplete file remains, and an existing file is
+    /// replaced only by a complete one.
     pub fn write(&self, directory: &Path) -> io::Result<Vec<PathBuf>> {
         fs::create_dir_all(directory)?;
         let files = self.files();
         let part = |file: &File| directory.join(format!("{}.part", file.name));
         let path = |file: &File| directory.join(&file.name);
-        // All of them beside their places first: a disk that is full then leaves those as they are.
+        // All files are written under temporary names first, so that a full disk does not affect existing
+        // files.
         let written = files
             .iter()
             .try_for_each(|file| fs::write(part(file), &file.text))
@@ -180,18 +189,18 @@ impl<'a> Development<'a> {
         written.map(|()| files.iter().map(path).collect())
     }
 
-    /// The claims for which there is no theorem, each with its reason.
-    pub fn left_out(&self) -> &[LeftOut] {
-        &self.left_out
+    /// Returns the claims without a theorem, with reasons.
+    pub fn omitted(&self) -> &[Omitted] {
+        &self.omitted
     }
 
-    /// The file of definitions.
+    /// Returns the file of definitions.
     fn definitions(&self) -> String {
         let printer = Printer { registry: self.registry, preferred: &[] };
         let mut text = format!("(** * The functions, as their source computes them. *)\n{}", head(false, ""));
         for formula in self.registry.formulas() {
             let (name, body) = (print::function(formula), printer.body(formula));
-            let binders = self.registry.common(formula).chain(formula.depends_on()).map(ascii);
+            let binders = self.registry.common_symbols(formula).chain(formula.depends_on()).map(ascii);
             let binders = binders.collect::<Vec<_>>().join(" ");
             let _ = write!(
                 text,
@@ -203,17 +212,17 @@ impl<'a> Development<'a> {
     }
 }
 
-/// Ends a file with all that it proves as one, and says what that is called.
-fn together(file: &mut File) -> String {
+/// Appends the conjunction of all theorems to a file and returns its name.
+fn conjunction(file: &mut File) -> String {
     let name = format!("proved_in_{}", file.name.trim_end_matches(".v").to_lowercase());
-    let proved: Vec<_> = proved(&file.text).collect();
+    let proved: Vec<_> = theorem_names(&file.text).collect();
     let text = format!("\nDefinition {name} :=\n  ({}).\n", proved.join(",\n   "));
     file.text += &text;
     name
 }
 
-/// The names of the theorems and lemmas in a text.
-fn proved(text: &str) -> impl Iterator<Item = &str> {
+/// Returns the names of the theorems and lemmas in a text.
+fn theorem_names(text: &str) -> impl Iterator<Item = &str> {
     let statement =
         |line: &'_ str| line.strip_prefix("Theorem ").or(line.strip_prefix("Lemma ")).map(str::len);
     text.lines().filter_map(move |line| {
@@ -222,7 +231,7 @@ fn proved(text: &str) -> impl Iterator<Item = &str> {
     })
 }
 
-/// What Coq calls a claim: `eq_1_13_rate`, `theorem_1_3_3_contracts`.
+/// Returns the name of a claim in Coq: `eq_1_13_rate`, `theorem_1_3_3_contracts`.
 pub fn theorem_name(equation: &str, name: &str) -> String {
     let number = if equation.starts_with(|c: char| c.is_ascii_digit()) { "eq " } else { "" };
     print::free(identifier(&format!("{number}{equation} {name}")))
@@ -232,7 +241,7 @@ fn file(name: &str, text: String) -> File {
     File { name: format!("{name}.v"), text: wrapped(&text) }
 }
 
-/// No line is longer than a reader likes; where it is broken means nothing to Coq.
+/// Breaks long lines; Coq ignores line breaks.
 fn wrapped(text: &str) -> String {
     const WIDTH: usize = 100;
     let mut all = String::new();
@@ -254,22 +263,22 @@ fn is_part_of_name(c: char) -> bool {
     c.is_ascii_alphanumeric() || c == '_'
 }
 
-/// Words joined by single underscores, in lower case.
+/// Joins words by single underscores, in lower case.
 fn identifier(text: &str) -> String {
     let words = text.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
     words.map(str::to_lowercase).collect::<Vec<_>>().join("_")
 }
 
-/// A claim, printed: its lemmas, its theorem, all with their proofs.
+/// An exported claim: its lemmas and its theorem with their proofs.
 #[derive(Clone, Debug)]
 struct Written {
     section: String,
-    /// Does it speak of what is rounded?
+    /// Whether it contains roundings.
     rounds: bool,
     text: String,
 }
 
-/// The files of theorems, one or more a section.
+/// Returns the files of theorems, one or more for each section.
 fn by_section(written: &[Written]) -> Vec<File> {
     let mut sections: Vec<((&str, bool), Vec<&str>)> = Vec::new();
     for Written { section, rounds, text } in written {
@@ -294,7 +303,7 @@ fn by_section(written: &[Written]) -> Vec<File> {
     files
 }
 
-/// What a file begins with that needs tactics, perhaps those for what is rounded, and this.
+/// Returns the header of a file, which requires tactics, those for rounding if needed, and `more`.
 fn head(rounds: bool, more: &str) -> String {
     let import = |names: &str| format!("From LIBRARY Require Import {}.\n", names.trim_end());
     match rounds {
@@ -306,7 +315,7 @@ fn head(rounds: bool, more: &str) -> String {
     }
 }
 
-/// Few enough that files can be compiled side by side.
+/// Number of claims per file, small enough for compiling in parallel.
 const PER_FILE: usize = 12;
 
 #[cfg(test)]
@@ -316,21 +325,21 @@ mod tests {
     use crate::formula::{Hypothesis, Rate, Relation};
     use crate::number::{Exponential, Tree};
 
-    /// Why a claim is left out, if it is; then there is no theorem.
+    /// Returns the reason why a claim is omitted and has no theorem.
     fn left_out(claim: &Statement) -> Option<String> {
         let registry = Registry::default();
         let development =
-            Development::new("Lens", &registry, [Placed { claim, section: "0", functions: &[] }]);
+            Development::new("Lens", &registry, [LocatedClaim { claim, section: "0", functions: &[] }]);
         let theorems = development.files().iter().filter(|file| file.text.contains("\nTheorem ")).count();
-        let [left_out] = development.left_out() else {
-            assert_eq!((theorems, development.left_out().len()), (1, 0));
+        let [left_out] = development.omitted() else {
+            assert_eq!((theorems, development.omitted().len()), (1, 0));
             return None;
         };
         assert_eq!((left_out.name, theorems), (claim.name(), 0));
         Some(left_out.reason.clone())
     }
 
-    /// H is written h, so that (H − h)² = 0 would be a theorem about (h − h)².
+    /// If H were written h, (H − h)² = 0 would become a theorem about (h − h)².
     #[test]
     fn two_symbols_never_share_a_name() {
         let square = |names: [&'static str; 2]| {
@@ -342,18 +351,28 @@ mod tests {
     }
 
     #[test]
+    fn every_theorem_has_a_name_of_its_own() {
+        let claims = ["a-b", "a_b", "2nd", ""].map(|name| equal(name, Tree::from(1), Tree::from(1)));
+        let located = claims.iter().map(|claim| LocatedClaim { claim, section: "0", functions: &[] });
+        let registry = Registry::default();
+        let development = Development::new("Names", &registry, located);
+        let reasons: Vec<_> = development.omitted().iter().map(|claim| &*claim.reason).collect();
+        assert_eq!(reasons[0], "another claim is named a_b in Coq");
+        assert_eq!(reasons[1], "its name in Coq, '2nd', does not begin with a letter");
+        assert_eq!(reasons[2], "its name in Coq, '', does not begin with a letter");
+    }
+
+    #[test]
     fn what_has_no_proof_to_follow_is_left_out() {
         let [a, t] = ["a", "t"].map(|name| Tree::symbol(name));
         let above = [&a, &t].map(|x| Hypothesis::new(Relation::Positive, x.clone()));
         let vanishes = |of: Tree| {
-            left_out(
-                &limit("vanishes", &of, &t, 0, Rate::Exactly(of.clone())).assuming([&above[0], &above[1]]),
-            )
+            left_out(&limit("vanishes", &of, &t, 0, Rate::Equal(of.clone())).assuming([&above[0], &above[1]]))
         };
         let wrong = left_out(&equal("one", &a, 1)).unwrap();
         assert!(wrong.starts_with("there is no proof to follow: the sides differ by a"), "{wrong}");
         assert_eq!(vanishes((-&a * &t).exp()), None);
-        // The kernel knows more of these than the lemmas that are at hand in Coq.
+        // The kernel proves some claims about exponentials for which no lemma is available in Coq.
         let unlike = "an exponential is not that of a constant rate, or has a factor that grows";
         assert_eq!(vanishes(&t * (-&a * &t).exp()).unwrap(), unlike);
         assert_eq!(vanishes((-&a * &t * &t).exp()).unwrap(), unlike);
@@ -364,7 +383,7 @@ mod tests {
         let [short, full, long] = [94, 98, 101].map(|n| "a".repeat(n));
         let kept = format!("  {full}\n  {long}\n");
         assert_eq!(wrapped(&kept), kept);
-        // What is broken off stands four to the right of its line.
+        // A continuation line is indented by four more characters.
         let broken = format!("  head\n      {short}\n      c\n      {long} d\n");
         assert_eq!(wrapped(&format!("  head {short} c {long} d")), broken);
     }

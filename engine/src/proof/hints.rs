@@ -1,49 +1,49 @@
-//! Hypotheses with which a claim that has no proof would have one.
+//! Suggestions of hypotheses that make a claim provable.
 //!
-//! Nothing here is trusted: what is suggested is proved by the kernel.
+//! Nothing here is trusted: the kernel proves the claim with each suggestion.
 
 use super::kernel::algebra::Monomial;
-use super::kernel::{Derivation, Used, Why, derivation, effort, prove};
-use super::paper::formula;
-use super::refute::{Verdict, check, planted_points, symbols};
+use super::kernel::{AssumptionUse, Derivation, ProofError, derivation, effort, prove};
+use super::refute::{Verdict, check, constructed_points, symbols};
+use super::render::formula;
 use crate::formula::claim::{POWER, PRECISION, SCALES, equal};
 use crate::formula::statement::{Proposition, Role, Statement};
 use crate::formula::{Hypothesis, Relation};
 use crate::number::Tree;
 
-/// The number of symbols whose signs and differences are tried, at most.
+/// Largest number of symbols whose signs and differences are tried.
 const MAX_SYMBOLS: usize = 6;
 
-/// The size of the formula at which a proof ended that is tried, at most.
+/// Largest size of a formula at which a proof failed whose sign is tried.
 const MAX_OBSTACLE: u32 = 24;
 
-/// The number of hypotheses that are suggested, at most.
+/// Largest number of suggestions.
 const MAX_HINTS: usize = 3;
 
-/// The number of points at which a claim is tried before a proof is attempted.
+/// Number of points at which a claim is tested before a proof is attempted.
 const POINTS: usize = 4;
 
-/// Returns simple hypotheses, at most three, with each of which a statement is proved that is not proved
-/// without, for the reason `why`.
+/// Returns at most three simple hypotheses, each of which makes a statement provable that is not provable
+/// without it for the reason `why`.
 ///
-/// Candidates are, in this order, signs of symbols, comparisons of two symbols, and the sign of the formula
-/// that the proof ended at. Numbers show that each can hold together with the statement's own hypotheses, and
-/// not only where its quantity is 0. None follows from another, and none is what is claimed. An empty list is
-/// no evidence against the statement.
+/// The candidates are, in this order, signs of symbols, comparisons of two symbols, and the sign of the
+/// formula at which the proof failed. Points show that each is consistent with the hypotheses of the
+/// statement, and not only where its quantity is 0. None of the results follows from another, and none is the
+/// claim itself. An empty list does not refute the statement.
 ///
 /// # Examples
 /// ```
 /// use provable::formula::{Hypothesis, Relation, claim::positive};
-/// use provable::{number::Tree, proof::{prove, sufficient}};
+/// use provable::{number::Tree, proof::{prove, sufficient_hypothesis}};
 /// let [f, g] = ["f", "g"].map(|name| Tree::symbol(name));
 /// let converging = Hypothesis::new(Relation::Positive, f.clone());
 /// let claim = positive("real image", &f * &g / (&g - &f)).assuming([&converging]);
-/// let hypotheses = sufficient(&claim, &prove(&claim).unwrap_err());
+/// let hypotheses = sufficient_hypothesis(&claim, &prove(&claim).unwrap_err());
 /// assert_eq!(hypotheses[0].to_string(), "g > f");
 /// assert!(prove(&claim.assuming([&hypotheses[0]])).is_ok());
 /// ```
-pub fn sufficient(statement: &Statement, why: &Why) -> Vec<Hypothesis> {
-    if let Why::TooLarge(..) = why {
+pub fn sufficient_hypothesis(statement: &Statement, why: &ProofError) -> Vec<Hypothesis> {
+    if let ProofError::TooLarge(..) = why {
         return Vec::new(); // So would be the proofs under more hypotheses.
     }
     let symbols = symbols(statement);
@@ -58,7 +58,7 @@ pub fn sufficient(statement: &Statement, why: &Why) -> Vec<Hypothesis> {
         let mut candidates = candidates.into_iter().map(|relation| Hypothesis::new(relation, value.clone()));
         candidates.find(|candidate| suffices(statement, candidate, &symbols))
     };
-    // Under those of the statement, the first from the second.
+    // Under the hypotheses of the statement, the second implies the first.
     let follows = |first: &Hypothesis, second: &Hypothesis| {
         let proposition = Proposition::Sign(first.relation, first.value.clone());
         prove(&statement.with_proposition(proposition).assuming([second])).is_ok()
@@ -81,13 +81,13 @@ pub fn sufficient(statement: &Statement, why: &Why) -> Vec<Hypothesis> {
     found
 }
 
-/// Returns `true` if a hypothesis makes a statement provable, is not what it claims, and can hold with its
+/// Returns `true` if a hypothesis makes a statement provable, is not its claim, and is consistent with its
 /// hypotheses where the quantity is not 0.
 fn suffices(statement: &Statement, candidate: &Hypothesis, symbols: &[&'static str]) -> bool {
     let strict = Hypothesis { relation: Relation::Positive, ..candidate.clone() };
     let hypotheses = [statement.hypotheses(), &[strict]].concat();
     let claim = statement.clone().assuming([candidate]);
-    let points: Vec<_> = planted_points(&hypotheses, symbols).take(POINTS).collect();
+    let points: Vec<_> = constructed_points(&hypotheses, symbols).take(POINTS).collect();
     let is_claimed = |proposition: &Proposition| match proposition {
         Proposition::Sign(_, of) => prove(&equal("", of, &candidate.value)).is_ok(),
         _ => false,
@@ -99,19 +99,21 @@ fn suffices(statement: &Statement, candidate: &Hypothesis, symbols: &[&'static s
 }
 
 /// Returns the formula whose sign is missing, in the symbols of the statement and without common factors.
-fn obstacle(statement: &Statement, why: &Why) -> Option<Tree> {
+fn obstacle(statement: &Statement, why: &ProofError) -> Option<Tree> {
     let value = match why {
-        Why::MightVanish(divisor, _) => return Some(divisor.clone()),
-        Why::NoSign(value, _) | Why::WrongSign(value, _) | Why::OpenBracket(value) => value,
+        ProofError::PossibleZeroDivisor(divisor, _) => return Some(divisor.clone()),
+        ProofError::UnknownSign(value, _)
+        | ProofError::WrongSign(value, _)
+        | ProofError::UndecidedBranch(value) => value,
         _ => return None,
     };
     let trivial = Proposition::Equal(Tree::from(0), Tree::from(0));
     let read = derivation(&statement.hypotheses_for(Role::Claim), &trivial).ok()?;
     let Derivation::Direct(direct) = read else { return None };
     let in_own_symbols = || {
-        direct.supposed.iter().rev().fold(value.clone(), |value, supposed| match supposed.used {
-            Used::Pivot(_, _, Some(slack)) => {
-                let quotient = supposed.divided_by.as_ref().and_then(|by| supposed.value.over(by));
+        direct.assumptions.iter().rev().fold(value.clone(), |value, supposed| match supposed.usage {
+            AssumptionUse::Pivot(_, _, Some(slack)) => {
+                let quotient = supposed.divisor.as_ref().and_then(|by| supposed.value.over(by));
                 value.replace(&Monomial::of(slack), quotient.as_ref().unwrap_or(&supposed.value))
             }
             _ => value,
@@ -129,27 +131,27 @@ mod tests {
     use crate::formula::claim::{non_negative, positive};
     use crate::number::{Exponential, tree};
     use crate::proof::MAX_SIZE;
-    use crate::proof::paper::Paper;
-    use crate::proof::refute::raw_points;
+    use crate::proof::refute::integer_points;
+    use crate::proof::render::ProofPrinter;
 
     fn above_zero(value: impl Into<Tree>) -> Hypothesis {
         Hypothesis::new(Relation::Positive, value.into())
     }
 
     fn explained(claim: &Statement) -> String {
-        Paper::new(&Registry::default()).explain(claim, &prove(claim).unwrap_err())
+        ProofPrinter::new(&Registry::default()).explain(claim, &prove(claim).unwrap_err())
     }
 
     fn hints(claim: &Statement) -> Vec<String> {
-        sufficient(claim, &prove(claim).unwrap_err()).iter().map(Hypothesis::to_string).collect()
+        sufficient_hypothesis(claim, &prove(claim).unwrap_err()).iter().map(Hypothesis::to_string).collect()
     }
 
-    /// The distance of the image of what is `s` away, by a thin lens.
+    /// Returns the image distance of a thin lens for the object distance `s`.
     fn image(f: &Tree, s: &Tree) -> Tree {
         f * s / (s - f)
     }
 
-    /// A voltage divider under a load.
+    /// Returns the voltage of a loaded divider.
     fn loaded(u: &Tree, a: &Tree, b: &Tree, load: &Tree) -> Tree {
         let parallel = b * load / (b + load);
         u * &parallel / (a + &parallel)
@@ -208,7 +210,7 @@ mod tests {
         let [f, s] = tree::symbols(["f", "s"]);
         let claim = positive("", image(&f, &s)).assuming([&above_zero(&f), &above_zero(&f - &s)]);
         assert_eq!(hints(&claim), ["s < 0"]);
-        // With a ≤ 0 it would hold, but only where a = 0.
+        // a ≤ 0 would suffice, but holds only for a = 0.
         let [a, c] = tree::symbols(["a", "c"]);
         let not_negative = |value: &Tree| Hypothesis::new(Relation::NonNegative, value.clone());
         let claim = non_negative("", &c - &a).assuming([&not_negative(&a), &not_negative(&c)]);
@@ -220,7 +222,7 @@ mod tests {
     fn neither_the_claim_nor_what_is_stronger_than_needed_is_suggested() {
         let [a, b, c, d] = tree::symbols(["a", "b", "c", "d"]);
         assert_eq!(hints(&positive("", &a - &b)), Vec::<String>::new());
-        // a > d, so b ≥ a would do as well.
+        // Since a > d, b ≥ a would suffice as well.
         let claim = positive("", &b + &c - &d).assuming(&[b.clone(), c.clone(), &a - &d].map(above_zero));
         assert_eq!(hints(&claim), ["b ≥ d", "c ≥ d"]);
     }
@@ -248,7 +250,7 @@ mod tests {
         assert_eq!(hints(&positive("", large).assuming([&above_zero(a)])), none);
     }
 
-    /// Whatever is suggested, in some hundreds of claims; integers satisfy all hypotheses.
+    /// Tests the suggestions for some hundreds of claims; integers satisfy all hypotheses.
     #[test]
     fn what_is_suggested_suffices_and_can_hold() {
         let [a, b, c] = tree::symbols(["a", "b", "c"]);
@@ -259,12 +261,12 @@ mod tests {
             let given = above_zero(parts[(j + k) % 5].clone());
             for claim in [non_negative("", &of), positive("", &of)].map(|claim| claim.assuming([&given])) {
                 let Err(why) = prove(&claim) else { continue };
-                let hypotheses = sufficient(&claim, &why);
+                let hypotheses = sufficient_hypothesis(&claim, &why);
                 assert!(hypotheses.len() <= MAX_HINTS);
                 for hypothesis in &hypotheses {
                     let claim = claim.clone().assuming([hypothesis]);
                     assert!(prove(&claim).is_ok(), "{of} ≥ 0 if {hypothesis}");
-                    let mut points = raw_points(claim.hypotheses(), &["a", "b", "c"]);
+                    let mut points = integer_points(claim.hypotheses(), &["a", "b", "c"]);
                     assert!(points.next().is_some(), "{given} and {hypothesis}");
                 }
                 suggested += hypotheses.len();

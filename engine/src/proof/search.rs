@@ -1,32 +1,35 @@
-//! The search for certificates of signs, and for the monomials that hypotheses are solved for.
+//! The search for certificates of signs, and for the monomials for which hypotheses are solved.
 //!
-//! Nothing here is trusted: only the rules of the [kernel](super::kernel) make certificates, and it is the
-//! kernel that solves.
+//! Nothing here is trusted: only the rules of the [kernel](super::kernel) make certificates, and the kernel
+//! solves hypotheses itself.
 
 use super::kernel::algebra::{Monomial, Poly, Ratio, Symbol};
-use super::kernel::context::{Context, solved_for};
-use super::kernel::sign::{Certificate, Known, Sign};
+use super::kernel::context::{Context, solve_for};
+use super::kernel::sign::{Certificate, Sign, SignEnv};
 use crate::formula::Hypothesis;
 use oorandom::Rand32;
 use std::sync::Arc;
 
-/// The depth to which certificates may rest on others.
-const DEPTH: u32 = 3;
+/// Maximum nesting of certificates.
+const MAX_CERTIFICATE_DEPTH: u32 = 3;
 
-/// Rule 4 is tried on at most this many terms: derivatives only grow.
-const TERMS: usize = 12;
+/// Maximum number of terms to which rule 4 is applied; derivatives have even more.
+const MAX_SLOPE_TERMS: usize = 12;
 
-/// Rule 6 is used on at most this many symbols, one inside the other, up to this degree, and on at most this
-/// many terms.
-const ENDS: u32 = 6;
-const MAX_DEGREE: u32 = 4;
-const TERMS_AT_ENDS: usize = 1000;
+/// Maximum number of symbols to which rule 6 is applied, one inside the other.
+const MAX_ENDS: u32 = 6;
 
-/// Rule 3 is tried on at most this many terms if there are symbols between −1 and 1.
-const TERMS_OF_SQUARE: usize = 40;
+/// Maximum degree in a symbol to which rule 6 is applied.
+const MAX_ENDS_DEGREE: u32 = 4;
 
-/// Returns the sign of a polynomial, by rule 2 also with factors whose signs have been found before.
-pub fn sign_of_product(of: &Poly, factors: &[Certificate], known: &Arc<Known>) -> Option<Certificate> {
+/// Maximum number of terms to which rule 6 is applied.
+const MAX_ENDS_TERMS: usize = 1000;
+
+/// Maximum number of terms to which rule 3 is applied if there are symbols between −1 and 1.
+const MAX_SQUARE_TERMS: usize = 40;
+
+/// Returns the sign of a polynomial, by rule 2 also with factors of known sign.
+pub fn sign_of_product(of: &Poly, factors: &[Certificate], known: &Arc<SignEnv>) -> Option<Certificate> {
     if has_both_signs(of, known) {
         return None;
     }
@@ -39,29 +42,29 @@ pub fn sign_of_product(of: &Poly, factors: &[Certificate], known: &Arc<Known>) -
     })
 }
 
-/// Returns the sign of a polynomial, if the rules find one.
+/// Returns the sign of a polynomial if the rules find one.
 ///
-/// Where there are symbols between −1 and 1, rule 4 is not tried.
-pub fn sign(of: &Poly, known: &Arc<Known>) -> Option<Certificate> {
-    if of.symbols().into_iter().any(Symbol::is_small) {
-        return bounded(of, known, ENDS).or_else(|| small_square(of, known));
+/// Rule 4 is not tried if there are symbols between −1 and 1.
+pub fn sign(of: &Poly, known: &Arc<SignEnv>) -> Option<Certificate> {
+    if of.symbols().into_iter().any(Symbol::in_unit_interval) {
+        return bounded(of, known, MAX_ENDS).or_else(|| small_square(of, known));
     }
-    // A short certificate before a long one.
-    (0..=DEPTH).find_map(|depth| within(of, known, depth))
+    // Shorter certificates are preferred.
+    (0..=MAX_CERTIFICATE_DEPTH).find_map(|depth| within(of, known, depth))
 }
 
-/// The number of points at which both signs are looked for.
+/// Number of points at which [`has_both_signs`] evaluates a polynomial.
 const POINTS: u32 = 12;
 
-/// Returns `true` if a polynomial has values of both signs, as floats see it at some points: then no rule
-/// finds its sign.
-fn has_both_signs(of: &Poly, known: &Known) -> bool {
+/// Returns `true` if floats find values of both signs of a polynomial at some points, so that no rule can
+/// find its sign.
+fn has_both_signs(of: &Poly, known: &SignEnv) -> bool {
     if of.has_exponentials() {
         return false;
     }
     let mut random = Rand32::new(1);
     let mut number = |x: &Symbol| match known.get(x) {
-        _ if x.is_small() => [-1.0, -0.5, 0.5, 1.0][random.rand_range(0..4) as usize],
+        _ if x.in_unit_interval() => [-1.0, -0.5, 0.5, 1.0][random.rand_range(0..4) as usize],
         sign => {
             let size = 2.0_f64.powi(random.rand_range(0..13) as i32 - 6);
             let is_negative =
@@ -70,156 +73,157 @@ fn has_both_signs(of: &Poly, known: &Known) -> bool {
         }
     };
     let symbols: Vec<_> = of.symbols().into_iter().collect();
-    let place = |x: Symbol| symbols.binary_search(&x).unwrap_or_default();
-    let powers = |m: &Monomial| m.powers().map(|(x, n)| (place(x), n as i32)).collect::<Vec<_>>();
+    let index = |x: Symbol| symbols.binary_search(&x).unwrap_or_default();
+    let powers = |m: &Monomial| m.powers().map(|(x, n)| (index(x), n as i32)).collect::<Vec<_>>();
     let terms: Vec<_> = of.terms().map(|(m, q)| (q.to_f64(), powers(m))).collect();
     let mut signs = (0..POINTS).filter_map(|_| {
         let point: Vec<f64> = symbols.iter().map(&mut number).collect();
         let values =
             terms.iter().map(|(q, powers)| powers.iter().fold(*q, |x, (i, n)| x * point[*i].powi(*n)));
         let (sum, sizes) = values.fold((0.0, 0.0), |(sum, sizes), x| (sum + x, sizes + x.abs()));
-        // Where less is left than rounding may have made, nothing is seen.
+        // A sum within the rounding error has no certain sign.
         (sum.abs() > 1e-9 * sizes).then_some(sum > 0.0)
     });
     let first = signs.next();
     signs.any(|sign| Some(sign) != first)
 }
 
-fn within(of: &Poly, known: &Arc<Known>, depth: u32) -> Option<Certificate> {
-    if let Some(certificate) = Certificate::terms(of, known) {
+fn within(of: &Poly, known: &Arc<SignEnv>, depth: u32) -> Option<Certificate> {
+    if let Some(certificate) = Certificate::termwise(of, known) {
         return Some(certificate);
     }
     let depth = depth.checked_sub(1)?;
-    let find = |of: &Poly, known: &Arc<Known>| within(of, known, depth);
+    let find = |of: &Poly, known: &Arc<SignEnv>| within(of, known, depth);
     factor(of, known, depth)
         .or_else(|| of.symbols().into_iter().find_map(|x| Certificate::square(of, x, known, &find)))
         .or_else(|| slope(of, known, depth))
         .or_else(|| exponential_factor(of, known, depth))
 }
 
-/// Rule 2, with a product of powers.
-fn factor(of: &Poly, known: &Arc<Known>, depth: u32) -> Option<Certificate> {
+/// Applies rule 2 to a product of powers and the remaining factor.
+fn factor(of: &Poly, known: &Arc<SignEnv>, depth: u32) -> Option<Certificate> {
     let common = of.common_monomial();
     if common == Monomial::one() {
         return None;
     }
     let factor = Poly::from(common);
     let rest = within(&of.over(&factor)?, known, depth)?;
-    Certificate::product(Certificate::terms(&factor, known)?, rest)
+    Certificate::product(Certificate::termwise(&factor, known)?, rest)
 }
 
-/// Rule 2, with an e^…, where rule 4 decides what is left.
-fn exponential_factor(of: &Poly, known: &Arc<Known>, depth: u32) -> Option<Certificate> {
+/// Applies rule 2 to an e^… and the remaining factor, to which it applies rule 4.
+fn exponential_factor(of: &Poly, known: &Arc<SignEnv>, depth: u32) -> Option<Certificate> {
     of.exponents().find_map(|exponent| {
         let rest = of * Poly::exponential(-exponent);
-        let factor = Certificate::terms(&Poly::exponential(exponent.clone()), known)?;
+        let factor = Certificate::termwise(&Poly::exponential(exponent.clone()), known)?;
         Certificate::product(factor, slope(&rest, known, depth)?)
     })
 }
 
-/// Rule 4, where there is an e^….
-fn slope(of: &Poly, known: &Arc<Known>, depth: u32) -> Option<Certificate> {
-    if !of.has_exponentials() || of.terms().len() > TERMS {
+/// Applies rule 4 to a polynomial with e^….
+fn slope(of: &Poly, known: &Arc<SignEnv>, depth: u32) -> Option<Certificate> {
+    if !of.has_exponentials() || of.terms().len() > MAX_SLOPE_TERMS {
         return None;
     }
-    let find = |of: &Poly, known: &Arc<Known>| within(of, known, depth);
-    of.symbols().into_iter().find_map(|x| Certificate::slope(of, x, known, &find))
+    let find = |of: &Poly, known: &Arc<SignEnv>| within(of, known, depth);
+    of.symbols().into_iter().find_map(|x| Certificate::mean_value(of, x, known, &find))
 }
 
-/// Returns the sign by rules 1, 2, 5 and 6, the last of them on at most this many symbols.
-fn bounded(of: &Poly, known: &Arc<Known>, symbols: u32) -> Option<Certificate> {
-    let by_terms = Certificate::terms(of, known).or_else(|| Certificate::sizes(of, known));
+/// Returns the sign by rules 1, 2, 5 and 6, the last one applied to at most `symbols` symbols.
+fn bounded(of: &Poly, known: &Arc<SignEnv>, symbols: u32) -> Option<Certificate> {
+    let by_terms = Certificate::termwise(of, known).or_else(|| Certificate::triangle_inequality(of, known));
     by_terms.or_else(|| small_factor(of, known, symbols)).or_else(|| {
         let symbols = symbols.checked_sub(1)?;
-        if of.terms().len() > TERMS_AT_ENDS {
+        if of.terms().len() > MAX_ENDS_TERMS {
             return None;
         }
-        let raised = |x: &Symbol| of.exponents().any(|e| e.symbols().contains(x));
-        let small = of.symbols().into_iter().filter(|x| x.is_small() && !raised(x));
-        let degrees = small.map(|x| (of.degree(x), x)).filter(|(n, _)| *n <= MAX_DEGREE);
-        Certificate::ends(of, degrees.min()?.1, known, &|of, known| bounded(of, known, symbols))
+        let is_in_exponent = |x: &Symbol| of.exponents().any(|e| e.symbols().contains(x));
+        let small = of.symbols().into_iter().filter(|x| x.in_unit_interval() && !is_in_exponent(x));
+        let degrees = small.map(|x| (of.degree(x), x)).filter(|(n, _)| *n <= MAX_ENDS_DEGREE);
+        Certificate::endpoints(of, degrees.min()?.1, known, &|of, known| bounded(of, known, symbols))
     })
 }
 
-/// Rule 3, with a square in a symbol between −1 and 1.
-fn small_square(of: &Poly, known: &Arc<Known>) -> Option<Certificate> {
-    let small = of.symbols().into_iter().filter(|x| x.is_small() && of.terms().len() <= TERMS_OF_SQUARE);
-    let find = |of: &Poly, known: &Arc<Known>| bounded(of, known, ENDS);
+/// Applies rule 3 to a square in a symbol between −1 and 1.
+fn small_square(of: &Poly, known: &Arc<SignEnv>) -> Option<Certificate> {
+    let small =
+        of.symbols().into_iter().filter(|x| x.in_unit_interval() && of.terms().len() <= MAX_SQUARE_TERMS);
+    let find = |of: &Poly, known: &Arc<SignEnv>| bounded(of, known, MAX_ENDS);
     small.into_iter().find_map(|x| Certificate::square(of, x, known, &find))
 }
 
-/// Rule 2, with squares of symbols between −1 and 1.
-fn small_factor(of: &Poly, known: &Arc<Known>, symbols: u32) -> Option<Certificate> {
+/// Applies rule 2 to squares of symbols between −1 and 1 and the remaining factor.
+fn small_factor(of: &Poly, known: &Arc<SignEnv>, symbols: u32) -> Option<Certificate> {
     let common = of.common_monomial();
-    let small = common.without_those(|x| !x.is_small());
-    let factor = Certificate::terms(&small.into(), known).filter(|factor| !factor.of().is_one())?;
+    let small = common.without_symbols(|x| !x.in_unit_interval());
+    let factor = Certificate::termwise(&small.into(), known).filter(|factor| !factor.of().is_one())?;
     Certificate::product(factor.clone(), bounded(&of.over(factor.of())?, known, symbols)?)
 }
 
-/// Returns the monomial of a quantity for which the equation is best solved that the quantity is its slack,
-/// or 0.
+/// Returns the monomial for which to solve `equation`: that `value` equals its slack variable, or 0.
 ///
-/// Best a symbol of which nothing is known and that stands alone or times what is not 0, so that it
-/// disappears for good; else a product of symbols of which little is known, so that little is forgotten;
-/// else a symbol whose sign is then seen again: with b = a + s for b − a > 0 that of b is.
+/// The choice prefers a symbol of unknown sign whose coefficient is not 0, so that the symbol is eliminated;
+/// otherwise a product with few symbols of known sign, so that little information is lost; otherwise a
+/// symbol whose sign still follows after the substitution, as that of b does from b = a + s for b − a > 0.
 ///
-/// Where there are errors in it, the symbol that the hypothesis is solved for comes first, and products
-/// last: they would be forgotten for something long.
+/// If the equation contains rounding errors, the symbol for which the hypothesis is to be solved comes
+/// first, and products come last, because long expressions would replace them.
 pub fn pivot(
     context: &Context,
     given: Option<&Hypothesis>,
     value: &Ratio,
     equation: &Poly,
-    known: &Arc<Known>,
+    known: &Arc<SignEnv>,
 ) -> Option<Monomial> {
     let solved = |x: Symbol| {
         let pivot = Monomial::of(x);
-        let by = solved_for(&pivot, equation, known)?;
+        let by = solve_for(&pivot, equation, known)?;
         Some((equation.coefficient(x, 1).terms().len(), pivot, by))
     };
     let symbols = value.num().symbols();
-    // In a limit first of all the variable, so that the slack tends to infinity instead.
+    // In a limit the variable comes first, so that the slack variable tends to infinity in its place.
     let has_slack = equation != value.num();
     if let Some(x) = context.variable().filter(|x| symbols.contains(x) && has_slack)
         && let Some((_, pivot, _)) = solved(x)
     {
         return Some(pivot);
     }
-    let rounds = symbols.iter().any(|x| x.is_small());
-    let comes_later = |x: Symbol| rounds && given.is_none_or(|given| Symbol::Own(given.solved_for) != x);
-    let is_free = |x: &&Symbol| !context.known().contains_key(x) && !x.is_small();
+    let has_errors = symbols.iter().any(|x| x.in_unit_interval());
+    let comes_later = |x: Symbol| has_errors && given.is_none_or(|given| Symbol::Own(given.solved_for) != x);
+    let is_free = |x: &&Symbol| !context.signs().contains_key(x) && !x.in_unit_interval();
     let free = symbols.iter().filter(is_free).filter_map(|x| Some((comes_later(*x), solved(*x)?)));
     let free = free.min_by_key(|(later, (terms, ..))| (*later, *terms)).map(|(_, (_, pivot, _))| pivot);
     let product = || {
-        let is_known = |m: &Monomial| m.powers().filter(|(x, _)| context.known().contains_key(x)).count();
-        let is_large = |m: &&Monomial| m.powers().len() > 1 && !m.powers().any(|(x, _)| x.is_small());
-        let own = value.num().terms().map(|(m, _)| m).filter(is_large);
-        own.min_by_key(|m| is_known(m)).filter(|m| solved_for(m, equation, known).is_some()).cloned()
+        let known_signs = |m: &Monomial| m.powers().filter(|(x, _)| context.signs().contains_key(x)).count();
+        let is_product =
+            |m: &&Monomial| m.powers().len() > 1 && !m.powers().any(|(x, _)| x.in_unit_interval());
+        let products = value.num().terms().map(|(m, _)| m).filter(is_product);
+        products.min_by_key(|m| known_signs(m)).filter(|m| solve_for(m, equation, known).is_some()).cloned()
     };
-    let seen_again = || {
+    let signed = || {
         symbols.iter().find_map(|x| {
             let (_, pivot, by) = solved(*x)?;
             let sign = context.reduced_sign(&by, known)?;
-            sign.implies(*context.known().get(x)?).then_some(pivot)
+            sign.implies(*context.signs().get(x)?).then_some(pivot)
         })
     };
-    free.or_else(|| {
-        if rounds || context.rounds() { seen_again().or_else(product) } else { product().or_else(seen_again) }
-    })
+    let products_last = has_errors || context.contains_rounding();
+    free.or_else(|| if products_last { signed().or_else(product) } else { product().or_else(signed) })
 }
 
-/// Returns the factors with which a symbol cancels in the difference of a value and a multiple of another:
-/// an error or an interval parameter, if there is one in both.
+/// Returns the factors m for which a symbol cancels in `value` − m `other`: an error or interval parameter
+/// if both contain one.
 pub fn multipliers(value: &Ratio, other: &Ratio) -> Vec<Ratio> {
     let factor = |x: Symbol| {
-        let [[_, own], [_, other]] = [value.num().coefficients(x)?, other.num().coefficients(x)?];
-        Ratio::from(own).over(&other.into())
+        let [[_, dividend], [_, divisor]] = [value.num().coefficients(x)?, other.num().coefficients(x)?];
+        Ratio::from(dividend).over(&divisor.into())
     };
     let scale = Ratio::from(other.den().clone()).over(&value.den().clone().into());
     let cancelling = |of: Vec<Symbol>| -> Vec<Ratio> {
         of.into_iter().filter_map(|x| Some(scale.as_ref()? * factor(x)?)).collect()
     };
-    let (small, others): (Vec<_>, Vec<_>) = other.num().symbols().into_iter().partition(|x| x.is_small());
+    let (small, others): (Vec<_>, Vec<_>) =
+        other.num().symbols().into_iter().partition(|x| x.in_unit_interval());
     let small = cancelling(small);
     let mut all = if small.is_empty() { cancelling(others) } else { small };
     all.dedup();
@@ -254,7 +258,7 @@ mod tests {
 
     fn found(of: Poly) -> Option<Sign> {
         let known = [("a", Positive), ("b", Positive), ("z", NonNegative), ("n", Negative)];
-        let known = Known::from(known.map(|(name, sign)| (Symbol::Own(name), sign)));
+        let known = SignEnv::from(known.map(|(name, sign)| (Symbol::Own(name), sign)));
         sign(&of, &known.into()).map(|certificate| certificate.sign())
     }
 
@@ -267,19 +271,19 @@ mod tests {
         assert_eq!(found(n(-2)), Some(Negative));
         assert_eq!(found(x("n") * x("n")), Some(Positive));
         assert_eq!(found(x("n") * x("n") * x("n")), Some(Negative));
-        // An odd power of a free symbol, a difference: nothing is known.
+        // Odd powers of free symbols and differences have no certain sign.
         assert_eq!(found(x("u")), None);
         assert_eq!(found(x("a") - x("b")), None);
     }
 
     #[test]
-    fn both_signs_are_seen_where_both_are_taken() {
+    fn both_signs_are_found_where_both_occur() {
         let known = [("a", Positive), ("z", NonNegative), ("n", Negative)];
-        let known = Known::from(known.map(|(name, sign)| (Symbol::Own(name), sign)));
+        let known = SignEnv::from(known.map(|(name, sign)| (Symbol::Own(name), sign)));
         for of in [x("u"), x("a") - n(1), x("z") * x("u"), error(0), n(3) * x("a") * error(0) - x("z")] {
             assert!(has_both_signs(&of, &known), "{of:?}");
         }
-        // A square touches 0, and so does 1 + e; what is lost in floats is not seen.
+        // Squares and 1 + e have zeros but do not change sign, and cancellation in floats hides a sign.
         let square = (x("u") - x("v")) * (x("u") - x("v"));
         let lost = x("a") - (x("a") + x("z")) + x("z");
         for of in [square, n(1) + error(0), -x("n") * x("a"), x("z"), lost, e(x("u")) - x("a")] {
@@ -288,8 +292,8 @@ mod tests {
     }
 
     #[test]
-    fn a_common_factor() {
-        // a(u² + 1) is rule 1; a u² − 2 a u + 2 a needs the factor, then the square.
+    fn common_factors_are_taken_out() {
+        // a u² − 2 a u + 2 a takes rule 2 for the factor a, then rule 3.
         let square = x("u") * x("u") - n(2) * x("u") + n(2);
         assert_eq!(found(x("a") * &square), Some(Positive));
         assert_eq!(found(x("z") * &square), Some(NonNegative));
@@ -297,41 +301,41 @@ mod tests {
     }
 
     #[test]
-    fn squares_that_miss_zero_touch_it_or_cross_it() {
+    fn quadratics_have_a_sign_unless_they_have_two_roots() {
         let quadratic = |d: i32| x("u") * x("u") + n(2) * x("u") + n(d);
         assert_eq!(found(quadratic(2)), Some(Positive));
         assert_eq!(found(quadratic(1)), Some(NonNegative));
         assert_eq!(found(quadratic(0)), None);
         assert_eq!(found(-quadratic(1)), Some(NonPositive));
-        // A leading coefficient that may vanish proves nothing.
+        // The leading coefficient may be 0.
         assert_eq!(found(x("z") * x("u") * x("u") + x("u") + n(1)), None);
     }
 
     #[test]
-    fn small_factors_make_no_term_larger() {
+    fn factors_between_minus_1_and_1_do_not_increase_terms() {
         assert_eq!(found(n(3) + error(0) + Poly::symbol(Symbol::Place(0))), Some(Positive));
         assert_eq!(found(n(1) + error(0) * error(1)), Some(NonNegative));
         assert_eq!(found(error(0) - n(1)), Some(NonPositive));
         assert_eq!(found(x("u") * x("u") * (n(2) + error(0))), Some(NonNegative));
         assert_eq!(found(x("a") * error(0) - n(2) * x("a") - x("b")), Some(Negative));
-        // It takes as much of the same, and a sign.
+        // The other terms are too small, or of unknown sign.
         assert_eq!(found(x("a") + x("b") * error(0)), None);
         assert_eq!(found(n(3) + n(2) * error(0) + n(2) * error(1)), None);
         assert_eq!(found(x("u") * (n(2) + error(0))), None);
         assert_eq!(found(error(0)), None);
-        // No other symbol is between −1 and 1, whatever its name.
+        // Other symbols are unbounded, regardless of their names.
         assert_eq!(found(n(3) + x("e₁")), None);
     }
 
     #[test]
-    fn squares_of_small_factors_keep_the_sign_of_a_term() {
+    fn squares_of_factors_between_minus_1_and_1_preserve_the_sign_of_a_term() {
         let square = || error(0) * error(0);
         let [of_both, cube] = [square() * error(1), square() * error(0)];
         assert_eq!(found(n(1) + n(3) * square() - error(1)), Some(NonNegative));
         assert_eq!(found(n(2) + x("a") * square() * (n(1) + square()) + error(1)), Some(Positive));
         assert_eq!(found(x("n") * square() - n(2) - error(1)), Some(Negative));
         assert_eq!(found(square() * (n(3) - error(1)) * (n(3) - error(0))), Some(NonNegative));
-        // Not of two factors of which one is no square, nor of a cube, nor without a sign.
+        // A factor is not a square, or the coefficient has the opposite or no known sign.
         assert_eq!(found(n(1) + n(3) * of_both - error(0)), None);
         assert_eq!(found(n(1) + n(3) * cube - error(1)), None);
         assert_eq!(found(n(1) + x("u") * square() - error(1)), None);
@@ -340,14 +344,14 @@ mod tests {
     }
 
     #[test]
-    fn what_is_linear_lies_between_its_ends() {
-        // Its terms alone do not show it: with the sizes of all it is 1 − 2.
+    fn linear_polynomials_lie_between_their_values_at_the_ends() {
+        // Rule 5 fails, as the absolute values of the other terms exceed 2.
         let product = || (n(1) + error(0)) * (n(2) + error(1));
         assert_eq!(found(product()), Some(NonNegative));
         assert_eq!(found(-product()), Some(NonPositive));
         assert_eq!(found(x("a") * product() + x("b")), Some(Positive));
         assert_eq!(found(product() - x("a")), None);
-        // Nor do they show a square, which is completed; not where it is in an exponent as well.
+        // A square is completed, unless the symbol also occurs in an exponent.
         assert_eq!(found(error(0) * error(0) * n(4) - n(4) * error(0) + n(1)), Some(NonNegative));
         assert_eq!(found(error(0) * error(0) * n(4) - n(4) * error(0) - error(1)), None);
         assert_eq!(found(e(error(0)) - n(1) - error(0)), None);
@@ -358,35 +362,36 @@ mod tests {
         let tangent = || n(1) + x("a");
         assert_eq!(found(e(x("a")) - tangent()), Some(Positive));
         assert_eq!(found(tangent() - e(x("a"))), Some(Negative));
-        // The other way round and from a wrong start it is not so.
+        // The start is negative, or the symbol may be negative.
         assert_eq!(found(e(x("a")) - n(1) - tangent()), None);
         assert_eq!(found(e(x("u")) - n(1) - x("u")), None);
-        // Where x may be 0 it is only as strict as its start.
+        // Where x may be 0 the sign is not stricter than that of the start.
         assert_eq!(found(e(x("z")) - n(1) - x("z")), Some(NonNegative));
-        // e^{e^{1/a}} has no value at a = 0 to begin with.
+        // e^{e^{1/a}} is undefined at a = 0.
         let nested = over(x("a") * e(over(n(1), x("a"))), tangent());
         assert_eq!(found(e(-nested) - n(1)), None);
-        // 1 + a − e^{a/(a+1)}: its slope takes two rounds.
+        // 1 + a − e^{a/(a+1)} takes rule 4 twice.
         assert_eq!(found(tangent() - e(over(x("a"), tangent()))), Some(Positive));
     }
 
     #[test]
-    fn long_sums_are_left_alone() {
-        let known = Arc::new(Known::from([(Symbol::Own("a"), Positive)]));
-        let powers = |many: usize| {
+    fn rules_4_and_6_are_not_applied_to_long_sums() {
+        let known = Arc::new(SignEnv::from([(Symbol::Own("a"), Positive)]));
+        let powers = |count: usize| {
             std::iter::successors(Some(x("a")), |power| Some(power * x("a")))
-                .take(many)
+                .take(count)
                 .fold(n(0), |a, b| a + b)
         };
-        // e^a − 1 + a + a² + …: its slope is one of terms that are positive.
+        // The derivative of e^a − 1 + a + a² + … has positive terms.
         let of = |terms: usize| e(x("a")) - n(1) + powers(terms - 2);
-        let tried = [TERMS - 1, TERMS, TERMS + 1].map(|many| slope(&of(many), &known, 1).is_some());
-        assert_eq!(tried, [true, true, false]);
-        assert!(slope(&powers(3), &known, 1).is_none(), "where there is no e^…, other rules are as good");
+        let lengths = [MAX_SLOPE_TERMS - 1, MAX_SLOPE_TERMS, MAX_SLOPE_TERMS + 1];
+        let is_found = lengths.map(|terms| slope(&of(terms), &known, 1).is_some());
+        assert_eq!(is_found, [true, true, false]);
+        assert!(slope(&powers(3), &known, 1).is_none(), "rule 4 is only applied to polynomials with e^…");
         // (1 + e₁)(2 + e₂)(a + a² + …).
         let of = |terms: usize| (n(1) + error(0)) * (n(2) + error(1)) * powers(terms / 4);
-        let many = [TERMS_AT_ENDS, TERMS_AT_ENDS + 4];
-        let tried = many.map(|many| bounded(&of(many), &known, 2).is_some());
-        assert_eq!(tried, [true, false]);
+        let lengths = [MAX_ENDS_TERMS, MAX_ENDS_TERMS + 4];
+        let is_found = lengths.map(|terms| bounded(&of(terms), &known, 2).is_some());
+        assert_eq!(is_found, [true, false]);
     }
 }

@@ -1,4 +1,4 @@
-//! Balls.
+//! Tests of balls.
 
 use crate::draw::{Tally, floats, for_all, pairs, rationals};
 use crate::floats::{Binary32, Binary64};
@@ -13,14 +13,14 @@ use std::cmp::Ordering;
 use std::fmt::Debug;
 use std::marker::PhantomData;
 
-/// Balls over floats, with the exact number anywhere inside: at the ends, at the centre, between.
+/// Balls over floats with the exact number anywhere inside: at a bound, at the centre, or between.
 pub struct Balls<S>(PhantomData<S>);
 pub type BallF32 = Balls<Binary32>;
 pub type BallF64 = Balls<Binary64>;
 pub type BallMpfr2 = Balls<Mpfr2>;
 pub type BallMpfr53 = Balls<Mpfr53>;
 
-/// How wide a ball is: a point, half a unit in the last place, or about η·2ᵏ of its centre.
+/// Radius of a ball: 0, half a unit in the last place, or about η·2ᵏ times its centre.
 #[derive(Clone, Copy, Debug)]
 enum Width {
     Point,
@@ -29,7 +29,7 @@ enum Width {
 }
 
 impl<S: Floats<Number = N>, N: Real + ToExact + 'static> Balls<S> {
-    /// A width and a place inside: from −16, the lower end, to 16, the upper one.
+    /// A radius and a position inside: from −16, the lower bound, to 16, the upper bound.
     fn shape() -> BoxedStrategy<(Width, i32)> {
         let widest = S::FORMAT.bits.cast_signed() + 4;
         let width =
@@ -40,13 +40,13 @@ impl<S: Floats<Number = N>, N: Real + ToExact + 'static> Balls<S> {
     fn planted(centre: &Exact, (width, place): (Width, i32)) -> Planted<Self> {
         let float = S::float(centre);
         let ball = match width {
-            Width::Point => Ball::exactly(float),
-            Width::Rounding => Ball::rounded(float),
+            Width::Point => Ball::point(float),
+            Width::Rounding => Ball::from_rounded(float),
             Width::Wide(k) => {
                 // Around 0 too, where the centre has no size of its own.
                 let size = if centre.is_zero() { Exact::one() } else { centre.clone() };
                 let error = S::float(&S::FORMAT.fit(&(size * Exact::power_of_two(k))));
-                Ball::exactly(float) + (Ball::rounded(error.clone()) - Ball::exactly(error))
+                Ball::point(float) + (Ball::from_rounded(error.clone()) - Ball::point(error))
             }
         };
         let inside = match ball.radius().to_exact() {
@@ -76,7 +76,7 @@ impl<S: Floats<Number = N>, N: Real + ToExact + 'static> System for Balls<S> {
             _ => *result.radius() == N::infinity(),
         }
     }
-    /// They have a number in common.
+    /// Returns `true` if the balls have a number in common.
     fn same(a: &Self::Number, b: &Self::Number) -> bool {
         let end = |x: &N| x.to_exact();
         match (end(a.value()), end(a.radius()), end(b.value()), end(b.radius())) {
@@ -100,15 +100,15 @@ laws_of_balls! {
     a_ball_is_hardly_wider_than_the_rounding_of_its_operation
 }
 
-/// The four operations are monotone in each operand (÷ on either side of 0), so if the results for the
-/// ends of both balls are inside, all others are.
+/// The four operations are monotone in each operand (÷ on either side of 0), so if the results for the bounds
+/// of both balls are inside, all others are.
 #[test]
 fn all_pairs_of_3_bit_balls_hold_the_results_of_their_ends() {
     let all = all_of_three_bits(-4..=0);
     let finite = Tally::default();
     for a in &all {
         for b in &all {
-            let balls = [a, b].map(|x| Ball::rounded(Mpfr3::float(x)));
+            let balls = [a, b].map(|x| Ball::from_rounded(Mpfr3::float(x)));
             let [ends_a, ends_b] = [(a, &balls[0]), (b, &balls[1])].map(|(x, ball)| {
                 let radius = ball.radius().to_exact().unwrap();
                 [x - &radius, x + radius]
@@ -134,7 +134,7 @@ fn a_ball_never_errs_about_signs_and_bounds<S: Floats<Number = N>, N: Real + ToE
     // Differences of neighbours straddle 0; quotients have infinite balls among them.
     for_all(Balls::<S>::pair(), |((a, exact_a), (b, exact_b))| {
         let mut planted = vec![(&a - &b, &exact_a - &exact_b)];
-        if exact_b.is_unit() {
+        if exact_b.is_invertible() {
             planted.push((&a / &b, &exact_a / &exact_b));
         }
         planted.push((a, exact_a));
@@ -144,7 +144,7 @@ fn a_ball_never_errs_about_signs_and_bounds<S: Floats<Number = N>, N: Real + ToE
             certain.count(sign.is_some());
             uncertain.count(sign.is_none());
             prop_assert!(sign.is_none() || sign == Some(exact.cmp(&Exact::zero())), "{:?}: {}", ball, exact);
-            prop_assert!(!ball.is_unit() || !exact.is_zero());
+            prop_assert!(!ball.is_invertible() || !exact.is_zero());
             prop_assert!(compare(&ball.lower(), &exact).is_some_and(Ordering::is_le), "{:?}", ball);
             prop_assert!(compare(&ball.upper(), &exact).is_some_and(Ordering::is_ge), "{:?}", ball);
             prop_assert!(compare(&ball.magnitude(), &exact.abs()).is_some_and(Ordering::is_ge), "{:?}", ball);
@@ -155,7 +155,7 @@ fn a_ball_never_errs_about_signs_and_bounds<S: Floats<Number = N>, N: Real + ToE
     uncertain.assert_one_in(50, "signs not decided");
 }
 
-/// Also where `x` is infinite.
+/// Also for an infinite `x`.
 fn compare<N: Real + ToExact>(x: &N, exact: &Exact) -> Option<Ordering> {
     match x.to_exact() {
         Ok(x) => Some(x.cmp(exact)),
@@ -178,11 +178,12 @@ fn the_centre_is_what_the_float_alone_computes<S: Floats<Number = N>, N: Real + 
     });
 }
 
-/// One and a half of the smallest numbers: few digits, and yet between two floats.
+/// One and a half of the smallest number: few digits, but between two floats.
 #[test]
 fn what_lies_between_subnormals_is_no_exact_centre() {
     let x = |n| Exact::from(3) * Exact::power_of_two(n);
-    let (single, double) = (Ball::around(&0f32, &x(-150)).unwrap(), Ball::around(&0f64, &x(-1075)).unwrap());
+    let (single, double) =
+        (Ball::enclosing(&0f32, &x(-150)).unwrap(), Ball::enclosing(&0f64, &x(-1075)).unwrap());
     assert!(*single.radius() > 0.0 && single.contains(&x(-150)));
     assert!(*double.radius() > 0.0 && double.contains(&x(-1075)));
 }
@@ -191,7 +192,7 @@ fn a_ball_knows_whether_its_centre_is_exact<S: Floats<Number = N>, N: Real + ToE
     let inexact = Tally::default();
     for_all(prop_oneof![floats(S::FORMAT), rationals()], |x| {
         let nearest = S::FORMAT.round(&x);
-        let ball = Ball::around(&S::float(&Exact::zero()), &x);
+        let ball = Ball::enclosing(&S::float(&Exact::zero()), &x);
         let in_range = nearest.abs() <= S::FORMAT.largest() && nearest.is_zero() == x.is_zero();
         prop_assert_eq!(ball.is_ok(), in_range, "{}", x);
         if let Ok(ball) = ball {
@@ -199,7 +200,7 @@ fn a_ball_knows_whether_its_centre_is_exact<S: Floats<Number = N>, N: Real + ToE
             prop_assert_eq!(ball.radius().is_zero(), !inexact.count(x != nearest));
             prop_assert!(Balls::<S>::stands_for(&ball, &x) && ball.contains(&x));
         }
-        let ball = Ball::rounded(S::float(&S::FORMAT.fit(&x)));
+        let ball = Ball::from_rounded(S::float(&S::FORMAT.fit(&x)));
         let radius = ball.radius().to_exact().unwrap();
         let end = ball.value().to_exact().unwrap() + &radius;
         prop_assert!(ball.contains(&end));
@@ -209,19 +210,19 @@ fn a_ball_knows_whether_its_centre_is_exact<S: Floats<Number = N>, N: Real + ToE
     inexact.assert_one_in(10, "inexact centres");
 }
 
-/// Were every radius infinite, all else would hold. What one operation adds is η|x| for the rounding of x,
-/// made larger by at most a factor 1 + 2η where it is rounded up in turn, and the underflow unit u where
-/// the product or the sum with it underflows: for points, no more than 2 (η|x| + 4u).
+/// Infinite radii would satisfy all other laws. One operation adds η|x| for the rounding of x, increased by
+/// at most a factor 1 + 2η by rounding up, and the subnormal unit u if the product or sum underflows: for
+/// points at most 2 (η|x| + 4u).
 fn a_ball_is_hardly_wider_than_the_rounding_of_its_operation<
     S: Floats<Number = N>,
     N: Real + ToExact + 'static,
 >() {
     let eta = Exact::power_of_two(1 - S::FORMAT.bits.cast_signed());
-    let underflow = Exact::int(8) * N::underflow_unit().to_exact().unwrap();
+    let underflow = Exact::int(8) * N::min_subnormal().to_exact().unwrap();
     let tried = Tally::default();
     for_all(pairs(S::FORMAT), |(a, b)| {
         let [x, y] = [&a, &b].map(S::float);
-        let [p, q] = [&x, &y].map(|x| Ball::exactly(x.clone()));
+        let [p, q] = [&x, &y].map(|x| Ball::point(x.clone()));
         for ((_, ball), (_, float)) in operations().into_iter().zip(operations::<N>()) {
             let result = float(&x, &y);
             // Not where the float overflows, or only its bound does.
@@ -237,7 +238,7 @@ fn a_ball_is_hardly_wider_than_the_rounding_of_its_operation<
     tried.assert_one_in(2, "operations tried");
 }
 
-/// The bits in which the exponential of a rational is enclosed: many more than any of the balls has.
+/// Bits of the enclosure of an exponential, many more than any of the balls has.
 const ENCLOSURE: u32 = 500;
 
 fn a_ball_of_exp_holds_the_exponential<S: Floats<Number = N>, N: Real + Exponential + ToExact + 'static>() {
@@ -245,7 +246,7 @@ fn a_ball_of_exp_holds_the_exponential<S: Floats<Number = N>, N: Real + Exponent
     let bits = S::FORMAT.bits.cast_signed();
     for_all(Balls::<S>::of(floats(S::FORMAT.within(-bits - 8, 11))), |(ball, x)| {
         let result = ball.exp();
-        prop_assert!(Balls::<S>::same(&result, &Ball::exactly(ball.value().exp())));
+        prop_assert!(Balls::<S>::same(&result, &Ball::point(ball.value().exp())));
         if finite.count(result.is_finite()) {
             let (low, high) = bracket(&x, ENCLOSURE, Float::exp_round);
             prop_assert!(Balls::<S>::stands_for(&result, &low), "exp {:?} = {:?} at {}", ball, result, x);
@@ -256,8 +257,8 @@ fn a_ball_of_exp_holds_the_exponential<S: Floats<Number = N>, N: Real + Exponent
     finite.assert_one_in(2, "finite exponentials");
 }
 
-/// (eˣ)′ = eˣ x′. Both factors of a product lie between their ends, so the product lies between the least
-/// and the greatest of the ends' products.
+/// (eˣ)′ = eˣ x′. Both factors lie between their bounds, so the product lies between the smallest and the
+/// largest product of bounds.
 fn a_dual_ball_of_exp_holds_the_exponential_and_its_derivative<
     S: Floats<Number = N>,
     N: Real + Exponential + ToExact + 'static,
@@ -278,24 +279,23 @@ fn a_dual_ball_of_exp_holds_the_exponential_and_its_derivative<
     finite.assert_one_in(2, "finite exponentials");
 }
 
-/// |eˣ − 1| ≤ r + r² for |x| ≤ r ≤ 1, and the rest of the radius is of the size of an ulp: for r = 2⁻¹⁰ it is below
-/// r + 2 r².
+/// |eˣ − 1| ≤ r + r² for |x| ≤ r ≤ 1, and the rest of the radius is about an ulp: for r = 2⁻¹⁰ it is below r + 2 r².
 #[test]
 fn the_exponential_of_a_narrow_ball_is_narrow() {
     let r = 1.0 / 1024.0;
-    let ball = Ball::exactly(-r).hull(&Ball::exactly(r));
+    let ball = Ball::point(-r).hull(&Ball::point(r));
     assert!(*ball.radius() >= r);
     let exponential = ball.exp();
     assert_eq!(*exponential.value(), 1.0);
     assert!(*exponential.radius() < r + 2.0 * r * r, "{exponential:?}");
 }
 
-/// Around zero the rounding of the centre adds nothing that could hide one of the radius.
+/// Around zero the rounding of the centre cannot hide an error of the radius.
 #[test]
 fn a_ball_around_zero_is_divided_and_multiplied_outwards() {
     fn law<S: Floats<Number = N>, N: Real + ToExact + 'static>() {
         let one = S::float(&Exact::one());
-        let ball = Ball::rounded(one.clone()) - Ball::exactly(one);
+        let ball = Ball::from_rounded(one.clone()) - Ball::point(one);
         let end = ball.radius().to_exact().unwrap();
         for n in 1..200 {
             let (quotient, product) = (&ball / Ball::int(n), &ball * Ball::int(n));
@@ -318,11 +318,11 @@ fn a_ball_around_zero_is_divided_and_multiplied_outwards() {
 fn division_by_what_may_be_zero_gives_the_infinite_ball_and_by_zero_none() {
     fn law<S: Floats<Number = N>, N: Real + Exponential + ToExact>(zeros: &[N]) {
         let one = S::float(&Exact::one());
-        let around_zero = Ball::rounded(one.clone()) - Ball::rounded(one.clone());
-        let points = zeros.iter().cloned().map(Ball::exactly);
+        let around_zero = Ball::from_rounded(one.clone()) - Ball::from_rounded(one.clone());
+        let points = zeros.iter().cloned().map(Ball::point);
         for divisor in points.chain([around_zero, Ball::zero()]) {
-            assert!(!divisor.is_unit());
-            for dividend in [Ball::exactly(one.clone()), Ball::one(), Ball::zero(), divisor.clone()] {
+            assert!(!divisor.is_invertible());
+            for dividend in [Ball::point(one.clone()), Ball::one(), Ball::zero(), divisor.clone()] {
                 let quotient = dividend / &divisor;
                 assert_eq!((quotient.is_finite(), quotient.sign()), (false, None));
                 assert!(quotient.contains(&Exact::int(7)));

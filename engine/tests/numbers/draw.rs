@@ -1,4 +1,4 @@
-//! What laws are tried on: numbers of a format, fractions, rationals.
+//! Random numbers for laws: floats of a format, fractions, rationals.
 
 use crate::format::{Format, magnitude};
 use num_traits::Zero;
@@ -11,8 +11,8 @@ use std::any::Any;
 use std::cell::Cell;
 use std::fmt::Debug;
 
-/// Floats log-uniform over all exponents and dense around 1, with short, full and random mantissas; the
-/// smallest and the largest ones, subnormals, powers of two and zero among them.
+/// Floats log-uniform over all exponents and dense around 1, with short, full and random mantissas; including
+/// the smallest and the largest ones, subnormal numbers, powers of two and zero.
 pub fn floats(format: Format) -> BoxedStrategy<Exact> {
     let Format { bits, least, greatest, .. } = format;
     let ones = (Integer::from(1) << bits) - 1u32;
@@ -37,8 +37,8 @@ pub fn floats(format: Format) -> BoxedStrategy<Exact> {
     prop_oneof![15 => signed, 1 => Just(Exact::zero())].boxed()
 }
 
-/// Two floats that have to do with each other in three cases of four: neighbours up to sign, whose sum
-/// cancels; or so far apart that the smaller one just reaches the last digits of the larger.
+/// Two floats that interact in three cases of four: neighbours up to sign, whose sum cancels, or so different
+/// that the smaller one just reaches the last digits of the larger.
 pub fn pairs(format: Format) -> BoxedStrategy<(Exact, Exact)> {
     let reach = format.bits.cast_signed() + 3;
     (floats(format), floats(format), 0..4, -3..=3, -reach..=reach, any::<bool>())
@@ -55,13 +55,13 @@ pub fn pairs(format: Format) -> BoxedStrategy<(Exact, Exact)> {
         .boxed()
 }
 
-/// Fractions of small and of extreme integers, never 0 below the line.
+/// Fractions of small and of extreme integers with a nonzero denominator.
 pub fn fractions() -> BoxedStrategy<(i32, i32)> {
     let whole = || prop_oneof![4 => -12..=12, 1 => Just(i32::MAX), 1 => Just(i32::MIN), 2 => any::<i32>()];
     (whole(), whole()).prop_map(|(p, q)| (p, if q == 0 { 1 } else { q })).boxed()
 }
 
-/// Rationals that are neither small nor dyadic, on either side of what f32 can hold.
+/// Rationals that are neither small nor dyadic, within and beyond the range of f32.
 pub fn rationals() -> BoxedStrategy<Exact> {
     let dyadic = Format { least: -200, greatest: 140, ..Format::unbounded(64) };
     (floats(dyadic), fractions())
@@ -69,11 +69,11 @@ pub fn rationals() -> BoxedStrategy<Exact> {
         .boxed()
 }
 
-/// What a strategy drew. The runner need not know its type: compiled once, it serves every law.
+/// A value drawn by a strategy, with its type erased, so that the runner is compiled once for all laws.
 trait Drawn: Any + Debug {}
 impl<T: Any + Debug> Drawn for T {}
 
-/// Runs a law on what the strategy draws. A failure is shrunk, reported and remembered beside this file.
+/// Tests a law on values of a strategy. A failure is shrunk, reported and stored beside this file.
 pub fn for_all<S: Strategy<Value: 'static> + 'static>(strategy: S, law: impl Fn(S::Value) -> TestCaseResult) {
     let drawn = strategy.prop_map(|value| Box::new(value) as Box<dyn Drawn>).boxed();
     run(&drawn, &|drawn| {
@@ -91,7 +91,7 @@ fn run(drawn: &BoxedStrategy<Box<dyn Drawn>>, law: &dyn Fn(Box<dyn Drawn>) -> Te
     }
 }
 
-/// Counts how often something was seen, so that a law cannot hold because it was never tried.
+/// Counts events, so that a law cannot pass because it was never tested.
 #[derive(Default)]
 pub struct Tally {
     seen: Cell<u32>,

@@ -1,4 +1,4 @@
-//! Dual numbers.
+//! Tests of dual numbers.
 
 use crate::ball::{BallF32, BallF64};
 use crate::draw::{Tally, for_all, rationals};
@@ -13,7 +13,7 @@ use std::cmp::Ordering;
 use std::fmt::Debug;
 use std::marker::PhantomData;
 
-/// Dual numbers over any of the others.
+/// Dual numbers over any of the other number systems.
 pub struct Duals<S>(PhantomData<S>);
 pub type DualExact = Duals<Rationals>;
 pub type DualF64 = Duals<Binary64>;
@@ -27,7 +27,7 @@ where
     M: Field + 'static,
 {
     type Number = Dual<N>;
-    /// Not `Dual` again, which would be compared with itself.
+    /// An independent representation, so that `Dual` is not compared with itself.
     type Meaning = Matrix<M>;
 
     fn pair() -> BoxedStrategy<(Planted<Self>, Planted<Self>)> {
@@ -44,7 +44,7 @@ where
     }
 }
 
-/// What a dual number v + d·ε is: the matrix with v on and d above its diagonal.
+/// The matrix of a dual number v + d·ε, with v on the diagonal and d above it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Matrix<T>(pub [[T; 2]; 2]);
 
@@ -90,8 +90,8 @@ impl<T: Field> Field for Matrix<T> {
     fn int(n: i32) -> Self {
         Matrix([[T::int(n), T::zero()], [T::zero(), T::int(n)]])
     }
-    fn is_unit(&self) -> bool {
-        self.determinant().is_unit()
+    fn is_invertible(&self) -> bool {
+        self.determinant().is_invertible()
     }
 }
 
@@ -102,12 +102,12 @@ fn the_derivative_of_a_quotient_of_linear_functions_is_the_algebraic_one() {
         let [da, db, dc, dd] = [&a, &b, &c, &d].map(|x| Dual::constant(x.clone()));
         let dx = Dual::variable(x.clone());
         let below = &c + &d * &x;
-        if units.count(below.is_unit()) {
+        if units.count(below.is_invertible()) {
             let quotient = (da + db * &dx) / (dc + dd * &dx);
             prop_assert_eq!(quotient.value, (&a + &b * &x) / &below);
             prop_assert_eq!(quotient.derivative, (b * c - a * d) / (&below * &below));
         }
-        if units.count(x.is_unit()) {
+        if units.count(x.is_invertible()) {
             prop_assert_eq!((Dual::one() / dx).derivative, -Exact::one() / (&x * &x));
         }
         Ok(())
@@ -118,12 +118,12 @@ fn the_derivative_of_a_quotient_of_linear_functions_is_the_algebraic_one() {
 #[test]
 fn dual_zero_divisors_are_neither_zero_nor_units() {
     let nilpotent = Dual { value: Exact::zero(), derivative: Exact::one() };
-    assert!(!nilpotent.is_zero() && !nilpotent.is_unit());
+    assert!(!nilpotent.is_zero() && !nilpotent.is_invertible());
     assert!((&nilpotent * &nilpotent).is_zero());
 }
 
-/// Dual numbers over f64 compute what the centres of dual balls are, so the balls bound their error. Only
-/// after an overflow may a ball know better: to it 0·∞ is 0.
+/// Dual numbers over f64 compute the centres of dual balls, so the balls bound their error. Only after an
+/// overflow may a ball differ: it computes 0·∞ as 0.
 #[test]
 fn dual_floats_are_the_centres_of_dual_balls() {
     fn law(float: &Dual<f64>, ball: &Dual<Ball<f64>>, finite: &Tally) -> TestCaseResult {
@@ -134,8 +134,7 @@ fn dual_floats_are_the_centres_of_dual_balls() {
         Ok(())
     }
     let finite = Tally::default();
-    let lift =
-        |x: &Dual<f64>| Dual { value: Ball::exactly(x.value), derivative: Ball::exactly(x.derivative) };
+    let lift = |x: &Dual<f64>| Dual { value: Ball::point(x.value), derivative: Ball::point(x.derivative) };
     for_all(DualF64::pair(), |((a, _), (b, _))| {
         let (ball_a, ball_b) = (lift(&a), lift(&b));
         for ((_, float), (_, ball)) in operations().into_iter().zip(operations()) {
@@ -146,7 +145,8 @@ fn dual_floats_are_the_centres_of_dual_balls() {
     finite.assert_one_in(2, "finite balls");
 }
 
-/// The order: of R[ω] with an ω > 0 below all numbers. It goes with sums and weakly with products.
+/// The order is that of R[ω] with 0 < ω below all positive numbers. It is compatible with sums and weakly
+/// with products.
 #[test]
 fn duals_are_an_ordered_ring() {
     let small =
@@ -171,7 +171,7 @@ fn duals_are_an_ordered_ring() {
     });
 }
 
-/// Balls that leave a sign open have both derivatives within, and else only the right one.
+/// Balls with an undecided sign contain both derivatives, otherwise only the right one.
 #[test]
 fn dual_balls_hold_the_derivative_at_a_kink() {
     let open = Tally::default();
@@ -180,8 +180,8 @@ fn dual_balls_hold_the_derivative_at_a_kink() {
     for_all((near(), near()), |((v, d, r), (w, e, q))| {
         // v + r/3 − r/3, whose radius is some units of the last place; and that much off.
         let ball = |v: i32, r: i32| {
-            let third = Ball::exactly(f64::from(r)) / Ball::exactly(3.0);
-            Ball::exactly(f64::from(v)) + &third - third
+            let third = Ball::point(f64::from(r)) / Ball::point(3.0);
+            Ball::point(f64::from(v)) + &third - third
         };
         let (a, b) = (
             Dual { value: ball(v, r), derivative: ball(d, q) },
@@ -216,10 +216,8 @@ fn dual_balls_hold_the_derivative_at_a_kink() {
 
 #[test]
 fn a_decided_sign_leaves_the_derivative_as_it_is() {
-    let dual = |value: f64, derivative: f64| Dual {
-        value: Ball::exactly(value),
-        derivative: Ball::exactly(derivative),
-    };
+    let dual =
+        |value: f64, derivative: f64| Dual { value: Ball::point(value), derivative: Ball::point(derivative) };
     let exactly = |x: &Dual<Ball<f64>>| (*x.derivative.value(), *x.derivative.radius());
     assert_eq!(exactly(&dual(2.0, 3.0).positive_part()), (3.0, 0.0));
     assert_eq!(exactly(&dual(-2.0, 3.0).positive_part()), (0.0, 0.0));

@@ -1,11 +1,11 @@
-//! Rationals, and the way from them to floats.
+//! Tests of rationals and their conversion to floats.
 
 use crate::draw::{Tally, floats, for_all, rationals};
 use crate::format::{DOUBLE, Format, SINGLE};
 use crate::system::{Planted, System};
 use num_traits::{One, Zero};
 use proptest::prelude::*;
-use provable::number::{Exact, Field, Inexact, Mpfr, PositivePart, RangeError, Real, ToExact};
+use provable::number::{Exact, Field, Mpfr, NonFiniteError, PositivePart, RangeError, Real, ToExact};
 use rug::{Float, Integer, Rational};
 use std::fmt::Debug;
 
@@ -13,7 +13,7 @@ pub struct Rationals;
 
 impl System for Rationals {
     type Number = Exact;
-    /// Not `Exact` again, which would be compared with itself.
+    /// An independent representation, so that `Exact` is not compared with itself.
     type Meaning = Fraction;
 
     fn pair() -> BoxedStrategy<(Planted<Self>, Planted<Self>)> {
@@ -29,7 +29,7 @@ impl System for Rationals {
     }
 }
 
-/// What a rational number is: two integers, the second not 0, never reduced.
+/// A rational number as two integers, the second not 0, never reduced.
 #[derive(Clone, Debug)]
 pub struct Fraction(pub Integer, pub Integer);
 
@@ -64,7 +64,7 @@ impl Field for Fraction {
     }
 }
 
-/// The exact result of a conversion, errors and all.
+/// Returns the expected result of a conversion, including errors.
 fn converted(x: &Exact, format: Format, scalar: &'static str) -> Result<Exact, RangeError> {
     let nearest = format.round(x);
     if nearest.abs() > format.largest() {
@@ -148,20 +148,21 @@ fn overflow_and_underflow_begin_exactly_where_rounding_says() {
 #[test]
 fn digits_are_those_of_both_integers() {
     for (fraction, digits) in [("-5/16", 3 + 5), ("0", 1), ("1023", 10 + 1), ("1/1024", 1 + 11)] {
-        assert_eq!(fraction.parse::<Exact>().unwrap().digits(), digits, "{fraction}");
+        assert_eq!(fraction.parse::<Exact>().unwrap().bit_length(), digits, "{fraction}");
     }
 }
 
 #[test]
 fn no_number_has_0_bits() {
     for x in ["1/3", "0"].map(|x| x.parse::<Exact>().unwrap()) {
-        assert_eq!((x.rounded(0), x.rounded(1).is_some()), (None, true));
+        assert_eq!((x.round_to_bits(0), x.round_to_bits(1).is_some()), (None, true));
     }
 }
 
 #[test]
 fn what_is_not_finite_has_no_exact_value() {
-    let none = [Inexact::Infinity, Inexact::NegativeInfinity, Inexact::NotANumber].map(Err);
+    let none =
+        [NonFiniteError::Infinity, NonFiniteError::NegativeInfinity, NonFiniteError::NotANumber].map(Err);
     assert_eq!([f32::INFINITY, f32::NEG_INFINITY, f32::NAN].map(|x| x.to_exact()), none);
     let floats = [f64::INFINITY, f64::NEG_INFINITY, f64::NAN];
     assert_eq!(floats.map(|x| x.to_exact()), none);

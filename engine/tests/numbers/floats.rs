@@ -1,4 +1,4 @@
-//! The machine's floats, and what they share with those of any precision.
+//! Tests of machine floats, shared with floats of any precision.
 
 use crate::draw::{Tally, floats, for_all, pairs, rationals};
 use crate::format::{DOUBLE, Format, SINGLE, magnitude, rounds_as};
@@ -81,7 +81,7 @@ fn neighbours_have_no_number_between_them<S: Floats<Number = N>, N: Real + ToExa
 fn the_unit_roundoff_bounds_every_rounding<S: Floats<Number = N>, N: Real + ToExact + 'static>() {
     let eta = Exact::power_of_two(-S::FORMAT.bits.cast_signed());
     let least = if S::FORMAT.bounded { Exact::power_of_two(S::FORMAT.least) } else { Exact::zero() };
-    assert_eq!(N::underflow_unit().to_exact(), Ok(least));
+    assert_eq!(N::min_subnormal().to_exact(), Ok(least));
     assert!(!N::infinity().is_finite() && N::infinity() > N::zero());
     for_all((S::number(), rationals()), |((x, exact), any)| {
         prop_assert_eq!(x.unit_roundoff().to_exact(), Ok(eta.clone()));
@@ -94,14 +94,14 @@ fn the_unit_roundoff_bounds_every_rounding<S: Floats<Number = N>, N: Real + ToEx
         let rounded = S::FORMAT.fit(&any);
         let overflows = any.abs() > S::FORMAT.largest();
         let error = S::float(&rounded).to_exact().unwrap() - &any;
-        let underflow = N::underflow_unit().to_exact().unwrap();
+        let underflow = N::min_subnormal().to_exact().unwrap();
         prop_assert!(overflows || error.abs() <= &eta * rounded.abs() + underflow / Exact::int(2));
         Ok(())
     });
 }
 
-/// Each may have left no more than 1 − η of it; where numbers are subnormal, sums are exact and it need not grow. It grows
-/// by no more than 24 η, if what it is then rounded to is that fine.
+/// Each operation may have decreased the result by the factor 1 − η; among subnormal numbers sums are exact
+/// and no increase is needed. The increase is at most 24 η, unless the result is rounded more coarsely.
 fn what_is_enlarged_makes_good_ten_roundings<S: Floats<Number = N>, N: Real + ToExact + 'static>() {
     let normal = Tally::default();
     for_all(S::number(), |(x, exact)| {
@@ -109,12 +109,12 @@ fn what_is_enlarged_makes_good_ten_roundings<S: Floats<Number = N>, N: Real + To
         let exact = exact.abs();
         let bits = if S::FORMAT.bounded { S::FORMAT.bits } else { 64 };
         let eta = Exact::power_of_two(-bits.cast_signed());
-        let after = before.clone().enlarged();
+        let after = before.clone().inflated();
         prop_assert_eq!(before.is_zero(), after.is_zero());
         prop_assert!(after >= before);
         if after.is_finite() {
             let after = after.to_exact().unwrap();
-            let half_unit = N::underflow_unit().to_exact().unwrap() / Exact::int(2);
+            let half_unit = N::min_subnormal().to_exact().unwrap() / Exact::int(2);
             prop_assert!(
                 after <= before.to_exact().unwrap() * (Exact::one() + Exact::int(24) * &eta) + &half_unit
             );
@@ -127,7 +127,7 @@ fn what_is_enlarged_makes_good_ten_roundings<S: Floats<Number = N>, N: Real + To
         Ok(())
     });
     normal.assert_one_in(2, "normal numbers");
-    let [zero, infinity] = [N::zero(), N::infinity()].map(N::enlarged);
+    let [zero, infinity] = [N::zero(), N::infinity()].map(N::inflated);
     assert!(zero.is_zero() && infinity == N::infinity());
 }
 
@@ -155,9 +155,9 @@ fn exp_ln_and_ln_1p_are_correctly_rounded<S: Floats<Number = N>, N: Logarithm + 
     });
 }
 
-/// A good library that promises no correct rounding errs once in some thousand full mantissas, so it takes
-/// many, and a quick oracle: 160 bits, then the float. Two roundings differ from one only where the value
-/// lies within 2⁻¹⁰⁷ of a tie; in f64 the hardest arguments of this size leave more than 2⁻⁷⁰. (Muller et al.,
+/// A good library without correct rounding errs once in some thousand full mantissas, so many are needed, and
+/// a fast reference: 160 bits, then the float. Two roundings differ from one only if the value lies within
+/// 2⁻¹⁰⁷ of a tie; in f64 the hardest arguments of this magnitude leave more than 2⁻⁷⁰. (Muller et al.,
 /// Handbook of Floating-Point Arithmetic, on the table maker's dilemma.)
 #[test]
 fn exp_ln_and_ln_1p_are_correctly_rounded_at_many_full_mantissas() {
@@ -181,8 +181,8 @@ fn exp_ln_and_ln_1p_are_correctly_rounded_at_many_full_mantissas() {
     }
 }
 
-/// Twice is not once: a result that lies a little to one side of the middle of two subnormal numbers can be rounded to
-/// the middle first, and then to the wrong side.
+/// Double rounding differs: a result close to the middle of two subnormal numbers can be rounded to the
+/// middle first, and then to the wrong side.
 #[test]
 fn exponentials_among_the_subnormal_numbers_are_rounded_once() {
     fn law<S: Floats<Number = N>, N: Exponential>() {

@@ -1,4 +1,4 @@
-//! Rounding, in integers.
+//! Reference rounding in integers.
 
 use num_traits::Zero;
 use provable::number::{Exact, PositivePart};
@@ -10,10 +10,10 @@ use std::cmp::Ordering;
 #[derive(Clone, Copy, Debug)]
 pub struct Format {
     pub bits: u32,
-    /// The exponents e that numbers are drawn with.
+    /// Exponents e of drawn numbers.
     pub least: i32,
     pub greatest: i32,
-    /// Are those all there are, as in f32 and f64, or does the format go on without end?
+    /// Whether the range of exponents is limited, as in f32 and f64.
     pub bounded: bool,
 }
 
@@ -25,20 +25,20 @@ impl Format {
         Format { bits, least: -300, greatest: 300, bounded: false }
     }
 
-    /// The same format, drawn only with 2^low ≤ |x| < 2^high.
+    /// Returns the format with drawn numbers limited to 2^low ≤ |x| < 2^high.
     pub fn within(self, low: i32, high: i32) -> Self {
         let bits = self.bits.cast_signed();
         Format { least: self.least.max(low - bits), greatest: self.greatest.min(high - bits), ..self }
     }
 
-    /// The distance of two neighbours at `x`.
+    /// Returns the distance of two neighbours at `x`.
     pub fn unit(&self, x: &Exact) -> Exact {
         let lowest = if self.bounded { self.least } else { i32::MIN };
         let exponent = if x.is_zero() { self.least } else { magnitude(x) - self.bits.cast_signed() + 1 };
         Exact::power_of_two(exponent.max(lowest))
     }
 
-    /// The nearest float, ties to the even mantissa, as if there were no largest one.
+    /// Rounds to nearest, ties to even, with unlimited exponents.
     pub fn round(&self, x: &Exact) -> Exact {
         if x.is_zero() {
             return Exact::zero();
@@ -56,20 +56,20 @@ impl Format {
             * Exact::power_of_two(self.greatest)
     }
 
-    /// The nearest float that is not infinite.
+    /// Rounds to the nearest finite float.
     pub fn fit(&self, x: &Exact) -> Exact {
         self.round(x).clamp(-self.largest(), self.largest())
     }
 }
 
-/// The e with 2ᵉ ≤ |x| < 2ᵉ⁺¹; x ≠ 0.
+/// Returns e with 2ᵉ ≤ |x| < 2ᵉ⁺¹ for x ≠ 0.
 pub fn magnitude(x: &Exact) -> i32 {
     let q = x.as_rational();
     let e = q.numer().significant_bits().cast_signed() - q.denom().significant_bits().cast_signed();
     if x.abs() < Exact::power_of_two(e) { e - 1 } else { e }
 }
 
-/// f(x) for an increasing f, rounded down and up to `bits` bits: the true value lies between.
+/// Returns f(x) for an increasing f, rounded down and up to `bits` bits.
 pub fn bracket(x: &Exact, bits: u32, f: fn(&mut Float, Round) -> Ordering) -> (Exact, Exact) {
     let end = |round| {
         let (mut y, _) = Float::with_val_round(bits, x.as_rational(), round);
@@ -79,8 +79,8 @@ pub fn bracket(x: &Exact, bits: u32, f: fn(&mut Float, Round) -> Ordering) -> (E
     (end(Round::Down), end(Round::Up))
 }
 
-/// A number that rounds as f(x) does: once both ends of a bracket round to the same float, so does what
-/// lies between. That happens, since f(x) is irrational but for x = 0 (ln: 1), where the ends are equal.
+/// Returns a number that rounds like f(x): both bounds round to the same float with enough bits, since f(x)
+/// is irrational except for x = 0 (ln: 1), where the bounds are equal.
 pub fn rounds_as(format: Format, x: &Exact, f: fn(&mut Float, Round) -> Ordering) -> Exact {
     let mut bits = 2 * format.bits + 64;
     loop {

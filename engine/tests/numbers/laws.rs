@@ -9,10 +9,10 @@ use crate::mpfr::{Mpfr2, Mpfr3, Mpfr24, Mpfr53, Mpfr200, MpfrConstant, MpfrMixed
 use crate::system::{Oracle, System, operations};
 use num_traits::Zero;
 use proptest::prelude::*;
-use provable::number::tree::Step;
+use provable::number::tree::Op;
 use provable::number::{Exact, Field, OrderedField, PositivePart, ToExact};
 
-/// Laws of + − × ÷ alone.
+/// Laws of + − × ÷.
 macro_rules! laws_of_every_system {
     ($($law:ident)+) => {$(law! { $law:
         Binary32 Binary64 Mpfr2 Mpfr3 Mpfr24 Mpfr53 Mpfr200 MpfrMixed MpfrConstant Rationals
@@ -49,8 +49,8 @@ law! { numbers_say_what_they_stand_for:
     Binary32 Binary64 Mpfr2 Mpfr3 Mpfr24 Mpfr53 Mpfr200 MpfrMixed MpfrConstant
 }
 
-/// For floats: the nearest float, to even, infinite beyond the largest. For balls: any that contains the
-/// exact result, for all numbers inside the operands. For exact numbers: the result.
+/// Floats return the nearest float, ties to even, or infinity beyond the largest one. Balls contain the exact
+/// result for all numbers in the operands. Exact numbers return the result.
 fn operations_return_what_the_exact_result_demands<S: System<Number = N>, N: Field + 'static>() {
     let (tried, told_apart) = (Tally::default(), Tally::default());
     for_all(S::pair(), |((a, exact_a), (b, exact_b))| {
@@ -73,7 +73,7 @@ fn operations_return_what_the_exact_result_demands<S: System<Number = N>, N: Fie
 #[allow(clippy::eq_op)]
 fn zero_one_and_signs_are_neutral<S: System<Number = N>, N: Field + 'static>() {
     let (zero, one) = (N::zero(), N::one());
-    assert!(zero.is_zero() && !zero.is_unit() && !one.is_zero() && one.is_unit());
+    assert!(zero.is_zero() && !zero.is_invertible() && !one.is_zero() && one.is_invertible());
     let divided = Tally::default();
     for_all(S::pair(), |((a, _), (b, _))| {
         let mut equations = vec![
@@ -94,7 +94,7 @@ fn zero_one_and_signs_are_neutral<S: System<Number = N>, N: Field + 'static>() {
             ("a - b = -(b - a)", &a - &b, -(&b - &a)),
             ("(-a) b = -(a b)", -&a * &b, -(&a * &b)),
         ];
-        if divided.count(a.is_unit()) {
+        if divided.count(a.is_invertible()) {
             equations.extend([
                 ("a / a = 1", &a / &a, one.clone()),
                 ("0 / a = 0", &zero / &a, zero.clone()),
@@ -110,7 +110,7 @@ fn zero_one_and_signs_are_neutral<S: System<Number = N>, N: Field + 'static>() {
     divided.assert_one_in(2, "divisors");
 }
 
-/// With 12 bits each, so that their products fit into f32: what [`Field::int`] promises.
+/// With 12 bits each, so that products fit into f32, as [`Field::int`] requires.
 fn small_integers_add_and_multiply<S: System<Number = N>, N: Field + 'static>() {
     let small = || prop_oneof![-10..=10, -4095..=4095];
     for_all((small(), small()), |(m, n)| {
@@ -120,12 +120,12 @@ fn small_integers_add_and_multiply<S: System<Number = N>, N: Field + 'static>() 
         prop_assert!(S::same(&(&a * &b), &N::int(m * n)), "int({m}) * int({n}): small integers are exact");
         prop_assert_eq!(a == b, m == n);
         prop_assert_eq!(a.is_zero(), m == 0);
-        prop_assert_eq!(a.is_unit(), m != 0);
+        prop_assert_eq!(a.is_invertible(), m != 0);
         Ok(())
     });
 }
 
-/// To the bit and to the precision: that is what the debug format shows.
+/// Equal in all bits and in precision, as the debug format shows.
 fn owned_and_borrowed_operands_give_the_same<S: System<Number = N>, N: Field + 'static>() {
     let bits = |x: N| format!("{x:?}");
     let divided = Tally::default();
@@ -143,7 +143,7 @@ fn owned_and_borrowed_operands_give_the_same<S: System<Number = N>, N: Field + '
         forms!(+);
         forms!(-);
         forms!(*);
-        if divided.count(b.is_unit()) {
+        if divided.count(b.is_invertible()) {
             forms!(/);
         }
         Ok(())
@@ -151,28 +151,28 @@ fn owned_and_borrowed_operands_give_the_same<S: System<Number = N>, N: Field + '
     divided.assert_one_in(2, "divisors");
 }
 
-/// To the bit and to the precision, whatever was there.
+/// Equal in all bits and in precision, for any previous value.
 fn a_result_is_the_same_where_another_number_was<S: System<Number = N>, N: Field + 'static>() {
     let bits = |x: &N| format!("{x:?}");
     let divided = Tally::default();
     for_all((S::pair(), S::number()), |(((a, _), (b, _)), (there, _))| {
-        let divides = divided.count(b.is_unit());
+        let divides = divided.count(b.is_invertible());
         let steps = [
-            (Step::Int(-7), N::int(-7)),
-            (Step::Neg(&a), -&a),
-            (Step::Add(&a, &b), &a + &b),
-            (Step::Sub(&a, &b), &a - &b),
-            (Step::Mul(&a, &b), &a * &b),
+            (Op::Int(-7), N::int(-7)),
+            (Op::Neg(&a), -&a),
+            (Op::Add(&a, &b), &a + &b),
+            (Op::Sub(&a, &b), &a - &b),
+            (Op::Mul(&a, &b), &a * &b),
         ];
-        let quotient = divides.then(|| (Step::Div(&a, &b), &a / &b));
+        let quotient = divides.then(|| (Op::Div(&a, &b), &a / &b));
         for (step, expected) in steps.into_iter().chain(quotient) {
             let mut result = there.clone();
-            prop_assert!(result.assign(step));
+            prop_assert!(result.assign_op(step));
             prop_assert_eq!(bits(&result), bits(&expected), "{:?}", step);
         }
-        for step in [Step::Symbol("a"), Step::Exp(&a), Step::PositivePart(&a), Step::Min(&a, &b)] {
+        for step in [Op::Symbol("a"), Op::Exp(&a), Op::PositivePart(&a), Op::Min(&a, &b)] {
             let mut result = there.clone();
-            prop_assert!(!result.assign(step));
+            prop_assert!(!result.assign_op(step));
             prop_assert_eq!(bits(&result), bits(&there), "{:?}", step);
         }
         Ok(())
@@ -190,7 +190,7 @@ fn exact_numbers_are_a_commutative_ring_with_inverses<S: System<Number = N>, N: 
         prop_assert_eq!(&a + &b, &b + &a);
         prop_assert_eq!(&a * &b, &b * &a);
         prop_assert_eq!(&a + -&a, N::zero());
-        if inverted.count(c.is_unit()) {
+        if inverted.count(c.is_invertible()) {
             prop_assert_eq!(&c * (N::one() / &c), N::one());
             prop_assert_eq!(&a / &c * &c, a.clone());
             prop_assert_eq!((&a + &b) / &c, &a / &c + &b / &c);
@@ -218,7 +218,7 @@ where
     });
 }
 
-/// ⟨·⟩ and min choose among numbers and round nothing, so a zero of no precision may come out.
+/// ⟨·⟩ and min select a number without rounding, so a zero without a precision may result.
 fn holds_exactly<S: System<Number = N, Meaning = Exact>, N: Field>(result: &N, exact: &Exact) -> bool {
     S::stands_for(result, exact) || (exact.is_zero() && *result == N::zero())
 }

@@ -1,16 +1,16 @@
-//! The same laws for every number system, against rationals.
+//! The same laws for every number system, compared with rationals.
 //!
-//! A [`System`](system::System) draws numbers together with the exact number each one stands for: a float stands
-//! for its own value, a ball for any number inside it. A law is one generic function; the lists of `law!` say which
-//! systems it is run for. What is said of all systems is in `laws.rs`, what only some of them have in files of
-//! their own: floats, MPFR's among them with 3 bits, of which all pairs are tried; rationals; balls; duals; spellings.
+//! A [`System`](system::System) draws numbers together with exact numbers that they represent: a float
+//! represents its own value, a ball any number inside it. A law is one generic function; the lists of `law!`
+//! name the systems for which it is tested. Laws of all systems are in `laws.rs`, those of some systems in
+//! files of their own: floats, including those of MPFR with 3 bits, of which all pairs are tested; rationals;
+//! balls; dual numbers; spellings.
 //!
-//! Rounding is judged by [`Format::round`](format::Format::round), which is written here from the definition, in
-//! integers; of what it judges it uses only the rationals, and those are judged by [`Fraction`](exact::Fraction),
-//! integers again.
+//! The reference for rounding is [`Format::round`](format::Format::round), written here from the definition,
+//! in integers. It only uses rationals, whose reference is [`Fraction`](exact::Fraction), in integers again.
 #![cfg(feature = "mpfr")]
 
-/// One test a law and system: `law::System`.
+/// Defines one test for each law and system: `law::System`.
 macro_rules! law {
     ($law:ident: $($System:ident)+) => {
         #[allow(non_snake_case)]

@@ -1,4 +1,4 @@
-//! Floats of any precision.
+//! Tests of floats with any precision.
 
 use crate::ball::Balls;
 use crate::draw::{Tally, for_all, fractions, pairs};
@@ -38,7 +38,7 @@ impl<const BITS: u32> Floats for Bits<BITS> {
     }
 }
 
-/// MPFR numbers of all precisions, and constants of none, meeting each other.
+/// MPFR numbers of all precisions mixed with constants.
 pub struct MpfrMixed;
 
 impl System for MpfrMixed {
@@ -68,7 +68,7 @@ impl System for MpfrMixed {
     }
 }
 
-/// MPFR constants: exact until they meet a rounded number.
+/// MPFR constants, which are exact until they meet a rounded number.
 pub struct MpfrConstant;
 
 impl System for MpfrConstant {
@@ -96,7 +96,7 @@ fn the_larger_precision_wins_in_whatever_order_and_constants_have_none() {
         for (name, operation) in operations::<Mpfr>() {
             for (a, b) in [(&a, &b), (&b, &a)] {
                 // Constant by constant zero is refused, as a rational is.
-                if name != "/" || b.is_unit() {
+                if name != "/" || b.is_invertible() {
                     prop_assert_eq!(operation(a, b).precision(), larger, "{}", name);
                 }
             }
@@ -121,7 +121,7 @@ fn a_constant_may_outgrow_the_integers_it_was_made_of() {
     }
 }
 
-/// As for the machine's floats.
+/// Like machine floats.
 #[test]
 fn zero_is_written_without_a_sign() {
     let zero = Mpfr::rounded(10, 0);
@@ -129,10 +129,10 @@ fn zero_is_written_without_a_sign() {
     assert_eq!([&zero, &-&zero].map(Mpfr::to_string), ["0", "0"]);
 }
 
-/// More would make it no better, and every operation slower.
+/// A higher precision would not improve the bound, and would slow down every operation.
 #[test]
 fn a_radius_has_few_digits_however_many_its_ball_has() {
-    let ball = |x: &str| Ball::around(&Mpfr::rounded(1000, 0), &x.parse().unwrap()).unwrap();
+    let ball = |x: &str| Ball::enclosing(&Mpfr::rounded(1000, 0), &x.parse().unwrap()).unwrap();
     let (a, b) = (ball("1/3"), ball("5/7"));
     for made in [&a + &b, &a - &b, &a * &b, &a / &b, -&a, a.exp(), a.min(&b), a.positive_part()] {
         assert!(made.radius().precision().is_some_and(|bits| bits <= 64), "{:?}", made.radius().precision());
@@ -178,7 +178,7 @@ fn a_constant_has_no_logarithm_after_one() {
     Mpfr::int(1).ln_1p();
 }
 
-/// Zero and ±m·2ᵉ, 4 ≤ m ≤ 7: all floats of 3 bits with these exponents.
+/// Returns zero and ±m·2ᵉ, 4 ≤ m ≤ 7: all floats of 3 bits with these exponents.
 pub fn all_of_three_bits(exponents: std::ops::RangeInclusive<i32>) -> Vec<Exact> {
     let positive = exponents.flat_map(|e| (4..8).map(move |m| Exact::int(m) * Exact::power_of_two(e)));
     let signed = positive.flat_map(|x| [-&x, x]);
@@ -191,7 +191,7 @@ fn all_pairs_of_3_bit_floats_round_correctly_and_stay_in_their_balls() {
     for exact_a in &all {
         for exact_b in &all {
             let [a, b] = [exact_a, exact_b].map(Mpfr3::float);
-            let (ball_a, ball_b) = (Ball::exactly(a.clone()), Ball::exactly(b.clone()));
+            let (ball_a, ball_b) = (Ball::point(a.clone()), Ball::point(b.clone()));
             for (i, (name, exact)) in operations::<Exact>().into_iter().enumerate() {
                 let (float, ball) = (operations()[i].1, operations()[i].1);
                 if name == "/" && exact_b.is_zero() {

@@ -1,4 +1,4 @@
-//! How numbers are read and written.
+//! Tests of parsing and formatting numbers.
 
 use crate::draw::{for_all, rationals};
 use crate::floats::{Binary32, Binary64};
@@ -71,8 +71,7 @@ fn what_is_no_number_is_refused() {
     }
 }
 
-/// At once: a number of 10¹² digits would not come back.
-/// Whatever its exponent is.
+/// Returns immediately for any exponent, since a number with 10¹² digits would take too long.
 #[test]
 fn what_is_no_number_has_no_exponent_either() {
     for text in ["heavye99999999999", "1_0e-4294967296", "e100001", "1.2.3e99999999999", "0x1e99999999999"] {
@@ -120,7 +119,7 @@ fn numbers_too_large_or_too_small_for_a_float_are_refused_and_never_inf_or_zero(
     assert_eq!((to_f32("0e-5"), to_f64("-0.0")), (Ok(0.0), Ok(0.0)));
 }
 
-/// The standard library reads decimals with correct rounding, too.
+/// The standard library also parses decimals with correct rounding.
 #[test]
 fn decimals_become_the_floats_that_the_standard_library_reads() {
     let decimal =
@@ -178,7 +177,7 @@ fn mpfr_numbers_with_huge_exponents_read_back_as_far_as_exponents_are_read() {
     assert_eq!(Mpfr::parse(&beyond.to_string(), 53), Err(ParseError::Exponent));
 }
 
-/// What `format!` can do with an f64 it does with an MPFR number.
+/// `format!` supports the same options for MPFR numbers as for f64.
 #[test]
 fn mpfr_numbers_are_padded_and_signed_like_floats() {
     fn shown(x: impl Display) -> [String; 8] {
@@ -206,7 +205,7 @@ fn mpfr_numbers_are_padded_and_signed_like_floats() {
     assert_eq!(format!("{:e<8}|{:<+8}|", Mpfr::infinity(), Mpfr::infinity()), "infeeeee|+inf    |");
 }
 
-/// A tie goes to the even digit, which is f64's way.
+/// Ties go to the even digit, like in f64.
 #[test]
 fn numbers_have_as_many_decimals_as_asked_for() {
     fn shown(x: impl Display + std::fmt::Debug) -> [String; 9] {

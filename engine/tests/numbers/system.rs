@@ -1,23 +1,23 @@
-//! Number systems as the laws see them.
+//! Number systems under test.
 
 use crate::format::Format;
 use proptest::prelude::*;
 use provable::number::{Exact, Field};
 use std::fmt::Debug;
 
-/// A number system as the laws see it.
+/// A number system under test.
 pub trait System: 'static {
     type Number: Clone + Debug + PartialEq + 'static;
-    /// What a number stands for: a rational, or a rational and its derivative.
+    /// Exact meaning of a number: a rational, or a rational with its derivative.
     type Meaning: Oracle;
 
     fn number() -> BoxedStrategy<Planted<Self>> {
         Self::pair().prop_map(|(a, _)| a).boxed()
     }
     fn pair() -> BoxedStrategy<(Planted<Self>, Planted<Self>)>;
-    /// Is `result` what one operation has to return whose exact result is `exact`?
+    /// Returns `true` if `result` is a correct result of one operation with the exact result `exact`.
     fn stands_for(result: &Self::Number, exact: &Self::Meaning) -> bool;
-    /// Are these the same number, as far as the system can tell?
+    /// Returns `true` if the numbers are equal as far as the system can decide.
     fn same(a: &Self::Number, b: &Self::Number) -> bool {
         #[allow(clippy::eq_op)]
         let (a_is_nan, b_is_nan) = (a != a, b != b);
@@ -25,14 +25,14 @@ pub trait System: 'static {
     }
 }
 
-/// The exact results of the operations: any field can be asked for them.
+/// Exact results of the operations for any field.
 ///
-/// It stands between a system and its field since the operators on references come along with a bound
-/// `T: Field` only where T is a type parameter, not with a bound on an associated type. For the same reason
-/// the laws name the numbers of their system N.
+/// It is separate from the field because the operators on references are implied by `T: Field` only for a
+/// type parameter T, not for an associated type. For the same reason the laws name the numbers of their
+/// system N.
 pub trait Oracle: Clone + Debug + 'static {
     fn negative(&self) -> Self;
-    /// `None` for a quotient that does not exist.
+    /// Returns the four results; `None` for an undefined quotient.
     fn results(&self, other: &Self) -> [Option<Self>; 4];
 }
 impl<T: Field + 'static> Oracle for T {
@@ -40,17 +40,17 @@ impl<T: Field + 'static> Oracle for T {
         -self
     }
     fn results(&self, other: &Self) -> [Option<Self>; 4] {
-        operations().map(|(name, f)| (name != "/" || other.is_unit()).then(|| f(self, other)))
+        operations().map(|(name, f)| (name != "/" || other.is_invertible()).then(|| f(self, other)))
     }
 }
 
-/// A number and one of the exact numbers that it stands for.
+/// A number with one of the exact numbers that it represents.
 pub type Planted<S> = (<S as System>::Number, <S as System>::Meaning);
 
-/// The systems whose every operation rounds to nearest.
+/// Systems in which every operation rounds to nearest.
 pub trait Floats: System<Meaning = Exact> {
     const FORMAT: Format;
-    /// `x`, which this format can hold.
+    /// Returns `x`, which this format can represent.
     fn float(x: &Exact) -> Self::Number;
 }
 

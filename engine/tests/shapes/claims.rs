@@ -1,5 +1,5 @@
-//! Claims about formulas of shapes that the chapter does not have: divisors that are differences, quotients, brackets or
-//! rounded, in exact arithmetic and rounded.
+//! Claims about formulas of other shapes than those of the chapter: divisors that are differences, quotients,
+//! brackets or rounded, in exact arithmetic and with rounding.
 
 use provable::formula::claim::{
     PRECISION, SCALES, derivative, equal, induction, limit, non_negative, positive, within,
@@ -7,7 +7,7 @@ use provable::formula::claim::{
 use provable::formula::{Hypothesis, Rate, Relation, Statement};
 use provable::number::{Exponential, Field, PositivePart, Tree};
 
-/// Thirty-odd claims, each of which the kernel proves.
+/// Returns claims that the kernel proves.
 pub fn claims() -> Vec<Statement> {
     let [a, b, c, d, f, g, x, y] = ["a", "b", "c", "d", "f", "g", "x", "y"].map(|name| Tree::symbol(name));
     let n = Tree::symbol(PRECISION);
@@ -17,7 +17,7 @@ pub fn claims() -> Vec<Statement> {
     let [stiff_a, stiff_b, stiff_c, stiff_d] = [&a, &b, &c, &d].map(above);
     let (lens_f, lens_g, shorter) = (above(&f), above(&g), above(&(&g - &f)));
     let lens = || one() / (one() / &f - one() / &g);
-    let once = |of: &Tree| of.nearest() - of;
+    let once = |of: &Tree| of.round() - of;
     let product = above(&(&f * &g - one()));
     let below_one = above(&(one() - &x));
     let sum = Hypothesis::new(Relation::Zero, &a + &b - &c);
@@ -35,18 +35,18 @@ pub fn claims() -> Vec<Statement> {
         induction("halves", one() / Tree::int(2), [one()], |[x]| [x / Tree::int(2)], [Tree::symbol("q")]),
         positive("between", &x - &x * &x).assuming([&above(&x), &below_one]),
         within("squared-interval", once(&(one() / &squared)), one() / &squared / &n).assuming([&wide]),
-        within("squared-interval-each", inverse.rounded() - &inverse, Tree::int(8) * &inverse / &n)
+        within("squared-interval-each", inverse.with_rounding() - &inverse, Tree::int(8) * &inverse / &n)
             .assuming([&wide]),
         equal("lens", lens(), &f * &g / (&g - &f)).assuming([&lens_f, &shorter]),
         positive("lens-sign", lens()).assuming([&lens_f, &lens_g, &shorter]),
         within("lens-rounded", once(&lens()), lens() / &n).assuming([&lens_f, &shorter]),
         within("lens-rounded-g", once(&lens()), lens() / &n).assuming([&lens_f, &lens_g, &shorter]),
-        positive("lens-rounded-sign", lens().nearest()).assuming([&lens_f, &lens_g, &shorter]),
-        within("lens-twice", once(&(lens().nearest() * Tree::int(3))), lens() * Tree::int(6) / &n)
+        positive("lens-rounded-sign", lens().round()).assuming([&lens_f, &lens_g, &shorter]),
+        within("lens-twice", once(&(lens().round() * Tree::int(3))), lens() * Tree::int(6) / &n)
             .assuming([&lens_f, &shorter]),
         derivative("lens-slope", lens(), &f, lens() * lens() / (&f * &f))
             .assuming([&lens_f, &lens_g, &shorter]),
-        limit("far-side", one() / (one() / &f + one() / &g), &g, &f, Rate::Exactly(-(&f * &f / (&g + &f))))
+        limit("far-side", one() / (one() / &f + one() / &g), &g, &f, Rate::Equal(-(&f * &f / (&g + &f))))
             .assuming([&lens_f, &lens_g]),
         within("negative-divisor", once(&(&a / (&b - &c))), &a / (&c - &b) / &n)
             .assuming([&stiff_a, &above_c]),
@@ -58,23 +58,19 @@ pub fn claims() -> Vec<Statement> {
             .assuming([&stiff_a, &stiff_b, &stiff_c, &stiff_d]),
         within(
             "rounded-divisor",
-            (&a / (&b / &c)).rounded() - &a * &c / &b,
+            (&a / (&b / &c)).with_rounding() - &a * &c / &b,
             &a * &c / &b * Tree::int(3) / &n,
         )
         .assuming([&stiff_a, &stiff_b, &stiff_c]),
-        within(
-            "rounded-operands",
-            (a.nearest() / b.nearest()).nearest() - &a / &b,
-            &a / &b * Tree::int(4) / &n,
-        )
-        .assuming([&stiff_a, &stiff_b]),
+        within("rounded-operands", (a.round() / b.round()).round() - &a / &b, &a / &b * Tree::int(4) / &n)
+            .assuming([&stiff_a, &stiff_b]),
         within(
             "rounded-difference",
-            (&a / (&g - &f)).rounded() - &a / (&g - &f),
+            (&a / (&g - &f)).with_rounding() - &a / (&g - &f),
             &a / (&g - &f) * Tree::int(3) / &n,
         )
         .assuming([&stiff_a, &shorter]),
-        positive("rounded-negative", -(&a / (&f - &g)).rounded()).assuming([&stiff_a, &shorter]),
+        positive("rounded-negative", -(&a / (&f - &g)).with_rounding()).assuming([&stiff_a, &shorter]),
         within("bracket", once(&(&a / (&b + x.positive_part()))), &a / &b / &n)
             .assuming([&stiff_a, &stiff_b]),
         positive("bracket-exact", &a / (&b + x.positive_part())).assuming([&stiff_a, &stiff_b]),
@@ -85,11 +81,11 @@ pub fn claims() -> Vec<Statement> {
             .assuming([&stiff_b]),
         within(
             "rounded-bracket",
-            (&a / (&b + x.positive_part())).rounded() - &a / (&b + x.positive_part()),
+            (&a / (&b + x.positive_part())).with_rounding() - &a / (&b + x.positive_part()),
             &a / &b * Tree::int(3) / &n,
         )
         .assuming([&stiff_a, &stiff_b]),
-        within("bracket-over", once(&(x.nearest().positive_part() / &a)), x.abs() / &a * Tree::int(2) / &n)
+        within("bracket-over", once(&(x.round().positive_part() / &a)), x.abs() / &a * Tree::int(2) / &n)
             .assuming([&stiff_a]),
         within("steeper", once(&(one() / (&a / &b - &c))), one() / (&a / &b - &c) / &n)
             .assuming([&stiff_b, &steeper]),
@@ -101,23 +97,23 @@ pub fn claims() -> Vec<Statement> {
         positive("minimum-exact", &a / b.min(&c)).assuming([&stiff_a, &stiff_b, &stiff_c]),
         within("size", once(&(&a / (&b + x.abs()))), &a / &b / &n).assuming([&stiff_a, &stiff_b]),
         positive("size-exact", one() / (&b + (&x - &y).abs())).assuming([&stiff_b]),
-        non_negative("order", (&x / (&g - &f)).nearest() - (&y / (&g - &f)).nearest())
+        non_negative("order", (&x / (&g - &f)).round() - (&y / (&g - &f)).round())
             .assuming([&shorter, &larger]),
-        non_negative("order-by-lens", (&x * lens()).nearest() - (&y * lens()).nearest())
+        non_negative("order-by-lens", (&x * lens()).round() - (&y * lens()).round())
             .assuming([&lens_f, &lens_g, &shorter, &larger]),
         non_negative(
             "order-over-lens",
-            (&x / (one() / &f - one() / &g)).nearest() - (&y / (one() / &f - one() / &g)).nearest(),
+            (&x / (one() / &f - one() / &g)).round() - (&y / (one() / &f - one() / &g)).round(),
         )
         .assuming([&lens_f, &lens_g, &shorter, &larger]),
-        non_negative("order-in-cases", x.nearest() - x.min(&y).nearest()),
-        non_negative("order-by-negative", ((&f - &g) * &y).nearest() - ((&f - &g) * &x).nearest())
+        non_negative("order-in-cases", x.round() - x.min(&y).round()),
+        non_negative("order-by-negative", ((&f - &g) * &y).round() - ((&f - &g) * &x).round())
             .assuming([&shorter, &larger]),
         // Computed one from the other.
-        within("chain", d.nearest() - &x, x.abs() * Tree::int(6) / &n)
+        within("chain", d.round() - &x, x.abs() * Tree::int(6) / &n)
             .assuming([&near_x(&c, 1), &near_x(&d, 3)])
-            .computing(&c, x.nearest())
-            .computing(&d, c.nearest()),
+            .computing(&c, x.round())
+            .computing(&d, c.round()),
         // That x is between −1 and 1 does not show that it is not negative.
         non_negative("kept", x.clone()).assuming([&at_least(&x), &unit]),
         positive("kept-strictly", x.clone()).assuming([&above(&x), &unit]),
@@ -126,17 +122,17 @@ pub fn claims() -> Vec<Statement> {
             .assuming([&shorter, &stiff_a]),
         equal(
             "scale-lens",
-            (&scale * &x / (one() / &f - one() / &g)).nearest(),
-            &scale * (&x / (one() / &f - one() / &g)).nearest(),
+            (&scale * &x / (one() / &f - one() / &g)).round(),
+            &scale * (&x / (one() / &f - one() / &g)).round(),
         )
         .assuming([&lens_f, &lens_g, &shorter, &power]),
-        equal("scale", (&scale * &x / (&g - &f)).nearest(), &scale * (&x / (&g - &f)).nearest())
+        equal("scale", (&scale * &x / (&g - &f)).round(), &scale * (&x / (&g - &f)).round())
             .assuming([&shorter, &power]),
         within("product", once(&(one() / (&f * &g - one()))), one() / (&f * &g - one()) / &n)
             .assuming([&product]),
         equal("product-exact", one() / (&f * &g - one()) * (one() - &f * &g), -one()).assuming([&product]),
         within("squares", once(&(one() / (&a * &a + &x * &x))), one() / (&a * &a) / &n).assuming([&stiff_a]),
-        positive("square", (one() / ((&x - &y) * (&x - &y) + one())).nearest()),
+        positive("square", (one() / ((&x - &y) * (&x - &y) + one())).round()),
         positive("square-exact", one() / (&x * &x - Tree::int(2) * &x * &y + &y * &y + one())),
         within("equation", once(&(one() / (&c - &a))), one() / &b / &n).assuming([&stiff_b, &sum]),
         equal("equation-exact", one() / (&c - &a), one() / &b).assuming([&stiff_b, &sum]),

@@ -1,4 +1,4 @@
-//! Claims of many shapes for Coq, and, where Coq is installed, that it accepts them.
+//! Claims of many shapes in Coq, and their acceptance if Coq is installed.
 #![cfg(feature = "prover")]
 
 mod claims;
@@ -12,7 +12,7 @@ use coqc::{accepts, named, of_claims};
 use provable::formula::claim::PRECISION;
 use provable::formula::{Hypothesis, Registry, Relation};
 use provable::number::{Field, Tree, symbols};
-use provable::proof::coq::{Development, Placed};
+use provable::proof::coq::{Development, LocatedClaim};
 use provable::proof::{prove, rounding_bound};
 
 #[test]
@@ -21,11 +21,11 @@ fn coq_accepts_the_springs_in_series() {
     let development = springs::coq(&registry, &claims);
     let theorems: Vec<_> =
         of_claims(&development.files()).flat_map(|f| named(&f.text, "Theorem")).map(String::from).collect();
-    assert_eq!((theorems.len(), development.left_out().len()), (claims.len(), 0));
+    assert_eq!((theorems.len(), development.omitted().len()), (claims.len(), 0));
     accepts("springs", "Springs", &development);
 }
 
-/// Chains of computed quantities, with bounds that leave no room.
+/// Chains of computed quantities with sharp bounds.
 #[test]
 fn coq_accepts_bounds_of_rounding_errors() {
     let [x, y] = symbols(["x", "y"]);
@@ -38,13 +38,13 @@ fn coq_accepts_bounds_of_rounding_errors() {
     let registry = Registry::new(&["x", "y"], Vec::new());
     let claims = bounds.iter().map(|bound| bound.proof().statement());
     let placed = claims.zip(["product", "sums", "quotient", "fraction"]);
-    let placed = placed.map(|(claim, section)| Placed { claim, section, functions: &[] });
+    let placed = placed.map(|(claim, section)| LocatedClaim { claim, section, functions: &[] });
     let development = Development::new("Bounds", &registry, placed);
-    assert!(development.left_out().is_empty(), "{:?}", development.left_out());
+    assert!(development.omitted().is_empty(), "{:?}", development.omitted());
     accepts("bounds", "Bounds", &development);
 }
 
-/// Those of which no theorem is written are said to be left out, and all others are accepted.
+/// Claims without a theorem are reported as omitted, and all others are accepted.
 #[test]
 fn coq_accepts_divisors_of_any_shape() {
     let claims = claims::claims();
@@ -53,10 +53,10 @@ fn coq_accepts_divisors_of_any_shape() {
         assert!(proof.is_ok(), "{}: {}", claim.name(), proof.unwrap_err());
     }
     let registry = Registry::new(&["a", "b", "c", "d", "f", "g", "x", "y"], Vec::new());
-    let placed = claims.iter().map(|claim| Placed { claim, section: "shapes", functions: &[] });
+    let placed = claims.iter().map(|claim| LocatedClaim { claim, section: "shapes", functions: &[] });
     let development = Development::new("Shapes", &registry, placed);
-    let left_out: Vec<_> = development.left_out().iter().map(|left| left.name).collect();
+    let left_out: Vec<_> = development.omitted().iter().map(|left| left.name).collect();
     let expected = ["order-by-negative", "kept-strictly", "kept-bracket", "slope-divisor", "slope-of-slope"];
-    assert_eq!(left_out, expected, "{:?}", development.left_out());
+    assert_eq!(left_out, expected, "{:?}", development.omitted());
     accepts("shapes", "Shapes", &development);
 }

@@ -1,12 +1,12 @@
-//! Programs with a constant that nobody knows, which is found from their answers.
+//! Mistakes with an unknown constant, which is determined from the answers.
 
 use super::*;
 
-/// Augmentations after which a program is still taken for one that ends after a fixed number of them. Of
-/// more, n with a penalty ε and n + 1 with n/(n + 1) of it hardly differ.
+/// Largest number of augmentations for which a program counts as one with a fixed number of them. For more, n
+/// with a penalty ε and n + 1 with n/(n + 1) ε are almost the same.
 const STEPS: i32 = 8;
 
-/// Programs with a constant that nobody knows: a unit, a bound, an iteration that ends early.
+/// Returns mistakes with an unknown constant: a wrong unit, a bound, an incomplete iteration.
 pub(in crate::check) fn fitted(by_penalty: bool) -> &'static [Mistake] {
     static LAGRANGE: LazyLock<Vec<Mistake>> = LazyLock::new(|| with_a_constant(false));
     static PENALTY: LazyLock<Vec<Mistake>> = LazyLock::new(|| with_a_constant(true));
@@ -19,15 +19,14 @@ fn with_a_constant(by_penalty: bool) -> Vec<Mistake> {
     let [k, u, n] = ["k", "u", "N"].map(|name| Tree::symbol(name));
     let [exact_u, exact_n] = right(own, penalty);
     let SpringMass { c, m, l, h, .. } = own;
-    // Of the system that the program takes its own for: equilibrium holds, and in contact the law of the
-    // plane.
+    // The program solves another system: equilibrium holds for it, and in contact the law of the plane.
     let input = |name: &str, system: SpringMass<Tree>, penalty: Option<Tree>| {
         let plane = match &penalty {
             None => contact::penetration(&system, &u),
             Some(eps) => penalty::contact_force(&system, eps, &u) - &n,
         };
         let estimates = [contact::equilibrium(&system, &u, &n), plane].map(Estimate::Equation);
-        let name = format!("{name} is {{k}} times what is right");
+        let name = format!("{name} is {{k}} times the right value");
         Mistake { estimates: estimates.into(), ..Mistake::new(&name, right(&system, penalty.as_ref())) }
     };
     let own_penalty = || penalty.cloned();
@@ -47,27 +46,27 @@ fn with_a_constant(by_penalty: bool) -> Vec<Mistake> {
     if by_penalty {
         all.push(input("ε", own.clone(), Some(&k * eps)));
     }
-    // An iteration for u that ends at k of its way, and N that is right or what equilibrium lacks: from no
-    // deflection; the same, while the plane is a bound; and from where the mass hangs free. What equilibrium
-    // lacks on that last way is the force of a penalty, a multiple of c, as on one from the plane.
+    // An iteration for u that ends at the fraction k, with N right or from equilibrium: from zero deflection;
+    // likewise, with the plane as a bound; and from the free deflection. Equilibrium then gives the force of
+    // a penalty that is a multiple of c, as it does for a start at the plane.
     let (free, gap) = (structure::deflection(own), system::gap(own));
-    let from_zero = ("the iteration for u ends at {k} of its way from 0", &k * &exact_u, Estimate::Ratio(0));
+    let from_zero = ("the iteration for u stops at {k} of the way from 0", &k * &exact_u, Estimate::Ratio(0));
     let mut lacking = vec![from_zero];
     if !by_penalty {
         let free_at_k = structure::deflection(&SpringMass { m: &k * m, ..own.clone() });
         let equation = |deflection: &Tree| Estimate::Equation(deflection - &u);
-        let bounded = "the iteration for u, bounded by the plane, ends at {k} of its way from 0";
+        let bounded = "the iteration for u, bounded by the plane, stops at {k} of the way from 0";
         lacking.push((bounded, free_at_k.min(&gap), equation(&free_at_k)));
-        let name = format!("{bounded}, and there is N where it arrives at the plane");
+        let name = format!("{bounded}, with N where it reaches the plane");
         let arriving = with(&name, [gap.clone(), system::reaction(own)], equation(&free_at_k));
         all.push(Mistake {
-            apart: [free_at_k.clone(), Tree::from(0)],
+            separated: [free_at_k.clone(), Tree::from(0)],
             decision: Some(system::reaction(&SpringMass { m: &k * m, ..own.clone() })),
             is_share: true,
             ..arriving
         });
         let between = |end: &Tree| &free + &k * (end - &free);
-        let from_free = "the iteration for u ends at {k} of its way from the free deflection";
+        let from_free = "the iteration for u stops at {k} of the way from the free deflection";
         for (name, deflection, estimate) in [
             (bounded, free_at_k.min(&gap), equation(&free_at_k)),
             (from_free, between(&exact_u), equation(&between(&gap))),
@@ -76,7 +75,7 @@ fn with_a_constant(by_penalty: bool) -> Vec<Mistake> {
             all.push(Mistake { is_share: true, ..way });
         }
     }
-    // As many augmentations for every system, from λ = 0, where the penalty is no multiple of c.
+    // A fixed number of augmentations from λ = 0, with a penalty that is not a multiple of c.
     let augmentations = (2..STEPS + 1).filter(|_| !by_penalty);
     all.extend(augmentations.map(|steps| {
         let (zero, contraction) = (Tree::from(0), augmented::contraction(own, &k));
@@ -86,16 +85,16 @@ fn with_a_constant(by_penalty: bool) -> Vec<Mistake> {
         let before = augmented::multiplier_after(own, &zero, &decay(steps - 1));
         let force = augmented::update(own, &k, &before, &deflection);
         let touching = [deflection, force];
-        let name = format!("the augmentation ends after {steps} steps, with ε = {{k}} N/m");
+        let name = format!("the augmentation stops after {steps} steps, with ε = {{k}} N/m");
         let apart = [free.clone(), zero];
-        Mistake { apart, ..with(&name, touching, Estimate::Augmentations(steps)) }
+        Mistake { separated: apart, ..with(&name, touching, Estimate::Augmentations(steps)) }
     }));
     for (name, deflection, estimate) in lacking {
         let force = augmented::contact_force(own, &deflection);
         let bracket = force.positive_part();
         for (force, besides) in [
-            (force, ", and N is what equilibrium lacks"),
-            (bracket, ", and N is what equilibrium lacks if that pushes"),
+            (force, ", and N is the equilibrium residual"),
+            (bracket, ", and N is the positive equilibrium residual"),
         ] {
             let way = with(&format!("{name}{besides}"), [deflection.clone(), force], estimate.clone());
             all.push(Mistake { is_share: true, ..way });

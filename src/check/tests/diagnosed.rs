@@ -1,10 +1,10 @@
-//! What answers show of a solver.
+//! Diagnoses from answers.
 
 mod kinds;
 
 use super::*;
 
-/// By penalty, with a multiple of something.
+/// Returns a report on a penalty method with this penalty.
 fn by_penalty(problems: &[Problem], eps: impl Fn(&SpringMass<Exact>) -> Exact) -> Report {
     run(problems, |problem| {
         let asked = Problem { penalty: Some(eps(&problem.system)), ..problem.clone() };
@@ -18,32 +18,38 @@ fn a_penalty_shows_what_it_is_a_multiple_of() {
     let shown = |report: Report| {
         let Penalty { kind, value, spread } = report.penalty.clone();
         assert_eq!(spread, Some(Exact::zero()));
-        assert_eq!(report.named().unwrap().name, "it is the penalty method");
+        assert_eq!(report.identified_mistake().unwrap().name, "it is the penalty method");
         (kind, value.unwrap())
     };
-    assert_eq!(shown(by_penalty(&all, |_| number("1e4"))), (Kind::Constant, number("1e4")));
-    assert_eq!(shown(by_penalty(&all, |system| &system.c * number("50"))), (Kind::OfStiffness, number("50")));
-    assert_eq!(shown(by_penalty(&all, |system| &system.m * number("7e3"))), (Kind::OfMass, number("7e3")));
-    // One that is five times as large for half of the systems is none that we know.
+    assert_eq!(shown(by_penalty(&all, |_| number("1e4"))), (PenaltyScaling::Constant, number("1e4")));
+    assert_eq!(
+        shown(by_penalty(&all, |system| &system.c * number("50"))),
+        (PenaltyScaling::OfStiffness, number("50"))
+    );
+    assert_eq!(
+        shown(by_penalty(&all, |system| &system.m * number("7e3"))),
+        (PenaltyScaling::OfMass, number("7e3"))
+    );
+    // A penalty that is five times as large for half of the systems has no known form.
     let of_mass = |system: &SpringMass<Exact>| number(if system.m < number("1") { "1e4" } else { "5e4" });
     let two = by_penalty(&all, of_mass);
-    assert_eq!((two.penalty.kind, two.named()), (Kind::None, None));
-    // Of two that are nearly the same it is that of short systems, which are rounded less.
+    assert_eq!((two.penalty.kind, two.identified_mistake()), (PenaltyScaling::None, None));
+    // If two agree closely, the value of short systems is used, which has smaller rounding errors.
     let long = |system: &SpringMass<Exact>| system.l.abs() >= number("1000");
     let nearly = problems(1, 5, &[Family::Contact, Family::Far]);
     let nearly = by_penalty(&nearly, |system| number(if long(system) { "1.05e4" } else { "1e4" }));
-    assert_eq!((nearly.penalty.kind, nearly.penalty.value), (Kind::Constant, Some(number("1e4"))));
-    // Where c and m are the same in all systems, it may be a multiple of either.
+    assert_eq!((nearly.penalty.kind, nearly.penalty.value), (PenaltyScaling::Constant, Some(number("1e4"))));
+    // If c and m are the same in all systems, the penalty may be proportional to either.
     let alike = |problem: &Problem| {
         let (c, m) = (number("300"), number("2"));
         Problem { system: SpringMass { c, m, ..problem.system.clone() }, ..problem.clone() }
     };
     let alike: Vec<_> = problems(1, 9, &[Family::Overlap]).iter().map(alike).collect();
-    assert_eq!(by_penalty(&alike, |_| number("1e4")).penalty.kind, Kind::None);
-    assert_eq!(run(&all, right).penalty.kind, Kind::None);
+    assert_eq!(by_penalty(&alike, |_| number("1e4")).penalty.kind, PenaltyScaling::None);
+    assert_eq!(run(&all, right).penalty.kind, PenaltyScaling::None);
 }
 
-/// (1.16) with ε = 3 c, a step after the other; the force of each is that of the step before, or its own.
+/// (1.16) with ε = 3 c; the force of each step is that of the previous step, or its own.
 fn steps(problem: &Problem, lagging: bool) -> Answer {
     let eps = &problem.system.c * number("3");
     let mut before = Exact::zero();
@@ -59,20 +65,20 @@ fn steps(problem: &Problem, lagging: bool) -> Answer {
 #[test]
 fn a_force_that_lags_is_told_from_one_that_does_not() {
     let report = run(&default_problems(), |problem| steps(problem, true));
-    let lag = report.named().unwrap();
-    assert_eq!((lag.name.as_str(), lag.answers), ("N is one step behind", Answers::Steps));
+    let lag = report.identified_mistake().unwrap();
+    assert_eq!((lag.name.as_str(), lag.answers), ("N is one step behind", DiagnosisScope::Steps));
     assert_eq!(lag.formula, "N_k = m g − c u_{k−1}");
-    assert!(!report.holds() && report.summary().right == report.checked.len());
+    assert!(!report.holds() && report.summary().right == report.results.len());
     let report = run(&default_problems(), |problem| steps(problem, false));
     assert!(report.holds() && report.diagnosis.is_empty());
-    // Nor does a force lag that is of no step.
+    // A force that belongs to no step does not lag.
     let report = run(&default_problems(), |problem| {
         let mut answer = steps(problem, true);
         answer.steps.iter_mut().for_each(|[_, n]| *n = n.take().map(|n| n * number("2") + number("1")));
         answer
     });
     assert!(report.holds() && report.diagnosis.is_empty());
-    // One step in which it does not is enough, and one system.
+    // One step or one system without a lag suffices.
     let report = run(&default_problems(), |problem| {
         let mut answer = steps(problem, true);
         answer.steps[..2].clone_from_slice(&steps(problem, false).steps[..2]);
@@ -83,7 +89,7 @@ fn a_force_that_lags_is_told_from_one_that_does_not() {
     assert!(report.holds() && report.diagnosis.is_empty());
 }
 
-/// Of the wrong answers alone: a tolerance in metres that lets the mass hang free.
+/// A tolerance in metres, by which the mass is separated, explains only the wrong answers.
 #[test]
 fn what_is_wrong_in_some_systems_is_diagnosed_of_those() {
     let report = run(&problems(1, 20, &Family::ALL), |problem| {
@@ -92,12 +98,12 @@ fn what_is_wrong_in_some_systems_is_diagnosed_of_those() {
         if slack { Answer::new(free, Exact::zero()) } else { right(problem) }
     });
     let names: Vec<_> = report.diagnosis.iter().map(|d| (d.name.as_str(), d.answers)).collect();
-    assert!(names.contains(&("there is no plane", Answers::Wrong)), "{names:?}");
+    assert!(names.contains(&("there is no plane", DiagnosisScope::Wrong)), "{names:?}");
     let wrong = report.summary().wrong;
-    assert!(report.diagnosis.iter().all(|d| (d.fits, d.of) == (wrong, wrong)) && wrong > 0);
+    assert!(report.diagnosis.iter().all(|d| (d.explained, d.of) == (wrong, wrong)) && wrong > 0);
 }
 
-/// All answers, changed alike.
+/// Returns a report on answers that are all changed in the same way.
 fn changed(change: impl Fn(&Problem, Exact, Exact) -> [Exact; 2]) -> Report {
     run(&problems(1, 10, &Family::ALL), |problem| {
         let exact = problem.solution();
@@ -109,20 +115,20 @@ fn changed(change: impl Fn(&Problem, Exact, Exact) -> [Exact; 2]) -> Report {
 #[test]
 fn a_factor_is_found() {
     let name = |change: fn(&Problem, Exact, Exact) -> [Exact; 2]| {
-        changed(change).named().map(|only| only.name.clone()).unwrap_or_default()
+        changed(change).identified_mistake().map(|only| only.name.clone()).unwrap_or_default()
     };
-    assert_eq!(name(|_, u, n| [u * number("1000"), n]), "u is 1000 times what is right");
-    assert_eq!(name(|_, u, n| [u, n * number("1/1000")]), "N is 0.001 times what is right");
+    assert_eq!(name(|_, u, n| [u * number("1000"), n]), "u is 1000 times the right value");
+    assert_eq!(name(|_, u, n| [u, n * number("1/1000")]), "N is 0.001 times the right value");
     let both = name(|_, u, n| [u * number("1000"), n * number("3/4")]);
-    assert_eq!(both, "u is 1000 times what is right, N is 0.75 times what is right");
-    // Of some of them it is none.
+    assert_eq!(both, "u is 1000 times the right value, N is 0.75 times the right value");
+    // A change of only some answers is not diagnosed.
     let some = |problem: &Problem, u: Exact, n: Exact| {
         [u * number(if problem.id.ends_with('1') { "1000" } else { "999" }), n]
     };
     assert_eq!(name(some), "");
 }
 
-/// Where it touches, the augmentation pushes as it should: with ε = 10⁴ N/m, apart alone the plane pulls.
+/// In contact the augmentation is right; if separated, the plane pulls with ε = 10⁴ N/m.
 #[test]
 fn what_is_wrong_apart_from_the_plane_is_found() {
     let eps = || number("1e4");
@@ -131,8 +137,8 @@ fn what_is_wrong_apart_from_the_plane_is_found() {
         let pulled = (m * g + eps() * (h - l)) / (c + eps());
         if n > Exact::zero() { [u, n] } else { [pulled, n] }
     });
-    let named = report.named().map(|named| (named.name.as_str(), named.answers));
-    assert_eq!(named, Some(("only the update of the augmentation is bracketed", Answers::All)));
+    let named = report.identified_mistake().map(|named| (named.name.as_str(), named.answers));
+    assert_eq!(named, Some(("only the update of the augmentation is bracketed", DiagnosisScope::All)));
 }
 
 #[test]
@@ -148,20 +154,23 @@ fn a_mistake_in_the_source_says_where() {
 fn few_digits_are_found() {
     let rounded = |digits| move |x: &Exact| x.decimal(digits, Round::Nearest).parse().unwrap();
     let name = |round: &dyn Fn(&Exact) -> Exact| {
-        changed(|_, u, n| [round(&u), round(&n)]).named().map(|only| only.name.clone()).unwrap_or_default()
+        changed(|_, u, n| [round(&u), round(&n)])
+            .identified_mistake()
+            .map(|only| only.name.clone())
+            .unwrap_or_default()
     };
-    assert_eq!(name(&rounded(4)), "its numbers have no more than 4 digits");
+    assert_eq!(name(&rounded(4)), "its numbers have at most 4 digits");
     let fixed = |x: &Exact| {
         let millions = rug::Rational::from((x * number("1e6")).as_rational().round_ref());
         Exact::from(millions) / number("1e6")
     };
-    assert_eq!(name(&fixed), "its numbers have no more than 6 decimals");
-    // Few digits, but not of what is right.
+    assert_eq!(name(&fixed), "its numbers have at most 6 decimals");
+    // Few digits, but not of the right values.
     let half = |x: &Exact| rounded(4)(&(x * number("1.01")));
     assert_eq!(name(&half), "");
 }
 
-/// So little off that every mistake fits that hardly shows there; or no number, which fits no formula.
+/// Errors so small that every mistake with a small effect fits, or a number that fits no formula.
 #[test]
 fn what_shows_nothing_is_not_named() {
     let slight = changed(|problem, u, n| {
@@ -176,7 +185,7 @@ fn what_shows_nothing_is_not_named() {
     });
     assert!(nan.summary().wrong > 0 && nan.diagnosis.is_empty(), "{:?}", nan.diagnosis);
     assert!(run(&default_problems(), |_| Answer::default()).diagnosis.is_empty());
-    // A plane that also pulls, but for one number that is none.
+    // Bilateral contact, except for one number that is missing.
     let nearly = run(&default_problems(), |problem| {
         let [u, n] = [system::gap(&problem.system), system::reaction(&problem.system)];
         let answer = Answer::new(u, n);
@@ -192,28 +201,34 @@ fn a_tolerance_of_its_own_is_found() {
             let system = &problem.system;
             let (free, reaction) = (structure::deflection(system), system::reaction(system));
             let (weight, held) = (system::weight(system).abs(), &system.c * system::gap(system));
-            // All that the tolerance takes for no force; or a wrong one, where there should be none as well.
+            // Forces within the tolerance of zero, or wrong ones also for separated systems.
             let hardly = (&weight + held.abs()) * number(TOLERANCE);
             let missed = !reaction.is_zero() && is_small(system);
             if missed { [free, hardly] } else { [u, n * number("1.3") + weight * number("0.01")] }
         });
-        report.missed.expect("a threshold")
+        report.missed_contacts.expect("a threshold")
     };
     let through =
         |system: &SpringMass<Exact>| structure::deflection(system) - system::gap(system) < number("1e-6");
     let Threshold { of, up_to, from, .. } = missing(through);
-    assert!(of == Of::Penetration && up_to < number("1e-6") && number("1e-6") <= from, "{up_to} {from}");
+    assert!(
+        of == ThresholdQuantity::Penetration && up_to < number("1e-6") && number("1e-6") <= from,
+        "{up_to} {from}"
+    );
     let Threshold { of, up_to, from, .. } = missing(|system| system::reaction(system) < number("1e-2"));
-    assert!(of == Of::Force && up_to < number("1e-2") && number("1e-2") <= from, "{up_to} {from}");
-    // No threshold of one quantity; and nothing missed.
+    assert!(
+        of == ThresholdQuantity::Force && up_to < number("1e-2") && number("1e-2") <= from,
+        "{up_to} {from}"
+    );
+    // No threshold of a single quantity, and no missed contact.
     let by_name = changed(|problem, u, n| {
         let free = structure::deflection(&problem.system);
         if problem.id.ends_with('3') { [free, Exact::zero()] } else { [u, n] }
     });
-    assert_eq!((by_name.missed, changed(|_, u, n| [u, n]).missed), (None, None));
+    assert_eq!((by_name.missed_contacts, changed(|_, u, n| [u, n]).missed_contacts), (None, None));
 }
 
-/// So many that are missed, with R = 6 and 3 m of penetration, and as many with others.
+/// Missed contacts with R = 6 and 3 m of penetration, and as many others.
 #[test]
 fn a_threshold_is_of_what_tells_more_clearly() {
     let threshold = |count: usize, c: &str, weight: &str| {
@@ -227,16 +242,16 @@ fn a_threshold_is_of_what_tells_more_clearly() {
             let free = structure::deflection(&problem.system);
             if problem.id == "missed" { Answer::new(free, Exact::zero()) } else { right(problem) }
         });
-        report.missed.map(|missed| (missed.of, missed.up_to, missed.from))
+        report.missed_contacts.map(|missed| (missed.of, missed.up_to, missed.from))
     };
     let of = |of, up_to, from| Some((of, number(up_to), number(from)));
-    assert_eq!(threshold(10, "3", "18"), of(Of::Force, "6", "18"));
-    assert_eq!(threshold(10, "3/2", "9"), of(Of::Penetration, "3", "6"));
+    assert_eq!(threshold(10, "3", "18"), of(ThresholdQuantity::Force, "6", "18"));
+    assert_eq!(threshold(10, "3/2", "9"), of(ThresholdQuantity::Penetration, "3", "6"));
     assert_eq!(threshold(10, "2", "6"), None, "some are missed and others, just the same, are not");
     assert_eq!(threshold(5, "3", "18"), None, "252 ways to choose five of ten");
 }
 
-/// What is no force is not counted; where most forces have no penetration, they are not those of a penalty.
+/// Zero forces are not counted; if most forces have no penetration, they are not those of a penalty.
 #[test]
 fn forces_without_penetrations_tell_no_penalty() {
     let all = problems(1, 5, &[Family::Contact, Family::Separated, Family::Separated, Family::Separated]);
@@ -254,11 +269,11 @@ fn forces_without_penetrations_tell_no_penalty() {
         });
         report.penalty.kind
     };
-    assert_eq!(["1", "1.001"].map(kind), [Kind::Constant, Kind::None]);
+    assert_eq!(["1", "1.001"].map(kind), [PenaltyScaling::Constant, PenaltyScaling::None]);
 }
 
-/// By a tolerance of 10⁻⁶ of the system's scale and of what is computed; and where R is no further from 0
-/// than that, by either formula.
+/// With a tolerance of 10⁻⁶ of the scale of the system and of the value; if |R| is smaller than that, by
+/// either formula.
 #[test]
 fn an_answer_fits_to_the_tolerance() {
     let fits = |name: &str, [g, h]: [&str; 2], n: &str| {
@@ -271,10 +286,10 @@ fn an_answer_fits_to_the_tolerance() {
         });
         let mistake = mistakes(false).iter().find(|mistake| mistake.name == name).unwrap();
         let none = Constants { penalty: None, factor: None };
-        Given::of(&report.checked[0]).unwrap().fits(mistake, &none, &number(TOLERANCE))
+        Observation::of(&report.results[0]).unwrap().is_explained_by(mistake, &none, &number(TOLERANCE))
     };
     // N = −8 in place of 8, on a scale of 10 + 2.
-    let sign = |n| fits("N has the other sign", ["10", "2"], n);
+    let sign = |n| fits("N has the wrong sign", ["10", "2"], n);
     assert_eq!(["-8", "-7.99998", "-8.00002"].map(sign), [true; 3]);
     assert_eq!(["-7.9999799", "-8.0000201", "8"].map(sign), [false; 3]);
     // R = ±2 on a scale of two million, and more.
@@ -284,10 +299,10 @@ fn an_answer_fits_to_the_tolerance() {
     assert!(!weight(["999998.9", "1000001"], "999998.9") && !weight(["1000001.1", "999999"], "0"));
 }
 
-/// What looks like one thing and is another.
+/// Answers that resemble a mistake which they are not.
 #[test]
 fn nothing_is_named_for_what_it_is_not() {
-    // As near as single precision, and yet in double.
+    // As accurate as single precision, but in double precision.
     let exact = run(&problems(3, 5, &Family::ALL), |problem| {
         let Answer { deflection, contact_force, .. } = right(problem);
         let off = if problem.id == "contact-1" { "1.000005" } else { "1.00000001" };
@@ -295,12 +310,12 @@ fn nothing_is_named_for_what_it_is_not() {
         Answer { deflection, contact_force: n, ..Answer::default() }
     });
     assert!(exact.summary().wrong > 0 && exact.diagnosis.is_empty(), "{:?}", exact.diagnosis);
-    // A factor that is none, and one that is all.
+    // A factor that does not count, and one that applies to all answers.
     let slight = changed(|_, u, n| [u, n * number("1.0000015")]);
     assert!(slight.diagnosis.is_empty(), "{:?}", slight.diagnosis);
     let nothing = changed(|_, u, _| [u, Exact::zero()]);
-    assert_eq!(nothing.named().unwrap().name, "N is always 0");
-    // Any number under a penalty of which rounding leaves nothing.
+    assert_eq!(nothing.identified_mistake().unwrap().name, "N is always 0");
+    // Any number with a penalty for which rounding leaves no information.
     let asked: Vec<_> = default_problems()
         .into_iter()
         .map(|problem| Problem { penalty: Some(number("1e30")), ..problem })
@@ -311,7 +326,7 @@ fn nothing_is_named_for_what_it_is_not() {
         Answer { contact_force: Some(force), ..answer }
     });
     assert!(!garbage.holds() && garbage.diagnosis.is_empty(), "{:?}", garbage.diagnosis);
-    let findings = garbage.checked.iter().filter_map(|of| of.judgement.finding.as_deref());
+    let findings = garbage.results.iter().filter_map(|of| of.assessment.finding.as_deref());
     assert!(findings.clone().count() > 0 && findings.clone().all(|finding| !finding.contains("rounding")));
 }
 
@@ -332,11 +347,11 @@ fn a_lag_hides_no_mistake() {
         Answer { steps: steps(problem, true).steps, ..Answer::new(u, n) }
     });
     assert_eq!(report.lag().unwrap().name, "N is one step behind");
-    assert_eq!(report.named().unwrap().name, "the plane also pulls");
-    assert!(report.checked.iter().all(|of| matches!(&of.reply, Reply::Answered(a) if a.steps.is_empty())));
+    assert_eq!(report.identified_mistake().unwrap().name, "the plane also pulls");
+    assert!(report.results.iter().all(|of| matches!(&of.reply, Reply::Answered(a) if a.steps.is_empty())));
 }
 
-/// What is missed by chance, or for another reason, is seldom told by one number.
+/// A single quantity rarely separates contacts missed by chance or for another reason.
 #[test]
 fn a_threshold_is_not_seen_in_a_few() {
     let few = problems(1, 5, &[Family::Contact, Family::Stiff]);
@@ -347,10 +362,10 @@ fn a_threshold_is_not_seen_in_a_few() {
             right(problem)
         }
     });
-    assert!(report.summary().wrong >= 2 && report.missed.is_none(), "{:?}", report.missed);
+    assert!(report.summary().wrong >= 2 && report.missed_contacts.is_none(), "{:?}", report.missed_contacts);
 }
 
-/// One answer could be off by anything, and two could be, too, or tell a factor.
+/// One answer could have any error, and two could as well, or determine a factor.
 #[test]
 fn two_answers_show_nothing() {
     let few = |families: &[Family], change: fn(Exact, Exact) -> [Exact; 2]| {
@@ -365,16 +380,16 @@ fn two_answers_show_nothing() {
     let one = [Family::Contact];
     let digits = |u: Exact, n: Exact| [u, n].map(|x| x.decimal(4, Round::Nearest).parse().unwrap());
     let three = [Family::Stiff, Family::Soft, Family::Separated];
-    assert_eq!(few(&three, digits), ["its numbers have no more than 4 digits"]);
+    assert_eq!(few(&three, digits), ["its numbers have at most 4 digits"]);
     assert!(few(&three[..2], digits).is_empty());
     let more = |u: Exact, n: Exact| [u, n * number("1.3")];
     let three = [Family::Contact, Family::Overlap, Family::Soft];
-    assert_eq!(few(&three, more), ["N is 1.3 times what is right"]);
+    assert_eq!(few(&three, more), ["N is 1.3 times the right value"]);
     assert!(few(&three[..2], more).is_empty());
     assert!(few(&one, more).is_empty());
 }
 
-/// A mass that touches the plane without a spring's length or a gap.
+/// A mass that touches the plane with zero free length and zero gap.
 #[test]
 fn where_there_is_no_length_no_penetration_tells_a_penalty() {
     let no_length = |problem: &Problem| {
@@ -383,5 +398,5 @@ fn where_there_is_no_length_no_penetration_tells_a_penalty() {
     };
     let all: Vec<_> = problems(1, 3, &[Family::Contact]).iter().map(no_length).collect();
     let report = run(&all, |_| Answer::new(Exact::zero(), number("1")));
-    assert!(!report.holds() && report.penalty.kind == Kind::None);
+    assert!(!report.holds() && report.penalty.kind == PenaltyScaling::None);
 }

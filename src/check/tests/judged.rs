@@ -1,4 +1,4 @@
-//! How answers are judged, and tallied.
+//! Assessment of answers, and counts.
 
 use super::*;
 
@@ -22,8 +22,8 @@ fn what_is_right_is_not_diagnosed() {
     }
 }
 
-/// Rounded once to f64 and written with the digits that tell it, whatever the tolerance: with a penalty that
-/// is hard, too, and where the bound of rounding is wider than the system or narrower than half an ulp.
+/// Rounded once to f64 and written with the digits that identify it, for every tolerance: also with a large
+/// penalty, and where the bound of rounding is larger than the system or smaller than half an ulp.
 #[test]
 fn the_exact_answer_rounded_once_is_right() {
     let penalties = [None, Some("1e8"), Some("1e12"), Some("3.7e15")];
@@ -41,11 +41,11 @@ fn assert_rounded_once_is_right(problem: &Problem) {
     let [u, p, n] =
         [exact.deflection, exact.penetration, exact.contact_force].map(|x| x.to_f64().unwrap().to_string());
     let answer = Answer { penetration: Some(Some(number(&p))), ..Answer::new(number(&u), number(&n)) };
-    let judged = Judgement::of(problem, &Reply::Answered(Box::new(answer)), &number("1e-30"));
+    let judged = Assessment::of(problem, &Reply::Answered(Box::new(answer)), &number("1e-30"));
     assert_eq!(judged.verdict, Verdict::Right, "{}, {:?}: {:?}", problem.id, problem.penalty, judged.finding);
 }
 
-/// Off by the tolerance is within, by a little more is not: u and N each on its own scale.
+/// An error equal to the tolerance is accepted, a slightly larger one is not: u and N each on its own scale.
 #[test]
 fn the_tolerance_is_the_border() {
     let problem = &problems(1, 1, &[Family::Contact])[0];
@@ -64,13 +64,13 @@ fn the_tolerance_is_the_border() {
         let mut answer = right(problem);
         let number_of = if i == 0 { &mut answer.deflection } else { &mut answer.contact_force };
         *number_of = number_of.take().map(|x| x + number(factor) * number(TOLERANCE) * &scales[i]);
-        let judgement = Judgement::of(problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE));
+        let judgement = Assessment::of(problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE));
         assert_eq!(judgement.verdict, verdict, "{i}, {factor}");
         assert_eq!(judgement.error(), Some(&(number(factor) * number(TOLERANCE)).abs()));
     }
 }
 
-/// A penetration is compared on the scale of lengths, or with what rounding may make of that of u.
+/// A penetration is compared on the scale of lengths, or with the rounding error of that of u.
 #[test]
 fn a_penetration_is_that_of_the_deflection() {
     let problem = &problems(1, 1, &[Family::Contact])[0];
@@ -81,11 +81,11 @@ fn a_penetration_is_that_of_the_deflection() {
         let p = contact::penetration(&problem.system, exact.deflection.as_ref().unwrap());
         let said = p + number(off) * number(TOLERANCE) * &scale;
         let answer = Answer { penetration: Some(Some(said)), ..exact };
-        Judgement::of(problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE)).verdict
+        Assessment::of(problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE)).verdict
     };
     assert_eq!(["0", "1", "-1"].map(verdict), [Verdict::Right; 3]);
     assert_eq!(["1.01", "-1.01"].map(verdict), [Verdict::Wrong; 2]);
-    // Where u is off by the tolerance its penetration is, too.
+    // If the error of u is the tolerance, so is that of the penetration.
     let [u, n] = [
         right(problem).deflection.unwrap() + number(TOLERANCE) * &scale,
         right(problem).contact_force.unwrap(),
@@ -93,13 +93,13 @@ fn a_penetration_is_that_of_the_deflection() {
     let own = contact::penetration(&problem.system, &u);
     let said = |p: Exact| {
         let answer = Answer { penetration: Some(Some(p)), ..Answer::new(u.clone(), n.clone()) };
-        Judgement::of(problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE)).verdict
+        Assessment::of(problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE)).verdict
     };
     assert_eq!([said(own.clone()), said(-own)], [Verdict::WithinTolerance, Verdict::Wrong]);
 }
 
-/// Said is that the plane pushes, or pulls, if N is further from 0 than the tolerance; held against it is
-/// another state, where N is further off than that.
+/// The plane counts as active if |N| exceeds the tolerance; another state is wrong if the error of N exceeds
+/// it.
 #[test]
 fn a_state_is_wrong_where_it_shows() {
     let finding = |family: Family, parts: &str| {
@@ -109,22 +109,22 @@ fn a_state_is_wrong_where_it_shows() {
         assert!(scale > number("1"));
         let u = right(problem).deflection.unwrap() + number("1");
         let answer = Answer::new(u, number(parts) * number(TOLERANCE) * scale);
-        let judgement = Judgement::of(problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE));
+        let judgement = Assessment::of(problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE));
         assert_eq!(judgement.verdict, Verdict::Wrong);
         judgement.finding.unwrap_or_default()
     };
     let in_contact = |parts| finding(Family::Contact, parts);
     for free in ["0.5", "1", "-1"].map(in_contact) {
-        assert_eq!(free, "it says that the mass hangs free; exactly, the plane pushes");
+        assert_eq!(free, "according to its answer the mass is separated; exactly, the plane pushes");
     }
-    assert_eq!(in_contact("-1.01"), "it says that the plane pulls; exactly, the plane pushes");
+    assert_eq!(in_contact("-1.01"), "according to its answer the plane pulls; exactly, the plane pushes");
     assert_eq!(["1.01", "3e6"].map(in_contact), ["", ""]);
     assert_eq!(finding(Family::Grazing, "1"), "", "no further off than the tolerance");
-    let touching = "it says that the plane pushes; exactly, they touch without force";
+    let touching = "according to its answer the plane pushes; exactly, they touch without force";
     assert_eq!(finding(Family::Grazing, "1.01"), touching);
 }
 
-/// It is solved as it was used; residuals are those of the numbers, if there are two.
+/// The problem is solved with the parameters used; residuals are those of the numbers, if there are two.
 #[test]
 fn the_penalty_that_was_used_is_the_one_that_counts() {
     let problem = with_penalties(problems(1, 1, &[Family::Contact])).remove(0);
@@ -132,7 +132,7 @@ fn the_penalty_that_was_used_is_the_one_that_counts() {
     let mut answer = right(&Problem { penalty: Some(used.clone()), ..problem.clone() });
     answer.used.penalty = Some(Some(used.clone()));
     let judgement =
-        |answer: Answer| Judgement::of(&problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE));
+        |answer: Answer| Assessment::of(&problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE));
     let judged = judgement(answer.clone());
     assert_eq!((judged.verdict, judged.force_error), (Verdict::Right, Some(Exact::zero())));
     let [u, n] = [answer.deflection.as_ref().unwrap(), answer.contact_force.as_ref().unwrap()];
@@ -140,14 +140,14 @@ fn the_penalty_that_was_used_is_the_one_that_counts() {
     assert_eq!(judgement(Answer { deflection: None, ..answer.clone() }).kkt, None);
 }
 
-/// What an answer says besides is held against it.
+/// Additional values of an answer are checked.
 #[test]
 fn findings_say_what_is_wrong() {
     let problem = &problems(1, 1, &[Family::Contact])[0];
     let finding = |change: &dyn Fn(&mut Answer)| {
         let mut answer = right(problem);
         change(&mut answer);
-        let judgement = Judgement::of(problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE));
+        let judgement = Assessment::of(problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE));
         (judgement.verdict, judgement.finding.unwrap_or_default())
     };
     let wrong = |change: &dyn Fn(&mut Answer), text: &str| {
@@ -160,30 +160,33 @@ fn findings_say_what_is_wrong() {
     wrong(&|answer| answer.contact_force = None, "its contact force is not a number");
     wrong(
         &|answer| answer.contact_force = Some(Exact::zero()),
-        "says that the mass hangs free; exactly, the",
+        "according to its answer the mass is separated; exactly, the",
     );
     wrong(
         &|answer| answer.contact_force = Some(number("-9")),
-        "says that the plane pulls; exactly, the plane p",
+        "according to its answer the plane pulls; exactly, the plane p",
     );
-    wrong(&|answer| answer.penetration = Some(Some(number("0.1"))), "its penetration is 0.1, that of its");
+    wrong(
+        &|answer| answer.penetration = Some(Some(number("0.1"))),
+        "its penetration is 0.1, but that of its",
+    );
     wrong(&|answer| answer.penetration = Some(None), "its penetration is not a number");
-    wrong(&|answer| answer.used.system.c = more(&system.c), "took stiffness =");
-    wrong(&|answer| answer.used.system.m = more(&system.m), "took mass =");
-    wrong(&|answer| answer.used.system.g = more(&system.g), "took gravity =");
-    wrong(&|answer| answer.used.system.l = more(&system.l), "took free_length =");
-    wrong(&|answer| answer.used.system.h = more(&system.h), "took height =");
-    wrong(&|answer| answer.used.system.h = Some(None), "took no number for height =");
+    wrong(&|answer| answer.used.system.c = more(&system.c), "used stiffness =");
+    wrong(&|answer| answer.used.system.m = more(&system.m), "used mass =");
+    wrong(&|answer| answer.used.system.g = more(&system.g), "used gravity =");
+    wrong(&|answer| answer.used.system.l = more(&system.l), "used free_length =");
+    wrong(&|answer| answer.used.system.h = more(&system.h), "used height =");
+    wrong(&|answer| answer.used.system.h = Some(None), "used a value for height =");
     let zero = |answer: &mut Answer| answer.used.system.c = Some(Some(Exact::zero()));
     let mut none = right(problem);
     zero(&mut none);
-    let judgement = Judgement::of(problem, &Reply::Answered(Box::new(none)), &number("2"));
-    assert_eq!(judgement.finding.as_deref(), Some("it took stiffness = 0 for 30"));
+    let judgement = Assessment::of(problem, &Reply::Answered(Box::new(none)), &number("2"));
+    assert_eq!(judgement.finding.as_deref(), Some("it used stiffness = 0 instead of 30"));
     let same = finding(&|answer| answer.used.system.c = Some(Some(system.c.clone())));
     assert_eq!(same, (Verdict::Right, String::new()));
 }
 
-/// Rounded to single precision, H − l is another gap; the answer is judged by what was used.
+/// Rounding to single precision changes the gap H − l; the answer is assessed with the parameters used.
 #[test]
 fn an_answer_is_judged_by_what_it_used() {
     let all = problems(1, 20, &[Family::Far]);
@@ -201,10 +204,10 @@ fn an_answer_is_judged_by_what_it_used() {
     let report = run(&all, |problem| single(problem, true));
     assert_eq!(report.summary(), Summary { within_tolerance: 20, ..Summary::default() });
     let report = run(&all, |problem| single(problem, false));
-    assert_eq!(report.named().unwrap().name, "it computes in single precision");
+    assert_eq!(report.identified_mistake().unwrap().name, "it computes in single precision");
 }
 
-/// Every reply has its own place in the tally, and none but a right answer passes.
+/// Every reply has its own count, and only a right answer passes.
 #[test]
 fn every_reply_is_counted() {
     let all = problems(1, 6, &[Family::Stiff]);
@@ -218,7 +221,7 @@ fn every_reply_is_counted() {
             "stiff-1" => answer("1"),
             "stiff-2" => answer("1.0000001"),
             "stiff-3" => Reply::Refused("too stiff".into()),
-            "stiff-4" => Reply::Garbled("who?".into()),
+            "stiff-4" => Reply::InvalidResponse("who?".into()),
             "stiff-5" => Reply::Crashed("signal".into()),
             _ => Reply::TimedOut("nothing".into()),
         }
@@ -226,7 +229,7 @@ fn every_reply_is_counted() {
     let judged = |problems: &[Problem]| {
         check(problems, &number(TOLERANCE), |problem| Ok::<_, Infallible>(replies(problem))).unwrap()
     };
-    // Of two that are wrong the one that is further off is shown.
+    // The wrong answer with the larger error is shown.
     let off = |problem: &Problem| {
         let mut answer = right(problem);
         answer.deflection =
@@ -240,7 +243,7 @@ fn every_reply_is_counted() {
     let worst = &report.families()[0];
     assert_eq!((worst.verdict, worst.count, worst.cases), (Verdict::Crashed, 1, 6));
     assert_eq!(worst.worst.problem.id, "stiff-5");
-    // Alone; the refusal beside a right answer; the refusal alone.
+    // A wrong answer alone, a refusal with a right answer, and a refusal alone.
     let holds = |of: &[usize]| judged(&of.iter().map(|i| all[*i].clone()).collect::<Vec<_>>()).holds();
     assert_eq!([0, 1, 2, 3, 4, 5].map(|i| holds(&[i])), [true, true, false, false, false, false]);
     assert_eq!([1, 2, 3, 4, 5].map(|i| holds(&[0, i])), [true, true, false, false, false]);
@@ -263,7 +266,7 @@ fn who_never_answers_is_left_alone() {
             })
         });
         let report = report.unwrap();
-        (report.given_up, report.checked.len())
+        (report.given_up, report.results.len())
     };
     assert_eq!(silent(usize::MAX), (true, 3));
     assert_eq!(silent(3), (false, all.len()));
@@ -272,7 +275,7 @@ fn who_never_answers_is_left_alone() {
     assert!(!three.unwrap().given_up, "there was nothing more to ask");
 }
 
-/// No force, and no gap: there is nothing to measure an error by but the unit.
+/// Without a force and a gap the errors are measured in units.
 #[test]
 fn nothing_can_be_measured_by_nothing() {
     let [c, m] = ["5", "3"].map(number);
@@ -281,24 +284,24 @@ fn nothing_can_be_measured_by_nothing() {
     for (u, verdict) in [("0", Verdict::Right), ("1e-6", Verdict::WithinTolerance), ("2e-6", Verdict::Wrong)]
     {
         let report = run(std::slice::from_ref(&problem), |_| Answer::new(number(u), Exact::zero()));
-        assert_eq!(report.checked[0].judgement.verdict, verdict, "{u}");
+        assert_eq!(report.results[0].assessment.verdict, verdict, "{u}");
     }
 }
 
-/// Where f64 overflows, rounding explains nothing: not any number is right.
+/// If f64 overflows, rounding explains nothing.
 #[test]
 fn what_overflows_explains_nothing() {
     let problem = Problem { penalty: Some(number("1e305")), ..problems(1, 1, &[Family::Huge]).remove(0) };
     for (off, verdict) in [("1", Verdict::Right), ("1.1", Verdict::Wrong)] {
         let mut answer = right(&problem);
         answer.deflection = answer.deflection.map(|u| u * number(off));
-        let judgement = Judgement::of(&problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE));
+        let judgement = Assessment::of(&problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE));
         assert_eq!(judgement.verdict, verdict);
     }
 }
 
-/// Of l = 10⁴ m rounding takes 10⁻¹² m, and ε = 4.5e17 N/m makes a million N of that: less than the 2e8 N of
-/// c (|l| + |H|).
+/// For l = 10⁴ m the rounding error is 10⁻¹² m, which ε = 4.5e17 N/m turns into a million N: less than the
+/// 2e8 N of c (|l| + |H|).
 #[test]
 fn what_rounding_may_do_is_said() {
     let [c, m, g, l, h] = ["1e4", "1", "2", "1e4", "10000.0001"].map(number);
@@ -307,12 +310,12 @@ fn what_rounding_may_do_is_said() {
         Problem { system, penalty: Some(number("4.5e17")), ..problems(1, 1, &[Family::Far]).remove(0) };
     let mut answer = right(&problem);
     answer.contact_force = answer.contact_force.map(|n| n + number("1000"));
-    let judgement = Judgement::of(&problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE));
+    let judgement = Assessment::of(&problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE));
     assert_eq!(judgement.verdict, Verdict::Wrong);
-    assert_eq!(judgement.finding.as_deref(), Some("no further off than rounding in f64 may take it"));
+    assert_eq!(judgement.finding.as_deref(), Some("within the rounding error of f64"));
 }
 
-/// What is refused altogether is not known to be right.
+/// A family without answers is not known to be right.
 #[test]
 fn a_family_without_an_answer_does_not_hold() {
     let refusing = |refused: &'static str| {

@@ -1,4 +1,4 @@
-//! Which penalty, and what it gives: the laws of rounding propose, a run confirms.
+//! Advice on the penalty: proved laws of rounding propose a method, and a run confirms it.
 
 use super::count::count;
 use super::reach::{Laws, Limits, last, least_normal, rounding_floor};
@@ -6,80 +6,82 @@ use super::{
     MAX_AUGMENTATIONS, Method, Outcome, Plane, Scalar, Solution, SolveError, State, check, exact, solve,
 };
 use crate::chapter::{SpringMass, contact};
-use crate::number::{Exact, PositivePart, RangeError, Text};
+use crate::number::{Exact, ExactText, PositivePart, RangeError};
 use num_traits::Zero;
 use rug::Integer;
 use rug::float::Round;
 use std::iter::successors;
 
-/// What [`advise`] comes to.
+/// Result of [`advise`].
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound = "T: crate::number::Text"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound = "T: crate::number::ExactText"))]
 #[non_exhaustive]
 pub struct Advice<T> {
     /// Contact, grazing or separated.
     pub state: State,
-    /// The tolerance in m above which every method is promised to come, as [`rounding_floor`] says; below it
-    /// by luck. None where none is promised.
+    /// Tolerance in m above which every method is guaranteed to converge, see [`rounding_floor`]; a smaller
+    /// one is met by chance only. `None` if nothing is guaranteed.
     pub floor: Option<Exact>,
-    /// A method each that reaches the tolerance, [`Method::Lagrange`] first. Where there is none, no method
-    /// ends within the tolerance and says so: Lagrange's deflection is the nearest that the scalar has, or,
-    /// where the mass hangs free, that of all methods, but for an iterate near grazing that luck brings
-    /// nearer.
-    pub choices: Vec<Choice<T>>,
+    /// One recommendation for each method that meets the tolerance, [`Method::Lagrange`] first. If there is
+    /// none, no method can be guaranteed to meet the tolerance; the deflection by Lagrange multiplier is then
+    /// the closest representable one, except that an iterate near grazing may be closer by chance.
+    pub recommendations: Vec<Recommendation<T>>,
 }
 
-/// A method that reaches the tolerance: it has been tried.
+/// A method that meets the tolerance, confirmed by a run.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound = "T: crate::number::Text"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound = "T: crate::number::ExactText"))]
 #[non_exhaustive]
-pub struct Choice<T> {
-    /// To be given to [`solve`].
+pub struct Recommendation<T> {
+    /// The method, as an argument for [`solve`].
     #[cfg_attr(feature = "serde", serde(flatten))]
     pub method: Method<T>,
-    /// Every penalty ε in N/m between these is sure to reach the tolerance, [`method`](Self::method)'s
-    /// among them. A smaller one is not: it is too soft, or may take more than [`MAX_AUGMENTATIONS`]. Up to
-    /// the larger one rounding takes no more from the force ε p, or from the multiplier, than c times the
-    /// tolerance; if it may take more with every one that will do, or with all but the softest, the
-    /// larger one is the method's own. From the deflection it takes no more at any. None where there is
-    /// no penalty, or no limit but the range of the scalar.
+    /// Smallest and largest penalty ε, in N/m, between which the tolerance is guaranteed; the penalty of
+    /// [`method`](Self::method) is one of them. A smaller penalty is too soft or may take more than
+    /// [`MAX_AUGMENTATIONS`]. Up to the larger one, rounding changes the force ε p, or the multiplier, by at
+    /// most c times the tolerance; if no sufficient penalty has this property, the larger one is the penalty
+    /// of the method. `None` if the method has no penalty, or if only the range of the scalar limits it.
     #[cfg_attr(feature = "serde", serde(serialize_with = "crate::number::quantity::options"))]
-    pub penalties: [Option<T>; 2],
-    /// k of the augmentation that arrives.
+    pub penalty_range: [Option<T>; 2],
+    /// Number k of augmentations needed.
     pub augmentations: Option<u64>,
-    /// p of the deflection that is found, in m, exactly: what a run computes of it is rounded.
+    /// Exact penetration of the computed deflection, in m.
     pub penetration: Exact,
-    /// How far the contact force that is found is off, in N, exactly.
+    /// Exact error of the computed contact force, in N.
     pub force_error: Exact,
-    /// The same in parts of the force; none where there is no force.
+    /// Exact error relative to the contact force; `None` if the force is 0.
     pub relative_force_error: Option<Exact>,
 }
 
-/// Which method with which penalty finds the deflection of a system to a tolerance, in m, over a plane that
-/// never pulls.
+/// Recommends methods and penalties that compute the deflection of a system to a tolerance, in m, with
+/// unilateral contact.
 ///
-/// - The penalty method with the softest penalty that will do, to two digits; where every one will do, 10 c.
-/// - The augmentation with the fewest steps that leave the multiplier its digits: with the hardest penalty of
-///   which rounding takes no more from the multiplier than the tolerance does.
+/// - The penalty method with the smallest sufficient penalty, to two digits, or with 10 c if every penalty
+///   suffices.
+/// - The augmentation with the fewest steps: with the largest penalty for which rounding changes the
+///   multiplier by no more than the tolerance allows.
 ///
-/// The laws of [`rounding`](crate::chapter::rounding) find them, for parameters as they are in their scalar;
-/// each is then run. What is not in the advice cannot be promised.
+/// The laws in [`rounding`](crate::chapter::rounding) determine the penalties for the parameters as
+/// represented in their scalar; each method is then run. A method that is not recommended cannot be
+/// guaranteed.
 ///
 /// # Errors
-/// As [`solve`], and [`SolveError::Invalid`] for a tolerance that is not positive.
+/// Returns the errors of [`solve`], and [`SolveError::Invalid`] if the tolerance is not positive.
+///
+/// # Examples
 ///
 /// ```
 /// use spring_mass_contact::chapter::SpringMass;
 /// use spring_mass_contact::solver::{Method, Outcome, advise, solve};
 /// let system = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
 /// let advice = advise(&system, &1e-12)?;
-/// let penalties: Vec<_> = advice.choices.iter().map(|choice| choice.method.penalty().copied()).collect();
-/// assert_eq!(penalties, [None, Some(4.9e12), Some(7e4)]);
-/// let solution = solve(&system, &advice.choices[2].method)?;
+/// let penalties = advice.recommendations.iter().map(|choice| choice.method.penalty().copied());
+/// assert_eq!(penalties.collect::<Vec<_>>(), [None, Some(4.9e12), Some(7e4)]);
+/// let solution = solve(&system, &advice.recommendations[2].method)?;
 /// assert_eq!((solution.outcome, solution.augmentations), (Outcome::Converged, Some(3)));
 /// # Ok::<(), spring_mass_contact::solver::SolveError>(())
 /// ```
-pub fn advise<T: Scalar + Text>(system: &SpringMass<T>, tolerance: &T) -> Result<Advice<T>, SolveError> {
+pub fn advise<T: Scalar + ExactText>(system: &SpringMass<T>, tolerance: &T) -> Result<Advice<T>, SolveError> {
     check::positive("tolerance", tolerance)?;
     let solution = solve(system, &Method::Lagrange)?;
     let state = solution.state;
@@ -100,7 +102,7 @@ pub fn advise<T: Scalar + Text>(system: &SpringMass<T>, tolerance: &T) -> Result
     if !choices.is_empty() {
         choices.extend(task.iterative());
     }
-    Ok(Advice { state, floor, choices })
+    Ok(Advice { state, floor, recommendations: choices })
 }
 
 /// A number of so few digits, on the side that the rounding says; the number itself where that has an
@@ -109,14 +111,15 @@ fn short(x: &Exact, digits: usize, round: Round) -> Exact {
     x.decimal(digits, round).parse().unwrap_or_else(|_| x.clone())
 }
 
-/// A larger number, of two digits.
+/// Returns a larger number with two significant digits.
 fn two_digits_above(x: &Exact) -> Exact {
     let above = short(x, 2, Round::Up);
     if above > *x { above } else { short(&(x * Exact::from(101) / Exact::from(100)), 2, Round::Up) }
 }
 
-/// The softest penalty that takes no more than [`MAX_AUGMENTATIONS`], within a tenth; looked for from this
-/// one on. A harder one takes no more than a softer one, and a hard one is sure to arrive.
+/// Returns the smallest penalty, within a tenth, that needs at most [`MAX_AUGMENTATIONS`], starting the
+/// search from `eps`. A larger penalty never needs more augmentations, and a sufficiently large one always
+/// converges.
 fn softest(eps: &Exact, augmentations: impl Fn(&Exact) -> Option<Integer>) -> Exact {
     let in_time = |eps: &Exact| augmentations(eps).is_some_and(|most| most <= MAX_AUGMENTATIONS);
     let times = |n: i32| eps * Exact::power_of_two(n);
@@ -131,33 +134,33 @@ fn softest(eps: &Exact, augmentations: impl Fn(&Exact) -> Option<Integer>) -> Ex
     softer.take_while(in_time).last().expect("the first one is")
 }
 
-/// What decides which penalties will do.
+/// The arithmetic that decides which penalties suffice.
 enum Arithmetic {
-    /// Mass and plane touch, and nothing is rounded.
+    /// Contact or grazing without rounding.
     Exact,
-    /// They touch, and these are the laws of what is rounded.
+    /// Contact or grazing, with the laws of rounding.
     Rounded(Box<Laws>),
-    /// The mass hangs free: every method computes m g / c.
+    /// Separated: every method computes m g / c.
     Free,
 }
 
-/// What is to be solved, and how well.
+/// A system, a tolerance, and the arithmetic.
 struct Task<'a, T> {
     system: &'a SpringMass<T>,
     tolerance: &'a T,
-    /// The same, exactly, with the deflection to be found.
+    /// The exact system and the deflection to be computed.
     numbers: SpringMass<Exact>,
     tol: Exact,
     answer: Exact,
-    /// Is the tolerance above the floor?
+    /// Whether the tolerance is above the rounding floor.
     promised: bool,
     arithmetic: Arithmetic,
 }
 
-impl<T: Scalar + Text> Task<'_, T> {
-    /// The penalty method and the augmentation, if they can be promised.
-    fn iterative(&self) -> Vec<Choice<T>> {
-        // Where this does not reach the tolerance, it is not promised to the augmentation.
+impl<T: Scalar + ExactText> Task<'_, T> {
+    /// Returns the penalty method and the augmentation, if they can be guaranteed.
+    fn iterative(&self) -> Vec<Recommendation<T>> {
+        // If the penalty method does not meet the tolerance, the augmentation is not guaranteed to meet it.
         let Some(limits) = self.penalties() else { return Vec::new() };
         let any_will_do = limits.from.is_zero();
         let eps =
@@ -175,9 +178,10 @@ impl<T: Scalar + Text> Task<'_, T> {
         }
     }
 
-    /// The augmentation with the hardest penalty that leaves the multiplier its digits, but no harder than
-    /// one with which there is nothing to augment; if that is too soft, with the softest that will do.
-    fn augmentation(&self, none_needed: Exact, any_will_do: bool) -> Option<Choice<T>> {
+    /// Returns the augmentation with the largest penalty that preserves the digits of the multiplier, but not
+    /// larger than one that needs no augmentation. If it is too small, returns that with the smallest
+    /// sufficient penalty.
+    fn augmentation(&self, none_needed: Exact, any_will_do: bool) -> Option<Recommendation<T>> {
         let to = match &self.arithmetic {
             Arithmetic::Rounded(laws) => laws.hardest_augmentation(&self.tol),
             Arithmetic::Exact | Arithmetic::Free => None,
@@ -193,7 +197,7 @@ impl<T: Scalar + Text> Task<'_, T> {
             Arithmetic::Rounded(laws) => {
                 softest(&eps, |eps| laws.augmentations_at_most(eps, &self.tol).ok()?)
             }
-            // Softer than that, rounding near grazing could take it for touching.
+            // With a smaller penalty rounding near grazing could turn separation into contact.
             Arithmetic::Free => self.numbers.c.clone(),
         };
         let eps = std::cmp::max(eps, short(&from, 2, Round::Up));
@@ -203,27 +207,33 @@ impl<T: Scalar + Text> Task<'_, T> {
         })
     }
 
-    /// The choice with this penalty, if it reaches the tolerance, with the limits that do so too.
-    fn choice(&self, limits: &Limits, eps: &Exact, method: impl Fn(T) -> Method<T>) -> Option<Choice<T>> {
-        // To the nearest, unless that is down to what is too soft.
-        let nearest = self.tolerance.nearest(eps).ok()?;
+    /// Returns the recommendation for this penalty, with its range, if the method meets the tolerance.
+    fn choice(
+        &self,
+        limits: &Limits,
+        eps: &Exact,
+        method: impl Fn(T) -> Method<T>,
+    ) -> Option<Recommendation<T>> {
+        // Rounded to nearest, unless the result is too small.
+        let nearest = self.tolerance.round_from_exact(eps).ok()?;
         let eps = if exact(&nearest) > limits.from { nearest } else { self.directed(eps, true).ok()? };
         let choice = self.tried(method(eps.clone()))?;
-        // In rationals the count is the run, whose numbers would become long.
+        // A count replaces the run in rationals, whose length would grow.
         let counted = matches!(self.arithmetic, Arithmetic::Exact) && choice.augmentations.is_some();
         let reaches = |eps: &T| counted || self.tried(method(eps.clone())).is_some();
-        // Rounded inwards; where it does not fit, or under- and overflow break the law, no further than ε.
+        // Rounded inwards; if it does not fit, or underflow or overflow invalidates the law, the bound is ε
+        // itself.
         let end = |x: &Exact, up: bool| {
             let end = self.directed(x, up).ok().filter(|end| if up { *end < eps } else { *end > eps });
             end.filter(reaches).unwrap_or_else(|| eps.clone())
         };
         let from = (!limits.from.is_zero()).then(|| end(&limits.from, true));
-        Some(Choice { penalties: [from, limits.to.as_ref().map(|to| end(to, false))], ..choice })
+        Some(Recommendation { penalty_range: [from, limits.to.as_ref().map(|to| end(to, false))], ..choice })
     }
 
-    /// Rounded into the scalar, up or down.
+    /// Rounds into the scalar, up or down.
     fn directed(&self, x: &Exact, up: bool) -> Result<T, RangeError> {
-        let (nearest, ordering) = self.tolerance.nearest_compared(x)?;
+        let (nearest, ordering) = self.tolerance.round_from_exact_with_ordering(x)?;
         let [below, above] = nearest.neighbours();
         Ok(match (up, ordering) {
             (true, std::cmp::Ordering::Less) => above,
@@ -232,14 +242,14 @@ impl<T: Scalar + Text> Task<'_, T> {
         })
     }
 
-    /// A method, if it reaches the tolerance, with what it gives.
-    fn tried(&self, method: Method<T>) -> Option<Choice<T>> {
+    /// Runs a method and returns its recommendation if it meets the tolerance.
+    fn tried(&self, method: Method<T>) -> Option<Recommendation<T>> {
         let solution = solve(self.system, &method).ok()?;
         self.reached(method, &solution)
     }
 
-    /// The same of a method that has been run.
-    fn reached(&self, method: Method<T>, solution: &Solution<T>) -> Option<Choice<T>> {
+    /// Returns the recommendation for a solution that has been computed.
+    fn reached(&self, method: Method<T>, solution: &Solution<T>) -> Option<Recommendation<T>> {
         let (u, n) = (exact(&solution.deflection), exact(&solution.contact_force));
         let reaches = match solution.outcome {
             Outcome::Direct => (&u - &self.answer).abs() < self.tol,
@@ -247,9 +257,9 @@ impl<T: Scalar + Text> Task<'_, T> {
         };
         let force = contact::contact_force(&self.numbers);
         let force_error = (n - &force).abs();
-        reaches.then(|| Choice {
+        reaches.then(|| Recommendation {
             method,
-            penalties: [None, None],
+            penalty_range: [None, None],
             augmentations: solution.augmentations,
             penetration: contact::penetration(&self.numbers, &u),
             relative_force_error: (!force.is_zero()).then(|| &force_error / force),
@@ -262,7 +272,8 @@ impl<T: Scalar + Text> Task<'_, T> {
 mod tests {
     use super::*;
 
-    /// From 1 on it takes as many as are allowed, from 2 on fewer; below 1/2 it never arrives.
+    /// A penalty of 1 takes exactly the allowed number, 2 takes fewer, and below 1/2 the iteration does not
+    /// converge.
     #[test]
     fn the_softest_is_found_from_wherever_it_is_looked_for() {
         let [half, one, two] = ["1/2", "1", "2"].map(|x| x.parse::<Exact>().unwrap());

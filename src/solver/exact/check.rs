@@ -1,4 +1,4 @@
-//! Checks of arguments beside a system and a method.
+//! Checks of the arguments that are neither a system nor a method.
 
 use crate::number::Exact;
 use crate::solver::Scalar;
@@ -9,7 +9,7 @@ pub(super) fn coefficient<T: Scalar>(argument: &'static str, value: &T) -> Resul
     require(value.is_finite() && *value >= T::zero(), argument, value, "at least 0 and finite")
 }
 
-/// η: 0 where nothing is rounded.
+/// Checks η, which is 0 if nothing is rounded.
 pub(super) fn unit_roundoff(eta: &Exact) -> Result<(), SolveError> {
     require(*eta >= num_traits::Zero::zero(), "unit roundoff", eta, "at least 0")
 }

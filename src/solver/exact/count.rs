@@ -1,4 +1,4 @@
-//! (1.33), solved for k: how many augmentations a tolerance needs, exactly.
+//! Exact number of augmentations for a tolerance: (1.33) solved for k.
 
 use super::{Plane, Scalar, SolveError, check, exact};
 use crate::chapter::{SpringMass, augmented, system};
@@ -8,27 +8,30 @@ use rug::float::Round;
 use rug::ops::Pow;
 use rug::{Float, Integer, Rational};
 
-/// The first k at which the augmentation meets a tolerance in exact arithmetic, for the parameters as
-/// they are in their scalar: penalty ε > 0 in N/m, tolerance > 0 in m, λ₀ in N.
+/// Returns the first k at which the augmentation meets a tolerance in exact arithmetic, for the parameters as
+/// represented in their scalar; penalty ε > 0 in N/m, tolerance > 0 in m, λ₀ in N.
 ///
-/// That is the first k with |r_k| < tol, r_k the natural residual (note 4); in contact and grazing it
-/// is the penetration, so this is (1.33). It can be very large: the number of digits is about that of c/ε.
+/// It is the first k with |r_k| < tol, where r_k is the natural residual (note 4). In contact and grazing r_k
+/// is the penetration, so this is (1.33). The count can be very large: it has about as many digits as c/ε.
 ///
-/// Floats may take a few steps more or fewer, see [`augmentations_promised`](super::augmentations_promised);
-/// and below what [`within_reach`](super::within_reach) promises they may never get there.
+/// Floats may take a few steps more or fewer, see
+/// [`guaranteed_max_augmentations`](super::guaranteed_max_augmentations); below the limit of
+/// [`is_convergence_guaranteed`](super::is_convergence_guaranteed) they may never converge.
 ///
 /// # Errors
-/// [`SolveError::Invalid`] for a parameter, ε, a tolerance or λ₀ that is not finite or not in its range;
-/// [`SolveError::TooLong`] for a count of more than about a million binary digits.
+/// Returns [`SolveError::Invalid`] if a parameter, ε, the tolerance or λ₀ is not finite or out of its range,
+/// and [`SolveError::TooLong`] if the count has more than about a million binary digits.
+///
+/// # Examples
 ///
 /// ```
-/// # use spring_mass_contact::{chapter::SpringMass, solver::{Plane, augmentations_needed}};
+/// # use spring_mass_contact::{chapter::SpringMass, solver::{Plane, exact_augmentation_count}};
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// // p_k = 1/4, 1/8, 1/16, …: not yet *less* than 1/16 at k = 2.
-/// assert_eq!(augmentations_needed(&system, &4.0, &0.0625, &0.0, Plane::Unilateral)?, 3);
+/// assert_eq!(exact_augmentation_count(&system, &4.0, &0.0625, &0.0, Plane::Unilateral)?, 3);
 /// # Ok::<(), spring_mass_contact::solver::SolveError>(())
 /// ```
-pub fn augmentations_needed<T: Scalar + ToExact>(
+pub fn exact_augmentation_count<T: Scalar + ToExact>(
     system: &SpringMass<T>,
     eps: &T,
     tolerance: &T,
@@ -42,7 +45,7 @@ pub fn augmentations_needed<T: Scalar + ToExact>(
     count(&system.map(exact), &exact(eps), &exact(tolerance), &exact(start), plane)
 }
 
-/// The same of numbers that have been checked.
+/// Returns the count for arguments that have been checked.
 pub(super) fn count(
     system: &SpringMass<Exact>,
     eps: &Exact,
@@ -52,7 +55,7 @@ pub(super) fn count(
 ) -> Result<Integer, SolveError> {
     let zero = Exact::zero();
     let first_below = |value: &Exact, bound: &Exact| first_below(value, bound, &(eps / &system.c));
-    // |p_k| = ρᵏ |p₀| as long as the plane acts.
+    // |p_k| = ρᵏ |p₀| while the plane is active.
     let penetration_below = |start: &Exact| {
         let p = augmented::penetration_after(system, eps, start, &Exact::one());
         first_below(&p.abs(), tolerance)
@@ -62,7 +65,7 @@ pub(super) fn count(
         return penetration_below(start);
     }
     if *start <= zero && &system.c * start + eps * &r < zero {
-        // The first step hangs free and moves λ to 0, unless that is within the tolerance already.
+        // The first step is separated and sets λ to 0, unless it is within the tolerance already.
         return Ok(if -start / eps < *tolerance {
             Integer::new()
         } else if r < zero {
@@ -74,16 +77,16 @@ pub(super) fn count(
     if r >= zero {
         return penetration_below(start);
     }
-    // Separated from λ₀ > 0: r_k is p_k until λ would turn negative, and −λ_k/ε then; both are
-    // negative and their larger one counts, so the first of the two to come within the tolerance.
+    // Separated with λ₀ > 0: r_k is p_k until λ would become negative, and −λ_k/ε afterwards. Both are
+    // negative and r_k is the larger one, so the first of the two within the tolerance counts.
     let multiplier_below = first_below(&(start - &r), &(eps * tolerance - &r))?;
     Ok(penetration_below(start)?.min(multiplier_below))
 }
 
-/// The most bits that logarithms are computed to: it takes seconds.
+/// Largest precision of logarithms in bits, which takes seconds.
 const LONGEST: u32 = 1 << 20;
 
-/// The least k ≥ 0 with value < bound · (1 + x)ᵏ, for value ≥ 0, bound > 0, x > 0.
+/// Returns the smallest k ≥ 0 with value < bound · (1 + x)ᵏ, for value ≥ 0, bound > 0 and x > 0.
 fn first_below(value: &Exact, bound: &Exact, x: &Exact) -> Result<Integer, SolveError> {
     if value < bound {
         return Ok(Integer::new());
@@ -91,7 +94,7 @@ fn first_below(value: &Exact, bound: &Exact, x: &Exact) -> Result<Integer, Solve
     let ratio = value / bound;
     let (ratio, x) = (ratio.as_rational(), x.as_rational());
     let growth = Rational::from(x + 1);
-    // n = ⌊ln ratio / ln(1 + x)⌋ is the last power that does not exceed the ratio.
+    // n = ⌊ln ratio / ln(1 + x)⌋ is the largest power that does not exceed the ratio.
     let mut precision = 64;
     loop {
         let logarithms = |round: Round| {
@@ -117,7 +120,8 @@ fn first_below(value: &Exact, bound: &Exact, x: &Exact) -> Result<Integer, Solve
     }
 }
 
-/// Is ratio = growthⁿ? Then the logarithms never decide, and neither side is longer than the ratio.
+/// Returns `true` if ratio = growthⁿ. The logarithms cannot decide this case; neither side is longer than the
+/// ratio.
 fn is_power(ratio: &Rational, growth: &Rational, n: &Integer) -> bool {
     let bits = u64::from(ratio.numer().significant_bits());
     let least_bits = u64::from(growth.numer().significant_bits() - 1).max(1);

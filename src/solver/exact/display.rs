@@ -1,16 +1,18 @@
-//! Results as a few lines for people. What is shortened is marked by ≈, and a bound still holds.
+//! Results as a few lines of text. Shortened values are marked by ≈, and shortened bounds still hold.
 
-use super::{Advice, Choice, Interval, Method, Outcome, Scalar, Solution};
+use super::{Advice, Interval, Method, Outcome, Recommendation, Scalar, Solution};
 use super::{format_equation, format_short, format_short_bound};
 use crate::chapter::contact::Kkt;
-use crate::number::Text;
+use crate::number::ExactText;
 use rug::float::Round;
 use std::fmt;
 
-/// How many digits of a residual are written.
+/// Number of digits of a residual.
 const DIGITS: usize = 3;
 
-/// Both ends, rounded outwards where they are shortened; one number if that is all.
+/// Writes both bounds, rounded outwards where they are shortened, or one number if they agree.
+///
+/// # Examples
 ///
 /// ```
 /// # use spring_mass_contact::{number::Exact, solver::Interval};
@@ -19,7 +21,7 @@ const DIGITS: usize = 3;
 /// assert_eq!(Interval { lower, upper }.to_string(), "0.3333333333333333 to 0.5");
 /// assert_eq!(Interval { lower: 2.0, upper: 2.0 }.to_string(), "2");
 /// ```
-impl<T: Text> fmt::Display for Interval<T> {
+impl<T: ExactText> fmt::Display for Interval<T> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let [lower, upper] =
             [format_short_bound(&self.lower, Round::Down), format_short_bound(&self.upper, Round::Up)];
@@ -27,7 +29,9 @@ impl<T: Text> fmt::Display for Interval<T> {
     }
 }
 
-/// What was found, a line a quantity, with the enclosure of the exact answer; of an iteration, of its limit.
+/// Writes each quantity on a line with the enclosure of the exact solution; for an iteration, of its limit.
+///
+/// # Examples
 ///
 /// ```
 /// # use spring_mass_contact::{chapter::SpringMass, solver::{Method, solve}};
@@ -40,7 +44,7 @@ impl<T: Text> fmt::Display for Interval<T> {
 /// assert_eq!(solve(&system, &Method::Penalty { penalty: 4.into() })?.to_string(), shown);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-impl<T: Scalar + Text> fmt::Display for Solution<T> {
+impl<T: Scalar + ExactText> fmt::Display for Solution<T> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(f, "{}, {}", self.state, self.outcome)?;
         if let Some(k) = self.augmentations {
@@ -64,7 +68,9 @@ impl<T: Scalar + Text> fmt::Display for Solution<T> {
     }
 }
 
-/// The method with its parameters and their units.
+/// Writes the method with its parameters and their units.
+///
+/// # Examples
 ///
 /// ```
 /// # use spring_mass_contact::solver::Method;
@@ -72,7 +78,7 @@ impl<T: Scalar + Text> fmt::Display for Solution<T> {
 /// assert_eq!(Method::augmented(4.0).to_string(), shown);
 /// assert_eq!(Method::Penalty { penalty: 4.0 }.to_string(), "penalty, ε = 4 N/m");
 /// ```
-impl<T: Text> fmt::Display for Method<T> {
+impl<T: ExactText> fmt::Display for Method<T> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
             Method::Lagrange => f.write_str("Lagrange multiplier"),
@@ -88,20 +94,22 @@ impl<T: Text> fmt::Display for Method<T> {
     }
 }
 
-/// The method, the penalties that are sure as well, and what a run of it gives; errors rounded up.
+/// Writes the method, its penalty range and the results of a run, with errors rounded up.
+///
+/// # Examples
 ///
 /// ```
 /// # use spring_mass_contact::{chapter::SpringMass, solver::advise};
 /// let system = SpringMass { c: "4", m: "1", g: "10", l: "1", h: "3" }.parse()?;
 /// let advice = advise(&system, &"1/4".parse()?)?;
-/// let shown = "penalty, ε = 41/10 N/m; ε from 41/10 N/m; p = 0.247 m; N off by 0.988 N";
-/// assert_eq!(advice.choices[1].to_string(), shown);
+/// let shown = "penalty, ε = 41/10 N/m; ε from 41/10 N/m; p = 0.247 m; error of N 0.988 N";
+/// assert_eq!(advice.recommendations[1].to_string(), shown);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-impl<T: Text> fmt::Display for Choice<T> {
+impl<T: ExactText> fmt::Display for Recommendation<T> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(f, "{}", self.method)?;
-        let ends = self.penalties.each_ref().map(|end| end.as_ref().map(format_short));
+        let ends = self.penalty_range.each_ref().map(|end| end.as_ref().map(format_short));
         match ends {
             [None, None] => {}
             [Some(from), None] => write!(f, "; ε from {from} N/m")?,
@@ -112,31 +120,35 @@ impl<T: Text> fmt::Display for Choice<T> {
             write!(f, "; k = {k}")?;
         }
         let p = self.penetration.decimal(DIGITS, Round::Nearest);
-        write!(f, "; p = {p} m; N off by {} N", self.force_error.decimal(DIGITS, Round::Up))
+        write!(f, "; p = {p} m; error of N {} N", self.force_error.decimal(DIGITS, Round::Up))
     }
 }
 
-/// The state and the floor, and a line for each choice.
+/// Writes the state, the floor and one line for each recommendation.
+///
+/// # Examples
 ///
 /// ```
 /// # use spring_mass_contact::{chapter::SpringMass, solver::advise};
 /// let system = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
 /// let shown = advise(&system, &1e-12)?.to_string();
-/// let first = "contact, floor 2.56e-15 m\nLagrange multiplier; p = 0 m; N off by 0 N\npenalty, ";
+/// let first = "contact, floor 2.56e-15 m\nLagrange multiplier; p = 0 m; error of N 0 N\npenalty, ";
 /// assert!(shown.starts_with(first), "{shown}");
 /// # Ok::<(), spring_mass_contact::solver::SolveError>(())
 /// ```
-impl<T: Text> fmt::Display for Advice<T> {
+impl<T: ExactText> fmt::Display for Advice<T> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match &self.floor {
             Some(floor) => write!(f, "{}, floor {} m", self.state, floor.decimal(DIGITS, Round::Up))?,
             None => write!(f, "{}, no floor", self.state)?,
         }
-        self.choices.iter().try_for_each(|choice| write!(f, "\n{choice}"))
+        self.recommendations.iter().try_for_each(|choice| write!(f, "\n{choice}"))
     }
 }
 
-/// The residuals with their units, to three digits; what is written as 0 is 0.
+/// Writes the residuals with their units to three digits; only an exact zero is written as 0.
+///
+/// # Examples
 ///
 /// ```
 /// # use spring_mass_contact::chapter::{SpringMass, contact};
@@ -144,7 +156,7 @@ impl<T: Text> fmt::Display for Advice<T> {
 /// let kkt = contact::kkt(&system, &2.25, &1.0);
 /// assert_eq!(kkt.to_string(), "stationarity 0 N, primal 0.25 m, dual 0 N, complementarity 0.25 J");
 /// ```
-impl<T: Text> fmt::Display for Kkt<T> {
+impl<T: ExactText> fmt::Display for Kkt<T> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let few = |x: &T| x.to_exact().map_or_else(|_| x.text(), |x| x.decimal(DIGITS, Round::Nearest));
         let [stationarity, primal, dual, complementarity] =

@@ -1,4 +1,4 @@
-//! What a number system has to keep for [`solve`](super::solve) to be right with it: to be tried in your own
+//! Laws that a number system must satisfy for [`solve`](super::solve) to be correct, for use in your own
 //! tests.
 
 use super::{Interval, Scalar};
@@ -6,61 +6,62 @@ use crate::number::{Exact, PositivePart};
 use num_traits::{One, Zero};
 use rug::float::Round;
 
-/// A law of [`Scalar`], named after the method that it is about.
+/// A law of [`Scalar`], named after the method concerned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Law {
-    /// Numbers compare as their values do, none but 0 is zero, and ⟨·⟩, min and |·| are exact.
+    /// Numbers compare as their values do, only 0 is zero, and ⟨·⟩, min and |·| are exact.
     Order,
     /// A number with a value is finite.
     Finite,
-    /// [`enclose`](Scalar::enclose): the number itself is within.
+    /// [`enclose`](Scalar::enclose) contains the number itself.
     Enclose,
-    /// [`interval`](Scalar::interval): what arithmetic makes of enclosures still encloses, between two
-    /// scalars.
+    /// [`interval`](Scalar::interval) contains the exact result of arithmetic on enclosures.
     Interval,
-    /// [`magnitude`](Scalar::magnitude): no less than the absolute value.
+    /// [`magnitude`](Scalar::magnitude) is not less than the absolute value.
     Magnitude,
-    /// [`sign`](Scalar::sign): right, or `None`.
+    /// [`sign`](Scalar::sign) is correct or `None`.
     Sign,
-    /// [`power`](Scalar::power): encloses the power.
+    /// [`power`](Scalar::power) encloses the power.
     Power,
-    /// [`sign_of_sum`](Scalar::sign_of_sum): exact.
+    /// [`sign_of_sum`](Scalar::sign_of_sum) is exact.
     SignOfSum,
 }
 
-/// A law that is broken, and by what.
+/// A violated law with its counterexample.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the law of {law:?} is broken by {by}")]
-pub struct Broken {
-    /// Which one.
+#[error("the law {law:?} is violated: {counterexample}")]
+pub struct LawViolation {
+    /// The law.
     pub law: Law,
-    /// The operation with its operands, what came of it, and what it should be.
-    pub by: String,
+    /// The operation with its operands, its result and the expected result.
+    pub counterexample: String,
 }
 
-/// Tries the laws of [`Scalar`] on all samples, their pairs and their triples, against `exact`, which says
-/// what a scalar stands for.
+/// Checks the laws of [`Scalar`] on all samples, their pairs and their triples, where `exact` returns the
+/// value of a scalar.
 ///
-/// What `solve` says of its bounds rests on these laws. Good samples are those where rounding is hard:
-/// neighbours, so that differences cancel; numbers of very different size; the least and the largest ones.
-/// The time goes with the cube of their number; twenty are enough. Nothing is divided by zero. An end that
-/// is not finite bounds nothing, and breaks no law.
+/// The bounds of `solve` rest on these laws. Good samples make rounding difficult: neighbours, whose
+/// differences cancel; numbers of very different magnitude; the smallest and the largest numbers. The time
+/// grows with the cube of the number of samples; twenty suffice. Division by zero is not tested. A non-finite
+/// bound violates no law.
 ///
 /// # Errors
-/// The first law that is seen broken.
+/// Returns the first violation found.
+///
+/// # Examples
 ///
 /// ```
 /// use spring_mass_contact::{number::ToExact, solver::laws};
 /// let samples = [0.0, 1.0, 1.0 + f64::EPSILON, 0.1, -3.0, 1e20, 1e-20];
-/// laws::scalar(&samples, |x| x.to_exact().unwrap())?;
-/// # Ok::<(), laws::Broken>(())
+/// laws::check_scalar_laws(&samples, |x| x.to_exact().unwrap())?;
+/// # Ok::<(), laws::LawViolation>(())
 /// ```
-pub fn scalar<T: Scalar<Enclosure = E>, E: PositivePart>(
+pub fn check_scalar_laws<T: Scalar<Enclosure = E>, E: PositivePart>(
     samples: &[T],
     exact: impl Fn(&T) -> Exact,
-) -> Result<(), Broken> {
+) -> Result<(), LawViolation> {
     let laws = Laws { exact: &exact };
-    let known: Vec<_> = samples.iter().map(|x| Known { number: x, exact: (laws.exact)(x) }).collect();
+    let known: Vec<_> = samples.iter().map(|x| Sample { number: x, exact: (laws.exact)(x) }).collect();
     for a in &known {
         laws.of_one(a)?;
         for b in &known {
@@ -73,8 +74,8 @@ pub fn scalar<T: Scalar<Enclosure = E>, E: PositivePart>(
     Ok(())
 }
 
-/// A scalar, and what it stands for.
-struct Known<'a, T> {
+/// A scalar and its exact value.
+struct Sample<'a, T> {
     number: &'a T,
     exact: Exact,
 }
@@ -84,12 +85,12 @@ struct Laws<'a, T> {
 }
 
 impl<T: Scalar<Enclosure = E>, E: PositivePart> Laws<'_, T> {
-    fn of_one(&self, a: &Known<T>) -> Result<(), Broken> {
-        let Known { number, exact } = a;
+    fn of_one(&self, a: &Sample<T>) -> Result<(), LawViolation> {
+        let Sample { number, exact } = a;
         let text = |what: &str| format!("{what} {number:?}");
         hold(number.is_finite(), Law::Finite, || format!("{number:?}, which is {}", written(exact)))?;
         let (zero, right) = (number.is_zero(), exact.is_zero());
-        hold(zero == right, Law::Order, || format!("is_zero of {number:?}: {zero}, and not {right}"))?;
+        hold(zero == right, Law::Order, || format!("is_zero of {number:?}: {zero}, expected {right}"))?;
         self.is(&number.positive_part(), &exact.positive_part(), || text("⟨·⟩ of"))?;
         self.is(&number.abs(), &exact.abs(), || text("|·| of"))?;
         self.encloses(&number.enclose(), exact, Law::Enclose, || text("the enclosure of"))?;
@@ -103,16 +104,16 @@ impl<T: Scalar<Enclosure = E>, E: PositivePart> Laws<'_, T> {
         Ok(())
     }
 
-    fn of_two(&self, a: &Known<T>, b: &Known<T>) -> Result<(), Broken> {
+    fn of_two(&self, a: &Sample<T>, b: &Sample<T>) -> Result<(), LawViolation> {
         let text = |what: &str| format!("{:?} {what} {:?}", a.number, b.number);
         let (order, right) = (a.number.partial_cmp(b.number), a.exact.cmp(&b.exact));
         hold(order == Some(right), Law::Order, || {
-            format!("{}: {order:?}, and not {right:?}", text("compared with"))
+            format!("{}: {order:?}, expected {right:?}", text("compared with"))
         })?;
         self.is(&a.number.min(b.number), &PositivePart::min(&a.exact, &b.exact), || text("min"))
     }
 
-    fn of_three(&self, a: &Known<T>, b: &Known<T>, c: &Known<T>) -> Result<(), Broken> {
+    fn of_three(&self, a: &Sample<T>, b: &Sample<T>, c: &Sample<T>) -> Result<(), LawViolation> {
         let numbers = [a, b, c].map(|x| x.number);
         let text = |what: &str| {
             let [a, b, c] = numbers;
@@ -124,10 +125,10 @@ impl<T: Scalar<Enclosure = E>, E: PositivePart> Laws<'_, T> {
         for ((what, enclosure), (_, exact)) in enclosed.iter().zip(&exact) {
             self.encloses(enclosure, exact, Law::Interval, || text(what))?;
         }
-        // b times what a + c loses to rounding, and two products that have nothing to do with it.
+        // b times the rounding error of a + c, with two unrelated products.
         let sum = a.number + c.number;
         for (plus, minus) in [([(a, b), (b, c)], None), ([(a, b), (c, a)], Some((b, c)))] {
-            let exactly = |(x, y): (&Known<T>, &Known<T>)| &x.exact * &y.exact;
+            let exactly = |(x, y): (&Sample<T>, &Sample<T>)| &x.exact * &y.exact;
             let (last, taken) = match minus {
                 Some((x, y)) => ((x.number, y.number), exactly((x, y))),
                 None if sum.is_finite() => ((b.number, &sum), &b.exact * (self.exact)(&sum)),
@@ -138,15 +139,15 @@ impl<T: Scalar<Enclosure = E>, E: PositivePart> Laws<'_, T> {
             hold(found == right, Law::SignOfSum, || {
                 let [(a, b), (c, d)] = plus.map(|(x, y)| (x.number, y.number));
                 let (e, f) = last;
-                format!("{a:?} · {b:?} + {c:?} · {d:?} − {e:?} · {f:?}: {found:?}, and not {right:?}")
+                format!("{a:?} · {b:?} + {c:?} · {d:?} − {e:?} · {f:?}: {found:?}, expected {right:?}")
             })?;
         }
         Ok(())
     }
 
-    fn is(&self, found: &T, right: &Exact, by: impl Fn() -> String) -> Result<(), Broken> {
+    fn is(&self, found: &T, right: &Exact, by: impl Fn() -> String) -> Result<(), LawViolation> {
         hold((self.exact)(found) == *right, Law::Order, || {
-            format!("{}: {found:?}, and not {}", by(), written(right))
+            format!("{}: {found:?}, expected {}", by(), written(right))
         })
     }
 
@@ -156,7 +157,7 @@ impl<T: Scalar<Enclosure = E>, E: PositivePart> Laws<'_, T> {
         x: &Exact,
         law: Law,
         by: impl Fn() -> String,
-    ) -> Result<(), Broken> {
+    ) -> Result<(), LawViolation> {
         let Interval { lower, upper } = T::interval(enclosure);
         let magnitude = T::magnitude(enclosure);
         let bound = |end: &T, holds: &dyn Fn(Exact) -> bool| !end.is_finite() || holds((self.exact)(end));
@@ -170,8 +171,8 @@ impl<T: Scalar<Enclosure = E>, E: PositivePart> Laws<'_, T> {
     }
 }
 
-/// What arithmetic makes of three numbers: of two operations each, so that the second meets the rounding of
-/// the first. Of the divisors c and a + b it may be that none is there.
+/// Returns results of two operations each on three numbers, so that the second operation receives the
+/// rounding error of the first. The flags tell whether the divisors c and a + b are nonzero.
 fn results<E: PositivePart>([a, b, c]: &[E; 3], divisors: [bool; 2]) -> Vec<(&'static str, E)> {
     let mut results = vec![
         ("a + b − c", a + b - c),
@@ -191,20 +192,20 @@ fn results<E: PositivePart>([a, b, c]: &[E; 3], divisors: [bool; 2]) -> Vec<(&'s
     results
 }
 
-/// With as many digits as tell it from an enclosure of four floats.
+/// Formats with enough digits to distinguish the value from an enclosure of four floats.
 fn written(x: &Exact) -> String {
     x.decimal(30, Round::Nearest)
 }
 
-fn hold(holds: bool, law: Law, by: impl Fn() -> String) -> Result<(), Broken> {
-    if holds { Ok(()) } else { Err(Broken { law, by: by() }) }
+fn hold(holds: bool, law: Law, by: impl Fn() -> String) -> Result<(), LawViolation> {
+    if holds { Ok(()) } else { Err(LawViolation { law, counterexample: by() }) }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// What is written beside a result is what is computed.
+    /// Every label denotes the computed result.
     #[test]
     fn results_are_what_they_are_called() {
         let numbers = [7, 2, 3].map(Exact::from);

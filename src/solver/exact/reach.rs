@@ -1,4 +1,4 @@
-//! What rounding leaves within reach: the proved laws of [`rounding`], solved for what a user asks.
+//! Attainable accuracy: the proved laws of [`rounding`], solved for guarantees.
 
 use super::count::count;
 use super::{Plane, Scalar, SolveError, check, exact};
@@ -7,29 +7,32 @@ use crate::number::{Exact, NumberSystem, PRECISIONS, PositivePart, ToExact};
 use num_traits::{One, Zero};
 use rug::Integer;
 
-/// Is it guaranteed that floats of this scalar meet the tolerance, from λ₀ = 0, where mass and plane touch?
+/// Returns `true` if floats of this scalar are guaranteed to meet the tolerance from λ₀ = 0 in contact or
+/// grazing.
 ///
-/// It is for 64 (c + ε) ≤ ε (1 + 1/η) and tol > 20 F + η (|H| + 8 tol), with the drift 20 F of
-/// [`rounding::penetration_drift`], which is proved for both planes. A smaller tolerance may be met as well,
-/// by luck, or not. Rationals meet every one.
+/// The condition is 64 (c + ε) ≤ ε (1 + 1/η) and tol > 20 F + η (|H| + 8 tol), with the drift 20 F of
+/// [`rounding::penetration_drift`], which is proved for both planes. A smaller tolerance may be met by
+/// chance. Rationals meet every tolerance.
 ///
-/// The machine's floats have numbers below their least normal one, n, that are rounded by more than η of
-/// themselves. So in f32 and f64 it also takes a weight that is 0 or at least n, a gap that is 0 or has
-/// ε |Δ| ≥ 2 n, lengths H and l that are 0 or at least 4 n / η, a tolerance of at least 4 n, and n (2 + 1/ε)
-/// besides the drift: then no result below n is met before the tolerance is.
+/// Machine floats below their smallest normal number n are rounded by more than η relative to themselves.
+/// Therefore f32 and f64 also require a weight of 0 or at least n, a gap of 0 or ε |Δ| ≥ 2 n, lengths H and l
+/// of 0 or at least 4 n / η, and a tolerance of at least 4 n, and the drift increases by n (2 + 1/ε). No
+/// result below n then occurs before the tolerance is met.
 ///
 /// # Errors
-/// [`SolveError::Invalid`] for a parameter, a penalty, a tolerance or a unit roundoff that is not finite or
-/// not in its range.
+/// Returns [`SolveError::Invalid`] if a parameter, the penalty, the tolerance or the unit roundoff is not
+/// finite or out of its range.
+///
+/// # Examples
 ///
 /// ```
 /// # use spring_mass_contact::{chapter::SpringMass, number::Exact};
-/// # use spring_mass_contact::solver::{Method, Outcome, solve, within_reach};
+/// # use spring_mass_contact::solver::{Method, Outcome, solve, is_convergence_guaranteed};
 /// let system = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
 /// let eta = Exact::power_of_two(-53);
 /// let ends = |tolerance| {
 ///     let method = Method::Augmented { penalty: 1.0, tolerance, max_augmentations: 10_000, start: 0.0 };
-///     let guaranteed = within_reach(&system, &1.0, &tolerance, &eta)?;
+///     let guaranteed = is_convergence_guaranteed(&system, &1.0, &tolerance, &eta)?;
 ///     Ok((guaranteed, solve(&system, &method)?.outcome))
 /// };
 /// assert_eq!(ends(1e-13)?, (true, Outcome::Converged));
@@ -37,7 +40,7 @@ use rug::Integer;
 /// assert_eq!(ends(1e-16)?, (false, Outcome::Stagnated)); // less than η H
 /// # Ok::<(), spring_mass_contact::solver::SolveError>(())
 /// ```
-pub fn within_reach<T: Scalar + ToExact>(
+pub fn is_convergence_guaranteed<T: Scalar + ToExact>(
     system: &SpringMass<T>,
     eps: &T,
     tolerance: &T,
@@ -48,25 +51,30 @@ pub fn within_reach<T: Scalar + ToExact>(
     Ok(laws.is_none_or(|laws| laws.promise(&eps, &tolerance)))
 }
 
-/// So many augmentations at most meet the tolerance in floats of this unit roundoff, from λ₀ = 0 where mass
-/// and plane touch; none if it is not [within reach](within_reach).
+/// Returns an upper bound on the number of augmentations that floats of this unit roundoff need to meet the
+/// tolerance from λ₀ = 0 in contact or grazing; `None` if convergence is not
+/// [guaranteed](is_convergence_guaranteed).
 ///
-/// As many as exact arithmetic needs for what 20 F + η (|H| + 8 tol) leaves of the tolerance; in rationals,
-/// for the tolerance.
+/// The bound is the exact count for the part of the tolerance that exceeds 20 F + η (|H| + 8 tol); for
+/// rationals, for the tolerance itself.
 ///
 /// # Errors
-/// As [`within_reach`], and [`SolveError::TooLong`] for a number of so many digits.
+/// Returns the errors of [`is_convergence_guaranteed`], and [`SolveError::TooLong`] if the count has too many
+/// digits.
+///
+/// # Examples
 ///
 /// ```
-/// # use spring_mass_contact::{chapter::SpringMass, number::Exact, solver::augmentations_promised};
+/// # use spring_mass_contact::{chapter::SpringMass, number::Exact, solver::guaranteed_max_augmentations};
 /// let system = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
-/// let promised = |tolerance| augmentations_promised(&system, &100.0, &tolerance, &Exact::power_of_two(-53));
-/// assert_eq!(promised(1e-12)?, Some(35.into())); // as many as it takes without rounding
-/// assert_eq!(promised(3e-15)?, Some(47.into())); // 43 without; 24.01 η of 3e-15 go to rounding
-/// assert_eq!(promised(1e-15)?, None);
+/// let eta = Exact::power_of_two(-53);
+/// let bound = |tolerance| guaranteed_max_augmentations(&system, &100.0, &tolerance, &eta);
+/// assert_eq!(bound(1e-12)?, Some(35.into())); // as many as without rounding
+/// assert_eq!(bound(3e-15)?, Some(47.into())); // 43 without rounding
+/// assert_eq!(bound(1e-15)?, None);
 /// # Ok::<(), spring_mass_contact::solver::SolveError>(())
 /// ```
-pub fn augmentations_promised<T: Scalar + ToExact>(
+pub fn guaranteed_max_augmentations<T: Scalar + ToExact>(
     system: &SpringMass<T>,
     eps: &T,
     tolerance: &T,
@@ -79,16 +87,18 @@ pub fn augmentations_promised<T: Scalar + ToExact>(
     }
 }
 
-/// The rounding floor, in m: every tolerance above it is met by each method in floats of this unit roundoff,
-/// with a penalty that is hard enough; if there is none, no tolerance is promised (5 bits and fewer, or
-/// numbers so small that results may underflow).
+/// Returns the rounding floor, in m: every larger tolerance is met by each method in floats of this unit
+/// roundoff with a sufficiently large penalty. Returns `None` if no tolerance is guaranteed (5 bits and
+/// fewer, or numbers so small that results may underflow).
 ///
-/// That is the bound of [`within_reach`] for ε → ∞; where the mass hangs free, 5 η |m g / c|, and the sum of
-/// both near grazing, where |R| / c is no more than the first and twice the second. Without overflow; a
-/// smaller tolerance may be met by luck.
+/// It is the limit of [`is_convergence_guaranteed`] for ε → ∞. If the mass is separated it is 5 η |m g / c|,
+/// and the sum of both near grazing, where |R| / c is at most the first and twice the second. Overflow is
+/// excluded; a smaller tolerance may be met by chance.
 ///
 /// # Errors
-/// [`SolveError::Invalid`] for a parameter or a unit roundoff that is not finite or not in its range.
+/// Returns [`SolveError::Invalid`] if a parameter or the unit roundoff is not finite or out of its range.
+///
+/// # Examples
 ///
 /// ```
 /// # use spring_mass_contact::{chapter::SpringMass, number::Exact, solver::{Plane, rounding_floor}};
@@ -108,7 +118,7 @@ pub fn rounding_floor<T: Scalar + ToExact>(
     Ok(floor(&system.map(exact), plane, unit_roundoff, &least_normal(&system.c)))
 }
 
-/// The same for numbers as they are in their scalar, which has this least normal one.
+/// Returns the floor for numbers of a scalar with this smallest normal number.
 fn floor(
     system: &SpringMass<Exact>,
     plane: Plane,
@@ -116,12 +126,12 @@ fn floor(
     least_normal: &Exact,
 ) -> Option<Exact> {
     let Some(laws) = Laws::of(system, unit_roundoff, least_normal) else { return Some(Exact::zero()) };
-    // With fewer bits no penalty bounds the drift: 64 (c + ε) ≤ ε (2ᵖ + 1) for none.
+    // With fewer bits no penalty bounds the drift: 64 (c + ε) ≤ ε (2ᵖ + 1) has no solution.
     if laws.precision <= Exact::from(63) {
         return None;
     }
     let free = plane == Plane::Unilateral && system::reaction(system) < Exact::zero();
-    // Where the mass hangs free the softest penalty is c.
+    // If the mass is separated, the smallest penalty is c.
     if !laws.is_normal() || free && !laws.is_normal_with(&system.c) {
         return None;
     }
@@ -130,8 +140,8 @@ fn floor(
     Some(least.max(laws.shortest_tolerance()))
 }
 
-/// The least number of a scalar that has all its bits, n: a result below it is rounded by up to η n. For all
-/// but the machine's floats 0, since their exponents are as good as unlimited.
+/// Returns the smallest number n of a scalar with full precision; a smaller result is rounded by up to η n.
+/// It is 0 except for machine floats, since the exponents of other floats are practically unlimited.
 pub(super) fn least_normal<T: ToExact>(like: &T) -> Exact {
     match like.number_system() {
         NumberSystem::F32 => exact(&f32::MIN_POSITIVE),
@@ -140,20 +150,22 @@ pub(super) fn least_normal<T: ToExact>(like: &T) -> Exact {
     }
 }
 
-/// How many bits promise a tolerance, in m, by each method: the fewest whose [`rounding_floor`] is below it,
-/// for the parameters and the tolerance as rounded to so many bits. `None` if more than
-/// [`PRECISIONS`] has.
+/// Returns the precision in bits that guarantees a tolerance, in m, by each method: the smallest whose
+/// [`rounding_floor`] is below it, for the parameters and the tolerance as rounded to that precision. Returns
+/// `None` if it exceeds [`PRECISIONS`].
 ///
 /// # Errors
-/// [`SolveError::Invalid`] for a parameter or a tolerance that is not in its range.
+/// Returns [`SolveError::Invalid`] if a parameter or the tolerance is out of its range.
+///
+/// # Examples
 ///
 /// ```
-/// # use spring_mass_contact::{chapter::SpringMass, number::Exact, solver::{Plane, bits_needed}};
+/// # use spring_mass_contact::{chapter::SpringMass, number::Exact, solver::{Plane, required_precision}};
 /// let system = SpringMass { c: "4", m: "1", g: "10", l: "1", h: "3" }.parse()?;
-/// assert_eq!(bits_needed(&system, Plane::Unilateral, &Exact::power_of_two(-93))?, Some(100));
+/// assert_eq!(required_precision(&system, Plane::Unilateral, &Exact::power_of_two(-93))?, Some(100));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn bits_needed(
+pub fn required_precision(
     system: &SpringMass<Exact>,
     plane: Plane,
     tolerance: &Exact,
@@ -162,12 +174,12 @@ pub fn bits_needed(
     check::positive("tolerance", tolerance)?;
     let floor = |system: &_, eta: &_| floor(system, plane, eta, &Exact::zero());
     let promised = |bits: u32| {
-        let rounded = |x: &Exact| x.rounded(bits).expect("some bits");
+        let rounded = |x: &Exact| x.round_to_bits(bits).expect("some bits");
         let eta = Exact::power_of_two(-i32::try_from(bits).expect("precisions are small"));
         let floor = floor(&system.map(rounded), &eta);
         floor.is_some_and(|floor| floor < rounded(tolerance))
     };
-    // The floor halves with every bit, but for what rounding does to the parameters.
+    // The floor is halved by every bit, except for the effect of rounding on the parameters.
     let like = floor(system, &Exact::power_of_two(-64)).expect("bits enough");
     let (least, most) = (6, *PRECISIONS.end());
     let ratio = like / tolerance;
@@ -176,13 +188,13 @@ pub fn bits_needed(
     let about = (64 + over).saturating_sub(under).clamp(least, most);
     let less = |n: i32| about.checked_sub(n.unsigned_abs());
     if promised(about) {
-        // Where the mass hangs free it can be so many less that one after the other would take for ever.
+        // For a separated mass the precision can be so much smaller that a linear search would take too long.
         return Ok(less(last(|n| less(n).is_some_and(|bits| bits >= least && promised(bits)))));
     }
     Ok((about..=most).take(64).find(|bits| promised(*bits)))
 }
 
-/// The last n of which something holds that holds of 0 and, once lost, of no greater one.
+/// Returns the last n for which a predicate holds that holds for 0 and, once false, for no larger n.
 pub(super) fn last(holds: impl Fn(i32) -> bool) -> i32 {
     let (mut held, mut lost) = (0, 1);
     while holds(lost) {
@@ -195,7 +207,7 @@ pub(super) fn last(holds: impl Fn(i32) -> bool) -> i32 {
     held
 }
 
-/// A system, a penalty and a tolerance, checked, as they are in their scalar.
+/// Checks a system, a penalty and a tolerance, and returns their exact values.
 fn valid<T: Scalar + ToExact>(
     system: &SpringMass<T>,
     eps: &T,
@@ -209,37 +221,37 @@ fn valid<T: Scalar + ToExact>(
     Ok((system.map(exact), exact(eps), exact(tolerance)))
 }
 
-/// Where a line through two points reaches a height; none if it is level.
+/// Returns the abscissa at which the line through two points reaches a height; `None` if it is level.
 fn crossing((x, y): (Exact, Exact), (x2, y2): (Exact, Exact), height: &Exact) -> Option<Exact> {
     let rise = y2 - &y;
     (!rise.is_zero()).then(|| &x + (height - y) * (x2 - &x) / rise)
 }
 
-/// From which penalty on, and up to which, if any is too hard.
+/// Smallest sufficient penalty, and the largest one if there is a limit.
 pub(super) struct Limits {
     pub(super) from: Exact,
     pub(super) to: Option<Exact>,
 }
 
 impl Limits {
-    /// Of the penalty method without rounding.
+    /// Returns the limits of the penalty method without rounding.
     pub(super) fn exact(system: &SpringMass<Exact>, tolerance: &Exact) -> Self {
         Limits { from: penalty::penalty_for(system, tolerance).positive_part(), to: None }
     }
 }
 
-/// The laws of rounding for one system in one precision. As printed they are for R ≥ 0.
+/// The laws of rounding for one system in one precision, stated for R ≥ 0.
 pub(super) struct Laws {
     system: SpringMass<Exact>,
     eta: Exact,
     /// 2ᵖ
     precision: Exact,
-    /// n, the [least normal number](least_normal).
+    /// The [smallest normal number](least_normal) n.
     least_normal: Exact,
 }
 
 impl Laws {
-    /// None where nothing is rounded.
+    /// Returns `None` if nothing is rounded.
     pub(super) fn of(
         system: &SpringMass<Exact>,
         unit_roundoff: &Exact,
@@ -248,7 +260,7 @@ impl Laws {
         if unit_roundoff.is_zero() {
             return None;
         }
-        // A plane that pulls is one that pushes, seen in a mirror: the same floats but for their signs.
+        // R < 0 with bilateral contact is the mirror image of R > 0: the same floats with other signs.
         let system = if system::reaction(system) < Exact::zero() {
             let SpringMass { c, m, g, l, h } = system.clone();
             SpringMass { c, m, g: -g, l: -l, h: -h }
@@ -259,7 +271,7 @@ impl Laws {
         Some(Laws { system, eta: unit_roundoff.clone(), precision, least_normal: least_normal.clone() })
     }
 
-    /// That an augmentation with this penalty meets this tolerance.
+    /// Returns `true` if an augmentation with this penalty is guaranteed to meet this tolerance.
     fn promise(&self, eps: &Exact, tolerance: &Exact) -> bool {
         let Laws { system, precision, .. } = self;
         let stiffness = penalty::total_stiffness(system, eps);
@@ -268,10 +280,9 @@ impl Laws {
         fine && normal && *tolerance > self.least_tolerance(&self.penetration_drift(eps))
     }
 
-    /// Returns `true` if the weight and the lengths keep all their bits: the weight is rounded by no more
-    /// than η of itself, and l + û, or û − H where l = 0, is the same for all |û| < n as for û = 0, so
-    /// that nothing is lost where û underflows. (Where H = l = 0, û is p̂, and within the tolerance by
-    /// then.)
+    /// Returns `true` if the weight and the lengths keep full precision: the weight is rounded by at most η
+    /// relative to itself, and l + û, or û − H if l = 0, is the same for all |û| < n as for û = 0, so that an
+    /// underflow of û has no effect. (If H = l = 0, û is p̂, and within the tolerance by then.)
     fn is_normal(&self) -> bool {
         let Laws { system, eta, least_normal, .. } = self;
         let shortest = Exact::from(4) * least_normal / eta;
@@ -280,61 +291,63 @@ impl Laws {
             && [&system.l, &system.h].into_iter().all(|length| at_least(length.clone(), &shortest))
     }
 
-    /// Returns `true` if ε Δ keeps all its bits, the difference of H and l rounded.
+    /// Returns `true` if ε Δ keeps full precision, with the difference of H and l rounded.
     fn is_normal_with(&self, eps: &Exact) -> bool {
         let gap = system::gap(&self.system);
         gap.is_zero() || eps * gap.abs() >= Exact::from(2) * &self.least_normal
     }
 
-    /// The shortest tolerance that is promised: whatever is below n is rounded by up to η n, six times
-    /// that is 3 η of this, and so much is what [`least_tolerance`](Self::least_tolerance) has to spare.
+    /// Returns the smallest tolerance that is guaranteed: a result below n is rounded by up to η n, six times
+    /// that is 3 η of this tolerance, which [`least_tolerance`](Self::least_tolerance) has as a margin.
     fn shortest_tolerance(&self) -> Exact {
         Exact::from(4) * &self.least_normal
     }
 
-    /// So many augmentations at most until one with this penalty meets this tolerance, if it is promised:
-    /// then the exact penetration is below what drift leaves of the tolerance.
+    /// Returns an upper bound on the number of augmentations until this tolerance is met with this penalty,
+    /// if it is guaranteed: the exact penetration is then below the tolerance less the drift.
     pub(super) fn augmentations_at_most(
         &self,
         eps: &Exact,
         tolerance: &Exact,
     ) -> Result<Option<Integer>, SolveError> {
         let needed = || {
-            // With bits enough; with three, there is no least tolerance.
+            // This requires enough bits; with three bits there is no smallest tolerance.
             let left = tolerance - self.least_tolerance(&self.penetration_drift(eps));
             count(&self.system, eps, &left, &Exact::zero(), Plane::Bilateral)
         };
         self.promise(eps, tolerance).then(needed).transpose()
     }
 
-    /// With room for a p̂ of which ε p̂ < n: the law holds up to the first, and it is within every tolerance
-    /// that is promised. So is a û below n where H = l = 0.
+    /// Returns the drift, with a margin for a p̂ with ε p̂ < n: the law holds up to the first one, which is
+    /// within every guaranteed tolerance, as is a û below n if H = l = 0.
     fn penetration_drift(&self, eps: &Exact) -> Exact {
         let small = &self.least_normal * (Exact::from(2) + Exact::one() / eps);
         rounding::penetration_drift(&self.system, eps, &self.precision) + small
     }
 
-    /// What the tolerance has to be greater than if p̂ drifts so far.
+    /// Returns the number that the tolerance must exceed if p̂ drifts by `drift`.
     ///
-    /// Once p̂ is all drift, |p̂| < tol, and its bound |p̂| + η (|fl(l + û)| + |p̂|) is below
-    /// |p̂| + η (|H| + 3 tol). Balls round that up, the bracket and the sum by less than 4 η of themselves:
-    /// less than 5 η tol in all.
+    /// Once p̂ consists of drift only, |p̂| < tol, and its bound |p̂| + η (|fl(l + û)| + |p̂|) is below
+    /// |p̂| + η (|H| + 3 tol). Balls increase this bound, and the bracket and the sum, by less than 4 η
+    /// relative to themselves: together by less than 5 η tol.
     fn least_tolerance(&self, drift: &Exact) -> Exact {
         (drift + &self.eta * self.system.h.abs()) / (Exact::one() - Exact::from(8) * &self.eta)
     }
 
-    /// Which penalties bring (1.13) within a tolerance: from the first on, and up to the second rounding
-    /// takes no more from the force ε p for the sake of ε than the tolerance does. None if no penalty does.
+    /// Returns the penalties for which (1.13) meets a tolerance: from the first on; up to the second,
+    /// rounding changes the force ε p by no more than the tolerance allows. Returns `None` if no penalty
+    /// suffices.
     ///
-    /// Where products underflow, m g and ε Δ are off by η n each besides, and the quotient by another η
-    /// n. What both products lose the law takes for a weight that is off by 3 η n at most: (m g + t) (1 +
-    /// γ e) + ε Δ for m g (1 + γ e) + ε Δ + t (1 + γ e). The quotient's takes so much from the tolerance.
+    /// If products underflow, m g and ε Δ have additional errors of η n each, and the quotient another η n.
+    /// The law represents the errors of both products by a change of the weight of at most 3 η n: (m g + t)
+    /// (1 + γ e) + ε Δ for m g (1 + γ e) + ε Δ + t (1 + γ e). The error of the quotient reduces the
+    /// tolerance.
     pub(super) fn penalties(&self, tolerance: &Exact) -> Option<Limits> {
         let Laws { precision, .. } = self;
         let lost = &self.eta * &self.least_normal;
         let system = &self.heavier_by(&(Exact::from(3) * &lost));
         let tolerance = &(tolerance - &lost);
-        // What (1.13) is off by is affine in p = R/(c + ε), and two points fix a line.
+        // The error of (1.13) is affine in p = R/(c + ε), so two points determine it.
         let (soft, hard) = (system.c.clone(), Exact::from(2) * &system.c);
         let off = |eps: &Exact| {
             let p = penalty::penetration(system, eps);
@@ -350,8 +363,8 @@ impl Laws {
         Some(Limits { from: from.positive_part(), to })
     }
 
-    /// Up to which penalty rounding takes no more from the multiplier of (1.16) for the sake of ε than this
-    /// tolerance does, if there is one. Above the floor that is more than c/2.
+    /// Returns the largest penalty for which rounding changes the multiplier of (1.16) by no more than this
+    /// tolerance allows, if there is one. Above the floor it is larger than c/2.
     pub(super) fn hardest_augmentation(&self, tolerance: &Exact) -> Option<Exact> {
         let Laws { system, precision, .. } = self;
         let level = self.without_reaction();
@@ -360,8 +373,9 @@ impl Laws {
         to.map(|stiffness| stiffness - &system.c)
     }
 
-    /// Up to where what rounding takes from a force is no more than c times the tolerance, if it grows by
-    /// `loss` for every `stiffness`. Where it may underflow, no penalty is known to be soft enough: 0.
+    /// Returns the largest penalty for which the error of a force, which grows by `loss` per `stiffness`, is
+    /// at most c times the tolerance. Returns 0 if underflow is possible, since then no penalty is known to
+    /// be small enough.
     fn hardest(&self, stiffness: Exact, loss: Exact, tolerance: &Exact) -> Option<Exact> {
         let allowed = &self.system.c * tolerance;
         if !self.is_normal() || allowed < self.least_normal {
@@ -370,31 +384,32 @@ impl Laws {
         crossing((Exact::zero(), Exact::zero()), (stiffness, loss), &allowed)
     }
 
-    /// The floor where the mass hangs free, for ε ≥ c.
+    /// Returns the floor of a separated mass for ε ≥ c.
     ///
-    /// Computed is û = min(â, b̂) of a = m g / c and b = (m g + ε Δ) / (c + ε). Proved (note 4) is that û is
-    /// off by no more than η (2 |a| + 8 (|Δ| + |R| / (c + ε))), and that the natural residual, p̂ if that is
-    /// positive, is no more than η (3 |a| + |H|). The bound of û, a ball around â, adds its radius, 2 η |a|.
-    /// Far from grazing û is â, and off by 2 η |a|: b − a = |R| ε / (c (c + ε)) is at least |R| / (2 c), and
-    /// at least the last term of b̂'s error, to first order η (5 |Δ| + 4 |R| / (c + ε)).
+    /// The computed deflection is û = min(â, b̂) of a = m g / c and b = (m g + ε Δ) / (c + ε). It is proved
+    /// (note 4) that the error of û is at most η (2 |a| + 8 (|Δ| + |R| / (c + ε))), and that the natural
+    /// residual, which is p̂ if that is positive, is at most η (3 |a| + |H|). The bound of û, a ball around
+    /// â, adds its radius, 2 η |a|. Far from grazing û is â with an error of 2 η |a|: b − a = |R| ε / (c (c +
+    /// ε)) is at least |R| / (2 c), and at least the last term of the error of b̂, to first order η (5 |Δ| +
+    /// 4 |R| / (c + ε)).
     fn free_floor(&self, system: &SpringMass<Exact>, touching: Exact) -> Exact {
         let alone = Exact::from(5) * &self.eta * structure::deflection(system).abs();
         let distance = system::reaction(&self.system) / &self.system.c;
         if distance > &touching + Exact::from(2) * &alone { alone } else { touching + alone }
     }
 
-    /// The drift of the penetration that no penalty, however hard, has less than: that of a system of the
-    /// same lengths with R = 0, where it is the same for all.
+    /// Returns the drift of the penetration in the limit of large penalties: that of a system of the same
+    /// lengths with R = 0, which is the same for all penalties.
     fn hardest_drift(&self) -> Exact {
         rounding::penetration_drift(&self.without_reaction(), &self.system.c, &self.precision)
     }
 
-    /// A system of the same lengths with R = 0.
+    /// Returns a system of the same lengths with R = 0.
     fn without_reaction(&self) -> SpringMass<Exact> {
         self.heavier_by(&-system::reaction(&self.system))
     }
 
-    /// The system with this much more weight, in N.
+    /// Returns the system with additional weight, in N.
     fn heavier_by(&self, more: &Exact) -> SpringMass<Exact> {
         let weight = system::weight(&self.system) + more;
         SpringMass { m: Exact::one(), g: weight, ..self.system.clone() }

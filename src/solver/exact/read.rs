@@ -1,34 +1,36 @@
-//! A system from texts.
+//! Parsing of a system.
 
 use super::check::{self, SolveError};
 use crate::chapter::SpringMass;
 use crate::number::{Exact, ParseError};
 
-/// Why texts spell no system.
+/// Error of parsing a system.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReadError {
-    /// A parameter that does not spell a number.
+    /// The text of a parameter is not a number.
     #[error("{argument} '{value}': {reason}")]
     NotANumber {
-        /// The parameter's name.
+        /// Name of the parameter.
         argument: &'static str,
-        /// What it was.
+        /// Its text.
         value: String,
-        /// What is wrong with it.
+        /// The error in the text.
         #[source]
         reason: ParseError,
     },
-    /// A parameter outside its range.
+    /// A parameter is outside its range.
     #[error(transparent)]
     Invalid(#[from] SolveError),
 }
 
 impl<S: AsRef<str>> SpringMass<S> {
-    /// Reads a system from texts, exactly, and checks it.
+    /// Parses a system exactly and checks it.
     ///
     /// # Errors
-    /// A text that is not a number, or a parameter outside its range.
+    /// Returns an error if a text is not a number or a parameter is outside its range.
+    ///
+    /// # Examples
     ///
     /// ```
     /// use spring_mass_contact::{chapter::SpringMass, number::Exact};

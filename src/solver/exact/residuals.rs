@@ -1,4 +1,4 @@
-//! The residuals of a solution.
+//! Exact residuals of a solution.
 
 use super::{check, exact};
 use crate::chapter::{SpringMass, contact};
@@ -6,13 +6,16 @@ use crate::number::{Exact, ToExact};
 use crate::solver::{Scalar, Solution, SolveError};
 
 impl<T: Scalar + ToExact> Solution<T> {
-    /// The residuals of (1.6) and of equilibrium, in exact rationals, of the numbers returned.
+    /// Returns the residuals of (1.6) and of equilibrium for the returned numbers, in exact rationals.
     ///
-    /// All zero if and only if they are the exact solution. By penalty they cannot be.
+    /// All are zero if and only if the numbers are the exact solution, which the penalty method never
+    /// attains.
     ///
     /// # Errors
-    /// [`SolveError::Invalid`] for a parameter, a deflection or a contact force that is not finite or not in
-    /// its range.
+    /// Returns [`SolveError::Invalid`] if a parameter, the deflection or the contact force is not finite or
+    /// out of its range.
+    ///
+    /// # Examples
     ///
     /// ```
     /// # use spring_mass_contact::{chapter::SpringMass, solver::{Method, solve}};
@@ -28,9 +31,9 @@ impl<T: Scalar + ToExact> Solution<T> {
     }
 }
 
-/// Each residual as a text, so that no reader rounds it.
+/// Serialises each residual as a text, so that no reader rounds it.
 #[cfg(feature = "serde")]
-impl<T: crate::number::Text> serde::Serialize for contact::Kkt<T> {
+impl<T: crate::number::ExactText> serde::Serialize for contact::Kkt<T> {
     fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         let contact::Kkt { stationarity, primal, dual, complementarity } = self;
         let names = ["stationarity", "primal", "dual", "complementarity"];

@@ -1,6 +1,6 @@
 //! MPFR numbers and rationals as scalars.
 
-use crate::number::{Ball, Exact, Mpfr, PositivePart, Real, Text, ToExact};
+use crate::number::{Ball, Exact, ExactText, Mpfr, PositivePart, Real, ToExact};
 use crate::solver::scalar::{LONGEST, by_ball, power};
 use crate::solver::{Interval, Scalar};
 use num_traits::Zero;
@@ -9,11 +9,13 @@ use std::cmp::Ordering;
 
 /// Returns `true` if xᵏ has at most [`LONGEST`] binary digits.
 fn can_be_written(x: &Exact, k: u64) -> bool {
-    x.digits().checked_mul(k).is_some_and(|digits| digits <= LONGEST)
+    x.bit_length().checked_mul(k).is_some_and(|digits| digits <= LONGEST)
 }
 
-impl<T: Text> Interval<T> {
-    /// Both ends as texts that still enclose.
+impl<T: ExactText> Interval<T> {
+    /// Returns both bounds as texts that still enclose.
+    ///
+    /// # Examples
     ///
     /// ```
     /// # use spring_mass_contact::solver::Interval;
@@ -25,9 +27,9 @@ impl<T: Text> Interval<T> {
     }
 }
 
-/// As its two texts.
+/// Serialises the two texts.
 #[cfg(feature = "serde")]
-impl<T: Text> serde::Serialize for Interval<T> {
+impl<T: ExactText> serde::Serialize for Interval<T> {
     fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         self.texts().serialize(to)
     }
@@ -35,20 +37,20 @@ impl<T: Text> serde::Serialize for Interval<T> {
 
 by_ball! {
     Mpfr, |plus: [(&Mpfr, &Mpfr); 2], minus: (&Mpfr, &Mpfr)| {
-        // Numbers that are not finite are refused before anybody asks for a sign.
+        // Non-finite numbers are refused before a sign is computed.
         let exact = |x: &Mpfr| x.to_exact().unwrap_or_else(|_| Exact::zero());
         let product = |(a, b): (&Mpfr, &Mpfr)| exact(a) * exact(b);
         (product(plus[0]) + product(plus[1])).cmp(&product(minus))
     },
     fn power(x: &Ball<Mpfr>, k: u64) -> Option<Ball<Mpfr>> {
-        // A constant is a rational, and its powers are as long.
+        // A constant is a rational, and its powers grow in the same way.
         let rational = x.value().precision().is_none().then(|| x.value().to_exact().ok()).flatten();
         rational.is_none_or(|x| can_be_written(&x, k)).then(|| power(x, k))
     },
     fn growing_digits(&self) -> u64 {
         // A constant is a rational.
         let constant = self.precision().is_none().then(|| self.to_exact().ok()).flatten();
-        constant.map_or(0, |x| x.digits())
+        constant.map_or(0, |x| x.bit_length())
     };
 }
 
@@ -73,7 +75,7 @@ impl Scalar for Exact {
         true
     }
     fn growing_digits(&self) -> u64 {
-        self.digits()
+        self.bit_length()
     }
     fn sign_of_sum(plus: [(&Self, &Self); 2], minus: (&Self, &Self)) -> Ordering {
         (plus[0].0 * plus[0].1 + plus[1].0 * plus[1].1).cmp(&(minus.0 * minus.1))

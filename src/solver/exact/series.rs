@@ -1,22 +1,24 @@
-//! (1.10): the equilibrium of a penalty functional with many terms, to the last bit.
+//! Equilibrium of a penalty functional with higher terms (1.10), to the last bit.
 
 use super::check::{self, SolveError};
-use super::root::{Equation, Found};
+use super::root::{Equation, RootBracket};
 use super::{Scalar, State};
 use crate::chapter::{SpringMass, penalty, system};
 use crate::number::{Ball, Dual, Exact, Mpfr, PositivePart, Real, ToExact};
 use num_traits::Zero;
 use rug::Float;
 
-/// The penetration, in m, at which (1.10) is in equilibrium: the root of
+/// Returns the penetration, in m, at which (1.10) is in equilibrium: the root of
 /// [`penalty::series_residual`], for `eps` in N/m and `higher` = ε₄ in N/m³, ε₆ in N/m⁵, …
 ///
-/// As printed (bilateral): negative for R < 0. The answer is as good as the scalar allows: the exact
-/// residual, in rationals, changes sign between its two neighbours.
+/// Contact is bilateral, as printed: the result is negative for R < 0. It is the best one the scalar can
+/// represent: the exact residual, in rationals, changes sign between its two neighbours.
 ///
 /// # Errors
-/// A parameter out of its range, a negative coefficient, none that is positive, or a root that the
-/// scalar cannot hold.
+/// Returns an error if a parameter is out of its range, a coefficient is negative, none is positive, or the
+/// scalar cannot represent the root.
+///
+/// # Examples
 ///
 /// ```
 /// # use spring_mass_contact::{chapter::SpringMass, solver::series_penetration};
@@ -37,7 +39,7 @@ where
     if state == State::Grazing {
         return Ok(T::zero());
     }
-    // Of the precision the answer is to have: it is what there would be without the higher terms.
+    // Defines the precision of the result; it is the root without the higher terms.
     let like = penalty::penetration(system, eps);
     let rounds = !like.unit_roundoff().is_zero(); // constants of MPFR do not
     check::require(rounds, "system", system, "rounded to some precision")?;
@@ -50,22 +52,28 @@ where
     let end = |p: Mpfr| p.to_exact().map_err(|_| out_of_range.clone());
     let (lower, upper) = (end(found.lower)?, end(found.upper)?);
     let middle = (&lower + &upper) / Exact::from(2);
-    // Of R ≠ 0 it is no root, and the neighbours of 0 in MPFR have a billion digits.
+    // For R ≠ 0 it is not a root, and the neighbours of 0 in MPFR have a billion digits.
     check::in_range(!middle.is_zero(), "penetration")?;
-    let answer = like.nearest(&middle).map_err(|_| out_of_range.clone())?;
-    // Beyond the largest float there is no neighbour, and no root.
+    let answer = like.round_from_exact(&middle).map_err(|_| out_of_range.clone())?;
+    // Beyond the largest float there is neither a neighbour nor a root.
     let below = Real::next_down(answer.clone()).to_exact().is_ok_and(|p| lower <= p);
     let above = Real::next_up(answer.clone()).to_exact().is_ok_and(|p| p <= upper);
     check::in_range([below, above] == [false; 2], "penetration")?;
     Ok(if state == State::Separated { -answer } else { answer })
 }
 
-/// The root for R > 0, to so many digits and some more: all terms are positive, so that it is off by no more,
-/// relative to itself, than they are.
-fn enclosed(digits: u32, c: &Exact, reaction: &Exact, eps: &Exact, higher: &[Exact]) -> Option<Found<Mpfr>> {
-    // Not `to_mpfr`: the root of a scalar with the most bits takes more.
+/// Encloses the root for R > 0 with a given number of digits and a margin: all terms are positive, so its
+/// relative error is not larger than theirs.
+fn enclosed(
+    digits: u32,
+    c: &Exact,
+    reaction: &Exact,
+    eps: &Exact,
+    higher: &[Exact],
+) -> Option<RootBracket<Mpfr>> {
+    // Not `to_mpfr`, because the root of a scalar with the largest precision needs more.
     let like = Mpfr::from(Float::with_val(digits + 64, 1));
-    let around = |x: &Exact| Ball::around(&like, x);
+    let around = |x: &Exact| Ball::enclosing(&like, x);
     let constant = |x: &Exact| around(x).map(Dual::constant);
     let (eps, higher) =
         (constant(eps).ok()?, higher.iter().map(constant).collect::<Result<Vec<_>, _>>().ok()?);

@@ -1,4 +1,4 @@
-//! The penalty method over a range of penalties: what each one gives, and which is best for a computed ε p.
+//! The penalty method for a range of penalties, and the best penalty for a computed force ε p.
 
 use super::check::{self, SolveError};
 use super::{Method, Scalar, State, exact, solve};
@@ -9,10 +9,10 @@ use rug::float::Round;
 use rug::ops::Pow;
 use rug::{Float, Integer, Rational};
 
-/// What the penalty method gives at one penalty, and how far its two forces are from the one it is after:
-/// the contact force of the problem, R where the plane pushes.
+/// Results of the penalty method for one penalty, with the errors of its two forces relative to the contact
+/// force R of the problem.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound = "T: crate::number::Text"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound = "T: crate::number::ExactText"))]
 #[non_exhaustive]
 pub struct SweepRow<T> {
     /// ε, in N/m.
@@ -24,25 +24,27 @@ pub struct SweepRow<T> {
     /// p = l + u − H of this deflection, in m.
     #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
     pub penetration: T,
-    /// N = m g − c u, in N, by equilibrium: what [`solve`] returns.
+    /// N = m g − c u, in N, by equilibrium, as [`solve`] returns it.
     #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
     pub contact_force: T,
-    /// N = ε p, in N, by (1.12); none where the mass hangs free.
+    /// N = ε p, in N, by (1.12); `None` if the mass is separated.
     #[cfg_attr(feature = "serde", serde(serialize_with = "crate::number::quantity::option"))]
     pub penalty_force: Option<T>,
-    /// |m g − c u − R| / R, exactly, of the parameters as they are in their scalar; none unless R > 0.
+    /// |m g − c u − R| / R, exact for the parameters as represented in their scalar; `None` unless R > 0.
     #[cfg_attr(feature = "serde", serde(serialize_with = "crate::number::quantity::option"))]
     pub force_error: Option<Exact>,
-    /// |ε p − R| / R, in the same way.
+    /// |ε p − R| / R, likewise.
     #[cfg_attr(feature = "serde", serde(serialize_with = "crate::number::quantity::option"))]
     pub penalty_force_error: Option<Exact>,
 }
 
-/// Solves a system by penalty, with one ε > 0 in N/m after the other. No row depends on another.
+/// Solves a system by the penalty method for each ε > 0, in N/m. The rows are independent.
 ///
 /// # Errors
-/// Of a row those of [`solve`], or its ε p leaves the range of the scalar. Of no penalties the only row is
-/// [`SolveError::Invalid`].
+/// A row is an error of [`solve`], or [`SolveError::OutOfRange`] if ε p leaves the range of the scalar.
+/// Without penalties the only row is [`SolveError::Invalid`].
+///
+/// # Examples
 ///
 /// ```
 /// # use spring_mass_contact::{chapter::SpringMass, solver::sweep};
@@ -82,15 +84,17 @@ fn row<T: Scalar + ToExact>(system: &SpringMass<T>, eps: T) -> Result<SweepRow<T
     })
 }
 
-/// The ε, in N/m, with which a computed ε p of (1.12) is surest to be near R: where
-/// [`penalty_force_bound`] is least, which is [`rounding::best_compliance_squared`] solved for ε.
+/// Returns the ε, in N/m, that minimises [`penalty_force_bound`], the bound on the error of a computed ε p of
+/// (1.12): [`rounding::best_compliance_squared`] solved for ε.
 ///
-/// To about the precision of the scalar. None if the bound has no least value: without a force or without
-/// rounding, where it falls with every ε (H = l = 0), or rises (with very few bits, and where c Δ is large
-/// beside R). `unit_roundoff` is η of the scalar.
+/// The result has about the precision of the scalar. Returns `None` if the bound has no minimum: without a
+/// force or without rounding, if it decreases with ε (H = l = 0), or if it increases (very few bits and c Δ
+/// large relative to R). `unit_roundoff` is η of the scalar.
 ///
 /// # Errors
-/// A parameter is invalid, η is negative, or the penalty leaves the range.
+/// Returns an error if a parameter is invalid, η is negative, or the penalty leaves the range.
+///
+/// # Examples
 ///
 /// ```
 /// # use spring_mass_contact::{chapter::SpringMass, number::Exact, solver::best_penalty};
@@ -113,25 +117,27 @@ pub fn best_penalty<T: Scalar + ToExact>(
     if compliance.is_zero() {
         return Ok(None);
     }
-    // (c + ε)² − c², which is 2 c ε + ε²; the root of the sum less c would cancel.
+    // (c + ε)² − c² = 2 c ε + ε²; the difference of the root and c would cancel.
     let total = Exact::one() / compliance;
     let excess = &total - &s.c * &s.c;
     if excess <= Exact::zero() {
         return Ok(None);
     }
-    let bits = 64 + unit_roundoff.digits() as u32;
+    let bits = 64 + unit_roundoff.bit_length() as u32;
     let total =
         Exact::from(Float::with_val(bits, total.as_rational()).sqrt().to_rational().unwrap_or_default());
-    let best = system.c.nearest(&(excess / (total + s.c)));
+    let best = system.c.round_from_exact(&(excess / (total + s.c)));
     best.map(Some).map_err(|_| SolveError::OutOfRange { quantity: "best penalty" })
 }
 
-/// How far a computed ε p is from R at most, relative to R, by what is proved of (1.12) and its
-/// [`rounding::penalty_force_error`], without under- and overflow; none unless R > 0. `unit_roundoff` is η of
-/// the scalar, 0 for rationals.
+/// Returns a bound on the error of a computed ε p relative to R, by the claims proved about (1.12) and its
+/// [`rounding::penalty_force_error`], without underflow and overflow; `None` unless R > 0. `unit_roundoff` is
+/// η of the scalar, 0 for rationals.
 ///
 /// # Errors
-/// [`SolveError::Invalid`] for a parameter, ε or η that is not finite or not in its range.
+/// Returns [`SolveError::Invalid`] if a parameter, ε or η is not finite or out of its range.
+///
+/// # Examples
 ///
 /// ```
 /// # use spring_mass_contact::{chapter::SpringMass, number::Exact, solver::penalty_force_bound};
@@ -157,21 +163,23 @@ pub fn penalty_force_bound<T: Scalar + ToExact>(
     Ok(Some(short + rounding::penalty_force_error(&s, &eps, &(Exact::one() / unit_roundoff)) / r))
 }
 
-/// The most penalties that [`penalties`] makes.
+/// Largest number of penalties of [`penalties`].
 const MOST_POINTS: u32 = 1_000_000;
 
-/// The most digits that [`penalties`] writes.
+/// Largest number of digits of a penalty of [`penalties`].
 const MOST_DIGITS: usize = 100;
 
-/// So many penalties from one to another, both included, each about as many times the one before: for a
-/// plot over powers of ten. In any units.
+/// Returns `points` penalties from one to another, both included, in about equal ratios, for a logarithmic
+/// plot. The unit is arbitrary.
 ///
-/// Between the ends they are decimals of three digits, or of as many as it takes to tell them apart; the same
-/// on every machine.
+/// Those in between are decimals with three digits, or as many as distinguish them; they are the same on
+/// every machine.
 ///
 /// # Errors
-/// The ends are not positive, the second is not the larger one, there are fewer than two points or more than
-/// a million, or they need more than 100 digits.
+/// Returns an error if a bound is not positive, the second is not larger than the first, there are fewer than
+/// two points or more than a million, or they need more than 100 digits.
+///
+/// # Examples
 ///
 /// ```
 /// # use spring_mass_contact::{number::Exact, solver::penalties};
@@ -195,7 +203,7 @@ pub fn penalties(from: &Exact, to: &Exact, points: u32) -> Result<Vec<Exact>, So
 }
 
 fn spaced(from: &Exact, to: &Exact, points: u32, digits: usize) -> Vec<Exact> {
-    // Four bits hold a decimal digit; the rest is for the logarithms of large numbers, and to spare.
+    // Four bits hold a decimal digit; the rest is a margin for the logarithms of large numbers.
     let bits = 4 * digits as u32 + 128;
     let ln = |x: &Exact| Float::with_val(bits, x.as_rational()).ln();
     let (first, last) = (ln(from), ln(to));

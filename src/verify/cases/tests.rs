@@ -1,19 +1,19 @@
-//! What is drawn is what the profiles say, and what is bent meets its hypotheses.
+//! Tests that samples follow their profiles, and that adjusted cases satisfy their hypotheses.
 
 use super::*;
 use crate::chapter::SpringMass;
-use crate::claims::{Given, claims};
+use crate::claims::{Hypotheses, claims};
 use crate::number::{Real, ToExact};
 use crate::verify::{exact_experiments, float_experiments};
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
-/// As many as are drawn by default.
+/// Default number of cases.
 const CASES: u64 = 1000;
 
-/// All hypotheses under which something is claimed.
+/// Returns all groups of hypotheses of claims.
 fn groups() -> BTreeMap<String, Vec<Hypothesis>> {
-    // What is rounded is tried by experiments.
+    // Experiments check claims about rounding.
     let claims =
         claims().filter(|claim| !claim.contains_rounding()).map(|claim| claim.stated_hypotheses().to_vec());
     let floats = float_experiments::<f64>().into_iter();
@@ -23,16 +23,17 @@ fn groups() -> BTreeMap<String, Vec<Hypothesis>> {
     claims.chain(experiments).map(|given| (text(&given), given)).collect()
 }
 
-fn drawn(given: &[Hypothesis]) -> impl Iterator<Item = Case<Exact>> {
+fn samples(given: &[Hypothesis]) -> impl Iterator<Item = Case<Exact>> {
     (0..CASES).filter_map(move |index| case(1, index, given))
 }
 
-/// Seventeen coordinates leave nothing to chance: of the integers from 1 to 9 alone there are 9¹⁷ cases.
+/// Seventeen coordinates make coincidences impossible in practice: the integers from 1 to 9 alone give 9¹⁷
+/// cases.
 #[test]
 fn no_case_is_drawn_twice() {
     for (group, given) in groups() {
         let mut seen = HashSet::new();
-        for case in drawn(&given) {
+        for case in samples(&given) {
             let coordinates: Vec<_> =
                 Var::ALL.iter().map(|var| case.get(*var).as_rational().clone()).collect();
             assert!(seen.insert(coordinates), "{group}: {case:?}");
@@ -43,7 +44,7 @@ fn no_case_is_drawn_twice() {
 #[test]
 fn cases_reach_all_that_hypotheses_allow_and_no_more() {
     for (group, given) in groups() {
-        let cases: Vec<_> = drawn(&given).collect();
+        let cases: Vec<_> = samples(&given).collect();
         for hypothesis in &given {
             let sign = |case| value(hypothesis, case).unwrap().cmp(&Exact::zero());
             let signs: BTreeSet<_> = cases.iter().map(sign).collect();
@@ -54,16 +55,17 @@ fn cases_reach_all_that_hypotheses_allow_and_no_more() {
     }
 }
 
-/// How often each parameter is subnormal, then how often m g is, in cases that these floats can hold.
+/// Counts the cases in which each parameter is subnormal, then those in which m g is, for floats that can
+/// represent them.
 fn subnormals<T: Real + ToExact>(like: &T) -> [usize; 7] {
     let eta = like.unit_roundoff().to_exact().unwrap();
     // The smallest normal number is 1/(2 η) units.
-    let normal = T::underflow_unit().to_exact().unwrap() / (Exact::from(2) * eta);
+    let normal = T::min_subnormal().to_exact().unwrap() / (Exact::from(2) * eta);
     let subnormal = |x: &Exact| !x.is_zero() && x.abs() < normal;
     let mut found = [0; 7];
-    for case in drawn(&[given().stiffness.clone(), given().penalty.clone()]) {
+    for case in samples(&[hypotheses().stiffness.clone(), hypotheses().penalty.clone()]) {
         let Ok(read) =
-            Case::try_of(|var| like.nearest(case.get(var)).map_err(drop)?.to_exact().map_err(drop))
+            Case::try_of(|var| like.round_from_exact(case.get(var)).map_err(drop)?.to_exact().map_err(drop))
         else {
             continue;
         };
@@ -85,22 +87,23 @@ fn each_parameter_is_subnormal_in_some_cases() {
 
 #[test]
 fn nearly_every_case_can_be_bent_to_every_hypothesis() {
-    let Given {
+    let Hypotheses {
         stiffness,
         penalty,
         tolerance,
-        enough,
+        sufficient_penalty: enough,
         in_equilibrium,
         next_in_equilibrium,
         within_tolerance,
         active,
-        idle,
+        releases: idle,
         ..
-    } = given();
-    // What is computed, or how finely, is not drawn, nor is a member of a sequence.
-    let later = [&given().fine_enough, &given().pushes];
-    let drawn = |h: &&Hypothesis| !h.value.rounds() && h.interval().is_none() && !later.contains(h);
-    for hypothesis in given().all().filter(drawn) {
+    } = hypotheses();
+    // Computed quantities, precisions and members of a sequence are not sampled.
+    let later = [&hypotheses().fine_enough, &hypotheses().pushes];
+    let drawn =
+        |h: &&Hypothesis| !h.value.contains_rounding() && h.interval().is_none() && !later.contains(h);
+    for hypothesis in hypotheses().all().filter(drawn) {
         let needs = match hypothesis {
             h if h == enough => vec![tolerance],
             h if h == next_in_equilibrium => vec![stiffness, penalty, in_equilibrium],
@@ -116,12 +119,12 @@ fn nearly_every_case_can_be_bent_to_every_hypothesis() {
 
 #[test]
 fn a_seed_draws_its_own_cases_and_always_the_same() {
-    let draw = |seed| (0..20).map(|i| case(seed, i, &[given().stiffness.clone()])).collect::<Vec<_>>();
+    let draw = |seed| (0..20).map(|i| case(seed, i, &[hypotheses().stiffness.clone()])).collect::<Vec<_>>();
     assert_eq!(draw(1), draw(1));
     assert_ne!(draw(1), draw(2));
 }
 
-/// Seeds that agree in their lower 32 or 63 bits, and numbers of cases that do, with the same profile.
+/// Seeds that agree in their lower 32 or 63 bits, and such indices, with the same profile.
 #[test]
 fn every_bit_of_a_seed_and_of_a_number_counts() {
     let draw = |seed, first| (first..first + 10).map(|i| case(seed, i, &[]).unwrap()).collect::<Vec<_>>();
@@ -136,8 +139,8 @@ fn grazing_is_met_exactly_and_on_both_sides() {
     let grazing = PROFILES.iter().position(|p| *p == Profile::Grazing).unwrap() as u64;
     let mut signs = std::collections::BTreeSet::new();
     for i in 0..100 {
-        let case = case(1, grazing + i * PROFILES.len() as u64, &[given().stiffness.clone()]).unwrap();
-        signs.insert(value(&given().contact, &case).unwrap().cmp(&Exact::zero()));
+        let case = case(1, grazing + i * PROFILES.len() as u64, &[hypotheses().stiffness.clone()]).unwrap();
+        signs.insert(value(&hypotheses().contact, &case).unwrap().cmp(&Exact::zero()));
     }
     assert_eq!(signs.len(), 3);
 }
@@ -153,7 +156,7 @@ fn both_ends_of_a_range_are_drawn() {
     assert_eq!(found, BTreeSet::from([-1, 0, 1, 2]));
 }
 
-/// How large they are at least and at most, as a power of two, and with how many digits.
+/// Smallest and largest magnitudes, as powers of two, and numbers of digits.
 #[test]
 fn numbers_are_positive_and_as_large_as_their_profile_says() {
     for (profile, low, high, digits) in [
@@ -168,14 +171,14 @@ fn numbers_are_positive_and_as_large_as_their_profile_says() {
         let all: Vec<_> = (0..10_000).map(|_| draw.magnitude(Var::C)).collect();
         let range = Exact::power_of_two(low)..=Exact::power_of_two(high);
         assert!(all.iter().all(|x| range.contains(x)), "{profile:?}");
-        let fits = |bits| all.iter().filter(|x| x.rounded(bits).as_ref() == Some(x)).count();
-        // 2ⁿ itself has but one digit.
+        let fits = |bits| all.iter().filter(|x| x.round_to_bits(bits).as_ref() == Some(x)).count();
+        // 2ⁿ itself has only one digit.
         assert_eq!(fits(digits), all.len(), "{profile:?}");
         assert!(fits(digits - 1) < all.len(), "{profile:?}");
     }
 }
 
-/// Wrong signs and zeros are drawn, too, and not too often: hypotheses bend them.
+/// Wrong signs and zeros are sampled, too, but rarely: they are adjusted to hypotheses.
 #[test]
 fn all_signs_are_drawn() {
     let mut draw = draw(Profile::Tiny);
@@ -192,7 +195,7 @@ fn all_signs_are_drawn() {
             assert!(found, "{var:?}: {less} {equal} {greater}");
         }
     }
-    // What has no unit is of moderate size in any profile.
+    // Dimensionless quantities have moderate magnitudes in all profiles.
     let [eighths, whole] = [8, 1].map(|n| {
         let of = move |x: &Exact| (x * Exact::from(n)).as_rational().is_integer();
         move |case: &Case<Exact>, var| of(case.get(var))
@@ -232,16 +235,16 @@ fn stiff_is_stiff_in_either_direction() {
     assert!(least.contains(smallest) && most.contains(largest), "{smallest} {largest}");
 }
 
-/// The sign is changed and nothing else; where there is none, in the profile of grazing a unit is enough.
+/// Only the sign is changed; if the sign does not matter, one unit suffices in the grazing profile.
 #[test]
 fn what_is_bent_is_bent_no_further_than_it_must() {
-    let reaction = |case: &Case<Exact>| value(&given().contact, case).unwrap();
+    let reaction = |case: &Case<Exact>| value(&hypotheses().contact, case).unwrap();
     let (mut zeros, mut beside, mut near) = (0, 0, Vec::new());
     for index in 0..CASES {
         let raw = case(1, index, &[]).unwrap();
-        let stiff = case(1, index, &[given().stiffness.clone()]).unwrap();
+        let stiff = case(1, index, &[hypotheses().stiffness.clone()]).unwrap();
         assert_eq!(stiff.system.c, raw.system.c.abs());
-        let touching = case(1, index, &[given().touching.clone()]);
+        let touching = case(1, index, &[hypotheses().in_contact.clone()]);
         let bent = touching.filter(|_| reaction(&raw) < Exact::zero()).map(|case| reaction(&case));
         zeros += usize::from(bent.as_ref().is_some_and(Zero::is_zero));
         beside += usize::from(bent.as_ref().is_some_and(|r| *r == -reaction(&raw)));
@@ -249,7 +252,7 @@ fn what_is_bent_is_bent_no_further_than_it_must() {
         let profile = PROFILES[(index % PROFILES.len() as u64) as usize];
         let solvable = !raw.system.m.is_zero() && !raw.system.c.is_zero();
         if profile == Profile::Grazing && reaction(&raw).is_zero() && solvable {
-            let contact = case(1, index, &[given().contact.clone()]).unwrap();
+            let contact = case(1, index, &[hypotheses().contact.clone()]).unwrap();
             let force = &raw.system.c * crate::chapter::system::gap(&raw.system);
             let few = force.is_zero() || reaction(&contact) <= force.abs() * Exact::power_of_two(-23);
             near.push(few);
@@ -260,7 +263,7 @@ fn what_is_bent_is_bent_no_further_than_it_must() {
     assert!(3 * few > 2 * near.len() && near.len() > 10, "{few} of {}", near.len());
 }
 
-/// How many cases of each kind solve takes, in the floats that they are made for.
+/// Counts the cases of each kind that `solve` accepts, in the floats that they are made for.
 fn taken<T: crate::solver::Scalar + Real + ToExact>(
     like: &T,
     profile: Profile,
@@ -274,14 +277,16 @@ fn taken<T: crate::solver::Scalar + Real + ToExact>(
         }
         let [taken, all] = found.entry(format!("{:?}", draw.small)).or_insert([0, 0]);
         *all += 1;
-        let Ok(read) = Case::try_of(|var| like.nearest(case.get(var)).map_err(drop)) else { continue };
+        let Ok(read) = Case::try_of(|var| like.round_from_exact(case.get(var)).map_err(drop)) else {
+            continue;
+        };
         let method = crate::solver::Method::Penalty { penalty: read.eps.clone() };
         *taken += usize::from(crate::solver::solve(&read.system, &method).is_ok());
     }
     found
 }
 
-/// It is a multiple of four units, and neither m g nor c H is much less than the other.
+/// Numbers are multiples of four units, and neither m g nor c H is much smaller than the other.
 #[test]
 fn what_is_subnormal_is_made_up_for() {
     let order = |x: &Exact| {

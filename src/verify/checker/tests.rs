@@ -1,74 +1,71 @@
-//! What one case says of a claim.
+//! Results of claims in one case.
 
 use super::*;
 use crate::formula::Relation;
 use crate::number::Field;
 
-/// What is made of some numbers, some of them perhaps undefined.
-fn verdict<J: Judge>(judge: J, asked: &[Asked], values: Vec<Option<J::Number>>) -> Option<bool> {
+/// Returns the verdict for numbers, some of which may be undefined.
+fn verdict<J: NumberDomain>(judge: J, asked: &[Test], values: Vec<Option<J::Number>>) -> Option<bool> {
     match Checker::with(judge, &[], Vec::new()).verdict(asked, &values) {
         Verdict::Undecided => None,
         Verdict::Decided { holds, .. } => Some(holds),
-        Verdict::Broken(_) => Some(false),
+        Verdict::Failed(_) => Some(false),
     }
 }
 
-fn equal<J: Judge>(judge: J, left: J::Number, right: J::Number) -> Option<bool> {
-    verdict(judge, &[Asked::Equal(0, 1)], vec![Some(left), Some(right)])
+fn equal<J: NumberDomain>(judge: J, left: J::Number, right: J::Number) -> Option<bool> {
+    verdict(judge, &[Test::Equal(0, 1)], vec![Some(left), Some(right)])
 }
 
 #[test]
 fn a_wrong_equation_fails_by_one_part_in_2_to_the_50() {
-    let (third, more) = (Ball::exactly(1.0) / Ball::exactly(3.0), Ball::exactly(1.0 / 3.0 + 2f64.powi(-52)));
-    assert_eq!(equal(Floats(0.0), third.clone(), third.clone()), Some(true));
-    assert_eq!(equal(Floats(0.0), third, more), Some(false));
-    assert_eq!(equal(Exactly, 1.into(), 2.into()), Some(false));
+    let (third, more) = (Ball::point(1.0) / Ball::point(3.0), Ball::point(1.0 / 3.0 + 2f64.powi(-52)));
+    assert_eq!(equal(FloatDomain(0.0), third.clone(), third.clone()), Some(true));
+    assert_eq!(equal(FloatDomain(0.0), third, more), Some(false));
+    assert_eq!(equal(RationalDomain, 1.into(), 2.into()), Some(false));
 }
 
-/// A number whose sign is lost in rounding.
+/// Returns a number whose sign is lost in rounding.
 fn perhaps_zero() -> Ball<f64> {
-    Ball::exactly(1.0) / Ball::exactly(3.0) * Ball::exactly(3.0) - Ball::exactly(1.0)
+    Ball::point(1.0) / Ball::point(3.0) * Ball::point(3.0) - Ball::point(1.0)
 }
 
 #[test]
 fn a_sign_that_rounding_hides_is_open_and_a_wrong_one_is_wrong() {
-    let sign = |x: Ball<f64>| verdict(Floats(0.0), &[Asked::Sign(Relation::Positive, 0)], vec![Some(x)]);
-    let found = (sign(perhaps_zero()), sign(Ball::exactly(1.0)), sign(Ball::exactly(-1.0)));
+    let sign = |x: Ball<f64>| verdict(FloatDomain(0.0), &[Test::Sign(Relation::Positive, 0)], vec![Some(x)]);
+    let found = (sign(perhaps_zero()), sign(Ball::point(1.0)), sign(Ball::point(-1.0)));
     assert_eq!(found, (None, Some(true), Some(false)));
 }
 
 #[test]
 fn what_fails_decides_against_what_is_open() {
     let values = || {
-        [1.0, 2.0]
-            .map(|x| Some(Ball::exactly(x)))
-            .into_iter()
-            .chain([Some(Ball::exactly(1.0) / perhaps_zero())])
+        [1.0, 2.0].map(|x| Some(Ball::point(x))).into_iter().chain([Some(Ball::point(1.0) / perhaps_zero())])
     };
-    let (open, wrong) = (Asked::Equal(0, 2), Asked::Equal(0, 1));
-    assert_eq!(verdict(Floats(0.0), &[open], values().collect()), None);
-    assert_eq!(verdict(Floats(0.0), &[open, wrong], values().collect()), Some(false));
-    assert_eq!(verdict(Floats(0.0), &[wrong, open], values().collect()), Some(false));
+    let (open, wrong) = (Test::Equal(0, 2), Test::Equal(0, 1));
+    assert_eq!(verdict(FloatDomain(0.0), &[open], values().collect()), None);
+    assert_eq!(verdict(FloatDomain(0.0), &[open, wrong], values().collect()), Some(false));
+    assert_eq!(verdict(FloatDomain(0.0), &[wrong, open], values().collect()), Some(false));
 }
 
 #[test]
 fn what_is_divided_by_zero_is_wrong_and_what_may_be_is_open() {
-    let zero = Ball::exactly(1.0) - Ball::exactly(1.0);
+    let zero = Ball::point(1.0) - Ball::point(1.0);
     for (divisor, expected) in [(zero, Some(false)), (perhaps_zero(), None)] {
-        let quotient = Floats::<f64>::step(Step::Div(&Ball::exactly(1.0), &divisor));
-        let values = vec![Some(Ball::exactly(1.0)), quotient];
-        for asked in [Asked::Equal(0, 1), Asked::Sign(Relation::Positive, 1)] {
-            assert_eq!(verdict(Floats(0.0), &[asked], values.clone()), expected);
+        let quotient = FloatDomain::<f64>::step(Op::Div(&Ball::point(1.0), &divisor));
+        let values = vec![Some(Ball::point(1.0)), quotient];
+        for asked in [Test::Equal(0, 1), Test::Sign(Relation::Positive, 1)] {
+            assert_eq!(verdict(FloatDomain(0.0), &[asked], values.clone()), expected);
         }
     }
-    assert_eq!(Exactly::step(Step::Div(&1.into(), &0.into())), None);
+    assert_eq!(RationalDomain::step(Op::Div(&1.into(), &0.into())), None);
 }
 
 #[test]
 fn a_bound_of_zero_has_no_room_for_an_error() {
     // Constants of MPFR are exact, and so is their difference.
     let [two, three] = [2, 3].map(Ball::<Mpfr>::int);
-    let judge = Floats(Mpfr::rounded(53, 0));
+    let judge = FloatDomain(Mpfr::rounded(53, 0));
     assert_eq!(
         judge.difference(&two, &three).map(|(holds, share, _)| (holds, share)),
         Some((false, f64::INFINITY))
@@ -79,7 +76,7 @@ fn a_bound_of_zero_has_no_room_for_an_error() {
 #[test]
 fn one_case_that_fails_decides_and_without_a_decided_case_nothing_is() {
     let row = |tally: Tally| {
-        tally.into_row(Head { equation: "1.1", claim: "claim", kind: "equal", given: vec![] }, None)
+        tally.into_row(ClaimKey { equation: "1.1", claim: "claim", kind: "equal", given: vec![] }, None)
     };
     let held = Tally { decided: 1, undecided: 5, ..Tally::default() };
     let failure = super::super::cases::case(1, 0, &[]).map(|case| (case, Some("why".to_string())));
@@ -95,26 +92,26 @@ fn one_case_that_fails_decides_and_without_a_decided_case_nothing_is() {
 fn a_bound_is_shown_as_it_is() {
     let difference = perhaps_zero();
     assert!(*difference.radius() > 0.0);
-    assert_eq!(Floats(0.0).bound(&difference).parse(), Ok(*difference.radius()));
-    assert_eq!(Exactly.bound(&Exact::from(3)), "3");
+    assert_eq!(FloatDomain(0.0).bound(&difference).parse(), Ok(*difference.radius()));
+    assert_eq!(RationalDomain.bound(&Exact::from(3)), "3");
 }
 
-/// In one case, and in many: of equals the first.
+/// In one case, and in many: the first of equal ratios counts.
 #[test]
 fn the_worst_share_is_measured() {
-    let third = Ball::exactly(1.0) / Ball::exactly(3.0);
-    let [less, more] = [1, 3].map(|ulps| Ball::exactly(1.0 / 3.0 + f64::from(ulps) * 2f64.powi(-54)));
-    let values = [third, less, more, Ball::exactly(1.0)].map(Some);
-    let judge = Checker::with(Floats(0.0), &[], Vec::new());
-    let measured = |asked: &[Asked]| match judge.verdict(asked, &values) {
+    let third = Ball::point(1.0) / Ball::point(3.0);
+    let [less, more] = [1, 3].map(|ulps| Ball::point(1.0 / 3.0 + f64::from(ulps) * 2f64.powi(-54)));
+    let values = [third, less, more, Ball::point(1.0)].map(Some);
+    let judge = Checker::with(FloatDomain(0.0), &[], Vec::new());
+    let measured = |asked: &[Test]| match judge.verdict(asked, &values) {
         Verdict::Decided { measured: Some((ratio, bound)), .. } => (ratio, bound()),
         _ => panic!("nothing is measured"),
     };
-    let (small, large, none) = (Asked::Equal(0, 1), Asked::Equal(0, 2), Asked::Equal(3, 3));
+    let (small, large, none) = (Test::Equal(0, 1), Test::Equal(0, 2), Test::Equal(3, 3));
     assert!(measured(&[small]).0 < measured(&[large]).0);
     assert_eq!(measured(&[small, large]), measured(&[large]));
     assert_eq!(measured(&[large, small]), measured(&[large]));
-    let own = Asked::Equal(0, 0);
+    let own = Test::Equal(0, 0);
     let (of_own, of_none) = (measured(&[own]), measured(&[none]));
     assert_eq!((of_own.0, of_none.0), (0.0, 0.0));
     assert_ne!(of_own.1, of_none.1);

@@ -1,4 +1,4 @@
-//! Each experiment is seen failing: for a solver, or an iteration, that is wrong.
+//! Tests that each experiment fails for a wrong solver or iteration.
 
 use super::*;
 
@@ -57,7 +57,7 @@ fn a_wrong_state_is_seen() {
 /// A mistake in a solution.
 type Mistake = fn(&mut Solution<f64>);
 
-/// One end each, beyond the other.
+/// Each mistake moves one bound beyond the other.
 const BOUNDS: [Mistake; 6] = [
     |s| s.bounds.deflection.lower = s.bounds.deflection.upper + 1.0,
     |s| s.bounds.deflection.upper = s.bounds.deflection.lower - 1.0,
@@ -67,7 +67,7 @@ const BOUNDS: [Mistake; 6] = [
     |s| s.bounds.contact_force.upper = s.bounds.contact_force.lower - 1.0,
 ];
 
-/// The right solution with a mistake.
+/// Returns a solver with a mistake in its solution.
 fn mistaken(mistake: impl Fn(&mut Solution<f64>)) -> impl Solver<f64> {
     move |system, method| {
         let mut solution = solve(system, method)?;
@@ -88,7 +88,7 @@ fn bounds_on_the_wrong_side_are_seen() {
         let refused = || solve(&x.system, &Method::Penalty { penalty: -1.0 });
         assert_eq!(bounds(&x, &method, |_: &_, _: &_| refused()), Trial::Undecided);
     }
-    // By penalty the mass lies deeper.
+    // The penetration by the penalty method is larger.
     assert_eq!(bounds(&case(10), &penalty, |system, _| solve(system, &Method::Lagrange)), WRONG);
 }
 
@@ -106,7 +106,7 @@ fn a_root_with_no_change_of_sign_is_seen() {
         assert_eq!(series_root(&x, |_, _, _| Ok(f64::MAX)), Trial::Undecided);
     }
     assert_eq!(series_root(&case(8), right), RIGHT);
-    // Beside an exact root no sign changes.
+    // Next to an exact root no sign changes.
     for wrong in [f64::next_up, f64::next_down] {
         assert_eq!(series_root(&case(10), |s, eps, higher| right(s, eps, higher).map(wrong)), WRONG);
     }
@@ -134,8 +134,8 @@ fn a_promise_that_is_not_kept_is_seen() {
     };
     assert_eq!(ended(Outcome::Direct, 7, None), WRONG, "there is something to iterate");
     let limit = STEPS as u64;
-    assert_eq!(ended(Outcome::OutOfSteps, limit, None), RIGHT);
-    assert_eq!(ended(Outcome::OutOfSteps, limit - 1, None), WRONG);
+    assert_eq!(ended(Outcome::IterationLimit, limit, None), RIGHT);
+    assert_eq!(ended(Outcome::IterationLimit, limit - 1, None), WRONG);
     // The last error is p₂₄ = 2⁻²⁶.
     let least = power_of_two::<f64>(-26);
     let stagnated = [None, Some(0.0), Some(least.next_down()), Some(least), Some(1.0)]
@@ -146,7 +146,7 @@ fn a_promise_that_is_not_kept_is_seen() {
 #[test]
 fn a_solver_that_knows_its_units_is_seen() {
     let mistakes: [Mistake; 7] = [
-        |s| s.outcome = Outcome::OutOfSteps,
+        |s| s.outcome = Outcome::IterationLimit,
         |s| s.augmentations = s.augmentations.map(|k| k + 1),
         |s| s.deflection = s.deflection.next_up(),
         |s| s.contact_force = s.contact_force.next_down(),
@@ -169,7 +169,7 @@ fn a_solver_that_knows_its_units_is_seen() {
     }
 }
 
-/// Where digits are lost, nothing is said: of a parameter in other units, of a product in these.
+/// If digits are lost, the trial is undecided: of a parameter in other units, or of a product in these.
 #[test]
 fn units_out_of_range_decide_nothing() {
     let two = power_of_two::<f64>;
@@ -205,7 +205,7 @@ fn a_count_that_is_one_off_is_seen() {
         let right = steps(&x, plane);
         let found = [of(&right), of(&right[..4]), of(&right[..3]), of(&right[1..])];
         assert_eq!(found, [RIGHT, RIGHT, WRONG, WRONG]);
-        // So far and no further.
+        // The tolerance up to which the count applies.
         let far = |tol: Exact| count(&Case { tol, ..x.clone() }, plane, right.iter().cloned());
         assert_eq!(far(Exact::from(3) * power_of_two::<Exact>(-26)), RIGHT);
         assert_eq!(far(Exact::from(3) * power_of_two::<Exact>(-27)), Trial::Undecided);
@@ -239,7 +239,8 @@ fn members_off_the_closed_form_are_seen() {
     }
 }
 
-/// R = −3: from 20 it takes 3 steps, since 23/8 is the first of 23/2ᵏ below 3; from 3 just one: 6/2 is 3.
+/// R = −3: from 20 it takes 3 steps, since 23/8 is the first of 23/2ᵏ below 3; from 3 only one, since 6/2 is
+/// 3.
 #[test]
 fn a_release_that_comes_too_early_or_too_late_is_seen() {
     for (start, released) in [(0, 0), (-1, 1), (-100, 1), (3, 1), (4, 2), (20, 3)] {

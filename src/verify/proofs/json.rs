@@ -1,10 +1,10 @@
-//! Proofs and controls as JSON has them: quantities as texts, every key always there.
+//! JSON of proofs and mutations: quantities are texts, and every key is always present.
 
-use super::{Answer, Proofs, Proved, Summary};
+use super::{ProofAttempt, ProofOutcome, Proofs, Summary};
 use crate::claims::registry;
 use crate::proof::Counterexample;
-use crate::proof::controls::{Change, Dropped, Effect, Without};
-use crate::proof::paper::Paper;
+use crate::proof::mutation::{DropOutcome, DroppedHypothesis, Mutant, MutationOutcome};
+use crate::proof::render::ProofPrinter;
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 
@@ -51,11 +51,11 @@ struct Changed {
     counterexample: Option<Values>,
 }
 
-/// The coordinates of a counterexample, by their symbols.
+/// Coordinates of a counterexample by symbol.
 type Values = BTreeMap<&'static str, String>;
 
 fn values(counterexample: &Counterexample) -> Values {
-    counterexample.point.numbers().map(|(name, x)| (name, x.to_string())).collect()
+    counterexample.point.coordinates().map(|(name, x)| (name, x.to_string())).collect()
 }
 
 impl Serialize for Proofs {
@@ -64,18 +64,20 @@ impl Serialize for Proofs {
             equation: claims[0].statement.equation(),
             claims: claims.iter().map(|proved| claim(proved, self)).collect(),
         });
-        let changes = self.controls.changes.iter().map(changed);
+        let changes = self.mutation.mutants.iter().map(changed);
         All { summary: self.summary(), equations: equations.collect(), changes: changes.collect() }
             .serialize(to)
     }
 }
 
-fn claim(proved: &Proved, proofs: &Proofs) -> Claim {
-    let Proved { statement, answer, .. } = proved;
-    let paper = Paper::new(registry()).in_full();
+fn claim(proved: &ProofAttempt, proofs: &Proofs) -> Claim {
+    let ProofAttempt { statement, answer, .. } = proved;
+    let paper = ProofPrinter::new(registry()).in_full();
     let (certificate, why, counterexample) = match answer {
-        Answer::Proof(proof) => (Some(paper.proof(proof).join("\n")), None, None),
-        Answer::None(why, counterexample) => (None, Some(why.clone()), counterexample.as_ref().map(values)),
+        ProofOutcome::Proof(proof) => (Some(paper.proof(proof).join("\n")), None, None),
+        ProofOutcome::None(why, counterexample) => {
+            (None, Some(why.clone()), counterexample.as_ref().map(values))
+        }
     };
     Claim {
         claim: statement.name(),
@@ -90,22 +92,22 @@ fn claim(proved: &Proved, proofs: &Proofs) -> Claim {
     }
 }
 
-fn dropped(Dropped { given, without, .. }: &Dropped) -> Less {
+fn dropped(DroppedHypothesis { hypothesis: given, outcome: without, .. }: &DroppedHypothesis) -> Less {
     let (status, counterexample) = match without {
-        Without::Refuted(refutation) => ("refuted", Some(values(&refutation.counterexample()))),
-        Without::StillTrue => ("still_true", None),
-        Without::Unknown => ("unknown", None),
+        DropOutcome::Refuted(refutation) => ("refuted", Some(values(&refutation.counterexample()))),
+        DropOutcome::StillProved => ("still_true", None),
+        DropOutcome::Undecided => ("unknown", None),
     };
-    Less { hypothesis: registry().supposed(given), status, counterexample }
+    Less { hypothesis: registry().format_hypothesis(given), status, counterexample }
 }
 
-fn changed((Change { site, what }, effect): &(Change, Effect)) -> Changed {
+fn changed((Mutant { site, mutation: what }, effect): &(Mutant, MutationOutcome)) -> Changed {
     let (status, by, counterexample) = match effect {
-        Effect::Noticed { equation, name, refutation } => {
+        MutationOutcome::Detected { equation, name, refutation } => {
             ("noticed", Some(format!("{equation} {name}")), Some(values(&refutation.counterexample())))
         }
-        Effect::Unchanged => ("unchanged", None, None),
-        Effect::Unnoticed => ("unnoticed", None, None),
+        MutationOutcome::Equivalent => ("unchanged", None, None),
+        MutationOutcome::Undetected => ("unnoticed", None, None),
     };
     Changed { at: site.to_string(), change: what.to_string(), status, by, counterexample }
 }

@@ -1,22 +1,25 @@
-//! Wrong formulas in process: what the number systems make of every change of a formula, and what is
-//! reported of one.
+//! Wrong formulas within the process: every mutation is detected in number systems, and reported.
 
-use super::super::checker::Judge;
+use super::super::checker::NumberDomain;
 use super::super::*;
 use crate::formula::Hypothesis;
-use crate::proof::controls::{Effect, Operator, What, changes, controls};
+use crate::proof::mutation::{Mutation, MutationOutcome, Operator, mutants, test_mutations};
 use std::collections::BTreeMap;
 
 type Drawn = BTreeMap<String, (Vec<Hypothesis>, Vec<Option<Case<Exact>>>)>;
 
-/// The claims that fail in some case.
-fn findings<J: Judge>(judge: J, claims: &[Statement], drawn: &Drawn) -> Vec<(&'static str, &'static str)> {
+/// Returns the claims that fail in some case.
+fn findings<J: NumberDomain>(
+    judge: J,
+    claims: &[Statement],
+    drawn: &Drawn,
+) -> Vec<(&'static str, &'static str)> {
     let checker = Checker::with(judge, claims, Vec::new());
     let heads = checker.heads();
     let mut found = Vec::new();
     for (given, cases) in drawn.values() {
-        for (place, tally) in checker.check(given, &|_| true, cases) {
-            let row = tally.into_row(heads[place].clone(), None);
+        for (index, tally) in checker.check(given, &|_| true, cases) {
+            let row = tally.into_row(heads[index].clone(), None);
             assert_eq!(row.decided + row.undecided, cases.len() as u64);
             found.extend((row.status == Status::Failed).then_some((row.equation, row.claim)));
         }
@@ -24,23 +27,24 @@ fn findings<J: Judge>(judge: J, claims: &[Statement], drawn: &Drawn) -> Vec<(&'s
     found
 }
 
-/// Each change of a formula fails some claim that speaks of it, in rationals or in balls; and what is
-/// proved to change nothing fails none.
+/// Each mutation makes a claim that contains it fail, in rationals or in balls; an equivalent one makes none
+/// fail.
 #[test]
 fn every_change_of_a_formula_is_a_finding() {
     const CASES: u64 = 6;
     let mut drawn = Drawn::new();
     let claims = || claims().filter(|claim| !claim.contains_rounding());
     for claim in claims() {
-        let cases = || (0..CASES).map(|i| super::super::drawn(1, i, claim.stated_hypotheses())).collect();
+        let cases =
+            || (0..CASES).map(|i| super::super::sample_case(1, i, claim.stated_hypotheses())).collect();
         drawn
             .entry(format!("{:?}", claim.stated_hypotheses()))
             .or_insert_with(|| (claim.stated_hypotheses().to_vec(), cases()));
     }
     let all: Vec<_> = claims().cloned().collect();
-    assert_eq!(findings(Exactly, &all, &drawn), []);
-    assert_eq!(findings(Floats(0f64), &all, &drawn), []);
-    let seen = |(change, effect): &(Change, Effect)| {
+    assert_eq!(findings(RationalDomain, &all, &drawn), []);
+    assert_eq!(findings(FloatDomain(0f64), &all, &drawn), []);
+    let seen = |(change, effect): &(Mutant, MutationOutcome)| {
         let touched = all.iter().filter(|claim| {
             let mut formulas = claim.goals().iter().flat_map(|goal| goal.proposition.trees());
             formulas.any(|tree| change.rewrite(tree) != *tree)
@@ -49,14 +53,14 @@ fn every_change_of_a_formula_is_a_finding() {
             claim.map(&|tree| change.rewrite(tree)).only_assuming(claim.stated_hypotheses())
         };
         let changed: Vec<_> = touched.map(changed).collect();
-        let found = findings(Exactly, &changed, &drawn);
-        let found = if found.is_empty() { findings(Floats(0f64), &changed, &drawn) } else { found };
-        let wrong = matches!(effect, Effect::Noticed { .. });
+        let found = findings(RationalDomain, &changed, &drawn);
+        let found = if found.is_empty() { findings(FloatDomain(0f64), &changed, &drawn) } else { found };
+        let wrong = matches!(effect, MutationOutcome::Detected { .. });
         (found.is_empty() == wrong).then(|| format!("{change}: {found:?}"))
     };
-    let changes = controls(&statements(), registry()).changes;
-    assert!(changes.len() > 600);
-    let amiss: Vec<_> = changes.par_iter().filter_map(seen).collect();
+    let mutants = test_mutations(&statements(), registry()).mutants;
+    assert!(mutants.len() > 600);
+    let amiss: Vec<_> = mutants.par_iter().filter_map(seen).collect();
     assert!(amiss.is_empty(), "{amiss:#?}");
 }
 
@@ -64,15 +68,15 @@ fn in_one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// The sample in the book of a report with a mistake in it: c − ε for c + ε in the stiffness by penalty.
+/// The sample in the book of a report with a mistake: c − ε for c + ε in the stiffness by penalty.
 #[test]
 fn the_book_shows_where_to_look_after_a_mistake() {
     let stiffness = registry().formula("penalty::total_stiffness").unwrap();
-    let of_sum = |change: &&Change| {
-        (change.site, change.what) == (stiffness.tree.site(), What::Opposite(Operator::Add))
+    let of_sum = |change: &&Mutant| {
+        (change.site, change.mutation) == (stiffness.tree.site(), Mutation::Opposite(Operator::Add))
     };
     let statements = statements();
-    let mistake = changes(&statements, registry()).iter().find(of_sum).copied().unwrap();
+    let mistake = mutants(&statements, registry()).iter().find(of_sum).copied().unwrap();
     let mistaken = |s: Statement| mistake.apply(&s).unwrap_or(s);
     let statements = statements.into_iter().map(mistaken).collect();
     let options = Options { scalars: Vec::new(), cases: 1, seed: 1, equations: Vec::new() };

@@ -1,25 +1,25 @@
-//! The system itself, to scale.
+//! Drawings of the system to scale.
 
 use super::Figure;
 use super::svg::{Anchor::*, Point, Svg, number};
 use spring_mass_contact::chapter::{SpringMass, augmented, contact, penalty, structure, system};
 
-/// Pixels for a metre, and for a newton.
+/// Pixels per metre and per newton.
 const METRE: f64 = 72.0;
 const NEWTON: f64 = 8.0;
 
-/// Where the support is, and on which line the mass moves.
+/// Vertical position of the support, and horizontal position of the mass, in pixels.
 const SUPPORT: f64 = 30.0;
 const MIDDLE: f64 = 170.0;
 
 const RADIUS: f64 = 12.0;
 
-/// So far below the support, in metres.
+/// Returns the vertical position in pixels of a depth below the support in metres.
 fn level(depth: f64) -> f64 {
     SUPPORT + METRE * depth
 }
 
-/// Something fixed, hatched away from the mass.
+/// Draws a fixed surface, hatched away from the mass.
 fn fixed(svg: &mut Svg, class: &str, y: f64, away: f64) {
     svg.path(class, &[(MIDDLE - 80.0, y), (MIDDLE + 80.0, y)]);
     for i in 0..12 {
@@ -28,7 +28,7 @@ fn fixed(svg: &mut Svg, class: &str, y: f64, away: f64) {
     }
 }
 
-/// A spring from one depth to another, in metres.
+/// Draws a spring between two depths in metres.
 fn spring(svg: &mut Svg, class: &str, from: f64, to: f64) {
     const COILS: u32 = 8;
     let (top, bottom) = (level(from), level(to));
@@ -43,7 +43,7 @@ fn spring(svg: &mut Svg, class: &str, from: f64, to: f64) {
     svg.path(class, &points);
 }
 
-/// A force on the mass, upwards if it is positive.
+/// Draws a force on the mass, upwards if it is positive.
 fn force(svg: &mut Svg, class: &str, from: Point, newtons: f64, name: &str, anchor: super::svg::Anchor) {
     let to = (from.0, from.1 - NEWTON * newtons);
     svg.arrow(class, from, to);
@@ -59,23 +59,23 @@ fn force(svg: &mut Svg, class: &str, from: Point, newtons: f64, name: &str, anch
     );
 }
 
-/// A distance between two depths, beside the drawing.
+/// Draws the dimension between two depths, beside the system.
 fn distance(svg: &mut Svg, x: f64, from: f64, to: f64, name: &str) {
     let (from, to) = (level(from), level(to));
     svg.dimension("fine", (x, from), (x, to));
     let side = if x < MIDDLE { End } else { Start };
-    // Beside the arrows, and beyond the lines if these are too close for a letter.
+    // The letter stands beside the arrows, or outside the lines if these are too close.
     let far = if (to - from).abs() < 24.0 { 14.0 } else { 7.0 };
     let aside = if x < MIDDLE { -far } else { far };
     svg.text("", (x + aside, (from + to) / 2.0 + 5.0), side, name);
 }
 
-/// A thin line at a depth, from one place to another.
+/// Draws a horizontal line at a depth.
 fn mark_level(svg: &mut Svg, class: &str, depth: f64, from: f64, to: f64) {
     svg.path(class, &[(from, level(depth)), (to, level(depth))]);
 }
 
-/// Fig. 1.1: at rest, separated.
+/// Draws Fig. 1.1: the system at rest, separated.
 pub fn system() -> Figure {
     let system = SpringMass { c: 4.0, m: 1.0, g: 4.0, l: 1.0, h: 3.0 };
     let u = contact::deflection(&system);
@@ -102,9 +102,9 @@ pub fn system() -> Figure {
     svg.text("", (MIDDLE - 18.0, level(depth) + 18.0), End, "m");
     let description = format!(
         "A spring hangs from a support and carries a mass; below the mass is a rigid plane. From the support down: the free \
-         length l = {} of the spring, then the deflection u = {}, and between the mass and the plane what is left of the gap, \
-         −p = {}, which make up the height H = {}. Two arrows of the same length at the mass: the spring pulls up with c u = \
-         {} N, the weight is m g = {} N.",
+         length l = {} of the spring, the deflection u = {}, and between the mass and the plane the remaining gap −p = {}, \
+         which add up to the height H = {} of the support above the plane. Two arrows of the same length at the mass: the \
+         spring pulls up with c u = {} N, the weight is m g = {} N.",
         number(system.l),
         number(u),
         number(-p),
@@ -123,7 +123,7 @@ pub fn system() -> Figure {
     }
 }
 
-/// Fig. 1.2: the plane as a second spring.
+/// Draws Fig. 1.2: the plane as a second spring.
 pub fn second_spring() -> Figure {
     let (system, eps) = (SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 }, 4.0);
     let u = penalty::deflection(&system, &eps);
@@ -131,7 +131,7 @@ pub fn second_spring() -> Figure {
     let (pull, weight) = (structure::spring_force(&system, &u), system::weight(&system));
     let push = penalty::contact_force(&system, &eps, &u);
     let missing = augmented::contact_force(&system, &u);
-    // The second spring may be of any length.
+    // The length of the second spring is arbitrary.
     let ground = system.h + 1.4;
     let mut svg = Svg::default();
     fixed(&mut svg, "", level(0.0), -1.0);
@@ -152,7 +152,7 @@ pub fn second_spring() -> Figure {
     let description = format!(
         "The mass hangs from a spring of stiffness c and has sunk p = {} below the level of the plane. There it compresses a \
          second spring, of stiffness ε = {}, which stands on the ground. Arrows at the mass: the weight m g = {} N is \
-         carried by c u = {} N of the first spring and ε p = {} N of the second, which is all that is missing, {} N.",
+         carried by c u = {} N of the first spring and ε p = {} N of the second, exactly the remaining {} N.",
         number(p),
         number(eps),
         number(weight),

@@ -1,4 +1,4 @@
-//! Plots of what depends on one number.
+//! Plots of functions of one variable.
 
 use super::Figure;
 use super::axes::{Axis, Plot};
@@ -8,7 +8,7 @@ use spring_mass_contact::chapter::{SpringMass, augmented, contact, lagrange, ode
 use spring_mass_contact::number::{Exact, NumberSystem, PositivePart, ToExact};
 use spring_mass_contact::solver::{self, Scalar};
 
-/// What is to be least, as each method has it.
+/// Draws the functionals of the methods and their minima.
 pub fn energies() -> Figure {
     let (system, eps) = (example(10), Exact::from(4));
     let (multiplier, guess) = (lagrange::multiplier(&system), Exact::from(1));
@@ -28,37 +28,37 @@ pub fn energies() -> Figure {
             augmented::functional(&system, &eps, &guess, u)
         }),
     ];
-    let mut words = Vec::new();
-    let mut least = Vec::new();
+    let mut labels = Vec::new();
+    let mut minima = Vec::new();
     for (class, name, u, energy) in curves {
         plot.graph(class, |p| float(&energy(&deflection(&system, p))));
         let at = point(&system, &u, &energy(&u));
-        let says = format!("{name}: p = {}, {} J", number(at.0), number(at.1));
-        words.push(says.replace('_', ""));
-        least.push((class, at));
+        let label = format!("{name}: p = {}, {} J", number(at.0), number(at.1));
+        labels.push(label.replace('_', ""));
+        minima.push((class, at));
     }
-    for ((class, at), says) in least.iter().zip(&words) {
-        plot.mark(class.split(' ').next().unwrap_or_default(), *at, says);
+    for ((class, at), label) in minima.iter().zip(&labels) {
+        plot.mark(class.split(' ').next().unwrap_or_default(), *at, label);
     }
-    plot.text("spring", least[0].1, (0.0, -10.0), Middle, "Π");
+    plot.text("spring", minima[0].1, (0.0, -10.0), Middle, "Π");
     plot.text("penalty", (0.42, -12.12), (4.0, 14.0), Start, "Π_p");
     plot.text("plane", (0.3, -11.82), (-6.0, -6.0), End, "𝓛");
     plot.text("iterate", (0.42, -11.8), (0.0, 14.0), Start, "L");
     let description = format!(
-        "Four parabolas over the penetration p, all of the same value at p = 0. Where each is least: {}.",
-        words.join("; ")
+        "Four parabolas over the penetration p, with the same value at p = 0. Their minima: {}.",
+        labels.join("; ")
     );
-    let caption = "What each method makes least, for the example with $\\varepsilon = 4$: the energy $\\Pi$ alone, with the penalty, with \
+    let caption = "The functional of each method, for the example with $\\varepsilon = 4$: the energy $\\Pi$ alone, with the penalty, with \
                    the multiplier $\\lambda = R$, and with both at $\\lambda = 1$. They agree at $p = 0$.";
     figure(plot, "The energies and their minima", caption, description)
 }
 
-/// Penetrations, between what two differential equations say.
+/// Draws the penetrations between the solutions of two differential equations.
 pub fn rates() -> Figure {
     let (system, eps) = (SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 }, 4.0);
     let start = augmented::deflection(&system, &eps, &0.0);
     let first = contact::penetration(&system, &start);
-    // −ε/c is the rate −ε/(c + ε) of a spring that is softer by ε.
+    // The rate −ε/c is −ε/(c + ε) for a spring that is softer by ε.
     let softer = SpringMass { c: system.c - eps, ..system };
     let above = |k: f64| contact::penetration(&system, &ode::solution(&system, &eps, &start, &k));
     let below = |k: f64| ode::homogeneous(&softer, &eps, &first, &k);
@@ -92,16 +92,16 @@ pub fn rates() -> Figure {
         below(k),
     );
     let caption = "The iterates $p_k$ (dots) lie between their two bounds. The upper one, drawn solid, is the solution of the \
-                   differential equation; it stays behind. Here $\\varepsilon = c$.";
+                   differential equation, which decays more slowly. Here $\\varepsilon = c$.";
     figure(plot, "Iterates between two bounds", caption, description)
 }
 
-/// The command's default, as it is read.
+/// Returns the default system of the command.
 fn default() -> SpringMass<Exact> {
     SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" }.parse().expect("decimals")
 }
 
-/// Relative errors at each penalty: of u, of m g − c u and of ε p.
+/// Relative errors of u, of m g − c u and of ε p for a penalty.
 struct Errors {
     eps: f64,
     deflection: f64,
@@ -126,7 +126,7 @@ fn errors<T: Scalar + ToExact>(penalties: &[Exact], round: impl Fn(&Exact) -> T)
     errors.collect()
 }
 
-/// Where each precision leaves the line, and its best penalty.
+/// Draws the errors of the penalty method in three precisions, with the best penalties.
 pub fn rounding() -> Figure {
     let power = |n: i32| format!("1e{n}").parse::<Exact>().expect("a power of ten");
     let penalties = solver::penalties(&power(0), &power(38), 77).expect("ends in order");
@@ -144,7 +144,7 @@ pub fn rounding() -> Figure {
     ];
     let mut best = Vec::new();
     for (name, numbers, errors) in &measured {
-        // An error of nothing has no place on a logarithmic axis.
+        // An error of 0 cannot be shown on a logarithmic axis.
         let curve = |error: fn(&Errors) -> f64| -> Vec<_> {
             errors.iter().map(|row| (row.eps, error(row))).filter(|(_, error)| *error > 0.0).collect()
         };
@@ -162,22 +162,22 @@ pub fn rounding() -> Figure {
             .expect("there is contact");
         best.push((*name, (float(&eps), float(&bound))));
     }
-    let mut words = Vec::new();
+    let mut labels = Vec::new();
     for (name, at) in &best {
-        words.push(format!("{name} ε* = {:.1e}, error at most {:.1e}", at.0, at.1));
-        plot.mark("penalty", *at, words.last().map_or("", |says| says));
+        labels.push(format!("{name} ε* = {:.1e}, error at most {:.1e}", at.0, at.1));
+        plot.mark("penalty", *at, labels.last().map_or("", |label| label));
         plot.text("penalty", *at, (-7.0, 14.0), End, "ε^{∗}");
     }
     plot.text("penalty", (1e26, 1e-4), (0.0, 0.0), End, "ε p");
     plot.text("spring", (1e27, 1e-25), (10.0, 0.0), Start, "m g − c u");
     let description = format!(
         "Relative errors of the penalty method for the default system, on logarithmic axes, against ε. All fall along one line, \
-         c/(c + ε), at first. The force ε p leaves it soonest, near the best penalty ε*, and rises again until nothing is left \
-         of it: {}. The deflection u and the force m g − c u follow the line down to what the rounding of one number \
-         leaves; errors of 0 are left out.",
-        words.join("; "),
+         c/(c + ε), at first. The error of the force ε p departs from it first, near the best penalty ε*, and rises again to \
+         1: {}. The errors of the deflection u and of the force m g − c u follow the line down to the rounding error of one \
+         number; errors of 0 are omitted.",
+        labels.join("; "),
     );
     let caption = "Errors of $\\varepsilon\\,\\hat p$, of $m\\,g - c\\,\\hat u$ and of $\\hat u$ (dotted) in three precisions. The dots are the best penalties \
-                   $\\varepsilon^*$ with the error that is promised there. Errors of 0 are left out.";
-    figure(plot, "Where rounding leaves the line", caption, description)
+                   $\\varepsilon^*$ with the guaranteed bound. Errors of 0 are omitted.";
+    figure(plot, "Errors of the penalty method with rounding", caption, description)
 }

@@ -1,110 +1,110 @@
-//! The few elements of SVG that the figures are made of.
+//! The elements of SVG that the figures use.
 
 use std::fmt::Write;
 
-/// A place in a picture: to the right and down from its upper left corner.
+/// Position in pixels, to the right and down from the upper left corner.
 pub type Point = (f64, f64);
 
-/// On which side of its place a text stands.
+/// Alignment of a text relative to its position.
 #[derive(Clone, Copy)]
 pub enum Anchor {
-    /// It begins there.
+    /// The text begins at the position.
     Start,
-    /// It is centred there.
+    /// The text is centred at the position.
     Middle,
-    /// It ends there.
+    /// The text ends at the position.
     End,
 }
 
-/// A picture so far.
+/// SVG elements of a figure.
 #[derive(Default)]
 pub struct Svg {
     pub body: String,
 }
 
 impl Svg {
-    /// A line through points.
+    /// Draws a line through points.
     pub fn path(&mut self, class: &str, points: &[Point]) {
-        let places: Vec<_> = points.iter().map(|&at| place(at)).collect();
-        self.element(&format!("<path class=\"{class}\" d=\"M{}\"/>", places.join("L")));
+        let texts: Vec<_> = points.iter().map(|&point| format_point(point)).collect();
+        self.element(&format!("<path class=\"{class}\" d=\"M{}\"/>", texts.join("L")));
     }
 
-    /// A line with a head at its end.
+    /// Draws a line with an arrowhead at its end.
     pub fn arrow(&mut self, class: &str, from: Point, to: Point) {
         let (x, y) = (to.0 - from.0, to.1 - from.1);
         let share = (9.0 / x.hypot(y)).min(1.0);
         let (x, y) = (x * share, y * share);
         let foot = (to.0 - x, to.1 - y);
         self.path(class, &[from, foot]);
-        let side = |sign: f64| place((foot.0 - sign * 0.4 * y, foot.1 + sign * 0.4 * x));
-        let head = [side(1.0), place(to), side(-1.0)].join("L");
+        let side = |sign: f64| format_point((foot.0 - sign * 0.4 * y, foot.1 + sign * 0.4 * x));
+        let head = [side(1.0), format_point(to), side(-1.0)].join("L");
         self.element(&format!("<path class=\"{class} head\" d=\"M{head}Z\"/>"));
     }
 
-    /// A line with a head at both ends.
+    /// Draws a line with arrowheads at both ends.
     pub fn dimension(&mut self, class: &str, from: Point, to: Point) {
         let middle = ((from.0 + to.0) / 2.0, (from.1 + to.1) / 2.0);
         self.arrow(class, middle, from);
         self.arrow(class, middle, to);
     }
 
-    /// A dot, and what it says when it is pointed at.
-    pub fn mark(&mut self, class: &str, (x, y): Point, says: &str) {
-        let (x, y, says) = (short(x), short(y), escaped(says));
-        let title = format!("<title>{says}</title>");
+    /// Draws a dot with a tooltip.
+    pub fn mark(&mut self, class: &str, (x, y): Point, label: &str) {
+        let (x, y, label) = (format_coordinate(x), format_coordinate(y), escaped(label));
+        let title = format!("<title>{label}</title>");
         self.element(&format!(
             "<circle class=\"mark {class}\" cx=\"{x}\" cy=\"{y}\" r=\"4.5\">{title}</circle>"
         ));
     }
 
-    /// A disc.
+    /// Draws a disc.
     pub fn disc(&mut self, (x, y): Point, radius: f64) {
-        let (x, y) = (short(x), short(y));
+        let (x, y) = (format_coordinate(x), format_coordinate(y));
         self.element(&format!("<circle class=\"disc\" cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"/>"));
     }
 
-    /// A text: words as they are, single letters as symbols, `_` and `^` for what is below and above.
+    /// Writes a text; single letters are set as symbols, `_` and `^` begin an index or an exponent.
     pub fn text(&mut self, class: &str, (x, y): Point, anchor: Anchor, text: &str) {
         let anchor = match anchor {
             Anchor::Start => "start",
             Anchor::Middle => "middle",
             Anchor::End => "end",
         };
-        let (x, y, text) = (short(x), short(y), typeset(text));
+        let (x, y, text) = (format_coordinate(x), format_coordinate(y), typeset(text));
         self.element(&format!(
             "<text class=\"{class}\" x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\">{text}</text>"
         ));
     }
 
     fn element(&mut self, element: &str) {
-        writeln!(self.body, "{element}").expect("a string takes what is written");
+        writeln!(self.body, "{element}").expect("writing to a string succeeds");
     }
 }
 
-/// Hundredths of a pixel.
-fn short(x: f64) -> String {
+/// Formats a coordinate to hundredths of a pixel.
+fn format_coordinate(x: f64) -> String {
     let rounded = (x * 100.0).round() / 100.0;
-    format!("{}", rounded + 0.0) // no minus before zero
+    format!("{}", rounded + 0.0) // avoids −0
 }
 
-fn place((x, y): Point) -> String {
-    format!("{} {}", short(x), short(y))
+fn format_point((x, y): Point) -> String {
+    format!("{} {}", format_coordinate(x), format_coordinate(y))
 }
 
-/// A text in XML.
+/// Escapes a text for XML.
 pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
-/// A number as one reads it.
+/// Formats a number with at most five decimals and a minus sign.
 pub fn number(x: f64) -> String {
-    short(x * 1000.0)
+    format_coordinate(x * 1000.0)
         .parse::<f64>()
         .map_or_else(|_| String::new(), |x| format!("{}", x / 1000.0))
         .replace('-', "−")
 }
 
-/// How a piece of text stands in its line.
+/// Vertical position of a piece of text.
 #[derive(Clone, Copy, PartialEq)]
 enum Level {
     Line,
@@ -112,7 +112,7 @@ enum Level {
     Above,
 }
 
-/// Text as spans: symbols slanted, indices and powers small and moved.
+/// Formats a text as spans, with slanted symbols and small, shifted indices and exponents.
 fn typeset(text: &str) -> String {
     let mut pieces: Vec<(Level, String)> = vec![(Level::Line, String::new())];
     let mut chars = text.chars().peekable();
@@ -134,34 +134,34 @@ fn typeset(text: &str) -> String {
         pieces.push((level, small));
         pieces.push((Level::Line, String::new()));
     }
-    let (mut result, mut now) = (String::new(), 0);
+    let (mut result, mut current) = (String::new(), 0);
     for (level, piece) in pieces.into_iter().filter(|(_, piece)| !piece.is_empty()) {
-        let wanted = match level {
+        let offset = match level {
             Level::Line => 0,
             Level::Below => 4,
             Level::Above => -6,
         };
         let class = if level == Level::Line { "" } else { " class=\"small\"" };
-        let moved = if wanted == now { String::new() } else { format!(" dy=\"{}\"", wanted - now) };
+        let shift = if offset == current { String::new() } else { format!(" dy=\"{}\"", offset - current) };
         let slanted = symbols(&piece);
-        let plain = class.is_empty() && moved.is_empty();
-        result += &if plain { slanted } else { format!("<tspan{class}{moved}>{slanted}</tspan>") };
-        now = wanted;
+        let plain = class.is_empty() && shift.is_empty();
+        result += &if plain { slanted } else { format!("<tspan{class}{shift}>{slanted}</tspan>") };
+        current = offset;
     }
     result
 }
 
-/// Single letters as symbols.
+/// Formats single letters as symbols.
 fn symbols(text: &str) -> String {
     let mut result = String::new();
     for word in text.split_inclusive(|c: char| !c.is_alphabetic()) {
         let letters = word.trim_end_matches(|c: char| !c.is_alphabetic());
         let rest = escaped(&word[letters.len()..]);
         match letters {
-            // A symbol that looks the same in every font.
+            // The script letter needs a font that has it.
             "𝓛" => result += "<tspan class=\"script\">L</tspan>",
             "Π" | "Δ" | "Λ" => result += letters,
-            // A letter before a digit is part of a name: f32.
+            // A letter before a digit is part of a name such as f32.
             _ if letters.chars().count() == 1 && !rest.starts_with(|c: char| c.is_ascii_digit()) => {
                 result += &format!("<tspan class=\"letter\">{letters}</tspan>")
             }

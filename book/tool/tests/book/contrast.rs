@@ -1,5 +1,5 @@
-//! Links and drawings can be read in each of mdBook's themes: their contrast, by the formula of WCAG 2, from the colours
-//! in the style sheets.
+//! Contrast of links and drawings in each of mdBook's themes, computed by the formula of WCAG 2 from the colours in the
+//! style sheets.
 
 use super::with_extension;
 use regex::Regex;
@@ -7,11 +7,11 @@ use std::collections::BTreeMap;
 
 const THEMES: [&str; 5] = ["light", "rust", "coal", "navy", "ayu"];
 
-/// What WCAG asks of text, and of what is drawn.
+/// Minimum contrast of text and of graphics according to WCAG.
 const TEXT: f64 = 4.5;
 const DRAWN: f64 = 3.0;
 
-/// The variables of a theme: those of mdBook, and ours, which come after them.
+/// Returns the variables of a theme: those of mdBook, followed by ours.
 fn variables(theme: &str) -> BTreeMap<String, String> {
     let rule = Regex::new(r"(?s)([^{}]*)\{([^{}]*)\}").unwrap();
     let variable = Regex::new(r"(--[\w-]+):\s*([^;]+);").unwrap();
@@ -23,7 +23,7 @@ fn variables(theme: &str) -> BTreeMap<String, String> {
             .find(|(path, _)| named(path.file_name().unwrap().to_str().unwrap()))
             .unwrap_or_else(|| panic!("no style sheet {part}"));
         let css = comment.replace_all(css, "");
-        // What depends on the system's own theme is for readers without scripts.
+        // Media queries on the system's theme only apply without scripts.
         let css = css.split("@media").next().unwrap();
         for found in rule.captures_iter(css) {
             let selects = |selector: &str| [":root", &format!(".{theme}")].contains(&selector.trim());
@@ -37,7 +37,7 @@ fn variables(theme: &str) -> BTreeMap<String, String> {
     variables
 }
 
-/// Red, green and blue from 0 to 1.
+/// Returns red, green and blue from 0 to 1.
 fn colour(text: &str, dark: bool) -> [f64; 3] {
     let text = text.trim();
     if let Some(two) = text.strip_prefix("light-dark(") {
@@ -72,7 +72,7 @@ fn contrast(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 #[test]
-fn black_on_white_has_the_most() {
+fn black_on_white_has_contrast_21() {
     assert!((contrast(colour("#000", false), colour("hsl(0, 0%, 100%)", false)) - 21.0).abs() < 1e-9);
     // From the definition of hsl: pure red, green and blue.
     for (hue, hex) in [(0, "#f00"), (120, "#0f0"), (240, "#00f")] {
@@ -81,9 +81,9 @@ fn black_on_white_has_the_most() {
     }
 }
 
-/// What book.css colours anew in code stands out from the ground of that theme's own style of code.
+/// The code colours of book.css have sufficient contrast with the background of each theme's code style.
 #[test]
-fn code_that_is_coloured_anew_stands_out() {
+fn redefined_code_colours_have_sufficient_contrast() {
     let css = |part: &str| {
         let named = |path: &std::path::Path| path.file_name().unwrap().to_str().unwrap().starts_with(part);
         with_extension("css").find(|(path, _)| named(path)).unwrap_or_else(|| panic!("no {part}")).1
@@ -108,7 +108,7 @@ fn code_that_is_coloured_anew_stands_out() {
 }
 
 #[test]
-fn links_and_drawings_stand_out_in_every_theme() {
+fn links_and_drawings_have_sufficient_contrast() {
     for theme in THEMES {
         let variables = variables(theme);
         let dark = variables.get("--color-scheme").is_some_and(|scheme| scheme == "dark");

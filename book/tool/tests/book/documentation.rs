@@ -1,6 +1,6 @@
-//! The book and the crate's documentation lead to each other: each function from its box, and back to it.
+//! Links between the book and the crate's documentation, in both directions for each function.
 //!
-//! They stand side by side in `target`, as `book` and `doc`.
+//! Both are in `target`, as `book` and `doc`.
 
 use super::files::{files, root, text};
 use super::{values, with_extension};
@@ -10,9 +10,9 @@ use std::{collections::BTreeMap, fs, path::Path};
 
 const CRATE: &str = "spring_mass_contact";
 
-/// Is there, in the sources, what a link to `../doc/…` is to show?
+/// Returns `true` if the sources contain the target of a link to `../doc/…`.
 ///
-/// A function's page shows it by its name, and the page of a file shows it by the lines from its first to its last.
+/// The target is a function's page, or the lines of a function on the page of a file.
 pub fn is_documented(link: &str) -> bool {
     shows_page(link).or_else(|| shows_lines(link)).unwrap_or(false)
 }
@@ -37,12 +37,12 @@ fn shows_lines(link: &str) -> Option<bool> {
     let [first, last] = [first, last].map(|line| line.parse::<usize>().unwrap() - 1);
     let file = text(&root().join("src").join(file));
     let lines: Vec<_> = file.lines().skip(first).take(last + 1 - first).collect();
-    // No other item begins or ends between.
+    // No other item begins or ends in between.
     let end = lines.iter().position(|line| *line == "}");
     Some(lines[0].starts_with("pub ") && end == Some(last - first))
 }
 
-/// The links in a box, in the order in which they stand there: a function's documentation, its lines.
+/// Returns the links of a box in order: documentation and source lines of each function.
 fn links(html: &str) -> Vec<(&str, &str)> {
     let documented: Vec<_> =
         values(html, "href").into_iter().filter(|link| link.starts_with("../doc/")).collect();
@@ -50,7 +50,7 @@ fn links(html: &str) -> Vec<(&str, &str)> {
 }
 
 #[test]
-fn the_lines_of_a_function_are_those_where_its_name_stands() {
+fn source_links_lead_to_the_named_function() {
     let mut seen = 0;
     for (_, html) in with_extension("html").filter(|(path, _)| !path.ends_with("print.html")) {
         for (page, lines) in links(html) {
@@ -70,7 +70,7 @@ fn the_lines_of_a_function_are_those_where_its_name_stands() {
     assert!(seen > 50, "{seen}");
 }
 
-/// Where the book prints each function of the chapter, as `penalty::deflection`: the page and the address of the box.
+/// Returns the page and anchor at which the book prints each function of the chapter, such as `penalty::deflection`.
 fn printed() -> BTreeMap<String, String> {
     let mark = Regex::new(&format!(
         r#"id="((?:eq|fn)-[\w-]+)"|href="\.\./doc/{CRATE}/chapter/(\w+)/\w+\.(\w+)\.html"[^\n]*(, printed at)?"#
@@ -85,7 +85,7 @@ fn printed() -> BTreeMap<String, String> {
             } else if !found[0].contains(", printed at") {
                 let function = format!("{}::{}", &found[2], &found[3]);
                 let place = format!("{}#{address}", path.display());
-                // A page may show once more what stands in a box.
+                // A page may show a function of a box again; the box takes precedence.
                 let old = printed.insert(function.clone(), place.clone());
                 if let Some(old) = old.filter(|old| old.contains("#eq-")) {
                     printed.insert(function, old);
@@ -99,7 +99,7 @@ fn printed() -> BTreeMap<String, String> {
 
 /// With `UPDATE=1` the links are written.
 #[test]
-fn the_documentation_of_each_function_leads_to_its_box() {
+fn documentation_of_each_function_links_to_its_box() {
     let update = std::env::var_os("UPDATE").is_some();
     let printed = printed();
     for entry in fs::read_dir(root().join("src/chapter")).unwrap() {
@@ -112,7 +112,7 @@ fn the_documentation_of_each_function_leads_to_its_box() {
             let name = item.and_then(|rest| rest.split(['<', '(', ' ']).next());
             if let Some(place) = name.and_then(|name| printed.get(&format!("{module}::{name}"))) {
                 let back = format!("/// [In the book](../../../../book/{place})\n");
-                // It is the last line of the comment, before attributes.
+                // The link is the last line of the comment, before attributes.
                 let attributes = expected
                     .lines()
                     .rev()
@@ -131,23 +131,23 @@ fn the_documentation_of_each_function_leads_to_its_box() {
         let line = 1 + found.lines().zip(expected.lines()).take_while(|(a, b)| a == b).count();
         assert!(
             found == expected,
-            "src/chapter/{module}.rs:{line}: each function's documentation ends with a link to where the book has it; \
+            "src/chapter/{module}.rs:{line}: the documentation of each function has to end with a link to the book; \
              UPDATE=1 cargo test -p book-tool --test book writes it"
         );
     }
 }
 
-/// What `cargo doc` and `mdbook build` made: it takes both of them before.
+/// Checks the output of `cargo doc` and `mdbook build`, which have to run first.
 #[test]
 #[ignore = "needs target/doc and target/book"]
-fn book_and_documentation_lead_to_each_other() {
+fn built_book_and_documentation_link_to_each_other() {
     let target = root().join("target");
-    let (mut there, mut back) = (0, 0);
+    let (mut forward, mut back) = (0, 0);
     let check = |page: &Path, link: &str, count: &mut usize| {
         let (file, anchor) = link.split_once('#').unwrap_or((link, ""));
         let html = text(&page.parent().unwrap().join(file));
         let has = |id: &str| html.contains(&format!("id=\"{id}\"")) || html.contains(&format!("id={id}"));
-        // A range of lines is marked by its ends.
+        // A range of lines is identified by its ends.
         let ids = if link.contains("/src/") { anchor.split('-').collect() } else { vec![anchor] };
         assert!(ids.iter().all(|id| id.is_empty() || has(id)), "{}: no {link}", page.display());
         *count += 1;
@@ -157,7 +157,7 @@ fn book_and_documentation_lead_to_each_other() {
         values(&html, "href")
             .into_iter()
             .filter(|link| link.contains("../doc/"))
-            .for_each(|link| check(&page, link, &mut there));
+            .for_each(|link| check(&page, link, &mut forward));
     }
     for page in files(&target.join(format!("doc/{CRATE}/chapter")), ".html") {
         let html = text(&page);
@@ -166,13 +166,13 @@ fn book_and_documentation_lead_to_each_other() {
             .filter(|link| link.contains("/book/"))
             .for_each(|link| check(&page, link, &mut back));
     }
-    assert!(there > 100 && back > 50, "{there} links there, {back} back");
+    assert!(forward > 100 && back > 50, "{forward} links to the documentation, {back} back");
 }
 
-/// Whoever searches for 1.13 is to find its box before all else: what has a word in its title comes first.
+/// A search for 1.13 finds its box first, since matches in titles are ranked first.
 #[test]
 #[ignore = "needs target/book"]
-fn the_search_knows_each_equation_by_its_number() {
+fn search_index_has_each_equation_number() {
     let index = files(&root().join("target/book"), ".js");
     let index = index.iter().find(|path| path.to_str().unwrap().contains("searchindex")).expect("an index");
     let index = text(index);

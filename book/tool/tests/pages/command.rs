@@ -1,5 +1,5 @@
-//! The page about the command says what the command does: its options are those of the sources, and its
-//! samples are the outputs that `command/tests/cmd` holds the command to. So are all samples of the page on stalls.
+//! The page about the command lists the options declared in the sources, and its console samples agree with the outputs
+//! that `command/tests/cmd` expects. The same holds for the samples of the page on stalls.
 
 use super::files::{files, root, text};
 use super::page;
@@ -7,9 +7,9 @@ use book_tool::PAGES;
 use regex::Regex;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The options that the command's sources declare.
+/// Returns the options that the command's sources declare.
 fn declared() -> BTreeSet<String> {
-    // What a number may be stands in a second attribute, where the first would be too long.
+    // Some options have a second attribute.
     let option = r#"#\[arg\(long(?: = "([\w-]+)")?[^\n]*\)\]\s+(?:#\[arg[^\n]*\]\s+)?(?:pub )?(\w+):"#;
     let option = Regex::new(option).unwrap();
     let sources = files(&root().join("command/src"), ".rs");
@@ -21,16 +21,16 @@ fn declared() -> BTreeSet<String> {
 }
 
 #[test]
-fn every_option_is_on_the_page_and_no_other() {
+fn page_lists_exactly_the_declared_options() {
     let flag = Regex::new(r"(?:^|[\s`])--([a-z][a-z-]+)").unwrap();
-    let mut named: BTreeSet<String> =
+    let mut listed: BTreeSet<String> =
         flag.captures_iter(&page("command")).map(|found| found[1].into()).collect();
-    // Cargo's own, and the one that every command has.
-    assert!(named.remove("release") && named.remove("path") && named.remove("help"));
-    assert_eq!(named, declared());
+    // Options of cargo, and the one that every command has.
+    assert!(listed.remove("release") && listed.remove("path") && listed.remove("help"));
+    assert_eq!(listed, declared());
 }
 
-/// Commands with what they print, which may be nothing if the text does not show it.
+/// Returns the commands of a text with their output, which is empty if it is not shown.
 fn transcript(text: &str) -> Vec<(String, Vec<String>)> {
     let mut runs: Vec<(String, Vec<String>)> = Vec::new();
     let mut inside = false;
@@ -52,19 +52,19 @@ fn transcript(text: &str) -> Vec<(String, Vec<String>)> {
 }
 
 #[test]
-fn the_samples_are_what_the_command_prints() {
+fn samples_agree_with_the_expected_output() {
     let snapshots: BTreeMap<_, _> = files(&root().join("command/tests/cmd"), ".trycmd")
         .iter()
         .flat_map(|path| transcript(&text(path)))
         .collect();
     let mut compared = 0;
-    // What the page on stalls shows in part has a test of its own.
+    // The partial samples of the page on stalls have a test of their own.
     let pages = PAGES.iter().filter(|page| **page != "stalls");
     let pages = pages.map(|name| page(name));
     for (command, sample) in pages.flat_map(|page| transcript(&page)) {
         let Some(snapshot) = snapshots.get(&command).filter(|_| !sample.is_empty()) else {
-            // All the cases take too long for a test.
-            assert!(sample.is_empty() || command == "contact", "nothing holds the output of {command}");
+            // Bare `contact` runs too many cases for a test.
+            assert!(sample.is_empty() || command == "contact", "no test checks the output of {command}");
             continue;
         };
         assert_eq!(sample.len(), snapshot.len(), "{command}");
@@ -78,34 +78,34 @@ fn the_samples_are_what_the_command_prints() {
     assert!(compared >= 5, "only {compared} samples were compared");
 }
 
-/// Each sample of the page is in its own file of `command/tests/cmd`, in the same order, and nothing else is. What the
-/// sample leaves out, as ` …`, the file leaves open, as `...`; the rest is held character by character.
+/// The samples of the page on stalls agree with `stalls.trycmd`, in the same order. Lines that are omitted as ` …` are
+/// `...` in the file; the other lines agree character by character.
 #[test]
-fn what_the_page_on_stalls_shows_is_what_the_command_prints() {
+fn samples_on_stalls_agree_with_the_expected_output() {
     let page = page("stalls");
     let commands =
         |runs: &[(String, Vec<String>)]| -> Vec<_> { runs.iter().map(|run| run.0.clone()).collect() };
     let mut shown = transcript(&page);
-    assert_eq!(page.matches("$ contact").count(), shown.len(), "a command that is not in a block of its own");
+    assert_eq!(page.matches("$ contact").count(), shown.len(), "a command outside of a console block");
     for line in shown.iter_mut().flat_map(|(_, output)| output) {
         if line == " …" {
             *line = "...".into();
         }
     }
-    let held = text(&root().join("command/tests/cmd/stalls.trycmd"));
-    assert!(!held.contains("[..]"), "all that is shown is held");
-    let held = transcript(&held);
-    assert_eq!(commands(&shown), commands(&held));
-    for ((command, output), (_, expected)) in shown.iter().zip(&held) {
+    let snapshot = text(&root().join("command/tests/cmd/stalls.trycmd"));
+    assert!(!snapshot.contains("[..]"), "a shown line is not checked");
+    let snapshot = transcript(&snapshot);
+    assert_eq!(commands(&shown), commands(&snapshot));
+    for ((command, output), (_, expected)) in shown.iter().zip(&snapshot) {
         assert_eq!(output.join("\n"), expected.join("\n"), "{command}");
-        assert!(output.iter().any(|line| line != "..."), "{command}: nothing is shown");
+        assert!(output.iter().any(|line| line != "..."), "{command}: no line is shown");
     }
 }
 
 #[test]
-fn every_symptom_has_a_section_with_an_example_a_test_and_a_remedy() {
+fn every_symptom_has_example_test_and_remedy() {
     let page = page("stalls");
-    let (table, sections) = page.split_once("## The ratio").expect("what follows the table");
+    let (table, sections) = page.split_once("## The ratio").expect("a section after the table");
     let linked = |text| -> BTreeSet<_> {
         let link = Regex::new(r"(?m)^\| \[.*?\]\(#([\w-]+)\) \|").unwrap();
         link.captures_iter(text).map(|found| found[1].to_string()).collect()

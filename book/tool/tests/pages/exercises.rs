@@ -1,11 +1,11 @@
-//! The exercises at the end of the pages: numbered, of a known kind, with a solution that something checks.
+//! Tests of the exercises: they are numbered, of a known kind, and their solutions are checked.
 
 use super::page;
 use book_tool::PAGES;
 use regex::Regex;
 use std::collections::BTreeSet;
 
-/// Pages that end in exercises.
+/// Pages that end with exercises.
 const WITH_EXERCISES: [&str; 11] = [
     "system",
     "structure",
@@ -22,7 +22,7 @@ const WITH_EXERCISES: [&str; 11] = [
 
 const KINDS: [&str; 4] = ["Predict", "Compute", "Prove", "Break"];
 
-/// One exercise of a page.
+/// Exercise of a page.
 struct Exercise {
     number: usize,
     kind: String,
@@ -30,7 +30,7 @@ struct Exercise {
     solution: String,
 }
 
-/// The exercises of a page, or what is wrong with them.
+/// Parses the exercises of a page, or returns an error message.
 fn exercises(page: &str) -> Result<Vec<Exercise>, String> {
     let headings = Regex::new(r"(?m)^## (.*)$").unwrap();
     let last = headings.captures_iter(page).last().ok_or("no section")?;
@@ -41,7 +41,7 @@ fn exercises(page: &str) -> Result<Vec<Exercise>, String> {
     let start = Regex::new(r#"(?m)^<strong id="exercise-(\d+)">(\d+)\. (\w+)\.</strong> "#).unwrap();
     let starts: Vec<_> = start.captures_iter(section).collect();
     if section.matches("<strong id=").count() != starts.len() {
-        return Err("an exercise begins as no other does".into());
+        return Err("an exercise has an invalid beginning".into());
     }
     let ends = starts.iter().skip(1).map(|next| next.get_match().start()).chain([section.len()]);
     let mut exercises = Vec::new();
@@ -57,7 +57,7 @@ fn exercises(page: &str) -> Result<Vec<Exercise>, String> {
             return Err(format!("{name} has two folds"));
         }
         if start[1] != start[2] {
-            return Err(format!("{name} has another number to be linked to"));
+            return Err(format!("the id of {name} has a different number"));
         }
         exercises.push(Exercise {
             number: start[2].parse().unwrap(),
@@ -70,7 +70,7 @@ fn exercises(page: &str) -> Result<Vec<Exercise>, String> {
 }
 
 #[test]
-fn each_page_of_the_chapter_ends_in_exercises() {
+fn pages_of_the_chapter_end_with_exercises() {
     for name in WITH_EXERCISES {
         let exercises = exercises(&page(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
         let numbers: Vec<_> = exercises.iter().map(|exercise| exercise.number).collect();
@@ -78,19 +78,19 @@ fn each_page_of_the_chapter_ends_in_exercises() {
         assert_eq!(numbers, (1..=numbers.len()).collect::<Vec<_>>(), "{name}");
         for exercise in exercises {
             let (name, kind) = (format!("{name} {}", exercise.number), &exercise.kind);
-            assert!(KINDS.contains(&kind.as_str()), "{name} is of no kind: {kind}");
-            assert!(!exercise.statement.contains("```"), "{name} asks in code");
+            assert!(KINDS.contains(&kind.as_str()), "{name} is of an unknown kind: {kind}");
+            assert!(!exercise.statement.contains("```"), "the statement of {name} contains code");
         }
     }
     let others = PAGES.iter().filter(|name| !WITH_EXERCISES.contains(name));
     for name in others {
-        assert!(!page(name).contains("## Exercises"), "the exercises of {name} are not looked at");
+        assert!(!page(name).contains("## Exercises"), "the exercises of {name} are not checked");
     }
 }
 
-/// What an answer is held to: code that runs and asserts, a command's output, the formula of a function.
+/// Each solution has code with assertions, the output of a command, or the formula of a function.
 #[test]
-fn each_answer_is_proved_or_checked() {
+fn each_solution_is_proved_or_checked() {
     let fence = Regex::new(r"(?ms)^```(\S*)\n(.*?)^```$").unwrap();
     for name in WITH_EXERCISES {
         for Exercise { number, kind, solution, .. } in exercises(&page(name)).unwrap() {
@@ -98,43 +98,43 @@ fn each_answer_is_proved_or_checked() {
             for block in &blocks {
                 let checks = match &block[1] {
                     "rust" => block[2].contains("assert"),
-                    // Held by command.rs.
+                    // Checked by command.rs.
                     "console" => block[2].starts_with("$ contact ") && block[2].lines().count() > 1,
                     _ => false,
                 };
-                assert!(checks, "{name} {number}: a block of {} that checks nothing", &block[1]);
+                assert!(checks, "{name} {number}: a block of {} without a check", &block[1]);
             }
             match kind.as_str() {
                 "Prove" => {
-                    assert!(solution.contains(r"\square"), "{name} {number}: where does the proof end?")
+                    assert!(solution.contains(r"\square"), "{name} {number}: the proof has no end mark")
                 }
                 _ => assert!(
                     !blocks.is_empty() || solution.contains("{{#formula "),
-                    "{name} {number}: nothing checks the answer"
+                    "{name} {number}: the solution is not checked"
                 ),
             }
         }
     }
 }
 
-/// A number of three digits in an answer stands in its question, in its code or in what the command prints there, where
-/// something holds it. A proof has no code.
+/// Numbers of three digits in a solution also occur in the statement, in the code or in the output of the command, where
+/// they are checked. Proofs, which have no code, are excluded.
 #[test]
-fn the_numbers_of_an_answer_are_checked() {
+fn numbers_of_a_solution_are_checked() {
     let fence = Regex::new(r"(?ms)^```.*?^```$").unwrap();
     let aside = Regex::new(r"\]\([^)]*\)|\{\{#.*?\}\}").unwrap();
     let number = Regex::new(r"\d+\.?\d*").unwrap();
-    // 999 and 999.0 are one number.
+    // 999 and 999.0 are the same number.
     let value = |number: &str| number.parse::<f64>().unwrap().to_string();
-    let (mut seen, mut unheld) = (0, Vec::new());
+    let (mut seen, mut unchecked) = (0, Vec::new());
     for name in WITH_EXERCISES {
-        for Exercise { number: which, kind, statement, solution } in exercises(&page(name)).unwrap() {
+        for Exercise { number: exercise, kind, statement, solution } in exercises(&page(name)).unwrap() {
             if kind == "Prove" {
                 continue;
             }
             let code: String =
                 fence.find_iter(&solution).map(|block| block.as_str().replace('_', "")).collect();
-            let held: BTreeSet<_> = number
+            let checked: BTreeSet<_> = number
                 .find_iter(&code)
                 .chain(number.find_iter(&statement))
                 .map(|n| value(n.as_str()))
@@ -145,21 +145,21 @@ fn the_numbers_of_an_answer_are_checked() {
             {
                 let digits = found.replace('.', "");
                 if digits.trim_matches('0').len() >= 3 {
-                    if !held.contains(&value(found)) {
-                        unheld.push(format!("{name} {which}: {found}"));
+                    if !checked.contains(&value(found)) {
+                        unchecked.push(format!("{name} {exercise}: {found}"));
                     }
                     seen += 1;
                 }
             }
         }
     }
-    assert!(unheld.is_empty(), "nothing checks {unheld:?}");
+    assert!(unchecked.is_empty(), "not checked: {unchecked:?}");
     assert!(seen > 20, "{seen}");
 }
 
-/// The lecturer's sheet: its minutes and points add up, and its links say where they lead.
+/// The minutes and points on the page for lecturers add up, and the texts of its links agree with their targets.
 #[test]
-fn the_lectures_fill_their_time_and_the_problems_their_points() {
+fn lectures_and_problems_add_up() {
     let sheet = page("teaching");
     let sum = |rows: &str, pattern: &str| -> u32 {
         let row = Regex::new(pattern).unwrap();
@@ -173,29 +173,28 @@ fn the_lectures_fill_their_time_and_the_problems_their_points() {
     assert_eq!(sum(section("A problem set"), r"(?m)^\| \[\w+ \d\]\([^)]*\) \| (\d+) \|"), 100);
     let link = Regex::new(r"\[(\w+) (\d)\]\((\w+)\.md#exercise-(\d)\)").unwrap();
     let links: Vec<_> = link.captures_iter(&sheet).collect();
-    assert_eq!(links.len(), sheet.matches("#exercise-").count(), "a link has another text");
+    assert_eq!(links.len(), sheet.matches("#exercise-").count(), "a link has a different text");
     for link in links {
         assert_eq!((&link[1], &link[2]), (&link[3], &link[4]));
     }
 }
 
-/// Exercises as they should be; each mistake in them is named.
 #[test]
-fn what_is_wrong_with_an_exercise_is_seen() {
+fn malformed_exercises_are_reported() {
     let one = |number: usize| {
         format!(
             "<strong id=\"exercise-{number}\">{number}. Predict.</strong> What?\n\n\
              <details class=\"solution\">\n<summary>Solution</summary>\n\nThis.\n\n</details>\n\n"
         )
     };
-    let right = format!("# Page\n\n## Text\n\n## Exercises\n\n{}{}", one(1), one(2));
+    let valid = format!("# Page\n\n## Text\n\n## Exercises\n\n{}{}", one(1), one(2));
     let read = |page: &str| exercises(page).map(|found| found.len());
-    assert_eq!(read(&right), Ok(2));
-    let wrong = |from: &str, to: &str| read(&right.replacen(from, to, 1)).unwrap_err();
-    assert_eq!(wrong("## Exercises", "## More"), "the last section is More");
-    assert_eq!(wrong("exercise-2", "exercise-1"), "exercise 2 has another number to be linked to");
-    assert_eq!(wrong("2. Predict.", "2 Predict."), "an exercise begins as no other does");
-    assert_eq!(wrong("<summary>Solution", "<summary>Answer"), "exercise 1 has no folded solution");
-    assert_eq!(wrong("This.\n\n</details>", "This.\n\n"), "exercise 1 does not end folded");
-    assert_eq!(wrong("This.", "This.\n\n</details>\n\nThat."), "exercise 1 has two folds");
+    assert_eq!(read(&valid), Ok(2));
+    let error = |from: &str, to: &str| read(&valid.replacen(from, to, 1)).unwrap_err();
+    assert_eq!(error("## Exercises", "## More"), "the last section is More");
+    assert_eq!(error("exercise-2", "exercise-1"), "the id of exercise 2 has a different number");
+    assert_eq!(error("2. Predict.", "2 Predict."), "an exercise has an invalid beginning");
+    assert_eq!(error("<summary>Solution", "<summary>Answer"), "exercise 1 has no folded solution");
+    assert_eq!(error("This.\n\n</details>", "This.\n\n"), "exercise 1 does not end folded");
+    assert_eq!(error("This.", "This.\n\n</details>\n\nThat."), "exercise 1 has two folds");
 }

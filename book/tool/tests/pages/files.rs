@@ -13,15 +13,15 @@ pub fn text(path: &Path) -> String {
     fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// The files of a folder and its folders that end so.
+/// Returns the files of a folder and its subfolders whose names have this ending.
 pub fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
     let paths = fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
-    let of = |path: PathBuf| match path.is_dir() {
+    let collect = |path: PathBuf| match path.is_dir() {
         true => files(&path, ending),
         false => vec![path],
     };
     paths
-        .flat_map(|entry| of(entry.unwrap().path()))
+        .flat_map(|entry| collect(entry.unwrap().path()))
         .filter(|path| path.to_str().unwrap().ends_with(ending))
         .collect()
 }

@@ -12,19 +12,19 @@ const GREEK: [&str; 23] = [
     "nu", "xi", "pi", "rho", "sigma", "tau", "upsilon", "phi", "chi", "psi", "omega",
 ];
 
-/// It explains letters of its own, those of matrices.
-const WITH_LETTERS_OF_ITS_OWN: &str = "elements";
+/// Page that explains its own letters, those of matrices.
+const WITH_OWN_LETTERS: &str = "elements";
 
-/// The formulas of a text, with what functions compute in the place of tags.
+/// Returns the formulas of a text, with the formulas of functions in place of tags.
 fn formulas(text: &str) -> String {
     let tag = Regex::new(r"\{\{#(formula|eq) ((?:[^{}]|\{[^{}]*\})+)\}\}").unwrap();
     let filled = tag.replace_all(text, |tag: &Captures| {
         let equation = || equations().find(|(entry, _)| entry.equation == &tag[2]);
         let latex = match &tag[1] {
             "eq" => equation().map(|(_, latex)| format!("${latex}$")),
-            _ => registry().formula_in(&tag[2], Notation::Latex),
+            _ => registry().render_placeholder(&tag[2], Notation::Latex),
         };
-        latex.unwrap_or_else(|| panic!("nothing for {}", &tag[0]))
+        latex.unwrap_or_else(|| panic!("no formula for {}", &tag[0]))
     });
     let all = Parser::new_ext(&filled, Options::ENABLE_MATH | Options::ENABLE_TABLES);
     all.filter_map(|event| match event {
@@ -34,7 +34,7 @@ fn formulas(text: &str) -> String {
     .collect()
 }
 
-/// The letters in a formula. What stands upright is a word, but for Euler's number.
+/// Returns the letters in a formula. Upright text is a word, except for Euler's number.
 fn letters(latex: &str) -> BTreeSet<String> {
     let upright = r"\\mathrm(?:\{e\}| e\b)|\\(?:mathrm|text|begin|end)\s*(?:\{[^}]*\}|[A-Za-z])|\[4pt\]";
     let letter = r"\\mathcal\{\w\}|\\[A-Za-z]+|[A-Za-z]";
@@ -44,8 +44,8 @@ fn letters(latex: &str) -> BTreeSet<String> {
         Some(name) if name.starts_with("mathcal") => Some(found.to_string()),
         Some("mathrm{e}" | "mathrm e") => Some(euler.to_string()),
         Some(name) => {
-            let own = name.strip_prefix("var").unwrap_or(name).to_lowercase();
-            GREEK.contains(&&*own).then(|| found.to_string())
+            let letter = name.strip_prefix("var").unwrap_or(name).to_lowercase();
+            GREEK.contains(&&*letter).then(|| found.to_string())
         }
         None => (!found.starts_with('[')).then(|| found.to_string()),
     };
@@ -54,11 +54,11 @@ fn letters(latex: &str) -> BTreeSet<String> {
 
 #[test]
 fn every_letter_is_on_the_page_of_notation() {
-    // What opens a row, up to what it is equal to.
+    // The symbol at the start of a row, up to an equals sign.
     let notation = page("notation");
     let symbols = notation.lines().filter_map(|line| line.strip_prefix("| $")?.split_once(['$', '=']));
     let explained: BTreeSet<_> = symbols.flat_map(|(symbol, _)| letters(symbol)).collect();
-    for name in PAGES.iter().filter(|name| !["notation", WITH_LETTERS_OF_ITS_OWN].contains(name)) {
+    for name in PAGES.iter().filter(|name| !["notation", WITH_OWN_LETTERS].contains(name)) {
         let used = letters(&formulas(&page(name)));
         let missing: Vec<_> = used.difference(&explained).collect();
         assert!(missing.is_empty(), "{name}.md: not on the page of notation: {missing:?}");

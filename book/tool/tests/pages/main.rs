@@ -1,4 +1,4 @@
-//! The pages as they are written: what stands in them is held to the code, to the command and to each other.
+//! Consistency of the pages with the code, with the command and with each other.
 
 mod command;
 mod exercises;
@@ -7,7 +7,7 @@ mod letters;
 mod proofs;
 mod tables;
 
-/// A page, by the name of its file.
+/// Returns the text of a page, given by the name of its file.
 fn page(name: &str) -> String {
     files::text(&files::root().join(format!("book/src/{name}.md")))
 }

@@ -1,13 +1,13 @@
-//! The pages of proofs are printed by the prover.
+//! The pages of proofs agree with the output of the prover.
 
 use super::files::root;
 use book_tool::proofs::{Page, pages};
 use spring_mass_contact::claims::entries;
 use std::collections::BTreeSet;
 
-/// The pages of proofs in the book are what is proved. With `UPDATE=1` they are written.
+/// With `UPDATE=1` the pages are written.
 #[test]
-fn the_pages_of_proofs_are_what_is_printed() {
+fn pages_of_proofs_agree_with_the_prover() {
     let folder = root().join("book/src/proofs");
     let update = std::env::var_os("UPDATE").is_some();
     let pages = pages();
@@ -20,10 +20,10 @@ fn the_pages_of_proofs_are_what_is_printed() {
         let line = 1 + found.lines().zip(text.lines()).take_while(|(a, b)| a == b).count();
         assert!(
             found == *text,
-            "book/src/proofs/{file}, line {line}, is not what is proved: UPDATE=1 cargo test --test pages writes it"
+            "book/src/proofs/{file}, line {line}, differs from the output of the prover: UPDATE=1 cargo test --test pages writes it"
         );
     }
     let sections: BTreeSet<_> =
         entries().iter().filter(|e| !e.claims.is_empty()).map(|e| e.section).collect();
-    assert_eq!(pages.len(), sections.len(), "pages, and sections with a claim");
+    assert_eq!(pages.len(), sections.len(), "pages and sections with a claim");
 }

@@ -1,4 +1,4 @@
-//! What pages write by hand and no snippet holds: the numbers in their tables, the code's names, the labels of sources.
+//! Checks of text written by hand: the numbers in tables, the names of code items, and the labels of sources.
 
 use super::files::root;
 use super::page;
@@ -9,14 +9,14 @@ use spring_mass_contact::number::Exact;
 use std::fs;
 
 fn exact(text: &str) -> Exact {
-    text.replace('−', "-").parse().unwrap_or_else(|_| panic!("{text} is no number"))
+    text.replace('−', "-").parse().unwrap_or_else(|_| panic!("{text} is not a number"))
 }
 
 fn example(g: &str) -> SpringMass<Exact> {
     SpringMass { c: "4", m: "1", g, l: "1", h: "3" }.map(|text| exact(text))
 }
 
-/// The rows of the table with this head.
+/// Returns the rows of the table with this head.
 fn rows(page: &str, head: &str) -> Vec<Vec<String>> {
     let (_, table) = page.split_once(&format!("\n{head}\n")).unwrap_or_else(|| panic!("no table {head}"));
     let cells = |row: &str| row.trim_matches('|').split('|').map(|cell| cell.trim().to_string()).collect();
@@ -29,15 +29,15 @@ fn assert_row(row: &[String], expected: &[Exact]) {
 }
 
 #[test]
-fn tables_by_hand_are_what_the_functions_compute() {
+fn tables_agree_with_the_functions() {
     let default = SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" }.map(|text| exact(text));
     let head = r"| system | $c$ | $m$ | $g$ | $l$ | $H$ | $\Delta$ | $m\,g$ | $R$ |";
     let systems = rows(&page("introduction"), head);
     assert_eq!(systems.len(), 2);
     for (row, s) in systems.iter().zip([example("10"), default]) {
-        let made = [system::gap(&s), system::weight(&s), system::reaction(&s)];
-        let given = [&s.c, &s.m, &s.g, &s.l, &s.h].map(Exact::clone);
-        assert_row(&row[1..], &[&given[..], &made].concat());
+        let derived = [system::gap(&s), system::weight(&s), system::reaction(&s)];
+        let parameters = [&s.c, &s.m, &s.g, &s.l, &s.h].map(Exact::clone);
+        assert_row(&row[1..], &[&parameters[..], &derived].concat());
     }
 
     let head = r"| $g$ | $R = g - 8$ | state | $u^* = \min(g/4, 2)$ | $p^*$ | $N^*$ |";
@@ -78,38 +78,38 @@ fn tables_by_hand_are_what_the_functions_compute() {
         lambda = next;
     }
 
-    // Three digits after the point, so within half of the third.
+    // Three decimals, so the error is at most half of the third.
     let head = r"| $k$ | $\mathrm e^{-k}$ | $\rho^k = 2^{-k}$ | $\mathrm e^{-k/2}$ |";
     for row in rows(&page("convergence"), head) {
         let [k, below, iterate, above] = [0, 1, 2, 3].map(|i| row[i].parse::<f64>().unwrap());
-        for (found, meant) in [(below, (-k).exp()), (iterate, 0.5_f64.powf(k)), (above, (-k / 2.0).exp())] {
-            assert!((found - meant).abs() <= 0.5e-3, "{row:?}: {found} for {meant}");
+        for (found, exact) in [(below, (-k).exp()), (iterate, 0.5_f64.powf(k)), (above, (-k / 2.0).exp())] {
+            assert!((found - exact).abs() <= 0.5e-3, "{row:?}: {found} for {exact}");
         }
         assert!(below < iterate && iterate < above);
     }
 }
 
-/// `penalty::force` in a line of text is a function, a type or a constant of that module.
+/// Code such as `penalty::force` in the text names an existing item of that module.
 #[test]
-fn what_is_named_in_code_exists() {
+fn named_items_exist() {
     let name = Regex::new(r"`(\w+)::(\w+)`").unwrap();
     let mut seen = 0;
     for page_name in PAGES {
         for found in name.captures_iter(&page(page_name)) {
             let (module, item) = (&found[1], &found[2]);
-            let own = ["chapter/", ""].map(|folder| format!("src/{folder}{module}.rs"));
-            let sources: String = own
+            let files = ["chapter/", ""].map(|folder| format!("src/{folder}{module}.rs"));
+            let sources: String = files
                 .into_iter()
                 .chain(folder(module))
                 .filter_map(|file| fs::read_to_string(root().join(file)).ok())
                 .collect();
             if sources.is_empty() {
-                continue; // a type's own, or another crate's
+                continue; // an associated item, or one of another crate
             }
             let declared = format!(r"\bpub (?:const )?(?:fn|struct|enum|trait|const|type|mod) {item}\b");
             assert!(
                 Regex::new(&declared).unwrap().is_match(&sources),
-                "{page_name}.md names {module}::{item}, which is nowhere"
+                "{page_name}.md names {module}::{item}, which does not exist"
             );
             seen += 1;
         }
@@ -117,22 +117,22 @@ fn what_is_named_in_code_exists() {
     assert!(seen > 20, "{seen}");
 }
 
-/// Returns the files of a module that has a folder, and of the folders in it.
+/// Returns the files of a module's folder and its subfolders.
 fn folder(module: &str) -> Vec<String> {
     let entries = fs::read_dir(root().join("src").join(module)).into_iter().flatten();
     let paths = entries.map(|entry| format!("{module}/{}", entry.unwrap().file_name().to_str().unwrap()));
     paths.flat_map(|path| [vec![format!("src/{path}")], folder(&path)].concat()).collect()
 }
 
-/// `courant-1943` is **Courant 1943**, a work of that year.
+/// The id of a source corresponds to its label, such as `courant-1943` for **Courant 1943**.
 #[test]
-fn sources_are_what_their_addresses_say() {
+fn ids_of_sources_agree_with_their_labels() {
     let entry = Regex::new(r#"^<span id="([\w-]+)">\*\*([^*]+)\.\*\*</span>"#).unwrap();
     let other = Regex::new(r"[^a-z0-9]+").unwrap();
     let mut seen = 0;
     for text in page("sources").split("\n- ").skip(1) {
-        let found = entry.captures(text).unwrap_or_else(|| panic!("no address and label: {text}"));
-        // Later years, and what connects the names, are not in the address.
+        let found = entry.captures(text).unwrap_or_else(|| panic!("no id and label: {text}"));
+        // Later years and conjunctions are not part of the id.
         let label = found[2].to_lowercase().replace('é', "e");
         let label = label.split(", 20").next().unwrap().replace(" and others", "").replace(" and ", " ");
         assert_eq!(other.replace_all(&label, "-"), found[1]);

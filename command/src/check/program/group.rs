@@ -1,4 +1,4 @@
-//! A program and all that it starts, as a group of processes that ends as one.
+//! A program with all its children, as a group of processes that is ended together.
 
 #[cfg(not(unix))]
 mod other;
@@ -16,29 +16,29 @@ pub use unix::has_no_format;
 #[cfg(unix)]
 use unix::{has_ended, kill, start};
 
-/// A child process; dropped, it ends.
+/// A child process that is ended when dropped.
 ///
-/// On Unix it leads a process group. A signal from the terminal then reaches this command alone, which passes
+/// On Unix it leads a process group. A signal from the terminal then only reaches this command, which passes
 /// it on.
 pub struct Group(Child);
 
 impl Group {
-    /// Starts it.
+    /// Starts a program.
     pub fn start(command: &mut Command) -> io::Result<Self> {
         start(command).map(Group)
     }
 
-    /// Its leader, for the pipes.
+    /// Returns the leader, for its pipes.
     pub fn child(&mut self) -> &mut Child {
         &mut self.0
     }
 
-    /// Whether its leader has ended.
+    /// Returns `true` if the leader has ended.
     pub fn has_ended(&mut self) -> bool {
         has_ended(&mut self.0)
     }
 
-    /// Ends all of it.
+    /// Ends the whole group.
     pub fn end(&mut self) -> io::Result<ExitStatus> {
         kill(&mut self.0);
         self.0.wait()
@@ -47,7 +47,7 @@ impl Group {
 
 impl Drop for Group {
     fn drop(&mut self) {
-        // That it cannot be waited for leaves nothing to do.
+        // A failure to wait for it cannot be handled here.
         let _ = self.end();
     }
 }

@@ -1,4 +1,4 @@
-//! Programs that do what programs do, as scripts.
+//! Programs with every kind of behaviour, as scripts.
 
 mod alone;
 mod seen;
@@ -19,24 +19,24 @@ const LONG: Duration = Duration::from_secs(20);
 /// Longer than any of these tests takes.
 const DEADLINE: Duration = Duration::from_secs(90);
 
-/// Enough for none that answers.
+/// Too short for any answer.
 const SHORT: Duration = Duration::from_millis(200);
 
-/// Runs a test that would wait for ever if what it tests were broken, and fails it then.
+/// Runs a test that could hang, and fails it after a time limit.
 fn in_time(test: impl FnOnce() + Send + 'static) {
     let (running, ended) = mpsc::channel::<()>();
     let thread = thread::spawn(move || {
         let _running = running;
         test();
     });
-    // Nothing is sent: when the test ends, the channel is closed.
+    // The channel is closed when the test ends.
     if ended.recv_timeout(DEADLINE) == Err(RecvTimeoutError::Timeout) {
         panic!("still running after {DEADLINE:?}");
     }
     thread.join().unwrap_or_else(|panic| resume_unwind(panic));
 }
 
-/// Answers what is asked, and says which process did.
+/// A script that answers requests with its process number.
 const ANSWER: &str = r#"
 answer() {
     id=${line#*'"id": "'}
@@ -59,7 +59,7 @@ fn ask(program: &mut Program, id: &str) -> Reply {
     program.ask(&problem(id)).unwrap_or_else(|failure| panic!("{failure}"))
 }
 
-/// Which process has answered.
+/// Returns the process number in a reply.
 fn process(reply: &Reply) -> &str {
     match reply {
         Reply::Answered(answer) => answer.status.as_deref().expect("its number"),
@@ -76,12 +76,12 @@ fn crashed(reply: &Reply) -> &str {
 
 fn garbled(reply: &Reply) -> &str {
     match reply {
-        Reply::Garbled(why) => why,
+        Reply::InvalidResponse(why) => why,
         other => panic!("{other:?}"),
     }
 }
 
-/// A pipe with a name, which ends when the last process is gone that has it open.
+/// A named pipe, which ends with the last process that has it open.
 struct Fifo(PathBuf);
 
 impl Fifo {
@@ -92,12 +92,12 @@ impl Fifo {
         Fifo(path)
     }
 
-    /// What a script does to take part.
+    /// Returns the line of a script that opens the pipe.
     fn open(&self) -> String {
         open(&self.0)
     }
 
-    /// Its lines.
+    /// Returns its lines.
     fn read(&self) -> Receiver<String> {
         let (path, (to, lines)) = (self.0.clone(), mpsc::channel());
         thread::spawn(move || {
@@ -118,7 +118,7 @@ fn open(path: &Path) -> String {
     format!("exec 9>'{}'; echo open >&9;", path.display())
 }
 
-/// That somebody was there, and nobody is left.
+/// Asserts that a process has opened the pipe, and that none is left.
 fn nobody_is_left(lines: &Receiver<String>) {
     assert_eq!(lines.recv_timeout(LONG).as_deref(), Ok("open"));
     assert_eq!(lines.recv_timeout(LONG), Err(RecvTimeoutError::Disconnected));
@@ -180,8 +180,8 @@ fn what_cannot_be_started_is_bad_input() {
                 "{line}"
             );
             let must = match line.contains("No such file") {
-                true => "must be the name of a program on the path, or its own path",
-                false => "must be a program that can be executed; a script begins with #!",
+                true => "must be the name of a program on the PATH, or its path",
+                false => "must be an executable program; a script begins with #!",
             };
             assert!(line.ends_with(must), "{line}");
         }
@@ -210,16 +210,16 @@ fn another_id_or_none_is_garbled_and_starts_it_again() {
             ),
             LONG,
         );
-        assert_eq!(garbled(&ask(&mut program, "a")), "answer to 'z' where 'a' was asked");
+        assert_eq!(garbled(&ask(&mut program, "a")), "answer to 'z' instead of an answer to 'a'");
         process(&ask(&mut program, "b"));
 
         let mut program = sh(&format!("read -r line; echo '{{{answers}}}'; {LOOP}"), LONG);
-        assert_eq!(garbled(&ask(&mut program, "a")), "answer without id where 'a' was asked");
-        assert_eq!(garbled(&ask(&mut program, "b")), "answer without id where 'b' was asked");
+        assert_eq!(garbled(&ask(&mut program, "a")), "answer without id instead of an answer to 'a'");
+        assert_eq!(garbled(&ask(&mut program, "b")), "answer without id instead of an answer to 'b'");
     });
 }
 
-/// They cannot be meant for what is asked later, whatever their ids are.
+/// Earlier output cannot be the answer to a later request, whatever its id is.
 #[test]
 fn an_answer_before_its_question_is_garbled() {
     in_time(|| {
@@ -227,14 +227,14 @@ fn an_answer_before_its_question_is_garbled() {
         let both = format!("read -r line; printf '{}{}'; {LOOP}", object("a"), object("b"));
         let mut program = sh(&both, LONG);
         assert!(matches!(ask(&mut program, "a"), Reply::Answered(_)));
-        assert_eq!(garbled(&ask(&mut program, "b")), "answer to 'b' before 'b' was asked");
-        assert_eq!(garbled(&ask(&mut program, "c")), "answer to 'a' where 'c' was asked");
+        assert_eq!(garbled(&ask(&mut program, "b")), "answer to 'b' before the request 'b'");
+        assert_eq!(garbled(&ask(&mut program, "c")), "answer to 'a' instead of an answer to 'c'");
 
         let mut program =
             sh(&format!("read -r line; answer; yes '{}'", object("b").trim_end_matches("\\n")), LONG);
         process(&ask(&mut program, "a"));
         thread::sleep(5 * SHORT);
-        assert_eq!(garbled(&ask(&mut program, "b")), "answer to 'b' before 'b' was asked");
+        assert_eq!(garbled(&ask(&mut program, "b")), "answer to 'b' before the request 'b'");
     });
 }
 
@@ -277,7 +277,7 @@ fn an_end_is_a_crash_and_the_next_problem_starts_it_again() {
     });
 }
 
-/// It has answered, and then ended: what came is an answer, what comes next is an end.
+/// The line that arrived is an answer; the next reply is an end.
 #[test]
 fn an_answer_counts_though_the_program_ends_with_it() {
     in_time(|| {
@@ -290,7 +290,8 @@ fn an_answer_counts_though_the_program_ends_with_it() {
     });
 }
 
-/// Its stdout ends before it does, or it before its stdout, which somebody else holds: nobody is waited for.
+/// Its stdout ends first, or the program ends first while another process holds its stdout; neither is waited
+/// for.
 #[test]
 fn an_end_is_noticed_whatever_ends_first() {
     in_time(|| {
@@ -312,7 +313,7 @@ fn an_end_is_noticed_whatever_ends_first() {
     });
 }
 
-/// Who is in no group of its keeps its pipes for longer than anybody waits.
+/// A process outside its group keeps its pipes longer than the time limits.
 #[test]
 fn a_stranger_that_holds_the_pipes_is_not_waited_for() {
     in_time(|| {
@@ -325,7 +326,7 @@ fn a_stranger_that_holds_the_pipes_is_not_waited_for() {
     });
 }
 
-/// How long it stays.
+/// Lifetime of that process.
 const STRANGER: Duration = Duration::from_secs(10);
 
 #[test]
@@ -339,7 +340,7 @@ fn leaves_a_stranger() {
     }
 }
 
-/// Neither its own silence, nor a pipe that it does not read, nor lines without end keep anybody.
+/// Silence, an unread pipe and lines without end do not block the command.
 #[test]
 fn a_program_without_an_answer_is_given_up_in_time() {
     in_time(|| {
@@ -376,14 +377,14 @@ fn a_hang_does_not_outlive_its_question() {
         let script = format!("read -r line; case $line in *'\"a\"'*) sleep 1000;; *) answer; {LOOP};; esac");
         let mut program = sh(&script, Duration::from_secs(1));
         assert!(matches!(ask(&mut program, "a"), Reply::TimedOut(_)));
-        // Who has to be started takes longer on a busy machine.
+        // Starting a program takes longer on a busy machine.
         program.timeout = LONG;
         let [b, c] = ["b", "c"].map(|id| ask(&mut program, id));
         assert_eq!(process(&b), process(&c));
     });
 }
 
-/// What it writes on stderr, and on stdout when its stdin is closed, has somewhere to go.
+/// Its output on stderr, and on stdout after its stdin is closed, is still read.
 #[test]
 fn a_program_ends_by_itself_when_nothing_more_is_asked() {
     in_time(|| {
@@ -396,7 +397,7 @@ fn a_program_ends_by_itself_when_nothing_more_is_asked() {
             fifo.open()
         );
         let mut program = sh(&script, LONG);
-        // That it is left its time is tested here, and not that this is short.
+        // The test concerns the time left to it, and not its length.
         program.grace = LONG;
         let [a, b] = ["a", "b"].map(|id| ask(&mut program, id));
         assert_eq!(process(&a), process(&b));

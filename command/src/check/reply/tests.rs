@@ -1,4 +1,4 @@
-//! Lines that programs print.
+//! Output lines of programs.
 
 use super::*;
 use spring_mass_contact::number::Exact;
@@ -7,13 +7,13 @@ fn exact(text: &str) -> Value {
     Some(text.parse::<Exact>().unwrap())
 }
 
-/// What a line says to the question `a`.
+/// Returns the reply of a line to the problem `a`.
 fn said(line: impl AsRef<[u8]>) -> Result<Reply, String> {
     let line = line.as_ref();
     read(line, "a").unwrap_or_else(|| panic!("no object: {}", words(&String::from_utf8_lossy(line))))
 }
 
-/// An answer with this besides its id.
+/// Returns an answer with additional keys.
 fn answered(rest: &str) -> Answer {
     match said(format!(r#"{{"id": "a", {rest}}}"#)) {
         Ok(Reply::Answered(answer)) => *answer,
@@ -23,12 +23,12 @@ fn answered(rest: &str) -> Answer {
 
 fn garbled(rest: &str) -> String {
     match said(format!(r#"{{"id": "a", {rest}}}"#)) {
-        Ok(Reply::Garbled(why)) => why,
+        Ok(Reply::InvalidResponse(why)) => why,
         other => panic!("{rest}: {other:?}"),
     }
 }
 
-/// u and N by these texts.
+/// Returns u and N from texts.
 fn numbers(u: &str, n: &str) -> [Value; 2] {
     let Answer { deflection, contact_force, .. } =
         answered(&format!(r#""deflection": {u}, "contact_force": {n}"#));
@@ -78,7 +78,7 @@ fn what_is_not_a_number_is_an_answer() {
     }
 }
 
-/// Only words that stand where a number would are quoted.
+/// Only words in the position of a number are quoted.
 #[test]
 fn strings_are_left_as_they_are() {
     let status = r#""NaN, [inf] \" , nan \\""#;
@@ -148,7 +148,7 @@ fn a_key_has_one_value() {
     let twice = format!(r#"{{"id": "a", "id": "b", {U}, {N}}}"#);
     assert_eq!(
         said(&twice),
-        Err("answer with the key 'id' used multiple times where 'a' was asked".to_string())
+        Err("answer with the key 'id' used multiple times instead of an answer to 'a'".to_string())
     );
     answered(&format!("{U}, {N}, \"x\": 1, \"x\": 2"));
 }
@@ -166,7 +166,7 @@ fn all_that_an_answer_may_say_is_read() {
         contact_force: exact("2"),
         penetration: Some(exact("1/7")),
         status: Some("ok so far".to_string()),
-        used: Used { system: used, penalty: Some(exact("6")) },
+        used: UsedParameters { system: used, penalty: Some(exact("6")) },
         steps: vec![[exact("1"), exact("2")], [exact("3"), None]],
     };
     assert_eq!(answered(rest), answer);
@@ -206,17 +206,17 @@ fn an_answer_is_to_what_was_asked() {
         ("\"a \"", "a"),
         ("\"\\ud800\"", "\"\\ud800\""),
     ] {
-        assert_eq!(answer(id), Err(format!("answer to '{own}' where 'a' was asked")));
+        assert_eq!(answer(id), Err(format!("answer to '{own}' instead of an answer to 'a'")));
     }
     let long = format!("\"{}\"", "b".repeat(1000));
-    assert_eq!(answer(&long), Err(format!("answer to '{}…' where 'a' was asked", "b".repeat(39))));
-    assert_eq!(said("{}"), Err("answer without id where 'a' was asked".to_string()));
+    assert_eq!(answer(&long), Err(format!("answer to '{}…' instead of an answer to 'a'", "b".repeat(39))));
+    assert_eq!(said("{}"), Err("answer without id instead of an answer to 'a'".to_string()));
     let asked = "a".repeat(100);
     assert_eq!(
         read(b"{}", &asked),
-        Some(Err(format!("answer without id where '{}…' was asked", "a".repeat(39))))
+        Some(Err(format!("answer without id instead of an answer to '{}…'", "a".repeat(39))))
     );
-    assert_eq!(early(b"{\"id\": \"a\"}", "a").as_deref(), Some("answer to 'a' before 'a' was asked"));
+    assert_eq!(early(b"{\"id\": \"a\"}", "a").as_deref(), Some("answer to 'a' before the request 'a'"));
     assert_eq!(early(b"a", "a"), None);
 }
 

@@ -1,8 +1,8 @@
-//! What is said of solvers with known mistakes.
+//! Reports on solvers with known mistakes.
 
 use super::*;
 use crate::args::parse_number;
-use crate::output::printed;
+use crate::output::capture;
 use spring_mass_contact::chapter::{SpringMass, contact, lagrange, structure, system};
 use spring_mass_contact::check::{Answer, CASES, Family, Problem, check, problems};
 use spring_mass_contact::solver::Augmentation;
@@ -17,9 +17,9 @@ fn report(problems: &[Problem], solver: impl Fn(&Problem) -> Answer) -> Report {
     check(problems, &number("1e-6"), ask).expect("no failure")
 }
 
-/// Its table, with a blank for all that is white.
+/// Returns the table with normalised white space.
 fn said(report: &Report) -> String {
-    let text = printed(|out| table(out, "program", report, &parse_number("1e-6").expect("a number")));
+    let text = capture(|out| table(out, "program", report, &parse_number("1e-6").expect("a number")));
     assert_eq!(text.lines().find(|line| line.chars().count() > 80), None);
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
@@ -33,7 +33,7 @@ fn right(problem: &Problem) -> Answer {
     Answer::new(exact.deflection, exact.contact_force)
 }
 
-/// As if there were no plane, where something is below a threshold.
+/// Returns a report on a solver without a plane where a quantity is below a threshold.
 fn missing(is_small: impl Fn(&SpringMass<Exact>) -> bool) -> Report {
     report(&problems(1, 10, &Family::ALL), |problem| {
         let free = structure::deflection(&problem.system);
@@ -45,34 +45,33 @@ fn missing(is_small: impl Fn(&SpringMass<Exact>) -> bool) -> Report {
 fn a_threshold_is_told_with_its_unit() {
     let through = |system: &SpringMass<Exact>| contact::penetration(system, &structure::deflection(system));
     for (report, what, unit) in [
-        (missing(|system| through(system) < number("1e-6")), "the mass would go through it by", "m"),
-        (missing(|system| system::reaction(system) < number("1e-2")), "it has to push with", "N"),
+        (missing(|system| through(system) < number("1e-6")), "the penetration without a plane is", "m"),
+        (missing(|system| system::reaction(system) < number("1e-2")), "the contact force is", "N"),
     ] {
-        let Threshold { count, up_to, from, .. } = report.missed.as_ref().expect("a threshold");
+        let Threshold { count, up_to, from, .. } = report.missed_contacts.as_ref().expect("a threshold");
         let [up_to, from] = [up_to.decimal(FEW, Round::Up), from.decimal(FEW, Round::Down)];
         let text = format!(
-            "It misses the plane in {count} systems, in which {what} up to {up_to} {unit}, and finds it in \
-             all others, from {from} {unit} on: most likely by a tolerance of its own."
+            "It misses contact in {count} systems, in which {what} up to {up_to} {unit}, and detects it in \
+             all others, from {from} {unit} on; probably by an internal tolerance."
         );
         assert!(said(&report).contains(&text), "{text}\n{}", said(&report));
     }
 }
 
-/// Of the wrong answers alone, and of all.
+/// A mistake explains all answers, or only the wrong ones.
 #[test]
 fn it_is_said_which_answers_a_mistake_explains() {
     let free = missing(|system| system::reaction(system) < number("1e-2"));
-    let text = format!("Each of {} wrong answers fits", free.summary().wrong);
+    let text = format!("explains each of {} wrong answers", free.summary().wrong);
     assert!(said(&free).contains(&text), "{}", said(&free));
     let pulls = report(&all(), |problem| {
         Answer::new(lagrange::deflection(&problem.system), lagrange::multiplier(&problem.system))
     });
-    let text =
-        "Each of 95 answers fits one mistake that is known, and no other: the plane also pulls. u = H − l,";
+    let text = "Exactly one known mistake explains each of 95 answers: the plane also pulls. u = H − l,";
     assert!(said(&pulls).contains(text), "{}", said(&pulls));
 }
 
-/// (1.16), each force that of the step before.
+/// (1.16), with the force of the previous step.
 #[test]
 fn steps_that_lag_are_told() {
     let lagging = report(&all(), |problem| {
@@ -84,12 +83,12 @@ fn steps_that_lag_are_told() {
     });
     let of = lagging.lag().expect("a lag").of;
     let text = format!(
-        "The steps of all {of} systems that tell them show it: N is one step behind. N_k = m g − c u_{{k−1}}"
+        "The reported steps of all {of} systems show it: N is one step behind. N_k = m g − c u_{{k−1}}"
     );
     assert!(said(&lagging).contains(&text), "{}", said(&lagging));
 }
 
-/// Unless it is the one that was asked for.
+/// The requested penalty is not reported.
 #[test]
 fn a_penalty_is_told_with_what_it_is_a_multiple_of() {
     let by_penalty = |asked: Option<&str>, eps: fn(&SpringMass<Exact>) -> Exact| {
@@ -100,20 +99,24 @@ fn a_penalty_is_told_with_what_it_is_a_multiple_of() {
         }))
     };
     for (asked, eps, text) in [
-        (None, (|_| number("1e4")) as fn(&SpringMass<Exact>) -> Exact, "ε = 10000 N/m, the same"),
-        (Some("1e6"), |_| number("1e4"), "ε = 10000 N/m, the same"),
-        (None, |system| &system.c * number("50"), "ε = 50 c, the same"),
-        (None, |system| &system.m * number("7e3"), "ε = m × 7000/s², the same"),
+        (None, (|_| number("1e4")) as fn(&SpringMass<Exact>) -> Exact, "ε = 10000 N/m, constant"),
+        (Some("1e6"), |_| number("1e4"), "ε = 10000 N/m, constant"),
+        (None, |system| &system.c * number("50"), "ε = 50 c, constant"),
+        (None, |system| &system.m * number("7e3"), "ε = m × 7000/s², constant"),
     ] {
         let said = by_penalty(asked, eps);
         assert!(said.contains(&format!("It acts like a penalty: N = ε p with {text}")), "{said}");
-        assert_eq!(said.contains("stops after the same number of steps"), text.contains(" c,"), "{said}");
+        assert_eq!(
+            said.contains("always stops after the same number of steps"),
+            text.contains(" c,"),
+            "{said}"
+        );
     }
     assert!(!by_penalty(Some("1e4"), |_| number("1e4")).contains("It acts like"));
 }
 
-/// A plane that holds the mass where a tenth of its weight would lift it off, with what the threshold is
-/// relative to.
+/// The plane holds the mass although a tenth of its weight would lift it off; with the reference of the
+/// threshold.
 #[test]
 fn a_plane_that_holds_is_told() {
     let sticking = report(&all(), |problem| {
@@ -122,19 +125,19 @@ fn a_plane_that_holds_is_told() {
         let holds = reaction < number("0") && -&reaction * number("10") <= weight.abs();
         if holds { Answer::new(system::gap(system), reaction) } else { right(problem) }
     });
-    let Threshold { count, up_to, from, .. } = sticking.held.as_ref().expect("a threshold");
+    let Threshold { count, up_to, from, .. } = sticking.false_contacts.as_ref().expect("a threshold");
     let [up_to, from] = [up_to.decimal(FEW, Round::Up), from.decimal(FEW, Round::Down)];
     let text = format!(
-        "It holds the mass at the plane in {count} systems in which it hangs free, where that takes \
-         a pull of up to {up_to} |m g|, and releases it in all others, from {from} |m g| on: most likely by \
-         a tolerance of its own. Each of {count} wrong answers fits one mistake that is known, and no other: \
+        "It holds the mass at the plane in {count} separated systems, where the required pull is \
+         up to {up_to} |m g|, and releases it in all others, from {from} |m g| on; probably by \
+         an internal tolerance. Exactly one known mistake explains each of {count} wrong answers: \
          the plane also pulls."
     );
     assert!(said(&sticking).contains(&text), "{text}\n{}", said(&sticking));
 }
 
-/// No more is said of a program that is right than what was tested: families, systems, and |R| of no less
-/// than what they have.
+/// The report on a right program contains only what was tested: families, systems, and the smallest |R| among
+/// them.
 #[test]
 fn what_was_tested_is_told() {
     let said_of = |families: &[Family], refused: &str| {
@@ -153,13 +156,13 @@ fn what_was_tested_is_told() {
     let loads = system::weight(contact) + &contact.c * system::gap(contact);
     let least = (system::reaction(contact) / loads).decimal(FEW, Round::Up);
     let text = format!(
-        "No error above 1e-6 was found in 1 system of 1 family, with one unknown and one plane. A plane \
-         that is missed would show from |R| = {least} (|m g| + |c (H − l)|) on, one that holds a mass would \
-         not show at all."
+        "No error above 1e-6 was found in 1 system of 1 family, with one unknown and one plane. Missed \
+         contact would be detected from |R| = {least} (|m g| + |c (H − l)|) on, false contact would not be \
+         detected."
     );
     let one = said_of(&[Family::Contact], "");
     assert!(one.ends_with(&text), "{text}\n{one}");
-    // A family that nobody has solved leaves it open.
+    // A family without answers leaves the result open.
     let refused = said_of(&Family::ALL, "stiff");
-    assert!(refused.ends_with("Of stiff every system was refused: nothing is known of it."), "{refused}");
+    assert!(refused.ends_with("Every system of stiff was refused, so its result is unknown."), "{refused}");
 }

@@ -1,4 +1,4 @@
-//! Names, calls and places of functions.
+//! Names, calls and sites of functions.
 
 use super::*;
 use crate::number::Dual;
@@ -28,8 +28,8 @@ fn registry() -> Registry {
 fn every_place_where_a_function_does_something_is_known() {
     let (registry, [c, d]) = (registry(), ["c", "d"].map(x));
     let tree = sum_with_product(&c, &d);
-    // The sum is the work of the one, and what it is called with that of the other.
-    let Step::Add(product, _) = tree.step() else { panic!("{tree} is no sum") };
+    // The sum belongs to one function, its argument to the other.
+    let Op::Add(product, _) = tree.op() else { panic!("{tree} is no sum") };
     assert!(registry.has_site(&tree.site()) && registry.has_site(&product.site()));
     assert!(!registry.has_site(&(&c * &d).site()));
 }
@@ -38,7 +38,7 @@ fn every_place_where_a_function_does_something_is_known() {
 fn no_function_does_what_the_rules_of_differentiation_do() {
     let a = Dual::coordinate(x("a"), true);
     let slope = (&a * &a).derivative;
-    assert!(slope.site().is_of_duals());
+    assert!(slope.site().is_in_dual_numbers());
     let registry = Registry::new(&["a"], vec![Formula::new("slope", "", &["a"], slope.clone())]);
     assert!(!registry.has_site(&slope.site()));
 }
@@ -59,15 +59,15 @@ fn symbols_that_are_not_listed_follow_those_that_are() {
 
 #[test]
 fn either_of_two_symbols_is_mistaken_for_the_other() {
-    let registry = registry().alike(&[["a", "b"], ["c", "a"]]);
-    let others = |symbol| registry.mistaken_for(symbol).collect::<Vec<_>>();
+    let registry = registry().with_confusable(&[["a", "b"], ["c", "a"]]);
+    let others = |symbol| registry.confusable_with(symbol).collect::<Vec<_>>();
     assert_eq!((others("a"), others("b"), others("d")), (vec!["b", "c"], vec!["a"], vec![]));
 }
 
-/// A name in a text stands for one thing.
+/// A symbol in a text has one meaning.
 #[test]
 fn what_is_written_for_a_function_is_taken_by_nothing_else() {
-    let folded = |path, symbol, tree: Tree| Formula::new(path, symbol, &["a"], tree).folded();
+    let folded = |path, symbol, tree: Tree| Formula::new(path, symbol, &["a"], tree).abbreviated();
     let panics = |formulas: Vec<Formula>| {
         let made = std::panic::catch_unwind(|| Registry::new(&["a", "k"], formulas)).map(|_| ());
         *made.unwrap_err().downcast::<String>().unwrap()
@@ -77,14 +77,17 @@ fn what_is_written_for_a_function_is_taken_by_nothing_else() {
     let square = folded("square", "d", x("a") * x("a"));
     assert_eq!(panics(vec![double("d"), square]), "square is written as d, and another function too");
     for kept in ["s₁", "e₂₄", "t₆", "x₁", "q", "2ᵖ", "2ᵃ", "fl"] {
-        let expected = format!("double is written as {kept}, which is a name that proofs keep");
+        let expected = format!("double is written as {kept}, which is a reserved name of proofs");
         assert_eq!(panics(vec![double(kept)]), expected);
     }
-    // Nobody writes what is not folded.
-    Registry::new(&["a", "k"], vec![Formula { folded: false, path: "again", ..double("k") }, double("s")]);
+    // Functions that are not abbreviated may share a symbol.
+    Registry::new(
+        &["a", "k"],
+        vec![Formula { abbreviated: false, path: "again", ..double("k") }, double("s")],
+    );
 }
 
-/// k(a b, b) is a call if both b are the same, and the product is not.
+/// k(a b, b) is a call only if both b are the same; the product is not a call.
 #[test]
 fn an_argument_that_occurs_twice_is_the_same_both_times() {
     let (registry, [c, d, e]) = (registry(), ["c", "d", "e"].map(x));
@@ -93,12 +96,12 @@ fn an_argument_that_occurs_twice_is_the_same_both_times() {
         call.map(|call| call.arguments)
     };
     assert_eq!(arguments(&sum_with_product(&c, &d)), Some(vec![c.clone(), d.clone()]));
-    // Made by the same function, but of another product.
+    // The same function computed it, but from another product.
     assert_eq!(arguments(&sum(&(&c * &d), &e)), None);
     assert_eq!(registry.call(&sum(&(&c * &d), &e)).map(|call| call.formula.path), Some("sum"));
 }
 
-/// k + 2 a, where k is no argument: of another k, or with another number, it is no call.
+/// k + 2 a, where k is not an argument: it is not a call with another k or another number.
 #[test]
 fn a_call_is_the_same_but_for_its_arguments() {
     let with = |a: &Tree, number: i32, k: &'static str| {

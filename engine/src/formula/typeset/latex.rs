@@ -18,7 +18,7 @@ const LETTERS: &[(char, &str)] = &[
     ('−', "-"),
 ];
 
-/// The dot above the letter before it.
+/// The dot above the preceding letter.
 const DOT: char = '\u{307}';
 
 fn subscript(c: char) -> Option<char> {
@@ -30,12 +30,14 @@ pub(super) fn superscript(c: char) -> Option<char> {
     own.chars().position(|own| own == c).and_then(|i| plain.chars().nth(i))
 }
 
-/// An index or an exponent, in braces if it takes more than one character.
+/// Returns a subscript or an exponent, in braces if it has more than one character.
 pub(super) fn script(kind: char, inner: &str) -> String {
     if inner.chars().count() == 1 { format!("{kind}{inner}") } else { format!("{kind}{{{inner}}}") }
 }
 
-/// A symbol of a text in LaTeX, character by character; words and indices that are words stand upright.
+/// Converts a symbol to LaTeX, character by character; words and subscripts that are words are upright.
+///
+/// # Examples
 ///
 /// ```
 /// use provable::formula::latex;
@@ -84,7 +86,7 @@ pub fn latex(symbol: &str) -> String {
             rest = left;
         } else if c.is_ascii_alphabetic() {
             let end = run(&|c| c.is_ascii_alphabetic());
-            // A letter with a dot is none of the word before it.
+            // A letter with a dot does not belong to the word before it.
             let end = if rest[end..].starts_with(DOT) { end - 1 } else { end };
             match &rest[..end] {
                 word @ ("min" | "max" | "lim") => push(&mut result, &format!("\\{word}")),

@@ -1,49 +1,51 @@
-//! Rounding in a text: fl(a + b c) is a + b c with every step rounded, nearest(a + b c) is rounded once.
+//! Notation of rounding: fl(a + b c) is a + b c with every operation rounded, nearest(a + b c) is rounded
+//! once.
 //!
-//! In the brackets of fl the result of every + − × ÷ and eˣ is rounded, in the order in which they stand,
-//! from the left. A change of sign and scaling by a power of two are exact; so is all that stands in ⟨ ⟩,
-//! in | | and after min or max. A step whose rounding would not be read from that has an fl of its own, as
-//! `fl(a + fl(b + c))`. Where a step in the brackets does not round, as in `a + b c` with only the sum
-//! rounded, the text says nearest instead.
+//! In the brackets of fl the result of every + − × ÷ and eˣ is rounded, from the left. A change of sign and
+//! scaling by a power of two are exact, and so is everything in ⟨ ⟩, in | | and after min or max. An
+//! operation whose rounding would not follow from this has an fl of its own, as in `fl(a + fl(b + c))`. If an
+//! operation in the brackets is not rounded, as in `a + b c` with only the sum rounded, the text contains
+//! nearest instead.
 
 use super::size;
 use crate::formula::claim::SCALES;
 use crate::number::Tree;
-use crate::number::tree::Step::{self, *};
+use crate::number::tree::Op::{self, *};
 
-/// Name and content of the brackets that stand for the rounding of a formula.
+/// Returns the name and the content of the brackets for a rounded formula.
 pub(super) fn brackets(of: &Tree) -> (&'static str, Tree) {
     if rounds_each_step(of) { ("fl", steps(of)) } else { ("nearest", of.clone()) }
 }
 
-/// Name of the brackets in which the content of a rounding stands as it is: `fl` or `nearest`.
+/// Returns the name of the brackets, `fl` or `nearest`, in which the content of a rounding is written
+/// unchanged.
 pub(crate) fn name_of_rounding(of: &Tree) -> &'static str {
     brackets(of).0
 }
 
 fn is_operation(tree: &Tree) -> bool {
-    matches!(tree.step(), Add(..) | Sub(..) | Mul(..) | Div(..) | Exp(_))
+    matches!(tree.op(), Add(..) | Sub(..) | Mul(..) | Div(..) | Exp(_))
 }
 
-/// The quantity that this is a multiple of, by a power of two.
+/// Returns the quantity of which this is a multiple by a power of two.
 fn scaled(tree: &Tree) -> Option<&Tree> {
     fn is_scale(tree: &Tree) -> bool {
-        match unsigned(tree).step() {
+        match unsigned(tree).op() {
             Symbol(name) => SCALES.contains(name),
             Mul(a, b) | Div(a, b) => is_scale(a) && is_scale(b),
             _ => false,
         }
     }
-    match tree.step() {
+    match tree.op() {
         Mul(a, b) | Div(a, b) if is_scale(b) => Some(a),
         Mul(a, b) if is_scale(a) => Some(b),
         _ => None,
     }
 }
 
-/// Returns `true` if each step in what is rounded is rounded as well.
+/// Returns `true` if every operation of a rounded formula is rounded as well.
 fn rounds_each_step(of: &Tree) -> bool {
-    match of.step() {
+    match of.op() {
         _ if scaled(of).is_some() => scaled(of).is_some_and(rounds_each_step),
         Neg(a) if size(a).is_none() => rounds_each_step(a),
         step if is_operation(of) => step.operands().all(is_operand),
@@ -51,35 +53,35 @@ fn rounds_each_step(of: &Tree) -> bool {
     }
 }
 
-/// Returns `true` if no step of an operand needs rounding.
+/// Returns `true` if no operation of an operand needs rounding.
 fn is_operand(tree: &Tree) -> bool {
-    match tree.step() {
+    match tree.op() {
         _ if scaled(tree).is_some() => scaled(tree).is_some_and(is_operand),
         Neg(a) => is_operand(a),
         _ => !is_operation(tree),
     }
 }
 
-/// The formula without the roundings that its place in fl( ) implies.
+/// Returns the formula without the roundings implied by its position in fl( ).
 fn steps(of: &Tree) -> Tree {
     let first = std::cell::Cell::new(true);
-    let step = of.step().map(|operand| {
+    let step = of.op().map(|operand| {
         let is_left = first.replace(false);
-        match operand.step() {
+        match operand.op() {
             Rounded(inner) if is_operation(of) && is_implied(of, is_left, inner) => steps(inner),
             _ => operand.clone(),
         }
     });
-    of.with_step(step)
+    of.with_op(step)
 }
 
-/// Returns `true` if the rounding of an operand is read from its place in fl( ), on the left or on the right.
+/// Returns `true` if the position of an operand in fl( ), left or right, implies its rounding.
 fn is_implied(of: &Tree, is_left: bool, operand: &Tree) -> bool {
     is_operation(operand)
         && scaled(operand).is_none()
         && rounds_each_step(operand)
         && !is_simplified(operand)
-        && match (of.step(), operand.step()) {
+        && match (of.op(), operand.op()) {
             (Mul(..), Div(..)) | (Div(..), Div(..)) => false,
             (Add(..) | Sub(..), Add(..) | Sub(..)) => is_left,
             (Mul(..), Mul(..)) => is_left && stays_in_order(of),
@@ -91,11 +93,11 @@ fn is_implied(of: &Tree, is_left: bool, operand: &Tree) -> bool {
         }
 }
 
-/// Returns `true` if a text has simpler steps: 1 a is written as a, a + 0 as a, 2 · 3 as 6.
+/// Returns `true` if the text of an operation is simplified: 1 a to a, a + 0 to a, 2 · 3 to 6.
 fn is_simplified(operation: &Tree) -> bool {
     let is =
-        |tree: &Tree, numbers: &[i32]| matches!(unsigned(tree).step(), Int(n) if numbers.contains(&n.abs()));
-    match operation.step() {
+        |tree: &Tree, numbers: &[i32]| matches!(unsigned(tree).op(), Int(n) if numbers.contains(&n.abs()));
+    match operation.op() {
         Add(a, b) | Sub(a, b) => is(a, &[0]) || is(b, &[0]),
         Mul(a, b) => is(a, &[0, 1]) || is(b, &[0, 1]) || [a, b].into_iter().all(is_number),
         Div(a, b) => is(a, &[0]) || is(b, &[0, 1]) || [a, b].into_iter().all(is_number),
@@ -103,8 +105,8 @@ fn is_simplified(operation: &Tree) -> bool {
     }
 }
 
-/// Returns `true` if the factors of a product stay in their places: numbers come first in a text, and equal
-/// factors become a power.
+/// Returns `true` if the factors of a product keep their positions: numbers move to the front in a text, and
+/// equal factors become a power.
 fn stays_in_order(product: &Tree) -> bool {
     let factors = factors(product);
     let texts: Vec<_> = factors.iter().map(|factor| factor.to_string()).collect();
@@ -113,23 +115,23 @@ fn stays_in_order(product: &Tree) -> bool {
     !repeats && numbers.len() <= 1 && numbers.iter().all(|place| *place < 2)
 }
 
-/// The factors of a product from the left, without their signs and scales.
+/// Returns the factors of a product from the left, without signs and scales.
 fn factors(tree: &Tree) -> Vec<&Tree> {
     let tree = unsigned(tree);
-    match tree.step() {
+    match tree.op() {
         _ if scaled(tree).is_some() => scaled(tree).map(factors).unwrap_or_default(),
-        Rounded(a) if matches!(a.step(), Mul(..)) && scaled(a).is_none() => factors(a),
+        Rounded(a) if matches!(a.op(), Mul(..)) && scaled(a).is_none() => factors(a),
         Mul(a, b) => [factors(a), vec![unsigned(b)]].concat(),
         _ => vec![tree],
     }
 }
 
 fn is_number(tree: &Tree) -> bool {
-    matches!(unsigned(tree).step(), Step::Int(_))
+    matches!(unsigned(tree).op(), Op::Int(_))
 }
 
 fn unsigned(tree: &Tree) -> &Tree {
-    match tree.step() {
+    match tree.op() {
         Neg(a) if size(a).is_none() => unsigned(a),
         _ => tree,
     }

@@ -1,4 +1,4 @@
-//! Formulas and what they are written as.
+//! Formulas and their texts.
 
 use super::*;
 use crate::number::{Exponential, Field, PositivePart};
@@ -11,10 +11,10 @@ fn n(n: i32) -> Tree {
     Tree::int(n)
 }
 
-/// Each tree with its text and its LaTeX.
+/// Compares each tree with its text and its LaTeX.
 fn check(cases: &[(Tree, &str, &str)]) {
     for (tree, text, latex) in cases {
-        assert_eq!((tree.to_string().as_str(), tree.latex().as_str()), (*text, *latex), "{:?}", tree.step());
+        assert_eq!((tree.to_string().as_str(), tree.latex().as_str()), (*text, *latex), "{:?}", tree.op());
     }
 }
 
@@ -109,7 +109,7 @@ fn functions_bring_their_own_brackets() {
         (-a.min(&b), "−min(a, b)", r"-\min(a, b)"),
         (&c - (-&a).min(&b), "c − min(−a, b)", r"c - \min(-a, b)"),
         ((&a - &b).abs(), "|a − b|", r"\lvert a - b \rvert"),
-        (-(&a + &b * &c).rounded(), "−fl(a + b c)", r"-\mathrm{fl}(a + b\,c)"),
+        (-(&a + &b * &c).with_rounding(), "−fl(a + b c)", r"-\mathrm{fl}(a + b\,c)"),
     ]);
 }
 
@@ -172,41 +172,41 @@ fn symbols_become_latex() {
     }
 }
 
-/// The rounding of each step is read from the text, whatever their order; what is rounded once says so.
+/// The text determines the rounding of each operation, in every order; what is rounded once is marked.
 #[test]
 fn what_is_rounded_can_be_read() {
     let [a, b, c, scale] = ["a", "b", "c", "2ᵃ"].map(s);
-    let sum = (&b + &c).nearest();
+    let sum = (&b + &c).round();
     check(&[
-        ((&a + &b * &c).nearest(), "nearest(a + b c)", r"\mathrm{nearest}(a + b\,c)"),
+        ((&a + &b * &c).round(), "nearest(a + b c)", r"\mathrm{nearest}(a + b\,c)"),
         (
-            (&a + (&b * &c).nearest() + &a * &b).nearest(),
+            (&a + (&b * &c).round() + &a * &b).round(),
             "nearest(a + fl(b c) + a b)",
             r"\mathrm{nearest}(a + \mathrm{fl}(b\,c) + a\,b)",
         ),
-        ((&a * (&b + &c)).nearest(), "nearest(a (b + c))", r"\mathrm{nearest}(a\,(b + c))"),
-        ((&a * &sum).nearest(), "fl(a (b + c))", r"\mathrm{fl}(a\,(b + c))"),
-        ((&a + &sum).nearest(), "fl(a + fl(b + c))", r"\mathrm{fl}(a + \mathrm{fl}(b + c))"),
-        ((&sum + &a).nearest(), "fl(b + c + a)", r"\mathrm{fl}(b + c + a)"),
-        ((&a - (&b - &c)).rounded(), "fl(a − fl(b − c))", r"\mathrm{fl}(a - \mathrm{fl}(b - c))"),
+        ((&a * (&b + &c)).round(), "nearest(a (b + c))", r"\mathrm{nearest}(a\,(b + c))"),
+        ((&a * &sum).round(), "fl(a (b + c))", r"\mathrm{fl}(a\,(b + c))"),
+        ((&a + &sum).round(), "fl(a + fl(b + c))", r"\mathrm{fl}(a + \mathrm{fl}(b + c))"),
+        ((&sum + &a).round(), "fl(b + c + a)", r"\mathrm{fl}(b + c + a)"),
+        ((&a - (&b - &c)).with_rounding(), "fl(a − fl(b − c))", r"\mathrm{fl}(a - \mathrm{fl}(b - c))"),
         (
-            (&a / (&b / &c)).rounded(),
+            (&a / (&b / &c)).with_rounding(),
             "fl(a / fl(b / c))",
             r"\mathrm{fl}\left(\frac{a}{\mathrm{fl}(b / c)}\right)",
         ),
         (
-            (&a * (&b / &c)).rounded(),
+            (&a * (&b / &c)).with_rounding(),
             "fl(a fl(b / c))",
             r"\mathrm{fl}\left(a\,\mathrm{fl}\left(\frac{b}{c}\right)\right)",
         ),
-        ((&a * (&b * &c)).rounded(), "fl(a fl(b c))", r"\mathrm{fl}(a\,\mathrm{fl}(b\,c))"),
-        ((&a * &b * &a).rounded(), "fl(fl(a b) a)", r"\mathrm{fl}(\mathrm{fl}(a\,b)\,a)"),
-        ((&a * &b * n(3)).rounded(), "fl(3 fl(a b))", r"\mathrm{fl}(3 \mathrm{fl}(a\,b))"),
-        ((n(1) * &a + &b).rounded(), "fl(fl(a) + b)", r"\mathrm{fl}(\mathrm{fl}(a) + b)"),
-        ((a.nearest() + &b).nearest(), "fl(fl(a) + b)", r"\mathrm{fl}(\mathrm{fl}(a) + b)"),
-        ((&a * &scale + &b).nearest(), "fl(a 2ᵃ + b)", r"\mathrm{fl}(a\,2^a + b)"),
+        ((&a * (&b * &c)).with_rounding(), "fl(a fl(b c))", r"\mathrm{fl}(a\,\mathrm{fl}(b\,c))"),
+        ((&a * &b * &a).with_rounding(), "fl(fl(a b) a)", r"\mathrm{fl}(\mathrm{fl}(a\,b)\,a)"),
+        ((&a * &b * n(3)).with_rounding(), "fl(3 fl(a b))", r"\mathrm{fl}(3 \mathrm{fl}(a\,b))"),
+        ((n(1) * &a + &b).with_rounding(), "fl(fl(a) + b)", r"\mathrm{fl}(\mathrm{fl}(a) + b)"),
+        ((a.round() + &b).round(), "fl(fl(a) + b)", r"\mathrm{fl}(\mathrm{fl}(a) + b)"),
+        ((&a * &scale + &b).round(), "fl(a 2ᵃ + b)", r"\mathrm{fl}(a\,2^a + b)"),
         (
-            (&b - (&a * &b).nearest().positive_part()).nearest(),
+            (&b - (&a * &b).round().positive_part()).round(),
             "fl(b − ⟨fl(a b)⟩)",
             r"\mathrm{fl}(b - \langle \mathrm{fl}(a\,b) \rangle)",
         ),
@@ -229,7 +229,7 @@ fn a_power_is_of_all_that_is_below_it() {
         (rho, "(ρᵏ)ᵏ"),
         (a.exp(), "exp(a)ᵏ"),
         ((&a - &b).abs(), "|a − b|ᵏ"),
-        ((&a - &b).nearest(), "fl(a − b)ᵏ"),
+        ((&a - &b).round(), "fl(a − b)ᵏ"),
     ] {
         assert_eq!(tree.raised("ᵏ", &|_| None), expected);
     }
@@ -246,7 +246,7 @@ fn a_number_stands_apart_from_a_name_that_begins_with_one() {
     ]);
 }
 
-/// Formulas as nobody writes them, read by hand.
+/// Unusual formulas with texts written by hand.
 #[test]
 fn odd_formulas_keep_their_signs_and_brackets() {
     let [a, b, c, d] = ["a", "b", "c", "d"].map(s);
@@ -286,8 +286,8 @@ fn odd_formulas_keep_their_signs_and_brackets() {
         (a.abs() * (&b * c.abs()).abs(), "|a| |b |c||"),
         (-((-&a).min(&-&b)), "max(a, b)"),
         (-((-&a).min(&b)) / &c, "−min(−a, b) / c"),
-        (-(&a - &b).nearest() - (&a + &b).nearest(), "−fl(a − b) − fl(a + b)"),
-        (&a - (-&b).nearest(), "a − fl(−b)"),
+        (-(&a - &b).round() - (&a + &b).round(), "−fl(a − b) − fl(a + b)"),
+        (&a - (-&b).round(), "a − fl(−b)"),
     ] {
         assert_eq!(text(tree), expected);
     }

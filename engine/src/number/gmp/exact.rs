@@ -1,9 +1,9 @@
-//! Exact rational numbers: the oracle.
+//! Exact rational numbers.
 
 use super::text::{fixed, to_whole};
 use super::{Mpfr, NumberSystem, RangeError};
 use crate::number::field::ordered;
-use crate::number::tree::Step;
+use crate::number::tree::Op;
 use crate::number::{Ball, Field, OrderedField, PositivePart, Real};
 use num_traits::{One, Zero};
 use rug::float::Round;
@@ -12,9 +12,11 @@ use rug::{Assign, Float, Rational};
 use std::cmp::Ordering;
 use std::fmt;
 
-/// A rational number; every operation is exact, and `==` means equal.
+/// A rational number with exact operations, for which `==` means equal values.
 ///
-/// Division by zero panics, as it does for Rust's integers.
+/// Division by zero panics, as for Rust's integers.
+///
+/// # Examples
 ///
 /// ```
 /// use provable::number::Exact;
@@ -28,7 +30,7 @@ pub struct Exact(pub(super) Rational);
 
 macro_rules! operator {
     ($($Trait:ident $f:ident $op:tt;)*) => {$(
-        // rug keeps an owned operand's allocation, and its result of two references is finished by `from`.
+        // rug reuses the allocation of an owned operand; its result of two references is completed by `from`.
         operator!(@form $Trait $f $op Exact, Exact, self other self.0, other.0);
         operator!(@form $Trait $f $op Exact, &Exact, self other self.0, &other.0);
         operator!(@form $Trait $f $op &Exact, Exact, self other &self.0, other.0);
@@ -79,15 +81,15 @@ impl Field for Exact {
 
     const IN_PLACE: bool = true;
 
-    fn assign(&mut self, step: Step<&Self>) -> bool {
+    fn assign_op(&mut self, step: Op<&Self>) -> bool {
         match step {
-            Step::Int(n) => self.0.assign(n),
-            Step::Neg(a) => self.0.assign(-&a.0),
-            Step::Add(a, b) => self.0.assign(&a.0 + &b.0),
-            Step::Sub(a, b) => self.0.assign(&a.0 - &b.0),
-            Step::Mul(a, b) => self.0.assign(&a.0 * &b.0),
-            Step::Div(a, b) => self.0.assign(&a.0 / &b.0),
-            Step::Symbol(_) | Step::Exp(_) | Step::PositivePart(_) | Step::Min(..) | Step::Rounded(_) => {
+            Op::Int(n) => self.0.assign(n),
+            Op::Neg(a) => self.0.assign(-&a.0),
+            Op::Add(a, b) => self.0.assign(&a.0 + &b.0),
+            Op::Sub(a, b) => self.0.assign(&a.0 - &b.0),
+            Op::Mul(a, b) => self.0.assign(&a.0 * &b.0),
+            Op::Div(a, b) => self.0.assign(&a.0 / &b.0),
+            Op::Symbol(_) | Op::Exp(_) | Op::PositivePart(_) | Op::Min(..) | Op::Rounded(_) => {
                 return false;
             }
         }
@@ -97,23 +99,27 @@ impl Field for Exact {
 ordered!(Exact);
 
 impl Exact {
-    /// The nearest number of so many bits, the even one of two; 0 bits are none.
+    /// Rounds to `bits` bits, ties to even. Returns `None` if `bits` is 0.
+    ///
+    /// # Examples
     ///
     /// ```
     /// use provable::number::Exact;
     /// let tenth: Exact = "0.1".parse()?;
-    /// assert_eq!(tenth.rounded(3).unwrap(), "3/32".parse()?); // 0.09375; the next is 7/64
+    /// assert_eq!(tenth.round_to_bits(3).unwrap(), "3/32".parse()?); // 0.09375; the next is 7/64
     /// # Ok::<(), provable::number::ParseError>(())
     /// ```
-    pub fn rounded(&self, bits: u32) -> Option<Self> {
+    pub fn round_to_bits(&self, bits: u32) -> Option<Self> {
         (bits > 0).then(|| Float::with_val(bits, &self.0).to_rational())?.map(Exact)
     }
 }
 
-/// As `p/q` in lowest terms, or as an integer; reading it back gives the same number.
+/// Writes `p/q` in lowest terms, or an integer; parsing it returns the same number.
 ///
-/// With a number of decimals, as in `{:.5}`, it is that many, to the nearest and of two to the even one, as
-/// for the machine's floats. Width, fill and sign are honoured.
+/// With a precision, as in `{:.5}`, writes that number of decimals, rounded to nearest with ties to even,
+/// like machine floats. Width, fill and sign are supported.
+///
+/// # Examples
 ///
 /// ```
 /// use provable::number::Exact;
@@ -133,7 +139,7 @@ impl fmt::Display for Exact {
     }
 }
 
-/// As it is displayed, so that a failing test prints what can be read back.
+/// Writes the same as `Display`, so that the output of a failing test can be parsed.
 impl fmt::Debug for Exact {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         fmt::Display::fmt(self, f)
@@ -164,10 +170,10 @@ from_integers!(i32, i64, u32, u64);
 
 macro_rules! from_floats {
     ($($float:ty),*) => {$(
-        /// The value of the float itself, which of 0.1 is not 1/10.
+        /// Converts the value of the float exactly; that of 0.1 is not 1/10.
         impl TryFrom<$float> for Exact {
-            type Error = Inexact;
-            fn try_from(x: $float) -> Result<Self, Inexact> {
+            type Error = NonFiniteError;
+            fn try_from(x: $float) -> Result<Self, NonFiniteError> {
                 x.to_exact()
             }
         }
@@ -175,92 +181,92 @@ macro_rules! from_floats {
 }
 from_floats!(f32, f64);
 
-/// A float that has no exact value, since it is no number.
+/// A float that has no exact value because it is not finite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
-pub enum Inexact {
+pub enum NonFiniteError {
     /// ∞
     #[error("inf has no exact value; a finite number has")]
     Infinity,
     /// −∞
     #[error("-inf has no exact value; a finite number has")]
     NegativeInfinity,
-    /// Not-a-number.
+    /// NaN
     #[error("NaN has no exact value; a finite number has")]
     NotANumber,
 }
 
-impl Inexact {
-    /// Of a float that is not finite.
+impl NonFiniteError {
+    /// Returns the error for a float that is not finite.
     fn of(x: f64) -> Self {
         if x.is_nan() {
-            Inexact::NotANumber
+            NonFiniteError::NotANumber
         } else if x.is_sign_positive() {
-            Inexact::Infinity
+            NonFiniteError::Infinity
         } else {
-            Inexact::NegativeInfinity
+            NonFiniteError::NegativeInfinity
         }
     }
 }
 
-/// Numbers that convert to rationals exactly, and from them by one rounding: the machine's floats,
-/// [`Mpfr`], and [`Exact`] itself.
+/// Numbers that convert to rationals exactly, and from rationals with one rounding: machine floats, [`Mpfr`]
+/// and [`Exact`] itself.
 pub trait ToExact: Sized {
-    /// The value, exactly.
+    /// Returns the exact value.
     ///
     /// # Errors
-    /// It is infinite or not a number.
-    fn to_exact(&self) -> Result<Exact, Inexact>;
+    /// Returns an error if the number is infinite or NaN.
+    fn to_exact(&self) -> Result<Exact, NonFiniteError>;
 
-    /// The number system that it is of. Constants of [`Mpfr`] are exact.
+    /// Returns the number system of this number. Constants of [`Mpfr`] are exact.
     fn number_system(&self) -> NumberSystem;
 
-    /// `x` rounded once into this type, and at the precision that `self` has if that can differ; and how the
-    /// result compares with `x`.
+    /// Rounds `x` once into this type, at the precision of `self` if it has one, and compares the result with
+    /// `x`.
     ///
     /// # Errors
-    /// The value overflows, or is not zero and would round to zero.
-    fn nearest_compared(&self, x: &Exact) -> Result<(Self, Ordering), RangeError>;
+    /// Returns an error if the value overflows, or is nonzero and rounds to zero.
+    fn round_from_exact_with_ordering(&self, x: &Exact) -> Result<(Self, Ordering), RangeError>;
 
-    /// The same without the comparison.
+    /// Like [`round_from_exact_with_ordering`](Self::round_from_exact_with_ordering), without the comparison.
     ///
     /// # Errors
-    /// The same.
-    fn nearest(&self, x: &Exact) -> Result<Self, RangeError> {
-        self.nearest_compared(x).map(|(nearest, _)| nearest)
+    /// Returns the same errors.
+    fn round_from_exact(&self, x: &Exact) -> Result<Self, RangeError> {
+        self.round_from_exact_with_ordering(x).map(|(nearest, _)| nearest)
     }
 }
 impl ToExact for f32 {
-    fn to_exact(&self) -> Result<Exact, Inexact> {
-        Rational::from_f32(*self).map(Exact).ok_or_else(|| Inexact::of(f64::from(*self)))
+    fn to_exact(&self) -> Result<Exact, NonFiniteError> {
+        Rational::from_f32(*self).map(Exact).ok_or_else(|| NonFiniteError::of(f64::from(*self)))
     }
     fn number_system(&self) -> NumberSystem {
         NumberSystem::F32
     }
-    fn nearest_compared(&self, x: &Exact) -> Result<(Self, Ordering), RangeError> {
+    fn round_from_exact_with_ordering(&self, x: &Exact) -> Result<(Self, Ordering), RangeError> {
         to_ieee(&x.0, 24, "f32").map(|(x, ordering)| (x.to_f32(), ordering))
     }
 }
 impl ToExact for f64 {
-    fn to_exact(&self) -> Result<Exact, Inexact> {
-        Rational::from_f64(*self).map(Exact).ok_or_else(|| Inexact::of(*self))
+    fn to_exact(&self) -> Result<Exact, NonFiniteError> {
+        Rational::from_f64(*self).map(Exact).ok_or_else(|| NonFiniteError::of(*self))
     }
     fn number_system(&self) -> NumberSystem {
         NumberSystem::F64
     }
-    fn nearest_compared(&self, x: &Exact) -> Result<(Self, Ordering), RangeError> {
+    fn round_from_exact_with_ordering(&self, x: &Exact) -> Result<(Self, Ordering), RangeError> {
         to_ieee(&x.0, 53, "f64").map(|(x, ordering)| (x.to_f64(), ordering))
     }
 }
-/// Rounding like a constant does not round.
+/// A constant rounds nothing.
 impl ToExact for Mpfr {
-    fn to_exact(&self) -> Result<Exact, Inexact> {
+    fn to_exact(&self) -> Result<Exact, NonFiniteError> {
         let float = || self.as_float().map_or(0.0, Float::to_f64);
-        self.to_rational().map(Exact).ok_or_else(|| Inexact::of(float()))
+        self.to_rational().map(Exact).ok_or_else(|| NonFiniteError::of(float()))
     }
     fn number_system(&self) -> NumberSystem {
         self.precision().map_or(NumberSystem::Exact, NumberSystem::Mpfr)
     }
-    fn nearest_compared(&self, x: &Exact) -> Result<(Self, Ordering), RangeError> {
+    fn round_from_exact_with_ordering(&self, x: &Exact) -> Result<(Self, Ordering), RangeError> {
         Ok(match self.precision() {
             None => (Mpfr::constant(x.0.clone()), Ordering::Equal),
             Some(p) => {
@@ -271,65 +277,67 @@ impl ToExact for Mpfr {
     }
 }
 impl ToExact for Exact {
-    fn to_exact(&self) -> Result<Exact, Inexact> {
+    fn to_exact(&self) -> Result<Exact, NonFiniteError> {
         Ok(self.clone())
     }
     fn number_system(&self) -> NumberSystem {
         NumberSystem::Exact
     }
-    fn nearest_compared(&self, x: &Exact) -> Result<(Self, Ordering), RangeError> {
+    fn round_from_exact_with_ordering(&self, x: &Exact) -> Result<(Self, Ordering), RangeError> {
         Ok((x.clone(), Ordering::Equal))
     }
 }
 
 impl Exact {
-    /// The rational number of the crate `rug` within.
+    /// Returns the underlying rational number of the crate `rug`.
     pub fn as_rational(&self) -> &Rational {
         &self.0
     }
 
-    /// How long it is: the binary digits of its numerator and of its denominator together.
+    /// Returns the total number of binary digits of numerator and denominator.
+    ///
+    /// # Examples
     ///
     /// ```
     /// # use provable::number::Exact;
-    /// assert_eq!("-5/16".parse::<Exact>()?.digits(), 3 + 5);
+    /// assert_eq!("-5/16".parse::<Exact>()?.bit_length(), 3 + 5);
     /// # Ok::<(), provable::number::ParseError>(())
     /// ```
-    pub fn digits(&self) -> u64 {
+    pub fn bit_length(&self) -> u64 {
         u64::from(self.0.numer().significant_bits()) + u64::from(self.0.denom().significant_bits())
     }
 
-    /// 2ⁿ.
+    /// Returns 2ⁿ.
     pub fn power_of_two(n: i32) -> Self {
         Exact(Rational::from(1) << n)
     }
 
-    /// Rounded once to the nearest f64, ties to even, also where f64 is subnormal.
+    /// Rounds once to the nearest f64, ties to even, also if the result is subnormal.
     ///
     /// # Errors
-    /// The value overflows, or is not zero and would round to zero.
+    /// Returns an error if the value overflows, or is nonzero and rounds to zero.
     pub fn to_f64(&self) -> Result<f64, RangeError> {
-        0f64.nearest(self)
+        0f64.round_from_exact(self)
     }
 
-    /// Rounded once to the nearest f32, ties to even, also where f32 is subnormal.
+    /// Rounds once to the nearest f32, ties to even, also if the result is subnormal.
     ///
     /// # Errors
-    /// The value overflows, or is not zero and would round to zero.
+    /// Returns an error if the value overflows, or is nonzero and rounds to zero.
     pub fn to_f32(&self) -> Result<f32, RangeError> {
-        0f32.nearest(self)
+        0f32.round_from_exact(self)
     }
 
-    /// Rounded once to the nearest float of `precision` bits, ties to even.
+    /// Rounds once to the nearest float of `precision` bits, ties to even.
     ///
     /// # Panics
-    /// The precision is not in [`PRECISIONS`](super::PRECISIONS).
+    /// Panics if the precision is not in [`PRECISIONS`](super::PRECISIONS).
     pub fn to_mpfr(&self, precision: u32) -> Mpfr {
         Mpfr::rounded(precision, &self.0)
     }
 }
 
-/// A finite number, rounded to one that a machine's float of so many bits holds.
+/// Rounds a finite number to one that a machine float of this precision can represent.
 fn to_ieee<V>(number: V, precision: u32, scalar: &'static str) -> Result<(Float, Ordering), RangeError>
 where
     Float: AssignRound<V, Round = Round, Ordering = Ordering>,
@@ -348,11 +356,13 @@ where
 }
 
 impl Mpfr {
-    /// Rounded once to the nearest f64, ties to even, also where f64 is subnormal. What is infinite or not a
-    /// number stays so.
+    /// Rounds once to the nearest f64, ties to even, also if the result is subnormal. Infinities and NaN are
+    /// preserved.
     ///
     /// # Errors
-    /// A finite value overflows, or is not zero and would round to zero.
+    /// Returns an error if a finite value overflows, or is nonzero and rounds to zero.
+    ///
+    /// # Examples
     ///
     /// ```
     /// use provable::number::{Exact, Mpfr, RangeError};
@@ -365,14 +375,14 @@ impl Mpfr {
         match self.as_float() {
             None => Exact(self.to_rational().unwrap_or_default()).to_f64(),
             Some(x) if !x.is_finite() => Ok(x.to_f64()),
-            // Not by way of a rational, which can be longer than the memory.
+            // Not through a rational, which can exceed the memory.
             Some(x) => to_ieee(x, 53, "f64").map(|(x, _)| x.to_f64()),
         }
     }
 }
 
 impl<T: Real + ToExact> Ball<T> {
-    /// Does the ball contain this number? Decided exactly.
+    /// Returns `true` if the ball contains this number, decided exactly.
     pub fn contains(&self, x: &Exact) -> bool {
         match (self.value().to_exact(), self.radius().to_exact()) {
             (Ok(value), Ok(radius)) => (x - value).abs() <= radius,
@@ -380,12 +390,12 @@ impl<T: Real + ToExact> Ball<T> {
         }
     }
 
-    /// A ball that contains `x`, around the float that is [nearest](ToExact::nearest) to it.
+    /// Returns a ball that contains `x`, centred at the [nearest](ToExact::round_from_exact) float.
     ///
     /// # Errors
-    /// Those of [`nearest`](ToExact::nearest).
-    pub fn around(like: &T, x: &Exact) -> Result<Self, RangeError> {
-        let (nearest, ordering) = like.nearest_compared(x)?;
-        Ok(if ordering.is_eq() { Ball::exactly(nearest) } else { Ball::rounded(nearest) })
+    /// Returns the errors of [`round_from_exact`](ToExact::round_from_exact).
+    pub fn enclosing(like: &T, x: &Exact) -> Result<Self, RangeError> {
+        let (nearest, ordering) = like.round_from_exact_with_ordering(x)?;
+        Ok(if ordering.is_eq() { Ball::point(nearest) } else { Ball::from_rounded(nearest) })
     }
 }

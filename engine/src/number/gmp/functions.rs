@@ -1,13 +1,13 @@
-//! exp and ln of the machine's floats, correctly rounded: MPFR's at 24 and 53 bits. The standard library
-//! promises no bound for its own.
+//! Correctly rounded exp and ln of machine floats, computed by MPFR with 24 and 53 bits. The standard library
+//! guarantees no bound for its own functions.
 
 use crate::number::{Exponential, Logarithm};
 use rug::Float;
 use rug::float::Round;
 use std::cmp::Ordering;
 
-/// f(x), rounded once. Among the subnormal numbers, which have fewer bits, MPFR rounds a second time; it then
-/// has to know which way it went the first time.
+/// Returns f(x), rounded once. Subnormal results, which have fewer bits, are rounded a second time by MPFR
+/// with the direction of the first rounding.
 fn nearest(bits: u32, x: f64, f: fn(&mut Float, Round) -> Ordering) -> Float {
     let mut y = Float::with_val(bits, x);
     let went = f(&mut y, Round::Nearest);

@@ -1,4 +1,4 @@
-//! Numbers of GMP and MPFR, and numbers as text.
+//! Numbers of GMP and MPFR, and conversion to and from text.
 
 mod exact;
 mod functions;
@@ -8,10 +8,10 @@ mod scientific;
 mod system;
 mod text;
 
-pub use exact::{Exact, Inexact, ToExact};
+pub use exact::{Exact, NonFiniteError, ToExact};
 pub use mpfr::{Mpfr, PRECISIONS};
 pub use parse::{MAX_EXPONENT, ParseError, RangeError};
 pub use system::{NumberSystem, UnknownNumberSystem};
-pub use text::Text;
+pub use text::ExactText;
 #[cfg(feature = "serde")]
 pub use text::{lossless, quantity};

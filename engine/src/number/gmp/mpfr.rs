@@ -1,8 +1,8 @@
-//! Floats of any precision, chosen at run time.
+//! Floats with a precision chosen at run time.
 
 use super::text::{fixed, to_whole};
 use crate::number::field::ordered;
-use crate::number::tree::Step;
+use crate::number::tree::Op;
 use crate::number::{Exponential, Field, Logarithm, OrderedField, PositivePart, Real};
 use num_traits::{One, Zero};
 use rug::float::{Round, Special};
@@ -12,20 +12,22 @@ use std::cmp::Ordering;
 use std::fmt;
 use std::ops::{AddAssign, DivAssign, MulAssign, RangeInclusive, SubAssign};
 
-/// The precisions in bits that [`Mpfr`] can have.
+/// Allowed precisions of [`Mpfr`], in bits.
 pub const PRECISIONS: RangeInclusive<u32> = 2..=1_000_000;
 
-/// The digits of a radius; more would make it no better.
+/// Precision of a radius; a larger one would not improve the bound.
 const RADIUS_PRECISION: u32 = 64;
 
-/// A float of the MPFR library whose precision is a run-time value.
+/// A float of the MPFR library with a precision chosen at run time.
 ///
 /// - Every operation is one correctly rounded MPFR operation, to nearest.
-/// - The result of two rounded operands has the larger of their precisions. It never depends on which
-///   operand is borrowed. (rug's own `Float` takes the precision of the owned operand.)
-/// - A constant (zero, one, small integers, and what is made of them) has no precision of its own: it
-///   stays an exact rational until it meets a rounded number.
-/// - The range of exponents is ±2³⁰, as good as unlimited.
+/// - The result of two rounded operands has the larger of their precisions. It never depends on which operand
+///   is borrowed. (rug's own `Float` takes the precision of the owned operand.)
+/// - A constant (zero, one, small integers, and results of operations on constants) has no precision of its
+///   own: it stays an exact rational until it meets a rounded number.
+/// - The range of exponents is ±2³⁰, practically unlimited.
+///
+/// # Examples
 ///
 /// ```
 /// use provable::number::{Exact, Field, Mpfr};
@@ -40,7 +42,7 @@ pub struct Mpfr(Kind);
 
 #[derive(Clone, Debug)]
 enum Kind {
-    /// A constant, too: nearly all of them are small integers, and these need no memory of their own.
+    /// A constant as well; almost all of them are small integers, which need no memory of their own.
     Small(i32),
     Constant(Rational),
     Rounded(Float),
@@ -58,10 +60,10 @@ impl Kind {
         }
     }
 
-    /// The exact value.
+    /// Returns the exact value.
     ///
     /// # Panics
-    /// It is infinite or not a number.
+    /// Panics if the number is infinite or NaN.
     fn rational(&self) -> Rational {
         match self {
             Small(n) => Rational::from(*n),
@@ -70,7 +72,7 @@ impl Kind {
         }
     }
 
-    /// Puts a result of so many bits here, and into the float that is here if it has as many.
+    /// Stores a result of this precision, and reuses the present float if it has the same precision.
     #[inline]
     fn put<V>(&mut self, precision: u32, result: V)
     where
@@ -78,16 +80,17 @@ impl Kind {
     {
         match self {
             Rounded(x) if x.prec() == precision => x.assign(result),
-            // Moved no more than once: a number just made is slow to move.
+            // Moved at most once, because moving a new number is slow.
             other => *other = Rounded(Float::with_val(precision, result)),
         }
     }
 }
 
-/// The four ways to own or borrow two operands meet in one, which puts the result where it is told to.
+/// Implements the four combinations of owned and borrowed operands by one function that stores the result in
+/// place.
 macro_rules! operator {
     ($($Trait:ident $f:ident $assign:ident $from:ident $op:tt $small:expr, $constant_first:expr;)*) => {
-        /// The operators, into a number that is there.
+        /// The operators with the result stored in an existing number.
         mod assign {
             use super::*;
             $(pub(super) fn $f(result: &mut Kind, a: &Mpfr, b: &Mpfr) {
@@ -155,12 +158,12 @@ operator! {
     Div div div_assign div_from / |_, _| None, divide_constant;
 }
 
-/// (n/d) / x = n / (d x): MPFR has no such operation, but d x is exact in enough bits.
+/// Computes (n/d) / x = n / (d x). MPFR has no such operation, but d x is exact with enough bits.
 fn divide_constant(result: &mut Kind, a: &Rational, x: &Float) {
     let wide = |bits: u32| bits.max(2);
     let n = Float::with_val(wide(a.numer().significant_bits()), a.numer());
     let dx = Float::with_val(wide(a.denom().significant_bits() + x.prec()), x * a.denom());
-    // Both borrowed: an owned n would impose its own precision on the quotient.
+    // Both are borrowed, because an owned n would determine the precision of the quotient.
     result.put(x.prec(), &n / &dx);
 }
 
@@ -168,7 +171,7 @@ impl std::ops::Neg for Mpfr {
     type Output = Mpfr;
     fn neg(self) -> Mpfr {
         Mpfr(match self.0 {
-            // The least integer has no opposite among them.
+            // The smallest integer has no opposite.
             Small(n) => n.checked_neg().map_or_else(|| Constant(-Rational::from(n)), Small),
             Constant(q) => Constant(-q),
             Rounded(x) => Rounded(-x),
@@ -223,16 +226,16 @@ impl Field for Mpfr {
 
     const IN_PLACE: bool = true;
 
-    fn assign(&mut self, step: Step<&Self>) -> bool {
+    fn assign_op(&mut self, step: Op<&Self>) -> bool {
         match step {
-            Step::Int(n) => self.0 = Small(n),
-            Step::Neg(Mpfr(Rounded(a))) => self.0.put(a.prec(), -a),
-            Step::Neg(a) => *self = -a,
-            Step::Add(a, b) => assign::add(&mut self.0, a, b),
-            Step::Sub(a, b) => assign::sub(&mut self.0, a, b),
-            Step::Mul(a, b) => assign::mul(&mut self.0, a, b),
-            Step::Div(a, b) => assign::div(&mut self.0, a, b),
-            Step::Symbol(_) | Step::Exp(_) | Step::PositivePart(_) | Step::Min(..) | Step::Rounded(_) => {
+            Op::Int(n) => self.0 = Small(n),
+            Op::Neg(Mpfr(Rounded(a))) => self.0.put(a.prec(), -a),
+            Op::Neg(a) => *self = -a,
+            Op::Add(a, b) => assign::add(&mut self.0, a, b),
+            Op::Sub(a, b) => assign::sub(&mut self.0, a, b),
+            Op::Mul(a, b) => assign::mul(&mut self.0, a, b),
+            Op::Div(a, b) => assign::div(&mut self.0, a, b),
+            Op::Symbol(_) | Op::Exp(_) | Op::PositivePart(_) | Op::Min(..) | Op::Rounded(_) => {
                 return false;
             }
         }
@@ -241,13 +244,13 @@ impl Field for Mpfr {
 }
 ordered!(Mpfr);
 
-/// The functions of a constant would be irrational: there is no precision to round them to.
+/// Panics, because a function of a constant is irrational and there is no precision to round to.
 fn no_precision(function: &str) -> ! {
-    panic!("{function} of a constant of no precision: round it first, with Mpfr::rounded")
+    panic!("{function} of a constant without a precision: round it first, with Mpfr::rounded")
 }
 
 /// # Panics
-/// exp and ln of a constant that has met no rounded number, except exp 0 = 1, ln 1 = 0, ln_1p 0 = 0.
+/// Panics for a constant that has not met a rounded number, except exp 0 = 1, ln 1 = 0 and ln_1p 0 = 0.
 impl Exponential for Mpfr {
     fn exp(&self) -> Self {
         match &self.0 {
@@ -280,7 +283,7 @@ impl Real for Mpfr {
             Small(_) | Constant(_) => Mpfr::zero(),
         }
     }
-    fn underflow_unit() -> Self {
+    fn min_subnormal() -> Self {
         Mpfr::zero()
     }
     fn is_finite(&self) -> bool {
@@ -292,7 +295,7 @@ impl Real for Mpfr {
     fn infinity() -> Self {
         Mpfr(Rounded(Float::with_val(RADIUS_PRECISION, Special::Infinity)))
     }
-    /// A constant has no neighbours and is returned as it is.
+    /// A constant has no neighbours and is returned unchanged.
     fn next_up(mut self) -> Self {
         if let Rounded(x) = &mut self.0 {
             x.next_up();
@@ -301,7 +304,7 @@ impl Real for Mpfr {
     }
     fn half_ulp(&self) -> Self {
         match &self.0 {
-            // x lies between 2^(e−1) and 2^e. 0 has no e, nor has what is not finite.
+            // x lies between 2^(e−1) and 2^e. Zero and non-finite numbers have no exponent e.
             Rounded(x) => x.get_exp().map_or_else(
                 || self.magnitude(),
                 |e| {
@@ -321,9 +324,9 @@ impl Real for Mpfr {
             Rounded(x) => up(Float::with_val_round(RADIUS_PRECISION, x.abs_ref(), Round::Up).0),
         }
     }
-    fn enlarged(mut self) -> Self {
+    fn inflated(mut self) -> Self {
         if let Rounded(x) = &mut self.0 {
-            // By 16 η.
+            // Multiplies by 1 + 16 η.
             x.mul_assign_round((1u64 << 60) + 1, Round::Up);
             *x >>= 60;
         }
@@ -332,27 +335,27 @@ impl Real for Mpfr {
 }
 
 impl Mpfr {
-    /// Any number of the crate rug, rounded once to `precision` bits, to nearest.
+    /// Rounds any number of the crate rug once to `precision` bits, to nearest.
     ///
     /// # Panics
-    /// The precision is not in [`PRECISIONS`].
+    /// Panics if the precision is not in [`PRECISIONS`].
     pub fn rounded<V>(precision: u32, value: V) -> Self
     where
         Float: rug::Assign<V> + rug::ops::AssignRound<V, Round = Round, Ordering = Ordering>,
     {
         assert!(
             PRECISIONS.contains(&precision),
-            "a precision of {precision} bits; 2 to 1000000 are possible"
+            "a precision of {precision} bits; it must be from 2 to 1000000"
         );
         Mpfr(Rounded(Float::with_val(precision, value)))
     }
 
-    /// An exact constant, which has no precision of its own.
+    /// Returns an exact constant, which has no precision of its own.
     pub fn constant(value: Rational) -> Self {
         Mpfr(Kind::constant(value))
     }
 
-    /// The precision in bits; `None` for a constant.
+    /// Returns the precision in bits; `None` for a constant.
     pub fn precision(&self) -> Option<u32> {
         match &self.0 {
             Small(_) | Constant(_) => None,
@@ -360,7 +363,7 @@ impl Mpfr {
         }
     }
 
-    /// rug's own float within; `None` for a constant.
+    /// Returns the underlying float of the crate rug; `None` for a constant.
     pub fn as_float(&self) -> Option<&Float> {
         match &self.0 {
             Small(_) | Constant(_) => None,
@@ -368,7 +371,7 @@ impl Mpfr {
         }
     }
 
-    /// The nearest whole number to so many times a finite number; of two, the even one.
+    /// Returns the integer nearest to `times` times a finite number, ties to even.
     fn to_whole(&self, times: &Integer) -> Integer {
         match &self.0 {
             Small(_) | Constant(_) => to_whole(self.0.rational() * times),
@@ -379,7 +382,7 @@ impl Mpfr {
         }
     }
 
-    /// The exact value; `None` if it is infinite or not a number.
+    /// Returns the exact value; `None` if it is infinite or NaN.
     pub fn to_rational(&self) -> Option<Rational> {
         match &self.0 {
             Small(_) | Constant(_) => Some(self.0.rational()),
@@ -394,11 +397,13 @@ impl From<Float> for Mpfr {
     }
 }
 
-/// All digits: reading the text back with the same precision gives the same number, if its exponent is
-/// one that is read ([`MAX_EXPONENT`](super::MAX_EXPONENT)). A constant is printed as a fraction.
+/// Writes all digits: parsing the text with the same precision returns the same number if its exponent is
+/// within [`MAX_EXPONENT`](super::MAX_EXPONENT). A constant is written as a fraction.
 ///
-/// With a number of decimals, as in `{:.5}`, it is that many, correctly rounded from the exact value, as for
-/// the machine's floats; for a constant, too. Width, fill and sign are honoured.
+/// With a precision, as in `{:.5}`, writes that number of decimals, correctly rounded from the exact value,
+/// like machine floats; also for a constant. Width, fill and sign are supported.
+///
+/// # Examples
 ///
 /// ```
 /// use provable::number::{Field, Mpfr};
@@ -417,7 +422,7 @@ impl fmt::Display for Mpfr {
             Rounded(x) if x.is_zero() => "0".to_string(),
             Rounded(x) => x.to_string_radix(10, None),
         };
-        // rug pads the mantissa with zeros to the digits of the precision; they say nothing.
+        // rug pads the mantissa with insignificant zeros to the digits of the precision.
         let (mantissa, exponent) = text.split_once('e').map_or((text.as_str(), ""), |(m, e)| (m, e));
         let mantissa = if mantissa.contains('.') {
             mantissa.trim_end_matches('0').trim_end_matches('.')
@@ -433,7 +438,7 @@ impl fmt::Display for Mpfr {
     }
 }
 
-/// As it is displayed.
+/// Writes the same as `Display`.
 impl fmt::Debug for Mpfr {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         fmt::Display::fmt(self, f)

@@ -1,52 +1,52 @@
-//! Reading numbers: every decimal, scientific or fraction spelling exactly.
+//! Exact parsing of decimal, scientific and fraction notation.
 
 use super::{Exact, Mpfr};
 use rug::{Integer, Rational, ops::Pow};
 use std::str::FromStr;
 
-/// A decimal exponent beyond ±100 000 is refused before anything is allocated.
+/// Largest absolute value of a decimal exponent; a larger one is refused before memory is allocated.
 pub const MAX_EXPONENT: i32 = 100_000;
 
-/// Why a text is not a number.
+/// Error of parsing a number.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ParseError {
-    /// Nothing there.
+    /// The text is empty.
     #[error("empty; a number is a decimal (0.05), scientific (5e-2) or a fraction (1/20)")]
     Empty,
-    /// Something, but no number.
+    /// The text is not a number.
     #[error("not a number; a number is a decimal (0.05), scientific (5e-2) or a fraction (1/20)")]
     NotANumber,
-    /// A fraction over zero.
+    /// The denominator is zero.
     #[error("division by zero; the denominator must not be 0")]
     DivisionByZero,
-    /// An exponent that only a slip of the finger makes.
+    /// The exponent exceeds [`MAX_EXPONENT`] in absolute value.
     #[error("exponent out of range; it must lie between -100000 and 100000")]
     Exponent,
-    /// The number does not fit the scalar it is to be rounded into.
+    /// The number is out of the range of the scalar.
     #[error(transparent)]
     Range(#[from] RangeError),
 }
 
-/// A number that a float cannot hold: silently becoming infinite or zero would be a wrong answer.
+/// A number outside the range of a float, which would silently become infinite or zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RangeError {
-    /// Larger than the largest float.
+    /// The number is larger than the largest float.
     #[error("overflows {scalar}; use mpfr:BITS or exact")]
     Overflow {
-        /// The scalar as the command names it.
+        /// Name of the scalar on the command line.
         scalar: &'static str,
     },
-    /// Not zero, and yet nearest to zero.
+    /// The number is nonzero and rounds to zero.
     #[error("is not zero but would round to zero in {scalar}; use mpfr:BITS or exact")]
     Underflow {
-        /// The scalar as the command names it.
+        /// Name of the scalar on the command line.
         scalar: &'static str,
     },
 }
 
-/// Decimal (`9.81`, `.5`, `-3`), scientific (`1e-9`) or fraction (`-1/2`), read exactly.
+/// Parses decimal (`9.81`, `.5`, `-3`), scientific (`1e-9`) and fraction (`-1/2`) notation exactly.
 impl FromStr for Exact {
     type Err = ParseError;
 
@@ -76,7 +76,7 @@ fn sign(text: &str) -> (bool, &str) {
     }
 }
 
-/// The text, if it is digits and nothing else.
+/// Returns the text if it consists of digits only.
 fn digits(text: &str) -> Result<&str, ParseError> {
     let all = !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
     all.then_some(text).ok_or(ParseError::NotANumber)
@@ -90,7 +90,7 @@ fn decimal(text: &str) -> Result<Rational, ParseError> {
     let (mantissa, exponent) = match text.split_once(['e', 'E']) {
         Some((mantissa, exponent)) => {
             let (negative, exponent) = sign(exponent);
-            // More than an i32 holds is out of range, whatever it is.
+            // An exponent beyond i32 is out of range in any case.
             let size: i32 = digits(exponent)?.parse().unwrap_or(i32::MAX);
             (mantissa, if negative { -size } else { size })
         }
@@ -107,13 +107,13 @@ fn decimal(text: &str) -> Result<Rational, ParseError> {
 }
 
 impl Mpfr {
-    /// The number that `text` spells, rounded once to `precision` bits.
+    /// Parses a number and rounds it once to `precision` bits.
     ///
     /// # Errors
-    /// The text is no number.
+    /// Returns an error if the text is not a number.
     ///
     /// # Panics
-    /// The precision is not in [`PRECISIONS`](super::PRECISIONS).
+    /// Panics if the precision is not in [`PRECISIONS`](super::PRECISIONS).
     pub fn parse(text: &str, precision: u32) -> Result<Self, ParseError> {
         Ok(text.parse::<Exact>()?.to_mpfr(precision))
     }

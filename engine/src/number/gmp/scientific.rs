@@ -1,4 +1,4 @@
-//! Exact numbers and floats of MPFR in scientific notation.
+//! Scientific notation of exact numbers and MPFR floats.
 
 use super::text::to_whole;
 use super::{Exact, Mpfr};
@@ -7,8 +7,10 @@ use rug::ops::Pow;
 use rug::{Float, Integer, Rational};
 use std::fmt;
 
-/// In scientific notation, exactly rounded with ties to even, as the machine's floats are: `{:.2e}` has two
-/// decimals, `{:e}` all there are, or seventeen digits of a fraction that has no last one.
+/// Writes scientific notation, exactly rounded with ties to even, like machine floats: `{:.2e}` has two
+/// decimals, `{:e}` all decimals, or seventeen digits of a non-terminating fraction.
+///
+/// # Examples
 ///
 /// ```
 /// use provable::number::Exact;
@@ -22,9 +24,11 @@ impl fmt::LowerExp for Exact {
     }
 }
 
-/// In scientific notation, exactly rounded with ties to even, as the machine's floats are: `{:.2e}` has two
-/// decimals, `{:e}` the digits that read back as the same number. A constant is written as an
+/// Writes scientific notation, exactly rounded with ties to even, like machine floats: `{:.2e}` has two
+/// decimals, `{:e}` the digits that parse as the same number. A constant is written like an
 /// [`Exact`](super::Exact) number.
+///
+/// # Examples
 ///
 /// ```
 /// use provable::number::Mpfr;
@@ -37,7 +41,7 @@ impl fmt::LowerExp for Mpfr {
             None => rational(&self.to_rational().unwrap_or_default(), f.precision()),
             Some(x) if !x.is_finite() => return fmt::LowerExp::fmt(&x.to_f64(), f),
             Some(x) if x.is_zero() => rational(&Rational::new(), f.precision()),
-            // Not by way of a rational, which can be longer than the memory.
+            // Not through a rational, which can exceed the memory.
             Some(x) => {
                 let digits = f.precision().map(|decimals| decimals + 1);
                 let (_, text, exponent) = x.to_sign_string_exp(10, digits);
@@ -50,19 +54,19 @@ impl fmt::LowerExp for Mpfr {
     }
 }
 
-/// The digits of a number in scientific notation, the first before the point, with the power of ten of
-/// the first.
+/// Returns digits in scientific notation, with the point after the first and the exponent of the first.
 fn scientific(digits: &str, exponent: i64) -> String {
     let (first, rest) = digits.split_at(1);
     let point = if rest.is_empty() { "" } else { "." };
     format!("{first}{point}{rest}e{exponent}")
 }
 
-/// How many digits of a fraction are written where it has no last one and none are asked for.
+/// Number of digits of a non-terminating fraction if no precision is given.
 const ENDLESS: usize = 17;
 
-/// The absolute value of a rational in scientific notation, with so many digits behind the point: exactly
-/// rounded, ties to even. With none asked for all there are, or [`ENDLESS`] of what has no last one.
+/// Returns the absolute value of a rational in scientific notation with `decimals` decimals, exactly rounded
+/// with ties to even. Without a precision returns all digits, or [`ENDLESS`] digits of a non-terminating
+/// fraction.
 fn rational(x: &Rational, decimals: Option<usize>) -> String {
     let x = Rational::from(x.abs_ref());
     if x.is_zero() {
@@ -72,7 +76,7 @@ fn rational(x: &Rational, decimals: Option<usize>) -> String {
         let power = Rational::from(Integer::from(10).pow(n.unsigned_abs() as u32));
         if n < 0 { power.recip() } else { power }
     };
-    // The logarithm is off by less than 1.
+    // The error of the logarithm is less than 1.
     let mut order = Float::with_val(64, &x).log10().floor().to_f64() as i64;
     while power(order) > x {
         order -= 1;
@@ -86,7 +90,7 @@ fn rational(x: &Rational, decimals: Option<usize>) -> String {
         (None, Some(all)) => whole(i64::from(all) + order).trim_end_matches('0').to_string(),
         (None, None) => whole(ENDLESS as i64 - 1),
     };
-    // 9.99 can become 10.0: a digit too many, and that a zero.
+    // 9.99 can become 10.0, which has one digit too many, a zero.
     let most = decimals.or_else(|| decimals_of(&x).is_none().then_some(ENDLESS - 1)).map(|n| n + 1);
     match most {
         Some(most) if digits.len() > most => scientific(&digits[..most], order + 1),
@@ -94,7 +98,7 @@ fn rational(x: &Rational, decimals: Option<usize>) -> String {
     }
 }
 
-/// How many decimals a rational has behind the point; none if they have no end.
+/// Returns the number of decimals of a rational; `None` if they do not terminate.
 fn decimals_of(x: &Rational) -> Option<u32> {
     let (rest, twos) = x.denom().clone().remove_factor(&Integer::from(2));
     let (rest, fives) = rest.remove_factor(&Integer::from(5));

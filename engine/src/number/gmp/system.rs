@@ -1,15 +1,15 @@
-//! The number systems by name.
+//! Number systems by name.
 
 use super::{Exact, PRECISIONS};
 use num_traits::Zero;
 use std::{fmt, str::FromStr};
 
-/// A number system as a user names it: `f32`, `f64`, `mpfr:BITS` or `exact`.
+/// Number system by its name: `f32`, `f64`, `mpfr:BITS` or `exact`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum NumberSystem {
-    /// The machine's single precision.
+    /// Single precision.
     F32,
-    /// The machine's double precision.
+    /// Double precision.
     F64,
     /// [`Mpfr`](super::Mpfr) with this many bits.
     Mpfr(u32),
@@ -29,7 +29,7 @@ impl fmt::Display for NumberSystem {
 }
 
 impl NumberSystem {
-    /// η: one rounding is off by no more than η times the result; 0 for rationals.
+    /// Returns η, the largest error of one rounding relative to the result; 0 for rationals.
     pub fn unit_roundoff(self) -> Exact {
         let bits = match self {
             NumberSystem::F32 => f32::MANTISSA_DIGITS,
@@ -41,7 +41,7 @@ impl NumberSystem {
     }
 }
 
-/// The text names no number system.
+/// The text is not the name of a number system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("must be f32, f64, mpfr:BITS with 2 to 1000000 bits, or exact")]
 pub struct UnknownNumberSystem;

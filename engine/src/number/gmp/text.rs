@@ -1,39 +1,43 @@
-//! Numbers as text: with nothing lost, or as decimals on the side that is asked for.
+//! Conversion of numbers to lossless text, and to decimals rounded in a given direction.
 
 use super::{Exact, Mpfr, ToExact};
 use crate::number::Real;
 use num_traits::Zero;
 use rug::{Float, Integer, Rational, float::Round, ops::Pow};
 
-/// Numbers that are written down with nothing lost, and bounds that hold as they are written.
-pub trait Text: ToExact + Clone {
-    /// All of it: the shortest text that reads back as the same float, or a fraction.
+/// Numbers with a lossless text, and with texts that are bounds.
+pub trait ExactText: ToExact + Clone {
+    /// Returns the shortest text that parses as the same float, or a fraction.
+    ///
+    /// # Examples
     ///
     /// ```
-    /// # use provable::number::Text;
+    /// # use provable::number::ExactText;
     /// assert_eq!([1e300, 0.1, -0.0].map(|x: f64| x.text()), ["1e300", "0.1", "0"]);
     /// ```
     fn text(&self) -> String;
 
-    /// Returns [`text`](Self::text) with the sign of a zero, where the number system has zeros of two signs.
+    /// Returns [`text`](Self::text) with the sign of a zero, if the number system has signed zeros.
+    ///
+    /// # Examples
     ///
     /// ```
-    /// # use provable::number::Text;
+    /// # use provable::number::ExactText;
     /// assert_eq!([-0.0, 0.0, -0.1].map(|x: f64| x.signed_text()), ["-0", "0", "-0.1"]);
     /// ```
     fn signed_text(&self) -> String {
         self.text()
     }
 
-    /// The numbers next to this one, the smaller first; a rational has none and gives itself.
+    /// Returns the adjacent numbers, the smaller first; for a rational, which has none, the number itself.
     fn neighbours(&self) -> [Self; 2];
 
-    /// A text that spells a number no greater than this one, or no less if the rounding is up: its own or
-    /// that of a number near it, since the shortest decimal of a float can lie on either side of the float.
-    /// An infinity and not-a-number are bounded by nothing else.
+    /// Returns a text whose value is at most this number, or at least this number if the rounding is up. It
+    /// is the text of this number or of one nearby, since the shortest decimal of a float can lie on either
+    /// side of it. The text of an infinity or NaN is its own bound.
     ///
     /// # Panics
-    /// The rounding is neither up nor down.
+    /// Panics if the rounding is neither up nor down.
     fn bound(&self, round: Round) -> String {
         let Ok(end) = self.to_exact() else { return self.text() };
         let mut near = self.clone();
@@ -48,23 +52,23 @@ pub trait Text: ToExact + Clone {
     }
 }
 
-/// Does the text spell a number on this side of the end, or the end itself?
+/// Returns `true` if the value of the text is `end` or lies on this side of it.
 fn is_bound(text: &str, end: &Exact, round: Round) -> bool {
     let Ok(decimal) = Float::parse(text) else { return true }; // a fraction, which is the end itself
-    // The end is a float of so many bits, so no rounding towards it can step over it.
+    // `end` is a float of at most `bits` bits, so rounding towards it cannot pass it.
     let bits = end.as_rational().numer().significant_bits().max(2);
     match round {
         Round::Down => Float::with_val_round(bits, decimal, Round::Up).0 <= *end.as_rational(),
         Round::Up => Float::with_val_round(bits, decimal, Round::Down).0 >= *end.as_rational(),
-        other => panic!("{other:?} is no side"),
+        other => panic!("{other:?} is not a direction"),
     }
 }
 
 macro_rules! machine {
     ($($float:ty),*) => {$(
-        impl Text for $float {
+        impl ExactText for $float {
             fn text(&self) -> String {
-                // Debug turns to powers of ten where Display writes hundreds of zeros; no sign for a zero.
+                // `Debug` uses powers of ten where `Display` writes hundreds of zeros. A zero has no sign.
                 let mut text = format!("{:?}", if self.is_zero() { 0.0 } else { *self });
                 text.truncate(text.strip_suffix(".0").map_or(text.len(), str::len));
                 text
@@ -80,7 +84,7 @@ macro_rules! machine {
 }
 machine!(f32, f64);
 
-impl Text for Mpfr {
+impl ExactText for Mpfr {
     fn text(&self) -> String {
         self.to_string()
     }
@@ -89,7 +93,7 @@ impl Text for Mpfr {
     }
 }
 
-impl Text for Exact {
+impl ExactText for Exact {
     fn text(&self) -> String {
         self.to_string()
     }
@@ -98,14 +102,14 @@ impl Text for Exact {
     }
 }
 
-/// The nearest whole number, of two the even one.
+/// Returns the nearest integer, ties to even.
 pub(super) fn to_whole(x: Rational) -> Integer {
     let (off, nearest) = x.fract_round(Integer::new());
-    // rug rounds a tie away from zero.
+    // rug rounds ties away from zero.
     if *off.denom() == 2 && nearest.is_odd() { nearest + off.numer() } else { nearest }
 }
 
-/// The size of a number with so many decimals; `units` says which multiple of 1/unit is nearest to it.
+/// Returns the absolute value with this number of decimals; `units` returns the nearest multiple of 1/unit.
 pub(super) fn fixed(decimals: usize, units: impl FnOnce(&Integer) -> Integer) -> String {
     let unit = Integer::from(10).pow(decimals as u32);
     let digits = format!("{:0>1$}", units(&unit).abs().to_string(), decimals + 1);
@@ -114,8 +118,10 @@ pub(super) fn fixed(decimals: usize, units: impl FnOnce(&Integer) -> Integer) ->
 }
 
 impl Exact {
-    /// As a decimal of at most so many digits, on the side that the rounding says; directed, it can be one
-    /// unit further than need be, but for what has so few digits.
+    /// Returns a decimal with at most `digits` digits, rounded in the given direction. A directed result can
+    /// be one unit further than necessary, except for a number with few digits.
+    ///
+    /// # Examples
     ///
     /// ```
     /// # use provable::{number::Exact, rug::float::Round};
@@ -133,7 +139,7 @@ impl Exact {
                 return nearest;
             }
         }
-        // Four bits hold a decimal digit; both roundings go the same way.
+        // Four bits hold a decimal digit; both roundings have the same direction.
         let x = Float::with_val_round(4 * digits as u32 + 16, self.as_rational(), round).0;
         let (negative, text, exponent) = x.to_sign_string_exp_round(10, Some(digits), round);
         let sign = if negative { "-" } else { "" };
@@ -154,7 +160,7 @@ impl Exact {
         }
     }
 
-    /// As a decimal of at most so many digits, and of no more characters than fit if fewer digits can help.
+    /// Returns a decimal with at most `digits` digits, or fewer if the text would otherwise exceed `width`.
     pub fn decimal_within(&self, digits: usize, width: usize) -> String {
         let decimal = |digits| self.decimal(digits, Round::Nearest);
         let mut shorter = (1..=digits).rev().map(decimal).filter(|text| text.chars().count() <= width);
@@ -162,7 +168,7 @@ impl Exact {
     }
 }
 
-/// Types that are serialised as they are displayed.
+/// Implements `Serialize` by the `Display` text.
 #[cfg(feature = "serde")]
 #[doc(hidden)]
 #[macro_export]
@@ -178,45 +184,45 @@ macro_rules! serialize_as_displayed {
 #[cfg(feature = "serde")]
 serialize_as_displayed!(Exact, super::NumberSystem);
 
-/// Quantities are serialised as texts, so that no reader rounds them.
+/// Serialisation of quantities as texts, so that no reader rounds them.
 #[cfg(feature = "serde")]
 #[doc(hidden)]
 pub mod quantity {
-    use super::Text;
+    use super::ExactText;
     use serde::{Serialize, Serializer};
 
-    pub fn serialize<T: Text, S: Serializer>(x: &T, to: S) -> Result<S::Ok, S::Error> {
+    pub fn serialize<T: ExactText, S: Serializer>(x: &T, to: S) -> Result<S::Ok, S::Error> {
         to.serialize_str(&x.text())
     }
 
-    pub fn option<T: Text, S: Serializer>(x: &Option<T>, to: S) -> Result<S::Ok, S::Error> {
-        x.as_ref().map(Text::text).serialize(to)
+    pub fn option<T: ExactText, S: Serializer>(x: &Option<T>, to: S) -> Result<S::Ok, S::Error> {
+        x.as_ref().map(ExactText::text).serialize(to)
     }
 
-    pub fn options<T: Text, S: Serializer>(x: &[Option<T>; 2], to: S) -> Result<S::Ok, S::Error> {
-        x.each_ref().map(|x| x.as_ref().map(Text::text)).serialize(to)
+    pub fn options<T: ExactText, S: Serializer>(x: &[Option<T>; 2], to: S) -> Result<S::Ok, S::Error> {
+        x.each_ref().map(|x| x.as_ref().map(ExactText::text)).serialize(to)
     }
 }
 
-/// Quantities that are read back, too: the same bits for f32 and f64, the sign of a zero included, the same
-/// number for rationals. A float of MPFR comes back as the constant of the same value, since a text has no
-/// precision; `to_mpfr` rounds it.
+/// Serialisation and deserialisation of quantities without loss: the same bits for f32 and f64, signed zeros
+/// included, and the same number for rationals. An MPFR float is deserialised as the constant of the same
+/// value, since a text has no precision; `to_mpfr` rounds it.
 #[cfg(feature = "serde")]
 #[doc(hidden)]
 pub mod lossless {
-    use super::{Exact, Text};
+    use super::{Exact, ExactText};
     use crate::number::ParseError;
     use num_traits::Zero;
     use serde::{Deserialize, Deserializer, Serializer, de::Error};
     use std::ops::Neg;
 
-    pub fn serialize<T: Text, S: Serializer>(x: &T, to: S) -> Result<S::Ok, S::Error> {
+    pub fn serialize<T: ExactText, S: Serializer>(x: &T, to: S) -> Result<S::Ok, S::Error> {
         to.serialize_str(&x.signed_text())
     }
 
     pub fn deserialize<'de, T, D>(from: D) -> Result<T, D::Error>
     where
-        T: Text + Zero + Neg<Output = T>,
+        T: ExactText + Zero + Neg<Output = T>,
         D: Deserializer<'de>,
     {
         let text = String::deserialize(from)?;
@@ -226,8 +232,8 @@ pub mod lossless {
         })
     }
 
-    fn read<T: Text + Zero + Neg<Output = T>>(text: &str) -> Result<T, ParseError> {
-        let x = T::zero().nearest(&text.parse::<Exact>()?)?;
+    fn read<T: ExactText + Zero + Neg<Output = T>>(text: &str) -> Result<T, ParseError> {
+        let x = T::zero().round_from_exact(&text.parse::<Exact>()?)?;
         Ok(if x.is_zero() && text.starts_with('-') { -x } else { x })
     }
 }
@@ -236,10 +242,10 @@ pub mod lossless {
 mod tests {
     use super::*;
 
-    /// The bounds of a solve have room to spare, which hides a text on the wrong side; a point has none.
-    fn encloses<T: Text>(point: &T) -> bool {
+    /// Tests a point: the bounds of a solve have a margin that would hide a text on the wrong side.
+    fn encloses<T: ExactText>(point: &T) -> bool {
         let [lower, upper] = [Round::Down, Round::Up].map(|side| point.bound(side).parse::<Exact>().unwrap());
-        // And no further away than the neighbour's text has to be.
+        // The text is also not further away than that of the neighbour.
         let exact = |x: &T| x.to_exact().unwrap();
         let [below, above] = point.neighbours();
         let ([below, _], [_, above]) = (below.neighbours(), above.neighbours());
@@ -278,8 +284,8 @@ mod tests {
         }
     }
 
-    /// ±(1/2 ± 10⁻³⁰) lies so close to a decimal that rounding to nearest, before the rounding to a side or
-    /// in place of it, gives the decimal itself.
+    /// ±(1/2 ± 10⁻³⁰) is so close to a decimal that an additional rounding to nearest would return the
+    /// decimal itself.
     #[test]
     fn decimals_next_to_a_shorter_one_stay_on_their_side() {
         let tiny: Exact = "1e-30".parse().unwrap();

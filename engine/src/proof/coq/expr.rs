@@ -1,4 +1,4 @@
-//! Formulas as Coq writes them.
+//! Formulas in Coq's notation.
 
 use super::print::ascii;
 use crate::formula::Relation;
@@ -10,7 +10,7 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Expr {
     Name(String),
-    /// Not negative.
+    /// A nonnegative number.
     Number(String),
     Neg(Box<Expr>),
     Binary(Operator, Box<Expr>, Box<Expr>),
@@ -73,13 +73,13 @@ impl Expr {
         }
     }
 
-    /// A polynomial, as a sum of products of powers.
+    /// Returns a polynomial as a sum of products of powers.
     pub(super) fn poly(poly: &Poly) -> Self {
         let mut sum: Option<Expr> = None;
         for (exponent, part) in by_exponent(poly) {
             let exponential = exponent.map(|e| Expr::Call("exp".into(), vec![Expr::ratio(e)]));
             for (monomial, coefficient) in part.terms().rev() {
-                let coefficient = coefficient.rational();
+                let coefficient = coefficient.to_rational();
                 let number = |n: &rug::Integer| Expr::Number(n.clone().abs().to_string());
                 let mut factors: Vec<Expr> = monomial.powers().map(power).collect();
                 factors.extend(exponential.clone());
@@ -101,9 +101,9 @@ impl Expr {
         Expr::poly(ratio.num()).over(Expr::poly(ratio.den()))
     }
 
-    /// With a name replaced.
-    pub(super) fn with(&self, name: &str, by: &Expr) -> Self {
-        let with = |a: &Expr| Box::new(a.with(name, by));
+    /// Substitutes an expression for a name.
+    pub(super) fn substitute(&self, name: &str, by: &Expr) -> Self {
+        let with = |a: &Expr| Box::new(a.substitute(name, by));
         match self {
             Expr::Name(own) if own == name => by.clone(),
             Expr::Name(_) | Expr::Number(_) => self.clone(),
@@ -111,12 +111,12 @@ impl Expr {
             Expr::Binary(operator, a, b) => Expr::Binary(*operator, with(a), with(b)),
             Expr::Power(a, n) => Expr::Power(with(a), *n),
             Expr::Call(function, arguments) => {
-                Expr::Call(function.clone(), arguments.iter().map(|a| a.with(name, by)).collect())
+                Expr::Call(function.clone(), arguments.iter().map(|a| a.substitute(name, by)).collect())
             }
         }
     }
 
-    /// What is said of its sign.
+    /// Returns the relation of the expression to zero.
     pub(super) fn relation(&self, relation: Relation) -> String {
         match relation {
             Relation::Positive => format!("0 < {self}"),
@@ -125,7 +125,7 @@ impl Expr {
         }
     }
 
-    /// How strongly it holds together, on Coq's own scale: less is stronger.
+    /// Returns Coq's precedence level; a smaller level binds more strongly.
     fn level(&self) -> u32 {
         match self {
             Expr::Name(_) | Expr::Number(_) => 0,
@@ -136,27 +136,30 @@ impl Expr {
         }
     }
 
-    /// In brackets unless it holds together as strongly as that.
+    /// Writes brackets unless the level is at most `level`.
     fn within(&self, level: u32) -> String {
         if self.level() > level { format!("({self})") } else { self.to_string() }
     }
 
-    /// As an argument: in brackets unless it is one word.
+    /// Writes an argument, in brackets unless it is one word.
     pub(super) fn argument(&self) -> String {
         self.within(0)
     }
 
-    /// To be raised to a power.
+    /// Writes the base of a power.
     pub(super) fn base(&self) -> String {
         self.within(10)
     }
 }
 
-/// The parts of a polynomial with the same e^…, without it.
+/// Groups the terms of a polynomial by their factor e^…, without it.
 pub(super) fn by_exponent(poly: &Poly) -> BTreeMap<Option<&Ratio>, Poly> {
     let mut parts = BTreeMap::<_, Vec<_>>::new();
     for (monomial, coefficient) in poly.terms() {
-        parts.entry(monomial.exponent()).or_default().push((monomial.bare(), coefficient.clone()));
+        parts
+            .entry(monomial.exponent())
+            .or_default()
+            .push((monomial.without_exponential(), coefficient.clone()));
     }
     parts.into_iter().map(|(exponent, terms)| (exponent, terms.into_iter().collect())).collect()
 }
@@ -165,7 +168,7 @@ fn power((symbol, n): (Symbol, u32)) -> Expr {
     let symbol = Expr::Name(ascii(symbol.name()));
     match n {
         1 => symbol,
-        // As a square wherever it is one, so that its sign is seen.
+        // Written as a square where possible, so that its sign is evident.
         n if n % 2 == 0 && n > 2 => Expr::Power(Expr::Power(symbol.into(), n / 2).into(), 2),
         n => Expr::Power(symbol.into(), n),
     }

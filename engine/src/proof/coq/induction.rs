@@ -1,6 +1,6 @@
-//! What is said of all members of a sequence: by induction over the natural numbers.
+//! Theorems about all members of a sequence, by induction over the natural numbers.
 
-use super::lemma::{Lemma, Result, names, numbered, says, supposed};
+use super::lemma::{Lemma, Result, format_hypothesis, format_proposition, names, numbered_names};
 use super::print::ascii;
 use super::script::Script;
 use super::theorem::Claim;
@@ -9,20 +9,20 @@ use crate::formula::claim::{MEMBERS, POWER};
 use crate::formula::statement::{Goal, Proposition, Role, Sequence};
 use crate::number::Tree;
 
-/// The sequence, and its theorem.
+/// A sequence with its theorem.
 struct Induction<'c, 'a> {
     claim: &'c Claim<'a>,
     sequence: &'c Sequence,
     theorem: Lemma<'a>,
     /// A lemma for each goal.
     lemmas: Vec<(&'c Goal, Lemma<'a>)>,
-    /// What the recursion is called, with what it is applied to before n.
+    /// Name of the recursion, applied to its arguments before n.
     iterates: String,
     /// ρᵏ.
     power: String,
 }
 
-/// One formula, or several in brackets.
+/// Returns one formula, or several in brackets.
 fn tuple(values: Vec<String>) -> String {
     match &values[..] {
         [value] => value.clone(),
@@ -31,20 +31,20 @@ fn tuple(values: Vec<String>) -> String {
 }
 
 impl<'a> Claim<'a> {
-    /// A sequence with a closed form, or one that stays near it.
+    /// Returns the theorem about a sequence with a closed form, or one that stays near it.
     pub(super) fn induction(&self, sequence: &Sequence) -> Result<String> {
         let Sequence { start, step, ratio, member, within, .. } = sequence;
         if sequence.is_perturbed() && start.len() > 1 {
             return Err("a perturbed sequence of several components".into());
         }
         let lemmas: Vec<_> = self.statement.goals().iter().map(|goal| (goal, self.lemma(goal))).collect();
-        let proved = lemmas.iter().map(|(goal, lemma)| self.proved("Lemma", lemma, goal));
+        let proved = lemmas.iter().map(|(goal, lemma)| self.with_proof("Lemma", lemma, goal));
         let text = proved.collect::<Result<String>>()?;
 
         let computed = self.statement.computed();
         let own = start.iter().chain(step).chain(member).chain([ratio]);
         let trees = own.chain(within.iter().flat_map(|(of, bound)| [of, bound]));
-        let trees = trees.chain(computed.iter().map(|computed| &computed.by));
+        let trees = trees.chain(computed.iter().map(|computed| &computed.formula));
         let mut theorem = self.supposing("", self.statement.hypotheses_for(Role::InvariantBase), trees);
         let bound =
             |var: &str| var == POWER || MEMBERS.contains(&var) || computed.iter().any(|c| c.symbol == var);
@@ -62,17 +62,17 @@ impl Induction<'_, '_> {
         tuple(trees.iter().map(|tree| self.claim.printer.expr(tree).to_string()).collect())
     }
 
-    /// `let u := BY in`, if something is computed from a member.
+    /// Returns `let u := FORMULA in` for quantities computed from a member.
     fn computed(&self, indent: &str) -> String {
         let computed = self.claim.statement.computed().iter();
         let text = computed.map(|computed| {
-            let by = self.claim.printer.expr(&computed.by);
+            let by = self.claim.printer.expr(&computed.formula);
             format!("{indent}let {} := {by} in\n", ascii(computed.symbol))
         });
         text.collect()
     }
 
-    /// From its start, each member by the last.
+    /// Defines the recursion from its start.
     fn recursion(&self) -> String {
         let Sequence { start, step, .. } = self.sequence;
         let members: Vec<_> = MEMBERS[..start.len()].iter().map(|name| ascii(name)).collect();
@@ -97,7 +97,7 @@ impl Induction<'_, '_> {
         )
     }
 
-    /// `let q := ρⁿ in`, and `let x := MEMBER in` where something else than a closed form is said.
+    /// Returns `let q := ρⁿ in`, and `let x := MEMBER in` if the statement is more than a closed form.
     fn lets(&self) -> String {
         let power = format!("let {} := {} in", ascii(POWER), self.power);
         match self.sequence.is_perturbed() {
@@ -110,13 +110,14 @@ impl Induction<'_, '_> {
         format!("({} n)", self.iterates)
     }
 
-    /// Each member is its closed form, or near it, and so is what is computed from it.
+    /// Returns the statement: each member is, or is near, its closed form, and so are the quantities computed
+    /// from it.
     fn says(&self) -> String {
         if !self.sequence.is_perturbed() {
             return format!("forall n : nat, {}\n    {}", self.lets(), self.closed());
         }
         let bound = |(of, bound): &(Tree, Tree)| {
-            says(&Proposition::Within(of.clone(), bound.clone()), self.claim.printer)
+            format_proposition(&Proposition::Within(of.clone(), bound.clone()), self.claim.printer)
         };
         let bounds: Vec<_> = self.sequence.within.iter().map(bound).collect();
         let (lets, computed) = (self.lets(), self.computed("    "));
@@ -127,13 +128,13 @@ impl Induction<'_, '_> {
         format!("{} n =\n    {}", self.iterates, self.tuple(&self.sequence.member))
     }
 
-    /// By induction the invariants and the closed form; then what follows from the invariants.
+    /// Proves the invariants and the closed form by induction, and then their consequences.
     fn text(&self) -> Result<String> {
         let perturbed = self.sequence.is_perturbed();
         let invariants = self.claim.statement.invariants().iter();
-        let mut told: Vec<_> = invariants.map(|given| supposed(given, self.claim.printer)).collect();
+        let mut told: Vec<_> = invariants.map(|given| format_hypothesis(given, self.claim.printer)).collect();
         told.extend((!perturbed).then(|| self.closed()));
-        let (labels, own) = (numbered("I", told.len()), self.claim.name.clone() + "_iterates");
+        let (labels, own) = (numbered_names("I", told.len()), self.claim.name.clone() + "_iterates");
         let pattern = if labels.len() == 1 { labels[0].clone() } else { format!("({})", labels.join(" & ")) };
         let last = labels.last().ok_or("nothing is said of the sequence")?;
 
@@ -165,8 +166,8 @@ impl Induction<'_, '_> {
         Ok(self.theorem.text("Theorem", &self.says(), script))
     }
 
-    /// The lemmas for what has this place in the argument; in a step for ρⁿ, the n-th member, of which the
-    /// invariants are known as I1, I2, …, and what is computed from it.
+    /// Returns the applied lemmas for a role; in a step for ρⁿ, the n-th member, its invariants I1, I2, …,
+    /// and the quantities computed from it.
     fn by(&self, role: Role) -> impl Iterator<Item = String> {
         let own = move |(goal, _): &&(&Goal, Lemma)| goal.role == role;
         let known =

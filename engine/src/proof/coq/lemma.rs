@@ -1,4 +1,4 @@
-//! What is said under hypotheses, as a lemma.
+//! Lemmas: statements under hypotheses.
 
 use super::print::{Printer, ascii};
 use super::script::Script;
@@ -6,12 +6,12 @@ use crate::formula::claim::{PRECISION, SCALES};
 use crate::formula::statement::minimum_precision;
 use crate::formula::{Hypothesis, Proposition};
 use crate::number::Tree;
-use crate::number::tree::Step;
+use crate::number::tree::Op;
 
-/// Why a claim cannot be printed.
+/// Result, with the reason why a claim cannot be exported.
 pub(super) type Result<T> = std::result::Result<T, String>;
 
-/// What a lemma speaks of and supposes; where it rounds, that is for every precision.
+/// Variables and hypotheses of a lemma; if it contains roundings, it is for every precision.
 #[derive(Clone)]
 pub(super) struct Lemma<'a> {
     pub(super) name: String,
@@ -21,17 +21,17 @@ pub(super) struct Lemma<'a> {
     hypotheses: Vec<&'a Hypothesis>,
 }
 
-/// The exponent of a power of two: that of 2ᵃ is power_a.
+/// Returns the name of the exponent of a power of two: that of 2ᵃ is power_a.
 fn exponent(scale: &str) -> String {
     ascii(scale).replace("two", "power")
 }
 
-/// H1, H2, …
-pub(super) fn numbered(letter: &str, n: usize) -> Vec<String> {
+/// Returns H1, H2, …
+pub(super) fn numbered_names(letter: &str, n: usize) -> Vec<String> {
     (1..=n).map(|i| format!("{letter}{i}")).collect()
 }
 
-/// Words, each after a blank.
+/// Joins words, each after a blank.
 pub(super) fn spaced<W: AsRef<str>>(words: impl IntoIterator<Item = W>) -> String {
     words.into_iter().map(|word| format!(" {}", word.as_ref())).collect()
 }
@@ -40,14 +40,16 @@ pub(super) fn names(variables: &[&'static str]) -> String {
     spaced(variables.iter().map(|var| ascii(var)))
 }
 
-pub(super) fn supposed(hypothesis: &Hypothesis, printer: Printer) -> String {
+pub(super) fn format_hypothesis(hypothesis: &Hypothesis, printer: Printer) -> String {
     match hypothesis.distance() {
-        Some((distance, most)) => says(&Proposition::Within(distance, most.clone()), printer.plain()),
+        Some((distance, most)) => {
+            format_proposition(&Proposition::Within(distance, most.clone()), printer.plain())
+        }
         None => printer.plain().expr(&hypothesis.value).relation(hypothesis.relation),
     }
 }
 
-pub(super) fn says(says: &Proposition, printer: Printer) -> String {
+pub(super) fn format_proposition(says: &Proposition, printer: Printer) -> String {
     let of = |tree: &Tree| printer.expr(tree);
     let under = |var: &str, tree: &Tree| format!("(fun {} => {})", ascii(var), of(tree));
     match says {
@@ -61,12 +63,12 @@ pub(super) fn says(says: &Proposition, printer: Printer) -> String {
     }
 }
 
-/// What formulas divide by, but for numbers; none before its own divisors.
+/// Returns the divisors in formulas, except numbers, each after its own divisors.
 pub(super) fn divisors<'t>(trees: impl Iterator<Item = &'t Tree>) -> Vec<Tree> {
     fn visit(tree: &Tree, all: &mut Vec<Tree>) {
-        tree.step().operands().for_each(|operand| visit(operand, all));
-        if let Step::Div(_, divisor) = tree.step()
-            && !matches!(divisor.step(), Step::Int(n) if *n != 0)
+        tree.op().operands().for_each(|operand| visit(operand, all));
+        if let Op::Div(_, divisor) = tree.op()
+            && !matches!(divisor.op(), Op::Int(n) if *n != 0)
             && !all.contains(divisor)
         {
             all.push(divisor.clone());
@@ -77,7 +79,7 @@ pub(super) fn divisors<'t>(trees: impl Iterator<Item = &'t Tree>) -> Vec<Tree> {
     all
 }
 
-/// That none of them is 0.
+/// States that no divisor is 0.
 pub(super) fn none_is_zero(divisors: &[Tree], printer: Printer) -> String {
     let all: Vec<_> =
         divisors.iter().map(|divisor| format!("{} <> 0", printer.plain().expr(divisor))).collect();
@@ -85,7 +87,7 @@ pub(super) fn none_is_zero(divisors: &[Tree], printer: Printer) -> String {
 }
 
 impl<'a> Lemma<'a> {
-    /// Under these hypotheses, of these formulas.
+    /// Returns a lemma about formulas under hypotheses.
     pub(super) fn new<'t>(
         name: String,
         printer: Printer<'a>,
@@ -108,17 +110,17 @@ impl<'a> Lemma<'a> {
         self.rounds && *hypothesis == minimum_precision()
     }
 
-    /// Its hypotheses, but for that of the precision, which Coq is told otherwise.
+    /// Returns its hypotheses, except the minimum precision, which has another form in Coq.
     pub(super) fn hypotheses(&self) -> impl Iterator<Item = &'a Hypothesis> {
         self.hypotheses.iter().copied().filter(|given| !self.says_bits(given))
     }
 
-    /// All of them.
-    pub(super) fn given(&self) -> &[&'a Hypothesis] {
+    /// Returns all its hypotheses.
+    pub(super) fn premises(&self) -> &[&'a Hypothesis] {
         &self.hypotheses
     }
 
-    /// What a hypothesis is called in proofs: H1, H2, …, and M for that of the precision.
+    /// Returns the label of a hypothesis in proofs: H1, H2, …, and M for the minimum precision.
     pub(super) fn label(&self, hypothesis: &Hypothesis) -> Option<String> {
         if self.says_bits(hypothesis) {
             return Some("M".into());
@@ -126,14 +128,14 @@ impl<'a> Lemma<'a> {
         self.hypotheses().position(|own| own == hypothesis).map(|i| format!("H{}", i + 1))
     }
 
-    /// Without what speaks of a variable.
+    /// Removes a variable and the hypotheses on it.
     pub(super) fn without(mut self, variable: &str) -> Self {
         self.hypotheses.retain(|given| !given.value.symbols().contains(variable));
         self.variables.retain(|own| *own != variable);
         self
     }
 
-    /// Which powers of two it speaks of besides 2ᵖ.
+    /// Returns the powers of two in it other than 2ᵖ.
     fn scales(&self) -> impl Iterator<Item = &'static str> {
         SCALES.into_iter().filter(|scale| self.rounds && self.variables.contains(scale))
     }
@@ -142,19 +144,20 @@ impl<'a> Lemma<'a> {
         spaced(self.scales().map(exponent))
     }
 
-    /// Introduces all of it: P, E, A1, A2, … for what is said of powers of two, and H1, H2, … for hypotheses.
+    /// Introduces all variables and hypotheses: P, E, A1, A2, … for powers of two, and H1, H2, … for
+    /// hypotheses.
     pub(super) fn intros(&self) -> String {
-        let (variables, labels) = (names(&self.variables), numbered("H", self.hypotheses().count()));
+        let (variables, labels) = (names(&self.variables), numbered_names("H", self.hypotheses().count()));
         let labels = spaced(labels);
         if self.rounds {
-            let (exponents, powers) = (self.exponents(), spaced(numbered("A", self.scales().count())));
+            let (exponents, powers) = (self.exponents(), spaced(numbered_names("A", self.scales().count())));
             return format!("intros prec choice{exponents} P{variables} E{powers}{labels}.");
         }
-        // Without any, `intros` would take in what the statement says.
+        // Without variables, `intros` would introduce premises of the statement.
         if self.variables.is_empty() { String::new() } else { format!("intros{variables}{labels}.") }
     }
 
-    /// Lines that make of each A1, A2, … a Q1, Q2, …, that the power of two is positive.
+    /// Returns lines that derive Q1, Q2, … from A1, A2, …: the powers of two are positive.
     pub(super) fn signs_of_scales(&self) -> Vec<String> {
         let sign = |(scale, i)| {
             let exponent = exponent(scale);
@@ -163,7 +166,7 @@ impl<'a> Lemma<'a> {
         self.scales().zip(1..).map(sign).collect()
     }
 
-    /// Its name, applied to its variables, and to its hypotheses by what they are called.
+    /// Returns its name, applied to its variables and to the labels of its hypotheses.
     pub(super) fn applied(&self, label: impl Fn(&Hypothesis) -> String) -> String {
         let (variables, labels) = (names(&self.variables), spaced(self.hypotheses().map(label)));
         let name = &self.name;
@@ -173,7 +176,7 @@ impl<'a> Lemma<'a> {
         format!("{name}{variables}{labels}")
     }
 
-    /// What it says, with its proof.
+    /// Returns its statement with a proof.
     pub(super) fn text(&self, keyword: &str, says: &str, proof: Script) -> String {
         let (mut start, mut lines, mut powers) = (" ", Vec::new(), Vec::new());
         if self.rounds {
@@ -192,7 +195,7 @@ impl<'a> Lemma<'a> {
             lines.push(format!("forall{} : R,", names(&self.variables)));
         }
         lines.extend(powers);
-        lines.extend(self.hypotheses().map(|given| format!("{} ->", supposed(given, self.printer))));
+        lines.extend(self.hypotheses().map(|given| format!("{} ->", format_hypothesis(given, self.printer))));
         lines.push(says.to_string());
         let (name, says, proof) = (&self.name, lines.join("\n  "), proof.into_text());
         format!("\n{keyword} {name} :{start}{says}.\nProof.\n{proof}Qed.\n")

@@ -1,24 +1,24 @@
-//! What formulas and functions are called in Coq.
+//! Names of formulas and functions in Coq.
 
 use super::expr::{Expr, Operator};
 use crate::formula::{Formula, Registry};
 use crate::number::Tree;
-use crate::number::tree::Step;
+use crate::number::tree::Op;
 
-/// Words that mean something else to Coq, or to our proofs.
+/// Words with a meaning in Coq or in our proofs.
 const TAKEN: [&str; 27] = [
     "R", "Prop", "Set", "Type", "as", "at", "cofix", "else", "end", "exists", "exp", "fix", "for", "forall",
     "fun", "if", "in", "let", "match", "mod", "nat", "pow", "return", "then", "using", "where", "with",
 ];
 
-/// The word, or another if that one is taken. A letter with a number is what proofs call what they find.
+/// Returns the word, or another one if it is reserved. Proofs use letters with a number.
 pub(super) fn free(word: String) -> String {
     let numbered = |rest: &str| !rest.is_empty() && rest.bytes().all(|byte| byte.is_ascii_digit());
     let found = word.strip_prefix(|c: char| c == 's' || c.is_ascii_uppercase()).is_some_and(numbered);
     if found || TAKEN.contains(&word.as_str()) { format!("{word}_") } else { word }
 }
 
-/// A symbol in letters that Coq takes: ε₄ is eps4, δu is du.
+/// Returns a symbol in ASCII letters: ε₄ is eps4, δu is du.
 pub(super) fn ascii(symbol: &str) -> String {
     if symbol.is_ascii() && symbol != "H" {
         return free(symbol.replace(|c: char| !c.is_ascii_alphanumeric(), "_"));
@@ -30,13 +30,13 @@ pub(super) fn ascii(symbol: &str) -> String {
         'ρ' => "rho".to_string(),
         'δ' => "d".to_string(),
         'ᵏ' => "_k".to_string(),
-        // Powers of two: 2ᵖ is two_p.
+        // For powers of two: 2ᵖ is two_p.
         '2' => "two".to_string(),
         'ᵃ' => "_a".to_string(),
         'ᵇ' => "_b".to_string(),
         'ᶠ' => "_f".to_string(),
         'ᵖ' => "_p".to_string(),
-        // What begins with H is a hypothesis.
+        // Names that begin with H are hypotheses.
         'H' => "h".to_string(),
         '₀'..='₉' => (u32::from(c) - u32::from('₀')).to_string(),
         c if c.is_ascii_alphanumeric() => c.to_string(),
@@ -45,32 +45,32 @@ pub(super) fn ascii(symbol: &str) -> String {
     symbol.chars().map(letter).collect()
 }
 
-/// A function by its path: `lens::focus` is lens_focus.
+/// Returns the name of a function from its path: `lens::focus` is lens_focus.
 pub(super) fn function(formula: &Formula) -> String {
     free(formula.name().replace("::", "_").replace('.', "_"))
 }
 
-/// Prints formulas in the names of a registry's functions.
+/// Printer of formulas with the names of a registry's functions.
 #[derive(Clone, Copy)]
 pub(super) struct Printer<'a> {
     pub(super) registry: &'a Registry,
-    /// Of functions that compute the same, the first of these is called.
+    /// The first of these is called if several functions compute the same.
     pub(super) preferred: &'a [&'static str],
 }
 
 impl Printer<'_> {
-    /// What is shared speaks in no function's own names.
+    /// Returns the printer without preferred functions, for shared definitions.
     pub(super) fn plain(self) -> Self {
         Printer { preferred: &[], ..self }
     }
 
-    /// A formula; what a function of the registry computes in it, as a call of that function.
+    /// Returns a formula with calls of the registry's functions.
     pub(super) fn expr(self, tree: &Tree) -> Expr {
         let place = |path: &str| self.preferred.iter().position(|known| *known == path);
         let place = |path: &str| place(path).unwrap_or(self.preferred.len());
         match self.registry.calls(tree).min_by_key(|call| place(call.formula.path)) {
             Some(call) => {
-                let common = self.registry.common(call.formula);
+                let common = self.registry.common_symbols(call.formula);
                 let arguments = call.arguments.iter().map(|argument| self.expr(argument));
                 let all = common.map(|name| Expr::Name(ascii(name))).chain(arguments).collect();
                 Expr::Call(function(call.formula), all)
@@ -79,9 +79,10 @@ impl Printer<'_> {
         }
     }
 
-    /// What a function does: its last step is its own, unless all it does is call another.
+    /// Returns the body of a function; its last operation is not replaced by a call unless the function only
+    /// calls another one.
     pub(super) fn body(self, formula: &Formula) -> Expr {
-        if self.registry.delegate(formula).is_some() {
+        if self.registry.delegated_call(formula).is_some() {
             self.expr(&formula.tree)
         } else {
             self.last_step(&formula.tree)
@@ -91,22 +92,21 @@ impl Printer<'_> {
     fn last_step(self, tree: &Tree) -> Expr {
         use Operator::*;
         let of = |tree: &Tree| self.expr(tree);
-        let expr = match tree.step() {
-            Step::Symbol(name) => Expr::Name(ascii(name)),
-            Step::Int(n) => Expr::int(*n),
-            Step::Neg(a) => of(a).negated(),
-            Step::Add(a, b) => Expr::binary(Add, of(a), of(b)),
-            Step::Sub(a, b) => Expr::binary(Sub, of(a), of(b)),
-            Step::Mul(a, b) => Expr::binary(Mul, of(a), of(b)),
-            Step::Div(a, b) => Expr::binary(Div, of(a), of(b)),
-            Step::Exp(a) => Expr::Call("exp".into(), vec![of(a)]),
-            Step::PositivePart(a) => Expr::Call("Rmax".into(), vec![of(a), Expr::int(0)]),
-            Step::Min(a, b) => Expr::Call("Rmin".into(), vec![of(a), of(b)]),
-            Step::Rounded(a) => Expr::Call("fl prec choice".into(), vec![of(a)]),
+        let expr = match tree.op() {
+            Op::Symbol(name) => Expr::Name(ascii(name)),
+            Op::Int(n) => Expr::int(*n),
+            Op::Neg(a) => of(a).negated(),
+            Op::Add(a, b) => Expr::binary(Add, of(a), of(b)),
+            Op::Sub(a, b) => Expr::binary(Sub, of(a), of(b)),
+            Op::Mul(a, b) => Expr::binary(Mul, of(a), of(b)),
+            Op::Div(a, b) => Expr::binary(Div, of(a), of(b)),
+            Op::Exp(a) => Expr::Call("exp".into(), vec![of(a)]),
+            Op::PositivePart(a) => Expr::Call("Rmax".into(), vec![of(a), Expr::int(0)]),
+            Op::Min(a, b) => Expr::Call("Rmin".into(), vec![of(a), of(b)]),
+            Op::Rounded(a) => Expr::Call("fl prec choice".into(), vec![of(a)]),
         };
-        // What the rules of differentiation write is full of 0 x, 1 x and x + 0; nobody else's zeros are
-        // touched.
-        if tree.site().is_of_duals() { expr.simplified() } else { expr }
+        // The rules of differentiation produce 0 x, 1 x and x + 0; only these are simplified.
+        if tree.site().is_in_dual_numbers() { expr.simplified() } else { expr }
     }
 }
 
@@ -131,7 +131,7 @@ mod tests {
         assert_eq!(text(&(&a / &(&b * &c))), "a / (b * eps4)");
         assert_eq!(text(&(&a * &b / &c)), "a * b / eps4");
         assert_eq!(text(&(-(&a + &b) * &c)), "- (a + b) * eps4");
-        // Coq reads - a * b as (- a) * b.
+        // Coq parses - a * b as (- a) * b.
         assert_eq!(text(&-(&a * &b)), "- (a * b)");
         assert_eq!(text(&-(-&a)), "- (- a)");
         assert_eq!(text(&(&a - Tree::int(-2))), "a - - 2");
@@ -178,10 +178,9 @@ mod tests {
         assert_eq!(body("m::double"), "2 * x");
         assert_eq!(body("m::quadruple"), "m_double (m_double x) * k");
         assert_eq!(body("m::again"), "m_double x");
-        // Formed by differentiating, without the zeros and ones.
+        // A derivative, without zeros and ones.
         assert_eq!(body("m::slope"), "2");
-        // What all functions may depend on comes before the arguments, and of those that hand on, the
-        // preferred is called.
+        // Common symbols precede the arguments, and the preferred one of the equal functions is called.
         let call = quadruple(&(&x + &k), &k);
         let printed = |preferred| Printer { registry: &registry, preferred }.expr(&call).to_string();
         assert_eq!(printed(&[]), "m_quadruple k (x + k)");

@@ -1,24 +1,24 @@
-//! The proof of a goal as Coq's tactics.
+//! Proofs of goals by Coq's tactics.
 //!
-//! What the kernel *found* is used, as far as Coq would have to guess it: which quantities to name, into
-//! which cases to split, and what has the sign of its slope. None of it is believed: each step is a goal that
-//! Coq closes by itself, or does not.
+//! The search results of the kernel guide Coq where it would have to guess: the quantities to name, the
+//! cases, and the expressions whose sign is that of a slope. None of them is trusted: each is a goal that Coq
+//! proves by itself or rejects.
 
-mod kept;
 mod limit;
+mod retained;
 mod rounding;
 
 use super::expr::Expr;
 use super::lemma::{Lemma, Result};
 use super::print::ascii;
 use crate::formula::{Hypothesis, Proposition, Registry, Statement};
-use crate::number::tree::Step;
+use crate::number::tree::Op;
 use crate::proof::kernel;
 use crate::proof::kernel::algebra::{Poly, Ratio, Symbol};
 use crate::proof::kernel::sign::{Certificate, Rule, Sign};
-use crate::proof::kernel::{Because, Derivation, Direct, Signed, Supposed, Used};
-use crate::proof::paper::Paper;
-use kept::Kept;
+use crate::proof::kernel::{Assumption, AssumptionUse, Derivation, Direct, Justification, SignedRatio};
+use crate::proof::render::ProofPrinter;
+use retained::Retained;
 use std::fmt::Write;
 
 /// Lines of a proof.
@@ -28,25 +28,25 @@ pub(super) struct Script {
     indent: usize,
 }
 
-/// Where a proof stands: in which lemma, after how many suppositions, how many of them by splitting.
+/// Position in a proof: the lemma, the number of assumptions used, and the number of cases among them.
 #[derive(Clone)]
 struct Place<'l> {
     lemma: &'l Lemma<'l>,
     proposition: &'l Proposition,
     supposed: usize,
     cases: usize,
-    kept: Kept,
+    kept: Retained,
 }
 
 impl<'l> Place<'l> {
-    fn new(lemma: &'l Lemma<'l>, proposition: &'l Proposition, kept: Kept) -> Self {
+    fn new(lemma: &'l Lemma<'l>, proposition: &'l Proposition, kept: Retained) -> Self {
         Place { lemma, proposition, supposed: 0, cases: 0, kept }
     }
 }
 
-/// Returns `true` if a hypothesis is the sign of a symbol.
-fn is_said_of(supposed: &Supposed, x: &Symbol) -> bool {
-    supposed.given.as_ref().is_some_and(|given| *given.value.step() == Step::Symbol(x.name()))
+/// Returns `true` if an assumption is the sign of a symbol.
+fn is_sign_of(supposed: &Assumption, x: &Symbol) -> bool {
+    supposed.hypothesis.as_ref().is_some_and(|given| *given.value.op() == Op::Symbol(x.name()))
 }
 
 /// # Errors
@@ -54,12 +54,12 @@ fn is_said_of(supposed: &Supposed, x: &Symbol) -> bool {
 pub(super) fn derivation(hypotheses: &[&Hypothesis], proposition: &Proposition) -> Result<Derivation> {
     kernel::derivation(hypotheses, proposition).map_err(|why| {
         let statement = Statement::new("", proposition.clone()).assuming(hypotheses.iter().copied());
-        let why = Paper::new(&Registry::default()).why(&statement, &why);
+        let why = ProofPrinter::new(&Registry::default()).describe(&statement, &why);
         format!("there is no proof to follow: {why}")
     })
 }
 
-/// Any of the derivations without cases that a derivation ends in: all begin with the same suppositions.
+/// Returns the first derivation without cases; all of them begin with the same assumptions.
 fn first(derivation: &Derivation) -> &Direct {
     match derivation {
         Derivation::Direct(direct) => direct,
@@ -72,7 +72,7 @@ impl Script {
         Script { indent: 1, ..Script::default() }
     }
 
-    /// With all that a lemma speaks of and supposes.
+    /// Begins a proof by introducing the variables and hypotheses of a lemma.
     pub(super) fn of(lemma: &Lemma) -> Self {
         let mut script = Script::new();
         let intros = lemma.intros();
@@ -89,7 +89,7 @@ impl Script {
         let _ = writeln!(self.lines, "{:1$}{text}", "", 2 * self.indent);
     }
 
-    /// A part of its own.
+    /// Writes a subproof.
     pub(super) fn block(&mut self, bullet: &str, inside: impl FnOnce(&mut Self) -> Result<()>) -> Result<()> {
         let mut own = Script { lines: String::new(), indent: self.indent + 1 };
         inside(&mut own)?;
@@ -100,32 +100,32 @@ impl Script {
         Ok(())
     }
 
-    /// Proves a proposition, or another whose proof supposes the same, from what a lemma supposes.
+    /// Proves a proposition, or one with the same assumptions, from the hypotheses of a lemma.
     pub(super) fn goal(&mut self, lemma: &Lemma, proposition: &Proposition) -> Result<()> {
-        let derivation = derivation(lemma.given(), proposition)?;
+        let derivation = derivation(lemma.premises(), proposition)?;
         let direct = first(&derivation);
-        match (&direct.because, proposition) {
-            (Because::Same(_), _) if !direct.errors.is_empty() => {
-                return self.in_units(&direct.errors, lemma);
+        match (&direct.justification, proposition) {
+            (Justification::Equal(_), _) if !direct.roundings.is_empty() => {
+                return self.in_units(&direct.roundings, lemma);
             }
-            (Because::Order(_), Proposition::Sign(_, of)) => return self.order(of, lemma),
+            (Justification::Order(_), Proposition::Sign(_, of)) => return self.order(of, lemma),
             _ => {}
         }
-        let kept = Kept::of(&derivation);
+        let kept = Retained::of(&derivation);
         kept.name(self, lemma);
         if lemma.rounds {
-            self.models(&direct.errors, lemma);
+            self.models(&direct.roundings, lemma);
         }
         self.derivation(Place::new(lemma, proposition, kept), &derivation)
     }
 
-    /// Puts the hypotheses that come before the next case to use.
+    /// Uses the hypotheses up to the next case.
     fn hypotheses(&mut self, place: &mut Place, direct: &Direct) -> Result<()> {
-        while let Some(next) = direct.supposed.get(place.supposed)
-            && let Some(given) = next.given.as_ref()
+        while let Some(next) = direct.assumptions.get(place.supposed)
+            && let Some(given) = next.hypothesis.as_ref()
         {
             place.supposed += 1;
-            self.suppose(place.supposed, next, place.lemma.label(given))?;
+            self.use_assumption(place.supposed, next, place.lemma.label(given))?;
         }
         Ok(())
     }
@@ -138,15 +138,15 @@ impl Script {
                 place.supposed += 1;
                 place.cases += 1;
                 let (case, branches) = (format!("C{}", place.cases), [positive, not]);
-                let split = |branch| first(branch).supposed.get(place.supposed - 1);
+                let split = |branch| first(branch).assumptions.get(place.supposed - 1);
                 if !place.kept.decide(self, &case, split(positive), first(positive)) {
                     let deciding = Expr::poly(deciding).argument();
                     self.line(&format!("destruct (either {deciding}) as [{case} | {case}]."));
                 }
                 for branch in branches {
                     self.block("{", |own| {
-                        let split = &first(branch).supposed[place.supposed - 1];
-                        own.suppose(place.supposed, split, Some(case.clone()))?;
+                        let split = &first(branch).assumptions[place.supposed - 1];
+                        own.use_assumption(place.supposed, split, Some(case.clone()))?;
                         own.derivation(place.clone(), branch)
                     })?;
                 }
@@ -155,28 +155,28 @@ impl Script {
         }
     }
 
-    /// Puts the i-th supposition to use.
-    fn suppose(&mut self, i: usize, supposed: &Supposed, hypothesis: Option<String>) -> Result<()> {
+    /// Uses the i-th assumption.
+    fn use_assumption(&mut self, i: usize, supposed: &Assumption, hypothesis: Option<String>) -> Result<()> {
         let strict = supposed.sign.is_strict();
-        match (&supposed.used, hypothesis) {
-            (Used::Follows | Used::Kept | Used::Unused, _) => {}
-            (Used::Symbol(x), _) if is_said_of(supposed, x) => {}
+        match (&supposed.usage, hypothesis) {
+            (AssumptionUse::Implied | AssumptionUse::Retained | AssumptionUse::Unused, _) => {}
+            (AssumptionUse::Symbol(x), _) if is_sign_of(supposed, x) => {}
             (_, None) => {
-                return Err("more is supposed of what tends to infinity than that it is positive".into());
+                return Err("a hypothesis about the variable of a limit requires more than its sign".into());
             }
-            (Used::Symbol(x), Some(hypothesis)) => self.line(&format!(
+            (AssumptionUse::Symbol(x), Some(hypothesis)) => self.line(&format!(
                 "assert (P{i} : 0 {} {}) by (apply (same_sign _ _ _ {hypothesis}); decide_goal).",
                 if strict { "<" } else { "<=" },
                 ascii(x.name())
             )),
-            (Used::Between(_, _, place), Some(hypothesis)) => {
-                let near = supposed.given.as_ref().is_some_and(|given| given.distance().is_some());
+            (AssumptionUse::Interval(_, _, place), Some(hypothesis)) => {
+                let near = supposed.hypothesis.as_ref().is_some_and(|given| given.distance().is_some());
                 let (rule, place) = (if near { "near" } else { "between" }, ascii(place.name()));
                 self.line(&format!("destruct ({rule} _ _ _ {hypothesis}) as ({place} & T{i} & ->)."));
             }
-            (Used::Pivot(pivot, by, named), Some(hypothesis)) => {
+            (AssumptionUse::Pivot(pivot, by, named), Some(hypothesis)) => {
                 let (mut value, mut hypothesis) = (Some(supposed.value.clone()), hypothesis);
-                if let Some(divisor) = supposed.divided_by.as_ref() {
+                if let Some(divisor) = supposed.divisor.as_ref() {
                     value = supposed.value.over(divisor);
                     let (divisor, rule) = (Expr::ratio(divisor), if strict { "lt" } else { "le" });
                     hypothesis =
@@ -200,7 +200,7 @@ impl Script {
                      decide_goal)."
                 ));
                 if named.is_some() {
-                    // The name itself may be replaced later, and not by what it was given to.
+                    // A later assumption may replace the name, but must not replace it here.
                     self.line(&format!("clear S{i}."));
                 }
             }
@@ -210,17 +210,17 @@ impl Script {
 
     fn direct(&mut self, place: &Place, direct: &Direct) -> Result<()> {
         let divisors = direct.divisors.iter().map(|(_, signed)| signed);
-        let mut passing = divisors.chain(direct.brackets.iter().map(|(.., signed)| signed));
-        let decisive: &[Signed] = match &direct.because {
-            Because::Sign(signed) => std::slice::from_ref(signed),
-            Because::Within(both) => &both[..],
+        let mut passing = divisors.chain(direct.branches.iter().map(|(.., signed)| signed));
+        let decisive: &[SignedRatio] = match &direct.justification {
+            Justification::Sign(signed) => std::slice::from_ref(signed),
+            Justification::Within(both) => &both[..],
             _ => &[],
         };
         if place.kept.signs(self, place, direct, decisive)? {
             return Ok(());
         }
-        let (decided, slopes) = match &direct.because {
-            Because::Sign(signed) => (slope_of(signed), slopes(&signed.num)),
+        let (decided, slopes) = match &direct.justification {
+            Justification::Sign(signed) => (slope_of(signed), slopes(&signed.num)),
             _ => (None, 0),
         };
         if slopes != usize::from(decided.is_some()) || passing.any(|signed| self::slopes(&signed.num) > 0) {
@@ -231,30 +231,30 @@ impl Script {
     }
 }
 
-/// On how many slopes a sign rests.
+/// Returns the number of slopes that a sign rests on.
 fn slopes(certificate: &Certificate) -> usize {
     match certificate.rule() {
-        Rule::Terms | Rule::Sizes(_) | Rule::Ends { .. } => 0,
-        Rule::Factor(a, b) | Rule::Square { leading: a, rest: b, .. } => slopes(a) + slopes(b),
-        Rule::Slope { start, slope, .. } => 1 + slopes(start) + slopes(slope),
+        Rule::Termwise | Rule::TriangleInequality(_) | Rule::Endpoints { .. } => 0,
+        Rule::Product(a, b) | Rule::Square { leading: a, rest: b, .. } => slopes(a) + slopes(b),
+        Rule::MeanValue { start, slope, .. } => 1 + slopes(start) + slopes(slope),
     }
 }
 
-/// A polynomial as a part whose sign is that of its slope in a symbol, times the rest; if there is one.
+/// Returns a factor of a polynomial whose sign is that of its slope in a symbol, and the remaining factor.
 fn slope(certificate: &Certificate) -> Option<(&Certificate, Symbol, Poly)> {
     let times = |factor: &Certificate, of| {
         let (part, x, rest) = slope(of)?;
         Some((part, x, rest * factor.of()))
     };
     match certificate.rule() {
-        Rule::Slope { x, .. } => Some((certificate, *x, Poly::constant(1))),
-        Rule::Factor(a, b) => times(a, b).or_else(|| times(b, a)),
+        Rule::MeanValue { x, .. } => Some((certificate, *x, Poly::constant(1))),
+        Rule::Product(a, b) => times(a, b).or_else(|| times(b, a)),
         _ => None,
     }
 }
 
-/// How a sign is decided that is that of a slope.
-fn slope_of(signed: &Signed) -> Option<String> {
+/// Returns the tactic for a sign that is that of a slope.
+fn slope_of(signed: &SignedRatio) -> Option<String> {
     let (part, x, rest) = slope(&signed.num)?;
     let rest = Ratio::from(rest).over(&signed.value.den().clone().into())?;
     let positive = part.sign().implies(Sign::NonNegative);

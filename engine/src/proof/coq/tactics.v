@@ -1,7 +1,8 @@
-(** * What every proof here uses: how a goal is put to the program, and nothing about contact.
+(** * Tactics of all proofs: how a goal is passed to the program.
 
-    Quantities of hypotheses get names, and what they stand for is replaced; a bracket is one of its values;
-    the program then decides equalities and signs. Slopes and limits have lemmas. *)
+    Quantities of hypotheses get names, and their definitions are substituted; a positive part is replaced
+    by its value in each case; the program then decides equalities and signs. Slopes and limits have
+    lemmas. *)
 From Coq Require Export Reals Lra.
 From Coquelicot Require Export Coquelicot.
 From Coq Require Import List.

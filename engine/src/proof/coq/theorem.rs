@@ -1,7 +1,7 @@
-//! A claim as theorem and lemmas, with their proofs.
+//! Theorems and lemmas of a claim, with their proofs.
 
 use super::expr::Expr;
-use super::lemma::{Lemma, Result, divisors, none_is_zero, says};
+use super::lemma::{Lemma, Result, divisors, format_proposition, none_is_zero};
 use super::print::{Printer, ascii, free};
 use super::script::Script;
 use super::{identifier, theorem_name};
@@ -10,9 +10,9 @@ use crate::formula::statement::{Goal, Role, Sequence};
 use crate::formula::{Hypothesis, Proposition, Relation, Statement};
 use crate::number::Tree;
 
-/// A claim, to be printed.
+/// A claim to be exported.
 pub(super) struct Claim<'a> {
-    /// What it says, it says in the names of the functions that it is about.
+    /// Prints with the names of the functions that the claim concerns.
     pub(super) printer: Printer<'a>,
     pub(super) statement: &'a Statement,
     pub(super) name: String,
@@ -24,7 +24,7 @@ impl<'a> Claim<'a> {
         Claim { printer, statement, name }
     }
 
-    /// Its theorem and the lemmas before it.
+    /// Returns its theorem and the lemmas before it.
     pub(super) fn text(&self) -> Result<String> {
         let symbols = self.printer.registry.symbols_of(self.statement.trees());
         for (i, symbol) in symbols.iter().enumerate() {
@@ -40,7 +40,7 @@ impl<'a> Claim<'a> {
             },
             (None, [], [goal, rates @ ..]) => match goal.proposition {
                 Proposition::Limit(_, by, _) => self.limit(by, goal, rates)?,
-                _ if rates.is_empty() => self.proved("Theorem", &self.lemma(goal), goal)?,
+                _ if rates.is_empty() => self.with_proof("Theorem", &self.lemma(goal), goal)?,
                 _ => return Err("several goals".into()),
             },
             (None, own, [near @ .., goal]) if near.len() == own.len() => self.computed(near, goal)?,
@@ -49,7 +49,7 @@ impl<'a> Claim<'a> {
         Ok(self.defined()? + &text)
     }
 
-    /// What is supposed, and of which formulas something is said.
+    /// Returns a lemma about formulas under hypotheses.
     pub(super) fn supposing<'t>(
         &self,
         name: &str,
@@ -63,8 +63,8 @@ impl<'a> Claim<'a> {
         Lemma::new(name, self.printer, self.statement.contains_rounding(), hypotheses, trees.into_iter())
     }
 
-    /// For a goal: without hypotheses on a member and the quantity computed from it if the goal contains
-    /// neither. Its name is that of its part, with a number if there are others.
+    /// Returns the lemma of a goal, without hypotheses on a member and the quantity computed from it if the
+    /// goal contains neither. Its name is that of the part, with a number if there are several.
     pub(super) fn lemma(&self, goal: &Goal) -> Lemma<'a> {
         let computed = self.statement.computed();
         let own = |name: &&str| *name == MEMBERS[0] || computed.iter().any(|own| own.symbol == *name);
@@ -79,14 +79,14 @@ impl<'a> Claim<'a> {
         self.supposing(&format!("{} {number}", goal.part), hypotheses, goal.proposition.trees())
     }
 
-    /// A goal with its proof.
-    pub(super) fn proved(&self, keyword: &str, lemma: &Lemma, goal: &Goal) -> Result<String> {
+    /// Returns a goal with its proof.
+    pub(super) fn with_proof(&self, keyword: &str, lemma: &Lemma, goal: &Goal) -> Result<String> {
         let mut script = Script::of(lemma);
         script.goal(lemma, &goal.proposition)?;
-        Ok(lemma.text(keyword, &says(&goal.proposition, self.printer), script))
+        Ok(lemma.text(keyword, &format_proposition(&goal.proposition, self.printer), script))
     }
 
-    /// No divisor is 0; empty if there is none.
+    /// States that no divisor is 0; empty if there are no divisors.
     fn defined(&self) -> Result<String> {
         let divisors = divisors(self.statement.trees());
         if divisors.is_empty() {
@@ -94,7 +94,7 @@ impl<'a> Claim<'a> {
         }
         let symbols: Vec<_> = self.statement.computed().iter().map(|computed| computed.symbol).collect();
         let is_computed = |divisor: &Tree| divisor.symbols().iter().any(|name| symbols.contains(name));
-        // Of what is rounded, nothing that is proved by induction is needed.
+        // For roundings, nothing proved by induction is needed.
         let hypotheses = if divisors.iter().any(is_computed) {
             self.statement.hypotheses_for(Role::Claim)
         } else if self.statement.contains_rounding() {
@@ -114,19 +114,19 @@ impl<'a> Claim<'a> {
         Ok(lemma.text("Lemma", &none_is_zero(&divisors, self.printer), script))
     }
 
-    /// Quantities are near others, and so the claim holds of those that are computed.
+    /// States the claim for the computed quantities, which lie in their intervals.
     fn computed(&self, near: &[Goal], goal: &Goal) -> Result<String> {
         let (are_near, mut rest) = (near.iter().map(|near| self.lemma(near)), self.lemma(goal));
         let are_near: Vec<_> = are_near.collect();
         rest.name += "_nearby";
-        let near = are_near.iter().zip(near).map(|(lemma, near)| self.proved("Lemma", lemma, near));
-        let text = near.collect::<Result<String>>()? + &self.proved("Lemma", &rest, goal)?;
+        let near = are_near.iter().zip(near).map(|(lemma, near)| self.with_proof("Lemma", lemma, near));
+        let text = near.collect::<Result<String>>()? + &self.with_proof("Lemma", &rest, goal)?;
         let Proposition::Within(of, bound) = &goal.proposition else {
             return Err("a computed quantity in a claim that is no bound".into());
         };
         let spelled_out = |tree: &Tree| {
             let last_first = self.statement.computed().iter().rev();
-            last_first.fold(tree.clone(), |tree, own| tree.with(&[(own.symbol, own.by.clone())]))
+            last_first.fold(tree.clone(), |tree, own| tree.substitute(&[(own.symbol, own.formula.clone())]))
         };
         let [of, bound] = [of, bound].map(spelled_out);
         let theorem = self.supposing("", self.statement.hypotheses_for(Role::InvariantBase), [&of, &bound]);
@@ -135,11 +135,12 @@ impl<'a> Claim<'a> {
         let mut script = Script::new();
         script.line(&theorem.intros());
         script.line(&format!("exact ({computing}{applied})."));
-        let says = says(&Proposition::Within(of, bound), self.printer);
+        let says = format_proposition(&Proposition::Within(of, bound), self.printer);
         Ok(text + &theorem.text("Theorem", &says, script))
     }
 
-    /// `let u := BY in let N1 := NEAR in`: what is computed, and that it is in its interval, by these lemmas.
+    /// Returns `let u := FORMULA in let N1 := INTERVAL in`: the computed quantities, with the lemmas that
+    /// place them in their intervals.
     pub(super) fn computing<'l>(
         &self,
         near: impl Iterator<Item = &'l Lemma<'l>>,
@@ -147,13 +148,13 @@ impl<'a> Claim<'a> {
     ) -> String {
         let all = self.statement.computed().iter().zip(near).zip(1..);
         let lets = all.map(|((computed, near), i)| {
-            let (name, by) = (ascii(computed.symbol), self.printer.expr(&computed.by));
+            let (name, by) = (ascii(computed.symbol), self.printer.expr(&computed.formula));
             format!("let {name} := {by} in let N{i} := {} in ", self.applied(near, &label))
         });
         lets.collect()
     }
 
-    /// A lemma, applied to what is called so, and to N1, N2, … for the intervals of what is computed.
+    /// Applies a lemma to labels of hypotheses, and to N1, N2, … for the intervals of computed quantities.
     pub(super) fn applied(&self, lemma: &Lemma, label: impl Fn(&Hypothesis) -> Option<String>) -> String {
         let place =
             |given: &Hypothesis| self.statement.computed().iter().position(|own| own.hypothesis == *given);
@@ -161,24 +162,25 @@ impl<'a> Claim<'a> {
         lemma.applied(|given| near(given).or_else(|| label(given)).unwrap_or_default())
     }
 
-    /// The limit itself; how fast it is reached is in lemmas.
+    /// States the limit; lemmas contain its rate.
     fn limit(&self, by: &'static str, goal: &Goal, rates: &[Goal]) -> Result<String> {
-        let rates = rates.iter().map(|rate| self.proved("Lemma", &self.lemma(rate), rate));
+        let rates = rates.iter().map(|rate| self.with_proof("Lemma", &self.lemma(rate), rate));
         let text = rates.collect::<Result<String>>()?;
         let all = self.statement.hypotheses_for(Role::Claim);
         let theorem = self.supposing("", all.clone(), goal.proposition.trees()).without(by);
         let mut script = Script::of(&theorem);
         script.limit(&theorem, &all, &goal.proposition)?;
-        Ok(text + &theorem.text("Theorem", &says(&goal.proposition, self.printer), script))
+        Ok(text + &theorem.text("Theorem", &format_proposition(&goal.proposition, self.printer), script))
     }
 
-    /// A function of the powers of what is less than 1 in size.
+    /// States the limit of a formula of powers of a ratio less than 1 in absolute value.
     fn vanishing(&self, Sequence { ratio, member, .. }: &Sequence, to: &Tree) -> Result<String> {
         let goals @ [_, at_zero] = self.statement.goals() else {
             return Err("a limit of several components".into());
         };
         let [small, limit] = [0, 1].map(|i| self.lemma(&goals[i]));
-        let text = self.proved("Lemma", &small, &goals[0])? + &self.proved("Lemma", &limit, at_zero)?;
+        let text =
+            self.with_proof("Lemma", &small, &goals[0])? + &self.with_proof("Lemma", &limit, at_zero)?;
         let hypotheses = self.statement.hypotheses_for(Role::Claim);
         let theorem = self.supposing("", hypotheses, [ratio, &member[0], to]).without(POWER);
         let [ratio, of, to] = [ratio, &member[0], to].map(|tree| self.printer.expr(tree));
@@ -189,13 +191,13 @@ impl<'a> Claim<'a> {
         script.line(&theorem.intros());
         script.line(&format!("apply (limit_of_powers (fun {name} => {of}) {}).", ratio.argument()));
         script.line(&exact(&small));
-        // That it is continuous there supposes the same.
+        // Continuity there has the same hypotheses.
         script.block("-", |own| {
             own.line("functions.");
             own.goal(&limit, &at_zero.proposition)
         })?;
         script.line(&exact(&limit));
-        let says = format!("is_lim_seq (fun n => {}) {}", of.with(&name, &power), to.argument());
+        let says = format!("is_lim_seq (fun n => {}) {}", of.substitute(&name, &power), to.argument());
         Ok(text + &theorem.text("Theorem", &says, script))
     }
 }

@@ -1,11 +1,10 @@
-//! Polynomials and their quotients over ℚ, with e^… as an atom: the arithmetic that proofs rest on.
+//! Polynomials over ℚ and their quotients, with e^… as an atom: the arithmetic of the kernel.
 //!
-//! Everything is exact. A [`Poly`] is a sum of distinct monomials with coefficients that are not 0, so two
-//! polynomials without e^… are the same function if and only if they are the same sum; with e^… they are if
-//! they are the same sum, and may be if exponents are equal that are not written alike. A [`Ratio`] is not
-//! reduced to lowest terms: two are equal if they are after cross-multiplication. That is all that equality
-//! needs; where a numerator divides by its denominator, the division is done, to keep what a reader sees
-//! short.
+//! All arithmetic is exact. A [`Poly`] is a sum of distinct monomials with nonzero coefficients, so two
+//! polynomials without e^… are the same function if and only if they are the same sum. With e^…, equal sums
+//! are equal functions; the converse can fail, as equal exponents may have different representations. A
+//! [`Ratio`] is not reduced to lowest terms: two are equal if they are so after cross-multiplication. If the
+//! denominator divides the numerator, the division is carried out, which shortens printed proofs.
 
 use super::effort;
 pub use super::monomial::{Monomial, Symbol};
@@ -16,34 +15,33 @@ use rug::Rational;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-/// A polynomial: its monomials in order, each with its coefficient, which is not 0.
+/// A polynomial, as its monomials in ascending order with their nonzero coefficients.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Poly(Arc<Vec<(Monomial, Number)>>);
 
-/// The number of e^… that may stand in exponents of each other: what is shared between them is read again at
-/// each place.
+/// Maximum nesting of e^… in exponents. Shared parts of exponents are translated again at each occurrence.
 const MAX_NESTING: u32 = 4;
 
-/// A quotient of polynomials; the denominator is not the zero polynomial.
+/// A quotient of polynomials, whose denominator is not the zero polynomial.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Ratio {
     num: Poly,
     den: Poly,
 }
 
-/// The sum of terms, in any order.
+/// Adds terms, which may come in any order.
 impl FromIterator<(Monomial, Number)> for Poly {
     fn from_iter<I: IntoIterator<Item = (Monomial, Number)>>(terms: I) -> Self {
         let mut terms: Vec<_> =
             terms.into_iter().inspect(|(m, _)| effort::spend(1 + m.powers().len())).collect();
-        // Where some are in order already, as in sums and products they are, this sort merges.
+        // Terms of sums and products come in sorted runs, which this sort merges.
         terms.sort_by(|(m, _), (n, _)| m.cmp(n));
         terms.dedup_by(|(m, q), (n, sum)| {
-            let alike = m == n;
-            if alike {
+            let is_duplicate = m == n;
+            if is_duplicate {
                 *sum = &*sum + &*q;
             }
-            alike
+            is_duplicate
         });
         terms.retain(|(_, q)| q.sign().is_ne());
         Poly(terms.into())
@@ -64,22 +62,22 @@ operators! { [] Poly;
 }
 
 impl Poly {
-    /// 0
+    /// Returns the zero polynomial.
     pub fn zero() -> Self {
         Poly(Vec::new().into())
     }
 
-    /// A number.
+    /// Returns the constant `q`.
     pub fn constant(q: impl Into<Number>) -> Self {
         Poly::from_iter([(Monomial::one(), q.into())])
     }
 
-    /// A symbol.
+    /// Returns the symbol `x` as a polynomial.
     pub fn symbol(x: Symbol) -> Self {
         Monomial::of(x).into()
     }
 
-    /// e to a quotient.
+    /// Returns e to the power of a quotient.
     pub fn exponential(exponent: Ratio) -> Self {
         if exponent.nesting() >= MAX_NESTING {
             effort::exceed();
@@ -88,29 +86,29 @@ impl Poly {
         Monomial { exponent, ..Monomial::one() }.into()
     }
 
-    /// Each term with the opposite sign.
+    /// Returns the terms with opposite signs.
     fn negated(&self) -> impl Iterator<Item = (Monomial, Number)> {
         self.0.iter().map(|(m, q)| (m.clone(), -q))
     }
 
-    /// Each term of one with each of the other.
+    /// Returns the products of each term of one polynomial and each term of the other.
     fn products<'a>(&'a self, other: &'a Self) -> impl Iterator<Item = (Monomial, Number)> {
         let times = |(m, p): &(Monomial, Number), (n, q): &_| (m.times(n), p * q);
         let (short, long) = if self.0.len() < other.0.len() { (self, other) } else { (other, self) };
-        short.0.iter().flat_map(move |own| long.0.iter().map(move |term| times(own, term)))
+        short.0.iter().flat_map(move |a| long.0.iter().map(move |b| times(a, b)))
     }
 
-    /// Is it the zero polynomial?
+    /// Returns `true` if `self` is the zero polynomial.
     pub fn is_zero(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// Is it the number 1?
+    /// Returns `true` if `self` is the number 1.
     pub fn is_one(&self) -> bool {
         matches!(&self.0[..], [(m, q)] if *m == Monomial::one() && q.is_one())
     }
 
-    /// Its monomials with their coefficients, in the order of division.
+    /// Returns the monomials in ascending order with their coefficients.
     pub fn terms(&self) -> impl DoubleEndedIterator<Item = (&Monomial, &Number)> + ExactSizeIterator {
         self.0.iter().map(|(m, q)| (m, q))
     }
@@ -119,53 +117,53 @@ impl Poly {
         self.0.iter().map(|(m, _)| m)
     }
 
-    /// All its exponents.
+    /// Returns the exponents of all e^… that are not themselves in exponents.
     pub fn exponents(&self) -> impl Iterator<Item = &Ratio> {
         self.monomials().filter_map(Monomial::exponent)
     }
 
-    /// Does it have an e^…?
+    /// Returns `true` if a term contains e^….
     pub fn has_exponentials(&self) -> bool {
         self.exponents().next().is_some()
     }
 
-    /// Its symbols, those in exponents too.
+    /// Returns the symbols, including those in exponents.
     pub fn symbols(&self) -> BTreeSet<Symbol> {
         let mut all: BTreeSet<_> = self.exponents().flat_map(Ratio::symbols).collect();
         all.extend(self.monomials().flat_map(|m| m.powers().map(|(x, _)| x)));
         all
     }
 
-    /// The highest power of a symbol.
+    /// Returns the degree in a symbol.
     pub fn degree(&self, x: Symbol) -> u32 {
         self.monomials().map(|m| m.degree(x)).max().unwrap_or(0)
     }
 
-    /// The coefficient of xⁿ; exponents are left alone.
+    /// Returns the coefficient of xⁿ, disregarding occurrences of x in exponents.
     pub fn coefficient(&self, x: Symbol, n: u32) -> Poly {
         let of_power = self.0.iter().filter(|(m, _)| m.degree(x) == n);
         of_power.map(|(m, q)| (m.without(x), q.clone())).collect()
     }
 
-    /// The coefficient of the highest power of a symbol.
+    /// Returns the coefficient of the highest power of a symbol.
     pub fn leading_coefficient(&self, x: Symbol) -> Poly {
         self.coefficient(x, self.degree(x))
     }
 
-    /// The coefficients of x⁰ to xᴺ⁻¹, if the degree in x is N − 1.
+    /// Returns the coefficients of x⁰ to xᴺ⁻¹ if the degree in x is N − 1.
     pub fn coefficients<const N: usize>(&self, x: Symbol) -> Option<[Poly; N]> {
         (self.degree(x) as usize + 1 == N).then(|| std::array::from_fn(|n| self.coefficient(x, n as u32)))
     }
 
-    /// The exact quotient, if there is one and the divisor's last term has no e^….
+    /// Returns the exact quotient, if there is one and the divisor's last term has no e^….
     pub fn over(&self, divisor: &Self) -> Option<Self> {
-        let [others @ .., (first, coefficient)] = &divisor.0[..] else { return None };
+        let [others @ .., (leading, coefficient)] = &divisor.0[..] else { return None };
         if divisor.is_one() {
             return Some(self.clone());
         }
-        // The last terms of factors are those of a product: mostly that is seen to fail.
-        let ends = self.0.first().zip(divisor.0.first());
-        if ends.is_some_and(|((m, _), (n, _))| !m.has(n)) {
+        // The first term of a product is the product of the first terms, which rules out most divisors.
+        let first_terms = self.0.first().zip(divisor.0.first());
+        if first_terms.is_some_and(|((m, _), (n, _))| !m.is_divisible_by(n)) {
             return None;
         }
         let inverse = coefficient.recip();
@@ -175,21 +173,21 @@ impl Poly {
             if q.sign().is_eq() {
                 continue;
             }
-            let (m, q) = (m.over(first)?, q * &inverse);
+            let (m, q) = (m.over(leading)?, q * &inverse);
             effort::spend(others.iter().map(|(n, _)| 1 + n.powers().len() + m.powers().len()).sum());
             for (dm, dq) in others {
-                let left = rest.entry(dm.times(&m)).or_insert_with(|| 0.into());
-                *left = &*left - dq * &q;
+                let remainder = rest.entry(dm.times(&m)).or_insert_with(|| 0.into());
+                *remainder = &*remainder - dq * &q;
             }
             quotient.push((m, q));
         }
         Some(quotient.into_iter().collect())
     }
 
-    /// The largest product of powers of symbols that divides every term.
+    /// Returns the greatest product of powers of symbols that divides every term.
     pub fn common_monomial(&self) -> Monomial {
         let mut monomials = self.monomials();
-        let mut common = monomials.next().map_or(Monomial::one(), Monomial::bare);
+        let mut common = monomials.next().map_or(Monomial::one(), Monomial::without_exponential);
         for m in monomials {
             common.powers.retain_mut(|(x, n)| {
                 *n = (*n).min(m.degree(*x));
@@ -199,7 +197,7 @@ impl Poly {
         common
     }
 
-    /// The derivative by a symbol; exponents have denominators, so it is a quotient.
+    /// Returns the derivative with respect to a symbol, which is a quotient because exponents are.
     pub fn derivative(&self, x: Symbol) -> Ratio {
         let lowered = |m: &Monomial, q: &Number| {
             Some((m.over(&Monomial::of(x))?, q * Number::from(Rational::from(m.degree(x)))))
@@ -211,13 +209,14 @@ impl Poly {
         })
     }
 
-    /// With each occurrence of a monomial replaced by a quotient, in exponents too. Equals are replaced by
-    /// equals, so the value stays what it is wherever the monomial has the value of the quotient.
+    /// Replaces each occurrence of a monomial, also in exponents, by a quotient.
+    ///
+    /// The value does not change wherever the monomial equals the quotient.
     pub fn replace(&self, pivot: &Monomial, by: &Ratio) -> Ratio {
-        // The coefficients of the pivot's powers, times e^… whose exponents are replaced already.
+        // The coefficients of the powers of the pivot, with the replacement already made in exponents.
         let mut by_power: Vec<Vec<(Monomial, Number)>> = Vec::new();
         for (m, q) in self.0.iter() {
-            let (mut rest, mut power) = (m.bare(), 0);
+            let (mut rest, mut power) = (m.without_exponential(), 0);
             while let Some(quotient) = rest.over(pivot) {
                 rest = quotient;
                 power += 1;
@@ -231,9 +230,9 @@ impl Poly {
         highest_first.fold(Ratio::zero(), |sum, coefficient| sum * by + Ratio::from(coefficient))
     }
 
-    /// Does a monomial occur in it, or in its exponents?
+    /// Returns `true` if a monomial occurs in a term or an exponent.
     pub fn contains(&self, pivot: &Monomial) -> bool {
-        self.monomials().any(|m| m.has(pivot)) || self.exponents().any(|e| e.contains(pivot))
+        self.monomials().any(|m| m.is_divisible_by(pivot)) || self.exponents().any(|e| e.contains(pivot))
     }
 }
 
@@ -251,27 +250,27 @@ operators! { [] Ratio;
 }
 
 impl Ratio {
-    /// 0
+    /// Returns 0.
     pub fn zero() -> Self {
         Poly::zero().into()
     }
 
-    /// The numerator.
+    /// Returns the numerator.
     pub fn num(&self) -> &Poly {
         &self.num
     }
 
-    /// The denominator.
+    /// Returns the denominator.
     pub fn den(&self) -> &Poly {
         &self.den
     }
 
-    /// A quotient. The denominator must not be the zero polynomial.
+    /// Creates a quotient, whose denominator must not be the zero polynomial.
     fn new(mut num: Poly, mut den: Poly) -> Self {
         if num.is_zero() || den.is_one() {
             return num.into();
         }
-        // A single e^… below goes above.
+        // The e^… of a denominator with a single term moves to the numerator.
         if let [(Monomial { exponent: Some(e), .. }, _)] = &den.0[..] {
             let inverse = Poly::exponential(-&**e);
             (num, den) = (num * &inverse, den * inverse);
@@ -289,12 +288,12 @@ impl Ratio {
     }
 
     fn plus(&self, other: &Self) -> Self {
-        let (a, b, den) = self.alongside(other);
+        let (a, b, den) = self.with_common_denominator(other);
         Ratio::new(a + b, den)
     }
 
-    /// The two with one denominator.
-    fn alongside(&self, other: &Self) -> (Poly, Poly, Poly) {
+    /// Returns both numerators over a common denominator, and that denominator.
+    fn with_common_denominator(&self, other: &Self) -> (Poly, Poly, Poly) {
         if self.den == other.den {
             return (self.num.clone(), other.num.clone(), self.den.clone());
         }
@@ -307,14 +306,14 @@ impl Ratio {
         (&self.num * &other.den, &other.num * &self.den, &self.den * &other.den)
     }
 
-    /// a − b and a + b, not reduced: what is long takes less time so.
-    pub fn both_sides(&self, other: &Self) -> [Self; 2] {
-        let (a, b, den) = self.alongside(other);
+    /// Returns a − b and a + b, without simplification for speed.
+    pub fn difference_and_sum(&self, other: &Self) -> [Self; 2] {
+        let (a, b, den) = self.with_common_denominator(other);
         [&a - &b, a + b].map(|num| Ratio { num, den: den.clone() })
     }
 
     fn times(&self, other: &Self) -> Self {
-        // Cancel crosswise what can be.
+        // Cancels denominators that divide the opposite numerator.
         let cancel = |num, den: &Poly| if den.is_one() { None } else { Poly::over(num, den) };
         let (a, b) = (cancel(&self.num, &other.den), cancel(&other.num, &self.den));
         let one = Poly::constant(1);
@@ -322,7 +321,7 @@ impl Ratio {
         Ratio::new(a.as_ref().unwrap_or(&self.num) * b.as_ref().unwrap_or(&other.num), c * d)
     }
 
-    /// self / other; `None` if other is identically zero.
+    /// Returns `self` / `other`, or `None` if `other` is identically zero.
     pub fn over(&self, other: &Self) -> Option<Self> {
         if other.is_zero() {
             return None;
@@ -330,40 +329,40 @@ impl Ratio {
         Some(self * Ratio::new(other.den.clone(), other.num.clone()))
     }
 
-    /// Is it free of e^…?
-    pub fn is_of_polynomials(&self) -> bool {
+    /// Returns `true` if neither numerator nor denominator contains e^….
+    pub fn is_rational_function(&self) -> bool {
         !self.num.has_exponentials() && !self.den.has_exponentials()
     }
 
-    /// Is it 0 wherever it is defined?
+    /// Returns `true` if the numerator is the zero polynomial.
     pub fn is_zero(&self) -> bool {
         self.num.is_zero()
     }
 
-    /// The number of e^… that stand in exponents of each other.
+    /// Returns the nesting depth of e^… in exponents.
     fn nesting(&self) -> u32 {
         let exponents = self.num.exponents().chain(self.den.exponents());
         exponents.map(|exponent| 1 + exponent.nesting()).max().unwrap_or(0)
     }
 
-    /// Is it a number?
+    /// Returns `true` if the quotient is a number.
     pub fn is_number(&self) -> bool {
         self.den.is_one() && self.num.monomials().all(|m| *m == Monomial::one())
     }
 
-    /// All its symbols.
+    /// Returns the symbols of numerator and denominator.
     pub fn symbols(&self) -> BTreeSet<Symbol> {
         self.num.symbols().into_iter().chain(self.den.symbols()).collect()
     }
 
-    /// The derivative by a symbol.
+    /// Returns the derivative with respect to a symbol.
     pub fn derivative(&self, x: Symbol) -> Self {
         let (n, d) = (Ratio::from(self.num.clone()), Ratio::from(self.den.clone()));
-        let top = self.num.derivative(x) * d - n * self.den.derivative(x);
-        Ratio::new(top.num, top.den * &self.den * &self.den)
+        let numerator = self.num.derivative(x) * d - n * self.den.derivative(x);
+        Ratio::new(numerator.num, numerator.den * &self.den * &self.den)
     }
 
-    /// With a monomial replaced by a quotient ([`Poly::replace`]).
+    /// Replaces a monomial by a quotient; see [`Poly::replace`].
     pub fn replace(&self, pivot: &Monomial, by: &Ratio) -> Self {
         if !self.contains(pivot) {
             return self.clone();
@@ -372,7 +371,7 @@ impl Ratio {
         num.over(&den).unwrap_or_else(|| self.clone())
     }
 
-    /// Does a monomial occur in it?
+    /// Returns `true` if a monomial occurs in the numerator or the denominator.
     pub fn contains(&self, pivot: &Monomial) -> bool {
         self.num.contains(pivot) || self.den.contains(pivot)
     }
@@ -383,7 +382,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn polynomials_are_divided_and_have_factors_in_common() {
+    fn exact_division_and_common_monomials() {
         let [u, v] = ["u", "v"].map(|name| Poly::symbol(Symbol::Own(name)));
         let e = Poly::exponential(v.clone().into());
         for divisor in [&u + &v, &u + &e, &u * &v - Poly::constant(2)] {
@@ -398,9 +397,9 @@ mod tests {
         assert_eq!(u.over(&Poly::zero()), None);
     }
 
-    /// As long division needs.
+    /// Long division requires this order.
     #[test]
-    fn monomials_are_in_an_order_that_multiplication_keeps() {
+    fn multiplication_preserves_the_order_of_monomials() {
         let [u, v] = ["u", "v"].map(|name| Monomial::of(Symbol::Own(name)));
         let all = [Monomial::one(), v.clone(), v.times(&v), u.clone(), u.times(&v), u.times(&u)];
         for (i, a) in all.iter().enumerate() {

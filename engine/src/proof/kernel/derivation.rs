@@ -1,16 +1,18 @@
 //! The parts of a proof.
 //!
-//! Anyone in this crate may write down a derivation, which proves nothing: only the kernel puts one into a
-//! [`Proof`].
+//! Any code in this crate can construct a derivation, which proves nothing by itself: only the kernel
+//! constructs a [`Proof`].
 
 use super::algebra::{Monomial, Poly, Ratio, Symbol};
-use super::sign::{Certificate, Known, Sign};
+use super::sign::{Certificate, Sign, SignEnv};
 use crate::formula::{Hypothesis, Statement};
 use crate::number::Tree;
 
-/// A proof of a statement: a derivation for each of its goals. Only [`prove`](super::prove) makes one, and
-/// it stays what it is:
+/// A proof of a statement: a derivation for each of its goals.
 ///
+/// Only [`prove`](super::prove) makes a proof, and a proof cannot be changed.
+///
+/// # Examples
 /// ```
 /// use provable::formula::claim::equal;
 /// use provable::{number::Tree, proof::{Proof, prove}};
@@ -42,171 +44,171 @@ pub struct Proof {
 }
 
 impl Proof {
-    /// What is proved.
+    /// Returns the proved statement.
     pub fn statement(&self) -> &Statement {
         &self.statement
     }
 
-    /// How each goal is derived, in the order of the goals.
+    /// Returns the derivation of each goal, in the order of the goals.
     pub(in crate::proof) fn goals(&self) -> &[Derivation] {
         &self.goals
     }
 }
 
-/// How a goal is derived.
+/// The derivation of a goal.
 #[derive(Clone, Debug)]
 pub enum Derivation {
-    /// In two cases: a quantity is positive, or it is not.
+    /// A derivation for each of two cases: a quantity is positive, or it is not.
     Cases(Poly, Box<Derivation>, Box<Derivation>),
-    /// In one go.
+    /// A derivation without case distinction.
     Direct(Box<Direct>),
 }
 
-/// A derivation without cases of its own.
+/// A derivation without case distinction.
 #[derive(Clone, Debug)]
 pub struct Direct {
-    /// The assumptions, and how they are used.
-    pub supposed: Vec<Supposed>,
-    /// The formulas that are rounded, each after those inside it.
-    pub errors: Vec<Rounding>,
-    /// The divisors, each after its own, and why they are not 0: their numerators have strict signs.
-    pub divisors: Vec<(Tree, Signed)>,
-    /// The brackets, which of their values they have, and why: the sign of what decides.
-    pub brackets: Vec<(Tree, Tree, Signed)>,
-    /// The last step.
-    pub because: Because,
+    /// The assumptions and their uses.
+    pub assumptions: Vec<Assumption>,
+    /// The rounded formulas, each after those inside it.
+    pub roundings: Vec<Rounding>,
+    /// The divisors, each after those inside it, and their strict signs.
+    pub divisors: Vec<(Tree, SignedRatio)>,
+    /// The positive parts and minima, the branch that each equals, and the sign that decides this.
+    pub branches: Vec<(Tree, Tree, SignedRatio)>,
+    /// The justification of the goal.
+    pub justification: Justification,
 }
 
 /// A rounding.
 #[derive(Clone, Debug)]
 pub struct Rounding {
-    /// The formula that is rounded.
+    /// The rounded formula.
     pub of: Tree,
-    /// Its error: formulas that differ by powers of two have the same.
+    /// The symbol of its relative error, which formulas that differ by a power of two share.
     pub error: Symbol,
-    /// The powers of two by which it differs from what else has that error, in other units.
+    /// The power of two that is factored out of the formula.
     pub scale: Ratio,
 }
 
-/// A supposition and what became of it.
+/// An assumption and its use.
 #[derive(Clone, Debug)]
-pub struct Supposed {
-    /// The hypothesis, or `None` for the case of a split.
-    pub given: Option<Hypothesis>,
-    /// The quantity it speaks of, before this supposition is used.
+pub struct Assumption {
+    /// The hypothesis, or `None` for the assumption of a case.
+    pub hypothesis: Option<Hypothesis>,
+    /// The quantity, reduced by the earlier assumptions.
     pub value: Ratio,
-    /// The sign that it has.
+    /// The sign of the quantity.
     pub sign: Sign,
-    /// The positive divisor of the quantity, if not the quantity itself but a quotient is named by a slack.
-    pub divided_by: Option<Ratio>,
-    /// The use that is made of it.
-    pub used: Used,
+    /// The positive divisor, if the slack variable is a quotient of the quantity.
+    pub divisor: Option<Ratio>,
+    /// The use of the assumption.
+    pub usage: AssumptionUse,
 }
 
-/// How a supposition is used.
+/// The use of an assumption.
 #[derive(Clone, Debug)]
-pub enum Used {
-    /// It follows from the others.
-    Follows,
-    /// The quantity is a symbol; its sign is known from now on.
+pub enum AssumptionUse {
+    /// The assumption follows from the earlier ones.
+    Implied,
+    /// The sign of a symbol.
     Symbol(Symbol),
-    /// The pivot is replaced, with a new symbol for the quantity unless it is 0.
+    /// A pivot, its value, and the slack variable for the quantity, unless that is 0.
     Pivot(Monomial, Ratio, Option<Symbol>),
-    /// In its interval the symbol is this, by a new symbol between −1 and 1.
-    Between(Symbol, Ratio, Symbol),
-    /// Unchanged, as there is no pivot. Multiples of it may be [subtracted](Signed::less).
-    Kept,
-    /// Not at all. What is proved holds without it, too.
+    /// A symbol, its value in its interval, and the interval parameter between −1 and 1.
+    Interval(Symbol, Ratio, Symbol),
+    /// The quantity is retained unchanged. Multiples of it may be [subtracted](SignedRatio::less).
+    Retained,
+    /// The assumption is not used.
     Unused,
 }
 
 /// The sign of a quotient.
 #[derive(Clone, Debug)]
-pub struct Signed {
+pub struct SignedRatio {
     /// The quotient, reduced by the assumptions.
     pub value: Ratio,
-    /// The multiple of an assumption that is subtracted first, if one is.
-    pub less: Option<Box<Multiple>>,
-    /// The sign of its numerator, or of that of the difference.
+    /// The multiple of an assumed quantity that is subtracted first, if any.
+    pub subtracted: Option<Box<Multiple>>,
+    /// The sign of the numerator of the quotient or, after a subtraction, of the difference.
     pub num: Certificate,
     /// The strict sign of the denominator.
     pub den: Certificate,
 }
 
-impl Signed {
+impl SignedRatio {
     /// Returns the sign of the quotient.
     pub fn sign(&self) -> Sign {
         let rest = self.num.sign().times(self.den.sign());
-        self.less.as_ref().map_or(rest, |less| less.whole)
+        self.subtracted.as_ref().map_or(rest, |less| less.sum_sign)
     }
 }
 
-/// A multiple of an assumed quantity, whose sign is that of the factor times that of the quantity.
+/// A multiple of an assumed quantity; its sign is the product of the signs of the factor and the quantity.
 #[derive(Clone, Debug)]
 pub struct Multiple {
     /// The sign of the factor.
-    pub factor: Signed,
+    pub factor: SignedRatio,
     /// The quantity.
     pub of: Ratio,
-    /// The sign of the sum of this and the rest.
-    pub whole: Sign,
+    /// The sign of the sum of the multiple and the difference.
+    pub sum_sign: Sign,
 }
 
-/// The last step of a derivation.
+/// The justification of a goal.
 #[derive(Clone, Debug)]
-pub enum Because {
-    /// Both sides are this.
-    Same(Ratio),
-    /// A sign.
-    Sign(Signed),
-    /// What the bound exceeds the size by, on either side.
-    Within(Box<[Signed; 2]>),
-    /// One rounded formula is no less than another, because of these signs: rounding keeps order.
-    Order(Vec<Signed>),
-    /// The derivative, as dual numbers compute it, and the other side are this.
+pub enum Justification {
+    /// The common value of both sides of an equation.
+    Equal(Ratio),
+    /// The sign of the quantity.
+    Sign(SignedRatio),
+    /// The signs of b − a and b + a, for |a| ≤ b.
+    Within(Box<[SignedRatio; 2]>),
+    /// The signs that imply the order of two rounded formulas.
+    Order(Vec<SignedRatio>),
+    /// The common value of the derivative, computed by dual numbers, and of the other side.
     Derivative(Ratio),
-    /// By degrees in the symbol, and the sign of the denominator's leading coefficient.
+    /// A limit, by the degrees in the symbol.
     Limit {
-        /// What has the limit.
+        /// The quotient whose limit is taken.
         of: Ratio,
-        /// In which symbol.
+        /// The symbol that tends to infinity.
         by: Symbol,
         /// The degrees of numerator and denominator, without the e^… that vanish.
         degrees: (u32, u32),
-        /// Why the denominator's leading coefficient is not 0.
+        /// The strict sign of the leading coefficient of the denominator.
         leading: Certificate,
         /// The limit.
         to: Ratio,
     },
 }
 
-/// Why there is no proof: where a search for a counterexample may start.
+/// The reason why a statement could not be proved.
 #[derive(Clone, Debug)]
-pub enum Why {
-    /// A divisor might be 0: its formula, and its value under the hypotheses.
-    MightVanish(Tree, Ratio),
-    /// It is not known whether a bracket opens, and no case can be made of it.
-    OpenBracket(Ratio),
-    /// No rule finds the sign under these signs of symbols.
-    NoSign(Ratio, std::sync::Arc<Known>),
-    /// The sign is another.
+pub enum ProofError {
+    /// A divisor may be 0: its formula, and its value under the hypotheses.
+    PossibleZeroDivisor(Tree, Ratio),
+    /// The branch of a positive part or minimum is undecided, and no more cases may be distinguished.
+    UndecidedBranch(Ratio),
+    /// No rule finds the sign of a quantity, for these signs of symbols.
+    UnknownSign(Ratio, std::sync::Arc<SignEnv>),
+    /// The sign of a quantity differs from the required one.
     WrongSign(Ratio, Sign),
-    /// Two sides differ by this.
-    Different(Ratio),
-    /// A derivative is asked of ⟨·⟩ or min, which have kinks.
-    Kink,
-    /// No rule finds the limit.
-    NoLimit(Ratio),
-    /// Something is rounded where something varies: it has jumps.
-    Jump,
-    /// There are more roundings than names for their errors.
-    TooMany,
-    /// A name that the kernel keeps for itself.
-    Reserved(&'static str),
-    /// A hypothesis, other than its interval, mentions this computed symbol, or it is computed from itself.
-    AssumedOfComputed(&'static str),
-    /// There is no goal.
-    Nothing,
-    /// The statement or its proof exceeds a limit: which quantity, and the most it may be.
+    /// The two sides of an equation differ by this amount.
+    Unequal(Ratio),
+    /// The formula to be differentiated contains ⟨·⟩ or min.
+    NotDifferentiable,
+    /// No rule finds the limit of a quantity.
+    UnknownLimit(Ratio),
+    /// A rounded formula, which is discontinuous, occurs in a limit or derivative.
+    Discontinuous,
+    /// The statement contains more roundings than the kernel has symbols for.
+    TooManyRoundings,
+    /// The statement uses a reserved name.
+    ReservedName(&'static str),
+    /// A hypothesis other than its interval contains a computed symbol, or that is computed from itself.
+    HypothesisOnComputed(&'static str),
+    /// The statement has no goals.
+    NoGoals,
+    /// The named quantity of the statement or its proof exceeds this maximum.
     TooLarge(&'static str, usize),
 }

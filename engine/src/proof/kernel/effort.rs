@@ -1,24 +1,24 @@
 //! A bound on the effort of a proof.
 //!
-//! The size of a polynomial cannot be foretold from the formula that it is read from. So arithmetic counts
-//! the terms that it handles, and above [`MAX_EFFORT`] it unwinds to where the count began: nothing is
-//! concluded from what was computed until then.
+//! The size of a polynomial cannot be predicted from the formula. So arithmetic counts the terms that it
+//! processes, and above [`MAX_EFFORT`] it unwinds to where the count began; the partial results are
+//! discarded.
 
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
-/// The number of terms and of powers in them that arithmetic handles in one proof, at most; a coefficient of
-/// n words counts like n/8 terms.
+/// Maximum number of terms, and of powers in them, that arithmetic processes in one proof; a coefficient of
+/// n words counts as n/8 terms.
 pub const MAX_EFFORT: usize = 20_000_000;
 
 struct Exceeded;
 
 thread_local! {
-    /// The number of terms that may still be handled.
+    /// The number of terms that may still be processed.
     static REST: Cell<usize> = const { Cell::new(usize::MAX) };
 }
 
-/// The value of `f`, or `None` if its arithmetic handles more than [`MAX_EFFORT`] terms.
+/// Returns the value of `f`, or `None` if its arithmetic exceeds [`MAX_EFFORT`].
 pub fn bounded<T>(f: impl FnOnce() -> T) -> Option<T> {
     let before = REST.replace(MAX_EFFORT);
     let value = catch_unwind(AssertUnwindSafe(f));
@@ -30,7 +30,7 @@ pub fn bounded<T>(f: impl FnOnce() -> T) -> Option<T> {
     }
 }
 
-/// Counts terms that are about to be handled.
+/// Counts terms that are about to be processed.
 pub fn spend(terms: usize) {
     match REST.get().checked_sub(terms) {
         Some(rest) => REST.set(rest),
@@ -38,7 +38,7 @@ pub fn spend(terms: usize) {
     }
 }
 
-/// Unwinds to where the count began.
+/// Unwinds to the enclosing call of [`bounded`].
 pub fn exceed() -> ! {
     resume_unwind(Box::new(Exceeded))
 }
@@ -49,19 +49,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn effort_is_bounded_and_counted_anew_for_each_proof() {
+    fn effort_is_bounded_separately_for_each_proof() {
         let spend_all = || bounded(|| (0..MAX_EFFORT / 10).for_each(|_| spend(10)));
         assert!(spend_all().is_some() && spend_all().is_some());
         assert!(bounded(|| (spend(MAX_EFFORT), spend(1))).is_none());
         assert!(bounded(|| spend(usize::MAX)).is_none());
-        // Elsewhere there is no bound, nor after one was exceeded.
+        // Outside, effort is unbounded, also after a bound was exceeded.
         spend(MAX_EFFORT + 1);
         assert!(catch_unwind(|| bounded(|| panic!("of another kind"))).is_err());
         spend(MAX_EFFORT + 1);
     }
 
     #[test]
-    fn arithmetic_is_an_effort() {
+    fn arithmetic_counts_its_terms() {
         let sum = |terms: usize| {
             let x = Poly::symbol(Symbol::Own("x"));
             let powers = std::iter::successors(Some(Poly::constant(1)), |power| Some(power * &x));
@@ -76,11 +76,11 @@ mod tests {
                 REST.get()
             })
         };
-        // All terms but 1 have one power.
+        // All terms except 1 have one power.
         let [a, b] = [sum(20), sum(30)];
         assert_eq!(rest_after(&|| drop(&a * &b)), Some(MAX_EFFORT - 1199));
         assert_eq!(rest_after(&|| drop(&a + &b)), Some(MAX_EFFORT - 98));
-        // Of a quotient each term is subtracted as often as the divisor has others.
+        // Each term of a quotient is multiplied by each term of the divisor except one, and subtracted.
         let product = &a * &b;
         assert!(rest_after(&|| drop(product.over(&a))).unwrap() <= MAX_EFFORT - 19 * 30);
     }

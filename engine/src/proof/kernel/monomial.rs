@@ -1,8 +1,8 @@
-//! Symbols, and products of their powers.
+//! Symbols and monomials, the products of their powers.
 
 use super::algebra::Ratio;
 use super::effort;
-use crate::formula::claim::numbered;
+use crate::formula::claim::subscripted;
 use std::cmp::Ordering;
 use std::sync::Arc;
 
@@ -11,63 +11,63 @@ use std::sync::Arc;
 pub enum Symbol {
     /// A symbol of the statement.
     Own(&'static str),
-    /// The error of a rounding in units of the largest, e₁, e₂, …: −1 ≤ e ≤ 1.
+    /// A relative rounding error divided by its maximum: e₁, e₂, …, with −1 ≤ e ≤ 1.
     Error(u8),
-    /// The value of a hypothesis, s₁, s₂, ….
+    /// The value of a hypothesis: s₁, s₂, ….
     Slack(u8),
-    /// The place of a quantity in its interval, t₁, t₂, …: −1 ≤ t ≤ 1.
+    /// The parameter of a quantity in an interval: t₁, t₂, …, with −1 ≤ t ≤ 1.
     Place(u8),
 }
 
 impl Symbol {
-    /// Returns `true` if it is between −1 and 1.
-    pub fn is_small(self) -> bool {
+    /// Returns `true` if the symbol is between −1 and 1 by definition.
+    pub fn in_unit_interval(self) -> bool {
         matches!(self, Symbol::Error(_) | Symbol::Place(_))
     }
 
-    /// Returns the name that a reader sees.
+    /// Returns the printed name.
     pub fn name(self) -> &'static str {
         match self {
             Symbol::Own(name) => name,
-            Symbol::Error(index) => numbered('e', index),
-            Symbol::Slack(index) => numbered('s', index),
-            Symbol::Place(index) => numbered('t', index),
+            Symbol::Error(index) => subscripted('e', index),
+            Symbol::Slack(index) => subscripted('s', index),
+            Symbol::Place(index) => subscripted('t', index),
         }
     }
 
-    /// Returns `true` if a reader would take a symbol of this name for one of a proof.
+    /// Returns `true` if `name` looks like that of a symbol of a proof.
     pub fn is_reserved(name: &str) -> bool {
         let digits = name.strip_prefix(['e', 's', 't']).unwrap_or_default();
         !digits.is_empty() && digits.chars().all(|digit| ('₀'..='₉').contains(&digit))
     }
 }
 
-/// The highest power of a symbol. A formula within the limits of a proof has none above it, and only pivots
-/// that are replaced by each other do.
+/// Maximum power of a symbol. A formula within the limits of a proof does not exceed it; only repeated
+/// substitution of pivots does.
 const MAX_POWER: u32 = 20_000;
 
-/// A product of powers of symbols, times e to a quotient, if any.
+/// A product of powers of symbols, times e to the power of a quotient, if any.
 ///
-/// One exponential is enough, since eᵃ eᵇ = eᵃ⁺ᵇ.
+/// One exponential suffices, since eᵃ eᵇ = eᵃ⁺ᵇ.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Monomial {
-    /// By name; none of them is 0.
+    /// The nonzero powers, ordered by symbol.
     pub(super) powers: Vec<(Symbol, u32)>,
     pub(super) exponent: Option<Arc<Ratio>>,
 }
 
 impl Monomial {
-    /// The empty product.
+    /// Returns the empty product.
     pub fn one() -> Self {
         Monomial { powers: Vec::new(), exponent: None }
     }
 
-    /// A symbol.
+    /// Returns the symbol `x` as a monomial.
     pub fn of(x: Symbol) -> Self {
         Monomial { powers: vec![(x, 1)], exponent: None }
     }
 
-    /// Returns the symbol that it is, if it is one.
+    /// Returns the symbol if the monomial is a single symbol.
     pub fn as_symbol(&self) -> Option<Symbol> {
         match (&self.powers[..], &self.exponent) {
             ([(x, 1)], None) => Some(*x),
@@ -75,12 +75,12 @@ impl Monomial {
         }
     }
 
-    /// The powers of its symbols, by name.
+    /// Returns the symbols with their powers, ordered by symbol.
     pub fn powers(&self) -> impl ExactSizeIterator<Item = (Symbol, u32)> {
         self.powers.iter().copied()
     }
 
-    /// What e is raised to, if it is.
+    /// Returns the exponent of e, if any.
     pub fn exponent(&self) -> Option<&Ratio> {
         self.exponent.as_deref()
     }
@@ -110,12 +110,12 @@ impl Monomial {
         Monomial { powers, exponent }
     }
 
-    /// The quotient, if every power of the divisor is there; the divisor has no e^….
+    /// Returns the quotient if the divisor divides `self` and has no e^….
     pub(super) fn over(&self, divisor: &Self) -> Option<Self> {
         if divisor.exponent.is_some() {
             return None;
         }
-        if !self.has(divisor) {
+        if !self.is_divisible_by(divisor) {
             return None;
         }
         let mut rest = self.clone();
@@ -126,19 +126,19 @@ impl Monomial {
         Some(rest)
     }
 
-    /// Are all powers of the other there? Its e^… is not asked for.
-    pub fn has(&self, other: &Self) -> bool {
-        let mut own = self.powers.iter();
-        other.powers.iter().all(|(x, n)| own.any(|(y, m)| x == y && m >= n))
+    /// Returns `true` if `other` divides `self`, disregarding e^….
+    pub fn is_divisible_by(&self, other: &Self) -> bool {
+        let mut powers = self.powers.iter();
+        other.powers.iter().all(|(x, n)| powers.any(|(y, m)| x == y && m >= n))
     }
 
-    /// Without its e^….
-    pub fn bare(&self) -> Self {
+    /// Returns the monomial without its e^….
+    pub fn without_exponential(&self) -> Self {
         Monomial { powers: self.powers.clone(), exponent: None }
     }
 
-    /// Without some of its symbols.
-    pub fn without_those(&self, some: impl Fn(Symbol) -> bool) -> Self {
+    /// Returns the monomial without the symbols for which `some` is `true`.
+    pub fn without_symbols(&self, some: impl Fn(Symbol) -> bool) -> Self {
         let mut rest = self.clone();
         rest.powers.retain(|(x, _)| !some(*x));
         rest
@@ -149,7 +149,7 @@ impl Monomial {
     }
 
     pub(super) fn without(&self, x: Symbol) -> Self {
-        self.without_those(|y| y == x)
+        self.without_symbols(|y| y == x)
     }
 }
 
@@ -159,7 +159,7 @@ impl PartialOrd for Monomial {
     }
 }
 
-/// Lexicographic in the powers: an order that multiplication keeps, as long division needs.
+/// The lexicographic order of the powers. Multiplication preserves it, which long division requires.
 impl Ord for Monomial {
     fn cmp(&self, other: &Self) -> Ordering {
         let mut others = other.powers.iter();
@@ -179,7 +179,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_symbol_of_a_proof_has_a_name_that_is_reserved() {
+    fn names_of_symbols_of_a_proof_are_reserved() {
         let all = [Symbol::Error(0), Symbol::Slack(11), Symbol::Place(u8::MAX), Symbol::Own("e")];
         assert_eq!(all.map(Symbol::name), ["e₁", "s₁₂", "t₂₅₆", "e"]);
         assert_eq!(all.map(|symbol| Symbol::is_reserved(symbol.name())), [true, true, true, false]);

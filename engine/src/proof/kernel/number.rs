@@ -1,4 +1,4 @@
-//! Rational numbers: of machine integers where these suffice, as nearly everywhere, and of GMP's elsewhere.
+//! Rational numbers, stored as machine integers where these suffice and as GMP integers otherwise.
 
 use super::effort;
 use crate::operators;
@@ -7,35 +7,35 @@ use std::cmp::Ordering;
 
 /// A rational number.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Number(Size);
+pub struct Number(Representation);
 
-/// In lowest terms, with a positive denominator; large if not both fit 64 bits. So equal numbers are written
-/// alike.
+/// Numerator and denominator in lowest terms, with a positive denominator; `Large` only if they do not both
+/// fit 64 bits. So equal numbers have equal representations.
 #[derive(Clone, Debug, PartialEq, Eq)]
-enum Size {
+enum Representation {
     Small(i64, i64),
     Large(Box<Rational>),
 }
 
-use Size::{Large, Small};
+use Representation::{Large, Small};
 
-// Products of two integers of 64 bits fit 127 bits, and sums of two of these fit 128.
+// Products of two 64-bit integers fit 127 bits, and sums of two such products fit 128 bits.
 operators! { [] Number;
     Add add |a, b| match (&a.0, &b.0) {
         (Small(n, d), Small(m, e)) => {
             let [n, d, m, e] = [n, d, m, e].map(wide);
             Number::quotient(n * e + m * d, d * e)
         }
-        _ => Number::large(a.rational() + b.rational()),
+        _ => Number::large(a.to_rational() + b.to_rational()),
     };
     Sub sub |a, b| a + -b;
     Mul mul |a, b| match (&a.0, &b.0) {
         (Small(n, d), Small(m, e)) => Number::quotient(wide(n) * wide(m), wide(d) * wide(e)),
-        _ => Number::large(a.rational() * b.rational()),
+        _ => Number::large(a.to_rational() * b.to_rational()),
     };
     - |a| match &a.0 {
         Small(n, d) => Number::quotient(-wide(n), wide(d)),
-        Large(_) => (-a.rational()).into(),
+        Large(_) => (-a.to_rational()).into(),
     }
 }
 
@@ -43,12 +43,12 @@ fn wide(n: &i64) -> i128 {
     (*n).into()
 }
 
-/// The greatest common divisor of two numbers that are not 0.
+/// Computes the greatest common divisor of two nonzero numbers.
 fn common_divisor(mut a: u128, mut b: u128) -> u128 {
     let twos = (a | b).trailing_zeros();
     a >>= a.trailing_zeros();
     b >>= b.trailing_zeros();
-    // Both are odd: 2 does not divide them, and may be taken out of their difference.
+    // Both are odd, so factors 2 can be removed from their difference.
     while a != b && a != 1 && b != 1 {
         (a, b) = (a.abs_diff(b), a.min(b));
         a >>= a.trailing_zeros();
@@ -78,7 +78,7 @@ impl From<Rational> for Number {
 }
 
 impl Number {
-    /// A quotient; the denominator is positive.
+    /// Reduces n/d to lowest terms; `d` must be positive.
     fn quotient(n: i128, d: i128) -> Self {
         let common = if n == 0 { d } else { common_divisor(n.unsigned_abs(), d.unsigned_abs()) as i128 };
         match (i64::try_from(n / common), i64::try_from(d / common)) {
@@ -87,21 +87,21 @@ impl Number {
         }
     }
 
-    /// One that may have many digits.
+    /// Converts a result of GMP and counts its words as effort.
     fn large(q: Rational) -> Self {
         effort::spend((q.numer().significant_digits::<u64>() + q.denom().significant_digits::<u64>()) / 8);
         q.into()
     }
 
-    /// As one of GMP's.
-    pub fn rational(&self) -> Rational {
+    /// Converts to a rational number of GMP.
+    pub fn to_rational(&self) -> Rational {
         match &self.0 {
             Small(n, d) => Rational::from((*n, *d)),
             Large(q) => (**q).clone(),
         }
     }
 
-    /// Returns the float nearby.
+    /// Converts to a nearby float.
     pub fn to_f64(&self) -> f64 {
         match &self.0 {
             Small(n, d) => *n as f64 / *d as f64,
@@ -109,7 +109,7 @@ impl Number {
         }
     }
 
-    /// Its sign, compared with 0.
+    /// Compares the number with 0.
     pub fn sign(&self) -> Ordering {
         match &self.0 {
             Small(n, _) => n.cmp(&0),
@@ -117,19 +117,22 @@ impl Number {
         }
     }
 
-    /// Is it 1?
+    /// Returns `true` if the number is 1.
     pub fn is_one(&self) -> bool {
         self.0 == Small(1, 1)
     }
 
-    /// Its size.
+    /// Returns the absolute value.
     pub fn abs(&self) -> Self {
         if self.sign().is_lt() { -self } else { self.clone() }
     }
 
-    /// 1/x, of what is not 0.
+    /// Returns the reciprocal.
+    ///
+    /// # Panics
+    /// Panics if the number is 0.
     pub fn recip(&self) -> Self {
-        self.rational().recip().into()
+        self.to_rational().recip().into()
     }
 }
 
@@ -141,7 +144,7 @@ impl PartialOrd for Number {
 
 impl Ord for Number {
     fn cmp(&self, other: &Self) -> Ordering {
-        self.rational().cmp(&other.rational())
+        self.to_rational().cmp(&other.to_rational())
     }
 }
 
@@ -149,26 +152,27 @@ impl Ord for Number {
 mod tests {
     use super::*;
 
-    /// Quotients of numbers at the ends of 64 bits, around 0, and beyond.
-    fn some() -> Vec<Rational> {
-        let ends = [i64::MIN, i64::MIN + 1, -6, -1, 0, 1, 4, 1 << 40, i64::MAX - 1, i64::MAX];
-        let small = ends.iter().flat_map(|n| [1, 2, 3, 1 << 50, i64::MAX].map(|d| Rational::from((*n, d))));
+    /// Quotients of integers around 0 and at the limits of 64 bits, and their squares.
+    fn samples() -> Vec<Rational> {
+        let numerators = [i64::MIN, i64::MIN + 1, -6, -1, 0, 1, 4, 1 << 40, i64::MAX - 1, i64::MAX];
+        let denominators = [1, 2, 3, 1 << 50, i64::MAX];
+        let small = numerators.iter().flat_map(|n| denominators.map(|d| Rational::from((*n, d))));
         let all: Vec<_> = small.collect();
         let large = all.iter().map(|q| Rational::from(q * q));
         all.iter().cloned().chain(large).collect()
     }
 
     #[test]
-    fn arithmetic_is_that_of_rationals_of_any_size() {
+    fn arithmetic_agrees_with_gmp_for_numbers_of_any_length() {
         let of = |q: &Rational| Number::from(q.clone());
-        for p in some() {
+        for p in samples() {
             let x = of(&p);
-            assert_eq!((x.rational(), x.sign(), x.is_one()), (p.clone(), p.cmp0(), p == 1));
+            assert_eq!((x.to_rational(), x.sign(), x.is_one()), (p.clone(), p.cmp0(), p == 1));
             assert_eq!((-&x, x.abs()), (of(&Rational::from(-&p)), of(&p.clone().abs())));
             assert!(p.is_zero() || x.recip() == of(&p.clone().recip()));
-            for q in some() {
+            for q in samples() {
                 let y = of(&q);
-                // Equal numbers are written alike, too.
+                // This compares representations.
                 assert_eq!(&x + &y, of(&Rational::from(&p + &q)), "{p} + {q}");
                 assert_eq!(&x - &y, of(&Rational::from(&p - &q)), "{p} - {q}");
                 assert_eq!(&x * &y, of(&Rational::from(&p * &q)), "{p} * {q}");

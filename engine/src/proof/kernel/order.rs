@@ -1,21 +1,21 @@
-//! Rounding keeps order: one formula is no less than another, step by step.
+//! The monotonicity of rounding: comparisons of two formulas, operation by operation.
 
-use super::derivation::{Signed, Why};
-use super::reader::Reader;
+use super::derivation::{ProofError, SignedRatio};
 use super::sign::Sign;
+use super::translator::Translator;
 use crate::number::Tree;
-use crate::number::tree::Step::*;
+use crate::number::tree::Op::*;
 
-/// The signs from which it follows that `a` ≥ `b`, where both are defined.
+/// Returns the signs that imply `a` ≥ `b` wherever both are defined.
 ///
-/// Their steps are compared as long as they are alike: rounding, +, ⟨·⟩ and min keep order, and so do
-/// factors and divisors that are positive; a minus turns it round. Where they are no longer alike, the sign
-/// of the difference decides.
-pub(super) fn at_least(reader: &mut Reader, a: &Tree, b: &Tree) -> Result<Vec<Signed>, Why> {
+/// Corresponding operations are compared while they agree: rounding, +, ⟨·⟩ and min preserve order, and so
+/// do positive factors and divisors; a minus reverses it. Where the operations differ, the sign of the
+/// difference of the formulas decides.
+pub(super) fn at_least(reader: &mut Translator, a: &Tree, b: &Tree) -> Result<Vec<SignedRatio>, ProofError> {
     if a == b {
         return Ok(Vec::new());
     }
-    match (a.step(), b.step()) {
+    match (a.op(), b.op()) {
         (Rounded(a), Rounded(b)) | (PositivePart(a), PositivePart(b)) => at_least(reader, a, b),
         (Neg(a), Neg(b)) => at_least(reader, b, a),
         (Add(a, c), Add(b, d)) | (Min(a, c), Min(b, d)) => both(reader, [(a, b), (c, d)]),
@@ -24,13 +24,13 @@ pub(super) fn at_least(reader: &mut Reader, a: &Tree, b: &Tree) -> Result<Vec<Si
         (Mul(a, factor), Mul(b, same)) if factor == same => multiples(reader, factor, a, b),
         (Div(a, divisor), Div(b, same)) if divisor == same => multiples(reader, divisor, a, b),
         _ => {
-            let difference = reader.read(a)? - reader.read(b)?;
-            Ok(vec![reader.of_sign(difference, Sign::NonNegative)?])
+            let difference = reader.translate(a)? - reader.translate(b)?;
+            Ok(vec![reader.require_sign(difference, Sign::NonNegative)?])
         }
     }
 }
 
-fn both(reader: &mut Reader, pairs: [(&Tree, &Tree); 2]) -> Result<Vec<Signed>, Why> {
+fn both(reader: &mut Translator, pairs: [(&Tree, &Tree); 2]) -> Result<Vec<SignedRatio>, ProofError> {
     let mut all = Vec::new();
     for (a, b) in pairs {
         all.extend(at_least(reader, a, b)?);
@@ -38,12 +38,17 @@ fn both(reader: &mut Reader, pairs: [(&Tree, &Tree); 2]) -> Result<Vec<Signed>, 
     Ok(all)
 }
 
-/// Of the same factor or divisor.
-fn multiples(reader: &mut Reader, factor: &Tree, a: &Tree, b: &Tree) -> Result<Vec<Signed>, Why> {
-    let value = reader.read(factor)?;
+/// Compares the multiples of `a` and `b` by a common factor, or their quotients by a common divisor.
+fn multiples(
+    reader: &mut Translator,
+    factor: &Tree,
+    a: &Tree,
+    b: &Tree,
+) -> Result<Vec<SignedRatio>, ProofError> {
+    let value = reader.translate(factor)?;
     let signed = reader.sign(value)?;
-    let keeps = signed.sign().implies(Sign::NonNegative);
+    let preserves_order = signed.sign().implies(Sign::NonNegative);
     let mut all = vec![signed];
-    all.extend(if keeps { at_least(reader, a, b)? } else { at_least(reader, b, a)? });
+    all.extend(if preserves_order { at_least(reader, a, b)? } else { at_least(reader, b, a)? });
     Ok(all)
 }

@@ -1,53 +1,53 @@
 //! Rules for the sign of a polynomial for all values of its symbols.
 //!
-//! A [`Certificate`] is made by one of six rules, each sound by itself. Which of them to try on what is
-//! decided in `search.rs`, and not trusted.
+//! A [`Certificate`] is made by one of six rules, each sound by itself. The choice of the rule, in
+//! `search.rs`, is not trusted.
 //!
-//! 1. **Terms.** Every term has the same sign: a symbol known to be positive (or not negative) keeps it, a
-//!    free symbol does in an even power, and e^… is positive. Strict if one term is nowhere zero.
-//! 2. **Factor.** The sign of a product is that of its factors.
-//! 3. **Square.** If 4 a f = r² + d with a ≠ 0 and d is not negative, the sign of f is a's.
-//! 4. **Slope.** By the mean value theorem, a function f that is continuous for x ≥ 0 and has a slope for
-//!    x > 0 is f(0) + x f'(ξ) for some ξ > 0: its sign is that of such a sum.
-//! 5. **Sizes.** Factors between −1 and 1 make a term no larger than it is without them, and their squares do
-//!    not change its sign. So the polynomial is no less than what is left when each term with such factors is
-//!    replaced by minus its size, or by 0 if they are squares and the term is not negative; and likewise no
-//!    more.
+//! 1. **Terms.** All terms have the same sign, which follows from the known signs of symbols; even powers of
+//!    free symbols are not negative, and e^… is positive. The sign is strict if that of one term is.
+//! 2. **Factor.** The sign of a product follows from those of its factors.
+//! 3. **Square.** If 4 a f = r² + d with a ≠ 0 and d is not negative, f has the sign of a.
+//! 4. **Slope.** By the mean value theorem, a function f that is continuous for x ≥ 0 and differentiable for
+//!    x > 0 is f(0) + x f'(ξ) for some ξ > 0; its sign follows from those of the two terms.
+//! 5. **Sizes.** Factors between −1 and 1 do not increase the absolute value of a term, and their squares do
+//!    not change its sign. So the polynomial is bounded from below by the one in which each term with such
+//!    factors is replaced by minus its absolute value without them, or by 0 if they are squares and the term
+//!    is not negative; and likewise from above.
 //! 6. **Ends.** A polynomial of degree n in a symbol x between −1 and 1 is a sum of products aⁱ (1 − a)ⁿ⁻ⁱ
-//!    with a = (1 + x)/2, none of them negative and not all 0, so it has a sign that all their coefficients
-//!    have (Bernstein's form); those of degree one are its values at the ends.
+//!    with a = (1 + x)/2, none of them negative and not all 0, so it has the common sign of their
+//!    coefficients (Bernstein form). In degree one the coefficients are its values at the ends.
 
 use super::algebra::{Monomial, Number, Poly, Ratio, Symbol};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// The sign of a value that may depend on symbols.
+/// The sign of a value x that may depend on symbols.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sign {
-    /// < 0
+    /// x < 0
     Negative,
-    /// ≤ 0
+    /// x ≤ 0
     NonPositive,
-    /// = 0
+    /// x = 0
     Zero,
-    /// ≥ 0
+    /// x ≥ 0
     NonNegative,
-    /// > 0
+    /// x > 0
     Positive,
 }
 
 use Sign::{Negative, NonNegative, NonPositive, Positive, Zero};
 
-/// The signs of symbols. A symbol that is not listed is free: any real number.
-pub type Known = BTreeMap<Symbol, Sign>;
+/// The known signs of symbols. A symbol that is not listed is free: it may be any real number.
+pub type SignEnv = BTreeMap<Symbol, Sign>;
 
 impl Sign {
-    /// Never zero.
+    /// Returns `true` if the sign excludes zero.
     pub fn is_strict(self) -> bool {
         matches!(self, Positive | Negative)
     }
 
-    /// The sign of −x.
+    /// Returns the sign of −x.
     pub fn negated(self) -> Self {
         match self {
             Negative => Positive,
@@ -58,7 +58,7 @@ impl Sign {
         }
     }
 
-    /// The sign of x y.
+    /// Returns the sign of x y.
     pub fn times(self, other: Self) -> Self {
         match (self, other) {
             (Zero, _) | (_, Zero) => Zero,
@@ -69,7 +69,7 @@ impl Sign {
         }
     }
 
-    /// The sign of x + y, if theirs decide it.
+    /// Returns the sign of x + y if the signs of x and y determine it.
     pub fn plus(self, other: Self) -> Option<Self> {
         match (self, other) {
             (Zero, sign) | (sign, Zero) => Some(sign),
@@ -82,61 +82,60 @@ impl Sign {
         }
     }
 
-    /// Is whatever has this sign also of the other?
+    /// Returns `true` if every number with the sign `self` also has the sign `other`.
     pub fn implies(self, other: Self) -> bool {
         self == other
             || matches!((self, other), (Positive | Zero, NonNegative) | (Negative | Zero, NonPositive))
     }
 }
 
-/// A proof that a polynomial has a sign, if symbols have the signs that are known.
+/// A proof that a polynomial has a sign, for the known signs of symbols.
 #[derive(Clone, Debug)]
 pub struct Certificate {
-    known: Arc<Known>,
+    signs: Arc<SignEnv>,
     of: Poly,
     sign: Sign,
     rule: Rule,
 }
 
-/// The rule of a certificate, with the certificates that it rests on.
+/// The rule of a certificate, with the certificates on which it depends.
 #[derive(Clone, Debug)]
 pub enum Rule {
     /// Rule 1.
-    Terms,
-    /// Rule 2: two factors.
-    Factor(Box<Certificate>, Box<Certificate>),
+    Termwise,
+    /// Rule 2, with the signs of the two factors.
+    Product(Box<Certificate>, Box<Certificate>),
     /// Rule 3.
     Square {
         /// The sign of a.
         leading: Box<Certificate>,
-        /// r
+        /// The root r of the square.
         root: Poly,
         /// The sign of d.
         rest: Box<Certificate>,
     },
     /// Rule 4.
-    Slope {
-        /// x
+    MeanValue {
+        /// The symbol x.
         x: Symbol,
         /// The sign of f(0).
         start: Box<Certificate>,
         /// The sign of the numerator of f'.
         slope: Box<Certificate>,
     },
-    /// Rule 5, with the sign of what is left.
-    Sizes(Box<Certificate>),
+    /// Rule 5, with the sign of the bounding polynomial.
+    TriangleInequality(Box<Certificate>),
     /// Rule 6.
-    Ends {
-        /// x
+    Endpoints {
+        /// The symbol x.
         x: Symbol,
         /// The signs of the coefficients, from that at −1 to that at 1.
         at: Box<[Certificate]>,
     },
 }
 
-/// A search for the sign of a polynomial; what it finds is used if it is about that polynomial and those
-/// signs.
-pub type Find<'f> = &'f dyn Fn(&Poly, &Arc<Known>) -> Option<Certificate>;
+/// A search for the sign of a polynomial, whose results are checked by [`Certificate::found`].
+pub type SignSearch<'f> = &'f dyn Fn(&Poly, &Arc<SignEnv>) -> Option<Certificate>;
 
 impl Certificate {
     /// Returns the polynomial.
@@ -144,124 +143,130 @@ impl Certificate {
         &self.of
     }
 
-    /// Returns its sign.
+    /// Returns the sign of the polynomial.
     pub fn sign(&self) -> Sign {
         self.sign
     }
 
-    /// Returns the rule that proves it.
+    /// Returns the rule that proves the sign.
     pub fn rule(&self) -> &Rule {
         &self.rule
     }
 
-    /// Returns what is found, if it is a certificate for this polynomial under these signs.
-    pub fn found(of: &Poly, known: &Arc<Known>, find: Find) -> Option<Self> {
+    /// Returns the result of a search if it is a certificate for this polynomial and these signs of symbols.
+    pub fn search(of: &Poly, known: &Arc<SignEnv>, find: SignSearch) -> Option<Self> {
         let certificate = find(of, known)?;
         (certificate.of == *of && certificate.is_under(known)).then_some(certificate)
     }
 
-    fn is_under(&self, known: &Arc<Known>) -> bool {
-        Arc::ptr_eq(&self.known, known) || self.known == *known
+    fn is_under(&self, known: &Arc<SignEnv>) -> bool {
+        Arc::ptr_eq(&self.signs, known) || self.signs == *known
     }
 
-    /// Rule 1.
-    pub fn terms(of: &Poly, known: &Arc<Known>) -> Option<Self> {
+    /// Applies rule 1.
+    pub fn termwise(of: &Poly, known: &Arc<SignEnv>) -> Option<Self> {
         let sign = of.terms().try_fold(Zero, |sum, (monomial, coefficient)| {
             let number = if coefficient.sign().is_lt() { Negative } else { Positive };
             sum.plus(number.times(of_monomial(monomial, known)?))
         });
-        Some(Certificate { known: known.clone(), of: of.clone(), sign: sign?, rule: Rule::Terms })
+        Some(Certificate { signs: known.clone(), of: of.clone(), sign: sign?, rule: Rule::Termwise })
     }
 
-    /// Rule 2.
+    /// Applies rule 2.
     pub fn product(factor: Self, rest: Self) -> Option<Self> {
-        let (known, sign) = (factor.known.clone(), factor.sign.times(rest.sign));
+        let (known, sign) = (factor.signs.clone(), factor.sign.times(rest.sign));
         let of = &factor.of * &rest.of;
-        let agree = rest.is_under(&known);
-        agree.then(|| Certificate { known, of, sign, rule: Rule::Factor(factor.into(), rest.into()) })
+        let is_same = rest.is_under(&known);
+        is_same.then(|| Certificate {
+            signs: known,
+            of,
+            sign,
+            rule: Rule::Product(factor.into(), rest.into()),
+        })
     }
 
-    /// Rule 3, for f = a x² + b x + d: 4 a f = (2 a x + b)² + (4 a d − b²).
-    pub fn square(of: &Poly, x: Symbol, known: &Arc<Known>, find: Find) -> Option<Self> {
+    /// Applies rule 3 to f = a x² + b x + d: 4 a f = (2 a x + b)² + (4 a d − b²).
+    pub fn square(of: &Poly, x: Symbol, known: &Arc<SignEnv>, find: SignSearch) -> Option<Self> {
         let [d, b, a] = of.coefficients(x)?;
         if of.exponents().any(|e| e.symbols().contains(&x)) {
             return None;
         }
-        let leading = Certificate::found(&a, known, find).filter(|a| a.sign.is_strict())?;
-        let rest = Certificate::found(&(Poly::constant(4) * &a * d - &b * &b), known, find)?;
+        let leading = Certificate::search(&a, known, find).filter(|a| a.sign.is_strict())?;
+        let rest = Certificate::search(&(Poly::constant(4) * &a * d - &b * &b), known, find)?;
         let sign = leading.sign.times(NonNegative.plus(rest.sign)?);
         let root = Poly::constant(2) * a * Poly::symbol(x) + b;
         let rule = Rule::Square { leading: leading.into(), root, rest: rest.into() };
-        Some(Certificate { known: known.clone(), of: of.clone(), sign, rule })
+        Some(Certificate { signs: known.clone(), of: of.clone(), sign, rule })
     }
 
-    /// Rule 4.
-    pub fn slope(of: &Poly, x: Symbol, known: &Arc<Known>, find: Find) -> Option<Self> {
+    /// Applies rule 4.
+    pub fn mean_value(of: &Poly, x: Symbol, known: &Arc<SignEnv>, find: SignSearch) -> Option<Self> {
         let at_x = *known.get(&x)?;
-        let with = |sign| {
-            Arc::new(Known::from_iter(known.iter().map(|(y, s)| (*y, if *y == x { sign } else { *s }))))
+        let with_sign = |sign| {
+            Arc::new(SignEnv::from_iter(known.iter().map(|(y, s)| (*y, if *y == x { sign } else { *s }))))
         };
-        if !at_x.implies(NonNegative) || !is_continuous(of, &with(NonNegative)) {
+        if !at_x.implies(NonNegative) || !is_continuous(of, &with_sign(NonNegative)) {
             return None;
         }
         let start = of.replace(&Monomial::of(x), &Ratio::zero());
-        let start = Certificate::found(&numerator(&start, known)?, known, find)?;
-        let inside = with(Positive);
-        let slope = Certificate::found(&numerator(&of.derivative(x), &inside)?, &inside, find)?;
+        let start = Certificate::search(&numerator(&start, known)?, known, find)?;
+        let interior = with_sign(Positive);
+        let slope = Certificate::search(&numerator(&of.derivative(x), &interior)?, &interior, find)?;
         let sign = start.sign.plus(at_x.times(slope.sign))?;
-        let rule = Rule::Slope { x, start: start.into(), slope: slope.into() };
-        Some(Certificate { known: known.clone(), of: of.clone(), sign, rule })
+        let rule = Rule::MeanValue { x, start: start.into(), slope: slope.into() };
+        Some(Certificate { signs: known.clone(), of: of.clone(), sign, rule })
     }
 
-    /// Rule 5.
-    pub fn sizes(of: &Poly, known: &Arc<Known>) -> Option<Self> {
-        let has_small = |m: &Monomial| m.powers().any(|(x, _)| x.is_small());
-        let (with, whole): (Vec<_>, Vec<_>) = of.terms().partition(|(m, _)| has_small(m));
-        let whole: Poly = whole.into_iter().map(|(m, q)| (m.clone(), q.clone())).collect();
-        // The size of a term without its small factors, and the sign of the term if they are squares: what is
-        // left of it has to be of a known sign.
+    /// Applies rule 5.
+    pub fn triangle_inequality(of: &Poly, known: &Arc<SignEnv>) -> Option<Self> {
+        let has_small = |m: &Monomial| m.powers().any(|(x, _)| x.in_unit_interval());
+        let (small, others): (Vec<_>, Vec<_>) = of.terms().partition(|(m, _)| has_small(m));
+        let others: Poly = others.into_iter().map(|(m, q)| (m.clone(), q.clone())).collect();
+        // The absolute value of a term without its factors between −1 and 1, and the sign of the term if
+        // these are squares. The remaining factors must have a known sign.
         let size = |(m, q): (&Monomial, &Number)| {
-            let rest = m.without_those(Symbol::is_small);
+            let rest = m.without_symbols(Symbol::in_unit_interval);
             let sign = of_monomial(&rest, known)?;
             let size = if sign.implies(NonPositive) { -q.abs() } else { q.abs() };
-            let is_even = m.powers().all(|(x, n)| !x.is_small() || n % 2 == 0);
+            let is_even = m.powers().all(|(x, n)| !x.in_unit_interval() || n % 2 == 0);
             let number = if q.sign().is_lt() { Negative } else { Positive };
             Some(((rest, size), is_even.then(|| number.times(sign))))
         };
-        let with: Vec<_> = with.into_iter().map(size).collect::<Option<_>>()?;
-        // The whole is `beyond` 0 with respect to what is left, so it is of its sign if both agree.
-        let by = |beyond: Sign| {
-            let is_beyond = |sign: &Option<Sign>| sign.is_some_and(|sign| sign.implies(beyond));
-            let against = with.iter().filter(|(_, sign)| !is_beyond(sign));
-            let sizes: Poly = against.map(|(size, _)| size.clone()).collect();
-            let rest = if beyond == NonNegative { &whole - &sizes } else { &whole + &sizes };
-            let rest = Certificate::terms(&rest, known)?;
-            let sign = rest.sign.plus(beyond)?;
-            Some(Certificate { known: known.clone(), of: of.clone(), sign, rule: Rule::Sizes(rest.into()) })
+        let small: Vec<_> = small.into_iter().map(size).collect::<Option<_>>()?;
+        // The difference of the polynomial and its bound has the sign `difference`.
+        let by_bound = |difference: Sign| {
+            let has_sign = |sign: &Option<Sign>| sign.is_some_and(|sign| sign.implies(difference));
+            let replaced = small.iter().filter(|(_, sign)| !has_sign(sign));
+            let sizes: Poly = replaced.map(|(size, _)| size.clone()).collect();
+            let bound = if difference == NonNegative { &others - &sizes } else { &others + &sizes };
+            let bound = Certificate::termwise(&bound, known)?;
+            let sign = bound.sign.plus(difference)?;
+            Some(Certificate {
+                signs: known.clone(),
+                of: of.clone(),
+                sign,
+                rule: Rule::TriangleInequality(bound.into()),
+            })
         };
-        by(NonNegative).or_else(|| by(NonPositive))
+        by_bound(NonNegative).or_else(|| by_bound(NonPositive))
     }
 
-    /// Rule 6.
-    pub fn ends(of: &Poly, x: Symbol, known: &Arc<Known>, find: Find) -> Option<Self> {
-        if !x.is_small() || of.exponents().any(|e| e.symbols().contains(&x)) {
+    /// Applies rule 6.
+    pub fn endpoints(of: &Poly, x: Symbol, known: &Arc<SignEnv>, find: SignSearch) -> Option<Self> {
+        if !x.in_unit_interval() || of.exponents().any(|e| e.symbols().contains(&x)) {
             return None;
         }
-        let sign = |coefficient: Poly| Certificate::found(&coefficient, known, find);
+        let sign = |coefficient: Poly| Certificate::search(&coefficient, known, find);
         let at: Vec<_> = bernstein(of, x).into_iter().map(sign).collect::<Option<_>>()?;
-        // Between numbers of one sign there is no other, and no zero if none is.
-        let one = [Positive, Negative, NonNegative, NonPositive];
-        let all = one.into_iter().find(|sign| at.iter().all(|own| own.sign.implies(*sign)))?;
-        Some(Certificate {
-            known: known.clone(),
-            of: of.clone(),
-            sign: all,
-            rule: Rule::Ends { x, at: at.into() },
-        })
+        // Strict signs come first. The products aⁱ (1 − a)ⁿ⁻ⁱ are not all 0, so they preserve them.
+        let signs = [Positive, Negative, NonNegative, NonPositive];
+        let sign = signs.into_iter().find(|sign| at.iter().all(|c| c.sign.implies(*sign)))?;
+        let rule = Rule::Endpoints { x, at: at.into() };
+        Some(Certificate { signs: known.clone(), of: of.clone(), sign, rule })
     }
 }
 
-fn of_monomial(monomial: &Monomial, known: &Known) -> Option<Sign> {
+fn of_monomial(monomial: &Monomial, known: &SignEnv) -> Option<Sign> {
     let power = |(x, n): (Symbol, u32)| match known.get(&x) {
         Some(sign) if n % 2 == 1 => Some(*sign),
         Some(sign) => Some(sign.times(*sign)),
@@ -271,31 +276,31 @@ fn of_monomial(monomial: &Monomial, known: &Known) -> Option<Sign> {
     monomial.powers().try_fold(Positive, |product, x| Some(product.times(power(x)?)))
 }
 
-/// Returns `true` if exponents have a value wherever this is known: if they are quotients of polynomials and
-/// no denominator vanishes.
-fn is_continuous(of: &Poly, known: &Arc<Known>) -> bool {
-    of.exponents().all(|exponent| exponent.is_of_polynomials() && numerator(exponent, known).is_some())
+/// Returns `true` if all exponents are quotients of polynomials whose denominators do not vanish.
+fn is_continuous(of: &Poly, known: &Arc<SignEnv>) -> bool {
+    of.exponents().all(|exponent| exponent.is_rational_function() && numerator(exponent, known).is_some())
 }
 
-/// A polynomial with the sign of the quotient, if that of its denominator is known.
-fn numerator(of: &Ratio, known: &Arc<Known>) -> Option<Poly> {
-    match Certificate::terms(of.den(), known)?.sign {
+/// Returns a polynomial with the sign of a quotient if the sign of the denominator is known.
+fn numerator(of: &Ratio, known: &Arc<SignEnv>) -> Option<Poly> {
+    match Certificate::termwise(of.den(), known)?.sign {
         Positive => Some(of.num().clone()),
         Negative => Some(-of.num()),
         NonNegative | NonPositive | Zero => None,
     }
 }
 
-/// The sums bᵢ for which a polynomial of degree n in x is Σ bᵢ aⁱ (1 − a)ⁿ⁻ⁱ, where a = (1 + x)/2.
+/// Returns the coefficients bᵢ for which a polynomial of degree n in x is Σ bᵢ aⁱ (1 − a)ⁿ⁻ⁱ, where
+/// a = (1 + x)/2.
 ///
-/// In it xᵏ = (a − (1 − a))ᵏ (a + (1 − a))ⁿ⁻ᵏ.
+/// They follow from xᵏ = (a − (1 − a))ᵏ (a + (1 − a))ⁿ⁻ᵏ.
 fn bernstein(of: &Poly, x: Symbol) -> Vec<Poly> {
     let degree = of.degree(x) as usize;
     let times = |factors: &[i32], by: i32| -> Vec<i32> {
         let shifted = [0].iter().chain(factors);
         factors.iter().chain(&[0]).zip(shifted).map(|(low, high)| by * low + high).collect()
     };
-    // The factors of aⁱ (1 − a)ⁿ⁻ⁱ in xᵏ.
+    // The coefficients of aⁱ (1 − a)ⁿ⁻ⁱ in xᵏ.
     let factors = |k: usize| {
         let minus = (0..k).fold(vec![1], |all, _| times(&all, -1));
         (k..degree).fold(minus, |all, _| times(&all, 1))
@@ -313,7 +318,7 @@ mod tests {
     #[test]
     fn signs_of_sums_and_products_are_those_of_numbers() {
         const SIGNS: [Sign; 5] = [Negative, NonPositive, Zero, NonNegative, Positive];
-        // −1, 0 and 1 stand for all numbers: a sum of two is of any size if their signs differ.
+        // −1, 0 and 1 represent all numbers; the sums include multiples, so that either sign can prevail.
         let has = |sign: Sign, x: i32| match sign {
             Negative => x < 0,
             NonPositive => x <= 0,
@@ -341,37 +346,40 @@ mod tests {
         assert!(SIGNS.iter().all(|s| s.is_strict() != has(*s, 0) && s.negated() == s.times(Negative)));
     }
 
-    /// A certificate is one for its polynomial and for the signs that it was made under.
+    /// A certificate is valid for one polynomial and for the signs under which it was made.
     #[test]
-    fn a_certificate_for_something_else_is_not_taken() {
+    fn certificates_for_other_polynomials_or_signs_are_rejected() {
         let [a, u] = ["a", "u"].map(Symbol::Own);
         let poly = |x: Symbol| Poly::symbol(x) + Poly::constant(1);
-        let positive = Arc::new(Known::from([(a, Positive), (u, Positive)]));
-        let free = Arc::new(Known::new());
-        let of_a = Certificate::terms(&poly(a), &positive).unwrap();
-        let same = |_: &Poly, _: &Arc<Known>| Some(of_a.clone());
-        assert!(Certificate::found(&poly(a), &positive, &same).is_some());
-        // Equal signs are the same signs.
-        assert!(Certificate::found(&poly(a), &Arc::new((*positive).clone()), &same).is_some());
-        assert!(Certificate::found(&poly(u), &positive, &same).is_none());
-        assert!(Certificate::found(&poly(a), &free, &same).is_none());
-        let square = Certificate::terms(&Poly::constant(1), &free).unwrap();
+        let positive = Arc::new(SignEnv::from([(a, Positive), (u, Positive)]));
+        let free = Arc::new(SignEnv::new());
+        let of_a = Certificate::termwise(&poly(a), &positive).unwrap();
+        let same = |_: &Poly, _: &Arc<SignEnv>| Some(of_a.clone());
+        assert!(Certificate::search(&poly(a), &positive, &same).is_some());
+        // Signs are compared by value.
+        assert!(Certificate::search(&poly(a), &Arc::new((*positive).clone()), &same).is_some());
+        assert!(Certificate::search(&poly(u), &positive, &same).is_none());
+        assert!(Certificate::search(&poly(a), &free, &same).is_none());
+        let square = Certificate::termwise(&Poly::constant(1), &free).unwrap();
         assert!(Certificate::product(of_a.clone(), square).is_none());
-        // Nor does a rule take it: u² + 1 is no sum of a square and a.
+        // The rules reject it, too: u² + 1 is not the sum of a square and a.
         let quadratic = Poly::symbol(u) * Poly::symbol(u) + Poly::constant(1);
         assert!(Certificate::square(&quadratic, u, &positive, &same).is_none());
-        assert!(Certificate::ends(&poly(Symbol::Error(0)), Symbol::Error(0), &positive, &same).is_none());
         assert!(
-            Certificate::slope(&Poly::exponential(Poly::symbol(a).into()), a, &positive, &same).is_none()
+            Certificate::endpoints(&poly(Symbol::Error(0)), Symbol::Error(0), &positive, &same).is_none()
+        );
+        assert!(
+            Certificate::mean_value(&Poly::exponential(Poly::symbol(a).into()), a, &positive, &same)
+                .is_none()
         );
     }
 
-    /// Only symbols between −1 and 1 have ends.
     #[test]
-    fn other_symbols_have_no_ends() {
-        let known = Arc::new(Known::new());
-        let terms = |of: &Poly, known: &Arc<Known>| Certificate::terms(of, known);
-        let of = |x: Symbol| Certificate::ends(&(Poly::constant(2) + Poly::symbol(x)), x, &known, &terms);
+    fn rule_6_applies_to_symbols_between_minus_1_and_1_only() {
+        let known = Arc::new(SignEnv::new());
+        let terms = |of: &Poly, known: &Arc<SignEnv>| Certificate::termwise(of, known);
+        let of =
+            |x: Symbol| Certificate::endpoints(&(Poly::constant(2) + Poly::symbol(x)), x, &known, &terms);
         assert!(of(Symbol::Place(0)).is_some() && of(Symbol::Error(3)).is_some());
         assert!(of(Symbol::Own("e₁")).is_none() && of(Symbol::Slack(0)).is_none());
     }

@@ -1,4 +1,4 @@
-//! The numbers of the search.
+//! The values with which the search for counterexamples computes.
 
 use crate::number::{Ball, Exact, Exponential, Field, PositivePart};
 use crate::operators;
@@ -6,25 +6,25 @@ use num_traits::{One, Zero};
 use std::cmp::Ordering;
 use std::fmt;
 
-/// A number: exact, or enclosed if an eˣ went into it.
+/// An exact number, or an enclosure of a number that depends on eˣ.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// This rational number.
+    /// A rational number.
     Exact(Exact),
-    /// A number in this ball.
+    /// An enclosure of a number.
     Ball(Ball<f64>),
 }
 
 impl Value {
     fn ball(&self) -> Ball<f64> {
         match self {
-            // A number that f64 cannot hold is anywhere.
-            Value::Exact(x) => Ball::around(&0.0, x).unwrap_or_else(|_| Ball::one() / Ball::zero()),
+            // A number outside the range of f64 has an infinite enclosure.
+            Value::Exact(x) => Ball::enclosing(&0.0, x).unwrap_or_else(|_| Ball::one() / Ball::zero()),
             Value::Ball(ball) => ball.clone(),
         }
     }
 
-    /// Its sign, if that is certain.
+    /// Returns the sign if it is certain.
     pub fn sign(&self) -> Option<Ordering> {
         match self {
             Value::Exact(x) => Some(x.cmp(&Exact::zero())),
@@ -42,7 +42,7 @@ impl fmt::Display for Value {
     }
 }
 
-macro_rules! either {
+macro_rules! exact_or_ball {
     ($a:expr, $b:expr, |$x:ident, $y:ident| $result:expr) => {
         match ($a, $b) {
             (Value::Exact($x), Value::Exact($y)) => Value::Exact($result),
@@ -55,10 +55,10 @@ macro_rules! either {
 }
 
 operators! { [] Value;
-    Add add |a, b| either!(a, b, |x, y| x + y);
-    Sub sub |a, b| either!(a, b, |x, y| x - y);
-    Mul mul |a, b| either!(a, b, |x, y| x * y);
-    Div div |a, b| either!(a, b, |x, y| x / y);
+    Add add |a, b| exact_or_ball!(a, b, |x, y| x + y);
+    Sub sub |a, b| exact_or_ball!(a, b, |x, y| x - y);
+    Mul mul |a, b| exact_or_ball!(a, b, |x, y| x * y);
+    Div div |a, b| exact_or_ball!(a, b, |x, y| x / y);
     - |a| match a {
         Value::Exact(x) => Value::Exact(-x),
         Value::Ball(ball) => Value::Ball(-ball),
@@ -81,8 +81,8 @@ impl Field for Value {
     fn int(n: i32) -> Self {
         Value::Exact(Exact::int(n))
     }
-    // By default, whatever is not certainly 0 is a unit: by a ball around 0 the quotient is a ball of
-    // infinite radius, which decides nothing. So what is undefined is undefined for certain.
+    // By default, a value is invertible unless it is certainly 0. Division by a ball around 0 gives a ball of
+    // infinite radius, which decides nothing. So a value is undefined only if a divisor is certainly 0.
 }
 impl Exponential for Value {
     fn exp(&self) -> Self {
@@ -97,7 +97,7 @@ impl PositivePart for Value {
         }
     }
     fn min(&self, other: &Self) -> Self {
-        either!(self, other, |x, y| PositivePart::min(x, y))
+        exact_or_ball!(self, other, |x, y| PositivePart::min(x, y))
     }
 }
 
@@ -106,17 +106,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_stay_exact_until_there_is_an_exponential() {
+    fn values_are_exact_unless_they_depend_on_an_exponential() {
         assert_eq!(Value::zero().exp(), Value::one());
         let e = Value::one().exp();
         assert_eq!((&e - Value::int(2)).sign(), Some(Ordering::Greater));
-        // Rounding leaves this open, and so is everything after a division by it.
-        let nothing = &e * (-Value::one()).exp() - Value::one();
-        assert_eq!(nothing.sign(), None);
-        assert_eq!((Value::one() / nothing).sign(), None);
+        // The sign of e e⁻¹ − 1 is undecided, and so is that of a quotient by it.
+        let zero = &e * (-Value::one()).exp() - Value::one();
+        assert_eq!(zero.sign(), None);
+        assert_eq!((Value::one() / zero).sign(), None);
         assert!((&e * Value::zero()).is_zero());
         assert_eq!(Value::int(10_000).exp().sign(), None);
-        // What f64 cannot hold is anywhere, too.
+        // So is the sign of a number outside the range of f64.
         assert_eq!((&e * Value::Exact(Exact::power_of_two(2000))).sign(), None);
     }
 }

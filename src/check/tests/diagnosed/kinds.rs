@@ -1,10 +1,10 @@
-//! What kinds of mistakes are found: tolerances, bounds, single roundings, edits, ends of iterations.
+//! Kinds of diagnosed mistakes: tolerances, bounds, single roundings, edits, incomplete iterations.
 
 use super::*;
 
-/// The answers of a solver that decides by a tolerance of its own: it misses the plane, or holds the mass
-/// there, up to this threshold.
-fn deciding(
+/// Returns the answers of a solver with an internal tolerance: it misses contacts, or holds the mass at the
+/// plane, up to this threshold.
+fn with_internal_tolerance(
     tolerance: &str,
     misses: bool,
     threshold: &str,
@@ -24,7 +24,7 @@ fn deciding(
     check(&default_problems(), &number(tolerance), ask).unwrap()
 }
 
-/// From 1.61 of each decade on: the largest that the least of a decade can be.
+/// From 1.61 of each decade on, which is the largest possible minimum of a decade.
 #[test]
 fn a_relative_tolerance_above_that_of_the_check_is_noticed() {
     for misses in [true, false] {
@@ -37,14 +37,14 @@ fn a_relative_tolerance_above_that_of_the_check_is_noticed() {
             ("1e-6", "1e-3"),
             ("1e-6", "0.1"),
         ] {
-            let report = deciding(tolerance, misses, threshold, part);
+            let report = with_internal_tolerance(tolerance, misses, threshold, part);
             assert!(!report.holds(), "{threshold} passes {tolerance}");
         }
-        // What is said of a right solver is where this begins to be noticed.
+        // The report on a right solver states where a threshold would be noticed.
         let state = if misses { State::Contact } else { State::Separated };
         let least = run(&default_problems(), right).least_deciding(state, &number(TOLERANCE)).unwrap();
         for (threshold, holds) in [(least.clone(), false), (&least * number("0.999"), true)] {
-            let report = deciding(TOLERANCE, misses, &threshold.to_string(), part);
+            let report = with_internal_tolerance(TOLERANCE, misses, &threshold.to_string(), part);
             assert_eq!(report.holds(), holds, "{threshold}");
         }
     }
@@ -57,11 +57,17 @@ fn a_relative_tolerance_is_found_on_either_side() {
     let by_height: fn(&SpringMass<Exact>) -> Exact =
         |system| system::reaction(system).abs() / &system.c / system.h.abs();
     for misses in [true, false] {
-        for (of, quantity) in [(Of::ForceByWeight, by_weight), (Of::PenetrationByHeight, by_height)] {
+        for (of, quantity) in [
+            (ThresholdQuantity::ForceByWeight, by_weight),
+            (ThresholdQuantity::PenetrationByHeight, by_height),
+        ] {
             for threshold in ["1e-4", "1e-3", "3e-2"] {
-                let report = deciding(TOLERANCE, misses, threshold, quantity);
-                let (found, other) =
-                    if misses { (report.missed, report.held) } else { (report.held, report.missed) };
+                let report = with_internal_tolerance(TOLERANCE, misses, threshold, quantity);
+                let (found, other) = if misses {
+                    (report.missed_contacts, report.false_contacts)
+                } else {
+                    (report.false_contacts, report.missed_contacts)
+                };
                 let Threshold { of: found, up_to, from, .. } = found.expect(threshold);
                 assert_eq!((found, other), (of, None), "{threshold}");
                 assert!(up_to <= number(threshold) && number(threshold) < from, "{up_to} {from}");
@@ -70,7 +76,7 @@ fn a_relative_tolerance_is_found_on_either_side() {
     }
 }
 
-/// A force that is cut off at a constant, small or large; and one that shows in two systems alone.
+/// A force limited by a constant, small or large, and one that is limited in two systems only.
 #[test]
 fn a_capped_force_is_named_once_or_not_at_all() {
     for cap in ["1e-2", "1", "100", "1e4", "1e6", "1e12", "1e30"] {
@@ -83,12 +89,12 @@ fn a_capped_force_is_named_once_or_not_at_all() {
     }
 }
 
-/// No diagnosis has the formulas of what is right.
+/// No diagnosis has the right formulas.
 #[test]
 fn a_diagnosis_has_its_own_formulas() {
     let formula = |change: fn(Exact, Exact) -> [Exact; 2]| {
         let report = changed(|_, u, n| change(u, n));
-        report.named().expect("a diagnosis").formula.clone()
+        report.identified_mistake().expect("a diagnosis").formula.clone()
     };
     assert_eq!(formula(|_, n| [Exact::zero(), n]), "u = 0, N = ⟨m g − c (H − l)⟩");
     let factor = formula(|u, n| [u * number("1000"), n]);
@@ -97,13 +103,13 @@ fn a_diagnosis_has_its_own_formulas() {
     assert_eq!(rounded, "u = fl(min(m g / c, H − l)), N = fl(⟨m g − c (H − l)⟩)");
 }
 
-/// All of it: numbers are printed as a program in single precision does, or one that prints them in double.
+/// Numbers printed by a program in single precision, and by one that converts them to double precision.
 #[test]
 fn a_program_in_single_precision_is_found() {
     let solve = |problem: &Problem, print: fn(f32) -> String| {
         let SpringMass { c, m, g, l, h } = problem.system.try_map(Exact::to_f32).unwrap();
         let u = (m * g / c).min(h - l);
-        // By what equilibrium lacks, where rounding leaves a little though the mass hangs free.
+        // By equilibrium, where rounding leaves a small force although the mass is separated.
         let n = (m * g - c * u).max(0.0);
         Answer::new(number(&print(u)), number(&print(n)))
     };
@@ -111,11 +117,14 @@ fn a_program_in_single_precision_is_found() {
         [|x| format!("{x:e}"), |x| format!("{:e}", f64::from(x)), |x| format!("{x:.8e}")];
     for print in prints {
         let report = run(&default_problems(), |problem| solve(problem, print));
-        assert_eq!(report.named().map(|d| d.name.as_str()), Some("it computes in single precision"));
+        assert_eq!(
+            report.identified_mistake().map(|d| d.name.as_str()),
+            Some("it computes in single precision")
+        );
     }
 }
 
-/// As they are handed on in a text, of a float: by `%g`, or with a number of decimals.
+/// Parameters passed as text, with `%g` or a fixed number of decimals.
 #[test]
 fn parameters_with_few_digits_are_found() {
     let name = |change: &dyn Fn(&SpringMass<f64>) -> SpringMass<Exact>| {
@@ -123,11 +132,11 @@ fn parameters_with_few_digits_are_found() {
             let floats = problem.system.try_map(Exact::to_f64).unwrap();
             right(&Problem { system: change(&floats), ..problem.clone() })
         });
-        report.named().map(|only| only.name.clone()).unwrap_or_default()
+        report.identified_mistake().map(|only| only.name.clone()).unwrap_or_default()
     };
     for digits in [4, 6] {
         let shortened = |x: &f64| number(&format!("{x:.*e}", digits - 1));
-        let own = format!("it takes no more than {digits} digits of its parameters");
+        let own = format!("it uses at most {digits} digits of its parameters");
         assert_eq!(name(&|system| system.map(shortened)), own);
     }
     for decimals in [3, 6] {
@@ -136,11 +145,11 @@ fn parameters_with_few_digits_are_found() {
             let SpringMass { l, h, .. } = system;
             SpringMass { l: fixed(l), h: fixed(h), ..system.map(|x| number(&x.to_string())) }
         };
-        assert_eq!(name(&lengths), format!("it takes no more than {decimals} decimals of l and H"));
+        assert_eq!(name(&lengths), format!("it uses at most {decimals} decimals of l and H"));
     }
 }
 
-/// An edit of a formula would show in the other answers as well.
+/// A mutated formula would affect the other answers as well.
 #[test]
 fn an_edit_that_explains_some_answers_is_not_named() {
     let edits = mistakes(false).iter().filter(|mistake| mistake.is_edit());
@@ -155,7 +164,7 @@ fn an_edit_that_explains_some_answers_is_not_named() {
     assert_eq!(named.map(|edit| &edit.name).collect::<Vec<_>>(), Vec::<&String>::new());
 }
 
-/// (1.16) in f64, as a program computes it.
+/// (1.16) in f64.
 #[test]
 fn augmentations_that_end_early_are_found() {
     for (steps, eps) in [(2, 1e4), (3, 1e4), (5, 2e7)] {
@@ -168,10 +177,10 @@ fn augmentations_that_end_early_are_found() {
             }
             Answer::new(u.to_exact().unwrap(), lambda.to_exact().unwrap())
         });
-        let name = report.named().map(|d| d.name.clone()).unwrap_or_default();
+        let name = report.identified_mistake().map(|d| d.name.clone()).unwrap_or_default();
         assert_eq!(
             name,
-            format!("the augmentation ends after {steps} steps, with ε = {eps:e} N/m")
+            format!("the augmentation stops after {steps} steps, with ε = {eps:e} N/m")
                 .replace("1e4", "10000")
         );
     }

@@ -1,4 +1,4 @@
-//! A law that does not hold is seen, and what is no trial of one decides nothing.
+//! Tests that a violated law is detected, and that cases outside its conditions decide nothing.
 
 use super::*;
 use crate::chapter::SpringMass;
@@ -17,11 +17,11 @@ fn case() -> Case<f32> {
     Case { system, eps: 1.0, lambda: 0.0, u: tiny, q: 0.5, ..Case::of(|_| 1.0) }
 }
 
-/// What floats make of a formula.
+/// Returns the value that floats compute for a formula.
 fn computed<T: Scalar + Real + ToExact>(formula: &Tree, case: &Case<T>) -> Option<T> {
     let mut program = Program::default();
     let place = program.add(formula);
-    Floats::of(case, &program, &[]).unwrap().compute(place).cloned()
+    Evaluation::of(case, &program, &[]).unwrap().compute(place).cloned()
 }
 
 fn tried(claim: &Statement) -> Trial {
@@ -32,10 +32,10 @@ fn tried(claim: &Statement) -> Trial {
 fn what_exceeds_its_bound_is_seen() {
     let x = symbols();
     let sum = &x.system.l + &x.u;
-    let error = || sum.rounded() - &sum;
+    let error = || sum.with_rounding() - &sum;
     let eta = || int(1) / Tree::symbol(PRECISION);
     let tiny = Exact::power_of_two(-24);
-    // A bound that vanishes with η is measured, and any other is met or not.
+    // A bound that vanishes with η is measured; any other is only met or not.
     for (times, bound) in [(1, tiny.clone()), (3, Exact::from(3) * &tiny)] {
         let law = within("law", error(), int(times) * eta());
         assert_eq!(tried(&law), Trial::Within { error: tiny.clone(), bound });
@@ -44,7 +44,7 @@ fn what_exceeds_its_bound_is_seen() {
         let trial = tried(&within("law", error(), &bound));
         assert_eq!(trial, Trial::Decided(holds), "{bound}");
     }
-    let lost = || sum.rounded() - int(1);
+    let lost = || sum.with_rounding() - int(1);
     assert_eq!(tried(&equal("lost", lost(), 0)), Trial::Decided(true));
     assert_eq!(tried(&equal("kept", lost(), &x.u)), Trial::Decided(false));
     assert_eq!(tried(&non_negative("sign", lost())), Trial::Decided(true));
@@ -53,13 +53,14 @@ fn what_exceeds_its_bound_is_seen() {
 
 #[test]
 fn of_what_is_supposed_only_parameters_are_drawn() {
-    let given = given();
+    let given = crate::claims::hypotheses();
     let (parameter, computed, interval) = (&given.stiffness, &given.computed_inside, &given.decay);
     let bits = &given.fine_enough;
-    let law = within("law", symbols().u.rounded(), int(1)).assuming([parameter, computed, interval, bits]);
+    let law =
+        within("law", symbols().u.with_rounding(), int(1)).assuming([parameter, computed, interval, bits]);
     assert_eq!(experiment::<f32>(&law).given.iter().collect::<Vec<_>>(), [parameter]);
-    // And what is not drawn is looked at: fl(l + u − H) ≥ 0 here, and not where l = 0.
-    let under = within("law", symbols().u.rounded(), int(1)).assuming([computed]);
+    // Hypotheses that are not sampled are tested: fl(l + u − H) ≥ 0 holds here, and fails for l = 0.
+    let under = within("law", symbols().u.with_rounding(), int(1)).assuming([computed]);
     let supposing = |x: &Case<f32>| (experiment(&under).check)(x);
     let mut apart = case();
     apart.system.l = 0.0;
@@ -80,7 +81,7 @@ fn a_number_that_loses_bits_at_the_end_of_the_range_is_none() {
     assert_eq!(computed(&quotient, least, 0), Some(power_of_two(least)));
     assert_eq!([computed(&product, least, -1), computed(&quotient, least, 1)], [None, None]);
     assert_eq!([computed(&product, 1000, 1000), computed(&quotient, 1000, -1000)], [None, None]);
-    // 0 times something is no underflow, and neither is a difference.
+    // A product with 0 is not an underflow, and neither is a difference.
     assert_eq!(computed(&(u * &s.c), 0, 0), Some(0.0));
     assert_eq!(computed(&(u / &s.c), 0, 0), Some(0.0));
     assert_eq!(computed(&(&s.c - &s.m), least, least - 1), Some(power_of_two(least - 1)));
@@ -92,7 +93,7 @@ fn the_coarsest_number_is_the_precision() {
         let bits = |var| if var == coarse { 24 } else { 53 };
         let case = Case::of(|var| Mpfr::rounded(bits(var), 1));
         assert_eq!(
-            Floats::of(&case, &Program::default(), &[]).unwrap().precision,
+            Evaluation::of(&case, &Program::default(), &[]).unwrap().precision,
             Exact::power_of_two(24),
             "{coarse:?}"
         );
@@ -103,16 +104,16 @@ fn the_coarsest_number_is_the_precision() {
 fn a_power_is_one_of_a_sequence_that_is_followed() {
     let case = case();
     let law = Law::of(&equal("power", Tree::symbol(POWER), &symbols().u));
-    let mut floats = Floats::of(&case, &law.program, &law.varies).unwrap();
-    let Asks::Equal(q, u) = law.asks else { panic!("an equation") };
+    let mut floats = Evaluation::of(&case, &law.program, &law.varies).unwrap();
+    let Test::Equal(q, u) = law.asks else { panic!("an equation") };
     assert_eq!((floats.value(q).cloned(), floats.value(u).cloned()), (exact(&0.5f32), exact(&case.u)));
     floats.set(MEMBERS[0], 0.0);
     assert_eq!((law.varies[q], law.varies[u]), (true, false));
     assert_eq!((floats.value(q).cloned(), floats.value(u).cloned()), (Some(Exact::one()), exact(&case.u)));
 }
 
-/// With ε = c each step gains a bit, so λ repeats after some more than 53 steps; with a small ε nearly
-/// nothing is gained.
+/// For ε = c each step gains a bit, so λ repeats after slightly more than 53 steps; a small ε gains almost
+/// nothing.
 #[test]
 fn where_the_multiplier_repeats_is_found_or_is_not() {
     let Case { system: s, eps, lambda, u, .. } = symbols();
@@ -120,13 +121,13 @@ fn where_the_multiplier_repeats_is_found_or_is_not() {
     let next = program.add(&augmented::update(s, eps, lambda, u));
     let system = SpringMass { c: 3.0, m: 1.0, g: 10.1, l: 1.0, h: 1.3 };
     let mut case: Case<f64> = Case { system, eps: 3.0, ..Case::of(|_| 0.0) };
-    let mut floats = Floats::of(&case, &program, &[]).unwrap();
+    let mut floats = Evaluation::of(&case, &program, &[]).unwrap();
     assert_eq!(floats.find_repeat(), Some(()));
     let next = *floats.compute(next).unwrap();
     assert_eq!(next, floats.number("λ"));
     assert!(next > 0.0);
     case.eps = 1e-6;
-    assert_eq!(Floats::of(&case, &program, &[]).unwrap().find_repeat(), None);
+    assert_eq!(Evaluation::of(&case, &program, &[]).unwrap().find_repeat(), None);
 }
 
 #[test]

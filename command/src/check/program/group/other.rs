@@ -1,4 +1,4 @@
-//! Where there are no groups: the program alone. Nothing here is run by a test.
+//! Systems without process groups: only the program itself is ended. No test runs this code.
 
 use std::io;
 use std::process::{Child, Command};
@@ -17,6 +17,6 @@ pub fn has_ended(child: &mut Child) -> bool {
 }
 
 pub fn kill(child: &mut Child) {
-    // It fails where it has ended.
+    // An error means that it has ended.
     let _ = child.kill();
 }

@@ -1,4 +1,4 @@
-//! A leader and its group, which end when the command is signalled, too.
+//! Process groups with their leaders, which are also ended when a signal ends the command.
 
 use rustix::io::Errno;
 use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, kill_process, kill_process_group, waitid};
@@ -10,27 +10,27 @@ use std::process::{Child, Command, exit};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 
-/// Leaders that have not been waited for, so that no stranger has their number.
+/// Leaders that have not been waited for, so that their process numbers are not reused.
 static LEADERS: Mutex<Vec<Pid>> = Mutex::new(Vec::new());
 
 fn leaders() -> MutexGuard<'static, Vec<Pid>> {
     LEADERS.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Ends a group, and its leader, who may have left it. It fails where nobody is left.
+/// Ends a group, and its leader, which may have left it. An error means that all have ended.
 fn end(leader: Pid) {
     let _ = kill_process_group(leader, Signal::KILL);
     let _ = kill_process(leader, Signal::KILL);
 }
 
-/// Returns `true` if a file is of no format that the system can execute, as a script without its first line.
+/// Returns `true` if the system cannot execute the format of a file, for example a script without its first
+/// line.
 pub fn has_no_format(error: &io::Error) -> bool {
     Errno::from_io_error(error) == Some(Errno::NOEXEC)
 }
 
-/// Has a signal that ends the command end all groups first, once. Without it a program that hangs would be
-/// left behind: all that it notices is that its pipes are closed. The exit status is the one that a shell
-/// reports for a command that such a signal ended.
+/// Installs a handler that ends all groups before a signal ends the command. Otherwise a hanging program
+/// would remain. The exit status is the one that a shell reports for the signal.
 fn watch_signals() -> io::Result<()> {
     static WATCHED: Mutex<bool> = Mutex::new(false);
     let mut watched = WATCHED.lock().unwrap_or_else(PoisonError::into_inner);
@@ -38,7 +38,7 @@ fn watch_signals() -> io::Result<()> {
         let mut signals = Signals::new([SIGHUP, SIGINT, SIGQUIT, SIGTERM])?;
         thread::Builder::new().spawn(move || {
             if let Some(signal) = signals.forever().next() {
-                // None is started any more.
+                // From here on no program is started.
                 let leaders = leaders();
                 leaders.iter().copied().for_each(end);
                 exit(128 + signal);
@@ -58,7 +58,7 @@ pub fn start(command: &mut Command) -> io::Result<Child> {
 }
 
 pub fn has_ended(child: &mut Child) -> bool {
-    // It is not waited for: its number stays that of the group, which may still have others in it.
+    // It is not waited for, so that its number remains that of the group, which may have other members.
     let options = WaitIdOptions::EXITED | WaitIdOptions::NOHANG | WaitIdOptions::NOWAIT;
     matches!(waitid(WaitId::Pid(Pid::from_child(child)), options), Ok(Some(_)) | Err(_))
 }

@@ -1,8 +1,8 @@
-//! Tests that run in a process of their own.
+//! Tests that run in separate processes.
 
 use super::*;
 
-/// This very test program, to run one of the functions below by itself.
+/// Runs one of the functions below in a new process of this test program.
 fn alone(test: &str, path: &Path) -> Child {
     let mut command = Command::new(own_path());
     command
@@ -37,7 +37,7 @@ fn asks_for_ever() {
     }
 }
 
-/// A few lines are kept of what nobody asked for, and of a line without end no more than a line may have.
+/// Only a few lines of unrequested output are kept, and of a line without end at most the allowed length.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_flood_takes_no_memory() {
@@ -47,8 +47,7 @@ fn a_flood_takes_no_memory() {
         let peak =
             text.lines().find_map(|line| line.strip_prefix("peak: ")).unwrap_or_else(|| panic!("{text}"));
         let peak: usize = peak.trim().trim_end_matches(" kB").parse().expect("a number");
-        // A vector that grows has up to twice the room it needs. What else the tests take is far below one
-        // line.
+        // A growing vector uses up to twice its size. The other tests need far less than one line.
         assert!(peak * 1024 < 3 * reply::LONGEST, "{peak} kB");
     });
 }

@@ -1,23 +1,23 @@
-//! What a time-out says, and what a line that is too long is.
+//! Messages about time-outs and lines that are too long.
 
 use super::*;
 
-/// Quotes of Python's own, and a forgotten flush: what nearly everyone tries first.
+/// Python's single quotes, and a missing flush: frequent first mistakes.
 #[test]
 fn a_time_out_says_what_it_saw() {
     in_time(|| {
         for (script, seen) in [
-            ("read -r line; echo hello; echo \"{'id': 'a'}\"; sleep 60", "no JSON object: {'id': 'a'}"),
-            ("read -r line; sleep 60", "nothing on stdout: does it flush?"),
+            ("read -r line; echo hello; echo \"{'id': 'a'}\"; sleep 60", "not a JSON object: {'id': 'a'}"),
+            ("read -r line; sleep 60", "nothing on stdout; it may not flush its output"),
             ("read -r line; printf '{\"id\": \"a\"}'; sleep 60", "without a line break: {\"id\": \"a\"}"),
             ("read -r line; echo one; printf 'two three'; sleep 60", "without a line break: two three"),
-            ("read -r line; printf 'o'; printf 'ne\\n'; sleep 60", "no JSON object: one"),
+            ("read -r line; printf 'o'; printf 'ne\\n'; sleep 60", "not a JSON object: one"),
         ] {
             let own = |timeout| match ask(&mut sh(script, timeout), "a") {
                 Reply::TimedOut(own) => own,
                 other => panic!("{script}: {other:?}"),
             };
-            // On a busy machine it may not come to speak so soon.
+            // On a busy machine it may not print anything in time.
             let soon = own(SHORT);
             let own = if soon.ends_with(seen) { soon } else { own(LONG / 4) };
             assert!(own.ends_with(seen), "{own}");
@@ -37,13 +37,13 @@ fn a_line_that_is_too_long_is_garbled() {
     });
 }
 
-/// What it does to itself is no bad input of ours.
+/// A program that disappears is not an invalid argument.
 #[test]
 fn a_program_that_is_gone_has_crashed() {
     in_time(|| {
         let path = std::env::temp_dir().join(format!("contact-gone-{}", std::process::id()));
-        // Written by another process: what is open for writing somewhere, even between fork and exec, cannot
-        // run.
+        // Written by another process, because a file that any process has open for writing, even between fork
+        // and exec, cannot be executed.
         let script = r##"
         printf '%s\n' '#!/bin/sh' 'read -r line; rm -f "$0"; echo "{\"id\": \"z\"}"' >"$0"
         chmod 700 "$0"
@@ -51,7 +51,7 @@ fn a_program_that_is_gone_has_crashed() {
         let written = std::process::Command::new("sh").args(["-c", script]).arg(&path).status();
         assert!(written.expect("a shell").success());
         let mut program = Program::new(&[path.display().to_string()], LONG);
-        assert!(matches!(ask(&mut program, "a"), Reply::Garbled(_)));
+        assert!(matches!(ask(&mut program, "a"), Reply::InvalidResponse(_)));
         let Reply::Crashed(how) = ask(&mut program, "b") else { panic!("it is still there") };
         assert!(how.starts_with("cannot be started again: "), "{how}");
     });

@@ -1,16 +1,16 @@
-//! The proof of a limit as Coq's tactics.
+//! Proofs of limits by Coq's tactics.
 
 use super::super::expr::{Expr, by_exponent};
 use super::super::lemma::{Lemma, Result};
-use super::kept::Kept;
+use super::retained::Retained;
 use super::{Place, Script, derivation};
 use crate::formula::{Hypothesis, Proposition};
 use crate::proof::kernel::algebra::{Poly, Ratio, Symbol};
-use crate::proof::kernel::{Because, Derivation};
+use crate::proof::kernel::{Derivation, Justification};
 
 impl Script {
-    /// A limit, derived from these hypotheses; the lemma supposes those that do not speak of what tends to
-    /// infinity.
+    /// Proves a limit from these hypotheses; the premises of the lemma are those that do not contain the
+    /// variable of the limit.
     pub(in crate::proof::coq) fn limit(
         &mut self,
         lemma: &Lemma,
@@ -19,15 +19,17 @@ impl Script {
     ) -> Result<()> {
         let derivation = derivation(hypotheses, proposition)?;
         let Derivation::Direct(direct) = &derivation else { return Err("a limit in cases".into()) };
-        let Because::Limit { of, by, .. } = &direct.because else { return Err("no limit".into()) };
-        if !direct.brackets.is_empty() {
+        let Justification::Limit { of, by, .. } = &direct.justification else {
+            return Err("no limit".into());
+        };
+        if !direct.branches.is_empty() {
             return Err("a limit with brackets".into());
         }
-        self.hypotheses(&mut Place::new(lemma, proposition, Kept::default()), direct)?;
+        self.hypotheses(&mut Place::new(lemma, proposition, Retained::default()), direct)?;
         self.at_infinity(of, *by)
     }
 
-    /// A limit for x → ∞: the formula as one in 1/x, and one e^… that falls.
+    /// Proves a limit for x → ∞: rewrites the formula in 1/x and one decaying e^….
     fn at_infinity(&mut self, of: &Ratio, x: Symbol) -> Result<()> {
         let moving = by_exponent(of.num()).into_iter().filter_map(|(e, part)| Some((e?, part)));
         let moving: Vec<_> = moving.filter(|(e, _)| e.symbols().contains(&x)).collect();
@@ -35,7 +37,7 @@ impl Script {
             rest - part * Poly::exponential((*exponent).clone())
         });
         let degree = of.den().degree(x);
-        // A polynomial of x over x^degree, in y = 1/x.
+        // Returns a polynomial of x over x^degree, in y = 1/x.
         let reversed = |poly: &Poly| {
             let terms = (0..=poly.degree(x)).map(|i| {
                 (i..degree).fold(poly.coefficient(x, i), |term, _| term * Poly::symbol(Symbol::Own("y")))

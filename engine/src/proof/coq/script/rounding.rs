@@ -1,4 +1,4 @@
-//! The proof of what is said of rounded formulas.
+//! Proofs of claims about rounded formulas.
 
 use super::super::expr::Expr;
 use super::super::lemma::{Lemma, Result};
@@ -7,11 +7,11 @@ use super::Script;
 use crate::formula::claim::PRECISION;
 use crate::formula::{Proposition, Relation};
 use crate::number::Tree;
-use crate::number::tree::Step;
+use crate::number::tree::Op;
 use crate::proof::kernel::Rounding;
 use crate::proof::kernel::algebra::Poly;
 
-/// What is rounded, as an argument.
+/// Writes a rounded formula as an argument.
 fn rounded(rounding: &Rounding, lemma: &Lemma) -> String {
     lemma.printer.expr(&rounding.of).argument()
 }
@@ -20,7 +20,7 @@ fn rounded(rounding: &Rounding, lemma: &Lemma) -> String {
 type Part<'p> = &'p dyn Fn(&mut Script) -> Result<()>;
 
 impl Script {
-    /// M, that 2ᵖ is at least 4; and what is rounded is what it was, by an unknown factor near 1.
+    /// Introduces M, that 2ᵖ is at least 4, and replaces each rounding by an unknown factor near 1.
     pub(super) fn models(&mut self, errors: &[Rounding], lemma: &Lemma) {
         let precision = ascii(PRECISION);
         self.line(&format!("pose proof (four_at_least prec {precision} P E) as N."));
@@ -33,23 +33,23 @@ impl Script {
         self.line("rounded E.");
     }
 
-    /// One rounded formula is no less than another.
+    /// Proves that one rounded formula is at least another.
     pub(super) fn order(&mut self, of: &Tree, lemma: &Lemma) -> Result<()> {
-        let Step::Sub(a, b) = of.step() else { return Err("an order of no difference".into()) };
+        let Op::Sub(a, b) = of.op() else { return Err("an order of no difference".into()) };
         self.line("apply difference.");
         self.at_least(a, b, lemma)
     }
 
-    /// Rounding keeps order, and so does each step; what is left is to compare what is no longer alike, and
-    /// the sign of a factor or divisor in common.
+    /// Uses that rounding and each operation preserve order; it remains to compare the differing parts, and
+    /// to prove the sign of a common factor or divisor.
     fn at_least(&mut self, a: &Tree, b: &Tree, lemma: &Lemma) -> Result<()> {
-        use Step::*;
+        use Op::*;
         let sign = |relation, of: &Tree| Proposition::Sign(relation, of.clone());
         let mut rule = |rule: &str, parts: [Part; 2]| {
             self.line(rule);
             parts.into_iter().try_for_each(|part| self.block("-", part))
         };
-        match (a.step(), b.step()) {
+        match (a.op(), b.op()) {
             _ if a == b => self.line("apply Rle_refl."),
             (Rounded(a), Rounded(b)) => {
                 self.line("apply fl_le; [exact P | ].");
@@ -93,7 +93,7 @@ impl Script {
         Ok(())
     }
 
-    /// Each rounding in other units from that in the usual ones.
+    /// Rewrites each rounding in scaled units as one in the original units.
     pub(super) fn in_units(&mut self, errors: &[Rounding], lemma: &Lemma) -> Result<()> {
         for (i, later) in errors.iter().enumerate() {
             let Some(earlier) = errors[..i].iter().find(|known| known.error == later.error) else {

@@ -1,111 +1,115 @@
-//! What is proved of rounding.
+//! Tests of propositions about rounding.
 
 use super::*;
 
-/// Under these hypotheses, and for numbers of two bits or more, as every statement has it that rounds.
-fn rounded(hypotheses: Vec<Hypothesis>, says: Proposition) -> bool {
-    proved([vec![minimum_precision()], hypotheses].concat(), says)
+/// Returns `true` if the proposition is proved for every precision of at least two bits.
+fn rounded(hypotheses: Vec<Hypothesis>, proposition: Proposition) -> bool {
+    proved([vec![minimum_precision()], hypotheses].concat(), proposition)
 }
 
 #[test]
-fn an_error_of_rounding_is_as_large_as_it_can_be_and_no_larger() {
-    let error = || x("u").nearest() - x("u");
+fn bounds_of_a_rounding_error_are_sharp() {
+    let error = || x("u").round() - x("u");
     let within = |bound: Tree| rounded(vec![], Proposition::Within(error(), bound));
     assert!(within(x("u").abs() / (precision() + int(1))));
     assert!(within(x("u").abs() / precision()));
-    assert!(within(x("u").nearest().abs() / precision()));
+    assert!(within(x("u").round().abs() / precision()));
     assert!(!within(x("u").abs() / (precision() + int(2))));
-    assert!(!within(x("u").nearest().abs() / (precision() + int(1))));
-    // Nor is it nothing, or of one sign.
-    assert!(!rounded(vec![], Proposition::Equal(x("u").nearest(), x("u"))));
+    assert!(!within(x("u").round().abs() / (precision() + int(1))));
+    // The error may differ from 0 and have either sign.
+    assert!(!rounded(vec![], Proposition::Equal(x("u").round(), x("u"))));
     assert!(!rounded(vec![above_zero(x("u"))], Proposition::Sign(Relation::NonNegative, error())));
 }
 
 #[test]
-fn there_are_names_for_so_many_errors_and_no_more() {
+fn the_number_of_roundings_is_limited() {
     let roundings = |n: usize| {
-        let all = (0..n as i32).map(|i| (x("u") + int(i)).nearest());
-        let sum = all.fold(Tree::zero(), |sum, one| sum + one);
+        let all = (0..n as i32).map(|i| (x("u") + int(i)).round());
+        let sum = all.fold(Tree::zero(), |sum, term| sum + term);
         outcome(vec![minimum_precision()], Proposition::Equal(sum.clone(), sum))
     };
     assert!(roundings(MAX_ROUNDINGS).is_ok());
-    assert!(matches!(roundings(MAX_ROUNDINGS + 1), Err(Why::TooMany)));
+    assert!(matches!(roundings(MAX_ROUNDINGS + 1), Err(ProofError::TooManyRoundings)));
 }
 
 #[test]
-fn what_is_equal_rounds_alike_and_what_is_in_other_units() {
-    let alike = |a: Tree, b: Tree| rounded(vec![], Proposition::Equal(a, b));
-    assert!(alike((x("a") + x("b")).nearest(), (x("b") + x("a")).nearest()));
-    assert!(alike((x("a") * x("2ᵃ") / x("2ᶠ")).nearest(), x("a").nearest() * x("2ᵃ") / x("2ᶠ")));
-    assert!(!alike((x("a") * x("b")).nearest(), x("a").nearest() * x("b")));
-    assert!(!alike((x("a") * int(3)).nearest(), x("a").nearest() * int(3)));
-    assert!(!alike((x("a") + x("2ᵃ")).nearest(), (x("a") / x("2ᵃ") + int(1)).nearest()));
-    // One numerator over two divisors is two numbers, and one divisor under two numerators.
+fn formulas_equal_up_to_a_power_of_two_have_the_same_rounding_error() {
+    let equal = |a: Tree, b: Tree| rounded(vec![], Proposition::Equal(a, b));
+    assert!(equal((x("a") + x("b")).round(), (x("b") + x("a")).round()));
+    assert!(equal((x("a") * x("2ᵃ") / x("2ᶠ")).round(), x("a").round() * x("2ᵃ") / x("2ᶠ")));
+    assert!(!equal((x("a") * x("b")).round(), x("a").round() * x("b")));
+    assert!(!equal((x("a") * int(3)).round(), x("a").round() * int(3)));
+    assert!(!equal((x("a") + x("2ᵃ")).round(), (x("a") / x("2ᵃ") + int(1)).round()));
+    // Quotients differ if only the numerators or only the divisors are equal.
     let positive = || ["c", "d"].map(|name| above_zero(x(name))).to_vec();
     let products_agree = |a: Tree, b: Tree, c: Tree, d: Tree| {
-        let [left, right] = [(a / &c).nearest() * c, (b / &d).nearest() * d];
+        let [left, right] = [(a / &c).round() * c, (b / &d).round() * d];
         rounded(positive(), Proposition::Equal(left, right))
     };
     assert!(!products_agree(x("a"), x("a"), x("c"), x("d")));
     assert!(products_agree(x("a"), x("a"), x("c"), x("c")));
     assert!(!rounded(
         positive(),
-        Proposition::Equal((x("a") / x("c")).nearest() * x("b"), (x("b") / x("c")).nearest() * x("a"))
+        Proposition::Equal((x("a") / x("c")).round() * x("b"), (x("b") / x("c")).round() * x("a"))
     ));
-    // A sum and its parts round each by itself.
-    assert!(!alike((x("a") + x("b")).nearest() - x("a"), x("b").nearest()));
+    // A sum and its terms are rounded separately.
+    assert!(!equal((x("a") + x("b")).round() - x("a"), x("b").round()));
 }
 
 #[test]
-fn rounding_keeps_order() {
+fn rounding_is_monotone() {
     let no_less = |hypotheses: Vec<Hypothesis>, a: Tree, b: Tree| {
-        rounded(hypotheses, Proposition::Sign(Relation::NonNegative, a.nearest() - b.nearest()))
+        rounded(hypotheses, Proposition::Sign(Relation::NonNegative, a.round() - b.round()))
     };
     let [a, b, c] = ["a", "b", "c"].map(x);
-    let given = |sign: &Tree| vec![not_below_zero(&a - &b), above_zero(sign.clone())];
-    assert!(no_less(given(&c), a.clone(), b.clone()));
-    assert!(!no_less(given(&c), b.clone(), a.clone()));
+    let ordered = |sign: &Tree| vec![not_below_zero(&a - &b), above_zero(sign.clone())];
+    assert!(no_less(ordered(&c), a.clone(), b.clone()));
+    assert!(!no_less(ordered(&c), b.clone(), a.clone()));
     assert!(!no_less(vec![], a.clone(), b.clone()));
-    // A minus turns it round, and so does what is negative.
-    assert!(no_less(given(&c), (&c - &b).nearest(), (&c - &a).nearest()));
-    assert!(!no_less(given(&c), (&c - &a).nearest(), (&c - &b).nearest()));
+    // A minus reverses the order, and so does a negative factor.
+    assert!(no_less(ordered(&c), (&c - &b).round(), (&c - &a).round()));
+    assert!(!no_less(ordered(&c), (&c - &a).round(), (&c - &b).round()));
     assert!(
-        no_less(given(&c), &a * &c, &b * &c) && no_less(given(&c), (&a / &c).nearest(), (&b / &c).nearest())
+        no_less(ordered(&c), &a * &c, &b * &c) && no_less(ordered(&c), (&a / &c).round(), (&b / &c).round())
     );
-    // Of one that is rounded nothing is seen but by comparing what is in it.
-    let near = [&a, &b].map(|tree| tree.nearest());
+    // Rounded operands are compared by their arguments only.
+    let near = [&a, &b].map(|tree| tree.round());
     let [near_a, near_b] = &near;
-    let rises: [fn(&Tree, &Tree) -> Tree; 3] = [|c, near| c * near, |c, near| near * c, |c, near| near / c];
-    for step in rises {
-        assert!(no_less(given(&c), step(&c, near_a), step(&c, near_b)));
-        assert!(!no_less(given(&c), step(&c, near_b), step(&c, near_a)));
-        assert!(!no_less(given(&c), step(&c, near_a), step(&(&c + int(1)), near_b)), "another factor");
+    let operations: [fn(&Tree, &Tree) -> Tree; 3] = [|c, x| c * x, |c, x| x * c, |c, x| x / c];
+    for apply in operations {
+        assert!(no_less(ordered(&c), apply(&c, near_a), apply(&c, near_b)));
+        assert!(!no_less(ordered(&c), apply(&c, near_b), apply(&c, near_a)));
+        assert!(!no_less(ordered(&c), apply(&c, near_a), apply(&(&c + int(1)), near_b)), "factors differ");
     }
-    assert!(no_less(given(&c), -near_b, -near_a) && !no_less(given(&c), -near_a, -near_b));
-    assert!(no_less(given(&-&c), &b * &c, &a * &c) && !no_less(given(&-&c), &a * &c, &b * &c));
-    assert!(!no_less(given(&(&c * &c)), &a * &c, &b * &c));
-    // Of two summands both count, and of a divisor that it is not 0.
-    assert!(no_less(given(&c), &a + &c, b.clone()) && !no_less(given(&-&c), &a + &c, b.clone()));
+    assert!(no_less(ordered(&c), -near_b, -near_a) && !no_less(ordered(&c), -near_a, -near_b));
+    assert!(no_less(ordered(&-&c), &b * &c, &a * &c) && !no_less(ordered(&-&c), &a * &c, &b * &c));
+    assert!(!no_less(ordered(&(&c * &c)), &a * &c, &b * &c));
+    // Both terms of a sum are compared, and a divisor must not be 0.
+    assert!(no_less(ordered(&c), &a + &c, b.clone()) && !no_less(ordered(&-&c), &a + &c, b.clone()));
     assert!(!no_less(vec![not_below_zero(&a - &b)], &a / &c, &b / &c));
     assert!(
-        no_less(given(&c), a.min(&c), b.min(&c)) && no_less(given(&c), a.positive_part(), b.positive_part())
+        no_less(ordered(&c), a.min(&c), b.min(&c))
+            && no_less(ordered(&c), a.positive_part(), b.positive_part())
     );
 }
 
 #[test]
-fn what_jumps_has_no_limit_and_no_derivative() {
-    let jump = |says: Proposition| {
-        matches!(outcome(vec![minimum_precision(), above_zero(x("u"))], says), Err(Why::Jump))
+fn rounded_formulas_have_no_limits_or_derivatives() {
+    let is_rejected = |proposition: Proposition| {
+        matches!(
+            outcome(vec![minimum_precision(), above_zero(x("u"))], proposition),
+            Err(ProofError::Discontinuous)
+        )
     };
-    assert!(jump(Proposition::Limit((int(1) / x("u")).nearest(), "u", int(0))));
-    assert!(jump(Proposition::Derivative(x("u").nearest(), "u", int(1))));
-    let tends = vanishing("tends", x("c") / (x("c") + x("c")), (int(1) + x("q")).nearest(), int(1));
-    assert!(matches!(prove(&tends.assuming(&stiffness())), Err(Why::Jump)));
+    assert!(is_rejected(Proposition::Limit((int(1) / x("u")).round(), "u", int(0))));
+    assert!(is_rejected(Proposition::Derivative(x("u").round(), "u", int(1))));
+    let tends = geometric_limit("tends", x("c") / (x("c") + x("c")), (int(1) + x("q")).round(), int(1));
+    assert!(matches!(prove(&tends.assuming(&stiffness())), Err(ProofError::Discontinuous)));
 }
 
 #[test]
-fn what_is_compared_is_defined() {
-    let quotient = |divisor: Tree| (x("u") / divisor).nearest();
+fn compared_formulas_must_be_defined() {
+    let quotient = |divisor: Tree| (x("u") / divisor).round();
     let difference = |a: Tree| Proposition::Sign(Relation::NonNegative, &a - &a);
     assert!(rounded(vec![], difference(quotient(int(2)))));
     assert!(!rounded(vec![], difference(quotient(x("c") - x("c")))));

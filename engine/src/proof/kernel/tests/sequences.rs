@@ -1,183 +1,196 @@
-//! Names, and what they may stand for in sequences.
+//! Tests of reserved names, sequences and computed quantities.
 
 use super::*;
 
 #[test]
-fn the_names_of_quantities_are_the_kernels_own() {
+fn names_of_slack_variables_are_reserved() {
     let above = || vec![above_zero(x("u") - Tree::one())];
     assert!(!proved(above(), Proposition::Sign(Relation::Positive, x("s₁"))));
     assert!(!proved(vec![above_zero(x("u") - x("s₁"))], Proposition::Equal(x("u"), x("u"))));
 }
 
 #[test]
-fn an_invariant_has_to_hold_at_the_start() {
-    // x ← ⟨x⟩ from λ stays λ if λ ≥ 0; that it is so at every step is no reason for it to be so at the first.
+fn invariants_must_hold_at_the_start() {
+    // x ← ⟨x⟩ from λ stays λ if λ ≥ 0, which does not follow from the invariant that every step preserves.
     let (lambda, q) = (x("λ"), x("q"));
     let invariant = |q: &Tree| &lambda + (q - q);
     let step = |[x]: [Tree; 1]| [x.positive_part()];
     let stays = induction("stays", 1, [lambda.clone()], step, [lambda.clone()])
         .assuming([&not_below_zero(invariant(&q))]);
     assert!(prove(&stays.clone().assuming(&multiplier())).is_ok());
-    assert!(matches!(prove(&stays), Err(Why::NoSign(..))));
+    assert!(matches!(prove(&stays), Err(ProofError::UnknownSign(..))));
 }
 
 #[test]
-fn a_kept_name_is_no_variable_either() {
-    // b > a makes b − a the kernel's s₁; as that grows 1/(b − a) vanishes, and yet nothing of a and b does.
+fn variables_must_not_have_reserved_names() {
+    // The kernel names b − a > 0 s₁. As s₁ grows, 1/(b − a) tends to 0, but the formula does not contain s₁.
     let above = || vec![above_zero(x("b") - x("a"))];
     let reciprocal = || Tree::one() / (x("b") - x("a"));
     let limit = |by| Proposition::Limit(reciprocal(), by, Tree::zero());
-    assert!(matches!(outcome(above(), limit("s₁")), Err(Why::Reserved("s₁"))));
+    assert!(matches!(outcome(above(), limit("s₁")), Err(ProofError::ReservedName("s₁"))));
     let slope = |by| Proposition::Derivative(x("b"), by, Tree::zero());
-    assert!(matches!(outcome(above(), slope("s₁")), Err(Why::Reserved("s₁"))));
+    assert!(matches!(outcome(above(), slope("s₁")), Err(ProofError::ReservedName("s₁"))));
     assert!(proved(above(), slope("u")));
-    // Nor is what an induction calls the members of its sequence.
-    assert!(matches!(outcome(vec![], Proposition::Equal(x("x₁"), x("x₁"))), Err(Why::Reserved("x₁"))));
+    // The names of members of a sequence are reserved as well.
+    assert!(matches!(
+        outcome(vec![], Proposition::Equal(x("x₁"), x("x₁"))),
+        Err(ProofError::ReservedName("x₁"))
+    ));
 }
 
 #[test]
-fn a_sequence_starts_from_no_power() {
-    // From q, q → ρ q is the sequence q ρᵏ and not ρᵏ.
+fn sequences_do_not_start_from_a_power() {
+    // From q, x ← ρ x is the sequence q ρᵏ, not ρᵏ.
     let double = |[x]: [Tree; 1]| [Tree::int(2) * x];
     let from = |start: Tree| induction("powers", 2, [start], double, [x("q")]);
     assert!(prove(&from(Tree::one())).is_ok());
-    assert!(matches!(prove(&from(x("q") / x("q"))), Err(Why::Reserved("q"))));
-    let vanishes = |ratio: Tree| vanishing("vanishes", ratio, x("q"), 0);
+    assert!(matches!(prove(&from(x("q") / x("q"))), Err(ProofError::ReservedName("q"))));
+    let vanishes = |ratio: Tree| geometric_limit("vanishes", ratio, x("q"), 0);
     assert!(prove(&vanishes(Tree::one() / Tree::int(2))).is_ok());
-    assert!(matches!(prove(&vanishes(x("q") / (Tree::one() + x("q") * x("q")))), Err(Why::Reserved("q"))));
+    assert!(matches!(
+        prove(&vanishes(x("q") / (Tree::one() + x("q") * x("q")))),
+        Err(ProofError::ReservedName("q"))
+    ));
 }
 
-/// x₀ = 1, and each x is half of the last: near 0 within q, if what is supposed of x is.
-fn drifts(given: &[Hypothesis]) -> Result<Proof, Why> {
+/// Proves, under further hypotheses, that the halves of x₀ = 1 are within q of 0.
+fn prove_drift(hypotheses: &[Hypothesis]) -> Result<Proof, ProofError> {
     let half = int(1) / int(2);
     let q = Hypothesis::between(&x("q"), int(0), int(1));
     let u = Hypothesis::near(&x("u"), x("x₁") * &half, int(0));
-    let claim = drift("halves", half.clone(), 1, |_| x("u"), (int(0), x("q")), |_| [(x("u"), x("q"))])
-        .assuming([&q, &u]);
+    let claim =
+        perturbed_recursion("halves", half.clone(), 1, |_| x("u"), (int(0), x("q")), |_| [(x("u"), x("q"))])
+            .assuming([&q, &u]);
     let claim = claim.computing(&x("u"), x("x₁") * &half);
-    prove(&claim.assuming(given))
+    prove(&claim.assuming(hypotheses))
 }
 
 #[test]
-fn what_is_supposed_of_a_member_is_proved_of_each() {
-    assert!(drifts(&[]).is_ok());
-    assert!(drifts(&[not_below_zero(x("x₁"))]).is_ok());
-    // Not true at the start, although passed on; or not passed on.
-    assert!(matches!(drifts(&[not_below_zero(-x("x₁"))]), Err(Why::WrongSign(..))));
-    assert!(matches!(drifts(&[not_below_zero(x("x₁") - int(7))]), Err(Why::WrongSign(..))));
-    assert!(drifts(&[not_below_zero(x("x₁") * int(2) - int(1))]).is_err());
-    // Nor is it known of a sequence of which a closed form is claimed.
+fn hypotheses_on_a_member_are_proved_for_each_member() {
+    assert!(prove_drift(&[]).is_ok());
+    assert!(prove_drift(&[not_below_zero(x("x₁"))]).is_ok());
+    // The hypothesis fails at the start, or a step does not preserve it.
+    assert!(matches!(prove_drift(&[not_below_zero(-x("x₁"))]), Err(ProofError::WrongSign(..))));
+    assert!(matches!(prove_drift(&[not_below_zero(x("x₁") - int(7))]), Err(ProofError::WrongSign(..))));
+    assert!(prove_drift(&[not_below_zero(x("x₁") * int(2) - int(1))]).is_err());
+    // Claims of closed forms have no hypotheses on members.
     let closed = induction("halves", 2, [int(1)], |[x]| [x * int(2)], [x("q")]);
-    let supposed = not_below_zero(x("x₁"));
-    assert!(matches!(prove(&closed.assuming([&supposed])), Err(Why::Reserved("x₁"))));
+    let hypothesis = not_below_zero(x("x₁"));
+    assert!(matches!(prove(&closed.assuming([&hypothesis])), Err(ProofError::ReservedName("x₁"))));
 }
 
-/// Each is in its interval because those before it are, and not because it is itself.
+/// The proof of an interval uses the intervals of earlier computed quantities only.
 #[test]
-fn a_computed_quantity_rests_on_those_before_it() {
+fn computed_quantities_depend_on_earlier_ones_only() {
     let [a, u, v] = ["a", "u", "v"].map(x);
-    let given = [Hypothesis::near(&u, &a, int(1)), Hypothesis::near(&v, &a, int(2))];
-    let claim = |bound: i32| within("near", &v - &a, int(bound)).assuming(&given);
+    let intervals = [Hypothesis::near(&u, &a, int(1)), Hypothesis::near(&v, &a, int(2))];
+    let claim = |bound: i32| within("near", &v - &a, int(bound)).assuming(&intervals);
     let chain = |claim: Statement| claim.computing(&u, &a + int(1)).computing(&v, &u + int(1));
     assert!(prove(&chain(claim(2))).is_ok());
     assert!(prove(&chain(claim(1))).is_err());
-    // v is computed from u, so u comes first; and neither without the other.
-    let turned = claim(2).computing(&v, &u + int(1)).computing(&u, &a + int(1));
-    assert!(matches!(prove(&turned), Err(Why::AssumedOfComputed("u"))));
+    // v is computed from u, so u comes first; circular definitions are rejected.
+    let reversed = claim(2).computing(&v, &u + int(1)).computing(&u, &a + int(1));
+    assert!(matches!(prove(&reversed), Err(ProofError::HypothesisOnComputed("u"))));
     let circular = claim(2).computing(&u, &v - int(1)).computing(&v, &u + int(1));
-    assert!(matches!(prove(&circular), Err(Why::AssumedOfComputed("v"))));
-    // The second is 3 off.
+    assert!(matches!(prove(&circular), Err(ProofError::HypothesisOnComputed("v"))));
+    // The second differs from a by 3.
     assert!(prove(&claim(2).computing(&u, &a + int(1)).computing(&v, &u + int(2))).is_err());
-    // What is not computed from the first says nothing of it.
+    // The first is outside its interval, although the second does not depend on it.
     assert!(prove(&claim(2).computing(&u, &a + int(2)).computing(&v, &a)).is_err());
 }
 
 #[test]
 #[should_panic(expected = "near: u is computed already")]
-fn a_quantity_is_computed_once() {
+fn quantities_are_computed_once() {
     let [a, u] = ["a", "u"].map(x);
     let claim = within("near", &u - &a, int(1)).assuming([&Hypothesis::near(&u, &a, int(1))]);
     let _ = claim.computing(&u, &a).computing(&u, &a + int(1));
 }
 
-/// What is computed at each step is no constant, and has no other meaning.
+/// A computed quantity may change at each step, and its symbol has no other meaning.
 #[test]
-fn what_is_computed_is_neither_a_power_nor_a_constant() {
+fn computed_quantities_are_neither_powers_nor_constants() {
     let [q, u, v] = ["q", "u", "v"].map(x);
-    let refused = |claim: Statement| matches!(prove(&claim), Err(Why::Reserved(_) | Why::Jump));
-    // x₀ = 1, and each x is one more: no powers of 2, although q would be 1 at each step.
+    let is_rejected = |claim: Statement| {
+        matches!(prove(&claim), Err(ProofError::ReservedName(_) | ProofError::Discontinuous))
+    };
+    // The members 1, 2, 3, … are not powers of 2, which would follow for a computed q = 1 at each step.
     let at_one = Hypothesis::near(&q, int(1), int(0));
     let counts = induction("counts", 2, [int(1)], |[x]| [x + int(1)], [q.clone()]).assuming([&at_one]);
-    assert!(refused(counts.computing(&q, 1)));
-    // A sequence that stays as it is, near what is another at each step.
+    assert!(is_rejected(counts.computing(&q, 1)));
+    // A constant sequence, compared with a quantity that changes at each step.
     let near_q = Hypothesis::near(&u, &q, int(0));
-    let stays = |near| drift("stays", 2, &u, Tree::clone, (near, int(0)), |_| []).assuming([&near_q]);
-    assert!(refused(stays(u.clone()).computing(&u, &q)));
+    let stays =
+        |near| perturbed_recursion("stays", 2, &u, Tree::clone, (near, int(0)), |_| []).assuming([&near_q]);
+    assert!(is_rejected(stays(u.clone()).computing(&u, &q)));
     let same = induction("same", 2, [u.clone()], |[x]| [x], [u.clone()]).assuming([&near_q]);
-    assert!(refused(same.computing(&u, &q)));
-    // Nor is the formula that it is near computed from the member.
+    assert!(is_rejected(same.computing(&u, &q)));
+    // The reference of the bound must not be a computed quantity.
     let near = |near: &Tree| {
-        let claim = drift("stays", 2, &v, Tree::clone, (near.clone(), int(0)), |_| []).assuming([&near_q]);
+        let claim = perturbed_recursion("stays", 2, &v, Tree::clone, (near.clone(), int(0)), |_| [])
+            .assuming([&near_q]);
         prove(&claim.computing(&u, &q))
     };
     assert!(near(&v).is_ok());
-    assert!(matches!(near(&u), Err(Why::Reserved("u"))));
-    // Its slope is not 0, and q (1/q) does not vanish.
+    assert!(matches!(near(&u), Err(ProofError::ReservedName("u"))));
+    // The derivative of u = v is not 0, and q (1/q) does not tend to 0.
     let near_v = Hypothesis::near(&u, &v, int(0));
-    assert!(refused(derivative("slope", &u, &v, 0).assuming([&near_v]).computing(&u, &v)));
+    assert!(is_rejected(derivative("slope", &u, &v, 0).assuming([&near_v]).computing(&u, &v)));
     let inverse = Hypothesis::near(&u, int(1) / &q, int(0));
-    let one = vanishing("one", int(1) / int(2), &q * &u, 0).assuming([&above_zero(q.clone()), &inverse]);
-    assert!(refused(one.computing(&u, int(1) / &q)));
-    // Nor is it a power of two because it is called so.
+    let one =
+        geometric_limit("one", int(1) / int(2), &q * &u, 0).assuming([&above_zero(q.clone()), &inverse]);
+    assert!(is_rejected(one.computing(&u, int(1) / &q)));
+    // A computed quantity must not have the name of a power of two.
     for name in ["2ᵃ", PRECISION] {
         let near = Hypothesis::near(&x(name), &v, int(0));
-        assert!(refused(positive("power", x(name)).assuming([&near]).computing(&x(name), &v)), "{name}");
+        assert!(is_rejected(positive("power", x(name)).assuming([&near]).computing(&x(name), &v)), "{name}");
     }
 }
 
-/// A computed quantity is another at each step: at the old one an invariant says nothing of the next member.
+/// A computed quantity changes at each step, so an invariant for the old value does not apply to the new one.
 #[test]
-fn nothing_is_assumed_of_a_computed_quantity_but_its_interval() {
+fn the_only_hypothesis_on_a_computed_quantity_is_its_interval() {
     let [q, u, z, w] = ["q", "u", "z", "w"].map(x);
-    let refused = |claim: Statement| matches!(prove(&claim), Err(Why::AssumedOfComputed("u")));
+    let is_rejected = |claim: Statement| matches!(prove(&claim), Err(ProofError::HypothesisOnComputed("u")));
     let from_one = not_below_zero(&q - int(1));
     let near_q = Hypothesis::near(&u, &q, int(0));
     let square = &z * &z * &w * &w;
-    // x stays 0, q is 2ᵏ, and |q (q − 1)| ≤ z² w² would follow; with z = w = 1 it is 2 at q = 2.
-    let grows =
-        drift("grows", 2, 0, Tree::clone, (int(0), int(0)), |_| [(&q * (&q - int(1)), square.clone())])
-            .assuming([&from_one, &near_q]);
+    // x stays 0, q is 2ᵏ, and |q (q − 1)| ≤ z² w² would follow, which is 2 ≤ 1 at z = w = 1 and q = 2.
+    let grows = perturbed_recursion("grows", 2, 0, Tree::clone, (int(0), int(0)), |_| {
+        [(&q * (&q - int(1)), square.clone())]
+    })
+    .assuming([&from_one, &near_q]);
     let with_u = not_below_zero(&square + (&q - int(1)) * (&q - int(2) * &u));
     let grows = grows.computing(&u, &q);
-    assert!(refused(grows.assuming([&with_u])));
-    // x ← x + ⟨u (u − 1) − z² w²⟩ from 0 stays 0 as long as the bracket is closed.
+    assert!(is_rejected(grows.assuming([&with_u])));
+    // x ← x + ⟨u (u − 1) − z² w²⟩ from 0 stays 0 as long as the positive part is 0.
     let step = |[x]: [Tree; 1]| [x + (&u * (&u - int(1)) - &square).positive_part()];
     let stays =
         induction("stays", 2, [int(0)], step, [int(0)]).assuming([&from_one, &near_q]).computing(&u, &q);
-    // Neither with q in what is assumed of it, nor without, nor in any other kind of claim.
+    // Such hypotheses are rejected with and without q, and in claims of any kind.
     for more in [&square - &u * (&u - int(1)) + (&q - &u), &square - &u * (&u - int(1))] {
-        assert!(refused(stays.clone().assuming([&not_below_zero(more)])));
+        assert!(is_rejected(stays.clone().assuming([&not_below_zero(more)])));
     }
     let one = equal("one", &u, &q).assuming([&near_q]);
     let computed = one.clone().computing(&u, &q);
     assert!(prove(&computed).is_ok());
-    assert!(refused(computed.assuming([&above_zero(u.clone())])));
-    // Nor is it computed from itself.
-    assert!(refused(one.computing(&u, &u + (&q - &u))));
+    assert!(is_rejected(computed.assuming([&above_zero(u.clone())])));
+    // A quantity is not computed from itself.
+    assert!(is_rejected(one.computing(&u, &u + (&q - &u))));
 }
 
 /// A hypothesis on a power may fail as the power tends to 0; a step is the same for all powers.
 #[test]
-fn neither_the_limit_of_a_sequence_nor_its_step_depends_on_a_power() {
+fn limits_and_steps_of_sequences_do_not_depend_on_a_power() {
     let q = x("q");
-    let refused = |claim: Statement| matches!(prove(&claim), Err(Why::Reserved("q")));
+    let is_rejected = |claim: Statement| matches!(prove(&claim), Err(ProofError::ReservedName("q")));
     let half = || int(1) / int(2);
-    assert!(refused(
-        vanishing("one", half(), &q, 0).assuming([&Hypothesis::new(Relation::Zero, &q - int(1))])
+    assert!(is_rejected(
+        geometric_limit("one", half(), &q, 0).assuming([&Hypothesis::new(Relation::Zero, &q - int(1))])
     ));
     let bounds = [&above_zero(q.clone()), &above_zero(int(2) - &q)];
-    assert!(refused(vanishing("ratio", &q - int(1), &q, 0).assuming(bounds)));
-    // The constructor refuses such a step, and a replaced symbol does not pass it.
+    assert!(is_rejected(geometric_limit("ratio", &q - int(1), &q, 0).assuming(bounds)));
+    // The constructor rejects such a step, and `prove` rejects one that results from substitution.
     let step = induction("step", 1, [int(5)], |_| [int(5) * x("r")], [int(5) * &q]);
-    assert!(refused(step.map(&|tree| tree.with(&[("r", q.clone())]))));
+    assert!(is_rejected(step.map(&|tree| tree.substitute(&[("r", q.clone())]))));
 }

@@ -1,0 +1,358 @@
+//! Mutation tests of claims: changes of formulas and omissions of hypotheses, which must refute a claim.
+//!
+//! Proofs of all claims show little if the claims are weak or the kernel is unsound. So formulas are changed
+//! at one place at a time; each [`Mutant`] must make one of the affected claims false, with a counterexample
+//! in numbers. Likewise, each hypothesis of each claim is dropped in turn; if the claim still holds, the
+//! hypothesis is redundant.
+//!
+//! All mutations are generated, and none requires compilation: formulas are recorded as trees, whose
+//! operations contain their source location. A formula that differentiates by dual numbers is recorded as
+//! these compute it, and mutations do not apply to the operations of the dual numbers. Claims without such
+//! formulas are therefore evaluated first.
+
+mod mutant;
+
+pub use mutant::{Mutant, Mutation, Operator, mutants, mutants_in, possible_repairs};
+
+use super::kernel::prove;
+use super::refute::{PointSet, Refutation};
+use crate::formula::claim::PRECISION;
+use crate::formula::statement::minimum_precision;
+use crate::formula::{Hypothesis, Registry, Statement};
+use crate::number::tree::Site;
+use rayon::prelude::*;
+use std::collections::{BTreeSet, HashMap};
+
+/// The outcome of a mutation.
+#[derive(Clone, Debug)]
+pub enum MutationOutcome {
+    /// A claim no longer holds.
+    Detected {
+        /// The entry of the claim.
+        equation: &'static str,
+        /// The name of the claim.
+        name: &'static str,
+        /// The refutation of the claim.
+        refutation: Refutation,
+    },
+    /// The mutation is proved not to change the value of any formula.
+    Equivalent,
+    /// No claim detects the mutation, and it is not proved to change nothing.
+    Undetected,
+}
+
+/// The outcome of dropping a hypothesis of a claim.
+#[derive(Clone, Debug)]
+pub enum DropOutcome {
+    /// The claim does not hold, so the hypothesis is needed.
+    Refuted(Refutation),
+    /// The claim is proved, so the hypothesis is redundant.
+    StillProved,
+    /// The claim is neither refuted nor proved.
+    Undecided,
+}
+
+/// A claim with one hypothesis dropped.
+#[derive(Clone, Debug)]
+pub struct DroppedHypothesis {
+    /// The entry of the claim.
+    pub equation: &'static str,
+    /// The name of the claim.
+    pub name: &'static str,
+    /// The dropped hypothesis.
+    pub hypothesis: Hypothesis,
+    /// The outcome for the claim without the hypothesis.
+    pub outcome: DropOutcome,
+}
+
+impl DroppedHypothesis {
+    /// Returns `true` if the hypothesis bounds the precision and the claim is neither proved nor refuted
+    /// without it. A proof may require a higher precision than the claim.
+    pub fn is_precision_only(&self) -> bool {
+        matches!(self.outcome, DropOutcome::Undecided) && self.hypothesis.value.symbols().contains(PRECISION)
+    }
+}
+
+/// The outcomes of all mutations and of dropping each hypothesis.
+#[derive(Clone, Debug, Default)]
+pub struct MutationReport {
+    /// The mutants, in the order of the source.
+    pub mutants: Vec<(Mutant, MutationOutcome)>,
+    /// The dropped hypotheses, in the order of the statements.
+    pub dropped: Vec<DroppedHypothesis>,
+}
+
+/// The number of mutants by outcome.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Summary {
+    /// The number of all mutants.
+    pub changes: usize,
+    /// The number of mutants that a claim detects.
+    pub noticed: usize,
+    /// The number of mutants that are proved equivalent to the original.
+    pub unchanged: usize,
+    /// The number of the other mutants.
+    pub unnoticed: usize,
+}
+
+impl MutationReport {
+    /// Counts the mutants by outcome.
+    pub fn summary(&self) -> Summary {
+        let count =
+            |is: fn(&MutationOutcome) -> bool| self.mutants.iter().filter(|(_, effect)| is(effect)).count();
+        Summary {
+            changes: self.mutants.len(),
+            noticed: count(|effect| matches!(effect, MutationOutcome::Detected { .. })),
+            unchanged: count(|effect| matches!(effect, MutationOutcome::Equivalent)),
+            unnoticed: count(|effect| matches!(effect, MutationOutcome::Undetected)),
+        }
+    }
+
+    /// Returns the hypotheses whose omission does not make the claim false, except bounds of the
+    /// [precision](DroppedHypothesis::is_precision_only).
+    pub fn redundant_hypotheses(&self) -> impl Iterator<Item = &DroppedHypothesis> {
+        let is_needed = |dropped: &DroppedHypothesis| {
+            matches!(dropped.outcome, DropOutcome::Refuted(_)) || dropped.is_precision_only()
+        };
+        self.dropped.iter().filter(move |dropped| !is_needed(dropped))
+    }
+}
+
+/// Applies all mutations and drops each hypothesis, in parallel.
+pub fn test_mutations(statements: &[Statement], registry: &Registry) -> MutationReport {
+    let shared = SharedState::new(statements, registry);
+    let mutants = mutants(statements, registry);
+    let mutants = mutants.into_par_iter().map(|mutant| (mutant, shared.outcome(&mutant))).collect();
+    // The minimum precision of two bits is part of the model of rounding.
+    let droppable = |of: usize| {
+        let is_stated = move |i: &usize| statements[of].hypotheses()[*i] != minimum_precision();
+        (0..statements[of].hypotheses().len()).filter(is_stated).map(move |i| (of, i))
+    };
+    let hypotheses: Vec<_> = (0..statements.len()).flat_map(droppable).collect();
+    let dropped = hypotheses.into_par_iter().map(|(of, i)| DroppedHypothesis {
+        equation: statements[of].equation(),
+        name: statements[of].name(),
+        hypothesis: statements[of].hypotheses()[i].clone(),
+        outcome: shared.without(of, i),
+    });
+    MutationReport { mutants, dropped: dropped.collect() }
+}
+
+/// Returns those [`possible_repairs`] that make all statements provable, if some of them are not. Such a
+/// mutation may undo a mistake in a function.
+pub fn find_repairs(statements: &[Statement], registry: &Registry) -> Vec<Mutant> {
+    // Expensive proofs come last.
+    let mut by_cost: Vec<_> = statements.iter().collect();
+    by_cost.sort_by_key(|s| (s.contains_rounding(), s.goals().len()));
+    let (provable, unproved): (Vec<_>, Vec<_>) = by_cost.into_par_iter().partition(|s| prove(s).is_ok());
+    let is_repair = |change: &Mutant| {
+        unproved.iter().all(|s| change.apply(s).is_some_and(|s| prove(&s).is_ok()))
+            && provable.iter().all(|s| change.apply(s).is_none_or(|s| prove(&s).is_ok()))
+    };
+    if unproved.is_empty() {
+        Vec::new()
+    } else {
+        possible_repairs(statements, registry).into_par_iter().filter(is_repair).collect()
+    }
+}
+
+/// The data that all mutants share.
+struct SharedState<'a> {
+    statements: &'a [Statement],
+    registry: &'a Registry,
+    symbols: Vec<&'static str>,
+    /// The statements in which a site occurs, the cheapest first.
+    by_site: HashMap<Site, Vec<usize>>,
+    /// The points for each combination of hypotheses, of a statement or after one is dropped.
+    points: Vec<PointSet>,
+    /// For each statement, the index of its points.
+    all_hypotheses: Vec<usize>,
+    /// For each statement and hypothesis, the index of the points without that hypothesis.
+    without_one: Vec<Vec<usize>>,
+}
+
+impl<'a> SharedState<'a> {
+    fn new(statements: &'a [Statement], registry: &'a Registry) -> Self {
+        let symbols = registry.symbols_of(statements.iter().flat_map(Statement::trees));
+        let mut by_site: HashMap<Site, BTreeSet<(bool, usize, usize)>> = HashMap::new();
+        for (index, statement) in statements.iter().enumerate() {
+            let (mut operations, mut has_duals, mut sites) = (0, false, BTreeSet::new());
+            for tree in statement.trees() {
+                tree.visit(&mut |tree| {
+                    let site = tree.site();
+                    operations += 1;
+                    has_duals |= site.is_in_dual_numbers();
+                    if registry.has_site(&site) {
+                        sites.insert(site);
+                    }
+                });
+            }
+            for site in sites {
+                by_site.entry(site).or_default().insert((has_duals, operations, index));
+            }
+        }
+        let indices = |of: BTreeSet<(bool, usize, usize)>| of.into_iter().map(|(.., i)| i).collect();
+        let by_site = by_site.into_iter().map(|(site, of)| (site, indices(of))).collect();
+        let mut combinations: Vec<Vec<Hypothesis>> = Vec::new();
+        let mut index_of = |hypotheses: Vec<Hypothesis>| {
+            let index = combinations.iter().position(|known| *known == hypotheses);
+            index.unwrap_or_else(|| {
+                combinations.push(hypotheses);
+                combinations.len() - 1
+            })
+        };
+        let all_hypotheses = statements.iter().map(|s| index_of(s.hypotheses().to_vec())).collect();
+        let mut without_one = |s: &Statement| {
+            s.hypotheses().iter().map(|h| index_of(s.without(h).hypotheses().to_vec())).collect::<Vec<_>>()
+        };
+        let without_one = statements.iter().map(&mut without_one).collect();
+        let points = combinations.into_par_iter().map(|of| PointSet::of(of, symbols.clone())).collect();
+        SharedState { statements, registry, symbols, by_site, points, all_hypotheses, without_one }
+    }
+
+    fn outcome(&self, change: &Mutant) -> MutationOutcome {
+        let affected = || {
+            let statements = self.by_site.get(&change.site).into_iter().flatten();
+            statements.filter_map(|&i| Some((i, change.apply(&self.statements[i])?)))
+        };
+        let noticed = |(i, changed): (usize, Statement), thoroughly: bool| {
+            let original = &self.statements[i];
+            let changed_points = (original.hypotheses() != changed.hypotheses())
+                .then(|| PointSet::of(changed.hypotheses().to_vec(), self.symbols.clone()));
+            let points = changed_points.as_ref().unwrap_or(&self.points[self.all_hypotheses[i]]);
+            let refutation = if thoroughly {
+                points.refute_at_other_points(&changed)
+            } else {
+                points.refute_at_first_points(&changed)
+            }?;
+            Some(MutationOutcome::Detected {
+                equation: original.equation(),
+                name: original.name(),
+                refutation,
+            })
+        };
+        let unchanged = || affected().all(|(i, _)| change.is_equivalent(&self.statements[i], self.registry));
+        affected()
+            .find_map(|pair| noticed(pair, false))
+            .or_else(|| unchanged().then_some(MutationOutcome::Equivalent))
+            .or_else(|| affected().find_map(|pair| noticed(pair, true)))
+            .unwrap_or(MutationOutcome::Undetected)
+    }
+
+    fn without(&self, statement: usize, hypothesis: usize) -> DropOutcome {
+        let original = &self.statements[statement];
+        let weakened = original.without(&original.hypotheses()[hypothesis]);
+        let points = &self.points[self.without_one[statement][hypothesis]];
+        match points.refute_at_first_points(&weakened) {
+            Some(refutation) => DropOutcome::Refuted(refutation),
+            None if prove(&weakened).is_ok() => DropOutcome::StillProved,
+            None => {
+                points.refute_at_other_points(&weakened).map_or(DropOutcome::Undecided, DropOutcome::Refuted)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::formula::claim::{equal, non_negative};
+    use crate::formula::{Formula, Relation};
+    use crate::number::Tree;
+
+    /// Computes k = (a − b)² + a.
+    fn squared(a: &Tree, b: &Tree) -> Tree {
+        let difference = a - b;
+        &difference * &difference + a
+    }
+
+    fn x(name: &'static str) -> Tree {
+        Tree::symbol(name)
+    }
+
+    fn registry() -> Registry {
+        Registry::new(&["a", "b"], vec![Formula::new("squared", "k", &["a", "b"], squared(&x("a"), &x("b")))])
+    }
+
+    fn expanded(name: &'static str) -> Statement {
+        let [a, b] = ["a", "b"].map(x);
+        let sum = &a * &a - Tree::from(2) * &a * &b + &b * &b + &a;
+        equal(name, squared(&a, &b), sum)
+    }
+
+    #[test]
+    fn the_order_of_operands_in_a_square_is_proved_irrelevant() {
+        let statements = [expanded("expanded")];
+        let MutationReport { mutants, .. } = test_mutations(&statements, &registry());
+        let unchanged = mutants.iter().filter(|(_, outcome)| matches!(outcome, MutationOutcome::Equivalent));
+        assert_eq!(
+            unchanged.map(|(mutant, _)| mutant.mutation).collect::<Vec<_>>(),
+            [Mutation::Swap(Operator::Sub)]
+        );
+        assert_eq!(test_mutations(&statements, &registry()).summary().unnoticed, 0);
+    }
+
+    #[test]
+    fn redundant_hypotheses_are_distinguished_from_needed_ones() {
+        let [needed, redundant] = ["a", "b"].map(|name| Hypothesis::new(Relation::Positive, x(name)));
+        // a/a = 1 requires a > 0 and does not depend on b.
+        let claim = equal("one", x("a") / x("a"), 1).assuming([&needed, &redundant]);
+        let report = test_mutations(&[claim], &registry());
+        let outcome =
+            |given: &Hypothesis| report.dropped.iter().find(|d| d.hypothesis == *given).map(|d| &d.outcome);
+        assert!(matches!(outcome(&needed), Some(DropOutcome::Refuted(_))), "{:?}", report.dropped);
+        assert!(matches!(outcome(&redundant), Some(DropOutcome::StillProved)), "{:?}", report.dropped);
+        let reported: Vec<_> = report.redundant_hypotheses().map(|dropped| &dropped.hypothesis).collect();
+        assert_eq!((report.dropped.len(), reported), (2, vec![&redundant]));
+    }
+
+    /// The claim that k ≥ 0 where k ≥ 0 is true for every k, so no mutation of k is detected.
+    #[test]
+    fn mutants_are_evaluated_where_the_mutated_hypotheses_hold() {
+        let k = squared(&x("a"), &x("b"));
+        let hypothesis = Hypothesis::new(Relation::NonNegative, k.clone());
+        let statements = [non_negative("k", k).assuming([&hypothesis])];
+        let MutationReport { mutants, .. } = test_mutations(&statements, &registry());
+        let noticed = mutants.iter().find(|(_, outcome)| matches!(outcome, MutationOutcome::Detected { .. }));
+        assert!(noticed.is_none() && !mutants.is_empty(), "{noticed:?}");
+    }
+
+    /// The mistaken formula is k = a²/4, the correct ones a²/2, a²/20, −a²/4, a²/8 and a².
+    #[test]
+    fn changed_constants_are_repaired() {
+        let quarter = |a: &Tree| a * a / Tree::from(4);
+        let formula = Formula::new("quarter", "k", &["a"], quarter(&x("a")));
+        let registry = Registry::new(&["a"], vec![formula]);
+        for right in [2, 20, -4, 8, 1] {
+            let statement = equal("half", quarter(&x("a")) * Tree::from(right), x("a") * x("a"));
+            let repairs = find_repairs(&[statement], &registry);
+            let found: Vec<_> = repairs.iter().map(|change| change.mutation.to_string()).collect();
+            assert!(found.contains(&format!("4 → {right}")), "{found:?}");
+        }
+    }
+
+    #[test]
+    fn repairs_make_all_statements_provable() {
+        let (correct, registry) = (expanded("expanded"), registry());
+        let twice = equal("same", squared(&x("a"), &x("a")), x("a"));
+        // In the mistaken statements the formula is (a + b)² + a.
+        let change = |what: Mutation| {
+            let all = mutants(std::slice::from_ref(&correct), &registry);
+            all.into_iter().find(|change| change.mutation == what).unwrap()
+        };
+        let mistake = change(Mutation::Opposite(Operator::Sub));
+        let wrong = [&correct, &twice].map(|statement| mistake.apply(statement).unwrap());
+        let undone = Mutant { mutation: Mutation::Opposite(Operator::Add), ..mistake };
+        assert!(find_repairs(&wrong, &registry).contains(&undone));
+        assert!(
+            find_repairs(&[correct.clone(), twice.clone()], &registry).is_empty(),
+            "all statements are provable"
+        );
+        // A repair of one statement is rejected if it makes another one unprovable.
+        let [a, b] = ["a", "b"].map(x);
+        let mistaken = equal("mistaken", squared(&a, &b), (&a + &b) * (&a + &b) + &a);
+        assert!(find_repairs(std::slice::from_ref(&mistaken), &registry).contains(&mistake));
+        assert!(!find_repairs(&[mistaken, correct], &registry).contains(&mistake));
+    }
+}

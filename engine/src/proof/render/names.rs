@@ -1,0 +1,274 @@
+//! Definitions of the kernel's names in a message.
+
+use super::ProofPrinter;
+use crate::formula::claim::PRECISION;
+use crate::formula::name_of_rounding;
+use crate::formula::statement::{Goal, Proposition, Role, Statement};
+use crate::number::Tree;
+use crate::proof::hints::sufficient_hypothesis;
+use crate::proof::kernel::algebra::Symbol;
+use crate::proof::kernel::{Assumption, AssumptionUse, Derivation, ProofError, derivation, roundings};
+use std::collections::{BTreeMap, BTreeSet};
+
+impl ProofPrinter<'_> {
+    /// Returns the reason why there is no proof of a statement, with definitions of the kernel's names: `no
+    /// rule finds the sign of a − s₁: the term −s₁ is < 0, where s₁ = b − a > 0`.
+    pub fn describe(&self, statement: &Statement, why: &ProofError) -> String {
+        if let Some(registry) = self.other_names(statement) {
+            return ProofPrinter { registry: &registry, ..*self }.describe(statement, why);
+        }
+        let said = self.order().justify(why, &|tree| self.text(tree));
+        let (rounded, mut supposed) = (roundings(statement.trees()), None);
+        let mut definitions = Vec::new();
+        for symbol in why.symbols().into_iter().filter(|symbol| said.contains(symbol.name())) {
+            match symbol {
+                Symbol::Own(_) => {}
+                Symbol::Error(i) => {
+                    definitions.extend(rounded.get(usize::from(i)).map(|of| self.error(symbol.name(), of)));
+                }
+                Symbol::Slack(_) | Symbol::Place(_) => {
+                    let supposed = supposed.get_or_insert_with(|| self.introduced_names(statement));
+                    let known = supposed.get(&symbol).and_then(Option::clone);
+                    let of_case = || format!("{} ≥ 0 in one case of the proof", symbol.name());
+                    definitions.push(known.unwrap_or_else(of_case));
+                }
+            }
+        }
+        if definitions.is_empty() { said } else { format!("{said}, where {}", definitions.join(" and ")) }
+    }
+
+    /// Returns the reason why there is no proof, and up to three [hypotheses](sufficient_hypothesis) with
+    /// which there is one.
+    ///
+    /// # Examples
+    /// ```
+    /// use provable::formula::{Hypothesis, Registry, Relation, claim::positive};
+    /// use provable::proof::{render::ProofPrinter, prove};
+    /// let [f, g] = ["f", "g"].map(|name| provable::number::Tree::symbol(name));
+    /// let converging = Hypothesis::new(Relation::Positive, f.clone());
+    /// let claim = positive("real image", &f * &g / (&g - &f)).assuming([&converging]);
+    /// assert_eq!(
+    ///     ProofPrinter::new(&Registry::default()).explain(&claim, &prove(&claim).unwrap_err()),
+    ///     "the divisor g − f might be 0; it is proved if g > f or if g < 0"
+    /// );
+    /// ```
+    pub fn explain(&self, statement: &Statement, why: &ProofError) -> String {
+        if let Some(registry) = self.other_names(statement) {
+            return ProofPrinter { registry: &registry, ..*self }.explain(statement, why);
+        }
+        let hypotheses = self.registry.format_hypotheses(&sufficient_hypothesis(statement, why));
+        let hint = if hypotheses.is_empty() { "" } else { "; it is proved if " };
+        self.describe(statement, why) + hint + &hypotheses.join(" or if ")
+    }
+
+    /// Defines an error: `fl(a b) = (a b) (1 + e₁ / (2ᵖ + 1)) with |e₁| ≤ 1`.
+    fn error(&self, error: &str, of: &Tree) -> String {
+        let factor = of.raised("", &|tree| self.registry.call_name(tree));
+        let (name, of) = (name_of_rounding(of), self.text(of));
+        format!("{name}({of}) = {factor} (1 + {error} / ({PRECISION} + 1)) with |{error}| ≤ 1")
+    }
+
+    /// Returns the names introduced by hypotheses with their definitions; `None` if a name has several, in
+    /// different cases.
+    fn introduced_names(&self, statement: &Statement) -> BTreeMap<Symbol, Option<String>> {
+        let derive =
+            |role: Role, proposition: &Proposition| derivation(&statement.hypotheses_for(role), proposition);
+        let fails = |goal: &&Goal| derive(goal.role, &goal.proposition).is_err();
+        let mut all = BTreeMap::new();
+        // Hypotheses are read before the goal, so their names are the same for another goal.
+        let derivation = statement.goals().iter().find(fails).and_then(|goal| {
+            let zero = || Tree::from(0);
+            let trivial = match goal.proposition {
+                Proposition::Limit(_, by, _) => Proposition::Limit(zero(), by, zero()),
+                _ => Proposition::Equal(zero(), zero()),
+            };
+            derive(goal.role, &trivial).ok()
+        });
+        derivation.iter().for_each(|derivation| self.collect(derivation, &mut all));
+        all
+    }
+
+    fn collect(&self, derivation: &Derivation, all: &mut BTreeMap<Symbol, Option<String>>) {
+        match derivation {
+            Derivation::Cases(_, positive, not) => {
+                [positive, not].into_iter().for_each(|case| self.collect(case, all));
+            }
+            Derivation::Direct(direct) => {
+                for (name, definition) in direct.assumptions.iter().filter_map(|s| self.definition(s)) {
+                    let known = all.entry(name).or_insert_with(|| definition.clone());
+                    if *known != definition {
+                        *known = None;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Returns the symbol that an assumption introduces, and its definition if it is a hypothesis.
+    fn definition(&self, supposed: &Assumption) -> Option<(Symbol, Option<String>)> {
+        match &supposed.usage {
+            AssumptionUse::Pivot(_, _, Some(slack)) => {
+                let definition = supposed.hypothesis.as_ref().map(|given| {
+                    let quotient = supposed.divisor.as_ref().and_then(|by| supposed.value.over(by));
+                    let value = quotient.map(|value| self.order().ratio_or_size(&value));
+                    let value = value.unwrap_or_else(|| self.text(&given.value));
+                    format!("{} = {value} {} 0", slack.name(), given.relation)
+                });
+                Some((*slack, definition))
+            }
+            AssumptionUse::Interval(x, _, place) => {
+                let definition = supposed.hypothesis.as_ref().and_then(|given| given.interval()).map(
+                    |(_, lower, upper)| {
+                        let (lower, upper) = (self.text(lower), self.text(upper));
+                        format!(
+                            "{} goes from −1 to 1 as {} goes from {lower} to {upper}",
+                            place.name(),
+                            x.name()
+                        )
+                    },
+                );
+                Some((*place, definition))
+            }
+            _ => None,
+        }
+    }
+}
+
+impl ProofError {
+    /// Returns the symbols of the quantity at which the proof failed.
+    fn symbols(&self) -> BTreeSet<Symbol> {
+        match self {
+            ProofError::PossibleZeroDivisor(_, value)
+            | ProofError::UndecidedBranch(value)
+            | ProofError::UnknownSign(value, _)
+            | ProofError::WrongSign(value, _)
+            | ProofError::Unequal(value)
+            | ProofError::UnknownLimit(value) => value.symbols(),
+            ProofError::NotDifferentiable
+            | ProofError::Discontinuous
+            | ProofError::TooManyRoundings
+            | ProofError::ReservedName(_)
+            | ProofError::HypothesisOnComputed(_)
+            | ProofError::TooLarge(..)
+            | ProofError::NoGoals => BTreeSet::new(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::formula::claim::{Rate, equal, limit, positive};
+    use crate::formula::{Formula, Hypothesis, Registry, Relation};
+    use crate::number::PositivePart;
+    use crate::proof::prove;
+
+    fn why(claim: &Statement) -> String {
+        let statement = claim;
+        ProofPrinter::new(&Registry::default()).describe(statement, &prove(statement).unwrap_err())
+    }
+
+    #[test]
+    fn a_message_defines_the_names_of_the_kernel() {
+        let [a, b, c, u] = ["a", "b", "c", "u"].map(|name| Tree::symbol(name));
+        let more = Hypothesis::new(Relation::Positive, &b - &a);
+        let least = Hypothesis::new(Relation::NonNegative, &a * &b - &c);
+        assert_eq!(
+            why(&positive("", &b - Tree::from(2) * &a).assuming([&more])),
+            "no rule finds the sign of 2 s₁ − b: the sign of the term −b is unknown, where s₁ = b − a > 0"
+        );
+        assert_eq!(
+            why(&positive("", &c - &b).assuming([&more, &least])),
+            "no rule finds the sign of b² − b s₁ − b − s₂, where s₁ = b − a > 0 and s₂ = a b − c ≥ 0"
+        );
+        let near = Hypothesis::near(&u, &a, &b);
+        assert_eq!(
+            why(&positive("", &u).assuming([&near])),
+            "no rule finds the sign of a + b t₁, where t₁ goes from −1 to 1 as u goes from a − b to a + b"
+        );
+        assert_eq!(
+            why(&equal("", (&a * (&b + &c)).round(), &a * (&b + &c))),
+            "the sides differ by (a b e₁ + a c e₁) / (s₁ + 5), \
+             where nearest(a (b + c)) = (a (b + c)) (1 + e₁ / (2ᵖ + 1)) with |e₁| ≤ 1 and s₁ = 2ᵖ − 4 ≥ 0"
+        );
+        let said = why(&equal("", (&a + &b).round(), &a + &b));
+        assert!(said.contains("fl(a + b) = (a + b) (1 + e₁ / (2ᵖ + 1)) with |e₁| ≤ 1"), "{said}");
+        let opposite =
+            positive("", &a + &b - &u).assuming(&[a.clone(), b.clone(), u.clone()].map(above_zero));
+        assert_eq!(why(&opposite), "no rule finds the sign of a + b − u: the term −u is < 0");
+        // A negative divisor reverses the signs.
+        let below = positive("", (&a - &u * &u + &b * &c) / (-&a - &b));
+        assert_eq!(
+            why(&below.assuming(&[a.clone(), b.clone()].map(above_zero))),
+            "no rule finds the sign of (u² − a − b c) / (a + b): \
+             the sign of the term −b c is unknown and the term −a is < 0"
+        );
+        // There is nothing to define.
+        assert_eq!(why(&equal("", &a, &b)), "the sides differ by a − b");
+    }
+
+    fn above_zero(value: Tree) -> Hypothesis {
+        Hypothesis::new(Relation::Positive, value)
+    }
+
+    #[test]
+    fn a_divisor_is_written_as_it_stands_in_the_claim() {
+        let [a, b, c] = ["a", "b", "c"].map(|name| Tree::symbol(name));
+        let inverse = |of: Tree| positive("", Tree::from(1) / of);
+        let more = above_zero(&a - &b);
+        let divisor = |text: &str| format!("the divisor {text}");
+        assert_eq!(why(&inverse(&b + (&c + &a))), divisor("b + c + a might be 0"));
+        assert_eq!(
+            why(&inverse(&c + &a).assuming([&more])),
+            divisor("c + a = b + c + s₁ might be 0, where s₁ = a − b > 0")
+        );
+        let equal = Hypothesis::new(Relation::Zero, &a - &b);
+        assert_eq!(why(&inverse(&a - &c).assuming([&equal])), divisor("a − c = b − c might be 0"));
+        assert_eq!(why(&inverse(&a - &b).assuming([&equal])), divisor("a − b is 0"));
+        assert_eq!(why(&inverse(&a - &a)), divisor("a − a is 0"));
+        // With the names of a registry.
+        let spring = Formula::new("spring", "k", &["a", "b"], product(&a, &b)).abbreviated();
+        let registry = Registry::new(&["a", "b"], vec![spring]);
+        let claim = inverse(product(&a, &b));
+        let why = prove(&claim).unwrap_err();
+        assert_eq!(ProofPrinter::new(&registry).describe(&claim, &why), divisor("k might be 0"));
+    }
+
+    fn product(a: &Tree, b: &Tree) -> Tree {
+        a * b
+    }
+
+    #[test]
+    fn a_divided_hypothesis_and_one_on_the_variable_of_a_limit_are_defined() {
+        let [k, f, g] = ["k", "f", "g"].map(|name| Tree::symbol(name));
+        let bounds = [above_zero(k.clone()), above_zero(Tree::from(1) - &k)];
+        let said = why(&positive("", Tree::from(2) * &k - Tree::from(1)).assuming(bounds.each_ref()));
+        assert!(said.contains("s₁ = (1 − k) / k > 0"), "{said}");
+        let of = &g * &g / (&g - &f);
+        let said = why(&limit("", of.clone(), &g, &f, Rate::Equal(of - &f)).assuming([&above_zero(&g - &f)]));
+        assert!(said.contains("s₁ = g − f > 0"), "{said}");
+    }
+
+    #[test]
+    fn a_name_of_a_case_is_said_to_be_one() {
+        let [a, b] = ["a", "b"].map(|name| Tree::symbol(name));
+        let said = why(&positive("", (&a - &b).positive_part() + &b));
+        assert!(said.ends_with("where s₁ ≥ 0 in one case of the proof"), "{said}");
+    }
+
+    /// Errors are named in the order in which the kernel meets them; those of hypotheses come first.
+    #[test]
+    fn errors_are_named_in_the_order_in_which_they_are_rounded() {
+        let [a, b] = ["a", "b"].map(|name| Tree::symbol(name));
+        let given = Hypothesis::new(Relation::NonNegative, (&a + &b).round());
+        let of = (&a * (&a + &b) - &b).with_rounding();
+        let statement = equal("", of.clone() * b.round(), b.round() * of).assuming([&given]);
+        let proof = prove(&statement).unwrap();
+        let Derivation::Direct(direct) = &proof.goals()[0] else { panic!("no cases") };
+        let named: Vec<_> = direct.roundings.iter().map(|rounding| (rounding.error, &rounding.of)).collect();
+        let rounded = roundings(statement.trees());
+        let expected: Vec<_> = (0..).map(Symbol::Error).zip(&rounded).collect();
+        assert_eq!(named, expected);
+        assert_eq!(named.len(), 4);
+    }
+}

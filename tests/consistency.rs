@@ -1,0 +1,667 @@
+//! Consistency of the chapter's data, functions, claims and documentation, with instructions on failure. No
+//! check passes because it found nothing.
+#![cfg(feature = "prover")]
+
+use spring_mass_contact::claims::{Entry, claims, entries, entry, hypotheses, registry};
+use spring_mass_contact::number::NumberSystem;
+use spring_mass_contact::verify::{
+    Options, Report, Row, Status, claim_names, exact_experiments, float_experiments, verify,
+};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A public function or struct of the chapter, with its documentation.
+struct Item {
+    path: String,
+    docs: Vec<String>,
+}
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The packed crate contains neither the seeded faults nor the book's tool, and has cargo's copy of its
+/// manifest.
+fn is_packed() -> bool {
+    root().join("Cargo.toml.orig").exists()
+}
+
+fn source(path: &str) -> String {
+    fs::read_to_string(root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
+}
+
+fn modules() -> Vec<String> {
+    let declared = source("src/chapter/mod.rs");
+    let modules: Vec<_> = declared
+        .lines()
+        .filter_map(|l| l.strip_prefix("pub mod ")?.strip_suffix(';'))
+        .map(String::from)
+        .collect();
+    let files = files("src/chapter").into_iter().filter(|path| !path.ends_with("/mod.rs"));
+    let files: BTreeSet<_> = files.map(|path| path["src/chapter/".len()..].replace(".rs", "")).collect();
+    let found: BTreeSet<_> = modules.iter().cloned().collect();
+    assert_eq!(files, found, "the files of src/chapter, and what its mod.rs declares by `pub mod`");
+    modules
+}
+
+/// Returns the functions of the chapter, found in its source, where rustfmt puts each at the start of a line.
+fn items() -> Vec<Item> {
+    let mut items = Vec::new();
+    for module in modules() {
+        let mut docs = Vec::new();
+        for line in source(&format!("src/chapter/{module}.rs")).lines() {
+            let name = line.strip_prefix("pub fn ").or(line.strip_prefix("pub struct "));
+            if let Some(doc) = line.strip_prefix("///") {
+                docs.push(doc.trim().to_string());
+            } else if let Some(name) = name {
+                let name = name.split(['<', '(', ' ']).next().unwrap();
+                items.push(Item { path: format!("{module}::{name}"), docs: std::mem::take(&mut docs) });
+            } else if !line.starts_with("#[") {
+                docs.clear();
+            }
+        }
+    }
+    assert!(items.len() > 50, "the scan of src/chapter finds {} items", items.len());
+    items
+}
+
+fn functions() -> Vec<Item> {
+    items().into_iter().filter(|item| !item.path.contains(char::is_uppercase)).collect()
+}
+
+/// Fails with all problems at once.
+fn assert_none(amiss: impl IntoIterator<Item = String>) {
+    let amiss: Vec<_> = amiss.into_iter().collect();
+    assert!(amiss.is_empty(), "\n{}", amiss.join("\n"));
+}
+
+#[test]
+fn every_number_of_the_chapter_has_an_entry_and_claims() {
+    assert_none((1..=33).map(|n| format!("1.{n}")).filter_map(|number| {
+        if entry(&number).is_none() {
+            Some(format!("({number}) has no entry: add it to its section's file in src/claims"))
+        } else if claim_names(&number).is_empty() {
+            Some(format!("({number}) has no claim: add one by `.claims([…])` to its entry"))
+        } else {
+            None
+        }
+    }));
+}
+
+#[test]
+fn entries_are_unique() {
+    let mut numbers = BTreeSet::new();
+    for e in entries() {
+        assert!(numbers.insert(e.equation), "{} has two entries in src/claims: make them one", e.equation);
+    }
+}
+
+#[test]
+fn what_follows_from_what_has_no_cycle() {
+    for e in entries() {
+        for premise in &e.follows_from {
+            assert!(
+                entry(premise).is_some(),
+                "{}: its `.follows_from([…])` in src/claims names {premise}, which has no entry",
+                e.equation
+            );
+        }
+    }
+    // Entries whose premises are all known can be added; in the end all must be.
+    let mut known = BTreeSet::new();
+    loop {
+        let before = known.len();
+        for e in entries() {
+            if e.follows_from.iter().all(|premise| known.contains(premise)) {
+                known.insert(e.equation);
+            }
+        }
+        if known.len() == before {
+            break;
+        }
+    }
+    let left: Vec<_> = entries().iter().map(|e| e.equation).filter(|e| !known.contains(e)).collect();
+    assert!(
+        left.is_empty(),
+        "the `.follows_from([…])` of these in src/claims lead round in a circle, or to one: {left:?}"
+    );
+}
+
+#[test]
+fn every_entry_names_a_function_that_exists() {
+    let items: BTreeSet<_> = items().into_iter().map(|item| item.path).collect();
+    let named = entries().iter().flat_map(|e| e.functions.iter().map(move |function| (e.equation, function)));
+    assert_none(named.filter(|(_, function)| !items.contains(**function)).map(|(equation, function)| {
+        format!(
+            "{equation}: its `.functions([…])` in src/claims name {function}, which is not in src/chapter"
+        )
+    }));
+}
+
+#[test]
+fn every_function_is_named_by_an_entry() {
+    let named: BTreeSet<_> = entries().iter().flat_map(|e| e.functions.iter().copied()).collect();
+    let unnamed = items().into_iter().filter(|item| !named.contains(item.path.as_str()));
+    assert_none(unnamed.map(|Item { path, .. }| {
+        format!(
+            "no entry names {path}: add it to the `.functions([…])` of the one it belongs to, in src/claims"
+        )
+    }));
+}
+
+/// In the box of an equation, or by a tag. The book's own tests check that each box exists.
+#[test]
+fn the_book_shows_every_function() {
+    let boxed = entries().iter().filter(|e| e.latex().is_some()).flat_map(|e| &e.functions);
+    let mut shown: BTreeSet<String> = boxed.map(|function| function.to_string()).collect();
+    for page in pages() {
+        let text = fs::read_to_string(page).unwrap();
+        for tag in ["{{#formula ", "{{#source "] {
+            for (_, what) in text.match_indices(tag).map(|(at, tag)| text.split_at(at + tag.len())) {
+                let path = what.split(|c: char| !c.is_alphanumeric() && !"_:".contains(c)).next().unwrap();
+                shown.insert(path.trim_end_matches(':').to_string());
+            }
+        }
+    }
+    assert_none(items().into_iter().filter(|item| !shown.contains(&item.path)).map(|Item { path, .. }| {
+        format!(
+            "the book shows {path} nowhere: name it in an entry with a box (`.functions([…])` in src/claims), or \
+             write {{{{#formula {path}}}}} or {{{{#source {path}}}}} on the page in book/src where it belongs"
+        )
+    }));
+}
+
+#[test]
+fn every_claim_belongs_to_an_entry_under_a_name_of_its_own() {
+    let report = verify(&Options { cases: 1, ..Options::default() }, &|_, _| ());
+    let mut rows = BTreeSet::new();
+    for row in &report.rows {
+        let what = format!("{} {}", row.equation, row.claim);
+        assert!(entry(row.equation).is_some(), "{what}: src/claims has no entry of this number");
+        assert!(
+            rows.insert((row.equation, row.claim, row.scalar.map(|scalar| scalar.to_string()))),
+            "{what}: two claims of this name, in src/verify/experiments.rs perhaps; call one of them otherwise"
+        );
+    }
+    let named = |e: &'static Entry| claim_names(e.equation).into_iter().map(|claim| (e.equation, claim));
+    let named: BTreeSet<_> = entries().iter().flat_map(named).collect();
+    let tried: BTreeSet<_> = rows.iter().map(|(equation, claim, _)| (*equation, *claim)).collect();
+    let lost: Vec<_> = named.symmetric_difference(&tried).collect();
+    assert!(lost.is_empty(), "{lost:?}: listed and not tried by `verify`, or tried and listed nowhere");
+}
+
+/// Every hypothesis of an entry is one of some claim, since it would otherwise be unnecessary; and a
+/// hypothesis common to all claims is one of the entry, or in its statement.
+#[test]
+fn entries_suppose_what_their_claims_suppose() {
+    let recorded = claims().map(|c| (c.equation(), c.stated_hypotheses().to_vec()));
+    let floats = float_experiments::<f64>().into_iter();
+    let floats = floats.map(|e| (e.equation, e.given));
+    let rationals = exact_experiments().into_iter().map(|e| (e.equation, e.given));
+    let all: Vec<_> = recorded.chain(floats).chain(rationals).collect();
+    for e in entries() {
+        let of_entry = || all.iter().filter(|(equation, _)| *equation == e.equation).map(|(_, given)| given);
+        for hypothesis in &e.hypotheses {
+            let supposed = of_entry().any(|given| given.contains(hypothesis));
+            let text = registry().format_hypothesis(hypothesis);
+            assert!(supposed, "{}: none of its claims supposes {text}", e.equation);
+        }
+        let first = of_entry().next().cloned().unwrap_or_default();
+        for common in first.iter().filter(|common| of_entry().all(|given| given.contains(common))) {
+            // How far on a sequence or a solution is, is no condition.
+            let runs = [&hypotheses().power, &hypotheses().count, &hypotheses().time].contains(&common);
+            let text = registry().format_hypothesis(common);
+            let said = e.hypotheses.contains(common) || e.statement().contains(&text);
+            assert!(
+                runs || said,
+                "{}: all its claims suppose {text}, and the entry does not: add it to its `.assuming([…])`, or take it \
+                 out of a claim that does not need it",
+                e.equation
+            );
+        }
+    }
+}
+
+#[test]
+fn every_function_is_documented_in_the_same_order() {
+    assert_none(
+        functions().iter().filter_map(|item| Some(format!("{}: {}", item.path, undocumented(item)?))),
+    );
+}
+
+fn is_formula(line: &str) -> bool {
+    line.starts_with('`') && !line.starts_with("```") && line.ends_with('`')
+}
+
+/// Returns what is missing in the documentation of a function.
+fn undocumented(Item { docs, .. }: &Item) -> Option<String> {
+    let find = |found: &dyn Fn(&str) -> bool| docs.iter().position(|line| found(line));
+    let parts = [
+        ("the formula, a line in backticks", find(&is_formula)),
+        ("`Source: …` or `Beyond …`", find(&|l| l.contains("Source:") || l.contains("Beyond "))),
+        ("an example: a block of code that asserts a value worked out by hand", find(&|l| l == "```")),
+    ];
+    if let Some((part, _)) = parts.iter().find(|(_, at)| at.is_none()) {
+        return Some(format!("its documentation lacks {part}"));
+    }
+    let [formula, source, example] = parts.map(|(_, at)| at);
+    if formula == Some(0) || formula.max(source) > example {
+        return Some("in its documentation its name comes first, and last the example".to_string());
+    }
+    let numbers = docs[0].split("Eq. (").skip(1).filter_map(|rest| rest.split(')').next());
+    let unknown = numbers.into_iter().find(|number| entry(number).is_none());
+    unknown.map(|number| format!("its documentation names ({number}), which has no entry"))
+}
+
+#[test]
+fn every_formula_for_the_eye_is_the_one_that_is_computed() {
+    // A check with the outcome yes or no, which leaves no tree.
+    const UNRECORDED: [&str; 1] = ["augmented::within_tolerance"];
+    let formula = |l: &&String| is_formula(l);
+    assert_none(functions().into_iter().filter_map(|Item { path, docs }| {
+        let (module, name) = path.split_once("::").unwrap();
+        let listed = UNRECORDED.contains(&path.as_str());
+        match (registry().format_equation(&path), listed) {
+            (None, true) => None,
+            (Some(_), true) => Some(format!("{path} is registered: take it from the list in this test")),
+            (None, false) => Some(format!(
+                "{path} is not registered: add a line `\"symbol\" = {path}(system, …);` with the symbols of its \
+                 arguments to `formulas!` at the head of src/claims/{module}.rs"
+            )),
+            (Some(computed), false) => {
+                let written: Vec<_> = docs.iter().filter(formula).collect();
+                let right = written == [&format!("`{computed}`")];
+                (!right).then(|| {
+                    format!(
+                        "src/chapter/{module}.rs: the documentation of {name} has {written:?} where it computes \
+                         `{computed}`: write that line, if that is what is meant; if not, mend the function, or the \
+                         symbols of its arguments in src/claims/{module}.rs"
+                    )
+                })
+            }
+        }
+    }));
+}
+
+#[test]
+fn every_hole_in_an_entry_is_filled() {
+    for e in entries() {
+        let latex = e.latex();
+        let left = |text: &str| text.contains(['«', '»']);
+        let unknown = "a hole names a formula that src/claims does not register";
+        assert!(!left(&e.statement()), "{}: {unknown}: {}", e.equation, e.statement());
+        assert!(!latex.as_deref().is_some_and(left), "{}: {unknown}: {latex:?}", e.equation);
+        assert!(
+            latex.is_some() == e.equation.starts_with("1."),
+            "{}: an entry has `.in_latex(…)` if it is a numbered equation, and only then",
+            e.equation
+        );
+    }
+}
+
+/// Returns the claims of a section's source, without the list of its formulas.
+fn claimed(section: &str) -> String {
+    let text = source(&format!("src/claims/{section}.rs"));
+    let list = text.split_once("formulas! {").and_then(|(_, rest)| rest.split_once("\n}"));
+    // To be listed is no claim.
+    assert!(
+        list.is_some() == modules().iter().any(|m| m == section),
+        "the list of {section}.rs is not found"
+    );
+    list.map_or(text.clone(), |(list, _)| text.replace(list, ""))
+}
+
+#[test]
+fn every_function_is_claimed_something_of() {
+    let sections = modules().into_iter().chain(["notes", "hypotheses"].map(String::from));
+    let mut texts: BTreeMap<String, String> = sections.map(|name| (name.clone(), claimed(&name))).collect();
+    texts.insert("experiments".to_string(), source("src/verify/experiments.rs"));
+    let is_part_of_name = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
+    let is_unclaimed = |Item { path, .. }: &Item| {
+        let (module, name) = path.split_once("::").unwrap();
+        // In its own section a function is called by its name alone.
+        let own = format!("{name}(");
+        let mut by_name = texts[module].match_indices(&own);
+        let by_name = by_name.any(|(i, _)| !texts[module][..i].ends_with(is_part_of_name));
+        !by_name && !texts.values().any(|text| text.contains(&format!("{path}(")))
+    };
+    assert_none(functions().into_iter().filter(is_unclaimed).map(|Item { path, .. }| {
+        format!(
+            "no claim speaks of {path}: call it in one, by `.claims([…])` in the entry that names it, in src/claims, or in src/verify/experiments.rs"
+        )
+    }));
+}
+
+#[test]
+fn no_formula_is_written_twice() {
+    let mut bodies: BTreeMap<String, String> = BTreeMap::new();
+    let mut seen = 0;
+    for module in modules() {
+        let text = source(&format!("src/chapter/{module}.rs"));
+        for function in text.split("\npub fn ").skip(1) {
+            let name = function.split(['<', '(']).next().unwrap().to_string();
+            let body = function.split_once("{\n").and_then(|(_, rest)| rest.split_once("\n}")).unwrap().0;
+            let formula =
+                body.lines().filter(|l| !l.trim_start().starts_with("let SpringMass")).collect::<String>();
+            // (1.28) and the gap are the same number under two names, and the chapter prints both.
+            if let Some(other) = bodies.insert(formula.clone(), name.clone()) {
+                let pair = [other.as_str(), name.as_str()];
+                let allowed = [["deflection", "particular"], ["gap", "particular"], ["particular", "gap"]];
+                let calls = formula.contains("::") || formula.contains("(system");
+                assert!(
+                    allowed.contains(&pair) || calls,
+                    "in src/chapter {other} and {name} are the same formula, {}: let one call the other",
+                    formula.trim()
+                );
+            }
+            seen += 1;
+        }
+    }
+    assert_eq!(seen, functions().len(), "functions looked at, of all");
+}
+
+/// Asserts the status of every claim; the others are named with the command that shows them.
+fn assert_all(report: &Report, otherwise: &str, so: impl Fn(Status) -> bool) {
+    let amiss = report.rows.iter().filter(|row| !so(row.status)).map(|row| {
+        let Row { equation, claim, status, scalar, .. } = row;
+        let way = scalar.map_or("the proof".to_string(), |scalar| scalar.to_string());
+        format!("{equation} {claim}: {status} in {way}: cargo run --release -- verify '{equation}'")
+    });
+    let amiss: Vec<_> = amiss.collect();
+    assert!(amiss.is_empty(), "what {otherwise}: {amiss:#?}");
+    assert!(report.rows.len() > 4 * entries().len(), "only {} rows", report.rows.len());
+}
+
+#[test]
+fn every_claim_holds_in_every_number_system() {
+    let scalars = vec![
+        NumberSystem::F32,
+        NumberSystem::F64,
+        NumberSystem::Mpfr(24),
+        NumberSystem::Mpfr(777),
+        NumberSystem::Exact,
+    ];
+    for seed in [7, 99] {
+        let report =
+            verify(&Options { scalars: scalars.clone(), cases: 50, seed, equations: vec![] }, &|_, _| ());
+        assert_all(&report, "is not proved or does not hold", |status| {
+            matches!(status, Status::Proved | Status::Held)
+        });
+        for n in 1..=33 {
+            let number = format!("1.{n}");
+            for scalar in &scalars[..4] {
+                let found =
+                    report.rows.iter().any(|row| row.equation == number && row.scalar == Some(*scalar));
+                assert!(
+                    found,
+                    "nothing is claimed of ({number}) in {scalar}: give its entry a claim that is not rounded"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn by_default_every_claim_is_decided_in_every_number_system() {
+    let report = verify(&Options::default(), &|_, _| ());
+    assert_all(&report, "no case decides, or fails", |status| {
+        !matches!(status, Status::Undecided | Status::Failed)
+    });
+    assert!(report.is_decided() && report.holds());
+}
+
+#[test]
+fn rounding_stays_within_bounds_that_are_not_idle() {
+    // If bounds were far too wide, nothing would come near them and the claims would be empty.
+    let options = Options { scalars: vec![NumberSystem::F64], cases: 200, ..Options::default() };
+    let report = verify(&options, &|_, _| ());
+    let measured: Vec<_> =
+        report.rows.iter().filter(|row| row.kind == "equal" && row.scalar.is_some()).collect();
+    let tight =
+        measured.iter().filter(|row| row.worst.as_ref().is_some_and(|(ratio, _)| *ratio > 0.05)).count();
+    assert!(2 * tight > measured.len(), "{tight} of {} claims use 5 % of their bound", measured.len());
+}
+
+/// Returns the files below a folder as paths in the project.
+fn files(folder: &str) -> Vec<String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let entries = fs::read_dir(root.join(folder)).unwrap().map(|entry| entry.unwrap());
+    let of = |entry: fs::DirEntry| {
+        let path = format!("{folder}/{}", entry.file_name().to_str().unwrap());
+        if entry.path().is_dir() { files(&path) } else { vec![path] }
+    };
+    entries.flat_map(of).collect()
+}
+
+/// Returns the files of the library, the engine and the command in one of their folders. The packed crate has
+/// only its own.
+fn of_all(folder: &str) -> Vec<String> {
+    let others = if is_packed() { [].as_slice() } else { &["engine", "command"] };
+    let others = others.iter().flat_map(|package| files(&format!("{package}/{folder}")));
+    files(folder).into_iter().chain(others).collect()
+}
+
+/// A file without a `mod` is never compiled, and its tests never fail.
+#[test]
+fn every_file_belongs_to_a_module() {
+    let (mut paths, tests) = (of_all("src"), of_all("tests"));
+    // What stands beside a `main.rs` belongs to its target.
+    let targets: Vec<_> = tests.iter().filter_map(|path| path.strip_suffix("main.rs")).collect();
+    paths.extend(tests.iter().filter(|path| targets.iter().any(|target| path.starts_with(target))).cloned());
+    let modules = paths.iter().filter_map(|path| path.strip_suffix("/mod.rs").or(path.strip_suffix(".rs")));
+    let modules: Vec<_> =
+        modules.filter(|path| !["/lib", "/main"].iter().any(|end| path.ends_with(end))).collect();
+    // The packed crate has neither the engine's nor the command's.
+    assert!(modules.len() > if is_packed() { 60 } else { 150 }, "the scan finds {} modules", modules.len());
+    assert_none(modules.into_iter().filter_map(|path| {
+        let (folder, name) = path.rsplit_once('/')?;
+        let parents = [".rs", "/mod.rs", "/lib.rs", "/main.rs"].map(|end| format!("{folder}{end}"));
+        let declares = |path: &String| {
+            let text = fs::read_to_string(root().join(path)).unwrap_or_default();
+            text.lines().any(|line| !line.starts_with("//") && line.ends_with(&format!("mod {name};")))
+        };
+        (!parents.iter().any(declares)).then(|| format!("{path}: say `mod {name};` in one of {parents:?}"))
+    }));
+}
+
+/// An untested number system could compute anything.
+#[test]
+fn every_number_system_is_held_to_the_laws() {
+    if is_packed() {
+        return eprintln!("the number systems are those of another crate");
+    }
+    let text = |folder: &str| files(folder).iter().map(|path| source(path)).collect::<String>();
+    let (numbers, laws) = (text("engine/tests/numbers"), source("tests/solver/laws.rs"));
+    let ours = text("engine/src/number") + &source("src/solver/exact/scalar.rs");
+    let name = |rest: &str| rest.split(['<', ' ', ';']).next().unwrap_or_default().to_string();
+    let implementing = |what: &str| -> BTreeSet<String> {
+        let implemented = ours.lines().filter(|line| line.starts_with("impl"));
+        implemented.filter_map(|line| Some(name(line.split_once(what)?.1))).collect()
+    };
+    let (fields, scalars) = (implementing(" Field for "), implementing(" Scalar for "));
+    assert!(fields.len() > 4 && !scalars.is_empty(), "{fields:?} {scalars:?}");
+    let mut tried: BTreeSet<_> =
+        numbers.lines().filter_map(|line| line.trim().strip_prefix("type Number = ").map(name)).collect();
+    tried.insert("Tree".to_string()); // a formula, and no number
+    let held: BTreeSet<_> = laws.split(|c: char| !c.is_alphanumeric()).map(String::from).collect();
+    let untried = fields.difference(&tried);
+    let untried = untried.map(|field| format!("{field}: no `type Number = {field}` in engine/tests/numbers"));
+    let lawless = scalars.difference(&held).map(|scalar| format!("{scalar}: not in tests/solver/laws.rs"));
+    assert_none(untried.chain(lawless));
+}
+
+#[test]
+fn no_line_of_the_source_is_longer_than_a_reader_likes() {
+    let files = of_all("src");
+    assert!(files.len() > 70, "the scan of src finds {} files", files.len());
+    assert_none(files.iter().flat_map(|path| {
+        // rustfmt breaks code there, but no text and no comment.
+        let text = source(path);
+        let long = text.lines().zip(1..).filter(|(line, _)| line.chars().count() > 110);
+        let say = |(line, number)| format!("{path}:{number} has more than 110 characters; break it: {line}");
+        long.map(say).collect::<Vec<_>>()
+    }));
+}
+
+#[test]
+fn no_file_of_the_source_is_longer_than_a_reader_can_hold() {
+    for path in of_all("src") {
+        let lines = source(&path).lines().count();
+        assert!(lines <= 450, "{path} has {lines} lines, and 450 are enough: split it by a noun");
+    }
+}
+
+#[test]
+fn every_planted_edit_still_applies() {
+    if is_packed() {
+        return eprintln!("the wrong edits are in the repository alone");
+    }
+    // A patch that no longer fits its source would plant nothing. Its context has to be found there.
+    for name in patches() {
+        let patch = format!("tests/seeded_faults/{name}.patch");
+        let text = source(&patch);
+        let files: Vec<_> = text.lines().filter_map(|line| line.strip_prefix("--- a/")).collect();
+        let [file] = files[..] else {
+            panic!("{patch} edits {} files: one is what belongs there", files.len())
+        };
+        let file = file.split('\t').next().unwrap();
+        let target = source(file);
+        let hunks: Vec<_> =
+            text.split("\n@@ ").skip(1).map(|hunk| hunk.split_once('\n').unwrap().1).collect();
+        assert!(!hunks.is_empty(), "{patch} edits nothing");
+        for hunk in hunks {
+            let before = hunk.lines().filter(|line| !line.starts_with('+') && !line.starts_with('\\'));
+            let before: Vec<_> = before.map(|line| line.get(1..).unwrap_or("")).collect();
+            assert!(
+                target.contains(&before.join("\n")),
+                "{patch} no longer applies to {file}: make the same mistake there by hand, and write it by \
+                 `git diff {file} > {patch}`"
+            );
+        }
+    }
+}
+
+/// Returns the names of the seeded faults.
+fn patches() -> BTreeSet<String> {
+    let names = files("tests/seeded_faults").into_iter();
+    let names = names
+        .filter_map(|path| Some(path.strip_suffix(".patch")?["tests/seeded_faults/".len()..].to_string()));
+    let names: BTreeSet<_> = names.collect();
+    assert!(names.len() > 100, "the scan of tests/seeded_faults finds {} patches", names.len());
+    names
+}
+
+/// `tests/seeded_faults/run` records which test detects which fault.
+#[test]
+fn every_planted_edit_is_known_to_be_caught() {
+    if is_packed() {
+        return eprintln!("the wrong edits are in the repository alone");
+    }
+    let (patches, mut caught) = (patches(), BTreeSet::new());
+    let text = of_all("src").into_iter().chain(of_all("tests")).chain(files("book/tool")).collect::<Vec<_>>();
+    let text: Vec<_> =
+        text.iter().filter(|path| path.ends_with(".rs")).map(|path| (path, source(path))).collect();
+    let listed = source("tests/seeded_faults/detected_by");
+    for line in listed.lines() {
+        let [name, target, test] = line.splitn(3, ' ').collect::<Vec<_>>()[..] else { panic!("{line}") };
+        let again = format!("tests/seeded_faults/run tests/seeded_faults/{name}.patch");
+        assert!(
+            patches.contains(name),
+            "tests/seeded_faults/detected_by has {name}, which is no patch: take its lines out"
+        );
+        if target == "-" {
+            continue;
+        }
+        caught.insert(name.to_string());
+        // An example in the docs goes by its file, and what broke off by no name; for each of some number systems
+        // a test is a module.
+        let (module, function) = test.rsplit_once("::").unwrap_or(("", test));
+        let (function, module) = (format!("fn {function}("), module.rsplit("::").next().unwrap());
+        let is_of_target = |path: &str| match target {
+            "lib" => path.starts_with("src/"),
+            "provable" => path.starts_with("engine/src/"),
+            "bin" => path.starts_with("command/src/"),
+            _ => [format!("tests/{target}.rs"), format!("tests/{target}/")]
+                .iter()
+                .any(|own| path.contains(own)),
+        };
+        let written = |name: &str| text.iter().any(|(path, text)| is_of_target(path) && text.contains(name));
+        let exists = ["doc", "book-tool"].contains(&target)
+            || test == "(no result)"
+            || written(&function)
+            || written(&format!("fn {module}<"))
+            || written(&format!("fn {module}("));
+        assert!(
+            exists,
+            "tests/seeded_faults/detected_by has {name} caught by {test}, which is no test of {target}: {again}"
+        );
+    }
+    // So many are older than the list, and the run that writes it goes on with them: this number only falls.
+    const NOT_RUN: usize = 91;
+    let missing: Vec<_> = patches.difference(&caught).collect();
+    assert!(
+        missing.len() == NOT_RUN,
+        "{} patches, and not {NOT_RUN}, are not in tests/seeded_faults/detected_by: `tests/seeded_faults/run --first` writes them there; \
+         then mend the number in this test. They are {missing:?}",
+        missing.len()
+    );
+}
+
+/// Every target that could detect a mistake belongs to a layer.
+#[test]
+fn every_target_of_tests_has_a_layer() {
+    if is_packed() {
+        return eprintln!("the wrong edits are in the repository alone");
+    }
+    let run = source("tests/seeded_faults/run");
+    let map = run.split_once("\nlayers='").and_then(|(_, rest)| rest.split_once('\'')).unwrap().0;
+    let listed: BTreeSet<_> = map.lines().filter_map(|line| line.split_whitespace().next()).collect();
+    let mut seen = 0;
+    for path in of_all("tests").into_iter().chain(files("book/tool/tests")) {
+        let path = ["book/tool/", "engine/", "command/"]
+            .iter()
+            .fold(path.as_str(), |path, of| path.trim_start_matches(of));
+        let path = path.trim_start_matches("tests/");
+        let target = path.strip_suffix("/main.rs").or(path.strip_suffix(".rs"));
+        if let Some(target) = target.filter(|target| !target.contains('/')) {
+            assert!(
+                listed.contains(target),
+                "tests/seeded_faults/run: its list `layers` lacks the target {target}"
+            );
+            seen += 1;
+        }
+    }
+    assert!(seen > 20, "the scan finds {seen} targets");
+}
+
+/// Returns the pages of the book.
+fn pages() -> Vec<PathBuf> {
+    let pages = files("book/src").into_iter().filter(|path| path.ends_with(".md"));
+    let pages: Vec<_> = pages.map(|path| root().join(path)).collect();
+    assert!(pages.len() > 20, "the scan of book/src finds {} pages", pages.len());
+    pages
+}
+
+/// Returns files that a text names, in backticks or as links.
+#[test]
+fn every_file_that_a_page_names_exists() {
+    if is_packed() {
+        return eprintln!("what pages name is in the repository, and not all of it here");
+    }
+    let mut seen = 0;
+    for page in pages().into_iter().chain(["README.md", "CONTRIBUTING.md"].map(|name| root().join(name))) {
+        let text = fs::read_to_string(&page).unwrap();
+        for word in text.split(|c: char| c.is_whitespace() || "`()[]<>\"',".contains(c)) {
+            let named = ["src/", "engine/", "command/", "tests/", "book/", "examples/", ".ci/"]
+                .iter()
+                .any(|room| word.starts_with(room));
+            let path = word.split(['#', ':', '*']).next().unwrap().trim_end_matches(['.', ';']);
+            if named && !word.contains(['*', '{']) {
+                assert!(root().join(path).exists(), "{} names {path}, which does not exist", page.display());
+                seen += 1;
+            }
+        }
+    }
+    assert!(seen > 20, "{seen} names");
+}

@@ -1,0 +1,297 @@
+//! Test of the dependencies between modules: the mechanics (chapter, solver) do not depend on proofs; claims
+//! and verify connect the two. Cargo separates the engine (number, formula, proof), which is independent of
+//! mechanics, and the command, on which nothing depends; these are crates of their own. Within the engine the
+//! kernel has a stricter limit.
+//!
+//! Sources are read as tokens: names in comments, strings and docs do not count, names within macros do.
+
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn source(path: impl AsRef<Path>) -> String {
+    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap()
+}
+
+/// Modules that each module may depend on.
+const KNOWS: [(&str, &[&str]); 8] = [
+    ("number", &[]),
+    ("formula", &["number"]),
+    ("proof", &["number", "formula"]),
+    ("chapter", &["number"]),
+    ("solver", &["number", "chapter"]),
+    ("claims", &["number", "formula", "chapter"]),
+    ("verify", &["number", "formula", "proof", "chapter", "solver", "claims"]),
+    ("check", &["number", "formula", "proof", "chapter", "solver", "claims"]),
+];
+
+/// Folders of the modules of the engine and of the chapter's crate.
+const SOURCES: [&str; 2] = ["engine/src", "src"];
+
+/// Returns the folders of the map under one of these, in its order.
+fn rooms(sources: &str) -> Vec<String> {
+    let map = source("README.md");
+    let lines = map.lines().filter_map(|line| line.strip_prefix(sources)?.strip_prefix('/'));
+    lines.map(|line| line.split_whitespace().next().unwrap().to_string()).collect()
+}
+
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let paths = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    paths.flat_map(|path| if path.is_dir() { files(&path) } else { vec![path] }).collect()
+}
+
+/// Returns the module of a file.
+fn module(path: &str) -> Vec<String> {
+    let path = SOURCES.iter().find_map(|sources| path.strip_prefix(sources)?.strip_prefix('/')).unwrap();
+    let path = path.trim_end_matches(".rs").trim_end_matches("/mod");
+    path.split('/').map(String::from).collect()
+}
+
+/// Returns the tokens after two colons, if the tokens begin with these.
+fn after_colons(tokens: &[TokenTree]) -> Option<&[TokenTree]> {
+    let colon = |token: &TokenTree| matches!(token, TokenTree::Punct(punct) if punct.as_char() == ':');
+    match tokens {
+        [a, b, rest @ ..] if colon(a) && colon(b) => Some(rest),
+        _ => None,
+    }
+}
+
+/// Returns the modules below the crate's root to which a path that begins within `start` leads, with all that
+/// a list in braces names.
+fn ends(start: &[String], path: &[TokenTree]) -> Vec<Vec<String>> {
+    match path {
+        [TokenTree::Ident(name), rest @ ..] if *name == "super" => {
+            let up = &start[..start.len().saturating_sub(1)];
+            after_colons(rest).map_or(vec![up.to_vec()], |rest| ends(up, rest))
+        }
+        [TokenTree::Ident(name), rest @ ..] => {
+            let below = [start, &[name.to_string()]].concat();
+            after_colons(rest).map_or_else(|| vec![below.clone()], |rest| ends(&below, rest))
+        }
+        [TokenTree::Group(list), ..] if list.delimiter() == Delimiter::Brace => {
+            let tokens: Vec<_> = list.stream().into_iter().collect();
+            let comma =
+                |token: &TokenTree| matches!(token, TokenTree::Punct(punct) if punct.as_char() == ',');
+            tokens.split(comma).flat_map(|path| ends(start, path)).collect()
+        }
+        _ => vec![start.to_vec()],
+    }
+}
+
+/// Returns the targets of the paths in these tokens that begin with a name of the crate or the engine,
+/// `super` or `self`.
+fn paths(tokens: TokenStream, own: &[String]) -> Vec<Vec<String>> {
+    let tokens: Vec<_> = tokens.into_iter().collect();
+    let mut found = Vec::new();
+    for (i, token) in tokens.iter().enumerate() {
+        match token {
+            TokenTree::Ident(name) => {
+                // Only the beginning of a::super::b counts, and not a `super` after another.
+                if i > 1 && after_colons(&tokens[i - 2..]).is_some() {
+                    continue;
+                }
+                let rest = after_colons(&tokens[i + 1..]);
+                match (name.to_string().as_str(), rest) {
+                    (start, Some(rest)) if ["crate", "provable"].contains(&start) => {
+                        found.extend(ends(&[], rest))
+                    }
+                    ("self", Some(rest)) => found.extend(ends(own, rest)),
+                    ("super", Some(_)) => found.extend(ends(own, &tokens[i..])),
+                    _ => {}
+                }
+            }
+            TokenTree::Group(group) => {
+                let inner = match &tokens[..i] {
+                    [.., TokenTree::Ident(keyword), TokenTree::Ident(name)] if *keyword == "mod" => {
+                        [own, &[name.to_string()]].concat()
+                    }
+                    _ => own.to_vec(),
+                };
+                found.extend(paths(group.stream(), &inner));
+            }
+            TokenTree::Punct(_) | TokenTree::Literal(_) => {}
+        }
+    }
+    found
+}
+
+/// Returns the module of a name at the crate's root that is not a module: macros of `number`, and a
+/// re-exported crate.
+fn room_of(name: &str) -> Option<&str> {
+    match name {
+        "operators" | "serialize_as_displayed" => Some("number"),
+        "rug" => None,
+        other => Some(other),
+    }
+}
+
+/// Returns the forbidden dependencies of one file.
+fn wrong_arrows(path: &str, text: &str) -> Vec<String> {
+    let known = |name: &str| KNOWS.iter().find(|(room, _)| *room == name).map(|(_, known)| *known);
+    let own = module(path);
+    let knows = known(&own[0]).unwrap_or_else(|| {
+        panic!("{path} is in no room: add its own to KNOWS in tests/layering.rs and to README.md")
+    });
+    let tokens = text.parse().unwrap_or_else(|error| panic!("{path}: {error}"));
+    let mut wrong: Vec<_> = paths(tokens, &own)
+        .into_iter()
+        .filter(|target| {
+            target.first().and_then(|name| room_of(name)).is_some_and(|name| {
+                assert!(known(name).is_some(), "{path} names {name}, which is in no room");
+                name != own[0] && !knows.contains(&name)
+            })
+        })
+        .map(|target| format!("{path} knows {}", target[0]))
+        .collect();
+    wrong.dedup();
+    wrong
+}
+
+/// Returns the files of the engine and of the chapter's crate, as paths in the project.
+fn sources() -> Vec<String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let files = SOURCES.iter().flat_map(|sources| files(&root.join(sources)));
+    files.map(|file| file.strip_prefix(root).unwrap().to_str().unwrap().replace('\\', "/")).collect()
+}
+
+#[test]
+fn each_room_knows_only_those_that_it_may() {
+    let (mut wrong, mut seen) = (Vec::new(), BTreeSet::new());
+    for path in sources() {
+        if path.ends_with(".rs") && !path.ends_with("src/lib.rs") {
+            wrong.extend(wrong_arrows(&path, &source(&path)));
+            seen.insert(module(&path)[0].clone());
+        }
+    }
+    assert!(
+        wrong.is_empty(),
+        "{wrong:#?}: by the list KNOWS of this test these rooms may not know each other; move what is shared to one \
+         that both may know"
+    );
+    assert_eq!(seen.len(), KNOWS.len(), "rooms of which a file was read: {seen:?}");
+}
+
+#[test]
+fn the_map_has_every_room() {
+    let mut all = Vec::new();
+    for sources in SOURCES {
+        let root = source(format!("{sources}/lib.rs"));
+        let declared = root.lines().filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';'));
+        let declared: BTreeSet<_> = declared.map(String::from).collect();
+        let rooms = rooms(sources);
+        // The table in the docs of the crate's root has the same order.
+        let places: Vec<_> = rooms.iter().filter_map(|room| root.find(&format!("| [`{room}`]"))).collect();
+        assert!(
+            places.is_sorted() && places.len() >= 2,
+            "the table in {sources}/lib.rs has its rows in another order than the map in README.md"
+        );
+        assert_eq!(
+            rooms.iter().cloned().collect::<BTreeSet<_>>(),
+            declared,
+            "each side has to have all: the rooms on the map in README.md, and the modules that {sources}/lib.rs declares"
+        );
+        all.extend(rooms);
+    }
+    let known: BTreeSet<_> = KNOWS.iter().map(|(room, _)| room.to_string()).collect();
+    assert_eq!(
+        all.into_iter().collect::<BTreeSet<_>>(),
+        known,
+        "each side has to have all: the rooms on the map in README.md, and those of the list KNOWS in this test"
+    );
+}
+
+/// Returns the files of the kernel.
+fn kernel() -> Vec<String> {
+    let kernel = |path: &String| path.starts_with("engine/src/proof/kernel");
+    sources().into_iter().filter(kernel).collect()
+}
+
+#[test]
+fn the_kernel_knows_numbers_and_statements_alone() {
+    // A reader of the trusted part needs to read nothing else of `proof`.
+    let mut known = BTreeSet::new();
+    for path in kernel() {
+        known.extend(paths(source(&path).parse().unwrap(), &module(&path)));
+    }
+    // `proof` alone is the visibility of a function; the kernel checks the results of the search.
+    let allowed = ["formula", "number", "operators", "proof", "proof::kernel", "proof::search"];
+    let room = |target: &Vec<String>| {
+        target[..target.len().min(if target[0] == "proof" { 2 } else { 1 })].join("::")
+    };
+    let others: Vec<_> = known.iter().map(room).filter(|room| !allowed.contains(&room.as_str())).collect();
+    assert!(
+        others.is_empty() && !known.is_empty(),
+        "the kernel knows {others:?}, of {known:?}: who reads what has to be trusted would have to read that, too"
+    );
+}
+
+/// Types that only the kernel constructs. Other parts of a derivation prove nothing by themselves.
+const SEALED: [&str; 6] = ["Proof", "Certificate", "Context", "Poly", "Ratio", "Monomial"];
+
+#[test]
+fn nothing_outside_the_kernel_sees_the_fields_that_proofs_are_made_of() {
+    let mut structures = Vec::new();
+    for path in kernel() {
+        for item in syn::parse_file(&source(&path)).unwrap().items {
+            let syn::Item::Struct(item) = item else { continue };
+            for field in &item.fields {
+                let sealed = match &field.vis {
+                    syn::Visibility::Inherited => true,
+                    syn::Visibility::Restricted(to) => {
+                        path != "engine/src/proof/kernel.rs" && to.path.is_ident("super")
+                    }
+                    syn::Visibility::Public(_) => false,
+                };
+                let is_part = SEALED.iter().all(|name| item.ident != name);
+                assert!(sealed || is_part, "{path}: a field of {} can be seen", item.ident);
+            }
+            structures.push(item.ident.to_string());
+        }
+    }
+    for name in SEALED {
+        assert!(structures.iter().any(|known| *known == name), "{name} is not among {structures:?}");
+    }
+}
+
+/// Tokens that are dependencies, and tokens that are not.
+#[test]
+fn arrows_are_found_wherever_they_are_written() {
+    let wrong = |path: &str, text: &str| wrong_arrows(path, text).len();
+    for text in [
+        "use crate::solver::solve;",
+        "use provable::formula::Statement;",
+        "use crate::{number::Exact, solver};",
+        "use crate::{number::{Exact, Field}, claims::{Case, Given}};",
+        "pub(crate) use super::super::verify;",
+        "use super::{gap, super::proof::prove};",
+        "fn f() -> crate::solver::State { todo!() }",
+        "macro_rules! m { () => { $crate::claims::entries() }; }",
+        "fn f() { println!(\"{}\", super::super::claims::entries().len()) }",
+        "mod tests { use super::super::super::proof; }",
+    ] {
+        assert_eq!(wrong("src/chapter/penalty.rs", text), 1, "{text}");
+    }
+    for text in [
+        "use crate::number::Field;",
+        "use super::{contact, system};",
+        "use crate::operators;",
+        "/// As [`solve`](crate::solver::solve) has it.\nfn f() {}",
+        "//! [`solve`](crate::solver::solve)",
+        "// crate::solver::solve",
+        "const S: &str = \"crate::solver::solve\";",
+        "pub(crate) fn f() { other::crate_::solver(); }",
+        "mod tests { use super::*; use super::super::contact; }",
+    ] {
+        assert_eq!(wrong("src/chapter/penalty.rs", text), 0, "{text}");
+    }
+    assert_eq!(wrong("src/chapter/mod.rs", "use super::solver;"), 1);
+    assert_eq!(wrong("src/solver.rs", "use super::claims;"), 1);
+    for text in
+        ["use crate::chapter::system;", "use crate::claims::hypotheses;", "use super::super::solver::solve;"]
+    {
+        assert_eq!(wrong("engine/src/proof/kernel.rs", text), 1, "{text}");
+    }
+    assert_eq!(wrong("engine/src/proof/kernel.rs", "use crate::formula::{Claim, statement};"), 0);
+    assert_eq!(wrong("src/solver.rs", "use self::check::claims;"), 0);
+}

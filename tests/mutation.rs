@@ -1,0 +1,222 @@
+//! Mutation tests of the proofs: false statements are detected, and not proved.
+#![cfg(feature = "prover")]
+
+use rayon::prelude::*;
+use spring_mass_contact::claims::{hypotheses, registry, statements};
+use spring_mass_contact::formula::claim::PRECISION;
+use spring_mass_contact::formula::statement::minimum_precision;
+use spring_mass_contact::formula::{Hypothesis, Relation, Statement};
+use spring_mass_contact::number::Exact;
+use spring_mass_contact::number::tree::{Op, piecewise_ops};
+use spring_mass_contact::proof::mutation::{
+    DropOutcome, MutationOutcome, MutationReport, mutants, test_mutations,
+};
+use spring_mass_contact::proof::refute::{Point, Verdict, check, constructed_points, integer_points};
+use spring_mass_contact::proof::{Counterexample, prove};
+use spring_mass_contact::rug::Rational;
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+/// Mutations and dropped hypotheses of all statements, shared by the tests.
+static REPORT: LazyLock<MutationReport> = LazyLock::new(|| test_mutations(&statements(), registry()));
+
+fn symbols() -> Vec<&'static str> {
+    registry().symbols_of(statements().iter().flat_map(Statement::trees))
+}
+
+fn value(hypothesis: &Hypothesis, point: &Point) -> Exact {
+    let beyond = |step: Op<&Exact>| match step {
+        Op::Rounded(x) => x.round_to_bits(point.at(PRECISION).as_rational().numer().significant_bits() - 1),
+        step => piecewise_ops(step),
+    };
+    hypothesis.value.eval(&|symbol| point.at(symbol), &beyond).unwrap()
+}
+
+#[test]
+fn no_change_of_a_formula_goes_unnoticed() {
+    let report = &*REPORT;
+    let unnoticed = report.mutants.iter().filter(|(_, effect)| matches!(effect, MutationOutcome::Undetected));
+    let unnoticed: Vec<_> = unnoticed.map(|(change, _)| change.to_string()).collect();
+    assert!(unnoticed.is_empty(), "no claim in src/claims notices these, and one should: {unnoticed:#?}");
+    assert!(report.summary().noticed > 600, "{:?}", report.summary());
+}
+
+#[test]
+fn what_changes_nothing_is_only_the_order_in_a_square() {
+    for (change, effect) in &REPORT.mutants {
+        if matches!(effect, MutationOutcome::Equivalent) {
+            assert!(change.to_string().ends_with("a − b → b − a"), "{change}");
+        }
+    }
+}
+
+#[test]
+fn no_hypothesis_is_needless() {
+    for dropped in &REPORT.dropped {
+        let what = format!(
+            "{} {}: {}",
+            dropped.equation,
+            dropped.name,
+            registry().format_hypothesis(&dropped.hypothesis)
+        );
+        let needed = matches!(dropped.outcome, DropOutcome::Refuted(_)) || dropped.is_precision_only();
+        assert!(needed, "{what}: nothing refutes the claim without it, so take it out");
+        // So it is with one hypothesis, and of no other kind.
+        assert_eq!(dropped.is_precision_only(), dropped.hypothesis == hypotheses().fine_enough, "{what}");
+    }
+    let was_dropped = |s: &Statement, given: &Hypothesis| {
+        REPORT.dropped.iter().any(|d| (d.equation, d.name, &d.hypothesis) == (s.equation(), s.name(), given))
+    };
+    for s in statements() {
+        for given in s.hypotheses().iter().filter(|given| **given != minimum_precision()) {
+            assert!(was_dropped(&s, given), "{} {}: nobody tried it without {given}", s.equation(), s.name());
+        }
+    }
+}
+
+/// Returns the statement with > 0 weakened to ≥ 0 in a hypothesis.
+fn weakened(statement: &Statement, hypothesis: &Hypothesis) -> Option<Statement> {
+    let mut hypotheses = statement.stated_hypotheses().to_vec();
+    let own = hypotheses.iter_mut().find(|own| *own == hypothesis && own.relation == Relation::Positive)?;
+    own.relation = Relation::NonNegative;
+    Some(statement.clone().only_assuming(&hypotheses))
+}
+
+/// Returns every statement near a claim: with a mutation of the source, or with a hypothesis dropped or
+/// weakened.
+fn neighbours(statements: &[Statement]) -> Vec<(String, Statement)> {
+    let mutants = mutants(statements, registry());
+    let near = |s: &Statement| {
+        let name = format!("{} {}", s.equation(), s.name());
+        let near: Vec<_> =
+            mutants.iter().filter_map(|c| Some((format!("{name} after {c}"), c.apply(s)?))).collect();
+        // Of what takes long, some.
+        let every = if s.kind() == "drift" { 7 } else { 1 };
+        let mut near: Vec<_> = near.into_iter().step_by(every).collect();
+        for given in s.hypotheses() {
+            near.push((format!("{name} without {given}"), s.without(given)));
+            near.extend(weakened(s, given).map(|weaker| (format!("{name} with {given} or = 0"), weaker)));
+        }
+        near
+    };
+    statements.par_iter().flat_map_iter(near).collect()
+}
+
+/// Returns a statement for each goal, so that the failure of one goal does not hide that of another. The
+/// goals of an induction, or with computed quantities, are only meaningful together.
+fn goal_by_goal((name, statement): (String, Statement)) -> Vec<(String, Statement)> {
+    if matches!(statement.kind(), "induction" | "drift") || !statement.computed().is_empty() {
+        return vec![(name, statement)];
+    }
+    let goals = statement.goals().iter();
+    goals.map(|goal| (name.clone(), statement.with_proposition(goal.proposition.clone()))).collect()
+}
+
+#[test]
+fn what_numbers_refute_is_not_proved() {
+    let fails = |s: &Statement, point: &Point| matches!(check(s, point), Verdict::Fails(..));
+    let symbols = symbols();
+    let audited = neighbours(&statements()).into_par_iter().flat_map_iter(goal_by_goal);
+    let audited = audited.map(|(name, s)| {
+        // Where there is a proof, numbers search for long. Where there is none, a few tell whether that is
+        // because the statement is false.
+        let proved = prove(&s).is_ok();
+        let (planted, raw) = if proved { (12, 60) } else { (4, 8) };
+        let planted =
+            constructed_points(s.hypotheses(), &symbols).take(planted).find(|point| fails(&s, point));
+        let raw = integer_points(s.hypotheses(), &symbols).take(raw).find(|point| fails(&s, point));
+        for point in planted.iter().chain(&raw) {
+            assert!(!proved, "{name} is proved, and false at {point}");
+        }
+        [planted.is_some(), raw.is_some(), proved].map(usize::from)
+    });
+    let add = |a: [usize; 3], b: [usize; 3]| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
+    let [planted, raw, proved] = audited.reduce(|| [0; 3], add);
+    assert!(planted > 1000 && raw > 1000 && proved > 100, "{planted} planted, {raw} raw; {proved} proved");
+}
+
+#[test]
+fn points_reach_all_that_hypotheses_allow() {
+    let symbols = symbols();
+    let mut combinations: BTreeMap<String, Statement> = BTreeMap::new();
+    for s in statements() {
+        combinations.insert(s.hypotheses().iter().map(|h| format!("{h}, ")).collect(), s);
+    }
+    for (name, s) in combinations {
+        let planted: Vec<_> = constructed_points(s.hypotheses(), &symbols).collect();
+        let raw: Vec<_> = integer_points(s.hypotheses(), &symbols).collect();
+        assert!(
+            planted.len() > 20 && !raw.is_empty(),
+            "{name}: {} planted, {} raw",
+            planted.len(),
+            raw.len()
+        );
+        // What may be 0 is so at some, and is not at others.
+        for hypothesis in s.hypotheses() {
+            let sign = |point: &Point| value(hypothesis, point).cmp(&Exact::from(0));
+            for points in [&planted, &raw] {
+                let (zero, positive) = (
+                    points.iter().any(|point| sign(point) == Ordering::Equal),
+                    points.iter().any(|point| sign(point) == Ordering::Greater),
+                );
+                let expected = match hypothesis.relation {
+                    Relation::Positive => (false, true),
+                    Relation::NonNegative => (true, true),
+                    Relation::Zero => (true, false),
+                };
+                // No small integers make 2ᵖ + 1 a multiple of 64, and two bits would be too few.
+                let fine = &hypotheses().fine_enough;
+                let never = hypothesis == fine && std::ptr::eq(points, &raw)
+                    || *hypothesis == minimum_precision() && s.hypotheses().contains(fine);
+                let zero = zero || never;
+                assert_eq!((zero, positive), expected, "{name}: {hypothesis}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_counterexample_has_all_hypotheses_but_the_dropped_one() {
+    let statements = statements();
+    for dropped in REPORT.dropped.iter().filter(|dropped| !dropped.is_precision_only()) {
+        let what = format!("{} {} without {}", dropped.equation, dropped.name, dropped.hypothesis);
+        let DropOutcome::Refuted(refutation) = &dropped.outcome else {
+            panic!("{what}: nothing refutes it, so the hypothesis is not needed: take it out of the claim")
+        };
+        let counterexample = refutation.counterexample();
+        // An induction's invariants may go with the hypothesis.
+        let of =
+            statements.iter().find(|s| (s.equation(), s.name()) == (dropped.equation, dropped.name)).unwrap();
+        for given in of.hypotheses() {
+            let sign = value(given, &counterexample.point).cmp(&Exact::from(0));
+            let expected = *given != dropped.hypothesis;
+            assert_eq!(given.relation.admits(sign), expected, "{what}: {given} at {counterexample}");
+        }
+    }
+}
+
+#[test]
+fn counterexamples_are_small() {
+    let report = &*REPORT;
+    let noticed = report.mutants.iter().filter_map(|(change, outcome)| match outcome {
+        MutationOutcome::Detected { refutation, .. } => {
+            Some((change.to_string(), refutation.counterexample()))
+        }
+        MutationOutcome::Equivalent | MutationOutcome::Undetected => None,
+    });
+    let dropped = report.dropped.iter().filter_map(|dropped| match &dropped.outcome {
+        DropOutcome::Refuted(refutation) => Some((format!("{dropped:?}"), refutation.counterexample())),
+        DropOutcome::StillProved | DropOutcome::Undecided => None,
+    });
+    let size = |c: &Counterexample| {
+        let whole = |(name, _): &(&str, &Exact)| *name != PRECISION;
+        let coordinates = c.point.coordinates().filter(whole).map(|(_, x)| x.as_rational());
+        let larger = |q: &Rational| q.numer().to_i32().unwrap().abs().max(q.denom().to_i32().unwrap());
+        coordinates.map(larger).max().unwrap_or(0)
+    };
+    // Raw points are integers of this size, and nearly all that is wrong shows at one of them.
+    for (what, counterexample) in noticed.chain(dropped) {
+        assert!(size(&counterexample) <= 9, "{what}: {counterexample}");
+    }
+}
