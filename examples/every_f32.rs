@@ -343,7 +343,7 @@ fn main() -> ExitCode {
 }
 
 #[test]
-fn it_finds_nothing_in_some() {
+fn a_sample_of_patterns_has_no_violations() {
     for parameter in &PARAMETERS {
         // A prime, so that the last bits vary with the first.
         let tally = try_parameter(parameter, 4_000_037);
@@ -354,7 +354,7 @@ fn it_finds_nothing_in_some() {
 
 /// Cases that balls do not decide: grazing, R = 1·10 − 4 (3.5 − 1) = 0, and a bound equal to the solution.
 #[test]
-fn rationals_decide_where_balls_do_not() {
+fn rationals_decide_where_balls_are_inconclusive() {
     let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.5 };
     let mut oracle = Oracle::new(&system, None);
     assert_eq!((oracle.state, oracle.by_rationals), (Ordering::Equal, true));

@@ -20,12 +20,12 @@ const SYSTEMS: [SpringMass<f64>; 5] = [
 ];
 
 #[test]
-fn counting_works() {
+fn allocations_are_counted() {
     assert_eq!(counted(|| vec![1]).0, 1);
 }
 
 #[test]
-fn solving_in_machine_floats_allocates_nothing() {
+fn solving_in_machine_floats_does_not_allocate() {
     let mut outcomes = Vec::new();
     for system in &SYSTEMS {
         for tolerance in [1e-3, 1e-30] {
@@ -54,7 +54,7 @@ fn solving_in_machine_floats_allocates_nothing() {
 }
 
 #[test]
-fn neither_does_f32_nor_the_state() {
+fn solving_in_f32_and_state_do_not_allocate() {
     for system in &SYSTEMS {
         let narrow = system.map(|x| *x as f32);
         let method = Method::Augmented { penalty: 50.0, tolerance: 1e-3, max_augmentations: 99, start: 0.0 };

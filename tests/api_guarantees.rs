@@ -13,7 +13,7 @@ fn copied<T: Copy>() {}
 fn error<T: std::error::Error + Clone + PartialEq + Send + Sync + 'static>() {}
 
 #[test]
-fn values_have_the_common_traits() {
+fn public_types_have_the_common_traits() {
     value::<SpringMass<f64>>();
     value::<Solution<f64>>();
     value::<Bounds<f64>>();
@@ -39,7 +39,7 @@ fn values_have_the_common_traits() {
 
 #[cfg(feature = "mpfr")]
 #[test]
-fn numbers_and_what_needs_them_have_them_too() {
+fn public_types_with_mpfr_have_the_common_traits() {
     use spring_mass_contact::number::{
         Exact, Mpfr, NonFiniteError, NumberSystem, ParseError, RangeError, UnknownNumberSystem,
     };

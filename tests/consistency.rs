@@ -77,7 +77,7 @@ fn assert_none(amiss: impl IntoIterator<Item = String>) {
 }
 
 #[test]
-fn every_number_of_the_chapter_has_an_entry_and_claims() {
+fn every_equation_of_the_chapter_has_an_entry_and_claims() {
     assert_none((1..=33).map(|n| format!("1.{n}")).filter_map(|number| {
         if entry(&number).is_none() {
             Some(format!("({number}) has no entry: add it to its section's file in src/claims"))
@@ -98,7 +98,7 @@ fn entries_are_unique() {
 }
 
 #[test]
-fn what_follows_from_what_has_no_cycle() {
+fn derivations_have_no_cycle() {
     for e in entries() {
         for premise in &e.follows_from {
             assert!(
@@ -129,7 +129,7 @@ fn what_follows_from_what_has_no_cycle() {
 }
 
 #[test]
-fn every_entry_names_a_function_that_exists() {
+fn every_function_of_an_entry_exists() {
     let items: BTreeSet<_> = items().into_iter().map(|item| item.path).collect();
     let named = entries().iter().flat_map(|e| e.functions.iter().map(move |function| (e.equation, function)));
     assert_none(named.filter(|(_, function)| !items.contains(**function)).map(|(equation, function)| {
@@ -140,7 +140,7 @@ fn every_entry_names_a_function_that_exists() {
 }
 
 #[test]
-fn every_function_is_named_by_an_entry() {
+fn every_function_belongs_to_an_entry() {
     let named: BTreeSet<_> = entries().iter().flat_map(|e| e.functions.iter().copied()).collect();
     let unnamed = items().into_iter().filter(|item| !named.contains(item.path.as_str()));
     assert_none(unnamed.map(|Item { path, .. }| {
@@ -173,7 +173,7 @@ fn the_book_shows_every_function() {
 }
 
 #[test]
-fn every_claim_belongs_to_an_entry_under_a_name_of_its_own() {
+fn every_claim_has_an_entry_and_a_unique_name() {
     let report = verify(&Options { cases: 1, ..Options::default() }, &|_, _| ());
     let mut rows = BTreeSet::new();
     for row in &report.rows {
@@ -194,7 +194,7 @@ fn every_claim_belongs_to_an_entry_under_a_name_of_its_own() {
 /// Every hypothesis of an entry is one of some claim, since it would otherwise be unnecessary; and a
 /// hypothesis common to all claims is one of the entry, or in its statement.
 #[test]
-fn entries_suppose_what_their_claims_suppose() {
+fn the_hypotheses_of_entries_match_those_of_their_claims() {
     let recorded = claims().map(|c| (c.equation(), c.stated_hypotheses().to_vec()));
     let floats = float_experiments::<f64>().into_iter();
     let floats = floats.map(|e| (e.equation, e.given));
@@ -255,7 +255,7 @@ fn undocumented(Item { docs, .. }: &Item) -> Option<String> {
 }
 
 #[test]
-fn every_formula_for_the_eye_is_the_one_that_is_computed() {
+fn every_documented_formula_is_the_computed_one() {
     // A check with the outcome yes or no, which leaves no tree.
     const UNRECORDED: [&str; 1] = ["augmented::within_tolerance"];
     let formula = |l: &&String| is_formula(l);
@@ -285,7 +285,7 @@ fn every_formula_for_the_eye_is_the_one_that_is_computed() {
 }
 
 #[test]
-fn every_hole_in_an_entry_is_filled() {
+fn every_placeholder_of_an_entry_is_replaced() {
     for e in entries() {
         let latex = e.latex();
         let left = |text: &str| text.contains(['«', '»']);
@@ -313,7 +313,7 @@ fn claimed(section: &str) -> String {
 }
 
 #[test]
-fn every_function_is_claimed_something_of() {
+fn every_function_occurs_in_a_claim() {
     let sections = modules().into_iter().chain(["notes", "hypotheses"].map(String::from));
     let mut texts: BTreeMap<String, String> = sections.map(|name| (name.clone(), claimed(&name))).collect();
     texts.insert("experiments".to_string(), source("src/verify/experiments.rs"));
@@ -412,7 +412,7 @@ fn by_default_every_claim_is_decided_in_every_number_system() {
 }
 
 #[test]
-fn rounding_stays_within_bounds_that_are_not_idle() {
+fn rounding_errors_attain_a_good_part_of_their_bounds() {
     // If bounds were far too wide, nothing would come near them and the claims would be empty.
     let options = Options { scalars: vec![NumberSystem::F64], cases: 200, ..Options::default() };
     let report = verify(&options, &|_, _| ());
@@ -467,7 +467,7 @@ fn every_file_belongs_to_a_module() {
 
 /// An untested number system could compute anything.
 #[test]
-fn every_number_system_is_held_to_the_laws() {
+fn every_number_system_is_tested_for_the_laws() {
     if is_packed() {
         return eprintln!("the number systems are those of another crate");
     }
@@ -492,7 +492,7 @@ fn every_number_system_is_held_to_the_laws() {
 }
 
 #[test]
-fn no_line_of_the_source_is_longer_than_a_reader_likes() {
+fn no_line_of_the_source_has_more_than_110_characters() {
     let files = of_all("src");
     assert!(files.len() > 70, "the scan of src finds {} files", files.len());
     assert_none(files.iter().flat_map(|path| {
@@ -505,7 +505,7 @@ fn no_line_of_the_source_is_longer_than_a_reader_likes() {
 }
 
 #[test]
-fn no_file_of_the_source_is_longer_than_a_reader_can_hold() {
+fn no_file_of_the_source_has_more_than_450_lines() {
     for path in of_all("src") {
         let lines = source(&path).lines().count();
         assert!(lines <= 450, "{path} has {lines} lines, and 450 are enough: split it by a noun");
@@ -513,7 +513,7 @@ fn no_file_of_the_source_is_longer_than_a_reader_can_hold() {
 }
 
 #[test]
-fn every_planted_edit_still_applies() {
+fn every_seeded_fault_applies() {
     if is_packed() {
         return eprintln!("the wrong edits are in the repository alone");
     }
@@ -554,7 +554,7 @@ fn patches() -> BTreeSet<String> {
 
 /// `tests/seeded_faults/run` records which test detects which fault.
 #[test]
-fn every_planted_edit_is_known_to_be_caught() {
+fn every_seeded_fault_is_detected_by_an_existing_test() {
     if is_packed() {
         return eprintln!("the wrong edits are in the repository alone");
     }
@@ -610,7 +610,7 @@ fn every_planted_edit_is_known_to_be_caught() {
 
 /// Every target that could detect a mistake belongs to a layer.
 #[test]
-fn every_target_of_tests_has_a_layer() {
+fn every_test_target_has_a_layer() {
     if is_packed() {
         return eprintln!("the wrong edits are in the repository alone");
     }

@@ -47,7 +47,7 @@ fn every_claim_is_a_theorem() {
 
 /// A theorem whose axioms are not printed could rest on anything.
 #[test]
-fn of_all_that_is_proved_it_is_asked_what_it_rests_on() {
+fn the_assumptions_of_all_theorems_are_printed() {
     let files = coq().files();
     let [.., of_iterates, last] = &files[..] else { panic!("{files:?}") };
     let by_hand = ["theorem_1_3_3", "eq_1_33_steps", "beyond_2_varying_converges", "contacts_contract"];
@@ -71,7 +71,7 @@ fn of_all_that_is_proved_it_is_asked_what_it_rests_on() {
 
 /// Coq defines division by 0, so a formula with a divisor needs more than its theorem.
 #[test]
-fn every_divisor_is_said_not_to_be_0() {
+fn every_divisor_is_proved_to_be_nonzero() {
     let (_, functions) = printed();
     let theorems = theorems();
     for statement in claims::statements() {
@@ -117,7 +117,7 @@ fn every_function_is_a_definition() {
 
 /// A definition without a theorem could be any other.
 #[test]
-fn every_definition_is_named_by_a_theorem() {
+fn every_definition_occurs_in_a_theorem() {
     let files = coq().files();
     let texts: Vec<_> = of_claims(&files).map(|file| code(&file.text)).collect();
     let known: BTreeSet<_> = texts.iter().flat_map(|text| stated(text)).flat_map(words).collect();
@@ -175,7 +175,7 @@ fn same(a: &Tree, b: &Tree) -> bool {
 
 /// An independent reader parses the printed text.
 #[test]
-fn every_definition_computes_what_its_function_does() {
+fn every_definition_equals_its_function() {
     let (_, functions) = printed();
     for formula in registry().formulas() {
         let name = formula.name().replace("::", "_").replace('.', "_");
@@ -322,7 +322,7 @@ fn theorems() -> Vec<Theorem> {
 
 /// A theorem weaker than its claim would be as easy to prove.
 #[test]
-fn every_theorem_says_what_its_claim_does() {
+fn every_theorem_states_its_claim() {
     let (_, functions) = printed();
     let theorems = theorems();
     for statement in claims::statements() {
@@ -358,7 +358,7 @@ fn no_theorem_is_false() {
 
 /// fl is the rounding to nearest of Flocq in all files.
 #[test]
-fn what_is_rounded_is_so_by_flocq() {
+fn rounding_is_that_of_flocq() {
     let files = coq().files();
     let text = code(&files.iter().find(|file| file.name == "B_Rounding.v").unwrap().text);
     let (_, definition) = text.split_once("Definition fl ").unwrap();
@@ -376,7 +376,7 @@ fn what_is_rounded_is_so_by_flocq() {
 
 /// A theorem with inconsistent premises could state anything.
 #[test]
-fn every_law_is_tried_in_numbers() {
+fn the_hypotheses_of_every_law_hold_in_some_trials() {
     let (_, functions) = printed();
     let laws: BTreeSet<_> = claims::statements()
         .iter()
@@ -395,7 +395,7 @@ fn every_law_is_tried_in_numbers() {
 /// If a theorem has the same call on both sides, the definition could be any. An inequality may detect only a
 /// smaller value.
 #[test]
-fn no_definition_could_be_another() {
+fn every_changed_definition_makes_a_theorem_false() {
     let (definitions, _) = printed();
     let theorems = theorems();
     for definition in &definitions {
@@ -412,7 +412,7 @@ fn no_definition_could_be_another() {
 
 /// A mutant for Coq has to be wrong, and has to be readable.
 #[test]
-fn every_flip_changes_one_sign_and_makes_a_theorem_false() {
+fn every_sign_mutant_changes_one_sign_and_makes_a_theorem_false() {
     let (definitions, _) = printed();
     let sign = |token: &&String| ["+", "-"].contains(&token.as_str());
     let signs: usize = definitions.iter().map(|definition| definition.body.iter().filter(sign).count()).sum();
@@ -464,7 +464,7 @@ fn no_name_is_used_twice() {
 }
 
 #[test]
-fn nothing_is_taken_for_granted() {
+fn no_file_assumes_axioms_or_unproved_facts() {
     for file in coq().files() {
         let text = code(&file.text);
         let mut open = 0;
@@ -519,7 +519,7 @@ fn refused(directory: &Path, File { name, text }: &File) -> Option<String> {
 /// After a changed sign in any definition some theorem about it is no longer proved.
 #[test]
 #[ignore = "asks Coq once for every sign of the chapter, which takes a minute or two; .ci/run does"]
-fn coq_refuses_a_changed_sign() {
+fn coq_rejects_every_changed_sign() {
     if version().is_none() || !has_libraries("signs") {
         return;
     }
@@ -536,7 +536,7 @@ fn coq_refuses_a_changed_sign() {
 }
 
 #[test]
-fn a_refusal_is_that_of_a_theorem() {
+fn a_line_is_attributed_to_its_theorem() {
     let text =
         "Definition f := 1.\n\nLemma one : f = 1.\nProof.\n  reflexivity.\nQed.\nTheorem two_a : f = 2.\n";
     let found = [1, 2, 3, 6, 7].map(|line| theorem_at(text, line));

@@ -85,7 +85,7 @@ proptest! {
 
     /// Six exponents in a formula: nothing underflows.
     #[test]
-    fn num_dual_and_ours_agree_with_the_exact_derivative_to_the_roundings_made((system, eps) in systems()) {
+    fn derivatives_in_f64_are_within_the_rounding_error_bound((system, eps) in systems()) {
         let (system, x) = (system.map(|x| x.to_f64().unwrap()), eps.to_f64().unwrap());
         let (rational, eps) = (system.map(exact), exact(&x));
 
@@ -125,7 +125,7 @@ proptest! {
     /// ⟨·⟩ and the like have the right-hand derivative, and minus that of a decreasing variable is the
     /// left-hand one: difference quotients with a step that does not reach the next kink.
     #[test]
-    fn at_a_kink_the_derivative_is_that_of_the_side(
+    fn derivatives_at_a_kink_are_one_sided(
         (mut system, eps) in systems(), r in prop_oneof![Just(0), -3..=3], step in number(NARROW),
     ) {
         // Grazing in one case of two: R = r.
@@ -162,7 +162,7 @@ proptest! {
 
     /// The iteration (1.16) is differentiated with respect to ε like its closed forms.
     #[test]
-    fn an_augmentation_in_duals_has_the_derivative_of_its_closed_form((system, eps) in systems(), k in 0..6usize) {
+    fn an_augmentation_has_the_derivative_of_its_closed_form((system, eps) in systems(), k in 0..6usize) {
         let (lifted, eps) = (constants(&system), Dual::variable(eps));
         let step = Augmentation::new(&lifted, &eps).over(Plane::Bilateral).nth(k).unwrap();
         let rho = augmented::contraction(&lifted, &eps);

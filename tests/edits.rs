@@ -356,7 +356,7 @@ const LIMIT: Duration = Duration::from_secs(10);
 /// A sample of a hundred mutations, or of `EDITS`.
 #[test]
 #[ignore = "builds a copy of the project and runs it many times: some minutes"]
-fn a_mistake_in_any_formula_is_reported_in_time() {
+fn mistakes_in_formulas_are_reported_in_time() {
     let (folder, made, left) = copy();
     let left: Vec<_> = left.iter().map(Mutant::to_string).collect();
     say(&format!("{} edits; the source has no place for {left:#?}", made.len()));

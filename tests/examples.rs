@@ -15,7 +15,7 @@ fn promised(source: &str) -> Option<String> {
 }
 
 #[test]
-fn examples_print_what_they_say() {
+fn examples_print_their_documented_output() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut seen = 0;
     for entry in fs::read_dir(root.join("examples")).unwrap() {

@@ -53,7 +53,7 @@ fn with(claim: &Statement, part: &Tree, times: (i32, i32)) -> Statement {
 
 /// Each constant of each law, a fraction of it that is too small, and a run of floats that shows this.
 #[test]
-fn no_constant_of_a_law_can_be_much_less() {
+fn the_constants_of_the_laws_are_nearly_attained() {
     let s = &symbols().system;
     let (u, lambda) = (&symbols().u, &symbols().lambda);
     let int = |n: i32| Tree::from(n);
@@ -181,7 +181,7 @@ fn bound(claim: &Statement) -> &Tree {
 
 /// Another order of operations, equal in exact arithmetic, satisfies another law.
 #[test]
-fn the_order_of_operations_is_part_of_a_law() {
+fn a_law_depends_on_the_order_of_operations() {
     let x = symbols();
     let (s, eps, u) = (&x.system, &x.eps, &x.u);
     let error = law("1.13", "float-error");
@@ -276,7 +276,7 @@ proptest! {
 
     /// No radius of a ball is smaller than the proved bound.
     #[test]
-    fn the_radius_of_a_ball_is_no_less_than_what_is_proved(seed in any::<u64>()) {
+    fn the_radius_of_a_ball_is_at_least_the_proved_radius(seed in any::<u64>()) {
         let x = |name| Ball::point(f64::from(drawn(seed, name)));
         let [a, b] = [x("u") / x("v") * x("w"), x("c") / x("m") + x("g")];
         let at = |name: &str| match name {
@@ -296,19 +296,19 @@ proptest! {
     }
 
     #[test]
-    fn what_is_recorded_as_rounded_is_what_f64_computes(seed in any::<u64>()) {
+    fn rounded_records_agree_with_f64(seed in any::<u64>()) {
         let at = |name: &'static str| f64::from(drawn(seed, name)) / 1024.0;
         records_round_as_floats_do(53, &at, computed(&at))?;
     }
 
     #[test]
-    fn what_is_recorded_as_rounded_is_what_f32_computes(seed in any::<u64>()) {
+    fn rounded_records_agree_with_f32(seed in any::<u64>()) {
         let at = |name: &'static str| drawn(seed, name) as f32 / 1024.0;
         records_round_as_floats_do(24, &at, computed(&at))?;
     }
 
     #[test]
-    fn what_is_recorded_as_rounded_is_what_three_bits_compute(seed in any::<u64>()) {
+    fn rounded_records_agree_with_mpfr_of_three_bits(seed in any::<u64>()) {
         let at = |name: &'static str| {
             let x = rug::Rational::from((drawn(seed, name), 1024));
             Mpfr::rounded(3, &x)
@@ -341,7 +341,7 @@ fn radii() -> [(Tree, Tree, Tree, Vec<Hypothesis>); 4] {
 }
 
 #[test]
-fn the_radius_of_a_ball_encloses_for_every_precision() {
+fn the_radius_of_a_ball_is_proved_for_every_precision() {
     let [a, b, x, y, r, s] = ["a", "b", "x", "y", "r", "s"].map(|name| Tree::symbol(name));
     for (meant, value, radius, given) in radii() {
         let near = [Hypothesis::near(&x, &a, &r), Hypothesis::near(&y, &b, &s)];

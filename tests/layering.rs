@@ -156,7 +156,7 @@ fn sources() -> Vec<String> {
 }
 
 #[test]
-fn each_room_knows_only_those_that_it_may() {
+fn each_module_uses_only_those_that_it_may() {
     let (mut wrong, mut seen) = (Vec::new(), BTreeSet::new());
     for path in sources() {
         if path.ends_with(".rs") && !path.ends_with("src/lib.rs") {
@@ -173,7 +173,7 @@ fn each_room_knows_only_those_that_it_may() {
 }
 
 #[test]
-fn the_map_has_every_room() {
+fn the_map_lists_every_module() {
     let mut all = Vec::new();
     for sources in SOURCES {
         let root = source(format!("{sources}/lib.rs"));
@@ -208,7 +208,7 @@ fn kernel() -> Vec<String> {
 }
 
 #[test]
-fn the_kernel_knows_numbers_and_statements_alone() {
+fn the_kernel_uses_only_numbers_and_statements() {
     // A reader of the trusted part needs to read nothing else of `proof`.
     let mut known = BTreeSet::new();
     for path in kernel() {
@@ -230,7 +230,7 @@ fn the_kernel_knows_numbers_and_statements_alone() {
 const SEALED: [&str; 6] = ["Proof", "Certificate", "Context", "Poly", "Ratio", "Monomial"];
 
 #[test]
-fn nothing_outside_the_kernel_sees_the_fields_that_proofs_are_made_of() {
+fn the_fields_of_proofs_are_private_to_the_kernel() {
     let mut structures = Vec::new();
     for path in kernel() {
         for item in syn::parse_file(&source(&path)).unwrap().items {
@@ -256,7 +256,7 @@ fn nothing_outside_the_kernel_sees_the_fields_that_proofs_are_made_of() {
 
 /// Tokens that are dependencies, and tokens that are not.
 #[test]
-fn arrows_are_found_wherever_they_are_written() {
+fn dependencies_are_found_wherever_they_are_written() {
     let wrong = |path: &str, text: &str| wrong_arrows(path, text).len();
     for text in [
         "use crate::solver::solve;",

@@ -34,7 +34,7 @@ fn value(hypothesis: &Hypothesis, point: &Point) -> Exact {
 }
 
 #[test]
-fn no_change_of_a_formula_goes_unnoticed() {
+fn every_mutant_is_detected() {
     let report = &*REPORT;
     let unnoticed = report.mutants.iter().filter(|(_, effect)| matches!(effect, MutationOutcome::Undetected));
     let unnoticed: Vec<_> = unnoticed.map(|(change, _)| change.to_string()).collect();
@@ -43,7 +43,7 @@ fn no_change_of_a_formula_goes_unnoticed() {
 }
 
 #[test]
-fn what_changes_nothing_is_only_the_order_in_a_square() {
+fn the_only_equivalent_mutants_exchange_operands_in_a_square() {
     for (change, effect) in &REPORT.mutants {
         if matches!(effect, MutationOutcome::Equivalent) {
             assert!(change.to_string().ends_with("a − b → b − a"), "{change}");
@@ -52,7 +52,7 @@ fn what_changes_nothing_is_only_the_order_in_a_square() {
 }
 
 #[test]
-fn no_hypothesis_is_needless() {
+fn no_hypothesis_is_redundant() {
     for dropped in &REPORT.dropped {
         let what = format!(
             "{} {}: {}",
@@ -114,7 +114,7 @@ fn goal_by_goal((name, statement): (String, Statement)) -> Vec<(String, Statemen
 }
 
 #[test]
-fn what_numbers_refute_is_not_proved() {
+fn refuted_variants_are_not_proved() {
     let fails = |s: &Statement, point: &Point| matches!(check(s, point), Verdict::Fails(..));
     let symbols = symbols();
     let audited = neighbours(&statements()).into_par_iter().flat_map_iter(goal_by_goal);
@@ -137,7 +137,7 @@ fn what_numbers_refute_is_not_proved() {
 }
 
 #[test]
-fn points_reach_all_that_hypotheses_allow() {
+fn points_attain_the_equality_and_inequality_of_each_hypothesis() {
     let symbols = symbols();
     let mut combinations: BTreeMap<String, Statement> = BTreeMap::new();
     for s in statements() {
@@ -177,7 +177,7 @@ fn points_reach_all_that_hypotheses_allow() {
 }
 
 #[test]
-fn a_counterexample_has_all_hypotheses_but_the_dropped_one() {
+fn counterexamples_satisfy_all_hypotheses_except_the_dropped_one() {
     let statements = statements();
     for dropped in REPORT.dropped.iter().filter(|dropped| !dropped.is_precision_only()) {
         let what = format!("{} {} without {}", dropped.equation, dropped.name, dropped.hypothesis);
@@ -197,7 +197,7 @@ fn a_counterexample_has_all_hypotheses_but_the_dropped_one() {
 }
 
 #[test]
-fn counterexamples_are_small() {
+fn counterexamples_have_small_coordinates() {
     let report = &*REPORT;
     let noticed = report.mutants.iter().filter_map(|(change, outcome)| match outcome {
         MutationOutcome::Detected { refutation, .. } => {

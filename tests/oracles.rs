@@ -281,7 +281,7 @@ proptest! {
 
     /// The one-sided functional too, for penalties that are powers of two, where (⟨·⟩²)/(2ε) is exact.
     #[test]
-    fn one_sided_residuals_are_derivatives(
+    fn unilateral_residuals_are_derivatives(
         (c, m, e) in (1..64i32, 1..64i32, 0..6), signed in prop::array::uniform5(-63..64i32),
     ) {
         let [c, m, eps] = [c, m, 1 << e].map(f64::from);

@@ -17,7 +17,7 @@ fn every_claim_is_proved() {
 }
 
 #[test]
-fn every_number_of_the_chapter_has_a_proof() {
+fn every_equation_of_the_chapter_has_a_proof() {
     let proved: BTreeSet<_> = statements().iter().map(|s| s.equation()).collect();
     for n in 1..=33 {
         assert!(
@@ -49,7 +49,7 @@ fn every_formula_of_the_chapter_is_part_of_a_proof() {
 }
 
 #[test]
-fn a_proof_can_be_read() {
+fn a_proof_is_printed_in_readable_lines() {
     let statements = statements();
     let statement = statements.iter().find(|s| (s.equation(), s.name()) == ("1.13", "rate")).unwrap();
     let (proof, paper) = (prove(statement).unwrap(), ProofPrinter::new(registry()));

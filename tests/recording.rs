@@ -158,28 +158,28 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn in_f32(at in numbers(singles()), varying in some_symbols()) {
+    fn records_agree_in_f32(at in numbers(singles()), varying in some_symbols()) {
         law(&varying, &|name| at[name], |x| bits(&f64::from(*x)))?;
     }
 
     #[test]
-    fn in_f64(at in numbers(doubles()), varying in some_symbols()) {
+    fn records_agree_in_f64(at in numbers(doubles()), varying in some_symbols()) {
         law(&varying, &|name| at[name], bits)?;
     }
 
     #[test]
-    fn in_mpfr(at in numbers((finite(), 2u32..200)), varying in some_symbols()) {
+    fn records_agree_in_mpfr(at in numbers((finite(), 2u32..200)), varying in some_symbols()) {
         let number = |name: &'static str| Mpfr::rounded(at[name].1, at[name].0);
         law(&varying, &number, mpfr_bits)?;
     }
 
     #[test]
-    fn in_rationals(at in numbers(rationals()), varying in some_symbols()) {
+    fn records_agree_in_rationals(at in numbers(rationals()), varying in some_symbols()) {
         law(&varying, &|name| Filled(at[name].clone()), Clone::clone)?;
     }
 
     #[test]
-    fn in_balls(at in numbers((finite(), any::<bool>())), varying in some_symbols()) {
+    fn records_agree_in_balls(at in numbers((finite(), any::<bool>())), varying in some_symbols()) {
         let ball = |name: &'static str| match at[name] {
             (x, true) => Ball::point(x),
             (x, false) => Ball::from_rounded(x),
@@ -188,19 +188,19 @@ proptest! {
     }
 
     #[test]
-    fn in_balls_of_mpfr(at in numbers((finite(), 2u32..200)), varying in some_symbols()) {
+    fn records_agree_in_balls_of_mpfr(at in numbers((finite(), 2u32..200)), varying in some_symbols()) {
         let ball = |name: &'static str| Ball::from_rounded(Mpfr::rounded(at[name].1, at[name].0));
         law(&varying, &ball, |x| (format!("{x:?}"), x.value().precision(), x.radius().precision()))?;
     }
 
     #[test]
-    fn in_duals(at in numbers((finite(), finite())), varying in some_symbols()) {
+    fn records_agree_in_duals(at in numbers((finite(), finite())), varying in some_symbols()) {
         let dual = |name: &'static str| Filled(Dual { value: at[name].0, derivative: at[name].1 });
         law(&varying, &dual, |x| (bits(&x.0.value), bits(&x.0.derivative)))?;
     }
 
     #[test]
-    fn in_duals_of_rationals(at in numbers((rationals(), rationals())), varying in some_symbols()) {
+    fn records_agree_in_duals_of_rationals(at in numbers((rationals(), rationals())), varying in some_symbols()) {
         let dual = |name: &'static str| {
             let (value, derivative) = at[name].clone();
             Filled(Dual { value, derivative })

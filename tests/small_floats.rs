@@ -200,25 +200,25 @@ fn check(bits: u32, exponents: Range<i32>, systems: usize, stride: usize) {
 }
 
 #[test]
-fn every_system_of_2_bits() {
+fn solutions_of_all_systems_of_2_bits_are_enclosed() {
     check(2, 0..3, 52_728, 1);
 }
 #[test]
-fn a_sample_of_the_systems_of_3_bits() {
+fn solutions_of_a_sample_of_3_bits_are_enclosed() {
     check(3, 0..2, 628_864, 11);
 }
 #[test]
-fn a_sample_of_the_systems_of_4_bits() {
+fn solutions_of_a_sample_of_4_bits_are_enclosed() {
     check(4, 0..1, 2_515_456, 101);
 }
 
 #[test]
 #[ignore = "half a minute of one core; a sample is among the default tests"]
-fn every_system_of_3_bits() {
+fn solutions_of_all_systems_of_3_bits_are_enclosed() {
     check(3, 0..2, 628_864, 1);
 }
 #[test]
 #[ignore = "two minutes of one core; a sample is among the default tests"]
-fn every_system_of_4_bits() {
+fn solutions_of_all_systems_of_4_bits_are_enclosed() {
     check(4, 0..1, 2_515_456, 1);
 }

@@ -421,14 +421,14 @@ proptest! {
     }
 
     #[test]
-    fn a_text_says_what_is_rounded(tree in rounded_trees()) {
+    fn a_text_with_rounding_has_the_value_of_its_tree(tree in rounded_trees()) {
         if let Some(expected) = replayed(&tree) {
             prop_assert_eq!(Reader::value(&tree), Some(expected), "{}", tree);
         }
     }
 
     #[test]
-    fn nothing_is_written_that_says_nothing(tree in trees()) {
+    fn a_text_has_no_redundant_signs_or_brackets(tree in trees()) {
         prop_assume!(replayed(&tree).is_some());
         let text = tree.to_string();
         for idle in ["−−", "− −", "+ −", "+ 0", "− 0"] {
@@ -706,12 +706,12 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(500))]
 
     #[test]
-    fn a_hypothesis_says_what_is_supposed(hypothesis in hypotheses()) {
+    fn the_text_of_a_hypothesis_has_the_values_of_its_formulas(hypothesis in hypotheses()) {
         Text(&hypothesis.to_string(), &NO_NAMES, &[]).is_hypothesis(&hypothesis);
     }
 
     #[test]
-    fn a_claim_says_what_is_claimed(claim in claims()) {
+    fn the_text_of_a_claim_has_the_values_of_its_formulas(claim in claims()) {
         let statement = claim;
         Text(&ProofPrinter::new(&NO_NAMES).claim(&statement), &NO_NAMES, &[]).is_claim(&statement);
     }
@@ -843,7 +843,7 @@ fn provable() -> impl Strategy<Value = Statement> {
 }
 
 #[test]
-fn a_line_of_a_proof_says_what_is_proved() {
+fn every_line_of_a_proof_holds_at_numbers() {
     let held = std::cell::Cell::new(0);
     let config = ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(1000) };
     let tried = TestRunner::new(config).run(&provable(), |claim| {
@@ -1023,7 +1023,7 @@ fn every_line_of_a_certificate_holds() {
 }
 
 #[test]
-fn every_claim_of_the_chapter_says_what_is_claimed() {
+fn the_texts_of_the_chapters_claims_have_the_values_of_their_formulas() {
     let quiet = ["ε"];
     for statement in statements() {
         Text(&ProofPrinter::new(registry()).claim(&statement), registry(), &quiet).is_claim(&statement);
@@ -1043,7 +1043,7 @@ proptest! {
 
     /// With two arguments that may be left unsaid, and in each other.
     #[test]
-    fn a_name_stands_for_what_it_is_said_of(drawn in prop::collection::vec(trees(), 3), usual in 0..8, twice: bool) {
+    fn an_abbreviated_call_has_the_value_of_its_tree(drawn in prop::collection::vec(trees(), 3), usual in 0..8, twice: bool) {
         let [a, b, c] = ["a", "b", "u"].map(|name| Tree::symbol(name));
         let formula = Formula::new("spring", "S", &["a", "b", "u"], spring(&a, &b, &c)).abbreviated();
         let names = Registry::new(&OWN, vec![formula]).with_implicit(&["b", "u"]);

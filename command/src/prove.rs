@@ -292,7 +292,7 @@ mod tests {
 
     /// An absolute value in a hypothesis does not end a cell.
     #[test]
-    fn a_row_of_markdown_has_as_many_cells_as_its_head() {
+    fn a_row_of_markdown_has_as_many_cells_as_its_header() {
         let near = Hypothesis::near(&Tree::symbol("v"), 0, Tree::symbol("tol"));
         let statement = claim("float-drift").assuming([&near]);
         let proofs = Proofs { claims: vec![ProofAttempt::of(statement)], ..Proofs::default() };
@@ -304,7 +304,7 @@ mod tests {
 
     /// The claim defines x₁ and q.
     #[test]
-    fn what_is_unknown_comes_with_its_claim() {
+    fn an_unknown_result_is_printed_with_its_claim() {
         let mut unknown = ProofAttempt::of(claim("float-drift"));
         unknown.answer = ProofOutcome::None("no rule finds the sign of x₁ − q".into(), None);
         let proofs = Proofs { claims: vec![unknown], ..Proofs::default() };
@@ -316,7 +316,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_refuted_fits_on_a_page() {
+    fn a_refutation_fits_the_line_width() {
         let proofs = refuted();
         let text = output::capture(|out| {
             table(out, &proofs)?;

@@ -320,7 +320,7 @@ mod tests {
 
     /// Every printed command parses as the system and the method it was printed for.
     #[test]
-    fn a_command_line_is_read_as_what_it_was_made_from() {
+    fn a_formatted_command_line_parses_to_the_same_options() {
         let [c, m, g, l, h, penalty] =
             ["1/3", "5", "-1/3", "-7", "2", "7"].map(|text| text.parse::<Exact>().unwrap());
         let system = SpringMass { c, m, g, l, h };

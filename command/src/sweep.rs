@@ -368,7 +368,7 @@ mod tests {
     }
 
     #[test]
-    fn the_book_shows_the_plot_as_it_is() {
+    fn the_plot_in_the_book_is_current() {
         let package = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
         if package.join("Cargo.toml.orig").exists() {
             return eprintln!("the packed crate comes without the book");

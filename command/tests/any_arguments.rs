@@ -67,7 +67,7 @@ fn subcommands() -> Vec<Subcommand> {
 
 /// What the definition is known to have, however it was read.
 #[test]
-fn the_options_are_those_of_clap() {
+fn the_generated_options_agree_with_clap() {
     let all = subcommands();
     let names: Vec<_> = all.iter().map(|own| own.name.as_str()).collect();
     let expected =
@@ -272,7 +272,7 @@ fn no_arguments_get_further_than_they_should() {
 
 /// Of one wrong value among right ones: the option, the value, and more than that.
 #[test]
-fn a_wrong_value_is_named_with_its_option() {
+fn an_invalid_value_is_reported_with_its_option() {
     for Subcommand { name, options } in &subcommands() {
         for Opt { name: option, takes_value, path, .. } in options {
             if *takes_value && !path {

@@ -96,7 +96,7 @@ fn draw(random: &mut Rand64) -> (String, Value) {
 
 /// To the letter, but for the blanks; and as many that end otherwise.
 #[test]
-fn a_line_is_what_solve_prints() {
+fn a_line_of_a_batch_equals_the_output_of_solve() {
     let random = &mut Rand64::new(1);
     let drawn: Vec<_> = (0..60).map(|_| draw(random)).collect();
     let input: String = drawn.iter().map(|(_, object)| format!("{object}\n")).collect();
@@ -175,7 +175,7 @@ fn a_line_is_answered_before_the_next_one_comes() {
 }
 
 #[test]
-fn an_id_comes_back_as_it_is() {
+fn ids_are_returned_unchanged() {
     let deep = "[".repeat(10_000) + &"]".repeat(10_000);
     let ids = [
         "null",
@@ -617,7 +617,7 @@ fn a_closed_pipe_is_no_error() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn what_cannot_be_read_or_written_is_reported() {
+fn read_and_write_errors_are_reported() {
     use std::fs::File;
     let mut command = contact("--batch");
     let output = command.stdin(File::open("/").unwrap()).output().expect("the command runs");
@@ -640,7 +640,7 @@ fn what_cannot_be_read_or_written_is_reported() {
 /// Nobody reads for a while, so nothing more is read either; then all of it. Kept lines would show.
 #[cfg(target_os = "linux")]
 #[test]
-fn many_lines_take_no_more_memory_than_a_few() {
+fn memory_does_not_grow_with_the_number_of_lines() {
     use std::sync::atomic::{AtomicUsize, Ordering};
     static WRITTEN: AtomicUsize = AtomicUsize::new(0);
     const LINES: usize = 40_000;
@@ -687,7 +687,7 @@ fn root() -> &'static std::path::Path {
 
 /// The lines of the page, as far as it shows them.
 #[test]
-fn the_book_shows_what_comes_back() {
+fn the_output_in_the_book_is_current() {
     let page = std::fs::read_to_string(root().join("book/src/command.md")).unwrap();
     let (_, section) = page.split_once("\n## Many systems, many machines\n").expect("the section");
     let mut blocks = section.split("```").skip(1).step_by(2);

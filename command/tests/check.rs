@@ -128,7 +128,7 @@ fn exact(number: &Value) -> Exact {
 
 /// Where a plane that pulls is wrong the mass hangs free: u = H − l, and what the plane pulls with is a residual.
 #[test]
-fn an_example_is_told_of_each_family_that_fails() {
+fn the_report_contains_an_example_of_each_failing_family() {
     let (_, report) =
         report(&[env!("CARGO_BIN_EXE_contact"), "solve", "--batch", "--bilateral", "--scalar=exact"]);
     let mut verdicts = Vec::new();
@@ -178,7 +178,7 @@ fn cases_are_solved_by_their_answers() {
 
 /// Where the system has no file descriptors left nothing is wrong with the program.
 #[test]
-fn what_the_system_refuses_is_not_blamed_on_the_program() {
+fn errors_of_the_operating_system_are_not_attributed_to_the_program() {
     let limited = "ulimit -n 6; exec \"$@\"";
     let mut sh = Command::new("sh");
     sh.args(["-c", limited, "sh", env!("CARGO_BIN_EXE_contact"), "check", "--", "true"]);

@@ -66,7 +66,7 @@ fn exact(value: &Value) -> Exact {
 }
 
 #[test]
-fn prints_what_it_printed() {
+fn output_is_reproducible() {
     let contact = std::path::Path::new(env!("CARGO_BIN_EXE_contact"));
     // `contact check` finds the command by its name, too.
     let path = std::env::var_os("PATH").unwrap_or_default();
@@ -122,7 +122,7 @@ fn solves_end_as_they_should() {
 /// Below the floor that is guaranteed a tolerance may be met all the same, and rounding may take a step more:
 /// ln((4.81/101)/1e-14)/ln 1.01 = 2933.5…. So no more is said than that.
 #[test]
-fn no_more_is_said_of_a_count_than_is_sure() {
+fn only_guaranteed_counts_are_printed() {
     let solve = |limit| {
         let line =
             format!("solve --method augmented --penalty 1 --tolerance 1e-14 --max-augmentations {limit}");
@@ -232,7 +232,7 @@ fn flat(json: &Value) -> Vec<(String, String)> {
 
 /// A parameter is printed as it was typed, and as it was rounded where one can see that.
 #[test]
-fn only_what_can_be_seen_was_rounded() {
+fn rounding_notes_appear_only_for_visible_rounding() {
     let seen = |typed: &str, scalar: &str| -> Option<String> {
         let line = format!(
             "solve --stiffness 1 --mass 1 --gravity 1 --height 0 --free-length={typed} --scalar {scalar}"
@@ -270,7 +270,7 @@ fn only_what_can_be_seen_was_rounded() {
 }
 
 #[test]
-fn csv_says_what_json_says() {
+fn csv_and_json_have_the_same_values() {
     for scalar in ["f32", "f64", "mpfr:200", "exact"] {
         for method in ["lagrange", "penalty --penalty 7", "augmented", "augmented --tolerance 1e-30"] {
             let arguments = format!("--method {method} --scalar {scalar}");
@@ -288,7 +288,7 @@ fn csv_says_what_json_says() {
 
 /// The command adds to what a user of the library serialises, and says the same.
 #[test]
-fn the_library_serialises_what_the_command_prints() {
+fn the_library_and_the_command_serialise_alike() {
     let exact = SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" }.parse().unwrap();
     let system = exact.try_map(Exact::to_f64).unwrap();
     let augmented = |tolerance, max_augmentations| Method::Augmented {
@@ -336,7 +336,7 @@ fn the_trace_ends_with_the_answer() {
 /// What a table of 10⁵ steps would need if it were kept is more than what there is.
 #[cfg(target_os = "linux")]
 #[test]
-fn a_long_trace_takes_no_more_memory_than_a_short_one() {
+fn memory_does_not_grow_with_the_length_of_a_trace() {
     for format in ["table", "csv", "json"] {
         let mut command = Command::new("sh");
         let line = "ulimit -v 65536; exec \"$0\" solve --method augmented --penalty 1e-6 --max-augmentations 99999 \
@@ -693,7 +693,7 @@ fn errors_of_a_sweep_are_exact() {
 
 /// The other rows are printed all the same: 10³⁰⁸ · 4 m is no f64.
 #[test]
-fn a_row_that_overflows_says_so() {
+fn an_overflowing_row_reports_the_overflow() {
     let line = ["sweep", "--penalty", "1..1e308", "--points", "3", "--height", "5", "--gravity", "1000"];
     let (rows, code) = json(&line);
     let said = "the deflection is out of the range of this scalar; use MPFR (mpfr:BITS) or exact rationals";
@@ -717,7 +717,7 @@ fn a_row_that_overflows_says_so() {
 
 /// Of R = 4.81 in rationals, c/(c + ε) of it.
 #[test]
-fn errors_of_a_sweep_of_rationals_are_those_of_the_method() {
+fn a_sweep_in_rationals_reports_the_exact_error_of_the_method() {
     let (rows, _) = json(&["sweep", "--penalty", "1e-3..1e30", "--points", "67", "--scalar", "exact"]);
     for row in array(&rows) {
         let (c, eps) = (Exact::from(100), exact(&row["penalty"]));
@@ -823,7 +823,7 @@ fn the_whole_chapter_holds() {
 }
 
 #[test]
-fn a_seed_says_what_is_tried() {
+fn a_seed_determines_the_cases() {
     let run = |seed| {
         let arguments = ["verify", "--cases", "20", "--scalar", "f32", "--scalar", "exact", "--seed", seed];
         [["--format", "table"], ["--format", "json"], ["--format", "markdown"]]
@@ -859,7 +859,7 @@ fn one_equation_is_enough() {
 
 /// With two bits hardly a sign can be told: that is no success, and no counterexample either.
 #[test]
-fn what_cannot_be_decided_is_undecided_and_no_failure() {
+fn an_undecided_claim_is_not_a_failure() {
     let (report, code) = json(&["verify", "--scalar", "mpfr:2", "--cases", "20"]);
     let rows: Vec<_> = array(&report["equations"]).iter().flat_map(|e| array(&e["claims"])).collect();
     let undecided: Vec<_> = rows.iter().filter(|row| row["status"] == "undecided").collect();
@@ -942,7 +942,7 @@ fn equations_are_data() {
 
 /// In any of the ways that numbers are written, and a name and its number as two words.
 #[test]
-fn a_number_may_be_written_in_many_ways() {
+fn all_notations_of_a_number_are_accepted() {
     let found = |arguments: &[&str]| -> Vec<String> {
         let (rows, code) = json(arguments);
         assert_eq!(code, Some(0), "{arguments:?}");

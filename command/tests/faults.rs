@@ -151,7 +151,7 @@ fn prove(directory: &Path) -> Output {
 const REFUSED: &str = "invalid value '";
 
 #[test]
-fn what_is_no_folder_is_refused() {
+fn a_path_that_is_not_a_directory_is_rejected() {
     let own = folder("no folder");
     let file = own.join("file");
     fs::write(&file, "kept").expect("a file");

@@ -595,7 +595,7 @@ fn false_claims_are_refuted_and_not_proved() {
 }
 
 #[test]
-fn true_claims_beside_them_are_proved_and_not_refuted() {
+fn paired_true_claims_are_proved_and_not_refuted() {
     let wrong = all().filter_map(|(premise, _, claim)| {
         let statement = claim;
         match (prove(&statement), refute(&statement)) {

@@ -69,7 +69,7 @@ fn every_mistake_is_diagnosed_as_itself() {
 
 /// No decimal of six digits is the exact constant.
 #[test]
-fn a_constant_is_found() {
+fn a_constant_factor_is_diagnosed() {
     for problems in [default_problems(), with_penalties(default_problems())] {
         let by_penalty = problems[0].penalty.is_some();
         for (mistake, k) in fitted(by_penalty).iter().flat_map(|mistake| {
@@ -103,7 +103,7 @@ fn a_constant_is_found() {
 
 /// By default an error of 6e-8 of c, m, g or R is within the tolerance, but not that of a difference.
 #[test]
-fn one_rounding_to_single_precision_is_found() {
+fn a_single_rounding_to_f32_is_diagnosed() {
     for problems in [default_problems(), with_penalties(default_problems())] {
         for mistake in in_single(problems[0].penalty.is_some()) {
             let solve = |problem: &Problem| {
@@ -133,7 +133,7 @@ fn one_rounding_to_single_precision_is_found() {
 
 /// Two mistakes that agree for all default systems are one.
 #[test]
-fn what_is_taken_for_the_same_is_proved_to_be() {
+fn mistakes_treated_as_equal_are_proved_equal() {
     let given = hypotheses();
     let given = [&given.stiffness, &given.penalty];
     for by_penalty in [false, true] {
@@ -176,7 +176,7 @@ fn right(problem: &Problem) -> Answer {
 }
 
 #[test]
-fn families_are_what_they_say() {
+fn systems_have_the_property_of_their_family() {
     let all = problems(1, 40, &Family::ALL);
     let short = |x: &Exact| x.decimal(DIGITS, Round::Nearest).parse().as_ref() == Ok(x);
     for Problem { id, family, system, .. } in &all {
@@ -314,13 +314,13 @@ fn a_force_is_written_by_its_deflection() {
 
 /// l + u − H of (1.5), and ε p of (1.12).
 #[test]
-fn an_edit_is_called_by_its_equation() {
+fn a_mutant_is_named_by_its_equation() {
     let names: HashSet<_> = mistakes(true).iter().map(|mistake| mistake.name.as_str()).collect();
     assert!(names.contains("as (1.5) with l → H in operand 1") && names.contains("as (1.12) with a × b → b"));
 }
 
 #[test]
-fn names_are_those_of_the_command_line_and_of_json() {
+fn names_agree_with_the_command_line_and_json() {
     for family in Family::ALL {
         assert_eq!(family.name().parse(), Ok(family));
     }
@@ -339,7 +339,7 @@ fn names_are_those_of_the_command_line_and_of_json() {
 }
 
 #[test]
-fn the_book_names_what_is_known() {
+fn the_book_lists_all_known_mistakes() {
     let page = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("book/src/check.md");
     let page = std::fs::read_to_string(page).unwrap();
     let (_, list) = page.split_once("Known are").expect("a list that begins with \"Known are\"");

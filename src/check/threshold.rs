@@ -129,7 +129,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn so_many_ways_there_are_to_choose() {
+    fn combinations_are_counted() {
         let few = [(0, 9), (9, 9), (20, 20), (1, 7), (6, 7), (2, 5), (3, 5), (4, 12)];
         assert_eq!(few.map(|(chosen, of)| ways(chosen, of)), [1, 1, 1, 7, 7, 10, 10, 495]);
         assert_eq!([(10, 20), (50, 100)].map(|(chosen, of)| ways(chosen, of)), [MIN_COMBINATIONS; 2]);

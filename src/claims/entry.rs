@@ -112,7 +112,7 @@ mod tests {
     use crate::claims::{entries, entry, entry_for_function, hypotheses};
 
     #[test]
-    fn a_function_is_of_the_entry_it_is_first_in_or_else_of_one_that_names_it() {
+    fn an_entry_that_lists_the_function_first_is_preferred() {
         for function in entries().iter().flat_map(|entry| &entry.functions) {
             let own = entries().iter().any(|entry| entry.functions.starts_with(&[*function]));
             let found = entry_for_function(function).unwrap();
@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn an_entry_says_what_it_supposes() {
+    fn an_entry_formats_its_hypotheses() {
         let supposing = entries().iter().filter(|entry| entry.hypotheses.contains(&hypotheses().stiffness));
         for entry in supposing.chain([entry("1.13").unwrap()]) {
             assert!(entry.format_hypotheses().contains(&"c > 0".to_string()), "{}", entry.label());
@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn outside_its_holes_an_equation_has_no_formula() {
+    fn an_equation_has_no_formula_outside_its_placeholders() {
         for entry in entries() {
             let pieces = entry.latex_template().unwrap_or_default().split('«');
             let outside = pieces.map(|piece| piece.split_once('»').map_or(piece, |(_, outside)| outside));

@@ -95,7 +95,7 @@ mod tests {
     use crate::number::Tree;
 
     #[test]
-    fn a_call_is_known_by_its_place_and_not_by_its_looks() {
+    fn a_call_is_identified_by_its_source_location() {
         let formula = |path: &str| registry().formula(path).unwrap();
         // (1.11) contains l + u − H itself, (1.12) calls (1.5).
         let within = |path: &str, callee: &str| {
@@ -111,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn arguments_are_found() {
+    fn the_argument_of_a_call_is_found() {
         let own = SpringMass { c: "c", m: "m", g: "g", l: "l", h: "H" }.map(|name| Tree::symbol(name));
         let argument = system::gap(&own) * Tree::symbol("x");
         let call = registry().call(&contact::penetration(&own, &argument)).unwrap();
@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn arguments_that_a_value_ignores_are_none_of_a_call() {
+    fn a_call_omits_arguments_that_its_value_ignores() {
         let own = SpringMass { c: "c", m: "m", g: "g", l: "l", h: "H" }.map(|name| Tree::symbol(name));
         let [u, n] = ["u", "n"].map(|name| Tree::symbol(name));
         let call = registry().call(&contact::kkt(&own, &u, &n).dual).unwrap();
@@ -127,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn a_value_that_is_handed_on_may_be_of_several_functions() {
+    fn a_returned_value_is_a_call_of_several_functions() {
         let own = SpringMass { c: "c", m: "m", g: "g", l: "l", h: "H" }.map(|name| Tree::symbol(name));
         let names = |tree: &Tree| registry().calls(tree).map(|call| call.formula.name()).collect::<Vec<_>>();
         assert_eq!(names(&system::gap(&own)), ["system::gap", "lagrange::deflection"]);
@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_a_name_goes_by_it_but_not_in_its_own_formula() {
+    fn quantities_are_abbreviated_except_in_their_own_formulas() {
         for (path, text, latex) in [
             ("system::gap", "H − l", "H - l"),
             ("lagrange::deflection", "Δ", r"\Delta"),
@@ -170,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn arguments_are_said_where_they_are_not_the_usual_ones() {
+    fn a_call_lists_arguments_that_differ_from_its_definition() {
         let own = SpringMass { c: "c", m: "m", g: "g", l: "l", h: "H" }.map(|name| Tree::symbol(name));
         let [u, eps, lambda] = ["u", "ε", "λ"].map(|name| Tree::symbol(name));
         let (gap, r) = (system::gap(&own), system::reaction(&own));
@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_say_what_several_values_are() {
+    fn several_values_are_formatted_as_equations() {
         assert_eq!(
             registry().format_equation("contact::kkt").unwrap(),
             "c u − m g + N = 0, ⟨p⟩ = 0, ⟨−N⟩ = 0, p N = 0"
@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn holes_are_filled() {
+    fn placeholders_are_replaced_by_formulas() {
         for (template, text, latex) in [
             ("no hole", "no hole", "no hole"),
             ("«system::gap» < 0", "H − l < 0", "H - l < 0"),
@@ -230,7 +230,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_comes_before_what_it_calls() {
+    fn every_formula_comes_after_those_it_calls() {
         for (i, formula) in registry().formulas().iter().enumerate() {
             formula.tree.visit(&mut |tree| {
                 if let Some(call) = registry().call(tree) {

@@ -151,7 +151,7 @@ mod tests {
     use crate::claims::registry;
 
     #[test]
-    fn hypotheses_are_documented_as_they_are() {
+    fn hypotheses_are_documented_by_their_formulas() {
         let texts: Vec<_> =
             hypotheses().all().map(|hypothesis| registry().format_hypothesis(hypothesis)).collect();
         assert_eq!(TEXTS, texts);

@@ -419,7 +419,7 @@ mod tests {
 
     /// The intermediate quantities of the drift are those of the functions themselves.
     #[test]
-    fn the_drift_is_that_of_the_unilateral_functions() {
+    fn the_unilateral_drift_claim_computes_with_the_functions_of_the_chapter() {
         let Case { system: s, u, eps, .. } = symbols();
         let own =
             |claim: &&Statement| (claim.equation(), claim.name()) == ("note 4", "float-unilateral-drift");

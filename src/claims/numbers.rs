@@ -77,7 +77,7 @@ mod tests {
     }
 
     #[test]
-    fn a_number_is_understood_however_it_is_written() {
+    fn every_notation_of_a_number_is_understood() {
         for (number, ways) in [
             ("1.13", ["(1.13)", "( 1.13 )", " 1.13", "eq 1.13", "Eq. (1.13)", "EQN.1.13", "(equation 1.13)"]),
             (
@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn every_number_is_itself_and_its_label() {
+    fn every_entry_is_found_by_its_number_and_its_label() {
         for entry in entries() {
             assert_eq!(equation(entry.equation), Some(entry.equation));
             assert_eq!(equation(&entry.label()), Some(entry.equation));
@@ -130,7 +130,7 @@ mod tests {
 
     /// The number of a section is not that of a theorem, and that of a figure is not that of an equation.
     #[test]
-    fn what_is_no_number_is_not_guessed() {
+    fn invalid_numbers_are_rejected() {
         for text in [
             "",
             " ",

@@ -42,7 +42,7 @@ mod tests {
     use crate::number::Exact;
 
     #[test]
-    fn a_panic_is_a_message() {
+    fn a_panic_becomes_an_error_message() {
         let divided = |by: i32| catch_panic(|| Exact::from(1) / Exact::from(by));
         assert_eq!(divided(2), Ok("1/2".parse().unwrap()));
         assert_eq!(divided(0), Err("division by zero".to_string()));
@@ -56,14 +56,14 @@ mod tests {
     #[test]
     fn a_guarded_panic_prints_nothing() {
         let own = std::env::current_exe().unwrap();
-        let test = "verify::catch_panic::tests::a_panic_is_a_message";
+        let test = "verify::catch_panic::tests::a_panic_becomes_an_error_message";
         let run = std::process::Command::new(own).args(["--exact", test, "--nocapture"]).output().unwrap();
         let [report, printed] = [&run.stdout, &run.stderr].map(|text| String::from_utf8_lossy(text));
         assert!(report.contains("1 passed") && printed.is_empty(), "{report} {printed}");
     }
 
     #[test]
-    fn a_guard_within_a_guard_ends_neither_too_early() {
+    fn nested_guards_are_independent() {
         let outer = catch_panic(|| {
             let inner = catch_panic(|| -> () { panic!("inner") });
             assert!(GUARDED.get());

@@ -118,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn what_formulas_share_is_computed_once() {
+    fn common_subexpressions_are_computed_once() {
         let square = || x("u") * x("u");
         let sum = equal("sum", square() + square(), int(2) * square());
         let sign = non_negative("sign", square());
@@ -130,13 +130,13 @@ mod tests {
     }
 
     #[test]
-    fn a_wrong_derivative_is_seen() {
+    fn a_wrong_derivative_is_detected() {
         let square = |is: Tree| derivative("square", x("u") * x("u"), &x("u"), is);
         assert!(holds(square(x("u") + x("u"))) && !holds(square(x("u"))));
     }
 
     #[test]
-    fn a_bound_is_met_or_not_on_either_side() {
+    fn a_bound_limits_the_absolute_value() {
         for of in [x("u"), -x("u")] {
             let is_met = |bound: i32| holds(within("bound", of.clone(), bound));
             assert!(is_met(3) && is_met(2) && !is_met(1) && !is_met(-3));
@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn a_limit_is_as_far_as_its_rate_says_on_either_side() {
+    fn the_rate_of_a_limit_is_checked_on_either_side() {
         let limit = |of: Tree, rate| holds(limit("limit", of, &x("t"), x("u"), rate));
         for of in [x("u") + int(3), x("u") - int(3)] {
             assert!(limit(of.clone(), Rate::Within(int(3))) && !limit(of.clone(), Rate::Within(int(2))));
@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn a_power_vanishes_only_of_what_is_less_than_1_in_size() {
+    fn powers_vanish_only_if_the_ratio_is_less_than_1_in_absolute_value() {
         let vanishing =
             |ratio: Tree, to: Tree| holds(geometric_limit("limit", ratio, x("u") + x("v") * x("q"), to));
         for half in [int(1) / int(2), int(-1) / int(2)] {
@@ -169,7 +169,7 @@ mod tests {
 
     /// x₀ = 3, x ← 2 x − 1, so x_k − 1 = 2 · 2ᵏ.
     #[test]
-    fn an_induction_has_its_start_its_step_and_its_closed_form() {
+    fn an_induction_checks_its_start_its_step_and_its_closed_form() {
         let induction = |start: i32, less: i32, closed: Tree| {
             let step = |[x]: [Tree; 1]| [int(2) * x - int(less)];
             induction("powers", 2, [int(start)], step, [closed])

@@ -191,7 +191,7 @@ mod tests {
 
     /// One unproved claim, one undetected mutant, or one redundant hypothesis suffices.
     #[test]
-    fn one_of_many_that_does_not_hold_is_enough() {
+    fn one_unproved_claim_undetected_mutation_or_redundant_hypothesis_fails_the_proofs() {
         let change = mutants(&[rate()], registry())[0];
         let hold = |statements: &[Statement], effect, dropped| {
             let mutation = MutationReport { mutants: vec![(change, effect)], dropped };
@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn a_claim_has_its_own_hypotheses() {
+    fn dropped_hypotheses_are_listed_by_claim() {
         let dropped = vec![redundant(&wrong()), redundant(&rate())];
         let proofs = Proofs { mutation: MutationReport { mutants: vec![], dropped }, ..Proofs::default() };
         let names: Vec<_> = proofs.dropped(&rate()).map(|dropped| dropped.name).collect();
@@ -219,7 +219,7 @@ mod tests {
     /// JSON contains all quantities of the claim as texts.
     #[cfg(feature = "serde")]
     #[test]
-    fn json_shows_where_a_claim_does_not_hold() {
+    fn json_contains_the_counterexample_of_a_refuted_claim() {
         let proofs = Proofs { claims: vec![ProofAttempt::of(wrong())], ..Proofs::default() };
         let json = serde_json::to_value(&proofs).unwrap();
         let claim = &json["equations"][0]["claims"][0];

@@ -71,7 +71,7 @@ mod tests {
     /// Each result in turn is off by 1: in contact (R = 2), where the penalty method has p = 1/4, and
     /// separated.
     #[test]
-    fn a_wrong_answer_is_inconsistent() {
+    fn a_wrong_result_is_inconsistent() {
         let numbers = |h: i32| [4, 1, 10, 1, h].map(Exact::from);
         for (h, penetration) in [(3, "1/4"), (4, "-1/2")] {
             let [c, m, g, l, h] = numbers(h);

@@ -118,7 +118,7 @@ mod tests {
 
     /// Except for a few per cent: a mutation can also break only claims about a caller.
     #[test]
-    fn a_changed_function_is_suspected_and_hardly_another() {
+    fn a_mutated_function_is_among_at_most_three_suspects() {
         // Claims about rounding take longer, and add no function.
         let statements: Vec<_> = statements().into_iter().filter(|s| !s.contains_rounding()).collect();
         let noticed = test_mutations(&statements, registry()).mutants;
@@ -147,7 +147,7 @@ mod tests {
 
     /// Two claims of (1.13), about the deflection and its second form, and about the deflection and its rate.
     #[test]
-    fn shared_functions_are_those_of_every_failure() {
+    fn shared_functions_are_those_that_every_unproved_claim_depends_on() {
         let of =
             |names: &[&str]| shared(&statements(), &|s| s.equation() == "1.13" && names.contains(&s.name()));
         assert_eq!(of(&["two-forms"]), ["penalty::deflection", "penalty::deflection_divided"]);
@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn nobody_is_suspected_of_what_is_proved() {
+    fn there_are_no_suspects_if_every_claim_is_proved() {
         assert_eq!(suspects(&statements(), &|_| false), []);
         assert_eq!(shared(&statements(), &|_| false), Vec::<&str>::new());
     }

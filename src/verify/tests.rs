@@ -109,7 +109,7 @@ fn a_claim_that_fails_in_one_of_many_cases_fails() {
 }
 
 #[test]
-fn of_many_counterexamples_the_first_is_kept() {
+fn the_first_of_many_counterexamples_is_reported() {
     let wrong = claim("wrong", Proposition::Sign(Relation::Positive, -(x("u") * x("u"))));
     let report = report(&[exactly(&[wrong], Vec::new())], 3 * BLOCK);
     let first = row(&report, "wrong", NumberSystem::Exact).counterexample.clone();
@@ -144,7 +144,7 @@ fn a_claim_can_fail_in_one_number_system_alone() {
 
 /// u/3 · 3 − u, whose sign balls cannot decide.
 #[test]
-fn a_claim_that_is_nowhere_decided_is_undecided_and_no_failure() {
+fn a_claim_that_no_case_decides_is_undecided() {
     let open = x("u") / Tree::int(3) * Tree::int(3) - x("u");
     let open = claim("open", Proposition::Sign(Relation::NonNegative, Tree::one() / (&open * &open)));
     let checkers = [
@@ -174,7 +174,7 @@ fn a_claim_that_is_nowhere_decided_is_undecided_and_no_failure() {
 /// Without cases, under hypotheses that no case satisfies, and without tests: of a derivative that does not
 /// exist, and of a recursion without members.
 #[test]
-fn what_was_never_tried_does_not_hold() {
+fn a_claim_that_was_never_tested_is_undecided() {
     let positive = |value: Tree| Hypothesis::new(Relation::Positive, value);
     let never = vec![positive(x("u")), positive(-x("u"))];
     let wrong = || Proposition::Sign(Relation::Positive, -Tree::one());
@@ -210,7 +210,7 @@ fn what_was_never_tried_does_not_hold() {
 
 /// 1/(u − u) in rationals and in balls, and an experiment that panics.
 #[test]
-fn what_is_undefined_or_breaks_off_is_a_finding_with_its_case() {
+fn an_undefined_claim_or_a_panic_is_a_failure_with_its_case() {
     let claims = [
         claim("equal", Proposition::Equal(undefined(), Tree::one())),
         claim("sign", Proposition::Sign(Relation::Positive, undefined())),
@@ -252,7 +252,7 @@ fn what_is_undefined_or_breaks_off_is_a_finding_with_its_case() {
 }
 
 #[test]
-fn each_case_of_a_run_is_another_one_and_each_is_tried_once() {
+fn the_cases_of_a_run_are_distinct_and_each_is_checked_once() {
     static TRIED: Mutex<Vec<String>> = Mutex::new(Vec::new());
     let record = |x: &Case<Exact>| {
         TRIED.lock().unwrap().push(format!("{x:?}"));
@@ -318,7 +318,7 @@ fn a_wrong_statement_is_refuted_and_an_unprovable_one_is_not_proved() {
 
 /// c + ε is replaced by c − ε in all claims to be proved.
 #[test]
-fn a_mistake_is_looked_for_where_it_is() {
+fn a_mistake_is_located_in_its_function() {
     let right = statements();
     let total = registry().formula("penalty::total_stiffness").unwrap().tree.site();
     let all = mutation::mutants(&right, registry());
@@ -340,7 +340,7 @@ fn a_mistake_is_looked_for_where_it_is() {
 }
 
 #[test]
-fn only_what_is_asked_for_is_tried_and_progress_says_how_far() {
+fn only_selected_equations_are_checked_and_progress_is_reported() {
     let all = statements();
     let asked = Options { equations: vec!["1.13".to_string()], ..options(2 * BLOCK) };
     let other = claim("other", Proposition::Sign(Relation::Positive, Tree::one())).inheriting("1.13", &[]);
@@ -356,7 +356,7 @@ fn only_what_is_asked_for_is_tried_and_progress_says_how_far() {
 }
 
 #[test]
-fn the_rows_of_a_claim_stand_together_in_the_order_of_the_chapter() {
+fn rows_are_grouped_by_claim_in_the_order_of_the_chapter() {
     let report = verify(&Options { cases: 1, ..Options::default() }, &|_, _| ());
     assert!(report.rows.is_sorted_by_key(|row| index_of(row.equation)));
     let claims = report.rows.chunk_by(|a, b| (a.equation, a.claim) == (b.equation, b.claim));
@@ -375,7 +375,7 @@ fn the_rows_of_a_claim_stand_together_in_the_order_of_the_chapter() {
 /// Every key is present, quantities are texts, and a counterexample has all coordinates.
 #[cfg(feature = "serde")]
 #[test]
-fn json_shows_how_a_claim_fails() {
+fn json_contains_the_details_of_a_failure() {
     let case = Case::of(|_| "7/3".parse().unwrap());
     let row = |status, counterexample: Option<Case<Exact>>| Row {
         equation: "1.13",

@@ -196,7 +196,7 @@ pub fn accepts(name: &str, library: &str, development: &Development) {
 }
 
 #[test]
-fn axioms_are_read() {
+fn names_of_axioms_are_extracted() {
     let printed = "Axioms:\nA.one : forall P : Prop,\n  P\nB.two\n  : nat\n";
     assert_eq!(axioms(printed).into_iter().collect::<Vec<_>>(), ["A.one", "B.two"]);
     assert!(axioms("Closed under the global context\n").is_empty());

@@ -77,7 +77,7 @@ pub fn flips(development: &Development) -> Vec<Flip> {
 }
 
 #[test]
-fn a_flip_changes_one_sign() {
+fn a_mutant_changes_one_sign() {
     assert_eq!(flipped("- (a + b) * c - a"), ["(a + b) * c - a", "- (a - b) * c - a", "- (a + b) * c + a"]);
     // At every position of the sign.
     assert_eq!(

@@ -48,7 +48,7 @@ fn excuses() -> HashMap<Mutant, String> {
 }
 
 #[test]
-fn every_excuse_is_for_a_line_that_is_there() {
+fn excused_lines_exist_in_the_source() {
     for Mutant { file, change, line } in excuses().keys() {
         let there = read(file).lines().any(|own| own.trim() == line);
         assert!(there, "{file} has no such line any more; take its excuse away:\n  {line}\n  {change}");
@@ -77,7 +77,7 @@ fn mutants(all: &Value, named: impl Fn(&str) -> bool) -> Vec<Mutant> {
 
 #[test]
 #[ignore = "tests/mutants/run runs it"]
-fn every_mutant_is_noticed_or_excused() {
+fn every_mutant_is_detected_or_excused() {
     let run = "target/mutants/mutants.out";
     let all = serde_json::from_str(&read(&format!("{run}/mutants.json"))).expect("JSON");
     let missed = read(&format!("{run}/missed.txt"));

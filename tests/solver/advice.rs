@@ -27,7 +27,7 @@ fn reaches<T: Scalar + ToExact>(
 
 /// With three bits 1 − 8 η is 0, and with fewer it is less: nothing is promised then, whatever is asked.
 #[test]
-fn with_few_bits_nothing_is_promised() {
+fn with_few_bits_nothing_is_guaranteed() {
     let system = SpringMass { c: "4", m: "1", g: "10", l: "1", h: "3" }.parse().unwrap();
     for bits in 0..6 {
         for (eps, tolerance) in [("1", "1"), ("1e9", "1e9"), ("1e-9", "1e9"), ("1e9", "1e-9")] {
@@ -45,7 +45,7 @@ fn with_few_bits_nothing_is_promised() {
 /// m g of 10 bits is rounded to 10 bits, however many the lengths have: the floor is that of the coarsest parameter. A
 /// tolerance between that and the floor of the finest is not promised.
 #[test]
-fn the_coarsest_parameter_decides_what_is_promised() {
+fn the_coarsest_parameter_determines_the_guarantee() {
     let like = [10, 10, 10, 200, 200].map(|bits| int(1).to_mpfr(bits));
     let numbers = SpringMass { c: "4", m: "1.1", g: "9.81", l: "1", h: "3" }.parse().unwrap();
     let SpringMass { c, m, g, l, h } = &numbers;
@@ -107,7 +107,7 @@ fn the_softest_penalty_has_two_digits() {
 /// Δ = 2: rounding takes up to 5 η Δ (1 + 2 η) from the deflection of (1.13), however hard the penalty, at grazing as
 /// well as beyond. A tolerance of as much is not promised, one of any more is.
 #[test]
-fn what_rounding_takes_at_most_is_no_tolerance() {
+fn a_tolerance_below_the_rounding_floor_is_rejected() {
     for g in [2, 3] {
         let system = SpringMass { c: 1, m: 1, g, l: 1, h: 3 }.map(|x| int(*x).to_mpfr(10));
         let eta = Exact::power_of_two(-10);
@@ -121,7 +121,7 @@ fn what_rounding_takes_at_most_is_no_tolerance() {
 /// Where the mass hangs free every penalty method computes m g/c. The augmentation is promised above 5 η m g/c, and
 /// from ε = c on.
 #[test]
-fn what_hangs_free_takes_any_penalty() {
+fn a_separated_mass_accepts_any_penalty() {
     let system = SpringMass { c: 1, m: 1, g: 1, l: 0, h: 3 }.map(|x| int(*x).to_mpfr(10));
     let floor = int(5) * Exact::power_of_two(-10);
     let more = &floor * (int(1) + Exact::power_of_two(-40));

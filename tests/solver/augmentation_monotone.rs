@@ -442,7 +442,7 @@ fn two_cycles_are_recognised() {
 
 /// p̂ can be exactly 0 while p(û) is not, and λ still wrong: nothing is promised on the strength of p̂ alone.
 #[test]
-fn a_penetration_of_zero_promises_nothing() {
+fn a_computed_penetration_of_zero_guarantees_nothing() {
     let s = SpringMass { c: 100f32, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
     let first = Augmentation::new(&s, &1e8).step();
     assert_eq!((first.penetration, first.multiplier), (0.0, 0.0));

@@ -124,7 +124,7 @@ fn system_reaction(system: &SpringMass<Exact>) -> Exact {
 }
 
 #[test]
-fn what_is_not_in_range_is_refused() {
+fn arguments_out_of_range_are_rejected() {
     let good = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
     assert_eq!(State::of(&good), Ok(State::Contact));
     for (system, eps, start) in [

@@ -176,7 +176,7 @@ proptest! {
 
     /// Condition 3 at work: with the penalty that is found the exact root lies below the tolerance.
     #[test]
-    fn the_penalty_that_is_found_keeps_the_tolerance(case in any_state(8), fraction in 1..100i32) {
+    fn the_found_penalty_meets_the_tolerance(case in any_state(8), fraction in 1..100i32) {
         let Case { system: s, eps, .. } = &case;
         let tolerance = positive_part(&(reaction(&case) / &s.c)) * int(fraction) / int(100) + Exact::power_of_two(-30);
         let first = std::array::from_ref(eps);
@@ -266,7 +266,7 @@ fn ten_thousand_steps_are_enough() {
 
 /// A wall without a value behind it: below it the force is 0, so that the root is behind, and R/c bounds it.
 #[test]
-fn what_has_no_value_ends_the_search() {
+fn an_undefined_value_ends_the_search() {
     for n in 3..30 {
         let wall = |p: &DualEnclosure<f64>| {
             let beyond = (p - DualEnclosure::<f64>::int(1) / DualEnclosure::<f64>::int(n)).positive_part();
@@ -308,7 +308,7 @@ where
 
 /// Each condition is named, with the penetration at which it is seen broken. R/c = 1/2.
 #[test]
-fn broken_conditions_are_named() {
+fn violated_conditions_are_named() {
     use Condition::*;
     let w = |eps: &DualEnclosure<f64>, p: &DualEnclosure<f64>| penalty::functional(eps, p);
     let int = DualEnclosure::<f64>::int;
@@ -393,7 +393,7 @@ fn silly_functionals_come_to_an_end() {
 }
 
 #[test]
-fn a_mass_that_hangs_free_asks_no_functional() {
+fn a_separated_mass_does_not_evaluate_the_functional() {
     let lifted = SpringMass { g: 4.0, ..example() };
     let grazing = SpringMass { g: 8.0, ..example() };
     for s in [lifted, grazing] {

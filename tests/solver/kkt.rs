@@ -382,19 +382,19 @@ proptest! {
     }
     // Among the subnormal numbers, in the middle, and where the products overflow.
     #[test]
-    fn the_state_is_exact_where_rounding_could_turn_it_in_f32(
+    fn the_state_is_exact_near_grazing_in_f32(
         k in prop_oneof![-150..-120, Just(0), 122..128], mantissas in mantissas(),
     ) {
         the_state_is_exact_where_rounding_could_turn_it(&1f32, k, mantissas)?;
     }
     #[test]
-    fn the_state_is_exact_where_rounding_could_turn_it_in_f64(
+    fn the_state_is_exact_near_grazing_in_f64(
         k in prop_oneof![-1075..-1018, Just(0), 1018..1024], mantissas in mantissas(),
     ) {
         the_state_is_exact_where_rounding_could_turn_it(&1f64, k, mantissas)?;
     }
     #[test]
-    fn the_state_is_exact_where_rounding_could_turn_it_in_mpfr(bits in 2u32..80, mantissas in mantissas()) {
+    fn the_state_is_exact_near_grazing_in_mpfr(bits in 2u32..80, mantissas in mantissas()) {
         the_state_is_exact_where_rounding_could_turn_it(&int(1).to_mpfr(bits), 0, mantissas)?;
     }
     #[test]

@@ -133,7 +133,7 @@ fn tried<const LAW: usize>() -> Result<(), LawViolation> {
 }
 
 #[test]
-fn a_law_that_is_broken_is_named() {
+fn a_violated_law_is_named() {
     let found = [
         tried::<0>(),
         tried::<1>(),
@@ -169,7 +169,7 @@ fn a_sum_that_cancels_is_tried() {
 
 /// What came of it, and what it should be. 1e100 is 1000000000000000015902891109759918…
 #[test]
-fn a_law_that_is_broken_says_by_what() {
+fn a_violated_law_reports_its_counterexample() {
     let said = |found: Result<(), LawViolation>| found.unwrap_err().to_string();
     let order = laws::check_scalar_laws(&[1.0, -1.0].map(Breaks::<0>), |x| exact(&x.0));
     assert_eq!(

@@ -250,7 +250,7 @@ proptest! {
     ///
     /// 31, 7 and 7⁵ · 15 have 5, 3 and 18 bits and the exponents differ by 24 at most: g has 53 bits.
     #[test]
-    fn planted_roots_come_back(
+    fn constructed_roots_are_found(
         n in 1..8i32, e in -2..=2i32, negative in any::<bool>(), k in prop::array::uniform4(0..16i32),
         (c, gap) in (1..32i32, -31..32i32),
     ) {
@@ -407,7 +407,7 @@ fn broken_condition(
 /// Functionals that break each condition, and note 3's two: one that meets the conditions as they are
 /// printed and is no penalty, one that is a penalty and does not meet them.
 #[test]
-fn broken_conditions_are_named() {
+fn violated_conditions_are_named() {
     let penalties: Vec<_> = (0..60).step_by(5).map(Exact::power_of_two).collect();
     let penetrations: Vec<_> = (-10..10).map(Exact::power_of_two).collect();
     let broken = |w: fn(&Exact, &Exact) -> Exact| broken_condition(w, &penalties, &penetrations, &int(4));

@@ -261,7 +261,7 @@ fn refusals_name_the_parameter_in_mpfr() {
 /// With c = ε = 4, Δ = 2, |R| = 2, |H| = 3 the drift is 20 F = 20 η (3 + 2 + 1/2), so what is within reach is more
 /// than 110 η + η (3 + 8 tol); and 64 · 8 ≤ 4 (2ᵖ + 1) from p = 7 on.
 #[test]
-fn what_is_within_reach_begins_at_the_drift() {
+fn guaranteed_tolerances_begin_at_the_drift() {
     let pushes = SpringMass { c: 4, m: 1, g: 10, l: 1, h: 3 }.map(|x| int(*x));
     let pulls = SpringMass { c: 4, m: 1, g: -10, l: -1, h: -3 }.map(|x| int(*x));
     for system in [pushes, pulls] {
@@ -297,7 +297,7 @@ fn a_tolerance_is_above_the_floor() {
 /// so from η = 2^−200005 on; and there the floor, 5 η m |g|/c = 5/32, is below 1. By the floor of what touches it would
 /// take twice as many.
 #[test]
-fn bits_are_found_where_far_fewer_do_than_seem_to() {
+fn the_required_precision_is_found_if_it_is_far_below_its_estimate() {
     let [soft, long] = [-200_000, 400_000].map(Exact::power_of_two);
     let system = SpringMass { c: soft, m: int(1), g: int(-1), l: long.clone(), h: long };
     assert_eq!(required_precision(&system, Plane::Unilateral, &int(1)), Ok(Some(200_005)));
@@ -306,7 +306,7 @@ fn bits_are_found_where_far_fewer_do_than_seem_to() {
 /// u = m g/c = 1 and l = 0: 5 η far from the plane. Touching, the floor is 41 η H/(1 − 8 η), and it is added where
 /// H − 1 is no more than it and 10 η.
 #[test]
-fn the_floor_of_what_hangs_free_near_grazing_is_both() {
+fn the_floor_near_grazing_covers_both_states() {
     let eta = Exact::power_of_two(-10);
     let touching = |h: &Exact| int(41) * &eta * h / (int(1) - int(8) * &eta);
     let alone = int(5) * &eta;
@@ -370,7 +370,7 @@ fn a_penalty_may_be_as_large_as_a_float() {
 
 /// Of whatever is not finite or not in its range an error is returned by each of them, and no panic.
 #[test]
-fn what_is_asked_of_an_invalid_system_is_an_error() {
+fn every_function_rejects_an_invalid_system() {
     let good = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
     let eta = Exact::power_of_two(-53);
     let (nan, inf) = (f64::NAN, f64::INFINITY);

@@ -61,7 +61,7 @@ proptest! {
     }
 
     #[test]
-    fn a_rational_comes_back_as_it_was(case in any_state(WIDE), k: u64) {
+    fn a_rational_round_trips(case in any_state(WIDE), k: u64) {
         let methods = every_method(case.eps.clone(), case.tolerance.clone(), case.start.clone(), k);
         read_back(&case.system, &methods, |a, b| a == b)?;
     }
@@ -113,7 +113,7 @@ proptest! {
 }
 
 #[test]
-fn scientific_notation_of_what_is_special() {
+fn scientific_notation_of_special_values() {
     for text in ["0", "1", "-1", "9.96", "9.94", "99.5", "2.5", "3.5", "1e300", "1e-300", "999999"] {
         let x: Exact = text.parse().unwrap();
         let f: f64 = text.parse().unwrap();
@@ -168,7 +168,7 @@ fn a_system_and_a_method_are_a_line_of_a_batch() {
 
 /// In one line, with what was read.
 #[test]
-fn what_is_no_number_is_refused() {
+fn texts_that_are_not_numbers_are_rejected() {
     for (text, said) in [
         ("abc", "'abc': not a number"),
         ("1e400", "'1e400': overflows f64"),

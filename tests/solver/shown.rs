@@ -94,7 +94,7 @@ in_every_float! {
 }
 
 #[test]
-fn what_is_not_finite_is_shown_and_contains_nothing() {
+fn a_non_finite_interval_is_printed_and_contains_nothing() {
     let endless = Interval { lower: f64::NAN, upper: f64::INFINITY };
     assert_eq!(endless.to_string(), "NaN to inf");
     assert!(!endless.contains(&0.0) && !Interval { lower: 0.0, upper: 1.0 }.contains(&f64::NAN));
@@ -103,7 +103,7 @@ fn what_is_not_finite_is_shown_and_contains_nothing() {
 }
 
 #[test]
-fn a_stagnation_says_how_near_it_came() {
+fn a_stagnation_reports_the_attained_penetration() {
     let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
     let tolerance = 1e-300;
     let method = Method::Augmented { penalty: 4.0, tolerance, max_augmentations: 99, start: 0.0 };
@@ -118,7 +118,7 @@ fn a_stagnation_says_how_near_it_came() {
 }
 
 #[test]
-fn conditions_and_residuals_are_told_in_words() {
+fn conditions_and_residuals_are_described_in_words() {
     let broken = FunctionalError::Broken { condition: Condition::Continuous, at: "0.5".to_string() };
     assert_eq!(broken.to_string(), "the penalty functional must be continuous in p; violated at p = 0.5 m");
     let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };

@@ -128,7 +128,7 @@ proptest! {
 
     /// The laws are those of every precision: of the least ones, too.
     #[test]
-    fn few_bits_are_enough(case in in_contact(WIDE), bits in 2u32..8) {
+    fn few_bits_suffice(case in in_contact(WIDE), bits in 2u32..8) {
         the_error_is_the_springs_until_rounding(&case, &int(1).to_mpfr(bits))?;
     }
 

@@ -36,7 +36,7 @@ mod tests {
     use spring_mass_contact::number::Tree;
 
     #[test]
-    fn a_graph_says_what_is_proved_and_what_is_not() {
+    fn a_graph_distinguishes_proved_and_unproved_claims() {
         let mut own = entry("1.13").unwrap().clone();
         let claim = |name, right: i32| equal(name, Tree::from(1) + Tree::from(1), right);
         let mut with = |claims: &[(&'static str, i32)]| {
@@ -50,7 +50,7 @@ mod tests {
     }
 
     #[test]
-    fn arrows_lead_from_what_is_shown() {
+    fn edges_connect_displayed_nodes_only() {
         let own = entry("1.6").unwrap();
         assert!(own.follows_from.contains(&"1.5"));
         assert!(!graph(&[own]).contains("->"));

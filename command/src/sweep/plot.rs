@@ -134,7 +134,7 @@ mod tests {
 
     /// Two points in opposite corners of the plot area.
     #[test]
-    fn corners_are_where_they_belong() {
+    fn corners_of_a_plot_have_the_right_position() {
         let plot = pair(vec![(0.0, 0.0), (3.0, -6.0)], vec![]);
         let rows = drawn(&plot);
         assert_eq!((rows.len(), rows[0].len()), (ROWS, COLUMNS));

@@ -60,7 +60,7 @@ fn mistaken() -> (Report, verify::Options) {
 
 /// A long title is broken, and the ratio of error and bound is printed for claims that hold.
 #[test]
-fn the_table_shows_where_to_look_what_failed_and_how() {
+fn the_table_shows_suspects_failed_claims_and_counterexamples() {
     let (report, options) = mistaken();
     let expected = r"
  number  title                        proved    f32       f64       mpfr:2
@@ -107,7 +107,7 @@ Rounding errors: at most 250 % of the bound (1.13 rate, exact).
 
 /// An unproved claim is reported separately, even if a number system fails in the same way.
 #[test]
-fn a_proof_and_a_number_system_do_not_fail_alike() {
+fn failures_of_proofs_and_of_number_systems_are_distinguished() {
     let why = Some("division by 0".to_string());
     let ways = [None, Some(NumberSystem::F32), Some(NumberSystem::F64)];
     let broken = |way| Row { why: why.clone(), counterexample: None, ..row(way, Status::Failed) };
@@ -135,7 +135,7 @@ fn a_single_failure_can_be_the_claims_own() {
 
 /// One claim, two with common functions, and two without.
 #[test]
-fn without_a_repair_the_functions_that_failures_share_are_named() {
+fn without_a_repair_the_shared_functions_of_failures_are_listed() {
     let none = "  no mutation of one operation makes every claim provable; ";
     for (failures, shared, expected) in [
         (1, &["a::b"][..], "functions common to the claim that is not proved: a::b"),
@@ -187,7 +187,7 @@ fn a_share_is_rounded_up_and_not_far() {
 }
 
 #[test]
-fn no_line_is_longer_than_a_page_whatever_the_numbers() {
+fn no_line_exceeds_the_width_for_any_numbers() {
     let mut row = row(Some(NumberSystem::F64), Status::Failed);
     let mut case = Case::of(|_| "-1234567890123456789/1152921504606846976".parse().expect("a number"));
     (case.system.c, case.system.m) = (Exact::power_of_two(-1074), Exact::power_of_two(-700));

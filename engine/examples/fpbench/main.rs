@@ -146,7 +146,7 @@ fn infix(tree: &Tree, operation: &mut impl FnMut(String) -> String) -> String {
 
 /// The columns of the table in the README that are independent of the machine are recomputed.
 #[test]
-fn the_table_is_what_is_computed() {
+fn the_table_in_the_readme_is_current() {
     let readme = include_str!("../../README.md");
     for benchmark in benchmarks() {
         let constant = bound(&benchmark).expect("a bound").constant();

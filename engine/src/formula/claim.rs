@@ -164,20 +164,20 @@ mod tests {
 
     #[test]
     #[should_panic(expected = "c ε is not a symbol")]
-    fn only_a_symbol_can_be_differentiated_by() {
+    fn the_variable_of_a_derivative_must_be_a_symbol() {
         let [c, eps] = ["c", "ε"].map(|name| Tree::symbol(name));
         derivative("wrong", &c, &(&c * &eps), &c);
     }
 
     #[test]
     #[should_panic(expected = "powers: x₁ is a reserved name")]
-    fn a_step_has_no_symbol_with_the_name_of_its_member() {
+    fn a_step_must_not_depend_on_a_reserved_symbol() {
         let [own, q] = ["x₁", "q"].map(|name| Tree::symbol(name));
         induction("powers", 2, [Tree::from(1)], |[_]| [Tree::from(2) * &own], [q]);
     }
 
     #[test]
-    fn a_limit_contains_an_exponential_where_its_formula_does() {
+    fn an_exponential_in_a_statement_is_found() {
         let [u, v] = ["u", "v"].map(|name| Tree::symbol(name));
         let statement = equal("exponential", v.exp(), &u).assuming([&Hypothesis::near(&u, &v, 0)]);
         assert!(statement.contains_exponential() && !equal("none", &u, &v).contains_exponential());

@@ -222,7 +222,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn hypotheses_are_written_as_a_reader_does() {
+    fn hypotheses_are_formatted_as_inequalities() {
         let [c, eps, r] = ["c", "ε", "R"].map(|name| Tree::symbol(name));
         let two = || Tree::int(2);
         let text = |relation, value| Hypothesis::new(relation, value).to_string();
@@ -254,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn an_interval_has_two_ends_and_perhaps_a_middle() {
+    fn an_interval_is_solved_between_its_ends() {
         let [q, u, c, d] = ["q", "u", "c", "d"].map(|name| Tree::symbol(name));
         let near = Hypothesis::near(&q, &u, &c);
         assert_eq!(near.distance(), Some((&q - &u, &c)));
@@ -269,7 +269,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_undefined_does_not_hold() {
+    fn a_hypothesis_does_not_hold_where_its_quantity_is_undefined() {
         let inverse = Tree::int(1) / Tree::symbol("c");
         for relation in [Relation::Positive, Relation::NonNegative, Relation::Zero] {
             let hypothesis = Hypothesis::new(relation, inverse.clone());

@@ -179,7 +179,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_round_has_the_steps_that_vary() {
+    fn a_run_has_the_operations_that_vary() {
         let [a, x] = ["a", "x"].map(|name| Tree::symbol(name));
         let mut program = Program::default();
         assert!(program.is_empty());

@@ -354,7 +354,7 @@ mod tests {
 
     /// The operations of a chain begin at one place; the rank, from the left, is shown from the second on.
     #[test]
-    fn steps_are_known_by_their_place() {
+    fn operations_of_a_chain_have_distinct_sites() {
         let [a, b] = ["a", "b"].map(|name| Tree::symbol(name));
         let (chain, line) = (&a + &b - &a + &b, line!());
         let mut sites = Vec::new();
@@ -366,7 +366,7 @@ mod tests {
 
     /// Each doubling is one further operation and doubles the size written out.
     #[test]
-    fn a_deep_formula_is_read_and_dropped_without_recursion() {
+    fn a_deep_formula_is_traversed_and_dropped_without_recursion() {
         let x = Tree::symbol("x");
         let sum = |terms: u32| (0..terms).fold(x.clone(), |sum, _| sum + &x);
         let (deep, deeper) = (sum(100_000), sum(100_001));
@@ -382,7 +382,7 @@ mod tests {
 
     /// fl(fl(2 x) + 1) = 7 is solved as 2 x + 1 = 7.
     #[test]
-    fn a_rounded_formula_is_solved_as_if_it_were_not() {
+    fn solving_ignores_roundings() {
         let x = Tree::symbol("x");
         let formula = (Tree::int(2) * &x + Tree::one()).with_rounding();
         assert!(formula.contains_rounding());
@@ -391,7 +391,7 @@ mod tests {
     }
 
     #[test]
-    fn zero_is_zero_and_nothing_else_is() {
+    fn only_the_literal_zero_is_zero() {
         let x = Tree::symbol("x");
         assert!(Tree::zero().is_zero() && ![Tree::one(), &x - &x, x].iter().any(Tree::is_zero));
     }

@@ -321,7 +321,7 @@ mod tests {
     }
 
     #[test]
-    fn a_bound_is_one_of_the_rounded_formula() {
+    fn every_form_bounds_the_error_of_the_rounded_formula() {
         let [x, y] = symbols(["x", "y"]);
         let one = Tree::int(1);
         let in_intervals = [Hypothesis::between(&x, -2, 3), Hypothesis::between(&y, 1, 4)];
@@ -361,7 +361,7 @@ mod tests {
     }
 
     #[test]
-    fn bounds_are_those_that_are_known() {
+    fn bounds_match_known_constants() {
         let [x, y] = symbols(["x", "y"]);
         let positive = [&x, &y].map(|x| Hypothesis::new(Relation::Positive, x.clone()));
         let bound = |of: &Tree, scale: &Tree, assumed: &[Hypothesis]| {
@@ -389,7 +389,7 @@ mod tests {
     }
 
     #[test]
-    fn the_least_number_is_found_up_to_a_sixty_fourth() {
+    fn the_smallest_number_is_found_up_to_one_part_in_64() {
         let value = |tree: &Tree| tree.eval(&|_| f64::NAN, &piecewise_ops).unwrap();
         for limit in [0.0, 1e-30, 0.9, 1.0, 1.01, 63.5, 64.0, 127.9, 1e6, 3e11, 1e30] {
             let found = value(&number(least(|k| if value(k) >= limit { Ok(()) } else { Err(()) }).unwrap()));

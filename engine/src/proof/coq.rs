@@ -363,7 +363,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_proof_to_follow_is_left_out() {
+    fn claims_without_a_usable_derivation_are_omitted() {
         let [a, t] = ["a", "t"].map(|name| Tree::symbol(name));
         let above = [&a, &t].map(|x| Hypothesis::new(Relation::Positive, x.clone()));
         let vanishes = |of: Tree| {
@@ -379,7 +379,7 @@ mod tests {
     }
 
     #[test]
-    fn a_long_line_is_broken_where_there_is_a_blank() {
+    fn long_lines_are_broken_at_blanks() {
         let [short, full, long] = [94, 98, 101].map(|n| "a".repeat(n));
         let kept = format!("  {full}\n  {long}\n");
         assert_eq!(wrapped(&kept), kept);

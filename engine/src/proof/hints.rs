@@ -162,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lens_lacks_the_place_of_its_object() {
+    fn the_missing_hypothesis_on_a_lens_is_suggested() {
         let [f, s] = tree::symbols(["f", "s"]);
         let [converging, real] = [&f, &s].map(above_zero);
         let is_real = positive("", image(&f, &s));
@@ -181,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn a_divider_lacks_the_sign_of_its_load() {
+    fn the_missing_sign_of_a_load_is_suggested() {
         let [u, a, b, load] = tree::symbols(["U", "R₁", "R₂", "R"]);
         let claim = positive("", loaded(&u, &a, &b, &load)).assuming(&[&a, &b, &u].map(above_zero));
         assert_eq!(
@@ -206,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn what_contradicts_a_hypothesis_is_not_suggested() {
+    fn hypotheses_that_contradict_the_statement_are_not_suggested() {
         let [f, s] = tree::symbols(["f", "s"]);
         let claim = positive("", image(&f, &s)).assuming([&above_zero(&f), &above_zero(&f - &s)]);
         assert_eq!(hints(&claim), ["s < 0"]);
@@ -219,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn neither_the_claim_nor_what_is_stronger_than_needed_is_suggested() {
+    fn neither_the_claim_nor_stronger_hypotheses_than_needed_are_suggested() {
         let [a, b, c, d] = tree::symbols(["a", "b", "c", "d"]);
         assert_eq!(hints(&positive("", &a - &b)), Vec::<String>::new());
         // Since a > d, b ≥ a would suffice as well.
@@ -240,7 +240,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_suggested_where_no_hypothesis_can_be_missing() {
+    fn nothing_is_suggested_if_no_hypothesis_can_help() {
         let none = Vec::<String>::new();
         let one = || Tree::from(1);
         assert_eq!(hints(&equal("", one() / (one() - one()), 0)), none);
@@ -252,7 +252,7 @@ mod tests {
 
     /// Tests the suggestions for some hundreds of claims; integers satisfy all hypotheses.
     #[test]
-    fn what_is_suggested_suffices_and_can_hold() {
+    fn suggestions_suffice_and_are_consistent() {
         let [a, b, c] = tree::symbols(["a", "b", "c"]);
         let parts = [a.clone(), b.clone(), &a - &b, &b - &c, &a * &b - &c, Tree::from(1)];
         let mut suggested = 0;

@@ -86,24 +86,24 @@ impl<S: Floats<Number = N>, N: Real + ToExact + 'static> System for Balls<S> {
     }
 }
 
-law! { a_ball_knows_whether_its_centre_is_exact: Binary32 Binary64 Mpfr2 Mpfr3 Mpfr24 Mpfr53 Mpfr200 }
+law! { the_radius_is_zero_only_for_exact_centres: Binary32 Binary64 Mpfr2 Mpfr3 Mpfr24 Mpfr53 Mpfr200 }
 
 // Laws of the balls over these floats.
 macro_rules! laws_of_balls {
     ($($law:ident)+) => {$(law! { $law: Binary32 Binary64 Mpfr2 Mpfr53 })+};
 }
 laws_of_balls! {
-    a_ball_never_errs_about_signs_and_bounds
-    the_centre_is_what_the_float_alone_computes
-    a_ball_of_exp_holds_the_exponential
-    a_dual_ball_of_exp_holds_the_exponential_and_its_derivative
-    a_ball_is_hardly_wider_than_the_rounding_of_its_operation
+    signs_and_bounds_of_balls_are_correct
+    the_centre_is_the_float_result
+    exp_of_a_ball_contains_the_exact_value
+    exp_of_a_dual_ball_contains_the_exact_value_and_derivative
+    the_radius_of_an_operation_on_points_is_tight
 }
 
 /// The four operations are monotone in each operand (÷ on either side of 0), so if the results for the bounds
 /// of both balls are inside, all others are.
 #[test]
-fn all_pairs_of_3_bit_balls_hold_the_results_of_their_ends() {
+fn operations_on_3_bit_balls_contain_the_results_of_their_ends() {
     let all = all_of_three_bits(-4..=0);
     let finite = Tally::default();
     for a in &all {
@@ -129,7 +129,7 @@ fn all_pairs_of_3_bit_balls_hold_the_results_of_their_ends() {
     finite.assert_one_in(2, "finite balls");
 }
 
-fn a_ball_never_errs_about_signs_and_bounds<S: Floats<Number = N>, N: Real + ToExact + 'static>() {
+fn signs_and_bounds_of_balls_are_correct<S: Floats<Number = N>, N: Real + ToExact + 'static>() {
     let (certain, uncertain) = (Tally::default(), Tally::default());
     // Differences of neighbours straddle 0; quotients have infinite balls among them.
     for_all(Balls::<S>::pair(), |((a, exact_a), (b, exact_b))| {
@@ -163,7 +163,7 @@ fn compare<N: Real + ToExact>(x: &N, exact: &Exact) -> Option<Ordering> {
     }
 }
 
-fn the_centre_is_what_the_float_alone_computes<S: Floats<Number = N>, N: Real + ToExact + 'static>() {
+fn the_centre_is_the_float_result<S: Floats<Number = N>, N: Real + ToExact + 'static>() {
     for_all(Balls::<S>::pair(), |((a, _), (b, _))| {
         let (x, y) = (a.value(), b.value());
         let same = |ball: &Ball<N>, float: &N| S::same(ball.value(), float);
@@ -180,7 +180,7 @@ fn the_centre_is_what_the_float_alone_computes<S: Floats<Number = N>, N: Real + 
 
 /// One and a half of the smallest number: few digits, but between two floats.
 #[test]
-fn what_lies_between_subnormals_is_no_exact_centre() {
+fn a_number_between_subnormals_is_enclosed_with_a_positive_radius() {
     let x = |n| Exact::from(3) * Exact::power_of_two(n);
     let (single, double) =
         (Ball::enclosing(&0f32, &x(-150)).unwrap(), Ball::enclosing(&0f64, &x(-1075)).unwrap());
@@ -188,7 +188,7 @@ fn what_lies_between_subnormals_is_no_exact_centre() {
     assert!(*double.radius() > 0.0 && double.contains(&x(-1075)));
 }
 
-fn a_ball_knows_whether_its_centre_is_exact<S: Floats<Number = N>, N: Real + ToExact + 'static>() {
+fn the_radius_is_zero_only_for_exact_centres<S: Floats<Number = N>, N: Real + ToExact + 'static>() {
     let inexact = Tally::default();
     for_all(prop_oneof![floats(S::FORMAT), rationals()], |x| {
         let nearest = S::FORMAT.round(&x);
@@ -213,10 +213,7 @@ fn a_ball_knows_whether_its_centre_is_exact<S: Floats<Number = N>, N: Real + ToE
 /// Infinite radii would satisfy all other laws. One operation adds η|x| for the rounding of x, increased by
 /// at most a factor 1 + 2η by rounding up, and the subnormal unit u if the product or sum underflows: for
 /// points at most 2 (η|x| + 4u).
-fn a_ball_is_hardly_wider_than_the_rounding_of_its_operation<
-    S: Floats<Number = N>,
-    N: Real + ToExact + 'static,
->() {
+fn the_radius_of_an_operation_on_points_is_tight<S: Floats<Number = N>, N: Real + ToExact + 'static>() {
     let eta = Exact::power_of_two(1 - S::FORMAT.bits.cast_signed());
     let underflow = Exact::int(8) * N::min_subnormal().to_exact().unwrap();
     let tried = Tally::default();
@@ -241,7 +238,10 @@ fn a_ball_is_hardly_wider_than_the_rounding_of_its_operation<
 /// Bits of the enclosure of an exponential, many more than any of the balls has.
 const ENCLOSURE: u32 = 500;
 
-fn a_ball_of_exp_holds_the_exponential<S: Floats<Number = N>, N: Real + Exponential + ToExact + 'static>() {
+fn exp_of_a_ball_contains_the_exact_value<
+    S: Floats<Number = N>,
+    N: Real + Exponential + ToExact + 'static,
+>() {
     let finite = Tally::default();
     let bits = S::FORMAT.bits.cast_signed();
     for_all(Balls::<S>::of(floats(S::FORMAT.within(-bits - 8, 11))), |(ball, x)| {
@@ -259,7 +259,7 @@ fn a_ball_of_exp_holds_the_exponential<S: Floats<Number = N>, N: Real + Exponent
 
 /// (eˣ)′ = eˣ x′. Both factors lie between their bounds, so the product lies between the smallest and the
 /// largest product of bounds.
-fn a_dual_ball_of_exp_holds_the_exponential_and_its_derivative<
+fn exp_of_a_dual_ball_contains_the_exact_value_and_derivative<
     S: Floats<Number = N>,
     N: Real + Exponential + ToExact + 'static,
 >() {
@@ -292,7 +292,7 @@ fn the_exponential_of_a_narrow_ball_is_narrow() {
 
 /// Around zero the rounding of the centre cannot hide an error of the radius.
 #[test]
-fn a_ball_around_zero_is_divided_and_multiplied_outwards() {
+fn scaled_balls_around_zero_contain_the_scaled_ends() {
     fn law<S: Floats<Number = N>, N: Real + ToExact + 'static>() {
         let one = S::float(&Exact::one());
         let ball = Ball::from_rounded(one.clone()) - Ball::point(one);
@@ -315,7 +315,7 @@ fn a_ball_around_zero_is_divided_and_multiplied_outwards() {
 }
 
 #[test]
-fn division_by_what_may_be_zero_gives_the_infinite_ball_and_by_zero_none() {
+fn division_by_a_ball_around_zero_is_unbounded_and_by_zero_undefined() {
     fn law<S: Floats<Number = N>, N: Real + Exponential + ToExact>(zeros: &[N]) {
         let one = S::float(&Exact::one());
         let around_zero = Ball::from_rounded(one.clone()) - Ball::from_rounded(one.clone());

@@ -116,7 +116,7 @@ fn the_derivative_of_a_quotient_of_linear_functions_is_the_algebraic_one() {
 }
 
 #[test]
-fn dual_zero_divisors_are_neither_zero_nor_units() {
+fn nilpotent_duals_are_neither_zero_nor_invertible() {
     let nilpotent = Dual { value: Exact::zero(), derivative: Exact::one() };
     assert!(!nilpotent.is_zero() && !nilpotent.is_invertible());
     assert!((&nilpotent * &nilpotent).is_zero());
@@ -173,7 +173,7 @@ fn duals_are_an_ordered_ring() {
 
 /// Balls with an undecided sign contain both derivatives, otherwise only the right one.
 #[test]
-fn dual_balls_hold_the_derivative_at_a_kink() {
+fn dual_balls_contain_the_derivative_at_a_kink() {
     let open = Tally::default();
     // One in seven alone leaves so few signs open that a run in two hundred has too few.
     let near = || (prop_oneof![1 => Just(0), 3 => -3..=3i32], -3..=3i32, 0..=2i32);
@@ -215,7 +215,7 @@ fn dual_balls_hold_the_derivative_at_a_kink() {
 }
 
 #[test]
-fn a_decided_sign_leaves_the_derivative_as_it_is() {
+fn a_known_sign_selects_the_exact_derivative() {
     let dual =
         |value: f64, derivative: f64| Dual { value: Ball::point(value), derivative: Ball::point(derivative) };
     let exactly = |x: &Dual<Ball<f64>>| (*x.derivative.value(), *x.derivative.radius());

@@ -77,7 +77,7 @@ fn converted(x: &Exact, format: Format, scalar: &'static str) -> Result<Exact, R
 }
 
 #[test]
-fn rationals_are_rounded_once_to_the_nearest_float_or_refused() {
+fn rationals_are_rounded_once_to_the_nearest_float_or_rejected() {
     // Numbers with a few more bits than the format, half of them ties, from below the smallest subnormal to
     // beyond the largest float.
     let wide = |f: Format| Format { least: f.least - 3, greatest: f.greatest + 1, bits: f.bits + 1, ..f };
@@ -112,7 +112,7 @@ fn rationals_are_rounded_once_to_the_nearest_float_or_refused() {
 }
 
 #[test]
-fn overflow_and_underflow_begin_exactly_where_rounding_says() {
+fn overflow_and_underflow_begin_at_the_rounding_thresholds() {
     fn edges<F: Copy + PartialEq + Debug>(
         format: Format,
         convert: fn(&Exact) -> Result<F, RangeError>,
@@ -146,21 +146,21 @@ fn overflow_and_underflow_begin_exactly_where_rounding_says() {
 }
 
 #[test]
-fn digits_are_those_of_both_integers() {
+fn the_bits_of_both_integers_are_counted() {
     for (fraction, digits) in [("-5/16", 3 + 5), ("0", 1), ("1023", 10 + 1), ("1/1024", 1 + 11)] {
         assert_eq!(fraction.parse::<Exact>().unwrap().bit_length(), digits, "{fraction}");
     }
 }
 
 #[test]
-fn no_number_has_0_bits() {
+fn rounding_to_0_bits_returns_none() {
     for x in ["1/3", "0"].map(|x| x.parse::<Exact>().unwrap()) {
         assert_eq!((x.round_to_bits(0), x.round_to_bits(1).is_some()), (None, true));
     }
 }
 
 #[test]
-fn what_is_not_finite_has_no_exact_value() {
+fn non_finite_floats_have_no_exact_value() {
     let none =
         [NonFiniteError::Infinity, NonFiniteError::NegativeInfinity, NonFiniteError::NotANumber].map(Err);
     assert_eq!([f32::INFINITY, f32::NEG_INFINITY, f32::NAN].map(|x| x.to_exact()), none);
@@ -179,7 +179,7 @@ fn what_is_not_finite_has_no_exact_value() {
 }
 
 #[test]
-fn integers_and_finite_floats_are_themselves() {
+fn integers_and_finite_floats_are_converted_exactly() {
     assert_eq!(Exact::from(i64::MIN).to_string(), "-9223372036854775808");
     assert_eq!(Exact::from(u64::MAX).to_string(), "18446744073709551615");
     assert_eq!(Exact::from(u32::MAX), Exact::from(u64::from(u32::MAX)));

@@ -47,13 +47,13 @@ macro_rules! laws_of_floats {
     ($($law:ident)+) => {$(law! { $law: Binary32 Binary64 Mpfr2 Mpfr3 Mpfr24 Mpfr53 Mpfr200 })+};
 }
 laws_of_floats! {
-    neighbours_have_no_number_between_them
+    no_float_lies_between_neighbours
     the_unit_roundoff_bounds_every_rounding
-    what_is_enlarged_makes_good_ten_roundings
+    inflation_compensates_for_ten_roundings
     exp_ln_and_ln_1p_are_correctly_rounded
 }
 
-fn neighbours_have_no_number_between_them<S: Floats<Number = N>, N: Real + ToExact + 'static>() {
+fn no_float_lies_between_neighbours<S: Floats<Number = N>, N: Real + ToExact + 'static>() {
     let below_the_largest = Tally::default();
     for_all(S::number(), |(x, exact)| {
         let (up, down) = (x.clone().next_up(), x.clone().next_down());
@@ -102,7 +102,7 @@ fn the_unit_roundoff_bounds_every_rounding<S: Floats<Number = N>, N: Real + ToEx
 
 /// Each operation may have decreased the result by the factor 1 − η; among subnormal numbers sums are exact
 /// and no increase is needed. The increase is at most 24 η, unless the result is rounded more coarsely.
-fn what_is_enlarged_makes_good_ten_roundings<S: Floats<Number = N>, N: Real + ToExact + 'static>() {
+fn inflation_compensates_for_ten_roundings<S: Floats<Number = N>, N: Real + ToExact + 'static>() {
     let normal = Tally::default();
     for_all(S::number(), |(x, exact)| {
         let before = x.magnitude();
@@ -184,7 +184,7 @@ fn exp_ln_and_ln_1p_are_correctly_rounded_at_many_full_mantissas() {
 /// Double rounding differs: a result close to the middle of two subnormal numbers can be rounded to the
 /// middle first, and then to the wrong side.
 #[test]
-fn exponentials_among_the_subnormal_numbers_are_rounded_once() {
+fn subnormal_exponentials_are_rounded_once() {
     fn law<S: Floats<Number = N>, N: Exponential>() {
         // From the smallest normal number's logarithm, 2^(least + bits − 1), to that of half the smallest number's.
         let (bits, least) = (f64::from(S::FORMAT.bits), f64::from(S::FORMAT.least));

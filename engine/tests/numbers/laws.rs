@@ -20,38 +20,38 @@ macro_rules! laws_of_every_system {
     })+};
 }
 laws_of_every_system! {
-    zero_one_and_signs_are_neutral
+    zero_one_and_signs_satisfy_the_field_identities
     small_integers_add_and_multiply
-    owned_and_borrowed_operands_give_the_same
-    a_result_is_the_same_where_another_number_was
+    owned_and_borrowed_operands_give_the_same_result
+    assigned_results_do_not_depend_on_the_previous_number
 }
 
 // All but the duals of floats, whose derivative takes several roundings; the duals of balls bound it, and
 // `dual_floats_are_the_centres_of_dual_balls`.
-law! { operations_return_what_the_exact_result_demands:
+law! { operations_agree_with_exact_results:
     Binary32 Binary64 Mpfr2 Mpfr3 Mpfr24 Mpfr53 Mpfr200 MpfrMixed MpfrConstant Rationals
     BallF32 BallF64 BallMpfr2 BallMpfr53 DualExact DualBallF32 DualBallF64
 }
 
 law! { exact_numbers_are_a_commutative_ring_with_inverses: Rationals MpfrConstant DualExact }
 
-law! { positive_part_and_minimum_return_what_the_exact_result_demands:
+law! { positive_part_and_minimum_agree_with_exact_results:
     Binary32 Binary64 Mpfr2 Mpfr3 Mpfr24 Mpfr53 Mpfr200 MpfrMixed MpfrConstant
     BallF32 BallF64 BallMpfr2 BallMpfr53
 }
 
-law! { numbers_are_ordered_as_what_they_stand_for:
+law! { the_order_agrees_with_exact_values:
     Binary32 Binary64 Mpfr2 Mpfr3 Mpfr24 Mpfr53 Mpfr200 MpfrMixed MpfrConstant
 }
 
 // Those of which the command and the proofs are told what they stand for.
-law! { numbers_say_what_they_stand_for:
+law! { conversions_to_rationals_are_exact:
     Binary32 Binary64 Mpfr2 Mpfr3 Mpfr24 Mpfr53 Mpfr200 MpfrMixed MpfrConstant
 }
 
 /// Floats return the nearest float, ties to even, or infinity beyond the largest one. Balls contain the exact
 /// result for all numbers in the operands. Exact numbers return the result.
-fn operations_return_what_the_exact_result_demands<S: System<Number = N>, N: Field + 'static>() {
+fn operations_agree_with_exact_results<S: System<Number = N>, N: Field + 'static>() {
     let (tried, told_apart) = (Tally::default(), Tally::default());
     for_all(S::pair(), |((a, exact_a), (b, exact_b))| {
         prop_assert!(S::stands_for(&a, &exact_a), "{a:?} is drawn for {exact_a:?}");
@@ -71,7 +71,7 @@ fn operations_return_what_the_exact_result_demands<S: System<Number = N>, N: Fie
 }
 
 #[allow(clippy::eq_op)]
-fn zero_one_and_signs_are_neutral<S: System<Number = N>, N: Field + 'static>() {
+fn zero_one_and_signs_satisfy_the_field_identities<S: System<Number = N>, N: Field + 'static>() {
     let (zero, one) = (N::zero(), N::one());
     assert!(zero.is_zero() && !zero.is_invertible() && !one.is_zero() && one.is_invertible());
     let divided = Tally::default();
@@ -126,7 +126,7 @@ fn small_integers_add_and_multiply<S: System<Number = N>, N: Field + 'static>() 
 }
 
 /// Equal in all bits and in precision, as the debug format shows.
-fn owned_and_borrowed_operands_give_the_same<S: System<Number = N>, N: Field + 'static>() {
+fn owned_and_borrowed_operands_give_the_same_result<S: System<Number = N>, N: Field + 'static>() {
     let bits = |x: N| format!("{x:?}");
     let divided = Tally::default();
     for_all(S::pair(), |((a, _), (b, _))| {
@@ -152,7 +152,7 @@ fn owned_and_borrowed_operands_give_the_same<S: System<Number = N>, N: Field + '
 }
 
 /// Equal in all bits and in precision, for any previous value.
-fn a_result_is_the_same_where_another_number_was<S: System<Number = N>, N: Field + 'static>() {
+fn assigned_results_do_not_depend_on_the_previous_number<S: System<Number = N>, N: Field + 'static>() {
     let bits = |x: &N| format!("{x:?}");
     let divided = Tally::default();
     for_all((S::pair(), S::number()), |(((a, _), (b, _)), (there, _))| {
@@ -200,7 +200,7 @@ fn exact_numbers_are_a_commutative_ring_with_inverses<S: System<Number = N>, N: 
     inverted.assert_one_in(2, "divisors");
 }
 
-fn positive_part_and_minimum_return_what_the_exact_result_demands<S, N>()
+fn positive_part_and_minimum_agree_with_exact_results<S, N>()
 where
     S: System<Number = N, Meaning = Exact>,
     N: PositivePart + 'static,
@@ -223,7 +223,7 @@ fn holds_exactly<S: System<Number = N, Meaning = Exact>, N: Field>(result: &N, e
     S::stands_for(result, exact) || (exact.is_zero() && *result == N::zero())
 }
 
-fn numbers_are_ordered_as_what_they_stand_for<S, N>()
+fn the_order_agrees_with_exact_values<S, N>()
 where
     S: System<Number = N, Meaning = Exact>,
     N: OrderedField + 'static,
@@ -240,7 +240,7 @@ where
     });
 }
 
-fn numbers_say_what_they_stand_for<S, N>()
+fn conversions_to_rationals_are_exact<S, N>()
 where
     S: System<Number = N, Meaning = Exact>,
     N: Field + ToExact + 'static,

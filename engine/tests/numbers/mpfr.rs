@@ -87,7 +87,7 @@ impl System for MpfrConstant {
 }
 
 #[test]
-fn the_larger_precision_wins_in_whatever_order_and_constants_have_none() {
+fn results_have_the_larger_precision_of_their_operands() {
     let (first, second) = (Tally::default(), Tally::default());
     for_all(MpfrMixed::pair(), |((a, _), (b, _))| {
         let larger = a.precision().max(b.precision());
@@ -112,7 +112,7 @@ fn the_larger_precision_wins_in_whatever_order_and_constants_have_none() {
 }
 
 #[test]
-fn a_constant_may_outgrow_the_integers_it_was_made_of() {
+fn constants_may_exceed_the_range_of_i32() {
     let [least, most, one] = [i32::MIN, i32::MAX, 1].map(Mpfr::int);
     let beyond = Some(Rational::from(1_i64 << 31));
     for constant in [-&least, -least, &most + &one] {
@@ -131,7 +131,7 @@ fn zero_is_written_without_a_sign() {
 
 /// A higher precision would not improve the bound, and would slow down every operation.
 #[test]
-fn a_radius_has_few_digits_however_many_its_ball_has() {
+fn radii_have_at_most_64_bits() {
     let ball = |x: &str| Ball::enclosing(&Mpfr::rounded(1000, 0), &x.parse().unwrap()).unwrap();
     let (a, b) = (ball("1/3"), ball("5/7"));
     for made in [&a + &b, &a - &b, &a * &b, &a / &b, -&a, a.exp(), a.min(&b), a.positive_part()] {
@@ -140,7 +140,7 @@ fn a_radius_has_few_digits_however_many_its_ball_has() {
 }
 
 #[test]
-fn precisions_reach_from_2_to_a_million_bits() {
+fn precisions_from_2_to_a_million_bits_are_supported() {
     assert_eq!(PRECISIONS, 2..=1_000_000);
     for bits in [2, 1_000_000] {
         assert_eq!(Exact::one().to_mpfr(bits).precision(), Some(bits));
@@ -150,31 +150,31 @@ fn precisions_reach_from_2_to_a_million_bits() {
 
 #[test]
 #[should_panic = "a precision of 1 bits"]
-fn one_bit_is_refused() {
+fn a_precision_of_one_bit_panics() {
     Exact::one().to_mpfr(1);
 }
 
 #[test]
 #[should_panic = "a precision of 1000001 bits"]
-fn more_than_a_million_bits_are_refused() {
+fn a_precision_above_a_million_bits_panics() {
     Exact::one().to_mpfr(1_000_001);
 }
 
 #[test]
 #[should_panic = "exp of a constant"]
-fn a_constant_has_no_exponential() {
+fn exp_of_a_constant_panics() {
     Mpfr::int(1).exp();
 }
 
 #[test]
 #[should_panic = "ln of a constant"]
-fn a_constant_has_no_logarithm() {
+fn ln_of_a_constant_panics() {
     Mpfr::int(2).ln();
 }
 
 #[test]
 #[should_panic = "ln_1p of a constant"]
-fn a_constant_has_no_logarithm_after_one() {
+fn ln_1p_of_a_constant_panics() {
     Mpfr::int(1).ln_1p();
 }
 
@@ -186,7 +186,7 @@ pub fn all_of_three_bits(exponents: std::ops::RangeInclusive<i32>) -> Vec<Exact>
 }
 
 #[test]
-fn all_pairs_of_3_bit_floats_round_correctly_and_stay_in_their_balls() {
+fn operations_on_3_bit_floats_are_correctly_rounded_and_enclosed() {
     let all = all_of_three_bits(-5..=3);
     for exact_a in &all {
         for exact_b in &all {

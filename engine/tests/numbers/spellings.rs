@@ -15,7 +15,7 @@ fn read(text: &str) -> Result<Exact, ParseError> {
 }
 
 #[test]
-fn every_spelling_is_read_exactly() {
+fn every_notation_is_parsed_exactly() {
     let ratio = |p: i64, q: i64| Ok(Exact::from(Rational::from((p, q))));
     for (text, p, q) in [
         ("0", 0, 1),
@@ -55,7 +55,7 @@ fn every_spelling_is_read_exactly() {
 }
 
 #[test]
-fn what_is_no_number_is_refused() {
+fn texts_that_are_not_numbers_are_rejected() {
     for text in [
         "NaN", "nan", "inf", "-inf", "Infinity", "1e", "1e+", "1e-", "e5", "e", ".", "-.", "+", "-", "--1",
         "+-1", "-+1", "1-", "1_000", "1,5", "1 000", " 1", "1 ", "\t1", "1\n", " ", "0x10", "0b1", "1f",
@@ -73,14 +73,14 @@ fn what_is_no_number_is_refused() {
 
 /// Returns immediately for any exponent, since a number with 10¹² digits would take too long.
 #[test]
-fn what_is_no_number_has_no_exponent_either() {
+fn an_invalid_mantissa_is_reported_before_the_exponent() {
     for text in ["heavye99999999999", "1_0e-4294967296", "e100001", "1.2.3e99999999999", "0x1e99999999999"] {
         assert_eq!(read(text), Err(ParseError::NotANumber), "{text}");
     }
 }
 
 #[test]
-fn exponents_beyond_100_000_are_refused_before_anything_is_allocated() {
+fn exponents_beyond_100_000_are_rejected_before_allocation() {
     assert_eq!(MAX_EXPONENT, 100_000);
     let endless = format!("1e{}", "9".repeat(10_000));
     for text in
@@ -95,7 +95,7 @@ fn exponents_beyond_100_000_are_refused_before_anything_is_allocated() {
 }
 
 #[test]
-fn numbers_too_large_or_too_small_for_a_float_are_refused_and_never_inf_or_zero() {
+fn numbers_out_of_range_are_rejected_instead_of_rounded_to_inf_or_zero() {
     let to_f32 = |text| read(text).and_then(|x| Ok(x.to_f32()?));
     let to_f64 = |text| read(text).and_then(|x| Ok(x.to_f64()?));
     fn overflow<F>(scalar: &'static str) -> Result<F, ParseError> {
@@ -121,7 +121,7 @@ fn numbers_too_large_or_too_small_for_a_float_are_refused_and_never_inf_or_zero(
 
 /// The standard library also parses decimals with correct rounding.
 #[test]
-fn decimals_become_the_floats_that_the_standard_library_reads() {
+fn decimals_are_rounded_as_by_the_standard_library() {
     let decimal =
         (any::<bool>(), any::<u64>(), 0usize..20, -340..310).prop_map(|(negative, digits, point, e)| {
             let mut text = format!("{digits:020}");
@@ -141,7 +141,7 @@ fn decimals_become_the_floats_that_the_standard_library_reads() {
 }
 
 #[test]
-fn what_is_printed_reads_back_as_the_same_number() {
+fn formatted_numbers_parse_to_the_same_number() {
     for_all((Binary32::number(), Binary64::number(), rationals()), |((single, _), (double, _), exact)| {
         for text in [format!("{single}"), format!("{single:e}"), format!("{single:?}")] {
             prop_assert_eq!(read(&text).map(|x| x.to_f32()), Ok(Ok(single)), "{}", text);
@@ -164,7 +164,7 @@ fn what_is_printed_reads_back_as_the_same_number() {
 }
 
 #[test]
-fn mpfr_numbers_with_huge_exponents_read_back_as_far_as_exponents_are_read() {
+fn mpfr_numbers_round_trip_within_the_exponent_limit() {
     for text in ["1.5e99999", "-1.5e99999", "1.5e-99999", "-3.25e-99999"] {
         for bits in [2, 53, 200] {
             let x = Mpfr::parse(text, bits).unwrap();
@@ -207,7 +207,7 @@ fn mpfr_numbers_are_padded_and_signed_like_floats() {
 
 /// Ties go to the even digit, like in f64.
 #[test]
-fn numbers_have_as_many_decimals_as_asked_for() {
+fn formatting_with_a_precision_agrees_with_f64() {
     fn shown(x: impl Display + std::fmt::Debug) -> [String; 9] {
         [
             format!("{x:.0}"),

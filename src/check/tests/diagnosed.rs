@@ -13,7 +13,7 @@ fn by_penalty(problems: &[Problem], eps: impl Fn(&SpringMass<Exact>) -> Exact) -
 }
 
 #[test]
-fn a_penalty_shows_what_it_is_a_multiple_of() {
+fn the_scale_of_a_penalty_is_diagnosed() {
     let all = default_problems();
     let shown = |report: Report| {
         let Penalty { kind, value, spread } = report.penalty.clone();
@@ -63,7 +63,7 @@ fn steps(problem: &Problem, lagging: bool) -> Answer {
 }
 
 #[test]
-fn a_force_that_lags_is_told_from_one_that_does_not() {
+fn a_lagging_force_is_distinguished() {
     let report = run(&default_problems(), |problem| steps(problem, true));
     let lag = report.identified_mistake().unwrap();
     assert_eq!((lag.name.as_str(), lag.answers), ("N is one step behind", DiagnosisScope::Steps));
@@ -91,7 +91,7 @@ fn a_force_that_lags_is_told_from_one_that_does_not() {
 
 /// A tolerance in metres, by which the mass is separated, explains only the wrong answers.
 #[test]
-fn what_is_wrong_in_some_systems_is_diagnosed_of_those() {
+fn a_mistake_in_some_systems_is_diagnosed_for_those() {
     let report = run(&problems(1, 20, &Family::ALL), |problem| {
         let free = structure::deflection(&problem.system);
         let slack = contact::penetration(&problem.system, &free) < number("1e-6");
@@ -113,7 +113,7 @@ fn changed(change: impl Fn(&Problem, Exact, Exact) -> [Exact; 2]) -> Report {
 }
 
 #[test]
-fn a_factor_is_found() {
+fn a_wrong_factor_is_diagnosed() {
     let name = |change: fn(&Problem, Exact, Exact) -> [Exact; 2]| {
         changed(change).identified_mistake().map(|only| only.name.clone()).unwrap_or_default()
     };
@@ -130,7 +130,7 @@ fn a_factor_is_found() {
 
 /// In contact the augmentation is right; if separated, the plane pulls with ε = 10⁴ N/m.
 #[test]
-fn what_is_wrong_apart_from_the_plane_is_found() {
+fn mistakes_independent_of_the_plane_are_diagnosed() {
     let eps = || number("1e4");
     let report = changed(|problem, u, n| {
         let SpringMass { c, m, g, l, h } = &problem.system;
@@ -142,7 +142,7 @@ fn what_is_wrong_apart_from_the_plane_is_found() {
 }
 
 #[test]
-fn a_mistake_in_the_source_says_where() {
+fn a_mistake_in_the_source_is_located() {
     let edited: Vec<_> = mistakes(false).iter().filter(|mistake| mistake.name.contains(" with ")).collect();
     assert!(edited.len() > 5, "{}", edited.len());
     for mistake in edited {
@@ -151,7 +151,7 @@ fn a_mistake_in_the_source_says_where() {
 }
 
 #[test]
-fn few_digits_are_found() {
+fn few_digits_are_diagnosed() {
     let rounded = |digits| move |x: &Exact| x.decimal(digits, Round::Nearest).parse().unwrap();
     let name = |round: &dyn Fn(&Exact) -> Exact| {
         changed(|_, u, n| [round(&u), round(&n)])
@@ -172,7 +172,7 @@ fn few_digits_are_found() {
 
 /// Errors so small that every mistake with a small effect fits, or a number that fits no formula.
 #[test]
-fn what_shows_nothing_is_not_named() {
+fn an_unobservable_mistake_is_not_diagnosed() {
     let slight = changed(|problem, u, n| {
         let off = if problem.id == "contact-1" { "1.0000035" } else { "1" };
         [u * number(off), n]
@@ -195,7 +195,7 @@ fn what_shows_nothing_is_not_named() {
 }
 
 #[test]
-fn a_tolerance_of_its_own_is_found() {
+fn a_tolerance_of_the_program_is_diagnosed() {
     let missing = |is_small: fn(&SpringMass<Exact>) -> bool| {
         let report = changed(|problem, u, n| {
             let system = &problem.system;
@@ -230,7 +230,7 @@ fn a_tolerance_of_its_own_is_found() {
 
 /// Missed contacts with R = 6 and 3 m of penetration, and as many others.
 #[test]
-fn a_threshold_is_of_what_tells_more_clearly() {
+fn a_threshold_refers_to_the_quantity_that_separates_best() {
     let threshold = |count: usize, c: &str, weight: &str| {
         let hung = |id: &str, c: &str, weight: &str| {
             let [c, g] = [c, weight].map(number);
@@ -301,7 +301,7 @@ fn an_answer_fits_to_the_tolerance() {
 
 /// Answers that resemble a mistake which they are not.
 #[test]
-fn nothing_is_named_for_what_it_is_not() {
+fn no_wrong_diagnosis_is_made() {
     // As accurate as single precision, but in double precision.
     let exact = run(&problems(3, 5, &Family::ALL), |problem| {
         let Answer { deflection, contact_force, .. } = right(problem);
@@ -353,7 +353,7 @@ fn a_lag_hides_no_mistake() {
 
 /// A single quantity rarely separates contacts missed by chance or for another reason.
 #[test]
-fn a_threshold_is_not_seen_in_a_few() {
+fn a_threshold_is_not_diagnosed_from_few_systems() {
     let few = problems(1, 5, &[Family::Contact, Family::Stiff]);
     let report = run(&few, |problem| {
         if problem.family == Family::Stiff {
@@ -391,7 +391,7 @@ fn two_answers_show_nothing() {
 
 /// A mass that touches the plane with zero free length and zero gap.
 #[test]
-fn where_there_is_no_length_no_penetration_tells_a_penalty() {
+fn without_a_length_scale_no_penalty_is_diagnosed_from_penetrations() {
     let no_length = |problem: &Problem| {
         let SpringMass { c, m, g, .. } = problem.system.clone();
         Problem { system: SpringMass { c, m, g, l: Exact::zero(), h: Exact::zero() }, ..problem.clone() }

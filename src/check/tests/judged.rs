@@ -3,7 +3,7 @@
 use super::*;
 
 #[test]
-fn what_is_right_is_not_diagnosed() {
+fn a_correct_program_has_no_diagnosis() {
     for problems in [default_problems(), with_penalties(default_problems())] {
         let in_f64 = |problem: &Problem| {
             let system = problem.system.try_map(Exact::to_f64).unwrap();
@@ -101,7 +101,7 @@ fn a_penetration_is_that_of_the_deflection() {
 /// The plane counts as active if |N| exceeds the tolerance; another state is wrong if the error of N exceeds
 /// it.
 #[test]
-fn a_state_is_wrong_where_it_shows() {
+fn a_wrong_state_is_reported_if_it_matters() {
     let finding = |family: Family, parts: &str| {
         let problem = &problems(1, 1, &[family])[0];
         let weight = system::weight(&problem.system);
@@ -142,7 +142,7 @@ fn the_penalty_that_was_used_is_the_one_that_counts() {
 
 /// Additional values of an answer are checked.
 #[test]
-fn findings_say_what_is_wrong() {
+fn findings_describe_the_error() {
     let problem = &problems(1, 1, &[Family::Contact])[0];
     let finding = |change: &dyn Fn(&mut Answer)| {
         let mut answer = right(problem);
@@ -188,7 +188,7 @@ fn findings_say_what_is_wrong() {
 
 /// Rounding to single precision changes the gap H − l; the answer is assessed with the parameters used.
 #[test]
-fn an_answer_is_judged_by_what_it_used() {
+fn an_answer_is_compared_with_the_method_that_it_used() {
     let all = problems(1, 20, &[Family::Far]);
     let single = |problem: &Problem, says_so: bool| {
         let used = problem.system.map(|x| x.to_f32().unwrap().to_exact().unwrap());
@@ -251,7 +251,7 @@ fn every_reply_is_counted() {
 }
 
 #[test]
-fn who_never_answers_is_left_alone() {
+fn a_program_that_never_answers_is_not_restarted() {
     let all = default_problems();
     let mut asked = 0;
     let mut silent = |answers_at: usize| {
@@ -290,7 +290,7 @@ fn nothing_can_be_measured_by_nothing() {
 
 /// If f64 overflows, rounding explains nothing.
 #[test]
-fn what_overflows_explains_nothing() {
+fn an_overflowing_mistake_explains_no_answer() {
     let problem = Problem { penalty: Some(number("1e305")), ..problems(1, 1, &[Family::Huge]).remove(0) };
     for (off, verdict) in [("1", Verdict::Right), ("1.1", Verdict::Wrong)] {
         let mut answer = right(&problem);
@@ -303,7 +303,7 @@ fn what_overflows_explains_nothing() {
 /// For l = 10⁴ m the rounding error is 10⁻¹² m, which ε = 4.5e17 N/m turns into a million N: less than the
 /// 2e8 N of c (|l| + |H|).
 #[test]
-fn what_rounding_may_do_is_said() {
+fn the_allowed_rounding_error_is_stated() {
     let [c, m, g, l, h] = ["1e4", "1", "2", "1e4", "10000.0001"].map(number);
     let system = SpringMass { c, m, g, l, h };
     let problem =

@@ -275,7 +275,7 @@ mod tests {
     /// A penalty of 1 takes exactly the allowed number, 2 takes fewer, and below 1/2 the iteration does not
     /// converge.
     #[test]
-    fn the_softest_is_found_from_wherever_it_is_looked_for() {
+    fn the_smallest_penalty_is_found_from_any_start() {
         let [half, one, two] = ["1/2", "1", "2"].map(|x| x.parse::<Exact>().unwrap());
         let needed = |eps: &Exact| {
             let more = i32::from(*eps < one) - i32::from(*eps >= two);

@@ -207,7 +207,7 @@ mod tests {
 
     /// Every label denotes the computed result.
     #[test]
-    fn results_are_what_they_are_called() {
+    fn results_agree_with_their_names() {
         let numbers = [7, 2, 3].map(Exact::from);
         let expected = ["6", "15", "11", "11", "3", "11", "5/3", "1/3", "1/3"];
         let found = results(&numbers, [true; 2]).into_iter().map(|(_, x)| x);

@@ -421,7 +421,7 @@ mod tests {
     use super::last;
 
     #[test]
-    fn the_last_is_found_wherever_it_is() {
+    fn the_last_power_is_found_from_any_start() {
         for n in (0..100).chain([i32::MAX / 2, i32::MAX - 2]) {
             assert_eq!(last(|k| k <= n), n);
         }

@@ -30,7 +30,7 @@ fn samples(given: &[Hypothesis]) -> impl Iterator<Item = Case<Exact>> {
 /// Seventeen coordinates make coincidences impossible in practice: the integers from 1 to 9 alone give 9¹⁷
 /// cases.
 #[test]
-fn no_case_is_drawn_twice() {
+fn no_case_is_sampled_twice() {
     for (group, given) in groups() {
         let mut seen = HashSet::new();
         for case in samples(&given) {
@@ -42,7 +42,7 @@ fn no_case_is_drawn_twice() {
 }
 
 #[test]
-fn cases_reach_all_that_hypotheses_allow_and_no_more() {
+fn cases_attain_exactly_the_signs_that_hypotheses_allow() {
     for (group, given) in groups() {
         let cases: Vec<_> = samples(&given).collect();
         for hypothesis in &given {
@@ -86,7 +86,7 @@ fn each_parameter_is_subnormal_in_some_cases() {
 }
 
 #[test]
-fn nearly_every_case_can_be_bent_to_every_hypothesis() {
+fn nearly_every_case_can_be_adjusted_to_every_hypothesis() {
     let Hypotheses {
         stiffness,
         penalty,
@@ -118,7 +118,7 @@ fn nearly_every_case_can_be_bent_to_every_hypothesis() {
 }
 
 #[test]
-fn a_seed_draws_its_own_cases_and_always_the_same() {
+fn a_seed_determines_the_cases() {
     let draw = |seed| (0..20).map(|i| case(seed, i, &[hypotheses().stiffness.clone()])).collect::<Vec<_>>();
     assert_eq!(draw(1), draw(1));
     assert_ne!(draw(1), draw(2));
@@ -126,7 +126,7 @@ fn a_seed_draws_its_own_cases_and_always_the_same() {
 
 /// Seeds that agree in their lower 32 or 63 bits, and such indices, with the same profile.
 #[test]
-fn every_bit_of_a_seed_and_of_a_number_counts() {
+fn all_bits_of_the_seed_and_of_the_case_number_affect_the_case() {
     let draw = |seed, first| (first..first + 10).map(|i| case(seed, i, &[]).unwrap()).collect::<Vec<_>>();
     for other in [1 | 1 << 32, 1 | 1 << 63] {
         assert!(draw(1, 0).iter().zip(draw(other, 0)).all(|(case, of_other)| *case != of_other), "{other}");
@@ -135,7 +135,7 @@ fn every_bit_of_a_seed_and_of_a_number_counts() {
 }
 
 #[test]
-fn grazing_is_met_exactly_and_on_both_sides() {
+fn grazing_cases_have_zero_positive_and_negative_reactions() {
     let grazing = PROFILES.iter().position(|p| *p == Profile::Grazing).unwrap() as u64;
     let mut signs = std::collections::BTreeSet::new();
     for i in 0..100 {
@@ -150,7 +150,7 @@ fn draw(profile: Profile) -> Draw {
 }
 
 #[test]
-fn both_ends_of_a_range_are_drawn() {
+fn both_ends_of_a_range_are_sampled() {
     let mut draw = draw(Profile::Plain);
     let found: BTreeSet<_> = (0..100).map(|_| draw.between(-1, 2)).collect();
     assert_eq!(found, BTreeSet::from([-1, 0, 1, 2]));
@@ -158,7 +158,7 @@ fn both_ends_of_a_range_are_drawn() {
 
 /// Smallest and largest magnitudes, as powers of two, and numbers of digits.
 #[test]
-fn numbers_are_positive_and_as_large_as_their_profile_says() {
+fn numbers_have_the_magnitude_and_precision_of_their_profile() {
     for (profile, low, high, digits) in [
         (Profile::Plain, 0, 4, 4),
         (Profile::Moderate, -18, 15, 11),
@@ -180,7 +180,7 @@ fn numbers_are_positive_and_as_large_as_their_profile_says() {
 
 /// Wrong signs and zeros are sampled, too, but rarely: they are adjusted to hypotheses.
 #[test]
-fn all_signs_are_drawn() {
+fn all_signs_are_sampled() {
     let mut draw = draw(Profile::Tiny);
     let all: Vec<_> = (0..400).map(|_| draw.raw()).collect();
     for var in Var::ALL {
@@ -209,7 +209,7 @@ fn all_signs_are_drawn() {
 }
 
 #[test]
-fn next_to_grazing_is_a_unit_in_the_last_place() {
+fn reactions_next_to_grazing_are_a_unit_in_the_last_place() {
     let mut draw = draw(Profile::Grazing);
     // c Δ = 3 · 5
     let case = Case::of(|var| match var {
@@ -225,7 +225,7 @@ fn next_to_grazing_is_a_unit_in_the_last_place() {
 }
 
 #[test]
-fn stiff_is_stiff_in_either_direction() {
+fn stiff_cases_have_large_and_small_ratios() {
     let mut draw = draw(Profile::Stiff);
     let ratios = (0..200).map(|_| draw.raw()).map(|case| case.eps / case.system.c.abs());
     let ratios: Vec<_> = ratios.collect();
@@ -237,7 +237,7 @@ fn stiff_is_stiff_in_either_direction() {
 
 /// Only the sign is changed; if the sign does not matter, one unit suffices in the grazing profile.
 #[test]
-fn what_is_bent_is_bent_no_further_than_it_must() {
+fn adjustments_are_as_small_as_possible() {
     let reaction = |case: &Case<Exact>| value(&hypotheses().contact, case).unwrap();
     let (mut zeros, mut beside, mut near) = (0, 0, Vec::new());
     for index in 0..CASES {
@@ -288,7 +288,7 @@ fn taken<T: crate::solver::Scalar + Real + ToExact>(
 
 /// Numbers are multiples of four units, and neither m g nor c H is much smaller than the other.
 #[test]
-fn what_is_subnormal_is_made_up_for() {
+fn other_quantities_compensate_for_subnormal_ones() {
     let order = |x: &Exact| {
         let [over, under] = [x.as_rational().numer(), x.as_rational().denom()].map(|n| n.significant_bits());
         i64::from(over) - i64::from(under)
@@ -316,7 +316,7 @@ fn what_is_subnormal_is_made_up_for() {
 }
 
 #[test]
-fn what_is_subnormal_can_nearly_always_be_solved() {
+fn solve_accepts_most_subnormal_cases() {
     for found in [taken(&1f32, Profile::SubnormalSingle), taken(&1f64, Profile::SubnormalDouble)] {
         assert_eq!(found.len(), Small::ALL.len());
         assert!(found.values().all(|[taken, all]| 10 * taken > 9 * all), "{found:?}");

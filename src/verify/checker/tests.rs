@@ -18,7 +18,7 @@ fn equal<J: NumberDomain>(judge: J, left: J::Number, right: J::Number) -> Option
 }
 
 #[test]
-fn a_wrong_equation_fails_by_one_part_in_2_to_the_50() {
+fn an_equation_fails_for_a_relative_difference_of_2_to_the_minus_50() {
     let (third, more) = (Ball::point(1.0) / Ball::point(3.0), Ball::point(1.0 / 3.0 + 2f64.powi(-52)));
     assert_eq!(equal(FloatDomain(0.0), third.clone(), third.clone()), Some(true));
     assert_eq!(equal(FloatDomain(0.0), third, more), Some(false));
@@ -31,14 +31,14 @@ fn perhaps_zero() -> Ball<f64> {
 }
 
 #[test]
-fn a_sign_that_rounding_hides_is_open_and_a_wrong_one_is_wrong() {
+fn a_sign_lost_by_rounding_is_undecided_and_a_wrong_sign_fails() {
     let sign = |x: Ball<f64>| verdict(FloatDomain(0.0), &[Test::Sign(Relation::Positive, 0)], vec![Some(x)]);
     let found = (sign(perhaps_zero()), sign(Ball::point(1.0)), sign(Ball::point(-1.0)));
     assert_eq!(found, (None, Some(true), Some(false)));
 }
 
 #[test]
-fn what_fails_decides_against_what_is_open() {
+fn a_failed_test_decides_even_if_another_is_undecided() {
     let values = || {
         [1.0, 2.0].map(|x| Some(Ball::point(x))).into_iter().chain([Some(Ball::point(1.0) / perhaps_zero())])
     };
@@ -49,7 +49,7 @@ fn what_fails_decides_against_what_is_open() {
 }
 
 #[test]
-fn what_is_divided_by_zero_is_wrong_and_what_may_be_is_open() {
+fn division_by_zero_fails_and_division_by_a_ball_around_zero_is_undecided() {
     let zero = Ball::point(1.0) - Ball::point(1.0);
     for (divisor, expected) in [(zero, Some(false)), (perhaps_zero(), None)] {
         let quotient = FloatDomain::<f64>::step(Op::Div(&Ball::point(1.0), &divisor));
@@ -62,7 +62,7 @@ fn what_is_divided_by_zero_is_wrong_and_what_may_be_is_open() {
 }
 
 #[test]
-fn a_bound_of_zero_has_no_room_for_an_error() {
+fn an_error_beyond_a_bound_of_zero_is_an_infinite_share() {
     // Constants of MPFR are exact, and so is their difference.
     let [two, three] = [2, 3].map(Ball::<Mpfr>::int);
     let judge = FloatDomain(Mpfr::rounded(53, 0));
@@ -74,7 +74,7 @@ fn a_bound_of_zero_has_no_room_for_an_error() {
 }
 
 #[test]
-fn one_case_that_fails_decides_and_without_a_decided_case_nothing_is() {
+fn one_failed_case_fails_a_claim_and_no_decided_case_leaves_it_undecided() {
     let row = |tally: Tally| {
         tally.into_row(ClaimKey { equation: "1.1", claim: "claim", kind: "equal", given: vec![] }, None)
     };
@@ -89,7 +89,7 @@ fn one_case_that_fails_decides_and_without_a_decided_case_nothing_is() {
 }
 
 #[test]
-fn a_bound_is_shown_as_it_is() {
+fn a_bound_is_formatted_without_loss() {
     let difference = perhaps_zero();
     assert!(*difference.radius() > 0.0);
     assert_eq!(FloatDomain(0.0).bound(&difference).parse(), Ok(*difference.radius()));
@@ -98,7 +98,7 @@ fn a_bound_is_shown_as_it_is() {
 
 /// In one case, and in many: the first of equal ratios counts.
 #[test]
-fn the_worst_share_is_measured() {
+fn the_worst_share_is_recorded() {
     let third = Ball::point(1.0) / Ball::point(3.0);
     let [less, more] = [1, 3].map(|ulps| Ball::point(1.0 / 3.0 + f64::from(ulps) * 2f64.powi(-54)));
     let values = [third, less, more, Ball::point(1.0)].map(Some);

@@ -13,7 +13,7 @@ const RIGHT: Trial = Trial::Decided(true);
 const WRONG: Trial = Trial::Decided(false);
 
 #[test]
-fn every_experiment_is_listed_as_it_is() {
+fn every_listed_experiment_holds_for_the_right_functions() {
     fn listed<T>(all: Vec<Experiment<T>>, equation: &str, name: &str, x: &Case<T>) -> Trial {
         let found = all.iter().find(|e| (e.equation, e.name) == (equation, name));
         (found.unwrap_or_else(|| panic!("{equation} {name}")).check)(x)
@@ -45,7 +45,7 @@ fn powers_of_two_have_their_exponents() {
 }
 
 #[test]
-fn a_wrong_state_is_seen() {
+fn a_wrong_state_is_detected() {
     let all = [State::Contact, State::Grazing, State::Separated];
     for (g, right) in [9, 8, 7].into_iter().zip(all) {
         for found in all {
@@ -77,7 +77,7 @@ fn mistaken(mistake: impl Fn(&mut Solution<f64>)) -> impl Solver<f64> {
 }
 
 #[test]
-fn bounds_on_the_wrong_side_are_seen() {
+fn bounds_on_the_wrong_side_are_detected() {
     let penalty = Method::Penalty { penalty: 4.0 };
     for (g, method) in [(10, Method::Lagrange), (5, Method::Lagrange), (10, penalty), (5, penalty)] {
         let x = case(g);
@@ -93,7 +93,7 @@ fn bounds_on_the_wrong_side_are_seen() {
 }
 
 #[test]
-fn a_root_with_no_change_of_sign_is_seen() {
+fn a_root_without_a_change_of_sign_is_detected() {
     let right = series_penetration::<f64>;
     // 8 p = 2, and 8 p + p³ = 2.
     for x in [case(10), Case { eps4: 1.0, ..case(10) }] {
@@ -113,7 +113,7 @@ fn a_root_with_no_change_of_sign_is_seen() {
 }
 
 #[test]
-fn a_promise_that_is_not_kept_is_seen() {
+fn a_violated_guarantee_is_detected() {
     let x = case(10);
     assert_eq!(promise(&x, solve), RIGHT);
     for mistake in BOUNDS {
@@ -144,7 +144,7 @@ fn a_promise_that_is_not_kept_is_seen() {
 }
 
 #[test]
-fn a_solver_that_knows_its_units_is_seen() {
+fn a_solver_that_depends_on_units_is_detected() {
     let mistakes: [Mistake; 7] = [
         |s| s.outcome = Outcome::IterationLimit,
         |s| s.augmentations = s.augmentations.map(|k| k + 1),
@@ -171,7 +171,7 @@ fn a_solver_that_knows_its_units_is_seen() {
 
 /// If digits are lost, the trial is undecided: of a parameter in other units, or of a product in these.
 #[test]
-fn units_out_of_range_decide_nothing() {
+fn cases_that_lose_digits_by_a_change_of_units_are_undecided() {
     let two = power_of_two::<f64>;
     let with = |c, m, g| {
         let system = SpringMass { c, m, g, l: 1.0, h: 2.0 };
@@ -187,7 +187,7 @@ fn steps(x: &Case<Exact>, plane: Plane) -> Vec<Iterate<Exact>> {
 }
 
 #[test]
-fn right_formulas_of_many_digits_are_followed_to_the_end() {
+fn right_formulas_with_many_digits_are_followed_to_the_end() {
     let long = |n: i32| Exact::from(n) + Exact::power_of_two(-200);
     let system = SpringMass { c: 4, m: 1, g: 10, l: 1, h: 3 }.map(|n| long(*n));
     let x = Case { system, eps: long(5), ..case(10) };
@@ -198,7 +198,7 @@ fn right_formulas_of_many_digits_are_followed_to_the_end() {
 
 /// |p_k| = 2^{−(k+2)}
 #[test]
-fn a_count_that_is_one_off_is_seen() {
+fn a_count_that_is_off_by_one_is_detected() {
     for plane in [Plane::Unilateral, Plane::Bilateral] {
         let x = Case { tol: "3/64".parse().unwrap(), ..case(10) };
         let of = |steps: &[Iterate<Exact>]| count(&x, plane, steps.iter().cloned());
@@ -213,7 +213,7 @@ fn a_count_that_is_one_off_is_seen() {
 }
 
 #[test]
-fn a_tie_that_ends_is_seen() {
+fn an_iteration_that_ends_at_a_tie_is_detected() {
     let x = case(10);
     let right: Vec<_> = exact_steps(&x, &start_of_tie(&x), Plane::Bilateral).collect();
     assert_eq!(right[2].penetration.abs(), x.tol);
@@ -222,7 +222,7 @@ fn a_tie_that_ends_is_seen() {
 }
 
 #[test]
-fn members_off_the_closed_form_are_seen() {
+fn members_that_deviate_from_the_closed_form_are_detected() {
     for (g, start) in [(10, 0), (10, 7), (10, -7), (8, 3)] {
         let x = Case { lambda: Exact::from(start), ..case(g) };
         let right = steps(&x, Plane::Unilateral);
@@ -242,7 +242,7 @@ fn members_off_the_closed_form_are_seen() {
 /// R = −3: from 20 it takes 3 steps, since 23/8 is the first of 23/2ᵏ below 3; from 3 only one, since 6/2 is
 /// 3.
 #[test]
-fn a_release_that_comes_too_early_or_too_late_is_seen() {
+fn a_release_that_is_too_early_or_too_late_is_detected() {
     for (start, released) in [(0, 0), (-1, 1), (-100, 1), (3, 1), (4, 2), (20, 3)] {
         let x = Case { lambda: Exact::from(start), ..case(5) };
         let right = steps(&x, Plane::Unilateral);

@@ -30,7 +30,7 @@ fn findings<J: NumberDomain>(
 /// Each mutation makes a claim that contains it fail, in rationals or in balls; an equivalent one makes none
 /// fail.
 #[test]
-fn every_change_of_a_formula_is_a_finding() {
+fn every_mutation_makes_a_claim_fail_unless_it_is_equivalent() {
     const CASES: u64 = 6;
     let mut drawn = Drawn::new();
     let claims = || claims().filter(|claim| !claim.contains_rounding());
@@ -70,7 +70,7 @@ fn in_one_line(text: &str) -> String {
 
 /// The sample in the book of a report with a mistake: c − ε for c + ε in the stiffness by penalty.
 #[test]
-fn the_book_shows_where_to_look_after_a_mistake() {
+fn the_book_contains_the_report_of_a_mistake() {
     let stiffness = registry().formula("penalty::total_stiffness").unwrap();
     let of_sum = |change: &&Mutant| {
         (change.site, change.mutation) == (stiffness.tree.site(), Mutation::Opposite(Operator::Add))

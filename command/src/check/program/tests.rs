@@ -139,7 +139,7 @@ fn a_request_is_a_line_of_decimals() {
 }
 
 #[test]
-fn a_program_is_started_once_and_asked_often() {
+fn a_program_is_started_once_for_all_requests() {
     in_time(|| {
         let mut program = sh(LOOP, LONG);
         let replies = ["a", "b", "c"].map(|id| ask(&mut program, id));
@@ -168,7 +168,7 @@ fn the_environment_is_passed_on() {
 }
 
 #[test]
-fn what_cannot_be_started_is_bad_input() {
+fn a_program_that_cannot_be_started_is_bad_input() {
     in_time(|| {
         for name in ["/no such/program", "/"] {
             let words = [name, "x"].map(String::from);
@@ -200,7 +200,7 @@ fn lines_that_are_no_object_are_passed_over() {
 }
 
 #[test]
-fn another_id_or_none_is_garbled_and_starts_it_again() {
+fn a_wrong_or_missing_id_is_invalid_and_restarts_the_program() {
     in_time(|| {
         let answers = "\"deflection\": 1, \"contact_force\": 2";
         let mut program = sh(
@@ -239,7 +239,7 @@ fn an_answer_before_its_question_is_garbled() {
 }
 
 #[test]
-fn what_cannot_be_read_leaves_the_program_running() {
+fn an_unreadable_reply_leaves_the_program_running() {
     in_time(|| {
         let bad = r#"echo '{"id": "a", "deflection": "twelve", "contact_force": 1}'"#;
         let refused = r#"echo "{\"id\": \"b\", \"error\": \"$$\"}""#;
@@ -293,7 +293,7 @@ fn an_answer_counts_though_the_program_ends_with_it() {
 /// Its stdout ends first, or the program ends first while another process holds its stdout; neither is waited
 /// for.
 #[test]
-fn an_end_is_noticed_whatever_ends_first() {
+fn the_end_of_a_program_is_detected_in_any_order_of_events() {
     in_time(|| {
         let ends = |fifo: &str, script: &str, before: &[&str]| {
             let fifo = Fifo::new(fifo);
@@ -342,7 +342,7 @@ fn leaves_a_stranger() {
 
 /// Silence, an unread pipe and lines without end do not block the command.
 #[test]
-fn a_program_without_an_answer_is_given_up_in_time() {
+fn a_program_without_a_reply_is_abandoned_in_time() {
     in_time(|| {
         let scripts = [
             "sleep 1000",
@@ -386,7 +386,7 @@ fn a_hang_does_not_outlive_its_question() {
 
 /// Its output on stderr, and on stdout after its stdin is closed, is still read.
 #[test]
-fn a_program_ends_by_itself_when_nothing_more_is_asked() {
+fn a_program_ends_by_itself_after_the_last_request() {
     in_time(|| {
         let fifo = Fifo::new("end");
         let lines = fifo.read();
@@ -409,7 +409,7 @@ fn a_program_ends_by_itself_when_nothing_more_is_asked() {
 }
 
 #[test]
-fn nobody_is_left_of_a_program_that_does_not_end_by_itself() {
+fn no_process_remains_of_a_program_that_does_not_end_by_itself() {
     in_time(|| {
         for (name, script) in [
             ("stays", format!("{LOOP}; sleep 1000")),

@@ -50,7 +50,7 @@ fn numbers_are_read_by_their_digits() {
 }
 
 #[test]
-fn what_is_not_a_number_is_an_answer() {
+fn non_numeric_values_are_accepted_as_answers() {
     for word in [
         "NaN",
         "nan",
@@ -91,7 +91,7 @@ fn strings_are_left_as_they_are() {
 }
 
 #[test]
-fn what_cannot_be_read_is_named() {
+fn an_unreadable_field_is_named() {
     for (value, shown) in [
         ("\"twelve\"", "twelve"),
         ("[1]", "[1]"),
@@ -133,7 +133,7 @@ fn what_cannot_be_read_is_named() {
 }
 
 #[test]
-fn what_is_missing_is_named() {
+fn a_missing_field_is_named() {
     assert_eq!(garbled(U), "the key 'contact_force' is missing");
     assert_eq!(garbled(N), "the key 'deflection' is missing");
     let steps = format!("{U}, {N}, \"steps\": [{{{U}, {N}}}, {{{N}}}]");
@@ -195,7 +195,7 @@ fn an_error_is_a_refusal() {
 }
 
 #[test]
-fn an_answer_is_to_what_was_asked() {
+fn an_answer_must_have_the_id_of_its_request() {
     let answer = |id: &str| said(format!(r#"{{"id": {id}, {U}, {N}}}"#));
     assert!(matches!(answer(r#""\u0061""#), Ok(Reply::Answered(_))));
     for (id, own) in [

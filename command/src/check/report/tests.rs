@@ -42,7 +42,7 @@ fn missing(is_small: impl Fn(&SpringMass<Exact>) -> bool) -> Report {
 }
 
 #[test]
-fn a_threshold_is_told_with_its_unit() {
+fn a_threshold_is_printed_with_its_unit() {
     let through = |system: &SpringMass<Exact>| contact::penetration(system, &structure::deflection(system));
     for (report, what, unit) in [
         (missing(|system| through(system) < number("1e-6")), "the penetration without a plane is", "m"),
@@ -60,7 +60,7 @@ fn a_threshold_is_told_with_its_unit() {
 
 /// A mistake explains all answers, or only the wrong ones.
 #[test]
-fn it_is_said_which_answers_a_mistake_explains() {
+fn the_report_counts_the_answers_that_a_mistake_explains() {
     let free = missing(|system| system::reaction(system) < number("1e-2"));
     let text = format!("explains each of {} wrong answers", free.summary().wrong);
     assert!(said(&free).contains(&text), "{}", said(&free));
@@ -73,7 +73,7 @@ fn it_is_said_which_answers_a_mistake_explains() {
 
 /// (1.16), with the force of the previous step.
 #[test]
-fn steps_that_lag_are_told() {
+fn lagging_steps_are_reported() {
     let lagging = report(&all(), |problem| {
         let (eps, mut before) = (&problem.system.c * number("3"), number("0"));
         let steps = Augmentation::new(&problem.system, &eps)
@@ -90,7 +90,7 @@ fn steps_that_lag_are_told() {
 
 /// The requested penalty is not reported.
 #[test]
-fn a_penalty_is_told_with_what_it_is_a_multiple_of() {
+fn a_penalty_is_printed_with_its_scale() {
     let by_penalty = |asked: Option<&str>, eps: fn(&SpringMass<Exact>) -> Exact| {
         let asked = |problem| Problem { penalty: asked.map(number), ..problem };
         let problems: Vec<_> = all().into_iter().map(asked).collect();
@@ -118,7 +118,7 @@ fn a_penalty_is_told_with_what_it_is_a_multiple_of() {
 /// The plane holds the mass although a tenth of its weight would lift it off; with the reference of the
 /// threshold.
 #[test]
-fn a_plane_that_holds_is_told() {
+fn a_bilateral_plane_is_reported() {
     let sticking = report(&all(), |problem| {
         let system = &problem.system;
         let [weight, reaction] = [system::weight(system), system::reaction(system)];
@@ -139,7 +139,7 @@ fn a_plane_that_holds_is_told() {
 /// The report on a right program contains only what was tested: families, systems, and the smallest |R| among
 /// them.
 #[test]
-fn what_was_tested_is_told() {
+fn the_report_lists_the_tested_penalties() {
     let said_of = |families: &[Family], refused: &str| {
         let ask = |problem: &Problem| {
             let answer = || Reply::Answered(Box::new(right(problem)));

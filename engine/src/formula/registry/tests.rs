@@ -25,7 +25,7 @@ fn registry() -> Registry {
 }
 
 #[test]
-fn every_place_where_a_function_does_something_is_known() {
+fn a_registry_contains_the_location_of_every_operation() {
     let (registry, [c, d]) = (registry(), ["c", "d"].map(x));
     let tree = sum_with_product(&c, &d);
     // The sum belongs to one function, its argument to the other.
@@ -35,7 +35,7 @@ fn every_place_where_a_function_does_something_is_known() {
 }
 
 #[test]
-fn no_function_does_what_the_rules_of_differentiation_do() {
+fn operations_of_dual_numbers_belong_to_no_function() {
     let a = Dual::coordinate(x("a"), true);
     let slope = (&a * &a).derivative;
     assert!(slope.site().is_in_dual_numbers());
@@ -44,7 +44,7 @@ fn no_function_does_what_the_rules_of_differentiation_do() {
 }
 
 #[test]
-fn a_formula_that_only_looks_the_same_is_no_call() {
+fn a_formula_that_only_looks_the_same_is_not_a_call() {
     let (registry, [c, d]) = (registry(), ["c", "d"].map(x));
     let call = |tree: &Tree| registry.call(tree).map(|call| (call.formula.path, call.arguments));
     assert_eq!(call(&sum(&c, &d)), Some(("sum", vec![c.clone(), d.clone()])));
@@ -52,13 +52,13 @@ fn a_formula_that_only_looks_the_same_is_no_call() {
 }
 
 #[test]
-fn symbols_that_are_not_listed_follow_those_that_are() {
+fn unlisted_symbols_follow_listed_ones() {
     let tree = x("z") * x("a") - x("b") + x("y");
     assert_eq!(registry().symbols_of([&tree]), ["b", "a", "y", "z"]);
 }
 
 #[test]
-fn either_of_two_symbols_is_mistaken_for_the_other() {
+fn confusable_symbols_are_found_in_both_directions() {
     let registry = registry().with_confusable(&[["a", "b"], ["c", "a"]]);
     let others = |symbol| registry.confusable_with(symbol).collect::<Vec<_>>();
     assert_eq!((others("a"), others("b"), others("d")), (vec!["b", "c"], vec!["a"], vec![]));
@@ -66,7 +66,7 @@ fn either_of_two_symbols_is_mistaken_for_the_other() {
 
 /// A symbol in a text has one meaning.
 #[test]
-fn what_is_written_for_a_function_is_taken_by_nothing_else() {
+fn the_symbol_of_an_abbreviated_function_must_be_unique() {
     let folded = |path, symbol, tree: Tree| Formula::new(path, symbol, &["a"], tree).abbreviated();
     let panics = |formulas: Vec<Formula>| {
         let made = std::panic::catch_unwind(|| Registry::new(&["a", "k"], formulas)).map(|_| ());
@@ -89,7 +89,7 @@ fn what_is_written_for_a_function_is_taken_by_nothing_else() {
 
 /// k(a b, b) is a call only if both b are the same; the product is not a call.
 #[test]
-fn an_argument_that_occurs_twice_is_the_same_both_times() {
+fn all_occurrences_of_an_argument_must_be_equal() {
     let (registry, [c, d, e]) = (registry(), ["c", "d", "e"].map(x));
     let arguments = |tree: &Tree| {
         let call = registry.calls(tree).find(|call| call.formula.path == "more");
@@ -103,7 +103,7 @@ fn an_argument_that_occurs_twice_is_the_same_both_times() {
 
 /// k + 2 a, where k is not an argument: it is not a call with another k or another number.
 #[test]
-fn a_call_is_the_same_but_for_its_arguments() {
+fn a_call_differs_from_its_formula_only_in_arguments() {
     let with = |a: &Tree, number: i32, k: &'static str| {
         let (own, n) = (x(k), Tree::from(number));
         own + n * a

@@ -19,7 +19,7 @@ fn check(cases: &[(Tree, &str, &str)]) {
 }
 
 #[test]
-fn signs_come_out_of_brackets_and_products() {
+fn signs_move_out_of_brackets_and_products() {
     let [a, b, c] = ["a", "b", "c"].map(s);
     check(&[
         (-(&a - &b), "−a + b", "-a + b"),
@@ -114,7 +114,7 @@ fn functions_bring_their_own_brackets() {
 }
 
 #[test]
-fn parts_go_by_their_names() {
+fn subformulas_are_abbreviated() {
     let [l, u, h] = ["l", "u", "H"].map(s);
     let (p, gap) = (&l + &u - &h, &h - &l);
     let name = |tree: &Tree| {
@@ -137,7 +137,7 @@ fn parts_go_by_their_names() {
 }
 
 #[test]
-fn a_name_with_an_exponent_is_bracketed_before_it_gets_another() {
+fn a_symbol_with_an_exponent_is_bracketed_in_a_power() {
     check(&[
         (s("ρᵏ") * s("ρᵏ"), "(ρᵏ)²", r"(\rho^k)^2"),
         (s("λ₀") * s("λ₀"), "λ₀²", r"\lambda_0^2"),
@@ -174,7 +174,7 @@ fn symbols_become_latex() {
 
 /// The text determines the rounding of each operation, in every order; what is rounded once is marked.
 #[test]
-fn what_is_rounded_can_be_read() {
+fn the_text_shows_which_operations_are_rounded() {
     let [a, b, c, scale] = ["a", "b", "c", "2ᵃ"].map(s);
     let sum = (&b + &c).round();
     check(&[
@@ -214,7 +214,7 @@ fn what_is_rounded_can_be_read() {
 }
 
 #[test]
-fn a_power_is_of_all_that_is_below_it() {
+fn the_base_of_a_power_is_bracketed_if_needed() {
     let [a, b, rho] = ["a", "b", "ρᵏ"].map(s);
     for (tree, expected) in [
         (a.clone(), "aᵏ"),
@@ -237,7 +237,7 @@ fn a_power_is_of_all_that_is_below_it() {
 
 /// 5·2ᵖ and not 52ᵖ.
 #[test]
-fn a_number_stands_apart_from_a_name_that_begins_with_one() {
+fn a_number_is_separated_from_a_symbol_that_begins_with_a_digit() {
     let [a, power] = ["a", "2ᵖ"].map(s);
     check(&[
         (n(5) * &power * &a, "5·2ᵖ a", r"5 \cdot 2^p\,a"),
@@ -248,7 +248,7 @@ fn a_number_stands_apart_from_a_name_that_begins_with_one() {
 
 /// Unusual formulas with texts written by hand.
 #[test]
-fn odd_formulas_keep_their_signs_and_brackets() {
+fn unusual_formulas_keep_their_signs_and_brackets() {
     let [a, b, c, d] = ["a", "b", "c", "d"].map(s);
     let text = |tree: Tree| tree.to_string();
     for (tree, expected) in [
@@ -294,7 +294,7 @@ fn odd_formulas_keep_their_signs_and_brackets() {
 }
 
 #[test]
-fn a_formula_that_is_too_deep_is_not_written_out() {
+fn a_formula_that_is_too_deep_is_replaced_by_its_size() {
     let x = Tree::symbol("x");
     let sum = |terms: u32| (1..terms).fold(x.clone(), |sum, _| sum + &x);
     assert_eq!(sum(2).to_string(), "x + x");

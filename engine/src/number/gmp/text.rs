@@ -254,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn ends_hold_as_written() {
+    fn formatted_bounds_are_valid_and_tight() {
         for number in ["1/3", "-2/3", "1e-9", "123456.789", "0.1", "-1.1e38", "1e-45", "0", "7"] {
             let x: Exact = number.parse().unwrap();
             assert!(encloses(&x) && encloses(&x.to_f32().unwrap()) && encloses(&x.to_f64().unwrap()), "{x}");
@@ -265,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn decimals_stay_on_their_side() {
+    fn decimals_are_rounded_in_the_given_direction() {
         for (fraction, down, up) in [
             ("1/3", "0.333", "0.334"),
             ("-2/3", "-0.667", "-0.666"),
@@ -287,7 +287,7 @@ mod tests {
     /// ±(1/2 ± 10⁻³⁰) is so close to a decimal that an additional rounding to nearest would return the
     /// decimal itself.
     #[test]
-    fn decimals_next_to_a_shorter_one_stay_on_their_side() {
+    fn decimals_close_to_a_shorter_one_are_rounded_in_the_given_direction() {
         let tiny: Exact = "1e-30".parse().unwrap();
         let half: Exact = "1/2".parse().unwrap();
         for (x, down, up) in [
@@ -301,7 +301,7 @@ mod tests {
     }
 
     #[test]
-    fn floats_are_short() {
+    fn floats_have_short_texts() {
         assert_eq!(
             [4.81, 100.0, 1e-7, 0.05, -0.0, 1e300].map(|x: f64| x.text()),
             ["4.81", "100", "1e-7", "0.05", "0", "1e300"]
@@ -310,7 +310,7 @@ mod tests {
     }
 
     #[test]
-    fn a_column_is_never_too_narrow() {
+    fn decimals_fit_the_width_if_one_digit_does() {
         for (number, width, text) in [
             ("1/3", 16, "0.3333333333"),
             ("-1/3000", 16, "-0.0003333333333"),

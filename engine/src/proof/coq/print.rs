@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn brackets_where_coq_needs_them() {
+    fn brackets_follow_the_precedence_of_coq() {
         let [a, b, c] = ["a", "b", "ε₄"].map(|name| Tree::symbol(name));
         assert_eq!(text(&(&a - &(&b - &c))), "a - (b - eps4)");
         assert_eq!(text(&(&a - &b - &c)), "a - b - eps4");
@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_taken_is_called_otherwise() {
+    fn reserved_names_are_replaced() {
         let names = ["R", "N", "in", "s1", "N1", "s₁", "H", "λ₀", "σ", "∂u", "2ᵖ", "ρᵏ", "e_1", "e'"];
         let letters = [
             "R_", "N", "in_", "s1_", "N1_", "s1", "h", "lambda0", "u3c3", "u2202u", "two_p", "rho_k", "e_1",
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn a_call_is_a_call_and_a_definition_is_its_own_work() {
+    fn bodies_call_functions_except_for_their_last_operation() {
         fn double<T: Field>(x: &T) -> T {
             T::int(2) * x
         }

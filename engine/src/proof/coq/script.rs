@@ -272,7 +272,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_part_stands_to_the_right_of_its_bullet() {
+    fn blocks_are_indented_behind_their_bullets() {
         let mut script = Script::new();
         script.line("one.");
         script

@@ -268,7 +268,7 @@ mod tests {
     use crate::number::Exact;
 
     #[test]
-    fn numbers_of_any_size_are_written_as_what_they_are() {
+    fn integers_of_any_size_are_written_exactly() {
         let large: Integer = Integer::from(1) << 80;
         for n in [large.clone(), -1 - large, Integer::ZERO, Integer::from(-7)] {
             let q = rug::Rational::from((n, 3));
@@ -278,7 +278,7 @@ mod tests {
     }
 
     #[test]
-    fn long_sums_are_counted_and_not_written() {
+    fn long_sums_are_replaced_by_their_number_of_terms() {
         let powers =
             |x: Poly, many: usize| (0..many).fold(Poly::zero(), |sum, _| &x * &sum + Poly::constant(1));
         for (x, shown) in [(Symbol::Own("a"), SHOWN), (Symbol::Error(0), SHOWN_OF_ROUNDING)] {

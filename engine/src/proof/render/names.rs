@@ -212,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn a_divisor_is_written_as_it_stands_in_the_claim() {
+    fn a_divisor_is_written_as_in_the_claim() {
         let [a, b, c] = ["a", "b", "c"].map(|name| Tree::symbol(name));
         let inverse = |of: Tree| positive("", Tree::from(1) / of);
         let more = above_zero(&a - &b);
@@ -250,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn a_name_of_a_case_is_said_to_be_one() {
+    fn a_name_introduced_by_a_case_is_described_as_such() {
         let [a, b] = ["a", "b"].map(|name| Tree::symbol(name));
         let said = why(&positive("", (&a - &b).positive_part() + &b));
         assert!(said.ends_with("where s₁ ≥ 0 in one case of the proof"), "{said}");
@@ -258,7 +258,7 @@ mod tests {
 
     /// Errors are named in the order in which the kernel meets them; those of hypotheses come first.
     #[test]
-    fn errors_are_named_in_the_order_in_which_they_are_rounded() {
+    fn errors_are_numbered_in_the_order_of_the_roundings() {
         let [a, b] = ["a", "b"].map(|name| Tree::symbol(name));
         let given = Hypothesis::new(Relation::NonNegative, (&a + &b).round());
         let of = (&a * (&a + &b) - &b).with_rounding();

@@ -7,7 +7,7 @@ use crate::number::Exponential;
 use crate::proof::prove;
 
 #[test]
-fn in_a_few_words_it_is_said_how() {
+fn summaries_name_the_method_of_the_proof() {
     let [a, u] = ["a", "u"].map(|name| Tree::symbol(name));
     let given = Hypothesis::new(Relation::Positive, a.clone());
     let summary = |claim: Statement| proof_summary(&prove(&claim).unwrap());
@@ -47,7 +47,7 @@ fn spring(a: &Tree, b: &Tree) -> Tree {
 
 /// A name that the statement uses for its own quantity does not abbreviate a function.
 #[test]
-fn a_name_that_is_taken_is_written_out() {
+fn a_function_whose_name_is_taken_is_written_out() {
     let [a, b, other] = ["a", "b", "c"].map(|name| Tree::symbol(name));
     let registry = Registry::new(
         &["a", "b"],
@@ -66,7 +66,7 @@ fn a_name_that_is_taken_is_written_out() {
 
 /// The index letter has no other meaning, and the base of a power is in brackets.
 #[test]
-fn steps_are_counted_by_a_letter_of_their_own() {
+fn the_index_of_a_sequence_is_a_letter_that_does_not_occur_in_the_claim() {
     let [a, k, q] = ["a", "k", "q"].map(|name| Tree::symbol(name));
     let powers = |ratio: &Tree| {
         let statement = induction("", ratio, [a.clone()], |[x]| [x * ratio], [&a * &q]);
@@ -105,7 +105,7 @@ static NONE: std::sync::LazyLock<Registry> = std::sync::LazyLock::new(Registry::
 
 /// The formula of a computed quantity is part of every claim.
 #[test]
-fn it_is_said_how_a_quantity_is_computed() {
+fn a_claim_contains_the_definitions_of_computed_quantities() {
     let [a, b, u] = ["a", "b", "u"].map(|name| Tree::symbol(name));
     let near = Hypothesis::near(&u, &a, &b);
     let claim = |claim: Statement| ProofPrinter::new(&NONE).claim(&claim.computing(&u, (&a + &b).round()));
@@ -118,7 +118,7 @@ fn it_is_said_how_a_quantity_is_computed() {
 }
 
 #[test]
-fn why_there_is_no_proof_is_said_in_the_names_of_the_registry() {
+fn the_reason_for_a_failed_proof_uses_the_names_of_the_registry() {
     let [a, b] = ["a", "b"].map(|name| Tree::symbol(name));
     let statement = equal("", &b + &a * &b, &b);
     let why = prove(&statement).unwrap_err();

@@ -51,7 +51,7 @@ fn a_relative_tolerance_above_that_of_the_check_is_noticed() {
 }
 
 #[test]
-fn a_relative_tolerance_is_found_on_either_side() {
+fn a_relative_tolerance_is_diagnosed_on_either_side() {
     let by_weight: fn(&SpringMass<Exact>) -> Exact =
         |system| system::reaction(system).abs() / system::weight(system).abs();
     let by_height: fn(&SpringMass<Exact>) -> Exact =
@@ -78,7 +78,7 @@ fn a_relative_tolerance_is_found_on_either_side() {
 
 /// A force limited by a constant, small or large, and one that is limited in two systems only.
 #[test]
-fn a_capped_force_is_named_once_or_not_at_all() {
+fn a_capped_force_is_diagnosed_at_most_once() {
     for cap in ["1e-2", "1", "100", "1e4", "1e6", "1e12", "1e30"] {
         let capped = changed(|_, u, n| [u, if n > number(cap) { number(cap) } else { n }]);
         let names = Vec::from_iter(capped.diagnosis.iter().map(|d| d.name.as_str()));
@@ -105,7 +105,7 @@ fn a_diagnosis_has_its_own_formulas() {
 
 /// Numbers printed by a program in single precision, and by one that converts them to double precision.
 #[test]
-fn a_program_in_single_precision_is_found() {
+fn a_program_in_f32_is_diagnosed() {
     let solve = |problem: &Problem, print: fn(f32) -> String| {
         let SpringMass { c, m, g, l, h } = problem.system.try_map(Exact::to_f32).unwrap();
         let u = (m * g / c).min(h - l);
@@ -126,7 +126,7 @@ fn a_program_in_single_precision_is_found() {
 
 /// Parameters passed as text, with `%g` or a fixed number of decimals.
 #[test]
-fn parameters_with_few_digits_are_found() {
+fn parameters_with_few_digits_are_diagnosed() {
     let name = |change: &dyn Fn(&SpringMass<f64>) -> SpringMass<Exact>| {
         let report = run(&default_problems(), |problem| {
             let floats = problem.system.try_map(Exact::to_f64).unwrap();
@@ -151,7 +151,7 @@ fn parameters_with_few_digits_are_found() {
 
 /// A mutated formula would affect the other answers as well.
 #[test]
-fn an_edit_that_explains_some_answers_is_not_named() {
+fn a_mutant_that_explains_only_some_answers_is_not_diagnosed() {
     let edits = mistakes(false).iter().filter(|mistake| mistake.is_edit());
     let named = edits.filter(|edit| {
         let few = problems(1, CASES, &[Family::Contact, Family::Separated, Family::Stiff, Family::Huge]);
@@ -166,7 +166,7 @@ fn an_edit_that_explains_some_answers_is_not_named() {
 
 /// (1.16) in f64.
 #[test]
-fn augmentations_that_end_early_are_found() {
+fn augmentations_that_end_early_are_diagnosed() {
     for (steps, eps) in [(2, 1e4), (3, 1e4), (5, 2e7)] {
         let report = run(&default_problems(), |problem| {
             let system = problem.system.try_map(Exact::to_f64).unwrap();

@@ -29,7 +29,7 @@ fn tried(claim: &Statement) -> Trial {
 }
 
 #[test]
-fn what_exceeds_its_bound_is_seen() {
+fn an_error_beyond_its_bound_is_detected() {
     let x = symbols();
     let sum = &x.system.l + &x.u;
     let error = || sum.with_rounding() - &sum;
@@ -52,7 +52,7 @@ fn what_exceeds_its_bound_is_seen() {
 }
 
 #[test]
-fn of_what_is_supposed_only_parameters_are_drawn() {
+fn only_hypotheses_on_parameters_restrict_the_sampled_cases() {
     let given = crate::claims::hypotheses();
     let (parameter, computed, interval) = (&given.stiffness, &given.computed_inside, &given.decay);
     let bits = &given.fine_enough;
@@ -68,7 +68,7 @@ fn of_what_is_supposed_only_parameters_are_drawn() {
 }
 
 #[test]
-fn a_number_that_loses_bits_at_the_end_of_the_range_is_none() {
+fn underflow_and_overflow_yield_no_value() {
     let Case { system: s, u, .. } = symbols();
     let with = |c: f64, m: f64| {
         let system = SpringMass { c, m, g: 1.0, l: 1.0, h: 1.0 };
@@ -88,7 +88,7 @@ fn a_number_that_loses_bits_at_the_end_of_the_range_is_none() {
 }
 
 #[test]
-fn the_coarsest_number_is_the_precision() {
+fn the_coarsest_parameter_determines_the_precision() {
     for coarse in [Var::C, Var::G, Var::L, Var::H, Var::Eps, Var::U] {
         let bits = |var| if var == coarse { 24 } else { 53 };
         let case = Case::of(|var| Mpfr::rounded(bits(var), 1));
@@ -101,7 +101,7 @@ fn the_coarsest_number_is_the_precision() {
 }
 
 #[test]
-fn a_power_is_one_of_a_sequence_that_is_followed() {
+fn the_power_symbol_is_a_power_of_the_ratio_once_a_sequence_is_followed() {
     let case = case();
     let law = Law::of(&equal("power", Tree::symbol(POWER), &symbols().u));
     let mut floats = Evaluation::of(&case, &law.program, &law.varies).unwrap();
@@ -115,7 +115,7 @@ fn a_power_is_one_of_a_sequence_that_is_followed() {
 /// For ε = c each step gains a bit, so λ repeats after slightly more than 53 steps; a small ε gains almost
 /// nothing.
 #[test]
-fn where_the_multiplier_repeats_is_found_or_is_not() {
+fn a_repeated_multiplier_is_found_only_if_the_penalty_is_large() {
     let Case { system: s, eps, lambda, u, .. } = symbols();
     let mut program = Program::default();
     let next = program.add(&augmented::update(s, eps, lambda, u));
@@ -131,7 +131,7 @@ fn where_the_multiplier_repeats_is_found_or_is_not() {
 }
 
 #[test]
-fn the_larger_share_is_the_worse() {
+fn the_trial_with_the_larger_share_is_the_worse() {
     let of = |error: i32, bound: i32| super::within(Exact::from(error), Exact::from(bound));
     let shares = [of(1, 2), of(1, 4), of(3, 4), of(5, 8), of(3, 16)];
     let worst = |a: &Trial, b: &Trial| worse(a.clone(), b.clone());

@@ -4,7 +4,7 @@ use super::*;
 
 /// Python's single quotes, and a missing flush: frequent first mistakes.
 #[test]
-fn a_time_out_says_what_it_saw() {
+fn a_timeout_reports_the_last_output() {
     in_time(|| {
         for (script, seen) in [
             ("read -r line; echo hello; echo \"{'id': 'a'}\"; sleep 60", "not a JSON object: {'id': 'a'}"),
