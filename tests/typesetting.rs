@@ -1,4 +1,4 @@
-//! A formula that is printed says what it computes: its text, read again, has the value of its tree.
+//! The text of a formula, parsed independently, has the value of its tree.
 #![cfg(feature = "prover")]
 
 use proptest::prelude::*;
@@ -17,7 +17,7 @@ use spring_mass_contact::proof::render::ProofPrinter;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-/// No rational is an exponential: any function serves that does not vanish or repeat by accident.
+/// An exponential is not rational: any function without accidental zeros or repetitions can replace it.
 fn exp(x: &Exact) -> Exact {
     x * x * x + x + Exact::from(7)
 }
@@ -27,10 +27,10 @@ fn value(name: &str) -> Exact {
     Exact::from(seed - 5000) / Exact::from(97)
 }
 
-/// Numbers of as many bits are rounded to.
+/// Precision of rounding.
 const BITS: u32 = 5;
 
-/// A number for a symbol: 2ᵃ is a power of two.
+/// Returns the number for a symbol: 2ᵃ is a power of two.
 fn at(name: &str) -> Exact {
     match name {
         "2ᵃ" => Exact::power_of_two(-3),
@@ -41,14 +41,16 @@ fn at(name: &str) -> Exact {
     }
 }
 
-/// Reads formulas as a text writes them, by its rules and by nothing of what writes them: the value, `None` if it
-/// divides by zero.
+/// Parser of printed formulas that returns their values, or `None` if a formula divides by zero. It follows
+/// the rules of the text and does not use the code that prints it.
 ///
-/// In fl( ) the result of every + − × ÷, power and exp is rounded, from the left; what is scaled by a power of two is
-/// exact, and so is what is in ⟨ ⟩, | |, min or max. In nearest( ) all is exact, and rounded once.
+/// Inside fl( ) the result of every + − × ÷, power and exp is rounded, from the left; scaling by a power of
+/// two is exact, and so is the content of ⟨ ⟩, | |, min or max. Inside nearest( ) everything is exact and is
+/// rounded once.
 struct Reader<'a> {
     rest: &'a str,
-    /// Whose names may stand for formulas, and the arguments that a name may be said without if they are themselves.
+    /// Registry whose names may abbreviate formulas, and the arguments that may be omitted from a call if
+    /// they are unchanged.
     registry: &'a Registry,
     quiet: &'a [&'static str],
     /// Numbers for symbols.
@@ -56,7 +58,7 @@ struct Reader<'a> {
     rounding: bool,
 }
 
-/// All symbols of the tests and of the chapter, those first that begin with another.
+/// All symbols of the tests and of the chapter; those that begin with another precede it.
 static SYMBOLS: LazyLock<Vec<&str>> = LazyLock::new(|| {
     let of_formulas = registry().formulas().iter().flat_map(|formula| formula.tree.symbols());
     let of_claims =
@@ -81,7 +83,7 @@ impl<'a> Reader<'a> {
         Reader { rest, registry: &NO_NAMES, quiet: &[], at: &at, rounding: false }
     }
 
-    /// With the names of the chapter, or others.
+    /// Returns the parser with the names of a registry.
     fn with(self, registry: &'a Registry, quiet: &'a [&'static str]) -> Self {
         Reader { registry, quiet, ..self }
     }
@@ -90,21 +92,21 @@ impl<'a> Reader<'a> {
         Reader::new(&tree.to_string()).all()
     }
 
-    /// The value of all of the text.
+    /// Returns the value of the whole text.
     fn all(mut self) -> Option<Exact> {
         let (text, value) = (self.rest, self.sum());
         assert!(value.is_none() || self.rest.is_empty(), "{text}: left {}", self.rest);
         value
     }
 
-    /// The value of all of the text, which is one factor: what a power is taken of.
+    /// Returns the value of the whole text, which must be one factor: the base of a power.
     fn one_factor(mut self) -> Option<Exact> {
         let (text, value) = (self.rest, self.base());
         assert!(value.is_none() || self.rest.is_empty(), "{text} is more than a factor: left {}", self.rest);
         value
     }
 
-    /// What a name stands for, with its arguments if any are said.
+    /// Returns the value of a name, with its arguments if there are any.
     fn named(&mut self) -> Option<Option<Exact>> {
         let mut all: Vec<_> = self.registry.formulas().iter().filter(|formula| formula.abbreviated).collect();
         all.sort_by_key(|formula| std::cmp::Reverse(formula.symbol.len()));
@@ -131,7 +133,7 @@ impl<'a> Reader<'a> {
         }))
     }
 
-    /// An argument that is not said: the usual one, which may have a name.
+    /// Returns the value of an omitted argument, which may itself be abbreviated.
     fn argument(&self, name: &str) -> Exact {
         let mut formulas = self.registry.formulas().iter();
         match formulas.find(|formula| formula.abbreviated && formula.symbol == name) {
@@ -150,7 +152,7 @@ impl<'a> Reader<'a> {
         if self.rounding { x.round_to_bits(BITS).unwrap() } else { x }
     }
 
-    /// What stands between brackets, with rounding or without.
+    /// Parses the content of brackets, with or without rounding.
     fn inside<T>(&mut self, rounding: bool, read: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
         let outside = std::mem::replace(&mut self.rounding, rounding);
         let inner = read(self);
@@ -191,7 +193,7 @@ impl<'a> Reader<'a> {
         Some(if scale { quotient } else { self.rounded(quotient) })
     }
 
-    /// And whether it is a power of two, by which is scaled.
+    /// Parses a factor; the flag is `true` for a power of two, scaling by which is exact.
     fn factor(&mut self) -> Option<(Exact, bool)> {
         let is_scale = |scale| self.rest.starts_with(scale) || self.rest.starts_with(&format!("({scale})"));
         let scale = ["2ᵃ", "2ᵇ", "2ᶠ"].into_iter().any(is_scale);
@@ -264,7 +266,7 @@ fn replayed_at(tree: &Tree, at: &dyn Fn(&str) -> Exact) -> Option<Exact> {
     tree.eval(&|name| at(name), &beyond)
 }
 
-/// Symbols in trees that are drawn. k counts steps where nothing else is called so.
+/// Symbols in sampled trees. k is the index of steps unless another quantity is named k.
 const OWN: [&str; 11] = ["a", "b", "u", "k", "ρ", "λ₀", "ρᵏ", "u_{k+1}", "2ᵖ", "2ᵃ", POWER];
 
 fn trees() -> impl Strategy<Value = Tree> {
@@ -287,7 +289,7 @@ fn trees() -> impl Strategy<Value = Tree> {
     })
 }
 
-/// The same where some steps are rounded, in some trees all, in others some or only the last.
+/// Trees with roundings: of all operations, of some, or of the last only.
 fn rounded_trees() -> impl Strategy<Value = Tree> {
     let some = (trees(), any::<u64>()).prop_map(|(tree, seed)| {
         let chosen = std::cell::Cell::new(seed);
@@ -301,7 +303,7 @@ fn rounded_trees() -> impl Strategy<Value = Tree> {
     prop_oneof![2 => some, 1 => once, 3 => steps]
 }
 
-/// LaTeX as the text that it shows: fractions as quotients in brackets, exponents in small digits.
+/// Returns LaTeX as the text that it displays: fractions as quotients in brackets, exponents as superscripts.
 fn shown(latex: &str) -> String {
     // What is in braces, and the rest.
     fn braced(latex: &str) -> (&str, &str) {
@@ -379,7 +381,7 @@ fn shown(latex: &str) -> String {
     text
 }
 
-/// The round brackets of a text: where each opens, and what it holds.
+/// Returns the round brackets of a text, each with its position and its content.
 fn brackets(text: &str) -> Vec<(usize, &str)> {
     let (mut open, mut all) = (Vec::new(), Vec::new());
     for (i, c) in text.char_indices() {
@@ -452,7 +454,7 @@ proptest! {
     }
 }
 
-/// A text, and the registry whose names it may use.
+/// A text, the registry whose names it may use, and the arguments that it may omit.
 #[derive(Clone, Copy)]
 struct Text<'a>(&'a str, &'a Registry, &'a [&'static str]);
 
@@ -465,14 +467,14 @@ impl<'a> Text<'a> {
         Reader::new(self.0).with(self.1, self.2).all()
     }
 
-    /// The text says the value of this tree.
+    /// Asserts that the text has the value of this tree.
     fn is(self, tree: &Tree) {
         if let Some(value) = replayed(tree) {
             assert_eq!(self.value(), Some(value), "{}: not what {tree} is", self.0);
         }
     }
 
-    /// The text says two formulas and how they are related.
+    /// Splits the text into two formulas and their relation.
     fn sides(self) -> (Self, &'a str, Self) {
         let relations = [" = ", " > ", " ≥ ", " < ", " ≤ "];
         let found: Vec<_> = relations.iter().flat_map(|relation| self.0.match_indices(relation)).collect();
@@ -480,7 +482,7 @@ impl<'a> Text<'a> {
         (self.part(&self.0[..place]), relation.trim(), self.part(&self.0[place + relation.len()..]))
     }
 
-    /// The text says what the sign of this tree is.
+    /// Asserts that the text states the sign of this tree.
     fn is_sign(self, relation: Relation, tree: &Tree) {
         let (left, said, right) = self.sides();
         assert_eq!(
@@ -550,7 +552,7 @@ impl<'a> Text<'a> {
         }
     }
 
-    /// Each of several formulas.
+    /// Asserts that the text lists these formulas.
     fn are(self, trees: &[Tree]) {
         let (mut depth, mut start, mut parts) = (0, 0, Vec::new());
         for (i, c) in self.0.char_indices() {
@@ -569,7 +571,7 @@ impl<'a> Text<'a> {
         parts.iter().zip(trees).for_each(|(part, tree)| self.part(part).is(tree));
     }
 
-    /// The text says what a claim comes to.
+    /// Asserts that the text states the conclusion of a claim.
     fn is_claim(self, statement: &Statement) {
         let Some(Sequence { start, step, ratio, member, limit, within }) = statement.conclusion() else {
             let (said, computed) = self.0.split_once(", where ").unwrap_or((self.0, ""));
@@ -613,7 +615,7 @@ impl<'a> Text<'a> {
         place.expect("a ratio").is(ratio);
     }
 
-    /// What a power is taken of, before the index, which is the exponent and nothing else in the statement.
+    /// Asserts that the text is a power, and that its index occurs nowhere else in the statement.
     fn is_power(self, place: &'a str, index: &str, statement: &Statement) -> Option<Self> {
         let (power, computed) = place.split_once(" and ").unwrap_or((place, ""));
         self.is_computed(computed, statement);
@@ -644,7 +646,7 @@ fn relations() -> impl Strategy<Value = Relation> {
     prop::sample::select(&[Relation::Positive, Relation::NonNegative, Relation::Zero])
 }
 
-/// Signs of anything, of what is negated and of differences; and intervals.
+/// Hypotheses on signs of formulas, negations and differences, and intervals.
 fn hypotheses() -> impl Strategy<Value = Hypothesis> {
     let tree = || prop_oneof![trees(), rounded_trees()];
     let value = prop_oneof![
@@ -717,17 +719,17 @@ proptest! {
     }
 }
 
-/// The value of a text at these numbers, at which it divides by nothing that is 0.
+/// Returns the value of a text at these numbers, at which no divisor is 0.
 fn value_of(text: &str, at: &dyn Fn(&str) -> Exact) -> Exact {
     Reader { at, ..Reader::new(text) }.all().unwrap_or_else(|| panic!("{text}: divides by zero"))
 }
 
-/// Numbers for all symbols of a proof, with what its lines define as it goes on.
+/// Numbers for all symbols of a proof, extended by the definitions in its lines.
 struct Lines<'a> {
     known: BTreeMap<String, Exact>,
-    /// What a line may say that it is: sides of goals, and the last divisor.
+    /// Values to which a line may refer: sides of goals, and the last divisor.
     values: Vec<Exact>,
-    /// The next thing that a line says that it is decides a bracket.
+    /// Whether the next statement of a sign decides a bracket.
     decides: bool,
     statement: &'a Statement,
 }
@@ -738,7 +740,7 @@ impl Lines<'_> {
         value_of(text, &at)
     }
 
-    /// Two formulas are the same number.
+    /// Asserts that two formulas have the same value.
     fn same(&self, a: &str, b: &str, line: &str) {
         assert_eq!(
             self.value(a),
@@ -748,7 +750,7 @@ impl Lines<'_> {
         );
     }
 
-    /// Holds one line against the numbers; `false` if it has no goals of formulas.
+    /// Checks one line at the numbers; returns `false` if it contains no goals of formulas.
     fn holds(&mut self, line: &str) -> bool {
         let line = line.trim_start();
         if let Some((divisor, reason)) = line.split_once(" ≠ 0:") {
@@ -805,7 +807,7 @@ impl Lines<'_> {
     }
 }
 
-/// Claims that the kernel may prove: equal formulas, squares, and what is bounded by a hypothesis.
+/// Claims that the kernel may prove: equal formulas, squares, and bounds from hypotheses.
 fn provable() -> impl Strategy<Value = Statement> {
     let [a, b, u, k] = ["a", "b", "u", "k"].map(|name| Tree::symbol(name));
     let leaf = prop_oneof![
@@ -874,8 +876,8 @@ fn every_line_of_a_proof_holds_at_numbers() {
     assert!(held.get() > 1000, "only {} lines are about formulas", held.get());
 }
 
-/// Reads certificates as they are printed in full, and checks every line with numbers: symbols are positive, errors and
-/// places between −1 and 1.
+/// Parser of complete printed certificates that checks every line at numbers: symbols are positive, errors
+/// and interval parameters between −1 and 1.
 struct Certificates<'l> {
     lines: &'l [String],
     at: &'l dyn Fn(&str) -> Exact,
@@ -892,7 +894,7 @@ impl Certificates<'_> {
         value_of(text, &at)
     }
 
-    /// A formula and its sign, which has to be that of its value.
+    /// Parses a formula and its sign, and asserts that the sign is that of its value.
     fn fact<'t>(&self, text: &'t str) -> &'t str {
         use std::cmp::Ordering::{Equal, Greater, Less};
         let signs: [(&str, &[_]); 5] = [
@@ -908,7 +910,7 @@ impl Certificates<'_> {
         formula
     }
 
-    /// The formula of the certificate that comes next, if one does.
+    /// Parses the formula of the next certificate, if there is one.
     fn next(&mut self) -> Option<&str> {
         let (line, rest) = self.lines.split_first()?;
         let facts = ["≠ 0: ", "by the sign of its argument: ", "by the sign of the second less the first: "];
@@ -981,7 +983,8 @@ impl Certificates<'_> {
     }
 }
 
-/// The certificates of `contact prove --format json` can be checked line by line, those too long for a page as well.
+/// The certificates in `contact prove --format json` can be checked line by line, including those that are
+/// omitted in the text.
 #[test]
 fn every_line_of_a_certificate_holds() {
     let at = |name: &str| match name.chars().next() {
@@ -1033,7 +1036,7 @@ fn the_texts_of_the_chapters_claims_have_the_values_of_their_formulas() {
     }
 }
 
-/// a b − c
+/// Returns a b − c.
 fn spring(a: &Tree, b: &Tree, c: &Tree) -> Tree {
     a * b - c
 }
@@ -1041,7 +1044,7 @@ fn spring(a: &Tree, b: &Tree, c: &Tree) -> Tree {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
 
-    /// With two arguments that may be left unsaid, and in each other.
+    /// Calls with two arguments that may be omitted, also nested.
     #[test]
     fn an_abbreviated_call_has_the_value_of_its_tree(drawn in prop::collection::vec(trees(), 3), usual in 0..8, twice: bool) {
         let [a, b, c] = ["a", "b", "u"].map(|name| Tree::symbol(name));

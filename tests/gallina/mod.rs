@@ -285,7 +285,7 @@ impl<'t> Reader<'t> {
     }
 }
 
-/// A proposition about numbers.
+/// Proposition about numbers.
 pub enum Said {
     /// The first is 2 to the power of the second.
     PowerOfTwo(&'static str, &'static str),
@@ -343,17 +343,17 @@ pub struct Theorem {
     recursion: Vec<String>,
 }
 
-/// What a theorem says.
+/// Parsed theorem.
 pub struct Read {
-    /// What it supposes.
+    /// Premises.
     pub given: Vec<Said>,
-    /// What follows: for all members of a sequence, if it speaks of one.
+    /// Conclusions; for a sequence, they hold for each member.
     pub follows: Vec<Said>,
     pub of: Option<Recursion>,
 }
 
 impl Read {
-    /// Is all that it supposes so, and what follows as well? None where something is not known.
+    /// Returns whether the premises imply the conclusions at these numbers; `None` if that is unknown.
     fn holds(&self, at: &impl Fn(&'static str) -> Exact) -> Option<bool> {
         let given = self.given.iter().all(|given| given.holds(at) == Some(true));
         let follow = |at: &dyn Fn(&'static str) -> Exact| -> Option<bool> {
@@ -367,7 +367,7 @@ impl Read {
         }
     }
 
-    /// The trials in which all that it supposes is so, and whether then what follows is.
+    /// Returns, for each trial in which all premises hold, whether the conclusions hold.
     pub fn trials(&self) -> impl Iterator<Item = bool> {
         let rounds = self.given.iter().any(|given| matches!(given, Said::PowerOfTwo(..)));
         (0..if rounds { TRIALS_OF_LAWS } else { TRIALS })
@@ -376,7 +376,7 @@ impl Read {
 }
 
 impl Theorem {
-    /// Those of a file.
+    /// Returns the theorems and lemmas of a file.
     pub fn all(text: &str) -> Vec<Self> {
         let text = code(text);
         let theorem = |part: &str| {
@@ -391,17 +391,17 @@ impl Theorem {
         stated(&text).filter_map(theorem).collect()
     }
 
-    /// Does it speak of a function, or of what else has a name?
+    /// Returns `true` if the theorem contains a function or another name.
     pub fn names(&self, name: &str) -> bool {
         self.stated.iter().any(|token| token == name)
     }
 
-    /// Is it about what is rounded?
+    /// Returns `true` if the theorem contains roundings.
     pub fn rounds(&self) -> bool {
         self.names("prec")
     }
 
-    /// What it supposes, and what follows.
+    /// Parses the premises and the conclusions.
     pub fn read(&self, known: &Functions) -> Read {
         let mut reader = Reader { rest: &self.stated, known, ratio: None };
         if self.rounds() {
@@ -428,23 +428,24 @@ impl Theorem {
         Read { given, follows, of }
     }
 
-    /// Are there numbers for which it is false? These functions may be other ones than those it was proved of.
+    /// Returns `true` if the theorem is false at some numbers, possibly for other functions than those of its
+    /// proof.
     pub fn is_false_somewhere(&self, functions: &Functions) -> bool {
         self.read(functions).trials().any(|holds| !holds)
     }
 }
 
-/// How many cases are tried.
+/// Number of trials.
 pub const TRIALS: u64 = 200;
 
-/// And of what is rounded: more is supposed there, and less of a bound is used in most.
+/// Number of trials for theorems with roundings, which have more premises and rarely attain their bounds.
 const TRIALS_OF_LAWS: u64 = 2000;
 
-/// The bits of the numbers that are rounded to.
+/// Precisions of rounding.
 const BITS: [i32; 8] = [2, 3, 4, 5, 6, 8, 24, 53];
 
-/// A number for a symbol, always the same: mostly positive, one in eight is 0; every other one has few bits. Or a power
-/// of two.
+/// Returns a reproducible number for a symbol: mostly positive, zero once in eight trials, with few bits in
+/// every other trial; or a power of two.
 pub fn drawn(name: &str, trial: u64) -> Exact {
     let mixed = name.bytes().fold(trial + 1, |mixed, byte| {
         let mixed = (mixed ^ u64::from(byte)).wrapping_mul(0x9e37_79b9_7f4a_7c15);

@@ -1,24 +1,24 @@
-//! A sequence, as a theorem speaks of it.
+//! Sequences in theorems.
 
 use super::{Reader, Said, interned, value};
 use spring_mass_contact::number::{Exact, Tree};
 
-/// The members of a sequence, one or several numbers each, beside the powers q of a ratio.
+/// Recursion of a sequence of one or several numbers, with powers q of a ratio.
 pub struct Recursion {
     pub ratio: Tree,
     pub start: Vec<Tree>,
-    /// By the members' names.
+    /// The next member, in terms of the names of the current one.
     pub step: Vec<Tree>,
     pub members: Vec<&'static str>,
-    /// What is computed from a member, and how, each perhaps from those before it.
+    /// Quantities computed from a member, in terms of it and of earlier quantities.
     pub computed: Vec<(&'static str, Tree)>,
 }
 
-/// So many members are tried.
+/// Number of members that are tried.
 const MEMBERS: usize = 6;
 
 impl Reader<'_> {
-    /// `let NAME := FORMULA in`
+    /// Parses `let NAME := FORMULA in`.
     fn named(&mut self) -> (&'static str, Tree) {
         self.expect("let");
         let name = interned(self.take());
@@ -28,7 +28,7 @@ impl Reader<'_> {
         (name, formula)
     }
 
-    /// As many of these as there are.
+    /// Parses all definitions that follow.
     fn all_named(&mut self) -> Vec<(&'static str, Tree)> {
         let mut all = Vec::new();
         while self.next() == "let" {
@@ -37,7 +37,7 @@ impl Reader<'_> {
         all
     }
 
-    /// Words up to one that is not among them, which is taken, too.
+    /// Consumes words up to and including `end`.
     fn until(&mut self, end: &str) -> Vec<String> {
         let words: Vec<_> = self.rest.iter().take_while(|word| *word != end).cloned().collect();
         self.rest = &self.rest[words.len()..];
@@ -45,7 +45,7 @@ impl Reader<'_> {
         words
     }
 
-    /// As many formulas, in brackets with commas between them if they are several.
+    /// Parses `many` formulas: several in brackets, separated by commas.
     fn tuple(&mut self, many: usize) -> Vec<Tree> {
         if many == 1 {
             return vec![self.formula()];
@@ -60,8 +60,8 @@ impl Reader<'_> {
         all
     }
 
-    /// `forall n : nat, let q := ρ ^ n in` and either `let x := ITERATES n in`, any number of `let u := BY in` and what
-    /// is said of these, or `ITERATES n = CLOSED`, with the recursion that ITERATES is.
+    /// Parses `forall n : nat, let q := ρ ^ n in` and either `let x := ITERATES n in` with any number of `let
+    /// u := BY in` and propositions about them, or `ITERATES n = CLOSED`, with the recursion of ITERATES.
     pub(super) fn sequence(&mut self, recursion: &[String]) -> (Recursion, Vec<Said>) {
         let reader = Reader { rest: recursion, known: self.known, ratio: None };
         let (call, mut recursion) = reader.recursion();
@@ -83,7 +83,7 @@ impl Reader<'_> {
         (recursion, follows)
     }
 
-    /// A definition, and how it calls itself; its ratio is said elsewhere.
+    /// Parses the definition of a recursion, without its ratio.
     fn recursion(mut self) -> (Vec<String>, Recursion) {
         self.expect("Fixpoint");
         let mut call = vec![self.take().to_string()];
@@ -115,7 +115,7 @@ impl Reader<'_> {
 }
 
 impl Recursion {
-    /// Does this hold of all members that are tried? None where something is not known.
+    /// Returns whether a property holds for all members that are tried; `None` if that is unknown.
     pub fn all(
         &self,
         at: &impl Fn(&'static str) -> Exact,

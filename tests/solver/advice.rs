@@ -1,5 +1,5 @@
-//! Advice keeps its word: what is advised reaches the tolerance, whatever the scalar, near grazing too; what is promised is
-//! advised; and where nothing is, nothing reaches it.
+//! Properties of advice: each recommended method reaches the tolerance in every scalar, near grazing as well;
+//! each guaranteed method is recommended; without a guarantee, no method reaches the tolerance.
 
 use crate::in_every_float;
 use crate::strategies::*;
@@ -13,7 +13,7 @@ use spring_mass_contact::solver::{
     rounding_floor, solve,
 };
 
-/// Does a run bring the deflection within the tolerance, and say so if it iterates?
+/// Returns `true` if a run meets the tolerance and, for an iteration, reports it.
 fn reaches<T: Scalar + ToExact>(
     system: &SpringMass<T>,
     method: &Method<T>,
@@ -25,7 +25,7 @@ fn reaches<T: Scalar + ToExact>(
     if said && off < *tolerance { Ok(solution) } else { Err(format!("off by {off}, {}", solution.outcome)) }
 }
 
-/// With three bits 1 − 8 η is 0, and with fewer it is less: nothing is promised then, whatever is asked.
+/// With at most three bits 1 − 8 η ≤ 0, so no tolerance is guaranteed.
 #[test]
 fn with_few_bits_nothing_is_guaranteed() {
     let system = SpringMass { c: "4", m: "1", g: "10", l: "1", h: "3" }.parse().unwrap();
@@ -42,8 +42,8 @@ fn with_few_bits_nothing_is_guaranteed() {
     }
 }
 
-/// m g of 10 bits is rounded to 10 bits, however many the lengths have: the floor is that of the coarsest parameter. A
-/// tolerance between that and the floor of the finest is not promised.
+/// m g of 10 bits is rounded to 10 bits, so the coarsest parameter determines the floor. A tolerance between
+/// this floor and that of the finest parameter is not guaranteed.
 #[test]
 fn the_coarsest_parameter_determines_the_guarantee() {
     let like = [10, 10, 10, 200, 200].map(|bits| int(1).to_mpfr(bits));
@@ -63,7 +63,7 @@ fn the_coarsest_parameter_determines_the_guarantee() {
     );
 }
 
-/// The tolerance is rounded to as many bits, too, and may be rounded to no more than the floor.
+/// The tolerance is rounded as well and must remain above the floor.
 #[test]
 fn bits_are_needed_for_the_tolerance_as_well() {
     let system: SpringMass<Exact> = SpringMass { c: "4", m: "1", g: "10", l: "1", h: "3" }.parse().unwrap();
@@ -82,14 +82,14 @@ fn bits_are_needed_for_the_tolerance_as_well() {
     assert!((1..24).contains(&rounded_down), "{rounded_down}");
 }
 
-/// The penalties that are advised.
+/// Returns the recommended penalties.
 fn advised<T: Scalar + ExactText>(system: &SpringMass<T>, tolerance: &T) -> Vec<T> {
     let choices = advise(system, tolerance).unwrap().recommendations;
     choices.iter().filter_map(|choice| choice.method.penalty().cloned()).collect()
 }
 
-/// R = 2, c = 4: p = R/(c + ε) is 1/4 for ε = 4, and *less* for the next number of two digits; 25/101 for ε = 4.08.
-/// p = R/c = 1/2 already is less than 1.
+/// R = 2, c = 4: p = R/(c + ε) is 1/4 for ε = 4, and smaller for the next number with two digits; it is
+/// 25/101 for ε = 4.08. For p < 1 no penalty is needed, since R/c = 1/2.
 #[test]
 fn the_softest_penalty_has_two_digits() {
     let system: SpringMass<Exact> = SpringMass { c: "4", m: "1", g: "10", l: "1", h: "3" }.parse().unwrap();
@@ -104,8 +104,8 @@ fn the_softest_penalty_has_two_digits() {
     assert_eq!([least(int(1) / int(4)), least(int(1) / int(2))], [Some(int(4)), None]);
 }
 
-/// Δ = 2: rounding takes up to 5 η Δ (1 + 2 η) from the deflection of (1.13), however hard the penalty, at grazing as
-/// well as beyond. A tolerance of as much is not promised, one of any more is.
+/// Δ = 2: rounding changes the deflection of (1.13) by up to 5 η Δ (1 + 2 η) for every penalty, at grazing as
+/// well. This value is not a guaranteed tolerance; every larger one is.
 #[test]
 fn a_tolerance_below_the_rounding_floor_is_rejected() {
     for g in [2, 3] {
@@ -118,8 +118,8 @@ fn a_tolerance_below_the_rounding_floor_is_rejected() {
     }
 }
 
-/// Where the mass hangs free every penalty method computes m g/c. The augmentation is promised above 5 η m g/c, and
-/// from ε = c on.
+/// If the mass is separated, every penalty method computes m g/c. The augmentation is guaranteed above 5 η m
+/// g/c for ε ≥ c.
 #[test]
 fn a_separated_mass_accepts_any_penalty() {
     let system = SpringMass { c: 1, m: 1, g: 1, l: 0, h: 3 }.map(|x| int(*x).to_mpfr(10));
@@ -135,7 +135,7 @@ fn a_separated_mass_accepts_any_penalty() {
     assert_eq!(penalties(&choices), [None, None, Some(int(1))]);
 }
 
-/// The same method with another penalty.
+/// Returns the method with another penalty.
 fn with_penalty_of<T: Float>(method: &Method<T>, eps: &T) -> Method<T> {
     let penalty = eps.clone();
     match method.clone() {
@@ -147,7 +147,8 @@ fn with_penalty_of<T: Float>(method: &Method<T>, eps: &T) -> Method<T> {
     }
 }
 
-/// Some penalties in the range, its ends included; where there is no first one, down to a part of the choice's own.
+/// Returns penalties in the range, including its ends; without a lower end, down to `part` of the recommended
+/// penalty.
 fn within<T: Float>(choice: &Recommendation<T>, part: &Exact, like: &T) -> Vec<T> {
     let Some(own) = choice.method.penalty() else { return Vec::new() };
     let [from, to] = &choice.penalty_range;
@@ -171,8 +172,8 @@ fn within<T: Float>(choice: &Recommendation<T>, part: &Exact, like: &T) -> Vec<T
     penalties.iter().filter_map(|eps| like.round_from_exact(eps).ok()).collect()
 }
 
-/// Where everything `fits` the range of the scalar, what is promised has to be there. Where it does not, penalties may be
-/// very soft.
+/// Asserts that recommendations hold. If everything `fits` the range of the scalar, each guaranteed method
+/// must be present; otherwise penalties may be very small.
 fn keeps_its_word<T: Float + ExactText>(
     case: &Case<Exact>,
     tolerance: &Exact,
@@ -233,8 +234,8 @@ fn keeps_its_word<T: Float + ExactText>(
     Ok(())
 }
 
-/// The hardest penalty: what the proved bound of rounding grows by on the way from no penalty to it is c tol, or all but
-/// what the scalar rounds it down by, and so little is found in a run.
+/// The largest penalty: it increases the proved rounding bound by c tol, except for rounding it down, and a
+/// run has an error this small.
 fn hardest_is_not_too_hard<T: Float + ExactText>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
     let case = case.rounded(like);
     let (numbers, tol, eta) = (case.system.map(exact), exact(&case.tolerance), unit_roundoff(like));
@@ -295,7 +296,8 @@ fn hardest_is_not_too_hard<T: Float + ExactText>(case: &Case<Exact>, like: &T) -
     Ok(())
 }
 
-/// The softest penalty: it is promised, and the next softer one, or for the augmentation one a ninth softer, is not.
+/// The smallest penalty is guaranteed, and the next smaller one is not; for the augmentation, one smaller by
+/// a ninth.
 fn softest_is_soft_enough<T: Float + ExactText>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
     let case = case.rounded(like);
     let (numbers, tol, eta) = (case.system.map(exact), exact(&case.tolerance), unit_roundoff(like));
@@ -329,7 +331,7 @@ fn softest_is_soft_enough<T: Float + ExactText>(case: &Case<Exact>, like: &T) ->
     Ok(())
 }
 
-/// As many augmentations as are promised get there, at the floor as well as far above it.
+/// The guaranteed number of augmentations suffices, at the floor and far above it.
 fn promised_augmentations_do<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
     let eta = unit_roundoff(like);
     let case = case.rounded(like);
@@ -358,7 +360,7 @@ fn promised_augmentations_do<T: Float>(case: &Case<Exact>, like: &T) -> Result<(
     Ok(())
 }
 
-/// A tolerance of the size of the system or far below, and some at the floor.
+/// Tolerances of the size of the system, far below it, and at the floor.
 fn advice_holds<T: Float + ExactText>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
     keeps_its_word(case, &case.tolerance, like, true)?;
     let floor = rounding_floor(&case.rounded(like).system, Plane::Unilateral, &unit_roundoff(like)).unwrap();
@@ -379,8 +381,8 @@ in_every_float! {
     promised_augmentations_do from in_contact;
 }
 
-/// A case in units so large that forces, stiffnesses and lengths are about as small as a float can be: forces of 2ᶠ,
-/// lengths of 2ˡ, masses of 2ᵐ. None if a number does not fit, or a product of the solver's is lost altogether.
+/// Returns a case in such large units that forces of 2ᶠ, stiffnesses, and lengths of 2ˡ approach the smallest
+/// floats, with masses of 2ᵐ. Returns `None` if a number or a product of the solver underflows.
 fn tiny<T: Float>(case: &Case<Exact>, [force, length, mass]: [i32; 3], like: &T) -> Option<Case<Exact>> {
     let times = |x: &Exact, n: i32| x * Exact::power_of_two(n);
     let SpringMass { c, m, g, l, h } = &case.system;

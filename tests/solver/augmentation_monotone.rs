@@ -1,6 +1,5 @@
-//! The augmented Lagrangian method: strictly monotone convergence for every ε > 0 (Theorem 1.3.3), its
-//! closed forms, the one-sided iteration of note 4, the number of steps (1.33), and what is left of all
-//! that in floats.
+//! The augmented Lagrangian method: strictly monotone convergence for every ε > 0 (Theorem 1.3.3), its closed
+//! forms, the unilateral iteration of note 4, the number of steps (1.33), and the same in floats.
 
 use crate::in_every_float;
 use crate::strategies::*;
@@ -18,7 +17,7 @@ fn iterate<'a, T: OrderedField>(case: &'a Case<T>, plane: Plane) -> Augmentation
     Augmentation::new(&case.system, &case.eps).with_multiplier(case.start.clone()).over(plane)
 }
 
-/// p₀ of the bilateral iteration.
+/// Returns p₀ of the bilateral iteration.
 fn first_penetration(case: &Case<Exact>) -> Exact {
     (reaction(case) - &case.start) / (&case.system.c + &case.eps)
 }
@@ -27,7 +26,7 @@ fn contraction(case: &Case<Exact>) -> Exact {
     &case.system.c / (&case.system.c + &case.eps)
 }
 
-/// ε/c not so small that one would wait long for the end of an iteration.
+/// Cases with ε/c large enough for a short iteration.
 fn quick(span: i32) -> impl Strategy<Value = Case<Exact>> {
     let relative =
         prop_oneof![Just(int(1)), Just(int(1) / int(10)), (-4..PENALTIES).prop_map(Exact::power_of_two)];
@@ -41,7 +40,7 @@ fn quick_separated() -> impl Strategy<Value = Case<Exact>> {
 }
 
 proptest! {
-    /// Theorem 1.3.3 and the closed forms at every k, from any start, for any ε > 0.
+    /// Theorem 1.3.3 and the closed forms at every k, from any initial multiplier, for any ε > 0.
     #[test]
     fn closed_forms_and_strict_monotony(case in any_state(WIDE)) {
         let Case { system: s, eps, start, .. } = &case;
@@ -77,7 +76,7 @@ proptest! {
         }
     }
 
-    /// (1.14) is least at the step's u, and there it is `least_value`.
+    /// (1.14) is minimal at the u of the step, where its value is `least_value`.
     #[test]
     fn every_step_minimises_its_functional(case in any_state(WIDE), du in nonzero(WIDE)) {
         let Case { system: s, eps, start: lambda, .. } = &case;
@@ -91,7 +90,8 @@ proptest! {
         prop_assert!(augmented::unilateral_functional(s, eps, lambda, &(u + du)) > least);
     }
 
-    /// Note 4: both brackets; the natural residual bounds the error in every state, from every start.
+    /// Note 4: both positive parts; the natural residual bounds the error in every state, from every initial
+    /// multiplier.
     #[test]
     fn one_sided_steps(case in any_state(WIDE)) {
         let Case { system: s, eps, .. } = &case;
@@ -113,7 +113,7 @@ proptest! {
         }
     }
 
-    /// R ≥ 0: λ is monotone and geometric from k = 1 on; for R = 0 it never gets to 0.
+    /// R ≥ 0: λ is monotone and geometric from k = 1 on; for R = 0 it never becomes 0.
     #[test]
     fn one_sided_multipliers_in_contact_and_grazing(case in prop_oneof![in_contact(WIDE), grazing(WIDE)]) {
         let (r, rho) = (reaction(&case), contraction(&case));
@@ -150,7 +150,8 @@ proptest! {
         }
     }
 
-    /// (1.33): the count equals the steps of the exact iteration, over both planes, from every start.
+    /// (1.33): the count equals the number of steps of the exact iteration, for both planes, from every
+    /// initial multiplier.
     #[test]
     fn the_count_is_the_iterations(case in quick(WIDE), digits in 0i32..40, factor in positive(0)) {
         // Relative to the first step, so that a few hundred augmentations reach it at ε = c/16.
@@ -193,7 +194,7 @@ proptest! {
         }
     }
 
-    /// A tie, |p₀| = tol ρ⁻ⁿ, is not yet *below* the tolerance at n.
+    /// A tie, |p₀| = tol ρ⁻ⁿ, is not *below* the tolerance at n.
     #[test]
     fn a_tie_takes_one_step_more(case in in_contact(WIDE), relative in positive(4), n in 0u32..60) {
         let case = with_penalty(Case { start: int(0), ..case }, &relative);
@@ -207,7 +208,7 @@ proptest! {
         }
     }
 
-    /// Note 9: (c/ε) Λ < ln(|p₀|/tol)/ln(1 + ε/c) < (c/ε + ½) Λ, where nobody can count.
+    /// Note 9: (c/ε) Λ < ln(|p₀|/tol)/ln(1 + ε/c) < (c/ε + ½) Λ, for counts too large to iterate.
     #[test]
     fn the_count_of_a_tiny_penalty(case in in_contact(WIDE), e in 20..3000i32, digits in 1..100i32) {
         let case = with_penalty(Case { start: int(0), ..case }, &Exact::power_of_two(-e));
@@ -223,7 +224,8 @@ proptest! {
     }
 }
 
-/// The variant that brackets only the update, written out: it stays at p = −½ for ever. Ours lets go.
+/// The variant with the positive part of the update only stays at p = −½; with both positive parts the
+/// contact is released.
 #[test]
 fn one_bracket_is_wrong() {
     let s = SpringMass { c: 1.0, m: 1.0, g: -1.0, l: 0.0, h: 0.0 };
@@ -241,8 +243,9 @@ fn one_bracket_is_wrong() {
 
 // In floats.
 
-/// While p̂ ≥ 0: λ̂ grows strictly until it is a fixed point or p̂ is 0 or changes sign, and p̂ never grows.
-/// A fixed point has |p(û)| ≤ η|H| + η (1 + η)²/(1 − η) |λ|/ε. The loop has no limit: it ends by itself.
+/// While p̂ ≥ 0, λ̂ increases strictly until it is a fixed point or p̂ is 0 or changes sign, and p̂ never
+/// increases. A fixed point has |p(û)| ≤ η|H| + η (1 + η)²/(1 − η) |λ|/ε. The loop always terminates, without
+/// a limit.
 fn monotone_until_rounding<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
     let floats = Case { start: Exact::zero(), ..case.clone() }.rounded(like);
     let case = floats.exact();
@@ -266,7 +269,7 @@ fn monotone_until_rounding<T: Float>(case: &Case<Exact>, like: &T) -> Result<(),
     Ok(())
 }
 
-/// |λ̂_k − λ_k| ≤ 11 (c + ε) F and |p̂_k − ρᵏ p₀| ≤ 20 F for every k, where R > 0 and 64 (c + ε) ≤ ε (2ᵖ + 1).
+/// |λ̂_k − λ_k| ≤ 11 (c + ε) F and |p̂_k − ρᵏ p₀| ≤ 20 F for every k, if R > 0 and 64 (c + ε) ≤ ε (2ᵖ + 1).
 fn close_to_the_closed_form<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
     let floats = Case { start: Exact::zero(), ..case.clone() }.rounded(like);
     let case = floats.exact();
@@ -294,7 +297,7 @@ fn close_to_the_closed_form<T: Float>(case: &Case<Exact>, like: &T) -> Result<()
     Ok(())
 }
 
-/// What each outcome promises, judged in rationals; and the bounds contain the exact limit always.
+/// The guarantee of each outcome, checked in rationals; the bounds always contain the exact limit.
 fn outcomes_keep_their_promises<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
     let floats = case.rounded(like);
     let case = floats.exact();
@@ -360,7 +363,7 @@ fn outcomes_keep_their_promises<T: Float>(case: &Case<Exact>, like: &T) -> Resul
     Ok(())
 }
 
-/// Each step is what the functions make of λ, also where it is computed in place: bit for bit, and of the same
+/// Each step equals the functions of λ, also if it is computed in place: bit for bit, and of the same
 /// precision.
 fn steps_are_what_the_functions_say<T: OrderedField>(case: &Case<T>) -> Result<(), TestCaseError> {
     let Case { system: s, eps, start, .. } = case;
@@ -404,7 +407,7 @@ proptest! {
         steps_are_what_the_functions_say(&case.rounded(&1f64))?;
     }
 
-    /// Every parameter has a precision of its own, or none.
+    /// Every parameter has its own precision, or none.
     #[test]
     fn steps_in_mpfr(case in any_state(WIDE), precisions in proptest::collection::vec(1u32..200, 8)) {
         let mut precisions = precisions.into_iter();
@@ -422,7 +425,7 @@ in_every_float! {
     outcomes_keep_their_promises from any_state;
 }
 
-/// The default system in f64 with ε = 1e5 ends in a 2-cycle: λ never repeats and p̂ changes sign for ever.
+/// The default system in f64 with ε = 1e5 ends in a 2-cycle: λ never repeats and p̂ always changes sign.
 #[test]
 fn two_cycles_are_recognised() {
     let s = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
@@ -440,7 +443,7 @@ fn two_cycles_are_recognised() {
     assert_eq!(solve(&s, &method(1e-15)).unwrap().outcome, Outcome::Converged);
 }
 
-/// p̂ can be exactly 0 while p(û) is not, and λ still wrong: nothing is promised on the strength of p̂ alone.
+/// p̂ can be exactly 0 while p(û) is not and λ is wrong: p̂ alone guarantees nothing.
 #[test]
 fn a_computed_penetration_of_zero_guarantees_nothing() {
     let s = SpringMass { c: 100f32, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
@@ -453,7 +456,7 @@ fn a_computed_penetration_of_zero_guarantees_nothing() {
     assert!(exact(&answer.floor.unwrap()) >= (exact(&answer.deflection) - system::gap(&s.map(exact))).abs());
 }
 
-/// Every outcome, and both ways to stagnate, occur on this grid: nothing above holds for want of cases.
+/// Every outcome, and both kinds of stagnation, occur on this grid, so the properties above are not vacuous.
 #[test]
 fn every_outcome_occurs() {
     let (mut converged, mut repeats, mut crosses, mut iteration_limit) = (0, 0, 0, 0);
@@ -474,7 +477,7 @@ fn every_outcome_occurs() {
     assert!(all.iter().all(|n| *n > 0), "{all:?}");
 }
 
-/// Beyond the chapter: k augmentations from λ₀ = 0 are one penalty solve with a larger ε.
+/// Beyond the chapter: k augmentations from λ₀ = 0 are one penalty solution with a larger ε.
 #[test]
 fn augmentations_are_one_penalty_solve() {
     let s: SpringMass<Exact> = SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" }.parse().unwrap();
@@ -486,7 +489,7 @@ fn augmentations_are_one_penalty_solve() {
     }
 }
 
-/// One million steps of a count are not counted: it is exact all the same, and may be huge.
+/// A count of a million steps is exact and is not iterated.
 #[test]
 fn a_count_of_many_digits() {
     let s: SpringMass<Exact> = SpringMass { c: "4", m: "1", g: "10", l: "1", h: "3" }.parse().unwrap();
@@ -497,8 +500,8 @@ fn a_count_of_many_digits() {
     assert_eq!(needed, Integer::from(999_999));
 }
 
-/// R = −1, ε = 1: from λ₀ = 1/2 the mass hangs free at once, |r₀| = λ₀/ε = 1/2, and r₁ = 0. From λ₀ = −1 it hangs free as
-/// well, and |r₀| = −λ₀/ε = 1. Neither is *less* than a tolerance of as much.
+/// R = −1, ε = 1: from λ₀ = 1/2 the mass separates at once, |r₀| = λ₀/ε = 1/2, and r₁ = 0. From λ₀ = −1 it is
+/// separated as well, and |r₀| = −λ₀/ε = 1. Neither is *less* than a tolerance of the same value.
 #[test]
 fn a_residual_of_the_tolerance_is_not_below_it() {
     let system = SpringMass { c: 1, m: 1, g: 1, l: 0, h: 2 }.map(|x| int(*x));
@@ -515,8 +518,8 @@ fn a_residual_of_the_tolerance_is_not_below_it() {
     }
 }
 
-/// The bound of |u₅ − u*|, taken for the tolerance, is not below it; nor is that of what hangs free, whose u = 1/3 is
-/// rounded, and whose residual is 0.
+/// The bound of |u₅ − u*| is not below itself as the tolerance; nor is that of a separated mass, whose u =
+/// 1/3 is rounded and whose residual is 0.
 #[test]
 fn a_bound_of_the_tolerance_is_not_below_it() {
     let s = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
@@ -537,7 +540,7 @@ fn a_bound_of_the_tolerance_is_not_below_it() {
     assert_eq!(solved(&s, bound.next_up()), (Outcome::Converged, Some(0)));
 }
 
-/// From λ₁ on over a plane that holds is as from a λ₀ like it.
+/// From λ₁ on, a change to a bilateral plane is equivalent to starting from this multiplier.
 #[test]
 fn the_plane_may_change_on_the_way() {
     let s = SpringMass { c: 1, m: 1, g: -1, l: 0, h: 0 }.map(|x| int(*x));
@@ -552,9 +555,9 @@ fn the_plane_may_change_on_the_way() {
     assert_eq!(second, anew);
 }
 
-/// The mass hangs free, but 8 bits make 213 of u* = 22464/106 = 211.9…, which is beyond the plane at 211.97…: λ grows
-/// from 0, and u falls to 212 and below. The first u, from a λ₀ < 0, is free and 213, within half an ulp each of product
-/// and quotient, 64/106 + 1/2: nearer than what the last two are known to be.
+/// The mass is separated, but in 8 bits u* = 22464/106 = 211.9… is rounded to 213, beyond the plane at
+/// 211.97…: λ grows from 0, and u falls to 212 and below. The first u, from λ₀ < 0, is free and 213, within
+/// half an ulp each of product and quotient, 64/106 + 1/2: closer than the bounds of the last two.
 #[test]
 fn a_floor_is_of_the_first_deflection_too() {
     let system = SpringMass { c: "106", m: "117", g: "192", l: "-213", h: "-131/128" };

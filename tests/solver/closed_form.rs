@@ -1,4 +1,4 @@
-//! The k-th iterate by closed form, against the iterates themselves in rationals.
+//! The k-th iterate in closed form, compared with the iteration in rationals.
 
 use crate::in_every_float;
 use crate::strategies::*;
@@ -24,11 +24,11 @@ fn step(x: &Case<Exact>, k: u64, plane: Plane) -> Iterate<Exact> {
     steps.take(k as usize + 1).last().unwrap()
 }
 
-/// First steps, and some later ones.
+/// The first steps, and some later ones.
 const STEPS: [u64; 8] = [0, 1, 2, 3, 4, 7, 12, 25];
 
 proptest! {
-    /// The iterate itself.
+    /// In rationals the closed form equals the iterate.
     #[test]
     fn rationals_are_exact(case in any_state(WIDE), e in -6..6i32) {
         let near_c = with_penalty(case.clone(), &Exact::power_of_two(e));
@@ -68,9 +68,10 @@ in_every_float! {
     floats_enclose_the_exact_iterates from any_state;
 }
 
-/// An operation of balls adds at most 2 η of its result, half an ulp and the rounding up of the radius. So ρ is known
-/// to 4 η of itself, ρᵏ to 6 k η, since the weights of its products add up to less than k; quotient and product add
-/// 6 η and R, of exact terms no larger than 3 R, 14 η. Twice that is the width, and 4 η its rounding outward.
+/// An operation of balls adds at most 2 η of its result, half an ulp and the rounding up of the radius. So
+/// the relative error of ρ is at most 4 η, and that of ρᵏ 6 k η, since the weights of its products add up to
+/// less than k; quotient and product add 6 η, and R, of exact terms up to 3 R, 14 η. The width is twice this
+/// bound, and its rounding outward adds 4 η.
 #[test]
 fn the_penetration_keeps_its_digits() {
     let system = SpringMass { c: 100.0, m: 1.0, g: 10.0, l: 1.0, h: 1.0625 };
@@ -82,7 +83,7 @@ fn the_penetration_keeps_its_digits() {
     }
 }
 
-/// After so many steps that nobody makes them.
+/// Numbers of steps that are too large to iterate.
 #[test]
 fn steps_without_number() {
     let decimals = SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" };

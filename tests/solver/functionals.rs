@@ -1,4 +1,5 @@
-//! Penalty functionals of one's own: the bounds against exact signs and closed forms, and what is refused.
+//! User-defined penalty functionals: the bounds compared with exact signs and closed forms, and violated
+//! conditions.
 
 use crate::in_every_float;
 use crate::strategies::*;
@@ -17,7 +18,7 @@ fn cubic<T: PositivePart>(eps: &T, p: &T) -> T {
     eps * p * p * p.abs() / T::int(3)
 }
 
-/// W = ε ⟨p − d⟩² / 2: a plane with a soft layer of thickness d before it.
+/// W = ε ⟨p − d⟩² / 2: a plane with a soft layer of thickness d.
 fn layered<T: PositivePart>(eps: &T, soft: &T, d: &T, p: &T) -> T {
     penalty::functional(soft, p) + penalty::functional(eps, &(p - d).positive_part())
 }
@@ -36,7 +37,8 @@ fn constant(x: &Exact) -> Dual<Exact> {
     Dual::constant(x.clone())
 }
 
-/// That the root of a residual which rises is within the bounds, N = R − c p with it, and u as near as promised.
+/// Asserts that the root of an increasing residual is within the bounds, N = R − c p within those of the
+/// force, and u as accurate as guaranteed.
 fn bounds_hold<T: Scalar + ToExact>(
     s: &SpringMass<Exact>,
     answer: &Solution<T>,
@@ -65,7 +67,7 @@ fn bounds_hold<T: Scalar + ToExact>(
     Ok(())
 }
 
-/// In every float, whatever it looks like: the cube, a layer with a kink inside, a kink at the plane, (1.10).
+/// Functionals in every float: a cubic, a layer with a kink inside, a kink at the plane, (1.10).
 fn bounds_contain_the_root<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError>
 where
     DualEnclosure<T>: PositivePart,
@@ -107,7 +109,8 @@ where
     Ok(())
 }
 
-/// ε p²/2 is (1.13): the closed form is within the bounds, and they are not much wider than its rounding.
+/// ε p²/2 is (1.13): the closed form is within the bounds, and they are not much wider than its rounding
+/// error.
 fn the_parabola_is_the_penalty_method<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
     let floats = case.rounded(like);
     let case = floats.exact();
@@ -146,7 +149,7 @@ in_every_float! {
 }
 
 proptest! {
-    /// In rationals every tolerance is met, and a parabola is solved without one.
+    /// In rationals every tolerance is met, and a parabola needs none.
     #[test]
     fn rationals_meet_every_tolerance(case in in_contact(8), digits in 1..200i32) {
         let Case { system: s, eps, .. } = &case;
@@ -162,7 +165,7 @@ proptest! {
         bounds_hold(s, &found, &tolerance, |p| cubic(&constant(eps), p))?;
     }
 
-    /// 4 p + 8 p² = 2 has p = (√5 − 1)/4, which is no rational: (4 p + 1)² = 5.
+    /// 4 p + 8 p² = 2 has the irrational root p = (√5 − 1)/4, for which (4 p + 1)² = 5.
     #[test]
     fn an_irrational_root_has_rational_bounds(digits in 1..300i32) {
         let s = example().map(exact);
@@ -174,7 +177,7 @@ proptest! {
         prop_assert!(p.lower.bit_length() < 4 * 300);
     }
 
-    /// Condition 3 at work: with the penalty that is found the exact root lies below the tolerance.
+    /// Condition 3: with the penalty that is found the exact root is below the tolerance.
     #[test]
     fn the_found_penalty_meets_the_tolerance(case in any_state(8), fraction in 1..100i32) {
         let Case { system: s, eps, .. } = &case;
@@ -190,18 +193,18 @@ proptest! {
     }
 }
 
-/// The example system, R = 2, with plane and gravity to play with.
+/// Returns the example system, R = 2.
 fn example() -> SpringMass<f64> {
     SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 }
 }
 
-/// W = ε (eᵖ − 1 − p): a wall that gets exponentially harder.
+/// W = ε (eᵖ − 1 − p): a plane with exponentially increasing stiffness.
 fn exponential<T: Exponential>(eps: &T, p: &T) -> T {
     eps * (p.exp() - T::one() - p)
 }
 
-/// A functional that no rational has a value of. With MPFR's directed rounding of eᵖ, written here a second time, the
-/// residual has other signs at the two bounds.
+/// A functional without rational values. With MPFR's directed rounding of eᵖ, independent of the library, the
+/// residual has different signs at the two bounds.
 #[test]
 fn an_exponential_wall() {
     use rug::{Float, float::Round, ops::AddAssignRound};
@@ -227,7 +230,7 @@ fn an_exponential_wall() {
     assert_eq!(answer.outcome, Outcome::Converged);
 }
 
-/// No number of digits takes many values of W where it is smooth: they double from step to step.
+/// High precision needs few values of W if it is smooth: the digits double with each step.
 #[test]
 fn digits_double() {
     let s = example().map(exact);
@@ -245,8 +248,8 @@ fn digits_double() {
     assert!(values(20_000) < 100);
 }
 
-/// An end comes of what is not smooth, too: a jump in MPFR, where no line points, gains a digit in each of ten thousand
-/// steps. The bounds hold all the same, and a floor is none.
+/// The search also terminates for functionals that are not smooth: a jump in MPFR gains one digit in each of
+/// ten thousand steps. The bounds still hold, and no floor is reported.
 #[test]
 fn ten_thousand_steps_are_enough() {
     let like = int(1).to_mpfr(11_000);
@@ -264,7 +267,8 @@ fn ten_thousand_steps_are_enough() {
     );
 }
 
-/// A wall without a value behind it: below it the force is 0, so that the root is behind, and R/c bounds it.
+/// A functional that is undefined beyond a point: below it the force is 0, so the root is beyond, and R/c
+/// bounds it.
 #[test]
 fn an_undefined_value_ends_the_search() {
     for n in 3..30 {
@@ -281,7 +285,8 @@ fn an_undefined_value_ends_the_search() {
     }
 }
 
-/// What is proved is less than the tolerance, and not as much: a floor stays one where it is the tolerance itself.
+/// The proved bound is less than the tolerance, and not equal: a floor equal to the tolerance remains a
+/// floor.
 #[test]
 fn a_tolerance_that_is_the_floor_is_not_met() {
     let floor = |eps: i32, tolerance: f64| {
@@ -293,7 +298,7 @@ fn a_tolerance_that_is_the_floor_is_not_met() {
     assert!(floors.filter(|(eps, least)| floor(*eps, *least) == Some(*least)).count() > 0);
 }
 
-/// The condition, and the nearest 32nd.
+/// Returns the violated condition, and the penetration rounded to 32nds.
 fn refused<W>(w: W) -> (Condition, f64)
 where
     W: Fn(&[DualEnclosure<f64>; 1], &DualEnclosure<f64>) -> DualEnclosure<f64>,
@@ -306,7 +311,7 @@ where
     }
 }
 
-/// Each condition is named, with the penetration at which it is seen broken. R/c = 1/2.
+/// Each condition is named, with a penetration at which it is violated. R/c = 1/2.
 #[test]
 fn violated_conditions_are_named() {
     use Condition::*;
@@ -361,7 +366,7 @@ fn violated_conditions_are_named() {
     assert!(penalty::penetration(&system, &enough) <= 0.01);
 }
 
-/// What meets the conditions and is silly otherwise has an answer all the same, and it is right.
+/// Unusual functionals that meet the conditions have correct results.
 #[test]
 fn silly_functionals_come_to_an_end() {
     let solved = |w: fn(&DualEnclosure<f64>, &DualEnclosure<f64>) -> DualEnclosure<f64>, eps: f64| {

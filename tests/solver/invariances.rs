@@ -1,5 +1,4 @@
-//! What must not change the answer: the units, the place where lengths are measured from, the direction
-//! that is called positive.
+//! Invariances of the results: units, origin of lengths, positive direction.
 
 use crate::strategies::*;
 use proptest::prelude::*;
@@ -7,7 +6,7 @@ use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::number::Exact;
 use spring_mass_contact::solver::{Bounds, Interval, Method, Scalar, Solution, solve, solve_bilateral};
 
-/// How many of the new units make an old one.
+/// Conversion factors: the number of new units in an old one.
 #[derive(Clone, Debug)]
 struct Units<T> {
     length: T,
@@ -49,7 +48,7 @@ impl<T: Scalar> Units<T> {
     }
 }
 
-/// Both planes, every method: the answers in the new units are the old answers in the new units.
+/// For both planes and every method, the results in the new units are the converted results.
 fn units_do_not_matter<T: Scalar>(case: &Case<T>, units: &Units<T>) -> Result<(), TestCaseError>
 where
     Case<T>: std::fmt::Debug,
@@ -65,7 +64,7 @@ where
 }
 
 proptest! {
-    /// Any units, in rationals.
+    /// Arbitrary units, in rationals.
     #[test]
     fn any_units_in_rationals(
         case in any_state(WIDE), (length, mass, force) in (positive(WIDE), positive(WIDE), positive(WIDE)),
@@ -73,7 +72,7 @@ proptest! {
         units_do_not_matter(&case, &Units { length, mass, force })?;
     }
 
-    /// Units that differ by powers of two: bit for bit, bounds and step counts included.
+    /// Units that differ by powers of two: equal bit for bit, bounds and step counts included.
     #[test]
     fn powers_of_two_in_f32(case in any_state(NARROW), exponents in prop::array::uniform3(-6..=6i32)) {
         let [length, mass, force] = exponents.map(|n| 2f32.powi(n));
@@ -106,7 +105,7 @@ proptest! {
         units_do_not_matter(&case.rounded(&like), &Units { length, mass, force })?;
     }
 
-    /// Only H − l matters: the support may be anywhere.
+    /// Only H − l matters: the position of the support is arbitrary.
     #[test]
     fn the_support_may_be_anywhere(case in any_state(WIDE), shift in number(WIDE)) {
         let SpringMass { l, h, .. } = &case.system;
@@ -118,7 +117,7 @@ proptest! {
         }
     }
 
-    /// Only m g matters: a heavier mass where less pulls on it rests at the same place.
+    /// Only m g matters: a heavier mass with a smaller acceleration has the same deflection.
     #[test]
     fn only_the_weight_matters(case in any_state(WIDE), factor in positive(WIDE)) {
         let SpringMass { m, g, .. } = &case.system;
@@ -130,7 +129,7 @@ proptest! {
         }
     }
 
-    /// A plane that pushes and pulls does not know up from down.
+    /// With a bilateral plane the mirror image has the mirrored results.
     #[test]
     fn a_bilateral_plane_has_a_mirror_image(case in any_state(WIDE)) {
         let SpringMass { c, m, g, l, h } = case.system.clone();
@@ -148,7 +147,7 @@ proptest! {
         }
     }
 
-    /// A warm start from R is there at once, whatever ε is.
+    /// An augmentation that starts from λ₀ = R converges at once, for every ε.
     #[test]
     fn a_start_from_the_answer_stays(case in in_contact(WIDE)) {
         let case = Case { start: reaction(&case), ..case };

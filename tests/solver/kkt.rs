@@ -1,5 +1,5 @@
-//! The Karush-Kuhn-Tucker conditions (1.6): met by the Lagrange multiplier method and by the limit of the
-//! augmentation, violated by known amounts by the penalty method, in contact, grazing and separated.
+//! The Karush-Kuhn-Tucker conditions (1.6): satisfied by the Lagrange multiplier method and by the limit of
+//! the augmentation, violated by known amounts by the penalty method; in contact, grazing and separated.
 
 use crate::in_every_float;
 use crate::strategies::*;
@@ -25,7 +25,7 @@ fn solved<T: Float>(case: &Case<T>, method: &Method<T>) -> Solution<T> {
     solve(&case.system, method).expect("the parameters are within their ranges")
 }
 
-/// How far from the solution of (1.6), in u and in N; never both zero.
+/// Nonzero distances from the solution of (1.6), in u and in N.
 fn displacement() -> impl Strategy<Value = (Exact, Exact)> {
     prop_oneof![
         (nonzero(WIDE), number(WIDE)),
@@ -37,7 +37,7 @@ fn displacement() -> impl Strategy<Value = (Exact, Exact)> {
 }
 
 proptest! {
-    /// One exact solution in each state, with every residual zero: N = ⟨R⟩ and −c p = ⟨−R⟩.
+    /// Each state has one exact solution with zero residuals: N = ⟨R⟩ and −c p = ⟨−R⟩.
     #[test]
     fn lagrange_meets_the_conditions(
         (case, sign) in prop_oneof![
@@ -64,7 +64,7 @@ proptest! {
         prop_assert_eq!(contact::contact_force(system), answer.contact_force);
     }
 
-    /// No other pair (u, N) meets all four.
+    /// No other pair (u, N) satisfies all four conditions.
     #[test]
     fn the_conditions_have_one_solution(case in any_state(WIDE), (du, dn) in displacement()) {
         let Case { system, .. } = &case;
@@ -74,7 +74,7 @@ proptest! {
         }
     }
 
-    /// Each condition is needed: what the other state would answer violates exactly one of them.
+    /// Each condition is needed: the solution of the other state violates exactly one of them.
     #[test]
     fn the_other_branch_violates_one_condition(case in not_grazing(WIDE)) {
         let s = &case.system;
@@ -89,7 +89,7 @@ proptest! {
         prop_assert_eq!((touching.primal, touching.dual), (int(0), positive_part(&-r)));
     }
 
-    /// The penalty method violates (1.6) by p = R/(c + ε) and p N = ε p², and by nothing else.
+    /// The penalty method violates (1.6) by p = R/(c + ε) and p N = ε p² only.
     #[test]
     fn penalty_violates_by_known_amounts(case in any_state(WIDE)) {
         let Case { system, eps, .. } = &case;
@@ -102,7 +102,7 @@ proptest! {
         prop_assert_eq!(&answer.contact_force, &(eps * &p));
     }
 
-    /// As printed, the plane pulls where it must not: N = R < 0.
+    /// As printed, the plane pulls if the mass is separated: N = R < 0.
     #[test]
     fn a_bilateral_plane_pulls_when_separated(case in separated(WIDE)) {
         let answer = solve_bilateral(&case.system, &Method::Lagrange).unwrap();
@@ -131,7 +131,8 @@ proptest! {
         }
     }
 
-    /// Where the plane pushes, the brackets change nothing (from λ₀ ≥ −ε R/c, where the first step touches).
+    /// In contact the positive parts have no effect (from λ₀ ≥ −ε R/c on, for which the first step is in
+    /// contact).
     #[test]
     fn one_sided_is_two_sided_in_contact(case in in_contact(WIDE), edge in any::<bool>()) {
         let least = -&case.eps * reaction(&case) / &case.system.c;
@@ -144,7 +145,7 @@ proptest! {
     }
 }
 
-/// The numbers returned by floats, judged in rationals, state by state; nothing under- or overflows here.
+/// Results in floats, checked in rationals for each state; nothing under- or overflows here.
 fn certificate_is_small<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
     let case = case.rounded(like);
     let s = case.system.map(exact);
@@ -197,7 +198,7 @@ fn certificate_is_small<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), Te
     Ok(())
 }
 
-/// The plane of [`solve`] never pulls, whatever rounding does, and its bounds hold.
+/// In [`solve`] the plane never pulls, despite rounding, and the bounds hold.
 fn the_plane_never_pulls<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
     let case = case.rounded(like);
     for method in case.methods(50) {
@@ -217,8 +218,7 @@ in_every_float! {
     the_plane_never_pulls from any_state;
 }
 
-/// A grazing system whose parameters, c Δ and m g = c Δ have few enough bits for `bits`-bit floats: R is
-/// exactly 0 *in floats* too.
+/// A grazing system whose parameters, c Δ and m g = c Δ fit `bits` bits: R is exactly 0 *in floats* too.
 fn exactly_grazing(bits: u32) -> impl Strategy<Value = SpringMass<Exact>> {
     let half = 1i32 << (bits / 2 - 1).min(20);
     let exponents = (-20..20, -20..20, -20..20);
@@ -232,8 +232,8 @@ fn exactly_grazing(bits: u32) -> impl Strategy<Value = SpringMass<Exact>> {
     })
 }
 
-/// A float at an end of the range: zero, subnormal, next to the smallest normal number, the largest; or not. Of either
-/// sign.
+/// Returns a float of either sign at an end of the range (zero, subnormal, next to the smallest normal
+/// number, the largest) or elsewhere.
 fn extreme<T: Float>(like: &T, (kind, digits, negative): (u8, u32, bool)) -> T {
     let eta = unit_roundoff(like);
     let units = |n: Exact| like.round_from_exact(&(n * exact(&T::min_subnormal()))).unwrap();
@@ -261,7 +261,7 @@ fn any_extreme() -> impl Strategy<Value = Extreme> {
     (0u8..8, any::<u32>(), any::<bool>())
 }
 
-/// The sign of a₁b₁ + a₂b₂ − a₃b₃ of any floats is that of rationals.
+/// The sign of a₁b₁ + a₂b₂ − a₃b₃ in floats is that in rationals.
 fn the_sign_is_exact<T: Float>(like: &T, numbers: [Extreme; 6]) -> Result<(), TestCaseError> {
     let [a1, b1, a2, b2, a3, b3] = numbers.map(|x| extreme(like, x));
     let product = |a: &T, b: &T| exact(a) * exact(b);
@@ -275,8 +275,9 @@ fn the_sign_is_exact<T: Float>(like: &T, numbers: [Extreme; 6]) -> Result<(), Te
     Ok(())
 }
 
-/// m g and c (H − l) agree as well as their digits allow, and then to some ulps of g: rounding can turn the sign of their
-/// difference. They are about as large as 2ᵏ. Where digits are a little more than 1, half an ulp is nearly all of η.
+/// m g and c (H − l) agree as well as their digits allow, or differ by some ulps of g, so rounding can change
+/// the sign of their difference. Both are about 2ᵏ. For significands slightly above 1, half an ulp is nearly
+/// η.
 fn the_state_is_exact_where_rounding_could_turn_it<T: Float>(
     like: &T,
     k: i32,
@@ -308,7 +309,7 @@ fn mantissas() -> impl Strategy<Value = ([u32; 4], [u32; 4], bool)> {
     (prop::array::uniform4(any::<u32>()), prop::array::uniform4(0..8u32), any::<bool>())
 }
 
-/// With a subnormal mass, then with a subnormal stiffness: m g = c H, so that l alone has a say.
+/// With a subnormal mass, then with a subnormal stiffness: m g = c H, so the state depends on l alone.
 fn a_subnormal_system_can_graze<T: Float>(
     like: &T,
     (n, k, shift): (i32, i32, i32),
@@ -329,7 +330,7 @@ fn a_subnormal_system_can_graze<T: Float>(
     Ok(())
 }
 
-/// One ulp on any parameter, up or down, tips the state to the side that the sign of ∂R says.
+/// A change of any parameter by one ulp changes the state in the direction of the sign of ∂R.
 fn one_ulp_decides<T: Float>(s: &SpringMass<Exact>, like: &T) -> Result<(), TestCaseError> {
     let s = s.try_map(|x| like.round_from_exact(x)).unwrap();
     prop_assert_eq!(solve(&s, &Method::Lagrange).unwrap().state, State::Grazing);
@@ -406,7 +407,7 @@ proptest! {
         a_subnormal_system_can_graze(&1f64, n, l)?;
     }
 
-    /// Any finite floats at all.
+    /// Arbitrary finite floats.
     #[test]
     fn the_state_is_exact_for_any_f64(bits in prop::array::uniform5(any::<u64>()), copy in any::<bool>()) {
         // Clearing the top bit of the exponent keeps a number finite.

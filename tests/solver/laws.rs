@@ -1,4 +1,4 @@
-//! The laws of scalars: ours keep them, and a scalar that breaks one is told which.
+//! The laws of scalars: all number systems satisfy them, and each violated law is named.
 
 use crate::strategies::int;
 use num_traits::{One, Zero};
@@ -12,7 +12,7 @@ fn exact<T: ToExact>(x: &T) -> Exact {
     x.to_exact().expect("finite")
 }
 
-/// Neighbours, thirds, tiny and huge ones; the least and the largest too, given as powers of two.
+/// Neighbours, thirds, tiny and huge numbers, and powers of two near the limits of the range.
 fn samples<T: Real + ToExact>(like: &T, least: i32, largest: i32) -> Vec<T> {
     let third = like.round_from_exact(&(int(1) / int(3))).unwrap();
     let power = |n: i32| like.round_from_exact(&Exact::power_of_two(n)).unwrap();
@@ -40,7 +40,7 @@ fn our_scalars_keep_the_laws() {
     laws::check_scalar_laws(&rationals, exact).unwrap();
 }
 
-/// An open sign breaks no law, but costs time.
+/// An undecided sign violates no law, but costs time.
 #[test]
 fn the_sign_of_a_rational_is_known() {
     for (x, sign) in [(-1, Ordering::Less), (0, Ordering::Equal), (1, Ordering::Greater)] {
@@ -48,7 +48,7 @@ fn the_sign_of_a_rational_is_known() {
     }
 }
 
-/// An f64 that breaks the law of this number, as `Law` lists them; none for 8; and is 0 too soon for 9.
+/// An f64 that violates the law of this index in `Law`; none for 8; 9 underflows to 0 too early.
 #[derive(Clone, Debug, PartialEq, PartialOrd)]
 struct Breaks<const LAW: usize>(f64);
 
@@ -160,14 +160,14 @@ fn a_violated_law_is_named() {
     assert_eq!(tried::<8>(), Ok(()));
 }
 
-/// Numbers of one size, of which no sum of products cancels but that with a rounded a + c.
+/// Numbers of equal magnitude, whose sums of products cancel only with a rounded a + c.
 #[test]
 fn a_sum_that_cancels_is_tried() {
     let found = laws::check_scalar_laws(&[1.0, 1.0 / 3.0, 0.1].map(Breaks::<7>), |x| exact(&x.0));
     assert_eq!(found.unwrap_err().law, Law::SignOfSum);
 }
 
-/// What came of it, and what it should be. 1e100 is 1000000000000000015902891109759918…
+/// The message contains the result and the expected value. 1e100 is 1000000000000000015902891109759918…
 #[test]
 fn a_violated_law_reports_its_counterexample() {
     let said = |found: Result<(), LawViolation>| found.unwrap_err().to_string();

@@ -1,4 +1,4 @@
-//! What the solver computes, on drawn systems: one crate, so that the strategies are compiled once for all of it.
+//! Properties of the solver on sampled systems, in one crate so that the strategies are compiled once.
 #![cfg(feature = "mpfr")]
 
 #[path = "../strategies/mod.rs"]

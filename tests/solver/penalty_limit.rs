@@ -1,5 +1,5 @@
-//! The penalty method: the limit (1.13) and its rate, the price of a large ε in floats, the functionals
-//! (1.10) and the conditions on them.
+//! The penalty method: the limit (1.13) and its rate, the effect of a large ε in floats, the functionals
+//! (1.10) and their conditions.
 
 use crate::in_every_float;
 use crate::strategies::*;
@@ -12,7 +12,7 @@ use spring_mass_contact::solver::{
 };
 
 proptest! {
-    /// (c + ε)(u − Δ) = R for every ε, so u → Δ; both written forms of (1.13) are its root.
+    /// (c + ε)(u − Δ) = R for every ε, so u → Δ; both forms of (1.13) are its root.
     #[test]
     fn the_rate_is_exact(case in any_state(WIDE)) {
         let Case { system: s, eps, .. } = &case;
@@ -37,7 +37,7 @@ proptest! {
         prop_assert!(contact::penetration(s, &penalty::deflection(s, &eps)).abs() < delta);
     }
 
-    /// A stiffer plane is nearer to rigid, strictly.
+    /// The error decreases strictly with the penalty.
     #[test]
     fn the_error_falls_with_the_penalty(case in not_grazing(WIDE), more in positive(WIDE)) {
         let Case { system: s, eps, .. } = &case;
@@ -45,7 +45,7 @@ proptest! {
         prop_assert!(error(&(eps + more)) < error(eps));
     }
 
-    /// ∂p/∂ε = −R/(c + ε)², and the energy of (1.9) is stationary and least at (1.13).
+    /// ∂p/∂ε = −R/(c + ε)², and the energy of (1.9) is stationary and minimal at (1.13).
     #[test]
     fn derivatives_agree(case in any_state(WIDE), du in nonzero(WIDE)) {
         let Case { system: s, eps, .. } = &case;
@@ -61,7 +61,7 @@ proptest! {
         prop_assert!(energy(&(&u + du)) > energy(&u));
     }
 
-    /// One-sided: where the plane would pull it is not there.
+    /// With unilateral contact the plane has no effect on a separated mass.
     #[test]
     fn the_plane_of_solve_is_one_sided(case in any_state(WIDE)) {
         let Case { system: s, eps, .. } = &case;
@@ -81,7 +81,7 @@ proptest! {
         }
     }
 
-    /// Remark 1.3.2: the least ε is exact, and there is none to ask for exactly if any ε > 0 will do.
+    /// Remark 1.3.2: the smallest ε is exact; there is none if every ε > 0 suffices.
     #[test]
     fn the_penalty_for_a_penetration(case in any_state(WIDE), less in 1..100i32) {
         let Case { system: s, tolerance: tol, .. } = &case;
@@ -101,14 +101,14 @@ proptest! {
     }
 }
 
-/// The system, or where R < 0 its mirror image, in which floats differ in their signs and nothing else: the laws of
-/// rounding are those of a plane that pushes.
+/// Returns the system or, for R < 0, its mirror image, in which floats differ only in their signs: the laws
+/// of rounding are stated for R > 0.
 fn pushed(s: &SpringMass<Exact>) -> SpringMass<Exact> {
     let SpringMass { c, m, g, l, h } = s.clone();
     if system::reaction(s) < int(0) { SpringMass { c, m, g: -g, l: -l, h: -h } } else { s.clone() }
 }
 
-/// û − Δ is R/(c + ε) and the rounding of six operations.
+/// û − Δ is R/(c + ε) and the rounding error of six operations.
 fn the_rate_until_rounding<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
     let floats = case.rounded(like);
     let case = floats.exact();
@@ -120,7 +120,7 @@ fn the_rate_until_rounding<T: Float>(case: &Case<Exact>, like: &T) -> Result<(),
     Ok(())
 }
 
-/// N̂ = ε p̂ at û is off by the rounding of nine operations, and as a value of R by c p besides.
+/// The error of N̂ = ε p̂ at û is the rounding error of nine operations, and c p in addition relative to R.
 fn the_precision_law<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
     let floats = case.rounded(like);
     let case = floats.exact();
@@ -134,7 +134,7 @@ fn the_precision_law<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), TestC
     Ok(())
 }
 
-/// In floats the penalty asked for has the rounding that balls say, and solving with it keeps the promise.
+/// In floats the computed penalty has the rounding error enclosed by balls, and meets the tolerance.
 fn the_penalty_for_a_penetration_rounds<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
     let floats = case.rounded(like);
     let case = floats.exact();
@@ -161,14 +161,14 @@ fn default_system() -> SpringMass<Exact> {
     SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" }.parse().unwrap()
 }
 
-/// |û − Δ| of the default system in f64 at ε = 10ⁿ N/m, exactly.
+/// Returns |û − Δ| of the default system in f64 at ε = 10ⁿ N/m, exactly.
 fn default_error(n: u32) -> Exact {
     let s = default_system().try_map(Exact::to_f64).unwrap();
     let u = penalty::deflection(&s, &10f64.powi(n as i32));
     (exact(&u) - system::gap(&s.map(exact))).abs()
 }
 
-/// Log-log slope −1 while ε ≫ c and rounding is small; beyond that ε buys nothing.
+/// The log-log slope is −1 for ε ≫ c until rounding dominates; a larger ε does not reduce the error further.
 #[test]
 fn slope_minus_one_until_rounding_takes_over() {
     // R = 4.81 N and Δ = 0.05 m: rounding, 5ηΔ = 2.8e-17, is below 1/1000 of R/ε up to ε = 1e14.
@@ -182,7 +182,7 @@ fn slope_minus_one_until_rounding_takes_over() {
     }
 }
 
-/// ε* = √(c R/(η L)): half the digits are the most that N̂ = ε p̂ ever has; m g − c û goes on improving.
+/// ε* = √(c R/(η L)): N̂ = ε p̂ attains at most half the digits; m g − c û continues to improve.
 #[test]
 fn half_the_digits_of_the_force_are_lost() {
     let s = default_system().try_map(Exact::to_f64).unwrap();
@@ -200,7 +200,7 @@ fn half_the_digits_of_the_force_are_lost() {
 
 // (1.10)
 
-/// ε, ε₄, ε₆, …: some may be zero, not all.
+/// Coefficients ε, ε₄, ε₆, …: some may be zero, not all.
 fn coefficients(span: i32) -> impl Strategy<Value = (Exact, Vec<Exact>)> {
     let coefficient = || prop_oneof![1 => Just(Exact::zero()), 3 => positive(span)];
     prop_oneof![
@@ -209,7 +209,7 @@ fn coefficients(span: i32) -> impl Strategy<Value = (Exact, Vec<Exact>)> {
     ]
 }
 
-/// The exact residual changes sign between the neighbours of the answer: there is no better one.
+/// The exact residual changes sign between the neighbours of the result, so the result is the nearest float.
 fn root_is_the_best<T: Float>(
     s: &SpringMass<Exact>,
     (eps, higher): &(Exact, Vec<Exact>),
@@ -246,9 +246,9 @@ proptest! {
         root_is_the_best(&case.system, &terms, &int(1).to_mpfr(bits))?;
     }
 
-    /// The root is chosen first and the system made for it: c p + ε p + 4 ε₄ p³ + 6 ε₆ p⁵ = R.
+    /// The root is chosen first, and the system is constructed from it: c p + ε p + 4 ε₄ p³ + 6 ε₆ p⁵ = R.
     ///
-    /// 31, 7 and 7⁵ · 15 have 5, 3 and 18 bits and the exponents differ by 24 at most: g has 53 bits.
+    /// 31, 7 and 7⁵ · 15 have 5, 3 and 18 bits and the exponents differ by at most 24: g has 53 bits.
     #[test]
     fn constructed_roots_are_found(
         n in 1..8i32, e in -2..=2i32, negative in any::<bool>(), k in prop::array::uniform4(0..16i32),
@@ -286,7 +286,7 @@ proptest! {
         prop_assert!((&found - &p).abs() <= unit_roundoff(&1f64) * int(2) * p.abs());
     }
 
-    /// The conditions before (1.10) hold for every series, and then W > R²/(2c) keeps p below.
+    /// The conditions before (1.10) hold for every series, and W > R²/(2c) then bounds p.
     #[test]
     fn every_series_meets_the_conditions((eps, higher) in coefficients(8), case in in_contact(8), p in positive(8)) {
         let s = &case.system;
@@ -325,7 +325,7 @@ fn a_quartic_alone_has_slope_minus_a_third() {
     }
 }
 
-/// What the (1.10) solver refuses, by name.
+/// Errors of the (1.10) solver name the argument.
 #[test]
 fn series_errors_name_the_argument() {
     let s = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
@@ -356,7 +356,7 @@ fn series_errors_name_the_argument() {
     assert_eq!(refused, SolveError::OutOfRange { quantity: "penalty" });
 }
 
-/// R = 2¹⁶⁰ is no f32, but 2¹⁶⁰/(2¹²⁶ + 2¹²⁶) is.
+/// R = 2¹⁶⁰ exceeds the range of f32, but 2¹⁶⁰/(2¹²⁶ + 2¹²⁶) does not.
 #[test]
 fn a_root_is_found_where_the_reaction_is_out_of_range() {
     let power = |n: f32| n.exp2();
@@ -374,16 +374,18 @@ enum PenaltyCondition {
     VanishesAtContact,
     /// Condition 2, for p > 0.
     PositiveAndIncreasing,
-    /// Condition 3 as it has to read (note 3): in ε, at every p > 0; growth in p is not enough.
+    /// Condition 3 with the correction of note 3: unbounded in ε, at every p > 0; growth in p does not
+    /// suffice.
     Unbounded,
 }
 
-/// The conditions before (1.10), tried on a functional `w(ε, p)`: the first one that is seen broken.
+/// Returns the first condition before (1.10) that a functional `w(ε, p)` is found to violate.
 ///
-/// Tried at the `penalties` (> 0, increasing) and `penetrations` (> 0, increasing). Condition 3, with
-/// note 3's correction, asks that the last penalty lift W beyond `energy` at every penetration. With
-/// `energy` = R²/(2c) that is what keeps the penetration of a system below the least one tried, because
-/// a minimum of Π + W never has W > R²/(2c). `None` is no proof for other values. Source: §1.3.2.
+/// The functional is evaluated at the `penalties` (> 0, increasing) and `penetrations` (> 0, increasing).
+/// Condition 3, with the correction of note 3, requires that W exceeds `energy` at every penetration for the
+/// last penalty. With `energy` = R²/(2c) the penetration of a system is then below the smallest penetration,
+/// because W ≤ R²/(2c) at a minimum of Π + W. `None` does not prove the conditions at other values. Source:
+/// §1.3.2.
 fn broken_condition(
     w: impl Fn(&Exact, &Exact) -> Exact,
     penalties: &[Exact],
@@ -404,8 +406,8 @@ fn broken_condition(
     (!penetrations.iter().all(|p| w(last, p) > *energy)).then_some(PenaltyCondition::Unbounded)
 }
 
-/// Functionals that break each condition, and note 3's two: one that meets the conditions as they are
-/// printed and is no penalty, one that is a penalty and does not meet them.
+/// Functionals that violate each condition, and the two of note 3: one meets the printed conditions and is
+/// not a penalty, the other is a penalty and does not meet them.
 #[test]
 fn violated_conditions_are_named() {
     let penalties: Vec<_> = (0..60).step_by(5).map(Exact::power_of_two).collect();
@@ -443,7 +445,7 @@ fn violated_conditions_are_named() {
     assert!((p - r / (c + int(2))).abs() < Exact::power_of_two(-40));
 }
 
-/// R = 2⁻²⁵⁰ of W = 1 cancels to nothing at the precision that the search begins with.
+/// R = 2⁻²⁵⁰ of W = 1 is lost by cancellation at the initial precision of the search.
 #[test]
 fn a_root_next_to_grazing_is_found() {
     let r = Exact::power_of_two(-250);

@@ -1,5 +1,4 @@
-//! What a result of the solver is worth: its bounds are narrow, what is exactly 0 is 0, and what cannot be solved
-//! is refused under the name that the user gave it.
+//! Quality of results: bounds are narrow, exact zeros are 0, and rejected arguments are named.
 
 use crate::in_every_float;
 use crate::strategies::*;
@@ -14,7 +13,7 @@ use spring_mass_contact::solver::{
     series_penetration, solve, solve_bilateral, sweep,
 };
 
-/// A way to solve, and the plane that it supposes.
+/// A solver and the plane that it assumes.
 type Solve<T> = fn(&SpringMass<T>, &Method<T>) -> Result<Solution<T>, SolveError>;
 
 fn both<T: Float>() -> [(Solve<T>, Plane); 2] {
@@ -54,9 +53,10 @@ fn widths(s: &SpringMass<Exact>, penalty: Option<&Exact>, free: bool) -> [Exact;
     }
 }
 
-/// No bound is wider than the errors that the operations can make; R = 0 and a mass that hangs free have no force.
+/// No bound is wider than the possible rounding errors; there is no force for R = 0 or a separated mass.
 ///
-/// By m g − c u the penalty's force would come with the error of m g, c/ε times as much where ε is small.
+/// If the force of the penalty method were computed as m g − c u, the error of m g would enter, c/ε times as
+/// large for small ε.
 fn bounds_are_narrow<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
     let case = case.rounded(like);
     let Case { system, eps, .. } = case.exact();
@@ -89,8 +89,9 @@ in_every_float! {
     bounds_are_narrow from any_state;
 }
 
-/// R = 0 in rationals, while floats round m g and c (H − l) apart: m = c |a − b|, g = ±(a + b), H = a², l = b² with a
-/// multiple of a power of two as a. Each of them fits into so many bits, and neither product nor H − l need.
+/// R = 0 in rationals, while floats round m g and c (H − l) differently: m = c |a − b|, g = ±(a + b), H = a²,
+/// l = b², where a is a multiple of a power of two. Each parameter fits `bits` bits; the products and H − l
+/// need not.
 fn grazing_but_for_rounding(bits: u32) -> impl Strategy<Value = SpringMass<Exact>> {
     let odd = |bits: u32| (0..1 << (bits - 1)).prop_map(|n| int(2 * n + 1));
     let half = bits / 2 - 2;
@@ -101,7 +102,7 @@ fn grazing_but_for_rounding(bits: u32) -> impl Strategy<Value = SpringMass<Exact
     })
 }
 
-/// Touching without force is no matter of rounding: no force of the size of an ulp is left.
+/// At grazing there is no force, not even one of an ulp.
 fn grazing_has_no_force_at_all<T: Float>(s: &SpringMass<Exact>, like: &T) -> Result<(), TestCaseError> {
     let floats = s.try_map(|x| like.round_from_exact(x)).unwrap();
     prop_assert_eq!(&floats.map(exact), s, "the parameters fit");
@@ -142,10 +143,10 @@ proptest! {
     }
 }
 
-/// A parameter: its name, where it is, and whether it has to be positive.
+/// A parameter: its name, an accessor, and whether it must be positive.
 type Parameter<T> = (&'static str, fn(&mut Case<T>) -> &mut T, bool);
 
-/// What belongs to the system, then what a method asks for besides.
+/// The parameters of the system, and the additional ones of methods.
 fn parameters<T>() -> ([Parameter<T>; 5], [Parameter<T>; 3]) {
     let system: [Parameter<T>; 5] = [
         ("stiffness", |x| &mut x.system.c, true),
@@ -162,8 +163,8 @@ fn parameters<T>() -> ([Parameter<T>; 5], [Parameter<T>; 3]) {
     (system, method)
 }
 
-/// Every parameter of every method, with every value that it cannot have, is refused by its own name; the first one
-/// if there are several. And −0 is 0, where that is allowed.
+/// Every invalid value of every parameter of every method is rejected with the name of the parameter; the
+/// first one if there are several. −0 counts as 0 if that is allowed.
 fn refusals_name_the_parameter<T: Float>(like: &T) {
     let one = like.clone();
     let zero = like.clone() - like;
@@ -215,7 +216,7 @@ fn refused_as<T: Float>(name: &str, value: &T, case: &Case<T>, method: usize, po
     }
 }
 
-/// c u = m g = c H, so that u = H, the largest f64: no f64 bounds it from above.
+/// c u = m g = c H, so u = H, the largest f64: no f64 bounds it from above.
 #[test]
 fn bounds_are_finite() {
     let system = SpringMass { c: 1.0, m: 1.0, g: f64::MAX, l: 0.0, h: f64::MAX };
@@ -224,8 +225,8 @@ fn bounds_are_finite() {
     assert_eq!(solve(&system, &Method::Lagrange), Err(out_of_range));
 }
 
-/// The deflection from this λ₀ is the least f32, so that no f32 bounds its error: not the least bound is returned, since
-/// there is none.
+/// The deflection from this λ₀ is the smallest f32, so no f32 bounds its error, and no least bound is
+/// returned.
 #[test]
 fn a_floor_is_finite() {
     let system: SpringMass<f32> = SpringMass { c: 1.0, m: 1.0, g: 1.0, l: 0.0, h: -41.0 };
@@ -258,8 +259,8 @@ fn refusals_name_the_parameter_in_mpfr() {
     refusals_name_the_parameter(&int(1).to_mpfr(100));
 }
 
-/// With c = ε = 4, Δ = 2, |R| = 2, |H| = 3 the drift is 20 F = 20 η (3 + 2 + 1/2), so what is within reach is more
-/// than 110 η + η (3 + 8 tol); and 64 · 8 ≤ 4 (2ᵖ + 1) from p = 7 on.
+/// With c = ε = 4, Δ = 2, |R| = 2, |H| = 3 the drift is 20 F = 20 η (3 + 2 + 1/2), so guaranteed tolerances
+/// exceed 110 η + η (3 + 8 tol); and 64 · 8 ≤ 4 (2ᵖ + 1) from p = 7 on.
 #[test]
 fn guaranteed_tolerances_begin_at_the_drift() {
     let pushes = SpringMass { c: 4, m: 1, g: 10, l: 1, h: 3 }.map(|x| int(*x));
@@ -280,8 +281,8 @@ fn guaranteed_tolerances_begin_at_the_drift() {
     }
 }
 
-/// With l = 0 and H = 7 the floor is (20 η · 14 + 7 η)/(1 − 8 η): 41/8 with 6 bits, the fewest, which a tolerance of as
-/// much is not above; and 287/120 with 7.
+/// With l = 0 and H = 7 the floor is (20 η · 14 + 7 η)/(1 − 8 η): 41/8 with 6 bits, the smallest possible
+/// precision, and 287/120 with 7. A tolerance equal to the floor is not above it.
 #[test]
 fn a_tolerance_is_above_the_floor() {
     let system = SpringMass { c: 1, m: 1, g: 8, l: 0, h: 7 }.map(|x| int(*x));
@@ -293,9 +294,9 @@ fn a_tolerance_is_above_the_floor() {
     assert_eq!([bits(fewest), bits(int(6))], [Some(7), Some(6)]);
 }
 
-/// R = −1 and H = l = 2^400000. It is free for certain where |R|/c = 2^200000 > 21 η H/(1 − 8 η) + 10 η m |g|/c, which is
-/// so from η = 2^−200005 on; and there the floor, 5 η m |g|/c = 5/32, is below 1. By the floor of what touches it would
-/// take twice as many.
+/// R = −1 and H = l = 2^400000. The mass is certainly separated if |R|/c = 2^200000 > 21 η H/(1 − 8 η) + 10 η
+/// m |g|/c, which holds for η ≤ 2^−200005; the floor, 5 η m |g|/c = 5/32, is then below 1. With the floor of
+/// contact, twice as many bits would be required.
 #[test]
 fn the_required_precision_is_found_if_it_is_far_below_its_estimate() {
     let [soft, long] = [-200_000, 400_000].map(Exact::power_of_two);
@@ -303,8 +304,8 @@ fn the_required_precision_is_found_if_it_is_far_below_its_estimate() {
     assert_eq!(required_precision(&system, Plane::Unilateral, &int(1)), Ok(Some(200_005)));
 }
 
-/// u = m g/c = 1 and l = 0: 5 η far from the plane. Touching, the floor is 41 η H/(1 − 8 η), and it is added where
-/// H − 1 is no more than it and 10 η.
+/// u = m g/c = 1 and l = 0: 5 η from the plane. The floor of contact is 41 η H/(1 − 8 η); it is added if H −
+/// 1 does not exceed it and 10 η.
 #[test]
 fn the_floor_near_grazing_covers_both_states() {
     let eta = Exact::power_of_two(-10);
@@ -320,7 +321,7 @@ fn the_floor_near_grazing_covers_both_states() {
     assert_eq!([floor(&(near + Exact::power_of_two(-99))), floor(&int(3))], [alone.clone(), alone]);
 }
 
-/// What is lost altogether is refused, and not taken for 0; and so is a sum of two stiffnesses that is too large.
+/// Underflow is rejected instead of being treated as 0, and so is overflow of a sum of two stiffnesses.
 #[test]
 fn lost_products_are_refused() {
     let one = SpringMass { c: 1.0, m: 1.0, g: 1.0, l: 1.0, h: 1.0 };
@@ -335,7 +336,7 @@ fn lost_products_are_refused() {
     }
 }
 
-/// The first multiplier would be ε p, which is more than f32 has.
+/// The first multiplier would be ε p, which exceeds the range of f32.
 #[test]
 fn a_multiplier_out_of_range_is_refused() {
     let system =
@@ -345,7 +346,8 @@ fn a_multiplier_out_of_range_is_refused() {
     assert_eq!(solve(&system, &method), Err(SolveError::OutOfRange { quantity: "multiplier" }));
 }
 
-/// ε R = 4.81·10³⁰⁸ does not fit, but N = ε R / (c + ε) does: 4.81, which 100/(10³⁰⁸) of itself does not change.
+/// ε R = 4.81·10³⁰⁸ overflows, but N = ε R / (c + ε) does not: it is 4.81, with the negligible relative
+/// correction 100/10³⁰⁸.
 #[test]
 fn a_penalty_may_be_as_large_as_a_float() {
     let system = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
@@ -368,7 +370,7 @@ fn a_penalty_may_be_as_large_as_a_float() {
     assert!(force.width() <= 1e-14 * force.upper);
 }
 
-/// Of whatever is not finite or not in its range an error is returned by each of them, and no panic.
+/// Non-finite or out-of-range arguments are errors of every function, without a panic.
 #[test]
 fn every_function_rejects_an_invalid_system() {
     let good = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
@@ -431,7 +433,7 @@ fn every_function_rejects_an_invalid_system() {
     assert_eq!(Interval { lower: -inf, upper: inf }.texts(), ["-inf", "inf"]);
 }
 
-/// Rationals become longer with every step: of 50 000 decimals, 166 000 digits a step.
+/// Rationals grow with every step: with 50 000 decimals, by 166 000 digits a step.
 #[test]
 fn an_augmentation_of_endless_digits_is_refused() {
     let system = SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" }.parse().unwrap();

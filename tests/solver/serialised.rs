@@ -1,4 +1,4 @@
-//! What is serialised is read back as it was.
+//! Serialised values are deserialised unchanged.
 
 use crate::strategies::*;
 use proptest::prelude::*;
@@ -35,7 +35,7 @@ fn read_back<T: ExactText + Field + PartialEq + Debug>(
     Ok(())
 }
 
-/// Any finite f64: of its bits, or one of those that are easily lost.
+/// Finite floats: random bits, or values that are prone to errors.
 fn any_float() -> impl Strategy<Value = f64> {
     let special = [0.0, -0.0, 5e-324, -5e-324, f64::MIN_POSITIVE.next_down(), f64::MAX, f64::MIN, 0.1];
     let special = prop::sample::select(special.to_vec());
@@ -66,7 +66,7 @@ proptest! {
         read_back(&case.system, &methods, |a, b| a == b)?;
     }
 
-    /// As a constant of the same value; rounded to as many bits it is what it was.
+    /// The number is read as a constant of the same value; rounded to the original precision it is unchanged.
     #[test]
     fn a_float_of_mpfr_comes_back_as_a_constant(case in any_state(WIDE), k: u64, bits in 2u32..300) {
         let case = case.rounded(&Exact::from(1).to_mpfr(bits));
@@ -82,7 +82,7 @@ proptest! {
         }
     }
 
-    /// Exactly rounded, ties to even, as those of the machine are.
+    /// Correctly rounded, ties to even, like machine floats.
     #[test]
     fn scientific_notation_is_that_of_the_machine(x in any_float(), decimals in 0usize..30, power in -8i32..8) {
         // Ties are rare among any bits, and among eighths they are not.
@@ -98,7 +98,7 @@ proptest! {
         }
     }
 
-    /// A third of anything is never a tie.
+    /// A third of an integer is never a tie.
     #[test]
     fn scientific_notation_of_a_fraction_is_nearest(x in nonzero(WIDE), decimals in 0usize..30) {
         let third = x / int(3);
@@ -166,7 +166,7 @@ fn a_system_and_a_method_are_a_line_of_a_batch() {
     assert_eq!(serde_json::to_value(method).unwrap(), expected);
 }
 
-/// In one line, with what was read.
+/// The error is one line with the text that was read.
 #[test]
 fn texts_that_are_not_numbers_are_rejected() {
     for (text, said) in [

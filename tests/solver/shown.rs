@@ -1,4 +1,4 @@
-//! Intervals, and results as people read them: what is written encloses what is meant.
+//! Intervals and printed results: a printed interval contains the exact one.
 
 use crate::in_every_float;
 use crate::strategies::*;
@@ -9,20 +9,20 @@ use spring_mass_contact::solver::{
     Condition, FunctionalError, Interval, Method, Outcome, solve, solve_bilateral,
 };
 
-/// The ends of what is written: `… to …`, or one number for both.
+/// Returns the ends of a printed interval: `… to …`, or one number for both.
 fn ends(text: &str) -> [Exact; 2] {
     let (lower, upper) = text.split_once(" to ").unwrap_or((text, text));
     [lower, upper].map(|end| end.parse().unwrap_or_else(|error| panic!("{end}: {error}")))
 }
 
-/// What follows the enclosure's name in the line of a quantity, without the unit.
+/// Returns the enclosure in the line of a quantity, without the unit.
 fn enclosure<'a>(shown: &'a str, symbol: &str, name: &str) -> &'a str {
     let line = shown.lines().find(|line| line.starts_with(&format!("{symbol} "))).unwrap();
     let (_, rest) = line.split_once(&format!(", {name} ")).unwrap_or_else(|| panic!("{line}"));
     rest.rsplit_once(' ').unwrap().0
 }
 
-/// Ends and floors are rounded outwards, however short they are written.
+/// Ends and floors are rounded outwards at every length.
 fn what_is_written_encloses<T: Float + ExactText>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
     let case = case.rounded(like);
     for method in case.methods(200) {
@@ -51,9 +51,9 @@ fn what_is_written_encloses<T: Float + ExactText>(case: &Case<Exact>, like: &T) 
     Ok(())
 }
 
-/// The width is the distance of the ends if the scalar has that number, and else no less. Then it is no greater than
-/// five roundings make it, of the difference, its radius, their sum, and an ulp, which is two: (1 + η)⁵ and what
-/// enlarging a radius adds, of second order, are below 1 + 8 η.
+/// The width is the distance of the ends if the scalar contains this number, otherwise it is larger. It is at
+/// most the result of five roundings, of the difference, its radius, their sum, and an ulp, which is two: (1
+/// + η)⁵ and the second-order effect of enlarging a radius are below 1 + 8 η.
 fn a_width_is_no_less_than_the_distance<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
     let case = case.rounded(like);
     let Case { system, start, .. } = &case;
@@ -72,7 +72,7 @@ fn a_width_is_no_less_than_the_distance<T: Float>(case: &Case<Exact>, like: &T) 
     Ok(())
 }
 
-/// Containing is what comparing rationals says.
+/// Containment agrees with the comparison of rationals.
 fn what_is_contained_is_between_the_ends<T: Float>(
     case: &Case<Exact>,
     like: &T,
@@ -127,7 +127,7 @@ fn conditions_and_residuals_are_described_in_words() {
     assert!(matches!(Method::augmented(4.0), Method::Augmented { tolerance: 1e-9, .. }));
 }
 
-/// What is wrong with a text is the cause of what is wrong with a parameter.
+/// The error of a text is the source of the error of a parameter.
 #[test]
 fn an_error_has_its_cause() {
     let error = SpringMass { c: "1/0", m: "1", g: "1", l: "1", h: "1" }.parse().unwrap_err();

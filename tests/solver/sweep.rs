@@ -1,4 +1,4 @@
-//! The penalty method over many penalties: rows against `solve`, errors against R, and which penalty is best.
+//! Sweeps of the penalty: rows compared with `solve`, errors compared with R, and the best penalty.
 
 use crate::in_every_float;
 use crate::strategies::*;
@@ -14,19 +14,19 @@ fn number(text: &str) -> Exact {
     text.parse().unwrap()
 }
 
-/// The row of one penalty.
+/// Returns the row of one penalty.
 fn row<T: Scalar + ToExact>(system: &SpringMass<T>, eps: &T) -> SweepRow<T> {
     let rows: Vec<_> = sweep(system, [eps.clone()]).collect::<Result<_, _>>().unwrap();
     assert_eq!(rows.len(), 1);
     rows.into_iter().next().unwrap()
 }
 
-/// What the plane has to be stiff enough for, relative to R: c/(c + ε).
+/// Returns the relative error c/(c + ε) of the penalty force.
 fn short(s: &SpringMass<Exact>, eps: &Exact) -> Exact {
     &s.c / (&s.c + eps)
 }
 
-/// A row is what `solve` returns, ε p is rounded once, and both errors are those of the exact force.
+/// A row equals the result of `solve`, ε p is rounded once, and both errors are relative to the exact force.
 fn a_row_is_a_solve<T: Scalar + ToExact>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
     let floats = case.rounded(like);
     let (found, answer) =
@@ -46,7 +46,7 @@ fn a_row_is_a_solve<T: Scalar + ToExact>(case: &Case<Exact>, like: &T) -> Result
     Ok(())
 }
 
-/// What is proved of (1.12), seen from here: ε p̂ is short of R by c/(c + ε) of it, give or take its rounding.
+/// The theorem about (1.12) in numbers: ε p̂ deviates from R by the fraction c/(c + ε), except for rounding.
 fn the_error_is_the_springs_until_rounding<T: Float>(
     case: &Case<Exact>,
     like: &T,
@@ -77,10 +77,10 @@ fn the_error_is_the_springs_until_rounding<T: Float>(
     Ok(())
 }
 
-/// The bound at ε̂, which is ε* rounded, is less than at half of it or less, and at twice it or more. For with
-/// s = c + ε and x = s √κ it is c √κ (x + 1/x) and a constant, and x + 1/x = 2 + (x − 1)²/x. With e = ε* √κ < 1,
-/// rounding leaves x within η e of 1, so (x − 1)²/x ≤ η² e²/(1 − η). Half of ε̂ makes that (½ − η)² e² at least, and
-/// twice ε̂ (1 − 2η)² e²/(2 + 2η), which for η ≤ 1/8 are both more.
+/// The bound at ε̂, which is ε* rounded, is less than at ε̂/2 or less, and at 2 ε̂ or more. With s = c + ε
+/// and x = s √κ it is c √κ (x + 1/x) plus a constant, and x + 1/x = 2 + (x − 1)²/x. With e = ε* √κ < 1,
+/// rounding leaves x within η e of 1, so (x − 1)²/x ≤ η² e²/(1 − η). At ε̂/2 this term is at least (½ − η)²
+/// e², and at 2 ε̂ at least (1 − 2η)² e²/(2 + 2η); both are larger for η ≤ 1/8.
 fn no_penalty_is_better_than_the_best<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
     let floats = case.rounded(like);
     let s = floats.exact().system;
@@ -126,21 +126,21 @@ proptest! {
         prop_assert_eq!(best_penalty(&case.system, &int(0)).unwrap(), None);
     }
 
-    /// The laws are those of every precision: of the least ones, too.
+    /// The laws hold for every precision, including the smallest.
     #[test]
     fn few_bits_suffice(case in in_contact(WIDE), bits in 2u32..8) {
         the_error_is_the_springs_until_rounding(&case, &int(1).to_mpfr(bits))?;
     }
 
-    /// Without a force there is nothing to be best for.
+    /// Without a contact force no penalty is best.
     #[test]
     fn without_contact_no_penalty_is_best(case in prop_oneof![grazing(WIDE), separated(WIDE)]) {
         prop_assert_eq!(best_penalty(&case.system, &Exact::power_of_two(-53)).unwrap(), None);
         prop_assert_eq!(penalty_force_bound(&case.system, &case.eps, &Exact::power_of_two(-53)).unwrap(), None);
     }
 
-    /// Between the ends xᵢ is the ideal from (to/from)^(i/(n−1)), off by at most half a unit in the third of its
-    /// digits, that is 1/200 of it: to the power n − 1, without a root.
+    /// Between the ends xᵢ is the ideal from (to/from)^(i/(n−1)) to within half a unit of its third digit,
+    /// which is 1/200 of it; the comparison raises both to the power n − 1.
     #[test]
     fn penalties_are_spaced_by_powers(from in positive(WIDE), more in positive(8), n in 2u32..9) {
         let ratio = int(1) + more;
@@ -157,7 +157,7 @@ proptest! {
     }
 }
 
-/// Three digits are three digits, however large the number: 10⁴ √2 = 14142…, and 1/√2 of 10⁻⁴.
+/// Penalties of any magnitude have three digits: 10⁴ √2 = 14142…, and 1/√2 of 10⁻⁴.
 #[test]
 fn large_and_small_penalties_have_three_digits() {
     let between = |from, to| penalties(&number(from), &number(to), 3).unwrap().swap_remove(1);
@@ -168,7 +168,7 @@ fn default_system() -> SpringMass<Exact> {
     SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" }.parse().unwrap()
 }
 
-/// The default system, from ten times c up to where rounding can be a tenth of the error.
+/// The default system, from ten times c to where rounding may be a tenth of the error.
 fn falls_with_slope_minus_one<T: Float>(like: &T, most: i32) {
     let system = default_system().map(|x| like.round_from_exact(x).unwrap());
     let eta = unit_roundoff(like);
@@ -193,7 +193,7 @@ fn soft_penalties_err_with_slope_minus_one() {
     falls_with_slope_minus_one(&int(1).to_mpfr(160), 24);
 }
 
-/// Beyond it the observed error of ε p grows without end, up to all of R and more; that of m g − c u does not.
+/// Beyond the best penalty the error of ε p grows to R and more; that of m g − c u does not.
 #[test]
 fn stiff_penalties_lose_the_penalty_force_alone() {
     let system = default_system().try_map(Exact::to_f64).unwrap();
@@ -209,8 +209,8 @@ fn stiff_penalties_lose_the_penalty_force_alone() {
     assert!(by_spring.collect::<Vec<_>>().windows(2).all(|pair| pair[0] > pair[1]));
 }
 
-/// The root is computed to the digits of the scalar: of (c + ε)² = c R/(η L (1 + 8 η)), L = |H| + 5 |Δ|, to within what
-/// one rounding of ε to 300 bits makes of it, 2 · 2⁻³⁰⁰, and what is lost before that.
+/// The root is computed to the digits of the scalar: it is that of (c + ε)² = c R/(η L (1 + 8 η)), L = |H| +
+/// 5 |Δ|, to within one rounding of ε to 300 bits, 2 · 2⁻³⁰⁰, and the preceding rounding errors.
 #[test]
 fn the_best_penalty_has_the_digits_of_its_scalar() {
     let system = default_system().map(|x| x.to_mpfr(300));
@@ -225,7 +225,8 @@ fn the_best_penalty_has_the_digits_of_its_scalar() {
     assert!((&total * &total / square - int(1)).abs() < Exact::power_of_two(-298));
 }
 
-/// Where no length can be lost every larger ε is better; where R is next to nothing beside c Δ, every smaller one.
+/// If rounding of lengths has no effect, every larger ε is better; if R is negligible compared with c Δ,
+/// every smaller ε is better.
 #[test]
 fn there_need_be_no_best_penalty() {
     let system = SpringMass { c: 1.0, m: 1.0, g: 1.0, l: 0.0, h: 0.0 };
@@ -234,7 +235,7 @@ fn there_need_be_no_best_penalty() {
     assert_eq!(best_penalty(&system, &Exact::power_of_two(-53)).unwrap(), None);
 }
 
-/// R = 1.68·10³⁰⁸ fits f64; but p = 140 is rounded to 256, the next number after 2⁶⁰, and ε p would not.
+/// R = 1.68·10³⁰⁸ fits f64; but p = 140 is rounded to 256, the next number after 2⁶⁰, so ε p overflows.
 #[test]
 fn a_force_that_does_not_fit_is_refused() {
     let length = 2_f64.powi(60);

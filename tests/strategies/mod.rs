@@ -1,9 +1,8 @@
-//! Where test cases come from: systems with a planted reaction R, in every number system.
+//! Strategies for test cases: systems with a given reaction R, in every number system.
 //!
-//! Numbers are small fractions times powers of two, log-uniform over many decades, so that a case means
-//! the same on every machine and in every scalar. c, m, l, Δ and R are drawn; H = l + Δ and
-//! g = (R + c Δ)/m follow. The sign of R, and with it the state, is therefore known beforehand.
-//! A case is printed as the options of `contact solve`, ready to be pasted.
+//! Numbers are small fractions times powers of two, log-uniform over many decades, so a case is the same on
+//! every machine and in every scalar. c, m, l, Δ and R are sampled; H = l + Δ and g = (R + c Δ)/m follow. The
+//! sign of R, and with it the state, is therefore known. A case is printed as options of `contact solve`.
 
 #![allow(dead_code)] // every test file is a crate of its own and uses its share of this one
 
@@ -14,20 +13,20 @@ use spring_mass_contact::number::{Exact, PositivePart, Real, ToExact};
 use spring_mass_contact::solver::{Method, Scalar};
 use std::fmt;
 
-/// Parameters range over 2^±NARROW: no intermediate result leaves the range of f32 (2^±126) then. The
+/// Parameters range over 2^±NARROW, for which no intermediate result leaves the range of f32 (2^±126). The
 /// smallest one is û of a near-grazing system with Δ = 0: R/(c + ε) ≥ 2^(−6 − 4·8 − 3·3 − 60) > 2^−126.
 pub const NARROW: i32 = 8;
-/// The same for f64 (2^±1022) and for MPFR and rationals, which have no limit here.
+/// Range of parameters for f64 (2^±1022), and for MPFR and rationals, which have no limit here.
 pub const WIDE: i32 = 40;
 /// ε/c ranges over 2^±PENALTIES.
 pub const PENALTIES: i32 = 60;
 
-/// A system, and what the methods need besides.
+/// A system with the arguments of the methods.
 #[derive(Clone, PartialEq)]
 pub struct Case<T> {
     pub system: SpringMass<T>,
     pub eps: T,
-    /// λ₀.
+    /// Initial multiplier λ₀.
     pub start: T,
     pub tolerance: T,
 }
@@ -55,21 +54,21 @@ impl<T: Clone> Case<T> {
             start: self.start.clone(),
         }
     }
-    /// Every method there is.
+    /// Returns the three methods.
     pub fn methods(&self, max_augmentations: u64) -> [Method<T>; 3] {
         [Method::Lagrange, self.penalty(), self.augmented(max_augmentations)]
     }
 }
 
 impl Case<Exact> {
-    /// Every number rounded once into the scalar, at the precision, of `like`.
+    /// Returns the case with every number rounded once to the scalar and precision of `like`.
     pub fn rounded<T: ToExact>(&self, like: &T) -> Case<T> {
         self.map(|x| like.round_from_exact(x).expect("the parameters fit every float they are rounded into"))
     }
 }
 
 impl<T: ToExact> Case<T> {
-    /// The same numbers as rationals: what the answers of floats are judged by.
+    /// Returns the case in rationals, for comparison with results in floats.
     pub fn exact(&self) -> Case<Exact> {
         self.map(exact)
     }
@@ -86,60 +85,60 @@ impl<T: ToExact> fmt::Debug for Case<T> {
     }
 }
 
-/// The value of a number that is finite.
+/// Returns the exact value of a finite number.
 pub fn exact<T: ToExact>(x: &T) -> Exact {
     x.to_exact().expect("finite")
 }
 
-/// η of the scalar and precision of `like`, which must not be zero.
+/// Returns η for the scalar and precision of `like`, which must not be zero.
 pub fn unit_roundoff<T: Real + ToExact>(like: &T) -> Exact {
     exact(&like.unit_roundoff())
 }
 
-/// An integer, exactly.
+/// Returns an exact integer.
 pub fn int(n: i32) -> Exact {
     Exact::from(n)
 }
 
-/// xⁿ.
+/// Returns xⁿ.
 pub fn power(x: &Exact, n: u32) -> Exact {
     (0..n).fold(int(1), |product, _| product * x)
 }
 
-/// Where the mass comes to rest: Δ if the plane acts, m g/c if not. Written here a second time, by cases.
+/// Returns the exact deflection, independently of the library: Δ in contact, m g/c otherwise.
 pub fn resting(s: &SpringMass<Exact>) -> Exact {
     let weight = &s.m * &s.g;
     let gap = &s.h - &s.l;
     if weight < &s.c * &gap { weight / &s.c } else { gap }
 }
 
-/// What the plane then pushes with.
+/// Returns the exact contact force.
 pub fn pushing(s: &SpringMass<Exact>) -> Exact {
     &s.m * &s.g - &s.c * resting(s)
 }
 
-/// An exponent, its limits and zero more often than by chance.
+/// Exponents, with an increased frequency of zero and the limits.
 fn exponent(span: i32) -> impl Strategy<Value = i32> {
     prop_oneof![10 => -span..=span, 1 => Just(-span), 1 => Just(span), 2 => Just(0)]
 }
 
-/// Log-uniform over 2^±span: a fraction of small integers, times a power of two.
+/// Positive numbers, log-uniform over 2^±span: a fraction of small integers times a power of two.
 pub fn positive(span: i32) -> impl Strategy<Value = Exact> {
     let mantissa = prop_oneof![1 => Just((1, 1)), 3 => (1..=7, 1..=7), 3 => (1..=40, Just(5))];
     (mantissa, exponent(span)).prop_map(|((n, d), e)| int(n) / int(d) * Exact::power_of_two(e))
 }
 
-/// The same with both signs.
+/// Numbers of both signs.
 pub fn nonzero(span: i32) -> impl Strategy<Value = Exact> {
     (positive(span), any::<bool>()).prop_map(|(x, negative)| if negative { -x } else { x })
 }
 
-/// The same with zero.
+/// Numbers of both signs and zero.
 pub fn number(span: i32) -> impl Strategy<Value = Exact> {
     prop_oneof![1 => Just(Exact::zero()), 8 => nonzero(span)]
 }
 
-/// R relative to c: of any size, or close to grazing, relative to the lengths.
+/// R relative to c: of any magnitude, or close to grazing relative to the lengths.
 #[derive(Clone, Debug)]
 enum Size {
     Any(Exact),
@@ -169,49 +168,49 @@ fn planted(span: i32, sign: impl Strategy<Value = i32>) -> impl Strategy<Value =
     })
 }
 
-/// Contact, grazing and separated.
+/// Systems in contact, grazing and separated.
 pub fn any_state(span: i32) -> impl Strategy<Value = Case<Exact>> {
     planted(span, prop_oneof![3 => Just(1), 1 => Just(0), 2 => Just(-1)])
 }
-/// R > 0.
+/// Systems with R > 0.
 pub fn in_contact(span: i32) -> impl Strategy<Value = Case<Exact>> {
     planted(span, Just(1))
 }
-/// R = 0 in rationals (in floats: close to it).
+/// Systems with R = 0 in rationals (in floats: close to 0).
 pub fn grazing(span: i32) -> impl Strategy<Value = Case<Exact>> {
     planted(span, Just(0))
 }
-/// R < 0.
+/// Systems with R < 0.
 pub fn separated(span: i32) -> impl Strategy<Value = Case<Exact>> {
     planted(span, Just(-1))
 }
-/// R ≠ 0: where an iteration has somewhere to go.
+/// Systems with R ≠ 0, for which an iteration makes progress.
 pub fn not_grazing(span: i32) -> impl Strategy<Value = Case<Exact>> {
     planted(span, prop_oneof![Just(1), Just(-1)])
 }
 
-/// The case with another ε, given relative to c.
+/// Returns the case with another ε, given relative to c.
 pub fn with_penalty(case: Case<Exact>, relative: &Exact) -> Case<Exact> {
     let eps = &case.system.c * relative;
     Case { eps, ..case }
 }
 
-/// ⟨x⟩.
+/// Returns ⟨x⟩.
 pub fn positive_part(x: &Exact) -> Exact {
     x.positive_part()
 }
 
-/// R.
+/// Returns R.
 pub fn reaction(case: &Case<Exact>) -> Exact {
     system::reaction(&case.system)
 }
 
-/// Floats that can be tried at several precisions.
+/// Floats of several precisions.
 pub trait Float: Scalar + Real + ToExact {}
 impl<T: Scalar + Real + ToExact> Float for T {}
 
-/// Tries one law, `fn law<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError>`, in f32,
-/// f64 and MPFR of few and many bits: the same expectations for all.
+/// Tests a law, `fn law<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError>`, in f32, f64
+/// and MPFR with few and many bits.
 #[macro_export]
 macro_rules! in_every_float {
     ($($(#[$attribute:meta])* $law:ident from $cases:path;)*) => {$(
