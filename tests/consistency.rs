@@ -70,10 +70,10 @@ fn functions() -> Vec<Item> {
     items().into_iter().filter(|item| !item.path.contains(char::is_uppercase)).collect()
 }
 
-/// Fails with all problems at once.
-fn assert_none(amiss: impl IntoIterator<Item = String>) {
-    let amiss: Vec<_> = amiss.into_iter().collect();
-    assert!(amiss.is_empty(), "\n{}", amiss.join("\n"));
+/// Fails with a list of all problems.
+fn assert_none(problems: impl IntoIterator<Item = String>) {
+    let problems: Vec<_> = problems.into_iter().collect();
+    assert!(problems.is_empty(), "\n{}", problems.join("\n"));
 }
 
 #[test]
@@ -150,7 +150,7 @@ fn every_function_belongs_to_an_entry() {
     }));
 }
 
-/// In the box of an equation, or by a tag. The book's own tests check that each box exists.
+/// In the box of an equation, or by a tag. The tests of the book check that each box exists.
 #[test]
 fn the_book_shows_every_function() {
     let boxed = entries().iter().filter(|e| e.latex().is_some()).flat_map(|e| &e.functions);
@@ -203,20 +203,20 @@ fn the_hypotheses_of_entries_match_those_of_their_claims() {
     for e in entries() {
         let of_entry = || all.iter().filter(|(equation, _)| *equation == e.equation).map(|(_, given)| given);
         for hypothesis in &e.hypotheses {
-            let supposed = of_entry().any(|given| given.contains(hypothesis));
+            let is_assumed = of_entry().any(|given| given.contains(hypothesis));
             let text = registry().format_hypothesis(hypothesis);
-            assert!(supposed, "{}: none of its claims supposes {text}", e.equation);
+            assert!(is_assumed, "{}: none of its claims assumes {text}", e.equation);
         }
         let first = of_entry().next().cloned().unwrap_or_default();
         for common in first.iter().filter(|common| of_entry().all(|given| given.contains(common))) {
-            // How far on a sequence or a solution is, is no condition.
+            // The index of a sequence or the time of a solution is not a condition.
             let runs = [&hypotheses().power, &hypotheses().count, &hypotheses().time].contains(&common);
             let text = registry().format_hypothesis(common);
-            let said = e.hypotheses.contains(common) || e.statement().contains(&text);
+            let is_stated = e.hypotheses.contains(common) || e.statement().contains(&text);
             assert!(
-                runs || said,
-                "{}: all its claims suppose {text}, and the entry does not: add it to its `.assuming([…])`, or take it \
-                 out of a claim that does not need it",
+                runs || is_stated,
+                "{}: all its claims assume {text}, and the entry does not: add it to `.assuming([…])` of the entry, or \
+                 remove it from a claim that does not need it",
                 e.equation
             );
         }
@@ -240,14 +240,14 @@ fn undocumented(Item { docs, .. }: &Item) -> Option<String> {
     let parts = [
         ("the formula, a line in backticks", find(&is_formula)),
         ("`Source: …` or `Beyond …`", find(&|l| l.contains("Source:") || l.contains("Beyond "))),
-        ("an example: a block of code that asserts a value worked out by hand", find(&|l| l == "```")),
+        ("an example: a block of code that asserts a value calculated by hand", find(&|l| l == "```")),
     ];
     if let Some((part, _)) = parts.iter().find(|(_, at)| at.is_none()) {
         return Some(format!("its documentation lacks {part}"));
     }
     let [formula, source, example] = parts.map(|(_, at)| at);
     if formula == Some(0) || formula.max(source) > example {
-        return Some("in its documentation its name comes first, and last the example".to_string());
+        return Some("its documentation must begin with the name and end with the example".to_string());
     }
     let numbers = docs[0].split("Eq. (").skip(1).filter_map(|rest| rest.split(')').next());
     let unknown = numbers.into_iter().find(|number| entry(number).is_none());
@@ -256,7 +256,7 @@ fn undocumented(Item { docs, .. }: &Item) -> Option<String> {
 
 #[test]
 fn every_documented_formula_is_the_computed_one() {
-    // A check with the outcome yes or no, which leaves no tree.
+    // A predicate has no record.
     const UNRECORDED: [&str; 1] = ["augmented::within_tolerance"];
     let formula = |l: &&String| is_formula(l);
     assert_none(functions().into_iter().filter_map(|Item { path, docs }| {
@@ -264,19 +264,19 @@ fn every_documented_formula_is_the_computed_one() {
         let listed = UNRECORDED.contains(&path.as_str());
         match (registry().format_equation(&path), listed) {
             (None, true) => None,
-            (Some(_), true) => Some(format!("{path} is registered: take it from the list in this test")),
+            (Some(_), true) => Some(format!("{path} is registered: remove it from the list in this test")),
             (None, false) => Some(format!(
                 "{path} is not registered: add a line `\"symbol\" = {path}(system, …);` with the symbols of its \
-                 arguments to `formulas!` at the head of src/claims/{module}.rs"
+                 arguments to `formulas!` at the beginning of src/claims/{module}.rs"
             )),
             (Some(computed), false) => {
                 let written: Vec<_> = docs.iter().filter(formula).collect();
                 let right = written == [&format!("`{computed}`")];
                 (!right).then(|| {
                     format!(
-                        "src/chapter/{module}.rs: the documentation of {name} has {written:?} where it computes \
-                         `{computed}`: write that line, if that is what is meant; if not, mend the function, or the \
-                         symbols of its arguments in src/claims/{module}.rs"
+                        "src/chapter/{module}.rs: the documentation of {name} has {written:?} but it computes \
+                         `{computed}`: correct the documentation, the function, or the symbols of its arguments \
+                         in src/claims/{module}.rs"
                     )
                 })
             }
@@ -289,12 +289,12 @@ fn every_placeholder_of_an_entry_is_replaced() {
     for e in entries() {
         let latex = e.latex();
         let left = |text: &str| text.contains(['«', '»']);
-        let unknown = "a hole names a formula that src/claims does not register";
+        let unknown = "a placeholder names a formula that src/claims does not register";
         assert!(!left(&e.statement()), "{}: {unknown}: {}", e.equation, e.statement());
         assert!(!latex.as_deref().is_some_and(left), "{}: {unknown}: {latex:?}", e.equation);
         assert!(
             latex.is_some() == e.equation.starts_with("1."),
-            "{}: an entry has `.in_latex(…)` if it is a numbered equation, and only then",
+            "{}: an entry has `.in_latex(…)` if and only if it is a numbered equation",
             e.equation
         );
     }
@@ -304,7 +304,7 @@ fn every_placeholder_of_an_entry_is_replaced() {
 fn claimed(section: &str) -> String {
     let text = source(&format!("src/claims/{section}.rs"));
     let list = text.split_once("formulas! {").and_then(|(_, rest)| rest.split_once("\n}"));
-    // To be listed is no claim.
+    // The list of formulas contains no claims.
     assert!(
         list.is_some() == modules().iter().any(|m| m == section),
         "the list of {section}.rs is not found"
@@ -328,7 +328,8 @@ fn every_function_occurs_in_a_claim() {
     };
     assert_none(functions().into_iter().filter(is_unclaimed).map(|Item { path, .. }| {
         format!(
-            "no claim speaks of {path}: call it in one, by `.claims([…])` in the entry that names it, in src/claims, or in src/verify/experiments.rs"
+            "no claim contains {path}: call it in `.claims([…])` of the entry that names it, in src/claims, or in \
+             src/verify/experiments.rs"
         )
     }));
 }
@@ -344,32 +345,32 @@ fn no_formula_is_written_twice() {
             let body = function.split_once("{\n").and_then(|(_, rest)| rest.split_once("\n}")).unwrap().0;
             let formula =
                 body.lines().filter(|l| !l.trim_start().starts_with("let SpringMass")).collect::<String>();
-            // (1.28) and the gap are the same number under two names, and the chapter prints both.
+            // (1.28) and the gap are equal, and the chapter prints both.
             if let Some(other) = bodies.insert(formula.clone(), name.clone()) {
                 let pair = [other.as_str(), name.as_str()];
                 let allowed = [["deflection", "particular"], ["gap", "particular"], ["particular", "gap"]];
                 let calls = formula.contains("::") || formula.contains("(system");
                 assert!(
                     allowed.contains(&pair) || calls,
-                    "in src/chapter {other} and {name} are the same formula, {}: let one call the other",
+                    "in src/chapter {other} and {name} are the same formula, {}: one must call the other",
                     formula.trim()
                 );
             }
             seen += 1;
         }
     }
-    assert_eq!(seen, functions().len(), "functions looked at, of all");
+    assert_eq!(seen, functions().len(), "functions scanned, all functions");
 }
 
 /// Asserts the status of every claim; the others are named with the command that shows them.
-fn assert_all(report: &Report, otherwise: &str, so: impl Fn(Status) -> bool) {
-    let amiss = report.rows.iter().filter(|row| !so(row.status)).map(|row| {
+fn assert_all(report: &Report, otherwise: &str, has_status: impl Fn(Status) -> bool) {
+    let problems = report.rows.iter().filter(|row| !has_status(row.status)).map(|row| {
         let Row { equation, claim, status, scalar, .. } = row;
-        let way = scalar.map_or("the proof".to_string(), |scalar| scalar.to_string());
-        format!("{equation} {claim}: {status} in {way}: cargo run --release -- verify '{equation}'")
+        let method = scalar.map_or("the proof".to_string(), |scalar| scalar.to_string());
+        format!("{equation} {claim}: {status} in {method}: cargo run --release -- verify '{equation}'")
     });
-    let amiss: Vec<_> = amiss.collect();
-    assert!(amiss.is_empty(), "what {otherwise}: {amiss:#?}");
+    let problems: Vec<_> = problems.collect();
+    assert!(problems.is_empty(), "claims {otherwise}: {problems:#?}");
     assert!(report.rows.len() > 4 * entries().len(), "only {} rows", report.rows.len());
 }
 
@@ -385,7 +386,7 @@ fn every_claim_holds_in_every_number_system() {
     for seed in [7, 99] {
         let report =
             verify(&Options { scalars: scalars.clone(), cases: 50, seed, equations: vec![] }, &|_, _| ());
-        assert_all(&report, "is not proved or does not hold", |status| {
+        assert_all(&report, "that are not proved or do not hold", |status| {
             matches!(status, Status::Proved | Status::Held)
         });
         for n in 1..=33 {
@@ -395,7 +396,7 @@ fn every_claim_holds_in_every_number_system() {
                     report.rows.iter().any(|row| row.equation == number && row.scalar == Some(*scalar));
                 assert!(
                     found,
-                    "nothing is claimed of ({number}) in {scalar}: give its entry a claim that is not rounded"
+                    "({number}) has no claim in {scalar}: add a claim without rounding to its entry"
                 );
             }
         }
@@ -405,7 +406,7 @@ fn every_claim_holds_in_every_number_system() {
 #[test]
 fn by_default_every_claim_is_decided_in_every_number_system() {
     let report = verify(&Options::default(), &|_, _| ());
-    assert_all(&report, "no case decides, or fails", |status| {
+    assert_all(&report, "that fail or are undecided", |status| {
         !matches!(status, Status::Undecided | Status::Failed)
     });
     assert!(report.is_decided() && report.holds());
@@ -413,7 +414,7 @@ fn by_default_every_claim_is_decided_in_every_number_system() {
 
 #[test]
 fn rounding_errors_attain_a_good_part_of_their_bounds() {
-    // If bounds were far too wide, nothing would come near them and the claims would be empty.
+    // If bounds were far too wide, the claims would be vacuous.
     let options = Options { scalars: vec![NumberSystem::F64], cases: 200, ..Options::default() };
     let report = verify(&options, &|_, _| ());
     let measured: Vec<_> =
@@ -469,7 +470,7 @@ fn every_file_belongs_to_a_module() {
 #[test]
 fn every_number_system_is_tested_for_the_laws() {
     if is_packed() {
-        return eprintln!("the number systems are those of another crate");
+        return eprintln!("the number systems are in another crate");
     }
     let text = |folder: &str| files(folder).iter().map(|path| source(path)).collect::<String>();
     let (numbers, laws) = (text("engine/tests/numbers"), source("tests/solver/laws.rs"));
@@ -483,7 +484,7 @@ fn every_number_system_is_tested_for_the_laws() {
     assert!(fields.len() > 4 && !scalars.is_empty(), "{fields:?} {scalars:?}");
     let mut tried: BTreeSet<_> =
         numbers.lines().filter_map(|line| line.trim().strip_prefix("type Number = ").map(name)).collect();
-    tried.insert("Tree".to_string()); // a formula, and no number
+    tried.insert("Tree".to_string()); // a formula, not a number
     let held: BTreeSet<_> = laws.split(|c: char| !c.is_alphanumeric()).map(String::from).collect();
     let untried = fields.difference(&tried);
     let untried = untried.map(|field| format!("{field}: no `type Number = {field}` in engine/tests/numbers"));
@@ -496,11 +497,12 @@ fn no_line_of_the_source_has_more_than_110_characters() {
     let files = of_all("src");
     assert!(files.len() > 70, "the scan of src finds {} files", files.len());
     assert_none(files.iter().flat_map(|path| {
-        // rustfmt breaks code there, but no text and no comment.
+        // rustfmt breaks code, but neither strings nor comments.
         let text = source(path);
         let long = text.lines().zip(1..).filter(|(line, _)| line.chars().count() > 110);
-        let say = |(line, number)| format!("{path}:{number} has more than 110 characters; break it: {line}");
-        long.map(say).collect::<Vec<_>>()
+        let problem =
+            |(line, number)| format!("{path}:{number} has more than 110 characters; break it: {line}");
+        long.map(problem).collect::<Vec<_>>()
     }));
 }
 
@@ -508,23 +510,92 @@ fn no_line_of_the_source_has_more_than_110_characters() {
 fn no_file_of_the_source_has_more_than_450_lines() {
     for path in of_all("src") {
         let lines = source(&path).lines().count();
-        assert!(lines <= 450, "{path} has {lines} lines, and 450 are enough: split it by a noun");
+        assert!(lines <= 450, "{path} has {lines} lines, more than 450: split it");
     }
+}
+
+/// First words of documentation that does not name its subject.
+const WEAK_OPENINGS: [&str; 13] =
+    ["What", "How", "Where", "Which", "Why", "Who", "So", "Those", "Does", "Is", "Are", "May", "Can"];
+
+/// Names that were replaced by standard terms.
+const RETIRED_NAMES: [&str; 24] = [
+    "Why",
+    "How",
+    "Says",
+    "Given",
+    "Paper",
+    "Supposed",
+    "Because",
+    "Inexact",
+    "LeftOut",
+    "Flip",
+    "Needless",
+    "within_reach",
+    "augmentations_promised",
+    "augmentations_needed",
+    "bits_needed",
+    "underflow_unit",
+    "enlarged",
+    "mistaken_for",
+    "supposed",
+    "told",
+    "amiss",
+    "take_in",
+    "needless",
+    "is_unit",
+];
+
+/// The documentation begins with a statement, and retired names are not declared again.
+#[test]
+fn documentation_and_names_are_plain() {
+    let mut blocks = 0;
+    let mut problems = Vec::new();
+    for path in of_all("src").iter().filter(|path| path.ends_with(".rs")) {
+        let text = source(path);
+        let doc = |line: &str| {
+            let line = line.trim_start();
+            let rest = line.strip_prefix("///").or_else(|| line.strip_prefix("//!"))?;
+            Some(rest.trim().to_string())
+        };
+        let lines: Vec<_> = text.lines().collect();
+        for (i, line) in lines.iter().enumerate() {
+            let at = format!("{path}:{}", i + 1);
+            if let Some(first) = doc(line).filter(|_| i == 0 || doc(lines[i - 1]).is_none()) {
+                blocks += 1;
+                let paragraph = lines[i..].iter().map_while(|line| doc(line).filter(|line| !line.is_empty()));
+                let word = first.split_whitespace().next().unwrap_or_default();
+                if WEAK_OPENINGS.contains(&word) {
+                    problems.push(format!("{at}: the documentation begins with {word:?}; name its subject"));
+                }
+                if paragraph.last().is_some_and(|last| last.ends_with('?')) {
+                    problems.push(format!("{at}: the documentation is a question; state the answer"));
+                }
+            }
+            let words: Vec<_> = line.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
+            let declared = words.windows(2).filter(|pair| {
+                ["fn", "struct", "enum", "trait", "type", "const", "mod", "let"].contains(&pair[0])
+            });
+            for name in declared.map(|pair| pair[1]).filter(|name| RETIRED_NAMES.contains(name)) {
+                problems.push(format!("{at}: {name} is a retired name"));
+            }
+        }
+    }
+    assert!(blocks > 1000, "the scan of src finds {blocks} blocks of documentation");
+    assert_none(problems);
 }
 
 #[test]
 fn every_seeded_fault_applies() {
     if is_packed() {
-        return eprintln!("the wrong edits are in the repository alone");
+        return eprintln!("the seeded faults are only in the repository");
     }
-    // A patch that no longer fits its source would plant nothing. Its context has to be found there.
+    // A patch whose context is not found would change nothing.
     for name in patches() {
         let patch = format!("tests/seeded_faults/{name}.patch");
         let text = source(&patch);
         let files: Vec<_> = text.lines().filter_map(|line| line.strip_prefix("--- a/")).collect();
-        let [file] = files[..] else {
-            panic!("{patch} edits {} files: one is what belongs there", files.len())
-        };
+        let [file] = files[..] else { panic!("{patch} edits {} files, and must edit one", files.len()) };
         let file = file.split('\t').next().unwrap();
         let target = source(file);
         let hunks: Vec<_> =
@@ -535,7 +606,7 @@ fn every_seeded_fault_applies() {
             let before: Vec<_> = before.map(|line| line.get(1..).unwrap_or("")).collect();
             assert!(
                 target.contains(&before.join("\n")),
-                "{patch} no longer applies to {file}: make the same mistake there by hand, and write it by \
+                "{patch} no longer applies to {file}: make the same mistake by hand, and write the patch with \
                  `git diff {file} > {patch}`"
             );
         }
@@ -556,9 +627,9 @@ fn patches() -> BTreeSet<String> {
 #[test]
 fn every_seeded_fault_is_detected_by_an_existing_test() {
     if is_packed() {
-        return eprintln!("the wrong edits are in the repository alone");
+        return eprintln!("the seeded faults are only in the repository");
     }
-    let (patches, mut caught) = (patches(), BTreeSet::new());
+    let (patches, mut detected) = (patches(), BTreeSet::new());
     let text = of_all("src").into_iter().chain(of_all("tests")).chain(files("book/tool")).collect::<Vec<_>>();
     let text: Vec<_> =
         text.iter().filter(|path| path.ends_with(".rs")).map(|path| (path, source(path))).collect();
@@ -568,14 +639,14 @@ fn every_seeded_fault_is_detected_by_an_existing_test() {
         let again = format!("tests/seeded_faults/run tests/seeded_faults/{name}.patch");
         assert!(
             patches.contains(name),
-            "tests/seeded_faults/detected_by has {name}, which is no patch: take its lines out"
+            "tests/seeded_faults/detected_by has {name}, which is not a patch: remove its lines"
         );
         if target == "-" {
             continue;
         }
-        caught.insert(name.to_string());
-        // An example in the docs goes by its file, and what broke off by no name; for each of some number systems
-        // a test is a module.
+        detected.insert(name.to_string());
+        // An example in the docs is named by its file, and an aborted run has no name; a test that is generated
+        // for several number systems is a module.
         let (module, function) = test.rsplit_once("::").unwrap_or(("", test));
         let (function, module) = (format!("fn {function}("), module.rsplit("::").next().unwrap());
         let is_of_target = |path: &str| match target {
@@ -594,16 +665,16 @@ fn every_seeded_fault_is_detected_by_an_existing_test() {
             || written(&format!("fn {module}("));
         assert!(
             exists,
-            "tests/seeded_faults/detected_by has {name} caught by {test}, which is no test of {target}: {again}"
+            "tests/seeded_faults/detected_by: {name} is detected by {test}, which is not a test of {target}: {again}"
         );
     }
-    // So many are older than the list, and the run that writes it goes on with them: this number only falls.
+    // Patches that are older than the list; the run that writes it continues with them, so this number decreases.
     const NOT_RUN: usize = 91;
-    let missing: Vec<_> = patches.difference(&caught).collect();
+    let missing: Vec<_> = patches.difference(&detected).collect();
     assert!(
         missing.len() == NOT_RUN,
-        "{} patches, and not {NOT_RUN}, are not in tests/seeded_faults/detected_by: `tests/seeded_faults/run --first` writes them there; \
-         then mend the number in this test. They are {missing:?}",
+        "{} patches, not {NOT_RUN}, are missing in tests/seeded_faults/detected_by: `tests/seeded_faults/run --first` \
+         adds them; then correct the number in this test. They are {missing:?}",
         missing.len()
     );
 }
@@ -612,7 +683,7 @@ fn every_seeded_fault_is_detected_by_an_existing_test() {
 #[test]
 fn every_test_target_has_a_layer() {
     if is_packed() {
-        return eprintln!("the wrong edits are in the repository alone");
+        return eprintln!("the seeded faults are only in the repository");
     }
     let run = source("tests/seeded_faults/run");
     let map = run.split_once("\nlayers='").and_then(|(_, rest)| rest.split_once('\'')).unwrap().0;
@@ -627,7 +698,7 @@ fn every_test_target_has_a_layer() {
         if let Some(target) = target.filter(|target| !target.contains('/')) {
             assert!(
                 listed.contains(target),
-                "tests/seeded_faults/run: its list `layers` lacks the target {target}"
+                "tests/seeded_faults/run: the list `layers` lacks the target {target}"
             );
             seen += 1;
         }
@@ -643,11 +714,11 @@ fn pages() -> Vec<PathBuf> {
     pages
 }
 
-/// Returns files that a text names, in backticks or as links.
+/// Files are named in backticks or as links.
 #[test]
 fn every_file_that_a_page_names_exists() {
     if is_packed() {
-        return eprintln!("what pages name is in the repository, and not all of it here");
+        return eprintln!("the files that pages name are only in the repository");
     }
     let mut seen = 0;
     for page in pages().into_iter().chain(["README.md", "CONTRIBUTING.md"].map(|name| root().join(name))) {
@@ -658,10 +729,14 @@ fn every_file_that_a_page_names_exists() {
                 .any(|room| word.starts_with(room));
             let path = word.split(['#', ':', '*']).next().unwrap().trim_end_matches(['.', ';']);
             if named && !word.contains(['*', '{']) {
-                assert!(root().join(path).exists(), "{} names {path}, which does not exist", page.display());
+                assert!(
+                    root().join(path).exists(),
+                    "{} refers to {path}, which does not exist",
+                    page.display()
+                );
                 seen += 1;
             }
         }
     }
-    assert!(seen > 20, "{seen} names");
+    assert!(seen > 20, "{seen} references");
 }

@@ -10,8 +10,8 @@ use coqc::{
     words,
 };
 use gallina::{
-    Definition, Function, Functions, Read, Recursion, Said, TRIALS, Theorem, drawn, flips, functions, stated,
-    value,
+    Definition, Function, Functions, Read, Recursion, Said, TRIALS, Theorem, drawn, functions, sign_mutants,
+    stated, value,
 };
 use spring_mass_contact::claims::{self, registry};
 use spring_mass_contact::formula::claim::{MEMBERS, PRECISION, SCALES};
@@ -95,7 +95,7 @@ fn every_divisor_is_proved_to_be_nonzero() {
         // Members of rounded sequences need nothing.
         let invariants = statement.invariants().iter().filter(|_| !statement.contains_rounding());
         let own = statement.hypotheses().iter().chain(invariants);
-        assert!(all_supposed_as(own, &given), "{name} supposes something else");
+        assert!(are_same_premises(own, &given), "{name} has other premises");
         for divisor in divisors {
             let is_of_it = |said: &Said| matches!(said, Said::Different(a, zero) if *zero == Tree::int(0) && printed_as(&divisor, a));
             assert!(follows.iter().any(is_of_it), "{name} says nothing of {divisor}");
@@ -238,7 +238,7 @@ fn powers_of_two(statement: &Statement) -> Vec<(&'static str, &'static str)> {
 
 /// Returns `true` if the premises are those of the claim in the same order, preceded by those on powers of
 /// two if it contains roundings.
-fn supposes_the_same(statement: &Statement, given: &[Said]) -> bool {
+fn has_same_premises(statement: &Statement, given: &[Said]) -> bool {
     let powers = powers_of_two(statement);
     let (first, rest) = given.split_at(powers.len().min(given.len()));
     let is_power =
@@ -247,11 +247,11 @@ fn supposes_the_same(statement: &Statement, given: &[Said]) -> bool {
     let grows =
         |name: &str| matches!(statement.goals()[0].proposition, Proposition::Limit(_, by, _) if by == name);
     let own = statement.hypotheses().iter().filter(|own| !own.value.symbols().into_iter().any(grows));
-    first.len() == powers.len() && powers.iter().zip(first).all(is_power) && all_supposed_as(own, rest)
+    first.len() == powers.len() && powers.iter().zip(first).all(is_power) && are_same_premises(own, rest)
 }
 
 /// The minimum precision is a premise on the exponent.
-fn all_supposed_as<'a>(own: impl Iterator<Item = &'a Hypothesis>, printed: &[Said]) -> bool {
+fn are_same_premises<'a>(own: impl Iterator<Item = &'a Hypothesis>, printed: &[Said]) -> bool {
     let own: Vec<_> = own.filter(|own| **own != minimum_precision()).collect();
     own.len() == printed.len()
         && own.iter().zip(printed).all(|(own, said)| sign_printed_as(own.relation, &own.value, said))
@@ -292,7 +292,7 @@ fn all_said_as(own: &[Proposition], said: &[Said]) -> bool {
 }
 
 /// Returns `true` if the conclusion is that of the claim, with computed quantities where they are computed.
-fn says_the_same(statement: &Statement, Read { follows, of, .. }: &Read) -> bool {
+fn has_same_conclusion(statement: &Statement, Read { follows, of, .. }: &Read) -> bool {
     let computed = statement.computed();
     match (statement.conclusion(), of, &follows[..]) {
         (Some(own), Some(printed), _) => is_the_same_sequence(own, computed, printed, follows),
@@ -330,8 +330,8 @@ fn every_theorem_states_its_claim() {
         let theorem = theorems.iter().find(|theorem| theorem.name == name).unwrap();
         assert_eq!(theorem.rounds(), statement.contains_rounding(), "{name}");
         let read = theorem.read(&functions);
-        assert!(supposes_the_same(&statement, &read.given), "{name} supposes something else");
-        assert!(says_the_same(&statement, &read), "{name} says something else");
+        assert!(has_same_premises(&statement, &read.given), "{name} has other premises");
+        assert!(has_same_conclusion(&statement, &read), "{name} says something else");
         // Lemmas state the rates of limits.
         for Goal { part, proposition, .. } in
             statement.goals().iter().skip(1).filter(|_| statement.kind() == "limit")
@@ -339,7 +339,7 @@ fn every_theorem_states_its_claim() {
             let name = format!("{name}_{}", part.replace(' ', "_"));
             let lemma = theorems.iter().find(|lemma| lemma.name == name).expect(&name);
             let Read { given, follows, .. } = lemma.read(&functions);
-            assert!(all_supposed_as(statement.hypotheses().iter(), &given), "{name} supposes something else");
+            assert!(are_same_premises(statement.hypotheses().iter(), &given), "{name} has other premises");
             assert!(all_said_as(std::slice::from_ref(proposition), &follows), "{name} says something else");
         }
     }
@@ -416,33 +416,33 @@ fn every_sign_mutant_changes_one_sign_and_makes_a_theorem_false() {
     let (definitions, _) = printed();
     let sign = |token: &&String| ["+", "-"].contains(&token.as_str());
     let signs: usize = definitions.iter().map(|definition| definition.body.iter().filter(sign).count()).sum();
-    let flips = flips(coq());
-    let different: BTreeSet<_> = flips.iter().map(|flip| &flip.definition).collect();
-    assert_eq!((flips.len(), different.len()), (signs, signs), "one for every sign");
+    let sign_mutants = sign_mutants(coq());
+    let different: BTreeSet<_> = sign_mutants.iter().map(|mutant| &mutant.definition).collect();
+    assert_eq!((sign_mutants.len(), different.len()), (signs, signs), "one for every sign");
     let all = theorems().len();
     let mut unnoticed = Vec::new();
-    for flip in &flips {
-        let own = definitions.iter().find(|definition| definition.name == flip.function).unwrap();
-        let flipped = Definition::of(&flip.definition);
+    for mutant in &sign_mutants {
+        let own = definitions.iter().find(|definition| definition.name == mutant.function).unwrap();
+        let with_changed_signs = Definition::of(&mutant.definition);
         // Apart from brackets one sign is changed, or a leading one is removed.
         let bare = |definition: &Definition| {
             let kept = definition.body.iter().filter(|token| !["(", ")"].contains(&token.as_str()));
             kept.cloned().collect::<Vec<_>>()
         };
-        let (before, after) = (bare(own), bare(&flipped));
+        let (before, after) = (bare(own), bare(&with_changed_signs));
         let at = before.iter().zip(&after).position(|(a, b)| a != b).expect("nothing has changed");
-        let lost = before.len().checked_sub(after.len()).expect("a flip adds nothing");
+        let lost = before.len().checked_sub(after.len()).expect("a mutant is not longer");
         match (lost, before[at].as_str(), after[at].as_str()) {
             (0, "+", "-") | (0, "-", "+") | (1, "-", _) => {}
-            _ => panic!("{}", flip.definition),
+            _ => panic!("{}", mutant.definition),
         }
-        assert_eq!(before[at + 1..], after[at + 1 - lost..], "{}", flip.definition);
+        assert_eq!(before[at + 1..], after[at + 1 - lost..], "{}", mutant.definition);
 
-        let changed = functions(&with(&definitions, flipped));
-        let asked = Theorem::all(&flip.file.text);
-        assert!(asked.len() < all, "of {} Coq is asked all there is", flip.function);
+        let changed = functions(&with(&definitions, with_changed_signs));
+        let asked = Theorem::all(&mutant.file.text);
+        assert!(asked.len() < all, "the file of {} contains all theorems", mutant.function);
         if !asked.iter().any(|theorem| theorem.is_false_somewhere(&changed)) {
-            unnoticed.push(&flip.definition);
+            unnoticed.push(&mutant.definition);
         }
     }
     assert!(unnoticed.is_empty(), "no theorem is false of {unnoticed:#?}");
@@ -528,10 +528,14 @@ fn coq_rejects_every_changed_sign() {
         fs::write(directory.join(name), text).unwrap();
         compile(&directory, "Contact", name).unwrap_or_else(|error| panic!("{error}"));
     }
-    let flips = flips(coq());
-    let refused = two_at_a_time(&flips, |flip| refused(&directory, &flip.file));
-    let unnoticed: Vec<_> =
-        flips.iter().zip(&refused).filter(|(_, by)| by.is_none()).map(|(flip, _)| &flip.definition).collect();
+    let sign_mutants = sign_mutants(coq());
+    let refused = two_at_a_time(&sign_mutants, |mutant| refused(&directory, &mutant.file));
+    let unnoticed: Vec<_> = sign_mutants
+        .iter()
+        .zip(&refused)
+        .filter(|(_, by)| by.is_none())
+        .map(|(mutant, _)| &mutant.definition)
+        .collect();
     assert!(unnoticed.is_empty(), "{unnoticed:#?}");
 }
 

@@ -324,7 +324,7 @@ fn is_size(text: &str, change: &Mutant) -> bool {
 
 /// Returns the first finding of a report.
 fn first_finding(stdout: &str) -> Option<&str> {
-    let findings = [": look here first", " NOT PROVED", " FAILED in "];
+    let findings = [": most likely wrong", " NOT PROVED", " FAILED in "];
     stdout.lines().find(|line| findings.iter().any(|finding| line.contains(finding)))
 }
 
@@ -388,7 +388,7 @@ fn mistakes_in_formulas_are_reported_in_time() {
             amiss.push(said.clone() + &result.stderr);
         }
         let last = result.stdout.trim_end().rsplit("\n\n").next().unwrap_or_default();
-        if result.stdout.contains(": look here first") && !last.contains(": look here first") {
+        if result.stdout.contains(": most likely wrong") && !last.contains(": most likely wrong") {
             amiss.push(said.clone() + ": the suspected function is not named last");
         }
         for mut arguments in commands(&result.stdout) {
@@ -398,7 +398,7 @@ fn mistakes_in_formulas_are_reported_in_time() {
                 amiss.push(format!("{said}: not reproduced by {arguments:?}"));
             }
         }
-        let suspected = |line: &str| line.ends_with(&format!("{}: look here first", function(change)));
+        let suspected = |line: &str| line.ends_with(&format!("{}: most likely wrong", function(change)));
         // What an edit leaves nothing but the call of another function is laid to that one.
         let leaves_an_operand =
             matches!(change.mutation, Mutation::FirstOperand(_) | Mutation::SecondOperand(_));

@@ -47,7 +47,7 @@ fn with(claim: &Statement, part: &Tree, times: (i32, i32)) -> Statement {
         Some(sequence) => sequence.within.iter().map(|(_, bound)| bound.clone()).collect(),
         None => vec![bound(claim).clone()],
     };
-    assert!(bounds.iter().any(|bound| lowered(bound) != *bound), "{part} is no part of {bounds:?}");
+    assert!(bounds.iter().any(|bound| lowered(bound) != *bound), "{part} does not occur in {bounds:?}");
     claim.map(&|tree| if bounds.contains(tree) { lowered(tree) } else { tree.clone() })
 }
 

@@ -70,7 +70,12 @@ fn no_hypothesis_is_redundant() {
     };
     for s in statements() {
         for given in s.hypotheses().iter().filter(|given| **given != minimum_precision()) {
-            assert!(was_dropped(&s, given), "{} {}: nobody tried it without {given}", s.equation(), s.name());
+            assert!(
+                was_dropped(&s, given),
+                "{} {}: it was not tested without {given}",
+                s.equation(),
+                s.name()
+            );
         }
     }
 }

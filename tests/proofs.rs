@@ -41,7 +41,7 @@ fn every_formula_of_the_chapter_is_part_of_a_proof() {
         // A formula made by differentiating has the places of the number system that does it.
         assert!(
             sites.contains(&formula.tree.site()),
-            "no claim speaks of {}: call it in one, in the entry that names it in src/claims",
+            "no claim contains {}: call it in a claim of the entry that names it in src/claims",
             formula.path
         );
     }

@@ -657,7 +657,7 @@ fn hypotheses() -> impl Strategy<Value = Hypothesis> {
         (tree(), tree()).prop_map(|(a, b)| -a + b),
     ];
     let sign = (relations(), value)
-        .prop_filter_map("of a number nothing is supposed", |(relation, value)| {
+        .prop_filter_map("hypotheses are not about numbers", |(relation, value)| {
             value.first_symbol().map(|_| Hypothesis::new(relation, value))
         });
     let x = || Tree::symbol("v");
@@ -856,7 +856,7 @@ fn every_line_of_a_proof_holds_at_numbers() {
         if said.iter().any(|line| line.trim_start().starts_with("case ") || line.contains("a sum of ")) {
             return Ok(());
         }
-        // All that is supposed holds there.
+        // All hypotheses hold there.
         let known =
             [("a", 3), ("b", 10), ("u", 5), ("k", 1)].map(|(name, n)| (name.to_string(), Exact::from(n)));
         let known = BTreeMap::from(known);
@@ -943,7 +943,7 @@ impl Certificates<'_> {
             let (of, (name, _)) = (self.fact(of), form.split_once(" from")?);
             self.lines = rest;
             let mut sums: Vec<String> = Vec::new();
-            // As many as the degree says, of which nothing else is printed.
+            // The degree determines their number; nothing else is printed.
             let half = Exact::from(1) / Exact::from(2);
             let is_form = |all: &[String], own: &Self| {
                 let of_all: Vec<_> = all.iter().map(|text| own.value(text)).collect();
@@ -1003,7 +1003,7 @@ fn every_line_of_a_certificate_holds() {
             statement.equation(),
             statement.name()
         );
-        // Slopes speak of a symbol at 0.
+        // Slopes refer to a symbol at 0.
         if statement.contains_exponential() {
             continue;
         }

@@ -63,9 +63,9 @@ fn run_in<T: Scalar + ExactText>(options: &Options, like: &T) -> Result<Exit, Fa
     let advice = advise(&system, &tolerance).map_err(out_of_range)?;
     // For the typed numbers, which a higher precision rounds differently.
     let values = options.system.values();
-    let bits_needed =
+    let required_precision =
         required_precision(&values, Plane::Unilateral, &options.tolerance.value).map_err(out_of_range)?;
-    let report = Report { options, system, tolerance, advice, bits_needed };
+    let report = Report { options, system, tolerance, advice, required_precision };
     output::print(|out| match options.format {
         Format::Table => report.table(out),
         Format::Json => output::json(out, &report.json()),
@@ -79,7 +79,7 @@ struct Report<'a, T> {
     system: SpringMass<T>,
     tolerance: T,
     advice: Advice<T>,
-    bits_needed: Option<u32>,
+    required_precision: Option<u32>,
 }
 
 impl<T: Scalar + ExactText> Report<'_, T> {
@@ -103,7 +103,7 @@ impl<T: Scalar + ExactText> Report<'_, T> {
             tolerance: self.tolerance.text(),
             floor: self.advice.floor.as_ref().map(|floor| floor.decimal(17, Round::Up)),
             reachable: !choices.is_empty(),
-            bits_needed: self.bits_needed,
+            required_precision: self.required_precision,
             choices: choices.iter().map(choice).collect::<Vec<_>>(),
         }
     }
@@ -155,7 +155,7 @@ impl<T: Scalar + ExactText> Report<'_, T> {
             NumberSystem::F64 => f64::MANTISSA_DIGITS,
             NumberSystem::Mpfr(_) | NumberSystem::Exact => 0,
         };
-        let bits = match self.bits_needed {
+        let bits = match self.required_precision {
             Some(bits) if bits <= own => {
                 format!("a number is out of its range, but not of that of --scalar mpfr:{own}")
             }

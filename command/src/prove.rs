@@ -139,7 +139,7 @@ fn print_problems(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
         }
     }
     let repairs = proofs.repairs.iter().map(|change| format!("{change} would make every claim provable"));
-    let needless = proofs.mutation.redundant_hypotheses().map(
+    let redundant = proofs.mutation.redundant_hypotheses().map(
         |DroppedHypothesis { equation, name, hypothesis: given, outcome: without }| {
             let what = match without {
                 DropOutcome::StillProved => "is not needed: the claim is proved without it",
@@ -154,7 +154,7 @@ fn print_problems(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
         MutationOutcome::Undetected => Some(format!("UNNOTICED {}: {}", change.site, change.mutation)),
         MutationOutcome::Detected { .. } | MutationOutcome::Equivalent => None,
     });
-    repairs.chain(needless).chain(unnoticed).try_for_each(|line| {
+    repairs.chain(redundant).chain(unnoticed).try_for_each(|line| {
         writeln!(out)?;
         output::wrapped(out, "", 2, &line)
     })

@@ -98,7 +98,7 @@ fn table(out: &mut dyn Write, report: &Report, options: &verify::Options) -> io:
     }
     let unproved = unproved(report) > 0;
     if unproved {
-        where_to_look(out, report)?;
+        print_suspects(out, report)?;
         writeln!(out)?;
     }
     let of = |status| report.rows.iter().filter(move |row| row.status == status);
@@ -136,7 +136,7 @@ fn table(out: &mut dyn Write, report: &Report, options: &verify::Options) -> io:
     // Repeated below all failures, where a terminal shows it.
     if unproved {
         writeln!(out)?;
-        where_to_look(out, report)?;
+        print_suspects(out, report)?;
     }
     Ok(())
 }
@@ -206,7 +206,7 @@ fn unproved(report: &Report) -> usize {
 }
 
 /// Prints the functions that are likely wrong, and the mutants that would repair them.
-fn where_to_look(out: &mut dyn Write, report: &Report) -> io::Result<()> {
+fn print_suspects(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     for Suspect { function, equation, unproved, proved } in &report.suspects {
         let number = equation.and_then(entry).map_or(String::new(), |entry| entry.label() + " ");
         writeln!(out, "{number}{function}: most likely wrong")?;

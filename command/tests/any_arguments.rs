@@ -1,7 +1,8 @@
-//! The command with any arguments: its own options, as clap has them, in any order and number, with values that are
-//! right, wrong, huge, empty or no text.
+//! The command with arbitrary arguments: its options in any order and number, with values that are valid,
+//! invalid, huge, empty or not text.
 //!
-//! `ARGUMENTS=100000 cargo test --release --test any_arguments` tries so many lists of them, and `SEED=7` others.
+//! `ARGUMENTS=100000 cargo test --release --test any_arguments` tests this number of lists; `SEED=7` selects
+//! others.
 
 #![cfg(unix)]
 
@@ -17,16 +18,16 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 use std::time::Instant;
 
-/// So many by default.
+/// Default number of lists.
 const LISTS: u64 = 200;
 
-/// What clap says of an option.
+/// Definition of an option by clap.
 struct Opt {
     name: String,
     takes_value: bool,
-    /// The values that are possible, where they are few.
+    /// Possible values, if they are enumerated.
     values: Vec<String>,
-    /// Any text will do.
+    /// Whether any text is valid.
     path: bool,
 }
 
@@ -35,7 +36,7 @@ struct Subcommand {
     options: Vec<Opt>,
 }
 
-/// What the completions of a shell are made of is clap's own definition.
+/// Returns the definitions that clap uses for completions.
 fn subcommands() -> Vec<Subcommand> {
     let output = captured(command().args(["completions", "fish"]));
     let script = String::from_utf8(output.stdout).expect("UTF-8");
@@ -65,7 +66,7 @@ fn subcommands() -> Vec<Subcommand> {
     subcommands
 }
 
-/// What the definition is known to have, however it was read.
+/// The definitions contain known options.
 #[test]
 fn the_generated_options_agree_with_clap() {
     let all = subcommands();
@@ -140,7 +141,7 @@ fn one_in(random: &mut Rand64, n: u64) -> bool {
     random.rand_range(0..n) == 0
 }
 
-/// A value for an option, more often right than wrong.
+/// Returns a value for an option, usually a valid one.
 fn value(random: &mut Rand64, option: &Opt) -> OsString {
     if one_in(random, 40) {
         return OsStr::from_bytes(b"\xff\xfe").into();
@@ -164,7 +165,7 @@ fn value(random: &mut Rand64, option: &Opt) -> OsString {
     }
 }
 
-/// A list of arguments; what would be much work is asked of little.
+/// Returns a list of arguments; expensive options have small values.
 fn list(random: &mut Rand64, subcommands: &[Subcommand]) -> Vec<OsString> {
     let mut list: Vec<OsString> = Vec::new();
     let Subcommand { name, options } = match pick(random, subcommands) {
@@ -209,7 +210,7 @@ fn list(random: &mut Rand64, subcommands: &[Subcommand]) -> Vec<OsString> {
     list
 }
 
-/// What is wrong with what came of it.
+/// Returns the fault of an output.
 fn wrong(Output { status, stdout, stderr }: &Output) -> Option<&'static str> {
     let stderr = String::from_utf8_lossy(stderr);
     let line = stderr.strip_suffix('\n').unwrap_or("");
@@ -270,7 +271,7 @@ fn no_arguments_get_further_than_they_should() {
     done.iter().for_each(|(_, (took, list))| eprintln!("slowest: {took:.2} s, contact {list:?}"));
 }
 
-/// Of one wrong value among right ones: the option, the value, and more than that.
+/// The message for one invalid value among valid ones contains the option and the value.
 #[test]
 fn an_invalid_value_is_reported_with_its_option() {
     for Subcommand { name, options } in &subcommands() {

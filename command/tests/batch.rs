@@ -1,4 +1,4 @@
-//! `contact solve --batch`, run as another program runs it: what comes back, for which line, and when.
+//! `contact solve --batch` as a child process: answers, their order and their timing.
 
 mod processes;
 
@@ -25,7 +25,7 @@ fn spawn(arguments: &str) -> Child {
     contact(&format!("--batch {arguments}")).spawn().expect("the command runs")
 }
 
-/// Writes all of it from a thread of its own: nobody else reads meanwhile.
+/// Writes the input from a separate thread, so that output can be read meanwhile.
 fn feed(mut stdin: ChildStdin, input: Vec<u8>) {
     // A command that has ended does not read; what it was to say of that is asked elsewhere.
     thread::spawn(move || stdin.write_all(&input));
@@ -37,7 +37,7 @@ fn raw(arguments: &str, input: impl Into<Vec<u8>>) -> Output {
     finish(child)
 }
 
-/// The lines that come back, and the exit status; nothing is said besides.
+/// Returns the lines of the output and the exit status; asserts that stderr is empty.
 fn batch(arguments: &str, input: impl Into<Vec<u8>>) -> (Vec<Value>, Option<i32>) {
     let output = raw(arguments, input);
     assert_eq!(String::from_utf8_lossy(&output.stderr), "");
@@ -46,14 +46,14 @@ fn batch(arguments: &str, input: impl Into<Vec<u8>>) -> (Vec<Value>, Option<i32>
     (text.lines().map(|line| serde_json::from_str(line).expect(line)).collect(), output.status.code())
 }
 
-/// The answer to one line.
+/// Returns the answer to one line.
 fn one(arguments: &str, line: &str) -> Value {
     let (answers, _) = batch(arguments, line);
     assert_eq!(answers.len(), 1, "{line}");
     answers.into_iter().next().unwrap()
 }
 
-/// Options as on the command line, and the same as an object.
+/// Returns random options, as a command line and as an object.
 fn draw(random: &mut Rand64) -> (String, Value) {
     let mut drawn = Vec::new();
     let method = ["lagrange", "penalty", "augmented"][random.rand_range(0..3) as usize];
@@ -94,7 +94,7 @@ fn draw(random: &mut Rand64) -> (String, Value) {
     (line, object.into())
 }
 
-/// To the letter, but for the blanks; and as many that end otherwise.
+/// Lines are equal except for blanks, with the same numbers of each outcome.
 #[test]
 fn a_line_of_a_batch_equals_the_output_of_solve() {
     let random = &mut Rand64::new(1);
@@ -120,8 +120,8 @@ fn a_line_of_a_batch_equals_the_output_of_solve() {
     assert_eq!(output.status.code(), Some(1));
 }
 
-/// Over a plane at H = l + n/10⁶ a heavy mass comes to rest at u = n/10⁶, whoever computes it and however long
-/// the line before takes.
+/// With a plane at H = l + n/10⁶ a heavy mass has u = n/10⁶, in every number system and after lines of any
+/// duration.
 #[test]
 fn answers_come_in_the_order_of_the_lines() {
     const LINES: usize = 20_000;
@@ -141,7 +141,7 @@ fn answers_come_in_the_order_of_the_lines() {
     }
 }
 
-/// One line, its answer, the next: a program need not know how many there will be.
+/// A line is answered before the next is sent: a program need not know their number.
 #[test]
 fn a_line_is_answered_before_the_next_one_comes() {
     let mut child = spawn("");
@@ -207,7 +207,7 @@ fn ids_are_returned_unchanged() {
     }
 }
 
-/// 1/3 and 0.1 are no floats, and these digits are more than an f64 has.
+/// 1/3 and 0.1 are not floats, and these digits exceed those of f64.
 #[test]
 fn numbers_are_read_by_their_digits() {
     for (spelled, value) in [
@@ -236,11 +236,11 @@ fn numbers_are_read_by_their_digits() {
     }
 }
 
-/// The keys of a line whose values are any numbers.
+/// Keys of a line with numbers as values.
 const NUMBERS: [&str; 8] =
     ["stiffness", "mass", "gravity", "free_length", "height", "penalty", "tolerance", "initial_multiplier"];
 
-/// What is wrong, of which key, and what is allowed; and the lines after it are none the worse.
+/// An error names the key, the fault and the allowed values; later lines are unaffected.
 #[test]
 fn an_error_is_a_line() {
     const SPELLING: &str = "a number is a decimal (0.05), scientific (5e-2) or a fraction (1/20)";
@@ -353,7 +353,7 @@ fn an_error_is_a_line() {
     }
 }
 
-/// No object, or no text at all. Not one of these stops the next.
+/// Lines that are not objects, or not text, do not affect the next line.
 #[test]
 fn no_bad_line_gets_further_than_an_error() {
     let deep = "[".repeat(100_000);
@@ -398,11 +398,11 @@ fn no_bad_line_gets_further_than_an_error() {
     assert!(answers.len() == 2 && answers.iter().all(|answer| answer["error"].is_string()), "{answers:?}");
 }
 
-/// The other keys of a line, and some that it cannot have.
+/// The other keys of a line, and some invalid ones.
 const OTHERS: [&str; 8] =
     ["id", "method", "scalar", "max_augmentations", "bilateral", "", "Mass", "no such key"];
 
-/// What can stand where a value does; some of it is no JSON.
+/// Texts in place of a value; some are not JSON.
 const VALUES: [&str; 40] = [
     "1",
     "0",
@@ -446,7 +446,7 @@ const VALUES: [&str; 40] = [
     "--1",
 ];
 
-/// An object as it should be, or with more and other values than belong there; and then perhaps broken.
+/// Returns a valid object, or one with other keys and values, possibly truncated.
 fn any_line(random: &mut Rand64) -> Vec<u8> {
     let keys = [NUMBERS, OTHERS].concat();
     let pair = |random: &mut Rand64| format!("\"{}\":{}", pick(random, &keys), pick(random, &VALUES));
@@ -472,7 +472,8 @@ fn any_line(random: &mut Rand64) -> Vec<u8> {
     line
 }
 
-/// `LINES=1000000 cargo test --release --test batch any_lines` tries so many of them, and `SEED=7` others.
+/// `LINES=1000000 cargo test --release --test batch any_lines` tests this number of lines; `SEED=7` selects
+/// others.
 #[test]
 fn any_lines_have_an_answer_each() {
     let (seed, count) = (asked("SEED", 1), asked("LINES", 1000));
@@ -579,7 +580,7 @@ fn the_exit_status_is_that_of_the_worst_line() {
     }
 }
 
-/// The most that a line may have is 2²⁰ bytes. Many times that is read over, and nothing else is lost.
+/// A line has at most 2²⁰ bytes. Longer ones are skipped without losing others.
 #[test]
 fn a_line_that_is_too_long_is_an_error() {
     const MOST: usize = 1 << 20;
@@ -597,7 +598,7 @@ fn a_line_that_is_too_long_is_an_error() {
     assert_eq!((&answers[3]["id"], &answers[3]["outcome"]), (&json!(3), &json!("direct")));
 }
 
-/// As `| head -1` does, whether or not there is more to come.
+/// A reader like `| head -1` closes the pipe, with or without further output.
 #[test]
 fn a_closed_pipe_is_no_error() {
     for lines in [2, 20_000] {
@@ -637,7 +638,7 @@ fn read_and_write_errors_are_reported() {
     assert!(stderr.starts_with("error: cannot write to stdout"), "{stderr}");
 }
 
-/// Nobody reads for a while, so nothing more is read either; then all of it. Kept lines would show.
+/// If nobody reads for a while, no further input is read; stored lines would be visible in memory.
 #[cfg(target_os = "linux")]
 #[test]
 fn memory_does_not_grow_with_the_number_of_lines() {
@@ -685,7 +686,7 @@ fn root() -> &'static std::path::Path {
     std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
 }
 
-/// The lines of the page, as far as it shows them.
+/// The lines of the page, as far as it contains them.
 #[test]
 fn the_output_in_the_book_is_current() {
     let page = std::fs::read_to_string(root().join("book/src/command.md")).unwrap();
@@ -701,7 +702,7 @@ fn the_output_in_the_book_is_current() {
     }
 }
 
-/// Rationals whose digits do not end soon are an answer in time, and no trouble to the next line.
+/// Rationals with very many digits are an error in time and do not affect the next line.
 #[test]
 fn endless_digits_are_an_error_in_time() {
     let line = r#"{"method": "augmented", "scalar": "exact", "penalty": "1e-50000"}"#;
@@ -712,7 +713,7 @@ fn endless_digits_are_an_error_in_time() {
     assert_eq!((answers[0]["error"].as_str(), answers[1]["outcome"].as_str()), (Some(said), Some("direct")));
 }
 
-/// p = R/(c + ε), and for H = 1.05 it takes ε = 10⁷ for less than 10⁻⁶.
+/// p = R/(c + ε), and for H = 1.05 it requires ε = 10⁷ for p < 10⁻⁶.
 #[test]
 fn a_program_in_python_can_use_it() {
     let Ok(child) = Command::new("python3")

@@ -1,4 +1,4 @@
-//! Programs of somebody else's, in their own languages, held against the exact answer.
+//! External programs in other languages, checked against exact solutions.
 
 #![cfg(unix)]
 
@@ -20,12 +20,12 @@ fn report(program: &[&str]) -> (Option<i32>, Value) {
     (output.status.code(), report.unwrap_or_else(|error| panic!("{program:?}: {error}; {output:?}")))
 }
 
-/// A file of the project.
+/// Returns the path of a file in the project.
 fn source(path: &str) -> PathBuf {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join(path)
 }
 
-/// A program compiled into the tests' own folder.
+/// Compiles a program in the directory of the tests.
 fn compiled(compiler: &str, path: &str) -> String {
     let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join(Path::new(path).file_stem().unwrap());
     // Another run may do the same at this moment: each puts a whole one in its place.
@@ -36,7 +36,7 @@ fn compiled(compiler: &str, path: &str) -> String {
     program.to_str().unwrap().to_string()
 }
 
-/// The one mistake that is found, as name and formula.
+/// Returns the only diagnosed mistake, as name and formula.
 fn diagnosed(report: &Value) -> [&str; 2] {
     let found = report["diagnosis"].as_array().unwrap();
     assert_eq!(found.len(), 1, "{report:#}");
@@ -92,7 +92,7 @@ fn the_adapter_to_start_from_is_right() {
     assert_eq!((status, &report["summary"]["right"]), (Some(0), &report["cases"]), "{report:#}");
 }
 
-/// The command speaks the protocol itself: every method of its own in every number system is what it says.
+/// The command implements the protocol itself: each of its methods in every number system is correct.
 #[test]
 fn the_command_can_be_checked_by_itself() {
     let batch = |options: &str| {
@@ -121,12 +121,12 @@ fn the_command_can_be_checked_by_itself() {
     }
 }
 
-/// Exactly, as far as it is a decimal.
+/// Returns the exact value of a decimal.
 fn exact(number: &Value) -> Exact {
     number.as_str().map_or_else(|| number.to_string(), String::from).parse().unwrap()
 }
 
-/// Where a plane that pulls is wrong the mass hangs free: u = H − l, and what the plane pulls with is a residual.
+/// Where a bilateral plane is wrong the mass is separated: u = H − l, and the tensile force is a residual.
 #[test]
 fn the_report_contains_an_example_of_each_failing_family() {
     let (_, report) =
@@ -154,7 +154,7 @@ fn the_report_contains_an_example_of_each_failing_family() {
     );
 }
 
-/// What `cases` prints is what `solve` finds for it, and what `check` asks.
+/// The cases of `cases` have the solutions of `solve` and are those of `check`.
 #[test]
 fn cases_are_solved_by_their_answers() {
     let output = contact(&["cases", "--format", "json"]);
@@ -176,7 +176,7 @@ fn cases_are_solved_by_their_answers() {
     }
 }
 
-/// Where the system has no file descriptors left nothing is wrong with the program.
+/// A lack of file descriptors is not a fault of the program.
 #[test]
 fn errors_of_the_operating_system_are_not_attributed_to_the_program() {
     let limited = "ulimit -n 6; exec \"$@\"";
@@ -188,13 +188,13 @@ fn errors_of_the_operating_system_are_not_attributed_to_the_program() {
     assert!(line.contains("Too many open files") && !line.contains("#!"), "{line}");
 }
 
-/// FNV-1a of 64 bits, as `examples/solvers/run` has it.
+/// Returns the 64-bit FNV-1a hash, as in `examples/solvers/run`.
 fn fingerprint(bytes: &[u8]) -> String {
     let hash = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x100_0000_01b3);
     format!("{:016x}", bytes.iter().fold(0xcbf2_9ce4_8422_2325, hash))
 }
 
-/// The book's table of solvers is of the systems that are drawn now.
+/// The table of solvers in the book refers to the current systems.
 #[test]
 fn the_table_of_solvers_is_of_these_systems() {
     // From the definition of the hash.
@@ -214,7 +214,7 @@ fn the_table_of_solvers_is_of_these_systems() {
     );
 }
 
-/// What writes the table tells the systems by the same number.
+/// The script that writes the table identifies the systems by the same hash.
 #[test]
 fn the_run_of_solvers_writes_the_same_fingerprint() {
     if !has_python() {

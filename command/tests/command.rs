@@ -1,7 +1,7 @@
-//! The command `contact`, run as a user runs it.
+//! The command `contact` as a child process.
 //!
-//! What it prints is in `tests/cmd`, with a reason for each value; here is what snapshots cannot say:
-//! that bounds hold, that formats agree, that no bad input gets further than one line.
+//! Its output is recorded in `tests/cmd`, with a reason for each value; these tests check properties beyond
+//! snapshots: bounds hold, formats agree, and invalid input has one line.
 
 mod processes;
 
@@ -41,7 +41,7 @@ fn solve(arguments: &str) -> (Value, Option<i32>) {
     json(&words(&format!("solve {arguments}")))
 }
 
-/// In rationals, where every number that is not the same gives another result.
+/// In rationals every difference between numbers affects the result.
 #[test]
 fn an_augmentation_by_default_is_that_of_the_library() {
     let system = SpringMass { c: "4", m: "1", g: "10", l: "1", h: "3" }.parse().unwrap();
@@ -83,8 +83,8 @@ fn output_is_reproducible() {
         .run();
 }
 
-/// How solves end: where the number of augmentations is given, it is ⌊ln(p₀/tol)/ln(1 + ε/c)⌋ + 1 with
-/// p₀ = 4.81/(100 + ε), and rounding does not change it.
+/// Outcomes of solves: if the number of augmentations is given, it is ⌊ln(p₀/tol)/ln(1 + ε/c)⌋ + 1 with p₀ =
+/// 4.81/(100 + ε), and rounding does not change it.
 #[test]
 fn solves_end_as_they_should() {
     for (arguments, outcome, augmentations, steps_needed) in [
@@ -119,8 +119,8 @@ fn solves_end_as_they_should() {
     }
 }
 
-/// Below the floor that is guaranteed a tolerance may be met all the same, and rounding may take a step more:
-/// ln((4.81/101)/1e-14)/ln 1.01 = 2933.5…. So no more is said than that.
+/// Below the guaranteed floor a tolerance may still be met, and rounding may require another step:
+/// ln((4.81/101)/1e-14)/ln 1.01 = 2933.5…. Only the guaranteed part is printed.
 #[test]
 fn only_guaranteed_counts_are_printed() {
     let solve = |limit| {
@@ -153,7 +153,7 @@ fn only_guaranteed_counts_are_printed() {
     }
 }
 
-/// R of the default system in f32 is 630457/131072, far from what 10⁸ p̂ would say.
+/// R of the default system in f32 is 630457/131072, far from 10⁸ p̂.
 #[test]
 fn the_force_of_f32_is_enclosed() {
     let (answer, _) = solve("--method augmented --penalty 1e8 --tolerance 1e-6 --scalar f32");
@@ -162,7 +162,7 @@ fn the_force_of_f32_is_enclosed() {
     assert!(exact(&force[0]) <= reaction && reaction <= exact(&force[1]), "{force}");
 }
 
-/// The exact answer for the parameters as rounded, by (1.6) in rationals.
+/// Asserts that the bounds contain the exact solution for the rounded parameters, by (1.6) in rationals.
 fn enclosed<T: ToExact>(system: &SpringMass<Exact>, like: &T, bounds: &Value) {
     let rounded =
         |x: &Exact| -> Result<Exact, RangeError> { Ok(like.round_from_exact(x)?.to_exact().unwrap()) };
@@ -183,7 +183,7 @@ fn enclosed<T: ToExact>(system: &SpringMass<Exact>, like: &T, bounds: &Value) {
     }
 }
 
-/// As decimals, not as the floats they are printed from.
+/// The bounds hold as decimals, not only as the floats that they are printed from.
 #[test]
 fn bounds_hold_as_written() {
     let stiffnesses = ["100", "0.1", "1/3", "7e-30", "1.7e30"];
@@ -207,7 +207,7 @@ fn bounds_hold_as_written() {
     }
 }
 
-/// Names and values, in any order.
+/// Returns names and values, sorted.
 fn flat(json: &Value) -> Vec<(String, String)> {
     let text = |value: &Value| match value {
         Value::Null => String::new(),
@@ -230,7 +230,7 @@ fn flat(json: &Value) -> Vec<(String, String)> {
     fields
 }
 
-/// A parameter is printed as it was typed, and as it was rounded where one can see that.
+/// A parameter is printed as it was entered, and as it was rounded if this is visible.
 #[test]
 fn rounding_notes_appear_only_for_visible_rounding() {
     let seen = |typed: &str, scalar: &str| -> Option<String> {
@@ -286,7 +286,7 @@ fn csv_and_json_have_the_same_values() {
     }
 }
 
-/// The command adds to what a user of the library serialises, and says the same.
+/// The command adds keys to the serialisation of the library; common keys have equal values.
 #[test]
 fn the_library_and_the_command_serialise_alike() {
     let exact = SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" }.parse().unwrap();
@@ -333,7 +333,7 @@ fn the_trace_ends_with_the_answer() {
     assert!(trace.iter().zip(0..).all(|(row, k)| row["k"] == k));
 }
 
-/// What a table of 10⁵ steps would need if it were kept is more than what there is.
+/// Storing a table of 10⁵ steps would exceed the memory limit.
 #[cfg(target_os = "linux")]
 #[test]
 fn memory_does_not_grow_with_the_length_of_a_trace() {
@@ -412,7 +412,7 @@ fn a_terminal_of_80_columns_is_enough() {
     }
 }
 
-/// One line on stderr, nothing on stdout, exit 2.
+/// Returns the line on stderr; asserts that stdout is empty and the status is 2.
 fn refusal(arguments: &[&str]) -> String {
     let output = contact(arguments);
     let stderr = String::from_utf8(output.stderr.clone()).expect("UTF-8");
@@ -574,8 +574,7 @@ fn results_that_do_not_fit_are_refused() {
     }
 }
 
-/// A terminal of 100 columns, as far as there is `script` to make one: a plot, and a bar while a program takes its
-/// time.
+/// In a terminal of 100 columns, if `script` is installed: a plot, and a progress bar for slow programs.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_terminal_gets_a_plot_and_a_bar() {
@@ -608,7 +607,7 @@ fn a_terminal_gets_a_plot_and_a_bar() {
     assert!(bars.ends_with("\u{1b}[2K") && report.contains("7: 7 right"), "{check:?}");
 }
 
-/// What the rows of a sweep are called, in the order of CSV.
+/// Columns of a sweep, in the order of CSV.
 const COLUMNS: [&str; 9] = [
     "scalar",
     "penalty",
@@ -621,8 +620,8 @@ const COLUMNS: [&str; 9] = [
     "error",
 ];
 
-/// Pasted, a penalty of a sweep solves what the row says; and both formats say the same; the errors JSON
-/// says exactly, as the library does, and CSV to six digits.
+/// The penalty of a row, passed to `solve`, has the results of the row; both formats agree; errors are exact
+/// in JSON, as in the library, and have six digits in CSV.
 #[test]
 fn a_row_of_a_sweep_is_a_solve() {
     for system in
@@ -674,7 +673,7 @@ fn a_row_of_a_sweep_is_a_solve() {
     }
 }
 
-/// As the library returns them: each is what the row's own force is off by.
+/// Each error is that of the force of its row, as in the library.
 #[test]
 fn errors_of_a_sweep_are_exact() {
     let (rows, _) = json(&["sweep", "--penalty", "1e-3..1e30", "--points", "67"]);
@@ -691,7 +690,7 @@ fn errors_of_a_sweep_are_exact() {
     }
 }
 
-/// The other rows are printed all the same: 10³⁰⁸ · 4 m is no f64.
+/// The other rows are still printed: 10³⁰⁸ · 4 m overflows f64.
 #[test]
 fn an_overflowing_row_reports_the_overflow() {
     let line = ["sweep", "--penalty", "1..1e308", "--points", "3", "--height", "5", "--gravity", "1000"];
@@ -715,7 +714,7 @@ fn an_overflowing_row_reports_the_overflow() {
     assert_eq!((array(&rows).iter().all(|row| row["error"].is_null()), code), (true, Some(0)));
 }
 
-/// Of R = 4.81 in rationals, c/(c + ε) of it.
+/// The error in rationals, relative to R = 4.81, is c/(c + ε).
 #[test]
 fn a_sweep_in_rationals_reports_the_exact_error_of_the_method() {
     let (rows, _) = json(&["sweep", "--penalty", "1e-3..1e30", "--points", "67", "--scalar", "exact"]);
@@ -728,7 +727,7 @@ fn a_sweep_in_rationals_reports_the_exact_error_of_the_method() {
     }
 }
 
-/// Only where a person looks, and nowhere else.
+/// A plot is printed to terminals only.
 #[test]
 fn a_pipe_gets_no_plot() {
     for format in ["table", "json", "csv"] {
@@ -747,12 +746,12 @@ fn array(value: &Value) -> &[Value] {
     value.as_array().expect("an array")
 }
 
-/// What the chapter has, (1.1) to (1.33), each once.
+/// Returns the equation numbers of the chapter, (1.1) to (1.33), each once.
 fn numbers() -> Vec<String> {
     (1..=33).map(|n| format!("1.{n}")).collect()
 }
 
-/// Other cases and other precisions than the usual ones must not matter.
+/// The chapter holds for other cases and precisions than the default.
 #[test]
 fn the_whole_chapter_holds() {
     let line = "verify --scalar f32 --scalar f64 --scalar exact --scalar mpfr:777 --cases 50 --seed 99";
@@ -834,7 +833,7 @@ fn a_seed_determines_the_cases() {
     assert!(first.iter().zip(&other).all(|(first, other)| first != other), "another seed says the same");
 }
 
-/// 1 and 2³² + 1, in both commands that draw.
+/// Seeds 1 and 2³² + 1 differ, in both commands with random cases.
 #[test]
 fn a_seed_has_64_bits() {
     let out = |arguments: &[&str], seed| contact(&[arguments, &["--seed", seed]].concat()).stdout;
@@ -857,7 +856,7 @@ fn one_equation_is_enough() {
     assert_eq!(report, twice);
 }
 
-/// With two bits hardly a sign can be told: that is no success, and no counterexample either.
+/// With two bits hardly a sign is decided: this is neither a success nor a counterexample.
 #[test]
 fn an_undecided_claim_is_not_a_failure() {
     let (report, code) = json(&["verify", "--scalar", "mpfr:2", "--cases", "20"]);

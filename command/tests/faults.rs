@@ -48,14 +48,14 @@ fn words(line: &str) -> Command {
     command
 }
 
-/// Status 2, and one line on stderr that begins so.
+/// Asserts status 2, and one line on stderr with this beginning.
 fn refused(output: &Output, begins: &str, what: &str) {
     let stderr = String::from_utf8_lossy(&output.stderr);
     assert_eq!((output.status.code(), stderr.lines().count()), (Some(2), 1), "{what}: {stderr}");
     assert!(stderr.starts_with(&format!("error: {begins}")), "{what}: {stderr}");
 }
 
-/// The list above has them all.
+/// The list above contains all subcommands.
 #[test]
 fn no_subcommand_is_left_out() {
     let help = captured(&mut words("help"));
@@ -79,7 +79,7 @@ fn a_full_disk_is_reported() {
     }
 }
 
-/// If nobody can be told why, the status still tells that something is wrong.
+/// If writing to stderr fails, the status still reports the error.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_status_does_not_need_stderr() {
@@ -91,7 +91,7 @@ fn a_status_does_not_need_stderr() {
     assert_eq!(run(words("solve").stdout(full()).stderr(full())).status.code(), Some(2));
 }
 
-/// As `contact … | head -1` does: whoever closes a pipe has seen enough. Nothing is left but that line.
+/// A reader that closes the pipe after a line, as in `contact … | head -1`, causes no error.
 #[test]
 fn a_pipe_that_closes_after_a_line_is_no_error() {
     let long = ["table", "csv", "json"].map(|format| {
@@ -114,8 +114,9 @@ fn a_pipe_that_closes_after_a_line_is_no_error() {
     }
 }
 
-/// What is closed when a program starts is opened as what has nothing in it: Rust puts /dev/null in its place before
-/// `main` begins, which cannot be told from the one that other programs open for it (subprocess.DEVNULL of Python).
+/// Streams that are closed when a program starts are opened as empty ones: Rust replaces them by /dev/null
+/// before `main` begins, which is indistinguishable from the /dev/null of other programs (Python's
+/// subprocess.DEVNULL).
 #[test]
 fn closed_streams_are_empty() {
     for (redirections, line, status) in [
@@ -135,7 +136,7 @@ fn folder(name: &str) -> Scratch {
     Scratch::new(&format!("faults {name}"))
 }
 
-/// The names of what is in a folder.
+/// Returns the names of the entries of a directory.
 fn names(folder: &Path) -> Vec<String> {
     let entries = fs::read_dir(folder).expect("a folder");
     let mut names: Vec<_> = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
@@ -147,7 +148,7 @@ fn prove(directory: &Path) -> Output {
     captured(command().args(["prove", "--coq"]).arg(directory))
 }
 
-/// It begins so, if the folder's name is not too long to be shown.
+/// Beginning of the message, if the name of the directory is short enough to be printed.
 const REFUSED: &str = "invalid value '";
 
 #[test]
@@ -165,7 +166,7 @@ fn a_path_that_is_not_a_directory_is_rejected() {
     assert_eq!((names(&own), fs::read(&file).expect("a file")), (vec!["file".to_string()], b"kept".to_vec()));
 }
 
-/// A folder stands where a file is to be put, the last of them: no part of any is left.
+/// A directory has the name of the last file: no part of any file remains.
 #[test]
 fn a_folder_in_the_place_of_a_file_is_refused() {
     let own = folder("in the place of a file");
@@ -178,7 +179,7 @@ fn a_folder_in_the_place_of_a_file_is_refused() {
     assert_eq!(names(&own), files);
 }
 
-/// A disk with room for some of it. What was there before is there still.
+/// On a disk that becomes full, previous files are unchanged.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_disk_that_fills_leaves_no_part_of_a_file() {
@@ -200,7 +201,7 @@ fn a_disk_that_fills_leaves_no_part_of_a_file() {
     assert_eq!(String::from_utf8_lossy(&output.stdout), "Contact_01.v\nkept\n");
 }
 
-/// The same where files must not become so large, which nobody needs any rights for.
+/// A limit of the file size has the same effect and needs no privileges.
 #[test]
 fn a_limit_of_size_leaves_no_part_of_a_file() {
     let own = folder("limit");

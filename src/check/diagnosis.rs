@@ -305,14 +305,14 @@ fn factors(answers: &[&Observation]) -> Option<[Exact; 2]> {
 
 /// Returns the diagnosis of a reported force that is the one of the previous step.
 fn lag(answers: &[Observation]) -> Option<Diagnosis> {
-    let told = Vec::from_iter(answers.iter().filter_map(|given| given.lags));
-    let fits = told.iter().filter(|lags| **lags).count();
-    (fits > 0 && fits == told.len()).then(|| Diagnosis {
+    let lags = Vec::from_iter(answers.iter().filter_map(|given| given.lags));
+    let fits = lags.iter().filter(|lagging| **lagging).count();
+    (fits > 0 && fits == lags.len()).then(|| Diagnosis {
         name: "N is one step behind".to_string(),
         formula: registry().render_template("N_k = «augmented::contact_force: u=u_{k−1}»", Notation::Text),
         at: Vec::new(),
         answers: DiagnosisScope::Steps,
         explained: fits,
-        of: told.len(),
+        of: lags.len(),
     })
 }

@@ -108,11 +108,11 @@ impl<'a> Observation<'a> {
         let ball = |x: Option<&Exact>| x.and_then(|x| Ball::enclosing(&0f64, x).ok());
         let (eps, k) = (ball(penalty), ball(factor));
         let in_balls = Constants { penalty: eps.as_ref(), factor: k.as_ref() };
-        let told = self.reported_penalty().is_some();
+        let has_penalty = self.reported_penalty().is_some();
         let within = |x: &Exact, formula: &Tree, size: &Exact| {
             let ball = self.balls.as_ref().and_then(|system| value(formula, system, &in_balls));
             ball.is_some_and(|ball| {
-                if told { is_within(&ball, x, size) } else { ball.is_finite() && ball.contains(x) }
+                if has_penalty { is_within(&ball, x, size) } else { ball.is_finite() && ball.contains(x) }
             })
         };
         let fits = |formulas: &Formulas| {

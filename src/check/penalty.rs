@@ -67,13 +67,13 @@ impl Penalty {
     /// answers, and these are at least three and at least half of those with a contact force.
     pub(super) fn measured(answers: &[Observation], by: PenaltyEvidence, tolerance: &Exact) -> Self {
         let acting = answers.iter().filter_map(|given| given.force(by, tolerance)).count();
-        let told = Vec::from_iter(answers.iter().filter_map(|given| given.ratio(by, tolerance)));
-        let clearest = told.iter().max_by(|a, b| a.clarity.cmp(&b.clarity));
-        let (Some(clearest), true) = (clearest, told.len() >= 3 && 2 * told.len() >= acting) else {
+        let ratios = Vec::from_iter(answers.iter().filter_map(|given| given.ratio(by, tolerance)));
+        let clearest = ratios.iter().max_by(|a, b| a.clarity.cmp(&b.clarity));
+        let (Some(clearest), true) = (clearest, ratios.len() >= 3 && 2 * ratios.len() >= acting) else {
             return Penalty::NONE;
         };
         let shown = PenaltyScaling::ALL.into_iter().filter_map(|kind| {
-            let multiples = || told.iter().map(|ratio| &ratio.value / kind.unit(ratio.system));
+            let multiples = || ratios.iter().map(|ratio| &ratio.value / kind.unit(ratio.system));
             let spread = multiples().max()? / multiples().min()? - Exact::one();
             let value = &clearest.value / kind.unit(clearest.system);
             (&spread * Exact::from(10) <= Exact::one()).then_some(Penalty {

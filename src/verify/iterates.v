@@ -1,8 +1,8 @@
 (** * Theorem 1.3.3, of the iterates themselves.
 
-    The claims speak of the powers of the contraction factor, since numbers can check them there. Here they
-    are joined with (1.16): [eq_1_16_closed_form_iterates] is the recursion as the chapter states it, from
-    any first multiplier, and everything below speaks of what comes out of it. *)
+    The claims contain powers of the contraction factor, which numbers can check. Here they are combined with
+    (1.16): [eq_1_16_closed_form_iterates] is the recursion of the chapter, from any initial multiplier, and
+    everything below is about its iterates. *)
 
 Section Iterates.
 

@@ -75,8 +75,8 @@ fn users(statements: &[Statement], unproved: &dyn Fn(&Statement) -> bool) -> Vec
         own_sites(formula.path, &formula.tree, own.entry(formula.path).or_default());
     }
     let user = |(function, own): (&&'static str, &BTreeSet<Site>)| {
-        let speaking = sites.iter().filter(|(_, sites)| !sites.is_disjoint(own));
-        let (unproved, proved): (Vec<_>, Vec<_>) = speaking.partition(|(unproved, _)| *unproved);
+        let containing = sites.iter().filter(|(_, sites)| !sites.is_disjoint(own));
+        let (unproved, proved): (Vec<_>, Vec<_>) = containing.partition(|(unproved, _)| *unproved);
         Suspect { function, equation: equation(function), unproved: unproved.len(), proved: proved.len() }
     };
     own.iter().map(user).filter(|user| user.unproved > 0).collect()

@@ -4,12 +4,12 @@
 //! the part of Coq's language, Gallina, that the chapter needs. With the precision `prec` ties are rounded to
 //! even, which is one possible choice.
 
-mod flips;
 mod recursion;
+mod sign_mutants;
 
 use super::coqc::code;
-pub use flips::flips;
 pub use recursion::Recursion;
+pub use sign_mutants::sign_mutants;
 use spring_mass_contact::number::tree::{Op, piecewise_ops};
 use spring_mass_contact::number::{Dual, Exact, Exponential, Field, PositivePart, Tree};
 use std::collections::{BTreeMap, BTreeSet};
@@ -270,7 +270,7 @@ impl<'t> Reader<'t> {
         let left = self.formula();
         let relation = self.take();
         if self.next() == "bpow" {
-            let Op::Symbol(power) = left.op() else { panic!("{left} is no name") };
+            let Op::Symbol(power) = left.op() else { panic!("{left} is not a name") };
             self.expect_all("bpow radix2");
             return Said::PowerOfTwo(power, interned(self.take()));
         }
@@ -280,7 +280,7 @@ impl<'t> Reader<'t> {
             "<>" => Said::Different(left, right),
             "<" => Said::Less(left, right),
             "<=" => Said::AtMost(left, right),
-            _ => panic!("{relation:?} is no relation"),
+            _ => panic!("{relation:?} is not a relation"),
         }
     }
 }

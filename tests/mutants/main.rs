@@ -40,7 +40,7 @@ fn excuses() -> HashMap<Mutant, String> {
         };
         let (file, change) = head.split_once(": ").unwrap_or_else(|| panic!("{head} names no file"));
         let [file, change, line] = [file, change, line].map(String::from);
-        assert!(reason.split(' ').count() > 3, "{head}: {reason} is no reason");
+        assert!(reason.split(' ').count() > 3, "{head}: {reason} is too short for a reason");
         let before = excuses.insert(Mutant { file, change, line }, reason.to_string());
         assert!(before.is_none(), "{head} is excused twice");
     }
@@ -51,7 +51,7 @@ fn excuses() -> HashMap<Mutant, String> {
 fn excused_lines_exist_in_the_source() {
     for Mutant { file, change, line } in excuses().keys() {
         let there = read(file).lines().any(|own| own.trim() == line);
-        assert!(there, "{file} has no such line any more; take its excuse away:\n  {line}\n  {change}");
+        assert!(there, "{file} no longer has this line; remove its excuse:\n  {line}\n  {change}");
         let taken = change
             .strip_prefix("replace ")
             .and_then(|rest| rest.split_once(" with "))
@@ -86,5 +86,5 @@ fn every_mutant_is_detected_or_excused() {
     let unnoticed: Vec<_> = missed.iter().filter(|mutant| !excuses.contains_key(mutant)).collect();
     assert!(unnoticed.is_empty(), "no test notices, and nothing excuses: {unnoticed:#?}");
     let idle: Vec<_> = excuses.keys().filter(|mutant| !all.contains(mutant)).collect();
-    assert!(idle.is_empty(), "there are no such mutants any more; take their excuses away: {idle:#?}");
+    assert!(idle.is_empty(), "these mutants no longer exist; remove their excuses: {idle:#?}");
 }

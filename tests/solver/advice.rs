@@ -168,7 +168,7 @@ fn within<T: Float>(choice: &Recommendation<T>, part: &Exact, like: &T) -> Vec<T
         penalties.push(eps.clone());
         eps = eps * &factor;
     }
-    // What does not fit is no penalty.
+    // A number out of range is not a penalty.
     penalties.iter().filter_map(|eps| like.round_from_exact(eps).ok()).collect()
 }
 
@@ -241,7 +241,7 @@ fn hardest_is_not_too_hard<T: Float + ExactText>(case: &Case<Exact>, like: &T) -
     let (numbers, tol, eta) = (case.system.map(exact), exact(&case.tolerance), unit_roundoff(like));
     let precision = int(1) / &eta;
     let allowed = &numbers.c * &tol;
-    // A float of so many bits is this much smaller at most.
+    // Rounding down to a float reduces it by at most this.
     let rounded_down = int(1) - int(2) * &eta;
     let advice = advise(&case.system, &case.tolerance).unwrap();
     let r = system::reaction(&numbers);
@@ -252,7 +252,7 @@ fn hardest_is_not_too_hard<T: Float + ExactText>(case: &Case<Exact>, like: &T) -
             prop_assert!(nothing || matches!(choice.method, Method::Lagrange), "{choice:?} {case:?}");
             continue;
         };
-        // The method's own, if every one that will do grows by more.
+        // The penalty of the method, if every sufficient one grows by more.
         let own = Some(&to) == choice.method.penalty();
         let eps = exact(&to);
         let solution = solve(&case.system, &with_penalty_of(&choice.method, &to)).unwrap();
@@ -406,7 +406,7 @@ fn tiny<T: Float>(case: &Case<Exact>, [force, length, mass]: [i32; 3], like: &T)
     (fits && solve(&case.rounded(like).system, &Method::Lagrange).is_ok()).then_some(case)
 }
 
-/// Where products underflow, too. All that is in the range of a choice is tried.
+/// Cases with underflowing products included; the whole range of a recommendation is tested.
 fn small_numbers_keep_their_word<T: Float + ExactText>(
     case: &Case<Exact>,
     scales: [i32; 3],
@@ -461,7 +461,7 @@ proptest! {
 
     /// With the bits that are said to be needed there is a choice of every method; with one less not for certain.
     #[test]
-    fn bits_needed_do(case in any_state(WIDE), digits in 3u32..=400) {
+    fn required_bits_suffice(case in any_state(WIDE), digits in 3u32..=400) {
         let tolerance = int(1) / power(&int(10), digits);
         let bits = required_precision(&case.system, Plane::Unilateral, &tolerance).unwrap().unwrap();
         let like = int(1).to_mpfr(bits);

@@ -171,7 +171,7 @@ proptest! {
             let needed = needed.to_usize().expect("small, by the choice of ε and the tolerance");
             let counted = iterate(&case, plane).take(needed + 2).position(|step| done(&step));
             prop_assert_eq!(counted, Some(needed), "{:?}", plane);
-            // And so many the solver takes, if it may: one fewer is one too few.
+            // The solver takes this number of augmentations if it is allowed; one fewer does not suffice.
             let run = |limit: usize| match plane {
                 Plane::Unilateral => solve(s, &case.augmented(limit as u64)),
                 Plane::Bilateral => solve_bilateral(s, &case.augmented(limit as u64)),

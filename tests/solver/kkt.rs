@@ -30,7 +30,7 @@ fn displacement() -> impl Strategy<Value = (Exact, Exact)> {
     prop_oneof![
         (nonzero(WIDE), number(WIDE)),
         (number(WIDE), nonzero(WIDE)),
-        // In equilibrium all the same, so that the other three conditions have to notice: N = −c u is
+        // Still in equilibrium, so the other three conditions must detect it: N = −c u is
         // taken relative to c = 1 and scaled by the test.
         nonzero(WIDE).prop_map(|du| (du.clone(), -du)),
     ]

@@ -20,7 +20,8 @@ fn both<T: Float>() -> [(Solve<T>, Plane); 2] {
     [(solve, Plane::Unilateral), (solve_bilateral, Plane::Bilateral)]
 }
 
-/// How wide the bounds of the deflection, the penetration and the contact force may be, in multiples of 2 η.
+/// Returns the maximal widths of the bounds of the deflection, the penetration and the contact force, in units of
+/// 2 η.
 ///
 /// To first order in η, for the exact answer u = Δ + p or u = m g/c, with |m g| ≤ |R| + c |Δ|. Each operation adds
 /// η times its result to what the errors of its operands amount to. So

@@ -117,7 +117,7 @@ fn scientific_notation_of_special_values() {
     for text in ["0", "1", "-1", "9.96", "9.94", "99.5", "2.5", "3.5", "1e300", "1e-300", "999999"] {
         let x: Exact = text.parse().unwrap();
         let f: f64 = text.parse().unwrap();
-        // Of a decimal that is no float, the float is something else.
+        // A decimal that is not a float differs from its float.
         if Exact::try_from(f).as_ref() == Ok(&x) {
             for decimals in 0..4 {
                 assert_eq!(format!("{x:.decimals$e}"), format!("{f:.decimals$e}"));
@@ -181,7 +181,7 @@ fn texts_that_are_not_numbers_are_rejected() {
         let error = serde_json::from_value::<Method<f64>>(value).unwrap_err().to_string();
         assert!(error.starts_with(said) && !error.contains('\n'), "{error}");
     }
-    // A number of JSON may have been rounded by whoever wrote it.
+    // A number in JSON may have been rounded by its writer.
     assert!(serde_json::from_value::<Method<f64>>(json!({ "method": "penalty", "penalty": 4 })).is_err());
     let half: Value = json!({ "stiffness": "1", "mass": "1" });
     let error = serde_json::from_value::<SpringMass<f64>>(half).unwrap_err().to_string();

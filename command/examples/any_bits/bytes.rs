@@ -1,12 +1,11 @@
-//! Numbers and texts made of bytes, so that every number is met that there is, and often one that is apt to be
-//! handled wrongly.
+//! Numbers and texts derived from bytes: every number occurs, and special values occur often.
 
 use spring_mass_contact::chapter::{SpringMass, structure};
 use spring_mass_contact::number::{Exact, ExactText, Mpfr, ToExact};
 use spring_mass_contact::rug::{Float, float::Special};
 use spring_mass_contact::solver::{Method, Plane, Scalar};
 
-/// Bytes to be taken from the front; where there are none left, zeros.
+/// Bytes to be consumed from the front; zeros follow their end.
 pub struct Bytes<'a>(pub &'a [u8]);
 
 impl Bytes<'_> {
@@ -18,12 +17,12 @@ impl Bytes<'_> {
         (0..8).fold(0, |bits, _| bits << 8 | u64::from(self.byte()))
     }
 
-    /// A number below `n`, which is at most 256.
+    /// Returns a number below `n`, which is at most 256.
     pub fn below(&mut self, n: usize) -> usize {
         usize::from(self.byte()) % n
     }
 
-    /// Does a byte say so, as one of so many does?
+    /// Returns `true` for one of `n` bytes.
     pub fn one_in(&mut self, n: usize) -> bool {
         self.below(n) == n - 1
     }
@@ -32,21 +31,21 @@ impl Bytes<'_> {
         &from[self.below(from.len())]
     }
 
-    /// What is left.
+    /// Returns the remaining bytes.
     pub fn rest(&mut self) -> &[u8] {
         std::mem::take(&mut self.0)
     }
 }
 
-/// A scalar that bytes make.
+/// Scalar that can be derived from bytes.
 pub trait Number: Scalar + ExactText + PartialEq {
-    /// Anything, finite or not.
+    /// Returns an arbitrary number, possibly not finite.
     fn any(bytes: &mut Bytes) -> Self;
 
-    /// Are these rationals?
+    /// Whether the numbers are rationals.
     const EXACT: bool = false;
 
-    /// Neither infinite nor not-a-number.
+    /// Returns `true` unless the value is infinite or not a number.
     fn is_number(&self) -> bool {
         Scalar::is_finite(self)
     }
@@ -91,7 +90,7 @@ macro_rules! machine {
 }
 machine! { f32 u32; f64 u64; }
 
-/// Of 2 to 64 bits, and some constants, which have no precision.
+/// Numbers of 2 to 64 bits, and constants, which have no precision.
 impl Number for Mpfr {
     fn any(bytes: &mut Bytes) -> Self {
         let precision = 2 + bytes.below(63) as u32;
@@ -130,13 +129,13 @@ impl Number for Exact {
     }
 }
 
-/// Mostly one that may be taken for a stiffness.
+/// Returns a number that is usually a valid stiffness.
 pub fn positive<T: Number>(bytes: &mut Bytes) -> T {
     let x = T::any(bytes);
     if bytes.one_in(32) || !x.is_number() { x } else { x.abs() }
 }
 
-/// Often one whose parameters are valid; now and then near grazing, or with the plane at the free end.
+/// Returns a system, often with valid parameters; sometimes near grazing, or with the plane at the free end.
 pub fn system<T: Number>(bytes: &mut Bytes) -> SpringMass<T> {
     let (c, m) = (positive(bytes), positive(bytes));
     let [g, l, h] = [(); 3].map(|()| T::any(bytes));

@@ -1,5 +1,5 @@
-//! What must hold whatever the bytes are: each function makes its arguments of them, and panics where something does
-//! not hold.
+//! Properties of the library for arbitrary bytes: each function derives its arguments from them and panics if
+//! a property is violated.
 
 use crate::bytes::{Bytes, Number, method, plane, positive, system};
 use num_traits::Zero;
@@ -19,7 +19,7 @@ use spring_mass_contact::solver::{
 use std::cmp::Ordering;
 use std::sync::atomic::{AtomicBool, Ordering as AtomicOrdering};
 
-/// Whether the arguments are to be seen.
+/// Whether the arguments are printed.
 pub static SHOWN: AtomicBool = AtomicBool::new(false);
 
 fn show(arguments: impl FnOnce() -> String) {
@@ -36,7 +36,7 @@ fn zero() -> Exact {
     Exact::zero()
 }
 
-/// A text: of bytes as they are, or of the characters that numbers are made of.
+/// Returns a text of arbitrary bytes, or of the characters of numbers.
 fn text(bytes: &mut Bytes) -> String {
     const CHARACTERS: &[u8] = b"00123456789012345678901234567890123456789..//eE--+  _x\x00naif";
     if bytes.one_in(8) {
@@ -51,7 +51,7 @@ fn text(bytes: &mut Bytes) -> String {
     text
 }
 
-/// Every spelling is read exactly or refused; Rust's own reading of f32 and f64 is the judge.
+/// Every notation is parsed exactly or rejected; the results for f32 and f64 are compared with Rust's.
 pub fn parse(bytes: &[u8]) {
     let mut bytes = Bytes(bytes);
     let text = text(&mut bytes);
@@ -112,7 +112,7 @@ pub fn parse(bytes: &[u8]) {
     }
 }
 
-/// Rounded as Rust rounds it, but for what Rust makes infinite or zero.
+/// Asserts that rounding agrees with Rust's, except for results that Rust makes infinite or zero.
 fn nearest<T: ExactText + PartialEq + std::fmt::Debug>(
     x: &Exact,
     by_rust: T,
@@ -129,7 +129,7 @@ fn nearest<T: ExactText + PartialEq + std::fmt::Debug>(
     }
 }
 
-/// What is written is read as the same number, or as one on the side that was asked for.
+/// Asserts that a formatted number parses to the same number, or to one in the direction of rounding.
 fn written(x: &Exact, precision: u32) {
     assert_eq!(x.to_string().parse().as_ref(), Ok(x));
     let digits = 1 + precision as usize % 20;
@@ -148,20 +148,20 @@ fn written(x: &Exact, precision: u32) {
     x.to_f32().iter().for_each(encloses);
 }
 
-/// The texts of an interval hold as they are written.
+/// Asserts that the texts of an interval contain it.
 fn encloses<T: Number>(point: &T) {
     let texts = Interval { lower: point.clone(), upper: point.clone() }.texts();
     let [lower, upper] = texts.map(|text| text.parse::<Exact>().expect("a number"));
     assert!(lower <= exact(point) && exact(point) <= upper, "{lower} to {upper}");
 }
 
-/// Both ends are finite, and not the wrong way round.
+/// Asserts that both ends are finite and in order.
 fn in_order<T: Number>(interval: &Interval<T>) {
     let Interval { lower, upper } = interval;
     assert!(lower.is_number() && upper.is_number() && lower <= upper, "{lower:?} to {upper:?}");
 }
 
-/// Which arguments may be what they are, in the order in which they are looked at.
+/// Names of arguments and whether they are valid, in the order of the checks.
 struct Arguments(Vec<(&'static str, bool)>);
 
 impl Arguments {
@@ -188,12 +188,12 @@ impl Arguments {
         self.with(name, x.is_number())
     }
 
-    /// The first that may not.
+    /// Returns the first invalid argument.
     fn wrong(&self) -> Option<&'static str> {
         self.0.iter().find(|(_, valid)| !valid).map(|(name, _)| *name)
     }
 
-    /// Of wrong arguments one is named; of others none.
+    /// Asserts that an error names an invalid argument, and that there is no error otherwise.
     fn judge<R>(&self, result: Result<R, SolveError>) -> Option<R> {
         match result {
             Ok(result) => {
@@ -213,7 +213,7 @@ impl Arguments {
     }
 }
 
-/// The exact answer: deflection, penetration, contact force.
+/// Returns the exact deflection, penetration and contact force.
 fn answer(system: &SpringMass<Exact>, method: &Method<Exact>, plane: Plane) -> [Exact; 3] {
     match (method, plane) {
         (Method::Penalty { .. }, Plane::Unilateral) if system::reaction(system) < zero() => {
@@ -253,7 +253,7 @@ fn exactly<T: Number>(method: &Method<T>) -> Method<Exact> {
     }
 }
 
-/// By every method, over both planes.
+/// Tests every method with both planes.
 pub fn solve_any<T: Number>(bytes: &[u8]) {
     let mut bytes = Bytes(bytes);
     let (sample, plane) = (bytes.byte(), plane(&mut bytes));
@@ -325,7 +325,7 @@ fn state_of(system: &SpringMass<Exact>) -> State {
     }
 }
 
-/// One of the functions beside `solve`, in one of the number systems.
+/// Tests a function other than `solve`, in one of the number systems.
 pub fn functions(bytes: &[u8]) {
     let bytes = &mut Bytes(bytes);
     macro_rules! any {
@@ -346,13 +346,13 @@ pub fn functions(bytes: &[u8]) {
     }
 }
 
-/// Does the method come to within the tolerance?
+/// Returns `true` if the method meets the tolerance.
 fn reaches(solution: &Solution<impl Number>, system: &SpringMass<Exact>, tolerance: &Exact) -> bool {
     let off = (exact(&solution.deflection) - contact::deflection(system)).abs();
     solution.outcome != Outcome::Stagnated && solution.outcome != Outcome::IterationLimit && off < *tolerance
 }
 
-/// Whatever is advised reaches the tolerance.
+/// Asserts that each recommended method meets the tolerance.
 fn advised<T: Number>(bytes: &mut Bytes) {
     let (system, tolerance) = (system::<T>(bytes), positive::<T>(bytes));
     let arguments = Arguments::of(&system).positive("tolerance", &tolerance);
@@ -411,7 +411,7 @@ fn swept<T: Number>(bytes: &mut Bytes) {
     }
 }
 
-/// The step of a given number lies between its bounds.
+/// Asserts that the k-th iterate is within its bounds.
 fn iterated<T: Number>(bytes: &mut Bytes) {
     let (system, eps) = (system::<T>(bytes), positive::<T>(bytes));
     let start = if bytes.one_in(3) { T::zero() } else { T::any(bytes) };
@@ -440,7 +440,7 @@ fn iterated<T: Number>(bytes: &mut Bytes) {
     within(contact_force, &last.contact_force, "contact force");
 }
 
-/// Of any precision, also where there is none such.
+/// Returns a unit roundoff of any precision, or an invalid one.
 fn unit_roundoff(bytes: &mut Bytes) -> Exact {
     match bytes.below(8) {
         0 => zero(),
@@ -449,7 +449,7 @@ fn unit_roundoff(bytes: &mut Bytes) -> Exact {
     }
 }
 
-/// The count is the first step that is within the tolerance.
+/// Asserts that the count is the first step that meets the tolerance.
 fn counted<T: Number>(bytes: &mut Bytes) {
     let (system, eps, tolerance) = (system::<T>(bytes), positive::<T>(bytes), positive::<T>(bytes));
     let (start, plane) = (T::any(bytes), plane(bytes));
@@ -494,7 +494,7 @@ fn floored<T: Number>(bytes: &mut Bytes) {
     }
 }
 
-/// The root has the sign of the reaction.
+/// Asserts that the root has the sign of the reaction.
 fn in_series<T: Number + Real>(bytes: &mut Bytes) {
     let system = system::<T>(bytes);
     let eps = if bytes.one_in(3) { T::zero() } else { positive(bytes) };
@@ -535,7 +535,7 @@ fn best<T: Number>(bytes: &mut Bytes) {
     assert!(bound.is_none_or(|bound| bound > zero()));
 }
 
-/// From the one end to the other, each greater than the one before.
+/// Asserts that penalties increase from one end to the other.
 fn spaced(bytes: &mut Bytes) {
     let [from, to] = [(); 2].map(|()| Exact::any(bytes));
     let points = bytes.below(70);

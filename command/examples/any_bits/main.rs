@@ -1,13 +1,12 @@
-//! Whatever the bits are: numbers of every size and kind as arguments, and texts of every kind as numbers. Nothing
-//! panics, nothing takes long, what is refused is refused by its name, and what is returned holds.
+//! Property tests with arbitrary bits: numbers of every kind as arguments, and arbitrary texts as numbers.
+//! Nothing panics or takes long, errors name their argument, and results satisfy their guarantees.
 //!
 //! ```sh
 //! cargo run --release --example any_bits -- --executions 10000000 --target solve_f32
 //! ```
-//!
-//! takes ten million arguments for one of the targets; without `--target` so many for each. They come of `--seed N`
-//! and their number, so that the first that fails can be had alone, with its arguments: `--from NUMBER --executions 1`. The
-//! folder `fuzz` puts the same to what a fuzzer that sees the code's branches comes up with.
+//! tests one target with ten million arguments; without `--target`, each with as many. The arguments are
+//! determined by `--seed N` and their index, so a failure can be reproduced with `--from INDEX --executions
+//! 1`, which prints them. The directory `fuzz` runs the same targets with a coverage-guided fuzzer.
 
 mod bytes;
 mod holds;
@@ -38,13 +37,13 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// No execution may take longer: what is drawn is short. Without optimisation all take some times as long.
+/// Time limit of an execution, whose arguments are short; it is larger without optimisation.
 const LONGEST: Duration = Duration::from_secs(if cfg!(debug_assertions) { 10 } else { 1 });
 
-/// One that takes so long is not waited for.
+/// Time after which an execution is abandoned.
 const HANG: Duration = Duration::from_secs(60);
 
-/// A name, how many bytes it takes at most, and what must hold of them.
+/// Name, maximal number of bytes, and property.
 type Target = (&'static str, usize, fn(&[u8]));
 
 const TARGETS: [Target; 7] = [
@@ -57,7 +56,7 @@ const TARGETS: [Target; 7] = [
     ("reply", 128, of_reply::read),
 ];
 
-/// What a number stands for.
+/// Fills the bytes of an index.
 fn drawn(seed: u64, number: u64, bytes: &mut [u8]) {
     let mut random = Rand64::new(u128::from(seed) << 64 | u128::from(number));
     for chunk in bytes.chunks_mut(8) {
@@ -66,11 +65,11 @@ fn drawn(seed: u64, number: u64, bytes: &mut [u8]) {
 }
 
 thread_local! {
-    /// What the last panic of a thread said.
+    /// Message of the last panic of a thread.
     static SAID: RefCell<String> = const { RefCell::new(String::new()) };
 }
 
-/// What is wrong with an execution.
+/// Returns the failure of an execution.
 fn wrong((_, most, holds): &Target, seed: u64, number: u64) -> Option<String> {
     let mut bytes = [0; 256];
     let bytes = &mut bytes[..*most];
@@ -78,12 +77,12 @@ fn wrong((_, most, holds): &Target, seed: u64, number: u64) -> Option<String> {
     catch_unwind(AssertUnwindSafe(|| holds(bytes))).err().map(|_| SAID.take())
 }
 
-/// What came of some executions.
+/// Results of executions.
 #[derive(Default)]
 struct Tally {
     violations: u64,
     slowest: (Duration, u64),
-    /// The first that fails.
+    /// The first failure.
     example: Option<(u64, String)>,
 }
 
@@ -96,7 +95,7 @@ impl Tally {
     }
 }
 
-/// The executions that are under way, by thread.
+/// Running executions by thread.
 struct UnderWay(Vec<[AtomicU64; 2]>, Instant);
 
 impl UnderWay {
@@ -110,7 +109,7 @@ impl UnderWay {
         since.store(self.1.elapsed().as_millis() as u64, Ordering::Relaxed);
     }
 
-    /// One that does not come to its end.
+    /// Returns an execution that exceeds the time limit.
     fn hanging(&self) -> Option<u64> {
         let now = self.1.elapsed();
         let hangs = |since: &AtomicU64| now > Duration::from_millis(since.load(Ordering::Relaxed)) + HANG;
@@ -163,7 +162,7 @@ fn run(target: &Target, seed: u64, from: u64, executions: u64) -> Tally {
     })
 }
 
-/// The most memory that was ever held, where the system says so.
+/// Returns the peak memory if the system reports it.
 fn peak() -> String {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));

@@ -1,5 +1,5 @@
-//! What must hold of a program's answers, whatever they are: the reader of the command `contact check` is here as a
-//! file of its own.
+//! Properties of `contact check` for arbitrary answers of a program, with the parser of replies included as a
+//! file.
 
 use crate::bytes::Bytes;
 use crate::contact::check::reply;
@@ -24,7 +24,7 @@ const KEYS: [&str; 14] = [
     "penalty",
 ];
 
-/// What stands where a value does; some of it no JSON.
+/// Texts in place of a value; some are not JSON.
 const VALUES: [&str; 36] = [
     "1",
     "0",
@@ -64,7 +64,7 @@ const VALUES: [&str; 36] = [
     "--1",
 ];
 
-/// A line: bytes as they are, or an object with most of what belongs there.
+/// Returns a line: arbitrary bytes, or an object with most of the required keys.
 fn line(bytes: &mut Bytes) -> Vec<u8> {
     if bytes.one_in(8) {
         return bytes.rest().to_vec();
@@ -114,7 +114,7 @@ fn number(bytes: &mut Bytes) -> String {
     }
 }
 
-/// Read or refused; and what is read is judged, whatever it says that it has used.
+/// Replies are parsed or rejected; parsed ones are assessed whatever method they report.
 pub fn read(bytes: &[u8]) {
     static PROBLEMS: LazyLock<Vec<Problem>> = LazyLock::new(|| problems(1, 1, &Family::ALL));
     let mut bytes = Bytes(bytes);

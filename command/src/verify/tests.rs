@@ -128,7 +128,7 @@ fn a_single_failure_can_be_the_claims_own() {
         let (mut report, _) = report(vec![row(Some(NumberSystem::Exact), Status::Failed)]);
         let (function, equation) = ("penalty::deflection", Some("1.13"));
         report.suspects = vec![Suspect { function, equation, unproved, proved: 5 - unproved }];
-        let text = capture(|out| where_to_look(out, &report));
+        let text = capture(|out| print_suspects(out, &report));
         assert_eq!(text, format!("(1.13) penalty::deflection: most likely wrong\n  {said}\n"));
     }
 }
@@ -144,7 +144,7 @@ fn without_a_repair_the_shared_functions_of_failures_are_listed() {
     ] {
         let (mut report, _) = report(vec![row(None, Status::Failed); failures]);
         report.shared = shared.to_vec();
-        let text = capture(|out| where_to_look(out, &report));
+        let text = capture(|out| print_suspects(out, &report));
         let in_one_line = text.split_whitespace().collect::<Vec<_>>().join(" ");
         assert_eq!(in_one_line, none.trim_start().to_string() + expected);
         assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");

@@ -1,4 +1,5 @@
-//! Wrong: an augmented Lagrangian method that reports the multiplier of the step before as the contact force.
+//! Faulty program: an augmented Lagrangian method that reports the multiplier of the previous step as the
+//! contact force.
 
 use std::io::{BufRead, Write};
 

@@ -1,4 +1,4 @@
-//! The command as a process, which ends in time or is ended.
+//! The command as a child process with a time limit.
 
 #![allow(dead_code)] // every test file is a crate of its own and uses its share of this one
 
@@ -12,11 +12,11 @@ use std::thread;
 use std::time::Duration;
 use wait_timeout::ChildExt;
 
-/// An empty folder that no other test has, nor another run in the same target directory; it is removed in the end.
+/// Empty directory, unique among tests and runs in the same target directory; it is removed when dropped.
 pub struct Scratch(PathBuf);
 
 impl Scratch {
-    /// With this name in its own.
+    /// Creates a directory whose name contains `name`.
     pub fn new(name: &str) -> Self {
         let folder = format!("{name}-{}", std::process::id());
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(folder);
@@ -39,25 +39,26 @@ impl Drop for Scratch {
     }
 }
 
-/// Ten times what the longest command takes on a busy machine. What takes longer is ended, and its test fails.
+/// Time limit: ten times the duration of the longest command on a busy machine. A command that exceeds it is
+/// ended, and its test fails.
 pub const DEADLINE: Duration = Duration::from_secs(60);
 
-/// It, with nothing said to it.
+/// Returns the command without input.
 pub fn command() -> Command {
     Command::new(env!("CARGO_BIN_EXE_contact"))
 }
 
-/// What a command writes into pipes, if it has any, when it has ended.
+/// Runs a command and returns its output, if it is piped.
 pub fn run(command: &mut Command) -> Output {
     finish(command.stdin(Stdio::null()).spawn().expect("the command runs"))
 }
 
-/// Runs with both outputs captured.
+/// Runs a command and captures both outputs.
 pub fn captured(command: &mut Command) -> Output {
     run(command.stdout(Stdio::piped()).stderr(Stdio::piped()))
 }
 
-/// Waits for a command to end, but not for ever.
+/// Waits for a command to end, with a time limit.
 pub fn finish(mut child: Child) -> Output {
     let (stdout, stderr) = (collect(child.stdout.take()), collect(child.stderr.take()));
     let Some(status) = child.wait_timeout(DEADLINE).expect("a child") else {
@@ -68,7 +69,7 @@ pub fn finish(mut child: Child) -> Output {
     Output { status, stdout, stderr }
 }
 
-/// Reads while the command runs: it would wait for ever if a pipe were full.
+/// Reads while the command runs, since a full pipe would block it.
 fn collect(pipe: Option<impl Read + Send + 'static>) -> thread::JoinHandle<Vec<u8>> {
     thread::spawn(move || {
         let mut bytes = Vec::new();
@@ -77,7 +78,7 @@ fn collect(pipe: Option<impl Read + Send + 'static>) -> thread::JoinHandle<Vec<u
     })
 }
 
-/// A whole number that the environment asks for.
+/// Returns an integer from the environment.
 pub fn asked(name: &str, default: u64) -> u64 {
     let value = std::env::var(name).ok();
     value.map_or(default, |text| {
@@ -85,7 +86,7 @@ pub fn asked(name: &str, default: u64) -> u64 {
     })
 }
 
-/// What the n-th of some trials draws from.
+/// Returns the random generator of the n-th trial.
 pub fn random(seed: u64, n: u64) -> Rand64 {
     Rand64::new(u128::from(seed) << 64 | u128::from(n))
 }

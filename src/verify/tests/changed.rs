@@ -60,8 +60,8 @@ fn every_mutation_makes_a_claim_fail_unless_it_is_equivalent() {
     };
     let mutants = test_mutations(&statements(), registry()).mutants;
     assert!(mutants.len() > 600);
-    let amiss: Vec<_> = mutants.par_iter().filter_map(seen).collect();
-    assert!(amiss.is_empty(), "{amiss:#?}");
+    let undetected: Vec<_> = mutants.par_iter().filter_map(seen).collect();
+    assert!(undetected.is_empty(), "{undetected:#?}");
 }
 
 fn in_one_line(text: &str) -> String {
@@ -87,12 +87,12 @@ fn the_book_contains_the_report_of_a_mistake() {
     let of_entry = |row: &&Row| row.equation == entry.equation && row.status == Status::Failed;
     let row = report.rows.iter().find(of_entry).unwrap();
     let sample = format!(
-        "{} {}: look here first of {} claims that speak of it, {} are not proved \
-         with {repair} every claim would be proved {} {} NOT PROVED {} {} {} {} FAILED",
+        "{} {}: most likely wrong {} of {} claims about it are not proved \
+         {repair} would make every claim provable {} {} NOT PROVED {} {} {} {} FAILED",
         entry.label(),
         suspect.function,
-        suspect.unproved + suspect.proved,
         suspect.unproved,
+        suspect.unproved + suspect.proved,
         row.equation,
         row.claim,
         row.why.as_ref().unwrap(),

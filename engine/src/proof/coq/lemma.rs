@@ -98,8 +98,8 @@ impl<'a> Lemma<'a> {
     where
         'a: 't,
     {
-        let supposed = hypotheses.iter().map(|h| &h.value);
-        let mut variables = printer.registry.symbols_of(supposed.chain(trees));
+        let values = hypotheses.iter().map(|h| &h.value);
+        let mut variables = printer.registry.symbols_of(values.chain(trees));
         if rounds && !variables.contains(&PRECISION) {
             variables.push(PRECISION);
         }

@@ -18,7 +18,7 @@ impl ProofPrinter<'_> {
             return ProofPrinter { registry: &registry, ..*self }.describe(statement, why);
         }
         let said = self.order().justify(why, &|tree| self.text(tree));
-        let (rounded, mut supposed) = (roundings(statement.trees()), None);
+        let (rounded, mut introduced) = (roundings(statement.trees()), None);
         let mut definitions = Vec::new();
         for symbol in why.symbols().into_iter().filter(|symbol| said.contains(symbol.name())) {
             match symbol {
@@ -27,8 +27,8 @@ impl ProofPrinter<'_> {
                     definitions.extend(rounded.get(usize::from(i)).map(|of| self.error(symbol.name(), of)));
                 }
                 Symbol::Slack(_) | Symbol::Place(_) => {
-                    let supposed = supposed.get_or_insert_with(|| self.introduced_names(statement));
-                    let known = supposed.get(&symbol).and_then(Option::clone);
+                    let introduced = introduced.get_or_insert_with(|| self.introduced_names(statement));
+                    let known = introduced.get(&symbol).and_then(Option::clone);
                     let of_case = || format!("{} ≥ 0 in one case of the proof", symbol.name());
                     definitions.push(known.unwrap_or_else(of_case));
                 }
@@ -105,11 +105,11 @@ impl ProofPrinter<'_> {
     }
 
     /// Returns the symbol that an assumption introduces, and its definition if it is a hypothesis.
-    fn definition(&self, supposed: &Assumption) -> Option<(Symbol, Option<String>)> {
-        match &supposed.usage {
+    fn definition(&self, assumption: &Assumption) -> Option<(Symbol, Option<String>)> {
+        match &assumption.usage {
             AssumptionUse::Pivot(_, _, Some(slack)) => {
-                let definition = supposed.hypothesis.as_ref().map(|given| {
-                    let quotient = supposed.divisor.as_ref().and_then(|by| supposed.value.over(by));
+                let definition = assumption.hypothesis.as_ref().map(|given| {
+                    let quotient = assumption.divisor.as_ref().and_then(|by| assumption.value.over(by));
                     let value = quotient.map(|value| self.order().ratio_or_size(&value));
                     let value = value.unwrap_or_else(|| self.text(&given.value));
                     format!("{} = {value} {} 0", slack.name(), given.relation)
@@ -117,7 +117,7 @@ impl ProofPrinter<'_> {
                 Some((*slack, definition))
             }
             AssumptionUse::Interval(x, _, place) => {
-                let definition = supposed.hypothesis.as_ref().and_then(|given| given.interval()).map(
+                let definition = assumption.hypothesis.as_ref().and_then(|given| given.interval()).map(
                     |(_, lower, upper)| {
                         let (lower, upper) = (self.text(lower), self.text(upper));
                         format!(

@@ -5,7 +5,7 @@ use super::stated;
 use spring_mass_contact::proof::coq::{Development, File};
 
 /// A definition with one changed sign.
-pub struct Flip {
+pub struct SignMutant {
     /// Name of the changed function in Coq.
     pub function: String,
     /// The changed definition.
@@ -15,9 +15,9 @@ pub struct Flip {
 }
 
 /// Returns a text with one sign changed, for each sign: + for − or vice versa, or a leading − removed.
-fn flipped(text: &str) -> Vec<String> {
+fn with_changed_signs(text: &str) -> Vec<String> {
     let signs = text.match_indices(['+', '-']);
-    let flip = |(at, sign): (usize, &str)| {
+    let mutant = |(at, sign): (usize, &str)| {
         let (before, after) = (&text[..at], &text[at + 1..]);
         let joins = before.trim_end().ends_with(|c: char| c.is_ascii_alphanumeric() || "_)".contains(c));
         match (joins, sign) {
@@ -26,7 +26,7 @@ fn flipped(text: &str) -> Vec<String> {
             (true, _) => format!("{before}+{after}"),
         }
     };
-    signs.map(flip).collect()
+    signs.map(mutant).collect()
 }
 
 /// Splits a file of theorems into its head and its claims, each with the lemmas before its theorem.
@@ -47,7 +47,7 @@ fn speaks_of(text: &str, function: &str) -> bool {
 }
 
 /// Returns every definition with one changed sign.
-pub fn flips(development: &Development) -> Vec<Flip> {
+pub fn sign_mutants(development: &Development) -> Vec<SignMutant> {
     let files = development.files();
     let definitions = &files.iter().find(|file| file.name == DEFINITIONS).unwrap().text;
     let of_files: Vec<_> = of_claims(&files).map(claims).collect();
@@ -65,12 +65,12 @@ pub fn flips(development: &Development) -> Vec<Flip> {
         let rounds = about_it.iter().find(|(head, _)| head.contains("Flocq"));
         let needed = rounds.map_or(String::new(), |(head, _)| head.replace(" B_Definitions", "") + "\n");
         let theorems: Vec<_> = about_it.iter().map(|(_, claim)| *claim).collect();
-        for (body, i) in flipped(body).into_iter().zip(1..) {
+        for (body, i) in with_changed_signs(body).into_iter().zip(1..) {
             let definition = format!("{head}:={body}.");
             let before = &definitions[..start];
             let text = format!("{needed}{before}{definition}\n{rest}\n{}", theorems.join("\n"));
             let file = File { name: format!("F_{function}_{i}.v"), text };
-            all.push(Flip { function: function.to_string(), definition, file });
+            all.push(SignMutant { function: function.to_string(), definition, file });
         }
     }
     all
@@ -78,10 +78,13 @@ pub fn flips(development: &Development) -> Vec<Flip> {
 
 #[test]
 fn a_mutant_changes_one_sign() {
-    assert_eq!(flipped("- (a + b) * c - a"), ["(a + b) * c - a", "- (a - b) * c - a", "- (a + b) * c + a"]);
+    assert_eq!(
+        with_changed_signs("- (a + b) * c - a"),
+        ["(a + b) * c - a", "- (a - b) * c - a", "- (a + b) * c + a"]
+    );
     // At every position of the sign.
     assert_eq!(
-        flipped("exp (Rmin a (- b)) - - 2"),
+        with_changed_signs("exp (Rmin a (- b)) - - 2"),
         ["exp (Rmin a (b)) - - 2", "exp (Rmin a (- b)) + - 2", "exp (Rmin a (- b)) - 2"]
     );
 }
