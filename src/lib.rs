@@ -6,7 +6,7 @@
 //! Geometrical Approach* (Wiley 2015), as a crate in which **every equation is written once, as a
 //! function generic over its number system, and everything else reads that function**.
 //!
-//! | module | what is in it | who reads it |
+//! | module | contents | readers |
 //! |---|---|---|
 //! | [`number`] | the number systems and the few traits a formula asks for | everything below |
 //! | [`chapter`] | the equations, a module a section, a function a formula | everything below |

@@ -30,7 +30,7 @@ pub use typeset::{Name, Notation, latex};
 /// use provable::number::Field;
 /// use provable::record;
 ///
-/// /// Where a lens of the focal length f shows what is g away.
+/// /// Returns the distance of the image of an object at the distance g from a lens of focal length f.
 /// fn image<T: Field>(f: &T, g: &T) -> T {
 ///     f * g / (g - f)
 /// }

@@ -1,4 +1,4 @@
-//! Fig. 1.1: a mass on a spring over a rigid plane, and what is derived from its five parameters.
+//! Fig. 1.1: a mass on a spring over a rigid plane, and quantities derived from its five parameters.
 
 use crate::number::Field;
 use std::fmt;

@@ -9,7 +9,7 @@ use crate::number::tree::Op;
 /// A statement about recorded formulas: hypotheses, and goals that follow from them.
 ///
 /// The functions of [`claim`](super::claim) construct it. Its goals are derived from its contents and cannot
-/// be set, so a proof of it proves what is printed.
+/// be set, so a proof of it proves the printed claim.
 ///
 /// # Examples
 ///

@@ -105,8 +105,8 @@ pub fn advise<T: Scalar + ExactText>(system: &SpringMass<T>, tolerance: &T) -> R
     Ok(Advice { state, floor, recommendations: choices })
 }
 
-/// A number of so few digits, on the side that the rounding says; the number itself where that has an
-/// exponent of more digits than are read.
+/// Returns the number rounded to `digits` digits in the given direction; the number itself if its exponent
+/// has more digits than the parser accepts.
 fn short(x: &Exact, digits: usize, round: Round) -> Exact {
     x.decimal(digits, round).parse().unwrap_or_else(|_| x.clone())
 }

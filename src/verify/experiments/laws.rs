@@ -82,7 +82,7 @@ struct Law {
     hypotheses: Vec<(Relation, usize)>,
     computed: Vec<(&'static str, usize)>,
     asks: Test,
-    /// Whether the step at which λ repeats has to be found.
+    /// Whether λ must repeat within the steps.
     repeats: bool,
 }
 
