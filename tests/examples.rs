@@ -34,3 +34,38 @@ fn examples_print_their_documented_output() {
     }
     assert_eq!(seen, 5);
 }
+
+/// Returns k, |r_k| and its bound from each line of a log, and the contact force.
+fn augmentations(log: &str) -> (Vec<[f64; 3]>, f64) {
+    let rows = log.lines().filter_map(|line| {
+        let numbers: Vec<f64> = line.split_whitespace().map_while(|word| word.parse().ok()).collect();
+        numbers.get(..3).and_then(|row| row.try_into().ok())
+    });
+    let force = log.split("contact force ").nth(1).and_then(|rest| rest.split(' ').next()).unwrap();
+    (rows.collect(), force.parse().unwrap())
+}
+
+/// The residual decreases by the proved factor in each augmentation, and NumPy reproduces the recorded log.
+#[test]
+fn the_log_of_the_block_is_current() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let (recorded, force) = augmentations(&fs::read_to_string(root.join("examples/block.log")).unwrap());
+    assert!(recorded.len() > 5, "{recorded:?}");
+    // The recorded numbers have four digits.
+    assert!(recorded.iter().all(|[_, residual, bound]| *residual <= bound * 1.001), "{recorded:?}");
+
+    let python = std::env::var("PYTHON").unwrap_or("python3".into());
+    let has_numpy = Command::new(&python).args(["-c", "import numpy"]).output();
+    if !has_numpy.is_ok_and(|output| output.status.success()) {
+        return eprintln!("skipped: {python} has no NumPy");
+    }
+    let output = Command::new(&python).arg(root.join("examples/block.py")).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let (rows, found) = augmentations(&String::from_utf8(output.stdout).unwrap());
+    assert!((found / force - 1.0).abs() < 1e-5, "{found} instead of {force}");
+    assert_eq!(rows.len(), recorded.len());
+    // Displacements of 0.02 mm and a condition number of 10⁴ leave 10⁻¹³ mm, a part of the last residuals.
+    for ([_, found, _], [k, expected, _]) in rows.iter().zip(&recorded) {
+        assert!((found - expected).abs() < 1e-3 * expected + 1e-13, "k = {k}: {found} instead of {expected}");
+    }
+}

@@ -45,6 +45,7 @@ const FIGURES: &[(&str, Draw)] = &[
     ("energies", plots::energies),
     ("rates", plots::rates),
     ("rounding", plots::rounding),
+    ("block", plots::block),
     ("1-1", drawing::system),
     ("1-2", drawing::second_spring),
 ];

@@ -181,3 +181,33 @@ pub fn rounding() -> Figure {
                    $\\varepsilon^*$ with the guaranteed bound. Errors of 0 are omitted.";
     figure(plot, "Errors of the penalty method with rounding", caption, description)
 }
+
+/// Draws the residuals of the block in `examples/block.log` with their bound.
+pub fn block() -> Figure {
+    let rows = include_str!("../../../../examples/block.log").lines().filter_map(|line| {
+        let numbers: Vec<f64> = line.split_whitespace().map_while(|word| word.parse().ok()).collect();
+        <[f64; 5]>::try_from(numbers).ok()
+    });
+    let rows: Vec<_> = rows.collect();
+    let mut plot = Plot::new(
+        Axis::linear("k, augmentations", 0.0, 10.0, 2.0),
+        Axis::powers("residual in millimetres", -14, -2, 2),
+        296.0,
+    );
+    plot.line("dashed", rows.iter().map(|row| (row[0], row[2])));
+    plot.line("iterate fine dotted", rows.iter().map(|row| (row[0], row[1])));
+    for [k, residual, ..] in &rows {
+        plot.mark("iterate", (*k, *residual), &format!("k = {k}: {residual:e} mm"));
+    }
+    let [last, middle] = [rows.len() - 1, rows.len() / 2];
+    plot.text("iterate", (rows[middle][0], rows[middle][1]), (-14.0, 16.0), End, "|r_k|");
+    plot.text("", (rows[middle][0], rows[middle][2]), (4.0, -10.0), Start, "|r_0| / (1 + ε s_min)^{k}");
+    let description = format!(
+        "Residuals on a logarithmic axis against the number k of augmentations. They fall from {:e} mm to {:e} mm at \
+         k = {}, faster than the bound, which falls to {:e} mm.",
+        rows[0][1], rows[last][1], rows[last][0], rows[last][2],
+    );
+    let caption = "Residuals of the block (dots) and the bound $|r_0|/(1 + \\varepsilon s_{\\min})^k$ (dashed), for $\\varepsilon = \\kappa$. \
+                   The slopes become equal as the slowest mode remains.";
+    figure(plot, "Convergence of the block", caption, description)
+}
