@@ -100,7 +100,8 @@ pub fn equilibrium<T: Field>(system: &SpringMass<T>, eps: &T, lambda: &T, u: &T)
 ///
 /// `eps` is the penalty ε in N/m, `lambda` the multiplier λ in N. Domain: c + ε ≠ 0. The order of
 /// operations matters in floats: for this one the distance of the computed iterates from the exact ones is
-/// proved to be bounded by [`rounding::penetration_drift`](super::rounding::penetration_drift). Source: §1.3.3.
+/// proved to be bounded by [`rounding::penetration_drift`](super::rounding::penetration_drift).
+/// Source: §1.3.3.
 ///
 /// ```
 /// # use spring_mass_contact::chapter::{SpringMass, augmented};
