@@ -183,7 +183,7 @@ pub struct Row {
     pub status: Status,
     /// Number system; `None` for a proof.
     pub scalar: Option<NumberSystem>,
-    /// Reason why there is no proof, or why evaluating the counterexample failed, for example by division by
+    /// Reason why the proof failed, or why evaluating the counterexample failed, for example by division by
     /// zero.
     pub why: Option<String>,
     /// Number of decided cases.

@@ -442,7 +442,7 @@ fn sequences() -> Vec<Row> {
         ),
         ("a computed quantity rests on those before it alone", chain("f", &u + n(2)), chain("t", &u + n(1))),
         (
-            "what is supposed of a member is true at the start",
+            "the invariant holds at the start",
             also(halves("f", above(2), n(2) * &q), not_below_zero(x("x₁") - n(2))),
             also(halves("t", above(0), n(2) * &q), not_below_zero(x("x₁"))),
         ),

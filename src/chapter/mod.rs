@@ -19,7 +19,7 @@
 //! contraction factor ρ ([`augmented::contraction`]). The formula in a function's comment is what the
 //! function computes: a test compares the two.
 //!
-//! Every function is generic in its numbers and knows nothing of them. What is said of rounding holds
+//! Every function is generic in its numbers and knows nothing of them. Statements about rounding hold
 //! for floats without over- or underflow; read the same function in [`Ball`](crate::number::Ball) to
 //! have its bound computed. Functions do not check their arguments: outside the stated domain they
 //! divide by zero as their number system does; [`solve`](crate::solver::solve) checks.

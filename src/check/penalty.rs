@@ -12,7 +12,7 @@ use std::fmt;
 pub enum PenaltyScaling {
     /// No penalty identified.
     None,
-    /// The same ε for all systems.
+    /// One ε for all systems.
     Constant,
     /// Proportional to c.
     OfStiffness,

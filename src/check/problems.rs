@@ -30,7 +30,7 @@ pub enum Family {
     Separated,
     /// R = 0: mass and plane touch without force.
     Grazing,
-    /// As close to R = 0 as [`DIGITS`] digits of one parameter allow, on either side.
+    /// R as close to 0 as [`DIGITS`] digits of one parameter allow, on either side.
     Near,
     /// H < l: the spring must be compressed for the mass to fit above the plane.
     Overlap,
@@ -98,7 +98,7 @@ impl fmt::Display for Family {
     }
 }
 
-/// There is no family with this name.
+/// Error for an unknown family name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("[possible values: {}]", Family::ALL.map(Family::name).join(", "))]
 pub struct UnknownFamily;

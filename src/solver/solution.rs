@@ -169,7 +169,7 @@ impl<T> Method<T> {
 /// Outcome of a solve. Only an iteration can end otherwise than [`Direct`](Outcome::Direct).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Outcome {
-    /// There was nothing to iterate.
+    /// No iteration was needed.
     Direct,
     /// The natural residual and a rigorous bound of |u − u*| are both below the tolerance.
     Converged,

@@ -31,7 +31,7 @@ pub struct ProofAttempt {
 pub enum ProofOutcome {
     /// The proof.
     Proof(Box<Proof>),
-    /// The reason why there is no proof, and a counterexample if one was found.
+    /// The reason why the proof failed, and a counterexample if one was found.
     None(String, Option<Counterexample>),
 }
 

@@ -116,7 +116,7 @@ fn the_first_of_many_counterexamples_is_reported() {
     assert_eq!(first, cases::case(SEED, 0, &[]));
 }
 
-/// The same claim in three number systems, wrong in one of them.
+/// A claim in three number systems that is wrong in one of them.
 #[test]
 fn a_claim_can_fail_in_one_number_system_alone() {
     let zero_is = |zero: bool| {

@@ -130,7 +130,7 @@ impl<T: Real> Ball<T> {
         self.value.is_finite() && self.radius.is_finite()
     }
 
-    /// Returns `true` if the result contains a division by exactly zero, so that there is no exact number.
+    /// Returns `true` if the result contains a division by exactly zero, so that no exact number exists.
     ///
     /// # Examples
     ///

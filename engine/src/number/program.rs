@@ -48,7 +48,7 @@ impl Program {
         self.steps.len()
     }
 
-    /// Returns `true` if there are no operations.
+    /// Returns `true` if the program is empty.
     pub fn is_empty(&self) -> bool {
         self.steps.is_empty()
     }

@@ -374,7 +374,7 @@ mod tests {
             let found = bound(of, of, &positive).unwrap();
             assert!(least * 0.999 < found && found <= least * 1.02, "{of}: {found}");
         }
-        // There is no bound without an interval, with cancellation, or if a divisor may vanish.
+        // Without an interval, with cancellation, or if a divisor may vanish, no bound exists.
         assert!(bound(&product, &one, &positive).is_err());
         let difference = &x * &y - &x;
         assert!(bound(&difference, &difference, &positive).is_err());

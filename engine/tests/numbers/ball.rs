@@ -155,7 +155,7 @@ fn signs_and_bounds_of_balls_are_correct<S: Floats<Number = N>, N: Real + ToExac
     uncertain.assert_one_in(50, "signs not decided");
 }
 
-/// Also for an infinite `x`.
+/// The enclosure holds for an infinite `x` as well.
 fn compare<N: Real + ToExact>(x: &N, exact: &Exact) -> Option<Ordering> {
     match x.to_exact() {
         Ok(x) => Some(x.cmp(exact)),

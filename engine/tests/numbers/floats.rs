@@ -87,7 +87,7 @@ fn the_unit_roundoff_bounds_every_rounding<S: Floats<Number = N>, N: Real + ToEx
         prop_assert_eq!(x.unit_roundoff().to_exact(), Ok(eta.clone()));
         prop_assert!(x.is_finite());
         let size = x.magnitude().to_exact().unwrap();
-        // Exact up to 64 bits, and rounded up to so many beyond.
+        // Exact up to 64 bits, otherwise rounded up to 64 bits.
         prop_assert!(exact.abs() <= size);
         prop_assert!(size <= exact.abs() * (Exact::one() + Exact::power_of_two(-63)));
         // η|fl(x)| is what the balls add for a rounding.
@@ -155,7 +155,7 @@ fn exp_ln_and_ln_1p_are_correctly_rounded<S: Floats<Number = N>, N: Logarithm + 
     });
 }
 
-/// A good library without correct rounding errs once in some thousand full mantissas, so many are needed, and
+/// A good library without correct rounding errs once in some thousand full mantissas, so a large sample is needed, and
 /// a fast reference: 160 bits, then the float. Two roundings differ from one only if the value lies within
 /// 2⁻¹⁰⁷ of a tie; in f64 the hardest arguments of this magnitude leave more than 2⁻⁷⁰. (Muller et al.,
 /// Handbook of Floating-Point Arithmetic, on the table maker's dilemma.)

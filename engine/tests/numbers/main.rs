@@ -1,4 +1,4 @@
-//! The same laws for every number system, compared with rationals.
+//! Laws of number systems, checked against rationals.
 //!
 //! A [`System`](system::System) draws numbers together with exact numbers that they represent: a float
 //! represents its own value, a ball any number inside it. A law is one generic function; the lists of `law!`

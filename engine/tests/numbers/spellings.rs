@@ -171,7 +171,7 @@ fn mpfr_numbers_round_trip_within_the_exponent_limit() {
             assert_eq!(Mpfr::parse(&x.to_string(), bits).unwrap(), x, "{x}");
         }
     }
-    // 2^400000 has 120412 digits; as text it is short all the same.
+    // 2^400000 has 120412 digits; its text is short.
     let beyond = Mpfr::rounded(53, Float::with_val(53, 1) << 400_000);
     assert!(beyond.to_string().ends_with("e120411") && beyond.to_string().len() < 30);
     assert_eq!(Mpfr::parse(&beyond.to_string(), 53), Err(ParseError::Exponent));
@@ -199,7 +199,7 @@ fn mpfr_numbers_are_padded_and_signed_like_floats() {
     for x in [0, 1, -1, 1234] {
         assert_eq!(shown(Mpfr::int(x)), shown(x), "{x}");
     }
-    // Scientific, where the digits would begin or end with zeros; padded all the same.
+    // Scientific, where the digits would begin or end with zeros; still padded.
     let small = Mpfr::rounded(53, -0.25);
     assert_eq!(shown(&small)[2..5], ["     -2.5e-1|", "-2.5e-1     |", "  -2.5e-1   |"]);
     assert_eq!(format!("{:e<8}|{:<+8}|", Mpfr::infinity(), Mpfr::infinity()), "infeeeee|+inf    |");

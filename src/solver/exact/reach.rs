@@ -311,7 +311,7 @@ impl Laws {
         tolerance: &Exact,
     ) -> Result<Option<Integer>, SolveError> {
         let needed = || {
-            // This requires enough bits; with three bits there is no smallest tolerance.
+            // This requires enough bits; with three bits no tolerance is guaranteed.
             let left = tolerance - self.least_tolerance(&self.penetration_drift(eps));
             count(&self.system, eps, &left, &Exact::zero(), Plane::Bilateral)
         };

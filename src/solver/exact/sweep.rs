@@ -172,7 +172,7 @@ const MOST_DIGITS: usize = 100;
 /// Returns `points` penalties from one to another, both included, in about equal ratios, for a logarithmic
 /// plot. The unit is arbitrary.
 ///
-/// Those in between are decimals with three digits, or as many as distinguish them; they are the same on
+/// Intermediate values are decimals with three digits, or as many as distinguish them; they are the same on
 /// every machine.
 ///
 /// # Errors

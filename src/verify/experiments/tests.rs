@@ -234,7 +234,7 @@ fn members_that_deviate_from_the_closed_form_are_detected() {
             assert_eq!(of(wrong), WRONG, "{g} {start} {k}");
         }
         for short in [0, 1, 2, 6] {
-            assert_eq!(of(right[..short].to_vec()), WRONG, "{short} steps are no proof of six");
+            assert_eq!(of(right[..short].to_vec()), WRONG, "{short} steps do not prove six");
         }
     }
 }

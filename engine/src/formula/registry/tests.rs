@@ -29,7 +29,7 @@ fn a_registry_contains_the_location_of_every_operation() {
     let (registry, [c, d]) = (registry(), ["c", "d"].map(x));
     let tree = sum_with_product(&c, &d);
     // The sum belongs to one function, its argument to the other.
-    let Op::Add(product, _) = tree.op() else { panic!("{tree} is no sum") };
+    let Op::Add(product, _) = tree.op() else { panic!("{tree} is not a sum") };
     assert!(registry.has_site(&tree.site()) && registry.has_site(&product.site()));
     assert!(!registry.has_site(&(&c * &d).site()));
 }

@@ -158,7 +158,7 @@ operator! {
     Div div div_assign div_from / |_, _| None, divide_constant;
 }
 
-/// Computes (n/d) / x = n / (d x). MPFR has no such operation, but d x is exact with enough bits.
+/// Computes (n/d) / x = n / (d x). MPFR lacks this operation, but d x is exact with enough bits.
 fn divide_constant(result: &mut Kind, a: &Rational, x: &Float) {
     let wide = |bits: u32| bits.max(2);
     let n = Float::with_val(wide(a.numer().significant_bits()), a.numer());
@@ -244,7 +244,7 @@ impl Field for Mpfr {
 }
 ordered!(Mpfr);
 
-/// Panics, because a function of a constant is irrational and there is no precision to round to.
+/// Panics, because a function of a constant is irrational and has no precision to round to.
 fn no_precision(function: &str) -> ! {
     panic!("{function} of a constant without a precision: round it first, with Mpfr::rounded")
 }

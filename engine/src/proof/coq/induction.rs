@@ -136,7 +136,7 @@ impl Induction<'_, '_> {
         told.extend((!perturbed).then(|| self.closed()));
         let (labels, own) = (numbered_names("I", told.len()), self.claim.name.clone() + "_iterates");
         let pattern = if labels.len() == 1 { labels[0].clone() } else { format!("({})", labels.join(" & ")) };
-        let last = labels.last().ok_or("nothing is said of the sequence")?;
+        let last = labels.last().ok_or("the claim has no statement about the sequence")?;
 
         let mut script = Script::new();
         script.line(&self.theorem.intros());

@@ -55,7 +55,7 @@ pub(super) fn derivation(hypotheses: &[&Hypothesis], proposition: &Proposition) 
     kernel::derivation(hypotheses, proposition).map_err(|why| {
         let statement = Statement::new("", proposition.clone()).assuming(hypotheses.iter().copied());
         let why = ProofPrinter::new(&Registry::default()).describe(&statement, &why);
-        format!("there is no proof to follow: {why}")
+        format!("no proof to follow: {why}")
     })
 }
 

@@ -86,7 +86,7 @@ impl<'a> Claim<'a> {
         Ok(lemma.text(keyword, &format_proposition(&goal.proposition, self.printer), script))
     }
 
-    /// States that no divisor is 0; empty if there are no divisors.
+    /// States that no divisor is 0; empty without divisors.
     fn defined(&self) -> Result<String> {
         let divisors = divisors(self.statement.trees());
         if divisors.is_empty() {
@@ -122,7 +122,7 @@ impl<'a> Claim<'a> {
         let near = are_near.iter().zip(near).map(|(lemma, near)| self.with_proof("Lemma", lemma, near));
         let text = near.collect::<Result<String>>()? + &self.with_proof("Lemma", &rest, goal)?;
         let Proposition::Within(of, bound) = &goal.proposition else {
-            return Err("a computed quantity in a claim that is no bound".into());
+            return Err("a computed quantity in a claim other than a bound".into());
         };
         let spelled_out = |tree: &Tree| {
             let last_first = self.statement.computed().iter().rev();

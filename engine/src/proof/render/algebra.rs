@@ -188,7 +188,7 @@ impl Order<'_> {
         format!(": {}", described.collect::<Vec<_>>().join(" and "))
     }
 
-    /// Explains why there is no proof, with formulas formatted by `formula`.
+    /// Explains a failed proof, with formulas formatted by `formula`.
     pub(super) fn justify(&self, why: &ProofError, formula: &dyn Fn(&Tree) -> String) -> String {
         let ratio = |ratio: &Ratio| self.ratio_or_size(ratio);
         match why {

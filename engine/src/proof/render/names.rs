@@ -11,7 +11,7 @@ use crate::proof::kernel::{Assumption, AssumptionUse, Derivation, ProofError, de
 use std::collections::{BTreeMap, BTreeSet};
 
 impl ProofPrinter<'_> {
-    /// Returns the reason why there is no proof of a statement, with definitions of the kernel's names: `no
+    /// Returns the reason why a proof failed, with definitions of the kernel's names: `no
     /// rule finds the sign of a − s₁: the term −s₁ is < 0, where s₁ = b − a > 0`.
     pub fn describe(&self, statement: &Statement, why: &ProofError) -> String {
         if let Some(registry) = self.other_names(statement) {
@@ -37,7 +37,7 @@ impl ProofPrinter<'_> {
         if definitions.is_empty() { said } else { format!("{said}, where {}", definitions.join(" and ")) }
     }
 
-    /// Returns the reason why there is no proof, and up to three [hypotheses](sufficient_hypothesis) with
+    /// Returns the reason why a proof failed, and up to three [hypotheses](sufficient_hypothesis) with
     /// which there is one.
     ///
     /// # Examples

@@ -23,7 +23,7 @@ fn summaries_name_the_method_of_the_proof() {
     assert_eq!(is_positive(&tangent), "sign by slope");
 }
 
-/// Also if only a rounded formula contains the name, and with the names of displayed arguments.
+/// The same holds if only a rounded formula contains the name, and with the names of displayed arguments.
 #[test]
 fn every_name_in_a_claim_is_defined() {
     let [a, b] = ["a", "b"].map(|name| Tree::symbol(name));

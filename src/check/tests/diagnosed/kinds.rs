@@ -24,7 +24,7 @@ fn with_internal_tolerance(
     check(&default_problems(), &number(tolerance), ask).unwrap()
 }
 
-/// From 1.61 of each decade on, which is the largest possible minimum of a decade.
+/// Values from 1.61 of each decade on, which is the largest possible minimum of a decade.
 #[test]
 fn a_relative_tolerance_above_that_of_the_check_is_noticed() {
     for misses in [true, false] {
