@@ -34,6 +34,7 @@ const LIVE = `
   <button type="button" data-step="-1">Back</button>
   <button type="button" data-step="whole">Until λ repeats</button>
   <button type="button" data-step="start">To the start</button>
+  <button type="button" data-step="reset">Reset</button>
 </div>
 <p class="bench-verdict" id="bench-verdict" role="status"></p>
 <div class="bench-fields">${Object.entries(FIELDS).map(([key, { sign, name, unit, from, to }]) => `
@@ -126,9 +127,27 @@ const drawSystem = (svg, { values, rows }, [least, most], question) => {
   ];
   const now = rows.at(-1);
   if (now) {
-    const end = y(values.l + now.u), top = y(0), turns = 12;
-    const coil = Array.from({ length: turns }, (_, i) => [middle + (i % 2 ? 9 : -9), top + (end - top) * (i + 1.5) / (turns + 2)]);
-    parts.push(path([[middle, top], ...coil, [middle, end]], { class: "bench-spring" }));
+    const end = y(values.l + now.u), plane = y(values.H), one = question.plane === "one";
+    const spring = (top, bottom, turns, attributes) => {
+      const coil = Array.from({ length: turns }, (_, i) => [middle + (i % 2 ? 9 : -9), top + (bottom - top) * (i + 1.5) / (turns + 2)]);
+      return path([[middle, top], ...coil, [middle, bottom]], attributes);
+    };
+    parts.push(spring(y(0), end, 12, { class: "bench-spring" }));
+    // The second spring stands below the plane; in unilateral contact the mass can leave it.
+    const foot = plane + 44, touched = one && now.next <= 0 ? plane : end;
+    parts.push(spring(touched, foot, 6, { class: "bench-iterate bench-thin" }), path([[middle - 14, foot], [middle + 14, foot]], { class: "bench-thin" }));
+    parts.push(label(middle + 14, (plane + foot) / 2 + 12, "ε", { class: "bench-italic" }));
+    // λ + ε p, the force on the mass, relative to the largest force.
+    const scale = 46 / Math.max(Math.abs(now.next), Math.abs(values.m * values.g)), force = now.next * scale;
+    if (Number.isFinite(force) && Math.abs(force) > 1) {
+      const [from, tip] = [end + 8 + Math.max(force, 0), end + 8 + Math.max(-force, 0)], at = middle - 26, head = force > 0 ? 6 : -6;
+      parts.push(path([[at, from], [at, tip]], { class: "bench-iterate" }), path([[at - 4, tip + head], [at, tip], [at + 4, tip + head]], { class: "bench-iterate" }));
+      parts.push(label(at - 6, (from + tip) / 2 + 4, "λ", { class: "bench-italic bench-end" }));
+    }
+    // The gap, from the free end of the spring to the plane.
+    if (Math.abs(plane - y(values.l)) > 14) {
+      parts.push(path([[width - 26, y(values.l)], [width - 26, plane]], { class: "bench-thin" }), label(width - 30, (y(values.l) + plane) / 2 + 4, "gap", { class: "bench-end bench-tick" }));
+    }
     parts.push(draw("circle", { cx: middle, cy: end, r: 7, class: "bench-mass" }), label(middle + 12, end - 6, "m", { class: "bench-italic" }));
   }
   const plane = y(values.H);
@@ -145,26 +164,53 @@ const drawSystem = (svg, { values, rows }, [least, most], question) => {
   return from => least + (from - 24) / (height - 48) * (most - least);
 };
 
-const drawForces = (svg, { values, rows }, run) => {
+// The box of the force diagram: p from left to right, N from low to high.
+const forceBox = ({ values, rows }) => {
+  const reaction = real["system::reaction"](values);
+  const free = real["contact::penetration"]({ ...values, u: real["structure::deflection"](values) });
+  const [left, right] = hull([0, free, ...rows.map(row => row.p)], 0.2);
+  const [low, high] = hull([0, reaction, ...rows.flatMap(row => [row.lambda, row.next])], 0.15);
+  return [[left, low], [right, high]];
+};
+
+// Round numbers with a distance of 1, 2 or 5 times a power of ten, at most `count` between two limits.
+const ticks = (from, to, count) => {
+  const unit = floor((to - from) / count), step = [1, 2, 5, 10].find(n => n * unit * count >= to - from) * unit;
+  const numbers = [];
+  for (let n = Math.ceil(from / step); n * step <= to; n += 1) numbers.push(n * step);
+  return numbers;
+};
+
+const drawForces = (svg, { values, rows }, run, box) => {
   const width = svg.clientWidth, height = svg.clientHeight, one = run.question.plane === "one";
   const gap = real["system::gap"](values), reaction = real["system::reaction"](values);
   const update = real["augmented::update"];
   const p = u => real["contact::penetration"]({ ...values, u });
   const free = p(real["structure::deflection"](values));
-  const [left, right] = hull([0, free, ...rows.map(row => row.p)], 0.2);
-  const [low, high] = hull([0, reaction, ...rows.flatMap(row => [row.lambda, row.next])], 0.15);
-  if (![left, right, low, high].every(Number.isFinite)) return svg.replaceChildren(label(10, 20, "too large to draw"));
-  const box = [[left, low], [right, high]];
+  const [[left, low], [right, high]] = box;
+  if (!box.flat().every(Number.isFinite)) return svg.replaceChildren(label(10, 20, "too large to draw"));
   const at = ([p, n]) => [(p - left) / (right - left) * (width - 2) + 1, (high - n) / (high - low) * (height - 2) + 1];
   const line = (a, b, attributes, within = box) => path(clipped(a, b, within).map(at), attributes);
   const span = right - left, far = gap + span;
   const [x0, y0] = at([0, 0]), [x1] = at([free, 0]), [, y1] = at([0, reaction]);
   const force = `R = ${brief(exactly(reaction))} N`, distance = `${brief(exactly(free))} m`;
   const held = u => [p(u), real["augmented::contact_force"]({ ...values, u })];
+  const text = x => brief(exactly(x)), axes = [];
+  for (const x of ticks(left, right, Math.max(2, Math.floor(width / 90)))) {
+    const [at_x] = at([x, 0]);
+    axes.push(path([[at_x, height - 16], [at_x, height - 20]], { class: "bench-thin" }));
+    if (at_x > 24 && at_x < width - 46) axes.push(label(at_x, height - 4, text(x), { class: "bench-tick bench-middle" }));
+  }
+  for (const x of ticks(low, high, Math.max(2, Math.floor(height / 50)))) {
+    const [, at_y] = at([0, x]);
+    axes.push(path([[1, at_y], [5, at_y]], { class: "bench-thin" }));
+    if (at_y > 26 && at_y < height - 26) axes.push(label(8, at_y + 4, text(x), { class: "bench-tick" }));
+  }
   const parts = [
+    ...axes,
     line([0, 0], [span, 0], { class: "bench-faint" }),
     line([0, 0], [0, 1], { class: "bench-faint" }),
-    label(width - 4, y0 + 15, "p", { class: "bench-italic bench-end" }), label(x0 - 6, 14, "N", { class: "bench-italic bench-end" }),
+    label(width - 2, height - 4, "p in m", { class: "bench-tick bench-end" }), label(2, 14, "N in N", { class: "bench-tick" }),
     line(held(gap), held(far), { class: "bench-spring" }),
     path([at([left, 0]), at([0, 0]), at([0, high])], { class: "bench-plane bench-corner" }),
     // Labels stand clear of the falling line.
@@ -240,7 +286,7 @@ const open = root => {
   root.insertAdjacentHTML("beforeend", `<div class="bench-live">${LIVE}</div>`);
   root.classList.add("live");
   const find = selector => root.querySelector(selector);
-  let question = asked(location.search), result, view, domain, length, dragged = false, width;
+  let question = asked(location.search), result, view, domain, box, length, held = false, width;
 
   const fill = () => {
     for (const key of PARAMETERS) {
@@ -253,10 +299,11 @@ const open = root => {
   const paint = () => {
     if (!result) return;
     view = seen(result);
-    if (!dragged || !domain) domain = lengths(view);
+    // The axes are fixed while the pointer is down or the keyboard moves the plane.
+    if (!held || !domain) [domain, box] = [lengths(view), forceBox(view)];
     if (!domain.every(Number.isFinite)) return;
     length = drawSystem(find(".bench-system"), view, domain, question);
-    drawForces(find(".bench-forces"), view, result);
+    drawForces(find(".bench-forces"), view, result, box);
     drawDecay(find(".bench-decay"), view, result);
   };
   // Prevents line breaks before a unit and in a sum.
@@ -308,11 +355,13 @@ const open = root => {
     const { step } = target.dataset;
     if (!step) return;
     if (step === "whole") change({}, true);
+    else if (step === "reset") change(EXAMPLE);
     else change({ k: step === "start" ? 0 : Math.max(0, (result?.rows.length ?? 1) - 1 + Number(step)) });
     keep();
   });
 
   // Moves the plane, by arrow keys or by dragging.
+  let dragged = false;
   const move = height => {
     const digits = Math.max(0, 2 - Math.floor(Math.log10(domain[1] - domain[0])));
     const within = Math.min(Math.max(height, domain[0]), domain[1]);
@@ -329,8 +378,13 @@ const open = root => {
     }[event.key];
     if (to === undefined) return;
     event.preventDefault();
+    held = true;
     move(to);
     keep();
+  });
+  find("[role=slider]").addEventListener("blur", () => {
+    held = dragged;
+    paint();
   });
   const system = find(".bench-system");
   const drag = event => move(length(event.clientY - system.getBoundingClientRect().top));
@@ -339,13 +393,14 @@ const open = root => {
     event.preventDefault();
     system.setPointerCapture(event.pointerId);
     find("[role=slider]").focus({ preventScroll: true });
-    dragged = true;
+    dragged = held = true;
   });
   system.addEventListener("pointermove", event => dragged && drag(event));
+  root.addEventListener("pointerdown", ({ target }) => { if (target.dataset.slide) held = true; });
   for (const end of ["pointerup", "pointercancel"]) {
-    system.addEventListener(end, () => {
-      if (!dragged) return;
-      dragged = false;
+    addEventListener(end, () => {
+      if (!held) return;
+      dragged = held = false;
       paint();
       keep();
     });

@@ -102,7 +102,7 @@ const LONGEST = 40, LARGEST = 400;
 
 // Parses a decimal, with an optional exponent, or a fraction exactly.
 const parse = text => {
-  const plain = text.trim().replace("−", "-");
+  const plain = text.trim().replace(/[\u2212\u2010-\u2015\uFE63\uFF0D]/g, "-");
   const ratio = /^([+-]?\d+)\/(\d+)$/.exec(plain);
   const decimal = /^([+-]?)(\d*)\.?(\d*)(?:[eE]([+-]?\d+))?$/.exec(plain);
   if (plain.length > LONGEST) throw RangeError(`more than ${LONGEST} characters`);
@@ -185,8 +185,12 @@ const START = {
   c: "100", m: "1", g: "9.81", l: "1", H: "1.05", eps: "100", lambda: "0", k: 4, numbers: "f64", plane: "both",
 };
 
+// The example of the page, shown without a query.
+const EXAMPLE = { ...START, c: "4", g: "10", H: "3", eps: "4", k: 3, plane: "one" };
+
 // Parses the query of an address; missing settings have their initial values.
 const asked = query => {
+  if (!query) return { ...EXAMPLE };
   const given = new URLSearchParams(query), question = { ...START };
   for (const name of PARAMETERS) question[name] = given.get(name) ?? START[name];
   if (Object.hasOwn(systems, given.get("numbers"))) question.numbers = given.get("numbers");
@@ -196,7 +200,7 @@ const asked = query => {
 };
 const address = question => {
   const changed = Object.entries(question).filter(([name, value]) => value !== START[name]);
-  return changed.length ? `?${new URLSearchParams(changed)}` : "";
+  return `?${new URLSearchParams(changed.length ? changed : { k: START.k })}`;
 };
 
 const POSITIVE = ["c", "m", "eps"];

@@ -54,6 +54,16 @@ impl Claims {
         format!("<div class=\"status\">\n\n{} · {link}\n\n</div>", outcome(&rows, &summary, fraction))
     }
 
+    /// Returns the number of proved claims, and the open ones, in HTML.
+    pub fn summary(&self, entry: &Entry) -> String {
+        let rows: Vec<_> = self.rows.iter().filter(|row| row.equation == entry.equation).collect();
+        let proved = rows.iter().filter(|row| row.scalar.is_none() && row.status == Status::Proved).count();
+        let status = outcome(&rows, "", |_| None);
+        let open = status.split(" · ").filter(|part| part.contains("class=\"open\""));
+        let claims = if proved == 1 { "1 claim proved".into() } else { format!("{proved} claims proved") };
+        [claims, "source".into()].into_iter().chain(open.map(String::from)).collect::<Vec<_>>().join(" · ")
+    }
+
     /// Returns the page of all claims in Markdown, with links to the entries in the book.
     pub fn page(&self, places: &Places) -> String {
         let texts = claim_texts();

@@ -149,28 +149,49 @@ impl TagExpander {
         let latex = entry.latex().with_context(|| format!("{label} has no formula"))?;
         let mut result = format!(
             "\n\n<div class=\"equation\">\n\n{} Equation {number} · {} {{#{}}}\n\n\
-             <div class=\"formula\">{}</div>\n\n{}\n\n",
+             <div class=\"formula\">{}</div>\n\n",
             "#".repeat(context.level + 1),
             entry.title,
             places::anchor(number),
             self.typesetter.display(&latex)?,
-            self.claims.status(entry, &context.up),
         );
+        let mut folded = self.claims.status(entry, &context.up) + "\n\n";
         // A function of several equations is printed with the first and linked from the others.
-        for function in &entry.functions {
+        for (i, function) in entry.functions.iter().enumerate() {
             let first = places::first_with(function).context("listed")?;
-            result += &if first == number {
-                self.source(function, context)?
-            } else {
+            if first != number {
                 let place = self.places.equation(first).context("displayed")?;
                 let links = links(function, &self.sources.item(function)?, &context.up)?;
-                format!(
+                folded += &format!(
                     "<div class=\"caption\">\n\n{links}, printed at [({first})]({}{place})\n\n</div>\n\n",
                     context.up
-                )
-            };
+                );
+            } else if let (0, Some(body)) = (i, self.sources.item(function)?.body()) {
+                // The line that computes the equation is printed, the rest is folded.
+                result +=
+                    &format!("<div class=\"source\"{}>\n\n{}</div>\n\n", self.id(function), listing(&body));
+                let item = self.sources.item(function)?;
+                folded += &format!(
+                    "<div class=\"caption\">\n\n{}\n\n</div>\n\n{}",
+                    links(function, &item, &context.up)?,
+                    listing(&item.code)
+                );
+            } else {
+                folded += &self.source(function, context)?;
+            }
         }
-        Ok(result + "</div>\n\n")
+        let summary = self.claims.summary(entry);
+        Ok(format!(
+            "{result}<details class=\"more\"><summary>{summary}</summary>\n\n{folded}</details>\n\n</div>\n\n"
+        ))
+    }
+
+    /// Returns the attribute with the anchor of a function, if it has its own.
+    fn id(&self, function: &str) -> String {
+        match self.places.function(function) {
+            Some(place) if place.anchor == places::anchor_of(function) => format!(" id=\"{}\"", place.anchor),
+            _ => String::new(),
+        }
     }
 
     fn figure(&self, name: &str) -> Result<String> {
@@ -185,24 +206,25 @@ impl TagExpander {
     /// Renders the body of a function, followed by a folded block with the whole function.
     fn source(&self, function: &str, context: &TagContext) -> Result<String> {
         let item = self.sources.item(function)?;
-        let id = match self.places.function(function) {
-            Some(place) if place.anchor == places::anchor_of(function) => format!(" id=\"{}\"", place.anchor),
-            _ => String::new(),
-        };
-        let code = |code: &str| format!("```rust,ignore\n{code}\n```\n\n");
+        let id = self.id(function);
         let shown = match item.body() {
             Some(body) => {
-                let whole = code(&item.code);
-                code(&body)
+                let whole = listing(&item.code);
+                listing(&body)
                     + &format!("<details><summary>the whole function</summary>\n\n{whole}</details>\n\n")
             }
-            None => code(&item.code),
+            None => listing(&item.code),
         };
         let links = links(function, &item, &context.up)?;
         Ok(format!(
             "\n\n<div class=\"source\"{id}>\n<div class=\"caption\">\n\n{links}\n\n</div>\n\n{shown}</div>\n\n"
         ))
     }
+}
+
+/// Returns a block of source code, which is not tested here.
+fn listing(code: &str) -> String {
+    format!("```rust,ignore\n{code}\n```\n\n")
 }
 
 /// Returns the name of a function with links to its documentation and source.

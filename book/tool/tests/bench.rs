@@ -501,6 +501,9 @@ class Element {
   append(...children) { this.children.push(...children); }
   replaceChildren(...children) { this.children = children; }
   insertAdjacentHTML() {}
+  focus() {}
+  setPointerCapture() {}
+  getBoundingClientRect() { return { top: 0 }; }
   addEventListener(kind, listener) { this.on[kind] = listener; }
   querySelector(selector) { return (this.found[selector] ??= new Element(selector)); }
   querySelectorAll() { return []; }
@@ -508,7 +511,8 @@ class Element {
   get text() { return this.children.map(child => child.textContent ?? child).join(""); }
 }
 globalThis.ResizeObserver = class { observe() {} };
-globalThis.addEventListener = () => {};
+globalThis.on = {};
+globalThis.addEventListener = (kind, listener) => { on[kind] = listener; };
 const opened = search => {
   const root = new Element("root"), create = name => new Element(name);
   root.querySelector(".bench-system").append(create("g"), create("g"));
@@ -546,7 +550,8 @@ for (const search of input.asked) {
     // Settings, and the result after one more step: the verdict, the numbers of points and rows, k in the last row and in
     // the address, the number of invalid attributes, and the number of points off the line, where forces do not balance.
     let expected = [
-        ("", "converging|6|6|5|5|0|0"),
+        ("", "converging|5|5|4||0|0"), // the example, k = 3, and one step
+        ("?k=4", "converging|6|6|5|5|0|0"),
         ("?c=4&g=10&H=3&eps=4&k=3&numbers=exact", "converging|5|5|4||0|0"),
         ("?eps=1e5&k=6", "2-cycle|8|8|7|7|0|0"),
         ("?eps=1e8&k=0&numbers=f32", "false zero|2|2|1|1|0|2"),
@@ -569,7 +574,7 @@ const { values } = numbers(input), result = run(input, values);
 const drawn = draw => {
   const svg = document.createElementNS("", "svg");
   Object.assign(svg, { clientWidth: 400, clientHeight: 300 });
-  draw(svg, seen(result), result);
+  draw(svg, seen(result), result, forceBox(seen(result)));
   const of = name => svg.children.filter(child => child.name === name);
   return {
     paths: of("path").map(({ attributes: { class: kind, d } }) => [kind, numbersIn(d)]),
@@ -619,6 +624,42 @@ console.log(JSON.stringify([drawn(drawForces), drawn(drawDecay)]));
         // The ends of the line are rounded, but it is much longer than the distance of the steps.
         assert_close(law[1] + slope * (dot[0] - law[0]), dot[1]);
     }
+}
+
+/// While the plane is dragged the axes of the force diagram stay and the line moves; they fit again at the end. From the
+/// keyboard, `End` after `Home` reaches the end.
+#[test]
+fn axes_stay_while_the_plane_moves() {
+    const MOVED: &str = r#"
+const root = opened(""), find = selector => root.querySelector(selector);
+const forces = find(".bench-forces"), system = find(".bench-system"), slider = find("[role=slider]");
+const ticks = () => forces.all.filter(part => /bench-tick/.test(part.attributes.class)).map(part => [part.text, part.attributes.x, part.attributes.y].join());
+const line = () => forces.all.find(part => part.attributes.class === "bench-spring").attributes.d;
+const seen = () => [ticks().join(";"), line(), find("[data-text=H]").value];
+const states = [seen()], event = { target: { closest: () => slider, dataset: {} }, preventDefault() {}, pointerId: 1 };
+system.on.pointerdown(event);
+system.on.pointermove({ clientY: 100 });
+states.push(seen());
+on.pointerup();
+states.push(seen());
+const press = key => root.on.keydown({ key, target: { getAttribute: () => "slider" }, stopPropagation() {}, preventDefault() {} });
+press("Home");
+press("End");
+states.push(seen());
+console.log(JSON.stringify([states, ticks()]));
+"#;
+    let page = html().unwrap();
+    let script = page.split("<script>").nth(1).and_then(|rest| rest.split("</script>").next()).unwrap();
+    let Some(found) = node(&format!("{DOCUMENT}{MOVED}"), &json!({ "script": script })) else { return };
+    let (states, ticks): (Vec<[String; 3]>, Vec<String>) = serde_json::from_str(&found).unwrap();
+    let [start, dragged, released, end] = &states[..] else { panic!("{found}") };
+    assert!(ticks.len() >= 6, "{ticks:?}");
+    assert_eq!(start[0], dragged[0], "ticks");
+    assert!(start[1] != dragged[1] && start[2] != dragged[2], "{found}");
+    assert_ne!(dragged[0], released[0], "ticks");
+    // The drawing shows lengths up to 4 m between 24 and 216 pixels. With H = 1.58 m the mass is at most at
+    // 1 + (10 + 4 · 0.58)/8 = 2.54 m, for which 3 m are shown.
+    assert_eq!((dragged[2].as_str(), end[2].as_str()), ("1.58", "3"), "H");
 }
 
 /// The fields of the bench have the units of the page of notation.
