@@ -15,7 +15,7 @@ const position = ({ powers }, a) => (powers ? log10(a) : nearest(a, 53, -1074));
 
 // An entry of a legend.
 const key = (of, name) => `<span><svg viewBox="0 0 28 14" aria-hidden="true">${of}</svg>${name}</span>`;
-const LIVE = `
+const live = fields => `
 <div class="bench-views">
   <svg class="bench-system" role="group" aria-label="The system; the plane can be moved">
     <g></g><g class="bench-plane bench-slider" role="slider" tabindex="0" aria-label="height H of the support above the plane" aria-orientation="vertical" aria-valuenow="0"></g>
@@ -37,7 +37,7 @@ const LIVE = `
   <button type="button" data-step="reset">Reset</button>
 </div>
 <p class="bench-verdict" id="bench-verdict" role="status"></p>
-<div class="bench-fields">${Object.entries(FIELDS).map(([key, { sign, name, unit, from, to }]) => `
+<div class="bench-fields">${Object.entries(FIELDS).filter(([key]) => fields.includes(key)).map(([key, { sign, name, unit, from, to }]) => `
   <label for="bench-${key}"><i>${sign}</i> <span>${name}</span></label>
   <input type="range" min="${from}" max="${to}" step="${(to - from) / 1000}" data-slide="${key}" aria-label="${name} ${sign}, by a slider">
   <span><input type="text" id="bench-${key}" aria-label="${name} ${sign}, in ${unit}" size="9" autocomplete="off" autocapitalize="off" spellcheck="false" data-text="${key}" aria-describedby="bench-verdict"> <span class="bench-unit">${unit}</span></span>`).join("")}
@@ -135,14 +135,15 @@ const drawSystem = (svg, { values, rows }, [least, most], question) => {
     parts.push(spring(y(0), end, 12, { class: "bench-spring" }));
     // The second spring stands below the plane; in unilateral contact the mass can leave it.
     const foot = plane + 44, touched = one && now.next <= 0 ? plane : end;
-    parts.push(spring(touched, foot, 6, { class: "bench-iterate bench-thin" }), path([[middle - 14, foot], [middle + 14, foot]], { class: "bench-thin" }));
-    parts.push(label(middle + 14, (plane + foot) / 2 + 12, "ε", { class: "bench-italic" }));
-    // λ + ε p, the force on the mass, relative to the largest force.
-    const scale = 46 / Math.max(Math.abs(now.next), Math.abs(values.m * values.g)), force = now.next * scale;
+    parts.push(draw("g", { class: "bench-second" },
+      spring(touched, foot, 6, { class: "bench-iterate bench-thin" }), path([[middle - 14, foot], [middle + 14, foot]], { class: "bench-thin" }),
+      label(middle + 14, (plane + foot) / 2 + 12, "ε", { class: "bench-italic" })));
+    // N = λ + ε p, the force on the mass, relative to R.
+    const scale = 40 / Math.max(Math.abs(now.next), Math.abs(real["system::reaction"](values))), force = now.next * scale;
     if (Number.isFinite(force) && Math.abs(force) > 1) {
-      const [from, tip] = [end + 8 + Math.max(force, 0), end + 8 + Math.max(-force, 0)], at = middle - 26, head = force > 0 ? 6 : -6;
-      parts.push(path([[at, from], [at, tip]], { class: "bench-iterate" }), path([[at - 4, tip + head], [at, tip], [at + 4, tip + head]], { class: "bench-iterate" }));
-      parts.push(label(at - 6, (from + tip) / 2 + 4, "λ", { class: "bench-italic bench-end" }));
+      const [from, tip] = [end + 8 + Math.max(force, 0), end + 8 + Math.max(-force, 0)], at = middle + 34, head = force > 0 ? 6 : -6;
+      parts.push(path([[at, from], [at, tip]], { class: "bench-force" }), path([[at - 4, tip + head], [at, tip], [at + 4, tip + head]], { class: "bench-force" }));
+      parts.push(label(at + 7, (from + tip) / 2 + 4, "N", { class: "bench-italic" }));
     }
     // The gap, from the free end of the spring to the plane.
     if (Math.abs(plane - y(values.l)) > 14) {
@@ -204,7 +205,7 @@ const drawForces = (svg, { values, rows }, run, box) => {
   for (const x of ticks(low, high, Math.max(2, Math.floor(height / 50)))) {
     const [, at_y] = at([0, x]);
     axes.push(path([[1, at_y], [5, at_y]], { class: "bench-thin" }));
-    if (at_y > 26 && at_y < height - 26) axes.push(label(8, at_y + 4, text(x), { class: "bench-tick" }));
+    if (x && at_y > 26 && at_y < height - 26) axes.push(label(8, at_y + 4, text(x), { class: "bench-tick" }));
   }
   const parts = [
     ...axes,
@@ -282,14 +283,16 @@ const drawDecay = (svg, { values, rows }, run) => {
 
 const SHOWN = 12;
 
+// A root with `data-fields` is a small figure with these fields alone, whose state is not in the address.
 const open = root => {
-  root.insertAdjacentHTML("beforeend", `<div class="bench-live">${LIVE}</div>`);
+  const small = root.dataset.fields !== undefined, fields = small ? root.dataset.fields.split(" ") : Object.keys(FIELDS);
+  root.insertAdjacentHTML("beforeend", `<div class="bench-live">${live(fields)}</div>`);
   root.classList.add("live");
   const find = selector => root.querySelector(selector);
-  let question = asked(location.search), result, view, domain, box, length, held = false, width;
+  let question = small ? { ...EXAMPLE, k: Number(root.dataset.k) } : asked(location.search), result, view, domain, box, length, held = false, width;
 
   const fill = () => {
-    for (const key of PARAMETERS) {
+    for (const key of fields) {
       const text = find(`[data-text=${key}]`), slide = find(`[data-slide=${key}]`);
       if (text !== document.activeElement || text.value !== question[key]) text.value = question[key];
       slide.setAttribute("aria-valuetext", `${question[key]} ${FIELDS[key].unit}`);
@@ -317,9 +320,9 @@ const open = root => {
   const show = (untilRest = false) => {
     const { values, wrong } = numbers(question), mistakes = Object.entries(wrong);
     fill();
-    for (const key of PARAMETERS) find(`[data-text=${key}]`).setAttribute("aria-invalid", key in wrong);
+    for (const key of fields) find(`[data-text=${key}]`).setAttribute("aria-invalid", key in wrong);
     if (mistakes.length) return say("", mistakes.map(([key, why]) => `${FIELDS[key].sign}: ${why}.`).join(" "));
-    for (const key of PARAMETERS) {
+    for (const key of fields) {
       const slide = find(`[data-slide=${key}]`);
       if (slide !== document.activeElement) slide.value = position(FIELDS[key], systems[question.numbers].exactly(values[key]));
     }
@@ -337,6 +340,7 @@ const open = root => {
     paint();
   };
   const keep = () => {
+    if (small) return;
     try { history.replaceState(null, "", `${location.pathname}${address(question)}#bench`); } catch { /* the address may be fixed */ }
   };
   const change = (changes, untilRest) => {
@@ -406,6 +410,14 @@ const open = root => {
     });
   }
 
+  new ResizeObserver(() => {
+    if (root.clientWidth === width) return;
+    width = root.clientWidth;
+    paint();
+  }).observe(root);
+  show();
+  if (small) return;
+
   // Links on this page that change the settings do not reload the page.
   const again = () => {
     question = asked(location.search);
@@ -421,11 +433,5 @@ const open = root => {
     again();
     document.getElementById("bench")?.scrollIntoView();
   });
-  new ResizeObserver(() => {
-    if (root.clientWidth === width) return;
-    width = root.clientWidth;
-    paint();
-  }).observe(root);
-  show();
 };
 for (const root of document.querySelectorAll(".bench")) open(root);

@@ -99,6 +99,19 @@ pub fn html() -> Result<String> {
     ))
 }
 
+/// Returns the HTML of a small figure that moves: `fields` are the symbols of its sliders, and it shows the state
+/// after `k` augmentations of the example, or the solution if `k` is `None`.
+///
+/// # Errors
+/// Returns the errors of [`formulas`].
+pub fn live(fields: &str, k: Option<u32>) -> Result<String> {
+    let script = html()?;
+    let script = &script[script.find("<script>").unwrap_or_default()..];
+    // The error of the example is below a pixel after 40 augmentations.
+    let (class, k) = k.map_or(("bench bench-small bench-solved", 40), |k| ("bench bench-small", k));
+    Ok(format!("<div class=\"{class}\" data-fields=\"{fields}\" data-k=\"{k}\"></div>\n\n{script}"))
+}
+
 /// Text for readers without scripts, and for print.
 const FALLBACK: &str = "<p>With scripts enabled, an interactive bench appears here. The <a href=\"#fig-augmented\">figure above</a> \
                         shows its first steps for the example.</p>";

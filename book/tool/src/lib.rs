@@ -10,6 +10,7 @@
 //! | `{{#claims}}` | all claims and their status |
 //! | `{{#figure plane}}` | a figure drawn from the results of the functions |
 //! | `{{#bench}}` | the [bench](mod@bench) |
+//! | `{{#live H g}}`, `{{#live eps, k=0}}` | a [small figure](bench::live) with sliders of these quantities |
 //!
 //! Formulas are defined only in `src/chapter`; the book shows their source and typesets the recorded formula.
 //! `{{#formula}}` accepts the same arguments as a placeholder in an [`Entry`], such as
@@ -51,12 +52,13 @@ impl Preprocessor for Equations {
     }
 
     fn run(&self, context: &PreprocessorContext, mut book: Book) -> Result<Book> {
-        let tags = tag("eq|ref|source|formula|figure|claims|bench")?;
+        let tags = tag("eq|ref|source|formula|figure|claims|bench|live")?;
         let expander = TagExpander {
             typesetter: Typesetter::new()?,
             sources: Sources::in_folder(&context.root.join("../src/chapter")),
             places: Places::of(&book, &tags)?,
             claims: Claims::run(),
+            links_documentation: links_documentation(context)?,
         };
         let mut result = Ok(());
         book.for_each_chapter_mut(|chapter| {
@@ -76,6 +78,19 @@ struct TagExpander {
     sources: Sources,
     places: Places,
     claims: &'static Claims,
+    links_documentation: bool,
+}
+
+/// Returns `true` if links to the output of `cargo doc` work: it exists beside the book, and the book is not served,
+/// since a server shows nothing outside of it. The setting `preprocessor.equations.links-documentation` overrides this.
+fn links_documentation(context: &PreprocessorContext) -> Result<bool> {
+    let config = &context.config;
+    if let Some(setting) = config.get("preprocessor.equations.links-documentation")? {
+        return Ok(setting);
+    }
+    let served = config.get::<String>("output.html.live-reload-endpoint")?.is_some();
+    let book = context.root.join(&config.build.build_dir);
+    Ok(!served && book.parent().is_some_and(|target| target.join("doc").join(CRATE).exists()))
 }
 
 /// Location of a tag in the book.
@@ -138,6 +153,11 @@ impl TagExpander {
             "source" => self.source(name, context),
             "figure" => self.figure(name),
             "bench" => bench::html(),
+            "live" => {
+                let (fields, k) =
+                    name.split_once(", k=").map_or((name, None), |(fields, k)| (fields, Some(k)));
+                bench::live(fields, k.map(str::parse).transpose()?)
+            }
             "claims" => Ok(self.claims.page(&self.places)),
             _ => self.typesetter.inline(&tag[0]),
         }
@@ -161,7 +181,8 @@ impl TagExpander {
             let first = places::first_with(function).context("listed")?;
             if first != number {
                 let place = self.places.equation(first).context("displayed")?;
-                let links = links(function, &self.sources.item(function)?, &context.up)?;
+                let links =
+                    links(function, &self.sources.item(function)?, &context.up, self.links_documentation)?;
                 folded += &format!(
                     "<div class=\"caption\">\n\n{links}, printed at [({first})]({}{place})\n\n</div>\n\n",
                     context.up
@@ -173,7 +194,7 @@ impl TagExpander {
                 let item = self.sources.item(function)?;
                 folded += &format!(
                     "<div class=\"caption\">\n\n{}\n\n</div>\n\n{}",
-                    links(function, &item, &context.up)?,
+                    links(function, &item, &context.up, self.links_documentation)?,
                     listing(&item.code)
                 );
             } else {
@@ -215,7 +236,7 @@ impl TagExpander {
             }
             None => listing(&item.code),
         };
-        let links = links(function, &item, &context.up)?;
+        let links = links(function, &item, &context.up, self.links_documentation)?;
         Ok(format!(
             "\n\n<div class=\"source\"{id}>\n<div class=\"caption\">\n\n{links}\n\n</div>\n\n{shown}</div>\n\n"
         ))
@@ -227,8 +248,11 @@ fn listing(code: &str) -> String {
     format!("```rust,ignore\n{code}\n```\n\n")
 }
 
-/// Returns the name of a function with links to its documentation and source.
-fn links(function: &str, item: &Item, up: &str) -> Result<String> {
+/// Returns the name of a function, with links to its documentation and source if `linked`.
+fn links(function: &str, item: &Item, up: &str, linked: bool) -> Result<String> {
+    if !linked {
+        return Ok(format!("`{function}`"));
+    }
     let (module, name) = function.split_once("::").context("a path")?;
     let (first, last) = (item.lines.start(), item.lines.end());
     Ok(format!(

@@ -9,16 +9,28 @@ use mdbook_preprocessor::{
 use regex::Regex;
 use std::{fs, path::Path};
 
+/// Returns the tags of every equation.
+fn boxes() -> String {
+    equations().map(|(entry, _)| format!("{{{{#eq {}}}}}\n\n", entry.equation)).collect()
+}
+
 /// Processes a book of one page that displays every equation, followed by `text`.
 fn process(text: &str) -> Result<String, String> {
-    let all: String = equations().map(|(entry, _)| format!("{{{{#eq {}}}}}\n\n", entry.equation)).collect();
-    process_page(&(all + text))
+    process_page(&(boxes() + text))
 }
 
 fn process_page(text: &str) -> Result<String, String> {
+    process_with(text, &[("preprocessor.equations.links-documentation", true.into())])
+}
+
+fn process_with(text: &str, settings: &[(&str, serde_json::Value)]) -> Result<String, String> {
+    let mut config = Config::default();
+    for (key, value) in settings {
+        config.set(key, value).unwrap();
+    }
     let chapter = Chapter::new("Page", text.into(), "page.md", Vec::new());
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
-    let context = PreprocessorContext::new(root.into(), Config::default(), "html".into());
+    let context = PreprocessorContext::new(root.into(), config, "html".into());
     let book = Equations
         .run(&context, Book::new_with_items(vec![BookItem::Chapter(chapter)]))
         .map_err(|error| format!("{error:#}"))?;
@@ -68,6 +80,23 @@ fn box_shows_formula_and_source_lines() {
         }
     }
     assert!(seen > 30, "{seen}");
+}
+
+/// A link to documentation that does not exist, or that a server does not show, is not printed.
+#[test]
+fn links_to_missing_documentation_are_omitted() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("documented");
+    let has_links = |settings: &[(&str, &str)]| {
+        let settings: Vec<_> = settings.iter().map(|(key, value)| (*key, (*value).into())).collect();
+        process_with(&boxes(), &settings).unwrap().contains("[documentation](")
+    };
+    let build = ("build.build-dir", folder.join("book"));
+    let build = (build.0, build.1.to_str().unwrap());
+    let _ = fs::remove_dir_all(&folder);
+    assert!(!has_links(&[build]), "there is no documentation");
+    fs::create_dir_all(folder.join("doc/spring_mass_contact")).unwrap();
+    assert!(has_links(&[build]), "documentation beside the book");
+    assert!(!has_links(&[build, ("output.html.live-reload-endpoint", "__livereload")]), "a server");
 }
 
 #[test]
