@@ -57,7 +57,7 @@ fn turn<A>(call: &mut impl FnMut() -> A) -> f64 {
     start.elapsed().as_nanos() as f64 / f64::from(calls)
 }
 
-/// Returns the timed ratios as a table in Markdown.
+/// Returns the timed ratios as a table in Markdown; those that miss their target are bold.
 pub fn table(ratios: &[Ratio]) -> String {
     let mut lines = vec![
         "| work | against | reference | own | ratio | wanted |".to_string(),
@@ -65,7 +65,8 @@ pub fn table(ratios: &[Ratio]) -> String {
     ];
     let timed = ratios.iter().filter(|ratio| ratio.least[0].is_finite());
     lines.extend(timed.map(|Ratio { name, reference: against, wanted, least: [reference, own] }| {
-        let ratio = digits(own / reference);
+        let mark = if own / reference > *wanted { "**" } else { "" };
+        let ratio = format!("{mark}{}{mark}", digits(own / reference));
         format!("| {name} | {against} | {} | {} | {ratio} | {wanted} |", duration(*reference), duration(*own))
     }));
     lines.join("\n") + "\n"

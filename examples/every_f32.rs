@@ -4,7 +4,8 @@
 //! ```sh
 //! cargo run --release --example every_f32 -- --stride 1009
 //! ```
-//! tests every 1009th bit pattern; the default is all 2³². An odd stride also varies the last bits.
+//! tests every 1009th bit pattern; the default is all 2³². An odd stride also varies the last bits. All patterns
+//! take hours; `--from` and `--to` select a part, such as `--from 0 --to 0x0fffffff`.
 //!
 //! Rationals would take too long for each case. Products of f32s are exact in f64, and a ball of f64s around
 //! the exact solution is tiny relative to an interval of f32s, so rationals are needed only if a bound lies
@@ -256,7 +257,7 @@ fn check(parameter: &Parameter, x: f32, method: &Method<f32>, tally: &mut Tally)
 }
 
 /// Tests one bit pattern as a parameter with each method that has it.
-fn try_pattern(parameter: &Parameter, bits: u32) -> Tally {
+fn check_pattern(parameter: &Parameter, bits: u32) -> Tally {
     let x = f32::from_bits(bits);
     let methods = [
         Method::Lagrange,
@@ -281,37 +282,66 @@ fn try_pattern(parameter: &Parameter, bits: u32) -> Tally {
     tally
 }
 
-/// Tests every `stride`-th bit pattern as this parameter.
-fn try_parameter(parameter: &Parameter, stride: u32) -> Tally {
-    let sum = |mut a: Tally, b| {
-        a += b;
-        a
-    };
-    let patterns = (0..=u32::MAX / stride).into_par_iter();
-    patterns.map(|n| try_pattern(parameter, n * stride)).reduce(Tally::default, sum)
+/// The multiples of `stride` between two bit patterns, both included.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Patterns {
+    from: u32,
+    to: u32,
+    stride: u32,
 }
 
-fn stride(arguments: &[String]) -> Result<u32, String> {
-    match arguments {
-        [] => Ok(1),
-        [option, number] if option == "--stride" => {
-            let stride = number.parse().ok().filter(|stride| *stride > 0);
-            stride.ok_or_else(|| {
+impl Patterns {
+    /// Parses the arguments of the command line.
+    fn parse(arguments: &[String]) -> Result<Self, String> {
+        let mut patterns = Patterns { from: 0, to: u32::MAX, stride: 1 };
+        for argument in arguments.chunks(2) {
+            let option = &argument[0];
+            let (value, least) = match option.as_str() {
+                "--stride" => (&mut patterns.stride, 1),
+                "--from" => (&mut patterns.from, 0),
+                "--to" => (&mut patterns.to, 0),
+                _ => {
+                    return Err(format!(
+                        "unknown argument '{option}': the options are --stride, --from and --to"
+                    ));
+                }
+            };
+            let [_, number] = argument else { return Err(format!("'{option}' needs a value")) };
+            let parsed = match number.strip_prefix("0x") {
+                Some(digits) => u32::from_str_radix(digits, 16),
+                None => number.parse(),
+            };
+            *value = parsed.ok().filter(|n| *n >= least).ok_or_else(|| {
                 format!(
-                    "invalid value {number:?} for '--stride N': must be an integer from 1 to {}",
+                    "invalid value '{number}' for '{option}': must be an integer from {least} to {}",
                     u32::MAX
                 )
-            })
+            })?;
         }
-        _ => Err("all there is to say is '--stride N'".to_string()),
+        match patterns {
+            Patterns { from, to, .. } if from > to => {
+                Err(format!("invalid value '{to:#010x}' for '--to': must be at least '--from', {from:#010x}"))
+            }
+            patterns => Ok(patterns),
+        }
+    }
+
+    /// Tests the patterns as this parameter.
+    fn check(self, parameter: &Parameter) -> Tally {
+        let sum = |mut a: Tally, b| {
+            a += b;
+            a
+        };
+        let multiples = (self.from.div_ceil(self.stride)..=self.to / self.stride).into_par_iter();
+        multiples.map(|n| check_pattern(parameter, n * self.stride)).reduce(Tally::default, sum)
     }
 }
 
 fn main() -> ExitCode {
     let arguments: Vec<_> =
         std::env::args_os().skip(1).map(|text| text.to_string_lossy().into_owned()).collect();
-    let stride = match stride(&arguments) {
-        Ok(stride) => stride,
+    let patterns = match Patterns::parse(&arguments) {
+        Ok(patterns) => patterns,
         Err(line) => {
             eprintln!("error: {line}");
             return ExitCode::from(2);
@@ -331,7 +361,7 @@ fn main() -> ExitCode {
     };
     for parameter in &PARAMETERS {
         let start = Instant::now();
-        let tally = try_parameter(parameter, stride);
+        let tally = patterns.check(parameter);
         row(parameter.name, &tally, start);
         if let Some(example) = &tally.example {
             println!("  {example}");
@@ -346,9 +376,35 @@ fn main() -> ExitCode {
 fn a_sample_of_patterns_has_no_violations() {
     for parameter in &PARAMETERS {
         // A prime, so that the last bits vary with the first.
-        let tally = try_parameter(parameter, 4_000_037);
-        assert_eq!((tally.violations, tally.example), (0, None));
+        let all = Patterns { from: 0, to: u32::MAX, stride: 4_000_037 };
+        let tally = all.check(parameter);
+        assert_eq!((tally.violations, &tally.example), (0, &None));
         assert!(tally.refused > 0, "{}", parameter.name);
+
+        // Parts are disjoint and contain all patterns; the first ends at a pattern that is tested.
+        let middle = 500 * all.stride;
+        let parts = [Patterns { to: middle, ..all }, Patterns { from: middle + 1, ..all }];
+        let [first, second] = parts.map(|part| part.check(parameter));
+        let count = |tally: &Tally| (tally.solves, tally.refused);
+        assert_eq!((first.solves + second.solves, first.refused + second.refused), count(&tally));
+        assert_eq!(first.solves, 501 * tally.solves / (u64::from(u32::MAX / all.stride) + 1));
+    }
+}
+
+#[test]
+fn arguments_are_parsed_or_refused_by_name() {
+    let parse = |line: &str| Patterns::parse(&line.split_whitespace().map(String::from).collect::<Vec<_>>());
+    assert_eq!(parse(""), Ok(Patterns { from: 0, to: u32::MAX, stride: 1 }));
+    let part = Patterns { from: 7, to: 1 << 28, stride: 3 };
+    assert_eq!(parse("--from 7 --stride 3 --to 0x10000000"), Ok(part));
+    for (line, message) in [
+        ("--to 1e9", "invalid value '1e9' for '--to': must be an integer from 0 to 4294967295"),
+        ("--stride 0", "invalid value '0' for '--stride': must be an integer from 1 to 4294967295"),
+        ("--from 9 --to 8", "invalid value '0x00000008' for '--to': must be at least '--from', 0x00000009"),
+        ("--from", "'--from' needs a value"),
+        ("1009", "unknown argument '1009': the options are --stride, --from and --to"),
+    ] {
+        assert_eq!(parse(line), Err(message.to_string()));
     }
 }
 

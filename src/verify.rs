@@ -185,7 +185,7 @@ pub struct Row {
     pub scalar: Option<NumberSystem>,
     /// Reason why the proof failed, or why evaluating the counterexample failed, for example by division by
     /// zero.
-    pub why: Option<String>,
+    pub reason: Option<String>,
     /// Number of decided cases.
     pub decided: u64,
     /// Number of undecided cases: a sign is lost in rounding, or a number is out of range.
@@ -347,17 +347,17 @@ fn sample_case(seed: u64, index: u64, given: &[Hypothesis]) -> Option<Case<Exact
 
 /// Returns the row of a proof.
 fn proof(statement: &Statement) -> Row {
-    let (why, counterexample) = match ProofAttempt::of(statement.clone()).answer {
+    let (reason, counterexample) = match ProofAttempt::of(statement.clone()).answer {
         ProofOutcome::Proof(_) => (None, None),
-        ProofOutcome::None(why, counterexample) => (Some(why), counterexample),
+        ProofOutcome::None(reason, counterexample) => (Some(reason), counterexample),
     };
     Row {
         equation: statement.equation(),
         claim: statement.name(),
         kind: statement.kind(),
         scalar: None,
-        status: if why.is_none() { Status::Proved } else { Status::Failed },
-        why,
+        status: if reason.is_none() { Status::Proved } else { Status::Failed },
+        reason,
         decided: 0,
         undecided: 0,
         worst: None,

@@ -348,8 +348,8 @@ fn the_radius_of_a_ball_is_proved_for_every_precision() {
         let claim = |radius: &Tree| {
             within("encloses", &meant - value.with_rounding(), radius).assuming(&given).assuming(&near)
         };
-        if let Err(why) = prove(&claim(&radius)) {
-            panic!("{meant}: {why}");
+        if let Err(reason) = prove(&claim(&radius)) {
+            panic!("{meant}: {reason}");
         }
         // Nothing of it can be left out.
         let mut parts = Vec::new();

@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 fn every_claim_is_proved() {
     let open: Vec<_> = statements()
         .iter()
-        .filter_map(|s| prove(s).err().map(|why| format!("{} {}: {why}", s.equation(), s.name())))
+        .filter_map(|s| prove(s).err().map(|reason| format!("{} {}: {reason}", s.equation(), s.name())))
         .collect();
     assert!(open.is_empty(), "not proved, as `contact prove` shows: {open:#?}");
     assert!(statements().len() > 100, "{} statements", statements().len());

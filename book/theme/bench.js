@@ -434,4 +434,3 @@ const open = root => {
     document.getElementById("bench")?.scrollIntoView();
   });
 };
-for (const root of document.querySelectorAll(".bench")) open(root);

@@ -75,8 +75,8 @@ pub fn key(option: &str) -> String {
 }
 
 /// Returns the one-line error for an invalid value of an option.
-pub fn invalid(value: &str, name: impl Display, why: impl Display) -> Failure {
-    Failure::Input(format!("invalid value '{}' for '{name}': {why}", shortened(value)))
+pub fn invalid(value: &str, name: impl Display, reason: impl Display) -> Failure {
+    Failure::Input(format!("invalid value '{}' for '{name}': {reason}", shortened(value)))
 }
 
 /// A number as typed, with its exact value.

@@ -63,8 +63,8 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     let statements = statements();
     let empty = |number: &&String| statements.iter().all(|s| s.equation() != number.as_str());
     if let Some(empty) = numbers.iter().find(empty) {
-        let why = format!("it has no claim to be proved; see `contact equations '{empty}'`");
-        return Err(args::invalid(empty, "[NUMBER]...", why));
+        let reason = format!("it has no claim to be proved; see `contact equations '{empty}'`");
+        return Err(args::invalid(empty, "[NUMBER]...", reason));
     }
     let proofs = prove_all(&numbers);
     output::print(|out| match options.format {
@@ -79,8 +79,8 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
 /// Writes the files for Coq, and prints how to compile them and which claims are omitted.
 fn for_coq(directory: &Path) -> Result<Exit, Failure> {
     let files = coq().write(directory).map_err(|error| {
-        let why = format!("must be a writable directory: {error}");
-        args::invalid(&directory.display().to_string(), "--coq <DIR>", why)
+        let reason = format!("must be a writable directory: {error}");
+        args::invalid(&directory.display().to_string(), "--coq <DIR>", reason)
     })?;
     output::print(|out| {
         writeln!(out, "The claims as theorems; compile them in this order:")?;
@@ -125,9 +125,9 @@ fn print_problems(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
         let (equation, name) = (statement.equation(), statement.name());
         match answer {
             ProofOutcome::Proof(_) => {}
-            ProofOutcome::None(why, None) => {
+            ProofOutcome::None(reason, None) => {
                 writeln!(out)?;
-                output::wrapped(out, "", 2, &format!("{equation} {name} UNKNOWN: {why}"))?;
+                output::wrapped(out, "", 2, &format!("{equation} {name} UNKNOWN: {reason}"))?;
                 output::wrapped(out, "  ", 4, &join_operands(&printer().claim(statement)))?;
             }
             ProofOutcome::None(_, Some(counterexample)) => {
@@ -171,13 +171,13 @@ fn totals(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
     let needed = dropped.iter().filter(|dropped| matches!(dropped.outcome, DropOutcome::Refuted(_))).count();
     let fine = dropped.iter().filter(|dropped| dropped.is_precision_only()).count();
     writeln!(out, "{needed} of {hypotheses} hypotheses needed, {fine} only for a higher precision.")?;
-    let (changes, noticed, unchanged) = (controls.changes, controls.noticed, controls.unchanged);
-    let seen = noticed + unchanged;
-    let seen = format!(
-        "{seen} of {changes} mutations of formulas detected: {noticed} refuted, \
-         {unchanged} proved equivalent."
+    let (mutations, refuted, equivalent) = (controls.mutations, controls.detected, controls.equivalent);
+    let detected = refuted + equivalent;
+    let total = format!(
+        "{detected} of {mutations} mutations of formulas detected: {refuted} refuted, \
+         {equivalent} proved equivalent."
     );
-    output::wrapped(out, "", 2, &seen)?;
+    output::wrapped(out, "", 2, &total)?;
     writeln!(out, "{:.3} s in all.", seconds(proofs.total_time))
 }
 
@@ -236,7 +236,7 @@ fn print_claim(out: &mut dyn Write, proofs: &Proofs, proved: &ProofAttempt) -> i
     say("where", &printer().names(statement))?;
     match answer {
         ProofOutcome::Proof(proof) => say("proof", &printer().proof(proof))?,
-        ProofOutcome::None(why, _) => say("no proof", std::slice::from_ref(why))?,
+        ProofOutcome::None(reason, _) => say("no proof", std::slice::from_ref(reason))?,
     }
     let needed = proofs.dropped(statement).filter_map(
         |DroppedHypothesis { hypothesis: given, outcome: without, .. }| match without {

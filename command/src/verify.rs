@@ -63,8 +63,8 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     }
     wanted.equations = args::equations(&options.numbers)?;
     if let Some(empty) = wanted.equations.iter().find(|e| claim_names(e).is_empty()) {
-        let why = "it has no claims; `contact equations` lists the number of claims of each";
-        return Err(args::invalid(empty, "[NUMBER]...", why));
+        let reason = "it has no claims; `contact equations` lists the number of claims of each";
+        return Err(args::invalid(empty, "[NUMBER]...", reason));
     }
     let report = output::with_progress("verifying", |progress| verify::verify(&wanted, progress));
     output::print(|out| print(out, &report, &wanted, options.format))?;
@@ -242,7 +242,7 @@ fn print_suspects(out: &mut dyn Write, report: &Report) -> io::Result<()> {
 /// Returns `true` if the same claim fails for the same reason in two number systems; their rows are adjacent.
 fn fail_alike(a: &Row, b: &Row) -> bool {
     let key = |row: &Row| (row.equation, row.claim, row.scalar.is_none());
-    key(a) == key(b) && (&a.why, &a.counterexample) == (&b.why, &b.counterexample)
+    key(a) == key(b) && (&a.reason, &a.counterexample) == (&b.reason, &b.counterexample)
 }
 
 /// Prints the undecided claims, one per line, and a remedy.
@@ -263,13 +263,13 @@ fn undecided(out: &mut dyn Write, rows: &[&Row]) -> io::Result<()> {
 /// Prints equal failures, at least one.
 fn failure(out: &mut dyn Write, alike: &[&Row]) -> io::Result<()> {
     let row = alike[0];
-    let Row { equation, claim, why, .. } = row;
+    let Row { equation, claim, reason, .. } = row;
     match row.scalar {
         None => writeln!(out, "{equation} {claim} NOT PROVED")?,
         Some(_) => output::wrapped(out, "", 2, &format!("{equation} {claim} FAILED in {}", names(alike)))?,
     }
-    if let Some(why) = why {
-        output::wrapped(out, "  ", 4, why)?;
+    if let Some(reason) = reason {
+        output::wrapped(out, "  ", 4, reason)?;
     }
     let Some(point) = row.point() else { return Ok(()) };
     output::wrapped(out, "  ", 2, &output::join_coordinates(&point))?;

@@ -771,14 +771,14 @@ fn the_whole_chapter_holds() {
                 "counterexample",
                 "decided",
                 "kind",
+                "reason",
                 "scalar",
                 "status",
                 "undecided",
-                "why",
                 "worst",
             ];
             assert_eq!(keys(claim), all, "{number}");
-            assert!(claim["counterexample"].is_null() && claim["why"].is_null(), "{number}: {claim}");
+            assert!(claim["counterexample"].is_null() && claim["reason"].is_null(), "{number}: {claim}");
             if claim["scalar"].is_null() {
                 proofs += 1;
                 assert_eq!(claim["status"], "proved", "{number}: {claim}");
@@ -1024,7 +1024,7 @@ fn the_book_has_the_totals_of_the_proofs() {
     let total = |line: &str| match line.split_once(" in ") {
         Some((before, time)) if before.ends_with("claims proved") => format!("{proved} in {time}"),
         _ if line.contains(" hypotheses needed") => hypotheses.to_string(),
-        _ if line.contains(" changes of formulas noticed") => changes.to_string(),
+        _ if line.contains(" mutations of formulas detected") => changes.to_string(),
         _ => line.to_string(),
     };
     let begin = "```text\n";
@@ -1097,9 +1097,9 @@ fn no_bad_choice_gets_further_than_one_line() {
             );
         }
     }
-    for (command, why) in [("prove", "it has no claim to be proved"), ("verify", "it has no claims")] {
+    for (command, reason) in [("prove", "it has no claim to be proved"), ("verify", "it has no claims")] {
         let line = refusal(&[command, "Fig. 1.1"]);
-        assert!(line.contains("'Fig. 1.1' for '[NUMBER]...'") && line.contains(why), "{line}");
+        assert!(line.contains("'Fig. 1.1' for '[NUMBER]...'") && line.contains(reason), "{line}");
     }
     let line = refusal(&["equations", "--format", "xml"]);
     let with_dot = formats.replace("]", ", dot]");
@@ -1127,27 +1127,27 @@ fn no_bad_choice_gets_further_than_one_line() {
     }
 }
 
-/// Nothing unknown, nothing unnoticed, no hypothesis too many; and what a program reads of it.
+/// All claims are proved, all mutations are detected and all hypotheses are needed; and the JSON has the keys of the book.
 #[test]
 fn the_whole_chapter_is_proved() {
     let (report, code) = json(&["prove"]);
-    assert_eq!((keys(&report), code), (vec!["changes", "equations", "summary"], Some(0)));
+    assert_eq!((keys(&report), code), (vec!["equations", "mutations", "summary"], Some(0)));
     let summary = &report["summary"];
-    let all = "changes claims hypotheses noticed proved refuted unchanged unknown unnoticed";
+    let all = "claims detected equivalent hypotheses mutations proved refuted undetected unknown";
     assert_eq!(keys(summary), words(all));
     let count = |key: &str| summary[key].as_u64().expect("a count");
     assert_eq!(count("proved"), count("claims"));
-    assert_eq!(count("noticed") + count("unchanged"), count("changes"));
-    assert!([("refuted", 0), ("unknown", 0), ("unnoticed", 0)].iter().all(|(key, n)| count(key) == *n));
+    assert_eq!(count("detected") + count("equivalent"), count("mutations"));
+    assert!([("refuted", 0), ("unknown", 0), ("undetected", 0)].iter().all(|(key, n)| count(key) == *n));
     let claims: Vec<_> = array(&report["equations"]).iter().flat_map(|e| array(&e["claims"])).collect();
     assert_eq!(claims.len() as u64, count("claims"));
     let mut hypotheses = 0;
     for claim in claims {
-        let all = "certificate claim counterexample dropped hypotheses kind statement status why";
+        let all = "certificate claim counterexample dropped hypotheses kind reason statement status";
         assert_eq!(keys(claim), words(all));
         assert_eq!(claim["status"], "proved", "{claim}");
         assert!(["statement", "certificate"].iter().all(|key| claim[key].is_string()), "{claim}");
-        assert!(["why", "counterexample"].iter().all(|key| claim[key].is_null()), "{claim}");
+        assert!(["reason", "counterexample"].iter().all(|key| claim[key].is_null()), "{claim}");
         let dropped = array(&claim["dropped"]);
         hypotheses += dropped.len() as u64;
         // That a number has two bits goes without saying.
@@ -1167,13 +1167,13 @@ fn the_whole_chapter_is_proved() {
         }
     }
     assert_eq!(hypotheses, count("hypotheses"));
-    assert_eq!(array(&report["changes"]).len() as u64, count("changes"));
-    for change in array(&report["changes"]) {
-        assert_eq!(keys(change), ["at", "by", "change", "counterexample", "status"]);
+    assert_eq!(array(&report["mutations"]).len() as u64, count("mutations"));
+    for change in array(&report["mutations"]) {
+        assert_eq!(keys(change), ["at", "by", "counterexample", "mutation", "status"]);
         assert!(change["at"].as_str().is_some_and(|at| at.starts_with("src/chapter/")), "{change}");
-        let noticed = change["status"] == "noticed";
-        assert!(noticed || change["status"] == "unchanged", "{change}");
-        assert_eq!((change["by"].is_string(), change["counterexample"].is_object()), (noticed, noticed));
+        let detected = change["status"] == "detected";
+        assert!(detected || change["status"] == "equivalent", "{change}");
+        assert_eq!((change["by"].is_string(), change["counterexample"].is_object()), (detected, detected));
     }
     let table = contact(&["prove"]);
     assert_eq!(table.status.code(), Some(0));

@@ -45,7 +45,7 @@ fn main() {
     ];
     let paper = ProofPrinter::new(&registry);
     for claim in claims.map(|claim| claim.assuming(&positives).assuming([&partly])) {
-        prove(&claim).unwrap_or_else(|why| panic!("{}", paper.explain(&claim, &why)));
+        prove(&claim).unwrap_or_else(|reason| panic!("{}", paper.explain(&claim, &reason)));
         println!("proved: {} ({})", paper.claim(&claim), claim.name());
     }
     // Without this hypothesis the law is undefined.

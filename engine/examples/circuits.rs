@@ -41,7 +41,7 @@ fn main() {
     ];
     let paper = ProofPrinter::new(&registry);
     for claim in claims.map(|claim| claim.assuming(&resistors)) {
-        prove(&claim).unwrap_or_else(|why| panic!("{}", paper.describe(&claim, &why)));
+        prove(&claim).unwrap_or_else(|reason| panic!("{}", paper.describe(&claim, &reason)));
         println!("proved: {}", paper.claim(&claim));
     }
 

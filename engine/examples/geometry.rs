@@ -44,7 +44,7 @@ fn main() {
     ];
     let paper = ProofPrinter::new(&registry);
     for claim in &claims {
-        prove(claim).unwrap_or_else(|why| panic!("{}: {why}", claim.name()));
+        prove(claim).unwrap_or_else(|reason| panic!("{}: {reason}", claim.name()));
         println!("proved: {} ({})", paper.claim(claim), claim.name());
     }
     let wrong = non_negative("no-larger-than-a-rectangle", &a * &b / Tree::int(2) - &area * &area);

@@ -583,7 +583,7 @@ fn false_claims_are_refuted_and_not_proved() {
         let by_hand = BY_HAND.iter().any(|(own, _)| *own == premise);
         match (prove(&statement), refute(&statement)) {
             (Ok(_), _) => Some(format!("{premise}: proved")),
-            (Err(why), None) if !by_hand => Some(format!("{premise}: not refuted; {why}")),
+            (Err(reason), None) if !by_hand => Some(format!("{premise}: not refuted; {reason}")),
             (Err(_), Some(point)) if by_hand => Some(format!("{premise}: take it out of BY_HAND; {point}")),
             (Err(_), _) => None,
         }
@@ -601,7 +601,7 @@ fn paired_true_claims_are_proved_and_not_refuted() {
         match (prove(&statement), refute(&statement)) {
             (Ok(_), None) => None,
             (_, Some(point)) => Some(format!("{premise}: refuted, {point}")),
-            (Err(why), None) => Some(format!("{premise}: {why}")),
+            (Err(reason), None) => Some(format!("{premise}: {reason}")),
         }
     });
     let wrong: Vec<_> = wrong.collect();

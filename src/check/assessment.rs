@@ -181,8 +181,8 @@ impl Assessment {
                 Ok(solved) => Assessment::of_answer(solved, answer, tolerance),
                 Err(finding) => without_numbers(Verdict::Wrong, &finding),
             },
-            Reply::Refused(why) => without_numbers(Verdict::Refused, why),
-            Reply::InvalidResponse(why) => without_numbers(Verdict::Wrong, why),
+            Reply::Refused(reason) => without_numbers(Verdict::Refused, reason),
+            Reply::InvalidResponse(reason) => without_numbers(Verdict::Wrong, reason),
             Reply::Crashed(how) => without_numbers(Verdict::Crashed, how),
             Reply::TimedOut(seen) => {
                 without_numbers(Verdict::TimedOut, &format!("no answer in time; {seen}"))

@@ -46,9 +46,9 @@ impl Tally {
     fn record(&mut self, case: &Case<Exact>, verdict: Verdict<'_>) {
         match verdict {
             Verdict::Undecided => self.undecided += 1,
-            Verdict::Failed(why) => {
+            Verdict::Failed(reason) => {
                 self.decided += 1;
-                self.failure.get_or_insert_with(|| (case.clone(), Some(why)));
+                self.failure.get_or_insert_with(|| (case.clone(), Some(reason)));
             }
             Verdict::Decided { holds, measured } => {
                 self.decided += 1;
@@ -70,14 +70,14 @@ impl Tally {
             (None, 0) => Status::Undecided,
             (None, _) => Status::Held,
         };
-        let (counterexample, why) = self.failure.unzip();
+        let (counterexample, reason) = self.failure.unzip();
         Row {
             equation: head.equation,
             claim: head.claim,
             kind: head.kind,
             scalar,
             status,
-            why: why.flatten(),
+            reason: reason.flatten(),
             decided: self.decided,
             undecided: self.undecided,
             worst: self.worst,

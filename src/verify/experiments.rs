@@ -45,6 +45,8 @@ pub struct Experiment<T> {
     pub equation: &'static str,
     /// Its name, unique within the equation.
     pub name: &'static str,
+    /// Its statement in words, or `None` for a claim about rounding, which is a formula.
+    pub statement: Option<&'static str>,
     /// Its hypotheses.
     pub given: Vec<Hypothesis>,
     /// Its trial.
@@ -56,10 +58,11 @@ fn check<T>(f: impl Fn(&Case<T>) -> Trial + Send + Sync + 'static) -> Check<T> {
 }
 
 macro_rules! list {
-    ($($equation:literal $name:literal [$($given:ident)*] $check:expr;)*) => {
+    ($($equation:literal $name:literal $statement:literal [$($given:ident)*] $check:expr;)*) => {
         vec![$(Experiment {
             equation: $equation,
             name: $name,
+            statement: Some($statement),
             given: vec![$(hypotheses().$given.clone()),*],
             check: check($check),
         }),*]
@@ -76,13 +79,20 @@ const MOST_STEPS: usize = 1000;
 /// tested.
 pub fn float_experiments<T: Scalar + Real + ToExact>() -> Vec<Experiment<T>> {
     let tried = list! {
-        "1.6" "exact-state" [stiffness grazing] |x| state(x, State::of);
-        "1.8" "bounds-contain" [stiffness] |x| bounds(x, &Method::Lagrange, solve);
-        "1.10" "root" [stiffness penalty quartic] |x| series_root(x, series_penetration);
-        "1.13" "bounds-contain" [stiffness penalty]
-            |x: &Case<T>| bounds(x, &Method::Penalty { penalty: x.eps.clone() }, solve);
-        "1.33" "promise" [stiffness penalty tolerance] |x| promise(x, solve);
-        "note 8" "units-of-solutions" [stiffness penalty tolerance] |x| units(x, solve_bilateral);
+        "1.6" "exact-state" "The state corresponds to the exact sign of R."
+            [stiffness grazing] |x| state(x, State::of);
+        "1.8" "bounds-contain" "The bounds contain the exact u, p and N."
+            [stiffness] |x| bounds(x, &Method::Lagrange, solve);
+        "1.10" "root" "The exact residual changes sign between the neighbours of the computed root."
+            [stiffness penalty quartic] |x| series_root(x, series_penetration);
+        "1.13" "bounds-contain" "The bounds contain the exact u, p and N."
+            [stiffness penalty] |x: &Case<T>| bounds(x, &Method::Penalty { penalty: x.eps.clone() }, solve);
+        "1.33" "promise"
+            "If the outcome is `converged`, the exact error of u is below the tolerance; if `stagnated`, \
+             the floor is not less than the error of some step. The bounds contain the limit, and N ≥ 0."
+            [stiffness penalty tolerance] |x| promise(x, solve);
+        "note 8" "units-of-solutions" "A change of units by powers of two changes no digit of the solution."
+            [stiffness penalty tolerance] |x| units(x, solve_bilateral);
     };
     laws::laws().into_iter().chain(tried).collect()
 }
@@ -90,16 +100,20 @@ pub fn float_experiments<T: Scalar + Real + ToExact>() -> Vec<Experiment<T>> {
 /// Returns the experiments on exact results.
 pub fn exact_experiments() -> Vec<Experiment<Exact>> {
     list! {
-        "1.33" "steps" [stiffness penalty tolerance]
+        "1.33" "steps" "With unilateral contact the iteration stops at the k for which (1.33) is solved."
+            [stiffness penalty tolerance]
             |x| count(x, Plane::Unilateral, exact_steps(x, &x.lambda, Plane::Unilateral));
-        "1.33" "steps-bilateral" [stiffness penalty tolerance]
+        "1.33" "steps-bilateral" "With bilateral contact it stops at the k for which (1.33) is solved."
+            [stiffness penalty tolerance]
             |x| count(x, Plane::Bilateral, exact_steps(x, &x.lambda, Plane::Bilateral));
-        "1.33" "tie-goes-on" [stiffness penalty tolerance]
-            |x| tie(x, exact_steps(x, &start_of_tie(x), Plane::Bilateral));
-        "note 4" "closed-form" [stiffness penalty in_contact]
+        "1.33" "tie-goes-on" "If |p₂| is equal to the tolerance, the iteration stops at k = 3."
+            [stiffness penalty tolerance] |x| tie(x, exact_steps(x, &start_of_tie(x), Plane::Bilateral));
+        "note 4" "closed-form" "λ_k = R + ρ^{k−1} (λ_1 − R) for k from 2 to 6."
+            [stiffness penalty in_contact]
             |x| unilateral_closed_form(x, exact_steps(x, &x.lambda, Plane::Unilateral));
-        "note 4" "release" [stiffness penalty separated]
-            |x| release(x, exact_steps(x, &x.lambda, Plane::Unilateral));
+        "note 4" "release"
+            "λ_k is first 0 at the K of the note, and the mass is separated from step max(K − 1, 0) on."
+            [stiffness penalty separated] |x| release(x, exact_steps(x, &x.lambda, Plane::Unilateral));
     }
 }
 

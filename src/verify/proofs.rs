@@ -39,10 +39,10 @@ impl ProofAttempt {
     /// Proves a statement, or tries to refute it. A statement whose proof panics is not proved.
     pub fn of(statement: Statement) -> Self {
         let start = Instant::now();
-        let none = |why| ProofOutcome::None(why, catch_panic(|| refute(&statement)).ok().flatten());
+        let none = |reason| ProofOutcome::None(reason, catch_panic(|| refute(&statement)).ok().flatten());
         let answer = match catch_panic(|| prove(&statement)) {
             Ok(Ok(proof)) => ProofOutcome::Proof(proof.into()),
-            Ok(Err(why)) => none(ProofPrinter::new(registry()).describe(&statement, &why)),
+            Ok(Err(reason)) => none(ProofPrinter::new(registry()).describe(&statement, &reason)),
             Err(panic) => none(panic),
         };
         ProofAttempt { statement, answer, time: start.elapsed() }
@@ -127,7 +127,7 @@ impl Proofs {
     pub fn hold(&self) -> bool {
         let Summary { claims, proved, controls, .. } = self.summary();
         let is_redundant = self.mutation.redundant_hypotheses().next().is_some();
-        0 < proved && claims == proved && controls.unnoticed == 0 && !is_redundant
+        0 < proved && claims == proved && controls.undetected == 0 && !is_redundant
     }
 
     /// Returns the outcomes of dropping each hypothesis of a claim.

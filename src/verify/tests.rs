@@ -25,7 +25,7 @@ fn claim(name: &'static str, proposition: Proposition) -> Statement {
 }
 
 fn experiment<T: 'static>(name: &'static str, check: fn(&Case<T>) -> Trial) -> Experiment<T> {
-    Experiment { equation: "1.1", name, given: vec![], check: Arc::new(check) }
+    Experiment { equation: "1.1", name, statement: None, given: vec![], check: Arc::new(check) }
 }
 
 fn x(name: &'static str) -> Tree {
@@ -231,7 +231,7 @@ fn an_undefined_claim_or_a_panic_is_a_failure_with_its_case() {
     ];
     let report = report(&checkers, 10);
     for scalar in scalars {
-        for (name, why) in [
+        for (name, reason) in [
             ("equal", "division by zero"),
             ("sign", "division by zero"),
             ("factor", "division by zero"),
@@ -241,7 +241,11 @@ fn an_undefined_claim_or_a_panic_is_a_failure_with_its_case() {
         ] {
             let row = row(&report, name, scalar);
             // In f32 some cases are out of range and undecided; the others decide.
-            assert_eq!((row.status, row.why.as_deref()), (Status::Failed, Some(why)), "{name} {scalar}");
+            assert_eq!(
+                (row.status, row.reason.as_deref()),
+                (Status::Failed, Some(reason)),
+                "{name} {scalar}"
+            );
             assert_eq!(row.decided + row.undecided, 10);
             assert!(row.decided > 5 && row.counterexample.is_some(), "{name} {scalar}");
         }
@@ -302,7 +306,7 @@ fn a_wrong_statement_is_refuted_and_an_unprovable_one_is_not_proved() {
     let found: Vec<_> = report
         .rows
         .iter()
-        .map(|row| (row.claim, row.status, row.why.is_some(), row.counterexample.is_some()))
+        .map(|row| (row.claim, row.status, row.reason.is_some(), row.counterexample.is_some()))
         .collect();
     assert_eq!(
         found,
@@ -383,7 +387,7 @@ fn json_contains_the_details_of_a_failure() {
         kind: "equal",
         status,
         scalar: Some(NumberSystem::Mpfr(2)),
-        why: counterexample.as_ref().map(|_| "division by zero".to_string()),
+        reason: counterexample.as_ref().map(|_| "division by zero".to_string()),
         decided: 4,
         undecided: 1,
         worst: counterexample.as_ref().map(|_| (2.5, "1/8".to_string())),
@@ -411,11 +415,11 @@ fn json_contains_the_details_of_a_failure() {
         "equations": [{"equation": "1.13", "claims": [
             {
                 "claim": "rate", "kind": "equal", "status": "failed", "scalar": "mpfr:2",
-                "why": "division by zero",
+                "reason": "division by zero",
                 "decided": 4, "undecided": 1, "worst": "2.5", "bound": "1/8", "counterexample": coordinates
             },
             {
-                "claim": "rate", "kind": "equal", "status": "undecided", "scalar": "mpfr:2", "why": null,
+                "claim": "rate", "kind": "equal", "status": "undecided", "scalar": "mpfr:2", "reason": null,
                 "decided": 4, "undecided": 1, "worst": null, "bound": null, "counterexample": null
             }
         ]}]

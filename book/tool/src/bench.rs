@@ -5,14 +5,15 @@
 //! `book/theme/bench_model.js`, and the user interface, `book/theme/bench.js`, are written by hand.
 
 use anyhow::{Result, bail};
-use spring_mass_contact::chapter::{SpringMass, augmented, contact, rounding, structure, system};
+use spring_mass_contact::chapter::{SpringMass, augmented, contact, ode, rounding, structure, system};
 use spring_mass_contact::number::{PositivePart, Tree, tree::Op};
 
 /// Arithmetic and analysis of a run, independent of the page; requires the script of [`formulas`].
 pub const MODEL: &str = include_str!("../../theme/bench_model.js");
 
 /// User interface.
-const PAGE: &str = include_str!("../../theme/bench.js");
+pub const PAGE: &str =
+    concat!(include_str!("../../theme/bench.js"), include_str!("../../theme/bench_flow.js"));
 
 /// Evaluates the chapter's functions that the bench uses, and returns their names and values.
 pub fn functions<T: PositivePart>(
@@ -41,6 +42,7 @@ pub fn functions<T: PositivePart>(
         augmented::contact_force(system, u)
         augmented::natural_residual(system, eps, lambda, u)
         augmented::contraction(system, eps)
+        ode::velocity(system, eps, u)
         rounding::floor_scale(system, eps, n)
         rounding::fixed_point_error(system, eps, lambda, n)
     }
@@ -48,7 +50,8 @@ pub fn functions<T: PositivePart>(
 
 /// Returns the functions as JavaScript: `const formulas = K => ({ "system::gap": ({ H, l }) => K.sub(H, l), … });`.
 ///
-/// The arguments of each are the symbols of its record, such as `eps` and `lambda`.
+/// The arguments of each are the symbols of its record, such as `eps` and `lambda`. The solution (1.30), which contains
+/// an exponential, follows as `const solution = K => …`.
 ///
 /// # Errors
 /// Returns an error if a function uses an operation that `K` does not have.
@@ -64,10 +67,16 @@ pub fn formulas() -> Result<String> {
     let [eps, lambda, u, n] = ["eps", "lambda", "u", "n"].map(|name| Tree::symbol(name));
     let mut script = String::from("const formulas = K => ({\n");
     for (name, tree) in functions(&system, &eps, &lambda, &u, &n) {
-        let quantities = Vec::from_iter(tree.symbols()).join(", ");
-        script += &format!("  \"{name}\": ({{ {quantities} }}) => {},\n", to_javascript(&tree)?);
+        script += &format!("  \"{name}\": {},\n", function(&tree)?);
     }
-    Ok(script + "});\n")
+    let solution = ode::solution(&system, &eps, &u, &Tree::symbol("t"));
+    Ok(script + &format!("}});\nconst solution = K => {};\n", function(&solution)?))
+}
+
+/// Returns a function of the symbols of a formula.
+fn function(tree: &Tree) -> Result<String> {
+    let quantities = Vec::from_iter(tree.symbols()).join(", ");
+    Ok(format!("({{ {quantities} }}) => {}", to_javascript(tree)?))
 }
 
 /// Returns a formula as nested calls in the order of the record, which determines the rounding.
@@ -83,7 +92,8 @@ fn to_javascript(tree: &Tree) -> Result<String> {
         Div(a, b) => format!("K.div({}, {})", to_javascript(a)?, to_javascript(b)?),
         PositivePart(a) => format!("K.positivePart({})", to_javascript(a)?),
         Min(a, b) => format!("K.min({}, {})", to_javascript(a)?, to_javascript(b)?),
-        Exp(_) | Rounded(_) => bail!("the bench has no {tree}"),
+        Exp(a) => format!("K.exp({})", to_javascript(a)?),
+        Rounded(_) => bail!("the bench has no {tree}"),
     })
 }
 
@@ -100,7 +110,8 @@ pub fn html() -> Result<String> {
 }
 
 /// Returns the HTML of a small figure that moves: `fields` are the symbols of its sliders, and it shows the state
-/// after `k` augmentations of the example, or the solution if `k` is `None`.
+/// after `k` augmentations of the example, or the solution if `k` is `None`. The field `h`
+/// alone shows explicit Euler steps of that size for (1.23).
 ///
 /// # Errors
 /// Returns the errors of [`formulas`].
@@ -108,7 +119,11 @@ pub fn live(fields: &str, k: Option<u32>) -> Result<String> {
     let script = html()?;
     let script = &script[script.find("<script>").unwrap_or_default()..];
     // The error of the example is below a pixel after 40 augmentations.
-    let (class, k) = k.map_or(("bench bench-small bench-solved", 40), |k| ("bench bench-small", k));
+    let (class, k) = match k {
+        _ if fields == "h" => ("bench", 0),
+        Some(k) => ("bench bench-small", k),
+        None => ("bench bench-small bench-solved", 40),
+    };
     Ok(format!("<div class=\"{class}\" data-fields=\"{fields}\" data-k=\"{k}\"></div>\n\n{script}"))
 }
 

@@ -87,11 +87,8 @@ impl Claims {
                 for rows in rows.chunk_by(|a, b| a.claim == b.claim) {
                     let rows: Vec<_> = rows.iter().collect();
                     let (kind, name) = (rows[0].kind, rows[0].claim);
-                    let _ = write!(text, "- **{name}** ({kind})");
                     let (statement, hypotheses) = &texts[&(entry.equation, name)];
-                    if let Some(statement) = statement {
-                        let _ = write!(text, "\\\n  `{statement}`");
-                    }
+                    let _ = write!(text, "- **{name}** ({kind})\\\n  {statement}");
                     if !hypotheses.is_empty() {
                         let _ = write!(text, "\\\n  if `{}`", hypotheses.join("`, `"));
                     }
@@ -108,22 +105,23 @@ impl Claims {
     }
 }
 
-/// Statement of a claim, if it is a formula, and its hypotheses.
-type ClaimText = (Option<String>, Vec<String>);
+/// Statement of a claim in Markdown and its hypotheses.
+type ClaimText = (String, Vec<String>);
 
 /// Returns the texts of all claims by equation number and claim name.
 fn claim_texts() -> HashMap<(&'static str, &'static str), ClaimText> {
     let format = |hypotheses: &[Hypothesis]| registry().format_hypotheses(hypotheses);
-    let floats = float_experiments::<f64>().into_iter().map(|e| (e.equation, e.name, e.given));
-    let rationals = exact_experiments().into_iter().map(|e| (e.equation, e.name, e.given));
-    let tested = floats.chain(rationals).map(|(equation, name, h)| ((equation, name), (None, format(&h))));
+    let floats = float_experiments::<f64>().into_iter().map(|e| (e.equation, e.name, e.statement, e.given));
+    let rationals = exact_experiments().into_iter().map(|e| (e.equation, e.name, e.statement, e.given));
+    let tested = floats.chain(rationals).filter_map(|(equation, name, statement, hypotheses)| {
+        Some(((equation, name), (with_indices(statement?), format(&hypotheses))))
+    });
     let recorded = claims().map(|claim| {
-        let statement = claim;
         // Invariants are part of the proof and not hypotheses of the claim.
-        let hypotheses = claim.stated_hypotheses().iter().filter(|h| statement.hypotheses().contains(h));
+        let hypotheses = claim.stated_hypotheses().iter().filter(|h| claim.hypotheses().contains(h));
         let hypotheses: Vec<_> = hypotheses.cloned().collect();
-        let text = ProofPrinter::new(registry()).claim(statement);
-        ((claim.equation(), claim.name()), (Some(text), format(&hypotheses)))
+        let text = ProofPrinter::new(registry()).claim(claim);
+        ((claim.equation(), claim.name()), (format!("`{text}`"), format(&hypotheses)))
     });
     tested.chain(recorded).collect()
 }
@@ -245,7 +243,7 @@ mod tests {
             kind: "equal",
             status,
             scalar,
-            why: None,
+            reason: None,
             decided: 1,
             undecided: 0,
             worst: None,

@@ -3,7 +3,7 @@
 //!
 //! Without node these tests print a note and pass; `NODE=path` selects the node to run, and it is an error if it fails.
 
-use book_tool::bench::{MODEL, formulas, functions, html};
+use book_tool::bench::{MODEL, PAGE, formulas, functions, html};
 use regex::Regex;
 use serde_json::{Value, json};
 use spring_mass_contact::chapter::{SpringMass, augmented, contact, system};
@@ -564,11 +564,14 @@ for (const search of input.asked) {
     assert_eq!(found.lines().collect::<Vec<_>>(), expected.map(|(_, drawn)| drawn));
 }
 
+/// Document for the functions that draw, on a page without a bench.
+const STUB: &str =
+    "const document = { createElementNS: (space, name) => new Element(name), querySelectorAll: () => [] };";
+
 /// For the example the steps are (1/4, 1), (1/8, 3/2), … on the line of equilibrium, and the corner of the plane is at
 /// p = N = 0.
 #[test]
 fn drawings_are_to_scale() {
-    const PAGE: &str = include_str!("../../theme/bench.js");
     const DRAWN: &str = r#"
 const { values } = numbers(input), result = run(input, values);
 const drawn = draw => {
@@ -583,8 +586,6 @@ const drawn = draw => {
 };
 console.log(JSON.stringify([drawn(drawForces), drawn(drawDecay)]));
 "#;
-    const STUB: &str = "const document = \
-        { createElementNS: (space, name) => new Element(name), querySelectorAll: () => [] };";
     let question = json!({ "c": "4", "m": "1", "g": "10", "l": "1", "H": "3", "eps": "4", "lambda": "0", "k": 3,
         "numbers": "f64", "plane": "both" });
     let Some(found) = printed(&format!("{DOCUMENT}{STUB}{PAGE}{DRAWN}"), &question) else { return };
@@ -660,6 +661,47 @@ console.log(JSON.stringify([states, ticks()]));
     // The drawing shows lengths up to 4 m between 24 and 216 pixels. With H = 1.58 m the mass is at most at
     // 1 + (10 + 4 · 0.58)/8 = 2.54 m, for which 3 m are shown.
     assert_eq!((dragged[2].as_str(), end[2].as_str()), ("1.58", "3"), "H");
+}
+
+/// With Euler steps of size 1 the points are the rings of the augmentations, and the curve is above them; at h = 4 the
+/// example alternates between p₀ and −p₀.
+#[test]
+fn euler_steps_of_size_one_are_the_augmentations() {
+    const DRAWN: &str = r#"
+const svg = Object.assign(document.createElementNS("", "svg"), { clientWidth: 440, clientHeight: 250 });
+const drawn = h => {
+  const text = drawFlow(svg, 4, h), circles = svg.children.filter(child => child.name === "circle");
+  const of = kind => circles.filter(({ attributes }) => attributes.class === kind).map(({ attributes: { cx, cy } }) => [cx, cy].map(x => Number(Number(x).toFixed(6))));
+  const curve = numbersIn(svg.children.find(({ attributes }) => attributes.class === "bench-spring").attributes.d);
+  return { text, dots: of("bench-dot"), rings: of("bench-ring"), curve };
+};
+console.log(JSON.stringify([1, 4, 6].map(drawn)));
+"#;
+    let Some(found) = printed(&format!("{DOCUMENT}{STUB}{PAGE}{DRAWN}"), &json!(null)) else { return };
+    let drawn: Value = serde_json::from_str(&found).unwrap();
+    let points =
+        |i: usize, kind: &str| -> Vec<(f64, f64)> { serde_json::from_value(drawn[i][kind].clone()).unwrap() };
+    // Between p₀ and −p₀ are 200 pixels, and p₀ is at a height of 25; the time 1 is 50 pixels. Millionths of a pixel are rounded.
+    let rings: Vec<_> =
+        (0..9).map(|k| (30.0 + 50.0 * f64::from(k), 125.0 - 100.0 * 0.5_f64.powi(k))).collect();
+    assert_eq!(points(0, "dots"), rings);
+    assert_eq!(points(0, "rings"), rings);
+    let curve: Vec<f64> = serde_json::from_value(drawn[0]["curve"].clone()).unwrap();
+    for point in curve.chunks(2) {
+        // The path is written in hundredths.
+        let t = (point[0] - 30.0) / 50.0;
+        assert!((point[1] - (125.0 - 100.0 * (-t / 2.0).exp())).abs() <= 0.011, "{point:?}");
+    }
+    assert_eq!(points(1, "dots"), [(30.0, 25.0), (230.0, 225.0), (430.0, 25.0)]);
+    let texts = [0, 1, 2].map(|i| drawn[i]["text"].as_str().unwrap());
+    assert_eq!(
+        texts,
+        [
+            "Each step multiplies p by 0.5: they converge.",
+            "Each step multiplies p by −1: they neither converge nor diverge, with alternating sign.",
+            "Each step multiplies p by −2: they diverge, with alternating sign.",
+        ]
+    );
 }
 
 /// The fields of the bench have the units of the page of notation.

@@ -105,8 +105,8 @@ pub fn parse(bytes: &[u8]) {
     let texts = SpringMass { c: "1", m: "1", g: &*text, l: "1", h: "1" };
     match (texts.parse(), &read) {
         (Ok(system), Ok(x)) => assert_eq!(system.g, *x),
-        (Err(ReadError::NotANumber { argument: "gravity", value, reason }), Err(why)) => {
-            assert_eq!((&value, &reason), (&text, why));
+        (Err(ReadError::NotANumber { argument: "gravity", value, reason }), Err(error)) => {
+            assert_eq!((&value, &reason), (&text, error));
         }
         (other, _) => panic!("{other:?}"),
     }

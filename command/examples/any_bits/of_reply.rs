@@ -133,7 +133,7 @@ pub fn read(bytes: &[u8]) {
         return;
     };
     let reply = match read {
-        Err(why) => return one_line(&why),
+        Err(reason) => return one_line(&reason),
         Ok(reply) => reply,
     };
     if let Reply::Refused(text) | Reply::InvalidResponse(text) = &reply {

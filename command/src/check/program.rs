@@ -76,7 +76,7 @@ impl Program {
                 self.running = Some(running);
                 reply
             }
-            Err(SessionError::UnexpectedReply(why)) => Reply::InvalidResponse(why),
+            Err(SessionError::UnexpectedReply(reason)) => Reply::InvalidResponse(reason),
             Err(SessionError::Ended) => Reply::Crashed(running.end(self.grace)),
             Err(SessionError::TimedOut(seen)) => Reply::TimedOut(seen),
         })
@@ -90,8 +90,8 @@ impl Program {
             // A limit of the operating system, not a property of the program.
             _ => return format!("'{}' cannot be started: {error}", shortened(&words(&self.words[0]))).into(),
         };
-        let why = format!("cannot be started: {error}; {must}");
-        invalid(&words(&self.words[0]), "<PROGRAM>...", why)
+        let reason = format!("cannot be started: {error}; {must}");
+        invalid(&words(&self.words[0]), "<PROGRAM>...", reason)
     }
 }
 
@@ -154,7 +154,7 @@ impl Running {
         loop {
             match self.lines.next(Duration::ZERO) {
                 Ok(line) => reply::early(line, &problem.id)
-                    .map_or(Ok(()), |why| Err(SessionError::UnexpectedReply(why)))?,
+                    .map_or(Ok(()), |reason| Err(SessionError::UnexpectedReply(reason)))?,
                 Err(RecvTimeoutError::Timeout) => break,
                 Err(RecvTimeoutError::Disconnected) => return Err(SessionError::Ended),
             }

@@ -181,7 +181,7 @@ fn number(value: &RawValue, within: &str, key: &str, digits: &mut usize) -> Resu
     if value.get() == "null" || is_not_a_number(text) {
         return Ok(None);
     }
-    let refused = |why: &dyn Display| refused(text, format!("{within}{key}"), why);
+    let refused = |reason: &dyn Display| refused(text, format!("{within}{key}"), reason);
     let size = size(text);
     if size > LONGEST_NUMBER {
         return Err(refused(&format!("must have no more than {LONGEST_NUMBER} digits")));
@@ -198,8 +198,8 @@ fn size(text: &str) -> usize {
     text.len() + power.map_or(0, |power| power.unsigned_abs() as usize)
 }
 
-fn refused(text: &str, key: impl Display, why: impl Display) -> String {
-    invalid(&words(text), key, why).to_string()
+fn refused(text: &str, key: impl Display, reason: impl Display) -> String {
+    invalid(&words(text), key, reason).to_string()
 }
 
 #[cfg(test)]

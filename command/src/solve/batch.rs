@@ -70,18 +70,18 @@ fn read(line: &[u8]) -> Result<Object<'_>, Failure> {
     if line.len() > LONGEST {
         return Err(format!("a line must have no more than {LONGEST} bytes").into());
     }
-    let refused = |why: &dyn Display| {
+    let refused = |reason: &dyn Display| {
         let text = String::from_utf8_lossy(line);
-        format!("invalid line '{}': {why}; a line is a JSON object", shortened(text.trim()))
+        format!("invalid line '{}': {reason}; a line is a JSON object", shortened(text.trim()))
     };
     let text = str::from_utf8(line).map_err(|_| refused(&"must be UTF-8 text"))?;
     Ok(serde_json::from_str(text).map_err(|error| {
         // The line number within the line is omitted.
-        let why = error.to_string();
+        let reason = error.to_string();
         let place = format!(" at line {} column {}", error.line(), error.column());
-        refused(&match why.strip_suffix(&place) {
-            Some(why) => format!("{why} at column {}", error.column()),
-            None => why,
+        refused(&match reason.strip_suffix(&place) {
+            Some(reason) => format!("{reason} at column {}", error.column()),
+            None => reason,
         })
     })?)
 }
@@ -138,7 +138,7 @@ impl Options {
             return Err(format!("unexpected key '{}' found; [keys: id, {keys}]", shortened(key)).into());
         };
         let text = json::text(value);
-        set(self, &text).map_err(|why| invalid(&text, key, why))
+        set(self, &text).map_err(|reason| invalid(&text, key, reason))
     }
 
     /// Removes options of the command line that the method does not use.

@@ -23,7 +23,7 @@ fn row(way: Way, status: Status) -> Row {
         kind: "equal",
         status,
         scalar: way,
-        why: None,
+        reason: None,
         decided,
         undecided: if way.is_some() { 5 - decided } else { 0 },
         worst: (decided > 0).then(|| (if failed { 1e80 } else { 2.5 }, "1/8".to_string())),
@@ -41,7 +41,7 @@ fn report(rows: Vec<Row>) -> (Report, verify::Options) {
 /// rationals; before it a claim that is wrong for another reason, without suspects.
 fn mistaken() -> (Report, verify::Options) {
     let [single, double, two_bits] = [NumberSystem::F32, NumberSystem::F64, NumberSystem::Mpfr(2)];
-    let proof = Row { why: Some("the sides differ by c".into()), ..row(None, Status::Failed) };
+    let proof = Row { reason: Some("the sides differ by c".into()), ..row(None, Status::Failed) };
     let rows = vec![
         proof.clone(),
         row(Some(single), Status::Failed),
@@ -108,13 +108,16 @@ Rounding errors: at most 250 % of the bound (1.13 rate, exact).
 /// An unproved claim is reported separately, even if a number system fails in the same way.
 #[test]
 fn failures_of_proofs_and_of_number_systems_are_distinguished() {
-    let why = Some("division by 0".to_string());
+    let reason = Some("division by 0".to_string());
     let ways = [None, Some(NumberSystem::F32), Some(NumberSystem::F64)];
-    let broken = |way| Row { why: why.clone(), counterexample: None, ..row(way, Status::Failed) };
+    let broken = |way| Row { reason: reason.clone(), counterexample: None, ..row(way, Status::Failed) };
     let (report, options) = report(ways.map(broken).to_vec());
     let text = capture(|out| table(out, &report, &options));
-    let why = "\n  division by 0\n\n";
-    assert!(text.contains(&format!("1.13 rate NOT PROVED{why}1.13 rate FAILED in f32, f64{why}")), "{text}");
+    let reason = "\n  division by 0\n\n";
+    assert!(
+        text.contains(&format!("1.13 rate NOT PROVED{reason}1.13 rate FAILED in f32, f64{reason}")),
+        "{text}"
+    );
 }
 
 /// A wrong function usually makes several claims fail.

@@ -41,12 +41,12 @@ pub struct NoBound {
     /// First formula without a bound of its rounding error.
     pub formula: Tree,
     /// The reason.
-    pub why: ProofError,
+    pub reason: ProofError,
 }
 
 impl fmt::Display for NoBound {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "no bound of the rounding error of {} was found: {}", self.formula, self.why)
+        write!(f, "no bound of the rounding error of {} was found: {}", self.formula, self.reason)
     }
 }
 
@@ -88,7 +88,7 @@ pub fn rounding_bound(of: &Tree, scale: &Tree, hypotheses: &[Hypothesis]) -> Res
     for (constant, claim) in found {
         match prove(&claim) {
             Ok(proof) => return Ok(RoundingBound { constant, proof }),
-            Err(why) => failed.push(NoBound { formula: exact(of), why }),
+            Err(reason) => failed.push(NoBound { formula: exact(of), reason }),
         }
     }
     Err(failed.swap_remove(0))
@@ -145,9 +145,9 @@ fn least<E>(holds: impl Fn(&Tree) -> Result<(), E>) -> Result<Number, E> {
             (above, below, step) = (below, below - step, 2 * step);
         }
     } else {
-        while let Err(why) = is(64, above) {
+        while let Err(reason) = is(64, above) {
             if above > POWERS {
-                return Err(why);
+                return Err(reason);
             }
             (below, above, step) = (above, above + step, 2 * step);
         }
@@ -193,7 +193,7 @@ impl Chain {
 
     fn bound(mut self, of: &Tree, scale: &Tree) -> Result<(f64, Statement), NoBound> {
         let formula = exact(of);
-        let no_bound = |why| NoBound { formula: formula.clone(), why };
+        let no_bound = |reason| NoBound { formula: formula.clone(), reason };
         let rounded = if of.contains_rounding() { of.clone() } else { of.with_rounding() };
         for rounding in kernel::roundings([&rounded].into_iter()) {
             let node = rounding.round();
@@ -214,7 +214,7 @@ impl Chain {
     /// Adds a rounded result with a bound of its error.
     fn name(&mut self, node: &Tree) -> Result<(), NoBound> {
         let (formula, computed) = (exact(node), self.computed(node));
-        let no_bound = |why| NoBound { formula: formula.clone(), why };
+        let no_bound = |reason| NoBound { formula: formula.clone(), reason };
         let value = self.value(&formula);
         let has_sign = |of: &Tree| self.proves(Proposition::Sign(Relation::NonNegative, of.clone())).is_ok();
         let error = &computed - &value;
@@ -381,7 +381,7 @@ mod tests {
         let around_zero = Hypothesis::between(&x, -1, 1);
         let refused = bound(&(&one / &x), &one, &[around_zero]).unwrap_err();
         assert!(
-            matches!(refused.why, ProofError::PossibleZeroDivisor(..)) && refused.formula == &one / &x,
+            matches!(refused.reason, ProofError::PossibleZeroDivisor(..)) && refused.formula == &one / &x,
             "{refused}"
         );
         // Nothing is rounded.

@@ -42,8 +42,8 @@ const POINTS: usize = 4;
 /// assert_eq!(hypotheses[0].to_string(), "g > f");
 /// assert!(prove(&claim.assuming([&hypotheses[0]])).is_ok());
 /// ```
-pub fn sufficient_hypothesis(statement: &Statement, why: &ProofError) -> Vec<Hypothesis> {
-    if let ProofError::TooLarge(..) = why {
+pub fn sufficient_hypothesis(statement: &Statement, reason: &ProofError) -> Vec<Hypothesis> {
+    if let ProofError::TooLarge(..) = reason {
         return Vec::new(); // So would be the proofs under more hypotheses.
     }
     let symbols = symbols(statement);
@@ -71,7 +71,7 @@ pub fn sufficient_hypothesis(statement: &Statement, why: &ProofError) -> Vec<Hyp
             found.push(new);
         }
     }
-    let obstacle = obstacle(statement, why).filter(is_own).filter(is_short).into_iter();
+    let obstacle = obstacle(statement, reason).filter(is_own).filter(is_short).into_iter();
     for new in obstacle.flat_map(|of| [-&of, of]).rev().filter_map(weakest) {
         if found.iter().all(|known| !follows(known, &new) && !follows(&new, known)) {
             found.push(new);
@@ -99,8 +99,8 @@ fn suffices(statement: &Statement, candidate: &Hypothesis, symbols: &[&'static s
 }
 
 /// Returns the formula whose sign is missing, in the symbols of the statement and without common factors.
-fn obstacle(statement: &Statement, why: &ProofError) -> Option<Tree> {
-    let value = match why {
+fn obstacle(statement: &Statement, reason: &ProofError) -> Option<Tree> {
+    let value = match reason {
         ProofError::PossibleZeroDivisor(divisor, _) => return Some(divisor.clone()),
         ProofError::UnknownSign(value, _)
         | ProofError::WrongSign(value, _)
@@ -260,8 +260,8 @@ mod tests {
             let of = &parts[i] + &parts[j] * &parts[k] / &parts[(i + j) % 5];
             let given = above_zero(parts[(j + k) % 5].clone());
             for claim in [non_negative("", &of), positive("", &of)].map(|claim| claim.assuming([&given])) {
-                let Err(why) = prove(&claim) else { continue };
-                let hypotheses = sufficient_hypothesis(&claim, &why);
+                let Err(reason) = prove(&claim) else { continue };
+                let hypotheses = sufficient_hypothesis(&claim, &reason);
                 assert!(hypotheses.len() <= MAX_HINTS);
                 for hypothesis in &hypotheses {
                     let claim = claim.clone().assuming([hypothesis]);

@@ -211,8 +211,9 @@ fn check_names<'t>(statement: &'t Statement) -> Result<(), ProofError> {
         refuse(member.iter().chain(bounds().take(1)), |name| is_member(name) || is_computed(name))?;
         refuse(bounds(), is_member)?;
     }
-    let rename = |why| {
-        if let ProofError::ReservedName(name) = why { ProofError::HypothesisOnComputed(name) } else { why }
+    let rename = |error| match error {
+        ProofError::ReservedName(name) => ProofError::HypothesisOnComputed(name),
+        error => error,
     };
     refuse(hypotheses.chain(values(statement.invariants())), is_computed).map_err(rename)?;
     computed.iter().enumerate().try_for_each(|(i, computed)| {
@@ -258,7 +259,7 @@ fn derive(
         let [next, rest @ ..] = hypotheses else { break Ok(()) };
         match context.assume(next) {
             Ok(()) => hypotheses = rest,
-            Err(why) => break Err(why),
+            Err(reason) => break Err(reason),
         }
     };
     match assumed.and_then(|()| context.derive_directly(goal)) {
@@ -273,7 +274,7 @@ fn derive(
             let (positive, non_positive) = (case(Sign::Positive)?, case(Sign::NonPositive)?);
             Ok(Derivation::Cases(deciding, positive.into(), non_positive.into()))
         }
-        Err(why) => Err(why),
+        Err(reason) => Err(reason),
     }
 }
 

@@ -87,13 +87,13 @@ pub struct MutationReport {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Summary {
     /// The number of all mutants.
-    pub changes: usize,
+    pub mutations: usize,
     /// The number of mutants that a claim detects.
-    pub noticed: usize,
+    pub detected: usize,
     /// The number of mutants that are proved equivalent to the original.
-    pub unchanged: usize,
+    pub equivalent: usize,
     /// The number of the other mutants.
-    pub unnoticed: usize,
+    pub undetected: usize,
 }
 
 impl MutationReport {
@@ -102,10 +102,10 @@ impl MutationReport {
         let count =
             |is: fn(&MutationOutcome) -> bool| self.mutants.iter().filter(|(_, effect)| is(effect)).count();
         Summary {
-            changes: self.mutants.len(),
-            noticed: count(|effect| matches!(effect, MutationOutcome::Detected { .. })),
-            unchanged: count(|effect| matches!(effect, MutationOutcome::Equivalent)),
-            unnoticed: count(|effect| matches!(effect, MutationOutcome::Undetected)),
+            mutations: self.mutants.len(),
+            detected: count(|effect| matches!(effect, MutationOutcome::Detected { .. })),
+            equivalent: count(|effect| matches!(effect, MutationOutcome::Equivalent)),
+            undetected: count(|effect| matches!(effect, MutationOutcome::Undetected)),
         }
     }
 
@@ -216,7 +216,7 @@ impl<'a> SharedState<'a> {
             let statements = self.by_site.get(&change.site).into_iter().flatten();
             statements.filter_map(|&i| Some((i, change.apply(&self.statements[i])?)))
         };
-        let noticed = |(i, changed): (usize, Statement), thoroughly: bool| {
+        let detected = |(i, changed): (usize, Statement), thoroughly: bool| {
             let original = &self.statements[i];
             let changed_points = (original.hypotheses() != changed.hypotheses())
                 .then(|| PointSet::of(changed.hypotheses().to_vec(), self.symbols.clone()));
@@ -234,9 +234,9 @@ impl<'a> SharedState<'a> {
         };
         let unchanged = || affected().all(|(i, _)| change.is_equivalent(&self.statements[i], self.registry));
         affected()
-            .find_map(|pair| noticed(pair, false))
+            .find_map(|pair| detected(pair, false))
             .or_else(|| unchanged().then_some(MutationOutcome::Equivalent))
-            .or_else(|| affected().find_map(|pair| noticed(pair, true)))
+            .or_else(|| affected().find_map(|pair| detected(pair, true)))
             .unwrap_or(MutationOutcome::Undetected)
     }
 
@@ -290,7 +290,7 @@ mod tests {
             unchanged.map(|(mutant, _)| mutant.mutation).collect::<Vec<_>>(),
             [Mutation::Swap(Operator::Sub)]
         );
-        assert_eq!(test_mutations(&statements, &registry()).summary().unnoticed, 0);
+        assert_eq!(test_mutations(&statements, &registry()).summary().undetected, 0);
     }
 
     #[test]
@@ -314,8 +314,9 @@ mod tests {
         let hypothesis = Hypothesis::new(Relation::NonNegative, k.clone());
         let statements = [non_negative("k", k).assuming([&hypothesis])];
         let MutationReport { mutants, .. } = test_mutations(&statements, &registry());
-        let noticed = mutants.iter().find(|(_, outcome)| matches!(outcome, MutationOutcome::Detected { .. }));
-        assert!(noticed.is_none() && !mutants.is_empty(), "{noticed:?}");
+        let detected =
+            mutants.iter().find(|(_, outcome)| matches!(outcome, MutationOutcome::Detected { .. }));
+        assert!(detected.is_none() && !mutants.is_empty(), "{detected:?}");
     }
 
     /// The mistaken formula is k = a²/4, the correct ones a²/2, a²/20, −a²/4, a²/8 and a².

@@ -84,7 +84,7 @@ fn one_failed_case_fails_a_claim_and_no_decided_case_leaves_it_undecided() {
     assert_eq!(row(Tally { undecided: 5, ..Tally::default() }).status, Status::Undecided);
     assert_eq!(row(held).status, Status::Held);
     let failed = row(failed);
-    assert_eq!((failed.status, failed.why.as_deref()), (Status::Failed, Some("why")));
+    assert_eq!((failed.status, failed.reason.as_deref()), (Status::Failed, Some("why")));
     assert!(failed.counterexample.is_some());
 }
 

@@ -23,6 +23,7 @@ fn experiment<T: Scalar + Real + ToExact>(claim: &Statement) -> Experiment<T> {
     Experiment {
         equation: claim.equation(),
         name: claim.name(),
+        statement: None,
         given: claim.hypotheses().iter().filter(|given| is_of_parameters(given)).cloned().collect(),
         check: check(move |case: &Case<T>| match law.trial(case) {
             Some(Trial::Within { error, bound }) if !of_rounding => Trial::Decided(error <= bound),

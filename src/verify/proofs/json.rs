@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 struct All {
     summary: Summary,
     equations: Vec<Equation>,
-    changes: Vec<Changed>,
+    mutations: Vec<Mutation>,
 }
 
 #[derive(Serialize)]
@@ -29,7 +29,7 @@ struct Claim {
     hypotheses: Vec<String>,
     status: &'static str,
     certificate: Option<String>,
-    why: Option<String>,
+    reason: Option<String>,
     counterexample: Option<Values>,
     dropped: Vec<Less>,
 }
@@ -43,9 +43,9 @@ struct Less {
 }
 
 #[derive(Serialize)]
-struct Changed {
+struct Mutation {
     at: String,
-    change: String,
+    mutation: String,
     status: &'static str,
     by: Option<String>,
     counterexample: Option<Values>,
@@ -64,8 +64,8 @@ impl Serialize for Proofs {
             equation: claims[0].statement.equation(),
             claims: claims.iter().map(|proved| claim(proved, self)).collect(),
         });
-        let changes = self.mutation.mutants.iter().map(changed);
-        All { summary: self.summary(), equations: equations.collect(), changes: changes.collect() }
+        let mutations = self.mutation.mutants.iter().map(mutation);
+        All { summary: self.summary(), equations: equations.collect(), mutations: mutations.collect() }
             .serialize(to)
     }
 }
@@ -73,10 +73,10 @@ impl Serialize for Proofs {
 fn claim(proved: &ProofAttempt, proofs: &Proofs) -> Claim {
     let ProofAttempt { statement, answer, .. } = proved;
     let paper = ProofPrinter::new(registry()).in_full();
-    let (certificate, why, counterexample) = match answer {
+    let (certificate, reason, counterexample) = match answer {
         ProofOutcome::Proof(proof) => (Some(paper.proof(proof).join("\n")), None, None),
-        ProofOutcome::None(why, counterexample) => {
-            (None, Some(why.clone()), counterexample.as_ref().map(values))
+        ProofOutcome::None(reason, counterexample) => {
+            (None, Some(reason.clone()), counterexample.as_ref().map(values))
         }
     };
     Claim {
@@ -86,7 +86,7 @@ fn claim(proved: &ProofAttempt, proofs: &Proofs) -> Claim {
         hypotheses: proved.hypotheses(),
         status: proved.status(),
         certificate,
-        why,
+        reason,
         counterexample,
         dropped: proofs.dropped(statement).map(dropped).collect(),
     }
@@ -101,13 +101,13 @@ fn dropped(DroppedHypothesis { hypothesis: given, outcome: without, .. }: &Dropp
     Less { hypothesis: registry().format_hypothesis(given), status, counterexample }
 }
 
-fn changed((Mutant { site, mutation: what }, effect): &(Mutant, MutationOutcome)) -> Changed {
-    let (status, by, counterexample) = match effect {
+fn mutation((Mutant { site, mutation }, outcome): &(Mutant, MutationOutcome)) -> Mutation {
+    let (status, by, counterexample) = match outcome {
         MutationOutcome::Detected { equation, name, refutation } => {
-            ("noticed", Some(format!("{equation} {name}")), Some(values(&refutation.counterexample())))
+            ("detected", Some(format!("{equation} {name}")), Some(values(&refutation.counterexample())))
         }
-        MutationOutcome::Equivalent => ("unchanged", None, None),
-        MutationOutcome::Undetected => ("unnoticed", None, None),
+        MutationOutcome::Equivalent => ("equivalent", None, None),
+        MutationOutcome::Undetected => ("undetected", None, None),
     };
-    Changed { at: site.to_string(), change: what.to_string(), status, by, counterexample }
+    Mutation { at: site.to_string(), mutation: mutation.to_string(), status, by, counterexample }
 }

@@ -95,7 +95,7 @@ fn the_book_contains_the_report_of_a_mistake() {
         suspect.unproved + suspect.proved,
         row.equation,
         row.claim,
-        row.why.as_ref().unwrap(),
+        row.reason.as_ref().unwrap(),
         row.point().unwrap(),
         row.equation,
         row.claim,

@@ -76,7 +76,7 @@ fn crashed(reply: &Reply) -> &str {
 
 fn garbled(reply: &Reply) -> &str {
     match reply {
-        Reply::InvalidResponse(why) => why,
+        Reply::InvalidResponse(reason) => reason,
         other => panic!("{other:?}"),
     }
 }

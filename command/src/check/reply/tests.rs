@@ -23,7 +23,7 @@ fn answered(rest: &str) -> Answer {
 
 fn garbled(rest: &str) -> String {
     match said(format!(r#"{{"id": "a", {rest}}}"#)) {
-        Ok(Reply::InvalidResponse(why)) => why,
+        Ok(Reply::InvalidResponse(reason)) => reason,
         other => panic!("{rest}: {other:?}"),
     }
 }
@@ -99,21 +99,24 @@ fn an_unreadable_field_is_named() {
         ("{\"x\": 1}", "{\"x\": 1}"),
         ("\"\"", ""),
     ] {
-        let why = garbled(&format!("{U}, \"contact_force\": {value}"));
-        assert!(why.starts_with(&format!("invalid value '{shown}' for 'contact_force': ")), "{why}");
+        let reason = garbled(&format!("{U}, \"contact_force\": {value}"));
+        assert!(reason.starts_with(&format!("invalid value '{shown}' for 'contact_force': ")), "{reason}");
     }
     let out_of_range = "exponent out of range; it must lie between -100000 and 100000";
     for value in ["1e100001", "1e-100001", "1e99999999999999999999", "-1e-2147483648"] {
-        let why = garbled(&format!("{N}, \"deflection\": {value}"));
-        assert!(why.starts_with(&format!("invalid value '{value}' for 'deflection': ")), "{why}");
-        assert!(why.ends_with(out_of_range) || why.ends_with("no more than 4096 digits"), "{why}");
+        let reason = garbled(&format!("{N}, \"deflection\": {value}"));
+        assert!(reason.starts_with(&format!("invalid value '{value}' for 'deflection': ")), "{reason}");
+        assert!(reason.ends_with(out_of_range) || reason.ends_with("no more than 4096 digits"), "{reason}");
     }
-    let why = garbled(&format!(
+    let reason = garbled(&format!(
         "{U}, \"contact_force\": \"{}\\n\\u001b\\u202e{}\"",
         "x".repeat(20),
         "y".repeat(99)
     ));
-    assert!(why.contains(&format!("'{} \u{fffd}\u{fffd}{}…'", "x".repeat(20), "y".repeat(16))), "{why}");
+    assert!(
+        reason.contains(&format!("'{} \u{fffd}\u{fffd}{}…'", "x".repeat(20), "y".repeat(16))),
+        "{reason}"
+    );
     assert!(
         garbled(&format!("{U}, {N}, \"used\": {{\"mass\": \"x\"}}"))
             .starts_with("invalid value 'x' for 'used.mass': ")
@@ -127,8 +130,8 @@ fn an_unreadable_field_is_named() {
             .starts_with("invalid value 'x' for 'steps[1].contact_force': ")
     );
     for steps in ["7", "[7]", "{}"] {
-        let why = garbled(&format!("{U}, {N}, \"steps\": {steps}"));
-        assert_eq!(why, format!("invalid value '{steps}' for 'steps': must be an array of objects"));
+        let reason = garbled(&format!("{U}, {N}, \"steps\": {steps}"));
+        assert_eq!(reason, format!("invalid value '{steps}' for 'steps': must be an array of objects"));
     }
 }
 
@@ -245,25 +248,28 @@ fn nothing_that_is_read_takes_long() {
     let start = Instant::now();
     let deep = format!("{}{}", "[".repeat(100_000), "]".repeat(100_000));
     answered(&format!("{U}, {N}, \"x\": {deep}"));
-    let why = garbled(&format!("{U}, \"contact_force\": {deep}"));
-    assert!(why.starts_with(&format!("invalid value '{}…'", "[".repeat(39))) && why.len() < 300, "{why}");
+    let reason = garbled(&format!("{U}, \"contact_force\": {deep}"));
+    assert!(
+        reason.starts_with(&format!("invalid value '{}…'", "[".repeat(39))) && reason.len() < 300,
+        "{reason}"
+    );
     garbled(&format!("{U}, {N}, \"steps\": {deep}"));
     assert_eq!(read("{\"a\":".repeat(100_000).as_bytes(), "a"), None);
 
     let nines = "9".repeat(LONGEST_NUMBER + 1);
-    let why = garbled(&format!("{N}, \"deflection\": {nines}"));
-    assert!(why.ends_with("must have no more than 4096 digits"), "{why}");
+    let reason = garbled(&format!("{N}, \"deflection\": {nines}"));
+    assert!(reason.ends_with("must have no more than 4096 digits"), "{reason}");
     assert_eq!(numbers(&nines[1..], "1")[0], exact(&nines[1..]));
     for number in ["1e9999", "1E9999", "1e+9999", "1E-9999", "\"1E9999\""] {
-        let why = garbled(&format!("{N}, \"deflection\": {number}"));
-        assert!(why.ends_with("must have no more than 4096 digits"), "{why}");
+        let reason = garbled(&format!("{N}, \"deflection\": {number}"));
+        assert!(reason.ends_with("must have no more than 4096 digits"), "{reason}");
     }
     for number in ["0e-4000", "1e4000", "0.1e-4000"] {
         let step = format!("{{\"deflection\": {number}, \"contact_force\": {number}}}");
         let steps = |count| format!("{U}, {N}, \"steps\": [{}]", vec![step.as_str(); count].join(","));
         assert_eq!(answered(&steps(500)).steps.len(), 500);
-        let why = garbled(&steps(600));
-        assert!(why.contains("no more than 4194304 digits together"), "{why}");
+        let reason = garbled(&steps(600));
+        assert!(reason.contains("no more than 4194304 digits together"), "{reason}");
     }
     let step = "{\"deflection\": 1, \"contact_force\": 1}";
     let steps = |count| format!("{U}, {N}, \"steps\": [{}]", vec![step; count].join(","));

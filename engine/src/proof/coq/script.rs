@@ -52,10 +52,10 @@ fn is_sign_of(supposed: &Assumption, x: &Symbol) -> bool {
 /// # Errors
 /// Returns the reason if the kernel finds no derivation.
 pub(super) fn derivation(hypotheses: &[&Hypothesis], proposition: &Proposition) -> Result<Derivation> {
-    kernel::derivation(hypotheses, proposition).map_err(|why| {
+    kernel::derivation(hypotheses, proposition).map_err(|reason| {
         let statement = Statement::new("", proposition.clone()).assuming(hypotheses.iter().copied());
-        let why = ProofPrinter::new(&Registry::default()).describe(&statement, &why);
-        format!("no proof to follow: {why}")
+        let reason = ProofPrinter::new(&Registry::default()).describe(&statement, &reason);
+        format!("no proof to follow: {reason}")
     })
 }
 

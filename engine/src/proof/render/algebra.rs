@@ -189,9 +189,9 @@ impl Order<'_> {
     }
 
     /// Explains a failed proof, with formulas formatted by `formula`.
-    pub(super) fn justify(&self, why: &ProofError, formula: &dyn Fn(&Tree) -> String) -> String {
+    pub(super) fn justify(&self, reason: &ProofError, formula: &dyn Fn(&Tree) -> String) -> String {
         let ratio = |ratio: &Ratio| self.ratio_or_size(ratio);
-        match why {
+        match reason {
             ProofError::Discontinuous => {
                 "rounding is discontinuous, so limits and derivatives of it are not supported".to_string()
             }

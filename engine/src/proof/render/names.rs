@@ -13,14 +13,14 @@ use std::collections::{BTreeMap, BTreeSet};
 impl ProofPrinter<'_> {
     /// Returns the reason why a proof failed, with definitions of the kernel's names: `no
     /// rule finds the sign of a − s₁: the term −s₁ is < 0, where s₁ = b − a > 0`.
-    pub fn describe(&self, statement: &Statement, why: &ProofError) -> String {
+    pub fn describe(&self, statement: &Statement, reason: &ProofError) -> String {
         if let Some(registry) = self.other_names(statement) {
-            return ProofPrinter { registry: &registry, ..*self }.describe(statement, why);
+            return ProofPrinter { registry: &registry, ..*self }.describe(statement, reason);
         }
-        let said = self.order().justify(why, &|tree| self.text(tree));
+        let said = self.order().justify(reason, &|tree| self.text(tree));
         let (rounded, mut introduced) = (roundings(statement.trees()), None);
         let mut definitions = Vec::new();
-        for symbol in why.symbols().into_iter().filter(|symbol| said.contains(symbol.name())) {
+        for symbol in reason.symbols().into_iter().filter(|symbol| said.contains(symbol.name())) {
             match symbol {
                 Symbol::Own(_) => {}
                 Symbol::Error(i) => {
@@ -52,13 +52,13 @@ impl ProofPrinter<'_> {
     ///     "the divisor g − f might be 0; it is proved if g > f or if g < 0"
     /// );
     /// ```
-    pub fn explain(&self, statement: &Statement, why: &ProofError) -> String {
+    pub fn explain(&self, statement: &Statement, reason: &ProofError) -> String {
         if let Some(registry) = self.other_names(statement) {
-            return ProofPrinter { registry: &registry, ..*self }.explain(statement, why);
+            return ProofPrinter { registry: &registry, ..*self }.explain(statement, reason);
         }
-        let hypotheses = self.registry.format_hypotheses(&sufficient_hypothesis(statement, why));
+        let hypotheses = self.registry.format_hypotheses(&sufficient_hypothesis(statement, reason));
         let hint = if hypotheses.is_empty() { "" } else { "; it is proved if " };
-        self.describe(statement, why) + hint + &hypotheses.join(" or if ")
+        self.describe(statement, reason) + hint + &hypotheses.join(" or if ")
     }
 
     /// Defines an error: `fl(a b) = (a b) (1 + e₁ / (2ᵖ + 1)) with |e₁| ≤ 1`.
@@ -163,7 +163,7 @@ mod tests {
     use crate::number::PositivePart;
     use crate::proof::prove;
 
-    fn why(claim: &Statement) -> String {
+    fn reason(claim: &Statement) -> String {
         let statement = claim;
         ProofPrinter::new(&Registry::default()).describe(statement, &prove(statement).unwrap_err())
     }
@@ -174,37 +174,37 @@ mod tests {
         let more = Hypothesis::new(Relation::Positive, &b - &a);
         let least = Hypothesis::new(Relation::NonNegative, &a * &b - &c);
         assert_eq!(
-            why(&positive("", &b - Tree::from(2) * &a).assuming([&more])),
+            reason(&positive("", &b - Tree::from(2) * &a).assuming([&more])),
             "no rule finds the sign of 2 s₁ − b: the sign of the term −b is unknown, where s₁ = b − a > 0"
         );
         assert_eq!(
-            why(&positive("", &c - &b).assuming([&more, &least])),
+            reason(&positive("", &c - &b).assuming([&more, &least])),
             "no rule finds the sign of b² − b s₁ − b − s₂, where s₁ = b − a > 0 and s₂ = a b − c ≥ 0"
         );
         let near = Hypothesis::near(&u, &a, &b);
         assert_eq!(
-            why(&positive("", &u).assuming([&near])),
+            reason(&positive("", &u).assuming([&near])),
             "no rule finds the sign of a + b t₁, where t₁ goes from −1 to 1 as u goes from a − b to a + b"
         );
         assert_eq!(
-            why(&equal("", (&a * (&b + &c)).round(), &a * (&b + &c))),
+            reason(&equal("", (&a * (&b + &c)).round(), &a * (&b + &c))),
             "the sides differ by (a b e₁ + a c e₁) / (s₁ + 5), \
              where nearest(a (b + c)) = (a (b + c)) (1 + e₁ / (2ᵖ + 1)) with |e₁| ≤ 1 and s₁ = 2ᵖ − 4 ≥ 0"
         );
-        let said = why(&equal("", (&a + &b).round(), &a + &b));
+        let said = reason(&equal("", (&a + &b).round(), &a + &b));
         assert!(said.contains("fl(a + b) = (a + b) (1 + e₁ / (2ᵖ + 1)) with |e₁| ≤ 1"), "{said}");
         let opposite =
             positive("", &a + &b - &u).assuming(&[a.clone(), b.clone(), u.clone()].map(above_zero));
-        assert_eq!(why(&opposite), "no rule finds the sign of a + b − u: the term −u is < 0");
+        assert_eq!(reason(&opposite), "no rule finds the sign of a + b − u: the term −u is < 0");
         // A negative divisor reverses the signs.
         let below = positive("", (&a - &u * &u + &b * &c) / (-&a - &b));
         assert_eq!(
-            why(&below.assuming(&[a.clone(), b.clone()].map(above_zero))),
+            reason(&below.assuming(&[a.clone(), b.clone()].map(above_zero))),
             "no rule finds the sign of (u² − a − b c) / (a + b): \
              the sign of the term −b c is unknown and the term −a is < 0"
         );
         // There is nothing to define.
-        assert_eq!(why(&equal("", &a, &b)), "the sides differ by a − b");
+        assert_eq!(reason(&equal("", &a, &b)), "the sides differ by a − b");
     }
 
     fn above_zero(value: Tree) -> Hypothesis {
@@ -217,21 +217,21 @@ mod tests {
         let inverse = |of: Tree| positive("", Tree::from(1) / of);
         let more = above_zero(&a - &b);
         let divisor = |text: &str| format!("the divisor {text}");
-        assert_eq!(why(&inverse(&b + (&c + &a))), divisor("b + c + a might be 0"));
+        assert_eq!(reason(&inverse(&b + (&c + &a))), divisor("b + c + a might be 0"));
         assert_eq!(
-            why(&inverse(&c + &a).assuming([&more])),
+            reason(&inverse(&c + &a).assuming([&more])),
             divisor("c + a = b + c + s₁ might be 0, where s₁ = a − b > 0")
         );
         let equal = Hypothesis::new(Relation::Zero, &a - &b);
-        assert_eq!(why(&inverse(&a - &c).assuming([&equal])), divisor("a − c = b − c might be 0"));
-        assert_eq!(why(&inverse(&a - &b).assuming([&equal])), divisor("a − b is 0"));
-        assert_eq!(why(&inverse(&a - &a)), divisor("a − a is 0"));
+        assert_eq!(reason(&inverse(&a - &c).assuming([&equal])), divisor("a − c = b − c might be 0"));
+        assert_eq!(reason(&inverse(&a - &b).assuming([&equal])), divisor("a − b is 0"));
+        assert_eq!(reason(&inverse(&a - &a)), divisor("a − a is 0"));
         // With the names of a registry.
         let spring = Formula::new("spring", "k", &["a", "b"], product(&a, &b)).abbreviated();
         let registry = Registry::new(&["a", "b"], vec![spring]);
         let claim = inverse(product(&a, &b));
-        let why = prove(&claim).unwrap_err();
-        assert_eq!(ProofPrinter::new(&registry).describe(&claim, &why), divisor("k might be 0"));
+        let reason = prove(&claim).unwrap_err();
+        assert_eq!(ProofPrinter::new(&registry).describe(&claim, &reason), divisor("k might be 0"));
     }
 
     fn product(a: &Tree, b: &Tree) -> Tree {
@@ -242,17 +242,18 @@ mod tests {
     fn a_divided_hypothesis_and_one_on_the_variable_of_a_limit_are_defined() {
         let [k, f, g] = ["k", "f", "g"].map(|name| Tree::symbol(name));
         let bounds = [above_zero(k.clone()), above_zero(Tree::from(1) - &k)];
-        let said = why(&positive("", Tree::from(2) * &k - Tree::from(1)).assuming(bounds.each_ref()));
+        let said = reason(&positive("", Tree::from(2) * &k - Tree::from(1)).assuming(bounds.each_ref()));
         assert!(said.contains("s₁ = (1 − k) / k > 0"), "{said}");
         let of = &g * &g / (&g - &f);
-        let said = why(&limit("", of.clone(), &g, &f, Rate::Equal(of - &f)).assuming([&above_zero(&g - &f)]));
+        let said =
+            reason(&limit("", of.clone(), &g, &f, Rate::Equal(of - &f)).assuming([&above_zero(&g - &f)]));
         assert!(said.contains("s₁ = g − f > 0"), "{said}");
     }
 
     #[test]
     fn a_name_introduced_by_a_case_is_described_as_such() {
         let [a, b] = ["a", "b"].map(|name| Tree::symbol(name));
-        let said = why(&positive("", (&a - &b).positive_part() + &b));
+        let said = reason(&positive("", (&a - &b).positive_part() + &b));
         assert!(said.ends_with("where s₁ ≥ 0 in one case of the proof"), "{said}");
     }
 

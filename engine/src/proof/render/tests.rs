@@ -121,10 +121,10 @@ fn a_claim_contains_the_definitions_of_computed_quantities() {
 fn the_reason_for_a_failed_proof_uses_the_names_of_the_registry() {
     let [a, b] = ["a", "b"].map(|name| Tree::symbol(name));
     let statement = equal("", &b + &a * &b, &b);
-    let why = prove(&statement).unwrap_err();
+    let reason = prove(&statement).unwrap_err();
     let registry = Registry::new(&["a", "b"], Vec::new()).with_factors(&["b", "a"]);
-    assert_eq!(ProofPrinter::new(&registry).describe(&statement, &why), "the sides differ by b a");
+    assert_eq!(ProofPrinter::new(&registry).describe(&statement, &reason), "the sides differ by b a");
     // It implements `Error`.
-    let error: Box<dyn std::error::Error> = Box::new(why);
+    let error: Box<dyn std::error::Error> = Box::new(reason);
     assert_eq!(error.to_string(), "the sides differ by a b");
 }

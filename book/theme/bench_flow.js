@@ -1,0 +1,78 @@
+// The small figure of the ODE analogy: explicit Euler steps of size h for (1.23), its solution (1.30), and the iterates.
+
+const FLOW = {
+  eps: { name: "penalty <i>ε</i>", unit: " N/m", from: 0.1, to: 40, value: 4 },
+  h: { name: "step size <i>h</i>", unit: "", from: 0.1, to: 5, value: 2.8 },
+};
+const UNTIL = 8;
+
+const drawFlow = (svg, eps, h) => {
+  const { values } = numbers(EXAMPLE), width = svg.clientWidth, height = svg.clientHeight, all = { ...values, eps };
+  const penetration = u => real["contact::penetration"]({ ...all, u });
+  const start = real["augmented::deflection"]({ ...all, lambda: 0 }), unit = penetration(start);
+  const at = ([t, u]) => [30 + t / UNTIL * (width - 40), height / 2 * (1 - penetration(u) / unit / 1.25)];
+  const dot = (point, attributes) => {
+    const [cx, cy] = at(point);
+    return draw("circle", { cx, cy, ...attributes });
+  };
+  const flow = solution({ ...floats(x => x), exp: Math.exp });
+  const curve = Array.from({ length: 161 }, (_, i) => i * UNTIL / 160).map(t => [t, flow({ ...all, u: start, t })]);
+  const euler = [[0, start]];
+  for (let [t, u] = euler[0]; t + h <= UNTIL + 1e-9 && Math.abs(penetration(u)) < 9 * unit;) {
+    [t, u] = [t + h, u + h * real["ode::velocity"]({ ...all, u })];
+    euler.push([t, u]);
+  }
+  const iterates = [];
+  for (let k = 0, lambda = 0; k <= UNTIL; k += 1) {
+    const u = real["augmented::deflection"]({ ...all, lambda });
+    iterates.push([k, u]);
+    lambda = real["augmented::update"]({ ...all, lambda, u });
+  }
+  const level = height / 2, ends = [[1, "p₀"], [0, "0"], [-1, "−p₀"]];
+  svg.replaceChildren(
+    path([[30, level], [width - 10, level]], { class: "bench-plane" }),
+    ...ends.map(([p, text]) => label(24, level * (1 - p / 1.25) + 4, text, { class: "bench-tick bench-end" })),
+    ...Array.from({ length: UNTIL }, (_, i) => label(30 + (i + 1) / UNTIL * (width - 40), height - 4, i + 1 < UNTIL ? i + 1 : "t", { class: "bench-tick bench-middle" })),
+    path(curve.map(at), { class: "bench-spring" }),
+    path(euler.map(at), { class: "bench-iterate bench-thin" }),
+    ...euler.map(point => dot(point, { r: 3, class: "bench-dot" })),
+    ...iterates.map(point => dot(point, { r: 5.5, class: "bench-ring" })),
+  );
+  const factor = penetration(start + h * real["ode::velocity"]({ ...all, u: start })) / unit, size = Math.abs(factor);
+  const way = size > 1 ? "they diverge" : size === 1 ? "they neither converge nor diverge" : size ? "they converge" : "one reaches the plane";
+  return `Each step multiplies p by ${brief(exactly(factor))}: ${way}${factor < 0 ? ", with alternating sign" : ""}.`;
+};
+
+const openFlow = root => {
+  root.insertAdjacentHTML("beforeend", `<div class="bench-live">
+<svg class="bench-flow" role="img" aria-label="Penetration over time"></svg>
+<div class="bench-key">
+  ${key('<path class="bench-spring" d="M0 3Q10 11 28 12"/>', "solution (1.30)")}
+  ${key('<path class="bench-iterate bench-thin" d="M4 3L24 11"/><circle class="bench-dot" cx="24" cy="11" r="3"/>', "Euler steps")}
+  ${key('<circle class="bench-ring" cx="14" cy="7" r="5.5"/>', "augmentations (1.16)")}
+</div>
+<div class="bench-fields">${Object.entries(FLOW).map(([id, { name, from, to, value }]) => `
+  <label for="flow-${id}">${name}</label>
+  <input type="range" id="flow-${id}" min="${from}" max="${to}" step="0.1" value="${value}" data-slide="${id}"><output for="flow-${id}"></output>`).join("")}
+</div>
+<p role="status"></p></div>`);
+  root.classList.add("live");
+  const find = selector => root.querySelector(selector), svg = find("svg.bench-flow");
+  const show = () => {
+    const [eps, h] = Object.entries(FLOW).map(([id, { unit }]) => {
+      const { value } = find(`#flow-${id}`);
+      find(`[for=flow-${id}] + * + output`).textContent = value + unit;
+      return Number(value);
+    });
+    find("[role=status]").textContent = drawFlow(svg, eps, h);
+  };
+  root.addEventListener("input", show);
+  // The book uses arrow keys to turn pages.
+  root.addEventListener("keydown", event => event.stopPropagation());
+  new ResizeObserver(show).observe(root);
+};
+
+// A page, or the print of all pages, can contain this script several times.
+for (const root of document.querySelectorAll(".bench:not(.live)")) {
+  (root.dataset.fields === "h" ? openFlow : open)(root);
+}
