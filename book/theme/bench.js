@@ -24,7 +24,7 @@ const live = fields => `
 </div>
 <div class="bench-key">
   ${key('<path class="bench-spring" d="M0 3L28 11"/>', "equilibrium, <i>c p</i> + <i>N</i> = <i>R</i>")}
-  ${key('<path class="bench-plane bench-corner" d="M0 12H14V0"/>', "the plane")}
+  ${key('<path class="bench-plane bench-corner" d="M0 12H14V0"/>', "contact")}
   ${key('<path class="bench-iterate" stroke-dasharray="7 4" d="M0 12L28 2"/>', "<i>N</i> = <i>λ<sub>k</sub></i> + <i>ε p</i>")}
   ${key('<path class="bench-iterate bench-thin" d="M4 13L20 7H4"/><circle class="bench-dot" cx="20" cy="7" r="3"/>', "the steps")}
 </div>
@@ -108,12 +108,13 @@ const seen = run => {
   };
 };
 
-// The range of lengths that is drawn, with round limits, so that it changes rarely.
-const lengths = ({ values, rows }) => {
-  const all = [0, values.H, values.l, ...rows.map(({ u }) => values.l + u)];
-  const far = Math.max(...all.map(Math.abs)) * 1.1 || 1, unit = floor(far);
-  const most = [1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10].find(n => n * unit >= far) * unit;
-  return [Math.min(...all) < 0 ? -most : 0, most];
+// The range of lengths that is drawn, with round limits; the last range is kept if it suffices.
+const lengths = ({ values, rows }, last = [0, 0]) => {
+  const [least, most] = hull([0, values.H, values.l, ...rows.map(({ u }) => values.l + u)], 0);
+  if (last[0] <= least && most <= last[1]) return last;
+  const far = Math.max(-least, most) * 1.1 || 1, unit = floor(far);
+  const limit = [1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10].find(n => n * unit >= far) * unit;
+  return [least < 0 ? -limit : 0, limit];
 };
 
 const drawSystem = (svg, { values, rows }, [least, most], question) => {
@@ -160,7 +161,7 @@ const drawSystem = (svg, { values, rows }, [least, most], question) => {
     draw("rect", { x: 0, y: plane - 16, width, height: 40, class: "bench-grip" }),
     draw("path", { d: `M10 ${plane}H${width - 10}`, "stroke-width": 2.5 }),
     draw("path", { d: hatch(plane, 7), "stroke-width": 1 }),
-    label(10, Math.min(plane + 22, height - 2), `H = ${question.H} m`),
+    label(width - 10, Math.min(plane + 22, height - 2), `H = ${question.H} m`, { class: "bench-end" }),
   );
   return from => least + (from - 24) / (height - 48) * (most - least);
 };
@@ -173,6 +174,9 @@ const forceBox = ({ values, rows }) => {
   const [low, high] = hull([0, reaction, ...rows.flatMap(row => [row.lambda, row.next])], 0.15);
   return [[left, low], [right, high]];
 };
+
+// The smallest box that contains two.
+const joined = ([a, b], [c, d]) => [a.map((x, i) => Math.min(x, c[i])), b.map((x, i) => Math.max(x, d[i]))];
 
 // Round numbers with a distance of 1, 2 or 5 times a power of ten, at most `count` between two limits.
 const ticks = (from, to, count) => {
@@ -187,14 +191,12 @@ const drawForces = (svg, { values, rows }, run, box) => {
   const gap = real["system::gap"](values), reaction = real["system::reaction"](values);
   const update = real["augmented::update"];
   const p = u => real["contact::penetration"]({ ...values, u });
-  const free = p(real["structure::deflection"](values));
   const [[left, low], [right, high]] = box;
   if (!box.flat().every(Number.isFinite)) return svg.replaceChildren(label(10, 20, "too large to draw"));
   const at = ([p, n]) => [(p - left) / (right - left) * (width - 2) + 1, (high - n) / (high - low) * (height - 2) + 1];
   const line = (a, b, attributes, within = box) => path(clipped(a, b, within).map(at), attributes);
   const span = right - left, far = gap + span;
-  const [x0, y0] = at([0, 0]), [x1] = at([free, 0]), [, y1] = at([0, reaction]);
-  const force = `R = ${brief(exactly(reaction))} N`, distance = `${brief(exactly(free))} m`;
+  const [x0, y0] = at([0, 0]), [, y1] = at([0, reaction]), force = `R = ${brief(exactly(reaction))} N`;
   const held = u => [p(u), real["augmented::contact_force"]({ ...values, u })];
   const text = x => brief(exactly(x)), axes = [];
   for (const x of ticks(left, right, Math.max(2, Math.floor(width / 90)))) {
@@ -211,12 +213,11 @@ const drawForces = (svg, { values, rows }, run, box) => {
     ...axes,
     line([0, 0], [span, 0], { class: "bench-faint" }),
     line([0, 0], [0, 1], { class: "bench-faint" }),
-    label(width - 2, height - 4, "p in m", { class: "bench-tick bench-end" }), label(2, 14, "N in N", { class: "bench-tick" }),
+    label(width - 2, y0 - 8, "p in m", { class: "bench-tick bench-end" }), label(x0 + 8, 12, "N in N", { class: "bench-tick" }),
     line(held(gap), held(far), { class: "bench-spring" }),
     path([at([left, 0]), at([0, 0]), at([0, high])], { class: "bench-plane bench-corner" }),
     // Labels stand clear of the falling line.
-    reaction < 0 ? label(x0 - 6, y1 + 14, force, { class: "bench-end" }) : label(x0 + 8, y1 - 5, force),
-    free < 0 ? label(x1 + 8, y0 - 8, distance) : label(x1, y0 + 15, distance, { class: "bench-end" }),
+    reaction < 0 ? label(x0 - 6, Math.min(y1 + 14, height - 24), force, { class: "bench-end" }) : label(x0 + 8, y1 - 5, force),
   ];
   const now = rows.at(-1);
   if (now) {
@@ -302,8 +303,9 @@ const open = root => {
   const paint = () => {
     if (!result) return;
     view = seen(result);
-    // The axes are fixed while the pointer is down or the keyboard moves the plane.
-    if (!held || !domain) [domain, box] = [lengths(view), forceBox(view)];
+    // While the pointer is down or the keyboard moves the plane the axes only grow, to contain the solution.
+    domain = lengths(view, held ? domain : undefined);
+    box = held && box ? joined(box, forceBox(view)) : forceBox(view);
     if (!domain.every(Number.isFinite)) return;
     length = drawSystem(find(".bench-system"), view, domain, question);
     drawForces(find(".bench-forces"), view, result, box);

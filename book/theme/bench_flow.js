@@ -1,12 +1,12 @@
-// The small figure of the ODE analogy: explicit Euler steps of size h for (1.23), its solution (1.30), and the iterates.
+// The small figure of the ODE analogy: explicit Euler steps of size x for (1.23), its solution (1.30), and the iterates.
 
 const FLOW = {
   eps: { name: "penalty <i>ε</i>", unit: " N/m", from: 0.1, to: 40, value: 4 },
-  h: { name: "step size <i>h</i>", unit: "", from: 0.1, to: 5, value: 2.8 },
+  x: { name: "step size <i>x</i>", unit: "", from: 0.1, to: 5, value: 2.8 },
 };
 const UNTIL = 8;
 
-const drawFlow = (svg, eps, h) => {
+const drawFlow = (svg, eps, size) => {
   const { values } = numbers(EXAMPLE), width = svg.clientWidth, height = svg.clientHeight, all = { ...values, eps };
   const penetration = u => real["contact::penetration"]({ ...all, u });
   const start = real["augmented::deflection"]({ ...all, lambda: 0 }), unit = penetration(start);
@@ -18,8 +18,8 @@ const drawFlow = (svg, eps, h) => {
   const flow = solution({ ...floats(x => x), exp: Math.exp });
   const curve = Array.from({ length: 161 }, (_, i) => i * UNTIL / 160).map(t => [t, flow({ ...all, u: start, t })]);
   const euler = [[0, start]];
-  for (let [t, u] = euler[0]; t + h <= UNTIL + 1e-9 && Math.abs(penetration(u)) < 9 * unit;) {
-    [t, u] = [t + h, u + h * real["ode::velocity"]({ ...all, u })];
+  for (let [t, u] = euler[0]; t + size <= UNTIL + 1e-9 && Math.abs(penetration(u)) < 9 * unit;) {
+    [t, u] = [t + size, u + size * real["ode::velocity"]({ ...all, u })];
     euler.push([t, u]);
   }
   const iterates = [];
@@ -31,15 +31,15 @@ const drawFlow = (svg, eps, h) => {
   const level = height / 2, ends = [[1, "p₀"], [0, "0"], [-1, "−p₀"]];
   svg.replaceChildren(
     path([[30, level], [width - 10, level]], { class: "bench-plane" }),
-    ...ends.map(([p, text]) => label(24, level * (1 - p / 1.25) + 4, text, { class: "bench-tick bench-end" })),
+    ...ends.map(([p, text]) => label(20, level * (1 - p / 1.25) + 4, text, { class: "bench-tick bench-end" })),
     ...Array.from({ length: UNTIL }, (_, i) => label(30 + (i + 1) / UNTIL * (width - 40), height - 4, i + 1 < UNTIL ? i + 1 : "t", { class: "bench-tick bench-middle" })),
     path(curve.map(at), { class: "bench-spring" }),
     path(euler.map(at), { class: "bench-iterate bench-thin" }),
     ...euler.map(point => dot(point, { r: 3, class: "bench-dot" })),
     ...iterates.map(point => dot(point, { r: 5.5, class: "bench-ring" })),
   );
-  const factor = penetration(start + h * real["ode::velocity"]({ ...all, u: start })) / unit, size = Math.abs(factor);
-  const way = size > 1 ? "they diverge" : size === 1 ? "they neither converge nor diverge" : size ? "they converge" : "one reaches the plane";
+  const factor = penetration(start + size * real["ode::velocity"]({ ...all, u: start })) / unit, rate = Math.abs(factor);
+  const way = rate > 1 ? "they diverge" : rate === 1 ? "they neither converge nor diverge" : rate ? "they converge" : "one reaches the plane";
   return `Each step multiplies p by ${brief(exactly(factor))}: ${way}${factor < 0 ? ", with alternating sign" : ""}.`;
 };
 
@@ -59,12 +59,12 @@ const openFlow = root => {
   root.classList.add("live");
   const find = selector => root.querySelector(selector), svg = find("svg.bench-flow");
   const show = () => {
-    const [eps, h] = Object.entries(FLOW).map(([id, { unit }]) => {
+    const [eps, size] = Object.entries(FLOW).map(([id, { unit }]) => {
       const { value } = find(`#flow-${id}`);
       find(`[for=flow-${id}] + * + output`).textContent = value + unit;
       return Number(value);
     });
-    find("[role=status]").textContent = drawFlow(svg, eps, h);
+    find("[role=status]").textContent = drawFlow(svg, eps, size);
   };
   root.addEventListener("input", show);
   // The book uses arrow keys to turn pages.
@@ -74,5 +74,5 @@ const openFlow = root => {
 
 // A page, or the print of all pages, can contain this script several times.
 for (const root of document.querySelectorAll(".bench:not(.live)")) {
-  (root.dataset.fields === "h" ? openFlow : open)(root);
+  (root.dataset.fields === "x" ? openFlow : open)(root);
 }

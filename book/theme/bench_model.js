@@ -332,5 +332,5 @@ const verdict = run => {
   }
   const rho = exact["augmented::contraction"](values), less = fractions.sub(fractions.int(1), rho);
   const rate = below(less, { n: 1n, d: 100n }) ? `1 − ${brief(less)}` : brief(rho);
-  return say("converging", `In exact arithmetic, each step multiplies R − λ by ρ = ${rate}. At the computed u, p = ${brief(p)} m, and ${off}.`);
+  return say("converging", `In exact arithmetic, each step multiplies R − λ by ρ = c/(c + ε) = ${rate}. At the computed u, p = ${brief(p)} m, and ${off}.`);
 };

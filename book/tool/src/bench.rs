@@ -110,7 +110,7 @@ pub fn html() -> Result<String> {
 }
 
 /// Returns the HTML of a small figure that moves: `fields` are the symbols of its sliders, and it shows the state
-/// after `k` augmentations of the example, or the solution if `k` is `None`. The field `h`
+/// after `k` augmentations of the example, or the solution if `k` is `None`. The field `x`
 /// alone shows explicit Euler steps of that size for (1.23).
 ///
 /// # Errors
@@ -120,7 +120,7 @@ pub fn live(fields: &str, k: Option<u32>) -> Result<String> {
     let script = &script[script.find("<script>").unwrap_or_default()..];
     // The error of the example is below a pixel after 40 augmentations.
     let (class, k) = match k {
-        _ if fields == "h" => ("bench", 0),
+        _ if fields == "x" => ("bench", 0),
         Some(k) => ("bench bench-small", k),
         None => ("bench bench-small bench-solved", 40),
     };

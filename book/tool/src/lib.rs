@@ -10,7 +10,7 @@
 //! | `{{#claims}}` | all claims and their status |
 //! | `{{#figure plane}}` | a figure drawn from the results of the functions |
 //! | `{{#bench}}` | the [bench](mod@bench) |
-//! | `{{#live H g}}`, `{{#live eps, k=0}}`, `{{#live h}}` | a [small figure](bench::live) with sliders of these quantities |
+//! | `{{#live H g}}`, `{{#live eps, k=0}}`, `{{#live x}}` | a [small figure](bench::live) with sliders of these quantities |
 //!
 //! Formulas are defined only in `src/chapter`; the book shows their source and typesets the recorded formula.
 //! `{{#formula}}` accepts the same arguments as a placeholder in an [`Entry`], such as

@@ -627,8 +627,8 @@ console.log(JSON.stringify([drawn(drawForces), drawn(drawDecay)]));
     }
 }
 
-/// While the plane is dragged the axes of the force diagram stay and the line moves; they fit again at the end. From the
-/// keyboard, `End` after `Home` reaches the end.
+/// While the plane is dragged the axes of the force diagram stay and the line moves; they grow if the solution would leave
+/// them, and fit again at the end. From the keyboard, `End` after `Home` reaches the end.
 #[test]
 fn axes_stay_while_the_plane_moves() {
     const MOVED: &str = r#"
@@ -639,6 +639,8 @@ const line = () => forces.all.find(part => part.attributes.class === "bench-spri
 const seen = () => [ticks().join(";"), line(), find("[data-text=H]").value];
 const states = [seen()], event = { target: { closest: () => slider, dataset: {} }, preventDefault() {}, pointerId: 1 };
 system.on.pointerdown(event);
+system.on.pointermove({ clientY: 178 });
+states.push(seen());
 system.on.pointermove({ clientY: 100 });
 states.push(seen());
 on.pointerup();
@@ -653,14 +655,16 @@ console.log(JSON.stringify([states, ticks()]));
     let script = page.split("<script>").nth(1).and_then(|rest| rest.split("</script>").next()).unwrap();
     let Some(found) = node(&format!("{DOCUMENT}{MOVED}"), &json!({ "script": script })) else { return };
     let (states, ticks): (Vec<[String; 3]>, Vec<String>) = serde_json::from_str(&found).unwrap();
-    let [start, dragged, released, end] = &states[..] else { panic!("{found}") };
+    let [start, dragged, far, released, end] = &states[..] else { panic!("{found}") };
     assert!(ticks.len() >= 6, "{ticks:?}");
     assert_eq!(start[0], dragged[0], "ticks");
     assert!(start[1] != dragged[1] && start[2] != dragged[2], "{found}");
-    assert_ne!(dragged[0], released[0], "ticks");
+    assert_ne!(far[0], dragged[0], "ticks");
+    // A load that grows needs the same axes while the pointer is down as after it.
+    assert_eq!(far[0], released[0], "ticks");
     // The drawing shows lengths up to 4 m between 24 and 216 pixels. With H = 1.58 m the mass is at most at
     // 1 + (10 + 4 · 0.58)/8 = 2.54 m, for which 3 m are shown.
-    assert_eq!((dragged[2].as_str(), end[2].as_str()), ("1.58", "3"), "H");
+    assert_eq!([dragged, far, end].map(|state| state[2].as_str()), ["3.21", "1.58", "3"], "H");
 }
 
 /// With Euler steps of size 1 the points are the rings of the augmentations, and the curve is above them; at h = 4 the

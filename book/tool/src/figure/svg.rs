@@ -32,7 +32,7 @@ impl Svg {
     /// Draws a line with an arrowhead at its end.
     pub fn arrow(&mut self, class: &str, from: Point, to: Point) {
         let (x, y) = (to.0 - from.0, to.1 - from.1);
-        let share = (9.0 / x.hypot(y)).min(1.0);
+        let share = (9.0 / x.hypot(y)).min(0.6);
         let (x, y) = (x * share, y * share);
         let foot = (to.0 - x, to.1 - y);
         self.path(class, &[from, foot]);
