@@ -119,7 +119,7 @@ const lengths = ({ values, rows }, last = [0, 0]) => {
 
 const drawSystem = (svg, { values, rows }, [least, most], question) => {
   const width = svg.clientWidth, height = svg.clientHeight, middle = width / 2 - 10;
-  const y = length => 24 + (length - least) / (most - least) * (height - 48);
+  const y = length => 24 + (length - least) / (most - least) * (height - 48), plane = y(values.H);
   const hatch = (at, by) => Array.from({ length: Math.floor((width - 20) / 10) }, (_, i) => `M${14 + 10 * i} ${at}l-6 ${by}`).join("");
   const parts = [
     draw("path", { d: `M10 ${y(0)}H${width - 10}${hatch(y(0), -7)}`, class: "bench-thin" }),
@@ -128,7 +128,7 @@ const drawSystem = (svg, { values, rows }, [least, most], question) => {
   ];
   const now = rows.at(-1);
   if (now) {
-    const end = y(values.l + now.u), plane = y(values.H), one = question.plane === "one";
+    const end = y(values.l + now.u), one = question.plane === "one";
     const spring = (top, bottom, turns, attributes) => {
       const coil = Array.from({ length: turns }, (_, i) => [middle + (i % 2 ? 9 : -9), top + (bottom - top) * (i + 1.5) / (turns + 2)]);
       return path([[middle, top], ...coil, [middle, bottom]], attributes);
@@ -152,7 +152,6 @@ const drawSystem = (svg, { values, rows }, [least, most], question) => {
     }
     parts.push(draw("circle", { cx: middle, cy: end, r: 7, class: "bench-mass" }), label(middle + 12, end - 6, "m", { class: "bench-italic" }));
   }
-  const plane = y(values.H);
   const [still, slider] = svg.children;
   still.replaceChildren(...parts);
   const limits = { "aria-valuemin": least, "aria-valuemax": most, "aria-valuenow": values.H, "aria-valuetext": `${question.H} m` };

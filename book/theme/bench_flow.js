@@ -8,37 +8,35 @@ const UNTIL = 8;
 
 const drawFlow = (svg, eps, size) => {
   const { values } = numbers(EXAMPLE), width = svg.clientWidth, height = svg.clientHeight, all = { ...values, eps };
-  const penetration = u => real["contact::penetration"]({ ...all, u });
-  const start = real["augmented::deflection"]({ ...all, lambda: 0 }), unit = penetration(start);
-  const at = ([t, u]) => [30 + t / UNTIL * (width - 40), height / 2 * (1 - penetration(u) / unit / 1.25)];
+  const augmented = recursion({ numbers: "f64", plane: "both" }, all), first = augmented(0);
+  const share = u => real["contact::penetration"]({ ...all, u }) / first.p;
+  const x = t => 30 + t / UNTIL * (width - 40), y = p => height / 2 * (1 - p / 1.25);
+  const at = ([t, u]) => [x(t), y(share(u))];
   const dot = (point, attributes) => {
     const [cx, cy] = at(point);
     return draw("circle", { cx, cy, ...attributes });
   };
   const flow = solution({ ...floats(x => x), exp: Math.exp });
-  const curve = Array.from({ length: 161 }, (_, i) => i * UNTIL / 160).map(t => [t, flow({ ...all, u: start, t })]);
-  const euler = [[0, start]];
-  for (let [t, u] = euler[0]; t + size <= UNTIL + 1e-9 && Math.abs(penetration(u)) < 9 * unit;) {
-    [t, u] = [t + size, u + size * real["ode::velocity"]({ ...all, u })];
+  const curve = Array.from({ length: 161 }, (_, i) => i * UNTIL / 160).map(t => [t, flow({ ...all, u: first.u, t })]);
+  const step = u => u + size * real["ode::velocity"]({ ...all, u });
+  const euler = [];
+  for (let [t, u] = [0, first.u]; t <= UNTIL + 1e-9; [t, u] = [t + size, step(u)]) {
     euler.push([t, u]);
+    // The drawing ends at 1.25.
+    if (Math.abs(share(u)) >= 9) break;
   }
   const iterates = [];
-  for (let k = 0, lambda = 0; k <= UNTIL; k += 1) {
-    const u = real["augmented::deflection"]({ ...all, lambda });
-    iterates.push([k, u]);
-    lambda = real["augmented::update"]({ ...all, lambda, u });
-  }
-  const level = height / 2, ends = [[1, "p₀"], [0, "0"], [-1, "−p₀"]];
+  for (let k = 0, row = first; k <= UNTIL; k += 1, row = augmented(row.next)) iterates.push([k, row.u]);
   svg.replaceChildren(
-    path([[30, level], [width - 10, level]], { class: "bench-plane" }),
-    ...ends.map(([p, text]) => label(20, level * (1 - p / 1.25) + 4, text, { class: "bench-tick bench-end" })),
-    ...Array.from({ length: UNTIL }, (_, i) => label(30 + (i + 1) / UNTIL * (width - 40), height - 4, i + 1 < UNTIL ? i + 1 : "t", { class: "bench-tick bench-middle" })),
+    path([[30, y(0)], [width - 10, y(0)]], { class: "bench-plane" }),
+    ...[[1, "p₀"], [0, "0"], [-1, "−p₀"]].map(([p, text]) => label(20, y(p) + 4, text, { class: "bench-tick bench-end" })),
+    ...Array.from({ length: UNTIL }, (_, i) => label(x(i + 1), height - 4, i + 1 < UNTIL ? i + 1 : "t", { class: "bench-tick bench-middle" })),
     path(curve.map(at), { class: "bench-spring" }),
     path(euler.map(at), { class: "bench-iterate bench-thin" }),
     ...euler.map(point => dot(point, { r: 3, class: "bench-dot" })),
     ...iterates.map(point => dot(point, { r: 5.5, class: "bench-ring" })),
   );
-  const factor = penetration(start + size * real["ode::velocity"]({ ...all, u: start })) / unit, rate = Math.abs(factor);
+  const factor = share(step(first.u)), rate = Math.abs(factor);
   const way = rate > 1 ? "they diverge" : rate === 1 ? "they neither converge nor diverge" : rate ? "they converge" : "one reaches the plane";
   return `Each step multiplies p by ${brief(exactly(factor))}: ${way}${factor < 0 ? ", with alternating sign" : ""}.`;
 };
@@ -61,7 +59,7 @@ const openFlow = root => {
   const show = () => {
     const [eps, size] = Object.entries(FLOW).map(([id, { unit }]) => {
       const { value } = find(`#flow-${id}`);
-      find(`[for=flow-${id}] + * + output`).textContent = value + unit;
+      find(`output[for=flow-${id}]`).textContent = value + unit;
       return Number(value);
     });
     find("[role=status]").textContent = drawFlow(svg, eps, size);

@@ -102,29 +102,34 @@ fn to_javascript(tree: &Tree) -> Result<String> {
 /// # Errors
 /// Returns the errors of [`formulas`].
 pub fn html() -> Result<String> {
-    let formulas = formulas()?;
-    Ok(format!(
-        "<div class=\"bench\">\n{FALLBACK}\n</div>\n\n\
-         <script>\n(() => {{\n\"use strict\";\n{formulas}{MODEL}{PAGE}}})();\n</script>\n"
-    ))
+    Ok(format!("<div class=\"bench\">\n{FALLBACK}\n</div>\n\n<script>\n{}</script>\n", script()?))
 }
 
 /// Returns the HTML of a small figure that moves: `fields` are the symbols of its sliders, and it shows the state
-/// after `k` augmentations of the example, or the solution if `k` is `None`. The field `x`
-/// alone shows explicit Euler steps of that size for (1.23).
+/// after `k` augmentations of the example, or the solution if `k` is `None`. The field `x` alone shows explicit Euler
+/// steps of that size for (1.23).
 ///
 /// # Errors
 /// Returns the errors of [`formulas`].
 pub fn live(fields: &str, k: Option<u32>) -> Result<String> {
-    let script = html()?;
-    let script = &script[script.find("<script>").unwrap_or_default()..];
     // The error of the example is below a pixel after 40 augmentations.
     let (class, k) = match k {
         _ if fields == "x" => ("bench", 0),
         Some(k) => ("bench bench-small", k),
         None => ("bench bench-small bench-solved", 40),
     };
-    Ok(format!("<div class=\"{class}\" data-fields=\"{fields}\" data-k=\"{k}\"></div>\n\n{script}"))
+    Ok(format!(
+        "<div class=\"{class}\" data-fields=\"{fields}\" data-k=\"{k}\"></div>\n\n<script>\n{}</script>\n",
+        script()?
+    ))
+}
+
+/// Returns the script of the bench and of the small figures.
+///
+/// # Errors
+/// Returns the errors of [`formulas`].
+pub fn script() -> Result<String> {
+    Ok(format!("(() => {{\n\"use strict\";\n{}{MODEL}{PAGE}}})();\n", formulas()?))
 }
 
 /// Text for readers without scripts, and for print.

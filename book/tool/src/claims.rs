@@ -33,13 +33,10 @@ impl Claims {
 
     /// Returns the status line of an equation in Markdown; `up` is the relative path to the root of the book.
     pub fn status(&self, entry: &Entry, up: &str) -> String {
-        let rows: Vec<_> = self.rows.iter().filter(|row| row.equation == entry.equation).collect();
+        let rows = self.rows(entry);
         let claims = rows.chunk_by(|a, b| a.claim == b.claim);
         let (proved, tested): (Vec<_>, Vec<_>) = claims.partition(|rows| rows[0].scalar.is_none());
-        let count = match proved.len() {
-            1 => "1 claim".into(),
-            count => format!("{count} claims"),
-        };
+        let count = claim_count(proved.len());
         let mut summary = format!("proved: [{count}]({up}{})", proofs(entry));
         if !tested.is_empty() {
             let _ = write!(summary, ", and {} only tested", tested.len());
@@ -56,12 +53,15 @@ impl Claims {
 
     /// Returns the number of proved claims, and the open ones, in HTML.
     pub fn summary(&self, entry: &Entry) -> String {
-        let rows: Vec<_> = self.rows.iter().filter(|row| row.equation == entry.equation).collect();
+        let rows = self.rows(entry);
         let proved = rows.iter().filter(|row| row.scalar.is_none() && row.status == Status::Proved).count();
-        let status = outcome(&rows, "", |_| None);
-        let open = status.split(" · ").filter(|part| part.contains("class=\"open\""));
-        let claims = if proved == 1 { "1 claim proved".into() } else { format!("{proved} claims proved") };
-        [claims, "source".into()].into_iter().chain(open.map(String::from)).collect::<Vec<_>>().join(" · ")
+        let parts = [format!("{} proved", claim_count(proved)), "source".into()];
+        parts.into_iter().chain(open_claims(&rows)).collect::<Vec<_>>().join(" · ")
+    }
+
+    /// Returns the results of the claims about an entry.
+    fn rows(&self, entry: &Entry) -> Vec<&Row> {
+        self.rows.iter().filter(|row| row.equation == entry.equation).collect()
     }
 
     /// Returns the page of all claims in Markdown, with links to the entries in the book.
@@ -126,38 +126,51 @@ fn claim_texts() -> HashMap<(&'static str, &'static str), ClaimText> {
     tested.chain(recorded).collect()
 }
 
-/// Returns the status of claims: `proved` if they are proved, and the number systems in which they hold.
-///
-/// Claims that fail or are undecided are listed by name and marked as open. `part` returns the text in parentheses
-/// after a number system in which only some claims or cases were decided.
-fn outcome(rows: &[&Row], proved: &str, part: impl Fn(Option<NumberSystem>) -> Option<String>) -> String {
-    let with = |scalar, status| {
-        let found = rows.iter().filter(move |row| row.scalar == scalar && row.status == status);
-        found.map(|row| row.claim).collect::<Vec<_>>()
-    };
-    let open = |problem: &str, claims: &[&str]| {
+/// Returns `1 claim`, `2 claims`, and so on.
+fn claim_count(count: usize) -> String {
+    if count == 1 { "1 claim".into() } else { format!("{count} claims") }
+}
+
+/// Returns the claims with a status in a number system, or in the proofs.
+fn with_status<'r>(rows: &[&'r Row], scalar: Option<NumberSystem>, status: Status) -> Vec<&'r str> {
+    let found = rows.iter().filter(|row| row.scalar == scalar && row.status == status);
+    found.map(|row| row.claim).collect()
+}
+
+/// Returns the claims that fail or are undecided, by name and marked as open: those that are not proved, then those
+/// in each number system.
+fn open_claims(rows: &[&Row]) -> Vec<String> {
+    let mut found = vec![("not proved".to_string(), with_status(rows, None, Status::Failed))];
+    for scalar in Options::default().scalars {
+        for (problem, status) in [("wrong", Status::Failed), ("undecided", Status::Undecided)] {
+            let problem = format!("{problem} in {}", display_name(scalar));
+            found.push((problem, with_status(rows, Some(scalar), status)));
+        }
+    }
+    let open = found.into_iter().filter(|(_, claims)| !claims.is_empty());
+    let mark = |(problem, claims): (String, Vec<&str>)| {
         format!("<strong class=\"open\">{problem}: {}</strong>", claims.join(", "))
     };
-    let failed = with(None, Status::Failed);
+    open.map(mark).collect()
+}
+
+/// Returns the status of claims: `proved` if they are proved, the [open claims](open_claims), and the number systems
+/// in which they hold.
+///
+/// `part` returns the text in parentheses after a number system in which only some claims or cases were decided.
+fn outcome(rows: &[&Row], proved: &str, part: impl Fn(Option<NumberSystem>) -> Option<String>) -> String {
+    let has = |scalar, status| !with_status(rows, scalar, status).is_empty();
     let mut parts = Vec::new();
-    if !failed.is_empty() {
-        parts.push(open("not proved", &failed));
-    } else if rows.iter().any(|row| row.scalar.is_none()) {
-        parts.push(proved.into());
-    } else {
-        parts.push("tested, not proved".into());
+    if !has(None, Status::Failed) {
+        let is_proved = rows.iter().any(|row| row.scalar.is_none());
+        parts.push(if is_proved { proved.into() } else { "tested, not proved".into() });
     }
+    parts.extend(open_claims(rows));
     let mut held = Vec::new();
     for scalar in Options::default().scalars {
-        let name = display_name(scalar);
-        let [wrong, undecided] = [Status::Failed, Status::Undecided].map(|status| with(Some(scalar), status));
-        if !wrong.is_empty() {
-            parts.push(open(&format!("wrong in {name}"), &wrong));
-        }
-        if !undecided.is_empty() {
-            parts.push(open(&format!("undecided in {name}"), &undecided));
-        }
-        if wrong.is_empty() && undecided.is_empty() && !with(Some(scalar), Status::Held).is_empty() {
+        let has = |status| has(Some(scalar), status);
+        if has(Status::Held) && !has(Status::Failed) && !has(Status::Undecided) {
+            let name = display_name(scalar);
             held.push(match part(Some(scalar)) {
                 Some(part) => format!("{name} ({part})"),
                 None => name,

@@ -179,24 +179,16 @@ impl TagExpander {
         // A function of several equations is printed with the first and linked from the others.
         for (i, function) in entry.functions.iter().enumerate() {
             let first = places::first_with(function).context("listed")?;
+            let item = self.sources.item(function)?;
             if first != number {
                 let place = self.places.equation(first).context("displayed")?;
-                let links =
-                    links(function, &self.sources.item(function)?, &context.up, self.links_documentation)?;
-                folded += &format!(
-                    "<div class=\"caption\">\n\n{links}, printed at [({first})]({}{place})\n\n</div>\n\n",
-                    context.up
-                );
-            } else if let (0, Some(body)) = (i, self.sources.item(function)?.body()) {
+                let printed = format!(", printed at [({first})]({}{place})", context.up);
+                folded += &(self.caption(function, &item, &printed, context)? + "\n");
+            } else if let (0, Some(body)) = (i, item.body()) {
                 // The line that computes the equation is printed, the rest is folded.
                 result +=
                     &format!("<div class=\"source\"{}>\n\n{}</div>\n\n", self.id(function), listing(&body));
-                let item = self.sources.item(function)?;
-                folded += &format!(
-                    "<div class=\"caption\">\n\n{}\n\n</div>\n\n{}",
-                    links(function, &item, &context.up, self.links_documentation)?,
-                    listing(&item.code)
-                );
+                folded += &(self.caption(function, &item, "", context)? + "\n" + &listing(&item.code));
             } else {
                 folded += &self.source(function, context)?;
             }
@@ -236,10 +228,19 @@ impl TagExpander {
             }
             None => listing(&item.code),
         };
-        let links = links(function, &item, &context.up, self.links_documentation)?;
-        Ok(format!(
-            "\n\n<div class=\"source\"{id}>\n<div class=\"caption\">\n\n{links}\n\n</div>\n\n{shown}</div>\n\n"
-        ))
+        let caption = self.caption(function, &item, "", context)?;
+        Ok(format!("\n\n<div class=\"source\"{id}>\n{caption}\n{shown}</div>\n\n"))
+    }
+
+    /// Returns the caption of a listing: the name of the function, with links to its documentation and source if these
+    /// work, and `rest`.
+    fn caption(&self, function: &str, item: &Item, rest: &str, context: &TagContext) -> Result<String> {
+        let name = if self.links_documentation {
+            links(function, item, &context.up)?
+        } else {
+            format!("`{function}`")
+        };
+        Ok(format!("<div class=\"caption\">\n\n{name}{rest}\n\n</div>\n"))
     }
 }
 
@@ -248,11 +249,8 @@ fn listing(code: &str) -> String {
     format!("```rust,ignore\n{code}\n```\n\n")
 }
 
-/// Returns the name of a function, with links to its documentation and source if `linked`.
-fn links(function: &str, item: &Item, up: &str, linked: bool) -> Result<String> {
-    if !linked {
-        return Ok(format!("`{function}`"));
-    }
+/// Returns the name of a function with links to its documentation and source.
+fn links(function: &str, item: &Item, up: &str) -> Result<String> {
     let (module, name) = function.split_once("::").context("a path")?;
     let (first, last) = (item.lines.start(), item.lines.end());
     Ok(format!(

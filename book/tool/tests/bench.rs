@@ -3,7 +3,7 @@
 //!
 //! Without node these tests print a note and pass; `NODE=path` selects the node to run, and it is an error if it fails.
 
-use book_tool::bench::{MODEL, PAGE, formulas, functions, html};
+use book_tool::bench::{MODEL, PAGE, formulas, functions, script};
 use regex::Regex;
 use serde_json::{Value, json};
 use spring_mass_contact::chapter::{SpringMass, augmented, contact, system};
@@ -545,8 +545,6 @@ for (const search of input.asked) {
     new URLSearchParams(location.search).get("k"), wrong.length, off.length].join("|"));
 }
 "#;
-    let page = html().unwrap();
-    let script = page.split("<script>").nth(1).and_then(|rest| rest.split("</script>").next()).unwrap();
     // Settings, and the result after one more step: the verdict, the numbers of points and rows, k in the last row and in
     // the address, the number of invalid attributes, and the number of points off the line, where forces do not balance.
     let expected = [
@@ -559,7 +557,7 @@ for (const search of input.asked) {
         ("?k=30", "converging|32|12|31|31|0|0"),
     ];
     let asked: Vec<_> = expected.iter().map(|(asked, _)| asked).collect();
-    let input = json!({ "script": script, "asked": asked });
+    let input = json!({ "script": script().unwrap(), "asked": asked });
     let Some(found) = node(&format!("{DOCUMENT}{DRAWN}"), &input) else { return };
     assert_eq!(found.lines().collect::<Vec<_>>(), expected.map(|(_, drawn)| drawn));
 }
@@ -651,9 +649,9 @@ press("End");
 states.push(seen());
 console.log(JSON.stringify([states, ticks()]));
 "#;
-    let page = html().unwrap();
-    let script = page.split("<script>").nth(1).and_then(|rest| rest.split("</script>").next()).unwrap();
-    let Some(found) = node(&format!("{DOCUMENT}{MOVED}"), &json!({ "script": script })) else { return };
+    let Some(found) = node(&format!("{DOCUMENT}{MOVED}"), &json!({ "script": script().unwrap() })) else {
+        return;
+    };
     let (states, ticks): (Vec<[String; 3]>, Vec<String>) = serde_json::from_str(&found).unwrap();
     let [start, dragged, far, released, end] = &states[..] else { panic!("{found}") };
     assert!(ticks.len() >= 6, "{ticks:?}");

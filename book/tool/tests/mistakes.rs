@@ -90,8 +90,8 @@ fn links_to_missing_documentation_are_omitted() {
         let settings: Vec<_> = settings.iter().map(|(key, value)| (*key, (*value).into())).collect();
         process_with(&boxes(), &settings).unwrap().contains("[documentation](")
     };
-    let build = ("build.build-dir", folder.join("book"));
-    let build = (build.0, build.1.to_str().unwrap());
+    let book = folder.join("book");
+    let build = ("build.build-dir", book.to_str().unwrap());
     let _ = fs::remove_dir_all(&folder);
     assert!(!has_links(&[build]), "there is no documentation");
     fs::create_dir_all(folder.join("doc/spring_mass_contact")).unwrap();

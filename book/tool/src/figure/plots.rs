@@ -151,11 +151,11 @@ pub fn rounding() -> Figure {
         plot.line("penalty", curve(|row| row.penalty_force));
         plot.line("spring", curve(|row| row.force));
         plot.line("fine dotted", curve(|row| row.deflection));
-        let label_error = if *name == "113 bits" { 1e-10 } else { 0.05 };
+        let (label_error, aside) =
+            if *name == "113 bits" { (1e-10, (-16.0, 4.0)) } else { (0.05, (0.0, -8.0)) };
         let rising = curve(|row| row.penalty_force).into_iter().rfind(|(_, error)| *error < label_error);
         plot.text("penalty", rising.unwrap_or_default(), (10.0, 6.0), Start, name);
         let last = curve(|row| row.force).last().copied().unwrap_or_default();
-        let aside = if *name == "113 bits" { (-16.0, 4.0) } else { (0.0, -8.0) };
         plot.text("", last, aside, End, name);
         let eta = numbers.unit_roundoff();
         let system = default();
