@@ -824,10 +824,9 @@ fn the_whole_chapter_holds() {
 #[test]
 fn a_seed_determines_the_cases() {
     let run = |seed| {
-        let arguments =
-            ["verify", "1.33", "note", "4", "--cases", "20", "--scalar", "f32", "--scalar", "exact"];
+        let arguments = ["verify", "--cases", "20", "--scalar", "f32", "--scalar", "exact", "--seed", seed];
         [["--format", "table"], ["--format", "json"], ["--format", "markdown"]]
-            .map(|format| contact(&[&arguments[..], &["--seed", seed], &format].concat()).stdout)
+            .map(|format| contact(&[arguments.as_slice(), &format].concat()).stdout)
     };
     let [first, again, other] = ["7", "7", "8"].map(run);
     assert!(first == again, "the same seed says something else");
