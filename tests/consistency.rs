@@ -704,6 +704,16 @@ fn every_test_target_has_a_layer() {
         }
     }
     assert!(seen > 20, "the scan finds {seen} targets");
+    // The targets that `--first` prefers for a file are listed as well.
+    let preferred = run.split_once("\nclosest() {").and_then(|(_, rest)| rest.split_once("\n}")).unwrap().0;
+    let preferred: Vec<_> = preferred.split(") echo ").skip(1).filter_map(|line| line.split(' ').next()).collect();
+    assert!(preferred.len() > 2, "{preferred:?}");
+    for target in preferred {
+        assert!(
+            listed.contains(target),
+            "tests/seeded_faults/run: `closest` prefers {target}, which the list `layers` lacks"
+        );
+    }
 }
 
 /// Returns the pages of the book.
