@@ -8,8 +8,8 @@
 //! u = 0.050000006 m, N = 4.809999400 N, for certain 4.810000000 to 4.810000000; converged
 //! ```
 
-use num_traits::{One, Zero};
 use spring_mass_contact::chapter::SpringMass;
+use spring_mass_contact::num_traits::{One, Zero};
 use spring_mass_contact::number::{Exact, Field, OrderedField, PositivePart};
 use spring_mass_contact::operators;
 use spring_mass_contact::rug::Rational;

@@ -71,6 +71,9 @@ pub mod verify;
 #[doc(inline)]
 pub use provable::{number, operators};
 
+#[doc(no_inline)]
+pub use provable::num_traits;
+
 #[cfg(feature = "mpfr")]
 #[doc(no_inline)]
 pub use provable::rug;

@@ -32,6 +32,7 @@ use catch_panic::catch_panic;
 use checker::{Checker, ErasedChecker, FloatDomain, RationalDomain, Tally};
 pub use coq::coq;
 pub use experiments::{Experiment, Trial, exact_experiments, float_experiments};
+use num_traits::One;
 use proofs::{ProofAttempt, ProofOutcome};
 use rayon::prelude::*;
 pub use reproduction::reproduction;
@@ -200,11 +201,17 @@ pub struct Row {
 
 impl Row {
     /// Returns the counterexample with the quantities of the claim only; with all of them for an experiment.
+    /// 2ᵖ of a law of rounding is that of the number system.
     pub fn point(&self) -> Option<Point> {
         let case = self.counterexample.as_ref()?;
         let claim = claims().find(|claim| (claim.equation(), claim.name()) == (self.equation, self.claim));
+        let precision = claim.filter(|claim| claim.contains_rounding()).and(self.scalar);
+        let value = |var: Var| match precision {
+            Some(scalar) if var == Var::Bits => Exact::one() / scalar.unit_roundoff(),
+            _ => case.get(var).clone(),
+        };
         let symbols = claim.map(|claim| registry().symbols_of(claim.trees()));
-        let all = Var::ALL.iter().map(|var| (var.symbol(), case.get(*var).clone()));
+        let all = Var::ALL.iter().map(|var| (var.symbol(), value(*var)));
         Some(Point::new(all.filter(|(symbol, _)| symbols.as_ref().is_none_or(|own| own.contains(symbol)))))
     }
 }

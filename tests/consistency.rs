@@ -4,6 +4,7 @@
 
 use spring_mass_contact::claims::{Entry, claims, entries, entry, hypotheses, registry};
 use spring_mass_contact::number::NumberSystem;
+use spring_mass_contact::solver::{Outcome, State};
 use spring_mass_contact::verify::{
     Options, Report, Row, Status, claim_names, exact_experiments, float_experiments, verify,
 };
@@ -673,8 +674,9 @@ fn every_seeded_fault_is_detected_by_an_existing_test() {
     let missing: Vec<_> = patches.difference(&detected).collect();
     assert!(
         missing.len() == NOT_RUN,
-        "{} patches, not {NOT_RUN}, are missing in tests/seeded_faults/detected_by: `tests/seeded_faults/run --first` \
-         adds them; then correct the number in this test. They are {missing:?}",
+        "{} patches, not {NOT_RUN}, are missing in tests/seeded_faults/detected_by: for a new one run \
+         `tests/seeded_faults/run --first PATCH`; if older ones were added, correct the number in this test. They are \
+         {missing:?}",
         missing.len()
     );
 }
@@ -706,7 +708,8 @@ fn every_test_target_has_a_layer() {
     assert!(seen > 20, "the scan finds {seen} targets");
     // The targets that `--first` prefers for a file are listed as well.
     let preferred = run.split_once("\nclosest() {").and_then(|(_, rest)| rest.split_once("\n}")).unwrap().0;
-    let preferred: Vec<_> = preferred.split(") echo ").skip(1).filter_map(|line| line.split(' ').next()).collect();
+    let preferred: Vec<_> =
+        preferred.split(") echo ").skip(1).filter_map(|line| line.split(' ').next()).collect();
     assert!(preferred.len() > 2, "{preferred:?}");
     for target in preferred {
         assert!(
@@ -722,6 +725,33 @@ fn pages() -> Vec<PathBuf> {
     let pages: Vec<_> = pages.map(|path| root().join(path)).collect();
     assert!(pages.len() > 20, "the scan of book/src finds {} pages", pages.len());
     pages
+}
+
+/// The page of the command lists the states and outcomes by the names in the JSON.
+#[test]
+fn the_book_lists_states_and_outcomes_by_their_names() {
+    if is_packed() {
+        return eprintln!("the page of the command is only in the repository");
+    }
+    let page = source("book/src/command.md");
+    let listed = |field: &str| {
+        let row = page.lines().find_map(|line| line.strip_prefix(&format!("| `{field}` | "))).unwrap();
+        row.split('`')
+            .skip(1)
+            .step_by(2)
+            .filter(|word| *word != "augmented")
+            .map(String::from)
+            .collect::<Vec<_>>()
+    };
+    let states = [State::Contact, State::Grazing, State::Separated].map(|state| match state {
+        State::Contact | State::Grazing | State::Separated => state.to_string(),
+    });
+    assert_eq!(listed("state"), states);
+    use Outcome::*;
+    let outcomes = [Direct, Converged, Stagnated, IterationLimit].map(|outcome| match outcome {
+        Direct | Converged | Stagnated | IterationLimit => outcome.to_string(),
+    });
+    assert_eq!(listed("outcome"), outcomes);
 }
 
 /// Files are named in backticks or as links.

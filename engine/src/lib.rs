@@ -42,6 +42,8 @@ pub mod number;
 #[cfg(feature = "prover")]
 pub mod proof;
 
+/// Traits that a number system implements: `Zero` and `One`.
+pub use num_traits;
 #[cfg(feature = "mpfr")]
 pub use rug;
 

@@ -29,6 +29,16 @@ macro_rules! names {
     };
 }
 
+/// Returns whether a symbol replaces its formula; another word than `abbreviated` does not compile.
+macro_rules! abbreviated {
+    () => {
+        false
+    };
+    (abbreviated) => {
+        true
+    };
+}
+
 /// Defines the formulas of a section: `"p" (abbreviated) = contact::penetration(system, "u");`.
 ///
 /// `(abbreviated)` after a symbol lets formulas use the symbol for the quantity. A value without a symbol is
@@ -57,7 +67,7 @@ macro_rules! formulas {
                 path: concat!(stringify!($module), "::", stringify!($name)),
                 part: None$(.or(Some($part)))?,
                 symbol: $symbol,
-                abbreviated: !stringify!($($abbreviated)?).is_empty(),
+                abbreviated: $crate::claims::formulas::abbreviated!($($abbreviated)?),
                 arguments: $crate::claims::formulas::names!([] $($argument)*),
                 template: { let written = "«»"; $(let _ = written; let written = $written;)? written },
                 tree: trees.next().expect("a value each"),
@@ -65,7 +75,7 @@ macro_rules! formulas {
         }
     };
 }
-pub(super) use {argument, formulas, names};
+pub(super) use {abbreviated, argument, formulas, names};
 
 macro_rules! sections {
     ($($section:ident)*) => {

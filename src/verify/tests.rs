@@ -426,3 +426,24 @@ fn json_contains_the_details_of_a_failure() {
     });
     assert_eq!(serde_json::to_value(&report).unwrap(), expected);
 }
+
+/// A law of rounding is tested in the precision of a number system, whatever the sampled one is.
+#[test]
+fn counterexamples_of_laws_have_the_precision_of_the_number_system() {
+    let law = claims().find(|claim| claim.contains_rounding()).unwrap();
+    let rounded = Row {
+        equation: law.equation(),
+        claim: law.name(),
+        kind: "bound",
+        scalar: Some(NumberSystem::F32),
+        status: Status::Failed,
+        reason: None,
+        decided: 1,
+        undecided: 0,
+        worst: None,
+        counterexample: Some(Case::of(|_| Exact::from(-3))),
+    };
+    assert!(rounded.point().unwrap().to_string().contains("2ᵖ = 16777216"), "{}", rounded.point().unwrap());
+    let proof = Row { scalar: None, ..rounded };
+    assert!(proof.point().unwrap().to_string().contains("2ᵖ = -3"), "{}", proof.point().unwrap());
+}

@@ -251,7 +251,7 @@ fn bad_input_is_refused() {
         assert!(sweep(&system, [eps]).next().unwrap().is_err(), "{eps}");
     }
     let none = sweep(&system, []).map(|row| row.unwrap_err().to_string());
-    assert_eq!(none.collect::<Vec<_>>(), ["penalties []: must be at least one"]);
+    assert_eq!(none.collect::<Vec<_>>(), ["penalties []: must be nonempty"]);
     assert!(best_penalty(&SpringMass { c: -1.0, ..system }, &Exact::power_of_two(-53)).is_err());
     let negative = best_penalty(&system, &int(-1)).unwrap_err();
     assert_eq!(negative.to_string(), "unit roundoff -1: must be at least 0");

@@ -29,7 +29,7 @@
 //! which 1/3 = 5:
 //!
 //! ```
-//! use num_traits::{One, Zero};
+//! use provable::num_traits::{One, Zero};
 //! use provable::{number::Field, operators};
 //!
 //! #[derive(Clone, Debug, PartialEq)]

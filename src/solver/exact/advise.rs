@@ -10,7 +10,6 @@ use crate::number::{Exact, ExactText, PositivePart, RangeError};
 use num_traits::Zero;
 use rug::Integer;
 use rug::float::Round;
-use std::iter::successors;
 
 /// Result of [`advise`].
 #[derive(Clone, Debug, PartialEq)]
@@ -37,10 +36,11 @@ pub struct Recommendation<T> {
     #[cfg_attr(feature = "serde", serde(flatten))]
     pub method: Method<T>,
     /// Smallest and largest penalty ε, in N/m, between which the tolerance is guaranteed; the penalty of
-    /// [`method`](Self::method) is one of them. A smaller penalty is too soft or may take more than
-    /// [`MAX_AUGMENTATIONS`]. Up to the larger one, rounding changes the force ε p, or the multiplier, by at
-    /// most c times the tolerance; if no sufficient penalty has this property, the larger one is the penalty
-    /// of the method. `None` if the method has no penalty, or if only the range of the scalar limits it.
+    /// [`method`](Self::method) is one of them. A penalty smaller by more than a hundredth is too soft or may
+    /// take more than [`MAX_AUGMENTATIONS`]. Up to the larger one, rounding changes the force ε p, or the
+    /// multiplier, by at most c times the tolerance; if no sufficient penalty has this property, the larger
+    /// one is the penalty of the method. `None` if the method has no penalty, or if only the range of the
+    /// scalar limits it.
     #[cfg_attr(feature = "serde", serde(serialize_with = "crate::number::quantity::options"))]
     pub penalty_range: [Option<T>; 2],
     /// Number k of augmentations needed.
@@ -117,7 +117,7 @@ fn two_digits_above(x: &Exact) -> Exact {
     if above > *x { above } else { short(&(x * Exact::from(101) / Exact::from(100)), 2, Round::Up) }
 }
 
-/// Returns the smallest penalty, within a tenth, that needs at most [`MAX_AUGMENTATIONS`], starting the
+/// Returns the smallest penalty, within a hundredth, that needs at most [`MAX_AUGMENTATIONS`], starting the
 /// search from `eps`. A larger penalty never needs more augmentations, and a sufficiently large one always
 /// converges.
 fn softest(eps: &Exact, augmentations: impl Fn(&Exact) -> Option<Integer>) -> Exact {
@@ -128,10 +128,14 @@ fn softest(eps: &Exact, augmentations: impl Fn(&Exact) -> Option<Integer>) -> Ex
     } else {
         times(last(|n| !in_time(&times(n))) + 1)
     };
-    // 1.1⁸ > 2.
-    let tenth = Exact::from(10) / Exact::from(11);
-    let softer = successors(Some(soft), |eps| Some(eps * &tenth));
-    softer.take_while(in_time).last().expect("the first one is")
+    // Half of it needs more; seven bisections leave an interval of 1/256 of `soft`.
+    let half = Exact::power_of_two(-1);
+    let bisected = (0..7).fold([&soft * &half, soft], |[below, found], _| {
+        let middle = (&below + &found) * &half;
+        if in_time(&middle) { [below, middle] } else { [middle, found] }
+    });
+    let [_, found] = bisected;
+    found
 }
 
 /// The arithmetic that decides which penalties suffice.
@@ -283,7 +287,7 @@ mod tests {
         };
         for from in ["1e-99", "1/3", "0.999", "1", "1.001", "1.3", "2", "7", "1e99"] {
             let found = softest(&from.parse().unwrap(), needed);
-            assert!(one <= found && found < &one + &one / Exact::from(10), "{found} from {from}");
+            assert!(one <= found && found < &one + &one / Exact::from(100), "{found} from {from}");
         }
     }
 }

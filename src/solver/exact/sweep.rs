@@ -62,7 +62,7 @@ pub fn sweep<T: Scalar + ToExact>(
 ) -> impl Iterator<Item = Result<SweepRow<T>, SolveError>> {
     let mut penalties = penalties.into_iter().peekable();
     let none: [&T; 0] = [];
-    let none = check::require(penalties.peek().is_some(), "penalties", &none, "at least one").err();
+    let none = check::require(penalties.peek().is_some(), "penalties", &none, "nonempty").err();
     none.map(Err).into_iter().chain(penalties.map(|eps| row(system, eps)))
 }
 

@@ -6,6 +6,7 @@ use super::plane::{P, deflection, example, figure, float, point};
 use super::svg::{Anchor::*, number};
 use spring_mass_contact::chapter::{SpringMass, augmented, contact, lagrange, ode, penalty, structure};
 use spring_mass_contact::number::{Exact, NumberSystem, PositivePart, ToExact};
+use spring_mass_contact::rug::float::Round;
 use spring_mass_contact::solver::{self, Scalar};
 
 /// Draws the functionals of the methods and their minima.
@@ -163,12 +164,11 @@ pub fn rounding() -> Figure {
         let bound = solver::penalty_force_bound(&system, &eps, &eta)
             .expect("a valid system")
             .expect("there is contact");
-        best.push((*name, (float(&eps), float(&bound))));
+        let label = format!("{name} ε* = {:.1e}, error at most {}", float(&eps), bound.decimal(2, Round::Up));
+        best.push((label, (float(&eps), float(&bound))));
     }
-    let mut labels = Vec::new();
-    for (name, at) in &best {
-        labels.push(format!("{name} ε* = {:.1e}, error at most {:.1e}", at.0, at.1));
-        plot.mark("penalty", *at, labels.last().map_or("", |label| label));
+    for (label, at) in &best {
+        plot.mark("penalty", *at, label);
         plot.text("penalty", *at, (-7.0, 14.0), End, "ε^{∗}");
     }
     plot.text("penalty", (1e26, 1e-4), (0.0, 0.0), End, "ε p");
@@ -178,7 +178,7 @@ pub fn rounding() -> Figure {
          c/(c + ε), at first. The error of the force ε p departs from it first, near the best penalty ε*, and rises again to \
          1: {}. The errors of the deflection u and of the force m g − c u follow the line down to the rounding error of one \
          number; errors of 0 are omitted.",
-        labels.join("; "),
+        best.iter().map(|(label, _)| &label[..]).collect::<Vec<_>>().join("; "),
     );
     let caption = "Errors of $\\varepsilon\\,\\hat p$, of $m\\,g - c\\,\\hat u$ and of $\\hat u$ (dotted) in three precisions. The dots are the best penalties \
                    $\\varepsilon^*$ with the guaranteed bound. Errors of 0 are omitted.";
