@@ -824,7 +824,9 @@ fn the_whole_chapter_holds() {
 #[test]
 fn a_seed_determines_the_cases() {
     let run = |seed| {
-        let arguments = ["verify", "--cases", "20", "--scalar", "f32", "--scalar", "exact", "--seed", seed];
+        let equations = ["verify", "1.6", "1.16", "1.33", "Theorem 1.3.3"];
+        let options = ["--cases", "20", "--scalar", "f32", "--scalar", "exact", "--seed", seed];
+        let arguments = [&equations[..], &options].concat();
         [["--format", "table"], ["--format", "json"], ["--format", "markdown"]]
             .map(|format| contact(&[arguments.as_slice(), &format].concat()).stdout)
     };
