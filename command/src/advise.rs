@@ -23,8 +23,8 @@ Examples:
 
 Every recommendation has been confirmed by a run, from which k, the exact
 penetration p and the error of the force m g − c u are taken. Every penalty in
-the range guarantees the tolerance, and no smaller one does; the error of the
-force is then c T plus rounding. Up to the larger bound, rounding changes the
+the range guarantees the tolerance, and none that is smaller by more than a
+hundredth does; the error of the force is then c T plus rounding. Up to the larger bound, rounding changes the
 method's own force (N = ε p, or the multiplier) by at most c T, unless it does
 so for every sufficient penalty: then the larger bound is the recommendation.
 
@@ -104,7 +104,7 @@ impl<T: Scalar + ExactText> Report<'_, T> {
             floor: self.advice.floor.as_ref().map(|floor| floor.decimal(17, Round::Up)),
             reachable: !choices.is_empty(),
             required_precision: self.required_precision,
-            choices: choices.iter().map(choice).collect::<Vec<_>>(),
+            recommendations: choices.iter().map(choice).collect::<Vec<_>>(),
         }
     }
 
