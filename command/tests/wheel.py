@@ -1,5 +1,6 @@
-"""What the module of the wheel promises, tried on the one that is installed: `python -I command/tests/wheel.py VERSION`."""
+"""Test of the installed wheel: `python -I command/tests/wheel.py VERSION`."""
 
+import doctest
 import pathlib
 import sys
 from decimal import Decimal
@@ -32,6 +33,16 @@ def main(version):
     answers = solve_all({"height": height, "scalar": "exact"} for height in heights)
     assert [answer["contact_force"] for answer in answers] == ["481/100"] * 3 + ["0"], answers
     assert solve_all([]) == []
+    assert solve_all([{"height": 1.2}, {"height": 1.2, "scalar": "f64"}], scalar="exact")[1]["scalar"] == "f64"
+    for systems in ({"height": 1}, ["height"]):
+        try:
+            solve_all(systems)
+        except TypeError as error:
+            assert str(error) == "systems[0] 'height': must be a mapping of options", error
+        else:
+            raise AssertionError(f"not refused: {systems}")
+    documented = doctest.testmod(spring_mass_contact)
+    assert documented.attempted > 1 and not documented.failed, documented
     # More than a pipe holds, both ways.
     many = solve_all({"height": "1.05", "scalar": "exact", "id": n} for n in range(5000))
     assert [answer["id"] for answer in many] == list(range(5000))

@@ -1,12 +1,13 @@
-"""Solve systems by the command `contact` that this wheel installs: a thin layer over `contact solve --batch`.
+"""Solutions of systems by the command `contact` of this wheel: a thin layer over `contact solve --batch`.
 
 A system is a mapping whose keys are the long options of `contact solve` with underscores, and an answer has the keys of
-`contact solve --format json`; both are strings wherever digits count:
+`contact solve --format json`. Numbers of an answer are strings, which keep all digits:
 
-    >>> solve_all([{"height": "1.05"}, {"height": "1.2", "scalar": "exact"}])[0]["contact_force"]
-    '4.81'
-    >>> with Solver() as solver:
-    ...     solver.solve(method="penalty", penalty="1e6")["penetration"]
+    >>> [answer["contact_force"] for answer in solve_all([{"height": "1.05"}, {"height": 1.2}], scalar="exact")]
+    ['481/100', '0']
+    >>> with Solver(method="penalty", scalar="exact") as solver:
+    ...     solver.solve(penalty="1e6")["penetration"]
+    '481/100010000'
 
 Decimals as strings are read exactly; a float of Python is written as the shortest decimal that is the same float.
 """
@@ -26,16 +27,16 @@ Answer = Dict[str, Any]
 
 
 class ContactError(ValueError):
-    """The command refuses a system; the message is the one line that it says.
+    """Refusal of a system by the command; the message is its line.
 
-    `index` is the place of the system among those given to `solve_all`, from 0.
+    `index` is the position of the system among those given to `solve_all`, from 0.
     """
 
     index: Optional[int] = None
 
 
 def find_contact() -> str:
-    """The path of the command: where this wheel has put it, or else on PATH."""
+    """Returns the path of the command: that of this wheel, or else one on PATH."""
     name = "contact" + (sysconfig.get_config_var("EXE") or "")
     installed = os.path.join(sysconfig.get_path("scripts"), name)
     found = installed if os.path.isfile(installed) else shutil.which("contact")
@@ -65,14 +66,19 @@ def _answer(line: str, index: Optional[int] = None) -> Answer:
     return answer
 
 
-def solve_all(systems: Iterable[System], command: Optional[str] = None) -> List[Answer]:
-    """Solves many systems at once, on all cores, and returns their answers in the same order.
+def solve_all(systems: Iterable[System], command: Optional[str] = None, **defaults: Number) -> List[Answer]:
+    """Solves many systems on all cores, and returns their answers in the same order.
 
-    Raises `ContactError` with the command's message for the first system that is refused.
+    The keywords are options of all systems that do not contain them. Raises `ContactError` with the command's message
+    for the first system that is refused.
     """
-    lines = "".join(_line(system, index) for index, system in enumerate(systems))
+    lines = []
+    for index, system in enumerate(systems):
+        if not isinstance(system, Mapping):
+            raise TypeError(f"systems[{index}] {system!r}: must be a mapping of options")
+        lines.append(_line({**defaults, **system}, index))
     arguments = [command or find_contact(), "solve", "--batch"]
-    done = subprocess.run(arguments, input=lines, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
+    done = subprocess.run(arguments, input="".join(lines), stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
     # The status is 1 if a line is an error or did not converge: each answer says so itself.
     if done.returncode not in (0, 1):
         raise ContactError(done.stderr.strip())
@@ -80,9 +86,9 @@ def solve_all(systems: Iterable[System], command: Optional[str] = None) -> List[
 
 
 class Solver:
-    """Solves one system after the other in one process, so that the next may depend on the last answer.
+    """Solver of one system after the other in one process, so that the next may depend on the last answer.
 
-    Options given here are for the systems that do not say otherwise. To be closed, or used by `with`.
+    The keywords are options of all systems that do not contain them. A solver is closed by `close` or `with`.
     """
 
     def __init__(self, command: Optional[str] = None, **defaults: Number) -> None:
@@ -93,7 +99,7 @@ class Solver:
         )
 
     def solve(self, **system: Number) -> Answer:
-        """The answer for one system; raises `ContactError` with the command's message if it is refused."""
+        """Returns the answer for one system; raises `ContactError` with the command's message if it is refused."""
         line = _line({**self._defaults, **system})
         try:
             self._process.stdin.write(line)
