@@ -153,6 +153,9 @@ fn counterexamples_are_simplified() {
     let wrong = found_at(&positive("wrong", x("c") * x("R") * x("R")));
     let is_simple = |x: &Exact| SIMPLE.iter().any(|n| Exact::from(*n) == *x);
     assert!(wrong.point.coordinates().all(|(_, x)| is_simple(x)), "{wrong}");
+    // At c = 1 the claim is undefined, which explains less than a wrong sign.
+    let wrong = positive("wrong", Tree::one() / (x("c") - Tree::one()));
+    assert_eq!(small(&wrong, &point(&[("c", -5)])).to_string(), "c = 0: -1 is not > 0");
     // If c becomes 1, d must change as well, because d > c.
     let ordered = Hypothesis::new(Relation::Positive, x("d") - x("c"));
     let zero = equal("zero", x("c") * x("d"), 0).assuming([&ordered]);
