@@ -129,7 +129,7 @@ mod tests {
     use super::*;
     use crate::formula::Registry;
     use crate::formula::claim::{non_negative, positive};
-    use crate::number::{Exponential, tree};
+    use crate::number::{Exponential, PositivePart, tree};
     use crate::proof::MAX_SIZE;
     use crate::proof::refute::integer_points;
     use crate::proof::render::ProofPrinter;
@@ -237,6 +237,14 @@ mod tests {
         let claim =
             positive("", &a * &b * &c - &d * &b).assuming(&[b.clone(), &a - &c, &d - &a].map(above_zero));
         assert_eq!(hints(&claim), ["a c > d"]);
+    }
+
+    /// Each of four signs suffices, and none follows from another.
+    #[test]
+    fn at_most_three_hypotheses_are_suggested() {
+        let any = tree::symbols(["a", "b", "c", "d"]).map(|x| x.positive_part());
+        let claim = positive("", any.into_iter().reduce(|sum, x| sum + x).unwrap());
+        assert_eq!(hints(&claim), ["a > 0", "b > 0", "c > 0"]);
     }
 
     #[test]

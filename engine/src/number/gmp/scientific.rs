@@ -17,6 +17,8 @@ use std::fmt;
 /// let [third, eighth] = ["-1/3", "1/8"].map(|text| text.parse::<Exact>().unwrap());
 /// assert_eq!(format!("{eighth:e} {eighth:.0e} {third:.3e}"), "1.25e-1 1e-1 -3.333e-1");
 /// assert_eq!(format!("{third:e}"), "-3.3333333333333333e-1");
+/// let below_one: Exact = "0.99999999999999999999999999".parse().unwrap(); // the next f64 is 1
+/// assert_eq!(format!("{below_one:e}"), "9.9999999999999999999999999e-1");
 /// ```
 impl fmt::LowerExp for Exact {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {

@@ -101,6 +101,9 @@ fn the_tightest_point_attains_the_largest_fraction_of_a_bound() {
     };
     assert_eq!(share(x("c")), Exact::one());
     assert_eq!(share(x("c") * Tree::from(2)), "1/2".parse().unwrap());
+    // An error that is never positive takes as much of its bound.
+    let negative = within("negative", -x("c"), x("c") * Tree::from(2)).assuming(&hypotheses);
+    assert_eq!(tightest_point(&negative).unwrap().1, "1/2".parse().unwrap());
     // Half of c is not a bound there.
     let half = within("half", x("u") * Tree::from(2), x("c")).assuming(&hypotheses);
     let at_end = check(&half, &point(&[("c", 3), ("u", -3)]));
