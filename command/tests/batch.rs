@@ -606,9 +606,13 @@ fn a_closed_pipe_is_no_error() {
         let mut stdin = child.stdin.take().expect("a pipe");
         drop(child.stdout.take());
         let waiting = thread::spawn(move || {
-            // It is not for us to end: stdin stays open. Where all has been read, one more says that it is over.
-            let _ = stdin.write_all("{}\n".repeat(lines).as_bytes());
-            stdin
+            // stdin stays open until the command ends. Another test that starts a process at this moment copies the
+            // pipe for an instant, so that the first answers may still be written: another line follows.
+            let mut lines = "{}\n".repeat(lines);
+            while stdin.write_all(lines.as_bytes()).is_ok() {
+                lines.truncate(3);
+                thread::sleep(Duration::from_millis(50));
+            }
         });
         let output = finish(child);
         assert_eq!((output.status.code(), output.stderr.as_slice()), (Some(0), b"".as_slice()), "{lines}");
