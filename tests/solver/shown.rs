@@ -35,7 +35,13 @@ fn what_is_written_encloses<T: Float + ExactText>(case: &Case<Exact>, like: &T) 
                 [("u", &bounds.deflection), ("p", &bounds.penetration), ("N", &bounds.contact_force)]
             {
                 let [lower, upper] = ends(enclosure(&shown, symbol, name));
-                prop_assert!(lower <= exact(&interval.lower) && exact(&interval.upper) <= upper, "{}", shown);
+                for [lower, upper] in [[lower, upper], interval.texts().map(|end| end.parse().unwrap())] {
+                    prop_assert!(
+                        lower <= exact(&interval.lower) && exact(&interval.upper) <= upper,
+                        "{}",
+                        shown
+                    );
+                }
             }
             let floor = shown.lines().next().unwrap().split_once("|u − u*| at most ");
             prop_assert_eq!(floor.is_some(), answer.floor.is_some());
