@@ -107,3 +107,32 @@ pub fn first_with(function: &str) -> Option<&'static str> {
         .find(|entry| entry.functions.contains(&function))
         .map(|entry| entry.equation)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mdbook_preprocessor::book::{BookItem, Chapter};
+
+    #[test]
+    fn functions_are_located_at_their_first_equation() -> Result<()> {
+        let boxes: String =
+            equations().map(|(entry, _)| format!("{{{{#eq {}}}}}\n", entry.equation)).collect();
+        let chapter = Chapter::new("Page", boxes, "page.md", Vec::new());
+        let book = Book::new_with_items(vec![BookItem::Chapter(chapter)]);
+        let places = Places::of(&book, &crate::tag("eq|source")?)?;
+        let mut shared = 0;
+        for (entry, _) in equations() {
+            for function in &entry.functions {
+                let first = first_with(function).context("no equation lists the function")?;
+                assert_eq!(
+                    places.function(function).map(|place| &place.anchor),
+                    Some(&anchor(first)),
+                    "{function}"
+                );
+                shared += usize::from(first != entry.equation);
+            }
+        }
+        assert!(shared > 0, "no function belongs to two equations");
+        Ok(())
+    }
+}

@@ -171,3 +171,13 @@ fn symbols(text: &str) -> String {
     }
     result
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texts_are_escaped_for_xml() {
+        assert_eq!(escaped("u < H & λ > 0"), "u &lt; H &amp; λ &gt; 0");
+    }
+}
