@@ -81,3 +81,17 @@ impl Scalar for Exact {
         (plus[0].0 * plus[0].1 + plus[1].0 * plus[1].1).cmp(&(minus.0 * minus.1))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_rationals_and_constants_grow() {
+        let third = rug::Rational::from((1, 3));
+        let float = rug::Float::with_val(64, &third);
+        assert_eq!(Exact::from(third.clone()).growing_digits(), 3);
+        assert_eq!(Mpfr::constant(third).growing_digits(), 3);
+        assert_eq!(Mpfr::from(float).growing_digits(), 0);
+    }
+}
