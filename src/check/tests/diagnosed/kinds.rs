@@ -167,7 +167,7 @@ fn a_mutant_that_explains_only_some_answers_is_not_diagnosed() {
 /// (1.16) in f64.
 #[test]
 fn augmentations_that_end_early_are_diagnosed() {
-    for (steps, eps) in [(2, 1e4), (3, 1e4), (5, 2e7)] {
+    for (steps, eps) in [(2, 1e4), (3, 1e4), (5, 2e7), (8, 1e4)] {
         let report = run(&default_problems(), |problem| {
             let system = problem.system.try_map(Exact::to_f64).unwrap();
             let (mut u, mut lambda) = (0.0, 0.0);
