@@ -61,6 +61,21 @@ fn excused_lines_exist_in_the_source() {
     }
 }
 
+/// cargo would refuse each mutant as if it did not build.
+#[test]
+fn test_targets_of_the_run_exist() {
+    let settings = read(".cargo/mutants.toml");
+    let targets: Vec<_> =
+        settings.split("\"--test=").skip(1).filter_map(|rest| rest.split('"').next()).collect();
+    assert!(targets.len() > 10, "{targets:?}");
+    for target in targets {
+        let places =
+            ["", "engine/", "command/"].map(|package| root().join(package).join("tests").join(target));
+        let there = places.iter().any(|path| path.is_dir() || path.with_extension("rs").is_file());
+        assert!(there, ".cargo/mutants.toml names {target}, which is no test target");
+    }
+}
+
 /// Returns the mutants of a run that are named in the text.
 fn mutants(all: &Value, named: impl Fn(&str) -> bool) -> Vec<Mutant> {
     let all = all.as_array().expect("a list of mutants");
