@@ -201,9 +201,10 @@ impl TagExpander {
 
     /// Returns the attribute with the anchor of a function, if it has its own.
     fn id(&self, function: &str) -> String {
-        match self.places.function(function) {
-            Some(place) if place.anchor == places::anchor_of(function) => format!(" id=\"{}\"", place.anchor),
-            _ => String::new(),
+        if self.places.has_own_anchor(function) {
+            format!(" id=\"{}\"", places::anchor_of(function))
+        } else {
+            String::new()
         }
     }
 

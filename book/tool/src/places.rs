@@ -1,7 +1,7 @@
 //! Locations of equations, functions and entries in the book.
 
 use crate::{claims::slug, equations};
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, bail};
 use mdbook_preprocessor::book::Book;
 use regex::Regex;
 use spring_mass_contact::claims::{Entry, entries};
@@ -49,13 +49,8 @@ impl Places {
             }
         }
         for (entry, _) in crate::equations() {
-            let place = equations.get(entry.equation);
-            let place = place.with_context(|| format!("{} is not displayed on any page", entry.label()))?;
-            for function in &entry.functions {
-                // The box takes precedence over a page that shows the function again.
-                if first_with(function) == Some(entry.equation) {
-                    functions.insert(function.to_string(), place.clone());
-                }
+            if !equations.contains_key(entry.equation) {
+                bail!("{} is not displayed on any page", entry.label());
             }
         }
         let entries = entries().iter().filter_map(|entry| {
@@ -70,9 +65,9 @@ impl Places {
         self.equations.get(number)
     }
 
-    /// Returns the location of a function's source.
-    pub fn function(&self, path: &str) -> Option<&Place> {
-        self.functions.get(path)
+    /// Returns `true` if a page shows the function, and no box does: then it has an anchor of its own.
+    pub fn has_own_anchor(&self, function: &str) -> bool {
+        self.functions.contains_key(function) && first_with(function).is_none()
     }
 
     /// Returns the location of an entry: its box, or the heading or figure with its name as anchor.
@@ -106,33 +101,4 @@ pub fn first_with(function: &str) -> Option<&'static str> {
         .map(|(entry, _)| entry)
         .find(|entry| entry.functions.contains(&function))
         .map(|entry| entry.equation)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use mdbook_preprocessor::book::{BookItem, Chapter};
-
-    #[test]
-    fn functions_are_located_at_their_first_equation() -> Result<()> {
-        let boxes: String =
-            equations().map(|(entry, _)| format!("{{{{#eq {}}}}}\n", entry.equation)).collect();
-        let chapter = Chapter::new("Page", boxes, "page.md", Vec::new());
-        let book = Book::new_with_items(vec![BookItem::Chapter(chapter)]);
-        let places = Places::of(&book, &crate::tag("eq|source")?)?;
-        let mut shared = 0;
-        for (entry, _) in equations() {
-            for function in &entry.functions {
-                let first = first_with(function).context("no equation lists the function")?;
-                assert_eq!(
-                    places.function(function).map(|place| &place.anchor),
-                    Some(&anchor(first)),
-                    "{function}"
-                );
-                shared += usize::from(first != entry.equation);
-            }
-        }
-        assert!(shared > 0, "no function belongs to two equations");
-        Ok(())
-    }
 }
