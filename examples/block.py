@@ -48,9 +48,11 @@ for k in range(100):  # augmentations
     while active is None or (active != (forces(u) > 0)).any():  # inner: Newton's method with a line search
         active, t = forces(u) > 0, 1.0
         A = G[active]
-        step = np.linalg.solve(K + eps * A.T @ A, f + A.T @ (eps * gap - lam)[active]) - u
-        slope = (K @ u - f + A.T @ forces(u)[active]) @ step
-        while t > 1e-6 and energy(u + t * step) > energy(u) + 0.1 * t * slope:
+        slope = K @ u - f + A.T @ forces(u)[active]
+        step = -np.linalg.solve(K + eps * A.T @ A, slope)
+        # A step to the same active set is exact, and the difference of the energies may be below rounding.
+        while t > 1e-6 and (active != (forces(u + t * step) > 0)).any() \
+                and energy(u + t * step) > energy(u) + 0.1 * t * (slope @ step):
             t /= 2
         u, solves = u + t * step, solves + 1
     new = np.maximum(forces(u), 0)

@@ -63,7 +63,7 @@ fn the_log_of_the_block_is_current() {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let (rows, found) = augmentations(&String::from_utf8(output.stdout).unwrap());
     assert!((found / force - 1.0).abs() < 1e-5, "{found} instead of {force}");
-    assert_eq!(rows.len(), recorded.len());
+    assert_eq!(rows.len(), recorded.len(), "{rows:?}");
     // Displacements of 0.02 mm and a condition number of 10⁴ leave 10⁻¹³ mm, a part of the last residuals.
     for ([_, found, _], [k, expected, _]) in rows.iter().zip(&recorded) {
         assert!((found - expected).abs() < 1e-3 * expected + 1e-13, "k = {k}: {found} instead of {expected}");
