@@ -297,7 +297,8 @@ impl Context {
                 }
             },
             Proposition::Within(of, bound) => {
-                let (of, bound) = (reader.translate(of)?, reader.translate(bound)?);
+                // The bound comes first: it is shorter, and its branches may have to be distinguished.
+                let (bound, of) = (reader.translate(bound)?, reader.translate(of)?);
                 let [above, below] = self.reduce(&bound).difference_and_sum(&self.reduce(&of));
                 let not_negative = |value| reader.require_sign(value, Sign::NonNegative);
                 Justification::Within([not_negative(above)?, not_negative(below)?].into())

@@ -28,64 +28,80 @@ const MAX_ENDS_TERMS: usize = 1000;
 /// Maximum number of terms to which rule 3 is applied if there are symbols between −1 and 1.
 const MAX_SQUARE_TERMS: usize = 40;
 
-/// Returns the sign of a polynomial, by rule 2 also with factors of known sign.
-pub fn sign_of_product(of: &Poly, factors: &[Certificate], known: &Arc<SignEnv>) -> Option<Certificate> {
-    if has_both_signs(of, known) {
-        return None;
-    }
-    sign(of, known).or_else(|| {
-        let factor = |factor: &Certificate| {
-            let rest = of.over(factor.of()).filter(|_| factor.of().terms().len() > 1)?;
-            Certificate::product(factor.clone(), sign_of_product(&rest, factors, known)?)
-        };
-        factors.iter().find_map(factor)
-    })
+/// Returns the sign of a polynomial if the rules find one.
+pub fn sign(of: &Poly, known: &Arc<SignEnv>) -> Option<Certificate> {
+    sign_of_product(of, &[], known)
 }
 
-/// Returns the sign of a polynomial if the rules find one.
+/// Returns the sign of a polynomial, by rule 2 also with factors of known sign.
 ///
 /// Rule 4 is not tried if there are symbols between −1 and 1.
-pub fn sign(of: &Poly, known: &Arc<SignEnv>) -> Option<Certificate> {
-    if of.symbols().into_iter().any(Symbol::in_unit_interval) {
-        return bounded(of, known, MAX_ENDS).or_else(|| small_square(of, known));
-    }
-    // Shorter certificates are preferred.
-    (0..=MAX_CERTIFICATE_DEPTH).find_map(|depth| within(of, known, depth))
+pub fn sign_of_product(of: &Poly, factors: &[Certificate], known: &Arc<SignEnv>) -> Option<Certificate> {
+    let whole = || {
+        if of.symbols().into_iter().any(Symbol::in_unit_interval) {
+            return bounded(of, known, MAX_ENDS).or_else(|| small_square(of, known));
+        }
+        // Shorter certificates are preferred.
+        (1..=MAX_CERTIFICATE_DEPTH).find_map(|depth| within(of, known, depth))
+    };
+    // Each set of factors is divided out once, not in each order.
+    let product = |(first, factor): (usize, &Certificate)| {
+        let rest = of.over(factor.of()).filter(|_| factor.of().terms().len() > 1)?;
+        Certificate::product(factor.clone(), sign_of_product(&rest, &factors[first..], known)?)
+    };
+    let search = || whole().or_else(|| factors.iter().enumerate().find_map(product));
+    let by_terms = by_terms(of, known);
+    by_terms.or_else(|| if has_both_signs(of, known) { None } else { search() })
 }
 
-/// Number of points at which [`has_both_signs`] evaluates a polynomial.
+/// Number of points from which [`has_both_signs`] starts.
 const POINTS: u32 = 12;
 
-/// Returns `true` if floats find values of both signs of a polynomial at some points, so that no rule can
-/// find its sign.
+/// Returns `true` if floats find values of both signs of a polynomial, so that no rule can find its sign.
+///
+/// From random points, the symbols between −1 and 1 move to the ends that the slopes at the point suggest.
 fn has_both_signs(of: &Poly, known: &SignEnv) -> bool {
     if of.has_exponentials() {
         return false;
     }
     let mut random = Rand32::new(1);
-    let mut number = |x: &Symbol| match known.get(x) {
-        _ if x.in_unit_interval() => [-1.0, -0.5, 0.5, 1.0][random.rand_range(0..4) as usize],
-        sign => {
-            let size = 2.0_f64.powi(random.rand_range(0..13) as i32 - 6);
-            let is_negative =
-                sign.map_or(random.rand_range(0..2) == 0, |sign| sign.implies(Sign::NonPositive));
-            if is_negative { -size } else { size }
-        }
+    let mut number = |x: &Symbol| {
+        let size = if x.in_unit_interval() { 1.0 } else { 2.0_f64.powi(random.rand_range(0..13) as i32 - 6) };
+        let sign = known.get(x).filter(|_| !x.in_unit_interval());
+        let is_negative = sign.map_or(random.rand_range(0..2) == 0, |sign| sign.implies(Sign::NonPositive));
+        if is_negative { -size } else { size }
     };
     let symbols: Vec<_> = of.symbols().into_iter().collect();
     let index = |x: Symbol| symbols.binary_search(&x).unwrap_or_default();
     let powers = |m: &Monomial| m.powers().map(|(x, n)| (index(x), n as i32)).collect::<Vec<_>>();
     let terms: Vec<_> = of.terms().map(|(m, q)| (q.to_f64(), powers(m))).collect();
-    let mut signs = (0..POINTS).filter_map(|_| {
-        let point: Vec<f64> = symbols.iter().map(&mut number).collect();
-        let values =
-            terms.iter().map(|(q, powers)| powers.iter().fold(*q, |x, (i, n)| x * point[*i].powi(*n)));
-        let (sum, sizes) = values.fold((0.0, 0.0), |(sum, sizes), x| (sum + x, sizes + x.abs()));
+    let mut is_found = [false; 2];
+    // Notes the sign of the value; returns the slopes times the symbols.
+    let mut evaluate = |point: &[f64]| {
+        let (mut sum, mut sizes, mut slopes) = (0.0, 0.0, vec![0.0; point.len()]);
+        for (q, powers) in &terms {
+            let value = powers.iter().fold(*q, |x, (i, n)| x * point[*i].powi(*n));
+            sum += value;
+            sizes += value.abs();
+            powers.iter().for_each(|(i, n)| slopes[*i] += f64::from(*n) * value);
+        }
         // A sum within the rounding error has no certain sign.
-        (sum.abs() > 1e-9 * sizes).then_some(sum > 0.0)
-    });
-    let first = signs.next();
-    signs.any(|sign| Some(sign) != first)
+        if sum.abs() > 1e-9 * sizes {
+            is_found[usize::from(sum > 0.0)] = true;
+        }
+        (is_found == [true; 2], slopes)
+    };
+    (0..POINTS).any(|_| {
+        let point: Vec<f64> = symbols.iter().map(&mut number).collect();
+        let (found, slopes) = evaluate(&point);
+        let mut at_ends = |sign: f64| {
+            let end = |i: usize| {
+                if symbols[i].in_unit_interval() { (sign * point[i] * slopes[i]).signum() } else { point[i] }
+            };
+            evaluate(&(0..point.len()).map(end).collect::<Vec<_>>()).0
+        };
+        found || at_ends(-1.0) || at_ends(1.0)
+    })
 }
 
 fn within(of: &Poly, known: &Arc<SignEnv>, depth: u32) -> Option<Certificate> {
@@ -129,10 +145,14 @@ fn slope(of: &Poly, known: &Arc<SignEnv>, depth: u32) -> Option<Certificate> {
     of.symbols().into_iter().find_map(|x| Certificate::mean_value(of, x, known, &find))
 }
 
+/// Returns the sign by rules 1 and 5.
+fn by_terms(of: &Poly, known: &Arc<SignEnv>) -> Option<Certificate> {
+    Certificate::termwise(of, known).or_else(|| Certificate::triangle_inequality(of, known))
+}
+
 /// Returns the sign by rules 1, 2, 5 and 6, the last one applied to at most `symbols` symbols.
 fn bounded(of: &Poly, known: &Arc<SignEnv>, symbols: u32) -> Option<Certificate> {
-    let by_terms = Certificate::termwise(of, known).or_else(|| Certificate::triangle_inequality(of, known));
-    by_terms.or_else(|| small_factor(of, known, symbols)).or_else(|| {
+    by_terms(of, known).or_else(|| small_factor(of, known, symbols)).or_else(|| {
         let symbols = symbols.checked_sub(1)?;
         if of.terms().len() > MAX_ENDS_TERMS {
             return None;
@@ -283,6 +303,9 @@ mod tests {
         for of in [x("u"), x("a") - n(1), x("z") * x("u"), error(0), n(3) * x("a") * error(0) - x("z")] {
             assert!(has_both_signs(&of, &known), "{of:?}");
         }
+        // Positive except near one of the 4096 corners.
+        let sum = |sign: i32| (0..12).fold(n(11), |sum, i| sum + n(sign) * error(i));
+        assert!(has_both_signs(&sum(1), &known) && has_both_signs(&sum(-1), &known));
         // Squares and 1 + e have zeros but do not change sign, and cancellation in floats hides a sign.
         let square = (x("u") - x("v")) * (x("u") - x("v"));
         let lost = x("a") - (x("a") + x("z")) + x("z");

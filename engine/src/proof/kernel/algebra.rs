@@ -161,9 +161,9 @@ impl Poly {
         if divisor.is_one() {
             return Some(self.clone());
         }
-        // The first term of a product is the product of the first terms, which rules out most divisors.
-        let first_terms = self.0.first().zip(divisor.0.first());
-        if first_terms.is_some_and(|((m, _), (n, _))| !m.is_divisible_by(n)) {
+        // The first and last terms of a product are products of those terms, which rules out most divisors.
+        let ends = [(self.0.first(), &divisor.0[0].0), (self.0.last(), leading)];
+        if ends.into_iter().any(|(term, by)| term.is_some_and(|(m, _)| !m.is_divisible_by(by))) {
             return None;
         }
         let inverse = coefficient.recip();

@@ -127,9 +127,11 @@ impl<'a> Translator<'a> {
                 let (error, largest) = self.read_rounding(a, &value)?;
                 let nearest = &largest + Ratio::from(Poly::symbol(error));
                 let divisor = || Tree::symbol(PRECISION) + Tree::from(1);
-                (value * nearest)
+                // The quotient comes first, since the value is long.
+                let factor = nearest
                     .over(&largest)
-                    .ok_or_else(|| ProofError::PossibleZeroDivisor(divisor(), largest))?
+                    .ok_or_else(|| ProofError::PossibleZeroDivisor(divisor(), largest))?;
+                value * factor
             }
         })
     }
@@ -146,18 +148,19 @@ impl<'a> Translator<'a> {
         let value_errors = errors(&value);
         let mut candidates = self.rounded.iter().filter(|(known, _)| errors(known) == value_errors);
         let equal = candidates.find(|(known, _)| (known - &value).is_zero());
+        let rounding = self.context.roundings.iter().position(|known| known == of);
+        let rounding = rounding.ok_or(ProofError::TooManyRoundings)?;
         let error = match equal {
             Some((_, error)) => *error,
             None => {
-                let index = self.context.roundings.iter().position(|known| known == of);
-                let index = index.and_then(|index| index.try_into().ok());
-                let error = algebra::Symbol::Error(index.ok_or(ProofError::TooManyRoundings)?);
-                self.rounded.push((value, error));
-                error
+                let index = rounding.try_into().map_err(|_| ProofError::TooManyRoundings)?;
+                self.rounded.push((value, algebra::Symbol::Error(index)));
+                algebra::Symbol::Error(index)
             }
         };
         if self.errors.iter().all(|known| known.of != *of) {
-            self.errors.push(Rounding { of: of.clone(), error, scale });
+            // Of equal formulas the first one is displayed.
+            self.errors.push(Rounding { of: self.context.roundings[rounding].clone(), error, scale });
         }
         Ok((error, largest))
     }
