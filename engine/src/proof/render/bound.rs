@@ -67,8 +67,7 @@ impl ProofPrinter<'_> {
     pub(super) fn within_in_full(&self, sides: &[SignedRatio; 2]) -> Vec<String> {
         let mut lines = Vec::new();
         for (what, signed) in SIDES.into_iter().zip(sides) {
-            let value = self.order().ratio_or_size(&signed.value);
-            lines.push(format!("the bound {what} is {value} ≥ 0:"));
+            lines.push(format!("the bound {what} is ≥ 0:"));
             lines.extend(self.explain_sign(signed).into_iter().map(|line| format!("  {line}")));
         }
         lines
