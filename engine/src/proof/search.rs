@@ -8,6 +8,7 @@ use super::kernel::context::{Context, solve_for};
 use super::kernel::sign::{Certificate, Sign, SignEnv};
 use crate::formula::Hypothesis;
 use oorandom::Rand32;
+use std::iter;
 use std::sync::Arc;
 
 /// Maximum nesting of certificates.
@@ -39,7 +40,7 @@ pub fn sign(of: &Poly, known: &Arc<SignEnv>) -> Option<Certificate> {
 pub fn sign_of_product(of: &Poly, factors: &[Certificate], known: &Arc<SignEnv>) -> Option<Certificate> {
     let whole = || {
         if of.symbols().into_iter().any(Symbol::in_unit_interval) {
-            return bounded(of, known, MAX_ENDS).or_else(|| small_square(of, known));
+            return by_ends(of, known, MAX_ENDS).or_else(|| small_square(of, known));
         }
         // Shorter certificates are preferred.
         (1..=MAX_CERTIFICATE_DEPTH).find_map(|depth| within(of, known, depth))
@@ -75,9 +76,8 @@ fn has_both_signs(of: &Poly, known: &SignEnv) -> bool {
     let index = |x: Symbol| symbols.binary_search(&x).unwrap_or_default();
     let powers = |m: &Monomial| m.powers().map(|(x, n)| (index(x), n as i32)).collect::<Vec<_>>();
     let terms: Vec<_> = of.terms().map(|(m, q)| (q.to_f64(), powers(m))).collect();
-    let mut is_found = [false; 2];
-    // Notes the sign of the value; returns the slopes times the symbols.
-    let mut evaluate = |point: &[f64]| {
+    // Returns the sign, unless the value is within the rounding error, and the slopes times the symbols.
+    let evaluate = |point: &[f64]| {
         let (mut sum, mut sizes, mut slopes) = (0.0, 0.0, vec![0.0; point.len()]);
         for (q, powers) in &terms {
             let value = powers.iter().fold(*q, |x, (i, n)| x * point[*i].powi(*n));
@@ -85,23 +85,23 @@ fn has_both_signs(of: &Poly, known: &SignEnv) -> bool {
             sizes += value.abs();
             powers.iter().for_each(|(i, n)| slopes[*i] += f64::from(*n) * value);
         }
-        // A sum within the rounding error has no certain sign.
-        if sum.abs() > 1e-9 * sizes {
-            is_found[usize::from(sum > 0.0)] = true;
-        }
-        (is_found == [true; 2], slopes)
+        ((sum.abs() > 1e-9 * sizes).then_some(sum > 0.0), slopes)
     };
-    (0..POINTS).any(|_| {
+    let mut signs = (0..POINTS).flat_map(|_| {
         let point: Vec<f64> = symbols.iter().map(&mut number).collect();
-        let (found, slopes) = evaluate(&point);
-        let mut at_ends = |sign: f64| {
-            let end = |i: usize| {
-                if symbols[i].in_unit_interval() { (sign * point[i] * slopes[i]).signum() } else { point[i] }
+        let (sign, slopes) = evaluate(&point);
+        let (symbols, evaluate) = (&symbols, &evaluate);
+        let at_ends = move |direction: f64| {
+            let end = |i: usize| match symbols[i].in_unit_interval() {
+                true => (direction * point[i] * slopes[i]).signum(),
+                false => point[i],
             };
             evaluate(&(0..point.len()).map(end).collect::<Vec<_>>()).0
         };
-        found || at_ends(-1.0) || at_ends(1.0)
-    })
+        iter::once(sign).chain([-1.0, 1.0].into_iter().map(at_ends)).flatten()
+    });
+    let first = signs.next();
+    signs.any(|sign| Some(sign) != first)
 }
 
 fn within(of: &Poly, known: &Arc<SignEnv>, depth: u32) -> Option<Certificate> {
@@ -152,7 +152,12 @@ fn by_terms(of: &Poly, known: &Arc<SignEnv>) -> Option<Certificate> {
 
 /// Returns the sign by rules 1, 2, 5 and 6, the last one applied to at most `symbols` symbols.
 fn bounded(of: &Poly, known: &Arc<SignEnv>, symbols: u32) -> Option<Certificate> {
-    by_terms(of, known).or_else(|| small_factor(of, known, symbols)).or_else(|| {
+    by_terms(of, known).or_else(|| by_ends(of, known, symbols))
+}
+
+/// Returns the sign by rules 2 and 6, and the other two inside these.
+fn by_ends(of: &Poly, known: &Arc<SignEnv>, symbols: u32) -> Option<Certificate> {
+    small_factor(of, known, symbols).or_else(|| {
         let symbols = symbols.checked_sub(1)?;
         if of.terms().len() > MAX_ENDS_TERMS {
             return None;

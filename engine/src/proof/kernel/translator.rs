@@ -154,8 +154,9 @@ impl<'a> Translator<'a> {
             Some((_, error)) => *error,
             None => {
                 let index = rounding.try_into().map_err(|_| ProofError::TooManyRoundings)?;
-                self.rounded.push((value, algebra::Symbol::Error(index)));
-                algebra::Symbol::Error(index)
+                let error = algebra::Symbol::Error(index);
+                self.rounded.push((value, error));
+                error
             }
         };
         if self.errors.iter().all(|known| known.of != *of) {
