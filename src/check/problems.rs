@@ -36,7 +36,7 @@ pub enum Family {
     Overlap,
     /// g < 0: the weight acts upwards.
     Lifted,
-    /// c from 10⁷ to 10¹⁰ N/m, and gaps down to a tenth of a nanometre.
+    /// c from 10⁷ to 10¹⁰ N/m, and gaps from below a nanometre to a millimetre.
     Stiff,
     /// c from 10⁻⁴ to 10⁻¹ N/m.
     Soft,

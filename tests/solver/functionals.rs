@@ -323,6 +323,9 @@ fn violated_conditions_are_named() {
     assert_eq!(refused(|_, p| p / (p - p)), (ZeroAtContact, 0.0));
     let nan = Dual::constant(f64::NAN.enclose());
     assert_eq!(refused(|_, _| nan.clone()), (ZeroAtContact, 0.0));
+    // The energy at p = 0 is 0, and the force there is infinite.
+    let large = Dual::constant(1e200.enclose());
+    assert_eq!(refused(|_, p| p * &large * &large), (ZeroAtContact, 0.0));
     assert_eq!(refused(|[eps], p| -w(eps, p)), (Monotone, 0.03125));
     assert_eq!(refused(|_, p| -p), (Monotone, 0.03125));
     // Falls at last: p² (1 − 2 p) from 1/3 on.

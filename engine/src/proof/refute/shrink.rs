@@ -98,4 +98,12 @@ mod tests {
         // The rank exceeds those of simple numbers by the bits of 100 and 1 in binary.
         assert_eq!(complexity("4"), SIMPLE.len() as u64 + 3 + 1);
     }
+
+    #[test]
+    fn integers_on_both_sides_are_candidates() {
+        let candidates = |text: &str| simpler(&text.parse().unwrap()).split_off(SIMPLE.len());
+        assert_eq!(candidates("15/2"), [3, 7, 8].map(Exact::from));
+        assert_eq!(candidates("-15/2"), [-3, -7, -8].map(Exact::from));
+        assert_eq!(candidates("1/2")[2], Exact::from(1));
+    }
 }

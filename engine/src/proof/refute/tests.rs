@@ -213,4 +213,8 @@ fn counterexamples_contain_independent_symbols_only() {
     assert_eq!(names(&drifts), ["a"]);
     let far = limit("wrong", &u / &c, &u, 0, Rate::Equal(&u / &c)).assuming([&above_zero("u")]);
     assert_eq!(names(&far), ["c"]);
+    // Where it must be large, it is displayed: without it the hypotheses would seem to be violated.
+    let beyond = |least: i32| Hypothesis::new(Relation::Positive, &u - Tree::from(least));
+    let far = limit("wrong", &u / &c, &u, 0, Rate::Equal(&u / &c)).assuming([&beyond(9)]);
+    assert_eq!(names(&far), ["u", "c"]);
 }
