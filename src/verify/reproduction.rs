@@ -14,23 +14,29 @@ use num_traits::Zero;
 /// Returns `None` if the point has other quantities than the parameters of a system and ε, if there is no
 /// such system, or if its solution is consistent. A solve that panics is wrong.
 pub fn reproduction(point: &Point) -> Option<(SpringMass<Exact>, Method<Exact>)> {
-    let parameters = [Var::C, Var::M, Var::G, Var::L, Var::H].map(Var::symbol);
-    let penalty = Var::Eps.symbol();
-    let known = |symbol: &str| parameters.contains(&symbol) || symbol == penalty;
-    let mut has_penalty = false;
-    for (symbol, _) in point.coordinates() {
-        has_penalty |= symbol == penalty;
-        known(symbol).then_some(())?;
-    }
-    let [c, m, g, l, h] = parameters.map(|symbol| point.at(symbol));
-    let system = SpringMass { c, m, g, l, h };
-    let method = if has_penalty { Method::Penalty { penalty: point.at(penalty) } } else { Method::Lagrange };
+    let (system, method) = problem(point)?;
     let wrong = match catch_panic(|| Some(is_inconsistent(&solve(&system, &method).ok()?, &system, &method)))
     {
         Ok(inconsistent) => inconsistent?,
         Err(_) => true,
     };
     wrong.then_some((system, method))
+}
+
+/// Returns the system and the method of a point that has no other quantities.
+fn problem(point: &Point) -> Option<(SpringMass<Exact>, Method<Exact>)> {
+    let parameters = [Var::C, Var::M, Var::G, Var::L, Var::H].map(Var::symbol);
+    let penalty = Var::Eps.symbol();
+    let mut method = Method::Lagrange;
+    for (symbol, x) in point.coordinates() {
+        if symbol == penalty {
+            method = Method::Penalty { penalty: x.clone() };
+        } else if !parameters.contains(&symbol) {
+            return None;
+        }
+    }
+    let [c, m, g, l, h] = parameters.map(|symbol| point.at(symbol));
+    Some((SpringMass { c, m, g, l, h }, method))
 }
 
 /// Returns `true` if an exact solution violates its own bounds, equilibrium, or a contact condition that its
@@ -66,6 +72,15 @@ mod tests {
                 assert_eq!(reproduction(&point(symbols, &number)), None, "{symbols:?} = {number}");
             }
         }
+    }
+
+    #[test]
+    fn a_penalty_decides_the_method() {
+        let three = Exact::from(3);
+        let method = |symbols: &[&'static str]| problem(&point(symbols, &three)).map(|(_, method)| method);
+        assert_eq!(method(&["c", "H"]), Some(Method::Lagrange));
+        assert_eq!(method(&["c", "ε", "H"]), Some(Method::Penalty { penalty: three.clone() }));
+        assert_eq!(method(&["c", "ε", "u"]), None);
     }
 
     /// Each result in turn is off by 1: in contact (R = 2), where the penalty method has p = 1/4, and

@@ -397,6 +397,18 @@ mod tests {
         assert_eq!(u.over(&Poly::zero()), None);
     }
 
+    #[test]
+    fn exponentials_of_a_single_term_move_to_the_numerator() {
+        let [u, c, v] = ["u", "c", "v"].map(|name| Poly::symbol(Symbol::Own(name)));
+        let e = Poly::exponential(v.clone().into());
+        let quotient = Ratio::from(u.clone()).over(&(&c * &e).into()).unwrap();
+        assert_eq!((quotient.num() * &e, quotient.den()), (u.clone(), &c));
+        // With several terms they stay.
+        let several = &c + &e;
+        let quotient = Ratio::from(u.clone()).over(&several.clone().into()).unwrap();
+        assert_eq!((quotient.num(), quotient.den()), (&u, &several));
+    }
+
     /// Long division requires this order.
     #[test]
     fn multiplication_preserves_the_order_of_monomials() {

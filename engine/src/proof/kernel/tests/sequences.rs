@@ -53,16 +53,29 @@ fn sequences_do_not_start_from_a_power() {
     ));
 }
 
-/// Proves, under further hypotheses, that the halves of x₀ = 1 are within q of 0.
-fn prove_drift(hypotheses: &[Hypothesis]) -> Result<Proof, ProofError> {
+/// Returns the claim that the halves of x₀ are within q = ρᵏ of 0.
+fn halves(start: Tree, ratio: Tree) -> Statement {
     let half = int(1) / int(2);
     let q = Hypothesis::between(&x("q"), int(0), int(1));
     let u = Hypothesis::near(&x("u"), x("x₁") * &half, int(0));
-    let claim =
-        perturbed_recursion("halves", half.clone(), 1, |_| x("u"), (int(0), x("q")), |_| [(x("u"), x("q"))])
-            .assuming([&q, &u]);
-    let claim = claim.computing(&x("u"), x("x₁") * &half);
-    prove(&claim.assuming(hypotheses))
+    perturbed_recursion("halves", ratio, start, |_| x("u"), (int(0), x("q")), |_| [(x("u"), x("q"))])
+        .assuming([&q, &u])
+        .computing(&x("u"), x("x₁") * &half)
+}
+
+/// Proves, under further hypotheses, that the halves of x₀ = 1 are within q of 0.
+fn prove_drift(hypotheses: &[Hypothesis]) -> Result<Proof, ProofError> {
+    prove(&halves(int(1), int(1) / int(2)).assuming(hypotheses))
+}
+
+/// Assumptions about each member would otherwise apply to the start.
+#[test]
+fn sequences_start_neither_from_a_member_nor_from_a_computed_quantity() {
+    for name in ["x₁", "u"] {
+        for claim in [halves(x(name), int(1) / int(2)), halves(int(1), x(name))] {
+            assert!(matches!(prove(&claim), Err(ProofError::ReservedName(own)) if own == name), "{name}");
+        }
+    }
 }
 
 #[test]
