@@ -233,6 +233,15 @@ fn variables_of_limits_may_have_lower_bounds() {
     ));
 }
 
+/// No rule finds the sign of the expanded product.
+#[test]
+fn divisors_have_the_signs_of_their_factors() {
+    let positive_at = |y: &Tree| y * y - y + int(1);
+    let divisor = || positive_at(&x("u")) * positive_at(&x("v"));
+    assert!(proved(vec![], Proposition::Sign(Relation::Positive, int(1) / divisor())));
+    assert!(!proved(vec![], Proposition::Sign(Relation::Positive, divisor())));
+}
+
 #[test]
 fn increasing_linear_functions_are_recognised() {
     let context = Context::of(vec![]).with_variable(&Proposition::Sign(Relation::Positive, x("s")));

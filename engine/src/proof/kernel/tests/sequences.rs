@@ -53,6 +53,12 @@ fn sequences_do_not_start_from_a_power() {
     ));
 }
 
+#[test]
+fn a_statement_without_goals_is_not_proved() {
+    let nothing = induction("nothing", 2, [], |[]| [], []);
+    assert!(matches!(prove(&nothing), Err(ProofError::NoGoals)));
+}
+
 /// Returns the claim that the halves of x₀ are within q = ρᵏ of 0.
 fn halves(start: Tree, ratio: Tree) -> Statement {
     let half = int(1) / int(2);
