@@ -95,7 +95,7 @@ pub(super) fn entries() -> Vec<Entry> {
             .in_latex(concat!(
                 r"\begin{gathered} \left\{\begin{aligned} ",
                 r"&\lambda_k = «augmented::update: u=u_{k-1}, λ=λ_{k-1}» \\ ",
-                r"&«augmented::equilibrium: u=u_k, λ=λ_k» = 0 \end{aligned}\right. \\[4pt] ",
+                r"&«augmented::equilibrium: u=u_k, λ=λ_k» = 0 \end{aligned}\right. \\ ",
                 r"k = 1, 2, 3, \dots \end{gathered}",
             ))
             .assuming([stiffness, penalty])

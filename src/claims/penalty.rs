@@ -194,8 +194,8 @@ pub(super) fn entries() -> Vec<Entry> {
             )
             .in_latex(concat!(
                 r"\begin{aligned} \lim_{\varepsilon\to\infty} u ",
-                r"&= \lim_{\varepsilon\to\infty} «penalty::deflection» \\[4pt] ",
-                r"&= \lim_{\varepsilon\to\infty} «penalty::deflection_divided» \\[4pt] ",
+                r"&= \lim_{\varepsilon\to\infty} «penalty::deflection» \\ ",
+                r"&= \lim_{\varepsilon\to\infty} «penalty::deflection_divided» \\ ",
                 r"&= «system::gap» \end{aligned}",
             ))
             .assuming([stiffness, penalty])

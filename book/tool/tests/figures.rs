@@ -344,7 +344,7 @@ fn energies_have_the_right_minima() {
     let curves = [
         ("spring", "Π", 0.5, [2.0, 2.0], -12.5),
         ("penalty dashed", "Π_p", 0.25, [2.0, 4.0], -12.25),
-        ("plane", "𝓛", 0.0, [0.0, 2.0], -12.0),
+        ("plane", "ℒ", 0.0, [0.0, 2.0], -12.0),
         ("iterate dotted", "L", 0.125, [1.0, 4.0], -12.0625),
     ];
     for (class, name, p, [slope, square], least) in curves {

@@ -24,7 +24,7 @@ pub fn energies() -> Figure {
         ("penalty dashed", "Π_p", penalty::deflection(&system, &eps), &|u| {
             penalty::energy(&system, &eps, u)
         }),
-        ("plane", "𝓛", lagrange::deflection(&system), &|u| lagrange::functional(&system, u, &multiplier)),
+        ("plane", "ℒ", lagrange::deflection(&system), &|u| lagrange::functional(&system, u, &multiplier)),
         ("iterate dotted", "L", augmented::deflection(&system, &eps, &guess), &|u| {
             augmented::functional(&system, &eps, &guess, u)
         }),
@@ -43,7 +43,7 @@ pub fn energies() -> Figure {
     }
     plot.text("spring", minima[0].1, (0.0, -10.0), Middle, "Π");
     plot.text("penalty", (0.42, -12.12), (4.0, 14.0), Start, "Π_p");
-    plot.text("plane", (0.3, -11.82), (-6.0, -6.0), End, "𝓛");
+    plot.text("plane", (0.3, -11.82), (-6.0, -6.0), End, "ℒ");
     plot.text("iterate", (0.42, -11.8), (0.0, 14.0), Start, "L");
     let description = format!(
         "Four parabolas over the penetration p, with the same value at p = 0. Their minima: {}.",

@@ -158,9 +158,7 @@ fn symbols(text: &str) -> String {
         let letters = word.trim_end_matches(|c: char| !c.is_alphabetic());
         let rest = escaped(&word[letters.len()..]);
         match letters {
-            // The script letter needs a font that has it.
-            "𝓛" => result += "<tspan class=\"script\">L</tspan>",
-            "Π" | "Δ" | "Λ" => result += letters,
+            "Π" | "Δ" | "Λ" | "ℒ" => result += letters,
             // A letter before a digit is part of a name such as f32.
             _ if letters.chars().count() == 1 && !rest.starts_with(|c: char| c.is_ascii_digit()) => {
                 result += &format!("<tspan class=\"letter\">{letters}</tspan>")
