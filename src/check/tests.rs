@@ -2,6 +2,7 @@
 
 mod diagnosed;
 mod judged;
+mod named;
 
 use super::mistakes::{
     Constants, Mistake, candidates, fitted, in_single, mistakes, reference, value, value_in_single, values,
