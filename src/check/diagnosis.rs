@@ -239,9 +239,6 @@ impl Search<'_> {
 
     /// Returns the diagnosis of u and N being constant multiples of the right ones.
     fn factors(&self, answers: &[&Observation]) -> Vec<Diagnosis> {
-        if !self.is_informative(answers) {
-            return Vec::new();
-        }
         let Some(factors) = factors(answers) else { return Vec::new() };
         let [u, n] = reference(self.by_penalty).in_contact;
         let times = |symbol: &'static str, x: &Exact, tree: Tree| match x {
