@@ -1,4 +1,4 @@
-//! Conversion of LaTeX to HTML.
+//! Conversion of LaTeX to MathML.
 
 use anyhow::{Context, Result, anyhow};
 use math_core::{LatexToMathML, MathCoreConfig, MathDisplay};
@@ -30,7 +30,7 @@ impl Typesetter {
         Ok(Self {
             converter: LatexToMathML::new(MathCoreConfig::default())
                 .map_err(|(error, ..)| anyhow!("{error:?}"))?,
-            tag: Regex::new("<(/?)([a-z]+)[^>]*?(/?)>")?,
+            tag: Regex::new("<(/?)[a-z]+[^>]*?(/?)>")?,
             formula: super::tag("formula")?,
         })
     }
@@ -51,7 +51,9 @@ impl Typesetter {
                     in_head = false;
                     continue;
                 }
-                Event::InlineMath(latex) if in_head => self.labelled(&self.inline(&latex)?),
+                Event::InlineMath(latex) if in_head => {
+                    self.labelled(&self.html(&latex, MathDisplay::Inline)?)
+                }
                 Event::InlineMath(latex) if *latex == *r"\square" => {
                     // The end mark of a proof stays with the last word.
                     result += &text[end..range.start];
@@ -85,8 +87,7 @@ impl Typesetter {
 
     /// Adds the letters of a formula as its label: accessibility tools treat a header of MathML alone as empty.
     fn labelled(&self, html: &str) -> String {
-        let letters = html.split_once("</math>").map_or("", |(math, _)| math);
-        let letters = self.tag.replace_all(letters, "");
+        let letters = self.tag.replace_all(html, "");
         html.replacen("<math", &format!("<math aria-label=\"{letters}\""), 1)
     }
 
@@ -115,7 +116,7 @@ impl Typesetter {
         let (mut result, mut end, mut depth) = (String::new(), 0, 0);
         for tag in self.tag.captures_iter(html) {
             let whole = tag.get(0).expect("a match");
-            match (&tag[1], &tag[3]) {
+            match (&tag[1], &tag[2]) {
                 ("", "") => depth += 1,
                 ("", _) => {}
                 _ => depth -= 1,

@@ -369,7 +369,7 @@ fn no_external_resources_are_loaded() {
     }
 }
 
-/// A character outside of the font would be taken from another one.
+/// A character outside of the font would be taken from another one: `book/math_fonts.py` adds it.
 #[test]
 fn font_of_formulas_contains_their_characters() {
     let contained: BTreeSet<_> = FILES[Path::new("math/characters.txt")].chars().collect();
