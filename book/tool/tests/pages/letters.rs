@@ -36,7 +36,7 @@ fn formulas(text: &str) -> String {
 
 /// Returns the letters in a formula. Upright text is a word, except for Euler's number.
 fn letters(latex: &str) -> BTreeSet<String> {
-    let upright = r"\\mathrm(?:\{e\}| e\b)|\\(?:mathrm|text|begin|end)\s*(?:\{[^}]*\}|[A-Za-z])|\[4pt\]";
+    let upright = r"\\mathrm(?:\{e\}| e\b)|\\(?:mathrm|text|begin|end)\s*(?:\{[^}]*\}|[A-Za-z])";
     let letter = r"\\mathcal\{\w\}|\\[A-Za-z]+|[A-Za-z]";
     let either = Regex::new(&format!("{upright}|{letter}")).unwrap();
     let euler = "\\mathrm e";
@@ -47,7 +47,7 @@ fn letters(latex: &str) -> BTreeSet<String> {
             let letter = name.strip_prefix("var").unwrap_or(name).to_lowercase();
             GREEK.contains(&&*letter).then(|| found.to_string())
         }
-        None => (!found.starts_with('[')).then(|| found.to_string()),
+        None => Some(found.to_string()),
     };
     either.find_iter(latex).filter_map(|found| known(found.as_str())).collect()
 }
