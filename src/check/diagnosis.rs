@@ -241,10 +241,8 @@ impl Search<'_> {
     fn factors(&self, answers: &[&Observation]) -> Vec<Diagnosis> {
         let Some(factors) = factors(answers) else { return Vec::new() };
         let [u, n] = reference(self.by_penalty).in_contact;
-        let times = |symbol: &'static str, x: &Exact, tree: Tree| match x {
-            x if x.is_zero() => Tree::from(0),
-            x if *x == Exact::one() => tree,
-            _ => Tree::symbol(symbol) * tree,
+        let times = |symbol: &'static str, x: &Exact, tree: Tree| {
+            if *x == Exact::one() { tree } else { Tree::symbol(symbol) * tree }
         };
         let formulas = [times("k", &factors[0], u), times("k′", &factors[1], n)];
         let said = [("u", "k", &factors[0]), ("N", "k′", &factors[1])];

@@ -68,6 +68,14 @@ fn every_mistake_is_diagnosed_as_itself() {
     }
 }
 
+/// Returns the answer of a program with this mistake and constant.
+fn with_constant(mistake: &Mistake, problem: &Problem, k: &Exact) -> Answer {
+    let constants = Constants { penalty: problem.penalty.as_ref(), factor: Some(k) };
+    let [u, n] = mistake.formulas(mistake.reaction(&problem.system, &constants) > Exact::zero());
+    let value = |tree| value(tree, &problem.system, &constants);
+    Answer { deflection: value(u), contact_force: value(n), ..Answer::default() }
+}
+
 /// No decimal of six digits is the exact constant.
 #[test]
 fn a_constant_factor_is_diagnosed() {
@@ -86,14 +94,7 @@ fn a_constant_factor_is_diagnosed() {
             };
             constants.iter().map(move |k| (mistake, number(k)))
         }) {
-            let solve = |problem: &Problem| {
-                let constants = Constants { penalty: problem.penalty.as_ref(), factor: Some(&k) };
-                let touching = mistake.reaction(&problem.system, &constants) > Exact::zero();
-                let [u, n] = mistake.formulas(touching);
-                let value = |tree| value(tree, &problem.system, &constants);
-                Answer { deflection: value(u), contact_force: value(n), ..Answer::default() }
-            };
-            let report = run(&problems, solve);
+            let report = run(&problems, |problem| with_constant(mistake, problem, &k));
             let found = report.diagnosis.iter().map(|d| (d.name.clone(), d.formula.clone()));
             let k = k.decimal(6, Round::Nearest);
             let own = (mistake.name.replace("{k}", &k), format!("{}, k = {k}", mistake.formula()));

@@ -50,15 +50,34 @@ fn a_relative_tolerance_above_that_of_the_check_is_noticed() {
     }
 }
 
+/// The mass is at the plane without a force, or the plane pulls the free mass.
+#[test]
+fn a_false_contact_is_diagnosed_from_deflection_or_force() {
+    let held: [fn(&SpringMass<Exact>) -> Answer; 2] = [
+        |system| Answer::new(system::gap(system), Exact::zero()),
+        |system| Answer::new(structure::deflection(system), system::reaction(system)),
+    ];
+    for held in held {
+        let report = run(&default_problems(), |problem| {
+            let system = &problem.system;
+            let is_held = system::reaction(system) < Exact::zero() && by_weight(system) <= number("1e-3");
+            if is_held { held(system) } else { right(problem) }
+        });
+        assert_eq!(report.false_contacts.map(|found| found.of), Some(ThresholdQuantity::ForceByWeight));
+    }
+}
+
+fn by_weight(system: &SpringMass<Exact>) -> Exact {
+    system::reaction(system).abs() / system::weight(system).abs()
+}
+
 #[test]
 fn a_relative_tolerance_is_diagnosed_on_either_side() {
-    let by_weight: fn(&SpringMass<Exact>) -> Exact =
-        |system| system::reaction(system).abs() / system::weight(system).abs();
     let by_height: fn(&SpringMass<Exact>) -> Exact =
         |system| system::reaction(system).abs() / &system.c / system.h.abs();
     for misses in [true, false] {
         for (of, quantity) in [
-            (ThresholdQuantity::ForceByWeight, by_weight),
+            (ThresholdQuantity::ForceByWeight, by_weight as fn(&_) -> _),
             (ThresholdQuantity::PenetrationByHeight, by_height),
         ] {
             for threshold in ["1e-4", "1e-3", "3e-2"] {
@@ -108,19 +127,26 @@ fn a_diagnosis_has_its_own_formulas() {
 fn a_program_in_f32_is_diagnosed() {
     let solve = |problem: &Problem, print: fn(f32) -> String| {
         let SpringMass { c, m, g, l, h } = problem.system.try_map(Exact::to_f32).unwrap();
-        let u = (m * g / c).min(h - l);
-        // By equilibrium, where rounding leaves a small force although the mass is separated.
-        let n = (m * g - c * u).max(0.0);
+        let [u, n] = match problem.penalty.as_ref().map(|eps| eps.to_f32().unwrap()) {
+            // By equilibrium, where rounding leaves a small force although the mass is separated.
+            None => [(m * g / c).min(h - l), (m * g - c * (m * g / c).min(h - l)).max(0.0)],
+            Some(eps) => {
+                let u = (m * g / c).min((m * g + eps * (h - l)) / (c + eps));
+                [u, (eps * (u - (h - l))).max(0.0)]
+            }
+        };
         Answer::new(number(&print(u)), number(&print(n)))
     };
     let prints: [fn(f32) -> String; 3] =
         [|x| format!("{x:e}"), |x| format!("{:e}", f64::from(x)), |x| format!("{x:.8e}")];
-    for print in prints {
-        let report = run(&default_problems(), |problem| solve(problem, print));
-        assert_eq!(
-            report.identified_mistake().map(|d| d.name.as_str()),
-            Some("it computes in single precision")
-        );
+    for problems in [default_problems(), with_penalties(default_problems())] {
+        for print in prints {
+            let report = run(&problems, |problem| solve(problem, print));
+            assert_eq!(
+                report.identified_mistake().map(|d| d.name.as_str()),
+                Some("it computes in single precision")
+            );
+        }
     }
 }
 
@@ -184,4 +210,31 @@ fn augmentations_that_end_early_are_diagnosed() {
                 .replace("1e4", "10000")
         );
     }
+}
+
+/// A fraction of the way of an iteration is positive, and less than twice the way.
+#[test]
+fn a_fraction_of_the_way_is_limited() {
+    for mistake in fitted(false).iter().filter(|mistake| mistake.is_share) {
+        for (k, is_named) in [("-3", false), ("2", false), ("3", false), ("1.5", true)] {
+            let report = run(&default_problems(), |problem| with_constant(mistake, problem, &number(k)));
+            let own = mistake.name.replace("{k}", k);
+            let named = report.diagnosis.iter().any(|d| d.name == own);
+            assert_eq!(named, is_named, "{own}");
+        }
+    }
+}
+
+/// A program with one single rounding that prints fewer digits than f64 has.
+#[test]
+fn a_single_rounding_is_diagnosed_from_twelve_digits() {
+    let report = run(&default_problems(), |problem| {
+        let SpringMass { h, .. } = &problem.system;
+        let h = h.to_f32().unwrap().to_exact().unwrap();
+        let system = SpringMass { h, ..problem.system.clone() };
+        let Answer { deflection, contact_force, .. } = right(&Problem { system, ..problem.clone() });
+        let [u, n] = [deflection, contact_force].map(|x| number(&x.unwrap().decimal(12, Round::Nearest)));
+        Answer::new(u, n)
+    });
+    assert_eq!(report.identified_mistake().unwrap().name, "H is rounded to single precision");
 }
