@@ -124,7 +124,7 @@ fn misled(name: &str, problem: &Problem, k: &Exact) -> [Exact; 2] {
     }
 }
 
-/// Mutations of the source are named by their place, and an augmentation with few steps has a test of its own.
+/// Mutations of the source are named by their place; an augmentation with few steps has a test of its own.
 #[test]
 fn mistakes_compute_what_their_names_state() {
     for problems in [default_problems(), with_penalties(default_problems())] {
