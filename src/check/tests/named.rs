@@ -21,7 +21,7 @@ fn misled(name: &str, problem: &Problem, k: &Exact) -> [Exact; 2] {
     let of = |system| solved(system, penalty.clone());
     let [u, n] = of(own.clone());
     let (weight, gap) = (m * g, h - l);
-    let (free, spring, touching) = (&weight / c, c * &u, &weight > &(c * &gap));
+    let (free, spring, touching) = (&weight / c, c * &u, weight > c * &gap);
     let positive = |x: Exact| if x > zero { x } else { zero.clone() };
     let balance = |u: &Exact| &weight - c * u;
     let by_spring = |eps: &Exact| [(&weight + eps * &gap) / (c + eps), eps * balance(&gap) / (c + eps)];
