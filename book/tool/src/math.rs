@@ -15,6 +15,9 @@ const PUNCTUATION: [char; 7] = ['.', ',', ';', ':', ')', '?', '”'];
 /// Characters that must not end a line.
 const OPENING: [char; 2] = ['(', '“'];
 
+/// End mark of a proof.
+const END_MARK: &str = "<span class=\"qed\">□</span>";
+
 /// Relations after which a long formula may be broken.
 const RELATIONS: [&str; 12] = ["=", "&lt;", "&gt;", "≤", "≥", "≠", "≈", "∼", "≪", "≫", "→", "⇒"];
 
@@ -54,14 +57,7 @@ impl Typesetter {
                 Event::InlineMath(latex) if in_head => {
                     self.labelled(&self.html(&latex, MathDisplay::Inline)?)
                 }
-                Event::InlineMath(latex) if *latex == *r"\square" => {
-                    // The end mark of a proof stays with the last word.
-                    result += &text[end..range.start];
-                    result.truncate(result.trim_end_matches(' ').len());
-                    result += "&nbsp;<span class=\"qed\">□</span>";
-                    end = range.end;
-                    continue;
-                }
+                Event::InlineMath(latex) if *latex == *r"\square" => END_MARK.to_string(),
                 Event::InlineMath(latex) => self.inline(&latex)?,
                 Event::DisplayMath(latex) => {
                     format!("<span class=\"formula\">{}</span>", self.display(&latex)?)
@@ -72,7 +68,11 @@ impl Typesetter {
             end = range.end;
             let before = result.len() - result.trim_end_matches(OPENING).len();
             let after = text[end..].len() - text[end..].trim_start_matches(PUNCTUATION).len();
-            if before + after == 0 {
+            if html == END_MARK {
+                // It stays with the last word.
+                result.truncate(result.trim_end_matches(' ').len());
+                result += &format!("&nbsp;{html}");
+            } else if before + after == 0 {
                 result += &html;
             } else {
                 // Punctuation stays with the formula.
@@ -228,5 +228,15 @@ mod tests {
         let error = page(r"$\frac{1}$").unwrap_err();
         assert!(error.to_string().contains(r"\frac{1}"), "{error:?}");
         assert!(page(r"$\unknown$").is_err());
+    }
+
+    #[test]
+    fn equal_formulas_give_equal_files() -> Result<()> {
+        let formula = r"$$\sqrt{\frac{a}{b}} \overline{x} \begin{cases} a & b \\ c & d \end{cases}$$";
+        let first = page(formula)?;
+        for _ in 0..20 {
+            assert_eq!(page(formula)?, first);
+        }
+        Ok(())
     }
 }

@@ -2,14 +2,6 @@
 
 use super::*;
 
-fn single(x: &Exact) -> Exact {
-    x.to_f32().unwrap().to_exact().unwrap()
-}
-
-fn least(x: &Exact, y: &Exact) -> Exact {
-    if x < y { x.clone() } else { y.clone() }
-}
-
 /// Returns u and N of a program with the mistake of this name and constant.
 fn misled(name: &str, problem: &Problem, k: &Exact) -> [Exact; 2] {
     let Problem { system: own, penalty, .. } = problem;
@@ -22,7 +14,6 @@ fn misled(name: &str, problem: &Problem, k: &Exact) -> [Exact; 2] {
     let [u, n] = of(own.clone());
     let (weight, gap) = (m * g, h - l);
     let (free, spring, touching) = (&weight / c, c * &u, weight > c * &gap);
-    let positive = |x: Exact| if x > zero { x } else { zero.clone() };
     let balance = |u: &Exact| &weight - c * u;
     let by_spring = |eps: &Exact| [(&weight + eps * &gap) / (c + eps), eps * balance(&gap) / (c + eps)];
     // The deflection and the force of a plane that also pulls; and those of a penalty that was not asked for.
@@ -63,33 +54,33 @@ fn misled(name: &str, problem: &Problem, k: &Exact) -> [Exact; 2] {
         return match way {
             "the free deflection" => with_deflection(&free + k * (&u - &free)),
             "0, and N is the equilibrium residual" => [part.clone(), balance(&part)],
-            "0, and N is the positive equilibrium residual" => [part.clone(), positive(balance(&part))],
+            "0, and N is the positive equilibrium residual" => [part.clone(), balance(&part).positive_part()],
             _ => panic!("{name}"),
         };
     }
     let bounded = "the iteration for u, bounded by the plane, stops at {k} of the way from 0";
     if let Some(force) = name.strip_prefix(bounded) {
-        let end = least(&(k * &free), &gap);
+        let end = PositivePart::min(&(k * &free), &gap);
         let arrives = end == gap;
         let force = match force {
             "" => n,
             ", with N where it reaches the plane" if arrives => balance(&gap),
             ", with N where it reaches the plane" => zero,
             ", and N is the equilibrium residual" => balance(&end),
-            ", and N is the positive equilibrium residual" => positive(balance(&end)),
+            ", and N is the positive equilibrium residual" => balance(&end).positive_part(),
             _ => panic!("{name}"),
         };
         return [end, force];
     }
     match name {
-        "u is at most {k} m" => with_deflection(least(&u, k)),
-        "N is at most {k} N" => with_force(least(&n, k)),
+        "u is at most {k} m" => with_deflection(PositivePart::min(&u, k)),
+        "N is at most {k} N" => with_force(PositivePart::min(&n, k)),
         "the plane also pulls" => pulled,
         "there is no plane" => [free, zero],
         "H and l are swapped" => of(SpringMass { l: h.clone(), h: l.clone(), ..own.clone() }),
         "H is used as the gap" => gap_of(h.clone()),
         "l is added to H" => gap_of(h + l),
-        "an overlap is treated as a zero gap" => gap_of(positive(gap)),
+        "an overlap is treated as a zero gap" => gap_of(gap.positive_part()),
         "the absolute value of the gap is used" => gap_of(gap.abs()),
         "gravity is reversed" => of(SpringMass { g: -g, ..own.clone() }),
         "gravity is always 9.81" => of(SpringMass { g: number("9.81"), ..own.clone() }),
@@ -118,7 +109,7 @@ fn misled(name: &str, problem: &Problem, k: &Exact) -> [Exact; 2] {
         _ if name.starts_with("only the update") => [u, n],
         "H − l is computed in single precision" => gap_of(single(&(single(h) - single(l)))),
         "R = m g − c (H − l) is computed in single precision" => {
-            with_force(positive(single(&(single(&weight) - single(&(c * &gap))))))
+            with_force(single(&(single(&weight) - single(&(c * &gap)))).positive_part())
         }
         _ => panic!("{name}"),
     }

@@ -127,14 +127,11 @@ fn a_diagnosis_has_its_own_formulas() {
 fn a_program_in_f32_is_diagnosed() {
     let solve = |problem: &Problem, print: fn(f32) -> String| {
         let SpringMass { c, m, g, l, h } = problem.system.try_map(Exact::to_f32).unwrap();
-        let [u, n] = match problem.penalty.as_ref().map(|eps| eps.to_f32().unwrap()) {
-            // By equilibrium, where rounding leaves a small force although the mass is separated.
-            None => [(m * g / c).min(h - l), (m * g - c * (m * g / c).min(h - l)).max(0.0)],
-            Some(eps) => {
-                let u = (m * g / c).min((m * g + eps * (h - l)) / (c + eps));
-                [u, (eps * (u - (h - l))).max(0.0)]
-            }
-        };
+        let eps = problem.penalty.as_ref().map(|eps| eps.to_f32().unwrap());
+        let held = eps.map_or(h - l, |eps| (m * g + eps * (h - l)) / (c + eps));
+        let u = (m * g / c).min(held);
+        // By equilibrium, where rounding leaves a small force although the mass is separated.
+        let n = eps.map_or(m * g - c * u, |eps| eps * (u - (h - l))).max(0.0);
         Answer::new(number(&print(u)), number(&print(n)))
     };
     let prints: [fn(f32) -> String; 3] =
@@ -182,7 +179,7 @@ fn a_mutant_that_explains_only_some_answers_is_not_diagnosed() {
     let named = edits.filter(|edit| {
         let few = problems(1, CASES, &[Family::Contact, Family::Separated, Family::Stiff, Family::Huge]);
         let report = run(&few, |problem| match problem.family {
-            Family::Stiff | Family::Huge => answer(edit, problem, None),
+            Family::Stiff | Family::Huge => answer(edit, problem, None, None),
             _ => right(problem),
         });
         report.diagnosis.iter().any(|diagnosis| diagnosis.name == edit.name)
@@ -217,7 +214,7 @@ fn augmentations_that_end_early_are_diagnosed() {
 fn a_fraction_of_the_way_is_limited() {
     for mistake in fitted(false).iter().filter(|mistake| mistake.is_share) {
         for (k, is_named) in [("-3", false), ("2", false), ("3", false), ("1.5", true)] {
-            let report = run(&default_problems(), |problem| with_constant(mistake, problem, &number(k)));
+            let report = run(&default_problems(), |problem| answer(mistake, problem, None, Some(&number(k))));
             let own = mistake.name.replace("{k}", k);
             let named = report.diagnosis.iter().any(|d| d.name == own);
             assert_eq!(named, is_named, "{own}");
@@ -229,9 +226,7 @@ fn a_fraction_of_the_way_is_limited() {
 #[test]
 fn a_single_rounding_is_diagnosed_from_twelve_digits() {
     let report = run(&default_problems(), |problem| {
-        let SpringMass { h, .. } = &problem.system;
-        let h = h.to_f32().unwrap().to_exact().unwrap();
-        let system = SpringMass { h, ..problem.system.clone() };
+        let system = SpringMass { h: single(&problem.system.h), ..problem.system.clone() };
         let Answer { deflection, contact_force, .. } = right(&Problem { system, ..problem.clone() });
         let [u, n] = [deflection, contact_force].map(|x| number(&x.unwrap().decimal(12, Round::Nearest)));
         Answer::new(u, n)
