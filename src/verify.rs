@@ -26,7 +26,7 @@ use crate::claims::{Case, Var, claims, index_of, registry, statements};
 use crate::formula::{Hypothesis, Statement};
 use crate::number::{Exact, Mpfr, NumberSystem};
 use crate::proof::Counterexample;
-use crate::proof::mutation::{Mutant, find_repairs};
+use crate::proof::mutation::Mutant;
 use crate::proof::refute::Point;
 use catch_panic::catch_panic;
 use checker::{Checker, ErasedChecker, FloatDomain, RationalDomain, Tally};
@@ -273,15 +273,10 @@ fn run(
     let unproved: Vec<_> =
         rows.iter().filter(|row| row.status == Status::Failed).map(|row| (row.equation, row.claim)).collect();
     let is_unproved = |s: &Statement| unproved.contains(&(s.equation(), s.name()));
-    let suspects = suspects::suspects(&statements, &is_unproved);
+    let suspects = suspects::suspects(&statements, registry().formulas(), &is_unproved);
     let shared = suspects::shared(&statements, &is_unproved);
     // The search for repairs proves everything again.
-    let repairs = if unproved.is_empty() {
-        Ok(Vec::new())
-    } else {
-        catch_panic(|| find_repairs(&statements, registry()))
-    };
-    let repairs = repairs.unwrap_or_default();
+    let repairs = if unproved.is_empty() { Vec::new() } else { proofs::repairs(&statements) };
     for ((scalar, checker), tallies) in checkers.iter().zip(tallies) {
         for (head, tally) in checker.heads().into_iter().zip(tallies) {
             if wanted(head.equation) {
@@ -316,7 +311,7 @@ fn tallies(
         }
     }
     let blocks = options.cases.div_ceil(BLOCK);
-    let (done, all) = (AtomicUsize::new(0), blocks as usize * groups.len());
+    let (done, all) = (AtomicUsize::new(0), (blocks as usize).saturating_mul(groups.len()));
     let mut totals: Vec<Vec<Tally>> =
         checkers.iter().map(|(_, c)| c.heads().iter().map(|_| Tally::default()).collect()).collect();
     // Blocks are processed in windows, so that memory does not grow with the number of cases.

@@ -126,9 +126,19 @@ pub fn solve_functional<T: Scalar, const N: usize>(
     if rigid.state != State::Contact {
         return Ok(rigid);
     }
+    in_contact(system, rigid, tolerance, &|p| functional(&parameters, p))
+}
+
+/// Returns the solution for R > 0, given that by Lagrange multiplier.
+fn in_contact<T: Scalar>(
+    system: &SpringMass<T>,
+    rigid: Solution<T>,
+    tolerance: &T,
+    functional: &dyn Fn(&DualEnclosure<T>) -> DualEnclosure<T>,
+) -> Result<Solution<T>, FunctionalError> {
     let enclosed = system.map(T::enclose);
     let reaction = system::reaction(&enclosed);
-    let equation = Equation::new(enclosed.c.clone(), reaction, |p| functional(&parameters, p));
+    let equation = Equation::new(enclosed.c.clone(), reaction, functional);
     let most = equation.most()?;
     equation.check(&most)?;
     let RootBracket { lower, upper, ended } = equation.root(&most, tolerance)?;

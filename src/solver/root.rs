@@ -14,9 +14,10 @@ pub(super) fn reduced_system<E: PositivePart>(c: E, reaction: E) -> SpringMass<E
 }
 
 /// The equation c p + W′(p) = R, for R > 0.
-pub(super) struct Equation<E, W> {
+pub(super) struct Equation<'a, E> {
     pub(super) spring: SpringMass<E>,
-    functional: W,
+    // Not generic, so that the search is compiled once for each number system.
+    functional: &'a dyn Fn(&Dual<E>) -> Dual<E>,
 }
 
 /// Bounds of the root.
@@ -45,8 +46,8 @@ const MOST_STEPS: u32 = 10_000;
 /// Largest number of significant binary digits.
 const MOST_DIGITS: u64 = 1 << 22;
 
-impl<E: PositivePart, W: Fn(&Dual<E>) -> Dual<E>> Equation<E, W> {
-    pub(super) fn new(c: E, reaction: E, functional: W) -> Self {
+impl<'a, E: PositivePart> Equation<'a, E> {
+    pub(super) fn new(c: E, reaction: E, functional: &'a dyn Fn(&Dual<E>) -> Dual<E>) -> Self {
         Equation { spring: reduced_system(c, reaction), functional }
     }
 
@@ -264,9 +265,8 @@ mod tests {
     #[test]
     fn a_bound_is_the_same_from_wherever_it_is_looked_for() {
         let two_thirds = Ball::point(2.0) / Ball::point(3.0);
-        let equation = Equation::new(Ball::point(1.0), two_thirds, |p: &Dual<Ball<f64>>| {
-            p * p / Dual::constant(Ball::point(2.0))
-        });
+        let functional = |p: &Dual<Ball<f64>>| p * p / Dual::constant(Ball::point(2.0));
+        let equation = Equation::new(Ball::point(1.0), two_thirds, &functional);
         let from = |far: f64, first: u64| {
             let certain = |side| matches!(side, Side::Below(_) | Side::Above(_));
             equation.towards(&(1.0 / 3.0), &far, first, certain).unwrap()

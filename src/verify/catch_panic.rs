@@ -52,14 +52,32 @@ mod tests {
         assert_eq!(odd, Err("it panics".to_string()));
     }
 
-    /// Runs as a program for the test above.
+    #[test]
+    #[should_panic(expected = "outside")]
+    fn a_panic_outside_of_a_guard_is_not_caught() {
+        let _ = catch_panic(|| -> () { panic!("inside") });
+        panic!("outside");
+    }
+
+    /// Runs a test above as a program; returns what it prints.
+    fn printed(test: &str) -> String {
+        let own = std::env::current_exe().unwrap();
+        let test = format!("verify::catch_panic::tests::{test}");
+        let run = std::process::Command::new(own).args(["--exact", &test, "--nocapture"]).output().unwrap();
+        let [report, printed] = [run.stdout, run.stderr].map(|text| String::from_utf8(text).unwrap());
+        assert!(report.contains("1 passed"), "{report} {printed}");
+        printed
+    }
+
     #[test]
     fn a_guarded_panic_prints_nothing() {
-        let own = std::env::current_exe().unwrap();
-        let test = "verify::catch_panic::tests::a_panic_becomes_an_error_message";
-        let run = std::process::Command::new(own).args(["--exact", test, "--nocapture"]).output().unwrap();
-        let [report, printed] = [&run.stdout, &run.stderr].map(|text| String::from_utf8_lossy(text));
-        assert!(report.contains("1 passed") && printed.is_empty(), "{report} {printed}");
+        assert_eq!(printed("a_panic_becomes_an_error_message"), "");
+    }
+
+    #[test]
+    fn a_panic_outside_of_a_guard_is_printed() {
+        let printed = printed("a_panic_outside_of_a_guard_is_not_caught");
+        assert!(printed.contains("outside") && !printed.contains("inside"), "{printed}");
     }
 
     #[test]

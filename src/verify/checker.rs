@@ -193,7 +193,7 @@ where
         format!("{:?}", difference.radius())
     }
     fn sign(&self, x: &Ball<T>) -> Option<Ordering> {
-        if x.is_finite() { x.sign() } else { None }
+        x.sign()
     }
 }
 

@@ -180,6 +180,9 @@ mod tests {
         assert!(!holds(induction(3, 0, closed())));
         assert!(!holds(induction(3, 1, int(2) * x("q") + int(2))));
         assert!(!holds(induction(3, 1, x("q") + int(2))), "right at the start, and then a step late");
+        // The start and the step at q = 2 are right, but not the third member.
+        let late = [1, 2, 4].into_iter().fold(int(1), |off, n| off * (x("q") - int(n)));
+        assert!(!holds(induction(3, 1, closed() + late)));
         // Right from 3 for all steps followed, and wrong for a power that no step meets: 3, 5, 9, 17, and so
         // on.
         let off = [1, 2, 4, 8].into_iter().fold(int(1), |off, n| off * (x("q") - int(n)));

@@ -100,15 +100,18 @@ pub struct Summary {
 /// Proves every claim of the chapter, and tests mutations and dropped hypotheses if all are proved. The
 /// result contains those of the given equations; undetected mutants concern all equations.
 pub fn prove_all(equations: &[String]) -> Proofs {
-    let all = statements();
+    prove_statements(&statements(), equations)
+}
+
+fn prove_statements(all: &[Statement], equations: &[String]) -> Proofs {
     let start = Instant::now();
     let mut claims: Vec<_> = all.par_iter().cloned().map(ProofAttempt::of).collect();
     let proof_time = start.elapsed();
     let (mut mutation, repairs) = if claims.iter().all(|claim| matches!(claim.answer, ProofOutcome::Proof(_)))
     {
-        (test_mutations(&all, registry()), Vec::new())
+        (test_mutations(all, registry()), Vec::new())
     } else {
-        (MutationReport::default(), find_repairs(&all, registry()))
+        (MutationReport::default(), repairs(all))
     };
     let wanted = |equation: &str| equations.is_empty() || equations.iter().any(|e| e == equation);
     claims.retain(|claim| wanted(claim.statement.equation()));
@@ -119,6 +122,11 @@ pub fn prove_all(equations: &[String]) -> Proofs {
         MutationOutcome::Equivalent | MutationOutcome::Undetected => equations.is_empty(),
     });
     Proofs { claims, mutation, repairs, proof_time, total_time: start.elapsed() }
+}
+
+/// Returns the mutants that would make all claims provable; none if a wrong formula makes a proof panic.
+pub(super) fn repairs(statements: &[Statement]) -> Vec<Mutant> {
+    catch_panic(|| find_repairs(statements, registry())).unwrap_or_default()
 }
 
 impl Proofs {
@@ -187,6 +195,21 @@ mod tests {
             hypothesis: hypotheses().stiffness.clone(),
             outcome: DropOutcome::StillProved,
         }
+    }
+
+    #[test]
+    fn a_mistake_has_repairs_and_right_formulas_have_mutations() {
+        let twice = |s: &Statement| s.equation() == "1.13" && ["two-forms", "rate"].contains(&s.name());
+        let right: Vec<_> = statements().into_iter().filter(twice).collect();
+        let of_right = prove_statements(&right, &[]);
+        assert!(of_right.repairs.is_empty() && !of_right.mutation.mutants.is_empty());
+        let stiffness = registry().formula("penalty::total_stiffness").unwrap().tree.site();
+        let mistake =
+            mutants(&right, registry()).into_iter().find(|change| change.site == stiffness).unwrap();
+        let wrong: Vec<_> = right.iter().map(|s| mistake.apply(s).unwrap_or(s.clone())).collect();
+        let of_wrong = prove_statements(&wrong, &[]);
+        assert!(!of_wrong.hold() && of_wrong.mutation.mutants.is_empty());
+        assert!(of_wrong.repairs.iter().any(|repair| repair.site == stiffness), "{:?}", of_wrong.repairs);
     }
 
     /// One unproved claim, one undetected mutant, or one redundant hypothesis suffices.

@@ -77,9 +77,8 @@ fn enclosed(
     let constant = |x: &Exact| around(x).map(Dual::constant);
     let (eps, higher) =
         (constant(eps).ok()?, higher.iter().map(constant).collect::<Result<Vec<_>, _>>().ok()?);
-    let equation = Equation::new(around(c).ok()?, around(reaction).ok()?, |p: &Dual<_>| {
-        penalty::series(&eps, &higher, p)
-    });
+    let functional = |p: &Dual<_>| penalty::series(&eps, &higher, p);
+    let equation = Equation::new(around(c).ok()?, around(reaction).ok()?, &functional);
     let most: Mpfr = equation.most().ok()?;
     equation.root(&most, &Mpfr::zero()).ok()
 }

@@ -318,11 +318,11 @@ fn within(error: Exact, bound: Exact) -> Trial {
     Trial::Within { error: error.abs(), bound }
 }
 
-/// Returns the trial with the larger ratio of error and bound.
+/// Returns a trial whose error exceeds its bound, otherwise that with the larger ratio of error and bound.
 fn worse(a: Trial, b: Trial) -> Trial {
     match (&a, &b) {
         (Trial::Within { error, bound }, Trial::Within { error: other, bound: most }) => {
-            if error * most < other * bound { b } else { a }
+            if other > most || error <= bound && error * most < other * bound { b } else { a }
         }
         _ => b,
     }

@@ -126,8 +126,13 @@ fn a_repeated_multiplier_is_found_only_if_the_penalty_is_large() {
     let next = *floats.compute(next).unwrap();
     assert_eq!(next, floats.number("λ"));
     assert!(next > 0.0);
+    // A law of the repeated λ is tested with it, whatever the λ of the case is.
+    let pushes = non_negative("pushes", lambda).assuming([&crate::claims::hypotheses().computed_repeats]);
+    let tried = |x: &Case<f64>| (experiment(&pushes).check)(x);
+    assert_eq!(tried(&case), Trial::Decided(true));
     case.eps = 1e-6;
     assert_eq!(Evaluation::of(&case, &program, &[]).unwrap().find_repeat(), None);
+    assert_eq!(tried(&case), Trial::Undecided);
 }
 
 #[test]
@@ -143,4 +148,7 @@ fn the_trial_with_the_larger_share_is_the_worse() {
         assert_eq!((worst(&less, &more), worst(&more, &less)), (more.clone(), more));
     }
     assert_eq!(worst(&of(1, 2), &of(2, 4)), of(1, 2), "the first of equals");
+    for failing in [of(5, 1), of(1, 0)] {
+        assert_eq!((worst(&of(0, 0), &failing), worst(&failing, &of(0, 0))), (failing.clone(), failing));
+    }
 }
