@@ -329,3 +329,46 @@ fn a_family_without_an_answer_does_not_hold() {
     };
     assert_eq!(["stiff-1", "stiff", "none"].map(refusing), [true, false, true]);
 }
+
+/// R = −2 on a scale of two million.
+#[test]
+fn a_state_decides_if_its_error_exceeds_the_tolerance() {
+    let system = SpringMass {
+        c: number("1"),
+        m: number("1"),
+        g: number("999999"),
+        l: Exact::zero(),
+        h: number("1000001"),
+    };
+    let report = run(&[Problem { id: "own".into(), family: Family::Near, system, penalty: None }], right);
+    let least = |tolerance: &str| report.least_deciding(State::Separated, &number(tolerance));
+    assert_eq!(["1e-6", "9.9e-7"].map(least), [None, Some(number("1e-6"))]);
+}
+
+/// With lengths near 10¹² m the rounding error of u = 1 m is larger; the scale is 1 + 2 m.
+#[test]
+fn an_error_that_rounding_explains_is_at_most_that_of_a_diagnosis() {
+    let [c, m, g, l, h] = ["1", "1", "2", "1000000000000.3", "1000000000001.3"].map(number);
+    let system = SpringMass { c, m, g, l, h };
+    let problem = Problem { id: "own".into(), family: Family::Contact, system, penalty: None };
+    let is_wrong = |error: &str| {
+        let answer = Answer::new(number("1") + number("3") * number(error), number("1"));
+        let judged = Assessment::of(&problem, &Reply::Answered(Box::new(answer)), &number("1e-30"));
+        judged.verdict == Verdict::Wrong
+    };
+    assert_eq!(["1e-6", "1.0000001e-6"].map(is_wrong), [false, true]);
+}
+
+/// A parameter that differs by exactly the tolerance is that of the problem, one further off is not.
+#[test]
+fn a_parameter_is_taken_up_to_the_tolerance() {
+    let problem = with_penalties(problems(1, 1, &[Family::Contact])).remove(0);
+    let verdict = |factor: &str| {
+        let used = problem.penalty.as_ref().unwrap() * number(factor);
+        let mut answer = right(&Problem { penalty: Some(used.clone()), ..problem.clone() });
+        answer.used.penalty = Some(Some(used));
+        Assessment::of(&problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE)).verdict
+    };
+    assert_eq!(["0.999999", "1.000001"].map(verdict), [Verdict::Right; 2]);
+    assert!(["0.9999989", "1.0000011"].map(verdict).iter().all(|verdict| *verdict != Verdict::Right));
+}

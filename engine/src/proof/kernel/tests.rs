@@ -222,6 +222,11 @@ fn variables_of_limits_may_have_lower_bounds() {
         assert!(!proved(vec![above_zero(bound.clone())], inverse()), "{bound} > 0");
     }
     assert!(!proved(vec![above(&f), above_zero(&h - &g)], inverse()));
+    // The kernel replaces f by the bound + s; yet 1/(1 + f²) does not depend on g.
+    let constant = || Proposition::Limit(int(1) / (int(1) + &f * &f), "g", int(0));
+    for bound in [&g * &h, -&g * &h, &g * &g] {
+        assert!(!proved(vec![above_zero(&f - &bound)], constant()), "f > {bound}");
+    }
     assert!(!proved(vec![Hypothesis::new(Relation::Zero, &g - &f)], inverse()));
     assert!(!proved(vec![Hypothesis::between(&g, int(1), int(2))], inverse()));
     // The hypothesis 1/(g − f) ≥ 1/h excludes large g.
