@@ -129,7 +129,7 @@ fn number((mut m, mut n): Number) -> Tree {
     }
 }
 
-/// Largest absolute exponent of the powers of two that are tried.
+/// Absolute exponent from which on no larger power of two is tried.
 const POWERS: i32 = 128;
 
 /// Returns the smallest number for which a monotone predicate holds.
@@ -377,7 +377,7 @@ mod tests {
             rounding_bound(of, scale, &[assumed, &[at_least(24)]].concat()).map(|bound| bound.constant())
         };
         // One, two and three roundings of terms with one sign, of any magnitude: the smallest K is 1, 2 and
-        // 2.
+        // 3.
         let (one, product, sum) = (Tree::int(1), &x * &y, &x * &y + &x);
         for (of, least) in [(&product, 1.0), (&sum, 2.0), (&(&sum / &y), 3.0)] {
             let found = bound(of, of, &positive).unwrap();

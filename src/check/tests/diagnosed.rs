@@ -443,17 +443,23 @@ fn slight_errors_determine_no_constant() {
     assert!(report.summary().wrong == 3 && report.diagnosis.is_empty(), "{:?}", report.diagnosis);
 }
 
-/// R = −6 with a wrong deflection, far from the plane, and R = −8 with the right one.
+/// Wrong answers for R = −6, far from the plane, or for R = 0, beside right ones for R = −8.
 #[test]
-fn a_wrong_deflection_far_from_the_plane_is_no_false_contact() {
+fn only_separated_systems_held_at_the_plane_are_false_contacts() {
     let hung = |id: &str, g: &str| {
         let [c, m, g, l, h] = ["1", "1", g, "0", "10"].map(number);
         let system = SpringMass { c, m, g, l, h };
         Problem { id: id.to_string(), family: Family::Separated, system, penalty: None }
     };
-    let all = [vec![hung("wrong", "4"); 10], vec![hung("right", "2"); 10]].concat();
-    let report = run(&all, |problem| {
-        if problem.id == "wrong" { Answer::new(number("5"), Exact::zero()) } else { right(problem) }
-    });
-    assert_eq!((report.summary().wrong, report.false_contacts), (10, None));
+    for (g, u, n) in [("4", "5", "0"), ("10", "10", "-1")] {
+        let all = [vec![hung("wrong", g); 10], vec![hung("right", "2"); 10]].concat();
+        let report =
+            run(
+                &all,
+                |problem| {
+                    if problem.id == "wrong" { Answer::new(number(u), number(n)) } else { right(problem) }
+                },
+            );
+        assert_eq!((report.summary().wrong, report.false_contacts), (10, None), "{g}");
+    }
 }
