@@ -155,9 +155,9 @@ mod tests {
         let [c, l] = ["c", "l"].map(|name| Tree::symbol(name));
         let formulas = [("penalty::deflection", &c * &l), ("system::gap", l)];
         let formulas = formulas.map(|(path, tree)| Formula::new(path, "", &["c", "l"], tree));
-        let gap = Suspect { function: "system::gap", equation: Some("Fig. 1.1"), unproved: 0, proved: 0 };
-        assert_eq!(idle(&formulas), [gap.clone()]);
-        assert_eq!(suspects(&statements(), &formulas, &|_| true), [gap]);
+        let gap = [Suspect { function: "system::gap", equation: Some("Fig. 1.1"), unproved: 0, proved: 0 }];
+        assert_eq!(idle(&formulas), gap);
+        assert_eq!(suspects(&statements(), &formulas, &|_| true), gap);
         assert_eq!(suspects(&statements(), &formulas, &|_| false), []);
     }
 
