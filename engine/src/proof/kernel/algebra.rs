@@ -409,6 +409,15 @@ mod tests {
         assert_eq!((quotient.num(), quotient.den()), (&u, &several));
     }
 
+    #[test]
+    fn nothing_is_divided_by_zero() {
+        let [u, v] = ["u", "v"].map(|name| Poly::symbol(Symbol::Own(name)));
+        assert_eq!(Ratio::from(u.clone()).over(&Ratio::zero()), None);
+        // Where u is v the quotient 1/(u − v) has no value, so it stays.
+        let quotient = Ratio::from(Poly::constant(1)).over(&(u - &v).into()).unwrap();
+        assert_eq!(quotient.replace(&Monomial::of(Symbol::Own("u")), &v.into()), quotient);
+    }
+
     /// Long division requires this order.
     #[test]
     fn multiplication_preserves_the_order_of_monomials() {

@@ -45,8 +45,9 @@ pub fn exceed() -> ! {
 
 #[cfg(test)]
 mod tests {
-    use super::super::algebra::{Poly, Symbol};
+    use super::super::algebra::{Number, Poly, Symbol};
     use super::*;
+    use rug::{Integer, Rational};
 
     #[test]
     fn effort_is_bounded_separately_for_each_proof() {
@@ -80,6 +81,9 @@ mod tests {
         let [a, b] = [sum(20), sum(30)];
         assert_eq!(rest_after(&|| drop(&a * &b)), Some(MAX_EFFORT - 1199));
         assert_eq!(rest_after(&|| drop(&a + &b)), Some(MAX_EFFORT - 98));
+        // 2⁹⁵⁹ has 15 words and its denominator one.
+        let [c, d] = [480, 479].map(|n| Number::from(Rational::from(Integer::from(1) << n)));
+        assert_eq!(rest_after(&|| drop(&c * &d)), Some(MAX_EFFORT - 2));
         // Each term of a quotient is multiplied by each term of the divisor except one, and subtracted.
         let product = &a * &b;
         assert!(rest_after(&|| drop(product.over(&a))).unwrap() <= MAX_EFFORT - 19 * 30);

@@ -26,10 +26,13 @@ fn the_number_of_roundings_is_limited() {
     let roundings = |n: usize| {
         let all = (0..n as i32).map(|i| (x("u") + int(i)).round());
         let sum = all.fold(Tree::zero(), |sum, term| sum + term);
-        outcome(vec![minimum_precision()], Proposition::Equal(sum.clone(), sum))
+        let same = Proposition::Equal(sum.clone(), sum);
+        let derived = derivation(&[&minimum_precision()], &same).map(drop);
+        [derived, outcome(vec![minimum_precision()], same).map(drop)]
     };
-    assert!(roundings(MAX_ROUNDINGS).is_ok());
-    assert!(matches!(roundings(MAX_ROUNDINGS + 1), Err(ProofError::TooManyRoundings)));
+    assert!(roundings(MAX_ROUNDINGS).iter().all(Result::is_ok));
+    let is_refused = |of: &Result<(), _>| matches!(of, Err(ProofError::TooManyRoundings));
+    assert!(roundings(MAX_ROUNDINGS + 1).iter().all(is_refused));
 }
 
 #[test]
@@ -116,4 +119,12 @@ fn compared_formulas_must_be_defined() {
     assert!(!rounded(vec![], difference(quotient(int(0)))));
     let equal = Hypothesis::new(Relation::Zero, x("c") - x("v"));
     assert!(!rounded(vec![equal], difference(quotient(x("c") - x("v")))));
+}
+
+/// No precision satisfies the hypothesis 2ᵖ = −1.
+#[test]
+fn the_divisor_of_a_rounding_error_must_not_be_zero() {
+    let impossible = Hypothesis::between(&precision(), int(-1), int(-1));
+    let outcome = outcome(vec![impossible], Proposition::Equal(x("u").round(), x("u").round()));
+    assert!(matches!(outcome, Err(ProofError::PossibleZeroDivisor(of, _)) if of == precision() + int(1)));
 }
