@@ -1,4 +1,4 @@
-//! Tests of derivations, limits, intervals and sizes.
+//! Tests of derivations: cases, factors and limits.
 
 use super::*;
 
