@@ -37,9 +37,19 @@ fn with_penalties(mut problems: Vec<Problem>) -> Vec<Problem> {
     problems
 }
 
+/// Returns the problem of a system with these c, m, g, l and H.
+fn problem(id: &str, family: Family, parameters: [&str; 5]) -> Problem {
+    let [c, m, g, l, h] = parameters.map(number);
+    Problem { id: id.to_string(), family, system: SpringMass { c, m, g, l, h }, penalty: None }
+}
+
 fn run(problems: &[Problem], solver: impl Fn(&Problem) -> Answer) -> Report {
+    run_within(TOLERANCE, problems, solver)
+}
+
+fn run_within(tolerance: &str, problems: &[Problem], solver: impl Fn(&Problem) -> Answer) -> Report {
     let ask = |problem: &Problem| Ok::<_, Infallible>(Reply::Answered(Box::new(solver(problem))));
-    check(problems, &number(TOLERANCE), ask).unwrap()
+    check(problems, &number(tolerance), ask).unwrap()
 }
 
 /// Returns the answer of a program with this mistake and these constants.
@@ -115,8 +125,7 @@ fn a_single_rounding_to_f32_is_diagnosed() {
                 Answer { deflection: u, contact_force: n, ..Answer::default() }
             };
             for tolerance in [TOLERANCE, "1e-12"] {
-                let ask = |problem: &Problem| Ok::<_, Infallible>(Reply::Answered(Box::new(solve(problem))));
-                let report = check(&problems, &number(tolerance), ask).unwrap();
+                let report = run_within(tolerance, &problems, solve);
                 let names = Vec::from_iter(report.diagnosis.iter().map(|d| d.name.as_str()));
                 let shows = tolerance != TOLERANCE
                     || ["l", "H", "H − l"].iter().any(|name| {

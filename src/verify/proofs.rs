@@ -199,8 +199,8 @@ mod tests {
 
     #[test]
     fn a_mistake_has_repairs_and_right_formulas_have_mutations() {
-        let twice = |s: &Statement| s.equation() == "1.13" && ["two-forms", "rate"].contains(&s.name());
-        let right: Vec<_> = statements().into_iter().filter(twice).collect();
+        let is_chosen = |s: &Statement| s.equation() == "1.13" && ["two-forms", "rate"].contains(&s.name());
+        let right: Vec<_> = statements().into_iter().filter(is_chosen).collect();
         let of_right = prove_statements(&right, &[]);
         assert!(of_right.repairs.is_empty() && !of_right.mutation.mutants.is_empty());
         let stiffness = registry().formula("penalty::total_stiffness").unwrap().tree.site();

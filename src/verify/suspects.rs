@@ -21,8 +21,8 @@ pub struct Suspect {
     pub proved: usize,
 }
 
-/// Returns the functions that best separate unproved claims from the others: most unproved
-/// claims depend on them, and few other claims do. Only the best ones are returned.
+/// Returns the functions that best separate unproved claims from the others: most unproved claims depend on
+/// them, and few other claims do. Only the best ones are returned.
 pub(super) fn suspects(
     statements: &[Statement],
     formulas: &[Formula],

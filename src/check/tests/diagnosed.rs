@@ -233,11 +233,7 @@ fn a_tolerance_of_the_program_is_diagnosed() {
 #[test]
 fn a_threshold_refers_to_the_quantity_that_separates_best() {
     let threshold = |count: usize, c: &str, weight: &str| {
-        let hung = |id: &str, c: &str, weight: &str| {
-            let [c, g] = [c, weight].map(number);
-            let system = SpringMass { c, m: number("1"), g, l: Exact::zero(), h: Exact::zero() };
-            Problem { id: id.to_string(), family: Family::Contact, system, penalty: None }
-        };
+        let hung = |id: &str, c, weight| problem(id, Family::Contact, [c, "1", weight, "0", "0"]);
         let all = [vec![hung("missed", "2", "6"); count], vec![hung("found", c, weight); count]].concat();
         let report = run(&all, |problem| {
             let free = structure::deflection(&problem.system);
@@ -278,9 +274,7 @@ fn forces_without_penetrations_tell_no_penalty() {
 #[test]
 fn an_answer_fits_to_the_tolerance() {
     let fits = |name: &str, [g, h]: [&str; 2], n: &str| {
-        let [g, h] = [g, h].map(number);
-        let system = SpringMass { c: number("1"), m: number("1"), g, l: Exact::zero(), h };
-        let problem = Problem { id: "own".into(), family: Family::Near, system, penalty: None };
+        let problem = problem("own", Family::Near, ["1", "1", g, "0", h]);
         let report = run(std::slice::from_ref(&problem), |problem| Answer {
             contact_force: Some(number(n)),
             ..right(problem)

@@ -2,6 +2,10 @@
 
 use super::*;
 
+fn assess(problem: &Problem, answer: Answer, tolerance: &str) -> Assessment {
+    Assessment::of(problem, &Reply::Answered(Box::new(answer)), &number(tolerance))
+}
+
 #[test]
 fn a_correct_program_has_no_diagnosis() {
     for problems in [default_problems(), with_penalties(default_problems())] {
@@ -41,7 +45,7 @@ fn assert_rounded_once_is_right(problem: &Problem) {
     let [u, p, n] =
         [exact.deflection, exact.penetration, exact.contact_force].map(|x| x.to_f64().unwrap().to_string());
     let answer = Answer { penetration: Some(Some(number(&p))), ..Answer::new(number(&u), number(&n)) };
-    let judged = Assessment::of(problem, &Reply::Answered(Box::new(answer)), &number("1e-30"));
+    let judged = assess(problem, answer, "1e-30");
     assert_eq!(judged.verdict, Verdict::Right, "{}, {:?}: {:?}", problem.id, problem.penalty, judged.finding);
 }
 
@@ -64,7 +68,7 @@ fn the_tolerance_is_the_border() {
         let mut answer = right(problem);
         let number_of = if i == 0 { &mut answer.deflection } else { &mut answer.contact_force };
         *number_of = number_of.take().map(|x| x + number(factor) * number(TOLERANCE) * &scales[i]);
-        let judgement = Assessment::of(problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE));
+        let judgement = assess(problem, answer, TOLERANCE);
         assert_eq!(judgement.verdict, verdict, "{i}, {factor}");
         assert_eq!(judgement.error(), Some(&(number(factor) * number(TOLERANCE)).abs()));
     }
@@ -81,7 +85,7 @@ fn a_penetration_is_that_of_the_deflection() {
         let p = contact::penetration(&problem.system, exact.deflection.as_ref().unwrap());
         let said = p + number(off) * number(TOLERANCE) * &scale;
         let answer = Answer { penetration: Some(Some(said)), ..exact };
-        Assessment::of(problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE)).verdict
+        assess(problem, answer, TOLERANCE).verdict
     };
     assert_eq!(["0", "1", "-1"].map(verdict), [Verdict::Right; 3]);
     assert_eq!(["1.01", "-1.01"].map(verdict), [Verdict::Wrong; 2]);
@@ -93,7 +97,7 @@ fn a_penetration_is_that_of_the_deflection() {
     let own = contact::penetration(&problem.system, &u);
     let said = |p: Exact| {
         let answer = Answer { penetration: Some(Some(p)), ..Answer::new(u.clone(), n.clone()) };
-        Assessment::of(problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE)).verdict
+        assess(problem, answer, TOLERANCE).verdict
     };
     assert_eq!([said(own.clone()), said(-own)], [Verdict::WithinTolerance, Verdict::Wrong]);
 }
@@ -109,7 +113,7 @@ fn a_wrong_state_is_reported_if_it_matters() {
         assert!(scale > number("1"));
         let u = right(problem).deflection.unwrap() + number("1");
         let answer = Answer::new(u, number(parts) * number(TOLERANCE) * scale);
-        let judgement = Assessment::of(problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE));
+        let judgement = assess(problem, answer, TOLERANCE);
         assert_eq!(judgement.verdict, Verdict::Wrong);
         judgement.finding.unwrap_or_default()
     };
@@ -124,15 +128,20 @@ fn a_wrong_state_is_reported_if_it_matters() {
     assert_eq!(finding(Family::Grazing, "1.01"), touching);
 }
 
+/// Returns the right answer for this multiple of the penalty, which it states.
+fn right_with(problem: &Problem, factor: &str) -> Answer {
+    let used = problem.penalty.as_ref().unwrap() * number(factor);
+    let mut answer = right(&Problem { penalty: Some(used.clone()), ..problem.clone() });
+    answer.used.penalty = Some(Some(used));
+    answer
+}
+
 /// The problem is solved with the parameters used; residuals are those of the numbers, if there are two.
 #[test]
 fn the_penalty_that_was_used_is_the_one_that_counts() {
     let problem = with_penalties(problems(1, 1, &[Family::Contact])).remove(0);
-    let used = problem.penalty.as_ref().unwrap() * number("1.0000005");
-    let mut answer = right(&Problem { penalty: Some(used.clone()), ..problem.clone() });
-    answer.used.penalty = Some(Some(used.clone()));
-    let judgement =
-        |answer: Answer| Assessment::of(&problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE));
+    let answer = right_with(&problem, "1.0000005");
+    let judgement = |answer: Answer| assess(&problem, answer, TOLERANCE);
     let judged = judgement(answer.clone());
     assert_eq!((judged.verdict, judged.force_error), (Verdict::Right, Some(Exact::zero())));
     let [u, n] = [answer.deflection.as_ref().unwrap(), answer.contact_force.as_ref().unwrap()];
@@ -147,7 +156,7 @@ fn findings_describe_the_error() {
     let finding = |change: &dyn Fn(&mut Answer)| {
         let mut answer = right(problem);
         change(&mut answer);
-        let judgement = Assessment::of(problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE));
+        let judgement = assess(problem, answer, TOLERANCE);
         (judgement.verdict, judgement.finding.unwrap_or_default())
     };
     let wrong = |change: &dyn Fn(&mut Answer), text: &str| {
@@ -181,7 +190,7 @@ fn findings_describe_the_error() {
     let zero = |answer: &mut Answer| answer.used.system.c = Some(Some(Exact::zero()));
     let mut none = right(problem);
     zero(&mut none);
-    let judgement = Assessment::of(problem, &Reply::Answered(Box::new(none)), &number("2"));
+    let judgement = assess(problem, none, "2");
     assert_eq!(judgement.finding.as_deref(), Some("it used stiffness = 0 instead of 30"));
     let same = finding(&|answer| answer.used.system.c = Some(Some(system.c.clone())));
     assert_eq!(same, (Verdict::Right, String::new()));
@@ -296,7 +305,7 @@ fn an_overflowing_mistake_explains_no_answer() {
     for (off, verdict) in [("1", Verdict::Right), ("1.1", Verdict::Wrong)] {
         let mut answer = right(&problem);
         answer.deflection = answer.deflection.map(|u| u * number(off));
-        let judgement = Assessment::of(&problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE));
+        let judgement = assess(&problem, answer, TOLERANCE);
         assert_eq!(judgement.verdict, verdict);
     }
 }
@@ -311,7 +320,7 @@ fn the_allowed_rounding_error_is_stated() {
         Problem { system, penalty: Some(number("4.5e17")), ..problems(1, 1, &[Family::Far]).remove(0) };
     let mut answer = right(&problem);
     answer.contact_force = answer.contact_force.map(|n| n + number("1000"));
-    let judgement = Assessment::of(&problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE));
+    let judgement = assess(&problem, answer, TOLERANCE);
     assert_eq!(judgement.verdict, Verdict::Wrong);
     assert_eq!(judgement.finding.as_deref(), Some("within the rounding error of f64"));
 }
@@ -333,14 +342,8 @@ fn a_family_without_an_answer_does_not_hold() {
 /// R = −2 on a scale of two million.
 #[test]
 fn a_state_decides_if_its_error_exceeds_the_tolerance() {
-    let system = SpringMass {
-        c: number("1"),
-        m: number("1"),
-        g: number("999999"),
-        l: Exact::zero(),
-        h: number("1000001"),
-    };
-    let report = run(&[Problem { id: "own".into(), family: Family::Near, system, penalty: None }], right);
+    let separated = problem("own", Family::Near, ["1", "1", "999999", "0", "1000001"]);
+    let report = run(&[separated], right);
     let least = |tolerance: &str| report.least_deciding(State::Separated, &number(tolerance));
     assert_eq!(["1e-6", "9.9e-7"].map(least), [None, Some(number("1e-6"))]);
 }
@@ -348,12 +351,10 @@ fn a_state_decides_if_its_error_exceeds_the_tolerance() {
 /// With lengths near 10¹² m the rounding error of u = 1 m is larger; the scale is 1 + 2 m.
 #[test]
 fn an_error_that_rounding_explains_is_at_most_that_of_a_diagnosis() {
-    let [c, m, g, l, h] = ["1", "1", "2", "1000000000000.3", "1000000000001.3"].map(number);
-    let system = SpringMass { c, m, g, l, h };
-    let problem = Problem { id: "own".into(), family: Family::Contact, system, penalty: None };
+    let problem = problem("own", Family::Contact, ["1", "1", "2", "1000000000000.3", "1000000000001.3"]);
     let is_wrong = |error: &str| {
         let answer = Answer::new(number("1") + number("3") * number(error), number("1"));
-        let judged = Assessment::of(&problem, &Reply::Answered(Box::new(answer)), &number("1e-30"));
+        let judged = assess(&problem, answer, "1e-30");
         judged.verdict == Verdict::Wrong
     };
     assert_eq!(["1e-6", "1.0000001e-6"].map(is_wrong), [false, true]);
@@ -363,12 +364,7 @@ fn an_error_that_rounding_explains_is_at_most_that_of_a_diagnosis() {
 #[test]
 fn a_parameter_is_taken_up_to_the_tolerance() {
     let problem = with_penalties(problems(1, 1, &[Family::Contact])).remove(0);
-    let verdict = |factor: &str| {
-        let used = problem.penalty.as_ref().unwrap() * number(factor);
-        let mut answer = right(&Problem { penalty: Some(used.clone()), ..problem.clone() });
-        answer.used.penalty = Some(Some(used));
-        Assessment::of(&problem, &Reply::Answered(Box::new(answer)), &number(TOLERANCE)).verdict
-    };
+    let verdict = |factor: &str| assess(&problem, right_with(&problem, factor), TOLERANCE).verdict;
     assert_eq!(["0.999999", "1.000001"].map(verdict), [Verdict::Right; 2]);
     assert!(["0.9999989", "1.0000011"].map(verdict).iter().all(|verdict| *verdict != Verdict::Right));
 }

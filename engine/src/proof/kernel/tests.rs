@@ -8,7 +8,7 @@ use crate::formula::statement::minimum_precision;
 use crate::number::{Exponential, Field, PositivePart};
 use num_traits::{One, Zero};
 
-mod parts;
+mod limits;
 mod rounding;
 mod sequences;
 
@@ -143,20 +143,45 @@ fn nested_case_distinctions_are_limited() {
 }
 
 #[test]
-fn increasing_linear_functions_are_recognised() {
-    let context = Context::of(vec![]).with_variable(&Proposition::Sign(Relation::Positive, x("s")));
-    let [s, two_to_a] = ["s", "2ᵃ"].map(|name| Poly::symbol(Symbol::Own(name)));
-    let one = || Poly::constant(1);
-    let over = |a: Poly, b: Poly| Ratio::from(a).over(&b.into()).unwrap();
-    let increases = |of: Ratio| context.increases_linearly(&of, Symbol::Own("s"));
-    // The other symbol is known to be positive.
-    assert!(increases((&s + &two_to_a).into()) && increases(over(&s * &two_to_a - one(), &two_to_a + one())));
-    let exponential = Poly::exponential(s.clone().into());
-    let power = || &s * &two_to_a * &exponential;
-    for of in [-&s, one(), two_to_a.clone(), &s * &s, &s * (&two_to_a - one()), power(), &s - &exponential] {
-        assert!(!increases(of.clone().into()), "{of:?}");
-    }
-    assert!(!increases(over(s.clone(), &s + one())) && !increases(over(s.clone(), two_to_a - one())));
+fn case_distinctions_are_exhaustive() {
+    // At u = 0 both positive parts are 0.
+    let bracket = |tree: Tree| tree.positive_part();
+    assert!(!proved(vec![], Proposition::Sign(Relation::Positive, bracket(x("u")) + bracket(-x("u")))));
+    // Each case has its own slack variable: u − v and w − z, both positive, need not be equal.
+    let both = |a: Tree, b: Tree| bracket(a.clone()) * bracket(b.clone()) * (a - b);
+    assert!(!proved(vec![], Proposition::Equal(both(x("u") - x("v"), x("w") - x("z")), Tree::zero())));
+}
+
+#[test]
+fn a_derivation_contains_each_divisor_and_branch_once() {
+    let [c, d] = ["c", "d"].map(x);
+    let part = |tree: &Tree| tree.positive_part();
+    let sum = part(&c) / &d + part(&d) / &c + part(&c) / &d + &c / int(2);
+    let same = Proposition::Equal(sum.clone(), sum);
+    let proof = outcome(vec![above_zero(c.clone()), above_zero(d.clone())], same).unwrap();
+    let [Derivation::Direct(direct)] = proof.goals() else { panic!("one case") };
+    assert!(direct.divisors.iter().map(|(tree, _)| tree).eq([&d, &c]), "a number is not listed");
+    let branches = direct.branches.iter().map(|(bracket, branch, _)| (bracket.clone(), branch.clone()));
+    assert!(branches.eq([(part(&c), c.clone()), (part(&d), d.clone())]));
+}
+
+#[test]
+fn exponentials_are_factors() {
+    // u v eᵃ = b, so that u v = b e⁻ᵃ.
+    let product = || Hypothesis::new(Relation::Zero, x("u") * x("v") * x("a").exp() - x("b"));
+    let without = || Proposition::Equal(x("u") * x("v"), x("b"));
+    assert!(!proved(vec![above_zero(x("b")), product()], without()));
+    assert!(!proved(vec![product()], without()));
+    assert!(proved(vec![product()], Proposition::Equal(x("u") * x("v") * x("a").exp(), x("b"))));
+}
+
+/// No rule finds the sign of the expanded product.
+#[test]
+fn divisors_have_the_signs_of_their_factors() {
+    let positive_at = |y: &Tree| y * y - y + int(1);
+    let divisor = || positive_at(&x("u")) * positive_at(&x("v"));
+    assert!(proved(vec![], Proposition::Sign(Relation::Positive, int(1) / divisor())));
+    assert!(!proved(vec![], Proposition::Sign(Relation::Positive, divisor())));
 }
 
 #[test]
@@ -261,15 +286,6 @@ fn intervals_bound_their_quantity() {
     // (1 − q)(u − 0) ≥ 0 has the form of an interval but does not bound q.
     let other = not_below_zero((int(1) - &q) * (x("u") - int(0)));
     assert!(!proved(vec![other], small()));
-}
-
-/// The hypothesis −1/v ≤ u ≤ 1/v excludes large v unless u = 0.
-#[test]
-fn intervals_do_not_depend_on_the_variable_of_a_limit() {
-    let [u, v] = ["u", "v"].map(x);
-    let near = Hypothesis::near(&u, int(0), int(1) / &v);
-    let shrinks = Proposition::Limit(u, "v", int(0));
-    assert!(!proved(vec![above_zero(v), near], shrinks));
 }
 
 #[test]

@@ -10,18 +10,16 @@ fn with_internal_tolerance(
     threshold: &str,
     quantity: fn(&SpringMass<Exact>) -> Exact,
 ) -> Report {
-    let ask = |problem: &Problem| {
+    run_within(tolerance, &default_problems(), |problem| {
         let system = &problem.system;
         let reaction = system::reaction(system);
         let is_other = if misses { reaction > Exact::zero() } else { reaction < Exact::zero() };
-        let answer = match is_other && quantity(system) <= number(threshold) {
+        match is_other && quantity(system) <= number(threshold) {
             true if misses => Answer::new(structure::deflection(system), Exact::zero()),
             true => Answer::new(system::gap(system), reaction),
             false => right(problem),
-        };
-        Ok::<_, Infallible>(Reply::Answered(Box::new(answer)))
-    };
-    check(&default_problems(), &number(tolerance), ask).unwrap()
+        }
+    })
 }
 
 /// Values from 1.61 of each decade on, which is the largest possible minimum of a decade.

@@ -35,32 +35,21 @@ fn factors_are_equal_up_to_a_tolerance() {
 /// Errors above the tolerance of the check, but below that of a diagnosis, fit every constant near 1.
 #[test]
 fn slight_errors_determine_no_constant() {
-    let ask = |problem: &Problem| {
+    let report = run_within("1e-9", &problems(1, 3, &[Family::Contact]), |problem| {
         let exact = problem.solution();
-        let answer = Answer::new(exact.deflection, exact.contact_force * number("1.00000001"));
-        Ok::<_, Infallible>(Reply::Answered(Box::new(answer)))
-    };
-    let report = check(&problems(1, 3, &[Family::Contact]), &number("1e-9"), ask).unwrap();
+        Answer::new(exact.deflection, exact.contact_force * number("1.00000001"))
+    });
     assert!(report.summary().wrong == 3 && report.diagnosis.is_empty(), "{:?}", report.diagnosis);
 }
 
 /// Wrong answers for R = −6, far from the plane, or for R = 0, beside right ones for R = −8.
 #[test]
 fn only_separated_systems_held_at_the_plane_are_false_contacts() {
-    let hung = |id: &str, g: &str| {
-        let [c, m, g, l, h] = ["1", "1", g, "0", "10"].map(number);
-        let system = SpringMass { c, m, g, l, h };
-        Problem { id: id.to_string(), family: Family::Separated, system, penalty: None }
-    };
+    let hung = |id: &str, g| problem(id, Family::Separated, ["1", "1", g, "0", "10"]);
     for (g, u, n) in [("4", "5", "0"), ("10", "10", "-1")] {
         let all = [vec![hung("wrong", g); 10], vec![hung("right", "2"); 10]].concat();
-        let report =
-            run(
-                &all,
-                |problem| {
-                    if problem.id == "wrong" { Answer::new(number(u), number(n)) } else { right(problem) }
-                },
-            );
+        let wrong = Answer::new(number(u), number(n));
+        let report = run(&all, |problem| if problem.id == "wrong" { wrong.clone() } else { right(problem) });
         assert_eq!((report.summary().wrong, report.false_contacts), (10, None), "{g}");
     }
 }

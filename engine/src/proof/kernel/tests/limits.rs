@@ -1,39 +1,6 @@
-//! Tests of derivations: cases, factors and limits.
+//! Tests of limits.
 
 use super::*;
-
-#[test]
-fn a_derivation_contains_each_divisor_and_branch_once() {
-    let [c, d] = ["c", "d"].map(x);
-    let part = |tree: &Tree| tree.positive_part();
-    let sum = part(&c) / &d + part(&d) / &c + part(&c) / &d + &c / int(2);
-    let same = Proposition::Equal(sum.clone(), sum);
-    let proof = outcome(vec![above_zero(c.clone()), above_zero(d.clone())], same).unwrap();
-    let [Derivation::Direct(direct)] = proof.goals() else { panic!("one case") };
-    assert!(direct.divisors.iter().map(|(tree, _)| tree).eq([&d, &c]), "a number is not listed");
-    let branches = direct.branches.iter().map(|(bracket, branch, _)| (bracket.clone(), branch.clone()));
-    assert!(branches.eq([(part(&c), c.clone()), (part(&d), d.clone())]));
-}
-
-#[test]
-fn case_distinctions_are_exhaustive() {
-    // At u = 0 both positive parts are 0.
-    let bracket = |tree: Tree| tree.positive_part();
-    assert!(!proved(vec![], Proposition::Sign(Relation::Positive, bracket(x("u")) + bracket(-x("u")))));
-    // Each case has its own slack variable: u − v and w − z, both positive, need not be equal.
-    let both = |a: Tree, b: Tree| bracket(a.clone()) * bracket(b.clone()) * (a - b);
-    assert!(!proved(vec![], Proposition::Equal(both(x("u") - x("v"), x("w") - x("z")), Tree::zero())));
-}
-
-#[test]
-fn exponentials_are_factors() {
-    // u v eᵃ = b, so that u v = b e⁻ᵃ.
-    let product = || Hypothesis::new(Relation::Zero, x("u") * x("v") * x("a").exp() - x("b"));
-    let without = || Proposition::Equal(x("u") * x("v"), x("b"));
-    assert!(!proved(vec![above_zero(x("b")), product()], without()));
-    assert!(!proved(vec![product()], without()));
-    assert!(proved(vec![product()], Proposition::Equal(x("u") * x("v") * x("a").exp(), x("b"))));
-}
 
 #[test]
 fn limits_follow_from_degrees() {
@@ -112,15 +79,6 @@ fn variables_of_limits_may_have_lower_bounds() {
     ));
 }
 
-/// No rule finds the sign of the expanded product.
-#[test]
-fn divisors_have_the_signs_of_their_factors() {
-    let positive_at = |y: &Tree| y * y - y + int(1);
-    let divisor = || positive_at(&x("u")) * positive_at(&x("v"));
-    assert!(proved(vec![], Proposition::Sign(Relation::Positive, int(1) / divisor())));
-    assert!(!proved(vec![], Proposition::Sign(Relation::Positive, divisor())));
-}
-
 /// The case may end before the limit is reached.
 #[test]
 fn a_case_that_depends_on_the_variable_of_a_limit_is_not_used() {
@@ -134,4 +92,30 @@ fn a_case_that_depends_on_the_variable_of_a_limit_is_not_used() {
     assert_eq!(variable(Some(&above_zero(x("g") - x("a"))), above.clone()), Some(Symbol::Slack(0)));
     assert_eq!(variable(None, above), None);
     assert_eq!(variable(None, Poly::symbol(a)), Some(g));
+}
+
+#[test]
+fn increasing_linear_functions_are_recognised() {
+    let context = Context::of(vec![]).with_variable(&Proposition::Sign(Relation::Positive, x("s")));
+    let [s, two_to_a] = ["s", "2ᵃ"].map(|name| Poly::symbol(Symbol::Own(name)));
+    let one = || Poly::constant(1);
+    let over = |a: Poly, b: Poly| Ratio::from(a).over(&b.into()).unwrap();
+    let increases = |of: Ratio| context.increases_linearly(&of, Symbol::Own("s"));
+    // The other symbol is known to be positive.
+    assert!(increases((&s + &two_to_a).into()) && increases(over(&s * &two_to_a - one(), &two_to_a + one())));
+    let exponential = Poly::exponential(s.clone().into());
+    let power = || &s * &two_to_a * &exponential;
+    for of in [-&s, one(), two_to_a.clone(), &s * &s, &s * (&two_to_a - one()), power(), &s - &exponential] {
+        assert!(!increases(of.clone().into()), "{of:?}");
+    }
+    assert!(!increases(over(s.clone(), &s + one())) && !increases(over(s.clone(), two_to_a - one())));
+}
+
+/// The hypothesis −1/v ≤ u ≤ 1/v excludes large v unless u = 0.
+#[test]
+fn intervals_do_not_depend_on_the_variable_of_a_limit() {
+    let [u, v] = ["u", "v"].map(x);
+    let near = Hypothesis::near(&u, int(0), int(1) / &v);
+    let shrinks = Proposition::Limit(u, "v", int(0));
+    assert!(!proved(vec![above_zero(v), near], shrinks));
 }
