@@ -375,6 +375,18 @@ mod tests {
     }
 
     #[test]
+    fn rule_5_applies_to_squares_of_symbols_between_minus_1_and_1() {
+        let [a, b] = [0, 1].map(|index| Poly::symbol(Symbol::Error(index)));
+        let sign = |of: Poly| {
+            Certificate::triangle_inequality(&of, &Arc::new(SignEnv::new())).map(|found| found.sign())
+        };
+        // 1 + 3 a² − b ≥ 1 − 1.
+        let of = |power: Poly| Poly::constant(1) + Poly::constant(3) * power - &b;
+        assert_eq!([of(&a * &a), -of(&a * &a)].map(sign), [Some(NonNegative), Some(NonPositive)]);
+        assert_eq!([of(a.clone()), of(&a * &a * &b), of(&a * &a * &a)].map(sign), [None; 3]);
+    }
+
+    #[test]
     fn rule_6_applies_to_symbols_between_minus_1_and_1_only() {
         let known = Arc::new(SignEnv::new());
         let terms = |of: &Poly, known: &Arc<SignEnv>| Certificate::termwise(of, known);

@@ -179,7 +179,7 @@ fn exponentials_are_factors() {
 #[test]
 fn divisors_have_the_signs_of_their_factors() {
     let positive_at = |y: &Tree| y * y - y + int(1);
-    let divisor = || positive_at(&x("u")) * positive_at(&x("v"));
+    let divisor = || positive_at(&x("u")) * positive_at(&x("v")) * positive_at(&x("w"));
     assert!(proved(vec![], Proposition::Sign(Relation::Positive, int(1) / divisor())));
     assert!(!proved(vec![], Proposition::Sign(Relation::Positive, divisor())));
 }
@@ -233,6 +233,9 @@ fn hypotheses_on_symbols_of_known_sign_are_used() {
     assert!(!proved(known(), Proposition::Sign(Relation::Positive, x("b") - Tree::int(2) * x("a"))));
     let between = vec![above_zero(x("x")), above_zero(x("L")), not_below_zero(x("L") - x("x"))];
     assert!(proved(between, Proposition::Sign(Relation::Positive, Tree::int(3) * x("L") - x("x"))));
+    // A weaker hypothesis does not replace a stronger one.
+    let weaker = vec![above_zero(x("a")), not_below_zero(x("a"))];
+    assert!(proved(weaker, Proposition::Sign(Relation::Positive, x("a"))));
 }
 
 #[test]
