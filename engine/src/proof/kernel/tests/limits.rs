@@ -69,6 +69,8 @@ fn variables_of_limits_may_have_lower_bounds() {
         assert!(!proved(vec![above_zero(&f - &bound)], constant()), "f > {bound}");
     }
     assert!(!proved(vec![Hypothesis::new(Relation::Zero, &g - &f)], inverse()));
+    let sum_is_zero = Hypothesis::new(Relation::Zero, &f + &g);
+    assert!(!proved(vec![not_below_zero(f.clone()), not_below_zero(g.clone()), sum_is_zero], inverse()));
     assert!(!proved(vec![Hypothesis::between(&g, int(1), int(2))], inverse()));
     // The hypothesis 1/(g − f) ≥ 1/h excludes large g.
     let reciprocal = int(1) / (&g - &f);
