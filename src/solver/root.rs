@@ -204,10 +204,6 @@ impl<'a, E: PositivePart> Equation<'a, E> {
         while open < MOST_DIGITS && holds(open)? {
             (certain, open, further) = (open, open + further, 2 * further);
         }
-        while certain == 0 && further < open {
-            let k = open - further;
-            if holds(k)? { certain = k } else { (open, further) = (k, 2 * further) }
-        }
         while open - certain > 1 {
             let k = certain + (open - certain) / 2;
             if holds(k)? { certain = k } else { open = k }

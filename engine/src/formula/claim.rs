@@ -182,4 +182,26 @@ mod tests {
         let statement = equal("exponential", v.exp(), &u).assuming([&Hypothesis::near(&u, &v, 0)]);
         assert!(statement.contains_exponential() && !equal("none", &u, &v).contains_exponential());
     }
+
+    #[test]
+    fn statements_about_sequences_are_of_three_kinds() {
+        let [u, q] = ["u", POWER].map(|name| Tree::symbol(name));
+        let kinds = [
+            induction("same", 2, [u.clone()], |[x]| [x], [u.clone()]),
+            perturbed_recursion("near", 2, &u, Tree::clone, (u.clone(), Tree::from(0)), |_| []),
+            geometric_limit("limit", 2, q, 0),
+        ];
+        assert_eq!(kinds.map(|statement| statement.kind()), ["induction", "drift", "vanishing"]);
+    }
+
+    #[test]
+    fn another_proposition_computes_no_quantity() {
+        let [u, v] = ["u", "v"].map(|name| Tree::symbol(name));
+        let statement = equal("same", &u, &v).assuming([&Hypothesis::near(&u, &v, 0)]).computing(&u, &v);
+        let other = statement.with_proposition(Proposition::Equal(v, u));
+        assert_eq!(
+            [&statement, &other].map(|s| (s.computed().len(), s.hypotheses().len())),
+            [(1, 0), (0, 1)]
+        );
+    }
 }

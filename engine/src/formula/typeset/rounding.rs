@@ -7,7 +7,6 @@
 //! operation in the brackets is not rounded, as in `a + b c` with only the sum rounded, the text contains
 //! nearest instead.
 
-use super::size;
 use crate::formula::claim::SCALES;
 use crate::number::Tree;
 use crate::number::tree::Op::{self, *};
@@ -47,7 +46,7 @@ fn scaled(tree: &Tree) -> Option<&Tree> {
 fn rounds_each_step(of: &Tree) -> bool {
     match of.op() {
         _ if scaled(of).is_some() => scaled(of).is_some_and(rounds_each_step),
-        Neg(a) if size(a).is_none() => rounds_each_step(a),
+        Neg(a) => rounds_each_step(a),
         step if is_operation(of) => step.operands().all(is_operand),
         _ => true,
     }
@@ -132,7 +131,7 @@ fn is_number(tree: &Tree) -> bool {
 
 fn unsigned(tree: &Tree) -> &Tree {
     match tree.op() {
-        Neg(a) if size(a).is_none() => unsigned(a),
+        Neg(a) => unsigned(a),
         _ => tree,
     }
 }

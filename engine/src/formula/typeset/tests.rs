@@ -204,7 +204,23 @@ fn the_text_shows_which_operations_are_rounded() {
         ((&a * &b * n(3)).with_rounding(), "fl(3 fl(a b))", r"\mathrm{fl}(3 \mathrm{fl}(a\,b))"),
         ((n(1) * &a + &b).with_rounding(), "fl(fl(a) + b)", r"\mathrm{fl}(\mathrm{fl}(a) + b)"),
         ((a.round() + &b).round(), "fl(fl(a) + b)", r"\mathrm{fl}(\mathrm{fl}(a) + b)"),
+        (((a.round() * &b).round() * &a).round(), "fl(fl(a) b a)", r"\mathrm{fl}(\mathrm{fl}(a)\,b\,a)"),
+        ((&a * &b / &c).with_rounding(), "fl(a b / c)", r"\mathrm{fl}\left(\frac{a\,b}{c}\right)"),
+        (
+            (&a * &a / &b).with_rounding(),
+            "fl(fl(a²) / b)",
+            r"\mathrm{fl}\left(\frac{\mathrm{fl}(a^2)}{b}\right)",
+        ),
+        ((n(3) * &a / &b).with_rounding(), "fl(3 a / b)", r"\mathrm{fl}\left(\frac{3 a}{b}\right)"),
+        (
+            ((n(3) * &a) / (n(2) * &b)).with_rounding(),
+            "fl(fl(3 a) / fl(2 b))",
+            r"\mathrm{fl}\left(\frac{\mathrm{fl}(3 a)}{\mathrm{fl}(2 b)}\right)",
+        ),
         ((&a * &scale + &b).round(), "fl(a 2ᵃ + b)", r"\mathrm{fl}(a\,2^a + b)"),
+        ((&a * (&scale * &scale) + &b).round(), "fl(a (2ᵃ)² + b)", r"\mathrm{fl}(a\,(2^a)^2 + b)"),
+        (((&a + &b) * &scale).round(), "fl((a + b) 2ᵃ)", r"\mathrm{fl}((a + b)\,2^a)"),
+        (((&a * &scale * n(3)).round() * &b).round(), "fl(3 a 2ᵃ b)", r"\mathrm{fl}(3 a\,2^a\,b)"),
         (
             (&b - (&a * &b).round().positive_part()).round(),
             "fl(b − ⟨fl(a b)⟩)",

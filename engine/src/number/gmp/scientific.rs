@@ -74,17 +74,11 @@ fn rational(x: &Rational, decimals: Option<usize>) -> String {
     if x.is_zero() {
         return scientific(&"0".repeat(decimals.unwrap_or(0) + 1), 0);
     }
-    let power = |n: i64| {
-        let power = Rational::from(Integer::from(10).pow(n.unsigned_abs() as u32));
-        if n < 0 { power.recip() } else { power }
-    };
-    // The error of the logarithm is less than 1.
+    let power = |n: i64| Rational::from(10).pow(n as i32);
+    // Rounded to the nearest, a logarithm does not fall below an integer, but it can reach the next one.
     let mut order = Float::with_val(64, &x).log10().floor().to_f64() as i64;
-    while power(order) > x {
+    if power(order) > x {
         order -= 1;
-    }
-    while power(order + 1) <= x {
-        order += 1;
     }
     let whole = |behind: i64| to_whole(&x * power(behind - order)).to_string();
     let digits = match (decimals, decimals_of(&x)) {
