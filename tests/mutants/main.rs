@@ -1,8 +1,8 @@
 //! Mutants of the source that no test detects, with the reasons.
 //!
-//! `tests/mutants/run` lets cargo-mutants change one operator, one condition, one value of the source after
-//! another, and runs the fast tests on each. A mutant that survives needs a new test, or an entry in
-//! `excused` beside this file that explains why it is equivalent.
+//! `tests/mutants/run` changes one operator, one condition, one value of the source after another, as
+//! cargo-mutants does, and runs the fast tests on each. A mutant that survives needs a new test, or an entry
+//! in `excused` beside this file that explains why it is equivalent.
 
 use serde_json::Value;
 use std::collections::HashMap;
@@ -94,9 +94,8 @@ fn mutants(all: &Value, named: impl Fn(&str) -> bool) -> Vec<Mutant> {
 #[test]
 #[ignore = "tests/mutants/run runs it"]
 fn every_mutant_is_detected_or_excused() {
-    let run = "target/mutants/mutants.out";
-    let all = serde_json::from_str(&read(&format!("{run}/mutants.json"))).expect("JSON");
-    let missed = read(&format!("{run}/missed.txt"));
+    let all = serde_json::from_str(&read("target/mutants/mutants.json")).expect("JSON");
+    let missed = read("target/mutants/missed.txt");
     let (excuses, all, missed) =
         (excuses(), mutants(&all, |_| true), mutants(&all, |name| missed.lines().any(|line| line == name)));
     let unnoticed: Vec<_> = missed.iter().filter(|mutant| !excuses.contains_key(mutant)).collect();
