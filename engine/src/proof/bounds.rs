@@ -393,6 +393,8 @@ mod tests {
             matches!(refused.reason, ProofError::PossibleZeroDivisor(..)) && refused.formula == &one / &x,
             "{refused}"
         );
+        let text = format!("no bound of the rounding error of 1 / x was found: {}", refused.reason);
+        assert_eq!(refused.to_string(), text);
         // Nothing is rounded.
         assert_eq!(bound(&x, &one, &[]).unwrap(), 0.0);
     }

@@ -227,6 +227,21 @@ mod tests {
         assert_eq!(hints(&claim), ["b ≥ d", "c ≥ d"]);
     }
 
+    /// The claim also follows from 2ᵖ > b.
+    #[test]
+    fn no_hypothesis_on_the_precision_is_suggested() {
+        let [a, b, n] = tree::symbols(["a", "b", PRECISION]);
+        let claim = positive("", &a * (&n - &b)).assuming(&[a, n].map(above_zero));
+        assert_eq!(hints(&claim), ["b ≤ 0"]);
+    }
+
+    #[test]
+    fn an_obstacle_that_follows_from_a_hypothesis_is_not_suggested() {
+        let [a, b] = tree::symbols(["a", "b"]);
+        let not_negative = Hypothesis::new(Relation::NonNegative, b.clone());
+        assert_eq!(hints(&positive("", a + b).assuming([&not_negative])), ["a > 0"]);
+    }
+
     #[test]
     fn an_obstacle_is_written_in_the_symbols_of_the_statement() {
         let [a, b, c, d] = tree::symbols(["a", "b", "c", "d"]);

@@ -417,13 +417,4 @@ impl Laws {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::last;
-
-    #[test]
-    fn the_last_power_is_found_from_any_start() {
-        for n in (0..100).chain([i32::MAX / 2, i32::MAX - 2]) {
-            assert_eq!(last(|k| k <= n), n);
-        }
-    }
-}
+mod tests;

@@ -375,6 +375,17 @@ mod tests {
     }
 
     #[test]
+    fn rule_3_completes_the_square() {
+        let u = Symbol::Own("u");
+        let terms = |of: &Poly, known: &Arc<SignEnv>| Certificate::termwise(of, known);
+        let x = Poly::symbol(u);
+        let of = Poly::constant(3) * &x * &x + Poly::constant(2) * &x + Poly::constant(5);
+        let found = Certificate::square(&of, u, &Arc::new(SignEnv::new()), &terms).unwrap();
+        let Rule::Square { leading, root, rest } = found.rule() else { panic!("another rule") };
+        assert_eq!(Poly::constant(4) * leading.of() * of, root * root + rest.of());
+    }
+
+    #[test]
     fn rule_5_applies_to_squares_of_symbols_between_minus_1_and_1() {
         let [a, b] = [0, 1].map(|index| Poly::symbol(Symbol::Error(index)));
         let sign = |of: Poly| {

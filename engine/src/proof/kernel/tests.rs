@@ -121,7 +121,12 @@ fn hypotheses_without_a_pivot_are_retained() {
     // The assumption of an interval does not lose or strengthen u ≥ 0, and the rest must have a sign, too.
     let both = || [vec![not_below_zero(u.clone())], near()].concat();
     assert!(proved(both(), sign(Relation::NonNegative, u.clone())));
-    assert!(proved(both(), sign(Relation::NonNegative, int(2) * &u + &b)));
+    let proof = outcome(both(), sign(Relation::NonNegative, int(2) * &u + &b)).unwrap();
+    let [Derivation::Direct(direct)] = proof.goals() else { panic!("one case") };
+    let Justification::Sign(signed) = &direct.justification else { panic!("not a sign") };
+    let (less, [num, den]) = (signed.subtracted.as_ref().unwrap(), [&signed.num, &signed.den]);
+    let rest = Ratio::from(num.of().clone()).over(&den.of().clone().into()).unwrap();
+    assert_eq!(signed.value, &less.factor.value * &less.of + rest);
     assert!(!proved(both(), sign(Relation::Positive, u.clone())));
     assert!(!proved(both(), sign(Relation::NonNegative, -&u)));
     assert!(!proved(both(), sign(Relation::NonNegative, &u - &b)));
@@ -182,6 +187,11 @@ fn divisors_have_the_signs_of_their_factors() {
     let divisor = || positive_at(&x("u")) * positive_at(&x("v")) * positive_at(&x("w"));
     assert!(proved(vec![], Proposition::Sign(Relation::Positive, int(1) / divisor())));
     assert!(!proved(vec![], Proposition::Sign(Relation::Positive, divisor())));
+    let negative = || Proposition::Sign(Relation::Positive, -int(1) / -divisor());
+    let quotient = || Proposition::Sign(Relation::Positive, int(1) / (divisor() / x("a")));
+    assert!(proved(vec![], negative()) && proved(vec![above_zero(x("a"))], quotient()));
+    let rounded = Proposition::Sign(Relation::Positive, int(1) / divisor().round());
+    assert!(proved(vec![minimum_precision()], rounded));
 }
 
 #[test]

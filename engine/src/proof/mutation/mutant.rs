@@ -354,6 +354,14 @@ mod tests {
     }
 
     #[test]
+    fn integers_are_repaired_by_their_multiples() {
+        let repairs = Mutation::repairs(&Tree::int(100), &Registry::default());
+        for other in [-100, 0, 24, 50, 101, 200] {
+            assert!(repairs.contains(&Mutation::Integer(100, other)), "{other}");
+        }
+    }
+
+    #[test]
     fn symbols_are_replaced_in_one_operand_only() {
         let [a, c, eps] = ["a", "c", "ε"].map(|name| Tree::symbol(name));
         let mutation = |index| Mutation::Symbol(index, "c", "ε");

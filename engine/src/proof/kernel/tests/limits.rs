@@ -12,6 +12,8 @@ fn limits_follow_from_degrees() {
     assert!(proved(both(), limit(t() / (Tree::one() + x("c") * t()), Tree::one() / x("c"))));
     assert!(!proved(both(), limit(t() / (Tree::one() + x("c") * t()), Tree::one())));
     assert!(!proved(both(), limit(t(), Tree::zero())));
+    // A hypothesis that others imply restricts nothing.
+    assert!(proved(vec![time(), not_below_zero(t())], limit(Tree::one() / t(), Tree::zero())));
     // For λ = 0 the quotient is constant.
     let weak = vec![not_below_zero(x("λ")), time()];
     assert!(!proved(weak, limit(Tree::one() / (Tree::one() + x("λ") * t()), Tree::zero())));

@@ -1,0 +1,60 @@
+//! Laws where numbers may underflow.
+
+use super::*;
+
+/// Returns the laws for η = 2⁻¹⁰, with 1 as the smallest normal number, so that lengths are at least 4096.
+fn laws(weight: i32, l: i32, h: i32) -> Laws {
+    let [c, m] = [Exact::one(), Exact::one()];
+    let [g, l, h] = [weight, l, h].map(Exact::from);
+    Laws::of(&SpringMass { c, m, g, l, h }, &Exact::power_of_two(-10), &Exact::one()).unwrap()
+}
+
+#[test]
+fn numbers_that_lose_precision_guarantee_nothing() {
+    let is_normal = |(weight, l, h)| laws(weight, l, h).is_normal();
+    assert!([(1, 0, 0), (8, 4096, 4096), (8, 0, -4096), (0, 4096, 0)].into_iter().all(is_normal));
+    assert!(![(8, 4095, 4096), (8, 4096, 4095), (8, 1, 0)].into_iter().any(is_normal));
+    // ε |Δ| ≥ 2.
+    let with =
+        |gap, p: i32, q: i32| laws(8, 4096, 4096 + gap).is_normal_with(&(Exact::from(p) / Exact::from(q)));
+    assert!(with(0, 1, 100) && with(4, 1, 2) && with(1, 2, 1) && !with(3, 1, 2) && !with(1, 1, 1));
+    let far = Exact::from(1_000_000);
+    let promise = |laws: Laws| laws.promise(&Exact::one(), &far);
+    assert!(promise(laws(8, 4096, 4098)) && !promise(laws(8, 4095, 4098)) && !promise(laws(8, 4096, 4097)));
+}
+
+#[test]
+fn an_underflow_increases_the_drift_and_the_weight() {
+    let (normal, four) = (laws(100_000, 4096, 4096), Exact::from(4));
+    let drift = rounding::penetration_drift(&normal.system, &four, &normal.precision);
+    assert_eq!(normal.penetration_drift(&four) - drift, Exact::from(9) / &four);
+    let tolerance = Exact::from(1000);
+    let system = normal.heavier_by(&(Exact::from(3) * &normal.eta));
+    let heavier = Laws::of(&system, &normal.eta, &Exact::zero()).unwrap();
+    let from = |laws: &Laws, tolerance: &Exact| laws.penalties(tolerance).unwrap().from;
+    assert!(from(&normal, &tolerance) > Exact::one());
+    assert_eq!(from(&normal, &tolerance), from(&heavier, &(&tolerance - &normal.eta)));
+}
+
+#[test]
+fn no_largest_penalty_is_known_if_a_force_may_underflow() {
+    let hardest = |laws: Laws, tolerance: Exact| laws.hardest(Exact::from(2), Exact::one(), &tolerance);
+    let half = Exact::power_of_two(-1);
+    assert_eq!(hardest(laws(8, 4096, 4096), Exact::one()), Some(Exact::from(2)));
+    assert_eq!(hardest(laws(8, 4096, 4096), half), Some(Exact::zero()));
+    assert_eq!(hardest(laws(8, 4095, 4095), Exact::one()), Some(Exact::zero()));
+}
+
+#[test]
+fn both_planes_have_the_same_floor_at_grazing() {
+    let system = SpringMass { c: 4.0, m: 1.0, g: 8.0, l: 1.0, h: 3.0 };
+    let floor = |plane| rounding_floor(&system, plane, &Exact::power_of_two(-53)).unwrap();
+    assert!(floor(Plane::Unilateral).is_some() && floor(Plane::Unilateral) == floor(Plane::Bilateral));
+}
+
+#[test]
+fn the_last_power_is_found_from_any_start() {
+    for n in (0..100).chain([i32::MAX / 2, i32::MAX - 2]) {
+        assert_eq!(last(|k| k <= n), n);
+    }
+}
