@@ -256,10 +256,6 @@ impl<T> RawSolution<T> {
     }
 }
 
-/// Limits of binary digits, for one multiplier and for all steps together; beyond them a step takes minutes.
-const LONGEST: u64 = 1 << 22;
-const MOST_DIGITS: u64 = 1 << 28;
-
 fn iterate<T: Scalar>(
     mut steps: Augmentation<T>,
     system: &SpringMass<T>,
@@ -281,11 +277,7 @@ fn iterate<T: Scalar>(
         let step = steps.step();
         let length = step.multiplier.growing_digits();
         digits = digits.saturating_add(length);
-        if length > LONGEST {
-            return Err(SolveError::TooLong { quantity: "multiplier", digits: LONGEST });
-        } else if digits > MOST_DIGITS {
-            return Err(SolveError::TooLong { quantity: "all multipliers together", digits: MOST_DIGITS });
-        }
+        check::digits(length, digits)?;
         check::in_range(step.deflection.is_finite(), "deflection")?;
         check::in_range(steps.multiplier().is_finite(), "multiplier")?;
         each(&step);

@@ -97,3 +97,32 @@ pub(super) fn require_finite<T: Scalar>(solution: &Solution<T>) -> Result<(), So
     in_range(solution.contact_force.is_finite(), "contact force")?;
     in_range(solution.floor.as_ref().is_none_or(T::is_finite), "bound of |u − u*|")
 }
+
+/// Limits of binary digits, for one multiplier and for all steps together; beyond them a step takes minutes.
+const LONGEST: u64 = 1 << 22;
+const MOST_DIGITS: u64 = 1 << 28;
+
+pub(super) fn digits(multiplier: u64, all_multipliers: u64) -> Result<(), SolveError> {
+    if multiplier > LONGEST {
+        return Err(SolveError::TooLong { quantity: "multiplier", digits: LONGEST });
+    } else if all_multipliers > MOST_DIGITS {
+        return Err(SolveError::TooLong { quantity: "all multipliers together", digits: MOST_DIGITS });
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn multipliers_of_the_greatest_length_are_allowed() {
+        let refused = |multiplier, all| match digits(multiplier, all) {
+            Err(SolveError::TooLong { quantity, .. }) => Some(quantity),
+            _ => None,
+        };
+        assert_eq!(refused(LONGEST, MOST_DIGITS), None);
+        assert_eq!(refused(LONGEST + 2, MOST_DIGITS), Some("multiplier"));
+        assert_eq!(refused(0, MOST_DIGITS + 2), Some("all multipliers together"));
+    }
+}
