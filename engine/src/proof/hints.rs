@@ -237,9 +237,10 @@ mod tests {
 
     #[test]
     fn an_obstacle_that_follows_from_a_hypothesis_is_not_suggested() {
-        let [a, b] = tree::symbols(["a", "b"]);
+        let [a, b, c] = tree::symbols(["a", "b", "c"]);
         let not_negative = Hypothesis::new(Relation::NonNegative, b.clone());
-        assert_eq!(hints(&positive("", a + b).assuming([&not_negative])), ["a > 0"]);
+        let claim = positive("", &c * (a + b)).assuming([&not_negative, &above_zero(c)]);
+        assert_eq!(hints(&claim), ["a > 0"]);
     }
 
     #[test]
