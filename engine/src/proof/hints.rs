@@ -138,6 +138,10 @@ mod tests {
         Hypothesis::new(Relation::Positive, value.into())
     }
 
+    fn not_below_zero(value: impl Into<Tree>) -> Hypothesis {
+        Hypothesis::new(Relation::NonNegative, value.into())
+    }
+
     fn explained(claim: &Statement) -> String {
         ProofPrinter::new(&Registry::default()).explain(claim, &prove(claim).unwrap_err())
     }
@@ -212,9 +216,8 @@ mod tests {
         assert_eq!(hints(&claim), ["s < 0"]);
         // a ≤ 0 would suffice, but holds only for a = 0.
         let [a, c] = tree::symbols(["a", "c"]);
-        let not_negative = |value: &Tree| Hypothesis::new(Relation::NonNegative, value.clone());
-        let claim = non_negative("", &c - &a).assuming([&not_negative(&a), &not_negative(&c)]);
-        assert!(prove(&claim.clone().assuming([&not_negative(&-&a)])).is_ok());
+        let claim = non_negative("", &c - &a).assuming(&[&a, &c].map(not_below_zero));
+        assert!(prove(&claim.clone().assuming([&not_below_zero(-&a)])).is_ok());
         assert_eq!(hints(&claim), Vec::<String>::new());
     }
 
@@ -238,8 +241,7 @@ mod tests {
     #[test]
     fn an_obstacle_that_follows_from_a_hypothesis_is_not_suggested() {
         let [a, b, c] = tree::symbols(["a", "b", "c"]);
-        let not_negative = Hypothesis::new(Relation::NonNegative, b.clone());
-        let claim = positive("", &c * (a + b)).assuming([&not_negative, &above_zero(c)]);
+        let claim = positive("", &c * (a + &b)).assuming([&not_below_zero(b), &above_zero(c)]);
         assert_eq!(hints(&claim), ["a > 0"]);
     }
 

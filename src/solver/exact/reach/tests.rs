@@ -4,8 +4,7 @@ use super::*;
 
 /// Returns the laws for η = 2⁻¹⁰, with 1 as the smallest normal number, so that lengths are at least 4096.
 fn laws(weight: i32, l: i32, h: i32) -> Laws {
-    let [c, m] = [Exact::one(), Exact::one()];
-    let [g, l, h] = [weight, l, h].map(Exact::from);
+    let [c, m, g, l, h] = [1, 1, weight, l, h].map(Exact::from);
     Laws::of(&SpringMass { c, m, g, l, h }, &Exact::power_of_two(-10), &Exact::one()).unwrap()
 }
 
