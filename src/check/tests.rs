@@ -76,9 +76,9 @@ fn every_mistake_is_diagnosed_as_itself() {
             };
             let report = run(&problems, solve);
             assert!(!report.holds(), "{} holds", mistake.name);
-            let names: Vec<_> = report.diagnosis.iter().map(|d| (&d.name, &d.formula, d.answers)).collect();
-            let own = [(&mistake.name, &mistake.formula(), DiagnosisScope::All)];
-            assert_eq!(names, own, "{}", mistake.name);
+            let found = report.diagnosis.iter().map(|d| (&d.name, &d.formula, d.answers, &d.at));
+            let own = [(&mistake.name, &mistake.formula(), DiagnosisScope::All, &mistake.at)];
+            assert_eq!(Vec::from_iter(found), own, "{}", mistake.name);
         }
     }
 }

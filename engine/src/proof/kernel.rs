@@ -368,8 +368,7 @@ impl Context {
             match &supposed.usage {
                 _ if supposed.hypothesis.is_none() => return None,
                 AssumptionUse::Implied => {}
-                AssumptionUse::Retained | AssumptionUse::Unused
-                    if supposed.sign != Sign::Zero && self.increases_linearly(&supposed.value, last) => {}
+                AssumptionUse::Retained if self.increases_linearly(&supposed.value, last) => {}
                 AssumptionUse::Symbol(symbol) if *symbol == last => {}
                 AssumptionUse::Pivot(pivot, by, Some(slack)) if *pivot == Monomial::of(last) => {
                     variables.push(self.increases_linearly(by, *slack).then_some(*slack)?);

@@ -232,8 +232,7 @@ pub fn pivot(
             sign.implies(*context.signs().get(x)?).then_some(pivot)
         })
     };
-    let products_last = has_errors || context.contains_rounding();
-    free.or_else(|| if products_last { signed().or_else(product) } else { product().or_else(signed) })
+    free.or_else(|| if has_errors { signed().or_else(product) } else { product().or_else(signed) })
 }
 
 /// Returns the factors m for which a symbol cancels in `value` − m `other`: an error or interval parameter

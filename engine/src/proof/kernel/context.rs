@@ -79,10 +79,6 @@ impl Context {
         })
     }
 
-    pub(in crate::proof) fn contains_rounding(&self) -> bool {
-        !self.roundings.is_empty()
-    }
-
     /// Returns 2ᵖ + 1, the reciprocal of the largest relative rounding error.
     pub(super) fn inverse_gamma(&self) -> Ratio {
         self.reduce(&Ratio::from(Poly::symbol(Symbol::Own(PRECISION)) + Poly::constant(1)))
@@ -169,8 +165,6 @@ impl Context {
                 if let Some(symbol) = as_symbol(&value) {
                     self.set_sign(symbol, sign);
                     AssumptionUse::Symbol(symbol)
-                } else if self.contains_variable_slack(&value) {
-                    AssumptionUse::Unused
                 } else if let Some((divisor, (pivot, by), slack)) = self.solve(given.as_ref(), &value, sign) {
                     divided_by = divisor;
                     self.set_sign(slack, sign);
@@ -199,15 +193,13 @@ impl Context {
         });
     }
 
-    /// Returns `true` if a quantity depends on the slack variable that replaces the variable of a limit.
-    /// Another pivot would replace that slack variable and lose its sign.
-    fn contains_variable_slack(&self, value: &Ratio) -> bool {
-        self.variable.is_some_and(|x| matches!(x, Symbol::Slack(_)) && value.symbols().contains(&x))
-    }
-
     /// Finds a pivot of a quantity, otherwise of its quotient by a positive symbol: 0 < k < 1 is
-    /// k = 1/(1 + s) with s = (1 − k)/k > 0.
+    /// k = 1/(1 + s) with s = (1 − k)/k > 0. A quantity that contains the slack variable that replaces the
+    /// variable of a limit has none: this slack variable would be replaced, too, and lose its sign.
     fn solve(&self, given: Option<&Hypothesis>, value: &Ratio, sign: Sign) -> Option<Solved> {
+        if self.variable.is_some_and(|x| matches!(x, Symbol::Slack(_)) && value.symbols().contains(&x)) {
+            return None;
+        }
         let slacks = self.assumptions.iter().filter(|s| matches!(s.usage, AssumptionUse::Pivot(..))).count();
         let slack = Symbol::Slack(slacks.try_into().ok()?);
         let pivot = |value: &Ratio| self.pivot(given, value, Some((slack, sign)));

@@ -118,7 +118,7 @@ pub enum AssumptionUse {
     Interval(Symbol, Ratio, Symbol),
     /// The quantity is retained unchanged. Multiples of it may be [subtracted](SignedRatio::less).
     Retained,
-    /// The assumption is not used.
+    /// An equation without a pivot, or an interval of a replaced quantity, which is not used.
     Unused,
 }
 

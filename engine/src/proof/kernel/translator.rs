@@ -78,34 +78,20 @@ impl<'a> Translator<'a> {
     fn collect_factors(&mut self, tree: &Tree) -> Result<(), ProofError> {
         match tree.op() {
             Op::Mul(a, b) => [a, b].into_iter().try_for_each(|factor| self.collect_factors(factor)),
-            Op::Neg(a) | Op::Div(a, _) => self.collect_factors(a),
-            Op::Rounded(a) => {
-                let value = self.context.reduce(&self.translate(a)?);
-                let (error, largest) = self.read_rounding(a, &value)?;
-                self.record_sign(&(largest + Ratio::from(Poly::symbol(error))));
-                self.collect_factors(a)
-            }
+            Op::Neg(a) | Op::Div(a, _) | Op::Rounded(a) => self.collect_factors(a),
             _ => {
-                let value = self.context.reduce(&self.translate(tree)?);
-                self.record_sign(&value);
+                let factor = self.context.reduce(&self.translate(tree)?);
+                if self.factors.iter().all(|known| known.of() != factor.num()) {
+                    self.factors.extend(sign(factor.num(), &self.context.signs));
+                }
                 Ok(())
             }
-        }
-    }
-
-    fn record_sign(&mut self, factor: &Ratio) {
-        if self.factors.iter().all(|known| known.of() != factor.num()) {
-            self.factors.extend(sign(factor.num(), &self.context.signs));
         }
     }
 
     pub(super) fn translate(&mut self, tree: &Tree) -> Result<Ratio, ProofError> {
         use Op::*;
         Ok(match tree.op() {
-            // A rounded formula gives a long polynomial, which is shorter if its symbols are reduced early.
-            Symbol(name) if self.context.contains_rounding() => {
-                self.context.reduce(&Poly::symbol(algebra::Symbol::Own(name)).into())
-            }
             Symbol(name) => Poly::symbol(algebra::Symbol::Own(name)).into(),
             Int(n) => Poly::constant(*n).into(),
             Neg(a) => -self.translate(a)?,
