@@ -133,7 +133,7 @@ impl<T: Scalar + ExactText> Report<'_, T> {
         writeln!(out)?;
         if !advice.recommendations.is_empty() {
             let names = ["method", "ε in N/m", "from", "to", "k", "p in m", "N off by"];
-            output::table(out, names, advice.recommendations.iter().map(row), &[])?;
+            output::table(out, names, advice.recommendations.iter().map(row), ..)?;
             writeln!(out)?;
         }
         if let Some(missing) = self.missing() {

@@ -7,6 +7,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 use std::fmt::Display;
 use std::io::{self, BufWriter, IsTerminal, Write};
+use std::ops::RangeBounds;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
@@ -160,16 +161,16 @@ pub fn markdown<const N: usize>(
     })
 }
 
-/// Prints a table. The columns in `unbroken` get the width they need; the others share the remaining width.
+/// Prints a table. The columns that may be broken share the width that the others leave.
 pub fn table<R: Into<Row>>(
     out: &mut dyn Write,
     names: impl Into<Row>,
     rows: impl IntoIterator<Item = R>,
-    unbroken: &[usize],
+    broken: impl RangeBounds<usize>,
 ) -> io::Result<()> {
     let mut table = empty_table();
     table.set_header(names).add_rows(rows);
-    for column in table.column_iter_mut().filter(|column| unbroken.contains(&column.index)) {
+    for column in table.column_iter_mut().filter(|column| !broken.contains(&column.index)) {
         column.set_constraint(ColumnConstraint::ContentWidth);
     }
     writeln!(out, "{}", table.trim_fmt())

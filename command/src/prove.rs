@@ -8,8 +8,8 @@ use spring_mass_contact::proof::coq::Omitted;
 use spring_mass_contact::proof::mutation::{DropOutcome, DroppedHypothesis, Mutant, MutationOutcome};
 use spring_mass_contact::proof::render::{self, ProofPrinter};
 use spring_mass_contact::proof::tightest_point;
-use spring_mass_contact::verify::coq;
 use spring_mass_contact::verify::proofs::{ProofAttempt, ProofOutcome, Proofs, Summary, prove_all};
+use spring_mass_contact::verify::{coq, reproduction};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -113,7 +113,7 @@ fn table(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
         let time = format!("{:.2}", time.as_secs_f64() * 1e3);
         [label, statement.name().to_string(), how(proved), hypotheses.join(", "), time]
     });
-    output::table(out, ["number", "claim", "how", "by hypotheses", "ms"], rows, &[0, 1, 4])?;
+    output::table(out, ["number", "claim", "how", "by hypotheses", "ms"], rows, 2..4)?;
     print_problems(out, proofs)?;
     writeln!(out)?;
     totals(out, proofs)
@@ -134,7 +134,7 @@ fn print_problems(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
                 writeln!(out, "\n{equation} {name} REFUTED")?;
                 output::wrapped(out, "  ", 4, &join_operands(&printer().claim(statement)))?;
                 output::wrapped(out, "  at ", 4, &output::join_coordinates(counterexample))?;
-                solve::command(out, &counterexample.point)?;
+                solve::command(out, reproduction(&counterexample.point))?;
             }
         }
     }

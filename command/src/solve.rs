@@ -11,13 +11,11 @@ use report::Report;
 pub use report::{rounded_in_words, state_in_words};
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::number::{Exact, ExactText, NumberSystem};
-use spring_mass_contact::proof::refute::Point;
 use spring_mass_contact::rug::Integer;
 use spring_mass_contact::solver::{
     Augmentation, Iterate, MAX_AUGMENTATIONS, Method, Outcome, Plane, Scalar, Solution, SolveError,
     exact_augmentation_count, solve_observed,
 };
-use spring_mass_contact::verify::reproduction;
 use std::io::{self, Write};
 
 const EXAMPLES: &str = "\
@@ -273,23 +271,19 @@ impl<T: Scalar + ExactText> Problem<T> {
     }
 }
 
-/// Prints the command that reproduces a counterexample, if there is one.
-pub fn command(out: &mut dyn Write, counterexample: &Point) -> io::Result<()> {
-    let reproduction = reproduction(counterexample);
-    reproduction
-        .map_or(Ok(()), |(system, method)| output::command(out, command_line(&system, &method).split(' ')))
-}
-
-fn command_line(system: &SpringMass<Exact>, method: &Method<Exact>) -> String {
+/// Prints the command that solves a problem, if there is one.
+pub fn command(out: &mut dyn Write, problem: Option<(SpringMass<Exact>, Method<Exact>)>) -> io::Result<()> {
+    let Some((system, method)) = problem else { return Ok(()) };
     let options = SpringMass::KEYS.zip(system.as_ref());
     let options = options.map(|(key, x)| format!("--{} {x}", key.replace('_', "-"))).into_array().join(" ");
-    let line = format!("contact solve --scalar exact {options} --method {}", MethodName::of(method).name());
-    match method {
+    let line = format!("contact solve --scalar exact {options} --method {}", MethodName::of(&method).name());
+    let line = match method {
         Method::Lagrange => line,
         Method::Penalty { penalty } | Method::Augmented { penalty, .. } => {
             line + &format!(" --penalty {penalty}")
         }
-    }
+    };
+    output::command(out, line.split(' '))
 }
 
 /// Returns the quantities of an iterate.
@@ -300,6 +294,7 @@ fn quantities<T>(iterate: &Iterate<T>) -> [&T; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::capture;
     use clap::{Args, FromArgMatches};
     use std::cell::RefCell;
 
@@ -320,13 +315,14 @@ mod tests {
 
     /// Every printed command parses as the system and the method it was printed for.
     #[test]
-    fn a_formatted_command_line_parses_to_the_same_options() {
+    fn a_printed_command_parses_to_the_same_options() {
         let [c, m, g, l, h, penalty] =
             ["1/3", "5", "-1/3", "-7", "2", "7"].map(|text| text.parse::<Exact>().unwrap());
         let system = SpringMass { c, m, g, l, h };
         for method in [Method::Lagrange, Method::Penalty { penalty: penalty.clone() }] {
-            let line = command_line(&system, &method);
-            let words = crate::args::join_negative_values(line.split(' ').skip(1).map(String::from));
+            let line = capture(|out| command(out, Some((system.clone(), method.clone()))));
+            let words = shlex::split(&line.replace("\\\n", "")).unwrap().into_iter().skip(1);
+            let words = crate::args::join_negative_values(words);
             let read =
                 Options::augment_args(clap::Command::new("solve")).try_get_matches_from(words).unwrap();
             let options = Options::from_arg_matches(&read).unwrap();

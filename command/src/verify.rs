@@ -5,7 +5,7 @@ use crate::{args, solve};
 use spring_mass_contact::claims::entry;
 use spring_mass_contact::number::NumberSystem;
 use spring_mass_contact::verify::claim_names;
-use spring_mass_contact::verify::{self, Report, Row, Status, Suspect};
+use spring_mass_contact::verify::{self, Report, Row, Status, Suspect, reproduction};
 use std::io::{self, Write};
 
 const EXAMPLES: &str = "\
@@ -196,8 +196,7 @@ fn counts(out: &mut dyn Write, report: &Report, ways: &[Way]) -> io::Result<()> 
         let cells = ways.iter().map(|way| cell(rows, *way));
         head.unwrap_or_default().into_iter().chain(cells).collect::<Vec<_>>()
     });
-    let unbroken: Vec<_> = [0].into_iter().chain(2..2 + ways.len()).collect();
-    output::table(out, names, rows, &unbroken)
+    output::table(out, names, rows, 1..2)
 }
 
 /// Returns the number of unproved claims.
@@ -273,7 +272,7 @@ fn failure(out: &mut dyn Write, alike: &[&Row]) -> io::Result<()> {
     }
     let Some(point) = row.point() else { return Ok(()) };
     output::wrapped(out, "  ", 2, &output::join_coordinates(&point))?;
-    solve::command(out, &point)
+    solve::command(out, reproduction(&point))
 }
 
 /// Returns the number systems of rows.

@@ -93,11 +93,6 @@ impl Mistake {
         self.in_contact.iter().chain(&self.separated).any(|formula| formula.symbols().contains("ε"))
     }
 
-    /// Returns `true` if its formulas contain k.
-    pub fn has_factor(&self) -> bool {
-        self.in_contact.iter().chain(&self.separated).any(|formula| formula.symbols().contains("k"))
-    }
-
     /// Returns the value that decides the state in place of R.
     pub fn reaction(&self, system: &SpringMass<Exact>, constants: &Constants<Exact>) -> Exact {
         let own = self.decision.as_ref().and_then(|decision| value(decision, system, constants));

@@ -8,7 +8,7 @@ use super::problems::short;
 use super::{Answer, CaseResult, Problem, Reply, Value, Verdict};
 use crate::chapter::{SpringMass, augmented, contact, system};
 use crate::number::{Ball, Exact, PositivePart, ToExact, Tree};
-use num_traits::{One, Zero};
+use num_traits::Zero;
 
 /// An answer with its problem.
 pub(super) struct Observation<'a> {
@@ -89,7 +89,7 @@ impl<'a> Observation<'a> {
     }
 
     /// Returns `true` if a program with this mistake and these constants gives this answer. Returns `false`
-    /// if it contains an unknown constant.
+    /// if it contains an unknown penalty.
     pub fn is_explained_by(
         &self,
         mistake: &Mistake,
@@ -100,7 +100,7 @@ impl<'a> Observation<'a> {
         let Observation { scales, sizes, .. } = self;
         let numbers = self.numbers();
         let Constants { penalty, factor } = *constants;
-        if penalty.is_none() && mistake.has_penalty() || factor.is_none() && mistake.has_factor() {
+        if penalty.is_none() && mistake.has_penalty() {
             return false;
         }
         // The rounding errors of the formulas in f64 are allowed; but with a penalty that is only reported,
@@ -152,9 +152,9 @@ impl<'a> Observation<'a> {
     /// Returns `true` if a program with one rounding to single precision gives this answer.
     pub fn is_explained_in_single(&self, mistake: &Mistake, tolerance: &Exact) -> bool {
         let system = &self.problem.system;
-        let formulas = mistake.formulas(system::reaction(system) > Exact::zero());
+        // The formulas are the same in both states.
         let value = |tree| value_in_single(tree, system, self.problem.penalty.as_ref());
-        self.is_near(formulas.each_ref().map(value), tolerance)
+        self.is_near(mistake.in_contact.each_ref().map(value), tolerance)
     }
 
     /// Returns `true` if a right program with these parameters gives this answer.
@@ -203,8 +203,7 @@ impl<'a> Observation<'a> {
                     "H" => h.clone(),
                     "u" => u.clone(),
                     "N" => n.clone(),
-                    // The start is arbitrary for a formula that is linear in k.
-                    "k" => Exact::one(),
+                    // k is arbitrary in a formula that is linear in it.
                     _ => self.problem.penalty.clone().unwrap_or_else(Exact::zero),
                 };
                 tree.solve_linear("k", &symbol, &Exact::zero())

@@ -321,6 +321,15 @@ fn a_force_is_written_by_its_deflection() {
     assert!(force.contains('u') && !force.contains('/'), "{formula}");
 }
 
+#[test]
+fn every_mutant_is_named_by_an_equation() {
+    let mutants = mistakes(true).iter().filter(|mistake| !mistake.at.is_empty());
+    let (named, others): (Vec<_>, Vec<_>) = mutants
+        .map(|mutant| &mutant.name)
+        .partition(|name| name.contains("as (1.") || name.contains("as note "));
+    assert!(!named.is_empty() && others.is_empty(), "{others:?}");
+}
+
 /// l + u − H of (1.5), and ε p of (1.12).
 #[test]
 fn a_mutant_is_named_by_its_equation() {

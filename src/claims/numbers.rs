@@ -121,6 +121,16 @@ mod tests {
     }
 
     #[test]
+    fn a_name_and_its_number_can_be_two_words() {
+        let numbers =
+            |words| find_entries(words).map(|all| all.iter().map(|e| e.equation).collect::<Vec<_>>());
+        assert_eq!(numbers(&["eq.", "1.13", "note", "4"]), Ok(vec!["1.13", "note 4"]));
+        for words in &[["(note", "4)"], ["", "1.13"], ["theorem", "1.13"]] {
+            assert_eq!(numbers(words), Err(words[0]));
+        }
+    }
+
+    #[test]
     fn every_entry_is_found_by_its_number_and_its_label() {
         for entry in entries() {
             assert_eq!(equation(entry.equation), Some(entry.equation));

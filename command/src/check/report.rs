@@ -35,7 +35,7 @@ pub fn table(out: &mut dyn Write, program: &str, report: &Report, tolerance: &Nu
     output::list(out, [("program", program.to_string()), ("systems", counts)])?;
     writeln!(out)?;
     let families = report.families();
-    output::table(out, NAMES, families.iter().map(|row| cells(row, &within)), &[])?;
+    output::table(out, NAMES, families.iter().map(|row| cells(row, &within)), ..)?;
     writeln!(out)?;
     writeln!(out, " u relative to |H − l| + |m g / c|, N relative to |m g| + |c (H − l)|; right:")?;
     writeln!(out, " within the rounding error of f64; within: within the tolerance.")?;

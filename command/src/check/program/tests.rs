@@ -81,6 +81,16 @@ fn garbled(reply: &Reply) -> &str {
     }
 }
 
+/// Returns the path of an executable file with this text. It is written by another process, because a file that
+/// any process has open for writing, even between fork and exec, cannot be executed.
+fn executable(name: &str, text: &str) -> String {
+    let path = std::env::temp_dir().join(format!("contact-{name}-{}", std::process::id()));
+    let write = r#"printf '%s' "$1" >"$0" && chmod 700 "$0""#;
+    let written = std::process::Command::new("sh").args(["-c", write]).arg(&path).arg(text).status();
+    assert!(written.expect("a shell").success());
+    path.display().to_string()
+}
+
 /// A named pipe, which ends with the last process that has it open.
 struct Fifo(PathBuf);
 
@@ -170,7 +180,8 @@ fn the_environment_is_passed_on() {
 #[test]
 fn a_program_that_cannot_be_started_is_bad_input() {
     in_time(|| {
-        for name in ["/no such/program", "/"] {
+        let without_format = executable("unknown", "neither a script nor a binary");
+        for name in ["/no such/program", "/", &without_format] {
             let words = [name, "x"].map(String::from);
             let Err(Failure::Input(line)) = Program::new(&words, LONG).ask(&problem("a")) else {
                 panic!("{words:?}");
@@ -185,6 +196,7 @@ fn a_program_that_cannot_be_started_is_bad_input() {
             };
             assert!(line.ends_with(must), "{line}");
         }
+        fs::remove_file(without_format).unwrap();
     });
 }
 

@@ -105,8 +105,8 @@ impl Order<'_> {
             [n, d] if n > self.shown(ratio.num()) || d > self.shown(ratio.den()) => {
                 format!("a sum of {n} terms over one of {d}")
             }
-            // The length of a formula is limited.
-            [n, _] if n > SHOWN && ratio.den().is_one() => self.text(ratio.num()),
+            _ if ratio.den().is_one() => self.text(ratio.num()),
+            // The depth of a formula is limited.
             [n, d] if n.max(d) > SHOWN => {
                 format!("({}) / ({})", self.text(ratio.num()), self.text(ratio.den()))
             }
@@ -294,6 +294,15 @@ mod tests {
             assert_eq!(order.ratio_or_size(&both), order.ratio(&both).to_string());
             let full = Order { is_full: true, ..order };
             assert_eq!(full.poly_or_size(&long), order.poly(&long).to_string());
+            let b = Poly::symbol(Symbol::Own("b"));
+            let by_symbol = ratio(&short, &b);
+            assert_eq!(full.ratio_or_size(&by_symbol), order.ratio(&by_symbol).to_string());
+            let longest = &powers(x.clone(), 32) * &powers(b.clone(), 32);
+            for (num, den) in [(&longest, &b), (&b, &longest)] {
+                let parts = [num, den].map(|part| full.text(part));
+                assert_eq!(full.ratio_or_size(&ratio(num, den)), format!("({}) / ({})", parts[0], parts[1]));
+            }
+            assert_eq!(full.ratio_or_size(&longest.clone().into()), full.text(&longest));
             for (num, den) in [(short, other(shown + 1)), (long, other(shown))] {
                 let terms = [num.terms().len(), den.terms().len()];
                 let text = order.ratio_or_size(&ratio(&num, &den));

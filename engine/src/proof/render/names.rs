@@ -248,6 +248,11 @@ mod tests {
         let said =
             reason(&limit("", of.clone(), &g, &f, Rate::Equal(of - &f)).assuming([&above_zero(&g - &f)]));
         assert!(said.contains("s₁ = g − f > 0"), "{said}");
+        // g > h is used unchanged, because f + s₁ replaces g.
+        let [h, of] = [Tree::symbol("h"), (&g - Tree::symbol("h")) * &k + &g];
+        let bounds = [&g - &f, &g - &h, &k - &f].map(above_zero);
+        let said = reason(&limit("", of.clone(), &g, &f, Rate::Equal(of - &f)).assuming(&bounds));
+        assert!(said.ends_with("where s₁ = g − f > 0 and s₂ = k − f > 0"), "{said}");
     }
 
     #[test]

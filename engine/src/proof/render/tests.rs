@@ -1,9 +1,11 @@
 //! Texts of claims and proofs.
 
 use super::*;
-use crate::formula::claim::{equal, geometric_limit, induction, non_negative, perturbed_recursion, positive};
+use crate::formula::claim::{
+    equal, geometric_limit, induction, non_negative, perturbed_recursion, positive, within,
+};
 use crate::formula::{Relation, Statement};
-use crate::number::Exponential;
+use crate::number::{Exponential, PositivePart};
 use crate::proof::prove;
 
 #[test]
@@ -62,6 +64,19 @@ fn a_function_whose_name_is_taken_is_written_out() {
     );
     assert_eq!((paper.claim(&taken), paper.names(&taken)), ("a b − c = −c + a b".into(), vec![]));
     assert_eq!(paper.proof(&prove(&taken).unwrap()), ["both sides are a b − c"]);
+
+    let less = &spring(&a, &b) - &other;
+    let [above, inside] = [
+        Hypothesis::new(Relation::Positive, less.clone()),
+        Hypothesis::between(&other, Tree::from(0), spring(&a, &b)),
+    ];
+    let claim = positive("", less);
+    let reason = prove(&claim).unwrap_err();
+    let texts = [paper.describe(&claim, &reason), paper.explain(&claim, &reason)];
+    assert_eq!(texts, ["no rule finds the sign of a b − c"; 2]);
+    assert_eq!(paper.used(&prove(&claim.clone().assuming([&above])).unwrap()), ["c < a b"]);
+    let computing = claim.assuming([&inside]).computing(&other, &a * &b);
+    assert_eq!(paper.invariants(&computing), ["0 ≤ c ≤ a b"]);
 }
 
 /// The index letter has no other meaning, and the base of a power is in brackets.
@@ -127,4 +142,142 @@ fn the_reason_for_a_failed_proof_uses_the_names_of_the_registry() {
     // It implements `Error`.
     let error: Box<dyn std::error::Error> = Box::new(reason);
     assert_eq!(error.to_string(), "the sides differ by a b");
+}
+
+/// Returns the lines of the proof of a claim, of which the names are known to be positive.
+fn lines(claim: Statement, positive: &[&Tree], in_full: bool) -> Vec<String> {
+    let given: Vec<_> = positive.iter().map(|x| Hypothesis::new(Relation::Positive, (*x).clone())).collect();
+    let paper = ProofPrinter::new(&NONE);
+    let paper = if in_full { paper.in_full() } else { paper };
+    paper.proof(&prove(&claim.assuming(&given)).unwrap())
+}
+
+/// By hand, with s₁ = 2ᵖ − 4: a / 2ᵖ − a e₁ / (2ᵖ + 1) is a (s₁ + 5 − e₁ (s₁ + 4)) / ((s₁ + 4) (s₁ + 5)).
+#[test]
+fn the_proof_of_a_rounding_bound_is_short_unless_in_full() {
+    let [a, b] = ["a", "b"].map(|name| Tree::symbol(name));
+    let bounded = |of: &Tree| within("", of.round() - of, &a / Tree::symbol(PRECISION));
+    let scale = "by 2ᵖ ≥ 4: s₁ = 2ᵖ − 4 ≥ 0, so 2ᵖ = s₁ + 4";
+    let errors = |of: &str| format!("fl(…) = … (1 + eᵢ / (2ᵖ + 1)) with |eᵢ| ≤ 1: e₁ of fl({of})");
+    let triangle = "by the triangle inequality for the errors";
+    assert_eq!(
+        lines(bounded(&a), &[&a], false),
+        [
+            &errors("a"),
+            scale,
+            &format!(
+                "the bound less it is (a s₁ + 5 a − a e₁ s₁ − 4 a e₁) / (s₁² + 9 s₁ + 20) ≥ 0, {triangle}"
+            ),
+            &format!(
+                "the bound and it is (a e₁ s₁ + 4 a e₁ + a s₁ + 5 a) / (s₁² + 9 s₁ + 20) ≥ 0, {triangle}"
+            ),
+        ]
+    );
+    assert_eq!(
+        lines(bounded(&a), &[&a], true),
+        [
+            scale,
+            &errors("a"),
+            "2ᵖ ≠ 0: s₁ + 4 > 0, term by term",
+            "the bound less it is ≥ 0:",
+            "  it is (a s₁ + 5 a − a e₁ s₁ − 4 a e₁) / (s₁² + 9 s₁ + 20)",
+            "  s₁² + 9 s₁ + 20 > 0, term by term",
+            &format!(
+                "  a s₁ + 5 a − a e₁ s₁ − 4 a e₁ > 0: {triangle} it is no less than a > 0, term by term"
+            ),
+            "the bound and it is ≥ 0:",
+            "  it is (a e₁ s₁ + 4 a e₁ + a s₁ + 5 a) / (s₁² + 9 s₁ + 20)",
+            "  s₁² + 9 s₁ + 20 > 0, term by term",
+            &format!(
+                "  a e₁ s₁ + 4 a e₁ + a s₁ + 5 a > 0: {triangle} it is no less than a > 0, term by term"
+            ),
+        ]
+    );
+    // The common part of the cases is stated once.
+    let extended = bounded(&(&a - &b).positive_part());
+    let short = lines(extended.clone(), &[&a, &b], false);
+    assert_eq!(short[..3], [&errors("⟨a − b⟩"), scale, "where a − b > 0:"]);
+    assert!(short[3..5].iter().all(|line| line.starts_with("  the bound ") && line.ends_with(triangle)));
+    assert_eq!(
+        short[5..],
+        [
+            "where a − b ≤ 0:",
+            "  the bound less it is a / (s₁ + 4) ≥ 0, term by term",
+            "  the bound and it is a / (s₁ + 4) ≥ 0, term by term",
+        ]
+    );
+    assert_eq!(lines(extended, &[&a, &b], true)[0], "case a − b > 0:");
+}
+
+/// By hand: the differences at t₁ = −1, 0 and 1, times 2 in the middle, where the square of t₁ counts as −1.
+#[test]
+fn endpoints_are_counted() {
+    let [a, b, u] = ["a", "b", "u"].map(|name| Tree::symbol(name));
+    let squares = within("", (&a - &b) * (&a - &b), &u * &u).assuming([&Hypothesis::near(&u, &a, &b)]);
+    let [_, _, less, _] = &lines(squares.clone(), &[&b, &(&a - &b)], false)[..] else { panic!("four lines") };
+    assert!(less.ends_with("by the triangle inequality for the errors, at 3 endpoints"), "{less}");
+    assert_eq!(
+        lines(squares, &[&b, &(&a - &b)], true)[3..7],
+        [
+            "  b² t₁² + 2 b² t₁ + b² + 2 b s₁ t₁ + 2 b s₁ ≥ 0, by its Bernstein form in t₁ from −1 to 1:",
+            "  0 = 0",
+            "  4 b s₁ > 0, term by term",
+            "  4 b² + 4 b s₁ > 0, term by term",
+        ]
+    );
+}
+
+#[test]
+fn cases_are_indented() {
+    let [a, b] = ["a", "b"].map(|name| Tree::symbol(name));
+    assert_eq!(
+        lines(positive("", a.min(&b)), &[&a, &b], false),
+        [
+            "case b − a > 0:",
+            "  by the case: s₁ = b − a > 0, so b = a + s₁",
+            "  min(a, b) = a by the sign of the second less the first: s₁ > 0, term by term",
+            "  a > 0, term by term",
+            "case b − a ≤ 0:",
+            "  by the case: s₁ = a − b ≥ 0, so a = b + s₁",
+            "  min(a, b) = b by the sign of the second less the first: −s₁ ≤ 0, term by term",
+            "  b > 0, term by term",
+        ]
+    );
+}
+
+/// Only a sum among the factors has a proof of its own. The multiplier of an assumption has one in full.
+#[test]
+fn the_sign_of_each_part_is_proved() {
+    let [a, b, c, u] = ["a", "b", "c", "u"].map(|name| Tree::symbol(name));
+    let (sum, square) = (&a * &b + &c, &a * &a - &a + Tree::from(1));
+    let square_lines = [
+        "4 (1) (a² + 1 − a) = (2 a − 1)² + (3), hence a² + 1 − a > 0, since",
+        "1 > 0, term by term",
+        "3 > 0, term by term",
+    ];
+    assert_eq!(
+        lines(positive("", &a * &square), &[&a], false),
+        [&["a³ + a − a² = (a) (a² + 1 − a) > 0, since"], &square_lines[..]].concat()
+    );
+    assert_eq!(
+        lines(positive("", &sum * &sum * square / &sum), &[&a, &b, &c], false)[1..],
+        [
+            &[
+                "a³ b + a² c + a b + c − a² b − a c = (a b + c) (a² + 1 − a) > 0, since",
+                "a b + c > 0, term by term"
+            ],
+            &square_lines[..]
+        ]
+        .concat()
+    );
+    let given = [Hypothesis::new(Relation::NonNegative, u.clone()), Hypothesis::near(&u, &a, &b)];
+    let doubled = non_negative("", Tree::from(2) * &u + &b).assuming(&given);
+    let kept = [
+        "by |u − a| ≤ b: u = a + b t₁, where −1 ≤ t₁ ≤ 1",
+        "it is 2 a + 2 b t₁ + b",
+        "of which 2 a + 2 b t₁ has this sign by assumption and the rest",
+    ];
+    let rest = "b > 0, term by term";
+    assert_eq!(lines(doubled.clone(), &[&b], false), [&kept[..], &[rest]].concat());
+    assert_eq!(lines(doubled, &[&b], true), [&kept[..], &["2 > 0, term by term", rest]].concat());
 }

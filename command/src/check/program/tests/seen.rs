@@ -11,7 +11,8 @@ fn a_timeout_reports_the_last_output() {
             ("read -r line; sleep 60", "nothing on stdout; it may not flush its output"),
             ("read -r line; printf '{\"id\": \"a\"}'; sleep 60", "without a line break: {\"id\": \"a\"}"),
             ("read -r line; echo one; printf 'two three'; sleep 60", "without a line break: two three"),
-            ("read -r line; printf 'o'; printf 'ne\\n'; sleep 60", "not a JSON object: one"),
+            ("read -r line; printf o; sleep 0.1; printf 'ne\\n'; sleep 60", "not a JSON object: one"),
+            ("read -r line; printf on; sleep 0.1; printf 'e two'; sleep 60", "without a line break: one two"),
         ] {
             let own = |timeout| match ask(&mut sh(script, timeout), "a") {
                 Reply::TimedOut(own) => own,
@@ -41,16 +42,8 @@ fn a_line_that_is_too_long_is_garbled() {
 #[test]
 fn a_program_that_is_gone_has_crashed() {
     in_time(|| {
-        let path = std::env::temp_dir().join(format!("contact-gone-{}", std::process::id()));
-        // Written by another process, because a file that any process has open for writing, even between fork
-        // and exec, cannot be executed.
-        let script = r##"
-        printf '%s\n' '#!/bin/sh' 'read -r line; rm -f "$0"; echo "{\"id\": \"z\"}"' >"$0"
-        chmod 700 "$0"
-    "##;
-        let written = std::process::Command::new("sh").args(["-c", script]).arg(&path).status();
-        assert!(written.expect("a shell").success());
-        let mut program = Program::new(&[path.display().to_string()], LONG);
+        let script = "#!/bin/sh\nread -r line; rm -f \"$0\"; echo '{\"id\": \"z\"}'\n";
+        let mut program = Program::new(&[executable("gone", script)], LONG);
         assert!(matches!(ask(&mut program, "a"), Reply::InvalidResponse(_)));
         let Reply::Crashed(how) = ask(&mut program, "b") else { panic!("it is still there") };
         assert!(how.starts_with("cannot be started again: "), "{how}");
