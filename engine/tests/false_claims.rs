@@ -279,6 +279,8 @@ fn slopes_and_limits() -> Vec<Row> {
         limit(name, of, &x("t"), to, rate).assuming(given.iter().copied())
     };
     let later = above_zero(&t - &a);
+    let decay = || n(1) / (&t + n(1));
+    let bounded = |name, bound: Tree| limit(name, decay(), &t, 0, Rate::Within(bound)).assuming([&time]);
     vec![
         (
             "a product rule has two terms",
@@ -296,6 +298,7 @@ fn slopes_and_limits() -> Vec<Row> {
             tends("f", &[&time], (n(2) * &t + n(1)) / (&t + n(1)), n(1)),
             tends("t", &[&time], (n(2) * &t + n(1)) / (&t + n(1)), n(2)),
         ),
+        ("the bound of a limit vanishes", bounded("f", n(1)), bounded("t", n(2) * decay())),
         (
             "a leading coefficient may be 0",
             tends("f", &[&weak_c, &time], n(1) / (n(1) + &c * &t), n(0)),
@@ -591,7 +594,7 @@ fn false_claims_are_refuted_and_not_proved() {
     let wrong: Vec<_> = wrong.collect();
     assert!(wrong.is_empty(), "{wrong:#?}");
     let premises: BTreeSet<_> = all().map(|(premise, ..)| premise).collect();
-    assert_eq!((premises.len(), all().count()), (93, 93), "each premise has one row, and none is lost");
+    assert_eq!((premises.len(), all().count()), (94, 94), "each premise has one row, and none is lost");
 }
 
 #[test]

@@ -11,7 +11,7 @@ use std::sync::Mutex;
 pub enum Rate {
     /// The distance from the limit.
     Equal(Tree),
-    /// A bound of the absolute distance from the limit.
+    /// A bound of the absolute distance from the limit, which tends to 0.
     Within(Tree),
 }
 
@@ -80,12 +80,13 @@ pub fn limit(
     rate: Rate,
 ) -> Statement {
     let (of, to) = (of.into(), to.into());
-    let distance = &of - &to;
-    let mut parts = vec![("limit", Proposition::Limit(of, name_of(by), to))];
+    let (distance, by) = (&of - &to, name_of(by));
+    let mut parts = vec![("limit", Proposition::Limit(of, by, to))];
     match rate {
         Rate::Equal(rate) => parts.push(("rate", Proposition::Equal(distance, rate))),
         Rate::Within(bound) => {
             let margin = &bound * &bound - &distance * &distance;
+            parts.push(("limit of the bound", Proposition::Limit(bound.clone(), by, Tree::from(0))));
             parts.push(("bound", Proposition::Sign(Relation::NonNegative, bound)));
             parts.push(("within the bound", Proposition::Sign(Relation::NonNegative, margin)));
         }

@@ -81,16 +81,6 @@ fn garbled(reply: &Reply) -> &str {
     }
 }
 
-/// Returns the path of an executable file with this text. It is written by another process, because a file that
-/// any process has open for writing, even between fork and exec, cannot be executed.
-fn executable(name: &str, text: &str) -> String {
-    let path = std::env::temp_dir().join(format!("contact-{name}-{}", std::process::id()));
-    let write = r#"printf '%s' "$1" >"$0" && chmod 700 "$0""#;
-    let written = std::process::Command::new("sh").args(["-c", write]).arg(&path).arg(text).status();
-    assert!(written.expect("a shell").success());
-    path.display().to_string()
-}
-
 /// A named pipe, which ends with the last process that has it open.
 struct Fifo(PathBuf);
 
@@ -174,29 +164,6 @@ fn the_environment_is_passed_on() {
         let command = ["sh", "-c", script, "sh", "$HOME *"].map(String::from);
         let reply = ask(&mut Program::new(&command, LONG), "a");
         assert_eq!(reply, Reply::Refused(words(&format!("$HOME * {}", std::env::var("PATH").unwrap()))));
-    });
-}
-
-#[test]
-fn a_program_that_cannot_be_started_is_bad_input() {
-    in_time(|| {
-        let without_format = executable("unknown", "neither a script nor a binary");
-        for name in ["/no such/program", "/", &without_format] {
-            let words = [name, "x"].map(String::from);
-            let Err(Failure::Input(line)) = Program::new(&words, LONG).ask(&problem("a")) else {
-                panic!("{words:?}");
-            };
-            assert!(
-                line.starts_with(&format!("invalid value '{name}' for '<PROGRAM>...': cannot be started: ")),
-                "{line}"
-            );
-            let must = match line.contains("No such file") {
-                true => "must be the name of a program on the PATH, or its path",
-                false => "must be an executable program; a script begins with #!",
-            };
-            assert!(line.ends_with(must), "{line}");
-        }
-        fs::remove_file(without_format).unwrap();
     });
 }
 

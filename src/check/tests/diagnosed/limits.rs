@@ -42,8 +42,8 @@ fn slight_errors_determine_no_constant() {
     assert!(report.summary().wrong == 3 && report.diagnosis.is_empty(), "{:?}", report.diagnosis);
 }
 
-/// Wrong answers for R = −6 on a scale of 14, far from the plane or near it, or for R = 0, beside right ones for
-/// R = −8.
+/// Wrong answers for R = −6 on a scale of 14, far from the plane or near it, or for R = 0, beside right ones
+/// for R = −8.
 #[test]
 fn only_separated_systems_held_at_the_plane_are_false_contacts() {
     let hung = |id: &str, g| problem(id, Family::Separated, ["1", "1", g, "0", "10"]);

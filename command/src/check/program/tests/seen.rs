@@ -1,4 +1,4 @@
-//! Messages about time-outs and lines that are too long.
+//! Messages about time-outs, lines that are too long, and programs that cannot be started.
 
 use super::*;
 
@@ -35,6 +35,39 @@ fn a_line_that_is_too_long_is_garbled() {
         );
         let mut program = sh(&format!("read -r line; {long}; {LOOP}"), LONG);
         assert_eq!(garbled(&ask(&mut program, "a")), "a line must have no more than 16777216 bytes");
+    });
+}
+
+/// Returns the path of an executable file with this text. It is written by another process, because a file
+/// that any process has open for writing, even between fork and exec, cannot be executed.
+fn executable(name: &str, text: &str) -> String {
+    let path = std::env::temp_dir().join(format!("contact-{name}-{}", std::process::id()));
+    let write = r#"printf '%s' "$1" >"$0" && chmod 700 "$0""#;
+    let written = std::process::Command::new("sh").args(["-c", write]).arg(&path).arg(text).status();
+    assert!(written.expect("a shell").success());
+    path.display().to_string()
+}
+
+#[test]
+fn a_program_that_cannot_be_started_is_bad_input() {
+    in_time(|| {
+        let without_format = executable("unknown", "neither a script nor a binary");
+        for name in ["/no such/program", "/", &without_format] {
+            let words = [name, "x"].map(String::from);
+            let Err(Failure::Input(line)) = Program::new(&words, LONG).ask(&problem("a")) else {
+                panic!("{words:?}");
+            };
+            assert!(
+                line.starts_with(&format!("invalid value '{name}' for '<PROGRAM>...': cannot be started: ")),
+                "{line}"
+            );
+            let must = match line.contains("No such file") {
+                true => "must be the name of a program on the PATH, or its path",
+                false => "must be an executable program; a script begins with #!",
+            };
+            assert!(line.ends_with(must), "{line}");
+        }
+        fs::remove_file(without_format).unwrap();
     });
 }
 
