@@ -236,16 +236,15 @@ fn powers_of_two(statement: &Statement) -> Vec<(&'static str, &'static str)> {
     own.map(|(_, power, of)| (power, of)).collect()
 }
 
-/// Returns `true` if the premises are those of the claim in the same order, preceded by those on powers of
-/// two if it contains roundings.
-fn has_same_premises(statement: &Statement, given: &[Said]) -> bool {
+/// Returns `true` if the premises of a part of the claim are those of the claim in the same order, preceded by
+/// those on powers of two if it contains roundings.
+fn has_same_premises(statement: &Statement, part: &Proposition, given: &[Said]) -> bool {
     let powers = powers_of_two(statement);
     let (first, rest) = given.split_at(powers.len().min(given.len()));
     let is_power =
         |(own, said): (&(&str, &str), &Said)| matches!(said, Said::PowerOfTwo(x, of) if (*x, *of) == *own);
     // A limit has no premises on its variable.
-    let grows =
-        |name: &str| matches!(statement.goals()[0].proposition, Proposition::Limit(_, by, _) if by == name);
+    let grows = |name: &str| matches!(part, Proposition::Limit(_, by, _) if *by == name);
     let own = statement.hypotheses().iter().filter(|own| !own.value.symbols().into_iter().any(grows));
     first.len() == powers.len() && powers.iter().zip(first).all(is_power) && are_same_premises(own, rest)
 }
@@ -330,7 +329,8 @@ fn every_theorem_states_its_claim() {
         let theorem = theorems.iter().find(|theorem| theorem.name == name).unwrap();
         assert_eq!(theorem.rounds(), statement.contains_rounding(), "{name}");
         let read = theorem.read(&functions);
-        assert!(has_same_premises(&statement, &read.given), "{name} has other premises");
+        let first = &statement.goals()[0].proposition;
+        assert!(has_same_premises(&statement, first, &read.given), "{name} has other premises");
         assert!(has_same_conclusion(&statement, &read), "{name} says something else");
         // Lemmas state the rates of limits.
         for Goal { part, proposition, .. } in
@@ -339,7 +339,7 @@ fn every_theorem_states_its_claim() {
             let name = format!("{name}_{}", part.replace(' ', "_"));
             let lemma = theorems.iter().find(|lemma| lemma.name == name).expect(&name);
             let Read { given, follows, .. } = lemma.read(&functions);
-            assert!(are_same_premises(statement.hypotheses().iter(), &given), "{name} has other premises");
+            assert!(has_same_premises(&statement, proposition, &given), "{name} has other premises");
             assert!(all_said_as(std::slice::from_ref(proposition), &follows), "{name} says something else");
         }
     }

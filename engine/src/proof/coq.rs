@@ -369,6 +369,10 @@ mod tests {
         let vanishes = |of: Tree| {
             left_out(&limit("vanishes", &of, &t, 0, Rate::Equal(of.clone())).assuming([&above[0], &above[1]]))
         };
+        let computed = limit("computed", &a / &t, &t, 0, Rate::Equal(&a / &t))
+            .assuming([&above[1], &Hypothesis::between(&a, 0, 1)])
+            .computing(&a, Tree::from(1));
+        assert_eq!(left_out(&computed).unwrap(), "a computed quantity among several goals");
         let wrong = left_out(&equal("one", &a, 1)).unwrap();
         assert!(wrong.starts_with("no proof to follow: the sides differ by a"), "{wrong}");
         assert_eq!(vanishes((-&a * &t).exp()), None);

@@ -107,6 +107,13 @@ pub fn claims() -> Vec<Statement> {
         )
         .assuming([&lens_f, &lens_g, &shorter, &larger]),
         non_negative("order-in-cases", x.round() - x.min(&y).round()),
+        non_negative("order-of-opposites", (-y.round()).round() - (-x.round()).round()).assuming([&larger]),
+        non_negative("order-by-factor", (x.round() * &c).round() - (y.round() * &c).round())
+            .assuming([&stiff_c, &larger]),
+        non_negative("order-of-products", (&x * Tree::int(3)).round() - (&y * Tree::int(2)).round())
+            .assuming([&at_least(&y), &larger]),
+        non_negative("order-of-quotients", (&x / Tree::int(2)).round() - (&y / Tree::int(3)).round())
+            .assuming([&at_least(&y), &larger]),
         non_negative("order-by-negative", ((&f - &g) * &y).round() - ((&f - &g) * &x).round())
             .assuming([&shorter, &larger]),
         // Computed one from the other.
@@ -116,6 +123,15 @@ pub fn claims() -> Vec<Statement> {
             .computing(&d, c.round()),
         // That x is between −1 and 1 does not show that it is not negative.
         non_negative("kept", x.clone()).assuming([&at_least(&x), &unit]),
+        non_negative("kept-reduced", x.clone()).assuming([
+            &at_least(&x),
+            &Hypothesis::near(&x, &a, &b),
+            &at_least(&(&a - &c)),
+        ]),
+        positive("same-sign", x.clone()).assuming([&stiff_c, &above(&(&x * &c / &c))]),
+        equal("kept-twice", x.positive_part() + y.positive_part() - x.positive_part(), y.positive_part())
+            .assuming([&stiff_a, &stiff_b, &stiff_c, &stiff_d])
+            .assuming([&Hypothesis::near(&x, &a, &b), &Hypothesis::near(&y, &c, &d)]),
         positive("kept-strictly", x.clone()).assuming([&above(&x), &unit]),
         equal("kept-bracket", x.positive_part(), x.clone()).assuming([&at_least(&x), &unit]),
         within("scale-divisor", once(&(&a / (&scale * (&g - &f)))), &a / (&scale * (&g - &f)) / &n)

@@ -270,6 +270,26 @@ fn slope_of(signed: &SignedRatio) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::formula::{Relation, claim::positive};
+    use crate::number::{Exponential, Tree};
+    use crate::proof::prove;
+
+    /// A sign by slope, one whose value at 0 is another, and one whose slope is another.
+    #[test]
+    fn slopes_are_as_many_as_the_proof_has() {
+        let [a, b] = ["a", "b"].map(|name| Tree::symbol(name));
+        let above = [&a, &b].map(|x| Hypothesis::new(Relation::Positive, x.clone()));
+        let tangent = |x: &Tree| x.exp() - x - Tree::from(1);
+        let secant = (&a + &a).exp() - Tree::from(2) * &a * a.exp() - Tree::from(1);
+        for (of, nested) in [(tangent(&a), false), (tangent(&a) + tangent(&b), true), (secant, true)] {
+            let proof = prove(&positive("", of).assuming(&above)).unwrap();
+            let Derivation::Direct(direct) = &proof.goals()[0] else { panic!("no proof in one case") };
+            let Justification::Sign(signed) = &direct.justification else { panic!("no sign") };
+            let text = ProofPrinter::new(&Registry::default()).proof(&proof).join("\n");
+            let said = text.matches("by its value at").count();
+            assert_eq!((slopes(&signed.num), said > 1), (said, nested), "{text}");
+        }
+    }
 
     #[test]
     fn blocks_are_indented_behind_their_bullets() {

@@ -164,13 +164,18 @@ impl<'a> Claim<'a> {
 
     /// States the limit; lemmas contain its rate.
     fn limit(&self, by: &'static str, goal: &Goal, rates: &[Goal]) -> Result<String> {
-        let rates = rates.iter().map(|rate| self.with_proof("Lemma", &self.lemma(rate), rate));
-        let text = rates.collect::<Result<String>>()?;
         let all = self.statement.hypotheses_for(Role::Claim);
-        let theorem = self.supposing("", all.clone(), goal.proposition.trees()).without(by);
-        let mut script = Script::of(&theorem);
-        script.limit(&theorem, &all, &goal.proposition)?;
-        Ok(text + &theorem.text("Theorem", &format_proposition(&goal.proposition, self.printer), script))
+        let tends = |keyword: &str, name: &str, of: &Proposition| {
+            let lemma = self.supposing(name, all.clone(), of.trees()).without(by);
+            let mut script = Script::of(&lemma);
+            script.limit(&lemma, &all, of)?;
+            Ok(lemma.text(keyword, &format_proposition(of, self.printer), script))
+        };
+        let rates = rates.iter().map(|rate| match &rate.proposition {
+            of @ Proposition::Limit(..) => tends("Lemma", rate.part, of),
+            _ => self.with_proof("Lemma", &self.lemma(rate), rate),
+        });
+        Ok(rates.collect::<Result<String>>()? + &tends("Theorem", "", &goal.proposition)?)
     }
 
     /// States the limit of a formula of powers of a ratio less than 1 in absolute value.

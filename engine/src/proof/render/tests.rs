@@ -66,10 +66,8 @@ fn a_function_whose_name_is_taken_is_written_out() {
     assert_eq!(paper.proof(&prove(&taken).unwrap()), ["both sides are a b − c"]);
 
     let less = &spring(&a, &b) - &other;
-    let [above, inside] = [
-        Hypothesis::new(Relation::Positive, less.clone()),
-        Hypothesis::between(&other, Tree::from(0), spring(&a, &b)),
-    ];
+    let above = Hypothesis::new(Relation::Positive, less.clone());
+    let inside = Hypothesis::between(&other, 0, spring(&a, &b));
     let claim = positive("", less);
     let reason = prove(&claim).unwrap_err();
     let texts = [paper.describe(&claim, &reason), paper.explain(&claim, &reason)];
@@ -144,7 +142,7 @@ fn the_reason_for_a_failed_proof_uses_the_names_of_the_registry() {
     assert_eq!(error.to_string(), "the sides differ by a b");
 }
 
-/// Returns the lines of the proof of a claim, of which the names are known to be positive.
+/// Returns the lines of the proof of a claim if these quantities are positive.
 fn lines(claim: Statement, positive: &[&Tree], in_full: bool) -> Vec<String> {
     let given: Vec<_> = positive.iter().map(|x| Hypothesis::new(Relation::Positive, (*x).clone())).collect();
     let paper = ProofPrinter::new(&NONE);
