@@ -18,7 +18,10 @@
 //!    coefficients (Bernstein form). In degree one the coefficients are its values at the ends.
 
 use super::algebra::{Monomial, Number, Poly, Ratio, Symbol};
+use super::effort;
+use rug::{Complete, Integer, Rational};
 use std::collections::BTreeMap;
+use std::iter;
 use std::sync::Arc;
 
 /// The sign of a value x that may depend on symbols.
@@ -293,22 +296,22 @@ fn numerator(of: &Ratio, known: &Arc<SignEnv>) -> Option<Poly> {
 /// Returns the coefficients bᵢ for which a polynomial of degree n in x is Σ bᵢ aⁱ (1 − a)ⁿ⁻ⁱ, where
 /// a = (1 + x)/2.
 ///
-/// They follow from xᵏ = (a − (1 − a))ᵏ (a + (1 − a))ⁿ⁻ᵏ.
+/// They follow from xᵏ = (a − (1 − a))ᵏ and, for those of lower degree, from 1 = a + (1 − a).
 fn bernstein(of: &Poly, x: Symbol) -> Vec<Poly> {
-    let degree = of.degree(x) as usize;
-    let times = |factors: &[i32], by: i32| -> Vec<i32> {
-        let shifted = [0].iter().chain(factors);
-        factors.iter().chain(&[0]).zip(shifted).map(|(low, high)| by * low + high).collect()
-    };
-    // The coefficients of aⁱ (1 − a)ⁿ⁻ⁱ in xᵏ.
-    let factors = |k: usize| {
-        let minus = (0..k).fold(vec![1], |all, _| times(&all, -1));
-        (k..degree).fold(minus, |all, _| times(&all, 1))
-    };
-    (0..=degree).fold(vec![Poly::zero(); degree + 1], |sums, k| {
-        let coefficient = of.coefficient(x, k as u32);
-        sums.iter().zip(factors(k)).map(|(sum, n)| sum + &coefficient * Poly::constant(n)).collect()
+    let zero = Poly::zero();
+    (0..=of.degree(x)).fold(Vec::new(), |sums: Vec<Poly>, k| {
+        effort::spend(1 + k as usize);
+        let coefficient = of.coefficient(x, k);
+        let shifted = iter::once(&zero).chain(&sums);
+        let sums = sums.iter().chain([&zero]).zip(shifted).zip(0..);
+        sums.map(|((low, high), i)| low + high + &coefficient * power_coefficient(k, i)).collect()
     })
+}
+
+/// Returns the coefficient of aⁱ bᵏ⁻ⁱ in (a − b)ᵏ.
+fn power_coefficient(k: u32, i: u32) -> Poly {
+    let sign = if (k - i).is_multiple_of(2) { 1 } else { -1 };
+    Poly::constant(Number::from(Rational::from(sign * Integer::binomial_u(k, i).complete())))
 }
 
 #[cfg(test)]
@@ -403,5 +406,23 @@ mod tests {
         let of = |x| Certificate::endpoints(&(two() + Poly::symbol(x)), x, &known, &Certificate::termwise);
         assert!(of(Symbol::Place(0)).is_some() && of(Symbol::Error(3)).is_some());
         assert!(of(Symbol::Own("e₁")).is_none() && of(Symbol::Slack(0)).is_none());
+    }
+
+    /// (1 − x²)¹⁶ (1 + x²) = 4¹⁶ a¹⁶ (1 − a)¹⁶ 2 (a² + (1 − a)²), whose coefficients 2³³ exceed 32 bits.
+    #[test]
+    fn rule_6_is_exact_for_large_coefficients() {
+        let x = Symbol::Place(0);
+        let of_square = |n| Poly::constant(1) + Poly::constant(n) * Poly::symbol(x) * Poly::symbol(x);
+        let of = (0..16).fold(of_square(1), |product, _| product * of_square(-1));
+        let large = || Number::from(Rational::from(1_u64 << 33));
+        for (i, coefficient) in bernstein(&of, x).into_iter().enumerate() {
+            let expected = if [16, 18].contains(&i) { Poly::constant(large()) } else { Poly::zero() };
+            assert_eq!(coefficient, expected, "of power {i}");
+        }
+        let known = Arc::new(SignEnv::new());
+        let sign = |of: &Poly| {
+            Certificate::endpoints(of, x, &known, &Certificate::termwise).map(|found| found.sign())
+        };
+        assert_eq!([sign(&of), sign(&-of)], [Some(NonNegative), Some(NonPositive)]);
     }
 }
