@@ -5,11 +5,9 @@
 //! even, which is one possible choice.
 
 mod recursion;
-mod sign_mutants;
 
 use super::coqc::code;
 pub use recursion::Recursion;
-pub use sign_mutants::sign_mutants;
 use spring_mass_contact::number::tree::{Op, piecewise_ops};
 use spring_mass_contact::number::{Dual, Exact, Exponential, Field, PositivePart, Tree};
 use std::collections::{BTreeMap, BTreeSet};
