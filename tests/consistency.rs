@@ -1,6 +1,5 @@
 //! Consistency of the chapter's data, functions, claims and documentation, with instructions on failure. No
 //! check passes because it found nothing.
-#![cfg(feature = "prover")]
 
 use spring_mass_contact::claims::{Entry, claims, entries, entry, hypotheses, registry};
 use spring_mass_contact::number::NumberSystem;
@@ -11,6 +10,7 @@ use spring_mass_contact::verify::{
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 /// A public function or struct of the chapter, with its documentation.
 struct Item {
@@ -22,8 +22,7 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// The packed crate contains neither the seeded faults nor the book's tool, and has cargo's copy of its
-/// manifest.
+/// Returns `true` in the packed crate, which has cargo's copy of its manifest, and of the book only the pages.
 fn is_packed() -> bool {
     root().join("Cargo.toml.orig").exists()
 }
@@ -75,19 +74,6 @@ fn functions() -> Vec<Item> {
 fn assert_none(problems: impl IntoIterator<Item = String>) {
     let problems: Vec<_> = problems.into_iter().collect();
     assert!(problems.is_empty(), "\n{}", problems.join("\n"));
-}
-
-#[test]
-fn every_equation_of_the_chapter_has_an_entry_and_claims() {
-    assert_none((1..=33).map(|n| format!("1.{n}")).filter_map(|number| {
-        if entry(&number).is_none() {
-            Some(format!("({number}) has no entry: add it to its section's file in src/claims"))
-        } else if claim_names(&number).is_empty() {
-            Some(format!("({number}) has no claim: add one by `.claims([…])` to its entry"))
-        } else {
-            None
-        }
-    }));
 }
 
 #[test]
@@ -175,9 +161,8 @@ fn the_book_shows_every_function() {
 
 #[test]
 fn every_claim_has_an_entry_and_a_unique_name() {
-    let report = verify(&Options { cases: 1, ..Options::default() }, &|_, _| ());
     let mut rows = BTreeSet::new();
-    for row in &report.rows {
+    for row in &REPORT.rows {
         let what = format!("{} {}", row.equation, row.claim);
         assert!(entry(row.equation).is_some(), "{what}: src/claims has no entry of this number");
         assert!(
@@ -301,40 +286,6 @@ fn every_placeholder_of_an_entry_is_replaced() {
     }
 }
 
-/// Returns the claims of a section's source, without the list of its formulas.
-fn claimed(section: &str) -> String {
-    let text = source(&format!("src/claims/{section}.rs"));
-    let list = text.split_once("formulas! {").and_then(|(_, rest)| rest.split_once("\n}"));
-    // The list of formulas contains no claims.
-    assert!(
-        list.is_some() == modules().iter().any(|m| m == section),
-        "the list of {section}.rs is not found"
-    );
-    list.map_or(text.clone(), |(list, _)| text.replace(list, ""))
-}
-
-#[test]
-fn every_function_occurs_in_a_claim() {
-    let sections = modules().into_iter().chain(["notes", "hypotheses"].map(String::from));
-    let mut texts: BTreeMap<String, String> = sections.map(|name| (name.clone(), claimed(&name))).collect();
-    texts.insert("experiments".to_string(), source("src/verify/experiments.rs"));
-    let is_part_of_name = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
-    let is_unclaimed = |Item { path, .. }: &Item| {
-        let (module, name) = path.split_once("::").unwrap();
-        // In its own section a function is called by its name alone.
-        let own = format!("{name}(");
-        let mut by_name = texts[module].match_indices(&own);
-        let by_name = by_name.any(|(i, _)| !texts[module][..i].ends_with(is_part_of_name));
-        !by_name && !texts.values().any(|text| text.contains(&format!("{path}(")))
-    };
-    assert_none(functions().into_iter().filter(is_unclaimed).map(|Item { path, .. }| {
-        format!(
-            "no claim contains {path}: call it in `.claims([…])` of the entry that names it, in src/claims, or in \
-             src/verify/experiments.rs"
-        )
-    }));
-}
-
 #[test]
 fn no_formula_is_written_twice() {
     let mut bodies: BTreeMap<String, String> = BTreeMap::new();
@@ -363,65 +314,46 @@ fn no_formula_is_written_twice() {
     assert_eq!(seen, functions().len(), "functions scanned, all functions");
 }
 
-/// Asserts the status of every claim; the others are named with the command that shows them.
-fn assert_all(report: &Report, otherwise: &str, has_status: impl Fn(Status) -> bool) {
-    let problems = report.rows.iter().filter(|row| !has_status(row.status)).map(|row| {
-        let Row { equation, claim, status, scalar, .. } = row;
-        let method = scalar.map_or("the proof".to_string(), |scalar| scalar.to_string());
-        format!("{equation} {claim}: {status} in {method}: cargo run --release -- verify '{equation}'")
-    });
-    let problems: Vec<_> = problems.collect();
-    assert!(problems.is_empty(), "claims {otherwise}: {problems:#?}");
-    assert!(report.rows.len() > 4 * entries().len(), "only {} rows", report.rows.len());
-}
+/// Cases of every claim in five number systems.
+static REPORT: LazyLock<Report> = LazyLock::new(|| {
+    use NumberSystem::{Exact, F32, F64, Mpfr};
+    let scalars = vec![F32, F64, Mpfr(24), Mpfr(777), Exact];
+    verify(&Options { scalars, cases: 100, seed: 7, equations: vec![] }, &|_, _| ())
+});
 
 #[test]
 fn every_claim_holds_in_every_number_system() {
-    let scalars = vec![
-        NumberSystem::F32,
-        NumberSystem::F64,
-        NumberSystem::Mpfr(24),
-        NumberSystem::Mpfr(777),
-        NumberSystem::Exact,
-    ];
-    for seed in [7, 99] {
-        let report =
-            verify(&Options { scalars: scalars.clone(), cases: 50, seed, equations: vec![] }, &|_, _| ());
-        assert_all(&report, "that are not proved or do not hold", |status| {
-            matches!(status, Status::Proved | Status::Held)
-        });
-        for n in 1..=33 {
-            let number = format!("1.{n}");
-            for scalar in &scalars[..4] {
-                let found =
-                    report.rows.iter().any(|row| row.equation == number && row.scalar == Some(*scalar));
-                assert!(
-                    found,
-                    "({number}) has no claim in {scalar}: add a claim without rounding to its entry"
-                );
-            }
-        }
-    }
+    let failed = REPORT.rows.iter().filter(|row| !matches!(row.status, Status::Proved | Status::Held));
+    assert_none(failed.map(|Row { equation, claim, status, scalar, .. }| {
+        let method = scalar.map_or("the proof".to_string(), |scalar| scalar.to_string());
+        format!("{equation} {claim}: {status} in {method}: cargo run --release -- verify '{equation}'")
+    }));
+    assert!(REPORT.rows.len() > 4 * entries().len(), "only {} rows", REPORT.rows.len());
 }
 
+/// A claim with roundings is checked in floats only.
 #[test]
-fn by_default_every_claim_is_decided_in_every_number_system() {
-    let report = verify(&Options::default(), &|_, _| ());
-    assert_all(&report, "that fail or are undecided", |status| {
-        !matches!(status, Status::Undecided | Status::Failed)
-    });
-    assert!(report.is_decided() && report.holds());
+fn every_equation_of_the_chapter_has_a_proof_and_holds_in_all_floats() {
+    let known: BTreeSet<_> =
+        REPORT.rows.iter().map(|row| (row.equation, row.scalar.map(|scalar| scalar.to_string()))).collect();
+    let systems = ["f32", "f64", "mpfr:24", "mpfr:777"].map(String::from).map(Some);
+    let wanted = (1..=33).map(|n| format!("1.{n}"));
+    assert_none(wanted.flat_map(|number| {
+        let is_missing = |system: &&Option<String>| !known.contains(&(number.as_str(), (*system).clone()));
+        let missing: Vec<_> = [None].iter().chain(&systems).filter(is_missing).collect();
+        let problem =
+            format!("({number}) has no claim in {missing:?}: add one by `.claims([…])` to its entry");
+        (!missing.is_empty()).then_some(problem)
+    }));
 }
 
+/// If bounds were far too wide, the claims would be vacuous.
 #[test]
 fn rounding_errors_attain_a_good_part_of_their_bounds() {
-    // If bounds were far too wide, the claims would be vacuous.
-    let options = Options { scalars: vec![NumberSystem::F64], cases: 200, ..Options::default() };
-    let report = verify(&options, &|_, _| ());
-    let measured: Vec<_> =
-        report.rows.iter().filter(|row| row.kind == "equal" && row.scalar.is_some()).collect();
-    let tight =
-        measured.iter().filter(|row| row.worst.as_ref().is_some_and(|(ratio, _)| *ratio > 0.05)).count();
+    let is_measured = |row: &&Row| row.kind == "equal" && row.scalar == Some(NumberSystem::F64);
+    let measured: Vec<_> = REPORT.rows.iter().filter(is_measured).collect();
+    let is_tight = |row: &&&Row| row.worst.as_ref().is_some_and(|(ratio, _)| *ratio > 0.05);
+    let tight = measured.iter().filter(is_tight).count();
     assert!(2 * tight > measured.len(), "{tight} of {} claims use 5 % of their bound", measured.len());
 }
 
@@ -434,285 +366,6 @@ fn files(folder: &str) -> Vec<String> {
         if entry.path().is_dir() { files(&path) } else { vec![path] }
     };
     entries.flat_map(of).collect()
-}
-
-/// Returns the files of the library, the engine and the command in one of their folders. The packed crate has
-/// only its own.
-fn of_all(folder: &str) -> Vec<String> {
-    let others = if is_packed() { [].as_slice() } else { &["engine", "command"] };
-    let others = others.iter().flat_map(|package| files(&format!("{package}/{folder}")));
-    files(folder).into_iter().chain(others).collect()
-}
-
-/// A file without a `mod` is never compiled, and its tests never fail.
-#[test]
-fn every_file_belongs_to_a_module() {
-    let (mut paths, tests) = (of_all("src"), of_all("tests"));
-    // What stands beside a `main.rs` belongs to its target.
-    let targets: Vec<_> = tests.iter().filter_map(|path| path.strip_suffix("main.rs")).collect();
-    paths.extend(tests.iter().filter(|path| targets.iter().any(|target| path.starts_with(target))).cloned());
-    let modules = paths.iter().filter_map(|path| path.strip_suffix("/mod.rs").or(path.strip_suffix(".rs")));
-    let modules: Vec<_> =
-        modules.filter(|path| !["/lib", "/main"].iter().any(|end| path.ends_with(end))).collect();
-    // The packed crate has neither the engine's nor the command's.
-    assert!(modules.len() > if is_packed() { 60 } else { 150 }, "the scan finds {} modules", modules.len());
-    assert_none(modules.into_iter().filter_map(|path| {
-        let (folder, name) = path.rsplit_once('/')?;
-        let parents = [".rs", "/mod.rs", "/lib.rs", "/main.rs"].map(|end| format!("{folder}{end}"));
-        let declares = |path: &String| {
-            let text = fs::read_to_string(root().join(path)).unwrap_or_default();
-            text.lines().any(|line| !line.starts_with("//") && line.ends_with(&format!("mod {name};")))
-        };
-        (!parents.iter().any(declares)).then(|| format!("{path}: say `mod {name};` in one of {parents:?}"))
-    }));
-}
-
-/// An untested number system could compute anything.
-#[test]
-fn every_number_system_is_tested_for_the_laws() {
-    if is_packed() {
-        return eprintln!("the number systems are in another crate");
-    }
-    let text = |folder: &str| files(folder).iter().map(|path| source(path)).collect::<String>();
-    let (numbers, laws) = (text("engine/tests/numbers"), source("tests/solver/laws.rs"));
-    let ours = text("engine/src/number") + &source("src/solver/exact/scalar.rs");
-    let name = |rest: &str| rest.split(['<', ' ', ';']).next().unwrap_or_default().to_string();
-    let implementing = |what: &str| -> BTreeSet<String> {
-        let implemented = ours.lines().filter(|line| line.starts_with("impl"));
-        implemented.filter_map(|line| Some(name(line.split_once(what)?.1))).collect()
-    };
-    let (fields, scalars) = (implementing(" Field for "), implementing(" Scalar for "));
-    assert!(fields.len() > 4 && !scalars.is_empty(), "{fields:?} {scalars:?}");
-    let mut tried: BTreeSet<_> =
-        numbers.lines().filter_map(|line| line.trim().strip_prefix("type Number = ").map(name)).collect();
-    tried.insert("Tree".to_string()); // a formula, not a number
-    let held: BTreeSet<_> = laws.split(|c: char| !c.is_alphanumeric()).map(String::from).collect();
-    let untried = fields.difference(&tried);
-    let untried = untried.map(|field| format!("{field}: no `type Number = {field}` in engine/tests/numbers"));
-    let lawless = scalars.difference(&held).map(|scalar| format!("{scalar}: not in tests/solver/laws.rs"));
-    assert_none(untried.chain(lawless));
-}
-
-#[test]
-fn no_line_of_the_source_has_more_than_110_characters() {
-    let files = of_all("src");
-    assert!(files.len() > 70, "the scan of src finds {} files", files.len());
-    assert_none(files.iter().flat_map(|path| {
-        // rustfmt breaks code, but neither strings nor comments.
-        let text = source(path);
-        let long = text.lines().zip(1..).filter(|(line, _)| line.chars().count() > 110);
-        let problem =
-            |(line, number)| format!("{path}:{number} has more than 110 characters; break it: {line}");
-        long.map(problem).collect::<Vec<_>>()
-    }));
-}
-
-#[test]
-fn no_file_of_the_source_has_more_than_450_lines() {
-    for path in of_all("src") {
-        let lines = source(&path).lines().count();
-        assert!(lines <= 450, "{path} has {lines} lines, more than 450: split it");
-    }
-}
-
-/// First words of documentation that does not name its subject.
-const WEAK_OPENINGS: [&str; 13] =
-    ["What", "How", "Where", "Which", "Why", "Who", "So", "Those", "Does", "Is", "Are", "May", "Can"];
-
-/// Names that were replaced by standard terms.
-const RETIRED_NAMES: [&str; 24] = [
-    "Why",
-    "How",
-    "Says",
-    "Given",
-    "Paper",
-    "Supposed",
-    "Because",
-    "Inexact",
-    "LeftOut",
-    "Flip",
-    "Needless",
-    "within_reach",
-    "augmentations_promised",
-    "augmentations_needed",
-    "bits_needed",
-    "underflow_unit",
-    "enlarged",
-    "mistaken_for",
-    "supposed",
-    "told",
-    "amiss",
-    "take_in",
-    "needless",
-    "is_unit",
-];
-
-/// The documentation begins with a statement, and retired names are not declared again.
-#[test]
-fn documentation_and_names_are_plain() {
-    let mut blocks = 0;
-    let mut problems = Vec::new();
-    for path in of_all("src").iter().filter(|path| path.ends_with(".rs")) {
-        let text = source(path);
-        let doc = |line: &str| {
-            let line = line.trim_start();
-            let rest = line.strip_prefix("///").or_else(|| line.strip_prefix("//!"))?;
-            Some(rest.trim().to_string())
-        };
-        let lines: Vec<_> = text.lines().collect();
-        for (i, line) in lines.iter().enumerate() {
-            let at = format!("{path}:{}", i + 1);
-            if let Some(first) = doc(line).filter(|_| i == 0 || doc(lines[i - 1]).is_none()) {
-                blocks += 1;
-                let paragraph = lines[i..].iter().map_while(|line| doc(line).filter(|line| !line.is_empty()));
-                let word = first.split_whitespace().next().unwrap_or_default();
-                if WEAK_OPENINGS.contains(&word) {
-                    problems.push(format!("{at}: the documentation begins with {word:?}; name its subject"));
-                }
-                if paragraph.last().is_some_and(|last| last.ends_with('?')) {
-                    problems.push(format!("{at}: the documentation is a question; state the answer"));
-                }
-            }
-            let words: Vec<_> = line.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
-            let declared = words.windows(2).filter(|pair| {
-                ["fn", "struct", "enum", "trait", "type", "const", "mod", "let"].contains(&pair[0])
-            });
-            for name in declared.map(|pair| pair[1]).filter(|name| RETIRED_NAMES.contains(name)) {
-                problems.push(format!("{at}: {name} is a retired name"));
-            }
-        }
-    }
-    assert!(blocks > 1000, "the scan of src finds {blocks} blocks of documentation");
-    assert_none(problems);
-}
-
-#[test]
-fn every_seeded_fault_applies() {
-    if is_packed() {
-        return eprintln!("the seeded faults are only in the repository");
-    }
-    // A patch whose context is not found would change nothing.
-    for name in patches() {
-        let patch = format!("tests/seeded_faults/{name}.patch");
-        let text = source(&patch);
-        let files: Vec<_> = text.lines().filter_map(|line| line.strip_prefix("--- a/")).collect();
-        let [file] = files[..] else { panic!("{patch} edits {} files, and must edit one", files.len()) };
-        let file = file.split('\t').next().unwrap();
-        let target = source(file);
-        let hunks: Vec<_> =
-            text.split("\n@@ ").skip(1).map(|hunk| hunk.split_once('\n').unwrap().1).collect();
-        assert!(!hunks.is_empty(), "{patch} edits nothing");
-        for hunk in hunks {
-            let before = hunk.lines().filter(|line| !line.starts_with('+') && !line.starts_with('\\'));
-            let before: Vec<_> = before.map(|line| line.get(1..).unwrap_or("")).collect();
-            assert!(
-                target.contains(&before.join("\n")),
-                "{patch} no longer applies to {file}: make the same mistake by hand, and write the patch with \
-                 `git diff {file} > {patch}`"
-            );
-        }
-    }
-}
-
-/// Returns the names of the seeded faults.
-fn patches() -> BTreeSet<String> {
-    let names = files("tests/seeded_faults").into_iter();
-    let names = names
-        .filter_map(|path| Some(path.strip_suffix(".patch")?["tests/seeded_faults/".len()..].to_string()));
-    let names: BTreeSet<_> = names.collect();
-    assert!(names.len() > 100, "the scan of tests/seeded_faults finds {} patches", names.len());
-    names
-}
-
-/// `tests/seeded_faults/run` records which test detects which fault.
-#[test]
-fn every_seeded_fault_is_detected_by_an_existing_test() {
-    if is_packed() {
-        return eprintln!("the seeded faults are only in the repository");
-    }
-    let (patches, mut detected) = (patches(), BTreeSet::new());
-    let text = of_all("src").into_iter().chain(of_all("tests")).chain(files("book/tool")).collect::<Vec<_>>();
-    let text: Vec<_> =
-        text.iter().filter(|path| path.ends_with(".rs")).map(|path| (path, source(path))).collect();
-    let listed = source("tests/seeded_faults/detected_by");
-    for line in listed.lines() {
-        let [name, target, test] = line.splitn(3, ' ').collect::<Vec<_>>()[..] else { panic!("{line}") };
-        let again = format!("tests/seeded_faults/run tests/seeded_faults/{name}.patch");
-        assert!(
-            patches.contains(name),
-            "tests/seeded_faults/detected_by has {name}, which is not a patch: remove its lines"
-        );
-        if target == "-" {
-            continue;
-        }
-        detected.insert(name.to_string());
-        // An example in the docs is named by its file, and an aborted run has no name; a test that is generated
-        // for several number systems is a module.
-        let (module, function) = test.rsplit_once("::").unwrap_or(("", test));
-        let (function, module) = (format!("fn {function}("), module.rsplit("::").next().unwrap());
-        let is_of_target = |path: &str| match target {
-            "lib" => path.starts_with("src/"),
-            "provable" => path.starts_with("engine/src/"),
-            "bin" => path.starts_with("command/src/"),
-            _ => [format!("tests/{target}.rs"), format!("tests/{target}/")]
-                .iter()
-                .any(|own| path.contains(own)),
-        };
-        let written = |name: &str| text.iter().any(|(path, text)| is_of_target(path) && text.contains(name));
-        let exists = ["doc", "book-tool"].contains(&target)
-            || test == "(no result)"
-            || written(&function)
-            || written(&format!("fn {module}<"))
-            || written(&format!("fn {module}("));
-        assert!(
-            exists,
-            "tests/seeded_faults/detected_by: {name} is detected by {test}, which is not a test of {target}: {again}"
-        );
-    }
-    let missing: Vec<_> = patches.difference(&detected).collect();
-    assert!(
-        missing.is_empty(),
-        "`tests/seeded_faults/run --first` adds {missing:?} to tests/seeded_faults/detected_by, or finds that no test \
-         detects them"
-    );
-}
-
-/// Every target that could detect a mistake belongs to a layer.
-#[test]
-fn every_test_target_has_a_layer() {
-    if is_packed() {
-        return eprintln!("the seeded faults are only in the repository");
-    }
-    let run = source("tests/seeded_faults/run");
-    let map = run.split_once("\nlayers='").and_then(|(_, rest)| rest.split_once('\'')).unwrap().0;
-    let listed: BTreeSet<_> = map.lines().filter_map(|line| line.split_whitespace().next()).collect();
-    let mut seen = 0;
-    for path in of_all("tests").into_iter().chain(files("book/tool/tests")) {
-        let path = ["book/tool/", "engine/", "command/"]
-            .iter()
-            .fold(path.as_str(), |path, of| path.trim_start_matches(of));
-        let path = path.trim_start_matches("tests/");
-        let target = path.strip_suffix("/main.rs").or(path.strip_suffix(".rs"));
-        if let Some(target) = target.filter(|target| !target.contains('/')) {
-            assert!(
-                listed.contains(target),
-                "tests/seeded_faults/run: the list `layers` lacks the target {target}"
-            );
-            seen += 1;
-        }
-    }
-    assert!(seen > 20, "the scan finds {seen} targets");
-    // The targets that `--first` prefers for a file are listed as well.
-    let preferred = run.split_once("\nclosest() {").and_then(|(_, rest)| rest.split_once("\n}")).unwrap().0;
-    let preferred: Vec<_> =
-        preferred.split(") echo ").skip(1).filter_map(|line| line.split(' ').next()).collect();
-    assert!(preferred.len() > 2, "{preferred:?}");
-    for target in preferred {
-        assert!(
-            listed.contains(target),
-            "tests/seeded_faults/run: `closest` prefers {target}, which the list `layers` lacks"
-        );
-    }
 }
 
 /// Returns the pages of the book.

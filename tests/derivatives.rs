@@ -1,15 +1,12 @@
 //! The chapter in dual numbers: its derivatives are exact in rationals, and within the rounding errors in
 //! floats.
-#![cfg(feature = "mpfr")]
 
-mod strategies;
-
+use crate::strategies::{NARROW, exact, nonzero, number, positive};
 use num_traits::{One, Zero};
 use proptest::prelude::*;
 use spring_mass_contact::chapter::{SpringMass, augmented, contact, penalty, structure, system};
 use spring_mass_contact::number::{Ball, Dual, Exact, Field, PositivePart, ToExact};
 use spring_mass_contact::solver::{Augmentation, Plane};
-use strategies::{NARROW, exact, nonzero, number, positive};
 
 /// A system and a penalty for which every divisor in the chapter is positive.
 fn systems() -> impl Strategy<Value = (SpringMass<Exact>, Exact)> {

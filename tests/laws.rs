@@ -1,6 +1,5 @@
 //! Laws of rounding compared with floats: they hold, they are nearly attained, and stronger statements are
 //! refuted.
-#![cfg(feature = "prover")]
 
 use proptest::prelude::*;
 use spring_mass_contact::chapter::{augmented, contact, penalty, system};
@@ -272,7 +271,7 @@ fn records_round_as_floats_do<T: ToExact + Clone>(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 100, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
     /// No radius of a ball is smaller than the proved bound.
     #[test]

@@ -1,6 +1,6 @@
 //! Mutation tests of the proofs: false statements are detected, and not proved.
-#![cfg(feature = "prover")]
 
+use crate::strategies::is_deep;
 use rayon::prelude::*;
 use spring_mass_contact::claims::{hypotheses, registry, statements};
 use spring_mass_contact::formula::claim::PRECISION;
@@ -88,17 +88,24 @@ fn weakened(statement: &Statement, hypothesis: &Hypothesis) -> Option<Statement>
     Some(statement.clone().only_assuming(&hypotheses))
 }
 
-/// Returns every statement near a claim: with a mutation of the source, or with a hypothesis dropped or
-/// weakened.
+/// Of how many mutants of a statement one is audited: a quarter finds some hundreds of each kind, and drifts take
+/// seven times as long as other claims.
+fn sample_step(statement: &Statement) -> usize {
+    match statement.kind() {
+        _ if is_deep() => 1,
+        "drift" => 28,
+        _ => 4,
+    }
+}
+
+/// Returns the statements near a claim: with a mutation of the source, or with a hypothesis dropped or weakened.
 fn neighbours(statements: &[Statement]) -> Vec<(String, Statement)> {
     let mutants = mutants(statements, registry());
     let near = |s: &Statement| {
         let name = format!("{} {}", s.equation(), s.name());
         let near: Vec<_> =
             mutants.iter().filter_map(|c| Some((format!("{name} after {c}"), c.apply(s)?))).collect();
-        // Of what takes long, some.
-        let every = if s.kind() == "drift" { 7 } else { 1 };
-        let mut near: Vec<_> = near.into_iter().step_by(every).collect();
+        let mut near: Vec<_> = near.into_iter().step_by(sample_step(s)).collect();
         for given in s.hypotheses() {
             near.push((format!("{name} without {given}"), s.without(given)));
             near.extend(weakened(s, given).map(|weaker| (format!("{name} with {given} or = 0"), weaker)));
@@ -138,7 +145,7 @@ fn refuted_variants_are_not_proved() {
     });
     let add = |a: [usize; 3], b: [usize; 3]| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
     let [planted, raw, proved] = audited.reduce(|| [0; 3], add);
-    assert!(planted > 1000 && raw > 1000 && proved > 100, "{planted} planted, {raw} raw; {proved} proved");
+    assert!(planted > 300 && raw > 300 && proved > 100, "{planted} planted, {raw} raw; {proved} proved");
 }
 
 #[test]

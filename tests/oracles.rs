@@ -11,10 +11,7 @@
 //! - R² = 4.81² = 23.1361, so min Π_p = −0.3655 − 23.1361/400 = −0.42334025.
 //! - Augmented: λ = 0, 2.405, 3.6075 and p = 0.02405, 0.012025, 0.0060125, by halving.
 
-#![cfg(feature = "mpfr")]
-
-mod strategies;
-
+use crate::strategies::int;
 use num_dual::{Dual64, DualNum};
 use num_traits::{One, Zero};
 use proptest::prelude::*;
@@ -24,7 +21,6 @@ use spring_mass_contact::chapter::{
 use spring_mass_contact::number::{Exact, Exponential, Field, Mpfr, PositivePart, ToExact};
 use spring_mass_contact::operators;
 use spring_mass_contact::solver::{Method, Plane, exact_augmentation_count, penalty_for_penetration, solve};
-use strategies::int;
 
 fn q(text: &str) -> Exact {
     text.parse().unwrap()

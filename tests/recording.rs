@@ -1,6 +1,5 @@
 //! A record equals its function: in every number system the compiled function, its evaluated record, and runs
 //! of its program return the same bits. Everything based on records relies on this.
-#![cfg(feature = "prover")]
 
 use num_traits::{One, Zero};
 use proptest::prelude::*;
@@ -155,7 +154,7 @@ fn rationals() -> impl Strategy<Value = Exact> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn records_agree_in_f32(at in numbers(singles()), varying in some_symbols()) {

@@ -1,6 +1,7 @@
 //! The text of a formula, parsed independently, has the value of its tree.
-#![cfg(feature = "prover")]
 
+use crate::proofs::proofs;
+use crate::strategies::is_deep;
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use rayon::prelude::*;
@@ -13,8 +14,8 @@ use spring_mass_contact::formula::statement::{Role, Sequence};
 use spring_mass_contact::formula::{Formula, Hypothesis, Proposition, Rate, Registry, Relation, Statement};
 use spring_mass_contact::number::tree::{Op, piecewise_ops};
 use spring_mass_contact::number::{Exact, Exponential, Field, PositivePart, Tree};
-use spring_mass_contact::proof::prove;
 use spring_mass_contact::proof::render::ProofPrinter;
+use spring_mass_contact::proof::{Proof, prove};
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
@@ -995,8 +996,13 @@ fn every_line_of_a_certificate_holds() {
         _ => value(name).abs() + Exact::from(1),
     };
     assert!(["e₁", "t₂", "e₁₂"].iter().all(|name| at(name).abs() <= Exact::from(1)));
-    let checked = |statement: &Statement| {
-        let text = ProofPrinter::new(registry()).in_full().proof(&prove(statement).unwrap());
+    let checked = |proof: &Proof| {
+        let statement = proof.statement();
+        // Nine tenths of the lines belong to them.
+        if statement.kind() == "drift" && !is_deep() {
+            return 0;
+        }
+        let text = ProofPrinter::new(registry()).in_full().proof(proof);
         assert!(
             text.iter().all(|line| !line.contains("a sum of ")),
             "{} {}",
@@ -1022,7 +1028,7 @@ fn every_line_of_a_certificate_holds() {
         }
         certificates.checked
     };
-    let checked: usize = statements().par_iter().map(checked).sum();
+    let checked: usize = proofs().par_bridge().map(checked).sum();
     assert!(checked > 500, "{checked}");
 }
 

@@ -1,10 +1,6 @@
 //! External programs in other languages, checked against exact solutions.
 
-#![cfg(unix)]
-
-mod processes;
-
-use processes::{captured, command};
+use crate::processes::{captured, command};
 use serde_json::Value;
 use spring_mass_contact::number::Exact;
 use std::path::{Path, PathBuf};

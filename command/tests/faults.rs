@@ -1,11 +1,7 @@
 //! The command where the system says no: full disks, closed pipes, files in the place of folders. Each is said in one
 //! line, with the status that the README names; nothing panics, and no part of a file is left.
 
-#![cfg(unix)]
-
-mod processes;
-
-use processes::{Scratch, captured, command, finish, run};
+use crate::processes::{Scratch, captured, command, finish, run};
 use std::fs::{self, File};
 use std::io::{BufRead, BufReader};
 use std::path::Path;
@@ -182,20 +178,17 @@ fn a_folder_in_the_place_of_a_file_is_refused() {
 /// On a disk that becomes full, previous files are unchanged.
 #[cfg(target_os = "linux")]
 #[test]
+#[ignore = "requires user namespaces"]
 fn a_disk_that_fills_leaves_no_part_of_a_file() {
     let own = folder("small");
     let (contact, place) = (env!("CARGO_BIN_EXE_contact"), own.display());
     let script = format!(
-        "mount -t tmpfs -o size=128k small '{place}' 2>/dev/null || exit 77
+        "mount -t tmpfs -o size=128k small '{place}' || exit 77
          echo kept > '{place}'/Contact_01.v
          '{contact}' prove --coq '{place}'; status=$?
          ls '{place}'; cat '{place}'/*; exit $status"
     );
     let output = captured(Command::new("unshare").args(["--map-root-user", "--mount", "sh", "-c", &script]));
-    if !matches!(output.status.code(), Some(0 | 2)) {
-        eprintln!("no file system of one's own to be had here: nothing is tried on a small one");
-        return;
-    }
     refused(&output, REFUSED, "a small disk");
     assert!(String::from_utf8_lossy(&output.stderr).contains("No space left on device"));
     assert_eq!(String::from_utf8_lossy(&output.stdout), "Contact_01.v\nkept\n");

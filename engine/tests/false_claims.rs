@@ -1,6 +1,5 @@
 //! False claims, one for each rule, case and premise of the kernel: none is proved, all are refuted by
 //! numbers, and for each a true claim that differs only in the premise is proved.
-#![cfg(feature = "prover")]
 #![allow(clippy::eq_op, reason = "a quotient of equals is not always 1")]
 
 use provable::formula::claim::{

@@ -25,6 +25,12 @@ fn number(text: &str) -> Exact {
     text.parse().unwrap()
 }
 
+/// Returns one of four mistakes, or all with `DEEP=1`. Similar ones are adjacent, so some of each kind are tested.
+fn sample<T>(mistakes: impl IntoIterator<Item = T>) -> impl Iterator<Item = T> {
+    let is_deep = std::env::var_os("DEEP").is_some_and(|value| value == "1");
+    mistakes.into_iter().step_by(if is_deep { 1 } else { 4 })
+}
+
 fn default_problems() -> Vec<Problem> {
     problems(1, CASES, &Family::ALL)
 }
@@ -68,7 +74,7 @@ fn single(x: &Exact) -> Exact {
 #[test]
 fn every_mistake_is_diagnosed_as_itself() {
     for problems in [default_problems(), with_penalties(default_problems())] {
-        for mistake in mistakes(problems[0].penalty.is_some()) {
+        for mistake in sample(mistakes(problems[0].penalty.is_some())) {
             let eps = number("3e5");
             let solve = |problem: &Problem| {
                 let eps = problem.penalty.as_ref().or(mistake.measured.map(|_| &eps));
@@ -88,7 +94,7 @@ fn every_mistake_is_diagnosed_as_itself() {
 fn a_constant_factor_is_diagnosed() {
     for problems in [default_problems(), with_penalties(default_problems())] {
         let by_penalty = problems[0].penalty.is_some();
-        for (mistake, k) in fitted(by_penalty).iter().flat_map(|mistake| {
+        for (mistake, k) in sample(fitted(by_penalty).iter().flat_map(|mistake| {
             let bound = mistake.name.contains("at most");
             // Constants of units, fractions of a step, and bounds within the range of the values.
             let constants: &[&str] = match () {
@@ -100,7 +106,7 @@ fn a_constant_factor_is_diagnosed() {
                 () => &["1000", "1/3", "0.001", "-3"],
             };
             constants.iter().map(move |k| (mistake, number(k)))
-        }) {
+        })) {
             let report =
                 run(&problems, |problem| answer(mistake, problem, problem.penalty.as_ref(), Some(&k)));
             let found = report.diagnosis.iter().map(|d| (d.name.clone(), d.formula.clone()));
@@ -162,7 +168,7 @@ fn mistakes_treated_as_equal_are_proved_equal() {
 /// In f64, like a program that parses the decimals of a request.
 #[test]
 fn rounding_hides_no_mistake() {
-    for mistake in mistakes(false) {
+    for mistake in sample(mistakes(false)) {
         let solve = |problem: &Problem| {
             let system = problem.system.try_map(Exact::to_f64).unwrap();
             let [u, n] = mistake.formulas(system::reaction(&system) > 0.0);

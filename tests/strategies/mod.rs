@@ -95,6 +95,11 @@ pub fn unit_roundoff<T: Real + ToExact>(like: &T) -> Exact {
     exact(&like.unit_roundoff())
 }
 
+/// Returns `true` if the environment asks for all that is otherwise sampled, by `DEEP=1`.
+pub fn is_deep() -> bool {
+    std::env::var_os("DEEP").is_some_and(|value| value == "1")
+}
+
 /// Returns an exact integer.
 pub fn int(n: i32) -> Exact {
     Exact::from(n)

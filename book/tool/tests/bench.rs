@@ -1,7 +1,7 @@
 //! Tests of the bench: its generated script is run by node and compared with the crate bit for bit, and the scripts
 //! written by hand, for parsing numbers and analysing a run, are tested as well.
 //!
-//! Without node these tests print a note and pass; `NODE=path` selects the node to run, and it is an error if it fails.
+//! They require node, which `NODE=path` selects.
 
 use book_tool::bench::{MODEL, PAGE, formulas, functions, script};
 use regex::Regex;
@@ -13,36 +13,26 @@ use std::{
     env,
     fmt::Write as _,
     fs,
-    io::{self, ErrorKind, Write as _},
+    io::Write as _,
     process::{Command, Stdio},
-    sync::Once,
 };
 
 /// Runs a script after the bench's own and returns its output; the script can use `input`.
-fn printed(script: &str, input: &Value) -> Option<String> {
+fn printed(script: &str, input: &Value) -> String {
     node(&format!("{}{MODEL}\n{script}", formulas().unwrap()), input)
 }
 
 /// Runs a script in node and returns its output; the script can use `input`.
-fn node(script: &str, input: &Value) -> Option<String> {
-    let program = env::var("NODE");
-    let mut command = Command::new(program.as_deref().unwrap_or("node"));
-    let mut node = match command.arg("-").stdin(Stdio::piped()).stdout(Stdio::piped()).spawn() {
-        Err(error) if program.is_err() && error.kind() == ErrorKind::NotFound => {
-            // The output of `eprintln` would be captured in a test that passes.
-            static NOTED: Once = Once::new();
-            NOTED.call_once(|| {
-                let _ = writeln!(io::stderr(), "skipped: node is not installed");
-            });
-            return None;
-        }
-        node => node.unwrap_or_else(|error| panic!("{}: {error}", program.as_deref().unwrap_or("node"))),
-    };
+fn node(script: &str, input: &Value) -> String {
+    let program = env::var("NODE").unwrap_or("node".into());
+    let mut command = Command::new(&program);
+    let node = command.arg("-").stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
+    let mut node = node.unwrap_or_else(|error| panic!("{program}: {error}"));
     let text = format!("\"use strict\";\nconst input = {input};\n{script}");
     node.stdin.take().unwrap().write_all(text.as_bytes()).unwrap();
     let output = node.wait_with_output().unwrap();
     assert!(output.status.success(), "the script fails");
-    Some(String::from_utf8(output.stdout).unwrap())
+    String::from_utf8(output.stdout).unwrap()
 }
 
 fn assert_same_lines(expected: &str, found: &str) {
@@ -181,6 +171,7 @@ fn bench_input<T>(
 }
 
 #[test]
+#[ignore = "requires node"]
 fn floats_agree_bit_for_bit() {
     let (mut text, mut input) = (String::new(), Vec::new());
     for Case { system, eps, lambda, steps } in cases() {
@@ -194,11 +185,12 @@ fn floats_agree_bit_for_bit() {
         lines(&mut text, (&system, &eps, &lambda, &n), steps, show);
     }
     assert!(text.contains("NaN") && text.contains("7ff0000000000000") && text.contains("8000000000000000"));
-    let Some(found) = printed(&format!("{FLOAT}{LINES}"), &input.into()) else { return };
+    let found = printed(&format!("{FLOAT}{LINES}"), &input.into());
     assert_same_lines(&text, &found);
 }
 
 #[test]
+#[ignore = "requires node"]
 fn fractions_agree() {
     let (mut text, mut input) = (String::new(), Vec::new());
     let mut draw = Random(2);
@@ -222,7 +214,7 @@ fn fractions_agree() {
         lines(&mut text, (&system, &eps, &lambda, &n), steps, Exact::to_string);
     }
     // The bench refuses texts of this length, but its own numbers may be as long.
-    let Some(found) = printed(&format!("{FLOAT}{LINES}"), &input.into()) else { return };
+    let found = printed(&format!("{FLOAT}{LINES}"), &input.into());
     assert_same_lines(&text, &found);
 }
 
@@ -283,6 +275,7 @@ fn kind<T: PositivePart + ToExact>(
 }
 
 #[test]
+#[ignore = "requires node"]
 fn verdicts_agree_with_their_definitions() {
     const KINDS: &str = r#"
 const known = ["false zero", "separated", "fixed point", "2-cycle"];
@@ -321,12 +314,13 @@ for (const [numbers, k, ...given] of input) {
             "no case has the verdict {kind:?}"
         );
     }
-    let Some(found) = printed(&format!("{FLOAT}{KINDS}"), &input.into()) else { return };
+    let found = printed(&format!("{FLOAT}{KINDS}"), &input.into());
     assert_same_lines(&text, &found);
 }
 
 /// The title of a link to the bench is the verdict that the bench will show.
 #[test]
+#[ignore = "requires node"]
 fn links_to_the_bench_have_the_right_verdict() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../src");
     let (mut input, mut text) = (Vec::new(), String::new());
@@ -356,11 +350,12 @@ for (const query of input) {
   console.log([verdict(result).kind, address(question).slice(1).split("&").sort().join("&")].join(", ") + ended + Object.keys(wrong));
 }
 "#;
-    let Some(found) = printed(ASKED, &input.into()) else { return };
+    let found = printed(ASKED, &input.into());
     assert_eq!(found, text);
 }
 
 #[test]
+#[ignore = "requires node"]
 fn numbers_are_parsed_like_in_the_crate() {
     let mut texts: Vec<String> = "0 -0 +1 0.05 5e-2 1/20 -7/3 +7/21 .5 5. 1.e3 1E+3 9.81 1e-45 7e-46 1.4e-45 1e39 1e308 1.8e308 1e309
         4.9e-324 2e-324 3e-324 2.2250738585072011e-308 1e-400 1e400 16777217 16777219 9007199254740993 9007199254740995
@@ -400,12 +395,13 @@ for (const text of input) {
   }));
 }
 "#;
-    let Some(found) = printed(&format!("{FLOAT}{READ}"), &json!(texts)) else { return };
+    let found = printed(&format!("{FLOAT}{READ}"), &json!(texts));
     assert_same_lines(&expected, &found);
 }
 
 /// Rounded numbers are within half a unit of the last digit.
 #[test]
+#[ignore = "requires node"]
 fn displayed_numbers_are_rounded_once() {
     let mut texts: Vec<String> = "1 -1 999 999.4 999.5 999.6 0.9995 0.99951 123456 999499 999500 1e6 0.0001 0.00009999 0.000099995 1e-5 12345e300 1e-399
         1/3 -2/3 100 1000 10 1e5 4.81 0.05 2.405 1/7"
@@ -416,7 +412,7 @@ fn displayed_numbers_are_rounded_once() {
     texts.extend((0..300).map(|_| format!("{}e{}", draw.next() + 1, draw.next() as i64 % 600 - 300)));
     let input: Value = texts.iter().flat_map(|text| [3, 12].map(|digits| json!([text, digits]))).collect();
     let script = "for (const [text, digits] of input) console.log(brief(parse(text), digits));";
-    let Some(found) = printed(script, &input) else { return };
+    let found = printed(script, &input);
     for (i, line) in found.lines().enumerate() {
         let (text, digits) = (&texts[i / 2], [3, 12][i % 2]);
         let plain: String = line
@@ -436,6 +432,7 @@ fn displayed_numbers_are_rounded_once() {
 }
 
 #[test]
+#[ignore = "requires node"]
 fn other_settings_have_verdicts() {
     // The sum c + ε overflows, and the quotient by it is 0: every displayed number looks normal.
     let overflow = "?c=1e38&eps=3e38&numbers=f32";
@@ -480,7 +477,7 @@ for (const query of input) {
   console.log(`${kind} ${text}`);
 }
 "#;
-    let Some(found) = printed(SAY, &json!(expected.map(|(query, _)| query))) else { return };
+    let found = printed(SAY, &json!(expected.map(|(query, _)| query)));
     assert_eq!(found.lines().count(), expected.len());
     for ((query, words), line) in expected.into_iter().zip(found.lines()) {
         let mut rest = line;
@@ -528,6 +525,7 @@ const numbersIn = text => (text.match(/-?[\d.]+(e[+-]?\d+)?/g) ?? []).map(Number
 
 /// Runs the whole script and checks the drawings.
 #[test]
+#[ignore = "requires node"]
 fn drawings_agree_with_the_table() {
     const DRAWN: &str = r#"
 for (const search of input.asked) {
@@ -558,7 +556,7 @@ for (const search of input.asked) {
     ];
     let asked: Vec<_> = expected.iter().map(|(asked, _)| asked).collect();
     let input = json!({ "script": script().unwrap(), "asked": asked });
-    let Some(found) = node(&format!("{DOCUMENT}{DRAWN}"), &input) else { return };
+    let found = node(&format!("{DOCUMENT}{DRAWN}"), &input);
     assert_eq!(found.lines().collect::<Vec<_>>(), expected.map(|(_, drawn)| drawn));
 }
 
@@ -569,6 +567,7 @@ const STUB: &str =
 /// For the example the steps are (1/4, 1), (1/8, 3/2), … on the line of equilibrium, and the corner of the plane is at
 /// p = N = 0.
 #[test]
+#[ignore = "requires node"]
 fn drawings_are_to_scale() {
     const DRAWN: &str = r#"
 const { values } = numbers(input), result = run(input, values);
@@ -586,7 +585,7 @@ console.log(JSON.stringify([drawn(drawForces), drawn(drawDecay)]));
 "#;
     let question = json!({ "c": "4", "m": "1", "g": "10", "l": "1", "H": "3", "eps": "4", "lambda": "0", "k": 3,
         "numbers": "f64", "plane": "both" });
-    let Some(found) = printed(&format!("{DOCUMENT}{STUB}{PAGE}{DRAWN}"), &question) else { return };
+    let found = printed(&format!("{DOCUMENT}{STUB}{PAGE}{DRAWN}"), &question);
     let drawn: Value = serde_json::from_str(&found).unwrap();
     let of = |drawing: usize, what: &str, kind: &str| -> Vec<Vec<f64>> {
         let all = drawn[drawing][what].as_array().unwrap().iter().filter(|one| one[0] == kind);
@@ -628,6 +627,7 @@ console.log(JSON.stringify([drawn(drawForces), drawn(drawDecay)]));
 /// While the plane is dragged the axes of the force diagram stay and the line moves; they grow if the solution would leave
 /// them, and fit again at the end. From the keyboard, `End` after `Home` reaches the end.
 #[test]
+#[ignore = "requires node"]
 fn axes_stay_while_the_plane_moves() {
     const MOVED: &str = r#"
 const root = opened(""), find = selector => root.querySelector(selector);
@@ -649,9 +649,7 @@ press("End");
 states.push(seen());
 console.log(JSON.stringify([states, ticks()]));
 "#;
-    let Some(found) = node(&format!("{DOCUMENT}{MOVED}"), &json!({ "script": script().unwrap() })) else {
-        return;
-    };
+    let found = node(&format!("{DOCUMENT}{MOVED}"), &json!({ "script": script().unwrap() }));
     let (states, ticks): (Vec<[String; 3]>, Vec<String>) = serde_json::from_str(&found).unwrap();
     let [start, dragged, far, released, end] = &states[..] else { panic!("{found}") };
     assert!(ticks.len() >= 6, "{ticks:?}");
@@ -668,6 +666,7 @@ console.log(JSON.stringify([states, ticks()]));
 /// With Euler steps of size 1 the points are the rings of the augmentations, and the curve is above them; at h = 4 the
 /// example alternates between p₀ and −p₀.
 #[test]
+#[ignore = "requires node"]
 fn euler_steps_of_size_one_are_the_augmentations() {
     const DRAWN: &str = r#"
 const svg = Object.assign(document.createElementNS("", "svg"), { clientWidth: 440, clientHeight: 250 });
@@ -679,7 +678,7 @@ const drawn = h => {
 };
 console.log(JSON.stringify([1, 4, 6].map(drawn)));
 "#;
-    let Some(found) = printed(&format!("{DOCUMENT}{STUB}{PAGE}{DRAWN}"), &json!(null)) else { return };
+    let found = printed(&format!("{DOCUMENT}{STUB}{PAGE}{DRAWN}"), &json!(null));
     let drawn: Value = serde_json::from_str(&found).unwrap();
     let points =
         |i: usize, kind: &str| -> Vec<(f64, f64)> { serde_json::from_value(drawn[i][kind].clone()).unwrap() };

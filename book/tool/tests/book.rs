@@ -1,11 +1,7 @@
 //! Tests of the whole book, which is built in process.
 
-#[path = "book/contrast.rs"]
 mod contrast;
-#[path = "book/documentation.rs"]
 mod documentation;
-#[path = "pages/files.rs"]
-mod files;
 
 use book_tool::{Equations, PAGES, bench, equations};
 use mdbook_driver::MDBook;

@@ -1,7 +1,5 @@
 //! The command as a child process with a time limit.
 
-#![allow(dead_code)] // every test file is a crate of its own and uses its share of this one
-
 use oorandom::Rand64;
 use std::fs;
 use std::io::Read;

@@ -1,10 +1,10 @@
 //! Tests of balls.
 
-use crate::draw::{Tally, floats, for_all, pairs, rationals};
-use crate::floats::{Binary32, Binary64};
-use crate::format::bracket;
-use crate::mpfr::{Mpfr2, Mpfr3, Mpfr24, Mpfr53, Mpfr200, all_of_three_bits};
-use crate::system::{Floats, Planted, System, operations};
+use super::draw::{Tally, floats, for_all, pairs, rationals};
+use super::floats::{Binary32, Binary64};
+use super::format::bracket;
+use super::mpfr::{Mpfr2, Mpfr3, Mpfr24, Mpfr53, Mpfr200, all_of_three_bits};
+use super::system::{Floats, Planted, System, operations};
 use num_traits::{One, Zero};
 use proptest::prelude::*;
 use provable::number::{Ball, Dual, Exact, Exponential, Field, Mpfr, PositivePart, Real, ToExact};

@@ -1,6 +1,6 @@
 //! Random numbers for laws: floats of a format, fractions, rationals.
 
-use crate::format::{Format, magnitude};
+use super::format::{Format, magnitude};
 use num_traits::Zero;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, FileFailurePersistence, TestCaseResult, TestRunner};

@@ -1,10 +1,10 @@
 //! Tests of dual numbers.
 
-use crate::ball::{BallF32, BallF64};
-use crate::draw::{Tally, for_all, rationals};
-use crate::exact::Rationals;
-use crate::floats::Binary64;
-use crate::system::{Planted, System, operations};
+use super::ball::{BallF32, BallF64};
+use super::draw::{Tally, for_all, rationals};
+use super::exact::Rationals;
+use super::floats::Binary64;
+use super::system::{Planted, System, operations};
 use num_traits::{One, Zero};
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseResult;

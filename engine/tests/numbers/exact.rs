@@ -1,8 +1,8 @@
 //! Tests of rationals and their conversion to floats.
 
-use crate::draw::{Tally, floats, for_all, rationals};
-use crate::format::{DOUBLE, Format, SINGLE};
-use crate::system::{Planted, System};
+use super::draw::{Tally, floats, for_all, rationals};
+use super::format::{DOUBLE, Format, SINGLE};
+use super::system::{Planted, System};
 use num_traits::{One, Zero};
 use proptest::prelude::*;
 use provable::number::{Exact, Field, Mpfr, NonFiniteError, PositivePart, RangeError, Real, ToExact};

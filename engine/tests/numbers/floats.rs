@@ -1,9 +1,9 @@
 //! Tests of machine floats, shared with floats of any precision.
 
-use crate::draw::{Tally, floats, for_all, pairs, rationals};
-use crate::format::{DOUBLE, Format, SINGLE, magnitude, rounds_as};
-use crate::mpfr::{Mpfr2, Mpfr3, Mpfr24, Mpfr53, Mpfr200};
-use crate::system::{Floats, Planted, System, planted};
+use super::draw::{Tally, floats, for_all, pairs, rationals};
+use super::format::{DOUBLE, Format, SINGLE, magnitude, rounds_as};
+use super::mpfr::{Mpfr2, Mpfr3, Mpfr24, Mpfr53, Mpfr200};
+use super::system::{Floats, Planted, System, planted};
 use num_traits::{One, Zero};
 use proptest::prelude::*;
 use provable::number::{Exact, Exponential, Field, Logarithm, Mpfr, PositivePart, Real, ToExact};

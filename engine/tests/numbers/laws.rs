@@ -1,12 +1,12 @@
 //! Laws of every number system, and of the ordered ones.
 
-use crate::ball::{BallF32, BallF64, BallMpfr2, BallMpfr53};
-use crate::draw::{Tally, for_all};
-use crate::dual::{DualBallF32, DualBallF64, DualExact, DualF64};
-use crate::exact::Rationals;
-use crate::floats::{Binary32, Binary64};
-use crate::mpfr::{Mpfr2, Mpfr3, Mpfr24, Mpfr53, Mpfr200, MpfrConstant, MpfrMixed};
-use crate::system::{Oracle, System, operations};
+use super::ball::{BallF32, BallF64, BallMpfr2, BallMpfr53};
+use super::draw::{Tally, for_all};
+use super::dual::{DualBallF32, DualBallF64, DualExact, DualF64};
+use super::exact::Rationals;
+use super::floats::{Binary32, Binary64};
+use super::mpfr::{Mpfr2, Mpfr3, Mpfr24, Mpfr53, Mpfr200, MpfrConstant, MpfrMixed};
+use super::system::{Oracle, System, operations};
 use num_traits::Zero;
 use proptest::prelude::*;
 use provable::number::tree::Op;

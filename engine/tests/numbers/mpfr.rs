@@ -1,9 +1,9 @@
 //! Tests of floats with any precision.
 
-use crate::ball::Balls;
-use crate::draw::{Tally, for_all, fractions, pairs};
-use crate::format::Format;
-use crate::system::{Floats, Planted, System, operations, planted};
+use super::ball::Balls;
+use super::draw::{Tally, for_all, fractions, pairs};
+use super::format::Format;
+use super::system::{Floats, Planted, System, operations, planted};
 use num_traits::{One, Zero};
 use proptest::prelude::*;
 use provable::number::{

@@ -1,9 +1,9 @@
 //! Tests of parsing and formatting numbers.
 
-use crate::draw::{for_all, rationals};
-use crate::floats::{Binary32, Binary64};
-use crate::mpfr::MpfrMixed;
-use crate::system::System;
+use super::draw::{for_all, rationals};
+use super::floats::{Binary32, Binary64};
+use super::mpfr::MpfrMixed;
+use super::system::System;
 use num_traits::{One, Zero};
 use proptest::prelude::*;
 use provable::number::{Exact, Field, MAX_EXPONENT, Mpfr, ParseError, RangeError, Real, ToExact};

@@ -1,6 +1,6 @@
 //! Number systems under test.
 
-use crate::format::Format;
+use super::format::Format;
 use proptest::prelude::*;
 use provable::number::{Exact, Field};
 use std::fmt::Debug;

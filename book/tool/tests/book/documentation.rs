@@ -2,8 +2,8 @@
 //!
 //! Both are in `target`, as `book` and `doc`.
 
-use super::files::{files, root, text};
 use super::{values, with_extension};
+use crate::files::{files, root, text};
 use book_tool::equations;
 use regex::Regex;
 use std::{collections::BTreeMap, fs, path::Path};
@@ -132,7 +132,7 @@ fn documentation_of_each_function_links_to_its_box() {
         assert!(
             found == expected,
             "src/chapter/{module}.rs:{line}: the documentation of each function has to end with a link to the book; \
-             UPDATE=1 cargo test -p book-tool --test book writes it"
+             UPDATE=1 cargo test -p book-tool book:: writes it"
         );
     }
 }

@@ -1,8 +1,8 @@
 //! The page about the command lists the options declared in the sources, and its console samples agree with the outputs
 //! that `command/tests/cmd` expects. The same holds for the samples of the page on stalls.
 
-use super::files::{files, root, text};
 use super::page;
+use crate::files::{files, root, text};
 use book_tool::PAGES;
 use regex::Regex;
 use std::collections::{BTreeMap, BTreeSet};

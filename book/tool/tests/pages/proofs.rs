@@ -1,6 +1,6 @@
 //! The pages of proofs agree with the output of the prover.
 
-use super::files::root;
+use crate::files::root;
 use book_tool::proofs::{Page, pages};
 use spring_mass_contact::claims::entries;
 use std::collections::BTreeSet;
@@ -20,7 +20,7 @@ fn pages_of_proofs_agree_with_the_prover() {
         let line = 1 + found.lines().zip(text.lines()).take_while(|(a, b)| a == b).count();
         assert!(
             found == *text,
-            "book/src/proofs/{file}, line {line}, differs from the output of the prover: UPDATE=1 cargo test --test pages writes it"
+            "book/src/proofs/{file}, line {line}, differs from the output of the prover: UPDATE=1 cargo test -p book-tool pages:: writes it"
         );
     }
     let sections: BTreeSet<_> =

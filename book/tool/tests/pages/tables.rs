@@ -1,7 +1,7 @@
 //! Checks of text written by hand: the numbers in tables, the names of code items, and the labels of sources.
 
-use super::files::root;
 use super::page;
+use crate::files::root;
 use book_tool::PAGES;
 use regex::Regex;
 use spring_mass_contact::chapter::{SpringMass, augmented, contact, penalty, system};

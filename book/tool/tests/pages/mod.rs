@@ -2,7 +2,7 @@
 
 mod command;
 mod exercises;
-mod files;
+
 mod letters;
 mod proofs;
 mod tables;

@@ -1,8 +1,4 @@
-//! Properties of the solver on sampled systems, in one crate so that the strategies are compiled once.
-#![cfg(feature = "mpfr")]
-
-#[path = "../strategies/mod.rs"]
-mod strategies;
+//! Properties of the solver on sampled systems.
 
 mod advice;
 mod augmentation_monotone;

@@ -8,7 +8,6 @@
 //!
 //! The reference for rounding is [`Format::round`](format::Format::round), written here from the definition,
 //! in integers. It only uses rationals, whose reference is [`Fraction`](exact::Fraction), in integers again.
-#![cfg(feature = "mpfr")]
 
 /// Defines one test for each law and system: `law::System`.
 macro_rules! law {

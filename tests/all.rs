@@ -1,0 +1,36 @@
+//! All tests of the library and of the whole, in one binary, so that what they share is compiled and computed once.
+
+mod api_guarantees;
+mod layering;
+
+#[cfg(feature = "mpfr")]
+mod derivatives;
+#[cfg(feature = "mpfr")]
+mod oracles;
+#[cfg(feature = "mpfr")]
+mod small_floats;
+#[cfg(feature = "mpfr")]
+mod solver;
+#[cfg(feature = "mpfr")]
+mod strategies;
+
+#[cfg(feature = "prover")]
+mod consistency;
+#[cfg(feature = "prover")]
+mod coq;
+#[cfg(feature = "prover")]
+mod coqc;
+#[cfg(feature = "prover")]
+mod examples;
+#[cfg(feature = "prover")]
+mod gallina;
+#[cfg(feature = "prover")]
+mod laws;
+#[cfg(feature = "prover")]
+mod mutation;
+#[cfg(feature = "prover")]
+mod proofs;
+#[cfg(feature = "prover")]
+mod recording;
+#[cfg(feature = "prover")]
+mod typesetting;
