@@ -117,6 +117,14 @@ fn the_command_can_be_checked_by_itself() {
     }
 }
 
+/// Each request contains ε, without which the program refuses to answer.
+#[test]
+fn the_penalty_method_can_be_checked_by_itself() {
+    let program = [env!("CARGO_BIN_EXE_contact"), "solve", "--batch", "--method", "penalty"];
+    let output = contact(&[&["check", "--penalty", "1e6", "--"], &program[..]].concat());
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+}
+
 /// Returns the exact value of a decimal.
 fn exact(number: &Value) -> Exact {
     number.as_str().map_or_else(|| number.to_string(), String::from).parse().unwrap()

@@ -367,6 +367,11 @@ fn sequences() -> Vec<Row> {
             .assuming([&unit, &near])
             .computing(&u, step)
     };
+    let also_within = |name, bound: Tree| {
+        let near = (q.clone(), n(0));
+        perturbed_recursion(name, half(), 1, |x| x / n(2), near, |x| [(x.clone(), bound.clone())])
+            .assuming([&unit])
+    };
     let [from_one, near_q] = [not_below_zero(&q - n(1)), Hypothesis::near(&u, &q, 0)];
     let square = &z * &z * &w * &w;
     let grows = |name, step: Tree| {
@@ -394,6 +399,11 @@ fn sequences() -> Vec<Row> {
             induction("t", 3, [n(1)], |[x]| [n(3) * x], [q.clone()]),
         ),
         (
+            "each component is its own",
+            induction("f", 2, [n(1), n(2)], |[_, y]| [n(2) * &y, n(4) * y], [q.clone(), n(2) * &q]),
+            induction("t", 2, [n(1), n(2)], |[x, y]| [n(2) * x, n(2) * y], [q.clone(), n(2) * &q]),
+        ),
+        (
             "a sequence does not start from a power",
             induction("f", 2, [&q * n(1)], |[x]| [x * n(2) + n(1)], [n(2) * &q - n(1)]),
             induction("t", 2, [n(1)], |[x]| [x * n(2) + n(1)], [n(2) * &q - n(1)]),
@@ -416,6 +426,11 @@ fn sequences() -> Vec<Row> {
             "a power vanishes if the ratio is between −1 and 1",
             geometric_limit("f", (&c + n(1)) / (&c + n(2)) + n(1), &q, 0).assuming([&pos_c]),
             geometric_limit("t", (&c + n(1)) / (&c + n(2)), &q, 0).assuming([&pos_c]),
+        ),
+        (
+            "a power of a ratio less than −1 does not vanish",
+            geometric_limit("f", -2, &q, 0),
+            geometric_limit("t", -half(), &q, 0),
         ),
         (
             "a limit is the value at 0",
@@ -442,6 +457,7 @@ fn sequences() -> Vec<Row> {
             halves("f", x("x₁") / n(2), &q / n(2)),
             halves("t", x("x₁") / n(2), n(1) * &q),
         ),
+        ("a further bound is proved, too", also_within("f", &q / n(2)), also_within("t", n(1) * &q)),
         ("a computed quantity rests on those before it alone", chain("f", &u + n(2)), chain("t", &u + n(1))),
         (
             "the invariant holds at the start",
@@ -593,7 +609,7 @@ fn false_claims_are_refuted_and_not_proved() {
     let wrong: Vec<_> = wrong.collect();
     assert!(wrong.is_empty(), "{wrong:#?}");
     let premises: BTreeSet<_> = all().map(|(premise, ..)| premise).collect();
-    assert_eq!((premises.len(), all().count()), (94, 94), "each premise has one row, and none is lost");
+    assert_eq!((premises.len(), all().count()), (97, 97), "each premise has one row, and none is lost");
 }
 
 #[test]

@@ -8,6 +8,7 @@ mod invariances;
 mod kkt;
 mod laws;
 mod penalty_limit;
+mod planted;
 mod results;
 #[cfg(feature = "serde")]
 mod serialised;

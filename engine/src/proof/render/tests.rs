@@ -208,10 +208,17 @@ fn the_proof_of_a_rounding_bound_is_short_unless_in_full() {
 }
 
 /// By hand: the differences at t₁ = −1, 0 and 1, times 2 in the middle, where the square of t₁ counts as −1.
+/// With a second square, each of the three is a quadratic in t₂.
 #[test]
 fn endpoints_are_counted() {
-    let [a, b, u] = ["a", "b", "u"].map(|name| Tree::symbol(name));
+    let [a, b, c, d, u, v] = ["a", "b", "c", "d", "u", "v"].map(|name| Tree::symbol(name));
     let squares = within("", (&a - &b) * (&a - &b), &u * &u).assuming([&Hypothesis::near(&u, &a, &b)]);
+    let sum = (&a - &b) * (&a - &b) + (&c - &d) * (&c - &d);
+    let both = within("", sum, &u * &u + &v * &v)
+        .assuming([&Hypothesis::near(&u, &a, &b), &Hypothesis::near(&v, &c, &d)]);
+    let both = lines(both, &[&b, &d, &(&a - &b), &(&c - &d)], false);
+    let less = both.iter().find(|line| line.starts_with("the bound less it is ")).unwrap();
+    assert!(less.ends_with("at 9 endpoints"), "{less}");
     let [_, _, less, _] = &lines(squares.clone(), &[&b, &(&a - &b)], false)[..] else { panic!("four lines") };
     assert!(less.ends_with("by the triangle inequality for the errors, at 3 endpoints"), "{less}");
     assert_eq!(
