@@ -6,9 +6,7 @@ mod json;
 use crate::claims::{index_of, registry, statements};
 use crate::formula::statement::minimum_precision;
 use crate::formula::{Hypothesis, Statement};
-use crate::proof::mutation::{
-    self, DroppedHypothesis, Mutant, MutationOutcome, MutationReport, find_repairs, test_mutations,
-};
+use crate::proof::mutation::{self, DroppedHypothesis, MutationOutcome, MutationReport, test_mutations};
 use crate::proof::render::ProofPrinter;
 use crate::proof::{Counterexample, Proof, prove, refute};
 use crate::verify::catch_panic::catch_panic;
@@ -70,8 +68,6 @@ pub struct Proofs {
     pub claims: Vec<ProofAttempt>,
     /// Mutations and dropped hypotheses of these claims; a mutant belongs to the claim that detects it.
     pub mutation: MutationReport,
-    /// Mutants, each of which would make all claims provable.
-    pub repairs: Vec<Mutant>,
     /// Time of the proofs.
     pub proof_time: Duration,
     /// Time of the proofs with mutations and dropped hypotheses.
@@ -107,12 +103,8 @@ fn prove_statements(all: &[Statement], equations: &[String]) -> Proofs {
     let start = Instant::now();
     let mut claims: Vec<_> = all.par_iter().cloned().map(ProofAttempt::of).collect();
     let proof_time = start.elapsed();
-    let (mut mutation, repairs) = if claims.iter().all(|claim| matches!(claim.answer, ProofOutcome::Proof(_)))
-    {
-        (test_mutations(all, registry()), Vec::new())
-    } else {
-        (MutationReport::default(), repairs(all))
-    };
+    let all_proved = claims.iter().all(|claim| matches!(claim.answer, ProofOutcome::Proof(_)));
+    let mut mutation = if all_proved { test_mutations(all, registry()) } else { MutationReport::default() };
     let wanted = |equation: &str| equations.is_empty() || equations.iter().any(|e| e == equation);
     claims.retain(|claim| wanted(claim.statement.equation()));
     claims.sort_by_key(|claim| index_of(claim.statement.equation()));
@@ -121,12 +113,7 @@ fn prove_statements(all: &[Statement], equations: &[String]) -> Proofs {
         MutationOutcome::Detected { equation, .. } => wanted(equation),
         MutationOutcome::Equivalent | MutationOutcome::Undetected => equations.is_empty(),
     });
-    Proofs { claims, mutation, repairs, proof_time, total_time: start.elapsed() }
-}
-
-/// Returns the mutants that would make all claims provable; none if a wrong formula makes a proof panic.
-pub(super) fn repairs(statements: &[Statement]) -> Vec<Mutant> {
-    catch_panic(|| find_repairs(statements, registry())).unwrap_or_default()
+    Proofs { claims, mutation, proof_time, total_time: start.elapsed() }
 }
 
 impl Proofs {
@@ -198,18 +185,9 @@ mod tests {
     }
 
     #[test]
-    fn a_mistake_has_repairs_and_right_formulas_have_mutations() {
-        let is_chosen = |s: &Statement| s.equation() == "1.13" && ["two-forms", "rate"].contains(&s.name());
-        let right: Vec<_> = statements().into_iter().filter(is_chosen).collect();
-        let of_right = prove_statements(&right, &[]);
-        assert!(of_right.repairs.is_empty() && !of_right.mutation.mutants.is_empty());
-        let stiffness = registry().formula("penalty::total_stiffness").unwrap().tree.site();
-        let mistake =
-            mutants(&right, registry()).into_iter().find(|change| change.site == stiffness).unwrap();
-        let wrong: Vec<_> = right.iter().map(|s| mistake.apply(s).unwrap_or(s.clone())).collect();
-        let of_wrong = prove_statements(&wrong, &[]);
-        assert!(!of_wrong.hold() && of_wrong.mutation.mutants.is_empty());
-        assert!(of_wrong.repairs.iter().any(|repair| repair.site == stiffness), "{:?}", of_wrong.repairs);
+    fn mutations_are_tested_if_all_claims_are_proved() {
+        assert!(!prove_statements(&[rate()], &[]).mutation.mutants.is_empty());
+        assert!(prove_statements(&[rate(), wrong()], &[]).mutation.mutants.is_empty());
     }
 
     /// One unproved claim, one undetected mutant, or one redundant hypothesis suffices.

@@ -12,7 +12,7 @@
 
 mod mutant;
 
-pub use mutant::{Mutant, Mutation, Operator, mutants, mutants_in, possible_repairs};
+pub use mutant::{Mutant, Mutation, Operator, mutants, mutants_in};
 
 use super::kernel::prove;
 use super::refute::{PointSet, Refutation};
@@ -137,24 +137,6 @@ pub fn test_mutations(statements: &[Statement], registry: &Registry) -> Mutation
         outcome: shared.without(of, i),
     });
     MutationReport { mutants, dropped: dropped.collect() }
-}
-
-/// Returns those [`possible_repairs`] that make all statements provable, if some of them are not. Such a
-/// mutation may undo a mistake in a function.
-pub fn find_repairs(statements: &[Statement], registry: &Registry) -> Vec<Mutant> {
-    // Expensive proofs come last.
-    let mut by_cost: Vec<_> = statements.iter().collect();
-    by_cost.sort_by_key(|s| (s.contains_rounding(), s.goals().len()));
-    let (provable, unproved): (Vec<_>, Vec<_>) = by_cost.into_par_iter().partition(|s| prove(s).is_ok());
-    let is_repair = |change: &Mutant| {
-        unproved.iter().all(|s| change.apply(s).is_some_and(|s| prove(&s).is_ok()))
-            && provable.iter().all(|s| change.apply(s).is_none_or(|s| prove(&s).is_ok()))
-    };
-    if unproved.is_empty() {
-        Vec::new()
-    } else {
-        possible_repairs(statements, registry).into_par_iter().filter(is_repair).collect()
-    }
 }
 
 /// The data that all mutants share.
@@ -317,43 +299,5 @@ mod tests {
         let detected =
             mutants.iter().find(|(_, outcome)| matches!(outcome, MutationOutcome::Detected { .. }));
         assert!(detected.is_none() && !mutants.is_empty(), "{detected:?}");
-    }
-
-    /// The mistaken formula is k = a²/4, the correct ones a²/2, a²/20, −a²/4, a²/8 and a².
-    #[test]
-    fn changed_constants_are_repaired() {
-        let quarter = |a: &Tree| a * a / Tree::from(4);
-        let formula = Formula::new("quarter", "k", &["a"], quarter(&x("a")));
-        let registry = Registry::new(&["a"], vec![formula]);
-        for right in [2, 20, -4, 8, 1] {
-            let statement = equal("half", quarter(&x("a")) * Tree::from(right), x("a") * x("a"));
-            let repairs = find_repairs(&[statement], &registry);
-            let found: Vec<_> = repairs.iter().map(|change| change.mutation.to_string()).collect();
-            assert!(found.contains(&format!("4 → {right}")), "{found:?}");
-        }
-    }
-
-    #[test]
-    fn repairs_make_all_statements_provable() {
-        let (correct, registry) = (expanded("expanded"), registry());
-        let twice = equal("same", squared(&x("a"), &x("a")), x("a"));
-        // In the mistaken statements the formula is (a + b)² + a.
-        let change = |what: Mutation| {
-            let all = mutants(std::slice::from_ref(&correct), &registry);
-            all.into_iter().find(|change| change.mutation == what).unwrap()
-        };
-        let mistake = change(Mutation::Opposite(Operator::Sub));
-        let wrong = [&correct, &twice].map(|statement| mistake.apply(statement).unwrap());
-        let undone = Mutant { mutation: Mutation::Opposite(Operator::Add), ..mistake };
-        assert!(find_repairs(&wrong, &registry).contains(&undone));
-        assert!(
-            find_repairs(&[correct.clone(), twice.clone()], &registry).is_empty(),
-            "all statements are provable"
-        );
-        // A repair of one statement is rejected if it makes another one unprovable.
-        let [a, b] = ["a", "b"].map(x);
-        let mistaken = equal("mistaken", squared(&a, &b), (&a + &b) * (&a + &b) + &a);
-        assert!(find_repairs(std::slice::from_ref(&mistaken), &registry).contains(&mistake));
-        assert!(!find_repairs(&[mistaken, correct], &registry).contains(&mistake));
     }
 }
