@@ -5,11 +5,11 @@ use crate::lines::join_operands;
 use crate::output::{self, Exit, Failure, formats};
 use spring_mass_contact::claims::{Entry, entry, registry, statements};
 use spring_mass_contact::proof::coq::Omitted;
-use spring_mass_contact::proof::mutation::{DropOutcome, DroppedHypothesis, Mutant, MutationOutcome};
+use spring_mass_contact::proof::mutation::{DropOutcome, DroppedHypothesis, MutationOutcome};
 use spring_mass_contact::proof::render::{self, ProofPrinter};
 use spring_mass_contact::proof::tightest_point;
 use spring_mass_contact::verify::coq;
-use spring_mass_contact::verify::proofs::{ProofAttempt, ProofOutcome, Proofs, Summary, prove_all};
+use spring_mass_contact::verify::proofs::{ProofAttempt, ProofOutcome, Proofs, Summary, prove_equations};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -66,7 +66,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
         let reason = format!("it has no claim to be proved; see `contact equations '{empty}'`");
         return Err(args::invalid(empty, "[NUMBER]...", reason));
     }
-    let proofs = prove_all(&numbers);
+    let proofs = prove_equations(&numbers);
     output::print(|out| match options.format {
         Format::Json => output::json(out, &proofs),
         Format::Markdown => markdown(out, &proofs),
@@ -193,18 +193,12 @@ fn details(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
             print_claim(out, proofs, proved)?;
         }
     }
-    let noticed =
-        proofs.mutation.mutants.iter().filter_map(|(Mutant { site, mutation: what }, effect)| match effect {
-            MutationOutcome::Detected { equation, name, refutation } => {
-                let at = output::join_coordinates(&refutation.counterexample());
-                Some(format!("{site}: {what}, by {equation} {name} at {at}"))
-            }
-            MutationOutcome::Equivalent | MutationOutcome::Undetected => None,
-        });
-    let noticed: Vec<_> = noticed.collect();
-    if !noticed.is_empty() {
-        writeln!(out, "\nmutations of formulas that these claims detect")?;
-        noticed.iter().try_for_each(|line| output::wrapped(out, "  ", 4, line))?;
+    let detected = proofs.mutation.summary().detected;
+    if detected > 0 {
+        let noticed =
+            format!("These claims detect {detected} mutations of formulas; --format json lists them.");
+        writeln!(out)?;
+        output::wrapped(out, "", 2, &noticed)?;
     }
     print_problems(out, proofs)
 }
