@@ -13,6 +13,7 @@ use spring_mass_contact::verify::proofs::{ProofAttempt, ProofOutcome, Proofs, Su
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
+use std::{fs, process};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -78,7 +79,8 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
 
 /// Writes the files for Coq, and prints how to compile them and which claims are omitted.
 fn for_coq(directory: &Path) -> Result<Exit, Failure> {
-    let files = coq().write(directory).map_err(|error| {
+    // A directory that cannot be written to is refused before anything is proved.
+    let files = make_writable(directory).and_then(|()| coq().write(directory)).map_err(|error| {
         let reason = format!("must be a writable directory: {error}");
         args::invalid(&directory.display().to_string(), "--coq <DIR>", reason)
     })?;
@@ -93,6 +95,13 @@ fn for_coq(directory: &Path) -> Result<Exit, Failure> {
             writeln!(out, "  # left out: {equation} {name}: {reason}")
         })
     })
+}
+
+/// Creates the directory if it does not exist, and for a moment a file in it.
+fn make_writable(directory: &Path) -> io::Result<()> {
+    fs::create_dir_all(directory)?;
+    let file = directory.join(format!(".contact-{}", process::id()));
+    fs::write(&file, "").and_then(|()| fs::remove_file(&file))
 }
 
 fn how(proved: &ProofAttempt) -> String {
