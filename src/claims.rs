@@ -28,6 +28,7 @@ pub use hypotheses::{Hypotheses, hypotheses};
 pub use numbers::{find_entries, find_entry};
 
 use crate::formula::{Registry, Statement};
+use crate::number::tree::Site;
 use std::sync::LazyLock;
 
 /// Imports of the files of the sections.
@@ -120,6 +121,14 @@ pub fn entry(equation: &str) -> Option<&'static Entry> {
 pub fn entry_for_function(function: &str) -> Option<&'static Entry> {
     let own = entries().iter().find(|entry| entry.functions.first() == Some(&function));
     own.or_else(|| entries().iter().find(|entry| entry.functions.contains(&function)))
+}
+
+/// Returns the function with the operation at this site of the source.
+pub fn function_at(site: Site) -> Option<&'static str> {
+    registry().has_site(&site).then_some(())?;
+    // The formula of a function contains those of the functions that it calls, which are listed before it.
+    let mut formulas = registry().formulas().iter();
+    formulas.find(|formula| formula.tree.any(&|tree| tree.site() == site)).map(|formula| formula.path)
 }
 
 /// Returns the index of an equation number in the chapter's order.

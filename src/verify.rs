@@ -17,8 +17,7 @@ mod coq;
 mod experiments;
 mod goals;
 pub mod proofs;
-mod reproduction;
-mod suspects;
+mod shared;
 #[cfg(test)]
 mod tests;
 
@@ -26,7 +25,6 @@ use crate::claims::{Case, Var, claims, index_of, registry, statements};
 use crate::formula::{Hypothesis, Statement};
 use crate::number::{Exact, Mpfr, NumberSystem};
 use crate::proof::Counterexample;
-use crate::proof::mutation::Mutant;
 use crate::proof::refute::Point;
 use catch_panic::catch_panic;
 use checker::{Checker, ErasedChecker, FloatDomain, RationalDomain, Tally};
@@ -35,10 +33,8 @@ pub use experiments::{Experiment, Trial, exact_experiments, float_experiments};
 use num_traits::One;
 use proofs::{ProofAttempt, ProofOutcome};
 use rayon::prelude::*;
-pub use reproduction::reproduction;
 use std::fmt;
 use std::sync::atomic::{AtomicUsize, Ordering};
-pub use suspects::Suspect;
 
 /// Options of a verification.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,11 +63,7 @@ impl Default for Options {
 pub struct Report {
     /// One row for each claim and number system, in the chapter's order; the proof of a claim comes first.
     pub rows: Vec<Row>,
-    /// Functions of the chapter that are most likely wrong, if a claim is not proved.
-    pub suspects: Vec<Suspect>,
-    /// Mutants of the chapter, each of which would make all unproved claims provable.
-    pub repairs: Vec<Mutant>,
-    /// Functions of the chapter on which all unproved claims depend.
+    /// Functions of the chapter that every unproved claim uses.
     pub shared: Vec<&'static str>,
 }
 
@@ -120,7 +112,7 @@ pub struct Summary {
     pub failed: usize,
 }
 
-/// Serialises the summary, the suspects, and the rows of each equation.
+/// Serialises the summary, the functions that unproved claims share, and the rows of each equation.
 #[cfg(feature = "serde")]
 impl serde::Serialize for Report {
     fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
@@ -131,10 +123,8 @@ impl serde::Serialize for Report {
             claims: &'a [Row],
         }
         let equations = self.by_equation().map(|claims| Equation { equation: claims[0].equation, claims });
-        let mut report = to.serialize_struct("Report", 5)?;
+        let mut report = to.serialize_struct("Report", 3)?;
         report.serialize_field("summary", &self.summary())?;
-        report.serialize_field("suspects", &self.suspects)?;
-        report.serialize_field("repairs", &self.repairs)?;
         report.serialize_field("shared", &self.shared)?;
         report.serialize_field("equations", &equations.collect::<Vec<_>>())?;
         report.end()
@@ -242,8 +232,8 @@ mod serialize {
 /// Number of cases sampled and checked at a time.
 const BLOCK: u64 = 50;
 
-/// Number of blocks processed at a time.
-const WINDOW: usize = 100;
+/// Number of blocks processed at a time; the tests run many windows.
+const WINDOW: usize = if cfg!(test) { 4 } else { 100 };
 
 /// Proves and checks every claim, in parallel. `progress` receives the numbers of finished and of all pieces
 /// of work.
@@ -270,13 +260,8 @@ fn run(
     let proofs = || statements.par_iter().map(proof).collect();
     let (mut rows, tallies): (Vec<Row>, _) =
         rayon::join(proofs, || tallies(checkers, options, &wanted, progress));
-    let unproved: Vec<_> =
-        rows.iter().filter(|row| row.status == Status::Failed).map(|row| (row.equation, row.claim)).collect();
-    let is_unproved = |s: &Statement| unproved.contains(&(s.equation(), s.name()));
-    let suspects = suspects::suspects(&statements, registry().formulas(), &is_unproved);
-    let shared = suspects::shared(&statements, &is_unproved);
-    // The search for repairs proves everything again.
-    let repairs = if unproved.is_empty() { Vec::new() } else { proofs::repairs(&statements) };
+    let unproved = rows.iter().zip(&statements).filter(|(row, _)| row.status == Status::Failed);
+    let shared = shared::shared(unproved.map(|(_, statement)| statement));
     for ((scalar, checker), tallies) in checkers.iter().zip(tallies) {
         for (head, tally) in checker.heads().into_iter().zip(tallies) {
             if wanted(head.equation) {
@@ -292,7 +277,7 @@ fn run(
         let at = sorted.iter().rposition(same).map_or(sorted.len(), |i| i + 1);
         sorted.insert(at, row);
     }
-    Report { rows: sorted, suspects, repairs, shared }
+    Report { rows: sorted, shared }
 }
 
 /// Returns for each number system a tally for each of its claims.

@@ -31,7 +31,7 @@ pub fn checked_arguments() -> Result<Vec<String>, Failure> {
 /// Joins values such as `-1/2` to the preceding option, `--gravity=-1/2`, because clap would take them for
 /// options. (Allowing values that begin with a hyphen would hide that the value of `--mass --gravity 9` is
 /// missing.)
-pub fn join_negative_values(arguments: impl IntoIterator<Item = String>) -> Vec<String> {
+fn join_negative_values(arguments: Vec<String>) -> Vec<String> {
     let mut joined: Vec<String> = Vec::new();
     for text in arguments {
         let negative = text.starts_with('-') && !text.starts_with("--");

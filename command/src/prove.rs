@@ -1,18 +1,19 @@
 //! `contact prove`: proofs of every claim, and tests that they could fail.
 
+use crate::args;
 use crate::lines::join_operands;
 use crate::output::{self, Exit, Failure, formats};
-use crate::{args, solve};
 use spring_mass_contact::claims::{Entry, entry, registry, statements};
 use spring_mass_contact::proof::coq::Omitted;
-use spring_mass_contact::proof::mutation::{DropOutcome, DroppedHypothesis, Mutant, MutationOutcome};
+use spring_mass_contact::proof::mutation::{DropOutcome, DroppedHypothesis, MutationOutcome};
 use spring_mass_contact::proof::render::{self, ProofPrinter};
 use spring_mass_contact::proof::tightest_point;
-use spring_mass_contact::verify::proofs::{ProofAttempt, ProofOutcome, Proofs, Summary, prove_all};
-use spring_mass_contact::verify::{coq, reproduction};
+use spring_mass_contact::verify::coq;
+use spring_mass_contact::verify::proofs::{ProofAttempt, ProofOutcome, Proofs, Summary, prove_equations};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
+use std::{fs, process};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -66,7 +67,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
         let reason = format!("it has no claim to be proved; see `contact equations '{empty}'`");
         return Err(args::invalid(empty, "[NUMBER]...", reason));
     }
-    let proofs = prove_all(&numbers);
+    let proofs = prove_equations(&numbers);
     output::print(|out| match options.format {
         Format::Json => output::json(out, &proofs),
         Format::Markdown => markdown(out, &proofs),
@@ -78,7 +79,8 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
 
 /// Writes the files for Coq, and prints how to compile them and which claims are omitted.
 fn for_coq(directory: &Path) -> Result<Exit, Failure> {
-    let files = coq().write(directory).map_err(|error| {
+    // A directory that cannot be written to is refused before anything is proved.
+    let files = make_writable(directory).and_then(|()| coq().write(directory)).map_err(|error| {
         let reason = format!("must be a writable directory: {error}");
         args::invalid(&directory.display().to_string(), "--coq <DIR>", reason)
     })?;
@@ -93,6 +95,13 @@ fn for_coq(directory: &Path) -> Result<Exit, Failure> {
             writeln!(out, "  # left out: {equation} {name}: {reason}")
         })
     })
+}
+
+/// Creates the directory if it does not exist, and for a moment a file in it.
+fn make_writable(directory: &Path) -> io::Result<()> {
+    fs::create_dir_all(directory)?;
+    let file = directory.join(format!(".contact-{}", process::id()));
+    fs::write(&file, "").and_then(|()| fs::remove_file(&file))
 }
 
 fn how(proved: &ProofAttempt) -> String {
@@ -134,11 +143,9 @@ fn print_problems(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
                 writeln!(out, "\n{equation} {name} REFUTED")?;
                 output::wrapped(out, "  ", 4, &join_operands(&printer().claim(statement)))?;
                 output::wrapped(out, "  at ", 4, &output::join_coordinates(counterexample))?;
-                solve::command(out, reproduction(&counterexample.point))?;
             }
         }
     }
-    let repairs = proofs.repairs.iter().map(|change| format!("{change} would make every claim provable"));
     let redundant = proofs.mutation.redundant_hypotheses().map(
         |DroppedHypothesis { equation, name, hypothesis: given, outcome: without }| {
             let what = match without {
@@ -154,7 +161,7 @@ fn print_problems(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
         MutationOutcome::Undetected => Some(format!("UNNOTICED {}: {}", change.site, change.mutation)),
         MutationOutcome::Detected { .. } | MutationOutcome::Equivalent => None,
     });
-    repairs.chain(redundant).chain(unnoticed).try_for_each(|line| {
+    redundant.chain(unnoticed).try_for_each(|line| {
         writeln!(out)?;
         output::wrapped(out, "", 2, &line)
     })
@@ -195,18 +202,12 @@ fn details(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
             print_claim(out, proofs, proved)?;
         }
     }
-    let noticed =
-        proofs.mutation.mutants.iter().filter_map(|(Mutant { site, mutation: what }, effect)| match effect {
-            MutationOutcome::Detected { equation, name, refutation } => {
-                let at = output::join_coordinates(&refutation.counterexample());
-                Some(format!("{site}: {what}, by {equation} {name} at {at}"))
-            }
-            MutationOutcome::Equivalent | MutationOutcome::Undetected => None,
-        });
-    let noticed: Vec<_> = noticed.collect();
-    if !noticed.is_empty() {
-        writeln!(out, "\nmutations of formulas that these claims detect")?;
-        noticed.iter().try_for_each(|line| output::wrapped(out, "  ", 4, line))?;
+    let detected = proofs.mutation.summary().detected;
+    if detected > 0 {
+        let noticed =
+            format!("These claims detect {detected} mutations of formulas; --format json lists them.");
+        writeln!(out)?;
+        output::wrapped(out, "", 2, &noticed)?;
     }
     print_problems(out, proofs)
 }
@@ -328,7 +329,5 @@ mod tests {
                 && text.contains("\nMutations are tested when all claims are proved.\n"),
             "{text}"
         );
-        // The claims are wrong but the chapter is right, so no solve reproduces them.
-        assert!(!text.contains("contact solve"), "{text}");
     }
 }

@@ -271,21 +271,6 @@ impl<T: Scalar + ExactText> Problem<T> {
     }
 }
 
-/// Prints the command that solves a problem, if there is one.
-pub fn command(out: &mut dyn Write, problem: Option<(SpringMass<Exact>, Method<Exact>)>) -> io::Result<()> {
-    let Some((system, method)) = problem else { return Ok(()) };
-    let options = SpringMass::KEYS.zip(system.as_ref());
-    let options = options.map(|(key, x)| format!("--{} {x}", key.replace('_', "-"))).into_array().join(" ");
-    let line = format!("contact solve --scalar exact {options} --method {}", MethodName::of(&method).name());
-    let line = match method {
-        Method::Lagrange => line,
-        Method::Penalty { penalty } | Method::Augmented { penalty, .. } => {
-            line + &format!(" --penalty {penalty}")
-        }
-    };
-    output::command(out, line.split(' '))
-}
-
 /// Returns the quantities of an iterate.
 fn quantities<T>(iterate: &Iterate<T>) -> [&T; 4] {
     [&iterate.multiplier, &iterate.deflection, &iterate.penetration, &iterate.contact_force]
@@ -294,8 +279,6 @@ fn quantities<T>(iterate: &Iterate<T>) -> [&T; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::output::capture;
-    use clap::{Args, FromArgMatches};
     use std::cell::RefCell;
 
     /// Counted in steps of exact arithmetic, or allowed steps if these are fewer.
@@ -310,25 +293,6 @@ mod tests {
             let progress = |k, of| seen.borrow_mut().push((k, of));
             assert!(problem.solve(problem.steps_needed().as_ref(), &progress).is_ok());
             assert_eq!(seen.into_inner(), (0..=last).map(|k| (k, last)).collect::<Vec<_>>());
-        }
-    }
-
-    /// Every printed command parses as the system and the method it was printed for.
-    #[test]
-    fn a_printed_command_parses_to_the_same_options() {
-        let [c, m, g, l, h, penalty] =
-            ["1/3", "5", "-1/3", "-7", "2", "7"].map(|text| text.parse::<Exact>().unwrap());
-        let system = SpringMass { c, m, g, l, h };
-        for method in [Method::Lagrange, Method::Penalty { penalty: penalty.clone() }] {
-            let line = capture(|out| command(out, Some((system.clone(), method.clone()))));
-            let words = shlex::split(&line.replace("\\\n", "")).unwrap().into_iter().skip(1);
-            let words = crate::args::join_negative_values(words);
-            let read =
-                Options::augment_args(clap::Command::new("solve")).try_get_matches_from(words).unwrap();
-            let options = Options::from_arg_matches(&read).unwrap();
-            assert_eq!(options.system.values(), system);
-            assert_eq!(options.method(&penalty).unwrap_or_else(|_| panic!("{line}")), method);
-            assert_eq!(options.scalar, NumberSystem::Exact);
         }
     }
 }

@@ -1,11 +1,10 @@
 //! `contact verify`: every claim, proved and checked in every number system.
 
+use crate::args;
 use crate::output::{self, Exit, Failure, formats};
-use crate::{args, solve};
 use spring_mass_contact::claims::entry;
 use spring_mass_contact::number::NumberSystem;
-use spring_mass_contact::verify::claim_names;
-use spring_mass_contact::verify::{self, Report, Row, Status, Suspect, reproduction};
+use spring_mass_contact::verify::{self, Report, Row, Status, claim_names};
 use std::io::{self, Write};
 
 const EXAMPLES: &str = "\
@@ -96,14 +95,8 @@ fn table(out: &mut dyn Write, report: &Report, options: &verify::Options) -> io:
         counts(out, report, ways)?;
         writeln!(out)?;
     }
-    let unproved = unproved(report) > 0;
-    if unproved {
-        print_suspects(out, report)?;
-        writeln!(out)?;
-    }
     let of = |status| report.rows.iter().filter(move |row| row.status == status);
-    let mut failed: Vec<&Row> = of(Status::Failed).collect();
-    failed.sort_by_key(|row| report.suspects.iter().all(|suspect| suspect.equation != Some(row.equation)));
+    let failed: Vec<&Row> = of(Status::Failed).collect();
     for alike in failed.chunk_by(|a, b| fail_alike(a, b)) {
         failure(out, alike)?;
         writeln!(out)?;
@@ -133,10 +126,9 @@ fn table(out: &mut dyn Write, report: &Report, options: &verify::Options) -> io:
             name(*scalar)
         )?;
     }
-    // Repeated below all failures, where a terminal shows it.
-    if unproved {
-        writeln!(out)?;
-        print_suspects(out, report)?;
+    if !report.shared.is_empty() {
+        let shared = report.shared.join(", ");
+        output::wrapped(out, "", 2, &format!("Every claim that is not proved uses {shared}."))?;
     }
     Ok(())
 }
@@ -199,45 +191,6 @@ fn counts(out: &mut dyn Write, report: &Report, ways: &[Way]) -> io::Result<()> 
     output::table(out, names, rows, 1..2)
 }
 
-/// Returns the number of unproved claims.
-fn unproved(report: &Report) -> usize {
-    report.rows.iter().filter(|row| row.scalar.is_none() && row.status == Status::Failed).count()
-}
-
-/// Prints the functions that are likely wrong, and the mutants that would repair them.
-fn print_suspects(out: &mut dyn Write, report: &Report) -> io::Result<()> {
-    for Suspect { function, equation, unproved, proved } in &report.suspects {
-        let number = equation.and_then(entry).map_or(String::new(), |entry| entry.label() + " ");
-        writeln!(out, "{number}{function}: most likely wrong")?;
-        match unproved {
-            0 => writeln!(out, "  it only returns an argument")?,
-            1 => writeln!(out, "  or the claim itself: no other claim about it fails")?,
-            _ => {
-                let all = unproved + proved;
-                writeln!(out, "  {unproved} of {all} claims about it are not proved")?;
-            }
-        }
-    }
-    for change in &report.repairs {
-        output::wrapped(out, "  ", 4, &format!("{change} would make every claim provable"))?;
-    }
-    let unproved = unproved(report);
-    if unproved == 0 || !report.repairs.is_empty() {
-        return Ok(());
-    }
-    let of_all = if unproved == 1 { "the claim that is" } else { "all claims that are" };
-    let shared = match report.shared.as_slice() {
-        [] => "the unproved claims have no function in common: there may be several mistakes".to_string(),
-        shared => format!("functions common to {of_all} not proved: {}", shared.join(", ")),
-    };
-    output::wrapped(
-        out,
-        "  ",
-        4,
-        &format!("no mutation of one operation makes every claim provable; {shared}"),
-    )
-}
-
 /// Returns `true` if the same claim fails for the same reason in two number systems; their rows are adjacent.
 fn fail_alike(a: &Row, b: &Row) -> bool {
     let key = |row: &Row| (row.equation, row.claim, row.scalar.is_none());
@@ -270,9 +223,10 @@ fn failure(out: &mut dyn Write, alike: &[&Row]) -> io::Result<()> {
     if let Some(reason) = reason {
         output::wrapped(out, "  ", 4, reason)?;
     }
-    let Some(point) = row.point() else { return Ok(()) };
-    output::wrapped(out, "  ", 2, &output::join_coordinates(&point))?;
-    solve::command(out, reproduction(&point))
+    match row.point() {
+        Some(point) => output::wrapped(out, "  ", 2, &output::join_coordinates(&point)),
+        None => Ok(()),
+    }
 }
 
 /// Returns the number systems of rows.

@@ -8,7 +8,7 @@ pub(super) use fitted::fitted;
 
 use super::{CASES, Family, Problem, problems};
 use crate::chapter::{SpringMass, augmented, contact, lagrange, penalty, structure, system};
-use crate::claims::{entry_for_function, registry, symbols};
+use crate::claims::{entry_for_function, function_at, registry, symbols};
 use crate::number::tree::{Op, Site, piecewise_ops};
 use crate::number::{Exact, PositivePart, ToExact, Tree};
 use crate::proof::mutation::{Mutant, mutants_in};
@@ -391,6 +391,5 @@ fn edited(change: Mutant, formulas: &Formulas, besides: &str) -> Mistake {
 
 /// Returns the label of the equation at a site of the source.
 fn label(site: Site) -> String {
-    let own = registry().formulas().iter().find(|formula| formula.tree.any(&|tree| tree.site() == site));
-    own.and_then(|own| entry_for_function(own.path)).map_or(site.to_string(), |entry| entry.label())
+    function_at(site).and_then(entry_for_function).map_or(site.to_string(), |entry| entry.label())
 }

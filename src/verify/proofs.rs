@@ -3,11 +3,11 @@
 #[cfg(feature = "serde")]
 mod json;
 
-use crate::claims::{index_of, registry, statements};
+use crate::claims::{registry, statements};
 use crate::formula::statement::minimum_precision;
-use crate::formula::{Hypothesis, Statement};
+use crate::formula::{Hypothesis, Registry, Statement};
 use crate::proof::mutation::{
-    self, DroppedHypothesis, Mutant, MutationOutcome, MutationReport, find_repairs, test_mutations,
+    self, DroppedHypothesis, MutationReport, find_detected_mutants, test_mutations,
 };
 use crate::proof::render::ProofPrinter;
 use crate::proof::{Counterexample, Proof, prove, refute};
@@ -68,10 +68,8 @@ impl ProofAttempt {
 pub struct Proofs {
     /// Claims in the chapter's order.
     pub claims: Vec<ProofAttempt>,
-    /// Mutations and dropped hypotheses of these claims; a mutant belongs to the claim that detects it.
+    /// Mutations and dropped hypotheses of these claims, if all are proved.
     pub mutation: MutationReport,
-    /// Mutants, each of which would make all claims provable.
-    pub repairs: Vec<Mutant>,
     /// Time of the proofs.
     pub proof_time: Duration,
     /// Time of the proofs with mutations and dropped hypotheses.
@@ -97,36 +95,25 @@ pub struct Summary {
     pub controls: mutation::Summary,
 }
 
-/// Proves every claim of the chapter, and tests mutations and dropped hypotheses if all are proved. The
-/// result contains those of the given equations; undetected mutants concern all equations.
-pub fn prove_all(equations: &[String]) -> Proofs {
-    prove_statements(&statements(), equations)
+/// Proves the claims of some equations, or all claims without equations, and tests mutations and dropped
+/// hypotheses if all are proved. Of some equations the result contains the mutants that their claims detect;
+/// other claims have to detect the others.
+pub fn prove_equations(equations: &[String]) -> Proofs {
+    let mut selected = statements();
+    if equations.is_empty() {
+        return prove_statements(&selected, test_mutations);
+    }
+    selected.retain(|statement| equations.iter().any(|equation| equation == statement.equation()));
+    prove_statements(&selected, find_detected_mutants)
 }
 
-fn prove_statements(all: &[Statement], equations: &[String]) -> Proofs {
+fn prove_statements(statements: &[Statement], test: fn(&[Statement], &Registry) -> MutationReport) -> Proofs {
     let start = Instant::now();
-    let mut claims: Vec<_> = all.par_iter().cloned().map(ProofAttempt::of).collect();
+    let claims: Vec<_> = statements.par_iter().cloned().map(ProofAttempt::of).collect();
     let proof_time = start.elapsed();
-    let (mut mutation, repairs) = if claims.iter().all(|claim| matches!(claim.answer, ProofOutcome::Proof(_)))
-    {
-        (test_mutations(all, registry()), Vec::new())
-    } else {
-        (MutationReport::default(), repairs(all))
-    };
-    let wanted = |equation: &str| equations.is_empty() || equations.iter().any(|e| e == equation);
-    claims.retain(|claim| wanted(claim.statement.equation()));
-    claims.sort_by_key(|claim| index_of(claim.statement.equation()));
-    mutation.dropped.retain(|dropped| wanted(dropped.equation));
-    mutation.mutants.retain(|(_, effect)| match effect {
-        MutationOutcome::Detected { equation, .. } => wanted(equation),
-        MutationOutcome::Equivalent | MutationOutcome::Undetected => equations.is_empty(),
-    });
-    Proofs { claims, mutation, repairs, proof_time, total_time: start.elapsed() }
-}
-
-/// Returns the mutants that would make all claims provable; none if a wrong formula makes a proof panic.
-pub(super) fn repairs(statements: &[Statement]) -> Vec<Mutant> {
-    catch_panic(|| find_repairs(statements, registry())).unwrap_or_default()
+    let all_proved = claims.iter().all(|claim| matches!(claim.answer, ProofOutcome::Proof(_)));
+    let mutation = if all_proved { test(statements, registry()) } else { MutationReport::default() };
+    Proofs { claims, mutation, proof_time, total_time: start.elapsed() }
 }
 
 impl Proofs {
@@ -176,7 +163,7 @@ mod tests {
     use crate::claims::hypotheses;
     use crate::formula::claim::equal;
     use crate::number::Tree;
-    use crate::proof::mutation::{DropOutcome, mutants};
+    use crate::proof::mutation::{DropOutcome, MutationOutcome, mutants};
 
     fn rate() -> Statement {
         statements().into_iter().find(|s| (s.equation(), s.name()) == ("1.13", "rate")).unwrap()
@@ -197,19 +184,24 @@ mod tests {
         }
     }
 
+    /// The claim of note 6 is about formulas of other equations.
     #[test]
-    fn a_mistake_has_repairs_and_right_formulas_have_mutations() {
-        let is_chosen = |s: &Statement| s.equation() == "1.13" && ["two-forms", "rate"].contains(&s.name());
-        let right: Vec<_> = statements().into_iter().filter(is_chosen).collect();
-        let of_right = prove_statements(&right, &[]);
-        assert!(of_right.repairs.is_empty() && !of_right.mutation.mutants.is_empty());
-        let stiffness = registry().formula("penalty::total_stiffness").unwrap().tree.site();
-        let mistake =
-            mutants(&right, registry()).into_iter().find(|change| change.site == stiffness).unwrap();
-        let wrong: Vec<_> = right.iter().map(|s| mistake.apply(s).unwrap_or(s.clone())).collect();
-        let of_wrong = prove_statements(&wrong, &[]);
-        assert!(!of_wrong.hold() && of_wrong.mutation.mutants.is_empty());
-        assert!(of_wrong.repairs.iter().any(|repair| repair.site == stiffness), "{:?}", of_wrong.repairs);
+    fn selected_claims_alone_are_proved_and_tested() {
+        let proofs = prove_equations(&["note 6".to_string()]);
+        assert!(proofs.hold() && proofs.claims.iter().all(|claim| claim.statement.equation() == "note 6"));
+        let MutationReport { mutants, dropped } = proofs.mutation;
+        let by = |outcome: &MutationOutcome| match outcome {
+            MutationOutcome::Detected { equation, .. } => Some(*equation),
+            MutationOutcome::Equivalent | MutationOutcome::Undetected => None,
+        };
+        assert!(!mutants.is_empty() && mutants.iter().all(|(_, outcome)| by(outcome) == Some("note 6")));
+        assert!(!dropped.is_empty() && dropped.iter().all(|dropped| dropped.equation == "note 6"));
+    }
+
+    #[test]
+    fn mutations_are_tested_if_all_claims_are_proved() {
+        assert!(!prove_statements(&[rate()], test_mutations).mutation.mutants.is_empty());
+        assert!(prove_statements(&[rate(), wrong()], test_mutations).mutation.mutants.is_empty());
     }
 
     /// One unproved claim, one undetected mutant, or one redundant hypothesis suffices.

@@ -2,8 +2,6 @@ use super::*;
 use crate::output::capture;
 use spring_mass_contact::claims::Case;
 use spring_mass_contact::number::Exact;
-use spring_mass_contact::number::tree::Site;
-use spring_mass_contact::proof::mutation::{Mutant, Mutation, Operator};
 
 /// c = 1, m = 1/2, g = −1/3, everything else 7/3.
 fn case() -> Case<Exact> {
@@ -33,12 +31,12 @@ fn row(way: Way, status: Status) -> Row {
 
 fn report(rows: Vec<Row>) -> (Report, verify::Options) {
     let scalars = rows.iter().filter_map(|row| row.scalar).collect();
-    let report = Report { rows, suspects: Vec::new(), repairs: Vec::new(), shared: Vec::new() };
+    let report = Report { rows, shared: Vec::new() };
     (report, verify::Options { scalars, cases: 5, seed: 42, equations: Vec::new() })
 }
 
 /// A claim that is not proved, wrong in f32 and f64 in the same case, undecided with two bits, and right in
-/// rationals; before it a claim that is wrong for another reason, without suspects.
+/// rationals; before it another claim that is not proved.
 fn mistaken() -> (Report, verify::Options) {
     let [single, double, two_bits] = [NumberSystem::F32, NumberSystem::F64, NumberSystem::Mpfr(2)];
     let proof = Row { reason: Some("the sides differ by c".into()), ..row(None, Status::Failed) };
@@ -50,17 +48,14 @@ fn mistaken() -> (Report, verify::Options) {
         row(Some(NumberSystem::Exact), Status::Held),
     ];
     let (mut report, options) = report(rows);
-    let suspect = Suspect { function: "penalty::deflection", equation: Some("1.13"), unproved: 7, proved: 2 };
-    report.suspects.push(suspect);
-    let site = Site { file: "src/chapter/penalty.rs", line: 179, column: 12, rank: 0 };
-    report.repairs.push(Mutant { site, mutation: Mutation::Swap(Operator::Sub) });
+    report.shared = vec!["penalty::deflection", "structure::equilibrium_residual", "system::reaction"];
     report.rows.insert(0, Row { equation: "1.1", claim: "root", ..proof });
     (report, options)
 }
 
 /// A long title is broken, and the ratio of error and bound is printed for claims that hold.
 #[test]
-fn the_table_shows_suspects_failed_claims_and_counterexamples() {
+fn the_table_shows_failed_claims_counterexamples_and_shared_functions() {
     let (report, options) = mistaken();
     let expected = r"
  number  title                        proved    f32       f64       mpfr:2
@@ -72,18 +67,14 @@ fn the_table_shows_suspects_failed_claims_and_counterexamples() {
  (1.1)   Equilibrium of forces                -
  (1.13)  Deflection by penalty and its limit  1 held
 
-(1.13) penalty::deflection: most likely wrong
-  7 of 9 claims about it are not proved
-  src/chapter/penalty.rs:179:12 a − b → b − a would make every claim provable
+1.1 root NOT PROVED
+  the sides differ by c
 
 1.13 rate NOT PROVED
   the sides differ by c
 
 1.13 rate FAILED in f32, f64
   c = 1, m = 1/2, g = -1/3, l = 7/3, H = 7/3, ε = 7/3
-
-1.1 root NOT PROVED
-  the sides differ by c
 
 1.13 rate undecided in mpfr:2
   No case decides these, which is not a failure: try more --cases, or a --scalar
@@ -93,10 +84,8 @@ fn the_table_shows_suspects_failed_claims_and_counterexamples() {
 1 of 4 claims hold: 12 trials decided, 8 undecidable.
 5 cases from seed 42.
 Rounding errors: at most 250 % of the bound (1.13 rate, exact).
-
-(1.13) penalty::deflection: most likely wrong
-  7 of 9 claims about it are not proved
-  src/chapter/penalty.rs:179:12 a − b → b − a would make every claim provable
+Every claim that is not proved uses penalty::deflection,
+  structure::equilibrium_residual, system::reaction.
 ";
     assert_eq!(format!("\n{}", capture(|out| table(out, &report, &options))), expected);
     let text = capture(|out| markdown(out, &report));
@@ -118,40 +107,6 @@ fn failures_of_proofs_and_of_number_systems_are_distinguished() {
         text.contains(&format!("1.13 rate NOT PROVED{reason}1.13 rate FAILED in f32, f64{reason}")),
         "{text}"
     );
-}
-
-/// A wrong function usually makes several claims fail.
-#[test]
-fn a_single_failure_can_be_the_claims_own() {
-    for (unproved, said) in [
-        (0, "it only returns an argument"),
-        (1, "or the claim itself: no other claim about it fails"),
-        (2, "2 of 5 claims about it are not proved"),
-    ] {
-        let (mut report, _) = report(vec![row(Some(NumberSystem::Exact), Status::Failed)]);
-        let (function, equation) = ("penalty::deflection", Some("1.13"));
-        report.suspects = vec![Suspect { function, equation, unproved, proved: 5 - unproved }];
-        let text = capture(|out| print_suspects(out, &report));
-        assert_eq!(text, format!("(1.13) penalty::deflection: most likely wrong\n  {said}\n"));
-    }
-}
-
-/// One claim, two with common functions, and two without.
-#[test]
-fn without_a_repair_the_shared_functions_of_failures_are_listed() {
-    let none = "  no mutation of one operation makes every claim provable; ";
-    for (failures, shared, expected) in [
-        (1, &["a::b"][..], "functions common to the claim that is not proved: a::b"),
-        (2, &["a::b", "c::d"], "functions common to all claims that are not proved: a::b, c::d"),
-        (2, &[], "the unproved claims have no function in common: there may be several mistakes"),
-    ] {
-        let (mut report, _) = report(vec![row(None, Status::Failed); failures]);
-        report.shared = shared.to_vec();
-        let text = capture(|out| print_suspects(out, &report));
-        let in_one_line = text.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert_eq!(in_one_line, none.trim_start().to_string() + expected);
-        assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
-    }
 }
 
 /// One failure, in a proof or in numbers, first or last, is visible in the status and in every format.

@@ -142,20 +142,6 @@ impl Mutation {
         all
     }
 
-    /// Returns the mutations that may undo a mistake: [`all`](Self::all), and replacements of an integer n by
-    /// integers up to 24, −n, 2 n and n/2.
-    fn repairs(tree: &Tree, registry: &Registry) -> Vec<Mutation> {
-        const MAX_INTEGER: i32 = 24;
-        let mut repairs = Mutation::all(tree, registry);
-        if let Op::Int(n) = *tree.op() {
-            let multiples = [n.checked_neg(), n.checked_mul(2), Some(n / 2)].into_iter().flatten();
-            let others: BTreeSet<i32> =
-                (0..=MAX_INTEGER).chain(multiples).filter(|other| *other != n).collect();
-            repairs.extend(others.into_iter().map(|other| Mutation::Integer(n, other)));
-        }
-        repairs
-    }
-
     /// Applies the mutation to an operation; `None` if it is not applicable.
     fn mutate(self, tree: &Tree) -> Option<Tree> {
         match self {
@@ -239,9 +225,6 @@ impl fmt::Display for Mutant {
     }
 }
 
-#[cfg(feature = "serde")]
-crate::number::serialize_as_displayed!(Mutant);
-
 impl Mutant {
     fn mutate(&self, tree: &Tree) -> Option<Tree> {
         if tree.site() == self.site { self.mutation.mutate(tree) } else { None }
@@ -290,26 +273,14 @@ pub fn mutants(statements: &[Statement], registry: &Registry) -> Vec<Mutant> {
 
 /// Returns all mutants of functions of the registry that affect the formulas.
 pub fn mutants_in<'a>(trees: impl IntoIterator<Item = &'a Tree>, registry: &Registry) -> Vec<Mutant> {
-    mutants_of(trees, registry, Mutation::all)
-}
-
-/// Returns the mutants that may undo a mistake in a function of the registry: [`mutants`], and further
-/// replacements of integers.
-pub fn possible_repairs(statements: &[Statement], registry: &Registry) -> Vec<Mutant> {
-    mutants_of(statements.iter().flat_map(Statement::trees), registry, Mutation::repairs)
-}
-
-fn mutants_of<'a>(
-    trees: impl IntoIterator<Item = &'a Tree>,
-    registry: &Registry,
-    mutations: fn(&Tree, &Registry) -> Vec<Mutation>,
-) -> Vec<Mutant> {
     let mut all = BTreeSet::new();
     for tree in trees {
         tree.visit(&mut |tree| {
             let site = tree.site();
             if registry.has_site(&site) {
-                all.extend(mutations(tree, registry).into_iter().map(|what| Mutant { site, mutation: what }));
+                all.extend(
+                    Mutation::all(tree, registry).into_iter().map(|mutation| Mutant { site, mutation }),
+                );
             }
         });
     }
@@ -351,14 +322,6 @@ mod tests {
         check(&a.positive_part(), &[("⟨a⟩ → a", first.clone())]);
         let maximum = ("min → max", -(-&a).min(&-&b));
         check(&a.min(&b), &[maximum, ("min(a, b) → a", first), ("min(a, b) → b", second)]);
-    }
-
-    #[test]
-    fn integers_are_repaired_by_their_multiples() {
-        let repairs = Mutation::repairs(&Tree::int(100), &Registry::default());
-        for other in [-100, 0, 24, 50, 101, 200] {
-            assert!(repairs.contains(&Mutation::Integer(100, other)), "{other}");
-        }
     }
 
     #[test]
