@@ -16,7 +16,7 @@ use std::{
 };
 
 fn book() -> PathBuf {
-    files::root().join("book")
+    crate::files::root().join("book")
 }
 
 /// Generated files with their text, which is empty for binary files.

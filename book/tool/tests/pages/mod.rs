@@ -7,7 +7,9 @@ mod letters;
 mod proofs;
 mod tables;
 
+use crate::files::{root, text};
+
 /// Returns the text of a page, given by the name of its file.
 fn page(name: &str) -> String {
-    files::text(&files::root().join(format!("book/src/{name}.md")))
+    text(&root().join(format!("book/src/{name}.md")))
 }
