@@ -19,7 +19,7 @@ use spring_mass_contact::solver::{
 };
 use std::cmp::Ordering;
 use std::ops::Range;
-use strategies::{exact, int, positive_part};
+use strategies::{exact, int};
 
 /// Far more than any of these systems takes.
 const MAX_AUGMENTATIONS: u64 = 1000;
@@ -104,7 +104,7 @@ impl Grid {
         };
         *kind += self.penalties.len();
         // c p + N = R.
-        let force = positive_part(&r);
+        let force = r.positive_part();
         let p = (&r - &force) / c;
         let u = &gap + &p;
 

@@ -4,7 +4,7 @@
 //! every machine and in every scalar. c, m, l, Δ and R are sampled; H = l + Δ and g = (R + c Δ)/m follow. The
 //! sign of R, and with it the state, is therefore known. A case is printed as options of `contact solve`.
 
-#![allow(dead_code)] // every test file uses its share of this one
+#![allow(dead_code, unused_imports, unused_macros)] // every test file uses its share of this one
 
 pub use num_traits::Zero;
 pub use proptest::prelude::*;
@@ -62,17 +62,27 @@ fn erased<V: fmt::Debug + 'static>(values: BoxedStrategy<V>) -> BoxedStrategy<Dr
 /// its seed is kept in a file beside the source file of the caller, and tried first from then on.
 #[track_caller]
 pub fn holds<V: fmt::Debug + 'static>(values: impl Strategy<Value = V> + 'static, law: impl Fn(&V)) {
+    holds_often(1, values, law);
+}
+
+/// As [`holds`], for a number of times as many values: where a mistake shows for few of them, and none takes long.
+#[track_caller]
+pub fn holds_often<V: fmt::Debug + 'static>(
+    times: u32,
+    values: impl Strategy<Value = V> + 'static,
+    law: impl Fn(&V),
+) {
     let law = |Drawn(value): &Drawn| {
         let value: &dyn Any = &**value;
         law(value.downcast_ref().expect("of the type that is erased"));
     };
-    run(&erased(values.boxed()), &law);
+    run(times * cases(), &erased(values.boxed()), &law);
 }
 
 #[track_caller]
-fn run(values: &BoxedStrategy<Drawn>, law: &dyn Fn(&Drawn)) {
+fn run(cases: u32, values: &BoxedStrategy<Drawn>, law: &dyn Fn(&Drawn)) {
     let source_file = Some(Location::caller().file());
-    let mut config = Config { cases: cases(), source_file, ..Config::default() };
+    let mut config = Config { cases, source_file, ..Config::default() };
     // Unless the environment disables it.
     if config.failure_persistence.is_some() {
         config.failure_persistence =
