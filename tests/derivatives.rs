@@ -146,7 +146,7 @@ fn derivatives_at_a_kink_are_one_sided() {
             assert_eq!(contact::deflection(&lowered).derivative, quotient(&|s| contact::deflection(s)));
             assert_eq!(
                 penalty::unilateral_deflection(&lowered, &lifted).derivative,
-                quotient(&|s| penalty::unilateral_deflection(s, &eps))
+                quotient(&|s| penalty::unilateral_deflection(s, eps))
             );
         }
         // ∂u/∂ε = −R/(c + ε)² in contact, 0 where the mass hangs free and where it grazes.

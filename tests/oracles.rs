@@ -24,15 +24,7 @@ use spring_mass_contact::chapter::{
 use spring_mass_contact::number::{Exact, Exponential, Field, Mpfr, PositivePart, ToExact};
 use spring_mass_contact::operators;
 use spring_mass_contact::solver::{Method, Plane, exact_augmentation_count, penalty_for_penetration, solve};
-use strategies::{holds, int};
-
-fn q(text: &str) -> Exact {
-    text.parse().unwrap()
-}
-
-fn default_system() -> SpringMass<Exact> {
-    SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" }.parse().unwrap()
-}
+use strategies::{default_system, holds, int, q};
 
 #[test]
 fn the_system_and_its_structure() {

@@ -135,6 +135,16 @@ in_every_float! {
     the_parabola_is_the_penalty_method from any_state;
 }
 
+/// R = 1/2 without lengths: in f32 the numbers beside the root have signs that rounding leaves open, and the number
+/// before the first certain one is no bound.
+#[test]
+fn a_bound_is_certain() {
+    let [c, m, g, l, h, eps, start] = ["1", "1", "1/2", "0", "0", "128", "0"].map(q);
+    let system = SpringMass { c, m, g, l, h };
+    let case = Case { system, eps, start, tolerance: Exact::power_of_two(-31) };
+    bounds_contain_the_root(&case.rounded(&1f32));
+}
+
 /// In rationals every tolerance is met, and a parabola needs none.
 #[test]
 fn rationals_meet_every_tolerance() {

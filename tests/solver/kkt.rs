@@ -223,7 +223,8 @@ fn one_ulp_decides<T: Float>(s: &SpringMass<Exact>, like: &T) {
     assert_eq!(solve(&s, &Method::Lagrange).unwrap().state, State::Grazing);
     let gap = system::gap(&s.map(exact));
     // R = m g − c (H − l), so ∂R is g, −Δ, m, c, −c; and g has the sign of Δ here.
-    let parameters: [(fn(&mut SpringMass<T>) -> &mut T, Exact); 5] = [
+    type Parameter<T> = fn(&mut SpringMass<T>) -> &mut T;
+    let parameters: [(Parameter<T>, Exact); 5] = [
         (|s| &mut s.m, gap.clone()),
         (|s| &mut s.c, -gap),
         (|s| &mut s.g, int(1)),

@@ -41,8 +41,8 @@ fn what_is_written_encloses<T: Float + ExactText>(case: &Case<T>) {
 }
 
 /// The width is the distance of the ends if the scalar contains this number, otherwise it is larger. It is at
-/// most the result of five roundings, of the difference, its radius, their sum, and an ulp, which is two: (1
-/// + η)⁵ and the second-order effect of enlarging a radius are below 1 + 8 η. Containment agrees with the
+/// most the result of five roundings, of the difference, its radius, their sum, and an ulp, which is two:
+/// (1 + η)⁵ and the second-order effect of enlarging a radius are below 1 + 8 η. Containment agrees with the
 /// comparison of rationals.
 fn a_width_is_no_less_than_the_distance<T: Float>(case: &Case<T>) {
     let Case { system: SpringMass { g, l, h, .. }, start, .. } = case;
