@@ -1,12 +1,10 @@
 //! The chapter in dual numbers: its derivatives are exact in rationals, and within the rounding errors in
 //! floats.
 
-use crate::strategies::{NARROW, exact, nonzero, number, positive};
-use num_traits::{One, Zero};
-use proptest::prelude::*;
-use spring_mass_contact::chapter::{SpringMass, augmented, contact, penalty, structure, system};
-use spring_mass_contact::number::{Ball, Dual, Exact, Field, PositivePart, ToExact};
-use spring_mass_contact::solver::{Augmentation, Plane};
+use crate::strategies::*;
+use num_traits::One;
+use spring_mass_contact::chapter::{augmented, contact, penalty, structure};
+use spring_mass_contact::number::{Ball, Dual, Field};
 
 /// A system and a penalty for which every divisor in the chapter is positive.
 fn systems() -> impl Strategy<Value = (SpringMass<Exact>, Exact)> {
@@ -31,58 +29,61 @@ fn gamma(n: i32) -> Exact {
     &roundings / (Exact::one() - &roundings)
 }
 
-proptest! {
-    #[test]
-    fn the_derivative_of_a_quadratic_is_its_difference_quotient_at_any_step(
-        (system, eps) in systems(), u in number(NARROW), lambda in number(NARROW), step in nonzero(NARROW),
-    ) {
-        let (lifted, x) = (constants(&system), Dual::variable(u.clone()));
-        let [lifted_eps, lifted_lambda] = [&eps, &lambda].map(|x| Dual::constant(x.clone()));
-        let quotient = |f: &dyn Fn(&Exact) -> Exact| central_difference_quotient(f, &u, &step);
-        prop_assert_eq!(
+#[test]
+fn the_derivative_of_a_quadratic_is_its_difference_quotient_at_any_step() {
+    let numbers = (number(NARROW), number(NARROW), nonzero(NARROW));
+    holds((systems(), numbers), |((system, eps), (u, lambda, step))| {
+        let (lifted, x) = (constants(system), Dual::variable(u.clone()));
+        let [lifted_eps, lifted_lambda] = [eps, lambda].map(|x| Dual::constant(x.clone()));
+        let quotient = |f: &dyn Fn(&Exact) -> Exact| central_difference_quotient(f, u, step);
+        assert_eq!(
             structure::potential_energy(&lifted, &x).derivative,
-            quotient(&|u| structure::potential_energy(&system, u))
+            quotient(&|u| structure::potential_energy(system, u))
         );
-        prop_assert_eq!(
+        assert_eq!(
             penalty::energy(&lifted, &lifted_eps, &x).derivative,
-            quotient(&|u| penalty::energy(&system, &eps, u))
+            quotient(&|u| penalty::energy(system, eps, u))
         );
-        prop_assert_eq!(
+        assert_eq!(
             augmented::functional(&lifted, &lifted_eps, &lifted_lambda, &x).derivative,
-            quotient(&|u| augmented::functional(&system, &eps, &lambda, u))
+            quotient(&|u| augmented::functional(system, eps, lambda, u))
         );
-    }
+    });
+}
 
-    #[test]
-    fn the_derivative_of_a_quartic_is_its_five_point_quotient(
-        eps in number(NARROW), fourth in number(NARROW), p in number(NARROW),
-    ) {
-        let f = |p: &Exact| penalty::series(&eps, std::slice::from_ref(&fourth), p);
+#[test]
+fn the_derivative_of_a_quartic_is_its_five_point_quotient() {
+    holds((number(NARROW), number(NARROW), number(NARROW)), |(eps, fourth, p)| {
+        let f = |p: &Exact| penalty::series(eps, std::slice::from_ref(fourth), p);
         // The quotients at the steps h and 2h differ from f′ by h² f‴/6 and 4h² f‴/6, and by nothing else
         // if f has no fifth derivative.
-        let [near, far] = [1, 2].map(|step| central_difference_quotient(f, &p, &Exact::int(step)));
+        let [near, far] = [1, 2].map(|step| central_difference_quotient(f, p, &Exact::int(step)));
         let derivative = (Exact::int(4) * near - far) / Exact::int(3);
-        prop_assert_eq!(penalty::series_force(&eps, std::slice::from_ref(&fourth), &p), derivative);
-    }
+        assert_eq!(penalty::series_force(eps, std::slice::from_ref(fourth), p), derivative);
+    });
+}
 
-    #[test]
-    fn the_derivatives_of_the_penalty_deflection_are_the_algebraic_ones((system, eps) in systems()) {
-        let deflection = penalty::deflection(&constants(&system), &Dual::variable(eps.clone()));
-        let (r, total) = (system::reaction(&system), &system.c + &eps);
+#[test]
+fn the_derivatives_of_the_penalty_deflection_are_the_algebraic_ones() {
+    holds(systems(), |(system, eps)| {
+        let deflection = penalty::deflection(&constants(system), &Dual::variable(eps.clone()));
+        let (r, total) = (system::reaction(system), &system.c + eps);
         // u = Δ + R/(c + ε)
         let first = -&r / (&total * &total);
-        prop_assert_eq!(&deflection.derivative, &first);
+        assert_eq!(&deflection.derivative, &first);
         // A dual of duals has the second derivative.
-        let twice = Dual { value: Dual::variable(eps), derivative: Dual::one() };
-        let deflection = penalty::deflection(&constants(&constants(&system)), &twice);
-        prop_assert_eq!(deflection.value.derivative, first.clone());
-        prop_assert_eq!(deflection.derivative.value, first);
-        prop_assert_eq!(deflection.derivative.derivative, Exact::int(2) * r / (&total * &total * &total));
-    }
+        let twice = Dual { value: Dual::variable(eps.clone()), derivative: Dual::one() };
+        let deflection = penalty::deflection(&constants(&constants(system)), &twice);
+        assert_eq!(deflection.value.derivative, first.clone());
+        assert_eq!(deflection.derivative.value, first);
+        assert_eq!(deflection.derivative.derivative, Exact::int(2) * r / (&total * &total * &total));
+    });
+}
 
-    /// Six exponents in a formula: nothing underflows.
-    #[test]
-    fn derivatives_in_f64_are_within_the_rounding_error_bound((system, eps) in systems()) {
+/// Six exponents in a formula: nothing underflows.
+#[test]
+fn derivatives_in_f64_are_within_the_rounding_error_bound() {
+    holds(systems(), |(system, eps)| {
         let (system, x) = (system.map(|x| x.to_f64().unwrap()), eps.to_f64().unwrap());
         let (rational, eps) = (system.map(exact), exact(&x));
 
@@ -105,26 +106,27 @@ proptest! {
             [("ours", ours.value, ours.derivative), ("num-dual", theirs.re, theirs.eps)]
         {
             let [value, derivative] = [value, derivative].map(|x| x.to_exact().unwrap());
-            prop_assert!((value - &reference.value).abs() <= value_bound, "{}", name);
-            prop_assert!((derivative - &reference.derivative).abs() <= derivative_bound, "{}", name);
+            assert!((value - &reference.value).abs() <= value_bound, "{}", name);
+            assert!((derivative - &reference.derivative).abs() <= derivative_bound, "{}", name);
         }
 
         // And ours within the bound that it computes itself.
         let balls = constants(&system.map(|&x| Ball::point(x)));
         let bounded = penalty::deflection(&balls, &Dual::variable(Ball::point(x)));
-        prop_assert_eq!((*bounded.value.value(), *bounded.derivative.value()), (ours.value, ours.derivative));
+        assert_eq!((*bounded.value.value(), *bounded.derivative.value()), (ours.value, ours.derivative));
         let encloses = |ball: &Ball<f64>, x: &Exact| (exact(ball.value()) - x).abs() <= exact(ball.radius());
-        prop_assert!(encloses(&bounded.value, &reference.value));
-        prop_assert!(encloses(&bounded.derivative, &reference.derivative));
-        prop_assert!(bounded.derivative.is_finite());
-    }
+        assert!(encloses(&bounded.value, &reference.value));
+        assert!(encloses(&bounded.derivative, &reference.derivative));
+        assert!(bounded.derivative.is_finite());
+    });
+}
 
-    /// ⟨·⟩ and the like have the right-hand derivative, and minus that of a decreasing variable is the
-    /// left-hand one: difference quotients with a step that does not reach the next kink.
-    #[test]
-    fn derivatives_at_a_kink_are_one_sided(
-        (mut system, eps) in systems(), r in prop_oneof![Just(0), -3..=3], step in number(NARROW),
-    ) {
+/// ⟨·⟩ and the like have the right-hand derivative, and minus that of a decreasing variable is the
+/// left-hand one: difference quotients with a step that does not reach the next kink.
+#[test]
+fn derivatives_at_a_kink_are_one_sided() {
+    holds((systems(), prop_oneof![Just(0), -3..=3], number(NARROW)), |((system, eps), r, step)| {
+        let (r, mut system) = (*r, system.clone());
         // Grazing in one case of two: R = r.
         system.g = (Exact::int(r) + &system.c * system::gap(&system)) / &system.m;
         // The functions are linear between R and 0, for H c less than |R| away; of ε there is no kink at all.
@@ -137,14 +139,11 @@ proptest! {
             let there = SpringMass { h: moved(&system.h), ..system.clone() };
             let quotient = |f: &dyn Fn(&SpringMass<Exact>) -> Exact| (f(&there) - f(&system)) / &step;
             let lifted = Dual::constant(eps.clone());
-            prop_assert_eq!(
-                contact::contact_force(&lowered).derivative,
-                quotient(&|s| contact::contact_force(s))
-            );
-            prop_assert_eq!(contact::deflection(&lowered).derivative, quotient(&|s| contact::deflection(s)));
-            prop_assert_eq!(
+            assert_eq!(contact::contact_force(&lowered).derivative, quotient(&|s| contact::contact_force(s)));
+            assert_eq!(contact::deflection(&lowered).derivative, quotient(&|s| contact::deflection(s)));
+            assert_eq!(
                 penalty::unilateral_deflection(&lowered, &lifted).derivative,
-                quotient(&|s| penalty::unilateral_deflection(s, &eps))
+                quotient(&|s| penalty::unilateral_deflection(s, eps))
             );
         }
         // ∂u/∂ε = −R/(c + ε)² in contact, 0 where the mass hangs free and where it grazes.
@@ -152,25 +151,27 @@ proptest! {
             let eps = Dual { value: eps.clone(), derivative: Exact::int(direction) };
             penalty::unilateral_deflection(&constants(&system), &eps).derivative
         };
-        let total = &system.c + &eps;
+        let total = &system.c + eps;
         let pushed = Exact::int(r).positive_part() / (&total * &total);
-        prop_assert_eq!((by_penalty(1), by_penalty(-1)), (-&pushed, pushed));
-    }
+        assert_eq!((by_penalty(1), by_penalty(-1)), (-&pushed, pushed));
+    });
+}
 
-    /// The iteration (1.16) is differentiated with respect to ε like its closed forms.
-    #[test]
-    fn an_augmentation_has_the_derivative_of_its_closed_form((system, eps) in systems(), k in 0..6usize) {
-        let (lifted, eps) = (constants(&system), Dual::variable(eps));
-        let step = Augmentation::new(&lifted, &eps).over(Plane::Bilateral).nth(k).unwrap();
+/// The iteration (1.16) is differentiated with respect to ε like its closed forms.
+#[test]
+fn an_augmentation_has_the_derivative_of_its_closed_form() {
+    holds((systems(), 0..6usize), |((system, eps), k)| {
+        let (lifted, eps) = (constants(system), Dual::variable(eps.clone()));
+        let step = Augmentation::new(&lifted, &eps).over(Plane::Bilateral).nth(*k).unwrap();
         let rho = augmented::contraction(&lifted, &eps);
-        let decay = (0..k).fold(Dual::one(), |decay, _| decay * &rho);
+        let decay = (0..*k).fold(Dual::one(), |decay, _| decay * &rho);
         let start = Dual::zero();
-        prop_assert_eq!(step.penetration, augmented::penetration_after(&lifted, &eps, &start, &decay));
-        prop_assert_eq!(step.multiplier, augmented::multiplier_after(&lifted, &start, &decay));
+        assert_eq!(step.penetration, augmented::penetration_after(&lifted, &eps, &start, &decay));
+        assert_eq!(step.multiplier, augmented::multiplier_after(&lifted, &start, &decay));
         // From λ₀ = 0 a plane that never pulls is the same in contact, and free it takes no part.
-        let one_sided = Augmentation::new(&lifted, &eps).nth(k).unwrap();
-        let free = system::reaction(&system) < Exact::zero();
+        let one_sided = Augmentation::new(&lifted, &eps).nth(*k).unwrap();
+        let free = system::reaction(system) < Exact::zero();
         let limit = structure::deflection(&lifted);
-        prop_assert_eq!(one_sided.deflection, if free { limit } else { step.deflection });
-    }
+        assert_eq!(one_sided.deflection, if free { limit } else { step.deflection });
+    });
 }

@@ -11,24 +11,16 @@
 //! - R² = 4.81² = 23.1361, so min Π_p = −0.3655 − 23.1361/400 = −0.42334025.
 //! - Augmented: λ = 0, 2.405, 3.6075 and p = 0.02405, 0.012025, 0.0060125, by halving.
 
-use crate::strategies::int;
+use crate::strategies::{default_system, holds, int, q};
 use num_dual::{Dual64, DualNum};
 use num_traits::{One, Zero};
-use proptest::prelude::*;
+use proptest::array::{uniform5, uniform6};
 use spring_mass_contact::chapter::{
     SpringMass, augmented, beyond, contact, lagrange, ode, penalty, structure, system,
 };
 use spring_mass_contact::number::{Exact, Exponential, Field, Mpfr, PositivePart, ToExact};
 use spring_mass_contact::operators;
 use spring_mass_contact::solver::{Method, Plane, exact_augmentation_count, penalty_for_penetration, solve};
-
-fn q(text: &str) -> Exact {
-    text.parse().unwrap()
-}
-
-fn default_system() -> SpringMass<Exact> {
-    SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" }.parse().unwrap()
-}
 
 #[test]
 fn the_system_and_its_structure() {
@@ -248,43 +240,43 @@ fn constant(x: &f64) -> NumDual {
     NumDual(Dual64::from_re(*x))
 }
 
-proptest! {
-    /// Every residual is the derivative of its energy. For integers below 2⁶ in absolute value the largest
-    /// term, 3 p⁶ and its derivative, is below 2⁵³, so f64 is exact and `==` is meant.
-    #[test]
-    fn residuals_are_derivatives(
-        (c, m, eps) in (1..64i32, 1..64i32, 1..64i32), signed in prop::array::uniform6(-63..64i32),
-    ) {
-        let [c, m, eps] = [c, m, eps].map(f64::from);
+/// Every residual is the derivative of its energy. For integers below 2⁶ in absolute value the largest
+/// term, 3 p⁶ and its derivative, is below 2⁵³, so f64 is exact and `==` is meant.
+#[test]
+fn residuals_are_derivatives() {
+    let positive = (1..64i32, 1..64i32, 1..64i32);
+    holds((positive, uniform6(-63..64i32)), |((c, m, eps), signed)| {
+        let [c, m, eps] = [*c, *m, *eps].map(f64::from);
         let [g, l, h, lambda, u, du] = signed.map(f64::from);
         let s = SpringMass { c, m, g, l, h };
         let (d, e, n) = (s.map(constant), constant(&eps), constant(&lambda));
-        prop_assert_eq!(slope(|u| structure::potential_energy(&d, u), u), structure::residual(&s, &u));
-        prop_assert_eq!(structure::first_variation(&s, &u, &du), du * structure::residual(&s, &u));
-        prop_assert_eq!(slope(|u| contact::penetration(&d, u), u), 1.0);
-        prop_assert_eq!(slope(|u| lagrange::functional(&d, u, &n), u), lagrange::residual(&s, &u, &lambda)[0]);
+        assert_eq!(slope(|u| structure::potential_energy(&d, u), u), structure::residual(&s, &u));
+        assert_eq!(structure::first_variation(&s, &u, &du), du * structure::residual(&s, &u));
+        assert_eq!(slope(|u| contact::penetration(&d, u), u), 1.0);
+        assert_eq!(slope(|u| lagrange::functional(&d, u, &n), u), lagrange::residual(&s, &u, &lambda)[0]);
         let by_lambda = slope(|n| lagrange::functional(&d, &constant(&u), n), lambda);
-        prop_assert_eq!(by_lambda, lagrange::residual(&s, &u, &lambda)[1]);
-        prop_assert_eq!(slope(|p| penalty::functional(&e, p), u), eps * u);
-        prop_assert_eq!(slope(|u| penalty::energy(&d, &e, u), u), penalty::residual(&s, &eps, &u));
+        assert_eq!(by_lambda, lagrange::residual(&s, &u, &lambda)[1]);
+        assert_eq!(slope(|p| penalty::functional(&e, p), u), eps * u);
+        assert_eq!(slope(|u| penalty::energy(&d, &e, u), u), penalty::residual(&s, &eps, &u));
         let higher = [lambda, 3.0];
         let by_p = slope(|p| penalty::series(&e, &higher.map(|x| constant(&x)), p), u);
-        prop_assert_eq!(by_p, penalty::series_force(&eps, &higher, &u));
+        assert_eq!(by_p, penalty::series_force(&eps, &higher, &u));
         let augmented_slope = slope(|u| augmented::functional(&d, &e, &n, u), u);
-        prop_assert_eq!(augmented_slope, augmented::stationarity(&s, &eps, &lambda, &u));
-        prop_assert_eq!(augmented_slope, augmented::equilibrium(&s, &eps, &lambda, &u));
-    }
+        assert_eq!(augmented_slope, augmented::stationarity(&s, &eps, &lambda, &u));
+        assert_eq!(augmented_slope, augmented::equilibrium(&s, &eps, &lambda, &u));
+    });
+}
 
-    /// The one-sided functional too, for penalties that are powers of two, where (⟨·⟩²)/(2ε) is exact.
-    #[test]
-    fn unilateral_residuals_are_derivatives(
-        (c, m, e) in (1..64i32, 1..64i32, 0..6), signed in prop::array::uniform5(-63..64i32),
-    ) {
-        let [c, m, eps] = [c, m, 1 << e].map(f64::from);
+/// The one-sided functional too, for penalties that are powers of two, where (⟨·⟩²)/(2ε) is exact.
+#[test]
+fn unilateral_residuals_are_derivatives() {
+    let positive = (1..64i32, 1..64i32, 0..6);
+    holds((positive, uniform5(-63..64i32)), |((c, m, e), signed)| {
+        let [c, m, eps] = [*c, *m, 1 << e].map(f64::from);
         let [g, l, h, lambda, u] = signed.map(f64::from);
         let s = SpringMass { c, m, g, l, h };
         let (d, e, n) = (s.map(constant), constant(&eps), constant(&lambda));
         let by_u = slope(|u| augmented::unilateral_functional(&d, &e, &n, u), u);
-        prop_assert_eq!(by_u, augmented::unilateral_equilibrium(&s, &eps, &lambda, &u));
-    }
+        assert_eq!(by_u, augmented::unilateral_equilibrium(&s, &eps, &lambda, &u));
+    });
 }

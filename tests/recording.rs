@@ -1,12 +1,11 @@
 //! A record equals its function: in every number system the compiled function, its evaluated record, and runs
 //! of its program return the same bits. Everything based on records relies on this.
 
-use num_traits::{One, Zero};
-use proptest::prelude::*;
-use proptest::test_runner::TestCaseResult;
+use crate::strategies::*;
+use num_traits::One;
 use spring_mass_contact::claims::{computed, registry};
 use spring_mass_contact::number::tree::{Op, all_ops};
-use spring_mass_contact::number::{Ball, Dual, Exact, Exponential, Field, Mpfr, PositivePart, Program, Tree};
+use spring_mass_contact::number::{Ball, Dual, Exponential, Field, Program, Tree};
 use spring_mass_contact::operators;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Debug;
@@ -61,7 +60,7 @@ fn law<T: PositivePart + Exponential, B: PartialEq + Debug>(
     varying: &BTreeSet<&'static str>,
     symbol: &impl Fn(&'static str) -> T,
     bits: impl Fn(&T) -> B,
-) -> TestCaseResult {
+) {
     let mut program = Program::default();
     let places: Vec<_> = registry().formulas().iter().map(|formula| program.add(&formula.tree)).collect();
     let beyond = |step: Op<&T>| match step {
@@ -79,25 +78,16 @@ fn law<T: PositivePart + Exponential, B: PartialEq + Debug>(
         rounds.run(&all_ops).expect("everything is known");
     }
     let by_function = computed(symbol);
-    prop_assert_eq!(by_function.len(), registry().formulas().len());
+    assert_eq!(by_function.len(), registry().formulas().len());
     for ((formula, place), expected) in registry().formulas().iter().zip(places).zip(&by_function) {
-        let Some(by_program) = &values[place] else {
-            return Err(TestCaseError::fail(format!("{} has no value", formula.name())));
-        };
-        prop_assert_eq!(bits(by_program), bits(expected), "{} as a program", formula.name());
-        prop_assert_eq!(
-            bits(&rounds[place]),
-            bits(expected),
-            "{} in rounds of {:?}",
-            formula.name(),
-            varying
-        );
+        let (expected, name) = (bits(expected), formula.name());
+        assert_eq!(values[place].as_ref().map(&bits).as_ref(), Some(&expected), "{name} as a program");
+        assert_eq!(bits(&rounds[place]), expected, "{name} in rounds of {varying:?}");
         // A record that divides by 0 replays to nothing.
         if let Some(by_record) = formula.tree.eval(symbol, &all_ops) {
-            prop_assert_eq!(bits(&by_record), bits(expected), "{}", formula.name());
+            assert_eq!(bits(&by_record), expected, "{name}");
         }
     }
-    Ok(())
 }
 
 /// Returns all symbols in formulas.
@@ -107,21 +97,24 @@ fn symbols() -> Vec<&'static str> {
 }
 
 /// Draws a number for each symbol.
-fn numbers<T: Debug + Clone>(
-    one: impl Strategy<Value = T>,
-) -> impl Strategy<Value = BTreeMap<&'static str, T>> {
+fn numbers<T: Debug + Clone + 'static>(
+    one: impl Strategy<Value = T> + 'static,
+) -> BoxedStrategy<BTreeMap<&'static str, T>> {
     let names = symbols();
-    proptest::collection::vec(one, names.len())
+    prop::collection::vec(one, names.len())
         .prop_map(move |values| names.iter().copied().zip(values).collect())
+        .boxed()
 }
 
 /// Draws some of the symbols: none, all, or any.
-fn some_symbols() -> impl Strategy<Value = BTreeSet<&'static str>> {
+fn some_symbols() -> BoxedStrategy<BTreeSet<&'static str>> {
     let names = symbols();
-    let any = proptest::collection::vec(any::<bool>(), names.len());
-    prop_oneof![1 => Just(vec![false; names.len()]), 1 => Just(vec![true; names.len()]), 8 => any].prop_map(
-        move |varies| names.iter().zip(varies).filter(|(_, varies)| *varies).map(|(name, _)| *name).collect(),
-    )
+    let any = prop::collection::vec(any::<bool>(), names.len());
+    prop_oneof![1 => Just(vec![false; names.len()]), 1 => Just(vec![true; names.len()]), 8 => any]
+        .prop_map(move |varies| {
+            names.iter().zip(varies).filter(|(_, varies)| *varies).map(|(name, _)| *name).collect()
+        })
+        .boxed()
 }
 
 /// The sign and payload of a NaN depend on the machine.
@@ -153,57 +146,69 @@ fn rationals() -> impl Strategy<Value = Exact> {
     (-9..=9i32, 1..=4i32).prop_map(|(n, d)| Exact::from(n) / Exact::from(d))
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+#[test]
+fn records_agree_in_f32() {
+    holds((numbers(singles()), some_symbols()), |(at, varying)| {
+        law(varying, &|name| at[name], |x| bits(&f64::from(*x)));
+    });
+}
 
-    #[test]
-    fn records_agree_in_f32(at in numbers(singles()), varying in some_symbols()) {
-        law(&varying, &|name| at[name], |x| bits(&f64::from(*x)))?;
-    }
+#[test]
+fn records_agree_in_f64() {
+    holds((numbers(doubles()), some_symbols()), |(at, varying)| {
+        law(varying, &|name| at[name], bits);
+    });
+}
 
-    #[test]
-    fn records_agree_in_f64(at in numbers(doubles()), varying in some_symbols()) {
-        law(&varying, &|name| at[name], bits)?;
-    }
-
-    #[test]
-    fn records_agree_in_mpfr(at in numbers((finite(), 2u32..200)), varying in some_symbols()) {
+#[test]
+fn records_agree_in_mpfr() {
+    holds((numbers((finite(), 2u32..200)), some_symbols()), |(at, varying)| {
         let number = |name: &'static str| Mpfr::rounded(at[name].1, at[name].0);
-        law(&varying, &number, mpfr_bits)?;
-    }
+        law(varying, &number, mpfr_bits);
+    });
+}
 
-    #[test]
-    fn records_agree_in_rationals(at in numbers(rationals()), varying in some_symbols()) {
-        law(&varying, &|name| Filled(at[name].clone()), Clone::clone)?;
-    }
+#[test]
+fn records_agree_in_rationals() {
+    holds((numbers(rationals()), some_symbols()), |(at, varying)| {
+        law(varying, &|name| Filled(at[name].clone()), Clone::clone);
+    });
+}
 
-    #[test]
-    fn records_agree_in_balls(at in numbers((finite(), any::<bool>())), varying in some_symbols()) {
+#[test]
+fn records_agree_in_balls() {
+    holds((numbers((finite(), any::<bool>())), some_symbols()), |(at, varying)| {
         let ball = |name: &'static str| match at[name] {
             (x, true) => Ball::point(x),
             (x, false) => Ball::from_rounded(x),
         };
-        law(&varying, &ball, |x| (bits(x.value()), bits(x.radius())))?;
-    }
+        law(varying, &ball, |x| (bits(x.value()), bits(x.radius())));
+    });
+}
 
-    #[test]
-    fn records_agree_in_balls_of_mpfr(at in numbers((finite(), 2u32..200)), varying in some_symbols()) {
+#[test]
+fn records_agree_in_balls_of_mpfr() {
+    holds((numbers((finite(), 2u32..200)), some_symbols()), |(at, varying)| {
         let ball = |name: &'static str| Ball::from_rounded(Mpfr::rounded(at[name].1, at[name].0));
-        law(&varying, &ball, |x| (format!("{x:?}"), x.value().precision(), x.radius().precision()))?;
-    }
+        law(varying, &ball, |x| (format!("{x:?}"), x.value().precision(), x.radius().precision()));
+    });
+}
 
-    #[test]
-    fn records_agree_in_duals(at in numbers((finite(), finite())), varying in some_symbols()) {
+#[test]
+fn records_agree_in_duals() {
+    holds((numbers((finite(), finite())), some_symbols()), |(at, varying)| {
         let dual = |name: &'static str| Filled(Dual { value: at[name].0, derivative: at[name].1 });
-        law(&varying, &dual, |x| (bits(&x.0.value), bits(&x.0.derivative)))?;
-    }
+        law(varying, &dual, |x| (bits(&x.0.value), bits(&x.0.derivative)));
+    });
+}
 
-    #[test]
-    fn records_agree_in_duals_of_rationals(at in numbers((rationals(), rationals())), varying in some_symbols()) {
+#[test]
+fn records_agree_in_duals_of_rationals() {
+    holds((numbers((rationals(), rationals())), some_symbols()), |(at, varying)| {
         let dual = |name: &'static str| {
             let (value, derivative) = at[name].clone();
             Filled(Dual { value, derivative })
         };
-        law(&varying, &dual, Clone::clone)?;
-    }
+        law(varying, &dual, Clone::clone);
+    });
 }

@@ -5,7 +5,7 @@
 //! with signs and zero. By default all systems of 2 bits and a sample of the larger sets are tested; with `DEEP=1`
 //! all 628 864 of 3 bits and 2 515 456 of 4 bits, which takes minutes.
 
-use crate::strategies::{exact, int, is_deep, positive_part};
+use crate::strategies::{exact, int, is_deep};
 use num_traits::Zero;
 use rayon::prelude::*;
 use spring_mass_contact::chapter::SpringMass;
@@ -99,7 +99,7 @@ impl Grid {
         };
         *kind += self.penalties.len();
         // c p + N = R.
-        let force = positive_part(&r);
+        let force = r.positive_part();
         let p = (&r - &force) / c;
         let u = &gap + &p;
 

@@ -1,9 +1,8 @@
 //! The text of a formula, parsed independently, has the value of its tree.
 
 use crate::proofs::proofs;
-use crate::strategies::is_deep;
+use crate::strategies::{cases, holds_often, is_deep};
 use proptest::prelude::*;
-use proptest::test_runner::TestRunner;
 use rayon::prelude::*;
 use spring_mass_contact::claims::{registry, statements};
 use spring_mass_contact::formula::claim::{
@@ -271,7 +270,7 @@ fn replayed_at(tree: &Tree, at: &dyn Fn(&str) -> Exact) -> Option<Exact> {
 /// Symbols in sampled trees. k is the index of steps unless another quantity is named k.
 const OWN: [&str; 11] = ["a", "b", "u", "k", "ρ", "λ₀", "ρᵏ", "u_{k+1}", "2ᵖ", "2ᵃ", POWER];
 
-fn trees() -> impl Strategy<Value = Tree> {
+fn trees() -> BoxedStrategy<Tree> {
     let symbol = prop::sample::select(&OWN).prop_map(|name| Tree::symbol(name));
     let leaf = prop_oneof![3 => symbol, 1 => (-3..4).prop_map(Tree::int)];
     leaf.prop_recursive(6, 40, 2, |inner| {
@@ -289,10 +288,11 @@ fn trees() -> impl Strategy<Value = Tree> {
             1 => inner.prop_map(|a| a.positive_part()),
         ]
     })
+    .boxed()
 }
 
 /// Trees with roundings: of all operations, of some, or of the last only.
-fn rounded_trees() -> impl Strategy<Value = Tree> {
+fn rounded_trees() -> BoxedStrategy<Tree> {
     let some = (trees(), any::<u64>()).prop_map(|(tree, seed)| {
         let chosen = std::cell::Cell::new(seed);
         tree.rewrite(&|tree| {
@@ -302,7 +302,7 @@ fn rounded_trees() -> impl Strategy<Value = Tree> {
     });
     let once = trees().prop_map(|tree| tree.round());
     let steps = trees().prop_map(|tree| tree.with_rounding());
-    prop_oneof![2 => some, 1 => once, 3 => steps]
+    prop_oneof![2 => some, 1 => once, 3 => steps].boxed()
 }
 
 /// Returns LaTeX as the text that it displays: fractions as quotients in brackets, exponents as superscripts.
@@ -400,60 +400,69 @@ fn brackets(text: &str) -> Vec<(usize, &str)> {
     all
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1000))]
-
-    #[test]
-    fn a_text_has_the_value_of_its_tree(tree in trees()) {
-        if let Some(expected) = replayed(&tree) {
-            prop_assert_eq!(Reader::value(&tree), Some(expected), "{}", tree);
+#[test]
+fn a_text_has_the_value_of_its_tree() {
+    holds_often(16, trees(), |tree| {
+        if let Some(expected) = replayed(tree) {
+            assert_eq!(Reader::value(tree), Some(expected), "{}", tree);
         }
-    }
+    });
+}
 
-    #[test]
-    fn latex_has_the_value_of_its_tree(tree in trees()) {
-        if let Some(expected) = replayed(&tree) {
+#[test]
+fn latex_has_the_value_of_its_tree() {
+    holds_often(16, trees(), |tree| {
+        if let Some(expected) = replayed(tree) {
             let latex = tree.latex();
-            prop_assert!(!latex.contains(['²', '·', 'ᵖ', '−']), "{}", latex);
+            assert!(!latex.contains(['²', '·', 'ᵖ', '−']), "{}", latex);
             // No blank is seen.
             let digit = |piece: Option<char>| piece.is_some_and(|c| c.is_ascii_digit());
             let pieces: Vec<_> = latex.split(' ').collect();
             let runs = |pair: &[&str]| digit(pair[0].chars().last()) && digit(pair[1].chars().next());
-            prop_assert!(!pieces.windows(2).any(runs), "{}", latex);
-            prop_assert_eq!(Reader::new(&shown(&latex)).all(), Some(expected), "{}", latex);
+            assert!(!pieces.windows(2).any(runs), "{}", latex);
+            assert_eq!(Reader::new(&shown(&latex)).all(), Some(expected), "{}", latex);
         }
-    }
+    });
+}
 
-    #[test]
-    fn a_text_with_rounding_has_the_value_of_its_tree(tree in rounded_trees()) {
-        if let Some(expected) = replayed(&tree) {
-            prop_assert_eq!(Reader::value(&tree), Some(expected), "{}", tree);
+#[test]
+fn a_text_with_rounding_has_the_value_of_its_tree() {
+    holds_often(16, rounded_trees(), |tree| {
+        if let Some(expected) = replayed(tree) {
+            assert_eq!(Reader::value(tree), Some(expected), "{}", tree);
         }
-    }
+    });
+}
 
-    #[test]
-    fn a_text_has_no_redundant_signs_or_brackets(tree in trees()) {
-        prop_assume!(replayed(&tree).is_some());
+#[test]
+fn a_text_has_no_redundant_signs_or_brackets() {
+    let defined = trees().prop_filter("divides by zero", |tree| replayed(tree).is_some());
+    holds_often(16, defined, |tree| {
         let text = tree.to_string();
         for idle in ["−−", "− −", "+ −", "+ 0", "− 0"] {
-            prop_assert!(!text.contains(idle), "{}", text);
+            assert!(!text.contains(idle), "{}", text);
         }
         let words: Vec<_> = text.split(' ').collect();
         for pair in words.windows(2).filter(|pair| pair[0].trim_start_matches(['(', '⟨', '−']) == "1") {
-            prop_assert!(["+", "−", "/"].contains(&pair[1]), "{}", text);
+            assert!(["+", "−", "/"].contains(&pair[1]), "{}", text);
         }
         for (open, inner) in brackets(&text) {
             // Those of a function, or around a sum, a product or an exponent; and never around all.
             let function = text[..open].ends_with(char::is_alphabetic);
-            prop_assert!(function || inner.contains([' ', 'ᵏ', 'ᵖ', 'ᵃ']) && inner.len() + 2 < text.len(), "{}", text);
+            assert!(
+                function || inner.contains([' ', 'ᵏ', 'ᵖ', 'ᵃ']) && inner.len() + 2 < text.len(),
+                "{}",
+                text
+            );
         }
         let latex = tree.latex();
         for (open, close) in
-            [("{", "}"), ("(", ")"), ("\\left", "\\right"), ("\\langle", "\\rangle"), ("\\lvert", "\\rvert")] {
+            [("{", "}"), ("(", ")"), ("\\left", "\\right"), ("\\langle", "\\rangle"), ("\\lvert", "\\rvert")]
+        {
             let count = |token: &str| latex.replace("\\rightarrow", "").matches(token).count();
-            prop_assert_eq!(count(open), count(close), "{}", &latex);
+            assert_eq!(count(open), count(close), "{}", &latex);
         }
-    }
+    });
 }
 
 /// A text, the registry whose names it may use, and the arguments that it may omit.
@@ -706,19 +715,18 @@ fn claims() -> impl Strategy<Value = Statement> {
     })
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(500))]
+#[test]
+fn the_text_of_a_hypothesis_has_the_values_of_its_formulas() {
+    holds_often(8, hypotheses(), |hypothesis| {
+        Text(&hypothesis.to_string(), &NO_NAMES, &[]).is_hypothesis(hypothesis);
+    });
+}
 
-    #[test]
-    fn the_text_of_a_hypothesis_has_the_values_of_its_formulas(hypothesis in hypotheses()) {
-        Text(&hypothesis.to_string(), &NO_NAMES, &[]).is_hypothesis(&hypothesis);
-    }
-
-    #[test]
-    fn the_text_of_a_claim_has_the_values_of_its_formulas(claim in claims()) {
-        let statement = claim;
-        Text(&ProofPrinter::new(&NO_NAMES).claim(&statement), &NO_NAMES, &[]).is_claim(&statement);
-    }
+#[test]
+fn the_text_of_a_claim_has_the_values_of_its_formulas() {
+    holds_often(8, claims(), |claim| {
+        Text(&ProofPrinter::new(&NO_NAMES).claim(claim), &NO_NAMES, &[]).is_claim(claim);
+    });
 }
 
 /// Returns the value of a text at these numbers, at which no divisor is 0.
@@ -849,14 +857,12 @@ fn provable() -> impl Strategy<Value = Statement> {
 #[test]
 fn every_line_of_a_proof_holds_at_numbers() {
     let held = std::cell::Cell::new(0);
-    let config = ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(1000) };
-    let tried = TestRunner::new(config).run(&provable(), |claim| {
-        let statement = claim;
-        let Ok(proof) = prove(&statement) else { return Ok(()) };
+    let law = |statement: &Statement| {
+        let Ok(proof) = prove(statement) else { return };
         let said = ProofPrinter::new(&NO_NAMES).proof(&proof);
         // In each case a name may stand for something else; and of what is long only the length is said.
         if said.iter().any(|line| line.trim_start().starts_with("case ") || line.contains("a sum of ")) {
-            return Ok(());
+            return;
         }
         // All hypotheses hold there.
         let known =
@@ -870,12 +876,11 @@ fn every_line_of_a_proof_holds_at_numbers() {
         {
             values = vec![&values[1] - &values[0], &values[1] + &values[0]];
         }
-        let mut lines = Lines { known, values, decides: false, statement: &statement };
+        let mut lines = Lines { known, values, decides: false, statement };
         held.set(held.get() + said.iter().filter(|line| lines.holds(line)).count());
-        Ok(())
-    });
-    tried.unwrap_or_else(|error| panic!("{error}"));
-    assert!(held.get() > 1000, "only {} lines are about formulas", held.get());
+    };
+    holds_often(16, provable(), law);
+    assert!(held.get() > 16 * cases() as usize, "only {} lines are about formulas", held.get());
 }
 
 /// Parser of complete printed certificates that checks every line at numbers: symbols are positive, errors
@@ -1048,22 +1053,21 @@ fn spring(a: &Tree, b: &Tree, c: &Tree) -> Tree {
     a * b - c
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(300))]
-
-    /// Calls with two arguments that may be omitted, also nested.
-    #[test]
-    fn an_abbreviated_call_has_the_value_of_its_tree(drawn in prop::collection::vec(trees(), 3), usual in 0..8, twice: bool) {
+/// Calls with two arguments that may be omitted, also nested.
+#[test]
+fn an_abbreviated_call_has_the_value_of_its_tree() {
+    holds_often(5, (prop::collection::vec(trees(), 3), 0..8, any::<bool>()), |(drawn, usual, twice)| {
         let [a, b, c] = ["a", "b", "u"].map(|name| Tree::symbol(name));
         let formula = Formula::new("spring", "S", &["a", "b", "u"], spring(&a, &b, &c)).abbreviated();
         let names = Registry::new(&OWN, vec![formula]).with_implicit(&["b", "u"]);
-        let argument = |i: usize, own: &Tree| if usual & (1 << i) > 0 { own.clone() } else { drawn[i].clone() };
+        let argument =
+            |i: usize, own: &Tree| if usual & (1 << i) > 0 { own.clone() } else { drawn[i].clone() };
         let called = spring(&argument(0, &a), &argument(1, &b), &argument(2, &c));
-        let called = if twice { spring(&a, &called, &c) } else { called };
+        let called = if *twice { spring(&a, &called, &c) } else { called };
         for tree in [&called - &drawn[1], (-&called * &a).round(), (&called * &drawn[2]).with_rounding()] {
             Text(&names.format_tree(&tree), &names, &["b", "u"]).is(&tree);
         }
-    }
+    });
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! `contact solve --batch` as a child process: answers, their order and their timing.
 
-use crate::processes::{DEADLINE, asked, command, finish, pick, random};
+use crate::processes::{DEADLINE, asked, captured, command, finish, pick, random};
 use oorandom::Rand64;
 use serde_json::value::RawValue;
 use serde_json::{Value, json};

@@ -1,22 +1,17 @@
 //! The laws of scalars: all number systems satisfy them, and each violated law is named.
 
-use crate::strategies::int;
-use num_traits::{One, Zero};
-use spring_mass_contact::number::{Ball, Exact, Field, Mpfr, OrderedField, PositivePart, Real, ToExact};
+use crate::strategies::*;
+use num_traits::One;
+use spring_mass_contact::number::{Ball, Field};
 use spring_mass_contact::operators;
 use spring_mass_contact::solver::laws::{self, Law, LawViolation};
-use spring_mass_contact::solver::{Interval, Scalar};
 use std::cmp::Ordering;
 
-fn exact<T: ToExact>(x: &T) -> Exact {
-    x.to_exact().expect("finite")
-}
-
 /// Neighbours, thirds, tiny and huge numbers, and powers of two near the limits of the range.
-fn samples<T: Real + ToExact>(like: &T, least: i32, largest: i32) -> Vec<T> {
-    let third = like.round_from_exact(&(int(1) / int(3))).unwrap();
-    let power = |n: i32| like.round_from_exact(&Exact::power_of_two(n)).unwrap();
-    let (one, tenth) = (power(0), like.round_from_exact(&(int(1) / int(10))).unwrap());
+fn samples<T: Float>(like: &T, least: i32, largest: i32) -> Vec<T> {
+    let round = |x: Exact| like.round_from_exact(&x).unwrap();
+    let power = |n: i32| round(Exact::power_of_two(n));
+    let [one, third, tenth] = [int(1), q("1/3"), q("1/10")].map(round);
     let ends = [power(least), -power(least), power(largest), -power(largest)];
     let near = [one.clone().next_up(), -one.clone().next_down(), third.clone().next_up()];
     let middle = [power(0) - &one, one, third.clone(), -third, tenth.clone(), tenth * power(20), power(-40)];
@@ -25,16 +20,17 @@ fn samples<T: Real + ToExact>(like: &T, least: i32, largest: i32) -> Vec<T> {
 
 #[test]
 fn our_scalars_keep_the_laws() {
-    laws::check_scalar_laws(&samples(&1f32, -149, 127), exact).unwrap();
-    laws::check_scalar_laws(&samples(&1f32, -70, 60), exact).unwrap();
-    laws::check_scalar_laws(&samples(&1f64, -1074, 1023), exact).unwrap();
-    laws::check_scalar_laws(&samples(&1f64, -500, 500), exact).unwrap();
+    for (least, largest) in [(-149, 127), (-70, 60)] {
+        laws::check_scalar_laws(&samples(&1f32, least, largest), exact).unwrap();
+    }
+    for (least, largest) in [(-1074, 1023), (-500, 500)] {
+        laws::check_scalar_laws(&samples(&1f64, least, largest), exact).unwrap();
+    }
     for bits in [2, 24, 53, 200] {
-        laws::check_scalar_laws(&samples(&int(1).to_mpfr(bits), -9999, 9999), exact).unwrap();
+        laws::check_scalar_laws(&samples(&float(bits), -9999, 9999), exact).unwrap();
     }
     // Precisions that meet, and constants that have none.
-    let mixed =
-        [int(1).to_mpfr(10), (int(1) / int(3)).to_mpfr(90), Mpfr::int(3), (int(1) / int(7)).to_mpfr(3)];
+    let mixed = [float(10), q("1/3").to_mpfr(90), Mpfr::int(3), q("1/7").to_mpfr(3)];
     laws::check_scalar_laws(&mixed, exact).unwrap();
     let rationals: Vec<_> = samples(&1f64, -300, 300).iter().map(|x| exact(x) / int(7)).collect();
     laws::check_scalar_laws(&rationals, exact).unwrap();
@@ -134,27 +130,16 @@ fn tried<const LAW: usize>() -> Result<(), LawViolation> {
 
 #[test]
 fn a_violated_law_is_named() {
-    let found = [
-        tried::<0>(),
-        tried::<1>(),
-        tried::<2>(),
-        tried::<3>(),
-        tried::<4>(),
-        tried::<5>(),
-        tried::<6>(),
-        tried::<7>(),
-    ];
-    let laws = [
-        Law::Order,
-        Law::Finite,
-        Law::Enclose,
-        Law::Interval,
-        Law::Magnitude,
-        Law::Sign,
-        Law::Power,
-        Law::SignOfSum,
-    ];
-    for (found, law) in found.into_iter().zip(laws) {
+    for (found, law) in [
+        (tried::<0>(), Law::Order),
+        (tried::<1>(), Law::Finite),
+        (tried::<2>(), Law::Enclose),
+        (tried::<3>(), Law::Interval),
+        (tried::<4>(), Law::Magnitude),
+        (tried::<5>(), Law::Sign),
+        (tried::<6>(), Law::Power),
+        (tried::<7>(), Law::SignOfSum),
+    ] {
         assert_eq!(found.as_ref().map_err(|broken| broken.law), Err(law), "{found:?}");
     }
     assert_eq!(tried::<8>(), Ok(()));

@@ -1,24 +1,14 @@
 //! Quality of results: bounds are narrow, exact zeros are 0, and rejected arguments are named.
 
-use crate::in_every_float;
 use crate::strategies::*;
-use num_traits::Zero;
-use proptest::prelude::*;
-use spring_mass_contact::chapter::{SpringMass, penalty, system};
-use spring_mass_contact::number::{Exact, Mpfr, PositivePart};
+use spring_mass_contact::chapter::penalty;
 use spring_mass_contact::solver::{
-    Bounds, Interval, Method, Outcome, Plane, Solution, SolveError, State, advise, best_penalty,
-    exact_augmentation_count, guaranteed_max_augmentations, is_convergence_guaranteed, kth_iterate,
-    penalties, penalty_for_penetration, penalty_force_bound, required_precision, rounding_floor,
-    series_penetration, solve, solve_bilateral, sweep,
+    Bounds, advise, best_penalty, exact_augmentation_count, guaranteed_max_augmentations,
+    is_convergence_guaranteed, kth_iterate, penalties, penalty_for_penetration, penalty_force_bound,
+    required_precision, rounding_floor, series_penetration, sweep,
 };
 
-/// A solver and the plane that it assumes.
-type Solve<T> = fn(&SpringMass<T>, &Method<T>) -> Result<Solution<T>, SolveError>;
-
-fn both<T: Float>() -> [(Solve<T>, Plane); 2] {
-    [(solve, Plane::Unilateral), (solve_bilateral, Plane::Bilateral)]
-}
+// Bounds.
 
 /// Returns the maximal widths of the bounds of the deflection, the penetration and the contact force, in units of
 /// 2 η.
@@ -58,91 +48,95 @@ fn widths(s: &SpringMass<Exact>, penalty: Option<&Exact>, free: bool) -> [Exact;
 ///
 /// If the force of the penalty method were computed as m g − c u, the error of m g would enter, c/ε times as
 /// large for small ε.
-fn bounds_are_narrow<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
-    let case = case.rounded(like);
-    let Case { system, eps, .. } = case.exact();
-    let eta = unit_roundoff(like);
+fn bounds_are_narrow<T: Float>(case: &Case<T>) {
+    let (Case { system, eps, .. }, eta) = (case.exact(), case.eta());
     // What is of higher order. An operation on balls has ten roundings of the radius, which may go up, and enlarges it:
     // (1 + η)¹⁰ (1 + 16 η)(1 + 2 η) < 1 + 32 η, where η is that of radii of no more than 64 bits. No error goes through
     // more than five of these, that where it arises among them. One more is for the values that it is relative to.
     let growth = power(&(int(1) + int(32) * eta.clone().max(Exact::power_of_two(-64))), 6);
-    for ((solve, plane), method) in
-        both().into_iter().flat_map(|by| case.methods(3).map(|method| (by, method)))
-    {
-        let answer = solve(&case.system, &method).unwrap();
-        let penalty = if matches!(method, Method::Penalty { .. }) { Some(&eps) } else { None };
+    for (plane, method, answer) in case.solutions(3) {
+        let penalty = matches!(method, Method::Penalty { .. }).then_some(&eps);
         let free = plane == Plane::Unilateral && answer.state == State::Separated;
         let Bounds { deflection, penetration, contact_force, .. } = &answer.bounds;
         let allowed = widths(&system, penalty, free);
         for (interval, allowed) in [deflection, penetration, contact_force].into_iter().zip(allowed) {
-            let Interval { lower, upper } = interval;
-            let (width, allowed) = (exact(upper) - exact(lower), int(2) * &eta * &growth * allowed);
-            prop_assert!(
-                width <= allowed,
-                "{method:?} {plane:?} {interval:?}: {width} > {allowed}: {case:?}"
-            );
+            let [lower, upper] = ends(interval);
+            let (width, allowed) = (upper - lower, int(2) * &eta * &growth * allowed);
+            assert!(width <= allowed, "{method:?} {plane:?} {interval:?}: {width} > {allowed}");
         }
     }
-    Ok(())
 }
 
 in_every_float! {
     bounds_are_narrow from any_state;
 }
 
+/// What is computed directly in rationals needs no iteration, and is its own bound.
+#[test]
+fn direct_rationals_are_their_own_bounds() {
+    holds(any_state(WIDE), |case| {
+        for (_, method, answer) in case.solutions(0) {
+            if matches!(method, Method::Augmented { .. }) {
+                continue;
+            }
+            assert_eq!(answer.outcome, Outcome::Direct);
+            assert_eq!((answer.augmentations, &answer.floor), (None, &None));
+            assert_eq!(answer.multiplier.is_some(), method == Method::Lagrange);
+            let Bounds { deflection, penetration, contact_force, .. } = answer.bounds;
+            let point = |x: Exact| Interval { lower: x.clone(), upper: x };
+            assert_eq!(deflection, point(answer.deflection));
+            assert_eq!(penetration, point(answer.penetration));
+            assert_eq!(contact_force, point(answer.contact_force));
+        }
+    });
+}
+
 /// R = 0 in rationals, while floats round m g and c (H − l) differently: m = c |a − b|, g = ±(a + b), H = a²,
-/// l = b², where a is a multiple of a power of two. Each parameter fits `bits` bits; the products and H − l
-/// need not.
-fn grazing_but_for_rounding(bits: u32) -> impl Strategy<Value = SpringMass<Exact>> {
+/// l = b², where a is a multiple of a power of two. Each parameter fits the bits of `like`; the products and
+/// H − l need not, and three times in four they are rounded alike.
+fn grazing_but_for_rounding<T: Float>(bits: u32, like: T) -> impl Strategy<Value = SpringMass<Exact>> {
     let odd = |bits: u32| (0..1 << (bits - 1)).prop_map(|n| int(2 * n + 1));
     let half = bits / 2 - 2;
-    (odd(half), odd(half), odd(bits / 4), 3..=bits as i32 / 4).prop_map(|(a, b, c, shift)| {
+    let systems = (odd(half), odd(half), odd(bits / 4), 3..=bits as i32 / 4).prop_map(|(a, b, c, shift)| {
         let a = a * Exact::power_of_two(shift);
         let (sum, m) = (&a + &b, &c * (&a - &b).abs());
         SpringMass { g: if a < b { -sum } else { sum }, h: &a * &a, l: &b * &b, c, m }
+    });
+    systems.prop_filter("rounded differently", move |s| {
+        !system::reaction(&s.map(|x| like.round_from_exact(x).unwrap())).is_zero()
     })
 }
 
 /// At grazing there is no force, not even one of an ulp.
-fn grazing_has_no_force_at_all<T: Float>(s: &SpringMass<Exact>, like: &T) -> Result<(), TestCaseError> {
-    let floats = s.try_map(|x| like.round_from_exact(x)).unwrap();
-    prop_assert_eq!(&floats.map(exact), s, "the parameters fit");
-    prop_assume!(!system::reaction(&floats).is_zero());
-    let one = like.clone();
-    let augmented =
-        Method::Augmented { penalty: one.clone(), tolerance: one, max_augmentations: 3, start: T::zero() };
-    for ((solve, plane), method) in
-        both().into_iter().flat_map(|by| [Method::Lagrange, augmented.clone()].map(|method| (by, method)))
-    {
-        let answer = solve(&floats, &method).unwrap();
-        prop_assert_eq!(answer.state, State::Grazing);
+fn grazing_has_no_force_at_all<T: Float>(s: &SpringMass<Exact>, like: &T) {
+    let system = s.map(|x| like.round_from_exact(x).unwrap());
+    assert_eq!(system.map(exact), *s, "the parameters fit");
+    let [eps, tolerance] = [(); 2].map(|()| like.clone());
+    let case = Case { system, eps, start: T::zero(), tolerance };
+    for (plane, method, answer) in case.solutions(3) {
+        assert_eq!(answer.state, State::Grazing);
+        if matches!(method, Method::Penalty { .. }) {
+            continue;
+        }
         let none = Interval { lower: T::zero(), upper: T::zero() };
-        prop_assert_eq!(&answer.bounds.penetration, &none);
-        prop_assert_eq!(&answer.bounds.contact_force, &none, "{:?} {:?}", method, plane);
+        assert_eq!((&answer.bounds.penetration, &answer.bounds.contact_force), (&none, &none));
         if method == Method::Lagrange {
-            prop_assert_eq!(answer.contact_force, T::zero(), "{:?}", plane);
-            prop_assert_eq!(answer.multiplier, Some(T::zero()), "{:?}", plane);
+            assert_eq!((answer.contact_force, answer.multiplier), (T::zero(), Some(T::zero())), "{plane:?}");
         }
     }
-    Ok(())
 }
 
-proptest! {
-    // Three times in four the two products are rounded alike.
-    #![proptest_config(ProptestConfig { max_global_rejects: 10_000, ..ProptestConfig::default() })]
-    #[test]
-    fn grazing_has_no_force_in_f32(s in grazing_but_for_rounding(24)) {
-        grazing_has_no_force_at_all(&s, &1f32)?;
-    }
-    #[test]
-    fn grazing_has_no_force_in_f64(s in grazing_but_for_rounding(53)) {
-        grazing_has_no_force_at_all(&s, &1f64)?;
-    }
-    #[test]
-    fn grazing_has_no_force_in_mpfr(s in grazing_but_for_rounding(40)) {
-        grazing_has_no_force_at_all(&s, &int(1).to_mpfr(40))?;
-    }
+#[test]
+fn grazing_has_no_force_in_f32() {
+    holds(grazing_but_for_rounding(24, 1f32), |s| grazing_has_no_force_at_all(s, &1f32));
 }
+#[test]
+fn grazing_has_no_force_in_f64_and_mpfr() {
+    holds(grazing_but_for_rounding(53, 1f64), |s| grazing_has_no_force_at_all(s, &1f64));
+    holds(grazing_but_for_rounding(40, float(40)), |s| grazing_has_no_force_at_all(s, &float(40)));
+}
+
+// Arguments.
 
 /// A parameter: its name, an accessor, and whether it must be positive.
 type Parameter<T> = (&'static str, fn(&mut Case<T>) -> &mut T, bool);
@@ -166,37 +160,34 @@ fn parameters<T>() -> ([Parameter<T>; 5], [Parameter<T>; 3]) {
 
 /// Every invalid value of every parameter of every method is rejected with the name of the parameter; the
 /// first one if there are several. −0 counts as 0 if that is allowed.
-fn refusals_name_the_parameter<T: Float>(like: &T) {
-    let one = like.clone();
-    let zero = like.clone() - like;
-    let infinity = like * T::infinity();
+fn refusals_name_the_parameter<T: Float>(one: &T) {
+    let zero = one.clone() - one;
+    let infinity = one * T::infinity();
     let not_a_number = infinity.clone() - &infinity;
     let never = [not_a_number, infinity.clone(), -&infinity];
-    let not_positive = [zero.clone(), -&zero, -&one, -T::min_subnormal()];
-    let system =
-        SpringMass { c: one.clone(), m: one.clone(), g: one.clone(), l: one.clone(), h: one.clone() };
-    let case = Case { system, eps: one.clone(), start: one.clone(), tolerance: one.clone() };
+    let not_positive = [zero.clone(), -&zero, -one, -T::min_subnormal()];
+    let [c, m, g, l, h, eps, start, tolerance] = [(); 8].map(|()| one.clone());
+    let case = Case { system: SpringMass { c, m, g, l, h }, eps, start, tolerance };
     let (of_the_system, of_a_method) = parameters();
     // Lagrange, penalty and augmented ask for none, one and three of the rest.
     for (index, asked) in [0, 1, 3].into_iter().enumerate() {
         let asked: Vec<_> = of_the_system.iter().chain(&of_a_method[..asked]).collect();
         for (place, (name, parameter, positive)) in asked.iter().enumerate() {
-            let refused = never.iter().chain(not_positive.iter().filter(|_| *positive));
-            for value in refused {
-                // All that follow are wrong too: the first is named.
+            for value in never.iter().chain(not_positive.iter().filter(|_| *positive)) {
                 let mut wrong = case.clone();
                 *parameter(&mut wrong) = value.clone();
+                refused_as(name, value, &wrong, index, *positive);
+                // One that follows is wrong too: the first is named.
                 for (_, later, _) in &asked[place + 1..] {
                     let mut several = wrong.clone();
                     *later(&mut several) = never[0].clone();
                     refused_as(name, value, &several, index, *positive);
                 }
-                refused_as(name, value, &wrong, index, *positive);
             }
             for zero in not_positive[..2].iter().filter(|_| !*positive) {
                 let mut allowed = case.clone();
                 *parameter(&mut allowed) = zero.clone();
-                for (solve, _) in both() {
+                for (_, solve) in planes() {
                     assert!(solve(&allowed.system, &allowed.methods(3)[index]).is_ok(), "{name} = {zero:?}");
                 }
             }
@@ -205,17 +196,101 @@ fn refusals_name_the_parameter<T: Float>(like: &T) {
 }
 
 fn refused_as<T: Float>(name: &str, value: &T, case: &Case<T>, method: usize, positive: bool) {
-    for (solve, plane) in both() {
+    let allowed = if positive { "greater than 0 and finite" } else { "finite" };
+    for (plane, solve) in planes() {
         let error = solve(&case.system, &case.methods(3)[method]).unwrap_err();
-        let allowed = if positive { "greater than 0 and finite" } else { "finite" };
-        let expected = format!("{name} {value:?}: must be {allowed}");
         assert!(matches!(error, SolveError::Invalid { .. }), "{error:?}");
-        assert_eq!(error.to_string(), expected, "{plane:?}");
+        assert_eq!(error.to_string(), format!("{name} {value:?}: must be {allowed}"), "{plane:?}");
         // A state is refused for what is wrong with a system, and for nothing else.
         let of_the_system = parameters::<T>().0.iter().any(|(parameter, ..)| *parameter == name);
         assert_eq!(State::of(&case.system).err(), of_the_system.then_some(error));
     }
 }
+
+#[test]
+fn refusals_name_the_parameter_in_f32() {
+    refusals_name_the_parameter(&1f32);
+}
+#[test]
+fn refusals_name_the_parameter_in_f64_and_mpfr() {
+    refusals_name_the_parameter(&1f64);
+    refusals_name_the_parameter(&float(100));
+}
+
+/// Non-finite or out-of-range arguments are errors of every function, without a panic.
+#[test]
+fn every_function_rejects_an_invalid_system() {
+    let (good, eta, plane) = (example(), Exact::power_of_two(-53), Plane::Unilateral);
+    let (nan, inf) = (f64::NAN, f64::INFINITY);
+    fn named<R>(result: Result<R, SolveError>, expected: &str) {
+        let Err(SolveError::Invalid { argument, .. }) = result else { panic!("{expected} is not refused") };
+        assert_eq!(argument, expected);
+    }
+    let mut solution = solve(&good, &Method::Lagrange).unwrap();
+    for (system, name) in &[
+        (SpringMass { c: nan, ..good }, "stiffness"),
+        (SpringMass { c: -4.0, ..good }, "stiffness"),
+        (SpringMass { m: 0.0, ..good }, "mass"),
+        (SpringMass { g: inf, ..good }, "gravity"),
+        (SpringMass { l: nan, ..good }, "free length"),
+        (SpringMass { h: -inf, ..good }, "height"),
+    ] {
+        named(is_convergence_guaranteed(system, &4.0, &0.1, &eta), name);
+        named(guaranteed_max_augmentations(system, &4.0, &0.1, &eta), name);
+        named(exact_augmentation_count(system, &4.0, &0.1, &0.0, plane), name);
+        named(rounding_floor(system, plane, &eta), name);
+        named(penalty_force_bound(system, &4.0, &eta), name);
+        named(best_penalty(system, &eta), name);
+        named(penalty_for_penetration(system, &0.1), name);
+        named(kth_iterate(system, &4.0, &0.0, 3, plane), name);
+        named(series_penetration(system, &4.0, &[]), name);
+        named(advise(system, &0.1), name);
+        named(solution.certificate(system), name);
+        named(sweep(system, [4.0]).next().unwrap(), name);
+    }
+    for eps in [0.0, -4.0, nan, inf] {
+        named(is_convergence_guaranteed(&good, &eps, &0.1, &eta), "penalty");
+        named(guaranteed_max_augmentations(&good, &eps, &0.1, &eta), "penalty");
+        named(exact_augmentation_count(&good, &eps, &0.1, &0.0, plane), "penalty");
+        named(penalty_force_bound(&good, &eps, &eta), "penalty");
+        named(kth_iterate(&good, &eps, &0.0, 3, plane), "penalty");
+        named(sweep(&good, [eps]).next().unwrap(), "penalty");
+    }
+    for tolerance in [0.0, -0.1, nan, inf] {
+        named(is_convergence_guaranteed(&good, &4.0, &tolerance, &eta), "tolerance");
+        named(guaranteed_max_augmentations(&good, &4.0, &tolerance, &eta), "tolerance");
+        named(exact_augmentation_count(&good, &4.0, &tolerance, &0.0, plane), "tolerance");
+    }
+    named(exact_augmentation_count(&good, &4.0, &0.1, &nan, plane), "initial multiplier");
+    named(kth_iterate(&good, &4.0, &nan, 3, plane), "initial multiplier");
+    let negative = int(-1);
+    named(is_convergence_guaranteed(&good, &4.0, &0.1, &negative), "unit roundoff");
+    named(guaranteed_max_augmentations(&good, &4.0, &0.1, &negative), "unit roundoff");
+    named(rounding_floor(&good, plane, &negative), "unit roundoff");
+    named(penalty_force_bound(&good, &4.0, &negative), "unit roundoff");
+    named(best_penalty(&good, &negative), "unit roundoff");
+    let exactly = good.map(exact);
+    named(required_precision(&exactly, plane, &int(0)), "tolerance");
+    named(required_precision(&SpringMass { c: int(0), ..exactly.clone() }, plane, &int(1)), "stiffness");
+    named(exact_augmentation_count(&exactly, &int(-4), &int(1), &int(0), plane), "penalty");
+    for (from, to, points, name) in [
+        (0, 1, 2, "first penalty"),
+        (-1, 1, 2, "first penalty"),
+        (1, 1, 2, "last penalty"),
+        (2, 1, 2, "last penalty"),
+        (1, 2, 1, "number of penalties"),
+        (1, 2, 0, "number of penalties"),
+        (1, 2, u32::MAX, "number of penalties"),
+    ] {
+        named(penalties(&int(from), &int(to), points), name);
+    }
+    solution.contact_force = nan;
+    named(solution.certificate(&good), "contact force");
+    // Nor do texts of what is not finite.
+    assert_eq!(Interval { lower: -inf, upper: inf }.texts(), ["-inf", "inf"]);
+}
+
+// Limits of the range.
 
 /// c u = m g = c H, so u = H, the largest f64: no f64 bounds it from above.
 #[test]
@@ -231,95 +306,11 @@ fn bounds_are_finite() {
 #[test]
 fn a_floor_is_finite() {
     let system: SpringMass<f32> = SpringMass { c: 1.0, m: 1.0, g: 1.0, l: 0.0, h: -41.0 };
-    let start = f32::MAX;
-    let method =
-        Method::Augmented { penalty: f32::MIN_POSITIVE, tolerance: 1e-6, max_augmentations: 99, start };
-    let out_of_range = SolveError::OutOfRange { quantity: "bound of |u − u*|" };
-    assert_eq!(solve(&system, &method), Err(out_of_range));
+    let solved = |start| solve(&system, &augmentation(f32::MIN_POSITIVE, 1e-6, 99, start));
+    assert_eq!(solved(f32::MAX), Err(SolveError::OutOfRange { quantity: "bound of |u − u*|" }));
     // A little less has one.
-    let method = Method::Augmented {
-        penalty: f32::MIN_POSITIVE,
-        tolerance: 1e-6,
-        max_augmentations: 99,
-        start: start / 2.0,
-    };
-    let solution = solve(&system, &method).unwrap();
-    assert!(solution.floor.is_some_and(|floor| floor.is_finite() && floor > start / 4.0));
-}
-
-#[test]
-fn refusals_name_the_parameter_in_f32() {
-    refusals_name_the_parameter(&1f32);
-}
-#[test]
-fn refusals_name_the_parameter_in_f64() {
-    refusals_name_the_parameter(&1f64);
-}
-#[test]
-fn refusals_name_the_parameter_in_mpfr() {
-    refusals_name_the_parameter(&int(1).to_mpfr(100));
-}
-
-/// With c = ε = 4, Δ = 2, |R| = 2, |H| = 3 the drift is 20 F = 20 η (3 + 2 + 1/2), so guaranteed tolerances
-/// exceed 110 η + η (3 + 8 tol); and 64 · 8 ≤ 4 (2ᵖ + 1) from p = 7 on.
-#[test]
-fn guaranteed_tolerances_begin_at_the_drift() {
-    let pushes = SpringMass { c: 4, m: 1, g: 10, l: 1, h: 3 }.map(|x| int(*x));
-    let pulls = SpringMass { c: 4, m: 1, g: -10, l: -1, h: -3 }.map(|x| int(*x));
-    for system in [pushes, pulls] {
-        let reaches = |tolerance: &Exact, eta: &Exact| {
-            is_convergence_guaranteed(&system, &int(4), tolerance, eta).unwrap()
-        };
-        for bits in [24, 53, 200] {
-            let eta = Exact::power_of_two(-bits);
-            let drift = int(113) * &eta / (int(1) - int(8) * &eta);
-            let more = &drift * (int(1) + &eta);
-            assert_eq!([reaches(&drift, &eta), reaches(&more, &eta)], [false, true], "{bits} bits");
-        }
-        let many = int(1000);
-        assert_eq!([6, 7].map(|bits| reaches(&many, &Exact::power_of_two(-bits))), [false, true]);
-        assert!(reaches(&Exact::power_of_two(-1000), &int(0)));
-    }
-}
-
-/// With l = 0 and H = 7 the floor is (20 η · 14 + 7 η)/(1 − 8 η): 41/8 with 6 bits, the smallest possible
-/// precision, and 287/120 with 7. A tolerance equal to the floor is not above it.
-#[test]
-fn a_tolerance_is_above_the_floor() {
-    let system = SpringMass { c: 1, m: 1, g: 8, l: 0, h: 7 }.map(|x| int(*x));
-    let floor = |eta: Exact| rounding_floor(&system, Plane::Unilateral, &eta).unwrap();
-    let fewest = int(41) / int(8);
-    assert_eq!(floor(int(1) / int(64)), Some(fewest.clone()));
-    assert_eq!(floor(int(1) / int(63)), None);
-    let bits = |tolerance| required_precision(&system, Plane::Unilateral, &tolerance).unwrap();
-    assert_eq!([bits(fewest), bits(int(6))], [Some(7), Some(6)]);
-}
-
-/// R = −1 and H = l = 2^400000. The mass is certainly separated if |R|/c = 2^200000 > 21 η H/(1 − 8 η) + 10 η
-/// m |g|/c, which holds for η ≤ 2^−200005; the floor, 5 η m |g|/c = 5/32, is then below 1. With the floor of
-/// contact, twice as many bits would be required.
-#[test]
-fn the_required_precision_is_found_if_it_is_far_below_its_estimate() {
-    let [soft, long] = [-200_000, 400_000].map(Exact::power_of_two);
-    let system = SpringMass { c: soft, m: int(1), g: int(-1), l: long.clone(), h: long };
-    assert_eq!(required_precision(&system, Plane::Unilateral, &int(1)), Ok(Some(200_005)));
-}
-
-/// u = m g/c = 1 and l = 0: 5 η from the plane. The floor of contact is 41 η H/(1 − 8 η); it is added if H −
-/// 1 does not exceed it and 10 η.
-#[test]
-fn the_floor_near_grazing_covers_both_states() {
-    let eta = Exact::power_of_two(-10);
-    let touching = |h: &Exact| int(41) * &eta * h / (int(1) - int(8) * &eta);
-    let alone = int(5) * &eta;
-    let near = (int(1) + int(10) * &eta) / (int(1) - touching(&int(1)));
-    assert_eq!(&near - int(1), touching(&near) + int(2) * &alone);
-    let floor = |h: &Exact| {
-        let system = SpringMass { c: int(1), m: int(1), g: int(1), l: int(0), h: h.clone() };
-        rounding_floor(&system, Plane::Unilateral, &eta).unwrap().unwrap()
-    };
-    assert_eq!(floor(&near), touching(&near) + &alone);
-    assert_eq!([floor(&(near + Exact::power_of_two(-99))), floor(&int(3))], [alone.clone(), alone]);
+    let floor = solved(f32::MAX / 2.0).unwrap().floor;
+    assert!(floor.is_some_and(|floor| floor.is_finite() && floor > f32::MAX / 8.0));
 }
 
 /// Underflow is rejected instead of being treated as 0, and so is overflow of a sum of two stiffnesses.
@@ -342,103 +333,35 @@ fn lost_products_are_refused() {
 fn a_multiplier_out_of_range_is_refused() {
     let system =
         SpringMass { c: 3.0137273e-4_f32, m: 2.4460823e29, g: 0.3403485, l: 0.70053273, h: 58010.57 };
-    let method =
-        Method::Augmented { penalty: f32::MAX, tolerance: 1.0363584e-4, max_augmentations: 54, start: 0.0 };
-    assert_eq!(solve(&system, &method), Err(SolveError::OutOfRange { quantity: "multiplier" }));
+    let solved = solve(&system, &augmentation(f32::MAX, 1.0363584e-4, 54, 0.0));
+    assert_eq!(solved, Err(SolveError::OutOfRange { quantity: "multiplier" }));
 }
 
 /// ε R = 4.81·10³⁰⁸ overflows, but N = ε R / (c + ε) does not: it is 4.81, with the negligible relative
 /// correction 100/10³⁰⁸.
 #[test]
 fn a_penalty_may_be_as_large_as_a_float() {
-    let system = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
-    for penalty in [1e308, f64::MAX / 2.0] {
-        for (solve, plane) in both() {
-            let solution = solve(&system, &Method::Penalty { penalty }).unwrap();
+    let system = default_system().map(|x| x.to_f64().unwrap());
+    for (_, solve) in planes() {
+        let force = |penalty| solve(&system, &Method::Penalty { penalty }).unwrap().bounds.contact_force;
+        for penalty in [1e308, f64::MAX / 2.0] {
             let exactly = penalty::contact_force_at_equilibrium(&system.map(exact), &exact(&penalty));
-            let Interval { lower, upper } = solution.bounds.contact_force;
-            assert!(exact(&lower) <= exactly && exactly <= exact(&upper), "{plane:?}");
+            assert!(encloses(&force(penalty), &exactly));
             // As narrow as for a penalty that overflows nothing.
-            let narrow = solve(&system, &Method::Penalty { penalty: 1e300 }).unwrap().bounds.contact_force;
-            assert!(upper - lower <= 2.0 * narrow.width(), "{lower} to {upper}");
+            assert!(force(penalty).width() <= 2.0 * force(1e300).width());
         }
     }
     // Soft beside the spring, where R − c p would cancel.
     let strong = SpringMass { c: 1e20, m: 1e300, g: 1.0, l: 1.0, h: 1.0 };
     let force = solve(&strong, &Method::Penalty { penalty: 1e9 }).unwrap().bounds.contact_force;
-    let exactly = penalty::contact_force_at_equilibrium(&strong.map(exact), &int(1_000_000_000));
-    assert!(exact(&force.lower) <= exactly && exactly <= exact(&force.upper));
-    assert!(force.width() <= 1e-14 * force.upper);
-}
-
-/// Non-finite or out-of-range arguments are errors of every function, without a panic.
-#[test]
-fn every_function_rejects_an_invalid_system() {
-    let good = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
-    let eta = Exact::power_of_two(-53);
-    let (nan, inf) = (f64::NAN, f64::INFINITY);
-    let systems = [
-        (SpringMass { c: nan, ..good }, "stiffness"),
-        (SpringMass { c: -4.0, ..good }, "stiffness"),
-        (SpringMass { m: 0.0, ..good }, "mass"),
-        (SpringMass { g: inf, ..good }, "gravity"),
-        (SpringMass { l: nan, ..good }, "free length"),
-        (SpringMass { h: -inf, ..good }, "height"),
-    ];
-    fn named<R>(result: Result<R, SolveError>, expected: &str) {
-        let Err(SolveError::Invalid { argument, .. }) = result else { panic!("{expected} is not refused") };
-        assert_eq!(argument, expected);
-    }
-    let plane = Plane::Unilateral;
-    let solution = solve(&good, &Method::Lagrange).unwrap();
-    for (system, name) in &systems {
-        named(is_convergence_guaranteed(system, &4.0, &0.1, &eta), name);
-        named(guaranteed_max_augmentations(system, &4.0, &0.1, &eta), name);
-        named(exact_augmentation_count(system, &4.0, &0.1, &0.0, plane), name);
-        named(rounding_floor(system, plane, &eta), name);
-        named(penalty_force_bound(system, &4.0, &eta), name);
-        named(best_penalty(system, &eta), name);
-        named(penalty_for_penetration(system, &0.1), name);
-        named(kth_iterate(system, &4.0, &0.0, 3, plane), name);
-        named(series_penetration(system, &4.0, &[]), name);
-        named(advise(system, &0.1), name);
-        named(solution.certificate(system), name);
-        named(sweep(system, [4.0]).next().unwrap(), name);
-    }
-    for eps in [0.0, -4.0, nan, inf] {
-        named(is_convergence_guaranteed(&good, &eps, &0.1, &eta), "penalty");
-        named(guaranteed_max_augmentations(&good, &eps, &0.1, &eta), "penalty");
-        named(exact_augmentation_count(&good, &eps, &0.1, &0.0, plane), "penalty");
-        named(penalty_force_bound(&good, &eps, &eta), "penalty");
-    }
-    for tolerance in [0.0, -0.1, nan, inf] {
-        named(is_convergence_guaranteed(&good, &4.0, &tolerance, &eta), "tolerance");
-        named(guaranteed_max_augmentations(&good, &4.0, &tolerance, &eta), "tolerance");
-        named(exact_augmentation_count(&good, &4.0, &tolerance, &0.0, plane), "tolerance");
-    }
-    named(exact_augmentation_count(&good, &4.0, &0.1, &nan, plane), "initial multiplier");
-    let negative = int(-1);
-    named(is_convergence_guaranteed(&good, &4.0, &0.1, &negative), "unit roundoff");
-    named(guaranteed_max_augmentations(&good, &4.0, &0.1, &negative), "unit roundoff");
-    named(rounding_floor(&good, plane, &negative), "unit roundoff");
-    named(penalty_force_bound(&good, &4.0, &negative), "unit roundoff");
-    let exactly = good.map(exact);
-    named(required_precision(&exactly, plane, &int(0)), "tolerance");
-    named(required_precision(&SpringMass { c: int(0), ..exactly.clone() }, plane, &int(1)), "stiffness");
-    named(exact_augmentation_count(&exactly, &int(-4), &int(1), &int(0), plane), "penalty");
-    named(penalties(&int(1), &int(2), u32::MAX), "number of penalties");
-    let mut broken = solution;
-    broken.contact_force = nan;
-    named(broken.certificate(&good), "contact force");
-    // Nor do texts of what is not finite.
-    assert_eq!(Interval { lower: -inf, upper: inf }.texts(), ["-inf", "inf"]);
+    let exactly = penalty::contact_force_at_equilibrium(&strong.map(exact), &q("1e9"));
+    assert!(encloses(&force, &exactly) && force.width() <= 1e-14 * force.upper);
 }
 
 /// Rationals grow with every step: with 50 000 decimals, by 166 000 digits a step.
 #[test]
 fn an_augmentation_of_endless_digits_is_refused() {
-    let system = SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" }.parse().unwrap();
-    let soft: Exact = "1e-50000".parse().unwrap();
+    let (system, soft) = (default_system(), q("1e-50000"));
     let refused = solve(&system, &Method::augmented(soft.clone())).unwrap_err();
     let said = "multiplier: more than 4194304 binary digits; use MPFR (mpfr:BITS), a larger penalty or tolerance, \
                 or fewer augmentations";
@@ -448,6 +371,66 @@ fn an_augmentation_of_endless_digits_is_refused() {
     let refused = solve(&system.map(constant), &Method::augmented(constant(&soft))).unwrap_err();
     assert!(matches!(refused, SolveError::TooLong { .. }), "{refused}");
     // A thousand steps of everyday numbers are none too many.
-    let soft = Method::augmented("0.001".parse().unwrap());
-    assert_eq!(solve(&system, &soft).unwrap().outcome, Outcome::IterationLimit);
+    let answer = solve(&system, &Method::augmented(q("0.001"))).unwrap();
+    assert_eq!(answer.outcome, Outcome::IterationLimit);
+}
+
+// Floors and precisions, worked out by hand.
+
+fn floor(system: &SpringMass<Exact>, eta: &Exact) -> Option<Exact> {
+    rounding_floor(system, Plane::Unilateral, eta).unwrap()
+}
+
+/// With c = ε = 4, Δ = 2, |R| = 2, |H| = 3 the drift is 20 F = 20 η (3 + 2 + 1/2), so guaranteed tolerances
+/// exceed 110 η + η (3 + 8 tol); and 64 · 8 ≤ 4 (2ᵖ + 1) from p = 7 on.
+#[test]
+fn guaranteed_tolerances_begin_at_the_drift() {
+    let pulls = SpringMass { c: 4.0, m: 1.0, g: -10.0, l: -1.0, h: -3.0 };
+    for system in [example(), pulls].map(|s| s.map(exact)) {
+        let reaches = |tolerance: &Exact, eta: &Exact| {
+            is_convergence_guaranteed(&system, &int(4), tolerance, eta).unwrap()
+        };
+        for bits in [24, 53, 200] {
+            let eta = Exact::power_of_two(-bits);
+            let drift = int(113) * &eta / (int(1) - int(8) * &eta);
+            let more = &drift * (int(1) + &eta);
+            assert_eq!([reaches(&drift, &eta), reaches(&more, &eta)], [false, true], "{bits} bits");
+        }
+        assert_eq!([6, 7].map(|bits| reaches(&int(1000), &Exact::power_of_two(-bits))), [false, true]);
+        assert!(reaches(&Exact::power_of_two(-1000), &int(0)));
+    }
+}
+
+/// With l = 0 and H = 7 the floor is (20 η · 14 + 7 η)/(1 − 8 η): 41/8 with 6 bits, the smallest possible
+/// precision, and 287/120 with 7. A tolerance equal to the floor is not above it.
+#[test]
+fn a_tolerance_is_above_the_floor() {
+    let system = SpringMass { c: 1, m: 1, g: 8, l: 0, h: 7 }.map(|x| int(*x));
+    assert_eq!([floor(&system, &q("1/64")), floor(&system, &q("1/63"))], [Some(q("41/8")), None]);
+    let bits = |tolerance| required_precision(&system, Plane::Unilateral, &q(tolerance)).unwrap();
+    assert_eq!([bits("41/8"), bits("6")], [Some(7), Some(6)]);
+}
+
+/// R = −1 and H = l = 2^400000. The mass is certainly separated if |R|/c = 2^200000 > 21 η H/(1 − 8 η) + 10 η
+/// m |g|/c, which holds for η ≤ 2^−200005; the floor, 5 η m |g|/c = 5/32, is then below 1. With the floor of
+/// contact, twice as many bits would be required.
+#[test]
+fn the_required_precision_is_found_if_it_is_far_below_its_estimate() {
+    let [soft, long] = [-200_000, 400_000].map(Exact::power_of_two);
+    let system = SpringMass { c: soft, m: int(1), g: int(-1), l: long.clone(), h: long };
+    assert_eq!(required_precision(&system, Plane::Unilateral, &int(1)), Ok(Some(200_005)));
+}
+
+/// u = m g/c = 1 and l = 0: 5 η from the plane. The floor of contact is 41 η H/(1 − 8 η); it is added if H −
+/// 1 does not exceed it and 10 η.
+#[test]
+fn the_floor_near_grazing_covers_both_states() {
+    let eta = Exact::power_of_two(-10);
+    let touching = |h: &Exact| int(41) * &eta * h / (int(1) - int(8) * &eta);
+    let alone = int(5) * &eta;
+    let near = (int(1) + int(10) * &eta) / (int(1) - touching(&int(1)));
+    assert_eq!(&near - int(1), touching(&near) + int(2) * &alone);
+    let at = |h: Exact| floor(&SpringMass { c: int(1), m: int(1), g: int(1), l: int(0), h }, &eta).unwrap();
+    assert_eq!(at(near.clone()), touching(&near) + &alone);
+    assert_eq!([at(near + Exact::power_of_two(-99)), at(int(3))], [alone.clone(), alone]);
 }

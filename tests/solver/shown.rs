@@ -1,102 +1,76 @@
-//! Intervals and printed results: a printed interval contains the exact one.
+//! Printed numbers, intervals and results: a printed interval contains the exact one.
 
-use crate::in_every_float;
 use crate::strategies::*;
-use proptest::prelude::*;
-use spring_mass_contact::chapter::{SpringMass, contact};
-use spring_mass_contact::number::{Exact, ExactText, ParseError};
-use spring_mass_contact::solver::{
-    Condition, FunctionalError, Interval, Method, Outcome, solve, solve_bilateral,
-};
+use spring_mass_contact::chapter::contact;
+use spring_mass_contact::number::{ExactText, ParseError};
+use spring_mass_contact::rug::Float as MpfrFloat;
+use spring_mass_contact::solver::{Condition, FunctionalError};
 
-/// Returns the ends of a printed interval: `… to …`, or one number for both.
-fn ends(text: &str) -> [Exact; 2] {
-    let (lower, upper) = text.split_once(" to ").unwrap_or((text, text));
-    [lower, upper].map(|end| end.parse().unwrap_or_else(|error| panic!("{end}: {error}")))
-}
-
-/// Returns the enclosure in the line of a quantity, without the unit.
-fn enclosure<'a>(shown: &'a str, symbol: &str, name: &str) -> &'a str {
+/// Returns the enclosure in the line of a quantity, without the unit: `… to …`, or one number for both ends.
+fn enclosure(shown: &str, symbol: &str, name: &str) -> [Exact; 2] {
     let line = shown.lines().find(|line| line.starts_with(&format!("{symbol} "))).unwrap();
     let (_, rest) = line.split_once(&format!(", {name} ")).unwrap_or_else(|| panic!("{line}"));
-    rest.rsplit_once(' ').unwrap().0
+    let (text, _unit) = rest.rsplit_once(' ').unwrap();
+    let (lower, upper) = text.split_once(" to ").unwrap_or((text, text));
+    [q(lower), q(upper)]
 }
 
 /// Ends and floors are rounded outwards at every length.
-fn what_is_written_encloses<T: Float + ExactText>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
-    let case = case.rounded(like);
-    for method in case.methods(200) {
-        for solve in [solve::<T>, solve_bilateral::<T>] {
-            let answer = solve(&case.system, &method).unwrap();
-            let shown = answer.to_string();
-            let name = if answer.outcome == Outcome::Direct { "exact" } else { "limit" };
-            let bounds = &answer.bounds;
-            for (symbol, interval) in
-                [("u", &bounds.deflection), ("p", &bounds.penetration), ("N", &bounds.contact_force)]
-            {
-                let [lower, upper] = ends(enclosure(&shown, symbol, name));
-                for [lower, upper] in [[lower, upper], interval.texts().map(|end| end.parse().unwrap())] {
-                    prop_assert!(
-                        lower <= exact(&interval.lower) && exact(&interval.upper) <= upper,
-                        "{}",
-                        shown
-                    );
-                }
+fn what_is_written_encloses<T: Float + ExactText>(case: &Case<T>) {
+    for (.., answer) in case.solutions(200) {
+        let shown = answer.to_string();
+        let name = if answer.outcome == Outcome::Direct { "exact" } else { "limit" };
+        let bounds = &answer.bounds;
+        for (symbol, interval) in
+            [("u", &bounds.deflection), ("p", &bounds.penetration), ("N", &bounds.contact_force)]
+        {
+            let [lower, upper] = ends(interval);
+            for written in [enclosure(&shown, symbol, name), interval.texts().map(|end| q(&end))] {
+                assert!(written[0] <= lower && upper <= written[1], "{shown}");
             }
-            let floor = shown.lines().next().unwrap().split_once("|u − u*| at most ");
-            prop_assert_eq!(floor.is_some(), answer.floor.is_some());
-            if let Some(((_, written), floor)) = floor.zip(answer.floor.as_ref()) {
-                let written: Exact = written.strip_suffix(" m").unwrap().parse().unwrap();
-                prop_assert!(exact(floor) <= written, "{}", shown);
-            }
-            prop_assert_eq!(shown.lines().any(|line| line.starts_with('λ')), answer.multiplier.is_some());
-            // A page holds it: a number has 24 characters at most, or 17 digits, a sign, a point and an exponent.
-            prop_assert!(shown.lines().count() <= 5 && shown.lines().all(|line| line.chars().count() < 110));
         }
+        let floor = shown.lines().next().unwrap().split_once("|u − u*| at most ");
+        assert_eq!(floor.is_some(), answer.floor.is_some());
+        if let Some(((_, written), floor)) = floor.zip(answer.floor.as_ref()) {
+            assert!(exact(floor) <= q(written.strip_suffix(" m").unwrap()), "{shown}");
+        }
+        assert_eq!(shown.lines().any(|line| line.starts_with('λ')), answer.multiplier.is_some());
+        // A page holds it: a number has 24 characters at most, or 17 digits, a sign, a point and an exponent.
+        assert!(shown.lines().count() <= 5 && shown.lines().all(|line| line.chars().count() < 110));
     }
-    Ok(())
 }
 
 /// The width is the distance of the ends if the scalar contains this number, otherwise it is larger. It is at
-/// most the result of five roundings, of the difference, its radius, their sum, and an ulp, which is two: (1
-/// + η)⁵ and the second-order effect of enlarging a radius are below 1 + 8 η.
-fn a_width_is_no_less_than_the_distance<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError> {
-    let case = case.rounded(like);
-    let Case { system, start, .. } = &case;
-    let numbers = [&system.g, &system.l, &system.h, start];
-    for (x, y) in numbers.into_iter().flat_map(|x| numbers.map(|y| (x, y))).filter(|(x, y)| x <= y) {
-        let width = exact(&Interval { lower: x.clone(), upper: y.clone() }.width());
-        let distance = exact(y) - exact(x);
-        match like.round_from_exact(&distance) {
-            Ok(nearest) if exact(&nearest) == distance => prop_assert_eq!(width, distance),
+/// most the result of five roundings, of the difference, its radius, their sum, and an ulp, which is two:
+/// (1 + η)⁵ and the second-order effect of enlarging a radius are below 1 + 8 η. Containment agrees with the
+/// comparison of rationals.
+fn a_width_is_no_less_than_the_distance<T: Float>(case: &Case<T>) {
+    let Case { system: SpringMass { g, l, h, .. }, start, .. } = case;
+    let numbers = [g, l, h, start];
+    for (lower, upper) in numbers.into_iter().flat_map(|x| numbers.map(|y| (x.clone(), y.clone()))) {
+        let interval = Interval { lower, upper };
+        for x in numbers {
+            assert_eq!(interval.contains(x), encloses(&interval, &exact(x)), "{interval:?} {x:?}");
+        }
+        let [lower, upper] = ends(&interval);
+        let distance = upper - lower;
+        if distance < int(0) {
+            continue;
+        }
+        let width = exact(&interval.width());
+        match case.eps.round_from_exact(&distance) {
+            Ok(nearest) if exact(&nearest) == distance => assert_eq!(width, distance),
             _ => {
-                let most = &distance * (int(1) + int(8) * unit_roundoff(like));
-                prop_assert!(distance <= width && width <= most, "{:?} {:?} {}", x, y, width);
+                let most = &distance * (int(1) + int(8) * case.eta());
+                assert!(distance <= width && width <= most, "{interval:?} {width}");
             }
         }
     }
-    Ok(())
-}
-
-/// Containment agrees with the comparison of rationals.
-fn what_is_contained_is_between_the_ends<T: Float>(
-    case: &Case<Exact>,
-    like: &T,
-) -> Result<(), TestCaseError> {
-    let case = case.rounded(like);
-    let Case { system: SpringMass { g, l, h, .. }, .. } = &case;
-    for [lower, upper, x] in [[g, l, h], [l, h, g], [l, l, h], [g, h, h], [l, h, l]] {
-        let between = exact(lower) <= exact(x) && exact(x) <= exact(upper);
-        let interval = Interval { lower: lower.clone(), upper: upper.clone() };
-        prop_assert_eq!(interval.contains(x), between, "{:?} {:?}", interval, x);
-    }
-    Ok(())
 }
 
 in_every_float! {
     what_is_written_encloses from any_state;
     a_width_is_no_less_than_the_distance from any_state;
-    what_is_contained_is_between_the_ends from any_state;
 }
 
 #[test]
@@ -110,25 +84,20 @@ fn a_non_finite_interval_is_printed_and_contains_nothing() {
 
 #[test]
 fn a_stagnation_reports_the_attained_penetration() {
-    let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
-    let tolerance = 1e-300;
-    let method = Method::Augmented { penalty: 4.0, tolerance, max_augmentations: 99, start: 0.0 };
-    let answer = solve(&system, &method).unwrap();
+    let answer = solve(&example(), &augmentation(4.0, 1e-300, 99, 0.0)).unwrap();
     let first = format!("contact, stagnated at k = {}, |u − u*| at most ", answer.augmentations.unwrap());
     assert!(answer.to_string().starts_with(&first), "{answer}");
-    let direct = solve(&system.map(|x| Exact::try_from(*x).unwrap()), &Method::Lagrange).unwrap();
-    assert_eq!(
-        direct.to_string(),
-        "contact, direct\nu = 2 m, exact 2 m\np = 0 m, exact 0 m\nN = 2 N, exact 2 N\nλ = 2 N"
-    );
+    let direct = solve(&example().map(exact), &Method::Lagrange).unwrap();
+    let lines =
+        ["contact, direct", "u = 2 m, exact 2 m", "p = 0 m, exact 0 m", "N = 2 N, exact 2 N", "λ = 2 N"];
+    assert_eq!(direct.to_string().lines().collect::<Vec<_>>(), lines);
 }
 
 #[test]
 fn conditions_and_residuals_are_described_in_words() {
     let broken = FunctionalError::Broken { condition: Condition::Continuous, at: "0.5".to_string() };
     assert_eq!(broken.to_string(), "the penalty functional must be continuous in p; violated at p = 0.5 m");
-    let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
-    let kkt = contact::kkt(&system, &2.25, &1.0).to_string();
+    let kkt = contact::kkt(&example(), &2.25, &1.0).to_string();
     assert_eq!(kkt, "stationarity 0 N, primal 0.25 m, dual 0 N, complementarity 0.25 J");
     assert!(matches!(Method::augmented(4.0), Method::Augmented { tolerance: 1e-9, .. }));
 }
@@ -139,4 +108,67 @@ fn an_error_has_its_cause() {
     let error = SpringMass { c: "1/0", m: "1", g: "1", l: "1", h: "1" }.parse().unwrap_err();
     let cause = std::error::Error::source(&error).expect("a cause");
     assert_eq!(cause.to_string(), ParseError::DivisionByZero.to_string());
+}
+
+// Scientific notation.
+
+/// Finite floats: random bits, or values that are prone to errors.
+pub fn any_float() -> BoxedStrategy<f64> {
+    let special = [0.0, -0.0, 5e-324, -5e-324, f64::MIN_POSITIVE.next_down(), f64::MAX, f64::MIN, 0.1];
+    let bits = any::<u64>().prop_map(f64::from_bits).prop_filter("finite", |x| x.is_finite());
+    prop_oneof![3 => bits, 1 => prop::sample::select(special.to_vec())].boxed()
+}
+
+/// Correctly rounded, ties to even, like machine floats.
+#[test]
+fn scientific_notation_is_that_of_the_machine() {
+    holds((any_float(), 0usize..30, -8i32..8), |&(x, decimals, power)| {
+        // Ties are rare among any bits, and among eighths they are not.
+        for x in [x, (x % 1000.0).trunc() / 2_f64.powi(power)] {
+            // A zero has no sign here, as in `Display`.
+            let x = if x == 0.0 { 0.0 } else { x };
+            let (rational, float) = (exact(&x), exact(&x).to_mpfr(53));
+            let machine = format!("{x:.decimals$e}");
+            assert_eq!(format!("{rational:.decimals$e}"), machine);
+            assert_eq!(format!("{float:.decimals$e}"), machine);
+            assert_eq!(format!("{rational:e}").parse::<Exact>(), Ok(rational));
+            assert_eq!(Mpfr::parse(&format!("{float:e}"), 53), Ok(float));
+        }
+    });
+}
+
+/// A third of an integer is never a tie.
+#[test]
+fn scientific_notation_of_a_fraction_is_nearest() {
+    holds((nonzero(WIDE), 0usize..30), |(x, decimals)| {
+        let third = x / int(3);
+        let (text, more) = (format!("{third:.decimals$e}"), format!("{third:.60e}"));
+        let (digits, order) = text.split_once('e').unwrap();
+        let unit = q(&format!("1e{order}"));
+        let off = |text: &str| (q(text) - &third).abs();
+        assert!(int(2) * off(&text) * power(&int(10), *decimals as u32) <= unit);
+        assert!(off(&more) <= off(&text));
+        assert_eq!(digits.split_once('.').map_or(0, |(_, decimals)| decimals.len()), *decimals);
+    });
+}
+
+#[test]
+fn scientific_notation_of_special_values() {
+    for x in [0.0, 1.0, -1.0, 99.5, 2.5, 3.5, 1e300, 999999.0] {
+        for decimals in 0..4 {
+            assert_eq!(format!("{:.decimals$e}", exact(&x)), format!("{x:.decimals$e}"));
+        }
+    }
+    let x = q("9.96");
+    assert_eq!(format!("{x:e} {x:.1e} {x:.2e} {x:+10.0e}|"), "9.96e0 1.0e1 9.96e0       +1e1|");
+    let [zero, seventh] = [q("0"), q("1/7")];
+    assert_eq!(format!("{zero:e} {zero:.2e} {seventh:e}"), "0e0 0.00e0 1.4285714285714286e-1");
+    // Seventeen digits that round up to a power of ten.
+    let nines = int(1) - int(1) / (int(3) * q("1e20"));
+    assert_eq!(format!("{nines:e}"), "1.0000000000000000e0");
+    let zero = int(0).to_mpfr(53);
+    assert_eq!(format!("{zero:e} {zero:.1e} {:e}", Mpfr::rounded(9, f64::INFINITY)), "0e0 0.0e0 inf");
+    // As a rational it would be longer than the memory.
+    let tiny = Mpfr::from(MpfrFloat::with_val(53, 1) >> 1_000_000_000);
+    assert!(format!("{tiny:.3e}").ends_with("e-301029996"), "{tiny:.3e}");
 }

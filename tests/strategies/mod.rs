@@ -1,17 +1,140 @@
-//! Strategies for test cases: systems with a given reaction R, in every number system.
+//! Strategies for test cases, systems with a given reaction R, in every number system; and the runner of laws.
 //!
 //! Numbers are small fractions times powers of two, log-uniform over many decades, so a case is the same on
 //! every machine and in every scalar. c, m, l, Δ and R are sampled; H = l + Δ and g = (R + c Δ)/m follow. The
 //! sign of R, and with it the state, is therefore known. A case is printed as options of `contact solve`.
 
-#![allow(dead_code)] // every test file is a crate of its own and uses its share of this one
+#![allow(dead_code, unused_imports, unused_macros)] // every test file uses its share of this one
 
-use num_traits::Zero;
-use proptest::prelude::*;
-use spring_mass_contact::chapter::{SpringMass, system};
-use spring_mass_contact::number::{Exact, PositivePart, Real, ToExact};
-use spring_mass_contact::solver::{Method, Scalar};
+pub use num_traits::Zero;
+pub use proptest::prelude::*;
+use proptest::test_runner::{Config, FileFailurePersistence, TestCaseResult, TestRunner};
+pub use spring_mass_contact::chapter::{SpringMass, system};
+use spring_mass_contact::number::Real;
+pub use spring_mass_contact::number::{Exact, Mpfr, OrderedField, PositivePart, ToExact};
+pub use spring_mass_contact::solver::{
+    Augmentation, Interval, Iterate, Method, Outcome, Plane, Scalar, Solution, SolveError, State, solve,
+    solve_bilateral,
+};
+use std::any::Any;
+use std::cell::RefCell;
 use std::fmt;
+use std::panic::{self, AssertUnwindSafe, Location};
+use std::rc::Rc;
+use std::sync::Once;
+
+// The runner of laws.
+
+/// Returns the number of cases of a law, which `PROPTEST_CASES` sets.
+pub fn cases() -> u32 {
+    Config::default().cases
+}
+
+/// A drawn value without its type, so that proptest's runner is compiled once.
+#[derive(Clone)]
+struct Drawn(Rc<dyn Value>);
+
+trait Value: Any + fmt::Debug {}
+impl<V: Any + fmt::Debug> Value for V {}
+
+impl fmt::Debug for Drawn {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+fn erased<V: fmt::Debug + 'static>(values: BoxedStrategy<V>) -> BoxedStrategy<Drawn> {
+    values.prop_map(|value| Drawn(Rc::new(value))).boxed()
+}
+
+/// Asserts that a law panics for none of [`cases`] values. A value for which it does is shrunk and printed, and
+/// its seed is kept in a file beside the source file of the caller, and tried first from then on.
+#[track_caller]
+pub fn holds<V: fmt::Debug + 'static>(values: impl Strategy<Value = V> + 'static, law: impl Fn(&V)) {
+    holds_often(1, values, law);
+}
+
+/// As [`holds`], for a number of times as many values: where a mistake shows for few of them, and none takes long.
+#[track_caller]
+pub fn holds_often<V: fmt::Debug + 'static>(
+    times: u32,
+    values: impl Strategy<Value = V> + 'static,
+    law: impl Fn(&V),
+) {
+    let law = |Drawn(value): &Drawn| {
+        let value: &dyn Any = &**value;
+        law(value.downcast_ref().expect("of the type that is erased"));
+    };
+    run(times * cases(), &erased(values.boxed()), &law);
+}
+
+#[track_caller]
+fn run(cases: u32, values: &BoxedStrategy<Drawn>, law: &dyn Fn(&Drawn)) {
+    let source_file = Some(Location::caller().file());
+    let mut config = Config { cases, source_file, ..Config::default() };
+    // Unless the environment disables it.
+    if config.failure_persistence.is_some() {
+        config.failure_persistence =
+            Some(Box::new(FileFailurePersistence::WithSource("proptest-regressions")));
+    }
+    let mut runner = TestRunner::new(config);
+    if let Err(failure) = runner.run(values, |value| attempt(|| law(&value))) {
+        panic!("{failure}\n{runner}");
+    }
+}
+
+thread_local! {
+    /// Message of the panic of an attempt; `None` outside of attempts.
+    static MESSAGE: RefCell<Option<String>> = const { RefCell::new(None) };
+}
+
+/// Returns the message of a panic, which is not printed: a value that is shrunk makes the law panic often.
+fn attempt(law: impl FnOnce()) -> TestCaseResult {
+    static HOOK: Once = Once::new();
+    HOOK.call_once(|| {
+        let print = panic::take_hook();
+        panic::set_hook(Box::new(move |panic| {
+            MESSAGE.with_borrow_mut(|message| match message {
+                Some(message) => *message = panic.to_string(),
+                None => print(panic),
+            })
+        }));
+    });
+    MESSAGE.set(Some(String::new()));
+    let outcome = panic::catch_unwind(AssertUnwindSafe(law));
+    let message = MESSAGE.take().unwrap_or_default();
+    outcome.map_err(|_| TestCaseError::fail(message))
+}
+
+/// Floats of several precisions.
+pub trait Float: Scalar + Real + ToExact {}
+impl<T: Scalar + Real + ToExact> Float for T {}
+
+/// Tests a law, `fn law<T: Float>(case: &Case<T>)`, in f32, f64 and MPFR with few and many bits.
+macro_rules! in_every_float {
+    ($($(#[$attribute:meta])* $law:ident from $cases:path;)*) => {$(
+        $(#[$attribute])*
+        mod $law {
+            use super::*;
+            #[test]
+            fn f32() {
+                holds($cases(NARROW), |case| super::$law(&case.rounded(&1f32)));
+            }
+            #[test]
+            fn f64() {
+                holds($cases(WIDE), |case| super::$law(&case.rounded(&1f64)));
+            }
+            #[test]
+            fn mpfr() {
+                let bits = prop_oneof![Just(8), Just(113), 8u32..300];
+                holds(($cases(WIDE), bits), |(case, bits)| super::$law(&case.rounded(&float(*bits))));
+            }
+        }
+    )*};
+}
+pub(crate) use in_every_float;
+
+// Test cases.
 
 /// Parameters range over 2^±NARROW, for which no intermediate result leaves the range of f32 (2^±126). The
 /// smallest one is û of a near-grazing system with Δ = 0: R/(c + ε) ≥ 2^(−6 − 4·8 − 3·3 − 60) > 2^−126.
@@ -47,16 +170,29 @@ impl<T: Clone> Case<T> {
         Method::Penalty { penalty: self.eps.clone() }
     }
     pub fn augmented(&self, max_augmentations: u64) -> Method<T> {
-        Method::Augmented {
-            penalty: self.eps.clone(),
-            tolerance: self.tolerance.clone(),
-            max_augmentations,
-            start: self.start.clone(),
-        }
+        augmentation(self.eps.clone(), self.tolerance.clone(), max_augmentations, self.start.clone())
     }
     /// Returns the three methods.
     pub fn methods(&self, max_augmentations: u64) -> [Method<T>; 3] {
         [Method::Lagrange, self.penalty(), self.augmented(max_augmentations)]
+    }
+}
+
+impl<T: OrderedField> Case<T> {
+    /// Returns the iteration from λ₀.
+    pub fn steps(&self, plane: Plane) -> Augmentation<'_, T> {
+        Augmentation::new(&self.system, &self.eps).with_multiplier(self.start.clone()).over(plane)
+    }
+}
+
+impl<T: Scalar> Case<T> {
+    /// Returns the results of the three methods for both planes.
+    pub fn solutions(&self, max_augmentations: u64) -> Vec<(Plane, Method<T>, Solution<T>)> {
+        let solved = |(plane, solve): (Plane, Solve<T>)| {
+            let of = move |method| (plane, solve(&self.system, &method).expect("in range"), method);
+            self.methods(max_augmentations).map(of).map(|(plane, answer, method)| (plane, method, answer))
+        };
+        planes().into_iter().flat_map(solved).collect()
     }
 }
 
@@ -65,12 +201,44 @@ impl Case<Exact> {
     pub fn rounded<T: ToExact>(&self, like: &T) -> Case<T> {
         self.map(|x| like.round_from_exact(x).expect("the parameters fit every float they are rounded into"))
     }
+    /// Returns the case with another ε, given relative to c.
+    pub fn with_penalty(&self, relative: &Exact) -> Self {
+        Case { eps: &self.system.c * relative, ..self.clone() }
+    }
+    /// Returns R.
+    pub fn reaction(&self) -> Exact {
+        system::reaction(&self.system)
+    }
+    /// Returns the case that is printed like this.
+    pub fn printed(text: &str) -> Self {
+        let option =
+            |name: &str| text.split_whitespace().skip_while(|word| *word != name).nth(1).expect(name);
+        let number = |name| option(name).parse().expect(name);
+        let [c, m, g, l, h] = ["--stiffness", "--mass", "--gravity", "--free-length", "--height"].map(number);
+        let [eps, start, tolerance] = ["--penalty", "--initial-multiplier", "--tolerance"].map(number);
+        Case { system: SpringMass { c, m, g, l, h }, eps, start, tolerance }
+    }
 }
 
 impl<T: ToExact> Case<T> {
     /// Returns the case in rationals, for comparison with results in floats.
     pub fn exact(&self) -> Case<Exact> {
         self.map(exact)
+    }
+}
+
+impl<T: Real + ToExact> Case<T> {
+    /// Returns η.
+    pub fn eta(&self) -> Exact {
+        unit_roundoff(&self.eps)
+    }
+    /// Returns 1/η, the precision in the laws of rounding.
+    pub fn precision(&self) -> Exact {
+        int(1) / self.eta()
+    }
+    /// Returns a number rounded to the scalar and precision of the case.
+    pub fn round(&self, x: &Exact) -> T {
+        self.eps.round_from_exact(x).expect("in range")
     }
 }
 
@@ -85,9 +253,33 @@ impl<T: ToExact> fmt::Debug for Case<T> {
     }
 }
 
+/// Returns an augmentation.
+pub fn augmentation<T>(penalty: T, tolerance: T, max_augmentations: u64, start: T) -> Method<T> {
+    Method::Augmented { penalty, tolerance, max_augmentations, start }
+}
+
+/// The solver for a plane.
+pub type Solve<T> = fn(&SpringMass<T>, &Method<T>) -> Result<Solution<T>, SolveError>;
+
+/// Returns both planes, each with its solver.
+pub fn planes<T: Scalar>() -> [(Plane, Solve<T>); 2] {
+    [(Plane::Unilateral, solve), (Plane::Bilateral, solve_bilateral)]
+}
+
 /// Returns the exact value of a finite number.
 pub fn exact<T: ToExact>(x: &T) -> Exact {
     x.to_exact().expect("finite")
+}
+
+/// Returns the exact bounds of an interval.
+pub fn ends<T: ToExact>(interval: &Interval<T>) -> [Exact; 2] {
+    [&interval.lower, &interval.upper].map(exact)
+}
+
+/// Returns `true` if an interval contains a rational number.
+pub fn encloses<T: ToExact>(interval: &Interval<T>, x: &Exact) -> bool {
+    let [lower, upper] = ends(interval);
+    lower <= *x && *x <= upper
 }
 
 /// Returns η for the scalar and precision of `like`, which must not be zero.
@@ -103,6 +295,16 @@ pub fn is_deep() -> bool {
 /// Returns an exact integer.
 pub fn int(n: i32) -> Exact {
     Exact::from(n)
+}
+
+/// Returns the number that is written like this.
+pub fn q(text: &str) -> Exact {
+    text.parse().expect(text)
+}
+
+/// Returns 1 in MPFR.
+pub fn float(bits: u32) -> Mpfr {
+    int(1).to_mpfr(bits)
 }
 
 /// Returns xⁿ.
@@ -122,25 +324,35 @@ pub fn pushing(s: &SpringMass<Exact>) -> Exact {
     &s.m * &s.g - &s.c * resting(s)
 }
 
+/// Returns the default system of the command: Δ = 0.05, R = 4.81.
+pub fn default_system() -> SpringMass<Exact> {
+    SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" }.map(|x| q(x))
+}
+
+/// Returns the system of the doc examples: Δ = 2, R = 2.
+pub fn example() -> SpringMass<f64> {
+    SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 }
+}
+
 /// Exponents, with an increased frequency of zero and the limits.
-fn exponent(span: i32) -> impl Strategy<Value = i32> {
-    prop_oneof![10 => -span..=span, 1 => Just(-span), 1 => Just(span), 2 => Just(0)]
+fn exponent(span: i32) -> BoxedStrategy<i32> {
+    prop_oneof![10 => -span..=span, 1 => Just(-span), 1 => Just(span), 2 => Just(0)].boxed()
 }
 
 /// Positive numbers, log-uniform over 2^±span: a fraction of small integers times a power of two.
-pub fn positive(span: i32) -> impl Strategy<Value = Exact> {
+pub fn positive(span: i32) -> BoxedStrategy<Exact> {
     let mantissa = prop_oneof![1 => Just((1, 1)), 3 => (1..=7, 1..=7), 3 => (1..=40, Just(5))];
-    (mantissa, exponent(span)).prop_map(|((n, d), e)| int(n) / int(d) * Exact::power_of_two(e))
+    (mantissa, exponent(span)).prop_map(|((n, d), e)| int(n) / int(d) * Exact::power_of_two(e)).boxed()
 }
 
 /// Numbers of both signs.
-pub fn nonzero(span: i32) -> impl Strategy<Value = Exact> {
-    (positive(span), any::<bool>()).prop_map(|(x, negative)| if negative { -x } else { x })
+pub fn nonzero(span: i32) -> BoxedStrategy<Exact> {
+    (positive(span), any::<bool>()).prop_map(|(x, negative)| if negative { -x } else { x }).boxed()
 }
 
 /// Numbers of both signs and zero.
-pub fn number(span: i32) -> impl Strategy<Value = Exact> {
-    prop_oneof![1 => Just(Exact::zero()), 8 => nonzero(span)]
+pub fn number(span: i32) -> BoxedStrategy<Exact> {
+    prop_oneof![1 => Just(Exact::zero()), 8 => nonzero(span)].boxed()
 }
 
 /// R relative to c: of any magnitude, or close to grazing relative to the lengths.
@@ -150,92 +362,52 @@ enum Size {
     Near(i32),
 }
 
-fn planted(span: i32, sign: impl Strategy<Value = i32>) -> impl Strategy<Value = Case<Exact>> {
+/// Systems with one of these signs of R.
+fn with_sign(span: i32, signs: &[i32]) -> BoxedStrategy<Case<Exact>> {
+    let sign = prop::sample::select(signs.to_vec());
     let size = prop_oneof![3 => positive(span).prop_map(Size::Any), 1 => (1..4 * span).prop_map(Size::Near)];
     // λ₀ = 0, R itself, or some multiple of |R| and W, of either sign.
     let start = prop_oneof![3 => Just(None), 1 => Just(Some(int(1))), 3 => number(6).prop_map(Some)];
     let system = (positive(span), positive(span), number(span), number(span));
     let rest = (prop_oneof![1 => Just(0), 4 => exponent(PENALTIES)], positive(0), 0i32..60, start);
-    (system, sign, size, rest).prop_map(|((c, m, l, gap), sign, size, (e, factor, digits, start))| {
-        let length = l.abs() + gap.abs();
-        let size = match size {
-            Size::Any(x) => x,
-            Size::Near(n) => Exact::power_of_two(-n) * if length.is_zero() { int(1) } else { length.clone() },
-        };
-        let r = int(sign) * &c * &size;
-        let g = (&r + &c * &gap) / &m;
-        let h = &l + &gap;
-        let eps = &c * Exact::power_of_two(e);
-        let start = start.map_or_else(Exact::zero, |f| f * if r.is_zero() { c.clone() } else { r.clone() });
-        // Between about the largest length and far below the floors of f64.
-        let tolerance = factor * (length + size) * Exact::power_of_two(-digits);
-        Case { system: SpringMass { c, m, g, l, h }, eps, start, tolerance }
-    })
+    (system, sign, size, rest)
+        .prop_map(|((c, m, l, gap), sign, size, (e, factor, digits, start))| {
+            let length = l.abs() + gap.abs();
+            let size = match size {
+                Size::Any(x) => x,
+                Size::Near(n) if length.is_zero() => Exact::power_of_two(-n),
+                Size::Near(n) => Exact::power_of_two(-n) * &length,
+            };
+            let r = int(sign) * &c * &size;
+            let g = (&r + &c * &gap) / &m;
+            let h = &l + &gap;
+            let eps = &c * Exact::power_of_two(e);
+            let start =
+                start.map_or_else(Exact::zero, |f| f * if r.is_zero() { c.clone() } else { r.clone() });
+            // Between about the largest length and far below the floors of f64.
+            let tolerance = factor * (length + size) * Exact::power_of_two(-digits);
+            Case { system: SpringMass { c, m, g, l, h }, eps, start, tolerance }
+        })
+        .boxed()
 }
 
 /// Systems in contact, grazing and separated.
-pub fn any_state(span: i32) -> impl Strategy<Value = Case<Exact>> {
-    planted(span, prop_oneof![3 => Just(1), 1 => Just(0), 2 => Just(-1)])
+pub fn any_state(span: i32) -> BoxedStrategy<Case<Exact>> {
+    with_sign(span, &[1, 1, 1, 0, -1, -1])
 }
 /// Systems with R > 0.
-pub fn in_contact(span: i32) -> impl Strategy<Value = Case<Exact>> {
-    planted(span, Just(1))
+pub fn in_contact(span: i32) -> BoxedStrategy<Case<Exact>> {
+    with_sign(span, &[1])
 }
 /// Systems with R = 0 in rationals (in floats: close to 0).
-pub fn grazing(span: i32) -> impl Strategy<Value = Case<Exact>> {
-    planted(span, Just(0))
+pub fn grazing(span: i32) -> BoxedStrategy<Case<Exact>> {
+    with_sign(span, &[0])
 }
 /// Systems with R < 0.
-pub fn separated(span: i32) -> impl Strategy<Value = Case<Exact>> {
-    planted(span, Just(-1))
+pub fn separated(span: i32) -> BoxedStrategy<Case<Exact>> {
+    with_sign(span, &[-1])
 }
 /// Systems with R ≠ 0, for which an iteration makes progress.
-pub fn not_grazing(span: i32) -> impl Strategy<Value = Case<Exact>> {
-    planted(span, prop_oneof![Just(1), Just(-1)])
-}
-
-/// Returns the case with another ε, given relative to c.
-pub fn with_penalty(case: Case<Exact>, relative: &Exact) -> Case<Exact> {
-    let eps = &case.system.c * relative;
-    Case { eps, ..case }
-}
-
-/// Returns ⟨x⟩.
-pub fn positive_part(x: &Exact) -> Exact {
-    x.positive_part()
-}
-
-/// Returns R.
-pub fn reaction(case: &Case<Exact>) -> Exact {
-    system::reaction(&case.system)
-}
-
-/// Floats of several precisions.
-pub trait Float: Scalar + Real + ToExact {}
-impl<T: Scalar + Real + ToExact> Float for T {}
-
-/// Tests a law, `fn law<T: Float>(case: &Case<Exact>, like: &T) -> Result<(), TestCaseError>`, in f32, f64
-/// and MPFR with few and many bits.
-#[macro_export]
-macro_rules! in_every_float {
-    ($($(#[$attribute:meta])* $law:ident from $cases:path;)*) => {$(
-        $(#[$attribute])*
-        mod $law {
-            use super::*;
-            proptest! {
-                #[test]
-                fn f32(case in $cases(NARROW)) {
-                    super::$law(&case, &1f32)?;
-                }
-                #[test]
-                fn f64(case in $cases(WIDE)) {
-                    super::$law(&case, &1f64)?;
-                }
-                #[test]
-                fn mpfr(case in $cases(WIDE), bits in prop_oneof![Just(8), Just(113), 8u32..300]) {
-                    super::$law(&case, &spring_mass_contact::number::Exact::from(1).to_mpfr(bits))?;
-                }
-            }
-        }
-    )*};
+pub fn not_grazing(span: i32) -> BoxedStrategy<Case<Exact>> {
+    with_sign(span, &[1, -1])
 }

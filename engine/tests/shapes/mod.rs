@@ -1,6 +1,7 @@
 //! Claims of many shapes in Coq, and their acceptance if Coq is installed.
 
 mod claims;
+#[allow(dead_code, reason = "the other package uses the rest")]
 #[path = "../../../tests/coqc/mod.rs"]
 mod coqc;
 #[allow(dead_code)]
