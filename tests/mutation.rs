@@ -88,8 +88,8 @@ fn weakened(statement: &Statement, hypothesis: &Hypothesis) -> Option<Statement>
     Some(statement.clone().only_assuming(&hypotheses))
 }
 
-/// Of how many mutants of a statement one is audited: a quarter finds some hundreds of each kind, and drifts take
-/// seven times as long as other claims.
+/// Returns the step between the audited mutants of a statement: a quarter contains some hundreds of each kind, and
+/// drifts take seven times as long as other claims.
 fn sample_step(statement: &Statement) -> usize {
     match statement.kind() {
         _ if is_deep() => 1,

@@ -71,7 +71,7 @@ in_every_float! {
     bounds_are_narrow from any_state;
 }
 
-/// What is computed directly in rationals needs no iteration, and is its own bound.
+/// A direct result in rationals needs no iteration, and is its own bound.
 #[test]
 fn direct_rationals_are_their_own_bounds() {
     holds(any_state(WIDE), |case| {

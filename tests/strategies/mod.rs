@@ -54,7 +54,7 @@ pub fn holds<V: fmt::Debug + 'static>(values: impl Strategy<Value = V> + 'static
     holds_often(1, values, law);
 }
 
-/// As [`holds`], for a number of times as many values: where a mistake shows for few of them, and none takes long.
+/// Like [`holds`], with `times` as many values, for laws that a mistake violates rarely and that take little time.
 #[track_caller]
 pub fn holds_often<V: fmt::Debug + 'static>(
     times: u32,
