@@ -1,6 +1,7 @@
 //! All tests of the library and of the whole, in one binary, so that what they share is compiled and computed once.
 
 mod api_guarantees;
+mod files;
 mod layering;
 
 #[cfg(feature = "mpfr")]

@@ -1,6 +1,7 @@
 //! Consistency of the chapter's data, functions, claims and documentation, with instructions on failure. No
 //! check passes because it found nothing.
 
+use crate::files::{files, root, source};
 use spring_mass_contact::claims::{Entry, claims, entries, entry, hypotheses, registry};
 use spring_mass_contact::number::NumberSystem;
 use spring_mass_contact::solver::{Outcome, State};
@@ -9,7 +10,7 @@ use spring_mass_contact::verify::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::LazyLock;
 
 /// A public function or struct of the chapter, with its documentation.
@@ -18,17 +19,9 @@ struct Item {
     docs: Vec<String>,
 }
 
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
-
 /// Returns `true` in the packed crate, which has cargo's copy of its manifest, and of the book only the pages.
 fn is_packed() -> bool {
     root().join("Cargo.toml.orig").exists()
-}
-
-fn source(path: &str) -> String {
-    fs::read_to_string(root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 
 fn modules() -> Vec<String> {
@@ -355,17 +348,6 @@ fn rounding_errors_attain_a_good_part_of_their_bounds() {
     let is_tight = |row: &&&Row| row.worst.as_ref().is_some_and(|(ratio, _)| *ratio > 0.05);
     let tight = measured.iter().filter(is_tight).count();
     assert!(2 * tight > measured.len(), "{tight} of {} claims use 5 % of their bound", measured.len());
-}
-
-/// Returns the files below a folder as paths in the project.
-fn files(folder: &str) -> Vec<String> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let entries = fs::read_dir(root.join(folder)).unwrap().map(|entry| entry.unwrap());
-    let of = |entry: fs::DirEntry| {
-        let path = format!("{folder}/{}", entry.file_name().to_str().unwrap());
-        if entry.path().is_dir() { files(&path) } else { vec![path] }
-    };
-    entries.flat_map(of).collect()
 }
 
 /// Returns the pages of the book.

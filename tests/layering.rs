@@ -5,14 +5,9 @@
 //!
 //! Sources are read as tokens: names in comments, strings and docs do not count, names within macros do.
 
+use crate::files::{files, source};
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use std::collections::BTreeSet;
-use std::fs;
-use std::path::{Path, PathBuf};
-
-fn source(path: impl AsRef<Path>) -> String {
-    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap()
-}
 
 /// Modules that each module may depend on.
 const KNOWS: [(&str, &[&str]); 8] = [
@@ -34,11 +29,6 @@ fn rooms(sources: &str) -> Vec<String> {
     let map = source("README.md");
     let lines = map.lines().filter_map(|line| line.strip_prefix(sources)?.strip_prefix('/'));
     lines.map(|line| line.split_whitespace().next().unwrap().to_string()).collect()
-}
-
-fn files(folder: &Path) -> Vec<PathBuf> {
-    let paths = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    paths.flat_map(|path| if path.is_dir() { files(&path) } else { vec![path] }).collect()
 }
 
 /// Returns the module of a file.
@@ -150,9 +140,7 @@ fn wrong_arrows(path: &str, text: &str) -> Vec<String> {
 
 /// Returns the files of the engine and of the chapter's crate, as paths in the project.
 fn sources() -> Vec<String> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let files = SOURCES.iter().flat_map(|sources| files(&root.join(sources)));
-    files.map(|file| file.strip_prefix(root).unwrap().to_str().unwrap().replace('\\', "/")).collect()
+    SOURCES.iter().flat_map(|sources| files(sources)).collect()
 }
 
 #[test]
@@ -176,7 +164,7 @@ fn each_module_uses_only_those_that_it_may() {
 fn the_map_lists_every_module() {
     let mut all = Vec::new();
     for sources in SOURCES {
-        let root = source(format!("{sources}/lib.rs"));
+        let root = source(&format!("{sources}/lib.rs"));
         let declared = root.lines().filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';'));
         let declared: BTreeSet<_> = declared.map(String::from).collect();
         let rooms = rooms(sources);

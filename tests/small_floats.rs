@@ -5,14 +5,12 @@
 //! with signs and zero. By default all systems of 2 bits and a sample of the larger sets are tested; with `DEEP=1`
 //! all 628 864 of 3 bits and 2 515 456 of 4 bits, which takes minutes.
 
-use crate::strategies::{exact, int, is_deep};
+use crate::strategies::{encloses, exact, int, is_deep};
 use num_traits::Zero;
 use rayon::prelude::*;
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::number::{Exact, Mpfr, PositivePart};
-use spring_mass_contact::solver::{
-    Bounds, Interval, Method, Outcome, Solution, State, solve, solve_bilateral,
-};
+use spring_mass_contact::solver::{Bounds, Method, Outcome, Solution, State, solve, solve_bilateral};
 use std::cmp::Ordering;
 use std::ops::Range;
 
@@ -107,13 +105,13 @@ impl Grid {
             assert_eq!(answer.state, state, "{system:?}");
             let Bounds { deflection, penetration, contact_force, .. } = &answer.bounds;
             for (interval, x) in [(deflection, u), (penetration, p), (contact_force, n)] {
-                assert!(contains(interval, x), "{x} not in {interval:?}: {system:?}");
+                assert!(encloses(interval, x), "{x} not in {interval:?}: {system:?}");
             }
             assert!(answer.contact_force >= Mpfr::zero(), "the plane pulls: {system:?}");
         };
         judge(&solve(&system, &Method::Lagrange).unwrap(), [&u, &p, &force]);
         let bilateral = solve_bilateral(&system, &Method::Lagrange).unwrap();
-        assert!(contains(&bilateral.bounds.contact_force, &r), "{r} not in {bilateral:?}: {system:?}");
+        assert!(encloses(&bilateral.bounds.contact_force, &r), "{r} not in {bilateral:?}: {system:?}");
 
         for (penalty, eps) in &self.penalties {
             let answer = solve(&system, &Method::Penalty { penalty: penalty.clone() }).unwrap();
@@ -151,10 +149,6 @@ impl Grid {
             other => panic!("an iteration ended as {other:?}"),
         }
     }
-}
-
-fn contains(interval: &Interval<Mpfr>, x: &Exact) -> bool {
-    exact(&interval.lower) <= *x && *x <= exact(&interval.upper)
 }
 
 /// Numbers of systems and of iterations of each kind.

@@ -1,6 +1,6 @@
 //! `contact solve --batch` as a child process: answers, their order and their timing.
 
-use crate::processes::{DEADLINE, asked, captured, command, finish, pick, random};
+use crate::processes::{DEADLINE, asked, captured, command, finish, pick, random, root};
 use oorandom::Rand64;
 use serde_json::value::RawValue;
 use serde_json::{Value, json};
@@ -683,10 +683,6 @@ fn memory_does_not_grow_with_the_number_of_lines() {
     thread::spawn(move || std::io::copy(&mut stdout, &mut std::io::sink()));
     drop(writer.join().expect("it writes"));
     assert!(finish(child).status.success());
-}
-
-fn root() -> &'static std::path::Path {
-    std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
 }
 
 /// The lines of the page, as far as it contains them.

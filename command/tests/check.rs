@@ -1,6 +1,6 @@
 //! External programs in other languages, checked against exact solutions.
 
-use crate::processes::{captured, command};
+use crate::processes::{captured, command, root};
 use serde_json::Value;
 use spring_mass_contact::number::Exact;
 use std::path::{Path, PathBuf};
@@ -18,7 +18,7 @@ fn report(program: &[&str]) -> (Option<i32>, Value) {
 
 /// Returns the path of a file in the project.
 fn source(path: &str) -> PathBuf {
-    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join(path)
+    root().join(path)
 }
 
 /// Compiles a program in the directory of the tests.

@@ -3,7 +3,7 @@
 //! Its output is recorded in `tests/cmd`, with a reason for each value; these tests check properties beyond
 //! snapshots: bounds hold, formats agree, and invalid input has one line.
 
-use crate::processes::{DEADLINE, Scratch, captured, command};
+use crate::processes::{DEADLINE, Scratch, captured, command, root};
 use serde_json::Value;
 use spring_mass_contact::chapter::{SpringMass, contact};
 use spring_mass_contact::claims::entries;
@@ -980,10 +980,6 @@ fn markdown_is_a_table() {
         assert!(lines.clone().count() > entries().len());
         assert!(lines.all(|line| line.starts_with('|') && line.ends_with('|') && cells(line) == columns));
     }
-}
-
-fn root() -> &'static std::path::Path {
-    std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
 }
 
 /// Compares a file of the project with what it should be; with `UPDATE=1` writes it.

@@ -1,17 +1,10 @@
 //! Consistency of the metadata that registries show: Cargo.toml, pyproject.toml and the README.
 
+use crate::files::{root, text};
 use pulldown_cmark::{Event, Parser, Tag};
 use regex::Regex;
 use serde_json::Value;
-use std::{env, fs, path::Path, process::Command, sync::LazyLock};
-
-fn root() -> &'static Path {
-    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
-}
-
-fn text(path: &str) -> String {
-    fs::read_to_string(root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
-}
+use std::{env, fs, process::Command, sync::LazyLock};
 
 /// Packages of the workspace as read by cargo, with the main crate first.
 static PACKAGES: LazyLock<Vec<Value>> = LazyLock::new(|| {

@@ -41,6 +41,11 @@ impl Drop for Scratch {
 /// ended, and its test fails.
 pub const DEADLINE: Duration = Duration::from_secs(60);
 
+/// Returns the root of the project.
+pub fn root() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
+}
+
 /// Returns the command without input.
 pub fn command() -> Command {
     Command::new(env!("CARGO_BIN_EXE_contact"))

@@ -25,9 +25,7 @@ fn shows_page(link: &str) -> Option<bool> {
         let rest = line.strip_prefix("pub ")?.strip_prefix(kind)?.strip_prefix(' ')?.strip_prefix(name)?;
         Some(rest.starts_with(['<', '(', ' ']))
     };
-    Some(
-        text(&root().join(format!("src/chapter/{module}.rs"))).lines().any(|line| begins(line) == Some(true)),
-    )
+    Some(text(format!("src/chapter/{module}.rs")).lines().any(|line| begins(line) == Some(true)))
 }
 
 fn shows_lines(link: &str) -> Option<bool> {
@@ -35,7 +33,7 @@ fn shows_lines(link: &str) -> Option<bool> {
     let (file, lines) = path.strip_prefix('/')?.split_once(".html#")?;
     let (first, last) = lines.split_once('-')?;
     let [first, last] = [first, last].map(|line| line.parse::<usize>().unwrap() - 1);
-    let file = text(&root().join("src").join(file));
+    let file = text(root().join("src").join(file));
     let lines: Vec<_> = file.lines().skip(first).take(last + 1 - first).collect();
     // No other item begins or ends in between.
     let end = lines.iter().position(|line| *line == "}");
@@ -58,7 +56,7 @@ fn source_links_lead_to_the_named_function() {
             let (file, first) = lines.split_once(".html#").unwrap();
             let first: usize = first.split('-').next().unwrap().parse().unwrap();
             let file =
-                text(&root().join("src").join(file.split_once(CRATE).unwrap().1.trim_start_matches('/')));
+                text(root().join("src").join(file.split_once(CRATE).unwrap().1.trim_start_matches('/')));
             let line = file.lines().nth(first - 1).unwrap();
             let named = line
                 .split_once(&format!(" {name}"))
@@ -145,7 +143,7 @@ fn built_book_and_documentation_link_to_each_other() {
     let (mut forward, mut back) = (0, 0);
     let check = |page: &Path, link: &str, count: &mut usize| {
         let (file, anchor) = link.split_once('#').unwrap_or((link, ""));
-        let html = text(&page.parent().unwrap().join(file));
+        let html = text(page.parent().unwrap().join(file));
         let has = |id: &str| html.contains(&format!("id=\"{id}\"")) || html.contains(&format!("id={id}"));
         // A range of lines is identified by its ends.
         let ids = if link.contains("/src/") { anchor.split('-').collect() } else { vec![anchor] };

@@ -13,7 +13,7 @@ fn declared() -> BTreeSet<String> {
     let option = r#"#\[arg\(long(?: = "([\w-]+)")?[^\n]*\)\]\s+(?:#\[arg[^\n]*\]\s+)?(?:pub )?(\w+):"#;
     let option = Regex::new(option).unwrap();
     let sources = files(&root().join("command/src"), ".rs");
-    let sources: String = sources.iter().map(|path| text(path)).collect();
+    let sources: String = sources.iter().map(text).collect();
     option
         .captures_iter(&sources)
         .map(|found| found.get(1).map_or_else(|| found[2].replace('_', "-"), |name| name.as_str().into()))
@@ -92,7 +92,7 @@ fn samples_on_stalls_agree_with_the_expected_output() {
             *line = "...".into();
         }
     }
-    let snapshot = text(&root().join("command/tests/cmd/stalls.trycmd"));
+    let snapshot = text("command/tests/cmd/stalls.trycmd");
     assert!(!snapshot.contains("[..]"), "a shown line is not checked");
     let snapshot = transcript(&snapshot);
     assert_eq!(commands(&shown), commands(&snapshot));

@@ -7,9 +7,9 @@ mod letters;
 mod proofs;
 mod tables;
 
-use crate::files::{root, text};
+use crate::files::text;
 
 /// Returns the text of a page, given by the name of its file.
 fn page(name: &str) -> String {
-    text(&root().join(format!("book/src/{name}.md")))
+    text(format!("book/src/{name}.md"))
 }
