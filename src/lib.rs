@@ -80,7 +80,7 @@ pub use provable::rug;
 
 #[cfg(feature = "prover")]
 #[doc(inline)]
-pub use provable::{formula, proof};
+pub use provable::{eval, formula, proof};
 
 #[cfg(all(doctest, feature = "mpfr"))]
 #[doc = include_str!("../README.md")]

@@ -15,19 +15,17 @@ mod catch_panic;
 mod checker;
 mod coq;
 mod experiments;
-mod goals;
 pub mod proofs;
 mod shared;
 #[cfg(test)]
 mod tests;
 
 use crate::claims::{Case, Var, claims, index_of, registry, statements};
+use crate::eval::{Balls, Point, Rationals};
 use crate::formula::{Hypothesis, Statement};
 use crate::number::{Exact, Mpfr, NumberSystem};
-use crate::proof::Counterexample;
-use crate::proof::refute::Point;
 use catch_panic::catch_panic;
-use checker::{Checker, ErasedChecker, FloatDomain, RationalDomain, Tally};
+use checker::{Checker, ErasedChecker, Tally};
 pub use coq::coq;
 pub use experiments::{Experiment, Trial, exact_experiments, float_experiments};
 use num_traits::One;
@@ -348,21 +346,16 @@ fn proof(statement: &Statement) -> Row {
         decided: 0,
         undecided: 0,
         worst: None,
-        counterexample: counterexample.as_ref().map(case_of),
+        counterexample: counterexample.as_ref().map(|found| cases::case_at(&found.point)),
     }
-}
-
-/// Returns the case of a counterexample, with 1 for quantities that it does not contain.
-fn case_of(counterexample: &Counterexample) -> Case<Exact> {
-    Case::of(|var| counterexample.point.at(var.symbol()))
 }
 
 fn checks(scalar: NumberSystem) -> Box<dyn ErasedChecker> {
     match scalar {
-        NumberSystem::F32 => Box::new(Checker::new(FloatDomain(0.0f32), claims())),
-        NumberSystem::F64 => Box::new(Checker::new(FloatDomain(0.0f64), claims())),
-        NumberSystem::Mpfr(bits) => Box::new(Checker::new(FloatDomain(Mpfr::rounded(bits, 0)), claims())),
-        NumberSystem::Exact => Box::new(Checker::new(RationalDomain, claims())),
+        NumberSystem::F32 => Box::new(Checker::new(Balls(0.0f32), claims())),
+        NumberSystem::F64 => Box::new(Checker::new(Balls(0.0f64), claims())),
+        NumberSystem::Mpfr(bits) => Box::new(Checker::new(Balls(Mpfr::rounded(bits, 0)), claims())),
+        NumberSystem::Exact => Box::new(Checker::new(Rationals::unrounded(), claims())),
     }
 }
 

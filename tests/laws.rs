@@ -4,12 +4,12 @@
 use proptest::prelude::any;
 use spring_mass_contact::chapter::{augmented, contact, penalty, system};
 use spring_mass_contact::claims::{claims, computed, registry, symbols};
+use spring_mass_contact::eval::{Point, Verdict, check};
 use spring_mass_contact::formula::claim::{PRECISION, within};
 use spring_mass_contact::formula::statement::Role;
 use spring_mass_contact::formula::{Hypothesis, Proposition, Relation, Statement};
 use spring_mass_contact::number::tree::{Op, piecewise_ops};
 use spring_mass_contact::number::{Ball, Exact, Mpfr, PositivePart, ToExact, Tree};
-use spring_mass_contact::proof::refute::{Point, Verdict, check};
 use spring_mass_contact::proof::{prove, refute};
 
 fn law(equation: &str, name: &str) -> &'static Statement {

@@ -10,14 +10,15 @@ use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use std::collections::BTreeSet;
 
 /// Modules that each module may depend on.
-const KNOWS: [(&str, &[&str]); 8] = [
+const KNOWS: [(&str, &[&str]); 9] = [
     ("number", &[]),
     ("formula", &["number"]),
-    ("proof", &["number", "formula"]),
+    ("eval", &["number", "formula"]),
+    ("proof", &["number", "formula", "eval"]),
     ("chapter", &["number"]),
     ("solver", &["number", "chapter"]),
     ("claims", &["number", "formula", "chapter"]),
-    ("verify", &["number", "formula", "proof", "chapter", "solver", "claims"]),
+    ("verify", &["number", "formula", "eval", "proof", "chapter", "solver", "claims"]),
     ("check", &["number", "formula", "proof", "chapter", "solver", "claims"]),
 ];
 

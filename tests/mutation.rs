@@ -3,6 +3,7 @@
 use crate::strategies::is_deep;
 use rayon::prelude::*;
 use spring_mass_contact::claims::{hypotheses, registry, statements};
+use spring_mass_contact::eval::{Point, Verdict, check, constructed_points, integer_points};
 use spring_mass_contact::formula::claim::PRECISION;
 use spring_mass_contact::formula::statement::minimum_precision;
 use spring_mass_contact::formula::{Hypothesis, Relation, Statement};
@@ -11,7 +12,6 @@ use spring_mass_contact::number::tree::{Op, piecewise_ops};
 use spring_mass_contact::proof::mutation::{
     DropOutcome, MutationOutcome, MutationReport, mutants, test_mutations,
 };
-use spring_mass_contact::proof::refute::{Point, Verdict, check, constructed_points, integer_points};
 use spring_mass_contact::proof::{Counterexample, prove};
 use spring_mass_contact::rug::Rational;
 use std::cmp::Ordering;

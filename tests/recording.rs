@@ -67,7 +67,10 @@ fn law<T: PositivePart + Exponential, B: PartialEq + Debug>(
         Op::Div(a, b) => Some(a / b),
         other => all_ops(other),
     };
-    let values = program.run(symbol, &beyond);
+    let values = program.run(symbol, &|op| match op {
+        Op::Div(..) => beyond(op),
+        op => op.arithmetic().or_else(|| beyond(op)),
+    });
     let fixed = |name| (!varying.contains(name)).then(|| symbol(name));
     let mut rounds = program.specialize(&fixed, &all_ops).expect("everything is known");
     // First with each other's numbers, which leave behind what was made of them.

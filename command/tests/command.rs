@@ -1124,6 +1124,16 @@ fn no_bad_choice_gets_further_than_one_line() {
     }
 }
 
+/// Note 9 has no formula that is mutated.
+#[test]
+fn detected_mutations_are_counted_only_if_there_are_some() {
+    let says = |equation: &str| String::from_utf8(contact(&["prove", equation]).stdout).unwrap();
+    assert_eq!(
+        ["1.13", "note 9"].map(|equation| says(equation).contains("mutations of formulas")),
+        [true, false]
+    );
+}
+
 /// All claims are proved, all mutations are detected and all hypotheses are needed; and the JSON has the keys of the book.
 #[test]
 fn the_whole_chapter_is_proved() {

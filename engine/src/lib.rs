@@ -8,7 +8,8 @@
     feature = "prover",
     doc = "\
 | [`formula`] | recorded formulas as data: typesetting, hypotheses and statements | `number` |
-| [`proof`] | proofs and refutations of statements, in print and for Coq | `number`, `formula` |"
+| [`eval`] | what statements mean for numbers | `number`, `formula` |
+| [`proof`] | proofs and refutations of statements, in print and for Coq | `number`, `formula`, `eval` |"
 )]
 //!
 //! ```
@@ -36,6 +37,8 @@
 // The documentation also links to numbers that a build without `mpfr` lacks.
 #![cfg_attr(not(feature = "mpfr"), allow(rustdoc::broken_intra_doc_links))]
 
+#[cfg(feature = "prover")]
+pub mod eval;
 #[cfg(feature = "prover")]
 pub mod formula;
 pub mod number;

@@ -4,6 +4,7 @@
 //! every machine.
 
 use crate::claims::{Case, Var, hypotheses};
+use crate::eval::Point;
 use crate::formula::{Hypothesis, Relation};
 use crate::number::{Exact, PositivePart};
 use num_traits::Zero;
@@ -174,8 +175,13 @@ impl Draw {
             case.eps = case.system.c.abs() * Exact::power_of_two(self.between(-60, 60));
         }
         if self.profile == Profile::Grazing {
-            let reaction = self.next_to_grazing(&case);
-            let _ = solve_for(&mut case, &hypotheses().grazing, &reaction);
+            let (reaction, grazing) = (self.next_to_grazing(&case), &hypotheses().grazing);
+            if let (Some(x), Some(var)) = (
+                grazing.solve(&|symbol| case.get_by_symbol(symbol), &reaction),
+                Var::named(grazing.solved_for),
+            ) {
+                *case.get_mut(var) = x;
+            }
         }
         case
     }
@@ -187,39 +193,26 @@ pub(super) fn case(seed: u64, index: u64, given: &[Hypothesis]) -> Option<Case<E
     let profile = PROFILES[(index % PROFILES.len() as u64) as usize];
     let random = Rand64::new((u128::from(seed) << 64) | u128::from(index));
     let mut draw = Draw { random, profile, small: Small::Products };
-    let mut case = draw.raw();
-    let mut bent = false;
-    for hypothesis in given {
-        if hypothesis.holds(&|symbol| case.get_by_symbol(symbol)) {
-            continue;
-        }
-        let value = value(hypothesis, &case)?;
-        let target = match hypothesis.relation {
+    let raw = draw.raw();
+    let coordinates = Var::ALL.iter().map(|var| (var.symbol(), raw.get(*var).clone()));
+    let point = Point::new(coordinates).adjusted_to(given, |hypothesis, point| {
+        let value = hypothesis.value.eval(&|symbol| point.at(symbol), &|_| None)?;
+        Some(match hypothesis.relation {
             Relation::Zero => Exact::zero(),
             Relation::NonNegative if draw.below(4) == 0 => Exact::zero(),
-            _ if value.is_zero() => match draw.next_to_grazing(&case).abs() {
+            _ if value.is_zero() => match draw.next_to_grazing(&case_at(point)).abs() {
                 tiny if profile == Profile::Grazing && !tiny.is_zero() => tiny,
                 _ => draw.magnitude(Var::Lambda),
             },
             _ => value.abs(),
-        };
-        solve_for(&mut case, hypothesis, &target)?;
-        bent = true;
-    }
-    // Adjusting a case to one hypothesis may violate another.
-    let holds = |hypothesis: &Hypothesis| hypothesis.holds(&|symbol| case.get_by_symbol(symbol));
-    (!bent || given.iter().all(holds)).then_some(case)
+        })
+    })?;
+    Some(case_at(&point))
 }
 
-fn value(hypothesis: &Hypothesis, case: &Case<Exact>) -> Option<Exact> {
-    hypothesis.value.eval(&|symbol| case.get_by_symbol(symbol), &|_| None)
-}
-
-/// Solves a hypothesis for its coordinate so that its quantity has this value.
-fn solve_for(case: &mut Case<Exact>, hypothesis: &Hypothesis, target: &Exact) -> Option<()> {
-    let x = hypothesis.solve(&|symbol| case.get_by_symbol(symbol), target)?;
-    *case.get_mut(Var::named(hypothesis.solved_for)?) = x;
-    Some(())
+/// Returns the case with the coordinates of a point, with 1 for those that it does not contain.
+pub(super) fn case_at(point: &Point) -> Case<Exact> {
+    Case::of(|var| point.at(var.symbol()))
 }
 
 #[cfg(test)]

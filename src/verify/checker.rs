@@ -2,16 +2,15 @@
 
 use super::catch_panic::catch_panic;
 use super::experiments::{Experiment, Trial, exact_experiments, float_experiments};
-use super::goals::{Group, Test, groups};
 use super::{Row, Status};
 use crate::claims::Case;
-use crate::formula::{Hypothesis, Statement};
-use crate::number::tree::{Op, all_ops, piecewise_ops};
-use crate::number::{Ball, Exact, Exponential, Mpfr, NumberSystem, PositivePart, Real, ToExact};
+use crate::eval::{Balls, Domain, Evaluation, Failure, Instance, Rationals, Test, Value, Verdict, instances};
+use crate::formula::statement::Role;
+use crate::formula::{Hypothesis, Proposition, Statement};
+use crate::number::{Ball, Exact, Exponential, Mpfr, NumberSystem, Program, Real, ToExact};
 use crate::solver::Scalar;
 use num_traits::Zero;
 use std::borrow::Cow;
-use std::cmp::Ordering;
 
 /// Identification and hypotheses of a claim in any number system.
 #[derive(Clone)]
@@ -43,25 +42,61 @@ impl Tally {
         self.failure = self.failure.take().or(other.failure);
     }
 
-    fn record(&mut self, case: &Case<Exact>, verdict: Verdict<'_>) {
-        match verdict {
-            Verdict::Undecided => self.undecided += 1,
-            Verdict::Failed(reason) => {
-                self.decided += 1;
-                self.failure.get_or_insert_with(|| (case.clone(), Some(reason)));
-            }
-            Verdict::Decided { holds, measured } => {
-                self.decided += 1;
-                if let Some((ratio, bound)) = measured
-                    && self.worst.as_ref().is_none_or(|(worst, _)| ratio > *worst)
-                {
-                    self.worst = Some((ratio, bound()));
-                }
-                if !holds {
-                    self.failure.get_or_insert_with(|| (case.clone(), None));
-                }
+    /// Adds a case that cannot be decided.
+    fn skip(&mut self) {
+        self.undecided += 1;
+    }
+
+    /// Adds a decided case; a reason says why an evaluation failed.
+    fn decide(&mut self, case: &Case<Exact>, holds: bool, reason: Option<String>) {
+        self.decided += 1;
+        if !holds {
+            self.failure.get_or_insert_with(|| (case.clone(), reason));
+        }
+    }
+
+    /// Adds the ratio of an error and its bound, which is formatted only if it is the worst so far.
+    fn measure(&mut self, ratio: f64, bound: impl FnOnce() -> String) {
+        if self.worst.as_ref().is_none_or(|(worst, _)| ratio > *worst) {
+            self.worst = Some((ratio, bound()));
+        }
+    }
+
+    fn try_experiment<T>(&mut self, case: &Case<Exact>, experiment: &Experiment<T>, computed: &Case<T>) {
+        match catch_panic(|| (experiment.check)(computed)) {
+            Err(reason) => self.decide(case, false, Some(reason)),
+            Ok(Trial::Undecided) => self.skip(),
+            Ok(Trial::Decided(holds)) => self.decide(case, holds, None),
+            Ok(Trial::Within { error, bound }) => {
+                let text = || Mpfr::rounded(24, bound.as_rational()).to_string();
+                self.measure(share(&error, &bound), text);
+                self.decide(case, error <= bound, None);
             }
         }
+    }
+
+    fn evaluate<D: NumberDomain>(
+        &mut self,
+        case: &Case<Exact>,
+        domain: &D,
+        values: &Evaluation<'_, D, impl Fn(&'static str) -> D::Value>,
+        claim: &[(&'static str, Test)],
+    ) {
+        let (holds, reason) = match values.verdict(claim) {
+            Verdict::Excluded | Verdict::Undecided => return self.skip(),
+            Verdict::Holds => (true, None),
+            Verdict::Fails(_, Failure::Undefined(_)) => (false, Some("division by zero".to_string())),
+            Verdict::Fails(..) => (false, None),
+        };
+        for (_, test) in claim {
+            if let Test::Equal([left, right]) = test
+                && let (Some(left), Some(right)) = (values.at(*left), values.at(*right))
+            {
+                let difference = domain.difference(left, right);
+                self.measure(domain.share(&difference), || domain.bound(&difference));
+            }
+        }
+        self.decide(case, holds, reason);
     }
 
     pub(super) fn into_row(self, head: ClaimKey, scalar: Option<NumberSystem>) -> Row {
@@ -86,114 +121,91 @@ impl Tally {
     }
 }
 
-/// Result of a claim in one case; the bound is formatted only if it is the worst so far.
-enum Verdict<'a> {
-    Undecided,
-    /// The evaluation failed, for example because the claim is undefined; with the reason.
-    Failed(String),
-    Decided {
-        holds: bool,
-        measured: Option<(f64, Box<dyn Fn() -> String + 'a>)>,
-    },
-}
-
 /// Number system in which claims are checked.
-pub(super) trait NumberDomain: Sync {
-    /// Numbers of the claims.
-    type Number: PositivePart;
+pub(super) trait NumberDomain: Domain + Sync {
+    /// Numbers of a case.
+    type Number: Clone;
     /// Numbers of the experiments.
     type Computed: Clone;
 
     /// Whether it has exponentials.
     const EXPONENTIALS: bool;
-    /// Evaluates a quotient, eˣ, ⟨·⟩ or min; `None` if it is undefined.
-    fn step(step: Op<&Self::Number>) -> Option<Self::Number>;
+
     fn experiments(&self) -> Vec<Experiment<Self::Computed>>;
 
     /// Returns a case in these numbers; `None` if a coordinate is out of range.
     fn read<'a>(&self, case: &'a Case<Exact>) -> Option<Cow<'a, Case<Self::Number>>>;
+
+    /// Returns the value of a number.
+    fn value(&self, x: Self::Number) -> Self::Value;
+
     /// Returns the case in the numbers of the experiments.
     fn computed<'a>(&self, case: &'a Case<Self::Number>) -> Cow<'a, Case<Self::Computed>>;
 
-    /// Returns for left − right whether it may be 0, the ratio of error and bound, and the difference.
-    fn difference(&self, left: &Self::Number, right: &Self::Number) -> Option<(bool, f64, Self::Number)>;
-    fn bound(&self, difference: &Self::Number) -> String;
-    fn sign(&self, x: &Self::Number) -> Option<Ordering>;
+    /// Returns the difference of two sides that are equal.
+    fn difference(&self, left: &Self::Value, right: &Self::Value) -> Self::Value;
+
+    /// Returns the ratio of a difference and its bound.
+    fn share(&self, difference: &Self::Value) -> f64;
+
+    /// Formats the bound of a difference.
+    fn bound(&self, difference: &Self::Value) -> String;
 }
 
-/// Rationals, compared by `==`.
-pub(super) struct RationalDomain;
-
-impl NumberDomain for RationalDomain {
+impl NumberDomain for Rationals {
     type Number = Exact;
     type Computed = Exact;
     const EXPONENTIALS: bool = false;
-    fn step(step: Op<&Exact>) -> Option<Exact> {
-        match step {
-            Op::Div(a, b) => (!b.is_zero()).then(|| a / b),
-            other => piecewise_ops(other),
-        }
-    }
     fn experiments(&self) -> Vec<Experiment<Exact>> {
         exact_experiments()
     }
     fn read<'a>(&self, case: &'a Case<Exact>) -> Option<Cow<'a, Case<Exact>>> {
         Some(Cow::Borrowed(case))
     }
+    fn value(&self, x: Exact) -> Value {
+        Value::Exact(x)
+    }
     fn computed<'a>(&self, case: &'a Case<Exact>) -> Cow<'a, Case<Exact>> {
         Cow::Borrowed(case)
     }
-    fn difference(&self, left: &Exact, right: &Exact) -> Option<(bool, f64, Exact)> {
-        Some((left == right, 0.0, Exact::zero()))
+    fn difference(&self, _: &Value, _: &Value) -> Value {
+        Value::Exact(Exact::zero())
     }
-    fn bound(&self, difference: &Exact) -> String {
-        difference.to_string()
+    fn share(&self, _: &Value) -> f64 {
+        0.0
     }
-    fn sign(&self, x: &Exact) -> Option<Ordering> {
-        Some(x.cmp(&Exact::zero()))
+    fn bound(&self, _: &Value) -> String {
+        "0".to_string()
     }
 }
 
-/// Floats, enclosed by balls; the field determines their type and precision.
-pub(super) struct FloatDomain<T>(pub(super) T);
-
-impl<T> NumberDomain for FloatDomain<T>
+impl<T> NumberDomain for Balls<T>
 where
     T: Scalar + Real + Exponential + ToExact + std::fmt::Display + Sync,
 {
     type Number = Ball<T>;
     type Computed = T;
     const EXPONENTIALS: bool = true;
-    fn step(step: Op<&Ball<T>>) -> Option<Ball<T>> {
-        match step {
-            // The quotient by a ball that contains 0 is unbounded.
-            Op::Div(a, b) => Some(a / b).filter(|quotient| !quotient.is_undefined()),
-            other => all_ops(other),
-        }
-    }
     fn experiments(&self) -> Vec<Experiment<T>> {
         float_experiments()
     }
     fn read<'a>(&self, case: &'a Case<Exact>) -> Option<Cow<'a, Case<Ball<T>>>> {
-        Case::try_of(|var| Ball::enclosing(&self.0, case.get(var))).ok().map(Cow::Owned)
+        Case::try_of(|var| self.enclose(case.get(var))).ok().map(Cow::Owned)
+    }
+    fn value(&self, x: Ball<T>) -> Ball<T> {
+        x
     }
     fn computed<'a>(&self, case: &'a Case<Ball<T>>) -> Cow<'a, Case<T>> {
         Cow::Owned(case.map(|_, ball| ball.value().clone()))
     }
-    fn difference(&self, left: &Ball<T>, right: &Ball<T>) -> Option<(bool, f64, Ball<T>)> {
-        let difference = left - right;
-        if !difference.is_finite() {
-            return None;
-        }
-        let (error, bound) = (difference.value().abs(), difference.radius());
-        let ratio = share(&error, bound);
-        Some((error <= *bound, ratio, difference))
+    fn difference(&self, left: &Ball<T>, right: &Ball<T>) -> Ball<T> {
+        left - right
+    }
+    fn share(&self, difference: &Ball<T>) -> f64 {
+        share(&difference.value().abs(), difference.radius())
     }
     fn bound(&self, difference: &Ball<T>) -> String {
         format!("{:?}", difference.radius())
-    }
-    fn sign(&self, x: &Ball<T>) -> Option<Ordering> {
-        x.sign()
     }
 }
 
@@ -222,36 +234,74 @@ pub(super) trait ErasedChecker: Sync {
     ) -> Vec<(usize, Tally)>;
 }
 
-pub(super) struct Checker<J: NumberDomain> {
-    judge: J,
+/// Claims with the same hypotheses, which are checked on the same cases.
+struct Group {
+    given: Vec<Hypothesis>,
+    program: Program,
+    /// Each claim with its index and its tests.
+    claims: Vec<(usize, Vec<(&'static str, Test)>)>,
+}
+
+/// Groups claims by their hypotheses.
+fn groups(claims: &[Statement]) -> Vec<Group> {
+    let mut groups: Vec<Group> = Vec::new();
+    for (index, claim) in claims.iter().enumerate() {
+        let given = claim.stated_hypotheses();
+        let place = groups.iter().position(|group| group.given == given).unwrap_or_else(|| {
+            let (program, claims) = Default::default();
+            groups.push(Group { given: given.to_vec(), program, claims });
+            groups.len() - 1
+        });
+        let Group { program, claims, .. } = &mut groups[place];
+        claims.push((index, tests(claim, program)));
+    }
+    groups
+}
+
+/// Number of members of a sequence that are checked. Its closed form is also checked for arbitrary q.
+const MEMBERS: usize = 4;
+
+/// Returns the tests of a claim: what it says of numbers, and what its induction says of any q. The rate of a
+/// limit is tested in place of the limit.
+fn tests(claim: &Statement, program: &mut Program) -> Vec<(&'static str, Test)> {
+    let steps = claim.goals().iter().filter(|goal| goal.role != Role::Claim);
+    let steps = steps.map(|goal| Instance::new(goal.part, goal.proposition.clone()));
+    let all = instances(claim, MEMBERS).into_iter().chain(steps);
+    all.filter(|instance| !matches!(instance.proposition, Proposition::Limit(..)))
+        .map(|instance| (instance.part, Test::of(&instance, program)))
+        .collect()
+}
+
+pub(super) struct Checker<D: NumberDomain> {
+    domain: D,
     /// In the order of the keys.
     claims: Vec<Statement>,
     groups: Vec<Group>,
-    experiments: Vec<Experiment<J::Computed>>,
+    experiments: Vec<Experiment<D::Computed>>,
 }
 
-impl<J: NumberDomain> Checker<J> {
+impl<D: NumberDomain> Checker<D> {
     /// Returns a checker of the claims that can be evaluated in these numbers.
-    pub(super) fn new<'a>(judge: J, claims: impl IntoIterator<Item = &'a Statement>) -> Self {
-        let experiments = judge.experiments();
-        Checker::with(judge, claims, experiments)
+    pub(super) fn new<'a>(domain: D, claims: impl IntoIterator<Item = &'a Statement>) -> Self {
+        let experiments = domain.experiments();
+        Checker::with(domain, claims, experiments)
     }
 
     pub(super) fn with<'a>(
-        judge: J,
+        domain: D,
         claims: impl IntoIterator<Item = &'a Statement>,
-        experiments: Vec<Experiment<J::Computed>>,
+        experiments: Vec<Experiment<D::Computed>>,
     ) -> Self {
         // Experiments check claims about rounding.
         let can_be_asked = |claim: &&Statement| {
-            !claim.contains_rounding() && (J::EXPONENTIALS || !claim.contains_exponential())
+            !claim.contains_rounding() && (D::EXPONENTIALS || !claim.contains_exponential())
         };
         let claims: Vec<Statement> = claims.into_iter().filter(can_be_asked).cloned().collect();
-        Checker { judge, groups: groups(&claims), claims, experiments }
+        Checker { domain, groups: groups(&claims), claims, experiments }
     }
 }
 
-impl<J: NumberDomain> ErasedChecker for Checker<J> {
+impl<D: NumberDomain> ErasedChecker for Checker<D> {
     fn heads(&self) -> Vec<ClaimKey> {
         let claim = |c: &Statement| ClaimKey {
             equation: c.equation(),
@@ -259,7 +309,7 @@ impl<J: NumberDomain> ErasedChecker for Checker<J> {
             kind: c.kind(),
             given: c.stated_hypotheses().to_vec(),
         };
-        let experiment = |e: &Experiment<J::Computed>| ClaimKey {
+        let experiment = |e: &Experiment<D::Computed>| ClaimKey {
             equation: e.equation,
             claim: e.name,
             kind: "experiment",
@@ -286,82 +336,29 @@ impl<J: NumberDomain> ErasedChecker for Checker<J> {
             return tallies;
         }
         for case in cases {
-            let Some((exact, read)) = case.as_ref().and_then(|case| Some((case, self.judge.read(case)?)))
-            else {
-                tallies.iter_mut().for_each(|(_, tally)| tally.undecided += 1);
+            let read = case.as_ref().and_then(|case| Some((case, self.domain.read(case)?)));
+            let Some((exact, read)) = read else {
+                tallies.iter_mut().for_each(|(_, tally)| tally.skip());
                 continue;
             };
             let (of_claims, of_experiments) = tallies.split_at_mut(claims.len());
             if let Some(group) = group.filter(|_| !claims.is_empty()) {
-                let values = group.program.run(&|name| read.get_by_symbol(name), &J::step);
-                for ((_, asked), (_, tally)) in claims.iter().zip(of_claims) {
-                    tally.record(exact, self.verdict(asked, &values));
+                let values = Evaluation::of(&group.program, &self.domain, |name| {
+                    self.domain.value(read.get_by_symbol(name))
+                });
+                for ((_, claim), (_, tally)) in claims.iter().zip(of_claims) {
+                    tally.evaluate(exact, &self.domain, &values, claim);
                 }
             }
             if experiments.is_empty() {
                 continue;
             }
-            let computed = self.judge.computed(&read);
+            let computed = self.domain.computed(&read);
             for ((_, experiment), (_, tally)) in experiments.iter().zip(of_experiments) {
-                let verdict = catch_panic(|| of_trial((experiment.check)(&computed)));
-                tally.record(exact, verdict.unwrap_or_else(Verdict::Failed));
+                tally.try_experiment(exact, experiment, &computed);
             }
         }
         tallies
-    }
-}
-
-impl<J: NumberDomain> Checker<J> {
-    /// Combines all tests of a claim: a failure decides, otherwise an undecided test leaves the case
-    /// undecided. So does a claim without tests, for example about a derivative that does not exist.
-    fn verdict<'a>(&'a self, asked: &[Test], values: &[Option<J::Number>]) -> Verdict<'a>
-    where
-        J::Number: 'a,
-    {
-        let (mut open, mut holds) = (asked.is_empty(), true);
-        let mut worst: Option<(f64, J::Number)> = None;
-        for asked in asked {
-            let answer = match asked {
-                Test::Equal(left, right) => {
-                    values[*left].as_ref().zip(values[*right].as_ref()).map(|(left, right)| {
-                        let (equal, ratio, difference) = self.judge.difference(left, right)?;
-                        if worst.as_ref().is_none_or(|(r, _)| ratio > *r) {
-                            worst = Some((ratio, difference));
-                        }
-                        Some(equal)
-                    })
-                }
-                Test::Sign(relation, x) => {
-                    values[*x].as_ref().map(|x| self.judge.sign(x).map(|sign| relation.admits(sign)))
-                }
-            };
-            match answer {
-                None => return Verdict::Failed("division by zero".to_string()),
-                Some(None) => open = true,
-                Some(Some(answer)) => holds &= answer,
-            }
-        }
-        if holds && open {
-            return Verdict::Undecided;
-        }
-        let measured = worst.map(|(ratio, difference)| {
-            let bound: Box<dyn Fn() -> String + 'a> = Box::new(move || self.judge.bound(&difference));
-            (ratio, bound)
-        });
-        Verdict::Decided { holds, measured }
-    }
-}
-
-fn of_trial<'a>(trial: Trial) -> Verdict<'a> {
-    match trial {
-        Trial::Undecided => Verdict::Undecided,
-        Trial::Decided(holds) => Verdict::Decided { holds, measured: None },
-        Trial::Within { error, bound } => {
-            let (holds, ratio) = (error <= bound, share(&error, &bound));
-            let text: Box<dyn Fn() -> String> =
-                Box::new(move || Mpfr::rounded(24, bound.as_rational()).to_string());
-            Verdict::Decided { holds, measured: Some((ratio, text)) }
-        }
     }
 }
 

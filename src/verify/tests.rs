@@ -54,7 +54,7 @@ fn boxed<J: NumberDomain + 'static>(
 }
 
 fn exactly(claims: &[Statement], experiments: Vec<Experiment<Exact>>) -> Boxed {
-    boxed(NumberSystem::Exact, RationalDomain, claims, experiments)
+    boxed(NumberSystem::Exact, Rationals::unrounded(), claims, experiments)
 }
 
 fn report(checkers: &[Boxed], cases: u64) -> Report {
@@ -127,9 +127,9 @@ fn a_claim_can_fail_in_one_number_system_alone() {
     for wrong in scalars {
         let [single, double, precise, exact] = scalars.map(|scalar| zero_is(scalar != wrong));
         let checkers = [
-            boxed(scalars[0], FloatDomain(0f32), &single, Vec::new()),
-            boxed(scalars[1], FloatDomain(0f64), &double, Vec::new()),
-            boxed(scalars[2], FloatDomain(Mpfr::rounded(100, 0)), &precise, Vec::new()),
+            boxed(scalars[0], Balls(0f32), &single, Vec::new()),
+            boxed(scalars[1], Balls(0f64), &double, Vec::new()),
+            boxed(scalars[2], Balls(Mpfr::rounded(100, 0)), &precise, Vec::new()),
             exactly(&exact, Vec::new()),
         ];
         let report = report(&checkers, 20);
@@ -150,7 +150,7 @@ fn a_claim_that_no_case_decides_is_undecided() {
     let checkers = [
         boxed(
             NumberSystem::F64,
-            FloatDomain(0f64),
+            Balls(0f64),
             &[open, holding()],
             vec![experiment("out of range", |_| Trial::Undecided)],
         ),
@@ -224,9 +224,9 @@ fn an_undefined_claim_or_a_panic_is_a_failure_with_its_case() {
     }
     let scalars = [NumberSystem::F32, NumberSystem::F64, NumberSystem::Mpfr(100), NumberSystem::Exact];
     let checkers = [
-        boxed(scalars[0], FloatDomain(0f32), &claims, expecting()),
-        boxed(scalars[1], FloatDomain(0f64), &claims, expecting()),
-        boxed(scalars[2], FloatDomain(Mpfr::rounded(100, 0)), &claims, expecting()),
+        boxed(scalars[0], Balls(0f32), &claims, expecting()),
+        boxed(scalars[1], Balls(0f64), &claims, expecting()),
+        boxed(scalars[2], Balls(Mpfr::rounded(100, 0)), &claims, expecting()),
         exactly(&claims, expecting()),
     ];
     let report = report(&checkers, 10);

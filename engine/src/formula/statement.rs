@@ -138,7 +138,7 @@ impl Proposition {
         }
     }
 
-    fn map(&self, f: &impl Fn(&Tree) -> Tree) -> Self {
+    pub(crate) fn map(&self, f: &impl Fn(&Tree) -> Tree) -> Self {
         match self {
             Proposition::Equal(a, b) => Proposition::Equal(f(a), f(b)),
             Proposition::Sign(relation, a) => Proposition::Sign(*relation, f(a)),

@@ -1,6 +1,6 @@
 //! Compiled programs of several formulas.
 
-use super::tree::Op;
+use super::tree::{Op, SMALL};
 use super::{Field, Tree};
 use std::collections::HashMap;
 
@@ -16,8 +16,8 @@ use std::collections::HashMap;
 /// let square = &x * &x;
 /// let mut program = Program::default();
 /// let [a, b] = [&square + &square, Tree::one() / &square].map(|formula| program.add(&formula));
-/// let values = program.run(&|_| 2.0, &|_| None);
-/// assert_eq!((values[a], values[b]), (Some(8.0), None)); // nobody said how to divide
+/// let values = program.run(&|_| 2.0, &|op| op.arithmetic());
+/// assert_eq!((values[a], values[b]), (Some(8.0), Some(0.25)));
 /// assert_eq!(program.len(), 5); // x, x², x² + x², 1 and 1/x²
 /// ```
 #[derive(Clone, Debug, Default)]
@@ -30,12 +30,39 @@ pub struct Program {
 impl Program {
     /// Adds a formula and returns the index of its value.
     pub fn add(&mut self, formula: &Tree) -> usize {
-        let step = formula.op().map(|operand| self.add(operand));
+        if formula.size() <= SMALL {
+            let step = formula.op().map(|operand| self.add(operand));
+            return self.place(step);
+        }
+        let mut places = HashMap::new();
+        for tree in formula.distinct() {
+            let step = tree.op().map(|operand| places[&operand.address()]);
+            places.insert(tree.address(), self.place(step));
+        }
+        places[&formula.address()]
+    }
+
+    /// Returns the index of an operation on values of the program.
+    fn place(&mut self, step: Op<usize>) -> usize {
         let next = self.steps.len();
         *self.places.entry(step).or_insert_with(|| {
             self.steps.push(step);
             next
         })
+    }
+
+    /// Returns the formula at an index.
+    pub fn formula(&self, place: usize) -> Tree {
+        let (first, mut formulas) = (Tree::from(0), Vec::with_capacity(place + 1));
+        for step in &self.steps[..=place] {
+            formulas.push(first.with_op(step.map(|operand: &usize| Tree::clone(&formulas[*operand]))));
+        }
+        formulas.swap_remove(place)
+    }
+
+    /// Returns the index of a symbol.
+    pub fn place_of_symbol(&self, name: &'static str) -> Option<usize> {
+        self.places.get(&Op::Symbol(name)).copied()
     }
 
     /// Returns the operations, each after its operands, which are indices.
@@ -53,20 +80,19 @@ impl Program {
         self.steps.is_empty()
     }
 
-    /// Returns the value at each index, bit for bit as [`Tree::eval`] computes it. `extra_ops` evaluates eˣ,
-    /// ⟨·⟩, min and division by a number that is not invertible; the value is `None` if it returns `None`.
-    pub fn run<T: Field>(
+    /// Returns the value at each index. `apply` evaluates an operation that is not a symbol; the value is `None`
+    /// if it returns `None`, or if an operand is.
+    pub fn run<T>(
         &self,
         symbol: &impl Fn(&'static str) -> T,
-        extra_ops: &impl Fn(Op<&T>) -> Option<T>,
+        apply: &impl Fn(Op<&T>) -> Option<T>,
     ) -> Vec<Option<T>> {
         let mut values: Vec<Option<T>> = Vec::with_capacity(self.steps.len());
         for step in &self.steps {
             let operands = step.try_map(|place| values[*place].as_ref());
             values.push(operands.and_then(|step| match step {
                 Op::Symbol(name) => Some(symbol(name)),
-                Op::Div(..) => extra_ops(step),
-                step => step.arithmetic().or_else(|| extra_ops(step)),
+                step => apply(step),
             }));
         }
         values

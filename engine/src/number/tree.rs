@@ -45,6 +45,9 @@ struct Node {
     size: u32,
 }
 
+/// Size up to which a formula is visited without a table of shared operations.
+pub(super) const SMALL: u32 = 64;
+
 /// Depth below which a formula is dropped recursively.
 const SHALLOW: u32 = 500;
 
@@ -133,8 +136,16 @@ impl Tree {
         symbol: &impl Fn(&'static str) -> T,
         extra_ops: &impl Fn(Op<&T>) -> Option<T>,
     ) -> Option<T> {
-        let operands = self.op().try_map(|operand| operand.eval(symbol, extra_ops))?;
-        operands.map(|operand| operand).value(symbol, extra_ops)
+        if self.size() <= SMALL {
+            let operands = self.op().try_map(|operand| operand.eval(symbol, extra_ops))?;
+            return operands.map(|operand| operand).value(symbol, extra_ops);
+        }
+        let mut values: HashMap<_, T> = HashMap::new();
+        for tree in self.distinct() {
+            let operands = tree.op().map(|operand| &values[&operand.address()]);
+            values.insert(tree.address(), operands.map(|operand| *operand).value(symbol, extra_ops)?);
+        }
+        values.remove(&self.address())
     }
 
     /// Returns the value of the formula and its derivative with respect to a quantity; `None` as for
@@ -178,12 +189,12 @@ impl Tree {
         rewritten.remove(&self.address()).expect("the last step is one of them")
     }
 
-    fn address(&self) -> *const Node {
-        Arc::as_ptr(&self.0)
+    pub(super) fn address(&self) -> usize {
+        Arc::as_ptr(&self.0).addr()
     }
 
     /// Returns each operation once, even if shared, after its operands, from left to right.
-    fn distinct(&self) -> Vec<&Tree> {
+    pub(super) fn distinct(&self) -> Vec<&Tree> {
         let (mut found, mut all, mut open) = (HashSet::new(), Vec::new(), vec![(self, false)]);
         while let Some((tree, operands_are_done)) = open.pop() {
             if operands_are_done {

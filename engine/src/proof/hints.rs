@@ -4,8 +4,8 @@
 
 use super::kernel::algebra::Monomial;
 use super::kernel::{AssumptionUse, Derivation, ProofError, derivation, effort, prove};
-use super::refute::{Verdict, check, constructed_points, symbols};
 use super::render::formula;
+use crate::eval::{Verdict, check, constructed_points, independent_symbols};
 use crate::formula::claim::{POWER, PRECISION, SCALES, equal};
 use crate::formula::statement::{Proposition, Role, Statement};
 use crate::formula::{Hypothesis, Relation};
@@ -46,7 +46,7 @@ pub fn sufficient_hypothesis(statement: &Statement, reason: &ProofError) -> Vec<
     if let ProofError::TooLarge(..) = reason {
         return Vec::new(); // So would be the proofs under more hypotheses.
     }
-    let symbols = symbols(statement);
+    let symbols = independent_symbols(statement);
     let is_free = |name: &&str| *name != POWER && *name != PRECISION && !SCALES.contains(name);
     let own: Vec<_> = symbols.iter().copied().filter(is_free).take(MAX_SYMBOLS).map(Tree::symbol).collect();
     let differences = own.iter().flat_map(|x| own.iter().filter(move |y| x != *y).map(move |y| x - y));
@@ -127,11 +127,11 @@ fn obstacle(statement: &Statement, reason: &ProofError) -> Option<Tree> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::eval::integer_points;
     use crate::formula::Registry;
     use crate::formula::claim::{non_negative, positive};
     use crate::number::{Exponential, PositivePart, tree};
     use crate::proof::MAX_SIZE;
-    use crate::proof::refute::integer_points;
     use crate::proof::render::ProofPrinter;
 
     fn above_zero(value: impl Into<Tree>) -> Hypothesis {

@@ -8,6 +8,10 @@ use crate::verify::{exact_experiments, float_experiments};
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
+fn value(hypothesis: &Hypothesis, case: &Case<Exact>) -> Option<Exact> {
+    hypothesis.value.eval(&|symbol| case.get_by_symbol(symbol), &|_| None)
+}
+
 /// Default number of cases.
 const CASES: u64 = 1000;
 

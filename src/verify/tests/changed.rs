@@ -42,8 +42,8 @@ fn every_mutation_makes_a_claim_fail_unless_it_is_equivalent() {
             .or_insert_with(|| (claim.stated_hypotheses().to_vec(), cases()));
     }
     let all: Vec<_> = claims().cloned().collect();
-    assert_eq!(findings(RationalDomain, &all, &drawn), []);
-    assert_eq!(findings(FloatDomain(0f64), &all, &drawn), []);
+    assert_eq!(findings(Rationals::unrounded(), &all, &drawn), []);
+    assert_eq!(findings(Balls(0f64), &all, &drawn), []);
     let seen = |(change, effect): &(Mutant, MutationOutcome)| {
         let touched = all.iter().filter(|claim| {
             let mut formulas = claim.goals().iter().flat_map(|goal| goal.proposition.trees());
@@ -53,8 +53,8 @@ fn every_mutation_makes_a_claim_fail_unless_it_is_equivalent() {
             claim.map(&|tree| change.rewrite(tree)).only_assuming(claim.stated_hypotheses())
         };
         let changed: Vec<_> = touched.map(changed).collect();
-        let found = findings(RationalDomain, &changed, &drawn);
-        let found = if found.is_empty() { findings(FloatDomain(0f64), &changed, &drawn) } else { found };
+        let found = findings(Rationals::unrounded(), &changed, &drawn);
+        let found = if found.is_empty() { findings(Balls(0f64), &changed, &drawn) } else { found };
         let wrong = matches!(effect, MutationOutcome::Detected { .. });
         (found.is_empty() == wrong).then(|| format!("{change}: {found:?}"))
     };

@@ -1,9 +1,9 @@
-//! The points at which counterexamples are sought.
+//! Points at which statements are evaluated.
 
+use super::Rationals;
 use crate::formula::claim::{PRECISION, SCALES};
 use crate::formula::{Hypothesis, Relation};
 use crate::number::Exact;
-use crate::number::tree::{Op, piecewise_ops};
 use num_traits::{One, Zero};
 use oorandom::Rand64;
 use rug::Rational;
@@ -27,7 +27,7 @@ impl Point {
     }
 
     /// Sets the value of one symbol.
-    pub(super) fn with(&self, symbol: &'static str, x: Exact) -> Self {
+    pub(crate) fn with(&self, symbol: &'static str, x: Exact) -> Self {
         let mut point = self.clone();
         match point.0.iter_mut().find(|(name, _)| *name == symbol) {
             Some((_, value)) => *value = x,
@@ -42,7 +42,7 @@ impl Point {
     }
 
     /// Restricts the point to some symbols.
-    pub(super) fn restricted_to(&self, symbols: &BTreeSet<&'static str>) -> Self {
+    pub(crate) fn restricted_to(&self, symbols: &BTreeSet<&'static str>) -> Self {
         Point(self.0.iter().filter(|(symbol, _)| symbols.contains(symbol)).cloned().collect())
     }
 
@@ -52,22 +52,23 @@ impl Point {
         self.coordinates().all(is_valid) && hypotheses.iter().all(|hypothesis| self.admits(hypothesis))
     }
 
-    fn admits(&self, hypothesis: &Hypothesis) -> bool {
-        let n = self.at(PRECISION);
-        hypothesis.holds_with(&|symbol| self.at(symbol), &|step| rounding(step, &n))
+    /// Returns `true` if a hypothesis holds at the point.
+    pub fn admits(&self, hypothesis: &Hypothesis) -> bool {
+        let rounded = Rationals { precision: self.at(PRECISION) };
+        hypothesis.holds_with(&|symbol| self.at(symbol), &|step| rounded.piecewise(step))
     }
 
     /// Adjusts the point to one hypothesis after the other; `None` if not all hold in the end. A hypothesis
-    /// that does not hold is solved for its symbol, in which it is linear, so that its quantity becomes
-    /// `target`.
-    pub(super) fn adjusted_to(
+    /// that does not hold is solved for its symbol, in which it is linear, so that its quantity becomes what
+    /// `target` returns.
+    pub fn adjusted_to(
         mut self,
         hypotheses: &[Hypothesis],
-        target: &impl Fn(Relation) -> Exact,
+        mut target: impl FnMut(&Hypothesis, &Self) -> Option<Exact>,
     ) -> Option<Self> {
         for hypothesis in hypotheses {
             if !self.admits(hypothesis) {
-                let target = target(hypothesis.relation);
+                let target = target(hypothesis, &self)?;
                 let x = hypothesis.solve(&|symbol| self.at(symbol), &target)?;
                 self = self.with(hypothesis.solved_for, x);
             }
@@ -120,25 +121,6 @@ fn is_power_of_two(x: &Exact) -> bool {
     x.as_rational().numer().is_power_of_two() && x.as_rational().denom().is_power_of_two()
 }
 
-/// Returns p with `n` = 2ᵖ if p is an integer and at least 2.
-fn bits(n: &Exact) -> Option<u32> {
-    let is_integer = is_power_of_two(n) && *n.as_rational().denom() == 1;
-    is_integer.then(|| n.as_rational().numer().significant_bits() - 1).filter(|bits| *bits >= 2)
-}
-
-/// Rounds to p bits if `n` is 2ᵖ with p at least 2.
-pub(super) fn nearest(x: &Exact, n: &Exact) -> Option<Exact> {
-    x.round_to_bits(bits(n)?)
-}
-
-/// Evaluates ⟨·⟩, min, and rounding to p bits, where `n` is 2ᵖ.
-fn rounding(step: Op<&Exact>, n: &Exact) -> Option<Exact> {
-    match step {
-        Op::Rounded(x) => nearest(x, n),
-        step => piecewise_ops(step),
-    }
-}
-
 fn integer_coordinate(point: u64, symbol: &str) -> Exact {
     if symbol == PRECISION || SCALES.contains(&symbol) {
         return power_of_two(symbol, &mut random(point, symbol));
@@ -153,15 +135,15 @@ pub fn integer_points(hypotheses: &[Hypothesis], symbols: &[&'static str]) -> im
 }
 
 /// Returns the points among the first `count` integer points at which hypotheses hold.
-pub(super) fn first_integer_points(
+pub fn first_integer_points(
     count: u64,
     hypotheses: &[Hypothesis],
     symbols: &[&'static str],
 ) -> impl Iterator<Item = Point> {
     let holds = |i: &u64| {
-        let n = integer_coordinate(*i, PRECISION);
+        let rounded = Rationals { precision: integer_coordinate(*i, PRECISION) };
         let value = |symbol: &'static str| integer_coordinate(*i, symbol);
-        hypotheses.iter().all(|hypothesis| hypothesis.holds_with(&value, &|step| rounding(step, &n)))
+        hypotheses.iter().all(|hypothesis| hypothesis.holds_with(&value, &|step| rounded.piecewise(step)))
     };
     (0..count)
         .filter(holds)
@@ -188,12 +170,13 @@ pub fn constructed_points(
         };
         let target = size(&mut random(INTEGER_POINTS + i, ""));
         // A quantity that may be 0 becomes 0 at every third point.
-        let target = |relation| match relation {
-            Relation::Positive => target.clone(),
-            Relation::NonNegative if i % 3 > 0 => target.clone(),
-            Relation::NonNegative | Relation::Zero => Exact::zero(),
-        };
-        Point::new(symbols.iter().map(draw)).adjusted_to(hypotheses, &target)
+        Point::new(symbols.iter().map(draw)).adjusted_to(hypotheses, |hypothesis, _| {
+            match hypothesis.relation {
+                Relation::Positive => Some(target.clone()),
+                Relation::NonNegative if i % 3 > 0 => Some(target.clone()),
+                Relation::NonNegative | Relation::Zero => Some(Exact::zero()),
+            }
+        })
     })
 }
 
@@ -232,7 +215,8 @@ mod tests {
             assert_eq!(drawn(scale), all((-4..=4).map(Exact::power_of_two)));
         }
         let third: Exact = "1/3".parse().unwrap();
-        let rounded = ["4", "1/4", "12", "2"].map(|n| nearest(&third, &n.parse().unwrap()));
+        let rounded =
+            ["4", "1/4", "12", "2"].map(|n| Rationals { precision: n.parse().unwrap() }.round(&third));
         assert_eq!(rounded, [Some("3/8".parse().unwrap()), None, None, None]);
     }
 

@@ -1,0 +1,425 @@
+//! The meaning of a statement for numbers.
+
+use super::domain::{Domain, Rationals, Value};
+use super::germ::{Germ, Germs, Tendency, vanishes};
+use super::sample::Point;
+use crate::formula::claim::{MEMBERS, POWER, PRECISION};
+use crate::formula::statement::{Role, Sequence};
+use crate::formula::{Hypothesis, Proposition, Relation, Statement};
+use crate::number::tree::{Op, smooth_ops};
+use crate::number::{Exact, PositivePart, Program, Tree};
+use num_traits::One;
+use rug::Float;
+use std::cell::OnceCell;
+use std::fmt;
+
+/// A proposition about numbers that a statement makes.
+#[derive(Clone, Debug)]
+pub struct Instance {
+    /// The part of the statement.
+    pub part: &'static str,
+    /// The proposition.
+    pub proposition: Proposition,
+    /// Pairs of quantities that are equal where the proposition is not required; none if it always is.
+    unless: Vec<[Tree; 2]>,
+}
+
+impl Instance {
+    /// Returns a proposition that is required everywhere.
+    pub fn new(part: &'static str, proposition: Proposition) -> Self {
+        Instance { part, proposition, unless: Vec::new() }
+    }
+}
+
+/// Returns what a statement says of the values of its [independent symbols](independent_symbols).
+///
+/// Computed quantities are replaced by their formulas. Of a recursion, the first `members` are unfolded: they
+/// have their closed form, or satisfy their bounds. A formula of ρᵏ has its limit if it has it at q = 0, and
+/// |ρ| < 1 or the formula is constant.
+pub fn instances(statement: &Statement, members: usize) -> Vec<Instance> {
+    match statement.conclusion() {
+        None => {
+            let computed = with_computed(statement, Vec::new());
+            let claims = statement.goals().iter().filter(|goal| goal.role == Role::Claim);
+            claims
+                .map(|goal| {
+                    Instance::new(goal.part, goal.proposition.map(&|tree| tree.substitute(&computed)))
+                })
+                .collect()
+        }
+        Some(Sequence { limit: Some(limit), member, .. }) => {
+            let pair = |member: &Tree| [member.substitute(&[(POWER, Tree::one())]), limit.clone()];
+            let constant: Vec<_> = member.iter().map(pair).collect();
+            let unless = |proposition: &Proposition| match proposition {
+                Proposition::Sign(..) => constant.clone(),
+                _ => Vec::new(),
+            };
+            let goals = statement.goals().iter();
+            goals
+                .map(|goal| Instance {
+                    part: goal.part,
+                    proposition: goal.proposition.clone(),
+                    unless: unless(&goal.proposition),
+                })
+                .collect()
+        }
+        Some(sequence) => unfolded(statement, sequence, members),
+    }
+}
+
+/// Returns the hypotheses of a statement as propositions about its independent symbols.
+pub fn premises(statement: &Statement) -> Vec<Instance> {
+    let computed = with_computed(statement, Vec::new());
+    let sign = |h: &Hypothesis| Proposition::Sign(h.relation, h.value.substitute(&computed));
+    statement.hypotheses().iter().map(|hypothesis| Instance::new("", sign(hypothesis))).collect()
+}
+
+/// Adds the formulas of computed quantities to the values of other symbols.
+fn with_computed(statement: &Statement, mut known: Vec<(&'static str, Tree)>) -> Vec<(&'static str, Tree)> {
+    for computed in statement.computed() {
+        let formula = computed.formula.substitute(&known);
+        known.push((computed.symbol, formula));
+    }
+    known
+}
+
+/// Returns the instances of the first members of a recursion.
+fn unfolded(statement: &Statement, sequence: &Sequence, members: usize) -> Vec<Instance> {
+    let mut all = Vec::new();
+    let (mut member, mut power) = (sequence.start.clone(), Tree::one());
+    for k in 0..members {
+        let mut known: Vec<_> = MEMBERS.into_iter().zip(member.iter().cloned()).collect();
+        known.push((POWER, power.clone()));
+        let known = with_computed(statement, known);
+        let part = if k == 0 { "start" } else { "step" };
+        if !sequence.is_perturbed() {
+            let closed = sequence.member.iter().map(|closed| closed.substitute(&known));
+            let equal = |(x, closed)| Instance::new(part, Proposition::Equal(x, closed));
+            all.extend(member.iter().cloned().zip(closed).map(equal));
+        }
+        let at_member = |(of, bound): &(Tree, Tree)| {
+            Instance::new("", Proposition::Within(of.substitute(&known), bound.substitute(&known)))
+        };
+        all.extend(sequence.within.iter().map(at_member));
+        member = sequence.step.iter().map(|step| step.substitute(&known)).collect();
+        power = power * &sequence.ratio;
+    }
+    all
+}
+
+/// Returns the independent symbols of a statement in order of occurrence, that is, without the members and
+/// powers of a sequence and without computed quantities.
+pub fn independent_symbols(statement: &Statement) -> Vec<&'static str> {
+    let sequence = statement.conclusion().filter(|sequence| sequence.limit.is_none());
+    let members = sequence.map_or(&[][..], |sequence| &MEMBERS[..sequence.step.len()]);
+    // In the first member q would be any number.
+    let in_start = |name| sequence.is_some_and(|all| all.start.iter().any(|x| x.symbols().contains(name)));
+    let is_power = |name| sequence.is_some() && name == POWER && !in_start(name);
+    let is_dependent = |name: &'static str| {
+        let is_computed = statement.computed().iter().any(|computed| computed.symbol == name);
+        is_computed || is_power(name) || members.contains(&name)
+    };
+    let mut symbols = Vec::new();
+    for tree in statement.trees() {
+        tree.visit(&mut |tree| {
+            if let Op::Symbol(name) = tree.op()
+                && !is_dependent(name)
+                && !symbols.contains(name)
+            {
+                symbols.push(*name);
+            }
+        });
+    }
+    symbols
+}
+
+/// A proposition whose formulas are places of a program.
+#[derive(Clone, Debug)]
+pub enum Test {
+    /// Two quantities are equal.
+    Equal([usize; 2]),
+    /// A quantity has a sign, unless there are pairs of others, and these are equal.
+    Sign(Relation, usize, Vec<[usize; 2]>),
+    /// A quantity does not exceed a bound in absolute value.
+    Within {
+        /// The quantity.
+        of: usize,
+        /// The bound.
+        bound: usize,
+    },
+    /// Two quantities are defined; whether the second is the derivative of the first is not known.
+    Defined([usize; 2]),
+    /// A distance tends to 0 as a symbol tends to infinity.
+    Limit(&'static str, Program),
+}
+
+impl Test {
+    /// Adds an instance to a program.
+    pub fn of(instance: &Instance, program: &mut Program) -> Self {
+        let mut equal = |left: &Tree, right: &Tree| Test::Equal([program.add(left), program.add(right)]);
+        match &instance.proposition {
+            Proposition::Equal(left, right) => equal(left, right),
+            Proposition::Derivative(of, by, is) => {
+                match of.derivative(by, &|name| Tree::symbol(name), &smooth_ops) {
+                    Some(dual) => equal(&dual.derivative, is),
+                    // ⟨·⟩ and min are not differentiable.
+                    None => Test::Defined([of, is].map(|tree| program.add(tree))),
+                }
+            }
+            Proposition::Sign(relation, of) => {
+                let pair = |pair: &[Tree; 2]| pair.each_ref().map(|tree| program.add(tree));
+                let unless = instance.unless.iter().map(pair).collect();
+                Test::Sign(*relation, program.add(of), unless)
+            }
+            Proposition::Within(of, bound) => Test::Within { of: program.add(of), bound: program.add(bound) },
+            Proposition::Limit(of, by, to) => {
+                let (formula, mut distance) = (of - to, Program::default());
+                distance.add(&formula);
+                for name in formula.symbols() {
+                    program.add(&Tree::symbol(name));
+                }
+                Test::Limit(by, distance)
+            }
+        }
+    }
+}
+
+/// The evaluation of a statement at one point.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Verdict<V = Value> {
+    /// A hypothesis does not hold at the point, or is undefined.
+    Excluded,
+    /// Everything that is claimed holds.
+    Holds,
+    /// Something that is claimed cannot be decided because rounding errors hide a sign.
+    Undecided,
+    /// Something that is claimed does not hold: its part of the claim, and the failure.
+    Fails(&'static str, Failure<V>),
+}
+
+/// The failure of a proposition at a point.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Failure<V = Value> {
+    /// This divisor is 0.
+    Undefined(Tree),
+    /// The two sides of an equation have these different values.
+    Unequal(V, V),
+    /// A quantity of this value does not have the required sign.
+    Sign(Relation, V),
+    /// The absolute value of the first number exceeds the second, its bound.
+    BoundExceeded(V, V),
+    /// The distance from the limit tends to this number, or does not tend to any.
+    NotConverging(Option<Value>),
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Failure::Undefined(divisor) if divisor.to_string() == "0" => {
+                f.write_str("undefined: 0 is a divisor")
+            }
+            Failure::Undefined(divisor) => write!(f, "undefined: {divisor} = 0 is a divisor"),
+            Failure::Unequal(left, right) => match [format_short(left), format_short(right)] {
+                // Values that agree in the printed digits are printed in full.
+                [short, same] if short == same => write!(f, "{left} ≠ {right}"),
+                [left, right] => write!(f, "{left} ≠ {right}"),
+            },
+            Failure::Sign(relation, value) => write!(f, "{} is not {relation} 0", format_short(value)),
+            Failure::BoundExceeded(of, bound) => {
+                write!(f, "|{}| is larger than {}", format_short(of), format_short(bound))
+            }
+            Failure::NotConverging(Some(distance)) => {
+                write!(f, "its distance from the limit tends to {}", format_short(distance))
+            }
+            Failure::NotConverging(None) => f.write_str("its distance from the limit is unbounded"),
+        }
+    }
+}
+
+/// Formats a value, a long one with four digits.
+fn format_short(value: &Value) -> String {
+    const MAX_LENGTH: usize = 24;
+    let text = value.to_string();
+    match value {
+        Value::Exact(x) if text.len() > MAX_LENGTH => {
+            format!("≈ {}", Float::with_val(64, x.as_rational()).to_string_radix(10, Some(4)))
+        }
+        Value::Exact(_) | Value::Ball(_) => text,
+    }
+}
+
+/// The values of a program, each of which is computed when it is required.
+#[derive(Debug)]
+pub struct Evaluation<'a, D: Domain, S> {
+    domain: &'a D,
+    program: &'a Program,
+    symbol: S,
+    values: Vec<OnceCell<Option<D::Value>>>,
+}
+
+impl<'a, D: Domain, S: Fn(&'static str) -> D::Value> Evaluation<'a, D, S> {
+    /// Evaluates a program for these values of symbols.
+    pub fn of(program: &'a Program, domain: &'a D, symbol: S) -> Self {
+        Evaluation { domain, program, symbol, values: vec![OnceCell::new(); program.len()] }
+    }
+
+    /// Returns the value of a formula; `None` if it is undefined.
+    pub fn at(&self, place: usize) -> Option<&D::Value> {
+        let value = || match self.program.ops()[place].try_map(|operand| self.at(*operand))? {
+            Op::Symbol(name) => Some((self.symbol)(name)),
+            op => self.domain.apply(op),
+        };
+        self.values[place].get_or_init(value).as_ref()
+    }
+
+    /// Returns the verdict of all tests, each with its part of the claim: the first failure, if there is one.
+    /// Without tests it is undecided.
+    pub fn verdict<'t>(
+        &self,
+        tests: impl IntoIterator<Item = &'t (&'static str, Test)>,
+    ) -> Verdict<D::Value> {
+        let mut verdict = None;
+        for (part, test) in tests {
+            match self.outcome(test) {
+                Some(Ok(())) => verdict = verdict.or(Some(Verdict::Holds)),
+                Some(Err(failure)) => return Verdict::Fails(part, failure),
+                None => verdict = Some(Verdict::Undecided),
+            }
+        }
+        verdict.unwrap_or(Verdict::Undecided)
+    }
+
+    /// Returns whether a test holds, or its failure; `None` if this cannot be decided.
+    pub fn outcome(&self, test: &Test) -> Option<Result<(), Failure<D::Value>>> {
+        let domain = self.domain;
+        match test {
+            Test::Equal([left, right]) => match (self.at(*left), self.at(*right)) {
+                (Some(left), Some(right)) if domain.are_equal(left, right)? => Some(Ok(())),
+                (Some(left), Some(right)) => Some(Err(Failure::Unequal(left.clone(), right.clone()))),
+                _ => self.undefined(&[*left, *right]),
+            },
+            Test::Sign(relation, of, constant) => match self.at(*of) {
+                Some(value) if domain.admits(*relation, value)? => Some(Ok(())),
+                Some(_) if self.are_equal(constant) => Some(Ok(())),
+                Some(value) => Some(Err(Failure::Sign(*relation, value.clone()))),
+                None => self.undefined(&[*of]),
+            },
+            Test::Within { of, bound } => match (self.at(*of), self.at(*bound)) {
+                (Some(of), Some(bound)) if domain.is_within(of, bound)? => Some(Ok(())),
+                (Some(of), Some(bound)) => Some(Err(Failure::BoundExceeded(of.clone(), bound.clone()))),
+                _ => self.undefined(&[*of, *bound]),
+            },
+            Test::Defined(places) => self.undefined(places),
+            Test::Limit(by, distance) => self.limit(by, distance),
+        }
+    }
+
+    fn limit(&self, by: &str, distance: &Program) -> Option<Result<(), Failure<D::Value>>> {
+        let symbol = |name: &'static str| {
+            if name == by {
+                return Tendency::Rational(Germ::variable());
+            }
+            let value = self.program.place_of_symbol(name).and_then(|place| self.at(place));
+            let exact = value.and_then(|x| self.domain.exact(x));
+            exact.map_or(Tendency::Unknown, |x| Tendency::Rational(Germ::constant(x)))
+        };
+        let (germs, last) = (Evaluation::of(distance, &Germs, symbol), distance.len() - 1);
+        match germs.at(last) {
+            Some(distance) => Some(vanishes(distance)?.map_err(Failure::NotConverging)),
+            None => Some(Err(Failure::Undefined(germs.zero_divisor(last)?))),
+        }
+    }
+
+    /// Returns the failure of formulas of which one is undefined.
+    fn undefined(&self, places: &[usize]) -> Option<Result<(), Failure<D::Value>>> {
+        let divisor = places.iter().find_map(|place| self.zero_divisor(*place))?;
+        Some(Err(Failure::Undefined(divisor)))
+    }
+
+    /// Returns `true` if there are quantities, and those of each pair are equal.
+    fn are_equal(&self, pairs: &[[usize; 2]]) -> bool {
+        let is_equal = |[a, b]: &[usize; 2]| self.domain.are_equal(self.at(*a)?, self.at(*b)?);
+        !pairs.is_empty() && pairs.iter().all(|pair| is_equal(pair) == Some(true))
+    }
+
+    /// Returns the divisor because of which a formula is undefined, an innermost one.
+    fn zero_divisor(&self, place: usize) -> Option<Tree> {
+        if self.at(place).is_some() {
+            return None;
+        }
+        let op = &self.program.ops()[place];
+        op.operands().find_map(|operand| self.zero_divisor(*operand)).or_else(|| match op {
+            Op::Div(_, divisor) => Some(self.program.formula(*divisor)),
+            _ => None,
+        })
+    }
+}
+
+/// Propositions compiled for many points.
+#[derive(Clone, Debug)]
+pub struct Compiled {
+    program: Program,
+    tests: Vec<(&'static str, Test)>,
+}
+
+/// Number of members of a sequence that are evaluated at a point.
+const POINT_MEMBERS: usize = 4;
+
+impl Compiled {
+    /// Compiles propositions.
+    pub fn of(instances: impl IntoIterator<Item = Instance>) -> Self {
+        let mut program = Program::default();
+        let test = |of: Instance| (of.part, Test::of(&of, &mut program));
+        let tests = instances.into_iter().map(test).collect();
+        Compiled { program, tests }
+    }
+
+    /// Compiles a statement without its hypotheses.
+    pub fn new(statement: &Statement) -> Self {
+        Compiled::of(instances(statement, POINT_MEMBERS))
+    }
+
+    /// Returns the tests, each with its part of the claim.
+    pub fn tests(&self) -> &[(&'static str, Test)] {
+        &self.tests
+    }
+
+    /// Evaluates the formulas for these values of symbols.
+    pub fn evaluate<'a, D: Domain, S: Fn(&'static str) -> D::Value>(
+        &'a self,
+        domain: &'a D,
+        symbol: S,
+    ) -> Evaluation<'a, D, S> {
+        Evaluation::of(&self.program, domain, symbol)
+    }
+
+    /// Returns the verdict at a point at which the hypotheses hold.
+    pub fn verdict(&self, point: &Point) -> Verdict {
+        let domain = Rationals { precision: point.at(PRECISION) };
+        self.evaluate(&domain, |name| Value::Exact(point.at(name))).verdict(&self.tests)
+    }
+
+    /// Returns the largest ratio of a quantity to its bound at a point; `None` if there are no bounds.
+    pub fn bound_fraction(&self, point: &Point) -> Option<Exact> {
+        let domain = Rationals { precision: point.at(PRECISION) };
+        let values = self.evaluate(&domain, |name| Value::Exact(point.at(name)));
+        let exact = |place: &usize| values.at(*place)?.exact().cloned();
+        let ratio = |(_, test): &(_, Test)| match test {
+            Test::Within { of, bound } => {
+                let bound = exact(bound).filter(|bound| *bound != Exact::from(0))?;
+                Some(exact(of)?.abs() / bound)
+            }
+            _ => None,
+        };
+        self.tests.iter().filter_map(ratio).max()
+    }
+}
+
+/// Evaluates a statement at a point.
+pub fn check(statement: &Statement, point: &Point) -> Verdict {
+    if point.satisfies(statement.hypotheses()) {
+        Compiled::new(statement).verdict(point)
+    } else {
+        Verdict::Excluded
+    }
+}

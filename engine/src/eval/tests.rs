@@ -1,0 +1,144 @@
+//! Tests of the domains.
+
+use super::*;
+use crate::formula::claim::PRECISION;
+use crate::number::{Ball, Exact, Exponential, Mpfr, Program, Tree};
+use num_traits::{One, Zero};
+use std::cmp::Ordering;
+
+fn x(name: &'static str) -> Tree {
+    Tree::symbol(name)
+}
+
+fn int(n: i32) -> Tree {
+    Tree::from(n)
+}
+
+/// Returns the value of a formula; `None` if it is undefined.
+fn value<D: Domain>(
+    formula: &Tree,
+    domain: &D,
+    symbol: impl Fn(&'static str) -> D::Value,
+) -> Option<D::Value> {
+    let mut program = Program::default();
+    let place = program.add(formula);
+    Evaluation::of(&program, domain, symbol).at(place).cloned()
+}
+
+/// Rationals with roundings to 3 bits.
+fn rationals() -> Rationals {
+    Rationals { precision: Exact::from(8) }
+}
+
+/// Returns the value of a formula in which x is the integer.
+fn rational(n: i32, formula: &Tree) -> Option<Value> {
+    value(formula, &rationals(), |_| Value::Exact(Exact::from(n)))
+}
+
+#[test]
+fn values_are_exact_unless_they_depend_on_an_exponential() {
+    let sign = |n: i32, formula: &Tree| rationals().sign(&rational(n, formula).expect("defined"));
+    let e = x("x").exp();
+    assert_eq!(rational(0, &e), Some(Value::Exact(Exact::one())));
+    assert_eq!(sign(1, &(&e - int(2))), Some(Ordering::Greater));
+    // The sign of e e⁻¹ − 1 is undecided, and so is that of a quotient by it.
+    let zero = &e * (-x("x")).exp() - int(1);
+    assert_eq!((sign(1, &zero), sign(1, &(int(1) / &zero))), (None, None));
+    assert_eq!(sign(1, &(&e * int(0))), Some(Ordering::Equal));
+    assert_eq!(rational(1, &(int(1) / (&e * int(0)))), None);
+    assert_eq!(sign(10_000, &e), None);
+    // So is the sign of a number outside the range of f64.
+    let huge = (0..2000).fold(int(1), |x, _| x * int(2));
+    assert_eq!(sign(1, &(&e * huge)), None);
+    assert_eq!(rational(0, &(int(1) / x("x"))), None);
+}
+
+/// 9/8 is rounded to 1 with 3 bits, and e to one of two numbers.
+#[test]
+fn only_exact_values_are_rounded() {
+    let eighths = (int(9) / int(8)).round();
+    assert_eq!(rational(0, &eighths), Some(Value::Exact(Exact::one())));
+    let unknown = rational(1, &x("x").exp().round()).unwrap();
+    assert_eq!(rationals().sign(&unknown), None);
+    let imprecise = Rationals { precision: Exact::from(2) };
+    let none = value(&eighths, &imprecise, |_| unreachable!()).unwrap();
+    assert_eq!(imprecise.sign(&none), None);
+}
+
+/// The quotient by a ball around 0 is unbounded; that by 0 is undefined.
+#[test]
+fn balls_are_equal_unless_they_are_certainly_different() {
+    let balls = Balls(0f64);
+    let third =
+        |formula: &Tree| value(formula, &balls, |_| Ball::enclosing(&0.0, &"1/3".parse().unwrap()).unwrap());
+    let zero = x("x") * int(3) - int(1);
+    let nought = Ball::zero();
+    let equal = |formula: &Tree| balls.are_equal(&third(formula).unwrap(), &nought);
+    assert_eq!((balls.sign(&third(&zero).unwrap()), equal(&zero)), (None, Some(true)));
+    assert_eq!((equal(&(&zero + int(1))), equal(&(int(1) / &zero))), (Some(false), None));
+    let within = |formula: &Tree| balls.is_within(&third(formula).unwrap(), &Ball::one());
+    assert_eq!([&zero, &(x("x") * int(6)), &(int(1) + &zero)].map(within), [Some(true), Some(false), None]);
+    assert!(third(&(int(1) / int(0))).is_none());
+}
+
+/// Returns the float that is computed for a formula, where the symbols are two numbers.
+fn computed(formula: &Tree, a: f64, b: f64) -> Option<f64> {
+    let rounding = Rounding::coarsest([&a, &b]).unwrap();
+    let result = value(formula, &rounding, |name| rounding.float(if name == "a" { a } else { b }));
+    rounding.computed(&result?).copied()
+}
+
+#[test]
+fn underflow_and_overflow_yield_no_value() {
+    let [a, b] = ["a", "b"].map(x);
+    let (product, quotient, least) = (&a * &b, &a / &b, f64::from_bits(1) * 2f64.powi(53));
+    assert_eq!([computed(&product, least, 1.0), computed(&quotient, least, 1.0)], [Some(least); 2]);
+    assert_eq!([computed(&product, least, 0.5), computed(&quotient, least, 2.0)], [None, None]);
+    assert_eq!([computed(&product, 1e300, 1e300), computed(&quotient, 1e300, 1e-300)], [None, None]);
+    assert_eq!(computed(&quotient, 1.0, 0.0), None);
+    // A product with 0 is not an underflow, and neither is a difference.
+    assert_eq!([computed(&product, 0.0, least), computed(&quotient, 0.0, least)], [Some(0.0); 2]);
+    assert_eq!(computed(&(&a - &b), least, least / 2.0), Some(least / 2.0));
+}
+
+/// 1 + 2⁻⁵³ is rounded to 1; what is not below a rounding stays exact.
+#[test]
+fn floats_compute_what_is_below_a_rounding() {
+    let sum = x("a") + x("b");
+    let tiny = 2f64.powi(-53);
+    let rounding = Rounding::coarsest([&tiny]).unwrap();
+    let exact = |formula: &Tree| {
+        let symbol = |name| match name {
+            PRECISION => rounding.number(rounding.precision().clone()),
+            "a" => rounding.float(1.0),
+            _ => rounding.float(tiny),
+        };
+        let result = value(formula, &rounding, symbol).unwrap();
+        rounding.value(&result).cloned()
+    };
+    let lost = exact(&(sum.with_rounding() - &sum)).unwrap();
+    assert_eq!(lost, -Exact::power_of_two(-53));
+    assert_eq!(exact(&(x(PRECISION) * x("b"))), Some(Exact::one()));
+    assert_eq!(exact(&(&sum / (x("a") - x("a")))), None);
+    assert_eq!(exact(&(x("b") * x("b") * int(0))), Some(Exact::zero()));
+    let underflows = (0..30).fold(x("b"), |product, _| (product * x("b")).round());
+    assert_eq!(exact(&underflows), None);
+}
+
+#[test]
+fn the_coarsest_number_determines_the_precision() {
+    let numbers = [53, 24, 113].map(|bits| Mpfr::rounded(bits, 1));
+    assert_eq!(*Rounding::coarsest(&numbers).unwrap().precision(), Exact::power_of_two(24));
+    assert!(Rounding::<f64>::coarsest([]).is_none());
+}
+
+/// Without sharing, the time doubles with each doubling.
+#[test]
+fn shared_formulas_are_evaluated_once() {
+    let doubled = (0..100).fold(x("a"), |sum, _| &sum + &sum);
+    let mut program = Program::default();
+    let place = program.add(&doubled);
+    assert_eq!((program.len(), program.formula(place).size()), (101, u32::MAX));
+    assert_eq!(program.formula(1).to_string(), "a + a");
+    assert_eq!(doubled.eval(&|_| 1.0, &|_| None), Some(2f64.powi(100)));
+}
