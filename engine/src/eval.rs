@@ -14,9 +14,9 @@ mod statement;
 #[cfg(test)]
 mod tests;
 
-pub use computed::{Computed, Rounding};
+pub use computed::{Computed, Floats};
 pub use domain::{Balls, Domain, Rationals, Value};
-pub use sample::{Point, constructed_points, first_integer_points, integer_points};
+pub use sample::{Coordinates, Point, adjust, constructed_points, first_integer_points, integer_points};
 pub use shrink::Counterexample;
 pub(crate) use shrink::{shrink, with_divisor_zero};
 pub use statement::{

@@ -4,7 +4,7 @@
 //! every machine.
 
 use crate::claims::{Case, Var, hypotheses};
-use crate::eval::Point;
+use crate::eval::{Coordinates, Point, adjust};
 use crate::formula::{Hypothesis, Relation};
 use crate::number::{Exact, PositivePart};
 use num_traits::Zero;
@@ -176,11 +176,8 @@ impl Draw {
         }
         if self.profile == Profile::Grazing {
             let (reaction, grazing) = (self.next_to_grazing(&case), &hypotheses().grazing);
-            if let (Some(x), Some(var)) = (
-                grazing.solve(&|symbol| case.get_by_symbol(symbol), &reaction),
-                Var::named(grazing.solved_for),
-            ) {
-                *case.get_mut(var) = x;
+            if let Some(x) = grazing.solve(&|symbol| case.get_by_symbol(symbol), &reaction) {
+                case.set(grazing.solved_for, x);
             }
         }
         case
@@ -193,21 +190,32 @@ pub(super) fn case(seed: u64, index: u64, given: &[Hypothesis]) -> Option<Case<E
     let profile = PROFILES[(index % PROFILES.len() as u64) as usize];
     let random = Rand64::new((u128::from(seed) << 64) | u128::from(index));
     let mut draw = Draw { random, profile, small: Small::Products };
-    let raw = draw.raw();
-    let coordinates = Var::ALL.iter().map(|var| (var.symbol(), raw.get(*var).clone()));
-    let point = Point::new(coordinates).adjusted_to(given, |hypothesis, point| {
-        let value = hypothesis.value.eval(&|symbol| point.at(symbol), &|_| None)?;
+    let mut case = draw.raw();
+    adjust(&mut case, given, |hypothesis, case| {
+        let value = hypothesis.value.eval(&|symbol| case.get_by_symbol(symbol), &|_| None)?;
         Some(match hypothesis.relation {
             Relation::Zero => Exact::zero(),
             Relation::NonNegative if draw.below(4) == 0 => Exact::zero(),
-            _ if value.is_zero() => match draw.next_to_grazing(&case_at(point)).abs() {
+            _ if value.is_zero() => match draw.next_to_grazing(case).abs() {
                 tiny if profile == Profile::Grazing && !tiny.is_zero() => tiny,
                 _ => draw.magnitude(Var::Lambda),
             },
             _ => value.abs(),
         })
     })?;
-    Some(case_at(&point))
+    Some(case)
+}
+
+impl Coordinates for Case<Exact> {
+    fn get(&self, symbol: &'static str) -> Exact {
+        self.get_by_symbol(symbol)
+    }
+
+    fn set(&mut self, symbol: &'static str, x: Exact) {
+        if let Some(var) = Var::named(symbol) {
+            *self.get_mut(var) = x;
+        }
+    }
 }
 
 /// Returns the case with the coordinates of a point, with 1 for those that it does not contain.

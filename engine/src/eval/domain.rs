@@ -15,6 +15,12 @@ pub trait Domain {
     /// Returns the result of an operation that is not a symbol; `None` if it is undefined.
     fn apply(&self, op: Op<&Self::Value>) -> Option<Self::Value>;
 
+    /// Returns the value of the rounding at this place of the program, if it does not follow from the value of
+    /// its operand.
+    fn rounded(&self, _place: usize) -> Option<Self::Value> {
+        None
+    }
+
     /// Returns the sign of a number if it is certain.
     fn sign(&self, x: &Self::Value) -> Option<Ordering>;
 
@@ -99,14 +105,6 @@ impl Rationals {
         let n = self.precision.as_rational();
         let is_power = n.numer().is_power_of_two() && *n.denom() == 1;
         x.round_to_bits(is_power.then(|| n.numer().significant_bits() - 1).filter(|bits| *bits >= 2)?)
-    }
-
-    /// Evaluates ⟨·⟩, min and rounding.
-    pub(super) fn piecewise(&self, op: Op<&Exact>) -> Option<Exact> {
-        match op {
-            Op::Rounded(x) => self.round(x),
-            op => piecewise_ops(op),
-        }
     }
 }
 

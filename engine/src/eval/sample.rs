@@ -4,6 +4,7 @@ use super::Rationals;
 use crate::formula::claim::{PRECISION, SCALES};
 use crate::formula::{Hypothesis, Relation};
 use crate::number::Exact;
+use crate::number::tree::{Op, piecewise_ops};
 use num_traits::{One, Zero};
 use oorandom::Rand64;
 use rug::Rational;
@@ -29,10 +30,7 @@ impl Point {
     /// Sets the value of one symbol.
     pub(crate) fn with(&self, symbol: &'static str, x: Exact) -> Self {
         let mut point = self.clone();
-        match point.0.iter_mut().find(|(name, _)| *name == symbol) {
-            Some((_, value)) => *value = x,
-            None => point.0.push((symbol, x)),
-        }
+        point.set(symbol, x);
         point
     }
 
@@ -48,33 +46,75 @@ impl Point {
 
     /// Returns `true` if all hypotheses hold at the point.
     pub fn satisfies(&self, hypotheses: &[Hypothesis]) -> bool {
-        let is_valid = |(name, x): (&str, &Exact)| !SCALES.contains(&name) || is_power_of_two(x);
-        self.coordinates().all(is_valid) && hypotheses.iter().all(|hypothesis| self.admits(hypothesis))
+        self.has_valid_scales()
+            && hypotheses.iter().all(|hypothesis| admits(&|symbol| self.at(symbol), hypothesis))
     }
 
-    /// Returns `true` if a hypothesis holds at the point.
-    pub fn admits(&self, hypothesis: &Hypothesis) -> bool {
-        let rounded = Rationals { precision: self.at(PRECISION) };
-        hypothesis.holds_with(&|symbol| self.at(symbol), &|step| rounded.piecewise(step))
+    fn has_valid_scales(&self) -> bool {
+        self.coordinates().all(|(name, x)| !SCALES.contains(&name) || is_power_of_two(x))
     }
 
-    /// Adjusts the point to one hypothesis after the other; `None` if not all hold in the end. A hypothesis
-    /// that does not hold is solved for its symbol, in which it is linear, so that its quantity becomes what
-    /// `target` returns.
-    pub fn adjusted_to(
+    /// Returns the point [adjusted](adjust) to hypotheses; `None` if not all hold in the end.
+    pub(crate) fn adjusted_to(
         mut self,
         hypotheses: &[Hypothesis],
-        mut target: impl FnMut(&Hypothesis, &Self) -> Option<Exact>,
+        target: impl Fn(Relation) -> Exact,
     ) -> Option<Self> {
-        for hypothesis in hypotheses {
-            if !self.admits(hypothesis) {
-                let target = target(hypothesis, &self)?;
-                let x = hypothesis.solve(&|symbol| self.at(symbol), &target)?;
-                self = self.with(hypothesis.solved_for, x);
-            }
-        }
-        self.satisfies(hypotheses).then_some(self)
+        adjust(&mut self, hypotheses, |hypothesis, _| Some(target(hypothesis.relation)))?;
+        self.has_valid_scales().then_some(self)
     }
+}
+
+/// Values of symbols that can be changed.
+pub trait Coordinates {
+    /// Returns the value of a symbol.
+    fn get(&self, symbol: &'static str) -> Exact;
+
+    /// Sets the value of a symbol.
+    fn set(&mut self, symbol: &'static str, x: Exact);
+}
+
+impl Coordinates for Point {
+    fn get(&self, symbol: &'static str) -> Exact {
+        self.at(symbol)
+    }
+
+    fn set(&mut self, symbol: &'static str, x: Exact) {
+        match self.0.iter_mut().find(|(name, _)| *name == symbol) {
+            Some((_, value)) => *value = x,
+            None => self.0.push((symbol, x)),
+        }
+    }
+}
+
+/// Returns `true` if a hypothesis holds for these values of symbols.
+fn admits(symbol: &impl Fn(&'static str) -> Exact, hypothesis: &Hypothesis) -> bool {
+    hypothesis.holds_with(symbol, &|op| match op {
+        Op::Rounded(x) => Rationals { precision: symbol(PRECISION) }.round(x),
+        op => piecewise_ops(op),
+    })
+}
+
+/// Adjusts coordinates to one hypothesis after the other; `None` if not all hold in the end. A hypothesis that
+/// does not hold is solved for its symbol, in which it is linear, so that its quantity becomes what `target`
+/// returns.
+pub fn adjust<C: Coordinates>(
+    at: &mut C,
+    hypotheses: &[Hypothesis],
+    mut target: impl FnMut(&Hypothesis, &C) -> Option<Exact>,
+) -> Option<()> {
+    let mut is_changed = false;
+    for hypothesis in hypotheses {
+        if !admits(&|symbol| at.get(symbol), hypothesis) {
+            let target = target(hypothesis, at)?;
+            let x = hypothesis.solve(&|symbol| at.get(symbol), &target)?;
+            at.set(hypothesis.solved_for, x);
+            is_changed = true;
+        }
+    }
+    // Adjusting to one hypothesis may violate another.
+    let holds = |hypothesis: &Hypothesis| admits(&|symbol| at.get(symbol), hypothesis);
+    (!is_changed || hypotheses.iter().all(holds)).then_some(())
 }
 
 /// Formats the point as `c = 1, ε = -2`.
@@ -141,9 +181,8 @@ pub fn first_integer_points(
     symbols: &[&'static str],
 ) -> impl Iterator<Item = Point> {
     let holds = |i: &u64| {
-        let rounded = Rationals { precision: integer_coordinate(*i, PRECISION) };
-        let value = |symbol: &'static str| integer_coordinate(*i, symbol);
-        hypotheses.iter().all(|hypothesis| hypothesis.holds_with(&value, &|step| rounded.piecewise(step)))
+        let symbol = |symbol: &'static str| integer_coordinate(*i, symbol);
+        hypotheses.iter().all(|hypothesis| admits(&symbol, hypothesis))
     };
     (0..count)
         .filter(holds)
@@ -170,12 +209,10 @@ pub fn constructed_points(
         };
         let target = size(&mut random(INTEGER_POINTS + i, ""));
         // A quantity that may be 0 becomes 0 at every third point.
-        Point::new(symbols.iter().map(draw)).adjusted_to(hypotheses, |hypothesis, _| {
-            match hypothesis.relation {
-                Relation::Positive => Some(target.clone()),
-                Relation::NonNegative if i % 3 > 0 => Some(target.clone()),
-                Relation::NonNegative | Relation::Zero => Some(Exact::zero()),
-            }
+        Point::new(symbols.iter().map(draw)).adjusted_to(hypotheses, |relation| match relation {
+            Relation::Positive => target.clone(),
+            Relation::NonNegative if i % 3 > 0 => target.clone(),
+            Relation::NonNegative | Relation::Zero => Exact::zero(),
         })
     })
 }

@@ -265,9 +265,17 @@ impl<'a, D: Domain, S: Fn(&'static str) -> D::Value> Evaluation<'a, D, S> {
 
     /// Returns the value of a formula; `None` if it is undefined.
     pub fn at(&self, place: usize) -> Option<&D::Value> {
-        let value = || match self.program.ops()[place].try_map(|operand| self.at(*operand))? {
-            Op::Symbol(name) => Some((self.symbol)(name)),
-            op => self.domain.apply(op),
+        let value = || {
+            let op = &self.program.ops()[place];
+            if let Op::Rounded(_) = op
+                && let Some(value) = self.domain.rounded(place)
+            {
+                return Some(value);
+            }
+            match op.try_map(|operand| self.at(*operand))? {
+                Op::Symbol(name) => Some((self.symbol)(name)),
+                op => self.domain.apply(op),
+            }
         };
         self.values[place].get_or_init(value).as_ref()
     }

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::formula::claim::PRECISION;
-use crate::number::{Ball, Exact, Exponential, Mpfr, Program, Tree};
+use crate::number::{Ball, Exact, Exponential, Mpfr, Program, ToExact, Tree};
 use num_traits::{One, Zero};
 use std::cmp::Ordering;
 
@@ -83,9 +83,8 @@ fn balls_are_equal_unless_they_are_certainly_different() {
 
 /// Returns the float that is computed for a formula, where the symbols are two numbers.
 fn computed(formula: &Tree, a: f64, b: f64) -> Option<f64> {
-    let rounding = Rounding::coarsest([&a, &b]).unwrap();
-    let result = value(formula, &rounding, |name| rounding.float(if name == "a" { a } else { b }));
-    rounding.computed(&result?).copied()
+    let floats = Floats::coarsest([&a, &b]).unwrap();
+    value(formula, &floats, |name| Some(if name == "a" { a } else { b })).expect("never undefined")
 }
 
 #[test]
@@ -106,15 +105,16 @@ fn underflow_and_overflow_yield_no_value() {
 fn floats_compute_what_is_below_a_rounding() {
     let sum = x("a") + x("b");
     let tiny = 2f64.powi(-53);
-    let rounding = Rounding::coarsest([&tiny]).unwrap();
+    let floats = Floats::coarsest([&tiny]).unwrap();
     let exact = |formula: &Tree| {
+        let (number, mut program) = (|name| Some(if name == "a" { 1.0 } else { tiny }), Program::default());
+        let place = program.add(formula);
+        let computed = Computed(Evaluation::of(&program, &floats, number));
         let symbol = |name| match name {
-            PRECISION => rounding.number(rounding.precision().clone()),
-            "a" => rounding.float(1.0),
-            _ => rounding.float(tiny),
+            PRECISION => Some(floats.precision().clone()),
+            name => number(name).and_then(|x| x.to_exact().ok()),
         };
-        let result = value(formula, &rounding, symbol).unwrap();
-        rounding.value(&result).cloned()
+        Evaluation::of(&program, &computed, symbol).at(place).cloned().expect("never undefined")
     };
     let lost = exact(&(sum.with_rounding() - &sum)).unwrap();
     assert_eq!(lost, -Exact::power_of_two(-53));
@@ -128,8 +128,8 @@ fn floats_compute_what_is_below_a_rounding() {
 #[test]
 fn the_coarsest_number_determines_the_precision() {
     let numbers = [53, 24, 113].map(|bits| Mpfr::rounded(bits, 1));
-    assert_eq!(*Rounding::coarsest(&numbers).unwrap().precision(), Exact::power_of_two(24));
-    assert!(Rounding::<f64>::coarsest([]).is_none());
+    assert_eq!(*Floats::coarsest(&numbers).unwrap().precision(), Exact::power_of_two(24));
+    assert!(Floats::<f64>::coarsest([]).is_none());
 }
 
 /// Without sharing, the time doubles with each doubling.

@@ -2,8 +2,8 @@
 
 use super::{Experiment, MOST_STEPS, STEPS, Trial, UNITS, check, power_of_two};
 use crate::chapter::{SpringMass, augmented, structure, system};
-use crate::claims::{Case, claims, symbols};
-use crate::eval::{Compiled, Evaluation, Instance, Rounding, Test, Verdict, instances, premises};
+use crate::claims::{Case, Var, claims, symbols};
+use crate::eval::{Compiled, Computed, Evaluation, Floats, Instance, Test, Verdict, instances, premises};
 use crate::formula::claim::{PRECISION, SCALES};
 use crate::formula::{Hypothesis, Proposition, Statement};
 use crate::number::tree::{Op, piecewise_ops};
@@ -71,16 +71,16 @@ pub(super) fn in_range<T: Scalar + Real + ToExact>(case: &Case<T>) -> bool {
         (program, places)
     });
     let (program, places) = &*FORMULAS;
-    rounding(case).is_some_and(|floats| {
-        let values = Evaluation::of(program, &floats, |name| floats.float(case.get_by_symbol(name)));
-        places.iter().all(|place| values.at(*place).is_some_and(|x| floats.computed(x).is_some()))
+    floats(case).is_some_and(|floats| {
+        let values = Evaluation::of(program, &floats, |name| Some(case.get_by_symbol(name)));
+        places.iter().all(|place| values.at(*place).is_some_and(Option::is_some))
     })
 }
 
 /// Returns the floats of a case, with the coarsest precision of its parameters.
-fn rounding<T: Scalar + Real + ToExact>(case: &Case<T>) -> Option<Rounding<T>> {
+fn floats<T: Scalar + Real + ToExact>(case: &Case<T>) -> Option<Floats<T>> {
     let SpringMass { c, g, l, h, .. } = &case.system;
-    Rounding::coarsest([c, g, l, h, &case.eps, &case.u])
+    Floats::coarsest([c, g, l, h, &case.eps, &case.u])
 }
 
 /// A claim about rounding, compiled.
@@ -108,22 +108,28 @@ impl Law {
     /// Evaluates the law with computed numbers; `None` if a hypothesis does not hold, or if a number is out of
     /// range.
     fn trial<T: Scalar + Real + ToExact>(&self, case: &Case<T>) -> Option<Trial> {
-        let floats = rounding(case)?;
+        let floats = floats(case)?;
         let repeated = if self.repeats { Some(find_repeat(case, floats.precision())?) } else { None };
-        let symbol = |name: &'static str| match (name, &repeated) {
-            (PRECISION, _) => floats.number(floats.precision().clone()),
-            ("λ", Some(step)) => floats.float(step.multiplier.clone()),
-            ("u", Some(step)) => floats.float(step.deflection.clone()),
-            _ => floats.float(match SCALES.iter().position(|scale| *scale == name) {
+        let parameter = |name: &str| match (Var::named(name), &repeated) {
+            (Some(Var::Lambda), Some(step)) => step.multiplier.clone(),
+            (Some(Var::U), Some(step)) => step.deflection.clone(),
+            _ => match SCALES.iter().position(|scale| *scale == name) {
                 Some(i) => power_of_two(UNITS[i]),
                 None => case.get_by_symbol(name),
-            }),
+            },
         };
-        let hypotheses = self.hypotheses.evaluate(&floats, &symbol);
+        let symbol = |name: &'static str| match name {
+            PRECISION => Some(floats.precision().clone()),
+            name => parameter(name).to_exact().ok(),
+        };
+        let float = |name: &'static str| Some(parameter(name));
+        let computed = Computed(self.hypotheses.evaluate(&floats, float));
+        let hypotheses = self.hypotheses.evaluate(&computed, symbol);
         if !matches!(hypotheses.verdict(self.hypotheses.tests()), Verdict::Holds) {
             return None;
         }
-        let values = self.claim.evaluate(&floats, symbol);
+        let computed = Computed(self.claim.evaluate(&floats, float));
+        let values = self.claim.evaluate(&computed, symbol);
         let mut holds = true;
         for (_, test) in self.claim.tests() {
             holds &= values.outcome(test)?.is_ok();
@@ -135,16 +141,15 @@ impl Law {
         let mut measured: BTreeMap<usize, Exact> = BTreeMap::new();
         for (_, test) in self.claim.tests() {
             if let Test::Within { of, bound } = test {
-                let error = floats.value(values.at(*of)?)?.abs();
+                let error = values.at(*of)?.as_ref()?.abs();
                 let largest = measured.entry(*bound).or_insert_with(Exact::zero);
                 if error > *largest {
                     *largest = error;
                 }
             }
         }
-        let trial = |(bound, error): (usize, Exact)| {
-            Some(Trial::Within { error, bound: floats.value(values.at(bound)?)?.clone() })
-        };
+        let trial =
+            |(bound, error): (usize, Exact)| Some(Trial::Within { error, bound: values.at(bound)?.clone()? });
         let worst = measured.into_iter().filter_map(trial).reduce(worse);
         Some(worst.unwrap_or(Trial::Decided(holds)))
     }

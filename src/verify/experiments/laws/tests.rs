@@ -65,7 +65,7 @@ fn the_coarsest_parameter_determines_the_precision() {
     for coarse in [Var::C, Var::G, Var::L, Var::H, Var::Eps, Var::U] {
         let bits = |var| if var == coarse { 24 } else { 53 };
         let case = Case::of(|var| Mpfr::rounded(bits(var), 1));
-        assert_eq!(*rounding(&case).unwrap().precision(), Exact::power_of_two(24), "{coarse:?}");
+        assert_eq!(*floats(&case).unwrap().precision(), Exact::power_of_two(24), "{coarse:?}");
     }
 }
 
