@@ -3,7 +3,8 @@
 
 use crate::files::{files, root, source};
 use spring_mass_contact::claims::{Entry, claims, entries, entry, hypotheses, registry};
-use spring_mass_contact::number::NumberSystem;
+use spring_mass_contact::number::tree::Op;
+use spring_mass_contact::number::{NumberSystem, Program, Tree};
 use spring_mass_contact::solver::{Outcome, State};
 use spring_mass_contact::verify::{
     Options, Report, Row, Status, claim_names, exact_experiments, float_experiments, verify,
@@ -67,6 +68,37 @@ fn functions() -> Vec<Item> {
 fn assert_none(problems: impl IntoIterator<Item = String>) {
     let problems: Vec<_> = problems.into_iter().collect();
     assert!(problems.is_empty(), "\n{}", problems.join("\n"));
+}
+
+/// Returns the number of operations that round; those by powers of two are exact.
+fn roundings(formula: &Tree) -> usize {
+    let mut program = Program::default();
+    program.add(formula);
+    let is_power =
+        |place: &usize| matches!(program.ops()[*place], Op::Int(n) if n.unsigned_abs().is_power_of_two());
+    let rounds = |op: &&Op<usize>| match op {
+        Op::Add(..) | Op::Sub(..) => true,
+        Op::Mul(a, b) => !is_power(a) && !is_power(b),
+        Op::Div(_, by) => !is_power(by),
+        _ => false,
+    };
+    program.ops().iter().filter(rounds).count()
+}
+
+#[test]
+fn documented_roundings_are_those_of_the_formula() {
+    const COUNTS: [&str; 6] = ["One", "Two", "Three", "Four", "Five", "Six"];
+    let mut stated = 0;
+    for Item { path, docs } in functions() {
+        let docs = docs.join(" ");
+        let count = COUNTS.iter().position(|count| docs.contains(&format!("{count} rounding")));
+        let formula = registry().formulas().iter().find(|formula| formula.path == path);
+        if let (Some(count), Some(formula)) = (count, formula) {
+            assert_eq!(roundings(&formula.tree), count + 1, "{path}");
+            stated += 1;
+        }
+    }
+    assert!(stated >= 8, "the scan finds {stated} counts of roundings");
 }
 
 #[test]

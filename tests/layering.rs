@@ -215,6 +215,30 @@ fn the_kernel_uses_only_numbers_and_statements() {
     );
 }
 
+/// Files of statements, each after all that it uses.
+const ORDER: [&str; 8] =
+    ["symbols", "typeset", "hypothesis", "proposition", "sequence", "statement", "claim", "registry"];
+
+/// The typesetting of hypotheses stands above them.
+#[test]
+fn files_of_statements_use_only_those_before_them() {
+    let place = |name: &String| ORDER.iter().position(|file| file == name);
+    let (mut wrong, mut uses) = (Vec::new(), 0);
+    for path in sources().into_iter().filter(|path| path.starts_with("engine/src/formula/")) {
+        let own = module(&path);
+        let first =
+            if path.ends_with("typeset/hypothesis.rs") { ORDER.len() } else { place(&own[1]).expect(&path) };
+        for target in paths(source(&path).parse().unwrap(), &own) {
+            let used = target.get(1).filter(|_| target[0] == "formula").and_then(place);
+            uses += usize::from(used.is_some_and(|used| used < first));
+            if used.is_some_and(|used| used > first) {
+                wrong.push(format!("{path} uses {}", target[1]));
+            }
+        }
+    }
+    assert!(wrong.is_empty() && uses > 10, "{uses} uses; {wrong:?}");
+}
+
 /// Types that only the kernel constructs. Other parts of a derivation prove nothing by themselves.
 const SEALED: [&str; 6] = ["Proof", "Certificate", "Context", "Poly", "Ratio", "Monomial"];
 

@@ -687,7 +687,7 @@ fn claims() -> impl Strategy<Value = Statement> {
         let a = Tree::symbol("a");
         let claim = match kind {
             0 => equal("drawn", t(0), t(1)),
-            1 => Statement::new("drawn", Proposition::Sign(relation, t(0))),
+            1 => equal("drawn", 0, 0).with_proposition(Proposition::Sign(relation, t(0))),
             2 => derivative("drawn", t(0), &a, t(1)),
             3 => limit("drawn", t(0), &a, t(1), Rate::Equal(t(2))),
             4 => limit("drawn", t(0), &a, t(1), Rate::Within(t(2))),
@@ -699,14 +699,11 @@ fn claims() -> impl Strategy<Value = Statement> {
                 induction("drawn", t(0), two(1), step, two(5))
             }
             6 => within("drawn", t(0), t(1)),
-            7 => perturbed_recursion(
-                "drawn",
-                t(0),
-                t(1),
-                |x| x - t(2).substitute(&[(POWER, x.clone())]),
-                (t(3), t(4)),
-                |_| [(t(5), t(6))],
-            ),
+            7 => perturbed_recursion("drawn", t(0))
+                .start(t(1))
+                .step(|x| x - t(2).substitute(&[(POWER, x.clone())]))
+                .bounding(|_| t(5), t(6))
+                .near(t(3), t(4)),
             _ => geometric_limit("drawn", t(0), t(1), t(2)),
         };
         let computed = ["v", "w"].map(|name| Tree::symbol(name));

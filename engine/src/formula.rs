@@ -9,9 +9,11 @@
 
 pub mod claim;
 mod hypothesis;
+mod proposition;
 mod registry;
 mod sequence;
 pub mod statement;
+pub(crate) mod symbols;
 mod typeset;
 
 pub use claim::Rate;

@@ -6,9 +6,10 @@
 //!   [`claim`](crate::formula::claim).
 //! - [`Tree`](crate::number::Tree) records what functions compute (tested, bit for bit, in every number
 //!   system), and [`Dual`](crate::number::Dual) differentiates correctly.
-//! - [`statement`](crate::formula::statement) and `sequence.rs` define the goals of each kind of claim, which
-//!   are proved under the hypotheses. Only the constructors of [`claim`](crate::formula::claim) make a
-//!   [`Statement`](crate::formula::Statement), so its goals belong to the claim that it prints.
+//! - [`statement`](crate::formula::statement), `hypothesis.rs`, `proposition.rs` and `sequence.rs` define the
+//!   goals of each kind of claim, which are proved under the hypotheses. The goals of a
+//!   [`Statement`](crate::formula::Statement) are derived from its contents and cannot be set, so they belong to
+//!   the claim that it prints.
 //! - The kernel is `kernel.rs` with `kernel/` in `src/proof`: `algebra.rs` and `monomial.rs` contain the
 //!   arithmetic of polynomials, `number.rs` that of their coefficients, `sign.rs` six rules for signs,
 //!   `order.rs` the monotonicity of rounding, `translator.rs` and `context.rs` the translation of formulas

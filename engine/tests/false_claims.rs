@@ -363,19 +363,27 @@ fn sequences() -> Vec<Row> {
     let [pos_c, unit] = [above_zero(&c), Hypothesis::between(&q, 0, 1)];
     let halves = |name, step: Tree, bound: Tree| {
         let near = Hypothesis::near(&u, x("x₁") / n(2), 0);
-        perturbed_recursion(name, half(), 1, |_| u.clone(), (n(0), bound), |_| [])
+        perturbed_recursion(name, half())
+            .start(1)
+            .step(|_| u.clone())
+            .near(0, bound)
             .assuming([&unit, &near])
             .computing(&u, step)
     };
     let also_within = |name, bound: Tree| {
-        let near = (q.clone(), n(0));
-        perturbed_recursion(name, half(), 1, |x| x / n(2), near, |x| [(x.clone(), bound.clone())])
+        perturbed_recursion(name, half())
+            .start(1)
+            .step(|x| x / n(2))
+            .bounding(Tree::clone, bound)
+            .near(&q, 0)
             .assuming([&unit])
     };
     let [from_one, near_q] = [not_below_zero(&q - n(1)), Hypothesis::near(&u, &q, 0)];
     let square = &z * &z * &w * &w;
     let grows = |name, step: Tree| {
-        perturbed_recursion(name, 2, 0, |x| x + &step, (n(0), n(0)), |_| [])
+        perturbed_recursion(name, 2)
+            .step(|x| x + &step)
+            .near(0, 0)
             .assuming([&from_one, &near_q])
             .computing(&u, &q)
     };

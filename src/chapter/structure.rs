@@ -97,7 +97,7 @@ pub fn first_variation<T: Field>(system: &SpringMass<T>, u: &T, du: &T) -> T {
 ///
 /// `Π = c u² / 2 − m g u`
 ///
-/// Domain: all. Six roundings (halving is exact). Its only minimum is at [`deflection`]. Source: §1.1.
+/// Domain: all. Five roundings (halving is exact). Its only minimum is at [`deflection`]. Source: §1.1.
 ///
 /// ```
 /// # use spring_mass_contact::chapter::{SpringMass, structure};

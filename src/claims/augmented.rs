@@ -126,20 +126,16 @@ pub(super) fn entries() -> Vec<Entry> {
                         |lambda: &Tree| contact::penetration(s, &deflection(s, eps, lambda)).with_rounding();
                     non_negative("float-penetration-falls", p(lambda) - p(v)).assuming([later_multiplier])
                 },
-                perturbed_recursion(
-                    "float-drift",
-                    contraction(s, eps),
-                    0,
-                    |lambda| update(s, eps, lambda, u).with_rounding(),
-                    (multiplier_after(s, zero, q), rounding::multiplier_drift(s, eps, precision())),
-                    |_| {
-                        let error =
-                            contact::penetration(s, u).with_rounding() - penetration_after(s, eps, zero, q);
-                        [(error, rounding::penetration_drift(s, eps, precision()))]
-                    },
-                )
-                .assuming([fine_enough, in_contact, decay, near_iterate])
-                .computing(u, deflection(s, eps, member()).with_rounding()),
+                perturbed_recursion("float-drift", contraction(s, eps))
+                    .start(0)
+                    .step(|lambda| update(s, eps, lambda, u).with_rounding())
+                    .bounding(
+                        |_| contact::penetration(s, u).with_rounding() - penetration_after(s, eps, zero, q),
+                        rounding::penetration_drift(s, eps, precision()),
+                    )
+                    .near(multiplier_after(s, zero, q), rounding::multiplier_drift(s, eps, precision()))
+                    .assuming([fine_enough, in_contact, decay, near_iterate])
+                    .computing(u, deflection(s, eps, member()).with_rounding()),
                 {
                     let drift = rounding::penetration_drift(s, eps, precision());
                     let lengths = s.h.abs() + gap(s).abs() + reaction(s) / eps;

@@ -86,7 +86,7 @@ macro_rules! coordinates {
 }
 coordinates! {
     U u "u" "A deflection, in m.";
-    V v "v" "Another deflection, or the next one, in m.";
+    V v "v" "Another deflection, or the next one, in m; in `later_multiplier` a multiplier, in N.";
     Du du "δu" "A virtual displacement, in m.";
     Alpha alpha "α" "A dimensionless number, or a separate step size in N/m.";
     Eps eps "ε" "The penalty, in N/m.";

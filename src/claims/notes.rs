@@ -191,25 +191,24 @@ pub(super) fn entries() -> Vec<Entry> {
                     [lambda * q],
                 )
                 .assuming([grazing, multiplier, power]),
-                perturbed_recursion(
-                    "float-unilateral-drift",
-                    augmented::contraction(s, eps),
-                    0,
-                    |_| lambda.positive_part(),
-                    (
+                perturbed_recursion("float-unilateral-drift", augmented::contraction(s, eps))
+                    .start(0)
+                    .step(|_| lambda.positive_part())
+                    .bounding(
+                        |_| {
+                            let exact = augmented::penetration_after(s, eps, zero, q);
+                            contact::penetration(s, u).with_rounding() - exact
+                        },
+                        rounding::penetration_drift(s, eps, precision()),
+                    )
+                    .near(
                         augmented::multiplier_after(s, zero, q),
                         rounding::multiplier_drift(s, eps, precision()),
-                    ),
-                    |_| {
-                        let exact = augmented::penetration_after(s, eps, zero, q);
-                        let error = contact::penetration(s, u).with_rounding() - exact;
-                        [(error, rounding::penetration_drift(s, eps, precision()))]
-                    },
-                )
-                .assuming([fine_enough, in_contact, decay, pushes, near_printed, near_iterate, near_next])
-                .computing(v, augmented::deflection(s, eps, member()).with_rounding())
-                .computing(u, structure::deflection(s).with_rounding().min(v))
-                .computing(lambda, augmented::update(s, eps, member(), u).with_rounding()),
+                    )
+                    .assuming([fine_enough, in_contact, decay, pushes, near_printed, near_iterate, near_next])
+                    .computing(v, augmented::deflection(s, eps, member()).with_rounding())
+                    .computing(u, structure::deflection(s).with_rounding().min(v))
+                    .computing(lambda, augmented::update(s, eps, member(), u).with_rounding()),
                 {
                     let free = structure::deflection(s);
                     let bound = int(2) * free.abs()

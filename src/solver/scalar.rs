@@ -36,11 +36,16 @@ impl<T: Scalar> Interval<T> {
     /// ```
     /// # use spring_mass_contact::solver::Interval;
     /// assert_eq!(Interval { lower: 0.25, upper: 1.0 }.width(), 0.75);
+    /// let beyond = Interval { lower: f64::INFINITY, upper: f64::INFINITY };
+    /// assert_eq!(beyond.width(), f64::INFINITY);
     /// // 1 + 2⁻⁶⁰ is no f64.
     /// assert!(Interval { lower: -0.5_f64.powi(60), upper: 1.0 }.width() > 1.0);
     /// ```
     pub fn width(&self) -> T {
         let Interval { lower, upper } = self;
+        if let Some(infinite) = [lower, upper].into_iter().find(|end| !end.is_finite()) {
+            return infinite.abs();
+        }
         let (one, width) = (T::one(), upper - lower);
         if !width.is_finite() || T::sign_of_sum([(upper, &one), (&-lower, &one)], (&width, &one)).is_le() {
             return width;

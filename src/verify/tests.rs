@@ -6,7 +6,7 @@ mod huge;
 use super::checker::NumberDomain;
 use super::*;
 use crate::formula::Relation;
-use crate::formula::claim::induction;
+use crate::formula::claim::{equal, induction};
 use crate::formula::statement::Proposition;
 use crate::number::{Exponential, Field, PositivePart, Tree};
 use num_traits::{One, Zero};
@@ -21,7 +21,7 @@ fn options(cases: u64) -> Options {
 }
 
 fn claim(name: &'static str, proposition: Proposition) -> Statement {
-    Statement::new(name, proposition).inheriting("1.1", &[])
+    equal(name, 0, 0).with_proposition(proposition).inheriting("1.1", &[])
 }
 
 fn experiment<T: 'static>(name: &'static str, check: fn(&Case<T>) -> Trial) -> Experiment<T> {
@@ -295,7 +295,8 @@ fn a_wrong_statement_is_refuted_and_an_unprovable_one_is_not_proved() {
     let all = statements();
     let rate = all.iter().find(|s| (s.equation(), s.name()) == ("1.13", "rate")).unwrap();
     let Proposition::Equal(left, right) = &rate.goals()[0].proposition else { panic!("an equation") };
-    let named = |name, proposition| Statement::new(name, proposition).inheriting(rate.equation(), &[]);
+    let named =
+        |name, proposition| equal(name, 0, 0).with_proposition(proposition).inheriting(rate.equation(), &[]);
     let wrong = Proposition::Equal(left.clone(), right + right);
     let wrong = named("wrong", wrong).assuming(rate.stated_hypotheses());
     // eˣ ≥ 1 + x for every x is true, but the kernel proves it for x ≥ 0 only.

@@ -1,10 +1,12 @@
 //! Constructors of statements.
 
+pub use super::symbols::{MEMBERS, POWER, PRECISION, SCALES};
+
 use super::hypothesis::{Relation, name_of};
-use super::statement::{Form, Proposition, Sequence, Statement};
+use super::proposition::Proposition;
+use super::sequence::Sequence;
+use super::statement::{Form, Statement};
 use crate::number::Tree;
-use std::collections::BTreeMap;
-use std::sync::Mutex;
 
 /// Rate of convergence to a limit, for numerical checks.
 #[derive(Clone, Debug)]
@@ -13,31 +15,6 @@ pub enum Rate {
     Equal(Tree),
     /// A bound of the absolute distance from the limit, which tends to 0.
     Within(Tree),
-}
-
-/// Symbol of 2ᵖ in formulas [rounded](Tree::with_rounding) to p bits; its inverse is the unit roundoff.
-pub const PRECISION: &str = "2ᵖ";
-
-/// Symbols of powers of two with arbitrary integer exponents.
-pub const SCALES: [&str; 3] = ["2ᵃ", "2ᵇ", "2ᶠ"];
-
-/// Symbol q of the power ρᵏ in a statement about a [sequence](Sequence).
-pub const POWER: &str = "q";
-
-/// Symbols of the components of x_k in the step of a [sequence](Sequence).
-pub const MEMBERS: [&str; 4] = ["x₁", "x₂", "x₃", "x₄"];
-
-/// Returns a letter with the subscript `index` + 1: v₁ for 0.
-pub(crate) fn subscripted(letter: char, index: u8) -> &'static str {
-    static NAMES: Mutex<BTreeMap<(char, u8), &str>> = Mutex::new(BTreeMap::new());
-    let name = || {
-        let digits = (u32::from(index) + 1).to_string();
-        let subscript = |digit: u8| char::from_u32(u32::from('₀') + u32::from(digit - b'0'));
-        let name: String = [letter].into_iter().chain(digits.bytes().filter_map(subscript)).collect();
-        &*name.leak()
-    };
-    let mut names = NAMES.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-    names.entry((letter, index)).or_insert_with(name)
 }
 
 /// States that two formulas are equal.
@@ -115,26 +92,74 @@ pub fn induction<const N: usize>(
     Statement::of_form(name, Form::Sequence(sequence))
 }
 
-/// States that the recursion x₀ = start, x_{k+1} = step(x_k) stays within a bound of a closed form at q =
-/// ratioᵏ, and that further quantities, formulas of x_k and q, are bounded.
+/// A recursion whose members are only near a closed form, for example because its steps are rounded.
 ///
-/// # Panics
-/// Panics like [`induction`], and if the closed form or its bound depends on a member.
-pub fn perturbed_recursion<const N: usize>(
+/// # Examples
+///
+/// ```
+/// use provable::formula::{Hypothesis, claim::perturbed_recursion};
+/// use provable::{number::Tree, proof::prove};
+/// let [a, q] = ["a", "q"].map(|name| Tree::symbol(name));
+/// // Each step halves the distance from a, so 2⁻ᵏ |a| remains of it.
+/// let halves = perturbed_recursion("halves", Tree::from(1) / Tree::from(2))
+///     .start(0)
+///     .step(|x| (x + &a) / Tree::from(2))
+///     .near(&a - &a * &q, 0);
+/// assert!(prove(&halves).is_ok());
+/// ```
+#[derive(Clone, Debug)]
+pub struct PerturbedRecursion {
     name: &'static str,
-    ratio: impl Into<Tree>,
-    start: impl Into<Tree>,
-    step: impl Fn(&Tree) -> Tree,
-    (near, bound): (Tree, Tree),
-    also: impl Fn(&Tree) -> [(Tree, Tree); N],
-) -> Statement {
-    let x = Tree::symbol(MEMBERS[0]);
-    let without_member = step(&Tree::from(1));
-    let symbols = [&near, &bound, &without_member].into_iter().flat_map(Tree::symbols);
-    assert_not_reserved(name, symbols.filter(|own| *own != POWER).chain(without_member.symbols()));
-    let within = [(&x - &near, bound)].into_iter().chain(also(&x)).collect();
-    let (start, step, ratio, member) = (vec![start.into()], vec![step(&x)], ratio.into(), vec![near]);
-    Statement::of_form(name, Form::Sequence(Sequence { start, step, ratio, member, limit: None, within }))
+    ratio: Tree,
+    start: Tree,
+    step: Tree,
+    further: Vec<(Tree, Tree)>,
+}
+
+/// Begins a statement about a recursion and the powers q = ratioᵏ. Without another start and step its members
+/// stay 0.
+pub fn perturbed_recursion(name: &'static str, ratio: impl Into<Tree>) -> PerturbedRecursion {
+    let (start, step) = (Tree::from(0), Tree::symbol(MEMBERS[0]));
+    PerturbedRecursion { name, ratio: ratio.into(), start, step, further: Vec::new() }
+}
+
+impl PerturbedRecursion {
+    /// Sets the first member x₀.
+    pub fn start(self, start: impl Into<Tree>) -> Self {
+        PerturbedRecursion { start: start.into(), ..self }
+    }
+
+    /// Sets the step from x_k to x_{k+1}.
+    ///
+    /// # Panics
+    /// Panics if the step depends on q or on a symbol with the name of a member.
+    pub fn step(self, step: impl Fn(&Tree) -> Tree) -> Self {
+        // With a number as the member, only the symbols of the step itself remain.
+        assert_not_reserved(self.name, step(&Tree::from(1)).symbols().into_iter());
+        PerturbedRecursion { step: step(&Tree::symbol(MEMBERS[0])), ..self }
+    }
+
+    /// Claims that a formula of x_k and q is bounded as well.
+    pub fn bounding(mut self, of: impl Fn(&Tree) -> Tree, bound: impl Into<Tree>) -> Self {
+        self.further.push((of(&Tree::symbol(MEMBERS[0])), bound.into()));
+        self
+    }
+
+    /// States that each member is within a bound of a closed form, a formula of q, and that the further bounds
+    /// hold.
+    ///
+    /// # Panics
+    /// Panics if the closed form or its bound depends on a member.
+    pub fn near(self, closed: impl Into<Tree>, bound: impl Into<Tree>) -> Statement {
+        let PerturbedRecursion { name, ratio, start, step, further } = self;
+        let (closed, bound) = (closed.into(), bound.into());
+        let symbols = [&closed, &bound].into_iter().flat_map(Tree::symbols);
+        assert_not_reserved(name, symbols.filter(|own| *own != POWER));
+        let distance = Tree::symbol(MEMBERS[0]) - &closed;
+        let within = [(distance, bound)].into_iter().chain(further).collect();
+        let (start, step, member) = (vec![start], vec![step], vec![closed]);
+        Statement::of_form(name, Form::Sequence(Sequence { start, step, ratio, member, limit: None, within }))
+    }
 }
 
 /// States that a formula of q = ratioᵏ tends to a limit as k tends to infinity.
@@ -189,7 +214,7 @@ mod tests {
         let [u, q] = ["u", POWER].map(|name| Tree::symbol(name));
         let kinds = [
             induction("same", 2, [u.clone()], |[x]| [x], [u.clone()]),
-            perturbed_recursion("near", 2, &u, Tree::clone, (u.clone(), Tree::from(0)), |_| []),
+            perturbed_recursion("near", 2).start(&u).near(&u, 0),
             geometric_limit("limit", 2, q, 0),
         ];
         assert_eq!(kinds.map(|statement| statement.kind()), ["induction", "drift", "vanishing"]);

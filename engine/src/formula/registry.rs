@@ -5,7 +5,7 @@
 //! and `«lens::power in full»` also writes out abbreviated functions.
 
 use super::Hypothesis;
-use super::claim::{POWER, PRECISION, SCALES};
+use super::symbols::{POWER, PRECISION, SCALES};
 use super::typeset::{Name, Notation, latex};
 use crate::number::Tree;
 use crate::number::tree::{Op, Site};

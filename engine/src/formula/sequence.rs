@@ -1,8 +1,8 @@
 //! Statements about sequences.
 
-use super::claim::{MEMBERS, POWER};
 use super::hypothesis::{Hypothesis, Relation};
-use super::statement::{Goal, Proposition, Role};
+use super::proposition::{Goal, Proposition, Role};
+use super::symbols::{MEMBERS, POWER};
 use crate::number::Tree;
 use num_traits::{One, Zero};
 

@@ -4,6 +4,7 @@
 //! are flat, signs stand in front of products and numbers at their head, equal factors form a power, and a
 //! factor 1 or a summand 0 is omitted. Brackets occur only where they are needed.
 
+mod hypothesis;
 mod latex;
 mod rounding;
 

@@ -6,8 +6,9 @@
 //! chain.
 
 use super::kernel::{self, Proof, ProofError, prove};
-use crate::formula::claim::{PRECISION, subscripted, within};
+use crate::formula::claim::{PRECISION, within};
 use crate::formula::statement::{Proposition, minimum_precision};
+use crate::formula::symbols::subscripted;
 use crate::formula::{Hypothesis, Relation, Statement};
 use crate::number::tree::Op;
 use crate::number::{Field, Tree};

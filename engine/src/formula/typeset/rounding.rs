@@ -7,7 +7,7 @@
 //! operation in the brackets is not rounded, as in `a + b c` with only the sum rounded, the text contains
 //! nearest instead.
 
-use crate::formula::claim::SCALES;
+use crate::formula::symbols::SCALES;
 use crate::number::Tree;
 use crate::number::tree::Op::{self, *};
 

@@ -2,7 +2,7 @@
 
 use super::algebra::Ratio;
 use super::effort;
-use crate::formula::claim::subscripted;
+use crate::formula::symbols::subscripted;
 use std::cmp::Ordering;
 use std::sync::Arc;
 

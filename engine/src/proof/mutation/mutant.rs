@@ -339,10 +339,13 @@ mod tests {
         let [q, u, v, w] = ["q", "u", "v", "w"].map(|name| Tree::symbol(name));
         let hypotheses =
             [Hypothesis::near(&u, &v, &v), Hypothesis::near(&q, 0, &v), Hypothesis::near(&v, 0, 2)];
-        let statement =
-            perturbed_recursion("stays", &v, &v, |x| x + &v, (v.clone(), &u + &v), |x| [(x - &v, u.clone())])
-                .assuming(&hypotheses)
-                .computing(&u, &v);
+        let statement = perturbed_recursion("stays", &v)
+            .start(&v)
+            .step(|x| x + &v)
+            .bounding(|x| x - &v, &u)
+            .near(&v, &u + &v)
+            .assuming(&hypotheses)
+            .computing(&u, &v);
         let replaced = |tree: &Tree| tree.substitute(&[("v", w.clone())]);
         let changed = statement.map(&replaced);
         let expected: Vec<_> = statement.trees().map(replaced).collect();

@@ -161,7 +161,7 @@ fn the_tightest_member_attains_the_largest_fraction_of_a_bound() {
     let double = |member: &Tree| member * Tree::from(2);
     let (near, bound) = (Tree::from(0), x("c") * Tree::from(16));
     let doubled =
-        perturbed_recursion("doubled", 1, x("c"), double, (near, bound), |_| []).assuming([&positive]);
+        perturbed_recursion("doubled", 1).start(x("c")).step(double).near(near, bound).assuming([&positive]);
     let (_, share) = tightest_point(&doubled).unwrap();
     assert_eq!(share, "1/2".parse().unwrap());
     let near = Hypothesis::near(&x("u"), x("c"), x("d"));
@@ -249,10 +249,13 @@ fn counterexamples_contain_independent_symbols_only() {
     assert_eq!(names(&wrong), ["a", "c"]);
     let near = Hypothesis::near(&u, x("x₁"), 7);
     let step = |_: &Tree| x("u") + Tree::from(9);
-    let drifts =
-        perturbed_recursion("wrong", &c, x("a"), step, (x("a"), Tree::from(1)), |_| [(x("x₁"), x("a"))])
-            .assuming([&near])
-            .computing(&u, x("x₁"));
+    let drifts = perturbed_recursion("wrong", &c)
+        .start(x("a"))
+        .step(step)
+        .bounding(Tree::clone, x("a"))
+        .near(x("a"), 1)
+        .assuming([&near])
+        .computing(&u, x("x₁"));
     assert_eq!(names(&drifts), ["a"]);
     let far = limit("wrong", &u / &c, &u, 0, Rate::Equal(&u / &c)).assuming([&above_zero("u")]);
     assert_eq!(names(&far), ["c"]);

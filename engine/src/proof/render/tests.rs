@@ -123,7 +123,7 @@ fn a_claim_contains_the_definitions_of_computed_quantities() {
     let near = Hypothesis::near(&u, &a, &b);
     let claim = |claim: Statement| ProofPrinter::new(&NONE).claim(&claim.computing(&u, (&a + &b).round()));
     assert_eq!(claim(positive("", &u + &a).assuming([&near])), "u + a > 0, where u = fl(a + b)");
-    let drifts = perturbed_recursion("", &a, 0, |x| x + &u, (a.clone(), b.clone()), |_| []).assuming([&near]);
+    let drifts = perturbed_recursion("", &a).step(|x| x + &u).near(&a, &b).assuming([&near]);
     assert_eq!(
         claim(drifts),
         "k steps from 0, each of x₁ to x₁ + u, lead to x₁ with |x₁ − a| ≤ b, where q = aᵏ and u = fl(a + b)"

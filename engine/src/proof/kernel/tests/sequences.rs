@@ -64,7 +64,11 @@ fn halves(start: Tree, ratio: Tree) -> Statement {
     let half = int(1) / int(2);
     let q = Hypothesis::between(&x("q"), int(0), int(1));
     let u = Hypothesis::near(&x("u"), x("x₁") * &half, int(0));
-    perturbed_recursion("halves", ratio, start, |_| x("u"), (int(0), x("q")), |_| [(x("u"), x("q"))])
+    perturbed_recursion("halves", ratio)
+        .start(start)
+        .step(|_| x("u"))
+        .bounding(|_| x("u"), x("q"))
+        .near(0, x("q"))
         .assuming([&q, &u])
         .computing(&x("u"), x("x₁") * &half)
 }
@@ -139,15 +143,13 @@ fn computed_quantities_are_neither_powers_nor_constants() {
     assert!(is_rejected(counts.computing(&q, 1)));
     // A constant sequence, compared with a quantity that changes at each step.
     let near_q = Hypothesis::near(&u, &q, int(0));
-    let stays =
-        |near| perturbed_recursion("stays", 2, &u, Tree::clone, (near, int(0)), |_| []).assuming([&near_q]);
+    let stays = |near: Tree| perturbed_recursion("stays", 2).start(&u).near(near, 0).assuming([&near_q]);
     assert!(is_rejected(stays(u.clone()).computing(&u, &q)));
     let same = induction("same", 2, [u.clone()], |[x]| [x], [u.clone()]).assuming([&near_q]);
     assert!(is_rejected(same.computing(&u, &q)));
     // The reference of the bound must not be a computed quantity.
     let near = |near: &Tree| {
-        let claim = perturbed_recursion("stays", 2, &v, Tree::clone, (near.clone(), int(0)), |_| [])
-            .assuming([&near_q]);
+        let claim = perturbed_recursion("stays", 2).start(&v).near(near, 0).assuming([&near_q]);
         prove(&claim.computing(&u, &q))
     };
     assert!(near(&v).is_ok());
@@ -175,10 +177,10 @@ fn the_only_hypothesis_on_a_computed_quantity_is_its_interval() {
     let near_q = Hypothesis::near(&u, &q, int(0));
     let square = &z * &z * &w * &w;
     // x stays 0, q is 2ᵏ, and |q (q − 1)| ≤ z² w² would follow, which is 2 ≤ 1 at z = w = 1 and q = 2.
-    let grows = perturbed_recursion("grows", 2, 0, Tree::clone, (int(0), int(0)), |_| {
-        [(&q * (&q - int(1)), square.clone())]
-    })
-    .assuming([&from_one, &near_q]);
+    let grows = perturbed_recursion("grows", 2)
+        .bounding(|_| &q * (&q - int(1)), &square)
+        .near(0, 0)
+        .assuming([&from_one, &near_q]);
     let with_u = not_below_zero(&square + (&q - int(1)) * (&q - int(2) * &u));
     let grows = grows.computing(&u, &q);
     assert!(is_rejected(grows.assuming([&with_u])));
