@@ -15,6 +15,7 @@
     feature = "prover",
     doc = "\
 | [`formula`] | recorded formulas as data: typesetting, hypotheses, statements | `proof`, `claims` |
+| [`eval`] | what statements mean for numbers, exact, enclosed or rounded | `proof`, `verify` |
 | [`proof`] | proofs and refutations of statements, in print and for Coq | `verify`, `contact` |
 | [`claims`](mod@claims) | the chapter as data: equations with claims | `verify`, `check` |
 | [`verify`](mod@verify) | proofs and checks in number systems | the command `contact` |
@@ -23,7 +24,7 @@
 //! `number`, `chapter` and `solver` are the public API and follow semantic versioning. The feature `prover`
 //! opens the other modules, whose API may change with any minor version.
 //!
-//! `number`, `formula` and `proof` are those of [`provable`], an engine that is independent of mechanics and
+//! `number`, `formula`, `eval` and `proof` are those of [`provable`], an engine that is independent of mechanics and
 //! serves other formulas as well. `chapter` and `solver` are the mechanics and do not depend on proofs;
 //! `claims` connects the two. A test checks the dependencies of every module.
 //!
@@ -46,7 +47,7 @@
 //! # Features
 //! - `mpfr` (default): MPFR floats, exact rationals, and all that needs them: certificates, step counts,
 //!   advice and parsing. Builds GMP and MPFR from source through rug, which is LGPL-3.0-or-later.
-//! - `prover`: the modules `formula`, `proof`, `claims`, `verify` and `check`.
+//! - `prover`: the modules `formula`, `eval`, `proof`, `claims`, `verify` and `check`.
 //! - `serde`: implements `serde::Serialize` for the results of the solver and of checks, with quantities as
 //!   texts.
 //! - `gmp-untested` (default): omits the test suites of GMP and MPFR, which take minutes.

@@ -261,8 +261,8 @@ fn groups(claims: &[Statement]) -> Vec<Group> {
 /// Number of members of a sequence that are checked. Its closed form is also checked for arbitrary q.
 const MEMBERS: usize = 4;
 
-/// Returns the tests of a claim: what it says of numbers, and what its induction says of any q. The rate of a
-/// limit is tested in place of the limit.
+/// Returns the tests of a claim: those of its instances, and those of the steps of its induction for any q. The
+/// rate of a limit is tested in place of the limit.
 fn tests(claim: &Statement, program: &mut Program) -> Vec<(&'static str, Test)> {
     let steps = claim.goals().iter().filter(|goal| goal.role != Role::Claim);
     let steps = steps.map(|goal| Instance::new(goal.part, goal.proposition.clone()));

@@ -4,7 +4,7 @@ use super::domain::{Domain, Rationals, Value};
 use super::germ::{Germ, Germs, Tendency, vanishes};
 use super::sample::Point;
 use crate::formula::claim::{MEMBERS, POWER, PRECISION};
-use crate::formula::statement::{Role, Sequence};
+use crate::formula::statement::{Goal, Role, Sequence};
 use crate::formula::{Hypothesis, Proposition, Relation, Statement};
 use crate::number::tree::{Op, smooth_ops};
 use crate::number::{Exact, PositivePart, Program, Tree};
@@ -31,40 +31,31 @@ impl Instance {
     }
 }
 
-/// Returns what a statement says of the values of its [independent symbols](independent_symbols).
+/// Returns the propositions that a statement makes about its [independent symbols](independent_symbols).
 ///
 /// Computed quantities are replaced by their formulas. Of a recursion, the first `members` are unfolded: they
 /// have their closed form, or satisfy their bounds. A formula of ρᵏ has its limit if it has it at q = 0, and
 /// |ρ| < 1 or the formula is constant.
 pub fn instances(statement: &Statement, members: usize) -> Vec<Instance> {
-    match statement.conclusion() {
-        None => {
-            let computed = with_computed(statement, Vec::new());
-            let claims = statement.goals().iter().filter(|goal| goal.role == Role::Claim);
-            claims
-                .map(|goal| {
-                    Instance::new(goal.part, goal.proposition.map(&|tree| tree.substitute(&computed)))
-                })
-                .collect()
-        }
-        Some(Sequence { limit: Some(limit), member, .. }) => {
-            let pair = |member: &Tree| [member.substitute(&[(POWER, Tree::one())]), limit.clone()];
-            let constant: Vec<_> = member.iter().map(pair).collect();
-            let unless = |proposition: &Proposition| match proposition {
-                Proposition::Sign(..) => constant.clone(),
-                _ => Vec::new(),
-            };
-            let goals = statement.goals().iter();
-            goals
-                .map(|goal| Instance {
-                    part: goal.part,
-                    proposition: goal.proposition.clone(),
-                    unless: unless(&goal.proposition),
-                })
-                .collect()
-        }
-        Some(sequence) => unfolded(statement, sequence, members),
+    let conclusion = statement.conclusion();
+    if let Some(sequence) = conclusion.filter(|sequence| sequence.limit.is_none()) {
+        return unfolded(statement, sequence, members);
     }
+    let (computed, constant) =
+        (with_computed(statement, Vec::new()), conclusion.map_or(Vec::new(), first_and_limit));
+    let instance = |goal: &Goal| {
+        let proposition = goal.proposition.map(&|tree| tree.substitute(&computed));
+        let is_margin = matches!(proposition, Proposition::Sign(..));
+        let unless = if is_margin { constant.clone() } else { Vec::new() };
+        Instance { part: goal.part, proposition, unless }
+    };
+    statement.goals().iter().filter(|goal| goal.role == Role::Claim).map(instance).collect()
+}
+
+/// Returns the first value of a formula of ρᵏ with its limit, which are equal if the formula is constant.
+fn first_and_limit(sequence: &Sequence) -> Vec<[Tree; 2]> {
+    let pair = |member: &Tree| Some([member.substitute(&[(POWER, Tree::one())]), sequence.limit.clone()?]);
+    sequence.member.iter().filter_map(pair).collect()
 }
 
 /// Returns the hypotheses of a statement as propositions about its independent symbols.
@@ -407,7 +398,7 @@ impl Compiled {
         self.evaluate(&domain, |name| Value::Exact(point.at(name))).verdict(&self.tests)
     }
 
-    /// Returns the largest ratio of a quantity to its bound at a point; `None` if there are no bounds.
+    /// Returns the largest ratio of a quantity to its bound; `None` if there are no bounds.
     pub fn bound_fraction(&self, point: &Point) -> Option<Exact> {
         let domain = Rationals { precision: point.at(PRECISION) };
         let values = self.evaluate(&domain, |name| Value::Exact(point.at(name)));

@@ -128,7 +128,7 @@ fn a_bound_is_formatted_without_loss() {
     assert_eq!(Rationals::unrounded().bound(&Value::Exact(Exact::from(3))), "0");
 }
 
-/// Of several tests, and of several tallies, the first of equal ratios counts.
+/// The first of equal ratios counts, of several tests and of several tallies.
 #[test]
 fn the_worst_share_is_recorded() {
     let measured = |all: &[(f64, &'static str)]| {
