@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Mutex;
 
-/// Symbol of 2ᵖ in formulas [rounded](Tree::with_rounding) to p bits; its inverse is the unit roundoff.
+/// Symbol of 2ᵖ in formulas [rounded](crate::number::Tree::with_rounding) to p bits; its inverse is the unit roundoff.
 pub const PRECISION: &str = "2ᵖ";
 
 /// Symbols of powers of two with arbitrary integer exponents.
