@@ -59,18 +59,6 @@ impl<T: Real + ToExact> Domain for Floats<T> {
     fn apply(&self, op: Op<&Option<T>>) -> Option<Option<T>> {
         Some(op.try_map(|x| x.as_ref()).and_then(|op| self.compute(op)))
     }
-
-    fn sign(&self, x: &Option<T>) -> Option<Ordering> {
-        x.as_ref()?.partial_cmp(&T::zero())
-    }
-
-    fn are_equal(&self, x: &Option<T>, y: &Option<T>) -> Option<bool> {
-        Some(x.as_ref()? == y.as_ref()?)
-    }
-
-    fn is_within(&self, x: &Option<T>, bound: &Option<T>) -> Option<bool> {
-        Some(x.as_ref()?.abs() <= *bound.as_ref()?)
-    }
 }
 
 /// Exact numbers, except that floats compute what is below a rounding. `None` is a number that depends on a

@@ -7,7 +7,7 @@ use num_traits::{One, Zero};
 use std::cmp::Ordering;
 use std::fmt;
 
-/// Numbers in which statements are evaluated.
+/// Numbers in which statements are evaluated. By default they are not compared.
 pub trait Domain {
     /// A number, or what is known of it.
     type Value: Clone;
@@ -22,13 +22,19 @@ pub trait Domain {
     }
 
     /// Returns the sign of a number if it is certain.
-    fn sign(&self, x: &Self::Value) -> Option<Ordering>;
+    fn sign(&self, _x: &Self::Value) -> Option<Ordering> {
+        None
+    }
 
     /// Returns whether two numbers are equal; of enclosures, whether they may be.
-    fn are_equal(&self, x: &Self::Value, y: &Self::Value) -> Option<bool>;
+    fn are_equal(&self, _x: &Self::Value, _y: &Self::Value) -> Option<bool> {
+        None
+    }
 
     /// Returns whether a number is at most a bound in absolute value, if this is certain.
-    fn is_within(&self, x: &Self::Value, bound: &Self::Value) -> Option<bool>;
+    fn is_within(&self, _x: &Self::Value, _bound: &Self::Value) -> Option<bool> {
+        None
+    }
 
     /// Returns the number, if it is known exactly. Limits are evaluated for such numbers only.
     fn exact(&self, _: &Self::Value) -> Option<Exact> {

@@ -60,6 +60,7 @@ fn only_exact_values_are_rounded() {
     assert_eq!(rational(0, &eighths), Some(Value::Exact(Exact::one())));
     let unknown = rational(1, &x("x").exp().round()).unwrap();
     assert_eq!(rationals().sign(&unknown), None);
+    assert_eq!(rationals().is_within(&unknown, &Value::Exact(Exact::one())), None);
     let imprecise = Rationals { precision: Exact::from(2) };
     let none = value(&eighths, &imprecise, |_| unreachable!()).unwrap();
     assert_eq!(imprecise.sign(&none), None);

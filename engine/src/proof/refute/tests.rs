@@ -64,7 +64,10 @@ fn limits_are_decided_by_degrees() {
     // ε R/(1 + ε) → 2 and ε² R/(1 + ε) → ∞.
     assert_eq!((tends(of * x("ε"), 2), tends(of * x("ε"), 0)), (None, wrong("tends to 2")));
     assert_eq!(tends(of * x("ε") * x("ε"), 0), wrong("is unbounded"));
-    // min(R, ε) and ⟨R − ε⟩ are R and 0 for large ε.
+    assert_eq!(tends(x("ε") / (x("ε") * Tree::from(4) + Tree::one()), 0), wrong("tends to 1/4"));
+    // min(ε, R) and ⟨ε − R⟩ are R and ε − R for large ε, and min(R, ε) and ⟨R − ε⟩ are R and 0.
+    assert_eq!(tends(PositivePart::min(&x("ε"), &x("R")), 2), None);
+    assert_eq!(tends((x("ε") - x("R")).positive_part() - x("ε"), -2), None);
     assert_eq!(tends(PositivePart::min(&x("R"), &x("ε")) + (x("R") - x("ε")).positive_part(), 2), None);
     // The distance is still about 1 at 2²⁰⁰.
     let slow = (0..240).fold(x("ε"), |x, _| x / Tree::from(2));
@@ -95,6 +98,8 @@ fn limits_of_exponentials_are_decided_if_they_are_certain() {
     assert_eq!(sums.each_ref().map(tends), [Some(2), Some(2), Some(1), Some(2), Some(2), None]);
     let products = [&grows * &e, &grows * -&number, &number * &number, &decays * &number, &decays * &e];
     assert_eq!(products.each_ref().map(tends), [Some(2), Some(2), Some(1), Some(0), None]);
+    let signs = [-(&grows * &grows), &grows * -&number, -(&grows * &number), -&grows * -&grows];
+    assert_eq!(signs.map(|x| tends(&x.exp())), [Some(0), Some(0), Some(0), Some(2)]);
     let quotients = [&number / &grows, &one / &decays, &decays / &number, &grows / &e];
     assert_eq!(quotients.each_ref().map(tends), [Some(0), None, Some(0), None]);
     assert_eq!([decays.positive_part(), (&grows - &e).exp()].each_ref().map(tends), [Some(0), None]);
