@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::fmt;
 
 /// The simplest coordinates, in order of preference.
-pub(super) const SIMPLE: [i32; 7] = [1, 0, 2, -1, 3, -2, -3];
+const SIMPLE: [i32; 7] = [1, 0, 2, -1, 3, -2, -3];
 
 /// Returns the rank of a number in the order of preference.
 fn complexity(x: &Exact) -> u64 {

@@ -164,11 +164,8 @@ impl Test {
             }
             Proposition::Within(of, bound) => Test::Within { of: program.add(of), bound: program.add(bound) },
             Proposition::Limit(of, by, to) => {
-                let (formula, mut distance) = (of - to, Program::default());
-                distance.add(&formula);
-                for name in formula.symbols() {
-                    program.add(&Tree::symbol(name));
-                }
+                let mut distance = Program::default();
+                distance.add(&(of - to));
                 Test::Limit(by, distance)
             }
         }
@@ -318,8 +315,7 @@ impl<'a, D: Domain, S: Fn(&'static str) -> D::Value> Evaluation<'a, D, S> {
             if name == by {
                 return Tendency::Rational(Germ::variable());
             }
-            let value = self.program.place_of_symbol(name).and_then(|place| self.at(place));
-            let exact = value.and_then(|x| self.domain.exact(x));
+            let exact = self.domain.exact(&(self.symbol)(name));
             exact.map_or(Tendency::Unknown, |x| Tendency::Rational(Germ::constant(x)))
         };
         let (germs, last) = (Evaluation::of(distance, &Germs, symbol), distance.len() - 1);

@@ -60,11 +60,6 @@ impl Program {
         formulas.swap_remove(place)
     }
 
-    /// Returns the index of a symbol.
-    pub fn place_of_symbol(&self, name: &'static str) -> Option<usize> {
-        self.places.get(&Op::Symbol(name)).copied()
-    }
-
     /// Returns the operations, each after its operands, which are indices.
     pub fn ops(&self) -> &[Op<usize>] {
         &self.steps

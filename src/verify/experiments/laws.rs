@@ -3,7 +3,7 @@
 use super::{Experiment, MOST_STEPS, STEPS, Trial, UNITS, check, power_of_two};
 use crate::chapter::{SpringMass, augmented, structure, system};
 use crate::claims::{Case, Var, claims, symbols};
-use crate::eval::{Compiled, Computed, Evaluation, Floats, Instance, Test, Verdict, instances, premises};
+use crate::eval::{Compiled, Computed, Evaluation, Floats, Instance, Test, instances, premises};
 use crate::formula::claim::{PRECISION, SCALES};
 use crate::formula::{Hypothesis, Proposition, Statement};
 use crate::number::tree::{Op, piecewise_ops};
@@ -125,8 +125,8 @@ impl Law {
         let float = |name: &'static str| Some(parameter(name));
         let computed = Computed(self.hypotheses.evaluate(&floats, float));
         let hypotheses = self.hypotheses.evaluate(&computed, symbol);
-        if !matches!(hypotheses.verdict(self.hypotheses.tests()), Verdict::Holds) {
-            return None;
+        for (_, test) in self.hypotheses.tests() {
+            hypotheses.outcome(test)?.ok()?;
         }
         let computed = Computed(self.claim.evaluate(&floats, float));
         let values = self.claim.evaluate(&computed, symbol);
