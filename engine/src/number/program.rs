@@ -16,8 +16,8 @@ use std::collections::HashMap;
 /// let square = &x * &x;
 /// let mut program = Program::default();
 /// let [a, b] = [&square + &square, Tree::one() / &square].map(|formula| program.add(&formula));
-/// let values = program.run(&|_| 2.0, &|op| op.arithmetic());
-/// assert_eq!((values[a], values[b]), (Some(8.0), Some(0.25)));
+/// assert_eq!(program.formula(a), &square + &square);
+/// assert_eq!(program.formula(b), Tree::one() / &square);
 /// assert_eq!(program.len(), 5); // x, x², x² + x², 1 and 1/x²
 /// ```
 #[derive(Clone, Debug, Default)]
@@ -73,24 +73,6 @@ impl Program {
     /// Returns `true` if the program is empty.
     pub fn is_empty(&self) -> bool {
         self.steps.is_empty()
-    }
-
-    /// Returns the value at each index. `apply` evaluates an operation that is not a symbol; the value is `None`
-    /// if it returns `None`, or if an operand is.
-    pub fn run<T>(
-        &self,
-        symbol: &impl Fn(&'static str) -> T,
-        apply: &impl Fn(Op<&T>) -> Option<T>,
-    ) -> Vec<Option<T>> {
-        let mut values: Vec<Option<T>> = Vec::with_capacity(self.steps.len());
-        for step in &self.steps {
-            let operands = step.try_map(|place| values[*place].as_ref());
-            values.push(operands.and_then(|step| match step {
-                Op::Symbol(name) => Some(symbol(name)),
-                step => apply(step),
-            }));
-        }
-        values
     }
 
     /// Specialises the program for repeated runs in which the quantities that `fixed` returns stay the same:
