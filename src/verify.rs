@@ -11,7 +11,6 @@
 //! ```
 
 mod cases;
-mod catch_panic;
 mod checker;
 mod coq;
 mod experiments;
@@ -24,7 +23,6 @@ use crate::claims::{Case, Var, claims, index_of, registry, statements};
 use crate::eval::{Balls, Point, Rationals};
 use crate::formula::{Hypothesis, Statement};
 use crate::number::{Exact, Mpfr, NumberSystem};
-use catch_panic::catch_panic;
 use checker::{Checker, ErasedChecker, Tally};
 pub use coq::coq;
 pub use experiments::{Experiment, Trial, exact_experiments, float_experiments};
@@ -307,7 +305,7 @@ fn tallies(
             .par_iter()
             .map(|(block, given)| {
                 let indices = block * BLOCK..(block * BLOCK).saturating_add(BLOCK).min(options.cases);
-                let cases: Vec<_> = indices.map(|i| sample_case(options.seed, i, given)).collect();
+                let cases: Vec<_> = indices.map(|i| cases::case(options.seed, i, given)).collect();
                 let tallies =
                     checkers.iter().map(|(_, checker)| checker.check(given, wanted, &cases)).collect();
                 progress(done.fetch_add(1, Ordering::Relaxed) + 1, all);
@@ -323,11 +321,6 @@ fn tallies(
         }
     }
     totals
-}
-
-/// Returns a case, or `None` if evaluating a hypothesis panics.
-fn sample_case(seed: u64, index: u64, given: &[Hypothesis]) -> Option<Case<Exact>> {
-    catch_panic(|| cases::case(seed, index, given)).ok().flatten()
 }
 
 /// Returns the row of a proof.

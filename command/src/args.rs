@@ -134,7 +134,8 @@ pub fn parse_positive_u64(text: &str) -> Result<u64, String> {
 impl Number {
     /// Returns the value, rounded once into the scalar of `like`.
     pub fn round<T: ToExact>(&self, name: impl Display, like: &T) -> Result<T, Failure> {
-        like.round_from_exact(&self.value).map_err(|error| invalid(&self.text, name, error))
+        let rounded = like.round_from_exact(&self.value);
+        rounded.map_err(|error| invalid(&self.text, name, format!("{error}; use mpfr:BITS or exact")))
     }
 }
 

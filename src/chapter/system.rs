@@ -69,6 +69,18 @@ impl<T> SpringMass<T> {
         [c, m, g, l, h]
     }
 
+    /// Returns the parameter with this symbol, if it is one.
+    ///
+    /// ```
+    /// # use spring_mass_contact::chapter::SpringMass;
+    /// let system = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
+    /// assert_eq!(["H", "ε"].map(|symbol| system.by_symbol(symbol)), [Some(&1.05), None]);
+    /// ```
+    pub fn by_symbol(&self, symbol: &str) -> Option<&T> {
+        let mut named = SpringMass::SYMBOLS.zip(self.as_ref()).into_array().into_iter();
+        named.find(|(own, _)| *own == symbol).map(|(_, x)| x)
+    }
+
     /// Returns the system of references to the parameters.
     pub fn as_ref(&self) -> SpringMass<&T> {
         let SpringMass { c, m, g, l, h } = self;

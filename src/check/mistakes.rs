@@ -149,11 +149,11 @@ fn value_with<T: PositivePart>(
     constants: &Constants<T>,
     extra: &impl Fn(Op<&T>) -> Option<T>,
 ) -> Option<T> {
-    let SpringMass { c, m, g, l, h } = system;
-    let known = [("c", c), ("m", m), ("g", g), ("l", l), ("H", h)].into_iter();
-    let known = known.chain(constants.penalty.map(|eps| ("ε", eps)));
-    let known: Vec<_> = known.chain(constants.factor.map(|k| ("k", k))).collect();
-    let symbol = |name: &str| known.iter().find(|(own, _)| *own == name).map(|(_, x)| (*x).clone());
+    let symbol = |name: &str| match name {
+        "ε" => constants.penalty.cloned(),
+        "k" => constants.factor.cloned(),
+        name => system.by_symbol(name).cloned(),
+    };
     let all = tree.symbols().into_iter().all(|name| symbol(name).is_some());
     all.then(|| tree.eval(&|name| symbol(name).expect("known"), extra)).flatten()
 }

@@ -194,15 +194,10 @@ impl<'a> Observation<'a> {
             }
             Estimate::Equation(tree) => {
                 let (u, n) = (self.answer.deflection.as_ref()?, self.answer.contact_force.as_ref()?);
-                let SpringMass { c, m, g, l, h } = &self.problem.system;
-                let symbol = |name: &str| match name {
-                    "c" => c.clone(),
-                    "m" => m.clone(),
-                    "g" => g.clone(),
-                    "l" => l.clone(),
-                    "H" => h.clone(),
-                    "u" => u.clone(),
-                    "N" => n.clone(),
+                let symbol = |name: &str| match (name, self.problem.system.by_symbol(name)) {
+                    (_, Some(parameter)) => parameter.clone(),
+                    ("u", None) => u.clone(),
+                    ("N", None) => n.clone(),
                     // k is arbitrary in a formula that is linear in it.
                     _ => self.problem.penalty.clone().unwrap_or_else(Exact::zero),
                 };

@@ -6,25 +6,26 @@ use crate::chapter::system::{gap, reaction};
 use crate::chapter::{contact, lagrange, penalty, rounding, structure, system};
 
 formulas! {
-    "L" (abbreviated) = augmented::functional(system, "ε", "λ", "u");
-    "min L" = augmented::least_value(system, "ε", "λ");
-    "∂L/∂u" = augmented::stationarity(system, "ε", "λ", "u");
-    "λ′" = augmented::update(system, "ε", "λ", "u");
-    "r" = augmented::equilibrium(system, "ε", "λ", "u");
-    "u" = augmented::deflection(system, "ε", "λ");
-    "N" = augmented::contact_force(system, "u");
-    "ρ" (abbreviated) = augmented::contraction(system, "ε");
-    "λ_k" = augmented::multiplier_after(system, "λ₀", "ρᵏ");
-    "p_k" = augmented::penetration_after(system, "ε", "λ₀", "ρᵏ");
-    "u_k" = augmented::deflection_after(system, "ε", "λ₀", "ρᵏ");
-    "" = augmented::harmonic_bound(system, "ε", "k");
-    "" = augmented::recursion(system, "ε", "u_k", "u_{k+1}"), "left" is |(left, _)| left;
-    "" = augmented::recursion(system, "ε", "u_k", "u_{k+1}"), "right" is |(_, right)| right;
-    "L" = augmented::unilateral_functional(system, "ε", "λ", "u");
-    "λ′" = augmented::unilateral_update(system, "ε", "λ", "u");
-    "r" = augmented::unilateral_equilibrium(system, "ε", "λ", "u");
-    "u" = augmented::unilateral_deflection(system, "ε", "λ");
-    "r" = augmented::natural_residual(system, "ε", "λ", "u");
+    |system, x|
+    "L" = augmented::functional(&system, &x("ε"), &x("λ"), &x("u")).abbreviated();
+    "min L" = augmented::least_value(&system, &x("ε"), &x("λ"));
+    "∂L/∂u" = augmented::stationarity(&system, &x("ε"), &x("λ"), &x("u"));
+    "λ′" = augmented::update(&system, &x("ε"), &x("λ"), &x("u"));
+    "r" = augmented::equilibrium(&system, &x("ε"), &x("λ"), &x("u"));
+    "u" = augmented::deflection(&system, &x("ε"), &x("λ"));
+    "N" = augmented::contact_force(&system, &x("u"));
+    "ρ" = augmented::contraction(&system, &x("ε")).abbreviated();
+    "λ_k" = augmented::multiplier_after(&system, &x("λ₀"), &x("ρᵏ"));
+    "p_k" = augmented::penetration_after(&system, &x("ε"), &x("λ₀"), &x("ρᵏ"));
+    "u_k" = augmented::deflection_after(&system, &x("ε"), &x("λ₀"), &x("ρᵏ"));
+    "" = augmented::harmonic_bound(&system, &x("ε"), &x("k"));
+    "" = augmented::recursion(&system, &x("ε"), &x("u_k"), &x("u_{k+1}")) ["left": (left, _) => left];
+    "" = augmented::recursion(&system, &x("ε"), &x("u_k"), &x("u_{k+1}")) ["right": (_, right) => right];
+    "L" = augmented::unilateral_functional(&system, &x("ε"), &x("λ"), &x("u"));
+    "λ′" = augmented::unilateral_update(&system, &x("ε"), &x("λ"), &x("u"));
+    "r" = augmented::unilateral_equilibrium(&system, &x("ε"), &x("λ"), &x("u"));
+    "u" = augmented::unilateral_deflection(&system, &x("ε"), &x("λ"));
+    "r" = augmented::natural_residual(&system, &x("ε"), &x("λ"), &x("u"));
 }
 
 /// One step of (1.16): the next multiplier and its deflection.

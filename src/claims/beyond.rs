@@ -8,12 +8,13 @@ use crate::chapter::{
 };
 
 formulas! {
-    "ε_eff" = beyond::effective_penalty(system, "growth");
-    "λ′" = beyond::relaxed_update(system, "α", "λ", "u");
-    "" = beyond::relaxed_contraction(system, "ε", "α");
-    "d" = beyond::dual_functional(system, "λ");
-    "" = beyond::aitken("λ₀", "λ₁", "λ₂");
-    "W" = beyond::exact_penalty("ε", "p");
+    |system, x|
+    "ε_eff" = beyond::effective_penalty(&system, &x("growth"));
+    "λ′" = beyond::relaxed_update(&system, &x("α"), &x("λ"), &x("u"));
+    "" = beyond::relaxed_contraction(&system, &x("ε"), &x("α"));
+    "d" = beyond::dual_functional(&system, &x("λ"));
+    "" = beyond::aitken(&x("λ₀"), &x("λ₁"), &x("λ₂"));
+    "W" = beyond::exact_penalty(&x("ε"), &x("p"));
 }
 
 /// Returns the entries beyond the chapter.

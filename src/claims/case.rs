@@ -1,46 +1,29 @@
 //! Quantities of claims.
 
 use crate::chapter::SpringMass;
+use crate::formula::claim::{POWER, PRECISION};
 use crate::number::{Dual, Tree};
 use std::sync::LazyLock;
 
 macro_rules! coordinates {
-    ($($Var:ident $field:ident $symbol:literal $text:literal;)*) => {
+    (system { $($Parameter:ident $parameter:ident $of_parameter:literal;)* }
+     $($Var:ident $field:ident $symbol:tt $text:literal;)*) => {
         /// A coordinate of a [`Case`].
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub enum Var {
-            /// Stiffness, in N/m.
-            C,
-            /// Mass, in kg.
-            M,
-            /// Gravity, in m/s².
-            G,
-            /// Free length, in m.
-            L,
-            /// Height of the support above the plane, in m.
-            H,
+            $(#[doc = $of_parameter] $Parameter,)*
             $(#[doc = $text] $Var,)*
         }
 
         impl Var {
             /// All coordinates.
-            pub const ALL: &[Var] = &[Var::C, Var::M, Var::G, Var::L, Var::H, $(Var::$Var),*];
-
-            /// Returns the coordinate with this symbol.
-            pub fn named(symbol: &str) -> Option<Var> {
-                match symbol {
-                    $($symbol => Some(Var::$Var),)*
-                    "c" => Some(Var::C), "m" => Some(Var::M), "g" => Some(Var::G),
-                    "l" => Some(Var::L), "H" => Some(Var::H),
-                    _ => None,
-                }
-            }
+            pub const ALL: &[Var] = &[$(Var::$Parameter,)* $(Var::$Var),*];
 
             /// Returns the symbol in the chapter's notation.
-            pub fn symbol(self) -> &'static str {
+            pub const fn symbol(self) -> &'static str {
                 match self {
+                    $(Var::$Parameter => SpringMass::SYMBOLS.$parameter,)*
                     $(Var::$Var => $symbol,)*
-                    Var::C => "c", Var::M => "m", Var::G => "g", Var::L => "l", Var::H => "H",
                 }
             }
         }
@@ -59,32 +42,36 @@ macro_rules! coordinates {
             /// # Errors
             /// Returns the first error of the function.
             pub fn try_of<E>(mut f: impl FnMut(Var) -> Result<T, E>) -> Result<Self, E> {
-                let (c, m, g) = (f(Var::C)?, f(Var::M)?, f(Var::G)?);
-                let system = SpringMass { c, m, g, l: f(Var::L)?, h: f(Var::H)? };
+                let system = SpringMass { $($parameter: f(Var::$Parameter)?),* };
                 Ok(Case { system, $($field: f(Var::$Var)?),* })
             }
 
             /// Returns a coordinate.
             pub fn get(&self, var: Var) -> &T {
                 match var {
+                    $(Var::$Parameter => &self.system.$parameter,)*
                     $(Var::$Var => &self.$field,)*
-                    Var::C => &self.system.c, Var::M => &self.system.m, Var::G => &self.system.g,
-                    Var::L => &self.system.l, Var::H => &self.system.h,
                 }
             }
 
             /// Returns a mutable reference to a coordinate.
             pub fn get_mut(&mut self, var: Var) -> &mut T {
                 match var {
+                    $(Var::$Parameter => &mut self.system.$parameter,)*
                     $(Var::$Var => &mut self.$field,)*
-                    Var::C => &mut self.system.c, Var::M => &mut self.system.m, Var::G => &mut self.system.g,
-                    Var::L => &mut self.system.l, Var::H => &mut self.system.h,
                 }
             }
         }
     };
 }
 coordinates! {
+    system {
+        C c "Stiffness, in N/m.";
+        M m "Mass, in kg.";
+        G g "Gravity, in m/s².";
+        L l "Free length, in m.";
+        H h "Height of the support above the plane, in m.";
+    }
     U u "u" "A deflection, in m.";
     V v "v" "Another deflection, or the next one, in m; in `later_multiplier` a multiplier, in N.";
     Du du "δu" "A virtual displacement, in m.";
@@ -92,11 +79,18 @@ coordinates! {
     Eps eps "ε" "The penalty, in N/m.";
     Eps4 eps4 "ε₄" "The second coefficient of (1.10), in N/m³.";
     Lambda lambda "λ" "A multiplier, in N.";
-    Q q "q" "The decay ρᵏ of some step k.";
+    Q q POWER "The decay ρᵏ of some step k.";
     K k "k" "A number of steps.";
     T t "t" "A time.";
     Tol tol "tol" "A tolerance, in m.";
-    Bits bits "2ᵖ" "2ᵖ for numbers of p bits.";
+    Bits bits PRECISION "2ᵖ for numbers of p bits.";
+}
+
+impl Var {
+    /// Returns the coordinate with this symbol.
+    pub fn named(symbol: &str) -> Option<Var> {
+        Var::ALL.iter().copied().find(|var| var.symbol() == symbol)
+    }
 }
 
 impl<T> Case<T> {

@@ -6,14 +6,15 @@ use crate::chapter::system::{gap, reaction};
 use crate::chapter::{augmented, structure};
 
 formulas! {
-    "p" (abbreviated) = contact::penetration(system, "u");
-    "r" = contact::equilibrium(system, "u", "N");
-    "" = contact::kkt(system, "u", "N"), "stationarity" is |Kkt { stationarity, .. }| stationarity;
-    "" = contact::kkt(system, "u", "N"), "primal" is |Kkt { primal, .. }| primal;
-    "" = contact::kkt(system, "u", "N"), "dual" is |Kkt { dual, .. }| dual;
-    "" = contact::kkt(system, "u", "N"), "complementarity" is |Kkt { complementarity, .. }| complementarity;
-    "N" = contact::contact_force(system);
-    "u" = contact::deflection(system);
+    |system, x|
+    "p" = contact::penetration(&system, &x("u")).abbreviated();
+    "r" = contact::equilibrium(&system, &x("u"), &x("N"));
+    "" = contact::kkt(&system, &x("u"), &x("N")) ["stationarity": Kkt { stationarity, .. } => stationarity];
+    "" = contact::kkt(&system, &x("u"), &x("N")) ["primal": Kkt { primal, .. } => primal];
+    "" = contact::kkt(&system, &x("u"), &x("N")) ["dual": Kkt { dual, .. } => dual];
+    "" = contact::kkt(&system, &x("u"), &x("N")) ["complementarity": Kkt { complementarity, .. } => complementarity];
+    "N" = contact::contact_force(&system);
+    "u" = contact::deflection(&system);
 }
 
 /// Returns the entries.

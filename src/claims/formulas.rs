@@ -3,99 +3,88 @@
 use super::{augmented, beyond, contact, lagrange, ode, penalty, rounding, structure, system};
 use crate::formula::Formula;
 use crate::number::{Exponential, PositivePart, Tree};
+use std::cell::RefCell;
 
-/// Expands an argument of a function: `system` is the five parameters, a name is a quantity, a name in
-/// brackets is a list of one.
-macro_rules! argument {
-    ($own:ident $symbol:ident system) => {
-        &$own
-    };
-    ($own:ident $symbol:ident $name:literal) => {
-        &$symbol($name)
-    };
-    ($own:ident $symbol:ident [$name:literal]) => {
-        &[$symbol($name)]
-    };
-}
-
-macro_rules! names {
-    ([$($done:literal)*]) => { vec![$($done),*] };
-    ([$($done:literal)*] system $($rest:tt)*) => { $crate::claims::formulas::names!([$($done)*] $($rest)*) };
-    ([$($done:literal)*] [$name:literal] $($rest:tt)*) => {
-        $crate::claims::formulas::names!([$($done)* $name] $($rest)*)
-    };
-    ([$($done:literal)*] $name:literal $($rest:tt)*) => {
-        $crate::claims::formulas::names!([$($done)* $name] $($rest)*)
-    };
-}
-
-/// Returns whether a symbol replaces its formula; another word than `abbreviated` does not compile.
-macro_rules! abbreviated {
-    () => {
-        false
-    };
-    (abbreviated) => {
-        true
-    };
-}
-
-/// Defines the formulas of a section: `"p" (abbreviated) = contact::penetration(system, "u");`.
+/// Defines the formulas of a section: `"p" = contact::penetration(&system, &x("u")).abbreviated();`, where
+/// `system` is the five parameters and `x` returns a quantity.
 ///
-/// `(abbreviated)` after a symbol lets formulas use the symbol for the quantity. A value without a symbol is
-/// a residual, a side of an equation, or has no name in the chapter. Each `is` denotes one of several values.
+/// A value without a symbol is a residual, a side of an equation, or has no name in the chapter. A value that
+/// is one of several has a name and a pattern.
 macro_rules! formulas {
-    ($($symbol:literal $(($abbreviated:ident))? = $module:ident::$name:ident($($argument:tt),*)
-       $(, $part:literal is |$pattern:pat_param| $value:expr)? $(, written $written:literal)?;)*) => {
-        /// Returns the values of the section's functions in a number system.
-        pub(super) fn computed<T>(symbol: &impl Fn(&'static str) -> T) -> Vec<T>
+    (|$system:ident, $x:ident|
+     $($symbol:literal = $module:ident::$name:ident($($argument:expr),*)
+       $([$part:literal: $pattern:pat_param => $value:expr])? $(.$with:ident($($of:literal)?))*;)*) => {
+        /// Returns the section's functions with their values in a number system.
+        #[allow(unused_variables, reason = "some functions have no arguments but the parameters")]
+        pub(super) fn formulas<T>(symbol: &impl Fn(&'static str) -> T) -> Vec<crate::claims::formulas::Value<T>>
         where
             T: crate::number::PositivePart + crate::number::Exponential,
         {
-            let own = crate::chapter::SpringMass { c: "c", m: "m", g: "g", l: "l", h: "H" };
-            let own = own.map(|name| symbol(name));
+            let $system = crate::chapter::SpringMass::SYMBOLS.map(|name| symbol(name));
             vec![$({
-                let value = $module::$name($($crate::claims::formulas::argument!(own symbol $argument)),*);
+                let arguments = std::cell::RefCell::default();
+                let $x = |name| crate::claims::formulas::argument(name, symbol, &arguments);
+                let value = $module::$name($($argument),*);
                 $(let $pattern = value; let value = $value;)?
-                value
-            }),*]
-        }
-
-        /// Returns the section's functions with their recorded formulas.
-        pub(super) fn formulas(computed: Vec<crate::number::Tree>) -> Vec<crate::formula::Formula> {
-            let mut trees = computed.into_iter();
-            vec![$(crate::formula::Formula {
-                path: concat!(stringify!($module), "::", stringify!($name)),
-                part: None$(.or(Some($part)))?,
-                symbol: $symbol,
-                abbreviated: $crate::claims::formulas::abbreviated!($($abbreviated)?),
-                arguments: $crate::claims::formulas::names!([] $($argument)*),
-                template: { let written = "«»"; $(let _ = written; let written = $written;)? written },
-                tree: trees.next().expect("a value each"),
+                crate::claims::formulas::Value {
+                    value,
+                    arguments: arguments.into_inner(),
+                    formula: |arguments, tree| {
+                        let path = concat!(stringify!($module), "::", stringify!($name));
+                        let formula = crate::formula::Formula::new(path, $symbol, arguments, tree);
+                        formula$(.part($part))?$(.$with($($of)?))*
+                    },
+                }
             }),*]
         }
     };
 }
-pub(super) use {abbreviated, argument, formulas, names};
+pub(super) use formulas;
 
-macro_rules! sections {
-    ($($section:ident)*) => {
-        /// Returns the value of each function of the [`registry`](super::registry) in a number system, in its
-        /// order, computed by the functions themselves and not by their records.
-        pub fn computed<T: PositivePart + Exponential>(symbol: &impl Fn(&'static str) -> T) -> Vec<T> {
-            let mut all = Vec::new();
-            $(all.extend($section::computed(symbol));)*
-            all
-        }
-
-        /// Returns every function of the chapter that has a formula, each after those it calls.
-        pub(super) fn recorded() -> Vec<Formula> {
-            let mut all = Vec::new();
-            $(all.extend($section::formulas($section::computed(&|name| Tree::symbol(name))));)*
-            all
-        }
-    };
+/// A value of a function of the chapter.
+pub(super) struct Value<T> {
+    pub(super) value: T,
+    /// Names of the arguments, except for the five parameters.
+    pub(super) arguments: Vec<&'static str>,
+    /// Returns the record of the function for its arguments and its formula.
+    pub(super) formula: fn(&[&'static str], Tree) -> Formula,
 }
-sections! { system structure contact lagrange penalty augmented ode rounding beyond }
+
+/// Returns the value of an argument, and adds its name to those of the function.
+pub(super) fn argument<T>(
+    name: &'static str,
+    symbol: &impl Fn(&'static str) -> T,
+    names: &RefCell<Vec<&'static str>>,
+) -> T {
+    names.borrow_mut().push(name);
+    symbol(name)
+}
+
+/// Returns the functions of all sections with their values in a number system, each after those it calls.
+fn values<T: PositivePart + Exponential>(symbol: &impl Fn(&'static str) -> T) -> Vec<Value<T>> {
+    let mut all = system::formulas(symbol);
+    all.extend(structure::formulas(symbol));
+    all.extend(contact::formulas(symbol));
+    all.extend(lagrange::formulas(symbol));
+    all.extend(penalty::formulas(symbol));
+    all.extend(augmented::formulas(symbol));
+    all.extend(ode::formulas(symbol));
+    all.extend(rounding::formulas(symbol));
+    all.extend(beyond::formulas(symbol));
+    all
+}
+
+/// Returns the value of each function of the [`registry`](super::registry) in a number system, in its order,
+/// computed by the functions themselves and not by their records.
+pub fn computed<T: PositivePart + Exponential>(symbol: &impl Fn(&'static str) -> T) -> Vec<T> {
+    values(symbol).into_iter().map(|of| of.value).collect()
+}
+
+/// Returns every function of the chapter that has a formula, each after those it calls.
+pub(super) fn recorded() -> Vec<Formula> {
+    let all = values(&|name| Tree::symbol(name)).into_iter();
+    all.map(|of| (of.formula)(&of.arguments, of.value)).collect()
+}
 
 #[cfg(test)]
 mod tests {
@@ -122,7 +111,7 @@ mod tests {
 
     #[test]
     fn the_argument_of_a_call_is_found() {
-        let own = SpringMass { c: "c", m: "m", g: "g", l: "l", h: "H" }.map(|name| Tree::symbol(name));
+        let own = SpringMass::SYMBOLS.map(|name| Tree::symbol(name));
         let argument = system::gap(&own) * Tree::symbol("x");
         let call = registry().call(&contact::penetration(&own, &argument)).unwrap();
         assert_eq!((call.formula.path, call.arguments), ("contact::penetration", vec![argument]));
@@ -130,7 +119,7 @@ mod tests {
 
     #[test]
     fn a_call_omits_arguments_that_its_value_ignores() {
-        let own = SpringMass { c: "c", m: "m", g: "g", l: "l", h: "H" }.map(|name| Tree::symbol(name));
+        let own = SpringMass::SYMBOLS.map(|name| Tree::symbol(name));
         let [u, n] = ["u", "n"].map(|name| Tree::symbol(name));
         let call = registry().call(&contact::kkt(&own, &u, &n).dual).unwrap();
         assert_eq!((call.formula.name().as_str(), call.arguments), ("contact::kkt.dual", vec![n]));
@@ -138,7 +127,7 @@ mod tests {
 
     #[test]
     fn a_returned_value_is_a_call_of_several_functions() {
-        let own = SpringMass { c: "c", m: "m", g: "g", l: "l", h: "H" }.map(|name| Tree::symbol(name));
+        let own = SpringMass::SYMBOLS.map(|name| Tree::symbol(name));
         let names = |tree: &Tree| registry().calls(tree).map(|call| call.formula.name()).collect::<Vec<_>>();
         assert_eq!(names(&system::gap(&own)), ["system::gap", "lagrange::deflection"]);
         let [eps, u, t] = ["ε", "x", "t"].map(|name| Tree::symbol(name));
@@ -181,7 +170,7 @@ mod tests {
 
     #[test]
     fn a_call_lists_arguments_that_differ_from_its_definition() {
-        let own = SpringMass { c: "c", m: "m", g: "g", l: "l", h: "H" }.map(|name| Tree::symbol(name));
+        let own = SpringMass::SYMBOLS.map(|name| Tree::symbol(name));
         let [u, eps, lambda] = ["u", "ε", "λ"].map(|name| Tree::symbol(name));
         let (gap, r) = (system::gap(&own), system::reaction(&own));
         for (tree, text) in [

@@ -5,11 +5,12 @@ use crate::chapter::contact;
 use crate::chapter::lagrange::{self, *};
 
 formulas! {
-    "𝓛" (abbreviated) = lagrange::functional(system, "u", "λ");
-    "" = lagrange::residual(system, "u", "λ"), "equilibrium" is |[equilibrium, _]| equilibrium;
-    "" = lagrange::residual(system, "u", "λ"), "constraint" is |[_, constraint]| constraint;
-    "u" = lagrange::deflection(system);
-    "λ" = lagrange::multiplier(system);
+    |system, x|
+    "𝓛" = lagrange::functional(&system, &x("u"), &x("λ")).abbreviated();
+    "" = lagrange::residual(&system, &x("u"), &x("λ")) ["equilibrium": [equilibrium, _] => equilibrium];
+    "" = lagrange::residual(&system, &x("u"), &x("λ")) ["constraint": [_, constraint] => constraint];
+    "u" = lagrange::deflection(&system);
+    "λ" = lagrange::multiplier(&system);
 }
 
 /// Returns the entries.

@@ -310,6 +310,10 @@ pub(super) fn entries() -> Vec<Entry> {
                 augmented::contact_force(s, u),
                 lambda + penalty::contact_force(s, eps, u),
             )]),
+        Entry::new("note 7", "One letter with two meanings")
+            .states("The root of (1.26) is called the rate; λ is the multiplier")
+            .functions(["ode::rate", "ode::characteristic"])
+            .follows_from(["1.26"]),
         Entry::new("note 8", "Not in every precision")
             .states("Rounding stops the augmentation at a floor of about η (|H| + R/ε)")
             .assuming([penalty])

@@ -160,7 +160,7 @@ mod tests {
             "theorem",
             "theorem 1.13",
             "note 1.13",
-            "note 7",
+            "note 10",
             "eq note 4",
             "eq",
             "section 1.3.3",

@@ -5,19 +5,20 @@ use crate::chapter::ode::{self, *};
 use crate::chapter::{augmented, contact, system::gap};
 
 formulas! {
-    "" = ode::difference_equation(system, "ε", "u_t", "u_{t+1}"), "left" is |(left, _)| left;
-    "" = ode::difference_equation(system, "ε", "u_t", "u_{t+1}"), "right" is |(_, right)| right;
-    "" = ode::operator(system, "ε", "u", "v");
-    "" = ode::right_side(system, "ε");
-    "u̇" = ode::velocity(system, "ε", "u");
-    "u" = ode::superposition("u_h", "u_nh");
-    "" = ode::characteristic(system, "ε", "rate");
-    "rate" = ode::rate(system, "ε");
-    "u_h" = ode::homogeneous(system, "ε", "A", "t");
-    "u_nh" = ode::particular(system);
-    "u" = ode::general(system, "ε", "A", "t");
-    "A" = ode::integration_constant(system, "u₀");
-    "u" = ode::solution(system, "ε", "u₀", "t");
+    |system, x|
+    "" = ode::difference_equation(&system, &x("ε"), &x("u_t"), &x("u_{t+1}")) ["left": (left, _) => left];
+    "" = ode::difference_equation(&system, &x("ε"), &x("u_t"), &x("u_{t+1}")) ["right": (_, right) => right];
+    "" = ode::operator(&system, &x("ε"), &x("u"), &x("v"));
+    "" = ode::right_side(&system, &x("ε"));
+    "u̇" = ode::velocity(&system, &x("ε"), &x("u"));
+    "u" = ode::superposition(&x("u_h"), &x("u_nh"));
+    "" = ode::characteristic(&system, &x("ε"), &x("rate"));
+    "rate" = ode::rate(&system, &x("ε"));
+    "u_h" = ode::homogeneous(&system, &x("ε"), &x("A"), &x("t"));
+    "u_nh" = ode::particular(&system);
+    "u" = ode::general(&system, &x("ε"), &x("A"), &x("t"));
+    "A" = ode::integration_constant(&system, &x("u₀"));
+    "u" = ode::solution(&system, &x("ε"), &x("u₀"), &x("t"));
 }
 
 /// Returns the entries.

@@ -8,21 +8,22 @@ use crate::chapter::{
 };
 
 formulas! {
-    "W" = penalty::functional("ε", "p");
-    "Π_p" (abbreviated) = penalty::energy(system, "ε", "u");
-    "" = penalty::total_stiffness(system, "ε");
-    "min Π_p" = penalty::least_energy(system, "ε");
-    "W" = penalty::series("ε", ["ε₄"], "p"), written "«» + …";
-    "W′" (abbreviated) = penalty::series_force("ε", ["ε₄"], "p"), written "∂W/∂p";
-    "r" = penalty::series_residual(system, "ε", ["ε₄"], "p");
-    "r" = penalty::residual(system, "ε", "u");
-    "N" = penalty::contact_force(system, "ε", "u");
-    "u" = penalty::deflection(system, "ε");
-    "u" = penalty::deflection_divided(system, "ε");
-    "p" = penalty::penetration(system, "ε");
-    "N" = penalty::contact_force_at_equilibrium(system, "ε");
-    "ε" = penalty::penalty_for(system, "tol");
-    "u" = penalty::unilateral_deflection(system, "ε");
+    |system, x|
+    "W" = penalty::functional(&x("ε"), &x("p"));
+    "Π_p" = penalty::energy(&system, &x("ε"), &x("u")).abbreviated();
+    "" = penalty::total_stiffness(&system, &x("ε"));
+    "min Π_p" = penalty::least_energy(&system, &x("ε"));
+    "W" = penalty::series(&x("ε"), &[x("ε₄")], &x("p")).written("«» + …");
+    "W′" = penalty::series_force(&x("ε"), &[x("ε₄")], &x("p")).abbreviated().written("∂W/∂p");
+    "r" = penalty::series_residual(&system, &x("ε"), &[x("ε₄")], &x("p"));
+    "r" = penalty::residual(&system, &x("ε"), &x("u"));
+    "N" = penalty::contact_force(&system, &x("ε"), &x("u"));
+    "u" = penalty::deflection(&system, &x("ε"));
+    "u" = penalty::deflection_divided(&system, &x("ε"));
+    "p" = penalty::penetration(&system, &x("ε"));
+    "N" = penalty::contact_force_at_equilibrium(&system, &x("ε"));
+    "ε" = penalty::penalty_for(&system, &x("tol"));
+    "u" = penalty::unilateral_deflection(&system, &x("ε"));
 }
 
 /// Returns the entries.

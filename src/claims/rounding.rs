@@ -4,14 +4,15 @@ use super::prelude::*;
 use crate::chapter::rounding;
 
 formulas! {
-    "η" (abbreviated) = rounding::unit_roundoff("2ᵖ");
-    "" = rounding::deflection_error(system, "ε", "2ᵖ");
-    "" = rounding::penalty_force_error(system, "ε", "2ᵖ");
-    "" = rounding::fixed_point_error(system, "ε", "λ", "2ᵖ");
-    "F" (abbreviated) = rounding::floor_scale(system, "ε", "2ᵖ");
-    "" = rounding::penetration_drift(system, "ε", "2ᵖ");
-    "" = rounding::multiplier_drift(system, "ε", "2ᵖ");
-    "" = rounding::best_compliance_squared(system, "2ᵖ");
+    |system, x|
+    "η" = rounding::unit_roundoff(&x("2ᵖ")).abbreviated();
+    "" = rounding::deflection_error(&system, &x("ε"), &x("2ᵖ"));
+    "" = rounding::penalty_force_error(&system, &x("ε"), &x("2ᵖ"));
+    "" = rounding::fixed_point_error(&system, &x("ε"), &x("λ"), &x("2ᵖ"));
+    "F" = rounding::floor_scale(&system, &x("ε"), &x("2ᵖ")).abbreviated();
+    "" = rounding::penetration_drift(&system, &x("ε"), &x("2ᵖ"));
+    "" = rounding::multiplier_drift(&system, &x("ε"), &x("2ᵖ"));
+    "" = rounding::best_compliance_squared(&system, &x("2ᵖ"));
 }
 
 /// Returns the unit roundoff.

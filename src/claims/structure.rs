@@ -5,13 +5,14 @@ use crate::chapter::structure::{self, *};
 use crate::chapter::system;
 
 formulas! {
-    "" = structure::spring_force(system, "u");
-    "r" = structure::residual(system, "u");
-    "u" = structure::deflection(system);
-    "δW" = structure::virtual_work(system, "u", "δu");
-    "Π" (abbreviated) = structure::potential_energy(system, "u");
-    "δΠ" = structure::first_variation(system, "u", "δu"), written "δu ∂Π/∂u";
-    "min Π" = structure::least_energy(system);
+    |system, x|
+    "" = structure::spring_force(&system, &x("u"));
+    "r" = structure::residual(&system, &x("u"));
+    "u" = structure::deflection(&system);
+    "δW" = structure::virtual_work(&system, &x("u"), &x("δu"));
+    "Π" = structure::potential_energy(&system, &x("u")).abbreviated();
+    "δΠ" = structure::first_variation(&system, &x("u"), &x("δu")).written("δu ∂Π/∂u");
+    "min Π" = structure::least_energy(&system);
 }
 
 /// Returns the entries.

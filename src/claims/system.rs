@@ -4,9 +4,10 @@ use super::prelude::*;
 use crate::chapter::system;
 
 formulas! {
-    "Δ" (abbreviated) = system::gap(system);
-    "" = system::weight(system);
-    "R" (abbreviated) = system::reaction(system);
+    |system, x|
+    "Δ" = system::gap(&system).abbreviated();
+    "" = system::weight(&system);
+    "R" = system::reaction(&system).abbreviated();
 }
 
 /// Returns the entries.

@@ -203,7 +203,7 @@ impl Record {
     }
 
     fn new(plane: Plane) -> Self {
-        let system = SpringMass { c: "c", m: "m", g: "g", l: "l", h: "H" }.map(|name| Tree::symbol(name));
+        let system = SpringMass::SYMBOLS.map(|name| Tree::symbol(name));
         let [penalty, lambda] = ["ε", "λ"].map(|name| Tree::symbol(name));
         let step = Step::of(plane, &system, &penalty, &lambda);
         let mut program = Program::default();
@@ -222,14 +222,5 @@ impl Record {
 
 /// Returns the value of a symbol, or `None` for λ, which varies.
 fn known<T: Clone>(name: &str, system: &SpringMass<T>, penalty: &T) -> Option<T> {
-    let number = match name {
-        "c" => &system.c,
-        "m" => &system.m,
-        "g" => &system.g,
-        "l" => &system.l,
-        "H" => &system.h,
-        "ε" => penalty,
-        _ => return None,
-    };
-    Some(number.clone())
+    if name == "ε" { Some(penalty.clone()) } else { system.by_symbol(name).cloned() }
 }

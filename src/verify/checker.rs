@@ -1,6 +1,5 @@
 //! Checks of claims in one number system.
 
-use super::catch_panic::catch_panic;
 use super::experiments::{Experiment, Trial, exact_experiments, float_experiments};
 use super::{Row, Status};
 use crate::claims::Case;
@@ -10,7 +9,9 @@ use crate::formula::{Hypothesis, Proposition, Statement};
 use crate::number::{Ball, Exact, Exponential, Mpfr, NumberSystem, Program, Real, ToExact};
 use crate::solver::Scalar;
 use num_traits::Zero;
+use std::any::Any;
 use std::borrow::Cow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Identification and hypotheses of a claim in any number system.
 #[derive(Clone)]
@@ -62,9 +63,11 @@ impl Tally {
         }
     }
 
+    /// Tries an experiment, whose panic is a failure: a division of rationals by zero, or code that expects right
+    /// formulas. It only computes, so that no state is left inconsistent.
     fn try_experiment<T>(&mut self, case: &Case<Exact>, experiment: &Experiment<T>, computed: &Case<T>) {
-        match catch_panic(|| (experiment.check)(computed)) {
-            Err(reason) => self.decide(case, false, Some(reason)),
+        match catch_unwind(AssertUnwindSafe(|| (experiment.check)(computed))) {
+            Err(panic) => self.decide(case, false, Some(message(&*panic))),
             Ok(Trial::Undecided) => self.skip(),
             Ok(Trial::Decided(holds)) => self.decide(case, holds, None),
             Ok(Trial::Within { error, bound }) => {
@@ -119,6 +122,13 @@ impl Tally {
             counterexample,
         }
     }
+}
+
+/// Returns the message of a panic.
+fn message(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().copied();
+    let text = text.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
+    text.unwrap_or("it panics").to_string()
 }
 
 /// Number system in which claims are checked.

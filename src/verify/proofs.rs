@@ -11,7 +11,6 @@ use crate::proof::mutation::{
 };
 use crate::proof::render::ProofPrinter;
 use crate::proof::{Counterexample, Proof, prove, refute};
-use crate::verify::catch_panic::catch_panic;
 use rayon::prelude::*;
 use std::time::{Duration, Instant};
 
@@ -36,14 +35,15 @@ pub enum ProofOutcome {
 }
 
 impl ProofAttempt {
-    /// Proves a statement, or tries to refute it. A statement whose proof panics is not proved.
+    /// Proves a statement, or tries to refute it.
     pub fn of(statement: Statement) -> Self {
         let start = Instant::now();
-        let none = |reason| ProofOutcome::None(reason, catch_panic(|| refute(&statement)).ok().flatten());
-        let answer = match catch_panic(|| prove(&statement)) {
-            Ok(Ok(proof)) => ProofOutcome::Proof(proof.into()),
-            Ok(Err(reason)) => none(ProofPrinter::new(registry()).describe(&statement, &reason)),
-            Err(panic) => none(panic),
+        let answer = match prove(&statement) {
+            Ok(proof) => ProofOutcome::Proof(proof.into()),
+            Err(error) => {
+                let reason = ProofPrinter::new(registry()).describe(&statement, &error);
+                ProofOutcome::None(reason, refute(&statement))
+            }
         };
         ProofAttempt { statement, answer, time: start.elapsed() }
     }

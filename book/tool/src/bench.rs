@@ -63,7 +63,7 @@ pub fn functions<T: PositivePart>(
 /// # Ok::<(), anyhow::Error>(())
 /// ```
 pub fn formulas() -> Result<String> {
-    let system = SpringMass { c: "c", m: "m", g: "g", l: "l", h: "H" }.map(|name| Tree::symbol(name));
+    let system = SpringMass::SYMBOLS.map(|name| Tree::symbol(name));
     let [eps, lambda, u, n] = ["eps", "lambda", "u", "n"].map(|name| Tree::symbol(name));
     let mut script = String::from("const formulas = K => ({\n");
     for (name, tree) in functions(&system, &eps, &lambda, &u, &n) {

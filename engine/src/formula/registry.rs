@@ -330,6 +330,16 @@ impl Formula {
         Formula { abbreviated: true, ..self }
     }
 
+    /// Makes it one of several values, with this name.
+    pub fn part(self, part: &'static str) -> Self {
+        Formula { part: Some(part), ..self }
+    }
+
+    /// Sets the text around the formula, see [`template`](Formula::template).
+    pub fn written(self, template: &'static str) -> Self {
+        Formula { template, ..self }
+    }
+
     /// Returns the path with the part: `lens::residual.image`.
     pub fn name(&self) -> String {
         self.part.map_or(self.path.to_string(), |part| format!("{}.{part}", self.path))

@@ -36,7 +36,7 @@ fn every_mutation_makes_a_claim_fail_unless_it_is_equivalent() {
     let claims = || claims().filter(|claim| !claim.contains_rounding());
     for claim in claims() {
         let cases =
-            || (0..CASES).map(|i| super::super::sample_case(1, i, claim.stated_hypotheses())).collect();
+            || (0..CASES).map(|i| super::super::cases::case(1, i, claim.stated_hypotheses())).collect();
         drawn
             .entry(format!("{:?}", claim.stated_hypotheses()))
             .or_insert_with(|| (claim.stated_hypotheses().to_vec(), cases()));

@@ -33,15 +33,15 @@ pub enum ParseError {
 #[non_exhaustive]
 pub enum RangeError {
     /// The number is larger than the largest float.
-    #[error("overflows {scalar}; use mpfr:BITS or exact")]
+    #[error("overflows {scalar}")]
     Overflow {
-        /// Name of the scalar on the command line.
+        /// Name of the number system.
         scalar: &'static str,
     },
     /// The number is nonzero and rounds to zero.
-    #[error("is not zero but would round to zero in {scalar}; use mpfr:BITS or exact")]
+    #[error("is not zero but would round to zero in {scalar}")]
     Underflow {
-        /// Name of the scalar on the command line.
+        /// Name of the number system.
         scalar: &'static str,
     },
 }

@@ -33,7 +33,7 @@ pub struct Ratio {
 impl FromIterator<(Monomial, Number)> for Poly {
     fn from_iter<I: IntoIterator<Item = (Monomial, Number)>>(terms: I) -> Self {
         let mut terms: Vec<_> =
-            terms.into_iter().inspect(|(m, _)| effort::spend(1 + m.powers().len())).collect();
+            terms.into_iter().take_while(|(m, _)| effort::spend(1 + m.powers().len())).collect();
         // Terms of sums and products come in sorted runs, which this sort merges.
         terms.sort_by(|(m, _), (n, _)| m.cmp(n));
         terms.dedup_by(|(m, q), (n, sum)| {
@@ -81,6 +81,7 @@ impl Poly {
     pub fn exponential(exponent: Ratio) -> Self {
         if exponent.nesting() >= MAX_NESTING {
             effort::exceed();
+            return Poly::zero();
         }
         let exponent = Some(exponent).filter(|e| !e.is_zero()).map(Arc::new);
         Monomial { exponent, ..Monomial::one() }.into()
@@ -174,7 +175,9 @@ impl Poly {
                 continue;
             }
             let (m, q) = (m.over(leading)?, q * &inverse);
-            effort::spend(others.iter().map(|(n, _)| 1 + n.powers().len() + m.powers().len()).sum());
+            if !effort::spend(others.iter().map(|(n, _)| 1 + n.powers().len() + m.powers().len()).sum()) {
+                return None;
+            }
             for (dm, dq) in others {
                 let remainder = rest.entry(dm.times(&m)).or_insert_with(|| 0.into());
                 *remainder = &*remainder - dq * &q;

@@ -1,46 +1,36 @@
 //! A bound on the effort of a proof.
 //!
 //! The size of a polynomial cannot be predicted from the formula. So arithmetic counts the terms that it
-//! processes, and above [`MAX_EFFORT`] it unwinds to where the count began; the partial results are
-//! discarded.
+//! processes. Above [`MAX_EFFORT`] it returns polynomials with too few terms, so that the proof ends soon, and
+//! [`bounded`] discards the result.
 
 use std::cell::Cell;
-use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
 /// Maximum number of terms, and of powers in them, that arithmetic processes in one proof; a coefficient of
 /// n words counts as n/8 terms.
 pub const MAX_EFFORT: usize = 20_000_000;
 
-struct Exceeded;
-
 thread_local! {
-    /// The number of terms that may still be processed.
-    static REST: Cell<usize> = const { Cell::new(usize::MAX) };
+    /// The number of terms that may still be processed; `None` after it was exceeded.
+    static REST: Cell<Option<usize>> = const { Cell::new(Some(usize::MAX)) };
 }
 
 /// Returns the value of `f`, or `None` if its arithmetic exceeds [`MAX_EFFORT`].
 pub fn bounded<T>(f: impl FnOnce() -> T) -> Option<T> {
-    let before = REST.replace(MAX_EFFORT);
-    let value = catch_unwind(AssertUnwindSafe(f));
-    REST.set(before);
-    match value {
-        Ok(value) => Some(value),
-        Err(exceeded) if exceeded.is::<Exceeded>() => None,
-        Err(panic) => resume_unwind(panic),
-    }
+    let before = REST.replace(Some(MAX_EFFORT));
+    let value = f();
+    REST.replace(before).map(|_| value)
 }
 
-/// Counts terms that are about to be processed.
-pub fn spend(terms: usize) {
-    match REST.get().checked_sub(terms) {
-        Some(rest) => REST.set(rest),
-        None => exceed(),
-    }
+/// Counts terms that are about to be processed. Returns `false` if there are too many.
+pub fn spend(terms: usize) -> bool {
+    REST.set(REST.get().and_then(|rest| rest.checked_sub(terms)));
+    REST.get().is_some()
 }
 
-/// Unwinds to the enclosing call of [`bounded`].
-pub fn exceed() -> ! {
-    resume_unwind(Box::new(Exceeded))
+/// Ends the proof in progress, if there is one.
+pub fn exceed() {
+    spend(MAX_EFFORT + 1);
 }
 
 #[cfg(test)]
@@ -51,14 +41,14 @@ mod tests {
 
     #[test]
     fn effort_is_bounded_separately_for_each_proof() {
-        let spend_all = || bounded(|| (0..MAX_EFFORT / 10).for_each(|_| spend(10)));
-        assert!(spend_all().is_some() && spend_all().is_some());
+        let spend_all = || bounded(|| (0..MAX_EFFORT / 10).all(|_| spend(10)));
+        assert!(spend_all() == Some(true) && spend_all() == Some(true));
         assert!(bounded(|| (spend(MAX_EFFORT), spend(1))).is_none());
-        assert!(bounded(|| spend(usize::MAX)).is_none());
+        assert!(bounded(|| (spend(MAX_EFFORT + 1), spend(0))).is_none());
+        assert!(bounded(exceed).is_none());
         // Outside, effort is unbounded, also after a bound was exceeded.
-        spend(MAX_EFFORT + 1);
-        assert!(catch_unwind(|| bounded(|| panic!("of another kind"))).is_err());
-        spend(MAX_EFFORT + 1);
+        exceed();
+        assert!(spend(MAX_EFFORT + 1));
     }
 
     #[test]
@@ -75,7 +65,7 @@ mod tests {
             bounded(|| {
                 f();
                 REST.get()
-            })
+            })?
         };
         // All terms except 1 have one power.
         let [a, b] = [sum(20), sum(30)];

@@ -95,7 +95,10 @@ impl Monomial {
             {
                 others = rest;
                 if x == y {
-                    sum = sum.checked_add(*m).filter(|n| *n <= MAX_POWER).unwrap_or_else(|| effort::exceed());
+                    sum = sum.saturating_add(*m);
+                    if sum > MAX_POWER {
+                        effort::exceed();
+                    }
                 } else {
                     powers.push((*y, *m));
                 }

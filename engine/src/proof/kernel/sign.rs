@@ -299,8 +299,8 @@ fn numerator(of: &Ratio, known: &Arc<SignEnv>) -> Option<Poly> {
 /// They follow from xᵏ = (a − (1 − a))ᵏ and, for those of lower degree, from 1 = a + (1 − a).
 fn bernstein(of: &Poly, x: Symbol) -> Vec<Poly> {
     let zero = Poly::zero();
-    (0..=of.degree(x)).fold(Vec::new(), |sums: Vec<Poly>, k| {
-        effort::spend(1 + k as usize);
+    let powers = (0..=of.degree(x)).take_while(|k| effort::spend(1 + *k as usize));
+    powers.fold(Vec::new(), |sums: Vec<Poly>, k| {
         let coefficient = of.coefficient(x, k);
         let shifted = iter::once(&zero).chain(&sums);
         let sums = sums.iter().chain([&zero]).zip(shifted).zip(0..);

@@ -60,7 +60,7 @@ impl<'a> Translator<'a> {
         if divisor.is_zero() {
             return Err(ProofError::PossibleZeroDivisor(tree.clone(), divisor));
         }
-        effort::spend(self.divisors.len().saturating_mul(tree.size() as usize));
+        require_effort(self.divisors.len().saturating_mul(tree.size() as usize))?;
         if !divisor.is_number() && self.divisors.iter().all(|(known, _)| known != tree) {
             self.collect_factors(tree)?;
             let value = self.context.reduce(&divisor);
@@ -168,12 +168,17 @@ impl<'a> Translator<'a> {
             .sign_by_retained(value.clone(), &self.factors)
             .ok_or(ProofError::UndecidedBranch(value))?;
         let is_first = signed.sign().implies(Sign::NonNegative);
-        effort::spend(self.branches.len().saturating_mul(bracket.size() as usize));
+        require_effort(self.branches.len().saturating_mul(bracket.size() as usize))?;
         if self.branches.iter().all(|(known, ..)| known != bracket) {
             self.branches.push((bracket.clone(), if is_first { first } else { second }.clone(), signed));
         }
         Ok(if is_first { a } else { b })
     }
+}
+
+/// Counts effort of other operations than arithmetic.
+fn require_effort(terms: usize) -> Result<(), ProofError> {
+    if effort::spend(terms) { Ok(()) } else { Err(ProofError::TooLarge("its proof", effort::MAX_EFFORT)) }
 }
 
 fn is_scale(x: algebra::Symbol) -> bool {
