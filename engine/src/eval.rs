@@ -15,10 +15,11 @@ mod statement;
 mod tests;
 
 pub use computed::{Computed, Floats};
-pub use domain::{Balls, Domain, Rationals, Value};
+pub use domain::{Balls, Domain, Quantity, Rationals, Value};
 pub use sample::{Coordinates, Point, adjust, constructed_points, first_integer_points, integer_points};
 pub use shrink::Counterexample;
 pub(crate) use shrink::{shrink, with_divisor_zero};
 pub use statement::{
-    Compiled, Evaluation, Failure, Instance, Test, Verdict, check, independent_symbols, instances, premises,
+    Compiled, Evaluation, Failure, Instance, Test, UNFOLDED_MEMBERS, Verdict, check, independent_symbols,
+    instances, premises,
 };

@@ -3,14 +3,17 @@
 use super::experiments::{Experiment, Trial, exact_experiments, float_experiments};
 use super::{Row, Status};
 use crate::claims::Case;
-use crate::eval::{Balls, Domain, Evaluation, Failure, Instance, Rationals, Test, Value, Verdict, instances};
+use crate::eval::{
+    Balls, Domain, Evaluation, Failure, Instance, Quantity, Rationals, Test, UNFOLDED_MEMBERS, Value,
+    Verdict, instances,
+};
 use crate::formula::statement::Role;
 use crate::formula::{Hypothesis, Proposition, Statement};
 use crate::number::{Ball, Exact, Exponential, Mpfr, NumberSystem, Program, Real, ToExact};
 use crate::solver::Scalar;
 use num_traits::Zero;
 use std::any::Any;
-use std::borrow::Cow;
+use std::fmt::Debug;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Identification and hypotheses of a claim in any number system.
@@ -81,8 +84,7 @@ impl Tally {
     fn evaluate<D: NumberDomain>(
         &mut self,
         case: &Case<Exact>,
-        domain: &D,
-        values: &Evaluation<'_, D, impl Fn(&'static str) -> D::Value>,
+        values: &Evaluation<'_, &D, impl Fn(&'static str) -> D::Value>,
         claim: &[(&'static str, Test)],
     ) {
         let (holds, reason) = match values.verdict(claim) {
@@ -95,8 +97,8 @@ impl Tally {
             if let Test::Equal([left, right]) = test
                 && let (Some(left), Some(right)) = (values.at(*left), values.at(*right))
             {
-                let difference = domain.difference(left, right);
-                self.measure(domain.share(&difference), || domain.bound(&difference));
+                let [error, bound] = D::difference(left, right);
+                self.measure(share(&error, &bound), || format!("{bound:?}"));
             }
         }
         self.decide(case, holds, reason);
@@ -133,59 +135,38 @@ fn message(panic: &(dyn Any + Send)) -> String {
 
 /// Number system in which claims are checked.
 pub(super) trait NumberDomain: Domain + Sync {
-    /// Numbers of a case.
-    type Number: Clone;
     /// Numbers of the experiments.
-    type Computed: Clone;
+    type Number: Scalar + ToExact + Debug;
 
     /// Whether it has exponentials.
     const EXPONENTIALS: bool;
 
-    fn experiments(&self) -> Vec<Experiment<Self::Computed>>;
+    fn experiments() -> Vec<Experiment<Self::Number>>;
 
-    /// Returns a case in these numbers; `None` if a coordinate is out of range.
-    fn read<'a>(&self, case: &'a Case<Exact>) -> Option<Cow<'a, Case<Self::Number>>>;
+    /// Returns the value of a number; `None` if it is out of range.
+    fn value(&self, x: &Exact) -> Option<Self::Value>;
 
-    /// Returns the value of a number.
-    fn value(&self, x: Self::Number) -> Self::Value;
+    /// Returns the number that experiments use for the value of a number.
+    fn number(value: &Self::Value) -> Self::Number;
 
-    /// Returns the case in the numbers of the experiments.
-    fn computed<'a>(&self, case: &'a Case<Self::Number>) -> Cow<'a, Case<Self::Computed>>;
-
-    /// Returns the difference of two sides that are equal.
-    fn difference(&self, left: &Self::Value, right: &Self::Value) -> Self::Value;
-
-    /// Returns the ratio of a difference and its bound.
-    fn share(&self, difference: &Self::Value) -> f64;
-
-    /// Formats the bound of a difference.
-    fn bound(&self, difference: &Self::Value) -> String;
+    /// Returns the difference of the two sides of an equation that holds, and its bound.
+    fn difference(left: &Self::Value, right: &Self::Value) -> [Self::Number; 2];
 }
 
 impl NumberDomain for Rationals {
     type Number = Exact;
-    type Computed = Exact;
     const EXPONENTIALS: bool = false;
-    fn experiments(&self) -> Vec<Experiment<Exact>> {
+    fn experiments() -> Vec<Experiment<Exact>> {
         exact_experiments()
     }
-    fn read<'a>(&self, case: &'a Case<Exact>) -> Option<Cow<'a, Case<Exact>>> {
-        Some(Cow::Borrowed(case))
+    fn value(&self, x: &Exact) -> Option<Value> {
+        Some(Value::Exact(x.clone()))
     }
-    fn value(&self, x: Exact) -> Value {
-        Value::Exact(x)
+    fn number(value: &Value) -> Exact {
+        value.exact().expect("no exponentials").clone()
     }
-    fn computed<'a>(&self, case: &'a Case<Exact>) -> Cow<'a, Case<Exact>> {
-        Cow::Borrowed(case)
-    }
-    fn difference(&self, _: &Value, _: &Value) -> Value {
-        Value::Exact(Exact::zero())
-    }
-    fn share(&self, _: &Value) -> f64 {
-        0.0
-    }
-    fn bound(&self, _: &Value) -> String {
-        "0".to_string()
+    fn difference(_: &Value, _: &Value) -> [Exact; 2] {
+        [Exact::zero(), Exact::zero()]
     }
 }
 
@@ -193,29 +174,20 @@ impl<T> NumberDomain for Balls<T>
 where
     T: Scalar + Real + Exponential + ToExact + std::fmt::Display + Sync,
 {
-    type Number = Ball<T>;
-    type Computed = T;
+    type Number = T;
     const EXPONENTIALS: bool = true;
-    fn experiments(&self) -> Vec<Experiment<T>> {
+    fn experiments() -> Vec<Experiment<T>> {
         float_experiments()
     }
-    fn read<'a>(&self, case: &'a Case<Exact>) -> Option<Cow<'a, Case<Ball<T>>>> {
-        Case::try_of(|var| self.enclose(case.get(var))).ok().map(Cow::Owned)
+    fn value(&self, x: &Exact) -> Option<Ball<T>> {
+        self.enclose(x).ok()
     }
-    fn value(&self, x: Ball<T>) -> Ball<T> {
-        x
+    fn number(value: &Ball<T>) -> T {
+        value.value().clone()
     }
-    fn computed<'a>(&self, case: &'a Case<Ball<T>>) -> Cow<'a, Case<T>> {
-        Cow::Owned(case.map(|_, ball| ball.value().clone()))
-    }
-    fn difference(&self, left: &Ball<T>, right: &Ball<T>) -> Ball<T> {
-        left - right
-    }
-    fn share(&self, difference: &Ball<T>) -> f64 {
-        share(&difference.value().abs(), difference.radius())
-    }
-    fn bound(&self, difference: &Ball<T>) -> String {
-        format!("{:?}", difference.radius())
+    fn difference(left: &Ball<T>, right: &Ball<T>) -> [T; 2] {
+        let difference = left - right;
+        [difference.value().abs(), difference.radius().clone()]
     }
 }
 
@@ -268,15 +240,12 @@ fn groups(claims: &[Statement]) -> Vec<Group> {
     groups
 }
 
-/// Number of members of a sequence that are checked. Its closed form is also checked for arbitrary q.
-const MEMBERS: usize = 4;
-
 /// Returns the tests of a claim: those of its instances, and those of the steps of its induction for any q. The
 /// rate of a limit is tested in place of the limit.
 fn tests(claim: &Statement, program: &mut Program) -> Vec<(&'static str, Test)> {
     let steps = claim.goals().iter().filter(|goal| goal.role != Role::Claim);
     let steps = steps.map(|goal| Instance::new(goal.part, goal.proposition.clone()));
-    let all = instances(claim, MEMBERS).into_iter().chain(steps);
+    let all = instances(claim, UNFOLDED_MEMBERS).into_iter().chain(steps);
     all.filter(|instance| !matches!(instance.proposition, Proposition::Limit(..)))
         .map(|instance| (instance.part, Test::of(&instance, program)))
         .collect()
@@ -287,20 +256,20 @@ pub(super) struct Checker<D: NumberDomain> {
     /// In the order of the keys.
     claims: Vec<Statement>,
     groups: Vec<Group>,
-    experiments: Vec<Experiment<D::Computed>>,
+    experiments: Vec<Experiment<D::Number>>,
 }
 
 impl<D: NumberDomain> Checker<D> {
     /// Returns a checker of the claims that can be evaluated in these numbers.
     pub(super) fn new<'a>(domain: D, claims: impl IntoIterator<Item = &'a Statement>) -> Self {
-        let experiments = domain.experiments();
+        let experiments = D::experiments();
         Checker::with(domain, claims, experiments)
     }
 
     pub(super) fn with<'a>(
         domain: D,
         claims: impl IntoIterator<Item = &'a Statement>,
-        experiments: Vec<Experiment<D::Computed>>,
+        experiments: Vec<Experiment<D::Number>>,
     ) -> Self {
         // Experiments check claims about rounding.
         let can_be_asked = |claim: &&Statement| {
@@ -319,7 +288,7 @@ impl<D: NumberDomain> ErasedChecker for Checker<D> {
             kind: c.kind(),
             given: c.stated_hypotheses().to_vec(),
         };
-        let experiment = |e: &Experiment<D::Computed>| ClaimKey {
+        let experiment = |e: &Experiment<D::Number>| ClaimKey {
             equation: e.equation,
             claim: e.name,
             kind: "experiment",
@@ -345,27 +314,27 @@ impl<D: NumberDomain> ErasedChecker for Checker<D> {
         if tallies.is_empty() {
             return tallies;
         }
-        for case in cases {
-            let read = case.as_ref().and_then(|case| Some((case, self.domain.read(case)?)));
-            let Some((exact, read)) = read else {
+        for exact in cases {
+            let values = exact.as_ref().and_then(|case| {
+                let values = Case::try_of(|var| self.domain.value(case.get(var)).ok_or(()));
+                Some((case, values.ok()?))
+            });
+            let Some((exact, case)) = values else {
                 tallies.iter_mut().for_each(|(_, tally)| tally.skip());
                 continue;
             };
             let (of_claims, of_experiments) = tallies.split_at_mut(claims.len());
             if let Some(group) = group.filter(|_| !claims.is_empty()) {
-                let values = Evaluation::of(&group.program, &self.domain, |name| {
-                    self.domain.value(read.get_by_symbol(name))
-                });
+                let values = Evaluation::of(&group.program, &self.domain, |name| case.get_by_symbol(name));
                 for ((_, claim), (_, tally)) in claims.iter().zip(of_claims) {
-                    tally.evaluate(exact, &self.domain, &values, claim);
+                    tally.evaluate(exact, &values, claim);
                 }
             }
-            if experiments.is_empty() {
-                continue;
-            }
-            let computed = self.domain.computed(&read);
-            for ((_, experiment), (_, tally)) in experiments.iter().zip(of_experiments) {
-                tally.try_experiment(exact, experiment, &computed);
+            if !experiments.is_empty() {
+                let numbers = case.map(|_, value| D::number(value));
+                for ((_, experiment), (_, tally)) in experiments.iter().zip(of_experiments) {
+                    tally.try_experiment(exact, experiment, &numbers);
+                }
             }
         }
         tallies

@@ -48,7 +48,7 @@ fn boxed<J: NumberDomain + 'static>(
     scalar: NumberSystem,
     judge: J,
     claims: &[Statement],
-    experiments: Vec<Experiment<J::Computed>>,
+    experiments: Vec<Experiment<J::Number>>,
 ) -> Boxed {
     (scalar, Box::new(Checker::with(judge, claims, experiments)))
 }

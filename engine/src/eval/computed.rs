@@ -1,9 +1,9 @@
 //! Floats that round every result, with the exact values of what is not rounded.
 
-use super::domain::{Domain, is_within};
+use super::domain::{Domain, Quantity, Value};
 use super::statement::Evaluation;
 use crate::number::tree::{Op, piecewise_ops};
-use crate::number::{Exact, PositivePart, Real, ToExact};
+use crate::number::{Exact, Real, ToExact};
 use num_traits::{One, Zero};
 use std::cmp::Ordering;
 
@@ -42,16 +42,13 @@ impl<T: Real + ToExact> Floats<T> {
             Op::Div(a, _) => a.is_zero(),
             _ => true,
         };
-        let value = operation(op)?;
+        let value = op.value(&|_| T::zero(), &piecewise_ops)?;
         let is_small = || value.is_zero() || value.abs() < self.least;
         (Real::is_finite(&value) && (is_zero || !is_small())).then_some(value)
     }
 }
 
-/// Returns the result of an operation without roundings and exponentials; `None` if it divides by 0.
-fn operation<T: PositivePart>(op: Op<&T>) -> Option<T> {
-    op.value(&|_| T::zero(), &piecewise_ops)
-}
+impl<T: Real> Quantity for Option<T> {}
 
 impl<T: Real + ToExact> Domain for Floats<T> {
     type Value = Option<T>;
@@ -61,32 +58,20 @@ impl<T: Real + ToExact> Domain for Floats<T> {
     }
 }
 
-/// Exact numbers, except that floats compute what is below a rounding. `None` is a number that depends on a
-/// float out of range, or is undefined, and decides nothing.
+/// Exact numbers, except that floats compute what is below a rounding. A number that depends on a float out of
+/// range, or is undefined, is unknown.
 #[derive(Debug)]
-pub struct Computed<'a, T: Real + ToExact, S>(pub Evaluation<'a, Floats<T>, S>);
+pub struct Computed<'a, T: Real + ToExact, S>(pub Evaluation<'a, &'a Floats<T>, S>);
 
 impl<T: Real + ToExact, S: Fn(&'static str) -> Option<T>> Domain for Computed<'_, T, S> {
-    type Value = Option<Exact>;
+    type Value = Value;
 
-    fn rounded(&self, place: usize) -> Option<Option<Exact>> {
-        let float = self.0.at(place).and_then(|float| float.as_ref());
-        Some(float.and_then(|float| float.to_exact().ok()))
+    fn rounded(&self, place: usize) -> Option<Value> {
+        let float = self.0.at(place).and_then(|float| float.as_ref()?.to_exact().ok());
+        Some(float.map_or_else(Value::unknown, Value::Exact))
     }
 
-    fn apply(&self, op: Op<&Option<Exact>>) -> Option<Option<Exact>> {
-        Some(op.try_map(|x| x.as_ref()).and_then(operation))
-    }
-
-    fn sign(&self, x: &Option<Exact>) -> Option<Ordering> {
-        x.as_ref().map(|x| x.cmp(&Exact::zero()))
-    }
-
-    fn are_equal(&self, x: &Option<Exact>, y: &Option<Exact>) -> Option<bool> {
-        Some(x.as_ref()? == y.as_ref()?)
-    }
-
-    fn is_within(&self, x: &Option<Exact>, bound: &Option<Exact>) -> Option<bool> {
-        Some(is_within(x.as_ref()?, bound.as_ref()?))
+    fn apply(&self, op: Op<&Value>) -> Option<Value> {
+        Some(Value::of(op).unwrap_or_else(Value::unknown))
     }
 }

@@ -7,10 +7,38 @@ use num_traits::{One, Zero};
 use std::cmp::Ordering;
 use std::fmt;
 
-/// Numbers in which statements are evaluated. By default they are not compared.
+/// What is known of a number. By default, nothing that compares it.
+pub trait Quantity: Clone {
+    /// Returns the sign of the number if it is certain.
+    fn sign(&self) -> Option<Ordering> {
+        None
+    }
+
+    /// Returns whether two numbers are equal; of enclosures, whether they may be.
+    fn is_equal(&self, _other: &Self) -> Option<bool> {
+        None
+    }
+
+    /// Returns whether the number is at most a bound in absolute value, if this is certain.
+    fn is_within(&self, _bound: &Self) -> Option<bool> {
+        None
+    }
+
+    /// Returns the number, if it is known exactly. Limits are evaluated for such numbers only.
+    fn exact(&self) -> Option<&Exact> {
+        None
+    }
+
+    /// Returns whether the number has this sign, if this is certain.
+    fn admits(&self, relation: Relation) -> Option<bool> {
+        self.sign().map(|sign| relation.admits(sign))
+    }
+}
+
+/// Numbers in which statements are evaluated.
 pub trait Domain {
-    /// A number, or what is known of it.
-    type Value: Clone;
+    /// A number.
+    type Value: Quantity;
 
     /// Returns the result of an operation that is not a symbol; `None` if it is undefined.
     fn apply(&self, op: Op<&Self::Value>) -> Option<Self::Value>;
@@ -20,30 +48,17 @@ pub trait Domain {
     fn rounded(&self, _place: usize) -> Option<Self::Value> {
         None
     }
+}
 
-    /// Returns the sign of a number if it is certain.
-    fn sign(&self, _x: &Self::Value) -> Option<Ordering> {
-        None
+impl<D: Domain> Domain for &D {
+    type Value = D::Value;
+
+    fn apply(&self, op: Op<&Self::Value>) -> Option<Self::Value> {
+        (**self).apply(op)
     }
 
-    /// Returns whether two numbers are equal; of enclosures, whether they may be.
-    fn are_equal(&self, _x: &Self::Value, _y: &Self::Value) -> Option<bool> {
-        None
-    }
-
-    /// Returns whether a number is at most a bound in absolute value, if this is certain.
-    fn is_within(&self, _x: &Self::Value, _bound: &Self::Value) -> Option<bool> {
-        None
-    }
-
-    /// Returns the number, if it is known exactly. Limits are evaluated for such numbers only.
-    fn exact(&self, _: &Self::Value) -> Option<Exact> {
-        None
-    }
-
-    /// Returns whether a number has this sign, if this is certain.
-    fn admits(&self, relation: Relation, x: &Self::Value) -> Option<bool> {
-        self.sign(x).map(|sign| relation.admits(sign))
+    fn rounded(&self, place: usize) -> Option<Self::Value> {
+        (**self).rounded(place)
     }
 }
 
@@ -64,31 +79,63 @@ pub enum Value {
 }
 
 impl Value {
-    /// Returns the number, if it is known exactly.
-    pub fn exact(&self) -> Option<&Exact> {
+    /// Returns the enclosure of all numbers.
+    pub fn unknown() -> Self {
+        Value::Ball(Ball::one() / (Ball::one() / Ball::int(3) * Ball::int(3) - Ball::one()))
+    }
+
+    /// Returns an enclosure, which is infinite for a number outside the range of f64.
+    pub(super) fn ball(&self) -> Ball<f64> {
+        match self {
+            Value::Exact(x) => Ball::enclosing(&0.0, x).unwrap_or_else(|_| Value::unknown().ball()),
+            Value::Ball(ball) => ball.clone(),
+        }
+    }
+
+    /// Returns the result of an operation without roundings; `None` if it is undefined.
+    pub(super) fn of(op: Op<&Value>) -> Option<Value> {
+        match op.try_map(|value| value.exact()) {
+            Some(Op::Exp(x)) if x.is_zero() => Some(Value::Exact(Exact::one())),
+            Some(Op::Div(_, divisor)) if divisor.is_zero() => None,
+            Some(op) if !matches!(op, Op::Exp(_)) => {
+                op.arithmetic().or_else(|| piecewise_ops(op)).map(Value::Exact)
+            }
+            _ => Balls(0.0).apply(op.map(|value| value.ball()).map(|ball| ball)).map(Value::Ball),
+        }
+    }
+}
+
+impl Quantity for Value {
+    fn sign(&self) -> Option<Ordering> {
+        match self {
+            Value::Exact(x) => Some(x.cmp(&Exact::zero())),
+            Value::Ball(ball) => Some(ball).filter(|ball| ball.is_finite()).and_then(Ball::sign),
+        }
+    }
+
+    fn is_equal(&self, other: &Self) -> Option<bool> {
+        match (self, other) {
+            (Value::Exact(x), Value::Exact(y)) => Some(x == y),
+            (x, y) => Value::Ball(x.ball() - y.ball()).sign().map(Ordering::is_eq),
+        }
+    }
+
+    fn is_within(&self, bound: &Self) -> Option<bool> {
+        match (self, bound) {
+            (Value::Exact(x), Value::Exact(bound)) => {
+                let is_smaller = x.as_rational().cmp_abs(bound.as_rational()).is_le();
+                Some(is_smaller && *bound >= Exact::zero())
+            }
+            (x, bound) => x.ball().is_within(&bound.ball()),
+        }
+    }
+
+    fn exact(&self) -> Option<&Exact> {
         match self {
             Value::Exact(x) => Some(x),
             Value::Ball(_) => None,
         }
     }
-
-    pub(super) fn ball(&self) -> Ball<f64> {
-        match self {
-            // A number outside the range of f64 has an infinite enclosure.
-            Value::Exact(x) => Ball::enclosing(&0.0, x).unwrap_or_else(|_| unknown()),
-            Value::Ball(ball) => ball.clone(),
-        }
-    }
-}
-
-/// Returns `true` if |x| ≤ bound.
-pub(super) fn is_within(x: &Exact, bound: &Exact) -> bool {
-    *bound >= Exact::zero() && x.as_rational().cmp_abs(bound.as_rational()).is_le()
-}
-
-/// Returns the enclosure of all numbers.
-fn unknown() -> Ball<f64> {
-    Ball::one() / (Ball::one() / Ball::int(3) * Ball::int(3) - Ball::one())
 }
 
 impl fmt::Display for Value {
@@ -118,44 +165,14 @@ impl Domain for Rationals {
     type Value = Value;
 
     fn apply(&self, op: Op<&Value>) -> Option<Value> {
-        match op.try_map(|value| value.exact()) {
-            Some(Op::Exp(x)) if x.is_zero() => Some(Value::Exact(Exact::one())),
-            Some(Op::Rounded(x)) => Some(self.round(x).map_or_else(|| Value::Ball(unknown()), Value::Exact)),
-            Some(Op::Div(_, divisor)) if divisor.is_zero() => None,
-            Some(op) if !matches!(op, Op::Exp(_)) => {
-                op.arithmetic().or_else(|| piecewise_ops(op)).map(Value::Exact)
-            }
+        match op {
             // An enclosed value may round to either of two numbers.
-            _ => match op.map(|value| value.ball()) {
-                Op::Rounded(_) => Some(Value::Ball(unknown())),
-                op => Balls(0.0).apply(op.map(|ball| ball)).map(Value::Ball),
-            },
+            Op::Rounded(x) => {
+                let nearest = x.exact().and_then(|x| self.round(x));
+                Some(nearest.map_or_else(Value::unknown, Value::Exact))
+            }
+            op => Value::of(op),
         }
-    }
-
-    fn sign(&self, x: &Value) -> Option<Ordering> {
-        match x {
-            Value::Exact(x) => Some(x.cmp(&Exact::zero())),
-            Value::Ball(ball) => Some(ball).filter(|ball| ball.is_finite()).and_then(Ball::sign),
-        }
-    }
-
-    fn are_equal(&self, x: &Value, y: &Value) -> Option<bool> {
-        match (x, y) {
-            (Value::Exact(x), Value::Exact(y)) => Some(x == y),
-            (x, y) => self.sign(&Value::Ball(x.ball() - y.ball())).map(Ordering::is_eq),
-        }
-    }
-
-    fn is_within(&self, x: &Value, bound: &Value) -> Option<bool> {
-        match (x, bound) {
-            (Value::Exact(x), Value::Exact(bound)) => Some(is_within(x, bound)),
-            (x, bound) => Balls(0.0).is_within(&x.ball(), &bound.ball()),
-        }
-    }
-
-    fn exact(&self, x: &Value) -> Option<Exact> {
-        x.exact().cloned()
     }
 }
 
@@ -180,18 +197,19 @@ impl<T: Real + Exponential> Domain for Balls<T> {
         // The quotient by a ball that contains 0 is unbounded.
         op.arithmetic().or_else(|| all_ops(op)).filter(|result| !result.is_undefined())
     }
+}
 
-    fn sign(&self, x: &Ball<T>) -> Option<Ordering> {
-        x.sign()
+impl<T: Real + Exponential> Quantity for Ball<T> {
+    fn sign(&self) -> Option<Ordering> {
+        Ball::sign(self)
     }
 
-    fn is_within(&self, x: &Ball<T>, bound: &Ball<T>) -> Option<bool> {
-        let margin = (bound - x.abs()).sign();
-        margin.map(Ordering::is_ge)
+    fn is_within(&self, bound: &Self) -> Option<bool> {
+        Ball::sign(&(bound - self.abs())).map(Ordering::is_ge)
     }
 
-    fn are_equal(&self, x: &Ball<T>, y: &Ball<T>) -> Option<bool> {
-        let difference = x - y;
+    fn is_equal(&self, other: &Self) -> Option<bool> {
+        let difference = self - other;
         difference.is_finite().then(|| difference.value().abs() <= *difference.radius())
     }
 }

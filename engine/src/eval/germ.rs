@@ -1,9 +1,8 @@
 //! Formulas of one quantity where it is large.
 
-use super::domain::{Balls, Domain, Value};
-use crate::number::tree::{Op, piecewise_ops};
-use crate::number::{Ball, Exact, Field, OrderedField, PositivePart};
-use crate::operators;
+use super::domain::{Balls, Domain, Quantity, Value};
+use crate::number::tree::Op;
+use crate::number::{Ball, Exact};
 use num_traits::{One, Zero};
 use std::cmp::Ordering;
 use std::iter;
@@ -11,21 +10,25 @@ use std::iter;
 /// A polynomial; the coefficient of the highest power comes last and is not 0.
 type Polynomial = Vec<Exact>;
 
-fn polynomial(mut coefficients: Polynomial) -> Polynomial {
-    while coefficients.pop_if(|last| last.is_zero()).is_some() {}
-    coefficients
-}
-
 fn sum(a: &[Exact], b: &[Exact]) -> Polynomial {
-    let of = |x: &[Exact], i: usize| x.get(i).cloned().unwrap_or_else(Exact::zero);
-    polynomial((0..a.len().max(b.len())).map(|i| of(a, i) + of(b, i)).collect())
+    let (short, long) = if a.len() < b.len() { (a, b) } else { (b, a) };
+    let mut sum = long.to_vec();
+    for (coefficient, other) in sum.iter_mut().zip(short) {
+        *coefficient = &*coefficient + other;
+    }
+    while sum.pop_if(|last| last.is_zero()).is_some() {}
+    sum
 }
 
 fn product(a: &[Exact], b: &[Exact]) -> Polynomial {
-    let shifted = |(i, x): (usize, &Exact)| -> Polynomial {
-        iter::repeat_n(Exact::zero(), i).chain(b.iter().map(|y| x * y)).collect()
-    };
-    a.iter().enumerate().map(shifted).fold(Vec::new(), |total, term| sum(&total, &term))
+    a.iter().enumerate().fold(Vec::new(), |total, (i, x)| {
+        let term: Polynomial = iter::repeat_n(Exact::zero(), i).chain(b.iter().map(|y| x * y)).collect();
+        sum(&total, &term)
+    })
+}
+
+fn negated(a: &[Exact]) -> Polynomial {
+    a.iter().map(|x| -x).collect()
 }
 
 /// A quotient of polynomials of a quantity. Of two, that is the larger which is larger for all large values of
@@ -39,7 +42,7 @@ pub(super) struct Germ {
 
 impl Germ {
     pub(super) fn constant(x: Exact) -> Self {
-        Germ { numerator: polynomial(vec![x]), denominator: vec![Exact::one()] }
+        Germ { numerator: sum(&[x], &[]), denominator: vec![Exact::one()] }
     }
 
     /// Returns the quantity itself.
@@ -56,63 +59,36 @@ impl Germ {
             Ordering::Greater => None,
         }
     }
-}
 
-operators! { [] Germ;
-    Add add |a, b| Germ {
-        numerator: sum(&product(&a.numerator, &b.denominator), &product(&b.numerator, &a.denominator)),
-        denominator: product(&a.denominator, &b.denominator),
-    };
-    Sub sub |a, b| a + (-b);
-    Mul mul |a, b| Germ {
-        numerator: product(&a.numerator, &b.numerator),
-        denominator: product(&a.denominator, &b.denominator),
-    };
-    Div div |a, b| {
-        let inverse = Germ { numerator: b.denominator.clone(), denominator: b.numerator.clone() };
-        a * if *b < Germ::zero() { -Germ { denominator: (-b).numerator, ..inverse } } else { inverse }
-    };
-    - |a| Germ { numerator: a.numerator.iter().map(|x| -x).collect(), denominator: a.denominator.clone() }
-}
+    /// Returns the sign for all large values of the quantity.
+    fn sign(&self) -> Ordering {
+        self.numerator.last().map_or(Ordering::Equal, |x| x.cmp(&Exact::zero()))
+    }
 
-impl PartialEq for Germ {
-    fn eq(&self, other: &Self) -> bool {
-        (self - other).is_zero()
+    fn minus(&self, other: &Self) -> Self {
+        let [a, b] = [(self, other), (other, self)].map(|(x, y)| product(&x.numerator, &y.denominator));
+        Germ { numerator: sum(&a, &negated(&b)), denominator: product(&self.denominator, &other.denominator) }
+    }
+
+    fn times(&self, other: &Self) -> Self {
+        Germ {
+            numerator: product(&self.numerator, &other.numerator),
+            denominator: product(&self.denominator, &other.denominator),
+        }
+    }
+
+    /// Returns the reciprocal; `None` of 0.
+    fn inverse(&self) -> Option<Self> {
+        let Germ { numerator, denominator } = self;
+        match self.sign() {
+            Ordering::Less => Some(Germ { numerator: negated(denominator), denominator: negated(numerator) }),
+            Ordering::Equal => None,
+            Ordering::Greater => {
+                Some(Germ { numerator: denominator.clone(), denominator: numerator.clone() })
+            }
+        }
     }
 }
-impl PartialOrd for Germ {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        let leading = (self - other).numerator.pop();
-        Some(leading.map_or(Ordering::Equal, |x| x.cmp(&Exact::zero())))
-    }
-}
-impl Zero for Germ {
-    fn zero() -> Self {
-        Germ::constant(Exact::zero())
-    }
-    fn is_zero(&self) -> bool {
-        self.numerator.is_empty()
-    }
-}
-impl One for Germ {
-    fn one() -> Self {
-        Germ::constant(Exact::one())
-    }
-}
-impl Field for Germ {
-    fn int(n: i32) -> Self {
-        Germ::constant(Exact::from(n))
-    }
-}
-impl PositivePart for Germ {
-    fn positive_part(&self) -> Self {
-        if *self > Germ::zero() { self.clone() } else { Germ::zero() }
-    }
-    fn min(&self, other: &Self) -> Self {
-        if other < self { other.clone() } else { self.clone() }
-    }
-}
-impl OrderedField for Germ {}
 
 /// The behaviour of a formula where the quantity is large.
 #[derive(Clone, Debug)]
@@ -121,42 +97,43 @@ pub(super) enum Tendency {
     Rational(Germ),
     /// It tends to a number in the ball.
     Number(Ball<f64>),
-    /// It tends to +∞, or to −∞.
-    Infinite { positive: bool },
+    /// It tends to infinity with this sign.
+    Infinite(Ordering),
     /// Nothing is known.
     Unknown,
 }
 
 use Tendency::{Infinite, Number, Rational, Unknown};
 
+impl Quantity for Tendency {}
+
 impl Tendency {
+    /// Returns the rational function, if the formula is one.
+    fn germ(&self) -> Option<&Germ> {
+        if let Rational(germ) = self { Some(germ) } else { None }
+    }
+
     /// Returns the tendency without the rational function.
     fn coarse(&self) -> Self {
         let Rational(germ) = self else { return self.clone() };
-        match germ.limit() {
-            Some(limit) => Number(Value::Exact(limit).ball()),
-            None => Infinite { positive: *germ > Germ::zero() },
-        }
+        germ.limit().map_or(Infinite(germ.sign()), |limit| Number(Value::Exact(limit).ball()))
     }
 
     /// Returns the tendency of an operation on operands that are not all rational functions.
     fn of(op: Op<Tendency>) -> Self {
         match op {
-            Op::Exp(Infinite { positive: true }) => Infinite { positive: true },
-            Op::Exp(Infinite { positive: false }) | Op::Div(Number(_), Infinite { .. }) => {
-                Number(Ball::zero())
-            }
-            Op::Neg(Infinite { positive }) => Infinite { positive: !positive },
+            Op::Exp(Infinite(Ordering::Greater)) => Infinite(Ordering::Greater),
+            Op::Exp(Infinite(_)) | Op::Div(Number(_), Infinite(_)) => Number(Ball::zero()),
+            Op::Neg(Infinite(sign)) => Infinite(sign.reverse()),
             Op::Sub(a, b) => Tendency::of(Op::Add(a, Tendency::of(Op::Neg(b)))),
-            Op::Add(Infinite { positive: a }, Infinite { positive: b }) if a == b => Infinite { positive: a },
-            Op::Add(Infinite { positive }, Number(_)) | Op::Add(Number(_), Infinite { positive }) => {
-                Infinite { positive }
-            }
-            Op::Mul(Infinite { positive: a }, Infinite { positive: b }) => Infinite { positive: a == b },
-            Op::Mul(Infinite { positive }, Number(x)) | Op::Mul(Number(x), Infinite { positive }) => {
+            Op::Add(Infinite(a), Infinite(b)) if a == b => Infinite(a),
+            Op::Add(Infinite(sign), Number(_)) | Op::Add(Number(_), Infinite(sign)) => Infinite(sign),
+            Op::Mul(Infinite(a), Infinite(b)) if a == b => Infinite(Ordering::Greater),
+            Op::Mul(Infinite(_), Infinite(_)) => Infinite(Ordering::Less),
+            Op::Mul(Infinite(infinite), Number(x)) | Op::Mul(Number(x), Infinite(infinite)) => {
                 match x.sign() {
-                    Some(Ordering::Greater) => Infinite { positive },
-                    Some(Ordering::Less) => Infinite { positive: !positive },
+                    Some(Ordering::Greater) => Infinite(infinite),
+                    Some(Ordering::Less) => Infinite(infinite.reverse()),
                     Some(Ordering::Equal) | None => Unknown,
                 }
             }
@@ -167,10 +144,7 @@ impl Tendency {
 
     /// Returns the tendency of an operation that is continuous at numbers.
     fn of_numbers(op: &Op<Tendency>) -> Option<Self> {
-        let numbers = op.try_map(|operand| match operand {
-            Number(x) => Some(x),
-            Rational(_) | Infinite { .. } | Unknown => None,
-        })?;
+        let numbers = op.try_map(|operand| if let Number(x) = operand { Some(x) } else { None })?;
         Balls(0.0).apply(numbers).filter(Ball::is_finite).map(Number)
     }
 }
@@ -182,16 +156,22 @@ impl Domain for Germs {
     type Value = Tendency;
 
     fn apply(&self, op: Op<&Tendency>) -> Option<Tendency> {
-        let rational = |tendency: &&Tendency| match tendency {
-            Rational(germ) => Some(germ.clone()),
-            Number(_) | Infinite { .. } | Unknown => None,
-        };
-        match op.try_map(rational) {
-            Some(op) if !matches!(op, Op::Exp(_) | Op::Rounded(_)) => {
-                op.map(|germ| germ).value(&|_| Germ::zero(), &piecewise_ops).map(Rational)
+        let zero = || Germ::constant(Exact::zero());
+        Some(Rational(match op.try_map(|tendency| tendency.germ()) {
+            Some(Op::Int(n)) => Germ::constant(Exact::from(n)),
+            Some(Op::Neg(a)) => zero().minus(a),
+            Some(Op::Add(a, b)) => a.minus(&zero().minus(b)),
+            Some(Op::Sub(a, b)) => a.minus(b),
+            Some(Op::Mul(a, b)) => a.times(b),
+            Some(Op::Div(a, b)) => a.times(&b.inverse()?),
+            Some(Op::PositivePart(a)) if a.sign().is_gt() => a.clone(),
+            Some(Op::PositivePart(_)) => zero(),
+            Some(Op::Min(a, b)) if b.minus(a).sign().is_lt() => b.clone(),
+            Some(Op::Min(a, _)) => a.clone(),
+            Some(Op::Symbol(_) | Op::Exp(_) | Op::Rounded(_)) | None => {
+                return Some(Tendency::of(op.map(|operand| operand.coarse())));
             }
-            _ => Some(Tendency::of(op.map(|operand| operand.coarse()))),
-        }
+        }))
     }
 }
 
@@ -207,7 +187,7 @@ pub(super) fn vanishes(tendency: &Tendency) -> Option<Result<(), Option<Value>>>
             Ordering::Equal => Some(Ok(())),
             Ordering::Less | Ordering::Greater => Some(Err(Some(Value::Ball(x.clone())))),
         },
-        Infinite { .. } => Some(Err(None)),
+        Infinite(_) => Some(Err(None)),
         Unknown => None,
     }
 }
@@ -217,10 +197,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn equal_quotients_are_equal() {
-        let x = Germ::variable();
-        let same = &x * &x / &x;
-        assert!(same == x && x != Germ::one());
-        assert!(same <= x && x > Germ::int(5) && -&x < Germ::int(-5));
+    fn quotients_are_compared_where_they_are_large() {
+        let (x, one) = (Germ::variable(), Germ::constant(Exact::one()));
+        let same = x.times(&x).times(&x.inverse().unwrap());
+        assert_eq!(
+            [same.minus(&x), same.minus(&one), one.minus(&x)].map(|germ| germ.sign()),
+            [Ordering::Equal, Ordering::Greater, Ordering::Less]
+        );
+        let inverse = one.minus(&x).inverse().unwrap();
+        assert_eq!((inverse.sign(), inverse.limit()), (Ordering::Less, Some(Exact::zero())));
+        assert!(same.minus(&x).inverse().is_none());
     }
 }

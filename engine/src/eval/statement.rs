@@ -1,10 +1,10 @@
 //! The meaning of a statement for numbers.
 
-use super::domain::{Domain, Rationals, Value};
+use super::domain::{Domain, Quantity, Rationals, Value};
 use super::germ::{Germ, Germs, Tendency, vanishes};
 use super::sample::Point;
 use crate::formula::claim::{MEMBERS, POWER, PRECISION};
-use crate::formula::statement::{Goal, Role, Sequence};
+use crate::formula::statement::{Role, Sequence};
 use crate::formula::{Hypothesis, Proposition, Relation, Statement};
 use crate::number::tree::{Op, smooth_ops};
 use crate::number::{Exact, PositivePart, Program, Tree};
@@ -37,32 +37,38 @@ impl Instance {
 /// have their closed form, or satisfy their bounds. A formula of ρᵏ has its limit if it has it at q = 0, and
 /// |ρ| < 1 or the formula is constant.
 pub fn instances(statement: &Statement, members: usize) -> Vec<Instance> {
-    let conclusion = statement.conclusion();
-    if let Some(sequence) = conclusion.filter(|sequence| sequence.limit.is_none()) {
-        return unfolded(statement, sequence, members);
+    let mut constant = Vec::new();
+    match statement.conclusion() {
+        Some(sequence @ Sequence { limit: None, .. }) => return unfolded(statement, sequence, members),
+        Some(sequence) => constant = first_and_limit(sequence),
+        None => {}
     }
-    let (computed, constant) =
-        (with_computed(statement, Vec::new()), conclusion.map_or(Vec::new(), first_and_limit));
-    let instance = |goal: &Goal| {
+    let computed = with_computed(statement, Vec::new());
+    let mut all = Vec::new();
+    for goal in statement.goals().iter().filter(|goal| goal.role == Role::Claim) {
         let proposition = goal.proposition.map(&|tree| tree.substitute(&computed));
         let is_margin = matches!(proposition, Proposition::Sign(..));
         let unless = if is_margin { constant.clone() } else { Vec::new() };
-        Instance { part: goal.part, proposition, unless }
-    };
-    statement.goals().iter().filter(|goal| goal.role == Role::Claim).map(instance).collect()
+        all.push(Instance { part: goal.part, proposition, unless });
+    }
+    all
 }
 
 /// Returns the first value of a formula of ρᵏ with its limit, which are equal if the formula is constant.
 fn first_and_limit(sequence: &Sequence) -> Vec<[Tree; 2]> {
-    let pair = |member: &Tree| Some([member.substitute(&[(POWER, Tree::one())]), sequence.limit.clone()?]);
-    sequence.member.iter().filter_map(pair).collect()
+    let limit = sequence.limit.iter().cycle();
+    let first = sequence.member.iter().map(|member| member.substitute(&[(POWER, Tree::one())]));
+    first.zip(limit).map(|(first, limit)| [first, limit.clone()]).collect()
 }
 
 /// Returns the hypotheses of a statement as propositions about its independent symbols.
 pub fn premises(statement: &Statement) -> Vec<Instance> {
     let computed = with_computed(statement, Vec::new());
-    let sign = |h: &Hypothesis| Proposition::Sign(h.relation, h.value.substitute(&computed));
-    statement.hypotheses().iter().map(|hypothesis| Instance::new("", sign(hypothesis))).collect()
+    let mut all = Vec::new();
+    for Hypothesis { relation, value, .. } in statement.hypotheses() {
+        all.push(Instance::new("", Proposition::Sign(*relation, value.substitute(&computed))));
+    }
+    all
 }
 
 /// Adds the formulas of computed quantities to the values of other symbols.
@@ -84,14 +90,15 @@ fn unfolded(statement: &Statement, sequence: &Sequence, members: usize) -> Vec<I
         let known = with_computed(statement, known);
         let part = if k == 0 { "start" } else { "step" };
         if !sequence.is_perturbed() {
-            let closed = sequence.member.iter().map(|closed| closed.substitute(&known));
-            let equal = |(x, closed)| Instance::new(part, Proposition::Equal(x, closed));
-            all.extend(member.iter().cloned().zip(closed).map(equal));
+            for (x, closed) in member.iter().zip(&sequence.member) {
+                let proposition = Proposition::Equal(x.clone(), closed.substitute(&known));
+                all.push(Instance::new(part, proposition));
+            }
         }
-        let at_member = |(of, bound): &(Tree, Tree)| {
-            Instance::new("", Proposition::Within(of.substitute(&known), bound.substitute(&known)))
-        };
-        all.extend(sequence.within.iter().map(at_member));
+        for (of, bound) in &sequence.within {
+            let proposition = Proposition::Within(of.substitute(&known), bound.substitute(&known));
+            all.push(Instance::new("", proposition));
+        }
         member = sequence.step.iter().map(|step| step.substitute(&known)).collect();
         power = power * &sequence.ratio;
     }
@@ -101,20 +108,19 @@ fn unfolded(statement: &Statement, sequence: &Sequence, members: usize) -> Vec<I
 /// Returns the independent symbols of a statement in order of occurrence, that is, without the members and
 /// powers of a sequence and without computed quantities.
 pub fn independent_symbols(statement: &Statement) -> Vec<&'static str> {
-    let sequence = statement.conclusion().filter(|sequence| sequence.limit.is_none());
-    let members = sequence.map_or(&[][..], |sequence| &MEMBERS[..sequence.step.len()]);
-    // In the first member q would be any number.
-    let in_start = |name| sequence.is_some_and(|all| all.start.iter().any(|x| x.symbols().contains(name)));
-    let is_power = |name| sequence.is_some() && name == POWER && !in_start(name);
-    let is_dependent = |name: &'static str| {
-        let is_computed = statement.computed().iter().any(|computed| computed.symbol == name);
-        is_computed || is_power(name) || members.contains(&name)
-    };
+    let mut dependent: Vec<_> = statement.computed().iter().map(|computed| computed.symbol).collect();
+    if let Some(Sequence { start, step, limit: None, .. }) = statement.conclusion() {
+        dependent.extend(&MEMBERS[..step.len()]);
+        // In the first member q would be any number.
+        if !start.iter().any(|x| x.symbols().contains(POWER)) {
+            dependent.push(POWER);
+        }
+    }
     let mut symbols = Vec::new();
     for tree in statement.trees() {
         tree.visit(&mut |tree| {
             if let Op::Symbol(name) = tree.op()
-                && !is_dependent(name)
+                && !dependent.contains(name)
                 && !symbols.contains(name)
             {
                 symbols.push(*name);
@@ -147,19 +153,17 @@ pub enum Test {
 impl Test {
     /// Adds an instance to a program.
     pub fn of(instance: &Instance, program: &mut Program) -> Self {
-        let mut equal = |left: &Tree, right: &Tree| Test::Equal([program.add(left), program.add(right)]);
         match &instance.proposition {
-            Proposition::Equal(left, right) => equal(left, right),
+            Proposition::Equal(left, right) => Test::Equal([program.add(left), program.add(right)]),
             Proposition::Derivative(of, by, is) => {
                 match of.derivative(by, &|name| Tree::symbol(name), &smooth_ops) {
-                    Some(dual) => equal(&dual.derivative, is),
+                    Some(dual) => Test::Equal([program.add(&dual.derivative), program.add(is)]),
                     // ⟨·⟩ and min are not differentiable.
-                    None => Test::Defined([of, is].map(|tree| program.add(tree))),
+                    None => Test::Defined([program.add(of), program.add(is)]),
                 }
             }
             Proposition::Sign(relation, of) => {
-                let pair = |pair: &[Tree; 2]| pair.each_ref().map(|tree| program.add(tree));
-                let unless = instance.unless.iter().map(pair).collect();
+                let unless = instance.unless.iter().map(|[a, b]| [program.add(a), program.add(b)]).collect();
                 Test::Sign(*relation, program.add(of), unless)
             }
             Proposition::Within(of, bound) => Test::Within { of: program.add(of), bound: program.add(bound) },
@@ -239,33 +243,37 @@ fn format_short(value: &Value) -> String {
 /// The values of a program, each of which is computed when it is required.
 #[derive(Debug)]
 pub struct Evaluation<'a, D: Domain, S> {
-    domain: &'a D,
+    domain: D,
     program: &'a Program,
     symbol: S,
     values: Vec<OnceCell<Option<D::Value>>>,
 }
 
+/// Whether a test holds, or its failure; `None` if this cannot be decided.
+type Outcome<V> = Option<Result<(), Failure<V>>>;
+
 impl<'a, D: Domain, S: Fn(&'static str) -> D::Value> Evaluation<'a, D, S> {
     /// Evaluates a program for these values of symbols.
-    pub fn of(program: &'a Program, domain: &'a D, symbol: S) -> Self {
+    pub fn of(program: &'a Program, domain: D, symbol: S) -> Self {
         Evaluation { domain, program, symbol, values: vec![OnceCell::new(); program.len()] }
     }
 
     /// Returns the value of a formula; `None` if it is undefined.
     pub fn at(&self, place: usize) -> Option<&D::Value> {
-        let value = || {
-            let op = &self.program.ops()[place];
-            if let Op::Rounded(_) = op
-                && let Some(value) = self.domain.rounded(place)
-            {
-                return Some(value);
-            }
-            match op.try_map(|operand| self.at(*operand))? {
-                Op::Symbol(name) => Some((self.symbol)(name)),
-                op => self.domain.apply(op),
-            }
-        };
-        self.values[place].get_or_init(value).as_ref()
+        self.values[place].get_or_init(|| self.compute(place)).as_ref()
+    }
+
+    fn compute(&self, place: usize) -> Option<D::Value> {
+        let op = &self.program.ops()[place];
+        if let Op::Rounded(_) = op
+            && let Some(value) = self.domain.rounded(place)
+        {
+            return Some(value);
+        }
+        match op.try_map(|operand| self.at(*operand))? {
+            Op::Symbol(name) => Some((self.symbol)(name)),
+            op => self.domain.apply(op),
+        }
     }
 
     /// Returns the verdict of all tests, each with its part of the claim: the first failure, if there is one.
@@ -286,39 +294,42 @@ impl<'a, D: Domain, S: Fn(&'static str) -> D::Value> Evaluation<'a, D, S> {
     }
 
     /// Returns whether a test holds, or its failure; `None` if this cannot be decided.
-    pub fn outcome(&self, test: &Test) -> Option<Result<(), Failure<D::Value>>> {
-        let domain = self.domain;
+    pub fn outcome(&self, test: &Test) -> Outcome<D::Value> {
         match test {
-            Test::Equal([left, right]) => match (self.at(*left), self.at(*right)) {
-                (Some(left), Some(right)) if domain.are_equal(left, right)? => Some(Ok(())),
-                (Some(left), Some(right)) => Some(Err(Failure::Unequal(left.clone(), right.clone()))),
-                _ => self.undefined(&[*left, *right]),
-            },
+            Test::Equal(sides) => self.compared(sides, Quantity::is_equal, Failure::Unequal),
+            Test::Within { of, bound } => {
+                self.compared(&[*of, *bound], Quantity::is_within, Failure::BoundExceeded)
+            }
             Test::Sign(relation, of, constant) => match self.at(*of) {
-                Some(value) if domain.admits(*relation, value)? => Some(Ok(())),
-                Some(_) if self.are_equal(constant) => Some(Ok(())),
+                Some(value) if value.admits(*relation)? || self.are_equal(constant) => Some(Ok(())),
                 Some(value) => Some(Err(Failure::Sign(*relation, value.clone()))),
                 None => self.undefined(&[*of]),
-            },
-            Test::Within { of, bound } => match (self.at(*of), self.at(*bound)) {
-                (Some(of), Some(bound)) if domain.is_within(of, bound)? => Some(Ok(())),
-                (Some(of), Some(bound)) => Some(Err(Failure::BoundExceeded(of.clone(), bound.clone()))),
-                _ => self.undefined(&[*of, *bound]),
             },
             Test::Defined(places) => self.undefined(places),
             Test::Limit(by, distance) => self.limit(by, distance),
         }
     }
 
-    fn limit(&self, by: &str, distance: &Program) -> Option<Result<(), Failure<D::Value>>> {
+    /// Returns the outcome of a comparison of two quantities.
+    fn compared(
+        &self,
+        places: &[usize; 2],
+        holds: fn(&D::Value, &D::Value) -> Option<bool>,
+        failure: fn(D::Value, D::Value) -> Failure<D::Value>,
+    ) -> Outcome<D::Value> {
+        let [Some(x), Some(y)] = places.map(|place| self.at(place)) else { return self.undefined(places) };
+        Some(if holds(x, y)? { Ok(()) } else { Err(failure(x.clone(), y.clone())) })
+    }
+
+    fn limit(&self, by: &str, distance: &Program) -> Outcome<D::Value> {
         let symbol = |name: &'static str| {
             if name == by {
                 return Tendency::Rational(Germ::variable());
             }
-            let exact = self.domain.exact(&(self.symbol)(name));
-            exact.map_or(Tendency::Unknown, |x| Tendency::Rational(Germ::constant(x)))
+            let value = (self.symbol)(name);
+            value.exact().map_or(Tendency::Unknown, |x| Tendency::Rational(Germ::constant(x.clone())))
         };
-        let (germs, last) = (Evaluation::of(distance, &Germs, symbol), distance.len() - 1);
+        let (germs, last) = (Evaluation::of(distance, Germs, symbol), distance.len() - 1);
         match germs.at(last) {
             Some(distance) => Some(vanishes(distance)?.map_err(Failure::NotConverging)),
             None => Some(Err(Failure::Undefined(germs.zero_divisor(last)?))),
@@ -326,15 +337,15 @@ impl<'a, D: Domain, S: Fn(&'static str) -> D::Value> Evaluation<'a, D, S> {
     }
 
     /// Returns the failure of formulas of which one is undefined.
-    fn undefined(&self, places: &[usize]) -> Option<Result<(), Failure<D::Value>>> {
+    fn undefined(&self, places: &[usize]) -> Outcome<D::Value> {
         let divisor = places.iter().find_map(|place| self.zero_divisor(*place))?;
         Some(Err(Failure::Undefined(divisor)))
     }
 
     /// Returns `true` if there are quantities, and those of each pair are equal.
     fn are_equal(&self, pairs: &[[usize; 2]]) -> bool {
-        let is_equal = |[a, b]: &[usize; 2]| self.domain.are_equal(self.at(*a)?, self.at(*b)?);
-        !pairs.is_empty() && pairs.iter().all(|pair| is_equal(pair) == Some(true))
+        let equal = |places| self.compared(places, Quantity::is_equal, Failure::Unequal);
+        !pairs.is_empty() && pairs.iter().all(|pair| matches!(equal(pair), Some(Ok(()))))
     }
 
     /// Returns the divisor because of which a formula is undefined, an innermost one.
@@ -357,21 +368,22 @@ pub struct Compiled {
     tests: Vec<(&'static str, Test)>,
 }
 
-/// Number of members of a sequence that are evaluated at a point.
-const POINT_MEMBERS: usize = 4;
+/// Number of members of a sequence that are evaluated. Its closed form is also evaluated for arbitrary q.
+pub const UNFOLDED_MEMBERS: usize = 4;
 
 impl Compiled {
     /// Compiles propositions.
     pub fn of(instances: impl IntoIterator<Item = Instance>) -> Self {
-        let mut program = Program::default();
-        let test = |of: Instance| (of.part, Test::of(&of, &mut program));
-        let tests = instances.into_iter().map(test).collect();
+        let (mut program, mut tests) = (Program::default(), Vec::new());
+        for instance in instances {
+            tests.push((instance.part, Test::of(&instance, &mut program)));
+        }
         Compiled { program, tests }
     }
 
     /// Compiles a statement without its hypotheses.
     pub fn new(statement: &Statement) -> Self {
-        Compiled::of(instances(statement, POINT_MEMBERS))
+        Compiled::of(instances(statement, UNFOLDED_MEMBERS))
     }
 
     /// Returns the tests, each with its part of the claim.
@@ -380,33 +392,37 @@ impl Compiled {
     }
 
     /// Evaluates the formulas for these values of symbols.
-    pub fn evaluate<'a, D: Domain, S: Fn(&'static str) -> D::Value>(
-        &'a self,
-        domain: &'a D,
+    pub fn evaluate<D: Domain, S: Fn(&'static str) -> D::Value>(
+        &self,
+        domain: D,
         symbol: S,
-    ) -> Evaluation<'a, D, S> {
+    ) -> Evaluation<'_, D, S> {
         Evaluation::of(&self.program, domain, symbol)
+    }
+
+    fn at<'a>(&'a self, point: &'a Point) -> Evaluation<'a, Rationals, impl Fn(&'static str) -> Value> {
+        let domain = Rationals { precision: point.at(PRECISION) };
+        self.evaluate(domain, |name| Value::Exact(point.at(name)))
     }
 
     /// Returns the verdict at a point at which the hypotheses hold.
     pub fn verdict(&self, point: &Point) -> Verdict {
-        let domain = Rationals { precision: point.at(PRECISION) };
-        self.evaluate(&domain, |name| Value::Exact(point.at(name))).verdict(&self.tests)
+        self.at(point).verdict(&self.tests)
     }
 
     /// Returns the largest ratio of a quantity to its bound; `None` if there are no bounds.
     pub fn bound_fraction(&self, point: &Point) -> Option<Exact> {
-        let domain = Rationals { precision: point.at(PRECISION) };
-        let values = self.evaluate(&domain, |name| Value::Exact(point.at(name)));
-        let exact = |place: &usize| values.at(*place)?.exact().cloned();
-        let ratio = |(_, test): &(_, Test)| match test {
-            Test::Within { of, bound } => {
-                let bound = exact(bound).filter(|bound| *bound != Exact::from(0))?;
-                Some(exact(of)?.abs() / bound)
+        let (values, mut largest) = (self.at(point), None);
+        for (_, test) in &self.tests {
+            if let Test::Within { of, bound } = test
+                && let Some(Value::Exact(x)) = values.at(*of)
+                && let Some(Value::Exact(bound)) = values.at(*bound)
+                && *bound != Exact::from(0)
+            {
+                largest = largest.max(Some(x.abs() / bound));
             }
-            _ => None,
-        };
-        self.tests.iter().filter_map(ratio).max()
+        }
+        largest
     }
 }
 

@@ -37,7 +37,7 @@ fn rational(n: i32, formula: &Tree) -> Option<Value> {
 
 #[test]
 fn values_are_exact_unless_they_depend_on_an_exponential() {
-    let sign = |n: i32, formula: &Tree| rationals().sign(&rational(n, formula).expect("defined"));
+    let sign = |n: i32, formula: &Tree| rational(n, formula).expect("defined").sign();
     let e = x("x").exp();
     assert_eq!(rational(0, &e), Some(Value::Exact(Exact::one())));
     assert_eq!(sign(1, &(&e - int(2))), Some(Ordering::Greater));
@@ -59,11 +59,11 @@ fn only_exact_values_are_rounded() {
     let eighths = (int(9) / int(8)).round();
     assert_eq!(rational(0, &eighths), Some(Value::Exact(Exact::one())));
     let unknown = rational(1, &x("x").exp().round()).unwrap();
-    assert_eq!(rationals().sign(&unknown), None);
-    assert_eq!(rationals().is_within(&unknown, &Value::Exact(Exact::one())), None);
+    assert_eq!(unknown.sign(), None);
+    assert_eq!(unknown.is_within(&Value::Exact(Exact::one())), None);
     let imprecise = Rationals { precision: Exact::from(2) };
     let none = value(&eighths, &imprecise, |_| unreachable!()).unwrap();
-    assert_eq!(imprecise.sign(&none), None);
+    assert_eq!(none.sign(), None);
 }
 
 /// The quotient by a ball around 0 is unbounded; that by 0 is undefined.
@@ -74,10 +74,10 @@ fn balls_are_equal_unless_they_are_certainly_different() {
         |formula: &Tree| value(formula, &balls, |_| Ball::enclosing(&0.0, &"1/3".parse().unwrap()).unwrap());
     let zero = x("x") * int(3) - int(1);
     let nought = Ball::zero();
-    let equal = |formula: &Tree| balls.are_equal(&third(formula).unwrap(), &nought);
-    assert_eq!((balls.sign(&third(&zero).unwrap()), equal(&zero)), (None, Some(true)));
+    let equal = |formula: &Tree| third(formula).unwrap().is_equal(&nought);
+    assert_eq!((third(&zero).unwrap().sign(), equal(&zero)), (None, Some(true)));
     assert_eq!((equal(&(&zero + int(1))), equal(&(int(1) / &zero))), (Some(false), None));
-    let within = |formula: &Tree| balls.is_within(&third(formula).unwrap(), &Ball::one());
+    let within = |formula: &Tree| third(formula).unwrap().is_within(&Ball::one());
     assert_eq!([&zero, &(x("x") * int(6)), &(int(1) + &zero)].map(within), [Some(true), Some(false), None]);
     assert!(third(&(int(1) / int(0))).is_none());
 }
@@ -107,15 +107,17 @@ fn floats_compute_what_is_below_a_rounding() {
     let sum = x("a") + x("b");
     let tiny = 2f64.powi(-53);
     let floats = Floats::coarsest([&tiny]).unwrap();
+    let number = |name| Some(if name == "a" { 1.0 } else { tiny });
+    let symbol = |name| match name {
+        PRECISION => Value::Exact(floats.precision().clone()),
+        name => Value::Exact(number(name).unwrap().to_exact().unwrap()),
+    };
     let exact = |formula: &Tree| {
-        let (number, mut program) = (|name| Some(if name == "a" { 1.0 } else { tiny }), Program::default());
+        let mut program = Program::default();
         let place = program.add(formula);
         let computed = Computed(Evaluation::of(&program, &floats, number));
-        let symbol = |name| match name {
-            PRECISION => Some(floats.precision().clone()),
-            name => number(name).and_then(|x| x.to_exact().ok()),
-        };
-        Evaluation::of(&program, &computed, symbol).at(place).cloned().expect("never undefined")
+        let evaluation = Evaluation::of(&program, computed, symbol);
+        evaluation.at(place).expect("never undefined").exact().cloned()
     };
     let lost = exact(&(sum.with_rounding() - &sum)).unwrap();
     assert_eq!(lost, -Exact::power_of_two(-53));

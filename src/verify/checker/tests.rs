@@ -100,8 +100,10 @@ fn division_by_zero_fails_and_division_by_a_ball_around_zero_is_undecided() {
 fn an_error_beyond_a_bound_of_zero_is_an_infinite_share() {
     // Constants of MPFR are exact, and so is their difference.
     let [two, three] = [2, 3].map(Ball::<Mpfr>::int);
-    let domain = Balls(Mpfr::rounded(53, 0));
-    let share = |x, y| domain.share(&domain.difference(x, y));
+    let share = |x, y| {
+        let [error, bound] = Balls::<Mpfr>::difference(x, y);
+        share(&error, &bound)
+    };
     assert_eq!((share(&two, &three), share(&two, &two)), (f64::INFINITY, 0.0));
 }
 
@@ -122,10 +124,12 @@ fn one_failed_case_fails_a_claim_and_no_decided_case_leaves_it_undecided() {
 
 #[test]
 fn a_bound_is_formatted_without_loss() {
-    let difference = Ball::point(1.0) / Ball::point(3.0);
-    assert!(*difference.radius() > 0.0);
-    assert_eq!(Balls(0.0).bound(&difference).parse(), Ok(*difference.radius()));
-    assert_eq!(Rationals::unrounded().bound(&Value::Exact(Exact::from(3))), "0");
+    let third = Ball::point(1.0) / Ball::point(3.0);
+    let claim = || equal("third", x("u") / int(3), x("u") / int(3));
+    let (_, bound) = tally(Balls(0.0), Case::of(|_| Exact::one()), claim()).worst.unwrap();
+    assert!(*third.radius() > 0.0);
+    assert_eq!(bound.parse(), Ok(*(&third - &third).radius()));
+    assert_eq!(tally(Rationals::unrounded(), Case::of(|_| Exact::one()), claim()).worst.unwrap().1, "0");
 }
 
 /// The first of equal ratios counts, of several tests and of several tallies.

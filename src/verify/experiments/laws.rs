@@ -2,15 +2,16 @@
 
 use super::{Experiment, MOST_STEPS, STEPS, Trial, UNITS, check, power_of_two};
 use crate::chapter::{SpringMass, augmented, structure, system};
-use crate::claims::{Case, Var, claims, symbols};
-use crate::eval::{Compiled, Computed, Evaluation, Floats, Instance, Test, instances, premises};
+use crate::claims::{Case, claims, symbols};
+use crate::eval::{
+    Compiled, Computed, Domain, Evaluation, Floats, Instance, Quantity, Test, Value, instances, premises,
+};
 use crate::formula::claim::{PRECISION, SCALES};
 use crate::formula::{Hypothesis, Proposition, Statement};
 use crate::number::tree::{Op, piecewise_ops};
 use crate::number::{Exact, PositivePart, Program, Real, ToExact, Tree};
 use crate::solver::{Augmentation, Iterate, Plane, Scalar};
-use num_traits::Zero;
-use std::collections::BTreeMap;
+use std::borrow::Cow;
 use std::sync::{Arc, LazyLock};
 
 /// Returns an experiment for each claim about rounding, evaluated with computed numbers.
@@ -108,50 +109,61 @@ impl Law {
     /// Evaluates the law with computed numbers; `None` if a hypothesis does not hold, or if a number is out of
     /// range.
     fn trial<T: Scalar + Real + ToExact>(&self, case: &Case<T>) -> Option<Trial> {
-        let floats = floats(case)?;
-        let repeated = if self.repeats { Some(find_repeat(case, floats.precision())?) } else { None };
-        let parameter = |name: &str| match (Var::named(name), &repeated) {
-            (Some(Var::Lambda), Some(step)) => step.multiplier.clone(),
-            (Some(Var::U), Some(step)) => step.deflection.clone(),
-            _ => match SCALES.iter().position(|scale| *scale == name) {
-                Some(i) => power_of_two(UNITS[i]),
-                None => case.get_by_symbol(name),
-            },
-        };
-        let symbol = |name: &'static str| match name {
-            PRECISION => Some(floats.precision().clone()),
-            name => parameter(name).to_exact().ok(),
-        };
-        let float = |name: &'static str| Some(parameter(name));
-        let computed = Computed(self.hypotheses.evaluate(&floats, float));
-        let hypotheses = self.hypotheses.evaluate(&computed, symbol);
+        let mut numbers = Numbers { case: Cow::Borrowed(case), floats: floats(case)? };
+        if self.repeats {
+            let repeated = find_repeat(case, numbers.floats.precision())?;
+            let Iterate { multiplier: lambda, deflection: u, .. } = repeated;
+            numbers.case = Cow::Owned(Case { lambda, u, ..case.clone() });
+        }
+        let hypotheses = numbers.evaluate(&self.hypotheses);
         for (_, test) in self.hypotheses.tests() {
             hypotheses.outcome(test)?.ok()?;
         }
-        let computed = Computed(self.claim.evaluate(&floats, float));
-        let values = self.claim.evaluate(&computed, symbol);
-        let mut holds = true;
+        let claim = numbers.evaluate(&self.claim);
+        let (mut holds, mut worst) = (true, None);
         for (_, test) in self.claim.tests() {
-            holds &= values.outcome(test)?.is_ok();
-        }
-        if !self.bounds_vanish {
-            return Some(Trial::Decided(holds));
-        }
-        // The largest error for each bound.
-        let mut measured: BTreeMap<usize, Exact> = BTreeMap::new();
-        for (_, test) in self.claim.tests() {
+            holds &= claim.outcome(test)?.is_ok();
             if let Test::Within { of, bound } = test {
-                let error = values.at(*of)?.as_ref()?.abs();
-                let largest = measured.entry(*bound).or_insert_with(Exact::zero);
-                if error > *largest {
-                    *largest = error;
+                let (error, bound) = (claim.at(*of)?.exact()?.abs(), claim.at(*bound)?.exact()?);
+                if worst.as_ref().is_none_or(|worst| is_worse(&error, bound, worst)) {
+                    worst = Some((error, bound));
                 }
             }
         }
-        let trial =
-            |(bound, error): (usize, Exact)| Some(Trial::Within { error, bound: values.at(bound)?.clone()? });
-        let worst = measured.into_iter().filter_map(trial).reduce(worse);
-        Some(worst.unwrap_or(Trial::Decided(holds)))
+        Some(match worst {
+            Some((error, bound)) if self.bounds_vanish => Trial::Within { error, bound: bound.clone() },
+            _ => Trial::Decided(holds),
+        })
+    }
+}
+
+/// Numbers of a trial, and the floats that compute with them.
+struct Numbers<'a, T: Clone> {
+    case: Cow<'a, Case<T>>,
+    floats: Floats<T>,
+}
+
+impl<T: Scalar + Real + ToExact> Numbers<'_, T> {
+    fn float(&self, symbol: &str) -> T {
+        let unit = UNITS.iter().zip(SCALES).find(|(_, scale)| *scale == symbol);
+        unit.map_or_else(|| self.case.get_by_symbol(symbol), |(exponent, _)| power_of_two(*exponent))
+    }
+
+    fn exact(&self, symbol: &str) -> Value {
+        let number = match symbol {
+            PRECISION => Ok(self.floats.precision().clone()),
+            symbol => self.float(symbol).to_exact(),
+        };
+        number.map_or_else(|_| Value::unknown(), Value::Exact)
+    }
+
+    /// Evaluates formulas, with floats for what is below a rounding.
+    fn evaluate<'a>(
+        &'a self,
+        formulas: &'a Compiled,
+    ) -> Evaluation<'a, impl Domain<Value = Value>, impl Fn(&'static str) -> Value> {
+        let floats = formulas.evaluate(&self.floats, |symbol| Some(self.float(symbol)));
+        formulas.evaluate(Computed(floats), |symbol| self.exact(symbol))
     }
 }
 
@@ -171,14 +183,13 @@ fn find_repeat<T: Scalar + Real + ToExact>(case: &Case<T>, precision: &Exact) ->
     None
 }
 
-/// Returns a trial whose error exceeds its bound, otherwise that with the larger ratio of error and bound.
-fn worse(a: Trial, b: Trial) -> Trial {
-    match (&a, &b) {
-        (Trial::Within { error, bound }, Trial::Within { error: other, bound: most }) => {
-            if other > most || error <= bound && error * most < other * bound { b } else { a }
-        }
-        _ => b,
-    }
+/// Returns `true` if an error exceeds its bound, or has a larger ratio to it than another one that does not.
+fn is_worse(error: &Exact, bound: &Exact, (other, other_bound): &(Exact, &Exact)) -> bool {
+    let has_larger_ratio = || {
+        let can_be_larger = error > other || bound < *other_bound;
+        other <= *other_bound && can_be_larger && other * bound < error * *other_bound
+    };
+    error > bound || has_larger_ratio()
 }
 
 #[cfg(test)]

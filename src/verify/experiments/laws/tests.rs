@@ -5,6 +5,7 @@ use crate::chapter::SpringMass;
 use crate::claims::Var;
 use crate::formula::claim::{equal, non_negative, perturbed_recursion, within};
 use crate::number::{Mpfr, Tree};
+use num_traits::Zero;
 
 fn int(n: i32) -> Tree {
     Tree::from(n)
@@ -109,19 +110,18 @@ fn a_repeated_multiplier_is_found_only_if_the_penalty_is_large() {
 }
 
 #[test]
-fn the_trial_with_the_larger_share_is_the_worse() {
-    let of = |error: i32, bound: i32| Trial::Within { error: Exact::from(error), bound: Exact::from(bound) };
-    let shares = [of(1, 2), of(1, 4), of(3, 4), of(5, 8), of(3, 16)];
-    let worst = |a: &Trial, b: &Trial| worse(a.clone(), b.clone());
-    let found = shares.iter().fold(Trial::Undecided, |worst_so_far, share| worst(&worst_so_far, share));
-    assert_eq!(found, of(3, 4));
+fn an_error_beyond_its_bound_or_with_the_larger_share_is_worse() {
+    let is_worse = |[error, bound]: [i32; 2], other: [i32; 2]| {
+        let [error, bound, other, other_bound] = [error, bound, other[0], other[1]].map(Exact::from);
+        super::is_worse(&error, &bound, &(other, &other_bound))
+    };
     for (less, more) in
-        [(of(1, 4), of(1, 2)), (of(3, 8), of(1, 2)), (of(3, 16), of(1, 4)), (of(0, 1), of(1, 9))]
+        [([1, 4], [1, 2]), ([3, 8], [1, 2]), ([3, 16], [1, 4]), ([0, 1], [1, 9]), ([1, 4], [3, 4])]
     {
-        assert_eq!((worst(&less, &more), worst(&more, &less)), (more.clone(), more));
+        assert_eq!([is_worse(more, less), is_worse(less, more)], [true, false]);
     }
-    assert_eq!(worst(&of(1, 2), &of(2, 4)), of(1, 2), "the first of equals");
-    for failing in [of(5, 1), of(1, 0)] {
-        assert_eq!((worst(&of(0, 0), &failing), worst(&failing, &of(0, 0))), (failing.clone(), failing));
+    assert!(!is_worse([2, 4], [1, 2]), "the first of equals");
+    for failing in [[5, 1], [1, 0]] {
+        assert_eq!([is_worse(failing, [0, 0]), is_worse([0, 0], failing)], [true, false]);
     }
 }
