@@ -789,6 +789,18 @@ impl Lines<'_> {
             );
             return true;
         }
+        if let Some((new, rest)) = line.strip_prefix("with ").and_then(|rest| rest.split_once("|: ")) {
+            let (size, value) = new.split_once(" = |").unwrap();
+            let (solved, place) = rest.split_once(", where −1 ≤ ").unwrap();
+            let value = self.value(value);
+            let sign = if value < Exact::from(0) { -1 } else { 1 };
+            for (name, x) in [(size, value.abs()), (place.split_once(' ').unwrap().0, Exact::from(sign))] {
+                assert!(self.known.insert(name.to_string(), x).is_none(), "{line}: {name} again");
+            }
+            let (pivot, by) = solved.split_once(" = ").unwrap();
+            self.same(pivot, by, line);
+            return true;
+        }
         if let Some((_, definition)) = line.strip_prefix("by ").and_then(|rest| rest.split_once(": ")) {
             let (new, solved) = definition.split_once(", so ").unwrap_or(("", definition));
             if let Some((slack, value)) = new.split_once(" = ") {

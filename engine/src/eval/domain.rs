@@ -7,7 +7,7 @@ use num_traits::{One, Zero};
 use std::cmp::Ordering;
 use std::fmt;
 
-/// What is known of a number. By default, nothing that compares it.
+/// Knowledge of a number. By default, it is not compared with others.
 pub trait Quantity: Clone {
     /// Returns the sign of the number if it is certain.
     fn sign(&self) -> Option<Ordering> {

@@ -104,7 +104,8 @@ fn obstacle(statement: &Statement, reason: &ProofError) -> Option<Tree> {
         ProofError::PossibleZeroDivisor(divisor, _) => return Some(divisor.clone()),
         ProofError::UnknownSign(value, _)
         | ProofError::WrongSign(value, _)
-        | ProofError::UndecidedBranch(value) => value,
+        | ProofError::UndecidedBranch(value)
+        | ProofError::UndecidedSize(value) => value,
         _ => return None,
     };
     let trivial = Proposition::Equal(Tree::from(0), Tree::from(0));

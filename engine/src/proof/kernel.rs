@@ -3,7 +3,9 @@
 //! A formula is translated, operation by operation, into a quotient of polynomials ([`algebra`]). A division
 //! requires a proof that its divisor is not 0; a positive part ⟨x⟩ or a minimum requires the sign of the
 //! quantity that decides between its two branches. If that sign is undecided, the kernel distinguishes two
-//! cases, positive and not positive, and proves both; a divisor of undecided sign ends the attempt.
+//! cases, positive and not positive, and proves both; a divisor of undecided sign ends the attempt. For an
+//! absolute value |x| = −min(−x, x) no cases are needed: with s = |x| there is a t between −1 and 1 such that
+//! x = t s, and this equation is used like that of a hypothesis.
 //!
 //! A hypothesis v > 0 that does not follow from others, and is more than the sign of a symbol, becomes v =
 //! s for a new symbol s > 0: one monomial of v, the *pivot*, is replaced wherever it occurs by the value
@@ -103,7 +105,7 @@ pub fn prove(statement: &Statement) -> Result<Proof, ProofError> {
     effort::bounded(|| search(statement)).unwrap_or(Err(ProofError::TooLarge("its proof", MAX_EFFORT)))
 }
 
-/// Derives a proposition from hypotheses, without making a [`Proof`].
+/// Derives a proposition from hypotheses in cases only, without making a [`Proof`].
 ///
 /// # Errors
 /// Returns the reason if no derivation is found; see [`prove`].
@@ -121,7 +123,7 @@ pub(super) fn derivation(
         return Err(ProofError::Discontinuous);
     }
     let search = || {
-        let context = Context::of(roundings).with_variable(proposition);
+        let context = Context::of(roundings).with_variable(proposition).with_cases_only();
         derive(&Goal::of_claim("", proposition.clone()), context, hypotheses, MAX_NESTED_CASES)
     };
     effort::bounded(search).unwrap_or(Err(ProofError::TooLarge("its proof", MAX_EFFORT)))
@@ -247,8 +249,9 @@ pub(super) fn roundings<'t>(trees: impl Iterator<Item = &'t Tree>) -> Vec<Tree> 
 /// Maximum number of nested case distinctions.
 const MAX_NESTED_CASES: u32 = 4;
 
-/// Derives a goal from the assumptions of a context and further hypotheses. Where a branch is undecided,
-/// derives it in both cases.
+/// Derives a goal from the assumptions of a context and further hypotheses. Where the sign of x in |x| is
+/// undecided, replaces x by t |x|; where this does not suffice or another branch is undecided, derives the goal
+/// in both cases.
 fn derive(
     goal: &Goal,
     mut context: Context,
@@ -262,20 +265,31 @@ fn derive(
             Err(reason) => break Err(reason),
         }
     };
-    match assumed.and_then(|()| context.derive_directly(goal)) {
-        Ok(direct) => Ok(Derivation::Direct(direct.into())),
-        Err(ProofError::UndecidedBranch(value)) if cases > 0 => {
-            let deciding = context.sign_numerator(&value);
-            let case = |sign| {
-                let mut context = context.clone();
-                context.assume_sign(None, deciding.clone().into(), sign);
-                derive(goal, context, hypotheses, cases - 1)
-            };
-            let (positive, non_positive) = (case(Sign::Positive)?, case(Sign::NonPositive)?);
-            Ok(Derivation::Cases(deciding, positive.into(), non_positive.into()))
+    let undecided = match assumed.and_then(|()| context.derive_directly(goal)) {
+        Ok(direct) => return Ok(Derivation::Direct(direct.into())),
+        Err(ProofError::UndecidedSize(twice)) => {
+            let mut sized = context.clone();
+            if sized.assume_size(&(&twice * Ratio::from(Poly::constant((1, 2)))))
+                && let Ok(derivation) = derive(goal, sized, hypotheses, cases)
+            {
+                return Ok(derivation);
+            }
+            twice
         }
-        Err(reason) => Err(reason),
+        Err(ProofError::UndecidedBranch(value)) => value,
+        Err(reason) => return Err(reason),
+    };
+    if cases == 0 {
+        return Err(ProofError::UndecidedBranch(undecided));
     }
+    let deciding = context.sign_numerator(&undecided);
+    let case = |sign| {
+        let mut context = context.clone();
+        context.assume_sign(None, deciding.clone().into(), sign);
+        derive(goal, context, hypotheses, cases - 1)
+    };
+    let (positive, non_positive) = (case(Sign::Positive)?, case(Sign::NonPositive)?);
+    Ok(Derivation::Cases(deciding, positive.into(), non_positive.into()))
 }
 
 /// Derivations without case distinctions.

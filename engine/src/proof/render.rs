@@ -333,6 +333,11 @@ impl<'a> ProofPrinter<'a> {
                 self.order().ratio_or_size(by),
                 place.name()
             )),
+            AssumptionUse::Size { pivot, by, size, place } => {
+                let (value, place) = (self.order().ratio_or_size(&supposed.value), place.name());
+                let solved = format!("{} = {}", self.order().monomial(pivot), self.order().ratio_or_size(by));
+                Some(format!("with {} = |{value}|: {solved}, where −1 ≤ {place} ≤ 1", size.name()))
+            }
             AssumptionUse::Pivot(pivot, by, slack) => {
                 let solved = format!("{} = {}", self.order().monomial(pivot), self.order().ratio_or_size(by));
                 Some(match slack {

@@ -161,6 +161,7 @@ impl Script {
         match (&supposed.usage, hypothesis) {
             (AssumptionUse::Implied | AssumptionUse::Retained | AssumptionUse::Unused, _) => {}
             (AssumptionUse::Symbol(x), _) if is_sign_of(supposed, x) => {}
+            (AssumptionUse::Size { .. }, _) => return Err("an absolute value without cases".into()),
             (_, None) => {
                 return Err("a hypothesis about the variable of a limit requires more than its sign".into());
             }

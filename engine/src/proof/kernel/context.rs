@@ -11,8 +11,11 @@ use crate::number::Tree;
 use crate::proof::search;
 use std::sync::Arc;
 
+/// Maximum number of absolute values that are replaced.
+const MAX_SIZES: usize = 8;
+
 /// The assumptions of a proof, in the form in which the rules use them.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(in crate::proof) struct Context {
     pub(super) assumptions: Vec<Assumption>,
     pub(super) signs: Arc<SignEnv>,
@@ -20,6 +23,10 @@ pub(in crate::proof) struct Context {
     substitutions: Vec<(Monomial, Ratio)>,
     /// Quantities of known sign that are not expressed by the remaining symbols.
     retained: Vec<(Ratio, Sign)>,
+    /// Quantities with the symbols of their absolute values.
+    sizes: Vec<(Ratio, Symbol)>,
+    /// Whether quantities of undecided sign are never replaced by multiples of their absolute values.
+    has_cases_only: bool,
     /// The rounded formulas; the position of each is the index of its error.
     pub(super) roundings: Vec<Tree>,
     /// The roundings in hypotheses.
@@ -32,16 +39,7 @@ impl Context {
     /// Creates a context whose only assumption is that powers of two are positive.
     pub(super) fn of(roundings: Vec<Tree>) -> Self {
         let known = SCALES.into_iter().map(|name| (Symbol::Own(name), Sign::Positive)).collect();
-        let (supposed, substitutions, retained, errors, variable) = Default::default();
-        Context {
-            assumptions: supposed,
-            signs: Arc::new(known),
-            substitutions,
-            retained,
-            roundings,
-            errors,
-            variable,
-        }
+        Context { signs: Arc::new(known), roundings, ..Context::default() }
     }
 
     /// Sets the variable of the limit, if the proposition is one; hypotheses on it are solved for it.
@@ -51,6 +49,11 @@ impl Context {
             _ => None,
         };
         Context { variable, ..self }
+    }
+
+    /// Lets absolute values be replaced in cases only.
+    pub(super) fn with_cases_only(self) -> Self {
+        Context { has_cases_only: true, ..self }
     }
 
     /// Adds a hypothesis to the assumptions.
@@ -178,7 +181,7 @@ impl Context {
                 }
             }
             Sign::Zero => self
-                .pivot(given.as_ref(), &value, None)
+                .pivot(given.as_ref(), &value, &Poly::zero(), &self.signs)
                 .map_or(AssumptionUse::Unused, |(pivot, by)| AssumptionUse::Pivot(pivot, by, None)),
         };
         if let AssumptionUse::Pivot(pivot, by, _) = &used {
@@ -200,9 +203,10 @@ impl Context {
         if self.variable.is_some_and(|x| matches!(x, Symbol::Slack(_)) && value.symbols().contains(&x)) {
             return None;
         }
-        let slacks = self.assumptions.iter().filter(|s| matches!(s.usage, AssumptionUse::Pivot(..))).count();
-        let slack = Symbol::Slack(slacks.try_into().ok()?);
-        let pivot = |value: &Ratio| self.pivot(given, value, Some((slack, sign)));
+        let slack = self.next_slack()?;
+        let mut known = self.signs.clone();
+        Arc::make_mut(&mut known).insert(slack, sign);
+        let pivot = |value: &Ratio| self.pivot(given, value, &Poly::symbol(slack), &known);
         let quotient = |x: Symbol| {
             let divisor = Ratio::from(Poly::symbol(x));
             let is_positive = self.signs.get(&x) == Some(&Sign::Positive);
@@ -220,10 +224,8 @@ impl Context {
         let [middle, reach] = [upper + lower, upper - lower].map(|sum| self.reduce(&(sum * &half)));
         let quantity = Ratio::from(Poly::symbol(x));
         let is_free = self.reduce(&quantity) == quantity;
-        let parameters =
-            self.assumptions.iter().filter(|s| matches!(s.usage, AssumptionUse::Interval(..))).count();
-        let used = match parameters.try_into().map(Symbol::Place) {
-            Ok(place) if is_free && !middle.symbols().contains(&x) && !reach.symbols().contains(&x) => {
+        let used = match self.next_place() {
+            Some(place) if is_free && !middle.symbols().contains(&x) && !reach.symbols().contains(&x) => {
                 let by = &middle + reach * Ratio::from(Poly::symbol(place));
                 let sign = Arc::make_mut(&mut self.signs).remove(&x);
                 self.retained.extend(sign.map(|sign| (quantity.clone(), sign)));
@@ -236,6 +238,56 @@ impl Context {
         self.assumptions.push(Assumption { hypothesis, value, sign, divisor: None, usage: used });
     }
 
+    /// Replaces a quantity x by t s, where s is its absolute value and −1 ≤ t ≤ 1. Returns `false` if x cannot be
+    /// replaced.
+    pub(super) fn assume_size(&mut self, value: &Ratio) -> bool {
+        if self.has_cases_only || self.sizes.len() == MAX_SIZES {
+            return false;
+        }
+        let Some((size, place)) = self.next_slack().zip(self.next_place()) else { return false };
+        let value = self.reduce(value);
+        let mut known = self.signs.clone();
+        Arc::make_mut(&mut known).insert(size, Sign::NonNegative);
+        let product = Poly::symbol(size) * Poly::symbol(place);
+        let Some((pivot, by)) = self.pivot(None, &value, &product, &known) else { return false };
+        self.signs = known;
+        self.replace(pivot.clone(), by.clone());
+        self.sizes.push((value.clone(), size));
+        let usage = AssumptionUse::Size { pivot, by, size, place };
+        let sign = Sign::NonNegative;
+        self.assumptions.push(Assumption {
+            hypothesis: None,
+            value: value.clone(),
+            sign,
+            divisor: None,
+            usage,
+        });
+        self.size(&value).is_some()
+    }
+
+    /// Returns the absolute value of a quantity, if it is a symbol.
+    pub(super) fn size(&self, value: &Ratio) -> Option<Symbol> {
+        let is_same = |(known, _): &&(Ratio, Symbol)| {
+            let [difference, sum] = [known - value, known + value];
+            self.reduce(&difference).is_zero() || self.reduce(&sum).is_zero()
+        };
+        self.sizes.iter().find(is_same).map(|(_, size)| *size)
+    }
+
+    fn next_slack(&self) -> Option<Symbol> {
+        let has_slack =
+            |usage: &AssumptionUse| matches!(usage, AssumptionUse::Pivot(..) | AssumptionUse::Size { .. });
+        let slacks = self.assumptions.iter().filter(|assumption| has_slack(&assumption.usage)).count();
+        slacks.try_into().ok().map(Symbol::Slack)
+    }
+
+    fn next_place(&self) -> Option<Symbol> {
+        let has_place =
+            |usage: &AssumptionUse| matches!(usage, AssumptionUse::Interval(..) | AssumptionUse::Size { .. });
+        let places = self.assumptions.iter().filter(|assumption| has_place(&assumption.usage)).count();
+        places.try_into().ok().map(Symbol::Place)
+    }
+
     /// Adds a substitution.
     fn replace(&mut self, pivot: Monomial, by: Ratio) {
         for (_, value) in &mut self.substitutions {
@@ -244,21 +296,18 @@ impl Context {
         self.substitutions.push((pivot, by));
     }
 
-    /// Returns a monomial and its value where `value` equals the slack variable, or 0 without one.
+    /// Returns a monomial and its value where `value` equals a polynomial in new symbols.
     fn pivot(
         &self,
         given: Option<&Hypothesis>,
         value: &Ratio,
-        slack: Option<(Symbol, Sign)>,
+        replaced_by: &Poly,
+        known: &Arc<SignEnv>,
     ) -> Option<(Monomial, Ratio)> {
-        // num − slack · den = 0, and den is not 0.
-        let (mut equation, mut known) = (value.num().clone(), self.signs.clone());
-        if let Some((slack, sign)) = slack {
-            equation = equation - Poly::symbol(slack) * value.den();
-            Arc::make_mut(&mut known).insert(slack, sign);
-        }
-        let pivot = search::pivot(self, given, value, &equation, &known)?;
-        let by = solve_for(&pivot, &equation, &known)?;
+        // num − replaced_by · den = 0, and den is not 0.
+        let equation = value.num() - replaced_by * value.den();
+        let pivot = search::pivot(self, given, value, &equation, known)?;
+        let by = solve_for(&pivot, &equation, known)?;
         Some((pivot, by))
     }
 }

@@ -116,6 +116,18 @@ pub enum AssumptionUse {
     Pivot(Monomial, Ratio, Option<Symbol>),
     /// A symbol, its value in its interval, and the interval parameter between −1 and 1.
     Interval(Symbol, Ratio, Symbol),
+    /// The absolute value of the quantity is a symbol `size`, and the quantity is the product of it and a symbol
+    /// between −1 and 1.
+    Size {
+        /// The pivot.
+        pivot: Monomial,
+        /// The value of the pivot.
+        by: Ratio,
+        /// The absolute value.
+        size: Symbol,
+        /// The factor between −1 and 1.
+        place: Symbol,
+    },
     /// The quantity is retained unchanged. Multiples of it may be [subtracted](SignedRatio::less).
     Retained,
     /// An equation without a pivot, or an interval of a replaced quantity, which is not used.
@@ -187,8 +199,10 @@ pub enum Justification {
 pub enum ProofError {
     /// A divisor may be 0: its formula, and its value under the hypotheses.
     PossibleZeroDivisor(Tree, Ratio),
-    /// The branch of a positive part or minimum is undecided, and no more cases may be distinguished.
+    /// The branch of a positive part or minimum is undecided by this quantity, and no more cases may be distinguished.
     UndecidedBranch(Ratio),
+    /// The branch of an absolute value is undecided by this quantity, twice its argument.
+    UndecidedSize(Ratio),
     /// No rule finds the sign of a quantity, for these signs of symbols.
     UnknownSign(Ratio, std::sync::Arc<SignEnv>),
     /// The sign of a quantity differs from the required one.

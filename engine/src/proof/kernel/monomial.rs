@@ -6,8 +6,8 @@ use crate::formula::symbols::subscripted;
 use std::cmp::Ordering;
 use std::sync::Arc;
 
-/// A symbol of a polynomial.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+/// A symbol of a polynomial. Those of the statement come first, by name.
+#[derive(Clone, Copy, Debug)]
 pub enum Symbol {
     /// A symbol of the statement.
     Own(&'static str),
@@ -41,6 +41,39 @@ impl Symbol {
         !digits.is_empty() && digits.chars().all(|digit| ('₀'..='₉').contains(&digit))
     }
 }
+
+impl Ord for Symbol {
+    fn cmp(&self, other: &Self) -> Ordering {
+        // A loop over the few bytes of a name is faster than a comparison of texts of any length.
+        fn kind(symbol: Symbol) -> (u8, u8) {
+            match symbol {
+                Symbol::Own(_) => (0, 0),
+                Symbol::Error(index) => (1, index),
+                Symbol::Slack(index) => (2, index),
+                Symbol::Place(index) => (3, index),
+            }
+        }
+        match (self, other) {
+            (Symbol::Own(a), Symbol::Own(b)) if a.as_ptr() == b.as_ptr() => a.len().cmp(&b.len()),
+            (Symbol::Own(a), Symbol::Own(b)) => a.bytes().cmp(b.bytes()),
+            (a, b) => kind(*a).cmp(&kind(*b)),
+        }
+    }
+}
+
+impl PartialOrd for Symbol {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Symbol {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Symbol {}
 
 /// Maximum power of a symbol. A formula within the limits of a proof does not exceed it; only repeated
 /// substitution of pivots does.

@@ -107,6 +107,7 @@ impl<'a> Translator<'a> {
                 Poly::exponential(exponent).into()
             }
             PositivePart(a) => self.resolve_branch(tree, a, &tree.with_op(Int(0)), |a, _| a)?,
+            Min(a, b) if matches!(a.op(), Neg(negated) if negated == b) => self.resolve_size(tree, a, b)?,
             Min(a, b) => self.resolve_branch(tree, a, b, |a, b| b - a)?,
             Rounded(a) => {
                 let value = self.context.reduce(&self.translate(a)?);
@@ -173,6 +174,18 @@ impl<'a> Translator<'a> {
             self.branches.push((bracket.clone(), if is_first { first } else { second }.clone(), signed));
         }
         Ok(if is_first { a } else { b })
+    }
+
+    /// Translates min(−x, x), which is −|x|.
+    fn resolve_size(&mut self, minimum: &Tree, negated: &Tree, x: &Tree) -> Result<Ratio, ProofError> {
+        let value = self.translate(x)?;
+        if let Some(size) = self.context.size(&value) {
+            return Ok((-Poly::symbol(size)).into());
+        }
+        self.resolve_branch(minimum, negated, x, |a, b| b - a).map_err(|error| match error {
+            ProofError::UndecidedBranch(twice) => ProofError::UndecidedSize(twice),
+            error => error,
+        })
     }
 }
 

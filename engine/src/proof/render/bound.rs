@@ -3,7 +3,7 @@
 use super::ProofPrinter;
 use super::algebra::Order;
 use crate::proof::kernel::sign::{Certificate, Rule};
-use crate::proof::kernel::{Derivation, Direct, Justification, SignedRatio};
+use crate::proof::kernel::{Assumption, AssumptionUse, Derivation, Direct, Justification, SignedRatio};
 
 impl ProofPrinter<'_> {
     /// Writes the proof of a rounding bound: the common part of its cases once, and the size of long
@@ -29,8 +29,8 @@ impl ProofPrinter<'_> {
         leaves(derivation, Vec::new(), self.order(), &mut all);
         let (_, first) = all.first().filter(|(_, direct)| !direct.roundings.is_empty())?;
         let mut lines: Vec<_> = self.errors(first).into_iter().collect();
-        let given = first.assumptions.iter().filter(|supposed| supposed.hypothesis.is_some());
-        lines.extend(given.filter_map(|supposed| self.format_use(supposed)));
+        let (common, _) = split_at_case(first);
+        lines.extend(common.iter().filter_map(|assumption| self.format_use(assumption)));
         for (case, direct) in all {
             let Justification::Within(sides) = &direct.justification else { return None };
             let within = self.within(sides);
@@ -38,7 +38,9 @@ impl ProofPrinter<'_> {
                 lines.extend(within);
             } else {
                 lines.push(format!("where {case}:"));
-                lines.extend(within.into_iter().map(|line| format!("  {line}")));
+                let (_, later) = split_at_case(direct);
+                let uses = later.into_iter().filter_map(|assumption| self.format_use(assumption));
+                lines.extend(uses.chain(within).map(|line| format!("  {line}")));
             }
         }
         Some(lines)
@@ -72,6 +74,15 @@ impl ProofPrinter<'_> {
         }
         lines
     }
+}
+
+/// Returns the assumptions before the first case, and what follows from those after it except from the cases.
+fn split_at_case(direct: &Direct) -> (&[Assumption], Vec<&Assumption>) {
+    let is_size = |assumption: &Assumption| matches!(assumption.usage, AssumptionUse::Size { .. });
+    let is_case = |assumption: &Assumption| assumption.hypothesis.is_none() && !is_size(assumption);
+    let first_case = direct.assumptions.iter().position(is_case).unwrap_or(direct.assumptions.len());
+    let (common, others) = direct.assumptions.split_at(first_case);
+    (common, others.iter().filter(|assumption| !is_case(assumption)).collect())
 }
 
 /// Texts for the two differences of a bound and ± a quantity.

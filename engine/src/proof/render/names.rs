@@ -129,6 +129,10 @@ impl ProofPrinter<'_> {
                 );
                 Some((*place, definition))
             }
+            AssumptionUse::Size { size, .. } => {
+                let value = self.order().ratio_or_size(&assumption.value);
+                Some((*size, Some(format!("{} = |{value}|", size.name()))))
+            }
             _ => None,
         }
     }
@@ -140,6 +144,7 @@ impl ProofError {
         match self {
             ProofError::PossibleZeroDivisor(_, value)
             | ProofError::UndecidedBranch(value)
+            | ProofError::UndecidedSize(value)
             | ProofError::UnknownSign(value, _)
             | ProofError::WrongSign(value, _)
             | ProofError::Unequal(value)
