@@ -16,6 +16,8 @@ mod solver;
 mod strategies;
 
 #[cfg(feature = "prover")]
+mod certificates;
+#[cfg(feature = "prover")]
 mod consistency;
 #[cfg(feature = "prover")]
 mod coq;

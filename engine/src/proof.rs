@@ -26,12 +26,18 @@
 //!   > (1 + x)ᵏ ≥ 1 + k x, so |ρ|ᵏ ≤ 1/(1 + k x), which is below any bound once k is large enough. □ So if
 //!   > f is continuous at 0, as a quotient of polynomials is where its denominator is not 0, f(ρᵏ) → f(0).
 //!
+//! A second way to a proof needs less trust: [`certify`](mod@certify) writes what the kernel derives as
+//! certificates over the symbols of a statement, and [`check`](mod@check), which shares with the kernel only its
+//! signs and premises, accepts them by expanding identities.
+//!
 //! Most of this can be checked independently: [`coq`] writes the same claims for the proof assistant Coq,
 //! whose kernel checks them anew, and tests ensure that nothing is proved that numbers
 //! [`refute`](mod@refute). Rounding errors of formulas are proved as well, for every precision. Claims about
 //! the solver in floats, about its guarantees and iteration counts, are tested by experiments, not proved.
 
 mod bounds;
+pub mod certify;
+pub mod check;
 pub mod coq;
 mod hints;
 mod kernel;

@@ -189,12 +189,12 @@ impl Tree {
         rewritten.remove(&self.address()).expect("the last step is one of them")
     }
 
-    pub(super) fn address(&self) -> usize {
+    pub(crate) fn address(&self) -> usize {
         Arc::as_ptr(&self.0).addr()
     }
 
     /// Returns each operation once, even if shared, after its operands, from left to right.
-    pub(super) fn distinct(&self) -> Vec<&Tree> {
+    pub(crate) fn distinct(&self) -> Vec<&Tree> {
         let (mut found, mut all, mut open) = (HashSet::new(), Vec::new(), vec![(self, false)]);
         while let Some((tree, operands_are_done)) = open.pop() {
             if operands_are_done {

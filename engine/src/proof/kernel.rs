@@ -49,13 +49,13 @@
 
 pub(super) mod algebra;
 pub(super) mod context;
-mod derivation;
+pub(super) mod derivation;
 pub(super) mod effort;
 mod monomial;
 mod number;
 mod order;
 pub(super) mod sign;
-mod translator;
+pub(super) mod translator;
 
 pub use derivation::{
     Assumption, AssumptionUse, Derivation, Direct, Justification, Multiple, Proof, ProofError, Rounding,
@@ -101,8 +101,31 @@ pub const MAX_ROUNDINGS: usize = 64;
 /// [`ProofError::TooLarge`] if the statement exceeds [`MAX_SIZE`] or [`MAX_DEPTH`], or the proof exceeds
 /// [`MAX_EFFORT`].
 pub fn prove(statement: &Statement) -> Result<Proof, ProofError> {
+    let roundings = check_premises(statement)?;
+    let search = || search(statement, roundings);
+    effort::bounded(search).unwrap_or(Err(ProofError::TooLarge("its proof", MAX_EFFORT)))
+}
+
+/// Checks the premises of a proof, and returns the rounded formulas: the statement has goals, is not too
+/// large, and uses no reserved name, and no limit or derivative in it is one of a rounded or computed quantity.
+///
+/// # Errors
+/// Returns the premise that does not hold.
+pub(in crate::proof) fn check_premises(statement: &Statement) -> Result<Vec<Tree>, ProofError> {
     check_size(statement.trees())?;
-    effort::bounded(|| search(statement)).unwrap_or(Err(ProofError::TooLarge("its proof", MAX_EFFORT)))
+    if statement.goals().is_empty() {
+        return Err(ProofError::NoGoals);
+    }
+    check_names(statement)?;
+    let roundings = roundings(statement.trees());
+    if roundings.len() > MAX_ROUNDINGS {
+        return Err(ProofError::TooManyRoundings);
+    }
+    // A computed quantity varies with its operands, which its symbol does not show.
+    if (!roundings.is_empty() || !statement.computed().is_empty()) && has_continuous_variable(statement) {
+        return Err(ProofError::Discontinuous);
+    }
+    Ok(roundings)
 }
 
 /// Derives a proposition from hypotheses in cases only, without making a [`Proof`].
@@ -145,19 +168,7 @@ pub(super) fn check_size<'t>(trees: impl Iterator<Item = &'t Tree> + Clone) -> R
     Ok(())
 }
 
-fn search(statement: &Statement) -> Result<Proof, ProofError> {
-    if statement.goals().is_empty() {
-        return Err(ProofError::NoGoals);
-    }
-    check_names(statement)?;
-    let roundings = roundings(statement.trees());
-    if roundings.len() > MAX_ROUNDINGS {
-        return Err(ProofError::TooManyRoundings);
-    }
-    // A computed quantity varies with its operands, which its symbol does not show.
-    if (!roundings.is_empty() || !statement.computed().is_empty()) && has_continuous_variable(statement) {
-        return Err(ProofError::Discontinuous);
-    }
+fn search(statement: &Statement, roundings: Vec<Tree>) -> Result<Proof, ProofError> {
     let context = Context::of(roundings);
     let goals = statement.goals().iter().map(|goal| {
         let hypotheses = statement.hypotheses_for(goal.role);
@@ -247,7 +258,7 @@ pub(super) fn roundings<'t>(trees: impl Iterator<Item = &'t Tree>) -> Vec<Tree> 
 }
 
 /// Maximum number of nested case distinctions.
-const MAX_NESTED_CASES: u32 = 4;
+pub(in crate::proof) const MAX_NESTED_CASES: u32 = 4;
 
 /// Derives a goal from the assumptions of a context and further hypotheses. Where the sign of x in |x| is
 /// undecided, replaces x by t |x|; where this does not suffice or another branch is undecided, derives the goal
@@ -294,7 +305,7 @@ fn derive(
 
 /// Derivations without case distinctions.
 impl Context {
-    fn derive_directly(&self, goal: &Goal) -> Result<Direct, ProofError> {
+    pub(in crate::proof) fn derive_directly(&self, goal: &Goal) -> Result<Direct, ProofError> {
         let mut reader = Translator::new(self);
         let because = match &goal.proposition {
             Proposition::Equal(left, right) => {
@@ -425,7 +436,7 @@ impl Context {
 }
 
 /// Returns the operands of a difference if both are rounded.
-fn rounded_difference(of: &Tree) -> Option<(&Tree, &Tree)> {
+pub(in crate::proof) fn rounded_difference(of: &Tree) -> Option<(&Tree, &Tree)> {
     let Op::Sub(a, b) = of.op() else { return None };
     [a, b].into_iter().all(|tree| matches!(tree.op(), Op::Rounded(_))).then_some((a, b))
 }

@@ -37,13 +37,13 @@ pub(in crate::proof) struct Context {
 
 impl Context {
     /// Creates a context whose only assumption is that powers of two are positive.
-    pub(super) fn of(roundings: Vec<Tree>) -> Self {
+    pub(in crate::proof) fn of(roundings: Vec<Tree>) -> Self {
         let known = SCALES.into_iter().map(|name| (Symbol::Own(name), Sign::Positive)).collect();
         Context { signs: Arc::new(known), roundings, ..Context::default() }
     }
 
     /// Sets the variable of the limit, if the proposition is one; hypotheses on it are solved for it.
-    pub(super) fn with_variable(self, says: &Proposition) -> Self {
+    pub(in crate::proof) fn with_variable(self, says: &Proposition) -> Self {
         let variable = match says {
             Proposition::Limit(_, by, _) => Some(Symbol::Own(by)),
             _ => None,
@@ -52,12 +52,16 @@ impl Context {
     }
 
     /// Lets absolute values be replaced in cases only.
-    pub(super) fn with_cases_only(self) -> Self {
+    pub(in crate::proof) fn with_cases_only(self) -> Self {
         Context { has_cases_only: true, ..self }
     }
 
+    pub(super) fn has_cases_only(&self) -> bool {
+        self.has_cases_only
+    }
+
     /// Adds a hypothesis to the assumptions.
-    pub(super) fn assume(&mut self, hypothesis: &Hypothesis) -> Result<(), ProofError> {
+    pub(in crate::proof) fn assume(&mut self, hypothesis: &Hypothesis) -> Result<(), ProofError> {
         let mut reader = Translator::new(self);
         if let Some((x, lower, upper)) = hypothesis.interval() {
             let [lower, upper] = [reader.translate(lower)?, reader.translate(upper)?];
@@ -73,7 +77,7 @@ impl Context {
 
     /// Returns a polynomial with the sign of a quotient whose denominator is positive: the numerator without
     /// its factors 2ᵖ + 1 + e, which are positive.
-    pub(super) fn sign_numerator(&self, value: &Ratio) -> Poly {
+    pub(in crate::proof) fn sign_numerator(&self, value: &Ratio) -> Poly {
         let errors = value.num().symbols().into_iter().filter(|x| matches!(x, Symbol::Error(_)));
         let largest = self.inverse_gamma();
         errors.fold(value.num().clone(), |rest, error| {
@@ -88,7 +92,7 @@ impl Context {
     }
 
     /// Replaces every pivot, repeatedly; the result is equal to `value` under the assumptions.
-    pub(super) fn reduce(&self, value: &Ratio) -> Ratio {
+    pub(in crate::proof) fn reduce(&self, value: &Ratio) -> Ratio {
         let mut value = value.clone();
         // Substitutions could reintroduce each other's pivots indefinitely; some are then left in the value.
         for _ in &self.substitutions {
@@ -120,7 +124,11 @@ impl Context {
 
     /// Returns the sign of a reduced quotient v, directly or by a [retained](Self::retained) quantity h:
     /// v = m h + (v − m h) has the common sign of the two terms.
-    pub(super) fn sign_by_retained(&self, value: Ratio, factors: &[Certificate]) -> Option<SignedRatio> {
+    pub(in crate::proof) fn sign_by_retained(
+        &self,
+        value: Ratio,
+        factors: &[Certificate],
+    ) -> Option<SignedRatio> {
         let by = |h: &Ratio, sign: Sign, m: Ratio| {
             let rest = self.sign(&value - &m * h, factors)?;
             let factor = self.sign(m, factors)?;
@@ -141,6 +149,26 @@ impl Context {
         Some(self.sign_under(self.reduce(value), &[], known)?.sign())
     }
 
+    /// Returns the assumptions in order.
+    pub(in crate::proof) fn assumptions(&self) -> &[Assumption] {
+        &self.assumptions
+    }
+
+    /// Returns the quantities of known sign that are not expressed by the remaining symbols.
+    pub(in crate::proof) fn retained(&self) -> &[(Ratio, Sign)] {
+        &self.retained
+    }
+
+    /// Returns the rounded formulas; the position of each is the index of its error.
+    pub(in crate::proof) fn roundings(&self) -> &[Tree] {
+        &self.roundings
+    }
+
+    /// Returns the sign of a polynomial of the remaining symbols if the search finds it.
+    pub(in crate::proof) fn sign_of(&self, of: &Poly) -> Option<Certificate> {
+        sign(of, &self.signs)
+    }
+
     pub(in crate::proof) fn signs(&self) -> &SignEnv {
         &self.signs
     }
@@ -154,7 +182,7 @@ impl Context {
     }
 
     /// Adds the assumption that a quantity has a sign.
-    pub(super) fn assume_sign(&mut self, given: Option<&Hypothesis>, value: Ratio, sign: Sign) {
+    pub(in crate::proof) fn assume_sign(&mut self, given: Option<&Hypothesis>, value: Ratio, sign: Sign) {
         let value = self.reduce(&value);
         let (given, mut divided_by) = (given.cloned(), None);
         let used = match sign {
@@ -241,7 +269,7 @@ impl Context {
     /// Replaces a quantity x by t s, where s is its absolute value and −1 ≤ t ≤ 1. Returns `false` if x cannot be
     /// replaced.
     pub(super) fn assume_size(&mut self, value: &Ratio) -> bool {
-        if self.has_cases_only || self.sizes.len() == MAX_SIZES {
+        if self.sizes.len() == MAX_SIZES {
             return false;
         }
         let Some((size, place)) = self.next_slack().zip(self.next_place()) else { return false };

@@ -17,7 +17,12 @@ thread_local! {
 
 /// Returns the value of `f`, or `None` if its arithmetic exceeds [`MAX_EFFORT`].
 pub fn bounded<T>(f: impl FnOnce() -> T) -> Option<T> {
-    let before = REST.replace(Some(MAX_EFFORT));
+    bounded_by(MAX_EFFORT, f)
+}
+
+/// Returns the value of `f`, or `None` if its arithmetic exceeds another maximum.
+pub fn bounded_by<T>(most: usize, f: impl FnOnce() -> T) -> Option<T> {
+    let before = REST.replace(Some(most));
     let value = f();
     REST.replace(before).map(|_| value)
 }

@@ -183,7 +183,9 @@ impl<'a> Translator<'a> {
             return Ok((-Poly::symbol(size)).into());
         }
         self.resolve_branch(minimum, negated, x, |a, b| b - a).map_err(|error| match error {
-            ProofError::UndecidedBranch(twice) => ProofError::UndecidedSize(twice),
+            ProofError::UndecidedBranch(twice) if !self.context.has_cases_only() => {
+                ProofError::UndecidedSize(twice)
+            }
             error => error,
         })
     }
@@ -199,7 +201,7 @@ fn is_scale(x: algebra::Symbol) -> bool {
 }
 
 /// Splits a quotient into a factor without powers of two and a product of powers of two.
-fn without_scales(value: &Ratio) -> (Ratio, Ratio) {
+pub(in crate::proof) fn without_scales(value: &Ratio) -> (Ratio, Ratio) {
     let scales = |poly: &Poly| -> Poly { poly.common_monomial().without_symbols(|x| !is_scale(x)).into() };
     let scale = Ratio::from(scales(value.num())).over(&scales(value.den()).into());
     let scale = scale.unwrap_or_else(|| Poly::constant(1).into());

@@ -1,0 +1,188 @@
+//! Forms for the six rules of the kernel.
+
+use super::dictionary::integral;
+use super::finder::{Failure, Finder, Found};
+use crate::formula::Relation;
+use crate::proof;
+use crate::proof::check::{Known, Leaf, Node, Polynomial, Rise};
+use crate::proof::kernel::algebra::{Poly, Ratio, Symbol};
+use crate::proof::kernel::derivation::SignedRatio;
+use crate::proof::kernel::sign::{Certificate, Rule, Sign};
+
+/// Forms l and r with l f = r.
+type Forms = (Poly, Poly);
+
+/// The nesting of lemmas from which on a factor is expanded.
+const MAX_FACTOR_DEPTH: u32 = 2;
+
+impl Finder<'_, '_> {
+    /// Returns a quotient as one of forms.
+    pub fn form(&mut self, signed: &SignedRatio) -> Found<Ratio> {
+        let (left, right) = self.forms(&signed.num)?;
+        let (left_of_den, right_of_den) = match self.lemmas(&signed.den) {
+            Some(forms) => forms,
+            None => self.forms(&signed.den)?,
+        };
+        let rest = Ratio::from(right * left_of_den).over(&(right_of_den * left).into());
+        let rest = rest.ok_or("a zero denominator")?;
+        let Some(multiple) = &signed.subtracted else { return Ok(rest) };
+        let factor = self.form(&multiple.factor)?;
+        let own = self.guide.dictionary.own(&multiple.of);
+        let fact = self.guide.fact_of_retained(&multiple.of, self.state).ok_or("a retained quantity")?;
+        let (symbol, value) = self.fact(fact)?;
+        let scale = own.over(&value.into()).ok_or("a zero fact")?;
+        Ok(factor * scale * Ratio::from(symbol) + rest)
+    }
+
+    /// Returns the forms of a denominator by lemmas about its factors 2ᵖ + 1 + e.
+    fn lemmas(&mut self, of: &Certificate) -> Option<Forms> {
+        if of.of().terms().len() < 3 || !of.of().symbols().into_iter().any(|x| matches!(x, Symbol::Error(_)))
+        {
+            return None;
+        }
+        let own = self.guide.dictionary.own(&of.of().clone().into());
+        if !own.den().is_one() {
+            return None;
+        }
+        let (rest, product) = self.without_largest_errors(own.num()).ok()?;
+        if product.is_one() {
+            return None;
+        }
+        let signed = self.guide.context.sign_by_retained(self.guide.reduced(&rest), &[])?;
+        let form = self.form(&signed).ok()?;
+        Some((form.den().clone(), form.num() * product))
+    }
+
+    /// Divides a value in own symbols by its factors 2ᵖ + 1 + e. Returns the rest, and the product of lemmas
+    /// about them.
+    pub fn without_largest_errors(&mut self, of: &Poly) -> Found<(Poly, Poly)> {
+        let (mut rest, mut product) = (of.clone(), Poly::constant(1));
+        for factor in self.guide.largest_errors(of) {
+            while let Some(quotient) = rest.over(&factor) {
+                rest = quotient;
+                product = product * self.lemma(&factor)?;
+            }
+        }
+        Ok((rest, product))
+    }
+
+    fn forms(&mut self, of: &Certificate) -> Found<Forms> {
+        match of.rule() {
+            Rule::Termwise | Rule::TriangleInequality(_) => Ok((Poly::constant(1), of.of().clone())),
+            Rule::Product(factor, rest) => {
+                let (left, right) = match self.factor(factor) {
+                    Some(lemma) => (Poly::constant(1), lemma),
+                    None => self.forms(factor)?,
+                };
+                let (left_of_rest, right_of_rest) = self.forms(rest)?;
+                Ok((left * left_of_rest, right * right_of_rest))
+            }
+            Rule::Square { leading, root, rest } => self.square(leading, root, rest),
+            Rule::Endpoints { x, at } => self.ends(*x, at),
+            Rule::MeanValue { x, start, slope } => self.slope(of, *x, [start.sign(), slope.sign()]),
+        }
+    }
+
+    /// Returns a lemma about a factor.
+    fn factor(&mut self, of: &Certificate) -> Option<Poly> {
+        let own = self.guide.dictionary.own(&of.of().clone().into());
+        let (value, _) = integral(own.num(), own.num());
+        let is_lemma = of.of().terms().len() > 1 && own.den().is_one() && value == *own.num();
+        if !is_lemma || !self.uses_lemmas || self.depth > MAX_FACTOR_DEPTH {
+            return None;
+        }
+        self.lemma(&value).ok()
+    }
+
+    /// Returns 4 a f = r² + d.
+    fn square(&mut self, leading: &Certificate, root: &Poly, rest: &Certificate) -> Found<Forms> {
+        let (left_of_leading, leading) = self.forms(leading)?;
+        let (left_of_rest, rest) = self.forms(rest)?;
+        let own = self.guide.dictionary.own(&root.clone().into());
+        let (value, _) = integral(own.num(), own.num());
+        let scale = own.over(&value.clone().into()).ok_or("a zero root")?;
+        if [scale.num(), scale.den()].into_iter().any(|part| part.terms().len() != 1) {
+            return Err("the scale of a root".into());
+        }
+        let of = self.guide.dictionary.polynomial(&value, 0, self.state).ok_or("a root")?;
+        let root = scale * Ratio::from(self.quantity(Known::Value(of), &value));
+        let square = &root * &root;
+        let left = Poly::constant(4) * leading * &left_of_rest * square.den();
+        let right = &left_of_leading * left_of_rest * square.num() + left_of_leading * rest * square.den();
+        Ok((left, right))
+    }
+
+    /// Returns 2ⁿ f = Σ bᵢ (1 + x)ⁱ (1 − x)ⁿ⁻ⁱ.
+    fn ends(&mut self, x: Symbol, at: &[Certificate]) -> Found<Forms> {
+        let forms: Vec<Forms> = at.iter().map(|end| self.forms(end)).collect::<Found<_>>()?;
+        let own = self.guide.dictionary.own_unit(x);
+        let (one, own) = (Poly::constant(1), Poly::symbol(own));
+        let lower = self.bound(&(&one + &own))?;
+        let upper = self.bound(&(&one - &own))?;
+        let all = forms.iter().fold(one, |all, (left, _)| all * left);
+        let mut sum = Poly::zero();
+        for (i, (left, right)) in forms.iter().enumerate() {
+            let others = all.over(left).ok_or("a zero form")?;
+            sum = sum
+                + (1..at.len()).fold(right * others, |term, k| term * if k <= i { &lower } else { &upper });
+        }
+        Ok(((1..at.len()).fold(all, |all, _| all * Poly::constant(2)), sum))
+    }
+
+    /// Returns a lemma about 1 + x or 1 − x, which is a form itself.
+    fn bound(&mut self, value: &Poly) -> Found<Poly> {
+        let of = self.guide.dictionary.polynomial(value, 0, self.state).ok_or("a unit")?;
+        let (known, left, right) = (Vec::new(), Polynomial::constant(1), of.clone());
+        let certificate = proof::check::Certificate { known, left, right };
+        Ok(self.quantity(Known::Lemma((of, certificate).into()), value))
+    }
+
+    /// Returns the forms of a function whose sign follows from that of its slope.
+    fn slope(&mut self, of: &Certificate, x: Symbol, signs: [Sign; 2]) -> Found<Forms> {
+        let own = self.guide.dictionary.own(&of.of().clone().into());
+        for i in 0..self.state.facts.iter().len() {
+            let Some(scale) = self.scale(&own, i) else { continue };
+            let (symbol, _) = self.fact(i)?;
+            return Ok((scale.den().clone(), scale.num() * symbol));
+        }
+        let x = self.guide.dictionary.variable(x).ok_or("the slope in a slack variable")?;
+        let is_falling = of.sign().implies(Sign::NonPositive);
+        let num = if is_falling { -own.num() } else { own.num().clone() };
+        let (num, _) = integral(&num, &num);
+        let of = self.guide.dictionary.polynomial(&num, 0, self.state).ok_or("a function that rises")?;
+        let [start, slope] = signs.map(|sign| relation(if is_falling { sign.negated() } else { sign }));
+        let (start, slope) = (start.ok_or("the sign of a start")?, slope.ok_or("the sign of a slope")?);
+        let none = || Node::Leaf(Leaf::default().into());
+        Err(Failure::Rise(Rise { of, x, start, slope, parts: [none(), none(), none()] }.into()))
+    }
+
+    /// Returns the quotient of a value and a fact if it is one of single terms.
+    fn scale(&self, own: &Ratio, fact: usize) -> Option<Ratio> {
+        let fact = self.guide.dictionary.poly(&self.state.facts.get(fact).ok()?.0, self.state);
+        if fact.terms().len() < 2 {
+            return None;
+        }
+        let scale = if fact.has_exponentials() {
+            let [a, b] =
+                [own.num(), &fact].map(|of| of.terms().last().map(|(_, q)| Poly::constant(q.clone())));
+            let (a, b) = (a?, b?);
+            if own.num() * &b != &fact * &a {
+                return None;
+            }
+            Ratio::from(a).over(&(b * own.den()).into())?
+        } else {
+            own.over(&fact.into())?
+        };
+        let is_simple = [scale.num(), scale.den()].into_iter().all(|part| part.terms().len() == 1);
+        is_simple.then_some(scale)
+    }
+}
+
+fn relation(sign: Sign) -> Option<Relation> {
+    match sign {
+        Sign::Positive => Some(Relation::Positive),
+        Sign::NonNegative => Some(Relation::NonNegative),
+        Sign::Zero => Some(Relation::Zero),
+        Sign::Negative | Sign::NonPositive => None,
+    }
+}

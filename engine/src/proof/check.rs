@@ -1,0 +1,378 @@
+//! The checker of proofs.
+//!
+//! # Certificates
+//!
+//! There is one rule for signs. A [`Certificate`] for a polynomial f states l f = r for two *forms* l and r,
+//! polynomials in quantities of known sign: symbols, hypotheses, and quantities certified before. The sign of
+//! a form is read off its terms: factors between −1 and 1 do not increase the absolute value of a term, and
+//! their squares do not change its sign. So 1 + e ≥ 0 for −1 ≤ e ≤ 1. Expanding both sides checks the
+//! identity.
+//!
+//! # Proofs
+//!
+//! A proof of a goal is a tree of cases ([`Node`]), whose leaves ([`Leaf`]) list what they use in the order in
+//! which the checker needs it. The checker translates hypotheses and the goal into quotients of polynomials,
+//! operation by operation. It takes the sign of each quantity on which this depends from the list, and checks
+//! it. It does not search, and an error in a proof can only make it refuse.
+//!
+//! The variables of polynomials are the [atoms](Atom) of the goal: its symbols, the errors of its rounded
+//! formulas, the places of symbols in their intervals, and its exponentials. The goal and its hypotheses
+//! determine them.
+
+mod form;
+mod limit;
+mod polynomial;
+mod quotient;
+mod state;
+mod table;
+#[cfg(test)]
+mod tests;
+
+pub use polynomial::{MAX_VARIABLES, Polynomial, Powers};
+pub(in crate::proof) use quotient::Quotient;
+pub(in crate::proof) use state::{Reader, State};
+pub use table::Atom;
+pub(in crate::proof) use table::{Problem, derivative};
+
+use super::kernel::sign::Sign;
+use super::kernel::{self, ProofError};
+use crate::formula::claim::{PRECISION, SCALES};
+use crate::formula::statement::{Proposition, Statement};
+use crate::formula::{Hypothesis, Relation};
+use crate::number::Tree;
+use std::slice::Iter;
+
+/// Maximum nesting of cases, of lemmas in certificates, and of rising functions.
+const MAX_NESTING: u32 = 32;
+
+/// A proof of the sign of a polynomial f: an identity l f = r.
+///
+/// The variables of l and r are the atoms and, after these, the known quantities. The sign of l must be
+/// strict. The sign of f is the product of the signs of l and r.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Certificate {
+    /// The quantities that l and r are expressed by.
+    pub known: Vec<Known>,
+    /// The form l. Its sign follows from its terms and is strict.
+    pub left: Polynomial,
+    /// The form r. Its sign follows from its terms.
+    pub right: Polynomial,
+}
+
+/// A quantity in a form.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Known {
+    /// The fact with this number, with its sign.
+    Fact(usize),
+    /// Any polynomial of atoms. Nothing is known of its sign, except that its square is not negative.
+    Value(Polynomial),
+    /// A polynomial of atoms, with the sign that the certificate proves.
+    Lemma(Box<(Polynomial, Certificate)>),
+    /// The difference of two products of exponentials, given by their variables. It is 0: the exponents on
+    /// both sides have the same sum, as functions of the atoms.
+    Exponents {
+        /// The factors of the first product.
+        left: Vec<usize>,
+        /// The factors of the second product.
+        right: Vec<usize>,
+    },
+}
+
+/// A reason for the sign of a polynomial.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Reason {
+    /// It is the fact with this number, that is, the same polynomial.
+    Fact(usize),
+    /// The certificate proves it. The polynomial becomes the next fact.
+    Certificate(Certificate),
+}
+
+/// A statement that a rounded formula is an earlier one times a power of two, so that both have the same
+/// relative error.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Same {
+    /// The place of the earlier formula among the rounded formulas of the leaf.
+    pub rounding: usize,
+    /// The numerator of the power of two, a product of its symbols.
+    pub up: Polynomial,
+    /// The denominator of the power of two: `down` times the formula is `up` times the earlier one.
+    pub down: Polynomial,
+}
+
+/// The sign of a function f(x) for x ≥ 0, by the mean value theorem: f(x) = f(0) + x f'(ξ) for some ξ > 0. It
+/// becomes the next fact.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rise {
+    /// The function: a polynomial of symbols and exponentials. It becomes a formula, which is differentiated.
+    pub of: Polynomial,
+    /// The variable of x: a symbol that is known not to be negative, and that is no power of two.
+    pub x: usize,
+    /// The relation of f(0) to 0.
+    pub start: Relation,
+    /// The relation of f'(x) to 0 for x > 0.
+    pub slope: Relation,
+    /// Proofs, from the hypotheses that do not mention x, that f is differentiable for x ≥ 0, and of the two
+    /// relations.
+    pub parts: [Node; 3],
+}
+
+/// A proof of a goal under the assumptions of some cases.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Node {
+    /// A quantity, a polynomial of atoms, and proofs for the cases that it is positive and that it is not.
+    Cases(Polynomial, Box<[Node; 2]>),
+    /// A proof without further cases.
+    Leaf(Box<Leaf>),
+}
+
+/// A proof without cases. Its facts are 2 > 0, the assumptions of the cases, and then what follows from each
+/// part in this order: hypotheses, rises, orders, goal. A sign that these depend on is a fact before them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Leaf {
+    /// The numbers of the hypotheses to use. An interval gives its symbol a value; any other one becomes a
+    /// fact. In a limit, those that do not mention its variable come first.
+    pub hypotheses: Vec<usize>,
+    /// The functions that rise or fall from 0 on.
+    pub rises: Vec<Rise>,
+    /// The pairs a ≥ b whose roundings are compared, as the variables of the errors of a and b. The fact is
+    /// fl(a) ≥ fl(b).
+    pub orders: Vec<[usize; 2]>,
+    /// The reasons for the signs, in the order in which they are needed.
+    pub signs: Vec<Reason>,
+    /// The factors of each divisor. Their product is the numerator of the divisor, and each has a strict sign.
+    pub divisors: Vec<Vec<Polynomial>>,
+    /// For each rounded formula, in the order in which they are met, an earlier one with the same error.
+    pub roundings: Vec<Option<Same>>,
+}
+
+/// The source of what a leaf uses: a proof, or a search for one.
+pub(in crate::proof) trait Source {
+    /// Returns the reason for the sign of a polynomial, which is a numerator over these facts.
+    fn sign(&mut self, of: &Polynomial, den: &[usize], state: &State) -> Option<Reason>;
+    /// Returns the factors of a divisor.
+    fn divisor(&mut self, of: &Polynomial, state: &State) -> Option<Vec<Polynomial>>;
+    /// Returns the earlier formula whose error a rounded formula has, if there is one.
+    fn rounding(&mut self, value: &Quotient, state: &State) -> Option<Option<Same>>;
+}
+
+/// The reason why a proof is refused.
+#[derive(Clone, Debug, thiserror::Error)]
+pub enum CheckError {
+    /// The kernel proves no statement of this kind.
+    #[error("{0}")]
+    Statement(ProofError),
+    /// The number of proofs is not that of the goals.
+    #[error("there is not one proof for each goal")]
+    Goals,
+    /// The proof of the goal with this number is refused.
+    #[error("goal {0}: {1:?}")]
+    Goal(usize, Refusal),
+}
+
+/// The reason why the proof of a goal is refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Refusal {
+    /// A coefficient, power, sum, product or nesting exceeds its limit.
+    TooLarge,
+    /// The proof lists too little.
+    Missing,
+    /// The proof lists more than it uses.
+    Unused,
+    /// There is no fact, variable, formula or hypothesis with a number.
+    Unknown,
+    /// The two sides of a certificate differ, or a fact is about another quantity.
+    Identity,
+    /// The sign of a form does not follow from its terms.
+    Form,
+    /// The sign of a divisor, or of the left side of a certificate, is not strict.
+    NotStrict,
+    /// The sums of exponents differ.
+    Exponents,
+    /// The product of the factors is not the divisor.
+    Divisor,
+    /// A rounded formula is not a power of two times the other.
+    Rounding,
+    /// The order of two rounded formulas is not known.
+    Order,
+    /// The mean value theorem does not apply.
+    Rise,
+    /// The formula contains an operation that is not differentiable.
+    NotDifferentiable,
+    /// The limit does not follow from the degrees, or a hypothesis does not hold for all large values.
+    Limit,
+    /// The sign is not the one to be proved.
+    Goal,
+}
+
+type Checked<T> = Result<T, Refusal>;
+
+/// Checks a proof of a statement, which consists of a proof of each of its goals.
+///
+/// # Errors
+/// Returns the reason if the proof is refused, which does not refute the statement.
+pub fn check(statement: &Statement, goals: &[Node]) -> Result<(), CheckError> {
+    kernel::check_premises(statement).map_err(CheckError::Statement)?;
+    if goals.len() != statement.goals().len() {
+        return Err(CheckError::Goals);
+    }
+    for (i, (goal, node)) in statement.goals().iter().zip(goals).enumerate() {
+        let problem = Problem::new(&goal.proposition, statement.hypotheses_for(goal.role));
+        let checked = problem.and_then(|problem| check_node(&problem, &mut Vec::new(), node));
+        checked.map_err(|reason| CheckError::Goal(i, reason))?;
+    }
+    Ok(())
+}
+
+/// Checks a proof under the assumptions of cases.
+fn check_node(problem: &Problem, cases: &mut Vec<(Polynomial, Sign)>, node: &Node) -> Checked<()> {
+    match node {
+        Node::Cases(on, both) => {
+            if !on.has_only(|x| x < problem.table.atoms().len()) {
+                return Err(Refusal::Unknown);
+            }
+            if cases.len() >= MAX_NESTING as usize {
+                return Err(Refusal::TooLarge);
+            }
+            for (node, sign) in both.iter().zip([Sign::Positive, Sign::NonPositive]) {
+                cases.push((on.clone(), sign));
+                check_node(problem, cases, node)?;
+                cases.pop();
+            }
+            Ok(())
+        }
+        Node::Leaf(leaf) => {
+            let Leaf { signs, divisors, roundings, .. } = &**leaf;
+            let mut list =
+                List { signs: signs.iter(), divisors: divisors.iter(), roundings: roundings.iter() };
+            Reader { state: State::new(problem), source: &mut list }.leaf(leaf, cases)?;
+            if list.is_empty() { Ok(()) } else { Err(Refusal::Unused) }
+        }
+    }
+}
+
+/// The rest of the lists of a leaf.
+struct List<'a> {
+    signs: Iter<'a, Reason>,
+    divisors: Iter<'a, Vec<Polynomial>>,
+    roundings: Iter<'a, Option<Same>>,
+}
+
+impl List<'_> {
+    fn is_empty(&self) -> bool {
+        self.signs.len() + self.divisors.len() + self.roundings.len() == 0
+    }
+}
+
+impl Source for List<'_> {
+    fn sign(&mut self, _: &Polynomial, _: &[usize], _: &State) -> Option<Reason> {
+        self.signs.next().cloned()
+    }
+
+    fn divisor(&mut self, _: &Polynomial, _: &State) -> Option<Vec<Polynomial>> {
+        self.divisors.next().cloned()
+    }
+
+    fn rounding(&mut self, _: &Quotient, _: &State) -> Option<Option<Same>> {
+        self.roundings.next().cloned()
+    }
+}
+
+impl<'p> Reader<'p, '_> {
+    /// Checks the goal under the assumptions of cases.
+    pub(in crate::proof) fn leaf(&mut self, leaf: &Leaf, cases: &[(Polynomial, Sign)]) -> Checked<()> {
+        for (case, sign) in cases {
+            let fact = self.state.suppose(case.clone(), *sign);
+            self.state.supposed.push((None, fact));
+        }
+        let problem = self.state.problem;
+        let variable = match problem.proposition {
+            Proposition::Limit(_, by, _) => Some(*by),
+            _ => None,
+        };
+        // What is known before the first hypothesis on the variable of a limit.
+        let mut early = None;
+        for i in &leaf.hypotheses {
+            let hypothesis = problem.hypotheses.get(*i).ok_or(Refusal::Unknown)?;
+            if variable.is_some_and(|by| hypothesis.value.symbols().contains(by)) {
+                early.get_or_insert_with(|| self.state.clone());
+            }
+            self.assume(*i)?;
+        }
+        if variable.is_some() {
+            early.get_or_insert_with(|| self.state.clone());
+        }
+        leaf.rises.iter().try_for_each(|rise| self.rise(rise))?;
+        leaf.orders.iter().try_for_each(|errors| self.monotone(*errors))?;
+        match (problem.proposition, early) {
+            (Proposition::Limit(of, by, to), Some(early)) => self.limit(of, by, to, early, cases),
+            (proposition, _) => self.goal(proposition),
+        }
+    }
+
+    /// Checks a goal that is not a limit.
+    fn goal(&mut self, goal: &Proposition) -> Checked<()> {
+        let holds = match goal {
+            Proposition::Equal(a, b) => {
+                let (a, b) = (self.translate(a)?, self.translate(b)?);
+                return self.equal(&a, &b);
+            }
+            Proposition::Sign(relation, of) => {
+                let of = self.translate(of)?;
+                self.sign_of_quotient(&of)?.implies((*relation).into())
+            }
+            Proposition::Within(of, bound) => {
+                let (bound, of) = (self.translate(bound)?, self.translate(of)?);
+                let above = self.state.facts.sum(&bound, -1, &of)?;
+                let below = self.state.facts.sum(&bound, 1, &of)?;
+                self.sign_of_quotient(&above)?.implies(Sign::NonNegative)
+                    && self.sign_of_quotient(&below)?.implies(Sign::NonNegative)
+            }
+            Proposition::Derivative(of, _, is) => {
+                self.translate(of)?;
+                let derivative = self.state.problem.derivative.as_ref().ok_or(Refusal::Unknown)?;
+                let (derivative, is) = (self.translate(derivative)?, self.translate(is)?);
+                return self.equal(&derivative, &is);
+            }
+            Proposition::Limit(..) => false,
+        };
+        if holds { Ok(()) } else { Err(Refusal::Goal) }
+    }
+
+    /// Checks the sign of a function by those of its start and its slope.
+    fn rise(&mut self, rise: &Rise) -> Checked<()> {
+        let problem = self.state.problem;
+        let x = match problem.table.atoms().get(rise.x) {
+            Some(Atom::Own(name)) if *name != PRECISION && !SCALES.contains(name) => *name,
+            _ => return Err(Refusal::Rise),
+        };
+        for ((proposition, assumed), node) in parts_of_rise(problem, rise, x)?.iter().zip(&rise.parts) {
+            let others = problem.hypotheses.iter().copied();
+            let others = others.filter(|given| !given.value.symbols().contains(x)).chain(assumed);
+            let part = Problem::new(proposition, others.collect())?.within(problem)?;
+            check_node(&part, &mut Vec::new(), node)?;
+        }
+        let at_x = self.state.signs.get(rise.x).copied().flatten();
+        let at_x = at_x.filter(|sign| sign.implies(Sign::NonNegative)).ok_or(Refusal::Rise)?;
+        let sign = Sign::from(rise.start).plus(at_x.times(rise.slope.into())).ok_or(Refusal::Rise)?;
+        self.state.suppose(rise.of.clone(), sign);
+        Ok(())
+    }
+}
+
+/// Returns the propositions that the parts of a rise prove, each with an assumption about x.
+pub(in crate::proof) fn parts_of_rise(
+    problem: &Problem,
+    rise: &Rise,
+    x: &'static str,
+) -> Checked<[(Proposition, Option<Hypothesis>); 3]> {
+    let of = problem.table.to_tree(&rise.of)?;
+    let slope = derivative(&of, x)?;
+    let start = of.substitute(&[(x, Tree::from(0))]);
+    kernel::check_size([&of, &slope, &start].into_iter()).map_err(|_| Refusal::TooLarge)?;
+    let assumed = |relation| Some(Hypothesis::new(relation, Tree::symbol(x)));
+    Ok([
+        (Proposition::Derivative(of, x, slope.clone()), assumed(Relation::NonNegative)),
+        (Proposition::Sign(rise.start, start), None),
+        (Proposition::Sign(rise.slope, slope), assumed(Relation::Positive)),
+    ])
+}

@@ -1,0 +1,133 @@
+//! Polynomials with integer coefficients, whose arithmetic refuses what it cannot represent.
+
+use super::{Checked, Refusal};
+
+/// Maximum number of variables of a polynomial: of the atoms of a goal and the quantities of a certificate.
+pub const MAX_VARIABLES: usize = 64;
+
+/// Maximum number of terms of a product, before equal ones are added.
+const MAX_TERMS: usize = 1 << 22;
+
+/// The powers of the variables in a term.
+pub type Powers = [u8; MAX_VARIABLES];
+
+/// A polynomial: its terms in ascending order of their powers, with nonzero coefficients.
+///
+/// Two polynomials are the same function if and only if they have the same terms.
+#[derive(Clone, Debug, PartialEq, Eq, Default)]
+pub struct Polynomial(Vec<(Powers, i128)>);
+
+impl Polynomial {
+    /// Returns the sum of terms, which may come in any order.
+    pub fn new(mut terms: Vec<(Powers, i128)>) -> Checked<Self> {
+        terms.sort_by_key(|(powers, _)| *powers);
+        let mut sums: Vec<(Powers, i128)> = Vec::with_capacity(terms.len());
+        for (powers, number) in terms {
+            match sums.last_mut() {
+                Some((last, sum)) if *last == powers => {
+                    *sum = sum.checked_add(number).ok_or(Refusal::TooLarge)?;
+                }
+                _ => sums.push((powers, number)),
+            }
+        }
+        sums.retain(|(_, number)| *number != 0);
+        Ok(Polynomial(sums))
+    }
+
+    /// Returns the zero polynomial.
+    pub fn zero() -> Self {
+        Polynomial::default()
+    }
+
+    /// Returns the constant `n`.
+    pub fn constant(n: i128) -> Self {
+        let terms = if n == 0 { Vec::new() } else { vec![([0; MAX_VARIABLES], n)] };
+        Polynomial(terms)
+    }
+
+    /// Returns the variable `x` as a polynomial.
+    pub fn variable(x: usize) -> Checked<Self> {
+        let mut powers = [0; MAX_VARIABLES];
+        *powers.get_mut(x).ok_or(Refusal::TooLarge)? = 1;
+        Ok(Polynomial(vec![(powers, 1)]))
+    }
+
+    /// Returns the terms in ascending order: the powers of the variables, and the coefficient.
+    pub fn terms(&self) -> impl ExactSizeIterator<Item = &(Powers, i128)> {
+        self.0.iter()
+    }
+
+    /// Returns `true` if this is the zero polynomial.
+    pub fn is_zero(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Returns the variable if the polynomial is a single one.
+    pub fn as_variable(&self) -> Option<usize> {
+        let [(powers, 1)] = &self.0[..] else { return None };
+        let x = powers.iter().position(|n| *n > 0)?;
+        (powers.iter().map(|n| u32::from(*n)).sum::<u32>() == 1).then_some(x)
+    }
+
+    /// Returns `true` if every variable that occurs satisfies a predicate.
+    pub fn has_only(&self, is_allowed: impl Fn(usize) -> bool) -> bool {
+        self.0.iter().all(|(powers, _)| (0..MAX_VARIABLES).all(|x| powers[x] == 0 || is_allowed(x)))
+    }
+
+    /// Returns `self` + `n` `other`.
+    pub fn plus_multiple(&self, n: i128, other: &Self) -> Checked<Self> {
+        let mut terms = self.0.clone();
+        for (powers, number) in &other.0 {
+            terms.push((*powers, number.checked_mul(n).ok_or(Refusal::TooLarge)?));
+        }
+        Polynomial::new(terms)
+    }
+
+    /// Returns the product.
+    pub fn times(&self, other: &Self) -> Checked<Self> {
+        let count = self.0.len().checked_mul(other.0.len()).filter(|count| *count <= MAX_TERMS);
+        let mut terms = Vec::with_capacity(count.ok_or(Refusal::TooLarge)?);
+        for (a, p) in &self.0 {
+            for (b, q) in &other.0 {
+                let mut powers = *a;
+                for (n, m) in powers.iter_mut().zip(b) {
+                    *n = n.checked_add(*m).ok_or(Refusal::TooLarge)?;
+                }
+                terms.push((powers, p.checked_mul(*q).ok_or(Refusal::TooLarge)?));
+            }
+        }
+        Polynomial::new(terms)
+    }
+
+    /// Returns the degree in a variable.
+    pub fn degree(&self, x: usize) -> u8 {
+        self.0.iter().map(|(powers, _)| powers[x]).max().unwrap_or(0)
+    }
+
+    /// Returns the coefficient of xⁿ.
+    pub fn coefficient(&self, x: usize, n: u8) -> Self {
+        let of_power = self.0.iter().filter(|(powers, _)| powers[x] == n);
+        // Equal powers of x do not change the order of the others.
+        Polynomial(of_power.map(|(powers, number)| (without(powers, x), *number)).collect())
+    }
+
+    /// Returns the degree in a variable and the coefficient of its highest power.
+    pub fn leading(&self, x: usize) -> (u8, Self) {
+        (self.degree(x), self.coefficient(x, self.degree(x)))
+    }
+
+    /// Replaces a variable by a polynomial.
+    pub fn replace(&self, x: usize, by: &Self) -> Checked<Self> {
+        let mut sum = Polynomial::zero();
+        for n in (0..=self.degree(x)).rev() {
+            sum = sum.times(by)?.plus_multiple(1, &self.coefficient(x, n))?;
+        }
+        Ok(sum)
+    }
+}
+
+fn without(powers: &Powers, x: usize) -> Powers {
+    let mut rest = *powers;
+    rest[x] = 0;
+    rest
+}

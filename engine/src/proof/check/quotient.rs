@@ -1,0 +1,100 @@
+//! Quotients of polynomials, whose denominators are products of quantities of strict sign.
+
+use super::polynomial::Polynomial;
+use super::{Checked, Refusal};
+use crate::proof::kernel::sign::Sign;
+
+/// A quotient of a polynomial and a product of facts. The product is not multiplied out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Quotient {
+    /// The numerator.
+    pub num: Polynomial,
+    /// The factors of the denominator: the numbers of their facts, in ascending order.
+    pub den: Vec<usize>,
+}
+
+/// The quantities of known sign, in the order in which they became known.
+#[derive(Clone, Debug, Default)]
+pub struct Facts(Vec<(Polynomial, Sign)>);
+
+impl From<Polynomial> for Quotient {
+    fn from(num: Polynomial) -> Self {
+        Quotient { num, den: Vec::new() }
+    }
+}
+
+impl Quotient {
+    /// Returns the quotient whose denominator has these factors.
+    pub fn over(num: Polynomial, mut den: Vec<usize>) -> Self {
+        den.sort_unstable();
+        Quotient { num, den }
+    }
+
+    /// Returns the product.
+    pub fn times(&self, other: &Self) -> Checked<Self> {
+        let den = [&self.den[..], &other.den].concat();
+        Ok(Quotient::over(self.num.times(&other.num)?, den))
+    }
+}
+
+/// Returns what the list `a` has more than `b`.
+fn without(a: &[usize], b: &[usize]) -> Vec<usize> {
+    let mut rest = a.to_vec();
+    for x in b {
+        if let Some(i) = rest.iter().position(|y| x == y) {
+            rest.remove(i);
+        }
+    }
+    rest
+}
+
+impl Facts {
+    /// Adds a fact and returns its number.
+    pub fn add(&mut self, of: Polynomial, sign: Sign) -> usize {
+        self.0.push((of, sign));
+        self.0.len() - 1
+    }
+
+    /// Returns a fact.
+    pub fn get(&self, i: usize) -> Checked<&(Polynomial, Sign)> {
+        self.0.get(i).ok_or(Refusal::Unknown)
+    }
+
+    /// Returns all facts in order.
+    pub fn iter(&self) -> impl DoubleEndedIterator<Item = &(Polynomial, Sign)> + ExactSizeIterator {
+        self.0.iter()
+    }
+
+    /// Returns the product of facts.
+    pub fn product(&self, facts: &[usize]) -> Checked<Polynomial> {
+        facts.iter().try_fold(Polynomial::constant(1), |product, i| product.times(&self.get(*i)?.0))
+    }
+
+    /// Returns the sign of a product of facts.
+    pub fn sign_of_product(&self, facts: &[usize]) -> Checked<Sign> {
+        facts.iter().try_fold(Sign::Positive, |sign, i| Ok(sign.times(self.get(*i)?.1)))
+    }
+
+    /// Returns both numerators over a common denominator, and that denominator.
+    fn with_common_denominator(
+        &self,
+        a: &Quotient,
+        b: &Quotient,
+    ) -> Checked<(Polynomial, Polynomial, Vec<usize>)> {
+        let (more, less) = (without(&b.den, &a.den), without(&a.den, &b.den));
+        let den = [&a.den[..], &more].concat();
+        Ok((a.num.times(&self.product(&more)?)?, b.num.times(&self.product(&less)?)?, den))
+    }
+
+    /// Returns a + n b.
+    pub fn sum(&self, a: &Quotient, n: i128, b: &Quotient) -> Checked<Quotient> {
+        let (a, b, den) = self.with_common_denominator(a, b)?;
+        Ok(Quotient::over(a.plus_multiple(n, &b)?, den))
+    }
+
+    /// Returns `true` if two quotients are equal, as functions of the variables.
+    pub fn are_equal(&self, a: &Quotient, b: &Quotient) -> Checked<bool> {
+        let (a, b, _) = self.with_common_denominator(a, b)?;
+        Ok(a == b)
+    }
+}

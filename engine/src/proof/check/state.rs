@@ -1,0 +1,294 @@
+//! What is known at a leaf of a proof, and the translation of formulas into quotients of polynomials.
+
+use super::polynomial::Polynomial;
+use super::quotient::{Facts, Quotient};
+use super::table::{Atom, Problem};
+use super::{Checked, Reason, Refusal, Same, Source};
+use crate::formula::claim::{PRECISION, SCALES};
+use crate::number::Tree;
+use crate::number::tree::Op;
+use crate::proof::kernel::sign::Sign;
+use std::collections::HashMap;
+
+/// The number of the fact 2 > 0, which every state contains.
+const TWO: usize = 0;
+
+/// What is known at a leaf of a proof.
+#[derive(Clone, Debug)]
+pub struct State<'p> {
+    /// The proposition to be proved, with its hypotheses.
+    pub problem: &'p Problem<'p>,
+    /// The quantities of known sign.
+    pub facts: Facts,
+    /// The known signs of variables.
+    pub signs: Vec<Option<Sign>>,
+    /// The hypotheses, or cases, that are facts, with the numbers of these.
+    pub supposed: Vec<(Option<usize>, usize)>,
+    /// The rounded formulas met so far.
+    pub rounded: Vec<Rounded>,
+    /// The exponentials met so far, with their exponents.
+    pub exponents: Vec<(usize, Quotient)>,
+    /// The values of symbols in intervals.
+    places: HashMap<&'static str, Quotient>,
+    /// The values of formulas.
+    values: HashMap<usize, Quotient>,
+}
+
+/// A rounded formula.
+#[derive(Clone, Debug)]
+pub struct Rounded {
+    /// The number of the formula before it is rounded.
+    pub of: usize,
+    /// Its value.
+    pub value: Quotient,
+    /// The variable of its error.
+    pub error: usize,
+}
+
+/// A reader of formulas, which asks a source for everything that a proof states.
+pub struct Reader<'p, 's> {
+    /// The knowledge at the leaf.
+    pub state: State<'p>,
+    /// The proof, or a search for one.
+    pub source: &'s mut dyn Source,
+}
+
+impl<'p> State<'p> {
+    /// Returns the state before any hypothesis is used: powers of two and exponentials are positive.
+    pub fn new(problem: &'p Problem) -> Self {
+        let signs = problem.table.atoms().iter().map(|atom| match atom {
+            Atom::Own(name) if SCALES.contains(name) => Some(Sign::Positive),
+            Atom::Exponential(_) => Some(Sign::Positive),
+            _ => None,
+        });
+        let mut facts = Facts::default();
+        facts.add(Polynomial::constant(2), Sign::Positive);
+        let (supposed, rounded, exponents, places, values) = Default::default();
+        State { problem, facts, signs: signs.collect(), supposed, rounded, exponents, places, values }
+    }
+
+    /// Adds a fact and returns its number.
+    pub fn suppose(&mut self, of: Polynomial, sign: Sign) -> usize {
+        if let Some(known) = of.as_variable().and_then(|x| self.signs.get_mut(x))
+            && !known.is_some_and(|known| known.implies(sign))
+        {
+            *known = Some(sign);
+        }
+        self.facts.add(of, sign)
+    }
+
+    /// Adds the fact that follows from the sign of a quotient, and returns its number.
+    pub fn suppose_quotient(&mut self, of: Quotient, sign: Sign) -> Checked<usize> {
+        let sign = self.facts.sign_of_product(&of.den)?.times(sign);
+        Ok(self.suppose(of.num, sign))
+    }
+
+    /// Returns the variable of an atom as a polynomial.
+    pub fn variable(&self, atom: Atom) -> Checked<Polynomial> {
+        Polynomial::variable(self.problem.table.variable(atom)?)
+    }
+
+    /// Returns the exponent of an exponential that was met.
+    pub fn exponent(&self, x: usize) -> Option<&Quotient> {
+        self.exponents.iter().find(|(own, _)| *own == x).map(|(_, exponent)| exponent)
+    }
+}
+
+impl Reader<'_, '_> {
+    /// Returns the sign of a polynomial that is a numerator over these facts, and the number of the fact.
+    pub fn sign(&mut self, of: &Polynomial, den: &[usize]) -> Checked<(Sign, usize)> {
+        match self.source.sign(of, den, &self.state).ok_or(Refusal::Missing)? {
+            Reason::Fact(i) => {
+                let (known, sign) = self.state.facts.get(i)?;
+                if known == of { Ok((*sign, i)) } else { Err(Refusal::Identity) }
+            }
+            Reason::Certificate(certificate) => {
+                let sign = self.state.certify(of, &certificate)?;
+                Ok((sign, self.state.suppose(of.clone(), sign)))
+            }
+        }
+    }
+
+    /// Returns the sign of a quotient.
+    pub fn sign_of_quotient(&mut self, of: &Quotient) -> Checked<Sign> {
+        let (sign, _) = self.sign(&of.num, &of.den)?;
+        Ok(self.state.facts.sign_of_product(&of.den)?.times(sign))
+    }
+
+    /// Checks that a polynomial is not 0, and returns the number of the fact.
+    pub fn strict(&mut self, of: &Polynomial) -> Checked<usize> {
+        let (sign, i) = self.sign(of, &[])?;
+        if sign.is_strict() { Ok(i) } else { Err(Refusal::NotStrict) }
+    }
+
+    /// Checks that two quotients are equal.
+    pub fn equal(&mut self, a: &Quotient, b: &Quotient) -> Checked<()> {
+        let difference = self.state.facts.sum(a, -1, b)?;
+        let (sign, _) = self.sign(&difference.num, &difference.den)?;
+        if sign == Sign::Zero { Ok(()) } else { Err(Refusal::Goal) }
+    }
+
+    /// Returns the value of a formula, after a check that no divisor in it is 0.
+    pub fn translate(&mut self, tree: &Tree) -> Checked<Quotient> {
+        self.value(self.state.problem.table.find(tree)?)
+    }
+
+    /// Returns the value of the formula with a number.
+    pub fn value(&mut self, formula: usize) -> Checked<Quotient> {
+        if let Some(value) = self.state.values.get(&formula) {
+            return Ok(value.clone());
+        }
+        let value = self.value_of_step(self.state.problem.table.step(formula)?)?;
+        self.state.values.insert(formula, value.clone());
+        Ok(value)
+    }
+
+    fn value_of_step(&mut self, step: Op<usize>) -> Checked<Quotient> {
+        use Op::*;
+        Ok(match step {
+            Symbol(name) => match self.state.places.get(name) {
+                Some(value) => value.clone(),
+                None => self.state.variable(Atom::Own(name))?.into(),
+            },
+            Int(n) => Polynomial::constant(n.into()).into(),
+            Neg(a) => {
+                let a = self.value(a)?;
+                self.state.facts.sum(&Polynomial::zero().into(), -1, &a)?
+            }
+            Add(a, b) => self.sum(a, 1, b)?,
+            Sub(a, b) => self.sum(a, -1, b)?,
+            Mul(a, b) => self.value(a)?.times(&self.value(b)?)?,
+            Div(a, b) => {
+                let (a, b) = (self.value(a)?, self.value(b)?);
+                a.times(&self.inverse(&b)?)?
+            }
+            Exp(a) => self.exponential(a)?,
+            PositivePart(a) => {
+                let a = self.value(a)?;
+                let is_open = self.sign_of_quotient(&a)?.implies(Sign::NonNegative);
+                if is_open { a } else { Polynomial::zero().into() }
+            }
+            Min(a, b) => {
+                let (a, b) = (self.value(a)?, self.value(b)?);
+                let difference = self.state.facts.sum(&b, -1, &a)?;
+                if self.sign_of_quotient(&difference)?.implies(Sign::NonNegative) { a } else { b }
+            }
+            Rounded(a) => self.rounded(a)?,
+        })
+    }
+
+    fn sum(&mut self, a: usize, n: i128, b: usize) -> Checked<Quotient> {
+        let (a, b) = (self.value(a)?, self.value(b)?);
+        self.state.facts.sum(&a, n, &b)
+    }
+
+    /// Returns the reciprocal of a divisor, after a check of the signs of its factors.
+    fn inverse(&mut self, of: &Quotient) -> Checked<Quotient> {
+        let factors = self.source.divisor(&of.num, &self.state).ok_or(Refusal::Missing)?;
+        let mut den = Vec::with_capacity(factors.len());
+        for factor in &factors {
+            den.push(self.strict(factor)?);
+        }
+        if self.state.facts.product(&den)? != of.num {
+            return Err(Refusal::Divisor);
+        }
+        Ok(Quotient::over(self.state.facts.product(&of.den)?, den))
+    }
+
+    /// Returns an exponential. Equal exponents have the same one.
+    fn exponential(&mut self, exponent: usize) -> Checked<Quotient> {
+        let value = self.value(exponent)?;
+        if value.num.is_zero() {
+            return Ok(Polynomial::constant(1).into());
+        }
+        for (x, known) in &self.state.exponents {
+            if self.state.facts.are_equal(known, &value)? {
+                return Ok(Polynomial::variable(*x)?.into());
+            }
+        }
+        let table = &self.state.problem.table;
+        let x = table.variable(Atom::Exponential(exponent))?;
+        let reciprocal = table.variable(Atom::Exponential(table.number(&Op::Neg(exponent))?))?;
+        let opposite = self.state.facts.sum(&Polynomial::zero().into(), -1, &value)?;
+        self.state.exponents.extend([(x, value), (reciprocal, opposite)]);
+        Ok(Polynomial::variable(x)?.into())
+    }
+
+    /// Returns fl(a) = a (2ᵖ + 1 + e)/(2ᵖ + 1).
+    fn rounded(&mut self, of: usize) -> Checked<Quotient> {
+        let value = self.value(of)?;
+        let error = self.error(of, &value)?;
+        let largest =
+            self.state.variable(Atom::Own(PRECISION))?.plus_multiple(1, &Polynomial::constant(1))?;
+        let factor = largest.plus_multiple(1, &Polynomial::variable(error)?)?;
+        let den = vec![self.strict(&largest)?];
+        value.times(&Quotient { num: factor, den })
+    }
+
+    /// Returns the variable of the error of a rounded formula. Values that differ by a power of two have the
+    /// same relative error.
+    fn error(&mut self, of: usize, value: &Quotient) -> Checked<usize> {
+        if let Some(known) = self.state.rounded.iter().find(|known| known.of == of) {
+            return Ok(known.error);
+        }
+        let error = match self.source.rounding(value, &self.state).ok_or(Refusal::Missing)? {
+            None => self.state.problem.table.variable(Atom::Error(of))?,
+            Some(same) => self.shared_error(value, &same)?,
+        };
+        self.state.rounded.push(Rounded { of, value: value.clone(), error });
+        Ok(error)
+    }
+
+    fn shared_error(&self, value: &Quotient, same: &Same) -> Checked<usize> {
+        let known = self.state.rounded.get(same.rounding).ok_or(Refusal::Unknown)?;
+        let scaled = |of: &Quotient, by| Ok(Quotient { num: of.num.times(by)?, ..of.clone() });
+        let is_equal =
+            self.state.facts.are_equal(&scaled(value, &same.down)?, &scaled(&known.value, &same.up)?)?;
+        let is_power = [&same.up, &same.down].into_iter().all(|of| self.is_power_of_two(of));
+        if is_equal && is_power { Ok(known.error) } else { Err(Refusal::Rounding) }
+    }
+
+    /// Returns `true` if a polynomial is a product of symbols of powers of two.
+    fn is_power_of_two(&self, of: &Polynomial) -> bool {
+        let atoms = self.state.problem.table.atoms();
+        let is_scale = |x: usize| matches!(atoms.get(x), Some(Atom::Own(name)) if SCALES.contains(name));
+        of.has_only(is_scale) && of.terms().len() == 1 && of.terms().all(|(_, number)| *number == 1)
+    }
+
+    /// Uses the hypothesis with a number.
+    pub fn assume(&mut self, i: usize) -> Checked<()> {
+        let hypothesis = *self.state.problem.hypotheses.get(i).ok_or(Refusal::Unknown)?;
+        if let Some((x, lower, upper)) = hypothesis.interval() {
+            let (lower, upper) = (self.translate(lower)?, self.translate(upper)?);
+            let (sum, length) =
+                (self.state.facts.sum(&upper, 1, &lower)?, self.state.facts.sum(&upper, -1, &lower)?);
+            let half = Quotient { num: Polynomial::constant(1), den: vec![TWO] };
+            let place = self.state.variable(Atom::Place(i))?.into();
+            let value = self.state.facts.sum(&sum.times(&half)?, 1, &length.times(&half)?.times(&place)?)?;
+            self.state.places.entry(x).or_insert(value);
+            self.state.values.clear();
+        } else {
+            let value = self.translate(&hypothesis.value)?;
+            let fact = self.state.suppose_quotient(value, hypothesis.relation.into())?;
+            self.state.supposed.push((Some(i), fact));
+        }
+        Ok(())
+    }
+
+    /// Adds the fact fl(a) ≥ fl(b), which follows from a ≥ b; `errors` are the variables of the errors of a and b.
+    pub fn monotone(&mut self, errors: [usize; 2]) -> Checked<()> {
+        let [a, b] = errors.map(|x| match self.state.problem.table.atoms().get(x) {
+            Some(Atom::Error(of)) => Ok(*of),
+            _ => Err(Refusal::Unknown),
+        });
+        let (a, b) = (a?, b?);
+        let exact = self.sum(a, -1, b)?;
+        if !self.sign_of_quotient(&exact)?.implies(Sign::NonNegative) {
+            return Err(Refusal::Order);
+        }
+        let [a, b] = [a, b].map(|of| self.state.problem.table.number(&Op::Rounded(of)));
+        let rounded = self.sum(a?, -1, b?)?;
+        self.state.suppose_quotient(rounded, Sign::NonNegative)?;
+        Ok(())
+    }
+}

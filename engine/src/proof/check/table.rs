@@ -1,0 +1,215 @@
+//! The formulas of a goal, and the atoms of its polynomials.
+
+use super::polynomial::{MAX_VARIABLES, Polynomial};
+use super::{Checked, MAX_NESTING, Refusal};
+use crate::formula::Hypothesis;
+use crate::formula::claim::PRECISION;
+use crate::formula::statement::Proposition;
+use crate::number::tree::{Op, smooth_ops};
+use crate::number::{Dual, Exponential, Tree};
+use std::collections::HashMap;
+
+/// A variable of polynomials, and the real number that it stands for.
+///
+/// Where a formula is undefined, an error or exponential of it may be any number of the stated kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Atom {
+    /// A symbol of the statement.
+    Own(&'static str),
+    /// The relative error of the formula with this number when it is rounded, divided by its maximum: e with
+    /// −1 ≤ e ≤ 1 and fl(x) = x (1 + e/(2ᵖ + 1)).
+    Error(usize),
+    /// The place of a symbol in the interval of the hypothesis with this number: t with −1 ≤ t ≤ 1 at which
+    /// the symbol is the midpoint plus t times half the length.
+    Place(usize),
+    /// e to the power of the formula with this number.
+    Exponential(usize),
+}
+
+/// The distinct formulas of a goal, each after its operands, and its atoms.
+///
+/// Formulas are compared by their operations, not by their place in memory, so equal formulas have the same
+/// number however a statement is built.
+#[derive(Debug, Default)]
+pub struct Table {
+    formulas: Vec<(Op<usize>, Tree)>,
+    numbers: HashMap<Op<usize>, usize>,
+    atoms: Vec<Atom>,
+}
+
+/// A proposition to be proved from hypotheses.
+///
+/// Its atoms are the same at all leaves of its proof. They follow from the proposition and the hypotheses
+/// alone, so a quantity that distinguishes two cases is the same in both.
+#[derive(Debug)]
+pub struct Problem<'a> {
+    /// The proposition.
+    pub proposition: &'a Proposition,
+    /// The hypotheses.
+    pub hypotheses: Vec<&'a Hypothesis>,
+    /// The derivative that a proposition about a derivative is about.
+    pub derivative: Option<Tree>,
+    /// The formulas and atoms.
+    pub table: Table,
+    /// The number of problems of which this one is a part.
+    pub nesting: u32,
+}
+
+impl Table {
+    /// Numbers the operations of a formula, operands first, and returns the number of the last one.
+    fn numbered(tree: &Tree, mut number: impl FnMut(Op<usize>, &Tree) -> Checked<usize>) -> Checked<usize> {
+        let (mut known, mut last) = (HashMap::new(), Err(Refusal::Unknown));
+        for part in tree.distinct() {
+            last = Ok(number(part.op().map(|operand| known[&operand.address()]), part)?);
+            known.insert(part.address(), last?);
+        }
+        last
+    }
+
+    /// Adds a formula and returns its number.
+    fn add(&mut self, tree: &Tree) -> Checked<usize> {
+        Table::numbered(tree, |step, part| {
+            let next = self.formulas.len();
+            let number = *self.numbers.entry(step).or_insert(next);
+            if number == next {
+                self.formulas.push((step, part.clone()));
+            }
+            Ok(number)
+        })
+    }
+
+    /// Returns the number of a formula.
+    pub fn find(&self, tree: &Tree) -> Checked<usize> {
+        Table::numbered(tree, |step, _| self.number(&step))
+    }
+
+    /// Returns the number of the formula with this last operation.
+    pub fn number(&self, step: &Op<usize>) -> Checked<usize> {
+        self.numbers.get(step).copied().ok_or(Refusal::Unknown)
+    }
+
+    /// Returns the last operation of a formula.
+    pub fn step(&self, formula: usize) -> Checked<Op<usize>> {
+        self.formulas.get(formula).map(|(step, _)| *step).ok_or(Refusal::Unknown)
+    }
+
+    /// Returns a formula.
+    pub fn formula(&self, number: usize) -> Checked<&Tree> {
+        self.formulas.get(number).map(|(_, tree)| tree).ok_or(Refusal::Unknown)
+    }
+
+    /// Returns all atoms in order.
+    pub fn atoms(&self) -> &[Atom] {
+        &self.atoms
+    }
+
+    /// Returns the variable of an atom.
+    pub fn variable(&self, atom: Atom) -> Checked<usize> {
+        self.atoms.iter().position(|own| *own == atom).ok_or(Refusal::Unknown)
+    }
+
+    /// Returns `true` if a variable is between −1 and 1.
+    pub fn is_unit(&self, x: usize) -> bool {
+        matches!(self.atoms.get(x), Some(Atom::Error(_) | Atom::Place(_)))
+    }
+
+    /// Returns a polynomial of symbols and exponentials as a formula.
+    pub fn to_tree(&self, of: &Polynomial) -> Checked<Tree> {
+        let mut sum = Tree::from(0);
+        for (powers, number) in of.terms() {
+            let mut term = Tree::from(i32::try_from(*number).map_err(|_| Refusal::TooLarge)?);
+            for (x, n) in powers.iter().enumerate().filter(|(_, n)| **n > 0) {
+                let atom = match self.atoms.get(x) {
+                    Some(Atom::Own(name)) => Tree::symbol(name),
+                    Some(Atom::Exponential(exponent)) => self.formula(*exponent)?.exp(),
+                    _ => return Err(Refusal::Rise),
+                };
+                term = (0..*n).fold(term, |term, _| term * &atom);
+            }
+            sum = sum + term;
+        }
+        Ok(sum)
+    }
+
+    fn add_atom(&mut self, atom: Atom) {
+        if !self.atoms.contains(&atom) {
+            self.atoms.push(atom);
+        }
+    }
+
+    /// Adds e to the power of a formula, and its reciprocal.
+    fn add_exponentials(&mut self, exponent: usize) -> Checked<()> {
+        let reciprocal = -self.formula(exponent)?;
+        let reciprocal = self.add(&reciprocal)?;
+        self.add_atom(Atom::Exponential(exponent));
+        self.add_atom(Atom::Exponential(reciprocal));
+        Ok(())
+    }
+
+    fn add_atoms(&mut self, hypotheses: &[&Hypothesis]) -> Checked<()> {
+        for step in self.formulas.iter().map(|(step, _)| *step).collect::<Vec<_>>() {
+            match step {
+                Op::Symbol(name) => self.add_atom(Atom::Own(name)),
+                Op::Exp(exponent) => self.add_exponentials(exponent)?,
+                Op::Rounded(of) => {
+                    self.add_atom(Atom::Own(PRECISION));
+                    self.add_atom(Atom::Error(of));
+                }
+                _ => {}
+            }
+        }
+        for (i, hypothesis) in hypotheses.iter().enumerate() {
+            if hypothesis.interval().is_some() {
+                self.add_atom(Atom::Place(i));
+            }
+        }
+        if self.atoms.len() > MAX_VARIABLES { Err(Refusal::TooLarge) } else { Ok(()) }
+    }
+}
+
+impl<'a> Problem<'a> {
+    /// Returns the problem with its table of atoms.
+    pub fn new(proposition: &'a Proposition, hypotheses: Vec<&'a Hypothesis>) -> Checked<Self> {
+        let derivative = match proposition {
+            Proposition::Derivative(of, by, _) => Some(derivative(of, by)?),
+            _ => None,
+        };
+        let mut table = Table::default();
+        let values = hypotheses.iter().map(|hypothesis| &hypothesis.value);
+        for tree in values.chain(proposition.trees()).chain(&derivative) {
+            table.add(tree)?;
+        }
+        table.add_atoms(&hypotheses)?;
+        Ok(Problem { proposition, hypotheses, derivative, table, nesting: 0 })
+    }
+
+    /// Returns the problem as a part of another.
+    pub fn within(self, other: &Problem) -> Checked<Self> {
+        let nesting = other.nesting + 1;
+        if nesting > MAX_NESTING { Err(Refusal::TooLarge) } else { Ok(Problem { nesting, ..self }) }
+    }
+
+    /// Returns `true` if a variable may vary with a symbol.
+    pub fn depends(&self, x: usize, symbol: &str) -> bool {
+        match self.table.atoms.get(x) {
+            Some(Atom::Own(name)) => *name == symbol,
+            Some(Atom::Error(of) | Atom::Exponential(of)) => {
+                self.table.formula(*of).is_ok_and(|tree| tree.symbols().contains(symbol))
+            }
+            Some(Atom::Place(i)) => self.hypotheses[*i].value.symbols().contains(symbol),
+            None => true,
+        }
+    }
+
+    /// Returns `true` if a variable may vary with that of a symbol.
+    pub fn depends_on(&self, x: usize, symbol: usize) -> bool {
+        !matches!(self.table.atoms.get(symbol), Some(Atom::Own(name)) if !self.depends(x, name))
+    }
+}
+
+/// Returns the derivative of a smooth formula.
+pub fn derivative(of: &Tree, by: &str) -> Checked<Tree> {
+    let Dual { derivative, .. } =
+        of.derivative(by, &|name| Tree::symbol(name), &smooth_ops).ok_or(Refusal::NotDifferentiable)?;
+    Ok(derivative)
+}

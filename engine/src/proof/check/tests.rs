@@ -1,0 +1,137 @@
+//! Certificates by hand, and forged ones.
+
+use super::*;
+use crate::formula::claim::{derivative, equal, non_negative, positive, within};
+use crate::formula::statement::Goal;
+use crate::number::tree::Op;
+use crate::number::{Exponential, PositivePart};
+
+mod forms;
+mod limits;
+mod premises;
+mod rises;
+mod rules;
+
+/// A forged proof: its flaw, the statement, the proof, and the reason for which it is refused.
+type Forged = (&'static str, Statement, Vec<Node>, Refusal);
+
+fn x(name: &'static str) -> Tree {
+    Tree::symbol(name)
+}
+
+fn n(n: i32) -> Tree {
+    Tree::from(n)
+}
+
+fn above_zero(value: impl Into<Tree>) -> Hypothesis {
+    Hypothesis::new(Relation::Positive, value.into())
+}
+
+fn not_below_zero(value: impl Into<Tree>) -> Hypothesis {
+    Hypothesis::new(Relation::NonNegative, value.into())
+}
+
+fn zero(value: impl Into<Tree>) -> Hypothesis {
+    Hypothesis::new(Relation::Zero, value.into())
+}
+
+/// Writes polynomials of the atoms of a goal as formulas.
+struct Page<'a>(Problem<'a>);
+
+impl<'a> Page<'a> {
+    /// Returns the page for the first goal.
+    fn of(statement: &'a Statement) -> Self {
+        Page::of_goal(statement, &statement.goals()[0])
+    }
+
+    fn of_goal(statement: &'a Statement, goal: &'a Goal) -> Self {
+        Page(Problem::new(&goal.proposition, statement.hypotheses_for(goal.role)).unwrap())
+    }
+
+    /// Returns the number of an atom or of a quantity of a certificate: z₁ is the first quantity, e₁ the
+    /// first error, t₁ the first place, and E₁ the first exponential, which its reciprocal follows.
+    fn variable(&self, name: &'static str) -> usize {
+        let atoms = self.0.table.atoms();
+        let mut letters = name.chars();
+        let (letter, digit) = (letters.next().unwrap(), letters.next());
+        let number = digit.and_then(|digit| u32::from(digit).checked_sub(u32::from('₁')));
+        let Some(number) = number.filter(|n| *n < 9).map(|n| n as usize) else {
+            return self.0.table.variable(Atom::Own(name)).unwrap();
+        };
+        let is_of_kind = |atom: &Atom| match letter {
+            'e' => matches!(atom, Atom::Error(_)),
+            't' => matches!(atom, Atom::Place(_)),
+            'E' => matches!(atom, Atom::Exponential(_)),
+            _ => false,
+        };
+        let mut of_kind = atoms.iter().enumerate().filter(|(_, atom)| is_of_kind(atom));
+        if letter == 'z' { atoms.len() + number } else { of_kind.nth(number).unwrap().0 }
+    }
+
+    fn poly(&self, of: impl Into<Tree>) -> Polynomial {
+        match of.into().op() {
+            Op::Symbol(name) => Polynomial::variable(self.variable(name)).unwrap(),
+            Op::Int(n) => Polynomial::constant((*n).into()),
+            Op::Neg(a) => Polynomial::zero().plus_multiple(-1, &self.poly(a)).unwrap(),
+            Op::Add(a, b) => self.poly(a).plus_multiple(1, &self.poly(b)).unwrap(),
+            Op::Sub(a, b) => self.poly(a).plus_multiple(-1, &self.poly(b)).unwrap(),
+            Op::Mul(a, b) => self.poly(a).times(&self.poly(b)).unwrap(),
+            _ => panic!("not a polynomial"),
+        }
+    }
+
+    fn certificate(&self, known: Vec<Known>, left: impl Into<Tree>, right: impl Into<Tree>) -> Certificate {
+        Certificate { known, left: self.poly(left), right: self.poly(right) }
+    }
+
+    /// Returns a certificate with quantities as a reason.
+    fn with(&self, known: Vec<Known>, left: impl Into<Tree>, right: impl Into<Tree>) -> Reason {
+        Reason::Certificate(self.certificate(known, left, right))
+    }
+
+    /// Returns the reason that a polynomial is a form itself.
+    fn form(&self, right: impl Into<Tree>) -> Reason {
+        self.with(vec![], 1, right)
+    }
+
+    fn lemma(&self, of: impl Into<Tree>, certificate: Certificate) -> Known {
+        Known::Lemma((self.poly(of), certificate).into())
+    }
+}
+
+fn leaf(hypotheses: &[usize], signs: Vec<Reason>) -> Leaf {
+    Leaf { hypotheses: hypotheses.into(), signs, ..Leaf::default() }
+}
+
+fn node(leaf: Leaf) -> Node {
+    Node::Leaf(leaf.into())
+}
+
+/// Returns a proof of one goal without cases.
+fn proof(hypotheses: &[usize], signs: Vec<Reason>) -> Vec<Node> {
+    vec![node(leaf(hypotheses, signs))]
+}
+
+fn cases(on: Polynomial, positive: Node, other: Node) -> Node {
+    Node::Cases(on, [positive, other].into())
+}
+
+/// Checks that a proof by hand is accepted.
+#[track_caller]
+fn accept(statement: &Statement, goals: &[Node]) {
+    let checked = check(statement, goals);
+    assert!(checked.is_ok(), "{}", checked.unwrap_err());
+}
+
+/// Checks that all forged proofs are refused, each for its reason.
+#[track_caller]
+fn refuse(all: Vec<Forged>) {
+    let wrong =
+        all.into_iter().filter_map(|(flaw, statement, goals, expected)| match check(&statement, &goals) {
+            Err(CheckError::Goal(_, reason)) if reason == expected => None,
+            Err(other) => Some(format!("{flaw}: {other}, and not {expected:?}")),
+            Ok(()) => Some(format!("{flaw}: accepted")),
+        });
+    let wrong: Vec<_> = wrong.collect();
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
