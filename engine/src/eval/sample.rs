@@ -117,7 +117,7 @@ pub fn adjust<C: Coordinates>(
     (!is_changed || hypotheses.iter().all(holds)).then_some(())
 }
 
-/// Formats the point as `c = 1, ε = -2`.
+/// Formats the point as `a = 1, b = -2`.
 impl fmt::Display for Point {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         for (i, (symbol, x)) in self.coordinates().enumerate() {
@@ -133,7 +133,7 @@ const INTEGER_POINTS: u64 = 4000;
 /// Maximum absolute value of integer coordinates: small, so that two of them cancel in one of seven draws.
 const SMALL_RANGE: i32 = 3;
 
-/// Maximum absolute value in every fourth integer point, for hypotheses such as α > 2(c + ε).
+/// Maximum absolute value in every fourth integer point, for hypotheses such as a > 2 (b + c).
 const LARGE_RANGE: i32 = 9;
 
 /// Number of constructed points.

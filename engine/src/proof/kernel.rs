@@ -9,8 +9,8 @@
 //!
 //! A hypothesis v > 0 that does not follow from others, and is more than the sign of a symbol, becomes v =
 //! s for a new symbol s > 0: one monomial of v, the *pivot*, is replaced wherever it occurs by the value
-//! that this equation gives it. (For R = m g − c (H − l) > 0: m g by s + c (H − l); or H by
-//! (c l + m g − s)/c, where c ≠ 0 is known.) Equals are replaced by equals, so a proposition proved for all
+//! that this equation gives it. (For a b − c (x − y) > 0: a b by s + c (x − y); or x by
+//! (a b + c y − s)/c, where c ≠ 0 is known.) Equals are replaced by equals, so a proposition proved for all
 //! values of the remaining symbols, with s > 0, holds in particular for those that satisfy the hypothesis.
 //! The choice of the monomial affects success, not soundness. Where no pivot is found, v may be divided by a
 //! positive symbol: for k > 0, the hypothesis 1 − k > 0 is (1 − k)/k = s > 0, and k is 1/(1 + s).

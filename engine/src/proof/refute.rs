@@ -4,7 +4,7 @@
 //!
 //! - *constructed* points are drawn at random, then adjusted to one hypothesis after the other;
 //! - *integer* points have small integer coordinates and are used if the hypotheses happen to hold. They
-//!   often meet coincidences such as c + ε = 0, and they are independent of the method of proofs, which also
+//!   often meet coincidences such as a + b = 0, and they are independent of the method of proofs, which also
 //!   solves each hypothesis for a quantity.
 //!
 //! All arithmetic is exact, except for eˣ, which is enclosed by a ball: a refuted statement is certainly

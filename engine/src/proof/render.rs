@@ -151,7 +151,7 @@ impl<'a> ProofPrinter<'a> {
         self.registry.format_hypotheses(&all)
     }
 
-    /// Returns the definitions of the names in a claim: `R = m g − c (H − l)`.
+    /// Returns the definitions of the names in a claim: `d = a b − c (x − y)`.
     pub fn names(&self, statement: &Statement) -> Vec<String> {
         if let Some(registry) = self.other_names(statement) {
             return ProofPrinter { registry: &registry, ..*self }.names(statement);
