@@ -67,7 +67,7 @@ impl std::error::Error for CertifyError {}
 /// ```
 pub fn certify(statement: &Statement) -> Result<Vec<Node>, CertifyError> {
     let roundings = kernel::check_premises(statement).map_err(CertifyError::NoProof)?;
-    let context = Context::of(roundings).with_cases_only();
+    let context = Context::of(roundings);
     let too_large = || CertifyError::NoProof(ProofError::TooLarge("its proof", EFFORT));
     let certify_goal = |goal: &Goal| {
         let problem = Problem::new(&goal.proposition, statement.hypotheses_for(goal.role));
@@ -100,13 +100,24 @@ impl Attempt<'_> {
                 Err(reason) => break Err(reason),
             }
         };
-        match assumed.and_then(|()| context.derive_directly(self.goal)) {
-            Ok(direct) => Ok(Node::Leaf(self.leaf(&context, direct)?.into())),
-            Err(ProofError::UndecidedBranch(value)) if self.cases.len() < MAX_NESTED_CASES as usize => {
-                self.cases(&context, done, &context.sign_numerator(&value))
+        let undecided = match assumed.and_then(|()| context.derive_directly(self.goal)) {
+            Ok(direct) => return Ok(Node::Leaf(self.leaf(&context, direct)?.into())),
+            Err(ProofError::UndecidedSize(of, twice)) => {
+                let mut sized = context.clone();
+                if sized.assume_size(&of, &twice)
+                    && let Ok(node) = self.certify(sized, done)
+                {
+                    return Ok(node);
+                }
+                twice
             }
-            Err(reason) => Err(CertifyError::NoProof(reason)),
+            Err(ProofError::UndecidedBranch(value)) => value,
+            Err(reason) => return Err(CertifyError::NoProof(reason)),
+        };
+        if self.cases.len() >= MAX_NESTED_CASES as usize {
+            return Err(CertifyError::NoProof(ProofError::UndecidedBranch(undecided)));
         }
+        self.cases(&context, done, &context.sign_numerator(&undecided))
     }
 
     fn cases(&self, context: &Context, done: usize, deciding: &Poly) -> Certified<Node> {
@@ -139,7 +150,7 @@ impl Attempt<'_> {
 /// Returns a proof of a goal without cases, from hypotheses without roundings of their own.
 fn certify_part(problem: &Problem, hypotheses: &[&Hypothesis]) -> Certified<Node> {
     let trees = hypotheses.iter().map(|given| &given.value).chain(problem.proposition.trees());
-    let context = Context::of(kernel::roundings(trees)).with_cases_only();
+    let context = Context::of(kernel::roundings(trees));
     let goal = Goal::of_claim("", problem.proposition.clone());
     Attempt { problem, goal: &goal, cases: Vec::new() }.certify(context, 0)
 }

@@ -16,8 +16,8 @@
 //! it. It does not search, and an error in a proof can only make it refuse.
 //!
 //! The variables of polynomials are the [atoms](Atom) of the goal: its symbols, the errors of its rounded
-//! formulas, the places of symbols in their intervals, and its exponentials. The goal and its hypotheses
-//! determine them.
+//! formulas, the places of symbols in their intervals, its absolute values with their factors, and its
+//! exponentials. The goal and its hypotheses determine them.
 
 mod form;
 mod limit;
@@ -30,7 +30,7 @@ mod tests;
 
 pub use polynomial::{MAX_VARIABLES, Polynomial, Powers};
 pub(in crate::proof) use quotient::Quotient;
-pub(in crate::proof) use state::{Reader, State};
+pub(in crate::proof) use state::{Reader, Size, State};
 pub use table::Atom;
 pub(in crate::proof) use table::{Problem, derivative};
 
@@ -99,6 +99,18 @@ pub struct Same {
     pub down: Polynomial,
 }
 
+/// The translation of min(−x, x), which is −|x|.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AbsoluteValue {
+    /// It is x or −x by the sign of 2 x.
+    BySign,
+    /// It is minus the atom [`Size`](Atom::Size) of x. That x is the product of this atom and its
+    /// [`Factor`](Atom::Factor) becomes the next fact.
+    Atom,
+    /// It is that of the earlier x with this number, which has the same value, or the opposite one.
+    Same(usize),
+}
+
 /// The sign of a function f(x) for x ≥ 0, by the mean value theorem: f(x) = f(0) + x f'(ξ) for some ξ > 0. It
 /// becomes the next fact.
 #[derive(Clone, Debug, PartialEq)]
@@ -143,6 +155,8 @@ pub struct Leaf {
     pub divisors: Vec<Vec<Polynomial>>,
     /// For each rounded formula, in the order in which they are met, an earlier one with the same error.
     pub roundings: Vec<Option<Same>>,
+    /// The translations of the absolute values in the order in which they are met.
+    pub sizes: Vec<AbsoluteValue>,
 }
 
 /// The source of what a leaf uses: a proof, or a search for one.
@@ -153,6 +167,8 @@ pub(in crate::proof) trait Source {
     fn divisor(&mut self, of: &Polynomial, state: &State) -> Option<Vec<Polynomial>>;
     /// Returns the earlier formula whose error a rounded formula has, if there is one.
     fn rounding(&mut self, value: &Quotient, state: &State) -> Option<Option<Same>>;
+    /// Returns the translation of the absolute value of the formula with a number.
+    fn size(&mut self, of: usize, value: &Quotient, state: &State) -> Option<AbsoluteValue>;
 }
 
 /// The reason why a proof is refused.
@@ -192,6 +208,8 @@ pub enum Refusal {
     Divisor,
     /// A rounded formula is not a power of two times the other.
     Rounding,
+    /// An absolute value is not that of an earlier formula.
+    Size,
     /// The order of two rounded formulas is not known.
     Order,
     /// The mean value theorem does not apply.
@@ -241,9 +259,13 @@ fn check_node(problem: &Problem, cases: &mut Vec<(Polynomial, Sign)>, node: &Nod
             Ok(())
         }
         Node::Leaf(leaf) => {
-            let Leaf { signs, divisors, roundings, .. } = &**leaf;
-            let mut list =
-                List { signs: signs.iter(), divisors: divisors.iter(), roundings: roundings.iter() };
+            let Leaf { signs, divisors, roundings, sizes, .. } = &**leaf;
+            let mut list = List {
+                signs: signs.iter(),
+                divisors: divisors.iter(),
+                roundings: roundings.iter(),
+                sizes: sizes.iter(),
+            };
             Reader { state: State::new(problem), source: &mut list }.leaf(leaf, cases)?;
             if list.is_empty() { Ok(()) } else { Err(Refusal::Unused) }
         }
@@ -255,11 +277,12 @@ struct List<'a> {
     signs: Iter<'a, Reason>,
     divisors: Iter<'a, Vec<Polynomial>>,
     roundings: Iter<'a, Option<Same>>,
+    sizes: Iter<'a, AbsoluteValue>,
 }
 
 impl List<'_> {
     fn is_empty(&self) -> bool {
-        self.signs.len() + self.divisors.len() + self.roundings.len() == 0
+        self.signs.len() + self.divisors.len() + self.roundings.len() + self.sizes.len() == 0
     }
 }
 
@@ -274,6 +297,10 @@ impl Source for List<'_> {
 
     fn rounding(&mut self, _: &Quotient, _: &State) -> Option<Option<Same>> {
         self.roundings.next().cloned()
+    }
+
+    fn size(&mut self, _: usize, _: &Quotient, _: &State) -> Option<AbsoluteValue> {
+        self.sizes.next().copied()
     }
 }
 

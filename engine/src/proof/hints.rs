@@ -105,7 +105,7 @@ fn obstacle(statement: &Statement, reason: &ProofError) -> Option<Tree> {
         ProofError::UnknownSign(value, _)
         | ProofError::WrongSign(value, _)
         | ProofError::UndecidedBranch(value)
-        | ProofError::UndecidedSize(value) => value,
+        | ProofError::UndecidedSize(_, value) => value,
         _ => return None,
     };
     let trivial = Proposition::Equal(Tree::from(0), Tree::from(0));

@@ -278,9 +278,9 @@ fn derive(
     };
     let undecided = match assumed.and_then(|()| context.derive_directly(goal)) {
         Ok(direct) => return Ok(Derivation::Direct(direct.into())),
-        Err(ProofError::UndecidedSize(twice)) => {
+        Err(ProofError::UndecidedSize(of, twice)) => {
             let mut sized = context.clone();
-            if sized.assume_size(&(&twice * Ratio::from(Poly::constant((1, 2)))))
+            if sized.assume_size(&of, &twice)
                 && let Ok(derivation) = derive(goal, sized, hypotheses, cases)
             {
                 return Ok(derivation);

@@ -333,7 +333,7 @@ impl<'a> ProofPrinter<'a> {
                 self.order().ratio_or_size(by),
                 place.name()
             )),
-            AssumptionUse::Size { pivot, by, size, place } => {
+            AssumptionUse::Size { pivot, by, size, place, .. } => {
                 let (value, place) = (self.order().ratio_or_size(&supposed.value), place.name());
                 let solved = format!("{} = {}", self.order().monomial(pivot), self.order().ratio_or_size(by));
                 Some(format!("with {} = |{value}|: {solved}, where −1 ≤ {place} ≤ 1", size.name()))

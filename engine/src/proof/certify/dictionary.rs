@@ -4,6 +4,7 @@
 //! original symbols. A quantity in *own* symbols is a polynomial of the kernel without slack variables, in
 //! which places have the numbers of their hypotheses.
 
+use crate::number::Tree;
 use crate::proof::check::{Atom, MAX_VARIABLES, Polynomial, Powers, Problem, Quotient, State};
 use crate::proof::kernel::algebra::{Monomial, Number, Poly, Ratio, Symbol};
 use crate::proof::kernel::context::Context;
@@ -29,6 +30,19 @@ fn place(hypothesis: usize) -> Symbol {
 /// Returns the symbol of an exponential whose exponent is disregarded.
 pub fn opaque_exponential(x: usize) -> Symbol {
     Symbol::Error(numbered(x))
+}
+
+/// Returns the symbols of the absolute value of a formula and of its factor in a derivation.
+fn size(context: &Context, formula: &Tree) -> Option<(Symbol, Symbol)> {
+    context.assumptions().iter().find_map(|assumption| match &assumption.usage {
+        AssumptionUse::Size { of, size, place, .. } if of == formula => Some((*size, *place)),
+        _ => None,
+    })
+}
+
+/// Returns the symbol of a variable that a derivation does not use.
+fn unused(x: usize) -> Symbol {
+    place(MAX_VARIABLES + x)
 }
 
 /// Returns a number above those of a derivation. Larger numbers than a derivation has may coincide, and the
@@ -57,6 +71,10 @@ impl Dictionary {
                 Atom::Own(name) => Symbol::Own(name),
                 Atom::Place(i) => place(*i),
                 Atom::Exponential(_) => opaque_exponential(x),
+                Atom::Size(of) => size(context, problem.table.formula(*of).ok()?).map_or(unused(x), |s| s.0),
+                Atom::Factor(of) => {
+                    size(context, problem.table.formula(*of).ok()?).map_or(unused(x), |s| s.1)
+                }
                 Atom::Error(of) => {
                     let of = problem.table.formula(*of).ok()?;
                     let index = context.roundings().iter().position(|known| known == of)?;

@@ -124,17 +124,27 @@ impl Finder<'_, '_> {
         let (guide, is_opaque) = (self.guide, !self.state.exponents.is_empty());
         let mut equations = Vec::new();
         for assumption in guide.context.assumptions() {
-            let AssumptionUse::Pivot(pivot, _, None) = &assumption.usage else { continue };
-            let is_it = |i: usize| assumption.hypothesis.as_ref() == Some(guide.problem.hypotheses[i]);
-            let mut supposed = self.state.supposed.iter().rev();
-            let (_, fact) = supposed.find(|(i, _)| i.is_some_and(is_it)).ok_or("an equation")?;
-            let (of, _) = self.state.facts.get(*fact).map_err(|_| "an equation")?;
+            let (pivot, fact) = match &assumption.usage {
+                AssumptionUse::Pivot(pivot, _, None) => {
+                    let is_it =
+                        |i: usize| assumption.hypothesis.as_ref() == Some(guide.problem.hypotheses[i]);
+                    let mut supposed = self.state.supposed.iter().rev();
+                    let found = supposed.find(|(i, _)| i.is_some_and(is_it));
+                    (pivot, found.map(|(_, fact)| *fact).ok_or("an equation")?)
+                }
+                AssumptionUse::Size { pivot, size, .. } => match guide.size_atom(*size, self.state) {
+                    Some(known) => (pivot, known.fact),
+                    None => continue,
+                },
+                _ => continue,
+            };
+            let (of, _) = self.state.facts.get(fact).map_err(|_| "an equation")?;
             let value = if is_opaque {
                 guide.dictionary.opaque_poly(of)
             } else {
                 guide.dictionary.poly(of, self.state)
             };
-            let symbol = self.quantity(Known::Fact(*fact), &value);
+            let symbol = self.quantity(Known::Fact(fact), &value);
             equations.push(Equation { pivot: pivot.clone(), value, sum: vec![(symbol, Poly::constant(1))] });
         }
         if is_opaque {

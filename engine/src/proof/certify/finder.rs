@@ -2,10 +2,10 @@
 
 use super::dictionary::{Dictionary, integral, quantity};
 use crate::formula::claim::PRECISION;
-use crate::proof::check::{Certificate, Known, Polynomial, Problem, Rise, State};
+use crate::proof::check::{Certificate, Known, Polynomial, Problem, Rise, Size, State};
 use crate::proof::kernel::algebra::{Monomial, Poly, Ratio, Symbol};
 use crate::proof::kernel::context::Context;
-use crate::proof::kernel::derivation::{AssumptionUse, SignedRatio};
+use crate::proof::kernel::derivation::{Assumption, AssumptionUse, SignedRatio};
 use crate::proof::kernel::sign::{Certificate as KernelCertificate, Sign};
 
 /// Maximum nesting of lemmas.
@@ -78,10 +78,23 @@ impl Guide<'_> {
                 supposed.find(|(i, _)| i.is_some_and(is_it)).map(|(_, fact)| *fact)
             }
             None => {
-                let before = all[..assumption].iter().filter(|other| other.hypothesis.is_none()).count();
+                let is_case = |other: &&Assumption| {
+                    other.hypothesis.is_none() && !matches!(other.usage, AssumptionUse::Size { .. })
+                };
+                let before = all[..assumption].iter().filter(is_case).count();
                 state.supposed.iter().filter(|(i, _)| i.is_none()).nth(before).map(|(_, fact)| *fact)
             }
         }
+    }
+
+    fn has_sizes(&self) -> bool {
+        self.context.assumptions().iter().any(|other| matches!(other.usage, AssumptionUse::Size { .. }))
+    }
+
+    /// Returns the formula whose absolute value has this symbol, if it was met.
+    pub fn size_atom<'s>(&self, size: Symbol, state: &'s State) -> Option<&'s Size> {
+        let variable = self.dictionary.variable(size)?;
+        state.sizes.iter().find(|known| known.size == variable)
     }
 
     /// Returns the fact for a slack variable.
@@ -330,7 +343,13 @@ impl<'a, 'p> Finder<'a, 'p> {
             }
             let fact = guide.fact_of_slack(*slack, self.state).ok_or("a slack variable")?;
             let (symbol, value) = self.fact(fact)?;
-            let scale = own.over(&value.into()).ok_or("a zero fact")?;
+            // Its own value contains absolute values where the fact contains their arguments.
+            let scale = if guide.has_sizes() {
+                Ratio::from(Poly::symbol(*slack)).over(&guide.reduced(&value))
+            } else {
+                own.over(&value.into())
+            };
+            let scale = scale.ok_or("a zero fact")?;
             form = form.replace(&Monomial::of(*slack), &(scale * Ratio::from(symbol)));
         }
         Ok(guide.dictionary.with_own_places(&self.without_symbols(form)?))

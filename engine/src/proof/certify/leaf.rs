@@ -8,7 +8,8 @@ use crate::formula::statement::Proposition;
 use crate::number::Tree;
 use crate::number::tree::Op;
 use crate::proof::check::{
-    Atom, Leaf, Node, Polynomial, Problem, Quotient, Reader, Reason, Rise, Same, Source, State, parts_of_rise,
+    AbsoluteValue, Atom, Leaf, Node, Polynomial, Problem, Quotient, Reader, Reason, Rise, Same, Source,
+    State, parts_of_rise,
 };
 use crate::proof::kernel::algebra::{Poly, Ratio, Symbol};
 use crate::proof::kernel::context::Context;
@@ -179,6 +180,12 @@ impl Source for Search<'_> {
         factors
     }
 
+    fn size(&mut self, of: usize, value: &Quotient, state: &State) -> Option<AbsoluteValue> {
+        let size = self.guide.size(of, value, state);
+        self.leaf.sizes.extend(size);
+        size
+    }
+
     fn rounding(&mut self, value: &Quotient, state: &State) -> Option<Option<Same>> {
         let same = self.guide.same_rounding(value, state);
         self.leaf.roundings.push(same.clone());
@@ -257,6 +264,21 @@ impl Guide<'_> {
             }
         }
         None
+    }
+
+    /// Returns the translation of the absolute value of a formula.
+    fn size(&self, of: usize, value: &Quotient, state: &State) -> Option<AbsoluteValue> {
+        let Some(size) = self.context.size(&self.reduced_quotient(value, state)?) else {
+            return Some(AbsoluteValue::BySign);
+        };
+        let variable = self.dictionary.variable(size)?;
+        match state.sizes.iter().position(|known| known.size == variable) {
+            Some(i) => Some(AbsoluteValue::Same(i)),
+            None => {
+                let own = self.problem.table.variable(Atom::Size(of)).ok()?;
+                (own == variable).then_some(AbsoluteValue::Atom)
+            }
+        }
     }
 
     fn reduced_quotient(&self, of: &Quotient, state: &State) -> Option<Ratio> {

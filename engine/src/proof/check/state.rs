@@ -3,7 +3,7 @@
 use super::polynomial::Polynomial;
 use super::quotient::{Facts, Quotient};
 use super::table::{Atom, Problem};
-use super::{Checked, Reason, Refusal, Same, Source};
+use super::{AbsoluteValue, Checked, Reason, Refusal, Same, Source};
 use crate::formula::claim::{PRECISION, SCALES};
 use crate::number::Tree;
 use crate::number::tree::Op;
@@ -26,6 +26,8 @@ pub struct State<'p> {
     pub supposed: Vec<(Option<usize>, usize)>,
     /// The rounded formulas met so far.
     pub rounded: Vec<Rounded>,
+    /// The formulas whose absolute values are atoms.
+    pub sizes: Vec<Size>,
     /// The exponentials met so far, with their exponents.
     pub exponents: Vec<(usize, Quotient)>,
     /// The values of symbols in intervals.
@@ -45,6 +47,17 @@ pub struct Rounded {
     pub error: usize,
 }
 
+/// A formula whose absolute value is an atom.
+#[derive(Clone, Debug)]
+pub struct Size {
+    /// Its value.
+    pub value: Quotient,
+    /// The variable of its absolute value.
+    pub size: usize,
+    /// The number of the fact that it is a multiple of this.
+    pub fact: usize,
+}
+
 /// A reader of formulas, which asks a source for everything that a proof states.
 pub struct Reader<'p, 's> {
     /// The knowledge at the leaf.
@@ -59,12 +72,13 @@ impl<'p> State<'p> {
         let signs = problem.table.atoms().iter().map(|atom| match atom {
             Atom::Own(name) if SCALES.contains(name) => Some(Sign::Positive),
             Atom::Exponential(_) => Some(Sign::Positive),
+            Atom::Size(_) => Some(Sign::NonNegative),
             _ => None,
         });
         let mut facts = Facts::default();
         facts.add(Polynomial::constant(2), Sign::Positive);
-        let (supposed, rounded, exponents, places, values) = Default::default();
-        State { problem, facts, signs: signs.collect(), supposed, rounded, exponents, places, values }
+        let (supposed, rounded, sizes, exponents, places, values) = Default::default();
+        State { problem, facts, signs: signs.collect(), supposed, rounded, sizes, exponents, places, values }
     }
 
     /// Adds a fact and returns its number.
@@ -168,11 +182,8 @@ impl Reader<'_, '_> {
                 let is_open = self.sign_of_quotient(&a)?.implies(Sign::NonNegative);
                 if is_open { a } else { Polynomial::zero().into() }
             }
-            Min(a, b) => {
-                let (a, b) = (self.value(a)?, self.value(b)?);
-                let difference = self.state.facts.sum(&b, -1, &a)?;
-                if self.sign_of_quotient(&difference)?.implies(Sign::NonNegative) { a } else { b }
-            }
+            Min(a, b) if self.state.problem.table.step(a)? == Neg(b) => self.opposite_size(a, b)?,
+            Min(a, b) => self.minimum(a, b)?,
             Rounded(a) => self.rounded(a)?,
         })
     }
@@ -180,6 +191,40 @@ impl Reader<'_, '_> {
     fn sum(&mut self, a: usize, n: i128, b: usize) -> Checked<Quotient> {
         let (a, b) = (self.value(a)?, self.value(b)?);
         self.state.facts.sum(&a, n, &b)
+    }
+
+    fn minimum(&mut self, a: usize, b: usize) -> Checked<Quotient> {
+        let (a, b) = (self.value(a)?, self.value(b)?);
+        let difference = self.state.facts.sum(&b, -1, &a)?;
+        Ok(if self.sign_of_quotient(&difference)?.implies(Sign::NonNegative) { a } else { b })
+    }
+
+    /// Returns min(−x, x), which is −|x|.
+    fn opposite_size(&mut self, negated: usize, x: usize) -> Checked<Quotient> {
+        let value = self.value(x)?;
+        let size = match self.source.size(x, &value, &self.state).ok_or(Refusal::Missing)? {
+            AbsoluteValue::BySign => return self.minimum(negated, x),
+            AbsoluteValue::Atom => self.size_atom(x, value)?,
+            AbsoluteValue::Same(i) => {
+                let (known, facts) = (self.state.sizes.get(i).ok_or(Refusal::Unknown)?, &self.state.facts);
+                let sum = facts.sum(&value, 1, &known.value)?;
+                if !facts.are_equal(&value, &known.value)? && !sum.num.is_zero() {
+                    return Err(Refusal::Size);
+                }
+                known.size
+            }
+        };
+        Ok(Polynomial::zero().plus_multiple(-1, &Polynomial::variable(size)?)?.into())
+    }
+
+    /// Returns the variable of the absolute value of a formula x, and adds the fact x = t |x|.
+    fn size_atom(&mut self, x: usize, value: Quotient) -> Checked<usize> {
+        let size = self.state.problem.table.variable(Atom::Size(x))?;
+        let product = Polynomial::variable(size)?.times(&self.state.variable(Atom::Factor(x))?)?;
+        let product = product.times(&self.state.facts.product(&value.den)?)?;
+        let fact = self.state.suppose(value.num.plus_multiple(-1, &product)?, Sign::Zero);
+        self.state.sizes.push(Size { value, size, fact });
+        Ok(size)
     }
 
     /// Returns the reciprocal of a divisor, after a check of the signs of its factors.

@@ -22,6 +22,11 @@ pub enum Atom {
     /// The place of a symbol in the interval of the hypothesis with this number: t with −1 ≤ t ≤ 1 at which
     /// the symbol is the midpoint plus t times half the length.
     Place(usize),
+    /// The absolute value of the formula with this number.
+    Size(usize),
+    /// The factor of the formula with this number: t with −1 ≤ t ≤ 1 such that the formula is t times its
+    /// absolute value.
+    Factor(usize),
     /// e to the power of the formula with this number.
     Exponential(usize),
 }
@@ -110,7 +115,7 @@ impl Table {
 
     /// Returns `true` if a variable is between −1 and 1.
     pub fn is_unit(&self, x: usize) -> bool {
-        matches!(self.atoms.get(x), Some(Atom::Error(_) | Atom::Place(_)))
+        matches!(self.atoms.get(x), Some(Atom::Error(_) | Atom::Place(_) | Atom::Factor(_)))
     }
 
     /// Returns a polynomial of symbols and exponentials as a formula.
@@ -151,6 +156,10 @@ impl Table {
             match step {
                 Op::Symbol(name) => self.add_atom(Atom::Own(name)),
                 Op::Exp(exponent) => self.add_exponentials(exponent)?,
+                Op::Min(negated, of) if self.step(negated)? == Op::Neg(of) => {
+                    self.add_atom(Atom::Size(of));
+                    self.add_atom(Atom::Factor(of));
+                }
                 Op::Rounded(of) => {
                     self.add_atom(Atom::Own(PRECISION));
                     self.add_atom(Atom::Error(of));
@@ -193,7 +202,7 @@ impl<'a> Problem<'a> {
     pub fn depends(&self, x: usize, symbol: &str) -> bool {
         match self.table.atoms.get(x) {
             Some(Atom::Own(name)) => *name == symbol,
-            Some(Atom::Error(of) | Atom::Exponential(of)) => {
+            Some(Atom::Error(of) | Atom::Size(of) | Atom::Factor(of) | Atom::Exponential(of)) => {
                 self.table.formula(*of).is_ok_and(|tree| tree.symbols().contains(symbol))
             }
             Some(Atom::Place(i)) => self.hypotheses[*i].value.symbols().contains(symbol),

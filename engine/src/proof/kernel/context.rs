@@ -52,7 +52,7 @@ impl Context {
     }
 
     /// Lets absolute values be replaced in cases only.
-    pub(in crate::proof) fn with_cases_only(self) -> Self {
+    pub(super) fn with_cases_only(self) -> Self {
         Context { has_cases_only: true, ..self }
     }
 
@@ -266,14 +266,14 @@ impl Context {
         self.assumptions.push(Assumption { hypothesis, value, sign, divisor: None, usage: used });
     }
 
-    /// Replaces a quantity x by t s, where s is its absolute value and −1 ≤ t ≤ 1. Returns `false` if x cannot be
-    /// replaced.
-    pub(super) fn assume_size(&mut self, value: &Ratio) -> bool {
+    /// Replaces a quantity x by t s, where s is its absolute value and −1 ≤ t ≤ 1, given its formula and 2 x.
+    /// Returns `false` if x cannot be replaced.
+    pub(in crate::proof) fn assume_size(&mut self, of: &Tree, twice: &Ratio) -> bool {
         if self.sizes.len() == MAX_SIZES {
             return false;
         }
         let Some((size, place)) = self.next_slack().zip(self.next_place()) else { return false };
-        let value = self.reduce(value);
+        let value = self.reduce(&(twice * Ratio::from(Poly::constant((1, 2)))));
         let mut known = self.signs.clone();
         Arc::make_mut(&mut known).insert(size, Sign::NonNegative);
         let product = Poly::symbol(size) * Poly::symbol(place);
@@ -281,7 +281,7 @@ impl Context {
         self.signs = known;
         self.replace(pivot.clone(), by.clone());
         self.sizes.push((value.clone(), size));
-        let usage = AssumptionUse::Size { pivot, by, size, place };
+        let usage = AssumptionUse::Size { of: of.clone(), pivot, by, size, place };
         let sign = Sign::NonNegative;
         self.assumptions.push(Assumption {
             hypothesis: None,
@@ -294,7 +294,7 @@ impl Context {
     }
 
     /// Returns the absolute value of a quantity, if it is a symbol.
-    pub(super) fn size(&self, value: &Ratio) -> Option<Symbol> {
+    pub(in crate::proof) fn size(&self, value: &Ratio) -> Option<Symbol> {
         let is_same = |(known, _): &&(Ratio, Symbol)| {
             let [difference, sum] = [known - value, known + value];
             self.reduce(&difference).is_zero() || self.reduce(&sum).is_zero()

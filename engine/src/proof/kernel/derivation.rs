@@ -119,6 +119,8 @@ pub enum AssumptionUse {
     /// The absolute value of the quantity is a symbol `size`, and the quantity is the product of it and a symbol
     /// between −1 and 1.
     Size {
+        /// The formula of the quantity.
+        of: Tree,
         /// The pivot.
         pivot: Monomial,
         /// The value of the pivot.
@@ -202,7 +204,7 @@ pub enum ProofError {
     /// The branch of a positive part or minimum is undecided by this quantity, and no more cases may be distinguished.
     UndecidedBranch(Ratio),
     /// The branch of an absolute value is undecided by this quantity, twice its argument.
-    UndecidedSize(Ratio),
+    UndecidedSize(Tree, Ratio),
     /// No rule finds the sign of a quantity, for these signs of symbols.
     UnknownSign(Ratio, std::sync::Arc<SignEnv>),
     /// The sign of a quantity differs from the required one.

@@ -184,7 +184,7 @@ impl<'a> Translator<'a> {
         }
         self.resolve_branch(minimum, negated, x, |a, b| b - a).map_err(|error| match error {
             ProofError::UndecidedBranch(twice) if !self.context.has_cases_only() => {
-                ProofError::UndecidedSize(twice)
+                ProofError::UndecidedSize(x.clone(), twice)
             }
             error => error,
         })

@@ -206,7 +206,7 @@ impl Order<'_> {
                 let reduced = if is_as_written { String::new() } else { format!(" = {}", ratio(value)) };
                 format!("the divisor {}{reduced} might be 0", formula(of))
             }
-            ProofError::UndecidedBranch(value) | ProofError::UndecidedSize(value) => {
+            ProofError::UndecidedBranch(value) | ProofError::UndecidedSize(_, value) => {
                 format!("the sign of {} is undecided", ratio(value))
             }
             ProofError::UnknownSign(value, known) => {

@@ -144,7 +144,7 @@ impl ProofError {
         match self {
             ProofError::PossibleZeroDivisor(_, value)
             | ProofError::UndecidedBranch(value)
-            | ProofError::UndecidedSize(value)
+            | ProofError::UndecidedSize(_, value)
             | ProofError::UnknownSign(value, _)
             | ProofError::WrongSign(value, _)
             | ProofError::Unequal(value)

@@ -134,6 +134,56 @@ fn exponentials() -> Vec<Forged> {
     ]
 }
 
+/// Returns a proof with these translations of absolute values.
+fn with_sizes(sizes: &[AbsoluteValue], signs: Vec<Reason>) -> Vec<Node> {
+    vec![node(Leaf { sizes: sizes.into(), ..leaf(&[], signs) })]
+}
+
+fn absolute_values() -> Vec<Forged> {
+    use AbsoluteValue::{Atom, BySign, Same};
+    let [u, v] = ["u", "v"].map(x);
+    let at_most = non_negative("f", u.abs() - &u);
+    let page = Page::of(&at_most);
+    let product = || x("S₁") * x("F₁");
+    let margin = || page.with(vec![Known::Fact(1)], 1, x("S₁") - product() - x("z₁"));
+    accept(&at_most, &with_sizes(&[Atom], vec![margin()]));
+    let opposite = equal("f", u.abs(), (-&u).abs());
+    accept(&opposite, &with_sizes(&[Atom, Same(0)], vec![Page::of(&opposite).form(0)]));
+    let others = equal("f", u.abs(), v.abs());
+    let (strict, same) = (positive("f", u.abs()), equal("f", u.abs(), &u));
+    let signed = non_negative("f", u.abs() * &u);
+    let of_signed = Page::of(&signed);
+    let by_factor = x("S₁") * product() + x("S₁") * x("z₁");
+    let row = |flaw, claim: &Statement, sizes: &[AbsoluteValue], signs, refusal| {
+        (flaw, claim.clone(), with_sizes(sizes, signs), refusal)
+    };
+    let of_others = || Page::of(&others).form(0);
+    vec![
+        row("an absolute value left out", &at_most, &[], vec![margin()], Refusal::Missing),
+        row("one absolute value more", &at_most, &[Atom, Atom], vec![margin()], Refusal::Unused),
+        row("a side without a sign", &at_most, &[BySign], vec![page.form(n(2) * &u)], Refusal::Form),
+        row("an absolute value before the first", &at_most, &[Same(0)], vec![margin()], Refusal::Unknown),
+        row("the absolute value of another", &others, &[Atom, Same(0)], vec![of_others()], Refusal::Size),
+        row("two absolute values", &others, &[Atom, Atom], vec![of_others()], Refusal::Identity),
+        row("an absolute value of 0", &strict, &[Atom], vec![Page::of(&strict).form(x("S₁"))], Refusal::Goal),
+        row("an absolute value without its factor", &same, &[Atom], vec![margin()], Refusal::Goal),
+        row(
+            "the sign of a factor",
+            &signed,
+            &[Atom],
+            vec![of_signed.with(vec![Known::Fact(1)], 1, by_factor)],
+            Refusal::Form,
+        ),
+        row(
+            "a factor that is 1",
+            &same,
+            &[Atom],
+            vec![Page::of(&same).with(vec![Known::Fact(1)], 1, -x("z₁"))],
+            Refusal::Identity,
+        ),
+    ]
+}
+
 fn goals() -> Vec<Forged> {
     let [a, b, c, l, u] = ["a", "b", "c", "λ", "u"].map(x);
     let negative = within("f", 0, -&c).assuming(&[not_below_zero(&c)]);
@@ -163,6 +213,11 @@ fn forged_roundings_are_refused() {
     refuse(shared_errors());
     refuse(errors());
     refuse(orders());
+}
+
+#[test]
+fn forged_absolute_values_are_refused() {
+    refuse(absolute_values());
 }
 
 #[test]
