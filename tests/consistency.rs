@@ -277,8 +277,8 @@ fn every_documented_formula_is_the_computed_one() {
             (None, true) => None,
             (Some(_), true) => Some(format!("{path} is registered: remove it from the list in this test")),
             (None, false) => Some(format!(
-                "{path} is not registered: add a line `\"symbol\" = {path}(system, …);` with the symbols of its \
-                 arguments to `formulas!` at the beginning of src/claims/{module}.rs"
+                "{path} is not registered: add a line `\"symbol\" = {path}(&system, …);` with `&x(\"…\")` for each \
+                 argument to `formulas!` at the beginning of src/claims/{module}.rs"
             )),
             (Some(computed), false) => {
                 let written: Vec<_> = docs.iter().filter(formula).collect();
