@@ -118,8 +118,12 @@ impl Polynomial {
 
     /// Replaces a variable by a polynomial.
     pub fn replace(&self, x: usize, by: &Self) -> Checked<Self> {
-        let mut sum = Polynomial::zero();
-        for n in (0..=self.degree(x)).rev() {
+        let degree = self.degree(x);
+        if degree == 0 {
+            return Ok(self.clone());
+        }
+        let mut sum = self.coefficient(x, degree);
+        for n in (0..degree).rev() {
             sum = sum.times(by)?.plus_multiple(1, &self.coefficient(x, n))?;
         }
         Ok(sum)
