@@ -54,7 +54,7 @@ impl std::error::Error for CertifyError {}
 /// Returns a proof of each goal of a statement that the checker accepts.
 ///
 /// # Errors
-/// Returns the reason if there is none; the statement may be proved by [`prove`](super::prove) all the same.
+/// Returns the reason if there is none; the statement may still be proved by [`prove`](super::prove).
 ///
 /// # Examples
 /// ```
@@ -74,7 +74,7 @@ pub fn certify(statement: &Statement) -> Result<Vec<Node>, CertifyError> {
         let problem = problem.map_err(|_| CertifyError::NotExpressed("too many atoms"))?;
         let context = context.clone().with_variable(&goal.proposition);
         let attempt = Attempt { problem: &problem, goal, cases: Vec::new() };
-        effort::bounded_by(EFFORT, || attempt.certify(context, 0)).ok_or_else(too_large)?
+        effort::bounded_by(EFFORT, || attempt.certify(context, &problem.hypotheses)).ok_or_else(too_large)?
     };
     let goals: Vec<_> = statement.goals().iter().map(certify_goal).collect::<Certified<_>>()?;
     check(statement, &goals).map_err(CertifyError::Refused)?;
@@ -91,21 +91,14 @@ struct Attempt<'a> {
 }
 
 impl Attempt<'_> {
-    /// Returns a proof from a context that contains the first `done` hypotheses.
-    fn certify(&self, mut context: Context, mut done: usize) -> Certified<Node> {
-        let assumed = loop {
-            let Some(next) = self.problem.hypotheses.get(done) else { break Ok(()) };
-            match context.assume(next) {
-                Ok(()) => done += 1,
-                Err(reason) => break Err(reason),
-            }
-        };
-        let undecided = match assumed.and_then(|()| context.derive_directly(self.goal)) {
+    /// Returns a proof from a context, to which these hypotheses are still to be added.
+    fn certify(&self, mut context: Context, mut hypotheses: &[&Hypothesis]) -> Certified<Node> {
+        let undecided = match context.assume_and_derive(self.goal, &mut hypotheses) {
             Ok(direct) => return Ok(Node::Leaf(self.leaf(&context, direct)?.into())),
             Err(ProofError::UndecidedSize(of, twice)) => {
                 let mut sized = context.clone();
                 if sized.assume_size(&of, &twice)
-                    && let Ok(node) = self.certify(sized, done)
+                    && let Ok(node) = self.certify(sized, hypotheses)
                 {
                     return Ok(node);
                 }
@@ -117,10 +110,10 @@ impl Attempt<'_> {
         if self.cases.len() >= MAX_NESTED_CASES as usize {
             return Err(CertifyError::NoProof(ProofError::UndecidedBranch(undecided)));
         }
-        self.cases(&context, done, &context.sign_numerator(&undecided))
+        self.cases(&context, hypotheses, &context.sign_numerator(&undecided))
     }
 
-    fn cases(&self, context: &Context, done: usize, deciding: &Poly) -> Certified<Node> {
+    fn cases(&self, context: &Context, hypotheses: &[&Hypothesis], deciding: &Poly) -> Certified<Node> {
         let dictionary = self.dictionary(context)?;
         let own = dictionary.own(&deciding.clone().into());
         let (own, _) = integral(own.num(), own.num());
@@ -129,7 +122,7 @@ impl Attempt<'_> {
             let (mut context, mut case) = (context.clone(), self.clone());
             context.assume_sign(None, deciding.clone().into(), sign);
             case.cases.push((own.clone(), sign));
-            nodes.push(case.certify(context, done)?);
+            nodes.push(case.certify(context, hypotheses)?);
         }
         let both = <[Node; 2]>::try_from(nodes).map_err(|_| CertifyError::NotExpressed("two cases"))?;
         Ok(Node::Cases(self.case(&own, &dictionary)?, both.into()))
@@ -152,5 +145,5 @@ fn certify_part(problem: &Problem, hypotheses: &[&Hypothesis]) -> Certified<Node
     let trees = hypotheses.iter().map(|given| &given.value).chain(problem.proposition.trees());
     let context = Context::of(kernel::roundings(trees));
     let goal = Goal::of_claim("", problem.proposition.clone());
-    Attempt { problem, goal: &goal, cases: Vec::new() }.certify(context, 0)
+    Attempt { problem, goal: &goal, cases: Vec::new() }.certify(context, hypotheses)
 }

@@ -194,7 +194,7 @@ pub enum Refusal {
     Missing,
     /// The proof lists more than it uses.
     Unused,
-    /// There is no fact, variable, formula or hypothesis with a number.
+    /// A number is not that of a fact, variable, formula or hypothesis.
     Unknown,
     /// The two sides of a certificate differ, or a fact is about another quantity.
     Identity,

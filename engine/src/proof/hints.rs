@@ -114,8 +114,7 @@ fn obstacle(statement: &Statement, reason: &ProofError) -> Option<Tree> {
     let in_own_symbols = || {
         direct.assumptions.iter().rev().fold(value.clone(), |value, supposed| match supposed.usage {
             AssumptionUse::Pivot(_, _, Some(slack)) => {
-                let quotient = supposed.divisor.as_ref().and_then(|by| supposed.value.over(by));
-                value.replace(&Monomial::of(slack), quotient.as_ref().unwrap_or(&supposed.value))
+                value.replace(&Monomial::of(slack), &supposed.slack_value())
             }
             _ => value,
         })

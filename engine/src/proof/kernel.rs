@@ -269,14 +269,7 @@ fn derive(
     mut hypotheses: &[&Hypothesis],
     cases: u32,
 ) -> Result<Derivation, ProofError> {
-    let assumed = loop {
-        let [next, rest @ ..] = hypotheses else { break Ok(()) };
-        match context.assume(next) {
-            Ok(()) => hypotheses = rest,
-            Err(reason) => break Err(reason),
-        }
-    };
-    let undecided = match assumed.and_then(|()| context.derive_directly(goal)) {
+    let undecided = match context.assume_and_derive(goal, &mut hypotheses) {
         Ok(direct) => return Ok(Derivation::Direct(direct.into())),
         Err(ProofError::UndecidedSize(of, twice)) => {
             let mut sized = context.clone();
@@ -305,7 +298,20 @@ fn derive(
 
 /// Derivations without case distinctions.
 impl Context {
-    pub(in crate::proof) fn derive_directly(&self, goal: &Goal) -> Result<Direct, ProofError> {
+    /// Uses hypotheses, and derives a goal without cases. Removes the hypotheses that are used, also if this fails.
+    pub(in crate::proof) fn assume_and_derive(
+        &mut self,
+        goal: &Goal,
+        hypotheses: &mut &[&Hypothesis],
+    ) -> Result<Direct, ProofError> {
+        while let [next, rest @ ..] = *hypotheses {
+            self.assume(next)?;
+            *hypotheses = rest;
+        }
+        self.derive_directly(goal)
+    }
+
+    fn derive_directly(&self, goal: &Goal) -> Result<Direct, ProofError> {
         let mut reader = Translator::new(self);
         let because = match &goal.proposition {
             Proposition::Equal(left, right) => {

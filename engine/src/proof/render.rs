@@ -343,8 +343,7 @@ impl<'a> ProofPrinter<'a> {
                 Some(match slack {
                     None => format!("by {name}: {solved}"),
                     Some(slack) => {
-                        let quotient = supposed.divisor.as_ref().and_then(|by| supposed.value.over(by));
-                        let value = self.order().ratio_or_size(quotient.as_ref().unwrap_or(&supposed.value));
+                        let value = self.order().ratio_or_size(&supposed.slack_value());
                         let slack = slack.name();
                         let sign = if supposed.sign == Sign::Positive { "> 0" } else { "≥ 0" };
                         format!("by {name}: {slack} = {value} {sign}, so {solved}")

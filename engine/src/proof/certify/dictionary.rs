@@ -55,7 +55,6 @@ fn numbered(i: usize) -> u8 {
 pub struct Dictionary {
     /// The symbols of variables, except for exponentials.
     symbols: Vec<Symbol>,
-    is_exponential: Vec<bool>,
     /// The slack variables of a derivation, with their values in own symbols.
     pub slacks: Vec<(Symbol, Ratio)>,
     /// The places of a derivation, with their own symbols.
@@ -82,9 +81,7 @@ impl Dictionary {
                 }
             });
         }
-        let is_exponential =
-            problem.table.atoms().iter().map(|atom| matches!(atom, Atom::Exponential(_))).collect();
-        let mut dictionary = Dictionary { symbols, is_exponential, slacks: Vec::new(), places: Vec::new() };
+        let mut dictionary = Dictionary { symbols, slacks: Vec::new(), places: Vec::new() };
         dictionary.read(context, problem)?;
         Some(dictionary)
     }
@@ -95,11 +92,7 @@ impl Dictionary {
         for assumption in context.assumptions() {
             match &assumption.usage {
                 AssumptionUse::Pivot(_, _, Some(slack)) => {
-                    let value = match &assumption.divisor {
-                        Some(divisor) => assumption.value.over(divisor)?,
-                        None => assumption.value.clone(),
-                    };
-                    self.slacks.push((*slack, self.own(&value)));
+                    self.slacks.push((*slack, self.own(&assumption.slack_value())));
                 }
                 AssumptionUse::Interval(x, by, symbol) => {
                     let hypothesis = assumption.hypothesis.as_ref()?;
@@ -152,8 +145,8 @@ impl Dictionary {
     /// Returns a polynomial in own symbols, with exponentials as such.
     pub fn poly(&self, of: &Polynomial, state: &State) -> Poly {
         self.poly_with(of, |x| match state.exponent(x) {
-            Some(exponent) if self.is_exponential[x] => Poly::exponential(self.ratio(exponent, state)),
-            _ => Poly::symbol(self.symbols[x]),
+            Some(exponent) => Poly::exponential(self.ratio(exponent, state)),
+            None => Poly::symbol(self.symbols[x]),
         })
     }
 

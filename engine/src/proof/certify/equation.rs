@@ -1,7 +1,6 @@
 //! Equations in certificates: hypotheses v = 0, and products of exponentials.
 
-use super::dictionary::quantity;
-use super::dictionary::{opaque_exponential, power_of};
+use super::dictionary::{opaque_exponential, power_of, quantity};
 use super::finder::{Finder, Found, Quantity};
 use crate::proof::check::{Certificate, Known, Polynomial};
 use crate::proof::kernel::algebra::{Monomial, Poly, Ratio};
@@ -123,14 +122,10 @@ impl Finder<'_, '_> {
     fn equations(&mut self) -> Found<Vec<Equation>> {
         let (guide, is_opaque) = (self.guide, !self.state.exponents.is_empty());
         let mut equations = Vec::new();
-        for assumption in guide.context.assumptions() {
+        for (i, assumption) in guide.context.assumptions().iter().enumerate() {
             let (pivot, fact) = match &assumption.usage {
                 AssumptionUse::Pivot(pivot, _, None) => {
-                    let is_it =
-                        |i: usize| assumption.hypothesis.as_ref() == Some(guide.problem.hypotheses[i]);
-                    let mut supposed = self.state.supposed.iter().rev();
-                    let found = supposed.find(|(i, _)| i.is_some_and(is_it));
-                    (pivot, found.map(|(_, fact)| *fact).ok_or("an equation")?)
+                    (pivot, guide.fact(i, self.state).ok_or("an equation")?)
                 }
                 AssumptionUse::Size { pivot, size, .. } => match guide.size_atom(*size, self.state) {
                     Some(known) => (pivot, known.fact),

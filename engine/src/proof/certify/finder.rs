@@ -1,11 +1,13 @@
 //! The search for certificates.
 
 use super::dictionary::{Dictionary, integral, quantity};
+use crate::formula::Hypothesis;
 use crate::formula::claim::PRECISION;
+use crate::number::Tree;
 use crate::proof::check::{Certificate, Known, Polynomial, Problem, Rise, Size, State};
 use crate::proof::kernel::algebra::{Monomial, Poly, Ratio, Symbol};
 use crate::proof::kernel::context::Context;
-use crate::proof::kernel::derivation::{Assumption, AssumptionUse, SignedRatio};
+use crate::proof::kernel::derivation::{AssumptionUse, SignedRatio};
 use crate::proof::kernel::sign::{Certificate as KernelCertificate, Sign};
 
 /// Maximum nesting of lemmas.
@@ -14,7 +16,7 @@ const MAX_DEPTH: u32 = 4;
 /// Maximum number of terms of a fact by which a quantity is multiplied.
 const MAX_FACTOR_TERMS: usize = 7;
 
-/// What guides the search: a derivation, and the problem that it solves.
+/// The guide of the search: a derivation, and the problem that it solves.
 pub struct Guide<'a> {
     /// The context of the derivation.
     pub context: &'a Context,
@@ -68,27 +70,25 @@ impl Guide<'_> {
         self.context.reduce(&self.dictionary.with_places(&of.clone().into()))
     }
 
-    /// Returns the fact of a hypothesis of the derivation, or of the case with this number.
-    fn fact(&self, assumption: usize, state: &State) -> Option<usize> {
+    /// Returns the last fact of a hypothesis that satisfies a predicate.
+    fn fact_of_hypothesis(&self, state: &State, is_it: impl Fn(&Hypothesis) -> bool) -> Option<usize> {
+        let is_it = |i: usize| is_it(self.problem.hypotheses[i]);
+        let mut supposed = state.supposed.iter().rev();
+        supposed.find(|(i, _)| i.is_some_and(is_it)).map(|(_, fact)| *fact)
+    }
+
+    /// Returns the fact of the assumption with this number, a hypothesis or a case.
+    pub fn fact(&self, assumption: usize, state: &State) -> Option<usize> {
         let all = self.context.assumptions();
-        match &all.get(assumption)?.hypothesis {
-            Some(hypothesis) => {
-                let is_it = |i: usize| self.problem.hypotheses[i] == hypothesis;
-                let mut supposed = state.supposed.iter().rev();
-                supposed.find(|(i, _)| i.is_some_and(is_it)).map(|(_, fact)| *fact)
-            }
-            None => {
-                let is_case = |other: &&Assumption| {
-                    other.hypothesis.is_none() && !matches!(other.usage, AssumptionUse::Size { .. })
-                };
-                let before = all[..assumption].iter().filter(is_case).count();
-                state.supposed.iter().filter(|(i, _)| i.is_none()).nth(before).map(|(_, fact)| *fact)
-            }
+        if let Some(hypothesis) = &all.get(assumption)?.hypothesis {
+            return self.fact_of_hypothesis(state, |given| given == hypothesis);
         }
+        let before = all[..assumption].iter().filter(|other| other.is_case()).count();
+        state.supposed.iter().filter(|(i, _)| i.is_none()).nth(before).map(|(_, fact)| *fact)
     }
 
     fn has_sizes(&self) -> bool {
-        self.context.assumptions().iter().any(|other| matches!(other.usage, AssumptionUse::Size { .. }))
+        self.context.assumptions().iter().any(|other| other.usage.is_size())
     }
 
     /// Returns the formula whose absolute value has this symbol, if it was met.
@@ -119,9 +119,7 @@ impl Guide<'_> {
         }
         // The sign of a symbol that is in an interval.
         let x = kept.num().symbols().into_iter().next()?;
-        let of_symbol = |i: usize| self.problem.hypotheses[i].value == crate::number::Tree::symbol(x.name());
-        let mut supposed = state.supposed.iter().rev();
-        supposed.find(|(i, _)| i.is_some_and(of_symbol)).map(|(_, fact)| *fact)
+        self.fact_of_hypothesis(state, |given| given.value == Tree::symbol(x.name()))
     }
 
     /// Returns the signs of factors that may occur in a value: facts, and 2ᵖ + 1 + e.

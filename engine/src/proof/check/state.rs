@@ -1,4 +1,4 @@
-//! What is known at a leaf of a proof, and the translation of formulas into quotients of polynomials.
+//! The knowledge at a leaf of a proof, and the translation of formulas into quotients of polynomials.
 
 use super::polynomial::Polynomial;
 use super::quotient::{Facts, Quotient};
@@ -13,7 +13,7 @@ use std::collections::HashMap;
 /// The number of the fact 2 > 0, which every state contains.
 const TWO: usize = 0;
 
-/// What is known at a leaf of a proof.
+/// The knowledge at a leaf of a proof.
 #[derive(Clone, Debug)]
 pub struct State<'p> {
     /// The proposition to be proved, with its hypotheses.

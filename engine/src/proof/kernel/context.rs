@@ -23,8 +23,6 @@ pub(in crate::proof) struct Context {
     substitutions: Vec<(Monomial, Ratio)>,
     /// Quantities of known sign that are not expressed by the remaining symbols.
     retained: Vec<(Ratio, Sign)>,
-    /// Quantities with the symbols of their absolute values.
-    sizes: Vec<(Ratio, Symbol)>,
     /// Whether quantities of undecided sign are never replaced by multiples of their absolute values.
     has_cases_only: bool,
     /// The rounded formulas; the position of each is the index of its error.
@@ -269,7 +267,7 @@ impl Context {
     /// Replaces a quantity x by t s, where s is its absolute value and −1 ≤ t ≤ 1, given its formula and 2 x.
     /// Returns `false` if x cannot be replaced.
     pub(in crate::proof) fn assume_size(&mut self, of: &Tree, twice: &Ratio) -> bool {
-        if self.sizes.len() == MAX_SIZES {
+        if self.assumptions.iter().filter(|assumption| assumption.usage.is_size()).count() == MAX_SIZES {
             return false;
         }
         let Some((size, place)) = self.next_slack().zip(self.next_place()) else { return false };
@@ -280,7 +278,6 @@ impl Context {
         let Some((pivot, by)) = self.pivot(None, &value, &product, &known) else { return false };
         self.signs = known;
         self.replace(pivot.clone(), by.clone());
-        self.sizes.push((value.clone(), size));
         let usage = AssumptionUse::Size { of: of.clone(), pivot, by, size, place };
         let sign = Sign::NonNegative;
         self.assumptions.push(Assumption {
@@ -295,11 +292,12 @@ impl Context {
 
     /// Returns the absolute value of a quantity, if it is a symbol.
     pub(in crate::proof) fn size(&self, value: &Ratio) -> Option<Symbol> {
-        let is_same = |(known, _): &&(Ratio, Symbol)| {
-            let [difference, sum] = [known - value, known + value];
-            self.reduce(&difference).is_zero() || self.reduce(&sum).is_zero()
-        };
-        self.sizes.iter().find(is_same).map(|(_, size)| *size)
+        self.assumptions.iter().find_map(|assumption| {
+            let AssumptionUse::Size { size, .. } = &assumption.usage else { return None };
+            let [difference, sum] = [&assumption.value - value, &assumption.value + value];
+            let is_same = self.reduce(&difference).is_zero() || self.reduce(&sum).is_zero();
+            is_same.then_some(*size)
+        })
     }
 
     fn next_slack(&self) -> Option<Symbol> {

@@ -93,7 +93,7 @@ pub struct Rounding {
 /// An assumption and its use.
 #[derive(Clone, Debug)]
 pub struct Assumption {
-    /// The hypothesis, or `None` for the assumption of a case.
+    /// The hypothesis, or `None` for the assumption of a case and for an absolute value.
     pub hypothesis: Option<Hypothesis>,
     /// The quantity, reduced by the earlier assumptions.
     pub value: Ratio,
@@ -103,6 +103,19 @@ pub struct Assumption {
     pub divisor: Option<Ratio>,
     /// The use of the assumption.
     pub usage: AssumptionUse,
+}
+
+impl Assumption {
+    /// Returns `true` for the assumption of a case.
+    pub fn is_case(&self) -> bool {
+        self.hypothesis.is_none() && !self.usage.is_size()
+    }
+
+    /// Returns the quantity that a slack variable replaces.
+    pub fn slack_value(&self) -> Ratio {
+        let quotient = self.divisor.as_ref().and_then(|by| self.value.over(by));
+        quotient.unwrap_or_else(|| self.value.clone())
+    }
 }
 
 /// The use of an assumption.
@@ -134,6 +147,13 @@ pub enum AssumptionUse {
     Retained,
     /// An equation without a pivot, or an interval of a replaced quantity, which is not used.
     Unused,
+}
+
+impl AssumptionUse {
+    /// Returns `true` if an absolute value is replaced.
+    pub fn is_size(&self) -> bool {
+        matches!(self, AssumptionUse::Size { .. })
+    }
 }
 
 /// The sign of a quotient.

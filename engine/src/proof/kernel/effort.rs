@@ -10,9 +10,19 @@ use std::cell::Cell;
 /// n words counts as n/8 terms.
 pub const MAX_EFFORT: usize = 20_000_000;
 
+/// The effort that is left.
+#[derive(Clone, Copy)]
+enum Rest {
+    /// There is no proof in progress.
+    Unlimited,
+    /// The number of terms that may still be processed.
+    Terms(usize),
+    /// The proof in progress has processed too many.
+    Exceeded,
+}
+
 thread_local! {
-    /// The number of terms that may still be processed; `None` after it was exceeded.
-    static REST: Cell<Option<usize>> = const { Cell::new(Some(usize::MAX)) };
+    static REST: Cell<Rest> = const { Cell::new(Rest::Unlimited) };
 }
 
 /// Returns the value of `f`, or `None` if its arithmetic exceeds [`MAX_EFFORT`].
@@ -22,20 +32,25 @@ pub fn bounded<T>(f: impl FnOnce() -> T) -> Option<T> {
 
 /// Returns the value of `f`, or `None` if its arithmetic exceeds another maximum.
 pub fn bounded_by<T>(most: usize, f: impl FnOnce() -> T) -> Option<T> {
-    let before = REST.replace(Some(most));
+    let before = REST.replace(Rest::Terms(most));
     let value = f();
-    REST.replace(before).map(|_| value)
+    let is_exceeded = matches!(REST.replace(before), Rest::Exceeded);
+    (!is_exceeded).then_some(value)
 }
 
 /// Counts terms that are about to be processed. Returns `false` if there are too many.
 pub fn spend(terms: usize) -> bool {
-    REST.set(REST.get().and_then(|rest| rest.checked_sub(terms)));
-    REST.get().is_some()
+    if let Rest::Terms(rest) = REST.get() {
+        REST.set(rest.checked_sub(terms).map_or(Rest::Exceeded, Rest::Terms));
+    }
+    !matches!(REST.get(), Rest::Exceeded)
 }
 
 /// Ends the proof in progress, if there is one.
 pub fn exceed() {
-    spend(MAX_EFFORT + 1);
+    if let Rest::Terms(_) = REST.get() {
+        REST.set(Rest::Exceeded);
+    }
 }
 
 #[cfg(test)]
@@ -50,7 +65,7 @@ mod tests {
         assert!(spend_all() == Some(true) && spend_all() == Some(true));
         assert!(bounded(|| (spend(MAX_EFFORT), spend(1))).is_none());
         assert!(bounded(|| (spend(MAX_EFFORT + 1), spend(0))).is_none());
-        assert!(bounded(exceed).is_none());
+        assert!(bounded(exceed).is_none() && bounded_by(10 * MAX_EFFORT, exceed).is_none());
         // Outside, effort is unbounded, also after a bound was exceeded.
         exceed();
         assert!(spend(MAX_EFFORT + 1));
@@ -69,7 +84,10 @@ mod tests {
         let rest_after = |f: &dyn Fn()| {
             bounded(|| {
                 f();
-                REST.get()
+                match REST.get() {
+                    Rest::Terms(rest) => Some(rest),
+                    Rest::Unlimited | Rest::Exceeded => None,
+                }
             })?
         };
         // All terms except 1 have one power.

@@ -163,7 +163,18 @@ impl<'a> Translator<'a> {
         decides: fn(Ratio, Ratio) -> Ratio,
     ) -> Result<Ratio, ProofError> {
         let (a, b) = (self.translate(first)?, self.translate(second)?);
-        let value = self.context.reduce(&decides(a.clone(), b.clone()));
+        let value = decides(a.clone(), b.clone());
+        self.decide_branch(bracket, [(first, a), (second, b)], &value)
+    }
+
+    /// Returns the first branch if the deciding quantity is ≥ 0, the second if it is ≤ 0.
+    fn decide_branch(
+        &mut self,
+        bracket: &Tree,
+        [(first, a), (second, b)]: [(&Tree, Ratio); 2],
+        deciding: &Ratio,
+    ) -> Result<Ratio, ProofError> {
+        let value = self.context.reduce(deciding);
         let signed = self
             .context
             .sign_by_retained(value.clone(), &self.factors)
@@ -182,7 +193,8 @@ impl<'a> Translator<'a> {
         if let Some(size) = self.context.size(&value) {
             return Ok((-Poly::symbol(size)).into());
         }
-        self.resolve_branch(minimum, negated, x, |a, b| b - a).map_err(|error| match error {
+        let (opposite, twice) = (-&value, &value + &value);
+        self.decide_branch(minimum, [(negated, opposite), (x, value)], &twice).map_err(|error| match error {
             ProofError::UndecidedBranch(twice) if !self.context.has_cases_only() => {
                 ProofError::UndecidedSize(x.clone(), twice)
             }

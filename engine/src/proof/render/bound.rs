@@ -3,7 +3,7 @@
 use super::ProofPrinter;
 use super::algebra::Order;
 use crate::proof::kernel::sign::{Certificate, Rule};
-use crate::proof::kernel::{Assumption, AssumptionUse, Derivation, Direct, Justification, SignedRatio};
+use crate::proof::kernel::{Assumption, Derivation, Direct, Justification, SignedRatio};
 
 impl ProofPrinter<'_> {
     /// Writes the proof of a rounding bound: the common part of its cases once, and the size of long
@@ -78,11 +78,10 @@ impl ProofPrinter<'_> {
 
 /// Returns the assumptions before the first case, and what follows from those after it except from the cases.
 fn split_at_case(direct: &Direct) -> (&[Assumption], Vec<&Assumption>) {
-    let is_size = |assumption: &Assumption| matches!(assumption.usage, AssumptionUse::Size { .. });
-    let is_case = |assumption: &Assumption| assumption.hypothesis.is_none() && !is_size(assumption);
-    let first_case = direct.assumptions.iter().position(is_case).unwrap_or(direct.assumptions.len());
+    let first_case = direct.assumptions.iter().position(Assumption::is_case);
+    let first_case = first_case.unwrap_or(direct.assumptions.len());
     let (common, others) = direct.assumptions.split_at(first_case);
-    (common, others.iter().filter(|assumption| !is_case(assumption)).collect())
+    (common, others.iter().filter(|assumption| !assumption.is_case()).collect())
 }
 
 /// Texts for the two differences of a bound and ± a quantity.
