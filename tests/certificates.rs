@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 use spring_mass_contact::claims::statements;
 use spring_mass_contact::formula::Statement;
-use spring_mass_contact::proof::certify::certify;
 use spring_mass_contact::proof::check::{Certificate, Known, MAX_VARIABLES, Node, Polynomial, Reason, check};
+use spring_mass_contact::proof::prove;
 use std::sync::LazyLock;
 
 /// A claim with the proofs of its goals.
@@ -12,8 +12,8 @@ type Certified = (Statement, Vec<Node>);
 
 /// The claims with their proofs, or the reason why there are none.
 static CERTIFIED: LazyLock<Vec<Result<Certified, String>>> = LazyLock::new(|| {
-    let certified = |s: &Statement| match certify(s) {
-        Ok(goals) => Ok((s.clone(), goals)),
+    let certified = |s: &Statement| match prove(s) {
+        Ok(proof) => Ok((s.clone(), proof.goals().to_vec())),
         Err(reason) => Err(format!("{} {}: {reason}", s.equation(), s.name())),
     };
     statements().par_iter().map(certified).collect()
@@ -85,6 +85,65 @@ fn spoiled(statement: &Statement, goals: &[Node]) -> (usize, usize) {
         accepted += usize::from(check(statement, &goals).is_ok());
     }
     (count, accepted)
+}
+
+/// Proofs as data, as `contact prove --format json` prints them.
+#[cfg(feature = "serde")]
+mod data {
+    use super::*;
+    use crate::proofs::proofs;
+    use spring_mass_contact::claims::registry;
+    use spring_mass_contact::proof::Proof;
+    use spring_mass_contact::proof::data::GoalProof;
+    use spring_mass_contact::proof::render::ProofPrinter;
+
+    fn nodes(json: &str) -> serde_json::Result<Vec<Node>> {
+        let goals: Vec<GoalProof> = serde_json::from_str(json)?;
+        Ok(goals.into_iter().map(|goal| goal.proof).collect())
+    }
+
+    #[test]
+    fn proofs_that_are_read_back_are_accepted() {
+        let printer = ProofPrinter::new(registry());
+        let refused = proofs().par_bridge().filter(|proof| {
+            let json = serde_json::to_string(&printer.data(proof)).unwrap();
+            check(proof.statement(), &nodes(&json).unwrap()).is_err()
+        });
+        assert_eq!(refused.count(), 0);
+    }
+
+    /// Other data is not a proof, or is one that the checker refuses.
+    #[test]
+    fn spoiled_data_is_refused() {
+        let is_minimum = |proof: &&Proof| proof.statement().name() == "contact-excludes-gap";
+        let proof = proofs().find(is_minimum).unwrap();
+        let json = serde_json::to_string(&ProofPrinter::new(registry()).data(proof)).unwrap();
+        assert!(check(proof.statement(), &nodes(&json).unwrap()).is_ok());
+        for (old, new, is_read) in [
+            (r#""left":[["1",[]]]"#, r#""left":[["2",[]]]"#, true),
+            (r#""left":[["1",[]]]"#, r#""left":[]"#, true),
+            (r#"{"fact":2}"#, r#"{"fact":3}"#, true),
+            (r#"{"fact":2}"#, r#"{"fact":99}"#, true),
+            (r#""hypotheses":[0,"#, r#""hypotheses":["#, true),
+            (r#""sizes":[]"#, r#""sizes":["atom"]"#, true),
+            (r#"[["1",[]]]"#, r#"[["1",[[63,1]]]]"#, true),
+            (r#"[["1",[]]]"#, r#"[["1",[[64,1]]]]"#, false),
+            (r#"[["1",[]]]"#, r#"[["1",[[0,0]]]]"#, false),
+            (r#"[["1",[]]]"#, r#"[["1",[[0,256]]]]"#, false),
+            (r#"[["1",[]]]"#, r#"[["1",[]],["1",[]]]"#, false),
+            (r#"[["1",[]]]"#, r#"[["170141183460469231731687303715884105728",[]]]"#, false),
+            (r#""sizes":[]"#, r#""sizes":["new"]"#, false),
+            (r#""sizes":[]"#, r#""sizes":[],"more":[]"#, false),
+            (r#","sizes":[]"#, "", false),
+        ] {
+            let spoiled = json.replacen(old, new, 1);
+            assert_ne!(spoiled, json, "{old}");
+            match nodes(&spoiled) {
+                Ok(nodes) => assert!(is_read && check(proof.statement(), &nodes).is_err(), "{new}"),
+                Err(reason) => assert!(!is_read, "{new}: {reason}"),
+            }
+        }
+    }
 }
 
 #[test]

@@ -16,6 +16,7 @@ use spring_mass_contact::proof::coq::{File, theorem_name};
 use spring_mass_contact::verify::coq;
 use std::collections::BTreeSet;
 use std::fs;
+use std::path::{Path, PathBuf};
 
 #[test]
 fn every_claim_is_a_theorem() {
@@ -446,19 +447,26 @@ fn coq_accepts_everything() {
     accepts("everything", "Contact", coq());
 }
 
+/// Compiles the files that those of claims require, and returns their directory.
+fn compiled_program(name: &str) -> PathBuf {
+    let directory = scratch(name);
+    for file in coq().files().iter().filter(|file| file.name.starts_with(['A', 'B'])) {
+        compile_text(&directory, file).unwrap_or_else(|error| panic!("{error}"));
+    }
+    directory
+}
+
+fn compile_text(directory: &Path, File { name, text }: &File) -> Result<String, String> {
+    fs::write(directory.join(name), text).unwrap();
+    compile(directory, "Contact", name)
+}
+
 /// A theorem is rejected, not an unreadable definition: the file of the definitions compiles.
 #[test]
 #[ignore = "requires Coq"]
 fn coq_rejects_theorems_about_a_definition_with_a_changed_sign() {
-    let directory = scratch("signs");
-    let files = coq().files();
-    let compile = |File { name, text }: &File| {
-        fs::write(directory.join(name), text).unwrap();
-        compile(&directory, "Contact", name)
-    };
-    for file in files.iter().filter(|file| file.name.starts_with(['A', 'B'])) {
-        compile(file).unwrap_or_else(|error| panic!("{error}"));
-    }
+    let (directory, files) = (compiled_program("signs"), coq().files());
+    let compile = |file: &File| compile_text(&directory, file);
     for [definition, changed] in
         [["\n  m * g - c * (h - l).", "\n  m * g + c * (h - l)."], ["\n  c + eps.", "\n  c - eps."]]
     {
@@ -471,5 +479,23 @@ fn coq_rejects_theorems_about_a_definition_with_a_changed_sign() {
         let rejected = theorems.map(compile).find_map(Result::err).expect(changed);
         let unread = ["Syntax error", "Cannot find", "not found in the current environment"];
         assert!(unread.iter().all(|unread| !rejected.contains(unread)), "{rejected}");
+    }
+}
+
+/// A certificate is an identity, so no coefficient of it can be another.
+#[test]
+#[ignore = "requires Coq"]
+fn coq_rejects_certificates_with_a_changed_coefficient() {
+    const RIGHT: &str = "[[1]]%Z [[";
+    let (directory, files) = (compiled_program("certificates"), coq().files());
+    let file = of_claims(&files).find(|file| file.text.matches(RIGHT).count() > 2).unwrap();
+    assert_eq!(compile_text(&directory, file), Ok(String::new()));
+    for (place, _) in file.text.match_indices(RIGHT).take(3) {
+        let (before, after) = file.text.split_at(place + RIGHT.len());
+        let end = after.find([';', ']']).unwrap();
+        let changed = after[..end].parse::<i64>().unwrap() + 1;
+        let text = format!("{before}{changed}{}", &after[end..]);
+        let rejected = compile_text(&directory, &File { name: file.name.clone(), text }).unwrap_err();
+        assert!(rejected.contains("\"true = true\""), "{rejected}");
     }
 }

@@ -1,7 +1,7 @@
 //! Test of the dependencies between modules: the mechanics (chapter, solver) do not depend on proofs; claims
 //! and verify connect the two. Cargo separates the engine (number, formula, proof), which is independent of
 //! mechanics, and the command, on which nothing depends; these are crates of their own. Within the engine the
-//! kernel has a stricter limit.
+//! checker has a stricter limit.
 //!
 //! Sources are read as tokens: names in comments, strings and docs do not count, names within macros do.
 
@@ -190,28 +190,28 @@ fn the_map_lists_every_module() {
     );
 }
 
-/// Returns the files of the kernel.
-fn kernel() -> Vec<String> {
-    let kernel = |path: &String| path.starts_with("engine/src/proof/kernel");
-    sources().into_iter().filter(kernel).collect()
+/// Returns the files of the checker.
+fn checker() -> Vec<String> {
+    let checker = |path: &String| path.starts_with("engine/src/proof/check") && !path.contains("/tests");
+    sources().into_iter().filter(checker).collect()
 }
 
 #[test]
-fn the_kernel_uses_only_numbers_and_statements() {
-    // A reader of the trusted part needs to read nothing else of `proof`.
+fn the_checker_uses_only_numbers_and_statements() {
+    // A reader of the trusted part needs to read nothing else of `proof`, except for what limits its time.
     let mut known = BTreeSet::new();
-    for path in kernel() {
+    for path in checker() {
         known.extend(paths(source(&path).parse().unwrap(), &module(&path)));
     }
-    // `proof` alone is the visibility of a function; the kernel checks the results of the search.
-    let allowed = ["formula", "number", "operators", "proof", "proof::kernel", "proof::search"];
+    // `proof` alone is the visibility of a function.
+    let allowed = ["formula", "number", "operators", "proof", "proof::check", "proof::effort"];
     let room = |target: &Vec<String>| {
         target[..target.len().min(if target[0] == "proof" { 2 } else { 1 })].join("::")
     };
     let others: Vec<_> = known.iter().map(room).filter(|room| !allowed.contains(&room.as_str())).collect();
     assert!(
         others.is_empty() && !known.is_empty(),
-        "the kernel knows {others:?}, of {known:?}: who reads what has to be trusted would have to read that, too"
+        "the checker knows {others:?}, of {known:?}: who reads what has to be trusted would have to read that, too"
     );
 }
 
@@ -239,26 +239,18 @@ fn files_of_statements_use_only_those_before_them() {
     assert!(wrong.is_empty() && uses > 10, "{uses} uses; {wrong:?}");
 }
 
-/// Types that only the kernel constructs. Other parts of a derivation prove nothing by themselves.
-const SEALED: [&str; 6] = ["Proof", "Certificate", "Context", "Poly", "Ratio", "Monomial"];
+/// Types of the checker that nothing else constructs: proofs, and polynomials, whose terms are in order.
+const SEALED: [&str; 2] = ["Proof", "Polynomial"];
 
 #[test]
-fn the_fields_of_proofs_are_private_to_the_kernel() {
+fn the_fields_of_proofs_are_private_to_the_checker() {
     let mut structures = Vec::new();
-    for path in kernel() {
+    for path in checker() {
         for item in syn::parse_file(&source(&path)).unwrap().items {
             let syn::Item::Struct(item) = item else { continue };
-            for field in &item.fields {
-                let sealed = match &field.vis {
-                    syn::Visibility::Inherited => true,
-                    syn::Visibility::Restricted(to) => {
-                        path != "engine/src/proof/kernel.rs" && to.path.is_ident("super")
-                    }
-                    syn::Visibility::Public(_) => false,
-                };
-                let is_part = SEALED.iter().all(|name| item.ident != name);
-                assert!(sealed || is_part, "{path}: a field of {} can be seen", item.ident);
-            }
+            let is_part = SEALED.iter().all(|name| item.ident != name);
+            let is_sealed = item.fields.iter().all(|field| matches!(field.vis, syn::Visibility::Inherited));
+            assert!(is_sealed || is_part, "{path}: a field of {} can be seen", item.ident);
             structures.push(item.ident.to_string());
         }
     }

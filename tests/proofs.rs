@@ -56,5 +56,19 @@ fn a_proof_is_printed_in_readable_lines() {
     assert_eq!(paper.claim(proof.statement()), "(c + ε) ((ε (H − l) + m g) / (c + ε) − Δ) = R");
     assert_eq!(paper.used(proof), ["c > 0", "ε > 0"]);
     let lines = paper.proof(proof);
-    assert_eq!(lines.first().map(String::as_str), Some("c + ε ≠ 0: c + ε > 0, term by term"));
+    assert_eq!(lines.first().map(String::as_str), Some("divisor c + ε > 0"));
+}
+
+/// The signs of symbols are used without saying so.
+#[test]
+fn a_printed_proof_names_each_hypothesis_that_it_uses() {
+    let printer = ProofPrinter::new(registry());
+    let unnamed = proofs().flat_map(|proof| {
+        let lines = printer.proof(proof).join("\n");
+        let is_unnamed =
+            move |given: &String| given.split(' ').count() > 3 && !lines.contains(given.as_str());
+        let name = proof.statement().name();
+        printer.used(proof).into_iter().filter(is_unnamed).map(move |given| (name, given))
+    });
+    assert_eq!(unnamed.collect::<Vec<_>>(), []);
 }

@@ -8,6 +8,7 @@ mod args;
 mod cases;
 mod check;
 mod equations;
+mod indent;
 mod json;
 mod lines;
 mod output;

@@ -1,10 +1,12 @@
 //! Output: stdout, closed pipes, one-line errors, exit codes and tables.
 
+use crate::indent::Indented;
 use crate::lines::NO_BREAK_SPACE;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use comfy_table::{ColumnConstraint, ContentArrangement, Row, Table, presets};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
+use serde_json::Serializer;
 use std::fmt::Display;
 use std::io::{self, BufWriter, IsTerminal, Write};
 use std::ops::RangeBounds;
@@ -133,7 +135,7 @@ pub(crate) use record;
 
 /// Prints indented JSON and a line break.
 pub fn json(out: &mut dyn Write, value: &impl Serialize) -> io::Result<()> {
-    serde_json::to_writer_pretty(&mut *out, value)?;
+    value.serialize(&mut Serializer::with_formatter(&mut *out, Indented::default()))?;
     writeln!(out)
 }
 

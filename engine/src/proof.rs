@@ -10,15 +10,12 @@
 //!   goals of each kind of claim, which are proved under the hypotheses. The goals of a
 //!   [`Statement`](crate::formula::Statement) are derived from its contents and cannot be set, so they belong to
 //!   the claim that it prints.
-//! - The kernel is `kernel.rs` with `kernel/` in `src/proof`: `algebra.rs` and `monomial.rs` contain the
-//!   arithmetic of polynomials, `number.rs` that of their coefficients, `sign.rs` six rules for signs,
-//!   `order.rs` the monotonicity of rounding, `translator.rs` and `context.rs` the translation of formulas
-//!   and hypotheses, `kernel.rs` the rules for goals. Nothing else can make a proof, and a proof cannot be
-//!   changed. `search.rs`, which finds certificates for signs, is not trusted: only the rules make them.
+//! - The [checker](check) is `check.rs` with `check/` in `src/proof`. Nothing else can make a proof, and a proof
+//!   cannot be changed. `search.rs` with `search/`, which finds proofs, is not trusted.
 //! - [`render`] prints what was proved, with the names of a [`Registry`](crate::formula::Registry); the
-//!   compiler and the rational numbers of GMP are correct.
+//!   compiler is correct.
 //! - The model of rounding: without underflow and overflow, a result x rounded to p ≥ 2 bits is x (1 + γ e)
-//!   for some −1 ≤ e ≤ 1, where γ = 1/(2ᵖ + 1). `kernel.rs` derives it from rounding to nearest, which
+//!   for some −1 ≤ e ≤ 1, where γ = 1/(2ᵖ + 1). [`check`](mod@check) derives it from rounding to nearest, which
 //!   machines and MPFR are trusted to implement, as a function of the exact result alone.
 //! - Claims about limits of sequences rest on this lemma:
 //!
@@ -26,28 +23,28 @@
 //!   > (1 + x)ᵏ ≥ 1 + k x, so |ρ|ᵏ ≤ 1/(1 + k x), which is below any bound once k is large enough. □ So if
 //!   > f is continuous at 0, as a quotient of polynomials is where its denominator is not 0, f(ρᵏ) → f(0).
 //!
-//! A second way to a proof needs less trust: [`certify`](mod@certify) writes what the kernel derives as
-//! certificates over the symbols of a statement, and [`check`](mod@check), which shares with the kernel only its
-//! signs and premises, accepts them by expanding identities.
-//!
 //! Most of this can be checked independently: [`coq`] writes the same claims for the proof assistant Coq,
 //! whose kernel checks them anew, and tests ensure that nothing is proved that numbers
 //! [`refute`](mod@refute). Rounding errors of formulas are proved as well, for every precision. Claims about
 //! the solver in floats, about its guarantees and iteration counts, are tested by experiments, not proved.
 
 mod bounds;
-pub mod certify;
 pub mod check;
 pub mod coq;
+#[cfg(feature = "serde")]
+pub mod data;
+mod effort;
 mod hints;
-mod kernel;
 pub mod mutation;
 pub mod refute;
 pub mod render;
 mod search;
+mod trace;
 
 pub use bounds::{NoBound, RoundingBound, rounding_bound};
+pub use check::{MAX_DEPTH, MAX_SIZE, Proof};
+pub use effort::MAX_EFFORT;
 pub use hints::sufficient_hypothesis;
-pub use kernel::{MAX_DEPTH, MAX_EFFORT, MAX_SIZE, Proof, ProofError, prove};
 pub use mutation::{MutationReport, test_mutations};
 pub use refute::{Counterexample, Refutation, refute, tightest_point};
+pub use search::{ProofError, prove};

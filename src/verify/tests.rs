@@ -299,7 +299,7 @@ fn a_wrong_statement_is_refuted_and_an_unprovable_one_is_not_proved() {
         |name, proposition| equal(name, 0, 0).with_proposition(proposition).inheriting(rate.equation(), &[]);
     let wrong = Proposition::Equal(left.clone(), right + right);
     let wrong = named("wrong", wrong).assuming(rate.stated_hypotheses());
-    // eˣ ≥ 1 + x for every x is true, but the kernel proves it for x ≥ 0 only.
+    // eˣ ≥ 1 + x for every x is true, but it is proved for x ≥ 0 only.
     let q = Tree::symbol("q");
     let open = named("open", Proposition::Sign(Relation::NonNegative, q.exp() - Tree::one() - &q));
     let undefined = named("undefined", Proposition::Equal(Tree::one() / (&q - &q), Tree::one()));

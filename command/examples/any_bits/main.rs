@@ -17,6 +17,7 @@ mod of_reply;
 #[path = "../../src"]
 mod contact {
     pub mod args;
+    pub mod indent;
     pub mod json;
     pub mod lines;
     pub mod output;
@@ -25,7 +26,7 @@ mod contact {
     }
 }
 
-use contact::{args, json, lines, output};
+use contact::{args, indent, json, lines, output};
 use holds::SHOWN;
 use oorandom::Rand64;
 use rayon::prelude::*;

@@ -18,24 +18,43 @@
 //! The variables of polynomials are the [atoms](Atom) of the goal: its symbols, the errors of its rounded
 //! formulas, the places of symbols in their intervals, its absolute values with their factors, and its
 //! exponentials. The goal and its hypotheses determine them.
+//!
+//! # Rounding
+//!
+//! fl(x), the nearest number of p bits, is x (1 + γ e) for some −1 ≤ e ≤ 1, where γ = 1/(2ᵖ + 1), in the absence
+//! of overflow and underflow. *Proof.* Let 2ᵏ ≤ |x| < 2ᵏ⁺¹. Then |fl(x) − x| is at most 2ᵏ/2ᵖ, and, since 2ᵏ
+//! itself has p bits, at most |x| − 2ᵏ. Adding the second bound to 2ᵖ times the first gives
+//! (2ᵖ + 1) |fl(x) − x| ≤ 2ᵏ + |x| − 2ᵏ = |x|. □ Formulas that are equal up to a power of two share their e,
+//! because a change of units leaves the digits as they are. Rounding is monotone, so fl(a) ≥ fl(b) if a ≥ b; it
+//! is not continuous, so limits and derivatives of rounded formulas are refused.
+//!
+//! # Limits
+//!
+//! A hypothesis about the variable of a limit must hold for all sufficiently large values, by its degrees and
+//! leading coefficients. A limit follows from the degrees of numerator and denominator; e^… with an exponent
+//! that tends to −∞ vanishes against any power.
 
 mod form;
 mod limit;
 mod polynomial;
+mod premises;
 mod quotient;
+mod sign;
 mod state;
 mod table;
 #[cfg(test)]
 mod tests;
 
 pub use polynomial::{MAX_VARIABLES, Polynomial, Powers};
+pub use premises::{MAX_DEPTH, MAX_SIZE, Premise};
+pub(in crate::proof) use premises::{MAX_ROUNDINGS, check_premises, check_size, roundings};
 pub(in crate::proof) use quotient::Quotient;
+pub use sign::Sign;
 pub(in crate::proof) use state::{Reader, Size, State};
 pub use table::Atom;
 pub(in crate::proof) use table::{Problem, derivative};
 
-use super::kernel::sign::Sign;
-use super::kernel::{self, ProofError};
+use super::effort;
 use crate::formula::claim::{PRECISION, SCALES};
 use crate::formula::statement::{Proposition, Statement};
 use crate::formula::{Hypothesis, Relation};
@@ -50,6 +69,8 @@ const MAX_NESTING: u32 = 32;
 /// The variables of l and r are the atoms and, after these, the known quantities. The sign of l must be
 /// strict. The sign of f is the product of the signs of l and r.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Certificate {
     /// The quantities that l and r are expressed by.
     pub known: Vec<Known>,
@@ -61,6 +82,8 @@ pub struct Certificate {
 
 /// A quantity in a form.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 pub enum Known {
     /// The fact with this number, with its sign.
     Fact(usize),
@@ -80,6 +103,8 @@ pub enum Known {
 
 /// A reason for the sign of a polynomial.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 pub enum Reason {
     /// It is the fact with this number, that is, the same polynomial.
     Fact(usize),
@@ -90,6 +115,8 @@ pub enum Reason {
 /// A statement that a rounded formula is an earlier one times a power of two, so that both have the same
 /// relative error.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Same {
     /// The place of the earlier formula among the rounded formulas of the leaf.
     pub rounding: usize,
@@ -101,6 +128,8 @@ pub struct Same {
 
 /// The translation of min(−x, x), which is −|x|.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 pub enum AbsoluteValue {
     /// It is x or −x by the sign of 2 x.
     BySign,
@@ -114,6 +143,8 @@ pub enum AbsoluteValue {
 /// The sign of a function f(x) for x ≥ 0, by the mean value theorem: f(x) = f(0) + x f'(ξ) for some ξ > 0. It
 /// becomes the next fact.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Rise {
     /// The function: a polynomial of symbols and exponentials. It becomes a formula, which is differentiated.
     pub of: Polynomial,
@@ -130,6 +161,8 @@ pub struct Rise {
 
 /// A proof of a goal under the assumptions of some cases.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 pub enum Node {
     /// A quantity, a polynomial of atoms, and proofs for the cases that it is positive and that it is not.
     Cases(Polynomial, Box<[Node; 2]>),
@@ -140,6 +173,8 @@ pub enum Node {
 /// A proof without cases. Its facts are 2 > 0, the assumptions of the cases, and then what follows from each
 /// part in this order: hypotheses, rises, orders, goal. A sign that these depend on is a fact before them.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Leaf {
     /// The numbers of the hypotheses to use. An interval gives its symbol a value; any other one becomes a
     /// fact. In a limit, those that do not mention its variable come first.
@@ -159,24 +194,37 @@ pub struct Leaf {
     pub sizes: Vec<AbsoluteValue>,
 }
 
-/// The source of what a leaf uses: a proof, or a search for one.
+/// A polynomial whose sign is needed.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::proof) struct Question<'q> {
+    /// The polynomial.
+    pub of: &'q Polynomial,
+    /// The facts over which it is the numerator of a sum of formulas.
+    pub den: &'q [usize],
+    /// This sum, of multiples of the formulas with these numbers; empty for any other polynomial.
+    pub sum: &'q [(i128, usize)],
+    /// Whether it decides between the branches of a minimum or positive part.
+    pub decides: bool,
+}
+
+/// The source of what a leaf uses: a proof, or a search for one. Formulas are given by their numbers.
 pub(in crate::proof) trait Source {
-    /// Returns the reason for the sign of a polynomial, which is a numerator over these facts.
-    fn sign(&mut self, of: &Polynomial, den: &[usize], state: &State) -> Option<Reason>;
-    /// Returns the factors of a divisor.
-    fn divisor(&mut self, of: &Polynomial, state: &State) -> Option<Vec<Polynomial>>;
+    /// Returns the reason for the sign of a polynomial.
+    fn sign(&mut self, question: Question, state: &State) -> Option<Reason>;
+    /// Returns the factors of a divisor with this numerator.
+    fn divisor(&mut self, of: usize, value: &Polynomial, state: &State) -> Option<Vec<Polynomial>>;
     /// Returns the earlier formula whose error a rounded formula has, if there is one.
-    fn rounding(&mut self, value: &Quotient, state: &State) -> Option<Option<Same>>;
-    /// Returns the translation of the absolute value of the formula with a number.
+    fn rounding(&mut self, of: usize, value: &Quotient, state: &State) -> Option<Option<Same>>;
+    /// Returns the translation of the absolute value of a formula.
     fn size(&mut self, of: usize, value: &Quotient, state: &State) -> Option<AbsoluteValue>;
 }
 
 /// The reason why a proof is refused.
 #[derive(Clone, Debug, thiserror::Error)]
 pub enum CheckError {
-    /// The kernel proves no statement of this kind.
+    /// The statement does not satisfy a premise.
     #[error("{0}")]
-    Statement(ProofError),
+    Statement(Premise),
     /// The number of proofs is not that of the goals.
     #[error("there is not one proof for each goal")]
     Goals,
@@ -224,21 +272,68 @@ pub enum Refusal {
 
 type Checked<T> = Result<T, Refusal>;
 
+/// A proof of a statement, which the checker accepts.
+///
+/// Only [`check`] makes a proof, and a proof cannot be changed.
+///
+/// # Examples
+/// ```
+/// use provable::formula::claim::equal;
+/// use provable::{number::Tree, proof::{Proof, prove}};
+/// let x = Tree::symbol("x");
+/// let statement = equal("twice", &x + &x, Tree::from(2) * &x);
+/// let proof: Proof = prove(&statement).unwrap();
+/// assert_eq!(proof.statement().goals().len(), proof.goals().len());
+/// ```
+/// ```compile_fail
+/// # use provable::formula::claim::equal;
+/// # use provable::{number::Tree, proof::{Proof, prove}};
+/// # let x = Tree::symbol("x");
+/// # let statement = equal("twice", &x + &x, Tree::from(2) * &x);
+/// # let mut proof: Proof = prove(&statement).unwrap();
+/// proof.statement = statement.clone();
+/// ```
+/// ```compile_fail
+/// # use provable::formula::claim::equal;
+/// # use provable::{number::Tree, proof::{Proof, prove}};
+/// # let x = Tree::symbol("x");
+/// # let statement = equal("twice", &x + &x, Tree::from(2) * &x);
+/// # let mut proof: Proof = prove(&statement).unwrap();
+/// proof.goals.clear();
+/// ```
+#[derive(Clone, Debug)]
+pub struct Proof {
+    statement: Statement,
+    goals: Vec<Node>,
+}
+
+impl Proof {
+    /// Returns the proved statement.
+    pub fn statement(&self) -> &Statement {
+        &self.statement
+    }
+
+    /// Returns the proof of each goal, in the order of the goals.
+    pub fn goals(&self) -> &[Node] {
+        &self.goals
+    }
+}
+
 /// Checks a proof of a statement, which consists of a proof of each of its goals.
 ///
 /// # Errors
 /// Returns the reason if the proof is refused, which does not refute the statement.
-pub fn check(statement: &Statement, goals: &[Node]) -> Result<(), CheckError> {
-    kernel::check_premises(statement).map_err(CheckError::Statement)?;
+pub fn check(statement: &Statement, goals: &[Node]) -> Result<Proof, CheckError> {
+    check_premises(statement).map_err(CheckError::Statement)?;
     if goals.len() != statement.goals().len() {
         return Err(CheckError::Goals);
     }
     for (i, (goal, node)) in statement.goals().iter().zip(goals).enumerate() {
         let problem = Problem::new(&goal.proposition, statement.hypotheses_for(goal.role));
-        let checked = problem.and_then(|problem| check_node(&problem, &mut Vec::new(), node));
-        checked.map_err(|reason| CheckError::Goal(i, reason))?;
+        let checked = effort::bounded(|| check_node(&problem?, &mut Vec::new(), node));
+        checked.unwrap_or(Err(Refusal::TooLarge)).map_err(|reason| CheckError::Goal(i, reason))?;
     }
-    Ok(())
+    Ok(Proof { statement: statement.clone(), goals: goals.into() })
 }
 
 /// Checks a proof under the assumptions of cases.
@@ -259,43 +354,45 @@ fn check_node(problem: &Problem, cases: &mut Vec<(Polynomial, Sign)>, node: &Nod
             Ok(())
         }
         Node::Leaf(leaf) => {
-            let Leaf { signs, divisors, roundings, sizes, .. } = &**leaf;
-            let mut list = List {
-                signs: signs.iter(),
-                divisors: divisors.iter(),
-                roundings: roundings.iter(),
-                sizes: sizes.iter(),
-            };
-            Reader { state: State::new(problem), source: &mut list }.leaf(leaf, cases)?;
-            if list.is_empty() { Ok(()) } else { Err(Refusal::Unused) }
+            let mut reader = Reader::new(problem, List::of(leaf));
+            reader.leaf(leaf, cases)?;
+            if reader.source.is_empty() { Ok(()) } else { Err(Refusal::Unused) }
         }
     }
 }
 
 /// The rest of the lists of a leaf.
-struct List<'a> {
+#[derive(Default)]
+pub(in crate::proof) struct List<'a> {
     signs: Iter<'a, Reason>,
     divisors: Iter<'a, Vec<Polynomial>>,
     roundings: Iter<'a, Option<Same>>,
     sizes: Iter<'a, AbsoluteValue>,
 }
 
-impl List<'_> {
+impl<'a> List<'a> {
+    /// Returns the lists of a leaf.
+    pub(in crate::proof) fn of(leaf: &'a Leaf) -> Self {
+        let Leaf { signs, divisors, roundings, sizes, .. } = leaf;
+        let (signs, divisors) = (signs.iter(), divisors.iter());
+        List { signs, divisors, roundings: roundings.iter(), sizes: sizes.iter() }
+    }
+
     fn is_empty(&self) -> bool {
         self.signs.len() + self.divisors.len() + self.roundings.len() + self.sizes.len() == 0
     }
 }
 
 impl Source for List<'_> {
-    fn sign(&mut self, _: &Polynomial, _: &[usize], _: &State) -> Option<Reason> {
+    fn sign(&mut self, _: Question, _: &State) -> Option<Reason> {
         self.signs.next().cloned()
     }
 
-    fn divisor(&mut self, _: &Polynomial, _: &State) -> Option<Vec<Polynomial>> {
+    fn divisor(&mut self, _: usize, _: &Polynomial, _: &State) -> Option<Vec<Polynomial>> {
         self.divisors.next().cloned()
     }
 
-    fn rounding(&mut self, _: &Quotient, _: &State) -> Option<Option<Same>> {
+    fn rounding(&mut self, _: usize, _: &Quotient, _: &State) -> Option<Option<Same>> {
         self.roundings.next().cloned()
     }
 
@@ -304,63 +401,51 @@ impl Source for List<'_> {
     }
 }
 
-impl<'p> Reader<'p, '_> {
+impl<S: Source> Reader<'_, S> {
     /// Checks the goal under the assumptions of cases.
     pub(in crate::proof) fn leaf(&mut self, leaf: &Leaf, cases: &[(Polynomial, Sign)]) -> Checked<()> {
+        self.suppose_cases(cases);
+        leaf.hypotheses.iter().try_for_each(|i| self.assume(*i))?;
+        self.conclude(leaf, cases)
+    }
+
+    /// Uses the assumptions of cases.
+    pub(in crate::proof) fn suppose_cases(&mut self, cases: &[(Polynomial, Sign)]) {
         for (case, sign) in cases {
             let fact = self.state.suppose(case.clone(), *sign);
             self.state.supposed.push((None, fact));
         }
-        let problem = self.state.problem;
-        let variable = match problem.proposition {
-            Proposition::Limit(_, by, _) => Some(*by),
-            _ => None,
-        };
-        // What is known before the first hypothesis on the variable of a limit.
-        let mut early = None;
-        for i in &leaf.hypotheses {
-            let hypothesis = problem.hypotheses.get(*i).ok_or(Refusal::Unknown)?;
-            if variable.is_some_and(|by| hypothesis.value.symbols().contains(by)) {
-                early.get_or_insert_with(|| self.state.clone());
-            }
-            self.assume(*i)?;
-        }
-        if variable.is_some() {
-            early.get_or_insert_with(|| self.state.clone());
+    }
+
+    /// Checks the goal after the hypotheses.
+    pub(in crate::proof) fn conclude(&mut self, leaf: &Leaf, cases: &[(Polynomial, Sign)]) -> Checked<()> {
+        if self.state.problem.variable().is_some() {
+            self.early.get_or_insert_with(|| self.state.clone());
         }
         leaf.rises.iter().try_for_each(|rise| self.rise(rise))?;
         leaf.orders.iter().try_for_each(|errors| self.monotone(*errors))?;
-        match (problem.proposition, early) {
-            (Proposition::Limit(of, by, to), Some(early)) => self.limit(of, by, to, early, cases),
-            (proposition, _) => self.goal(proposition),
+        match self.state.problem.proposition {
+            Proposition::Limit(of, by, to) => self.limit(of, by, to, cases),
+            proposition => self.goal(proposition),
         }
     }
 
     /// Checks a goal that is not a limit.
-    fn goal(&mut self, goal: &Proposition) -> Checked<()> {
-        let holds = match goal {
-            Proposition::Equal(a, b) => {
-                let (a, b) = (self.translate(a)?, self.translate(b)?);
-                return self.equal(&a, &b);
+    fn goal(&mut self, proposition: &Proposition) -> Checked<()> {
+        let holds = match (proposition, &self.state.problem.goal[..]) {
+            (Proposition::Equal(..), [a, b]) => self.sign_of_sum(&[(1, *a), (-1, *b)], false)? == Sign::Zero,
+            (Proposition::Sign(relation, _), [of, ..]) => {
+                self.sign_of_sum(&[(1, *of)], false)?.implies((*relation).into())
             }
-            Proposition::Sign(relation, of) => {
-                let of = self.translate(of)?;
-                self.sign_of_quotient(&of)?.implies((*relation).into())
+            (Proposition::Within(..), [of, bound]) => {
+                self.sign_of_sum(&[(1, *bound), (-1, *of)], false)?.implies(Sign::NonNegative)
+                    && self.sign_of_sum(&[(1, *bound), (1, *of)], false)?.implies(Sign::NonNegative)
             }
-            Proposition::Within(of, bound) => {
-                let (bound, of) = (self.translate(bound)?, self.translate(of)?);
-                let above = self.state.facts.sum(&bound, -1, &of)?;
-                let below = self.state.facts.sum(&bound, 1, &of)?;
-                self.sign_of_quotient(&above)?.implies(Sign::NonNegative)
-                    && self.sign_of_quotient(&below)?.implies(Sign::NonNegative)
+            (Proposition::Derivative(..), [of, is, derivative]) => {
+                self.value(*of)?;
+                self.sign_of_sum(&[(1, *derivative), (-1, *is)], false)? == Sign::Zero
             }
-            Proposition::Derivative(of, _, is) => {
-                self.translate(of)?;
-                let derivative = self.state.problem.derivative.as_ref().ok_or(Refusal::Unknown)?;
-                let (derivative, is) = (self.translate(derivative)?, self.translate(is)?);
-                return self.equal(&derivative, &is);
-            }
-            Proposition::Limit(..) => false,
+            _ => false,
         };
         if holds { Ok(()) } else { Err(Refusal::Goal) }
     }
@@ -395,7 +480,7 @@ pub(in crate::proof) fn parts_of_rise(
     let of = problem.table.to_tree(&rise.of)?;
     let slope = derivative(&of, x)?;
     let start = of.substitute(&[(x, Tree::from(0))]);
-    kernel::check_size([&of, &slope, &start].into_iter()).map_err(|_| Refusal::TooLarge)?;
+    check_size([&of, &slope, &start].into_iter()).map_err(|_| Refusal::TooLarge)?;
     let assumed = |relation| Some(Hypothesis::new(relation, Tree::symbol(x)));
     Ok([
         (Proposition::Derivative(of, x, slope.clone()), assumed(Relation::NonNegative)),

@@ -3,11 +3,10 @@
 //!
 //! A [`Development`] contains each function of a registry as a definition, printed from its recorded formula,
 //! and each claim as a theorem about these definitions with its hypotheses as premises. A program in Coq that
-//! is proved correct there decides signs and equalities (`polynomials.v`, `quotients.v`). Its input comes
-//! from the kernel's derivation: names of the quantities in hypotheses, the monomials that they replace, the
-//! cases, and the factors whose sign is that of a slope. None of this has to be trusted: if Coq accepts the
-//! files, it remains to trust Coq's kernel, its axioms of the real numbers, and that definitions and theorems
-//! agree with their sources.
+//! is proved correct there (`polynomials.v`, `quotients.v`) translates formulas into quotients of polynomials
+//! and checks the certificates of their signs, like the [checker](super::check). Its input is the same proof.
+//! None of this has to be trusted: if Coq accepts the files, it remains to trust Coq's kernel, its axioms of
+//! the real numbers, and that definitions and theorems agree with their sources.
 //!
 //! A function that returns the result of another unchanged leaves no operation in a record, so theorems use
 //! the names of the functions that their entry lists. A definition that no theorem uses would protect
@@ -18,7 +17,7 @@
 //! further lemma, `…_defined`, which states that no divisor is 0.
 //!
 //! Rounding is that of the library Flocq: to nearest, for every precision of at least two bits, with any rule
-//! for ties. A lemma there proves the model x (1 + γ e) of our kernel.
+//! for ties. A lemma there proves the model x (1 + γ e) of our checker.
 
 mod expr;
 mod induction;

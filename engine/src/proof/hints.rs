@@ -1,10 +1,15 @@
 //! Suggestions of hypotheses that make a claim provable.
 //!
-//! Nothing here is trusted: the kernel proves the claim with each suggestion.
+//! Nothing here is trusted: the claim is proved with each suggestion.
 
-use super::kernel::algebra::Monomial;
-use super::kernel::{AssumptionUse, Derivation, ProofError, derivation, effort, prove};
+use super::check::Premise;
+use super::effort;
+use super::prove;
 use super::render::formula;
+use super::search::ProofError;
+use super::search::algebra::Monomial;
+use super::search::assumption::AssumptionUse;
+use super::search::prove_proposition;
 use crate::eval::{Verdict, check, constructed_points, independent_symbols};
 use crate::formula::claim::{POWER, PRECISION, SCALES, equal};
 use crate::formula::statement::{Proposition, Role, Statement};
@@ -43,7 +48,7 @@ const POINTS: usize = 4;
 /// assert!(prove(&claim.assuming([&hypotheses[0]])).is_ok());
 /// ```
 pub fn sufficient_hypothesis(statement: &Statement, reason: &ProofError) -> Vec<Hypothesis> {
-    if let ProofError::TooLarge(..) = reason {
+    if let ProofError::TooLarge(_) | ProofError::Premise(Premise::TooLarge(..)) = reason {
         return Vec::new(); // So would be the proofs under more hypotheses.
     }
     let symbols = independent_symbols(statement);
@@ -104,15 +109,14 @@ fn obstacle(statement: &Statement, reason: &ProofError) -> Option<Tree> {
         ProofError::PossibleZeroDivisor(divisor, _) => return Some(divisor.clone()),
         ProofError::UnknownSign(value, _)
         | ProofError::WrongSign(value, _)
-        | ProofError::UndecidedBranch(value)
-        | ProofError::UndecidedSize(_, value) => value,
+        | ProofError::UndecidedBranch(value) => value,
         _ => return None,
     };
     let trivial = Proposition::Equal(Tree::from(0), Tree::from(0));
-    let read = derivation(&statement.hypotheses_for(Role::Claim), &trivial).ok()?;
-    let Derivation::Direct(direct) = read else { return None };
+    let (_, contexts) = prove_proposition(&trivial, statement.hypotheses_for(Role::Claim)).ok()?;
+    let [context] = &contexts[..] else { return None };
     let in_own_symbols = || {
-        direct.assumptions.iter().rev().fold(value.clone(), |value, supposed| match supposed.usage {
+        context.assumptions().iter().rev().fold(value.clone(), |value, supposed| match supposed.usage {
             AssumptionUse::Pivot(_, _, Some(slack)) => {
                 value.replace(&Monomial::of(slack), &supposed.slack_value())
             }

@@ -1,6 +1,6 @@
 //! Mutation tests of claims: changes of formulas and omissions of hypotheses, which must refute a claim.
 //!
-//! Proofs of all claims show little if the claims are weak or the kernel is unsound. So formulas are changed
+//! Proofs of all claims show little if the claims are weak or the checker is unsound. So formulas are changed
 //! at one place at a time; each [`Mutant`] must make one of the affected claims false, with a counterexample
 //! in numbers. Likewise, each hypothesis of each claim is dropped in turn; if the claim still holds, the
 //! hypothesis is redundant.
@@ -14,7 +14,7 @@ mod mutant;
 
 pub use mutant::{Mutant, Mutation, Operator, mutants, mutants_in};
 
-use super::kernel::prove;
+use super::prove;
 use super::refute::{PointSet, Refutation};
 use crate::formula::claim::PRECISION;
 use crate::formula::statement::minimum_precision;

@@ -142,7 +142,7 @@ const TIGHTEST_POINT_TRIALS: usize = 500;
 /// `None` does not prove the statement. Statements that are too large for [`prove`](super::prove) are not
 /// examined.
 pub fn refute(statement: &Statement) -> Option<Counterexample> {
-    super::kernel::check_size(statement.trees()).ok()?;
+    super::check::check_size(statement.trees()).ok()?;
     let symbols = independent_symbols(statement);
     let points = PointSet::of(statement.hypotheses().to_vec(), symbols);
     let refutation =

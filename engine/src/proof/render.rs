@@ -1,22 +1,22 @@
 //! Proofs as text for readers.
 
 mod algebra;
-mod bound;
+mod lines;
 mod names;
 mod summary;
 
 pub use summary::proof_summary;
 
 use self::algebra::Order;
-use super::kernel::algebra::Poly;
-use super::kernel::sign::Sign;
-use super::kernel::{
-    Assumption, AssumptionUse, Derivation, Direct, Justification, Proof, Rounding, SignedRatio,
-};
-use crate::formula::claim::{MEMBERS, POWER, PRECISION};
+use self::lines::Lines;
+use super::check::Proof;
+use super::check::{Leaf, Node, Problem};
+#[cfg(feature = "serde")]
+use super::data::GoalProof;
+use super::search::algebra::Poly;
+use crate::formula::claim::{MEMBERS, POWER};
 use crate::formula::statement::{Goal, Proposition, Role, Sequence, Statement};
-use crate::formula::{Call, Formula, Hypothesis, Notation, Registry, name_of_rounding};
-use crate::number::tree::Op;
+use crate::formula::{Call, Formula, Notation, Registry};
 use crate::number::{PositivePart, Tree};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -25,24 +25,18 @@ use std::collections::BTreeSet;
 #[derive(Clone, Copy, Debug)]
 pub struct ProofPrinter<'a> {
     registry: &'a Registry,
-    is_full: bool,
 }
 
 impl<'a> ProofPrinter<'a> {
     /// Returns a printer with the names of this registry.
     pub fn new(registry: &'a Registry) -> Self {
-        ProofPrinter { registry, is_full: false }
-    }
-
-    /// Prints all polynomials and certificates in full, regardless of their length.
-    pub fn in_full(self) -> Self {
-        ProofPrinter { is_full: true, ..self }
+        ProofPrinter { registry }
     }
 
     /// Formats a claim in one line.
     pub fn claim(&self, statement: &Statement) -> String {
         if let Some(registry) = self.other_names(statement) {
-            return ProofPrinter { registry: &registry, ..*self }.claim(statement);
+            return ProofPrinter::new(&registry).claim(statement);
         }
         let computed = statement.computed().iter();
         let computed: Vec<_> = computed
@@ -77,7 +71,7 @@ impl<'a> ProofPrinter<'a> {
     /// not assumed.
     pub fn invariants(&self, statement: &Statement) -> Vec<String> {
         if let Some(registry) = self.other_names(statement) {
-            return ProofPrinter { registry: &registry, ..*self }.invariants(statement);
+            return ProofPrinter::new(&registry).invariants(statement);
         }
         let computed = statement.computed().iter().map(|computed| &computed.hypothesis);
         let all = statement.invariants().iter().chain(computed);
@@ -126,35 +120,25 @@ impl<'a> ProofPrinter<'a> {
     /// Returns the hypotheses used in the proof of a goal, as text.
     pub fn used(&self, proof: &Proof) -> Vec<String> {
         if let Some(registry) = self.other_names(proof.statement()) {
-            return ProofPrinter { registry: &registry, ..*self }.used(proof);
+            return ProofPrinter::new(&registry).used(proof);
         }
-        fn collect(derivation: &Derivation, all: &mut Vec<Hypothesis>) {
-            match derivation {
-                Derivation::Cases(_, positive, not) => {
-                    collect(positive, all);
-                    collect(not, all);
-                }
-                Derivation::Direct(direct) => {
-                    for supposed in &direct.assumptions {
-                        if let Some(given) = &supposed.hypothesis
-                            && !matches!(&supposed.usage, AssumptionUse::Unused | AssumptionUse::Implied)
-                            && !all.contains(given)
-                        {
-                            all.push(given.clone());
-                        }
-                    }
+        let mut all = Vec::new();
+        for (goal, node) in proof.statement().goals().iter().zip(proof.goals()) {
+            let given = proof.statement().hypotheses_for(goal.role);
+            let used = leaves(node).into_iter().flat_map(|leaf| &leaf.hypotheses);
+            for hypothesis in used.filter_map(|i| given.get(*i)) {
+                if !all.contains(*hypothesis) {
+                    all.push((*hypothesis).clone());
                 }
             }
         }
-        let mut all = Vec::new();
-        proof.goals().iter().for_each(|derivation| collect(derivation, &mut all));
         self.registry.format_hypotheses(&all)
     }
 
     /// Returns the definitions of the names in a claim: `d = a b − c (x − y)`.
     pub fn names(&self, statement: &Statement) -> Vec<String> {
         if let Some(registry) = self.other_names(statement) {
-            return ProofPrinter { registry: &registry, ..*self }.names(statement);
+            return ProofPrinter::new(&registry).names(statement);
         }
         let definition = |Called { formula, arguments }: &Called| {
             let names: Vec<_> = self.registry.displayed_arguments(formula, *arguments).collect();
@@ -207,7 +191,7 @@ impl<'a> ProofPrinter<'a> {
     pub fn proof(&self, proof: &Proof) -> Vec<String> {
         let statement = proof.statement();
         if let Some(registry) = self.other_names(statement) {
-            return ProofPrinter { registry: &registry, ..*self }.proof(proof);
+            return ProofPrinter::new(&registry).proof(proof);
         }
         let mut lines = Vec::new();
         lines.extend(statement.conclusion().map(|Sequence { ratio, limit, .. }| {
@@ -227,9 +211,12 @@ impl<'a> ProofPrinter<'a> {
             }
         }));
         let single = statement.goals().len() == 1;
-        for (Goal { part, proposition, .. }, derivation) in statement.goals().iter().zip(proof.goals()) {
+        for (Goal { part, role, proposition }, node) in statement.goals().iter().zip(proof.goals()) {
+            let problem = Problem::new(proposition, statement.hypotheses_for(*role));
+            let own = problem.map(|problem| Lines::new(self, &problem).node(node, &mut Vec::new()));
+            let own = own.unwrap_or_default();
             if single {
-                self.derivation(derivation, 0, &mut lines);
+                lines.extend(own);
             } else {
                 let part = match statement.conclusion() {
                     Some(Sequence { ratio, .. }) => part.replace("|ρ|", &self.text(&ratio.abs())),
@@ -237,147 +224,47 @@ impl<'a> ProofPrinter<'a> {
                 };
                 let colon = if part.is_empty() { "" } else { ": " };
                 lines.push(format!("{part}{colon}{}", self.format_proposition(proposition)));
-                self.derivation(derivation, 1, &mut lines);
+                lines.extend(own.into_iter().map(|line| format!("  {line}")));
             }
         }
         lines
     }
 
-    fn derivation(&self, derivation: &Derivation, depth: usize, lines: &mut Vec<String>) {
-        if let Some(law) = self.law(derivation).filter(|_| !self.is_full) {
-            lines.extend(law.into_iter().map(|line| format!("{}{line}", "  ".repeat(depth))));
-            return;
+    /// Returns the proof of each goal as data.
+    #[cfg(feature = "serde")]
+    pub fn data(&self, proof: &Proof) -> Vec<GoalProof> {
+        let statement = proof.statement();
+        if let Some(registry) = self.other_names(statement) {
+            return ProofPrinter::new(&registry).data(proof);
         }
-        let say = |text: String, lines: &mut Vec<String>| lines.push(format!("{}{text}", "  ".repeat(depth)));
-        match derivation {
-            Derivation::Cases(on, positive, not) => {
-                let on = self.order().poly_or_size(on);
-                say(format!("case {on} > 0:"), lines);
-                self.derivation(positive, depth + 1, lines);
-                say(format!("case {on} ≤ 0:"), lines);
-                self.derivation(not, depth + 1, lines);
-            }
-            Derivation::Direct(direct) => self.direct(direct).into_iter().for_each(|line| say(line, lines)),
-        }
-    }
-
-    fn direct(&self, direct: &Direct) -> Vec<String> {
-        let mut lines: Vec<String> = direct.assumptions.iter().filter_map(|s| self.format_use(s)).collect();
-        lines.extend(self.errors(direct));
-        for (divisor, nonzero) in &direct.divisors {
-            explain(format!("{} ≠ 0", self.text(divisor)), self.explain_sign(nonzero), &mut lines);
-        }
-        for (bracket, value, decides) in &direct.branches {
-            let decisive = match bracket.op() {
-                Op::Min(..) => "the second less the first",
-                _ => "its argument",
-            };
-            explain(
-                format!("{} = {} by the sign of {decisive}", self.text(bracket), self.text(value)),
-                self.explain_sign(decides),
-                &mut lines,
-            );
-        }
-        match &direct.justification {
-            Justification::Equal(value) => {
-                lines.push(format!("both sides are {}", self.order().ratio_or_size(value)))
-            }
-            Justification::Sign(sign) => lines.extend(self.explain_sign(sign)),
-            Justification::Order(signs) => {
-                lines.push("rounding preserves order, and so does each operation, since".to_string());
-                lines.extend(signs.iter().flat_map(|signed| self.explain_sign(signed)));
-            }
-            Justification::Within(sides) if self.is_full => lines.extend(self.within_in_full(sides)),
-            Justification::Within(sides) => lines.extend(self.within(sides)),
-            Justification::Derivative(value) => lines.push(format!(
-                "differentiation by dual numbers gives {}, which is the right side",
-                self.order().ratio(value)
-            )),
-            Justification::Limit { of, by, degrees: (n, d), leading, to } => {
-                lines.push(format!("it is {}", self.order().ratio(of)));
-                lines.push(format!(
-                    "degrees {n} of the numerator and {d} of the denominator in {}, \
-                     hence the limit is {}, since below",
-                    by.name(),
-                    self.order().ratio(to)
-                ));
-                lines.extend(self.order().certificate(leading).into_iter().map(|line| format!("  {line}")));
-            }
-        }
-        lines
-    }
-
-    /// Returns the rounded formulas with the names of their errors.
-    fn errors(&self, direct: &Direct) -> Option<String> {
-        let own = |own: &Rounding| {
-            format!("{} of {}({})", own.error.name(), name_of_rounding(&own.of), self.text(&own.of))
-        };
-        let errors: Vec<_> = direct.roundings.iter().map(own).collect();
-        (!errors.is_empty()).then(|| model() + &errors.join(", "))
-    }
-
-    /// Returns the use of an assumption, if it has to be stated.
-    fn format_use(&self, supposed: &Assumption) -> Option<String> {
-        let name = supposed
-            .hypothesis
-            .as_ref()
-            .map_or("the case".to_string(), |given| self.registry.format_hypothesis(given));
-        match &supposed.usage {
-            AssumptionUse::Symbol(_) => None,
-            AssumptionUse::Implied => Some(format!("{name} follows")),
-            AssumptionUse::Retained => Some(format!("{name} is used unchanged")),
-            AssumptionUse::Unused => Some(format!("{name} is not used")),
-            AssumptionUse::Interval(x, by, place) => Some(format!(
-                "by {name}: {} = {}, where −1 ≤ {} ≤ 1",
-                x.name(),
-                self.order().ratio_or_size(by),
-                place.name()
-            )),
-            AssumptionUse::Size { pivot, by, size, place, .. } => {
-                let (value, place) = (self.order().ratio_or_size(&supposed.value), place.name());
-                let solved = format!("{} = {}", self.order().monomial(pivot), self.order().ratio_or_size(by));
-                Some(format!("with {} = |{value}|: {solved}, where −1 ≤ {place} ≤ 1", size.name()))
-            }
-            AssumptionUse::Pivot(pivot, by, slack) => {
-                let solved = format!("{} = {}", self.order().monomial(pivot), self.order().ratio_or_size(by));
-                Some(match slack {
-                    None => format!("by {name}: {solved}"),
-                    Some(slack) => {
-                        let value = self.order().ratio_or_size(&supposed.slack_value());
-                        let slack = slack.name();
-                        let sign = if supposed.sign == Sign::Positive { "> 0" } else { "≥ 0" };
-                        format!("by {name}: {slack} = {value} {sign}, so {solved}")
-                    }
-                })
-            }
-        }
-    }
-
-    /// Returns the proof of the sign of a quotient.
-    fn explain_sign(&self, signed: &SignedRatio) -> Vec<String> {
-        let mut lines = Vec::new();
-        if !signed.value.den().is_one() || signed.subtracted.is_some() {
-            lines.push(format!("it is {}", self.order().ratio_or_size(&signed.value)));
-        }
-        if let Some(less) = &signed.subtracted {
-            lines.push(self.order().subtracted_multiple(less));
-            if self.is_full {
-                lines.extend(self.explain_sign(&less.factor));
-            }
-        }
-        if !signed.den.of().is_one() {
-            lines.extend(self.order().certificate(&signed.den));
-        }
-        lines.extend(self.order().certificate(&signed.num));
-        lines
+        let all = statement.goals().iter().zip(proof.goals());
+        all.filter_map(|(Goal { role, proposition, .. }, proof)| {
+            let problem = Problem::new(proposition, statement.hypotheses_for(*role)).ok()?;
+            let hypotheses = problem.hypotheses.iter().map(|given| self.registry.format_hypothesis(given));
+            Some(GoalProof {
+                goal: self.format_proposition(proposition),
+                hypotheses: hypotheses.collect(),
+                atoms: Lines::new(self, &problem).descriptions(),
+                proof: proof.clone(),
+            })
+        })
+        .collect()
     }
 
     fn order(&self) -> Order<'a> {
-        Order { factors: self.registry.factors(), is_full: self.is_full }
+        Order { factors: self.registry.factors() }
     }
 
     fn text(&self, tree: &Tree) -> String {
         self.registry.format_tree(tree)
+    }
+}
+
+/// Returns the leaves of a proof.
+fn leaves(node: &Node) -> Vec<&Leaf> {
+    match node {
+        Node::Leaf(leaf) => vec![leaf],
+        Node::Cases(_, both) => both.iter().flat_map(leaves).collect(),
     }
 }
 
@@ -407,21 +294,6 @@ const LETTERS: [(char, char); 12] = [
 /// Returns a polynomial as a formula.
 pub(super) fn formula(poly: &Poly) -> Tree {
     Order::default().poly(poly)
-}
-
-/// Returns the definition of a rounding error; the names of errors follow.
-fn model() -> String {
-    format!("fl(…) = … (1 + eᵢ / ({PRECISION} + 1)) with |eᵢ| ≤ 1: ")
-}
-
-/// Writes a fact with its reason, on one line if that is short.
-fn explain(fact: String, reason: Vec<String>, lines: &mut Vec<String>) {
-    if let [reason] = reason.as_slice() {
-        lines.push(format!("{fact}: {reason}"));
-    } else {
-        lines.push(format!("{fact}:"));
-        lines.extend(reason.into_iter().map(|line| format!("  {line}")));
-    }
 }
 
 #[cfg(test)]

@@ -1,424 +1,427 @@
-//! The search for certificates of signs, and for the monomials for which hypotheses are solved.
+//! The search for proofs.
 //!
-//! Nothing here is trusted: only the rules of the [kernel](super::kernel) make certificates, and the kernel
-//! solves hypotheses itself.
+//! The checker's reader of formulas runs with a [search](source) in the place of a proof: whatever it asks for is
+//! found and listed. Signs are found by [six rules](sign), and expressed by the symbols of the statement as
+//! identities that the [checker](super::check) expands. Nothing here is trusted.
+//!
+//! A hypothesis v > 0 that does not follow from others, and is more than the sign of a symbol, becomes v = s for
+//! a new symbol s > 0, the *slack variable*: one monomial of v, the *pivot*, is replaced wherever it occurs by
+//! the value that this equation gives it. (For a b − c (x − y) > 0: a b by s + c (x − y); or x by
+//! (a b + c y − s)/c, where c ≠ 0 is known.) Where no pivot is found, v may be divided by a positive symbol: for
+//! k > 0, the hypothesis 1 − k > 0 is (1 − k)/k = s > 0, and k is 1/(1 + s). A hypothesis h > 0 without a pivot
+//! is retained, and so is the known sign of a symbol that is replaced by its place in an interval. Where no rule
+//! finds the sign of v, the rules may find those of m and of v − m h, for a quotient m that makes a symbol cancel.
+//!
+//! If the sign that decides a branch is not found, both cases of its quantity are proved. For an absolute value
+//! |x| no cases are needed at first: x is replaced by t |x| for some −1 ≤ t ≤ 1.
 
-use super::kernel::algebra::{Monomial, Poly, Ratio, Symbol};
-use super::kernel::context::{Context, solve_for};
-use super::kernel::sign::{Certificate, Sign, SignEnv};
-use crate::formula::Hypothesis;
-use oorandom::Rand32;
-use std::iter;
-use std::sync::Arc;
-
-/// Maximum nesting of certificates.
-const MAX_CERTIFICATE_DEPTH: u32 = 3;
-
-/// Maximum number of terms to which rule 4 is applied; derivatives have even more.
-const MAX_SLOPE_TERMS: usize = 12;
-
-/// Maximum number of symbols to which rule 6 is applied, one inside the other.
-const MAX_ENDS: u32 = 6;
-
-/// Maximum degree in a symbol to which rule 6 is applied.
-const MAX_ENDS_DEGREE: u32 = 4;
-
-/// Maximum number of terms to which rule 6 is applied.
-const MAX_ENDS_TERMS: usize = 1000;
-
-/// Maximum number of terms to which rule 3 is applied if there are symbols between −1 and 1.
-const MAX_SQUARE_TERMS: usize = 40;
-
-/// Returns the sign of a polynomial if the rules find one.
-pub fn sign(of: &Poly, known: &Arc<SignEnv>) -> Option<Certificate> {
-    sign_of_product(of, &[], known)
-}
-
-/// Returns the sign of a polynomial, by rule 2 also with factors of known sign.
-///
-/// Rule 4 is not tried if there are symbols between −1 and 1.
-pub fn sign_of_product(of: &Poly, factors: &[Certificate], known: &Arc<SignEnv>) -> Option<Certificate> {
-    let whole = || {
-        if of.symbols().into_iter().any(Symbol::in_unit_interval) {
-            return by_ends(of, known, MAX_ENDS).or_else(|| small_square(of, known));
-        }
-        // Shorter certificates are preferred.
-        (1..=MAX_CERTIFICATE_DEPTH).find_map(|depth| within(of, known, depth))
-    };
-    // Each set of factors is divided out once, not in each order.
-    let product = |(first, factor): (usize, &Certificate)| {
-        let rest = of.over(factor.of()).filter(|_| factor.of().terms().len() > 1)?;
-        Certificate::product(factor.clone(), sign_of_product(&rest, &factors[first..], known)?)
-    };
-    let search = || whole().or_else(|| factors.iter().enumerate().find_map(product));
-    let by_terms = by_terms(of, known);
-    by_terms.or_else(|| if has_both_signs(of, known) { None } else { search() })
-}
-
-/// Number of points from which [`has_both_signs`] starts.
-const POINTS: u32 = 12;
-
-/// Returns `true` if floats find values of both signs of a polynomial, so that no rule can find its sign.
-///
-/// From random points, the symbols between −1 and 1 move to the ends that the slopes at the point suggest.
-fn has_both_signs(of: &Poly, known: &SignEnv) -> bool {
-    if of.has_exponentials() {
-        return false;
-    }
-    let mut random = Rand32::new(1);
-    let mut number = |x: &Symbol| {
-        let size = if x.in_unit_interval() { 1.0 } else { 2.0_f64.powi(random.rand_range(0..13) as i32 - 6) };
-        let sign = known.get(x).filter(|_| !x.in_unit_interval());
-        let is_negative = sign.map_or(random.rand_range(0..2) == 0, |sign| sign.implies(Sign::NonPositive));
-        if is_negative { -size } else { size }
-    };
-    let symbols: Vec<_> = of.symbols().into_iter().collect();
-    let index = |x: Symbol| symbols.binary_search(&x).unwrap_or_default();
-    let powers = |m: &Monomial| m.powers().map(|(x, n)| (index(x), n as i32)).collect::<Vec<_>>();
-    let terms: Vec<_> = of.terms().map(|(m, q)| (q.to_f64(), powers(m))).collect();
-    // Returns the sign, unless the value is within the rounding error, and the slopes times the symbols.
-    let evaluate = |point: &[f64]| {
-        let (mut sum, mut sizes, mut slopes) = (0.0, 0.0, vec![0.0; point.len()]);
-        for (q, powers) in &terms {
-            let value = powers.iter().fold(*q, |x, (i, n)| x * point[*i].powi(*n));
-            sum += value;
-            sizes += value.abs();
-            powers.iter().for_each(|(i, n)| slopes[*i] += f64::from(*n) * value);
-        }
-        ((sum.abs() > 1e-9 * sizes).then_some(sum > 0.0), slopes)
-    };
-    let mut signs = (0..POINTS).flat_map(|_| {
-        let point: Vec<f64> = symbols.iter().map(&mut number).collect();
-        let (sign, slopes) = evaluate(&point);
-        let (symbols, evaluate) = (&symbols, &evaluate);
-        let at_ends = move |direction: f64| {
-            let end = |i: usize| match symbols[i].in_unit_interval() {
-                true => (direction * point[i] * slopes[i]).signum(),
-                false => point[i],
-            };
-            evaluate(&(0..point.len()).map(end).collect::<Vec<_>>()).0
-        };
-        iter::once(sign).chain([-1.0, 1.0].into_iter().map(at_ends)).flatten()
-    });
-    let first = signs.next();
-    signs.any(|sign| Some(sign) != first)
-}
-
-fn within(of: &Poly, known: &Arc<SignEnv>, depth: u32) -> Option<Certificate> {
-    if let Some(certificate) = Certificate::termwise(of, known) {
-        return Some(certificate);
-    }
-    let depth = depth.checked_sub(1)?;
-    let find = |of: &Poly, known: &Arc<SignEnv>| within(of, known, depth);
-    factor(of, known, depth)
-        .or_else(|| of.symbols().into_iter().find_map(|x| Certificate::square(of, x, known, &find)))
-        .or_else(|| slope(of, known, depth))
-        .or_else(|| exponential_factor(of, known, depth))
-}
-
-/// Applies rule 2 to a product of powers and the remaining factor.
-fn factor(of: &Poly, known: &Arc<SignEnv>, depth: u32) -> Option<Certificate> {
-    let common = of.common_monomial();
-    if common == Monomial::one() {
-        return None;
-    }
-    let factor = Poly::from(common);
-    let rest = within(&of.over(&factor)?, known, depth)?;
-    Certificate::product(Certificate::termwise(&factor, known)?, rest)
-}
-
-/// Applies rule 2 to an e^… and the remaining factor, to which it applies rule 4.
-fn exponential_factor(of: &Poly, known: &Arc<SignEnv>, depth: u32) -> Option<Certificate> {
-    of.exponents().find_map(|exponent| {
-        let rest = of * Poly::exponential(-exponent);
-        let factor = Certificate::termwise(&Poly::exponential(exponent.clone()), known)?;
-        Certificate::product(factor, slope(&rest, known, depth)?)
-    })
-}
-
-/// Applies rule 4 to a polynomial with e^….
-fn slope(of: &Poly, known: &Arc<SignEnv>, depth: u32) -> Option<Certificate> {
-    if !of.has_exponentials() || of.terms().len() > MAX_SLOPE_TERMS {
-        return None;
-    }
-    let find = |of: &Poly, known: &Arc<SignEnv>| within(of, known, depth);
-    of.symbols().into_iter().find_map(|x| Certificate::mean_value(of, x, known, &find))
-}
-
-/// Returns the sign by rules 1 and 5.
-fn by_terms(of: &Poly, known: &Arc<SignEnv>) -> Option<Certificate> {
-    Certificate::termwise(of, known).or_else(|| Certificate::triangle_inequality(of, known))
-}
-
-/// Returns the sign by rules 1, 2, 5 and 6, the last one applied to at most `symbols` symbols.
-fn bounded(of: &Poly, known: &Arc<SignEnv>, symbols: u32) -> Option<Certificate> {
-    by_terms(of, known).or_else(|| by_ends(of, known, symbols))
-}
-
-/// Returns the sign by rules 2 and 6, and the other two inside these.
-fn by_ends(of: &Poly, known: &Arc<SignEnv>, symbols: u32) -> Option<Certificate> {
-    small_factor(of, known, symbols).or_else(|| {
-        let symbols = symbols.checked_sub(1)?;
-        if of.terms().len() > MAX_ENDS_TERMS {
-            return None;
-        }
-        let is_in_exponent = |x: &Symbol| of.exponents().any(|e| e.symbols().contains(x));
-        let small = of.symbols().into_iter().filter(|x| x.in_unit_interval() && !is_in_exponent(x));
-        let degrees = small.map(|x| (of.degree(x), x)).filter(|(n, _)| *n <= MAX_ENDS_DEGREE);
-        Certificate::endpoints(of, degrees.min()?.1, known, &|of, known| bounded(of, known, symbols))
-    })
-}
-
-/// Applies rule 3 to a square in a symbol between −1 and 1.
-fn small_square(of: &Poly, known: &Arc<SignEnv>) -> Option<Certificate> {
-    let small =
-        of.symbols().into_iter().filter(|x| x.in_unit_interval() && of.terms().len() <= MAX_SQUARE_TERMS);
-    let find = |of: &Poly, known: &Arc<SignEnv>| bounded(of, known, MAX_ENDS);
-    small.into_iter().find_map(|x| Certificate::square(of, x, known, &find))
-}
-
-/// Applies rule 2 to squares of symbols between −1 and 1 and the remaining factor.
-fn small_factor(of: &Poly, known: &Arc<SignEnv>, symbols: u32) -> Option<Certificate> {
-    let common = of.common_monomial();
-    let small = common.without_symbols(|x| !x.in_unit_interval());
-    let factor = Certificate::termwise(&small.into(), known).filter(|factor| !factor.of().is_one())?;
-    Certificate::product(factor.clone(), bounded(&of.over(factor.of())?, known, symbols)?)
-}
-
-/// Returns the monomial for which to solve `equation`: that `value` equals its slack variable, or 0.
-///
-/// The choice prefers a symbol of unknown sign whose coefficient is not 0, so that the symbol is eliminated;
-/// otherwise a product with few symbols of known sign, so that little information is lost; otherwise a
-/// symbol whose sign still follows after the substitution, as that of b does from b = a + s for b − a > 0.
-///
-/// If the equation contains rounding errors, the symbol for which the hypothesis is to be solved comes
-/// first, and products come last, because long expressions would replace them.
-pub fn pivot(
-    context: &Context,
-    given: Option<&Hypothesis>,
-    value: &Ratio,
-    equation: &Poly,
-    known: &Arc<SignEnv>,
-) -> Option<Monomial> {
-    let solved = |x: Symbol| {
-        let pivot = Monomial::of(x);
-        let by = solve_for(&pivot, equation, known)?;
-        Some((equation.coefficient(x, 1).terms().len(), pivot, by))
-    };
-    let symbols = value.num().symbols();
-    // In a limit the variable comes first, so that the slack variable tends to infinity in its place.
-    let has_slack = equation != value.num();
-    if let Some(x) = context.variable().filter(|x| symbols.contains(x) && has_slack)
-        && let Some((_, pivot, _)) = solved(x)
-    {
-        return Some(pivot);
-    }
-    let has_errors = symbols.iter().any(|x| x.in_unit_interval());
-    let comes_later = |x: Symbol| has_errors && given.is_none_or(|given| Symbol::Own(given.solved_for) != x);
-    let is_free = |x: &&Symbol| !context.signs().contains_key(x) && !x.in_unit_interval();
-    let free = symbols.iter().filter(is_free).filter_map(|x| Some((comes_later(*x), solved(*x)?)));
-    let free = free.min_by_key(|(later, (terms, ..))| (*later, *terms)).map(|(_, (_, pivot, _))| pivot);
-    let product = || {
-        let known_signs = |m: &Monomial| m.powers().filter(|(x, _)| context.signs().contains_key(x)).count();
-        let is_product =
-            |m: &&Monomial| m.powers().len() > 1 && !m.powers().any(|(x, _)| x.in_unit_interval());
-        let products = value.num().terms().map(|(m, _)| m).filter(is_product);
-        products.min_by_key(|m| known_signs(m)).filter(|m| solve_for(m, equation, known).is_some()).cloned()
-    };
-    let signed = || {
-        symbols.iter().find_map(|x| {
-            let (_, pivot, by) = solved(*x)?;
-            let sign = context.reduced_sign(&by, known)?;
-            sign.implies(*context.signs().get(x)?).then_some(pivot)
-        })
-    };
-    free.or_else(|| if has_errors { signed().or_else(product) } else { product().or_else(signed) })
-}
-
-/// Returns the factors m for which a symbol cancels in `value` − m `other`: an error or interval parameter
-/// if both contain one.
-pub fn multipliers(value: &Ratio, other: &Ratio) -> Vec<Ratio> {
-    let factor = |x: Symbol| {
-        let [[_, dividend], [_, divisor]] = [value.num().coefficients(x)?, other.num().coefficients(x)?];
-        Ratio::from(dividend).over(&divisor.into())
-    };
-    let scale = Ratio::from(other.den().clone()).over(&value.den().clone().into());
-    let cancelling = |of: Vec<Symbol>| -> Vec<Ratio> {
-        of.into_iter().filter_map(|x| Some(scale.as_ref()? * factor(x)?)).collect()
-    };
-    let (small, others): (Vec<_>, Vec<_>) =
-        other.num().symbols().into_iter().partition(|x| x.in_unit_interval());
-    let small = cancelling(small);
-    let mut all = if small.is_empty() { cancelling(others) } else { small };
-    all.dedup();
-    all
-}
-
+pub(in crate::proof) mod algebra;
+pub(in crate::proof) mod assumption;
+pub(in crate::proof) mod choice;
+pub(in crate::proof) mod context;
+mod dictionary;
+mod equation;
+mod error;
+mod finder;
+mod form;
+mod knowledge;
+mod monomial;
+mod number;
+pub(in crate::proof) mod sign;
+mod source;
 #[cfg(test)]
-mod tests {
-    use super::super::kernel::algebra::Ratio;
-    use super::super::kernel::sign::Sign::*;
-    use super::*;
+mod tests;
 
-    fn x(name: &'static str) -> Poly {
-        Poly::symbol(Symbol::Own(name))
+pub use self::error::ProofError;
+
+use super::check::{
+    self, Atom, Leaf, Node, Polynomial, Premise, Problem, Proof, Reader, Refusal, Rise, Sign, check,
+    parts_of_rise,
+};
+use super::effort::{self, MAX_EFFORT};
+use crate::formula::statement::{Goal, Proposition, Statement};
+use crate::formula::{Hypothesis, Relation};
+use crate::number::Tree;
+use crate::number::tree::Op;
+use algebra::{Poly, Ratio};
+use context::Context;
+use dictionary::integral;
+use knowledge::{Knowledge, Supposed};
+use source::Search;
+use std::cell::RefCell;
+
+/// The reason why a search ended without a leaf.
+#[derive(Clone, Debug)]
+pub enum Failure {
+    /// The branch of a positive part, minimum or absolute value is undecided by this quantity.
+    Branch(Ratio),
+    /// The sign of this function, whose parts are still to be proved, would help.
+    Rise(Box<Rise>),
+    /// There is no proof.
+    Error(ProofError),
+    /// A sign that was found could not be expressed by certificates.
+    NotExpressed(&'static str),
+    /// The checker refuses the leaf.
+    Refused(Refusal),
+}
+
+impl From<&'static str> for Failure {
+    fn from(reason: &'static str) -> Self {
+        Failure::NotExpressed(reason)
     }
+}
 
-    fn error(index: u8) -> Poly {
-        Poly::symbol(Symbol::Error(index))
+impl From<ProofError> for Failure {
+    fn from(reason: ProofError) -> Self {
+        Failure::Error(reason)
     }
+}
 
-    fn n(n: i32) -> Poly {
-        Poly::constant(n)
+impl From<Refusal> for Failure {
+    fn from(reason: Refusal) -> Self {
+        Failure::Refused(reason)
     }
+}
 
-    fn e(exponent: impl Into<Ratio>) -> Poly {
-        Poly::exponential(exponent.into())
-    }
-
-    fn over(a: Poly, b: Poly) -> Ratio {
-        Ratio::from(a).over(&b.into()).unwrap()
-    }
-
-    fn found(of: Poly) -> Option<Sign> {
-        let known = [("a", Positive), ("b", Positive), ("z", NonNegative), ("n", Negative)];
-        let known = SignEnv::from(known.map(|(name, sign)| (Symbol::Own(name), sign)));
-        sign(&of, &known.into()).map(|certificate| certificate.sign())
-    }
-
-    #[test]
-    fn terms_of_one_sign() {
-        assert_eq!(found(x("a") + x("z")), Some(Positive));
-        assert_eq!(found(x("z") + x("u") * x("u")), Some(NonNegative));
-        assert_eq!(found(-(x("a") * x("b"))), Some(Negative));
-        assert_eq!(found(Poly::zero()), Some(Zero));
-        assert_eq!(found(n(-2)), Some(Negative));
-        assert_eq!(found(x("n") * x("n")), Some(Positive));
-        assert_eq!(found(x("n") * x("n") * x("n")), Some(Negative));
-        // Odd powers of free symbols and differences have no certain sign.
-        assert_eq!(found(x("u")), None);
-        assert_eq!(found(x("a") - x("b")), None);
-    }
-
-    #[test]
-    fn both_signs_are_found_where_both_occur() {
-        let known = [("a", Positive), ("z", NonNegative), ("n", Negative)];
-        let known = SignEnv::from(known.map(|(name, sign)| (Symbol::Own(name), sign)));
-        for of in [x("u"), x("a") - n(1), x("z") * x("u"), error(0), n(3) * x("a") * error(0) - x("z")] {
-            assert!(has_both_signs(&of, &known), "{of:?}");
+impl From<Failure> for ProofError {
+    fn from(failure: Failure) -> Self {
+        match failure {
+            Failure::Branch(value) => ProofError::UndecidedBranch(value),
+            Failure::Rise(_) => ProofError::NotExpressed("it rests on the slopes of too many functions"),
+            Failure::Error(reason) => reason,
+            Failure::NotExpressed(reason) => ProofError::NotExpressed(reason),
+            Failure::Refused(Refusal::NotDifferentiable) => ProofError::NotDifferentiable,
+            Failure::Refused(Refusal::TooLarge) => ProofError::NotExpressed("it is too large"),
+            Failure::Refused(_) => ProofError::NotExpressed("the checker refuses it"),
         }
-        // Positive except near one of the 4096 corners.
-        let sum = |sign: i32| (0..12).fold(n(11), |sum, i| sum + n(sign) * error(i));
-        assert!(has_both_signs(&sum(1), &known) && has_both_signs(&sum(-1), &known));
-        // Squares and 1 + e have zeros but do not change sign, and cancellation in floats hides a sign.
-        let square = (x("u") - x("v")) * (x("u") - x("v"));
-        let lost = x("a") - (x("a") + x("z")) + x("z");
-        for of in [square, n(1) + error(0), -x("n") * x("a"), x("z"), lost, e(x("u")) - x("a")] {
-            assert!(!has_both_signs(&of, &known), "{of:?}");
-        }
     }
+}
 
-    #[test]
-    fn common_factors_are_taken_out() {
-        // a u² − 2 a u + 2 a takes rule 2 for the factor a, then rule 3.
-        let square = x("u") * x("u") - n(2) * x("u") + n(2);
-        assert_eq!(found(x("a") * &square), Some(Positive));
-        assert_eq!(found(x("z") * &square), Some(NonNegative));
-        assert_eq!(found(x("u") * &square), None);
+/// Maximum number of nested case distinctions.
+const MAX_NESTED_CASES: usize = 4;
+
+/// Maximum number of functions at a leaf whose sign follows from their slope.
+const MAX_RISES: usize = 4;
+
+/// Proves a statement.
+///
+/// # Errors
+/// Returns the reason if no proof is found, which does not refute the statement; returns
+/// [`ProofError::TooLarge`] if the statement exceeds [`MAX_SIZE`](super::MAX_SIZE) or
+/// [`MAX_DEPTH`](super::MAX_DEPTH), or the search exceeds [`MAX_EFFORT`].
+///
+/// # Examples
+/// ```
+/// use provable::formula::claim::positive;
+/// use provable::{number::Tree, proof::prove};
+/// let x = Tree::symbol("x");
+/// assert!(prove(&positive("square", &x * &x + Tree::from(1))).is_ok());
+/// assert!(prove(&positive("square", &x * &x - Tree::from(1))).is_err());
+/// ```
+pub fn prove(statement: &Statement) -> Result<Proof, ProofError> {
+    let roundings = check::check_premises(statement)?;
+    let goals: Vec<_> = bounded(|| {
+        let solve =
+            |goal: &Goal| Ok(solve(&goal.proposition, statement.hypotheses_for(goal.role), &roundings)?.0);
+        statement.goals().iter().map(solve).collect()
+    })?;
+    check(statement, &goals).map_err(|_| ProofError::NotExpressed("the checker refuses it"))
+}
+
+/// Returns a proof of a proposition from hypotheses, which the checker has not read, and the assumptions at
+/// each of its leaves.
+///
+/// # Errors
+/// Returns the reason if there is none; see [`prove`].
+pub(in crate::proof) fn prove_proposition(
+    proposition: &Proposition,
+    hypotheses: Vec<&Hypothesis>,
+) -> Result<(Node, Vec<Context>), ProofError> {
+    let trees = || hypotheses.iter().map(|given| &given.value).chain(proposition.trees());
+    check::check_size(trees())?;
+    let roundings = check::roundings(trees());
+    if roundings.len() > check::MAX_ROUNDINGS {
+        return Err(Premise::TooManyRoundings.into());
     }
-
-    #[test]
-    fn quadratics_have_a_sign_unless_they_have_two_roots() {
-        let quadratic = |d: i32| x("u") * x("u") + n(2) * x("u") + n(d);
-        assert_eq!(found(quadratic(2)), Some(Positive));
-        assert_eq!(found(quadratic(1)), Some(NonNegative));
-        assert_eq!(found(quadratic(0)), None);
-        assert_eq!(found(-quadratic(1)), Some(NonPositive));
-        // The leading coefficient may be 0.
-        assert_eq!(found(x("z") * x("u") * x("u") + x("u") + n(1)), None);
+    if !roundings.is_empty() && proposition.variable().is_some() {
+        return Err(Premise::Discontinuous.into());
     }
+    bounded(|| solve(proposition, hypotheses, &roundings))
+}
 
-    #[test]
-    fn factors_between_minus_1_and_1_do_not_increase_terms() {
-        assert_eq!(found(n(3) + error(0) + Poly::symbol(Symbol::Place(0))), Some(Positive));
-        assert_eq!(found(n(1) + error(0) * error(1)), Some(NonNegative));
-        assert_eq!(found(error(0) - n(1)), Some(NonPositive));
-        assert_eq!(found(x("u") * x("u") * (n(2) + error(0))), Some(NonNegative));
-        assert_eq!(found(x("a") * error(0) - n(2) * x("a") - x("b")), Some(Negative));
-        // The other terms are too small, or of unknown sign.
-        assert_eq!(found(x("a") + x("b") * error(0)), None);
-        assert_eq!(found(n(3) + n(2) * error(0) + n(2) * error(1)), None);
-        assert_eq!(found(x("u") * (n(2) + error(0))), None);
-        assert_eq!(found(error(0)), None);
-        // Other symbols are unbounded, regardless of their names.
-        assert_eq!(found(n(3) + x("e₁")), None);
-    }
+/// Limits the effort of a search.
+fn bounded<T>(search: impl FnOnce() -> Result<T, ProofError>) -> Result<T, ProofError> {
+    effort::bounded(search).unwrap_or(Err(ProofError::TooLarge(MAX_EFFORT)))
+}
 
-    #[test]
-    fn squares_of_factors_between_minus_1_and_1_preserve_the_sign_of_a_term() {
-        let square = || error(0) * error(0);
-        let [of_both, cube] = [square() * error(1), square() * error(0)];
-        assert_eq!(found(n(1) + n(3) * square() - error(1)), Some(NonNegative));
-        assert_eq!(found(n(2) + x("a") * square() * (n(1) + square()) + error(1)), Some(Positive));
-        assert_eq!(found(x("n") * square() - n(2) - error(1)), Some(Negative));
-        assert_eq!(found(square() * (n(3) - error(1)) * (n(3) - error(0))), Some(NonNegative));
-        // A factor is not a square, or the coefficient has the opposite or no known sign.
-        assert_eq!(found(n(1) + n(3) * of_both - error(0)), None);
-        assert_eq!(found(n(1) + n(3) * cube - error(1)), None);
-        assert_eq!(found(n(1) + x("u") * square() - error(1)), None);
-        assert_eq!(found(n(1) - n(3) * square() - error(1)), None);
-        assert_eq!(found(x("n") * square() + n(2) + error(1)), None);
-    }
+fn solve(
+    proposition: &Proposition,
+    hypotheses: Vec<&Hypothesis>,
+    roundings: &[Tree],
+) -> Result<(Node, Vec<Context>), ProofError> {
+    let problem = Problem::new(proposition, hypotheses).map_err(Failure::from)?;
+    let attempt = Attempt { problem: &problem, roundings, contexts: RefCell::default() };
+    let node = attempt.certify(&[])?;
+    Ok((node, attempt.contexts.into_inner()))
+}
 
-    #[test]
-    fn linear_polynomials_lie_between_their_values_at_the_ends() {
-        // Rule 5 fails, as the absolute values of the other terms exceed 2.
-        let product = || (n(1) + error(0)) * (n(2) + error(1));
-        assert_eq!(found(product()), Some(NonNegative));
-        assert_eq!(found(-product()), Some(NonPositive));
-        assert_eq!(found(x("a") * product() + x("b")), Some(Positive));
-        assert_eq!(found(product() - x("a")), None);
-        // A square is completed, unless the symbol also occurs in an exponent.
-        assert_eq!(found(error(0) * error(0) * n(4) - n(4) * error(0) + n(1)), Some(NonNegative));
-        assert_eq!(found(error(0) * error(0) * n(4) - n(4) * error(0) - error(1)), None);
-        assert_eq!(found(e(error(0)) - n(1) - error(0)), None);
-    }
+/// A decision on the way to a leaf, before the hypothesis at a place in their order.
+#[derive(Clone, Debug)]
+pub enum Decision {
+    /// The case of a quantity with this sign.
+    Case {
+        /// The number of hypotheses before it.
+        at: usize,
+        /// The quantity in the symbols that remain there.
+        deciding: Poly,
+        /// The same for the checker.
+        on: Polynomial,
+        /// The quotient of the two.
+        scale: Ratio,
+        /// The sign.
+        sign: Sign,
+    },
+    /// The replacement of a formula by a multiple of its absolute value.
+    Size {
+        /// The number of hypotheses before it.
+        at: usize,
+        /// The formula.
+        of: usize,
+        /// Twice its value.
+        twice: Ratio,
+    },
+}
 
-    #[test]
-    fn an_exponential_against_its_tangent() {
-        let tangent = || n(1) + x("a");
-        assert_eq!(found(e(x("a")) - tangent()), Some(Positive));
-        assert_eq!(found(tangent() - e(x("a"))), Some(Negative));
-        // The start is negative, or the symbol may be negative.
-        assert_eq!(found(e(x("a")) - n(1) - tangent()), None);
-        assert_eq!(found(e(x("u")) - n(1) - x("u")), None);
-        // Where x may be 0 the sign is not stricter than that of the start.
-        assert_eq!(found(e(x("z")) - n(1) - x("z")), Some(NonNegative));
-        // e^{e^{1/a}} is undefined at a = 0.
-        let nested = over(x("a") * e(over(n(1), x("a"))), tangent());
-        assert_eq!(found(e(-nested) - n(1)), None);
-        // 1 + a − e^{a/(a+1)} takes rule 4 twice.
-        assert_eq!(found(tangent() - e(over(x("a"), tangent()))), Some(Positive));
-    }
+/// A problem, its rounded formulas, and what was known at its leaves.
+struct Attempt<'a> {
+    problem: &'a Problem<'a>,
+    roundings: &'a [Tree],
+    contexts: RefCell<Vec<Context>>,
+}
 
-    #[test]
-    fn rules_4_and_6_are_not_applied_to_long_sums() {
-        let known = Arc::new(SignEnv::from([(Symbol::Own("a"), Positive)]));
-        let powers = |count: usize| {
-            std::iter::successors(Some(x("a")), |power| Some(power * x("a")))
-                .take(count)
-                .fold(n(0), |a, b| a + b)
+impl<'a> Attempt<'a> {
+    /// Returns a proof under the assumptions of these decisions.
+    fn certify(&self, decisions: &[Decision]) -> Result<Node, Failure> {
+        let mut rises = Vec::new();
+        let (search, failure) = loop {
+            let leaf = Leaf { rises: rises.clone(), ..Leaf::default() };
+            let mut reader = Reader::new(self.problem, self.search(decisions, leaf)?);
+            let checked = self.read(&mut reader, decisions);
+            let mut search = reader.source;
+            match (checked, search.failure.take()) {
+                (Ok(()), _) => {
+                    self.contexts.borrow_mut().push(search.known.context);
+                    return Ok(Node::Leaf(search.leaf.into()));
+                }
+                (Err(_), Some(Failure::Rise(rise))) if rises.len() < MAX_RISES => {
+                    rises.push(self.with_parts(*rise)?);
+                }
+                (Err(reason), None) => {
+                    let reason = self.refused(&mut search, reason);
+                    break (search, reason);
+                }
+                (Err(_), Some(Failure::Error(ProofError::UnknownSign(..))))
+                    if self.problem.variable().is_some()
+                        && search.position == self.problem.hypotheses.len() =>
+                {
+                    let reason = self.refused(&mut search, Failure::from(Refusal::Limit));
+                    break (search, reason);
+                }
+                (Err(_), Some(failure)) => break (search, failure),
+            }
         };
-        // The derivative of e^a − 1 + a + a² + … has positive terms.
-        let of = |terms: usize| e(x("a")) - n(1) + powers(terms - 2);
-        let lengths = [MAX_SLOPE_TERMS - 1, MAX_SLOPE_TERMS, MAX_SLOPE_TERMS + 1];
-        let is_found = lengths.map(|terms| slope(&of(terms), &known, 1).is_some());
-        assert_eq!(is_found, [true, true, false]);
-        assert!(slope(&powers(3), &known, 1).is_none(), "rule 4 is only applied to polynomials with e^…");
-        // (1 + e₁)(2 + e₂)(a + a² + …).
-        let of = |terms: usize| (n(1) + error(0)) * (n(2) + error(1)) * powers(terms / 4);
-        let lengths = [MAX_ENDS_TERMS, MAX_ENDS_TERMS + 4];
-        let is_found = lengths.map(|terms| bounded(&of(terms), &known, 2).is_some());
-        assert_eq!(is_found, [true, false]);
+        let script = [decisions, &search.sizes].concat();
+        let found = match &failure {
+            Failure::Branch(value) => self.cases(&search, &script, search.position, value),
+            _ => Err(failure.clone()),
+        };
+        // An absolute value that does not suffice is replaced by cases.
+        (0..search.sizes.len()).rev().fold(found, |found, i| {
+            let Decision::Size { at, twice, .. } = &search.sizes[i] else { return found };
+            found.or_else(|reason| {
+                let script = &script[..decisions.len() + i];
+                self.cases(&search, script, *at, twice).map_err(|_| reason)
+            })
+        })
+    }
+
+    /// Returns the reason for which the checker refuses what the search found.
+    fn refused(&self, search: &mut Search, reason: Failure) -> Failure {
+        if !matches!(reason, Failure::Refused(Refusal::Goal | Refusal::Limit)) {
+            return reason;
+        }
+        let found = match self.problem.proposition {
+            Proposition::Limit(..) => {
+                search.known.sum(&[(1, self.problem.goal[0])]).ok().map(ProofError::UnknownLimit)
+            }
+            _ => search.known.sum(&search.asked).ok().and_then(|value| {
+                let sign = search.known.sign(value.clone())?.sign();
+                Some(ProofError::WrongSign(value, sign))
+            }),
+        };
+        found.map_or(reason, Failure::Error)
+    }
+
+    /// Returns a proof in the two cases of a quantity.
+    fn cases(&self, search: &Search, script: &[Decision], at: usize, value: &Ratio) -> Result<Node, Failure> {
+        let is_case = |decision: &&Decision| matches!(decision, Decision::Case { .. });
+        if script.iter().filter(is_case).count() >= MAX_NESTED_CASES {
+            return Err(Failure::Branch(value.clone()));
+        }
+        let (known, state) = (&search.known, check::State::new(self.problem));
+        let deciding = known.context.sign_numerator(value);
+        let own = known.dictionary.own(&deciding.clone().into());
+        let (on, _) = integral(own.num(), own.num());
+        let scale = own.over(&on.clone().into()).ok_or("a case of nothing")?;
+        let on = known.dictionary.polynomial(&on, 0, &state).ok_or("the quantity of a case")?;
+        let prove = |sign| {
+            let (deciding, on, scale) = (deciding.clone(), on.clone(), scale.clone());
+            self.certify(&[script, &[Decision::Case { at, deciding, on, scale, sign }]].concat())
+        };
+        let both = [prove(Sign::Positive)?, prove(Sign::NonPositive)?];
+        Ok(Node::Cases(on, both.into()))
+    }
+
+    fn search(&self, decisions: &[Decision], mut leaf: Leaf) -> Result<Search<'a>, Failure> {
+        let known = Knowledge::new(self.problem, Context::of(self.roundings.to_vec()));
+        let known = known.ok_or(ProofError::Premise(Premise::TooManyRoundings))?;
+        leaf.orders = self.orders();
+        let is_ordered = !leaf.orders.is_empty();
+        let (early, sizes, failure, asked) = Default::default();
+        let _ = decisions;
+        Ok(Search { known, early, leaf, sizes, is_ordered, position: 0, failure, asked })
+    }
+
+    /// Lets the reader check the goal, and lists the hypotheses that it uses.
+    fn read(&self, reader: &mut Reader<'a, Search<'a>>, decisions: &[Decision]) -> Result<(), Failure> {
+        let cases: Vec<_> = decisions.iter().filter_map(case).collect();
+        reader.suppose_cases(&cases);
+        let order = self.order();
+        for (position, i) in order.iter().enumerate() {
+            reader.source.follow(position, decisions);
+            let hypothesis = self.problem.hypotheses[*i];
+            let is_late = |by| hypothesis.value.symbols().contains(by);
+            if reader.source.early.is_none() && self.problem.variable().is_some_and(is_late) {
+                reader.source.early = Some(reader.source.known.clone());
+            }
+            let interval = hypothesis.interval();
+            if interval.is_some_and(|(x, ..)| !reader.source.known.is_free(x)) {
+                continue;
+            }
+            let supposed = self.assume(reader, *i)?;
+            reader.source.known.assume(*i, supposed)?;
+            let Some((x, ..)) = interval else { continue };
+            // What is known of the symbol is used again, for its value in the interval.
+            for i in reader.source.leaf.hypotheses.clone() {
+                let earlier = self.problem.hypotheses[i];
+                if earlier.interval().is_none()
+                    && earlier.value.symbols().contains(x)
+                    && let Some(supposed) = self.assume(reader, i)?
+                {
+                    reader.source.known.assume_again(earlier, supposed);
+                }
+            }
+        }
+        reader.source.follow(order.len(), decisions);
+        let leaf = reader.source.leaf.clone();
+        reader.conclude(&leaf, &cases)?;
+        Ok(())
+    }
+
+    /// Lets the reader use a hypothesis, and returns its fact.
+    fn assume(&self, reader: &mut Reader<'a, Search<'a>>, i: usize) -> Result<Option<Supposed>, Failure> {
+        reader.assume(i)?;
+        reader.source.leaf.hypotheses.push(i);
+        let hypothesis = self.problem.hypotheses[i];
+        if hypothesis.interval().is_some() {
+            return Ok(None);
+        }
+        let den = reader.value(self.problem.values[i])?.den;
+        Ok(Some(Supposed { fact: reader.state.facts.iter().len() - 1, den, scale: Poly::constant(1).into() }))
+    }
+
+    /// Returns the numbers of the hypotheses, those on the variable of a limit last.
+    fn order(&self) -> Vec<usize> {
+        let mut order: Vec<_> = (0..self.problem.hypotheses.len()).collect();
+        if let Some(by) = self.problem.variable() {
+            order.sort_by_key(|i| self.problem.hypotheses[*i].value.symbols().contains(by));
+        }
+        order
+    }
+
+    /// Returns the pairs of rounded formulas whose order the goal rests on.
+    fn orders(&self) -> Vec<[usize; 2]> {
+        let mut pairs = Vec::new();
+        if let Proposition::Sign(Relation::NonNegative, of) = self.problem.proposition
+            && let Some((a, b)) = rounded_difference(of)
+        {
+            collect_orders(a, b, &mut pairs);
+        }
+        let table = &self.problem.table;
+        let error = |of: &Tree| table.variable(Atom::Error(table.find(of).ok()?)).ok();
+        pairs.into_iter().filter_map(|(a, b)| Some([error(a)?, error(b)?])).collect()
+    }
+
+    /// Adds the proofs of its parts to a function that rises.
+    fn with_parts(&self, mut rise: Rise) -> Result<Rise, Failure> {
+        let problem = self.problem;
+        let Some(Atom::Own(x)) = problem.table.atoms().get(rise.x) else {
+            return Err("the parts of a rise".into());
+        };
+        let mut parts = Vec::new();
+        for (proposition, assumed) in parts_of_rise(problem, &rise, x)?.iter() {
+            let others = problem.hypotheses.iter().copied();
+            let others: Vec<_> =
+                others.filter(|given| !given.value.symbols().contains(x)).chain(assumed).collect();
+            let part = Problem::new(proposition, others)?;
+            let part = part.within(problem)?;
+            let roundings = check::roundings(part.hypotheses.iter().map(|given| &given.value));
+            let attempt = Attempt { problem: &part, roundings: &roundings, contexts: RefCell::default() };
+            parts.push(attempt.certify(&[])?);
+        }
+        rise.parts = <[Node; 3]>::try_from(parts).map_err(|_| "the parts of a rise")?;
+        Ok(rise)
+    }
+}
+
+/// Returns the quantity of a case, and its sign.
+fn case(decision: &Decision) -> Option<(Polynomial, Sign)> {
+    match decision {
+        Decision::Case { on, sign, .. } => Some((on.clone(), *sign)),
+        Decision::Size { .. } => None,
+    }
+}
+
+/// Returns the operands of a difference if both are rounded.
+fn rounded_difference(of: &Tree) -> Option<(&Tree, &Tree)> {
+    let Op::Sub(a, b) = of.op() else { return None };
+    [a, b].into_iter().all(|tree| matches!(tree.op(), Op::Rounded(_))).then_some((a, b))
+}
+
+/// Collects pairs of formulas inside two others, operation by operation, whose roundings have an order.
+fn collect_orders<'t>(a: &'t Tree, b: &'t Tree, all: &mut Vec<(&'t Tree, &'t Tree)>) {
+    use Op::*;
+    if a == b {
+        return;
+    }
+    match (a.op(), b.op()) {
+        (Rounded(a), Rounded(b)) => {
+            collect_orders(a, b, all);
+            all.push((a, b));
+        }
+        (PositivePart(a), PositivePart(b)) => collect_orders(a, b, all),
+        (Neg(a), Neg(b)) => collect_orders(b, a, all),
+        (Add(a, c), Add(b, d)) | (Min(a, c), Min(b, d)) => {
+            collect_orders(a, b, all);
+            collect_orders(c, d, all);
+        }
+        (Sub(a, c), Sub(b, d)) => {
+            collect_orders(a, b, all);
+            collect_orders(d, c, all);
+        }
+        (Mul(f, a), Mul(g, b)) | (Mul(a, f), Mul(b, g)) | (Div(a, f), Div(b, g)) if f == g => {
+            collect_orders(a, b, all);
+        }
+        _ => {}
     }
 }

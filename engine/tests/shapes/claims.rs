@@ -7,7 +7,7 @@ use provable::formula::claim::{
 use provable::formula::{Hypothesis, Rate, Relation, Statement};
 use provable::number::{Exponential, Field, PositivePart, Tree};
 
-/// Returns claims that the kernel proves.
+/// Returns claims that are proved.
 pub fn claims() -> Vec<Statement> {
     let [a, b, c, d, f, g, x, y] = ["a", "b", "c", "d", "f", "g", "x", "y"].map(|name| Tree::symbol(name));
     let n = Tree::symbol(PRECISION);

@@ -3,6 +3,7 @@
 use super::{ProofAttempt, ProofOutcome, Proofs, Summary};
 use crate::claims::registry;
 use crate::proof::Counterexample;
+use crate::proof::data::GoalProof;
 use crate::proof::mutation::{DropOutcome, DroppedHypothesis, Mutant, MutationOutcome};
 use crate::proof::render::ProofPrinter;
 use serde::{Serialize, Serializer};
@@ -28,7 +29,7 @@ struct Claim {
     statement: String,
     hypotheses: Vec<String>,
     status: &'static str,
-    certificate: Option<String>,
+    proof: Option<Vec<GoalProof>>,
     reason: Option<String>,
     counterexample: Option<Values>,
     dropped: Vec<Less>,
@@ -72,9 +73,9 @@ impl Serialize for Proofs {
 
 fn claim(proved: &ProofAttempt, proofs: &Proofs) -> Claim {
     let ProofAttempt { statement, answer, .. } = proved;
-    let paper = ProofPrinter::new(registry()).in_full();
-    let (certificate, reason, counterexample) = match answer {
-        ProofOutcome::Proof(proof) => (Some(paper.proof(proof).join("\n")), None, None),
+    let paper = ProofPrinter::new(registry());
+    let (proof, reason, counterexample) = match answer {
+        ProofOutcome::Proof(proof) => (Some(paper.data(proof)), None, None),
         ProofOutcome::None(reason, counterexample) => {
             (None, Some(reason.clone()), counterexample.as_ref().map(values))
         }
@@ -85,7 +86,7 @@ fn claim(proved: &ProofAttempt, proofs: &Proofs) -> Claim {
         statement: paper.claim(statement),
         hypotheses: proved.hypotheses(),
         status: proved.status(),
-        certificate,
+        proof,
         reason,
         counterexample,
         dropped: proofs.dropped(statement).map(dropped).collect(),

@@ -1,9 +1,9 @@
 //! Forms, and the one rule for signs.
 
 use super::polynomial::{MAX_VARIABLES, Polynomial, Powers};
+use super::sign::Sign;
 use super::state::State;
 use super::{Certificate, Checked, Known, MAX_NESTING, Refusal};
-use crate::proof::kernel::sign::Sign;
 
 /// The knowledge about a variable of a form.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,6 +23,30 @@ impl State<'_> {
     }
 
     fn certify_nested(&self, of: &Polynomial, certificate: &Certificate, nesting: u32) -> Checked<Sign> {
+        let (kinds, values) = self.quantities(of, certificate, nesting)?;
+        let factor = sign_of_form(&certificate.left, &kinds)?;
+        if !factor.is_strict() {
+            return Err(Refusal::NotStrict);
+        }
+        let sign = sign_of_form(&certificate.right, &kinds)?.times(factor);
+        let [left, right] = self.sides(of, certificate, &values)?;
+        if left == right { Ok(sign) } else { Err(Refusal::Identity) }
+    }
+
+    /// Returns l f − r, which is 0 for a correct certificate.
+    pub fn difference(&self, of: &Polynomial, certificate: &Certificate) -> Checked<Polynomial> {
+        let (_, values) = self.quantities(of, certificate, MAX_NESTING)?;
+        let [left, right] = self.sides(of, certificate, &values)?;
+        left.plus_multiple(-1, &right)
+    }
+
+    /// Returns what is known of the variables of a certificate, and the values of its quantities.
+    fn quantities(
+        &self,
+        of: &Polynomial,
+        certificate: &Certificate,
+        nesting: u32,
+    ) -> Checked<(Vec<Kind>, Vec<Polynomial>)> {
         let Certificate { known, left, right } = certificate;
         let first = self.problem.table.atoms().len();
         let count = first.saturating_add(known.len());
@@ -37,20 +61,21 @@ impl State<'_> {
             values.push(value);
         }
         // Quantities that form a variable of a form do not contain such variables themselves.
-        if !values.iter().chain([of]).all(|value| value.has_only(|x| x < first))
-            || ![left, right].into_iter().all(|form| form.has_only(|x| x < count))
-        {
-            return Err(Refusal::Unknown);
-        }
-        let factor = sign_of_form(left, &kinds)?;
-        if !factor.is_strict() {
-            return Err(Refusal::NotStrict);
-        }
-        let sign = sign_of_form(right, &kinds)?.times(factor);
-        if expand(left, first, &values)?.times(of)? != expand(right, first, &values)? {
-            return Err(Refusal::Identity);
-        }
-        Ok(sign)
+        let is_known = values.iter().chain([of]).all(|value| value.has_only(|x| x < first))
+            && [left, right].into_iter().all(|form| form.has_only(|x| x < count));
+        if is_known { Ok((kinds, values)) } else { Err(Refusal::Unknown) }
+    }
+
+    /// Returns l f and r as polynomials of atoms.
+    fn sides(
+        &self,
+        of: &Polynomial,
+        certificate: &Certificate,
+        values: &[Polynomial],
+    ) -> Checked<[Polynomial; 2]> {
+        let first = self.problem.table.atoms().len();
+        let left = expand(&certificate.left, first, values)?.times(of)?;
+        Ok([left, expand(&certificate.right, first, values)?])
     }
 
     fn kind(&self, x: usize) -> Kind {

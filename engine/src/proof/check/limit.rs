@@ -2,31 +2,30 @@
 
 use super::polynomial::Polynomial;
 use super::quotient::Quotient;
+use super::sign::Sign;
 use super::state::{Reader, State};
 use super::table::Atom;
-use super::{Checked, Refusal};
+use super::{Checked, Refusal, Source};
 use crate::formula::{Hypothesis, Relation};
 use crate::number::Tree;
-use crate::proof::kernel::sign::Sign;
 use std::cmp::Ordering;
 use std::mem;
 
-impl<'p> Reader<'p, '_> {
+impl<'p, S: Source> Reader<'p, S> {
     /// Checks that `of` tends to `to` as a symbol tends to infinity, for all values of the other symbols for
     /// which those hypotheses hold that do not mention it.
     ///
-    /// `early` is what these hypotheses imply. From it alone follows that the others hold for all
+    /// What these hypotheses imply is known early. From it alone follows that the others hold for all
     /// sufficiently large values of the symbol; so for these, all facts are valid.
     pub fn limit(
         &mut self,
         of: &Tree,
         by: &'static str,
         to: &Tree,
-        early: State<'p>,
         cases: &[(Polynomial, Sign)],
     ) -> Checked<()> {
         let (of, to) = (self.translate(of)?, self.translate(to)?);
-        let problem = self.state.problem;
+        let (problem, early) = (self.state.problem, self.early.clone().ok_or(Refusal::Limit)?);
         let x = problem.table.variable(Atom::Own(by))?;
         if cases.iter().any(|(case, _)| !case.has_only(|y| !problem.depends(y, by))) {
             return Err(Refusal::Limit);
@@ -35,7 +34,9 @@ impl<'p> Reader<'p, '_> {
             self.holds_later(hypothesis, x, &early)?;
         }
         let found = self.limit_of(&of, x)?;
-        self.equal(&found, &to)
+        let difference = self.state.facts.sum(&found, -1, &to)?;
+        let (sign, _) = self.sign_of_part(&difference.num)?;
+        if sign == Sign::Zero { Ok(()) } else { Err(Refusal::Goal) }
     }
 
     /// Returns by how much the degree of the numerator in the variable exceeds that of the denominator, and
@@ -56,7 +57,7 @@ impl<'p> Reader<'p, '_> {
     }
 
     fn sign_of_product(&mut self, of: &[Polynomial]) -> Checked<Sign> {
-        of.iter().try_fold(Sign::Positive, |sign, factor| Ok(sign.times(self.sign(factor, &[])?.0)))
+        of.iter().try_fold(Sign::Positive, |sign, factor| Ok(sign.times(self.sign_of_part(factor)?.0)))
     }
 
     /// Checks that a hypothesis holds for all sufficiently large values of the variable.

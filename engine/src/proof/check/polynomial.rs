@@ -1,12 +1,13 @@
 //! Polynomials with integer coefficients, whose arithmetic refuses what it cannot represent.
 
 use super::{Checked, Refusal};
+use crate::proof::effort;
 
 /// Maximum number of variables of a polynomial: of the atoms of a goal and the quantities of a certificate.
 pub const MAX_VARIABLES: usize = 64;
 
 /// Maximum number of terms of a product, before equal ones are added.
-const MAX_TERMS: usize = 1 << 22;
+const MAX_TERMS: usize = 1 << 18;
 
 /// The powers of the variables in a term.
 pub type Powers = [u8; MAX_VARIABLES];
@@ -76,7 +77,12 @@ impl Polynomial {
 
     /// Returns `self` + `n` `other`.
     pub fn plus_multiple(&self, n: i128, other: &Self) -> Checked<Self> {
-        let mut terms = self.0.clone();
+        let count = self.0.len() + other.0.len();
+        if !effort::spend(count) {
+            return Err(Refusal::TooLarge);
+        }
+        let mut terms = Vec::with_capacity(count);
+        terms.extend_from_slice(&self.0);
         for (powers, number) in &other.0 {
             terms.push((*powers, number.checked_mul(n).ok_or(Refusal::TooLarge)?));
         }
@@ -86,9 +92,12 @@ impl Polynomial {
     /// Returns the product.
     pub fn times(&self, other: &Self) -> Checked<Self> {
         let count = self.0.len().checked_mul(other.0.len()).filter(|count| *count <= MAX_TERMS);
-        let mut terms = Vec::with_capacity(count.ok_or(Refusal::TooLarge)?);
-        for (a, p) in &self.0 {
-            for (b, q) in &other.0 {
+        let count = count.filter(|count| effort::spend(*count)).ok_or(Refusal::TooLarge)?;
+        let mut terms = Vec::with_capacity(count);
+        // Few long runs of ascending terms are sorted fast.
+        let (short, long) = if self.0.len() < other.0.len() { (self, other) } else { (other, self) };
+        for (a, p) in &short.0 {
+            for (b, q) in &long.0 {
                 let mut powers = *a;
                 for (n, m) in powers.iter_mut().zip(b) {
                     *n = n.checked_add(*m).ok_or(Refusal::TooLarge)?;

@@ -1,8 +1,8 @@
 //! Quotients of polynomials, whose denominators are products of quantities of strict sign.
 
 use super::polynomial::Polynomial;
+use super::sign::Sign;
 use super::{Checked, Refusal};
-use crate::proof::kernel::sign::Sign;
 
 /// A quotient of a polynomial and a product of facts. The product is not multiplied out.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,12 +2,12 @@
 
 use super::polynomial::Polynomial;
 use super::quotient::{Facts, Quotient};
+use super::sign::Sign;
 use super::table::{Atom, Problem};
-use super::{AbsoluteValue, Checked, Reason, Refusal, Same, Source};
+use super::{AbsoluteValue, Checked, Question, Reason, Refusal, Same, Source};
 use crate::formula::claim::{PRECISION, SCALES};
 use crate::number::Tree;
 use crate::number::tree::Op;
-use crate::proof::kernel::sign::Sign;
 use std::collections::HashMap;
 
 /// The number of the fact 2 > 0, which every state contains.
@@ -59,11 +59,13 @@ pub struct Size {
 }
 
 /// A reader of formulas, which asks a source for everything that a proof states.
-pub struct Reader<'p, 's> {
+pub struct Reader<'p, S> {
     /// The knowledge at the leaf.
     pub state: State<'p>,
+    /// The knowledge before the first hypothesis on the variable of a limit.
+    pub early: Option<State<'p>>,
     /// The proof, or a search for one.
-    pub source: &'s mut dyn Source,
+    pub source: S,
 }
 
 impl<'p> State<'p> {
@@ -108,10 +110,16 @@ impl<'p> State<'p> {
     }
 }
 
-impl Reader<'_, '_> {
-    /// Returns the sign of a polynomial that is a numerator over these facts, and the number of the fact.
-    pub fn sign(&mut self, of: &Polynomial, den: &[usize]) -> Checked<(Sign, usize)> {
-        match self.source.sign(of, den, &self.state).ok_or(Refusal::Missing)? {
+impl<'p, S: Source> Reader<'p, S> {
+    /// Returns a reader that knows no hypothesis.
+    pub fn new(problem: &'p Problem, source: S) -> Self {
+        Reader { state: State::new(problem), early: None, source }
+    }
+
+    /// Returns the sign of a polynomial, and the number of the fact.
+    fn sign(&mut self, question: Question) -> Checked<(Sign, usize)> {
+        let of = question.of;
+        match self.source.sign(question, &self.state).ok_or(Refusal::Missing)? {
             Reason::Fact(i) => {
                 let (known, sign) = self.state.facts.get(i)?;
                 if known == of { Ok((*sign, i)) } else { Err(Refusal::Identity) }
@@ -123,23 +131,26 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Returns the sign of a quotient.
-    pub fn sign_of_quotient(&mut self, of: &Quotient) -> Checked<Sign> {
-        let (sign, _) = self.sign(&of.num, &of.den)?;
-        Ok(self.state.facts.sign_of_product(&of.den)?.times(sign))
+    /// Returns the sign of a polynomial, and the number of the fact.
+    pub fn sign_of_part(&mut self, of: &Polynomial) -> Checked<(Sign, usize)> {
+        self.sign(Question { of, den: &[], sum: &[], decides: false })
+    }
+
+    /// Returns the sign of a sum of multiples of formulas.
+    pub fn sign_of_sum(&mut self, sum: &[(i128, usize)], decides: bool) -> Checked<Sign> {
+        let mut value = Quotient::from(Polynomial::zero());
+        for (n, of) in sum {
+            let of = self.value(*of)?;
+            value = self.state.facts.sum(&value, *n, &of)?;
+        }
+        let (sign, _) = self.sign(Question { of: &value.num, den: &value.den, sum, decides })?;
+        Ok(self.state.facts.sign_of_product(&value.den)?.times(sign))
     }
 
     /// Checks that a polynomial is not 0, and returns the number of the fact.
     pub fn strict(&mut self, of: &Polynomial) -> Checked<usize> {
-        let (sign, i) = self.sign(of, &[])?;
+        let (sign, i) = self.sign_of_part(of)?;
         if sign.is_strict() { Ok(i) } else { Err(Refusal::NotStrict) }
-    }
-
-    /// Checks that two quotients are equal.
-    pub fn equal(&mut self, a: &Quotient, b: &Quotient) -> Checked<()> {
-        let difference = self.state.facts.sum(a, -1, b)?;
-        let (sign, _) = self.sign(&difference.num, &difference.den)?;
-        if sign == Sign::Zero { Ok(()) } else { Err(Refusal::Goal) }
     }
 
     /// Returns the value of a formula, after a check that no divisor in it is 0.
@@ -173,14 +184,13 @@ impl Reader<'_, '_> {
             Sub(a, b) => self.sum(a, -1, b)?,
             Mul(a, b) => self.value(a)?.times(&self.value(b)?)?,
             Div(a, b) => {
-                let (a, b) = (self.value(a)?, self.value(b)?);
-                a.times(&self.inverse(&b)?)?
+                let (a, inverse) = (self.value(a)?, self.inverse(b)?);
+                a.times(&inverse)?
             }
             Exp(a) => self.exponential(a)?,
             PositivePart(a) => {
-                let a = self.value(a)?;
-                let is_open = self.sign_of_quotient(&a)?.implies(Sign::NonNegative);
-                if is_open { a } else { Polynomial::zero().into() }
+                let is_open = self.sign_of_sum(&[(1, a)], true)?.implies(Sign::NonNegative);
+                if is_open { self.value(a)? } else { Polynomial::zero().into() }
             }
             Min(a, b) if self.state.problem.table.step(a)? == Neg(b) => self.opposite_size(a, b)?,
             Min(a, b) => self.minimum(a, b)?,
@@ -194,9 +204,9 @@ impl Reader<'_, '_> {
     }
 
     fn minimum(&mut self, a: usize, b: usize) -> Checked<Quotient> {
-        let (a, b) = (self.value(a)?, self.value(b)?);
-        let difference = self.state.facts.sum(&b, -1, &a)?;
-        Ok(if self.sign_of_quotient(&difference)?.implies(Sign::NonNegative) { a } else { b })
+        let (first, second) = (self.value(a)?, self.value(b)?);
+        let is_first = self.sign_of_sum(&[(1, b), (-1, a)], true)?.implies(Sign::NonNegative);
+        Ok(if is_first { first } else { second })
     }
 
     /// Returns min(−x, x), which is −|x|.
@@ -228,8 +238,9 @@ impl Reader<'_, '_> {
     }
 
     /// Returns the reciprocal of a divisor, after a check of the signs of its factors.
-    fn inverse(&mut self, of: &Quotient) -> Checked<Quotient> {
-        let factors = self.source.divisor(&of.num, &self.state).ok_or(Refusal::Missing)?;
+    fn inverse(&mut self, divisor: usize) -> Checked<Quotient> {
+        let of = self.value(divisor)?;
+        let factors = self.source.divisor(divisor, &of.num, &self.state).ok_or(Refusal::Missing)?;
         let mut den = Vec::with_capacity(factors.len());
         for factor in &factors {
             den.push(self.strict(factor)?);
@@ -276,7 +287,7 @@ impl Reader<'_, '_> {
         if let Some(known) = self.state.rounded.iter().find(|known| known.of == of) {
             return Ok(known.error);
         }
-        let error = match self.source.rounding(value, &self.state).ok_or(Refusal::Missing)? {
+        let error = match self.source.rounding(of, value, &self.state).ok_or(Refusal::Missing)? {
             None => self.state.problem.table.variable(Atom::Error(of))?,
             Some(same) => self.shared_error(value, &same)?,
         };
@@ -302,7 +313,11 @@ impl Reader<'_, '_> {
 
     /// Uses the hypothesis with a number.
     pub fn assume(&mut self, i: usize) -> Checked<()> {
-        let hypothesis = *self.state.problem.hypotheses.get(i).ok_or(Refusal::Unknown)?;
+        let problem = self.state.problem;
+        let hypothesis = *problem.hypotheses.get(i).ok_or(Refusal::Unknown)?;
+        if problem.variable().is_some_and(|by| hypothesis.value.symbols().contains(by)) {
+            self.early.get_or_insert_with(|| self.state.clone());
+        }
         if let Some((x, lower, upper)) = hypothesis.interval() {
             let (lower, upper) = (self.translate(lower)?, self.translate(upper)?);
             let (sum, length) =
@@ -313,7 +328,7 @@ impl Reader<'_, '_> {
             self.state.places.entry(x).or_insert(value);
             self.state.values.clear();
         } else {
-            let value = self.translate(&hypothesis.value)?;
+            let value = self.value(problem.values[i])?;
             let fact = self.state.suppose_quotient(value, hypothesis.relation.into())?;
             self.state.supposed.push((Some(i), fact));
         }
@@ -327,8 +342,7 @@ impl Reader<'_, '_> {
             _ => Err(Refusal::Unknown),
         });
         let (a, b) = (a?, b?);
-        let exact = self.sum(a, -1, b)?;
-        if !self.sign_of_quotient(&exact)?.implies(Sign::NonNegative) {
+        if !self.sign_of_sum(&[(1, a), (-1, b)], false)?.implies(Sign::NonNegative) {
             return Err(Refusal::Order);
         }
         let [a, b] = [a, b].map(|of| self.state.problem.table.number(&Op::Rounded(of)));

@@ -52,8 +52,10 @@ pub struct Problem<'a> {
     pub proposition: &'a Proposition,
     /// The hypotheses.
     pub hypotheses: Vec<&'a Hypothesis>,
-    /// The derivative that a proposition about a derivative is about.
-    pub derivative: Option<Tree>,
+    /// The numbers of the values of the hypotheses.
+    pub values: Vec<usize>,
+    /// The numbers of the formulas of the proposition, and of the derivative that it is about.
+    pub goal: Vec<usize>,
     /// The formulas and atoms.
     pub table: Table,
     /// The number of problems of which this one is a part.
@@ -184,18 +186,25 @@ impl<'a> Problem<'a> {
             _ => None,
         };
         let mut table = Table::default();
-        let values = hypotheses.iter().map(|hypothesis| &hypothesis.value);
-        for tree in values.chain(proposition.trees()).chain(&derivative) {
-            table.add(tree)?;
-        }
+        let values = hypotheses.iter().map(|given| table.add(&given.value)).collect::<Checked<_>>()?;
+        let goal = proposition.trees().into_iter().chain(&derivative);
+        let goal = goal.map(|tree| table.add(tree)).collect::<Checked<_>>()?;
         table.add_atoms(&hypotheses)?;
-        Ok(Problem { proposition, hypotheses, derivative, table, nesting: 0 })
+        Ok(Problem { proposition, hypotheses, values, goal, table, nesting: 0 })
     }
 
     /// Returns the problem as a part of another.
     pub fn within(self, other: &Problem) -> Checked<Self> {
         let nesting = other.nesting + 1;
         if nesting > MAX_NESTING { Err(Refusal::TooLarge) } else { Ok(Problem { nesting, ..self }) }
+    }
+
+    /// Returns the symbol that tends to infinity in a limit.
+    pub fn variable(&self) -> Option<&'static str> {
+        match self.proposition {
+            Proposition::Limit(_, by, _) => Some(by),
+            _ => None,
+        }
     }
 
     /// Returns `true` if a variable may vary with a symbol.

@@ -133,7 +133,7 @@ fn refuse(all: Vec<Forged>) {
         all.into_iter().filter_map(|(flaw, statement, goals, expected)| match check(&statement, &goals) {
             Err(CheckError::Goal(_, reason)) if reason == expected => None,
             Err(other) => Some(format!("{flaw}: {other}, and not {expected:?}")),
-            Ok(()) => Some(format!("{flaw}: accepted")),
+            Ok(_) => Some(format!("{flaw}: accepted")),
         });
     let wrong: Vec<_> = wrong.collect();
     assert!(wrong.is_empty(), "{wrong:#?}");

@@ -1,9 +1,7 @@
 //! Formulas in Coq's notation.
 
-use super::print::ascii;
 use crate::formula::Relation;
-use crate::proof::kernel::algebra::{Poly, Ratio, Symbol};
-use std::collections::BTreeMap;
+use crate::proof::check::Polynomial;
 use std::fmt;
 
 /// A formula in Coq.
@@ -14,7 +12,6 @@ pub(super) enum Expr {
     Number(String),
     Neg(Box<Expr>),
     Binary(Operator, Box<Expr>, Box<Expr>),
-    Power(Box<Expr>, u32),
     /// A function and its arguments.
     Call(String, Vec<Expr>),
 }
@@ -30,6 +27,10 @@ pub(super) enum Operator {
 impl Expr {
     pub(super) fn name(name: impl Into<String>) -> Self {
         Expr::Name(name.into())
+    }
+
+    pub(super) fn call(function: &str, arguments: Vec<Expr>) -> Self {
+        Expr::Call(function.into(), arguments)
     }
 
     pub(super) fn int(n: i32) -> Self {
@@ -73,32 +74,21 @@ impl Expr {
         }
     }
 
-    /// Returns a polynomial as a sum of products of powers.
-    pub(super) fn poly(poly: &Poly) -> Self {
+    /// Returns a polynomial as a sum of products.
+    pub(super) fn polynomial(of: &Polynomial, variable: impl Fn(usize) -> Expr) -> Self {
         let mut sum: Option<Expr> = None;
-        for (exponent, part) in by_exponent(poly) {
-            let exponential = exponent.map(|e| Expr::Call("exp".into(), vec![Expr::ratio(e)]));
-            for (monomial, coefficient) in part.terms().rev() {
-                let coefficient = coefficient.to_rational();
-                let number = |n: &rug::Integer| Expr::Number(n.clone().abs().to_string());
-                let mut factors: Vec<Expr> = monomial.powers().map(power).collect();
-                factors.extend(exponential.clone());
-                let size = number(coefficient.numer());
-                let product = factors.into_iter().fold(size, Expr::times);
-                let term = product.over(number(coefficient.denom()));
-                sum = Some(match (sum, coefficient.is_negative()) {
-                    (None, false) => term,
-                    (None, true) => term.negated(),
-                    (Some(sum), false) => sum.plus(term),
-                    (Some(sum), true) => Expr::binary(Operator::Sub, sum, term),
-                });
-            }
+        for (powers, number) in of.terms() {
+            let size = Expr::Number(number.unsigned_abs().to_string());
+            let factors = powers.iter().enumerate().flat_map(|(x, n)| vec![x; usize::from(*n)]);
+            let term = factors.fold(size, |product, x| product.times(variable(x)));
+            sum = Some(match (sum, *number < 0) {
+                (None, false) => term,
+                (None, true) => term.negated(),
+                (Some(sum), false) => sum.plus(term),
+                (Some(sum), true) => Expr::binary(Operator::Sub, sum, term),
+            });
         }
         sum.unwrap_or(Expr::int(0))
-    }
-
-    pub(super) fn ratio(ratio: &Ratio) -> Self {
-        Expr::poly(ratio.num()).over(Expr::poly(ratio.den()))
     }
 
     /// Substitutes an expression for a name.
@@ -109,7 +99,6 @@ impl Expr {
             Expr::Name(_) | Expr::Number(_) => self.clone(),
             Expr::Neg(a) => Expr::Neg(with(a)),
             Expr::Binary(operator, a, b) => Expr::Binary(*operator, with(a), with(b)),
-            Expr::Power(a, n) => Expr::Power(with(a), *n),
             Expr::Call(function, arguments) => {
                 Expr::Call(function.clone(), arguments.iter().map(|a| a.substitute(name, by)).collect())
             }
@@ -130,7 +119,6 @@ impl Expr {
         match self {
             Expr::Name(_) | Expr::Number(_) => 0,
             Expr::Call(..) => 10,
-            Expr::Power(..) => 30,
             Expr::Neg(_) => 35,
             Expr::Binary(operator, ..) => operator.level(),
         }
@@ -149,28 +137,6 @@ impl Expr {
     /// Writes the base of a power.
     pub(super) fn base(&self) -> String {
         self.within(10)
-    }
-}
-
-/// Groups the terms of a polynomial by their factor e^…, without it.
-pub(super) fn by_exponent(poly: &Poly) -> BTreeMap<Option<&Ratio>, Poly> {
-    let mut parts = BTreeMap::<_, Vec<_>>::new();
-    for (monomial, coefficient) in poly.terms() {
-        parts
-            .entry(monomial.exponent())
-            .or_default()
-            .push((monomial.without_exponential(), coefficient.clone()));
-    }
-    parts.into_iter().map(|(exponent, terms)| (exponent, terms.into_iter().collect())).collect()
-}
-
-fn power((symbol, n): (Symbol, u32)) -> Expr {
-    let symbol = Expr::Name(ascii(symbol.name()));
-    match n {
-        1 => symbol,
-        // Written as a square where possible, so that its sign is evident.
-        n if n % 2 == 0 && n > 2 => Expr::Power(Expr::Power(symbol.into(), n / 2).into(), 2),
-        n => Expr::Power(symbol.into(), n),
     }
 }
 
@@ -197,7 +163,6 @@ impl fmt::Display for Expr {
                 };
                 write!(f, "{} {sign} {}", a.within(operator.level()), b.within(operator.level() - 1))
             }
-            Expr::Power(a, n) => write!(f, "{} ^ {n}", a.base()),
             Expr::Call(function, arguments) => {
                 f.write_str(function)?;
                 arguments.iter().try_for_each(|argument| write!(f, " {}", argument.argument()))
@@ -211,12 +176,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn polynomials_are_sums_of_powers() {
-        let x = |name| Poly::symbol(Symbol::Own(name));
-        let square = x("a") * x("a");
-        let fourth = Poly::constant(-3) * &square * &square;
-        assert_eq!(Expr::poly(&(fourth + x("b"))).to_string(), "- (3 * (a ^ 2) ^ 2) + b");
-        assert_eq!(Expr::poly(&(square * Poly::constant((1, 2)))).to_string(), "a ^ 2 / 2");
-        assert_eq!(Expr::poly(&Poly::zero()).to_string(), "0");
+    fn polynomials_are_sums_of_products() {
+        let [a, b] = [0, 1].map(|x| Polynomial::variable(x).unwrap());
+        let square = a.times(&a).unwrap();
+        let text = |of: &Polynomial| Expr::polynomial(of, |x| Expr::name(["a", "b"][x])).to_string();
+        assert_eq!(text(&b.plus_multiple(-3, &square).unwrap()), "b - 3 * a * a");
+        assert_eq!(text(&Polynomial::zero().plus_multiple(-1, &square).unwrap()), "- (a * a)");
+        assert_eq!(text(&Polynomial::zero()), "0");
     }
 }

@@ -130,30 +130,94 @@ Proof.
   - intros [A B]%andb_prop. rewrite (I c), (J d); auto.
 Qed.
 
-(** ** Signs of polynomials
+(** A sum of products, each of a number and of variables, which may recur. *)
+Definition terms : Type := list (list Z).
 
-    The variables come in two parts: first those of known sign, or of which nothing is known; then the
-    units, which lie between -1 and 1. For each monomial in the first ones stands a polynomial in the
-    units. If all of these are at least 0, and their monomials are, the whole is. *)
-Inductive sign := Positive | NonNegative | Unknown.
+Definition of_term (t : list Z) : poly :=
+  match t with
+  | [] => Const 0
+  | z :: l => fold_right (fun n => mul (variable (Z.to_nat n))) (Const z) l
+  end.
+Definition of_terms (l : terms) : poly := fold_right (fun t => add (of_term t)) (Const 0) l.
 
-Definition of_sign (s : sign) (x : R) : Prop :=
-  match s with
+(** A polynomial of polynomials. *)
+Fixpoint compose (values : list poly) (p : poly) : poly :=
+  match p with
+  | Const z => Const z
+  | Grow p q => add (compose (tl values) p) (mul (hd (Const 0) values) (compose values q))
+  end.
+
+Lemma value_compose env p :
+  forall values, value env (compose values p) = value (map (value env) values) p.
+Proof.
+  induction p as [z | p I q J]; intros values; cbn [compose value]; [reflexivity | ].
+  rewrite value_add, value_mul, I, J. destruct values as [ | v values]; simpl; ring.
+Qed.
+
+(** ** Signs of forms
+
+    What is known of a number: its sign, or that it lies between -1 and 1, or nothing. *)
+Inductive kind := Positive | NonNegative | Zero | NonPositive | Negative | Unit | Any.
+
+Definition of_kind (k : kind) (x : R) : Prop :=
+  match k with
   | Positive => 0 < x
   | NonNegative => 0 <= x
-  | Unknown => True
+  | Zero => x = 0
+  | NonPositive => x <= 0
+  | Negative => x < 0
+  | Unit => -1 <= x <= 1
+  | Any => True
   end.
 
-Fixpoint units (env : list R) : Prop :=
-  match env with
-  | [] => True
-  | e :: env => -1 <= e <= 1 /\ units env
+Definition plus (j k : kind) : kind :=
+  match j, k with
+  | Zero, k | k, Zero => match k with Unit => Any | k => k end
+  | Positive, (Positive | NonNegative) | NonNegative, Positive => Positive
+  | NonNegative, NonNegative => NonNegative
+  | Negative, (Negative | NonPositive) | NonPositive, Negative => Negative
+  | NonPositive, NonPositive => NonPositive
+  | _, _ => Any
   end.
 
-Fixpoint fits (signs : list sign) (env : list R) : Prop :=
-  match signs with
-  | [] => units env
-  | k :: signs => of_sign k (hd 0 env) /\ fits signs (tl env)
+Definition opposite (k : kind) : kind :=
+  match k with
+  | Positive => Negative
+  | NonNegative => NonPositive
+  | NonPositive => NonNegative
+  | Negative => Positive
+  | k => k
+  end.
+
+Definition product (j k : kind) : kind :=
+  match j, k with
+  | Zero, _ | _, Zero => Zero
+  | (Unit | Any), _ | _, (Unit | Any) => Any
+  | Positive, k | k, Positive => k
+  | Negative, k | k, Negative => opposite k
+  | NonNegative, k | k, NonNegative => k
+  | NonPositive, NonPositive => NonNegative
+  end.
+
+Definition is_strict (k : kind) : bool :=
+  match k with
+  | Positive | Negative => true
+  | _ => false
+  end.
+
+(** Does the second follow from the first? *)
+Definition implies (j k : kind) : bool :=
+  match j, k with
+  | Positive, (Positive | NonNegative) | NonNegative, NonNegative | Zero, (NonNegative | Zero | NonPositive)
+  | Negative, (Negative | NonPositive) | NonPositive, NonPositive => true
+  | _, _ => false
+  end.
+
+Definition of_number (z : Z) : kind :=
+  match z with
+  | Zpos _ => Positive
+  | Z0 => Zero
+  | Zneg _ => Negative
   end.
 
 (** Of a polynomial in units: no value is greater in size. *)
@@ -163,113 +227,74 @@ Fixpoint size (p : poly) : Z :=
   | Grow p q => size p + size q
   end.
 
-(** No value is less. *)
-Fixpoint least_by_size (p : poly) : Z :=
+(** No value is less, of the polynomial times a square that is at most 1; and times the first unit and such a
+    square. *)
+Fixpoint least_of_even (p : poly) : Z :=
+  match p with
+  | Const z => Z.min 0 z
+  | Grow p q =>
+      least_of_even p +
+      match q with Const z => - Z.abs z | Grow q r => least_of_even r - size q end
+  end.
+Definition least_of_odd (p : poly) : Z :=
+  match p with
+  | Const z => - Z.abs z
+  | Grow q r => least_of_even r - size q
+  end.
+Fixpoint least (p : poly) : Z :=
   match p with
   | Const z => z
-  | Grow p q => least_by_size p - size q
+  | Grow p q => least p + least_of_odd q
   end.
 
-(** The same, sharper where it must be. In p + e (q + e r), what is of degree one in e is least at one of
-    the ends of e, and e^2 lies between 0 and 1. If there is no higher power, Bernstein's form is tried as
-    well. No more than [n] units are tried. *)
-Fixpoint least (n : nat) (p : poly) : Z :=
-  let z := least_by_size p in
-  match n with
-  | O => z
-  | S n =>
-      if (0 <? z)%Z then z else
-      match p with
-      | Const z => z
-      | Grow p (Const z) => least n p - Z.abs z
-      | Grow p (Grow q r) =>
-          let z := (Z.min (least n (add p q)) (least n (add p (times (-1) q))) + Z.min 0 (least n r))%Z in
-          match r with
-          | Grow _ (Grow _ _) | Grow _ (Const (Zpos _ | Zneg _)) => z
-          | Const _ | Grow _ (Const 0) =>
-              let r := match r with Grow r _ => r | r => r end in
-              let ends := Z.min (least n (add (add p r) q)) (least n (add (add p r) (times (-1) q))) in
-              if (0 <? z)%Z then z else Z.max z (Z.min ends (least n (add p (times (-1) r))))
-          end
+Definition of_units (p : poly) : kind :=
+  match of_number (least p) with
+  | Positive => Positive
+  | j =>
+      match j, of_number (least (times (-1) p)) with
+      | _, Positive => Negative
+      | Zero, Zero => Zero
+      | Zero, _ => NonNegative
+      | _, Zero => NonPositive
+      | _, _ => Any
       end
   end.
 
-Definition sign_of_number (z : Z) : sign :=
-  match z with
-  | Zpos _ => Positive
-  | Z0 => NonNegative
-  | Zneg _ => Unknown
+(** Units come last: for each product of the others stands a polynomial in units. *)
+Fixpoint of_form (kinds : list kind) (p : poly) : kind :=
+  match kinds, p with
+  | _, Const z => of_number z
+  | [], _ => Any
+  | Unit :: others, _ => if forallb (fun k => match k with Unit => true | _ => false end) others then of_units p else Any
+  | Zero :: others, Grow p _ => of_form others p
+  | Any :: others, Grow p (Const 0) => of_form others p
+  | Any :: others, Grow p (Grow (Const 0) q) =>
+      plus (of_form others p) (product NonNegative (of_form kinds q))
+  | Any :: _, Grow _ _ => Any
+  | k :: others, Grow p q => plus (of_form others p) (product k (of_form kinds q))
   end.
 
-(** Of a sum, and of a product with what is not negative. *)
-Definition both (s t : sign) : sign :=
-  match s, t with
-  | Unknown, _ | _, Unknown => Unknown
-  | NonNegative, NonNegative => NonNegative
-  | _, _ => Positive
-  end.
+Lemma of_plus j k x y : of_kind j x -> of_kind k y -> of_kind (plus j k) (x + y).
+Proof. destruct j, k; simpl; try exact (fun _ _ => I); lra. Qed.
 
-Definition weak (s : sign) : sign :=
-  match s with
-  | Positive => NonNegative
-  | _ => s
-  end.
+Lemma of_product j k x y : of_kind j x -> of_kind k y -> of_kind (product j k) (x * y).
+Proof. destruct j, k; simpl; try exact (fun _ _ => I); nra. Qed.
 
-Fixpoint sign_of_terms (signs : list sign) (p : poly) : sign :=
-  match signs, p with
-  | _, Const z => sign_of_number z
-  | [], _ => sign_of_number (least 24 p)
-  | Positive :: others, Grow p q => both (sign_of_terms others p) (sign_of_terms signs q)
-  | NonNegative :: others, Grow p q => both (sign_of_terms others p) (weak (sign_of_terms signs q))
-  | Unknown :: others, Grow p (Const 0) => sign_of_terms others p
-  | Unknown :: others, Grow p (Grow (Const 0) q) =>
-      both (sign_of_terms others p) (weak (sign_of_terms signs q))
-  | Unknown :: _, Grow _ _ => Unknown
-  end.
+Lemma of_implies j k x : implies j k = true -> of_kind j x -> of_kind k x.
+Proof. destruct j, k; simpl; try discriminate; lra. Qed.
 
-(** With a number for the n-th variable. *)
-Fixpoint put (n : nat) (z : Z) (p : poly) : poly :=
-  match n, p with
-  | _, Const y => Const y
-  | O, Grow p q => add (grow p (Const 0)) (scale z (put O z q))
-  | S n, Grow p q => grow (put n z p) (put (S n) z q)
-  end.
+Lemma strict_not_zero k x : is_strict k = true -> of_kind k x -> x <> 0.
+Proof. destruct k; simpl; try discriminate; lra. Qed.
 
-(** If twice a polynomial is p + x (q + x r), and 4 r p - q^2 is at least 0, then so is it if r > 0: for 4 r
-    times that is (2 r x + q)^2 more than this. If r = 0, then q = 0, and the sign is that of p. *)
-Definition sign_of_square (signs : list sign) (a : poly) (n : nat) : sign :=
-  let x := variable n in
-  let p := times 2 (put n 0 a) in
-  let q := add (put n 1 a) (times (-1) (put n (-1) a)) in
-  let r := add (add (put n 1 a) (put n (-1) a)) (times (-1) p) in
-  if same (times 2 a) (add p (mul x (add q (mul x r)))) then
-    match sign_of_terms signs r, sign_of_terms signs p with
-    | Unknown, _ | NonNegative, Unknown => Unknown
-    | _, _ => sign_of_terms signs (add (times 4 (mul r p)) (times (-1) (mul q q)))
-    end
-  else Unknown.
+Lemma sign_of_number z : of_kind (of_number z) (IZR z).
+Proof. destruct z; simpl; [reflexivity | apply (IZR_lt 0) | apply (IZR_lt _ 0)]; reflexivity. Qed.
 
-Fixpoint sign_of_squares (signs : list sign) (a : poly) (n : nat) : sign :=
-  match n with
-  | O => Unknown
-  | S n =>
-      match sign_of_square signs a n with
-      | Unknown => sign_of_squares signs a n
-      | s => s
-      end
-  end.
+Definition all_units (env : list R) := Forall (of_kind Unit) env.
 
-(** By its terms, or else as a square in one of the variables, of the units in one of the first twelve. *)
-Definition sign_of (signs : list sign) (p : poly) : sign :=
-  match sign_of_terms signs p with
-  | Unknown => sign_of_squares signs p (12 + length signs)
-  | s => s
-  end.
+Lemma units_tl env : all_units env -> all_units (tl env) /\ -1 <= hd 0 env <= 1.
+Proof. intros [ | e l E U]; simpl; [split; [constructor | lra] | split; assumption]. Qed.
 
-Lemma units_tl env : units env -> units (tl env) /\ -1 <= hd 0 env <= 1.
-Proof. destruct env as [ | e env]; simpl; [lra | tauto]. Qed.
-
-Lemma value_size p env : units env -> - IZR (size p) <= value env p <= IZR (size p).
+Lemma value_size p env : all_units env -> - IZR (size p) <= value env p <= IZR (size p).
 Proof.
   revert env; induction p as [z | p I q J]; intros env U; simpl.
   - rewrite abs_IZR. unfold Rabs. destruct (Rcase_abs (IZR z)); lra.
@@ -277,128 +302,57 @@ Proof.
     specialize (I _ T). specialize (J _ U). nra.
 Qed.
 
-Lemma value_least_from z p q env :
-  units env -> IZR z <= value (tl env) p -> IZR (z - size q) <= value env (Grow p q).
+Lemma value_least_of p :
+  forall env m, all_units env -> 0 <= m <= 1 ->
+  IZR (least_of_even p) <= m * value env p /\ IZR (least_of_odd p) <= m * hd 0 env * value env p.
 Proof.
-  intros U L. destruct (units_tl env U) as [_ B]. pose proof (value_size q env U).
-  rewrite minus_IZR. cbn [value]. nra.
+  induction p as [z | p I q J]; intros env m U M; destruct (units_tl env U) as [T B].
+  - cbn [least_of_even least_of_odd value]. rewrite opp_IZR, abs_IZR. split.
+    + destruct (Z.min_spec 0 z) as [[L ->] | [L ->]]; [apply IZR_lt in L | apply IZR_le in L]; nra.
+    + assert (-1 <= m * hd 0 env <= 1) by nra. unfold Rabs. destruct (Rcase_abs (IZR z)); nra.
+  - change (least_of_even (Grow p q)) with (least_of_even p + least_of_odd q)%Z.
+    cbn [least_of_odd value]. rewrite plus_IZR, minus_IZR.
+    destruct (I (tl env) m T M) as [P _], (J env m U M) as [_ Q]. split; [lra | ].
+    assert (0 <= hd 0 env * hd 0 env <= 1) as S by nra.
+    assert (0 <= m * (hd 0 env * hd 0 env) <= 1) as N by (generalize dependent (hd 0 env * hd 0 env); intros; nra).
+    destruct (J env (m * (hd 0 env * hd 0 env)) U N) as [Q' _].
+    assert (- IZR (size p) <= m * hd 0 env * value (tl env) p).
+    { pose proof (value_size p (tl env) T). assert (-1 <= m * hd 0 env <= 1) by nra. nra. }
+    lra.
 Qed.
 
-Lemma value_least_by_size p env : units env -> IZR (least_by_size p) <= value env p.
+Lemma value_least p : forall env, all_units env -> IZR (least p) <= value env p.
 Proof.
-  revert env; induction p as [z | p I q _]; intros env U; [apply Rle_refl | ].
-  apply value_least_from, I, units_tl; exact U.
+  induction p as [z | p I q _]; intros env U; cbn [least value]; [lra | ].
+  rewrite plus_IZR. destruct (units_tl env U) as [T _]. pose proof (I _ T).
+  destruct (value_least_of q env 1 U) as [_ Q]; lra.
 Qed.
 
-(** What is of degree two or less. *)
-Lemma least_at_ends (e p q r : R) (x y z : Z) :
-  -1 <= e <= 1 -> IZR x <= p + q -> IZR y <= p + -1 * q -> IZR z <= r ->
-  IZR (Z.min x y + Z.min 0 z) <= p + e * (q + e * r).
+Lemma sign_of_units p env : all_units env -> of_kind (of_units p) (value env p).
 Proof.
-  intros B X Y L. rewrite plus_IZR.
-  assert (IZR (Z.min x y) <= p + e * q).
-  { destruct (Z.min_spec x y) as [[M ->] | [M ->]]; [apply IZR_lt in M | apply IZR_le in M]; nra. }
-  assert (IZR (Z.min 0 z) <= e * e * r).
-  { assert (0 <= e * e <= 1) by nra.
-    destruct (Z.min_spec 0 z) as [[M ->] | [M ->]]; [apply IZR_lt in M | apply IZR_le in M]; nra. }
-  lra.
+  intro U. pose proof (value_least p env U) as L. pose proof (value_least (times (-1) p) env U) as M.
+  rewrite value_times in M. unfold of_units.
+  pose proof (sign_of_number (least p)). pose proof (sign_of_number (least (times (-1) p))).
+  destruct (of_number (least p)), (of_number (least (times (-1) p))); simpl in *; try exact I; lra.
 Qed.
 
-(** Bernstein's form of degree two. *)
-Lemma least_of_square (e p q r : R) (x y z : Z) :
-  -1 <= e <= 1 -> IZR x <= p + r + q -> IZR y <= p + r + -1 * q -> IZR z <= p + -1 * r ->
-  IZR (Z.min (Z.min x y) z) <= p + e * (q + e * r).
+Lemma sign_of_form kinds : forall p env, Forall2 of_kind kinds env -> of_kind (of_form kinds p) (value env p).
 Proof.
-  intros B X Y L. set (m := Z.min (Z.min x y) z).
-  assert (IZR m <= p + r + q) by (apply Rle_trans with (2 := X), IZR_le; unfold m; lia).
-  assert (IZR m <= p + r + -1 * q) by (apply Rle_trans with (2 := Y), IZR_le; unfold m; lia).
-  assert (IZR m <= p + -1 * r) by (apply Rle_trans with (2 := L), IZR_le; unfold m; lia).
-  assert (0 <= (1 + e) * (1 + e)) by apply Rle_0_sqr.
-  assert (0 <= (1 - e) * (1 - e)) by apply Rle_0_sqr.
-  assert (0 <= (1 + e) * (1 - e)) by nra.
-  nra.
-Qed.
-
-Lemma value_least n p env : units env -> IZR (least n p) <= value env p.
-Proof.
-  revert p env; induction n as [ | n I]; intros p env U; pose proof (value_least_by_size p env U) as S;
-    cbn [least]; [exact S | destruct (0 <? least_by_size p)%Z; [exact S | clear S]].
-  destruct p as [z | p [z | q r]]; [apply Rle_refl | |]; pose proof (units_tl env U) as [T B].
-  - apply (value_least_from _ p (Const z) env U), I, T.
-  - cbv zeta. set (z := (Z.min (least n (add p q)) _ + _)%Z).
-    assert (A : IZR z <= value env (Grow p (Grow q r))).
-    { apply least_at_ends; [exact B | | | apply I, U].
-      + rewrite <- value_add. apply I, T.
-      + rewrite <- value_times, <- value_add. apply I, T. }
-    assert (forall r', value env r = value (tl env) r' ->
-      IZR (Z.min (Z.min (least n (add (add p r') q)) (least n (add (add p r') (times (-1) q))))
-        (least n (add p (times (-1) r')))) <= value env (Grow p (Grow q r))) as C.
-    { intros r' E. cbn [value]. rewrite E. apply least_of_square; [exact B | | |];
-        rewrite <- ?value_times, <- ?value_add; apply I, T. }
-    destruct r as [y | r [[ | y | y] | ? ?]]; try exact A;
-      (destruct (0 <? z)%Z; [exact A | ]); unfold Z.max; destruct (z ?= _)%Z; try exact A; apply C;
-      cbn [value]; ring.
-Qed.
-
-Lemma of_number z x : IZR z <= x -> of_sign (sign_of_number z) x.
-Proof.
-  destruct z as [ | z | z]; simpl; intro L; [exact L | | exact I].
-  apply Rlt_le_trans with (2 := L). apply (IZR_lt 0). reflexivity.
-Qed.
-
-Lemma of_both s t x y : of_sign s x -> of_sign t y -> of_sign (both s t) (x + y).
-Proof. destruct s, t; simpl; lra. Qed.
-
-Lemma of_weak s x y : of_sign s x -> 0 <= y -> of_sign (weak s) (y * x).
-Proof. destruct s; simpl; intros; try exact I; apply Rmult_le_pos; lra. Qed.
-
-Lemma of_positive s x y : of_sign s x -> 0 < y -> of_sign s (y * x).
-Proof. destruct s; simpl; intros; try exact I; [apply Rmult_lt_0_compat | apply Rmult_le_pos]; lra. Qed.
-
-Lemma complete_square s (p q r x : R) :
-  0 < r \/ 0 = r /\ 0 <= p -> of_sign s (4 * (r * p) + -1 * (q * q)) -> of_sign s (p + x * (q + x * r)).
-Proof.
-  intros [R | [<- P]] D.
-  - replace (p + _) with (/ (4 * r) * (4 * (r * p) + -1 * (q * q) + Rsqr (2 * r * x + q)))
-      by (unfold Rsqr; field; lra).
-    apply of_positive; [ | apply Rinv_0_lt_compat; lra].
-    pose proof (Rle_0_sqr (2 * r * x + q)). destruct s; simpl in *; lra.
-  - pose proof (Rle_0_sqr q) as Q. unfold Rsqr in Q. destruct s; simpl in *; try exact I; [lra | ].
-    replace q with 0 by (symmetry; apply Rsqr_0_uniq; unfold Rsqr; lra). lra.
-Qed.
-
-Lemma of_terms signs p env : fits signs env -> of_sign (sign_of_terms signs p) (value env p).
-Proof.
-  revert signs p env; fix right 2; intros signs [z | p q] env F.
-  - destruct signs as [ | [ | | ] others]; apply of_number, Rle_refl.
-  - destruct signs as [ | k others]; [apply of_number, (value_least 24 (Grow p q)), F | ].
-    pose proof F as [K T]. pose proof (right others p _ T) as P.
-    pose proof (right (k :: others) q _ F) as Q.
-    destruct k; cbn [sign_of_terms value].
-    + apply of_both, of_positive; assumption.
-    + apply of_both, of_weak; assumption.
-    + destruct q as [[ | | ] | [[ | | ] | ] q]; try exact I.
-      * simpl. rewrite Rmult_0_r, Rplus_0_r. exact P.
-      * apply of_both; [exact P | ]. cbn [value].
-        replace (_ * _) with (hd 0 env * hd 0 env * value env q) by ring.
-        apply of_weak; [apply (right (Unknown :: others)), F | apply Rle_0_sqr].
-Qed.
-
-Lemma of_poly signs p env : fits signs env -> of_sign (sign_of signs p) (value env p).
-Proof.
-  intro F. unfold sign_of. pose proof (of_terms signs p env F) as T.
-  destruct (sign_of_terms signs p); [exact T | exact T | clear T].
-  induction (12 + length signs)%nat as [ | n I]; [exact Logic.I | ]. cbn [sign_of_squares].
-  enough (of_sign (sign_of_square signs p n) (value env p))
-    by (destruct (sign_of_square signs p n); assumption).
-  unfold sign_of_square. destruct (same _ _) eqn:E; [ | exact Logic.I].
-  apply (same_value _ _ env) in E. rewrite value_times, value_add, value_mul, value_add, value_mul in E.
-  set (a := times 2 _) in *. set (q := add _ (times _ (put _ _ _))) in *. set (r := add (add _ _) _) in *.
-  pose proof (of_terms signs a env F) as A. pose proof (of_terms signs r env F) as R.
-  pose proof (of_terms signs (add (times 4 (mul r a)) (times (-1) (mul q q))) env F) as D.
-  rewrite value_add, !value_times, !value_mul in D.
-  replace (value env p) with (/ 2 * (2 * value env p)) by field. rewrite E.
-  apply of_positive; [ | lra].
-  destruct (sign_of_terms signs r), (sign_of_terms signs a); try exact Logic.I;
-    (apply complete_square; [ | exact D]); simpl in *; lra.
+  induction kinds as [ | k kinds I].
+  { intros [z | p q] env _; [apply sign_of_number | exact Logic.I]. }
+  intros p env F. inversion F as [ | k' x l env' K T]; subst k' l env.
+  enough (of_kind (of_form (k :: kinds) p) (value (x :: env') p) /\
+    match p with Grow _ q => of_kind (of_form (k :: kinds) q) (value (x :: env') q) | _ => True end) by tauto.
+  induction p as [z | p _ q [Q R]]; [split; [destruct k; apply sign_of_number | exact Logic.I] | ].
+  split; [ | exact Q]. pose proof (I p env' T) as P.
+  destruct k; cbn [of_form value hd tl]; try (apply of_plus, of_product; assumption).
+  - simpl in K. rewrite K, Rmult_0_l, Rplus_0_r. exact P.
+  - destruct (forallb _ kinds) eqn:E; [ | exact Logic.I].
+    apply (sign_of_units (Grow p q) (x :: env')). constructor; [exact K | ]. clear - T E.
+    induction T as [ | k y ks ys Y T I]; constructor; simpl in E;
+      destruct k; try discriminate; [exact Y | apply I, E].
+  - destruct q as [[ | | ] | [[ | | ] | ] r]; try exact Logic.I.
+    + simpl. rewrite Rmult_0_r, Rplus_0_r. exact P.
+    + cbn [value hd tl]. replace (value env' p + _) with (value env' p + x * x * value (x :: env') r) by ring.
+      apply of_plus; [exact P | ]. apply of_product; [apply Rle_0_sqr | exact R].
 Qed.

@@ -50,6 +50,24 @@ pub(super) fn function(formula: &Formula) -> String {
     free(formula.name().replace("::", "_").replace('.', "_"))
 }
 
+/// Returns a formula without the operations 0 x, 1 x and x + 0 that the rules of differentiation produce.
+pub(super) fn simplified(tree: &Tree) -> Tree {
+    let is = |tree: &Tree, n| *tree.op() == Op::Int(n);
+    tree.rewrite(&|tree| {
+        if !tree.site().is_in_dual_numbers() {
+            return None;
+        }
+        match tree.op() {
+            Op::Add(a, b) if is(a, 0) => Some(b.clone()),
+            Op::Add(a, b) | Op::Sub(a, b) if is(b, 0) => Some(a.clone()),
+            Op::Mul(a, b) if is(a, 0) || is(b, 1) => Some(a.clone()),
+            Op::Mul(a, b) if is(b, 0) || is(a, 1) => Some(b.clone()),
+            Op::Div(a, _) if is(a, 0) => Some(a.clone()),
+            _ => None,
+        }
+    })
+}
+
 /// Printer of formulas with the names of a registry's functions.
 #[derive(Clone, Copy)]
 pub(super) struct Printer<'a> {

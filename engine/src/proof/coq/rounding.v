@@ -2,7 +2,7 @@
 
     Without under- and overflow, to round to [prec] bits is to multiply by 1 + e/(n + 1), where n = 2^prec
     and e is some number from -1 to 1. What is said of computed values is then said of quotients of
-    polynomials, whose signs a program decides. *)
+    polynomials, for whose signs there are certificates. *)
 From Coq Require Import ZArith Lia.
 From Flocq Require Import Core Relative.
 From LIBRARY Require Import A_Tactics.
@@ -52,37 +52,12 @@ Proof.
 Qed.
 End Rounding.
 
-(** With what [model] says of each rounding, the last of them first. *)
-Ltac rounded E :=
-  repeat match goal with
-  | F : fl _ _ ?x = ?x * _ / _ |- _ => rewrite F in *; clear F
-  end;
-  clear E.
-
-(** ** Signs of what is rounded: those that it had *)
-Lemma fl_by_factor prec choice x : (2 <= prec)%Z -> exists k, 0 < k /\ fl prec choice x = x * k.
-Proof.
-  intro P. pose proof (four_at_least prec _ P eq_refl) as N.
-  destruct (model prec choice _ P eq_refl x) as (e & B & ->).
-  exists ((bpow radix2 prec + 1 + e) / (bpow radix2 prec + 1)).
-  split; [apply Rdiv_lt_0_compat; lra | field; lra].
-Qed.
-
-Lemma fl_not_zero prec choice x : (2 <= prec)%Z -> x <> 0 -> fl prec choice x <> 0.
-Proof.
-  intros P X. destruct (fl_by_factor prec choice x P) as (k & K & ->).
-  apply Rmult_integral_contrapositive_currified; lra.
-Qed.
-
 (** ** Order
 
-    Rounding keeps it, and so does each step; what is left is to compare what is no longer alike, and that
-    a factor or divisor in common is not negative. *)
-Lemma difference a b : a <= b -> 0 <= b - a.
-Proof. lra. Qed.
-
-Lemma quotient_le a b d : 0 < d -> a <= b -> a / d <= b / d.
-Proof. intros. apply Rmult_le_compat_r; [ | assumption]. apply Rlt_le, Rinv_0_lt_compat. assumption. Qed.
+    Rounding keeps it. *)
+Lemma ordered prec choice a b x y :
+  (2 <= prec)%Z -> fl prec choice a = x -> fl prec choice b = y -> 0 <= a - b -> 0 <= x - y.
+Proof. intros P <- <- L. apply Rge_le, Rge_minus, Rle_ge, fl_le; [exact P | lra]. Qed.
 
 (** ** Units
 
@@ -101,20 +76,31 @@ Proof.
   intros [a ->] [b ->]. exists (a - b)%Z. unfold Zminus. rewrite bpow_plus, bpow_opp. reflexivity.
 Qed.
 
-Lemma power_not_zero k : (exists a, k = bpow radix2 a) -> k <> 0.
-Proof. intros [a ->]. apply Rgt_not_eq, bpow_gt_0. Qed.
+(** Two numbers that differ by a power of two have the same error. *)
+Lemma same_error prec choice k l x y a b :
+  (exists a, k = bpow radix2 a) -> (exists a, l = bpow radix2 a) ->
+  fl prec choice y = y * a / b -> k * x - l * y = 0 -> fl prec choice x = x * a / b.
+Proof.
+  intros K L F E. destruct (power_of_quotient l k L K) as [e Q].
+  assert (k <> 0) as N by (destruct K as [c ->]; apply Rgt_not_eq, bpow_gt_0).
+  assert (x = l / k * y) as -> by (apply (Rmult_eq_reg_l k); [field_simplify; lra | exact N]).
+  rewrite fl_power by (exists e; exact Q). rewrite F. unfold Rdiv. ring.
+Qed.
 
 Ltac power_of_two :=
   first
     [ eexists; eassumption
     | apply power_of_product; power_of_two
-    | apply power_of_quotient; power_of_two
     | exists 0%Z; reflexivity ].
-Ltac in_units k :=
-  rewrite <- (fl_power _ _ k) by power_of_two;
-  f_equal;
-  repeat match goal with U : fl _ _ _ = _ * fl _ _ _ |- _ => rewrite U; clear U end;
-  field; repeat split;
-  first [apply power_not_zero; power_of_two | lra | apply fl_not_zero; [assumption | not_zero] | not_zero].
-Ltac by_units :=
-  match goal with U : ?x = _ |- ?x = _ => rewrite U; ring end.
+
+(** The error of one rounding is that of another, if the formulas differ by a power of two. *)
+Ltac share F G k l :=
+  lazymatch type of F with
+  | fl ?p ?c ?x = _ =>
+      lazymatch type of G with
+      | fl _ _ ?y = ?y * ?a / ?b =>
+          let E := fresh in
+          assert (E : k * x - l * y = 0);
+          [ | apply (same_error p c k l x y a b) in E; [clear F; rename E into F | power_of_two | power_of_two | exact G]]
+      end
+  end.

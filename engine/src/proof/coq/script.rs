@@ -1,69 +1,122 @@
-//! Proofs of goals by Coq's tactics.
+//! Proofs of goals by Coq's tactics, from certificates.
 //!
-//! The search results of the kernel guide Coq where it would have to guess: the quantities to name, the
-//! cases, and the expressions whose sign is that of a slope. None of them is trusted: each is a goal that Coq
-//! proves by itself or rejects.
+//! A script follows the checker: each quantity that is not computed by the four operations gets a name, the
+//! facts are listed in the order in which the checker knows them, and a program proved correct in Coq checks
+//! the certificates.
 
+mod leaf;
 mod limit;
-mod retained;
-mod rounding;
+mod solution;
 
 use super::expr::Expr;
 use super::lemma::{Lemma, Result};
-use super::print::ascii;
+use super::print::{ascii, simplified};
+use crate::formula::claim::{PRECISION, SCALES};
 use crate::formula::{Hypothesis, Proposition, Registry, Statement};
-use crate::number::tree::Op;
-use crate::proof::kernel;
-use crate::proof::kernel::algebra::{Poly, Ratio, Symbol};
-use crate::proof::kernel::sign::{Certificate, Rule, Sign};
-use crate::proof::kernel::{Assumption, AssumptionUse, Derivation, Direct, Justification, SignedRatio};
+use crate::number::Tree;
+use crate::proof::check::Sign;
+use crate::proof::check::{Atom, Node, Polynomial, Problem, Refusal};
 use crate::proof::render::ProofPrinter;
-use retained::Retained;
+use crate::proof::search::prove_proposition;
 use std::fmt::Write;
 
 /// Lines of a proof.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Script {
     lines: String,
     indent: usize,
 }
 
-/// Position in a proof: the lemma, the number of assumptions used, and the number of cases among them.
-#[derive(Clone)]
-struct Place<'l> {
-    lemma: &'l Lemma<'l>,
-    proposition: &'l Proposition,
-    supposed: usize,
-    cases: usize,
-    kept: Retained,
+/// What the goal of a leaf is in Coq.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum End {
+    /// The proposition.
+    Proposition,
+    /// That the formula of an equation about a limit is continuous.
+    Continuity,
+    /// That the divisor of a formula is not 0.
+    Divisor,
 }
 
-impl<'l> Place<'l> {
-    fn new(lemma: &'l Lemma<'l>, proposition: &'l Proposition, kept: Retained) -> Self {
-        Place { lemma, proposition, supposed: 0, cases: 0, kept }
+/// A problem in Coq.
+struct Place<'p> {
+    lemma: &'p Lemma<'p>,
+    problem: &'p Problem<'p>,
+    /// The labels of its hypotheses.
+    labels: Vec<Option<String>>,
+    end: End,
+}
+
+fn refused(reason: Refusal) -> String {
+    format!("a proof that is refused: {reason:?}")
+}
+
+/// Returns a hypothesis as it is printed.
+fn simplified_hypothesis(given: &Hypothesis) -> Hypothesis {
+    Hypothesis { value: simplified(&given.value), ..given.clone() }
+}
+
+impl<'p> Place<'p> {
+    fn new(lemma: &'p Lemma<'p>, problem: &'p Problem<'p>, labels: Vec<Option<String>>) -> Self {
+        Place { lemma, problem, labels, end: End::Proposition }
     }
-}
 
-/// Returns `true` if an assumption is the sign of a symbol.
-fn is_sign_of(supposed: &Assumption, x: &Symbol) -> bool {
-    supposed.hypothesis.as_ref().is_some_and(|given| *given.value.op() == Op::Symbol(x.name()))
-}
+    /// Returns the certificates for the problem.
+    fn proof(&self) -> Result<Node> {
+        let Problem { proposition, hypotheses, .. } = self.problem;
+        let found = prove_proposition(proposition, hypotheses.clone()).map_err(|reason| {
+            let statement = Statement::new("", (*proposition).clone()).assuming(hypotheses.iter().copied());
+            let reason = ProofPrinter::new(&Registry::default()).describe(&statement, &reason);
+            format!("no proof to follow: {reason}")
+        })?;
+        Ok(found.0)
+    }
 
-/// # Errors
-/// Returns the reason if the kernel finds no derivation.
-pub(super) fn derivation(hypotheses: &[&Hypothesis], proposition: &Proposition) -> Result<Derivation> {
-    kernel::derivation(hypotheses, proposition).map_err(|reason| {
-        let statement = Statement::new("", proposition.clone()).assuming(hypotheses.iter().copied());
-        let reason = ProofPrinter::new(&Registry::default()).describe(&statement, &reason);
-        format!("no proof to follow: {reason}")
-    })
-}
+    /// Returns the name of an atom: that of a symbol, or s and its number.
+    fn name(&self, x: usize) -> String {
+        match self.problem.table.atoms().get(x) {
+            Some(Atom::Own(name)) => ascii(name),
+            _ => format!("s{x}"),
+        }
+    }
 
-/// Returns the first derivation without cases; all of them begin with the same assumptions.
-fn first(derivation: &Derivation) -> &Direct {
-    match derivation {
-        Derivation::Direct(direct) => direct,
-        Derivation::Cases(_, positive, _) => first(positive),
+    /// Returns a polynomial of atoms.
+    fn polynomial(&self, of: &Polynomial) -> Expr {
+        Expr::polynomial(of, |x| Expr::name(self.name(x)))
+    }
+
+    /// Writes the formula with a number as an argument.
+    fn formula(&self, number: usize) -> Result<String> {
+        let tree = self.problem.table.formula(number).map_err(refused)?;
+        Ok(self.lemma.printer.expr(tree).argument())
+    }
+
+    fn variable(&self, atom: Atom) -> Result<usize> {
+        self.problem.table.variable(atom).map_err(refused)
+    }
+
+    fn label(&self, i: usize) -> Result<&str> {
+        let label = self.labels.get(i).and_then(Option::as_ref);
+        label.map(String::as_str).ok_or_else(|| "a hypothesis about the variable of a limit".into())
+    }
+
+    /// Returns the labels of what is known of the atoms alone, and what it says: that they are units, or their
+    /// signs.
+    fn known_atoms(&self) -> impl Iterator<Item = (usize, String, Option<Sign>)> {
+        let scales = SCALES.into_iter().filter(|scale| self.lemma.variables.contains(scale));
+        let scales: Vec<_> = scales.collect();
+        self.problem.table.atoms().iter().enumerate().filter_map(move |(x, atom)| {
+            let own = format!("B{x}");
+            Some(match atom {
+                Atom::Own(name) => {
+                    let place = scales.iter().position(|scale| scale == name)?;
+                    (x, format!("Q{}", place + 1), Some(Sign::Positive))
+                }
+                Atom::Error(_) | Atom::Place(_) | Atom::Factor(_) => (x, own, None),
+                Atom::Size(_) => (x, own, Some(Sign::NonNegative)),
+                Atom::Exponential(_) => (x, own, Some(Sign::Positive)),
+            })
+        })
     }
 }
 
@@ -100,197 +153,96 @@ impl Script {
         Ok(())
     }
 
-    /// Proves a proposition, or one with the same assumptions, from the hypotheses of a lemma.
+    /// Proves a proposition from the hypotheses of a lemma.
     pub(super) fn goal(&mut self, lemma: &Lemma, proposition: &Proposition) -> Result<()> {
-        let derivation = derivation(lemma.premises(), proposition)?;
-        let direct = first(&derivation);
-        match (&direct.justification, proposition) {
-            (Justification::Equal(_), _) if !direct.roundings.is_empty() => {
-                return self.in_units(&direct.roundings, lemma);
-            }
-            (Justification::Order(_), Proposition::Sign(_, of)) => return self.order(of, lemma),
-            _ => {}
-        }
-        let kept = Retained::of(&derivation);
-        kept.name(self, lemma);
-        if lemma.rounds {
-            self.models(&direct.roundings, lemma);
-        }
-        self.derivation(Place::new(lemma, proposition, kept), &derivation)
+        self.goal_with_end(lemma, proposition, End::Proposition)
     }
 
-    /// Uses the hypotheses up to the next case.
-    fn hypotheses(&mut self, place: &mut Place, direct: &Direct) -> Result<()> {
-        while let Some(next) = direct.assumptions.get(place.supposed)
-            && let Some(given) = next.hypothesis.as_ref()
-        {
-            place.supposed += 1;
-            self.use_assumption(place.supposed, next, place.lemma.label(given))?;
-        }
-        Ok(())
+    /// Proves that the left side of an equation is continuous in the variable of the goal.
+    pub(super) fn continuity(&mut self, lemma: &Lemma, proposition: &Proposition) -> Result<()> {
+        self.goal_with_end(lemma, proposition, End::Continuity)
     }
 
-    fn derivation(&mut self, mut place: Place, derivation: &Derivation) -> Result<()> {
-        self.hypotheses(&mut place, first(derivation))?;
-        match derivation {
-            Derivation::Direct(direct) => self.direct(&place, direct),
-            Derivation::Cases(deciding, positive, not) => {
-                place.supposed += 1;
-                place.cases += 1;
-                let (case, branches) = (format!("C{}", place.cases), [positive, not]);
-                let split = |branch| first(branch).assumptions.get(place.supposed - 1);
-                if !place.kept.decide(self, &case, split(positive), first(positive)) {
-                    let deciding = Expr::poly(deciding).argument();
-                    self.line(&format!("destruct (either {deciding}) as [{case} | {case}]."));
-                }
-                for branch in branches {
-                    self.block("{", |own| {
-                        let split = &first(branch).assumptions[place.supposed - 1];
-                        own.use_assumption(place.supposed, split, Some(case.clone()))?;
-                        own.derivation(place.clone(), branch)
-                    })?;
+    /// Proves that a divisor is not 0.
+    pub(super) fn divisor(&mut self, lemma: &Lemma, divisor: &Tree) -> Result<()> {
+        let inverse = Tree::from(1) / divisor;
+        self.goal_with_end(lemma, &Proposition::Equal(inverse.clone(), inverse), End::Divisor)
+    }
+
+    fn goal_with_end(&mut self, lemma: &Lemma, proposition: &Proposition, end: End) -> Result<()> {
+        let (proposition, premises) = (proposition.map(&simplified), lemma.premises());
+        let hypotheses: Vec<_> = premises.iter().map(|given| simplified_hypothesis(given)).collect();
+        let problem = Problem::new(&proposition, hypotheses.iter().collect()).map_err(refused)?;
+        let labels = premises.iter().map(|given| lemma.label(given)).collect();
+        self.problem(&Place { end, ..Place::new(lemma, &problem, labels) })
+    }
+
+    /// Proves the proposition of a problem.
+    fn problem(&mut self, place: &Place) -> Result<()> {
+        let node = place.proof()?;
+        self.names(place, |_| true)?;
+        self.node(place, &node, &mut Vec::new())
+    }
+
+    fn node(&mut self, place: &Place, node: &Node, cases: &mut Vec<(Polynomial, Sign)>) -> Result<()> {
+        match node {
+            Node::Leaf(leaf) => self.leaf(place, leaf, cases),
+            Node::Cases(on, both) => {
+                let case = format!("C{}", cases.len() + 1);
+                let deciding = place.polynomial(on).argument();
+                self.line(&format!("destruct (either {deciding}) as [{case} | {case}]."));
+                for (node, sign) in both.iter().zip([Sign::Positive, Sign::NonPositive]) {
+                    cases.push((on.clone(), sign));
+                    self.block("{", |own| own.node(place, node, cases))?;
+                    cases.pop();
                 }
                 Ok(())
             }
         }
     }
 
-    /// Uses the i-th assumption.
-    fn use_assumption(&mut self, i: usize, supposed: &Assumption, hypothesis: Option<String>) -> Result<()> {
-        let strict = supposed.sign.is_strict();
-        match (&supposed.usage, hypothesis) {
-            (AssumptionUse::Implied | AssumptionUse::Retained | AssumptionUse::Unused, _) => {}
-            (AssumptionUse::Symbol(x), _) if is_sign_of(supposed, x) => {}
-            (AssumptionUse::Size { .. }, _) => return Err("an absolute value without cases".into()),
-            (_, None) => {
-                return Err("a hypothesis about the variable of a limit requires more than its sign".into());
-            }
-            (AssumptionUse::Symbol(x), Some(hypothesis)) => self.line(&format!(
-                "assert (P{i} : 0 {} {}) by (apply (same_sign _ _ _ {hypothesis}); decide_goal).",
-                if strict { "<" } else { "<=" },
-                ascii(x.name())
-            )),
-            (AssumptionUse::Interval(_, _, place), Some(hypothesis)) => {
-                let near = supposed.hypothesis.as_ref().is_some_and(|given| given.distance().is_some());
-                let (rule, place) = (if near { "near" } else { "between" }, ascii(place.name()));
-                self.line(&format!("destruct ({rule} _ _ _ {hypothesis}) as ({place} & T{i} & ->)."));
-            }
-            (AssumptionUse::Pivot(pivot, by, named), Some(hypothesis)) => {
-                let (mut value, mut hypothesis) = (Some(supposed.value.clone()), hypothesis);
-                if let Some(divisor) = supposed.divisor.as_ref() {
-                    value = supposed.value.over(divisor);
-                    let (divisor, rule) = (Expr::ratio(divisor), if strict { "lt" } else { "le" });
-                    hypothesis =
-                        format!("(Rdiv_{rule}_0_compat _ _ {hypothesis} (ltac:(bounded) : 0 < {divisor}))");
+    /// Introduces the chosen atoms with what defines them: B1, B2, … are their signs or bounds, F1, F2, … their
+    /// equations.
+    fn names(&mut self, place: &Place, is_chosen: impl Fn(usize) -> bool) -> Result<()> {
+        let precision = ascii(PRECISION);
+        if place.lemma.rounds {
+            self.line(&format!("pose proof (four_at_least prec {precision} P E) as N."));
+            self.line(&format!("assert (M : 0 <= {precision} - 4) by lra."));
+        }
+        let before = self.lines.len();
+        for (x, atom) in place.problem.table.atoms().iter().enumerate().filter(|(x, _)| is_chosen(*x)) {
+            let (rule, names) = match *atom {
+                Atom::Own(_) | Atom::Factor(_) => continue,
+                Atom::Error(of) => {
+                    let of = place.formula(of)?;
+                    (format!("model prec choice {precision} P E {of}"), format!("s{x} & B{x} & F{x}"))
                 }
-                let mut equation = hypothesis.clone();
-                if let Some(x) = named {
-                    let name = ascii(x.name());
-                    self.line(&format!("destruct (named _ _ {hypothesis}) as ({name} & S{i} & P{i})."));
-                    equation = format!("(eq_sym S{i})");
+                Atom::Place(i) => {
+                    let is_near = place.problem.hypotheses[i].distance().is_some();
+                    let rule = if is_near { "near" } else { "between" };
+                    (format!("{rule} _ _ _ {}", place.label(i)?), format!("s{x} & B{x} & F{x}"))
                 }
-                // pivot − by = factor · (the quantity − its name)
-                let difference = Ratio::from(Poly::from(pivot.clone())) - by;
-                let name = named.map_or(Ratio::zero(), |name| Poly::symbol(name).into());
-                let factor = value.and_then(|value| difference.over(&(value - name)));
-                let factor = factor.ok_or("a hypothesis has no solution")?;
-                let [by, factor] = [by, &factor].map(|ratio| Expr::ratio(ratio).argument());
-                let pivot = Expr::poly(&pivot.clone().into()).argument();
-                self.line(&format!(
-                    "assert (E{i} : pivot {pivot} {by}) by (apply (solved _ _ {factor} _ _ {equation}); \
-                     decide_goal)."
-                ));
-                if named.is_some() {
-                    // A later assumption may replace the name, but must not replace it here.
-                    self.line(&format!("clear S{i}."));
+                Atom::Size(of) => {
+                    let y = place.variable(Atom::Factor(of))?;
+                    let names = format!("s{x} & s{y} & B{x} & B{y} & F{x} & F{y}");
+                    (format!("absolute {}", place.formula(of)?), names)
                 }
-            }
+                Atom::Exponential(of) => {
+                    (format!("exponential {}", place.formula(of)?), format!("s{x} & B{x} & F{x}"))
+                }
+            };
+            self.line(&format!("destruct ({rule}) as ({names})."));
+        }
+        if self.lines.len() > before {
+            self.line("functions.");
         }
         Ok(())
     }
-
-    fn direct(&mut self, place: &Place, direct: &Direct) -> Result<()> {
-        let divisors = direct.divisors.iter().map(|(_, signed)| signed);
-        let mut passing = divisors.chain(direct.branches.iter().map(|(.., signed)| signed));
-        let decisive: &[SignedRatio] = match &direct.justification {
-            Justification::Sign(signed) => std::slice::from_ref(signed),
-            Justification::Within(both) => &both[..],
-            _ => &[],
-        };
-        if place.kept.signs(self, place, direct, decisive)? {
-            return Ok(());
-        }
-        let (decided, slopes) = match &direct.justification {
-            Justification::Sign(signed) => (slope_of(signed), slopes(&signed.num)),
-            _ => (None, 0),
-        };
-        if slopes != usize::from(decided.is_some()) || passing.any(|signed| self::slopes(&signed.num) > 0) {
-            return Err("the sign of a divisor, a bracket or a slope rests on a slope".into());
-        }
-        self.line(decided.as_deref().unwrap_or("decide_goal."));
-        Ok(())
-    }
-}
-
-/// Returns the number of slopes that a sign rests on.
-fn slopes(certificate: &Certificate) -> usize {
-    match certificate.rule() {
-        Rule::Termwise | Rule::TriangleInequality(_) | Rule::Endpoints { .. } => 0,
-        Rule::Product(a, b) | Rule::Square { leading: a, rest: b, .. } => slopes(a) + slopes(b),
-        Rule::MeanValue { start, slope, .. } => 1 + slopes(start) + slopes(slope),
-    }
-}
-
-/// Returns a factor of a polynomial whose sign is that of its slope in a symbol, and the remaining factor.
-fn slope(certificate: &Certificate) -> Option<(&Certificate, Symbol, Poly)> {
-    let times = |factor: &Certificate, of| {
-        let (part, x, rest) = slope(of)?;
-        Some((part, x, rest * factor.of()))
-    };
-    match certificate.rule() {
-        Rule::MeanValue { x, .. } => Some((certificate, *x, Poly::constant(1))),
-        Rule::Product(a, b) => times(a, b).or_else(|| times(b, a)),
-        _ => None,
-    }
-}
-
-/// Returns the tactic for a sign that is that of a slope.
-fn slope_of(signed: &SignedRatio) -> Option<String> {
-    let (part, x, rest) = slope(&signed.num)?;
-    let rest = Ratio::from(rest).over(&signed.value.den().clone().into())?;
-    let positive = part.sign().implies(Sign::NonNegative);
-    let (part, rest) = if positive { (part.of().clone(), rest) } else { (-part.of(), -rest) };
-    Some(format!(
-        "slope {} {} {}.",
-        ascii(x.name()),
-        Expr::poly(&part).argument(),
-        Expr::ratio(&rest).argument()
-    ))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::formula::{Relation, claim::positive};
-    use crate::number::{Exponential, Tree};
-    use crate::proof::prove;
-
-    /// A sign by slope, one whose value at 0 is another, and one whose slope is another.
-    #[test]
-    fn slopes_are_as_many_as_the_proof_has() {
-        let [a, b] = ["a", "b"].map(|name| Tree::symbol(name));
-        let above = [&a, &b].map(|x| Hypothesis::new(Relation::Positive, x.clone()));
-        let tangent = |x: &Tree| x.exp() - x - Tree::from(1);
-        let secant = (&a + &a).exp() - Tree::from(2) * &a * a.exp() - Tree::from(1);
-        for (of, nested) in [(tangent(&a), false), (tangent(&a) + tangent(&b), true), (secant, true)] {
-            let proof = prove(&positive("", of).assuming(&above)).unwrap();
-            let Derivation::Direct(direct) = &proof.goals()[0] else { panic!("no proof in one case") };
-            let Justification::Sign(signed) = &direct.justification else { panic!("no sign") };
-            let text = ProofPrinter::new(&Registry::default()).proof(&proof).join("\n");
-            let said = text.matches("by its value at").count();
-            assert_eq!((slopes(&signed.num), said > 1), (said, nested), "{text}");
-        }
-    }
 
     #[test]
     fn blocks_are_indented_behind_their_bullets() {

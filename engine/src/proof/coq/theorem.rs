@@ -7,7 +7,7 @@ use super::script::Script;
 use super::{identifier, theorem_name};
 use crate::formula::claim::{MEMBERS, POWER};
 use crate::formula::statement::{Goal, Role, Sequence};
-use crate::formula::{Hypothesis, Proposition, Relation, Statement};
+use crate::formula::{Hypothesis, Proposition, Statement};
 use crate::number::Tree;
 
 /// A claim to be exported.
@@ -106,10 +106,7 @@ impl<'a> Claim<'a> {
         let mut script = Script::of(&lemma);
         script.line("repeat apply conj.");
         for divisor in &divisors {
-            script.block("-", |own| {
-                let signed = |value: &Tree| Proposition::Sign(Relation::Positive, value.clone());
-                own.goal(&lemma, &signed(divisor)).or_else(|_| own.goal(&lemma, &signed(&-divisor)))
-            })?;
+            script.block("-", |own| own.divisor(&lemma, divisor))?;
         }
         Ok(lemma.text("Lemma", &none_is_zero(&divisors, self.printer), script))
     }
@@ -199,7 +196,7 @@ impl<'a> Claim<'a> {
         // Continuity there has the same hypotheses.
         script.block("-", |own| {
             own.line("functions.");
-            own.goal(&limit, &at_zero.proposition)
+            own.continuity(&limit, &at_zero.proposition)
         })?;
         script.line(&exact(&limit));
         let says = format!("is_lim_seq (fun n => {}) {}", of.substitute(&name, &power), to.argument());

@@ -1,21 +1,24 @@
-//! Definitions of the kernel's names in a message.
+//! Definitions of the names of the search in a message.
 
 use super::ProofPrinter;
 use crate::formula::claim::PRECISION;
 use crate::formula::name_of_rounding;
-use crate::formula::statement::{Goal, Proposition, Role, Statement};
+use crate::formula::statement::{Goal, Proposition, Statement};
 use crate::number::Tree;
+use crate::proof::ProofError;
+use crate::proof::check::roundings;
 use crate::proof::hints::sufficient_hypothesis;
-use crate::proof::kernel::algebra::Symbol;
-use crate::proof::kernel::{Assumption, AssumptionUse, Derivation, ProofError, derivation, roundings};
+use crate::proof::search::algebra::Symbol;
+use crate::proof::search::assumption::{Assumption, AssumptionUse};
+use crate::proof::search::prove_proposition;
 use std::collections::{BTreeMap, BTreeSet};
 
 impl ProofPrinter<'_> {
-    /// Returns the reason why a proof failed, with definitions of the kernel's names: `no
+    /// Returns the reason why a proof failed, with definitions of the names of the search: `no
     /// rule finds the sign of a − s₁: the term −s₁ is < 0, where s₁ = b − a > 0`.
     pub fn describe(&self, statement: &Statement, reason: &ProofError) -> String {
         if let Some(registry) = self.other_names(statement) {
-            return ProofPrinter { registry: &registry, ..*self }.describe(statement, reason);
+            return ProofPrinter::new(&registry).describe(statement, reason);
         }
         let said = self.order().justify(reason, &|tree| self.text(tree));
         let (rounded, mut introduced) = (roundings(statement.trees()), None);
@@ -54,7 +57,7 @@ impl ProofPrinter<'_> {
     /// ```
     pub fn explain(&self, statement: &Statement, reason: &ProofError) -> String {
         if let Some(registry) = self.other_names(statement) {
-            return ProofPrinter { registry: &registry, ..*self }.explain(statement, reason);
+            return ProofPrinter::new(&registry).explain(statement, reason);
         }
         let hypotheses = self.registry.format_hypotheses(&sufficient_hypothesis(statement, reason));
         let hint = if hypotheses.is_empty() { "" } else { "; it is proved if " };
@@ -71,37 +74,29 @@ impl ProofPrinter<'_> {
     /// Returns the names introduced by hypotheses with their definitions; `None` if a name has several, in
     /// different cases.
     fn introduced_names(&self, statement: &Statement) -> BTreeMap<Symbol, Option<String>> {
-        let derive =
-            |role: Role, proposition: &Proposition| derivation(&statement.hypotheses_for(role), proposition);
-        let fails = |goal: &&Goal| derive(goal.role, &goal.proposition).is_err();
-        let mut all = BTreeMap::new();
+        let prove = |goal: &Goal, proposition: &Proposition| {
+            prove_proposition(proposition, statement.hypotheses_for(goal.role)).ok()
+        };
+        let fails = |goal: &&Goal| prove(goal, &goal.proposition).is_none();
         // Hypotheses are read before the goal, so their names are the same for another goal.
-        let derivation = statement.goals().iter().find(fails).and_then(|goal| {
+        let contexts = statement.goals().iter().find(fails).and_then(|goal| {
             let zero = || Tree::from(0);
             let trivial = match goal.proposition {
                 Proposition::Limit(_, by, _) => Proposition::Limit(zero(), by, zero()),
                 _ => Proposition::Equal(zero(), zero()),
             };
-            derive(goal.role, &trivial).ok()
+            prove(goal, &trivial)
         });
-        derivation.iter().for_each(|derivation| self.collect(derivation, &mut all));
-        all
-    }
-
-    fn collect(&self, derivation: &Derivation, all: &mut BTreeMap<Symbol, Option<String>>) {
-        match derivation {
-            Derivation::Cases(_, positive, not) => {
-                [positive, not].into_iter().for_each(|case| self.collect(case, all));
-            }
-            Derivation::Direct(direct) => {
-                for (name, definition) in direct.assumptions.iter().filter_map(|s| self.definition(s)) {
-                    let known = all.entry(name).or_insert_with(|| definition.clone());
-                    if *known != definition {
-                        *known = None;
-                    }
+        let mut all = BTreeMap::new();
+        for context in contexts.iter().flat_map(|(_, contexts)| contexts) {
+            for (name, definition) in context.assumptions().iter().filter_map(|s| self.definition(s)) {
+                let known = all.entry(name).or_insert_with(|| definition.clone());
+                if *known != definition {
+                    *known = None;
                 }
             }
         }
+        all
     }
 
     /// Returns the symbol that an assumption introduces, and its definition if it is a hypothesis.
@@ -144,18 +139,14 @@ impl ProofError {
         match self {
             ProofError::PossibleZeroDivisor(_, value)
             | ProofError::UndecidedBranch(value)
-            | ProofError::UndecidedSize(_, value)
             | ProofError::UnknownSign(value, _)
             | ProofError::WrongSign(value, _)
             | ProofError::Unequal(value)
             | ProofError::UnknownLimit(value) => value.symbols(),
             ProofError::NotDifferentiable
-            | ProofError::Discontinuous
-            | ProofError::TooManyRoundings
-            | ProofError::ReservedName(_)
-            | ProofError::HypothesisOnComputed(_)
-            | ProofError::TooLarge(..)
-            | ProofError::NoGoals => BTreeSet::new(),
+            | ProofError::Premise(_)
+            | ProofError::TooLarge(_)
+            | ProofError::NotExpressed(_) => BTreeSet::new(),
         }
     }
 }
@@ -174,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn a_message_defines_the_names_of_the_kernel() {
+    fn a_message_defines_the_names_of_the_search() {
         let [a, b, c, u] = ["a", "b", "c", "u"].map(|name| Tree::symbol(name));
         let more = Hypothesis::new(Relation::Positive, &b - &a);
         let least = Hypothesis::new(Relation::NonNegative, &a * &b - &c);
@@ -253,11 +244,11 @@ mod tests {
         let said =
             reason(&limit("", of.clone(), &g, &f, Rate::Equal(of - &f)).assuming([&above_zero(&g - &f)]));
         assert!(said.contains("s₁ = g − f > 0"), "{said}");
-        // g > h is used unchanged, because f + s₁ replaces g.
+        // What is known of other symbols comes first.
         let [h, of] = [Tree::symbol("h"), (&g - Tree::symbol("h")) * &k + &g];
         let bounds = [&g - &f, &g - &h, &k - &f].map(above_zero);
         let said = reason(&limit("", of.clone(), &g, &f, Rate::Equal(of - &f)).assuming(&bounds));
-        assert!(said.ends_with("where s₁ = g − f > 0 and s₂ = k − f > 0"), "{said}");
+        assert!(said.ends_with("where s₁ = k − f > 0 and s₂ = g − f > 0 and s₃ = g − h > 0"), "{said}");
     }
 
     #[test]
@@ -265,21 +256,5 @@ mod tests {
         let [a, b] = ["a", "b"].map(|name| Tree::symbol(name));
         let said = reason(&positive("", (&a - &b).positive_part() + &b));
         assert!(said.ends_with("where s₁ ≥ 0 in one case of the proof"), "{said}");
-    }
-
-    /// Errors are named in the order in which the kernel meets them; those of hypotheses come first.
-    #[test]
-    fn errors_are_numbered_in_the_order_of_the_roundings() {
-        let [a, b] = ["a", "b"].map(|name| Tree::symbol(name));
-        let given = Hypothesis::new(Relation::NonNegative, (&a + &b).round());
-        let of = (&a * (&a + &b) - &b).with_rounding();
-        let statement = equal("", of.clone() * b.round(), b.round() * of).assuming([&given]);
-        let proof = prove(&statement).unwrap();
-        let Derivation::Direct(direct) = &proof.goals()[0] else { panic!("no cases") };
-        let named: Vec<_> = direct.roundings.iter().map(|rounding| (rounding.error, &rounding.of)).collect();
-        let rounded = roundings(statement.trees());
-        let expected: Vec<_> = (0..).map(Symbol::Error).zip(&rounded).collect();
-        assert_eq!(named, expected);
-        assert_eq!(named.len(), 4);
     }
 }

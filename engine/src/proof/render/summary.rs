@@ -1,48 +1,43 @@
 //! Summaries of proofs.
 
-use crate::proof::kernel::sign::Rule;
-use crate::proof::kernel::{Derivation, Justification, Proof};
+use super::leaves;
+use crate::proof::Proof;
+use crate::proof::check::{Certificate, Known, Node, Reason};
 
 /// Returns the method of a proof in a few words.
 pub fn proof_summary(proof: &Proof) -> String {
-    let cases = proof.goals().iter().map(cases).max().unwrap_or(1);
-    let means = proof.goals().last().map_or("", |derivation| means(derivation));
+    let goals = proof.goals();
+    let cases = goals.iter().map(|node| leaves(node).len()).max().unwrap_or(1);
     let kind = match proof.statement().kind() {
-        "equal" | "sign" => means,
+        "equal" => "identity",
+        "sign" => goals.last().map_or("sign", method),
         other => other,
     };
-    let kind = if proof.statement().contains_rounding() {
-        format!("{kind}, any precision")
+    let precision = if proof.statement().contains_rounding() { ", any precision" } else { "" };
+    let cases = if cases > 1 { format!(", {cases} cases") } else { String::new() };
+    format!("{kind}{precision}{cases}")
+}
+
+/// Returns the method for a sign.
+fn method(node: &Node) -> &'static str {
+    let leaves = leaves(node);
+    let is_square = |reason: &Reason| matches!(reason, Reason::Certificate(of) if contains_square(of));
+    if leaves.iter().any(|leaf| !leaf.orders.is_empty()) {
+        "order"
+    } else if leaves.iter().any(|leaf| !leaf.rises.is_empty()) {
+        "sign by slope"
+    } else if leaves.iter().any(|leaf| leaf.signs.last().is_some_and(is_square)) {
+        "sign by square"
     } else {
-        kind.to_string()
-    };
-    if cases > 1 { format!("{kind}, {cases} cases") } else { kind }
-}
-
-fn cases(derivation: &Derivation) -> usize {
-    match derivation {
-        Derivation::Cases(_, positive, not) => cases(positive) + cases(not),
-        Derivation::Direct(_) => 1,
+        "sign"
     }
 }
 
-fn means(derivation: &Derivation) -> &'static str {
-    match derivation {
-        Derivation::Cases(_, positive, _) => means(positive),
-        Derivation::Direct(direct) => match &direct.justification {
-            Justification::Equal(_) => "identity",
-            Justification::Order(_) => "order",
-            Justification::Derivative(..) => "derivative",
-            Justification::Limit { .. } => "limit",
-            Justification::Within(_) => "bound",
-            Justification::Sign(signed) => match signed.num.rule() {
-                Rule::TriangleInequality(_) | Rule::Endpoints { .. } => "rounding",
-                Rule::Termwise => "sign by terms",
-                Rule::Product(_, rest) if matches!(rest.rule(), Rule::MeanValue { .. }) => "sign by slope",
-                Rule::Product(..) => "sign by factors",
-                Rule::Square { .. } => "sign by square",
-                Rule::MeanValue { .. } => "sign by slope",
-            },
-        },
-    }
+/// Returns `true` if a certificate rests on the square of a quantity of unknown sign.
+fn contains_square(certificate: &Certificate) -> bool {
+    certificate.known.iter().any(|known| match known {
+        Known::Value(_) => true,
+        Known::Lemma(lemma) => contains_square(&lemma.1),
+        Known::Fact(_) | Known::Exponents { .. } => false,
+    })
 }

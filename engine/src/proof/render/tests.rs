@@ -2,9 +2,10 @@
 
 use super::*;
 use crate::formula::claim::{
-    equal, geometric_limit, induction, non_negative, perturbed_recursion, positive, within,
+    PRECISION, Rate, equal, geometric_limit, induction, limit, non_negative, perturbed_recursion, positive,
+    within,
 };
-use crate::formula::{Relation, Statement};
+use crate::formula::{Hypothesis, Relation, Statement};
 use crate::number::{Exponential, PositivePart};
 use crate::proof::prove;
 
@@ -18,10 +19,8 @@ fn summaries_name_the_method_of_the_proof() {
     assert_eq!(summary(equal("", u.positive_part() - (-&u).positive_part(), &u)), "identity, 2 cases");
     let square = &u * &u - Tree::from(2) * &u + Tree::from(2);
     let tangent = a.exp() - &a - Tree::from(1);
-    assert_eq!(is_positive(&(&a + &a)), "sign by terms");
+    assert_eq!(is_positive(&(&a + &a)), "sign");
     assert_eq!(is_positive(&square), "sign by square");
-    let v = Tree::symbol("v");
-    assert_eq!(summary(non_negative("", &v * &v * square)), "sign by factors");
     assert_eq!(is_positive(&tangent), "sign by slope");
 }
 
@@ -143,146 +142,95 @@ fn the_reason_for_a_failed_proof_uses_the_names_of_the_registry() {
 }
 
 /// Returns the lines of the proof of a claim if these quantities are positive.
-fn lines(claim: Statement, positive: &[&Tree], in_full: bool) -> Vec<String> {
+fn lines(claim: Statement, positive: &[&Tree]) -> Vec<String> {
     let given: Vec<_> = positive.iter().map(|x| Hypothesis::new(Relation::Positive, (*x).clone())).collect();
-    let paper = ProofPrinter::new(&NONE);
-    let paper = if in_full { paper.in_full() } else { paper };
-    paper.proof(&prove(&claim.assuming(&given)).unwrap())
+    ProofPrinter::new(&NONE).proof(&prove(&claim.assuming(&given)).unwrap())
 }
 
-/// By hand, with s₁ = 2ᵖ − 4: a / 2ᵖ − a e₁ / (2ᵖ + 1) is a (s₁ + 5 − e₁ (s₁ + 4)) / ((s₁ + 4) (s₁ + 5)).
 #[test]
-fn the_proof_of_a_rounding_bound_is_short_unless_in_full() {
+fn the_proof_of_a_rounding_bound_says_what_its_errors_are() {
     let [a, b] = ["a", "b"].map(|name| Tree::symbol(name));
     let bounded = |of: &Tree| within("", of.round() - of, &a / Tree::symbol(PRECISION));
-    let scale = "by 2ᵖ ≥ 4: s₁ = 2ᵖ − 4 ≥ 0, so 2ᵖ = s₁ + 4";
     let errors = |of: &str| format!("fl(…) = … (1 + eᵢ / (2ᵖ + 1)) with |eᵢ| ≤ 1: e₁ of fl({of})");
-    let triangle = "by the triangle inequality for the errors";
     assert_eq!(
-        lines(bounded(&a), &[&a], false),
+        lines(bounded(&a), &[&a]),
         [
             &errors("a"),
-            scale,
-            &format!(
-                "the bound less it is (a s₁ + 5 a − a e₁ s₁ − 4 a e₁) / (s₁² + 9 s₁ + 20) ≥ 0, {triangle}"
-            ),
-            &format!(
-                "the bound and it is (a e₁ s₁ + 4 a e₁ + a s₁ + 5 a) / (s₁² + 9 s₁ + 20) ≥ 0, {triangle}"
-            ),
-        ]
-    );
-    assert_eq!(
-        lines(bounded(&a), &[&a], true),
-        [
-            scale,
-            &errors("a"),
-            "2ᵖ ≠ 0: s₁ + 4 > 0, term by term",
-            "the bound less it is ≥ 0:",
-            "  it is (a s₁ + 5 a − a e₁ s₁ − 4 a e₁) / (s₁² + 9 s₁ + 20)",
-            "  s₁² + 9 s₁ + 20 > 0, term by term",
-            &format!(
-                "  a s₁ + 5 a − a e₁ s₁ − 4 a e₁ > 0: {triangle} it is no less than a > 0, term by term"
-            ),
-            "the bound and it is ≥ 0:",
-            "  it is (a e₁ s₁ + 4 a e₁ + a s₁ + 5 a) / (s₁² + 9 s₁ + 20)",
-            "  s₁² + 9 s₁ + 20 > 0, term by term",
-            &format!(
-                "  a e₁ s₁ + 4 a e₁ + a s₁ + 5 a > 0: {triangle} it is no less than a > 0, term by term"
-            ),
+            "the bound − it is (a (2ᵖ − 4) + 5 a − a e₁ (2ᵖ − 4) − 4 a e₁) / (2ᵖ (2ᵖ + 1)) > 0, by 2ᵖ ≥ 4, |eᵢ| ≤ 1",
+            "the bound + it is (a e₁ (2ᵖ − 4) + 4 a e₁ + a (2ᵖ − 4) + 5 a) / (2ᵖ (2ᵖ + 1)) > 0, by 2ᵖ ≥ 4, |eᵢ| ≤ 1",
         ]
     );
     // The common part of the cases is stated once.
-    let extended = bounded(&(&a - &b).positive_part());
-    let short = lines(extended.clone(), &[&a, &b], false);
-    assert_eq!(short[..3], [&errors("⟨a − b⟩"), scale, "where a − b > 0:"]);
-    assert!(short[3..5].iter().all(|line| line.starts_with("  the bound ") && line.ends_with(triangle)));
-    assert_eq!(
-        short[5..],
-        [
-            "where a − b ≤ 0:",
-            "  the bound less it is a / (s₁ + 4) ≥ 0, term by term",
-            "  the bound and it is a / (s₁ + 4) ≥ 0, term by term",
-        ]
-    );
-    assert_eq!(lines(extended, &[&a, &b], true)[0], "case a − b > 0:");
-}
-
-/// By hand: the differences at t₁ = −1, 0 and 1, times 2 in the middle, where the square of t₁ counts as −1.
-/// With a second square, each of the three is a quadratic in t₂.
-#[test]
-fn endpoints_are_counted() {
-    let [a, b, c, d, u, v] = ["a", "b", "c", "d", "u", "v"].map(|name| Tree::symbol(name));
-    let squares = within("", (&a - &b) * (&a - &b), &u * &u).assuming([&Hypothesis::near(&u, &a, &b)]);
-    let sum = (&a - &b) * (&a - &b) + (&c - &d) * (&c - &d);
-    let both = within("", sum, &u * &u + &v * &v)
-        .assuming([&Hypothesis::near(&u, &a, &b), &Hypothesis::near(&v, &c, &d)]);
-    let both = lines(both, &[&b, &d, &(&a - &b), &(&c - &d)], false);
-    let less = both.iter().find(|line| line.starts_with("the bound less it is ")).unwrap();
-    assert!(less.ends_with("at 9 endpoints"), "{less}");
-    let [_, _, less, _] = &lines(squares.clone(), &[&b, &(&a - &b)], false)[..] else { panic!("four lines") };
-    assert!(less.ends_with("by the triangle inequality for the errors, at 3 endpoints"), "{less}");
-    assert_eq!(
-        lines(squares, &[&b, &(&a - &b)], true)[3..7],
-        [
-            "  b² t₁² + 2 b² t₁ + b² + 2 b s₁ t₁ + 2 b s₁ ≥ 0, by its Bernstein form in t₁ from −1 to 1:",
-            "  0 = 0",
-            "  4 b s₁ > 0, term by term",
-            "  4 b² + 4 b s₁ > 0, term by term",
-        ]
-    );
+    let extended = lines(bounded(&(&a - &b).positive_part()), &[&a, &b]);
+    assert_eq!(extended[..3], [&errors("⟨a − b⟩"), "case a − b > 0:", "  ⟨a − b⟩ = a − b"]);
+    assert_eq!(extended[5..7], ["case a − b ≤ 0:", "  ⟨a − b⟩ = 0"]);
+    assert!([3, 4, 7, 8].iter().all(|i| extended[*i].starts_with("  the bound ")), "{extended:#?}");
 }
 
 #[test]
 fn cases_are_indented() {
     let [a, b] = ["a", "b"].map(|name| Tree::symbol(name));
     assert_eq!(
-        lines(positive("", a.min(&b)), &[&a, &b], false),
+        lines(positive("", a.min(&b)), &[&a, &b]),
         [
             "case b − a > 0:",
-            "  by the case: s₁ = b − a > 0, so b = a + s₁",
-            "  min(a, b) = a by the sign of the second less the first: s₁ > 0, term by term",
-            "  a > 0, term by term",
+            "  min(a, b) = a",
+            "  it is a > 0",
             "case b − a ≤ 0:",
-            "  by the case: s₁ = a − b ≥ 0, so a = b + s₁",
-            "  min(a, b) = b by the sign of the second less the first: −s₁ ≤ 0, term by term",
-            "  b > 0, term by term",
+            "  min(a, b) = b",
+            "  it is b > 0",
         ]
     );
 }
 
-/// Only a sum among the factors has a proof of its own. The multiplier of an assumption has one in full.
 #[test]
-fn the_sign_of_each_part_is_proved() {
-    let [a, b, c, u] = ["a", "b", "c", "u"].map(|name| Tree::symbol(name));
-    let (sum, square) = (&a * &b + &c, &a * &a - &a + Tree::from(1));
-    let square_lines = [
-        "4 (1) (a² + 1 − a) = (2 a − 1)² + (3), hence a² + 1 − a > 0, since",
-        "1 > 0, term by term",
-        "3 > 0, term by term",
-    ];
+fn an_identity_shows_each_sign() {
+    let [a, b, u] = ["a", "b", "u"].map(|name| Tree::symbol(name));
+    let square = &a * &a - &a + Tree::from(1);
     assert_eq!(
-        lines(positive("", &a * &square), &[&a], false),
-        [&["a³ + a − a² = (a) (a² + 1 − a) > 0, since"], &square_lines[..]].concat()
-    );
-    assert_eq!(
-        lines(positive("", &sum * &sum * square / &sum), &[&a, &b, &c], false)[1..],
-        [
-            &[
-                "a³ b + a² c + a b + c − a² b − a c = (a b + c) (a² + 1 − a) > 0, since",
-                "a b + c > 0, term by term"
-            ],
-            &square_lines[..]
-        ]
-        .concat()
+        lines(positive("", &a * &square), &[&a]),
+        ["it is a³ + a − a² > 0: 4 times it is a (2 a − 1)² + 3 a"]
     );
     let given = [Hypothesis::new(Relation::NonNegative, u.clone()), Hypothesis::near(&u, &a, &b)];
-    let doubled = non_negative("", Tree::from(2) * &u + &b).assuming(&given);
-    let kept = [
-        "by |u − a| ≤ b: u = a + b t₁, where −1 ≤ t₁ ≤ 1",
-        "it is 2 a + 2 b t₁ + b",
-        "of which 2 a + 2 b t₁ has this sign by assumption and the rest",
-    ];
-    let rest = "b > 0, term by term";
-    assert_eq!(lines(doubled.clone(), &[&b], false), [&kept[..], &[rest]].concat());
-    assert_eq!(lines(doubled, &[&b], true), [&kept[..], &["2 > 0, term by term", rest]].concat());
+    assert_eq!(
+        lines(non_negative("", Tree::from(2) * &u + &b).assuming(&given), &[&b]),
+        ["by |u − a| ≤ b: u = a + t₁ b with |t₁| ≤ 1", "it is (2 b + 2 (2 a + 2 b t₁)) / 2 > 0, by u ≥ 0",]
+    );
+    let more = &b - Tree::from(2) * &a;
+    assert_eq!(lines(positive("", &b - &a), &[&a, &more]), ["it is b − a = a + (b − 2 a) > 0, by b > 2 a"]);
+}
+
+/// The value at 0 and the slope have proofs of their own.
+#[test]
+fn a_rise_is_proved_by_start_and_slope() {
+    let a = Tree::symbol("a");
+    let said = lines(positive("", a.exp() - &a - Tree::from(1)), &[&a]);
+    assert_eq!(
+        said[..3],
+        [
+            "1 − a exp(−a) − exp(−a) > 0, by its value at a = 0 and its slope for a > 0:",
+            "  at a = 0: it is 0",
+            "  slope: it is a exp(−a) > 0",
+        ]
+    );
+    assert!(said[3].ends_with(" > 0, by exp(a) exp(−a) = 1") && said.len() == 4, "{said:#?}");
+}
+
+/// An absolute value of undecided sign, an order of roundings, and a limit.
+#[test]
+fn each_part_of_a_proof_is_a_line() {
+    let [a, b, u] = ["a", "b", "u"].map(|name| Tree::symbol(name));
+    let bound = lines(within("", &u, u.abs() + &a), &[&a]);
+    assert_eq!(bound[0], "u = t₁ |u| with |t₁| ≤ 1");
+    let order = lines(non_negative("", (&a + &b).round() - a.round()), &[&b]);
+    assert_eq!(order[1..], ["fl(a + b) ≥ fl(a), since b > 0"]);
+    let tends = limit("", &a * &u / (&u + &b), &u, &a, Rate::Equal(-&a * &b / (&u + &b)));
+    assert_eq!(
+        lines(tends, &[&b, &u])[..3],
+        [
+            "limit: lim [a u / (u + b)] = a for u → ∞",
+            "  divisor b + u > 0",
+            "  it is a u / (b + u), which tends to a by its degrees in u",
+        ]
+    );
 }

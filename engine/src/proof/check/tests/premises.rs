@@ -19,22 +19,22 @@ fn names_and_sizes_are_checked() {
         other => panic!("{}: {other:?}", claim.name()),
     };
     let reserved = refused(square(&s), direct(&square(&u), &(&u * &u)));
-    assert!(matches!(reserved, ProofError::ReservedName("s₁")));
+    assert!(matches!(reserved, Premise::ReservedName("s₁")));
     // Of a computed quantity nothing is assumed but its interval.
     let computed = non_negative("f", &u).assuming(&[Hypothesis::near(&u, &v, 0)]).computing(&u, &v);
     let computed = computed.assuming(&[not_below_zero(n(1) * &u)]);
-    assert!(matches!(refused(computed, vec![]), ProofError::HypothesisOnComputed("u")));
+    assert!(matches!(refused(computed, vec![]), Premise::HypothesisOnComputed("u")));
     let none = induction("f", 1, [], |[]| [], []);
-    assert!(matches!(refused(none, vec![]), ProofError::NoGoals));
-    let deep = (0..=kernel::MAX_DEPTH).fold(u.clone(), |sum, _| sum + &u);
-    assert!(matches!(refused(square(&deep), vec![]), ProofError::TooLarge("its depth", _)));
+    assert!(matches!(refused(none, vec![]), Premise::NoGoals));
+    let deep = (0..=MAX_DEPTH).fold(u.clone(), |sum, _| sum + &u);
+    assert!(matches!(refused(square(&deep), vec![]), Premise::TooLarge("its depth", _)));
     let large = (0..12).fold(u.clone(), |sum, _| &sum * &sum);
     let large = refused(within("f", &large * &large * &large * &large, large), vec![]);
-    assert!(matches!(large, ProofError::TooLarge("its size", _)));
+    assert!(matches!(large, Premise::TooLarge("its size", _)));
     let roundings = (0..65).fold(u.clone(), |sum, _| (sum + n(1)).round());
-    assert!(matches!(refused(square(&roundings), vec![]), ProofError::TooManyRoundings));
+    assert!(matches!(refused(square(&roundings), vec![]), Premise::TooManyRoundings));
     let tends = limit("f", u.round() / &t, &t, 0, Rate::Equal(u.round() / &t));
-    assert!(matches!(refused(tends, vec![]), ProofError::Discontinuous));
+    assert!(matches!(refused(tends, vec![]), Premise::Discontinuous));
 }
 
 #[test]
@@ -213,7 +213,7 @@ fn the_precision_is_positive_by_hypothesis() {
 #[test]
 fn deep_derivatives_are_checked() {
     let u = x("u");
-    let deep = (1..kernel::MAX_DEPTH).fold(u.clone(), |product, _| product * n(1));
+    let deep = (1..MAX_DEPTH).fold(u.clone(), |product, _| product * n(1));
     let claim = derivative("f", deep, &u, 1);
     accept(&claim, &proof(&[], vec![Page::of(&claim).form(0)]));
 }

@@ -1,12 +1,28 @@
-//! Proofs of limits by Coq's tactics.
+//! Proofs of limits: what becomes of a formula for great x is what becomes of it for small 1/x.
 
-use super::super::expr::{Expr, by_exponent};
+use super::super::expr::Expr;
 use super::super::lemma::{Lemma, Result};
-use super::retained::Retained;
-use super::{Place, Script, derivation};
+use super::super::print::simplified;
+use super::leaf::{Writer, ZERO};
+use super::{Place, Script, refused, simplified_hypothesis};
 use crate::formula::{Hypothesis, Proposition};
-use crate::proof::kernel::algebra::{Poly, Ratio, Symbol};
-use crate::proof::kernel::{Derivation, Justification};
+use crate::number::tree::Op;
+use crate::proof::check::Sign;
+use crate::proof::check::{Atom, Leaf, Node, Polynomial, Problem, Quotient, Reason, State};
+use crate::proof::trace::{Step, reread, trace};
+
+/// A limit to be proved.
+struct Limit<'l> {
+    place: Place<'l>,
+    state: &'l State<'l>,
+    leaf: &'l Leaf,
+    steps: &'l [Step],
+    /// The variable, and its number.
+    by: &'static str,
+    x: usize,
+    /// The formula.
+    of: Quotient,
+}
 
 impl Script {
     /// Proves a limit from these hypotheses; the premises of the lemma are those that do not contain the
@@ -17,50 +33,177 @@ impl Script {
         hypotheses: &[&Hypothesis],
         proposition: &Proposition,
     ) -> Result<()> {
-        let derivation = derivation(hypotheses, proposition)?;
-        let Derivation::Direct(direct) = &derivation else { return Err("a limit in cases".into()) };
-        let Justification::Limit { of, by, .. } = &direct.justification else {
-            return Err("no limit".into());
+        let proposition = proposition.map(&simplified);
+        let Proposition::Limit(of, by, _) = &proposition else { return Err("no limit".into()) };
+        let premises: Vec<_> = hypotheses.iter().map(|given| simplified_hypothesis(given)).collect();
+        let problem = Problem::new(&proposition, premises.iter().collect()).map_err(refused)?;
+        let labels = hypotheses.iter().map(|given| lemma.label(given)).collect();
+        let place = Place::new(lemma, &problem, labels);
+        let Node::Leaf(leaf) = place.proof()? else { return Err("a limit in cases".into()) };
+        let (state, mut steps) = trace(&problem, &leaf, &[]).map_err(refused)?;
+        retain_facts(&state, &mut steps);
+        let of = reread(state.clone()).translate(of);
+        let x = place.variable(Atom::Own(by))?;
+        let limit =
+            Limit { place, state: &state, leaf: &leaf, steps: &steps, by, x, of: of.map_err(refused)? };
+        limit.write(self)
+    }
+}
+
+/// Removes the steps about early values of the variable, whose facts are not kept.
+fn retain_facts(state: &State, steps: &mut Vec<Step>) {
+    let (mut is_shown, mut kept) = (vec![false; state.facts.iter().len()], Vec::new());
+    for step in steps.drain(..).rev() {
+        let is_kept = match &step {
+            Step::Sign { of, reason, facts, .. } => {
+                let i = if let Reason::Fact(i) = reason { *i } else { *facts };
+                let is_known = state.facts.get(i).is_ok_and(|(known, _)| known == of);
+                let is_fact = matches!(reason, Reason::Fact(_));
+                is_known && (is_fact || !std::mem::replace(&mut is_shown[i], true))
+            }
+            _ => true,
         };
-        if !direct.branches.is_empty() {
-            return Err("a limit with brackets".into());
-        }
-        self.hypotheses(&mut Place::new(lemma, proposition, Retained::default()), direct)?;
-        self.at_infinity(of, *by)
+        kept.extend(is_kept.then_some(step));
+    }
+    steps.extend(kept.into_iter().rev());
+}
+
+impl Limit<'_> {
+    fn depends(&self, of: &Polynomial) -> bool {
+        !of.has_only(|y| !self.place.problem.depends(y, self.by))
     }
 
-    /// Proves a limit for x → ∞: rewrites the formula in 1/x and one decaying e^….
-    fn at_infinity(&mut self, of: &Ratio, x: Symbol) -> Result<()> {
-        let moving = by_exponent(of.num()).into_iter().filter_map(|(e, part)| Some((e?, part)));
-        let moving: Vec<_> = moving.filter(|(e, _)| e.symbols().contains(&x)).collect();
-        let rest = moving.iter().fold(of.num().clone(), |rest, (exponent, part)| {
-            rest - part * Poly::exponential((*exponent).clone())
-        });
-        let degree = of.den().degree(x);
-        // Returns a polynomial of x over x^degree, in y = 1/x.
-        let reversed = |poly: &Poly| {
-            let terms = (0..=poly.degree(x)).map(|i| {
-                (i..degree).fold(poly.coefficient(x, i), |term, _| term * Poly::symbol(Symbol::Own("y")))
-            });
-            Expr::poly(&terms.fold(Poly::zero(), |sum, term| sum + term))
-        };
-        let g = reversed(&rest).over(reversed(of.den()));
+    /// Writes a polynomial with exponentials by their formulas.
+    fn expr(&self, of: &Polynomial) -> Result<Expr> {
+        let table = &self.place.problem.table;
+        if !of.has_only(|x| matches!(table.atoms().get(x), Some(Atom::Own(_) | Atom::Exponential(_)))) {
+            return Err("a limit with other quantities than symbols and exponentials".into());
+        }
+        Ok(Expr::polynomial(of, |x| match table.atoms()[x] {
+            Atom::Exponential(of) => match table.formula(of) {
+                Ok(of) => Expr::call("exp", vec![self.place.lemma.printer.expr(of)]),
+                Err(_) => Expr::name(self.place.name(x)),
+            },
+            _ => Expr::name(self.place.name(x)),
+        }))
+    }
+
+    /// Returns a polynomial over x to the power of a degree, in y = 1/x.
+    fn reversed(&self, of: &Polynomial, degree: u8, y: &Expr) -> Result<Expr> {
+        let mut sum = Expr::int(0);
+        for i in 0..=of.degree(self.x) {
+            let power = (i..degree).fold(Expr::int(1), |power, _| power.times(y.clone()));
+            let coefficient = of.coefficient(self.x, i);
+            if !coefficient.is_zero() {
+                sum = sum.plus(power.times(self.expr(&coefficient)?)).simplified();
+            }
+        }
+        Ok(sum)
+    }
+
+    fn product(&self, facts: &[usize]) -> Result<Polynomial> {
+        self.state.facts.product(facts).map_err(refused)
+    }
+
+    fn write(&self, script: &mut Script) -> Result<()> {
+        let (table, mut rest, mut moving) = (&self.place.problem.table, self.of.num.clone(), Vec::new());
+        for (y, atom) in table.atoms().iter().enumerate() {
+            let is_moving = matches!(atom, Atom::Exponential(_)) && self.place.problem.depends(y, self.by);
+            if is_moving && rest.degree(y) > 0 {
+                moving.push((y, rest.coefficient(y, 1)));
+                rest = rest.coefficient(y, 0);
+            }
+        }
+        let den = self.product(&self.of.den)?;
+        let name = Expr::name(format!("s{}", table.atoms().len()));
+        let degree = den.degree(self.x);
+        let [above, below] = [&rest, &den].map(|part| self.reversed(part, degree, &name));
+        let g = format!("(fun {name} : R => {})", above?.over(below?));
         match &moving[..] {
-            [] => self.line(&format!("at_infinity (fun y : R => {g}).")),
-            [(exponent, part)] => {
-                let rate = exponent.over(&Poly::symbol(x).into()).ok_or("an exponent is not linear")?;
-                let factor =
-                    Ratio::from(part.clone()).over(&of.den().clone().into()).ok_or("a divisor is 0")?;
-                if rate.symbols().contains(&x) || factor.symbols().contains(&x) {
-                    return Err(
-                        "an exponential is not that of a constant rate, or has a factor that grows".into()
-                    );
+            [] => {
+                script.line(&format!("apply (limit_at_infinity _ {g}); cbv beta."));
+                script.block("-", |own| self.equation(own, None))?;
+            }
+            [(y, part)] => {
+                let unlike = "an exponential is not that of a constant rate, or has a factor that grows";
+                let exponent = self.state.exponent(*y).ok_or("an exponential without exponent")?;
+                let (above, below) = (&exponent.num, self.product(&exponent.den)?);
+                let rate = above.coefficient(self.x, 1);
+                let is_linear = above.degree(self.x) == 1 && above.coefficient(self.x, 0).is_zero();
+                let constant = [part, &den, &rate, &below];
+                if !is_linear || constant.into_iter().any(|of| self.depends(of)) || self.of.num.degree(*y) > 1
+                {
+                    return Err(unlike.into());
                 }
-                let [factor, rate] = [&factor, &rate].map(|ratio| Expr::ratio(ratio).argument());
-                self.line(&format!("with_decay (fun y : R => {g}) {factor} {rate}."));
+                let factor = self.expr(part)?.over(self.expr(&den)?).argument();
+                let rate = self.expr(&rate)?.over(self.expr(&below)?).argument();
+                script.line(&format!("apply (limit_with_decay _ {g} {factor} {rate}); cbv beta."));
+                script.block("-", |own| self.equation(own, Some((*y, rate))))?;
+                script
+                    .block("-", |own| self.at_zero(own, |writer, _| Ok(writer.call("shown", &["Known"]))))?;
             }
             _ => return Err("there is more than one exponential".into()),
         }
+        script.block("-", |own| {
+            self.at_zero(own, |writer, _| Ok(format!("auto_derive; {}", writer.call("not_zero", &[]))))
+        })?;
+        let last = self.steps.last().ok_or("a limit without a value")?;
+        script.block("-", |own| {
+            self.at_zero(own, |writer, own| {
+                let reason = writer.reason(own, last)?;
+                Ok(writer.call("shown", &[&reason]))
+            })
+        })
+    }
+
+    /// Proves that the formula is that in 1/x, for positive x, plus a decaying exponential of this rate.
+    fn equation(&self, script: &mut Script, decaying: Option<(usize, String)>) -> Result<()> {
+        let name = self.place.name(self.x);
+        let is_sign = |given: &Hypothesis| *given.value.op() == Op::Symbol(self.by);
+        let all = self.place.problem.hypotheses.iter().zip(&self.place.labels);
+        let labels = all.map(|(given, label)| label.clone().or(is_sign(given).then(|| "X".into())));
+        let place = Place::new(self.place.lemma, self.place.problem, labels.collect());
+        script.line(&format!("intros {name} X."));
+        script.names(&place, |_| true)?;
+        let mut writer = Writer::new(&place, self.state, self.leaf, |_| true);
+        let own = Polynomial::variable(self.x).map_err(refused)?;
+        writer.suppose("X".into(), own.clone(), Some(Sign::Positive));
+        writer.begin()?;
+        for step in self.steps {
+            writer.step(script, step)?;
+        }
+        let of = |i: &&usize| self.state.facts.get(**i).is_ok_and(|(of, _)| *of != own);
+        let factors: Vec<_> = self.of.den.iter().filter(of).copied().collect();
+        writer.divisor(&factors)?;
+        writer.share_exponentials(script)?;
+        if let Some((y, rate)) = decaying {
+            let shown = writer.call("shown", &[ZERO]);
+            script.line(&format!("pose proof (same_exponential ({rate} * {name}) _ _ _ eq_refl F{y}) as G."));
+            script.line(&format!("lapply G; [clear G; intro G; rewrite G | {shown}]."));
+        }
+        script.line(&format!("{}.", writer.call("shown", &[ZERO])));
+        Ok(())
+    }
+
+    /// Proves what does not depend on the variable.
+    fn at_zero(
+        &self,
+        script: &mut Script,
+        end: impl Fn(&mut Writer, &mut Script) -> Result<String>,
+    ) -> Result<()> {
+        let stays = |y: usize| !self.place.problem.depends(y, self.by);
+        script.names(&self.place, stays)?;
+        let mut writer = Writer::new(&self.place, self.state, self.leaf, stays);
+        writer.begin()?;
+        for step in self.steps {
+            match step {
+                Step::Sign { of, .. } if !self.depends(of) => writer.step(script, step)?,
+                Step::Sign { reason: Reason::Certificate(_), facts, .. } => writer.skip(script, *facts)?,
+                _ => {}
+            }
+        }
+        let end = end(&mut writer, script)?;
+        script.line(&format!("{end}."));
         Ok(())
     }
 }

@@ -1,8 +1,8 @@
 //! Symbols and monomials, the products of their powers.
 
 use super::algebra::Ratio;
-use super::effort;
 use crate::formula::symbols::subscripted;
+use crate::proof::effort;
 use std::cmp::Ordering;
 use std::sync::Arc;
 
@@ -33,12 +33,6 @@ impl Symbol {
             Symbol::Slack(index) => subscripted('s', index),
             Symbol::Place(index) => subscripted('t', index),
         }
-    }
-
-    /// Returns `true` if `name` looks like that of a symbol of a proof.
-    pub fn is_reserved(name: &str) -> bool {
-        let digits = name.strip_prefix(['e', 's', 't']).unwrap_or_default();
-        !digits.is_empty() && digits.chars().all(|digit| ('₀'..='₉').contains(&digit))
     }
 }
 
@@ -118,7 +112,7 @@ impl Monomial {
         self.exponent.as_deref()
     }
 
-    pub(super) fn times(&self, other: &Self) -> Self {
+    pub fn times(&self, other: &Self) -> Self {
         let mut powers = Vec::with_capacity(self.powers.len() + other.powers.len());
         let mut others = &other.powers[..];
         for (x, n) in &self.powers {
@@ -215,9 +209,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_of_symbols_of_a_proof_are_reserved() {
+    fn symbols_have_names() {
         let all = [Symbol::Error(0), Symbol::Slack(11), Symbol::Place(u8::MAX), Symbol::Own("e")];
         assert_eq!(all.map(Symbol::name), ["e₁", "s₁₂", "t₂₅₆", "e"]);
-        assert_eq!(all.map(|symbol| Symbol::is_reserved(symbol.name())), [true, true, true, false]);
     }
 }

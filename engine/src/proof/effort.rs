@@ -55,7 +55,7 @@ pub fn exceed() {
 
 #[cfg(test)]
 mod tests {
-    use super::super::algebra::{Number, Poly, Symbol};
+    use super::super::search::algebra::{Number, Poly, Symbol};
     use super::*;
     use rug::{Integer, Rational};
 

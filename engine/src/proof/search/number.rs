@@ -1,7 +1,7 @@
 //! Rational numbers, stored as machine integers where these suffice and as GMP integers otherwise.
 
-use super::effort;
 use crate::operators;
+use crate::proof::effort;
 use rug::Rational;
 use std::cmp::Ordering;
 

@@ -1,13 +1,14 @@
-//! Forms for the six rules of the kernel.
+//! Forms for the six rules.
 
+use super::Failure;
+use super::algebra::{Poly, Ratio, Symbol};
+use super::assumption::SignedRatio;
 use super::dictionary::integral;
-use super::finder::{Failure, Finder, Found};
+use super::finder::{Finder, Found};
+use super::sign::{Certificate, Rule};
 use crate::formula::Relation;
 use crate::proof;
-use crate::proof::check::{Known, Leaf, Node, Polynomial, Rise};
-use crate::proof::kernel::algebra::{Poly, Ratio, Symbol};
-use crate::proof::kernel::derivation::SignedRatio;
-use crate::proof::kernel::sign::{Certificate, Rule, Sign};
+use crate::proof::check::{Known, Leaf, Node, Polynomial, Rise, Sign};
 
 /// Forms l and r with l f = r.
 type Forms = (Poly, Poly);
@@ -16,40 +17,51 @@ type Forms = (Poly, Poly);
 const MAX_FACTOR_DEPTH: u32 = 2;
 
 impl Finder<'_, '_> {
-    /// Returns a quotient as one of forms.
-    pub fn form(&mut self, signed: &SignedRatio) -> Found<Ratio> {
+    /// Returns the product of a quotient and facts, as a quotient of forms.
+    pub fn form(&mut self, signed: &SignedRatio, facts: &[usize]) -> Found<Ratio> {
         let (left, right) = self.forms(&signed.num)?;
-        let (left_of_den, right_of_den) = match self.lemmas(&signed.den) {
+        let (den, rest) = self.cancelled(signed.den.of(), facts);
+        let (left_of_den, right_of_den) = match self.by_largest_errors(&den) {
             Some(forms) => forms,
-            None => self.forms(&signed.den)?,
+            None if den == *signed.den.of() => self.forms(&signed.den)?,
+            None => self.forms(&self.guide.context.sign_of(&den).ok_or("the sign of a denominator")?)?,
         };
-        let rest = Ratio::from(right * left_of_den).over(&(right_of_den * left).into());
-        let rest = rest.ok_or("a zero denominator")?;
-        let Some(multiple) = &signed.subtracted else { return Ok(rest) };
-        let factor = self.form(&multiple.factor)?;
-        let own = self.guide.dictionary.own(&multiple.of);
-        let fact = self.guide.fact_of_retained(&multiple.of, self.state).ok_or("a retained quantity")?;
-        let (symbol, value) = self.fact(fact)?;
-        let scale = own.over(&value.into()).ok_or("a zero fact")?;
-        Ok(factor * scale * Ratio::from(symbol) + rest)
+        let form = Ratio::from(right * left_of_den).over(&(right_of_den * left).into());
+        let mut form = form.ok_or("a zero denominator")?;
+        for i in rest {
+            form = form * Ratio::from(self.fact(i));
+        }
+        let Some(multiple) = &signed.subtracted else { return Ok(form) };
+        let supposed = self.guide.retained(&multiple.of).ok_or("a retained quantity")?;
+        Ok(self.form(&multiple.factor, facts)? * self.supposed(supposed)? + form)
+    }
+
+    /// Divides a denominator by those of the facts that divide it. Returns the rest of it, and of the facts.
+    fn cancelled(&self, den: &Poly, facts: &[usize]) -> (Poly, Vec<usize>) {
+        let (mut den, mut rest) = (den.clone(), Vec::new());
+        for i in facts {
+            let fact = self.state.facts.get(*i).map(|(of, _)| self.guide.reduced(of, self.state));
+            let quotient = fact.ok().filter(|fact| fact.den().is_one() && !fact.is_zero());
+            match quotient.and_then(|fact| den.over(fact.num())) {
+                Some(quotient) => den = quotient,
+                None => rest.push(*i),
+            }
+        }
+        (den, rest)
     }
 
     /// Returns the forms of a denominator by lemmas about its factors 2ᵖ + 1 + e.
-    fn lemmas(&mut self, of: &Certificate) -> Option<Forms> {
-        if of.of().terms().len() < 3 || !of.of().symbols().into_iter().any(|x| matches!(x, Symbol::Error(_)))
-        {
+    fn by_largest_errors(&mut self, of: &Poly) -> Option<Forms> {
+        if of.terms().len() < 3 || !of.symbols().into_iter().any(|x| matches!(x, Symbol::Error(_))) {
             return None;
         }
-        let own = self.guide.dictionary.own(&of.of().clone().into());
-        if !own.den().is_one() {
-            return None;
-        }
+        let own = self.guide.dictionary.own(&of.clone().into());
         let (rest, product) = self.without_largest_errors(own.num()).ok()?;
-        if product.is_one() {
+        if product.is_one() || !own.den().is_one() {
             return None;
         }
-        let signed = self.guide.context.sign_by_retained(self.guide.reduced(&rest), &[])?;
-        let form = self.form(&signed).ok()?;
+        let rest = self.guide.context.reduce(&self.guide.dictionary.with_places(&rest.into()));
+        let form = self.form(&self.guide.sign(rest)?, &[]).ok()?;
         Some((form.den().clone(), form.num() * product))
     }
 
@@ -68,7 +80,7 @@ impl Finder<'_, '_> {
 
     fn forms(&mut self, of: &Certificate) -> Found<Forms> {
         match of.rule() {
-            Rule::Termwise | Rule::TriangleInequality(_) => Ok((Poly::constant(1), of.of().clone())),
+            Rule::Terms => Ok((Poly::constant(1), of.of().clone())),
             Rule::Product(factor, rest) => {
                 let (left, right) = match self.factor(factor) {
                     Some(lemma) => (Poly::constant(1), lemma),
@@ -105,7 +117,7 @@ impl Finder<'_, '_> {
             return Err("the scale of a root".into());
         }
         let of = self.guide.dictionary.polynomial(&value, 0, self.state).ok_or("a root")?;
-        let root = scale * Ratio::from(self.quantity(Known::Value(of), &value));
+        let root = scale * Ratio::from(self.quantity(Known::Value(of)));
         let square = &root * &root;
         let left = Poly::constant(4) * leading * &left_of_rest * square.den();
         let right = &left_of_leading * left_of_rest * square.num() + left_of_leading * rest * square.den();
@@ -134,7 +146,7 @@ impl Finder<'_, '_> {
         let of = self.guide.dictionary.polynomial(value, 0, self.state).ok_or("a unit")?;
         let (known, left, right) = (Vec::new(), Polynomial::constant(1), of.clone());
         let certificate = proof::check::Certificate { known, left, right };
-        Ok(self.quantity(Known::Lemma((of, certificate).into()), value))
+        Ok(self.quantity(Known::Lemma((of, certificate).into())))
     }
 
     /// Returns the forms of a function whose sign follows from that of its slope.
@@ -142,7 +154,7 @@ impl Finder<'_, '_> {
         let own = self.guide.dictionary.own(&of.of().clone().into());
         for i in 0..self.state.facts.iter().len() {
             let Some(scale) = self.scale(&own, i) else { continue };
-            let (symbol, _) = self.fact(i)?;
+            let symbol = self.fact(i);
             return Ok((scale.den().clone(), scale.num() * symbol));
         }
         let x = self.guide.dictionary.variable(x).ok_or("the slope in a slack variable")?;
@@ -158,15 +170,16 @@ impl Finder<'_, '_> {
 
     /// Returns the quotient of a value and a fact if it is one of single terms.
     fn scale(&self, own: &Ratio, fact: usize) -> Option<Ratio> {
-        let fact = self.guide.dictionary.poly(&self.state.facts.get(fact).ok()?.0, self.state);
+        let (fact, _) = self.state.facts.get(fact).ok()?;
         if fact.terms().len() < 2 {
             return None;
         }
-        let scale = if fact.has_exponentials() {
-            let [a, b] =
-                [own.num(), &fact].map(|of| of.terms().last().map(|(_, q)| Poly::constant(q.clone())));
+        let fact = self.guide.dictionary.opaque_poly(fact);
+        let scale = if own.num().has_exponentials() {
+            let num = self.opaque(own.num())?;
+            let [a, b] = [&num, &fact].map(|of| of.terms().last().map(|(_, q)| Poly::constant(q.clone())));
             let (a, b) = (a?, b?);
-            if own.num() * &b != &fact * &a {
+            if &num * &b != &fact * &a {
                 return None;
             }
             Ratio::from(a).over(&(b * own.den()).into())?

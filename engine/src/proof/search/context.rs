@@ -1,14 +1,13 @@
 //! The assumptions of a proof and the substitutions that follow from them.
 
 use super::algebra::{Monomial, Poly, Ratio, Symbol};
-use super::derivation::{Assumption, AssumptionUse, Multiple, ProofError, Rounding, SignedRatio};
-use super::sign::{Certificate, Sign, SignEnv};
-use super::translator::Translator;
+use super::assumption::{Assumption, AssumptionUse, Multiple, SignedRatio};
+use super::choice;
+use super::sign::{Certificate, SignEnv};
 use crate::formula::Hypothesis;
 use crate::formula::claim::{PRECISION, SCALES};
-use crate::formula::statement::Proposition;
 use crate::number::Tree;
-use crate::proof::search;
+use crate::proof::check::Sign;
 use std::sync::Arc;
 
 /// Maximum number of absolute values that are replaced.
@@ -23,14 +22,8 @@ pub(in crate::proof) struct Context {
     substitutions: Vec<(Monomial, Ratio)>,
     /// Quantities of known sign that are not expressed by the remaining symbols.
     retained: Vec<(Ratio, Sign)>,
-    /// Whether quantities of undecided sign are never replaced by multiples of their absolute values.
-    has_cases_only: bool,
     /// The rounded formulas; the position of each is the index of its error.
     pub(super) roundings: Vec<Tree>,
-    /// The roundings in hypotheses.
-    pub(super) errors: Vec<Rounding>,
-    /// The symbol that tends to infinity in the proof of a limit.
-    variable: Option<Symbol>,
 }
 
 impl Context {
@@ -38,39 +31,6 @@ impl Context {
     pub(in crate::proof) fn of(roundings: Vec<Tree>) -> Self {
         let known = SCALES.into_iter().map(|name| (Symbol::Own(name), Sign::Positive)).collect();
         Context { signs: Arc::new(known), roundings, ..Context::default() }
-    }
-
-    /// Sets the variable of the limit, if the proposition is one; hypotheses on it are solved for it.
-    pub(in crate::proof) fn with_variable(self, says: &Proposition) -> Self {
-        let variable = match says {
-            Proposition::Limit(_, by, _) => Some(Symbol::Own(by)),
-            _ => None,
-        };
-        Context { variable, ..self }
-    }
-
-    /// Lets absolute values be replaced in cases only.
-    pub(super) fn with_cases_only(self) -> Self {
-        Context { has_cases_only: true, ..self }
-    }
-
-    pub(super) fn has_cases_only(&self) -> bool {
-        self.has_cases_only
-    }
-
-    /// Adds a hypothesis to the assumptions.
-    pub(in crate::proof) fn assume(&mut self, hypothesis: &Hypothesis) -> Result<(), ProofError> {
-        let mut reader = Translator::new(self);
-        if let Some((x, lower, upper)) = hypothesis.interval() {
-            let [lower, upper] = [reader.translate(lower)?, reader.translate(upper)?];
-            self.errors = reader.errors;
-            self.assume_interval(hypothesis, Symbol::Own(x), &lower, &upper);
-        } else {
-            let value = reader.translate(&hypothesis.value)?;
-            self.errors = reader.errors;
-            self.assume_sign(Some(hypothesis), value, hypothesis.relation.into());
-        }
-        Ok(())
     }
 
     /// Returns a polynomial with the sign of a quotient whose denominator is positive: the numerator without
@@ -109,15 +69,15 @@ impl Context {
     }
 
     /// Returns the sign of a reduced quotient if the rules find those of numerator and denominator.
-    pub(super) fn sign(&self, value: Ratio, factors: &[Certificate]) -> Option<SignedRatio> {
+    pub(in crate::proof) fn sign(&self, value: Ratio, factors: &[Certificate]) -> Option<SignedRatio> {
         self.sign_under(value, factors, &self.signs)
     }
 
     fn sign_under(&self, value: Ratio, factors: &[Certificate], known: &Arc<SignEnv>) -> Option<SignedRatio> {
-        let find = |of: &Poly, known: &Arc<SignEnv>| search::sign_of_product(of, factors, known);
-        let sign = |part: &Poly| Certificate::search(part, known, &find);
+        let find = |of: &Poly, known: &Arc<SignEnv>| choice::sign_of_product(of, factors, known);
+        let sign = |part: &Poly| find(part, known);
         let (num, den) = (sign(value.num())?, sign(value.den())?);
-        den.sign().is_strict().then_some(SignedRatio { value, subtracted: None, num, den })
+        den.sign().is_strict().then_some(SignedRatio { subtracted: None, num, den })
     }
 
     /// Returns the sign of a reduced quotient v, directly or by a [retained](Self::retained) quantity h:
@@ -132,12 +92,12 @@ impl Context {
             let factor = self.sign(m, factors)?;
             let whole = factor.sign().times(sign).plus(rest.sign())?;
             let less = Some(Multiple { factor, of: h.clone(), sum_sign: whole }.into());
-            Some(SignedRatio { value: value.clone(), subtracted: less, ..rest })
+            Some(SignedRatio { subtracted: less, ..rest })
         };
         let mut retained = self.retained.iter().rev().map(|(h, sign)| (self.reduce(h), *sign));
         self.sign(value.clone(), factors).or_else(|| {
             retained.find_map(|(h, sign)| {
-                search::multipliers(&value, &h).into_iter().find_map(|m| by(&h, sign, m))
+                choice::multipliers(&value, &h).into_iter().find_map(|m| by(&h, sign, m))
             })
         })
     }
@@ -171,8 +131,9 @@ impl Context {
         &self.signs
     }
 
-    pub(in crate::proof) fn variable(&self) -> Option<Symbol> {
-        self.variable
+    /// Returns the known signs of the remaining symbols.
+    pub(in crate::proof) fn known(&self) -> Arc<SignEnv> {
+        self.signs.clone()
     }
 
     fn set_sign(&mut self, symbol: Symbol, sign: Sign) {
@@ -197,9 +158,6 @@ impl Context {
                 } else if let Some((divisor, (pivot, by), slack)) = self.solve(given.as_ref(), &value, sign) {
                     divided_by = divisor;
                     self.set_sign(slack, sign);
-                    if Some(&pivot) == self.variable.map(Monomial::of).as_ref() {
-                        self.variable = Some(slack);
-                    }
                     AssumptionUse::Pivot(pivot, by, Some(slack))
                 } else {
                     self.retained.push((value.clone(), sign));
@@ -213,22 +171,12 @@ impl Context {
         if let AssumptionUse::Pivot(pivot, by, _) = &used {
             self.replace(pivot.clone(), by.clone());
         }
-        self.assumptions.push(Assumption {
-            hypothesis: given,
-            value,
-            sign,
-            divisor: divided_by,
-            usage: used,
-        });
+        self.assumptions.push(Assumption { hypothesis: given, value, divisor: divided_by, usage: used });
     }
 
     /// Finds a pivot of a quantity, otherwise of its quotient by a positive symbol: 0 < k < 1 is
-    /// k = 1/(1 + s) with s = (1 − k)/k > 0. A quantity that contains the slack variable that replaces the
-    /// variable of a limit has none: this slack variable would be replaced, too, and lose its sign.
+    /// k = 1/(1 + s) with s = (1 − k)/k > 0.
     fn solve(&self, given: Option<&Hypothesis>, value: &Ratio, sign: Sign) -> Option<Solved> {
-        if self.variable.is_some_and(|x| matches!(x, Symbol::Slack(_)) && value.symbols().contains(&x)) {
-            return None;
-        }
         let slack = self.next_slack()?;
         let mut known = self.signs.clone();
         Arc::make_mut(&mut known).insert(slack, sign);
@@ -245,7 +193,13 @@ impl Context {
 
     /// Adds the assumption that a symbol lies in an interval, as the midpoint plus t times half the length,
     /// for some t between −1 and 1. A known sign of the symbol, which this does not imply, is retained.
-    fn assume_interval(&mut self, given: &Hypothesis, x: Symbol, lower: &Ratio, upper: &Ratio) {
+    pub(in crate::proof) fn assume_interval(
+        &mut self,
+        given: &Hypothesis,
+        x: Symbol,
+        lower: &Ratio,
+        upper: &Ratio,
+    ) {
         let half = Ratio::from(Poly::constant((1, 2)));
         let [middle, reach] = [upper + lower, upper - lower].map(|sum| self.reduce(&(sum * &half)));
         let quantity = Ratio::from(Poly::symbol(x));
@@ -260,8 +214,8 @@ impl Context {
             }
             _ => AssumptionUse::Unused,
         };
-        let (hypothesis, value, sign) = (Some(given.clone()), quantity, Sign::NonNegative);
-        self.assumptions.push(Assumption { hypothesis, value, sign, divisor: None, usage: used });
+        let hypothesis = Some(given.clone());
+        self.assumptions.push(Assumption { hypothesis, value: quantity, divisor: None, usage: used });
     }
 
     /// Replaces a quantity x by t s, where s is its absolute value and −1 ≤ t ≤ 1, given its formula and 2 x.
@@ -277,16 +231,10 @@ impl Context {
         let product = Poly::symbol(size) * Poly::symbol(place);
         let Some((pivot, by)) = self.pivot(None, &value, &product, &known) else { return false };
         self.signs = known;
-        self.replace(pivot.clone(), by.clone());
-        let usage = AssumptionUse::Size { of: of.clone(), pivot, by, size, place };
-        let sign = Sign::NonNegative;
-        self.assumptions.push(Assumption {
-            hypothesis: None,
-            value: value.clone(),
-            sign,
-            divisor: None,
-            usage,
-        });
+        self.replace(pivot.clone(), by);
+        let usage = AssumptionUse::Size { of: of.clone(), pivot, size, place };
+        let (hypothesis, divisor) = (None, None);
+        self.assumptions.push(Assumption { hypothesis, value: value.clone(), divisor, usage });
         self.size(&value).is_some()
     }
 
@@ -332,7 +280,7 @@ impl Context {
     ) -> Option<(Monomial, Ratio)> {
         // num − replaced_by · den = 0, and den is not 0.
         let equation = value.num() - replaced_by * value.den();
-        let pivot = search::pivot(self, given, value, &equation, known)?;
+        let pivot = choice::pivot(self, given, value, &equation, known)?;
         let by = solve_for(&pivot, &equation, known)?;
         Some((pivot, by))
     }
@@ -355,7 +303,7 @@ pub(in crate::proof) fn solve_for(pivot: &Monomial, of: &Poly, known: &Arc<SignE
 
 /// Returns the sign of a polynomial if the search finds it.
 pub(super) fn sign(of: &Poly, known: &Arc<SignEnv>) -> Option<Certificate> {
-    Certificate::search(of, known, &search::sign)
+    choice::sign(of, known)
 }
 
 /// The divisor, if any; the pivot and its value; the slack variable.

@@ -23,18 +23,18 @@ fn invariants_must_hold_at_the_start() {
 
 #[test]
 fn variables_must_not_have_reserved_names() {
-    // The kernel names b − a > 0 s₁. As s₁ grows, 1/(b − a) tends to 0, but the formula does not contain s₁.
+    // The search names b − a > 0 s₁. As s₁ grows, 1/(b − a) tends to 0, but the formula does not contain s₁.
     let above = || vec![above_zero(x("b") - x("a"))];
     let reciprocal = || Tree::one() / (x("b") - x("a"));
     let limit = |by| Proposition::Limit(reciprocal(), by, Tree::zero());
-    assert!(matches!(outcome(above(), limit("s₁")), Err(ProofError::ReservedName("s₁"))));
+    assert!(matches!(outcome(above(), limit("s₁")), Err(ProofError::Premise(Premise::ReservedName("s₁")))));
     let slope = |by| Proposition::Derivative(x("b"), by, Tree::zero());
-    assert!(matches!(outcome(above(), slope("s₁")), Err(ProofError::ReservedName("s₁"))));
+    assert!(matches!(outcome(above(), slope("s₁")), Err(ProofError::Premise(Premise::ReservedName("s₁")))));
     assert!(proved(above(), slope("u")));
     // The names of members of a sequence are reserved as well.
     assert!(matches!(
         outcome(vec![], Proposition::Equal(x("x₁"), x("x₁"))),
-        Err(ProofError::ReservedName("x₁"))
+        Err(ProofError::Premise(Premise::ReservedName("x₁")))
     ));
 }
 
@@ -44,19 +44,19 @@ fn sequences_do_not_start_from_a_power() {
     let double = |[x]: [Tree; 1]| [Tree::int(2) * x];
     let from = |start: Tree| induction("powers", 2, [start], double, [x("q")]);
     assert!(prove(&from(Tree::one())).is_ok());
-    assert!(matches!(prove(&from(x("q") / x("q"))), Err(ProofError::ReservedName("q"))));
+    assert!(matches!(prove(&from(x("q") / x("q"))), Err(ProofError::Premise(Premise::ReservedName("q")))));
     let vanishes = |ratio: Tree| geometric_limit("vanishes", ratio, x("q"), 0);
     assert!(prove(&vanishes(Tree::one() / Tree::int(2))).is_ok());
     assert!(matches!(
         prove(&vanishes(x("q") / (Tree::one() + x("q") * x("q")))),
-        Err(ProofError::ReservedName("q"))
+        Err(ProofError::Premise(Premise::ReservedName("q")))
     ));
 }
 
 #[test]
 fn a_statement_without_goals_is_not_proved() {
     let nothing = induction("nothing", 2, [], |[]| [], []);
-    assert!(matches!(prove(&nothing), Err(ProofError::NoGoals)));
+    assert!(matches!(prove(&nothing), Err(ProofError::Premise(Premise::NoGoals))));
 }
 
 /// Returns the claim that the halves of x₀ are within q = ρᵏ of 0.
@@ -83,7 +83,10 @@ fn prove_drift(hypotheses: &[Hypothesis]) -> Result<Proof, ProofError> {
 fn sequences_start_neither_from_a_member_nor_from_a_computed_quantity() {
     for name in ["x₁", "u"] {
         for claim in [halves(x(name), int(1) / int(2)), halves(int(1), x(name))] {
-            assert!(matches!(prove(&claim), Err(ProofError::ReservedName(own)) if own == name), "{name}");
+            assert!(
+                matches!(prove(&claim), Err(ProofError::Premise(Premise::ReservedName(own))) if own == name),
+                "{name}"
+            );
         }
     }
 }
@@ -99,7 +102,10 @@ fn hypotheses_on_a_member_are_proved_for_each_member() {
     // Claims of closed forms have no hypotheses on members.
     let closed = induction("halves", 2, [int(1)], |[x]| [x * int(2)], [x("q")]);
     let hypothesis = not_below_zero(x("x₁"));
-    assert!(matches!(prove(&closed.assuming([&hypothesis])), Err(ProofError::ReservedName("x₁"))));
+    assert!(matches!(
+        prove(&closed.assuming([&hypothesis])),
+        Err(ProofError::Premise(Premise::ReservedName("x₁")))
+    ));
 }
 
 /// The proof of an interval uses the intervals of earlier computed quantities only.
@@ -113,9 +119,9 @@ fn computed_quantities_depend_on_earlier_ones_only() {
     assert!(prove(&chain(claim(1))).is_err());
     // v is computed from u, so u comes first; circular definitions are rejected.
     let reversed = claim(2).computing(&v, &u + int(1)).computing(&u, &a + int(1));
-    assert!(matches!(prove(&reversed), Err(ProofError::HypothesisOnComputed("u"))));
+    assert!(matches!(prove(&reversed), Err(ProofError::Premise(Premise::HypothesisOnComputed("u")))));
     let circular = claim(2).computing(&u, &v - int(1)).computing(&v, &u + int(1));
-    assert!(matches!(prove(&circular), Err(ProofError::HypothesisOnComputed("v"))));
+    assert!(matches!(prove(&circular), Err(ProofError::Premise(Premise::HypothesisOnComputed("v")))));
     // The second differs from a by 3.
     assert!(prove(&claim(2).computing(&u, &a + int(1)).computing(&v, &u + int(2))).is_err());
     // The first is outside its interval, although the second does not depend on it.
@@ -135,7 +141,10 @@ fn quantities_are_computed_once() {
 fn computed_quantities_are_neither_powers_nor_constants() {
     let [q, u, v] = ["q", "u", "v"].map(x);
     let is_rejected = |claim: Statement| {
-        matches!(prove(&claim), Err(ProofError::ReservedName(_) | ProofError::Discontinuous))
+        matches!(
+            prove(&claim),
+            Err(ProofError::Premise(Premise::ReservedName(_)) | ProofError::Premise(Premise::Discontinuous))
+        )
     };
     // The members 1, 2, 3, … are not powers of 2, which would follow for a computed q = 1 at each step.
     let at_one = Hypothesis::near(&q, int(1), int(0));
@@ -153,7 +162,7 @@ fn computed_quantities_are_neither_powers_nor_constants() {
         prove(&claim.computing(&u, &q))
     };
     assert!(near(&v).is_ok());
-    assert!(matches!(near(&u), Err(ProofError::ReservedName("u"))));
+    assert!(matches!(near(&u), Err(ProofError::Premise(Premise::ReservedName("u")))));
     // The derivative of u = v is not 0, and q (1/q) does not tend to 0.
     let near_v = Hypothesis::near(&u, &v, int(0));
     assert!(is_rejected(derivative("slope", &u, &v, 0).assuming([&near_v]).computing(&u, &v)));
@@ -172,7 +181,9 @@ fn computed_quantities_are_neither_powers_nor_constants() {
 #[test]
 fn the_only_hypothesis_on_a_computed_quantity_is_its_interval() {
     let [q, u, z, w] = ["q", "u", "z", "w"].map(x);
-    let is_rejected = |claim: Statement| matches!(prove(&claim), Err(ProofError::HypothesisOnComputed("u")));
+    let is_rejected = |claim: Statement| {
+        matches!(prove(&claim), Err(ProofError::Premise(Premise::HypothesisOnComputed("u"))))
+    };
     let from_one = not_below_zero(&q - int(1));
     let near_q = Hypothesis::near(&u, &q, int(0));
     let square = &z * &z * &w * &w;
@@ -204,7 +215,8 @@ fn the_only_hypothesis_on_a_computed_quantity_is_its_interval() {
 #[test]
 fn limits_and_steps_of_sequences_do_not_depend_on_a_power() {
     let q = x("q");
-    let is_rejected = |claim: Statement| matches!(prove(&claim), Err(ProofError::ReservedName("q")));
+    let is_rejected =
+        |claim: Statement| matches!(prove(&claim), Err(ProofError::Premise(Premise::ReservedName("q"))));
     let half = || int(1) / int(2);
     assert!(is_rejected(
         geometric_limit("one", half(), &q, 0).assuming([&Hypothesis::new(Relation::Zero, &q - int(1))])

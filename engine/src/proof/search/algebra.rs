@@ -1,4 +1,4 @@
-//! Polynomials over ℚ and their quotients, with e^… as an atom: the arithmetic of the kernel.
+//! Polynomials over ℚ and their quotients, with e^… as an atom: the arithmetic of the search.
 //!
 //! All arithmetic is exact. A [`Poly`] is a sum of distinct monomials with nonzero coefficients, so two
 //! polynomials without e^… are the same function if and only if they are the same sum. With e^…, equal sums
@@ -6,9 +6,9 @@
 //! [`Ratio`] is not reduced to lowest terms: two are equal if they are so after cross-multiplication. If the
 //! denominator divides the numerator, the division is carried out, which shortens printed proofs.
 
-use super::effort;
 pub use super::monomial::{Monomial, Symbol};
 pub use super::number::Number;
+use crate::proof::effort;
 
 use crate::operators;
 use rug::Rational;

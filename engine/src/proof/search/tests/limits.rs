@@ -61,11 +61,12 @@ fn variables_of_limits_may_have_lower_bounds() {
     // Upper bounds exclude large g, and so may bounds with a factor of unknown sign.
     let inverse = || Proposition::Limit(int(1) / (int(1) + &g * &g), "g", int(0));
     assert!(proved(vec![above(&f)], inverse()));
-    for bound in [&f - &g, &h * &g - &f, &f * &f - &g * &g, &g * &g - &f, &f - &g * &g * &g, &g.exp() - &f] {
+    assert!(proved(vec![above_zero(&g * &g - &f)], inverse()));
+    for bound in [&f - &g, &h * &g - &f, &f * &f - &g * &g, &f - &g * &g * &g, &g.exp() - &f] {
         assert!(!proved(vec![above_zero(bound.clone())], inverse()), "{bound} > 0");
     }
     assert!(!proved(vec![above(&f), above_zero(&h - &g)], inverse()));
-    // The kernel replaces f by the bound + s; yet 1/(1 + f²) does not depend on g.
+    // The search replaces f by the bound + s; yet 1/(1 + f²) does not depend on g.
     let constant = || Proposition::Limit(int(1) / (int(1) + &f * &f), "g", int(0));
     for bound in [&g * &h, -&g * &h, &g * &g] {
         assert!(!proved(vec![above_zero(&f - &bound)], constant()), "f > {bound}");
@@ -81,38 +82,6 @@ fn variables_of_limits_may_have_lower_bounds() {
         vec![above_zero(h.clone()), above(&f), never],
         Proposition::Limit(reciprocal, "g", int(0))
     ));
-}
-
-/// The case may end before the limit is reached.
-#[test]
-fn a_case_that_depends_on_the_variable_of_a_limit_is_not_used() {
-    let [a, g] = ["a", "g"].map(Symbol::Own);
-    let variable = |hypothesis: Option<&Hypothesis>, value: Poly| {
-        let mut context = Context::of(vec![]).with_variable(&Proposition::Limit(x("g"), "g", int(0)));
-        context.assume_sign(hypothesis, value.into(), Sign::Positive);
-        context.limit_variable(g)
-    };
-    let above = Poly::symbol(g) - Poly::symbol(a);
-    assert_eq!(variable(Some(&above_zero(x("g") - x("a"))), above.clone()), Some(Symbol::Slack(0)));
-    assert_eq!(variable(None, above), None);
-    assert_eq!(variable(None, Poly::symbol(a)), Some(g));
-}
-
-#[test]
-fn increasing_linear_functions_are_recognised() {
-    let context = Context::of(vec![]).with_variable(&Proposition::Sign(Relation::Positive, x("s")));
-    let [s, two_to_a] = ["s", "2ᵃ"].map(|name| Poly::symbol(Symbol::Own(name)));
-    let one = || Poly::constant(1);
-    let over = |a: Poly, b: Poly| Ratio::from(a).over(&b.into()).unwrap();
-    let increases = |of: Ratio| context.increases_linearly(&of, Symbol::Own("s"));
-    // The other symbol is known to be positive.
-    assert!(increases((&s + &two_to_a).into()) && increases(over(&s * &two_to_a - one(), &two_to_a + one())));
-    let exponential = Poly::exponential(s.clone().into());
-    let power = || &s * &two_to_a * &exponential;
-    for of in [-&s, one(), two_to_a.clone(), &s * &s, &s * (&two_to_a - one()), power(), &s - &exponential] {
-        assert!(!increases(of.clone().into()), "{of:?}");
-    }
-    assert!(!increases(over(s.clone(), &s + one())) && !increases(over(s.clone(), two_to_a - one())));
 }
 
 /// The hypothesis −1/v ≤ u ≤ 1/v excludes large v unless u = 0.

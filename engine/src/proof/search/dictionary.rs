@@ -1,14 +1,13 @@
-//! Translation between the polynomials of the kernel and those of the checker.
+//! Translation between the polynomials of the search and those of the checker.
 //!
-//! The kernel replaces pivots by slack variables and symbols in intervals by places. The checker uses the
-//! original symbols. A quantity in *own* symbols is a polynomial of the kernel without slack variables, in
+//! The search replaces pivots by slack variables and symbols in intervals by places. The checker uses the
+//! original symbols. A quantity in *own* symbols is a polynomial of the search without slack variables, in
 //! which places have the numbers of their hypotheses.
 
+use super::algebra::{Monomial, Number, Poly, Ratio, Symbol};
+use super::assumption::{Assumption, AssumptionUse};
 use crate::number::Tree;
-use crate::proof::check::{Atom, MAX_VARIABLES, Polynomial, Powers, Problem, Quotient, State};
-use crate::proof::kernel::algebra::{Monomial, Number, Poly, Ratio, Symbol};
-use crate::proof::kernel::context::Context;
-use crate::proof::kernel::derivation::AssumptionUse;
+use crate::proof::check::{Atom, MAX_VARIABLES, Polynomial, Problem, Quotient, State};
 use rug::{Integer, Rational};
 
 /// The first number of symbols that do not occur in derivations.
@@ -32,14 +31,6 @@ pub fn opaque_exponential(x: usize) -> Symbol {
     Symbol::Error(numbered(x))
 }
 
-/// Returns the symbols of the absolute value of a formula and of its factor in a derivation.
-fn size(context: &Context, formula: &Tree) -> Option<(Symbol, Symbol)> {
-    context.assumptions().iter().find_map(|assumption| match &assumption.usage {
-        AssumptionUse::Size { of, size, place, .. } if of == formula => Some((*size, *place)),
-        _ => None,
-    })
-}
-
 /// Returns the symbol of a variable that a derivation does not use.
 fn unused(x: usize) -> Symbol {
     place(MAX_VARIABLES + x)
@@ -51,65 +42,62 @@ fn numbered(i: usize) -> u8 {
     u8::try_from(i).ok().and_then(|i| FIRST.checked_add(i)).unwrap_or(u8::MAX)
 }
 
-/// The symbols of the kernel for the variables of the checker, and the meaning of the symbols of a derivation.
+/// The symbols of the search for the variables of the checker, and the meaning of the symbols of a derivation.
+#[derive(Clone)]
 pub struct Dictionary {
     /// The symbols of variables, except for exponentials.
     symbols: Vec<Symbol>,
     /// The slack variables of a derivation, with their values in own symbols.
-    pub slacks: Vec<(Symbol, Ratio)>,
+    slacks: Vec<(Symbol, Ratio)>,
     /// The places of a derivation, with their own symbols.
     places: Vec<(Symbol, Symbol)>,
 }
 
 impl Dictionary {
-    /// Returns the dictionary for the derivations of a context; `None` if it contains an unknown formula.
-    pub fn of(context: &Context, problem: &Problem) -> Option<Self> {
+    /// Returns the dictionary before any assumption; `None` if there are too many errors. The errors in a
+    /// derivation are numbered as the `roundings`.
+    pub fn new(problem: &Problem, roundings: &[Tree]) -> Option<Self> {
         let mut symbols = Vec::new();
         for (x, atom) in problem.table.atoms().iter().enumerate() {
             symbols.push(match atom {
                 Atom::Own(name) => Symbol::Own(name),
                 Atom::Place(i) => place(*i),
                 Atom::Exponential(_) => opaque_exponential(x),
-                Atom::Size(of) => size(context, problem.table.formula(*of).ok()?).map_or(unused(x), |s| s.0),
-                Atom::Factor(of) => {
-                    size(context, problem.table.formula(*of).ok()?).map_or(unused(x), |s| s.1)
-                }
+                Atom::Size(_) | Atom::Factor(_) => unused(x),
                 Atom::Error(of) => {
                     let of = problem.table.formula(*of).ok()?;
-                    let index = context.roundings().iter().position(|known| known == of)?;
-                    Symbol::Error(index.try_into().ok()?)
+                    Symbol::Error(roundings.iter().position(|known| known == of)?.try_into().ok()?)
                 }
             });
         }
-        let mut dictionary = Dictionary { symbols, slacks: Vec::new(), places: Vec::new() };
-        dictionary.read(context, problem)?;
-        Some(dictionary)
+        Some(Dictionary { symbols, slacks: Vec::new(), places: Vec::new() })
     }
 
-    /// Reads the slack variables and places of a context.
-    fn read(&mut self, context: &Context, problem: &Problem) -> Option<()> {
-        let mut intervals: Vec<(Symbol, Ratio)> = Vec::new();
-        for assumption in context.assumptions() {
-            match &assumption.usage {
-                AssumptionUse::Pivot(_, _, Some(slack)) => {
-                    self.slacks.push((*slack, self.own(&assumption.slack_value())));
-                }
-                AssumptionUse::Interval(x, by, symbol) => {
-                    let hypothesis = assumption.hypothesis.as_ref()?;
-                    let i = problem.hypotheses.iter().position(|given| *given == hypothesis)?;
-                    self.places.push((*symbol, place(i)));
-                    intervals.push((*x, self.own(by)));
-                }
-                _ => {}
+    /// Reads the last assumption of a context, which is that of the hypothesis with this number.
+    pub fn read(&mut self, assumption: &Assumption, hypothesis: Option<usize>, problem: &Problem) {
+        match &assumption.usage {
+            AssumptionUse::Pivot(_, _, Some(slack)) => {
+                self.slacks.push((*slack, self.own(&assumption.slack_value())));
             }
-        }
-        // A slack variable may have been introduced before the interval of a symbol in it.
-        for (_, value) in &mut self.slacks {
-            for (x, by) in &intervals {
-                *value = value.replace(&Monomial::of(*x), by);
+            AssumptionUse::Interval(x, by, symbol) => {
+                let Some(hypothesis) = hypothesis else { return };
+                self.places.push((*symbol, place(hypothesis)));
+                let (x, by) = (Monomial::of(*x), self.own(by));
+                for (_, value) in &mut self.slacks {
+                    *value = value.replace(&x, &by);
+                }
             }
+            AssumptionUse::Size { of, size, place, .. } => {
+                let variables = problem.table.find(of).ok().and_then(|of| {
+                    let variable = |atom| problem.table.variable(atom).ok();
+                    Some((variable(Atom::Size(of))?, variable(Atom::Factor(of))?))
+                });
+                if let Some((x, y)) = variables {
+                    (self.symbols[x], self.symbols[y]) = (*size, *place);
+                }
+            }
+            _ => {}
         }
-        Some(())
     }
 
     /// Returns a quantity of a derivation in own symbols.
@@ -137,6 +125,11 @@ impl Dictionary {
         self.places.iter().find(|(place, _)| *place == x).map_or(x, |(_, own)| *own)
     }
 
+    /// Returns the symbol of a variable that is no exponential.
+    pub fn symbol(&self, x: usize) -> Symbol {
+        self.symbols[x]
+    }
+
     /// Returns the variable of an own symbol.
     pub fn variable(&self, x: Symbol) -> Option<usize> {
         self.symbols.iter().position(|own| *own == x)
@@ -156,27 +149,23 @@ impl Dictionary {
     }
 
     fn poly_with(&self, of: &Polynomial, atom: impl Fn(usize) -> Poly) -> Poly {
-        let term = |(powers, number): &(Powers, i128)| {
-            let term = Poly::constant(Number::from(Rational::from(*number)));
-            let powers = powers.iter().enumerate().filter(|(_, n)| **n > 0);
-            powers.fold(term, |term, (x, n)| {
+        let mut terms: Vec<(Monomial, Number)> = Vec::with_capacity(of.terms().len());
+        for (powers, number) in of.terms() {
+            let mut term = Poly::constant(Number::from(Rational::from(*number)));
+            for (x, n) in powers.iter().enumerate().filter(|(_, n)| **n > 0) {
                 let atom = atom(x);
-                (0..*n).fold(term, |term, _| term * &atom)
-            })
-        };
-        of.terms().map(term).fold(Poly::zero(), |sum, term| sum + term)
-    }
-
-    /// Returns a product of facts in own symbols.
-    pub fn product(&self, facts: &[usize], state: &State) -> Poly {
-        let facts = facts.iter().filter_map(|i| state.facts.get(*i).ok());
-        facts.fold(Poly::constant(1), |product, (of, _)| product * self.poly(of, state))
+                term = (0..*n).fold(term, |term, _| term * &atom);
+            }
+            terms.extend(term.terms().map(|(monomial, number)| (monomial.clone(), number.clone())));
+        }
+        terms.into_iter().collect()
     }
 
     /// Returns a quotient in own symbols.
     pub fn ratio(&self, of: &Quotient, state: &State) -> Ratio {
-        let num = Ratio::from(self.poly(&of.num, state));
-        num.over(&self.product(&of.den, state).into()).unwrap_or_else(Ratio::zero)
+        let facts = of.den.iter().filter_map(|i| state.facts.get(*i).ok());
+        let den = facts.fold(Poly::constant(1), |product, (of, _)| product * self.poly(of, state));
+        Ratio::from(self.poly(&of.num, state)).over(&den.into()).unwrap_or_else(Ratio::zero)
     }
 
     /// Returns a polynomial in own symbols and in `quantities` further symbols as one of the checker.

@@ -1,7 +1,7 @@
 //! Rules for the sign of a polynomial for all values of its symbols.
 //!
-//! A [`Certificate`] is made by one of six rules, each sound by itself. The choice of the rule, in
-//! `search.rs`, is not trusted.
+//! A [`Certificate`] is made by one of six rules. The [forms](super::form) of the checker's certificates
+//! follow from it.
 //!
 //! 1. **Terms.** All terms have the same sign, which follows from the known signs of symbols; even powers of
 //!    free symbols are not negative, and e^… is positive. The sign is strict if that of one term is.
@@ -18,84 +18,19 @@
 //!    coefficients (Bernstein form). In degree one the coefficients are its values at the ends.
 
 use super::algebra::{Monomial, Number, Poly, Ratio, Symbol};
-use super::effort;
+use crate::proof::check::Sign::{self, Negative, NonNegative, NonPositive, Positive, Zero};
+use crate::proof::effort;
 use rug::{Complete, Integer, Rational};
 use std::collections::BTreeMap;
 use std::iter;
 use std::sync::Arc;
 
-/// The sign of a value x that may depend on symbols.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sign {
-    /// x < 0
-    Negative,
-    /// x ≤ 0
-    NonPositive,
-    /// x = 0
-    Zero,
-    /// x ≥ 0
-    NonNegative,
-    /// x > 0
-    Positive,
-}
-
-use Sign::{Negative, NonNegative, NonPositive, Positive, Zero};
-
 /// The known signs of symbols. A symbol that is not listed is free: it may be any real number.
 pub type SignEnv = BTreeMap<Symbol, Sign>;
-
-impl Sign {
-    /// Returns `true` if the sign excludes zero.
-    pub fn is_strict(self) -> bool {
-        matches!(self, Positive | Negative)
-    }
-
-    /// Returns the sign of −x.
-    pub fn negated(self) -> Self {
-        match self {
-            Negative => Positive,
-            NonPositive => NonNegative,
-            Zero => Zero,
-            NonNegative => NonPositive,
-            Positive => Negative,
-        }
-    }
-
-    /// Returns the sign of x y.
-    pub fn times(self, other: Self) -> Self {
-        match (self, other) {
-            (Zero, _) | (_, Zero) => Zero,
-            (Positive, sign) | (sign, Positive) => sign,
-            (Negative, sign) | (sign, Negative) => sign.negated(),
-            (NonNegative, NonNegative) | (NonPositive, NonPositive) => NonNegative,
-            (NonNegative, NonPositive) | (NonPositive, NonNegative) => NonPositive,
-        }
-    }
-
-    /// Returns the sign of x + y if the signs of x and y determine it.
-    pub fn plus(self, other: Self) -> Option<Self> {
-        match (self, other) {
-            (Zero, sign) | (sign, Zero) => Some(sign),
-            (Positive, Positive | NonNegative) | (NonNegative, Positive) => Some(Positive),
-            (Negative, Negative | NonPositive) | (NonPositive, Negative) => Some(Negative),
-            (NonNegative, NonNegative) => Some(NonNegative),
-            (NonPositive, NonPositive) => Some(NonPositive),
-            (Positive | NonNegative, Negative | NonPositive)
-            | (Negative | NonPositive, Positive | NonNegative) => None,
-        }
-    }
-
-    /// Returns `true` if every number with the sign `self` also has the sign `other`.
-    pub fn implies(self, other: Self) -> bool {
-        self == other
-            || matches!((self, other), (Positive | Zero, NonNegative) | (Negative | Zero, NonPositive))
-    }
-}
 
 /// A proof that a polynomial has a sign, for the known signs of symbols.
 #[derive(Clone, Debug)]
 pub struct Certificate {
-    signs: Arc<SignEnv>,
     of: Poly,
     sign: Sign,
     rule: Rule,
@@ -104,8 +39,8 @@ pub struct Certificate {
 /// The rule of a certificate, with the certificates on which it depends.
 #[derive(Clone, Debug)]
 pub enum Rule {
-    /// Rule 1.
-    Termwise,
+    /// Rule 1 or 5.
+    Terms,
     /// Rule 2, with the signs of the two factors.
     Product(Box<Certificate>, Box<Certificate>),
     /// Rule 3.
@@ -126,8 +61,6 @@ pub enum Rule {
         /// The sign of the numerator of f'.
         slope: Box<Certificate>,
     },
-    /// Rule 5, with the sign of the bounding polynomial.
-    TriangleInequality(Box<Certificate>),
     /// Rule 6.
     Endpoints {
         /// The symbol x.
@@ -137,7 +70,7 @@ pub enum Rule {
     },
 }
 
-/// A search for the sign of a polynomial, whose results are checked by [`Certificate::found`].
+/// A search for the sign of a polynomial.
 pub type SignSearch<'f> = &'f dyn Fn(&Poly, &Arc<SignEnv>) -> Option<Certificate>;
 
 impl Certificate {
@@ -156,36 +89,19 @@ impl Certificate {
         &self.rule
     }
 
-    /// Returns the result of a search if it is a certificate for this polynomial and these signs of symbols.
-    pub fn search(of: &Poly, known: &Arc<SignEnv>, find: SignSearch) -> Option<Self> {
-        let certificate = find(of, known)?;
-        (certificate.of == *of && certificate.is_under(known)).then_some(certificate)
-    }
-
-    fn is_under(&self, known: &Arc<SignEnv>) -> bool {
-        Arc::ptr_eq(&self.signs, known) || self.signs == *known
-    }
-
     /// Applies rule 1.
     pub fn termwise(of: &Poly, known: &Arc<SignEnv>) -> Option<Self> {
         let sign = of.terms().try_fold(Zero, |sum, (monomial, coefficient)| {
             let number = if coefficient.sign().is_lt() { Negative } else { Positive };
             sum.plus(number.times(of_monomial(monomial, known)?))
         });
-        Some(Certificate { signs: known.clone(), of: of.clone(), sign: sign?, rule: Rule::Termwise })
+        Some(Certificate { of: of.clone(), sign: sign?, rule: Rule::Terms })
     }
 
     /// Applies rule 2.
-    pub fn product(factor: Self, rest: Self) -> Option<Self> {
-        let (known, sign) = (factor.signs.clone(), factor.sign.times(rest.sign));
-        let of = &factor.of * &rest.of;
-        let is_same = rest.is_under(&known);
-        is_same.then(|| Certificate {
-            signs: known,
-            of,
-            sign,
-            rule: Rule::Product(factor.into(), rest.into()),
-        })
+    pub fn product(factor: Self, rest: Self) -> Self {
+        let (of, sign) = (&factor.of * &rest.of, factor.sign.times(rest.sign));
+        Certificate { of, sign, rule: Rule::Product(factor.into(), rest.into()) }
     }
 
     /// Applies rule 3 to f = a x² + b x + d: 4 a f = (2 a x + b)² + (4 a d − b²).
@@ -194,12 +110,12 @@ impl Certificate {
         if of.exponents().any(|e| e.symbols().contains(&x)) {
             return None;
         }
-        let leading = Certificate::search(&a, known, find).filter(|a| a.sign.is_strict())?;
-        let rest = Certificate::search(&(Poly::constant(4) * &a * d - &b * &b), known, find)?;
+        let leading = find(&a, known).filter(|a| a.sign.is_strict())?;
+        let rest = find(&(Poly::constant(4) * &a * d - &b * &b), known)?;
         let sign = leading.sign.times(NonNegative.plus(rest.sign)?);
         let root = Poly::constant(2) * a * Poly::symbol(x) + b;
         let rule = Rule::Square { leading: leading.into(), root, rest: rest.into() };
-        Some(Certificate { signs: known.clone(), of: of.clone(), sign, rule })
+        Some(Certificate { of: of.clone(), sign, rule })
     }
 
     /// Applies rule 4.
@@ -212,12 +128,12 @@ impl Certificate {
             return None;
         }
         let start = of.replace(&Monomial::of(x), &Ratio::zero());
-        let start = Certificate::search(&numerator(&start, known)?, known, find)?;
+        let start = find(&numerator(&start, known)?, known)?;
         let interior = with_sign(Positive);
-        let slope = Certificate::search(&numerator(&of.derivative(x), &interior)?, &interior, find)?;
+        let slope = find(&numerator(&of.derivative(x), &interior)?, &interior)?;
         let sign = start.sign.plus(at_x.times(slope.sign))?;
         let rule = Rule::MeanValue { x, start: start.into(), slope: slope.into() };
-        Some(Certificate { signs: known.clone(), of: of.clone(), sign, rule })
+        Some(Certificate { of: of.clone(), sign, rule })
     }
 
     /// Applies rule 5.
@@ -244,12 +160,7 @@ impl Certificate {
             let bound = if difference == NonNegative { &others - &sizes } else { &others + &sizes };
             let bound = Certificate::termwise(&bound, known)?;
             let sign = bound.sign.plus(difference)?;
-            Some(Certificate {
-                signs: known.clone(),
-                of: of.clone(),
-                sign,
-                rule: Rule::TriangleInequality(bound.into()),
-            })
+            Some(Certificate { of: of.clone(), sign, rule: Rule::Terms })
         };
         by_bound(NonNegative).or_else(|| by_bound(NonPositive))
     }
@@ -259,13 +170,13 @@ impl Certificate {
         if !x.in_unit_interval() || of.exponents().any(|e| e.symbols().contains(&x)) {
             return None;
         }
-        let sign = |coefficient: Poly| Certificate::search(&coefficient, known, find);
+        let sign = |coefficient: Poly| find(&coefficient, known);
         let at: Vec<_> = bernstein(of, x).into_iter().map(sign).collect::<Option<_>>()?;
         // Strict signs come first. The products aⁱ (1 − a)ⁿ⁻ⁱ are not all 0, so they preserve them.
         let signs = [Positive, Negative, NonNegative, NonPositive];
         let sign = signs.into_iter().find(|sign| at.iter().all(|c| c.sign.implies(*sign)))?;
         let rule = Rule::Endpoints { x, at: at.into() };
-        Some(Certificate { signs: known.clone(), of: of.clone(), sign, rule })
+        Some(Certificate { of: of.clone(), sign, rule })
     }
 }
 
@@ -317,65 +228,6 @@ fn power_coefficient(k: u32, i: u32) -> Poly {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn signs_of_sums_and_products_are_those_of_numbers() {
-        const SIGNS: [Sign; 5] = [Negative, NonPositive, Zero, NonNegative, Positive];
-        // −1, 0 and 1 represent all numbers; the sums include multiples, so that either sign can prevail.
-        let has = |sign: Sign, x: i32| match sign {
-            Negative => x < 0,
-            NonPositive => x <= 0,
-            Zero => x == 0,
-            NonNegative => x >= 0,
-            Positive => x > 0,
-        };
-        let all = |values: &[i32], sign: Sign| values.iter().all(|x| has(sign, *x));
-        let strongest = |values: Vec<i32>| {
-            let [strict, weak] = [[Negative, Zero, Positive].as_slice(), &[NonPositive, NonNegative]];
-            strict.iter().chain(weak).copied().find(|sign| all(&values, *sign))
-        };
-        for (s, t) in SIGNS.iter().flat_map(|s| SIGNS.map(|t| (*s, t))) {
-            let of = |sign| (-1..=1).filter(move |x| has(sign, *x));
-            let pairs: Vec<_> = of(s).flat_map(|x| of(t).map(move |y| (x, y))).collect();
-            assert_eq!(
-                Some(s.times(t)),
-                strongest(pairs.iter().map(|(x, y)| x * y).collect()),
-                "{s:?} {t:?}"
-            );
-            let sums = pairs.iter().flat_map(|(x, y)| [x + y, 2 * x + y, x + 2 * y]);
-            assert_eq!(s.plus(t), strongest(sums.collect()), "{s:?} {t:?}");
-            assert_eq!(s.implies(t), of(s).all(|x| has(t, x)), "{s:?} {t:?}");
-        }
-        assert!(SIGNS.iter().all(|s| s.is_strict() != has(*s, 0) && s.negated() == s.times(Negative)));
-    }
-
-    /// A certificate is valid for one polynomial and for the signs under which it was made.
-    #[test]
-    fn certificates_for_other_polynomials_or_signs_are_rejected() {
-        let [a, u] = ["a", "u"].map(Symbol::Own);
-        let poly = |x: Symbol| Poly::symbol(x) + Poly::constant(1);
-        let positive = Arc::new(SignEnv::from([(a, Positive), (u, Positive)]));
-        let free = Arc::new(SignEnv::new());
-        let of_a = Certificate::termwise(&poly(a), &positive).unwrap();
-        let same = |_: &Poly, _: &Arc<SignEnv>| Some(of_a.clone());
-        assert!(Certificate::search(&poly(a), &positive, &same).is_some());
-        // Signs are compared by value.
-        assert!(Certificate::search(&poly(a), &Arc::new((*positive).clone()), &same).is_some());
-        assert!(Certificate::search(&poly(u), &positive, &same).is_none());
-        assert!(Certificate::search(&poly(a), &free, &same).is_none());
-        let square = Certificate::termwise(&Poly::constant(1), &free).unwrap();
-        assert!(Certificate::product(of_a.clone(), square).is_none());
-        // The rules reject it, too: u² + 1 is not the sum of a square and a.
-        let quadratic = Poly::symbol(u) * Poly::symbol(u) + Poly::constant(1);
-        assert!(Certificate::square(&quadratic, u, &positive, &same).is_none());
-        assert!(
-            Certificate::endpoints(&poly(Symbol::Error(0)), Symbol::Error(0), &positive, &same).is_none()
-        );
-        assert!(
-            Certificate::mean_value(&Poly::exponential(Poly::symbol(a).into()), a, &positive, &same)
-                .is_none()
-        );
-    }
 
     #[test]
     fn rule_3_completes_the_square() {

@@ -1,0 +1,175 @@
+//! The premises of a statement, which hold for every proof of it.
+
+use crate::formula::Hypothesis;
+use crate::formula::claim::{MEMBERS, POWER, PRECISION, SCALES};
+use crate::formula::statement::{Sequence, Statement};
+use crate::number::Tree;
+use crate::number::tree::Op;
+use std::iter;
+
+/// A premise that a statement does not satisfy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Premise {
+    /// A rounded formula, which is discontinuous, occurs in a limit or derivative.
+    #[error("rounding is discontinuous, so limits and derivatives of it are not supported")]
+    Discontinuous,
+    /// The statement contains more than 48 rounded formulas.
+    #[error("it has more roundings than there are names for errors")]
+    TooManyRoundings,
+    /// The statement uses a reserved name.
+    #[error("{0} is a reserved name of proofs")]
+    ReservedName(&'static str),
+    /// A hypothesis other than its interval contains a computed symbol, or that is computed from itself.
+    #[error("{0} is computed at each step: only its interval may be assumed")]
+    HypothesisOnComputed(&'static str),
+    /// The statement has no goals.
+    #[error("it has no goals")]
+    NoGoals,
+    /// The named quantity of the statement exceeds this maximum.
+    #[error("{0} exceeds the limit of {1} terms")]
+    TooLarge(&'static str, usize),
+}
+
+/// Maximum number of operations, quantities and numbers in all formulas of a statement.
+pub const MAX_SIZE: u32 = 20_000;
+
+/// Maximum depth of a formula in a statement.
+pub const MAX_DEPTH: u32 = 500;
+
+/// Maximum number of rounded formulas in a statement.
+pub const MAX_ROUNDINGS: usize = 48;
+
+/// Checks the premises of a proof, and returns the rounded formulas: the statement has goals, is not too
+/// large, and uses no reserved name, and no limit or derivative in it is one of a rounded or computed quantity.
+///
+/// # Errors
+/// Returns the premise that does not hold.
+pub fn check_premises(statement: &Statement) -> Result<Vec<Tree>, Premise> {
+    check_size(statement.trees())?;
+    if statement.goals().is_empty() {
+        return Err(Premise::NoGoals);
+    }
+    check_names(statement)?;
+    let roundings = roundings(statement.trees());
+    if roundings.len() > MAX_ROUNDINGS {
+        return Err(Premise::TooManyRoundings);
+    }
+    // A computed quantity varies with its operands, which its symbol does not show.
+    if (!roundings.is_empty() || !statement.computed().is_empty()) && has_continuous_variable(statement) {
+        return Err(Premise::Discontinuous);
+    }
+    Ok(roundings)
+}
+
+/// Checks the size and depth of formulas.
+///
+/// # Errors
+/// Returns [`Premise::TooLarge`] if the formulas exceed [`MAX_SIZE`] or [`MAX_DEPTH`].
+pub fn check_size<'t>(trees: impl Iterator<Item = &'t Tree> + Clone) -> Result<(), Premise> {
+    let deepest = trees.clone().map(Tree::depth).max().unwrap_or(0);
+    if deepest > MAX_DEPTH {
+        return Err(Premise::TooLarge("its depth", MAX_DEPTH as usize));
+    }
+    let size = trees.fold(0, |sum: u32, tree| sum.saturating_add(tree.size()));
+    if size > MAX_SIZE {
+        return Err(Premise::TooLarge("its size", MAX_SIZE as usize));
+    }
+    Ok(())
+}
+
+/// Rejects a statement that uses a reserved name.
+///
+/// - Names of symbols of a proof do not occur. A name of a member of a sequence occurs only for the first
+///   member, and only in a perturbed recursion.
+/// - A computed symbol has no other meaning. Its value may differ at each step, so its interval is the only
+///   assumption about it, and it is computed neither from itself nor from a symbol that is computed later.
+/// - The start, ratio and limit of a sequence do not depend on the power, on members or on computed symbols;
+///   its step and the hypotheses of its limit do not depend on the power; its closed form and the bound of
+///   its distance from that do not depend on members or computed symbols; the bounds of other quantities do
+///   not depend on members.
+fn check_names<'t>(statement: &'t Statement) -> Result<(), Premise> {
+    fn refuse<'t>(
+        trees: impl Iterator<Item = &'t Tree>,
+        is_refused: impl Fn(&'static str) -> bool,
+    ) -> Result<(), Premise> {
+        let mut symbols = trees.flat_map(Tree::symbols);
+        symbols.find(|name| is_refused(name)).map_or(Ok(()), |name| Err(Premise::ReservedName(name)))
+    }
+    let is_member = |name| name == MEMBERS[0];
+    let is_perturbed = statement.conclusion().is_some_and(|sequence| sequence.is_perturbed());
+    let is_reserved = |name| {
+        let is_allowed = is_perturbed && is_member(name);
+        is_name_of_proof(name) || (MEMBERS.contains(&name) && !is_allowed)
+    };
+    refuse(statement.trees(), is_reserved)?;
+    let mut variables = statement.goals().iter().filter_map(|goal| goal.proposition.variable());
+    variables.find(|name| is_reserved(name)).map_or(Ok(()), |name| Err(Premise::ReservedName(name)))?;
+
+    let computed = statement.computed();
+    let is_computed_from = |i: usize, name| computed[i..].iter().any(|computed| computed.symbol == name);
+    let is_computed = |name| is_computed_from(0, name);
+    let mut predefined = [POWER, PRECISION].into_iter().chain(MEMBERS).chain(SCALES);
+    predefined.find(|name| is_computed(*name)).map_or(Ok(()), |name| Err(Premise::ReservedName(name)))?;
+
+    let values = |all: &'t [Hypothesis]| all.iter().map(|hypothesis| &hypothesis.value);
+    let hypotheses = values(statement.hypotheses());
+    if let Some(Sequence { start, step, ratio, limit, member, within }) = statement.conclusion() {
+        refuse(start.iter().chain([ratio]).chain(limit), |name| {
+            name == POWER || MEMBERS.contains(&name) || is_computed(name)
+        })?;
+        refuse(step.iter(), |name| name == POWER)?;
+        // An assumption about one power need not hold as the power tends to 0.
+        refuse(hypotheses.clone().filter(|_| limit.is_some()), |name| name == POWER)?;
+        let bounds = || within.iter().map(|(_, bound)| bound);
+        refuse(member.iter().chain(bounds().take(1)), |name| is_member(name) || is_computed(name))?;
+        refuse(bounds(), is_member)?;
+    }
+    let rename = |error| match error {
+        Premise::ReservedName(name) => Premise::HypothesisOnComputed(name),
+        error => error,
+    };
+    refuse(hypotheses.chain(values(statement.invariants())), is_computed).map_err(rename)?;
+    computed.iter().enumerate().try_for_each(|(i, computed)| {
+        refuse(iter::once(&computed.formula), |name| is_computed_from(i, name)).map_err(rename)
+    })
+}
+
+/// Returns `true` if `name` looks like that of an error, a place or another quantity of a proof.
+fn is_name_of_proof(name: &str) -> bool {
+    let digits = name.strip_prefix(['e', 's', 't']).unwrap_or_default();
+    !digits.is_empty() && digits.chars().all(|digit| ('₀'..='₉').contains(&digit))
+}
+
+/// Returns `true` if a statement has a limit, or a derivative with respect to a symbol.
+fn has_continuous_variable(statement: &Statement) -> bool {
+    let has_limit = statement.conclusion().is_some_and(|sequence| sequence.limit.is_some());
+    has_limit || statement.goals().iter().any(|goal| goal.proposition.variable().is_some())
+}
+
+/// Returns the rounded formulas, each after those inside it; their errors are numbered in this order.
+pub fn roundings<'t>(trees: impl Iterator<Item = &'t Tree>) -> Vec<Tree> {
+    fn collect(tree: &Tree, all: &mut Vec<Tree>) {
+        tree.op().operands().for_each(|operand| collect(operand, all));
+        // One more than the maximum suffices to detect that there are too many.
+        if let Op::Rounded(of) = tree.op()
+            && all.len() <= MAX_ROUNDINGS
+            && !all.contains(of)
+        {
+            all.push(of.clone());
+        }
+    }
+    let mut all = Vec::new();
+    trees.for_each(|tree| collect(tree, &mut all));
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_a_proof_have_a_letter_and_digits() {
+        let names = ["e₁", "s₁₂", "t₂₅₆", "e", "e1", "u₁", "te₁"];
+        assert_eq!(names.map(is_name_of_proof), [true, true, true, false, false, false, false]);
+    }
+}

@@ -1,0 +1,448 @@
+//! The proof of a goal as lines of text.
+//!
+//! A certificate l f = r is one line, with f as a sum over quantities of known sign. A line that is the same
+//! in both cases of a proof is printed before them.
+
+mod identity;
+
+use self::identity::{placeholder, size};
+use super::ProofPrinter;
+use super::algebra::{number, sign_text, sum};
+use crate::formula::claim::PRECISION;
+use crate::formula::name_of_rounding;
+use crate::formula::statement::Proposition;
+use crate::formula::symbols::subscripted;
+use crate::number::tree::Op;
+use crate::number::{Exponential, PositivePart, Tree};
+use crate::proof::check::Sign;
+use crate::proof::check::{
+    AbsoluteValue, Atom, Leaf, List, Node, Polynomial, Problem, Quotient, Reader, Reason, Rise, State,
+    parts_of_rise,
+};
+use crate::proof::trace::{Step, reread, trace};
+
+/// Largest number of terms of a sum that is written out.
+const SHOWN: usize = 12;
+
+/// Largest number of terms of a quantity that distinguishes cases without a name, and of a left form.
+const SHOWN_OF_CASE: usize = 3;
+
+/// Largest number of terms of a sum with rounding errors that is written out.
+const SHOWN_OF_ROUNDING: usize = 6;
+
+/// Number of characters from which a formula is not repeated.
+const LONG: usize = 40;
+
+/// A letter that occurs in no name.
+const PLACE: char = '□';
+
+/// The assumptions of cases.
+type Cases = Vec<(Polynomial, Sign)>;
+
+/// A writer of the proof of a goal.
+pub(super) struct Lines<'a> {
+    printer: &'a ProofPrinter<'a>,
+    problem: &'a Problem<'a>,
+    /// The atoms as formulas.
+    atoms: Vec<Tree>,
+    /// The polynomials that have a name.
+    named: Vec<(Polynomial, Tree)>,
+}
+
+/// What is known at the end of a leaf.
+struct End<'a> {
+    goal: &'a Lines<'a>,
+    state: State<'a>,
+    /// Facts that are hypotheses as they are written.
+    written: Vec<(usize, Tree)>,
+    /// The quantities whose signs decide the value or the order of formulas, with what follows.
+    decisions: Vec<(Quotient, String)>,
+}
+
+impl<'a> Lines<'a> {
+    /// Returns a writer for a goal.
+    pub(super) fn new(printer: &'a ProofPrinter<'a>, problem: &'a Problem<'a>) -> Self {
+        let atoms = problem.table.atoms().iter();
+        let formula = |of: &usize| problem.table.formula(*of).cloned().unwrap_or_else(|_| Tree::from(0));
+        let (mut errors, mut places) = (0.., 0..);
+        let atoms = atoms.map(|atom| match atom {
+            Atom::Own(name) => Tree::symbol(name),
+            Atom::Error(_) => Tree::symbol(subscripted('e', errors.next().unwrap_or_default())),
+            Atom::Place(_) | Atom::Factor(_) => {
+                Tree::symbol(subscripted('t', places.next().unwrap_or_default()))
+            }
+            Atom::Size(of) => formula(of).abs(),
+            Atom::Exponential(of) => formula(of).exp(),
+        });
+        let mut reader = reread(State::new(problem));
+        let formulas = (0..).map_while(|i| Some((i, problem.table.formula(i).ok()?)));
+        let has_name = |(_, tree): &(usize, &Tree)| printer.registry.call_name(tree).is_some();
+        let named = formulas.filter(has_name).filter_map(|(i, tree)| {
+            let value =
+                reader.value(i).ok().filter(|value| value.den.is_empty() && value.num.terms().len() > 1)?;
+            Some((value.num, tree.clone()))
+        });
+        Lines { printer, problem, atoms: atoms.collect(), named: named.collect() }
+    }
+
+    /// Describes the atoms.
+    #[cfg(feature = "serde")]
+    pub(super) fn descriptions(&self) -> Vec<String> {
+        let described = self.atoms.iter().zip(self.problem.table.atoms()).map(|(own, atom)| match atom {
+            Atom::Own(_) | Atom::Size(_) | Atom::Exponential(_) => self.text(own),
+            Atom::Error(of) => format!("{own}: {}({})", self.rounding(*of), self.formula(*of)),
+            Atom::Factor(of) => format!("{own}: {0} = {own} |{0}|", self.formula(*of)),
+            Atom::Place(i) => {
+                let name = self.printer.registry.format_hypothesis(self.problem.hypotheses[*i]);
+                format!("{own}: from −1 to 1 in {name}")
+            }
+        });
+        described.collect()
+    }
+
+    /// Returns the lines of a proof under the assumptions of cases.
+    pub(super) fn node(&self, node: &Node, cases: &mut Cases) -> Vec<String> {
+        let (on, both) = match node {
+            Node::Leaf(leaf) => return self.leaf(leaf, cases),
+            Node::Cases(on, both) => (on, both),
+        };
+        let [first, second] = [(0, Sign::Positive), (1, Sign::NonPositive)].map(|(i, sign)| {
+            cases.push((on.clone(), sign));
+            let lines = self.node(&both[i], cases);
+            cases.pop();
+            lines
+        });
+        let is_common = |(a, b): &(&String, &String)| a == b && !a.starts_with("case ");
+        let common = first.iter().zip(&second).take_while(is_common).count();
+        let mut lines = first[..common].to_vec();
+        let name = self.text(&self.case(on, cases));
+        let defined = match on.terms().len() {
+            _ if !self.is_long_case(on) => String::new(),
+            n if n > SHOWN => format!(", with a sum {name} of {n} terms"),
+            _ => format!(", with {name} = {}", self.text_or_size(on)),
+        };
+        lines.push(format!("case {name} > 0{defined}:"));
+        lines.extend(indented(first.into_iter().skip(common)));
+        lines.push(format!("case {name} ≤ 0:"));
+        lines.extend(indented(second.into_iter().skip(common)));
+        lines
+    }
+
+    /// Returns the quantity that distinguishes cases after others; a long one has a name.
+    fn case(&self, on: &Polynomial, before: &[(Polynomial, Sign)]) -> Tree {
+        let named = || before.iter().filter(|(on, _)| self.is_long_case(on)).count();
+        let name = || Tree::symbol(subscripted('s', u8::try_from(named()).unwrap_or(u8::MAX)));
+        self.short(on).filter(|_| !self.is_long_case(on)).unwrap_or_else(name)
+    }
+
+    fn is_long_case(&self, on: &Polynomial) -> bool {
+        on.terms().len() > SHOWN_OF_CASE && self.name(on).is_none()
+    }
+
+    /// Returns the name of a polynomial, with its sign.
+    fn name(&self, of: &Polynomial) -> Option<Tree> {
+        let negated = Polynomial::zero().plus_multiple(-1, of).ok()?;
+        self.named.iter().find_map(|(known, tree)| match known {
+            known if known == of => Some(tree.clone()),
+            known if *known == negated => Some(-tree),
+            _ => None,
+        })
+    }
+
+    /// Returns a polynomial of atoms as a formula, if it is short or has a name.
+    fn short(&self, of: &Polynomial) -> Option<Tree> {
+        self.name(of).or_else(|| self.form(of, &[]))
+    }
+
+    fn leaf(&self, leaf: &Leaf, cases: &Cases) -> Vec<String> {
+        let Ok((state, steps)) = trace(self.problem, leaf, cases) else { return Vec::new() };
+        let goal = self.problem.proposition;
+        // What was translated before is translated again without the help of a proof.
+        let mut written = Vec::new();
+        let mut reader = reread(state);
+        for (i, fact) in reader.state.supposed.clone() {
+            if let Some(given) = i.map(|i| self.problem.hypotheses[i])
+                && let Ok(value) = reader.translate(&given.value)
+                && reader.state.facts.get(fact).is_ok_and(|(of, _)| value == of.clone().into())
+            {
+                written.push((fact, given.value.clone()));
+            }
+        }
+        let facts_of_cases = reader.state.supposed.iter().filter(|(given, _)| given.is_none());
+        let names = cases.iter().enumerate().map(|(depth, (on, _))| self.case(on, &cases[..depth]));
+        written.extend(facts_of_cases.map(|(_, fact)| *fact).zip(names));
+        let decisions = self.decisions(leaf, &mut reader);
+        let sides = match (goal, &self.problem.goal[..]) {
+            (Proposition::Derivative(..), [_, is, derivative]) => [*derivative, *is],
+            (_, sides) => [sides[0], sides[1]],
+        };
+        let values = sides.map(|of| reader.value(of).ok());
+        let end = End { goal: self, state: reader.state, written, decisions };
+        let last = steps.len().saturating_sub(if matches!(goal, Proposition::Within(..)) { 2 } else { 1 });
+        let (before, of_goal) = steps.split_at(last);
+        let mut lines: Vec<_> = end.errors().into_iter().collect();
+        lines.extend(leaf.hypotheses.iter().filter_map(|i| self.place(*i)));
+        lines.extend(leaf.rises.iter().flat_map(|rise| end.rise(rise)));
+        lines.extend(end.steps(before));
+        lines.extend(end.goal(of_goal, &values, !leaf.orders.is_empty()));
+        lines
+    }
+
+    /// Returns the quantities whose signs decide the value or the order of formulas, with what follows.
+    fn decisions(&self, leaf: &Leaf, reader: &mut Reader<List>) -> Vec<(Quotient, String)> {
+        let (table, mut all) = (&self.problem.table, Vec::new());
+        for errors in &leaf.orders {
+            let [Some(Atom::Error(a)), Some(Atom::Error(b))] = errors.map(|x| table.atoms().get(x)) else {
+                continue;
+            };
+            let rounded = [*a, *b].map(|of| table.formula(of).map(|of| self.text(&of.round())));
+            let order = rounded.map(Result::unwrap_or_default).join(" ≥ ");
+            all.extend(difference(*a, *b, reader).map(|decides| (decides, order)));
+        }
+        for (i, step) in (0..).map_while(|i| Some((i, table.step(i).ok()?))) {
+            let (decides, branches) = match step {
+                Op::PositivePart(a) => (reader.value(a).ok(), [a, a]),
+                Op::Min(a, b) => (difference(b, a, reader), [a, b]),
+                _ => continue,
+            };
+            let (Some(decides), Ok(value)) = (decides, reader.value(i)) else { continue };
+            let is_first = reader.value(branches[0]).is_ok_and(|of| of == value);
+            let [first, second] = branches.map(|branch| self.formula(branch));
+            let follows = match step {
+                // The minimum of −x and x is −|x|.
+                Op::Min(a, b) if table.step(a) == Ok(Op::Neg(b)) => {
+                    format!("|{second}| = {}", if is_first { second.clone() } else { first })
+                }
+                _ if value.num.is_zero() => format!("{} = 0", self.formula(i)),
+                Op::PositivePart(_) if first.chars().count() > LONG => format!("⟨…⟩ = … for {first}"),
+                _ => format!("{} = {}", self.formula(i), if is_first { first } else { second }),
+            };
+            all.push((decides, follows));
+        }
+        all
+    }
+
+    /// Returns the use of an interval.
+    fn place(&self, i: usize) -> Option<String> {
+        let given = *self.problem.hypotheses.get(i)?;
+        let (x, lower, upper) = given.interval()?;
+        let place = &self.atoms[self.problem.table.variable(Atom::Place(i)).ok()?];
+        let by = format!("by {}: ", self.printer.registry.format_hypothesis(given));
+        let [lower, upper] = [lower, upper].map(|end| self.text(end));
+        let distance = given.distance();
+        Some(match distance.as_ref().map(|(distance, most)| (distance.op(), *most)) {
+            Some((Op::Sub(_, middle), most)) => {
+                let value = self.text(&(middle + place * most));
+                format!("{by}{x} = {value} with |{place}| ≤ 1")
+            }
+            _ => format!("{by}{place} goes from −1 to 1 as {x} goes from {lower} to {upper}"),
+        })
+    }
+
+    fn text(&self, tree: &Tree) -> String {
+        self.printer.text(tree)
+    }
+
+    /// Returns the name of a rounding of the formula with a number.
+    fn rounding(&self, of: usize) -> &'static str {
+        self.problem.table.formula(of).map_or("", name_of_rounding)
+    }
+
+    fn formula(&self, i: usize) -> String {
+        self.problem.table.formula(i).map(|tree| self.text(tree)).unwrap_or_default()
+    }
+
+    /// Returns a form as a formula, if it is short. `known` are the quantities that follow the atoms.
+    fn form(&self, form: &Polynomial, known: &[Tree]) -> Option<Tree> {
+        let has_units = !form.has_only(|x| !self.problem.table.is_unit(x));
+        if form.terms().len() > if has_units { SHOWN_OF_ROUNDING } else { SHOWN } {
+            return None;
+        }
+        let order = self.printer.registry.factors();
+        let place = |tree: &&Tree| match tree.op() {
+            Op::Symbol(name) => (order.iter().position(|own| own == name), *name),
+            _ => (Some(order.len()), ""),
+        };
+        let terms: Vec<_> = form.terms().collect();
+        Some(sum(terms.into_iter().rev().map(|(powers, n)| {
+            let factors = self.atoms.iter().chain(known).zip(powers);
+            let mut factors: Vec<_> =
+                factors.flat_map(|(factor, n)| std::iter::repeat_n(factor, usize::from(*n))).collect();
+            factors.sort_by_key(place);
+            let size = number(&n.unsigned_abs().into());
+            let product = factors.into_iter().cloned().reduce(|a, b| a * b);
+            (*n < 0, product.map_or(size.clone(), |product| size * product))
+        })))
+    }
+
+    /// Returns a quantity as a factor: a reserved symbol for a sum, which is not to be merged with others.
+    fn factor(&self, tree: &Tree, sums: &mut Vec<String>) -> Tree {
+        match tree.op() {
+            Op::Neg(negated) => -self.factor(negated, sums),
+            Op::Add(..) | Op::Sub(..) if self.printer.registry.call_name(tree).is_none() => {
+                placeholder(self.text(tree), sums)
+            }
+            _ => tree.clone(),
+        }
+    }
+
+    /// Formats a formula with sums in place of reserved symbols.
+    fn filled(&self, tree: &Tree, sums: &[String]) -> String {
+        let all = (0..=u8::MAX).zip(sums).rev();
+        all.fold(self.text(tree), |text, (i, sum)| text.replace(subscripted(PLACE, i), &format!("({sum})")))
+    }
+
+    /// Formats a polynomial of atoms, or its size if it is long.
+    fn text_or_size(&self, of: &Polynomial) -> String {
+        self.short(of).map_or_else(|| size(of, "term"), |tree| self.text(&tree))
+    }
+}
+
+impl End<'_> {
+    /// Returns the rounded formulas with the names of their errors.
+    fn errors(&self) -> Option<String> {
+        let mut all: Vec<(usize, Vec<String>)> = Vec::new();
+        for rounded in &self.state.rounded {
+            let text = format!("{}({})", self.goal.rounding(rounded.of), self.goal.formula(rounded.of));
+            match all.iter_mut().find(|(error, _)| *error == rounded.error) {
+                Some((_, same)) => same.push(text),
+                None => all.push((rounded.error, vec![text])),
+            }
+        }
+        let all: Vec<_> = all
+            .into_iter()
+            .map(|(error, of)| format!("{} of {}", self.goal.atoms[error], of.join(" and ")))
+            .collect();
+        let model = || format!("fl(…) = … (1 + eᵢ / ({PRECISION} + 1)) with |eᵢ| ≤ 1: ");
+        (!all.is_empty()).then(|| model() + &all.join(", "))
+    }
+
+    /// Returns the lines about the steps before the goal.
+    fn steps(&self, steps: &[Step]) -> Vec<String> {
+        let (mut lines, mut divisors) = (Vec::new(), 0);
+        for step in steps {
+            match step {
+                Step::Divisor(factors) => divisors = factors.len(),
+                Step::Rounding(..) => {}
+                Step::Size(of, _, AbsoluteValue::Atom) => {
+                    let equation = self.equation_of_size(*of);
+                    lines
+                        .extend(equation.map(|(equation, factor)| format!("{equation} with |{factor}| ≤ 1")));
+                }
+                Step::Size(..) => {}
+                Step::Sign { of, den, reason, .. } => {
+                    let value = Quotient { num: of.clone(), den: den.clone() };
+                    let decided = self.decisions.iter().find(|(decides, _)| *decides == value);
+                    let mut own = self.sign("", of, den, reason);
+                    let is_divisor = divisors > 0;
+                    let last = own.pop().filter(|_| !of.is_zero());
+                    own.extend(match (decided, last) {
+                        (Some((_, follows)), _)
+                            if lines.iter().any(|line: &String| line.starts_with(follows)) =>
+                        {
+                            None
+                        }
+                        (Some((_, follows)), Some(last)) if !is_divisor => {
+                            Some(format!("{follows}, since {last}"))
+                        }
+                        (Some((_, follows)), None) if !is_divisor => Some(follows.clone()),
+                        (_, last) => last.filter(|_| !self.is_plain(of)).map(|last| match is_divisor {
+                            true => format!("divisor {last}"),
+                            false => last,
+                        }),
+                    });
+                    own.retain(|line| !lines.contains(line));
+                    lines.extend(own);
+                    divisors = divisors.saturating_sub(1);
+                }
+            }
+        }
+        lines
+    }
+
+    /// Returns the lines about a function whose sign follows from its start and its slope.
+    fn rise(&self, rise: &Rise) -> Vec<String> {
+        let problem = self.goal.problem;
+        let Some(Atom::Own(x)) = problem.table.atoms().get(rise.x) else { return Vec::new() };
+        let Ok(parts) = parts_of_rise(problem, rise, x) else { return Vec::new() };
+        let at_x = self.state.signs[rise.x].unwrap_or(Sign::NonNegative);
+        let sign = Sign::from(rise.start).plus(at_x.times(rise.slope.into())).map_or("", sign_text);
+        let of = self.goal.text_or_size(&rise.of);
+        let mut lines = vec![format!("{of} {sign}, by its value at {x} = 0 and its slope for {x} > 0:")];
+        let names = [format!("at {x} = 0"), "slope".to_string()];
+        for (((proposition, assumed), node), name) in parts.iter().zip(&rise.parts).skip(1).zip(names) {
+            let others = problem.hypotheses.iter().copied();
+            let others = others.filter(|given| !given.value.symbols().contains(x)).chain(assumed);
+            let Ok(part) = Problem::new(proposition, others.collect()) else { continue };
+            let own = Lines::new(self.goal.printer, &part).node(node, &mut Vec::new());
+            match &own[..] {
+                [only] => lines.push(format!("  {name}: {only}")),
+                _ => {
+                    lines.push(format!("  {name}:"));
+                    lines.extend(indented(indented(own)));
+                }
+            }
+        }
+        lines
+    }
+
+    /// Returns `true` for a variable, for a number, and for 2ᵖ + 1.
+    fn is_plain(&self, of: &Polynomial) -> bool {
+        let names = |x| matches!(self.goal.problem.table.atoms().get(x), Some(Atom::Own(PRECISION)));
+        of.terms().len() <= 1 || (of.has_only(names) && of.terms().all(|(_, n)| *n > 0))
+    }
+
+    /// Returns the lines about the goal.
+    fn goal(&self, steps: &[Step], values: &[Option<Quotient>; 2], is_order: bool) -> Vec<String> {
+        let names: &[&str] = match self.goal.problem.proposition {
+            Proposition::Within(..) => &["the bound − it is ", "the bound + it is "],
+            Proposition::Sign(..) => &["it is "],
+            _ => &["the difference is "],
+        };
+        let mut lines = Vec::new();
+        for (name, step) in names.iter().zip(steps) {
+            let Step::Sign { of, den, reason, .. } = step else { continue };
+            match (self.goal.problem.proposition, values) {
+                (Proposition::Limit(_, by, _), [Some(of), Some(to)]) => {
+                    let Problem { table, .. } = self.goal.problem;
+                    let decays = |x: usize| {
+                        matches!(table.atoms().get(x), Some(Atom::Exponential(_)))
+                            && self.goal.problem.depends(x, by)
+                    };
+                    let has_decay = !of.num.has_only(|x| !decays(x));
+                    let decay = if has_decay { ", as its exponentials decay" } else { "" };
+                    let (of, to) = (self.quotient(of), self.quotient(to));
+                    lines.push(format!("it is {of}, which tends to {to} by its degrees in {by}{decay}"));
+                }
+                (Proposition::Equal(..), [Some(a), Some(b)]) if of.is_zero() => {
+                    let shorter = if a.num.terms().len() > b.num.terms().len() { b } else { a };
+                    lines.push(format!("both sides are {}", self.quotient(shorter)));
+                }
+                (Proposition::Derivative(..), [_, Some(is)]) if of.is_zero() => {
+                    lines.push(format!("the derivative is {}", self.quotient(is)));
+                }
+                _ if of.is_zero() => lines.push(format!("{name}0")),
+                // The last line about orders is the goal.
+                (Proposition::Sign(..), _) if is_order && matches!(reason, Reason::Fact(_)) => {}
+                _ => lines.extend(self.sign(name, of, den, reason)),
+            }
+        }
+        if let [less, more] = &lines[..]
+            && let Some(rest) = less.strip_prefix(names[0])
+            && names.get(1).is_some_and(|name| more.strip_prefix(name) == Some(rest))
+        {
+            return vec![format!("each of the bound ± it is {rest}")];
+        }
+        lines
+    }
+}
+
+fn indented(lines: impl IntoIterator<Item = String>) -> impl Iterator<Item = String> {
+    lines.into_iter().map(|line| format!("  {line}"))
+}
+
+/// Returns the difference of two formulas that have been read.
+fn difference(a: usize, b: usize, reader: &mut Reader<List>) -> Option<Quotient> {
+    let (a, b) = (reader.value(a).ok()?, reader.value(b).ok()?);
+    reader.state.facts.sum(&a, -1, &b).ok()
+}

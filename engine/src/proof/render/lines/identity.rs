@@ -1,0 +1,232 @@
+//! Identities as text: each certificate is a line about the sign of a quotient.
+
+use super::{End, PLACE, SHOWN_OF_CASE, SHOWN_OF_ROUNDING, sign_text};
+use crate::formula::symbols::subscripted;
+use crate::number::Tree;
+use crate::proof::check::Sign;
+use crate::proof::check::{Atom, Certificate, Known, Polynomial, Quotient, Reason};
+
+impl End<'_> {
+    /// Formats a quotient in lowest terms, or its size if it is long.
+    pub(super) fn quotient(&self, of: &Quotient) -> String {
+        let (mut num, mut den) = (of.num.clone(), of.den.clone());
+        den.retain(|i| {
+            let quotient = self.state.facts.get(*i).ok().and_then(|(by, _)| divided(&num, by));
+            quotient.map(|quotient| num = quotient).is_none()
+        });
+        self.over(&num, &den)
+    }
+
+    /// Formats a polynomial over a product of facts, or its size if it is long.
+    fn over(&self, num: &Polynomial, den: &[usize]) -> String {
+        match self.goal.form(num, &[]) {
+            Some(num) => self.formula_over(num, Vec::new(), den),
+            None if den.is_empty() => size(num, "term"),
+            None => {
+                let mut sums = Vec::new();
+                let den = self.product(den, &mut sums);
+                format!("{} over {}", size(num, "term"), self.goal.filled(&den, &sums))
+            }
+        }
+    }
+
+    /// Formats a formula that contains sums over a product of facts.
+    fn formula_over(&self, num: Tree, mut sums: Vec<String>, den: &[usize]) -> String {
+        let value = if den.is_empty() { num } else { num / self.product(den, &mut sums) };
+        self.goal.filled(&value, &sums)
+    }
+
+    /// Returns a product of facts.
+    fn product(&self, facts: &[usize], sums: &mut Vec<String>) -> Tree {
+        let factors = facts.iter().map(|i| match self.fact(*i) {
+            Some(fact) => self.goal.factor(&fact, sums),
+            None => placeholder("a long sum".to_string(), sums),
+        });
+        factors.reduce(|a, b| a * b).unwrap_or_else(|| Tree::from(1))
+    }
+
+    /// Returns a fact as a formula, if it is short.
+    fn fact(&self, i: usize) -> Option<Tree> {
+        match self.written.iter().find(|(fact, _)| *fact == i) {
+            Some((_, tree)) => Some(tree.clone()),
+            None => self.goal.short(&self.state.facts.get(i).ok()?.0),
+        }
+    }
+
+    /// Returns the lines about the sign of a quotient; none if it is the assumption of a case.
+    pub(super) fn sign(&self, what: &str, of: &Polynomial, den: &[usize], reason: &Reason) -> Vec<String> {
+        let first = self.goal.atoms.len();
+        let certificate = match reason {
+            Reason::Certificate(certificate) => certificate.clone(),
+            Reason::Fact(i) if self.state.supposed.contains(&(None, *i)) && what.is_empty() => {
+                return Vec::new();
+            }
+            Reason::Fact(i) => {
+                let right = Polynomial::variable(first).unwrap_or_default();
+                Certificate { known: vec![Known::Fact(*i)], left: Polynomial::constant(1), right }
+            }
+        };
+        let signs = (self.state.certify(of, &certificate), self.state.facts.sign_of_product(den));
+        let (Ok(sign), Ok(den_sign)) = signs else { return Vec::new() };
+        let Certificate { known, left, right } = &certificate;
+        let is_one = *left == Polynomial::constant(1);
+        let is_fact = is_one && is_variable(right, first);
+        let (sign, mut by) = (sign_text(sign.times(den_sign)), Vec::new());
+        self.reasons(&certificate, &mut by);
+        if is_fact && what.is_empty() && den.is_empty() && !by.is_empty() {
+            return by;
+        }
+        let (mut sums, written) = (Vec::new(), self.goal.form(of, &[]));
+        let quantities: Option<Vec<_>> =
+            known.iter().map(|known| Some(self.goal.factor(&self.known(known)?, &mut sums))).collect();
+        let form = |form: &Polynomial| quantities.as_ref().and_then(|known| self.goal.form(form, known));
+        let is_readable = is_one || written.is_some() || right.terms().len() <= SHOWN_OF_ROUNDING;
+        let left_form = if left.has_only(|x| x < first) { self.goal.form(left, &[]) } else { form(left) };
+        let right_form = form(right).filter(|_| is_readable);
+        // The signs of lemmas that are not evident.
+        let lemmas = known.iter().filter_map(|known| match known {
+            Known::Lemma(lemma) if right_form.is_some() && !lemma.1.known.is_empty() => Some(lemma),
+            _ => None,
+        });
+        let sign_of_lemma =
+            |lemma: &(_, Certificate)| self.sign("", &lemma.0, &[], &Reason::Certificate(lemma.1.clone()));
+        let mut lines: Vec<_> = lemmas.flat_map(|lemma| sign_of_lemma(lemma)).collect();
+        let line = match right_form {
+            Some(right) if is_one => {
+                let written = match reason {
+                    Reason::Fact(i) => self.fact(*i),
+                    Reason::Certificate(_) if is_fact => self.goal.short(of),
+                    Reason::Certificate(_) => written.filter(|written| *written != right),
+                };
+                let value = match written.filter(|_| den.is_empty()).map(|of| self.goal.text(&of)) {
+                    Some(written) if is_fact => written,
+                    Some(written) => format!("{written} = {}", self.goal.filled(&right, &sums)),
+                    None => self.formula_over(right, sums, den),
+                };
+                format!("{value} {sign}")
+            }
+            right_form => {
+                let text = |form: Tree| self.goal.filled(&form, &sums);
+                let it = if den.is_empty() { "it" } else { "the numerator" };
+                let times = match left_form.filter(|_| left.terms().len() <= SHOWN_OF_CASE).map(text) {
+                    _ if is_one => String::new(),
+                    Some(sum) if left.terms().len() > 1 => format!("({sum}) times {it} is "),
+                    Some(left) => format!("{left} times {it} is "),
+                    None => format!("a multiple of {it} is "),
+                };
+                let right = right_form.map_or_else(|| size(right, "product"), text);
+                let since = if is_fact { String::new() } else { format!(": {times}{right}") };
+                format!("{} {sign}{since}", self.over(of, den))
+            }
+        };
+        by.retain(|reason| *reason != line);
+        let by = if by.is_empty() { String::new() } else { format!(", by {}", by.join(", ")) };
+        lines.push(format!("{what}{line}{by}"));
+        lines
+    }
+
+    /// Returns a quantity of a certificate as a formula, if it is short.
+    fn known(&self, known: &Known) -> Option<Tree> {
+        match known {
+            Known::Fact(i) => self.fact(*i),
+            Known::Value(of) => self.goal.short(of),
+            Known::Lemma(lemma) => self.goal.short(&lemma.0),
+            Known::Exponents { left, right } => Some(self.exponentials(left) - self.exponentials(right)),
+        }
+    }
+
+    fn exponentials(&self, all: &[usize]) -> Tree {
+        all.iter().fold(Tree::from(1), |product, x| product * &self.goal.atoms[*x])
+    }
+
+    /// Adds what a certificate rests on, except for the signs of symbols.
+    fn reasons(&self, certificate: &Certificate, all: &mut Vec<String>) {
+        let Certificate { known, left, right } = certificate;
+        let table = &self.goal.problem.table;
+        let mut own: Vec<_> = known
+            .iter()
+            .filter_map(|known| match known {
+                Known::Fact(i) => self.name_of_fact(*i),
+                Known::Exponents { left, right } => {
+                    Some([left, right].map(|all| self.goal.text(&self.exponentials(all))).join(" = "))
+                }
+                Known::Value(_) | Known::Lemma(_) => None,
+            })
+            .collect();
+        let units = table.atoms().iter().enumerate().filter(|(x, _)| table.is_unit(*x));
+        own.extend(
+            units.filter(|(x, _)| left.degree(*x).max(right.degree(*x)) > 0).map(|(_, atom)| {
+                format!("|{}ᵢ| ≤ 1", if matches!(atom, Atom::Error(_)) { 'e' } else { 't' })
+            }),
+        );
+        for reason in own {
+            if !all.contains(&reason) {
+                all.push(reason);
+            }
+        }
+        for known in known {
+            if let Known::Lemma(lemma) = known {
+                self.reasons(&lemma.1, all);
+            }
+        }
+    }
+
+    /// Returns the hypothesis that is a fact, or the equation of an absolute value; not the sign of a symbol.
+    fn name_of_fact(&self, i: usize) -> Option<String> {
+        let problem = self.goal.problem;
+        if let Some(known) = self.state.sizes.iter().find(|known| known.fact == i)
+            && let Some(Atom::Size(of)) = problem.table.atoms().get(known.size)
+        {
+            return self.equation_of_size(*of).map(|(equation, _)| equation);
+        }
+        let (given, _) = self.state.supposed.iter().find(|(_, fact)| *fact == i)?;
+        let (of, sign) = self.state.facts.get(i).ok()?;
+        let is_named = of.as_variable().is_none() || *sign == Sign::Zero;
+        given
+            .filter(|_| is_named)
+            .map(|i| self.goal.printer.registry.format_hypothesis(problem.hypotheses[i]))
+    }
+
+    /// Returns the equation x = t |x| of the formula with a number, and the factor t.
+    pub(super) fn equation_of_size(&self, of: usize) -> Option<(String, &Tree)> {
+        let factor = &self.goal.atoms[self.goal.problem.table.variable(Atom::Factor(of)).ok()?];
+        let of = self.goal.formula(of);
+        Some((format!("{of} = {factor} |{of}|"), factor))
+    }
+}
+
+/// Formats the size of a polynomial.
+pub(super) fn size(of: &Polynomial, what: &str) -> String {
+    match of.terms().len() {
+        1 => format!("a {what}"),
+        n => format!("a sum of {n} {what}s"),
+    }
+}
+
+/// Returns a symbol, which occurs in no statement, for a sum.
+pub(super) fn placeholder(sum: String, sums: &mut Vec<String>) -> Tree {
+    let i = sums.iter().position(|own| *own == sum).unwrap_or(sums.len());
+    if i == sums.len() {
+        sums.push(sum);
+    }
+    Tree::symbol(subscripted(PLACE, u8::try_from(i).unwrap_or(u8::MAX)))
+}
+
+/// Returns `true` for a variable from a number on, and for minus one.
+fn is_variable(of: &Polynomial, first: usize) -> bool {
+    let negated = || Polynomial::zero().plus_multiple(-1, of).ok()?.as_variable();
+    of.as_variable().or_else(negated) >= Some(first)
+}
+
+/// Returns a polynomial divided by a number or a variable, if its terms are multiples of that.
+fn divided(of: &Polynomial, by: &Polynomial) -> Option<Polynomial> {
+    let [(divisor, n)] = by.terms().collect::<Vec<_>>()[..] else { return None };
+    let quotient = of.terms().map(|(powers, number)| {
+        let mut powers = *powers;
+        for (power, less) in powers.iter_mut().zip(divisor) {
+            *power = power.checked_sub(*less)?;
+        }
+        (number.checked_rem(*n)? == 0).then_some((powers, number / n))
+    });
+    Polynomial::new(quotient.collect::<Option<_>>()?).ok()
+}

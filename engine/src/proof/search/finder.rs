@@ -1,0 +1,164 @@
+//! The search for certificates.
+
+use super::Failure;
+use super::algebra::{Monomial, Poly, Ratio, Symbol};
+use super::assumption::{AssumptionUse, SignedRatio};
+use super::dictionary::{integral, quantity};
+use super::knowledge::{Knowledge, Supposed};
+use crate::proof::check::Sign;
+use crate::proof::check::{Certificate, Known, Polynomial, State};
+
+/// Maximum nesting of lemmas.
+const MAX_DEPTH: u32 = 4;
+
+pub type Found<T> = Result<T, Failure>;
+
+/// A search for one certificate.
+pub struct Finder<'a, 'p> {
+    pub guide: &'a Knowledge<'a>,
+    pub state: &'a State<'p>,
+    pub quantities: Vec<Known>,
+    /// The nesting of the certificate in others.
+    pub depth: u32,
+    /// Whether factors of known sign become lemmas, which keeps forms short.
+    pub uses_lemmas: bool,
+}
+
+impl<'a, 'p> Finder<'a, 'p> {
+    fn new(guide: &'a Knowledge<'a>, state: &'a State<'p>, depth: u32, uses_lemmas: bool) -> Self {
+        Finder { guide, state, quantities: Vec::new(), depth, uses_lemmas }
+    }
+
+    /// Returns a certificate for a polynomial whose quotient by these facts has this sign.
+    pub fn find(
+        guide: &'a Knowledge<'a>,
+        of: &Polynomial,
+        den: &[usize],
+        signed: &SignedRatio,
+        state: &'a State<'p>,
+    ) -> Found<Certificate> {
+        let is_lemma = |known: &Known| matches!(known, Known::Lemma(_));
+        match Finder::new(guide, state, 0, true).certificate(of, den, signed) {
+            Ok(found) if !found.known.iter().any(is_lemma) || state.certify(of, &found).is_ok() => {
+                return Ok(found);
+            }
+            Err(Failure::Rise(rise)) => return Err(Failure::Rise(rise)),
+            _ => {}
+        }
+        Finder::new(guide, state, 0, false).certificate(of, den, signed)
+    }
+
+    /// Returns a certificate for a multiple, or divisor, of a fact about an order of rounded formulas.
+    pub fn by_order(guide: &'a Knowledge<'a>, of: &Polynomial, state: &'a State<'p>) -> Option<Certificate> {
+        let value = guide.dictionary.poly(of, state);
+        for (i, (fact, sign)) in state.facts.iter().enumerate().rev() {
+            if fact.terms().len() < 2 || *sign == Sign::Zero {
+                continue;
+            }
+            let fact = guide.dictionary.poly(fact, state);
+            let (quotient, is_multiple) = match value.over(&fact) {
+                Some(quotient) => (quotient, true),
+                None => match fact.over(&value) {
+                    Some(quotient) => (quotient, false),
+                    None => continue,
+                },
+            };
+            let reduced = guide.context.reduce(&guide.dictionary.with_places(&quotient.into()));
+            let Some(signed) = guide.sign(reduced) else { continue };
+            let mut finder = Finder::new(guide, state, 0, true);
+            let found = finder.form(&signed, &[]).and_then(|form| finder.without_slacks(form));
+            let (Ok(form), symbol) = (found, finder.fact(i)) else { continue };
+            let form =
+                if is_multiple { Some(form * Ratio::from(symbol)) } else { Ratio::from(symbol).over(&form) };
+            if let Ok(found) = finder.equated(of, form?)
+                && state.certify(of, &found).is_ok()
+            {
+                return Some(found);
+            }
+        }
+        None
+    }
+
+    /// Returns the polynomial of a quantity, which becomes part of the certificate.
+    pub fn quantity(&mut self, known: Known) -> Poly {
+        let place = self.quantities.iter().position(|other| *other == known);
+        let i = place.unwrap_or_else(|| {
+            self.quantities.push(known);
+            self.quantities.len() - 1
+        });
+        Poly::symbol(quantity(i))
+    }
+
+    /// Returns the polynomial of a fact: its number if it is one.
+    pub fn fact(&mut self, i: usize) -> Poly {
+        let value = self.state.facts.get(i).map(|(of, _)| self.guide.dictionary.opaque_poly(of));
+        match value {
+            Ok(value) if Ratio::from(value.clone()).is_number() => value,
+            _ => self.quantity(Known::Fact(i)),
+        }
+    }
+
+    /// Returns the polynomial of a lemma about a value in own symbols.
+    pub fn lemma(&mut self, value: &Poly) -> Found<Poly> {
+        if self.depth >= MAX_DEPTH {
+            return Err("too deep".into());
+        }
+        let of = self.guide.dictionary.polynomial(value, 0, self.state).ok_or("a lemma")?;
+        let signed = self.guide.sign(self.guide.reduced(&of, self.state)).ok_or("the sign of a lemma")?;
+        let mut finder = Finder::new(self.guide, self.state, self.depth + 1, self.uses_lemmas);
+        let certificate = finder.certificate(&of, &[], &signed)?;
+        self.state.certify(&of, &certificate)?;
+        Ok(self.quantity(Known::Lemma((of, certificate).into())))
+    }
+
+    fn certificate(&mut self, of: &Polynomial, den: &[usize], signed: &SignedRatio) -> Found<Certificate> {
+        let form = self.form(signed, den)?;
+        let form = self.without_slacks(form)?;
+        self.equated(of, form)
+    }
+
+    /// Returns the certificate for l and r in own symbols and quantities.
+    pub fn finished(&self, left: &Poly, right: &Poly) -> Found<Certificate> {
+        let (left, right) = integral(left, right);
+        let count = self.quantities.len();
+        let form = |of: &Poly| self.guide.dictionary.polynomial(of, count, self.state).ok_or("a form");
+        Ok(Certificate { known: self.quantities.clone(), left: form(&left)?, right: form(&right)? })
+    }
+
+    /// Returns the quantity of an assumption as a quotient of facts.
+    pub fn supposed(&mut self, Supposed { fact, den, scale }: &Supposed) -> Found<Ratio> {
+        let mut value = scale * Ratio::from(self.fact(*fact));
+        for i in den {
+            value = value.over(&self.fact(*i).into()).ok_or("a zero fact")?;
+        }
+        Ok(value)
+    }
+
+    /// Replaces slack variables by facts, and places by their own symbols.
+    pub fn without_slacks(&mut self, mut form: Ratio) -> Found<Ratio> {
+        let guide = self.guide;
+        for (i, assumption) in guide.context.assumptions().iter().enumerate().rev() {
+            let (AssumptionUse::Pivot(_, _, Some(symbol)) | AssumptionUse::Symbol(symbol)) =
+                &assumption.usage
+            else {
+                continue;
+            };
+            let pivot = Monomial::of(*symbol);
+            let Some(supposed) =
+                guide.supposed.get(i).and_then(Option::as_ref).filter(|_| form.contains(&pivot))
+            else {
+                continue;
+            };
+            let is_symbol = self.state.facts.get(supposed.fact)?.0.as_variable().is_some();
+            if is_symbol && matches!(symbol, Symbol::Own(_)) {
+                continue;
+            }
+            let mut by = self.supposed(supposed)?;
+            if let Some(divisor) = &assumption.divisor {
+                by = by.over(divisor).ok_or("a zero divisor")?;
+            }
+            form = form.replace(&pivot, &by);
+        }
+        Ok(guide.dictionary.with_own_places(&form))
+    }
+}

@@ -1,0 +1,326 @@
+//! The search as the source of a proof: what the checker asks for is found, and listed.
+
+use super::ProofError;
+use super::algebra::{Poly, Ratio, Symbol};
+use super::assumption::SignedRatio;
+use super::finder::Finder;
+use super::knowledge::{Knowledge, Supposed};
+use super::{Decision, Failure};
+use crate::formula::Relation;
+use crate::formula::claim::{PRECISION, SCALES};
+use crate::formula::statement::Proposition;
+use crate::number::Tree;
+use crate::proof::check::Sign;
+use crate::proof::check::{
+    AbsoluteValue, Atom, Certificate, Leaf, Polynomial, Problem, Question, Quotient, Reason, Same, Source,
+    State,
+};
+
+/// A search for what a leaf lists.
+pub struct Search<'a> {
+    /// What is known.
+    pub known: Knowledge<'a>,
+    /// What was known before the first hypothesis on the variable of a limit.
+    pub early: Option<Knowledge<'a>>,
+    /// What was found.
+    pub leaf: Leaf,
+    /// The absolute values that were replaced, each with the number of hypotheses before it.
+    pub sizes: Vec<Decision>,
+    /// Whether the goal rests on an order of rounded formulas.
+    pub is_ordered: bool,
+    /// The number of hypotheses so far.
+    pub position: usize,
+    /// The reason why the search ended.
+    pub failure: Option<Failure>,
+    /// The last sum whose sign was asked for.
+    pub asked: Vec<(i128, usize)>,
+}
+
+impl Search<'_> {
+    fn problem(&self) -> &Problem<'_> {
+        self.known.problem
+    }
+
+    fn noted<T>(&mut self, found: Result<T, Failure>) -> Option<T> {
+        found.map_err(|failure| self.failure.get_or_insert(failure)).ok()
+    }
+
+    /// Returns a reason for the sign of a polynomial: a fact about it, unless a certificate proves more.
+    fn reason(&mut self, question: Question, state: &State) -> Result<Reason, Failure> {
+        let fact = known_fact(question.of, state);
+        if let Some((i, sign)) = fact
+            && is_definite(sign)
+        {
+            return Ok(Reason::Fact(i));
+        }
+        if self.is_ordered
+            && fact.is_none()
+            && let Some(found) = Finder::by_order(&self.known, question.of, state)
+        {
+            return Ok(Reason::Certificate(found));
+        }
+        self.asked = question.sum.into();
+        // The polynomial itself is shorter than the sum, but its sign may be found by the other's alone.
+        let direct = self.known.reduced(question.of, state);
+        let signed = self.known.context.sign(direct, &self.known.factors);
+        let signed = signed.filter(|signed| match fact {
+            Some(_) => is_definite(signed.sign()),
+            None => self.suffices(question, signed.sign()),
+        });
+        if let Some(signed) = signed {
+            return self.certificate(question.of, &[], &signed, state).map(Reason::Certificate);
+        }
+        if let Some((i, _)) = fact {
+            return Ok(Reason::Fact(i));
+        }
+        let value = self.value(question, state)?;
+        let signed = self.known.sign(value.clone());
+        let asks_for_zero =
+            matches!(self.problem().proposition, Proposition::Equal(..) | Proposition::Derivative(..));
+        if asks_for_zero && !question.decides && !question.sum.is_empty() && !value.is_zero() {
+            return Err(ProofError::Unequal(value).into());
+        }
+        let Some(signed) = signed else {
+            let unknown = |value| ProofError::UnknownSign(value, self.known.context.known());
+            return Err(if question.decides { Failure::Branch(value) } else { unknown(value).into() });
+        };
+        self.certificate(question.of, question.den, &signed, state).map(Reason::Certificate)
+    }
+
+    /// Returns `true` if no other sign of a polynomial would prove more.
+    fn suffices(&self, question: Question, sign: Sign) -> bool {
+        let is_weak = match self.problem().proposition {
+            Proposition::Within(..) | Proposition::Sign(Relation::NonNegative, _) => true,
+            _ => question.decides,
+        };
+        is_definite(sign) || (is_weak && !question.sum.is_empty())
+    }
+
+    /// Returns the value of a polynomial over its denominator, reduced.
+    fn value(&mut self, question: Question, state: &State) -> Result<Ratio, Failure> {
+        match question.sum {
+            [] => Ok(self.known.reduced(question.of, state)),
+            [a, b] if matches!(self.problem().proposition, Proposition::Within(..)) && !question.decides => {
+                self.known.long_sum([*a, *b])
+            }
+            sum => self.known.sum(sum),
+        }
+    }
+
+    fn certificate(
+        &self,
+        of: &Polynomial,
+        den: &[usize],
+        signed: &SignedRatio,
+        state: &State,
+    ) -> Result<Certificate, Failure> {
+        let found = Finder::find(&self.known, of, den, signed, state);
+        match &self.early {
+            Some(early) if !found.as_ref().is_ok_and(|found| state.certify(of, found).is_ok()) => {
+                let signed = early.sign(early.reduced(of, state)).ok_or("a sign that is known early")?;
+                Finder::find(early, of, &[], &signed, state)
+            }
+            _ => found,
+        }
+    }
+
+    /// Returns the factors of a divisor: symbols, known facts, errors 2ᵖ + 1 + e, and the rest.
+    fn factors(&mut self, of: usize, value: &Polynomial, state: &State) -> Result<Vec<Polynomial>, Failure> {
+        self.check_divisor(of)?;
+        let dictionary = &self.known.dictionary;
+        let mut rest = dictionary.opaque_poly(value);
+        let common = Poly::from(rest.common_monomial());
+        let mut candidates: Vec<Poly> = common.symbols().into_iter().map(Poly::symbol).collect();
+        let strict = state.facts.iter().filter(|(of, sign)| sign.is_strict() && of.terms().len() > 1);
+        candidates.extend(strict.map(|(of, _)| dictionary.opaque_poly(of)));
+        candidates.extend(self.known.largest_errors(&rest));
+        let mut factors = Vec::new();
+        for factor in candidates {
+            while let Some(quotient) = rest.over(&factor).filter(is_integral) {
+                rest = quotient;
+                factors.push(factor.clone());
+            }
+        }
+        if !rest.is_one() {
+            factors.push(rest);
+        }
+        let factors: Option<_> =
+            factors.iter().map(|factor| dictionary.polynomial(factor, 0, state)).collect();
+        Ok(factors.ok_or("a divisor")?)
+    }
+
+    /// Checks that a divisor is not 0.
+    fn check_divisor(&mut self, of: usize) -> Result<(), Failure> {
+        let value = self.known.value(of)?;
+        let tree = self.problem().table.formula(of)?;
+        let fails = |value| Failure::Error(ProofError::PossibleZeroDivisor(tree.clone(), value));
+        if value.is_zero() {
+            return Err(fails(value));
+        }
+        if value.is_number() {
+            return Ok(());
+        }
+        let reduced = self.known.context.reduce(&value);
+        let error = fails(reduced.clone());
+        self.known.collect_factors(of)?;
+        let signed = self.known.context.sign(reduced, &self.known.factors);
+        if signed.is_some_and(|signed| signed.sign().is_strict()) { Ok(()) } else { Err(error) }
+    }
+
+    /// Returns the earlier formula that a rounded formula is a power of two times, if there is one.
+    fn same_rounding(&mut self, of: usize, state: &State) -> Result<Option<Same>, Failure> {
+        let largest = self.known.largest();
+        if !self.known.sign(largest.clone()).is_some_and(|signed| signed.sign().is_strict()) {
+            let divisor = Tree::symbol(PRECISION) + Tree::from(1);
+            return Err(ProofError::PossibleZeroDivisor(divisor, largest).into());
+        }
+        let value = self.known.value(of)?;
+        let (own, scale) = without_scales(&self.known.context.reduce(&value));
+        let own_errors = errors(&own);
+        for (i, (known, error)) in self.known.rounded.clone().into_iter().enumerate() {
+            let value = self.known.value(known)?;
+            let (other, before) = without_scales(&self.known.context.reduce(&value));
+            // Equal values contain the same errors, unless one cancels; equality is then not recognised.
+            if errors(&other) != own_errors || !(&other - &own).is_zero() {
+                continue;
+            }
+            let factor = scale.over(&before).ok_or("a power of two")?;
+            let [up, down] =
+                [factor.num(), factor.den()].map(|of| self.known.dictionary.polynomial(of, 0, state));
+            let (up, down) = (up.ok_or("a power of two")?, down.ok_or("a power of two")?);
+            self.known.rounded.push((of, error));
+            return Ok(Some(Same { rounding: i, up, down }));
+        }
+        let error = self.problem().table.variable(Atom::Error(of))?;
+        let symbol = self.known.dictionary.symbol(error);
+        self.known.rounded.push((of, symbol));
+        Ok(None)
+    }
+
+    /// Returns the translation of the absolute value of a formula.
+    fn absolute_value(&mut self, of: usize, state: &State) -> Result<AbsoluteValue, Failure> {
+        let value = self.known.value(of)?;
+        let twice = self.known.context.reduce(&(&value + &value));
+        if self.known.context.size(&value).is_none() {
+            let decision = Decision::Size { at: self.position, of, twice: twice.clone() };
+            if self.known.sign(twice.clone()).is_some() || !self.known.assume_size(of, &twice) {
+                return Ok(AbsoluteValue::BySign);
+            }
+            self.sizes.push(decision);
+        }
+        let size = self.known.context.size(&value).ok_or("an absolute value")?;
+        let variable = self.known.dictionary.variable(size).ok_or("an absolute value")?;
+        if let Some(i) = state.sizes.iter().position(|known| known.size == variable) {
+            return Ok(AbsoluteValue::Same(i));
+        }
+        let own = self.problem().table.variable(Atom::Size(of))?;
+        if own == variable { Ok(AbsoluteValue::Atom) } else { Err("an absolute value before its own".into()) }
+    }
+}
+
+impl Search<'_> {
+    /// Uses the assumptions of decisions before a hypothesis.
+    pub fn follow(&mut self, position: usize, decisions: &[Decision]) {
+        self.position = position;
+        let mut cases = 0;
+        for decision in decisions {
+            match decision {
+                Decision::Case { at, deciding, scale, sign, .. } => {
+                    cases += 1;
+                    if *at == position {
+                        let negated = *sign == Sign::NonPositive;
+                        let scale = if negated { -scale } else { scale.clone() };
+                        // The first fact is 2 > 0.
+                        let supposed = Supposed { fact: cases, den: Vec::new(), scale };
+                        self.known.assume_case(deciding, *sign, supposed);
+                    }
+                }
+                Decision::Size { at, of, twice } if *at == position => {
+                    self.known.assume_size(*of, twice);
+                }
+                Decision::Size { .. } => {}
+            }
+        }
+    }
+}
+
+impl Knowledge<'_> {
+    /// Returns a polynomial in own symbols, reduced.
+    pub fn reduced(&self, of: &Polynomial, state: &State) -> Ratio {
+        let own = self.dictionary.poly(of, state);
+        self.context.reduce(&self.dictionary.with_places(&own.into()))
+    }
+
+    /// Returns 2ᵖ + 1 + e for each error in a polynomial.
+    pub fn largest_errors(&self, of: &Poly) -> Vec<Poly> {
+        let largest = Poly::symbol(Symbol::Own(PRECISION)) + Poly::constant(1);
+        let is_error = |x: &Symbol| {
+            let variable = self.dictionary.variable(*x);
+            variable.is_some_and(|x| matches!(self.problem.table.atoms()[x], Atom::Error(_)))
+        };
+        of.symbols().into_iter().filter(is_error).map(|x| &largest + Poly::symbol(x)).collect()
+    }
+}
+
+/// Returns the number and sign of the fact about this polynomial, of a strict one if there is one.
+fn known_fact(of: &Polynomial, state: &State) -> Option<(usize, Sign)> {
+    let all = || state.facts.iter().enumerate().filter(|(_, (known, _))| known == of);
+    let definite = all().find(|(_, (_, sign))| is_definite(*sign));
+    definite.or_else(|| all().next()).map(|(i, (_, sign))| (i, *sign))
+}
+
+/// Returns `true` if no other sign implies this one.
+fn is_definite(sign: Sign) -> bool {
+    sign.is_strict() || sign == Sign::Zero
+}
+
+fn is_integral(of: &Poly) -> bool {
+    of.terms().all(|(_, number)| number.to_rational().is_integer())
+}
+
+/// Returns the errors in a quotient.
+fn errors(of: &Ratio) -> Vec<Symbol> {
+    of.symbols().into_iter().filter(|x| matches!(x, Symbol::Error(_))).collect()
+}
+
+fn is_scale(x: Symbol) -> bool {
+    SCALES.iter().any(|scale| x == Symbol::Own(scale))
+}
+
+/// Splits a quotient into a factor without powers of two and a product of powers of two.
+fn without_scales(value: &Ratio) -> (Ratio, Ratio) {
+    let scales = |poly: &Poly| -> Poly { poly.common_monomial().without_symbols(|x| !is_scale(x)).into() };
+    let scale = Ratio::from(scales(value.num())).over(&scales(value.den()).into());
+    let scale = scale.unwrap_or_else(|| Poly::constant(1).into());
+    (value.over(&scale).unwrap_or_else(|| value.clone()), scale)
+}
+
+impl Source for Search<'_> {
+    fn sign(&mut self, question: Question, state: &State) -> Option<Reason> {
+        let found = self.reason(question, state);
+        let reason = self.noted(found)?;
+        self.leaf.signs.push(reason.clone());
+        Some(reason)
+    }
+
+    fn divisor(&mut self, of: usize, value: &Polynomial, state: &State) -> Option<Vec<Polynomial>> {
+        let found = self.factors(of, value, state);
+        let factors = self.noted(found)?;
+        self.leaf.divisors.push(factors.clone());
+        Some(factors)
+    }
+
+    fn rounding(&mut self, of: usize, _: &Quotient, state: &State) -> Option<Option<Same>> {
+        let found = self.same_rounding(of, state);
+        let same = self.noted(found)?;
+        self.leaf.roundings.push(same.clone());
+        Some(same)
+    }
+
+    fn size(&mut self, of: usize, _: &Quotient, state: &State) -> Option<AbsoluteValue> {
+        let found = self.absolute_value(of, state);
+        let size = self.noted(found)?;
+        self.leaf.sizes.push(size);
+        Some(size)
+    }
+}
