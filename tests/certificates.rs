@@ -1,32 +1,13 @@
-//! Every claim has a proof by certificates, which the checker accepts, and a wrong number in one is noticed.
+//! A proof with a wrong number is refused, and the proof of a claim proves no false one.
 
+use crate::proofs::proofs;
+use crate::strategies::is_deep;
 use rayon::prelude::*;
-use spring_mass_contact::claims::statements;
+use spring_mass_contact::claims::registry;
 use spring_mass_contact::formula::Statement;
 use spring_mass_contact::proof::check::{Certificate, Known, MAX_VARIABLES, Node, Polynomial, Reason, check};
-use spring_mass_contact::proof::prove;
-use std::sync::LazyLock;
-
-/// A claim with the proofs of its goals.
-type Certified = (Statement, Vec<Node>);
-
-/// The claims with their proofs, or the reason why there are none.
-static CERTIFIED: LazyLock<Vec<Result<Certified, String>>> = LazyLock::new(|| {
-    let certified = |s: &Statement| match prove(s) {
-        Ok(proof) => Ok((s.clone(), proof.goals().to_vec())),
-        Err(reason) => Err(format!("{} {}: {reason}", s.equation(), s.name())),
-    };
-    statements().par_iter().map(certified).collect()
-});
-
-#[test]
-fn every_claim_is_certified() {
-    let open: Vec<_> = CERTIFIED.iter().filter_map(|outcome| outcome.as_ref().err()).collect();
-    assert!(open.is_empty(), "not certified: {open:#?}");
-    assert!(CERTIFIED.len() > 100, "{} claims", CERTIFIED.len());
-    let refused = CERTIFIED.iter().flatten().filter(|(s, goals)| check(s, goals).is_err());
-    assert_eq!(refused.count(), 0);
-}
+use spring_mass_contact::proof::mutation::mutants;
+use spring_mass_contact::proof::refute;
 
 /// Adds 1 to a coefficient of a form, or to the zero polynomial.
 fn spoil_form(form: &mut Polynomial, place: usize) {
@@ -67,22 +48,27 @@ fn certificates<'n>(node: &'n mut Node, all: &mut Vec<&'n mut Certificate>) {
     }
 }
 
-/// Number of certificates of a claim that are changed, at most.
-const MAX_CHANGED: usize = 6;
+/// Returns the number of certificates of a claim that are changed, at most, and of changes of each.
+fn changes() -> (usize, usize) {
+    if is_deep() { (usize::MAX, 30) } else { (6, 1) }
+}
 
 /// Returns the number of certificates that are changed, and of those that are accepted nevertheless.
 fn spoiled(statement: &Statement, goals: &[Node]) -> (usize, usize) {
     let mut copy = goals.to_vec();
     let mut all = Vec::new();
     copy.iter_mut().for_each(|node| certificates(node, &mut all));
-    let (total, mut count, mut accepted) = (all.len(), 0, 0);
-    for place in (0..total).step_by(total.div_ceil(MAX_CHANGED).max(1)) {
-        let mut goals = goals.to_vec();
-        let mut all = Vec::new();
-        goals.iter_mut().for_each(|node| certificates(node, &mut all));
-        spoil(all.swap_remove(place), place);
-        count += 1;
-        accepted += usize::from(check(statement, &goals).is_ok());
+    let (total, (most, of_each)) = (all.len(), changes());
+    let (mut count, mut accepted) = (0, 0);
+    for place in (0..total).step_by(total.div_ceil(most).max(1)) {
+        for change in 0..of_each {
+            let mut goals = goals.to_vec();
+            let mut all = Vec::new();
+            goals.iter_mut().for_each(|node| certificates(node, &mut all));
+            spoil(all.swap_remove(place), place + change);
+            count += 1;
+            accepted += usize::from(check(statement, &goals).is_ok());
+        }
     }
     (count, accepted)
 }
@@ -91,8 +77,6 @@ fn spoiled(statement: &Statement, goals: &[Node]) -> (usize, usize) {
 #[cfg(feature = "serde")]
 mod data {
     use super::*;
-    use crate::proofs::proofs;
-    use spring_mass_contact::claims::registry;
     use spring_mass_contact::proof::Proof;
     use spring_mass_contact::proof::data::GoalProof;
     use spring_mass_contact::proof::render::ProofPrinter;
@@ -148,9 +132,25 @@ mod data {
 
 #[test]
 fn a_certificate_with_another_coefficient_is_refused() {
-    let all: Vec<_> =
-        CERTIFIED.par_iter().flatten().map(|(statement, goals)| spoiled(statement, goals)).collect();
-    let (count, accepted) = all.iter().fold((0, 0), |(a, b), (c, d)| (a + c, b + d));
+    let all = proofs().par_bridge().map(|proof| spoiled(proof.statement(), proof.goals()));
+    let (count, accepted) = all.reduce(|| (0, 0), |(a, b), (c, d)| (a + c, b + d));
     assert!(count > 300, "{count} certificates");
     assert_eq!(accepted, 0, "of {count} certificates");
+}
+
+/// Returns the number of mutations of a statement that its proof does not prove, and of those that it proves
+/// although numbers refute them.
+fn proved_mutations(statement: &Statement, goals: &[Node]) -> (usize, usize) {
+    let all = mutants(std::slice::from_ref(statement), registry());
+    let all: Vec<_> = all.iter().filter_map(|mutant| mutant.apply(statement)).collect();
+    let proved: Vec<_> = all.iter().filter(|changed| check(changed, goals).is_ok()).collect();
+    (all.len() - proved.len(), proved.into_iter().filter(|changed| refute(changed).is_some()).count())
+}
+
+#[test]
+fn the_proof_of_a_claim_proves_no_mutation_that_numbers_refute() {
+    let all = proofs().par_bridge().map(|proof| proved_mutations(proof.statement(), proof.goals()));
+    let (refused, wrong) = all.reduce(|| (0, 0), |(a, b), (c, d)| (a + c, b + d));
+    assert!(refused > 1000, "{refused} mutations are refused");
+    assert_eq!(wrong, 0);
 }

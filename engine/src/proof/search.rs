@@ -57,7 +57,7 @@ pub enum Failure {
     Branch(Ratio),
     /// The sign of this function, whose parts are still to be proved, would help.
     Rise(Box<Rise>),
-    /// There is no proof.
+    /// The reason for which no proof is found.
     Error(ProofError),
     /// A sign that was found could not be expressed by certificates.
     NotExpressed(&'static str),
@@ -174,7 +174,7 @@ pub enum Decision {
         at: usize,
         /// The quantity in the symbols that remain there.
         deciding: Poly,
-        /// The same for the checker.
+        /// The quantity as a polynomial of the checker.
         on: Polynomial,
         /// The quotient of the two.
         scale: Ratio,
@@ -205,7 +205,7 @@ impl<'a> Attempt<'a> {
         let mut rises = Vec::new();
         let (search, failure) = loop {
             let leaf = Leaf { rises: rises.clone(), ..Leaf::default() };
-            let mut reader = Reader::new(self.problem, self.search(decisions, leaf)?);
+            let mut reader = Reader::new(self.problem, self.search(leaf)?);
             let checked = self.read(&mut reader, decisions);
             let mut search = reader.source;
             match (checked, search.failure.take()) {
@@ -282,13 +282,13 @@ impl<'a> Attempt<'a> {
         Ok(Node::Cases(on, both.into()))
     }
 
-    fn search(&self, decisions: &[Decision], mut leaf: Leaf) -> Result<Search<'a>, Failure> {
+    /// Returns a search without assumptions.
+    fn search(&self, mut leaf: Leaf) -> Result<Search<'a>, Failure> {
         let known = Knowledge::new(self.problem, Context::of(self.roundings.to_vec()));
         let known = known.ok_or(ProofError::Premise(Premise::TooManyRoundings))?;
         leaf.orders = self.orders();
         let is_ordered = !leaf.orders.is_empty();
         let (early, sizes, failure, asked) = Default::default();
-        let _ = decisions;
         Ok(Search { known, early, leaf, sizes, is_ordered, position: 0, failure, asked })
     }
 
@@ -384,7 +384,7 @@ impl<'a> Attempt<'a> {
     }
 }
 
-/// Returns the quantity of a case, and its sign.
+/// Returns the quantity of a case, and its sign, if the decision is one.
 fn case(decision: &Decision) -> Option<(Polynomial, Sign)> {
     match decision {
         Decision::Case { on, sign, .. } => Some((on.clone(), *sign)),

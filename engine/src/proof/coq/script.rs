@@ -27,14 +27,14 @@ pub(super) struct Script {
     indent: usize,
 }
 
-/// What the goal of a leaf is in Coq.
+/// The goal of a leaf in Coq.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum End {
     /// The proposition.
     Proposition,
-    /// That the formula of an equation about a limit is continuous.
+    /// The continuity of the formula of an equation about a limit.
     Continuity,
-    /// That the divisor of a formula is not 0.
+    /// A divisor of a formula, which is not 0.
     Divisor,
 }
 

@@ -49,7 +49,7 @@ pub(super) struct Lines<'a> {
     named: Vec<(Polynomial, Tree)>,
 }
 
-/// What is known at the end of a leaf.
+/// The knowledge at the end of a leaf.
 struct End<'a> {
     goal: &'a Lines<'a>,
     state: State<'a>,

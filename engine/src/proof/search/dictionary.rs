@@ -125,7 +125,7 @@ impl Dictionary {
         self.places.iter().find(|(place, _)| *place == x).map_or(x, |(_, own)| *own)
     }
 
-    /// Returns the symbol of a variable that is no exponential.
+    /// Returns the symbol of a variable other than an exponential.
     pub fn symbol(&self, x: usize) -> Symbol {
         self.symbols[x]
     }

@@ -1,4 +1,4 @@
-//! The reasons for which there is no proof.
+//! The reasons for which no proof is found.
 
 use super::algebra::Ratio;
 use super::sign::SignEnv;

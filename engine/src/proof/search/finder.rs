@@ -20,13 +20,11 @@ pub struct Finder<'a, 'p> {
     pub quantities: Vec<Known>,
     /// The nesting of the certificate in others.
     pub depth: u32,
-    /// Whether factors of known sign become lemmas, which keeps forms short.
-    pub uses_lemmas: bool,
 }
 
 impl<'a, 'p> Finder<'a, 'p> {
-    fn new(guide: &'a Knowledge<'a>, state: &'a State<'p>, depth: u32, uses_lemmas: bool) -> Self {
-        Finder { guide, state, quantities: Vec::new(), depth, uses_lemmas }
+    fn new(guide: &'a Knowledge<'a>, state: &'a State<'p>, depth: u32) -> Self {
+        Finder { guide, state, quantities: Vec::new(), depth }
     }
 
     /// Returns a certificate for a polynomial whose quotient by these facts has this sign.
@@ -37,15 +35,7 @@ impl<'a, 'p> Finder<'a, 'p> {
         signed: &SignedRatio,
         state: &'a State<'p>,
     ) -> Found<Certificate> {
-        let is_lemma = |known: &Known| matches!(known, Known::Lemma(_));
-        match Finder::new(guide, state, 0, true).certificate(of, den, signed) {
-            Ok(found) if !found.known.iter().any(is_lemma) || state.certify(of, &found).is_ok() => {
-                return Ok(found);
-            }
-            Err(Failure::Rise(rise)) => return Err(Failure::Rise(rise)),
-            _ => {}
-        }
-        Finder::new(guide, state, 0, false).certificate(of, den, signed)
+        Finder::new(guide, state, 0).certificate(of, den, signed)
     }
 
     /// Returns a certificate for a multiple, or divisor, of a fact about an order of rounded formulas.
@@ -65,7 +55,7 @@ impl<'a, 'p> Finder<'a, 'p> {
             };
             let reduced = guide.context.reduce(&guide.dictionary.with_places(&quotient.into()));
             let Some(signed) = guide.sign(reduced) else { continue };
-            let mut finder = Finder::new(guide, state, 0, true);
+            let mut finder = Finder::new(guide, state, 0);
             let found = finder.form(&signed, &[]).and_then(|form| finder.without_slacks(form));
             let (Ok(form), symbol) = (found, finder.fact(i)) else { continue };
             let form =
@@ -91,9 +81,8 @@ impl<'a, 'p> Finder<'a, 'p> {
 
     /// Returns the polynomial of a fact: its number if it is one.
     pub fn fact(&mut self, i: usize) -> Poly {
-        let value = self.state.facts.get(i).map(|(of, _)| self.guide.dictionary.opaque_poly(of));
-        match value {
-            Ok(value) if Ratio::from(value.clone()).is_number() => value,
+        match self.state.facts.get(i) {
+            Ok((of, _)) if of.has_only(|_| false) => self.guide.dictionary.opaque_poly(of),
             _ => self.quantity(Known::Fact(i)),
         }
     }
@@ -105,7 +94,7 @@ impl<'a, 'p> Finder<'a, 'p> {
         }
         let of = self.guide.dictionary.polynomial(value, 0, self.state).ok_or("a lemma")?;
         let signed = self.guide.sign(self.guide.reduced(&of, self.state)).ok_or("the sign of a lemma")?;
-        let mut finder = Finder::new(self.guide, self.state, self.depth + 1, self.uses_lemmas);
+        let mut finder = Finder::new(self.guide, self.state, self.depth + 1);
         let certificate = finder.certificate(&of, &[], &signed)?;
         self.state.certify(&of, &certificate)?;
         Ok(self.quantity(Known::Lemma((of, certificate).into())))

@@ -13,9 +13,6 @@ use crate::proof::check::{Known, Leaf, Node, Polynomial, Rise, Sign};
 /// Forms l and r with l f = r.
 type Forms = (Poly, Poly);
 
-/// The nesting of lemmas from which on a factor is expanded.
-const MAX_FACTOR_DEPTH: u32 = 2;
-
 impl Finder<'_, '_> {
     /// Returns the product of a quotient and facts, as a quotient of forms.
     pub fn form(&mut self, signed: &SignedRatio, facts: &[usize]) -> Found<Ratio> {
@@ -82,10 +79,7 @@ impl Finder<'_, '_> {
         match of.rule() {
             Rule::Terms => Ok((Poly::constant(1), of.of().clone())),
             Rule::Product(factor, rest) => {
-                let (left, right) = match self.factor(factor) {
-                    Some(lemma) => (Poly::constant(1), lemma),
-                    None => self.forms(factor)?,
-                };
+                let (left, right) = self.forms(factor)?;
                 let (left_of_rest, right_of_rest) = self.forms(rest)?;
                 Ok((left * left_of_rest, right * right_of_rest))
             }
@@ -93,17 +87,6 @@ impl Finder<'_, '_> {
             Rule::Endpoints { x, at } => self.ends(*x, at),
             Rule::MeanValue { x, start, slope } => self.slope(of, *x, [start.sign(), slope.sign()]),
         }
-    }
-
-    /// Returns a lemma about a factor.
-    fn factor(&mut self, of: &Certificate) -> Option<Poly> {
-        let own = self.guide.dictionary.own(&of.of().clone().into());
-        let (value, _) = integral(own.num(), own.num());
-        let is_lemma = of.of().terms().len() > 1 && own.den().is_one() && value == *own.num();
-        if !is_lemma || !self.uses_lemmas || self.depth > MAX_FACTOR_DEPTH {
-            return None;
-        }
-        self.lemma(&value).ok()
     }
 
     /// Returns 4 a f = r² + d.

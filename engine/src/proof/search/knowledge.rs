@@ -1,4 +1,4 @@
-//! What a search knows: assumptions, and formulas in the symbols that remain under them.
+//! The knowledge of a search: assumptions, and formulas in the symbols that remain under them.
 
 use super::Failure;
 use super::ProofError;

@@ -18,11 +18,11 @@ use crate::proof::check::{
 
 /// A search for what a leaf lists.
 pub struct Search<'a> {
-    /// What is known.
+    /// The knowledge so far.
     pub known: Knowledge<'a>,
-    /// What was known before the first hypothesis on the variable of a limit.
+    /// The knowledge before the first hypothesis on the variable of a limit.
     pub early: Option<Knowledge<'a>>,
-    /// What was found.
+    /// The lists so far.
     pub leaf: Leaf,
     /// The absolute values that were replaced, each with the number of hypotheses before it.
     pub sizes: Vec<Decision>,

@@ -27,7 +27,7 @@ pub(super) struct Writer<'w, 'p> {
     facts: Vec<(Polynomial, Option<Sign>)>,
     /// The number in Coq of each fact of the checker so far.
     numbers: Vec<Option<usize>>,
-    /// The labels of suppositions, and the steps.
+    /// The labels of assumptions, and the steps.
     given: Vec<String>,
     steps: Vec<String>,
     /// The atoms whose equations are used for rewriting, those of the innermost formulas first.
