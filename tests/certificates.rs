@@ -149,7 +149,9 @@ fn proved_mutations(statement: &Statement, goals: &[Node]) -> (usize, usize) {
 
 #[test]
 fn the_proof_of_a_claim_proves_no_mutation_that_numbers_refute() {
-    let all = proofs().par_bridge().map(|proof| proved_mutations(proof.statement(), proof.goals()));
+    // The proofs of the laws of drift are long.
+    let all = proofs().filter(|proof| proof.statement().kind() != "drift" || is_deep()).par_bridge();
+    let all = all.map(|proof| proved_mutations(proof.statement(), proof.goals()));
     let (refused, wrong) = all.reduce(|| (0, 0), |(a, b), (c, d)| (a + c, b + d));
     assert!(refused > 1000, "{refused} mutations are refused");
     assert_eq!(wrong, 0);
