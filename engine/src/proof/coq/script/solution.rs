@@ -1,6 +1,6 @@
 //! Shorter certificates: the sides of an identity as the result of eliminating symbols by facts.
 
-use crate::proof::check::{Certificate, Known, Polynomial, State};
+use crate::proof::check::{Certificate, Known, Polynomial, Powers, Sign, State};
 use std::iter;
 
 /// A certificate whose right side follows from its left side and from these steps.
@@ -36,6 +36,19 @@ fn divided(of: &Polynomial, x: usize) -> Option<Polynomial> {
     Polynomial::new(terms).ok()
 }
 
+/// Returns the right side of a certificate without multiples of facts that are 0.
+fn essential(certificate: &Certificate, state: &State) -> Option<Polynomial> {
+    let first = state.problem.table.atoms().len();
+    let is_zero = |known: &Known| match known {
+        Known::Fact(i) => state.facts.get(*i).is_ok_and(|(_, sign)| *sign == Sign::Zero),
+        _ => false,
+    };
+    let zeros: Vec<_> = (first..).zip(&certificate.known).filter(|(_, known)| is_zero(known)).collect();
+    let is_essential = |powers: &Powers| zeros.iter().all(|(x, _)| powers[*x] == 0);
+    let terms = certificate.right.terms().filter(|(powers, _)| is_essential(powers));
+    Polynomial::new(terms.copied().collect()).ok()
+}
+
 impl Solution {
     /// Finds the steps that lead from a polynomial to a certificate like this one.
     pub(super) fn find(of: &Polynomial, certificate: &Certificate, state: &State) -> Option<Self> {
@@ -52,15 +65,18 @@ impl Solution {
         let (mut open, mut l, mut r) =
             ((0..facts.len()).collect::<Vec<_>>(), Polynomial::constant(1), of.clone());
         let mut steps = Vec::new();
-        let is_gone = |x: usize| left.degree(x) == 0 && right.degree(x) == 0;
+        let essential = essential(certificate, state)?;
+        let is_gone = |x: usize| left.degree(x) == 0 && essential.degree(x) == 0;
         while !open.is_empty() {
-            let is_pivot = |i: usize, x: usize| {
-                let others = open.iter().filter(|other| **other != i);
-                let occurs_once = others.clone().all(|other| facts[*other].degree(x) == 0);
-                is_gone(x) && occurs_once && facts[i].degree(x) == 1 && r.degree(x) > 0
+            let is_pivot = |i: usize, x: usize| is_gone(x) && facts[i].degree(x) == 1 && r.degree(x) > 0;
+            let occurs_once = |i: usize, x: usize| {
+                open.iter().filter(|other| **other != i).all(|other| facts[*other].degree(x) == 0)
             };
             let pairs = open.iter().flat_map(|i| iter::repeat(*i).zip(0..first));
-            let (i, x) = pairs.clone().find(|(i, x)| is_pivot(*i, *x))?;
+            let mut pairs = pairs.filter(|(i, x)| is_pivot(*i, *x)).collect::<Vec<_>>();
+            pairs.sort_by_key(|(i, x)| !occurs_once(*i, *x));
+            // What remains are facts that the polynomial does not need.
+            let Some((i, x)) = pairs.first().copied() else { break };
             let (cofactor, degree) = (facts[i].coefficient(x, 1), r.degree(x));
             let rest =
                 Polynomial::variable(first + i).ok()?.plus_multiple(-1, &facts[i].coefficient(x, 0)).ok()?;
