@@ -43,7 +43,7 @@ use crate::formula::statement::{Goal, Proposition, Statement};
 use crate::formula::{Hypothesis, Relation};
 use crate::number::Tree;
 use crate::number::tree::Op;
-use algebra::{Poly, Ratio};
+use algebra::{Poly, Ratio, Symbol};
 use context::Context;
 use dictionary::integral;
 use knowledge::{Knowledge, Supposed};
@@ -305,7 +305,7 @@ impl<'a> Attempt<'a> {
                 reader.source.early = Some(reader.source.known.clone());
             }
             let interval = hypothesis.interval();
-            if interval.is_some_and(|(x, ..)| !reader.source.known.is_free(x)) {
+            if interval.is_some_and(|(x, ..)| !reader.source.known.context.is_free(Symbol::Own(x))) {
                 continue;
             }
             let supposed = self.assume(reader, *i)?;
@@ -323,8 +323,9 @@ impl<'a> Attempt<'a> {
             }
         }
         reader.source.follow(order.len(), decisions);
-        let leaf = reader.source.leaf.clone();
-        reader.conclude(&leaf, &cases)?;
+        let Leaf { rises, orders, .. } = &reader.source.leaf;
+        let rest = Leaf { rises: rises.clone(), orders: orders.clone(), ..Leaf::default() };
+        reader.conclude(&rest, &cases)?;
         Ok(())
     }
 

@@ -1,8 +1,7 @@
 //! Proofs step by step, as the checker reads them, for those who print them.
 
-use super::check::Sign;
 use super::check::{
-    AbsoluteValue, Leaf, List, Polynomial, Problem, Question, Quotient, Reader, Reason, Refusal, Same,
+    AbsoluteValue, Leaf, List, Polynomial, Problem, Question, Quotient, Reader, Reason, Refusal, Same, Sign,
     Source, State,
 };
 

@@ -45,7 +45,7 @@ impl Context {
     }
 
     /// Returns 2ᵖ + 1, the reciprocal of the largest relative rounding error.
-    pub(super) fn inverse_gamma(&self) -> Ratio {
+    pub(in crate::proof) fn inverse_gamma(&self) -> Ratio {
         self.reduce(&Ratio::from(Poly::symbol(Symbol::Own(PRECISION)) + Poly::constant(1)))
     }
 
@@ -74,9 +74,8 @@ impl Context {
     }
 
     fn sign_under(&self, value: Ratio, factors: &[Certificate], known: &Arc<SignEnv>) -> Option<SignedRatio> {
-        let find = |of: &Poly, known: &Arc<SignEnv>| choice::sign_of_product(of, factors, known);
-        let sign = |part: &Poly| find(part, known);
-        let (num, den) = (sign(value.num())?, sign(value.den())?);
+        let [num, den] = [value.num(), value.den()].map(|part| choice::sign_of_product(part, factors, known));
+        let (num, den) = (num?, den?);
         den.sign().is_strict().then_some(SignedRatio { subtracted: None, num, den })
     }
 
@@ -127,13 +126,15 @@ impl Context {
         sign(of, &self.signs)
     }
 
-    pub(in crate::proof) fn signs(&self) -> &SignEnv {
+    /// Returns the known signs of the remaining symbols.
+    pub(in crate::proof) fn signs(&self) -> &Arc<SignEnv> {
         &self.signs
     }
 
-    /// Returns the known signs of the remaining symbols.
-    pub(in crate::proof) fn known(&self) -> Arc<SignEnv> {
-        self.signs.clone()
+    /// Returns `true` if a symbol is not replaced, so that an interval may give it a value.
+    pub(in crate::proof) fn is_free(&self, x: Symbol) -> bool {
+        let quantity = Ratio::from(Poly::symbol(x));
+        self.reduce(&quantity) == quantity
     }
 
     fn set_sign(&mut self, symbol: Symbol, sign: Sign) {
@@ -203,9 +204,10 @@ impl Context {
         let half = Ratio::from(Poly::constant((1, 2)));
         let [middle, reach] = [upper + lower, upper - lower].map(|sum| self.reduce(&(sum * &half)));
         let quantity = Ratio::from(Poly::symbol(x));
-        let is_free = self.reduce(&quantity) == quantity;
         let used = match self.next_place() {
-            Some(place) if is_free && !middle.symbols().contains(&x) && !reach.symbols().contains(&x) => {
+            Some(place)
+                if self.is_free(x) && !middle.symbols().contains(&x) && !reach.symbols().contains(&x) =>
+            {
                 let by = &middle + reach * Ratio::from(Poly::symbol(place));
                 let sign = Arc::make_mut(&mut self.signs).remove(&x);
                 self.retained.extend(sign.map(|sign| (quantity.clone(), sign)));

@@ -111,6 +111,7 @@ impl Finder<'_, '_> {
         let difference = self.guide.dictionary.opaque_poly(&difference);
         let sum = self.vanishing(difference, &mut left, &mut right)?;
         right = sum.into_iter().fold(right, |right, (symbol, factor)| right + factor * symbol);
+        let (left, right) = integral(&left, &right);
         self.finished(&left, &right)
     }
 

@@ -3,10 +3,9 @@
 use super::Failure;
 use super::algebra::{Monomial, Poly, Ratio, Symbol};
 use super::assumption::{AssumptionUse, SignedRatio};
-use super::dictionary::{integral, quantity};
+use super::dictionary::quantity;
 use super::knowledge::{Knowledge, Supposed};
-use crate::proof::check::Sign;
-use crate::proof::check::{Certificate, Known, Polynomial, State};
+use crate::proof::check::{Certificate, Known, Polynomial, Sign, State};
 
 /// Maximum nesting of lemmas.
 const MAX_DEPTH: u32 = 4;
@@ -106,12 +105,11 @@ impl<'a, 'p> Finder<'a, 'p> {
         self.equated(of, form)
     }
 
-    /// Returns the certificate for l and r in own symbols and quantities.
+    /// Returns the certificate for l and r in own symbols and quantities, with integers as coefficients.
     pub fn finished(&self, left: &Poly, right: &Poly) -> Found<Certificate> {
-        let (left, right) = integral(left, right);
         let count = self.quantities.len();
         let form = |of: &Poly| self.guide.dictionary.polynomial(of, count, self.state).ok_or("a form");
-        Ok(Certificate { known: self.quantities.clone(), left: form(&left)?, right: form(&right)? })
+        Ok(Certificate { known: self.quantities.clone(), left: form(left)?, right: form(right)? })
     }
 
     /// Returns the quantity of an assumption as a quotient of facts.

@@ -1,14 +1,12 @@
 //! The knowledge of a search: assumptions, and formulas in the symbols that remain under them.
 
-use super::Failure;
-use super::ProofError;
 use super::algebra::{Poly, Ratio, Symbol};
 use super::assumption::{Assumption, AssumptionUse, SignedRatio};
 use super::context::Context;
 use super::dictionary::Dictionary;
 use super::sign::Certificate;
+use super::{Failure, ProofError};
 use crate::formula::Hypothesis;
-use crate::formula::claim::PRECISION;
 use crate::number::tree::Op;
 use crate::proof::check::{Problem, Sign, Size, State};
 use std::collections::HashMap;
@@ -98,12 +96,6 @@ impl<'a> Knowledge<'a> {
         }
     }
 
-    /// Returns `true` if a symbol is not replaced, so that an interval may give it a value.
-    pub fn is_free(&self, x: &'static str) -> bool {
-        let quantity = Ratio::from(Poly::symbol(Symbol::Own(x)));
-        self.context.reduce(&quantity) == quantity
-    }
-
     /// Returns a sum of multiples of formulas, reduced.
     pub fn sum(&mut self, terms: &[(i128, usize)]) -> Result<Ratio, Failure> {
         let mut sum = Ratio::zero();
@@ -185,7 +177,7 @@ impl<'a> Knowledge<'a> {
                 let value = self.context.reduce(&value);
                 let (_, error) =
                     self.rounded.iter().find(|(known, _)| *known == a).ok_or("an unknown error")?;
-                let largest = self.largest();
+                let largest = self.context.inverse_gamma();
                 let nearest = &largest + Ratio::from(Poly::symbol(*error));
                 // The quotient comes first, since the value is long.
                 value * nearest.over(&largest).ok_or("a precision of 0")?
@@ -207,11 +199,6 @@ impl<'a> Knowledge<'a> {
         let value = self.context.reduce(value);
         let signed = self.sign(value.clone()).ok_or(Failure::Branch(value))?;
         Ok(signed.sign().implies(Sign::NonNegative))
-    }
-
-    /// Returns 2ᵖ + 1, the reciprocal of the largest relative rounding error.
-    pub fn largest(&self) -> Ratio {
-        self.context.reduce(&Ratio::from(Poly::symbol(Symbol::Own(PRECISION)) + Poly::constant(1)))
     }
 
     /// Returns `true` if identities may rest on equations: of hypotheses, or of absolute values.

@@ -62,7 +62,7 @@ impl Search<'_> {
         self.asked = question.sum.into();
         // The polynomial itself is shorter than the sum, but its sign may be found by the other's alone.
         let direct = self.known.reduced(question.of, state);
-        let signed = self.known.context.sign(direct, &self.known.factors);
+        let signed = self.known.context.sign(direct.clone(), &self.known.factors);
         let signed = signed.filter(|signed| match fact {
             Some(_) => is_definite(signed.sign()),
             None => self.suffices(question, signed.sign()),
@@ -73,7 +73,7 @@ impl Search<'_> {
         if let Some((i, _)) = fact {
             return Ok(Reason::Fact(i));
         }
-        let value = self.value(question, state)?;
+        let value = self.value(question, direct)?;
         let signed = self.known.sign(value.clone());
         let asks_for_zero =
             matches!(self.problem().proposition, Proposition::Equal(..) | Proposition::Derivative(..));
@@ -81,7 +81,7 @@ impl Search<'_> {
             return Err(ProofError::Unequal(value).into());
         }
         let Some(signed) = signed else {
-            let unknown = |value| ProofError::UnknownSign(value, self.known.context.known());
+            let unknown = |value| ProofError::UnknownSign(value, self.known.context.signs().clone());
             return Err(if question.decides { Failure::Branch(value) } else { unknown(value).into() });
         };
         self.certificate(question.of, question.den, &signed, state).map(Reason::Certificate)
@@ -96,10 +96,10 @@ impl Search<'_> {
         is_definite(sign) || (is_weak && !question.sum.is_empty())
     }
 
-    /// Returns the value of a polynomial over its denominator, reduced.
-    fn value(&mut self, question: Question, state: &State) -> Result<Ratio, Failure> {
+    /// Returns the value of a polynomial over its denominator, reduced, given that of the polynomial itself.
+    fn value(&mut self, question: Question, direct: Ratio) -> Result<Ratio, Failure> {
         match question.sum {
-            [] => Ok(self.known.reduced(question.of, state)),
+            [] => Ok(direct),
             [a, b] if matches!(self.problem().proposition, Proposition::Within(..)) && !question.decides => {
                 self.known.long_sum([*a, *b])
             }
@@ -169,7 +169,7 @@ impl Search<'_> {
 
     /// Returns the earlier formula that a rounded formula is a power of two times, if there is one.
     fn same_rounding(&mut self, of: usize, state: &State) -> Result<Option<Same>, Failure> {
-        let largest = self.known.largest();
+        let largest = self.known.context.inverse_gamma();
         if !self.known.sign(largest.clone()).is_some_and(|signed| signed.sign().is_strict()) {
             let divisor = Tree::symbol(PRECISION) + Tree::from(1);
             return Err(ProofError::PossibleZeroDivisor(divisor, largest).into());
