@@ -9,6 +9,7 @@
 //! 1`, which prints them. The directory `fuzz` runs the same targets with a coverage-guided fuzzer.
 
 mod bytes;
+mod forged;
 mod holds;
 mod of_reply;
 
@@ -47,7 +48,7 @@ const HANG: Duration = Duration::from_secs(60);
 /// Name, maximal number of bytes, and property.
 type Target = (&'static str, usize, fn(&[u8]));
 
-const TARGETS: [Target; 7] = [
+const TARGETS: [Target; 8] = [
     ("parse", 40, holds::parse),
     ("solve_f32", 96, holds::solve_any::<f32>),
     ("solve_f64", 96, holds::solve_any::<f64>),
@@ -55,6 +56,7 @@ const TARGETS: [Target; 7] = [
     ("solve_exact", 128, holds::solve_any::<Exact>),
     ("functions", 192, holds::functions),
     ("reply", 128, of_reply::read),
+    ("forged", 112, forged::prove_nothing),
 ];
 
 /// Fills the bytes of an index.
