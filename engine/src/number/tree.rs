@@ -7,7 +7,8 @@ pub use op::{Op, Site, all_ops, piecewise_ops, smooth_ops};
 use super::{Dual, Exponential, Field, PositivePart};
 use crate::operators;
 use num_traits::{One, Zero};
-use std::collections::{BTreeSet, HashMap, HashSet};
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::collections::BTreeSet;
 use std::mem;
 use std::panic::Location;
 use std::sync::Arc;
@@ -140,7 +141,7 @@ impl Tree {
             let operands = self.op().try_map(|operand| operand.eval(symbol, extra_ops))?;
             return operands.map(|operand| operand).value(symbol, extra_ops);
         }
-        let mut values: HashMap<_, T> = HashMap::new();
+        let mut values: FxHashMap<_, T> = FxHashMap::default();
         for tree in self.distinct() {
             let operands = tree.op().map(|operand| &values[&operand.address()]);
             values.insert(tree.address(), operands.map(|operand| *operand).value(symbol, extra_ops)?);
@@ -179,7 +180,7 @@ impl Tree {
     /// Rebuilds the tree from its leaves: `f` may replace each operation, after its operands have been
     /// rebuilt.
     pub fn rewrite(&self, f: &impl Fn(&Tree) -> Option<Tree>) -> Tree {
-        let mut rewritten: HashMap<_, Tree> = HashMap::new();
+        let mut rewritten: FxHashMap<_, Tree> = FxHashMap::default();
         for old in self.distinct() {
             let step = old.op().map(|operand| rewritten[&operand.address()].clone());
             let same = step.operands().zip(old.op().operands()).all(|(a, b)| a.address() == b.address());
@@ -195,7 +196,7 @@ impl Tree {
 
     /// Returns each operation once, even if shared, after its operands, from left to right.
     pub(crate) fn distinct(&self) -> Vec<&Tree> {
-        let (mut found, mut all, mut open) = (HashSet::new(), Vec::new(), vec![(self, false)]);
+        let (mut found, mut all, mut open) = (FxHashSet::default(), Vec::new(), vec![(self, false)]);
         while let Some((tree, operands_are_done)) = open.pop() {
             if operands_are_done {
                 all.push(tree);

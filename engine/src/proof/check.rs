@@ -50,7 +50,7 @@ pub use premises::{MAX_DEPTH, MAX_SIZE, Premise};
 pub(in crate::proof) use premises::{MAX_ROUNDINGS, check_premises, check_size, roundings};
 pub(in crate::proof) use quotient::Quotient;
 pub use sign::Sign;
-pub(in crate::proof) use state::{Reader, Size, State};
+pub(in crate::proof) use state::{Reader, State};
 pub use table::Atom;
 pub(in crate::proof) use table::{Problem, derivative};
 
@@ -199,10 +199,10 @@ pub struct Leaf {
 pub(in crate::proof) struct Question<'q> {
     /// The polynomial.
     pub of: &'q Polynomial,
-    /// The facts over which it is the numerator of a sum of formulas.
+    /// The facts over which it is the numerator of a sum of formulas; none for any other polynomial.
     pub den: &'q [usize],
-    /// This sum, of multiples of the formulas with these numbers; empty for any other polynomial.
-    pub sum: &'q [(i128, usize)],
+    /// Whether it is the numerator of a sum of formulas.
+    pub is_sum: bool,
     /// Whether it decides between the branches of a minimum or positive part.
     pub decides: bool,
 }

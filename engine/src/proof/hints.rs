@@ -6,13 +6,12 @@ use super::check::Premise;
 use super::effort;
 use super::prove;
 use super::render::formula;
-use super::search::ProofError;
 use super::search::algebra::Monomial;
 use super::search::assumption::AssumptionUse;
-use super::search::prove_proposition;
+use super::search::{ProofError, Quantity};
 use crate::eval::{Verdict, check, constructed_points, independent_symbols};
 use crate::formula::claim::{POWER, PRECISION, SCALES, equal};
-use crate::formula::statement::{Proposition, Role, Statement};
+use crate::formula::statement::{Proposition, Statement};
 use crate::formula::{Hypothesis, Relation};
 use crate::number::Tree;
 
@@ -76,7 +75,7 @@ pub fn sufficient_hypothesis(statement: &Statement, reason: &ProofError) -> Vec<
             found.push(new);
         }
     }
-    let obstacle = obstacle(statement, reason).filter(is_own).filter(is_short).into_iter();
+    let obstacle = obstacle(reason).filter(is_own).filter(is_short).into_iter();
     for new in obstacle.flat_map(|of| [-&of, of]).rev().filter_map(weakest) {
         if found.iter().all(|known| !follows(known, &new) && !follows(&new, known)) {
             found.push(new);
@@ -104,19 +103,16 @@ fn suffices(statement: &Statement, candidate: &Hypothesis, symbols: &[&'static s
 }
 
 /// Returns the formula whose sign is missing, in the symbols of the statement and without common factors.
-fn obstacle(statement: &Statement, reason: &ProofError) -> Option<Tree> {
-    let value = match reason {
+fn obstacle(reason: &ProofError) -> Option<Tree> {
+    let Quantity { value, context } = match reason {
         ProofError::PossibleZeroDivisor(divisor, _) => return Some(divisor.clone()),
-        ProofError::UnknownSign(value, _)
+        ProofError::UnknownSign(value)
         | ProofError::WrongSign(value, _)
         | ProofError::UndecidedBranch(value) => value,
         _ => return None,
     };
-    let trivial = Proposition::Equal(Tree::from(0), Tree::from(0));
-    let (_, contexts) = prove_proposition(&trivial, statement.hypotheses_for(Role::Claim)).ok()?;
-    let [context] = &contexts[..] else { return None };
     let in_own_symbols = || {
-        context.assumptions().iter().rev().fold(value.clone(), |value, supposed| match supposed.usage {
+        context.assumptions.iter().rev().fold(value.clone(), |value, supposed| match supposed.usage {
             AssumptionUse::Pivot(_, _, Some(slack)) => {
                 value.replace(&Monomial::of(slack), &supposed.slack_value())
             }
@@ -125,7 +121,7 @@ fn obstacle(statement: &Statement, reason: &ProofError) -> Option<Tree> {
     };
     let num = effort::bounded(in_own_symbols)?.num().clone();
     let rest = num.over(&num.common_monomial().into())?;
-    (rest.terms().len() <= MAX_OBSTACLE as usize).then(|| formula(&rest))
+    (rest.terms().len() <= MAX_OBSTACLE as usize).then(|| formula(&rest, context))
 }
 
 #[cfg(test)]

@@ -14,6 +14,7 @@ use super::check::{Leaf, Node, Problem};
 #[cfg(feature = "serde")]
 use super::data::GoalProof;
 use super::search::algebra::Poly;
+use super::search::context::Context;
 use crate::formula::claim::{MEMBERS, POWER};
 use crate::formula::statement::{Goal, Proposition, Role, Sequence, Statement};
 use crate::formula::{Call, Formula, Notation, Registry};
@@ -251,10 +252,6 @@ impl<'a> ProofPrinter<'a> {
         .collect()
     }
 
-    fn order(&self) -> Order<'a> {
-        Order { factors: self.registry.factors() }
-    }
-
     fn text(&self, tree: &Tree) -> String {
         self.registry.format_tree(tree)
     }
@@ -292,8 +289,8 @@ const LETTERS: [(char, char); 12] = [
 ];
 
 /// Returns a polynomial as a formula.
-pub(super) fn formula(poly: &Poly) -> Tree {
-    Order::default().poly(poly)
+pub(super) fn formula(poly: &Poly, context: &Context) -> Tree {
+    Order { context, factors: &[] }.poly(poly)
 }
 
 #[cfg(test)]

@@ -21,7 +21,7 @@ pub(in crate::proof) mod choice;
 pub(in crate::proof) mod context;
 mod dictionary;
 mod equation;
-mod error;
+pub(in crate::proof) mod error;
 mod finder;
 mod form;
 mod knowledge;
@@ -32,10 +32,10 @@ mod source;
 #[cfg(test)]
 mod tests;
 
-pub use self::error::ProofError;
+pub use self::error::{ProofError, Quantity};
 
 use super::check::{
-    self, Atom, Leaf, Node, Polynomial, Premise, Problem, Proof, Reader, Refusal, Rise, Sign, check,
+    self, Atom, Leaf, Node, Polynomial, Premise, Problem, Proof, Reader, Refusal, Rise, Sign, State, check,
     parts_of_rise,
 };
 use super::effort::{self, MAX_EFFORT};
@@ -43,18 +43,16 @@ use crate::formula::statement::{Goal, Proposition, Statement};
 use crate::formula::{Hypothesis, Relation};
 use crate::number::Tree;
 use crate::number::tree::Op;
-use algebra::{Poly, Ratio, Symbol};
-use context::Context;
+use algebra::{Poly, Ratio};
 use dictionary::integral;
 use knowledge::{Knowledge, Supposed};
 use source::Search;
-use std::cell::RefCell;
 
 /// The reason why a search ended without a leaf.
 #[derive(Clone, Debug)]
 pub enum Failure {
     /// The branch of a positive part, minimum or absolute value is undecided by this quantity.
-    Branch(Ratio),
+    Branch(Quantity),
     /// The sign of this function, whose parts are still to be proved, would help.
     Rise(Box<Rise>),
     /// The reason for which no proof is found.
@@ -119,24 +117,22 @@ const MAX_RISES: usize = 4;
 /// assert!(prove(&positive("square", &x * &x - Tree::from(1))).is_err());
 /// ```
 pub fn prove(statement: &Statement) -> Result<Proof, ProofError> {
-    let roundings = check::check_premises(statement)?;
+    check::check_premises(statement)?;
     let goals: Vec<_> = bounded(|| {
-        let solve =
-            |goal: &Goal| Ok(solve(&goal.proposition, statement.hypotheses_for(goal.role), &roundings)?.0);
+        let solve = |goal: &Goal| solve(&goal.proposition, statement.hypotheses_for(goal.role));
         statement.goals().iter().map(solve).collect()
     })?;
     check(statement, &goals).map_err(|_| ProofError::NotExpressed("the checker refuses it"))
 }
 
-/// Returns a proof of a proposition from hypotheses, which the checker has not read, and the assumptions at
-/// each of its leaves.
+/// Returns a proof of a proposition from hypotheses, which the checker has not read.
 ///
 /// # Errors
 /// Returns the reason if there is none; see [`prove`].
 pub(in crate::proof) fn prove_proposition(
     proposition: &Proposition,
     hypotheses: Vec<&Hypothesis>,
-) -> Result<(Node, Vec<Context>), ProofError> {
+) -> Result<Node, ProofError> {
     let trees = || hypotheses.iter().map(|given| &given.value).chain(proposition.trees());
     check::check_size(trees())?;
     let roundings = check::roundings(trees());
@@ -146,7 +142,7 @@ pub(in crate::proof) fn prove_proposition(
     if !roundings.is_empty() && proposition.variable().is_some() {
         return Err(Premise::Discontinuous.into());
     }
-    bounded(|| solve(proposition, hypotheses, &roundings))
+    bounded(|| solve(proposition, hypotheses))
 }
 
 /// Limits the effort of a search.
@@ -154,15 +150,9 @@ fn bounded<T>(search: impl FnOnce() -> Result<T, ProofError>) -> Result<T, Proof
     effort::bounded(search).unwrap_or(Err(ProofError::TooLarge(MAX_EFFORT)))
 }
 
-fn solve(
-    proposition: &Proposition,
-    hypotheses: Vec<&Hypothesis>,
-    roundings: &[Tree],
-) -> Result<(Node, Vec<Context>), ProofError> {
+fn solve(proposition: &Proposition, hypotheses: Vec<&Hypothesis>) -> Result<Node, ProofError> {
     let problem = Problem::new(proposition, hypotheses).map_err(Failure::from)?;
-    let attempt = Attempt { problem: &problem, roundings, contexts: RefCell::default() };
-    let node = attempt.certify(&[])?;
-    Ok((node, attempt.contexts.into_inner()))
+    Ok(Attempt { problem: &problem }.certify(&[])?)
 }
 
 /// A decision on the way to a leaf, before the hypothesis at a place in their order.
@@ -192,11 +182,9 @@ pub enum Decision {
     },
 }
 
-/// A problem, its rounded formulas, and what was known at its leaves.
+/// An attempt to solve a problem.
 struct Attempt<'a> {
     problem: &'a Problem<'a>,
-    roundings: &'a [Tree],
-    contexts: RefCell<Vec<Context>>,
 }
 
 impl<'a> Attempt<'a> {
@@ -205,26 +193,23 @@ impl<'a> Attempt<'a> {
         let mut rises = Vec::new();
         let (search, failure) = loop {
             let leaf = Leaf { rises: rises.clone(), ..Leaf::default() };
-            let mut reader = Reader::new(self.problem, self.search(leaf)?);
+            let mut reader = Reader::new(self.problem, self.search(leaf));
             let checked = self.read(&mut reader, decisions);
-            let mut search = reader.source;
+            let Reader { state, source: mut search, .. } = reader;
             match (checked, search.failure.take()) {
-                (Ok(()), _) => {
-                    self.contexts.borrow_mut().push(search.known.context);
-                    return Ok(Node::Leaf(search.leaf.into()));
-                }
+                (Ok(()), _) => return Ok(Node::Leaf(search.leaf.into())),
                 (Err(_), Some(Failure::Rise(rise))) if rises.len() < MAX_RISES => {
                     rises.push(self.with_parts(*rise)?);
                 }
                 (Err(reason), None) => {
-                    let reason = self.refused(&mut search, reason);
+                    let reason = self.refused(&search, &state, reason);
                     break (search, reason);
                 }
                 (Err(_), Some(Failure::Error(ProofError::UnknownSign(..))))
                     if self.problem.variable().is_some()
                         && search.position == self.problem.hypotheses.len() =>
                 {
-                    let reason = self.refused(&mut search, Failure::from(Refusal::Limit));
+                    let reason = self.refused(&search, &state, Failure::from(Refusal::Limit));
                     break (search, reason);
                 }
                 (Err(_), Some(failure)) => break (search, failure),
@@ -232,7 +217,7 @@ impl<'a> Attempt<'a> {
         };
         let script = [decisions, &search.sizes].concat();
         let found = match &failure {
-            Failure::Branch(value) => self.cases(&search, &script, search.position, value),
+            Failure::Branch(of) => self.cases(&search, &script, search.position, &of.value),
             _ => Err(failure.clone()),
         };
         // An absolute value that does not suffice is replaced by cases.
@@ -246,34 +231,34 @@ impl<'a> Attempt<'a> {
     }
 
     /// Returns the reason for which the checker refuses what the search found.
-    fn refused(&self, search: &mut Search, reason: Failure) -> Failure {
+    fn refused(&self, search: &Search, state: &State, reason: Failure) -> Failure {
         if !matches!(reason, Failure::Refused(Refusal::Goal | Refusal::Limit)) {
             return reason;
         }
-        let found = match self.problem.proposition {
-            Proposition::Limit(..) => {
-                search.known.sum(&[(1, self.problem.goal[0])]).ok().map(ProofError::UnknownLimit)
-            }
-            _ => search.known.sum(&search.asked).ok().and_then(|value| {
-                let sign = search.known.sign(value.clone())?.sign();
-                Some(ProofError::WrongSign(value, sign))
-            }),
-        };
-        found.map_or(reason, Failure::Error)
+        let is_limit = self.problem.variable().is_some();
+        let asked = if is_limit { state.value(self.problem.goal[0]) } else { search.asked.as_ref() };
+        let Some(asked) = asked else { return reason };
+        let value = search.known.reduced_quotient(asked, state);
+        let quantity = search.known.quantity(value.clone());
+        match search.known.sign(value) {
+            _ if is_limit => ProofError::UnknownLimit(quantity).into(),
+            Some(signed) => ProofError::WrongSign(quantity, signed.sign()).into(),
+            None => reason,
+        }
     }
 
     /// Returns a proof in the two cases of a quantity.
     fn cases(&self, search: &Search, script: &[Decision], at: usize, value: &Ratio) -> Result<Node, Failure> {
         let is_case = |decision: &&Decision| matches!(decision, Decision::Case { .. });
         if script.iter().filter(is_case).count() >= MAX_NESTED_CASES {
-            return Err(Failure::Branch(value.clone()));
+            return Err(Failure::Branch(search.known.quantity(value.clone())));
         }
         let (known, state) = (&search.known, check::State::new(self.problem));
         let deciding = known.context.sign_numerator(value);
-        let own = known.dictionary.own(&deciding.clone().into());
+        let own = known.own(&deciding.clone().into());
         let (on, _) = integral(own.num(), own.num());
         let scale = own.over(&on.clone().into()).ok_or("a case of nothing")?;
-        let on = known.dictionary.polynomial(&on, 0, &state).ok_or("the quantity of a case")?;
+        let on = known.polynomial(&on, &state).ok_or("the quantity of a case")?;
         let prove = |sign| {
             let (deciding, on, scale) = (deciding.clone(), on.clone(), scale.clone());
             self.certify(&[script, &[Decision::Case { at, deciding, on, scale, sign }]].concat())
@@ -283,13 +268,12 @@ impl<'a> Attempt<'a> {
     }
 
     /// Returns a search without assumptions.
-    fn search(&self, mut leaf: Leaf) -> Result<Search<'a>, Failure> {
-        let known = Knowledge::new(self.problem, Context::of(self.roundings.to_vec()));
-        let known = known.ok_or(ProofError::Premise(Premise::TooManyRoundings))?;
+    fn search(&self, mut leaf: Leaf) -> Search<'a> {
+        let known = Knowledge::new(self.problem);
         leaf.orders = self.orders();
         let is_ordered = !leaf.orders.is_empty();
         let (early, sizes, failure, asked) = Default::default();
-        Ok(Search { known, early, leaf, sizes, is_ordered, position: 0, failure, asked })
+        Search { known, early, leaf, sizes, is_ordered, position: 0, failure, asked }
     }
 
     /// Lets the reader check the goal, and lists the hypotheses that it uses.
@@ -305,19 +289,27 @@ impl<'a> Attempt<'a> {
                 reader.source.early = Some(reader.source.known.clone());
             }
             let interval = hypothesis.interval();
-            if interval.is_some_and(|(x, ..)| !reader.source.known.context.is_free(Symbol::Own(x))) {
+            if let Some((x, ..)) = interval
+                && !reader.source.known.context.is_free(self.problem.table.variable(Atom::Own(x))?)
+            {
                 continue;
             }
-            let supposed = self.assume(reader, *i)?;
-            reader.source.known.assume(*i, supposed)?;
-            let Some((x, ..)) = interval else { continue };
+            let Some((x, lower, upper)) = interval else {
+                let supposed = self.assume(reader, *i)?;
+                let value = reader.value(self.problem.values[*i])?;
+                let value = reader.source.known.ratio(&value, &reader.state);
+                reader.source.known.assume(hypothesis, value, supposed);
+                continue;
+            };
+            let ends = [reader.translate(lower)?, reader.translate(upper)?];
+            let ends = ends.map(|end| reader.source.known.ratio(&end, &reader.state));
+            self.assume(reader, *i)?;
+            reader.source.known.assume_interval(*i, x, ends)?;
             // What is known of the symbol is used again, for its value in the interval.
             for i in reader.source.leaf.hypotheses.clone() {
                 let earlier = self.problem.hypotheses[i];
-                if earlier.interval().is_none()
-                    && earlier.value.symbols().contains(x)
-                    && let Some(supposed) = self.assume(reader, i)?
-                {
+                if earlier.interval().is_none() && earlier.value.symbols().contains(x) {
+                    let supposed = self.assume(reader, i)?;
                     reader.source.known.assume_again(earlier, supposed);
                 }
             }
@@ -330,15 +322,12 @@ impl<'a> Attempt<'a> {
     }
 
     /// Lets the reader use a hypothesis, and returns its fact.
-    fn assume(&self, reader: &mut Reader<'a, Search<'a>>, i: usize) -> Result<Option<Supposed>, Failure> {
+    fn assume(&self, reader: &mut Reader<'a, Search<'a>>, i: usize) -> Result<Supposed, Failure> {
         reader.assume(i)?;
         reader.source.leaf.hypotheses.push(i);
-        let hypothesis = self.problem.hypotheses[i];
-        if hypothesis.interval().is_some() {
-            return Ok(None);
-        }
-        let den = reader.value(self.problem.values[i])?.den;
-        Ok(Some(Supposed { fact: reader.state.facts.iter().len() - 1, den, scale: Poly::constant(1).into() }))
+        let den = reader.state.value(self.problem.values[i]).map(|value| value.den.clone());
+        let fact = reader.state.facts.iter().len() - 1;
+        Ok(Supposed { fact, den: den.unwrap_or_default(), scale: Poly::constant(1).into() })
     }
 
     /// Returns the numbers of the hypotheses, those on the variable of a limit last.
@@ -376,9 +365,7 @@ impl<'a> Attempt<'a> {
                 others.filter(|given| !given.value.symbols().contains(x)).chain(assumed).collect();
             let part = Problem::new(proposition, others)?;
             let part = part.within(problem)?;
-            let roundings = check::roundings(part.hypotheses.iter().map(|given| &given.value));
-            let attempt = Attempt { problem: &part, roundings: &roundings, contexts: RefCell::default() };
-            parts.push(attempt.certify(&[])?);
+            parts.push(Attempt { problem: &part }.certify(&[])?);
         }
         rise.parts = <[Node; 3]>::try_from(parts).map_err(|_| "the parts of a rise")?;
         Ok(rise)

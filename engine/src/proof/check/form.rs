@@ -196,10 +196,7 @@ fn sign_of_powers(powers: &Powers, kinds: &[Kind]) -> Option<Sign> {
     .try_fold(Sign::Positive, |product, sign| Some(product.times(sign?)))
 }
 
+/// Returns the sign of a coefficient, which is not 0.
 fn sign_of_number(n: i128) -> Sign {
-    match n.signum() {
-        -1 => Sign::Negative,
-        0 => Sign::Zero,
-        _ => Sign::Positive,
-    }
+    if n < 0 { Sign::Negative } else { Sign::Positive }
 }

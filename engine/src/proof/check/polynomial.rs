@@ -21,7 +21,7 @@ pub struct Polynomial(Vec<(Powers, i128)>);
 impl Polynomial {
     /// Returns the sum of terms, which may come in any order.
     pub fn new(mut terms: Vec<(Powers, i128)>) -> Checked<Self> {
-        terms.sort_by_key(|(powers, _)| *powers);
+        terms.sort_by(|(a, _), (b, _)| a.as_slice().cmp(b));
         let mut sums: Vec<(Powers, i128)> = Vec::with_capacity(terms.len());
         for (powers, number) in terms {
             match sums.last_mut() {
@@ -63,6 +63,10 @@ impl Polynomial {
         self.0.is_empty()
     }
 
+    fn is_one(&self) -> bool {
+        matches!(&self.0[..], [(powers, 1)] if *powers == [0; MAX_VARIABLES])
+    }
+
     /// Returns the variable if the polynomial is a single one.
     pub fn as_variable(&self) -> Option<usize> {
         let [(powers, 1)] = &self.0[..] else { return None };
@@ -81,16 +85,31 @@ impl Polynomial {
         if !effort::spend(count) {
             return Err(Refusal::TooLarge);
         }
-        let mut terms = Vec::with_capacity(count);
-        terms.extend_from_slice(&self.0);
+        let (mut sums, mut rest) = (Vec::with_capacity(count), &self.0[..]);
         for (powers, number) in &other.0 {
-            terms.push((*powers, number.checked_mul(n).ok_or(Refusal::TooLarge)?));
+            let before = rest.iter().take_while(|(own, _)| own < powers).count();
+            sums.extend_from_slice(&rest[..before]);
+            rest = &rest[before..];
+            let mut sum = number.checked_mul(n).ok_or(Refusal::TooLarge)?;
+            if let [(own, number), others @ ..] = rest
+                && own == powers
+            {
+                sum = sum.checked_add(*number).ok_or(Refusal::TooLarge)?;
+                rest = others;
+            }
+            if sum != 0 {
+                sums.push((*powers, sum));
+            }
         }
-        Polynomial::new(terms)
+        sums.extend_from_slice(rest);
+        Ok(Polynomial(sums))
     }
 
     /// Returns the product.
     pub fn times(&self, other: &Self) -> Checked<Self> {
+        if other.is_one() {
+            return Ok(self.clone());
+        }
         let count = self.0.len().checked_mul(other.0.len()).filter(|count| *count <= MAX_TERMS);
         let count = count.filter(|count| effort::spend(*count)).ok_or(Refusal::TooLarge)?;
         let mut terms = Vec::with_capacity(count);
@@ -98,11 +117,15 @@ impl Polynomial {
         let (short, long) = if self.0.len() < other.0.len() { (self, other) } else { (other, self) };
         for (a, p) in &short.0 {
             for (b, q) in &long.0 {
-                let mut powers = *a;
+                let (mut powers, mut is_too_large) = (*a, false);
+                // A loop without an exit is compiled to few instructions.
                 for (n, m) in powers.iter_mut().zip(b) {
-                    *n = n.checked_add(*m).ok_or(Refusal::TooLarge)?;
+                    let (sum, exceeds) = n.overflowing_add(*m);
+                    *n = sum;
+                    is_too_large |= exceeds;
                 }
-                terms.push((powers, p.checked_mul(*q).ok_or(Refusal::TooLarge)?));
+                let number = p.checked_mul(*q).filter(|_| !is_too_large).ok_or(Refusal::TooLarge)?;
+                terms.push((powers, number));
             }
         }
         Polynomial::new(terms)

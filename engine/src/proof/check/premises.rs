@@ -39,12 +39,12 @@ pub const MAX_DEPTH: u32 = 500;
 /// Maximum number of rounded formulas in a statement.
 pub const MAX_ROUNDINGS: usize = 48;
 
-/// Checks the premises of a proof, and returns the rounded formulas: the statement has goals, is not too
-/// large, and uses no reserved name, and no limit or derivative in it is one of a rounded or computed quantity.
+/// Checks the premises of a proof: the statement has goals, is not too large, and uses no reserved name, and no
+/// limit or derivative in it is one of a rounded or computed quantity.
 ///
 /// # Errors
 /// Returns the premise that does not hold.
-pub fn check_premises(statement: &Statement) -> Result<Vec<Tree>, Premise> {
+pub fn check_premises(statement: &Statement) -> Result<(), Premise> {
     check_size(statement.trees())?;
     if statement.goals().is_empty() {
         return Err(Premise::NoGoals);
@@ -58,7 +58,7 @@ pub fn check_premises(statement: &Statement) -> Result<Vec<Tree>, Premise> {
     if (!roundings.is_empty() || !statement.computed().is_empty()) && has_continuous_variable(statement) {
         return Err(Premise::Discontinuous);
     }
-    Ok(roundings)
+    Ok(())
 }
 
 /// Checks the size and depth of formulas.

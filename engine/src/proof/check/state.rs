@@ -8,7 +8,7 @@ use super::{AbsoluteValue, Checked, Question, Reason, Refusal, Same, Source};
 use crate::formula::claim::{PRECISION, SCALES};
 use crate::number::Tree;
 use crate::number::tree::Op;
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// The number of the fact 2 > 0, which every state contains.
 const TWO: usize = 0;
@@ -31,9 +31,9 @@ pub struct State<'p> {
     /// The exponentials met so far, with their exponents.
     pub exponents: Vec<(usize, Quotient)>,
     /// The values of symbols in intervals.
-    places: HashMap<&'static str, Quotient>,
+    places: FxHashMap<&'static str, Quotient>,
     /// The values of formulas.
-    values: HashMap<usize, Quotient>,
+    values: FxHashMap<usize, Quotient>,
 }
 
 /// A rounded formula.
@@ -104,6 +104,11 @@ impl<'p> State<'p> {
         Polynomial::variable(self.problem.table.variable(atom)?)
     }
 
+    /// Returns the value of a formula that was met.
+    pub fn value(&self, formula: usize) -> Option<&Quotient> {
+        self.values.get(&formula)
+    }
+
     /// Returns the exponent of an exponential that was met.
     pub fn exponent(&self, x: usize) -> Option<&Quotient> {
         self.exponents.iter().find(|(own, _)| *own == x).map(|(_, exponent)| exponent)
@@ -133,7 +138,7 @@ impl<'p, S: Source> Reader<'p, S> {
 
     /// Returns the sign of a polynomial, and the number of the fact.
     pub fn sign_of_part(&mut self, of: &Polynomial) -> Checked<(Sign, usize)> {
-        self.sign(Question { of, den: &[], sum: &[], decides: false })
+        self.sign(Question { of, den: &[], is_sum: false, decides: false })
     }
 
     /// Returns the sign of a sum of multiples of formulas.
@@ -143,7 +148,7 @@ impl<'p, S: Source> Reader<'p, S> {
             let of = self.value(*of)?;
             value = self.state.facts.sum(&value, *n, &of)?;
         }
-        let (sign, _) = self.sign(Question { of: &value.num, den: &value.den, sum, decides })?;
+        let (sign, _) = self.sign(Question { of: &value.num, den: &value.den, is_sum: true, decides })?;
         Ok(self.state.facts.sign_of_product(&value.den)?.times(sign))
     }
 

@@ -7,28 +7,28 @@ use crate::formula::claim::PRECISION;
 use crate::formula::statement::Proposition;
 use crate::number::tree::{Op, smooth_ops};
 use crate::number::{Dual, Exponential, Tree};
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// A variable of polynomials, and the real number that it stands for.
 ///
 /// Where a formula is undefined, an error or exponential of it may be any number of the stated kind.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Atom {
     /// A symbol of the statement.
     Own(&'static str),
     /// The relative error of the formula with this number when it is rounded, divided by its maximum: e with
     /// −1 ≤ e ≤ 1 and fl(x) = x (1 + e/(2ᵖ + 1)).
     Error(usize),
+    /// e to the power of the formula with this number.
+    Exponential(usize),
+    /// The absolute value of the formula with this number.
+    Size(usize),
     /// The place of a symbol in the interval of the hypothesis with this number: t with −1 ≤ t ≤ 1 at which
     /// the symbol is the midpoint plus t times half the length.
     Place(usize),
-    /// The absolute value of the formula with this number.
-    Size(usize),
     /// The factor of the formula with this number: t with −1 ≤ t ≤ 1 such that the formula is t times its
     /// absolute value.
     Factor(usize),
-    /// e to the power of the formula with this number.
-    Exponential(usize),
 }
 
 /// The distinct formulas of a goal, each after its operands, and its atoms.
@@ -38,7 +38,7 @@ pub enum Atom {
 #[derive(Debug, Default)]
 pub struct Table {
     formulas: Vec<(Op<usize>, Tree)>,
-    numbers: HashMap<Op<usize>, usize>,
+    numbers: FxHashMap<Op<usize>, usize>,
     atoms: Vec<Atom>,
 }
 
@@ -65,7 +65,7 @@ pub struct Problem<'a> {
 impl Table {
     /// Numbers the operations of a formula, operands first, and returns the number of the last one.
     fn numbered(tree: &Tree, mut number: impl FnMut(Op<usize>, &Tree) -> Checked<usize>) -> Checked<usize> {
-        let (mut known, mut last) = (HashMap::new(), Err(Refusal::Unknown));
+        let (mut known, mut last) = (FxHashMap::default(), Err(Refusal::Unknown));
         for part in tree.distinct() {
             last = Ok(number(part.op().map(|operand| known[&operand.address()]), part)?);
             known.insert(part.address(), last?);
@@ -174,6 +174,7 @@ impl Table {
                 self.add_atom(Atom::Place(i));
             }
         }
+        self.atoms.sort_unstable();
         if self.atoms.len() > MAX_VARIABLES { Err(Refusal::TooLarge) } else { Ok(()) }
     }
 }

@@ -69,7 +69,7 @@ impl<'p> Place<'p> {
             let reason = ProofPrinter::new(&Registry::default()).describe(&statement, &reason);
             format!("no proof to follow: {reason}")
         })?;
-        Ok(found.0)
+        Ok(found)
     }
 
     /// Returns the name of an atom: that of a symbol, or s and its number.

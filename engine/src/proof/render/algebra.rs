@@ -3,26 +3,31 @@
 use crate::number::{Exponential, Field, Tree};
 use crate::proof::ProofError;
 use crate::proof::check::Sign;
-use crate::proof::search::algebra::{Monomial, Poly, Ratio, Symbol};
+use crate::proof::search::Quantity;
+use crate::proof::search::algebra::{Monomial, Poly, Ratio};
 use crate::proof::search::choice;
-use crate::proof::search::sign::SignEnv;
+use crate::proof::search::context::Context;
+use crate::proof::search::error::Symbol;
 use rug::Integer;
 use std::fmt;
-use std::sync::Arc;
 
 /// Form of polynomials.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy)]
 pub(super) struct Order<'a> {
+    /// The meaning of the variables.
+    pub(super) context: &'a Context,
     /// Order of the factors of a product, by symbols; other factors precede them, sorted by name.
     pub(super) factors: &'a [&'static str],
 }
 
 impl Order<'_> {
     fn product(&self, monomial: &Monomial) -> Option<Tree> {
-        let mut powers: Vec<_> = monomial.powers().collect();
-        powers.sort_by_key(|(x, _)| self.factors.iter().position(|name| Symbol::Own(name) == *x));
+        let named = |(x, n)| Some((self.context.symbol(x)?, n));
+        let mut powers: Vec<(Symbol, u8)> = monomial.powers().filter_map(named).collect();
+        let place = |x: Symbol| self.factors.iter().position(|name| Symbol::Own(name) == x);
+        powers.sort_by_key(|(x, _)| (place(*x), *x));
         let powers =
-            powers.into_iter().flat_map(|(x, n)| std::iter::repeat_n(Tree::symbol(x.name()), n as usize));
+            powers.into_iter().flat_map(|(x, n)| std::iter::repeat_n(Tree::symbol(x.name()), n.into()));
         powers.chain(monomial.exponent().map(|e| self.ratio(e).exp())).reduce(|a, b| a * b)
     }
 
@@ -52,7 +57,7 @@ impl Order<'_> {
 
     /// Returns the number of terms that are written out.
     fn shown(&self, poly: &Poly) -> usize {
-        match poly.symbols().into_iter().any(Symbol::in_unit_interval) {
+        match poly.variables().into_iter().any(|x| self.context.signs.is_unit(x)) {
             true => SHOWN_OF_ROUNDING,
             false => SHOWN,
         }
@@ -78,8 +83,8 @@ impl Order<'_> {
 
     /// Returns the terms of a quotient that are not known to have the sign of its denominator, if there are
     /// one or two and not all: `: the term −b is < 0`.
-    fn obstacles(&self, value: &Ratio, known: &Arc<SignEnv>) -> String {
-        let sign = |part: &Poly| choice::sign(part, known).map(|found| found.sign());
+    fn obstacles(&self, value: &Ratio) -> String {
+        let sign = |part: &Poly| choice::sign(part, &self.context.signs).map(|found| found.sign());
         let Some(den) = sign(value.den()) else { return String::new() };
         let terms = value.num().terms().map(|(m, q)| Poly::from_iter([(m.clone(), q.clone())]));
         let with_signs = terms.map(|term| (sign(&term), term));
@@ -94,33 +99,38 @@ impl Order<'_> {
         });
         format!(": {}", described.collect::<Vec<_>>().join(" and "))
     }
+}
 
-    /// Explains a failed proof, with formulas formatted by `formula`.
-    pub(super) fn justify(&self, reason: &ProofError, formula: &dyn Fn(&Tree) -> String) -> String {
-        let ratio = |ratio: &Ratio| self.ratio_or_size(ratio);
-        match reason {
-            ProofError::Premise(premise) => premise.to_string(),
-            ProofError::PossibleZeroDivisor(of, value) if value.is_zero() => {
-                format!("the divisor {} is 0", formula(of))
-            }
-            ProofError::PossibleZeroDivisor(of, value) => {
-                let is_as_written = value.symbols().into_iter().map(Symbol::name).eq(of.symbols());
-                let reduced = if is_as_written { String::new() } else { format!(" = {}", ratio(value)) };
-                format!("the divisor {}{reduced} might be 0", formula(of))
-            }
-            ProofError::UndecidedBranch(value) => {
-                format!("the sign of {} is undecided", ratio(value))
-            }
-            ProofError::UnknownSign(value, known) => {
-                format!("no rule finds the sign of {}{}", ratio(value), self.obstacles(value, known))
-            }
-            ProofError::WrongSign(value, sign) => format!("{} is {}", ratio(value), sign_text(*sign)),
-            ProofError::Unequal(value) => format!("the sides differ by {}", ratio(value)),
-            ProofError::UnknownLimit(value) => format!("no rule finds the limit of {}", ratio(value)),
-            ProofError::NotDifferentiable => "⟨·⟩ and min are not differentiable at kinks".to_string(),
-            ProofError::TooLarge(most) => format!("its proof exceeds the limit of {most} terms"),
-            ProofError::NotExpressed(reason) => format!("its proof cannot be checked: {reason}"),
+/// Explains a failed proof, with formulas formatted by `formula`, and the order of factors.
+pub(super) fn justify(
+    reason: &ProofError,
+    formula: &dyn Fn(&Tree) -> String,
+    factors: &[&'static str],
+) -> String {
+    let ratio = |of: &Quantity| Order { context: &of.context, factors }.ratio_or_size(&of.value);
+    match reason {
+        ProofError::Premise(premise) => premise.to_string(),
+        ProofError::PossibleZeroDivisor(of, value) if value.value.is_zero() => {
+            format!("the divisor {} is 0", formula(of))
         }
+        ProofError::PossibleZeroDivisor(of, value) => {
+            let is_as_written = value.symbols().into_iter().map(Symbol::name).eq(of.symbols());
+            let reduced = if is_as_written { String::new() } else { format!(" = {}", ratio(value)) };
+            format!("the divisor {}{reduced} might be 0", formula(of))
+        }
+        ProofError::UndecidedBranch(value) => {
+            format!("the sign of {} is undecided", ratio(value))
+        }
+        ProofError::UnknownSign(value) => {
+            let order = Order { context: &value.context, factors };
+            format!("no rule finds the sign of {}{}", ratio(value), order.obstacles(&value.value))
+        }
+        ProofError::WrongSign(value, sign) => format!("{} is {}", ratio(value), sign_text(*sign)),
+        ProofError::Unequal(value) => format!("the sides differ by {}", ratio(value)),
+        ProofError::UnknownLimit(value) => format!("no rule finds the limit of {}", ratio(value)),
+        ProofError::NotDifferentiable => "⟨·⟩ and min are not differentiable at kinks".to_string(),
+        ProofError::TooLarge(most) => format!("its proof exceeds the limit of {most} terms"),
+        ProofError::NotExpressed(reason) => format!("its proof cannot be checked: {reason}"),
     }
 }
 
@@ -169,7 +179,7 @@ pub(super) fn sign_text(sign: Sign) -> &'static str {
 /// names.
 impl fmt::Display for ProofError {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str(&Order::default().justify(self, &Tree::to_string))
+        f.write_str(&justify(self, &Tree::to_string, &[]))
     }
 }
 
@@ -179,14 +189,23 @@ impl std::error::Error for ProofError {}
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::formula::claim::positive;
     use crate::number::Exact;
+    use crate::proof::prove;
+
+    /// Returns a context with the variables 2ᵖ, a and e₁.
+    fn context() -> Context {
+        let of_rounded = prove(&positive("", Tree::symbol("a").round())).unwrap_err();
+        of_rounded.quantity().unwrap().context.as_ref().clone()
+    }
 
     #[test]
     fn integers_of_any_size_are_written_exactly() {
+        let context = context();
         let large: Integer = Integer::from(1) << 80;
         for n in [large.clone(), -1 - large, Integer::ZERO, Integer::from(-7)] {
             let q = rug::Rational::from((n, 3));
-            let tree = Order::default().poly(&Poly::constant(q.clone()));
+            let tree = Order { context: &context, factors: &[] }.poly(&Poly::constant(q.clone()));
             assert_eq!(tree.eval(&|_| Exact::int(0), &|_| None), Some(Exact::from(q)));
         }
     }
@@ -195,9 +214,10 @@ mod tests {
     fn long_sums_are_replaced_by_their_number_of_terms() {
         let powers =
             |x: Poly, many: usize| (0..many).fold(Poly::zero(), |sum, _| &x * &sum + Poly::constant(1));
-        for (x, shown) in [(Symbol::Own("a"), SHOWN), (Symbol::Error(0), SHOWN_OF_ROUNDING)] {
-            let order = Order::default();
-            let x = Poly::symbol(x);
+        let context = context();
+        for (x, shown) in [(1, SHOWN), (2, SHOWN_OF_ROUNDING)] {
+            let order = Order { context: &context, factors: &[] };
+            let x = Poly::variable(x);
             let [short, long] = [shown, shown + 1].map(|many| powers(x.clone(), many));
             assert_eq!(order.poly_or_size(&short), order.poly(&short).to_string());
             assert_eq!(order.poly_or_size(&long), format!("a sum of {} terms", shown + 1));

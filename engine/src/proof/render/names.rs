@@ -1,17 +1,17 @@
 //! Definitions of the names of the search in a message.
 
 use super::ProofPrinter;
+use super::algebra::{Order, justify};
 use crate::formula::claim::PRECISION;
 use crate::formula::name_of_rounding;
-use crate::formula::statement::{Goal, Proposition, Statement};
+use crate::formula::statement::Statement;
 use crate::number::Tree;
 use crate::proof::ProofError;
-use crate::proof::check::roundings;
 use crate::proof::hints::sufficient_hypothesis;
-use crate::proof::search::algebra::Symbol;
-use crate::proof::search::assumption::{Assumption, AssumptionUse};
-use crate::proof::search::prove_proposition;
-use std::collections::{BTreeMap, BTreeSet};
+use crate::proof::search::Quantity;
+use crate::proof::search::assumption::AssumptionUse;
+use crate::proof::search::context::Context;
+use crate::proof::search::error::Symbol;
 
 impl ProofPrinter<'_> {
     /// Returns the reason why a proof failed, with definitions of the names of the search: `no
@@ -20,20 +20,23 @@ impl ProofPrinter<'_> {
         if let Some(registry) = self.other_names(statement) {
             return ProofPrinter::new(&registry).describe(statement, reason);
         }
-        let said = self.order().justify(reason, &|tree| self.text(tree));
-        let (rounded, mut introduced) = (roundings(statement.trees()), None);
+        let said = justify(reason, &|tree| self.text(tree), self.registry.factors());
         let mut definitions = Vec::new();
-        for symbol in reason.symbols().into_iter().filter(|symbol| said.contains(symbol.name())) {
+        let quantity = reason.quantity();
+        for (of, symbol) in quantity.into_iter().flat_map(|of| of.symbols().into_iter().map(move |x| (of, x)))
+        {
+            if !said.contains(symbol.name()) {
+                continue;
+            }
             match symbol {
                 Symbol::Own(_) => {}
                 Symbol::Error(i) => {
-                    definitions.extend(rounded.get(usize::from(i)).map(|of| self.error(symbol.name(), of)));
+                    let rounded = of.context.roundings.get(usize::from(i));
+                    definitions.extend(rounded.map(|of| self.error(symbol.name(), of)));
                 }
                 Symbol::Slack(_) | Symbol::Place(_) => {
-                    let introduced = introduced.get_or_insert_with(|| self.introduced_names(statement));
-                    let known = introduced.get(&symbol).and_then(Option::clone);
                     let of_case = || format!("{} ≥ 0 in one case of the proof", symbol.name());
-                    definitions.push(known.unwrap_or_else(of_case));
+                    definitions.push(self.definition(symbol, &of.context).unwrap_or_else(of_case));
                 }
             }
         }
@@ -71,82 +74,45 @@ impl ProofPrinter<'_> {
         format!("{name}({of}) = {factor} (1 + {error} / ({PRECISION} + 1)) with |{error}| ≤ 1")
     }
 
-    /// Returns the names introduced by hypotheses with their definitions; `None` if a name has several, in
-    /// different cases.
-    fn introduced_names(&self, statement: &Statement) -> BTreeMap<Symbol, Option<String>> {
-        let prove = |goal: &Goal, proposition: &Proposition| {
-            prove_proposition(proposition, statement.hypotheses_for(goal.role)).ok()
-        };
-        let fails = |goal: &&Goal| prove(goal, &goal.proposition).is_none();
-        // Hypotheses are read before the goal, so their names are the same for another goal.
-        let contexts = statement.goals().iter().find(fails).and_then(|goal| {
-            let zero = || Tree::from(0);
-            let trivial = match goal.proposition {
-                Proposition::Limit(_, by, _) => Proposition::Limit(zero(), by, zero()),
-                _ => Proposition::Equal(zero(), zero()),
-            };
-            prove(goal, &trivial)
-        });
-        let mut all = BTreeMap::new();
-        for context in contexts.iter().flat_map(|(_, contexts)| contexts) {
-            for (name, definition) in context.assumptions().iter().filter_map(|s| self.definition(s)) {
-                let known = all.entry(name).or_insert_with(|| definition.clone());
-                if *known != definition {
-                    *known = None;
-                }
+    /// Returns the definition of a symbol that an assumption introduces, unless the assumption is a case.
+    fn definition(&self, symbol: Symbol, context: &Context) -> Option<String> {
+        let order = Order { context, factors: self.registry.factors() };
+        let is_it = |x: usize| context.symbol(x) == Some(symbol);
+        context.assumptions.iter().find_map(|assumption| match &assumption.usage {
+            AssumptionUse::Pivot(_, _, Some(slack)) if is_it(*slack) => {
+                let given = assumption.hypothesis.as_ref()?;
+                let quotient = assumption.divisor.as_ref().and_then(|by| assumption.value.over(by));
+                let value = quotient.map(|value| order.ratio_or_size(&value));
+                let value = value.unwrap_or_else(|| self.text(&given.value));
+                Some(format!("{} = {value} {} 0", symbol.name(), given.relation))
             }
-        }
-        all
-    }
-
-    /// Returns the symbol that an assumption introduces, and its definition if it is a hypothesis.
-    fn definition(&self, assumption: &Assumption) -> Option<(Symbol, Option<String>)> {
-        match &assumption.usage {
-            AssumptionUse::Pivot(_, _, Some(slack)) => {
-                let definition = assumption.hypothesis.as_ref().map(|given| {
-                    let quotient = assumption.divisor.as_ref().and_then(|by| assumption.value.over(by));
-                    let value = quotient.map(|value| self.order().ratio_or_size(&value));
-                    let value = value.unwrap_or_else(|| self.text(&given.value));
-                    format!("{} = {value} {} 0", slack.name(), given.relation)
-                });
-                Some((*slack, definition))
+            AssumptionUse::Interval(_, _, place) if is_it(*place) => {
+                let (x, lower, upper) = assumption.hypothesis.as_ref()?.interval()?;
+                let (name, lower, upper) = (symbol.name(), self.text(lower), self.text(upper));
+                Some(format!("{name} goes from −1 to 1 as {x} goes from {lower} to {upper}"))
             }
-            AssumptionUse::Interval(x, _, place) => {
-                let definition = assumption.hypothesis.as_ref().and_then(|given| given.interval()).map(
-                    |(_, lower, upper)| {
-                        let (lower, upper) = (self.text(lower), self.text(upper));
-                        format!(
-                            "{} goes from −1 to 1 as {} goes from {lower} to {upper}",
-                            place.name(),
-                            x.name()
-                        )
-                    },
-                );
-                Some((*place, definition))
-            }
-            AssumptionUse::Size { size, .. } => {
-                let value = self.order().ratio_or_size(&assumption.value);
-                Some((*size, Some(format!("{} = |{value}|", size.name()))))
+            AssumptionUse::Size { size, .. } if is_it(*size) => {
+                Some(format!("{} = |{}|", symbol.name(), order.ratio_or_size(&assumption.value)))
             }
             _ => None,
-        }
+        })
     }
 }
 
 impl ProofError {
-    /// Returns the symbols of the quantity at which the proof failed.
-    fn symbols(&self) -> BTreeSet<Symbol> {
+    /// Returns the quantity at which the proof failed.
+    pub(in crate::proof) fn quantity(&self) -> Option<&Quantity> {
         match self {
             ProofError::PossibleZeroDivisor(_, value)
             | ProofError::UndecidedBranch(value)
-            | ProofError::UnknownSign(value, _)
+            | ProofError::UnknownSign(value)
             | ProofError::WrongSign(value, _)
             | ProofError::Unequal(value)
-            | ProofError::UnknownLimit(value) => value.symbols(),
+            | ProofError::UnknownLimit(value) => Some(value),
             ProofError::NotDifferentiable
             | ProofError::Premise(_)
             | ProofError::TooLarge(_)
-            | ProofError::NotExpressed(_) => BTreeSet::new(),
+            | ProofError::NotExpressed(_) => None,
         }
     }
 }

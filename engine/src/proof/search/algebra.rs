@@ -1,23 +1,25 @@
 //! Polynomials over ℚ and their quotients, with e^… as an atom: the arithmetic of the search.
 //!
-//! All arithmetic is exact. A [`Poly`] is a sum of distinct monomials with nonzero coefficients, so two
-//! polynomials without e^… are the same function if and only if they are the same sum. With e^…, equal sums
-//! are equal functions; the converse can fail, as equal exponents may have different representations. A
-//! [`Ratio`] is not reduced to lowest terms: two are equal if they are so after cross-multiplication. If the
-//! denominator divides the numerator, the division is carried out, which shortens printed proofs.
+//! The variables are those of the checker and, after these, the slack variables. All arithmetic is exact. A
+//! [`Poly`] is a sum of distinct monomials with nonzero coefficients, so two polynomials without e^… are the same
+//! function if and only if they are the same sum. With e^…, equal sums are equal functions; the converse can
+//! fail, as equal exponents may have different representations. A [`Ratio`] is not reduced to lowest terms: two
+//! are equal if they are so after cross-multiplication. If the denominator divides the numerator, the division
+//! is carried out, which shortens printed proofs.
 
-pub use super::monomial::{Monomial, Symbol};
+pub use super::monomial::{FIRST_SLACK, Monomial, VARIABLES};
 pub use super::number::Number;
-use crate::proof::effort;
-
 use crate::operators;
-use rug::Rational;
-use std::collections::{BTreeMap, BTreeSet};
+use crate::proof::effort;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// A polynomial, as its monomials in ascending order with their nonzero coefficients.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Poly(Arc<Vec<(Monomial, Number)>>);
+
+/// Maximum number of terms of a product, before equal ones are added; four times that of the checker.
+const MAX_TERMS: usize = 1 << 20;
 
 /// Maximum nesting of e^… in exponents. Shared parts of exponents are translated again at each occurrence.
 const MAX_NESTING: u32 = 4;
@@ -32,8 +34,29 @@ pub struct Ratio {
 /// Adds terms, which may come in any order.
 impl FromIterator<(Monomial, Number)> for Poly {
     fn from_iter<I: IntoIterator<Item = (Monomial, Number)>>(terms: I) -> Self {
-        let mut terms: Vec<_> =
-            terms.into_iter().take_while(|(m, _)| effort::spend(1 + m.powers().len())).collect();
+        Poly::new(terms.into_iter().collect())
+    }
+}
+
+impl From<Monomial> for Poly {
+    fn from(monomial: Monomial) -> Self {
+        Poly(vec![(monomial, 1.into())].into())
+    }
+}
+
+operators! { [] Poly;
+    Add add |a, b| a.plus(b);
+    Sub sub |a, b| a.plus(&-b);
+    Mul mul |a, b| a.times(b);
+    - |a| Poly(a.terms().map(|(m, q)| (m.clone(), -q)).collect::<Vec<_>>().into())
+}
+
+impl Poly {
+    /// Returns the sum of terms, which may come in any order.
+    fn new(mut terms: Vec<(Monomial, Number)>) -> Self {
+        if !effort::spend(terms.iter().map(|(m, _)| 1 + m.count()).sum()) {
+            return Poly::zero();
+        }
         // Terms of sums and products come in sorted runs, which this sort merges.
         terms.sort_by(|(m, _), (n, _)| m.cmp(n));
         terms.dedup_by(|(m, q), (n, sum)| {
@@ -46,22 +69,7 @@ impl FromIterator<(Monomial, Number)> for Poly {
         terms.retain(|(_, q)| q.sign().is_ne());
         Poly(terms.into())
     }
-}
 
-impl From<Monomial> for Poly {
-    fn from(monomial: Monomial) -> Self {
-        Poly(vec![(monomial, 1.into())].into())
-    }
-}
-
-operators! { [] Poly;
-    Add add |a, b| a.0.iter().chain(b.0.iter()).cloned().collect();
-    Sub sub |a, b| a.0.iter().cloned().chain(b.negated()).collect();
-    Mul mul |a, b| a.products(b).collect();
-    - |a| a.negated().collect()
-}
-
-impl Poly {
     /// Returns the zero polynomial.
     pub fn zero() -> Self {
         Poly(Vec::new().into())
@@ -72,8 +80,8 @@ impl Poly {
         Poly::from_iter([(Monomial::one(), q.into())])
     }
 
-    /// Returns the symbol `x` as a polynomial.
-    pub fn symbol(x: Symbol) -> Self {
+    /// Returns a variable as a polynomial.
+    pub fn variable(x: usize) -> Self {
         Monomial::of(x).into()
     }
 
@@ -83,20 +91,52 @@ impl Poly {
             effort::exceed();
             return Poly::zero();
         }
-        let exponent = Some(exponent).filter(|e| !e.is_zero()).map(Arc::new);
-        Monomial { exponent, ..Monomial::one() }.into()
+        let mut monomial = Monomial::one();
+        monomial.exponent = Some(exponent).filter(|e| !e.is_zero()).map(Arc::new);
+        monomial.into()
     }
 
-    /// Returns the terms with opposite signs.
-    fn negated(&self) -> impl Iterator<Item = (Monomial, Number)> {
-        self.0.iter().map(|(m, q)| (m.clone(), -q))
+    fn plus(&self, other: &Self) -> Self {
+        let count = self.0.len() + other.0.len();
+        if !effort::spend(count) {
+            return Poly::zero();
+        }
+        let (mut sums, mut rest) = (Vec::with_capacity(count), &self.0[..]);
+        for (m, q) in other.0.iter() {
+            let before = rest.iter().take_while(|(n, _)| n < m).count();
+            sums.extend_from_slice(&rest[..before]);
+            rest = &rest[before..];
+            match rest {
+                [(n, p), others @ ..] if m == n => {
+                    sums.push((m.clone(), p + q));
+                    rest = others;
+                }
+                _ => sums.push((m.clone(), q.clone())),
+            }
+        }
+        sums.extend_from_slice(rest);
+        sums.retain(|(_, q)| q.sign().is_ne());
+        Poly(sums.into())
     }
 
-    /// Returns the products of each term of one polynomial and each term of the other.
-    fn products<'a>(&'a self, other: &'a Self) -> impl Iterator<Item = (Monomial, Number)> {
-        let times = |(m, p): &(Monomial, Number), (n, q): &_| (m.times(n), p * q);
+    fn times(&self, other: &Self) -> Self {
+        if self.is_one() {
+            return other.clone();
+        }
+        if other.is_one() {
+            return self.clone();
+        }
         let (short, long) = if self.0.len() < other.0.len() { (self, other) } else { (other, self) };
-        short.0.iter().flat_map(move |a| long.0.iter().map(move |b| times(a, b)))
+        let count = short.0.len().saturating_mul(long.0.len());
+        if count > MAX_TERMS {
+            effort::exceed();
+            return Poly::zero();
+        }
+        let mut terms = Vec::with_capacity(count);
+        for (m, p) in short.0.iter() {
+            terms.extend(long.0.iter().map(|(n, q)| (m.times(n), p * q)));
+        }
+        Poly::new(terms)
     }
 
     /// Returns `true` if `self` is the zero polynomial.
@@ -128,32 +168,36 @@ impl Poly {
         self.exponents().next().is_some()
     }
 
-    /// Returns the symbols, including those in exponents.
-    pub fn symbols(&self) -> BTreeSet<Symbol> {
-        let mut all: BTreeSet<_> = self.exponents().flat_map(Ratio::symbols).collect();
-        all.extend(self.monomials().flat_map(|m| m.powers().map(|(x, _)| x)));
-        all
+    /// Returns the variables in order, including those in exponents.
+    pub fn variables(&self) -> Vec<usize> {
+        let mut set = [false; VARIABLES];
+        self.add_variables(&mut set);
+        listed(&set)
     }
 
-    /// Returns the degree in a symbol.
-    pub fn degree(&self, x: Symbol) -> u32 {
+    fn add_variables(&self, set: &mut [bool; VARIABLES]) {
+        for monomial in self.monomials() {
+            monomial.add_variables(set);
+            if let Some(exponent) = monomial.exponent() {
+                [&exponent.num, &exponent.den].into_iter().for_each(|part| part.add_variables(set));
+            }
+        }
+    }
+
+    /// Returns the degree in a variable.
+    pub fn degree(&self, x: usize) -> u8 {
         self.monomials().map(|m| m.degree(x)).max().unwrap_or(0)
     }
 
     /// Returns the coefficient of xⁿ, disregarding occurrences of x in exponents.
-    pub fn coefficient(&self, x: Symbol, n: u32) -> Poly {
+    pub fn coefficient(&self, x: usize, n: u8) -> Poly {
         let of_power = self.0.iter().filter(|(m, _)| m.degree(x) == n);
         of_power.map(|(m, q)| (m.without(x), q.clone())).collect()
     }
 
-    /// Returns the coefficient of the highest power of a symbol.
-    pub fn leading_coefficient(&self, x: Symbol) -> Poly {
-        self.coefficient(x, self.degree(x))
-    }
-
     /// Returns the coefficients of x⁰ to xᴺ⁻¹ if the degree in x is N − 1.
-    pub fn coefficients<const N: usize>(&self, x: Symbol) -> Option<[Poly; N]> {
-        (self.degree(x) as usize + 1 == N).then(|| std::array::from_fn(|n| self.coefficient(x, n as u32)))
+    pub fn coefficients<const N: usize>(&self, x: usize) -> Option<[Poly; N]> {
+        (usize::from(self.degree(x)) + 1 == N).then(|| std::array::from_fn(|n| self.coefficient(x, n as u8)))
     }
 
     /// Returns the exact quotient, if there is one and the divisor's last term has no e^….
@@ -175,7 +219,7 @@ impl Poly {
                 continue;
             }
             let (m, q) = (m.over(leading)?, q * &inverse);
-            if !effort::spend(others.iter().map(|(n, _)| 1 + n.powers().len() + m.powers().len()).sum()) {
+            if !effort::spend(others.iter().map(|(n, _)| 1 + n.count() + m.count()).sum()) {
                 return None;
             }
             for (dm, dq) in others {
@@ -187,23 +231,17 @@ impl Poly {
         Some(quotient.into_iter().collect())
     }
 
-    /// Returns the greatest product of powers of symbols that divides every term.
+    /// Returns the greatest product of powers of variables that divides every term.
     pub fn common_monomial(&self) -> Monomial {
         let mut monomials = self.monomials();
-        let mut common = monomials.next().map_or(Monomial::one(), Monomial::without_exponential);
-        for m in monomials {
-            common.powers.retain_mut(|(x, n)| {
-                *n = (*n).min(m.degree(*x));
-                *n > 0
-            });
-        }
-        common
+        let first = monomials.next().map_or(Monomial::one(), Monomial::without_exponential);
+        monomials.fold(first, Monomial::common)
     }
 
-    /// Returns the derivative with respect to a symbol, which is a quotient because exponents are.
-    pub fn derivative(&self, x: Symbol) -> Ratio {
+    /// Returns the derivative with respect to a variable, which is a quotient because exponents are.
+    pub fn derivative(&self, x: usize) -> Ratio {
         let lowered = |m: &Monomial, q: &Number| {
-            Some((m.over(&Monomial::of(x))?, q * Number::from(Rational::from(m.degree(x)))))
+            Some((m.over(&Monomial::of(x))?, q * Number::from(i32::from(m.degree(x)))))
         };
         let powers: Poly = self.0.iter().filter_map(|(m, q)| lowered(m, q)).collect();
         self.0.iter().fold(powers.into(), |sum, (m, q)| match m.exponent() {
@@ -229,7 +267,10 @@ impl Poly {
             by_power.resize(by_power.len().max(power + 1), Vec::new());
             by_power[power].push((rest, q.clone()));
         }
-        let highest_first = by_power.into_iter().rev().map(Poly::from_iter);
+        let highest_first = by_power.into_iter().rev().map(Poly::new);
+        if by.den.is_one() {
+            return highest_first.fold(Poly::zero(), |sum, coefficient| sum * &by.num + coefficient).into();
+        }
         highest_first.fold(Ratio::zero(), |sum, coefficient| sum * by + Ratio::from(coefficient))
     }
 
@@ -291,28 +332,16 @@ impl Ratio {
     }
 
     fn plus(&self, other: &Self) -> Self {
-        let (a, b, den) = self.with_common_denominator(other);
-        Ratio::new(a + b, den)
-    }
-
-    /// Returns both numerators over a common denominator, and that denominator.
-    fn with_common_denominator(&self, other: &Self) -> (Poly, Poly, Poly) {
         if self.den == other.den {
-            return (self.num.clone(), other.num.clone(), self.den.clone());
+            return Ratio::new(&self.num + &other.num, self.den.clone());
         }
         if let Some(k) = other.den.over(&self.den) {
-            return (&self.num * k, other.num.clone(), other.den.clone());
+            return Ratio::new(&self.num * k + &other.num, other.den.clone());
         }
         if let Some(k) = self.den.over(&other.den) {
-            return (self.num.clone(), &other.num * k, self.den.clone());
+            return Ratio::new(&self.num + &other.num * k, self.den.clone());
         }
-        (&self.num * &other.den, &other.num * &self.den, &self.den * &other.den)
-    }
-
-    /// Returns a − b and a + b, without simplification for speed.
-    pub fn difference_and_sum(&self, other: &Self) -> [Self; 2] {
-        let (a, b, den) = self.with_common_denominator(other);
-        [&a - &b, a + b].map(|num| Ratio { num, den: den.clone() })
+        Ratio::new(&self.num * &other.den + &other.num * &self.den, &self.den * &other.den)
     }
 
     fn times(&self, other: &Self) -> Self {
@@ -328,6 +357,9 @@ impl Ratio {
     pub fn over(&self, other: &Self) -> Option<Self> {
         if other.is_zero() {
             return None;
+        }
+        if other.num.is_one() && other.den.is_one() {
+            return Some(self.clone());
         }
         Some(self * Ratio::new(other.den.clone(), other.num.clone()))
     }
@@ -353,13 +385,15 @@ impl Ratio {
         self.den.is_one() && self.num.monomials().all(|m| *m == Monomial::one())
     }
 
-    /// Returns the symbols of numerator and denominator.
-    pub fn symbols(&self) -> BTreeSet<Symbol> {
-        self.num.symbols().into_iter().chain(self.den.symbols()).collect()
+    /// Returns the variables of numerator and denominator in order.
+    pub fn variables(&self) -> Vec<usize> {
+        let mut set = [false; VARIABLES];
+        [&self.num, &self.den].into_iter().for_each(|part| part.add_variables(&mut set));
+        listed(&set)
     }
 
-    /// Returns the derivative with respect to a symbol.
-    pub fn derivative(&self, x: Symbol) -> Self {
+    /// Returns the derivative with respect to a variable.
+    pub fn derivative(&self, x: usize) -> Self {
         let (n, d) = (Ratio::from(self.num.clone()), Ratio::from(self.den.clone()));
         let numerator = self.num.derivative(x) * d - n * self.den.derivative(x);
         Ratio::new(numerator.num, numerator.den * &self.den * &self.den)
@@ -380,29 +414,31 @@ impl Ratio {
     }
 }
 
+/// Returns the elements of a set in order.
+fn listed(set: &[bool; VARIABLES]) -> Vec<usize> {
+    (0..VARIABLES).filter(|x| set[*x]).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn exact_division_and_common_monomials() {
-        let [u, v] = ["u", "v"].map(|name| Poly::symbol(Symbol::Own(name)));
+        let [u, v] = [0, 1].map(Poly::variable);
         let e = Poly::exponential(v.clone().into());
         for divisor in [&u + &v, &u + &e, &u * &v - Poly::constant(2)] {
             assert_eq!((&divisor * &v).over(&divisor), Some(v.clone()));
             assert_eq!((&divisor * &v + &e).over(&divisor), None);
             assert_eq!(divisor.common_monomial(), Monomial::one());
-            assert_eq!(
-                (&divisor * &u * &v * &e).common_monomial(),
-                Monomial::of(Symbol::Own("u")).times(&Monomial::of(Symbol::Own("v")))
-            );
+            assert_eq!((&divisor * &u * &v * &e).common_monomial(), Monomial::of(0).times(&Monomial::of(1)));
         }
         assert_eq!(u.over(&Poly::zero()), None);
     }
 
     #[test]
     fn exponentials_of_a_single_term_move_to_the_numerator() {
-        let [u, c, v] = ["u", "c", "v"].map(|name| Poly::symbol(Symbol::Own(name)));
+        let [u, c, v] = [0, 1, 2].map(Poly::variable);
         let e = Poly::exponential(v.clone().into());
         let quotient = Ratio::from(u.clone()).over(&(&c * &e).into()).unwrap();
         assert_eq!((quotient.num() * &e, quotient.den()), (u.clone(), &c));
@@ -414,17 +450,17 @@ mod tests {
 
     #[test]
     fn nothing_is_divided_by_zero() {
-        let [u, v] = ["u", "v"].map(|name| Poly::symbol(Symbol::Own(name)));
+        let [u, v] = [0, 1].map(Poly::variable);
         assert_eq!(Ratio::from(u.clone()).over(&Ratio::zero()), None);
         // Where u is v the quotient 1/(u − v) has no value, so it stays.
         let quotient = Ratio::from(Poly::constant(1)).over(&(u - &v).into()).unwrap();
-        assert_eq!(quotient.replace(&Monomial::of(Symbol::Own("u")), &v.into()), quotient);
+        assert_eq!(quotient.replace(&Monomial::of(0), &v.into()), quotient);
     }
 
     /// Long division requires this order.
     #[test]
     fn multiplication_preserves_the_order_of_monomials() {
-        let [u, v] = ["u", "v"].map(|name| Monomial::of(Symbol::Own(name)));
+        let [u, v] = [0, 1].map(Monomial::of);
         let all = [Monomial::one(), v.clone(), v.times(&v), u.clone(), u.times(&v), u.times(&u)];
         for (i, a) in all.iter().enumerate() {
             for (j, b) in all.iter().enumerate() {

@@ -1,9 +1,8 @@
 //! The assumptions of a search, and signs under them.
 
-use super::algebra::{Monomial, Ratio, Symbol};
+use super::algebra::{Monomial, Ratio};
 use super::sign::Certificate;
 use crate::formula::Hypothesis;
-use crate::number::Tree;
 use crate::proof::check::Sign;
 
 /// An assumption and its use.
@@ -32,35 +31,24 @@ impl Assumption {
 pub enum AssumptionUse {
     /// The assumption follows from the earlier ones.
     Implied,
-    /// The sign of a symbol.
-    Symbol(Symbol),
+    /// The sign of a variable.
+    Variable(usize),
     /// A pivot, its value, and the slack variable for the quantity, unless that is 0.
-    Pivot(Monomial, Ratio, Option<Symbol>),
+    Pivot(Monomial, Ratio, Option<usize>),
     /// A symbol, its value in its interval, and the interval parameter between −1 and 1.
-    Interval(Symbol, Ratio, Symbol),
-    /// The absolute value of the quantity is a symbol `size`, and the quantity is the product of it and a symbol
-    /// between −1 and 1.
+    Interval(usize, Ratio, usize),
+    /// The absolute value of the quantity is a variable `size`, and the quantity is the product of it and a
+    /// variable between −1 and 1.
     Size {
-        /// The formula of the quantity.
-        of: Tree,
         /// The pivot.
         pivot: Monomial,
         /// The absolute value.
-        size: Symbol,
-        /// The factor between −1 and 1.
-        place: Symbol,
+        size: usize,
     },
     /// The quantity is retained unchanged. Multiples of it may be [subtracted](SignedRatio::less).
     Retained,
     /// An equation without a pivot, or an interval of a replaced quantity, which is not used.
     Unused,
-}
-
-impl AssumptionUse {
-    /// Returns `true` if an absolute value is replaced.
-    pub fn is_size(&self) -> bool {
-        matches!(self, AssumptionUse::Size { .. })
-    }
 }
 
 /// The sign of a quotient.

@@ -1,52 +1,90 @@
 //! The assumptions of a proof and the substitutions that follow from them.
 
-use super::algebra::{Monomial, Poly, Ratio, Symbol};
+use super::algebra::{FIRST_SLACK, Monomial, Poly, Ratio, VARIABLES};
 use super::assumption::{Assumption, AssumptionUse, Multiple, SignedRatio};
 use super::choice;
+use super::error::Symbol;
 use super::sign::{Certificate, SignEnv};
 use crate::formula::Hypothesis;
 use crate::formula::claim::{PRECISION, SCALES};
 use crate::number::Tree;
-use crate::proof::check::Sign;
-use std::sync::Arc;
+use crate::proof::check::{Atom, Problem, Sign};
+use std::collections::BTreeMap;
 
 /// Maximum number of absolute values that are replaced.
 const MAX_SIZES: usize = 8;
 
 /// The assumptions of a proof, in the form in which the rules use them.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(in crate::proof) struct Context {
-    pub(super) assumptions: Vec<Assumption>,
-    pub(super) signs: Arc<SignEnv>,
+    /// The assumptions in order.
+    pub(in crate::proof) assumptions: Vec<Assumption>,
+    /// The known signs of the remaining variables.
+    pub(in crate::proof) signs: SignEnv,
+    /// The variables in messages.
+    symbols: BTreeMap<usize, Symbol>,
+    /// The formulas whose errors e₁, e₂, … are.
+    pub(in crate::proof) roundings: Vec<Tree>,
     /// The pivots and their values.
     substitutions: Vec<(Monomial, Ratio)>,
-    /// Quantities of known sign that are not expressed by the remaining symbols.
-    retained: Vec<(Ratio, Sign)>,
-    /// The rounded formulas; the position of each is the index of its error.
-    pub(super) roundings: Vec<Tree>,
+    /// Quantities of known sign that are not expressed by the remaining variables.
+    pub(super) retained: Vec<(Ratio, Sign)>,
+    /// 2ᵖ + 1 before any assumption, unless there are no roundings.
+    pub(super) largest: Poly,
 }
 
 impl Context {
     /// Creates a context whose only assumption is that powers of two are positive.
-    pub(in crate::proof) fn of(roundings: Vec<Tree>) -> Self {
-        let known = SCALES.into_iter().map(|name| (Symbol::Own(name), Sign::Positive)).collect();
-        Context { signs: Arc::new(known), roundings, ..Context::default() }
+    pub(in crate::proof) fn new(problem: &Problem) -> Self {
+        let is_unit = |x: &usize| problem.table.is_unit(*x);
+        let (assumptions, symbols, roundings, substitutions, retained) = Default::default();
+        let (signs, largest) = (SignEnv::new((0..FIRST_SLACK).filter(is_unit)), Poly::constant(1));
+        let mut context =
+            Context { assumptions, signs, symbols, roundings, substitutions, retained, largest };
+        for (x, atom) in problem.table.atoms().iter().enumerate() {
+            let symbol = match atom {
+                Atom::Own(name) => Some(Symbol::Own(name)),
+                Atom::Error(of) => {
+                    context.roundings.extend(problem.table.formula(*of).cloned());
+                    context.next_symbol(Symbol::Error)
+                }
+                _ => None,
+            };
+            if symbol == Some(Symbol::Own(PRECISION)) {
+                context.largest = Poly::variable(x) + Poly::constant(1);
+            }
+            if SCALES.iter().any(|name| symbol == Some(Symbol::Own(name))) {
+                context.signs.set(x, Some(Sign::Positive));
+            }
+            context.symbols.extend(symbol.map(|symbol| (x, symbol)));
+        }
+        context
+    }
+
+    /// Returns a variable as it is named in messages.
+    pub(in crate::proof) fn symbol(&self, x: usize) -> Option<Symbol> {
+        self.symbols.get(&x).copied()
+    }
+
+    /// Returns the rounding errors in a polynomial.
+    pub(super) fn errors(&self, of: &Poly) -> Vec<usize> {
+        let is_error = |x: &usize| matches!(self.symbol(*x), Some(Symbol::Error(_)));
+        of.variables().into_iter().filter(is_error).collect()
     }
 
     /// Returns a polynomial with the sign of a quotient whose denominator is positive: the numerator without
     /// its factors 2ᵖ + 1 + e, which are positive.
     pub(in crate::proof) fn sign_numerator(&self, value: &Ratio) -> Poly {
-        let errors = value.num().symbols().into_iter().filter(|x| matches!(x, Symbol::Error(_)));
         let largest = self.inverse_gamma();
-        errors.fold(value.num().clone(), |rest, error| {
-            let nearest = &largest + Ratio::from(Poly::symbol(error));
+        self.errors(value.num()).into_iter().fold(value.num().clone(), |rest, error| {
+            let nearest = &largest + Ratio::from(Poly::variable(error));
             rest.over(nearest.num()).filter(|_| *nearest.den() == *largest.den()).unwrap_or(rest)
         })
     }
 
     /// Returns 2ᵖ + 1, the reciprocal of the largest relative rounding error.
     pub(in crate::proof) fn inverse_gamma(&self) -> Ratio {
-        self.reduce(&Ratio::from(Poly::symbol(Symbol::Own(PRECISION)) + Poly::constant(1)))
+        self.reduce(&self.largest.clone().into())
     }
 
     /// Replaces every pivot, repeatedly; the result is equal to `value` under the assumptions.
@@ -73,7 +111,13 @@ impl Context {
         self.sign_under(value, factors, &self.signs)
     }
 
-    fn sign_under(&self, value: Ratio, factors: &[Certificate], known: &Arc<SignEnv>) -> Option<SignedRatio> {
+    /// Returns the sign of a reduced quotient for the given signs of variables.
+    pub(super) fn sign_under(
+        &self,
+        value: Ratio,
+        factors: &[Certificate],
+        known: &SignEnv,
+    ) -> Option<SignedRatio> {
         let [num, den] = [value.num(), value.den()].map(|part| choice::sign_of_product(part, factors, known));
         let (num, den) = (num?, den?);
         den.sign().is_strict().then_some(SignedRatio { subtracted: None, num, den })
@@ -96,49 +140,15 @@ impl Context {
         let mut retained = self.retained.iter().rev().map(|(h, sign)| (self.reduce(h), *sign));
         self.sign(value.clone(), factors).or_else(|| {
             retained.find_map(|(h, sign)| {
-                choice::multipliers(&value, &h).into_iter().find_map(|m| by(&h, sign, m))
+                choice::multipliers(&value, &h, &self.signs).into_iter().find_map(|m| by(&h, sign, m))
             })
         })
     }
 
-    /// Returns the sign of a quotient for the given signs of symbols, after reduction.
-    pub(in crate::proof) fn reduced_sign(&self, value: &Ratio, known: &Arc<SignEnv>) -> Option<Sign> {
-        Some(self.sign_under(self.reduce(value), &[], known)?.sign())
-    }
-
-    /// Returns the assumptions in order.
-    pub(in crate::proof) fn assumptions(&self) -> &[Assumption] {
-        &self.assumptions
-    }
-
-    /// Returns the quantities of known sign that are not expressed by the remaining symbols.
-    pub(in crate::proof) fn retained(&self) -> &[(Ratio, Sign)] {
-        &self.retained
-    }
-
-    /// Returns the rounded formulas; the position of each is the index of its error.
-    pub(in crate::proof) fn roundings(&self) -> &[Tree] {
-        &self.roundings
-    }
-
-    /// Returns the sign of a polynomial of the remaining symbols if the search finds it.
-    pub(in crate::proof) fn sign_of(&self, of: &Poly) -> Option<Certificate> {
-        sign(of, &self.signs)
-    }
-
-    /// Returns the known signs of the remaining symbols.
-    pub(in crate::proof) fn signs(&self) -> &Arc<SignEnv> {
-        &self.signs
-    }
-
     /// Returns `true` if a symbol is not replaced, so that an interval may give it a value.
-    pub(in crate::proof) fn is_free(&self, x: Symbol) -> bool {
-        let quantity = Ratio::from(Poly::symbol(x));
+    pub(in crate::proof) fn is_free(&self, x: usize) -> bool {
+        let quantity = Ratio::from(Poly::variable(x));
         self.reduce(&quantity) == quantity
-    }
-
-    fn set_sign(&mut self, symbol: Symbol, sign: Sign) {
-        Arc::make_mut(&mut self.signs).insert(symbol, sign);
     }
 
     /// Adds the assumption that a quantity has a sign.
@@ -153,12 +163,13 @@ impl Context {
                 return self.assume_sign(given.as_ref(), -value, sign.negated());
             }
             Sign::Positive | Sign::NonNegative => {
-                if let Some(symbol) = as_symbol(&value) {
-                    self.set_sign(symbol, sign);
-                    AssumptionUse::Symbol(symbol)
+                if let Some(x) = as_variable(&value) {
+                    self.signs.set(x, Some(sign));
+                    AssumptionUse::Variable(x)
                 } else if let Some((divisor, (pivot, by), slack)) = self.solve(given.as_ref(), &value, sign) {
                     divided_by = divisor;
-                    self.set_sign(slack, sign);
+                    self.symbols.extend(self.next_symbol(Symbol::Slack).map(|symbol| (slack, symbol)));
+                    self.signs.set(slack, Some(sign));
                     AssumptionUse::Pivot(pivot, by, Some(slack))
                 } else {
                     self.retained.push((value.clone(), sign));
@@ -179,39 +190,39 @@ impl Context {
     /// k = 1/(1 + s) with s = (1 − k)/k > 0.
     fn solve(&self, given: Option<&Hypothesis>, value: &Ratio, sign: Sign) -> Option<Solved> {
         let slack = self.next_slack()?;
-        let mut known = self.signs.clone();
-        Arc::make_mut(&mut known).insert(slack, sign);
-        let pivot = |value: &Ratio| self.pivot(given, value, &Poly::symbol(slack), &known);
-        let quotient = |x: Symbol| {
-            let divisor = Ratio::from(Poly::symbol(x));
-            let is_positive = self.signs.get(&x) == Some(&Sign::Positive);
-            let rule = pivot(&value.over(&divisor).filter(|_| is_positive)?)?;
+        let known = self.signs.with(slack, sign);
+        let pivot = |value: &Ratio| self.pivot(given, value, &Poly::variable(slack), &known);
+        let quotient = |x: usize| {
+            let is_positive = self.signs.get(x) == Some(Sign::Positive);
+            let divisor = is_positive.then(|| Ratio::from(Poly::variable(x)))?;
+            let rule = pivot(&value.over(&divisor)?)?;
             Some((Some(divisor), rule, slack))
         };
         let whole = pivot(value).map(|rule| (None, rule, slack));
-        whole.or_else(|| value.num().symbols().into_iter().find_map(quotient))
+        whole.or_else(|| value.num().variables().into_iter().find_map(quotient))
     }
 
     /// Adds the assumption that a symbol lies in an interval, as the midpoint plus t times half the length,
-    /// for some t between −1 and 1. A known sign of the symbol, which this does not imply, is retained.
+    /// for some t between −1 and 1, its place. A known sign of the symbol, which this does not imply, is retained.
     pub(in crate::proof) fn assume_interval(
         &mut self,
         given: &Hypothesis,
-        x: Symbol,
+        [x, place]: [usize; 2],
         lower: &Ratio,
         upper: &Ratio,
     ) {
         let half = Ratio::from(Poly::constant((1, 2)));
         let [middle, reach] = [upper + lower, upper - lower].map(|sum| self.reduce(&(sum * &half)));
-        let quantity = Ratio::from(Poly::symbol(x));
-        let used = match self.next_place() {
-            Some(place)
-                if self.is_free(x) && !middle.symbols().contains(&x) && !reach.symbols().contains(&x) =>
+        let quantity = Ratio::from(Poly::variable(x));
+        let used = match self.next_symbol(Symbol::Place) {
+            Some(symbol)
+                if self.is_free(x) && !middle.variables().contains(&x) && !reach.variables().contains(&x) =>
             {
-                let by = &middle + reach * Ratio::from(Poly::symbol(place));
-                let sign = Arc::make_mut(&mut self.signs).remove(&x);
+                let by = &middle + reach * Ratio::from(Poly::variable(place));
+                let sign = self.signs.set(x, None);
                 self.retained.extend(sign.map(|sign| (quantity.clone(), sign)));
                 self.replace(Monomial::of(x), by.clone());
+                self.symbols.insert(place, symbol);
                 AssumptionUse::Interval(x, by, place)
             }
             _ => AssumptionUse::Unused,
@@ -220,28 +231,31 @@ impl Context {
         self.assumptions.push(Assumption { hypothesis, value: quantity, divisor: None, usage: used });
     }
 
-    /// Replaces a quantity x by t s, where s is its absolute value and −1 ≤ t ≤ 1, given its formula and 2 x.
-    /// Returns `false` if x cannot be replaced.
-    pub(in crate::proof) fn assume_size(&mut self, of: &Tree, twice: &Ratio) -> bool {
-        if self.assumptions.iter().filter(|assumption| assumption.usage.is_size()).count() == MAX_SIZES {
+    /// Replaces a quantity x by t s, where s is its absolute value and −1 ≤ t ≤ 1, given the variables of s and
+    /// t, and 2 x. Returns `false` if x cannot be replaced.
+    pub(in crate::proof) fn assume_size(&mut self, [size, place]: [usize; 2], twice: &Ratio) -> bool {
+        let is_size = |known: &&Assumption| matches!(known.usage, AssumptionUse::Size { .. });
+        if self.assumptions.iter().filter(is_size).count() == MAX_SIZES {
             return false;
         }
-        let Some((size, place)) = self.next_slack().zip(self.next_place()) else { return false };
+        let Some(symbols) = self.next_symbol(Symbol::Slack).zip(self.next_symbol(Symbol::Place)) else {
+            return false;
+        };
         let value = self.reduce(&(twice * Ratio::from(Poly::constant((1, 2)))));
-        let mut known = self.signs.clone();
-        Arc::make_mut(&mut known).insert(size, Sign::NonNegative);
-        let product = Poly::symbol(size) * Poly::symbol(place);
+        let known = self.signs.with(size, Sign::NonNegative);
+        let product = Poly::variable(size) * Poly::variable(place);
         let Some((pivot, by)) = self.pivot(None, &value, &product, &known) else { return false };
         self.signs = known;
         self.replace(pivot.clone(), by);
-        let usage = AssumptionUse::Size { of: of.clone(), pivot, size, place };
+        self.symbols.extend([(size, symbols.0), (place, symbols.1)]);
+        let usage = AssumptionUse::Size { pivot, size };
         let (hypothesis, divisor) = (None, None);
         self.assumptions.push(Assumption { hypothesis, value: value.clone(), divisor, usage });
         self.size(&value).is_some()
     }
 
-    /// Returns the absolute value of a quantity, if it is a symbol.
-    pub(in crate::proof) fn size(&self, value: &Ratio) -> Option<Symbol> {
+    /// Returns the absolute value of a quantity, if it is a variable.
+    pub(in crate::proof) fn size(&self, value: &Ratio) -> Option<usize> {
         self.assumptions.iter().find_map(|assumption| {
             let AssumptionUse::Size { size, .. } = &assumption.usage else { return None };
             let [difference, sum] = [&assumption.value - value, &assumption.value + value];
@@ -250,18 +264,14 @@ impl Context {
         })
     }
 
-    fn next_slack(&self) -> Option<Symbol> {
-        let has_slack =
-            |usage: &AssumptionUse| matches!(usage, AssumptionUse::Pivot(..) | AssumptionUse::Size { .. });
-        let slacks = self.assumptions.iter().filter(|assumption| has_slack(&assumption.usage)).count();
-        slacks.try_into().ok().map(Symbol::Slack)
+    fn next_slack(&self) -> Option<usize> {
+        (FIRST_SLACK..VARIABLES).find(|x| !self.symbols.contains_key(x))
     }
 
-    fn next_place(&self) -> Option<Symbol> {
-        let has_place =
-            |usage: &AssumptionUse| matches!(usage, AssumptionUse::Interval(..) | AssumptionUse::Size { .. });
-        let places = self.assumptions.iter().filter(|assumption| has_place(&assumption.usage)).count();
-        places.try_into().ok().map(Symbol::Place)
+    /// Returns the next symbol of a kind.
+    fn next_symbol(&self, numbered: fn(u8) -> Symbol) -> Option<Symbol> {
+        let is_new = |symbol: &Symbol| self.symbols.values().all(|known| known != symbol);
+        (0..=u8::MAX).map(numbered).find(is_new)
     }
 
     /// Adds a substitution.
@@ -278,7 +288,7 @@ impl Context {
         given: Option<&Hypothesis>,
         value: &Ratio,
         replaced_by: &Poly,
-        known: &Arc<SignEnv>,
+        known: &SignEnv,
     ) -> Option<(Monomial, Ratio)> {
         // num − replaced_by · den = 0, and den is not 0.
         let equation = value.num() - replaced_by * value.den();
@@ -290,10 +300,10 @@ impl Context {
 
 /// Solves the equation `of` = 0 for a monomial: for a symbol whose coefficient is not 0, or for a product
 /// that occurs in one term only.
-pub(in crate::proof) fn solve_for(pivot: &Monomial, of: &Poly, known: &Arc<SignEnv>) -> Option<Ratio> {
-    let by = if let Some(x) = pivot.as_symbol() {
+pub(in crate::proof) fn solve_for(pivot: &Monomial, of: &Poly, known: &SignEnv) -> Option<Ratio> {
+    let by = if let Some(x) = pivot.as_variable() {
         let [rest, coefficient] = of.coefficients(x)?;
-        sign(&coefficient, known).filter(|certificate| certificate.sign().is_strict())?;
+        choice::sign(&coefficient, known).filter(|certificate| certificate.sign().is_strict())?;
         Ratio::from(-rest).over(&coefficient.into())?
     } else {
         let (_, coefficient) = of.terms().find(|(m, _)| *m == pivot)?;
@@ -303,16 +313,11 @@ pub(in crate::proof) fn solve_for(pivot: &Monomial, of: &Poly, known: &Arc<SignE
     (!by.contains(pivot)).then_some(by)
 }
 
-/// Returns the sign of a polynomial if the search finds it.
-pub(super) fn sign(of: &Poly, known: &Arc<SignEnv>) -> Option<Certificate> {
-    choice::sign(of, known)
-}
-
 /// The divisor, if any; the pivot and its value; the slack variable.
-type Solved = (Option<Ratio>, (Monomial, Ratio), Symbol);
+type Solved = (Option<Ratio>, (Monomial, Ratio), usize);
 
-/// Returns the symbol if a quantity is a single symbol.
-fn as_symbol(value: &Ratio) -> Option<Symbol> {
-    let x = value.num().symbols().into_iter().next()?;
-    (*value == Ratio::from(Poly::symbol(x))).then_some(x)
+/// Returns the variable if a quantity is a single variable.
+fn as_variable(value: &Ratio) -> Option<usize> {
+    let x = value.num().variables().into_iter().next()?;
+    (*value == Ratio::from(Poly::variable(x))).then_some(x)
 }

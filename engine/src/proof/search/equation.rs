@@ -1,10 +1,10 @@
 //! Equations in certificates: hypotheses v = 0, and products of exponentials.
 
-use super::algebra::{Monomial, Poly, Ratio, Symbol};
+use super::algebra::{Monomial, Poly, Ratio};
 use super::assumption::AssumptionUse;
-use super::dictionary::{integral, opaque_exponential, power_of};
+use super::dictionary::{integral, opaque};
 use super::finder::{Finder, Found};
-use crate::proof::check::{Certificate, Known, Polynomial};
+use crate::proof::check::{Atom, Certificate, Known, Polynomial};
 
 /// An equation v = 0, as a combination of quantities that are 0.
 struct Equation {
@@ -12,8 +12,10 @@ struct Equation {
     pivot: Monomial,
     /// v
     value: Poly,
-    /// The quantities, each with its coefficient.
-    sum: Vec<(Poly, Poly)>,
+    /// The combination.
+    sum: Poly,
+    /// The number of symbols, which are the first variables.
+    symbols: usize,
 }
 
 /// The result of an elimination of a pivot: power · of = rest + multiple · v.
@@ -27,7 +29,7 @@ impl Equation {
     /// Returns the monomial for which it is solved: another symbol if the value contains it in place of the
     /// pivot.
     fn pivot(&self) -> &Monomial {
-        let is_simple = |m: &&Monomial| m.as_symbol().is_some_and(|x| matches!(x, Symbol::Own(_)));
+        let is_simple = |m: &&Monomial| m.as_variable().is_some_and(|x| x < self.symbols);
         let other = || self.value.terms().map(|(m, _)| m).find(is_simple);
         if self.value.contains(&self.pivot) { &self.pivot } else { other().unwrap_or(&self.pivot) }
     }
@@ -35,7 +37,7 @@ impl Equation {
     /// Returns the coefficient of the pivot, and the rest of the equation.
     fn solved(&self) -> Option<(Poly, Poly)> {
         let pivot = self.pivot();
-        if let Some(x) = pivot.as_symbol() {
+        if let Some(x) = pivot.as_variable() {
             let [rest, coefficient] = self.value.coefficients(x)?;
             return Some((coefficient, rest));
         }
@@ -46,7 +48,7 @@ impl Equation {
 
     fn eliminate(&self, of: &Poly) -> Option<Eliminated> {
         let (coefficient, rest) = self.solved()?;
-        if let Some(x) = self.pivot().as_symbol()
+        if let Some(x) = self.pivot().as_variable()
             && let Some((_, number)) = coefficient.terms().next()
             && Ratio::from(coefficient.clone()).is_number()
             && !of.has_exponentials()
@@ -61,7 +63,7 @@ impl Equation {
         };
         by_power(replaced.den().clone(), replaced.num().clone()).or_else(|| {
             // A factor of the coefficient was cancelled in the value of the pivot.
-            let degree = of.degree(self.pivot().as_symbol()?);
+            let degree = of.degree(self.pivot().as_variable()?);
             let power = (0..degree).fold(Poly::constant(1), |power, _| power * &coefficient);
             let rest = replaced * Ratio::from(power.clone());
             rest.den().is_one().then(|| by_power(power, rest.num().clone()))?
@@ -71,10 +73,7 @@ impl Equation {
 
 /// Divides two forms by the product of powers that divides both.
 fn without_common_factor(left: Poly, right: Poly) -> (Poly, Poly) {
-    let (common, other) = (left.common_monomial(), right.common_monomial());
-    let powers = common.powers().map(|(x, n)| (x, n.min(other.degree(x))));
-    let factors = powers.flat_map(|(x, n)| std::iter::repeat_n(Poly::symbol(x), n as usize));
-    let factor = factors.fold(Poly::constant(1), |product, x| product * x);
+    let factor = Poly::from(left.common_monomial().common(&right.common_monomial()));
     match (left.over(&factor), right.over(&factor)) {
         (Some(left), Some(right)) if !right.is_zero() => (left, right),
         _ => (left, right),
@@ -82,11 +81,11 @@ fn without_common_factor(left: Poly, right: Poly) -> (Poly, Poly) {
 }
 
 /// Divides a polynomial by a x + b for a number a, by the powers of x as in Horner's scheme.
-fn divided(of: &Poly, x: Symbol, inverse: &Poly, rest: &Poly) -> Eliminated {
+fn divided(of: &Poly, x: usize, inverse: &Poly, rest: &Poly) -> Eliminated {
     let root = -(rest * inverse);
     let (mut sum, mut multiple) = (Poly::zero(), Poly::zero());
     for n in (0..=of.degree(x)).rev() {
-        multiple = multiple * Poly::symbol(x) + &sum;
+        multiple = multiple * Poly::variable(x) + &sum;
         sum = sum * &root + of.coefficient(x, n);
     }
     Eliminated { rest: sum, power: Poly::constant(1), multiple: multiple * inverse }
@@ -95,8 +94,8 @@ fn divided(of: &Poly, x: Symbol, inverse: &Poly, rest: &Poly) -> Eliminated {
 impl Finder<'_, '_> {
     /// Returns a certificate with l f = r, for forms l and r whose difference vanishes, maybe by equations.
     pub fn equated(&mut self, of: &Polynomial, form: Ratio) -> Found<Certificate> {
-        let left = self.opaque(form.den()).ok_or("an exponential")?;
-        let right = self.opaque(form.num()).ok_or("an exponential")?;
+        let left = self.guide.without_exponentials(form.den(), self.state).ok_or("an exponential")?;
+        let right = self.guide.without_exponentials(form.num(), self.state).ok_or("an exponential")?;
         let (left, right) = without_common_factor(left, right);
         let (mut left, mut right) = integral(&left, &right);
         let found = self.finished(&left, &right);
@@ -108,70 +107,43 @@ impl Finder<'_, '_> {
         if difference.is_zero() {
             return Ok(found);
         }
-        let difference = self.guide.dictionary.opaque_poly(&difference);
-        let sum = self.vanishing(difference, &mut left, &mut right)?;
-        right = sum.into_iter().fold(right, |right, (symbol, factor)| right + factor * symbol);
-        let (left, right) = integral(&left, &right);
+        let sum = self.vanishing(opaque(&difference), &mut left, &mut right)?;
+        let (left, right) = integral(&left, &(right + sum));
         self.finished(&left, &right)
-    }
-
-    /// Replaces each exponential by a symbol.
-    pub fn opaque(&self, form: &Poly) -> Option<Poly> {
-        if !form.has_exponentials() {
-            return Some(form.clone());
-        }
-        let mut terms = Vec::with_capacity(form.terms().len());
-        for (monomial, number) in form.terms() {
-            let mut rest = monomial.without_exponential();
-            if let Some(exponent) = monomial.exponent() {
-                let (x, n) = self.exponential(exponent)?;
-                rest = (0..n).fold(rest, |rest, _| rest.times(&Monomial::of(opaque_exponential(x))));
-            }
-            terms.push((rest, number.clone()));
-        }
-        Some(terms.into_iter().collect())
-    }
-
-    /// Returns the variable of an exponential, and its power.
-    fn exponential(&self, exponent: &Ratio) -> Option<(usize, u8)> {
-        let Finder { guide, state, .. } = self;
-        let reduced =
-            |(x, known): &(usize, _)| (*x, guide.context.reduce(&guide.dictionary.ratio(known, state)));
-        guide
-            .dictionary
-            .exponential(exponent, state)
-            .or_else(|| power_of(exponent, &state.exponents.iter().map(reduced).collect::<Vec<_>>()))
     }
 
     /// Returns the equations among the hypotheses and exponentials.
     fn equations(&mut self) -> Found<Vec<Equation>> {
         let guide = self.guide;
+        let is_symbol = |atom: &&Atom| matches!(atom, Atom::Own(_));
+        let symbols = guide.problem.table.atoms().iter().filter(is_symbol).count();
         let mut equations = Vec::new();
-        for (i, assumption) in guide.context.assumptions().iter().enumerate() {
+        for (i, assumption) in guide.context.assumptions.iter().enumerate() {
             let (pivot, fact) = match &assumption.usage {
                 AssumptionUse::Pivot(pivot, _, None) => {
                     let supposed = guide.supposed.get(i).and_then(Option::as_ref);
                     (pivot, supposed.ok_or("an equation")?.fact)
                 }
-                AssumptionUse::Size { pivot, size, .. } => match guide.size_atom(*size, self.state) {
-                    Some(known) => (pivot, known.fact),
-                    None => continue,
-                },
+                AssumptionUse::Size { pivot, size } => {
+                    // An absolute value may not have been met yet.
+                    let known = self.state.sizes.iter().find(|known| known.size == *size);
+                    let Some(known) = known else { continue };
+                    (pivot, known.fact)
+                }
                 _ => continue,
             };
             let (of, _) = self.state.facts.get(fact).map_err(|_| "an equation")?;
-            let value = guide.dictionary.opaque_poly(of);
-            let symbol = self.quantity(Known::Fact(fact));
-            equations.push(Equation { pivot: pivot.clone(), value, sum: vec![(symbol, Poly::constant(1))] });
+            let (pivot, value, sum) = (pivot.clone(), opaque(of), self.quantity(Known::Fact(fact)));
+            equations.push(Equation { pivot, value, sum, symbols });
         }
-        self.add_products_of_exponentials(&mut equations);
+        self.add_products_of_exponentials(&mut equations, symbols);
         Ok(equations)
     }
 
     /// Adds eᵃ eᵇ = eᶜ for a + b = c, where eᶜ may be 1.
-    fn add_products_of_exponentials(&mut self, equations: &mut Vec<Equation>) {
+    fn add_products_of_exponentials(&mut self, equations: &mut Vec<Equation>, symbols: usize) {
         let state = self.state;
-        let ratio = |(x, exponent): &(usize, _)| (*x, self.guide.dictionary.ratio(exponent, state));
+        let ratio = |(x, exponent): &(usize, _)| (*x, self.guide.ratio(exponent, state));
         let exponents: Vec<(usize, Ratio)> = state.exponents.iter().map(ratio).collect();
         for (i, (x, a)) in exponents.iter().enumerate() {
             for (y, b) in &exponents[i..] {
@@ -181,27 +153,18 @@ impl Finder<'_, '_> {
                     continue;
                 }
                 let known = Known::Exponents { left: vec![*x, *y], right: whole.into_iter().collect() };
-                let power = |x: usize| Poly::symbol(opaque_exponential(x));
-                let product = power(*x) * power(*y);
-                let Some((pivot, _)) = product.terms().next() else { continue };
-                let pivot = pivot.clone();
-                let value = product - whole.map_or(Poly::constant(1), power);
-                let symbol = self.quantity(known);
-                equations.push(Equation { pivot, value, sum: vec![(symbol, Poly::constant(1))] });
+                let pivot = Monomial::of(*x).times(&Monomial::of(*y));
+                let value = Poly::from(pivot.clone()) - whole.map_or(Poly::constant(1), Poly::variable);
+                equations.push(Equation { pivot, value, sum: self.quantity(known), symbols });
             }
         }
     }
 
     /// Returns a combination of quantities that are 0 which is `difference`. Multiplies the forms by what the
     /// difference has to be multiplied by.
-    fn vanishing(
-        &mut self,
-        mut difference: Poly,
-        left: &mut Poly,
-        right: &mut Poly,
-    ) -> Found<Vec<(Poly, Poly)>> {
+    fn vanishing(&mut self, mut difference: Poly, left: &mut Poly, right: &mut Poly) -> Found<Poly> {
         let mut equations = self.equations()?;
-        let mut found: Vec<(Poly, Poly)> = Vec::new();
+        let mut found = Poly::zero();
         while !equations.is_empty() && !difference.is_zero() {
             let equation = equations.remove(0);
             let Some(Eliminated { rest, power, multiple }) = equation.eliminate(&difference) else {
@@ -216,19 +179,13 @@ impl Finder<'_, '_> {
             *left = &*left * &by;
             *right = &*right * &by;
             difference = rest * &scale;
-            for (_, factor) in &mut found {
-                *factor = &*factor * &by;
-            }
-            found.extend(equation.sum.iter().map(|(symbol, c)| (symbol.clone(), c * &multiple * &scale)));
+            found = found * by + &equation.sum * multiple * scale;
             for other in equations.iter_mut().filter(|other| other.value.contains(equation.pivot())) {
                 let Some(Eliminated { rest, power, multiple }) = equation.eliminate(&other.value) else {
                     continue;
                 };
                 other.value = rest;
-                for (_, factor) in &mut other.sum {
-                    *factor = &*factor * &power;
-                }
-                other.sum.extend(equation.sum.iter().map(|(symbol, c)| (symbol.clone(), -(c * &multiple))));
+                other.sum = &other.sum * power - &equation.sum * multiple;
             }
         }
         if difference.is_zero() { Ok(found) } else { Err("an identity".into()) }
@@ -238,7 +195,7 @@ impl Finder<'_, '_> {
     fn form_of_power(&mut self, power: &Poly) -> Found<Ratio> {
         let (rest, product) = self.without_largest_errors(power)?;
         let guide = self.guide;
-        let reduced = guide.context.reduce(&guide.dictionary.with_places(&rest.into()));
+        let reduced = guide.context.reduce(&rest.into());
         let signed = guide.context.sign_by_retained(reduced, &[]).ok_or("the sign of a power")?;
         let form = self.form(&signed, &[])?;
         Ok(self.without_slacks(form)? * Ratio::from(product))

@@ -1,11 +1,12 @@
 //! The search for certificates.
 
 use super::Failure;
-use super::algebra::{Monomial, Poly, Ratio, Symbol};
+use super::algebra::{Monomial, Poly, Ratio};
 use super::assumption::{AssumptionUse, SignedRatio};
-use super::dictionary::quantity;
+use super::dictionary::opaque;
+use super::error::Symbol;
 use super::knowledge::{Knowledge, Supposed};
-use crate::proof::check::{Certificate, Known, Polynomial, Sign, State};
+use crate::proof::check::{Certificate, Known, MAX_VARIABLES, Polynomial, Sign, State};
 
 /// Maximum nesting of lemmas.
 const MAX_DEPTH: u32 = 4;
@@ -39,12 +40,12 @@ impl<'a, 'p> Finder<'a, 'p> {
 
     /// Returns a certificate for a multiple, or divisor, of a fact about an order of rounded formulas.
     pub fn by_order(guide: &'a Knowledge<'a>, of: &Polynomial, state: &'a State<'p>) -> Option<Certificate> {
-        let value = guide.dictionary.poly(of, state);
+        let value = guide.poly(of, state);
         for (i, (fact, sign)) in state.facts.iter().enumerate().rev() {
             if fact.terms().len() < 2 || *sign == Sign::Zero {
                 continue;
             }
-            let fact = guide.dictionary.poly(fact, state);
+            let fact = guide.poly(fact, state);
             let (quotient, is_multiple) = match value.over(&fact) {
                 Some(quotient) => (quotient, true),
                 None => match fact.over(&value) {
@@ -52,7 +53,7 @@ impl<'a, 'p> Finder<'a, 'p> {
                     None => continue,
                 },
             };
-            let reduced = guide.context.reduce(&guide.dictionary.with_places(&quotient.into()));
+            let reduced = guide.context.reduce(&quotient.into());
             let Some(signed) = guide.sign(reduced) else { continue };
             let mut finder = Finder::new(guide, state, 0);
             let found = finder.form(&signed, &[]).and_then(|form| finder.without_slacks(form));
@@ -68,20 +69,22 @@ impl<'a, 'p> Finder<'a, 'p> {
         None
     }
 
-    /// Returns the polynomial of a quantity, which becomes part of the certificate.
+    /// Returns the variable of a quantity, which becomes part of the certificate. If there are too many, the
+    /// checker refuses it.
     pub fn quantity(&mut self, known: Known) -> Poly {
         let place = self.quantities.iter().position(|other| *other == known);
         let i = place.unwrap_or_else(|| {
             self.quantities.push(known);
             self.quantities.len() - 1
         });
-        Poly::symbol(quantity(i))
+        let first = self.state.problem.table.atoms().len();
+        Poly::variable((first + i).min(MAX_VARIABLES - 1))
     }
 
     /// Returns the polynomial of a fact: its number if it is one.
     pub fn fact(&mut self, i: usize) -> Poly {
         match self.state.facts.get(i) {
-            Ok((of, _)) if of.has_only(|_| false) => self.guide.dictionary.opaque_poly(of),
+            Ok((of, _)) if of.has_only(|_| false) => opaque(of),
             _ => self.quantity(Known::Fact(i)),
         }
     }
@@ -91,7 +94,7 @@ impl<'a, 'p> Finder<'a, 'p> {
         if self.depth >= MAX_DEPTH {
             return Err("too deep".into());
         }
-        let of = self.guide.dictionary.polynomial(value, 0, self.state).ok_or("a lemma")?;
+        let of = self.guide.polynomial(value, self.state).ok_or("a lemma")?;
         let signed = self.guide.sign(self.guide.reduced(&of, self.state)).ok_or("the sign of a lemma")?;
         let mut finder = Finder::new(self.guide, self.state, self.depth + 1);
         let certificate = finder.certificate(&of, &[], &signed)?;
@@ -107,8 +110,7 @@ impl<'a, 'p> Finder<'a, 'p> {
 
     /// Returns the certificate for l and r in own symbols and quantities, with integers as coefficients.
     pub fn finished(&self, left: &Poly, right: &Poly) -> Found<Certificate> {
-        let count = self.quantities.len();
-        let form = |of: &Poly| self.guide.dictionary.polynomial(of, count, self.state).ok_or("a form");
+        let form = |of: &Poly| self.guide.polynomial(of, self.state).ok_or("a form");
         Ok(Certificate { known: self.quantities.clone(), left: form(left)?, right: form(right)? })
     }
 
@@ -121,23 +123,21 @@ impl<'a, 'p> Finder<'a, 'p> {
         Ok(value)
     }
 
-    /// Replaces slack variables by facts, and places by their own symbols.
+    /// Replaces slack variables by facts.
     pub fn without_slacks(&mut self, mut form: Ratio) -> Found<Ratio> {
         let guide = self.guide;
-        for (i, assumption) in guide.context.assumptions().iter().enumerate().rev() {
-            let (AssumptionUse::Pivot(_, _, Some(symbol)) | AssumptionUse::Symbol(symbol)) =
-                &assumption.usage
-            else {
+        for (i, assumption) in guide.context.assumptions.iter().enumerate().rev() {
+            let (AssumptionUse::Pivot(_, _, Some(x)) | AssumptionUse::Variable(x)) = &assumption.usage else {
                 continue;
             };
-            let pivot = Monomial::of(*symbol);
+            let pivot = Monomial::of(*x);
             let Some(supposed) =
                 guide.supposed.get(i).and_then(Option::as_ref).filter(|_| form.contains(&pivot))
             else {
                 continue;
             };
-            let is_symbol = self.state.facts.get(supposed.fact)?.0.as_variable().is_some();
-            if is_symbol && matches!(symbol, Symbol::Own(_)) {
+            let is_variable = self.state.facts.get(supposed.fact)?.0.as_variable().is_some();
+            if is_variable && matches!(guide.context.symbol(*x), Some(Symbol::Own(_))) {
                 continue;
             }
             let mut by = self.supposed(supposed)?;
@@ -146,6 +146,6 @@ impl<'a, 'p> Finder<'a, 'p> {
             }
             form = form.replace(&pivot, &by);
         }
-        Ok(guide.dictionary.with_own_places(&form))
+        Ok(form)
     }
 }

@@ -1,9 +1,10 @@
 //! Forms for the six rules.
 
 use super::Failure;
-use super::algebra::{Poly, Ratio, Symbol};
+use super::algebra::{FIRST_SLACK, Poly, Ratio};
 use super::assumption::SignedRatio;
-use super::dictionary::integral;
+use super::choice;
+use super::dictionary::{integral, opaque};
 use super::finder::{Finder, Found};
 use super::sign::{Certificate, Rule};
 use crate::formula::Relation;
@@ -21,7 +22,10 @@ impl Finder<'_, '_> {
         let (left_of_den, right_of_den) = match self.by_largest_errors(&den) {
             Some(forms) => forms,
             None if den == *signed.den.of() => self.forms(&signed.den)?,
-            None => self.forms(&self.guide.context.sign_of(&den).ok_or("the sign of a denominator")?)?,
+            None => {
+                let den = choice::sign(&den, &self.guide.context.signs);
+                self.forms(&den.ok_or("the sign of a denominator")?)?
+            }
         };
         let form = Ratio::from(right * left_of_den).over(&(right_of_den * left).into());
         let mut form = form.ok_or("a zero denominator")?;
@@ -49,15 +53,15 @@ impl Finder<'_, '_> {
 
     /// Returns the forms of a denominator by lemmas about its factors 2ᵖ + 1 + e.
     fn by_largest_errors(&mut self, of: &Poly) -> Option<Forms> {
-        if of.terms().len() < 3 || !of.symbols().into_iter().any(|x| matches!(x, Symbol::Error(_))) {
+        if of.terms().len() < 3 || self.guide.context.errors(of).is_empty() {
             return None;
         }
-        let own = self.guide.dictionary.own(&of.clone().into());
+        let own = self.guide.own(&of.clone().into());
         let (rest, product) = self.without_largest_errors(own.num()).ok()?;
         if product.is_one() || !own.den().is_one() {
             return None;
         }
-        let rest = self.guide.context.reduce(&self.guide.dictionary.with_places(&rest.into()));
+        let rest = self.guide.context.reduce(&rest.into());
         let form = self.form(&self.guide.sign(rest)?, &[]).ok()?;
         Some((form.den().clone(), form.num() * product))
     }
@@ -93,13 +97,13 @@ impl Finder<'_, '_> {
     fn square(&mut self, leading: &Certificate, root: &Poly, rest: &Certificate) -> Found<Forms> {
         let (left_of_leading, leading) = self.forms(leading)?;
         let (left_of_rest, rest) = self.forms(rest)?;
-        let own = self.guide.dictionary.own(&root.clone().into());
+        let own = self.guide.own(&root.clone().into());
         let (value, _) = integral(own.num(), own.num());
         let scale = own.over(&value.clone().into()).ok_or("a zero root")?;
         if [scale.num(), scale.den()].into_iter().any(|part| part.terms().len() != 1) {
             return Err("the scale of a root".into());
         }
-        let of = self.guide.dictionary.polynomial(&value, 0, self.state).ok_or("a root")?;
+        let of = self.guide.polynomial(&value, self.state).ok_or("a root")?;
         let root = scale * Ratio::from(self.quantity(Known::Value(of)));
         let square = &root * &root;
         let left = Poly::constant(4) * leading * &left_of_rest * square.den();
@@ -108,12 +112,11 @@ impl Finder<'_, '_> {
     }
 
     /// Returns 2ⁿ f = Σ bᵢ (1 + x)ⁱ (1 − x)ⁿ⁻ⁱ.
-    fn ends(&mut self, x: Symbol, at: &[Certificate]) -> Found<Forms> {
+    fn ends(&mut self, x: usize, at: &[Certificate]) -> Found<Forms> {
         let forms: Vec<Forms> = at.iter().map(|end| self.forms(end)).collect::<Found<_>>()?;
-        let own = self.guide.dictionary.own_unit(x);
-        let (one, own) = (Poly::constant(1), Poly::symbol(own));
-        let lower = self.bound(&(&one + &own))?;
-        let upper = self.bound(&(&one - &own))?;
+        let (one, x) = (Poly::constant(1), Poly::variable(x));
+        let lower = self.bound(&(&one + &x))?;
+        let upper = self.bound(&(&one - &x))?;
         let all = forms.iter().fold(one, |all, (left, _)| all * left);
         let mut sum = Poly::zero();
         for (i, (left, right)) in forms.iter().enumerate() {
@@ -126,25 +129,27 @@ impl Finder<'_, '_> {
 
     /// Returns a lemma about 1 + x or 1 − x, which is a form itself.
     fn bound(&mut self, value: &Poly) -> Found<Poly> {
-        let of = self.guide.dictionary.polynomial(value, 0, self.state).ok_or("a unit")?;
+        let of = self.guide.polynomial(value, self.state).ok_or("a unit")?;
         let (known, left, right) = (Vec::new(), Polynomial::constant(1), of.clone());
         let certificate = proof::check::Certificate { known, left, right };
         Ok(self.quantity(Known::Lemma((of, certificate).into())))
     }
 
     /// Returns the forms of a function whose sign follows from that of its slope.
-    fn slope(&mut self, of: &Certificate, x: Symbol, signs: [Sign; 2]) -> Found<Forms> {
-        let own = self.guide.dictionary.own(&of.of().clone().into());
+    fn slope(&mut self, of: &Certificate, x: usize, signs: [Sign; 2]) -> Found<Forms> {
+        let own = self.guide.own(&of.of().clone().into());
         for i in 0..self.state.facts.iter().len() {
             let Some(scale) = self.scale(&own, i) else { continue };
             let symbol = self.fact(i);
             return Ok((scale.den().clone(), scale.num() * symbol));
         }
-        let x = self.guide.dictionary.variable(x).ok_or("the slope in a slack variable")?;
+        if x >= FIRST_SLACK {
+            return Err("the slope in a slack variable".into());
+        }
         let is_falling = of.sign().implies(Sign::NonPositive);
         let num = if is_falling { -own.num() } else { own.num().clone() };
         let (num, _) = integral(&num, &num);
-        let of = self.guide.dictionary.polynomial(&num, 0, self.state).ok_or("a function that rises")?;
+        let of = self.guide.polynomial(&num, self.state).ok_or("a function that rises")?;
         let [start, slope] = signs.map(|sign| relation(if is_falling { sign.negated() } else { sign }));
         let (start, slope) = (start.ok_or("the sign of a start")?, slope.ok_or("the sign of a slope")?);
         let none = || Node::Leaf(Leaf::default().into());
@@ -157,9 +162,9 @@ impl Finder<'_, '_> {
         if fact.terms().len() < 2 {
             return None;
         }
-        let fact = self.guide.dictionary.opaque_poly(fact);
+        let fact = opaque(fact);
         let scale = if own.num().has_exponentials() {
-            let num = self.opaque(own.num())?;
+            let num = self.guide.without_exponentials(own.num(), self.state)?;
             let [a, b] = [&num, &fact].map(|of| of.terms().last().map(|(_, q)| Poly::constant(q.clone())));
             let (a, b) = (a?, b?);
             if &num * &b != &fact * &a {

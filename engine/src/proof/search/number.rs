@@ -43,8 +43,11 @@ fn wide(n: &i64) -> i128 {
     (*n).into()
 }
 
-/// Computes the greatest common divisor of two nonzero numbers.
+/// Computes the greatest common divisor of two numbers, one of which may be 0.
 fn common_divisor(mut a: u128, mut b: u128) -> u128 {
+    if a == 0 || b == 0 {
+        return a | b;
+    }
     let twos = (a | b).trailing_zeros();
     a >>= a.trailing_zeros();
     b >>= b.trailing_zeros();
@@ -80,7 +83,12 @@ impl From<Rational> for Number {
 impl Number {
     /// Reduces n/d to lowest terms; `d` must be positive.
     fn quotient(n: i128, d: i128) -> Self {
-        let common = if n == 0 { d } else { common_divisor(n.unsigned_abs(), d.unsigned_abs()) as i128 };
+        if d == 1
+            && let Ok(n) = i64::try_from(n)
+        {
+            return Number(Small(n, 1));
+        }
+        let common = common_divisor(n.unsigned_abs(), d.unsigned_abs()) as i128;
         match (i64::try_from(n / common), i64::try_from(d / common)) {
             (Ok(n), Ok(d)) => Number(Small(n, d)),
             _ => Rational::from((n, d)).into(),
@@ -98,6 +106,22 @@ impl Number {
         match &self.0 {
             Small(n, d) => Rational::from((*n, *d)),
             Large(q) => (**q).clone(),
+        }
+    }
+
+    /// Converts to an integer, if the number is one that fits 128 bits.
+    pub fn to_integer(&self) -> Option<i128> {
+        match &self.0 {
+            Small(n, d) => (*d == 1).then_some((*n).into()),
+            Large(q) => q.numer().to_i128().filter(|_| q.is_integer()),
+        }
+    }
+
+    /// Returns `true` if the number is an integer.
+    pub fn is_integer(&self) -> bool {
+        match &self.0 {
+            Small(_, d) => *d == 1,
+            Large(q) => q.is_integer(),
         }
     }
 
@@ -120,6 +144,23 @@ impl Number {
     /// Returns `true` if the number is 1.
     pub fn is_one(&self) -> bool {
         self.0 == Small(1, 1)
+    }
+
+    /// Returns the largest positive number of which both numbers are integral multiples; one of them may be 0.
+    pub fn common_divisor(&self, other: &Self) -> Self {
+        match (&self.0, &other.0) {
+            (Small(n, d), Small(m, e)) => {
+                let of_numerators = common_divisor(n.unsigned_abs().into(), m.unsigned_abs().into());
+                let of_denominators = common_divisor(d.unsigned_abs().into(), e.unsigned_abs().into());
+                let multiple = wide(d) / of_denominators as i128 * wide(e);
+                Number::quotient(of_numerators as i128, multiple)
+            }
+            _ => {
+                let (a, b) = (self.to_rational(), other.to_rational());
+                let numerator = a.numer().clone().gcd(b.numer());
+                Number::large((numerator, a.denom().clone().lcm(b.denom())).into())
+            }
+        }
     }
 
     /// Returns the absolute value.
@@ -176,6 +217,12 @@ mod tests {
                 assert_eq!(&x + &y, of(&Rational::from(&p + &q)), "{p} + {q}");
                 assert_eq!(&x - &y, of(&Rational::from(&p - &q)), "{p} - {q}");
                 assert_eq!(&x * &y, of(&Rational::from(&p * &q)), "{p} * {q}");
+                let common = x.common_divisor(&y).to_rational();
+                assert!(common.cmp0().is_ge() && (common.is_zero() == (p.is_zero() && q.is_zero())));
+                if !common.is_zero() {
+                    let [a, b] = [&p, &q].map(|of| Rational::from(of / &common));
+                    assert!(a.is_integer() && b.is_integer() && a.numer().clone().gcd(b.numer()) == 1);
+                }
                 assert_eq!((x == y, x.partial_cmp(&y)), (p == q, Some(p.cmp(&q))), "{p} and {q}");
             }
         }

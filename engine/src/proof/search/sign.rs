@@ -17,16 +17,50 @@
 //!    with a = (1 + x)/2, none of them negative and not all 0, so it has the common sign of their
 //!    coefficients (Bernstein form). In degree one the coefficients are its values at the ends.
 
-use super::algebra::{Monomial, Number, Poly, Ratio, Symbol};
+use super::algebra::{Monomial, Number, Poly, Ratio, VARIABLES};
 use crate::proof::check::Sign::{self, Negative, NonNegative, NonPositive, Positive, Zero};
 use crate::proof::effort;
 use rug::{Complete, Integer, Rational};
-use std::collections::BTreeMap;
 use std::iter;
-use std::sync::Arc;
 
-/// The known signs of symbols. A symbol that is not listed is free: it may be any real number.
-pub type SignEnv = BTreeMap<Symbol, Sign>;
+/// The known signs of variables. A variable without a sign is free: it may be any real number, or any between −1
+/// and 1.
+#[derive(Clone, Debug)]
+pub struct SignEnv {
+    signs: [Option<Sign>; VARIABLES],
+    is_unit: [bool; VARIABLES],
+}
+
+impl SignEnv {
+    /// Creates an environment without signs, in which these variables are between −1 and 1.
+    pub fn new(units: impl IntoIterator<Item = usize>) -> Self {
+        let mut env = SignEnv { signs: [None; VARIABLES], is_unit: [false; VARIABLES] };
+        units.into_iter().for_each(|x| env.is_unit[x] = true);
+        env
+    }
+
+    /// Returns the known sign of a variable.
+    pub fn get(&self, x: usize) -> Option<Sign> {
+        self.signs[x]
+    }
+
+    /// Sets or removes the sign of a variable, and returns the earlier one.
+    pub fn set(&mut self, x: usize, sign: Option<Sign>) -> Option<Sign> {
+        std::mem::replace(&mut self.signs[x], sign)
+    }
+
+    /// Returns the environment in which a variable has a sign.
+    pub fn with(&self, x: usize, sign: Sign) -> Self {
+        let mut env = self.clone();
+        env.set(x, Some(sign));
+        env
+    }
+
+    /// Returns `true` if a variable is between −1 and 1 by definition.
+    pub fn is_unit(&self, x: usize) -> bool {
+        self.is_unit[x]
+    }
+}
 
 /// A proof that a polynomial has a sign, for the known signs of symbols.
 #[derive(Clone, Debug)]
@@ -54,8 +88,8 @@ pub enum Rule {
     },
     /// Rule 4.
     MeanValue {
-        /// The symbol x.
-        x: Symbol,
+        /// The variable x.
+        x: usize,
         /// The sign of f(0).
         start: Box<Certificate>,
         /// The sign of the numerator of f'.
@@ -63,15 +97,15 @@ pub enum Rule {
     },
     /// Rule 6.
     Endpoints {
-        /// The symbol x.
-        x: Symbol,
+        /// The variable x.
+        x: usize,
         /// The signs of the coefficients, from that at −1 to that at 1.
         at: Box<[Certificate]>,
     },
 }
 
 /// A search for the sign of a polynomial.
-pub type SignSearch<'f> = &'f dyn Fn(&Poly, &Arc<SignEnv>) -> Option<Certificate>;
+pub type SignSearch<'f> = &'f dyn Fn(&Poly, &SignEnv) -> Option<Certificate>;
 
 impl Certificate {
     /// Returns the polynomial.
@@ -90,7 +124,7 @@ impl Certificate {
     }
 
     /// Applies rule 1.
-    pub fn termwise(of: &Poly, known: &Arc<SignEnv>) -> Option<Self> {
+    pub fn termwise(of: &Poly, known: &SignEnv) -> Option<Self> {
         let sign = of.terms().try_fold(Zero, |sum, (monomial, coefficient)| {
             let number = if coefficient.sign().is_lt() { Negative } else { Positive };
             sum.plus(number.times(of_monomial(monomial, known)?))
@@ -98,38 +132,35 @@ impl Certificate {
         Some(Certificate { of: of.clone(), sign: sign?, rule: Rule::Terms })
     }
 
-    /// Applies rule 2.
-    pub fn product(factor: Self, rest: Self) -> Self {
-        let (of, sign) = (&factor.of * &rest.of, factor.sign.times(rest.sign));
-        Certificate { of, sign, rule: Rule::Product(factor.into(), rest.into()) }
+    /// Applies rule 2 to a product of two polynomials.
+    pub fn product(of: &Poly, factor: Self, rest: Self) -> Self {
+        let sign = factor.sign.times(rest.sign);
+        Certificate { of: of.clone(), sign, rule: Rule::Product(factor.into(), rest.into()) }
     }
 
     /// Applies rule 3 to f = a x² + b x + d: 4 a f = (2 a x + b)² + (4 a d − b²).
-    pub fn square(of: &Poly, x: Symbol, known: &Arc<SignEnv>, find: SignSearch) -> Option<Self> {
+    pub fn square(of: &Poly, x: usize, known: &SignEnv, find: SignSearch) -> Option<Self> {
         let [d, b, a] = of.coefficients(x)?;
-        if of.exponents().any(|e| e.symbols().contains(&x)) {
+        if of.exponents().any(|e| e.variables().contains(&x)) {
             return None;
         }
         let leading = find(&a, known).filter(|a| a.sign.is_strict())?;
         let rest = find(&(Poly::constant(4) * &a * d - &b * &b), known)?;
         let sign = leading.sign.times(NonNegative.plus(rest.sign)?);
-        let root = Poly::constant(2) * a * Poly::symbol(x) + b;
+        let root = Poly::constant(2) * a * Poly::variable(x) + b;
         let rule = Rule::Square { leading: leading.into(), root, rest: rest.into() };
         Some(Certificate { of: of.clone(), sign, rule })
     }
 
     /// Applies rule 4.
-    pub fn mean_value(of: &Poly, x: Symbol, known: &Arc<SignEnv>, find: SignSearch) -> Option<Self> {
-        let at_x = *known.get(&x)?;
-        let with_sign = |sign| {
-            Arc::new(SignEnv::from_iter(known.iter().map(|(y, s)| (*y, if *y == x { sign } else { *s }))))
-        };
-        if !at_x.implies(NonNegative) || !is_continuous(of, &with_sign(NonNegative)) {
+    pub fn mean_value(of: &Poly, x: usize, known: &SignEnv, find: SignSearch) -> Option<Self> {
+        let at_x = known.get(x)?;
+        if !at_x.implies(NonNegative) || !is_continuous(of, &known.with(x, NonNegative)) {
             return None;
         }
         let start = of.replace(&Monomial::of(x), &Ratio::zero());
         let start = find(&numerator(&start, known)?, known)?;
-        let interior = with_sign(Positive);
+        let interior = known.with(x, Positive);
         let slope = find(&numerator(&of.derivative(x), &interior)?, &interior)?;
         let sign = start.sign.plus(at_x.times(slope.sign))?;
         let rule = Rule::MeanValue { x, start: start.into(), slope: slope.into() };
@@ -137,21 +168,21 @@ impl Certificate {
     }
 
     /// Applies rule 5.
-    pub fn triangle_inequality(of: &Poly, known: &Arc<SignEnv>) -> Option<Self> {
-        let has_small = |m: &Monomial| m.powers().any(|(x, _)| x.in_unit_interval());
+    pub fn triangle_inequality(of: &Poly, known: &SignEnv) -> Option<Self> {
+        let has_small = |m: &Monomial| m.powers().any(|(x, _)| known.is_unit(x));
         let (small, others): (Vec<_>, Vec<_>) = of.terms().partition(|(m, _)| has_small(m));
-        let others: Poly = others.into_iter().map(|(m, q)| (m.clone(), q.clone())).collect();
         // The absolute value of a term without its factors between −1 and 1, and the sign of the term if
         // these are squares. The remaining factors must have a known sign.
         let size = |(m, q): (&Monomial, &Number)| {
-            let rest = m.without_symbols(Symbol::in_unit_interval);
+            let rest = m.only(|x| !known.is_unit(x));
             let sign = of_monomial(&rest, known)?;
             let size = if sign.implies(NonPositive) { -q.abs() } else { q.abs() };
-            let is_even = m.powers().all(|(x, n)| !x.in_unit_interval() || n % 2 == 0);
+            let is_even = m.powers().all(|(x, n)| !known.is_unit(x) || n % 2 == 0);
             let number = if q.sign().is_lt() { Negative } else { Positive };
             Some(((rest, size), is_even.then(|| number.times(sign))))
         };
         let small: Vec<_> = small.into_iter().map(size).collect::<Option<_>>()?;
+        let others: Poly = others.into_iter().map(|(m, q)| (m.clone(), q.clone())).collect();
         // The difference of the polynomial and its bound has the sign `difference`.
         let by_bound = |difference: Sign| {
             let has_sign = |sign: &Option<Sign>| sign.is_some_and(|sign| sign.implies(difference));
@@ -166,8 +197,8 @@ impl Certificate {
     }
 
     /// Applies rule 6.
-    pub fn endpoints(of: &Poly, x: Symbol, known: &Arc<SignEnv>, find: SignSearch) -> Option<Self> {
-        if !x.in_unit_interval() || of.exponents().any(|e| e.symbols().contains(&x)) {
+    pub fn endpoints(of: &Poly, x: usize, known: &SignEnv, find: SignSearch) -> Option<Self> {
+        if !known.is_unit(x) || of.exponents().any(|e| e.variables().contains(&x)) {
             return None;
         }
         let sign = |coefficient: Poly| find(&coefficient, known);
@@ -181,9 +212,9 @@ impl Certificate {
 }
 
 fn of_monomial(monomial: &Monomial, known: &SignEnv) -> Option<Sign> {
-    let power = |(x, n): (Symbol, u32)| match known.get(&x) {
-        Some(sign) if n % 2 == 1 => Some(*sign),
-        Some(sign) => Some(sign.times(*sign)),
+    let power = |(x, n): (usize, u8)| match known.get(x) {
+        Some(sign) if n % 2 == 1 => Some(sign),
+        Some(sign) => Some(sign.times(sign)),
         None if n % 2 == 0 => Some(NonNegative),
         None => None,
     };
@@ -191,12 +222,12 @@ fn of_monomial(monomial: &Monomial, known: &SignEnv) -> Option<Sign> {
 }
 
 /// Returns `true` if all exponents are quotients of polynomials whose denominators do not vanish.
-fn is_continuous(of: &Poly, known: &Arc<SignEnv>) -> bool {
+fn is_continuous(of: &Poly, known: &SignEnv) -> bool {
     of.exponents().all(|exponent| exponent.is_rational_function() && numerator(exponent, known).is_some())
 }
 
 /// Returns a polynomial with the sign of a quotient if the sign of the denominator is known.
-fn numerator(of: &Ratio, known: &Arc<SignEnv>) -> Option<Poly> {
+fn numerator(of: &Ratio, known: &SignEnv) -> Option<Poly> {
     match Certificate::termwise(of.den(), known)?.sign {
         Positive => Some(of.num().clone()),
         Negative => Some(-of.num()),
@@ -208,9 +239,9 @@ fn numerator(of: &Ratio, known: &Arc<SignEnv>) -> Option<Poly> {
 /// a = (1 + x)/2.
 ///
 /// They follow from xᵏ = (a − (1 − a))ᵏ and, for those of lower degree, from 1 = a + (1 − a).
-fn bernstein(of: &Poly, x: Symbol) -> Vec<Poly> {
+fn bernstein(of: &Poly, x: usize) -> Vec<Poly> {
     let zero = Poly::zero();
-    let powers = (0..=of.degree(x)).take_while(|k| effort::spend(1 + *k as usize));
+    let powers = (0..=of.degree(x)).take_while(|k| effort::spend(1 + usize::from(*k)));
     powers.fold(Vec::new(), |sums: Vec<Poly>, k| {
         let coefficient = of.coefficient(x, k);
         let shifted = iter::once(&zero).chain(&sums);
@@ -220,9 +251,9 @@ fn bernstein(of: &Poly, x: Symbol) -> Vec<Poly> {
 }
 
 /// Returns the coefficient of aⁱ bᵏ⁻ⁱ in (a − b)ᵏ.
-fn power_coefficient(k: u32, i: u32) -> Poly {
+fn power_coefficient(k: u8, i: u8) -> Poly {
     let sign = if (k - i).is_multiple_of(2) { 1 } else { -1 };
-    Poly::constant(Number::from(Rational::from(sign * Integer::binomial_u(k, i).complete())))
+    Poly::constant(Number::from(Rational::from(sign * Integer::binomial_u(k.into(), i.into()).complete())))
 }
 
 #[cfg(test)]
@@ -231,20 +262,19 @@ mod tests {
 
     #[test]
     fn rule_3_completes_the_square() {
-        let u = Symbol::Own("u");
-        let x = Poly::symbol(u);
+        let u = 0;
+        let x = Poly::variable(u);
         let of = Poly::constant(3) * &x * &x + Poly::constant(2) * &x + Poly::constant(5);
-        let found = Certificate::square(&of, u, &Arc::new(SignEnv::new()), &Certificate::termwise).unwrap();
+        let found = Certificate::square(&of, u, &SignEnv::new([]), &Certificate::termwise).unwrap();
         let Rule::Square { leading, root, rest } = found.rule() else { panic!("another rule") };
         assert_eq!(Poly::constant(4) * leading.of() * of, root * root + rest.of());
     }
 
     #[test]
     fn rule_5_applies_to_squares_of_symbols_between_minus_1_and_1() {
-        let [a, b] = [0, 1].map(|index| Poly::symbol(Symbol::Error(index)));
-        let sign = |of: Poly| {
-            Certificate::triangle_inequality(&of, &Arc::new(SignEnv::new())).map(|found| found.sign())
-        };
+        let [a, b] = [0, 1].map(Poly::variable);
+        let sign =
+            |of: Poly| Certificate::triangle_inequality(&of, &SignEnv::new([0, 1])).map(|found| found.sign());
         // 1 + 3 a² − b ≥ 1 − 1.
         let of = |power: Poly| Poly::constant(1) + Poly::constant(3) * power - &b;
         assert_eq!([of(&a * &a), -of(&a * &a)].map(sign), [Some(NonNegative), Some(NonPositive)]);
@@ -253,25 +283,25 @@ mod tests {
 
     #[test]
     fn rule_6_applies_to_symbols_between_minus_1_and_1_only() {
-        let known = Arc::new(SignEnv::new());
+        let known = SignEnv::new([0, 1]);
         let two = || Poly::constant(2);
-        let of = |x| Certificate::endpoints(&(two() + Poly::symbol(x)), x, &known, &Certificate::termwise);
-        assert!(of(Symbol::Place(0)).is_some() && of(Symbol::Error(3)).is_some());
-        assert!(of(Symbol::Own("e₁")).is_none() && of(Symbol::Slack(0)).is_none());
+        let of = |x| Certificate::endpoints(&(two() + Poly::variable(x)), x, &known, &Certificate::termwise);
+        assert!(of(0).is_some() && of(1).is_some());
+        assert!(of(2).is_none());
     }
 
     /// (1 − x²)¹⁶ (1 + x²) = 4¹⁶ a¹⁶ (1 − a)¹⁶ 2 (a² + (1 − a)²), whose coefficients 2³³ exceed 32 bits.
     #[test]
     fn rule_6_is_exact_for_large_coefficients() {
-        let x = Symbol::Place(0);
-        let of_square = |n| Poly::constant(1) + Poly::constant(n) * Poly::symbol(x) * Poly::symbol(x);
+        let x = 0;
+        let of_square = |n| Poly::constant(1) + Poly::constant(n) * Poly::variable(x) * Poly::variable(x);
         let of = (0..16).fold(of_square(1), |product, _| product * of_square(-1));
         let large = || Number::from(Rational::from(1_u64 << 33));
         for (i, coefficient) in bernstein(&of, x).into_iter().enumerate() {
             let expected = if [16, 18].contains(&i) { Poly::constant(large()) } else { Poly::zero() };
             assert_eq!(coefficient, expected, "of power {i}");
         }
-        let known = Arc::new(SignEnv::new());
+        let known = SignEnv::new([0, 1]);
         let sign = |of: &Poly| {
             Certificate::endpoints(of, x, &known, &Certificate::termwise).map(|found| found.sign())
         };

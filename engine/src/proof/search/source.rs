@@ -1,8 +1,10 @@
 //! The search as the source of a proof: what the checker asks for is found, and listed.
 
 use super::ProofError;
-use super::algebra::{Poly, Ratio, Symbol};
+use super::algebra::{Poly, Ratio};
 use super::assumption::SignedRatio;
+use super::dictionary::opaque;
+use super::error::Symbol;
 use super::finder::Finder;
 use super::knowledge::{Knowledge, Supposed};
 use super::{Decision, Failure};
@@ -12,8 +14,8 @@ use crate::formula::statement::Proposition;
 use crate::number::Tree;
 use crate::proof::check::Sign;
 use crate::proof::check::{
-    AbsoluteValue, Atom, Certificate, Leaf, Polynomial, Problem, Question, Quotient, Reason, Same, Source,
-    State,
+    AbsoluteValue, Atom, Certificate, Leaf, Polynomial, Problem, Question, Quotient, Reason, Refusal, Same,
+    Source, State,
 };
 
 /// A search for what a leaf lists.
@@ -32,8 +34,8 @@ pub struct Search<'a> {
     pub position: usize,
     /// The reason why the search ended.
     pub failure: Option<Failure>,
-    /// The last sum whose sign was asked for.
-    pub asked: Vec<(i128, usize)>,
+    /// The last quantity whose sign was asked for.
+    pub asked: Option<Quotient>,
 }
 
 impl Search<'_> {
@@ -59,7 +61,8 @@ impl Search<'_> {
         {
             return Ok(Reason::Certificate(found));
         }
-        self.asked = question.sum.into();
+        let asked = Quotient { num: question.of.clone(), den: question.den.into() };
+        self.asked = Some(asked.clone());
         // The polynomial itself is shorter than the sum, but its sign may be found by the other's alone.
         let direct = self.known.reduced(question.of, state);
         let signed = self.known.context.sign(direct.clone(), &self.known.factors);
@@ -73,16 +76,21 @@ impl Search<'_> {
         if let Some((i, _)) = fact {
             return Ok(Reason::Fact(i));
         }
-        let value = self.value(question, direct)?;
+        let value = if question.den.is_empty() { direct } else { self.known.reduced_quotient(&asked, state) };
         let signed = self.known.sign(value.clone());
         let asks_for_zero =
             matches!(self.problem().proposition, Proposition::Equal(..) | Proposition::Derivative(..));
-        if asks_for_zero && !question.decides && !question.sum.is_empty() && !value.is_zero() {
-            return Err(ProofError::Unequal(value).into());
+        if asks_for_zero && !question.decides && question.is_sum && !value.is_zero() {
+            return Err(ProofError::Unequal(self.known.quantity(value)).into());
         }
         let Some(signed) = signed else {
-            let unknown = |value| ProofError::UnknownSign(value, self.known.context.signs().clone());
-            return Err(if question.decides { Failure::Branch(value) } else { unknown(value).into() });
+            let value = self.known.quantity(value);
+            let is_branch = question.decides;
+            return Err(if is_branch {
+                Failure::Branch(value)
+            } else {
+                ProofError::UnknownSign(value).into()
+            });
         };
         self.certificate(question.of, question.den, &signed, state).map(Reason::Certificate)
     }
@@ -93,18 +101,7 @@ impl Search<'_> {
             Proposition::Within(..) | Proposition::Sign(Relation::NonNegative, _) => true,
             _ => question.decides,
         };
-        is_definite(sign) || (is_weak && !question.sum.is_empty())
-    }
-
-    /// Returns the value of a polynomial over its denominator, reduced, given that of the polynomial itself.
-    fn value(&mut self, question: Question, direct: Ratio) -> Result<Ratio, Failure> {
-        match question.sum {
-            [] => Ok(direct),
-            [a, b] if matches!(self.problem().proposition, Proposition::Within(..)) && !question.decides => {
-                self.known.long_sum([*a, *b])
-            }
-            sum => self.known.sum(sum),
-        }
+        is_definite(sign) || (is_weak && question.is_sum)
     }
 
     fn certificate(
@@ -126,13 +123,12 @@ impl Search<'_> {
 
     /// Returns the factors of a divisor: symbols, known facts, errors 2ᵖ + 1 + e, and the rest.
     fn factors(&mut self, of: usize, value: &Polynomial, state: &State) -> Result<Vec<Polynomial>, Failure> {
-        self.check_divisor(of)?;
-        let dictionary = &self.known.dictionary;
-        let mut rest = dictionary.opaque_poly(value);
-        let common = Poly::from(rest.common_monomial());
-        let mut candidates: Vec<Poly> = common.symbols().into_iter().map(Poly::symbol).collect();
+        self.check_divisor(of, state)?;
+        let mut rest = opaque(value);
+        let mut candidates: Vec<Poly> =
+            rest.common_monomial().powers().map(|(x, _)| Poly::variable(x)).collect();
         let strict = state.facts.iter().filter(|(of, sign)| sign.is_strict() && of.terms().len() > 1);
-        candidates.extend(strict.map(|(of, _)| dictionary.opaque_poly(of)));
+        candidates.extend(strict.map(|(of, _)| opaque(of)));
         candidates.extend(self.known.largest_errors(&rest));
         let mut factors = Vec::new();
         for factor in candidates {
@@ -144,62 +140,81 @@ impl Search<'_> {
         if !rest.is_one() {
             factors.push(rest);
         }
-        let factors: Option<_> =
-            factors.iter().map(|factor| dictionary.polynomial(factor, 0, state)).collect();
+        let factors: Option<_> = factors.iter().map(|factor| self.known.polynomial(factor, state)).collect();
         Ok(factors.ok_or("a divisor")?)
     }
 
     /// Checks that a divisor is not 0.
-    fn check_divisor(&mut self, of: usize) -> Result<(), Failure> {
-        let value = self.known.value(of)?;
-        let tree = self.problem().table.formula(of)?;
-        let fails = |value| Failure::Error(ProofError::PossibleZeroDivisor(tree.clone(), value));
-        if value.is_zero() {
-            return Err(fails(value));
-        }
-        if value.is_number() {
+    fn check_divisor(&mut self, of: usize, state: &State) -> Result<(), Failure> {
+        let value = state.value(of).ok_or(Refusal::Unknown)?;
+        if value.num.has_only(|_| false) && !value.num.is_zero() {
             return Ok(());
         }
-        let reduced = self.known.context.reduce(&value);
-        let error = fails(reduced.clone());
-        self.known.collect_factors(of)?;
-        let signed = self.known.context.sign(reduced, &self.known.factors);
-        if signed.is_some_and(|signed| signed.sign().is_strict()) { Ok(()) } else { Err(error) }
+        let reduced = self.known.reduced_quotient(value, state);
+        if !value.num.is_zero() {
+            self.known.collect_factors(of, state)?;
+            let signed = self.known.context.sign(reduced.clone(), &self.known.factors);
+            if signed.is_some_and(|signed| signed.sign().is_strict()) {
+                return Ok(());
+            }
+        }
+        let divisor = self.problem().table.formula(of)?.clone();
+        Err(ProofError::PossibleZeroDivisor(divisor, self.known.quantity(reduced)).into())
     }
 
     /// Returns the earlier formula that a rounded formula is a power of two times, if there is one.
-    fn same_rounding(&mut self, of: usize, state: &State) -> Result<Option<Same>, Failure> {
+    fn same_rounding(&mut self, value: &Quotient, state: &State) -> Result<Option<Same>, Failure> {
         let largest = self.known.context.inverse_gamma();
         if !self.known.sign(largest.clone()).is_some_and(|signed| signed.sign().is_strict()) {
             let divisor = Tree::symbol(PRECISION) + Tree::from(1);
-            return Err(ProofError::PossibleZeroDivisor(divisor, largest).into());
+            return Err(ProofError::PossibleZeroDivisor(divisor, self.known.quantity(largest)).into());
         }
-        let value = self.known.value(of)?;
-        let (own, scale) = without_scales(&self.known.context.reduce(&value));
-        let own_errors = errors(&own);
-        for (i, (known, error)) in self.known.rounded.clone().into_iter().enumerate() {
-            let value = self.known.value(known)?;
-            let (other, before) = without_scales(&self.known.context.reduce(&value));
+        let mut reduced = None;
+        for (i, known) in state.rounded.iter().enumerate() {
             // Equal values contain the same errors, unless one cancels; equality is then not recognised.
-            if errors(&other) != own_errors || !(&other - &own).is_zero() {
+            if !self.has_same_errors(&known.value, value) {
+                continue;
+            }
+            let (own, scale) = reduced
+                .get_or_insert_with(|| self.without_scales(&self.known.reduced_quotient(value, state)));
+            let (other, before) = self.without_scales(&self.known.reduced_quotient(&known.value, state));
+            if !(&other - &*own).is_zero() {
                 continue;
             }
             let factor = scale.over(&before).ok_or("a power of two")?;
-            let [up, down] =
-                [factor.num(), factor.den()].map(|of| self.known.dictionary.polynomial(of, 0, state));
+            let [up, down] = [factor.num(), factor.den()].map(|of| self.known.polynomial(of, state));
             let (up, down) = (up.ok_or("a power of two")?, down.ok_or("a power of two")?);
-            self.known.rounded.push((of, error));
             return Ok(Some(Same { rounding: i, up, down }));
         }
-        let error = self.problem().table.variable(Atom::Error(of))?;
-        let symbol = self.known.dictionary.symbol(error);
-        self.known.rounded.push((of, symbol));
         Ok(None)
     }
 
+    /// Returns `true` if the numerators of two quotients contain the same rounding errors.
+    fn has_same_errors(&self, a: &Quotient, b: &Quotient) -> bool {
+        let atoms = self.problem().table.atoms();
+        let is_free_of = |of: &Quotient, x: usize| of.num.has_only(|y| y != x);
+        let is_error = |x: &usize| matches!(atoms[*x], Atom::Error(_));
+        (0..atoms.len()).filter(is_error).all(|x| is_free_of(a, x) == is_free_of(b, x))
+    }
+
+    /// Splits a quotient into a factor without powers of two and a product of powers of two.
+    fn without_scales(&self, value: &Ratio) -> (Ratio, Ratio) {
+        let context = &self.known.context;
+        let is_scale = |x| SCALES.iter().any(|scale| context.symbol(x) == Some(Symbol::Own(scale)));
+        let scales = |poly: &Poly| Poly::from(poly.common_monomial().only(is_scale));
+        let scale = Ratio::from(scales(value.num())).over(&scales(value.den()).into());
+        let scale = scale.unwrap_or_else(|| Poly::constant(1).into());
+        (value.over(&scale).unwrap_or_else(|| value.clone()), scale)
+    }
+
     /// Returns the translation of the absolute value of a formula.
-    fn absolute_value(&mut self, of: usize, state: &State) -> Result<AbsoluteValue, Failure> {
-        let value = self.known.value(of)?;
+    fn absolute_value(
+        &mut self,
+        of: usize,
+        value: &Quotient,
+        state: &State,
+    ) -> Result<AbsoluteValue, Failure> {
+        let value = self.known.ratio(value, state);
         let twice = self.known.context.reduce(&(&value + &value));
         if self.known.context.size(&value).is_none() {
             let decision = Decision::Size { at: self.position, of, twice: twice.clone() };
@@ -209,12 +224,11 @@ impl Search<'_> {
             self.sizes.push(decision);
         }
         let size = self.known.context.size(&value).ok_or("an absolute value")?;
-        let variable = self.known.dictionary.variable(size).ok_or("an absolute value")?;
-        if let Some(i) = state.sizes.iter().position(|known| known.size == variable) {
+        if let Some(i) = state.sizes.iter().position(|known| known.size == size) {
             return Ok(AbsoluteValue::Same(i));
         }
         let own = self.problem().table.variable(Atom::Size(of))?;
-        if own == variable { Ok(AbsoluteValue::Atom) } else { Err("an absolute value before its own".into()) }
+        if own == size { Ok(AbsoluteValue::Atom) } else { Err("an absolute value before its own".into()) }
     }
 }
 
@@ -245,20 +259,10 @@ impl Search<'_> {
 }
 
 impl Knowledge<'_> {
-    /// Returns a polynomial in own symbols, reduced.
-    pub fn reduced(&self, of: &Polynomial, state: &State) -> Ratio {
-        let own = self.dictionary.poly(of, state);
-        self.context.reduce(&self.dictionary.with_places(&own.into()))
-    }
-
     /// Returns 2ᵖ + 1 + e for each error in a polynomial.
     pub fn largest_errors(&self, of: &Poly) -> Vec<Poly> {
-        let largest = Poly::symbol(Symbol::Own(PRECISION)) + Poly::constant(1);
-        let is_error = |x: &Symbol| {
-            let variable = self.dictionary.variable(*x);
-            variable.is_some_and(|x| matches!(self.problem.table.atoms()[x], Atom::Error(_)))
-        };
-        of.symbols().into_iter().filter(is_error).map(|x| &largest + Poly::symbol(x)).collect()
+        let largest = &self.context.largest;
+        self.context.errors(of).into_iter().map(|x| largest + Poly::variable(x)).collect()
     }
 }
 
@@ -275,24 +279,7 @@ fn is_definite(sign: Sign) -> bool {
 }
 
 fn is_integral(of: &Poly) -> bool {
-    of.terms().all(|(_, number)| number.to_rational().is_integer())
-}
-
-/// Returns the errors in a quotient.
-fn errors(of: &Ratio) -> Vec<Symbol> {
-    of.symbols().into_iter().filter(|x| matches!(x, Symbol::Error(_))).collect()
-}
-
-fn is_scale(x: Symbol) -> bool {
-    SCALES.iter().any(|scale| x == Symbol::Own(scale))
-}
-
-/// Splits a quotient into a factor without powers of two and a product of powers of two.
-fn without_scales(value: &Ratio) -> (Ratio, Ratio) {
-    let scales = |poly: &Poly| -> Poly { poly.common_monomial().without_symbols(|x| !is_scale(x)).into() };
-    let scale = Ratio::from(scales(value.num())).over(&scales(value.den()).into());
-    let scale = scale.unwrap_or_else(|| Poly::constant(1).into());
-    (value.over(&scale).unwrap_or_else(|| value.clone()), scale)
+    of.terms().all(|(_, number)| number.is_integer())
 }
 
 impl Source for Search<'_> {
@@ -310,15 +297,15 @@ impl Source for Search<'_> {
         Some(factors)
     }
 
-    fn rounding(&mut self, of: usize, _: &Quotient, state: &State) -> Option<Option<Same>> {
-        let found = self.same_rounding(of, state);
+    fn rounding(&mut self, _: usize, value: &Quotient, state: &State) -> Option<Option<Same>> {
+        let found = self.same_rounding(value, state);
         let same = self.noted(found)?;
         self.leaf.roundings.push(same.clone());
         Some(same)
     }
 
-    fn size(&mut self, of: usize, _: &Quotient, state: &State) -> Option<AbsoluteValue> {
-        let found = self.absolute_value(of, state);
+    fn size(&mut self, of: usize, value: &Quotient, state: &State) -> Option<AbsoluteValue> {
+        let found = self.absolute_value(of, value, state);
         let size = self.noted(found)?;
         self.leaf.sizes.push(size);
         Some(size)

@@ -37,6 +37,55 @@ fn names_and_sizes_are_checked() {
     assert!(matches!(refused(tends, vec![]), Premise::Discontinuous));
 }
 
+/// Returns this many symbols.
+fn symbols(count: usize) -> Vec<Tree> {
+    (0..count).map(|i| x(Box::leak(format!("y{i}").into_boxed_str()))).collect()
+}
+
+/// What has the largest depth, size, number of atoms or quantities, or nesting is not refused as too large.
+#[test]
+fn limits_are_reached_and_not_exceeded() {
+    let u = x("u");
+    let is_checked = |depth| {
+        let claim = non_negative("f", (0..depth).fold(u.clone(), |sum, _| sum + &u));
+        matches!(check(&claim, &[]), Err(CheckError::Goals))
+    };
+    assert_eq!([MAX_DEPTH, MAX_DEPTH + 1].map(is_checked), [true, false]);
+    let is_small = |size| check_size(vec![u.clone(); size as usize].iter()).is_ok();
+    assert_eq!([MAX_SIZE, MAX_SIZE + 1].map(is_small), [true, false]);
+    // All are named by hypotheses, of which the first is the goal.
+    let by_hypothesis = |count| {
+        let all = symbols(count);
+        let given: Vec<_> = all.iter().map(not_below_zero).collect();
+        let claim = non_negative("f", &all[0]).assuming(&given);
+        check(&claim, &proof(&[0], vec![Reason::Fact(1)])).is_ok()
+    };
+    assert_eq!([MAX_VARIABLES, MAX_VARIABLES + 2].map(by_hypothesis), [true, false]);
+    // The square of their sum, which is one more quantity.
+    let by_quantity = |count| {
+        let sum = symbols(count).into_iter().reduce(|sum, y| sum + y).unwrap();
+        let claim = non_negative("f", &sum * &sum);
+        let page = Page::of(&claim);
+        let known = vec![Known::Value(page.poly(&sum))];
+        let mut powers = [0; MAX_VARIABLES];
+        let Some(place) = powers.get_mut(count) else { return false };
+        *place = 2;
+        let right = Polynomial::new(vec![(powers, 1)]).unwrap();
+        let certificate = Certificate { known, left: Polynomial::constant(1), right };
+        check(&claim, &proof(&[], vec![Reason::Certificate(certificate)])).is_ok()
+    };
+    assert!(by_quantity(MAX_VARIABLES - 1));
+    let claim = non_negative("f", &u * &u);
+    let within = |nesting| {
+        let [outer, inner] = [(); 2].map(|()| Page::of(&claim).0);
+        inner.within(&Problem { nesting, ..outer }).is_ok()
+    };
+    assert_eq!([MAX_NESTING - 1, MAX_NESTING, MAX_NESTING + 1].map(within), [true, false, false]);
+    // The minimum of two formulas is no absolute value.
+    let [a, b] = ["a", "b"].map(x);
+    assert_eq!(Page::of(&non_negative("f", a.min(&b))).0.table.atoms(), [Atom::Own("a"), Atom::Own("b")]);
+}
+
 #[test]
 fn each_goal_has_a_proof() {
     let [u, q] = ["u", "q"].map(x);
