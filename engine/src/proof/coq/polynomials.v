@@ -1,8 +1,9 @@
 (** * Polynomials with whole coefficients, and their signs: a program, and its proof.
 
     Whatever claims say of signs and equalities is decided by it; see [A_Tactics]. *)
-From Coq Require Import List Bool ZArith Reals Lra Lia.
+From Coq Require Import List Bool ZArith NArith Ascii String Reals Lra Lia.
 Import ListNotations.
+Open Scope list_scope.
 Open Scope R_scope.
 
 (** ** Polynomials
@@ -70,12 +71,10 @@ Fixpoint mul (p q : poly) : poly :=
   | Grow a b, Grow c d => grow (mul a c) (add (each (mul a) d) (mul b q))
   end.
 
-Fixpoint same (p q : poly) : bool :=
-  match p, q with
-  | Const y, Const z => Z.eqb y z
-  | Grow a b, Grow c d => same a c && same b d
-  | _, _ => false
-  end.
+Scheme Equality for nat.
+Scheme Equality for positive.
+Scheme Equality for Z.
+Scheme Equality for poly.
 
 Lemma value_grow p q env : value env (grow p q) = value (tl env) p + hd 0 env * value env q.
 Proof. destruct p, q as [[ | | ] | ]; simpl; ring. Qed.
@@ -123,22 +122,32 @@ Proof.
   simpl. ring.
 Qed.
 
-Lemma same_value p q env : same p q = true -> value env p = value env q.
-Proof.
-  revert q env; induction p as [y | a I b J]; intros [z | c d] env; simpl; try discriminate.
-  - intros ->%Z.eqb_eq. reflexivity.
-  - intros [A B]%andb_prop. rewrite (I c), (J d); auto.
-Qed.
+Lemma same_value p q env : poly_beq p q = true -> value env p = value env q.
+Proof. intros ->%internal_poly_dec_bl. reflexivity. Qed.
 
-(** A sum of products, each of a number and of variables, which may recur. *)
-Definition terms : Type := list (list Z).
+Definition power (p : poly) (d : nat) : poly := Nat.iter d (mul p) (Const 1).
 
-Definition of_term (t : list Z) : poly :=
-  match t with
-  | [] => Const 0
-  | z :: l => fold_right (fun n => mul (variable (Z.to_nat n))) (Const z) l
+(** A polynomial as text: terms with signs, and variables, each a character, with powers. A number 1 is left
+    out. *)
+Fixpoint tokens (text : string) (symbol number : N) : list (N * N) :=
+  match text with
+  | EmptyString => [(symbol, number)]
+  | String a text =>
+      let a := N_of_ascii a in
+      if ((48 <=? a) && (a <=? 57))%N then tokens text symbol (10 * number + (a - 48))
+      else (symbol, number) :: tokens text a 0
   end.
-Definition of_terms (l : terms) : poly := fold_right (fun t => add (of_term t)) (Const 0) l.
+
+Definition of_token (t : N * N) (rest : poly * poly) : poly * poly :=
+  let '(symbol, number) := t in
+  let '(term, sum) := rest in
+  let n := Z.of_N (N.max 1 number) in
+  if (symbol =? 43)%N then (Const 1, add (times n term) sum)
+  else if (symbol =? 45)%N then (Const 1, add (times (- n) term) sum)
+  else if (symbol <? 63)%N then rest
+  else (mul (power (variable (N.to_nat (symbol - 63))) (Z.to_nat n)) term, sum).
+
+Definition polynomial (text : string) : poly := snd (fold_right of_token (Const 1, Const 0) (tokens text 0 0)).
 
 (** A polynomial of polynomials. *)
 Fixpoint compose (values : list poly) (p : poly) : poly :=

@@ -62,7 +62,7 @@ pub(super) fn simplified(tree: &Tree) -> Tree {
             Op::Add(a, b) | Op::Sub(a, b) if is(b, 0) => Some(a.clone()),
             Op::Mul(a, b) if is(a, 0) || is(b, 1) => Some(a.clone()),
             Op::Mul(a, b) if is(b, 0) || is(a, 1) => Some(b.clone()),
-            Op::Div(a, _) if is(a, 0) => Some(a.clone()),
+            Op::Div(a, _) | Op::Neg(a) if is(a, 0) => Some(a.clone()),
             _ => None,
         }
     })

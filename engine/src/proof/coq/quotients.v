@@ -1,5 +1,5 @@
 (** * Quotients of polynomials, and certificates for their signs: a program, and its proof. *)
-From Coq Require Import List Bool Arith ZArith Reals Lra.
+From Coq Require Import Bool Arith ZArith String Reals Lra List.
 From LIBRARY Require Import A_Polynomials.
 Import ListNotations.
 Open Scope R_scope.
@@ -11,21 +11,14 @@ Definition fact : Type := poly * kind.
 Definition holds (env : list R) (a : fact) : Prop := of_kind (snd a) (value env (fst a)).
 Definition get (facts : list fact) (i : nat) : fact := nth i facts (Const 0, Zero).
 
-(** An identity l f = r. Its variables are facts, the units last, and polynomials of which nothing is known. *)
-Inductive known := Fact (i : nat) | Value (f : terms).
+(** How a polynomial is expressed by facts: the n-th variable occurs in it up to the power [d], and is eliminated
+    by the k-th quantity, which becomes a variable; or all is divided by the variable. *)
+Inductive solution := Solve (n k d : nat) | Divide (n : nat).
 
-(** How [f] is expressed by facts: the n-th number of [env] occurs in it up to the power [d], and is eliminated by
-    the i-th fact, which becomes the k-th variable; or all is divided by the number. *)
-Inductive solution := Solve (n i k d : nat) | Divide (n : nat).
+(** An identity l f = r for a polynomial f. Its variables are those of f, and then facts. *)
 Inductive certificate :=
-  | identity (quantities : list known) (left right : terms)
-  | solved (quantities : list known) (left : terms) (ways : list solution) (places : list nat).
-
-Definition quantity (facts : list fact) (k : known) : fact :=
-  match k with
-  | Fact i => get facts i
-  | Value f => (of_terms f, Any)
-  end.
+  | identity (facts : list nat) (left right : string)
+  | solved (facts : list nat) (left : string) (ways : list solution).
 
 (** With a number for the n-th variable. *)
 Fixpoint put (n : nat) (z : Z) (p : poly) : poly :=
@@ -43,8 +36,6 @@ Fixpoint divide (n : nat) (p : poly) : poly :=
   | S n, Grow p q => grow (divide n p) (divide (S n) q)
   end.
 
-Definition power (p : poly) (d : nat) : poly := Nat.iter d (mul p) (Const 1).
-
 (** A polynomial of degree [d] in the n-th variable, times [c]^[d], if [c] times the variable is [b]. *)
 Fixpoint substitute (values : list poly) (n : nat) (c b : poly) (d : nat) (p : poly) : poly :=
   match n, p with
@@ -54,30 +45,58 @@ Fixpoint substitute (values : list poly) (n : nat) (c b : poly) (d : nat) (p : p
       add (substitute (tl values) n c b d p) (mul (hd (Const 0) values) (substitute values (S n) c b d q))
   end.
 
-Definition step_of_solution (facts : list fact) (atoms : list poly) (s : solution) (f : poly) : poly :=
+Definition step_of_solution (all : list fact) (f : poly) (s : solution) : poly :=
   match s with
-  | Solve n i k d =>
-      let p := fst (get facts i) in
+  | Solve n k d =>
+      let p := fst (get all k) in
       let b := put n 0 p in
-      substitute atoms n (add (put n 1 p) (times (-1) b)) (add (variable k) (times (-1) b)) d f
+      substitute (map variable (seq 0 (length all))) n
+        (add (put n 1 p) (times (-1) b)) (add (variable k) (times (-1) b)) d f
   | Divide n => divide n f
   end.
 
-(** The sides l and r of a certificate for [f]. *)
-Definition sides (facts : list fact) (f : poly) (c : certificate) : list known * poly * poly :=
-  match c with
-  | identity l a b => (l, of_terms a, of_terms b)
-  | solved l a ways places =>
-      let atoms := map variable (seq 0 (length places)) in
-      let r := fold_left (fun f s => step_of_solution facts atoms s f) ways f in
-      (l, of_terms a, compose (map variable places) r)
+(** A variable, with what facts say of it. *)
+Definition stronger (j k : kind) : kind :=
+  match j with
+  | Unit => Unit
+  | _ => if implies j k then j else k
+  end.
+Definition symbol (facts : list fact) (n : nat) : fact :=
+  (variable n, fold_right (fun a k => if poly_beq (fst a) (variable n) then stronger k (snd a) else k) Any facts).
+
+(** The variables that occur: those of value 0 first, units last. *)
+Fixpoint occurs (n : nat) (p : poly) : bool :=
+  match n, p with
+  | _, Const _ => false
+  | O, Grow _ _ => true
+  | S n, Grow p q => occurs n p || occurs (S n) q
+  end.
+Definition rank (k : kind) : nat :=
+  match k with
+  | Zero => 0
+  | Unit => 2
+  | _ => 1
+  end.
+Definition arranged (all : list fact) (p q : poly) : list nat :=
+  let own r n := Nat.eqb (rank (snd (get all n))) r && (occurs n p || occurs n q) in
+  flat_map (fun r => filter (own r) (seq 0 (length all))) (seq 0 3).
+Fixpoint position (n : nat) (l : list nat) : nat :=
+  match l with
+  | [] => O
+  | m :: l => if Nat.eqb n m then O else S (position n l)
   end.
 
-Definition certified (facts : list fact) (f : poly) (c : certificate) : kind :=
-  let '(quantities, l, r) := sides facts f c in
-  let known := map (quantity facts) quantities in
-  let (values, kinds) := (map fst known, map snd known) in
-  if is_strict (of_form kinds l) && same (mul (compose values l) f) (compose values r)
+(** The sign of [f], whose variables are the first [n]. *)
+Definition certified (n : nat) (facts : list fact) (f : poly) (c : certificate) : kind :=
+  let '(known, a) := match c with identity l a _ | solved l a _ => (l, a) end in
+  let all := map (symbol facts) (seq 0 n) ++ map (get facts) known in
+  let l := polynomial a in
+  let r := match c with identity _ _ b => polynomial b | solved _ _ ways => fold_left (step_of_solution all) ways f end in
+  let order := arranged all l r in
+  let places := map (fun n => variable (position n order)) (seq 0 (length all)) in
+  let (values, kinds) := (map (fun n => fst (get all n)) order, map (fun n => snd (get all n)) order) in
+  let (l, r) := (compose places l, compose places r) in
+  if is_strict (of_form kinds l) && poly_beq (mul (compose values l) f) (compose values r)
   then product (of_form kinds l) (of_form kinds r) else Any.
 
 (** ** Quotients
@@ -94,19 +113,44 @@ Inductive formula :=
   | Opposite (a : formula)
   | Inverse (a : formula)
   | Minimum (a b : formula)
-  | Bracket (a : formula).
+  | Bracket (a : formula)
+  | Exponential (a : formula)
+  | Rounded (a : formula)
+  | Polynomial (p : poly).
 
-Fixpoint meaning (env : list R) (f : formula) : R :=
+Section Meaning.
+Variables (fl : R -> R) (env : list R).
+
+Fixpoint meaning (f : formula) : R :=
   match f with
   | Literal z => IZR z
   | Symbol n => nth n env 0
-  | Sum a b => meaning env a + meaning env b
-  | Product a b => meaning env a * meaning env b
-  | Opposite a => - meaning env a
-  | Inverse a => / meaning env a
-  | Minimum a b => Rmin (meaning env a) (meaning env b)
-  | Bracket a => Rmax (meaning env a) 0
+  | Sum a b => meaning a + meaning b
+  | Product a b => meaning a * meaning b
+  | Opposite a => - meaning a
+  | Inverse a => / meaning a
+  | Minimum a b => Rmin (meaning a) (meaning b)
+  | Bracket a => Rmax (meaning a) 0
+  | Exponential a => exp (meaning a)
+  | Rounded a => fl (meaning a)
+  | Polynomial p => value env p
   end.
+
+Scheme Equality for formula.
+
+(** What is said: a sign, or that one formula can be replaced by another; if another has a sign. *)
+Inductive saying :=
+  | Is (a : formula * kind)
+  | Replaced (f g : formula)
+  | If (a : formula * kind) (s : saying).
+
+Fixpoint is_true (s : saying) : Prop :=
+  match s with
+  | Is (f, k) => of_kind k (meaning f)
+  | Replaced f g => meaning f = meaning g
+  | If (f, k) s => of_kind k (meaning f) -> is_true s
+  end.
+End Meaning.
 
 (** A list without one [i], if there is any. *)
 Fixpoint without (i : nat) (l : list nat) : option (list nat) :=
@@ -126,14 +170,8 @@ Fixpoint shared (l m : list nat) : list nat * list nat * list nat :=
       end
   end.
 
-Fixpoint find (test : fact -> bool) (facts : list fact) : option nat :=
-  match facts with
-  | [] => None
-  | a :: facts => if test a then Some O else option_map S (find test facts)
-  end.
-
 Section Translation.
-Variables (facts : list fact) (products : list (list nat)).
+Variables (facts : list fact) (products : list (list nat)) (values : list (formula * quotient)).
 
 Definition expand (l : list nat) : poly := fold_right (fun i => mul (fst (get facts i))) (Const 1) l.
 Definition kind_of (l : list nat) : kind := fold_right (fun i => product (snd (get facts i))) Positive l.
@@ -144,32 +182,27 @@ Definition sum (a b : quotient) : quotient :=
 Definition minus (a : quotient) : quotient := over (times (-1) (top a)) (bottom a).
 Definition prod (a b : quotient) : quotient := over (mul (top a) (top b)) (bottom a ++ bottom b).
 
-(** The factors of a divisor: itself, or a known product. *)
-Definition factors (p : poly) : option (list nat) :=
-  match find (fun a => is_strict (snd a) && same (fst a) p) facts with
-  | Some i => Some [i]
-  | None => List.find (fun l => is_strict (kind_of l) && same (expand l) p) products
-  end.
-
+(** The factors of a divisor are a fact, or those of a known product. *)
 Definition inverse (a : quotient) : option quotient :=
-  match factors (top a) with
-  | Some l => if is_strict (kind_of l) && same (expand l) (top a) then Some (over (expand (bottom a)) l) else None
-  | None => None
-  end.
+  option_map (over (expand (bottom a)))
+    (find (fun l => is_strict (kind_of l) && poly_beq (expand l) (top a))
+      (products ++ map (fun i => [i]) (seq 0 (length facts)))).
 
-(** The sign, if that of the numerator is known. *)
-Definition sign (a : quotient) : kind :=
-  match find (fun f => same (fst f) (top a) && implies (snd f) (snd f)) facts with
-  | Some i => if same (fst (get facts i)) (top a) then product (snd (get facts i)) (kind_of (bottom a)) else Any
-  | None => Any
-  end.
+(** Does it have a sign? It does if its numerator is 0, or a fact. *)
+Definition has_kind (a : quotient) (k : kind) : bool :=
+  let d := kind_of (bottom a) in
+  existsb (fun f => implies (product (snd f) d) k && poly_beq (fst f) (top a)) ((Const 0, Zero) :: facts).
 
-Definition choose (k : kind) (a b : quotient) : option quotient :=
-  if implies k NonNegative then Some a else if implies k NonPositive then Some b else None.
+(** One of two, by the sign of a third. *)
+Definition choose (c a b : quotient) : option quotient :=
+  if has_kind c NonNegative then Some a else if has_kind c NonPositive then Some b else None.
 
 Fixpoint quotient_of (f : formula) : option quotient :=
   let two (f : quotient -> quotient -> option quotient) a b :=
     match quotient_of a, quotient_of b with Some a, Some b => f a b | _, _ => None end in
+  match find (fun v => formula_beq (fst v) f) values with
+  | Some (_, a) => Some a
+  | None =>
   match f with
   | Literal z => Some (over (Const z) [])
   | Symbol n => Some (over (variable n) [])
@@ -177,96 +210,129 @@ Fixpoint quotient_of (f : formula) : option quotient :=
   | Product a b => two (fun a b => Some (prod a b)) a b
   | Opposite a => option_map minus (quotient_of a)
   | Inverse a => match quotient_of a with Some a => inverse a | None => None end
-  | Minimum a b => two (fun a b => choose (sign (sum b (minus a))) a b) a b
+  | Minimum a b => two (fun a b => choose (sum b (minus a)) a b) a b
   | Bracket a =>
-      match quotient_of a with Some a => choose (sign a) a (over (Const 0) []) | None => None end
+      match quotient_of a with Some a => choose a a (over (Const 0) []) | None => None end
+  | Exponential _ | Rounded _ => None
+  | Polynomial p => Some (over p [])
+  end
   end.
+
+Definition is_known (f : formula) (k : kind) : bool :=
+  match quotient_of f with Some a => has_kind a k | None => false end.
 End Translation.
 
 (** ** Proofs
 
-    Each step adds a fact: the next of some suppositions, or what a certificate shows; or it says that a product
-    of facts will be a divisor. *)
-Inductive step := Next | Shown (f : terms) (c : certificate) | Divisor (l : list nat).
+    A step adds something that is supposed, or a fact, whose sign a certificate shows; or it says that a product of
+    facts will be a divisor. *)
+Inductive step :=
+  | Given (s : saying)
+  | Shown (f : string) (c : certificate)
+  | Divisor (l : list nat).
 
-Fixpoint run facts products (given : list (formula * kind)) (steps : list step) :=
-  match steps, given with
-  | [], _ => Some (facts, products)
-  | Next :: steps, (f, k) :: given =>
-      match quotient_of facts products f with
-      | Some (over p []) => run (facts ++ [(p, k)]) products given steps
-      | Some (over p l) => run (facts ++ [(p, product k (kind_of facts l))]) products given steps
+Definition state : Type := list fact * list (list nat) * list (formula * quotient).
+
+Fixpoint learn (s : saying) (now : state) : option state :=
+  let '(facts, products, values) := now in
+  match s with
+  | Is (f, k) =>
+      match quotient_of facts products values f with
+      | Some (over p l) => Some (facts ++ [(p, match l with [] => k | _ => product k (kind_of facts l) end)], products, values)
       | None => None
       end
-  | Next :: _, [] => None
-  | Shown f c :: steps, _ =>
-      match certified facts (of_terms f) c with
-      | Any => None
-      | k => run (facts ++ [(of_terms f, k)]) products given steps
-      end
-  | Divisor l :: steps, _ => run facts (l :: products) given steps
+  | Replaced f g =>
+      option_map (fun a => (facts, products, (f, a) :: values)) (quotient_of facts products values g)
+  | If (f, k) s => if is_known facts products values f k then learn s now else None
   end.
 
-(** The sign of a goal: a fact, or what a certificate shows. *)
+Definition after (n : nat) (s : step) (now : state) : option state :=
+  let '(facts, products, values) := now in
+  match s with
+  | Given s => learn s now
+  | Shown f c => let p := polynomial f in Some (facts ++ [(p, certified n facts p c)], products, values)
+  | Divisor l => Some (facts, l :: products, values)
+  end.
+
+Definition start : state := ([(Const 2, Positive)], [], []).
+Definition run (n : nat) (steps : list step) : option state :=
+  fold_left (fun now s => match now with Some now => after n s now | None => None end) steps (Some start).
+
+(** The sign of a goal: it is known, or a certificate shows it. *)
 Inductive reason := Known | By (c : certificate).
 
-Definition start : list fact := [(Const 2, Positive)].
-
-Definition shows given steps (r : reason) (f : formula) (k : kind) : bool :=
-  match run start [] given steps with
-  | Some (facts, products) =>
-      match quotient_of facts products f with
-      | Some (over p l) =>
-          match r with
-          | Known => existsb (fun a => same (fst a) p && implies (product (snd a) (kind_of facts l)) k) facts
-          | By c => implies (product (certified facts p c) (kind_of facts l)) k
-          end
+Definition is_shown (n : nat) (now : state) (goal : formula * kind) (r : reason) : bool :=
+  let '(facts, products, values) := now in
+  let (f, k) := goal in
+  match r with
+  | Known => is_known facts products values f k
+  | By c =>
+      match quotient_of facts products values f with
+      | Some (over p l) => implies (product (certified n facts p c) (kind_of facts l)) k
       | None => false
       end
-  | None => false
   end.
 
-Definition is_divisor given steps (f : formula) : bool :=
-  match run start [] given steps with
-  | Some (facts, products) => if quotient_of facts products (Inverse f) then true else false
-  | None => false
+Fixpoint are_shown (n : nat) (now : state) (goals : list (formula * kind)) (reasons : list reason) : bool :=
+  match goals, reasons with
+  | [], _ => true
+  | goal :: goals, r :: reasons => is_shown n now goal r && are_shown n now goals reasons
+  | _, [] => false
   end.
 
-Fixpoint all_hold (env : list R) (given : list (formula * kind)) : Prop :=
-  match given with
+Definition shows n steps goals reasons : bool :=
+  match run n steps with Some now => are_shown n now goals reasons | None => false end.
+
+Fixpoint all_hold fl (env : list R) (steps : list step) : Prop :=
+  match steps with
   | [] => True
-  | (f, k) :: given => of_kind k (meaning env f) /\ all_hold env given
+  | Given s :: steps => is_true fl env s /\ all_hold fl env steps
+  | _ :: steps => all_hold fl env steps
   end.
 
 Section Right.
-Variable env : list R.
+Variables (fl : R -> R) (env : list R).
 
 Lemma of_factor j k l x : is_strict j = true -> of_kind j l -> of_kind k (l * x) -> of_kind (product j k) x.
 Proof. destruct j, k; simpl; try discriminate; try exact (fun _ _ _ => I); nra. Qed.
 
-Variables (facts : list fact) (products : list (list nat)).
+Section Facts.
+Variables (facts : list fact) (products : list (list nat)) (values : list (formula * quotient)).
 Variable given : Forall (holds env) facts.
 
-Lemma holds_get i : holds env (get facts i).
+Lemma holds_get l i : Forall (holds env) l -> holds env (get l i).
 Proof.
-  unfold get. destruct (nth_in_or_default i facts (Const 0, Zero)) as [I | ->]; [ | reflexivity].
-  rewrite Forall_forall in given. exact (given _ I).
+  intro L. unfold get. destruct (nth_in_or_default i l (Const 0, Zero)) as [I | ->]; [ | reflexivity].
+  rewrite Forall_forall in L. exact (L _ I).
 Qed.
 
-Lemma of_certificate f c : of_kind (certified facts f c) (value env f).
+Lemma of_stronger j k x : of_kind j x -> of_kind k x -> of_kind (stronger j k) x.
+Proof. unfold stronger. destruct j, k; simpl; auto. Qed.
+
+Lemma of_symbol n : holds env (symbol facts n).
 Proof.
-  unfold certified. destruct (sides facts f c) as [[quantities l] r].
-  set (known := map (quantity facts) quantities).
-  destruct (is_strict _ && same _ _) eqn:E; [ | exact I]. apply andb_prop in E as [S E].
-  apply (same_value _ _ env) in E. rewrite value_mul, !value_compose in E.
-  assert (F : Forall2 of_kind (map snd known) (map (value env) (map fst known))).
-  { unfold known. clear - given. induction quantities as [ | q l L]; simpl; constructor; [ | exact L].
-    destruct q; [apply holds_get | exact I]. }
+  unfold symbol, holds. cbn [fst snd]. induction given as [ | a l A L I]; [exact Logic.I | ].
+  cbn [fold_right]. destruct (poly_beq (fst a) (variable n)) eqn:E; [ | exact (I L)].
+  apply of_stronger; [exact (I L) | ]. rewrite <- (same_value _ _ env E). exact A.
+Qed.
+
+Lemma of_certificate n f c : of_kind (certified n facts f c) (value env f).
+Proof.
+  unfold certified. destruct (match c with identity l a _ | solved l a _ => (l, a) end) as [known a].
+  set (all := map (symbol facts) (seq 0 n) ++ map (get facts) known).
+  set (r := match c with identity _ _ _ => _ | _ => _ end). set (order := arranged all _ r).
+  destruct (is_strict _ && poly_beq _ _) eqn:E; [ | exact I]. apply andb_prop in E as [S E].
+  apply (same_value _ _ env) in E. rewrite value_mul, !(value_compose env _ (map _ order)) in E.
+  assert (A : Forall (holds env) all).
+  { apply Forall_app. split; apply Forall_forall; intros q [i [<- _]]%in_map_iff;
+      [apply of_symbol | apply holds_get, given]. }
+  assert (F : Forall2 of_kind (map (fun n => snd (get all n)) order) (map (value env) (map (fun n => fst (get all n)) order))).
+  { clear - A. induction order as [ | i l L]; constructor; [apply holds_get, A | exact L]. }
   apply of_factor with (1 := S) (2 := sign_of_form _ _ _ F). rewrite E. apply sign_of_form, F.
 Qed.
 
 Lemma sign_of_product l : of_kind (kind_of facts l) (value env (expand facts l)).
-Proof. induction l as [ | i l I]; simpl; [lra | ]. rewrite value_mul. apply of_product; [apply holds_get | exact I]. Qed.
+Proof. induction l as [ | i l I]; simpl; [lra | ]. rewrite value_mul. apply of_product; [apply holds_get, given | exact I]. Qed.
 
 Lemma value_app l m : value env (expand facts (l ++ m)) = value env (expand facts l) * value env (expand facts m).
 Proof. induction l as [ | i l I]; simpl; rewrite ?value_mul, ?I; ring. Qed.
@@ -321,8 +387,8 @@ Qed.
 
 Lemma means_inverse a b x : inverse facts products a = Some b -> means a x -> x <> 0 /\ means b (/ x).
 Proof.
-  unfold inverse, means. destruct (factors _ _ _) as [l | ]; [ | discriminate].
-  destruct (_ && _) eqn:E; [ | discriminate]. apply andb_prop in E as [S E].
+  unfold inverse, means. destruct (find _ _) as [l | ] eqn:E; [ | discriminate].
+  apply find_some in E as [_ [S E]%andb_prop].
   apply (same_value _ _ env) in E. pose proof (strict_not_zero _ _ S (sign_of_product l)) as N.
   intros [= <-] [A X]. simpl. rewrite E in *. rewrite X in *.
   assert (x <> 0) as Z by (intros ->; apply N; ring). repeat split; [exact Z | exact N | field; exact Z].
@@ -336,88 +402,119 @@ Proof.
   destruct j, (kind_of facts (bottom a)); simpl; try exact (fun _ _ _ => I); intros; nra.
 Qed.
 
-Lemma means_sign a x : means a x -> of_kind (sign facts a) x.
+Lemma means_kind a k x : has_kind facts a k = true -> means a x -> of_kind k x.
 Proof.
-  intro A. unfold sign. destruct (find _ _) as [i | ]; [ | exact I].
-  destruct (same _ _) eqn:E; [ | exact I]. apply sign_of_quotient; [ | exact A].
-  rewrite <- (same_value _ _ env E). apply holds_get.
+  intros E A. apply existsb_exists in E as (f & F & [K E]%andb_prop).
+  apply of_implies with (1 := K), sign_of_quotient; [ | exact A]. rewrite <- (same_value _ _ env E).
+  destruct F as [<- | F]; [reflexivity | ]. rewrite Forall_forall in given. exact (given _ F).
 Qed.
 
-Lemma means_choice k a b c x y :
-  choose k a b = Some c -> means a x -> means b y -> implies k NonNegative = true /\ means c x \/ implies k NonPositive = true /\ means c y.
+Lemma means_choice c a b d z :
+  choose facts c a b = Some d -> means c z -> 0 <= z /\ d = a \/ z <= 0 /\ d = b.
 Proof.
-  unfold choose. destruct (implies k NonNegative); [intros [= <-]; auto | ].
-  destruct (implies k NonPositive); [intros [= <-]; auto | discriminate].
+  unfold choose. intros E C. destruct (has_kind facts c NonNegative) eqn:K; [left | right].
+  - injection E as <-. split; [exact (means_kind _ _ _ K C) | reflexivity].
+  - destruct (has_kind facts c NonPositive) eqn:L; [ | discriminate].
+    injection E as <-. split; [exact (means_kind _ _ _ L C) | reflexivity].
 Qed.
 
-Lemma means_formula f : forall a, quotient_of facts products f = Some a -> means a (meaning env f).
+Variable known : Forall (fun v => means (snd v) (meaning fl env (fst v))) values.
+
+Lemma means_formula f : forall a, quotient_of facts products values f = Some a -> means a (meaning fl env f).
 Proof.
-  induction f as [z | n | f I g J | f I g J | f I | f I | f I g J | f I]; simpl; intros a E;
-    try (destruct (quotient_of facts products f) as [b | ]; simpl in E; [specialize (I b eq_refl) | discriminate]);
-    try (destruct (quotient_of facts products g) as [c | ]; simpl in E; [specialize (J c eq_refl) | discriminate]).
+  induction f as [z | n | f I g J | f I g J | f I | f I | f I g J | f I | f I | f I | p]; cbn [quotient_of]; intros a E;
+    (destruct (find _ values) as [[h b] | ] eqn:D;
+      [injection E as ->; apply find_some in D as [D V];
+       rewrite Forall_forall in known; rewrite <- (internal_formula_dec_bl _ _ V); exact (known _ D) | clear D]);
+    try (destruct (quotient_of facts products values f) as [b | ]; simpl in E; [specialize (I b eq_refl) | discriminate]);
+    try (destruct (quotient_of facts products values g) as [c | ]; simpl in E; [specialize (J c eq_refl) | discriminate]);
+    cbn [meaning].
   - injection E as <-. apply (means_poly (Const z)).
   - injection E as <-. rewrite <- value_variable. apply means_poly.
   - injection E as <-. apply means_sum; assumption.
   - injection E as <-. apply means_prod; assumption.
   - injection E as <-. apply means_minus; assumption.
   - apply (means_inverse b); assumption.
-  - pose proof (means_sign _ _ (means_sum _ _ _ _ J (means_minus _ _ I))) as S.
-    destruct (means_choice _ _ _ _ _ _ E I J) as [[K C] | [K C]]; apply of_implies with (1 := K) in S; simpl in S.
-    + rewrite Rmin_left by lra. exact C.
-    + rewrite Rmin_right by lra. exact C.
-  - pose proof (means_sign _ _ I) as S.
-    destruct (means_choice _ _ _ _ _ _ E I (means_poly (Const 0))) as [[K C] | [K C]];
-      apply of_implies with (1 := K) in S; simpl in S.
-    + rewrite Rmax_left by lra. exact C.
-    + rewrite Rmax_right by lra. exact C.
+  - destruct (means_choice _ _ _ _ _ E (means_sum _ _ _ _ J (means_minus _ _ I))) as [[S ->] | [S ->]].
+    + rewrite Rmin_left by lra. exact I.
+    + rewrite Rmin_right by lra. exact J.
+  - destruct (means_choice _ _ _ _ _ E I) as [[S ->] | [S ->]].
+    + rewrite Rmax_left by lra. exact I.
+    + rewrite Rmax_right by lra. apply (means_poly (Const 0)).
+  - discriminate.
+  - discriminate.
+  - injection E as <-. apply means_poly.
 Qed.
+
+Lemma means_known f k : is_known facts products values f k = true -> of_kind k (meaning fl env f).
+Proof.
+  unfold is_known. destruct (quotient_of facts products values f) as [a | ] eqn:Q; [ | discriminate].
+  intro K. exact (means_kind _ _ _ K (means_formula f a Q)).
+Qed.
+End Facts.
+
+Definition is_right (now : state) : Prop :=
+  let '(facts, products, values) := now in
+  Forall (holds env) facts /\ Forall (fun v => means facts (snd v) (meaning fl env (fst v))) values.
+
+Lemma more_facts facts products values p k :
+  is_right (facts, products, values) -> of_kind k (value env p) -> is_right (facts ++ [(p, k)], products, values).
+Proof.
+  intros [F V] P. split; [apply Forall_app; auto | ].
+  assert (E : forall l, value env (expand facts l) <> 0 -> expand (facts ++ [(p, k)]) l = expand facts l).
+  { induction l as [ | i l I]; simpl; [reflexivity | ]. rewrite value_mul. intro N. unfold get in *.
+    destruct (Nat.lt_ge_cases i (length facts)) as [L | L].
+    - rewrite app_nth1, I by (try exact L; intro Z; apply N; rewrite Z; ring). reflexivity.
+    - destruct N. rewrite (nth_overflow _ _ L). simpl. ring. }
+  refine (Forall_impl _ _ V). intros v [N M]. unfold means. rewrite E by exact N. split; assumption.
+Qed.
+
+Lemma learn_right s : forall now now', is_right now -> is_true fl env s -> learn s now = Some now' -> is_right now'.
+Proof.
+  induction s as [[f k] | f g | [f k] s I]; intros [[facts products] values] now' N S; simpl in S |- *.
+  - destruct (quotient_of _ _ _ f) as [[p l] | ] eqn:Q; [intros [= <-] | discriminate]. apply more_facts; [exact N | ].
+    destruct N as [F V]. destruct (means_formula facts products values F V f _ Q) as [N M]. simpl in N, M.
+    destruct l; rewrite M; [simpl; rewrite Rmult_1_r; exact S | apply of_product; [exact S | apply sign_of_product, F]].
+  - destruct N as [F V]. destruct (quotient_of _ _ _ g) as [a | ] eqn:Q; [intros [= <-] | discriminate].
+    split; [exact F | ]. constructor; [ | exact V]. simpl. rewrite S.
+    apply (means_formula facts products values F V g a Q).
+  - destruct (is_known _ _ _ f k) eqn:K; [ | discriminate].
+    apply I; [exact N | ]. destruct N as [F V]. exact (S (means_known _ _ _ F V f k K)).
+Qed.
+
+Lemma run_right n steps : forall now now', is_right now -> all_hold fl env steps ->
+  fold_left (fun now s => match now with Some now => after n s now | None => None end) steps (Some now) = Some now' -> is_right now'.
+Proof.
+  induction steps as [ | s steps I]; intros now now' N G; cbn [fold_left]; [intros [= <-]; exact N | ].
+  destruct (after n s now) as [next | ] eqn:A.
+  - apply I; [ | destruct s; [apply G | exact G | exact G]].
+    destruct now as [[facts products] values], s as [s | f c | l]; cbn [after] in A.
+    + apply (learn_right s (facts, products, values)); [exact N | apply G | exact A].
+    + injection A as <-. apply more_facts; [exact N | apply of_certificate, N].
+    + injection A as <-. exact N.
+  - clear. induction steps as [ | s steps I]; [discriminate | exact I].
+Qed.
+
+Lemma start_right : is_right start.
+Proof. split; repeat constructor. unfold holds. simpl. lra. Qed.
+
+Fixpoint all_are (goals : list (formula * kind)) : Prop :=
+  match goals with
+  | [] => True
+  | (f, k) :: goals => of_kind k (meaning fl env f) /\ all_are goals
+  end.
+
+Lemma shows_right steps goals reasons :
+  all_hold fl env steps -> shows (length env) steps goals reasons = true -> all_are goals.
+Proof.
+  intro G. unfold shows, run. destruct (fold_left _ steps _) as [now | ] eqn:R; [ | discriminate].
+  apply run_right in R; [ | exact start_right | exact G]. destruct now as [[facts products] values], R as [F V].
+  revert reasons. induction goals as [ | [f k] goals I]; [intros; exact Logic.I | ].
+  intros [ | r reasons]; [discriminate | ]. intros [E L]%andb_prop. split; [ | exact (I _ L)]. clear I L.
+  destruct r as [ | c]; simpl in E; [exact (means_known _ _ _ F V f k E) | ].
+  destruct (quotient_of _ _ _ f) as [[p l] | ] eqn:Q; [ | discriminate].
+  apply of_implies with (1 := E). apply (sign_of_quotient facts F (over p l)); [apply of_certificate, F | ].
+  apply (means_formula facts products values F V f _ Q).
+Qed.
+
 End Right.
-
-Lemma run_holds env steps : forall facts products given facts' products',
-  Forall (holds env) facts -> all_hold env given ->
-  run facts products given steps = Some (facts', products') -> Forall (holds env) facts'.
-Proof.
-  induction steps as [ | s steps I]; intros facts products given facts' products' F G; cbn [run].
-  { intros [= <- _]. exact F. }
-  assert (A : forall p k, of_kind k (value env p) -> Forall (holds env) (facts ++ [(p, k)])).
-  { intros. apply Forall_app. split; [exact F | repeat constructor; assumption]. }
-  destruct s as [ | f c | l].
-  - destruct given as [ | [f k] given]; [discriminate | ]. destruct G as [K G].
-    destruct (quotient_of facts products f) as [[p l] | ] eqn:Q; [ | discriminate].
-    pose proof (means_formula env facts products F f _ Q) as [N M]. simpl in N, M.
-    assert (P : of_kind (product k (kind_of facts l)) (value env p)).
-    { rewrite M. apply of_product; [exact K | apply sign_of_product, F]. }
-    destruct l; apply I; try exact G; apply A; [ | exact P]. rewrite M, Rmult_1_r. exact K.
-  - pose proof (of_certificate env facts F (of_terms f) c) as C.
-    destruct (certified facts (of_terms f) c); try discriminate; apply I; auto.
-  - apply I; assumption.
-Qed.
-
-Lemma start_holds env : Forall (holds env) start.
-Proof. repeat constructor. unfold holds. simpl. lra. Qed.
-
-Lemma shows_right env given steps r f k :
-  all_hold env given -> shows given steps r f k = true -> of_kind k (meaning env f).
-Proof.
-  intro G. unfold shows. destruct (run start [] given steps) as [[facts products] | ] eqn:R; [ | discriminate].
-  apply run_holds with (env := env) in R; [ | apply start_holds | exact G].
-  destruct (quotient_of facts products f) as [[p l] | ] eqn:Q; [ | discriminate].
-  apply means_formula with (1 := R) in Q.
-  assert (S : forall j, implies (product j (kind_of facts l)) k = true -> of_kind j (value env p) ->
-    of_kind k (meaning env f)).
-  { intros j E J. apply of_implies with (1 := E). exact (sign_of_quotient env facts R (over p l) j _ J Q). }
-  destruct r as [ | c]; [ | intro E; exact (S _ E (of_certificate env facts R p c))].
-  intro E. apply existsb_exists in E as (a & A & [E K]%andb_prop). apply (S _ K).
-  rewrite <- (same_value _ _ env E). rewrite Forall_forall in R. exact (R a A).
-Qed.
-
-Lemma is_divisor_right env given steps f : all_hold env given -> is_divisor given steps f = true -> meaning env f <> 0.
-Proof.
-  intro G. unfold is_divisor.
-  destruct (run start [] given steps) as [[facts products] | ] eqn:R; [ | discriminate].
-  apply run_holds with (env := env) in R; [ | apply start_holds | exact G]. simpl.
-  destruct (quotient_of facts products f) as [a | ] eqn:Q; [ | discriminate].
-  apply means_formula with (1 := R) in Q.
-  destruct (inverse facts products a) eqn:E; [ | discriminate].
-  intros _. apply (means_inverse env facts products R _ _ _ E Q).
-Qed.

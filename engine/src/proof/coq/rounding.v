@@ -56,8 +56,9 @@ End Rounding.
 
     Rounding keeps it. *)
 Lemma ordered prec choice a b x y :
-  (2 <= prec)%Z -> fl prec choice a = x -> fl prec choice b = y -> 0 <= a - b -> 0 <= x - y.
-Proof. intros P <- <- L. apply Rge_le, Rge_minus, Rle_ge, fl_le; [exact P | lra]. Qed.
+  (2 <= prec)%Z -> fl prec choice a = x -> fl prec choice b = y -> 0 <= a - b ->
+  0 <= fl prec choice a - fl prec choice b.
+Proof. intros P _ _ L. apply Rge_le, Rge_minus, Rle_ge, fl_le; [exact P | lra]. Qed.
 
 (** ** Units
 
@@ -76,12 +77,12 @@ Proof.
   intros [a ->] [b ->]. exists (a - b)%Z. unfold Zminus. rewrite bpow_plus, bpow_opp. reflexivity.
 Qed.
 
-(** Two numbers that differ by a power of two have the same error. *)
-Lemma same_error prec choice k l x y a b :
-  (exists a, k = bpow radix2 a) -> (exists a, l = bpow radix2 a) ->
+(** The error of one rounding is that of another, if the formulas differ by a power of two. *)
+Lemma same_error prec choice k l x y z a b :
+  (exists a, k = bpow radix2 a) -> (exists a, l = bpow radix2 a) -> fl prec choice x = z ->
   fl prec choice y = y * a / b -> k * x - l * y = 0 -> fl prec choice x = x * a / b.
 Proof.
-  intros K L F E. destruct (power_of_quotient l k L K) as [e Q].
+  intros K L _ F E. destruct (power_of_quotient l k L K) as [e Q].
   assert (k <> 0) as N by (destruct K as [c ->]; apply Rgt_not_eq, bpow_gt_0).
   assert (x = l / k * y) as -> by (apply (Rmult_eq_reg_l k); [field_simplify; lra | exact N]).
   rewrite fl_power by (exists e; exact Q). rewrite F. unfold Rdiv. ring.
@@ -93,14 +94,7 @@ Ltac power_of_two :=
     | apply power_of_product; power_of_two
     | exists 0%Z; reflexivity ].
 
-(** The error of one rounding is that of another, if the formulas differ by a power of two. *)
-Ltac share F G k l :=
-  lazymatch type of F with
-  | fl ?p ?c ?x = _ =>
-      lazymatch type of G with
-      | fl _ _ ?y = ?y * ?a / ?b =>
-          let E := fresh in
-          assert (E : k * x - l * y = 0);
-          [ | apply (same_error p c k l x y a b) in E; [clear F; rename E into F | power_of_two | power_of_two | exact G]]
-      end
+Ltac A_Tactics.rounding ::=
+  lazymatch goal with
+  | _ : (2 <= ?prec)%Z, choice : Z -> bool |- _ => constr:(fl prec choice)
   end.

@@ -13,7 +13,6 @@ use super::lemma::{Lemma, Result};
 use super::print::{ascii, simplified};
 use crate::formula::claim::{PRECISION, SCALES};
 use crate::formula::{Hypothesis, Proposition, Registry, Statement};
-use crate::number::Tree;
 use crate::proof::check::Sign;
 use crate::proof::check::{Atom, Node, Polynomial, Problem, Refusal};
 use crate::proof::render::ProofPrinter;
@@ -27,38 +26,40 @@ pub(super) struct Script {
     indent: usize,
 }
 
-/// The goal of a leaf in Coq.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum End {
-    /// The proposition.
-    Proposition,
-    /// The continuity of the formula of an equation about a limit.
-    Continuity,
-    /// A divisor of a formula, which is not 0.
-    Divisor,
-}
-
 /// A problem in Coq.
 struct Place<'p> {
     lemma: &'p Lemma<'p>,
     problem: &'p Problem<'p>,
     /// The labels of its hypotheses.
     labels: Vec<Option<String>>,
-    end: End,
+    /// The tactic that proves its leaves.
+    tactic: &'static str,
 }
 
 fn refused(reason: Refusal) -> String {
     format!("a proof that is refused: {reason:?}")
 }
 
-/// Returns a hypothesis as it is printed.
-fn simplified_hypothesis(given: &Hypothesis) -> Hypothesis {
-    Hypothesis { value: simplified(&given.value), ..given.clone() }
-}
-
 impl<'p> Place<'p> {
     fn new(lemma: &'p Lemma<'p>, problem: &'p Problem<'p>, labels: Vec<Option<String>>) -> Self {
-        Place { lemma, problem, labels, end: End::Proposition }
+        let is_smooth = matches!(problem.proposition, Proposition::Derivative(..));
+        let tactic = if is_smooth { "auto_derive; derived" } else { "shown" };
+        Place { lemma, problem, labels, tactic }
+    }
+
+    /// Passes the problem of a proposition, as it is printed, to a writer.
+    fn with<'h>(
+        lemma: &Lemma,
+        hypotheses: &[&'h Hypothesis],
+        proposition: &Proposition,
+        write: impl FnOnce(Place) -> Result<()>,
+    ) -> Result<()> {
+        let is_printed =
+            |given: &&'h Hypothesis| Hypothesis { value: simplified(&given.value), ..(*given).clone() };
+        let printed: Vec<_> = hypotheses.iter().map(is_printed).collect();
+        let proposition = proposition.map(&simplified);
+        let problem = Problem::new(&proposition, printed.iter().collect()).map_err(refused)?;
+        write(Place::new(lemma, &problem, hypotheses.iter().map(|given| lemma.label(given)).collect()))
     }
 
     /// Returns the certificates for the problem.
@@ -100,22 +101,16 @@ impl<'p> Place<'p> {
         label.map(String::as_str).ok_or_else(|| "a hypothesis about the variable of a limit".into())
     }
 
-    /// Returns the labels of what is known of the atoms alone, and what it says: that they are units, or their
-    /// signs.
-    fn known_atoms(&self) -> impl Iterator<Item = (usize, String, Option<Sign>)> {
+    /// Returns the labels of what is known of the atoms alone.
+    fn known_atoms(&self) -> impl Iterator<Item = (usize, String)> {
         let scales = SCALES.into_iter().filter(|scale| self.lemma.variables.contains(scale));
         let scales: Vec<_> = scales.collect();
-        self.problem.table.atoms().iter().enumerate().filter_map(move |(x, atom)| {
-            let own = format!("B{x}");
-            Some(match atom {
-                Atom::Own(name) => {
-                    let place = scales.iter().position(|scale| scale == name)?;
-                    (x, format!("Q{}", place + 1), Some(Sign::Positive))
-                }
-                Atom::Error(_) | Atom::Place(_) | Atom::Factor(_) => (x, own, None),
-                Atom::Size(_) => (x, own, Some(Sign::NonNegative)),
-                Atom::Exponential(_) => (x, own, Some(Sign::Positive)),
-            })
+        self.problem.table.atoms().iter().enumerate().filter_map(move |(x, atom)| match atom {
+            Atom::Own(name) => {
+                let place = scales.iter().position(|scale| scale == name)?;
+                Some((x, format!("Q{}", place + 1)))
+            }
+            _ => Some((x, format!("B{x}"))),
         })
     }
 }
@@ -155,26 +150,13 @@ impl Script {
 
     /// Proves a proposition from the hypotheses of a lemma.
     pub(super) fn goal(&mut self, lemma: &Lemma, proposition: &Proposition) -> Result<()> {
-        self.goal_with_end(lemma, proposition, End::Proposition)
+        Place::with(lemma, lemma.premises(), proposition, |place| self.problem(&place))
     }
 
     /// Proves that the left side of an equation is continuous in the variable of the goal.
     pub(super) fn continuity(&mut self, lemma: &Lemma, proposition: &Proposition) -> Result<()> {
-        self.goal_with_end(lemma, proposition, End::Continuity)
-    }
-
-    /// Proves that a divisor is not 0.
-    pub(super) fn divisor(&mut self, lemma: &Lemma, divisor: &Tree) -> Result<()> {
-        let inverse = Tree::from(1) / divisor;
-        self.goal_with_end(lemma, &Proposition::Equal(inverse.clone(), inverse), End::Divisor)
-    }
-
-    fn goal_with_end(&mut self, lemma: &Lemma, proposition: &Proposition, end: End) -> Result<()> {
-        let (proposition, premises) = (proposition.map(&simplified), lemma.premises());
-        let hypotheses: Vec<_> = premises.iter().map(|given| simplified_hypothesis(given)).collect();
-        let problem = Problem::new(&proposition, hypotheses.iter().collect()).map_err(refused)?;
-        let labels = premises.iter().map(|given| lemma.label(given)).collect();
-        self.problem(&Place { end, ..Place::new(lemma, &problem, labels) })
+        let tactic = "auto_derive; derived";
+        Place::with(lemma, lemma.premises(), proposition, |place| self.problem(&Place { tactic, ..place }))
     }
 
     /// Proves the proposition of a problem.
@@ -189,8 +171,9 @@ impl Script {
             Node::Leaf(leaf) => self.leaf(place, leaf, cases),
             Node::Cases(on, both) => {
                 let case = format!("C{}", cases.len() + 1);
-                let deciding = place.polynomial(on).argument();
-                self.line(&format!("destruct (either {deciding}) as [{case} | {case}]."));
+                let names = (0..place.problem.table.atoms().len()).map(|x| place.name(x)).collect::<Vec<_>>();
+                let deciding = format!("value {} (polynomial {})", leaf::environment(&names), leaf::text(on));
+                self.line(&format!("destruct (either ({deciding})) as [{case} | {case}]."));
                 for (node, sign) in both.iter().zip([Sign::Positive, Sign::NonPositive]) {
                     cases.push((on.clone(), sign));
                     self.block("{", |own| own.node(place, node, cases))?;

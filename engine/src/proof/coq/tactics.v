@@ -1,12 +1,13 @@
 (** * Tactics of all proofs: how a goal is passed to the program.
 
-    Numbers that are not computed by the four operations get names, and their equations are used for rewriting;
-    certificates then show equalities and signs. Slopes and limits have lemmas. *)
-From Coq Require Export Reals Lra List.
+    Numbers that are not computed by the four operations get names; the program replaces them by their equations,
+    and certificates then show equalities and signs. Slopes and limits have lemmas. *)
+From Coq Require Export String Reals Lra List.
 From Coquelicot Require Export Coquelicot.
 From LIBRARY Require Import A_Polynomials.
 From LIBRARY Require A_Quotients.
-Export A_Quotients(Next, Shown, Divisor, Fact, Value, identity, solved, Solve, Divide, Known, By).
+Export A_Polynomials(value, polynomial).
+Export A_Quotients(Shown, Divisor, identity, solved, Solve, Divide, Known, By).
 Export ListNotations.
 Open Scope R_scope.
 
@@ -28,81 +29,90 @@ Ltac at_symbols f n env :=
   | [] => f
   | _ :: ?env => at_symbols constr:(f (A_Quotients.Symbol n)) (S n) env
   end.
+(** A formula in [env], and the function that rounds in it, if any. *)
+Ltac rounding := constr:(id).
 Ltac formula x env :=
+  lazymatch x with
+  | value env ?p => constr:(A_Quotients.Polynomial p)
+  | _ =>
   let x := eval cbv [Rminus Rdiv pow] in x in
   let f := abstracted x env in
-  lazymatch eval pattern R, Rplus, Rmult, Ropp, Rinv, IZR, Rmin, Rmax in f with
-  | ?f _ _ _ _ _ _ _ _ =>
+  let fl := rounding in
+  lazymatch eval pattern fl in f with
+  | ?f _ =>
+  lazymatch eval pattern R, Rplus, Rmult, Ropp, Rinv, IZR, Rmin, Rmax, exp in f with
+  | ?f _ _ _ _ _ _ _ _ _ =>
       let f := constr:(f A_Quotients.formula A_Quotients.Sum A_Quotients.Product A_Quotients.Opposite
                          A_Quotients.Inverse A_Quotients.Literal A_Quotients.Minimum
-                         (fun a _ => A_Quotients.Bracket a)) in
+                         (fun a _ => A_Quotients.Bracket a) A_Quotients.Exponential A_Quotients.Rounded) in
       let f := at_symbols f O env in
       eval cbv beta in f
+  end end end.
+
+(** What is said of a formula: its sign; or more. *)
+Ltac sign T env :=
+  let of x k := (let f := formula x env in constr:((f, k))) in
+  lazymatch T with
+  | 0 < ?x => of x Positive
+  | 0 <= ?x => of x NonNegative
+  | ?x = 0 => of x Zero
+  | ?x <= 0 => of x NonPositive
+  | ?x < 0 => of x Negative
+  | -1 <= ?x <= 1 => of x Unit
+  end.
+Ltac said T env :=
+  match T with
+  | ?S -> ?T => let a := sign S env in let s := said T env in constr:(A_Quotients.If a s)
+  | _ => let a := sign T env in constr:(A_Quotients.Is a)
+  | ?x = ?y => let f := formula x env in let g := formula y env in constr:(A_Quotients.Replaced f g)
+  end.
+Ltac goals T env :=
+  lazymatch T with
+  | True => constr:(@nil (A_Quotients.formula * kind))
+  | ?S /\ ?T => let a := sign S env in let l := goals T env in constr:(a :: l)
   end.
 
-(** What is said, as a number and a kind. *)
-Ltac said T :=
-  lazymatch T with
-  | 0 < ?x => constr:((x, Positive))
-  | 0 <= ?x => constr:((x, NonNegative))
-  | ?x = 0 => constr:((x, Zero))
-  | ?x <= 0 => constr:((x, NonPositive))
-  | ?x < 0 => constr:((x, Negative))
-  | -1 <= ?x <= 1 => constr:((x, Unit))
-  end.
-Ltac in_formulas env given :=
+(** Passes steps to a tactic, and proofs of those that are said. *)
+Ltac steps given env all proof tac :=
   lazymatch given with
-  | tt => constr:(@nil (A_Quotients.formula * kind))
-  | (?H, ?given) =>
-      let T := type of H in
-      lazymatch said T with
-      | (?x, ?k) => let f := formula x env in let l := in_formulas env given in constr:((f, k) :: l)
+  | tt => tac all proof
+  | (?given, ?H) =>
+      lazymatch type of H with
+      | A_Quotients.step => steps given env constr:(H :: all) proof tac
+      | ?T => let s := said T env in steps given env constr:(A_Quotients.Given s :: all) constr:(conj H proof) tac
       end
   end.
-Ltac proofs given :=
-  lazymatch given with
-  | tt => constr:(I)
-  | (?H, ?given) => let p := proofs given in constr:(conj H p)
-  end.
 
-(** By some steps from what is given, in numbers [env]. *)
-Ltac shown env given steps r :=
+Lemma within x b : 0 <= b - x /\ 0 <= b + x /\ True -> Rabs x <= b.
+Proof. intros. apply Rabs_le. lra. Qed.
+
+Lemma not_zero x : x * / x - 1 = 0 -> x <> 0.
+Proof. intros E ->. lra. Qed.
+
+(** By some steps, in numbers [env]. *)
+Ltac shown env given reasons :=
   lazymatch goal with
-  | |- ?x = ?y => lazymatch y with 0 => idtac | _ => apply Rminus_diag_uniq end
-  | |- _ => idtac
+  | |- Rabs _ <= _ => apply within
+  | |- _ <> 0 => apply not_zero, (@proj1 _ True)
+  | |- _ = 0 => apply (@proj1 _ True)
+  | |- _ = _ => apply Rminus_diag_uniq, (@proj1 _ True)
+  | |- _ => apply (@proj1 _ True)
   end;
   lazymatch goal with
   | |- ?T =>
-      let l := in_formulas env given in
-      let p := proofs given in
-      lazymatch said T with
-      | (?x, ?k) =>
-          let f := formula x env in
-          refine (A_Quotients.shows_right env l steps r f k p _); vm_cast_no_check (eq_refl true)
-      end
+      let g := goals T env in
+      let fl := rounding in
+      steps given env constr:(@nil A_Quotients.step) I
+        ltac:(fun l p => refine (A_Quotients.shows_right fl env l g reasons p _));
+      vm_cast_no_check (eq_refl true)
   end.
-Ltac not_zero env given steps :=
-  repeat split;
-  lazymatch goal with
-  | |- True => exact I
-  | |- ?x <> 0 =>
-      let l := in_formulas env given in
-      let p := proofs given in
-      let f := formula x env in
-      refine (A_Quotients.is_divisor_right env l steps f p _); vm_cast_no_check (eq_refl true)
-  end.
-
-Lemma within x b : 0 <= b - x -> 0 <= b + x -> Rabs x <= b.
-Proof. intros. apply Rabs_le. lra. Qed.
-
-Ltac bounded env given steps r s :=
-  apply within; [shown env given steps r | shown env given steps s].
 
 (** What remains of a derivative. *)
-Ltac derived env given steps :=
+Ltac derived env given :=
   lazymatch goal with
-  | |- _ = _ => shown env given steps (By (identity [] [[1%Z]] []))
-  | |- _ => not_zero env given steps
+  | |- True => exact I
+  | |- _ /\ _ => split; derived env given
+  | |- _ => shown env given [Known]
   end.
 
 (** ** Names
@@ -131,10 +141,10 @@ Proof.
 Qed.
 
 Lemma same_size x y s r :
-  Rmin (- x) x = - s -> Rmin (- y) y = - r -> x - y = 0 \/ x + y = 0 -> s = r.
+  Rmin (- x) x = - s -> Rmin (- y) y = - r -> (x - y) * (x + y) = 0 -> Rmin (- x) x = - r.
 Proof.
-  intros S T E. enough (Rmin (- x) x = Rmin (- y) y) by lra. clear S T.
-  destruct E; [replace y with x by lra | replace y with (- x) by lra; rewrite Ropp_involutive, Rmin_comm];
+  intros _ <- E. apply Rmult_integral in E as [E | E];
+    [replace y with x by lra | replace y with (- x) by lra; rewrite Ropp_involutive, Rmin_comm];
     reflexivity.
 Qed.
 
@@ -144,39 +154,12 @@ Proof. exists (exp a). split; [apply exp_pos | reflexivity]. Qed.
 Lemma same_exponential a b y z : exp a = y -> exp b = z -> a - b = 0 -> exp a = z.
 Proof. intros _ <- E. f_equal. lra. Qed.
 
-Lemma no_exponent a y : exp a = y -> a = 0 -> exp a = 1.
-Proof. intros _ ->. apply exp_0. Qed.
-
 (** Two products of exponentials whose exponents have the same sum. *)
-Definition total_exponent (l : list (R * R)) : R := fold_right (fun a x => fst a + x) 0 l.
-Definition all (l : list (R * R)) : R := fold_right (fun a x => snd a * x) 1 l.
-Definition are_exponentials (l : list (R * R)) : Prop := fold_right (fun a P => exp (fst a) = snd a /\ P) True l.
+Lemma both a b y z : exp a = y -> exp b = z -> exp (a + b) = y * z.
+Proof. intros <- <-. apply exp_plus. Qed.
 
-Lemma exp_total l : are_exponentials l -> exp (total_exponent l) = all l.
-Proof.
-  induction l as [ | a l I]; simpl; [intros _; apply exp_0 | ].
-  intros [<- L]. rewrite exp_plus, (I L). reflexivity.
-Qed.
-
-Lemma same_exponents l m :
-  are_exponentials l -> are_exponentials m -> total_exponent l - total_exponent m = 0 -> all l - all m = 0.
-Proof. intros L M E. rewrite <- (exp_total l L), <- (exp_total m M). replace (total_exponent l) with (total_exponent m); lra. Qed.
-
-Ltac in_exponentials l :=
-  lazymatch l with
-  | tt => constr:(@nil (R * R))
-  | (?F, ?l) =>
-      let l := in_exponentials l in
-      lazymatch type of F with exp ?a = ?y => constr:((a, y) :: l) end
-  end.
-Ltac exponents Z left right :=
-  let l := in_exponentials left in
-  let m := in_exponentials right in
-  let p := proofs left in
-  let q := proofs right in
-  pose proof (same_exponents l m p q) as Z;
-  cbn [total_exponent all fold_right fst snd] in Z;
-  lapply Z; [clear Z; intro Z | ].
+Lemma same_exponents a b y z : exp a = y -> exp b = z -> a - b = 0 -> y - z = 0.
+Proof. intros <- <- E. replace b with a by lra. ring. Qed.
 
 (** Two cases. *)
 Lemma either d : {0 < d} + {d <= 0}.
@@ -194,14 +177,46 @@ Proof.
   exists z. replace (x - 0) with x in E by ring. split; lra.
 Qed.
 
-Lemma rise (f f' : R -> R) (x : R) (i j k : kind) :
-  implies k NonNegative = true -> (forall z, 0 <= z -> is_derive f z (f' z)) -> of_kind i (f 0) ->
+(** The slope of a polynomial of functions with these values and slopes. *)
+Fixpoint slope (env slopes : list R) (p : poly) : R :=
+  match p with
+  | Const _ => 0
+  | Grow p q => slope (tl env) (tl slopes) p + (hd 0 slopes * value env q + hd 0 env * slope env slopes q)
+  end.
+
+Lemma is_slope p x : forall env slopes : R -> list R,
+  (forall n, is_derive (fun x => nth n (env x) 0) x (nth n (slopes x) 0)) ->
+  is_derive (fun x => value (env x) p) x (slope (env x) (slopes x) p).
+Proof.
+  induction p as [z | p I q J]; intros env slopes D; cbn [value slope]; [apply (is_derive_const (IZR z)) | ].
+  apply (is_derive_plus (V := R_NormedModule)).
+  - apply (I (fun x => tl (env x)) (fun x => tl (slopes x))). intro n. apply is_derive_ext with (fun x => nth (S n) (env x) 0).
+    + intro z. destruct (env z), n; reflexivity.
+    + replace (nth n (tl (slopes x)) 0) with (nth (S n) (slopes x) 0); [apply D | destruct (slopes x), n; reflexivity].
+  - apply (is_derive_mult (fun x => hd 0 (env x)) (fun x => value (env x) q)); [ | apply J, D | exact Rmult_comm].
+    apply is_derive_ext with (fun x => nth 0 (env x) 0); [intro z; destruct (env z); reflexivity | ].
+    replace (hd 0 (slopes x)) with (nth 0 (slopes x) 0); [apply D | destruct (slopes x); reflexivity].
+Qed.
+
+Lemma rise (env slopes : R -> list R) (p : poly) (x : R) (i j k : kind) :
+  let f x := value (env x) p in let f' x := slope (env x) (slopes x) p in
+  implies k NonNegative = true ->
+  (forall z, 0 <= z -> forall n, is_derive (fun x => nth n (env x) 0) z (nth n (slopes z) 0)) -> of_kind i (f 0) ->
   (forall z, 0 < z -> of_kind j (f' z)) -> of_kind k x -> of_kind (plus i (product j k)) (f x).
 Proof.
-  intros N D S P X. destruct (by_some_slope f f' x D) as (z & Z & ->).
-  { exact (of_implies k NonNegative x N X). }
-  apply of_plus, of_product; auto.
+  intros f f' N D S P X. destruct (by_some_slope f f' x) as (z & Z & ->).
+  - intros z Z. apply is_slope, D, Z.
+  - exact (of_implies k NonNegative x N X).
+  - apply of_plus, of_product; auto.
 Qed.
+
+Ltac rises env slopes text x i j k X :=
+  let p := eval vm_compute in (polynomial text) in
+  unshelve epose proof (rise env slopes p x i j k eq_refl _ _ _) as X;
+  cbn [of_kind plus product value slope hd tl] in *; cbv beta in *.
+Ltac slopes env given :=
+  let n := fresh in
+  intro n; repeat (destruct n as [ | n]; cbn [nth]; [auto_derive; derived env given | ]); auto_derive; reflexivity.
 
 (** ** Limits
 

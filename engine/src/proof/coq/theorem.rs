@@ -106,7 +106,8 @@ impl<'a> Claim<'a> {
         let mut script = Script::of(&lemma);
         script.line("repeat apply conj.");
         for divisor in &divisors {
-            script.block("-", |own| own.divisor(&lemma, divisor))?;
+            let is_one = Proposition::Equal(divisor * (Tree::from(1) / divisor), Tree::from(1));
+            script.block("-", |own| own.goal(&lemma, &is_one))?;
         }
         Ok(lemma.text("Lemma", &none_is_zero(&divisors, self.printer), script))
     }

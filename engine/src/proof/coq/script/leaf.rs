@@ -2,19 +2,17 @@
 
 use super::super::lemma::{Result, spaced};
 use super::super::print::simplified;
-use super::solution::{Elimination, Solution};
-use super::{End, Place, Script, refused};
+use super::solution::Solution;
+use super::{Place, Script, refused};
 use crate::formula::statement::Proposition;
-use crate::number::tree::Op;
+use crate::number::{Exponential, Tree};
 use crate::proof::check::Sign;
 use crate::proof::check::{
-    AbsoluteValue, Atom, Certificate, Known, Leaf, Polynomial, Powers, Problem, Reason, Rise, Same, State,
-    parts_of_rise,
+    AbsoluteValue, Atom, Certificate, Known, Leaf, Polynomial, Problem, Quotient, Reason, Rise, Same, State,
+    derivative, parts_of_rise,
 };
 use crate::proof::trace::{Step, reread, trace};
-
-/// The certificate that 0 is 0.
-pub(super) const ZERO: &str = "(By (identity [] [[1]]%Z []))";
+use std::iter;
 
 /// A leaf that is being written.
 pub(super) struct Writer<'w, 'p> {
@@ -23,47 +21,49 @@ pub(super) struct Writer<'w, 'p> {
     leaf: &'w Leaf,
     /// The names of the atoms in scope.
     names: Vec<String>,
-    /// The facts in Coq.
-    facts: Vec<(Polynomial, Option<Sign>)>,
-    /// The number in Coq of each fact of the checker so far.
-    numbers: Vec<Option<usize>>,
-    /// The labels of assumptions, and the steps.
-    given: Vec<String>,
+    /// The steps in Coq: data, and terms that prove what is supposed.
     steps: Vec<String>,
-    /// The atoms whose equations are used for rewriting, those of the innermost formulas first.
-    equations: Vec<usize>,
-    /// The symbols that were replaced by places in their intervals.
-    replaced: Vec<usize>,
-    /// The numbers of rises, orders and roundings so far.
+    /// The number of facts in Coq, and the number there of each fact of the checker so far.
+    facts: usize,
+    numbers: Vec<Option<usize>>,
+    /// The number of hypotheses so far, among those that the leaf lists.
+    hypotheses: usize,
+    /// The number of roundings so far.
+    roundings: usize,
+    /// The exponentials with the exponent 0, or that of another one: their exponents, and their equations.
+    exponentials: Vec<(Quotient, String)>,
+    /// The numbers of rises and orders so far.
     rises: usize,
     orders: usize,
-    roundings: usize,
-    /// The number of divisors of several factors whose signs are still to come, and the facts so far.
-    factors: Option<(usize, Vec<usize>)>,
+    /// The factors of divisors whose signs are still to come.
+    divisors: Vec<Vec<Polynomial>>,
+    /// The equation of a rounding, which follows the sign of its denominator.
+    rounding: Option<String>,
 }
 
 /// Returns a list in Coq.
-fn list<W: AsRef<str>>(items: &[W], of: &str) -> String {
-    let items: Vec<_> = items.iter().map(AsRef::as_ref).collect();
-    if items.is_empty() { format!("(@nil {of})") } else { format!("[{}]", items.join("; ")) }
+fn list<W: AsRef<str>>(items: impl IntoIterator<Item = W>) -> String {
+    let items = items.into_iter().map(|item| item.as_ref().to_string());
+    format!("[{}]", items.collect::<Vec<_>>().join("; "))
 }
 
-/// Returns labels as nested pairs.
-fn pairs<W: AsRef<str>>(labels: &[W]) -> String {
-    labels.iter().rev().fold("tt".to_string(), |rest, label| format!("({}, {rest})", label.as_ref()))
+/// Returns the numbers of a program in Coq.
+pub(super) fn environment(names: &[String]) -> String {
+    if names.is_empty() { "(@nil R)".into() } else { list(names) }
 }
 
-/// Returns a polynomial as a list of terms, with other numbers for its variables.
-fn terms(of: &Polynomial, number: impl Fn(usize) -> usize) -> String {
-    let term = |(powers, coefficient): &(Powers, i128)| {
-        let mut variables: Vec<_> = powers.iter().enumerate().filter(|(_, n)| **n > 0).collect();
-        variables.sort_by_key(|(x, _)| number(*x));
-        let factors =
-            variables.into_iter().flat_map(|(x, n)| vec![format!(";{}", number(x)); usize::from(*n)]);
-        format!("[{coefficient}{}]", factors.collect::<String>())
-    };
-    let terms: Vec<_> = of.terms().map(term).collect();
-    if terms.is_empty() { "[]".into() } else { format!("[{}]%Z", terms.join("; ")) }
+/// Returns a polynomial as text: terms with signs, and a character for each variable.
+pub(super) fn text(of: &Polynomial) -> String {
+    let mut terms = Vec::new();
+    for (powers, coefficient) in of.terms() {
+        let one_less = |n: u128| if n == 1 { String::new() } else { n.to_string() };
+        let factors = powers.iter().zip(b'?'..).filter(|(n, _)| **n > 0);
+        let factors = factors.map(|(n, x)| format!("{}{}", char::from(x), one_less((*n).into())));
+        let sign = if *coefficient < 0 { '-' } else { '+' };
+        let number = one_less(coefficient.unsigned_abs());
+        terms.push(format!("{sign}{number}{}", factors.collect::<String>()));
+    }
+    format!("\"{}\"", terms.join(" "))
 }
 
 impl<'w, 'p> Writer<'w, 'p> {
@@ -72,67 +72,112 @@ impl<'w, 'p> Writer<'w, 'p> {
         state: &'w State<'p>,
         leaf: &'w Leaf,
         is_known: impl Fn(usize) -> bool,
-    ) -> Self {
-        let atoms = 0..place.problem.table.atoms().len();
+    ) -> Result<Self> {
+        let atoms = place.problem.table.atoms();
         // A number that does not occur stands for what is not in scope.
-        let names = atoms.map(|x| if is_known(x) { place.name(x) } else { "PI".into() }).collect();
-        let (given, steps, equations, replaced) = Default::default();
-        let facts = vec![(Polynomial::constant(2), Some(Sign::Positive))];
-        let (rises, orders, roundings, factors, numbers) = (0, 0, 0, None, vec![Some(0)]);
+        let names = (0..atoms.len()).map(|x| if is_known(x) { place.name(x) } else { "PI".into() }).collect();
+        let (steps, hypotheses, roundings, exponentials, rises, orders, divisors, rounding) =
+            Default::default();
+        let (facts, numbers) = (1, vec![Some(0)]);
         let mut writer = Writer {
             place,
             state,
             leaf,
             names,
+            steps,
             facts,
             numbers,
-            given,
-            steps,
-            equations,
-            replaced,
+            hypotheses,
+            roundings,
+            exponentials,
             rises,
             orders,
-            roundings,
-            factors,
+            divisors,
+            rounding,
         };
-        for (x, label, sign) in place.known_atoms().filter(|(x, ..)| is_known(*x)) {
-            if let Ok(own) = Polynomial::variable(x) {
-                writer.suppose(label, own, sign);
+        for (_, label) in place.known_atoms().filter(|(x, _)| is_known(*x)) {
+            writer.suppose(label);
+        }
+        let mut reader = reread(state.clone());
+        for (x, atom) in atoms.iter().enumerate().filter(|(x, _)| is_known(*x)) {
+            let Atom::Exponential(of) = atom else { continue };
+            if state.exponent(x).is_some() {
+                writer.equate(format!("F{x}"));
+                continue;
+            }
+            let Ok(value) = reader.value(*of) else { continue };
+            let mut known = state.exponents.iter();
+            let same = known.find(|(_, own)| state.facts.are_equal(own, &value).unwrap_or(false));
+            let other = match same {
+                _ if value.num.is_zero() => "exp_0".into(),
+                Some((y, _)) => format!("F{y}"),
+                None => continue,
+            };
+            writer.exponentials.push((value, format!("same_exponential _ _ _ _ F{x} {other}")));
+        }
+        Ok(writer)
+    }
+
+    /// Adds a step with its fact, and returns the number of this.
+    pub(super) fn suppose(&mut self, step: String) -> usize {
+        self.steps.push(step);
+        self.facts += 1;
+        self.facts - 1
+    }
+
+    /// Adds an equation.
+    pub(super) fn equate(&mut self, step: String) {
+        self.steps.push(step);
+    }
+
+    /// Returns the call of a tactic with what is known.
+    pub(super) fn call(&self, tactic: &str) -> String {
+        let steps: String = self.steps.iter().map(|step| format!(", {step}")).collect();
+        let steps = if steps.is_empty() { "tt".into() } else { format!("(tt{steps})") };
+        format!("{tactic} {} {steps}", environment(&self.names))
+    }
+
+    /// Returns the call that proves a goal.
+    pub(super) fn shown(&self, reasons: &[String]) -> String {
+        format!("{} {}", self.call("shown"), list(reasons))
+    }
+
+    /// Returns the number of hypotheses up to the last interval in which a value lies.
+    fn last_interval(&self, value: &Quotient) -> usize {
+        let is_interval = |i: &usize| {
+            let Ok(x) = self.atom(Atom::Place(*i)) else { return false };
+            let mut factors = value.den.iter().filter_map(|i| self.state.facts.get(*i).ok());
+            value.num.degree(x) > 0 || factors.any(|(of, _)| of.degree(x) > 0)
+        };
+        self.leaf.hypotheses.iter().rposition(is_interval).map_or(0, |last| last + 1)
+    }
+
+    /// Adds the equations of exponentials whose exponents are known.
+    fn share_exponentials(&mut self) {
+        for (value, equation) in std::mem::take(&mut self.exponentials) {
+            let is_known = self.last_interval(&value) <= self.hypotheses
+                && value.den.iter().all(|i| *i < self.numbers.len());
+            if is_known {
+                self.equate(equation);
+            } else {
+                self.exponentials.push((value, equation));
             }
         }
-        writer
     }
 
-    /// Adds a fact with a label.
-    pub(super) fn suppose(&mut self, label: String, of: Polynomial, sign: Option<Sign>) {
-        self.given.push(label);
-        self.add("Next".into(), of, sign);
-    }
-
-    /// Adds a step with its fact.
-    fn add(&mut self, step: String, of: Polynomial, sign: Option<Sign>) -> usize {
-        self.steps.push(step);
-        self.facts.push((of, sign));
-        self.facts.len() - 1
-    }
-
-    /// Returns `rewrite` with the equations so far, of the outermost formulas first. They are used again for
-    /// the bounds of intervals, which replace symbols.
-    fn rewriting(&self) -> String {
-        let (places, others) = self.equations.split_at(self.replaced.len());
-        let again = if places.is_empty() { &[] } else { others };
-        let all = others.iter().rev().chain(places.iter().rev()).chain(again.iter().rev());
-        let all: Vec<_> = all.map(|x| format!("?F{x}")).collect();
-        if all.is_empty() { String::new() } else { format!("rewrite {}", all.join(", ")) }
-    }
-
-    /// Returns the call of a tactic with what is known, after rewriting the goal.
-    pub(super) fn call(&self, tactic: &str, reasons: &[&str]) -> String {
-        let rewriting = self.rewriting();
-        let end = if rewriting.is_empty() { "" } else { "; " };
-        let (names, given) = (list(&self.names, "R"), pairs(&self.given));
-        let steps = list(&self.steps, "A_Quotients.step");
-        format!("{rewriting}{end}{tactic} {names} {given} {steps}{}", spaced(reasons))
+    /// Adds the hypotheses before one that the leaf lists. An interval gives an equation.
+    fn hypotheses_before(&mut self, end: usize) -> Result<()> {
+        while self.hypotheses < end {
+            let i = self.leaf.hypotheses[self.hypotheses];
+            if self.place.problem.hypotheses[i].interval().is_some() {
+                let x = self.atom(Atom::Place(i))?;
+                self.equate(format!("F{x}"));
+                self.hypotheses += 1;
+            } else {
+                self.catch_up(self.numbers.len() + 1)?;
+            }
+        }
+        Ok(())
     }
 
     fn atom(&self, atom: Atom) -> Result<usize> {
@@ -140,338 +185,194 @@ impl<'w, 'p> Writer<'w, 'p> {
     }
 
     /// Adds the facts before that with a number.
-    pub(super) fn catch_up(&mut self, script: &mut Script, facts: usize) -> Result<()> {
+    pub(super) fn catch_up(&mut self, facts: usize) -> Result<()> {
         while self.numbers.len() < facts {
             let i = self.numbers.len();
-            let (of, sign) = self.state.facts.get(i).map_err(refused)?.clone();
-            let label = self.label(script, i, &of)?;
-            self.numbers.push(label.is_some().then_some(self.facts.len()));
-            if let Some(label) = label {
-                let rewriting = self.rewriting();
-                if !rewriting.is_empty() && self.is_rewritten(i) {
-                    script.line(&format!("{rewriting} in {label}."));
-                }
-                self.suppose(label, of, Some(sign));
-            }
+            let label = self.label(i)?;
+            self.share_exponentials();
+            let number = label.map(|label| self.suppose(label));
+            self.numbers.push(number);
         }
         Ok(())
     }
 
-    /// Returns `true` unless a fact is a case, or a hypothesis by the four operations on symbols.
-    fn is_rewritten(&self, fact: usize) -> bool {
-        let supposed = self.state.supposed.iter().find(|(_, own)| *own == fact);
-        let Some((hypothesis, _)) = supposed else { return true };
-        let hypothesis = hypothesis.and_then(|i| self.place.problem.hypotheses.get(i));
-        hypothesis.is_some_and(|given| {
-            given.value.any(&|part| match part.op() {
-                Op::Exp(_) | Op::Min(..) | Op::Rounded(_) => true,
-                Op::Symbol(name) => self.atom(Atom::Own(name)).is_ok_and(|x| self.replaced.contains(&x)),
-                _ => false,
-            })
-        })
-    }
-
-    /// Returns the label of a fact that no certificate shows, if it is in scope.
-    fn label(&mut self, script: &mut Script, i: usize, of: &Polynomial) -> Result<Option<String>> {
+    /// Returns the proof of a fact that no certificate shows, if it is in scope.
+    fn label(&mut self, i: usize) -> Result<Option<String>> {
         let state = self.state;
         if let Some(place) = state.supposed.iter().position(|(_, fact)| *fact == i) {
-            return Ok(match state.supposed[place].0 {
-                // What is known of a symbol before it is replaced is not kept.
-                Some(_) if !of.has_only(|x| !self.replaced.contains(&x)) => None,
-                Some(hypothesis) => self.place.labels.get(hypothesis).cloned().flatten(),
-                None => Some(format!("C{}", place + 1)),
-            });
+            let Some(hypothesis) = state.supposed[place].0 else {
+                return Ok(Some(format!("C{}", place + 1)));
+            };
+            let rest = &self.leaf.hypotheses[self.hypotheses..];
+            let next = rest.iter().position(|i| *i == hypothesis).ok_or("a hypothesis that is not listed")?;
+            self.hypotheses_before(self.hypotheses + next)?;
+            self.hypotheses += 1;
+            return Ok(self.place.labels.get(hypothesis).cloned().flatten());
         }
         if let Some(known) = state.sizes.iter().find(|known| known.fact == i) {
+            self.hypotheses_before(self.last_interval(&known.value))?;
             let factor = match self.place.problem.table.atoms().get(known.size) {
                 Some(Atom::Size(of)) => self.atom(Atom::Factor(*of))?,
                 _ => return Err("an absolute value of nothing".into()),
             };
             return Ok(Some(format!("F{factor}")));
         }
-        let shown = self.call("shown", &["Known"]);
-        let label = if self.rises < self.leaf.rises.len() {
+        self.hypotheses_before(self.leaf.hypotheses.len())?;
+        if self.rises < self.leaf.rises.len() {
             self.rises += 1;
-            format!("X{}", self.rises)
-        } else {
-            let [a, b] = self.leaf.orders.get(self.orders).ok_or("a fact without a reason")?;
-            self.orders += 1;
-            let label = format!("Y{}", self.orders);
-            script.line(&format!("pose proof (ordered _ _ _ _ _ _ P F{a} F{b}) as {label}."));
-            label
-        };
-        script.line(&format!("lapply {label}; [clear {label}; intro {label} | {shown}]."));
-        Ok(Some(label))
+            return Ok(Some(format!("X{}", self.rises)));
+        }
+        let [a, b] = self.leaf.orders.get(self.orders).ok_or("a fact without a reason")?;
+        self.orders += 1;
+        Ok(Some(format!("ordered _ _ _ _ _ _ P F{a} F{b}")))
     }
 
     /// Leaves out a fact that a certificate shows.
-    pub(super) fn skip(&mut self, script: &mut Script, fact: usize) -> Result<()> {
-        self.catch_up(script, fact)?;
+    pub(super) fn skip(&mut self, fact: usize) -> Result<()> {
+        self.catch_up(fact)?;
         self.numbers.push(None);
         Ok(())
     }
 
     /// Writes a step of the checker.
-    pub(super) fn step(&mut self, script: &mut Script, step: &Step) -> Result<()> {
+    pub(super) fn step(&mut self, step: &Step) -> Result<()> {
         match step {
             Step::Sign { of, reason, facts, .. } => {
-                let fact = match reason {
-                    Reason::Fact(i) => {
-                        self.catch_up(script, i + 1)?;
-                        *i
-                    }
+                match reason {
+                    Reason::Fact(i) => self.catch_up(i + 1)?,
                     Reason::Certificate(certificate) => {
-                        self.catch_up(script, *facts)?;
-                        let sign = self.state.facts.get(*facts).map_err(refused)?.1;
-                        let number = self.certified(script, of, certificate, sign)?;
+                        self.catch_up(*facts)?;
+                        let number = self.certified(of, certificate)?;
                         self.numbers.push(Some(number));
-                        *facts
                     }
-                };
-                self.factor(fact)?;
-            }
-            Step::Divisor(factors) => {
-                self.factors = Some((factors.len(), Vec::new()));
-                if factors.is_empty() {
-                    self.factors = None;
-                    self.divisor(&[])?;
+                }
+                self.list_divisors();
+                if let Some(equation) = self.rounding.take() {
+                    self.share_exponentials();
+                    self.equate(equation);
                 }
             }
+            Step::Divisor(factors) => self.divide(factors.clone()),
             Step::Rounding(same) => {
-                let of = self.state.rounded.get(self.roundings).ok_or("a rounding of nothing")?.of;
+                let rounded = self.state.rounded.get(self.roundings).ok_or("a rounding of nothing")?;
                 self.roundings += 1;
-                let x = self.atom(Atom::Error(of))?;
-                if let Some(same) = same {
-                    self.share(script, x, same)?;
-                }
-                self.equations.push(x);
+                self.hypotheses_before(self.last_interval(&rounded.value))?;
+                let x = self.atom(Atom::Error(rounded.of))?;
+                self.rounding = Some(match same {
+                    None => format!("F{x}"),
+                    Some(same) => self.share(x, same)?,
+                });
             }
             Step::Size(of, value, size) => {
+                self.hypotheses_before(self.last_interval(value))?;
                 let x = self.atom(Atom::Size(*of))?;
                 match size {
-                    AbsoluteValue::BySign => return Ok(()),
-                    AbsoluteValue::Atom => {}
+                    AbsoluteValue::BySign => {}
+                    AbsoluteValue::Atom => self.steps.push(format!("F{x}")),
                     AbsoluteValue::Same(i) => {
-                        let known = self.state.sizes.get(*i).ok_or("an absolute value of nothing")?;
-                        let y = known.size;
-                        if x != y {
-                            let equal = self.state.facts.are_equal(value, &known.value).map_err(refused)?;
-                            let side = if equal { "left" } else { "right" };
-                            let shown = self.call("shown", &[ZERO]);
-                            script.line(&format!(
-                                "assert (G : s{x} = s{y}) by (apply (same_size _ _ _ _ F{x} F{y}); {side}; {shown})."
-                            ));
-                            script.line(&format!("rewrite G in F{x}. clear G."));
-                        }
+                        let y = self.state.sizes.get(*i).ok_or("an absolute value of nothing")?.size;
+                        self.steps.push(format!("same_size _ _ _ _ F{x} F{y}"));
                     }
                 }
-                self.equations.push(x);
             }
         }
         Ok(())
     }
 
-    /// Collects the factors of a divisor.
-    fn factor(&mut self, fact: usize) -> Result<()> {
-        let Some((count, mut factors)) = self.factors.take() else { return Ok(()) };
-        factors.push(fact);
-        if factors.len() < count {
-            self.factors = Some((count, factors));
-            return Ok(());
-        }
-        self.divisor(&factors)
+    /// Lists a divisor by its factors as soon as their signs are known.
+    pub(super) fn divide(&mut self, factors: Vec<Polynomial>) {
+        self.divisors.push(factors);
+        self.list_divisors();
     }
 
-    /// Lists a divisor by its factors, and its square, which occurs in its derivative.
-    pub(super) fn divisor(&mut self, factors: &[usize]) -> Result<()> {
-        let mut all = Vec::new();
-        for i in factors {
-            let of = &self.state.facts.get(*i).map_err(refused)?.0;
-            let is_of_it = |(known, sign): &(Polynomial, Option<Sign>)| {
-                known == of && sign.is_some_and(|sign| sign.is_strict())
-            };
-            all.push(self.facts.iter().position(is_of_it).ok_or("a divisor without a sign")?.to_string());
-        }
+    /// Lists the divisors whose factors have signs, and their squares, which occur in derivatives.
+    fn list_divisors(&mut self) {
         let is_smooth = matches!(self.place.problem.proposition, Proposition::Derivative(..));
-        let square = (is_smooth && !all.is_empty()).then(|| [&all[..], &all].concat());
-        for factors in (all.len() != 1).then_some(all).into_iter().chain(square) {
-            let step = format!("Divisor {}%nat", list(&factors, "nat"));
-            if !self.steps.contains(&step) {
-                self.steps.push(step);
+        for factors in std::mem::take(&mut self.divisors) {
+            let known = self.state.facts.iter().zip(&self.numbers);
+            let strict = known.filter(|((_, sign), _)| sign.is_strict());
+            let strict: Vec<_> = strict.filter_map(|((of, _), number)| Some((of, (*number)?))).collect();
+            let number = |of| strict.iter().find(|(known, _)| *known == of).map(|(_, i)| i.to_string());
+            let Some(all) = factors.iter().map(number).collect::<Option<Vec<_>>>() else {
+                self.divisors.push(factors);
+                continue;
+            };
+            let square = (is_smooth && !all.is_empty()).then(|| [&all[..], &all].concat());
+            for factors in (all.len() != 1).then_some(all).into_iter().chain(square) {
+                let step = format!("Divisor {}%nat", list(&factors));
+                if !self.steps.contains(&step) {
+                    self.steps.push(step);
+                }
             }
         }
-        Ok(())
     }
 
-    /// Gives a rounded formula the error of an earlier one.
-    fn share(&mut self, script: &mut Script, x: usize, same: &Same) -> Result<()> {
-        let earlier = self.state.rounded.get(same.rounding).ok_or("a rounding of nothing")?.of;
-        let y = self.atom(Atom::Error(earlier))?;
-        let [up, down] = [&same.up, &same.down].map(|of| self.place.polynomial(of).argument());
-        let shown = self.call("shown", &[ZERO]);
-        script.line(&format!("share F{x} F{y} {down} {up}; [{shown} | ]."));
-        Ok(())
+    /// Returns the equation of a rounded formula with the error of an earlier one.
+    fn share(&self, x: usize, same: &Same) -> Result<String> {
+        let y = self.state.rounded.get(same.rounding).ok_or("a rounding of nothing")?.error;
+        let [down, up] = [&same.down, &same.up].map(|of| self.place.polynomial(of).argument());
+        let powers = "ltac:(power_of_two) ltac:(power_of_two)";
+        Ok(format!("same_error _ _ {down} {up} _ _ _ _ _ {powers} F{x} F{y}"))
     }
 
     /// Adds what a certificate shows, and returns the number of the fact.
-    fn certified(
-        &mut self,
-        script: &mut Script,
-        of: &Polynomial,
-        certificate: &Certificate,
-        sign: Sign,
-    ) -> Result<usize> {
-        let certificate = self.certificate(script, of, certificate)?;
-        let step = format!("Shown {} {certificate}", terms(of, |x| x));
-        Ok(self.add(step, of.clone(), Some(sign)))
+    fn certified(&mut self, of: &Polynomial, certificate: &Certificate) -> Result<usize> {
+        let certificate = self.certificate(of, certificate)?;
+        Ok(self.suppose(format!("Shown {} {certificate}", text(of))))
     }
 
     /// Returns a certificate for a polynomial as an argument, after adding the lemmas in it.
-    fn certificate(
-        &mut self,
-        script: &mut Script,
-        of: &Polynomial,
-        certificate: &Certificate,
-    ) -> Result<String> {
+    fn certificate(&mut self, of: &Polynomial, certificate: &Certificate) -> Result<String> {
         let solution = Solution::find(of, certificate, self.state);
-        let certificate = solution.as_ref().map_or(certificate, |solution| &solution.certificate);
-        let Certificate { known, left, right } = certificate;
-        let first = self.names.len();
-        let occurs = |x: usize| left.degree(x) > 0 || right.degree(x) > 0;
-        let (mut quantities, mut units) = (Vec::new(), Vec::new());
-        for x in (0..first).filter(|x| occurs(*x)) {
-            let own = Polynomial::variable(x).map_err(refused)?;
-            if self.place.problem.table.is_unit(x) {
-                let unit = self.facts.iter().position(|(of, sign)| sign.is_none() && *of == own);
-                units.push((x, format!("Fact {}", unit.ok_or("an unknown error")?)));
-                continue;
-            }
-            let sign = self.state.signs.get(x).copied().flatten();
-            let fact = self.facts.iter().position(|(of, known)| {
-                *of == own && known.is_some_and(|known| sign.is_none_or(|sign| known.implies(sign)))
-            });
-            let text = match (fact, sign) {
-                (Some(fact), _) => format!("Fact {fact}"),
-                _ => format!("Value {}", terms(&own, |x| x)),
-            };
-            quantities.push((x, text));
-        }
-        for (i, quantity) in known.iter().enumerate() {
-            let text = match quantity {
+        let Certificate { known, left, right } =
+            solution.as_ref().map_or(certificate, |solution| &solution.certificate);
+        let mut numbers = Vec::new();
+        for quantity in known {
+            let number = match quantity {
                 Known::Fact(i) => {
-                    let number = self.numbers.get(*i).copied().flatten();
-                    format!("Fact {}", number.ok_or("a fact that is not in scope")?)
+                    self.numbers.get(*i).copied().flatten().ok_or("a fact that is not in scope")?
                 }
-                Known::Value(of) => format!("Value {}", terms(of, |x| x)),
-                Known::Lemma(lemma) => {
-                    let sign = self.state.certify(&lemma.0, &lemma.1).map_err(refused)?;
-                    format!("Fact {}", self.certified(script, &lemma.0, &lemma.1, sign)?)
-                }
+                Known::Value(of) => self.suppose(format!(r#"Shown {} (identity []%nat "" "")"#, text(of))),
+                Known::Lemma(lemma) => self.certified(&lemma.0, &lemma.1)?,
                 Known::Exponents { left, right } => {
-                    format!("Fact {}", self.exponents(script, left, right)?)
+                    let [left, right] = [left, right].map(|all| product(all));
+                    self.suppose(format!("same_exponents _ _ _ _ {left} {right}"))
                 }
             };
-            quantities.push((first + i, text));
+            numbers.push(number.to_string());
         }
-        let is_zero = |text: &str| {
-            let fact = text.strip_prefix("Fact ").and_then(|i| self.facts.get(i.parse::<usize>().ok()?));
-            fact.is_some_and(|(_, sign)| *sign == Some(Sign::Zero))
-        };
-        quantities.sort_by_key(|(_, text)| !is_zero(text));
-        quantities.extend(units);
-        let place = |x: usize| quantities.iter().position(|(own, _)| *own == x).unwrap_or_default();
-        let texts: Vec<_> = quantities.iter().map(|(_, text)| text.as_str()).collect();
-        let [left, right] = [left, right].map(|form| terms(form, place));
-        let texts = texts.join("; ");
-        let Some(Solution { steps, .. }) = &solution else {
-            return Ok(format!("(identity [{texts}] {left} {right})"));
-        };
-        let step = |step: &Elimination| match step {
-            Elimination::Solve(x, i, n) => {
-                let Some(Known::Fact(fact)) = known.get(*i) else { return String::new() };
-                let fact = self.numbers.get(*fact).copied().flatten().unwrap_or_default();
-                format!("Solve {x} {fact} {} {n}", first + i)
-            }
-            Elimination::Divide(x) => format!("Divide {x}"),
-        };
-        let steps: Vec<_> = steps.iter().map(step).collect();
-        let places: Vec<_> = (0..first + known.len()).map(|x| place(x).to_string()).collect();
-        let (steps, places) = (steps.join("; "), places.join(";"));
-        Ok(format!("(solved [{texts}] {left} [{steps}] [{places}]%nat)"))
-    }
-
-    /// Adds that two products of exponentials are equal, and returns the number of the fact.
-    fn exponents(&mut self, script: &mut Script, left: &[usize], right: &[usize]) -> Result<usize> {
-        let product = |all: &[usize]| {
-            all.iter()
-                .try_fold(Polynomial::constant(1), |product, x| product.times(&Polynomial::variable(*x)?))
-        };
-        let (a, b) = (product(left).map_err(refused)?, product(right).map_err(refused)?);
-        let of = a.plus_multiple(-1, &b).map_err(refused)?;
-        let label = format!("Z{}", self.facts.len());
-        let [left, right] =
-            [left, right].map(|all| pairs(&all.iter().map(|x| format!("F{x}")).collect::<Vec<_>>()));
-        let shown = self.call("shown", &[ZERO]);
-        script.line(&format!("exponents {label} {left} {right}; [ | {shown}]."));
-        self.suppose(label, of, Some(Sign::Zero));
-        Ok(self.facts.len() - 1)
+        let (known, left) = (list(numbers), text(left));
+        Ok(match &solution {
+            Some(Solution { steps, .. }) => format!("(solved {known}%nat {left} {})", list(steps)),
+            None => format!("(identity {known}%nat {left} {})", text(right)),
+        })
     }
 
     /// Returns the reason for the sign of a goal as an argument.
-    pub(super) fn reason(&mut self, script: &mut Script, step: &Step) -> Result<String> {
+    pub(super) fn reason(&mut self, step: &Step) -> Result<String> {
         match step {
-            Step::Sign { reason: Reason::Fact(_), .. } => Ok("Known".into()),
+            Step::Sign { of, reason, .. } if of.is_zero() || matches!(reason, Reason::Fact(_)) => {
+                Ok("Known".into())
+            }
             Step::Sign { of, reason: Reason::Certificate(certificate), .. } => {
-                Ok(format!("(By {})", self.certificate(script, of, certificate)?))
+                Ok(format!("By {}", self.certificate(of, certificate)?))
             }
             _ => Err("a goal without a sign".into()),
         }
     }
 
-    /// Uses the equations for intervals and exponentials.
-    pub(super) fn begin(&mut self) -> Result<()> {
-        for i in &self.leaf.hypotheses {
-            let interval = self.place.problem.hypotheses.get(*i).and_then(|given| given.interval());
-            let Some((symbol, ..)) = interval else { continue };
-            let symbol = self.atom(Atom::Own(symbol))?;
-            if !self.replaced.contains(&symbol) {
-                self.replaced.push(symbol);
-                let place = self.atom(Atom::Place(*i))?;
-                self.equations.push(place);
-            }
-        }
-        for (x, atom) in self.place.problem.table.atoms().iter().enumerate() {
-            let is_known = matches!(atom, Atom::Exponential(_)) && self.state.exponent(x).is_some();
-            if is_known && self.names[x] != "PI" {
-                self.equations.push(x);
-            }
-        }
-        Ok(())
+    /// Adds the other hypotheses.
+    pub(super) fn finish(&mut self) -> Result<()> {
+        self.hypotheses_before(self.leaf.hypotheses.len())?;
+        self.share_exponentials();
+        if self.divisors.is_empty() { Ok(()) } else { Err("a divisor without a sign".into()) }
     }
+}
 
-    /// Replaces exponentials with the exponent 0, or that of another one.
-    pub(super) fn share_exponentials(&mut self, script: &mut Script) -> Result<()> {
-        let mut reader = reread(self.state.clone());
-        for (x, atom) in self.place.problem.table.atoms().iter().enumerate() {
-            let Atom::Exponential(of) = atom else { continue };
-            if self.names[x] == "PI" || self.state.exponent(x).is_some() {
-                continue;
-            }
-            let Ok(value) = reader.value(*of) else { continue };
-            let mut known = self.state.exponents.iter();
-            let same = known.find(|(_, own)| self.state.facts.are_equal(own, &value).unwrap_or(false));
-            let rule = match same {
-                _ if value.num.is_zero() => format!("no_exponent _ _ F{x}"),
-                Some((y, _)) => format!("same_exponential _ _ _ _ F{x} F{y}"),
-                None => continue,
-            };
-            let shown = self.call("shown", &[ZERO]);
-            script.line(&format!("pose proof ({rule}) as G."));
-            script.line(&format!("lapply G; [clear G F{x}; intro F{x} | {shown}]."));
-            self.equations.insert(self.replaced.len(), x);
-        }
-        Ok(())
-    }
+/// Returns the proof of e to the power of a sum as a product of exponentials.
+fn product(all: &[usize]) -> String {
+    let own = all.iter().map(|x| format!("F{x}"));
+    own.reduce(|product, own| format!("(both _ _ _ _ {product} {own})")).unwrap_or("exp_0".into())
 }
 
 impl Script {
@@ -486,33 +387,24 @@ impl Script {
         }
         let is_double = matches!(place.problem.proposition, Proposition::Within(..));
         let (steps, goals) = steps.split_at(steps.len().saturating_sub(1 + usize::from(is_double)));
-        let mut writer = Writer::new(place, &state, leaf, |_| true);
-        writer.begin()?;
+        let mut writer = Writer::new(place, &state, leaf, |_| true)?;
         for step in steps {
-            writer.step(self, step)?;
+            writer.step(step)?;
         }
         let Some(Step::Sign { facts, .. }) = goals.first() else { return Err("no goal".into()) };
-        writer.catch_up(self, *facts)?;
-        writer.share_exponentials(self)?;
-        match (place.end, place.problem.proposition) {
-            (End::Divisor, _) => self.line(&format!("{}.", writer.call("not_zero", &[]))),
-            (End::Continuity, _) | (_, Proposition::Derivative(..)) => {
-                let derived = writer.call("derived", &[]);
-                self.line(&format!("auto_derive; cbv [Rdiv Rminus] in *; {derived}."));
-            }
-            (_, Proposition::Within(..)) => {
-                let above = writer.reason(self, &goals[0])?;
-                let below = match &goals[1] {
-                    Step::Sign { reason: Reason::Fact(i), .. } if i == facts => above.clone(),
-                    other => writer.reason(self, other)?,
-                };
-                self.line(&format!("{}.", writer.call("bounded", &[&above, &below])));
-            }
-            _ => {
-                let reason = writer.reason(self, &goals[0])?;
-                self.line(&format!("{}.", writer.call("shown", &[&reason])));
-            }
+        writer.catch_up(*facts)?;
+        writer.finish()?;
+        if place.tactic != "shown" {
+            self.line(&format!("{}.", writer.call(place.tactic)));
+            return Ok(());
         }
+        let first = writer.reason(&goals[0])?;
+        let second = goals.get(1).map(|goal| match goal {
+            Step::Sign { reason: Reason::Fact(i), .. } if i == facts => Ok(first.clone()),
+            _ => writer.reason(goal),
+        });
+        let reasons: Vec<_> = iter::once(Ok(first.clone())).chain(second).collect::<Result<_>>()?;
+        self.line(&format!("{}.", writer.shown(&reasons)));
         Ok(())
     }
 
@@ -522,14 +414,26 @@ impl Script {
             return Err("a function of no symbol".into());
         };
         let parts = parts_of_rise(place.problem, rise, x).map_err(refused)?;
-        let Proposition::Derivative(of, _, slope) = &parts[0].0 else { return Err("no slope".into()) };
         let at_x = state.signs.get(rise.x).copied().flatten().ok_or("an argument without a sign")?;
-        let (name, printer) = (place.name(rise.x), place.lemma.printer);
-        let [of, slope] = [of, slope].map(|tree| format!("(fun {name} => {})", printer.expr(tree)));
+        let name = place.name(rise.x);
+        let (mut values, mut slopes) = (Vec::new(), Vec::new());
+        for (y, atom) in place.problem.table.atoms().iter().enumerate() {
+            let tree = match atom {
+                Atom::Own(symbol) if rise.of.degree(y) > 0 => Tree::symbol(symbol),
+                Atom::Exponential(of) if rise.of.degree(y) > 0 => {
+                    place.problem.table.formula(*of).map_err(refused)?.exp()
+                }
+                // It does not occur in the function.
+                _ => Tree::from(0),
+            };
+            let slope = simplified(&derivative(&tree, x).map_err(refused)?);
+            values.push(place.lemma.printer.expr(&tree).to_string());
+            slopes.push(place.lemma.printer.expr(&slope).to_string());
+        }
+        let [values, slopes] = [list(values), list(slopes)].map(|all| format!("(fun {name} : R => {all})"));
         let signs: [Sign; 3] = [rise.start.into(), rise.slope.into(), at_x];
         let signs = spaced(signs.map(|sign| format!("A_Polynomials.{sign:?}")));
-        self.line(&format!("unshelve epose proof (rise {of} {slope} {name}{signs} eq_refl _ _ _) as X{i};"));
-        self.line("  cbn [A_Polynomials.of_kind A_Polynomials.plus A_Polynomials.product] in *.");
+        self.line(&format!("rises {values} {slopes} {}%string {name}{signs} X{i}.", text(&rise.of)));
         for (proposition, assumed) in &parts {
             let all = place.problem.hypotheses.iter().copied().zip(&place.labels);
             let others = all.filter(|(given, _)| !given.value.symbols().contains(x));
@@ -548,7 +452,9 @@ impl Script {
                 if assumed.is_some() {
                     own.line(&format!("intros {name} K."));
                 }
-                own.problem(&Place::new(place.lemma, &part, labels))
+                let own_place = Place::new(place.lemma, &part, labels);
+                let is_slope = matches!(part.proposition, Proposition::Derivative(..));
+                own.problem(&Place { tactic: if is_slope { "slopes" } else { "shown" }, ..own_place })
             })?;
         }
         Ok(())

@@ -2,13 +2,11 @@
 
 use super::super::expr::Expr;
 use super::super::lemma::{Lemma, Result};
-use super::super::print::simplified;
-use super::leaf::{Writer, ZERO};
-use super::{Place, Script, refused, simplified_hypothesis};
+use super::leaf::Writer;
+use super::{Place, Script, refused};
 use crate::formula::{Hypothesis, Proposition};
 use crate::number::tree::Op;
-use crate::proof::check::Sign;
-use crate::proof::check::{Atom, Leaf, Node, Polynomial, Problem, Quotient, Reason, State};
+use crate::proof::check::{Atom, Leaf, Node, Polynomial, Quotient, Reason, State};
 use crate::proof::trace::{Step, reread, trace};
 
 /// A limit to be proved.
@@ -33,20 +31,17 @@ impl Script {
         hypotheses: &[&Hypothesis],
         proposition: &Proposition,
     ) -> Result<()> {
-        let proposition = proposition.map(&simplified);
-        let Proposition::Limit(of, by, _) = &proposition else { return Err("no limit".into()) };
-        let premises: Vec<_> = hypotheses.iter().map(|given| simplified_hypothesis(given)).collect();
-        let problem = Problem::new(&proposition, premises.iter().collect()).map_err(refused)?;
-        let labels = hypotheses.iter().map(|given| lemma.label(given)).collect();
-        let place = Place::new(lemma, &problem, labels);
-        let Node::Leaf(leaf) = place.proof()? else { return Err("a limit in cases".into()) };
-        let (state, mut steps) = trace(&problem, &leaf, &[]).map_err(refused)?;
-        retain_facts(&state, &mut steps);
-        let of = reread(state.clone()).translate(of);
-        let x = place.variable(Atom::Own(by))?;
-        let limit =
-            Limit { place, state: &state, leaf: &leaf, steps: &steps, by, x, of: of.map_err(refused)? };
-        limit.write(self)
+        Place::with(lemma, hypotheses, proposition, |place| {
+            let Proposition::Limit(of, by, _) = place.problem.proposition else {
+                return Err("no limit".into());
+            };
+            let Node::Leaf(leaf) = place.proof()? else { return Err("a limit in cases".into()) };
+            let (state, mut steps) = trace(place.problem, &leaf, &[]).map_err(refused)?;
+            retain_facts(&state, &mut steps);
+            let of = reread(state.clone()).translate(of).map_err(refused)?;
+            let x = place.variable(Atom::Own(by))?;
+            Limit { place, state: &state, leaf: &leaf, steps: &steps, by, x, of }.write(self)
+        })
     }
 }
 
@@ -139,19 +134,18 @@ impl Limit<'_> {
                 let rate = self.expr(&rate)?.over(self.expr(&below)?).argument();
                 script.line(&format!("apply (limit_with_decay _ {g} {factor} {rate}); cbv beta."));
                 script.block("-", |own| self.equation(own, Some((*y, rate))))?;
-                script
-                    .block("-", |own| self.at_zero(own, |writer, _| Ok(writer.call("shown", &["Known"]))))?;
+                script.block("-", |own| self.at_zero(own, |writer| Ok(writer.shown(&["Known".into()]))))?;
             }
             _ => return Err("there is more than one exponential".into()),
         }
         script.block("-", |own| {
-            self.at_zero(own, |writer, _| Ok(format!("auto_derive; {}", writer.call("not_zero", &[]))))
+            self.at_zero(own, |writer| Ok(format!("auto_derive; {}", writer.call("derived"))))
         })?;
         let last = self.steps.last().ok_or("a limit without a value")?;
         script.block("-", |own| {
-            self.at_zero(own, |writer, own| {
-                let reason = writer.reason(own, last)?;
-                Ok(writer.call("shown", &[&reason]))
+            self.at_zero(own, |writer| {
+                let reason = writer.reason(last)?;
+                Ok(writer.shown(&[reason]))
             })
         })
     }
@@ -165,44 +159,35 @@ impl Limit<'_> {
         let place = Place::new(self.place.lemma, self.place.problem, labels.collect());
         script.line(&format!("intros {name} X."));
         script.names(&place, |_| true)?;
-        let mut writer = Writer::new(&place, self.state, self.leaf, |_| true);
+        let mut writer = Writer::new(&place, self.state, self.leaf, |_| true)?;
         let own = Polynomial::variable(self.x).map_err(refused)?;
-        writer.suppose("X".into(), own.clone(), Some(Sign::Positive));
-        writer.begin()?;
+        writer.suppose("X".into());
         for step in self.steps {
-            writer.step(script, step)?;
+            writer.step(step)?;
         }
-        let of = |i: &&usize| self.state.facts.get(**i).is_ok_and(|(of, _)| *of != own);
-        let factors: Vec<_> = self.of.den.iter().filter(of).copied().collect();
-        writer.divisor(&factors)?;
-        writer.share_exponentials(script)?;
+        let factors = self.of.den.iter().filter_map(|i| self.state.facts.get(*i).ok());
+        writer.divide(factors.map(|(of, _)| of.clone()).filter(|of| *of != own).collect());
+        writer.finish()?;
         if let Some((y, rate)) = decaying {
-            let shown = writer.call("shown", &[ZERO]);
-            script.line(&format!("pose proof (same_exponential ({rate} * {name}) _ _ _ eq_refl F{y}) as G."));
-            script.line(&format!("lapply G; [clear G; intro G; rewrite G | {shown}]."));
+            writer.equate(format!("same_exponential ({rate} * {name}) _ _ _ eq_refl F{y}"));
         }
-        script.line(&format!("{}.", writer.call("shown", &[ZERO])));
+        script.line(&format!("{}.", writer.shown(&["Known".into()])));
         Ok(())
     }
 
     /// Proves what does not depend on the variable.
-    fn at_zero(
-        &self,
-        script: &mut Script,
-        end: impl Fn(&mut Writer, &mut Script) -> Result<String>,
-    ) -> Result<()> {
+    fn at_zero(&self, script: &mut Script, end: impl Fn(&mut Writer) -> Result<String>) -> Result<()> {
         let stays = |y: usize| !self.place.problem.depends(y, self.by);
         script.names(&self.place, stays)?;
-        let mut writer = Writer::new(&self.place, self.state, self.leaf, stays);
-        writer.begin()?;
+        let mut writer = Writer::new(&self.place, self.state, self.leaf, stays)?;
         for step in self.steps {
             match step {
-                Step::Sign { of, .. } if !self.depends(of) => writer.step(script, step)?,
-                Step::Sign { reason: Reason::Certificate(_), facts, .. } => writer.skip(script, *facts)?,
+                Step::Sign { of, .. } if !self.depends(of) => writer.step(step)?,
+                Step::Sign { reason: Reason::Certificate(_), facts, .. } => writer.skip(*facts)?,
                 _ => {}
             }
         }
-        let end = end(&mut writer, script)?;
+        let end = end(&mut writer)?;
         script.line(&format!("{end}."));
         Ok(())
     }

@@ -7,16 +7,9 @@ use std::iter;
 pub(super) struct Solution {
     /// The certificate, with the sides that the steps produce.
     pub(super) certificate: Certificate,
-    /// The steps in Coq; the number of a fact in the list of known quantities stands for it.
-    pub(super) steps: Vec<Elimination>,
-}
-
-/// A step: a variable is eliminated by the known quantity with this number, up to this power of it; or a
-/// variable is divided out.
-#[derive(Clone, Copy)]
-pub(super) enum Elimination {
-    Solve(usize, usize, u8),
-    Divide(usize),
+    /// The steps in Coq: a variable is eliminated by a quantity, up to a power of it; or a variable is divided
+    /// out.
+    pub(super) steps: Vec<String>,
 }
 
 /// Number of terms that a side has at most if it is written out.
@@ -86,12 +79,12 @@ impl Solution {
                 sum = sum.plus_multiple(1, &part.times(&power(&cofactor, degree - n)?).ok()?).ok()?;
             }
             (l, r) = (l.times(&power(&cofactor, degree)?).ok()?, sum);
-            steps.push(Elimination::Solve(x, i, degree));
+            steps.push(format!("Solve {x} {} {degree}", first + i));
             open.retain(|own| *own != i);
             for y in (0..first).filter(|y| is_gone(*y)) {
                 while let (Some(less), Some(rest)) = (divided(&l, y), divided(&r, y)) {
                     (l, r) = (less, rest);
-                    steps.push(Elimination::Divide(y));
+                    steps.push(format!("Divide {y}"));
                 }
             }
         }
