@@ -12,31 +12,29 @@
 //! let families = report.families();
 //! let of = |family| families.iter().find(|row| row.family == family).unwrap().verdict;
 //! assert_eq!((of(Family::Contact), of(Family::Separated)), (Verdict::Right, Verdict::Wrong));
-//! assert_eq!(report.identified_mistake().unwrap().name, "the plane also pulls");
+//! assert_eq!(report.identified_mistake().unwrap().name, "the plane always acts");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 mod assessment;
+mod condition;
 mod diagnosis;
-mod mistakes;
 mod observation;
-mod penalty;
 mod problems;
+mod program;
 #[cfg(test)]
 mod tests;
-mod threshold;
 
 use crate::chapter::{SpringMass, system};
 use crate::number::{Exact, PositivePart};
 use crate::solver::State;
 pub use assessment::{Assessment, Verdict};
+pub use condition::{Condition, Quantity, Threshold};
 pub use diagnosis::{Diagnosis, DiagnosisScope};
-use mistakes::PenaltyEvidence;
+use diagnosis::{INFORMATIVE, Search, absolute_bounds};
 use observation::Observation;
-pub use penalty::{Penalty, PenaltyScaling};
 pub use problems::{DIGITS, Family, Problem, UnknownFamily, problems};
 use std::collections::BTreeMap;
-pub use threshold::{Threshold, ThresholdQuantity};
 
 /// A number reported by a solver; `None` if it is infinite or NaN.
 pub type Value = Option<Exact>;
@@ -113,14 +111,30 @@ pub struct Report {
     pub results: Vec<CaseResult>,
     /// Whether the remaining problems were skipped because the solver answered none of the first ones.
     pub given_up: bool,
-    /// Penalty parameter identified from forces and penetrations.
-    pub penalty: Penalty,
-    /// Threshold below which contacts are taken for separation.
-    pub missed_contacts: Option<Threshold>,
-    /// Threshold below which separated systems are taken for contacts.
-    pub false_contacts: Option<Threshold>,
-    /// Known mistakes that explain all answers, or otherwise all wrong answers. Empty if no answer is wrong.
+    /// Number of problems that were asked again at the end, in another order.
+    pub repeated: usize,
+    /// Problems that were answered otherwise the second time. The diagnosis is about the first replies.
+    pub changed: Vec<Repetition>,
+    /// The wrong answers that are those of an earlier request, by the numbers of both; empty if something else
+    /// explains them.
+    pub carried_over: Vec<[usize; 2]>,
+    /// Conditions each of which separates the wrong answers from the right ones. Empty if an explanation of all
+    /// answers is found.
+    pub conditions: Vec<Condition>,
+    /// The largest error of u in m, of N in N, and of their equilibrium in N: each if it does not grow with the systems,
+    /// and nothing else explains the errors.
+    pub absolute_bounds: [Option<Exact>; 3],
+    /// Mistakes that explain all answers, or otherwise all wrong answers. Empty if no answer is wrong.
     pub diagnosis: Vec<Diagnosis>,
+}
+
+/// A second reply to a problem.
+#[derive(Clone, Debug)]
+pub struct Repetition {
+    /// Number of the problem among the results.
+    pub of: usize,
+    /// The second reply.
+    pub reply: Reply,
 }
 
 /// Numbers of problems by verdict.
@@ -162,7 +176,7 @@ pub struct Row<'a> {
     pub worst: &'a CaseResult,
 }
 
-/// Default number of systems in each family: sufficient to distinguish all known mistakes, with a margin.
+/// Default number of systems in each family: sufficient to distinguish most mistakes.
 pub const CASES: u64 = 5;
 
 /// Number of consecutive failures at the start after which the solver is no longer called.
@@ -180,37 +194,111 @@ pub fn check<E>(
     tolerance: &Exact,
     mut ask: impl FnMut(&Problem) -> Result<Reply, E>,
 ) -> Result<Report, E> {
-    let mut checked = Vec::new();
+    let mut results = Vec::new();
     let mut given_up = false;
     for problem in problems {
-        let mut reply = ask(problem)?;
-        let judgement = Assessment::of(problem, &reply, tolerance);
-        // The steps have been assessed, and may be numerous.
-        if let Reply::Answered(answer) = &mut reply {
-            answer.steps = Vec::new();
-        }
-        checked.push(CaseResult { problem: problem.clone(), reply, assessment: judgement });
-        let silent = |of: &CaseResult| matches!(of.reply, Reply::Crashed(_) | Reply::TimedOut(_));
-        let more = checked.len() < problems.len();
-        given_up = more && checked.len() == MAX_INITIAL_FAILURES && checked.iter().all(silent);
+        results.push(CaseResult::of(problem, ask(problem)?, tolerance));
+        let is_silent = |of: &CaseResult| matches!(of.reply, Reply::Crashed(_) | Reply::TimedOut(_));
+        let is_last = results.len() == problems.len();
+        given_up = !is_last && results.len() == MAX_INITIAL_FAILURES && results.iter().all(is_silent);
         if given_up {
             break;
         }
     }
-    let answers = Vec::from_iter(checked.iter().filter_map(Observation::of));
+    let again = if given_up { Vec::new() } else { repeated(&results) };
+    let mut changed = Vec::new();
+    for of in again.iter().copied() {
+        let first: &CaseResult = &results[of];
+        let reply = ask(&first.problem)?;
+        if first.differs(&reply, tolerance) {
+            changed.push(Repetition { of, reply });
+        }
+    }
+    let answers: Vec<_> =
+        results.iter().enumerate().filter_map(|(i, result)| Observation::of(i, result, tolerance)).collect();
     let by_penalty = problems.iter().any(|problem| problem.penalty.is_some());
-    let penalty = Penalty::measured(&answers, PenaltyEvidence::ByForce, tolerance);
-    let missed = Threshold::of_missed_contacts(&answers, tolerance);
-    let held = Threshold::of_false_contacts(&answers, tolerance);
-    let diagnosis = diagnosis::diagnose(&answers, by_penalty, &penalty, tolerance);
-    Ok(Report {
-        results: checked,
-        given_up,
-        penalty,
-        missed_contacts: missed,
-        false_contacts: held,
-        diagnosis,
-    })
+    let found = diagnose(&answers, &Search::new(by_penalty, tolerance), changed.is_empty());
+    let (diagnosis, conditions, carried_over) = found;
+    let wrong: Vec<_> = answers.iter().filter(|given| given.wrong).collect();
+    let is_open = diagnosis.is_empty() && carried_over.is_empty() && changed.is_empty();
+    let absolute_bounds = if is_open { absolute_bounds(&wrong, tolerance) } else { Default::default() };
+    let diagnosis = diagnosis::lag(&answers).into_iter().chain(diagnosis).collect();
+    let repeated = again.len();
+    Ok(Report { results, given_up, repeated, changed, carried_over, conditions, absolute_bounds, diagnosis })
+}
+
+/// Mistakes, conditions, and pairs of requests with the same answer.
+type Explained = (Vec<Diagnosis>, Vec<Condition>, Vec<[usize; 2]>);
+
+/// Returns what explains the answers, the conditions under which they are wrong, and those carried over.
+fn diagnose(answers: &[Observation], search: &Search, is_function: bool) -> Explained {
+    let all: Vec<_> = answers.iter().collect();
+    let (wrong, mut right): (Vec<_>, Vec<_>) = all.iter().partition(|given| given.wrong);
+    let mut found = search.of_all(&all);
+    if !found.is_empty() || wrong.len() < INFORMATIVE || !is_function {
+        return (found.into_iter().map(|found| found.diagnosis).collect(), Vec::new(), Vec::new());
+    }
+    found = search.of_wrong(&wrong);
+    // Where the mistake would give the same answer, it tells nothing.
+    right.retain(|given| !found.iter().any(|found| search.may_cause(found, given)));
+    let conditions = Condition::separating(&wrong, &right);
+    if conditions.is_empty() {
+        // A wrong decision needs no condition.
+        found.retain(|found| found.is_decision());
+    }
+    let carried_over = if found.is_empty() { carried_over(answers) } else { Vec::new() };
+    let conditions = if carried_over.is_empty() { conditions } else { Vec::new() };
+    let scope = DiagnosisScope::Wrong;
+    let diagnosis = found.into_iter().map(|found| Diagnosis { answers: scope, ..found.diagnosis });
+    (diagnosis.collect(), conditions, carried_over)
+}
+
+/// Returns the wrong answers that are the right ones of an earlier request, by the numbers of both, if there
+/// are several.
+fn carried_over(answers: &[Observation]) -> Vec<[usize; 2]> {
+    let mut all = Vec::new();
+    for (i, given) in answers.iter().enumerate().filter(|(_, given)| given.wrong) {
+        let is_same = |other: &&Observation| !other.wrong && other.numbers() == given.numbers();
+        all.extend(answers[..i].iter().rfind(is_same).map(|earlier| [given.position, earlier.position]));
+    }
+    if all.len() < INFORMATIVE { Vec::new() } else { all }
+}
+
+/// Largest number of problems that are asked again.
+const MAX_REPEATED: usize = 12;
+
+/// Returns the numbers of the results whose problems are asked again: evenly spaced, from both ends in turn,
+/// so that most come after others than before.
+fn repeated(results: &[CaseResult]) -> Vec<usize> {
+    let answered = |(_, result): &(usize, &CaseResult)| matches!(result.reply, Reply::Answered(_));
+    let answered: Vec<_> = results.iter().enumerate().filter(answered).map(|(i, _)| i).collect();
+    let chosen: Vec<_> =
+        answered.iter().copied().step_by(answered.len().div_ceil(MAX_REPEATED).max(1)).collect();
+    let ends = chosen.iter().rev().zip(&chosen).flat_map(|(last, first)| [*last, *first]);
+    ends.take(chosen.len()).collect()
+}
+
+impl CaseResult {
+    fn of(problem: &Problem, mut reply: Reply, tolerance: &Exact) -> Self {
+        let assessment = Assessment::of(problem, &reply, tolerance);
+        // The steps have been assessed, and may be numerous.
+        if let Reply::Answered(answer) = &mut reply {
+            answer.steps = Vec::new();
+        }
+        CaseResult { problem: problem.clone(), reply, assessment }
+    }
+
+    /// Returns `true` if another reply to the same problem is no answer, or one that differs by more than the
+    /// tolerance.
+    fn differs(&self, other: &Reply, tolerance: &Exact) -> bool {
+        let (Reply::Answered(first), Reply::Answered(again)) = (&self.reply, other) else { return true };
+        let scales = assessment::scales(&self.problem.system);
+        let numbers = [[&first.deflection, &again.deflection], [&first.contact_force, &again.contact_force]];
+        numbers.iter().zip(&scales).any(|(both, scale)| match both {
+            [Some(a), Some(b)] => (a - b).abs() > tolerance * scale,
+            [a, b] => a != b,
+        })
+    }
 }
 
 impl Report {
@@ -220,7 +308,7 @@ impl Report {
         let Summary { wrong, crashed, timed_out, .. } = self.summary();
         let families = self.families();
         let known = !families.is_empty() && families.iter().all(|row| row.right > 0);
-        known && wrong + crashed + timed_out == 0 && self.lag().is_none()
+        known && wrong + crashed + timed_out == 0 && self.changed.is_empty() && self.lag().is_none()
     }
 
     /// Returns the smallest |R| relative to |m g| + |c (H − l)| among the systems in this state for which
@@ -261,7 +349,7 @@ impl Report {
         families.into_iter().filter_map(|(family, all)| Row::of(family, &all)).collect()
     }
 
-    /// Returns the known mistakes that explain all answers, or all wrong ones.
+    /// Returns the mistakes that explain all answers, or all wrong ones.
     pub fn fitting(&self) -> impl Iterator<Item = &Diagnosis> {
         self.diagnosis.iter().filter(|diagnosis| diagnosis.answers != DiagnosisScope::Steps)
     }
@@ -271,7 +359,7 @@ impl Report {
         self.diagnosis.iter().find(|diagnosis| diagnosis.answers == DiagnosisScope::Steps)
     }
 
-    /// Returns the known mistake if exactly one explains the answers, otherwise the diagnosis of the steps.
+    /// Returns the mistake if exactly one explains the answers, otherwise the diagnosis of the steps.
     pub fn identified_mistake(&self) -> Option<&Diagnosis> {
         let mut fitting = self.fitting();
         match (fitting.next(), fitting.next()) {

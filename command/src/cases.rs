@@ -37,7 +37,7 @@ pub struct Selection {
     #[arg(long, value_name = "N", default_value = "1", value_parser = parse_u64)]
     pub seed: u64,
     /// Only this family, repeatable: contact, separated, grazing, near, overlap, lifted, stiff, soft,
-    /// far, huge, tiny or graded
+    /// far, huge, tiny, graded, signed or neighbour
     #[arg(long = "family", value_name = "F")]
     families: Vec<Family>,
 }

@@ -4,8 +4,8 @@
 //! |c (H − l)|. Residuals alone would not suffice: a solver can be in equilibrium to twelve digits with forty
 //! times the force.
 
-use super::mistakes::right;
 use super::problems::decimal;
+use super::program::right;
 use super::{Answer, Problem, Reply, Value};
 use crate::chapter::contact::{self, Kkt};
 use crate::chapter::{SpringMass, augmented, structure, system};
@@ -55,6 +55,8 @@ pub struct Assessment {
     pub verdict: Verdict,
     /// Exact solution for the parameters that the solver used.
     pub exact: Solution<Exact>,
+    /// Whether u and N are right or within the tolerance.
+    pub(super) has_right_numbers: bool,
     /// The problem with these parameters, if there is an answer.
     pub(super) solved: Option<Problem>,
     /// Error of u relative to |H − l| + |m g/c|.
@@ -169,6 +171,7 @@ impl Assessment {
         let without_numbers = |verdict, finding: &str| Assessment {
             verdict,
             exact: problem.solution(),
+            has_right_numbers: false,
             solved: None,
             deflection_error: None,
             force_error: None,
@@ -229,7 +232,18 @@ impl Assessment {
         let [deflection_error, force_error] = errors;
         let lags = lags(&problem.system, &answer.steps, &fit(tolerance));
         let solved = Some(problem);
-        Assessment { verdict, exact, solved, deflection_error, force_error, kkt, finding, lags }
+        let has_right_numbers = well;
+        Assessment {
+            verdict,
+            exact,
+            has_right_numbers,
+            solved,
+            deflection_error,
+            force_error,
+            kkt,
+            finding,
+            lags,
+        }
     }
 
     /// Returns the larger of the two errors; `None`, which compares less than any error, without numbers.

@@ -1,13 +1,12 @@
 //! Answers to problems, and mistakes that explain them.
 
-use super::assessment::{balls, is_within, rounded, rounds_alike, scales, sizes};
-use super::mistakes::{
-    Constants, Estimate, Formulas, Mistake, PenaltyEvidence, right, value, value_in_single,
-};
+use super::assessment::{balls, fit, rounded, rounds_alike, scales, sizes};
 use super::problems::short;
+use super::program::{Constants, Formulas, Results, right, value};
 use super::{Answer, CaseResult, Problem, Reply, Value, Verdict};
-use crate::chapter::{SpringMass, augmented, contact, system};
+use crate::chapter::{SpringMass, system};
 use crate::number::{Ball, Exact, PositivePart, ToExact, Tree};
+use crate::solver::State;
 use num_traits::Zero;
 
 /// An answer with its problem.
@@ -22,60 +21,45 @@ pub(super) struct Observation<'a> {
     balls: Option<SpringMass<Ball<f64>>>,
     pub exact: [&'a Exact; 2],
     pub lags: Option<bool>,
+    /// Whether u or N is wrong.
     pub wrong: bool,
-}
-
-/// N/p, in N/m.
-pub(super) struct Ratio<'a> {
-    pub system: &'a SpringMass<Exact>,
-    pub value: Exact,
-    /// Penetration relative to its rounding error in f64.
-    pub clarity: Exact,
+    /// Whether it is within the rounding error.
+    pub right: bool,
+    /// The exact state, unless rounding may change it.
+    pub state: Option<State>,
+    /// The number of requests before it.
+    pub position: usize,
+    error: Option<&'a Exact>,
 }
 
 impl<'a> Observation<'a> {
-    pub fn of(checked: &'a CaseResult) -> Option<Self> {
+    /// Returns the answer to the problem at a position, if it is one.
+    pub fn of(position: usize, checked: &'a CaseResult, tolerance: &Exact) -> Option<Self> {
         let Reply::Answered(answer) = &checked.reply else { return None };
         let judgement = &checked.assessment;
         let problem = judgement.solved.as_ref()?;
         let system = &problem.system;
+        let scales = scales(system);
+        let is_open = system::reaction(system).abs() <= fit(tolerance) * &scales[1];
         Some(Observation {
             problem,
             answer,
-            scales: scales(system),
+            scales,
             sizes: sizes(system),
             balls: balls(&0f64, system),
             exact: [&judgement.exact.deflection, &judgement.exact.contact_force],
             lags: judgement.lags,
-            wrong: judgement.verdict == Verdict::Wrong,
+            wrong: !judgement.has_right_numbers,
+            right: judgement.verdict == Verdict::Right,
+            state: Some(judgement.exact.state).filter(|_| !is_open),
+            position,
+            error: judgement.error(),
         })
     }
 
-    /// Returns force divided by penetration, if it is positive, and the penetration exceeds the rounding
-    /// error of lengths and deflection in f64 by a factor of a thousand.
-    pub fn ratio(&self, by: PenaltyEvidence, tolerance: &Exact) -> Option<Ratio<'_>> {
-        let (force, u) = (self.force(by, tolerance)?, self.answer.deflection.as_ref()?);
-        let system = &self.problem.system;
-        let p = contact::penetration(system, u);
-        let rounding = (system.l.abs() + system.h.abs() + u.abs()) * Exact::power_of_two(-53);
-        if p.abs() <= Exact::from(1000) * &rounding {
-            return None;
-        }
-        let (value, clarity) = (force / &p, p.abs() / rounding);
-        (value > Exact::zero()).then_some(Ratio { system, value, clarity })
-    }
-
-    /// Returns the force from which a penalty could be determined, if there is one.
-    pub fn force(&self, by: PenaltyEvidence, tolerance: &Exact) -> Option<Exact> {
-        let system = &self.problem.system;
-        let force = match by {
-            PenaltyEvidence::ByForce => self.answer.contact_force.clone()?,
-            PenaltyEvidence::ByEquilibrium if self.exact[1].is_zero() => {
-                augmented::contact_force(system, self.answer.deflection.as_ref()?)
-            }
-            PenaltyEvidence::ByEquilibrium => return None,
-        };
-        (force.abs() > tolerance * &self.scales[1]).then_some(force)
+    /// Returns the larger of the errors of u and N relative to the system.
+    pub fn error(&self) -> Option<&Exact> {
+        self.error
     }
 
     /// Returns the penalty that the solver reported, or that of the problem.
@@ -88,46 +72,57 @@ impl<'a> Observation<'a> {
         [&self.answer.deflection, &self.answer.contact_force]
     }
 
-    /// Returns `true` if a program with this mistake and these constants gives this answer. Returns `false`
-    /// if it contains an unknown penalty.
-    pub fn is_explained_by(
+    /// Returns whether a program with these results and constants gives this answer: `None` if its rounding errors
+    /// may be as large as the error of the answer. Returns `Some(false)` if the results contain an
+    /// unknown penalty.
+    pub fn is_explained_by(&self, results: &Results, k: Option<&Exact>, tolerance: &Exact) -> Option<bool> {
+        let penalty = self.reported_penalty();
+        let constants = Constants { penalty: penalty.as_ref(), factor: k };
+        let touches = results.reaction(&self.problem.system, &constants) > Exact::zero();
+        let states = [true, false].into_iter().filter(|state| self.state.is_none() || *state == touches);
+        let found = states.map(|state| self.is_given_by(results.of_state(state), &constants, tolerance));
+        // Some(true), then None.
+        found.reduce(|a, b| if a == Some(false) || b == Some(true) { b } else { a })?
+    }
+
+    fn is_given_by(
         &self,
-        mistake: &Mistake,
+        formulas: &Formulas,
         constants: &Constants<Exact>,
         tolerance: &Exact,
-    ) -> bool {
-        let system = &self.problem.system;
-        let Observation { scales, sizes, .. } = self;
-        let numbers = self.numbers();
-        let Constants { penalty, factor } = *constants;
-        if penalty.is_none() && mistake.has_penalty() {
-            return false;
-        }
-        // The rounding errors of the formulas in f64 are allowed; but with a penalty that is only reported,
-        // and cannot be determined, they could explain any number.
-        let ball = |x: Option<&Exact>| x.and_then(|x| Ball::enclosing(&0f64, x).ok());
-        let (eps, k) = (ball(penalty), ball(factor));
-        let in_balls = Constants { penalty: eps.as_ref(), factor: k.as_ref() };
-        let has_penalty = self.reported_penalty().is_some();
-        let within = |x: &Exact, formula: &Tree, size: &Exact| {
-            let ball = self.balls.as_ref().and_then(|system| value(formula, system, &in_balls));
-            ball.is_some_and(|ball| {
-                if has_penalty { is_within(&ball, x, size) } else { ball.is_finite() && ball.contains(x) }
-            })
-        };
-        let fits = |formulas: &Formulas| {
-            (0..2).all(|i| match (numbers[i], value(&formulas[i], system, constants)) {
+    ) -> Option<bool> {
+        let mut is_clear = true;
+        for (i, formula) in formulas.iter().enumerate() {
+            match (self.numbers()[i], value(formula, &self.problem.system, constants)) {
                 (Some(own), Some(x)) => {
-                    (own - &x).abs() <= tolerance * (&scales[i] + x.abs())
-                        || within(own, &formulas[i], &sizes[i])
+                    if (own - &x).abs() > tolerance * (&self.scales[i] + x.abs()) {
+                        match self.is_rounded(i, formula, constants) {
+                            Some(false) => return Some(false),
+                            found => is_clear &= found.is_some(),
+                        }
+                    }
                 }
-                (None, None) => true,
-                _ => false,
-            })
-        };
-        // This close to grazing, rounding may change the state.
-        let (reaction, near) = (mistake.reaction(system, constants), tolerance * &scales[1]);
-        reaction >= -&near && fits(&mistake.in_contact) || reaction <= near && fits(&mistake.separated)
+                // Any program without a number gives the same answer.
+                (None, None) => is_clear = false,
+                _ => return Some(false),
+            }
+        }
+        is_clear.then_some(true)
+    }
+
+    /// Returns whether u or N is within the rounding errors of a formula in f64; `None` if it is, and they are
+    /// not small relative to its error.
+    fn is_rounded(&self, i: usize, formula: &Tree, constants: &Constants<Exact>) -> Option<bool> {
+        let ball = |x: Option<&Exact>| x.and_then(|x| Ball::enclosing(&0f64, x).ok());
+        let (eps, k) = (ball(constants.penalty), ball(constants.factor));
+        let in_balls = Constants { penalty: eps.as_ref(), factor: k.as_ref() };
+        let ball = self.balls.as_ref().and_then(|system| value(formula, system, &in_balls));
+        let (Some(ball), Some(own)) = (ball, self.numbers()[i]) else { return Some(false) };
+        let is_within = ball.is_finite() && ball.contains(own);
+        // Otherwise they would explain other errors as well.
+        let error = (own - self.exact[i]).abs();
+        let is_small = ball.radius().to_exact().is_ok_and(|radius| Exact::from(100) * radius <= error);
+        if is_within && !is_small { None } else { Some(is_within) }
     }
 
     /// Returns `true` if both numbers have the form of single precision, with the accuracy of a program that
@@ -149,72 +144,27 @@ impl<'a> Observation<'a> {
         })
     }
 
-    /// Returns `true` if a program with one rounding to single precision gives this answer.
-    pub fn is_explained_in_single(&self, mistake: &Mistake, tolerance: &Exact) -> bool {
-        let system = &self.problem.system;
-        // The formulas are the same in both states.
-        let value = |tree| value_in_single(tree, system, self.problem.penalty.as_ref());
-        self.is_near(mistake.in_contact.each_ref().map(value), tolerance)
-    }
-
     /// Returns `true` if a right program with these parameters gives this answer.
     pub fn is_explained_by_parameters(&self, system: &SpringMass<Exact>, tolerance: &Exact) -> bool {
-        self.is_near(right(system, self.problem.penalty.as_ref()).map(Some), tolerance)
+        let is_solvable = [&system.c, &system.m].into_iter().all(|x| *x > Exact::zero());
+        is_solvable && self.is_near(right(system, self.problem.penalty.as_ref()).map(Some), tolerance)
     }
 
     /// Returns `true` if the numbers are within the rounding error of f64 of the right answer, or within the
     /// tolerance.
     fn is_near(&self, numbers: [Value; 2], tolerance: &Exact) -> bool {
-        let balls = rounded(&0f64, self.problem);
         (0..2).all(|i| {
             let (Some(x), Some(own)) = (&numbers[i], self.numbers()[i]) else { return false };
             let off = (own - x).abs();
-            let radius = balls.as_ref().and_then(|balls| balls[i].radius().to_exact().ok());
-            let rounding = radius.is_some_and(|radius| radius <= self.sizes[i] && off <= radius);
-            rounding || off <= tolerance * &self.scales[i] || rounds_alike(own, x)
+            off <= tolerance * &self.scales[i] || off <= self.rounding(i) || rounds_alike(own, x)
         })
     }
 
-    /// Returns the constant of a mistake that this answer determines.
-    pub fn factor_of(&self, estimate: &Estimate) -> Option<Exact> {
-        match estimate {
-            Estimate::Number(which) => self.numbers()[*which].clone(),
-            Estimate::Augmentations(steps) => {
-                let system = &self.problem.system;
-                let p = contact::penetration(system, self.answer.deflection.as_ref()?);
-                let reaction = system::reaction(system);
-                // ρᵏ from the penetration R/c without a plane, with ρ = c/(c + ε).
-                let left = (reaction > Exact::zero()).then(|| &system.c * p / reaction)?;
-                let contraction = left.to_f64().ok()?.powf(1.0 / f64::from(*steps)).to_exact().ok()?;
-                (contraction > Exact::zero()).then(|| &system.c / contraction - &system.c)
-            }
-            Estimate::Ratio(which) => {
-                let (own, exact) = (self.numbers()[*which].as_ref()?, self.exact[*which]);
-                (!exact.is_zero()).then(|| own / exact)
-            }
-            Estimate::Equation(tree) => {
-                let (u, n) = (self.answer.deflection.as_ref()?, self.answer.contact_force.as_ref()?);
-                let symbol = |name: &str| match (name, self.problem.system.by_symbol(name)) {
-                    (_, Some(parameter)) => parameter.clone(),
-                    ("u", None) => u.clone(),
-                    ("N", None) => n.clone(),
-                    // k is arbitrary in a formula that is linear in it.
-                    _ => self.problem.penalty.clone().unwrap_or_else(Exact::zero),
-                };
-                tree.solve_linear("k", &symbol, &Exact::zero())
-            }
-        }
-    }
-
-    /// Returns u or N relative to its exact value. Returns `None` if both are nearly zero.
-    pub fn factor(&self, which: usize, tolerance: &Exact) -> Option<Option<Exact>> {
-        let small = |x: &Exact| x.abs() <= tolerance * &self.scales[which];
-        let Some(number) = self.numbers()[which] else { return Some(None) };
-        match (small(self.exact[which]), small(number)) {
-            (true, true) => None,
-            (true, false) => Some(None),
-            (false, _) => Some(Some(number / self.exact[which])),
-        }
+    /// Returns a bound of the error of the right u or N in f64; 0 if it is larger than the system.
+    pub fn rounding(&self, i: usize) -> Exact {
+        let balls = rounded(&0f64, self.problem);
+        let radius = balls.and_then(|balls| balls[i].radius().to_exact().ok());
+        radius.filter(|radius| *radius <= self.sizes[i]).unwrap_or_else(Exact::zero)
     }
 }
 

@@ -3,6 +3,7 @@
 //! A number is drawn as an integer and a power of ten, so that a seed has the same meaning on every machine,
 //! and has at most [`DIGITS`] digits, so that its text is exact.
 
+use super::assessment::scales;
 use crate::chapter::{SpringMass, structure};
 use crate::number::{Exact, PositivePart};
 use num_traits::{One, Zero};
@@ -49,11 +50,16 @@ pub enum Family {
     /// |R| from 10⁻⁹ to 10⁻¹ of |m g| + |c (H − l)|, on either side, where an internal
     /// tolerance of the solver decides. Each decade has as many systems as another family.
     Graded,
+    /// H < 0, l of any sign, u < −|l|, and g of ±9.81 or ±9.80665 m/s².
+    Signed,
+    /// A system of [`Family::Contact`] with one parameter larger by a thousandth, so that an answer to another
+    /// request is wrong. There are three times as many as in another family.
+    Neighbour,
 }
 
 impl Family {
     /// All families.
-    pub const ALL: [Family; 12] = [
+    pub const ALL: [Family; 14] = [
         Family::Contact,
         Family::Separated,
         Family::Grazing,
@@ -66,11 +72,17 @@ impl Family {
         Family::Huge,
         Family::Tiny,
         Family::Graded,
+        Family::Signed,
+        Family::Neighbour,
     ];
 
     /// Returns its number of systems relative to other families.
     fn multiplicity(self) -> u64 {
-        if self == Family::Graded { GRADES.len() as u64 } else { 1 }
+        match self {
+            Family::Graded => GRADES.len() as u64,
+            Family::Neighbour => 3,
+            _ => 1,
+        }
     }
 
     /// Returns its name on the command line and in JSON.
@@ -88,6 +100,8 @@ impl Family {
             Family::Huge => "huge",
             Family::Tiny => "tiny",
             Family::Graded => "graded",
+            Family::Signed => "signed",
+            Family::Neighbour => "neighbour",
         }
     }
 }
@@ -173,6 +187,7 @@ fn last_digit(x: &Exact) -> Exact {
 /// Random source of the systems of a family.
 struct Draw {
     random: Rand64,
+    seed: u64,
     family: Family,
     number: u64,
 }
@@ -180,7 +195,7 @@ struct Draw {
 impl Draw {
     fn new(seed: u64, family: Family, number: u64) -> Self {
         let stream = (u128::from(seed) << 64) | (u128::from(number) << 8) | family as u128;
-        Draw { random: Rand64::new(stream), family, number }
+        Draw { random: Rand64::new(stream), seed, family, number }
     }
 
     fn between(&mut self, low: i32, high: i32) -> i32 {
@@ -238,7 +253,11 @@ impl Draw {
                 let part = self.part();
                 let l = if self.between(0, 3) == 0 { Exact::zero() } else { self.decades(-1, 0) };
                 let (c, m, g) = (self.decades(7, 9), self.decades(0, 1), self.decades(0, 1));
-                hung(c, m, g, l, &part)
+                let system = hung(c.clone(), m.clone(), g.clone(), l, &part);
+                // In f64 the difference of long lengths would be off by more than the tolerance.
+                let [scale, _] = scales(&system);
+                let rounding = (system.l.abs() + system.h.abs()) * Exact::power_of_two(-53);
+                if rounding > decimal(9, -7) * scale { hung(c, m, g, Exact::zero(), &part) } else { system }
             }
             Family::Soft => {
                 let part = self.part();
@@ -257,6 +276,8 @@ impl Draw {
             Family::Tiny => self.sized(-14, -7),
             Family::Grazing => self.grazing(),
             Family::Graded => self.graded(),
+            Family::Signed => self.signed(),
+            Family::Neighbour => self.neighbour(),
             Family::Near => {
                 let mut system = self.grazing();
                 let SpringMass { c, m, g, l: _, h } = &mut system;
@@ -310,6 +331,32 @@ impl Draw {
             1 => SpringMass { m: short(m * factor), c, g, l, h },
             _ => SpringMass { g: short(g * factor), c, m, l, h },
         }
+    }
+
+    /// The plane is above the support, and the mass mostly falls upwards.
+    fn signed(&mut self) -> SpringMass<Exact> {
+        let (m, h) = (self.decades(-1, 0), -self.decades(-1, 0));
+        let l = match self.number % 3 {
+            0 => Exact::zero(),
+            2 => -self.decades(-3, -2),
+            _ => self.decades(-1, 0),
+        };
+        let g = if self.number % 2 == 1 { decimal(981, -2) } else { decimal(980_665, -5) };
+        // The gap relative to the free deflection is the reciprocal of this.
+        let part = if self.number % 2 == 1 { self.beyond() } else { self.inside() };
+        let c = short(&(&m * &g / (&l - &h) * part), 3);
+        let g = if self.number.is_multiple_of(5) { g } else { -g };
+        SpringMass { c, m, g, l, h }
+    }
+
+    /// Each five of these have one base, of which they change one parameter each.
+    fn neighbour(&mut self) -> SpringMass<Exact> {
+        let [base, which] = [(self.number - 1) / 5, (self.number - 1) % 5];
+        let mut system = Draw::new(self.seed, Family::Contact, base + 1).system();
+        let SpringMass { c, m, g, l, h } = &mut system;
+        let changed = [c, m, g, l, h].into_iter().nth(which as usize).expect("five parameters");
+        *changed = short(&(&*changed * decimal(1001, -3)), DIGITS);
+        system
     }
 
     /// m g = c Δ, where m is a divisor, so that g has few digits.

@@ -6,7 +6,7 @@ use crate::args::format_exact;
 use crate::output::record;
 use serde::Serialize;
 use serde_json::value::RawValue;
-use spring_mass_contact::check::{CaseResult, Reply, Report, Row, Threshold, Value, Verdict};
+use spring_mass_contact::check::{CaseResult, Condition, Reply, Report, Row, Threshold, Value, Verdict};
 use spring_mass_contact::number::Exact;
 use spring_mass_contact::rug::float::Round;
 
@@ -15,7 +15,6 @@ const DIGITS: usize = 6;
 
 /// Returns the report with the program and the options.
 pub fn report(program: &str, options: &Options, report: &Report) -> impl Serialize {
-    let penalty = &report.penalty;
     record! {
         program: program.to_string(),
         seed: options.drawn.seed,
@@ -24,13 +23,11 @@ pub fn report(program: &str, options: &Options, report: &Report) -> impl Seriali
         given_up: report.given_up,
         summary: report.summary(),
         families: report.families().iter().map(family).collect::<Vec<_>>(),
-        penalty: record! {
-            kind: penalty.kind,
-            value: penalty.value.as_ref().map(|value| value.decimal(DIGITS, Round::Nearest)),
-            spread: error(&penalty.spread),
-        },
-        missed: report.missed_contacts.as_ref().map(threshold),
-        held: report.false_contacts.as_ref().map(threshold),
+        repeated: report.repeated,
+        changed: report.changed.iter().map(|again| report.results[again.of].problem.id.clone()).collect::<Vec<_>>(),
+        carried_over: report.carried_over.iter().map(|both| both.map(|i| &report.results[i].problem.id)).collect::<Vec<_>>(),
+        conditions: report.conditions.iter().map(condition).collect::<Vec<_>>(),
+        absolute_bounds: report.absolute_bounds.each_ref().map(error),
         diagnosis: &report.diagnosis,
     }
 }
@@ -46,12 +43,20 @@ fn family<'a>(row: &Row<'a>) -> impl Serialize + use<'a> {
     }
 }
 
-fn threshold(threshold: &Threshold) -> impl Serialize + use<> {
+fn condition(condition: &Condition) -> impl Serialize + use<> {
     record! {
-        count: threshold.count,
-        of: threshold.of,
-        up_to: threshold.up_to.decimal(DIGITS, Round::Up),
-        from: threshold.from.decimal(DIGITS, Round::Down),
+        state: condition.state,
+        threshold: condition.threshold.as_ref().map(threshold),
+    }
+}
+
+fn threshold(threshold: &Threshold) -> impl Serialize + use<> {
+    let [wrong, right] =
+        if threshold.is_below() { [Round::Up, Round::Down] } else { [Round::Down, Round::Up] };
+    record! {
+        quantity: threshold.quantity,
+        wrong: threshold.wrong.decimal(DIGITS, wrong),
+        right: threshold.right.decimal(DIGITS, right),
     }
 }
 

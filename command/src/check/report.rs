@@ -4,10 +4,9 @@ use crate::args::{Number, format_exact};
 use crate::lines::NO_BREAK_SPACE;
 use crate::output::{self, shortened};
 use spring_mass_contact::check::{
-    CaseResult, Diagnosis, DiagnosisScope, Penalty, PenaltyScaling, Reply, Report, Row, Summary, Threshold,
-    ThresholdQuantity, Value, Verdict,
+    CaseResult, Diagnosis, DiagnosisScope, Quantity, Reply, Report, Row, Summary, Threshold, Value, Verdict,
 };
-use spring_mass_contact::number::{Exact, PositivePart};
+use spring_mass_contact::number::Exact;
 use spring_mass_contact::rug::float::Round;
 use spring_mass_contact::solver::State;
 use std::io::{self, Write};
@@ -47,24 +46,23 @@ pub fn table(out: &mut dyn Write, program: &str, report: &Report, tolerance: &Nu
     if !bad.is_empty() {
         writeln!(out, "\n --format json contains an example of each failing family with its request.")?;
     }
-    let lag = report.lag();
-    let fitting = report.identified_mistake().filter(|named| named.answers != DiagnosisScope::Steps);
-    for (said, diagnosis) in [
-        (given_up(report), None),
-        (families_refused(report), None),
-        (penalty(report), None),
-        (report.missed_contacts.as_ref().map(missed), None),
-        (report.false_contacts.as_ref().map(held), None),
-        (lag.map(lagging), lag),
-        (diagnosed(report), fitting),
-    ] {
-        let Some(said) = said else { continue };
+    let found =
+        [given_up(report), families_refused(report), changed(report), carried_over(report), absolute(report)];
+    for said in found.into_iter().flatten() {
         writeln!(out)?;
         output::wrapped(out, " ", 1, &said)?;
-        if let Some(Diagnosis { formula, at, .. }) = diagnosis {
-            output::wrapped(out, "   ", 3, formula)?;
-            at.iter().try_for_each(|place| output::wrapped(out, "   ", 3, place))?;
-        }
+    }
+    for (said, diagnosis) in
+        [(report.lag().map(lagging), report.lag()), (diagnosed(report), report.fitting().next())]
+    {
+        let (Some(said), Some(diagnosis)) = (said, diagnosis) else { continue };
+        writeln!(out)?;
+        output::wrapped(out, " ", 1, &said)?;
+        diagnosis.program.iter().try_for_each(|line| output::wrapped(out, "   ", 3, line))?;
+    }
+    if let Some(said) = conditions(report) {
+        writeln!(out)?;
+        output::wrapped(out, " ", 1, &said)?;
     }
     if report.holds() {
         writeln!(out)?;
@@ -141,60 +139,73 @@ fn given_up(report: &Report) -> Option<String> {
     report.given_up.then(said)
 }
 
-/// Describes the identified penalty, if it differs from the requested one.
-fn penalty(report: &Report) -> Option<String> {
-    let Penalty { kind, value, spread } = &report.penalty;
-    let (value, spread) = (value.as_ref()?, spread.as_ref()?);
-    let asked = report.results.first()?.problem.penalty.as_ref();
-    if *kind == PenaltyScaling::Constant && asked.is_some_and(|asked| (value - asked).abs() <= spread * asked)
-    {
-        return None;
+/// Describes a program whose answers depend on more than the request.
+fn changed(report: &Report) -> Option<String> {
+    let first = report.changed.first()?;
+    let result = &report.results[first.of];
+    let numbers = |reply: &Reply| match reply {
+        Reply::Answered(answer) => {
+            let text =
+                |x: &Value| x.as_ref().map_or("not a number".to_string(), |x| x.decimal(6, Round::Nearest));
+            format!("u = {} m, N = {} N", text(&answer.deflection), text(&answer.contact_force))
+        }
+        _ => "no answer".to_string(),
+    };
+    Some(format!(
+        "The program carries something over from earlier requests, or is random: of {} requests that were \
+         repeated in another order, {} have another answer. {}: first {}, then {}.",
+        report.repeated,
+        report.changed.len(),
+        result.problem.id,
+        numbers(&result.reply),
+        numbers(&first.reply),
+    ))
+}
+
+/// Describes answers that are those of earlier requests.
+fn carried_over(report: &Report) -> Option<String> {
+    let [own, earlier] = report.carried_over.first()?.map(|i| &report.results[i].problem.id);
+    let (count, wrong) = (report.carried_over.len(), report.summary().wrong);
+    Some(format!(
+        "The program carries something over from earlier requests: {count} of {wrong} wrong answers are the \
+         right ones of an earlier request; that to {own} is that to {earlier}."
+    ))
+}
+
+/// Describes what separates the wrong answers from the right ones.
+fn conditions(report: &Report) -> Option<String> {
+    let first = report.conditions.first()?;
+    let of = match first.state {
+        Some(State::Contact) => " in contact",
+        Some(State::Separated) => " without contact",
+        Some(State::Grazing) | None => "",
+    };
+    let clauses =
+        report.conditions.iter().filter_map(|condition| condition.threshold.as_ref()).take(EXAMPLES);
+    let clauses: Vec<_> = clauses.map(clause).collect();
+    let of = match clauses[..] {
+        [] => format!("all {} systems{of}", report.summary().wrong),
+        _ => format!("systems{of} with {}", clauses.join(", or ")),
+    };
+    let others = if clauses.len() > 1 { " More cases may tell which of these matters." } else { "" };
+    Some(format!("The {} wrong answers are to {of}.{others}", report.summary().wrong))
+}
+
+/// Formats a threshold: `|R|/c up to 9.9e-7 m (right from 1.3e-6 m on)`.
+fn clause(threshold: &Threshold) -> String {
+    let Threshold { quantity, wrong, right } = threshold;
+    let digits = if *quantity == Quantity::Position { DIGITS } else { FEW };
+    let text = |x: &Exact, round| {
+        (x.decimal(digits, round) + quantity.unit()).replace(' ', &NO_BREAK_SPACE.to_string())
+    };
+    let symbol = quantity.symbol().replace(' ', &NO_BREAK_SPACE.to_string());
+    if threshold.is_below() {
+        let (wrong, right) = (text(wrong, Round::Up), text(right, Round::Down));
+        format!("{symbol} up to {wrong} (right from {right} on)")
+    } else {
+        let (wrong, right) = (text(wrong, Round::Down), text(right, Round::Up));
+        format!("{symbol} from {wrong} on (right up to {right})")
     }
-    let value = value.decimal(6, Round::Nearest);
-    let (eps, besides) = match kind {
-        PenaltyScaling::None => return None,
-        PenaltyScaling::Constant => (format!("ε = {value} N/m"), ""),
-        PenaltyScaling::OfStiffness => (
-            format!("ε = {value} c"),
-            " An iteration that always stops after the same number of steps does so, too.",
-        ),
-        PenaltyScaling::OfMass => (format!("ε = m × {value}/s²"), ""),
-    };
-    let spread = spread.decimal(FEW, Round::Up);
-    Some(format!("It acts like a penalty: N = ε p with {eps}, constant to within {spread}.{besides}"))
-}
-
-fn missed(missed: &Threshold) -> String {
-    let (what, [up_to, from]) = ends(missed, "the penetration without a plane is", "the contact force is");
-    format!(
-        "It misses contact in {} systems, in which {what} up to {up_to}, and detects it in all others, \
-         from {from} on; probably by an internal tolerance.",
-        missed.count
-    )
-}
-
-fn held(held: &Threshold) -> String {
-    let (what, [up_to, from]) = ends(held, "the gap is", "the required pull is");
-    format!(
-        "It holds the mass at the plane in {} separated systems, where {what} up to {up_to}, \
-         and releases it in all others, from {from} on; probably by an internal tolerance.",
-        held.count
-    )
-}
-
-/// Returns the words for a penetration or a force, with the largest value decided wrongly and the smallest
-/// one decided rightly, and their reference.
-fn ends<'a>(threshold: &Threshold, penetration: &'a str, force: &'a str) -> (&'a str, [String; 2]) {
-    let Threshold { count: _, of, up_to, from } = threshold;
-    let (what, unit) = match of {
-        ThresholdQuantity::Penetration => (penetration, " m"),
-        ThresholdQuantity::Force => (force, " N"),
-        ThresholdQuantity::ForceByWeight => (force, " |m g|"),
-        ThresholdQuantity::PenetrationByHeight => (penetration, " |H|"),
-    };
-    // Lines are not broken within it.
-    let text = |x: &Exact, round| (x.decimal(FEW, round) + unit).replace(' ', &NO_BREAK_SPACE.to_string());
-    (what, [text(up_to, Round::Up), text(from, Round::Down)])
 }
 
 /// Describes the scope of the test if nothing is wrong.
@@ -231,19 +242,47 @@ fn lagging(lag: &Diagnosis) -> String {
     format!("The reported steps of all {} systems show it: {}.", lag.of, lag.name)
 }
 
+/// Names a mistake, and two others with the same results.
+fn named(diagnosis: &Diagnosis) -> String {
+    let Diagnosis { name, equivalent, .. } = diagnosis;
+    let others: Vec<_> = equivalent.iter().take(2).map(|other| format!(", or {other}")).collect();
+    format!("{name}{}", others.concat())
+}
+
+/// Names the mistakes that explain the answers.
 fn diagnosed(report: &Report) -> Option<String> {
-    let fitting: Vec<_> = report.fitting().collect();
-    let Diagnosis { answers, of, .. } = fitting.first()?;
-    let which = if *answers == DiagnosisScope::All { "answers" } else { "wrong answers" };
-    let names: Vec<_> = fitting.iter().map(|one| one.name.as_str()).collect();
-    Some(match names[..] {
-        [only] => format!("Exactly one known mistake explains each of {of} {which}: {only}."),
+    let names: Vec<_> = report.fitting().map(named).collect();
+    let Diagnosis { answers, of, .. } = report.fitting().next()?;
+    let (which, others) = match answers {
+        DiagnosisScope::Wrong => ("wrong answers", ", but not the right ones"),
+        _ => ("answers", ""),
+    };
+    Some(match &names[..] {
+        [only] => format!("One mistake explains all {of} {which}{others}: {only}."),
         _ => format!(
-            "Several known mistakes explain each of {of} {which}: {}. More families or cases may \
-             distinguish them.",
-            names.join("; ")
+            "Each of {} mistakes explains all {of} {which}{others}: {}. More families or cases may tell which it \
+             is. The first one:",
+            names.len(),
+            names.join("; "),
         ),
     })
+}
+
+/// Describes errors that do not grow with the systems.
+fn absolute(report: &Report) -> Option<String> {
+    let [u, n, residual] =
+        report.absolute_bounds.each_ref().map(|bound| Some(bound.as_ref()?.decimal(FEW, Round::Up)));
+    let residual = residual.filter(|_| u.is_none() && n.is_none());
+    let bounds = [("u", u, "m"), ("N", n, "N"), ("m g − c u − N", residual, "N")];
+    let bounds =
+        bounds.into_iter().filter_map(|(name, bound, unit)| Some(format!("{} {unit} of {name}", bound?)));
+    let bounds = bounds.collect::<Vec<_>>().join(", ");
+    let said = || {
+        format!(
+            "The errors do not grow with the systems; the largest is {bounds}. An absolute tolerance, or a constant, has this effect."
+        )
+    };
+    (!bounds.is_empty()).then(said)
 }
 
 #[cfg(test)]
