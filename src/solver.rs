@@ -39,7 +39,7 @@ use num_traits::One;
 ///
 /// Always terminates, and never returns a NaN or an infinity; allocates nothing for f32 and f64. An
 /// augmentation in rationals, whose length grows with every step, ends before it would take hours: a
-/// multiplier has at most 2²² binary digits, and all of them together at most 2²⁸.
+/// multiplier has at most 2²¹ binary digits, and all of them together at most 2²⁶.
 ///
 /// # Errors
 /// Returns [`SolveError::Invalid`] if a parameter is not finite or out of its range,
@@ -155,6 +155,7 @@ struct ExactSolution<E> {
     deflection: E,
     penetration: E,
     contact_force: E,
+    state: State,
     /// Whether the mass is separated from a unilateral plane.
     free: bool,
 }
@@ -174,7 +175,7 @@ impl<E: crate::number::PositivePart> ExactSolution<E> {
             _ if free => {
                 let deflection = structure::deflection(enclosed);
                 let penetration = contact::penetration(enclosed, &deflection);
-                ExactSolution { deflection, penetration, contact_force: E::zero(), free }
+                ExactSolution { deflection, penetration, contact_force: E::zero(), state, free }
             }
             Method::Penalty { penalty: eps } => {
                 let eps = eps.enclose();
@@ -182,6 +183,7 @@ impl<E: crate::number::PositivePart> ExactSolution<E> {
                     deflection: penalty::deflection(enclosed, &eps),
                     penetration: penalty::penetration(enclosed, &eps),
                     contact_force: force_at_root::<T>(enclosed, reaction, &eps),
+                    state,
                     free,
                 }
             }
@@ -189,7 +191,8 @@ impl<E: crate::number::PositivePart> ExactSolution<E> {
                 deflection: lagrange::deflection(enclosed),
                 penetration: E::zero(),
                 // λ = R, which `lagrange::multiplier` would compute again.
-                contact_force: if state == State::Grazing { E::zero() } else { reaction },
+                contact_force: reaction,
+                state,
                 free,
             },
         }
@@ -201,22 +204,28 @@ impl<E: crate::number::PositivePart> ExactSolution<E> {
     }
 
     fn bounds<T: Scalar<Enclosure = E>>(&self) -> Result<Bounds<T>, SolveError> {
+        // Neither p nor N has the opposite sign of R, which is exact.
+        let signed = |Interval { lower, upper }: Interval<T>| match self.state {
+            State::Contact => Interval { lower: lower.positive_part(), upper },
+            State::Grazing => Interval { lower: T::zero(), upper: T::zero() },
+            State::Separated => Interval { lower, upper: upper.min(&T::zero()) },
+        };
         Ok(Bounds {
             deflection: to_interval(&self.deflection, "deflection")?,
-            penetration: to_interval(&self.penetration, "penetration")?,
-            contact_force: to_interval(&self.contact_force, "contact force")?,
+            penetration: signed(to_interval(&self.penetration, "penetration")?),
+            contact_force: signed(to_interval(&self.contact_force, "contact force")?),
         })
     }
 }
 
-/// Encloses ε R / (c + ε). If ε R overflows, multiplies the result for a reaction of 1 N by R.
+/// Encloses ε R / (c + ε). If ε R overflows or underflows, multiplies the result for a reaction of 1 N by R.
 fn force_at_root<T: Scalar>(
     enclosed: &SpringMass<T::Enclosure>,
     reaction: T::Enclosure,
     eps: &T::Enclosure,
 ) -> T::Enclosure {
     let force = penalty::contact_force_at_equilibrium(enclosed, eps);
-    if T::magnitude(&force).is_finite() {
+    if T::magnitude(&force).is_finite() && T::sign(&force) == T::sign(&reaction) {
         return force;
     }
     penalty::contact_force_at_equilibrium(&root::reduced_system(enclosed.c.clone(), T::Enclosure::one()), eps)
@@ -269,8 +278,6 @@ fn iterate<T: Scalar>(
     let free = target.free.then(|| structure::deflection(system));
     // The bound includes the rounding error of the difference itself.
     let bound = |u: &T| T::magnitude(&target.error(enclosed, &u.enclose()));
-    let mut previous: Option<T> = None;
-    let mut floor: Option<T> = None;
     let mut side = None;
     let mut digits = 0_u64;
     loop {
@@ -306,27 +313,16 @@ fn iterate<T: Scalar>(
         } else if step.k >= max_augmentations {
             Outcome::IterationLimit
         } else {
-            if !approaching {
-                floor = Some(bound(&step.deflection));
-            }
-            // Only the last two deflections are kept; all other memory is reused.
-            let spare = previous.replace(step.deflection).unwrap_or_else(T::zero);
-            steps.reuse(Iterate { deflection: spare, ..step });
+            steps.reuse(step);
             continue;
         };
-        let floor = (outcome == Outcome::Stagnated).then(|| {
-            // The computed error decreases while the iterate approaches, unless the last step crossed the
-            // solution.
-            let earlier = previous.as_ref().map(&bound).into_iter().chain(floor);
-            earlier.fold(bound(&step.deflection), |least, bound| least.min(&bound))
-        });
         return Ok(RawSolution {
+            floor: (outcome == Outcome::Stagnated).then(|| bound(&step.deflection)),
             outcome,
             deflection: step.deflection,
             contact_force: step.contact_force,
             multiplier: Some(step.multiplier),
             augmentations: Some(step.k),
-            floor,
         });
     }
 }

@@ -1,6 +1,6 @@
 //! `contact advise`: recommends a penalty parameter for a tolerance.
 
-use crate::args::{NameStyle, Number, System, exact, format_exact, in_scalar, parse_positive};
+use crate::args::{NameStyle, Number, System, exact, format_exact, in_scalar, invalid, parse_positive};
 use crate::output::{self, Exit, Failure, formats, record, shortened};
 use crate::solve::{MethodName, rounded_in_words, state_in_words};
 use clap::ValueEnum;
@@ -51,9 +51,17 @@ pub struct Options {
 
 formats!(Table: "For people", Json: "Numbers as strings");
 
+/// Largest precision of the runs that confirm an advice: a thousand augmentations then take a second.
+const MOST_BITS: u32 = 100_000;
+
 /// Computes the advice and prints it.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
-    in_scalar!(options.scalar, |like| run_in(options, like))
+    let scalar = options.scalar;
+    if matches!(scalar, NumberSystem::Mpfr(bits) if bits > MOST_BITS) {
+        let reason = format!("advice is confirmed by runs, which take at most mpfr:{MOST_BITS}");
+        return Err(invalid(&scalar.to_string(), "--scalar <S>", reason));
+    }
+    in_scalar!(scalar, |like| run_in(options, like))
 }
 
 fn run_in<T: Scalar + ExactText>(options: &Options, like: &T) -> Result<Exit, Failure> {

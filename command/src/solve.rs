@@ -27,12 +27,12 @@ Examples:
   contact solve --gravity -9.81 --height 21/20 --format json
   echo '{\"id\": 7, \"height\": 1.09}' | contact solve --batch
 
-A number is a decimal (0.05), scientific (5e-2) or a fraction (1/20), read
-exactly and rounded once into the scalar. In the table, exact: and limit: are
-bounds of the exact solution for the rounded parameters; for an augmentation, of
-its limit. JSON has them under bounds. An augmentation in rationals, whose
-length grows with every step, ends with an error if a multiplier would have more
-than 2²² binary digits, or all of them together 2²⁸.
+A number is a decimal (0.05), scientific (5e-2), hexadecimal (0x1.8p-3) or a
+fraction (1/20), read exactly and rounded once into the scalar. In the table,
+exact: and limit: are bounds of the exact solution for the rounded parameters;
+for an augmentation, of its limit. JSON has them under bounds. An augmentation
+in rationals, whose length grows with every step, ends with an error if a
+multiplier would have more than 2²¹ binary digits, or all of them together 2²⁶.
 
 With --batch each line of stdin is a JSON object. Its keys are the long options
 with underscores (free_length), and id, which is returned; options on the

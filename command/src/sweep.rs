@@ -75,6 +75,9 @@ const ERROR_DIGITS: usize = 6;
 
 /// Parses a range of two numbers.
 fn range(text: &str) -> Result<(Number, Number), String> {
+    if text.contains("...") {
+        return Err("must be FROM..TO with two dots, not three, such as 1..1e12".to_string());
+    }
     let (from, to) = text.split_once("..").ok_or("must be FROM..TO, such as 1..1e12")?;
     let end = |name: &str, text| {
         parse_positive(text).map_err(|error| format!("{name} '{}': {error}", shortened(text)))

@@ -267,6 +267,10 @@ fn rounding_notes_appear_only_for_visible_rounding() {
         ("0.1", "mpfr:2", Some("l ≈ 0.0938 m")),
         ("1/3", "mpfr:2", Some("l = 0.375 m")),
         ("6e2", "mpfr:2", Some("l = 512 m")),
+        ("0x1.8p-3", "mpfr:2", None),
+        ("0x1.ep-3", "mpfr:2", Some("l = 0.25 m")),
+        ("0x1.999999999999ap-4", "f64", None),
+        ("0x1.999999999999ap-4", "f32", Some("l ≈ 0.10000000149012 m")),
         ("12", "mpfr:2", None),
         ("1.50", "mpfr:2", None),
     ] {
@@ -439,7 +443,8 @@ const NUMBERS: [(&str, &str); 8] = [
 
 #[test]
 fn no_bad_number_gets_further_than_one_line() {
-    const SPELLING: &str = "a number is a decimal (0.05), scientific (5e-2) or a fraction (1/20)";
+    const SPELLING: &str =
+        "a number is a decimal (0.05), scientific (5e-2), hexadecimal (0x1.8p-3) or a fraction (1/20)";
     for (flag, method) in NUMBERS {
         for (value, reason) in [
             ("NaN", SPELLING),
@@ -453,7 +458,7 @@ fn no_bad_number_gets_further_than_one_line() {
             ("1e1.5", SPELLING),
             ("1/", SPELLING),
             ("1/2/3", SPELLING),
-            ("0x10", SPELLING),
+            ("0x1.8p", SPELLING),
             ("1_000", SPELLING),
             ("1,5", SPELLING),
             ("١", SPELLING),

@@ -98,9 +98,10 @@ pub(super) fn require_finite<T: Scalar>(solution: &Solution<T>) -> Result<(), So
     in_range(solution.floor.as_ref().is_none_or(T::is_finite), "bound of |u − u*|")
 }
 
-/// Limits of binary digits, for one multiplier and for all steps together; beyond them a step takes minutes.
-const LONGEST: u64 = 1 << 22;
-const MOST_DIGITS: u64 = 1 << 28;
+/// Limits of binary digits, for one multiplier and for all steps together; within them an augmentation takes
+/// about a second.
+const LONGEST: u64 = 1 << 21;
+const MOST_DIGITS: u64 = 1 << 26;
 
 pub(super) fn digits(multiplier: u64, all_multipliers: u64) -> Result<(), SolveError> {
     if multiplier > LONGEST {

@@ -234,9 +234,8 @@ pub struct Solution<T> {
     pub multiplier: Option<T>,
     /// Number k of augmentations of the returned iterate; `None` without iteration.
     pub augmentations: Option<u64>,
-    /// Smallest bound of |u − u*|, in m, that a stagnated iteration attained: over the last two deflections
-    /// and, if λ₀ < 0, the first. The computed error decreases in between, so the bound of no other
-    /// deflection is smaller, except by the rounding of the bounds themselves.
+    /// Bound of |u − u*| of this deflection, in m, if the iteration stagnated. It is below the tolerance if
+    /// only the natural residual is not.
     #[cfg_attr(feature = "serde", serde(serialize_with = "crate::number::quantity::option"))]
     pub floor: Option<T>,
     /// Enclosures of the exact solution.

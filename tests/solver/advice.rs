@@ -465,7 +465,7 @@ fn rationals_reach_everything() {
         let [of_penalty, of_augmentation] = [1, 2].map(|i| choices[i].penalty_range[0].as_ref());
         if r > int(0) {
             let least = (&r / tolerance - &s.c).positive_part();
-            assert!(of_penalty.is_none_or(|from| *from > least));
+            assert!(of_penalty.is_none_or(|from| *from > least && from * q("99/100") <= least));
         }
         let needed =
             |eps: &Exact| exact_augmentation_count(s, eps, tolerance, &int(0), Plane::Unilateral).unwrap();

@@ -343,26 +343,7 @@ fn outcomes_keep_their_promises<T: Float>(floats: &Case<T>) {
             }
             Outcome::Stagnated => {
                 let floor = exact(answer.floor.as_ref().unwrap());
-                let least = steps.iter().map(|step| error(&step.deflection)).min().unwrap();
-                assert!(least <= floor, "{plane:?}");
-                // It is the bound of a deflection that is, as computed, no further off than any other.
-                let free = plane == Plane::Unilateral && case.reaction() < int(0);
-                let enclosed = floats.system.map(T::enclose);
-                let bound = |step: &Iterate<T>| {
-                    let u = step.deflection.enclose();
-                    exact(&<T as Scalar>::magnitude(&if free {
-                        u - structure::deflection(&enclosed)
-                    } else {
-                        contact::penetration(&enclosed, &u)
-                    }))
-                };
-                let off = |step: &Iterate<T>| {
-                    let free_error = || &step.deflection - structure::deflection(&floats.system);
-                    exact(&if free { free_error() } else { step.penetration.clone() }).abs()
-                };
-                let least = steps.iter().map(off).min();
-                let bounds = steps.iter().filter(|step| Some(off(step)) == least).map(bound);
-                assert!(bounds.max().is_some_and(|most| floor <= most), "{plane:?}");
+                assert!(error(&answer.deflection) <= floor, "{plane:?}");
             }
             outcome => assert_eq!((outcome, k, answer.floor), (Outcome::IterationLimit, limit, None)),
         }
@@ -492,23 +473,4 @@ fn a_bound_of_the_tolerance_is_not_below_it() {
     let bound = f64::magnitude(&off);
     assert_eq!(solved(&s, bound), (Outcome::Stagnated, Some(0)));
     assert_eq!(solved(&s, bound.next_up()), (Outcome::Converged, Some(0)));
-}
-
-/// The mass is separated, but in 8 bits u* = 22464/106 = 211.9… is rounded to 213, beyond the plane at
-/// 211.97…: λ grows from 0, and u falls to 212 and below. The first u, from λ₀ < 0, is free and 213, within
-/// half an ulp each of product and quotient, 64/106 + 1/2: closer than the bounds of the last two.
-#[test]
-fn a_floor_is_of_the_first_deflection_too() {
-    let system = SpringMass { c: "106", m: "117", g: "192", l: "-213", h: "-131/128" }.map(|x| q(x));
-    let (eps, tolerance, start) = (int(3392), int(1), int(-1 << 20));
-    let case = Case { system, eps, start, tolerance }.rounded(&float(8));
-    let deflections: Vec<_> =
-        case.steps(Plane::Unilateral).take(99).map(|step| exact(&step.deflection)).collect();
-    let answer = solve(&case.system, &case.augmented(99)).unwrap();
-    assert_eq!((answer.state, answer.outcome), (State::Separated, Outcome::Stagnated));
-    let last = answer.augmentations.unwrap() as usize;
-    assert_eq!((&deflections[0], deflections[last - 1] <= int(212)), (&int(213), true));
-    assert!(exact(&answer.deflection) == deflections[last] && deflections[last] <= int(212));
-    let floor = exact(&answer.floor.unwrap());
-    assert!(q("64/106") + q("1/2") <= floor && floor < int(2), "{floor}");
 }

@@ -351,11 +351,14 @@ fn a_penalty_may_be_as_large_as_a_float() {
             assert!(force(penalty).width() <= 2.0 * force(1e300).width());
         }
     }
-    // Soft beside the spring, where R − c p would cancel.
+    // Soft beside the spring, where R − c p would cancel; and small numbers, where ε R underflows.
     let strong = SpringMass { c: 1e20, m: 1e300, g: 1.0, l: 1.0, h: 1.0 };
-    let force = solve(&strong, &Method::Penalty { penalty: 1e9 }).unwrap().bounds.contact_force;
-    let exactly = penalty::contact_force_at_equilibrium(&strong.map(exact), &q("1e9"));
-    assert!(encloses(&force, &exactly) && force.width() <= 1e-14 * force.upper);
+    let light = SpringMass { c: 1e-269, m: 1e-269, g: 9.81, l: 1.0, h: 1.05 };
+    for (system, penalty) in [(strong, 1e9), (light, 1e-272), (light, 1e-269), (light, 1e-265)] {
+        let force = solve(&system, &Method::Penalty { penalty }).unwrap().bounds.contact_force;
+        let exactly = penalty::contact_force_at_equilibrium(&system.map(exact), &exact(&penalty));
+        assert!(encloses(&force, &exactly) && force.width() <= 1e-14 * force.upper, "{penalty}: {force}");
+    }
 }
 
 /// Rationals grow with every step: with 50 000 decimals, by 166 000 digits a step.
@@ -363,7 +366,7 @@ fn a_penalty_may_be_as_large_as_a_float() {
 fn an_augmentation_of_endless_digits_is_refused() {
     let (system, soft) = (default_system(), q("1e-50000"));
     let refused = solve(&system, &Method::augmented(soft.clone())).unwrap_err();
-    let said = "multiplier: more than 4194304 binary digits; use MPFR (mpfr:BITS), a larger penalty or tolerance, \
+    let said = "multiplier: more than 2097152 binary digits; use MPFR (mpfr:BITS), a larger penalty or tolerance, \
                 or fewer augmentations";
     assert_eq!(refused.to_string(), said);
     // Constants of MPFR are rationals, too.

@@ -107,7 +107,7 @@ fn advice_has_the_fields_of_its_choices() {
     let value = serde_json::to_value(&advice).unwrap();
     assert_eq!((value["state"].clone(), value["floor"].clone()), (json!("contact"), json!("0")));
     let expected = json!({
-        "method": "penalty", "penalty": "41/10", "penalty_range": ["41/10", null], "augmentations": null,
+        "method": "penalty", "penalty": "41/10", "penalty_range": ["401/100", null], "augmentations": null,
         "penetration": "20/81", "force_error": "80/81", "relative_force_error": "40/81"
     });
     assert_eq!(value["recommendations"][1], expected);

@@ -72,7 +72,8 @@ fn object<T>(line: &[u8], look: impl FnOnce(&Object) -> T) -> Option<T> {
     serde_json::from_str(&quoted(text)).ok().as_ref().map(look)
 }
 
-/// Quotes the words for numbers that are not finite, which JSON does not have but solvers print.
+/// Quotes hexadecimal numbers and the words for numbers that are not finite, which JSON does not have but
+/// solvers print.
 fn quoted(mut text: &str) -> String {
     let ends = |c: char| c.is_whitespace() || "{}[],:\"".contains(c);
     let mut quoted = String::with_capacity(text.len() + 64);
@@ -82,7 +83,7 @@ fn quoted(mut text: &str) -> String {
             c if ends(c) => c.len_utf8(),
             _ => text.find(ends).unwrap_or(text.len()),
         });
-        let quote = if is_not_a_number(word) { "\"" } else { "" };
+        let quote = if is_not_a_number(word) || is_hexadecimal(word) { "\"" } else { "" };
         quoted.extend([quote, word, quote]);
         text = rest;
     }
@@ -98,6 +99,10 @@ fn string(text: &str) -> usize {
         ends
     });
     end.map_or(text.len(), |end| end + 1)
+}
+
+fn is_hexadecimal(word: &str) -> bool {
+    word.trim_start_matches(['-', '+']).get(..2).is_some_and(|prefix| prefix.eq_ignore_ascii_case("0x"))
 }
 
 /// Returns `true` for NaN or infinity as any language prints it: `NaN`, `-nan`, `nan(0x1)`, `inf`,
@@ -194,8 +199,10 @@ fn number(value: &RawValue, within: &str, key: &str, digits: &mut usize) -> Resu
 
 /// Returns the approximate number of digits of a number written out.
 fn size(text: &str) -> usize {
-    let power = text.split_once(['e', 'E']).and_then(|(_, power)| power.parse::<i32>().ok());
-    text.len() + power.map_or(0, |power| power.unsigned_abs() as usize)
+    // In hexadecimal notation `e` is a digit, and three powers of 2 make a digit at most.
+    let (marks, powers) = if text.contains(['x', 'X']) { (['p', 'P'], 3) } else { (['e', 'E'], 1) };
+    let power = text.split_once(marks).and_then(|(_, power)| power.parse::<i32>().ok());
+    text.len() + power.map_or(0, |power| power.unsigned_abs() as usize / powers)
 }
 
 fn refused(text: &str, key: impl Display, reason: impl Display) -> String {

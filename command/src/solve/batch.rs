@@ -75,6 +75,7 @@ fn read(line: &[u8]) -> Result<Object<'_>, Failure> {
         format!("invalid line '{}': {reason}; a line is a JSON object", shortened(text.trim()))
     };
     let text = str::from_utf8(line).map_err(|_| refused(&"must be UTF-8 text"))?;
+    let text = text.trim_start_matches('\u{feff}');
     Ok(serde_json::from_str(text).map_err(|error| {
         // The line number within the line is omitted.
         let reason = error.to_string();

@@ -94,7 +94,8 @@ impl<T: Scalar + ExactText> Report<'_, T> {
         let mut rows = vec![
             ("system", self.options.system.shown()),
             ("method", self.method_in_words()),
-            ("state", state_in_words(s.state, self.problem.plane).to_string()),
+            ("state", self.state_in_words()),
+            ("as typed", self.state_as_typed()),
             ("outcome", self.outcome_in_words()),
         ];
         let bounds = &s.bounds;
@@ -140,6 +141,29 @@ impl<T: Scalar + ExactText> Report<'_, T> {
         writeln!(out, "\n At most ten digits each; --format csv has all.")
     }
 
+    /// Describes the state, which is exact, and whether the bounds include touching without force.
+    fn state_in_words(&self) -> String {
+        let Solution { state, bounds, .. } = self.solution;
+        let touches = [&bounds.penetration, &bounds.contact_force].iter().all(|x| x.contains(&T::zero()));
+        let within = if touches && *state != State::Grazing {
+            "; within the bounds it touches without force"
+        } else {
+            ""
+        };
+        format!("{}{within}", state_in_words(*state, self.problem.plane))
+    }
+
+    /// Describes the state for the numbers as typed if rounding changes it.
+    fn state_as_typed(&self) -> String {
+        // A solved system is valid.
+        let typed =
+            State::of(&self.options.system.values()).ok().filter(|typed| *typed != self.solution.state);
+        typed.map_or(String::new(), |typed| {
+            let state = state_in_words(typed, self.problem.plane);
+            format!("{state}; --scalar exact solves for the numbers as typed")
+        })
+    }
+
     /// Describes the parameters that differ from those typed because of rounding.
     fn visibly_rounded(&self) -> String {
         let tolerance_typed = self.options.tolerance();
@@ -177,20 +201,21 @@ impl<T: Scalar + ExactText> Report<'_, T> {
     fn remedy(&self) -> String {
         let Options { scalar, system, .. } = self.options;
         let plane = self.problem.plane;
-        let tolerance = self.options.tolerance().value;
+        let Number { text: tolerance, value } = self.options.tolerance();
+        let tolerance = shortened(&tolerance);
         // A solved system is valid.
         let floor = rounding_floor(&self.problem.system, plane, &scalar.unit_roundoff()).ok().flatten();
-        if floor.as_ref().is_some_and(|floor| tolerance > *floor) {
+        if floor.as_ref().is_some_and(|floor| value > *floor) {
             return "a larger --penalty meets it, see contact advise".to_string();
         }
         let sure = floor.map_or(String::new(), |floor| {
-            format!("{scalar} is guaranteed to meet a tolerance above {} m, ", floor.decimal(3, Round::Up))
+            format!("{scalar} is guaranteed to meet a tolerance above {} m; ", floor.decimal(3, Round::Up))
         });
-        match required_precision(&system.values(), plane, &tolerance).ok().flatten() {
+        match required_precision(&system.values(), plane, &value).ok().flatten() {
             Some(bits) => {
-                format!("{sure}--scalar mpfr:{bits} this one, with the --penalty of contact advise")
+                format!("{sure}--scalar mpfr:{bits} meets {tolerance} m with the --penalty of contact advise")
             }
-            None => format!("{sure}no available precision this one"),
+            None => format!("{sure}no available precision meets {tolerance} m"),
         }
     }
 
@@ -202,15 +227,19 @@ impl<T: Scalar + ExactText> Report<'_, T> {
             Outcome::Converged => {
                 format!("converged at k = {k}: |u − u*| < {tolerance} m, proved by the bound")
             }
-            Outcome::Stagnated => format!(
-                "stagnated at k = {k}: rounding stops the iteration before {tolerance} m; its floor, the \
-                 smallest bound of |u − u*|, is {} m; {}",
-                self.solution
-                    .floor
-                    .as_ref()
-                    .map_or(String::new(), |floor| format_short_bound(floor, Round::Up)),
-                self.remedy()
-            ),
+            Outcome::Stagnated => {
+                let floor = self.solution.floor.as_ref().expect("a stagnated iteration has a floor");
+                let stopped = match &self.problem.method {
+                    Method::Augmented { tolerance, .. } if floor < tolerance => "natural residual",
+                    _ => "iteration",
+                };
+                let floor = format_short_bound(floor, Round::Up);
+                format!(
+                    "stagnated at k = {k}: rounding stops the {stopped} before {tolerance} m; \
+                     |u − u*| is at most {floor} m; {}",
+                    self.remedy()
+                )
+            }
             Outcome::IterationLimit => {
                 let needed = self.steps_needed.as_deref();
                 let needed = needed.map_or("a number of very many digits".to_string(), shortened);
@@ -267,8 +296,12 @@ const MOST: usize = 17;
 /// Returns the rounded value, `g = 8`, if it visibly differs from the number typed, when written with as many
 /// digits. It does not if few digits are typed, up to 6 for f32 and 15 for f64.
 fn visibly_rounded<T: ExactText>(symbol: &str, typed: &str, value: &Exact, x: &T) -> Option<String> {
-    let mantissa = typed.split(['e', 'E']).next().unwrap_or_default();
-    let digits = mantissa.chars().filter(char::is_ascii_digit).skip_while(|digit| *digit == '0').count();
+    let mantissa = match typed.split_once(['x', 'X']) {
+        Some((_, hexadecimal)) => hexadecimal.split(['p', 'P']).next(),
+        None => typed.split(['e', 'E']).next(),
+    };
+    let digits = mantissa.unwrap_or_default().chars().filter(char::is_ascii_hexdigit);
+    let digits = digits.skip_while(|digit| *digit == '0').count();
     // A fraction has no decimal digits.
     let digits = if typed.contains('/') { FEWEST } else { digits.max(FEWEST) };
     let x = exact(x);

@@ -47,6 +47,13 @@ fn every_notation_is_parsed_exactly() {
         ("-1/2", -1, 2),
         ("+6/4", 3, 2),
         ("0/5", 0, 1),
+        ("0x1.8p-3", 3, 16),
+        ("-0x1p+4", -16, 1),
+        ("0X1.FP2", 31, 4),
+        ("0x1.999999999999ap-4", 0xc_cccc_cccc_cccd, 1 << 55),
+        ("0xap-0", 10, 1),
+        ("0x.8", 1, 2),
+        ("0x1e5", 0x1e5, 1),
         ("9007199254740993", 9_007_199_254_740_993, 1),
         ("0.30000000000000004", 30_000_000_000_000_004, 100_000_000_000_000_000),
     ] {
@@ -58,9 +65,11 @@ fn every_notation_is_parsed_exactly() {
 fn texts_that_are_not_numbers_are_rejected() {
     for text in [
         "NaN", "nan", "inf", "-inf", "Infinity", "1e", "1e+", "1e-", "e5", "e", ".", "-.", "+", "-", "--1",
-        "+-1", "-+1", "1-", "1_000", "1,5", "1 000", " 1", "1 ", "\t1", "1\n", " ", "0x10", "0b1", "1f",
+        "+-1", "-+1", "1-", "1_000", "1,5", "1 000", " 1", "1 ", "\t1", "1\n", " ", "0x", "0b1", "1f",
         "1.5.2", "1..2", "1e5.5", "1e5e5", "1e--5", "1e 5", ".e5", "1/2/3", "1.5/2", "1/2.5", "1e5/2",
         "1/1e5", "/2", "1/", "/", "1/-2", "-1/-2", "1/+2", "1 / 2", "½", "١", "１", "−1", "1\0", "x1", "one",
+        "0x.", "0xp1", "0x1p", "0x1p-", "0x1pa", "0x1p1.0", "0x1p1p1", "0x1.8.1", "0xg", "0x-1", "x1p1",
+        "1p3", "0x1/2", "1/0x2", "0x 1", "0x1 p1", "0x1_0",
     ] {
         assert_eq!(read(text), Err(ParseError::NotANumber), "{text:?}");
         assert_eq!(Mpfr::parse(text, 53), Err(ParseError::NotANumber), "{text:?}");
@@ -74,7 +83,7 @@ fn texts_that_are_not_numbers_are_rejected() {
 /// Returns immediately for any exponent, since a number with 10¹² digits would take too long.
 #[test]
 fn an_invalid_mantissa_is_reported_before_the_exponent() {
-    for text in ["heavye99999999999", "1_0e-4294967296", "e100001", "1.2.3e99999999999", "0x1e99999999999"] {
+    for text in ["heavye99999999999", "1_0e-4294967296", "e100001", "1.2.3e99999999999", "0xgp99999999999"] {
         assert_eq!(read(text), Err(ParseError::NotANumber), "{text}");
     }
 }
@@ -83,15 +92,24 @@ fn an_invalid_mantissa_is_reported_before_the_exponent() {
 fn exponents_beyond_100_000_are_rejected_before_allocation() {
     assert_eq!(MAX_EXPONENT, 100_000);
     let endless = format!("1e{}", "9".repeat(10_000));
-    for text in
-        ["1e100001", "1e-100001", "0e100001", "1.5e+100001", "1e999999999999", "-1e-999999999999", &endless]
-    {
+    for text in [
+        "1e100001",
+        "1e-100001",
+        "0e100001",
+        "1.5e+100001",
+        "1e999999999999",
+        "-1e-999999999999",
+        "0x1p100001",
+        "0x0p-100001",
+        &endless,
+    ] {
         assert_eq!(read(text), Err(ParseError::Exponent), "{text:.20}");
         assert_eq!(Mpfr::parse(text, 2), Err(ParseError::Exponent), "{text:.20}");
     }
     let large = Exact::from(Rational::from(Integer::from(Integer::u_pow_u(10, 100_000))));
     assert_eq!(read("1e100000").as_ref(), Ok(&large));
     assert_eq!(read("-1e-000100000"), Ok(-Exact::one() / large));
+    assert_eq!(read("0x1p-100000"), Ok(Exact::power_of_two(-100_000)));
 }
 
 #[test]

@@ -111,10 +111,10 @@ fn short(x: &Exact, digits: usize, round: Round) -> Exact {
     x.decimal(digits, round).parse().unwrap_or_else(|_| x.clone())
 }
 
-/// Returns a larger number with two significant digits.
-fn two_digits_above(x: &Exact) -> Exact {
-    let above = short(x, 2, Round::Up);
-    if above > *x { above } else { short(&(x * Exact::from(101) / Exact::from(100)), 2, Round::Up) }
+/// Returns the next larger number with `digits` significant digits, at most three.
+fn digits_above(x: &Exact, digits: usize) -> Exact {
+    let above = short(x, digits, Round::Up);
+    if above > *x { above } else { short(&(x * Exact::from(1001) / Exact::from(1000)), digits, Round::Up) }
 }
 
 /// Returns the smallest penalty, within a hundredth, that needs at most [`MAX_AUGMENTATIONS`], starting the
@@ -167,8 +167,7 @@ impl<T: Scalar + ExactText> Task<'_, T> {
         // If the penalty method does not meet the tolerance, the augmentation is not guaranteed to meet it.
         let Some(limits) = self.penalties() else { return Vec::new() };
         let any_will_do = limits.from.is_zero();
-        let eps =
-            if any_will_do { Exact::from(10) * &self.numbers.c } else { two_digits_above(&limits.from) };
+        let eps = if any_will_do { Exact::from(10) * &self.numbers.c } else { digits_above(&limits.from, 2) };
         let penalty = self.choice(&limits, &eps, |penalty| Method::Penalty { penalty });
         let augmentation = self.promised.then(|| self.augmentation(eps, any_will_do));
         [penalty, augmentation.flatten()].into_iter().flatten().collect()
@@ -231,7 +230,10 @@ impl<T: Scalar + ExactText> Task<'_, T> {
             let end = self.directed(x, up).ok().filter(|end| if up { *end < eps } else { *end > eps });
             end.filter(reaches).unwrap_or_else(|| eps.clone())
         };
-        let from = (!limits.from.is_zero()).then(|| end(&limits.from, true));
+        // A rational penalty at the limit of the penalty method is not sufficient yet.
+        let at_limit = matches!(self.arithmetic, Arithmetic::Exact) && !counted;
+        let least = if at_limit { &digits_above(&limits.from, 3) } else { &limits.from };
+        let from = (!limits.from.is_zero()).then(|| end(least, true));
         Some(Recommendation { penalty_range: [from, limits.to.as_ref().map(|to| end(to, false))], ..choice })
     }
 

@@ -102,7 +102,7 @@ impl<T: ExactText> fmt::Display for Method<T> {
 /// # use spring_mass_contact::{chapter::SpringMass, solver::advise};
 /// let system = SpringMass { c: "4", m: "1", g: "10", l: "1", h: "3" }.parse()?;
 /// let advice = advise(&system, &"1/4".parse()?)?;
-/// let shown = "penalty, ε = 41/10 N/m; ε from 41/10 N/m; p = 0.247 m; error of N 0.988 N";
+/// let shown = "penalty, ε = 41/10 N/m; ε from 401/100 N/m; p = 0.247 m; error of N 0.988 N";
 /// assert_eq!(advice.recommendations[1].to_string(), shown);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

@@ -136,8 +136,8 @@ fn a_violated_guarantee_is_detected() {
     let limit = STEPS as u64;
     assert_eq!(ended(Outcome::IterationLimit, limit, None), RIGHT);
     assert_eq!(ended(Outcome::IterationLimit, limit - 1, None), WRONG);
-    // The last error is p₂₄ = 2⁻²⁶.
-    let least = power_of_two::<f64>(-26);
+    // The error of the answer is p₉ = 2⁻¹¹, the first one below 2⁻¹⁰.
+    let least = power_of_two::<f64>(-11);
     let stagnated = [None, Some(0.0), Some(least.next_down()), Some(least), Some(1.0)]
         .map(|floor| ended(Outcome::Stagnated, limit, floor));
     assert_eq!(stagnated, [WRONG, WRONG, WRONG, RIGHT, RIGHT]);

@@ -47,6 +47,9 @@ fn numbers_are_read_by_their_digits() {
     let long = format!("0.{}1", "0".repeat(400));
     assert_eq!(numbers(&long, "1e4000"), [exact(&long), exact("1e4000")]);
     assert_eq!(numbers("-0", "-0.0e9"), [exact("0"), exact("0")]);
+    assert_eq!(numbers("0x1.8p-3", r#""-0X1E""#), [exact("3/16"), exact("-30")]);
+    let least = Some(Exact::power_of_two(-1074));
+    assert_eq!(numbers("0x0.0000000000001p-1022", "0x1e9999"), [least, exact("2005401")]);
 }
 
 #[test]
@@ -260,7 +263,7 @@ fn nothing_that_is_read_takes_long() {
     let reason = garbled(&format!("{N}, \"deflection\": {nines}"));
     assert!(reason.ends_with("must have no more than 4096 digits"), "{reason}");
     assert_eq!(numbers(&nines[1..], "1")[0], exact(&nines[1..]));
-    for number in ["1e9999", "1E9999", "1e+9999", "1E-9999", "\"1E9999\""] {
+    for number in ["1e9999", "1E9999", "1e+9999", "1E-9999", "\"1E9999\"", "0x1p99999"] {
         let reason = garbled(&format!("{N}, \"deflection\": {number}"));
         assert!(reason.ends_with("must have no more than 4096 digits"), "{reason}");
     }

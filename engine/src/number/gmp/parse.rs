@@ -1,10 +1,11 @@
-//! Exact parsing of decimal, scientific and fraction notation.
+//! Exact parsing of decimal, scientific, hexadecimal and fraction notation.
 
 use super::{Exact, Mpfr};
 use rug::{Integer, Rational, ops::Pow};
 use std::str::FromStr;
 
-/// Largest absolute value of a decimal exponent; a larger one is refused before memory is allocated.
+/// Largest absolute value of an exponent, of 10 or, in hexadecimal notation, of 2; a larger one is refused
+/// before memory is allocated.
 pub const MAX_EXPONENT: i32 = 100_000;
 
 /// Error of parsing a number.
@@ -12,10 +13,14 @@ pub const MAX_EXPONENT: i32 = 100_000;
 #[non_exhaustive]
 pub enum ParseError {
     /// The text is empty.
-    #[error("empty; a number is a decimal (0.05), scientific (5e-2) or a fraction (1/20)")]
+    #[error(
+        "empty; a number is a decimal (0.05), scientific (5e-2), hexadecimal (0x1.8p-3) or a fraction (1/20)"
+    )]
     Empty,
     /// The text is not a number.
-    #[error("not a number; a number is a decimal (0.05), scientific (5e-2) or a fraction (1/20)")]
+    #[error(
+        "not a number; a number is a decimal (0.05), scientific (5e-2), hexadecimal (0x1.8p-3) or a fraction (1/20)"
+    )]
     NotANumber,
     /// The denominator is zero.
     #[error("division by zero; the denominator must not be 0")]
@@ -46,7 +51,8 @@ pub enum RangeError {
     },
 }
 
-/// Parses decimal (`9.81`, `.5`, `-3`), scientific (`1e-9`) and fraction (`-1/2`) notation exactly.
+/// Parses decimal (`9.81`, `.5`, `-3`), scientific (`1e-9`), hexadecimal (`0x1.8p-3` = 1.5 · 2⁻³, as C's `%a`
+/// and Python's `float.hex` print it; without `p` the exponent is 0) and fraction (`-1/2`) notation exactly.
 impl FromStr for Exact {
     type Err = ParseError;
 
@@ -57,13 +63,13 @@ impl FromStr for Exact {
         let (negative, rest) = sign(text);
         let q = match rest.split_once('/') {
             Some((p, q)) => {
-                let (p, q) = (integer(p)?, integer(q)?);
+                let (p, q) = (integer(p, 10)?, integer(q, 10)?);
                 if q.is_zero() {
                     return Err(ParseError::DivisionByZero);
                 }
                 Rational::from((p, q))
             }
-            None => decimal(rest)?,
+            None => positional(rest)?,
         };
         Ok(Exact(if negative { -q } else { q }))
     }
@@ -76,33 +82,40 @@ fn sign(text: &str) -> (bool, &str) {
     }
 }
 
-/// Returns the text if it consists of digits only.
-fn digits(text: &str) -> Result<&str, ParseError> {
-    let all = !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+/// Returns the text if it consists of digits of this base only.
+fn digits(text: &str, base: u32) -> Result<&str, ParseError> {
+    let all = !text.is_empty() && text.chars().all(|c| c.is_digit(base));
     all.then_some(text).ok_or(ParseError::NotANumber)
 }
 
-fn integer(text: &str) -> Result<Integer, ParseError> {
-    digits(text)?.parse().map_err(|_| ParseError::NotANumber)
+fn integer(text: &str, base: u32) -> Result<Integer, ParseError> {
+    Integer::from_str_radix(digits(text, base)?, base as i32).map_err(|_| ParseError::NotANumber)
 }
 
-fn decimal(text: &str) -> Result<Rational, ParseError> {
-    let (mantissa, exponent) = match text.split_once(['e', 'E']) {
+/// Parses decimal, scientific and hexadecimal notation.
+fn positional(text: &str) -> Result<Rational, ParseError> {
+    // A hexadecimal digit is worth four units of the exponent, which is one of 2.
+    let (text, base, marks, radix, worth) = match text.strip_prefix("0x").or(text.strip_prefix("0X")) {
+        Some(text) => (text, 16, ['p', 'P'], 2, 4),
+        None => (text, 10, ['e', 'E'], 10, 1),
+    };
+    let (mantissa, exponent) = match text.split_once(marks) {
         Some((mantissa, exponent)) => {
             let (negative, exponent) = sign(exponent);
             // An exponent beyond i32 is out of range in any case.
-            let size: i32 = digits(exponent)?.parse().unwrap_or(i32::MAX);
+            let size: i32 = digits(exponent, 10)?.parse().unwrap_or(i32::MAX);
             (mantissa, if negative { -size } else { size })
         }
         None => (text, 0),
     };
     let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
-    let digits = integer(&format!("{whole}{fraction}"))?;
+    let digits = integer(&format!("{whole}{fraction}"), base)?;
     if exponent.abs() > MAX_EXPONENT {
         return Err(ParseError::Exponent);
     }
-    let shift = i64::from(exponent) - fraction.len() as i64;
-    let power = Integer::from(10).pow(u32::try_from(shift.unsigned_abs()).map_err(|_| ParseError::Exponent)?);
+    let shift = i64::from(exponent) - worth * fraction.len() as i64;
+    let power =
+        Integer::from(radix).pow(u32::try_from(shift.unsigned_abs()).map_err(|_| ParseError::Exponent)?);
     Ok(if shift < 0 { Rational::from((digits, power)) } else { Rational::from(digits * power) })
 }
 
