@@ -96,6 +96,8 @@ pub enum Reply {
 /// A problem with its reply and assessment.
 #[derive(Clone, Debug)]
 pub struct CaseResult {
+    /// The number of requests before it.
+    pub number: usize,
     /// The problem.
     pub problem: Problem,
     /// The reply, without its steps.
@@ -107,8 +109,9 @@ pub struct CaseResult {
 /// Results for all problems.
 #[derive(Clone, Debug)]
 pub struct Report {
-    /// Results in the order of the problems.
+    /// Results in the order of the problems: the first thousand of each family, and each that is worse than all before.
     pub results: Vec<CaseResult>,
+    tallies: BTreeMap<Family, Tally>,
     /// Whether the remaining problems were skipped because the solver answered none of the first ones.
     pub given_up: bool,
     /// Number of problems that were asked again at the end, in another order.
@@ -172,7 +175,7 @@ pub struct Row<'a> {
     pub worst_deflection: Option<Exact>,
     /// Largest error of N relative to |m g| + |c (H − l)|; `None` without numbers.
     pub worst_force: Option<Exact>,
-    /// The result with the largest error among those with the worst verdict.
+    /// The kept result with the largest error among those with the worst verdict.
     pub worst: &'a CaseResult,
 }
 
@@ -194,13 +197,16 @@ pub fn check<E>(
     tolerance: &Exact,
     mut ask: impl FnMut(&Problem) -> Result<Reply, E>,
 ) -> Result<Report, E> {
-    let mut results = Vec::new();
+    let (mut results, mut tallies) = (Vec::new(), BTreeMap::<_, Tally>::new());
     let mut given_up = false;
-    for problem in problems {
-        results.push(CaseResult::of(problem, ask(problem)?, tolerance));
+    for (number, problem) in problems.iter().enumerate() {
+        let result = CaseResult::of(number, problem, ask(problem)?, tolerance);
+        if tallies.entry(problem.family).or_default().count(&result.assessment) {
+            results.push(result);
+        }
         let is_silent = |of: &CaseResult| matches!(of.reply, Reply::Crashed(_) | Reply::TimedOut(_));
-        let is_last = results.len() == problems.len();
-        given_up = !is_last && results.len() == MAX_INITIAL_FAILURES && results.iter().all(is_silent);
+        let is_last = number + 1 == problems.len();
+        given_up = !is_last && number + 1 == MAX_INITIAL_FAILURES && results.iter().all(is_silent);
         if given_up {
             break;
         }
@@ -224,7 +230,17 @@ pub fn check<E>(
     let absolute_bounds = if is_open { absolute_bounds(&wrong, tolerance) } else { Default::default() };
     let diagnosis = diagnosis::lag(&answers).into_iter().chain(diagnosis).collect();
     let repeated = again.len();
-    Ok(Report { results, given_up, repeated, changed, carried_over, conditions, absolute_bounds, diagnosis })
+    Ok(Report {
+        results,
+        tallies,
+        given_up,
+        repeated,
+        changed,
+        carried_over,
+        conditions,
+        absolute_bounds,
+        diagnosis,
+    })
 }
 
 /// Mistakes, conditions, and pairs of requests with the same answer.
@@ -259,7 +275,7 @@ fn carried_over(answers: &[Observation]) -> Vec<[usize; 2]> {
     let mut all = Vec::new();
     for (i, given) in answers.iter().enumerate().filter(|(_, given)| given.wrong) {
         let is_same = |other: &&Observation| !other.wrong && other.numbers() == given.numbers();
-        all.extend(answers[..i].iter().rfind(is_same).map(|earlier| [given.position, earlier.position]));
+        all.extend(answers[..i].iter().rfind(is_same).map(|earlier| [given.index, earlier.index]));
     }
     if all.len() < INFORMATIVE { Vec::new() } else { all }
 }
@@ -279,13 +295,13 @@ fn repeated(results: &[CaseResult]) -> Vec<usize> {
 }
 
 impl CaseResult {
-    fn of(problem: &Problem, mut reply: Reply, tolerance: &Exact) -> Self {
+    fn of(number: usize, problem: &Problem, mut reply: Reply, tolerance: &Exact) -> Self {
         let assessment = Assessment::of(problem, &reply, tolerance);
         // The steps have been assessed, and may be numerous.
         if let Reply::Answered(answer) = &mut reply {
             answer.steps = Vec::new();
         }
-        CaseResult { problem: problem.clone(), reply, assessment }
+        CaseResult { number, problem: problem.clone(), reply, assessment }
     }
 
     /// Returns `true` if another reply to the same problem is no answer, or one that differs by more than the
@@ -329,7 +345,8 @@ impl Report {
 
     /// Returns the numbers of problems by verdict.
     pub fn summary(&self) -> Summary {
-        let count = |verdict| self.results.iter().filter(|of| of.assessment.verdict == verdict).count();
+        let of_family = |tally: &Tally, verdict| tally.counts.get(&verdict).copied().unwrap_or(0);
+        let count = |verdict| self.tallies.values().map(|tally| of_family(tally, verdict)).sum();
         Summary {
             right: count(Verdict::Right),
             within_tolerance: count(Verdict::WithinTolerance),
@@ -342,11 +359,12 @@ impl Report {
 
     /// Returns the results of each family.
     pub fn families(&self) -> Vec<Row<'_>> {
-        let mut families: BTreeMap<Family, Vec<&CaseResult>> = BTreeMap::new();
-        for checked in &self.results {
-            families.entry(checked.problem.family).or_default().push(checked);
-        }
-        families.into_iter().filter_map(|(family, all)| Row::of(family, &all)).collect()
+        self.tallies.iter().filter_map(|(family, tally)| Row::of(*family, tally, &self.results)).collect()
+    }
+
+    /// Returns the number of problems.
+    pub fn cases(&self) -> usize {
+        self.tallies.values().flat_map(|tally| tally.counts.values()).sum()
     }
 
     /// Returns the mistakes that explain all answers, or all wrong ones.
@@ -371,23 +389,51 @@ impl Report {
 }
 
 impl<'a> Row<'a> {
-    fn of(family: Family, all: &[&'a CaseResult]) -> Option<Self> {
-        let verdict = all.iter().map(|of| of.assessment.verdict).max()?;
-        let with_it = || all.iter().filter(|of| of.assessment.verdict == verdict);
-        let worst = |error: fn(&Assessment) -> &Option<Exact>| {
-            all.iter().filter_map(|of| error(&of.assessment).clone()).max()
-        };
+    fn of(family: Family, tally: &Tally, results: &'a [CaseResult]) -> Option<Self> {
+        let (verdict, count) = tally.counts.last_key_value()?;
+        let with_it = |of: &&CaseResult| of.problem.family == family && of.assessment.verdict == *verdict;
         // `max_by` returns the last of equal elements.
-        let furthest = with_it().rev().max_by(|a, b| a.assessment.error().cmp(&b.assessment.error()))?;
+        let worst = results.iter().rev().filter(with_it);
+        let worst = worst.max_by(|a, b| a.assessment.error().cmp(&b.assessment.error()))?;
+        let [worst_deflection, worst_force] = tally.largest_errors.clone();
+        let right = tally.counts.range(..=Verdict::WithinTolerance).map(|(_, count)| count).sum();
+        let cases = tally.counts.values().sum();
         Some(Row {
             family,
-            cases: all.len(),
-            verdict,
-            count: with_it().count(),
-            right: all.iter().filter(|of| of.assessment.verdict <= Verdict::WithinTolerance).count(),
-            worst_deflection: worst(|judgement| &judgement.deflection_error),
-            worst_force: worst(|judgement| &judgement.force_error),
-            worst: furthest,
+            cases,
+            verdict: *verdict,
+            count: *count,
+            right,
+            worst_deflection,
+            worst_force,
+            worst,
         })
+    }
+}
+
+/// Number of results of a family that are kept, beside worse ones.
+const MAX_KEPT: usize = 1000;
+
+/// The results of a family in numbers.
+#[derive(Clone, Debug, Default)]
+struct Tally {
+    kept: usize,
+    counts: BTreeMap<Verdict, usize>,
+    /// The largest errors of u and N.
+    largest_errors: [Option<Exact>; 2],
+}
+
+impl Tally {
+    /// Counts a result. Returns `true` if it is to be kept.
+    fn count(&mut self, assessment: &Assessment) -> bool {
+        let is_worse = self.counts.keys().all(|verdict| *verdict < assessment.verdict);
+        *self.counts.entry(assessment.verdict).or_default() += 1;
+        let errors = [&assessment.deflection_error, &assessment.force_error];
+        for (largest, error) in self.largest_errors.iter_mut().zip(errors) {
+            *largest = largest.take().max(error.clone());
+        }
+        let is_kept = is_worse || self.kept < MAX_KEPT;
+        self.kept += usize::from(is_kept);
+        is_kept
     }
 }

@@ -27,14 +27,16 @@ pub(super) struct Observation<'a> {
     pub right: bool,
     /// The exact state, unless rounding may change it.
     pub state: Option<State>,
+    /// Its place among the kept results.
+    pub index: usize,
     /// The number of requests before it.
     pub position: usize,
     error: Option<&'a Exact>,
 }
 
 impl<'a> Observation<'a> {
-    /// Returns the answer to the problem at a position, if it is one.
-    pub fn of(position: usize, checked: &'a CaseResult, tolerance: &Exact) -> Option<Self> {
+    /// Returns the answer of the result at a place, if it is one.
+    pub fn of(index: usize, checked: &'a CaseResult, tolerance: &Exact) -> Option<Self> {
         let Reply::Answered(answer) = &checked.reply else { return None };
         let judgement = &checked.assessment;
         let problem = judgement.solved.as_ref()?;
@@ -52,7 +54,8 @@ impl<'a> Observation<'a> {
             wrong: !judgement.has_right_numbers,
             right: judgement.verdict == Verdict::Right,
             state: Some(judgement.exact.state).filter(|_| !is_open),
-            position,
+            index,
+            position: checked.number,
             error: judgement.error(),
         })
     }

@@ -15,17 +15,18 @@ const DIGITS: usize = 6;
 
 /// Returns the report with the program and the options.
 pub fn report(program: &str, options: &Options, report: &Report) -> impl Serialize {
+    let id = |i: usize| &report.results[i].problem.id;
     record! {
         program: program.to_string(),
         seed: options.drawn.seed,
         tolerance: format_exact(&options.tolerance.value),
-        cases: report.results.len(),
+        cases: report.cases(),
         given_up: report.given_up,
         summary: report.summary(),
         families: report.families().iter().map(family).collect::<Vec<_>>(),
         repeated: report.repeated,
-        changed: report.changed.iter().map(|again| report.results[again.of].problem.id.clone()).collect::<Vec<_>>(),
-        carried_over: report.carried_over.iter().map(|both| both.map(|i| &report.results[i].problem.id)).collect::<Vec<_>>(),
+        changed: report.changed.iter().map(|again| id(again.of)).collect::<Vec<_>>(),
+        carried_over: report.carried_over.iter().map(|both| both.map(id)).collect::<Vec<_>>(),
         conditions: report.conditions.iter().map(condition).collect::<Vec<_>>(),
         absolute_bounds: report.absolute_bounds.each_ref().map(error),
         diagnosis: &report.diagnosis,

@@ -30,7 +30,7 @@ pub fn table(out: &mut dyn Write, program: &str, report: &Report, tolerance: &Nu
         (timed_out, "not answered in time"),
     ];
     let counts = counts.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}"));
-    let counts = format!("{}: {}", report.results.len(), counts.collect::<Vec<_>>().join(", "));
+    let counts = format!("{}: {}", report.cases(), counts.collect::<Vec<_>>().join(", "));
     output::list(out, [("program", program.to_string()), ("systems", counts)])?;
     writeln!(out)?;
     let families = report.families();
@@ -224,7 +224,7 @@ fn tested(report: &Report, tolerance: &Number) -> String {
     format!(
         "No error above {} was found in {} of {}, with one unknown and one plane. {missed}, {held}.",
         shortened(&tolerance.text),
-        count(report.results.len(), "system", "systems"),
+        count(report.cases(), "system", "systems"),
         count(report.families().len(), "family", "families"),
     )
 }

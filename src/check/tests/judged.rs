@@ -368,3 +368,18 @@ fn a_parameter_is_taken_up_to_the_tolerance() {
     assert_eq!(["0.999999", "1.000001"].map(verdict), [Verdict::Right; 2]);
     assert!(["0.9999989", "1.0000011"].map(verdict).iter().all(|verdict| *verdict != Verdict::Right));
 }
+
+/// All are counted; beside the first thousand only the first wrong one is kept.
+#[test]
+fn results_are_kept_in_bounded_memory() {
+    let report = run(&problems(1, 1100, &[Family::Contact]), |problem| {
+        let Answer { deflection, contact_force, .. } = right(problem);
+        let is_late = ["contact-1050", "contact-1060"].contains(&problem.id.as_str());
+        let off = number(if is_late { "2" } else { "1" });
+        Answer { deflection: deflection.map(|u| u * off), contact_force, ..Answer::default() }
+    });
+    assert_eq!((report.results.len(), report.cases()), (1001, 1100));
+    let row = &report.families()[0];
+    assert_eq!((row.cases, row.verdict, row.count, row.right), (1100, Verdict::Wrong, 2, 1098));
+    assert_eq!((row.worst.problem.id.as_str(), row.worst.number), ("contact-1050", 1049));
+}
