@@ -185,7 +185,8 @@ pub const CASES: u64 = 5;
 /// Number of consecutive failures at the start after which the solver is no longer called.
 const MAX_INITIAL_FAILURES: usize = 3;
 
-/// Passes all problems to a solver, assesses its answers in rationals, and diagnoses its mistakes.
+/// Passes all problems to a solver, and up to twelve of them again in another order; assesses its answers in
+/// rationals, and diagnoses its mistakes.
 ///
 /// # Errors
 /// Returns the first error of `ask`.
