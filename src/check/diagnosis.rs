@@ -139,7 +139,7 @@ impl<'a> Search<'a> {
     /// Returns `true` if enough answers differ from the right ones by more than the fitting tolerance.
     /// Otherwise every mistake with a small effect would fit.
     fn is_informative(&self, answers: &[&Observation]) -> bool {
-        let none = reference(self.by_penalty).results;
+        let none = reference(self.by_penalty).results();
         let is_telling = |given: &&&Observation| given.is_explained_by(&none, None, &self.fit) == Some(false);
         answers.iter().filter(is_telling).take(INFORMATIVE).count() == INFORMATIVE
     }
@@ -288,19 +288,16 @@ impl<'a> Search<'a> {
 
     /// Returns the explanation by parameters of less precision.
     fn rounded_parameters(&self, answers: &[&Observation]) -> Option<String> {
+        // Of the number itself, or of the nearest float.
+        let roundings: [fn(Rounding, &Exact) -> Option<Exact>; 2] = [Rounding::of, Rounding::of_float];
+        let is_given = |given: &Observation, which: &[&str], round: &dyn Fn(&Exact) -> Option<Exact>| {
+            let system = with_rounded(&given.problem.system, which, round);
+            given.is_explained_by_parameters(&system, self.tolerance)
+        };
         let fits = |which: &[&str], rounding: Rounding| {
-            let rounded = |given: &Observation, of: fn(Rounding, &Exact) -> Option<Exact>| {
-                let symbols = SpringMass::SYMBOLS.zip(given.problem.system.as_ref());
-                let changed = |x: &Exact| of(rounding, x).unwrap_or_else(|| x.clone());
-                symbols.map(|(symbol, x)| if which.contains(symbol) { changed(x) } else { (*x).clone() })
-            };
-            // Of the number itself, or of the nearest float.
-            let fits = |of| {
-                answers
-                    .iter()
-                    .all(|given| given.is_explained_by_parameters(&rounded(given, of), self.tolerance))
-            };
-            fits(Rounding::of) || fits(Rounding::of_float)
+            roundings
+                .iter()
+                .any(|of| answers.iter().all(|given| is_given(given, which, &|x| of(rounding, x))))
         };
         let parameters: [&[&str]; 7] =
             [&["l", "H"], &["c", "m", "g", "l", "H"], &["c"], &["m"], &["g"], &["l"], &["H"]];
@@ -335,8 +332,7 @@ impl<'a> Search<'a> {
         let of = |i: usize| {
             let pairs = answers.iter().map(|given| Some((*given, given.numbers()[i].as_ref()?)));
             let pairs = pairs.collect::<Option<Vec<_>>>()?;
-            let is_right =
-                pairs.iter().all(|(given, own)| Difference::None.explains(i, given, own, &self.fit));
+            let is_right = Difference::None.explains_all(i, &pairs, &self.fit);
             if is_right { Some(Difference::None) } else { find(i, &pairs) }
         };
         let both = [of(0)?, of(1)?];
@@ -372,7 +368,7 @@ impl Difference {
             Difference::Decimals(n) => (exact.clone(), decimal(1, -(*n as i32)), one),
             Difference::Digits(n) => (exact.clone(), decimal(1, 1 - *n as i32) * own.abs(), one),
         };
-        let rounding = factor * (fit * &given.scales[i]).max(given.rounding(i));
+        let rounding = factor * (fit * &given.scales[i]).max(given.rounding(i).clone());
         (own - expected).abs() <= unit + rounding.max(own.abs() * Exact::power_of_two(-52))
     }
 
@@ -455,6 +451,18 @@ impl Rounding {
             Rounding::Digits(n) => format!("{float:.*e}", n - 1).parse().ok(),
         }
     }
+}
+
+/// Returns a system in which the parameters with these symbols are rounded, if they can be.
+fn with_rounded(
+    system: &SpringMass<Exact>,
+    which: &[&str],
+    round: &dyn Fn(&Exact) -> Option<Exact>,
+) -> SpringMass<Exact> {
+    let rounded = |x: &Exact, symbol: &str| which.contains(&symbol).then(|| round(x)).flatten();
+    SpringMass::SYMBOLS
+        .zip(system.as_ref())
+        .map(|(symbol, x)| rounded(x, symbol).unwrap_or_else(|| (*x).clone()))
 }
 
 impl fmt::Display for Rounding {

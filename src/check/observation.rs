@@ -8,6 +8,7 @@ use crate::chapter::{SpringMass, system};
 use crate::number::{Ball, Exact, PositivePart, ToExact, Tree};
 use crate::solver::State;
 use num_traits::Zero;
+use std::cell::OnceCell;
 
 /// An answer with its problem.
 pub(super) struct Observation<'a> {
@@ -32,6 +33,7 @@ pub(super) struct Observation<'a> {
     /// The number of requests before it.
     pub position: usize,
     error: Option<&'a Exact>,
+    roundings: OnceCell<[Exact; 2]>,
 }
 
 impl<'a> Observation<'a> {
@@ -57,6 +59,7 @@ impl<'a> Observation<'a> {
             index,
             position: checked.number,
             error: judgement.error(),
+            roundings: OnceCell::new(),
         })
     }
 
@@ -159,15 +162,20 @@ impl<'a> Observation<'a> {
         (0..2).all(|i| {
             let (Some(x), Some(own)) = (&numbers[i], self.numbers()[i]) else { return false };
             let off = (own - x).abs();
-            off <= tolerance * &self.scales[i] || off <= self.rounding(i) || rounds_alike(own, x)
+            off <= tolerance * &self.scales[i] || off <= *self.rounding(i) || rounds_alike(own, x)
         })
     }
 
     /// Returns a bound of the error of the right u or N in f64; 0 if it is larger than the system.
-    pub fn rounding(&self, i: usize) -> Exact {
-        let balls = rounded(&0f64, self.problem);
-        let radius = balls.and_then(|balls| balls[i].radius().to_exact().ok());
-        radius.filter(|radius| *radius <= self.sizes[i]).unwrap_or_else(Exact::zero)
+    pub fn rounding(&self, i: usize) -> &Exact {
+        let bounds = || {
+            let balls = rounded(&0f64, self.problem);
+            [0, 1].map(|i| {
+                let radius = balls.as_ref().and_then(|balls| balls[i].radius().to_exact().ok());
+                radius.filter(|radius| *radius <= self.sizes[i]).unwrap_or_else(Exact::zero)
+            })
+        };
+        &self.roundings.get_or_init(bounds)[i]
     }
 }
 

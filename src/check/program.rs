@@ -393,9 +393,8 @@ fn references(by_penalty: bool) -> Vec<Program> {
 }
 
 /// Returns the right program as it is written in the chapter.
-pub(super) fn reference(by_penalty: bool) -> Mistake {
-    let [first, ..] = &references(by_penalty)[..] else { unreachable!("there is one") };
-    Mistake::new("none", first.clone())
+pub(super) fn reference(by_penalty: bool) -> Program {
+    references(by_penalty).swap_remove(0)
 }
 
 /// Returns every program with one edit: first those without a decision, and last those that change one use of a
@@ -404,19 +403,18 @@ pub(super) fn edits(by_penalty: bool) -> Vec<Mistake> {
     let programs = references(by_penalty);
     let mut edited: Vec<_> = programs.iter().flat_map(|program| program.edited(by_penalty)).collect();
     edited.sort_by_key(|mistake| mistake.is_partial);
-    let rigid =
-        by_penalty.then(|| Mistake::new("ε is not used: the plane is rigid", reference(false).program));
+    let rigid = by_penalty.then(|| Mistake::new("ε is not used: the plane is rigid", reference(false)));
     undecided(by_penalty).into_iter().chain(rigid).chain(edited).collect()
 }
 
 /// Returns the mistakes that a program may make in some answers only: in its decision or its output.
 pub(super) fn in_some_answers(by_penalty: bool) -> Vec<Mistake> {
-    [undecided(by_penalty), reference(by_penalty).program.with_one_output()].concat()
+    [undecided(by_penalty), reference(by_penalty).with_one_output()].concat()
 }
 
 /// Returns the programs that always, or never, give the results in contact.
 fn undecided(by_penalty: bool) -> Vec<Mistake> {
-    let program = reference(by_penalty).program;
+    let program = reference(by_penalty);
     let decided = |(name, value)| Mistake::new(name, program.with(program.count(), Tree::from(value)));
     let decision = |mistake| Mistake { is_decision: true, ..mistake };
     let held = program.with(program.count(), Tree::from(1)).with(program.count() + 2, Tree::from(0));
@@ -432,7 +430,7 @@ fn undecided(by_penalty: bool) -> Vec<Mistake> {
 /// Returns every program with one unknown number k.
 pub(super) fn numbers(by_penalty: bool) -> Vec<Mistake> {
     let (own, k) = (&symbols().system, &Tree::symbol("k"));
-    let first = reference(by_penalty).program;
+    let first = reference(by_penalty);
     let mut all = Vec::new();
     for x in parameters(by_penalty) {
         let own = Tree::symbol(x);

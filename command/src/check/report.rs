@@ -4,7 +4,8 @@ use crate::args::{Number, format_exact};
 use crate::lines::NO_BREAK_SPACE;
 use crate::output::{self, shortened};
 use spring_mass_contact::check::{
-    CaseResult, Diagnosis, DiagnosisScope, Quantity, Reply, Report, Row, Summary, Threshold, Value, Verdict,
+    Answer, CaseResult, Diagnosis, DiagnosisScope, Quantity, Reply, Report, Row, Summary, Threshold, Value,
+    Verdict,
 };
 use spring_mass_contact::number::Exact;
 use spring_mass_contact::rug::float::Round;
@@ -106,13 +107,8 @@ fn example(out: &mut dyn Write, checked: &CaseResult) -> io::Result<()> {
     let exact = &judgement.exact;
     let decimal = |x: &Exact| x.decimal(DIGITS, Round::Nearest);
     if let Reply::Answered(answer) = &checked.reply {
-        let number = |name: &str, x: &Value, unit: &str| match x {
-            Some(x) => format!("{name} = {} {unit}", decimal(x)),
-            None => format!("{name} is not a number"),
-        };
         let status = answer.status.as_ref().map(|status| format!("; reported status “{status}”"));
-        let [u, n] = [number("u", &answer.deflection, "m"), number("N", &answer.contact_force, "N")];
-        line("answer", parts(&format!("{u}, {n}")) + &status.unwrap_or_default())?;
+        line("answer", parts(&numbers(answer, DIGITS)) + &status.unwrap_or_default())?;
     }
     line(
         "exact",
@@ -126,6 +122,15 @@ fn example(out: &mut dyn Write, checked: &CaseResult) -> io::Result<()> {
         line("residuals", parts(&kkt.to_string()))?;
     }
     judgement.finding.as_ref().map_or(Ok(()), |finding| line("finding", finding.clone()))
+}
+
+/// Formats u and N of an answer.
+fn numbers(answer: &Answer, digits: usize) -> String {
+    let number = |name: &str, x: &Value, unit: &str| match x {
+        Some(x) => format!("{name} = {} {unit}", x.decimal(digits, Round::Nearest)),
+        None => format!("{name} is not a number"),
+    };
+    [number("u", &answer.deflection, "m"), number("N", &answer.contact_force, "N")].join(", ")
 }
 
 /// Breaks a list only after its commas.
@@ -143,12 +148,8 @@ fn given_up(report: &Report) -> Option<String> {
 fn changed(report: &Report) -> Option<String> {
     let first = report.changed.first()?;
     let result = &report.results[first.of];
-    let numbers = |reply: &Reply| match reply {
-        Reply::Answered(answer) => {
-            let text =
-                |x: &Value| x.as_ref().map_or("not a number".to_string(), |x| x.decimal(6, Round::Nearest));
-            format!("u = {} m, N = {} N", text(&answer.deflection), text(&answer.contact_force))
-        }
+    let said = |reply: &Reply| match reply {
+        Reply::Answered(answer) => numbers(answer, 6),
         _ => "no answer".to_string(),
     };
     Some(format!(
@@ -157,8 +158,8 @@ fn changed(report: &Report) -> Option<String> {
         report.repeated,
         report.changed.len(),
         result.problem.id,
-        numbers(&result.reply),
-        numbers(&first.reply),
+        said(&result.reply),
+        said(&first.reply),
     ))
 }
 

@@ -453,7 +453,7 @@ fn two_answers_show_nothing() {
     assert!(named(&three[..2], more).is_empty() && named(&three[..1], more).is_empty());
 }
 
-/// Where a report on a right solver says so, a wrong decision is noticed.
+/// A wrong decision is noticed from the force on that the report on a right solver states.
 #[test]
 fn a_wrong_decision_is_noticed_from_the_stated_force_on() {
     for state in [State::Contact, State::Separated] {
